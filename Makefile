@@ -1,0 +1,47 @@
+# make book   build the book and say where to open it
+# make test   run every test: library, chapters, pages in a browser
+# make lab    open the chapters in JupyterLab
+# Each sets up its own environment in .venv, once.
+
+PYTHON ?= python3
+BIN    := .venv/bin
+READY  := .venv/.ready
+BUILT  := _build/.built
+BUILD  := $(BIN)/jupyter-book build -W -n --keep-going .
+INPUTS := _config.yml _toc.yml $(shell find book vmc_lib -type f -not -path '*/.*' -not -name '*.pyc')
+
+.PHONY: book test lab lock clean
+.DEFAULT_GOAL := book
+
+book: $(BUILT)
+	@echo "The book is at file://$(CURDIR)/_build/html/index.html"
+	@if [ -n "$$DISPLAY$$WAYLAND_DISPLAY" ] || [ "$$(uname)" = Darwin ]; then \
+	  $(BIN)/python -m webbrowser -t "file://$(CURDIR)/_build/html/index.html"; fi
+
+test: $(BUILT)
+	$(BIN)/ruff check
+	$(BIN)/ruff format --check
+	$(BIN)/python -m vmc_lib.show.browser
+	OMP_NUM_THREADS=1 $(BIN)/pytest -n auto --dist worksteal --nbmake --nbmake-timeout=120 tests book
+
+lab: $(READY)
+	$(BIN)/jupyter lab book/01_loop.ipynb
+
+$(BUILT): $(READY) $(INPUTS)
+	$(BUILD)
+	@touch $@
+
+$(READY): requirements.txt constraints.txt pyproject.toml
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info[:2] < (3, 11))' || \
+	  { echo "Python 3.11 or newer is needed: make PYTHON=python3.11"; exit 1; }
+	@$(PYTHON) -m venv .venv || { echo "Python's venv is missing: sudo apt install python3-venv"; exit 1; }
+	$(BIN)/pip install --quiet -r requirements.txt -c constraints.txt
+	$(BIN)/pip install --quiet --no-deps -e .
+	@touch $@
+
+lock: $(READY)  # torch stays out: its build (CPU, CUDA) differs from machine to machine
+	@echo "# Every package of the environment, locked. Remake it with: make lock" > constraints.txt
+	$(BIN)/pip freeze --exclude-editable | grep '==' | grep -v '^torch==' >> constraints.txt
+
+clean:
+	rm -rf _build
