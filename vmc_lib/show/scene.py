@@ -1,0 +1,69 @@
+"""Three-dimensional scenes with meshcat's own commands, recorded instead of sent to a server.
+
+A `Scene` is used like a `meshcat.Visualizer`. It keeps the last message for every object,
+transform and property, so a scene is a value: the viewer, given another scene, applies only what
+differs. The same messages travel to the viewer inside the built page or, in a live kernel,
+over Jupyter's own channel; no port is opened.
+"""
+
+import base64
+import itertools
+import re
+from collections import defaultdict
+from pathlib import Path
+
+import meshcat
+import umsgpack
+
+STATIC = Path(__file__).parent / "static"
+_UUID = re.compile(rb"[0-9a-f]{8}(?:-[0-9a-f]{4}){3}-[0-9a-f]{12}")
+
+
+class Scene:
+    """A recorded meshcat scene; `Scene(base)` starts from everything that `base` holds."""
+
+    zmq_url = web_url = None  # what meshcat asks of a window: there is no server
+
+    def __init__(self, base=None):
+        self._messages = dict(base._messages) if base else {}
+
+    def __getitem__(self, path):
+        """The meshcat visualizer at `path`: `scene["hand"].set_object(...)`."""
+        return meshcat.Visualizer(window=self)[path]
+
+    def send(self, command):
+        """Record one meshcat command (called by meshcat)."""
+        lowered = command.lower()
+        key = f"{lowered['type']} {lowered['path']} {lowered.get('property', '')}"
+        packed = umsgpack.packb(lowered, force_float_precision="single")
+        # meshcat names each object by the clock: numbering them instead makes equal scenes equal
+        numbers = defaultdict(itertools.count().__next__)
+        self._messages[key] = _UUID.sub(lambda uuid: b"%036d" % numbers[uuid[0]], packed)
+
+    def messages(self):
+        """The scene as a list of `"type path property|base64"` strings, in recorded order."""
+        return [f"{key}|{base64.b64encode(data).decode()}" for key, data in self._messages.items()]
+
+    def html(self):
+        """Where the viewer will stand in the page."""
+        return '<div class="vmc-scene"></div>'
+
+
+def widget():
+    """A viewer for a live kernel; set its `messages` to show a scene."""
+    import anywidget  # only a live kernel needs it
+    import traitlets
+
+    meshcat_js = Path(meshcat.__file__).parent / "viewer/dist/main.min.js"
+
+    class SceneWidget(anywidget.AnyWidget):
+        _esm = "\n".join(
+            [
+                meshcat_js.read_text(),
+                (STATIC / "scene.js").read_text(),
+                "export default { render: ({ model, el }) => vmcSceneWidget(model, el) };",
+            ]
+        )
+        messages = traitlets.List().tag(sync=True)
+
+    return SceneWidget()

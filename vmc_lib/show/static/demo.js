@@ -1,0 +1,90 @@
+/* Moves a demo's picture when the reader moves its controls. Every state was computed when the
+   book was built and travels in the page: a table of lines, and each state as places in it. */
+(() => {
+  "use strict";
+
+  const inflate = async (base64) => {
+    const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+    return new Response(stream).json();
+  };
+
+  /* Make `node` equal to `next`, touching only what differs: images neither reload nor flicker. */
+  const morph = (node, next) => {
+    if (node.nodeName !== next.nodeName) return node.replaceWith(next);
+    if (node.nodeType !== Node.ELEMENT_NODE) {
+      if (node.data !== next.data) node.data = next.data;
+      return;
+    }
+    for (const { name } of [...node.attributes])
+      if (!next.hasAttribute(name)) node.removeAttribute(name);
+    for (const { name, value } of next.attributes)
+      if (node.getAttribute(name) !== value) node.setAttribute(name, value);
+    const old = [...node.childNodes];
+    [...next.childNodes].forEach((child, i) => (old[i] ? morph(old[i], child) : node.append(child)));
+    old.slice(next.childNodes.length).forEach((child) => child.remove());
+  };
+
+  const start = async (demo) => {
+    const { lines, states } = await inflate(demo.querySelector("script").textContent);
+    const read = (places) => places.map((place) => lines[place]);
+    const pictures = demo.querySelector(".vmc-pictures");
+    const spoken = demo.querySelector(".vmc-spoken");
+    const inputs = [...demo.querySelectorAll("[data-stride]")];
+    const reduced = matchMedia("(prefers-reduced-motion: reduce)");
+
+    /* How far along its values a control stands; of radio buttons only the checked one counts. */
+    const at = ({ type, checked, value }) =>
+      type === "checkbox" ? +checked : type === "radio" && !checked ? 0 : +value;
+
+    const show = () => {
+      const [alt, ...parts] = states[inputs.reduce((sum, i) => sum + at(i) * i.dataset.stride, 0)];
+      parts.forEach((places, i) => {
+        const picture = pictures.children[i];
+        if (picture.firstElementChild.matches(".vmc-scene"))
+          return vmcScene(picture.firstElementChild).show(read(places));
+        const next = picture.cloneNode(false);
+        next.innerHTML = read(places).join("\n");
+        morph(picture, next);
+      });
+      const words = read(alt).join();
+      if (spoken && pictures.getAttribute("aria-label") !== words) spoken.textContent = words;
+      pictures.setAttribute("aria-label", words);
+      for (const input of inputs)
+        if (input.dataset.texts) {
+          const text = JSON.parse(input.dataset.texts)[input.value];
+          input.setAttribute("aria-valuetext", text);
+          input.nextElementSibling.textContent = text;
+        }
+    };
+
+    for (const button of demo.querySelectorAll(".vmc-play")) {
+      const input = button.parentElement.querySelector("input");
+      let timer = 0;
+      const stop = () => {
+        timer = clearInterval(timer);
+        button.setAttribute("aria-pressed", "false");
+        button.textContent = "Play";
+      };
+      button.addEventListener("click", () => {
+        if (timer) return stop();
+        button.setAttribute("aria-pressed", "true");
+        button.textContent = "Pause";
+        if (input.value === input.max) input.value = 0;
+        timer = setInterval(() => {
+          input.value = +input.value + 1;
+          show();
+          if (input.value === input.max) stop();
+        }, reduced.matches ? 1000 : 250);
+      });
+    }
+    demo.addEventListener("input", show);
+    show();
+    demo.dataset.ready = "";
+  };
+
+  const startAll = () =>
+    document.querySelectorAll(".vmc-demo:has(> script)").forEach((demo) => start(demo));
+  if (document.readyState === "loading") addEventListener("DOMContentLoaded", startAll);
+  else startAll();
+})();
