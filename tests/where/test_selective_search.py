@@ -1,0 +1,192 @@
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.ndimage import gaussian_filter
+from skimage.data import coffee
+from skimage.segmentation import felzenszwalb
+
+from vmc_lib.where import selective_search as ss
+
+PHOTO = coffee()[100:300:2, 100:400:2]
+
+
+def blobs(seed, shape=(40, 60)):
+    """A smooth random image whose neighbouring pixels never differ by the same amount twice."""
+    noise = np.random.default_rng(seed).random((*shape, 3))
+    return gaussian_filter(noise, (2, 2, 0)) * 8 % 1
+
+
+def felzenszwalb_huttenlocher(image, scale, min_size):
+    """The 2004 algorithm, word for word and slow."""
+    pixel = np.arange(image[..., 0].size).reshape(image.shape[:2])
+    edges = []
+    for a, b in [
+        (np.s_[:, 1:], np.s_[:, :-1]),
+        (np.s_[1:], np.s_[:-1]),
+        (np.s_[1:, 1:], np.s_[:-1, :-1]),
+        (np.s_[1:, :-1], np.s_[:-1, 1:]),
+    ]:
+        step = np.linalg.norm(image[a] - image[b], axis=-1)
+        edges += zip(step.ravel(), pixel[a].ravel(), pixel[b].ravel(), strict=True)
+    edges.sort()
+    into, size, inside = pixel.ravel().tolist(), [1] * pixel.size, [0.0] * pixel.size
+
+    def root(p):
+        while into[p] != p:
+            p = into[p]
+        return p
+
+    def sweep(should_join):
+        for step, a, b in edges:
+            a, b = root(a), root(b)
+            if a != b and should_join(step, a, b):
+                into[b], inside[a] = a, step
+                size[a] += size[b]
+
+    sweep(lambda step, a, b: step < min(inside[r] + scale / 255 / size[r] for r in (a, b)))
+    sweep(lambda step, a, b: min(size[a], size[b]) < min_size)
+    return np.reshape([root(p) for p in range(pixel.size)], pixel.shape)
+
+
+def same_partition(a, b):
+    pairs = np.unique(np.stack([a.ravel(), b.ravel()]), axis=1).shape[1]
+    return pairs == len(np.unique(a)) == len(np.unique(b))
+
+
+@pytest.mark.parametrize(("scale", "min_size"), [(20, 1), (100, 20), (300, 60)])
+def test_the_segmentation_engine_is_the_published_algorithm(scale, min_size):
+    image = blobs(3)
+    theirs = felzenszwalb(image, scale=scale, sigma=0, min_size=min_size)
+    assert len(np.unique(theirs)) > 1
+    assert same_partition(theirs, felzenszwalb_huttenlocher(image, scale, min_size))
+
+
+def test_larger_scale_larger_segments():
+    counts = [ss.segment(ss.as_rgb(PHOTO), k).max() + 1 for k in (20, 60, 200)]
+    assert counts[0] > counts[1] > counts[2] > 1
+
+
+@pytest.fixture(scope="module")
+def grown():
+    return next(ss.hierarchies(PHOTO, ss.Strategy(scales=(30,))))
+
+
+def test_every_merge_joins_two_neighbours_into_their_union(grown):
+    for step, pair in enumerate(grown.merges.tolist()):
+        before, after = grown.after(step), grown.after(step + 1)
+        assert sorted(pair) in ss.touching(before).T.tolist()
+        new = len(grown.merges) + 1 + step
+        assert ((after == new) == np.isin(before, pair)).all()
+        assert (after == before)[after != new].all()
+
+
+def test_boxes_hold_their_regions(grown):
+    for step in range(0, len(grown.merges) + 1, 5):
+        labels = grown.after(step)
+        for region in np.unique(labels):
+            y, x = np.nonzero(labels == region)
+            box = x.min(), y.min(), x.max() + 1, y.max() + 1
+            assert tuple(grown.boxes[region]) == box
+
+
+def test_described_from_parts_as_from_pixels():
+    """A merged region's row equals the one its own pixels would give."""
+    channels = ss.as_rgb(PHOTO)
+    codes = ss.colour_codes(channels), ss.texture_codes(channels)
+    labels = ss.segment(channels, 30)
+    look = ss.describe(labels, *codes)
+    tree = ss.grow(labels, look, ss.ALL)
+    top = look.colour[-1], look.texture[-1], look.size[-1]
+    whole = ss.describe(np.zeros_like(labels), *codes)
+    assert len(tree.merges) > 10
+    for merged, direct in zip(top, (whole.colour[0], whole.texture[0], whole.size[0]), strict=True):
+        assert merged == pytest.approx(direct, abs=1e-5)
+
+
+@given(st.integers(0, 99))
+@settings(max_examples=10, deadline=None)
+def test_similarities_are_shares_and_symmetric(seed):
+    channels = blobs(seed).astype(np.float32)
+    labels = ss.segment(channels, 30)
+    look = ss.describe(labels, ss.colour_codes(channels), ss.texture_codes(channels))
+    i, j = ss.touching(labels).T
+    for similarity in ss.SIMILARITIES.values():
+        value = similarity(look, i, j)
+        assert (value == similarity(look, j, i)).all()
+        assert ((value >= -1e-6) & (value <= 1 + 1e-6)).all()
+
+
+def test_the_most_similar_pair_merges_first():
+    """Two near greys beside each other and a red: the greys go first."""
+    image = np.full((60, 90, 3), 0.5, np.float32)
+    image[:, 30:60] = 0.55
+    image[:, 60:] = [0.9, 0.1, 0.1]
+    labels = np.repeat([[0] * 30 + [1] * 30 + [2] * 30], 60, axis=0)
+    look = ss.describe(labels, ss.colour_codes(image), ss.texture_codes(image))
+    assert ss.grow(labels, look, ("colour",)).merges.tolist() == [[0, 1], [2, 3]]
+
+
+@pytest.mark.parametrize("name", ss.COLOUR_SPACES)
+def test_colour_spaces_fill_the_unit_range(name):
+    channels = ss.COLOUR_SPACES[name](ss.as_rgb(PHOTO))
+    assert channels.ndim == 3 and channels.dtype == np.float32
+    assert channels.min() > -0.1 and channels.max() < 1.1 and np.ptp(channels) > 0.3
+
+
+def test_proposals_are_whole_distinct_boxes_inside_the_image():
+    boxes = ss.propose(PHOTO, "fast")
+    assert len(boxes) > 50
+    assert len(np.unique(boxes, axis=0)) == len(boxes)
+    assert (boxes >= 0).all() and (boxes <= [150, 100, 150, 100]).all()
+    assert ((boxes[:, 2:] - boxes[:, :2]) >= 20).all()
+
+
+def test_a_wider_strategy_keeps_what_a_narrower_one_found():
+    both = ss.Strategy(("HSV", "Lab"))
+    single, wide = ({tuple(b) for b in ss.propose(PHOTO, s)} for s in ("single", both))
+    assert single < wide
+
+
+def test_the_order_is_the_generators():
+    order = [ss.propose(PHOTO, rng=np.random.default_rng(seed)) for seed in (1, 1, 2)]
+    assert (order[0] == order[1]).all()
+    assert (order[0] != order[2]).any()
+    assert {tuple(b) for b in order[0]} == {tuple(b) for b in order[2]}
+    assert (ss.propose(PHOTO) == ss.propose(PHOTO)).all()
+
+
+def test_grey_float_and_transparent_images_are_read_alike():
+    grey = PHOTO[..., 0]
+    expected = ss.propose(np.dstack([grey] * 3))
+    for image in (grey, grey / 255, np.dstack([grey] * 4)):
+        assert (ss.propose(image) == expected).all()
+
+
+@pytest.mark.parametrize(
+    ("shape", "count"), [((1, 1), 0), ((1, 500), 0), ((19, 300), 0), ((20, 20), 1), ((90, 70), 1)]
+)
+def test_a_blank_image_is_one_box_if_it_is_large_enough(shape, count):
+    boxes = ss.propose(np.full((*shape, 3), 128, np.uint8))
+    assert boxes.tolist() == [[0, 0, shape[1], shape[0]]] * count
+
+
+@pytest.mark.parametrize(
+    ("image", "message"),
+    [
+        (np.full((30, 30, 3), np.nan), "finite"),
+        (np.full((30, 30, 3), 255.0), "divide"),
+        (np.full((30, 30, 3), -0.1), "0..1"),
+        (np.zeros((0, 30, 3), np.uint8), "not"),
+        (np.zeros((30, 30, 2), np.uint8), "not"),
+        (np.zeros(30, np.uint8), "not"),
+    ],
+)
+def test_images_that_are_no_images(image, message):
+    with pytest.raises(ValueError, match=message):
+        ss.propose(image)
+
+
+def test_unknown_strategy():
+    with pytest.raises(ValueError, match="single, fast, quality"):
+        ss.propose(PHOTO, "fastest")

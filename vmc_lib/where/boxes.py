@@ -1,0 +1,56 @@
+"""Boxes: how far two of them agree, and which of a crowd to keep."""
+
+import numpy as np
+
+
+def as_boxes(boxes):
+    """Boxes as a float64 array (n, 4) of (x0, y0, x1, y1), x1 and y1 exclusive.
+
+    One box, or an empty list, becomes an array of one row or none. A box may have no area, and
+    may lie outside the image. ValueError when a box is inside out or not finite.
+    """
+    boxes = np.asarray(boxes, float)
+    if boxes.size == 0:
+        return np.empty((0, 4))
+    boxes = np.atleast_2d(boxes)
+    if boxes.ndim != 2 or boxes.shape[1] != 4:
+        raise ValueError(f"boxes must be rows of (x0, y0, x1, y1), not an array {boxes.shape}")
+    wrong = ~np.isfinite(boxes).all(1) | (boxes[:, 2:] < boxes[:, :2]).any(1)
+    if wrong.any():
+        raise ValueError(f"box {boxes[wrong][0]} needs finite x0 <= x1 and y0 <= y1")
+    return boxes
+
+
+def area(boxes):
+    """Areas (n,) of boxes (n, 4), in square pixels."""
+    return np.prod(boxes[..., 2:] - boxes[..., :2], axis=-1)
+
+
+def iou(a, b):
+    """Intersection over union of every box in a (n, 4) with every box in b (m, 4): (n, m).
+
+    Two boxes without area share nothing: 0, even when they coincide.
+    """
+    a, b = as_boxes(a)[:, None], as_boxes(b)[None]
+    sides = np.minimum(a[..., 2:], b[..., 2:]) - np.maximum(a[..., :2], b[..., :2])
+    shared = sides.clip(0).prod(-1)
+    union = area(a) + area(b) - shared
+    return np.divide(shared, union, out=np.zeros_like(shared), where=union > 0)
+
+
+def nms(boxes, scores, overlap=0.3):
+    """Greedy non-maximum suppression: indices of the boxes kept, by falling score.
+
+    The best box stays and silences every box that overlaps it by more than `overlap` (an IoU);
+    then the best of the rest, and so on. Of equal scores the earlier box goes first.
+    ValueError when there is not one finite score a box. (Neubeck & Van Gool 2006, greedy form.)
+    """
+    boxes, scores = as_boxes(boxes), np.asarray(scores, float)
+    if scores.shape != (len(boxes),) or not np.isfinite(scores).all():
+        raise ValueError(f"{len(boxes)} boxes need as many finite scores, not {scores.shape}")
+    waiting, kept = np.argsort(-scores, kind="stable"), []
+    while len(waiting):
+        best, rest = waiting[0], waiting[1:]
+        kept.append(best)
+        waiting = rest[iou(boxes[best], boxes[rest])[0] <= overlap]
+    return np.array(kept, int)

@@ -1,0 +1,281 @@
+"""Selective search: a photo falls into segments, which grow back together, similar ones first.
+
+Every region met on the way up, from a patch of cork to the whole table, is a candidate for an
+object (Uijlings et al. 2013; the paper's Block 1-1, bottom-up part).
+"""
+
+from dataclasses import dataclass
+from heapq import heapify, heappop, heappush
+
+import cv2
+import numpy as np
+from scipy.ndimage import find_objects
+from skimage.segmentation import felzenszwalb
+
+from .boxes import area
+
+# ---------------------------------------------------------------- the image, seen in other ways
+
+COLOUR_SPACES = {  # float RGB in 0..1 -> channels in about 0..1
+    "RGB": lambda rgb: rgb,
+    "HSV": lambda rgb: cv2.cvtColor(rgb, cv2.COLOR_RGB2HSV) / np.float32([360, 1, 1]),
+    "Lab": lambda rgb: (cv2.cvtColor(rgb, cv2.COLOR_RGB2Lab) + np.float32([0, 128, 128])) / 255,
+    "rgI": lambda rgb: np.dstack([rgb[..., :2] / (rgb.sum(2, keepdims=True) + 1e-6), rgb.mean(2)]),
+    "H": lambda rgb: COLOUR_SPACES["HSV"](rgb)[..., :1],
+    "I": lambda rgb: rgb.mean(2, keepdims=True),
+}
+
+
+def as_rgb(image):
+    """The image as float32 RGB in 0..1, shape (height, width, 3).
+
+    Takes uint8 or float in 0..1; a grey image is stacked, an alpha channel dropped. ValueError
+    for anything else: no pixels, NaN, values out of range, other shapes.
+    """
+    image = np.asarray(image)
+    if image.ndim == 2:
+        image = np.dstack([image] * 3)
+    if image.ndim != 3 or image.shape[2] not in (3, 4) or image.size == 0:
+        raise ValueError(f"an image is (height, width, 3), not {image.shape}")
+    rgb = image[..., :3].astype(np.float32)
+    if image.dtype == np.uint8:
+        return rgb / 255
+    if not (rgb.min() >= 0 and rgb.max() <= 1):  # so written, NaN fails too
+        raise ValueError("a float image needs finite values in 0..1; divide 8-bit values by 255")
+    return rgb
+
+
+# ---------------------------------------------------------------- segments, and what they look like
+
+
+def segment(channels, scale=100, sigma=0.8):
+    """Segments of an image (height, width, c) with values in 0..1: labels (height, width).
+
+    Two neighbouring patches stay apart where the step between them is large beside the steps
+    inside them; a larger `scale` k lets patches grow larger, and none stays under k pixels. The
+    graph-based method of Felzenszwalb & Huttenlocher (2004), by scikit-image.
+    """
+    smooth = cv2.GaussianBlur(channels, (0, 0), sigma).reshape(channels.shape)
+    return felzenszwalb(smooth, scale=scale, sigma=0, min_size=int(scale))
+
+
+@dataclass
+class Appearance:
+    """What selective search knows of each region: rows for segments, then for merged regions."""
+
+    size: np.ndarray  # (n,) pixels
+    boxes: np.ndarray  # (n, 4)
+    colour: np.ndarray  # (n, 25 c) histogram of each channel, sums to 1
+    texture: np.ndarray  # (n, 80 c) histogram of each channel's slopes, sums to 1
+    pixels: int  # in the whole image
+
+    def merge(self, i, j, new):
+        """Write into row `new` the union of regions i and j, from their rows alone."""
+        a, b = self.size[i], self.size[j]
+        self.size[new] = a + b
+        self.boxes[new] = enclosing(self.boxes[i], self.boxes[j])
+        for histogram in (self.colour, self.texture):
+            histogram[new] = (a * histogram[i] + b * histogram[j]) / (a + b)
+
+
+def enclosing(a, b):
+    """The smallest boxes around boxes a and b, row by row."""
+    return np.concatenate(
+        [np.minimum(a[..., :2], b[..., :2]), np.maximum(a[..., 2:], b[..., 2:])], axis=-1
+    )
+
+
+def colour_codes(channels, bins=25):
+    """For each channel, which of `bins` bins each pixel's value falls into: (c, pixels)."""
+    values = channels.reshape(-1, channels.shape[2]).T
+    return (values * bins).astype(int).clip(0, bins - 1), bins
+
+
+def texture_codes(channels, bins=10):
+    """For each channel and eight directions, the bin of each pixel's upward slope: (8c, pixels)."""
+    codes = []
+    for channel in np.moveaxis(channels, 2, 0):
+        smooth = cv2.GaussianBlur(channel, (0, 0), 1)
+        dx, dy = cv2.Sobel(smooth, -1, 1, 0), cv2.Sobel(smooth, -1, 0, 1)
+        for angle in np.arange(4) * np.pi / 4:
+            slope = bins * (np.cos(angle) * dx + np.sin(angle) * dy).ravel()
+            codes += [slope.clip(0, bins - 1).astype(int), (-slope).clip(0, bins - 1).astype(int)]
+    return codes, bins
+
+
+def histograms(labels, codes, bins):
+    """The share of each region's pixels in each bin: (regions, rows of codes * bins)."""
+    n, labels = labels.max() + 1, labels.ravel() * bins
+    counts = [np.bincount(labels + row, minlength=n * bins).reshape(n, bins) for row in codes]
+    counts = np.hstack(counts).astype(np.float32)
+    return counts / counts.sum(1, keepdims=True)
+
+
+def describe(labels, colours, textures):
+    """The Appearance of a segmentation, with room for every merge: 2n - 1 rows for n segments."""
+    places = find_objects(labels + 1)
+    rows = {
+        "size": np.bincount(labels.ravel()),
+        "boxes": np.array([(x.start, y.start, x.stop, y.stop) for y, x in places], float),
+        "colour": histograms(labels, *colours),
+        "texture": histograms(labels, *textures),
+    }
+    room = {name: np.concatenate([row, np.zeros_like(row[1:])]) for name, row in rows.items()}
+    return Appearance(**room, pixels=labels.size)
+
+
+# ---------------------------------------------------------------- how alike two regions are
+
+
+def alike_in_colour(r, i, j):
+    return np.minimum(r.colour[i], r.colour[j]).sum(-1)
+
+
+def alike_in_texture(r, i, j):
+    return np.minimum(r.texture[i], r.texture[j]).sum(-1)
+
+
+def both_small(r, i, j):
+    return 1 - (r.size[i] + r.size[j]) / r.pixels
+
+
+def fit_together(r, i, j):
+    """1 when the two fill the box around both, less for every pixel of it that is neither's."""
+    return 1 - (area(enclosing(r.boxes[i], r.boxes[j])) - r.size[i] - r.size[j]) / r.pixels
+
+
+SIMILARITIES = {
+    "colour": alike_in_colour,
+    "texture": alike_in_texture,
+    "size": both_small,
+    "fill": fit_together,
+}
+
+
+# ---------------------------------------------------------------- growing back
+
+
+@dataclass(frozen=True)
+class Hierarchy:
+    """How one segmentation grew back into one region."""
+
+    labels: np.ndarray  # (height, width) the n segments, 0 to n - 1
+    merges: np.ndarray  # (n - 1, 2) the two regions merged at each step; step t makes region n + t
+    boxes: np.ndarray  # (2n - 1, 4) around every region, in the order of their making
+
+    def after(self, steps):
+        """Labels (height, width) after so many merges; a region keeps its number until merged."""
+        n = len(self.merges) + 1
+        into = np.arange(n + steps)
+        for new in reversed(range(n, n + steps)):
+            into[self.merges[new - n]] = into[new]
+        return into[self.labels]
+
+
+def touching(labels):
+    """Pairs (m, 2) of regions that share a border, each pair once, the lower number first."""
+    n = labels.max() + 1
+    first = np.concatenate([labels[:, :-1].ravel(), labels[:-1].ravel()])
+    second = np.concatenate([labels[:, 1:].ravel(), labels[1:].ravel()])
+    border = first != second
+    low, high = np.sort([first[border], second[border]], axis=0)
+    return np.stack(np.divmod(np.unique(low * n + high), n), axis=1)
+
+
+def grow(labels, regions, similarities):
+    """Merge the two most similar neighbours, again and again, until one region is left.
+
+    Similarity is the sum of the named `similarities`. A merged region's description follows from
+    its two parts', so no step looks at pixels, and a heap has the best pair at hand: n segments
+    cost about n log n.
+    """
+    n = labels.max() + 1
+
+    def alike(i, j):
+        return sum(SIMILARITIES[name](regions, i, j) for name in similarities)
+
+    pairs = touching(labels)
+    neighbours = {i: set() for i in range(n)}
+    for i, j in pairs.tolist():
+        neighbours[i].add(j)
+        neighbours[j].add(i)
+    queue = list(zip((-alike(*pairs.T)).tolist(), *pairs.T.tolist(), strict=True))
+    heapify(queue)
+    merges = []
+    while len(neighbours) > 1:
+        _, i, j = heappop(queue)
+        if i not in neighbours or j not in neighbours:
+            continue  # one of the two has been merged away since
+        new = n + len(merges)
+        merges.append((i, j))
+        regions.merge(i, j, new)
+        around = (neighbours.pop(i) | neighbours.pop(j)) - {i, j}
+        neighbours[new] = around
+        for k in around:
+            neighbours[k] = neighbours[k] - {i, j} | {new}
+        rest = list(around)
+        for likeness, k in zip(alike(new, rest).tolist(), rest, strict=True):
+            heappush(queue, (-likeness, k, new))
+    return Hierarchy(labels, np.array(merges, int).reshape(-1, 2), regions.boxes.copy())
+
+
+# ---------------------------------------------------------------- many hierarchies, one list
+
+
+@dataclass(frozen=True)
+class Strategy:
+    """Which hierarchies to grow: one for every colour space, scale and set of similarities."""
+
+    colours: tuple = ("HSV",)
+    scales: tuple = (100,)
+    similarities: tuple = (("colour", "texture", "size", "fill"),)
+
+
+ALL, COLOURLESS = ("colour", "texture", "size", "fill"), ("texture", "size", "fill")
+STRATEGIES = {  # Uijlings et al. (2013), Table 6
+    "single": Strategy(),
+    "fast": Strategy(("HSV", "Lab"), (50, 100), (ALL, COLOURLESS)),
+    "quality": Strategy(
+        ("HSV", "Lab", "rgI", "H", "I"),
+        (50, 100, 150, 300),
+        (ALL, COLOURLESS, ("fill",), ("size",)),
+    ),
+}
+
+
+def hierarchies(image, strategy):
+    """Grow every Hierarchy of a Strategy on an image, one by one."""
+    rgb = as_rgb(image)
+    for colour in strategy.colours:
+        channels = COLOUR_SPACES[colour](rgb)
+        codes = colour_codes(channels), texture_codes(channels)
+        for scale in strategy.scales:
+            labels = segment(channels, scale)
+            regions = describe(labels, *codes)
+            for similarities in strategy.similarities:
+                yield grow(labels, regions, similarities)
+
+
+def propose(image, strategy="single", rng=None, smallest=20):
+    """Candidate boxes (n, 4) for objects in an image, the likeliest first, none twice.
+
+    `strategy` is "single", "fast", "quality" or a Strategy. Each hierarchy ranks its regions from
+    the last made (the largest) down; a rank is then multiplied by a number drawn from `rng` so
+    that neither large boxes nor one hierarchy come all first (Uijlings et al. 2013, section 4.4;
+    by default the draw repeats from call to call). Boxes narrower or lower than `smallest` pixels
+    are left out: a blank image gives one box, a tiny one none. ValueError as for `as_rgb`.
+    """
+    if not isinstance(strategy, Strategy):
+        if strategy not in STRATEGIES:
+            raise ValueError(f"strategy {strategy!r} is none of {', '.join(STRATEGIES)}")
+        strategy = STRATEGIES[strategy]
+    rng = rng or np.random.default_rng(0)
+    boxes, ranks = [], []
+    for hierarchy in hierarchies(image, strategy):
+        n = len(hierarchy.boxes)
+        boxes.append(hierarchy.boxes)
+        ranks.append(np.arange(n, 0, -1) * rng.random(n))
+    boxes = np.concatenate(boxes)[np.argsort(np.concatenate(ranks))]
+    _, first = np.unique(boxes, axis=0, return_index=True)
+    boxes = boxes[np.sort(first)]
+    return boxes[(boxes[:, 2:] - boxes[:, :2] >= smallest).all(1)]
