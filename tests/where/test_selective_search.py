@@ -75,7 +75,7 @@ def grown():
 def test_every_merge_joins_two_neighbours_into_their_union(grown):
     for step, pair in enumerate(grown.merges.tolist()):
         before, after = grown.after(step), grown.after(step + 1)
-        assert sorted(pair) in ss.touching(before).T.tolist()
+        assert sorted(pair) in ss.touching(before).tolist()
         new = len(grown.merges) + 1 + step
         assert ((after == new) == np.isin(before, pair)).all()
         assert (after == before)[after != new].all()
