@@ -1,0 +1,33 @@
+"""What makes the built book whole: no page asks anything of a network, or of a kernel."""
+
+import os
+import re
+
+
+def setup(app):
+    os.environ["VMC_LIFE"] = "book"  # kernels inherit it: demos become self-contained pages
+    app.set_html_assets_policy("always")  # equations may come from a cell's output, unannounced
+    app.connect("html-page-context", strip_thebe, priority=900)
+    app.connect("autodoc-process-docstring", code_marks)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
+
+
+def strip_thebe(app, pagename, templatename, context, doctree):
+    """Take out sphinx-thebe, which would load its bundle from a network."""
+    context["script_files"] = [
+        script
+        for script in context["script_files"]
+        if "thebe" not in f"{script.filename} {script.attributes.get('body', '')}".lower()
+    ]
+    context["body"] = re.sub(
+        r'<script type="text/x-thebe-config">.*?</script>(\s*<script>kernelName = .*?</script>)?',
+        "",
+        context.get("body", ""),
+        flags=re.S,
+    )
+
+
+def code_marks(app, what, name, obj, options, lines):
+    """Docstrings mark code as Markdown does, with single backticks; reStructuredText needs two."""
+    marked = re.sub(r"(?<!`)`([^`]+)`(?!`)", r"``\1``\\ ", "\n".join(lines))
+    lines[:] = marked.split("\n")

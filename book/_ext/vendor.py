@@ -1,0 +1,65 @@
+"""Third-party scripts that the book ships, each pinned by version and checksum.
+
+python book/_ext/vendor.py            fetch them again (npm, and the installed meshcat package)
+python book/_ext/vendor.py --check    compare the files here with the manifest
+"""
+
+import hashlib
+import json
+import subprocess
+import sys
+import tarfile
+import tempfile
+from importlib import metadata, resources
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+MANIFEST = ROOT / "book/_static/vendor/manifest.json"
+
+
+def fetch(origin):
+    """The bytes of `origin`: "npm:name@version:path" or "python:name@version:path"."""
+    registry, package, path = origin.split(":")
+    name, version = package.rsplit("@", 1)
+    if registry == "python":
+        installed = metadata.version(name)
+        if installed != version:
+            raise ValueError(f"{name} {installed} is installed, the manifest wants {version}")
+        return resources.files(name).joinpath(path).read_bytes()
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run(["npm", "pack", "--silent", package], cwd=folder, check=True)
+        with tarfile.open(next(Path(folder).glob("*.tgz"))) as archive:
+            return archive.extractfile(f"package/{path}").read()
+
+
+def problems():
+    """What is wrong with the vendored files, one sentence each; none is right."""
+    wrong = []
+    for entry in json.loads(MANIFEST.read_text()):
+        file = ROOT / entry["file"]
+        if not file.exists():
+            wrong.append(f"{entry['file']} is missing")
+        elif hashlib.sha256(file.read_bytes()).hexdigest() != entry["sha256"]:
+            wrong.append(f"{entry['file']} is not what the manifest says")
+    listed = {ROOT / entry["file"] for entry in json.loads(MANIFEST.read_text())}
+    for file in sorted(set(MANIFEST.parent.iterdir()) - listed - {MANIFEST}):
+        wrong.append(f"{file.relative_to(ROOT)} is not in the manifest")
+    return wrong
+
+
+def refresh():
+    """Fetch every file anew and write its checksum into the manifest."""
+    entries = json.loads(MANIFEST.read_text())
+    for entry in entries:
+        data = fetch(entry["origin"])
+        file = ROOT / entry["file"]
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_bytes(data)
+        entry["sha256"] = hashlib.sha256(data).hexdigest()
+    MANIFEST.write_text(json.dumps(entries, indent=2) + "\n")
+
+
+if __name__ == "__main__":
+    if "--check" not in sys.argv:
+        refresh()
+    sys.exit("\n".join(problems()) or 0)
