@@ -1,0 +1,64 @@
+"""The chapters as files: complete, tidy and in the table of contents (nbmake executes them)."""
+
+from pathlib import Path
+
+import nbformat
+import pytest
+import yaml
+
+ROOT = Path(__file__).parents[1]
+NOTEBOOKS = sorted((ROOT / "book").glob("*.ipynb"))
+NUMBERED = [path for path in NOTEBOOKS if path.stem[:2].isdigit()]
+
+
+@pytest.fixture(params=NOTEBOOKS, ids=lambda path: path.stem)
+def notebook(request):
+    return nbformat.read(request.param, as_version=4)
+
+
+def test_every_page_is_in_the_table_of_contents():
+    toc = yaml.safe_load((ROOT / "_toc.yml").read_text())
+    listed = {toc["root"]} | {page["file"] for part in toc["parts"] for page in part["chapters"]}
+    pages = {*NOTEBOOKS, *(ROOT / "book").glob("*.md")}
+    assert listed == {f"book/{path.stem}" for path in pages}
+
+
+def test_is_stored_without_outputs(notebook):
+    nbformat.validate(notebook)
+    code = [cell for cell in notebook.cells if cell.cell_type == "code"]
+    assert code
+    assert not any(cell.outputs or cell.execution_count for cell in code)
+
+
+def test_cells_are_short_enough_to_read(notebook):
+    lengths = {
+        cell.id: len(cell.source.splitlines())
+        for cell in notebook.cells
+        if cell.cell_type == "code"
+    }
+    assert not {id_: n for id_, n in lengths.items() if n > 15}
+
+
+def test_starts_with_one_title(notebook):
+    first = notebook.cells[0]
+    assert first.cell_type == "markdown" and first.source.startswith("# ")
+    titles = [
+        line
+        for cell in notebook.cells
+        if cell.cell_type == "markdown"
+        for line in cell.source.splitlines()
+        if line.startswith("# ")
+    ]
+    assert len(titles) == 1
+
+
+@pytest.mark.parametrize("path", NUMBERED, ids=lambda path: path.stem)
+def test_a_chapter_teaches(path):
+    """Every chapter has a demo, a question before it, and an exercise with a hidden solution."""
+    notebook = nbformat.read(path, as_version=4)
+    text = "\n".join(cell.source for cell in notebook.cells if cell.cell_type == "markdown")
+    code = "\n".join(cell.source for cell in notebook.cells if cell.cell_type == "code")
+    assert "explore(" in code
+    assert "Predict first" in text
+    assert "```{exercise" in text or "{exercise-start}" in text
+    assert "```{solution" in text or "{solution-start}" in text
