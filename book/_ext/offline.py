@@ -7,9 +7,15 @@ import re
 def setup(app):
     os.environ["VMC_LIFE"] = "book"  # kernels inherit it: demos become self-contained pages
     app.set_html_assets_policy("always")  # equations may come from a cell's output, unannounced
+    app.connect("env-get-outdated", every_page)
     app.connect("html-page-context", strip_thebe, priority=900)
     app.connect("autodoc-process-docstring", code_marks)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
+
+
+def every_page(app, env, added, changed, removed):
+    """Run every chapter again: Sphinx does not see that the library under it changed."""
+    return list(env.found_docs)
 
 
 def strip_thebe(app, pagename, templatename, context, doctree):

@@ -55,7 +55,8 @@ class Control:
 
     @property
     def texts(self):
-        return [f"{_text(value)}{self.unit and ' ' + self.unit}" for value in self.values]
+        unit = self.unit if self.unit in ("", "°") else f" {self.unit}"
+        return [f"{_text(value)}{unit}" for value in self.values]
 
 
 @dataclass(frozen=True)
@@ -208,16 +209,17 @@ def _evaluate(draw, describe, controls, name):
     kinds = {tuple(isinstance(part, Scene) for part in parts) for _, parts in states}
     if len(kinds) > 1:
         raise ValueError("the draw function must return the same kinds of pictures everywhere")
-    seen = np.unique([_lines(parts) for _, parts in states], return_inverse=True)[1]
-    grid = seen.reshape([len(control.values) for control in controls.values()])
+    looks = {}  # equal pictures get equal numbers
+    grid = [looks.setdefault(repr([_lines(p) for p in parts]), len(looks)) for _, parts in states]
+    grid = np.reshape(grid, [len(control.values) for control in controls.values()])
     for axis, control in enumerate(controls.values()):
         if (grid == grid.take([0], axis)).all():
             raise ValueError(f"the control {control.label!r} never changes the picture")
     return states
 
 
-def _lines(parts):
-    return "\n".join(p if isinstance(p, str) else "\n".join(p.messages()) for p in parts)
+def _lines(part):
+    return part.messages() if isinstance(part, Scene) else part.split("\n")
 
 
 def _page(states, caption, controls, name):
@@ -230,10 +232,9 @@ def _page(states, caption, controls, name):
     )
     alt, parts = states[first]
     inside = side_by_side(parts, alt)
-    if controls:
+    if controls or any(isinstance(part, Scene) for part in parts):
         inside += f'<form class="vmc-controls" autocomplete="off">{form}</form>'
         inside += '<p class="vmc-spoken" aria-live="polite"></p>'
-    if controls or any(isinstance(part, Scene) for part in parts):
         inside += f'<script type="application/gzip">{_pack(states)}</script>'
     return framed(inside, caption, name)
 

@@ -41,7 +41,7 @@ ON_PHOTO = {
     "grey": "#c8ced6",
     "ink": "#ffffff",
 }
-EDGE = 'stroke="#10151c" stroke-width="5"'
+EDGE = 'stroke="#10151c" stroke-width="6"'
 
 # One look for every plot of the book, wherever in a chapter it is drawn.
 plt.rcParams.update(
@@ -159,15 +159,15 @@ def photo_view(image, boxes=(), points=()):
     for (x0, y0, x1, y1), label, colour in boxes:
         rect = f'x="{x0:.1f}" y="{y0:.1f}" width="{x1 - x0:.1f}" height="{y1 - y0:.1f}"'
         marks += [f'<rect {rect} {EDGE}/><rect {rect} stroke="{ON_PHOTO[colour]}"/>']
-        marks += [_label(x0, y0 - 6 if y0 > 22 else y1 + 17, label, colour)]
+        marks += [_label(x0, y0 - 7 if y0 > 26 else y1 + 21, label, colour)]
     for (x, y), label, colour in points:
-        circle = f'<circle cx="{x:.1f}" cy="{y:.1f}" r="5"'
+        circle = f'<circle cx="{x:.1f}" cy="{y:.1f}" r="6"'
         marks += [f'{circle} {EDGE}/>{circle} stroke="{ON_PHOTO[colour]}"/>']
-        marks += [_label(x + 9, y + 5, label, colour)]
+        marks += [_label(x + 11, y + 7, label, colour)]
     return "\n".join(
         [
             f'<svg class="vmc-photo" viewBox="0 0 {width} {height}" width="{width}" '
-            f'height="{height}" fill="none" stroke-width="2.5" font-size="16">',
+            f'height="{height}" fill="none" stroke-width="3" font-size="20">',
             f'<image width="{width}" height="{height}" href="',
             _data_uri(image),
             '"/>',
@@ -193,7 +193,7 @@ def framed(inside, caption, name=""):
 def side_by_side(parts, alt):
     """The pictures next to each other, described by `alt` for those who do not see them."""
     inner = "".join(
-        f'<div class="vmc-picture">{part if isinstance(part, str) else part.html()}</div>'
+        f'<div class="vmc-picture">{part if isinstance(part, str) else part.html(alt)}</div>'
         for part in parts
     )
     return f'<div class="vmc-pictures" role="img" aria-label="{html.escape(alt)}">{inner}</div>'

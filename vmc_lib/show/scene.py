@@ -7,7 +7,9 @@ over Jupyter's own channel; no port is opened.
 """
 
 import base64
+import html
 import itertools
+import json
 import re
 from collections import defaultdict
 from pathlib import Path
@@ -20,12 +22,21 @@ _UUID = re.compile(rb"[0-9a-f]{8}(?:-[0-9a-f]{4}){3}-[0-9a-f]{12}")
 
 
 class Scene:
-    """A recorded meshcat scene; `Scene(base)` starts from everything that `base` holds."""
+    """A recorded meshcat scene in the book's axes (x forward, y up, z right; metres).
+
+    `Scene(base)` starts from everything that `base` holds, so that what never moves is made once.
+    """
 
     zmq_url = web_url = None  # what meshcat asks of a window: there is no server
 
     def __init__(self, base=None):
         self._messages = dict(base._messages) if base else {}
+        if base is None:
+            self.look((1.2, 0.5, 1.4), at=(0.2, -0.2, 0.0))
+
+    def look(self, eye, at):
+        """Place the reader's eye, and the point it looks at (and walks around)."""
+        self._messages["camera"] = json.dumps([list(map(float, eye)), list(map(float, at))])
 
     def __getitem__(self, path):
         """The meshcat visualizer at `path`: `scene["hand"].set_object(...)`."""
@@ -38,15 +49,16 @@ class Scene:
         packed = umsgpack.packb(lowered, force_float_precision="single")
         # meshcat names each object by the clock: numbering them instead makes equal scenes equal
         numbers = defaultdict(itertools.count().__next__)
-        self._messages[key] = _UUID.sub(lambda uuid: b"%036d" % numbers[uuid[0]], packed)
+        packed = _UUID.sub(lambda uuid: b"%036d" % numbers[uuid[0]], packed)
+        self._messages[key] = base64.b64encode(packed).decode()
 
     def messages(self):
         """The scene as a list of `"type path property|base64"` strings, in recorded order."""
-        return [f"{key}|{base64.b64encode(data).decode()}" for key, data in self._messages.items()]
+        return [f"{key}|{data}" for key, data in self._messages.items()]
 
-    def html(self):
-        """Where the viewer will stand in the page."""
-        return '<div class="vmc-scene"></div>'
+    def html(self, alt):
+        """Where the viewer will stand in the page; until then, and without WebGL, words."""
+        return f'<div class="vmc-scene"><p>{html.escape(alt)}</p></div>'
 
 
 def widget():
@@ -59,6 +71,7 @@ def widget():
     class SceneWidget(anywidget.AnyWidget):
         _esm = "\n".join(
             [
+                "var define, exports, module;",  # meshcat is to find no module loader
                 meshcat_js.read_text(),
                 (STATIC / "scene.js").read_text(),
                 "export default { render: ({ model, el }) => vmcSceneWidget(model, el) };",

@@ -41,8 +41,8 @@
       const [alt, ...parts] = states[inputs.reduce((sum, i) => sum + at(i) * i.dataset.stride, 0)];
       parts.forEach((places, i) => {
         const picture = pictures.children[i];
-        if (picture.firstElementChild.matches(".vmc-scene"))
-          return vmcScene(picture.firstElementChild).show(read(places));
+        const scene = picture.querySelector(".vmc-scene");
+        if (scene) return vmcScene(scene).show(read(places));
         const next = picture.cloneNode(false);
         next.innerHTML = read(places).join("\n");
         morph(picture, next);
@@ -78,6 +78,8 @@
         }, reduced.matches ? 1000 : 250);
       });
     }
+    const scenes = [...pictures.querySelectorAll(".vmc-scene")].map((div) => vmcScene(div));
+    if (scenes.length) demo.querySelector(".vmc-controls").append(vmcScene.turner(...scenes));
     demo.addEventListener("input", show);
     show();
     demo.dataset.ready = "";

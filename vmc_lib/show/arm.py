@@ -1,0 +1,124 @@
+"""The arm, its muscles and what it reaches for, as a `Scene`.
+
+Positions are metres in the shoulder frame (x forward, y up, z to the right).
+"""
+
+from functools import cache
+
+import numpy as np
+from meshcat import geometry as g
+
+from vmc_lib.arm.closed_form import hand
+from vmc_lib.arm.model import MUSCLES, geometry
+from vmc_lib.arm.posture import to_world
+from vmc_lib.show.figures import COLOURS
+from vmc_lib.show.scene import Scene
+
+TABLE_TOP = -0.43  # m
+POINTS = 12  # no muscle's path has more
+BONE, BODY, WOOD, FEATHER = 0xEDE6D6, 0xAEB7C2, 0xCDB795, 0xF4F4F0
+
+
+def arm_scene(q, activation=None, force=None, turn=0.0, shuttlecock=None, balls=(), trail=None):
+    """The arm in posture q (2,), in radians, on a trunk turned by `turn`.
+
+    Muscles go from blue to red with `activation` (6,) and thicken with `force` (6,), a share of
+    their maximal force (the activation where none is given). `shuttlecock` (3,) is the middle of
+    one that stands; `balls` are (position (3,), colour name) pairs; `trail` (n, 3) is a line, for
+    instance the hand's path. Only the arm turns with the trunk: all else stays where it is.
+    """
+    scene = Scene(_furniture())
+    bodies, paths = geometry(q)
+    joints = np.array([*(position for _, position in bodies.values()), hand(q)])
+    activation = np.zeros(len(MUSCLES)) if activation is None else np.clip(activation, 0, 1)
+    force = activation if force is None else np.clip(force, 0, 1)
+    _move_tube(scene["arm/bones"], to_world(joints, turn), 0.013)
+    scene["arm/hand"].set_transform(_place(to_world(joints[-1], turn)))
+    for name, active, share in zip(MUSCLES, activation, force, strict=True):
+        path = np.pad(paths[name], ((0, POINTS - len(paths[name])), (0, 0)), "edge")
+        _move_tube(scene[f"arm/{name}"], to_world(path, turn), 0.004 + 0.006 * share)
+        scene[f"arm/{name}"].set_property("color", _heat(active))
+    if shuttlecock is not None:
+        _shuttlecock(scene, shuttlecock)
+    for i, (position, colour) in enumerate(balls):
+        scene[f"ball{i}"].set_object(g.Sphere(0.012), _paint(int(COLOURS[colour][1:], 16)))
+        scene[f"ball{i}"].set_transform(_place(position))
+    if trail is not None:
+        line = g.PointsGeometry(np.float32(np.transpose(trail)))
+        scene["trail"].set_object(g.Line(line, g.LineBasicMaterial(color=0x67707E)))
+    return scene
+
+
+@cache
+def _furniture():
+    """What every arm scene shares: a table, a hint of a body, and the parts that will be moved."""
+    scene = Scene()
+    scene.look((1.2, 0.3, 1.2), at=(0.14, -0.14, -0.08))
+    scene["table"].set_object(g.Box([0.62, 0.02, 1.0]), _paint(WOOD))
+    scene["table"].set_transform(_place((0.37, TABLE_TOP - 0.01, -0.05)))
+    scene["body/trunk"].set_object(g.Ellipsoid([0.1, 0.3, 0.15]), _paint(BODY, 0.45))
+    scene["body/trunk"].set_transform(_place((-0.03, -0.24, -0.17)))
+    scene["body/head"].set_object(g.Ellipsoid([0.095, 0.12, 0.08]), _paint(BODY, 0.45))
+    scene["body/head"].set_transform(_place((0.0, 0.22, -0.17)))
+    _make_tube(scene["arm/bones"], 3, BONE)
+    scene["arm/hand"].set_object(g.Sphere(0.024), _paint(BONE))
+    for name in MUSCLES:
+        _make_tube(scene[f"arm/{name}"], POINTS, 0xFFFFFF)
+    return scene
+
+
+def _make_tube(part, points, colour):
+    """A tube along that many points: a cylinder for each stretch, a ball for each bend."""
+    for i in range(points):
+        part[f"bend{i}"].set_object(g.Sphere(1.0), _paint(colour))
+        if i:
+            part[f"stretch{i}"].set_object(g.Cylinder(1.0, 1.0), _paint(colour))
+
+
+def _move_tube(part, line, radius):
+    for i, point in enumerate(line):
+        part[f"bend{i}"].set_transform(_place(point, radius))
+        if i:
+            part[f"stretch{i}"].set_transform(_span(line[i - 1], point, radius))
+
+
+def _shuttlecock(scene, position):
+    """A shuttlecock on its skirt, the middle of its axis at `position`."""
+    scene["shuttlecock"].set_transform(_place(position))
+    skirt = g.Cylinder(0.06, radiusTop=0.012, radiusBottom=0.032)
+    scene["shuttlecock/skirt"].set_object(skirt, _paint(FEATHER))
+    scene["shuttlecock/skirt"].set_transform(_place((0, -0.01, 0)))
+    scene["shuttlecock/cork"].set_object(g.Sphere(0.0135), _paint(0xD9A066))
+    scene["shuttlecock/cork"].set_transform(_place((0, 0.026, 0)))
+
+
+def _paint(colour, opacity=1.0):
+    return g.MeshLambertMaterial(color=colour, opacity=opacity)
+
+
+def _heat(active):
+    """Blue at rest, red in full activation: (red, green, blue, opacity) in [0, 1]."""
+    cold, hot = (np.array(list(bytes.fromhex(COLOURS[c][1:]))) / 255 for c in ("blue", "red"))
+    return [*((1 - active) * cold + active * hot).round(3).tolist(), 1.0]
+
+
+def _place(position, size=1.0):
+    matrix = np.diag([size, size, size, 1.0])
+    matrix[:3, 3] = position
+    return matrix
+
+
+def _span(start, end, radius):
+    """The transform that lays a unit cylinder (centred, along y) from `start` to `end`."""
+    along = end - start
+    length = np.linalg.norm(along)
+    if length < 1e-9:
+        return _place(start, 1e-6)
+    side = np.cross(along, np.eye(3)[np.argmin(np.abs(along))])
+    side /= np.linalg.norm(side)
+    matrix = np.eye(4)
+    matrix[:3, :3] = np.column_stack(
+        [radius * side, along, radius * np.cross(side, along / length)]
+    )
+    matrix[:3, 3] = (start + end) / 2
+    return matrix
