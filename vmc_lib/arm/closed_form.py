@@ -1,0 +1,95 @@
+"""The same arm in closed form, for many postures at once.
+
+Two facts make it exact. No muscle wraps over both joints at once, so every musculotendon length is
+a function of the shoulder angle plus a function of the elbow angle: two tables. And the inertia,
+the pull of gravity and the hand's position are trigonometric polynomials in the two angles with
+only six frequencies: a few dozen snapshots of the MuJoCo model determine their coefficients.
+"""
+
+from functools import cache
+from itertools import product
+
+import numpy as np
+
+from .model import DAMPING, LIMITS, STEP, forward, mass_matrix, muscle_paths
+
+FREQUENCIES = np.array([(0, 0), (0, 1), (0, 2), (1, -1), (1, 0), (1, 1)]).T
+ROWS = 10_001  # of the muscle tables: steps of half a milliradian
+MARGIN = 0.4  # rad: the tables reach a little beyond the joints' stops
+LOW, HIGH = LIMITS[:, 0] - MARGIN, LIMITS[:, 1] + MARGIN
+
+
+def _waves(q):
+    phase = q @ FREQUENCIES
+    return np.concatenate([np.cos(phase), np.sin(phase)], axis=-1)
+
+
+@cache
+def _coefficients():
+    angles = np.linspace(0, 2 * np.pi, 6, endpoint=False)
+    snapshots = np.array(list(product(angles, angles)))
+    return np.linalg.lstsq(_waves(snapshots), np.array([_snapshot(q) for q in snapshots]))[0]
+
+
+def _snapshot(q):
+    still = forward(q)
+    inertia, gravity = mass_matrix(still), still.qfrc_bias
+    swing = forward(q, (1, 0)).qfrc_bias - gravity  # centrifugal torque of a turning shoulder …
+    bend = forward(q, (0, 1)).qfrc_bias - gravity  # … and of a bending elbow
+    terms = [inertia[0, 0], inertia[0, 1], inertia[1, 1], swing[1], bend[0], *gravity]
+    return [*terms, *still.site("hand").xpos]
+
+
+def hand(q):
+    """Position of the wrist (…, 3) in the shoulder frame for postures q (…, 2)."""
+    return _waves(np.asarray(q)) @ _coefficients()[:, 7:]
+
+
+def torque_for(q, velocity, acceleration):
+    """Inverse dynamics: the torque (…, 2) in N m that gives this acceleration over one step."""
+    m11, m12, m22, bias = _dynamics(q, velocity)
+    inertia = np.stack([m11, m12, m12, m22], axis=-1).reshape(*m11.shape, 2, 2)
+    return (inertia @ acceleration[..., None])[..., 0] + bias
+
+
+def acceleration_from(q, velocity, torque):
+    """Forward dynamics, Eq. 12: the acceleration (…, 2) that this joint torque causes."""
+    m11, m12, m22, bias = _dynamics(q, velocity)
+    t1, t2 = np.moveaxis(torque - bias, -1, 0)
+    determinant = m11 * m22 - m12 * m12
+    return np.stack([m22 * t1 - m12 * t2, m11 * t2 - m12 * t1], axis=-1) / determinant[..., None]
+
+
+def _dynamics(q, velocity):
+    m11, m12, m22, swing, bend, g1, g2 = np.moveaxis(_waves(q) @ _coefficients()[:, :7], -1, 0)
+    w1, w2 = np.moveaxis(velocity, -1, 0)
+    coriolis = np.stack([(bend * w2 - 2 * swing * w1) * w2 + g1, swing * w1 * w1 + g2], axis=-1)
+    # Damping acts on the velocity at the end of the step, as MuJoCo's integrator has it: stable.
+    d1, d2 = STEP * DAMPING
+    return m11 + d1, m12, m22 + d2, coriolis + DAMPING * velocity
+
+
+def paths(q):
+    """Musculotendon lengths (…, 6) and moment arms (…, 2, 6) in m; angles held to the tables."""
+    table, slope = _tables()
+    place = (np.clip(q, LOW, HIGH) - LOW) * ((ROWS - 1) / (HIGH - LOW))
+    row = np.minimum(place.astype(int), ROWS - 2)
+    entry = row + np.array([0, ROWS])  # the elbow's rows follow the shoulder's
+    value = table[entry] + (place - row)[..., None] * slope[entry]
+    return value[..., 0, :6] + value[..., 1, :6], value[..., 6:]
+
+
+@cache
+def _tables():
+    """Lengths and moment arms (2 · ROWS, 12) as the shoulder turns, then the elbow; and slopes."""
+    data = forward((0, 0))
+    straight = muscle_paths(data)[0].copy()
+    turned = np.empty((2, ROWS, 12))
+    for joint, posture in enumerate(np.eye(2)):
+        angles = np.linspace(LOW[joint], HIGH[joint], ROWS)
+        for row, angle in zip(turned[joint], angles, strict=True):
+            row[:6], arms = muscle_paths(forward(angle * posture, data=data))
+            row[6:] = arms[joint]
+    turned[1, :, :6] -= straight
+    slopes = np.diff(turned, axis=1, append=np.nan)
+    return turned.reshape(-1, 12), slopes.reshape(-1, 12)

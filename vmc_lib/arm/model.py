@@ -1,0 +1,60 @@
+"""The arm as a MuJoCo model: OpenSim's arm26, two joints and six muscles (`arm26.xml`).
+
+Postures q are (shoulder, elbow) in radians; (0, 0) hangs straight down, positive lifts the hand
+forward and bends the elbow. Positions are metres in the shoulder frame: origin at the shoulder
+joint, x forward, y up, z to the right.
+"""
+
+from importlib.resources import files
+from typing import NamedTuple
+
+import mujoco
+import numpy as np
+
+MODEL = mujoco.MjModel.from_xml_string((files("vmc_lib.arm") / "arm26.xml").read_text())
+MUSCLES = tuple(MODEL.tendon(k).name for k in range(MODEL.ntendon))
+F0, L0, SLACK = (MODEL.numeric(name).data.copy() for name in ("F0", "L0", "slack"))
+LIMITS = MODEL.jnt_range.copy()  # (2, 2): lowest and highest angle of each joint
+DAMPING = MODEL.dof_damping.copy()  # N m s: what skin and joints resist
+STEP = MODEL.opt.timestep  # s
+
+
+class Geometry(NamedTuple):
+    """Where everything is in one posture, for drawing; all in the shoulder frame."""
+
+    bodies: dict  # name -> (rotation (3, 3), position (3,)): x_world = rotation @ x + position
+    muscles: dict  # name -> path (n, 3) from origin to insertion, tangent points of wraps included
+
+
+def forward(q, velocity=(0.0, 0.0), data=None):
+    """MuJoCo's data (new, or `data` overwritten) with one posture and joint velocity computed."""
+    data = data or mujoco.MjData(MODEL)
+    data.qpos, data.qvel = q, velocity
+    mujoco.mj_forward(MODEL, data)
+    return data
+
+
+def muscle_paths(data):
+    """Musculotendon lengths (6,) in m and moment arms (2, 6) in m of MuJoCo's current posture.
+
+    A moment arm is minus the change of length with the angle: positive turns the joint positively.
+    """
+    return data.ten_length, -data.ten_J.reshape(MODEL.ntendon, MODEL.nv).T
+
+
+def geometry(q):
+    """`Geometry` of one posture (2,): the pose of each body and the path of each muscle."""
+    data = forward(q)
+    names = [MODEL.body(k).name for k in range(1, MODEL.nbody)]
+    bodies = {n: (data.body(n).xmat.reshape(3, 3).copy(), data.body(n).xpos.copy()) for n in names}
+    points = data.wrap_xpos.reshape(-1, 3)
+    ends = zip(data.ten_wrapadr, data.ten_wrapadr + data.ten_wrapnum, strict=True)
+    paths = [points[first:last].copy() for first, last in ends]
+    return Geometry(bodies, dict(zip(MUSCLES, paths, strict=True)))
+
+
+def mass_matrix(data):
+    """The joints' inertia (2, 2) in kg m² at MuJoCo's current posture."""
+    matrix = np.empty((MODEL.nv, MODEL.nv))
+    mujoco.mj_fullM(MODEL, data, matrix)
+    return matrix

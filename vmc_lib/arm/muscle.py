@@ -1,0 +1,61 @@
+"""The muscle: from excitation to activation to force (Eq. 9–11).
+
+Three curves and one lag. The paper leaves units and ranges open; we read it so:
+
+- length `l = (musculotendon length − slack tendon) / optimal fibre length`: the tendon is rigid,
+  and the pennation (at most 12 degrees here) is left out;
+- velocity `v = (rate of l) / 2.5`, **lengthening positive**, in units of a maximal shortening
+  velocity of 2.5 fibre lengths a second;
+- Eq. 11 divides by zero at v = 1 and its even powers fall again beyond; at v = 1 − √11 it reaches
+  zero and turns negative below. `force_velocity` therefore holds v inside `VELOCITY_RANGE`;
+- the passive force rises again below l = 0.22 (an even power): `passive_force` holds l above it.
+"""
+
+import numpy as np
+
+TAU_ACTIVATION = 0.010  # s: calcium floods in quickly …
+TAU_DEACTIVATION = 0.040  # s: … and is pumped back slowly
+MAX_VELOCITY = 2.5  # optimal fibre lengths per second
+VELOCITY_RANGE = (1 - np.sqrt(11), 0.9)
+
+
+def activation_rate(excitation, activation):
+    """Eq. 9: how fast activation follows excitation, both in [0, 1]; per second, same shape."""
+    gap = excitation - activation
+    rise = excitation / TAU_ACTIVATION + (1 - excitation) / TAU_DEACTIVATION
+    return gap * np.where(gap >= 0, rise, 1 / TAU_DEACTIVATION)
+
+
+def excitation_for(activation, rate):
+    """Eq. 9 solved for the excitation that changes this activation at this rate; same shape.
+
+    Rising, it is a quadratic in the excitation; falling, it is linear. Outside [0, 1] no
+    excitation can do it: the caller decides.
+    """
+    alpha, beta = 1 / TAU_ACTIVATION - 1 / TAU_DEACTIVATION, 1 / TAU_DEACTIVATION
+    half = (beta - alpha * activation) / 2
+    root = np.sqrt(half**2 + alpha * np.maximum(activation * beta + rate, 0))
+    return np.where(rate >= 0, (root - half) / alpha, activation + TAU_DEACTIVATION * rate)
+
+
+def force_length(length):
+    """f1 of Eq. 11: the share of maximal force an active fibre has at this normalised length."""
+    square = (length - 0.95) ** 2
+    return np.exp(square - 40 * square**2)
+
+
+def force_velocity(velocity):
+    """f2 of Eq. 11: 1.01 when still, falling to 0 in fast shortening, up to 1.6 in lengthening."""
+    inverse = 1 / (1 - np.clip(velocity, *VELOCITY_RANGE)) ** 2
+    return 1.6 - 1.6 * np.exp(0.1 * inverse - 1.1 * inverse**2)
+
+
+def passive_force(length):
+    """f3 of Eq. 11: the pull of a stretched muscle that nobody excites."""
+    return 1.3 * np.arctan(0.1 * (np.maximum(length, 0.22) - 0.22) ** 10)
+
+
+def force(activation, length, velocity, maximum):
+    """Eq. 10: muscle force in newtons; `length` and `velocity` normalised, `maximum` = F0."""
+    active = force_length(length) * force_velocity(velocity) * activation
+    return maximum * (active + passive_force(length))

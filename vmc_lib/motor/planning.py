@@ -1,0 +1,122 @@
+"""Habitual planning (Eq. 3–5): a new reach as a weighted sum of remembered ones.
+
+Every function takes one target (2,) or a batch (B, 2). Positions are in the arm's plane, in m.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from .templates import Library, reach
+
+PART = 512  # movements simulated at once
+
+
+@dataclass(frozen=True)
+class Plan:
+    """Which templates a reach uses, and how much of each."""
+
+    library: Library
+    target: np.ndarray  # (…, 2)
+    chosen: np.ndarray  # (…, N): rows of the library
+    weights: np.ndarray  # (…, N)
+
+    @property
+    def points(self):
+        """Where the chosen templates reach: p_i, (…, N, 2)."""
+        return self.library.points[self.chosen]
+
+    @property
+    def excitations(self):
+        """Eq. 3: u_t(t) = Σ w_i u_i(t), (…, T, 6), held to [0, 1]: no nerve can do otherwise."""
+        share = np.zeros((*self.weights.shape[:-1], len(self.library.points)))
+        np.put_along_axis(share, self.chosen, self.weights, axis=-1)
+        return np.clip(np.tensordot(share, self.library.excitations, axes=1), 0, 1)
+
+    def move(self):
+        """The `Motion` that the plan gives the arm."""
+        return reach(self.excitations)
+
+    def reached(self):
+        """Where the reach ends, (…, 2); for large batches, moved in parts to spare memory."""
+        count = self.weights.shape[-1]
+        weights, chosen = self.weights.reshape(-1, count), self.chosen.reshape(-1, count)
+        parts = [
+            replace(self, chosen=chosen[i : i + PART], weights=weights[i : i + PART]).move().reached
+            for i in range(0, len(weights), PART)
+        ]
+        return np.concatenate(parts).reshape(*self.weights.shape[:-1], 2)
+
+    def with_weights(self, weights):
+        """The same templates, weighted otherwise; leading axes may be added, for many trials."""
+        return replace(self, weights=weights, chosen=np.broadcast_to(self.chosen, weights.shape))
+
+
+def habitual_weights(target, points):
+    """Eq. 5: weights (…, N) by nearness of the templates' points (…, N, 2), summing to 1.
+
+    A target on a template gives that template all the weight, the limit of the equation.
+    """
+    distance = np.linalg.norm(points - target[..., None, :], axis=-1)
+    nearest = distance.min(axis=-1, keepdims=True)
+    nearness = np.where(distance > 1e-9, nearest, 1) / np.maximum(distance, 1e-9)
+    nearness = np.where((nearest <= 1e-9) & (distance > 1e-9), 0, nearness)
+    return nearness / nearness.sum(axis=-1, keepdims=True)
+
+
+def exact_weights(target, points):
+    """Weights (…, N) that satisfy Eq. 4, Σ w_i p_i = p_t, and sum to 1: the nearest to Eq. 5's."""
+    habit = habitual_weights(target, points)
+    missing = target - (habit[..., None, :] @ points)[..., 0, :]
+    return habit + least_change(np.swapaxes(points, -1, -2), missing)
+
+
+def least_change(jacobian, shift):
+    """The smallest Δw (…, N) with Σ Δw = 0 that shifts the hand by `shift` (…, 2).
+
+    `jacobian` (…, 2, N) says where each weight takes the hand; for Eq. 4 it is the points p_i.
+    ValueError when the templates lie on one line, for then they cannot span the shift.
+    """
+    centred = jacobian - jacobian.mean(axis=-1, keepdims=True)
+    strength = np.linalg.svd(centred, compute_uv=False)
+    if np.any(strength[..., 1] < 1e-6 * strength[..., 0]):
+        raise ValueError("the templates lie on one line; choose templates around the target")
+    return (np.linalg.pinv(centred) @ shift[..., None])[..., 0]
+
+
+def surrounding(target, points):
+    """The nearest point (of N, 2) in each of the four quadrants round a target: rows (…, 4).
+
+    ValueError when a quadrant is empty: the target is outside the plane that experience covers.
+    """
+    away = points - target[..., None, :]
+    x, y = away[..., 0], away[..., 1]
+    on = (x == 0) & (y == 0)
+    quadrants = [
+        on | ((x > 0) & (y >= 0)),
+        (x <= 0) & (y > 0),
+        (x < 0) & (y <= 0),
+        (x >= 0) & (y < 0),
+    ]
+    quadrants[1:] = [quadrant & ~on for quadrant in quadrants[1:]]
+    distance = np.where(
+        np.stack(quadrants, -2), np.linalg.norm(away, axis=-1)[..., None, :], np.inf
+    )
+    lonely = np.isinf(distance.min(axis=-1)).any(axis=-1)
+    if np.any(lonely):
+        raise ValueError(
+            f"target {np.atleast_2d(target)[np.atleast_1d(lonely)][0]} m is not surrounded by "
+            "templates; move it inside the grid"
+        )
+    return distance.argmin(axis=-1)
+
+
+def plan(target, library, rule=habitual_weights, chosen=None):
+    """Plan a reach to `target` (…, 2) with the four surrounding templates (or those `chosen`)."""
+    target = np.asarray(target, dtype=float)
+    if target.shape[-1:] != (2,) or not np.all(np.isfinite(target)):
+        raise ValueError(f"target {target} must be finite plane positions (…, 2) in m")
+    if chosen is None:
+        chosen = surrounding(target, library.points)
+    chosen = np.broadcast_to(chosen, (*target.shape[:-1], np.shape(chosen)[-1]))
+    return Plan(library, target, chosen, rule(target, library.points[chosen]))
