@@ -1,7 +1,9 @@
-"""How things are shown: `explore` (demos that answer their sliders), plots, photos, the arm."""
+"""How things are shown: `explore` (demos that answer their sliders), plots, photos, scenes.
 
-from vmc_lib.show.arm import arm_scene
-from vmc_lib.show.explore import Choice, Slider, Switch, explore, figure
+The arm's own scenes are in `vmc_lib.show.arm`.
+"""
+
+from vmc_lib.show.demo import Choice, Slider, Switch, explore, figure
 from vmc_lib.show.figures import COLOURS, photo_view, say
 from vmc_lib.show.scene import Scene
 
@@ -11,7 +13,6 @@ __all__ = [
     "Scene",
     "Slider",
     "Switch",
-    "arm_scene",
     "explore",
     "figure",
     "photo_view",

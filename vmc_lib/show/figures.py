@@ -186,7 +186,7 @@ def _label(x, y, text, colour):
 
 def framed(inside, caption, name=""):
     """A figure element with its caption (Markdown, with $maths$)."""
-    caption = f'<figcaption class="mathjax_process">{_MARKDOWN.renderInline(caption)}</figcaption>'
+    caption = f"<figcaption>{_MARKDOWN.renderInline(caption)}</figcaption>"
     return f'<figure class="vmc-demo" id="{name}">{inside}{caption}</figure>'
 
 

@@ -37,11 +37,11 @@ class Control:
 
     def __post_init__(self):
         values = tuple(self.values)
-        if not values:
-            raise ValueError(f"the control {self.label!r} has no values: give at least two")
+        if len(values) < 2:
+            raise ValueError(f"the control {self.label!r} has values {values}: give at least two")
         object.__setattr__(self, "values", values)
         if self.start is not None:
-            self.first  # noqa: B018 - raises when `start` is none of the values
+            _ = self.first  # raises when `start` is none of the values
 
     @property
     def first(self):

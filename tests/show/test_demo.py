@@ -1,0 +1,172 @@
+"""One declaration, three lives: what a demo shows, and what it refuses."""
+
+import base64
+import gzip
+import json
+import re
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+from ipywidgets import HTML, VBox
+
+from vmc_lib.show import COLOURS, Choice, Scene, Slider, demo, explore, figure, photo_view
+
+
+@pytest.fixture
+def shown(monkeypatch):
+    """What demos display, in order."""
+    outputs = []
+    monkeypatch.setattr(demo, "display", lambda *items: outputs.extend(items))
+    return outputs
+
+
+@pytest.fixture
+def book(monkeypatch):
+    monkeypatch.setenv("VMC_LIFE", "book")
+
+
+def names(**values):
+    """A picture that names the position of every control."""
+    return f"<svg>\n<text>{list(values.values())}</text>\n</svg>"
+
+
+def show(draw=names, alt="words", **controls):
+    explore(draw, caption="A *caption*: $x < y$.", alt=alt, **controls)
+
+
+def states(page):
+    """The page's own data: for each state its alt text and its pictures."""
+    data = re.search(r'<script type="application/gzip">(.*?)</script>', page.data)[1]
+    data = json.loads(gzip.decompress(base64.b64decode(data)))
+    return [["\n".join(data["lines"][i] for i in part) for part in row] for row in data["states"]]
+
+
+def test_book_holds_every_position_and_shows_the_first(shown, book):
+    controls = dict(k=Slider([1, 2, 3], "k", start=2), c=["a", "b"], on=[True, False])
+    show(alt=lambda k, c, on: f"{k}{c}{on}", **controls)
+    page = shown[0].data
+    expected = [(k, c, on) for k in (1, 2, 3) for c in "ab" for on in (False, True)]
+    assert [alt for alt, _ in states(shown[0])] == [f"{k}{c}{on}" for k, c, on in expected]
+    assert [svg for _, svg in states(shown[0])] == [names(a=k, b=c, c=on) for k, c, on in expected]
+    assert names(a=2, b="a", c=True) in page and 'aria-label="2aTrue"' in page
+    # mixed radix, last control fastest: what the page's script multiplies positions with
+    assert re.findall(r'data-stride="(\d+)"', page) == ["4", "2", "2", "1"]
+    assert "<em>caption</em>" in page and r"\(x &lt; y\)" in page
+
+
+def test_book_page_is_the_same_in_every_build(shown, book, monkeypatch):
+    def draw(k):
+        fig, ax = plt.subplots()
+        ax.fill_between([0, 1], [0, k])
+        return fig
+
+    for _ in range(2):
+        monkeypatch.setattr(demo, "_demos", iter([1]))
+        show(draw, k=Slider([1, 2], "k"))
+    assert shown[0].data == shown[1].data
+
+
+def test_a_photo_that_stays_is_stored_once(shown, book):
+    photo = np.random.default_rng(0).integers(0, 255, (50, 60, 3), dtype=np.uint8)
+    show(lambda x: photo_view(photo, [((x, 5, x + 9, 20), "cup", "blue")]), x=Slider([1, 30], "x"))
+    data = gzip.decompress(base64.b64decode(re.search(r'gzip">(.*?)<', shown[0].data)[1]))
+    assert data.count(b"data:image/") == 1
+    assert all("data:image/" in picture for _, picture in states(shown[0]))
+
+
+def test_test_life_evaluates_everything_and_shows_nothing(shown):
+    seen = []
+    show(lambda k, c: seen.append((k, c)) or names(k=k, c=c), k=Slider([1, 2], "k"), c=["a", "b"])
+    assert seen == [(1, "a"), (1, "b"), (2, "a"), (2, "b")]
+    assert shown == []
+
+
+def test_live_life_redraws_when_a_widget_moves(shown, monkeypatch):
+    monkeypatch.setenv("VMC_LIFE", "live")
+    show(k=Slider([1, 2], "k", play=True), c=Choice("abcdef", "letter"), on=[False, True])
+    box = shown[0]
+    assert isinstance(box, VBox)
+    views, slider_row, menu, switch, alt = box.children
+    assert "[1, &#x27;a&#x27;" in alt.value or alt.value.count("words") == 1
+    slider_row.children[0].index, menu.value, switch.value = 1, "c", True
+    assert views.children[0].value == names(k=2, c="c", on=True)
+    assert isinstance(views.children[0], HTML)
+
+
+def test_figure_has_no_controls(shown, book):
+    figure(np.eye(3), caption="An eye.", alt="a diagonal")
+    assert "<form" not in shown[0].data and "<img" in shown[0].data
+
+
+def test_a_still_scene_carries_its_messages(shown, book):
+    figure((Scene(), "<p>beside</p>"), caption="c", alt="a scene")
+    [[alt, scene, beside]] = states(shown[0])
+    assert alt == "a scene" and scene.startswith("camera|") and beside == "<p>beside</p>"
+
+
+@pytest.mark.parametrize(
+    ("controls", "says"),
+    [
+        (dict(k=[]), "'k' has values (): give at least two"),
+        (dict(k=Slider(range(15), "a"), m=Slider(range(14), "b")), "210 positions are too many"),
+        (dict(k=3), "k=3"),
+        (dict(k=["a", 1]), "k="),
+        (dict(k=[False, False]), "k="),
+    ],
+)
+@pytest.mark.parametrize("life", ["live", "book", "test"])
+def test_impossible_controls_are_refused_in_every_life(controls, says, life, monkeypatch):
+    monkeypatch.setenv("VMC_LIFE", life)
+    with pytest.raises(ValueError, match=re.escape(says)):
+        show(**controls)
+
+
+def test_impossible_sliders_are_refused():
+    with pytest.raises(ValueError, match="'size' has values"):
+        Slider([7], "size")
+    with pytest.raises(ValueError, match="'size' cannot start at 3"):
+        Slider([1, 2], "size", start=3)
+
+
+@pytest.mark.parametrize("life", ["book", "test"])
+def test_a_control_without_effect_is_refused(life, monkeypatch):
+    monkeypatch.setenv("VMC_LIFE", life)
+    with pytest.raises(ValueError, match="'idle hand' never changes the picture"):
+        show(lambda k, idle_hand: names(k=k), k=Slider([1, 2], "k"), idle_hand=[False, True])
+
+
+def test_a_start_may_be_off_by_rounding():
+    assert Slider(np.linspace(0, 1, 11), "x", start=0.3).first == 3
+
+
+def test_unknown_life_is_refused(monkeypatch):
+    monkeypatch.setenv("VMC_LIFE", "afterlife")
+    with pytest.raises(ValueError, match="afterlife"):
+        show()
+
+
+@pytest.mark.parametrize("drawn", [None, 3, "plain words", [np.eye(2)], np.zeros((2, 2, 4)), {}])
+def test_an_unknown_picture_is_refused(drawn):
+    with pytest.raises(ValueError, match="cannot show"):
+        show(lambda k: drawn, k=Slider([1, 2], "k"))
+
+
+def test_the_kinds_of_pictures_may_not_change():
+    with pytest.raises(ValueError, match="same kinds"):
+        show(lambda on: Scene() if on else "<p></p>", on=[False, True])
+
+
+def test_labels_are_escaped(shown, book):
+    show(k=Slider([1, 2], "a < b & c"), c=["<i>", "&"])
+    assert "a &lt; b &amp; c" in shown[0].data and "&lt;i&gt;" in shown[0].data
+
+
+def test_plots_use_the_palette(shown, book):
+    fig, ax = plt.subplots()
+    ax.plot([1, 2], color=COLOURS["red"])
+    figure(fig, caption="c", alt="a")
+    svg = shown[0].data
+    assert "var(--vmc-red" in svg and "var(--vmc-ink" in svg
+    assert not re.findall(r"[:\"]\s*#(?:000000|ffffff|1c2430)", svg)
+    assert plt.get_fignums() == []

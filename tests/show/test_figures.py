@@ -1,0 +1,85 @@
+"""Pictures as markup."""
+
+import base64
+import re
+from pathlib import Path
+
+import cv2
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+
+from vmc_lib.show import figures, photo_view
+from vmc_lib.show.figures import COLOURS, ON_PHOTO, pictures
+
+
+def pixels(markup):
+    data = re.search(r"data:image/\w+;base64,([^\"\s]+)", markup)[1]
+    return cv2.imdecode(np.frombuffer(base64.b64decode(data), np.uint8), cv2.IMREAD_UNCHANGED)
+
+
+def contrast(one, other):
+    """The contrast ratio of two colours, as the web's accessibility guidelines define it."""
+
+    def luminance(colour):
+        channel = np.array(list(bytes.fromhex(colour[1:]))) / 255
+        linear = np.where(channel <= 0.04045, channel / 12.92, ((channel + 0.055) / 1.055) ** 2.4)
+        return linear @ [0.2126, 0.7152, 0.0722]
+
+    low, high = sorted([luminance(one), luminance(other)])
+    return (high + 0.05) / (low + 0.05)
+
+
+def palette(theme):
+    css = (Path(figures.__file__).parent / "static/demo.css").read_text()
+    block = re.search(re.escape(theme) + r" \{(.*?)\}", css, re.S)[1]
+    return dict(re.findall(r"--vmc-(\w+): (#[0-9a-f]{6})", block))
+
+
+def test_the_style_sheet_holds_the_palette():
+    assert palette(":root") == COLOURS
+    assert palette('html[data-theme="dark"]').keys() == COLOURS.keys()
+
+
+@pytest.mark.parametrize("theme", [":root", 'html[data-theme="dark"]'])
+def test_colours_can_be_read_on_the_page(theme):
+    colours = palette(theme)
+    words = colours.keys() - {"line", "paper"}
+    assert all(contrast(colours[name], colours["paper"]) >= 4.5 for name in words)
+
+
+def test_arrays_keep_their_pixels():
+    colour = np.random.default_rng(0).integers(0, 255, (8, 9, 3), dtype=np.uint8)
+    assert np.array_equal(pixels(pictures(colour, "x")[0])[..., ::-1], colour)
+    grey = np.array([[0.0, 0.5], [1.0, 2.0]])
+    assert pixels(pictures(grey, "x")[0]).tolist() == [[0, 128], [255, 255]]
+
+
+def test_photographs_are_small():
+    noise = np.random.default_rng(0).integers(0, 255, (40, 60, 3), dtype=np.uint8)
+    photo = cv2.resize(noise, (600, 400), interpolation=cv2.INTER_CUBIC)
+    assert "image/jpeg" in photo_view(photo) and len(photo_view(photo)) < 100_000
+    assert "image/png" in photo_view(photo // 255)
+
+
+def test_photo_view_draws_boxes_and_points():
+    svg = photo_view(
+        np.zeros((400, 600, 3), np.uint8),
+        boxes=[((10, 20, 110, 70), "cup <1>", "orange")],
+        points=[((30.04, 40), "target", "green")],
+    )
+    assert 'x="10.0" y="20.0" width="100.0" height="50.0"' in svg
+    assert "cup &lt;1&gt;" in svg and ON_PHOTO["orange"] in svg
+    assert 'cx="30.0" cy="40.0"' in svg and "target" in svg
+
+
+def test_plots_share_no_names_unless_they_are_states_of_one():
+    def drawn():
+        fig, ax = plt.subplots()
+        ax.plot([1, 2], "o")
+        return fig
+
+    one, same, other = (pictures(drawn(), name)[0] for name in ("demo-1", "demo-1", "demo-2"))
+    assert one == same
+    ids = [set(re.findall(r' id="([^"]+)"', svg)) for svg in (one, other)]
+    assert ids[0] and not ids[0] & ids[1]
