@@ -1,0 +1,48 @@
+"""How much a filter looks like a Gabor function, the textbook model of a simple cell in V1."""
+
+import itertools
+
+import numpy as np
+from scipy.optimize import minimize
+
+# angle (rad), wavelength, breadth across and along the stripes, centre x and y (pixels)
+BOUNDS = np.array([(-np.inf, 3, 1, 1, -2.5, -2.5), (np.inf, 12, 4, 5, 2.5, 2.5)])
+
+
+def gabor_pair(n_w, angle, wavelength, across, along, x0, y0):
+    """Cosine and sine Gabor (2, n_w²) at the same place, each with mean 0."""
+    y, x = np.mgrid[:n_w, :n_w] - (n_w - 1) / 2
+    u = (x - x0) * np.cos(angle) + (y - y0) * np.sin(angle)
+    w = (y - y0) * np.cos(angle) - (x - x0) * np.sin(angle)
+    window = np.exp(-((u / across) ** 2 + (w / along) ** 2) / 2)
+    phase = 2 * np.pi * u / wavelength
+    pair = np.stack([window * np.cos(phase), window * np.sin(phase)]).reshape(2, -1)
+    return pair - pair.mean(1, keepdims=True)
+
+
+def fit(W, pair):
+    """The best mixture of a pair (any phase and contrast) for filter W, and its correlation."""
+    target = W.ravel() - W.mean()
+    mixture = np.linalg.lstsq(pair.T, target, rcond=None)[0] @ pair
+    return mixture, np.linalg.norm(mixture) / np.linalg.norm(target)
+
+
+def best_gabor(W):
+    """The Gabor function closest to a filter W (n_w, n_w), and their correlation (0 to 1).
+
+    Every angle, wavelength, breadth and place on a coarse grid is tried, the best refined.
+    """
+    W = np.asarray(W, float)
+    n_w = len(W)
+    grid = itertools.product(
+        np.arange(12) * np.pi / 12, (4, 6, 9), (1.5, 2.5), (2, 4), (-1, 1), (-1, 1)
+    )
+
+    def miss(shape):
+        return -fit(W, gabor_pair(n_w, *np.clip(shape, *BOUNDS)))[1]
+
+    start = sorted(grid, key=miss)[:3]
+    ends = [minimize(miss, shape, method="Nelder-Mead", options={"maxiter": 400}) for shape in start]
+    best = min(ends, key=lambda end: end.fun).x
+    mixture, correlation = fit(W, gabor_pair(n_w, *np.clip(best, *BOUNDS)))
+    return mixture.reshape(n_w, n_w), float(correlation)
