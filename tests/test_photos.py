@@ -1,0 +1,185 @@
+"""The photo set keeps its promises, and the eye refuses what it cannot read."""
+
+import hashlib
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from vmc_lib import photos
+from vmc_lib.arm.posture import turn_towards
+from vmc_lib.photos import FOLDER, HEIGHT, LEVELS, SPLITS, TABLE, WIDTH, Camera
+
+COUNTS = {"train": 40, "validation": 20, "test": 40}
+EVERY = [(level, split) for level in LEVELS for split in SPLITS]
+LOOK_DOWN = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])
+DOWN = Camera(800.0, np.array([300.0, 200]), LOOK_DOWN, np.zeros(3))
+
+
+@pytest.mark.parametrize(("level", "split"), EVERY)
+def test_every_photo_agrees_with_its_sidecar(level, split):
+    shots = photos.load(level, split)
+    assert len(shots) == COUNTS[split]
+    for shot in shots:
+        assert shot.image.shape == (HEIGHT, WIDTH, 3)
+        assert shot.image.std() > 10
+        assert set(shot.boxes) == set(photos.CLASSES)
+        for x0, y0, x1, y1 in shot.boxes.values():
+            assert 0 < x0 < x1 < WIDTH and 0 < y0 < y1 < HEIGHT  # whole, clear of the border
+            assert 15 < x1 - x0 < 250 and 15 < y1 - y0 < 250
+        rotation = shot.camera.rotation
+        np.testing.assert_allclose(rotation @ rotation.T, np.eye(3), atol=1e-12)
+        assert np.linalg.det(rotation) == pytest.approx(1)
+
+        box = shot.boxes["shuttlecock"]
+        seen = shot.camera.project(shot.target)[0]
+        middle, size = (box[:2] + box[2:]) / 2, box[2:] - box[:2]
+        assert np.all(np.abs(seen - middle) < 0.2 * size)
+        assert shot.pose in ("lying", "standing")
+        assert 0.015 < shot.target[1] - TABLE < 0.05
+
+
+@pytest.mark.parametrize("level", LEVELS)
+def test_every_target_lies_where_the_turned_arm_can_reach(level):
+    for shot in photos.load(level, "validation"):
+        psi, plane = turn_towards(shot.target)
+        assert 0.06 < plane[0] < 0.24
+        assert psi == pytest.approx(shot.turn, abs=np.radians(6))
+        assert plane[1] == pytest.approx(shot.target[1])
+
+
+def test_the_boxes_hold_what_the_pixels_show():
+    for shot in photos.load("rig", "validation"):  # the rig's cup is the only blue thing
+        red, _, blue = shot.image.astype(int).transpose(2, 0, 1)
+        rows, columns = np.nonzero(blue > red + 40)
+        x0, y0, x1, y1 = shot.boxes["cup"]
+        seen = [columns.min(), rows.min(), columns.max() + 1, rows.max() + 1]
+        np.testing.assert_allclose(seen, [x0, y0, x1, y1], atol=4)
+
+
+def test_the_rig_has_one_camera_and_the_other_levels_have_many():
+    places = {
+        level: {tuple(shot.camera.position) for shot in photos.load(level, "train")}
+        for level in LEVELS
+    }
+    assert len(places["rig"]) == 1
+    assert len(places["free"]) == len(places["varied"]) == COUNTS["train"]
+
+
+def test_no_photo_stands_in_two_splits():
+    files = sorted(FOLDER.glob("*/*/*.jpg"))
+    assert len(files) == len(LEVELS) * sum(COUNTS.values())
+    assert len({hashlib.sha256(file.read_bytes()).digest() for file in files}) == len(files)
+    targets = {tuple(shot.target) for group in EVERY for shot in photos.load(*group)}
+    assert len(targets) == len(files)
+
+
+def test_loading_names_an_unknown_level_or_split():
+    with pytest.raises(ValueError, match="unknown level 'rigg'"):
+        photos.load("rigg", "train")
+    with pytest.raises(ValueError, match="unknown split 'dev'"):
+        photos.load("rig", "dev")
+
+
+def test_a_loaded_image_cannot_be_changed():
+    with pytest.raises(ValueError, match="read-only"):
+        photos.load("rig", "train")[0].image[:] = 0
+
+
+def test_back_projection_undoes_projection(rng):
+    for shot in photos.load("free", "train"):
+        points = shot.target + rng.uniform(-0.1, 0.1, (20, 3))
+        points[:, 1] = -0.4
+        found = shot.camera.back_project(shot.camera.project(points), height=-0.4)
+        np.testing.assert_allclose(found, points, atol=1e-12)
+
+
+def test_a_camera_that_looks_straight_down():
+    assert np.linalg.det(DOWN.rotation) == pytest.approx(1)
+    np.testing.assert_allclose(DOWN.project([0, -0.5, 0]), [[300, 200]])
+    np.testing.assert_allclose(DOWN.project([0.1, -0.5, 0]), [[460, 200]])
+    np.testing.assert_allclose(DOWN.back_project([460, 200], -0.5), [[0.1, -0.5, 0]])
+
+
+def test_what_is_behind_the_camera_has_no_picture():
+    with pytest.raises(ValueError, match="behind the camera"):
+        DOWN.project([0, 0.5, 0])
+
+
+def test_a_ray_that_misses_the_plane_is_an_error():
+    ahead = Camera(800.0, DOWN.centre, np.diag([1.0, -1, -1]), np.zeros(3))
+    with pytest.raises(ValueError, match="never meets the plane"):
+        ahead.back_project([300, 200])  # along the horizon
+    with pytest.raises(ValueError, match="never meets the plane"):
+        ahead.back_project([300, 100])  # into the sky
+    assert ahead.back_project([300, 201])[0, 1] == pytest.approx(TABLE)
+
+
+@pytest.fixture
+def rng():
+    return np.random.default_rng(1)
+
+
+@pytest.fixture
+def picture(rng):
+    return rng.integers(0, 256, (HEIGHT, WIDTH, 3), dtype=np.uint8)
+
+
+def test_reading_keeps_a_photo_as_it_is(picture, tmp_path):
+    np.testing.assert_array_equal(photos.read_image(picture), picture)
+    Image.fromarray(picture).save(tmp_path / "photo.png")
+    np.testing.assert_array_equal(photos.read_image(tmp_path / "photo.png"), picture)
+    np.testing.assert_array_equal(photos.read_image(str(tmp_path / "photo.png")), picture)
+
+
+def test_reading_converts_grey_transparent_and_float_images(picture):
+    grey = picture[..., 0]
+    for image in (grey, grey[..., None]):
+        np.testing.assert_array_equal(photos.read_image(image), np.dstack([grey] * 3))
+    np.testing.assert_array_equal(photos.read_image(np.dstack([picture, grey])), picture)
+    np.testing.assert_array_equal(photos.read_image(picture / 255.0), picture)
+
+
+def test_reading_fits_another_size_into_the_frame_and_keeps_its_proportions():
+    tall = photos.read_image(np.full((800, 400, 3), 200, np.uint8))
+    assert tall.shape == (HEIGHT, WIDTH, 3)
+    assert np.all(tall[:, 200:400] == 200) and np.all(tall[:, :200] == 128)
+    small = photos.read_image(np.full((20, 30), 9, np.uint8))
+    assert np.all(small == 9)
+
+
+@pytest.mark.parametrize(
+    ("array", "message"),
+    [
+        (np.zeros((400, 600, 3)) - 1, "within \\[0, 1\\]"),
+        (np.full((400, 600, 3), np.nan), "within \\[0, 1\\]"),
+        (np.full((400, 600, 3), 255.0), "within \\[0, 1\\]"),
+        (np.zeros((400, 600, 3), np.int64), "int64"),
+        (np.zeros((400, 600, 2), np.uint8), "shape \\(400, 600, 2\\)"),
+        (np.zeros((0, 600, 3), np.uint8), "shape \\(0, 600, 3\\)"),
+        (np.zeros(7, np.uint8), "shape \\(7,\\)"),
+        (None, "NoneType"),
+    ],
+)
+def test_reading_refuses_arrays_that_are_no_image(array, message):
+    with pytest.raises(ValueError, match=message):
+        photos.read_image(array)
+
+
+def test_reading_refuses_damaged_files(picture, tmp_path):
+    with pytest.raises(ValueError, match="no photo at"):
+        photos.read_image(tmp_path / "missing.jpg")
+    with pytest.raises(ValueError, match="cannot be read"):
+        photos.read_image(tmp_path)
+    (tmp_path / "text.jpg").write_text("not a photo")
+    with pytest.raises(ValueError, match="not an image"):
+        photos.read_image(tmp_path / "text.jpg")
+    for name in ("cut.jpg", "cut.png"):
+        Image.fromarray(picture).save(tmp_path / name)
+        whole = (tmp_path / name).read_bytes()
+        (tmp_path / name).write_bytes(whole[: len(whole) // 2])
+        with pytest.raises(ValueError, match="cannot be read"):
+            photos.read_image(tmp_path / name)
+    Image.fromarray(np.zeros((40, 60), np.uint16)).save(tmp_path / "deep.png")
+    with pytest.raises(ValueError, match="more than 8 bits"):
+        photos.read_image(tmp_path / "deep.png")

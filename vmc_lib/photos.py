@@ -1,0 +1,178 @@
+"""The photo set: what the model's eye sees, with the truth beside each photo.
+
+Every photo is 600×400 with a sidecar that holds the exact boxes of the shuttlecock and the cup, the
+camera in the shoulder frame, and the shuttlecock's true place. The photos are rendered
+(`vmc_lib.data.render`), because the paper's own CASIA-RTA-VM set is private.
+
+A pixel (column i, row j) covers the square [i, i + 1) × [j, j + 1): boxes and projections share
+these coordinates, so a whole photo is the box (0, 0, 600, 400).
+"""
+
+import json
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+from PIL import Image, ImageOps, UnidentifiedImageError
+
+LEVELS = ("rig", "free", "varied")
+SPLITS = ("train", "validation", "test")
+CLASSES = ("shuttlecock", "cup")
+WIDTH, HEIGHT = 600, 400
+TABLE = -0.43  # height of the table top in the shoulder frame (m)
+FOLDER = Path(__file__).parent / "data" / "photos"
+
+
+@dataclass(frozen=True, eq=False)
+class Camera:
+    """A pinhole camera without distortion, in OpenCV's axes (x right, y down, z forward).
+
+    focal: focal length (pixels); centre: principal point (2,) (pixels); rotation: (3, 3), whose
+    rows are the camera's axes in the shoulder frame; position: (3,) in the shoulder frame (m).
+    """
+
+    focal: float
+    centre: np.ndarray
+    rotation: np.ndarray
+    position: np.ndarray
+
+    def project(self, points):
+        """Pixels (n, 2) at which the points (n, 3) of the shoulder frame appear.
+
+        Raises ValueError for a point that is not in front of the camera.
+        """
+        x = (np.atleast_2d(points) - self.position) @ self.rotation.T
+        if np.any(x[:, 2] <= 0):
+            raise ValueError("a point behind the camera has no picture: give points it faces")
+        return self.focal * x[:, :2] / x[:, 2:] + self.centre
+
+    def rays(self, pixels):
+        """Directions (n, 3), in the shoulder frame, of the rays through the pixels (n, 2)."""
+        x = (np.atleast_2d(pixels) - self.centre) / self.focal
+        return np.column_stack([x, np.ones(len(x))]) @ self.rotation
+
+    def back_project(self, pixels, height=TABLE):
+        """Points (n, 3) where the rays through the pixels (n, 2) meet the plane y = height.
+
+        Raises ValueError where a ray runs level with the plane or away from it.
+        """
+        rays = self.rays(pixels)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            distance = (height - self.position[1]) / rays[:, 1]
+        if not np.all(np.isfinite(distance) & (distance > 0)):
+            raise ValueError(
+                f"a ray from the camera at {np.round(self.position, 3)} never meets the plane "
+                f"y = {height}: give pixels below the horizon"
+            )
+        return self.position + distance[:, None] * rays
+
+
+@dataclass(frozen=True, eq=False)
+class Photo:
+    """A photo and the truth about it.
+
+    image: (400, 600, 3) uint8; boxes: class → (4,), around the visible pixels; camera: the eye;
+    target: (3,), the middle of the shuttlecock's axis (cork tip to centre of the skirt's rim) in
+    the shoulder frame; turn: the trunk's turn (rad) for which the place was drawn; pose: "lying" or
+    "standing"; seed: what remakes it.
+    """
+
+    name: str
+    level: str
+    split: str
+    image: np.ndarray
+    boxes: dict
+    camera: Camera
+    target: np.ndarray
+    turn: float
+    pose: str
+    seed: tuple
+
+
+def load(level, split):
+    """The photos of one level and split, in order of their names; each is read only once.
+
+    Raises ValueError for an unknown level or split, and for a photo that is missing or damaged.
+    """
+    if level not in LEVELS:
+        raise ValueError(f"unknown level {level!r}: choose from {LEVELS}")
+    if split not in SPLITS:
+        raise ValueError(f"unknown split {split!r}: choose from {SPLITS}")
+    sidecars = sorted((FOLDER / level / split).glob("*.json"))
+    if not sidecars:
+        raise ValueError(f"no photos under {FOLDER / level / split}: see vmc_lib.data.render")
+    return [_read(sidecar) for sidecar in sidecars]
+
+
+@cache
+def _read(sidecar):
+    truth = json.loads(sidecar.read_text())
+    image = read_image(sidecar.with_suffix(".jpg"))
+    image.flags.writeable = False  # shared by all who load it
+    split = sidecar.parent
+    focal, centre, rotation, position = truth["camera"].values()
+    return Photo(
+        name=f"{split.parent.name}/{split.name}/{sidecar.stem}",
+        level=split.parent.name,
+        split=split.name,
+        image=image,
+        boxes={name: np.array(box, float) for name, box in truth["boxes"].items()},
+        camera=Camera(focal, *map(np.array, (centre, rotation, position))),
+        target=np.array(truth["target"]),
+        turn=truth["turn"],
+        pose=truth["pose"],
+        seed=tuple(truth["seed"]),
+    )
+
+
+def read_image(source):
+    """Any photo, as the eye's (400, 600, 3) uint8 RGB.
+
+    source: a path, or an array (h, w), (h, w, 1), (h, w, 3) or (h, w, 4) of uint8 or of floats
+    within [0, 1]. Grey is repeated in three channels, transparency is dropped, floats are scaled to
+    0..255. Another size is scaled to fit inside 600×400 and centred on grey, its proportions kept.
+
+    Raises ValueError for a file that is missing, truncated or no image, and for other arrays.
+    """
+    if not isinstance(source, str | Path | np.ndarray):
+        raise ValueError(f"a {type(source).__name__} is no photo: give a path or an array")
+    image = _as_rgb(source) if isinstance(source, np.ndarray) else _open(source)
+    return image if image.shape == (HEIGHT, WIDTH, 3) else _letterbox(image)
+
+
+def _open(path):
+    try:
+        with Image.open(path) as file:
+            if file.mode[0] in "IF":
+                raise ValueError(f"{path} holds more than 8 bits a channel: save it with 8")
+            return np.array(ImageOps.exif_transpose(file).convert("RGB"))
+    except FileNotFoundError:
+        raise ValueError(f"no photo at {path}") from None
+    except UnidentifiedImageError:
+        raise ValueError(f"{path} is not an image: give a JPEG or PNG") from None
+    except (OSError, SyntaxError, Image.DecompressionBombError) as error:
+        raise ValueError(f"{path} cannot be read ({error}): is the copy complete?") from None
+
+
+def _as_rgb(array):
+    image = array[..., None] if array.ndim == 2 else array
+    if image.ndim != 3 or image.shape[2] not in (1, 3, 4) or 0 in image.shape:
+        raise ValueError(f"an array of shape {array.shape} is no image: give (h, w, 3)")
+    if np.issubdtype(image.dtype, np.floating):
+        if not (np.all(image >= 0) and np.all(image <= 1)):
+            raise ValueError("a float image must lie within [0, 1]: divide it by its maximum")
+        image = np.round(image * 255).astype(np.uint8)
+    if image.dtype != np.uint8:
+        raise ValueError(f"an image of {image.dtype} has no known range: give uint8")
+    return np.repeat(image, 3, axis=2) if image.shape[2] == 1 else image[..., :3].copy()
+
+
+def _letterbox(image):
+    height, width = image.shape[:2]
+    scale = min(WIDTH / width, HEIGHT / height)
+    size = max(1, round(width * scale)), max(1, round(height * scale))
+    page = Image.new("RGB", (WIDTH, HEIGHT), (128, 128, 128))
+    resized = Image.fromarray(image).resize(size, Image.Resampling.LANCZOS)
+    page.paste(resized, ((WIDTH - size[0]) // 2, (HEIGHT - size[1]) // 2))
+    return np.array(page)
