@@ -8,7 +8,7 @@ def setup(app):
     os.environ["VMC_LIFE"] = "book"  # kernels inherit it: demos become self-contained pages
     app.set_html_assets_policy("always")  # equations may come from a cell's output, unannounced
     app.connect("env-get-outdated", every_page)
-    app.connect("html-page-context", strip_thebe, priority=900)
+    app.connect("html-page-context", mend, priority=900)
     app.connect("autodoc-process-docstring", code_marks)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
 
@@ -18,19 +18,18 @@ def every_page(app, env, added, changed, removed):
     return list(env.found_docs)
 
 
-def strip_thebe(app, pagename, templatename, context, doctree):
-    """Take out sphinx-thebe, which would load its bundle from a network."""
+def mend(app, pagename, templatename, context, doctree):
+    """Take out sphinx-thebe, which asks the network, and a list role on what is no list."""
     context["script_files"] = [
         script
         for script in context["script_files"]
         if "thebe" not in f"{script.filename} {script.attributes.get('body', '')}".lower()
     ]
-    context["body"] = re.sub(
-        r'<script type="text/x-thebe-config">.*?</script>(\s*<script>kernelName = .*?</script>)?',
-        "",
-        context.get("body", ""),
-        flags=re.S,
+    thebe = (
+        r'<script type="text/x-thebe-config">.*?</script>(\s*<script>kernelName = .*?</script>)?'
     )
+    body = re.sub(thebe, "", context.get("body", ""), flags=re.S)
+    context["body"] = body.replace('<div role="list" class="citation-list">', "<div>")
 
 
 def code_marks(app, what, name, obj, options, lines):

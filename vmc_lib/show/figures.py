@@ -185,7 +185,7 @@ def _label(x, y, text, colour):
 
 
 def framed(inside, caption, name=""):
-    """A figure element with its caption (Markdown, with $maths$)."""
+    """A figure element with its caption (Markdown, maths between dollar signs)."""
     caption = f"<figcaption>{_MARKDOWN.renderInline(caption)}</figcaption>"
     return f'<figure class="vmc-demo" id="{name}">{inside}{caption}</figure>'
 

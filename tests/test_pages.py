@@ -1,0 +1,240 @@
+"""Every page of the built book, opened in a browser with the network off."""
+
+import re
+from functools import cache
+from pathlib import Path
+from types import SimpleNamespace
+from urllib.parse import unquote, urlsplit
+
+import pytest
+
+pytestmark = pytest.mark.browser
+
+BUILT = Path(__file__).parents[1] / "_build/html"
+AXE = Path(__file__).parent / "vendor/axe.js"
+PAGES = sorted(path for path in BUILT.rglob("*.html") if "_static" not in path.parts)
+CHAPTERS = [path for path in PAGES if path.parent == BUILT / "book"]
+OTHERS = sorted({*PAGES} - {*CHAPTERS, BUILT / "index.html"})  # Sphinx's own: search, sources
+INSIDE = (f"{BUILT.as_uri()}/", "data:", "blob:")
+
+# Runs in the page. Moves every control of every demo through its values, if need be with the other
+# controls elsewhere, until its picture differs; returns the controls that never moved it.
+IDLE_CONTROLS = """async () => {
+  const look = (demo) => [...demo.querySelectorAll(".vmc-picture")].map((picture) => {
+    const scene = picture.querySelector(".vmc-scene");
+    return scene ? vmcScene(scene).viewer.capture_image() : picture.innerHTML;
+  }).join();
+  const controls = (demo) => {
+    const groups = Map.groupBy(demo.querySelectorAll("[data-stride]"), (i) => i.name || i.id || i);
+    return [...groups.values()].map((inputs) => {
+      const [input] = inputs;
+      const fire = (input) => input.dispatchEvent(new Event("input", { bubbles: true }));
+      const set = {
+        range: (v) => { input.value = v; fire(input); },
+        checkbox: (v) => { input.checked = v; fire(input); },
+        radio: (v) => { inputs[v].checked = true; fire(inputs[v]); },
+        "select-one": (v) => { input.selectedIndex = v; fire(input); },
+      }[input.type];
+      const count = { range: +input.max + 1, checkbox: 2, radio: inputs.length }[input.type]
+        ?? input.options?.length;
+      return { name: input.id || input.closest(".vmc-control").textContent, set, count };
+    });
+  };
+  const moves = (demo, { set, count }) => {
+    set(0);
+    const first = look(demo);
+    for (let v = count - 1; v > 0; v--) { set(v); if (look(demo) !== first) return true; }
+    return false;
+  };
+  const idle = [];
+  for (const demo of document.querySelectorAll(".vmc-demo[data-ready]")) {
+    for (const div of demo.querySelectorAll(".vmc-scene")) await vmcScene(div).awake();
+    const all = controls(demo);
+    for (const control of all) {
+      const others = all.filter((other) => other !== control);
+      const settings = others.flatMap((o) => [...Array(o.count).keys()].map((v) => [o, v]));
+      if (!moves(demo, control) && !settings.some(([o, v]) => (o.set(v), moves(demo, control))))
+        idle.push(`${demo.id} ${control.name}`);
+    }
+  }
+  return idle;
+}"""
+
+# Text that a reader sees outside code, with TeX that was not typeset.
+RAW_TEX = r"""() => {
+  const walker = document.createTreeWalker(document.querySelector("main"), NodeFilter.SHOW_TEXT);
+  const wrong = document.querySelectorAll("mjx-merror, [data-mjx-error]");
+  const raw = [...wrong].map((e) => e.outerHTML);
+  const tex = /\\\(|\\\[|\$\$|\\(frac|sum|begin|mathbf|boldsymbol)|\$[^$\s][^$]*\$/;
+  while (walker.nextNode()) {
+    const { data, parentElement } = walker.currentNode;
+    if (parentElement.closest("pre, code, script, style, mjx-container")) continue;
+    if (tex.test(data)) raw.push(data);
+  }
+  return raw;
+}"""
+
+WIDE = """() => [...document.querySelectorAll("article *")]
+  .filter((e) => e.getBoundingClientRect().right > innerWidth + 1
+    && !e.closest("pre, mjx-container, .vmc-spoken, .output, .pst-scrollable-table-container"))
+  .map((e) => e.outerHTML.slice(0, 120))"""
+
+
+def test_the_book_is_built():
+    assert CHAPTERS, "no built book in _build/html: run `make book` first"
+
+
+def open_page(context, url):
+    """The page at `url`, settled, with what it asked for and complained about on the way."""
+    page = context.new_page()
+    opened = SimpleNamespace(page=page, url=url, asked=[], failed=[], errors=[])
+    page.on("request", lambda request: opened.asked.append(request.url))
+    page.on("requestfailed", lambda request: opened.failed.append(request.url))
+    page.on("pageerror", lambda error: opened.errors.append(str(error)))
+    page.on("console", lambda m: m.type == "error" and opened.errors.append(m.text))
+    page.goto(url)
+    settle(page)
+    return opened
+
+
+def settle(page):
+    """Wait until equations are set and demos can answer."""
+    page.evaluate("() => window.MathJax?.startup?.promise")
+    page.wait_for_function(
+        "() => ![...document.querySelectorAll('.vmc-demo:has(> script)')]"
+        ".some((demo) => !('ready' in demo.dataset))"
+    )
+
+
+@pytest.fixture(scope="module", params=CHAPTERS, ids=lambda path: path.stem)
+def opened(request, offline):
+    opened = open_page(offline, request.param.as_uri())
+    opened.path = request.param
+    yield opened
+    opened.page.close()
+
+
+def test_asks_nothing_beyond_the_book(opened):
+    assert [url for url in opened.asked if not url.startswith(INSIDE)] == []
+    assert opened.failed == []
+
+
+def test_has_no_errors(opened):
+    assert opened.errors == []
+
+
+def test_equations_are_typeset(opened):
+    assert opened.page.evaluate(RAW_TEX) == []
+
+
+@cache
+def anchors(path):
+    return set(re.findall(r'\b(?:id|name)="([^"]+)"', path.read_text()))
+
+
+def broken_links(page):
+    """Links from `page` into the book whose file or anchor is not there."""
+    for href in set(page.eval_on_selector_all("a[href]", "links => links.map(a => a.href)")):
+        link = urlsplit(href)
+        target = Path(unquote(link.path))
+        if link.scheme == "file" and not target.is_file():
+            yield href
+        elif link.scheme == "file" and link.fragment and target.suffix == ".html":
+            if unquote(link.fragment) not in anchors(target):
+                yield href
+
+
+def test_links_lead_somewhere(opened):
+    assert list(broken_links(opened.page)) == []
+
+
+def test_pictures_are_there(opened):
+    missing = "pictures => pictures.filter(i => !i.complete || !i.naturalWidth).map(i => i.src)"
+    opened.page.evaluate("() => document.querySelectorAll('img').forEach(i => i.loading = 'eager')")
+    assert opened.page.eval_on_selector_all("img[src]", missing) == []
+
+
+def test_is_light(opened):
+    pictures = [Path(unquote(urlsplit(url).path)) for url in opened.asked if "/_images/" in url]
+    assert sum(path.stat().st_size for path in [opened.path, *pictures]) <= 5e6
+
+
+def test_every_control_moves_its_picture(opened):
+    assert opened.page.evaluate(IDLE_CONTROLS) == []
+
+
+def test_sliders_answer_the_keyboard(opened):
+    for slider in opened.page.query_selector_all(".vmc-demo input[data-texts]"):
+        value = int(slider.input_value())
+        forward = value < int(slider.get_attribute("max"))
+        said = slider.get_attribute("aria-valuetext")
+        slider.focus()
+        opened.page.keyboard.press("ArrowRight" if forward else "ArrowLeft")
+        assert int(slider.input_value()) == value + (1 if forward else -1)
+        assert slider.get_attribute("aria-valuetext") != said
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_is_accessible(opened, theme):
+    page = opened.page
+    page.evaluate("theme => { document.documentElement.dataset.theme = theme }", theme)
+    if not page.evaluate("() => 'axe' in window"):
+        page.evaluate(AXE.read_text())
+    found = page.evaluate("() => axe.run('article', { preload: false })")
+    assert [
+        (violation["id"], node["html"][:200])
+        for violation in found["violations"]
+        if violation["impact"] in ("serious", "critical")
+        for node in violation["nodes"]
+    ] == []
+
+
+def test_fits_a_phone(opened):
+    opened.page.set_viewport_size({"width": 360, "height": 700})
+    opened.page.wait_for_timeout(100)
+    assert opened.page.evaluate(WIDE) == []
+    assert opened.page.evaluate("() => document.documentElement.scrollWidth") <= 360
+
+
+@pytest.mark.parametrize("path", OTHERS, ids=lambda path: path.relative_to(BUILT).as_posix())
+def test_pages_made_by_sphinx(offline, path):
+    opened = open_page(offline, path.as_uri())
+    assert [url for url in opened.asked if not url.startswith(INSIDE)] == []
+    assert opened.errors == opened.failed == list(broken_links(opened.page)) == []
+    opened.page.close()
+
+
+def test_the_front_door_leads_into_the_book(offline):
+    opened = open_page(offline, (BUILT / "index.html").as_uri())
+    assert opened.page.url == (BUILT / "book/index.html").as_uri()
+    opened.page.close()
+
+
+@pytest.fixture
+def over_http(offline):
+    """The built book at http://book/, without a server: no port is opened."""
+
+    def serve(route):
+        path = BUILT / unquote(urlsplit(route.request.url).path).lstrip("/")
+        route.fulfill(path=path) if path.is_file() else route.fulfill(status=404)
+
+    offline.route("http://book/**", serve)
+    yield "http://book"
+    offline.unroute("http://book/**")
+
+
+@pytest.mark.parametrize("scheme", ["file", "http"])
+def test_search_finds_the_shuttlecock(offline, over_http, scheme):
+    root = over_http if scheme == "http" else BUILT.as_uri()
+    opened = open_page(offline, f"{root}/search.html?q=shuttlecock")
+    opened.page.wait_for_selector("#search-results li a")
+    assert opened.errors == []
+    opened.page.close()
+
+
+@pytest.mark.parametrize("path", CHAPTERS, ids=lambda path: path.stem)
+def test_reads_over_http_too(offline, over_http, path):
+    opened = open_page(offline, f"{over_http}/book/{path.name}")
+    assert opened.errors == opened.failed == []
+    assert all(url.startswith((over_http, "data:", "blob:")) for url in opened.asked)
+    opened.page.close()
