@@ -3,13 +3,14 @@
 The arm's own scenes are in `vmc_lib.show.arm`.
 """
 
-from vmc_lib.show.demo import Choice, Slider, Switch, explore, figure
+from vmc_lib.show.demo import Choice, Pad, Slider, Switch, explore, figure
 from vmc_lib.show.figures import COLOURS, photo_view, say
 from vmc_lib.show.scene import Scene
 
 __all__ = [
     "COLOURS",
     "Choice",
+    "Pad",
     "Scene",
     "Slider",
     "Switch",

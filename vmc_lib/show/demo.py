@@ -53,6 +53,10 @@ class Control:
                 return place
         raise ValueError(f"{self.label!r} cannot start at {self.start!r}: not in {self.values}")
 
+    def read(self, widgets):
+        """The value that the control's widgets stand at."""
+        return widgets[0].value
+
     @property
     def texts(self):
         unit = self.unit if self.unit in ("", "°") else f" {self.unit}"
@@ -85,10 +89,10 @@ class Slider(Control):
             options=options, index=self.first, description=self.label, style=_WIDE
         )
         if not self.play:
-            return slider, slider
-        play = widgets.Play(max=len(options) - 1, interval=250)
+            return [slider], slider
+        play = widgets.Play(value=self.first, max=len(options) - 1, interval=250)
         widgets.jslink((play, "value"), (slider, "index"))
-        return slider, widgets.HBox([slider, play])
+        return [slider], widgets.HBox([slider, play])
 
 
 @dataclass(frozen=True)
@@ -119,7 +123,7 @@ class Choice(Control):
         kind = widgets.Dropdown if len(self.values) > 5 else widgets.RadioButtons
         options = list(zip(self.texts, self.values, strict=True))
         chosen = kind(options=options, index=self.first, description=self.label, style=_WIDE)
-        return chosen, chosen
+        return [chosen], chosen
 
 
 @dataclass(frozen=True)
@@ -136,10 +140,43 @@ class Switch(Control):
         import ipywidgets as widgets
 
         box = widgets.Checkbox(bool(self.first), description=self.label, indent=False)
-        return box, box
+        return [box], box
+
+
+class Pad(Control):
+    """A place (x, y) on a grid, dragged over the first plot or photo; two sliders are its twin.
+
+    Its values are pairs, in the units of the plot's axes or in the photo's pixels.
+    """
+
+    def __init__(self, xs, ys, labels=("x", "y"), start=(None, None), unit=""):
+        pair = [Slider(v, *rest, unit) for v, *rest in zip((xs, ys), labels, start, strict=True)]
+        object.__setattr__(self, "pair", pair)
+        super().__init__(tuple(itertools.product(xs, ys)), " and ".join(labels), unit=unit)
+
+    @property
+    def first(self):
+        x, y = self.pair
+        return x.first * len(y.values) + y.first
+
+    def html(self, name, stride):
+        x, y = self.pair
+        grid = html.escape(json.dumps([[float(value) for value in s.values] for s in self.pair]))
+        twins = x.html(f"{name}-x", stride * len(y.values)) + y.html(f"{name}-y", stride)
+        return f'<div class="vmc-pad" data-grid="{grid}">{twins}</div>'
+
+    def widget(self):
+        import ipywidgets as widgets
+
+        (x, shown_x), (y, shown_y) = (slider.widget() for slider in self.pair)
+        return [*x, *y], widgets.VBox([shown_x, shown_y])
+
+    def read(self, widgets):
+        return tuple(widget.value for widget in widgets)
 
 
 _WIDE = {"description_width": "initial"}
+_SPOKEN = '<span role="status" style="position: absolute; clip-path: inset(50%)">{}</span>'
 
 
 def _is_number(value):
@@ -169,10 +206,11 @@ def explore(draw, caption, alt, **controls):
     """Show what `draw` returns and let the reader move its controls.
 
     `draw(**values)` is a pure function that returns a picture (see `figures`). Each control is a
-    `Slider`, a list of strings (a choice) or `[False, True]` (a switch). `caption` is Markdown
-    and says what to notice; `alt` describes the picture in words, as text or as a function of the
-    same controls. Raises ValueError for a demo that could not work: more than 200 positions, a
-    control without values or without effect, a start that is not a value, an unknown picture.
+    `Slider`, a `Pad`, a list of strings (a choice) or `[False, True]` (a switch); a list starts at
+    its first. `caption` is Markdown and says what to notice; `alt` describes the picture in words,
+    as text or as a function of the same controls. Raises ValueError for a demo that could not
+    work: more than 200 positions, a control without effect, a start that is no value, an unknown
+    picture.
     """
     controls = {name: _control(name, spec) for name, spec in controls.items()}
     positions = math.prod(len(control.values) for control in controls.values())
@@ -269,7 +307,7 @@ def _live(draw, caption, describe, controls):
     views, alt = [], widgets.HTML()
 
     def show(_=None):
-        values = {key: source.value for key, (source, _) in made.items()}
+        values = {key: controls[key].read(sources) for key, (sources, _) in made.items()}
         parts = pictures(draw(**values), name)
         if not views:
             views.extend(widget() if isinstance(p, Scene) else widgets.HTML() for p in parts)
@@ -278,11 +316,12 @@ def _live(draw, caption, describe, controls):
                 view.messages = part.messages()
             else:
                 view.value = part
-        alt.value = f'<span style="opacity: .75">{html.escape(describe(**values))}</span>'
+        alt.value = _SPOKEN.format(html.escape(describe(**values)))
 
     show()
-    for source, _ in made.values():
-        source.observe(show, "value")
+    for sources, _ in made.values():
+        for source in sources:
+            source.observe(show, "value")
     row = widgets.Layout(display="flex", flex_flow="row wrap", align_items="center")
     display(
         widgets.VBox([widgets.Box(views, layout=row), *(shown for _, shown in made.values()), alt]),

@@ -9,6 +9,7 @@ import base64
 import html
 import io
 import re
+from functools import lru_cache
 
 import cv2
 import matplotlib.pyplot as plt
@@ -110,7 +111,7 @@ def _svg(fig, salt):
         fig.savefig(text, format="svg", metadata={"Date": None})
     plt.close(fig)  # or the notebook would show it a second time
     svg = text.getvalue()
-    svg = svg[svg.index("<svg ") :].replace("<svg ", f"<svg {_SVG_ROOT} ", 1)
+    svg = svg[svg.index("<svg ") :].replace("<svg ", f"<svg {_SVG_ROOT} {_axes(fig)} ", 1)
     svg = re.sub(r"<metadata>.*?</metadata>|<!--.*?-->|<style.*?</style>", "", svg, flags=re.S)
     used = set(re.findall(r"#([\w.-]+)", svg))
     svg = re.sub(r' id="([^"]*)"', lambda name: name[0] if name[1] in used else "", svg)
@@ -118,6 +119,22 @@ def _svg(fig, salt):
     svg = re.sub(r' d="[^"]*"', lambda d: re.sub(r"(\.\d\d)\d+", r"\1", d[0]), svg)
     svg = re.sub(r"#[0-9a-f]{6}\b", lambda colour: _variable(colour[0]), svg)
     return re.sub(r"\n\s*", "\n", svg).strip()
+
+
+def _axes(fig):
+    """Where the first axes lie and what they measure, for a `Pad`: x, then y from bottom to top."""
+    if not fig.axes:
+        return ""
+    box = fig.axes[0].get_position()
+    numbers = (
+        *fig.axes[0].get_xlim(),
+        *fig.axes[0].get_ylim(),
+        box.x0,
+        box.x1,
+        1 - box.y0,
+        1 - box.y1,
+    )
+    return f'data-axes="{" ".join(f"{n:.5g}" for n in numbers)}"'
 
 
 def _variable(colour):
@@ -140,7 +157,13 @@ def _image(image):
 
 
 def _data_uri(image):
+    return _encode(image.tobytes(), image.shape)
+
+
+@lru_cache(maxsize=64)  # the states of a demo often share a photo
+def _encode(pixels, shape):
     """PNG for small or flat pictures, JPEG for photographs: whichever is shorter."""
+    image = np.frombuffer(pixels, np.uint8).reshape(shape)
     bgr = image if image.ndim == 2 else image[..., ::-1]
     png = cv2.imencode(".png", bgr)[1].tobytes()
     jpeg = cv2.imencode(".jpg", bgr, [cv2.IMWRITE_JPEG_QUALITY, 85])[1].tobytes()
@@ -166,8 +189,8 @@ def photo_view(image, boxes=(), points=()):
         marks += [_label(x + 11, y + 7, label, colour)]
     return "\n".join(
         [
-            f'<svg class="vmc-photo" viewBox="0 0 {width} {height}" width="{width}" '
-            f'height="{height}" fill="none" stroke-width="3" font-size="20">',
+            f'<svg viewBox="0 0 {width} {height}" width="{width}" height="{height}" fill="none" '
+            f'stroke-width="3" font-size="20" data-axes="0 {width} {height} 0 0 1 1 0">',
             f'<image width="{width}" height="{height}" href="',
             _data_uri(image),
             '"/>',

@@ -78,6 +78,27 @@
         }, reduced.matches ? 1000 : 250);
       });
     }
+    /* A pad: pressing or dragging on the first plot moves its two sliders to the nearest place. */
+    const pad = demo.querySelector(".vmc-pad");
+    const drag = (event) => {
+      const svg = event.buttons && event.target.closest("svg[data-axes]");
+      if (!svg) return;
+      const [x0, x1, y0, y1, left, right, bottom, top] = svg.dataset.axes.split(" ").map(Number);
+      const box = svg.getBoundingClientRect();
+      const along = [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height];
+      const place = [
+        x0 + ((x1 - x0) * (along[0] - left)) / (right - left),
+        y0 + ((y1 - y0) * (along[1] - bottom)) / (top - bottom),
+      ];
+      event.preventDefault(); // no text is selected on the way
+      JSON.parse(pad.dataset.grid).forEach((values, i) => {
+        const far = values.map((value) => Math.abs(value - place[i]));
+        pad.querySelectorAll("input")[i].value = far.indexOf(Math.min(...far));
+      });
+      show();
+    };
+    if (pad) for (const type of ["pointerdown", "pointermove"]) pictures.addEventListener(type, drag);
+
     const scenes = [...pictures.querySelectorAll(".vmc-scene")].map((div) => vmcScene(div));
     if (scenes.length) demo.querySelector(".vmc-controls").append(vmcScene.turner(...scenes));
     demo.addEventListener("input", show);

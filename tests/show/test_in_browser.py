@@ -1,0 +1,147 @@
+"""Demos and scenes as the page's scripts move them."""
+
+import shutil
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+from meshcat import geometry as g
+from meshcat.transformations import translation_matrix
+
+from vmc_lib.show import Pad, Scene, Slider, demo, explore, figure
+from vmc_lib.show.scene import STATIC
+
+pytestmark = pytest.mark.browser
+MESHCAT = Path(__file__).parents[2] / "book/_static/vendor/meshcat.js"
+HEAD = """<!doctype html><meta charset="utf-8"><link rel="stylesheet" href="demo.css">
+<script defer src="scene.js"></script><script defer src="demo.js"></script>"""
+CAPTURE = "div => vmcScene(div).viewer.capture_image()"
+
+
+@pytest.fixture
+def open_demos(offline, tmp_path, monkeypatch):
+    """A function that opens a page made of what `declare()` shows in the book."""
+    monkeypatch.setenv("VMC_LIFE", "book")
+    shutil.copytree(STATIC, tmp_path, dirs_exist_ok=True)
+    (tmp_path / "vendor").mkdir()
+    shutil.copy(MESHCAT, tmp_path / "vendor/meshcat.js")
+
+    def open_demos(declare, context=offline):
+        shown = []
+        monkeypatch.setattr(demo, "display", lambda *items: shown.extend(i.data for i in items))
+        declare()
+        (tmp_path / "page.html").write_text(HEAD + "\n".join(shown))
+        page = context.new_page()
+        page.errors = []
+        page.on("pageerror", lambda error: page.errors.append(str(error)))
+        page.goto((tmp_path / "page.html").as_uri())
+        page.wait_for_function(
+            "() => [...document.querySelectorAll('.vmc-demo:has(> script)')]"
+            ".every((demo) => 'ready' in demo.dataset)"
+        )
+        return page
+
+    return open_demos
+
+
+def ball(x):
+    scene = Scene()
+    scene["ball"].set_object(g.Sphere(0.2), g.MeshLambertMaterial(color=0xFF0000))
+    scene["ball"].set_transform(translation_matrix([x, 0.0, 0.0]))
+    if x > 0.3:
+        scene["box"].set_object(g.Box([0.2, 0.2, 0.2]), g.MeshLambertMaterial(color=0x0000FF))
+    return scene
+
+
+def set_value(page, selector, value):
+    page.eval_on_selector(
+        selector,
+        "(input, value) => { input.value = value;"
+        " input.dispatchEvent(new Event('input', { bubbles: true })); }",
+        str(value),
+    )
+
+
+def test_a_scene_is_what_it_shows_and_not_how_it_got_there(open_demos):
+    xs = [0.0, 0.2, 0.4, 0.6]
+    page = open_demos(
+        lambda: explore(ball, "c", lambda x: f"ball at {x}", x=Slider(xs, "x", start=0.2))
+    )
+    page.wait_for_selector(".vmc-scene canvas")
+    scene = page.query_selector(".vmc-scene")
+    looks = []
+    for place in (0, 1, 2, 3, 2, 1, 0):
+        set_value(page, "input", place)
+        looks.append(scene.evaluate(CAPTURE))
+    assert looks[:3] == looks[:-4:-1] and len(set(looks)) == 4
+    set_value(page, ".vmc-controls > label input", 90)  # walk around
+    assert scene.evaluate(CAPTURE) != looks[-1]
+    assert page.get_attribute(".vmc-pictures", "aria-label") == "ball at 0.0"
+    assert page.errors == []
+
+
+def test_few_scenes_live_and_the_others_are_stills(open_demos):
+    page = open_demos(lambda: [figure(ball(0.1), "c", f"scene {i}") for i in range(9)])
+    for _ in range(2):  # down, and up again
+        for scene in page.query_selector_all(".vmc-scene"):
+            scene.scroll_into_view_if_needed()
+            scene.wait_for_selector("canvas")
+            assert len(page.query_selector_all(".vmc-scene canvas")) <= 6
+    assert len(page.query_selector_all(".vmc-scene img")) == 3
+    page.evaluate("dispatchEvent(new Event('beforeprint'))")
+    stills = page.eval_on_selector_all(".vmc-scene img", "all => all.map(i => i.src)")
+    assert len(stills) == 9 and len(set(stills)) == 1 and len(stills[0]) > 3000
+    page.evaluate("dispatchEvent(new Event('afterprint'))")
+    page.wait_for_selector(".vmc-scene canvas")
+    assert page.errors == []
+
+
+def test_without_webgl_words_stand_for_the_scene(open_demos, chromium):
+    context = chromium.new_context(offline=True)
+    context.add_init_script("HTMLCanvasElement.prototype.getContext = () => null")
+    page = open_demos(lambda: figure(ball(0.1), "c", "a red ball"), context)
+    page.wait_for_function("() => window.MeshCat")
+    assert page.inner_text(".vmc-scene") == "a red ball"
+    assert page.errors == []
+    context.close()
+
+
+def test_a_pad_follows_the_pointer_and_the_keyboard(open_demos):
+    def draw(at):
+        fig, ax = plt.subplots()
+        ax.plot(*at, "o")
+        ax.set(xlim=(-1, 11), ylim=(-1, 6))
+        return fig
+
+    page = open_demos(
+        lambda: explore(draw, "c", lambda at: f"at {at}", at=Pad(range(11), range(6), ("x", "y")))
+    )
+    dot = page.query_selector("svg use[clip-path], svg g[clip-path] use")
+    start, svg = dot.bounding_box(), page.query_selector("svg").bounding_box()
+    place = [start["x"] + start["width"] / 2, start["y"] + start["height"] / 2]
+    page.mouse.move(*place)
+    page.mouse.down()
+    page.mouse.move(place[0] + svg["width"] / 2, place[1] - svg["height"] / 2, steps=4)
+    page.mouse.up()
+    assert page.inner_text("output") != "0"
+    after = page.query_selector("svg use[clip-path], svg g[clip-path] use").bounding_box()
+    assert abs(after["x"] - start["x"] - svg["width"] / 2) < svg["width"] / 22
+    assert abs(after["y"] - start["y"] + svg["height"] / 2) < svg["height"] / 12
+    alt = page.get_attribute(".vmc-pictures", "aria-label")
+    page.focus("input >> nth=1")
+    page.keyboard.press("ArrowDown")
+    assert page.get_attribute(".vmc-pictures", "aria-label") != alt
+    assert page.inner_text(".vmc-spoken") == page.get_attribute(".vmc-pictures", "aria-label")
+
+
+def test_play_walks_to_the_end_and_stops(open_demos):
+    page = open_demos(
+        lambda: explore(
+            lambda x: np.eye(x), "c", "a diagonal", x=Slider(range(2, 6), "size", play=True)
+        )
+    )
+    page.click(".vmc-play")
+    assert page.get_attribute(".vmc-play", "aria-pressed") == "true"
+    page.wait_for_selector(".vmc-play[aria-pressed=false]")
+    assert page.inner_text("output") == "5"
