@@ -42,7 +42,8 @@ def best_gabor(W):
         return -fit(W, gabor_pair(n_w, *np.clip(shape, *BOUNDS)))[1]
 
     start = sorted(grid, key=miss)[:3]
-    ends = [minimize(miss, shape, method="Nelder-Mead", options={"maxiter": 400}) for shape in start]
+    how = {"method": "Nelder-Mead", "options": {"maxiter": 400}}
+    ends = [minimize(miss, shape, **how) for shape in start]
     best = min(ends, key=lambda end: end.fun).x
     mixture, correlation = fit(W, gabor_pair(n_w, *np.clip(best, *BOUNDS)))
     return mixture.reshape(n_w, n_w), float(correlation)

@@ -1,0 +1,110 @@
+"""The convolutional deep belief network (CDBN): one CRBM learns the picture, a second the first.
+
+Remake its weights, `data/cdbn.npz`, with `python -m vmc_lib.what.cdbn`.
+"""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import torch
+from torch.nn import functional as F
+
+from vmc_lib import photos
+from vmc_lib.what.crbm import CRBM
+from vmc_lib.what.crops import Patches, crop, whiten
+
+FILE = Path(__file__).parents[1] / "data" / "cdbn.npz"
+K, C, N_W, PATCHES = 10, 2, 8, 50_000  # as in the paper
+FIRST = {"epochs": 8, "width": 21, "sparsity": 0.002, "rate": 0.2, "decay": 0.0003}
+SECOND = {"epochs": 4, "width": 25, "sparsity": 0.01, "rate": 0.1, "decay": 0.0003}
+
+
+@dataclass(frozen=True)
+class CDBN:
+    """Two CRBMs. The second sees the first one's pooled maps, less `mean` and over `spread`."""
+
+    first: CRBM
+    second: CRBM
+    mean: float
+    spread: float
+
+    def pooled(self, v):
+        """P1 for whitened pictures v, as the second machine's input."""
+        _, p1 = self.first.posterior(self.first.trim(v))
+        return (p1 - self.mean) / self.spread
+
+    def layers(self, v):
+        """Every layer's maps (n, maps, height, width) for whitened pictures v (n, 1, 200, 200).
+
+        Hidden layers lose a last row and column where their width is odd, so that blocks fit:
+        200 → H1 193, trimmed to 192 → P1 96 → H2 89, trimmed to 88 → P2 44 → MP2 44, the mean of
+        the P2 maps (Eq. 2).
+        """
+        h1, p1 = self.first.posterior(self.first.trim(v))
+        h2, p2 = self.second.posterior(self.second.trim((p1 - self.mean) / self.spread))
+        return {"V": v, "H1": h1, "P1": p1, "H2": h2, "P2": p2, "MP2": p2.mean(1, keepdim=True)}
+
+    def projected(self):
+        """The second layer's filters seen in the picture: (K, 23, 23) for two filters of width 8.
+
+        Each of its weights paints, in the blocks of c × c hidden units that it sees through
+        pooling, the filters of the first layer.
+        """
+        c = self.first.c
+        spread_out = F.interpolate(self.second.W, scale_factor=c) / c**2
+        return F.conv_transpose2d(spread_out, self.first.W)[:, 0]
+
+    def save(self, file):
+        machines = {"first": self.first, "second": self.second}
+        arrays = {f"{m}.{k}": x for m, crbm in machines.items() for k, x in crbm.arrays().items()}
+        np.savez_compressed(file, mean=self.mean, spread=self.spread, **arrays)
+
+    @classmethod
+    def load(cls, file=FILE):
+        """The network that ships with the book, or another that was saved."""
+        with np.load(file, allow_pickle=False) as z:
+            machines = [
+                CRBM.from_arrays({k: z[f"{m}.{k}"] for k in ("W", "b", "a", "c")})
+                for m in ("first", "second")
+            ]
+            return cls(*machines, float(z["mean"]), float(z["spread"]))
+
+
+def learn(maps, seed, n_w, patches, report, *, epochs, width, **how):
+    """One CRBM trained on patches of maps (n, channels, height, width)."""
+    rng = torch.Generator().manual_seed(seed)
+    width -= (width - n_w + 1) % C  # whole blocks only
+    sample = Patches(maps, width, patches, rng)
+    crbm = CRBM.random(K, maps.shape[1], n_w, rng, C)
+    for epoch, error in crbm.fit(sample, range(epochs), seed, **how):
+        report(f"  epoch {epoch + 1} of {epochs}: reconstruction error {error:.4f}")
+    return crbm
+
+
+def train(pictures, positive, seed=0, n_w=N_W, patches=PATCHES, report=print):
+    """A CDBN learnt without labels from whitened pictures (n, 1, 200, 200).
+
+    The first layer learns from all of them, the second, as in the paper, from the positive ones
+    (`positive` (n,) bool) only. `report` is told how it goes.
+    """
+    report("first layer")
+    first = learn(pictures, seed, n_w, patches, report, **FIRST)
+    start = CDBN(first, first, 0.0, 1.0)
+    p1 = start.pooled(pictures[torch.as_tensor(positive)])
+    mean, spread = float(p1.mean()), float(p1.std())
+    report("second layer")
+    second = learn((p1 - mean) / spread, seed, n_w, patches, report, **SECOND)
+    return CDBN(first, second, mean, spread)
+
+
+def crops_of(shots):
+    """The crops (n, 200, 200) in the true boxes of photos, and which are shuttlecocks (n,)."""
+    named = [(crop(shot.image, box), name) for shot in shots for name, box in shot.boxes.items()]
+    return np.array([x for x, _ in named]), np.array([name == "shuttlecock" for _, name in named])
+
+
+if __name__ == "__main__":
+    shots = [shot for level in photos.LEVELS for shot in photos.load(level, "train")]
+    crops, positive = crops_of(shots)
+    train(whiten(crops), positive).save(FILE)

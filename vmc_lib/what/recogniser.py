@@ -1,0 +1,156 @@
+"""Is it a shuttlecock? A linear classifier on what the CDBN sees, with a calibrated probability.
+
+Remake the weights that ship, `data/recogniser.npz`, with `python -m vmc_lib.what.recogniser`.
+"""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import torch
+from scipy.special import expit
+from sklearn.calibration import CalibratedClassifierCV
+from sklearn.frozen import FrozenEstimator
+from sklearn.linear_model import LogisticRegression
+from torch.nn import functional as F
+
+from vmc_lib import photos
+from vmc_lib.what.cdbn import CDBN
+from vmc_lib.what.crops import crop, whiten
+from vmc_lib.where.boxes import iou
+
+FILE = Path(__file__).parents[1] / "data" / "recogniser.npz"
+STRENGTHS = 10.0 ** np.arange(-1, 5)
+COPIES, SHAKE = 6, 0.08  # training boxes: copies of each, and how far their sides stray
+
+READ_OUTS = {
+    "MP2": lambda layers: layers["MP2"],  # the paper's: the mean map, Eq. 2
+    "P2": lambda layers: F.avg_pool2d(layers["P2"], 4),  # the maps kept apart, on an 11 × 11 grid
+}
+
+
+def read_out(cdbn, crops, name):
+    """The features (n, d) that a read-out, "MP2" or "P2", takes from grey crops (n, 200, 200)."""
+    parts = [READ_OUTS[name](cdbn.layers(part)).flatten(1) for part in whiten(crops).split(20)]
+    return torch.cat(parts).numpy()
+
+
+# ---------------------------------------------------------------- the classifier
+
+
+@dataclass(frozen=True)
+class Linear:
+    """The probability of being a shuttlecock, from features: a weight each, (d,), and a bias."""
+
+    weights: np.ndarray
+    bias: float
+
+    def probability(self, x):
+        """For features (n, d): (n,)."""
+        return expit(x @ self.weights + self.bias)
+
+
+def fit(x, y, x_validation, y_validation):
+    """A Linear classifier of features x (n, d) with labels y (n,), True for a shuttlecock.
+
+    Logistic regression; of the STRENGTHS (inverse of the regularisation) the one with the best
+    likelihood on the validation set is kept, and its probabilities are calibrated there with
+    Platt's sigmoid (1999). ValueError for an empty set, NaN, or labels of one class only.
+    """
+    for features, labels in ((x, y), (x_validation, y_validation)):
+        if len(features) == 0 or len(np.unique(labels)) < 2 or not np.isfinite(features).all():
+            raise ValueError("give finite features of both classes, to train and to validate")
+    centre = x.mean(0)
+    size = np.sqrt(np.square(x - centre).sum(1).mean())
+    x, x_validation = (x - centre) / size, (x_validation - centre) / size
+
+    def calibrated(strength):
+        model = LogisticRegression(C=strength, max_iter=2000).fit(x, y)
+        sigmoid = CalibratedClassifierCV(FrozenEstimator(model), method="sigmoid")
+        sigmoid.fit(x_validation, y_validation)
+        platt = sigmoid.calibrated_classifiers_[0].calibrators[0]
+        weights = -platt.a_ * model.coef_[0] / size
+        bias = -platt.a_ * model.intercept_[0] - platt.b_ - weights @ centre
+        return Linear(weights, float(bias))
+
+    def likelihood(linear):
+        logit = (x_validation * size + centre) @ linear.weights + linear.bias
+        return -np.logaddexp(0, np.where(y_validation, -logit, logit)).sum()
+
+    return max(map(calibrated, STRENGTHS), key=likelihood)
+
+
+# ---------------------------------------------------------------- crops to learn from
+
+
+def shaken(box, rng, amount=SHAKE):
+    """A box whose sides each stray by `amount` of its size: as a region proposal would fit."""
+    size = np.tile(box[2:] - box[:2], 2)
+    return box + rng.normal(0, amount, 4) * size
+
+
+def elsewhere(shot, rng):
+    """A box of a likely size that overlaps with no object (IoU below 0.3)."""
+    objects = np.array(list(shot.boxes.values()))
+    while True:
+        width, height = rng.uniform(50, 180, 2)
+        x, y = rng.uniform(0, 600 - width), rng.uniform(0, 400 - height)
+        if (iou([(x, y, x + width, y + height)], objects) < 0.3).all():
+            return np.array([x, y, x + width, y + height])
+
+
+def examples(shots, rng, copies=COPIES, background=0):
+    """Crops (n, 200, 200) and labels (n,) from photos: each object `copies` times, shaken and
+    half of them mirrored; and so many crops of `background` a photo."""
+    crops, labels = [], []
+    for shot in shots:
+        boxes = [(box, name == "shuttlecock") for name, box in shot.boxes.items()] * copies
+        boxes = [(shaken(box, rng), label) for box, label in boxes]
+        boxes += [(elsewhere(shot, rng), False) for _ in range(background)]
+        for box, label in boxes:
+            picture = crop(shot.image, box)
+            crops.append(picture[:, ::-1] if rng.random() < 0.5 else picture)
+            labels.append(label)
+    return np.array(crops), np.array(labels)
+
+
+# ---------------------------------------------------------------- the recogniser
+
+
+@dataclass(frozen=True)
+class Recogniser:
+    """A CDBN, a read-out ("MP2" or "P2") and the classifier on it."""
+
+    cdbn: CDBN
+    name: str
+    linear: Linear
+
+    @classmethod
+    def load(cls, name="P2", file=FILE):
+        """The recogniser that ships: "MP2", the paper's read-out, or "P2", the better one."""
+        if name not in READ_OUTS:
+            raise ValueError(f"read-out {name!r} is none of {', '.join(READ_OUTS)}")
+        with np.load(file, allow_pickle=False) as z:
+            linear = Linear(z[f"{name}.weights"], float(z[f"{name}.bias"]))
+        return cls(CDBN.load(), name, linear)
+
+    def probability(self, crops):
+        """The chance (n,) that each grey crop (n, 200, 200) shows a shuttlecock."""
+        if len(crops) == 0:
+            return np.zeros(0)
+        return self.linear.probability(read_out(self.cdbn, crops, self.name))
+
+
+if __name__ == "__main__":
+    rng, cdbn, linear = np.random.default_rng(0), CDBN.load(), {}
+    sets = [
+        examples([p for level in photos.LEVELS for p in photos.load(level, split)], rng, copies, 6)
+        for split, copies in (("train", COPIES), ("validation", 4))
+    ]
+    for name in READ_OUTS:
+        (x, y), (x_validation, y_validation) = ((read_out(cdbn, c, name), y) for c, y in sets)
+        found = fit(x, y, x_validation, y_validation)
+        right = (found.probability(x_validation) > 0.5) == y_validation
+        print(f"{name}: {right.mean():.4f} of {len(right)} validation crops named right")
+        linear |= {f"{name}.weights": np.float32(found.weights), f"{name}.bias": found.bias}
+    np.savez_compressed(FILE, **linear)
