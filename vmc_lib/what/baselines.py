@@ -10,7 +10,8 @@ from skimage.feature import hog
 
 def raw_pixels(crops, width=32):
     """The pixels themselves, on a coarser grid."""
-    return np.array([cv2.resize(x, (width, width), interpolation=cv2.INTER_AREA) for x in crops])
+    small = [cv2.resize(x, (width, width), interpolation=cv2.INTER_AREA).ravel() for x in crops]
+    return np.array(small)
 
 
 def histograms_of_gradients(crops):
@@ -22,13 +23,13 @@ def bag_of_sift(crops, words):
     """How often each of the `words` (m, 128) occurs among a crop's SIFT descriptors (Lowe 1999)."""
     counts = []
     for found in map(sift, crops):
-        nearest = ((found[:, None] - words) ** 2).sum(2).argmin(1)
+        nearest = ((words**2).sum(1) - 2 * found @ words.T).argmin(1)
         counts.append(np.bincount(nearest, minlength=len(words)) / max(len(found), 1))
     return np.sqrt(counts)
 
 
 def sift(crop):
     """The SIFT descriptors (m, 128) of a crop, each of length one, on a regular grid of places."""
-    grid = [cv2.KeyPoint(x, y, 24.0) for y in range(16, 200, 12) for x in range(16, 200, 12)]
+    grid = [cv2.KeyPoint(x, y, 24.0) for y in range(20, 200, 16) for x in range(20, 200, 16)]
     _, found = cv2.SIFT_create().compute(np.uint8(255 * crop), grid)
     return found / np.maximum(np.linalg.norm(found, axis=1, keepdims=True), 1e-6)

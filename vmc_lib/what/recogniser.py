@@ -23,16 +23,18 @@ FILE = Path(__file__).parents[1] / "data" / "recogniser.npz"
 STRENGTHS = 10.0 ** np.arange(-1, 5)
 COPIES, SHAKE = 6, 0.08  # training boxes: copies of each, and how far their sides stray
 
-READ_OUTS = {
-    "MP2": lambda layers: layers["MP2"],  # the paper's: the mean map, Eq. 2
-    "P2": lambda layers: F.avg_pool2d(layers["P2"], 4),  # the maps kept apart, on an 11 × 11 grid
-}
+READ_OUTS = "MP2", "P2"
 
 
-def read_out(cdbn, crops, name):
-    """The features (n, d) that a read-out, "MP2" or "P2", takes from grey crops (n, 200, 200)."""
-    parts = [READ_OUTS[name](cdbn.layers(part)).flatten(1) for part in whiten(crops).split(20)]
-    return torch.cat(parts).numpy()
+def read_outs(cdbn, crops):
+    """Features (n, d) of grey crops (n, 200, 200), by the name of the read-out.
+
+    "MP2" is the paper's, the mean map of Eq. 2. "P2" keeps the ten maps apart, on a coarser grid.
+    """
+    parts = [cdbn.layers(part) for part in whiten(crops).split(20)]
+    mp2 = torch.cat([layers["MP2"].flatten(1) for layers in parts])
+    p2 = torch.cat([F.avg_pool2d(layers["P2"], 4).flatten(1) for layers in parts])
+    return {"MP2": mp2.numpy(), "P2": p2.numpy()}
 
 
 # ---------------------------------------------------------------- the classifier
@@ -138,7 +140,7 @@ class Recogniser:
         """The chance (n,) that each grey crop (n, 200, 200) shows a shuttlecock."""
         if len(crops) == 0:
             return np.zeros(0)
-        return self.linear.probability(read_out(self.cdbn, crops, self.name))
+        return self.linear.probability(read_outs(self.cdbn, crops)[self.name])
 
 
 if __name__ == "__main__":
@@ -147,10 +149,10 @@ if __name__ == "__main__":
         examples([p for level in photos.LEVELS for p in photos.load(level, split)], rng, copies, 6)
         for split, copies in (("train", COPIES), ("validation", 4))
     ]
+    (x, y), (x_validation, y_validation) = [(read_outs(cdbn, crops), y) for crops, y in sets]
     for name in READ_OUTS:
-        (x, y), (x_validation, y_validation) = ((read_out(cdbn, c, name), y) for c, y in sets)
-        found = fit(x, y, x_validation, y_validation)
-        right = (found.probability(x_validation) > 0.5) == y_validation
+        found = fit(x[name], y, x_validation[name], y_validation)
+        right = (found.probability(x_validation[name]) > 0.5) == y_validation
         print(f"{name}: {right.mean():.4f} of {len(right)} validation crops named right")
         linear |= {f"{name}.weights": np.float32(found.weights), f"{name}.bias": found.bias}
     np.savez_compressed(FILE, **linear)

@@ -1,0 +1,116 @@
+"""Table III: the CDBN's read-outs and other features, under one classifier and the same splits.
+
+Remake what is learnt, `data/comparison.npz`, with `python -m vmc_lib.what.comparison`.
+"""
+
+from pathlib import Path
+
+import numpy as np
+import torch
+from sklearn.cluster import KMeans
+
+from vmc_lib import photos
+from vmc_lib.what.baselines import bag_of_sift, histograms_of_gradients, raw_pixels, sift
+from vmc_lib.what.cdbn import CDBN, crops_of
+from vmc_lib.what.hmax import draw_prototypes, hmax
+from vmc_lib.what.recogniser import Linear, examples, fit, read_outs
+
+FILE = Path(__file__).parents[1] / "data" / "comparison.npz"
+WORDS = 100
+
+METHODS = (
+    "CDBN, MP2",
+    "CDBN, P2",
+    "HMAX, 10 prototypes",
+    "HMAX, 250 prototypes",
+    "HOG",
+    "SIFT, bag of words",
+    "raw pixels",
+)
+
+
+def features(crops, learnt):
+    """Every method's features (n, d) of crops (n, 200, 200), given what was learnt unlabelled."""
+    seen, matches = read_outs(learnt["cdbn"], crops), hmax(crops, learnt["prototypes"])
+    by_hand = [histograms_of_gradients(crops), bag_of_sift(crops, learnt["words"])]
+    found = [seen["MP2"], seen["P2"], matches[:, :10], matches, *by_hand, raw_pixels(crops)]
+    return dict(zip(METHODS, found, strict=True))
+
+
+def tally(probability, shuttlecock):
+    """Counts (true positives, false positives, false negatives, true negatives) at 0.5."""
+    called = np.asarray(probability) > 0.5
+    pairs = [(True, True), (True, False), (False, True), (False, False)]
+    return tuple(int(((called == c) & (shuttlecock == s)).sum()) for c, s in pairs)
+
+
+def precision_recall(counts):
+    """Precision and recall from `tally`; nan where nothing was called or nothing was there."""
+    right, wrong, missed, _ = counts
+    return tuple(right / n if n else np.nan for n in (right + wrong, right + missed))
+
+
+def wilson(right, n, z=1.96):
+    """The 95 % interval of a share, right of n (Wilson 1927)."""
+    share, z2 = right / n, z * z / n
+    middle, half = share + z2 / 2, z * np.sqrt(share * (1 - share) / n + z2 / n / 4)
+    return (middle - half) / (1 + z2), (middle + half) / (1 + z2)
+
+
+def load(file=FILE):
+    """What was learnt: what `features` needs, and a Linear for (level, method)."""
+    with np.load(file, allow_pickle=False) as z:
+        learnt = {"cdbn": CDBN.load(), "words": z["words"]}
+        learnt["prototypes"] = torch.from_numpy(z["prototypes"])
+        keys = [(level, method) for level in photos.LEVELS for method in METHODS]
+        linear = {k: Linear(z["/".join((*k, "w"))], float(z["/".join((*k, "b"))])) for k in keys}
+    return learnt, linear
+
+
+def judge(level, split):
+    """Each method's probabilities (n,) for the true boxes of a level and split, and the labels."""
+    learnt, linear = load()
+    crops, shuttlecock = crops_of(photos.load(level, split))
+    found = features(crops, learnt)
+    return {m: linear[level, m].probability(found[m]) for m in METHODS}, shuttlecock
+
+
+def table_3(level):
+    """Table III for one level: method -> {"in_sample": counts, "held_out": counts}.
+
+    The counts (see `tally`) are over both objects' true boxes in the training and the test photos.
+    """
+    table = {method: {} for method in METHODS}
+    for key, split in (("in_sample", "train"), ("held_out", "test")):
+        found, shuttlecock = judge(level, split)
+        for method, probability in found.items():
+            table[method][key] = tally(probability, shuttlecock)
+    return table
+
+
+def learn_without_labels(rng):
+    """HMAX's prototypes and SIFT's words, from the training crops of all levels."""
+    shots = [shot for level in photos.LEVELS for shot in photos.load(level, "train")]
+    crops, _ = crops_of(shots)
+    some = crops[rng.permutation(len(crops))[:60]]
+    descriptors = np.concatenate([sift(crop) for crop in some])
+    words = KMeans(WORDS, n_init=1, random_state=0).fit(descriptors).cluster_centers_
+    return {"prototypes": draw_prototypes(some, 250, rng), "words": np.float32(words)}
+
+
+if __name__ == "__main__":
+    rng = np.random.default_rng(0)
+    learnt = learn_without_labels(rng)
+    arrays = {name: np.asarray(x) for name, x in learnt.items()}
+    learnt["cdbn"] = CDBN.load()
+    for level in photos.LEVELS:
+        crops, y = examples(photos.load(level, "train"), rng)
+        checked, y_validation = crops_of(photos.load(level, "validation"))
+        x, x_validation = features(crops, learnt), features(checked, learnt)
+        for method in METHODS:
+            found = fit(x[method], y, x_validation[method], y_validation)
+            arrays[f"{level}/{method}/w"] = np.float32(found.weights)
+            arrays[f"{level}/{method}/b"] = found.bias
+            right = ((found.probability(x_validation[method]) > 0.5) == y_validation).mean()
+            print(f"{level}: {method}: {right:.3f} of the validation crops named right")
+    np.savez_compressed(FILE, **arrays)
