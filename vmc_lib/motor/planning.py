@@ -89,26 +89,30 @@ def surrounding(target, points):
 
     ValueError when a quadrant is empty: the target is outside the plane that experience covers.
     """
+    if not np.all(inside := surrounded(target, points)):
+        alone = np.atleast_2d(target)[~np.atleast_1d(inside)][0]
+        raise ValueError(f"target {alone} m is not surrounded by templates; move it inside them")
+    return _by_quadrant(target, points).argmin(axis=-1)
+
+
+def surrounded(target, points):
+    """Whether targets (…, 2) have a point (of N, 2) in every quadrant round them, (…)."""
+    return np.isfinite(_by_quadrant(target, points).min(axis=-1)).all(axis=-1)
+
+
+def _by_quadrant(target, points):
+    """Distances (…, 4, N), infinite to points in other quadrants; the target itself is in the first."""
     away = points - target[..., None, :]
-    x, y = away[..., 0], away[..., 1]
-    on = (x == 0) & (y == 0)
-    quadrants = [
-        on | ((x > 0) & (y >= 0)),
-        (x <= 0) & (y > 0),
-        (x < 0) & (y <= 0),
-        (x >= 0) & (y < 0),
-    ]
-    quadrants[1:] = [quadrant & ~on for quadrant in quadrants[1:]]
-    distance = np.where(
-        np.stack(quadrants, -2), np.linalg.norm(away, axis=-1)[..., None, :], np.inf
-    )
-    lonely = np.isinf(distance.min(axis=-1)).any(axis=-1)
-    if np.any(lonely):
-        raise ValueError(
-            f"target {np.atleast_2d(target)[np.atleast_1d(lonely)][0]} m is not surrounded by "
-            "templates; move it inside the grid"
-        )
-    return distance.argmin(axis=-1)
+    quadrant = np.floor(np.arctan2(away[..., 1], away[..., 0]) / (np.pi / 2)) % 4
+    here = quadrant[..., None, :] == np.arange(4)[:, None]
+    return np.where(here, np.linalg.norm(away, axis=-1)[..., None, :], np.inf)
+
+
+def draw_targets(library, count, rng):
+    """Targets (count, 2), drawn evenly from the plane that the library surrounds."""
+    low, high = library.points.min(axis=0), library.points.max(axis=0)
+    drawn = rng.uniform(low, high, (4 * count + 20, 2))
+    return drawn[surrounded(drawn, library.points)][:count]
 
 
 def plan(target, library, rule=habitual_weights, chosen=None):

@@ -1,0 +1,127 @@
+"""Online calibration: correct the plan before moving, from what past movements taught.
+
+`Linear` is the paper's g (Eq. 8, Algorithm 2): a linear regression of Δw on the target, the
+weights and the templates' positions. `Aim` is ours: it learns where to aim instead. Granule cells,
+each excited by its own small region of targets, feed a few Purkinje weights (Marr, 1969; Albus,
+1971), and every movement teaches by hindsight: wherever the hand went, the command given was the
+right one for going there.
+
+Both have `correct(plan)`, the plan with what was learned, and `practise(plan)`, one more lesson.
+"""
+
+import numpy as np
+from sklearn.base import BaseEstimator, RegressorMixin
+from sklearn.linear_model import LinearRegression
+from sklearn.utils.validation import check_is_fitted, validate_data
+
+from ..motor.planning import Plan, exact_weights, plan, surrounded
+from ..motor.templates import Library
+from .offline import published
+
+
+class Linear:
+    """Eq. 8 with the paper's linear g, updated by Algorithm 2."""
+
+    def __init__(self):
+        self.inputs, self.changes = [], []
+
+    def correct(self, plan: Plan):
+        """The plan with the learned Δw added; as it was before the first lesson."""
+        if not self.inputs:
+            return plan
+        g = LinearRegression().fit(np.concatenate(self.inputs), np.concatenate(self.changes))
+        return plan.with_weights(plan.weights + g.predict(_inputs(plan)))
+
+    def practise(self, plan: Plan, rule=published):
+        """Algorithm 2 for a batch: correct online, calibrate that off-line, learn the sum."""
+        calibrated = rule(self.correct(plan)).best
+        self.inputs.append(_inputs(plan))
+        self.changes.append(calibrated - plan.weights)
+        return self
+
+
+def _inputs(plan):
+    points = plan.points.reshape(*plan.points.shape[:-2], -1)
+    return np.concatenate([plan.target, plan.weights, points], axis=-1)
+
+
+class Aim:
+    """Learn how far beyond a target to aim for the hand to end on it, then satisfy Eq. 4 there.
+
+    It begins with what is known without moving: aiming at a template needs no correction.
+    """
+
+    def __init__(self, library: Library, cells=None):
+        self.cells = cells or GranuleCells()
+        diagonals = 1e-3 * np.array([(1, 1), (-1, 1), (-1, -1), (1, -1)])
+        beside = (library.points[:, None] + diagonals).reshape(-1, 2)
+        known = surrounded(beside, library.points)
+        templates = np.repeat(library.points, 4, axis=0)[known]
+        self.cells.fit(_place(plan(beside[known], library), templates), np.zeros_like(templates))
+
+    def correct(self, plan: Plan):
+        """The plan aimed where it should be for the hand to end on the target."""
+        return self._at(plan, self.command(plan))
+
+    def command(self, plan: Plan):
+        """Where to aim, (…, 2), for the hand to end on the plan's target."""
+        place = _place(plan, plan.target)
+        return plan.target + self.cells.predict(place.reshape(-1, 4)).reshape(plan.target.shape)
+
+    def practise(self, plan: Plan):
+        """Move, and learn from where the hand went: a lesson for each movement of the batch."""
+        command = self.command(plan)
+        reached = self._at(plan, command).reached()
+        lessons = _place(plan, reached).reshape(-1, 4), (command - reached).reshape(-1, 2)
+        self.cells.partial_fit(*lessons)
+        return self
+
+    def _at(self, plan, command):
+        return plan.with_weights(exact_weights(command, plan.points))
+
+
+def _place(plan, position):
+    """Position, and position among the four templates: what the granule cells sense, (…, 4)."""
+    return np.concatenate([position, position - plan.points.mean(axis=-2)], axis=-1)
+
+
+class GranuleCells(RegressorMixin, BaseEstimator):
+    """Ridge regression on a random radial-basis expansion, learnt lesson by lesson.
+
+    `cells` granule cells with receptive fields of the given `width` (in the units of X) lie at
+    random about the first lessons; `ridge` is how reluctantly Purkinje weights move from zero.
+    """
+
+    def __init__(self, width=0.05, cells=600, ridge=1e-3, random_state=0):
+        self.width, self.cells, self.ridge = width, cells, ridge
+        self.random_state = random_state
+
+    def fit(self, X, y):
+        """Forget everything, place the cells about X (n, d), learn y (n,) or (n, k)."""
+        X, y = validate_data(self, X, y, multi_output=True)
+        rng = np.random.default_rng(self.random_state)
+        low, high = X.min(axis=0) - self.width, X.max(axis=0) + self.width
+        self.centres_ = rng.uniform(low, high, (self.cells, X.shape[1]))
+        self.gram_ = self.ridge * np.eye(self.cells)
+        self.climbing_ = np.zeros((self.cells, *y.shape[1:]))
+        return self.partial_fit(X, y)
+
+    def partial_fit(self, X, y):
+        """Learn these lessons as well; the order of lessons does not matter."""
+        if not hasattr(self, "centres_"):
+            return self.fit(X, y)
+        X, y = validate_data(self, X, y, multi_output=True, reset=False)
+        active = self._excite(X)
+        self.gram_ += active.T @ active
+        self.climbing_ += active.T @ y
+        self.purkinje_ = np.linalg.solve(self.gram_, self.climbing_)
+        return self
+
+    def predict(self, X):
+        """The correction (n,) or (n, k) for each X (n, d)."""
+        check_is_fitted(self)
+        return self._excite(validate_data(self, X, reset=False)) @ self.purkinje_
+
+    def _excite(self, X):
+        square = ((X[:, None] - self.centres_) ** 2).sum(axis=-1)
+        return np.exp(-square / (2 * self.width**2))
