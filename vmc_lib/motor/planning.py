@@ -101,7 +101,7 @@ def surrounded(target, points):
 
 
 def _by_quadrant(target, points):
-    """Distances (…, 4, N), infinite to points in other quadrants; the target itself is in the first."""
+    """Distances (…, 4, N), infinite to points in other quadrants; no distance is in the first."""
     away = points - target[..., None, :]
     quadrant = np.floor(np.arctan2(away[..., 1], away[..., 0]) / (np.pi / 2)) % 4
     here = quadrant[..., None, :] == np.arange(4)[:, None]

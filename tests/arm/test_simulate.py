@@ -1,0 +1,65 @@
+"""Two engines, one movement."""
+
+import numpy as np
+import pytest
+
+from vmc_lib.arm.model import LIMITS
+from vmc_lib.arm.simulate import simulate
+
+START = np.radians([-20.0, 95.0])
+QUIET = np.zeros((10, 6))
+
+
+def random_excitations(count, steps, rng):
+    return np.repeat(rng.uniform(0, 1, (count, steps // 100, 6)) ** 2, 100, axis=1)
+
+
+def test_closed_form_moves_as_mujoco_does():
+    rng = np.random.default_rng(0)
+    excitations = random_excitations(100, 800, rng)
+    starts = rng.uniform(np.radians([-50, 20]), np.radians([20, 100]), (100, 2))
+    fast, reference = (simulate(excitations, starts, engine=e) for e in ("closed form", "mujoco"))
+    assert np.abs(fast.q - reference.q).max() < 1e-6
+    np.testing.assert_array_equal(fast.activation, reference.activation)
+
+
+def test_a_batch_is_its_movements_one_by_one():
+    excitations = random_excitations(6, 200, np.random.default_rng(1))
+    batch = simulate(excitations.reshape(2, 3, 200, 6), START)
+    assert batch.hand.shape == (2, 3, 201, 3)
+    assert batch.end_speed.shape == (2, 3)
+    alone = simulate(excitations[4], START)
+    np.testing.assert_allclose(batch.q[1, 1], alone.q, atol=1e-12)
+    np.testing.assert_allclose(batch.reached[1, 1], alone.hand[-1, :2], atol=1e-12)
+
+
+def test_the_stops_hold_the_arm_together():
+    everything = np.eye(6).repeat(1500, axis=0).reshape(6, 1500, 6)
+    motion = simulate(everything, START, np.zeros(6))
+    assert np.all(motion.q > LIMITS[:, 0] - 0.35)
+    assert np.all(motion.q < LIMITS[:, 1] + 0.35)
+
+
+@pytest.mark.parametrize(
+    ("excitations", "complaint"),
+    [
+        (QUIET + 1.1, "clip"),
+        (QUIET - 0.1, "clip"),
+        (QUIET * np.nan, "clip"),
+        (QUIET[:, :5], "shape"),
+        (QUIET[:0], "shape"),
+        (QUIET[0], "shape"),
+    ],
+)
+def test_bad_excitations(excitations, complaint):
+    with pytest.raises(ValueError, match=complaint):
+        simulate(excitations, START)
+
+
+def test_bad_starts_and_engines():
+    with pytest.raises(ValueError, match="start"):
+        simulate(QUIET, np.zeros(3))
+    with pytest.raises(ValueError, match="activation"):
+        simulate(QUIET, START, np.full(6, np.inf))
+    with pytest.raises(ValueError, match="closed form"):
+        simulate(QUIET, START, engine="opensim")

@@ -1,0 +1,75 @@
+"""Off-line calibration, as published and better."""
+
+import numpy as np
+import pytest
+
+from vmc_lib.cerebellum.offline import calibrate, published, published_change
+from vmc_lib.motor.planning import draw_targets, plan
+from vmc_lib.motor.templates import load
+
+
+@pytest.fixture(scope="module")
+def reaches():
+    library = load()
+    return plan(draw_targets(library, 60, np.random.default_rng(10)), library)
+
+
+def share_left(trials):
+    return trials.error.mean(axis=1) / trials.error[0].mean()
+
+
+def test_equations_6_and_7_by_hand():
+    library = load()
+    reach = plan([0.15, -0.4], library)
+    hand, n = np.array([0.14, -0.41]), 3
+    for w, p in zip(published_change(reach, hand, n), reach.points, strict=True):
+        e, r = reach.target - hand, p - hand
+        cosine = e @ r / np.linalg.norm(e) / np.linalg.norm(r)
+        d_i = np.linalg.norm(p)
+        k = np.linalg.norm(e) / np.linalg.norm(hand)
+        k *= 1 + n * (np.linalg.norm(reach.target) - d_i) / d_i
+        np.testing.assert_allclose(w, k * cosine)
+
+
+def test_algorithm_1_takes_a_third_of_the_error_away(reaches):
+    trials = published(reaches)
+    np.testing.assert_allclose(
+        trials.error[0], np.linalg.norm(reaches.reached() - reaches.target, axis=1)
+    )
+    assert trials.error.min(axis=0).mean() < 0.7 * trials.error[0].mean()
+    best = reaches.with_weights(trials.best)
+    np.testing.assert_allclose(
+        np.linalg.norm(best.reached() - best.target, axis=1), trials.error.min(axis=0), atol=1e-12
+    )
+
+
+def test_the_other_sign_of_the_error_does_not_help(reaches):
+    wrong = published(reaches, sign=-1)
+    assert wrong.error[1:].min(axis=0).mean() > wrong.error[0].mean()
+
+
+def test_the_population_vector_done_right_meets_its_bars(reaches):
+    left = share_left(calibrate(reaches, trials=4))
+    assert left[1] < 0.27
+    assert left[2] < 0.05
+    assert left[4] < 0.001
+
+
+def test_learning_from_each_trial_beats_repeating(reaches):
+    learning, repeating = (share_left(calibrate(reaches, 3, broyden=b)) for b in (True, False))
+    assert learning[3] < 0.5 * repeating[3]
+
+
+def test_a_hand_on_the_target_or_on_a_template_is_no_trouble():
+    library = load()
+    reach = plan([0.15, -0.4], library)
+    np.testing.assert_allclose(published_change(reach, reach.target, 5), 0)
+    assert np.all(np.isfinite(published_change(reach, reach.points[0], 5)))
+    exact = plan(library.points[6], library)
+    np.testing.assert_allclose(calibrate(exact).weights, [exact.weights] * 3, atol=1e-6)
+
+
+def test_no_correction_throws_the_arm_about(reaches):
+    trials = calibrate(reaches, trials=3)
+    assert np.all(np.isfinite(trials.weights))
+    assert np.abs(np.diff(trials.weights[:2], axis=0)).max() <= 0.5

@@ -1,0 +1,88 @@
+"""Online calibration: what was learned must hold for targets never practised."""
+
+import numpy as np
+import pytest
+from sklearn.exceptions import NotFittedError
+
+from vmc_lib.cerebellum.online import Aim, GranuleCells, Linear
+from vmc_lib.motor.planning import draw_targets, exact_weights, plan
+from vmc_lib.motor.templates import load
+
+
+@pytest.fixture(scope="module")
+def library():
+    return load()
+
+
+@pytest.fixture(scope="module")
+def held_out(library):
+    return plan(draw_targets(library, 100, np.random.default_rng(20)), library)
+
+
+def error(reach):
+    return np.linalg.norm(reach.reached() - reach.target, axis=-1).mean()
+
+
+def lessons(library, count, seed=21):
+    targets = draw_targets(library, count, np.random.default_rng(seed))
+    return [plan(targets[i : i + 25], library) for i in range(0, count, 25)]
+
+
+def test_nothing_learned_changes_nothing(library, held_out):
+    assert Linear().correct(held_out) is held_out
+    beginner = Aim(library).correct(held_out)
+    np.testing.assert_allclose(
+        beginner.weights, exact_weights(held_out.target, held_out.points), atol=1e-9
+    )
+
+
+def test_the_linear_model_learns_what_it_practised(library):
+    (practised,) = lessons(library, 25)
+    before, model, after = error(practised), Linear(), []
+    for _ in range(3):
+        after.append(error(model.practise(practised).correct(practised)))
+    assert after[0] < 0.7 * before
+    assert after[2] < after[0]
+
+
+def test_granule_cells_generalise(library, held_out):
+    before = error(held_out)
+    learners = [Aim(library).practise(*lessons(library, 25, seed)) for seed in range(30, 35)]
+    assert np.mean([error(learner.correct(held_out)) for learner in learners]) < 0.22 * before
+    for lesson in lessons(library, 125, seed=35):
+        learners[0].practise(lesson)
+    assert error(learners[0].correct(held_out)) < 0.10 * before
+
+
+def test_one_reach_is_corrected_as_in_a_batch(library, held_out):
+    cerebellum = Aim(library).practise(*lessons(library, 25))
+    alone = cerebellum.correct(plan(held_out.target[3], library))
+    np.testing.assert_allclose(alone.weights, cerebellum.correct(held_out).weights[3], atol=1e-12)
+
+
+def test_granule_cells_do_not_mind_the_order_of_lessons():
+    rng = np.random.default_rng(0)
+    X, y = rng.uniform(size=(60, 2)), rng.normal(size=60)
+    first = np.array([[0, 0], [1, 1]]), np.zeros(2)
+    ahead, back = (GranuleCells(0.3, 100).fit(*first) for _ in range(2))
+    for k in range(0, 60, 20):
+        ahead.partial_fit(X[k : k + 20], y[k : k + 20])
+        back.partial_fit(X[40 - k : 60 - k], y[40 - k : 60 - k])
+    np.testing.assert_allclose(ahead.predict(X), back.predict(X), atol=1e-8)
+
+
+def test_granule_cells_learn_a_function():
+    rng = np.random.default_rng(0)
+    X = rng.uniform(size=(400, 2))
+    y = np.sin(6 * X[:, 0]) * X[:, 1]
+    cells = GranuleCells(0.3, 200).fit(X[:300], y[:300])
+    assert cells.score(X[300:], y[300:]) > 0.99
+
+
+def test_granule_cells_refuse_what_they_cannot_learn():
+    with pytest.raises(NotFittedError):
+        GranuleCells().predict([[0.0, 0.0]])
+    with pytest.raises(ValueError, match="NaN"):
+        GranuleCells().fit([[np.nan, 0.0], [0.0, 0.0]], [0.0, 1.0])
+    with pytest.raises(ValueError, match="features"):
+        GranuleCells().fit([[0.0, 0.0]], [0.0]).predict([[0.0]])

@@ -1,0 +1,111 @@
+"""Eq. 3–5: weights, neighbours and what happens at their edges."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from vmc_lib.motor.planning import (
+    draw_targets,
+    exact_weights,
+    habitual_weights,
+    least_change,
+    plan,
+    surrounded,
+    surrounding,
+)
+from vmc_lib.motor.templates import load
+
+SQUARE = np.array([(0.1, -0.3), (0.0, -0.3), (0.0, -0.4), (0.1, -0.4)])
+INSIDE = st.tuples(st.floats(0, 0.1), st.floats(-0.4, -0.3)).map(np.array)
+
+
+@pytest.fixture(scope="module")
+def library():
+    return load()
+
+
+@given(INSIDE)
+def test_habitual_weights_are_equation_5(target):
+    weights = habitual_weights(target, SQUARE)
+    distance = np.linalg.norm(SQUARE - target, axis=1)
+    if distance.min() > 1e-6:
+        np.testing.assert_allclose(weights, (1 / distance) / (1 / distance).sum(), rtol=1e-9)
+    assert np.all(weights >= 0)
+    np.testing.assert_allclose(weights.sum(), 1)
+
+
+@given(INSIDE)
+def test_exact_weights_satisfy_equation_4(target):
+    weights = exact_weights(target, SQUARE)
+    np.testing.assert_allclose(weights @ SQUARE, target, atol=1e-12)
+    np.testing.assert_allclose(weights.sum(), 1)
+
+
+@pytest.mark.parametrize("rule", [habitual_weights, exact_weights])
+def test_a_target_on_a_template_is_that_template(rule, library):
+    for point in library.points[surrounded(library.points, library.points)]:
+        reach = plan(point, library, rule)
+        np.testing.assert_allclose(reach.weights.max(), 1, atol=1e-12)
+        np.testing.assert_allclose(reach.reached(), point, atol=1e-9)
+
+
+def test_the_neighbours_are_the_corners_of_the_targets_cell(library):
+    targets = draw_targets(library, 100, np.random.default_rng(0))
+    corners = library.points[surrounding(targets, library.points)]
+    side = np.sign(corners - targets[:, None])
+    assert np.all(side == [(1, 1), (-1, 1), (-1, -1), (1, -1)])
+    nearer = np.linalg.norm(library.points - targets[:, None], axis=-1).min(axis=-1)
+    assert np.all(np.linalg.norm(corners - targets[:, None], axis=-1).min(axis=-1) == nearer)
+
+
+def test_a_plan_is_a_weighted_sum_of_excitations(library):
+    reach = plan([0.15, -0.4], library)
+    expected = sum(
+        w * library.excitations[i] for w, i in zip(reach.weights, reach.chosen, strict=True)
+    )
+    np.testing.assert_allclose(reach.excitations, expected, atol=1e-12)
+    wild = reach.with_weights(reach.weights * [9, -9, 9, -9])
+    assert wild.excitations.min() >= 0
+    assert wild.excitations.max() <= 1
+
+
+def test_a_large_batch_is_moved_in_parts_alike(library):
+    targets = draw_targets(library, 30, np.random.default_rng(1))
+    batch = plan(targets, library)
+    many = batch.with_weights(np.broadcast_to(batch.weights, (20, 30, 4))).reached()
+    np.testing.assert_allclose(many[-1], plan(targets, library).move().reached, atol=1e-12)
+
+
+def test_habit_misses_by_a_few_percent_of_the_reach(library):
+    targets = draw_targets(library, 200, np.random.default_rng(2))
+    missed = np.linalg.norm(plan(targets, library).reached() - targets, axis=1)
+    assert 0.01 < np.mean(missed / np.linalg.norm(targets, axis=1)) < 0.05
+
+
+@settings(max_examples=30)
+@given(st.floats(-0.5, 0.5), st.floats(-0.5, 0.5))
+def test_least_change_shifts_and_sums_to_zero(x, y):
+    change = least_change(SQUARE.T, np.array([x, y]))
+    np.testing.assert_allclose(change @ SQUARE, [x, y], atol=1e-12)
+    assert abs(change.sum()) < 1e-12
+
+
+def test_templates_on_a_line_are_refused():
+    line = np.array([(0.0, -0.4), (0.1, -0.4), (0.2, -0.4), (0.3, -0.4)])
+    with pytest.raises(ValueError, match="one line"):
+        exact_weights(np.array([0.15, -0.4]), line)
+
+
+@pytest.mark.parametrize(
+    ("target", "complaint"),
+    [
+        ((0.5, -0.4), "not surrounded"),
+        ((0.15, -0.2), "not surrounded"),
+        ((np.nan, -0.4), "finite"),
+        ((0.15, -0.4, 0.05), "plane positions"),
+    ],
+)
+def test_bad_targets(target, complaint, library):
+    with pytest.raises(ValueError, match=complaint):
+        plan(target, library)

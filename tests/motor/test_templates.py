@@ -1,0 +1,48 @@
+"""Past experience ended where it should, at rest, and can be made again."""
+
+import numpy as np
+import pytest
+
+from vmc_lib.arm.posture import posture
+from vmc_lib.motor import inverse, templates
+
+
+@pytest.mark.parametrize("spacing", templates.SPACINGS)
+def test_every_template_ends_at_rest_on_its_point(spacing):
+    library = templates.load(spacing)
+    motion = templates.reach(library.excitations)
+    assert np.linalg.norm(motion.reached - templates.grid(spacing), axis=-1).max() < 2e-4
+    assert motion.end_speed.max() < 0.02
+    np.testing.assert_array_equal(library.points, motion.reached)
+
+
+def test_the_reference_engine_agrees():
+    library = templates.load(0.08)
+    motion = templates.simulate(library.excitations[:4], templates.START, engine="mujoco")
+    np.testing.assert_allclose(motion.reached, library.points[:4], atol=1e-6)
+
+
+def test_the_finest_library_surrounds_every_shuttlecock():
+    x, y = np.meshgrid(np.linspace(0.08, 0.22, 5), np.linspace(-0.41, -0.385, 3))
+    for spacing in templates.SPACINGS:
+        points = templates.load(spacing).points
+        assert np.all(points.min(axis=0) <= [x.min(), y.min()])
+        assert np.all(points.max(axis=0) >= [x.max(), y.max()])
+
+
+def test_what_ships_can_be_made_again():
+    goal = templates.grid(0.08)[5]
+    remade = inverse.spline() @ templates.make(goal)
+    np.testing.assert_allclose(templates.reach(remade).reached, goal, atol=1e-6)
+    np.testing.assert_allclose(remade, templates.load(0.08).excitations[5], atol=1e-3)
+
+
+def test_demand_is_met_by_the_holding_activation():
+    q = posture([0.12, -0.4])
+    held = templates.simulate(np.tile(inverse.hold(q), (300, 1)), q)
+    np.testing.assert_allclose(held.q[-1], q, atol=0.02)
+
+
+def test_an_unknown_spacing_is_refused():
+    with pytest.raises(ValueError, match=r"0\.05 m apart"):
+        templates.load(0.05)
