@@ -19,7 +19,9 @@ def every_page(app, env, added, changed, removed):
 
 
 def mend(app, pagename, templatename, context, doctree):
-    """Take out sphinx-thebe, which asks the network, and a list role on what is no list."""
+    """Mend the page: no sphinx-thebe, which asks the network; no list role on what is no list;
+    the number of an equation outside the `split` that Sphinx puts around its lines.
+    """
     context["script_files"] = [
         script
         for script in context["script_files"]
@@ -29,6 +31,7 @@ def mend(app, pagename, templatename, context, doctree):
         r'<script type="text/x-thebe-config">.*?</script>(\s*<script>kernelName = .*?</script>)?'
     )
     body = re.sub(thebe, "", context.get("body", ""), flags=re.S)
+    body = re.sub(r"(\\tag\{[^}]*\})(\s*\\end\{split\})", r"\2\1", body)
     context["body"] = body.replace('<div role="list" class="citation-list">', "<div>")
 
 

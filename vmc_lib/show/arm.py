@@ -53,9 +53,9 @@ def arm_scene(q, activation=None, force=None, turn=0.0, shuttlecock=None, balls=
 def _furniture():
     """What every arm scene shares: a table, a hint of a body, and the parts that will be moved."""
     scene = Scene()
-    scene.look((1.2, 0.3, 1.2), at=(0.14, -0.14, -0.08))
-    scene["table"].set_object(g.Box([0.62, 0.02, 1.0]), _paint(WOOD))
-    scene["table"].set_transform(_place((0.37, TABLE_TOP - 0.01, -0.05)))
+    scene.look((0.75, 0.42, 1.35), at=(0.13, -0.14, -0.06))
+    scene["table"].set_object(g.Box([0.5, 0.02, 0.9]), _paint(WOOD))
+    scene["table"].set_transform(_place((0.31, TABLE_TOP - 0.01, -0.05)))
     scene["body/trunk"].set_object(g.Ellipsoid([0.1, 0.3, 0.15]), _paint(BODY, 0.45))
     scene["body/trunk"].set_transform(_place((-0.03, -0.24, -0.17)))
     scene["body/head"].set_object(g.Ellipsoid([0.095, 0.12, 0.08]), _paint(BODY, 0.45))

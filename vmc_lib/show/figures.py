@@ -42,7 +42,7 @@ ON_PHOTO = {
     "grey": "#c8ced6",
     "ink": "#ffffff",
 }
-EDGE = 'stroke="#10151c" stroke-width="6"'
+EDGE = 'stroke="#10151c" stroke-width="6" stroke-linejoin="round"'
 
 # One look for every plot of the book, wherever in a chapter it is drawn.
 plt.rcParams.update(
