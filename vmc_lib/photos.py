@@ -111,14 +111,14 @@ def _read(sidecar):
     image = read_image(sidecar.with_suffix(".jpg"))
     image.flags.writeable = False  # shared by all who load it
     split = sidecar.parent
-    focal, centre, rotation, position = truth["camera"].values()
+    camera = {key: np.array(value)[()] for key, value in truth["camera"].items()}
     return Photo(
         name=f"{split.parent.name}/{split.name}/{sidecar.stem}",
         level=split.parent.name,
         split=split.name,
         image=image,
         boxes={name: np.array(box, float) for name, box in truth["boxes"].items()},
-        camera=Camera(focal, *map(np.array, (centre, rotation, position))),
+        camera=Camera(**camera),
         target=np.array(truth["target"]),
         turn=truth["turn"],
         pose=truth["pose"],

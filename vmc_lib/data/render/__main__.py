@@ -1,6 +1,7 @@
 """Remake the photos: `python -m vmc_lib.data.render [--only rig/test/003] [--samples 25]`."""
 
 import argparse
+import itertools
 import json
 
 import numpy as np
@@ -48,11 +49,12 @@ def main():
     parser = argparse.ArgumentParser(prog="python -m vmc_lib.data.render", description=__doc__)
     parser.add_argument("--only", default="", help="a level, level/split or level/split/number")
     parser.add_argument("--samples", type=int, default=25, help="light paths a pixel")
+    parser.add_argument("--count", type=int, help=f"photos in each split, instead of {COUNTS}")
     arguments = parser.parse_args()
-    names = [(lv, sp, k) for lv in LEVELS for sp in SPLITS for k in range(COUNTS[sp])]
-    for level, split, number in names:
-        if f"{level}/{split}/{number:03d}".startswith(arguments.only):
-            make(level, split, number, arguments.samples)
+    for level, split in itertools.product(LEVELS, SPLITS):
+        for number in range(arguments.count or COUNTS[split]):
+            if f"{level}/{split}/{number:03d}".startswith(arguments.only):
+                make(level, split, number, arguments.samples)
 
 
 if __name__ == "__main__":
