@@ -1,0 +1,70 @@
+"""The experiments: what is practised, what is held out, and what the rows mean."""
+
+import numpy as np
+import pytest
+
+from vmc_lib.cerebellum.experiment import around, quick, run
+from vmc_lib.cerebellum.offline import published
+from vmc_lib.cerebellum.online import Aim, Linear
+from vmc_lib.motor.planning import draw_targets, plan
+from vmc_lib.motor.templates import load
+
+
+@pytest.fixture(scope="module")
+def library():
+    return load()
+
+
+@pytest.fixture(scope="module")
+def linear(library):
+    rng = np.random.default_rng(0)
+    return run(Linear(), library, rng, movements=15, held_out=20, experiments=3, rule=quick)
+
+
+def test_rows_and_shapes(linear):
+    assert linear.planned.shape == linear.offline.shape == (15,)
+    assert linear.in_sample.shape == (4, 15)
+    assert linear.held_out.shape == (4, 20)
+    assert linear.held_out_planned.shape == (20,)
+
+
+def test_before_any_lesson_the_linear_model_is_the_plan(linear):
+    np.testing.assert_array_equal(linear.in_sample[0], linear.planned)
+    np.testing.assert_array_equal(linear.held_out[0], linear.held_out_planned)
+
+
+def test_calibration_helps_what_was_practised(linear):
+    assert np.all(linear.offline <= linear.planned)
+    assert linear.in_sample[-1].mean() < 0.7 * linear.planned.mean()
+
+
+def test_the_same_seed_gives_the_same_experiment(library):
+    one, two = (
+        run(Aim(library), library, np.random.default_rng(5), 5, 5, 2, fresh=True) for _ in range(2)
+    )
+    for a, b in zip(one, two, strict=True):
+        np.testing.assert_array_equal(a, b)
+
+
+def test_fresh_movements_are_new(library):
+    same, new = (
+        run(Aim(library), library, np.random.default_rng(6), 10, 40, 2, fresh=fresh)
+        for fresh in (False, True)
+    )
+    np.testing.assert_array_equal(same.held_out[:2], new.held_out[:2])  # one experiment is one
+    assert not np.array_equal(same.held_out[2], new.held_out[2])
+
+
+def test_quick_is_algorithm_1_with_fewer_tries(library):
+    reaches = plan(draw_targets(library, 10, np.random.default_rng(7)), library)
+    tried = quick(reaches)
+    np.testing.assert_allclose(tried.error, published(reaches).error[[0, 1, 6, 11, 16, 21]])
+
+
+def test_around_keeps_four_templates(library):
+    place = np.array([0.09, -0.40])
+    four = around(library, place)
+    assert len(four.points) == 4
+    np.testing.assert_allclose(four.points.mean(axis=0), place, atol=1e-3)
+    with pytest.raises(ValueError, match="surrounded"):
+        around(library, np.array([0.5, 0.0]))
