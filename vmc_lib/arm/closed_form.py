@@ -26,9 +26,12 @@ def _waves(q):
 
 @cache
 def _coefficients():
+    """Of the waves in the dynamics (12, 7), as `_dynamics` unpacks it, and the hand (12, 3)."""
     angles = np.linspace(0, 2 * np.pi, 6, endpoint=False)
     snapshots = np.array(list(product(angles, angles)))
-    return np.linalg.lstsq(_waves(snapshots), np.array([_snapshot(q) for q in snapshots]))[0]
+    seen = np.array([_snapshot(q) for q in snapshots])
+    solved = np.linalg.lstsq(_waves(snapshots), seen)[0]
+    return solved[:, :7].copy(), solved[:, 7:].copy()
 
 
 def _snapshot(q):
@@ -42,31 +45,37 @@ def _snapshot(q):
 
 def hand(q):
     """Position of the wrist (…, 3) in the shoulder frame for postures q (…, 2)."""
-    return _waves(np.asarray(q)) @ _coefficients()[:, 7:]
+    return _waves(np.asarray(q)) @ _coefficients()[1]
 
 
 def torque_for(q, velocity, acceleration):
-    """Inverse dynamics: the torque (…, 2) in N m that gives this acceleration over one step."""
-    m11, m12, m22, bias = _dynamics(q, velocity)
-    inertia = np.stack([m11, m12, m12, m22], axis=-1).reshape(*m11.shape, 2, 2)
-    return (inertia @ acceleration[..., None])[..., 0] + bias
+    """Inverse dynamics: torques (…, 2) in N m that give these accelerations over one step."""
+    m11, m12, m22, b1, b2 = _dynamics(q, velocity)
+    a1, a2 = _columns(acceleration)
+    return np.stack([m11 * a1 + m12 * a2 + b1, m12 * a1 + m22 * a2 + b2], axis=-1)
 
 
 def acceleration_from(q, velocity, torque):
-    """Forward dynamics, Eq. 12: the acceleration (…, 2) that this joint torque causes."""
-    m11, m12, m22, bias = _dynamics(q, velocity)
-    t1, t2 = np.moveaxis(torque - bias, -1, 0)
+    """Forward dynamics, Eq. 12: the accelerations (…, 2) that these joint torques cause."""
+    m11, m12, m22, b1, b2 = _dynamics(q, velocity)
+    t1, t2 = _columns(torque)
+    t1, t2 = t1 - b1, t2 - b2
     determinant = m11 * m22 - m12 * m12
     return np.stack([m22 * t1 - m12 * t2, m11 * t2 - m12 * t1], axis=-1) / determinant[..., None]
 
 
 def _dynamics(q, velocity):
-    m11, m12, m22, swing, bend, g1, g2 = np.moveaxis(_waves(q) @ _coefficients()[:, :7], -1, 0)
-    w1, w2 = np.moveaxis(velocity, -1, 0)
-    coriolis = np.stack([(bend * w2 - 2 * swing * w1) * w2 + g1, swing * w1 * w1 + g2], axis=-1)
+    """The mass matrix's entries, and the torques of motion, gravity and damping, each (…)."""
+    m11, m12, m22, swing, bend, gravity1, gravity2 = _columns(_waves(q) @ _coefficients()[0])
+    w1, w2 = _columns(velocity)
+    b1 = (bend * w2 - 2 * swing * w1) * w2 + gravity1 + DAMPING[0] * w1
+    b2 = swing * w1 * w1 + gravity2 + DAMPING[1] * w2
     # Damping acts on the velocity at the end of the step, as MuJoCo's integrator has it: stable.
-    d1, d2 = STEP * DAMPING
-    return m11 + d1, m12, m22 + d2, coriolis + DAMPING * velocity
+    return m11 + STEP * DAMPING[0], m12, m22 + STEP * DAMPING[1], b1, b2
+
+
+def _columns(values):
+    return (values[..., k] for k in range(values.shape[-1]))
 
 
 def paths(q):

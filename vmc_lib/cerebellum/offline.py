@@ -36,10 +36,11 @@ def published(plan: Plan, gains=GAINS, origin=(0.0, 0.0), sign=1):
     and then one for each of `gains`.
     """
     reached = plan.reached()
-    change = [published_change(plan, reached, n, origin, sign) for n in gains]
-    weights = plan.weights + np.stack([np.zeros_like(plan.weights), *change])
-    reached = plan.with_weights(weights).reached()
-    return Trials(weights, reached, _norm(plan.target - reached))
+    changes = np.stack([published_change(plan, reached, n, origin, sign) for n in gains])
+    tried = plan.with_weights(plan.weights + changes)
+    return _trials(
+        plan, [(plan.weights, reached), *zip(tried.weights, tried.reached(), strict=True)]
+    )
 
 
 def published_change(plan, reached, n, origin=(0.0, 0.0), sign=1):
@@ -60,8 +61,8 @@ def calibrate(plan: Plan, trials=2, broyden=True):
     arm really did (Broyden, 1965). The best weights so far are kept.
     """
     jacobian = np.swapaxes(plan.points, -1, -2)
-    history = [(plan.weights, plan.reached())]
-    weights, reached = history[0]
+    weights, reached = plan.weights, plan.reached()
+    history = [(weights, reached)]
     for _ in range(trials):
         change = _capped(least_change(jacobian, plan.target - reached))
         tried = plan.with_weights(weights + change).reached()
@@ -73,6 +74,10 @@ def calibrate(plan: Plan, trials=2, broyden=True):
         better = (_norm(plan.target - tried) < _norm(plan.target - reached))[..., None]
         weights = np.where(better, weights + change, weights)
         reached = np.where(better, tried, reached)
+    return _trials(plan, history)
+
+
+def _trials(plan, history):
     weights, reached = map(np.stack, zip(*history, strict=True))
     return Trials(weights, reached, _norm(plan.target - reached))
 

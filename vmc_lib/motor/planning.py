@@ -58,9 +58,8 @@ def habitual_weights(target, points):
     A target on a template gives that template all the weight, the limit of the equation.
     """
     distance = np.linalg.norm(points - target[..., None, :], axis=-1)
-    nearest = distance.min(axis=-1, keepdims=True)
-    nearness = np.where(distance > 1e-9, nearest, 1) / np.maximum(distance, 1e-9)
-    nearness = np.where((nearest <= 1e-9) & (distance > 1e-9), 0, nearness)
+    on = distance < 1e-9
+    nearness = np.where(on.any(axis=-1, keepdims=True), on, 1 / np.where(on, 1, distance))
     return nearness / nearness.sum(axis=-1, keepdims=True)
 
 
