@@ -11,7 +11,7 @@ from meshcat.transformations import translation_matrix
 
 from vmc_lib.show import Scene
 from vmc_lib.show.arm import _span, arm_scene
-from vmc_lib.show.scene import widget
+from vmc_lib.show.scene import SceneView
 
 
 def decode(scene):
@@ -53,7 +53,7 @@ def test_the_last_word_counts_and_copies_are_free():
 
 
 def test_the_live_viewer_takes_the_same_messages():
-    view = widget()
+    view = SceneView()
     view.messages = ball([1, 2, 3]).messages()
     assert "MeshCat" in view._esm and "vmcSceneWidget" in view._esm
 

@@ -3,7 +3,8 @@
 The arm's own scenes are in `vmc_lib.show.arm`.
 """
 
-from vmc_lib.show.demo import Choice, Pad, Slider, Switch, explore, figure
+from vmc_lib.show.controls import Choice, Pad, Slider, Switch
+from vmc_lib.show.demo import explore, figure
 from vmc_lib.show.figures import COLOURS, photo_view, say
 from vmc_lib.show.scene import Scene
 

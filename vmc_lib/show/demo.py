@@ -12,194 +12,18 @@ import itertools
 import json
 import math
 import os
-from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any
 
+import ipywidgets as widgets
 import numpy as np
 from IPython.display import HTML, display
 
+from vmc_lib.show.controls import as_control
 from vmc_lib.show.figures import framed, pictures, side_by_side
-from vmc_lib.show.scene import Scene, widget
+from vmc_lib.show.scene import Scene, SceneView
 
 MOST_POSITIONS = 200
-_demos = itertools.count(1)
-
-
-@dataclass(frozen=True)
-class Control:
-    """A labelled choice among finitely many values; `start` is the first shown."""
-
-    values: Sequence
-    label: str
-    start: Any = None
-    unit: str = ""
-
-    def __post_init__(self):
-        values = tuple(self.values)
-        if len(values) < 2:
-            raise ValueError(f"the control {self.label!r} has values {values}: give at least two")
-        object.__setattr__(self, "values", values)
-        if self.start is not None:
-            _ = self.first  # raises when `start` is none of the values
-
-    @property
-    def first(self):
-        """The position of the starting value."""
-        if self.start is None:
-            return 0
-        for place, value in enumerate(self.values):
-            if value == self.start or (_is_number(value) and np.isclose(value, self.start)):
-                return place
-        raise ValueError(f"{self.label!r} cannot start at {self.start!r}: not in {self.values}")
-
-    def read(self, widgets):
-        """The value that the control's widgets stand at."""
-        return widgets[0].value
-
-    @property
-    def texts(self):
-        unit = self.unit if self.unit in ("", "°") else f" {self.unit}"
-        return [f"{_text(value)}{unit}" for value in self.values]
-
-
-@dataclass(frozen=True)
-class Slider(Control):
-    """A slider over `values`; `play=True` adds a button that walks through them."""
-
-    play: bool = False
-
-    def html(self, name, stride):
-        texts = html.escape(json.dumps(self.texts, ensure_ascii=False))
-        play = '<button type="button" class="vmc-play" aria-pressed="false">Play</button>'
-        return (
-            f'<div class="vmc-control"><label for="{name}">{html.escape(self.label)}</label>'
-            f'<input type="range" id="{name}" min="0" max="{len(self.values) - 1}" '
-            f'value="{self.first}" data-stride="{stride}" data-texts="{texts}" '
-            f'aria-valuetext="{html.escape(self.texts[self.first])}">'
-            f'<output for="{name}">{html.escape(self.texts[self.first])}</output>'
-            f"{play if self.play else ''}</div>"
-        )
-
-    def widget(self):
-        import ipywidgets as widgets
-
-        options = list(zip(self.texts, self.values, strict=True))
-        slider = widgets.SelectionSlider(
-            options=options, index=self.first, description=self.label, style=_WIDE
-        )
-        if not self.play:
-            return [slider], slider
-        play = widgets.Play(value=self.first, max=len(options) - 1, interval=250)
-        widgets.jslink((play, "value"), (slider, "index"))
-        return [slider], widgets.HBox([slider, play])
-
-
-@dataclass(frozen=True)
-class Choice(Control):
-    """One of a few alternatives: buttons, or a menu when there are many."""
-
-    def html(self, name, stride):
-        label, many = html.escape(self.label), len(self.values) > 5
-        if many:
-            options = "".join(
-                f'<option value="{i}"{" selected" * (i == self.first)}>{html.escape(text)}</option>'
-                for i, text in enumerate(self.texts)
-            )
-            return (
-                f'<div class="vmc-control"><label for="{name}">{label}</label>'
-                f'<select id="{name}" data-stride="{stride}">{options}</select></div>'
-            )
-        radios = "".join(
-            f'<label><input type="radio" name="{name}" value="{i}" data-stride="{stride}"'
-            f"{' checked' * (i == self.first)}>{html.escape(text)}</label>"
-            for i, text in enumerate(self.texts)
-        )
-        return f'<fieldset class="vmc-control"><legend>{label}</legend>{radios}</fieldset>'
-
-    def widget(self):
-        import ipywidgets as widgets
-
-        kind = widgets.Dropdown if len(self.values) > 5 else widgets.RadioButtons
-        options = list(zip(self.texts, self.values, strict=True))
-        chosen = kind(options=options, index=self.first, description=self.label, style=_WIDE)
-        return [chosen], chosen
-
-
-@dataclass(frozen=True)
-class Switch(Control):
-    """On or off."""
-
-    def html(self, name, stride):
-        return (
-            f'<div class="vmc-control"><label><input type="checkbox" data-stride="{stride}"'
-            f"{' checked' * self.first}>{html.escape(self.label)}</label></div>"
-        )
-
-    def widget(self):
-        import ipywidgets as widgets
-
-        box = widgets.Checkbox(bool(self.first), description=self.label, indent=False)
-        return [box], box
-
-
-class Pad(Control):
-    """A place (x, y) on a grid, dragged over the first plot or photo; two sliders are its twin.
-
-    Its values are pairs, in the units of the plot's axes or in the photo's pixels.
-    """
-
-    def __init__(self, xs, ys, labels=("x", "y"), start=(None, None), unit=""):
-        pair = [Slider(v, *rest, unit) for v, *rest in zip((xs, ys), labels, start, strict=True)]
-        object.__setattr__(self, "pair", pair)
-        super().__init__(tuple(itertools.product(xs, ys)), " and ".join(labels), unit=unit)
-
-    @property
-    def first(self):
-        x, y = self.pair
-        return x.first * len(y.values) + y.first
-
-    def html(self, name, stride):
-        x, y = self.pair
-        grid = html.escape(json.dumps([[float(value) for value in s.values] for s in self.pair]))
-        twins = x.html(f"{name}-x", stride * len(y.values)) + y.html(f"{name}-y", stride)
-        return f'<div class="vmc-pad" data-grid="{grid}">{twins}</div>'
-
-    def widget(self):
-        import ipywidgets as widgets
-
-        (x, shown_x), (y, shown_y) = (slider.widget() for slider in self.pair)
-        return [*x, *y], widgets.VBox([shown_x, shown_y])
-
-    def read(self, widgets):
-        return tuple(widget.value for widget in widgets)
-
-
-_WIDE = {"description_width": "initial"}
 _SPOKEN = '<span role="status" style="position: absolute; clip-path: inset(50%)">{}</span>'
-
-
-def _is_number(value):
-    return isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
-
-
-def _text(value):
-    return f"{value:.4g}".replace("-", "−") if _is_number(value) else str(value)
-
-
-def _control(name, spec):
-    label = name.replace("_", " ")
-    if isinstance(spec, Control):
-        return spec
-    if isinstance(spec, (list, tuple)):
-        if not spec or all(isinstance(value, str) for value in spec):
-            return Choice(spec, label)
-        if sorted(spec, key=bool) == [False, True] and all(isinstance(v, bool) for v in spec):
-            return Switch((False, True), label, start=spec[0])
-    raise ValueError(
-        f"cannot make a control of {name}={spec!r}: give a Slider, a list of strings, "
-        "or [False, True]"
-    )
+_demos = itertools.count(1)
 
 
 def explore(draw, caption, alt, **controls):
@@ -212,7 +36,7 @@ def explore(draw, caption, alt, **controls):
     work: more than 200 positions, a control without effect, a start that is no value, an unknown
     picture.
     """
-    controls = {name: _control(name, spec) for name, spec in controls.items()}
+    controls = {name: as_control(name, spec) for name, spec in controls.items()}
     positions = math.prod(len(control.values) for control in controls.values())
     if positions > MOST_POSITIONS:
         raise ValueError(
@@ -287,21 +111,13 @@ def _pack(states):
     def places(lines):
         return [table.setdefault(line, len(table)) for line in lines]
 
-    rows = [
-        [
-            places([alt]),
-            *(places(p.split("\n") if isinstance(p, str) else p.messages()) for p in parts),
-        ]
-        for alt, parts in states
-    ]
+    rows = [[places([alt]), *(places(_lines(part)) for part in parts)] for alt, parts in states]
     data = json.dumps({"lines": list(table), "states": rows}, separators=(",", ":"))
     return base64.b64encode(gzip.compress(data.encode(), mtime=0)).decode()
 
 
 def _live(draw, caption, describe, controls):
     """The same demo in a kernel: ipywidgets call `draw`."""
-    import ipywidgets as widgets
-
     name = f"demo-{next(_demos)}"
     made = {key: control.widget() for key, control in controls.items()}
     views, alt = [], widgets.HTML()
@@ -310,7 +126,7 @@ def _live(draw, caption, describe, controls):
         values = {key: controls[key].read(sources) for key, (sources, _) in made.items()}
         parts = pictures(draw(**values), name)
         if not views:
-            views.extend(widget() if isinstance(p, Scene) else widgets.HTML() for p in parts)
+            views.extend(SceneView() if isinstance(p, Scene) else widgets.HTML() for p in parts)
         for view, part in zip(views, parts, strict=True):
             if isinstance(part, Scene):
                 view.messages = part.messages()

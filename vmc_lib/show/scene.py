@@ -14,7 +14,9 @@ import re
 from collections import defaultdict
 from pathlib import Path
 
+import anywidget
 import meshcat
+import traitlets
 import umsgpack
 
 STATIC = Path(__file__).parent / "static"
@@ -61,22 +63,15 @@ class Scene:
         return f'<div class="vmc-scene"><p>{html.escape(alt)}</p></div>'
 
 
-def widget():
-    """A viewer for a live kernel; set its `messages` to show a scene."""
-    import anywidget  # only a live kernel needs it
-    import traitlets
+class SceneView(anywidget.AnyWidget):
+    """The viewer in a live kernel; set its `messages` to show a scene."""
 
-    meshcat_js = Path(meshcat.__file__).parent / "viewer/dist/main.min.js"
-
-    class SceneWidget(anywidget.AnyWidget):
-        _esm = "\n".join(
-            [
-                "var define, exports, module;",  # meshcat is to find no module loader
-                meshcat_js.read_text(),
-                (STATIC / "scene.js").read_text(),
-                "export default { render: ({ model, el }) => vmcSceneWidget(model, el) };",
-            ]
-        )
-        messages = traitlets.List().tag(sync=True)
-
-    return SceneWidget()
+    _esm = "\n".join(
+        [
+            "var define, exports, module;",  # meshcat is to find no module loader
+            (Path(meshcat.__file__).parent / "viewer/dist/main.min.js").read_text(),
+            (STATIC / "scene.js").read_text(),
+            "export default { render: ({ model, el }) => vmcSceneWidget(model, el) };",
+        ]
+    )
+    messages = traitlets.List().tag(sync=True)

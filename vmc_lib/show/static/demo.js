@@ -75,7 +75,7 @@
           input.value = +input.value + 1;
           show();
           if (input.value === input.max) stop();
-        }, reduced.matches ? 1000 : 250);
+        }, reduced.matches ? 1000 : Math.min(400, 5000 / input.max));
       });
     }
     /* A pad: pressing or dragging on the first plot moves its two sliders to the nearest place. */
@@ -105,6 +105,12 @@
     show();
     demo.dataset.ready = "";
   };
+
+  /* Paper is white. */
+  const { dataset } = document.documentElement;
+  let theme;
+  addEventListener("beforeprint", () => ([theme, dataset.theme] = [dataset.theme, "light"]));
+  addEventListener("afterprint", () => (dataset.theme = theme));
 
   const startAll = () =>
     document.querySelectorAll(".vmc-demo:has(> script)").forEach((demo) => start(demo));

@@ -152,6 +152,7 @@ const vmcScene = (() => {
     label.innerHTML = 'turn the view <input type="range" min="-180" max="180" step="5" value="0">';
     label.lastChild.addEventListener("input", ({ target }) =>
       turned.forEach((view) => view.turn(+target.value)));
+    label.addEventListener("keydown", (event) => event.stopPropagation()); // a notebook would take it
     return label;
   };
 

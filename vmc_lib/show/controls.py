@@ -1,0 +1,184 @@
+"""The controls of a demo: what the reader moves.
+
+Each knows its values, its face in the built page (`html`) and its face in a live kernel
+(`widget`, which returns the widgets to listen to and the one to show).
+"""
+
+import html
+import itertools
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import ipywidgets as widgets
+import numpy as np
+
+MENU = 6  # a choice among this many or more is a menu, not a row of buttons
+_WIDE = {"description_width": "initial"}
+
+
+@dataclass(frozen=True)
+class Control:
+    """A labelled choice among finitely many values; `start` is the first shown."""
+
+    values: Sequence
+    label: str
+    start: Any = None
+    unit: str = ""
+
+    def __post_init__(self):
+        values = tuple(self.values)
+        if len(values) < 2:
+            raise ValueError(f"the control {self.label!r} has values {values}: give at least two")
+        object.__setattr__(self, "values", values)
+        if self.start is not None:
+            _ = self.first  # raises when `start` is none of the values
+
+    @property
+    def first(self):
+        """The position of the starting value."""
+        if self.start is None:
+            return 0
+        for place, value in enumerate(self.values):
+            if value == self.start or (_is_number(value) and np.isclose(value, self.start)):
+                return place
+        raise ValueError(f"{self.label!r} cannot start at {self.start!r}: not in {self.values}")
+
+    def read(self, sources):
+        """The value that the control's widgets stand at."""
+        return sources[0].value
+
+    @property
+    def texts(self):
+        unit = self.unit if self.unit in ("", "°") else f" {self.unit}"
+        return [f"{_text(value)}{unit}" for value in self.values]
+
+
+@dataclass(frozen=True)
+class Slider(Control):
+    """A slider over `values`; `play=True` adds a button that walks through them."""
+
+    play: bool = False
+
+    def html(self, name, stride):
+        texts = html.escape(json.dumps(self.texts, ensure_ascii=False))
+        play = '<button type="button" class="vmc-play" aria-pressed="false">Play</button>'
+        return (
+            f'<div class="vmc-control"><label for="{name}">{html.escape(self.label)}</label>'
+            f'<input type="range" id="{name}" min="0" max="{len(self.values) - 1}" '
+            f'value="{self.first}" data-stride="{stride}" data-texts="{texts}" '
+            f'aria-valuetext="{html.escape(self.texts[self.first])}">'
+            f'<output for="{name}">{html.escape(self.texts[self.first])}</output>'
+            f"{play if self.play else ''}</div>"
+        )
+
+    def widget(self):
+        options = list(zip(self.texts, self.values, strict=True))
+        slider = widgets.SelectionSlider(
+            options=options, index=self.first, description=self.label, style=_WIDE
+        )
+        if not self.play:
+            return [slider], slider
+        last = len(options) - 1
+        play = widgets.Play(value=self.first, max=last, interval=min(400, 5000 // last))
+        widgets.jslink((play, "value"), (slider, "index"))
+        return [slider], widgets.HBox([slider, play])
+
+
+@dataclass(frozen=True)
+class Choice(Control):
+    """One of a few alternatives: buttons, or a menu when there are many."""
+
+    def html(self, name, stride):
+        label, texts = html.escape(self.label), map(html.escape, self.texts)
+        if len(self.values) >= MENU:
+            options = "".join(
+                f'<option value="{i}"{" selected" * (i == self.first)}>{text}</option>'
+                for i, text in enumerate(texts)
+            )
+            return (
+                f'<div class="vmc-control"><label for="{name}">{label}</label>'
+                f'<select id="{name}" data-stride="{stride}">{options}</select></div>'
+            )
+        radios = "".join(
+            f'<label><input type="radio" name="{name}" value="{i}" data-stride="{stride}"'
+            f"{' checked' * (i == self.first)}>{text}</label>"
+            for i, text in enumerate(texts)
+        )
+        return f'<fieldset class="vmc-control"><legend>{label}</legend>{radios}</fieldset>'
+
+    def widget(self):
+        kind = widgets.Dropdown if len(self.values) >= MENU else widgets.RadioButtons
+        options = list(zip(self.texts, self.values, strict=True))
+        chosen = kind(options=options, index=self.first, description=self.label, style=_WIDE)
+        return [chosen], chosen
+
+
+@dataclass(frozen=True)
+class Switch(Control):
+    """On or off."""
+
+    def html(self, name, stride):
+        return (
+            f'<div class="vmc-control"><label><input type="checkbox" data-stride="{stride}"'
+            f"{' checked' * self.first}>{html.escape(self.label)}</label></div>"
+        )
+
+    def widget(self):
+        box = widgets.Checkbox(bool(self.first), description=self.label, indent=False)
+        return [box], box
+
+
+class Pad(Control):
+    """A place (x, y) on a grid, dragged over the first plot or photo; two sliders are its twin.
+
+    Its values are pairs, in the units of the plot's axes or in the photo's pixels.
+    """
+
+    def __init__(self, xs, ys, labels=("x", "y"), start=(None, None), unit=""):
+        pair = [Slider(v, *rest, unit) for v, *rest in zip((xs, ys), labels, start, strict=True)]
+        object.__setattr__(self, "pair", pair)
+        super().__init__(tuple(itertools.product(xs, ys)), " and ".join(labels), unit=unit)
+
+    @property
+    def first(self):
+        x, y = self.pair
+        return x.first * len(y.values) + y.first
+
+    def html(self, name, stride):
+        x, y = self.pair
+        grid = html.escape(json.dumps([[float(value) for value in s.values] for s in self.pair]))
+        twins = x.html(f"{name}-x", stride * len(y.values)) + y.html(f"{name}-y", stride)
+        return f'<div class="vmc-pad" data-grid="{grid}">{twins}</div>'
+
+    def widget(self):
+        (x, shown_x), (y, shown_y) = (slider.widget() for slider in self.pair)
+        return [*x, *y], widgets.VBox([shown_x, shown_y])
+
+    def read(self, sources):
+        return tuple(source.value for source in sources)
+
+
+def _is_number(value):
+    return isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
+
+
+def _text(value):
+    return f"{value:.4g}".replace("-", "−") if _is_number(value) else str(value)
+
+
+def as_control(name, spec):
+    """The control that `explore(..., name=spec)` asks for; ValueError when there is none."""
+    label = name.replace("_", " ")
+    if isinstance(spec, Control):
+        return spec
+    if isinstance(spec, (list, tuple)):
+        if not spec or all(isinstance(value, str) for value in spec):
+            return Choice(spec, label)
+        if sorted(spec, key=bool) == [False, True] and all(isinstance(v, bool) for v in spec):
+            return Switch((False, True), label, start=spec[0])
+    raise ValueError(
+        f"cannot make a control of {name}={spec!r}: give a Slider, a Pad, a list of strings, "
+        "or [False, True]"
+    )
