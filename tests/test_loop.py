@@ -1,0 +1,63 @@
+"""The loop: every stage runs for real, and what goes wrong is said."""
+
+import numpy as np
+import pytest
+
+from vmc_lib import loop, photos
+from vmc_lib.arm.posture import to_world
+
+
+@pytest.fixture(scope="module")
+def brain():
+    return loop.Brain.load("rig")
+
+
+@pytest.fixture(scope="module")
+def photo():
+    return photos.load("rig", "validation")[0]
+
+
+@pytest.fixture(scope="module")
+def sight(brain, photo):
+    return loop.see(brain, photo.image)
+
+
+def test_a_photo_becomes_a_reach_that_calibration_improves(brain, photo, sight):
+    target = loop.locate(brain, photo.image, sight.box, photo.camera)
+    reach = loop.reach(brain, target)
+    planned, calibrated = (
+        np.linalg.norm(motion.reached - reach.plan.target)
+        for motion in (reach.planned, reach.calibrated)
+    )
+    assert calibrated < planned < 0.05
+    assert np.linalg.norm(reach.hand(reach.calibrated)[-1] - target) < 0.05
+
+
+def test_the_hand_is_told_in_the_frame_of_the_trunk_straight(brain, photo):
+    reach = loop.reach(brain, photo.target, calibration=None)
+    assert reach.calibrated is reach.planned
+    np.testing.assert_array_equal(
+        reach.hand(reach.planned), to_world(reach.planned.hand, reach.turn)
+    )
+
+
+def test_nothing_recognised_is_said(brain, photo, sight):
+    nothing = loop.Sight(sight.regions, np.zeros_like(sight.probability))
+    assert nothing.box is None
+    with pytest.raises(ValueError, match="no shuttlecock was recognised"):
+        loop.locate(brain, photo.image, nothing.box, photo.camera)
+
+
+def test_a_place_out_of_reach_is_said(brain):
+    with pytest.raises(ValueError, match="reach"):
+        loop.reach(brain, np.array([2.0, -0.4, 0.1]))
+
+
+def test_scores_count_what_went_wrong(photo, sight):
+    scores = loop.score(photo, sight, None)
+    assert np.isnan([scores[key] for key in ("target", "planned", "calibrated")]).all()
+    batch = {key: np.array([value, value]) for key, value in scores.items()}
+    batch["calibrated"] = np.array([np.nan, 0.004])
+    assert loop.summary(batch | {"target": batch["calibrated"], "planned": batch["calibrated"]})[
+        "arrived"
+    ] == pytest.approx(0.5)

@@ -1,0 +1,143 @@
+"""The whole loop: a photo in, a reach out. It calls the parts in the order of the signal.
+
+where: proposals → regions; what: names; then a place on the table, the trunk's turn, a plan, the
+movement, its off-line calibration, and the movement again. No mathematics of its own.
+"""
+
+from contextlib import suppress
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import photos
+from .arm.posture import to_world, turn_towards
+from .arm.simulate import Motion
+from .cerebellum.offline import published
+from .motor import templates
+from .motor.planning import Plan, plan
+from .what.crops import crop
+from .what.recogniser import Recogniser
+from .where.boxes import iou
+from .where.place import Locator
+from .where.regions import RegionFinder, Regions
+
+FOUND = 0.8  # IoU at which a box counts as the object's (Section IV A)
+NEAR = 0.010  # m: a hand this close to the shuttlecock has arrived
+
+
+@dataclass(frozen=True)
+class Brain:
+    """What one level's training photos have taught: where to look, what it is, how to move."""
+
+    finder: RegionFinder
+    recogniser: Recogniser
+    locator: Locator
+    library: templates.Library
+
+    @classmethod
+    def load(cls, level):
+        """The brain trained on the training photos of `level`, from the weights that ship."""
+        locator = Locator.fit(photos.load(level, "train"), np.random.default_rng(0))
+        return cls(RegionFinder.load(level), Recogniser.load(), locator, templates.load())
+
+
+@dataclass(frozen=True)
+class Sight:
+    """What both visual pathways made of an image."""
+
+    regions: Regions
+    probability: np.ndarray  # (k,): that each kept box holds a shuttlecock
+
+    @property
+    def box(self):
+        """The box (4,) most likely to hold a shuttlecock, or None where none is likely."""
+        if not len(self.probability) or self.probability.max() < 0.5:
+            return None
+        return self.regions.boxes[self.probability.argmax()]
+
+
+@dataclass(frozen=True)
+class Reach:
+    """A reach for one place: before and after off-line calibration."""
+
+    target: np.ndarray  # (3,): where the shuttlecock seems to be, m
+    turn: float  # of the trunk, rad
+    plan: Plan
+    planned: Motion
+    calibrated: Motion
+
+    def hand(self, motion):
+        """The wrist's path (T + 1, 3) on the turned trunk, in the frame of the trunk straight."""
+        return to_world(motion.hand, self.turn)
+
+
+def see(brain, image):
+    """`Sight` of an image (400, 600, 3): where are objects, and which is a shuttlecock?"""
+    regions = brain.finder.find(image)
+    crops = np.array([crop(image, box) for box in regions.boxes])
+    return Sight(regions, brain.recogniser.probability(crops))
+
+
+def locate(brain, image, box, camera):
+    """The place (3,) of a shuttlecock seen in `box` (4,); ValueError when there is no box."""
+    if box is None:
+        raise ValueError("no shuttlecock was recognised: there is no place to reach for")
+    return brain.locator.find(image, box, camera)
+
+
+def reach(brain, target, calibration=published):
+    """`Reach` for a place (3,): plan, move, calibrate (unless that is None), move again.
+
+    ValueError when the place is out of reach or outside what past experience covers.
+    """
+    turn, point = turn_towards(target)
+    habit = plan(point, brain.library)
+    better = habit.with_weights(calibration(habit).best) if calibration else habit
+    return Reach(target, turn, habit, habit.move(), better.move())
+
+
+def see_and_reach(brain, photo, calibration=published):
+    """From a `Photo` to its `Sight` and `Reach`; ValueError when there is nothing to reach for."""
+    sight = see(brain, photo.image)
+    return sight, reach(brain, locate(brain, photo.image, sight.box, photo.camera), calibration)
+
+
+def score(photo, sight, reach):
+    """How it went, stage by stage, held against the photo's truth.
+
+    found: a kept box overlaps the shuttlecock by 0.8; named: the chosen box is the shuttlecock's
+    and not the cup's (more than half of the union shared); then errors in m against the true place:
+    of the place itself, and of the hand before and after calibration (NaN without a reach).
+    """
+    truth = photo.boxes["shuttlecock"][None]
+    boxes, errors = sight.regions.boxes, [np.nan] * 3
+    if reach is not None:
+        ends = [reach.hand(motion)[-1] for motion in (reach.planned, reach.calibrated)]
+        errors = [float(np.linalg.norm(p - photo.target)) for p in (reach.target, *ends)]
+    return {
+        "found": bool(len(boxes) and iou(boxes, truth).max() >= FOUND),
+        "named": sight.box is not None and iou(sight.box[None], truth)[0, 0] > 0.5,
+        **dict(zip(("target", "planned", "calibrated"), errors, strict=True)),
+    }
+
+
+def trial(level, split="test", calibration=published):
+    """`score` of every photo of a level and split, as a dictionary of arrays (n,)."""
+    brain, scores = Brain.load(level), []
+    for photo in photos.load(level, split):
+        sight, done = see(brain, photo.image), None
+        with suppress(ValueError):  # a place out of reach: no movement, and counted as such
+            done = reach(brain, locate(brain, photo.image, sight.box, photo.camera), calibration)
+        scores.append(score(photo, sight, done))
+    return {key: np.array([s[key] for s in scores]) for key in scores[0]}
+
+
+def summary(scores):
+    """The shares found, named and arrived (in [0, 1]), and the median errors in m."""
+    arrived = np.nan_to_num(scores["calibrated"], nan=np.inf) <= NEAR
+    return {
+        "found": float(scores["found"].mean()),
+        "named": float(scores["named"].mean()),
+        **{key: float(np.nanmedian(scores[key])) for key in ("target", "planned", "calibrated")},
+        "arrived": float(arrived.mean()),
+    }

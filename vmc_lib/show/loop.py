@@ -1,0 +1,69 @@
+"""The loop as pictures: what the eye sees beside what the arm does, one step after the other."""
+
+from vmc_lib.motor.templates import START
+from vmc_lib.show.arm import arm_scene
+from vmc_lib.show.figures import photo_view
+
+TICKS = range(0, 1001, 100)  # ms: the moments of a movement that are shown
+SEEING = ("a photo", "candidates", "regions", "after suppression", "names")
+STEPS = (
+    *SEEING,
+    *(f"first reach, {t / 1000:.1f} s" for t in TICKS),
+    *(f"calibrated, {t / 1000:.1f} s" for t in TICKS),
+)
+TURNED = 500  # ms: by then the trunk has turned
+
+
+def draw_step(photo, sight, reach, step):
+    """The photo with what is known by this step of `STEPS`, and the arm at that moment."""
+    if step in SEEING:
+        return photo_view(photo.image, _boxes(sight, step)), arm_scene(
+            START, shuttlecock=photo.target
+        )
+    motion = reach.planned if step.startswith("first") else reach.calibrated
+    return draw_moment(photo, sight, reach, motion, TICKS[(STEPS.index(step) - 5) % len(TICKS)])
+
+
+def draw_moment(photo, sight, reach, motion, t):
+    """The chosen box, the place reached for and the hand, `t` ms into a movement; and the arm."""
+    path = reach.hand(motion)
+    turn = reach.turn * min(1.0, t / TURNED)
+    points = [("target", reach.target, "green"), ("hand", path[t], "orange")]
+    view = photo_view(
+        photo.image,
+        [(sight.box, "", "green")],
+        [(photo.camera.project(place[None])[0], label, colour) for label, place, colour in points],
+    )
+    return view, arm_scene(
+        motion.q[t],
+        motion.activation[t],
+        turn=turn,
+        shuttlecock=photo.target,
+        balls=[(reach.target, "green")],
+    )
+
+
+def _boxes(sight, step):
+    regions = sight.regions
+    return {
+        "a photo": [],
+        "candidates": [(box, "", "grey") for box in regions.candidates],
+        "regions": [(box, "", "orange") for box in regions.passed],
+        "after suppression": [(box, "", "blue") for box in regions.boxes],
+        "names": [
+            (box, f"shuttlecock? {p:.0%}", "green" if p > 0.5 else "blue")
+            for box, p in zip(regions.boxes, sight.probability, strict=True)
+        ],
+    }[step]
+
+
+def step_in_words(photo, sight, reach, step):
+    """The same moment for those who cannot see it."""
+    regions = sight.regions
+    return {
+        "a photo": "A photo of a table with a shuttlecock and a cup; the arm rests.",
+        "candidates": f"{len(regions.candidates)} candidate boxes cover the photo; the arm rests.",
+        "regions": f"{len(regions.passed)} boxes are left, in heaps; the arm rests.",
+        "after suppression": f"{len(regions.boxes)} boxes are left; the arm rests.",
+        "names": "Each box carries its probability of holding a shuttlecock; the arm rests.",
+    }.get(step, f"The arm reaches for the shuttlecock: {step}.")
