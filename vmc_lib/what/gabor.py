@@ -1,12 +1,14 @@
 """How much a filter looks like a Gabor function, the textbook model of a simple cell in V1."""
 
 import itertools
+from functools import cache
 
 import numpy as np
 from scipy.optimize import minimize
 
 # angle (rad), wavelength, breadth across and along the stripes, centre x and y (pixels)
 BOUNDS = np.array([(-np.inf, 3, 1, 1, -2.5, -2.5), (np.inf, 12, 4, 5, 2.5, 2.5)])
+PATIENCE = {"maxiter": 400}
 
 
 def gabor_pair(n_w, angle, wavelength, across, along, x0, y0):
@@ -27,23 +29,32 @@ def fit(W, pair):
     return mixture, np.linalg.norm(mixture) / np.linalg.norm(target)
 
 
+@cache
+def coarse(n_w):
+    """Shapes on a coarse grid (m, 6), and an orthonormal basis of each one's pair (m, 2, n_w²)."""
+    angles = np.arange(12) * np.pi / 12
+    shapes = np.array(
+        list(itertools.product(angles, (4, 6, 9), (1.5, 2.5), (2, 4), (-1, 1), (-1, 1)))
+    )
+    pairs = [np.linalg.qr(gabor_pair(n_w, *shape).T)[0].T for shape in shapes]
+    return shapes, np.array(pairs)
+
+
 def best_gabor(W):
     """The Gabor function closest to a filter W (n_w, n_w), and their correlation (0 to 1).
 
-    Every angle, wavelength, breadth and place on a coarse grid is tried, the best refined.
+    Every angle, wavelength, breadth and place on a coarse grid is tried, the best two refined.
     """
     W = np.asarray(W, float)
     n_w = len(W)
-    grid = itertools.product(
-        np.arange(12) * np.pi / 12, (4, 6, 9), (1.5, 2.5), (2, 4), (-1, 1), (-1, 1)
-    )
 
     def miss(shape):
         return -fit(W, gabor_pair(n_w, *np.clip(shape, *BOUNDS)))[1]
 
-    start = sorted(grid, key=miss)[:3]
-    how = {"method": "Nelder-Mead", "options": {"maxiter": 400}}
-    ends = [minimize(miss, shape, **how) for shape in start]
-    best = min(ends, key=lambda end: end.fun).x
-    mixture, correlation = fit(W, gabor_pair(n_w, *np.clip(best, *BOUNDS)))
+    shapes, pairs = coarse(n_w)
+    fits = np.square(pairs @ (W - W.mean()).ravel()).sum(1)
+    starts = shapes[fits.argsort()[-2:]]
+    ends = [minimize(miss, start, method="Nelder-Mead", options=PATIENCE) for start in starts]
+    shape = min(ends, key=lambda end: end.fun).x
+    mixture, correlation = fit(W, gabor_pair(n_w, *np.clip(shape, *BOUNDS)))
     return mixture.reshape(n_w, n_w), float(correlation)
