@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from vmc_lib.arm.model import LIMITS
-from vmc_lib.arm.simulate import simulate
+from vmc_lib.arm.simulate import World, simulate
 
 START = np.radians([-20.0, 95.0])
 QUIET = np.zeros((10, 6))
@@ -21,6 +21,17 @@ def test_closed_form_moves_as_mujoco_does():
     fast, reference = (simulate(excitations, starts, engine=e) for e in ("closed form", "mujoco"))
     assert np.abs(fast.q - reference.q).max() < 1e-6
     np.testing.assert_array_equal(fast.activation, reference.activation)
+
+
+def test_the_engines_agree_with_a_load_in_a_force_field():
+    excitations = random_excitations(5, 800, np.random.default_rng(3))
+    world = World(load=0.5, field=((-1, 2), (-2, -1)))
+    fast, reference, bare = (
+        simulate(excitations, START, engine=e, world=w)
+        for e, w in [("closed form", world), ("mujoco", world), ("closed form", World())]
+    )
+    assert np.abs(fast.q - reference.q).max() < 1e-6
+    assert np.abs(fast.q - bare.q).max() > 0.01
 
 
 def test_a_batch_is_its_movements_one_by_one():
@@ -61,5 +72,7 @@ def test_bad_starts_and_engines():
         simulate(QUIET, np.zeros(3))
     with pytest.raises(ValueError, match="activation"):
         simulate(QUIET, START, np.full(6, np.inf))
+    with pytest.raises(ValueError, match="cannot be held"):
+        simulate(QUIET, START, world=World(load=-1))
     with pytest.raises(ValueError, match="closed form"):
         simulate(QUIET, START, engine="opensim")

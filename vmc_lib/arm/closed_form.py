@@ -9,9 +9,10 @@ only six frequencies: a few dozen snapshots of the MuJoCo model determine their 
 from functools import cache
 from itertools import product
 
+import mujoco
 import numpy as np
 
-from .model import DAMPING, LIMITS, STEP, forward, mass_matrix, muscle_paths
+from .model import DAMPING, LIMITS, STEP, forward, holding, mass_matrix, muscle_paths
 
 FREQUENCIES = np.array([(0, 0), (0, 1), (0, 2), (1, -1), (1, 0), (1, 1)]).T
 ROWS = 10_001  # of the muscle tables: steps of half a milliradian
@@ -25,22 +26,25 @@ def _waves(q):
 
 
 @cache
-def _coefficients():
+def _coefficients(load=0.0):
     """Of the waves in the dynamics (12, 7), as `_dynamics` unpacks it, and the hand (12, 3)."""
     angles = np.linspace(0, 2 * np.pi, 6, endpoint=False)
     snapshots = np.array(list(product(angles, angles)))
-    seen = np.array([_snapshot(q) for q in snapshots])
+    data = mujoco.MjData(holding(load))
+    seen = np.array([_snapshot(q, data) for q in snapshots])
     solved = np.linalg.lstsq(_waves(snapshots), seen)[0]
     return solved[:, :7].copy(), solved[:, 7:].copy()
 
 
-def _snapshot(q):
-    still = forward(q)
-    inertia, gravity = mass_matrix(still), still.qfrc_bias
-    swing = forward(q, (1, 0)).qfrc_bias - gravity  # centrifugal torque of a turning shoulder …
-    bend = forward(q, (0, 1)).qfrc_bias - gravity  # … and of a bending elbow
-    terms = [inertia[0, 0], inertia[0, 1], inertia[1, 1], swing[1], bend[0], *gravity]
-    return [*terms, *still.site("hand").xpos]
+def _snapshot(q, data):
+    gravity = forward(q, data=data).qfrc_bias.copy()
+    inertia = mass_matrix(data)
+    swing = (
+        forward(q, (1, 0), data).qfrc_bias[1] - gravity[1]
+    )  # a turning shoulder throws outwards,
+    bend = forward(q, (0, 1), data).qfrc_bias[0] - gravity[0]  # and so does a bending elbow
+    terms = [inertia[0, 0], inertia[0, 1], inertia[1, 1], swing, bend, *gravity]
+    return [*terms, *data.site("hand").xpos]
 
 
 def hand(q):
@@ -48,25 +52,26 @@ def hand(q):
     return _waves(np.asarray(q)) @ _coefficients()[1]
 
 
-def torque_for(q, velocity, acceleration):
+def torque_for(q, velocity, acceleration, load=0.0):
     """Inverse dynamics: torques (…, 2) in N m that give these accelerations over one step."""
-    m11, m12, m22, b1, b2 = _dynamics(q, velocity)
+    m11, m12, m22, b1, b2 = _dynamics(q, velocity, load)
     a1, a2 = _columns(acceleration)
     return np.stack([m11 * a1 + m12 * a2 + b1, m12 * a1 + m22 * a2 + b2], axis=-1)
 
 
-def acceleration_from(q, velocity, torque):
-    """Forward dynamics, Eq. 12: the accelerations (…, 2) that these joint torques cause."""
-    m11, m12, m22, b1, b2 = _dynamics(q, velocity)
+def acceleration_from(q, velocity, torque, load=0.0):
+    """Forward dynamics, Eq. 12: the accelerations (…, 2) that joint torques cause; `load` in kg."""
+    m11, m12, m22, b1, b2 = _dynamics(q, velocity, load)
     t1, t2 = _columns(torque)
     t1, t2 = t1 - b1, t2 - b2
     determinant = m11 * m22 - m12 * m12
     return np.stack([m22 * t1 - m12 * t2, m11 * t2 - m12 * t1], axis=-1) / determinant[..., None]
 
 
-def _dynamics(q, velocity):
+def _dynamics(q, velocity, load):
     """The mass matrix's entries, and the torques of motion, gravity and damping, each (…)."""
-    m11, m12, m22, swing, bend, gravity1, gravity2 = _columns(_waves(q) @ _coefficients()[0])
+    terms = _waves(q) @ _coefficients(load)[0]
+    m11, m12, m22, swing, bend, gravity1, gravity2 = _columns(terms)
     w1, w2 = _columns(velocity)
     b1 = (bend * w2 - 2 * swing * w1) * w2 + gravity1 + DAMPING[0] * w1
     b2 = swing * w1 * w1 + gravity2 + DAMPING[1] * w2

@@ -5,13 +5,15 @@ forward and bends the elbow. Positions are metres in the shoulder frame: origin 
 joint, x forward, y up, z to the right.
 """
 
+from functools import cache
 from importlib.resources import files
 from typing import NamedTuple
 
 import mujoco
 import numpy as np
 
-MODEL = mujoco.MjModel.from_xml_string((files("vmc_lib.arm") / "arm26.xml").read_text())
+XML = (files("vmc_lib.arm") / "arm26.xml").read_text()
+MODEL = mujoco.MjModel.from_xml_string(XML)
 MUSCLES = tuple(MODEL.tendon(k).name for k in range(MODEL.ntendon))
 F0, L0, SLACK = (MODEL.numeric(name).data.copy() for name in ("F0", "L0", "slack"))
 LIMITS = MODEL.jnt_range.copy()  # (2, 2): lowest and highest angle of each joint
@@ -26,11 +28,24 @@ class Geometry(NamedTuple):
     muscles: dict  # name -> path (n, 3) from origin to insertion, tangent points of wraps included
 
 
+@cache
+def holding(load):
+    """The model with a weight of `load` kg, a point, held at the wrist; `MODEL` itself for 0."""
+    if not 0 <= load <= 10:
+        raise ValueError(f"a load of {load} kg cannot be held; choose 0 to 10")
+    if load == 0:
+        return MODEL
+    spec = mujoco.MjSpec.from_string(XML)
+    weight = {"mass": load, "inertia": [1e-9] * 3, "explicitinertial": True}
+    spec.body("forearm").add_body(name="held", pos=MODEL.site("hand").pos, **weight)
+    return spec.compile()
+
+
 def forward(q, velocity=(0.0, 0.0), data=None):
     """MuJoCo's data (new, or `data` overwritten) with one posture and joint velocity computed."""
     data = data or mujoco.MjData(MODEL)
     data.qpos, data.qvel = q, velocity
-    mujoco.mj_forward(MODEL, data)
+    mujoco.mj_forward(data.model, data)
     return data
 
 
@@ -56,5 +71,5 @@ def geometry(q):
 def mass_matrix(data):
     """The joints' inertia (2, 2) in kg m² at MuJoCo's current posture."""
     matrix = np.empty((MODEL.nv, MODEL.nv))
-    mujoco.mj_fullM(MODEL, data, matrix)
+    mujoco.mj_fullM(data.model, data, matrix)
     return matrix

@@ -6,17 +6,28 @@ joint stops, with the same semi-implicit Euler steps of 1 ms.
 """
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import mujoco
 import numpy as np
 
 from . import closed_form
 from .closed_form import hand
-from .model import F0, L0, LIMITS, MODEL, SLACK, STEP, muscle_paths
+from .model import F0, L0, LIMITS, SLACK, STEP, holding, muscle_paths
 from .muscle import MAX_VELOCITY, activation_rate, force
 
 STOP_STIFFNESS = 200.0  # N m / rad: ours, not arm26's; bone and ligament beyond the joints' limits
 STOP_DAMPING = 0.5  # s / rad
+
+
+class World(NamedTuple):
+    """What the arm meets while it moves; as it is here, nothing."""
+
+    load: float = 0.0  # kg, held at the wrist
+    field: tuple = ((0.0, 0.0), (0.0, 0.0))  # N m s / rad: torque = field @ joint velocity
+
+
+EMPTY = World()
 
 
 @dataclass(frozen=True)
@@ -43,12 +54,12 @@ class Motion:
         return np.abs(self.velocity[..., -1, :]).max(axis=-1)
 
 
-def simulate(excitations, start, activation=None, engine="closed form"):
+def simulate(excitations, start, activation=None, engine="closed form", world=EMPTY):
     """The `Motion` that excitations (…, T, 6), sampled at 1 kHz, give the arm.
 
     It starts still, in the posture `start` (…, 2), with the muscles' `activation` (…, 6); by
-    default they have settled to the first excitation. ValueError when an excitation is not a
-    number in [0, 1], or a shape is wrong.
+    default they have settled to the first excitation. `world` may load its hand or push it about.
+    ValueError when an excitation is not a number in [0, 1], or a shape is wrong.
     """
     u = np.asarray(excitations, dtype=float)
     if u.ndim < 2 or u.shape[-1] != len(F0) or 0 in u.shape:
@@ -61,7 +72,7 @@ def simulate(excitations, start, activation=None, engine="closed form"):
     q = _each("start", start, leading, 2)
     first = _each("activation", u[..., 0, :] if activation is None else activation, leading, 6)
     a = activations(u.reshape(-1, *u.shape[-2:]), first)
-    path = ENGINES[engine](a, q)
+    path = ENGINES[engine](a, q, world)
     return Motion(*(x.reshape(*leading, *x.shape[1:]) for x in (*path, a)))
 
 
@@ -95,30 +106,31 @@ def stop_torque(q, velocity):
     return -STOP_STIFFNESS * (beyond + STOP_DAMPING * np.abs(beyond) * velocity)
 
 
-def _closed_form(activation, start):
+def _closed_form(activation, start, world):
     q, velocity = (np.empty((activation.shape[1], *start.shape)) for _ in range(2))
-    q[0], velocity[0] = start, 0
+    q[0], velocity[0], push = start, 0, np.transpose(world.field)
     for k, a in enumerate(np.swapaxes(activation[:, :-1], 0, 1)):
         torque = muscle_torque(a, *closed_form.paths(q[k]), velocity[k])
-        torque += stop_torque(q[k], velocity[k])
-        acceleration = closed_form.acceleration_from(q[k], velocity[k], torque)
+        torque += stop_torque(q[k], velocity[k]) + velocity[k] @ push
+        acceleration = closed_form.acceleration_from(q[k], velocity[k], torque, world.load)
         velocity[k + 1] = velocity[k] + STEP * acceleration
         q[k + 1] = q[k] + STEP * velocity[k + 1]
     return np.swapaxes(q, 0, 1), np.swapaxes(velocity, 0, 1)
 
 
-def _mujoco(activation, start):
+def _mujoco(activation, start, world):
     q, velocity = (np.empty((*activation.shape[:2], 2)) for _ in range(2))
-    data = mujoco.MjData(MODEL)
+    data = mujoco.MjData(model := holding(world.load))
     for b, posture in enumerate(start):
-        mujoco.mj_resetData(MODEL, data)
+        mujoco.mj_resetData(model, data)
         data.qpos = q[b, 0] = posture
         velocity[b, 0] = 0
         for k, a in enumerate(activation[b, :-1]):
-            mujoco.mj_step1(MODEL, data)
+            mujoco.mj_step1(model, data)
             torque = muscle_torque(a, *muscle_paths(data), data.qvel)
-            data.qfrc_applied = torque + stop_torque(data.qpos, data.qvel)
-            mujoco.mj_step2(MODEL, data)
+            torque += stop_torque(data.qpos, data.qvel) + world.field @ data.qvel
+            data.qfrc_applied = torque
+            mujoco.mj_step2(model, data)
             q[b, k + 1], velocity[b, k + 1] = data.qpos, data.qvel
     return q, velocity
 

@@ -89,12 +89,14 @@ class GranuleCells(RegressorMixin, BaseEstimator):
     """Ridge regression on a random radial-basis expansion, learnt lesson by lesson.
 
     `cells` granule cells with receptive fields of the given `width` (in the units of X) lie at
-    random about the first lessons; `ridge` is how reluctantly Purkinje weights move from zero.
+    random about the first lessons; `ridge` is how reluctantly Purkinje weights move from zero;
+    `memory` is the share of older lessons that a new batch leaves standing: in a world that
+    changes it pays to forget.
     """
 
-    def __init__(self, width=0.05, cells=600, ridge=1e-3, random_state=0):
+    def __init__(self, width=0.05, cells=600, ridge=1e-3, memory=1.0, random_state=0):
         self.width, self.cells, self.ridge = width, cells, ridge
-        self.random_state = random_state
+        self.memory, self.random_state = memory, random_state
 
     def fit(self, X, y):
         """Forget everything, place the cells about X (n, d), learn y (n,) or (n, k)."""
@@ -102,19 +104,20 @@ class GranuleCells(RegressorMixin, BaseEstimator):
         rng = np.random.default_rng(self.random_state)
         low, high = X.min(axis=0) - self.width, X.max(axis=0) + self.width
         self.centres_ = rng.uniform(low, high, (self.cells, X.shape[1]))
-        self.gram_ = self.ridge * np.eye(self.cells)
+        self.gram_ = np.zeros((self.cells, self.cells))
         self.climbing_ = np.zeros((self.cells, *y.shape[1:]))
         return self.partial_fit(X, y)
 
     def partial_fit(self, X, y):
-        """Learn these lessons as well; the order of lessons does not matter."""
+        """Learn these lessons as well; where `memory` is 1, their order does not matter."""
         if not hasattr(self, "centres_"):
             return self.fit(X, y)
         X, y = validate_data(self, X, y, multi_output=True, reset=False)
         active = self._excite(X)
-        self.gram_ += active.T @ active
-        self.climbing_ += active.T @ y
-        self.purkinje_ = np.linalg.solve(self.gram_, self.climbing_)
+        self.gram_ = self.memory * self.gram_ + active.T @ active
+        self.climbing_ = self.memory * self.climbing_ + active.T @ y
+        reluctant = self.gram_ + self.ridge * np.eye(self.cells)
+        self.purkinje_ = np.linalg.solve(reluctant, self.climbing_)
         return self
 
     def predict(self, X):

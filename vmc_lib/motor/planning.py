@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..arm.simulate import EMPTY, World
 from .templates import Library, reach
 
 PART = 512  # movements simulated at once
@@ -20,6 +21,7 @@ class Plan:
     target: np.ndarray  # (…, 2)
     chosen: np.ndarray  # (…, N): rows of the library
     weights: np.ndarray  # (…, N)
+    world: World = EMPTY  # what the arm will meet; the plan does not know it
 
     @property
     def points(self):
@@ -35,7 +37,7 @@ class Plan:
 
     def move(self):
         """The `Motion` that the plan gives the arm."""
-        return reach(self.excitations)
+        return reach(self.excitations, self.world)
 
     def reached(self):
         """Where the reach ends, (…, 2); for large batches, moved in parts to spare memory."""
@@ -50,6 +52,10 @@ class Plan:
     def with_weights(self, weights):
         """The same templates, weighted otherwise; leading axes may be added, for many trials."""
         return replace(self, weights=weights, chosen=np.broadcast_to(self.chosen, weights.shape))
+
+    def under(self, world):
+        """The same plan, to be moved in another `World`: with a load, in a force field."""
+        return replace(self, world=world)
 
 
 def habitual_weights(target, points):

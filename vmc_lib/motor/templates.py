@@ -11,7 +11,7 @@ from importlib.resources import files
 import numpy as np
 
 from ..arm.posture import posture
-from ..arm.simulate import simulate
+from ..arm.simulate import EMPTY, simulate
 from .inverse import excitation_knots, hold, minimum_jerk, spline
 
 START = np.radians([-20.0, 95.0])  # every reach begins here: elbow bent, the hand over the table
@@ -40,9 +40,9 @@ def load(spacing=0.06):
     return Library(reach(excitations).reached, excitations)
 
 
-def reach(excitations):
+def reach(excitations, world=EMPTY):
     """The `Motion` that excitations (…, T, 6) give the arm from rest in `START`."""
-    return simulate(excitations, START, _rest())
+    return simulate(excitations, START, _rest(), world=world)
 
 
 def grid(spacing):
