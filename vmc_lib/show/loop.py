@@ -21,17 +21,17 @@ def draw_step(photo, sight, reach, step):
             START, shuttlecock=photo.target
         )
     motion = reach.planned if step.startswith("first") else reach.calibrated
-    return draw_moment(photo, sight, reach, motion, TICKS[(STEPS.index(step) - 5) % len(TICKS)])
+    return draw_moment(photo, sight.box, reach, motion, TICKS[(STEPS.index(step) - 5) % len(TICKS)])
 
 
-def draw_moment(photo, sight, reach, motion, t):
+def draw_moment(photo, box, reach, motion, t):
     """The chosen box, the place reached for and the hand, `t` ms into a movement; and the arm."""
     path = reach.hand(motion)
     turn = reach.turn * min(1.0, t / TURNED)
     points = [("target", reach.target, "green"), ("hand", path[t], "orange")]
     view = photo_view(
         photo.image,
-        [(sight.box, "", "green")],
+        [(box, "", "green")],
         [(photo.camera.project(place[None])[0], label, colour) for label, place, colour in points],
     )
     return view, arm_scene(
