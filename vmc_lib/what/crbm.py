@@ -8,6 +8,8 @@ Shapes: visible v (n, channels, n_v, n_v), hidden h (n, K, n_h, n_h) with n_h = 
 pooled p (n, K, n_h / c, n_h / c). Everything here is a torch tensor, on the device of `W`.
 """
 
+from math import isfinite
+
 import torch
 from torch.nn import functional as F
 
@@ -134,6 +136,7 @@ class CRBM:
         range. Every epoch draws its own random numbers from (seed, epoch) and starts without
         momentum, so a machine saved after epoch 3 and trained on range(4, 8) ends as one trained on
         range(8). `pressure` pulls each map's mean activity towards `sparsity` through its bias.
+        ValueError for no patches, and when learning runs away.
         """
         if len(patches) == 0:
             raise ValueError("there are no patches to learn from")
@@ -152,7 +155,10 @@ class CRBM:
                 self.b = self.b + step * (db / area + pressure * (sparsity - h.mean((0, 2, 3))))
                 self.a = self.a + step * da / area
                 errors.append((v - dream).square().mean())
-            yield epoch, float(torch.stack(errors).mean())
+            error = float(torch.stack(errors).mean())
+            if not isfinite(error):
+                raise ValueError(f"learning ran away in epoch {epoch}: lower the rate {rate}")
+            yield epoch, error
 
     # ------------------------------------------------------------ keeping
 

@@ -1,0 +1,71 @@
+import numpy as np
+import pytest
+import torch
+
+from vmc_lib import photos
+from vmc_lib.what.cdbn import CDBN, crops_of, train
+from vmc_lib.what.crops import whiten
+from vmc_lib.what.gabor import best_gabor, gabor_pair
+
+
+@pytest.fixture(scope="module")
+def cdbn():
+    return CDBN.load()
+
+
+@pytest.fixture(scope="module")
+def white():
+    crops, _ = crops_of(photos.load("rig", "train")[:2])
+    return whiten(crops)
+
+
+def test_layers_have_the_papers_sizes(cdbn, white):
+    layers = cdbn.layers(white)
+    widths = {"V": (1, 200), "H1": (10, 192), "P1": (10, 96), "H2": (10, 88), "P2": (10, 44)}
+    for name, (count, width) in (widths | {"MP2": (1, 44)}).items():
+        assert layers[name].shape == (4, count, width, width)
+    assert torch.equal(layers["MP2"][:, 0], layers["P2"].mean(1))
+    for name in ("H1", "P1", "H2", "P2"):
+        assert 0 <= layers[name].min() and layers[name].max() <= 1
+
+
+def test_projection_is_what_a_second_layer_unit_paints(cdbn):
+    """Moving a picture along a projected filter drives its unit up, as a straight line."""
+    projected = cdbn.projected()
+    assert projected.shape == (10, 23, 23)
+    for k in (0, 7):
+        h1 = torch.nn.functional.interpolate(cdbn.second.W[k : k + 1], scale_factor=2) / 4
+        painted = cdbn.first.visible_mean(h1) - cdbn.first.a
+        assert torch.allclose(painted[0, 0], projected[k], atol=1e-5)
+
+
+def test_first_layer_filters_are_gabor_like(cdbn):
+    correlations = [best_gabor(W)[1] for W in cdbn.first.W[:, 0]]
+    assert sum(r >= 0.75 for r in correlations) >= 8
+    noise = np.random.default_rng(0).normal(size=(5, 8, 8))
+    assert max(best_gabor(W)[1] for W in noise) < 0.75
+
+
+def test_best_gabor_finds_a_gabor_again():
+    cosine, sine = gabor_pair(8, 0.7, 5, 1.7, 3, 0.4, -0.8)
+    found, correlation = best_gabor((cosine + 0.5 * sine).reshape(8, 8) + 3)
+    assert correlation > 0.999
+    assert found.ravel() == pytest.approx(cosine + 0.5 * sine, abs=0.02)
+
+
+def test_training_is_repeatable_and_saves_whole(white, tmp_path):
+    positive = np.array([True, False, True, False])
+    one, two = (train(white, positive, 1, patches=200, report=lambda _: None) for _ in range(2))
+    one.save(tmp_path / "one.npz")
+    kept = CDBN.load(tmp_path / "one.npz")
+    p2 = [net.layers(white)["P2"] for net in (one, two, kept)]
+    assert torch.equal(p2[0], p2[1]) and torch.equal(p2[0], p2[2])
+    other = train(white, positive, 2, patches=200, report=lambda _: None)
+    assert not torch.equal(p2[0], other.layers(white)["P2"])
+
+
+@pytest.mark.parametrize("n_w", [7, 10, 11])
+def test_other_filter_widths_are_trimmed_to_whole_blocks(white, n_w):
+    net = train(white, np.ones(4, bool), n_w=n_w, patches=100, report=lambda _: None)
+    for layer in ("H1", "H2"):
+        assert net.layers(white)[layer].shape[-1] % 2 == 0

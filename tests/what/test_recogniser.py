@@ -1,0 +1,69 @@
+import numpy as np
+import pytest
+
+from vmc_lib import photos
+from vmc_lib.what.cdbn import crops_of
+from vmc_lib.what.crops import crop
+from vmc_lib.what.recogniser import Recogniser, elsewhere, examples, fit, shaken
+from vmc_lib.where.boxes import iou
+
+
+@pytest.mark.parametrize("name", ["MP2", "P2"])
+def test_it_knows_a_shuttlecock_from_a_cup(name):
+    crops, shuttlecock = crops_of(photos.load("rig", "validation")[:8])
+    chance = Recogniser.load(name).probability(crops)
+    assert chance.shape == (16,)
+    assert ((chance >= 0) & (chance <= 1)).all()
+    assert ((chance > 0.5) == shuttlecock).mean() >= 14 / 16
+
+
+def test_the_table_is_no_shuttlecock():
+    rng, shots = np.random.default_rng(0), photos.load("rig", "validation")[:8]
+    crops = [crop(shot.image, elsewhere(shot, rng)) for shot in shots for _ in range(2)]
+    assert (Recogniser.load().probability(crops) < 0.5).mean() >= 14 / 16
+
+
+def test_nothing_and_nonsense():
+    assert Recogniser.load().probability([]).shape == (0,)
+    with pytest.raises(ValueError, match="contrast"):
+        Recogniser.load().probability(np.ones((1, 200, 200)))
+    with pytest.raises(ValueError, match="read-out"):
+        Recogniser.load("P3")
+
+
+def blobs(n, rng, apart):
+    y = np.arange(n) % 2 == 0
+    return rng.normal(size=(n, 5)) + apart * y[:, None], y
+
+
+def test_probabilities_are_calibrated():
+    """Of the cases called 70 to 90 %, about 80 % are so."""
+    rng = np.random.default_rng(0)
+    linear = fit(*blobs(400, rng, 0.6), *blobs(2000, rng, 0.6))
+    x, y = blobs(20_000, rng, 0.6)
+    chance = linear.probability(x)
+    for low in (0.1, 0.3, 0.5, 0.7):
+        here = (chance > low) & (chance < low + 0.2)
+        assert y[here].mean() == pytest.approx(chance[here].mean(), abs=0.05)
+
+
+def test_fit_refuses_what_it_cannot_learn_from():
+    x, y = blobs(40, np.random.default_rng(0), 1)
+    bad = [(x[:0], y[:0]), (x, np.ones(40, bool)), (np.full_like(x, np.nan), y)]
+    for features, labels in bad:
+        with pytest.raises(ValueError, match="both classes"):
+            fit(features, labels, x, y)
+        with pytest.raises(ValueError, match="both classes"):
+            fit(x, y, features, labels)
+
+
+def test_examples():
+    rng, shots = np.random.default_rng(0), photos.load("rig", "train")[:3]
+    crops, labels = examples(shots, rng, copies=2, background=1)
+    assert crops.shape == (15, 200, 200)
+    assert labels.tolist() == [True, False, True, False, False] * 3
+    for shot in shots:
+        objects = np.array(list(shot.boxes.values()))
+        assert iou([elsewhere(shot, rng)], objects).max() < 0.3
+        near = [iou([shaken(box, rng)], [box])[0, 0] for box in objects for _ in range(20)]
+        assert 0.6 < np.mean(near) < 0.95
