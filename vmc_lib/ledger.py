@@ -62,7 +62,7 @@ class Row:
 # ---------------------------------------------------------------- what each row measures
 
 
-def table_1():
+def _table_1():
     kernels = {"linear": "linear", "RBF": "rbf", "polynomial": "poly"}
     held_out, in_sample = (evaluate.table_1("rig", split) for split in ("test", "train"))
     return _precision_recall(
@@ -72,13 +72,13 @@ def table_1():
     )
 
 
-def table_2():
+def _table_2():
     held_out, in_sample = (evaluate.table_2("rig", split) for split in ("test", "train"))
     names = ("published", "improved")
     return _precision_recall(dict.fromkeys(names, paper.TABLE_2), held_out, in_sample)
 
 
-def table_3():
+def _table_3():
     ours = {"CDBN": "CDBN, MP2", "HMAX": "HMAX, 10 prototypes"}
     table = comparison.table_3("rig")
     return _precision_recall(
@@ -103,7 +103,7 @@ def _precision_recall(claimed, held_out, in_sample):
     ]
 
 
-def figure_1():
+def _figure_1():
     scores = loop.trial("rig", "validation")
     return [
         Quantity(
@@ -112,7 +112,7 @@ def figure_1():
     ]
 
 
-def figure_2():
+def _figure_2():
     layers = _layers()
     width = {name: maps.shape[-1] for name, maps in layers.items()}
     return [
@@ -123,7 +123,7 @@ def figure_2():
     ]
 
 
-def figure_3():
+def _figure_3():
     """The eye's frame and the shoulder's: there and back again."""
     gaps = [
         np.abs(p.camera.back_project(p.camera.project(p.target), p.target[1]) - p.target).max()
@@ -132,7 +132,7 @@ def figure_3():
     return [Quantity("eye to shoulder and back, off by (m)", 0, max(gaps), None, 1e-9)]
 
 
-def figure_4():
+def _figure_4():
     library = templates.load()
     habit = plan(draw_targets(library, paper.MOVEMENTS, np.random.default_rng(3)), library)
     error = published(habit, gains=(0,)).error
@@ -140,7 +140,7 @@ def figure_4():
     return [Quantity("reaches that Eq. 6 alone brings nearer", 1, share, None, RATIO, 1)]
 
 
-def figure_5():
+def _figure_5():
     shots = photos.load("rig", "train") + photos.load("rig", "test")
     whole = [set(p.boxes) == set(photos.CLASSES) and p.image.shape == (400, 600, 3) for p in shots]
     return [
@@ -149,13 +149,13 @@ def figure_5():
     ]
 
 
-def figure_6():
+def _figure_6():
     counts = evaluate.figure_6("rig")
     boxes = paper.BOXES / paper.PHOTOS
     return [Quantity("candidates a photo", boxes, counts["candidates"], None, 0.5 * boxes)]
 
 
-def figure_7():
+def _figure_7():
     network = cdbn.CDBN.load()
     alike = [gabor.best_gabor(filter_[0])[1] for filter_ in network.first.W]
     return [
@@ -176,7 +176,7 @@ def figure_7():
     ]
 
 
-def figure_8():
+def _figure_8():
     hidden, pool = paper.CROP_WIDTH - paper.FILTER_WIDTH + 1, paper.POOL
     p1 = hidden // pool
     p2 = (p1 - paper.FILTER_WIDTH + 1) // pool
@@ -203,7 +203,7 @@ def movements():
     return experiment.run(Linear(), templates.load(), rng, paper.MOVEMENTS, 200, 10)
 
 
-def table_4():
+def _table_4():
     library = templates.load()
     habit = plan(draw_targets(library, 200, np.random.default_rng(1)), library)
     missed = np.linalg.norm(habit.reached() - habit.target, axis=-1).mean()
@@ -211,7 +211,7 @@ def table_4():
     return [Quantity("planned error over reach", paper.planned_error_ratio(), ratio, None, 0.01)]
 
 
-def table_5():
+def _table_5():
     errors = movements()
     ratio = errors.offline.mean() / errors.planned.mean()
     claimed = paper.calibrated_error_ratio("off-line")
@@ -220,7 +220,7 @@ def table_5():
     ]
 
 
-def table_6():
+def _table_6():
     errors = movements()
     held_out = errors.held_out[1].mean() / errors.held_out_planned.mean()
     in_sample = errors.in_sample[1].mean() / errors.planned.mean()
@@ -229,7 +229,7 @@ def table_6():
     return [Quantity(name, claimed, held_out, in_sample, RATIO, -1)]
 
 
-def figure_9():
+def _figure_9():
     library = templates.load()
     habit = plan(draw_targets(library, 20, np.random.default_rng(2)), library)
     summed = np.einsum("bi,bitm->btm", habit.weights, library.excitations[habit.chosen])
@@ -247,13 +247,13 @@ def figure_9():
     ]
 
 
-def figure_10():
+def _figure_10():
     errors = movements()
     share = (errors.offline < errors.planned).mean()
     return [Quantity("movements that off-line calibration brings nearer", 1, share, None, RATIO, 1)]
 
 
-def figure_11():
+def _figure_11():
     errors = movements()
     held_out = (errors.held_out[1] < errors.held_out_planned).mean()
     in_sample = (errors.in_sample[1] < errors.planned).mean()
@@ -261,7 +261,7 @@ def figure_11():
     return [Quantity(name, 1, held_out, in_sample, RATIO, 1)]
 
 
-def figure_12():
+def _figure_12():
     errors = movements()
     held_out, in_sample = (e[-1].mean() / e[1].mean() for e in (errors.held_out, errors.in_sample))
     return [Quantity("error in the tenth experiment over the first", 1, held_out, in_sample, 0, -1)]
@@ -272,47 +272,50 @@ ROWS = (
         "Table I",
         "The RoI classifier tells regions well; linear does as well as RBF.",
         "03_regions",
-        table_1,
+        _table_1,
     ),
     Row(
         "Table II",
         "Search, classifier and suppression localise both objects.",
         "03_regions",
-        table_2,
+        _table_2,
     ),
-    Row("Table III", "CDBN features beat HMAX features.", "05_hierarchy", table_3),
+    Row("Table III", "CDBN features beat HMAX features.", "05_hierarchy", _table_3),
     Row(
-        "Table IV", "A habitual plan misses by a few per cent of the reach.", "08_planning", table_4
+        "Table IV",
+        "A habitual plan misses by a few per cent of the reach.",
+        "08_planning",
+        _table_4,
     ),
-    Row("Table V", "Off-line calibration shrinks the error.", "09_offline", table_5),
+    Row("Table V", "Off-line calibration shrinks the error.", "09_offline", _table_5),
     Row(
         "Table VI",
         "Online calibration does nearly as well, before the movement.",
         "10_online",
-        table_6,
+        _table_6,
     ),
-    Row("Fig. 1", "The steps make one chain, from photo to movement.", "01_loop", figure_1),
+    Row("Fig. 1", "The steps make one chain, from photo to movement.", "01_loop", _figure_1),
     Row(
         "Fig. 2",
         "Two CRBMs with probabilistic max pooling, and a mean-out layer.",
         "05_hierarchy",
-        figure_2,
+        _figure_2,
     ),
-    Row("Fig. 3", "What the eye sees is expressed from the shoulder.", "08_planning", figure_3),
-    Row("Fig. 4", "The error is decomposed onto the templates.", "09_offline", figure_4),
-    Row("Fig. 5", "The photos each hold a badminton and a cup.", "photos", figure_5),
-    Row("Fig. 6", "Each step leaves fewer boxes.", "03_regions", figure_6),
-    Row("Fig. 7", "First-layer filters look like Gabor functions.", "05_hierarchy", figure_7),
-    Row("Fig. 8", "The feature maps shrink layer by layer.", "05_hierarchy", figure_8),
+    Row("Fig. 3", "What the eye sees is expressed from the shoulder.", "08_planning", _figure_3),
+    Row("Fig. 4", "The error is decomposed onto the templates.", "09_offline", _figure_4),
+    Row("Fig. 5", "The photos each hold a badminton and a cup.", "photos", _figure_5),
+    Row("Fig. 6", "Each step leaves fewer boxes.", "03_regions", _figure_6),
+    Row("Fig. 7", "First-layer filters look like Gabor functions.", "05_hierarchy", _figure_7),
+    Row("Fig. 8", "The feature maps shrink layer by layer.", "05_hierarchy", _figure_8),
     Row(
         "Fig. 9",
         "A plan is the weighted sum of excitations, and ends near the target, not on it.",
         "08_planning",
-        figure_9,
+        _figure_9,
     ),
-    Row("Fig. 10", "Off-line calibration brings each example nearer.", "09_offline", figure_10),
-    Row("Fig. 11", "Online calibration brings each example nearer.", "10_online", figure_11),
-    Row("Fig. 12", "The error falls from experiment to experiment.", "10_online", figure_12),
+    Row("Fig. 10", "Off-line calibration brings each example nearer.", "09_offline", _figure_10),
+    Row("Fig. 11", "Online calibration brings each example nearer.", "10_online", _figure_11),
+    Row("Fig. 12", "The error falls from experiment to experiment.", "10_online", _figure_12),
 )
 
 

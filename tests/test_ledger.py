@@ -1,0 +1,51 @@
+"""The ledger says what a run says: every row measured again and compared with the file."""
+
+import pytest
+
+from vmc_lib import ledger
+
+STORED = {entry["where"]: entry for entry in ledger.load()["rows"]}
+
+
+def test_every_table_and_figure_of_the_paper_has_one_row():
+    wanted = [f"Table {n}" for n in ("I", "II", "III", "IV", "V", "VI")]
+    wanted += [f"Fig. {n}" for n in range(1, 13)]
+    assert sorted(STORED) == sorted(wanted) == sorted(row.where for row in ledger.ROWS)
+
+
+@pytest.mark.parametrize("row", ledger.ROWS, ids=lambda row: row.where)
+def test_row_is_what_a_run_gives(row):
+    measured, stored = ledger.measure(row), STORED[row.where]
+    assert [q["name"] for q in measured["quantities"]] == [q["name"] for q in stored["quantities"]]
+    for now, then in zip(measured["quantities"], stored["quantities"], strict=True):
+        assert now["claimed"] == then["claimed"]
+        assert now["obtained"] == pytest.approx(then["obtained"], rel=0.02, abs=0.02), now["name"]
+    assert measured["state"] == stored["state"]
+
+
+@pytest.mark.parametrize("row", ledger.ROWS, ids=lambda row: row.where)
+def test_a_reason_stands_where_and_only_where_we_differ(row):
+    assert bool(row.differs) == (STORED[row.where]["state"] == "differs")
+
+
+@pytest.mark.parametrize("level", ledger.photos.LEVELS)
+def test_the_loop_on_the_test_photos_is_what_a_run_gives(level):
+    stored = ledger.load()["loop"][level]
+    for key, value in ledger.loop.summary(ledger.loop.trial(level)).items():
+        assert value == pytest.approx(stored[key], rel=0.05, abs=0.03), key
+
+
+@pytest.mark.parametrize(
+    ("claimed", "obtained", "better", "agrees"),
+    [
+        (0.9, 0.95, 0, True),
+        (0.9, 1.05, 0, False),
+        (0.9, 1.00, 1, True),
+        (0.9, 0.50, 1, False),
+        (0.9, 0.50, -1, True),
+        (0.9, 1.10, -1, False),
+    ],
+)
+def test_agreement_has_a_direction(claimed, obtained, better, agrees):
+    quantity = ledger.Quantity("q", claimed, obtained, tolerance=0.1, better=better)
+    assert quantity.agrees == agrees

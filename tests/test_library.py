@@ -1,0 +1,62 @@
+"""The library as a whole: documented, one-way, and the same in the reference page."""
+
+import ast
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+FILES = sorted(p for p in (ROOT / "vmc_lib").rglob("*.py") if p.name != "__init__.py")
+# made by hand or run by command only: no part of the reference
+UNLISTED = re.compile(
+    r"data\.render|show\.(browser|controls|photos|where|what|moving|reaching|loop)"
+)
+SCIENCE = ("where", "what", "arm", "motor", "cerebellum")
+MAY_IMPORT = {  # beside itself and the photos: dependencies point one way
+    "where": set(),
+    "what": {"where"},
+    "arm": set(),
+    "motor": {"arm"},
+    "cerebellum": {"arm", "motor"},
+}
+
+
+def module(path):
+    return ".".join(path.relative_to(ROOT).with_suffix("").parts)
+
+
+def test_the_reference_lists_every_module():
+    listed = re.findall(r"automodule:: (\S+)", (ROOT / "book/library.md").read_text())
+    assert sorted(listed) == sorted(n for n in map(module, FILES) if not UNLISTED.search(n))
+
+
+@pytest.mark.parametrize("path", FILES, ids=module)
+def test_everything_public_says_what_it_is(path):
+    tree = ast.parse(path.read_text())
+    public = [
+        node
+        for node in tree.body
+        if isinstance(node, ast.FunctionDef | ast.ClassDef) and not re.match("_|main$", node.name)
+    ]
+    assert ast.get_docstring(tree)
+    assert not [node.name for node in public if not ast.get_docstring(node)]
+
+
+@pytest.mark.parametrize("part", SCIENCE)
+def test_dependencies_point_one_way(part):
+    imported = set()
+    for path in (ROOT / "vmc_lib" / part).glob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text())):
+            if isinstance(node, ast.ImportFrom) and node.module:
+                name = node.module.removeprefix("vmc_lib.").split(".")[0]
+                if node.level == 2 or node.module.startswith("vmc_lib."):
+                    imported.add(name)
+    assert imported - {part, "photos"} <= MAY_IMPORT[part]
+
+
+@pytest.mark.parametrize("path", FILES, ids=module)
+def test_nothing_is_pickled_and_chance_is_passed_in(path):
+    text = path.read_text()
+    assert not re.search(r"allow_pickle=True|import pickle|torch\.(load|save)\(|joblib\.dump", text)
+    assert not re.search(r"np\.random\.(seed|rand|randn|normal|uniform)\(|torch\.manual_seed", text)
