@@ -95,9 +95,14 @@ def activations(excitations, first):
 
 def muscle_torque(activation, lengths, arms, velocity):
     """Joint torques (…, 2) in N m of muscles at these lengths (…, 6) and moment arms (…, 2, 6)."""
-    stretching = -(arms * velocity[..., None]).sum(axis=-2)
-    pull = force(activation, (lengths - SLACK) / L0, stretching / (MAX_VELOCITY * L0), F0)
+    pull = force(activation, *fibres(lengths, arms, velocity), F0)
     return (arms * pull[..., None, :]).sum(axis=-1)
+
+
+def fibres(lengths, arms, velocity):
+    """The fibres' lengths and velocities (…, 6), normalised as Eq. 10 and 11 take them."""
+    stretching = -(arms * velocity[..., None]).sum(axis=-2)
+    return (lengths - SLACK) / L0, stretching / (MAX_VELOCITY * L0)
 
 
 def stop_torque(q, velocity):

@@ -14,7 +14,7 @@ from sklearn.base import BaseEstimator, RegressorMixin
 from sklearn.linear_model import LinearRegression
 from sklearn.utils.validation import check_is_fitted, validate_data
 
-from ..motor.planning import Plan, exact_weights, plan, surrounded
+from ..motor.planning import Plan, exact_weights, surrounded, surrounding
 from ..motor.templates import Library
 from .offline import published
 
@@ -53,11 +53,11 @@ class Aim:
 
     def __init__(self, library: Library, cells=None):
         self.cells = cells or GranuleCells()
-        diagonals = 1e-3 * np.array([(1, 1), (-1, 1), (-1, -1), (1, -1)])
-        beside = (library.points[:, None] + diagonals).reshape(-1, 2)
-        known = surrounded(beside, library.points)
-        templates = np.repeat(library.points, 4, axis=0)[known]
-        self.cells.fit(_place(plan(beside[known], library), templates), np.zeros_like(templates))
+        edges = library.points.min(axis=0), library.points.max(axis=0)
+        spots = np.stack(np.meshgrid(*np.linspace(*edges, 40).T), axis=-1).reshape(-1, 2)
+        spots = spots[surrounded(spots, library.points)]
+        four = library.points[np.unique(surrounding(spots, library.points), axis=0)]
+        self.cells.fit(*_lessons(_place(four, four[:, None]), np.zeros_like(four)))
 
     def correct(self, plan: Plan):
         """The plan aimed where it should be for the hand to end on the target."""
@@ -65,24 +65,27 @@ class Aim:
 
     def command(self, plan: Plan):
         """Where to aim, (…, 2), for the hand to end on the plan's target."""
-        place = _place(plan, plan.target)
+        place = _place(plan.target, plan.points)
         return plan.target + self.cells.predict(place.reshape(-1, 4)).reshape(plan.target.shape)
 
     def practise(self, plan: Plan):
         """Move, and learn from where the hand went: a lesson for each movement of the batch."""
         command = self.command(plan)
         reached = self._at(plan, command).reached()
-        lessons = _place(plan, reached).reshape(-1, 4), (command - reached).reshape(-1, 2)
-        self.cells.partial_fit(*lessons)
+        self.cells.partial_fit(*_lessons(_place(reached, plan.points), command - reached))
         return self
 
     def _at(self, plan, command):
         return plan.with_weights(exact_weights(command, plan.points))
 
 
-def _place(plan, position):
-    """Position, and position among the four templates: what the granule cells sense, (…, 4)."""
-    return np.concatenate([position, position - plan.points.mean(axis=-2)], axis=-1)
+def _place(position, points):
+    """Position, and position among the templates' points: what the granule cells sense, (…, 4)."""
+    return np.concatenate([position, position - points.mean(axis=-2)], axis=-1)
+
+
+def _lessons(places, corrections):
+    return places.reshape(-1, 4), corrections.reshape(-1, 2)
 
 
 class GranuleCells(RegressorMixin, BaseEstimator):

@@ -12,14 +12,9 @@ from scipy.interpolate import BSpline
 from scipy.optimize import lsq_linear
 
 from ..arm import closed_form
-from ..arm.model import F0, L0, SLACK, STEP
-from ..arm.muscle import (
-    MAX_VELOCITY,
-    excitation_for,
-    force_length,
-    force_velocity,
-    passive_force,
-)
+from ..arm.model import F0, STEP
+from ..arm.muscle import excitation_for, force
+from ..arm.simulate import fibres
 
 MOVE, STEPS = 700, 1000  # ms: a movement; the movement and the hold that follows
 KNOTS = 28  # spline coefficients of each muscle's excitation
@@ -40,19 +35,17 @@ def spline():
 
 
 def demand(path):
-    """What a joint path (T + 1, 2) asks: torque (T, 2) and gain (T, 2, 6), which any activation
+    """What a joint path (T + 1, 2) asks of the muscles: torque (T, 2) and gain (T, 2, 6).
 
-    that keeps to the path satisfies, torque = gain @ activation, at every step.
+    Whatever activation (T, 6) satisfies torque = gain @ activation at every step keeps to it.
     """
     velocity = np.diff(path, axis=0, prepend=path[:1]) / STEP
     acceleration = np.diff(velocity, axis=0) / STEP
     q, velocity = path[:-1], velocity[:-1]
     lengths, arms = closed_form.paths(q)
-    length = (lengths - SLACK) / L0
-    speed = -(arms * velocity[..., None]).sum(axis=-2) / (MAX_VELOCITY * L0)
-    gain = arms * (F0 * force_length(length) * force_velocity(speed))[:, None]
-    passive = (arms * (F0 * passive_force(length))[:, None]).sum(axis=-1)
-    return closed_form.torque_for(q, velocity, acceleration) - passive, gain
+    slack, full = (force(a, *fibres(lengths, arms, velocity), F0)[:, None] for a in (0, 1))
+    torque = closed_form.torque_for(q, velocity, acceleration) - (arms * slack).sum(axis=-1)
+    return torque, arms * (full - slack)
 
 
 def hold(q):
