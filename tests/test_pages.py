@@ -99,6 +99,7 @@ def open_page(context, url):
 
 def settle(page):
     """Wait until equations are set and demos can answer."""
+    page.wait_for_load_state("load")
     page.evaluate("() => window.MathJax?.startup?.promise")
     page.wait_for_function(
         "() => ![...document.querySelectorAll('.vmc-demo:has(> script)')]"

@@ -61,7 +61,7 @@ def _furniture():
     scene["body/head"].set_object(g.Ellipsoid([0.095, 0.12, 0.08]), _paint(BODY, 0.45))
     scene["body/head"].set_transform(_place((0.0, 0.22, -0.17)))
     _make_tube(scene["arm/bones"], 3, BONE)
-    scene["arm/hand"].set_object(g.Sphere(0.024), _paint(BONE))
+    scene["arm/hand"].set_object(g.Sphere(0.02), _paint(BONE, 0.6))
     for name in MUSCLES:
         _make_tube(scene[f"arm/{name}"], POINTS, 0xFFFFFF)
     return scene
