@@ -76,7 +76,7 @@ RAW_TEX = r"""() => {
 
 WIDE = """() => [...document.querySelectorAll("article *")]
   .filter((e) => e.getBoundingClientRect().right > innerWidth + 1
-    && !e.closest("pre, mjx-container, .vmc-spoken, .output, .pst-scrollable-table-container"))
+    && !e.closest("pre, table, div.math, .vmc-spoken, .vmc-picture"))
   .map((e) => e.outerHTML.slice(0, 120))"""
 
 

@@ -111,7 +111,9 @@ def _svg(fig, salt):
         fig.savefig(text, format="svg", metadata={"Date": None})
     plt.close(fig)  # or the notebook would show it a second time
     svg = text.getvalue()
-    svg = svg[svg.index("<svg ") :].replace("<svg ", f"<svg {_SVG_ROOT} {_axes(fig)} ", 1)
+    least = 0.62 * 72 * fig.get_figwidth()  # on a phone a wide plot scrolls, its words stay legible
+    root = f'<svg {_SVG_ROOT} {_axes(fig)} style="--least: {least:.0f}pt" '
+    svg = svg[svg.index("<svg ") :].replace("<svg ", root, 1)
     svg = re.sub(r"<metadata>.*?</metadata>|<!--.*?-->|<style.*?</style>", "", svg, flags=re.S)
     used = set(re.findall(r"#([\w.-]+)", svg))
     svg = re.sub(r' id="([^"]*)"', lambda name: name[0] if name[1] in used else "", svg)
