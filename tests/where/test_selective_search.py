@@ -69,7 +69,7 @@ def test_larger_scale_larger_segments():
 
 @pytest.fixture(scope="module")
 def grown():
-    return next(ss.hierarchies(PHOTO, ss.Strategy(scales=(30,))))
+    return next(ss.hierarchies(PHOTO, ss.Strategy(k=(30,))))
 
 
 def test_every_merge_joins_two_neighbours_into_their_union(grown):

@@ -48,15 +48,15 @@ def as_rgb(image):
 # ---------------------------------------------------------------- segments, and what they look like
 
 
-def segment(channels, scale=100, sigma=0.8):
+def segment(channels, k=100, sigma=0.8):
     """Segments of an image (height, width, c) with values in 0..1: labels (height, width).
 
     Two neighbouring patches stay apart where the step between them is large beside the steps
-    inside them; a larger `scale` k lets patches grow larger, and none stays under k pixels. The
+    inside them; a larger scale `k` lets patches grow larger, and none stays under k pixels. The
     graph-based method of Felzenszwalb & Huttenlocher (2004), by scikit-image.
     """
     smooth = cv2.GaussianBlur(channels, (0, 0), sigma).reshape(channels.shape)
-    return felzenszwalb(smooth, scale=scale, sigma=0, min_size=int(scale))
+    return felzenszwalb(smooth, scale=k, sigma=0, min_size=int(k))
 
 
 @dataclass
@@ -182,17 +182,18 @@ def touching(labels):
     return np.stack(np.divmod(np.unique(low * n + high), n), axis=1)
 
 
-def grow(labels, regions, similarities):
+def grow(labels, look, similarities):
     """Merge the two most similar neighbours, again and again, until one region is left.
 
-    Similarity is the sum of the named `similarities`. A merged region's description follows from
-    its two parts', so no step looks at pixels, and a heap has the best pair at hand: n segments
-    cost about n log n.
+    `look` is the Appearance of the segments in `labels`; likeness is the sum of the named
+    `similarities` (with none, the lowest numbers merge first). A merged region's row follows from
+    its two parts' rows, so no step looks at pixels, and a heap has the best pair at hand: n
+    segments cost about n log n.
     """
     n = labels.max() + 1
 
     def alike(i, j):
-        return sum(SIMILARITIES[name](regions, i, j) for name in similarities)
+        return sum((SIMILARITIES[s](look, i, j) for s in similarities), np.zeros(len(j)))
 
     pairs = touching(labels)
     neighbours = {i: set() for i in range(n)}
@@ -208,7 +209,7 @@ def grow(labels, regions, similarities):
             continue  # one of the two has been merged away since
         new = n + len(merges)
         merges.append((i, j))
-        regions.merge(i, j, new)
+        look.merge(i, j, new)
         around = (neighbours.pop(i) | neighbours.pop(j)) - {i, j}
         neighbours[new] = around
         for k in around:
@@ -216,7 +217,7 @@ def grow(labels, regions, similarities):
         rest = list(around)
         for likeness, k in zip(alike(new, rest).tolist(), rest, strict=True):
             heappush(queue, (-likeness, k, new))
-    return Hierarchy(labels, np.array(merges, int).reshape(-1, 2), regions.boxes.copy())
+    return Hierarchy(labels, np.array(merges, int).reshape(-1, 2), look.boxes.copy())
 
 
 # ---------------------------------------------------------------- many hierarchies, one list
@@ -227,7 +228,7 @@ class Strategy:
     """Which hierarchies to grow: one for every colour space, scale and set of similarities."""
 
     colours: tuple = ("HSV",)
-    scales: tuple = (100,)
+    k: tuple = (100,)  # scales of the segmentation
     similarities: tuple = (("colour", "texture", "size", "fill"),)
 
 
@@ -249,11 +250,11 @@ def hierarchies(image, strategy):
     for colour in strategy.colours:
         channels = COLOUR_SPACES[colour](rgb)
         codes = colour_codes(channels), texture_codes(channels)
-        for scale in strategy.scales:
-            labels = segment(channels, scale)
-            regions = describe(labels, *codes)
+        for k in strategy.k:
+            labels = segment(channels, k)
+            look = describe(labels, *codes)
             for similarities in strategy.similarities:
-                yield grow(labels, regions, similarities)
+                yield grow(labels, look, similarities)
 
 
 def propose(image, strategy="single", rng=None, smallest=20):

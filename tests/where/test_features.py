@@ -1,0 +1,56 @@
+import numpy as np
+import pytest
+
+from vmc_lib.where.features import crops, gradients, raw_pixels
+
+RNG = np.random.default_rng(0)
+NOISE = RNG.integers(0, 256, (40, 60, 3), dtype=np.uint8)
+
+
+def test_a_crop_of_its_own_size_is_the_pixels():
+    assert crops(NOISE, [(3, 5, 19, 21)], 16) * 255 == pytest.approx(
+        NOISE[None, 5:21, 3:19], abs=1e-4
+    )
+
+
+def test_a_cell_is_the_mean_of_what_it_shrinks():
+    fine = NOISE[:32, :32].reshape(16, 2, 16, 2, 3).mean((1, 3))
+    assert crops(NOISE, [(0, 0, 32, 32)], 16)[0] * 255 == pytest.approx(fine, abs=1e-4)
+
+
+def test_edges_repeat_beyond_the_image():
+    beyond = crops(NOISE, [(-200, -200, -100, -100), (100, 100, 300, 120)], 16)
+    assert (beyond[0] * 255).round() == pytest.approx(np.tile(NOISE[0, 0], (16, 16, 1)))
+    assert (beyond[1] * 255).round() == pytest.approx(np.tile(NOISE[-1, -1], (16, 16, 1)))
+
+
+def test_a_box_without_area_shows_one_pixel():
+    assert np.ptp(crops(NOISE, [(7, 9, 7, 9)], 16), axis=(1, 2)).max() == 0
+
+
+@pytest.mark.parametrize(("features", "length"), [(raw_pixels, 768), (gradients, 512)])
+def test_one_row_a_box(features, length):
+    boxes = RNG.integers(0, 30, (5, 2))
+    rows = features(NOISE, np.hstack([boxes, boxes + 20]))
+    assert rows.shape == (5, length) and np.isfinite(rows).all() and np.ptp(rows) > 0
+    assert features(NOISE, []).shape == (0, length)
+
+
+def test_gradients_point_across_the_edge():
+    """Bands that run down the image change along x: angle 0, the first of eight bins."""
+    bands = np.repeat((128 + 100 * np.sin(np.arange(60) / 3))[None, :, None], 40, 0)
+    image = np.repeat(bands, 3, 2).astype(np.uint8)
+    along_x = gradients(image, [(10, 10, 42, 30)]).reshape(-1, 8).sum(0)
+    along_y = gradients(image.swapaxes(0, 1), [(10, 10, 30, 42)]).reshape(-1, 8).sum(0)
+    assert along_x.argmax() == 0 and along_x[0] > 0.9 * along_x.sum()
+    assert along_y.argmax() == 4 and along_y[4] > 0.9 * along_y.sum()
+
+
+def test_gradients_do_not_mind_the_light():
+    dim = (NOISE // 2).astype(np.uint8)
+    boxes = [(10, 10, 40, 30)]
+    assert gradients(dim, boxes) == pytest.approx(gradients(NOISE, boxes), abs=0.03)
+
+
+def test_flat_is_no_gradient():
+    assert (gradients(np.full((40, 60, 3), 99, np.uint8), [(10, 10, 40, 30)]) == 0).all()

@@ -1,0 +1,53 @@
+"""What a box shows, as numbers: the raw pixels of the paper, and gradients with a margin."""
+
+import numpy as np
+
+from .boxes import as_boxes
+
+
+def crops(image, boxes, size):
+    """What boxes (n, 4) show of a uint8 image (height, width, c): cells (n, size, size, c) in 0..1.
+
+    A cell is the mean of four samples spread evenly over it. Beyond the image its edge pixels
+    repeat; a box without area shows the one pixel, or row of pixels, it lies on. ValueError for
+    another kind of image.
+    """
+    if image.dtype != np.uint8 or image.ndim != 3 or image.size == 0:
+        raise ValueError(f"{image.dtype} {image.shape} is no uint8 image: see photos.read_image")
+    boxes = as_boxes(boxes)
+    height, width, channels = image.shape
+    steps = (np.arange(size * 2) + 0.5) / (size * 2)
+    x, y = (
+        (boxes[:, [low]] + steps * (boxes[:, [low + 2]] - boxes[:, [low]])).clip(0, limit - 1)
+        for low, limit in ((0, width), (1, height))
+    )
+    samples = image[y.astype(int)[:, :, None], x.astype(int)[:, None, :]]
+    cells = samples.reshape(len(boxes), size, 2, size, 2, channels)
+    return cells.mean((2, 4), dtype=np.float32) / 255
+
+
+def raw_pixels(image, boxes):
+    """The paper's features: 16 × 16 RGB pixels of each box, (n, 768)."""
+    return crops(image, boxes, 16).reshape(-1, 768)
+
+
+def gradients(image, boxes, cells=8, bins=8, margin=0.25):
+    """Histograms of oriented gradients in 8 × 8 cells over each box and a margin, (n, 512).
+
+    The margin, a share of the box's sides, shows whether the object ends where the box does. After
+    Dalal & Triggs (2005), with one normalisation a box.
+    """
+    boxes = as_boxes(boxes)
+    pad = margin * (boxes[:, 2:] - boxes[:, :2])
+    wide = np.hstack([boxes[:, :2] - pad, boxes[:, 2:] + pad])
+    grey = crops(image.mean(2, keepdims=True).astype(np.uint8), wide, 4 * cells)[..., 0]
+    dy, dx = np.gradient(grey, axis=(1, 2))
+    strength, angle = np.hypot(dx, dy), np.arctan2(dy, dx) / np.pi % 1 * bins
+    low, share = angle.astype(int) % bins, angle % 1  # each gradient counts for two bins
+    row = np.arange(4 * cells) // 4
+    cell = np.arange(len(boxes))[:, None, None] * cells**2 + row[:, None] * cells + row
+    counts = sum(
+        np.bincount((cell * bins + bin_).ravel(), (strength * part).ravel(), cell.size // 16 * bins)
+        for bin_, part in ((low, 1 - share), ((low + 1) % bins, share))
+    ).reshape(len(boxes), cells**2 * bins)
+    return np.sqrt(counts / (np.linalg.norm(counts, axis=1, keepdims=True) + 1e-3))
