@@ -1,6 +1,9 @@
 """Pictures of filters and feature maps, for the chapters on the ventral pathway."""
 
+import matplotlib.pyplot as plt
 import numpy as np
+
+from vmc_lib.show.figures import COLOURS
 
 
 def grey(v, reach=3.0):
@@ -24,3 +27,39 @@ def tiles(stack, columns=5, zoom=1):
     _, height, width = stack.shape
     grid = stack.reshape(rows, columns, height, width).swapaxes(1, 2)
     return grid.reshape(rows * height, columns * width)
+
+
+def explanations_of(v, energies, chances, names):
+    """A small picture v (height, width), and the energy and chance of each explanation of it."""
+    fig, (left, middle, right) = plt.subplots(1, 3, figsize=(6.8, 2.3), width_ratios=[1, 1.2, 1.2])
+    left.pcolormesh(v, vmin=-2, vmax=2, edgecolor=COLOURS["grey"], cmap="gray")
+    left.set(title="v", xticks=[], yticks=[], aspect="equal")
+    middle.barh(names, energies, color=COLOURS["orange"])
+    middle.set(title="energy E(v, h)", xlim=(-9, 34))
+    right.barh(names, chances, color=COLOURS["blue"])
+    right.set(title="p(h | v)", xlim=(0, 1), yticks=[])
+    for ax in (left, middle, right):
+        ax.invert_yaxis()
+    return fig
+
+
+def block(on, pooled):
+    """The chances of a pooling block's units and of its off state, as bars."""
+    names = [*(f"unit {i + 1}" for i in range(len(on))), "all off"]
+    colours = [COLOURS["blue"]] * len(on) + [COLOURS["grey"]]
+    fig, ax = plt.subplots(figsize=(6.2, 2.6))
+    ax.bar_label(ax.bar(names, [*on, 1 - pooled], color=colours), fmt="%.2f")
+    ax.set(ylim=(0, 1.12), ylabel="probability", title=f"pooled unit on: {pooled:.3f}")
+    return fig
+
+
+def sorted_out(chances, shuttlecock, threshold, title):
+    """Each crop's probability (n,) as a dot, shuttlecocks above cups, and the threshold."""
+    fig, ax = plt.subplots(figsize=(6.4, 2.4))
+    for height, here, colour in ((1, shuttlecock, "blue"), (0, ~shuttlecock, "orange")):
+        spread = height + np.linspace(-0.3, 0.3, here.sum())
+        ax.plot(chances[here], spread, "o", ms=4, color=COLOURS[colour])
+    ax.axvline(threshold, color=COLOURS["ink"])
+    ax.set(xlim=(-0.02, 1.02), xlabel="probability of a shuttlecock", title=title)
+    ax.set(yticks=[0, 1], yticklabels=["cups", "shuttlecocks"])
+    return fig

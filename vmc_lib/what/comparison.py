@@ -37,9 +37,9 @@ def features(crops, learnt):
     return dict(zip(METHODS, found, strict=True))
 
 
-def tally(probability, shuttlecock):
-    """Counts (true positives, false positives, false negatives, true negatives) at 0.5."""
-    called = np.asarray(probability) > 0.5
+def tally(probability, shuttlecock, threshold=0.5):
+    """Counts (true positives, false positives, false negatives, true negatives)."""
+    called = np.asarray(probability) > threshold
     pairs = [(True, True), (True, False), (False, True), (False, False)]
     return tuple(int(((called == c) & (shuttlecock == s)).sum()) for c, s in pairs)
 
