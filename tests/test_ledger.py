@@ -31,7 +31,7 @@ def test_a_reason_stands_where_and_only_where_we_differ(row):
 @pytest.mark.parametrize("level", ledger.photos.LEVELS)
 def test_the_loop_on_the_test_photos_is_what_a_run_gives(level):
     stored = ledger.load()["loop"][level]
-    for key, value in ledger.loop.summary(ledger.loop.trial(level)).items():
+    for key, value in ledger.loop.summary(ledger.trial(level)).items():
         assert value == pytest.approx(stored[key], rel=0.05, abs=0.03), key
 
 
