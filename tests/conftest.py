@@ -7,13 +7,6 @@ import pytest
 os.environ["VMC_LIFE"] = "test"  # chapters run by nbmake inherit it
 os.environ.setdefault("MPLBACKEND", "agg")
 
-# WebGL in software: the arm is drawn on machines without a graphics card too
-FLAGS = (
-    "--no-sandbox --disable-quic --no-first-run --disable-background-networking "
-    "--disable-component-update --disable-sync "
-    "--use-gl=angle --use-angle=swiftshader --enable-unsafe-swiftshader"
-).split()
-
 
 @pytest.fixture(scope="session")
 def chromium():
@@ -26,7 +19,7 @@ def chromium():
     if not path:
         (pytest.fail if os.environ.get("CI") else pytest.skip)(browser.MISSING)
     with sync_playwright() as playwright:
-        chromium = playwright.chromium.launch(executable_path=path, args=FLAGS)
+        chromium = playwright.chromium.launch(executable_path=path, args=browser.FLAGS)
         yield chromium
         chromium.close()
 

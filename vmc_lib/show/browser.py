@@ -10,6 +10,12 @@ import subprocess
 import sys
 
 SYSTEM = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
+# WebGL in software: the arm is drawn on machines without a graphics card too
+FLAGS = (
+    "--no-sandbox --disable-quic --no-first-run --disable-background-networking "
+    "--disable-component-update --disable-sync "
+    "--use-gl=angle --use-angle=swiftshader --enable-unsafe-swiftshader"
+).split()
 MISSING = (
     "NO BROWSER: the built pages are NOT tested. Install Chromium (apt install chromium), or let "
     "Playwright fetch its own (playwright install chromium)."
