@@ -54,10 +54,11 @@ def test_a_place_out_of_reach_is_said(brain):
 
 
 def test_scores_count_what_went_wrong(photo, sight):
-    scores = loop.score(photo, sight, None)
-    assert np.isnan([scores[key] for key in ("target", "planned", "calibrated")]).all()
-    batch = {key: np.array([value, value]) for key, value in scores.items()}
-    batch["calibrated"] = np.array([np.nan, 0.004])
-    assert loop.summary(batch | {"target": batch["calibrated"], "planned": batch["calibrated"]})[
-        "arrived"
-    ] == pytest.approx(0.5)
+    missed = loop.score(photo, sight, {})
+    assert missed["found"] and missed["named"]
+    assert np.isnan([missed[key] for key in ("target", "planned", *loop.RULES)]).all()
+    arrived = missed | dict.fromkeys(("target", "planned", *loop.RULES), 0.004)
+    both = {key: np.array([missed[key], arrived[key]]) for key in missed}
+    summary = loop.summary(both)
+    assert summary["arrived, own"] == summary["arrived, published"] == 0.5
+    assert summary["planned"] == 0.004

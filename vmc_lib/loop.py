@@ -12,7 +12,7 @@ import numpy as np
 from . import photos
 from .arm.posture import to_world, turn_towards
 from .arm.simulate import Motion
-from .cerebellum.offline import published
+from .cerebellum.offline import calibrate, published
 from .motor import templates
 from .motor.planning import Plan, plan
 from .what.crops import crop
@@ -23,6 +23,7 @@ from .where.regions import RegionFinder, Regions
 
 FOUND = 0.8  # IoU at which a box counts as the object's (Section IV A)
 NEAR = 0.010  # m: a hand this close to the shuttlecock has arrived
+RULES = {"published": published, "own": calibrate}  # of off-line calibration
 
 
 @dataclass(frozen=True)
@@ -96,48 +97,45 @@ def reach(brain, target, calibration=published):
     return Reach(target, turn, habit, habit.move(), better.move())
 
 
-def see_and_reach(brain, photo, calibration=published):
-    """From a `Photo` to its `Sight` and `Reach`; ValueError when there is nothing to reach for."""
-    sight = see(brain, photo.image)
-    return sight, reach(brain, locate(brain, photo.image, sight.box, photo.camera), calibration)
-
-
-def score(photo, sight, reach):
+def score(photo, sight, reaches):
     """How it went, stage by stage, held against the photo's truth.
 
     found: a kept box overlaps the shuttlecock by 0.8; named: the chosen box is the shuttlecock's
-    and not the cup's (more than half of the union shared); then errors in m against the true place:
-    of the place itself, and of the hand before and after calibration (NaN without a reach).
+    and not the cup's (more than half of the union shared); then distances in m from the true place:
+    of the place itself, of the hand before calibration, and after it by each rule of `reaches`
+    (name -> `Reach`; empty where none was made, which leaves NaN).
     """
     truth = photo.boxes["shuttlecock"][None]
-    boxes, errors = sight.regions.boxes, [np.nan] * 3
-    if reach is not None:
-        ends = [reach.hand(motion)[-1] for motion in (reach.planned, reach.calibrated)]
-        errors = [float(np.linalg.norm(p - photo.target)) for p in (reach.target, *ends)]
+    boxes, errors = sight.regions.boxes, dict.fromkeys(("target", "planned", *RULES), np.nan)
+    for rule, reach in reaches.items():
+        places = {"target": reach.target, "planned": reach.hand(reach.planned)[-1]}
+        places[rule] = reach.hand(reach.calibrated)[-1]
+        errors |= {name: np.linalg.norm(place - photo.target) for name, place in places.items()}
     return {
-        "found": bool(len(boxes) and iou(boxes, truth).max() >= FOUND),
+        "found": len(boxes) > 0 and iou(boxes, truth).max() >= FOUND,
         "named": sight.box is not None and iou(sight.box[None], truth)[0, 0] > 0.5,
-        **dict(zip(("target", "planned", "calibrated"), errors, strict=True)),
+        **errors,
     }
 
 
-def trial(level, split="test", calibration=published):
+def trial(level, split="test"):
     """`score` of every photo of a level and split, as a dictionary of arrays (n,)."""
     brain, scores = Brain.load(level), []
     for photo in photos.load(level, split):
-        sight, done = see(brain, photo.image), None
+        sight, reaches = see(brain, photo.image), {}
         with suppress(ValueError):  # a place out of reach: no movement, and counted as such
-            done = reach(brain, locate(brain, photo.image, sight.box, photo.camera), calibration)
-        scores.append(score(photo, sight, done))
+            place = locate(brain, photo.image, sight.box, photo.camera)
+            reaches = {name: reach(brain, place, rule) for name, rule in RULES.items()}
+        scores.append(score(photo, sight, reaches))
     return {key: np.array([s[key] for s in scores]) for key in scores[0]}
 
 
 def summary(scores):
-    """The shares found, named and arrived (in [0, 1]), and the median errors in m."""
-    arrived = np.nan_to_num(scores["calibrated"], nan=np.inf) <= NEAR
-    return {
-        "found": float(scores["found"].mean()),
-        "named": float(scores["named"].mean()),
-        **{key: float(np.nanmedian(scores[key])) for key in ("target", "planned", "calibrated")},
-        "arrived": float(arrived.mean()),
+    """Shares (in [0, 1]) found, named and arrived by each rule, and median distances in m."""
+    arrived = {
+        f"arrived, {rule}": float((np.nan_to_num(scores[rule], nan=np.inf) <= NEAR).mean())
+        for rule in RULES
     }
+    shares = {name: float(scores[name].mean()) for name in ("found", "named")}
+    medians = {name: float(np.nanmedian(scores[name])) for name in ("target", "planned", *RULES)}
+    return shares | medians | arrived

@@ -19,7 +19,6 @@ SPACINGS = (0.04, 0.06, 0.08)  # m: how densely past experience covers the plane
 CORNER = np.array([0.24, -0.37])  # every grid is laid out from this point
 ZONE = np.array([[-0.01, -0.50], [0.25, -0.28]])  # lowest and highest (x, y): in front, table high
 REACH = 0.525  # m from the shoulder: a nearly straight arm
-REACH = 0.525  # m: a nearly straight arm
 
 
 @dataclass(frozen=True)
