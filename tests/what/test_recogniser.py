@@ -4,11 +4,11 @@ import pytest
 from vmc_lib import photos
 from vmc_lib.what.cdbn import crops_of
 from vmc_lib.what.crops import crop
-from vmc_lib.what.recogniser import Recogniser, elsewhere, examples, fit, shaken
+from vmc_lib.what.recogniser import READ_OUTS, Recogniser, elsewhere, examples, fit, shaken
 from vmc_lib.where.boxes import iou
 
 
-@pytest.mark.parametrize("name", ["MP2", "P2"])
+@pytest.mark.parametrize("name", READ_OUTS)
 def test_it_knows_a_shuttlecock_from_a_cup(name):
     crops, shuttlecock = crops_of(photos.load("rig", "validation")[:8])
     chance = Recogniser.load(name).probability(crops)

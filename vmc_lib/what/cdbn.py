@@ -17,7 +17,7 @@ from vmc_lib.what.crops import Patches, crop, whiten
 FILE = Path(__file__).parents[1] / "data" / "cdbn.npz"
 K, C, N_W, PATCHES = 10, 2, 8, 50_000  # as in the paper
 FIRST = {"epochs": 4, "width": 21, "sparsity": 0.002, "rate": 0.2, "decay": 0.0003}
-SECOND = {"epochs": 3, "width": 25, "sparsity": 0.01, "rate": 0.1, "decay": 0.0003}
+SECOND = {"epochs": 2, "width": 25, "sparsity": 0.1, "rate": 0.2, "decay": 0.0003}
 
 
 @dataclass(frozen=True)

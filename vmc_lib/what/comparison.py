@@ -21,6 +21,7 @@ WORDS = 100
 METHODS = (
     "CDBN, MP2",
     "CDBN, P2",
+    "CDBN, P1 + P2",
     "HMAX, 10 prototypes",
     "HMAX, 250 prototypes",
     "HOG",
@@ -33,7 +34,7 @@ def features(crops, learnt):
     """Every method's features (n, d) of crops (n, 200, 200), given what was learnt unlabelled."""
     seen, matches = read_outs(learnt["cdbn"], crops), hmax(crops, learnt["prototypes"])
     by_hand = [histograms_of_gradients(crops), bag_of_sift(crops, learnt["words"])]
-    found = [seen["MP2"], seen["P2"], matches[:, :10], matches, *by_hand, raw_pixels(crops)]
+    found = [*seen.values(), matches[:, :10], matches, *by_hand, raw_pixels(crops)]
     return dict(zip(METHODS, found, strict=True))
 
 

@@ -28,8 +28,10 @@ def s1_filters(width):
 
 def s1(crops, width):
     """How well an edge of each direction fits at each pixel, whatever the contrast: 0 to 1."""
-    here = F.conv2d(crops, s1_filters(width), padding=width // 2).abs()
-    power = F.avg_pool2d(crops**2, width, 1, width // 2) * width**2
+    side = width // 2
+    here = F.conv2d(crops, s1_filters(width), padding=side).abs()
+    rows = F.avg_pool2d(crops**2, (width, 1), 1, (side, 0))  # row by row: much faster than at once
+    power = F.avg_pool2d(rows, (1, width), 1, (0, side)) * width**2
     return here / (power.sqrt() + 0.1)
 
 

@@ -21,20 +21,29 @@ from vmc_lib.where.boxes import iou
 
 FILE = Path(__file__).parents[1] / "data" / "recogniser.npz"
 STRENGTHS = 10.0 ** np.arange(-1, 5)
-COPIES, SHAKE = 6, 0.08  # training boxes: copies of each, and how far their sides stray
+COPIES, SHAKE = 10, 0.08  # training boxes: copies of each, and how far their sides stray
 
-READ_OUTS = "MP2", "P2"
+READ_OUTS = "MP2", "P2", "P1 + P2"
 
 
 def read_outs(cdbn, crops):
     """Features (n, d) of grey crops (n, 200, 200), by the name of the read-out.
 
-    "MP2" is the paper's, the mean map of Eq. 2. "P2" keeps the ten maps apart, on a coarser grid.
+    "MP2" is the paper's, the mean map of Eq. 2: where is anything? "P2" keeps the ten maps apart,
+    and of each only its means in the four quarters of the crop: how much of what? "P1 + P2" adds
+    the first layer's, in sixteen parts.
     """
-    parts = [cdbn.layers(part) for part in whiten(crops).split(20)]
-    mp2 = torch.cat([layers["MP2"].flatten(1) for layers in parts])
-    p2 = torch.cat([F.avg_pool2d(layers["P2"], 4).flatten(1) for layers in parts])
-    return {"MP2": mp2.numpy(), "P2": p2.numpy()}
+
+    def means(maps, parts):
+        return F.avg_pool2d(maps, maps.shape[-1] // parts).flatten(1)
+
+    seen = {name: [] for name in READ_OUTS}
+    for layers in (cdbn.layers(part) for part in whiten(crops).split(20)):
+        seen["MP2"].append(layers["MP2"].flatten(1))
+        seen["P2"].append(means(layers["P2"], 2))
+        p1 = 3 * means(layers["P1"], 4)  # its units are on more rarely: weighed up
+        seen["P1 + P2"].append(torch.cat([p1, seen["P2"][-1]], 1))
+    return {name: torch.cat(parts).numpy() for name, parts in seen.items()}
 
 
 # ---------------------------------------------------------------- the classifier
@@ -121,15 +130,15 @@ def examples(shots, rng, copies=COPIES, background=0):
 
 @dataclass(frozen=True)
 class Recogniser:
-    """A CDBN, a read-out ("MP2" or "P2") and the classifier on it."""
+    """A CDBN, the name of a read-out, and the classifier on it."""
 
     cdbn: CDBN
     name: str
     linear: Linear
 
     @classmethod
-    def load(cls, name="P2", file=FILE):
-        """The recogniser that ships: "MP2", the paper's read-out, or "P2", the better one."""
+    def load(cls, name="P1 + P2", file=FILE):
+        """The recogniser that ships; its read-out "MP2" is the paper's, the default the best."""
         if name not in READ_OUTS:
             raise ValueError(f"read-out {name!r} is none of {', '.join(READ_OUTS)}")
         with np.load(file, allow_pickle=False) as z:
