@@ -9,9 +9,7 @@ import pytest
 ROOT = Path(__file__).parents[1]
 FILES = sorted(p for p in (ROOT / "vmc_lib").rglob("*.py") if p.name != "__init__.py")
 # made by hand or run by command only: no part of the reference
-UNLISTED = re.compile(
-    r"data\.render|show\.(browser|photos|where|what|moving|reaching|loop)"
-)
+UNLISTED = re.compile(r"data\.render|show\.(browser|photos|where|what|moving|reaching|loop)")
 SCIENCE = ("where", "what", "arm", "motor", "cerebellum")
 MAY_IMPORT = {  # beside itself and the photos: dependencies point one way
     "where": set(),

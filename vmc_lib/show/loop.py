@@ -28,10 +28,10 @@ def draw_moment(photo, box, reach, motion, t):
     """The chosen box, the place reached for and the hand, `t` ms into a movement; and the arm."""
     path = reach.hand(motion)
     turn = reach.turn * min(1.0, t / TURNED)
-    points = [("target", reach.target, "green"), ("hand", path[t], "orange")]
+    points = [("", reach.target, "green"), ("hand", path[t], "orange")]
     view = photo_view(
         photo.image,
-        [(box, "", "green")],
+        [(box, "target", "green")],
         [(photo.camera.project(place[None])[0], label, colour) for label, place, colour in points],
     )
     return view, arm_scene(

@@ -128,14 +128,17 @@ def describe(labels, colours, textures):
 
 
 def alike_in_colour(r, i, j):
+    """How much of their colour histograms the two share: 1 when equal, 0 when nothing."""
     return np.minimum(r.colour[i], r.colour[j]).sum(-1)
 
 
 def alike_in_texture(r, i, j):
+    """How much of their histograms of edge directions the two share."""
     return np.minimum(r.texture[i], r.texture[j]).sum(-1)
 
 
 def both_small(r, i, j):
+    """Near 1 for two small regions, so that the small ones merge first."""
     return 1 - (r.size[i] + r.size[j]) / r.pixels
 
 
