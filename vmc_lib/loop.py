@@ -93,8 +93,10 @@ def reach(brain, target, calibration=published):
     """
     turn, point = turn_towards(target)
     habit = plan(point, brain.library)
-    better = habit.with_weights(calibration(habit).best) if calibration else habit
-    return Reach(target, turn, habit, habit.move(), better.move())
+    planned = calibrated = habit.move()
+    if calibration:
+        calibrated = habit.with_weights(calibration(habit).best).move()
+    return Reach(target, turn, habit, planned, calibrated)
 
 
 def score(photo, sight, reaches):
