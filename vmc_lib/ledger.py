@@ -288,7 +288,9 @@ ROWS = (
         "0.8, so suppression often keeps one of those. Corrected boxes and votes "
         "(improved) reach the claim.",
     ),
-    Row("Table III", "CDBN features beat HMAX features.", "05_hierarchy", _table_3),
+    Row(
+        "Table III", "The CDBN names nearly every crop; HMAX comes close.", "05_hierarchy", _table_3
+    ),
     Row(
         "Table IV",
         "A habitual plan misses by a few per cent of the reach.",
@@ -367,17 +369,18 @@ def load():
 
 
 def as_markdown(entries):
-    """The rows as one Markdown table, a line a quantity."""
-    lines = ["| | quantity | paper | obtained | in sample | tolerance | state |", "|" + "---|" * 7]
+    """The rows as Markdown: what is claimed and how it stands, then a table of its quantities."""
+    lines = []
     for entry in entries:
-        place = f"**[{entry['where']}]({entry['chapter']}.ipynb)** {entry['claim']}"
-        state = entry["state"] + (f": {entry['because']}" if entry["because"] else "")
+        why = f": {entry['because']}" if entry["because"] else "."
+        place = f"**[{entry['where']}]({entry['chapter']}.ipynb)**"
+        lines += [f"{place} · {entry['claim']} *{entry['state'].capitalize()}*{why}", ""]
+        lines += ["| quantity | paper | obtained | in sample | tolerance |", "|---" * 5 + "|"]
         for q in entry["quantities"]:
-            numbers = (q["claimed"], q["obtained"], q["in_sample"], q["tolerance"])
             arrow = {1: " ↑", -1: " ↓", 0: ""}[q["better"]]
-            cells = [place, q["name"] + arrow, *map(_number, numbers), state]
-            lines.append("| " + " | ".join(cells) + " |")
-            place = state = ""
+            numbers = map(_number, (q["claimed"], q["obtained"], q["in_sample"], q["tolerance"]))
+            lines.append("| " + " | ".join([q["name"] + arrow, *numbers]) + " |")
+        lines.append("")
     return "\n".join(lines)
 
 
