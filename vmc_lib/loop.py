@@ -37,7 +37,10 @@ class Brain:
 
     @classmethod
     def load(cls, level):
-        """The brain trained on the training photos of `level`, from the weights that ship."""
+        """The brain of a level: it has learnt from that level's training photos alone.
+
+        Only the recogniser, which ships, has learnt names from the training photos of all levels.
+        """
         locator = Locator.fit(photos.load(level, "train"), np.random.default_rng(0))
         return cls(RegionFinder.load(level), Recogniser.load(), locator, templates.load())
 
