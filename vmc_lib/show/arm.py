@@ -11,10 +11,10 @@ from meshcat import geometry as g
 from vmc_lib.arm.closed_form import hand
 from vmc_lib.arm.model import MUSCLES, geometry
 from vmc_lib.arm.posture import to_world
+from vmc_lib.photos import TABLE
 from vmc_lib.show.figures import COLOURS
 from vmc_lib.show.scene import Scene
 
-TABLE_TOP = -0.43  # m
 POINTS = 12  # no muscle's path has more
 BONE, BODY, WOOD, FEATHER = 0xEDE6D6, 0xAEB7C2, 0xCDB795, 0xF4F4F0
 
@@ -55,7 +55,7 @@ def _furniture():
     scene = Scene()
     scene.look((0.75, 0.42, 1.35), at=(0.13, -0.14, -0.06))
     scene["table"].set_object(g.Box([0.5, 0.02, 0.9]), _paint(WOOD))
-    scene["table"].set_transform(_place((0.31, TABLE_TOP - 0.01, -0.05)))
+    scene["table"].set_transform(_place((0.31, TABLE - 0.01, -0.05)))
     scene["body/trunk"].set_object(g.Ellipsoid([0.1, 0.3, 0.15]), _paint(BODY, 0.45))
     scene["body/trunk"].set_transform(_place((-0.03, -0.24, -0.17)))
     scene["body/head"].set_object(g.Ellipsoid([0.095, 0.12, 0.08]), _paint(BODY, 0.45))

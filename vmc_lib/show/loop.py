@@ -21,7 +21,9 @@ def draw_step(photo, sight, reach, step):
             START, shuttlecock=photo.target
         )
     motion = reach.planned if step.startswith("first") else reach.calibrated
-    return draw_moment(photo, sight.box, reach, motion, TICKS[(STEPS.index(step) - 5) % len(TICKS)])
+    return draw_moment(
+        photo, sight.box, reach, motion, TICKS[(STEPS.index(step) - len(SEEING)) % len(TICKS)]
+    )
 
 
 def draw_moment(photo, box, reach, motion, t):

@@ -5,7 +5,7 @@ import numpy as np
 
 from vmc_lib.arm.closed_form import hand
 from vmc_lib.arm.model import LIMITS, MUSCLES, geometry
-from vmc_lib.show.arm import TABLE_TOP
+from vmc_lib.photos import TABLE
 from vmc_lib.show.figures import COLOURS
 
 # What straightens the elbow is blue; what bends it is orange, or red where it spans no shoulder.
@@ -52,7 +52,7 @@ def plane_view(paths=(), points=(), postures=(), ax=None):
     straight = np.linspace(*LIMITS[0], 90)
     rim = hand(np.stack([straight, 0 * straight], axis=-1))
     ax.plot(*rim.T[:2], ":", color=COLOURS["grey"], linewidth=1)
-    ax.axhline(TABLE_TOP, color=COLOURS["grey"], linewidth=1)
+    ax.axhline(TABLE, color=COLOURS["grey"], linewidth=1)
     ax.plot(0, 0, "o", color=COLOURS["ink"], markersize=7)
     for q, label, colour in postures:
         joints = np.array([*(position for _, position in geometry(q).bodies.values()), hand(q)])

@@ -7,7 +7,7 @@ import numpy as np
 
 from vmc_lib.arm.closed_form import hand
 from vmc_lib.motor.templates import REACH, START
-from vmc_lib.show.arm import TABLE_TOP
+from vmc_lib.photos import TABLE
 from vmc_lib.show.figures import COLOURS
 
 ALL = ((-0.02, 0.26), (-0.51, -0.29))  # the plane before the trunk, from (x, y) low to high
@@ -16,7 +16,7 @@ ALL = ((-0.02, 0.26), (-0.51, -0.29))  # the plane before the trunk, from (x, y)
 def plane(ax, templates, within=ALL):
     """The table's edge, how far the arm reaches, where it starts, and the templates (N, 2)."""
     angle = np.linspace(-np.pi / 2, 0, 200)
-    ax.axhline(TABLE_TOP, color=COLOURS["grey"], lw=1, ls="--")
+    ax.axhline(TABLE, color=COLOURS["grey"], lw=1, ls="--")
     ax.plot(REACH * np.cos(angle), REACH * np.sin(angle), color=COLOURS["grey"], lw=1, ls=":")
     ax.plot(*hand(START)[:2], "s", ms=6, mfc="none", color=COLOURS["ink"])
     ax.plot(*np.transpose(templates), "o", ms=4, color=COLOURS["grey"])
