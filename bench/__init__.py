@@ -1,0 +1,1 @@
+"""Benchmarks: what the book costs, beside named peers, each in one run (`make bench`)."""
