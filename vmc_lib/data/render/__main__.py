@@ -11,6 +11,7 @@ from vmc_lib.data.render import picture, scene
 from vmc_lib.photos import CLASSES, FOLDER, LEVELS, SPLITS
 
 COUNTS = {"train": 40, "validation": 20, "test": 40}
+MORE = {("varied", "train"): 160}  # its variety asks for more to learn from
 SHOWN = 0.96  # the least share of shuttlecock and cup that nothing else hides
 
 
@@ -49,10 +50,9 @@ def main():
     parser = argparse.ArgumentParser(prog="python -m vmc_lib.data.render", description=__doc__)
     parser.add_argument("--only", default="", help="a level, level/split or level/split/number")
     parser.add_argument("--samples", type=int, default=25, help="light paths a pixel")
-    parser.add_argument("--count", type=int, help=f"photos in each split, instead of {COUNTS}")
     arguments = parser.parse_args()
     for level, split in itertools.product(LEVELS, SPLITS):
-        for number in range(arguments.count or COUNTS[split]):
+        for number in range(MORE.get((level, split), COUNTS[split])):
             if f"{level}/{split}/{number:03d}".startswith(arguments.only):
                 make(level, split, number, arguments.samples)
 
