@@ -55,10 +55,33 @@ def test_a_place_out_of_reach_is_said(brain):
 
 def test_scores_count_what_went_wrong(photo, sight):
     missed = loop.score(photo, sight, {})
-    assert missed["found"] and missed["named"]
+    assert missed["found"] and missed["named"] and not missed["cup"]
     assert np.isnan([missed[key] for key in ("target", "planned", *loop.RULES)]).all()
     arrived = missed | dict.fromkeys(("target", "planned", *loop.RULES), 0.004)
     both = {key: np.array([missed[key], arrived[key]]) for key in missed}
     summary = loop.summary(both)
     assert summary["arrived, own"] == summary["arrived, published"] == 0.5
     assert summary["planned"] == 0.004
+    assert list(loop.first_failure(both)) == ["place", ""]
+
+
+def test_the_cup_is_told_from_the_shuttlecock(photo, sight):
+    cup = photo.boxes["cup"]
+    regions = type(sight.regions)(**{**vars(sight.regions), "boxes": cup[None]})
+    fooled = loop.score(photo, loop.Sight(regions, np.array([0.9])), {})
+    assert fooled["cup"] and not fooled["named"] and not fooled["found"]
+
+
+def test_a_failure_is_the_first_stage_that_went_wrong():
+    fine = {"proposed": True, "found": True, "named": True, "target": 0.002, "own": 0.05}
+    wrong = {"target": 0.02, "named": False, "found": False, "proposed": False}
+    cases, now = [fine], fine
+    for key, value in wrong.items():
+        cases.append(now := now | {key: value})
+    scores = {key: np.array([case[key] for case in cases]) for key in fine}
+    assert list(loop.first_failure(scores)) == list(loop.STAGES[::-1])
+
+
+def test_a_lucky_reach_is_no_failure():
+    lucky = {"proposed": False, "found": False, "named": True, "target": 0.004, "own": 0.006}
+    assert loop.first_failure({key: np.array([value]) for key, value in lucky.items()}) == [""]

@@ -5,9 +5,10 @@ movement, its off-line calibration, and the movement again. No mathematics of it
 """
 
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+from joblib import Parallel, delayed
 
 from . import photos
 from .arm.posture import to_world, turn_towards
@@ -24,6 +25,7 @@ from .where.regions import RegionFinder, Regions
 FOUND = 0.8  # IoU at which a box counts as the object's (Section IV A)
 NEAR = 0.010  # m: a hand this close to the shuttlecock has arrived
 RULES = {"published": published, "own": calibrate}  # of off-line calibration
+STAGES = ("proposals", "regions", "names", "place", "movement")  # where a reach can go wrong
 
 
 @dataclass(frozen=True)
@@ -96,51 +98,80 @@ def reach(brain, target, calibration=published):
     """
     turn, point = turn_towards(target)
     habit = plan(point, brain.library)
-    planned = calibrated = habit.move()
-    if calibration:
-        calibrated = habit.with_weights(calibration(habit).best).move()
-    return Reach(target, turn, habit, planned, calibrated)
+    planned = habit.move()
+    first = Reach(target, turn, habit, planned, planned)
+    return recalibrated(first, calibration) if calibration else first
+
+
+def recalibrated(reach, calibration):
+    """The same `Reach`, its second movement calibrated by a rule of `RULES`."""
+    habit = reach.plan
+    return replace(reach, calibrated=habit.with_weights(calibration(habit).best).move())
 
 
 def score(photo, sight, reaches):
     """How it went, stage by stage, held against the photo's truth.
 
-    found: a kept box overlaps the shuttlecock by 0.8; named: the chosen box is the shuttlecock's
-    and not the cup's (more than half of the union shared); then distances in m from the true place:
-    of the place itself, of the hand before calibration, and after it by each rule of `reaches`
-    (name -> `Reach`; empty where none was made, which leaves NaN).
+    proposed: a candidate overlaps the shuttlecock by 0.8; found: a kept box does; named: the chosen
+    box is the shuttlecock's (more than half of the union shared); cup: it is the cup's; then
+    distances in m from the true place: of the place itself, of the hand before calibration, and
+    after it by each rule of `reaches` (name -> `Reach`; empty where none was made: NaN).
     """
-    truth = photo.boxes["shuttlecock"][None]
-    boxes, errors = sight.regions.boxes, dict.fromkeys(("target", "planned", *RULES), np.nan)
+    errors = dict.fromkeys(("target", "planned", *RULES), np.nan)
     for rule, reach in reaches.items():
         places = {"target": reach.target, "planned": reach.hand(reach.planned)[-1]}
         places[rule] = reach.hand(reach.calibrated)[-1]
         errors |= {name: np.linalg.norm(place - photo.target) for name, place in places.items()}
+    chosen = np.empty((0, 4)) if sight.box is None else sight.box[None]
     return {
-        "found": len(boxes) > 0 and iou(boxes, truth).max() >= FOUND,
-        "named": sight.box is not None and iou(sight.box[None], truth)[0, 0] > 0.5,
+        "proposed": _overlap(sight.regions.candidates, photo, "shuttlecock") >= FOUND,
+        "found": _overlap(sight.regions.boxes, photo, "shuttlecock") >= FOUND,
+        "named": _overlap(chosen, photo, "shuttlecock") > 0.5,
+        "cup": _overlap(chosen, photo, "cup") > 0.5,
         **errors,
     }
 
 
+def _overlap(boxes, photo, name):
+    return iou(boxes, photo.boxes[name][None]).max(initial=0.0)
+
+
+def first_failure(scores, rule="own"):
+    """Where each reach went wrong first: names (n,) from `STAGES`, "" where the hand arrived.
+
+    Without a good candidate a good box can still be found, for boxes are corrected. A place is
+    wrong beyond `NEAR`; where all else was right, the movement is to blame.
+    """
+    found, named, placed = scores["found"], scores["named"], scores["target"] <= NEAR
+    moved = np.zeros_like(found)
+    broken = ~np.column_stack([found | scores["proposed"], found, named, placed, moved])
+    arrived = scores[rule] <= NEAR
+    return np.where(arrived, "", np.array(STAGES)[broken.argmax(axis=1)])
+
+
 def trial(level, split="test"):
-    """`score` of every photo of a level and split, as a dictionary of arrays (n,)."""
-    brain, scores = Brain.load(level), []
-    for photo in photos.load(level, split):
-        sight, reaches = see(brain, photo.image), {}
-        with suppress(ValueError):  # a place out of reach: no movement, and counted as such
-            place = locate(brain, photo.image, sight.box, photo.camera)
-            reaches = {name: reach(brain, place, rule) for name, rule in RULES.items()}
-        scores.append(score(photo, sight, reaches))
+    """`score` of every photo of a level and split, as a dictionary of arrays (n,).
+
+    The photos go through joblib: `with parallel_config(n_jobs=…)` sends them to several cores, and
+    with its "dask" backend to a cluster.
+    """
+    brain = Brain.load(level)
+    scores = Parallel()(delayed(_tried)(brain, photo) for photo in photos.load(level, split))
     return {key: np.array([s[key] for s in scores]) for key in scores[0]}
 
 
+def _tried(brain, photo):
+    sight, reaches = see(brain, photo.image), {}
+    with suppress(ValueError):  # a place out of reach: no movement, and counted as such
+        place = locate(brain, photo.image, sight.box, photo.camera)
+        first = reach(brain, place, calibration=None)
+        reaches = {name: recalibrated(first, rule) for name, rule in RULES.items()}
+    return score(photo, sight, reaches)
+
+
 def summary(scores):
-    """Shares (in [0, 1]) found, named and arrived by each rule, and median distances in m."""
-    arrived = {
-        f"arrived, {rule}": float((np.nan_to_num(scores[rule], nan=np.inf) <= NEAR).mean())
-        for rule in RULES
-    }
-    shares = {name: float(scores[name].mean()) for name in ("found", "named")}
+    """Shares (in [0, 1]) found, named, and arrived by each rule, and median distances in m."""
+    shares = {name: float(scores[name].mean()) for name in ("found", "named", "cup")}
     medians = {name: float(np.nanmedian(scores[name])) for name in ("target", "planned", *RULES)}
+    arrived = {f"arrived, {rule}": float((scores[rule] <= NEAR).mean()) for rule in RULES}
     return shares | medians | arrived
