@@ -2,8 +2,8 @@
 
 Two facts make it exact. No muscle wraps over both joints at once, so every musculotendon length is
 a function of the shoulder angle plus a function of the elbow angle: two tables. And the inertia,
-the pull of gravity and the hand's position are trigonometric polynomials in the two angles with
-only six frequencies: a few dozen snapshots of the MuJoCo model determine their coefficients.
+the pull of gravity and the hand's position are trigonometric polynomials in the two angles, sums
+of eleven products: a few dozen snapshots of the MuJoCo model determine their coefficients.
 """
 
 from functools import cache
@@ -14,20 +14,21 @@ import numpy as np
 
 from .model import DAMPING, LIMITS, STEP, forward, holding, mass_matrix, muscle_paths
 
-FREQUENCIES = np.array([(0, 0), (0, 1), (0, 2), (1, -1), (1, 0), (1, 1)]).T
 ROWS = 10_001  # of the muscle tables: steps of half a milliradian
 MARGIN = 0.4  # rad: the tables reach a little beyond the joints' stops
 LOW, HIGH = LIMITS[:, 0] - MARGIN, LIMITS[:, 1] + MARGIN
 
 
 def _waves(q):
-    phase = q @ FREQUENCIES
-    return np.concatenate([np.cos(phase), np.sin(phase)], axis=-1)
+    """The products (…, 11): of the shoulder's wave with the elbow's, and of the elbow's two."""
+    (c1, c2), (s1, s2) = _columns(np.cos(q)), _columns(np.sin(q))
+    both = c1 * c2, c1 * s2, s1 * c2, s1 * s2
+    return np.stack([np.ones_like(c1), c1, s1, c2, s2, *both, c2 * c2, c2 * s2], axis=-1)
 
 
 @cache
 def _coefficients(load=0.0):
-    """Of the waves in the dynamics (12, 7), as `_dynamics` unpacks it, and the hand (12, 3)."""
+    """Of the waves in the dynamics (11, 7), as `_dynamics` unpacks it, and the hand (11, 3)."""
     angles = np.linspace(0, 2 * np.pi, 6, endpoint=False)
     snapshots = np.array(list(product(angles, angles)))
     data = mujoco.MjData(holding(load))
@@ -39,10 +40,9 @@ def _coefficients(load=0.0):
 def _snapshot(q, data):
     gravity = forward(q, data=data).qfrc_bias.copy()
     inertia = mass_matrix(data)
-    swing = (
-        forward(q, (1, 0), data).qfrc_bias[1] - gravity[1]
-    )  # a turning shoulder throws outwards,
-    bend = forward(q, (0, 1), data).qfrc_bias[0] - gravity[0]  # and so does a bending elbow
+    # A turning shoulder throws the forearm outwards, and a bending elbow the upper arm.
+    swing = forward(q, (1, 0), data).qfrc_bias[1] - gravity[1]
+    bend = forward(q, (0, 1), data).qfrc_bias[0] - gravity[0]
     terms = [inertia[0, 0], inertia[0, 1], inertia[1, 1], swing, bend, *gravity]
     return [*terms, *data.site("hand").xpos]
 
@@ -89,7 +89,7 @@ def paths(q):
     place = (np.clip(q, LOW, HIGH) - LOW) * ((ROWS - 1) / (HIGH - LOW))
     row = np.minimum(place.astype(int), ROWS - 2)
     entry = row + np.array([0, ROWS])  # the elbow's rows follow the shoulder's
-    value = table[entry] + (place - row)[..., None] * slope[entry]
+    value = table.take(entry, axis=0) + (place - row)[..., None] * slope.take(entry, axis=0)
     return value[..., 0, :6] + value[..., 1, :6], value[..., 6:]
 
 

@@ -96,13 +96,13 @@ def activations(excitations, first):
 def muscle_torque(activation, lengths, arms, velocity):
     """Joint torques (…, 2) in N m of muscles at these lengths (…, 6) and moment arms (…, 2, 6)."""
     pull = force(activation, *fibres(lengths, arms, velocity), F0)
-    return (arms * pull[..., None, :]).sum(axis=-1)
+    return np.einsum("...jk,...k", arms, pull)
 
 
 def fibres(lengths, arms, velocity):
     """The fibres' lengths and velocities (…, 6), normalised as Eq. 10 and 11 take them."""
-    stretching = -(arms * velocity[..., None]).sum(axis=-2)
-    return (lengths - SLACK) / L0, stretching / (MAX_VELOCITY * L0)
+    shortening = np.einsum("...jk,...j", arms, velocity)
+    return (lengths - SLACK) / L0, -shortening / (MAX_VELOCITY * L0)
 
 
 def stop_torque(q, velocity):
