@@ -81,6 +81,19 @@ def test_no_photo_stands_in_two_splits():
     assert len(targets) == len(files)
 
 
+def test_the_real_photos_are_small_and_credited_with_their_boxes_inside():
+    shots = photos.real()
+    assert len(shots) == len(list(photos.REAL.glob("*.jpg"))) >= 8
+    credits = (FOLDER.parents[2] / "CREDITS.md").read_text()
+    for shot in shots:
+        assert shot.image.shape == (HEIGHT, WIDTH, 3) and shot.image.std() > 10
+        assert not shot.image.flags.writeable
+        assert (photos.REAL / f"{shot.name}.jpg").stat().st_size <= 60_000
+        assert f"`{shot.name}`" in credits and shot.credit.split("; ")[-1] in credits
+        for x0, y0, x1, y1 in shot.boxes.values():
+            assert 0 <= x0 < x0 + 20 <= x1 <= WIDTH and 0 <= y0 < y0 + 20 <= y1 <= HEIGHT
+
+
 def test_loading_names_an_unknown_level_or_split():
     with pytest.raises(ValueError, match="unknown level 'rigg'"):
         photos.load("rigg", "train")

@@ -22,6 +22,7 @@ CLASSES = ("shuttlecock", "cup")
 WIDTH, HEIGHT = 600, 400
 TABLE = -0.43  # height of the table top in the shoulder frame (m)
 FOLDER = Path(__file__).parent / "data" / "photos"
+REAL = Path(__file__).parent / "data" / "real"
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,6 +125,33 @@ def _read(sidecar):
         pose=truth["pose"],
         seed=tuple(truth["seed"]),
     )
+
+
+@dataclass(frozen=True, eq=False)
+class RealPhoto:
+    """A real photo of everyday things, to see what holds beyond our own renders.
+
+    image: (400, 600, 3) uint8; boxes: thing → (4,), around the visible pixels, drawn by hand;
+    credit: whose it is, and its licence.
+    """
+
+    name: str
+    image: np.ndarray
+    boxes: dict
+    credit: str
+
+
+@cache
+def real():
+    """The real photos that ship, in order of their names."""
+    shots = []
+    for sidecar in sorted(REAL.glob("*.json")):
+        truth = json.loads(sidecar.read_text())
+        image = read_image(sidecar.with_suffix(".jpg"))
+        image.flags.writeable = False  # shared by all who load it
+        boxes = {thing: np.array(box, float) for thing, box in truth["boxes"].items()}
+        shots.append(RealPhoto(sidecar.stem, image, boxes, truth["credit"]))
+    return tuple(shots)
 
 
 def read_image(source):
