@@ -4,8 +4,11 @@ python book/_ext/vendor.py            fetch them again (npm, and the installed m
 python book/_ext/vendor.py --check    compare the files here with the manifest
 """
 
+import base64
+import gzip
 import hashlib
 import json
+import re
 import subprocess
 import sys
 import tarfile
@@ -18,7 +21,10 @@ MANIFEST = ROOT / "book/_static/vendor/manifest.json"
 
 
 def fetch(origin):
-    """The bytes of `origin`: "npm:name@version:path" or "python:name@version:path"."""
+    """The bytes of `origin`: "npm:name@version:path" or "python:name@version:path".
+
+    A path may be "module.js+module.wasm": then the two are made one script.
+    """
     registry, package, path = origin.split(":")
     name, version = package.rsplit("@", 1)
     if registry == "python":
@@ -29,7 +35,19 @@ def fetch(origin):
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run(["npm", "pack", "--silent", package], cwd=folder, check=True)
         with tarfile.open(next(Path(folder).glob("*.tgz"))) as archive:
-            return archive.extractfile(f"package/{path}").read()
+            parts = [archive.extractfile(f"package/{p}").read() for p in path.split("+")]
+    return with_wasm(*parts) if len(parts) == 2 else parts[0]
+
+
+def with_wasm(module, wasm):
+    """An ES module and its WebAssembly as one classic script: from file:// nothing else loads.
+
+    The module's default export becomes a global function, its `wasm` the binary in gzip and base64.
+    """
+    script = module.decode().replace("import.meta.url", "document.baseURI")
+    script, name, _ = re.split(r"^export default (\w+);$", script, flags=re.M)
+    packed = base64.b64encode(gzip.compress(wasm, mtime=0)).decode()
+    return f'{script}{name}.wasm = "{packed}";\n'.encode()
 
 
 def problems():
