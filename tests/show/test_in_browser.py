@@ -5,6 +5,7 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
+import pypdfium2
 import pytest
 from meshcat import geometry as g
 from meshcat.transformations import translation_matrix
@@ -133,6 +134,30 @@ def test_a_pad_follows_the_pointer_and_the_keyboard(open_demos):
     page.keyboard.press("ArrowDown")
     assert page.get_attribute(".vmc-pictures", "aria-label") != alt
     assert page.inner_text(".vmc-spoken") == page.get_attribute(".vmc-pictures", "aria-label")
+
+
+def test_paper_shows_every_demo_as_it_stands(open_demos):
+    def draw(x, label):
+        return ball(x), f"<p>{label} at {x}</p>"
+
+    def declare():
+        figure('<p style="height: 60em">Tall.</p>', "The scene below is not in sight.", "words")
+        explore(
+            draw, "A ball.", "alt", x=Slider([0.1, 0.4], "place", play=True), label=["now", "then"]
+        )
+
+    page = open_demos(declare)
+    page.wait_for_function("() => window.MeshCat")
+    set_value(page, "input", 1)
+    page.evaluate("() => { document.documentElement.dataset.theme = 'dark' }")
+    pdf = pypdfium2.PdfDocument(page.pdf(print_background=True))
+    text = "\n".join(sheet.get_textpage().get_text_range() for sheet in pdf)
+    assert "now at 0.4" in text and "place" in text and "A ball." in text
+    assert not any(word in text for word in ("then", "0.1", "Play", "turn the view"))
+    sheets = [np.int16(sheet.render().to_numpy()) for sheet in pdf]
+    blue, _, red = np.moveaxis(np.concatenate([s.reshape(-1, s.shape[-1]) for s in sheets]), 1, 0)
+    assert (red > blue + 60).any() and (blue > red + 60).any()  # the ball, and the box at 0.4
+    assert page.get_attribute("html", "data-theme") == "dark"
 
 
 def test_play_walks_to_the_end_and_stops(open_demos):

@@ -1,4 +1,4 @@
-"""How things are shown: `explore` (demos that answer their sliders), plots, photos, scenes.
+"""How things are shown: `explore` (demos that answer their sliders), plots, photos, questions.
 
 The arm's own scenes are in `vmc_lib.show.arm`.
 """
@@ -6,6 +6,7 @@ The arm's own scenes are in `vmc_lib.show.arm`.
 from vmc_lib.show.controls import Choice, Pad, Slider, Switch
 from vmc_lib.show.demo import explore, figure
 from vmc_lib.show.figures import COLOURS, photo_view, say
+from vmc_lib.show.questions import check, quiz
 from vmc_lib.show.scene import Scene
 
 __all__ = [
@@ -15,8 +16,10 @@ __all__ = [
     "Scene",
     "Slider",
     "Switch",
+    "check",
     "explore",
     "figure",
     "photo_view",
+    "quiz",
     "say",
 ]

@@ -209,9 +209,14 @@ def _label(x, y, text, colour):
     )
 
 
+def inline(text):
+    """A line of Markdown, maths between dollar signs, as HTML."""
+    return _MARKDOWN.renderInline(text)
+
+
 def framed(inside, caption, name=""):
-    """A figure element with its caption (Markdown, maths between dollar signs)."""
-    caption = f"<figcaption>{_MARKDOWN.renderInline(caption)}</figcaption>"
+    """A figure element with its caption (Markdown)."""
+    caption = f"<figcaption>{inline(caption)}</figcaption>"
     return f'<figure class="vmc-demo" id="{name}">{inside}{caption}</figure>'
 
 

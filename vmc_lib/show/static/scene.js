@@ -35,6 +35,7 @@ const vmcScene = (() => {
       new IntersectionObserver(([entry]) => entry.isIntersecting && this.awake(), {
         rootMargin: "200px",
       }).observe(div);
+      (self.requestIdleCallback ?? setTimeout)(loadMeshCat); // paper shows what was never in sight
       new ResizeObserver(() => this.viewer?.set_3d_pane_size()).observe(div);
     }
 
@@ -148,7 +149,7 @@ const vmcScene = (() => {
   /* A slider that turns views, for hands on a keyboard or a phone; the mouse drags the scene itself. */
   const turner = (...turned) => {
     const label = document.createElement("label");
-    label.className = "vmc-control";
+    label.className = "vmc-control vmc-turn";
     label.innerHTML = 'turn the view <input type="range" min="-180" max="180" step="5" value="0">';
     label.lastChild.addEventListener("input", ({ target }) =>
       turned.forEach((view) => view.turn(+target.value)));

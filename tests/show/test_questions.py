@@ -1,0 +1,171 @@
+"""Quizzes and checks: what they show, what they refuse, and how the page answers."""
+
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from vmc_lib.show import check, questions, quiz
+from vmc_lib.show.scene import STATIC
+
+AXE = Path(__file__).parents[1] / "vendor/axe.js"
+HEAD = """<!doctype html><html lang="en"><meta charset="utf-8"><title>Questions</title>
+<link rel="stylesheet" href="demo.css"><script defer src="questions.js"></script>
+<style>body { color: var(--vmc-ink); background: var(--vmc-paper); }</style>"""
+
+
+@pytest.fixture
+def shown(monkeypatch):
+    """What is displayed, in order, as HTML."""
+    outputs = []
+    monkeypatch.setattr(questions, "display", lambda html: outputs.append(html.data))
+    return outputs
+
+
+@pytest.fixture
+def book(monkeypatch):
+    monkeypatch.setenv("VMC_LIFE", "book")
+
+
+def ask():
+    answers = {"two": "One and *one*.", "three": "That is one too many: $1 + 1 < 3$."}
+    quiz("How much is $1 + 1$?", answers, right="two")
+
+
+def test_every_answer_says_why(shown):
+    ask()
+    [page] = shown
+    assert page.count("<details") == page.count("<summary>") == 2
+    assert page.count("✓ Right.") == page.count("✗ No.") == 1
+    assert r"\(1 + 1\)" in page and "<em>one</em>" in page and "&lt; 3" in page
+    assert page.index("two") < page.index("✓ Right.") < page.index("three")
+
+
+@pytest.mark.parametrize(
+    ("answers", "right"),
+    [({"yes": "It is."}, "yes"), ({"yes": "a", "no": ""}, "yes"), ({"yes": "a", "no": "b"}, "or")],
+)
+def test_a_quiz_that_cannot_be_answered_is_refused(answers, right):
+    with pytest.raises(ValueError, match="'Well\\?' needs two or more answers"):
+        quiz("Well?", answers, right)
+
+
+@pytest.mark.parametrize(
+    ("answer", "expected", "tolerance"),
+    [
+        (11.6, 20 / np.tan(np.radians(60)), 0.1),
+        (190, 190, 0),
+        ((190, 189.9, 95), (190, 190, 95), 0.2),
+        (np.eye(2), [[1, 0], [0, 1]], 1e-9),
+        ("same", "same", 0),
+        (True, True, 0),
+    ],
+)
+def test_a_right_answer_is_right_in_every_life(answer, expected, tolerance, shown, monkeypatch):
+    for life in ("live", "book", "test"):
+        monkeypatch.setenv("VMC_LIFE", life)
+        check(answer, expected, tolerance)
+    assert all("✓ Right." in page for page in shown) and len(shown) == 3
+
+
+WRONG = [
+    (11.8, 11.6, 0.1),
+    (np.nan, 1, 0.1),
+    ("eleven", 11, 1),
+    ((1, 2), (1, 2, 3), 0),
+    ([1, 2], 1, 5),
+    (np.zeros(3), [1, 0.1, 0], 1e-3),
+    ("same", "different", 0),
+]
+
+
+@pytest.mark.parametrize(("answer", "expected", "tolerance"), WRONG)
+def test_a_wrong_answer_is_shown_the_hint_and_fails_a_test(
+    answer, expected, tolerance, shown, monkeypatch
+):
+    with pytest.raises(AssertionError, match="check: "):
+        check(answer, expected, tolerance)
+    monkeypatch.setenv("VMC_LIFE", "live")
+    check(answer, expected, tolerance, hint="Draw it: $x < y$.")
+    [page] = shown
+    assert "✗ Not yet." in page and r"\(x &lt; y\)" in page
+
+
+@pytest.mark.parametrize("answer", [None, (None, None), (1, None), [None, "a"]])
+@pytest.mark.parametrize("life", ["live", "test"])
+def test_none_is_not_answered_yet(answer, life, shown, monkeypatch):
+    monkeypatch.setenv("VMC_LIFE", life)
+    check(answer, 3)
+    assert "Not answered yet." in shown[0] and "<input" not in shown[0]
+
+
+def test_the_page_asks_for_numbers_and_words_but_not_for_what_code_returns(shown, book):
+    for expected in (3, "same", (1, 2), np.float64(0.5), [0.1, 0.2], np.eye(2)):
+        check(None, expected)
+    assert ["<input" in page for page in shown] == [True, True, True, True, False, False]
+
+
+@pytest.fixture
+def open_questions(offline, tmp_path, shown, book):
+    """A function that opens a page of what was shown."""
+    shutil.copytree(STATIC, tmp_path, dirs_exist_ok=True)
+
+    def open_questions():
+        (tmp_path / "page.html").write_text(f"{HEAD}<main><h1>Q</h1>{''.join(shown)}</main>")
+        page = offline.new_page()
+        page.goto((tmp_path / "page.html").as_uri())
+        return page
+
+    return open_questions
+
+
+@pytest.mark.browser
+def test_a_quiz_is_answered_from_the_keyboard(open_questions):
+    ask()
+    page = open_questions()
+    assert not page.is_visible("text=One and")
+    page.keyboard.press("Tab")
+    page.keyboard.press("Enter")
+    assert page.is_visible("text=✓ Right.") and not page.is_visible("text=✗ No.")
+    page.keyboard.press("Tab")
+    page.keyboard.press("Space")
+    assert page.is_visible("text=✗ No.")
+    page.emulate_media(media="print")  # on paper the question stands alone
+    assert page.is_visible("text=three") and not page.is_visible("text=✗ No.")
+    page.close()
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize(
+    ("expected", "tries"),
+    [
+        (-11.5, {"": "Not answered", "11": "Not yet", "−11.55": "Right", "x": "Not yet"}),
+        ((190, 95), {"190": "Not yet", "190, 95": "Right", "95 190": "Not yet"}),
+        ("same", {"different": "Not yet", "Same": "Right"}),
+    ],
+)
+def test_the_page_checks_what_is_typed(open_questions, expected, tries):
+    check(None, expected, tolerance=0.1, hint="*Think*.")
+    page = open_questions()
+    for typed, verdict in tries.items():
+        page.fill("input", typed)
+        page.keyboard.press("Enter")
+        said = page.inner_text("[role=status]")
+        assert verdict in said and ("Think." in said) == (verdict == "Not yet")
+    page.close()
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_questions_are_accessible(open_questions, theme):
+    ask()
+    check(None, 3)
+    check(3, 3)
+    page = open_questions()
+    page.eval_on_selector_all("details", "all => all.forEach((d) => (d.open = true))")
+    page.evaluate("theme => { document.documentElement.dataset.theme = theme }", theme)
+    page.evaluate(AXE.read_text())
+    found = page.evaluate("() => axe.run(document, { preload: false })")
+    assert [(v["id"], v["nodes"][0]["html"]) for v in found["violations"]] == []
+    page.close()
