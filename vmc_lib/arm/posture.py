@@ -41,10 +41,14 @@ def turn_towards(target):
 
 
 def to_world(points, psi):
-    """Points (…, 3) of the turned shoulder frame, in the frame of the trunk straight ahead."""
+    """Points (…, 3) of the turned shoulder frame, in the frame of the trunk straight ahead.
+
+    One turn `psi` in rad for all of them, or one for each, (…).
+    """
     points = np.array(points, dtype=float)
+    x, z = np.moveaxis(points[..., [0, 2]] - TRUNK, -1, 0)
     c, s = np.cos(psi), np.sin(psi)
-    points[..., [0, 2]] = (points[..., [0, 2]] - TRUNK) @ np.array([[c, -s], [s, c]]) + TRUNK
+    points[..., [0, 2]] = np.stack([c * x + s * z, c * z - s * x], axis=-1) + TRUNK
     return points
 
 

@@ -1,0 +1,66 @@
+"""Planning in space (Eq. 3–5 in R³): the trunk's turn is remembered with a reach and mixed too.
+
+The paper proposes its method in three dimensions and tests it in two. Here a memory is a reach in
+the arm's plane together with the trunk's turn under which it was made; both are commands, both are
+weighted sums. Positions are in the frame of the trunk straight ahead, in m.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..arm.posture import to_world, turn_towards
+from .planning import habitual_weights, least_change, surrounding
+from .templates import Library, reach
+
+TURNS = np.radians([-10.0, 5.0, 20.0, 35.0, 50.0, 65.0])
+
+
+@dataclass(frozen=True)
+class Memories:
+    """Every reach of a library, made under every turn of the trunk."""
+
+    library: Library
+    turns: np.ndarray  # (M,), rad
+    points: np.ndarray  # (N · M, 3): where each ended; turn changes fastest
+
+    @classmethod
+    def of(cls, library, turns=TURNS):
+        """The memories of a library's N reaches under M turns."""
+        ends = reach(library.excitations).hand[:, -1]
+        points = np.stack([to_world(ends, turn) for turn in turns], axis=1)
+        return cls(library, np.asarray(turns), points.reshape(-1, 3))
+
+    def surrounding(self, target):
+        """Rows (8,) round a target (3,): four reaches about it, under the turns on its two sides.
+
+        ValueError when the target is outside the space that experience covers.
+        """
+        turn, p = turn_towards(target)
+        if not self.turns[0] < turn < self.turns[-1]:
+            raise ValueError(
+                f"target {target} m needs a turn of {np.degrees(turn):.0f}°, outside those "
+                f"remembered; move it"
+            )
+        before = np.searchsorted(self.turns, turn) - 1
+        reaches = surrounding(p, self.library.points) * len(self.turns)
+        return np.concatenate([reaches + before, reaches + before + 1])
+
+    def move(self, chosen, weights):
+        """Where the hand ends, (…, 3), when memories (…, 8) are mixed by weights (…, 8)."""
+        template, turn = np.divmod(chosen, len(self.turns))
+        mixed = np.einsum("...i,...itm->...tm", weights, self.library.excitations[template])
+        ends = reach(np.clip(mixed, 0, 1)).hand[..., -1, :]
+        return to_world(ends, (weights * self.turns[turn]).sum(axis=-1))
+
+
+def practise(memories, targets, trials=3):
+    """Plan by Eq. 5, then correct by Eq. 4 in R³, a trial at a time: errors (trials + 1, n), m."""
+    chosen = np.array([memories.surrounding(target) for target in targets])
+    points = memories.points[chosen]
+    weights, errors = habitual_weights(targets, points), []
+    for _ in range(trials + 1):
+        missing = targets - memories.move(chosen, weights)
+        errors.append(np.linalg.norm(missing, axis=-1))
+        weights = weights + least_change(np.swapaxes(points, -1, -2), missing)
+    return np.array(errors)
