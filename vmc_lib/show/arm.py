@@ -16,6 +16,7 @@ from vmc_lib.show.figures import COLOURS
 from vmc_lib.show.scene import Scene
 
 POINTS = 12  # no muscle's path has more
+BONE_RADIUS, TUBE = 0.013, (0.004, 0.010)  # m: bones; muscles at rest and at their strongest
 BONE, BODY, WOOD, FEATHER = 0xEDE6D6, 0xAEB7C2, 0xCDB795, 0xF4F4F0
 
 
@@ -32,11 +33,12 @@ def arm_scene(q, activation=None, force=None, turn=0.0, shuttlecock=None, balls=
     joints = np.array([*(position for _, position in bodies.values()), hand(q)])
     activation = np.zeros(len(MUSCLES)) if activation is None else np.clip(activation, 0, 1)
     force = activation if force is None else np.clip(force, 0, 1)
-    _move_tube(scene["arm/bones"], to_world(joints, turn), 0.013)
+    thin, thick = TUBE
+    _move_tube(scene["arm/bones"], to_world(joints, turn), BONE_RADIUS)
     scene["arm/hand"].set_transform(_place(to_world(joints[-1], turn)))
     for name, active, share in zip(MUSCLES, activation, force, strict=True):
         path = np.pad(paths[name], ((0, POINTS - len(paths[name])), (0, 0)), "edge")
-        _move_tube(scene[f"arm/{name}"], to_world(path, turn), 0.004 + 0.006 * share)
+        _move_tube(scene[f"arm/{name}"], to_world(path, turn), thin + (thick - thin) * share)
         scene[f"arm/{name}"].set_property("color", _heat(active))
     if shuttlecock is not None:
         _shuttlecock(scene, shuttlecock)
