@@ -7,10 +7,22 @@ import re
 def setup(app):
     os.environ["VMC_LIFE"] = "book"  # kernels inherit it: demos become self-contained pages
     app.set_html_assets_policy("always")  # equations may come from a cell's output, unannounced
+    app.connect("config-inited", launch)
     app.connect("env-get-outdated", every_page)
     app.connect("html-page-context", mend, priority=900)
     app.connect("autodoc-process-docstring", code_marks)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
+
+
+def launch(app, config):
+    """Buttons that open a chapter elsewhere need the repository's public address: the one in
+    _config.yml, else the one that a build on GitHub is told. Without an address, no buttons.
+    """
+    options, told = config.html_theme_options, os.environ
+    if not options.get("repository_url") and "GITHUB_REPOSITORY" in told:
+        options["repository_url"] = "{GITHUB_SERVER_URL}/{GITHUB_REPOSITORY}".format_map(told)
+    if not options.get("repository_url"):
+        options.pop("launch_buttons", None)
 
 
 def every_page(app, env, added, changed, removed):
