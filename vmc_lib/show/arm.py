@@ -69,12 +69,21 @@ def _furniture():
     return scene
 
 
+class _Bend(g.Sphere):
+    """A ball of few faces: it is small, there are many, and they move."""
+
+    def lower(self, object_data):
+        return super().lower(object_data) | {"widthSegments": 10, "heightSegments": 8}
+
+
 def _make_tube(part, points, colour):
     """A tube along that many points: a cylinder for each stretch, a ball for each bend."""
+    stretch = g.Cylinder(1.0, 1.0)
+    stretch.radialSegments = 10
     for i in range(points):
-        part[f"bend{i}"].set_object(g.Sphere(1.0), _paint(colour))
+        part[f"bend{i}"].set_object(_Bend(1.0), _paint(colour))
         if i:
-            part[f"stretch{i}"].set_object(g.Cylinder(1.0, 1.0), _paint(colour))
+            part[f"stretch{i}"].set_object(stretch, _paint(colour))
 
 
 def _move_tube(part, line, radius):
