@@ -1,10 +1,13 @@
 """Two engines, one movement."""
 
+from importlib.resources import files
+
 import numpy as np
 import pytest
 
 from vmc_lib.arm.model import LIMITS
-from vmc_lib.arm.simulate import World, simulate
+from vmc_lib.arm.others import MUSCLES
+from vmc_lib.arm.simulate import World, simulate, steady
 
 START = np.radians([-20.0, 95.0])
 QUIET = np.zeros((10, 6))
@@ -32,6 +35,19 @@ def test_the_engines_agree_with_a_load_in_a_force_field():
     )
     assert np.abs(fast.q - reference.q).max() < 1e-6
     assert np.abs(fast.q - bare.q).max() > 0.01
+
+
+def test_the_arm_with_opensims_muscles_moves_as_opensims():
+    """Its tendons are stiff, not rigid, and its long biceps runs elsewhere by half a millimetre."""
+    with np.load(files("vmc_lib.data") / "opensim.npz", allow_pickle=False) as reference:
+        levels, expected = reference["levels"], reference["rigid"]
+    start = np.radians([0, 60])
+    thelen, paper = (
+        simulate(steady(levels, 0.6), start, muscle=MUSCLES[m]).q[:, 10::10]
+        for m in ("Thelen 2003", "the paper (Eq. 9–11)")
+    )
+    assert np.abs(thelen - expected).max() < 0.012
+    assert np.abs(paper - expected).max() > 0.05
 
 
 def test_a_batch_is_its_movements_one_by_one():
@@ -65,6 +81,19 @@ def test_the_stops_hold_the_arm_together():
 def test_bad_excitations(excitations, complaint):
     with pytest.raises(ValueError, match=complaint):
         simulate(excitations, START)
+
+
+def test_steady_excitations_last_as_long_as_asked():
+    levels = np.arange(12).reshape(2, 6) / 12
+    excitations = steady(levels, 0.05)
+    assert excitations.shape == (2, 50, 6)
+    np.testing.assert_array_equal(excitations[:, 31], levels)
+
+
+@pytest.mark.parametrize("duration", [-0.5, 0, 1e-4, np.nan, np.inf])
+def test_bad_durations(duration):
+    with pytest.raises(ValueError, match="at least"):
+        steady(np.zeros(6), duration)
 
 
 def test_bad_starts_and_engines():

@@ -50,11 +50,13 @@ def forward(q, velocity=(0.0, 0.0), data=None):
 
 
 def muscle_paths(data):
-    """Musculotendon lengths (6,) in m and moment arms (2, 6) in m of MuJoCo's current posture.
+    """Musculotendon lengths (…, 6) and moment arms (…, 2, 6) in m of MuJoCo's current posture.
 
-    A moment arm is minus the change of length with the angle: positive turns the joint positively.
+    `data` is MuJoCo's own, or a `mujoco.batch.Batch` of many. A moment arm is minus the change of
+    length with the angle: positive turns the joint positively.
     """
-    return data.ten_length, -data.ten_J.reshape(MODEL.ntendon, MODEL.nv).T
+    slopes = np.reshape(data.ten_J, (*data.ten_length.shape, MODEL.nv))
+    return data.ten_length, -np.swapaxes(slopes, -1, -2)
 
 
 def geometry(q):

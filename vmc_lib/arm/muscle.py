@@ -11,6 +11,9 @@ Three curves and one lag. The paper leaves units and ranges open; we read it so:
 - the passive force rises again below l = 0.22 (an even power): `passive_force` holds l above it.
 """
 
+from collections.abc import Callable
+from typing import NamedTuple
+
 import numpy as np
 
 TAU_ACTIVATION = 0.010  # s: calcium floods in quickly …
@@ -59,3 +62,13 @@ def force(activation, length, velocity, maximum):
     """Eq. 10: muscle force in newtons; `length` and `velocity` normalised, `maximum` = F0."""
     active = force_length(length) * force_velocity(velocity) * activation
     return maximum * (active + passive_force(length))
+
+
+class Muscle(NamedTuple):
+    """What makes a muscle: functions of the shapes and units of the two that fill `PAPER`."""
+
+    activation_rate: Callable
+    force: Callable
+
+
+PAPER = Muscle(activation_rate, force)

@@ -1,7 +1,7 @@
-"""Forward dynamics (Eq. 9–12): from muscle excitations to a movement, one interface, two engines.
+"""Forward dynamics (Eq. 9–12): from muscle excitations to a movement, one loop, two engines.
 
 `"mujoco"` steps the MuJoCo model and is the reference; `"closed form"` steps a whole batch of
-movements at once and is the one to use for hundreds. Both call the same muscle law and the same
+movements at once and is the one to use for hundreds. Both meet the same muscles and the same
 joint stops, with the same semi-implicit Euler steps of 1 ms.
 """
 
@@ -10,11 +10,12 @@ from typing import NamedTuple
 
 import mujoco
 import numpy as np
+from mujoco.batch import Batch
 
 from . import closed_form
 from .closed_form import hand
 from .model import F0, L0, LIMITS, SLACK, STEP, holding, muscle_paths
-from .muscle import MAX_VELOCITY, activation_rate, force
+from .muscle import MAX_VELOCITY, PAPER
 
 STOP_STIFFNESS = 200.0  # N m / rad: ours, not arm26's; bone and ligament beyond the joints' limits
 STOP_DAMPING = 0.5  # s / rad
@@ -54,11 +55,12 @@ class Motion:
         return np.abs(self.velocity[..., -1, :]).max(axis=-1)
 
 
-def simulate(excitations, start, activation=None, engine="closed form", world=EMPTY):
+def simulate(excitations, start, activation=None, engine="closed form", world=EMPTY, muscle=PAPER):
     """The `Motion` that excitations (…, T, 6), sampled at 1 kHz, give the arm.
 
     It starts still, in the posture `start` (…, 2), with the muscles' `activation` (…, 6); by
-    default they have settled to the first excitation. `world` may load its hand or push it about.
+    default they have settled to the first excitation. `world` may load its hand or push it about,
+    and `muscle` may be another `Muscle` than the paper's.
     ValueError when an excitation is not a number in [0, 1], or a shape is wrong.
     """
     u = np.asarray(excitations, dtype=float)
@@ -71,9 +73,19 @@ def simulate(excitations, start, activation=None, engine="closed form", world=EM
     leading = u.shape[:-2]
     q = _each("start", start, leading, 2)
     first = _each("activation", u[..., 0, :] if activation is None else activation, leading, 6)
-    a = activations(u.reshape(-1, *u.shape[-2:]), first)
-    path = ENGINES[engine](a, q, world)
+    a = activations(u.reshape(-1, *u.shape[-2:]), first, muscle)
+    path = _move(ENGINES[engine](q, world.load), a, world.field, muscle)
     return Motion(*(x.reshape(*leading, *x.shape[1:]) for x in (*path, a)))
+
+
+def steady(level, duration):
+    """Excitations (…, T, 6) for `simulate` that stay at `level` (…, 6) for `duration` in s.
+
+    ValueError when the duration is no positive number of at least one step.
+    """
+    if not STEP <= duration < np.inf:
+        raise ValueError(f"a duration of {duration} s: choose at least {STEP} s")
+    return np.repeat(np.asarray(level, dtype=float)[..., None, :], round(duration / STEP), axis=-2)
 
 
 def _each(name, value, leading, size):
@@ -83,19 +95,19 @@ def _each(name, value, leading, size):
     return np.broadcast_to(value, (*leading, size)).reshape(-1, size)
 
 
-def activations(excitations, first):
+def activations(excitations, first, muscle=PAPER):
     """Eq. 9 integrated: activations (B, T + 1, 6) from excitations (B, T, 6) and first (B, 6)."""
     steps = np.swapaxes(excitations, 0, 1)
     path = np.empty((len(steps) + 1, *first.shape))
     path[0] = first
     for k, u in enumerate(steps):
-        path[k + 1] = path[k] + STEP * activation_rate(u, path[k])
+        path[k + 1] = path[k] + STEP * muscle.activation_rate(u, path[k])
     return np.swapaxes(path, 0, 1)
 
 
-def muscle_torque(activation, lengths, arms, velocity):
+def muscle_torque(activation, lengths, arms, velocity, muscle=PAPER):
     """Joint torques (…, 2) in N m of muscles at these lengths (…, 6) and moment arms (…, 2, 6)."""
-    pull = force(activation, *fibres(lengths, arms, velocity), F0)
+    pull = muscle.force(activation, *fibres(lengths, arms, velocity), F0)
     return np.einsum("...jk,...k", arms, pull)
 
 
@@ -111,33 +123,48 @@ def stop_torque(q, velocity):
     return -STOP_STIFFNESS * (beyond + STOP_DAMPING * np.abs(beyond) * velocity)
 
 
-def _closed_form(activation, start, world):
-    q, velocity = (np.empty((activation.shape[1], *start.shape)) for _ in range(2))
-    q[0], velocity[0], push = start, 0, np.transpose(world.field)
-    for k, a in enumerate(np.swapaxes(activation[:, :-1], 0, 1)):
-        torque = muscle_torque(a, *closed_form.paths(q[k]), velocity[k])
-        torque += stop_torque(q[k], velocity[k]) + velocity[k] @ push
-        acceleration = closed_form.acceleration_from(q[k], velocity[k], torque, world.load)
-        velocity[k + 1] = velocity[k] + STEP * acceleration
-        q[k + 1] = q[k] + STEP * velocity[k + 1]
-    return np.swapaxes(q, 0, 1), np.swapaxes(velocity, 0, 1)
-
-
-def _mujoco(activation, start, world):
+def _move(arm, activation, field, muscle):
+    """Eq. 12 step by step: q and velocity (B, T + 1, 2) of an engine's arms."""
     q, velocity = (np.empty((*activation.shape[:2], 2)) for _ in range(2))
-    data = mujoco.MjData(model := holding(world.load))
-    for b, posture in enumerate(start):
-        mujoco.mj_resetData(model, data)
-        data.qpos = q[b, 0] = posture
-        velocity[b, 0] = 0
-        for k, a in enumerate(activation[b, :-1]):
-            mujoco.mj_step1(model, data)
-            torque = muscle_torque(a, *muscle_paths(data), data.qvel)
-            torque += stop_torque(data.qpos, data.qvel) + world.field @ data.qvel
-            data.qfrc_applied = torque
-            mujoco.mj_step2(model, data)
-            q[b, k + 1], velocity[b, k + 1] = data.qpos, data.qvel
+    for k, a in enumerate(np.swapaxes(activation, 0, 1)):
+        q[:, k], velocity[:, k] = arm.q, arm.velocity
+        torque = muscle_torque(a, *arm.paths(), arm.velocity, muscle)
+        torque += stop_torque(arm.q, arm.velocity) + arm.velocity @ np.transpose(field)
+        arm.step(torque)
     return q, velocity
 
 
-ENGINES = {"closed form": _closed_form, "mujoco": _mujoco}
+class ClosedForm:
+    """A batch of arms, all at once: postures and velocities (B, 2)."""
+
+    def __init__(self, start, load):
+        self.q, self.velocity, self.load = start, np.zeros_like(start), load
+
+    def paths(self):
+        return closed_form.paths(self.q)
+
+    def step(self, torque):
+        acceleration = closed_form.acceleration_from(self.q, self.velocity, torque, self.load)
+        self.velocity = self.velocity + STEP * acceleration
+        self.q = self.q + STEP * self.velocity
+
+
+class MuJoCo:
+    """The same arms, each stepped by MuJoCo; `q` and `velocity` are views of its states."""
+
+    def __init__(self, start, load):
+        self.arms = Batch(holding(load), len(start), nthread=1, persistent=True)
+        self.q, self.velocity = self.arms.bind("qpos"), self.arms.bind("qvel")
+        self.q[:] = start
+        self.paths()  # before the first computation: from then on MuJoCo keeps them current
+        self.arms.forward(stage=mujoco.mjtStage.mjSTAGE_VEL)
+
+    def paths(self):
+        return muscle_paths(self.arms)
+
+    def step(self, torque):
+        self.arms.qfrc_applied = torque
+        self.arms.step(stage=mujoco.mjtStage.mjSTAGE_VEL)
+
+
+ENGINES = {"closed form": ClosedForm, "mujoco": MuJoCo}
