@@ -33,7 +33,8 @@ def test_the_eight_memories_lie_round_the_target(memories):
 def test_practice_brings_the_hand_nearer(memories):
     places = np.array([[0.12, -0.40, 0.06], [0.17, -0.39, 0.06], [0.15, -0.42, 0.06]])
     targets = to_world(places, np.radians([12.0, 28, 44]))
-    planned, *_, last = space.practise(memories, targets)
+    weights, (planned, *_, last) = space.practise(memories, targets)
+    np.testing.assert_allclose(weights.sum(axis=-1), 1)
     assert np.all(last < 0.5 * planned) and last.mean() < 0.1 * planned.mean()
 
 

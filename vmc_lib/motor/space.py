@@ -46,21 +46,29 @@ class Memories:
         reaches = surrounding(p, self.library.points) * len(self.turns)
         return np.concatenate([reaches + before, reaches + before + 1])
 
-    def move(self, chosen, weights):
-        """Where the hand ends, (…, 3), when memories (…, 8) are mixed by weights (…, 8)."""
+    def mix(self, chosen, weights):
+        """Eq. 3: the excitations (…, T, 6) and the trunk's turn (…) of memories (…, 8) mixed."""
         template, turn = np.divmod(chosen, len(self.turns))
         mixed = np.einsum("...i,...itm->...tm", weights, self.library.excitations[template])
-        ends = reach(np.clip(mixed, 0, 1)).hand[..., -1, :]
-        return to_world(ends, (weights * self.turns[turn]).sum(axis=-1))
+        return np.clip(mixed, 0, 1), (weights * self.turns[turn]).sum(axis=-1)
+
+    def move(self, chosen, weights):
+        """Where the hand ends, (…, 3), when the memories are mixed so."""
+        excitations, turn = self.mix(chosen, weights)
+        return to_world(reach(excitations).hand[..., -1, :], turn)
 
 
 def practise(memories, targets, trials=3):
-    """Plan by Eq. 5, then correct by Eq. 4 in R³, a trial at a time: errors (trials + 1, n), m."""
+    """Plan by Eq. 5, then correct by Eq. 4 in R³, a trial at a time.
+
+    Returns, for the plan and each trial of targets (n, 3), the weights (trials + 1, n, 8) and how
+    far the hand ended from its target, (trials + 1, n) in m.
+    """
     chosen = np.array([memories.surrounding(target) for target in targets])
     points = memories.points[chosen]
-    weights, errors = habitual_weights(targets, points), []
+    history, weights = [], habitual_weights(targets, points)
     for _ in range(trials + 1):
         missing = targets - memories.move(chosen, weights)
-        errors.append(np.linalg.norm(missing, axis=-1))
+        history.append((weights, np.linalg.norm(missing, axis=-1)))
         weights = weights + least_change(np.swapaxes(points, -1, -2), missing)
-    return np.array(errors)
+    return tuple(map(np.array, zip(*history, strict=True)))
