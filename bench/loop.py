@@ -1,0 +1,52 @@
+"""From a photo to the first movement: how long each stage takes, beside OpenCV's search alone."""
+
+import cv2
+import numpy as np
+
+from bench.report import publish, seconds
+from vmc_lib import loop, photos
+from vmc_lib.cerebellum.offline import calibrate, published
+from vmc_lib.motor.planning import plan
+
+
+def opencv(image):
+    """OpenCV contrib's selective search, fast: its boxes."""
+    search = cv2.ximgproc.segmentation.createSelectiveSearchSegmentation()
+    search.setBaseImage(np.ascontiguousarray(image[..., ::-1]))
+    search.switchToSelectiveSearchFast()
+    return search.process()
+
+
+def stages(brain, photo):
+    """Every stage of the loop as a call of no arguments, in order."""
+    regions = brain.finder.find(photo.image)
+    sight = loop.see(brain, photo.image)
+    place = loop.locate(brain, photo.image, sight.box, photo.camera)
+    reach = loop.reach(brain, place, calibration=None)
+    return {
+        "candidates and regions": lambda: brain.finder.find(photo.image),
+        "names": lambda: brain.recogniser.probability(
+            np.array([loop.crop(photo.image, box) for box in regions.boxes])
+        ),
+        "place": lambda: loop.locate(brain, photo.image, sight.box, photo.camera),
+        "turn and plan": lambda: plan(loop.turn_towards(place)[1], brain.library).excitations,
+        "first movement (simulated)": reach.plan.move,
+        "off-line, published (21 movements)": lambda: published(reach.plan),
+        "off-line, own (2 movements)": lambda: calibrate(reach.plan),
+    }
+
+
+if __name__ == "__main__":
+    photo = photos.load("free", "validation")[1]
+    peer = seconds(lambda: opencv(photo.image))
+    times = {name: seconds(call) for name, call in stages(loop.Brain.load("free"), photo).items()}
+    first = dict(list(times.items())[:4])
+    times["photo to first excitation"] = sum(first.values())
+    publish(
+        "loop",
+        [{"stage": "OpenCV contrib's fast search alone", "ms": round(1e3 * peer, 1), "ratio": 1.0}]
+        + [
+            {"stage": name, "ms": round(1e3 * time, 1), "ratio": round(time / peer, 3)}
+            for name, time in times.items()
+        ],
+    )

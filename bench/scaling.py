@@ -1,0 +1,81 @@
+"""What more experience buys and costs: templates, practised movements, photos.
+
+Every point is a job of its own, handed to joblib: `parallel_config` decides where the jobs run.
+"""
+
+from itertools import pairwise
+from time import perf_counter
+
+import numpy as np
+from joblib import Parallel, delayed, parallel_config
+
+from bench.report import publish
+from vmc_lib import photos
+from vmc_lib.cerebellum.online import Aim
+from vmc_lib.motor import templates
+from vmc_lib.motor.inverse import spline
+from vmc_lib.motor.planning import draw_targets, plan
+from vmc_lib.where.evaluate import localisation
+from vmc_lib.where.regions import RECIPES, RegionFinder
+
+SPACINGS = (0.08, 0.06, 0.04, 0.03, 0.02)  # m
+LESSONS = (0, 25, 50, 100, 250, 500, 1000, 2500)
+PHOTOS = (10, 20, 40, 80, 160)
+
+
+def missed(habit):
+    """The mean distance from the targets, m."""
+    return np.linalg.norm(habit.reached() - habit.target, axis=-1).mean()
+
+
+def more_templates(spacing):
+    """A library with templates so far apart: how far its plans miss, in mm."""
+    start = perf_counter()
+    goals = templates.grid(spacing)
+    excitations = spline() @ np.array([templates.make(goal) for goal in goals])
+    seconds = perf_counter() - start
+    library = templates.Library(templates.reach(excitations).reached, excitations)
+    held_out = draw_targets(templates.load(0.08), 200, np.random.default_rng(0))
+    error = 1000 * missed(plan(held_out, library))
+    return [row("templates", len(goals), error, seconds)]
+
+
+def more_movements():
+    """Granule cells that practise: the miss left on targets never practised, over the planned."""
+    library, rng = templates.load(), np.random.default_rng(0)
+    unseen, learner, seconds = plan(draw_targets(library, 200, rng), library), Aim(library), 0.0
+    rows = []
+    for before, count in pairwise(LESSONS):
+        targets = draw_targets(library, count - before, rng)
+        start = perf_counter()
+        learner.practise(plan(targets, library))
+        seconds += perf_counter() - start
+        error = missed(learner.correct(unseen)) / missed(unseen)
+        rows.append(row("movements", count, error, seconds))
+    return rows
+
+
+def more_photos(count):
+    """A finder that learnt from so many varied photos: the objects it misses on validation."""
+    seen, unseen = photos.load("varied", "train")[:count], photos.load("varied", "validation")
+    start = perf_counter()
+    finder = RegionFinder.fit(seen, RECIPES["improved"], np.random.default_rng(0))
+    seconds = perf_counter() - start
+    boxes = [finder.find(photo.image).boxes for photo in unseen]
+    return [row("photos", count, 1 - localisation(unseen, boxes)[1], seconds)]
+
+
+def row(more, size, error, seconds):
+    """One point of a curve."""
+    return {"more": more, "size": size, "error": round(error, 4), "seconds": round(seconds, 2)}
+
+
+if __name__ == "__main__":
+    jobs = [
+        *(delayed(more_photos)(count) for count in PHOTOS[::-1]),
+        *(delayed(more_templates)(spacing) for spacing in SPACINGS[::-1]),
+        delayed(more_movements)(),
+    ]
+    with parallel_config(n_jobs=-1, inner_max_num_threads=1):
+        points = [point for points in Parallel()(jobs) for point in points]
+    publish("scaling", sorted(points, key=lambda point: (point["more"], point["size"])))
