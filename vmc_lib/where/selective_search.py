@@ -4,8 +4,10 @@ Every region met on the way up, from a patch of cork to the whole table, is a ca
 object (Uijlings et al. 2013; the paper's Block 1-1, bottom-up part).
 """
 
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from heapq import heapify, heappop, heappush
+from itertools import product
 
 import cv2
 import numpy as np
@@ -88,7 +90,7 @@ def enclosing(a, b):
 def colour_codes(channels, bins=25):
     """For each channel, which of `bins` bins each pixel's value falls into: (c, pixels)."""
     values = channels.reshape(-1, channels.shape[2]).T
-    return (values * bins).astype(int).clip(0, bins - 1), bins
+    return (values * bins).clip(0, bins - 1).astype(np.uint8), bins
 
 
 def texture_codes(channels, bins=10):
@@ -99,7 +101,7 @@ def texture_codes(channels, bins=10):
         dx, dy = cv2.Sobel(smooth, -1, 1, 0), cv2.Sobel(smooth, -1, 0, 1)
         for angle in np.arange(4) * np.pi / 4:
             slope = bins * (np.cos(angle) * dx + np.sin(angle) * dy).ravel()
-            codes += [slope.clip(0, bins - 1).astype(int), (-slope).clip(0, bins - 1).astype(int)]
+            codes += [way.clip(0, bins - 1).astype(np.uint8) for way in (slope, -slope)]
     return codes, bins
 
 
@@ -248,16 +250,22 @@ STRATEGIES = {  # Uijlings et al. (2013), Table 6
 
 
 def hierarchies(image, strategy):
-    """Grow every Hierarchy of a Strategy on an image, one by one."""
+    """Grow every Hierarchy of a Strategy on an image, one by one.
+
+    Most of the time goes into the segmentations: two threads are ahead with them.
+    """
     rgb = as_rgb(image)
-    for colour in strategy.colours:
-        channels = COLOUR_SPACES[colour](rgb)
-        codes = colour_codes(channels), texture_codes(channels)
-        for k in strategy.k:
-            labels = segment(channels, k)
-            look = describe(labels, *codes)
-            for similarities in strategy.similarities:
-                yield grow(labels, look, similarities)
+    seen = {colour: COLOUR_SPACES[colour](rgb) for colour in strategy.colours}
+    with ThreadPoolExecutor(2) as pool:
+        cuts = zip(*product(seen.values(), strategy.k), strict=True)
+        segmentations = pool.map(segment, *cuts)
+        for channels in seen.values():
+            codes = colour_codes(channels), texture_codes(channels)
+            for _ in strategy.k:
+                labels = next(segmentations)
+                look = describe(labels, *codes)
+                for similarities in strategy.similarities:
+                    yield grow(labels, look, similarities)
 
 
 def propose(image, strategy="single", rng=None, smallest=20):
