@@ -16,6 +16,12 @@ def test_windows_stay_inside_and_come_in_an_order_of_the_generator():
     assert (windows() == boxes).all() and (windows(1) != boxes).any()
 
 
+def test_an_image_smaller_than_every_window_has_none():
+    none = sliding_windows((30, 30), np.random.default_rng(0))
+    assert none.shape == (0, 4)
+    assert edge_density(np.zeros((30, 30, 3), np.uint8), none).shape == (0,)
+
+
 def test_edges_prefer_the_window_that_holds_the_outline():
     image = np.zeros((400, 600, 3), np.uint8)
     image[100:200, 200:350] = 255

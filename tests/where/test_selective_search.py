@@ -2,11 +2,13 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
 from scipy.ndimage import gaussian_filter
 from skimage.data import coffee
 from skimage.segmentation import felzenszwalb
 
 from vmc_lib.where import selective_search as ss
+from vmc_lib.where.boxes import area
 
 PHOTO = coffee()[100:300:2, 100:400:2]
 
@@ -156,6 +158,14 @@ def test_the_order_is_the_generators():
     assert (ss.propose(PHOTO) == ss.propose(PHOTO)).all()
 
 
+def test_lists_are_ranked_by_a_draw_that_favours_large_regions():
+    trees = list(ss.hierarchies(PHOTO, ss.STRATEGIES["fast"]))
+    draws = [ss.ranked(trees, np.random.default_rng(seed)) for seed in range(20)]
+    assert (draws[0] == ss.propose(PHOTO, "fast")).all()
+    early, late = (np.mean([area(d[part]).mean() for d in draws]) for part in np.s_[:10, -10:])
+    assert early > 3 * late
+
+
 def test_grey_float_and_transparent_images_are_read_alike():
     grey = PHOTO[..., 0]
     expected = ss.propose(np.dstack([grey] * 3))
@@ -171,10 +181,40 @@ def test_a_blank_image_is_one_box_if_it_is_large_enough(shape, count):
     assert boxes.tolist() == [[0, 0, shape[1], shape[0]]] * count
 
 
+def images():
+    """Images of every kind that `propose` takes, one pixel and larger."""
+    sides = st.integers(1, 30)
+    depth = st.sampled_from([(), (3,), (4,)])
+    shape = st.tuples(sides, sides, depth).map(lambda s: (*s[:2], *s[2]))
+    floats = st.floats(0, 1, width=32)
+    return st.one_of(arrays(np.uint8, shape), arrays(np.float32, shape, elements=floats))
+
+
+@given(images(), st.integers(1, 12))
+@settings(max_examples=60, deadline=None)
+def test_any_image_gives_distinct_boxes_inside_it_and_the_whole_among_them(image, smallest):
+    height, width = image.shape[:2]
+    boxes = ss.propose(image, "fast", smallest=smallest)
+    assert (boxes[:, :2] >= 0).all() and (boxes[:, 2:] <= [width, height]).all()
+    assert (boxes[:, 2:] - boxes[:, :2] >= smallest).all()
+    assert len(np.unique(boxes, axis=0)) == len(boxes)
+    whole = (boxes == [0, 0, width, height]).all(1).sum()
+    assert whole == (min(height, width) >= smallest)
+
+
+def test_a_huge_image_is_searched_like_any_other():
+    wide = np.tile(PHOTO, (1, 40, 1))
+    boxes = ss.propose(wide)
+    assert wide.shape == (100, 6000, 3)
+    assert len(boxes) > 10 * len(ss.propose(PHOTO))
+    assert (boxes[:, 2:] <= [6000, 100]).all() and boxes[:, 0].max() > 5000
+
+
 @pytest.mark.parametrize(
     ("image", "message"),
     [
         (np.full((30, 30, 3), np.nan), "finite"),
+        (np.full((30, 30, 3), np.inf), "finite"),
         (np.full((30, 30, 3), 255.0), "divide"),
         (np.full((30, 30, 3), -0.1), "0..1"),
         (np.zeros((0, 30, 3), np.uint8), "not"),

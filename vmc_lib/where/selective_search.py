@@ -268,26 +268,34 @@ def hierarchies(image, strategy):
                     yield grow(labels, look, similarities)
 
 
-def propose(image, strategy="single", rng=None, smallest=20):
-    """Candidate boxes (n, 4) for objects in an image, the likeliest first, none twice.
+def ranked(trees, rng, smallest=20):
+    """The boxes (n, 4) of many hierarchies in one list, the likeliest first, none twice.
 
-    `strategy` is "single", "fast", "quality" or a Strategy. Each hierarchy ranks its regions from
-    the last made (the largest) down; a rank is then multiplied by a number drawn from `rng` so
-    that neither large boxes nor one hierarchy come all first (Uijlings et al. 2013, section 4.4;
-    by default the draw repeats from call to call). Boxes narrower or lower than `smallest` pixels
-    are left out: a blank image gives one box, a tiny one none. ValueError as for `as_rgb`.
+    Each hierarchy ranks its regions from the last made (the largest) down; a rank is then
+    multiplied by a number drawn from `rng`, so that neither large boxes nor one hierarchy come
+    all first (Uijlings et al. 2013, section 4.4). Boxes narrower or lower than `smallest` pixels
+    are left out.
     """
-    if not isinstance(strategy, Strategy):
-        if strategy not in STRATEGIES:
-            raise ValueError(f"strategy {strategy!r} is none of {', '.join(STRATEGIES)}")
-        strategy = STRATEGIES[strategy]
-    rng = rng or np.random.default_rng(0)
     boxes, ranks = [], []
-    for hierarchy in hierarchies(image, strategy):
-        n = len(hierarchy.boxes)
-        boxes.append(hierarchy.boxes)
+    for tree in trees:
+        n = len(tree.boxes)
+        boxes.append(tree.boxes)
         ranks.append(np.arange(n, 0, -1) * rng.random(n))
     boxes = np.concatenate(boxes)[np.argsort(np.concatenate(ranks))]
     _, first = np.unique(boxes, axis=0, return_index=True)
     boxes = boxes[np.sort(first)]
     return boxes[(boxes[:, 2:] - boxes[:, :2] >= smallest).all(1)]
+
+
+def propose(image, strategy="single", rng=None, smallest=20):
+    """Candidate boxes (n, 4) for objects in an image, `ranked`.
+
+    `strategy` is "single", "fast", "quality" or a Strategy; without an `rng` the draw of the ranks
+    repeats from call to call. A blank image gives one box, one with a side under `smallest` none.
+    ValueError for an unknown strategy, and as for `as_rgb`.
+    """
+    if not isinstance(strategy, Strategy):
+        if strategy not in STRATEGIES:
+            raise ValueError(f"strategy {strategy!r} is none of {', '.join(STRATEGIES)}")
+        strategy = STRATEGIES[strategy]
+    return ranked(hierarchies(image, strategy), rng or np.random.default_rng(0), smallest)
