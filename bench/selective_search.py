@@ -1,0 +1,153 @@
+"""Selective search beside its peers: time, memory, and how well the boxes fit what is there.
+
+The peers are OpenCV's contrib module and PyPI's `selectivesearch`. The objects are those of 20
+validation renders, of all levels, and of the real photos that ship (*quality*: every third photo).
+Boxes under 20 pixels are dropped from every list. Recall is the share of objects with a box at
+that overlap, ABO the average best overlap; "equal" cuts the lists of OpenCV and ours, photo by
+photo, to the shorter one. Our ranks hold a random draw: what depends on it is a mean over ten.
+"""
+
+import subprocess
+import sys
+import warnings
+from time import perf_counter, process_time
+
+import cv2
+import numpy as np
+
+from bench.report import publish
+from vmc_lib import photos
+from vmc_lib.where.boxes import iou
+from vmc_lib.where.selective_search import STRATEGIES, hierarchies, ranked
+
+cv2.setNumThreads(1)
+SMALLEST, DRAWS = 20, 10
+SIZES = [(150, 100), (300, 200), (600, 400), (1200, 800), (2100, 1400), (3000, 2000)]
+
+
+def ours(image, strategy):
+    """Boxes (n, 4), in the order of every draw."""
+    trees = list(hierarchies(image, STRATEGIES[strategy]))
+    return [ranked(trees, np.random.default_rng(draw), SMALLEST) for draw in range(DRAWS)]
+
+
+def opencv(image, strategy):
+    search = cv2.ximgproc.segmentation.createSelectiveSearchSegmentation()
+    search.setBaseImage(np.ascontiguousarray(image[..., ::-1]))
+    {
+        "single": search.switchToSingleStrategy,
+        "fast": search.switchToSelectiveSearchFast,
+        "quality": search.switchToSelectiveSearchQuality,
+    }[strategy]()
+    return [large(search.process())]
+
+
+def pypi(image, _):
+    """With the settings of its README; its last region, the largest, first."""
+    from selectivesearch import selective_search  # here, for it would weigh on the others' memory
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        _, regions = selective_search(image, scale=500, sigma=0.9, min_size=10)
+    return [large(list(dict.fromkeys(region["rect"] for region in reversed(regions))))]
+
+
+def large(rects):
+    """Boxes (n, 4) from those rows of x, y, width, height that are not too small."""
+    rects = np.array(rects, float)
+    rects = rects[(rects[:, 2:] >= SMALLEST).all(1)]
+    return np.hstack([rects[:, :2], rects[:, :2] + rects[:, 2:]])
+
+
+METHODS = {"ours": ours, "OpenCV contrib": opencv, "PyPI selectivesearch": pypi}
+ENTRANTS = {"single": list(METHODS), "fast": list(METHODS)[:2], "quality": list(METHODS)[:2]}
+
+
+def timed(method, image, strategy):
+    """What a method proposes, its wall time and its processor time (s)."""
+    wall, busy = perf_counter(), process_time()
+    orders = METHODS[method](image, strategy)
+    return orders, perf_counter() - wall, process_time() - busy
+
+
+def wall(width, height):
+    """The middle of a wall of 5 x 5 photos: content grows with the pixels."""
+    shots = [p.image for p in photos.load("varied", "validation")[:14] + list(photos.real())]
+    rows = [np.hstack(shots[5 * row : 5 * row + 5]) for row in range(5)]
+    x, y = (3000 - width) // 2, (2000 - height) // 2
+    return np.vstack(rows)[y : y + height, x : x + width].copy()
+
+
+def memory(method, strategy, width=600, height=400):
+    """MB that a fresh process holds with the image loaded, and at most during one search of it."""
+    code = f"""
+from bench.selective_search import METHODS, wall
+held = lambda kind: int(open("/proc/self/status").read().split(kind + ":")[1].split()[0]) >> 10
+image = wall({width}, {height})
+rest = held("VmRSS")
+METHODS[{method!r}](image, {strategy!r})
+print(rest, held("VmHWM"))
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    return dict(zip(("MB at rest", "MB at most"), map(int, done.stdout.split()), strict=True))
+
+
+def fit(runs, some, most):
+    """Recall and ABO among the first `most` boxes of each photo's list."""
+    best = [
+        iou(list(photo.boxes.values()), order[:limit]).max(1, initial=0)
+        for orders, photo, limit in zip(runs, some, most, strict=True)
+        for order in orders
+    ]
+    best = np.concatenate(best)
+    values = (best >= 0.5).mean(), (best >= 0.8).mean(), best.mean()
+    return dict(zip(("recall .5", "recall .8", "ABO"), np.round(values, 3).tolist(), strict=True))
+
+
+def compare(name, some, strategy, costs):
+    """A row for every entrant of a strategy on some photos."""
+    runs = {m: [timed(m, p.image, strategy) for p in some] for m in ENTRANTS[strategy]}
+    count = {m: np.array([len(orders[0]) for orders, _, _ in run]) for m, run in runs.items()}
+    equal = np.minimum(count["ours"], count["OpenCV contrib"])
+    for method, run in runs.items():
+        orders, seconds, busy = zip(*run, strict=True)
+        at_equal = fit(orders, some, equal)
+        yield {
+            "photos": f"{len(some)} {name}",
+            "strategy": strategy,
+            "by": method,
+            "s": round(float(np.median(seconds)), 2),
+            "processor s": round(float(np.median(busy)), 2),
+            **costs[strategy, method],
+            "boxes": round(float(count[method].mean())),
+            **fit(orders, some, count[method]),
+            "ABO of 300": fit(orders, some, np.full(len(some), 300))["ABO"],
+            **{f"{key}, equal": value for key, value in at_equal.items()},
+        }
+
+
+def growth(method):
+    """Rows for growing images: time and memory of *single*, and the power of the pixels."""
+    rows = []
+    for width, height in SIZES:
+        _, seconds, busy = timed(method, wall(width, height), "single")
+        row = {"by": method, "pixels": width * height, "s": round(seconds, 3)}
+        row["processor s"] = round(busy, 3)
+        rows.append(row | memory(method, "single", width, height))
+    pixels, busy = (np.log([row[key] for row in rows[1:]]) for key in ("pixels", "processor s"))
+    power = round(float(np.polyfit(pixels, busy, 1)[0]), 2)
+    return [row | {"power of the pixels": power} for row in rows]
+
+
+if __name__ == "__main__":
+    renders = [shot for level in photos.LEVELS for shot in photos.load(level, "validation")[:7]]
+    sets = {"renders": renders[:20], "real photos": photos.real()}
+    costs = {(s, m): memory(m, s) for s, entrants in ENTRANTS.items() for m in entrants}
+    table = [
+        row
+        for strategy in ENTRANTS
+        for name, some in sets.items()
+        for row in compare(name, some[:: 3 if strategy == "quality" else 1], strategy, costs)
+    ]
+    publish("selective_search", table)
+    publish("selective_search_growth", growth("ours") + growth("OpenCV contrib"))
