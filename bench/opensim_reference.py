@@ -12,7 +12,8 @@ from importlib.resources import files
 import numpy as np
 import opensim
 
-from vmc_lib.arm.model import DAMPING, MUSCLES
+from vmc_lib.arm.model import DAMPING, MUSCLES, STEP
+from vmc_lib.arm.simulate import steady
 
 JOINTS = ("r_shoulder_elev", "r_elbow_flex")
 SHOULDER = np.array([-0.017545, 0.793, 0.17])  # of the shoulder joint, in OpenSim's ground, m
@@ -68,22 +69,25 @@ def swing(osim, q):
     return run(model, *put(model, q), [0.5], 1e-11)[0]
 
 
-def excited(osim, levels, elastic):
-    """A model whose muscles have settled to constant excitations `levels` (6,), with our damping.
+def excited(osim, excitations, elastic):
+    """A model whose muscles hear excitations (T, 6) and have settled to the first; our damping.
 
     Its tendons are `elastic` and its fibres pennate, as arm26 ships, or neither, as ours are
     (OpenSim has no rigid tendon for Thelen's muscle: a very stiff one must do).
     """
     model = load(osim)
     brain = opensim.PrescribedController()
-    for name, level in zip(MUSCLES, levels, strict=True):
+    for name, excitation in zip(MUSCLES, excitations.T.tolist(), strict=True):
         muscle = opensim.Thelen2003Muscle.safeDownCast(model.updMuscles().get(name))
-        muscle.setDefaultActivation(level)
+        muscle.setDefaultActivation(max(excitation[0], muscle.getMinimumActivation()))
         if not elastic:
             muscle.set_FmaxTendonStrain(0.001)
             muscle.setPennationAngleAtOptimalFiberLength(0)
         brain.addActuator(muscle)
-        brain.prescribeControlForActuator(name, opensim.Constant(float(level)))
+        told = opensim.PiecewiseLinearFunction()
+        for k, level in enumerate(excitation):
+            told.addPoint(STEP * k, level)
+        brain.prescribeControlForActuator(name, told)
     model.addController(brain)
     for name, damping in zip(JOINTS, DAMPING, strict=True):
         skin = opensim.SpringGeneralizedForce(name)
@@ -94,7 +98,7 @@ def excited(osim, levels, elastic):
 
 def movement(osim, levels, elastic):
     """Joint angles (60, 2), every 10 ms, that constant excitations (6,) give; from (0°, 60°)."""
-    model = excited(osim, levels, elastic)
+    model = excited(osim, steady(levels, 0.6), elastic)
     state, joints = put(model, np.radians([0, 60]))
     model.equilibrateMuscles(state)
     return run(model, state, joints, 0.01 * np.arange(1, 61), 1e-7)

@@ -50,6 +50,18 @@ def test_the_arm_with_opensims_muscles_moves_as_opensims():
     assert np.abs(paper - expected).max() > 0.05
 
 
+def test_smaller_steps_bring_both_engines_to_the_same_end():
+    levels = np.repeat([[0.05, 0.1]], 3)
+    coarse, fine, finer = (
+        simulate(steady(levels, 0.3, s), START, engine="mujoco", step=s).q[-1]
+        for s in (1e-3, 1e-4, 5e-5)
+    )
+    fast = simulate(steady(levels, 0.3, 1e-4), START, step=1e-4).q[-1]
+    assert np.abs(fine - finer).max() < 0.15 * np.abs(coarse - finer).max()
+    assert np.abs(coarse - finer).max() < 2e-3
+    np.testing.assert_allclose(fast, fine, atol=1e-6)
+
+
 def test_a_batch_is_its_movements_one_by_one():
     excitations = random_excitations(6, 200, np.random.default_rng(1))
     batch = simulate(excitations.reshape(2, 3, 200, 6), START)
@@ -103,5 +115,8 @@ def test_bad_starts_and_engines():
         simulate(QUIET, START, np.full(6, np.inf))
     with pytest.raises(ValueError, match="cannot be held"):
         simulate(QUIET, START, world=World(load=-1))
+    for step in (0, -0.001, 0.1, np.nan):
+        with pytest.raises(ValueError, match="steps of"):
+            simulate(QUIET, START, step=step)
     with pytest.raises(ValueError, match="closed form"):
         simulate(QUIET, START, engine="opensim")

@@ -52,23 +52,23 @@ def hand(q):
     return _waves(np.asarray(q)) @ _coefficients()[1]
 
 
-def torque_for(q, velocity, acceleration, load=0.0):
+def torque_for(q, velocity, acceleration, load=0.0, step=STEP):
     """Inverse dynamics: torques (…, 2) in N m that give these accelerations over one step."""
-    m11, m12, m22, b1, b2 = _dynamics(q, velocity, load)
+    m11, m12, m22, b1, b2 = _dynamics(q, velocity, load, step)
     a1, a2 = _columns(acceleration)
     return np.stack([m11 * a1 + m12 * a2 + b1, m12 * a1 + m22 * a2 + b2], axis=-1)
 
 
-def acceleration_from(q, velocity, torque, load=0.0):
+def acceleration_from(q, velocity, torque, load=0.0, step=STEP):
     """Forward dynamics, Eq. 12: the accelerations (…, 2) that joint torques cause; `load` in kg."""
-    m11, m12, m22, b1, b2 = _dynamics(q, velocity, load)
+    m11, m12, m22, b1, b2 = _dynamics(q, velocity, load, step)
     t1, t2 = _columns(torque)
     t1, t2 = t1 - b1, t2 - b2
     determinant = m11 * m22 - m12 * m12
     return np.stack([m22 * t1 - m12 * t2, m11 * t2 - m12 * t1], axis=-1) / determinant[..., None]
 
 
-def _dynamics(q, velocity, load):
+def _dynamics(q, velocity, load, step):
     """The mass matrix's entries, and the torques of motion, gravity and damping, each (…)."""
     terms = _waves(q) @ _coefficients(load)[0]
     m11, m12, m22, swing, bend, gravity1, gravity2 = _columns(terms)
@@ -76,7 +76,7 @@ def _dynamics(q, velocity, load):
     b1 = (bend * w2 - 2 * swing * w1) * w2 + gravity1 + DAMPING[0] * w1
     b2 = swing * w1 * w1 + gravity2 + DAMPING[1] * w2
     # Damping acts on the velocity at the end of the step, as MuJoCo's integrator has it: stable.
-    return m11 + STEP * DAMPING[0], m12, m22 + STEP * DAMPING[1], b1, b2
+    return m11 + step * DAMPING[0], m12, m22 + step * DAMPING[1], b1, b2
 
 
 def _columns(values):
@@ -85,17 +85,16 @@ def _columns(values):
 
 def paths(q):
     """Musculotendon lengths (…, 6) and moment arms (…, 2, 6) in m; angles held to the tables."""
-    table, slope = _tables()
     place = (np.clip(q, LOW, HIGH) - LOW) * ((ROWS - 1) / (HIGH - LOW))
     row = np.minimum(place.astype(int), ROWS - 2)
-    entry = row + np.array([0, ROWS])  # the elbow's rows follow the shoulder's
-    value = table.take(entry, axis=0) + (place - row)[..., None] * slope.take(entry, axis=0)
+    entry = _tables().take(row + np.array([0, ROWS]), axis=0)  # the elbow's rows come second
+    value = entry[..., :12] + (place - row)[..., None] * entry[..., 12:]
     return value[..., 0, :6] + value[..., 1, :6], value[..., 6:]
 
 
 @cache
 def _tables():
-    """Lengths and moment arms (2 · ROWS, 12) as the shoulder turns, then the elbow; and slopes."""
+    """Lengths and moment arms as the shoulder turns, then the elbow, and slopes (2 · ROWS, 24)."""
     data = forward((0, 0))
     straight = muscle_paths(data)[0].copy()
     turned = np.empty((2, ROWS, 12))
@@ -106,4 +105,4 @@ def _tables():
             row[6:] = arms[joint]
     turned[1, :, :6] -= straight
     slopes = np.diff(turned, axis=1, append=np.nan)
-    return turned.reshape(-1, 12), slopes.reshape(-1, 12)
+    return np.concatenate([turned, slopes], axis=-1).reshape(-1, 24)

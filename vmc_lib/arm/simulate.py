@@ -2,9 +2,10 @@
 
 `"mujoco"` steps the MuJoCo model and is the reference; `"closed form"` steps a whole batch of
 movements at once and is the one to use for hundreds. Both meet the same muscles and the same
-joint stops, with the same semi-implicit Euler steps of 1 ms.
+joint stops, with the same semi-implicit Euler steps, of 1 ms unless told otherwise.
 """
 
+from copy import copy
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -55,13 +56,21 @@ class Motion:
         return np.abs(self.velocity[..., -1, :]).max(axis=-1)
 
 
-def simulate(excitations, start, activation=None, engine="closed form", world=EMPTY, muscle=PAPER):
-    """The `Motion` that excitations (…, T, 6), sampled at 1 kHz, give the arm.
+def simulate(
+    excitations,
+    start,
+    activation=None,
+    engine="closed form",
+    world=EMPTY,
+    muscle=PAPER,
+    step=STEP,
+):
+    """The `Motion` that excitations (…, T, 6), one every `step` seconds, give the arm.
 
     It starts still, in the posture `start` (…, 2), with the muscles' `activation` (…, 6); by
     default they have settled to the first excitation. `world` may load its hand or push it about,
     and `muscle` may be another `Muscle` than the paper's.
-    ValueError when an excitation is not a number in [0, 1], or a shape is wrong.
+    ValueError when an excitation is not a number in [0, 1], a shape is wrong, or a step too long.
     """
     u = np.asarray(excitations, dtype=float)
     if u.ndim < 2 or u.shape[-1] != len(F0) or 0 in u.shape:
@@ -70,22 +79,24 @@ def simulate(excitations, start, activation=None, engine="closed form", world=EM
         raise ValueError(f"excitations lie in [{u.min():.3g}, {u.max():.3g}]; clip them to [0, 1]")
     if engine not in ENGINES:
         raise ValueError(f"engine {engine!r} is unknown; choose one of {sorted(ENGINES)}")
+    if not 0 < step <= 0.01:
+        raise ValueError(f"steps of {step} s would blow up or stand still; choose up to 0.01 s")
     leading = u.shape[:-2]
     q = _each("start", start, leading, 2)
     first = _each("activation", u[..., 0, :] if activation is None else activation, leading, 6)
-    a = activations(u.reshape(-1, *u.shape[-2:]), first, muscle)
-    path = _move(ENGINES[engine](q, world.load), a, world.field, muscle)
+    a = activations(u.reshape(-1, *u.shape[-2:]), first, muscle, step)
+    path = _move(ENGINES[engine](q, world.load, step), a, world.field, muscle)
     return Motion(*(x.reshape(*leading, *x.shape[1:]) for x in (*path, a)))
 
 
-def steady(level, duration):
+def steady(level, duration, step=STEP):
     """Excitations (…, T, 6) for `simulate` that stay at `level` (…, 6) for `duration` in s.
 
-    ValueError when the duration is no positive number of at least one step.
+    ValueError when the duration is not finite, or shorter than one step.
     """
-    if not STEP <= duration < np.inf:
-        raise ValueError(f"a duration of {duration} s: choose at least {STEP} s")
-    return np.repeat(np.asarray(level, dtype=float)[..., None, :], round(duration / STEP), axis=-2)
+    if not step <= duration < np.inf:
+        raise ValueError(f"a duration of {duration} s: choose at least {step} s")
+    return np.repeat(np.asarray(level, dtype=float)[..., None, :], round(duration / step), axis=-2)
 
 
 def _each(name, value, leading, size):
@@ -95,13 +106,13 @@ def _each(name, value, leading, size):
     return np.broadcast_to(value, (*leading, size)).reshape(-1, size)
 
 
-def activations(excitations, first, muscle=PAPER):
+def activations(excitations, first, muscle=PAPER, step=STEP):
     """Eq. 9 integrated: activations (B, T + 1, 6) from excitations (B, T, 6) and first (B, 6)."""
     steps = np.swapaxes(excitations, 0, 1)
     path = np.empty((len(steps) + 1, *first.shape))
     path[0] = first
     for k, u in enumerate(steps):
-        path[k + 1] = path[k] + STEP * muscle.activation_rate(u, path[k])
+        path[k + 1] = path[k] + step * muscle.activation_rate(u, path[k])
     return np.swapaxes(path, 0, 1)
 
 
@@ -125,35 +136,40 @@ def stop_torque(q, velocity):
 
 def _move(arm, activation, field, muscle):
     """Eq. 12 step by step: q and velocity (B, T + 1, 2) of an engine's arms."""
-    q, velocity = (np.empty((*activation.shape[:2], 2)) for _ in range(2))
+    q, velocity = (np.empty((activation.shape[1], *arm.q.shape)) for _ in range(2))
     for k, a in enumerate(np.swapaxes(activation, 0, 1)):
-        q[:, k], velocity[:, k] = arm.q, arm.velocity
+        q[k], velocity[k] = arm.q, arm.velocity
         torque = muscle_torque(a, *arm.paths(), arm.velocity, muscle)
         torque += stop_torque(arm.q, arm.velocity) + arm.velocity @ np.transpose(field)
         arm.step(torque)
-    return q, velocity
+    return np.swapaxes(q, 0, 1), np.swapaxes(velocity, 0, 1)
 
 
 class ClosedForm:
     """A batch of arms, all at once: postures and velocities (B, 2)."""
 
-    def __init__(self, start, load):
-        self.q, self.velocity, self.load = start, np.zeros_like(start), load
+    def __init__(self, start, load, step):
+        self.q, self.velocity = start, np.zeros_like(start)
+        self.load, self.seconds = load, step
 
     def paths(self):
         return closed_form.paths(self.q)
 
     def step(self, torque):
-        acceleration = closed_form.acceleration_from(self.q, self.velocity, torque, self.load)
-        self.velocity = self.velocity + STEP * acceleration
-        self.q = self.q + STEP * self.velocity
+        acceleration = closed_form.acceleration_from(
+            self.q, self.velocity, torque, self.load, self.seconds
+        )
+        self.velocity = self.velocity + self.seconds * acceleration
+        self.q = self.q + self.seconds * self.velocity
 
 
 class MuJoCo:
     """The same arms, each stepped by MuJoCo; `q` and `velocity` are views of its states."""
 
-    def __init__(self, start, load):
-        self.arms = Batch(holding(load), len(start), nthread=1, persistent=True)
+    def __init__(self, start, load, step):
+        model = copy(holding(load))
+        model.opt.timestep = step
+        self.arms = Batch(model, len(start), nthread=1, persistent=True)
         self.q, self.velocity = self.arms.bind("qpos"), self.arms.bind("qvel")
         self.q[:] = start
         self.paths()  # before the first computation: from then on MuJoCo keeps them current
