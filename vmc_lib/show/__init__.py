@@ -6,6 +6,7 @@ The arm's own scenes are in `vmc_lib.show.arm`.
 from vmc_lib.show.controls import Choice, Pad, Slider, Switch
 from vmc_lib.show.demo import explore, figure
 from vmc_lib.show.figures import COLOURS, photo_view, say
+from vmc_lib.show.live import live_arm
 from vmc_lib.show.questions import check, quiz
 from vmc_lib.show.scene import Scene
 
@@ -19,6 +20,7 @@ __all__ = [
     "check",
     "explore",
     "figure",
+    "live_arm",
     "photo_view",
     "quiz",
     "say",

@@ -1,0 +1,393 @@
+"""The arm in the page: the same numbers as the library's, and a reader who moves it."""
+
+import json
+import re
+import shutil
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from vmc_lib.arm import muscle
+from vmc_lib.arm.model import F0, MUSCLES, geometry
+from vmc_lib.arm.posture import posture
+from vmc_lib.arm.simulate import simulate
+from vmc_lib.cerebellum.offline import calibrate, published
+from vmc_lib.motor import templates
+from vmc_lib.motor.planning import exact_weights, habitual_weights, plan, surrounded
+from vmc_lib.show import live, live_arm
+
+ROOT = Path(__file__).parents[2]
+AXE = (ROOT / "tests/vendor/axe.js").read_text()
+HEAD = """<!doctype html><html lang="en"><meta charset="utf-8">
+<meta name="viewport" content="width=device-width"><title>An arm</title>
+<link rel="stylesheet" href="demo.css"><link rel="stylesheet" href="live.css">
+<script defer src="scene.js"></script><script defer src="demo.js"></script>
+<script defer src="arm.js"></script><script defer src="live.js"></script>
+<body style="background: var(--vmc-paper)"><main>"""
+# `arm` and `library` for a script that asks them something, made once a page
+ARM = """async (asked) => {
+  const given = JSON.parse(document.querySelector(".vmc-live script").textContent);
+  const arm = await (self.testArm ??= vmcArm.load(given));
+  const library = new vmcArm.Library(given.library);
+  const ended = (plan) => (weights) =>
+    arm.hand(arm.move(library.excitations({ ...plan, weights })).at(-1).q).slice(0, 2);
+  %s
+}"""
+TARGETS = np.array([[0.12, -0.42], [0.045, -0.345], [0.17, -0.46]])
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
+    """A page with both arms, as the book shows them, on disk."""
+    folder = tmp_path_factory.mktemp("site")
+    shutil.copytree(live.STATIC, folder, dirs_exist_ok=True)
+    shutil.copytree(ROOT / "book/_static/vendor", folder / "vendor")
+    shown = []
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("VMC_LIFE", "book")
+        patch.setattr(live, "display", lambda *items: shown.extend(item.data for item in items))
+        live_arm("bench", "Move it.", "An arm of two joints and six muscles.")
+        live_arm("reach", "Let it reach.", "An arm before a plane of templates.")
+    (folder / "page.html").write_text(HEAD + "\n".join(shown))
+    return folder
+
+
+def open_site(context, site):
+    page = context.new_page()
+    opened = SimpleNamespace(page=page, asked=[], errors=[])
+    page.on("request", lambda request: opened.asked.append(request.url))
+    page.on("requestfailed", lambda request: opened.errors.append(request.url))
+    page.on("pageerror", lambda error: opened.errors.append(str(error)))
+    page.on("console", lambda m: m.type == "error" and opened.errors.append(m.text))
+    page.goto((site / "page.html").as_uri())
+    opened.bench, opened.reach = page.locator(".vmc-live").all()
+    return opened
+
+
+@pytest.fixture
+def opened(offline, site):
+    opened = open_site(offline, site)
+    yield opened
+    opened.page.close()
+    assert opened.errors == []
+
+
+@pytest.fixture(scope="module")
+def ask(offline, site):
+    """A function that runs a script beside a loaded arm and returns its answer."""
+    page = open_site(offline, site).page
+    yield lambda script, asked=None: page.evaluate(ARM % script, asked)
+    page.close()
+
+
+def start(arm):
+    arm.locator("[name=main]").click()
+    arm.locator("fieldset:not([disabled])").first.wait_for()
+
+
+def told(arm, name):
+    return arm.locator(f"[data-tell={name}]").inner_text()
+
+
+def number(text):
+    return float(re.match(r"−?[\d.]+", text)[0].replace("−", "-"))
+
+
+def wait_for_status(arm, beginning):
+    arm.locator("[role=status]", has_text=re.compile(f"^{beginning}")).wait_for(timeout=90_000)
+    return arm.locator("[role=status]").inner_text()
+
+
+# ---- The same numbers ----
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize(
+    ("name", "law", "low", "high"),
+    [
+        ("activationRate", muscle.activation_rate, (0, 0), (1, 1)),
+        ("forceLength", muscle.force_length, (0,), (2,)),
+        ("forceVelocity", muscle.force_velocity, (-4,), (2,)),  # the guards included
+        ("passiveForce", muscle.passive_force, (0,), (2,)),
+        ("force", muscle.force, (0, 0.2, -3, 0), (1, 1.8, 1.5, 1000)),
+    ],
+)
+def test_the_muscle_law_is_pythons(ask, name, law, low, high):
+    asked = np.random.default_rng(1).uniform(low, high, (300, len(low)))
+    answer = ask(
+        f"return asked.map((values) => new vmcArm.Muscle(given.muscle).{name}(...values));",
+        asked.tolist(),
+    )
+    expected = law(*asked.T)
+    assert np.allclose(answer, expected, rtol=1e-12, atol=1e-12)
+    assert np.ptp(expected) > 0.5
+
+
+@pytest.mark.browser
+def test_the_arm_goes_where_pythons_mujoco_goes(ask):
+    rng = np.random.default_rng(2)
+    wild = np.repeat(rng.random((3, 20, 6)), 50, axis=1)  # 1 s, a new command every 50 ms
+    motion = simulate(wild, templates.START, live.given()["rest"], engine="mujoco")
+    for excitations, q, active in zip(wild, motion.q, motion.activation, strict=True):
+        moved = ask("return arm.move(asked);", excitations.tolist())
+        assert np.abs([moment["q"] for moment in moved] - q).max() < 1e-9
+        assert np.abs([moment["activation"] for moment in moved] - active).max() < 1e-12
+    assert np.ptp(motion.q[:, -1], axis=0).min() > 0.05
+
+
+@pytest.mark.browser
+def test_what_is_drawn_is_where_it_is(ask):
+    for q in np.radians([[-20.0, 95.0], [40.0, 10.0]]):
+        seen, expected = ask("return arm.geometry(asked);", q.tolist()), geometry(q)
+        joints = [position for _, position in expected.bodies.values()]
+        assert np.allclose(seen["joints"][:2], joints, atol=1e-12)
+        for name, path in zip(MUSCLES, seen["muscles"], strict=True):
+            assert np.allclose(path, expected.muscles[name], atol=1e-9)
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("target", TARGETS, ids=str)
+def test_postures_for_targets_are_pythons(ask, target):
+    assert np.allclose(ask("return arm.posture(asked);", target.tolist()), posture(target))
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize(
+    ("name", "rule"), [("habitualWeights", habitual_weights), ("exactWeights", exact_weights)]
+)
+def test_plans_are_pythons(ask, name, rule):
+    script = f"""const plan = vmcArm.plan(asked, library, vmcArm.{name});
+      return {{ ...plan, u: library.excitations(plan) }};"""
+    library = templates.load()
+    own = library.points[surrounded(library.points, library.points)]  # on a template itself
+    for target in [*TARGETS, *own[:2]]:
+        planned, expected = ask(script, target.tolist()), plan(target, library, rule)
+        assert planned["chosen"] == expected.chosen.tolist()
+        assert np.allclose(planned["weights"], expected.weights, atol=1e-12)
+        assert np.allclose(planned["u"], expected.excitations, atol=1e-12)
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("name", ["published", "calibrate"])
+def test_calibration_is_pythons(ask, name):
+    script = f"""const plan = vmcArm.plan(asked, library);
+      return [...vmcArm.{name}(plan, ended(plan), given.calibration)];"""
+    habit = plan(TARGETS, templates.load())
+    expected = published(habit) if name == "published" else calibrate(habit, live.TRIALS)
+    for k, target in enumerate(TARGETS):
+        trials = ask(script, target.tolist())
+        for key in ("weights", "reached", "error"):
+            got = np.array([trial[key] for trial in trials])
+            assert np.abs(got - getattr(expected, key)[:, k]).max() < 1e-6, key
+
+
+@pytest.mark.browser
+def test_templates_on_a_line_and_targets_outside_are_refused(ask):
+    script = "try {{ {} }} catch (error) {{ return error.message; }}"
+    on_a_line = [[0.1, -0.4], [0.2, -0.4], [0.3, -0.4], [0.4, -0.4]]
+    assert "on one line" in ask(
+        script.format("return vmcArm.exactWeights([0.25, -0.35], asked);"), on_a_line
+    )
+    assert "not surrounded" in ask(
+        script.format("return vmcArm.plan(asked, library);"), [0.5, -0.4]
+    )
+
+
+# ---- A reader who moves it ----
+
+
+@pytest.mark.browser
+def test_mujoco_is_loaded_on_a_click_and_from_the_books_own_files(opened, site):
+    opened.page.wait_for_function("() => window.MeshCat")
+    assert not any("mujoco" in url for url in opened.asked)
+    start(opened.bench)
+    assert any("vendor/mujoco.js" in url for url in opened.asked)
+    inside = (site.as_uri(), "data:", "blob:")
+    assert [url for url in opened.asked if not url.startswith(inside)] == []
+
+
+@pytest.mark.browser
+def test_the_bench_answers_the_keyboard(opened):
+    bench, keys = opened.bench, opened.page.keyboard
+    bench.locator("[name=main]").focus()
+    keys.press("Enter")
+    wait_for_status(bench, "The arm is running")
+    opened.page.wait_for_function(
+        "() => !document.querySelector('[data-tell=time]').textContent.startsWith('0.00')"
+    )
+    keys.press("Enter")
+    assert "Shoulder" in wait_for_status(bench, "Paused")
+    bench.locator("[name=reset]").focus()
+    keys.press("Enter")
+    wait_for_status(bench, "Back at the start")
+    assert (told(bench, "time"), told(bench, "elbow")) == ("0.00 s", "95.0°")
+    bench.get_by_label("BIClong").focus()
+    keys.press("End")
+    assert bench.locator("output").nth(MUSCLES.index("BIClong")).inner_text() == "1.00"
+    bench.locator("[name=step]").focus()
+    for _ in range(10):
+        keys.press("Enter")
+    assert told(bench, "time") == "0.10 s"
+    said = [round(u, 2) for u in live.given()["rest"]]
+    excitation = np.array(said)
+    excitation[MUSCLES.index("BIClong")] = 1
+    moved = simulate(np.tile(excitation, (100, 1)), templates.START, said, engine="mujoco")
+    assert number(told(bench, "elbow")) == pytest.approx(np.degrees(moved.q[-1, 1]), abs=0.051)
+    forward, up, right = 1000 * moved.hand[-1]
+    for name, value in (("forward", forward), ("up", up), ("right", right)):
+        assert number(told(bench, name)) == pytest.approx(value, abs=0.51)
+
+
+@pytest.mark.browser
+def test_the_arm_reaches_misses_and_calibrates(opened):
+    reach, target = opened.reach, np.array([0.045, -0.35])
+    start(reach)
+    reach.get_by_label("target, forward").fill(str(target[0]))
+    reach.get_by_label("target, up").fill(str(target[1]))
+    trials = published(plan(target, templates.load()))
+    reach.locator("[name=main]").click()
+    said = wait_for_status(reach, "The planned reach")
+    assert f"{1000 * trials.error[0]:.1f} mm" in said
+    reach.locator("[name=calibrate]").click()
+    said = wait_for_status(reach, "After 21 tries")
+    best = trials.error.argmin()
+    assert f"n = {best - 1}" in said and f"{1000 * trials.error[best]:.1f} mm" in said
+    assert told(reach, "calibrated") == f"{1000 * trials.error[best]:.1f} mm"
+    reach.get_by_label("ours").check()
+    assert told(reach, "calibrated") == "–"  # another rule, another try
+    reach.locator("[name=calibrate]").click()
+    wait_for_status(reach, f"After {live.TRIALS} tries")
+    ours = calibrate(plan(target, templates.load()), live.TRIALS)
+    assert told(reach, "calibrated") == f"{1000 * ours.error.min():.1f} mm"
+
+
+@pytest.mark.browser
+def test_a_target_is_set_by_pointing(opened):
+    reach, mouse = opened.reach, opened.page.mouse
+    start(reach)
+    ring = reach.locator("svg circle[stroke='var(--vmc-green)']")
+    box = ring.bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    mouse.move(x, y)
+    mouse.down()
+    mouse.move(x - 80, y - 60, steps=4)
+    mouse.up()
+    moved = ring.bounding_box()
+    assert moved["x"] - box["x"] == pytest.approx(-80, abs=6)  # sliders go by 5 mm
+    assert moved["y"] - box["y"] == pytest.approx(-60, abs=6)
+    assert number(reach.locator("output").first.inner_text()) < 0.12
+    wait_for_status(reach, "A target is set")
+    reach.get_by_label("target, forward").fill("0")
+    reach.get_by_label("target, up").fill("-0.49")
+    assert "not surrounded" in wait_for_status(reach, "Nothing planned")
+
+
+@pytest.mark.browser
+def test_who_wants_no_motion_sees_where_it_ends(chromium, site):
+    context = chromium.new_context(offline=True, reduced_motion="reduce")
+    opened = open_site(context, site)
+    start(opened.reach)
+    frames = """() => vmcScene(document.querySelectorAll(".vmc-scene")[1])
+      .viewer.renderer.info.render.frame"""
+    before = opened.page.evaluate(frames)
+    opened.reach.locator("[name=main]").click()
+    wait_for_status(opened.reach, "The planned reach")
+    assert opened.page.evaluate(frames) - before < 5
+    assert opened.errors == []
+    context.close()
+
+
+@pytest.mark.browser
+def test_without_webgl_the_arm_moves_in_the_side_view(chromium, site):
+    context = chromium.new_context(offline=True)
+    context.add_init_script("HTMLCanvasElement.prototype.getContext = () => null")
+    opened = open_site(context, site)
+    start(opened.bench)
+    assert "no 3-D picture" in wait_for_status(opened.bench, "The arm is running")
+    assert opened.bench.locator(".vmc-scene").inner_text().startswith("An arm of two joints")
+    assert opened.bench.locator("svg polyline").count() == 2
+    assert opened.errors == []
+    context.close()
+
+
+@pytest.mark.browser
+def test_without_webassembly_it_says_so(chromium, site):
+    context = chromium.new_context(offline=True)
+    context.add_init_script("delete self.WebAssembly")
+    opened = open_site(context, site)
+    opened.bench.locator("[name=main]").click()
+    wait_for_status(opened.bench, "This browser cannot run the arm")
+    assert opened.bench.get_by_label("BRA").is_disabled()
+    context.close()
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_is_accessible_before_and_after_the_start(opened, theme):
+    page = opened.page
+    page.evaluate("theme => { document.documentElement.dataset.theme = theme }", theme)
+    page.evaluate(AXE)
+    for _ in range(2):
+        found = page.evaluate("() => axe.run('main', { preload: false })")
+        assert [
+            (violation["id"], node["html"][:200])
+            for violation in found["violations"]
+            if violation["impact"] in ("serious", "critical")
+            for node in violation["nodes"]
+        ] == []
+        for arm in (opened.bench, opened.reach):
+            start(arm)
+
+
+@pytest.mark.browser
+def test_fits_a_phone(opened):
+    opened.page.set_viewport_size({"width": 360, "height": 700})
+    for arm in (opened.bench, opened.reach):
+        start(arm)
+    wide = """() => [...document.querySelectorAll("main *")]
+      .filter((e) => e.getBoundingClientRect().right > 361)
+      .filter((e) => !e.closest(".vmc-picture, .vmc-spoken"))
+      .map((e) => e.outerHTML.slice(0, 100))"""
+    assert opened.page.evaluate(wide) == []
+
+
+# ---- What Python gives ----
+
+
+def test_the_knots_that_travel_are_the_librarys():
+    given = live.given()["library"]
+    knots = np.frombuffer(live.base64.b64decode(given["knots"]), np.float32)
+    knots = knots.reshape(given["shape"]).astype(float)
+    library = templates.load()
+    assert np.abs(live.spline() @ knots - library.excitations).max() < 1e-12
+    json.dumps(given, allow_nan=False)
+    assert len(live.given()["F0"]) == len(F0)
+
+
+def test_what_could_not_work_is_refused():
+    with pytest.raises(ValueError, match="choose one of"):
+        live_arm("dance", "c", "a")
+    with pytest.raises(ValueError, match="not surrounded"):
+        live_arm("reach", "c", "a", target=(0.5, 0.5))
+
+
+def test_a_live_kernel_brings_its_own_viewer_and_physics(monkeypatch):
+    monkeypatch.setenv("VMC_LIFE", "live")
+    shown = []
+    monkeypatch.setattr(live, "display", lambda *items: shown.extend(items))
+    live_arm("bench", "Move it.", "An arm.")
+    widget, caption = shown
+    assert 'data-mode="bench"' in widget.page and "Move it." in caption.data
+    for needed in ("MeshCat", "loadMujoco.wasm", "vmcArm", "export default"):
+        assert needed in widget._esm
+
+
+def test_without_the_books_files_a_live_kernel_says_where_the_arm_runs(monkeypatch):
+    monkeypatch.setenv("VMC_LIFE", "live")
+    monkeypatch.setattr(live, "MUJOCO", Path("nowhere"))
+    said = []
+    monkeypatch.setattr(live, "say", said.append)
+    live_arm("bench", "Move it.", "An arm.")
+    assert "built page" in said[0]
