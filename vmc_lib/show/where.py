@@ -1,8 +1,17 @@
 """Pictures of regions and boxes, for the chapters on the dorsal pathway."""
 
-import numpy as np
+import os
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
-from vmc_lib.show.figures import photo_view
+import ipywidgets as widgets
+import matplotlib.pyplot as plt
+import numpy as np
+from IPython.display import display
+
+from vmc_lib.photos import read_image
+from vmc_lib.show.demo import figure
+from vmc_lib.show.figures import COLOURS, photo_view
 from vmc_lib.where.boxes import iou
 
 
@@ -46,3 +55,44 @@ def bars(shares):
     return "\n".join(
         [f'<svg {size} font-size="14" fill="var(--vmc-ink, #1c2430)">', *rows, "</svg>"]
     )
+
+
+def best_so_far(truth, boxes):
+    """For each named true box, the best IoU among the first 1, 2, ... of `boxes`: name → (n,)."""
+    best = np.maximum.accumulate(iou(list(truth.values()), boxes), axis=1)
+    return dict(zip(truth, best, strict=True))
+
+
+def rising(best, now):
+    """A plot of what `best_so_far` returned, with a mark at the box of number `now`."""
+    fig, ax = plt.subplots(figsize=(4.2, 3.2))
+    for name, overlap in best.items():
+        ax.plot(np.arange(1, len(overlap) + 1), overlap, label=f"{name} {overlap[now - 1]:.2f}")
+    ax.axvline(now, color=COLOURS["ink"], lw=1)
+    ax.set(xlabel="regions made", ylabel="best overlap so far", ylim=(0, 1))
+    ax.legend(loc="lower right")
+    return fig
+
+
+def your_own(draw, example, caption, alt):
+    """Show `draw(example)`; in a live kernel, a button puts the reader's own photo in its place.
+
+    `draw` takes an image (400, 600, 3) and returns markup. The photo stays in the kernel.
+    """
+    figure(draw(example), caption, alt)
+    if os.environ.get("VMC_LIFE", "live") == "live":
+        button = widgets.FileUpload(accept="image/*", description="Your photo")
+        view = widgets.HTML()
+        button.observe(lambda _: setattr(view, "value", drawn(draw, button.value)), "value")
+        display(widgets.VBox([button, view]))
+
+
+def drawn(draw, uploads):
+    """Markup of the first uploaded file, drawn; or in words, why it cannot be."""
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / Path(uploads[0]["name"]).name
+        path.write_bytes(uploads[0]["content"])
+        try:
+            return draw(read_image(path))
+        except ValueError as error:
+            return f"<p>{str(error).replace(folder + os.sep, '')}</p>"
