@@ -48,6 +48,15 @@ def test_passive_force_does_not_push_below_its_range(length):
     assert length > 0.22 or muscle.passive_force(length) == 0
 
 
+def test_motor_noise_grows_with_the_command():
+    weak, strong = (
+        muscle.noisy(np.full(20_000, u), 0.2, np.random.default_rng(0)) for u in (0.1, 0.4)
+    )
+    np.testing.assert_allclose([weak.mean(), strong.mean()], [0.1, 0.4], rtol=0.01)
+    np.testing.assert_allclose([weak.std(), strong.std()], [0.02, 0.08], rtol=0.03)
+    assert muscle.noisy(np.ones(1000), 0.5, np.random.default_rng(1)).max() == 1
+
+
 @given(UNIT, st.floats(0.2, 2), st.floats(-2, 2))
 def test_mujocos_muscle_is_mujocos(a, length, v):
     constants = np.array([0, 1, 1, 0, 0.5, 1.6, 1.5, 1.3, 1.2])  # its defaults, with F0 = l0 = 1

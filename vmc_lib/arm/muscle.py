@@ -64,6 +64,15 @@ def force(activation, length, velocity, maximum):
     return maximum * (active + passive_force(length))
 
 
+def noisy(excitation, share, rng):
+    """Excitations (…) with motor noise: fresh each step, its deviation a `share` of the signal.
+
+    The stronger the command, the noisier (Harris & Wolpert 1998, Nature 394:780); clipped to
+    [0, 1].
+    """
+    return np.clip(excitation * (1 + share * rng.standard_normal(np.shape(excitation))), 0, 1)
+
+
 class Muscle(NamedTuple):
     """What makes a muscle: functions of the shapes and units of the two that fill `PAPER`."""
 

@@ -8,9 +8,11 @@ from functools import cache
 import numpy as np
 from meshcat import geometry as g
 
-from vmc_lib.arm.closed_form import hand
+from vmc_lib.arm.closed_form import hand, paths
 from vmc_lib.arm.model import MUSCLES, geometry
+from vmc_lib.arm.muscle import force
 from vmc_lib.arm.posture import to_world
+from vmc_lib.arm.simulate import fibres
 from vmc_lib.photos import TABLE
 from vmc_lib.show.figures import COLOURS
 from vmc_lib.show.scene import Scene
@@ -20,24 +22,25 @@ BONE_RADIUS, TUBE = 0.013, (0.004, 0.010)  # m: bones; muscles at rest and at th
 BONE, BODY, WOOD, FEATHER = 0xEDE6D6, 0xAEB7C2, 0xCDB795, 0xF4F4F0
 
 
-def arm_scene(q, activation=None, force=None, turn=0.0, shuttlecock=None, balls=(), trail=None):
+def arm_scene(
+    q, activation=6 * (0,), velocity=(0, 0), turn=0, shuttlecock=None, balls=(), trail=None
+):
     """The arm in posture q (2,), in radians, on a trunk turned by `turn`.
 
-    Muscles go from blue to red with `activation` (6,) and thicken with `force` (6,), a share of
-    their maximal force (the activation where none is given). `shuttlecock` (3,) is the middle of
-    one that stands; `balls` are (position (3,), colour name) pairs; `trail` (n, 3) is a line, for
-    instance the hand's path. Only the arm turns with the trunk: all else stays where it is.
+    Muscles go from blue to red with `activation` (6,) and thicken with their force (Eq. 10), which
+    also follows the joints' `velocity` (2,) in rad/s. `shuttlecock` (3,) is the middle of one that
+    stands; `balls` are (position (3,), colour name) pairs; `trail` (n, 3) is a line, for instance
+    the hand's path. Only the arm turns with the trunk: all else stays where it is.
     """
     scene = Scene(_furniture())
-    bodies, paths = geometry(q)
+    bodies, courses = geometry(q)
     joints = np.array([*(position for _, position in bodies.values()), hand(q)])
-    activation = np.zeros(len(MUSCLES)) if activation is None else np.clip(activation, 0, 1)
-    force = activation if force is None else np.clip(force, 0, 1)
+    pulls = np.minimum(force(activation, *fibres(*paths(q), velocity), maximum=1.0), 1)
     thin, thick = TUBE
     _move_tube(scene["arm/bones"], to_world(joints, turn), BONE_RADIUS)
     scene["arm/hand"].set_transform(_place(to_world(joints[-1], turn)))
-    for name, active, share in zip(MUSCLES, activation, force, strict=True):
-        path = np.pad(paths[name], ((0, POINTS - len(paths[name])), (0, 0)), "edge")
+    for name, active, share in zip(MUSCLES, activation, pulls, strict=True):
+        path = np.pad(courses[name], ((0, POINTS - len(courses[name])), (0, 0)), "edge")
         _move_tube(scene[f"arm/{name}"], to_world(path, turn), thin + (thick - thin) * share)
         scene[f"arm/{name}"].set_property("color", _heat(active))
     if shuttlecock is not None:
