@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from sklearn.exceptions import NotFittedError
 
-from vmc_lib.arm.simulate import World
 from vmc_lib.cerebellum.online import Aim, GranuleCells, Linear
 from vmc_lib.motor.planning import draw_targets, exact_weights, plan
 from vmc_lib.motor.templates import load
@@ -53,20 +52,6 @@ def test_granule_cells_generalise(library, held_out):
     for lesson in lessons(library, 125, seed=35):
         learners[0].practise(lesson)
     assert error(learners[0].correct(held_out)) < 0.10 * before
-
-
-def test_a_load_is_learned_and_leaves_an_after_effect(library, held_out):
-    loaded, cerebellum = World(load=0.1), Aim(library, GranuleCells(memory=0.4))
-    first = error(cerebellum.correct(held_out.under(loaded)))
-    before = error(cerebellum.correct(held_out))
-    for lesson in lessons(library, 150):
-        cerebellum.practise(lesson.under(loaded))
-    assert error(cerebellum.correct(held_out.under(loaded))) < 0.5 * first
-    after_effect = error(cerebellum.correct(held_out))
-    assert after_effect > 2 * before
-    for lesson in lessons(library, 150, seed=22):
-        cerebellum.practise(lesson)
-    assert error(cerebellum.correct(held_out)) < 0.5 * after_effect
 
 
 def test_one_reach_is_corrected_as_in_a_batch(library, held_out):

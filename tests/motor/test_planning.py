@@ -10,9 +10,11 @@ from vmc_lib.motor.planning import (
     exact_weights,
     habitual_weights,
     least_change,
+    nearest,
     plan,
     surrounded,
     surrounding,
+    turned,
 )
 from vmc_lib.motor.templates import load
 
@@ -95,6 +97,48 @@ def test_templates_on_a_line_are_refused():
     line = np.array([(0.0, -0.4), (0.1, -0.4), (0.2, -0.4), (0.3, -0.4)])
     with pytest.raises(ValueError, match="one line"):
         exact_weights(np.array([0.15, -0.4]), line)
+
+
+@pytest.mark.parametrize("count", [3, 4, 6, 9])
+def test_more_templates_or_fewer_can_be_combined(count, library):
+    targets = draw_targets(library, 50, np.random.default_rng(3))
+    chosen = nearest(targets, library.points, count)
+    distance = np.linalg.norm(library.points - targets[:, None], axis=-1)
+    used = np.take_along_axis(distance, chosen, axis=-1)
+    np.testing.assert_allclose(used, np.sort(distance, axis=-1)[:, :count])
+    mixed = plan(targets, library, chosen=chosen)
+    np.testing.assert_allclose(mixed.weights.sum(axis=-1), 1)
+    with pytest.raises(ValueError, match="cannot choose"):
+        nearest(targets, library.points, 1 + len(library.points))
+
+
+def test_a_plan_is_moved_once(library, monkeypatch):
+    reach = plan([0.15, -0.4], library)
+    first = reach.reached()
+    monkeypatch.setattr(type(reach), "move", lambda _: pytest.fail("moved again"))
+    np.testing.assert_array_equal(reach.reached(), first)
+
+
+def test_a_prism_turns_what_is_seen_not_what_is_done(library):
+    straight = plan([0.15, -0.4], library)
+    turned_view = straight.under(prism=0.1)
+    np.testing.assert_array_equal(turned_view.move().reached, straight.move().reached)
+    seen = turned_view.reached()
+    np.testing.assert_allclose(turned(seen, -0.1), straight.reached())
+    assert seen[1] > straight.reached()[1]  # upwards
+
+
+@pytest.mark.parametrize("rule", [habitual_weights, exact_weights])
+def test_ten_thousand_random_targets_are_planned_or_refused(rule, library):
+    targets = np.random.default_rng(4).uniform([-0.1, -0.6], [0.4, -0.2], (10_000, 2))
+    inside = surrounded(targets, library.points)
+    assert 1000 < inside.sum() < 9000
+    reaches = plan(targets[inside], library, rule)
+    assert np.abs(reaches.weights).max() < 1.5
+    np.testing.assert_allclose(reaches.weights.sum(axis=-1), 1)
+    for target in targets[~inside][:50]:
+        with pytest.raises(ValueError, match="not surrounded"):
+            plan(target, library, rule)
 
 
 @pytest.mark.parametrize(

@@ -2,16 +2,37 @@
 
 Tables IV to VI are `planned`, `offline` and a row of `in_sample`; Fig. 12 is the mean of each row.
 The paper reports movements that were practised; `held_out` is what was learned for others.
+
+`python -m vmc_lib.cerebellum.experiment` repeats them all with other seeds and writes
+`data/movements.json`. The seeds are shared out by joblib: inside
+`joblib.parallel_config("dask")` a whole cluster takes them.
 """
 
+import json
 from functools import partial
+from importlib.resources import files
 from typing import NamedTuple
 
 import numpy as np
+from joblib import Parallel, delayed
+from scipy.stats import t as student
 
-from ..motor.planning import draw_targets, plan
-from ..motor.templates import Library
-from .offline import published
+from ..arm.simulate import World
+from ..motor.planning import draw_targets, plan, surrounded, turned
+from ..motor.templates import Library, load
+from .adaptation import CORRECTIONS, Adaptation
+from .offline import calibrate, published
+from .online import Aim, Linear
+
+FILE = files("vmc_lib.data") / "movements.json"
+SEEDS = range(6)
+SCENARIOS = ("changing neighbours", "four fixed templates")
+PRISM = np.radians(6.0)
+WORLDS = {  # what may change, as `Plan.under` takes it
+    "a weight of 0.5 kg": {"world": World(load=0.5)},
+    "a viscous field": {"world": World(field=((-1.0, 0.0), (0.0, -1.0)))},
+    "a prism": {"prism": PRISM},
+}
 
 # Algorithm 1 with every fifth n: a quarter of the reaches, and hardly a difference
 quick = partial(published, gains=range(0, 21, 5))
@@ -52,5 +73,107 @@ def around(library, place):
     return Library(library.points[four], library.excitations[four])
 
 
+class Curve(NamedTuple):
+    """An adaptation, block by block; every movement is made before it is learned from."""
+
+    target: np.ndarray  # (blocks, movements, 2), m, as seen
+    reached: np.ndarray  # (blocks, movements, 2), m, as seen
+
+    @property
+    def error(self):
+        """Mean distance from the target in each block, (blocks,), m."""
+        return np.linalg.norm(self.reached - self.target, axis=-1).mean(axis=-1)
+
+
+def adapt(learner, library, rng, world, blocks=(2, 8, 6), movements=8):
+    """The `Curve` of an `Adaptation` in a world (of `WORLDS`) that comes and goes.
+
+    `blocks` counts those before, in and after the changed world. All targets are new, and lie
+    where the arm has experience with the prism and without it.
+    """
+    before, during, after = blocks
+    targets = draw_targets(library, 4 * sum(blocks) * movements, rng)
+    inside = targets[surrounded(turned(targets, -PRISM), library.points)]
+    targets = inside[: sum(blocks) * movements].reshape(-1, movements, 2)
+    reached = [
+        learner.practise(plan(t, library).under(**(world if before <= b < before + during else {})))
+        for b, t in enumerate(targets)
+    ]
+    return Curve(targets, np.array(reached))
+
+
+def skilled(library, rng, movements=150):
+    """An `Aim` that has practised, 25 movements at a time."""
+    learner = Aim(library)
+    for _ in range(0, movements, 25):
+        learner.practise(plan(draw_targets(library, 25, rng), library))
+    return learner
+
+
+def tables(seed, scenario=SCENARIOS[0]):
+    """Tables IV to VI and the own rules for one seed and scenario: ratios of errors, by name."""
+    rng, library = np.random.default_rng(seed), load()
+    if scenario != SCENARIOS[0]:
+        library = around(library, draw_targets(library, 1, rng)[0])
+    paper = run(Linear(), library, rng)
+    own = run(Aim(library), library, rng, fresh=True, experiments=10)
+    many = plan(draw_targets(library, 200, rng), library)
+    tried, practised = calibrate(many, 4).error.mean(axis=1), paper.in_sample.mean(axis=1)
+    others, aimed = (e.held_out.mean(axis=1) / e.held_out_planned.mean() for e in (paper, own))
+    return {
+        "planned / reach": tried[0] / np.linalg.norm(many.target, axis=-1).mean(),
+        "off-line, published": paper.offline.mean() / paper.planned.mean(),
+        "online, 1 experiment, in-sample": practised[1] / paper.planned.mean(),
+        "online, 1 experiment, held-out": others[1],
+        "online, 10 experiments, in-sample": practised[10] / paper.planned.mean(),
+        "online, 10 experiments, held-out": others[10],
+        **{f"own off-line, {k} trials": tried[k] / tried[0] for k in (1, 2, 4)},
+        **{f"own online, {25 * k} movements, held-out": aimed[k] for k in (0, 1, 6, 10)},
+    }
+
+
+def worlds(seed):
+    """Mean error in mm of each block, by world and by what is corrected, for one seed."""
+    library = load()
+    return {
+        f"{name}, {corrects}": 1000 * _adapted(seed, library, world, corrects).error
+        for name, world in WORLDS.items()
+        for corrects in CORRECTIONS
+    }
+
+
+def _adapted(seed, library, world, corrects):
+    rng = np.random.default_rng(seed)
+    return adapt(Adaptation(skilled(library, rng), library, corrects), library, rng, world)
+
+
+def repeat(experiment, seeds=SEEDS, jobs=-1):
+    """An experiment (seed -> dictionary of numbers) with every seed: name -> (seeds, …)."""
+    results = Parallel(n_jobs=jobs)(delayed(experiment)(seed) for seed in seeds)
+    return {name: np.array([r[name] for r in results]) for name in results[0]}
+
+
+def interval(values):
+    """Mean over seeds (the first axis), and half the width of its 95% confidence interval."""
+    n = len(values)
+    half = student.ppf(0.975, n - 1) * np.std(values, axis=0, ddof=1) / np.sqrt(n)
+    return np.mean(values, axis=0), half
+
+
+def measured():
+    """What shipped: by scenario and "worlds", name -> one entry for each of `SEEDS`."""
+    shipped = json.loads(FILE.read_text())
+    return {part: {k: np.array(v) for k, v in rows.items()} for part, rows in shipped.items()}
+
+
 def _errors(plan):
     return np.linalg.norm(plan.reached() - plan.target, axis=-1)
+
+
+if __name__ == "__main__":
+    parts = {s: repeat(partial(tables, scenario=s)) for s in SCENARIOS} | {"worlds": repeat(worlds)}
+    rounded = {
+        part: {name: np.round(values, 4).tolist() for name, values in rows.items()}
+        for part, rows in parts.items()
+    }
+    FILE.write_text(json.dumps(rounded, indent=1) + "\n")

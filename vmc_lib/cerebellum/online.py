@@ -92,14 +92,11 @@ class GranuleCells(RegressorMixin, BaseEstimator):
     """Ridge regression on a random radial-basis expansion, learnt lesson by lesson.
 
     `cells` granule cells with receptive fields of the given `width` (in the units of X) lie at
-    random about the first lessons; `ridge` is how reluctantly Purkinje weights move from zero;
-    `memory` is the share of older lessons that a new batch leaves standing: in a world that
-    changes it pays to forget.
+    random about the first lessons; `ridge` is how reluctantly Purkinje weights move from zero.
     """
 
-    def __init__(self, width=0.05, cells=600, ridge=1e-3, memory=1.0, random_state=0):
-        self.width, self.cells, self.ridge = width, cells, ridge
-        self.memory, self.random_state = memory, random_state
+    def __init__(self, width=0.05, cells=600, ridge=1e-4, random_state=0):
+        self.width, self.cells, self.ridge, self.random_state = width, cells, ridge, random_state
 
     def fit(self, X, y):
         """Forget everything, place the cells about X (n, d), learn y (n,) or (n, k)."""
@@ -112,13 +109,13 @@ class GranuleCells(RegressorMixin, BaseEstimator):
         return self.partial_fit(X, y)
 
     def partial_fit(self, X, y):
-        """Learn these lessons as well; where `memory` is 1, their order does not matter."""
+        """Learn these lessons as well; in which order they come does not matter."""
         if not hasattr(self, "centres_"):
             return self.fit(X, y)
         X, y = validate_data(self, X, y, multi_output=True, reset=False)
-        active = self._excite(X)
-        self.gram_ = self.memory * self.gram_ + active.T @ active
-        self.climbing_ = self.memory * self.climbing_ + active.T @ y
+        active = self.excite(X)
+        self.gram_ += active.T @ active
+        self.climbing_ += active.T @ y
         reluctant = self.gram_ + self.ridge * np.eye(self.cells)
         self.purkinje_ = np.linalg.solve(reluctant, self.climbing_)
         return self
@@ -126,8 +123,9 @@ class GranuleCells(RegressorMixin, BaseEstimator):
     def predict(self, X):
         """The correction (n,) or (n, k) for each X (n, d)."""
         check_is_fitted(self)
-        return self._excite(validate_data(self, X, reset=False)) @ self.purkinje_
+        return self.excite(validate_data(self, X, reset=False)) @ self.purkinje_
 
-    def _excite(self, X):
+    def excite(self, X):
+        """How active each granule cell is, (n, cells) in [0, 1], for each X (n, d)."""
         square = ((X[:, None] - self.centres_) ** 2).sum(axis=-1)
         return np.exp(-square / (2 * self.width**2))

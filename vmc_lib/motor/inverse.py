@@ -28,9 +28,9 @@ def minimum_jerk(start, goal):
 
 
 @cache
-def spline():
-    """Cubic B-splines (STEPS, KNOTS); each row sums to 1, so knots in [0, 1] stay in [0, 1]."""
-    edges = np.concatenate([[0] * 3, np.linspace(0, 1, KNOTS - 2), [1] * 3])
+def spline(knots=KNOTS):
+    """Cubic B-splines (STEPS, knots); each row sums to 1, so knots in [0, 1] stay in [0, 1]."""
+    edges = np.concatenate([[0] * 3, np.linspace(0, 1, knots - 2), [1] * 3])
     return BSpline.design_matrix(np.linspace(0, 1, STEPS), edges, 3).toarray()
 
 
@@ -51,7 +51,7 @@ def demand(path):
 def hold(q):
     """The least activations (6,) that hold the posture q (2,) against gravity."""
     torque, gain = demand(np.tile(q, (2, 1)))
-    return _least(np.vstack([gain[0], 0.01 * np.eye(6)]), np.append(torque[0], np.zeros(6)))
+    return least(np.vstack([gain[0], 0.01 * np.eye(6)]), np.append(torque[0], np.zeros(6)))
 
 
 def excitation_knots(path):
@@ -62,12 +62,13 @@ def excitation_knots(path):
     bending = np.kron(np.diff(np.eye(KNOTS), 2, axis=0), np.eye(6))
     matrix = np.vstack([asked, EFFORT * np.eye(KNOTS * 6), ROUGHNESS * bending])
     wanted = np.append(torque[rows].ravel(), np.zeros(len(matrix) - len(asked)))
-    activation = spline() @ _least(matrix, wanted).reshape(KNOTS, 6)
+    activation = spline() @ least(matrix, wanted).reshape(KNOTS, 6)
     excitation = excitation_for(activation, np.gradient(activation, STEP, axis=0))
-    knots = np.stack([_least(spline(), muscle) for muscle in excitation.T], axis=-1)
+    knots = np.stack([least(spline(), muscle) for muscle in excitation.T], axis=-1)
     knots[:2] = hold(path[0])
     return knots
 
 
-def _least(matrix, wanted):
+def least(matrix, wanted):
+    """The x (n,) in [0, 1] whose matrix @ x comes nearest to what is wanted, in least squares."""
     return lsq_linear(matrix, wanted, (0, 1), method="bvls").x

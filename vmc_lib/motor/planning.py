@@ -4,6 +4,7 @@ Every function takes one target (2,) or a batch (B, 2). Positions are in the arm
 """
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from ..arm.simulate import EMPTY, World
 from .templates import Library, reach
 
 PART = 512  # movements simulated at once
+EYE = np.array([0.10, 0.25])  # above and a little in front of the shoulder
 
 
 @dataclass(frozen=True)
@@ -18,10 +20,11 @@ class Plan:
     """Which templates a reach uses, and how much of each."""
 
     library: Library
-    target: np.ndarray  # (…, 2)
+    target: np.ndarray  # (…, 2): where it is seen
     chosen: np.ndarray  # (…, N): rows of the library
     weights: np.ndarray  # (…, N)
-    world: World = EMPTY  # what the arm will meet; the plan does not know it
+    world: World = EMPTY  # what the arm will meet; the plan does not know it …
+    prism: float = 0.0  # … nor, in rad, how far glass before the eyes turns what they see
 
     @property
     def points(self):
@@ -40,10 +43,14 @@ class Plan:
         return reach(self.excitations, self.world)
 
     def reached(self):
-        """Where the reach ends, (…, 2); for large batches, moved in parts to spare memory."""
+        """Where the hand is seen to end, (…, 2). A plan is moved once, and remembers it."""
+        return turned(self._ends, self.prism)
+
+    @cached_property
+    def _ends(self):
         count = self.weights.shape[-1]
         weights, chosen = self.weights.reshape(-1, count), self.chosen.reshape(-1, count)
-        parts = [
+        parts = [  # large batches are moved in parts, to spare memory
             replace(self, chosen=chosen[i : i + PART], weights=weights[i : i + PART]).move().reached
             for i in range(0, len(weights), PART)
         ]
@@ -53,9 +60,15 @@ class Plan:
         """The same templates, weighted otherwise; leading axes may be added, for many trials."""
         return replace(self, weights=weights, chosen=np.broadcast_to(self.chosen, weights.shape))
 
-    def under(self, world):
-        """The same plan, to be moved in another `World`: with a load, in a force field."""
-        return replace(self, world=world)
+    def under(self, world=EMPTY, prism=0.0):
+        """The same plan in another `World`, with a load or a force field, or behind a prism."""
+        return replace(self, world=world, prism=prism)
+
+
+def turned(points, angle):
+    """Plane positions (…, 2) turned about the eye by `angle`, upwards where it is positive."""
+    c, s = np.cos(angle), np.sin(angle)
+    return (points - EYE) @ np.array([[c, s], [-s, c]]) + EYE
 
 
 def habitual_weights(target, points):
@@ -98,6 +111,17 @@ def surrounding(target, points):
         alone = np.atleast_2d(target)[~np.atleast_1d(inside)][0]
         raise ValueError(f"target {alone} m is not surrounded by templates; move it inside them")
     return _by_quadrant(target, points).argmin(axis=-1)
+
+
+def nearest(target, points, count):
+    """The `count` points (of N, 2) nearest to a target (…, 2): rows (…, count).
+
+    ValueError when there are fewer points, or fewer than one is asked for.
+    """
+    if not 1 <= count <= len(points):
+        raise ValueError(f"cannot choose {count} of {len(points)} templates")
+    distance = np.linalg.norm(points - np.asarray(target)[..., None, :], axis=-1)
+    return distance.argsort(axis=-1, kind="stable")[..., :count]
 
 
 def surrounded(target, points):

@@ -1,0 +1,76 @@
+"""Adaptation: when hand, arm or eyes have changed, learn from the error itself.
+
+`Aim` learns by hindsight what its arm does. Let the hand hold a weight, and hindsight is slow: it
+teaches about the places where the hand ends, not about those that it is meant for. So each miss
+becomes an error at its *target*, and the Purkinje weights make the smallest change that takes a
+share of it away (Albus, 1971). The error alone does not say what is wrong. It can be corrected
+
+- in the **aim**, as behind a prism: plan for another place, with the templates there;
+- in the **pull**, as with a weight: give the same templates other weights, which need not sum to
+  one. To do nothing is a template too, and the hand then hangs straight down.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from ..motor.planning import Plan, plan, surrounded
+from ..motor.templates import REACH, Library
+from .online import GranuleCells
+
+HANGING = np.array([0.0, -REACH])  # where the hand ends when every muscle is silent
+CORRECTIONS = ("aim", "pull")
+
+
+class Adaptation:
+    """A skilled learner (`Aim`, `Linear`) in a world that may change.
+
+    A lesson alone takes a share 1 / (1 + caution) of its error away.
+    """
+
+    def __init__(self, skill, library: Library, corrects="aim", width=0.1, caution=0.3):
+        if corrects not in CORRECTIONS:
+            raise ValueError(f"cannot correct {corrects!r}; choose one of {CORRECTIONS}")
+        self.skill, self.library, self.corrects, self.caution = skill, library, corrects, caution
+        nothing = np.zeros_like(library.points)
+        self.cells = GranuleCells(width, cells=300).fit(library.points, nothing)
+        self.purkinje = self.cells.purkinje_
+
+    def correct(self, plan: Plan):
+        """The plan as the skill corrects it, and with what was learned since."""
+        shift = self._excite(plan) @ self.purkinje
+        if self.corrects == "aim":
+            return self._aimed(plan, plan.target + shift)
+        skilled = self.skill.correct(plan)
+        return skilled.with_weights(skilled.weights + pull(plan.points, shift))
+
+    def practise(self, plan: Plan):
+        """Move, and learn from the error that is seen; `plan` is a batch. Returns where it ended.
+
+        The batch is learned at once: all its movements are made before the first lesson.
+        """
+        reached = self.correct(plan).reached()
+        active = self._excite(plan)
+        overlap = active @ active.T
+        overlap += self.caution * np.diag(np.diag(overlap))
+        self.purkinje = self.purkinje + active.T @ np.linalg.solve(overlap, plan.target - reached)
+        return reached
+
+    def _excite(self, plan):
+        return self.cells.excite(plan.target)
+
+    def _aimed(self, habit, place):
+        """The skilled plan for another place; with the target's own templates where none are."""
+        known = surrounded(place, self.library.points)
+        there = plan(np.where(known[:, None], place, habit.target), self.library).chosen
+        chosen = np.where(known[:, None], there, habit.chosen)
+        skilled = self.skill.correct(plan(place, self.library, chosen=chosen))
+        return replace(habit, chosen=chosen, weights=skilled.weights)
+
+
+def pull(points, shift):
+    """The smallest Δw (…, N) that shifts the hand by `shift` (…, 2), by Eq. 4 from `HANGING`.
+
+    It sums to more than zero where the hand must be lifted: more of everything.
+    """
+    return (np.linalg.pinv(np.swapaxes(points - HANGING, -1, -2)) @ shift[..., None])[..., 0]
