@@ -83,3 +83,16 @@ def test_plots_share_no_names_unless_they_are_states_of_one():
     assert one == same
     ids = [set(re.findall(r' id="([^"]+)"', svg)) for svg in (one, other)]
     assert ids[0] and not ids[0] & ids[1]
+
+
+def test_only_two_panels_of_one_plot_each_are_stackable():
+    def drawn(*grid, **more):
+        fig, _ = plt.subplots(*grid)
+        if more:
+            fig.suptitle("over both")
+        return pictures(fig, "p")[0]
+
+    assert drawn(1, 2).count("<svg") == 2 and 'href="#p-0-panels"' in drawn(1, 2)
+    assert drawn(2, 2).count("<svg") == 2
+    assert [drawn(1, 1).count("<svg"), drawn(1, 3).count("<svg")] == [1, 1]
+    assert drawn(1, 2, title=True).count("<svg") == 1

@@ -170,3 +170,27 @@ def test_play_walks_to_the_end_and_stops(open_demos):
     assert page.get_attribute(".vmc-play", "aria-pressed") == "true"
     page.wait_for_selector(".vmc-play[aria-pressed=false]")
     assert page.inner_text("output") == "5"
+
+
+def test_on_a_phone_panels_stand_one_above_the_other(open_demos):
+    def draw(x):
+        fig, (left, right) = plt.subplots(1, 2, figsize=(8.2, 3.4))
+        left.plot([0, x], label="left")
+        right.plot([x, 0], color="red")
+        right.set(ylabel="right")
+        return fig
+
+    page = open_demos(lambda: explore(draw, "c", "two plots", x=Slider([1, 2], "x")))
+    shown = page.locator(".vmc-panels > div")
+    assert [shown.nth(i).is_visible() for i in (0, 1)] == [True, False]
+    page.set_viewport_size({"width": 360, "height": 700})
+    boxes = [shown.nth(i).bounding_box() for i in (0, 1)]
+    assert boxes[0]["y"] + boxes[0]["height"] <= boxes[1]["y"]
+    assert all(0 <= box["x"] and box["x"] + box["width"] <= 360 for box in boxes)
+    picture = page.query_selector(".vmc-picture")
+    assert picture.evaluate("p => p.scrollWidth <= p.clientWidth")
+    second = shown.nth(1)
+    before = second.screenshot()
+    set_value(page, "input", 1)
+    assert second.screenshot() != before  # the same drawing, moved by the same slider
+    assert page.errors == []

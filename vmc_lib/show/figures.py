@@ -120,7 +120,7 @@ def _svg(fig, salt):
     svg = re.sub(r"font-family: [^;\"]+(; )?", "", svg)
     svg = re.sub(r' d="[^"]*"', lambda d: re.sub(r"(\.\d\d)\d+", r"\1", d[0]), svg)
     svg = re.sub(r"#[0-9a-f]{6}\b", lambda colour: _variable(colour[0]), svg)
-    return re.sub(r"\n\s*", "\n", svg).strip()
+    return _stackable(re.sub(r"\n\s*", "\n", svg).strip(), fig, f"{salt}-panels")
 
 
 def _axes(fig):
@@ -137,6 +137,26 @@ def _axes(fig):
         1 - box.y1,
     )
     return f'data-axes="{" ".join(f"{n:.5g}" for n in numbers)}"'
+
+
+def _stackable(svg, fig, name):
+    """A plot of two panels side by side, so that a phone shows the second below the first.
+
+    The second is the same drawing once more, by reference; the style sheet crops both at the split.
+    """
+    columns = {tuple(np.round(ax.get_position().intervalx, 3)) for ax in fig.axes}
+    if len(columns) != 2 or fig.legends or fig.texts:
+        return svg
+    (_, left), (right, _) = sorted(columns)
+    split = left + 0.2 * (right - left)  # the right panel's numbers and label stand in the gap
+    root, drawing = svg.split(">", 1)
+    drawing = drawing.removesuffix("</svg>")
+    view = re.search(r'viewBox="[^"]*"', root)[0]
+    return (
+        f'<div class="vmc-panels" style="--split: {split:.3f}">\n'
+        f'<div>{root}><g id="{name}">{drawing}</g></svg></div>\n'
+        f'<div><svg {view}><use href="#{name}"/></svg></div></div>'
+    )
 
 
 def _variable(colour):
