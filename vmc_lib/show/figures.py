@@ -147,15 +147,14 @@ def _stackable(svg, fig, name):
     columns = {tuple(np.round(ax.get_position().intervalx, 3)) for ax in fig.axes}
     if len(columns) != 2 or fig.legends or fig.texts:
         return svg
-    (_, left), (right, _) = sorted(columns)
-    split = left + 0.2 * (right - left)  # the right panel's numbers and label stand in the gap
+    split = min(columns)[1] + 0.12 / fig.get_figwidth()  # in the gap stand the second's numbers
     root, drawing = svg.split(">", 1)
     drawing = drawing.removesuffix("</svg>")
     view = re.search(r'viewBox="[^"]*"', root)[0]
     return (
         f'<div class="vmc-panels" style="--split: {split:.3f}">\n'
         f'<div>{root}><g id="{name}">{drawing}</g></svg></div>\n'
-        f'<div><svg {view}><use href="#{name}"/></svg></div></div>'
+        f'<div><svg {_SVG_ROOT} {view}><use href="#{name}"/></svg></div></div>'
     )
 
 
