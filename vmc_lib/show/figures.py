@@ -147,7 +147,7 @@ def _stackable(svg, fig, name):
     columns = {tuple(np.round(ax.get_position().intervalx, 3)) for ax in fig.axes}
     if len(columns) != 2 or fig.legends or fig.texts:
         return svg
-    split = min(columns)[1] + 0.12 / fig.get_figwidth()  # in the gap stand the second's numbers
+    split = min(columns)[1] + 0.08 / fig.get_figwidth()  # in the gap stand the second's numbers
     root, drawing = svg.split(">", 1)
     drawing = drawing.removesuffix("</svg>")
     view = re.search(r'viewBox="[^"]*"', root)[0]
