@@ -55,17 +55,33 @@ def test_best_gabor_finds_a_gabor_again():
 
 def test_training_is_repeatable_and_saves_whole(white, tmp_path):
     positive = np.array([True, False, True, False])
-    one, two = (train(white, positive, 1, patches=200, report=lambda _: None) for _ in range(2))
+    one, two = (train(white, positive, 1, patches=200) for _ in range(2))
     one.save(tmp_path / "one.npz")
     kept = CDBN.load(tmp_path / "one.npz")
     p2 = [net.layers(white)["P2"] for net in (one, two, kept)]
     assert torch.equal(p2[0], p2[1]) and torch.equal(p2[0], p2[2])
-    other = train(white, positive, 2, patches=200, report=lambda _: None)
+    other = train(white, positive, 2, patches=200)
     assert not torch.equal(p2[0], other.layers(white)["P2"])
+
+
+def test_without_a_positive_picture_the_second_layer_has_nothing_to_learn(white):
+    with pytest.raises(ValueError, match="at least one"):
+        train(white, np.zeros(4, bool), patches=100)
+
+
+@pytest.mark.skipif(not torch.cuda.is_available(), reason="no GPU here")
+def test_one_argument_moves_training_to_the_gpu(white, tmp_path):
+    there = train(white, np.ones(4, bool), patches=200, device="cuda")
+    assert there.first.W.is_cuda and there.second.W.is_cuda
+    there.save(tmp_path / "there.npz")
+    here = CDBN.load(tmp_path / "there.npz")
+    assert torch.allclose(
+        there.layers(white.cuda())["P2"].cpu(), here.layers(white)["P2"], atol=1e-3
+    )
 
 
 @pytest.mark.parametrize("n_w", [7, 10, 11])
 def test_other_filter_widths_are_trimmed_to_whole_blocks(white, n_w):
-    net = train(white, np.ones(4, bool), n_w=n_w, patches=100, report=lambda _: None)
+    net = train(white, np.ones(4, bool), n_w=n_w, patches=100)
     for layer in ("H1", "H2"):
         assert net.layers(white)[layer].shape[-1] % 2 == 0

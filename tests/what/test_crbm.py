@@ -1,13 +1,14 @@
 """The CRBM against the paper's Eq. 1, taken at its word and enumerated state by state."""
 
 import itertools
+from itertools import islice
 
 import numpy as np
 import pytest
 import torch
 from scipy.signal import convolve2d
 
-from vmc_lib.what.crbm import CRBM
+from vmc_lib.what.crbm import CRBM, bar
 
 
 def rng(seed=0):
@@ -154,7 +155,7 @@ def test_gradient_is_data_minus_model():
     energies = CRBM(*parameters, machine.c).energy(mean, states)
     model = torch.autograd.grad(-(torch.softmax(chance, 0) @ energies), parameters)
     for data, dream, truth in zip(
-        machine.together(v), model, exact_gradient(machine, v), strict=True
+        machine.together(v, machine.posterior(v)[0]), model, exact_gradient(machine, v), strict=True
     ):
         assert (data - dream).numpy() == pytest.approx(truth.numpy(), abs=1e-9)
 
@@ -165,7 +166,7 @@ def test_longer_chains_come_closer_to_the_exact_gradient():
     exact = torch.cat([x.flatten() for x in exact_gradient(machine, v)])
     gaps = []
     for steps in (1, 4, 40):
-        found, _ = machine.gradient(v.repeat(5_000, 1, 1, 1), steps, rng(steps))
+        found, *_ = machine.gradient(v.repeat(5_000, 1, 1, 1), steps, rng(steps))
         gaps.append((torch.cat([x.flatten() for x in found]) - exact).norm().item())
     assert gaps[0] > gaps[1] > gaps[2]
     assert gaps[2] < 0.05 * exact.norm()
@@ -208,6 +209,15 @@ def test_same_seed_same_machine_and_resuming_changes_nothing(tmp_path):
     assert not torch.equal(whole.W, trained(range(4), seed=1).W)
 
 
+def test_a_bar_watches_and_changes_nothing(capsys):
+    silent, watched = (CRBM.random(3, 1, 4, rng()) for _ in range(2))
+    list(silent.fit(noise(), range(1), 0))
+    list(watched.fit(noise(), range(1), 0, watch=bar))
+    assert torch.equal(silent.W, watched.W)
+    shown = capsys.readouterr().out.split("\r")[1:]
+    assert [line.count("█") for line in shown] == [13, 26, 40]  # 300 patches: three batches
+
+
 def test_sparsity_is_reached():
     machine = CRBM.random(3, 1, 4, rng())
     list(machine.fit(noise(2000), range(8), 0, sparsity=0.05, rate=0.2))
@@ -216,7 +226,7 @@ def test_sparsity_is_reached():
 
 def test_the_clamp_keeps_the_edge_of_the_data():
     machine, v = CRBM.random(3, 1, 4, rng()), noise(5)
-    dream = machine.gibbs(v, 2, rng(), clamp=True)
+    *_, (dream, _) = islice(machine.gibbs(v, rng(), clamp=True), 3)
     changed = (dream != v).any(0)[0]
     assert changed[3:-3, 3:-3].all() and changed.sum() == 9
 
@@ -235,5 +245,7 @@ def test_bad_shapes_are_named():
         machine.posterior(torch.zeros(1, 1, 3, 3))
     with pytest.raises(ValueError, match="no patches"):
         next(machine.fit(torch.zeros(0, 1, 9, 9), range(1), 0))
+    with pytest.raises(ValueError, match="finite"):
+        next(machine.fit(torch.full((5, 1, 9, 9), torch.nan), range(1), 0))
     with pytest.raises(ValueError, match="belong"):
         CRBM(torch.zeros(2, 1, 4, 4), torch.zeros(3), torch.zeros(1))

@@ -1,17 +1,28 @@
+from itertools import combinations
+
 import numpy as np
 import pytest
 
 from vmc_lib import photos
 from vmc_lib.what.cdbn import crops_of
 from vmc_lib.what.crops import crop
-from vmc_lib.what.recogniser import READ_OUTS, Recogniser, elsewhere, examples, fit, shaken
+from vmc_lib.what.recogniser import (
+    EVERYWHERE,
+    READ_OUTS,
+    Recogniser,
+    elsewhere,
+    examples,
+    fit,
+    shaken,
+)
 from vmc_lib.where.boxes import iou
 
 
 @pytest.mark.parametrize("name", READ_OUTS)
-def test_it_knows_a_shuttlecock_from_a_cup(name):
+@pytest.mark.parametrize("level", ["rig", EVERYWHERE])
+def test_it_knows_a_shuttlecock_from_a_cup(level, name):
     crops, shuttlecock = crops_of(photos.load("rig", "validation")[:8])
-    chance = Recogniser.load(name).probability(crops)
+    chance = Recogniser.load(level, name).probability(crops)
     assert chance.shape == (16,)
     assert ((chance >= 0) & (chance <= 1)).all()
     assert ((chance > 0.5) == shuttlecock).mean() >= 14 / 16
@@ -27,8 +38,14 @@ def test_nothing_and_nonsense():
     assert Recogniser.load().probability([]).shape == (0,)
     with pytest.raises(ValueError, match="contrast"):
         Recogniser.load().probability(np.ones((1, 200, 200)))
-    with pytest.raises(ValueError, match="read-out"):
-        Recogniser.load("P3")
+    for wrong in (("moon",), ("rig", "P3")):
+        with pytest.raises(ValueError, match=f"no '{wrong[-1]}': choose from"):
+            Recogniser.load(*wrong)
+
+
+def test_each_level_has_a_recogniser_of_its_own():
+    weights = [Recogniser.load(level).linear.weights for level in (*photos.LEVELS, EVERYWHERE)]
+    assert all(not np.allclose(a, b) for a, b in combinations(weights, 2))
 
 
 def blobs(n, rng, apart):

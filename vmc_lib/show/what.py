@@ -6,9 +6,9 @@ import numpy as np
 from vmc_lib.show.figures import COLOURS
 
 
-def grey(v, reach=3.0):
+def grey(v, reach=3.0, zoom=1):
     """A whitened picture (height, width) as grey in 0..1: zero is the middle."""
-    return np.clip(0.5 + np.asarray(v) / (2 * reach), 0, 1)
+    return np.kron(np.clip(0.5 + np.asarray(v) / (2 * reach), 0, 1), np.ones((zoom, zoom)))
 
 
 def tiles(stack, columns=5, zoom=1):

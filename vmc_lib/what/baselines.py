@@ -30,6 +30,6 @@ def bag_of_sift(crops, words):
 
 def sift(crop):
     """The SIFT descriptors (m, 128) of a crop, each of length one, on a regular grid of places."""
-    grid = [cv2.KeyPoint(x, y, 24.0) for y in range(20, 200, 16) for x in range(20, 200, 16)]
+    grid = [cv2.KeyPoint(x, y, 12.0) for y in range(20, 200, 16) for x in range(20, 200, 16)]
     _, found = cv2.SIFT_create().compute(np.uint8(255 * crop), grid)
     return found / np.maximum(np.linalg.norm(found, axis=1, keepdims=True), 1e-6)

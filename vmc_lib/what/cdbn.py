@@ -11,7 +11,7 @@ import torch
 from torch.nn import functional as F
 
 from vmc_lib import photos
-from vmc_lib.what.crbm import CRBM
+from vmc_lib.what.crbm import CRBM, bar
 from vmc_lib.what.crops import Patches, crop, whiten
 
 FILE = Path(__file__).parents[1] / "data" / "cdbn.npz"
@@ -61,40 +61,41 @@ class CDBN:
         np.savez_compressed(file, mean=self.mean, spread=self.spread, **arrays)
 
     @classmethod
-    def load(cls, file=FILE):
+    def load(cls, file=FILE, device="cpu"):
         """The network that ships with the book, or another that was saved."""
         with np.load(file, allow_pickle=False) as z:
             machines = [
-                CRBM.from_arrays({k: z[f"{m}.{k}"] for k in ("W", "b", "a", "c")})
+                CRBM.from_arrays({k: z[f"{m}.{k}"] for k in ("W", "b", "a", "c")}, device)
                 for m in ("first", "second")
             ]
             return cls(*machines, float(z["mean"]), float(z["spread"]))
 
 
-def learn(maps, seed, n_w, patches, report, *, epochs, width, **how):
-    """One CRBM trained on patches of maps (n, channels, height, width)."""
+def learn(maps, seed, n_w, patches, *, epochs, width, **how):
+    """One CRBM trained on patches of maps (n, channels, height, width), on their device."""
     rng = torch.Generator().manual_seed(seed)
     width -= (width - n_w + 1) % C  # whole blocks only
     sample = Patches(maps, width, patches, rng)
-    crbm = CRBM.random(K, maps.shape[1], n_w, rng, C)
-    for epoch, error in crbm.fit(sample, range(epochs), seed, **how):
-        report(f"  epoch {epoch + 1} of {epochs}: reconstruction error {error:.4f}")
+    crbm = CRBM.random(K, maps.shape[1], n_w, rng, C, maps.device)
+    for epoch, error in crbm.fit(sample, range(epochs), seed, watch=bar, **how):
+        print(f"epoch {epoch + 1} of {epochs}: reconstruction error {error:.4f}")
     return crbm
 
 
-def train(pictures, positive, seed=0, n_w=N_W, patches=PATCHES, report=print):
+def train(pictures, positive, seed=0, n_w=N_W, patches=PATCHES, device="cpu"):
     """A CDBN learnt without labels from whitened pictures (n, 1, 200, 200).
 
     The first layer learns from all of them, the second, as in the paper, from the positive ones
-    (`positive` (n,) bool) only. `report` is told how it goes.
+    (`positive` (n,) bool) only. `device` says where: "cpu" or "cuda". ValueError for no positive.
     """
-    report("first layer")
-    first = learn(pictures, seed, n_w, patches, report, **FIRST)
+    if not np.any(positive):
+        raise ValueError("the second layer learns from the positive pictures: give at least one")
+    pictures = pictures.to(device)
+    first = learn(pictures, seed, n_w, patches, **FIRST)
     start = CDBN(first, first, 0.0, 1.0)
     p1 = start.pooled(pictures[torch.as_tensor(positive)])
     mean, spread = float(p1.mean()), float(p1.std())
-    report("second layer")
-    second = learn((p1 - mean) / spread, seed, n_w, patches, report, **SECOND)
+    second = learn((p1 - mean) / spread, seed, n_w, patches, **SECOND)
     return CDBN(first, second, mean, spread)
 
 

@@ -112,15 +112,17 @@ if __name__ == "__main__":
     learnt["cdbn"] = CDBN.load()
     for level in photos.LEVELS:
         crops, y = examples(photos.load(level, "train"), rng)
-        checked, y_validation = crops_of(photos.load(level, "validation"))
-        x, x_validation = features(crops, learnt), features(checked, learnt)
-        linear = {(level, m): fit(x[m], y, x_validation[m], y_validation) for m in METHODS}
-        for (_, method), found in linear.items():
-            arrays[f"{level}/{method}/w"], arrays[f"{level}/{method}/b"] = found.weights, found.bias
-        for split in photos.SPLITS:
-            found, arrays[f"{level}/{split}"] = judge(level, split, learnt, linear)
-            for method, probability in found.items():
-                arrays[f"{level}/{method}/{split}"] = probability
-            if split == "validation":
-                print(level, {m: tally(p, y_validation) for m, p in found.items()})
+        x = features(crops, learnt)
+        exams = {split: crops_of(photos.load(level, split)) for split in photos.SPLITS}
+        seen = {split: features(crops, learnt) for split, (crops, _) in exams.items()}
+        for split, (_, truth) in exams.items():
+            arrays[f"{level}/{split}"] = truth
+        for method in METHODS:
+            checked = seen["validation"][method], exams["validation"][1]
+            linear = fit(x[method], y, *checked)
+            print(level, method, tally(linear.probability(checked[0]), checked[1]))
+            arrays[f"{level}/{method}/w"] = linear.weights
+            arrays[f"{level}/{method}/b"] = linear.bias
+            for split in photos.SPLITS:
+                arrays[f"{level}/{method}/{split}"] = linear.probability(seen[split][method])
     np.savez_compressed(FILE, **arrays)

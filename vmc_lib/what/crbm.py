@@ -8,6 +8,7 @@ Shapes: visible v (n, channels, n_v, n_v), hidden h (n, K, n_h, n_h) with n_h = 
 pooled p (n, K, n_h / c, n_h / c). Everything here is a torch tensor, on the device of `W`.
 """
 
+from itertools import islice
 from math import isfinite
 
 import torch
@@ -87,48 +88,56 @@ class CRBM:
         return F.pixel_shuffle(chosen.flatten(1, 2), self.c)
 
     def visible_mean(self, h):
-        """The mean of v given h, Σₖ hᵏ * Wᵏ + a: each unit that is on paints its filter."""
-        return F.conv_transpose2d(h, self.W, self.a)
+        """The mean of v given h, Σₖ hᵏ * Wᵏ + a: each unit that is on paints its filter.
 
-    def gibbs(self, v, steps, rng, noise=True, clamp=False):
-        """v after so many rounds of Gibbs sampling: h given v, then v given h.
+        This time the convolution does turn W, and torch's `conv2d` has to be handed it turned.
+        """
+        turned = self.W.flip(2, 3).transpose(0, 1)
+        return F.conv2d(h, turned, self.a, padding=self.W.shape[-1] - 1)
 
+    def gibbs(self, v, rng, noise=True, clamp=False):
+        """Gibbs sampling, without end: h given v, then v given h, and again.
+
+        Yields v and the probabilities of its hidden units, first as given, then after each round.
         Without `noise`, v becomes its mean instead of a sample around it. With `clamp`, the outer
         n_w - 1 pixels stay as they are: in a patch cut from a picture they are explained by too few
         of the hidden units that would see them, and learning would make up for it with blobs.
         """
         edge = self.W.shape[-1] - 1
         inside = (..., slice(edge, -edge), slice(edge, -edge)) if clamp else ...
-        for _ in range(steps):
-            new = self.visible_mean(self.sample(self.posterior(v)[0], rng))
+        while True:
+            on, _ = self.posterior(v)
+            yield v, on
+            new = self.visible_mean(self.sample(on, rng))
             if noise:
                 new = new + torch.randn(new.shape, generator=rng, dtype=v.dtype, device=v.device)
             v = v.clone()
             v[inside] = new[inside]
-        return v
 
     # ------------------------------------------------------------ learning
 
-    def together(self, v):
-        """How visible and hidden units go together, given v: the mean of -∂E/∂(W, b, a)."""
-        h, _ = self.posterior(v)
-        pairs = F.conv2d(v.transpose(0, 1), h.transpose(0, 1)).transpose(0, 1)
-        return pairs / len(v), h.sum((2, 3)).mean(0), v.sum((2, 3)).mean(0)
+    def together(self, v, on):
+        """How v and its hidden units, on with chances `on`, go together: mean -∂E/∂(W, b, a)."""
+        pairs = F.conv2d(v.transpose(0, 1), on.transpose(0, 1)).transpose(0, 1)
+        return pairs / len(v), on.sum((2, 3)).mean(0), v.sum((2, 3)).mean(0)
 
     def gradient(self, v, steps, rng, **how):
         """Contrastive divergence CD-k: an estimate of the gradient of the mean log-likelihood.
 
         The exact gradient is what goes together in the data minus what goes together in the
         machine's own dreams. CD-k takes for a dream what is left of the data after k rounds of
-        `gibbs` (Hinton 2002). Returns the gradients for W, b and a, and the dream.
+        `gibbs` (Hinton 2002). Returns the gradients for W, b and a, the probabilities of the
+        hidden units given the data, and the dream.
         """
-        dream = self.gibbs(v, steps, rng, **how)
-        pairs = zip(self.together(v), self.together(dream), strict=True)
-        return [data - model for data, model in pairs], dream
+        chain = self.gibbs(v, rng, **how)
+        _, on = next(chain)
+        dream, on_in_dream = next(islice(chain, steps - 1, None))
+        pairs = zip(self.together(v, on), self.together(dream, on_in_dream), strict=True)
+        return [data - model for data, model in pairs], on, dream
 
     def fit(
         self, patches, epochs, seed, steps=1, rate=0.05, batch=100, sparsity=0.02,
-        pressure=5.0, decay=0.001, clamp=True,
+        pressure=5.0, decay=0.001, clamp=True, watch=iter,
     ):  # fmt: skip
         """Learn from `patches` (any (n, channels, n_v, n_v) that takes index lists), in place.
 
@@ -136,7 +145,8 @@ class CRBM:
         range. Every epoch draws its own random numbers from (seed, epoch) and starts without
         momentum, so a machine saved after epoch 3 and trained on range(4, 8) ends as one trained on
         range(8). `pressure` pulls each map's mean activity towards `sparsity` through its bias.
-        ValueError for no patches, and when learning runs away.
+        `watch` wraps an epoch's batches: `bar`, or any progress bar of its kind. ValueError for no
+        patches, for NaN in them, and when learning runs away.
         """
         if len(patches) == 0:
             raise ValueError("there are no patches to learn from")
@@ -145,19 +155,21 @@ class CRBM:
             order = torch.randperm(len(patches), generator=rng, device=self.W.device).split(batch)
             step, momentum = rate / (1 + rate * epoch), 0.5 if epoch < 2 else 0.9
             speed, errors = torch.zeros_like(self.W), []
-            for rows in order:
+            for rows in watch(order):
                 v = patches[rows]
-                (dW, db, da), dream = self.gradient(v, steps, rng, noise=False, clamp=clamp)
-                h, _ = self.posterior(v)
-                area = h[0, 0].numel()
+                (dW, db, da), on, dream = self.gradient(v, steps, rng, noise=False, clamp=clamp)
+                area = on[0, 0].numel()
                 speed = momentum * speed + dW / area - decay * self.W
                 self.W = self.W + step * speed
-                self.b = self.b + step * (db / area + pressure * (sparsity - h.mean((0, 2, 3))))
+                self.b = self.b + step * (db / area + pressure * (sparsity - on.mean((0, 2, 3))))
                 self.a = self.a + step * da / area
                 errors.append((v - dream).square().mean())
             error = float(torch.stack(errors).mean())
             if not isfinite(error):
-                raise ValueError(f"learning ran away in epoch {epoch}: lower the rate {rate}")
+                raise ValueError(
+                    f"learning ran away in epoch {epoch}: give finite patches or a lower rate "
+                    f"than {rate}"
+                )
             yield epoch, error
 
     # ------------------------------------------------------------ keeping
@@ -171,3 +183,11 @@ class CRBM:
         """The machine that `arrays` describes (a dict, or an open .npz file)."""
         W, b, a = (torch.from_numpy(arrays[name]).to(device) for name in "Wba")
         return cls(W, b, a, int(arrays["c"]))
+
+
+def bar(batches, width=40):
+    """The batches, one by one, and a bar on the screen that grows with them."""
+    for done, batch in enumerate(batches, 1):
+        yield batch
+        full = width * done // len(batches)
+        print(f"\r  {'█' * full}{'░' * (width - full)} ", end="", flush=True)

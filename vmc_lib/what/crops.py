@@ -55,7 +55,7 @@ class Patches:
         self.windows = maps.unfold(2, width, 1).unfold(3, width, 1)
         n, _, rows, columns = self.windows.shape[:4]
         draws = torch.rand(3, count, generator=rng)
-        self.places = (draws * torch.tensor([[n], [rows], [columns]])).long()
+        self.places = (draws * torch.tensor([[n], [rows], [columns]])).long().to(maps.device)
 
     def __len__(self):
         return self.places.shape[1]

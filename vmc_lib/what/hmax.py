@@ -56,10 +56,15 @@ def draw_prototypes(crops, count, rng):
 
 def hmax(crops, prototypes):
     """C2 features (n, prototypes): 1 where a crop holds a prototype exactly, towards 0 if not."""
+    return torch.cat([c2(few, prototypes) for few in torch.as_tensor(crops).split(2)]).numpy()
+
+
+def c2(crops, prototypes):
+    """`hmax` of a few crops, few enough for their maps to stay in the processor's cache."""
     best = []
     for maps in c1(crops):
         power = F.avg_pool2d((maps**2).sum(1, keepdim=True), SCALE, 1) * SCALE**2
         match = F.conv2d(maps, prototypes)
         far = power - 2 * match + prototypes.square().sum((1, 2, 3))[:, None, None]
         best.append(far.amin((2, 3)))
-    return torch.exp(-torch.stack(best).amin(0).clamp(min=0) / 2).numpy()
+    return torch.exp(-torch.stack(best).amin(0).clamp(min=0) / 2)

@@ -21,9 +21,12 @@ from vmc_lib.where.boxes import iou
 
 FILE = Path(__file__).parents[1] / "data" / "recogniser.npz"
 STRENGTHS = 10.0 ** np.arange(-1, 5)
-COPIES, SHAKE = 10, 0.08  # training boxes: copies of each, and how far their sides stray
+COPIES, SHAKE = 4, 0.08  # training boxes: copies of each, and how far their sides stray
+
+BARE = 6  # training crops of the bare scene a photo
 
 READ_OUTS = "MP2", "P2", "P1 + P2"
+EVERYWHERE = "everywhere"  # all levels together: for a photo of none of them
 
 
 def read_outs(cdbn, crops):
@@ -137,12 +140,16 @@ class Recogniser:
     linear: Linear
 
     @classmethod
-    def load(cls, name="P1 + P2", file=FILE):
-        """The recogniser that ships; its read-out "MP2" is the paper's, the default the best."""
-        if name not in READ_OUTS:
-            raise ValueError(f"read-out {name!r} is none of {', '.join(READ_OUTS)}")
+    def load(cls, level=EVERYWHERE, name="P1 + P2", file=FILE):
+        """The recogniser that has learnt names from the training photos of a level.
+
+        Its read-out "MP2" is the paper's, the default the best. ValueError for an unknown one.
+        """
+        for given, known in ((level, (*photos.LEVELS, EVERYWHERE)), (name, READ_OUTS)):
+            if given not in known:
+                raise ValueError(f"there is no {given!r}: choose from {', '.join(known)}")
         with np.load(file, allow_pickle=False) as z:
-            linear = Linear(z[f"{name}.weights"], float(z[f"{name}.bias"]))
+            linear = Linear(z[f"{level}/{name}/w"], float(z[f"{level}/{name}/b"]))
         return cls(CDBN.load(), name, linear)
 
     def probability(self, crops):
@@ -152,16 +159,30 @@ class Recogniser:
         return self.linear.probability(read_outs(self.cdbn, crops)[self.name])
 
 
+def lesson(level, split, rng, cdbn):
+    """The read-outs of a level's `examples`, bare scene among them, and their labels."""
+    crops, labels = examples(photos.load(level, split), rng, background=BARE)
+    return read_outs(cdbn, crops), labels
+
+
+def together(lessons):
+    """Several lessons as one."""
+    found, labels = zip(*lessons, strict=True)
+    return {name: np.concatenate([x[name] for x in found]) for name in READ_OUTS}, np.hstack(labels)
+
+
 if __name__ == "__main__":
     rng, cdbn, linear = np.random.default_rng(0), CDBN.load(), {}
-    sets = [
-        examples([p for level in photos.LEVELS for p in photos.load(level, split)], rng, copies, 6)
-        for split, copies in (("train", COPIES), ("validation", 4))
-    ]
-    (x, y), (x_validation, y_validation) = [(read_outs(cdbn, crops), y) for crops, y in sets]
-    for name in READ_OUTS:
-        found = fit(x[name], y, x_validation[name], y_validation)
-        right = (found.probability(x_validation[name]) > 0.5) == y_validation
-        print(f"{name}: {right.mean():.4f} of {len(right)} validation crops named right")
-        linear |= {f"{name}.weights": np.float32(found.weights), f"{name}.bias": found.bias}
+    lessons = {
+        level: [lesson(level, split, rng, cdbn) for split in ("train", "validation")]
+        for level in photos.LEVELS
+    }
+    lessons[EVERYWHERE] = [together(split) for split in zip(*lessons.values(), strict=True)]
+    for level, ((x, y), (x_validation, y_validation)) in lessons.items():
+        for name in READ_OUTS:
+            found = fit(x[name], y, x_validation[name], y_validation)
+            right = (found.probability(x_validation[name]) > 0.5) == y_validation
+            print(f"{level}, {name}: {right.mean():.4f} of {len(right)} validation crops right")
+            linear[f"{level}/{name}/w"] = np.float32(found.weights)
+            linear[f"{level}/{name}/b"] = found.bias
     np.savez_compressed(FILE, **linear)

@@ -1,0 +1,70 @@
+"""What the seed and the filters' width change: the whole network trained again and again.
+
+Remake what it finds, `data/variations.npz`, with `python -m vmc_lib.what.variations`.
+"""
+
+from concurrent.futures import ProcessPoolExecutor
+from contextlib import redirect_stdout
+from functools import cache
+from itertools import product
+from pathlib import Path
+
+import numpy as np
+import torch
+
+from vmc_lib import photos
+from vmc_lib.what.cdbn import N_W, crops_of, train
+from vmc_lib.what.comparison import tally
+from vmc_lib.what.crops import whiten
+from vmc_lib.what.recogniser import READ_OUTS, examples, fit, read_outs
+
+FILE = Path(__file__).parents[1] / "data" / "variations.npz"
+WIDTHS = 6, N_W, 10, 12
+SEEDS = 0, 1, 2
+SPLITS = "validation", "test"
+
+
+def load(file=FILE):
+    """What was found for each width and seed: {(n_w, seed): (filters, counts)}, as from `vary`."""
+    with np.load(file, allow_pickle=False) as z:
+        return {k: (z[f"{k}/filters"], z[f"{k}/counts"]) for k in product(WIDTHS, SEEDS)}
+
+
+@cache
+def lessons():
+    """For each level, the crops (n, 200, 200) to learn names from, and their labels."""
+    rng = np.random.default_rng(0)
+    return {level: examples(photos.load(level, "train"), rng) for level in photos.LEVELS}
+
+
+def vary(variation):
+    """For (n_w, seed), the first layer's filters (10, n_w, n_w), and how well the network names.
+
+    That is, counts (levels, read-outs, SPLITS, 4), as from `tally`.
+    """
+    n_w, seed = variation
+    shots = [shot for level in photos.LEVELS for shot in photos.load(level, "train")]
+    crops, positive = crops_of(shots)
+    with redirect_stdout(None):
+        cdbn = train(whiten(crops), positive, seed, n_w)
+    counts = np.zeros((len(photos.LEVELS), len(READ_OUTS), len(SPLITS), 4), int)
+    for i, (level, (shaken, y)) in enumerate(lessons().items()):
+        x = read_outs(cdbn, shaken)
+        exams = [crops_of(photos.load(level, split)) for split in SPLITS]
+        seen = [(read_outs(cdbn, crops), truth) for crops, truth in exams]
+        (checked, checked_truth), _ = seen
+        for j, name in enumerate(READ_OUTS):
+            linear = fit(x[name], y, checked[name], checked_truth)
+            counts[i, j] = [tally(linear.probability(z[name]), truth) for z, truth in seen]
+    print(f"filters of width {n_w}, seed {seed}: done")
+    return cdbn.first.W[:, 0].numpy(), counts
+
+
+if __name__ == "__main__":
+    variations = list(product(WIDTHS, SEEDS))
+    with ProcessPoolExecutor(2, initializer=torch.set_num_threads, initargs=(1,)) as pool:
+        found = dict(zip(variations, pool.map(vary, variations), strict=True))
+    arrays = {}
+    for variation, (filters, counts) in found.items():
+        arrays |= {f"{variation}/filters": filters, f"{variation}/counts": counts}
+    np.savez_compressed(FILE, **arrays)
