@@ -39,12 +39,9 @@ class Brain:
 
     @classmethod
     def load(cls, level):
-        """The brain of a level: it has learnt from that level's training photos alone.
-
-        Only the recogniser, which ships, has learnt names from the training photos of all levels.
-        """
+        """The brain of a level: it has learnt from that level's training photos alone."""
         locator = Locator.fit(photos.load(level, "train"), np.random.default_rng(0))
-        return cls(RegionFinder.load(level), Recogniser.load(), locator, templates.load())
+        return cls(RegionFinder.load(level), Recogniser.load(level), locator, templates.load())
 
 
 @dataclass(frozen=True)
