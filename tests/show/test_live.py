@@ -84,7 +84,7 @@ def ask(offline, site):
 
 def start(arm):
     arm.locator("[name=main]").click()
-    arm.locator("fieldset:not([disabled])").first.wait_for()
+    arm.locator("form > fieldset:not([disabled])").wait_for()
 
 
 def told(arm, name):
@@ -382,6 +382,27 @@ def test_a_live_kernel_brings_its_own_viewer_and_physics(monkeypatch):
     assert 'data-mode="bench"' in widget.page and "Move it." in caption.data
     for needed in ("MeshCat", "loadMujoco.wasm", "vmcArm", "export default"):
         assert needed in widget._esm
+
+
+@pytest.mark.browser
+def test_a_live_kernels_widget_moves(offline, monkeypatch):
+    monkeypatch.setenv("VMC_LIFE", "live")
+    shown = []
+    monkeypatch.setattr(live, "display", lambda *items: shown.extend(items))
+    live_arm("bench", "Move it.", "An arm.")
+    page = offline.new_page()
+    page.evaluate(
+        """async ([script, html]) => {
+          const url = URL.createObjectURL(new Blob([script], { type: "text/javascript" }));
+          const widget = (await import(url)).default;
+          widget.render({ model: { get: () => html }, el: document.body });
+        }""",
+        [shown[0]._esm, shown[0].page],
+    )
+    start(page.locator(".vmc-live"))
+    wait_for_status(page.locator(".vmc-live"), "The arm is running")
+    page.wait_for_selector(".vmc-scene canvas")
+    page.close()
 
 
 def test_without_the_books_files_a_live_kernel_says_where_the_arm_runs(monkeypatch):

@@ -35,7 +35,11 @@ from vmc_lib.show.scene import STATIC, SceneView
 TRIALS = 2  # of our own calibration: off-line, the page has no more to learn
 MUJOCO = Path(__file__).parents[2] / "book/_static/vendor/mujoco.js"
 _ENDS = ("red", "purple")  # where the planned and the calibrated reach end
-_POSE = ("shoulder", "elbow", "forward", "up", "right")  # two angles; where the hand is
+_POSE = {
+    "shoulder": "shoulder",
+    "elbow": "elbow",
+    **{way: f"hand, {way}" for way in ("forward", "up", "right")},
+}
 _made = itertools.count(1)
 
 
@@ -124,7 +128,7 @@ def _bench(name, target):
         _slider(name, muscle, muscle, (0, 1, 0.01), round(u, 2)) for muscle, u in rest
     )
     buttons = {"step": "Step 10 ms", "reset": "Reset"}
-    form = _form("Excitation of each muscle", buttons, sliders, ("time", *_POSE))
+    form = _form("Excitation of each muscle", buttons, sliders, {"time": "time"} | _POSE)
     return scene, plane_view(), form
 
 
@@ -134,18 +138,19 @@ def _reach(name, target):
     plan(target, library)  # raises when no templates surround it
     balls = [(hand(posture(target)), "green"), *((hand(templates.START), c) for c in _ENDS)]
     scene = arm_scene(templates.START, balls=balls)
-    scene.look((0.7, -0.05, 0.75), at=(0.12, -0.3, 0.02))
+    scene.look((0.72, -0.02, 0.85), at=(0.1, -0.25, 0.0))
     figure, ax = plt.subplots(figsize=(5.2, 4.4))
     plane(ax, library.points)
     low, high = np.round(library.points.min(axis=0), 3), np.round(library.points.max(axis=0), 3)
     sliders = "".join(
-        _slider(name, key, f"target, {key} (m)", (low[k], high[k], 0.005), target[k])
+        _slider(name, key, f"target, {key}", (low[k], high[k], 0.005), target[k])
         for k, key in enumerate(("forward", "up"))
     )
     rules = {"published": "published (Eq. 6–7)", "calibrate": "ours"}
     plans = {"habitualWeights": "habit (Eq. 5)", "exactWeights": "exact (Eq. 4)"}
     choices = _choice("weights", "plan", plans) + _choice("rule", "calibration", rules)
-    tells = ("planned miss", "tries", "calibrated miss", "weights", *_POSE)
+    tells = {"planned": "planned miss", "tries": "tries", "calibrated": "calibrated miss"}
+    tells |= {"weights": "weights"} | _POSE
     form = _form("Target and rules", {"calibrate": "Calibrate"}, sliders + choices, tells)
     return scene, figure, form
 
@@ -157,7 +162,7 @@ def _form(legend, buttons, controls, tells):
         for name, text in buttons.items()
     )
     told = "".join(
-        f'<div><dt>{tell}</dt><dd data-tell="{tell.split()[0]}">–</dd></div>' for tell in tells
+        f'<div><dt>{label}</dt><dd data-tell="{name}">–</dd></div>' for name, label in tells.items()
     )
     return (
         '<form class="vmc-live-form" autocomplete="off">'

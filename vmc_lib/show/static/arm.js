@@ -301,7 +301,8 @@ const vmcArm = (() => {
       });
     const packed = await fetch(`data:application/gzip;base64,${loadMujoco.wasm}`);
     const stream = packed.body.pipeThrough(new DecompressionStream("gzip"));
-    return loadMujoco({ wasmBinary: await new Response(stream).arrayBuffer() });
+    const wasmBinary = await new Response(stream).arrayBuffer();
+    return loadMujoco({ wasmBinary, locateFile: (name) => name }); // nothing is left to locate
   };
 
   let loading;

@@ -41,10 +41,10 @@ const vmcLive = (() => {
       Object.assign(this, { x0, y0, left, bottom });
       Object.assign(this, { wide: (right - left) / (x1 - x0), high: (top - bottom) / (y1 - y0) });
       const { width, height } = this.plot.viewBox.baseVal;
-      const frame = [left * width, top * height, (right - left) * width, (bottom - top) * height];
-      const [x, y, w, h] = frame;
-      this.plot.insertAdjacentHTML("beforeend", `<clipPath id="${box.id}-frame"><rect x="${x}" y="${y}"
-        width="${w}" height="${h}"/></clipPath><g clip-path="url(#${box.id}-frame)"></g>`);
+      this.plot.insertAdjacentHTML("beforeend", `<clipPath id="${box.id}-frame"><rect
+        x="${left * width}" width="${(right - left) * width}"
+        y="${top * height}" height="${(bottom - top) * height}"/></clipPath>
+        <g clip-path="url(#${box.id}-frame)"></g>`);
     }
 
     /* Show the arm's geometry with each muscle's activation and pull; if `brief`, in 3-D alone. */
@@ -241,26 +241,24 @@ const vmcLive = (() => {
       if (!brief) this.tell({ time: `${(this.time / 1000).toFixed(2)} s` });
     }
 
+    /* Run in real time, or pause; who wants less motion sees two pictures a second. */
     async main() {
-      this.running = !this.running;
-      this.label(this.running ? "Pause" : "Go on");
-      if (!this.running) {
-        this.advance(0);
-        return this.say(`Paused at ${(this.time / 1000).toFixed(2)} s. ${this.where()}`);
+      const turn = (this.turn = this.turn ? null : {});
+      this.label(turn ? "Pause" : "Go on");
+      this.advance(0);
+      if (!turn) {
+        const [shoulder, elbow] = [...this.arm.state.qpos].map(degrees);
+        const time = (this.time / 1000).toFixed(2);
+        return this.say(`Paused at ${time} s. Shoulder ${shoulder}, elbow ${elbow}.`);
       }
       this.say("The arm is running.");
       const pace = this.calm.matches ? 500 : 0; // ms between two pictures
-      for (let last = await frame(), now, n = 0; (now = await frame()), this.running; ) {
+      for (let last = await frame(), now, n = 0; (now = await frame()), turn === this.turn; ) {
         if (now - last < pace) continue;
         const steps = Math.round(Math.min(now - last, Math.max(pace, 50)));
         if (this.inSight !== false) this.advance(steps, !pace && n++ % OFTEN > 0);
         last = now;
       }
-    }
-
-    where() {
-      const [shoulder, elbow] = [...this.arm.state.qpos].map(degrees);
-      return `Shoulder ${shoulder}, elbow ${elbow}.`;
     }
   }
 
@@ -271,15 +269,16 @@ const vmcLive = (() => {
       this.library = new vmcArm.Library(this.given.library);
       this.form.elements.calibrate.addEventListener("click", () => this.calibrate());
       this.controls.addEventListener("input", () => this.aim());
-      const drag = (event) => {
-        if (!event.buttons) return;
+      const point = (event) => {
+        const finger = event.pointerType === "touch"; // it taps, for dragging scrolls the page
+        if (finger ? event.type !== "click" : !event.buttons) return;
         event.preventDefault(); // no text is selected on the way
-        const [forward, up] = this.drawing.pointed(event);
-        Object.assign(this.form.elements.forward, { value: forward });
-        Object.assign(this.form.elements.up, { value: up });
+        const { forward, up } = this.form.elements;
+        [forward.value, up.value] = this.drawing.pointed(event);
         this.aim();
       };
-      for (const type of ["pointerdown", "pointermove"]) this.drawing.plot.addEventListener(type, drag);
+      for (const type of ["pointerdown", "pointermove", "click"])
+        this.drawing.plot.addEventListener(type, point);
       this.label("Reach");
       this.aim();
     }
@@ -300,9 +299,9 @@ const vmcLive = (() => {
       } catch (error) {
         this.say(`Nothing planned: ${error.message}`);
       }
-      this.still = { q: this.given.start, activation: this.given.rest, pull: this.given.rest.map(() => 0) };
       this.mark([]);
-      this.show(this.still);
+      const { start, rest } = this.given;
+      this.show({ q: start, activation: rest, pull: rest.map(() => 0) });
     }
 
     /* Everything on the plot and in the scene but the arm: target, templates, ends, the hand's path. */
@@ -366,6 +365,7 @@ const vmcLive = (() => {
       if (!this.planned) await this.main();
       if (!this.planned) return;
       const turn = (this.turn = {});
+      this.say("Trying off-line …");
       const trials = [];
       for (const trial of vmcArm[this.rule](this.plan, (w) => this.ended(w), this.given.calibration)) {
         trials.push(trial);
@@ -391,6 +391,7 @@ const vmcLive = (() => {
   else startAll();
   return (el, page) => {
     el.innerHTML = page;
-    start(el.firstElementChild);
+    const { view } = start(el.firstElementChild).drawing;
+    return () => view.viewer && view.stop();
   };
 })();
