@@ -6,6 +6,7 @@ from pathlib import Path
 from types import SimpleNamespace
 from urllib.parse import unquote, urlsplit
 
+import pypdfium2
 import pytest
 
 pytestmark = pytest.mark.browser
@@ -195,6 +196,29 @@ def test_fits_a_phone(opened):
     opened.page.wait_for_timeout(100)
     assert opened.page.evaluate(WIDE) == []
     assert opened.page.evaluate("() => document.documentElement.scrollWidth") <= 360
+
+
+# Runs in the page. Moves every slider to its end; returns what paper must show of it.
+TO_THE_END = """() => [...document.querySelectorAll(".vmc-demo[data-ready]")].flatMap((demo) => {
+  for (const slider of demo.querySelectorAll("input[data-texts]")) slider.value = slider.max;
+  demo.dispatchEvent(new Event("input", { bubbles: true }));
+  return [...demo.querySelectorAll("output, svg text, figcaption")].map((e) => e.textContent);
+})"""
+
+
+def test_prints_what_a_reader_sees(offline):
+    """A chapter on paper: its text, its demos as they stand, nothing to click, solutions closed."""
+    [path] = [path for path in CHAPTERS if path.stem == "08_planning"]
+    page = open_page(offline, path.as_uri()).page
+    seen = " ".join(page.evaluate(TO_THE_END) + page.locator("article h2").all_inner_texts())
+    sheets = pypdfium2.PdfDocument(page.pdf())
+    printed = "\n".join(sheet.get_textpage().get_text_range() for sheet in sheets)
+    words = re.compile(r"[\w.−]{3,}")
+    assert not set(words.findall(seen)) - set(words.findall(printed))
+    assert not re.findall(r"\bPlay\b|Click to|turn the view|Next", printed)
+    assert printed.count("Solution to") == page.locator(".solution").count()
+    assert "d_1" not in printed and "linear interpolation" not in printed
+    page.close()
 
 
 @pytest.mark.parametrize("path", OTHERS, ids=lambda path: path.relative_to(BUILT).as_posix())

@@ -31,8 +31,9 @@ def every_page(app, env, added, changed, removed):
 
 
 def mend(app, pagename, templatename, context, doctree):
-    """Mend the page: no sphinx-thebe, which asks the network; no list role on what is no list;
-    the number of an equation outside the `split` that Sphinx puts around its lines.
+    """Mend the page: no sphinx-thebe, which asks the network; no list role on what is no list, and
+    no label that hides a summary's own words; the number of an equation outside the `split` that
+    Sphinx puts around its lines.
     """
     context["script_files"] = [
         script
@@ -44,7 +45,8 @@ def mend(app, pagename, templatename, context, doctree):
     )
     body = re.sub(thebe, "", context.get("body", ""), flags=re.S)
     body = re.sub(r"(\\tag\{[^}]*\})(\s*\\end\{split\})", r"\2\1", body)
-    context["body"] = body.replace('<div role="list" class="citation-list">', "<div>")
+    body = body.replace('<div role="list" class="citation-list">', "<div>")
+    context["body"] = body.replace('<summary aria-label="Toggle hidden content">', "<summary>")
 
 
 def code_marks(app, what, name, obj, options, lines):
