@@ -1,5 +1,7 @@
 """The scripts that ship are those that the manifest names."""
 
+import base64
+import gzip
 import importlib.util
 import json
 from pathlib import Path
@@ -26,6 +28,14 @@ def test_everything_vendored_is_credited(entry):
 def test_page_and_kernel_use_one_viewer():
     installed = Path(meshcat.__file__).parent / "viewer/dist/main.min.js"
     assert installed.read_bytes() == (ROOT / "book/_static/vendor/meshcat.js").read_bytes()
+
+
+def test_a_module_and_its_wasm_become_one_classic_script():
+    module = b"var load = () => import.meta.url;\nexport default load;\n"
+    script = vendor.with_wasm(module, b"\0asm").decode()
+    assert "import.meta" not in script and "export" not in script
+    packed = script.split('load.wasm = "')[1].split('"')[0]
+    assert gzip.decompress(base64.b64decode(packed)) == b"\0asm"
 
 
 def test_a_changed_file_is_noticed(monkeypatch, tmp_path):
