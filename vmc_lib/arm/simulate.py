@@ -34,7 +34,7 @@ EMPTY = World()
 
 @dataclass(frozen=True)
 class Motion:
-    """A movement, or a batch of them; sample t is the state t milliseconds after the start."""
+    """A movement, or a batch of them; sample t is the state t steps after the start."""
 
     q: np.ndarray  # joint angles (…, T + 1, 2), rad
     velocity: np.ndarray  # joint velocities (…, T + 1, 2), rad/s
