@@ -78,17 +78,19 @@ def wall(width, height):
     return np.vstack(rows)[y : y + height, x : x + width].copy()
 
 
-def memory(method, strategy, width=600, height=400):
+def memory(method, strategy, image):
     """MB that a fresh process holds with the image loaded, and at most during one search of it."""
     code = f"""
-from bench.selective_search import METHODS, wall
+import sys
+from bench.selective_search import METHODS, np
 held = lambda kind: int(open("/proc/self/status").read().split(kind + ":")[1].split()[0]) >> 10
-image = wall({width}, {height})
+image = np.frombuffer(sys.stdin.buffer.read(), np.uint8).reshape({image.shape})
 rest = held("VmRSS")
 METHODS[{method!r}](image, {strategy!r})
 print(rest, held("VmHWM"))
 """
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    command = [sys.executable, "-c", code]
+    done = subprocess.run(command, input=image.tobytes(), capture_output=True, check=True)
     return dict(zip(("MB at rest", "MB at most"), map(int, done.stdout.split()), strict=True))
 
 
@@ -130,10 +132,11 @@ def growth(method):
     """Rows for growing images: time and memory of *single*, and the power of the pixels."""
     rows = []
     for width, height in SIZES:
-        _, seconds, busy = timed(method, wall(width, height), "single")
+        image = wall(width, height)
+        _, seconds, busy = timed(method, image, "single")
         row = {"by": method, "pixels": width * height, "s": round(seconds, 3)}
         row["processor s"] = round(busy, 3)
-        rows.append(row | memory(method, "single", width, height))
+        rows.append(row | memory(method, "single", image))
     pixels, busy = (np.log([row[key] for row in rows[1:]]) for key in ("pixels", "processor s"))
     power = round(float(np.polyfit(pixels, busy, 1)[0]), 2)
     return [row | {"power of the pixels": power} for row in rows]
@@ -142,7 +145,8 @@ def growth(method):
 if __name__ == "__main__":
     renders = [shot for level in photos.LEVELS for shot in photos.load(level, "validation")[:7]]
     sets = {"renders": renders[:20], "real photos": photos.real()}
-    costs = {(s, m): memory(m, s) for s, entrants in ENTRANTS.items() for m in entrants}
+    one = wall(600, 400)
+    costs = {(s, m): memory(m, s, one) for s, entrants in ENTRANTS.items() for m in entrants}
     table = [
         row
         for strategy in ENTRANTS
