@@ -11,6 +11,7 @@ def sliding_windows(shape, rng, sides=(40, 60, 90, 135, 200), ratios=(0.67, 1, 1
     """Windows (n, 4) of fixed sizes and shapes, stepped over an image (height, width), shuffled.
 
     `sides` are square roots of areas, `ratios` widths over heights, `step` is a share of a side.
+    A window that is larger than the image is left out.
     """
     height, width = shape
     windows = []
