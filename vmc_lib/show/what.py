@@ -3,7 +3,8 @@
 import matplotlib.pyplot as plt
 import numpy as np
 
-from vmc_lib.show.figures import COLOURS
+from vmc_lib.show.figures import COLOURS, photo_view
+from vmc_lib.what.comparison import wilson
 
 
 def grey(v, reach=3.0, zoom=1):
@@ -27,6 +28,19 @@ def tiles(stack, columns=5, zoom=1):
     _, height, width = stack.shape
     grid = stack.reshape(rows, columns, height, width).swapaxes(1, 2)
     return grid.reshape(rows * height, columns * width)
+
+
+def units(stack, column, row, zoom):
+    """Ten filters in two rows of five, one of them marked; its axes count columns and rows.
+
+    A `Pad` over columns 1 to 5 and rows 1 to 2 makes them answer to a click.
+    """
+    image = np.uint8(255 * tiles(stack, 5, zoom))
+    height, width = image.shape
+    high, wide = height / 2, width / 5
+    box = (column - 1) * wide, (row - 1) * high, column * wide, row * high
+    svg = photo_view(image, [(box, "", "orange")])
+    return svg.replace(f'data-axes="0 {width} {height} 0 ', 'data-axes="0.5 5.5 2.5 0.5 ')
 
 
 def explanations_of(v, energies, chances, names):
@@ -62,4 +76,41 @@ def sorted_out(chances, shuttlecock, threshold, title):
     ax.axvline(threshold, color=COLOURS["ink"])
     ax.set(xlim=(-0.02, 1.02), xlabel="probability of a shuttlecock", title=title)
     ax.set(yticks=[0, 1], yticklabels=["cups", "shuttlecocks"])
+    return fig
+
+
+def over_time(answers, kind, title):
+    """A unit's answers (n, steps) to n things on the move, in blue where `kind`, else in orange."""
+    fig, ax = plt.subplots(figsize=(5.6, 2.6))
+    for here, colour in ((kind, "blue"), (~kind, "orange")):
+        ax.plot(range(1, answers.shape[1] + 1), answers[here].T, lw=1, color=COLOURS[colour])
+    ax.axhline(0, color=COLOURS["ink"])
+    ax.set(xlabel="view", ylabel="answer", ylim=(-3.2, 3.2), title=title)
+    ax.set_xticks(range(1, answers.shape[1] + 1))
+    return fig
+
+
+def likeness(shares, title):
+    """How alike each layer's maps still are (layer -> correlation), as bars."""
+    fig, ax = plt.subplots(figsize=(5.6, 2.4))
+    bars = ax.bar(list(shares), list(shares.values()), color=COLOURS["blue"])
+    ax.bar_label(bars, fmt="%.2f")
+    ax.set(ylim=(min(0, *shares.values()) - 0.05, 1.15), ylabel="correlation", title=title)
+    return fig
+
+
+def reliability(chance, truth, bins=5):
+    """In each bin of the probabilities given (n,), the share that came true, with its interval."""
+    fig, ax = plt.subplots(figsize=(4.2, 3.4))
+    ax.plot([0, 1], [0, 1], color=COLOURS["grey"], lw=1)
+    place = np.minimum((chance * bins).astype(int), bins - 1)
+    for here in (place == i for i in np.unique(place)):
+        said, share = chance[here].mean(), truth[here].mean()
+        low, high = wilson(truth[here].sum(), here.sum())
+        ax.plot([said, said], [low, high], color=COLOURS["blue"])
+        ax.plot(said, share, "o", color=COLOURS["blue"])
+        ax.annotate(f"{here.sum()}", (said, share), (7, -4), textcoords="offset points")
+    ax.set(xlabel="probability given", ylabel="share that came true")
+    ax.set(xlim=(-0.05, 1.12), ylim=(-0.05, 1.08))
+    ax.set(title=f"mean squared error {np.square(chance - truth).mean():.3f}")
     return fig

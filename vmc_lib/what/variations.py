@@ -6,7 +6,6 @@ Remake what it finds, `data/variations.npz`, with `python -m vmc_lib.what.variat
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import redirect_stdout
 from functools import cache
-from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -19,15 +18,14 @@ from vmc_lib.what.crops import whiten
 from vmc_lib.what.recogniser import READ_OUTS, examples, fit, read_outs
 
 FILE = Path(__file__).parents[1] / "data" / "variations.npz"
-WIDTHS = 6, N_W, 10, 12
-SEEDS = 0, 1, 2
+VARIATIONS = (N_W, 0), (N_W, 1), (N_W, 2), (6, 0)  # (n_w, seed)
 SPLITS = "validation", "test"
 
 
 def load(file=FILE):
-    """What was found for each width and seed: {(n_w, seed): (filters, counts)}, as from `vary`."""
+    """What was found for each of VARIATIONS: (n_w, seed) -> (filters, counts), as from `vary`."""
     with np.load(file, allow_pickle=False) as z:
-        return {k: (z[f"{k}/filters"], z[f"{k}/counts"]) for k in product(WIDTHS, SEEDS)}
+        return {k: (z[f"{k}/filters"], z[f"{k}/counts"]) for k in VARIATIONS}
 
 
 @cache
@@ -61,9 +59,8 @@ def vary(variation):
 
 
 if __name__ == "__main__":
-    variations = list(product(WIDTHS, SEEDS))
     with ProcessPoolExecutor(2, initializer=torch.set_num_threads, initargs=(1,)) as pool:
-        found = dict(zip(variations, pool.map(vary, variations), strict=True))
+        found = dict(zip(VARIATIONS, pool.map(vary, VARIATIONS), strict=True))
     arrays = {}
     for variation, (filters, counts) in found.items():
         arrays |= {f"{variation}/filters": filters, f"{variation}/counts": counts}
