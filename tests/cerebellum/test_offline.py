@@ -1,8 +1,11 @@
 """Off-line calibration, as published and better."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from vmc_lib.arm.simulate import World
 from vmc_lib.cerebellum.offline import calibrate, published, published_change
 from vmc_lib.motor.planning import draw_targets, plan
 from vmc_lib.motor.templates import load
@@ -67,6 +70,36 @@ def test_a_hand_on_the_target_or_on_a_template_is_no_trouble():
     assert np.all(np.isfinite(published_change(reach, reach.points[0], 5)))
     exact = plan(library.points[6], library)
     np.testing.assert_allclose(calibrate(exact).weights, [exact.weights] * 3, atol=1e-6)
+
+
+def test_guards_never_leave_the_hand_further_away(reaches):
+    loaded = reaches.under(World(load=0.25))
+    guarded, bold = (calibrate(loaded, 4, guarded=on) for on in (True, False))
+    np.testing.assert_array_equal(guarded.error[0], bold.error[0])
+    steps = np.linalg.norm(np.diff(bold.weights, axis=0), axis=-1)
+    assert steps.max() > 0.5  # what the guard is there for
+    steps = np.linalg.norm(guarded.weights[1] - guarded.weights[0], axis=-1)
+    assert steps.max() <= 0.5 + 1e-12
+
+
+def test_ten_thousand_corrections_are_finite_and_none_diverges():
+    library, rng = load(), np.random.default_rng(12)
+    many = plan(draw_targets(library, 10_000, rng), library)
+    p_a = many.target + rng.normal(0, 0.03, many.target.shape)
+    for n in (0, 20):
+        assert np.abs(published_change(many, p_a, n)).max() < 1.5
+    few = replace(many, target=many.target[:500], chosen=many.chosen[:500])
+    few = few.with_weights(many.weights[:500] + published_change(many, p_a, 20)[:500])
+    motion = few.move()
+    assert np.all(np.abs(motion.q) < np.pi)
+    assert few.excitations.min() >= 0
+    assert few.excitations.max() <= 1
+
+
+def test_weights_that_are_no_numbers_are_refused():
+    reach = plan([0.15, -0.4], load())
+    with pytest.raises(ValueError, match="nan"):
+        reach.with_weights(reach.weights * np.nan).reached()
 
 
 def test_no_correction_throws_the_arm_about(reaches):

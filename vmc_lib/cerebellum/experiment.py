@@ -91,7 +91,7 @@ def adapt(learner, library, rng, world, blocks=(2, 8, 6), movements=8):
     `blocks` counts those before, in and after the changed world. All targets are new, and lie
     where the arm has experience with the prism and without it.
     """
-    before, during, after = blocks
+    before, during, _ = blocks
     targets = draw_targets(library, 4 * sum(blocks) * movements, rng)
     inside = targets[surrounded(turned(targets, -PRISM), library.points)]
     targets = inside[: sum(blocks) * movements].reshape(-1, movements, 2)

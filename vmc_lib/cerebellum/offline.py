@@ -53,18 +53,20 @@ def published_change(plan, reached, n, origin=(0.0, 0.0), sign=1):
     return (_norm(error) / d_a)[..., None] * (1 + n * (d_t[..., None] - d_i) / d_i) * cosine
 
 
-def calibrate(plan: Plan, trials=2, broyden=True):
+def calibrate(plan: Plan, trials=2, broyden=True, guarded=True):
     """The population vector done right: solve Eq. 4 for the error, and learn from each trial.
 
     Each trial makes the smallest Δw that shifts the hand by the whole error, if moving a weight
     moved the hand as `jacobian` says: at first along p_i (Eq. 4); afterwards corrected by what the
-    arm really did (Broyden, 1965). The best weights so far are kept.
+    arm really did (Broyden, 1965). Two guards: no step is larger than `LARGEST_STEP`, and the next
+    one starts from the best weights so far.
     """
     jacobian = np.swapaxes(plan.points, -1, -2)
     weights, reached = plan.weights, plan.reached()
     history = [(weights, reached)]
     for _ in range(trials):
-        change = _capped(least_change(jacobian, plan.target - reached))
+        change = least_change(jacobian, plan.target - reached)
+        change = _capped(change) if guarded else change
         tried = plan.with_weights(weights + change).reached()
         history.append((weights + change, tried))
         if broyden:
@@ -72,8 +74,8 @@ def calibrate(plan: Plan, trials=2, broyden=True):
             square = np.maximum((change**2).sum(axis=-1), 1e-24)[..., None, None]
             jacobian = jacobian + surprise[..., :, None] * change[..., None, :] / square
         better = (_norm(plan.target - tried) < _norm(plan.target - reached))[..., None]
-        weights = np.where(better, weights + change, weights)
-        reached = np.where(better, tried, reached)
+        weights = np.where(better | (not guarded), weights + change, weights)
+        reached = np.where(better | (not guarded), tried, reached)
     return _trials(plan, history)
 
 

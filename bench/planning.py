@@ -1,0 +1,51 @@
+"""What planning and calibrating cost beside the exact optimiser, in one run on one core.
+
+`.bench/bin/python -m bench.planning` writes the performance page's table.
+"""
+
+import numpy as np
+
+from bench.report import publish, seconds
+from vmc_lib.cerebellum.experiment import skilled
+from vmc_lib.cerebellum.offline import calibrate, published
+from vmc_lib.motor import optimal, templates
+from vmc_lib.motor.planning import draw_targets, plan
+
+library = templates.load()
+targets = draw_targets(library, 25, np.random.default_rng(0))
+target, moved = targets[0], plan(targets[0], library)
+moved.reached()  # a plan remembers where it ended: to calibrate it again needs no new movement
+cerebellum = skilled(library, np.random.default_rng(1), 25)
+
+WORK = {  # what -> (call, how often, simulated movements)
+    "habitual plan": (lambda: plan(target, library).excitations, 20, 0),
+    "25 habitual plans": (lambda: plan(targets, library).excitations, 20, 0),
+    "one movement": (lambda: plan(target, library).reached(), 5, 1),
+    "Algorithm 1, one target, n = 0..20": (lambda: published(moved), 5, 21),
+    "Algorithm 1, 25 targets, n = 0..20": (lambda: published(plan(targets, library)), 3, 550),
+    "own rule, one target, two trials": (lambda: calibrate(moved), 5, 2),
+    "own rule, 25 targets, two trials": (lambda: calibrate(plan(targets, library)), 3, 75),
+    "online correction, one target": (lambda: cerebellum.correct(moved), 20, 0),
+    "one online lesson of 25 movements": (
+        lambda: cerebellum.practise(plan(targets, library)),
+        5,
+        25,
+    ),
+    "optimal control, one target": (lambda: optimal.solve(target), 2, None),
+}
+
+if __name__ == "__main__":
+    spent = {what: seconds(call, repeats) for what, (call, repeats, _) in WORK.items()}
+    slowest = spent["optimal control, one target"]
+    publish(
+        "planning",
+        [
+            {
+                "task": what,
+                "movements": "hundreds" if movements is None else movements,
+                "ms": round(1000 * spent[what], 3),
+                "× faster than optimal control": round(slowest / spent[what], 1),
+            }
+            for what, (_, _, movements) in WORK.items()
+        ],
+    )
