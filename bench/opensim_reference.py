@@ -1,12 +1,12 @@
 """Remake `vmc_lib/data/opensim.npz`, the arm in OpenSim, which the book's arm is held against.
 
-    .bench/bin/python -m bench.opensim_reference path/to/arm26.osim
+    ARM26=path/to/arm26.osim .bench/bin/python -m bench.opensim_reference
 
 OpenSim arm26: J. Reinbolt, A. Seth, A. Habib, S. Hamner, adapted from K. Holzbaur et al. (2005),
-CC BY 3.0.
+CC BY 3.0. The file is in OpenSim's collection of models, and not here.
 """
 
-import sys
+import os
 from importlib.resources import files
 
 import numpy as np
@@ -21,10 +21,10 @@ RELEASED = np.radians([(20, 60), (-60, 20), (0, 110), (30, 90), (-30, 60)])
 STEADY = np.array([(0.02, 0.05), (0.1, 0.1), (0.05, 0.15), (0.4, 0.4)])  # triceps, biceps
 
 
-def load(osim):
+def load():
     """The model, without a word about the bones it cannot draw."""
     opensim.Logger.setLevelString("error")
-    return opensim.Model(osim)
+    return opensim.Model(os.environ["ARM26"])
 
 
 def put(model, q):
@@ -62,20 +62,20 @@ def geometry(model):
     return rows
 
 
-def swing(osim, q):
+def swing(q):
     """Where the arm without muscles is half a second after it was let go in posture q."""
-    model = load(osim)
+    model = load()
     model.updForceSet().clearAndDestroy()
     return run(model, *put(model, q), [0.5], 1e-11)[0]
 
 
-def excited(osim, excitations, elastic):
+def excited(excitations, elastic):
     """A model whose muscles hear excitations (T, 6) and have settled to the first; our damping.
 
     Its tendons are `elastic` and its fibres pennate, as arm26 ships, or neither, as ours are
     (OpenSim has no rigid tendon for Thelen's muscle: a very stiff one must do).
     """
-    model = load(osim)
+    model = load()
     brain = opensim.PrescribedController()
     for name, excitation in zip(MUSCLES, excitations.T.tolist(), strict=True):
         muscle = opensim.Thelen2003Muscle.safeDownCast(model.updMuscles().get(name))
@@ -96,22 +96,22 @@ def excited(osim, excitations, elastic):
     return model
 
 
-def movement(osim, levels, elastic):
+def movement(levels, elastic):
     """Joint angles (60, 2), every 10 ms, that constant excitations (6,) give; from (0°, 60°)."""
-    model = excited(osim, steady(levels, 0.6), elastic)
+    model = excited(steady(levels, 0.6), elastic)
     state, joints = put(model, np.radians([0, 60]))
     model.equilibrateMuscles(state)
     return run(model, state, joints, 0.01 * np.arange(1, 61), 1e-7)
 
 
 if __name__ == "__main__":
-    osim, levels = sys.argv[1], STEADY.repeat(3, axis=1)
+    levels = STEADY.repeat(3, axis=1)
     np.savez_compressed(
         files("vmc_lib.data") / "opensim.npz",
-        **geometry(load(osim)),
+        **geometry(load()),
         released=RELEASED,
-        swung=[swing(osim, q) for q in RELEASED],
+        swung=[swing(q) for q in RELEASED],
         levels=levels,
-        rigid=[movement(osim, level, elastic=False) for level in levels],
-        elastic=[movement(osim, level, elastic=True) for level in levels],
+        rigid=[movement(level, elastic=False) for level in levels],
+        elastic=[movement(level, elastic=True) for level in levels],
     )

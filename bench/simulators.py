@@ -1,6 +1,6 @@
 """How many seconds of movement each simulator of the arm computes in a second, in one run.
 
-    .bench/bin/python -m bench.simulators path/to/arm26.osim
+    ARM26=path/to/arm26.osim .bench/bin/python -m bench.simulators
 
 All compute the same second: a reach that the book remembers. OpenSim steps its own arm26 (elastic
 tendons) at several accuracies; MuJoCo steps our arm, once with its own muscles and once with the
@@ -9,7 +9,7 @@ meanwhile does not count. The error is how far the joints end from where the sam
 them in much finer steps; "as exact" is the fastest OpenSim whose error is no greater than ours.
 """
 
-import sys
+import os
 from functools import partial
 from time import process_time
 
@@ -28,9 +28,9 @@ BATCHES = (1, 20, 500)
 FINE = 20  # small steps in one of ours
 
 
-def opensim(osim, accuracy):
+def opensim(accuracy):
     """Ends of the reach (1, 2) in OpenSim's own arm, as a function to be timed."""
-    model = excited(osim, REACH, elastic=True)
+    model = excited(REACH, elastic=True)
     state, joints = put(model, START)
     model.equilibrateMuscles(state)
     return lambda: run(model, state, joints, [1.0], accuracy)
@@ -70,10 +70,10 @@ def seconds(call, repeats=5):
     return min(times)
 
 
-def main(osim):
-    finest = opensim(osim, 1e-9)()
+def main():
+    finest = opensim(1e-9)()
     accuracies = (1e-3, 1e-4, 1e-5, 1e-6)
-    runs = [(f"OpenSim, accuracy {a:.0e}", 1, opensim(osim, a), finest) for a in accuracies]
+    runs = [(f"OpenSim, accuracy {a:.0e}", 1, opensim(a), finest) for a in accuracies]
     for name, make in {
         "MuJoCo, its own muscle": native,
         "ours, MuJoCo": partial(ours, "mujoco"),
@@ -94,4 +94,7 @@ def main(osim):
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    if "ARM26" in os.environ:
+        main()
+    else:
+        print("Left out: say where OpenSim's arm26.osim is, make bench ARM26=path/to/arm26.osim")

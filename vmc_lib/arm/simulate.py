@@ -137,10 +137,11 @@ def stop_torque(q, velocity):
 def _move(arm, activation, field, muscle):
     """Eq. 12 step by step: q and velocity (B, T + 1, 2) of an engine's arms."""
     q, velocity = (np.empty((activation.shape[1], *arm.q.shape)) for _ in range(2))
+    push = np.transpose(field)
     for k, a in enumerate(np.swapaxes(activation, 0, 1)):
         q[k], velocity[k] = arm.q, arm.velocity
         torque = muscle_torque(a, *arm.paths(), arm.velocity, muscle)
-        torque += stop_torque(arm.q, arm.velocity) + arm.velocity @ np.transpose(field)
+        torque += stop_torque(arm.q, arm.velocity) + arm.velocity @ push
         arm.step(torque)
     return np.swapaxes(q, 0, 1), np.swapaxes(velocity, 0, 1)
 
