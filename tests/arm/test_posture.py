@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from vmc_lib.arm.closed_form import hand
 from vmc_lib.arm.posture import posture, to_world, turn_towards
 
-ANGLE = st.floats(np.radians(-60), np.radians(60))
+ANGLE = st.floats(np.radians(-59), np.radians(59))  # inside the trunk's range, not on its edge
 
 
 @settings(max_examples=40, deadline=None)
