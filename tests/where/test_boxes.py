@@ -1,10 +1,10 @@
 import cv2
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from vmc_lib.where.boxes import as_boxes, iou, nms
+from vmc_lib.where.boxes import area, as_boxes, iou, nms
 
 coordinate = st.integers(-50, 700)
 box = st.builds(
@@ -45,13 +45,32 @@ def test_nms_keeps_no_overlaps_and_explains_every_loss(boxes, overlap):
         assert (iou(boxes[better], boxes[lost]) > overlap).any()
 
 
-@pytest.mark.parametrize("overlap", [0.1, 0.3, 0.5, 0.8])
-def test_nms_agrees_with_opencv(overlap):
-    rng = np.random.default_rng(1)
-    corner, sides = rng.integers(0, 400, (200, 2)), rng.integers(20, 200, (200, 2))
-    scores = rng.permutation(200) / 200 + 0.001
-    theirs = cv2.dnn.NMSBoxes(np.hstack([corner, sides]).tolist(), scores.tolist(), 0, overlap)
-    assert nms(np.hstack([corner, corner + sides]), scores, overlap).tolist() == list(theirs)
+@given(crowd, st.sampled_from([0.1, 0.3, 0.5, 0.8]))
+def test_nms_agrees_with_opencv(boxes, overlap):
+    """Where nothing hangs on rounding: no two scores alike, no IoU at the very limit."""
+    boxes = boxes[area(boxes) > 0]
+    assume(len(boxes) and abs(iou(boxes, boxes) - overlap).min() > 1e-4)
+    scores = np.random.default_rng(len(boxes)).permutation(len(boxes)) / 100 + 0.01
+    corners_and_sides = np.hstack([boxes[:, :2], boxes[:, 2:] - boxes[:, :2]]).astype(int)
+    theirs = cv2.dnn.NMSBoxes(corners_and_sides.tolist(), scores.tolist(), 0, overlap)
+    assert nms(boxes, scores, overlap).tolist() == list(theirs)
+
+
+@given(box, box)
+def test_iou_agrees_with_opencv(a, b):
+    """OpenCV has no IoU, but the shared polygon of two rectangles, and its area."""
+    boxes = as_boxes([a, b])
+    assume((area(boxes) > 0).all())
+    corners = [
+        np.float32([[x0, y0], [x1, y0], [x1, y1], [x0, y1]]) for x0, y0, x1, y1 in boxes.tolist()
+    ]
+    shared, _ = cv2.intersectConvexConvex(*corners)
+    assert iou(a, b).item() == pytest.approx(shared / (area(boxes).sum() - shared), abs=1e-4)
+
+
+def test_boxes_without_area_are_kept_each():
+    """They overlap nothing, not even themselves, so that nothing silences them."""
+    assert nms([(3, 3, 3, 3)] * 2 + [(0, 0, 9, 0)], [1, 3, 2]).tolist() == [1, 2, 0]
 
 
 def test_ties_go_to_the_earlier_box():

@@ -28,7 +28,7 @@ def test_a_box_without_area_shows_one_pixel():
     assert np.ptp(crops(NOISE, [(7, 9, 7, 9)], 16), axis=(1, 2)).max() == 0
 
 
-@pytest.mark.parametrize(("features", "length"), [(raw_pixels, 768), (gradients, 512)])
+@pytest.mark.parametrize(("features", "length"), [(raw_pixels, 768), (gradients, 800)])
 def test_one_row_a_box(features, length):
     boxes = RNG.integers(0, 30, (5, 2))
     rows = features(NOISE, np.hstack([boxes, boxes + 20]))
@@ -37,19 +37,23 @@ def test_one_row_a_box(features, length):
 
 
 def test_gradients_point_across_the_edge():
-    """Bands that run down the image change along x: angle 0, the first of eight bins."""
-    bands = np.repeat((128 + 100 * np.sin(np.arange(60) / 3))[None, :, None], 40, 0)
-    image = np.repeat(bands, 3, 2).astype(np.uint8)
-    along_x = gradients(image, [(10, 10, 42, 30)]).reshape(-1, 8).sum(0)
-    along_y = gradients(image.swapaxes(0, 1), [(10, 10, 30, 42)]).reshape(-1, 8).sum(0)
-    assert along_x.argmax() == 0 and along_x[0] > 0.9 * along_x.sum()
-    assert along_y.argmax() == 4 and along_y[4] > 0.9 * along_y.sum()
+    """Brighter to the right, in blue alone: angle 0, the first of eight bins; down: the third."""
+    image = np.zeros((60, 60, 3), np.uint8)
+    image[..., 2] = np.arange(60) * 4
+    for turned, bin_ in ((image, 0), (image.swapaxes(0, 1), 2), (image[:, ::-1], 4)):
+        counts = gradients(turned, [(15, 15, 45, 45)]).reshape(-1, 8).sum(0)
+        assert counts.argmax() == bin_ and counts[bin_] > 0.9 * counts.sum()
+
+
+def test_a_margin_shows_what_is_around():
+    inner, outer = (10, 10, 30, 30), (5, 5, 35, 35)
+    assert (raw_pixels(NOISE, [inner], 0.25) == raw_pixels(NOISE, [outer])).all()
 
 
 def test_gradients_do_not_mind_the_light():
     dim = (NOISE // 2).astype(np.uint8)
     boxes = [(10, 10, 40, 30)]
-    assert gradients(dim, boxes) == pytest.approx(gradients(NOISE, boxes), abs=0.03)
+    assert gradients(dim, boxes) == pytest.approx(gradients(2 * dim, boxes), abs=0.03)
 
 
 def test_flat_is_no_gradient():

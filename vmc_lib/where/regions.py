@@ -3,12 +3,13 @@
 The paper's Block 1-1, top-down part. Candidates that overlap an object by 0.8 are examples, those
 that overlap none by more than 0.5 are counter-examples; a support vector machine learns the
 difference from raw pixels, and non-maximum suppression leaves a few boxes. `PUBLISHED` is that
-recipe. `IMPROVED` sees gradients and a margin too, looks again at each box to correct it, and lets
-neighbours vote. `python -m vmc_lib.where.regions` trains both on every level and stores them.
+recipe; each further one of `RECIPES` adds an idea: context, gradients, looks that correct a box, a
+judge of how well it fits in the end, votes. `python -m vmc_lib.where.regions` trains all of them on
+every level and stores them.
 """
 
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, partial
 from itertools import product
 from pathlib import Path
 
@@ -21,10 +22,16 @@ from vmc_lib import photos
 
 from .boxes import iou, nms
 from .features import gradients, raw_pixels
-from .selective_search import propose
+from .selective_search import Strategy, propose
 
-FEATURES = {"raw": raw_pixels, "gradients": gradients}
+FEATURES = {
+    "pixels": raw_pixels,
+    "context": partial(raw_pixels, margin=0.25),
+    "gradients": gradients,
+}
 KERNELS = ("linear", "poly", "rbf", "sigmoid")
+ROIS = 4700  # counter-examples to learn from, as in the paper; a random draw where there are more
+SCATTERED = 12_800  # boxes, strewn about the true ones, that a look learns from
 DATA = Path(__file__).parents[1] / "data"
 
 
@@ -32,28 +39,39 @@ DATA = Path(__file__).parents[1] / "data"
 class Recipe:
     """How to choose regions; the defaults are the paper's."""
 
-    strategy: str = "single"  # of selective search
-    features: tuple = ("raw",)
+    strategy: str | Strategy = "single"  # of selective search
+    features: str = "pixels"  # one of FEATURES
     kernel: str = "linear"
     cost: float = 0.1  # of an example on the wrong side
     gate: float = 0.0  # candidates that score above it pass
-    looks: int = 0  # how often a box is corrected by what it shows
-    threshold: float = 0.0  # what the boxes must score in the end
-    overlap: float = 0.3  # that non-maximum suppression allows
-    vote: bool = False  # boxes silenced by a better one still pull at its sides
+    shaken: int = 0  # more examples of each object: its true box, shaken a little
     mirror: bool = False  # learn from the photos' mirror images too
+    looks: tuple = ()  # corrections of a box; how far off, in sides, each expects it to be
+    judged: bool = False  # a second machine scores the boxes where the looks have led them
+    vote: bool = False  # boxes silenced by a better one still pull at its sides
+    overlap: float = 0.3  # that non-maximum suppression allows
 
     def describe(self, image, boxes):
         """The features (n, d) of boxes (n, 4) of an image."""
-        return np.hstack([FEATURES[name](image, boxes) for name in self.features])
+        return FEATURES[self.features](image, boxes)
 
 
 PUBLISHED = Recipe()
-RICHER = Recipe(features=("raw", "gradients"), mirror=True)
-LOOKING = replace(RICHER, gate=-1, looks=3)
-IMPROVED = replace(LOOKING, vote=True)
-RECIPES = {"published": PUBLISHED, "gradients": RICHER, "looks": LOOKING, "improved": IMPROVED}
-PARTS = ("gamma", "support", "weights", "bias", "maps")  # of a finder, as they are stored
+CONTEXT = replace(PUBLISHED, features="context", shaken=5, mirror=True, gate=-1)
+GRADIENTS = replace(CONTEXT, features="gradients")
+LOOKS = replace(GRADIENTS, strategy=Strategy(("HSV", "Lab"), (50,)), looks=(0.15, 0.1, 0.07, 0.05))
+JUDGED = replace(LOOKS, judged=True)
+IMPROVED = replace(JUDGED, vote=True)
+RECIPES = {
+    "published": PUBLISHED,
+    "context": CONTEXT,
+    "gradients": GRADIENTS,
+    "looks": LOOKS,
+    "judged": JUDGED,
+    "improved": IMPROVED,
+}
+LEARNT = {"looks": "improved", "judged": "improved"}  # these do less with the same training
+PARTS = ("gamma", "support", "weights", "bias")  # of a machine, as they are stored
 
 
 @cache
@@ -65,7 +83,8 @@ def stored(name):
 
 def candidates(photo, strategy="single"):
     """`propose(photo.image, strategy)`, looked up where the photo ships with its candidates."""
-    boxes = stored("candidates").get(f"{photo.name}/{strategy}")
+    name = {LOOKS.strategy: "finer"}.get(strategy, strategy)
+    boxes = stored("candidates").get(f"{photo.name}/{name}")
     return propose(photo.image, strategy) if boxes is None else boxes.astype(float)
 
 
@@ -105,17 +124,28 @@ class Machine:
         return alike @ self.weights + self.bias
 
 
-def scenes(photos, recipe):
-    """What a recipe learns from, scene by scene: an image, its true boxes, its candidates.
+@dataclass(frozen=True)
+class Scene:
+    """What a recipe learns from: an image, its true boxes (m, 4), its candidates (n, 4)."""
 
-    A shuttlecock and a cup are the same to the "where" pathway: general objects.
-    """
-    for photo in photos:
-        truth, boxes = np.array(list(photo.boxes.values())), candidates(photo, recipe.strategy)
-        yield photo.image, truth, boxes
-        if recipe.mirror:
-            width = photo.image.shape[1]
-            yield photo.image[:, ::-1], mirrored(truth, width), mirrored(boxes, width)
+    image: np.ndarray
+    truth: np.ndarray
+    boxes: np.ndarray
+
+    @property
+    def overlap(self):
+        """How well each candidate fits the object it fits best: (n,)."""
+        return iou(self.boxes, self.truth).max(1, initial=0)
+
+    def mirrored(self):
+        """The scene in a mirror."""
+        width = self.image.shape[1]
+        return Scene(self.image[:, ::-1], mirrored(self.truth, width), mirrored(self.boxes, width))
+
+    def scattered(self, times, spread, rng):
+        """Each true box so many times, and boxes that stray from it by `spread` of its sides."""
+        truth = np.repeat(self.truth, times, axis=0)
+        return truth, corrected(truth, rng.normal(scale=spread, size=truth.shape))
 
 
 def mirrored(boxes, width):
@@ -123,14 +153,43 @@ def mirrored(boxes, width):
     return np.stack([width - boxes[:, 2], boxes[:, 1], width - boxes[:, 0], boxes[:, 3]], axis=1)
 
 
+def scenes(photos, recipe):
+    """The Scenes in which a recipe learns from photos.
+
+    A shuttlecock and a cup are the same to the "where" pathway: general objects.
+    """
+    plain = [
+        Scene(p.image, np.array(list(p.boxes.values())), candidates(p, recipe.strategy))
+        for p in photos
+    ]
+    return plain + [scene.mirrored() for scene in plain] if recipe.mirror else plain
+
+
 def examples(photos, recipe=PUBLISHED):
-    """Training data of the classifier: features x (n, d), labels y (n,)."""
+    """What the classifier is to tell apart: features x (n, d), labels y (n,).
+
+    The clear cases among the photos' candidates: IoU of 0.8 and more, 0.5 and less.
+    """
     x, y = [], []
-    for image, truth, boxes in scenes(photos, recipe):
-        overlap = iou(boxes, truth).max(1)
-        clear = (overlap >= 0.8) | (overlap <= 0.5)
-        x.append(recipe.describe(image, boxes[clear]))
-        y.append(overlap[clear] >= 0.8)
+    for scene in scenes(photos, replace(recipe, mirror=False)):
+        clear = (scene.overlap >= 0.8) | (scene.overlap <= 0.5)
+        x.append(recipe.describe(scene.image, scene.boxes[clear]))
+        y.append(scene.overlap[clear] >= 0.8)
+    return np.concatenate(x), np.concatenate(y)
+
+
+def training_examples(scenes, recipe, rng):
+    """What the classifier learns from: every example, shaken ones too, and ROIS counter-examples.
+
+    Returns features x (n, d), labels y (n,).
+    """
+    x, y = [], []
+    for scene in scenes:
+        good, bad = scene.boxes[scene.overlap >= 0.8], scene.boxes[scene.overlap <= 0.5]
+        bad = rng.permutation(bad)[: -(-ROIS // len(scenes))]
+        _, shaken = scene.scattered(recipe.shaken, 0.05, rng)
+        x.append(recipe.describe(scene.image, np.vstack([good, shaken, bad])))
+        y.append(np.arange(len(x[-1])) < len(good) + len(shaken))
     return np.concatenate(x), np.concatenate(y)
 
 
@@ -152,26 +211,71 @@ def corrected(boxes, corrections):
     return np.hstack([centre - half, centre + half])
 
 
-def learn_to_look(photos, recipe, rng, scattered=1600, spread=0.15, penalty=10):
+def learn_to_look(scenes, recipe, rng, penalty=30):
     """One linear map (d + 1, 4) a look, from what a box shows to its correction.
 
-    Box regression (Girshick et al. 2014), from about `scattered` boxes near each kind of object,
-    off by `spread` of a side; each look learns from the boxes that the look before it leaves.
+    Box regression (Girshick et al. 2014), from true boxes that were scattered on purpose; the
+    later a look, the nearer it expects the box to be.
     """
-    images, truth, _ = zip(*scenes(photos, recipe), strict=True)
-    truth = [np.repeat(true, scattered // len(truth), axis=0) for true in truth]
-    boxes = [corrected(true, rng.normal(scale=spread, size=true.shape)) for true in truth]
-    maps = []
-    for _ in range(recipe.looks):
-        x = [recipe.describe(*pair) for pair in zip(images, boxes, strict=True)]
-        goal = [corrections(*pair) for pair in zip(boxes, truth, strict=True)]
+    times, maps = SCATTERED // sum(len(scene.truth) for scene in scenes) + 1, []
+    for spread in recipe.looks:
+        x, goal = [], []
+        for scene in scenes:
+            truth, boxes = scene.scattered(times, spread, rng)
+            x.append(recipe.describe(scene.image, boxes))
+            goal.append(corrections(boxes, truth))
         ridge = Ridge(penalty).fit(np.concatenate(x), np.concatenate(goal))
         maps.append(np.vstack([ridge.coef_.T, ridge.intercept_]))
-        boxes = [corrected(b, ridge.predict(shown)) for b, shown in zip(boxes, x, strict=True)]
     return tuple(maps)
 
 
-# ---------------------------------------------------------------- the two together
+def look_again(recipe, maps, image, boxes):
+    """The boxes (n, 4), each corrected by what it shows, once for every map."""
+    for weights in maps if len(boxes) else ():
+        shown = recipe.describe(image, boxes)
+        boxes = corrected(boxes, shown @ weights[:-1] + weights[-1])
+    return boxes
+
+
+# ---------------------------------------------------------------- learning to judge a fit
+
+
+@dataclass(frozen=True)
+class Judge:
+    """Scores how well a box fits its object, from the features' main directions."""
+
+    axes: np.ndarray  # (d, k)
+    machine: Machine  # of RBF kernel
+
+    @classmethod
+    def fit(cls, scenes, recipe, gate, maps, rng, good=0.75, keep=8000, directions=60):
+        """Learn to tell fits from misfits, the classifier's blind zone (0.5 to 0.8) included.
+
+        Fits and near misses are true boxes, scattered; other misfits are candidates, and above all
+        those that pass the `gate` (a Machine) and are led by the looks to what is no object.
+        """
+        times, x, y = SCATTERED // sum(len(scene.truth) for scene in scenes) // 3 + 1, [], []
+        for scene in scenes:
+            near = [scene.scattered(times, spread, rng)[1] for spread in (0.03, 0.08, 0.15)]
+            some = rng.permutation(scene.boxes)[: 2 * SCATTERED // len(scenes)]
+            off = some[iou(some, scene.truth).max(1) < 0.3]
+            fooled = gate.score(recipe.describe(scene.image, off)) > recipe.gate
+            led = look_again(recipe, maps, scene.image, off[fooled][:25])
+            boxes = np.vstack([*near, led, some[:10]])
+            x.append(recipe.describe(scene.image, boxes))
+            y.append(iou(boxes, scene.truth).max(1) >= good)
+        x, y = np.concatenate(x), np.concatenate(y)
+        some = rng.permutation(len(x))[:keep]
+        x, y = x[some], y[some]
+        axes = np.linalg.eigh(np.cov(x.T))[1][:, -directions:]
+        return cls(axes, Machine.fit(x @ axes, y, "rbf", 10))
+
+    def score(self, x):
+        """How well boxes with features x (n, d) fit, in margins: (n,)."""
+        return self.machine.score(x @ self.axes)
+
+
+# ---------------------------------------------------------------- all of it together
 
 
 @dataclass(frozen=True)
@@ -198,22 +302,70 @@ class RegionFinder:
 
     recipe: Recipe
     machine: Machine
-    maps: tuple  # of (d + 1, 4), one a look, from what a box shows to its correction
+    maps: tuple = ()  # of (d + 1, 4), one a look, from what a box shows to its correction
+    judge: Judge | None = None
+    threshold: float = 0.0  # what the boxes must score in the end
 
     @classmethod
     def fit(cls, photos, recipe=PUBLISHED, rng=None):
-        """Learn from photos; `rng` scatters their true boxes, to learn corrections from."""
-        machine = Machine.fit(*examples(photos, recipe), recipe.kernel, recipe.cost)
-        return cls(recipe, machine, learn_to_look(photos, recipe, rng or np.random.default_rng(0)))
+        """Learn from photos; `rng` draws counter-examples and scatters boxes.
+
+        The threshold stays 0: see `tuned`.
+        """
+        rng, seen = rng or np.random.default_rng(0), scenes(photos, recipe)
+        x, y = training_examples(seen, recipe, rng)
+        machine = Machine.fit(x, y, recipe.kernel, recipe.cost)
+        maps = learn_to_look(seen, recipe, rng)
+        judge = Judge.fit(seen, recipe, machine, maps, rng) if recipe.judged else None
+        return cls(recipe, machine, maps, judge)
+
+    def doing(self, name):
+        """The same training used for the recipe `name`, which does less."""
+        recipe = RECIPES[name]
+        return replace(self, recipe=recipe, judge=self.judge if recipe.judged else None)
+
+    def tuned(self, photos):
+        """The same finder, with the threshold that is best on photos it did not learn from.
+
+        The published recipe has none to choose: it stays at 0.
+        """
+        if self.recipe == PUBLISHED:
+            return self
+        lenient, scores, right, wanted = replace(self, threshold=-np.inf), [], [], 0
+        for scene in scenes(photos, replace(self.recipe, mirror=False)):
+            found = lenient.find(scene.image, scene.boxes)
+            scores.append(found.scores)
+            right.append(iou(found.boxes, scene.truth).max(1, initial=0) >= 0.8)
+            wanted += len(scene.truth)
+        best = best_threshold(np.concatenate(scores), np.concatenate(right), wanted)
+        return replace(self, threshold=best)
 
     @classmethod
     def load(cls, level, name="improved"):
         """The shipped finder of a level, by the name of its recipe; ValueError for another."""
-        learnt = stored("regions")
-        if f"{level}/{name}/bias" not in learnt:
+        learnt, key = stored("regions"), f"{level}/{LEARNT.get(name, name)}"
+        if f"{level}/{name}/threshold" not in learnt:
             raise ValueError(f"no finder {name!r} for level {level!r}: see {', '.join(RECIPES)}")
-        *machine, maps = (learnt[f"{level}/{name}/{part}"].astype(float) for part in PARTS)
-        return cls(RECIPES[name], Machine(RECIPES[name].kernel, *machine), tuple(maps))
+        parts = {
+            part.removeprefix(f"{key}/"): value.astype(float)
+            for part, value in learnt.items()
+            if part.startswith(f"{key}/")
+        }
+        recipe, judge = RECIPES[name], None
+        if recipe.judged:
+            judged = Machine("rbf", *(parts[f"judge/{part}"] for part in PARTS))
+            judge = Judge(parts["judge/axes"], judged)
+        machine = Machine(recipe.kernel, *(parts[part] for part in PARTS))
+        threshold = learnt[f"{level}/{name}/threshold"].item()
+        return cls(recipe, machine, tuple(parts["maps"]), judge, threshold)
+
+    def parts(self):
+        """The arrays that `load` reads, by name."""
+        arrays = {part: getattr(self.machine, part) for part in PARTS} | {"maps": self.maps}
+        if self.judge:
+            arrays["judge/axes"] = self.judge.axes
+            arrays |= {f"judge/{part}": getattr(self.judge.machine, part) for part in PARTS}
+        return arrays
 
     def score(self, image, boxes):
         """The classifier's score (n,) of boxes (n, 4) in an image."""
@@ -223,11 +375,7 @@ class RegionFinder:
 
     def look_again(self, image, boxes, looks=None):
         """The boxes (n, 4), each corrected by what it shows, `looks` times (by default all)."""
-        for weights in self.maps[:looks]:
-            boxes = corrected(
-                boxes, self.recipe.describe(image, boxes) @ weights[:-1] + weights[-1]
-            )
-        return boxes
+        return look_again(self.recipe, self.maps[:looks], image, boxes)
 
     def find(self, image, boxes=None):
         """The Regions of a uint8 image; `boxes` are its candidates, if they are known already.
@@ -238,23 +386,43 @@ class RegionFinder:
         boxes = propose(image, recipe.strategy) if boxes is None else boxes
         scores = self.score(image, boxes)
         passed, passed_scores = boxes[scores > recipe.gate], scores[scores > recipe.gate]
-        if self.maps:
+        if recipe.looks:
             passed = self.look_again(image, passed)
-            passed_scores = self.score(image, passed)
-            good = passed_scores > recipe.threshold
-            passed, passed_scores = passed[good], passed_scores[good]
+            judge = self.judge or self.machine
+            if len(passed):
+                passed_scores = judge.score(recipe.describe(image, passed))
+        good = passed_scores > self.threshold
+        passed, passed_scores = passed[good], passed_scores[good]
         kept = nms(passed, passed_scores, recipe.overlap)
-        best = vote(passed[kept], passed, passed_scores) if recipe.vote else passed[kept]
+        best = vote(kept, passed, passed_scores) if recipe.vote else passed[kept]
         return Regions(boxes, scores, passed, passed_scores, best, passed_scores[kept])
 
 
-def vote(kept, boxes, scores):
-    """Each kept box replaced by the mean of the boxes that overlap it by half or more.
+def vote(kept, boxes, scores, warmth=0.2):
+    """The boxes `kept` (indices), each the mean of all that overlap it by half or more.
 
-    A vote weighs as its score exceeds the lowest (after Gidaris & Komodakis 2015).
+    A vote weighs exp(-lag / warmth), its score lagging that much behind the kept box's (after
+    Gidaris & Komodakis 2015).
     """
-    weights = np.where(iou(kept, boxes) >= 0.5, scores - scores.min(initial=0) + 1e-6, 0)
+    weights = np.exp((scores - scores[kept, None]) / warmth)
+    weights[iou(boxes[kept], boxes) < 0.5] = 0
     return weights @ boxes / weights.sum(1, keepdims=True)
+
+
+def best_threshold(scores, right, wanted):
+    """The threshold for scores (n,) that finds most at fewest errors: the best F1.
+
+    right: (n,) which are hits; wanted: how many there are to hit. F1 is the harmonic mean of
+    precision and recall; the threshold lies midway between the last score taken and the next
+    (or is -inf, where it is best to take all).
+    ValueError where there is nothing to choose from.
+    """
+    if not len(scores):
+        raise ValueError("no score to choose a threshold from: give photos with something found")
+    order = np.argsort(-scores, kind="stable")
+    f1 = 2 * right[order].cumsum() / (np.arange(len(order)) + 1 + wanted)
+    last = f1.argmax()
+    return float(np.append(scores[order], -np.inf)[last : last + 2].mean())
 
 
 def store_candidates():
@@ -262,19 +430,27 @@ def store_candidates():
     found = {}
     for level, split in product(photos.LEVELS, photos.SPLITS):
         for photo in photos.load(level, split):
-            found[f"{photo.name}/single"] = propose(photo.image).astype(np.int16)
+            for name, strategy in {"single": "single", "finer": LOOKS.strategy}.items():
+                found[f"{photo.name}/{name}"] = propose(photo.image, strategy).astype(np.int16)
     np.savez_compressed(DATA / "candidates.npz", **found)
     stored.cache_clear()
 
 
 def store_finders():
-    """Train every recipe on every level, and store what they learnt."""
+    """Train every recipe on every level, tune all but the published one, store what they learnt."""
     learnt = {}
     for level, (name, recipe) in product(photos.LEVELS, RECIPES.items()):
-        finder = RegionFinder.fit(photos.load(level, "train"), recipe)
-        parts = vars(finder.machine) | {"maps": finder.maps}
-        for part in PARTS:
-            learnt[f"{level}/{name}/{part}"] = np.array(parts[part], np.float32)
+        if name in LEARNT:
+            continue
+        finder, held_out = (
+            RegionFinder.fit(photos.load(level, "train"), recipe),
+            photos.load(level, "validation"),
+        )
+        for part, value in finder.parts().items():
+            half = np.size(value) > 10_000
+            learnt[f"{level}/{name}/{part}"] = np.array(value, np.float16 if half else np.float32)
+        for row in (name, *(row for row, source in LEARNT.items() if source == name)):
+            learnt[f"{level}/{row}/threshold"] = finder.doing(row).tuned(held_out).threshold
     np.savez_compressed(DATA / "regions.npz", **learnt)
 
 
