@@ -1,7 +1,7 @@
 """Optimal control, habit's rival: of all commands that bring the hand there, the cheapest.
 
-Effort is the mean square of the excitations {cite}`Diedrichsen2010`. The task is a template's: be
-at the target, still, when a movement ends, and again when the hold ends. Sequential quadratic
+Effort is the mean square of the excitations (Diedrichsen et al., 2010). The task is a template's:
+be at the target, still, when a movement ends, and again when the hold ends. Sequential quadratic
 programming minimises one subject to the other, with the closed form as the arm. What ships are
 the optima of `TARGETS`; `python -m vmc_lib.motor.optimal` remakes them.
 """
