@@ -18,7 +18,7 @@ from vmc_lib.what.crops import whiten
 from vmc_lib.what.recogniser import READ_OUTS, examples, fit, read_outs
 
 FILE = Path(__file__).parents[1] / "data" / "variations.npz"
-VARIATIONS = (N_W, 0), (N_W, 1), (N_W, 2), (6, 0)  # (n_w, seed)
+VARIATIONS = (N_W, 0), (N_W, 1), (N_W, 2), (6, 0), (10, 0), (12, 0)  # (n_w, seed)
 SPLITS = "validation", "test"
 
 
