@@ -1,5 +1,6 @@
 """The chapters as files: complete, tidy and in the table of contents (nbmake executes them)."""
 
+import re
 from pathlib import Path
 
 import nbformat
@@ -54,11 +55,24 @@ def test_starts_with_one_title(notebook):
 
 @pytest.mark.parametrize("path", NUMBERED, ids=lambda path: path.stem)
 def test_a_chapter_teaches(path):
-    """Every chapter has a demo, a question before it, and an exercise with a hidden solution."""
+    """Aims and minutes; questions before demos; a checked exercise, its solution; quiz; recap."""
     notebook = nbformat.read(path, as_version=4)
-    text = "\n".join(cell.source for cell in notebook.cells if cell.cell_type == "markdown")
+    prose = [cell.source for cell in notebook.cells if cell.cell_type == "markdown"]
+    text = "\n".join(prose)
     code = "\n".join(cell.source for cell in notebook.cells if cell.cell_type == "code")
+    assert "be able to" in prose[0] and re.search(r"\d+\s+minutes", prose[0])
     assert "explore(" in code
     assert "Predict first" in text
-    assert "```{exercise" in text or "{exercise-start}" in text
-    assert "```{solution" in text or "{solution-start}" in text
+    assert re.search(r"`\{exercise(-start)?\}", text)
+    assert re.search(r"`\{solution(-start)?\}", text)
+    assert len(re.findall(r"\bcheck\(", code)) >= 2  # the reader's answer, and the solution's
+    assert 2 <= len(re.findall(r"\bquiz\(", code)) <= 3
+    assert re.search(r"^## (Recap|What to take along)", text, re.M)
+    assert "{term}`" in text
+
+
+def test_quizzes_hide_their_answers(notebook):
+    """Neither the page nor a notebook shows the code, which names the right answer."""
+    for cell in notebook.cells:
+        if cell.cell_type == "code" and re.search(r"^quiz\(", cell.source, re.M):
+            assert "remove-input" in cell.metadata.tags and cell.metadata.jupyter.source_hidden
