@@ -1,7 +1,8 @@
 # make book   build the book and say where to open it
 # make test   run every test: library, chapters, pages in a browser
 # make lab    open the chapters in JupyterLab
-# Each sets up its own environment in .venv, once.
+# make bench  measure what everything costs, beside named peers (half an hour; a quiet machine)
+# Each sets up its own environment in .venv (the benchmarks' peers: in .bench), once.
 
 PYTHON ?= python3
 BIN    := .venv/bin
@@ -10,7 +11,9 @@ BUILT  := _build/.built
 BUILD  := $(BIN)/jupyter-book build -W -n --keep-going .
 INPUTS := _config.yml _toc.yml $(shell find book vmc_lib -type f -not -path '*/.*' -not -name '*.pyc')
 
-.PHONY: book test lab lock clean
+PEERED := selective_search simulators crbm planning loop scaling
+
+.PHONY: book test lab bench lock clean
 .DEFAULT_GOAL := book
 
 book: $(BUILT)
@@ -26,6 +29,18 @@ test: $(BUILT)
 
 lab: $(READY)
 	$(BIN)/jupyter lab book/01_loop.ipynb
+
+bench: $(READY) .bench/.ready
+	for name in $(PEERED); do .bench/bin/python -m bench.$$name || exit 1; done
+	for name in book in_page seat; do $(BIN)/python -m bench.$$name || exit 1; done
+
+.bench/.ready: requirements.txt constraints.txt bench/requirements.txt
+	$(PYTHON) -m venv .bench
+	.bench/bin/pip install --quiet -r requirements.txt -c constraints.txt
+	.bench/bin/pip uninstall --quiet --yes opencv-python-headless
+	.bench/bin/pip install --quiet -r bench/requirements.txt
+	.bench/bin/pip install --quiet --no-deps -e .
+	@touch $@
 
 $(BUILT): $(READY) $(INPUTS)
 	$(BUILD)
