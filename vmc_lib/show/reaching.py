@@ -4,6 +4,7 @@ Every function draws on matplotlib axes. Positions are in the plane, in metres.
 """
 
 import numpy as np
+from matplotlib.ticker import MultipleLocator
 
 from vmc_lib.arm.closed_form import hand
 from vmc_lib.motor.templates import REACH, START
@@ -21,6 +22,7 @@ def plane(ax, templates, within=ALL):
     ax.plot(*hand(START)[:2], "s", ms=6, mfc="none", color=COLOURS["ink"])
     ax.plot(*np.transpose(templates), "o", ms=4, color=COLOURS["grey"])
     ax.set(xlim=within[0], ylim=within[1], aspect="equal", xlabel="forward (m)", ylabel="up (m)")
+    ax.yaxis.set_major_locator(MultipleLocator(0.1))
     ax.grid(False)
 
 
