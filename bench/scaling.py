@@ -1,10 +1,10 @@
-"""What more experience buys and costs: templates, practised movements, photos.
+"""What more experience buys, and what it costs in processor seconds: templates, movements, photos.
 
 Every point is a job of its own, handed to joblib: `parallel_config` decides where the jobs run.
 """
 
 from itertools import pairwise
-from time import perf_counter
+from time import process_time
 
 import numpy as np
 from joblib import Parallel, delayed, parallel_config
@@ -30,10 +30,10 @@ def missed(habit):
 
 def more_templates(spacing):
     """A library with templates so far apart: how far its plans miss, in mm."""
-    start = perf_counter()
+    start = process_time()
     goals = templates.grid(spacing)
     excitations = spline() @ np.array([templates.make(goal) for goal in goals])
-    seconds = perf_counter() - start
+    seconds = process_time() - start
     library = templates.Library(templates.reach(excitations).reached, excitations)
     held_out = draw_targets(templates.load(0.08), 200, np.random.default_rng(0))
     error = 1000 * missed(plan(held_out, library))
@@ -47,9 +47,9 @@ def more_movements():
     rows = []
     for before, count in pairwise(LESSONS):
         targets = draw_targets(library, count - before, rng)
-        start = perf_counter()
+        start = process_time()
         learner.practise(plan(targets, library))
-        seconds += perf_counter() - start
+        seconds += process_time() - start
         error = missed(learner.correct(unseen)) / missed(unseen)
         rows.append(row("movements", count, error, seconds))
     return rows
@@ -58,9 +58,9 @@ def more_movements():
 def more_photos(count):
     """A finder that learnt from so many varied photos: the objects it misses on validation."""
     seen, unseen = photos.load("varied", "train")[:count], photos.load("varied", "validation")
-    start = perf_counter()
+    start = process_time()
     finder = RegionFinder.fit(seen, RECIPES["improved"], np.random.default_rng(0))
-    seconds = perf_counter() - start
+    seconds = process_time() - start
     boxes = [finder.find(photo.image).boxes for photo in unseen]
     return [row("photos", count, 1 - localisation(unseen, boxes)[1], seconds)]
 
@@ -76,6 +76,6 @@ if __name__ == "__main__":
         *(delayed(more_templates)(spacing) for spacing in SPACINGS[::-1]),
         delayed(more_movements)(),
     ]
-    with parallel_config(n_jobs=-1, inner_max_num_threads=1):
+    with parallel_config("loky", n_jobs=-1, inner_max_num_threads=1):
         points = [point for points in Parallel()(jobs) for point in points]
     publish("scaling", sorted(points, key=lambda point: (point["more"], point["size"])))

@@ -35,10 +35,15 @@ def solve(target):
 
     The search begins at the habitual plan. RuntimeError when it does not come to an end.
     """
-    return _excitations(_search(target))
+    return _excitations(search(target).x)
 
 
-def _search(target):
+def search(target):
+    """SciPy's account of the search: the knots `x` found, and how often the arm was tried.
+
+    Each of its `nfev` trials moves the arm once, and each of its `njev` slopes once for every knot
+    and once more.
+    """
     start = plan(target, load()).excitations
     first = np.stack([least(spline(KNOTS), muscle) for muscle in start.T], axis=-1).ravel()
     goal = np.concatenate([np.tile(posture(target), 2), np.zeros(4)])
@@ -55,7 +60,7 @@ def _search(target):
     )
     if not found.success:
         raise RuntimeError(f"no optimum for the target {target} m: {found.message}")
-    return found.x
+    return found
 
 
 @cache
@@ -84,5 +89,5 @@ def _slopes(x):
 
 
 if __name__ == "__main__":
-    knots = np.array([_search(target) for target in TARGETS], np.float32)
+    knots = np.array([search(target).x for target in TARGETS], np.float32)
     np.savez_compressed(files("vmc_lib.data") / "optimal.npz", knots=knots)
