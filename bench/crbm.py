@@ -10,7 +10,7 @@ from vmc_lib.what.cdbn import FIRST, N_W, PATCHES, SECOND, K, crops_of
 from vmc_lib.what.crbm import CRBM
 from vmc_lib.what.recogniser import Recogniser
 
-SAMPLE = 2_000  # patches timed; an epoch has PATCHES
+SAMPLE = 200  # patches timed, again and again; an epoch has PATCHES
 PASSES = (
     5  # over each hidden unit's window: up, down, up again, and two counts of what goes together
 )
@@ -37,7 +37,7 @@ if __name__ == "__main__":
     yardstick, rows, whole = sgemm(), [], 0.0
     for name, channels, how in (("first layer", 1, FIRST), ("second layer", K, SECOND)):
         learning, work = layer(channels, how["width"], torch.Generator().manual_seed(0))
-        ours, theirs = seconds(learning, 3), seconds(peer(channels, how["width"], work), 3)
+        ours, theirs = seconds(learning, 40), seconds(peer(channels, how["width"], work), 40)
         speed = 2e-9 * work * SAMPLE / ours
         whole += how["epochs"] * PATCHES / SAMPLE * ours
         rows.append(
