@@ -21,9 +21,10 @@ NOT_YET, RIGHT, WRONG = "Not answered yet.", "✓ Right.", "✗ Not yet."
 def quiz(question, answers, right):
     """Ask a multiple-choice question. Each answer, when opened, says whether it is right, and why.
 
-    `question` is Markdown; `answers` maps each answer to its why (Markdown; an answer needs words,
-    as maths alone has no name that is read aloud); `right` is the right answer's own text. Raises ValueError for fewer than two answers, an answer without a why, or a
-    `right` that is none of them.
+    `question` is Markdown; `answers` maps each answer to its why, both Markdown (an answer needs
+    words: maths alone has no name that could be read aloud); `right` is the right answer's own
+    text. Raises ValueError for fewer than two answers, an answer without a why, or a `right` that
+    is none of them.
     """
     if len(answers) < 2 or not all(answers.values()) or right not in answers:
         raise ValueError(
