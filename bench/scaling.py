@@ -19,6 +19,7 @@ from vmc_lib.where.evaluate import localisation
 from vmc_lib.where.regions import RECIPES, RegionFinder
 
 SPACINGS = (0.08, 0.06, 0.04, 0.03, 0.02)  # m
+ON_THE_TABLE = (0.08, -0.42), (0.22, -0.38)  # m: where the photos' shuttlecocks lie, in the plane
 LESSONS = (0, 25, 50, 100, 250, 500, 1000, 2500)
 PHOTOS = (10, 20, 40, 80, 160)
 
@@ -35,7 +36,7 @@ def more_templates(spacing):
     excitations = spline() @ np.array([templates.make(goal) for goal in goals])
     seconds = process_time() - start
     library = templates.Library(templates.reach(excitations).reached, excitations)
-    held_out = draw_targets(templates.load(0.08), 200, np.random.default_rng(0))
+    held_out = np.random.default_rng(0).uniform(*ON_THE_TABLE, (200, 2))
     error = 1000 * missed(plan(held_out, library))
     return [row("templates", len(goals), error, seconds)]
 

@@ -60,7 +60,7 @@ def test_scores_count_what_went_wrong(photo, sight):
     arrived = missed | dict.fromkeys(("target", "planned", *loop.RULES), 0.004)
     both = {key: np.array([missed[key], arrived[key]]) for key in missed}
     summary = loop.summary(both)
-    assert summary["arrived, own"] == summary["arrived, published"] == 0.5
+    assert summary["arrived, own"] == summary["arrived, published"] == summary["close, own"] == 0.5
     assert summary["planned"] == 0.004
     assert list(loop.first_failure(both)) == ["place", ""]
 

@@ -23,7 +23,7 @@ from .where.place import Locator
 from .where.regions import RegionFinder, Regions
 
 FOUND = 0.8  # IoU at which a box counts as the object's (Section IV A)
-NEAR = 0.010  # m: a hand this close to the shuttlecock has arrived
+NEAR, CLOSE = 0.010, 0.005  # m: a hand this near the shuttlecock has arrived, or done well
 RULES = {"published": published, "own": calibrate}  # of off-line calibration
 STAGES = ("proposals", "regions", "names", "place", "movement")  # where a reach can go wrong
 
@@ -167,8 +167,9 @@ def _tried(brain, photo):
 
 
 def summary(scores):
-    """Shares (in [0, 1]) found, named, and arrived by each rule, and median distances in m."""
+    """Shares (in [0, 1]) found, named, arrived and close by each rule; median distances in m."""
     shares = {name: float(scores[name].mean()) for name in ("found", "named", "cup")}
     medians = {name: float(np.nanmedian(scores[name])) for name in ("target", "planned", *RULES)}
-    arrived = {f"arrived, {rule}": float((scores[rule] <= NEAR).mean()) for rule in RULES}
-    return shares | medians | arrived
+    for name, distance in (("arrived", NEAR), ("close", CLOSE)):
+        shares |= {f"{name}, {rule}": float((scores[rule] <= distance).mean()) for rule in RULES}
+    return shares | medians

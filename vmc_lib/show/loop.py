@@ -1,8 +1,14 @@
 """The loop as pictures: what the eye sees beside what the arm does, one step after the other."""
 
+import matplotlib.pyplot as plt
+import numpy as np
+
+from vmc_lib.arm.closed_form import hand
+from vmc_lib.arm.model import geometry
+from vmc_lib.arm.posture import TRUNK, to_world
 from vmc_lib.motor.templates import START
 from vmc_lib.show.arm import arm_scene
-from vmc_lib.show.figures import photo_view
+from vmc_lib.show.figures import COLOURS, photo_view
 
 TICKS = range(0, 1001, 100)  # ms: the moments of a movement that are shown
 SEEING = ("a photo", "candidates", "regions", "after suppression", "names")
@@ -12,6 +18,7 @@ STEPS = (
     *(f"calibrated, {t / 1000:.1f} s" for t in TICKS),
 )
 TURNED = 500  # ms: by then the trunk has turned
+STAGES = (*SEEING, "place", "plan", "off-line", "online")
 
 
 def draw_step(photo, sight, reach, step):
@@ -43,6 +50,45 @@ def draw_moment(photo, box, reach, motion, t):
         shuttlecock=photo.target,
         balls=[(reach.target, "green")],
     )
+
+
+def draw_stage(photo, sight, reach, online, stage):
+    """A stage of `STAGES`: what the eye has made of the photo, and where the arm is by then.
+
+    `online` is the `Motion` of the plan as the cerebellum corrected it before moving. Where nothing
+    was recognised, `reach` is None: the arm stays at rest.
+    """
+    if stage in SEEING or reach is None:
+        return draw_step(photo, sight, reach, stage if stage in SEEING else "names")
+    if stage == "place":
+        place = photo.camera.project(reach.target)[0]
+        view = photo_view(photo.image, [(sight.box, "target", "green")], [(place, "", "green")])
+        balls = [(reach.target, "green")]
+        return view, arm_scene(START, turn=reach.turn, shuttlecock=photo.target, balls=balls)
+    motion = {"plan": reach.planned, "off-line": reach.calibrated, "online": online}[stage]
+    return draw_moment(photo, sight.box, reach, motion, TICKS[-1])
+
+
+def from_above(photo, reach, turned):
+    """Eye, shoulder, arm and target from above, before or after the trunk's turn (a figure)."""
+    q, turn = (reach.planned.q[-1], reach.turn) if turned else (START, 0.0)
+    bodies, _ = geometry(q)
+    joints = np.array([*(position for _, position in bodies.values()), hand(q)])
+    fig, ax = plt.subplots()
+    for places, style, colour, label in (
+        ([photo.camera.position, photo.target], ":", "blue", "line of sight"),
+        (to_world(joints, turn), "o-", "ink", "arm"),
+        (to_world([[0, 0, 0.06], [0.5, 0, 0.06]], turn), "--", "grey", "the arm's plane"),
+        ([np.insert(TRUNK, 1, 0)], "s", "purple", "trunk's axis"),
+        ([photo.camera.position], "^", "blue", "eye"),
+        ([photo.target], "*", "green", "shuttlecock"),
+    ):
+        x, _, z = np.transpose(places)
+        ax.plot(z, x, style, color=COLOURS[colour], label=label)
+    ax.set(xlim=(-0.45, 0.4), ylim=(-0.2, 0.6), aspect="equal")
+    ax.set(xlabel="to the right (m)", ylabel="forward (m)")
+    ax.legend(loc="center left", bbox_to_anchor=(1, 0.5))
+    return fig
 
 
 def _boxes(sight, step):

@@ -1,0 +1,36 @@
+"""The ledger's row on the whole chain, and how the chain fares on the test photos."""
+
+from functools import cache
+
+import numpy as np
+
+from .. import loop
+from .entry import SHARE, Quantity, Row
+
+
+def _figure_1():
+    share = np.isfinite(trial("rig")["planned"]).mean()
+    return [Quantity("photos that end in a reach", 1, share, None, SHARE, 1)]
+
+
+@cache
+def trial(level):
+    """`loop.trial` on the test photos of a level, run once."""
+    return loop.trial(level)
+
+
+def fate(level):
+    """`loop.summary` of a level, and the stage at which each photo's reach went wrong first."""
+    scores = trial(level)
+    failures = {rule: loop.first_failure(scores, rule).tolist() for rule in loop.RULES}
+    return {"summary": loop.summary(scores), "failures": failures}
+
+
+ROWS = (
+    Row(
+        "Fig. 1",
+        "The steps make one chain, from photo to movement.",
+        "01_loop",
+        _figure_1,
+    ),
+)
