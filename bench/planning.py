@@ -7,6 +7,7 @@ which a busy machine does not stretch; all of it is one thread, so it is what a 
 from time import process_time
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from bench.report import publish
 from vmc_lib.cerebellum.experiment import skilled
@@ -49,6 +50,7 @@ def seconds(call, repeats):
 
 
 if __name__ == "__main__":
+    threadpool_limits(1)  # one core, or its time would count twice
     spent = {what: seconds(call, repeats) for what, (call, repeats, _) in WORK.items()}
     slowest = spent["optimal control, one target"]
     publish(
