@@ -25,7 +25,7 @@ HEAD = """<!doctype html><html lang="en"><meta charset="utf-8">
 <link rel="stylesheet" href="demo.css"><link rel="stylesheet" href="live.css">
 <script defer src="scene.js"></script><script defer src="demo.js"></script>
 <script defer src="arm.js"></script><script defer src="live.js"></script>
-<body style="background: var(--vmc-paper)"><main>"""
+<body style="background: var(--vmc-paper); color: var(--vmc-ink)"><main>"""
 # `arm` and `library` for a script that asks them something, made once a page
 ARM = """async (asked) => {
   const given = JSON.parse(document.querySelector(".vmc-live script").textContent);
