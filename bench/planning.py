@@ -9,7 +9,7 @@ from time import process_time
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from bench.report import publish
+from bench.report import publish, seconds
 from vmc_lib.cerebellum.experiment import skilled
 from vmc_lib.cerebellum.offline import calibrate, published
 from vmc_lib.motor import optimal, templates
@@ -39,19 +39,11 @@ WORK = {  # what -> (call, how often, simulated movements)
 }
 
 
-def seconds(call, repeats):
-    """The least processor time of several calls, in s."""
-    times = []
-    for _ in range(repeats):
-        start = process_time()
-        call()
-        times.append(process_time() - start)
-    return min(times)
-
-
 if __name__ == "__main__":
     threadpool_limits(1)  # one core, or its time would count twice
-    spent = {what: seconds(call, repeats) for what, (call, repeats, _) in WORK.items()}
+    spent = {
+        what: seconds(call, repeats, process_time) for what, (call, repeats, _) in WORK.items()
+    }
     slowest = spent["optimal control, one target"]
     publish(
         "planning",

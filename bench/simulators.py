@@ -18,7 +18,7 @@ import numpy as np
 from mujoco import rollout
 
 from bench.opensim_reference import excited, put, run
-from bench.report import publish
+from bench.report import publish, seconds
 from vmc_lib.arm.model import F0, L0, MUSCLES, SLACK, STEP, XML
 from vmc_lib.arm.simulate import simulate
 from vmc_lib.motor.templates import START, load
@@ -60,16 +60,6 @@ def ours(engine, batch, finer=1):
     return lambda: simulate(told, START, engine=engine, step=STEP / finer).q[:, -1]
 
 
-def seconds(call, repeats=5):
-    """The least of several processor times of `call()`, in s."""
-    times = []
-    for _ in range(repeats):
-        start = process_time()
-        call()
-        times.append(process_time() - start)
-    return min(times)
-
-
 def main():
     finest = opensim(1e-9)()
     accuracies = (1e-3, 1e-4, 1e-5, 1e-6)
@@ -81,7 +71,7 @@ def main():
     }.items():
         finest = make(1, FINE)()
         runs += [(name, batch, make(batch), finest) for batch in BATCHES]
-    rates = [batch / seconds(call) for _, batch, call, _ in runs]
+    rates = [batch / seconds(call, clock=process_time) for _, batch, call, _ in runs]
     errors = [np.abs(call() - finest).max() for _, _, call, finest in runs]
     peers = zip(rates[: len(accuracies)], errors, strict=False)
     peer = max(rate for rate, error in peers if error <= errors[-1])  # as exact as ours

@@ -1,11 +1,14 @@
 """What all tests share: demos live their test life, and page tests find a browser."""
 
 import os
+from pathlib import Path
 
 import pytest
 
 os.environ["VMC_LIFE"] = "test"  # chapters run by nbmake inherit it
 os.environ.setdefault("MPLBACKEND", "agg")
+
+AXE = Path(__file__).parent / "vendor/axe.js"
 
 
 @pytest.fixture(scope="session")
@@ -30,3 +33,22 @@ def offline(chromium):
     context = chromium.new_context(offline=True, viewport={"width": 1200, "height": 900})
     yield context
     context.close()
+
+
+@pytest.fixture(scope="session")
+def serious():
+    """A function: what axe-core finds serious in part of a page, in a theme, [(rule, markup)]."""
+
+    def found(page, within, theme):
+        page.evaluate("theme => { document.documentElement.dataset.theme = theme }", theme)
+        if not page.evaluate("() => 'axe' in window"):
+            page.evaluate(AXE.read_text())
+        found = page.evaluate("within => axe.run(within, { preload: false })", within)
+        return [
+            (violation["id"], node["html"][:200])
+            for violation in found["violations"]
+            if violation["impact"] in ("serious", "critical")
+            for node in violation["nodes"]
+        ]
+
+    return found

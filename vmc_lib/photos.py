@@ -106,11 +106,17 @@ def load(level, split):
     return [_read(sidecar) for sidecar in sidecars]
 
 
-@cache
-def _read(sidecar):
+def _described(sidecar):
+    """A photo's sidecar, its image and its boxes."""
     truth = json.loads(sidecar.read_text())
     image = read_image(sidecar.with_suffix(".jpg"))
     image.flags.writeable = False  # shared by all who load it
+    return truth, image, {name: np.array(box, float) for name, box in truth["boxes"].items()}
+
+
+@cache
+def _read(sidecar):
+    truth, image, boxes = _described(sidecar)
     split = sidecar.parent
     camera = {key: np.array(value)[()] for key, value in truth["camera"].items()}
     return Photo(
@@ -118,7 +124,7 @@ def _read(sidecar):
         level=split.parent.name,
         split=split.name,
         image=image,
-        boxes={name: np.array(box, float) for name, box in truth["boxes"].items()},
+        boxes=boxes,
         camera=Camera(**camera),
         target=np.array(truth["target"]),
         turn=truth["turn"],
@@ -146,10 +152,7 @@ def real():
     """The real photos that ship, in order of their names."""
     shots = []
     for sidecar in sorted(REAL.glob("*.json")):
-        truth = json.loads(sidecar.read_text())
-        image = read_image(sidecar.with_suffix(".jpg"))
-        image.flags.writeable = False  # shared by all who load it
-        boxes = {thing: np.array(box, float) for thing, box in truth["boxes"].items()}
+        truth, image, boxes = _described(sidecar)
         shots.append(RealPhoto(sidecar.stem, image, boxes, truth["credit"]))
     return tuple(shots)
 

@@ -16,10 +16,10 @@ from vmc_lib.arm.simulate import simulate
 from vmc_lib.cerebellum.offline import calibrate, published
 from vmc_lib.motor import templates
 from vmc_lib.motor.planning import exact_weights, habitual_weights, plan, surrounded
-from vmc_lib.show import live, live_arm
+from vmc_lib.show import live
+from vmc_lib.show.live import live_arm
 
 ROOT = Path(__file__).parents[2]
-AXE = (ROOT / "tests/vendor/axe.js").read_text()
 HEAD = """<!doctype html><html lang="en"><meta charset="utf-8">
 <meta name="viewport" content="width=device-width"><title>An arm</title>
 <link rel="stylesheet" href="demo.css"><link rel="stylesheet" href="live.css">
@@ -72,6 +72,21 @@ def opened(offline, site):
     yield opened
     opened.page.close()
     assert opened.errors == []
+
+
+@pytest.fixture
+def visit(chromium, site):
+    """A function that opens the page in a window of its own kind, after a script if given."""
+    contexts = []
+
+    def visit(script="", **kind):
+        contexts.append(chromium.new_context(offline=True, **kind))
+        contexts[-1].add_init_script(script)
+        return open_site(contexts[-1], site)
+
+    yield visit
+    for context in contexts:
+        context.close()
 
 
 @pytest.fixture(scope="module")
@@ -141,8 +156,7 @@ def test_the_arm_goes_where_pythons_mujoco_goes(ask):
 def test_what_is_drawn_is_where_it_is(ask):
     for q in np.radians([[-20.0, 95.0], [40.0, 10.0]]):
         seen, expected = ask("return arm.geometry(asked);", q.tolist()), geometry(q)
-        joints = [position for _, position in expected.bodies.values()]
-        assert np.allclose(seen["joints"][:2], joints, atol=1e-12)
+        assert np.allclose(seen["joints"], expected.joints, atol=1e-12)
         for name, path in zip(MUSCLES, seen["muscles"], strict=True):
             assert np.allclose(path, expected.muscles[name], atol=1e-9)
 
@@ -285,9 +299,8 @@ def test_a_target_is_set_by_pointing(opened):
 
 
 @pytest.mark.browser
-def test_who_wants_no_motion_sees_where_it_ends(chromium, site):
-    context = chromium.new_context(offline=True, reduced_motion="reduce")
-    opened = open_site(context, site)
+def test_who_wants_no_motion_sees_where_it_ends(visit):
+    opened = visit(reduced_motion="reduce")
     start(opened.reach)
     frames = """() => vmcScene(document.querySelectorAll(".vmc-scene")[1])
       .viewer.renderer.info.render.frame"""
@@ -296,47 +309,31 @@ def test_who_wants_no_motion_sees_where_it_ends(chromium, site):
     wait_for_status(opened.reach, "The planned reach")
     assert opened.page.evaluate(frames) - before < 5
     assert opened.errors == []
-    context.close()
 
 
 @pytest.mark.browser
-def test_without_webgl_the_arm_moves_in_the_side_view(chromium, site):
-    context = chromium.new_context(offline=True)
-    context.add_init_script("HTMLCanvasElement.prototype.getContext = () => null")
-    opened = open_site(context, site)
+def test_without_webgl_the_arm_moves_in_the_side_view(visit):
+    opened = visit("HTMLCanvasElement.prototype.getContext = () => null")
     start(opened.bench)
     assert "no 3-D picture" in wait_for_status(opened.bench, "The arm is running")
     assert opened.bench.locator(".vmc-scene").inner_text().startswith("An arm of two joints")
     assert opened.bench.locator("svg polyline").count() == 2
     assert opened.errors == []
-    context.close()
 
 
 @pytest.mark.browser
-def test_without_webassembly_it_says_so(chromium, site):
-    context = chromium.new_context(offline=True)
-    context.add_init_script("delete self.WebAssembly")
-    opened = open_site(context, site)
+def test_without_webassembly_it_says_so(visit):
+    opened = visit("delete self.WebAssembly")
     opened.bench.locator("[name=main]").click()
     wait_for_status(opened.bench, "This browser cannot run the arm")
     assert opened.bench.get_by_label("BRA").is_disabled()
-    context.close()
 
 
 @pytest.mark.browser
 @pytest.mark.parametrize("theme", ["light", "dark"])
-def test_is_accessible_before_and_after_the_start(opened, theme):
-    page = opened.page
-    page.evaluate("theme => { document.documentElement.dataset.theme = theme }", theme)
-    page.evaluate(AXE)
+def test_is_accessible_before_and_after_the_start(opened, serious, theme):
     for _ in range(2):
-        found = page.evaluate("() => axe.run('main', { preload: false })")
-        assert [
-            (violation["id"], node["html"][:200])
-            for violation in found["violations"]
-            if violation["impact"] in ("serious", "critical")
-            for node in violation["nodes"]
-        ] == []
+        assert serious(opened.page, "main", theme) == []
         for arm in (opened.bench, opened.reach):
             start(arm)
 

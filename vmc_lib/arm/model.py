@@ -27,6 +27,13 @@ class Geometry(NamedTuple):
     bodies: dict  # name -> (rotation (3, 3), position (3,)): x_world = rotation @ x + position
     muscles: dict  # name -> path (n, 3) from origin to insertion, tangent points of wraps included
 
+    @property
+    def joints(self):
+        """Shoulder, elbow and wrist, (3, 3)."""
+        rotation, elbow = self.bodies["forearm"]
+        _, shoulder = self.bodies["humerus"]
+        return np.array([shoulder, elbow, elbow + rotation @ MODEL.site("hand").pos])
+
 
 @cache
 def holding(load):

@@ -8,7 +8,7 @@ from functools import cache
 import numpy as np
 from meshcat import geometry as g
 
-from vmc_lib.arm.closed_form import hand, paths
+from vmc_lib.arm.closed_form import paths
 from vmc_lib.arm.model import MUSCLES, geometry
 from vmc_lib.arm.muscle import force
 from vmc_lib.arm.posture import to_world
@@ -33,14 +33,14 @@ def arm_scene(
     the hand's path. Only the arm turns with the trunk: all else stays where it is.
     """
     scene = Scene(_furniture())
-    bodies, courses = geometry(q)
-    joints = np.array([*(position for _, position in bodies.values()), hand(q)])
+    seen = geometry(q)
     pulls = np.minimum(force(activation, *fibres(*paths(q), velocity), maximum=1.0), 1)
     thin, thick = TUBE
-    _move_tube(scene["arm/bones"], to_world(joints, turn), BONE_RADIUS)
-    scene["arm/hand"].set_transform(_place(to_world(joints[-1], turn)))
+    _move_tube(scene["arm/bones"], to_world(seen.joints, turn), BONE_RADIUS)
+    scene["arm/hand"].set_transform(_place(to_world(seen.joints[-1], turn)))
     for name, active, share in zip(MUSCLES, activation, pulls, strict=True):
-        path = np.pad(courses[name], ((0, POINTS - len(courses[name])), (0, 0)), "edge")
+        course = seen.muscles[name]
+        path = np.pad(course, ((0, POINTS - len(course)), (0, 0)), "edge")
         _move_tube(scene[f"arm/{name}"], to_world(path, turn), thin + (thick - thin) * share)
         scene[f"arm/{name}"].set_property("color", _heat(active))
     if shuttlecock is not None:

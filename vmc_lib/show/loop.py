@@ -3,7 +3,6 @@
 import matplotlib.pyplot as plt
 import numpy as np
 
-from vmc_lib.arm.closed_form import hand
 from vmc_lib.arm.model import geometry
 from vmc_lib.arm.posture import TRUNK, to_world
 from vmc_lib.motor.templates import START
@@ -72,12 +71,10 @@ def draw_stage(photo, sight, reach, online, stage):
 def from_above(photo, reach, turned):
     """Eye, shoulder, arm and target from above, before or after the trunk's turn (a figure)."""
     q, turn = (reach.planned.q[-1], reach.turn) if turned else (START, 0.0)
-    bodies, _ = geometry(q)
-    joints = np.array([*(position for _, position in bodies.values()), hand(q)])
     fig, ax = plt.subplots()
     for places, style, colour, label in (
         ([photo.camera.position, photo.target], ":", "blue", "line of sight"),
-        (to_world(joints, turn), "o-", "ink", "arm"),
+        (to_world(geometry(q).joints, turn), "o-", "ink", "arm"),
         (to_world([[0, 0, 0.06], [0.5, 0, 0.06]], turn), "--", "grey", "the arm's plane"),
         ([np.insert(TRUNK, 1, 0)], "s", "purple", "trunk's axis"),
         ([photo.camera.position], "^", "blue", "eye"),

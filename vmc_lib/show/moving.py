@@ -55,7 +55,7 @@ def plane_view(paths=(), points=(), postures=(), ax=None):
     ax.axhline(TABLE, color=COLOURS["grey"], linewidth=1)
     ax.plot(0, 0, "o", color=COLOURS["ink"], markersize=7)
     for q, label, colour in postures:
-        joints = np.array([*(position for _, position in geometry(q).bodies.values()), hand(q)])
+        joints = geometry(q).joints
         ax.plot(*joints.T[:2], "o-", color=COLOURS[colour], label=label, linewidth=4, alpha=0.6)
     for path, label, colour in paths:
         ax.plot(*np.transpose(path)[:2], color=COLOURS[colour], label=label)

@@ -172,9 +172,10 @@ def examples(photos, recipe=PUBLISHED):
     """
     x, y = [], []
     for scene in scenes(photos, replace(recipe, mirror=False)):
-        clear = (scene.overlap >= 0.8) | (scene.overlap <= 0.5)
+        overlap = scene.overlap
+        clear = (overlap >= 0.8) | (overlap <= 0.5)
         x.append(recipe.describe(scene.image, scene.boxes[clear]))
-        y.append(scene.overlap[clear] >= 0.8)
+        y.append(overlap[clear] >= 0.8)
     return np.concatenate(x), np.concatenate(y)
 
 
@@ -185,7 +186,8 @@ def training_examples(scenes, recipe, rng):
     """
     x, y = [], []
     for scene in scenes:
-        good, bad = scene.boxes[scene.overlap >= 0.8], scene.boxes[scene.overlap <= 0.5]
+        overlap = scene.overlap
+        good, bad = scene.boxes[overlap >= 0.8], scene.boxes[overlap <= 0.5]
         bad = rng.permutation(bad)[: -(-ROIS // len(scenes))]
         _, shaken = scene.scattered(recipe.shaken, 0.05, rng)
         x.append(recipe.describe(scene.image, np.vstack([good, shaken, bad])))
@@ -442,10 +444,8 @@ def store_finders():
     for level, (name, recipe) in product(photos.LEVELS, RECIPES.items()):
         if name in LEARNT:
             continue
-        finder, held_out = (
-            RegionFinder.fit(photos.load(level, "train"), recipe),
-            photos.load(level, "validation"),
-        )
+        finder = RegionFinder.fit(photos.load(level, "train"), recipe)
+        held_out = photos.load(level, "validation")
         for part, value in finder.parts().items():
             half = np.size(value) > 10_000
             learnt[f"{level}/{name}/{part}"] = np.array(value, np.float16 if half else np.float32)
