@@ -22,7 +22,7 @@ def skill(library):
 
 @pytest.mark.parametrize(
     ("world", "corrects", "left"),
-    [("a weight of 0.5 kg", "pull", 0.5), ("a viscous field", "aim", 0.7), ("a prism", "aim", 0.2)],
+    [("a load of 0.5 kg", "pull", 0.5), ("a viscous field", "aim", 0.7), ("a prism", "aim", 0.2)],
 )
 def test_a_changed_world_is_learned(world, corrects, left, library, skill):
     curve = adapt(
@@ -37,7 +37,7 @@ def test_a_changed_world_is_learned(world, corrects, left, library, skill):
 
 
 def test_the_weight_is_lifted_by_more_of_everything(library, skill):
-    learner, world = Adaptation(skill, library, "pull"), WORLDS["a weight of 0.5 kg"]
+    learner, world = Adaptation(skill, library, "pull"), WORLDS["a load of 0.5 kg"]
     adapt(learner, library, np.random.default_rng(2), world, blocks=(0, 8, 0))
     reaches = plan(draw_targets(library, 20, np.random.default_rng(3)), library)
     assert learner.correct(reaches).weights.sum(axis=-1).mean() > 1.2

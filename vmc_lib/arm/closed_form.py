@@ -3,7 +3,7 @@
 Two facts make it exact. No muscle wraps over both joints at once, so every musculotendon length is
 a function of the shoulder angle plus a function of the elbow angle: two tables. And the inertia,
 the pull of gravity and the hand's position are trigonometric polynomials in the two angles, sums
-of eleven products: a few dozen snapshots of the MuJoCo model determine their coefficients.
+of eleven waves: a few dozen snapshots of the MuJoCo model determine their coefficients.
 """
 
 from functools import cache
@@ -17,13 +17,17 @@ from .model import DAMPING, LIMITS, STEP, forward, holding, mass_matrix, muscle_
 ROWS = 10_001  # of the muscle tables: steps of half a milliradian
 MARGIN = 0.4  # rad: the tables reach a little beyond the joints' stops
 LOW, HIGH = LIMITS[:, 0] - MARGIN, LIMITS[:, 1] + MARGIN
+ROWS_PER_RADIAN = (ROWS - 1) / (HIGH - LOW)
+FIRST_ROWS = np.array([0, ROWS])  # the elbow's rows come after the shoulder's
+SHOULDER, ELBOW = DAMPING.tolist()
+PHASES = np.array([[0.0, 1, 1, 0, 0, 1, 1], [0, 0, 0, 1, 1, 1, 1]])  # shoulder's, elbow's share
+LAGS = np.array([0, 0, 1, 0, 1, 0, 1]) * np.pi / 2  # a sine lags a cosine
 
 
 def _waves(q):
-    """The products (…, 11): of the shoulder's wave with the elbow's, and of the elbow's two."""
-    (c1, c2), (s1, s2) = _columns(np.cos(q)), _columns(np.sin(q))
-    both = c1 * c2, c1 * s2, s1 * c2, s1 * s2
-    return np.stack([np.ones_like(c1), c1, s1, c2, s2, *both, c2 * c2, c2 * s2], axis=-1)
+    """Cosines and sines of the two angles, their sum, and their products: (…, 11)."""
+    waves = np.cos(np.asarray(q) @ PHASES - LAGS)
+    return np.concatenate([waves, waves[..., 3:4] * waves[..., 1:5]], axis=-1)
 
 
 @cache
@@ -49,45 +53,42 @@ def _snapshot(q, data):
 
 def hand(q):
     """Position of the wrist (…, 3) in the shoulder frame for postures q (…, 2)."""
-    return _waves(np.asarray(q)) @ _coefficients()[1]
+    return _waves(q) @ _coefficients()[1]
 
 
 def torque_for(q, velocity, acceleration, load=0.0, step=STEP):
     """Inverse dynamics: torques (…, 2) in N m that give these accelerations over one step."""
     m11, m12, m22, b1, b2 = _dynamics(q, velocity, load, step)
-    a1, a2 = _columns(acceleration)
-    return np.stack([m11 * a1 + m12 * a2 + b1, m12 * a1 + m22 * a2 + b2], axis=-1)
+    a1, a2 = acceleration.T
+    return np.array([m11 * a1 + m12 * a2 + b1, m12 * a1 + m22 * a2 + b2]).T
 
 
 def acceleration_from(q, velocity, torque, load=0.0, step=STEP):
     """Forward dynamics, Eq. 12: the accelerations (…, 2) that joint torques cause; `load` in kg."""
     m11, m12, m22, b1, b2 = _dynamics(q, velocity, load, step)
-    t1, t2 = _columns(torque)
+    t1, t2 = torque.T
     t1, t2 = t1 - b1, t2 - b2
     determinant = m11 * m22 - m12 * m12
-    return np.stack([m22 * t1 - m12 * t2, m11 * t2 - m12 * t1], axis=-1) / determinant[..., None]
+    return (np.array([m22 * t1 - m12 * t2, m11 * t2 - m12 * t1]) / determinant).T
 
 
 def _dynamics(q, velocity, load, step):
-    """The mass matrix's entries, and the torques of motion, gravity and damping, each (…)."""
+    """The mass matrix's entries, and the torques of motion, gravity and damping, each (…).T."""
     terms = _waves(q) @ _coefficients(load)[0]
-    m11, m12, m22, swing, bend, gravity1, gravity2 = _columns(terms)
-    w1, w2 = _columns(velocity)
-    b1 = (bend * w2 - 2 * swing * w1) * w2 + gravity1 + DAMPING[0] * w1
-    b2 = swing * w1 * w1 + gravity2 + DAMPING[1] * w2
+    m11, m12, m22, swing, bend, gravity1, gravity2 = terms.T
+    w1, w2 = velocity.T
+    thrown = swing * w1
+    b1 = (bend * w2 - 2 * thrown) * w2 + gravity1 + SHOULDER * w1
+    b2 = thrown * w1 + gravity2 + ELBOW * w2
     # Damping acts on the velocity at the end of the step, as MuJoCo's integrator has it: stable.
-    return m11 + step * DAMPING[0], m12, m22 + step * DAMPING[1], b1, b2
-
-
-def _columns(values):
-    return (values[..., k] for k in range(values.shape[-1]))
+    return m11 + step * SHOULDER, m12, m22 + step * ELBOW, b1, b2
 
 
 def paths(q):
     """Musculotendon lengths (…, 6) and moment arms (…, 2, 6) in m; angles held to the tables."""
-    place = (np.clip(q, LOW, HIGH) - LOW) * ((ROWS - 1) / (HIGH - LOW))
-    row = np.minimum(place.astype(int), ROWS - 2)
-    entry = _tables().take(row + np.array([0, ROWS]), axis=0)  # the elbow's rows come second
+    place = (q.clip(LOW, HIGH) - LOW) * ROWS_PER_RADIAN
+    row = place.astype(int)
+    entry = _tables().take(row + FIRST_ROWS, axis=0)
     value = entry[..., :12] + (place - row)[..., None] * entry[..., 12:]
     return value[..., 0, :6] + value[..., 1, :6], value[..., 6:]
 
@@ -104,5 +105,5 @@ def _tables():
             row[:6], arms = muscle_paths(forward(angle * posture, data=data))
             row[6:] = arms[joint]
     turned[1, :, :6] -= straight
-    slopes = np.diff(turned, axis=1, append=np.nan)
+    slopes = np.diff(turned, axis=1, append=turned[:, -1:])
     return np.concatenate([turned, slopes], axis=-1).reshape(-1, 24)

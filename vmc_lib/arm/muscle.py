@@ -18,15 +18,16 @@ import numpy as np
 
 TAU_ACTIVATION = 0.010  # s: calcium floods in quickly …
 TAU_DEACTIVATION = 0.040  # s: … and is pumped back slowly
+FALL = 1 / TAU_DEACTIVATION  # 1/s
+HASTE = 1 / TAU_ACTIVATION - FALL  # 1/s: by how much full excitation speeds the rise
 MAX_VELOCITY = 2.5  # optimal fibre lengths per second
-VELOCITY_RANGE = (1 - np.sqrt(11), 0.9)
+VELOCITY_RANGE = 1 - 11**0.5, 0.9
 
 
 def activation_rate(excitation, activation):
     """Eq. 9: how fast activation follows excitation, both in [0, 1]; per second, same shape."""
     gap = excitation - activation
-    rise = excitation / TAU_ACTIVATION + (1 - excitation) / TAU_DEACTIVATION
-    return gap * np.where(gap >= 0, rise, 1 / TAU_DEACTIVATION)
+    return gap * (FALL + HASTE * excitation * (gap >= 0))
 
 
 def excitation_for(activation, rate):
@@ -35,22 +36,22 @@ def excitation_for(activation, rate):
     Rising, it is a quadratic in the excitation; falling, it is linear. Outside [0, 1] no
     excitation can do it: the caller decides.
     """
-    alpha, beta = 1 / TAU_ACTIVATION - 1 / TAU_DEACTIVATION, 1 / TAU_DEACTIVATION
-    half = (beta - alpha * activation) / 2
-    root = np.sqrt(half**2 + alpha * np.maximum(activation * beta + rate, 0))
-    return np.where(rate >= 0, (root - half) / alpha, activation + TAU_DEACTIVATION * rate)
+    half = (FALL - HASTE * activation) / 2
+    root = np.sqrt(half**2 + HASTE * np.maximum(FALL * activation + rate, 0))
+    return np.where(rate >= 0, (root - half) / HASTE, activation + rate / FALL)
 
 
 def force_length(length):
     """f1 of Eq. 11: the share of maximal force an active fibre has at this normalised length."""
-    square = (length - 0.95) ** 2
-    return np.exp(square - 40 * square**2)
+    square = np.square(length - 0.95)
+    return np.exp(square - 40 * np.square(square))
 
 
 def force_velocity(velocity):
     """f2 of Eq. 11: 1.01 when still, falling to 0 in fast shortening, up to 1.6 in lengthening."""
-    inverse = 1 / (1 - np.clip(velocity, *VELOCITY_RANGE)) ** 2
-    return 1.6 - 1.6 * np.exp(0.1 * inverse - 1.1 * inverse**2)
+    low, high = VELOCITY_RANGE
+    inverse = 1 / np.square(1 - np.minimum(np.maximum(velocity, low), high))
+    return 1.6 - 1.6 * np.exp(0.1 * inverse - 1.1 * np.square(inverse))
 
 
 def passive_force(length):

@@ -20,6 +20,7 @@ from .muscle import MAX_VELOCITY, PAPER
 
 STOP_STIFFNESS = 200.0  # N m / rad: ours, not arm26's; bone and ligament beyond the joints' limits
 STOP_DAMPING = 0.5  # s / rad
+LENGTHENING = -1 / (MAX_VELOCITY * L0)  # per metre that a muscle shortens in a second
 
 
 class World(NamedTuple):
@@ -125,12 +126,12 @@ def muscle_torque(activation, lengths, arms, velocity, muscle=PAPER):
 def fibres(lengths, arms, velocity):
     """The fibres' lengths and velocities (…, 6), normalised as Eq. 10 and 11 take them."""
     shortening = np.einsum("...jk,...j", arms, velocity)
-    return (lengths - SLACK) / L0, -shortening / (MAX_VELOCITY * L0)
+    return (lengths - SLACK) / L0, shortening * LENGTHENING
 
 
 def stop_torque(q, velocity):
     """Torques (…, 2) of the joints' stops: a damped spring beyond the limits, nothing within."""
-    beyond = q - np.clip(q, *LIMITS.T)
+    beyond = q - q.clip(*LIMITS.T)
     return -STOP_STIFFNESS * (beyond + STOP_DAMPING * np.abs(beyond) * velocity)
 
 

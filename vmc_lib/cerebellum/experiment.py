@@ -29,7 +29,7 @@ SEEDS = range(6)
 SCENARIOS = ("changing neighbours", "four fixed templates")
 PRISM = np.radians(6.0)
 WORLDS = {  # what may change, as `Plan.under` takes it
-    "a weight of 0.5 kg": {"world": World(load=0.5)},
+    "a load of 0.5 kg": {"world": World(load=0.5)},
     "a viscous field": {"world": World(field=((-1.0, 0.0), (0.0, -1.0)))},
     "a prism": {"prism": PRISM},
 }
@@ -103,11 +103,8 @@ def adapt(learner, library, rng, world, blocks=(2, 8, 6), movements=8):
 
 
 def skilled(library, rng, movements=150):
-    """An `Aim` that has practised, 25 movements at a time."""
-    learner = Aim(library)
-    for _ in range(0, movements, 25):
-        learner.practise(plan(draw_targets(library, 25, rng), library))
-    return learner
+    """An `Aim` that has practised."""
+    return Aim(library).practise(plan(draw_targets(library, movements, rng), library))
 
 
 def tables(seed, scenario=SCENARIOS[0]):

@@ -3,7 +3,7 @@
 `Linear` is the paper's g (Eq. 8, Algorithm 2): a linear regression of Δw on the target, the
 weights and the templates' positions. `Aim` is ours: it learns where to aim instead. Granule cells,
 each excited by its own small region of targets, feed a few Purkinje weights (Marr, 1969; Albus,
-1971), and every movement teaches by hindsight: wherever the hand went, the command given was the
+1971), and every movement teaches by hindsight: wherever the hand went, the aim taken was the
 right one for going there.
 
 Both have `correct(plan)`, the plan with what was learned, and `practise(plan)`, one more lesson.
@@ -61,22 +61,27 @@ class Aim:
 
     def correct(self, plan: Plan):
         """The plan aimed where it should be for the hand to end on the target."""
-        return self._at(plan, self.command(plan))
+        return self._at(plan, self.aim(plan))
 
-    def command(self, plan: Plan):
+    def aim(self, plan: Plan):
         """Where to aim, (…, 2), for the hand to end on the plan's target."""
         place = _place(plan.target, plan.points)
         return plan.target + self.cells.predict(place.reshape(-1, 4)).reshape(plan.target.shape)
 
-    def practise(self, plan: Plan):
-        """Move, and learn from where the hand went: a lesson for each movement of the batch."""
-        command = self.command(plan)
-        reached = self._at(plan, command).reached()
-        self.cells.partial_fit(*_lessons(_place(reached, plan.points), command - reached))
+    def practise(self, plan: Plan, together=5):
+        """Move, and learn from where the hand went: a lesson for each movement of the batch.
+
+        So many are made `together`; the next are aimed with what those taught.
+        """
+        for first in range(0, len(plan.target), together):
+            some = plan[first : first + together]
+            aim = self.aim(some)
+            reached = self._at(some, aim).reached()
+            self.cells.partial_fit(*_lessons(_place(reached, some.points), aim - reached))
         return self
 
-    def _at(self, plan, command):
-        return plan.with_weights(exact_weights(command, plan.points))
+    def _at(self, plan, aim):
+        return plan.with_weights(exact_weights(aim, plan.points))
 
 
 def _place(position, points):

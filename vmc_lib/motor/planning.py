@@ -56,6 +56,11 @@ class Plan:
         ]
         return np.concatenate(parts).reshape(*self.weights.shape[:-1], 2)
 
+    def __getitem__(self, rows):
+        """Some plans of a batch."""
+        parts = {name: getattr(self, name)[rows] for name in ("target", "chosen", "weights")}
+        return replace(self, **parts)
+
     def with_weights(self, weights):
         """The same templates, weighted otherwise; leading axes may be added, for many trials."""
         return replace(self, weights=weights, chosen=np.broadcast_to(self.chosen, weights.shape))

@@ -103,7 +103,7 @@ def given():
             "tauActivation": muscle.TAU_ACTIVATION,
             "tauDeactivation": muscle.TAU_DEACTIVATION,
             "maxVelocity": muscle.MAX_VELOCITY,
-            "velocityRange": list(map(float, muscle.VELOCITY_RANGE)),
+            "velocityRange": muscle.VELOCITY_RANGE,
         },
         "start": templates.START.tolist(),
         "rest": hold(templates.START).tolist(),
