@@ -16,13 +16,14 @@ from pathlib import Path
 import numpy as np
 from PIL import Image, ImageOps, UnidentifiedImageError
 
+from . import data
+
 LEVELS = ("rig", "free", "varied")
 SPLITS = ("train", "validation", "test")
 CLASSES = ("shuttlecock", "cup")
 WIDTH, HEIGHT = 600, 400
 TABLE = -0.43  # height of the table top in the shoulder frame (m)
-FOLDER = Path(__file__).parent / "data" / "photos"
-REAL = Path(__file__).parent / "data" / "real"
+FOLDER, REAL = data.FOLDER / "photos", data.FOLDER / "real"
 
 
 @dataclass(frozen=True, eq=False)

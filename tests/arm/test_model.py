@@ -1,6 +1,5 @@
 """The arm is OpenSim's arm26, and its closed form is the same arm again."""
 
-from importlib.resources import files
 from itertools import product
 
 import mujoco
@@ -20,14 +19,14 @@ from vmc_lib.arm.model import (
     mass_matrix,
     muscle_paths,
 )
+from vmc_lib.data import arrays
 
 MILLIMETRE = 1e-3
 
 
 @pytest.fixture(scope="module")
 def opensim():
-    with np.load(files("vmc_lib.data") / "opensim.npz", allow_pickle=False) as data:
-        reference = dict(data)
+    reference = arrays("opensim")
     shoulder = np.degrees(reference["q"][:, 0])
     within = (shoulder > -71) & (shoulder < 31)  # beyond, OpenSim's own paths jump
     return reference | {k: reference[k][within] for k in ("q", "lengths", "arms", "wrist")}

@@ -1,13 +1,12 @@
 """Two engines, one movement."""
 
-from importlib.resources import files
-
 import numpy as np
 import pytest
 
 from vmc_lib.arm.model import LIMITS
 from vmc_lib.arm.others import MUSCLES
 from vmc_lib.arm.simulate import World, simulate, steady
+from vmc_lib.data import arrays
 
 START = np.radians([-20.0, 95.0])
 QUIET = np.zeros((10, 6))
@@ -39,8 +38,7 @@ def test_the_engines_agree_with_a_load_in_a_force_field():
 
 def test_the_arm_with_opensims_muscles_moves_as_opensims():
     """Its tendons are stiff, not rigid, and its long biceps runs elsewhere by half a millimetre."""
-    with np.load(files("vmc_lib.data") / "opensim.npz", allow_pickle=False) as reference:
-        levels, expected = reference["levels"], reference["rigid"]
+    levels, expected = (arrays("opensim")[name] for name in ("levels", "rigid"))
     start = np.radians([0, 60])
     thelen, paper = (
         simulate(steady(levels, 0.6), start, muscle=MUSCLES[m]).q[:, 10::10]

@@ -5,11 +5,11 @@ shows that file, and a test measures the rows again and compares. Nothing in it 
 """
 
 import json
-from pathlib import Path
 
+from ..data import FOLDER
 from . import moving, seeing, whole
 
-FILE = Path(__file__).parents[1] / "data" / "ledger.json"
+FILE = FOLDER / "ledger.json"
 ROWS = (*whole.ROWS, *seeing.ROWS, *moving.ROWS)
 
 

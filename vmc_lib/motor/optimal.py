@@ -7,13 +7,13 @@ the optima of `TARGETS`; `python -m vmc_lib.motor.optimal` remakes them.
 """
 
 from functools import cache
-from importlib.resources import files
 from itertools import product
 
 import numpy as np
 from scipy.optimize import minimize
 
 from ..arm.posture import posture
+from ..data import FOLDER, arrays
 from .inverse import MOVE, STEPS, least, spline
 from .planning import plan
 from .templates import load, reach
@@ -66,8 +66,7 @@ def search(target):
 @cache
 def shipped():
     """The optimal excitations (25, T, 6) of `TARGETS`."""
-    with np.load(files("vmc_lib.data") / "optimal.npz", allow_pickle=False) as data:
-        return _excitations(data["knots"].astype(float))
+    return _excitations(arrays("optimal")["knots"].astype(float))
 
 
 def _excitations(x):
@@ -90,4 +89,4 @@ def _slopes(x):
 
 if __name__ == "__main__":
     knots = np.array([search(target).x for target in TARGETS], np.float32)
-    np.savez_compressed(files("vmc_lib.data") / "optimal.npz", knots=knots)
+    np.savez_compressed(FOLDER / "optimal.npz", knots=knots)

@@ -6,12 +6,12 @@ of the excitations; `python -m vmc_lib.motor.templates` remakes them.
 
 from dataclasses import dataclass
 from functools import cache
-from importlib.resources import files
 
 import numpy as np
 
 from ..arm.posture import posture
 from ..arm.simulate import EMPTY, simulate
+from ..data import FOLDER, arrays
 from .inverse import excitation_knots, hold, minimum_jerk, spline
 
 START = np.radians([-20.0, 95.0])  # every reach begins here: elbow bent, the hand over the table
@@ -34,8 +34,7 @@ def load(spacing=0.06):
     """The shipped `Library` whose reached points lie `spacing` metres apart."""
     if spacing not in SPACINGS:
         raise ValueError(f"no library has its points {spacing} m apart; choose one of {SPACINGS}")
-    with np.load(files("vmc_lib.data") / "templates.npz", allow_pickle=False) as data:
-        excitations = spline() @ data[_name(spacing)].astype(float)
+    excitations = spline() @ arrays("templates")[_name(spacing)].astype(float)
     return Library(reach(excitations).reached, excitations)
 
 
@@ -84,4 +83,4 @@ def _name(spacing):
 
 if __name__ == "__main__":
     libraries = {_name(s): np.array([make(p) for p in grid(s)], np.float32) for s in SPACINGS}
-    np.savez_compressed(files("vmc_lib.data") / "templates.npz", **libraries)
+    np.savez_compressed(FOLDER / "templates.npz", **libraries)
