@@ -2,6 +2,7 @@
 
 import ast
 import re
+from importlib.util import resolve_name
 from pathlib import Path
 
 import pytest
@@ -44,15 +45,38 @@ def test_everything_public_says_what_it_is(path):
     assert not [node.name for node in public if not ast.get_docstring(node)]
 
 
+def imports(source, part):
+    """The parts of `vmc_lib` that a module of `part` imports, in whatever form it says so."""
+    names = []
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.Import):
+            names += [alias.name for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            stem = resolve_name("." * node.level + (node.module or ""), f"vmc_lib.{part}")
+            names += [f"{stem}.{alias.name}" for alias in node.names]
+    return {name.split(".")[1] for name in names if name.startswith("vmc_lib.")}
+
+
+@pytest.mark.parametrize(
+    "source",
+    [
+        "import vmc_lib.show",
+        "import numpy, vmc_lib.show.arm as arm",
+        "from vmc_lib import show",
+        "from vmc_lib.show import say",
+        "from .. import show",
+        "from ..show import say",
+        "def late():\n    from ..show.figures import say",
+    ],
+)
+def test_no_form_of_import_goes_unseen(source):
+    assert imports(f"import numpy\nfrom . import boxes\n{source}", "where") == {"where", "show"}
+
+
 @pytest.mark.parametrize("part", SCIENCE)
 def test_dependencies_point_one_way(part):
-    imported = set()
-    for path in (ROOT / "vmc_lib" / part).glob("*.py"):
-        for node in ast.walk(ast.parse(path.read_text())):
-            if isinstance(node, ast.ImportFrom) and node.module:
-                name = node.module.removeprefix("vmc_lib.").split(".")[0]
-                if node.level == 2 or node.module.startswith("vmc_lib."):
-                    imported.add(name)
+    sources = (path.read_text() for path in (ROOT / "vmc_lib" / part).glob("*.py"))
+    imported = set().union(*(imports(source, part) for source in sources))
     assert imported - {part, "photos", "data"} <= MAY_IMPORT[part]
 
 
