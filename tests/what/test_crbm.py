@@ -249,3 +249,9 @@ def test_bad_shapes_are_named():
         next(machine.fit(torch.full((5, 1, 9, 9), torch.nan), range(1), 0))
     with pytest.raises(ValueError, match="belong"):
         CRBM(torch.zeros(2, 1, 4, 4), torch.zeros(3), torch.zeros(1))
+
+
+def test_a_patch_that_is_all_edge_has_nothing_to_learn():
+    machine = tiny(n_w=5)
+    with pytest.raises(ValueError, match="8 × 8 are all edge for filters of 5"):
+        next(machine.fit(torch.randn(10, 1, 8, 8, dtype=torch.float64), range(1), 0))

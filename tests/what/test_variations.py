@@ -3,6 +3,7 @@ import numpy as np
 from vmc_lib import photos
 from vmc_lib.what import variations
 from vmc_lib.what.cdbn import CDBN, N_W
+from vmc_lib.what.gabor import best_gabor
 from vmc_lib.what.recogniser import READ_OUTS
 
 
@@ -24,3 +25,8 @@ def test_the_network_that_ships_is_the_first_variation():
         np.corrcoef(a.ravel(), b.ravel())[0, 1] for a, b in zip(filters, shipped, strict=True)
     ]
     assert min(likeness) > 0.9  # another machine may round otherwise
+
+
+def test_every_width_finds_edges():
+    for variation, (filters, _) in variations.load().items():
+        assert np.median([best_gabor(w)[1] for w in filters]) > 0.75, variation

@@ -100,7 +100,7 @@ class GranuleCells(RegressorMixin, BaseEstimator):
     random about the first lessons; `ridge` is how reluctantly Purkinje weights move from zero.
     """
 
-    def __init__(self, width=0.05, cells=600, ridge=1e-4, random_state=0):
+    def __init__(self, width=0.05, cells=600, ridge=3e-4, random_state=0):
         self.width, self.cells, self.ridge, self.random_state = width, cells, ridge, random_state
 
     def fit(self, X, y):

@@ -29,11 +29,6 @@ class CDBN:
     mean: float
     spread: float
 
-    def pooled(self, v):
-        """P1 for whitened pictures v, as the second machine's input."""
-        _, p1 = self.first.posterior(self.first.trim(v))
-        return (p1 - self.mean) / self.spread
-
     def layers(self, v):
         """Every layer's maps (n, maps, height, width) for whitened pictures v (n, 1, 200, 200).
 
@@ -56,6 +51,7 @@ class CDBN:
         return F.conv_transpose2d(spread_out, self.first.W)[:, 0]
 
     def save(self, file):
+        """Write the network where `load` can read it: an .npz file, no pickle."""
         machines = {"first": self.first, "second": self.second}
         arrays = {f"{m}.{k}": x for m, crbm in machines.items() for k, x in crbm.arrays().items()}
         np.savez_compressed(file, mean=self.mean, spread=self.spread, **arrays)
@@ -72,8 +68,13 @@ class CDBN:
 
 
 def learn(maps, seed, n_w, patches, *, epochs, width, **how):
-    """One CRBM trained on patches of maps (n, channels, height, width), on their device."""
+    """One CRBM trained on patches of maps (n, channels, height, width), on their device.
+
+    The patches are so wide for filters of the usual width, and wider for wider ones, so that as
+    much of their middle is free to be dreamt anew.
+    """
     rng = torch.Generator().manual_seed(seed)
+    width += 2 * (n_w - N_W)
     width -= (width - n_w + 1) % C  # whole blocks only
     sample = Patches(maps, width, patches, rng)
     crbm = CRBM.random(K, maps.shape[1], n_w, rng, C, maps.device)
@@ -92,8 +93,7 @@ def train(pictures, positive, seed=0, n_w=N_W, patches=PATCHES, device="cpu"):
         raise ValueError("the second layer learns from the positive pictures: give at least one")
     pictures = pictures.to(device)
     first = learn(pictures, seed, n_w, patches, **FIRST)
-    start = CDBN(first, first, 0.0, 1.0)
-    p1 = start.pooled(pictures[torch.as_tensor(positive)])
+    _, p1 = first.posterior(first.trim(pictures[torch.as_tensor(positive)]))
     mean, spread = float(p1.mean()), float(p1.std())
     second = learn((p1 - mean) / spread, seed, n_w, patches, **SECOND)
     return CDBN(first, second, mean, spread)

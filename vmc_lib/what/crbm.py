@@ -102,9 +102,9 @@ class CRBM:
         Without `noise`, v becomes its mean instead of a sample around it. With `clamp`, the outer
         n_w - 1 pixels stay as they are: in a patch cut from a picture they are explained by too few
         of the hidden units that would see them, and learning would make up for it with blobs.
+        ValueError where that leaves no pixel free.
         """
-        edge = self.W.shape[-1] - 1
-        inside = (..., slice(edge, -edge), slice(edge, -edge)) if clamp else ...
+        inside = self._free(v) if clamp else ...
         while True:
             on, _ = self.posterior(v)
             yield v, on
@@ -113,6 +113,16 @@ class CRBM:
                 new = new + torch.randn(new.shape, generator=rng, dtype=v.dtype, device=v.device)
             v = v.clone()
             v[inside] = new[inside]
+
+    def _free(self, v):
+        """Where v is more than n_w - 1 pixels from its edge: an index."""
+        edge = self.W.shape[-1] - 1
+        if min(v.shape[2:]) <= 2 * edge:
+            raise ValueError(
+                f"patches of {v.shape[2]} × {v.shape[3]} are all edge for filters of {edge + 1}: "
+                f"give more than {2 * edge} pixels, or no clamp"
+            )
+        return ..., *(slice(edge, n - edge) for n in v.shape[2:])
 
     # ------------------------------------------------------------ learning
 
@@ -141,8 +151,8 @@ class CRBM:
     ):  # fmt: skip
         """Learn from `patches` (any (n, channels, n_v, n_v) that takes index lists), in place.
 
-        A generator: yields (epoch, mean squared reconstruction error) after each of `epochs`, a
-        range. Every epoch draws its own random numbers from (seed, epoch) and starts without
+        A generator: yields (epoch, mean squared reconstruction error of the pixels that are not
+        clamped) after each of `epochs`, a range. Every epoch draws its own random numbers from (seed, epoch) and starts without
         momentum, so a machine saved after epoch 3 and trained on range(4, 8) ends as one trained on
         range(8). `pressure` pulls each map's mean activity towards `sparsity` through its bias.
         `watch` wraps an epoch's batches: `bar`, or any progress bar of its kind. ValueError for no
@@ -163,7 +173,8 @@ class CRBM:
                 self.W = self.W + step * speed
                 self.b = self.b + step * (db / area + pressure * (sparsity - on.mean((0, 2, 3))))
                 self.a = self.a + step * da / area
-                errors.append((v - dream).square().mean())
+                free = self._free(v) if clamp else ...
+                errors.append((v - dream)[free].square().mean())
             error = float(torch.stack(errors).mean())
             if not isfinite(error):
                 raise ValueError(
