@@ -72,14 +72,13 @@ def test_a_hand_on_the_target_or_on_a_template_is_no_trouble():
     np.testing.assert_allclose(calibrate(exact).weights, [exact.weights] * 3, atol=1e-6)
 
 
-def test_guards_never_leave_the_hand_further_away(reaches):
+def test_guards_keep_a_loaded_hand_from_straying(reaches):
     loaded = reaches.under(World(load=0.25))
-    guarded, bold = (calibrate(loaded, 4, guarded=on) for on in (True, False))
-    np.testing.assert_array_equal(guarded.error[0], bold.error[0])
-    steps = np.linalg.norm(np.diff(bold.weights, axis=0), axis=-1)
-    assert steps.max() > 0.5  # what the guard is there for
-    steps = np.linalg.norm(guarded.weights[1] - guarded.weights[0], axis=-1)
-    assert steps.max() <= 0.5 + 1e-12
+    guarded, bold = (calibrate(loaded, 4, guarded=on).error for on in (True, False))
+    np.testing.assert_array_equal(guarded[0], bold[0])
+    assert bold[1:].max() > 2 * bold[0].max()  # what the guards are there for
+    assert guarded[1:].max() < 1.2 * guarded[0].max()
+    assert guarded[-1].mean() < 0.6 * bold[-1].mean()
 
 
 def test_ten_thousand_corrections_are_finite_and_none_diverges():

@@ -3,8 +3,10 @@
 import numpy as np
 import pytest
 
-from vmc_lib.arm.posture import posture
+from vmc_lib import photos
+from vmc_lib.arm.posture import posture, turn_towards
 from vmc_lib.motor import inverse, templates
+from vmc_lib.motor.planning import surrounded
 
 
 @pytest.mark.parametrize("spacing", templates.SPACINGS)
@@ -22,12 +24,12 @@ def test_the_reference_engine_agrees():
     np.testing.assert_allclose(motion.reached, library.points[:4], atol=1e-6)
 
 
-def test_the_finest_library_surrounds_every_shuttlecock():
-    x, y = np.meshgrid(np.linspace(0.08, 0.22, 5), np.linspace(-0.41, -0.385, 3))
+@pytest.mark.parametrize("level", photos.LEVELS)
+def test_every_library_surrounds_every_shuttlecock(level):
+    shots = [shot for split in photos.SPLITS for shot in photos.load(level, split)]
+    places = np.array([turn_towards(shot.target)[1] for shot in shots])
     for spacing in templates.SPACINGS:
-        points = templates.load(spacing).points
-        assert np.all(points.min(axis=0) <= [x.min(), y.min()])
-        assert np.all(points.max(axis=0) >= [x.max(), y.max()])
+        assert surrounded(places, templates.load(spacing).points).all()
 
 
 def test_what_ships_can_be_made_again():

@@ -3,7 +3,6 @@ import pytest
 import torch
 from scipy.stats import binomtest
 
-from vmc_lib import photos
 from vmc_lib.what.comparison import METHODS, judge, load, precision_recall, tally, verdicts, wilson
 from vmc_lib.what.hmax import c1, draw_prototypes, hmax, s1
 
@@ -46,13 +45,3 @@ def test_c2_is_one_where_the_prototype_came_from_and_forgives_a_shift():
     assert hmax(crops[:1], prototypes)[0] == pytest.approx(1, abs=1e-3)
     assert (hmax(crops[1:], prototypes) < 0.99).any()
     assert [maps.shape[1] for maps in c1(crops)] == [4] * 4
-
-
-def test_splits_share_no_photo():
-    names = [
-        shot.name
-        for level in photos.LEVELS
-        for split in photos.SPLITS
-        for shot in photos.load(level, split)
-    ]
-    assert len(names) == len(set(names))
