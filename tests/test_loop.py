@@ -54,7 +54,7 @@ def test_a_place_out_of_reach_is_said(brain):
 
 
 def test_scores_count_what_went_wrong(photo, sight):
-    missed = loop.score(photo, sight, {})
+    missed = loop.score(photo, sight, None, {})
     assert missed["found"] and missed["named"] and not missed["cup"]
     assert np.isnan([missed[key] for key in ("target", "planned", *loop.RULES)]).all()
     arrived = missed | dict.fromkeys(("target", "planned", *loop.RULES), 0.004)
@@ -65,10 +65,17 @@ def test_scores_count_what_went_wrong(photo, sight):
     assert list(loop.first_failure(both)) == ["place", ""]
 
 
+def test_a_right_place_that_cannot_be_reached_for_is_no_wrong_place(photo, sight):
+    scores = loop.score(photo, sight, photo.target, {})
+    assert scores["target"] == 0 and np.isnan(scores["own"])
+    several = {key: np.array([value]) for key, value in scores.items()}
+    assert list(loop.first_failure(several)) == ["movement"]
+
+
 def test_the_cup_is_told_from_the_shuttlecock(photo, sight):
     cup = photo.boxes["cup"]
     regions = type(sight.regions)(**{**vars(sight.regions), "boxes": cup[None]})
-    fooled = loop.score(photo, loop.Sight(regions, np.array([0.9])), {})
+    fooled = loop.score(photo, loop.Sight(regions, np.array([0.9])), None, {})
     assert fooled["cup"] and not fooled["named"] and not fooled["found"]
 
 

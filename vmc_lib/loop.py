@@ -111,19 +111,22 @@ def recalibrated(reach, calibration):
     return replace(reach, calibrated=habit.with_weights(calibration(habit).best).move())
 
 
-def score(photo, sight, reaches):
+def score(photo, sight, place, reaches):
     """How it went, stage by stage, held against the photo's truth.
 
     proposed: a candidate overlaps the shuttlecock by 0.8; found: a kept box does; named: the chosen
     box is the shuttlecock's (more than half of the union shared); cup: it is the cup's; then
-    distances in m from the true place: of the place itself, of the hand before calibration, and
-    after it by each rule of `reaches` (name -> `Reach`; empty where none was made: NaN).
+    distances in m from the true place: of the `place` found (3,), of the hand before calibration,
+    and after it by each rule of `reaches` (name -> `Reach`). They are NaN where no place was found
+    (`place` is None), or where it could not be reached for (`reaches` is empty).
     """
-    errors = dict.fromkeys(("target", "planned", *RULES), np.nan)
+    ends = {} if place is None else {"target": place}
     for rule, reach in reaches.items():
-        places = {"target": reach.target, "planned": reach.hand(reach.planned)[-1]}
-        places[rule] = reach.hand(reach.calibrated)[-1]
-        errors |= {name: np.linalg.norm(place - photo.target) for name, place in places.items()}
+        ends |= {"planned": reach.hand(reach.planned)[-1], rule: reach.hand(reach.calibrated)[-1]}
+    errors = {
+        name: np.linalg.norm(ends[name] - photo.target) if name in ends else np.nan
+        for name in ("target", "planned", *RULES)
+    }
     chosen = np.empty((0, 4)) if sight.box is None else sight.box[None]
     return {
         "proposed": _overlap(sight.regions.candidates, photo, "shuttlecock") >= FOUND,
@@ -163,16 +166,19 @@ def trial(level, split="test"):
 
 
 def _tried(brain, photo):
-    sight, reaches = see(brain, photo.image), {}
-    with suppress(ValueError):  # a place out of reach: no movement, and counted as such
+    sight, place, reaches = see(brain, photo.image), None, {}
+    with suppress(ValueError):  # nothing named, or out of reach: no movement, and counted as such
         place = locate(brain, photo.image, sight.box, photo.camera)
         first = reach(brain, place, calibration=None)
         reaches = {name: recalibrated(first, rule) for name, rule in RULES.items()}
-    return score(photo, sight, reaches)
+    return score(photo, sight, place, reaches)
 
 
 def summary(scores):
-    """Shares (in [0, 1]) found, named, arrived and close by each rule; median distances in m."""
+    """Shares (in [0, 1]) found, named, arrived and close by each rule; median distances in m.
+
+    The medians leave out what there is not: a photo without a place, or without a reach.
+    """
     shares = {name: float(scores[name].mean()) for name in ("found", "named", "cup")}
     medians = {name: float(np.nanmedian(scores[name])) for name in ("target", "planned", *RULES)}
     for name, distance in (("arrived", NEAR), ("close", CLOSE)):

@@ -97,6 +97,10 @@ def test_templates_on_a_line_are_refused():
     line = np.array([(0.0, -0.4), (0.1, -0.4), (0.2, -0.4), (0.3, -0.4)])
     with pytest.raises(ValueError, match="one line"):
         exact_weights(np.array([0.15, -0.4]), line)
+    with pytest.raises(ValueError, match="one plane"):
+        exact_weights(np.array([0.1, -0.4, 0.1]), np.column_stack([SQUARE, np.zeros(4)]))
+    with pytest.raises(ValueError, match="around the target"):
+        exact_weights(np.array([0.1, -0.4]), line[:1])
 
 
 @pytest.mark.parametrize("count", [3, 4, 6, 9])

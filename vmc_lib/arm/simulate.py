@@ -103,7 +103,10 @@ def steady(level, duration, step=STEP):
 def _each(name, value, leading, size):
     value = np.asarray(value, dtype=float)
     if value.shape not in ((size,), (*leading, size)) or not np.all(np.isfinite(value)):
-        raise ValueError(f"{name} must be finite, of shape ({size},) or {(*leading, size)}")
+        raise ValueError(
+            f"{name} must be finite, of shape ({size},) or {(*leading, size)}: this one has shape "
+            f"{value.shape} and {np.isfinite(value).sum()} finite values"
+        )
     return np.broadcast_to(value, (*leading, size)).reshape(-1, size)
 
 

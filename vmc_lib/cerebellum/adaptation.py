@@ -23,7 +23,7 @@ CORRECTIONS = ("aim", "pull")
 
 
 class Adaptation:
-    """A skilled learner (`Aim`, `Linear`) in a world that may change.
+    """A skilled learner (`Aim`, `Linear`) in a world that may change; its plans are batches.
 
     A lesson alone takes a share 1 / (1 + caution) of its error away.
     """
@@ -45,7 +45,7 @@ class Adaptation:
         return skilled.with_weights(skilled.weights + pull(plan.points, shift))
 
     def practise(self, plan: Plan):
-        """Move, and learn from the error that is seen; `plan` is a batch. Returns where it ended.
+        """Move, and learn from the error that is seen. Returns where it ended.
 
         The batch is learned at once: all its movements are made before the first lesson.
         """

@@ -33,7 +33,8 @@ def published(plan: Plan, gains=GAINS, origin=(0.0, 0.0), sign=1):
 
     The paper leaves open where positions are measured from (`origin`, here the shoulder) and which
     way the error points (`sign` = 1: from the hand to the target). `Trials` holds the plan's reach
-    and then one for each of `gains`.
+    and then one for each of `gains`; its `best` may be the plan itself, which the paper, choosing
+    among the n alone, does not allow: no correction should make a reach worse.
     """
     reached = plan.reached()
     changes = np.stack([published_change(plan, reached, n, origin, sign) for n in gains])

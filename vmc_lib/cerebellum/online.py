@@ -6,7 +6,8 @@ each excited by its own small region of targets, feed a few Purkinje weights (Ma
 1971), and every movement teaches by hindsight: wherever the hand went, the aim taken was the
 right one for going there.
 
-Both have `correct(plan)`, the plan with what was learned, and `practise(plan)`, one more lesson.
+Both have `correct(plan)`, the plan with what was learned, and `practise(plan)`, more lessons; what
+is practised is a batch of plans.
 """
 
 import numpy as np

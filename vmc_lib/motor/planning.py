@@ -95,15 +95,19 @@ def exact_weights(target, points):
 
 
 def least_change(jacobian, shift):
-    """The smallest Δw (…, N) with Σ Δw = 0 that shifts the hand by `shift` (…, 2).
+    """The smallest Δw (…, N) with Σ Δw = 0 that shifts the hand by `shift` (…, D).
 
-    `jacobian` (…, 2, N) says where each weight takes the hand; for Eq. 4 it is the points p_i.
-    ValueError when the templates lie on one line, for then they cannot span the shift.
+    `jacobian` (…, D, N) says where each weight takes the hand; for Eq. 4 it is the points p_i, in
+    the arm's plane (D = 2) or in space (3). ValueError when the templates lie on one line (in
+    space, in one plane), for then they cannot span the shift.
     """
     centred = jacobian - jacobian.mean(axis=-1, keepdims=True)
     strength = np.linalg.svd(centred, compute_uv=False)
-    if np.any(strength[..., 1] < 1e-6 * strength[..., 0]):
-        raise ValueError("the templates lie on one line; choose templates around the target")
+    if np.any(strength[..., -1] <= 1e-6 * strength[..., 0]):
+        raise ValueError(
+            "the templates lie on one line, or in space in one plane; choose templates around "
+            "the target"
+        )
     return (np.linalg.pinv(centred) @ shift[..., None])[..., 0]
 
 

@@ -17,7 +17,7 @@ from torch.nn import functional as F
 from vmc_lib import photos
 from vmc_lib.what.cdbn import CDBN
 from vmc_lib.what.crops import crop, whiten
-from vmc_lib.where.boxes import iou
+from vmc_lib.where.boxes import iou, shaken
 
 FILE = Path(__file__).parents[1] / "data" / "recogniser.npz"
 STRENGTHS = 10.0 ** np.arange(-1, 5)
@@ -71,9 +71,9 @@ def fit(x, y, x_validation, y_validation):
     likelihood on the validation set is kept, and its probabilities are calibrated there with
     Platt's sigmoid (1999). ValueError for an empty set, NaN, or labels of one class only.
     """
-    for features, labels in ((x, y), (x_validation, y_validation)):
+    for use, features, labels in (("train", x, y), ("validate", x_validation, y_validation)):
         if len(features) == 0 or len(np.unique(labels)) < 2 or not np.isfinite(features).all():
-            raise ValueError("give finite features of both classes, to train and to validate")
+            raise ValueError(f"to {use}, give finite features of both classes")
     centre = x.mean(0)
     size = np.sqrt(np.square(x - centre).sum(1).mean())
     x, x_validation = (x - centre) / size, (x_validation - centre) / size
@@ -97,18 +97,12 @@ def fit(x, y, x_validation, y_validation):
 # ---------------------------------------------------------------- crops to learn from
 
 
-def shaken(box, rng, amount=SHAKE):
-    """A box whose sides each stray by `amount` of its size: as a region proposal would fit."""
-    size = np.tile(box[2:] - box[:2], 2)
-    return box + rng.normal(0, amount, 4) * size
-
-
 def elsewhere(shot, rng):
     """A box of a likely size that overlaps with no object (IoU below 0.3)."""
     objects = np.array(list(shot.boxes.values()))
     while True:
         width, height = rng.uniform(50, 180, 2)
-        x, y = rng.uniform(0, 600 - width), rng.uniform(0, 400 - height)
+        x, y = rng.uniform(0, photos.WIDTH - width), rng.uniform(0, photos.HEIGHT - height)
         if (iou([(x, y, x + width, y + height)], objects) < 0.3).all():
             return np.array([x, y, x + width, y + height])
 
@@ -119,7 +113,7 @@ def examples(shots, rng, copies=COPIES, background=0):
     crops, labels = [], []
     for shot in shots:
         boxes = [(box, name == "shuttlecock") for name, box in shot.boxes.items()] * copies
-        boxes = [(shaken(box, rng), label) for box, label in boxes]
+        boxes = [(shaken(box, SHAKE, rng), label) for box, label in boxes]
         boxes += [(elsewhere(shot, rng), False) for _ in range(background)]
         for box, label in boxes:
             picture = crop(shot.image, box)
