@@ -152,9 +152,10 @@ class CRBM:
         """Learn from `patches` (any (n, channels, n_v, n_v) that takes index lists), in place.
 
         A generator: yields (epoch, mean squared reconstruction error of the pixels that are not
-        clamped) after each of `epochs`, a range. Every epoch draws its own random numbers from (seed, epoch) and starts without
-        momentum, so a machine saved after epoch 3 and trained on range(4, 8) ends as one trained on
-        range(8). `pressure` pulls each map's mean activity towards `sparsity` through its bias.
+        clamped) after each of `epochs`, a range. Every epoch draws its own random numbers from
+        (seed, epoch) and starts without momentum, so a machine saved after epoch 3 and trained on
+        range(4, 8) ends as one trained on range(8). `pressure` pulls each map's mean activity
+        towards `sparsity` through its bias.
         `watch` wraps an epoch's batches: `bar`, or any progress bar of its kind. ValueError for no
         patches, for NaN in them, and when learning runs away.
         """
