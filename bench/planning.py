@@ -30,11 +30,7 @@ WORK = {  # what -> (call, how often, simulated movements)
     "own rule, one target, two trials": (lambda: calibrate(moved), 5, 2),
     "own rule, 25 targets, two trials": (lambda: calibrate(plan(targets, library)), 3, 75),
     "online correction, one target": (lambda: cerebellum.correct(moved), 20, 0),
-    "one online lesson of 25 movements": (
-        lambda: cerebellum.practise(plan(targets, library)),
-        5,
-        25,
-    ),
+    "25 movements, learned online": (lambda: cerebellum.practise(plan(targets, library)), 5, 25),
     "optimal control, one target": (lambda: optimal.solve(target), 2, None),
 }
 
