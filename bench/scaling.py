@@ -16,7 +16,8 @@ from vmc_lib.motor import templates
 from vmc_lib.motor.inverse import spline
 from vmc_lib.motor.planning import draw_targets, plan
 from vmc_lib.where.evaluate import localisation
-from vmc_lib.where.regions import RECIPES, RegionFinder
+from vmc_lib.where.recipes import RECIPES
+from vmc_lib.where.regions import RegionFinder
 
 SPACINGS = (0.08, 0.06, 0.04, 0.03, 0.02)  # m
 ON_THE_TABLE = (0.08, -0.42), (0.22, -0.38)  # m: where the photos' shuttlecocks lie, in the plane

@@ -4,7 +4,18 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from vmc_lib.where.boxes import area, as_boxes, iou, nms
+from vmc_lib.where.boxes import (
+    area,
+    as_boxes,
+    corrected,
+    corrections,
+    iou,
+    mirrored,
+    nms,
+    shaken,
+    vote,
+    widened,
+)
 
 coordinate = st.integers(-50, 700)
 box = st.builds(
@@ -94,3 +105,55 @@ def test_boxes_that_are_no_boxes(bad):
 def test_one_finite_score_a_box(scores):
     with pytest.raises(ValueError, match="scores"):
         nms([(0, 0, 1, 1), (0, 0, 2, 2)], scores)
+
+
+def test_votes_pull_towards_the_crowd():
+    crowd = np.array([[0, 0, 10, 10], [0, 0, 12, 10], [50, 50, 60, 60]], float)
+    voted = vote(np.array([0]), crowd, np.array([2.0, 2.0, 3.0]))
+    assert voted == pytest.approx(np.array([[0, 0, 11, 10]]))
+    lagging = vote(np.array([0]), crowd, np.array([2.0, 0.0, 3.0]))
+    assert lagging == pytest.approx(crowd[:1], abs=1e-3)
+
+
+def test_no_vote_outweighs_the_box_it_is_for():
+    """The middle box, silenced by the first, scored higher than the last, and has no vote on it."""
+    row = np.array([[0, 0, 10, 10], [3, 0, 13, 10], [6, 0, 16, 10]], float)
+    scores = np.array([3.0, 2.9, 1.0])
+    kept = nms(row, scores)
+    assert kept.tolist() == [0, 2] and iou(row[1], row[kept]).min() > 0.5
+    first, last = vote(kept, row, scores)
+    assert first[0] > 1 and (last == row[2]).all()
+
+
+def test_a_box_without_area_has_its_own_vote():
+    point = as_boxes([3, 3, 3, 3])
+    assert (vote(np.array([0]), point, np.array([1.0])) == point).all()
+
+
+solid = st.builds(
+    lambda x, y, w, h: np.array([[x, y, x + w, y + h]], float),
+    *[st.integers(0, 300)] * 2,
+    *[st.integers(5, 200)] * 2,
+)
+
+
+@given(solid, solid)
+def test_a_corrected_box_is_the_true_box(box, true):
+    assert corrected(box, corrections(box, true)) == pytest.approx(true, abs=1e-6)
+
+
+@given(solid)
+def test_two_mirrors_change_nothing(box):
+    assert (mirrored(mirrored(box, 600), 600) == box).all()
+
+
+def test_a_margin_is_a_share_of_the_sides():
+    assert widened([(10, 10, 30, 50)], 0.25).tolist() == [[5, 0, 35, 60]]
+
+
+def test_shaken_boxes_stray_in_proportion():
+    boxes = np.tile([0.0, 0, 100, 10], (4000, 1))
+    strays = shaken(boxes, 0.08, np.random.default_rng(0)) - boxes
+    assert strays.std(0) == pytest.approx([8, 0.8, 8, 0.8], rel=0.05)
+    one = shaken(boxes[0], 0.08, np.random.default_rng(0))
+    assert (one == (boxes + strays)[0]).all()

@@ -1,9 +1,13 @@
 import numpy as np
 import pytest
+from scipy.stats import sem, t
 
 from vmc_lib import photos
+from vmc_lib.data import arrays
 from vmc_lib.where import evaluate
-from vmc_lib.where.regions import RECIPES, RegionFinder, examples, stored
+from vmc_lib.where.lessons import examples
+from vmc_lib.where.recipes import RECIPES
+from vmc_lib.where.regions import RegionFinder
 
 
 @pytest.mark.parametrize("level", photos.LEVELS)
@@ -12,7 +16,7 @@ def test_what_ships_as_found_is_found(level, name):
     """In all but a few photos: another processor may round a pixel differently."""
     some, same = photos.load(level, "test")[:5], 0
     for photo, regions in zip(some, evaluate.search(level, "test", name), strict=False):
-        kept = stored("found")[f"{photo.name}/{name}"]
+        kept = arrays("found")[f"{photo.name}/{name}"]
         same += len(kept) == len(regions.boxes) and np.allclose(kept, regions.boxes, atol=1)
     assert same >= 4
 
@@ -43,11 +47,12 @@ def test_table_1_counts_the_examples_of_the_split():
 @pytest.mark.parametrize("name", evaluate.SEEDED)
 def test_the_finder_that_ships_is_one_of_its_kind(name):
     """Its Table II row is the first of the seeds' rows: the same training and tuning."""
-    rows = stored("found")[f"rig/{name}/seeds"]
+    rows = arrays("found")[f"rig/{name}/seeds"]
     assert rows.shape == (evaluate.SEEDS, 2)
     assert evaluate.table_2("rig")[name] == pytest.approx(rows[0], abs=0.03)
     mean, half = evaluate.spread("rig", name)
-    assert (half >= 0).all() and (abs(rows - mean).mean(0) <= mean).all()
+    low, high = t.interval(0.95, len(rows) - 1, rows.mean(0), sem(rows))
+    assert mean - half == pytest.approx(low) and mean + half == pytest.approx(high)
 
 
 def test_a_stricter_overlap_finds_less():

@@ -1,3 +1,5 @@
+from itertools import product
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -131,9 +133,19 @@ def test_the_most_similar_pair_merges_first():
 
 @pytest.mark.parametrize("name", ss.COLOUR_SPACES)
 def test_colour_spaces_fill_the_unit_range(name):
-    channels = ss.COLOUR_SPACES[name](ss.as_rgb(PHOTO))
+    """Each channel, on all eight corners of the colour cube."""
+    chart = np.array(list(product((0, 255), repeat=3)), np.uint8)[None]
+    channels = ss.COLOUR_SPACES[name](ss.as_rgb(chart))
     assert channels.ndim == 3 and channels.dtype == np.float32
-    assert channels.min() > -0.1 and channels.max() < 1.1 and np.ptp(channels) > 0.3
+    assert channels.min() >= 0 and channels.max() <= 1
+    assert (np.ptp(channels, axis=(0, 1)) > 0.6).all()
+
+
+def test_a_strategy_names_what_there_is():
+    with pytest.raises(ValueError, match="'CMYK' is none of RGB, HSV, Lab, rgI, H, I"):
+        ss.Strategy(("HSV", "CMYK"))
+    with pytest.raises(ValueError, match="'taste' is none of colour, texture, size, fill"):
+        ss.Strategy(similarities=(ss.ALL, ("size", "taste")))
 
 
 def test_proposals_are_whole_distinct_boxes_inside_the_image():
@@ -228,5 +240,5 @@ def test_images_that_are_no_images(image, message):
 
 
 def test_unknown_strategy():
-    with pytest.raises(ValueError, match="single, fast, quality"):
+    with pytest.raises(ValueError, match="single, fast, quality, finer"):
         ss.propose(PHOTO, "fastest")

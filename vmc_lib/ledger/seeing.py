@@ -8,7 +8,7 @@ from .. import paper, photos
 from ..what import cdbn, comparison, gabor
 from ..where import baselines, evaluate
 from ..where.boxes import iou
-from ..where.regions import candidates
+from ..where.lessons import candidates
 from .entry import RATIO, SHARE, Quantity, Row
 
 

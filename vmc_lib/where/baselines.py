@@ -3,7 +3,7 @@
 import cv2
 import numpy as np
 
-from .boxes import area
+from .boxes import area, widened
 from .selective_search import as_rgb
 
 
@@ -40,11 +40,9 @@ def edge_density(image, windows, rim=0.15):
         return summed[y1, x1] - summed[y0, x1] - summed[y1, x0] + summed[y0, x0]
 
     height, width = grey.shape
-    sides = windows[:, 2:] - windows[:, :2]
-    wide = np.hstack([windows[:, :2] - rim * sides, windows[:, 2:] + rim * sides])
     inner, outer = (
         np.clip(boxes.round().astype(int), 0, [width, height, width, height])
-        for boxes in (windows, wide)
+        for boxes in (windows, widened(windows, rim))
     )
     rim_area = np.maximum(area(outer) - area(inner), 1)
     return inside(inner) / np.maximum(area(inner), 1) - (inside(outer) - inside(inner)) / rim_area

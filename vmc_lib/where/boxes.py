@@ -1,4 +1,4 @@
-"""Boxes: how far two of them agree, and which of a crowd to keep."""
+"""Boxes: how far two of them agree, which of a crowd to keep, how to move one onto another."""
 
 import numpy as np
 
@@ -24,6 +24,11 @@ def as_boxes(boxes):
 def area(boxes):
     """Areas (n,) of boxes (n, 4), in square pixels."""
     return np.prod(boxes[..., 2:] - boxes[..., :2], axis=-1)
+
+
+def centres_and_sides(boxes):
+    """Centres (n, 2) and sides (n, 2), along x and y, of boxes (n, 4)."""
+    return (boxes[..., :2] + boxes[..., 2:]) / 2, boxes[..., 2:] - boxes[..., :2]
 
 
 def iou(a, b):
@@ -54,3 +59,59 @@ def nms(boxes, scores, overlap=0.3):
         kept.append(best)
         waiting = rest[iou(boxes[best], boxes[rest])[0] <= overlap]
     return np.array(kept, int)
+
+
+def vote(kept, boxes, scores, warmth=0.2):
+    """The boxes `kept` (indices), each the mean of itself and those it silenced: votes.
+
+    A box votes for each kept one that it overlaps by half or more and does not outscore. A vote
+    weighs exp(-lag / warmth), its score lagging that much behind the kept box's (after Gidaris &
+    Komodakis 2015).
+    """
+    lag = scores[kept, None] - scores
+    votes = (lag >= 0) & (iou(boxes[kept], boxes) >= 0.5)
+    votes[np.arange(len(kept)), kept] = True  # without area, it does not overlap even itself
+    weights = votes * np.exp(-lag.clip(0) / warmth)
+    return weights @ boxes / weights.sum(1, keepdims=True)
+
+
+# ---------------------------------------------------------------- boxes from boxes
+
+
+def enclosing(a, b):
+    """The smallest boxes around boxes a and b, row by row."""
+    return np.concatenate(
+        [np.minimum(a[..., :2], b[..., :2]), np.maximum(a[..., 2:], b[..., 2:])], axis=-1
+    )
+
+
+def widened(boxes, margin):
+    """Boxes (n, 4) with a margin around them, given as a share of their sides."""
+    boxes = as_boxes(boxes)
+    pad = margin * (boxes[:, 2:] - boxes[:, :2])
+    return np.hstack([boxes[:, :2] - pad, boxes[:, 2:] + pad])
+
+
+def mirrored(boxes, width):
+    """Boxes (n, 4) in the mirror image of an image of that width."""
+    return np.stack([width - boxes[:, 2], boxes[:, 1], width - boxes[:, 0], boxes[:, 3]], axis=1)
+
+
+def shaken(boxes, amount, rng):
+    """Boxes (..., 4) each edge of which strays by about `amount` of the box's sides."""
+    _, sides = centres_and_sides(boxes)
+    return boxes + rng.normal(0, amount, boxes.shape) * np.tile(sides, 2)
+
+
+def corrections(boxes, truth):
+    """How to move (in sides) and stretch (as logarithms) each box to its true box: (n, 4)."""
+    (centres, sides), (true_centres, true_sides) = map(centres_and_sides, (boxes, truth))
+    return np.hstack([(true_centres - centres) / sides, np.log(true_sides / sides)])
+
+
+def corrected(boxes, corrections):
+    """Boxes (n, 4) moved and stretched by corrections (n, 4)."""
+    centres, sides = centres_and_sides(boxes)
+    centres = centres + corrections[:, :2] * sides
+    half = sides * np.exp(corrections[:, 2:]) / 2
+    return np.hstack([centres - half, centres + half])

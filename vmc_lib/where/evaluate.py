@@ -4,26 +4,21 @@ A split is "train" (in-sample), or "validation" or "test" (held out). What every
 every photo is stored, by `python -m vmc_lib.where.evaluate`, so that a table costs no search.
 """
 
+from collections import ChainMap
 from itertools import product
 
 import numpy as np
+from joblib import Parallel, delayed
 from scipy.stats import t
 
 from vmc_lib import photos
 
+from ..data import FOLDER, arrays
 from .boxes import iou
-from .regions import (
-    DATA,
-    RECIPES,
-    Machine,
-    RegionFinder,
-    best_threshold,
-    candidates,
-    examples,
-    scenes,
-    stored,
-    training_examples,
-)
+from .lessons import candidates, examples, lessons, training_examples
+from .machine import Machine, best_threshold
+from .recipes import RECIPES
+from .regions import RegionFinder
 
 TABLE_1_KERNELS = {"linear": 0.1, "rbf": 10, "poly": 10, "sigmoid": 0.1}  # with their costs
 TABLE_1_RECIPES = ("published", "context")
@@ -37,7 +32,7 @@ def table_1(level, split="test", name="published"):
     As in the paper, over candidates that clearly hold an object or clearly do not; with the
     features and examples of the recipe `name`: "published" or "context".
     """
-    rows = stored("found")[f"{level}/{name}/table 1"][photos.SPLITS.index(split)]
+    rows = arrays("found")[f"{level}/{name}/table 1"][photos.SPLITS.index(split)]
     return {
         kernel: tuple(map(float, row)) for kernel, row in zip(TABLE_1_KERNELS, rows, strict=True)
     }
@@ -49,7 +44,7 @@ def classify(level, name, kernel):
     Beyond the published recipe, whose threshold is 0, the threshold is the validation photos' best.
     """
     recipe, rng = RECIPES[name], np.random.default_rng(0)
-    learnt = training_examples(scenes(photos.load(level, "train"), recipe), recipe, rng)
+    learnt = training_examples(lessons(photos.load(level, "train"), recipe), recipe, rng)
     machine = Machine.fit(*learnt, kernel, TABLE_1_KERNELS[kernel])
     scored = {}
     for split in photos.SPLITS:
@@ -76,17 +71,17 @@ def table_2(level, split="test", overlap=0.8):
     """Table II: precision and recall of the final boxes of each recipe, right at IoU `overlap`."""
     some, rows = photos.load(level, split), {}
     for name in RECIPES:
-        kept = [stored("found")[f"{photo.name}/{name}"] for photo in some]
+        kept = [arrays("found")[f"{photo.name}/{name}"] for photo in some]
         rows[name] = localisation(some, kept, overlap)
     return rows
 
 
-def localisation(photos, boxes, overlap=0.8):
+def localisation(shots, boxes, overlap=0.8):
     """Precision and recall of a list of boxes a photo: a box is right at IoU `overlap` or more.
 
     Precision is the share of boxes that are right, recall that of objects with a right box.
     """
-    shared = [iou(b, list(p.boxes.values())) >= overlap for p, b in zip(photos, boxes, strict=True)]
+    shared = [iou(b, list(p.boxes.values())) >= overlap for p, b in zip(shots, boxes, strict=True)]
     right = np.concatenate([hits.any(1) for hits in shared])
     reached = np.concatenate([hits.any(0) for hits in shared])
     return float(right.sum() / max(right.size, 1)), float(reached.mean())
@@ -97,7 +92,7 @@ def spread(level, name):
 
     Precision and recall on the test photos at IoU 0.8; the recipe is one of SEEDED.
     """
-    rows = stored("found")[f"{level}/{name}/seeds"]
+    rows = arrays("found")[f"{level}/{name}/seeds"]
     return rows.mean(0), t.ppf(0.975, len(rows) - 1) * rows.std(0, ddof=1) / len(rows) ** 0.5
 
 
@@ -105,6 +100,21 @@ def figure_6(level, split="test", name="published"):
     """Fig. 6: the mean number of boxes a photo that each step leaves."""
     counts = [regions.counts for regions in search(level, split, name)]
     return {step: float(np.mean([count[step] for count in counts])) for step in counts[0]}
+
+
+# ---------------------------------------------------------------- measured once, and stored
+
+
+def found(level, split, name):
+    """The boxes that the shipped finder `name` leaves, by photo."""
+    pairs = zip(photos.load(level, split), search(level, split, name), strict=True)
+    return {f"{photo.name}/{name}": regions.boxes.astype(np.float32) for photo, regions in pairs}
+
+
+def classified(level, name):
+    """Table I of one recipe, (3 splits, 4 kernels, 2)."""
+    rows = [classify(level, name, kernel) for kernel in TABLE_1_KERNELS]
+    return {f"{level}/{name}/table 1": np.swapaxes(rows, 0, 1)}
 
 
 def trained_anew(level, name):
@@ -115,19 +125,13 @@ def trained_anew(level, name):
         finder = RegionFinder.fit(photos.load(level, "train"), RECIPES[name], rng)
         finder = finder.tuned(photos.load(level, "validation"))
         rows.append(localisation(some, [r.boxes for r in search(level, "test", finder)]))
-    return rows
+    return {f"{level}/{name}/seeds": np.array(rows)}
 
 
 if __name__ == "__main__":
-    found = {}
-    for level, split, name in product(photos.LEVELS, photos.SPLITS, RECIPES):
-        for photo, regions in zip(
-            photos.load(level, split), search(level, split, name), strict=True
-        ):
-            found[f"{photo.name}/{name}"] = regions.boxes.astype(np.float32)
-    for level, name in product(photos.LEVELS, TABLE_1_RECIPES):
-        rows = [classify(level, name, kernel) for kernel in TABLE_1_KERNELS]
-        found[f"{level}/{name}/table 1"] = np.swapaxes(rows, 0, 1)
-    for level, name in product(photos.LEVELS, SEEDED):
-        found[f"{level}/{name}/seeds"] = np.array(trained_anew(level, name))
-    np.savez_compressed(DATA / "found.npz", **found)
+    jobs = [  # the longest first
+        *(delayed(trained_anew)(*job) for job in product(photos.LEVELS[::-1], SEEDED[::-1])),
+        *(delayed(classified)(*job) for job in product(photos.LEVELS[::-1], TABLE_1_RECIPES)),
+        *(delayed(found)(*job) for job in product(photos.LEVELS, photos.SPLITS, RECIPES)),
+    ]
+    np.savez_compressed(FOLDER / "found.npz", **ChainMap(*Parallel(n_jobs=-1)(jobs)))

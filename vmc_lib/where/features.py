@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .boxes import as_boxes
+from .boxes import as_boxes, widened
 
 
 def crops(image, boxes, size):
@@ -24,13 +24,6 @@ def crops(image, boxes, size):
     samples = image[y.astype(int)[:, :, None], x.astype(int)[:, None, :]]
     cells = samples.reshape(len(boxes), size, 2, size, 2, channels)
     return cells.mean((2, 4), dtype=np.float32) / 255
-
-
-def widened(boxes, margin):
-    """Boxes (n, 4) with a margin around them, given as a share of their sides."""
-    boxes = as_boxes(boxes)
-    pad = margin * (boxes[:, 2:] - boxes[:, :2])
-    return np.hstack([boxes[:, :2] - pad, boxes[:, 2:] + pad])
 
 
 def raw_pixels(image, boxes, margin=0.0):

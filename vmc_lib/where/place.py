@@ -14,7 +14,7 @@ from sklearn.compose import TransformedTargetRegressor
 from sklearn.kernel_ridge import KernelRidge
 from sklearn.preprocessing import StandardScaler
 
-from .boxes import as_boxes
+from .boxes import as_boxes, centres_and_sides, shaken
 from .features import gradients, raw_pixels
 
 COPIES, SHAKE = 12, 0.05  # boxes learnt from per photo, and how far their sides stray
@@ -29,15 +29,14 @@ class Locator:
     model: TransformedTargetRegressor
 
     @classmethod
-    def fit(cls, photos, rng):
+    def fit(cls, shots, rng):
         """Learn from photos whose shuttlecocks' places are known; `rng` shakes their boxes."""
         seen, wanted = [], []
-        for photo in photos:
+        for photo in shots:
             box = photo.boxes["shuttlecock"]
-            strays = rng.normal(0, SHAKE, (COPIES, 4)) * np.tile(box[2:] - box[:2], 2)
-            boxes = box + np.vstack([np.zeros(4), strays])
-            middle, sides = _middle_and_sides(boxes)
-            away = (photo.camera.project(photo.target) - middle) / sides
+            boxes = np.vstack([box, shaken(np.tile(box, (COPIES, 1)), SHAKE, rng)])
+            centres, sides = centres_and_sides(boxes)
+            away = (photo.camera.project(photo.target) - centres) / sides
             seen.append(_describe(photo.image, boxes))
             wanted.append(np.column_stack([away, np.full(len(boxes), photo.target[1] / SIDE)]))
         regression = KernelRidge(kernel="rbf", gamma=ALIKE, alpha=PENALTY)
@@ -50,20 +49,16 @@ class Locator:
         ValueError when the line of sight misses the height it should have.
         """
         boxes = as_boxes(box)
-        middle, sides = _middle_and_sides(boxes)
+        centres, sides = centres_and_sides(boxes)
         right, down, height = self.model.predict(_describe(image, boxes))[0]
-        return camera.back_project(middle + [right, down] * sides, height * SIDE)[0]
+        return camera.back_project(centres + [right, down] * sides, height * SIDE)[0]
 
 
 def _describe(image, boxes):
     """What boxes (n, 4) show, coarse and fine, and their shapes: (n, d)."""
-    _, sides = _middle_and_sides(boxes)
+    _, sides = centres_and_sides(boxes)
     outlines = [
         gradients(image, boxes, cells, margin=margin)
         for cells, margin in ((8, 0.0), (10, 0.25), (14, 0.1))
     ]
     return np.hstack([*outlines, 0.3 * raw_pixels(image, boxes), np.log(sides)])
-
-
-def _middle_and_sides(boxes):
-    return (boxes[:, :2] + boxes[:, 2:]) / 2, boxes[:, 2:] - boxes[:, :2]

@@ -7,21 +7,22 @@ object (Uijlings et al. 2013; the paper's Block 1-1, bottom-up part).
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from heapq import heapify, heappop, heappush
-from itertools import product
+from itertools import chain, product
 
 import cv2
 import numpy as np
 from scipy.ndimage import find_objects
 from skimage.segmentation import felzenszwalb
 
-from .boxes import area
+from .boxes import area, enclosing
 
 # ---------------------------------------------------------------- the image, seen in other ways
 
+LAB_LOWEST, LAB_RANGE = np.float32([[0, -128, -128], [100, 255, 255]])  # L, a and b
 COLOUR_SPACES = {  # float RGB in 0..1 -> channels in about 0..1
     "RGB": lambda rgb: rgb,
     "HSV": lambda rgb: cv2.cvtColor(rgb, cv2.COLOR_RGB2HSV) / np.float32([360, 1, 1]),
-    "Lab": lambda rgb: (cv2.cvtColor(rgb, cv2.COLOR_RGB2Lab) + np.float32([0, 128, 128])) / 255,
+    "Lab": lambda rgb: (cv2.cvtColor(rgb, cv2.COLOR_RGB2Lab) - LAB_LOWEST) / LAB_RANGE,
     "rgI": lambda rgb: np.dstack([rgb[..., :2] / (rgb.sum(2, keepdims=True) + 1e-6), rgb.mean(2)]),
     "H": lambda rgb: COLOUR_SPACES["HSV"](rgb)[..., :1],
     "I": lambda rgb: rgb.mean(2, keepdims=True),
@@ -80,21 +81,20 @@ class Appearance:
             histogram[new] = (a * histogram[i] + b * histogram[j]) / (a + b)
 
 
-def enclosing(a, b):
-    """The smallest boxes around boxes a and b, row by row."""
-    return np.concatenate(
-        [np.minimum(a[..., :2], b[..., :2]), np.maximum(a[..., 2:], b[..., 2:])], axis=-1
-    )
-
-
 def colour_codes(channels, bins=25):
-    """For each channel, which of `bins` bins each pixel's value falls into: (c, pixels)."""
+    """For each channel, which of `bins` bins each pixel's value falls into.
+
+    Returns the codes (c, pixels), and `bins`.
+    """
     values = channels.reshape(-1, channels.shape[2]).T
     return (values * bins).clip(0, bins - 1).astype(np.uint8), bins
 
 
 def texture_codes(channels, bins=10):
-    """For each channel and eight directions, the bin of each pixel's upward slope: (8c, pixels)."""
+    """For each channel and eight directions, which of `bins` bins each pixel's upward slope is in.
+
+    Returns the codes (8c rows of pixels), and `bins`.
+    """
     codes = []
     for channel in np.moveaxis(channels, 2, 0):
         smooth = cv2.GaussianBlur(channel, (0, 0), 1)
@@ -190,10 +190,10 @@ def touching(labels):
 def grow(labels, look, similarities):
     """Merge the two most similar neighbours, again and again, until one region is left.
 
-    `look` is the Appearance of the segments in `labels`; likeness is the sum of the named
-    `similarities` (with none, the lowest numbers merge first). A merged region's row follows from
-    its two parts' rows, so no step looks at pixels, and a heap has the best pair at hand: n
-    segments cost about n log n.
+    `look` is the Appearance of the segments in `labels`, whose empty rows are filled; likeness is
+    the sum of the named `similarities` (with none, the lowest numbers merge first). A merged
+    region's row follows from its two parts' rows, so no step looks at pixels, and a heap has the
+    best pair at hand: n segments cost about n log n.
     """
     n = labels.max() + 1
 
@@ -228,17 +228,29 @@ def grow(labels, look, similarities):
 # ---------------------------------------------------------------- many hierarchies, one list
 
 
+ALL, COLOURLESS = ("colour", "texture", "size", "fill"), ("texture", "size", "fill")
+
+
 @dataclass(frozen=True)
 class Strategy:
-    """Which hierarchies to grow: one for every colour space, scale and set of similarities."""
+    """Which hierarchies to grow: one for every colour space, scale and set of similarities.
+
+    ValueError for a name that is none of COLOUR_SPACES, or of SIMILARITIES.
+    """
 
     colours: tuple = ("HSV",)
     k: tuple = (100,)  # scales of the segmentation
-    similarities: tuple = (("colour", "texture", "size", "fill"),)
+    similarities: tuple = (ALL,)
+
+    def __post_init__(self):
+        named = (self.colours, COLOUR_SPACES), (chain(*self.similarities), SIMILARITIES)
+        for names, known in named:
+            for name in names:
+                if name not in known:
+                    raise ValueError(f"{name!r} is none of {', '.join(known)}")
 
 
-ALL, COLOURLESS = ("colour", "texture", "size", "fill"), ("texture", "size", "fill")
-STRATEGIES = {  # Uijlings et al. (2013), Table 6
+STRATEGIES = {  # Uijlings et al. (2013), Table 6; "finer" is ours
     "single": Strategy(),
     "fast": Strategy(("HSV", "Lab"), (50, 100), (ALL, COLOURLESS)),
     "quality": Strategy(
@@ -246,6 +258,7 @@ STRATEGIES = {  # Uijlings et al. (2013), Table 6
         (50, 100, 150, 300),
         (ALL, COLOURLESS, ("fill",), ("size",)),
     ),
+    "finer": Strategy(("HSV", "Lab"), (50,)),
 }
 
 
@@ -290,7 +303,7 @@ def ranked(trees, rng, smallest=20):
 def propose(image, strategy="single", rng=None, smallest=20):
     """Candidate boxes (n, 4) for objects in an image, `ranked`.
 
-    `strategy` is "single", "fast", "quality" or a Strategy; without an `rng` the draw of the ranks
+    `strategy` is one of STRATEGIES, by name, or a Strategy; without an `rng` the draw of the ranks
     repeats from call to call. A blank image gives one box, one with a side under `smallest` none.
     ValueError for an unknown strategy, and as for `as_rgb`.
     """

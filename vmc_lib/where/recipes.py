@@ -1,0 +1,50 @@
+"""How to choose regions: the paper's recipe, and five that each add an idea to the one before."""
+
+from dataclasses import dataclass, replace
+from functools import partial
+
+from .features import gradients, raw_pixels
+
+FEATURES = {
+    "pixels": raw_pixels,
+    "context": partial(raw_pixels, margin=0.25),
+    "gradients": gradients,
+}
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """How to choose regions; the defaults are the paper's."""
+
+    strategy: str = "single"  # of selective search
+    features: str = "pixels"  # one of FEATURES
+    kernel: str = "linear"
+    cost: float = 0.1  # of an example on the wrong side
+    gate: float = 0.0  # candidates that score above it pass
+    shaken: int = 0  # more examples of each object: its true box, shaken a little
+    mirror: bool = False  # learn from the photos' mirror images too
+    looks: tuple = ()  # corrections of a box; how far off, in sides, each expects it to be
+    judged: bool = False  # a second machine scores the boxes where the looks have led them
+    vote: bool = False  # boxes silenced by a better one still pull at its sides
+    overlap: float = 0.3  # that non-maximum suppression allows
+
+    def describe(self, image, boxes):
+        """The features (n, d) of boxes (n, 4) of an image."""
+        return FEATURES[self.features](image, boxes)
+
+
+PUBLISHED = Recipe()
+CONTEXT = replace(PUBLISHED, features="context", shaken=5, mirror=True, gate=-1)
+GRADIENTS = replace(CONTEXT, features="gradients")
+LOOKS = replace(GRADIENTS, strategy="finer", looks=(0.15, 0.1, 0.07, 0.05))
+JUDGED = replace(LOOKS, judged=True)
+IMPROVED = replace(JUDGED, vote=True)
+RECIPES = {
+    "published": PUBLISHED,
+    "context": CONTEXT,
+    "gradients": GRADIENTS,
+    "looks": LOOKS,
+    "judged": JUDGED,
+    "improved": IMPROVED,
+}
+TRAINED_AS = {"looks": "improved", "judged": "improved"}  # these do less with the same training
