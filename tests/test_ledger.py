@@ -5,9 +5,15 @@ import pytest
 from vmc_lib import ledger
 from vmc_lib.ledger import whole
 from vmc_lib.ledger.entry import Quantity, measure
+from vmc_lib.loop import RULES
 from vmc_lib.photos import LEVELS
 
 STORED = {entry["where"]: entry for entry in ledger.load()["rows"]}
+
+
+def same(number):
+    """A stored number or None, and what rounding on another machine may change of it."""
+    return pytest.approx(number, rel=0.02, abs=1e-9)
 
 
 def test_every_table_and_figure_of_the_paper_has_one_row():
@@ -23,8 +29,8 @@ def test_row_is_what_a_run_gives(row):
     measured, stored = measure(row), STORED[row.where]
     assert [q["name"] for q in measured["quantities"]] == [q["name"] for q in stored["quantities"]]
     for now, then in zip(measured["quantities"], stored["quantities"], strict=True):
-        assert now["claimed"] == then["claimed"]
-        assert now["obtained"] == pytest.approx(then["obtained"], rel=0.02, abs=0.02), now["name"]
+        for number in ("claimed", "obtained", "in_sample"):
+            assert now[number] == same(then[number]), (now["name"], number)
     assert measured["state"] == stored["state"]
 
 
@@ -36,8 +42,10 @@ def test_a_reason_stands_where_and_only_where_we_differ(row):
 @pytest.mark.parametrize("level", LEVELS)
 def test_the_loop_on_the_test_photos_is_what_a_run_gives(level):
     now, then = whole.fate(level), ledger.load()["loop"][level]
+    medians = ("target", "planned", *RULES)  # in m; the others are shares of forty photos
     for key, value in now["summary"].items():
-        assert value == pytest.approx(then["summary"][key], rel=0.05, abs=0.03), key
+        slack = {"rel": 0.05} if key in medians else {"abs": 0.05}
+        assert value == pytest.approx(then["summary"][key], **slack), key
     for rule, stages in now["failures"].items():
         moved = sum(a != b for a, b in zip(stages, then["failures"][rule], strict=True))
         assert moved <= 0.05 * len(stages), rule

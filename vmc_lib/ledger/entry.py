@@ -1,7 +1,7 @@
 """What an entry of the ledger is: a claim of the paper, and the numbers that test it."""
 
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
+from dataclasses import KW_ONLY, asdict, dataclass
 
 import numpy as np
 
@@ -21,12 +21,14 @@ class Quantity:
     name: str
     claimed: float
     obtained: float
+    _: KW_ONLY
     in_sample: float | None = None
     tolerance: float = 0.0
     better: int = 0
 
     @property
     def agrees(self) -> bool:
+        """Whether `obtained` bears out what is `claimed`."""
         gap = self.obtained - self.claimed
         short = -self.better * gap if self.better else abs(gap)
         return short <= self.tolerance + 1e-9

@@ -46,7 +46,12 @@ def _table_3():
 def _precision_recall(claimed, held_out, in_sample):
     return [
         Quantity(
-            f"{name}: {measure}", claimed[name][k], held_out[name][k], in_sample[name][k], SHARE, 1
+            f"{name}: {measure}",
+            claimed[name][k],
+            held_out[name][k],
+            in_sample=in_sample[name][k],
+            tolerance=SHARE,
+            better=1,
         )
         for name in claimed
         for k, measure in enumerate(("precision", "recall"))
@@ -76,7 +81,13 @@ def _figure_5():
 def _figure_6():
     counts = evaluate.figure_6("rig")
     boxes = paper.BOXES / paper.PHOTOS
-    return [Quantity("candidates a photo", boxes, counts["candidates"], None, 0.5 * boxes)]
+    passed = counts["passed"] / counts["candidates"]
+    kept = counts["kept"] / counts["passed"]
+    return [
+        Quantity("candidates a photo", boxes, counts["candidates"], tolerance=0.5 * boxes),
+        Quantity("passed by the classifier, over candidates", 1, passed, better=-1),
+        Quantity("kept after suppression, over passed", 1, kept, better=-1),
+    ]
 
 
 def _figure_7():
@@ -93,9 +104,8 @@ def _figure_7():
             "first-layer filters that a Gabor fits (correlation over 0.75)",
             1,
             np.greater(alike, 0.75).mean(),
-            None,
-            0.2,
-            1,
+            tolerance=0.2,
+            better=1,
         ),
     ]
 
@@ -128,8 +138,14 @@ def _search():
     ours, theirs = (_boxed(some, every) for every in (found, [windows] * len(some)))
     fewer = np.mean([len(boxes) for boxes in found]) / len(windows)
     return [
-        Quantity("boxes to look at, over those of exhaustive search", 1, fewer, None, 0, -1),
-        Quantity("objects boxed well (IoU 0.8), over the same", 1, ours / theirs, None, SHARE, 1),
+        Quantity("boxes to look at, over those of exhaustive search", 1, fewer, better=-1),
+        Quantity(
+            "objects boxed well (IoU 0.8), over the same",
+            1,
+            ours / theirs,
+            tolerance=SHARE,
+            better=1,
+        ),
     ]
 
 
@@ -148,27 +164,25 @@ def _classes():
     some = photos.load("varied", "test")
     found = [candidates(photo, "fast") for photo in some]
     bird, cup = (_boxed(some, found, [name]) for name in photos.CLASSES)
-    return [Quantity("shuttlecocks boxed well, over cups", 1, bird / cup, None, RATIO)]
+    return [Quantity("shuttlecocks boxed well, over cups", 1, bird / cup, tolerance=RATIO)]
 
 
 def _fewer():
     counts = evaluate.figure_6("rig")
     share = counts["kept"] / counts["candidates"]
-    return [Quantity("crops to be named, over candidates", 1, share, None, 0, -1)]
+    return [Quantity("crops to be named, over candidates", 1, share, better=-1)]
 
 
 def _learnt():
-    table = comparison.table_3("varied")
-    return [
-        Quantity(f"errors of MP2 less those of {method}", 0, *_fewer_errors(table, method), 0, -1)
-        for method in ("HMAX, 10 prototypes", "HOG", "SIFT, bag of words")
-    ]
-
-
-def _fewer_errors(table, method):
-    """Held out and in sample: false positives and false negatives, MP2's less the method's."""
-    for sample in ("held_out", "in_sample"):
-        yield sum(table["CDBN, MP2"][sample][1:3]) - sum(table[method][sample][1:3])
+    table, quantities = comparison.table_3("varied"), []
+    for method in ("HMAX, 10 prototypes", "HOG", "SIFT, bag of words"):
+        held_out, in_sample = (
+            sum(table["CDBN, MP2"][sample][1:3]) - sum(table[method][sample][1:3])
+            for sample in ("held_out", "in_sample")
+        )
+        name = f"errors of MP2 less those of {method}"
+        quantities.append(Quantity(name, 0, held_out, in_sample=in_sample, better=-1))
+    return quantities
 
 
 def _deeper():
@@ -181,8 +195,8 @@ def _deeper():
     answers = np.asarray(network.layers(cdbn.whiten(crops))["P2"]).mean(axis=(1, 2, 3))
     prefers = answers[shuttlecock].mean() / answers[~shuttlecock].mean()
     return [
-        Quantity("a Gabor fits W² over W¹ (correlations)", 1, second / first, None, 0, -1),
-        Quantity("answer of P² to shuttlecocks over cups", 1, prefers, None, 0, 1),
+        Quantity("a Gabor fits W² over W¹ (correlations)", 1, second / first, better=-1),
+        Quantity("answer of P² to shuttlecocks over cups", 1, prefers, better=1),
     ]
 
 

@@ -10,7 +10,7 @@ from .entry import SHARE, Quantity, Row
 
 def _figure_1():
     share = np.isfinite(trial("rig")["planned"]).mean()
-    return [Quantity("photos that end in a reach", 1, share, None, SHARE, 1)]
+    return [Quantity("photos that end in a reach", 1, share, tolerance=SHARE, better=1)]
 
 
 @cache

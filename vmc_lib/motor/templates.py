@@ -15,7 +15,8 @@ from ..data import FOLDER, arrays
 from .inverse import excitation_knots, hold, minimum_jerk, spline
 
 START = np.radians([-20.0, 95.0])  # every reach begins here: elbow bent, the hand over the table
-SPACINGS = (0.04, 0.06, 0.08)  # m: how densely past experience covers the plane
+SPACINGS = (0.04, 0.06, 0.08)  # m: how densely past experience covers the plane …
+SPACING = 0.06  # … unless another is asked for
 CORNER = np.array([0.24, -0.37])  # every grid is laid out from this point
 ZONE = np.array([[-0.01, -0.50], [0.25, -0.28]])  # lowest and highest (x, y): in front, table high
 REACH = 0.525  # m from the shoulder: a nearly straight arm
@@ -30,7 +31,7 @@ class Library:
 
 
 @cache
-def load(spacing=0.06):
+def load(spacing=SPACING):
     """The shipped `Library` whose reached points lie `spacing` metres apart."""
     if spacing not in SPACINGS:
         raise ValueError(f"no library has its points {spacing} m apart; choose one of {SPACINGS}")
