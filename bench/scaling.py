@@ -1,8 +1,12 @@
 """What more experience buys, and what it costs in processor seconds: templates, movements, photos.
 
 Every point is a job of its own, handed to joblib: `parallel_config` decides where the jobs run.
+With `PHOTOS=folder`, the varied training photos come from there, and may be more than ship:
+
+    python -m vmc_lib.data.render --only varied/train --count 400 --folder folder
 """
 
+import os
 from itertools import pairwise
 from time import process_time
 
@@ -22,7 +26,8 @@ from vmc_lib.where.regions import RegionFinder
 SPACINGS = (0.08, 0.06, 0.04, 0.03, 0.02)  # m
 ON_THE_TABLE = (0.08, -0.42), (0.22, -0.38)  # m: where the photos' shuttlecocks lie, in the plane
 LESSONS = (0, 25, 50, 100, 250, 500, 1000, 2500)
-PHOTOS = (10, 20, 40, 80, 160)
+PHOTOS = (10, 20, 40, 80, 160, 400)
+FOLDER = os.environ.get("PHOTOS", photos.FOLDER)
 
 
 def missed(habit):
@@ -59,7 +64,8 @@ def more_movements():
 
 def more_photos(count):
     """A finder that learnt from so many varied photos: the objects it misses on validation."""
-    seen, unseen = photos.load("varied", "train")[:count], photos.load("varied", "validation")
+    seen = photos.load("varied", "train", FOLDER)[:count]
+    unseen = photos.load("varied", "validation")
     start = process_time()
     finder = RegionFinder.fit(seen, RECIPES["improved"], np.random.default_rng(0))
     seconds = process_time() - start
@@ -73,8 +79,9 @@ def row(more, size, error, seconds):
 
 
 if __name__ == "__main__":
+    there = len(photos.load("varied", "train", FOLDER))
     jobs = [
-        *(delayed(more_photos)(count) for count in PHOTOS[::-1]),
+        *(delayed(more_photos)(count) for count in PHOTOS[::-1] if count <= there),
         *(delayed(more_templates)(spacing) for spacing in SPACINGS[::-1]),
         delayed(more_movements)(),
     ]

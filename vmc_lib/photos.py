@@ -92,18 +92,19 @@ class Photo:
     seed: tuple
 
 
-def load(level, split):
+def load(level, split, folder=FOLDER):
     """The photos of one level and split, in order of their names; each is read only once.
 
+    `folder` holds them; those that ship, unless told otherwise.
     Raises ValueError for an unknown level or split, and for a photo that is missing or damaged.
     """
     if level not in LEVELS:
         raise ValueError(f"unknown level {level!r}: choose from {LEVELS}")
     if split not in SPLITS:
         raise ValueError(f"unknown split {split!r}: choose from {SPLITS}")
-    sidecars = sorted((FOLDER / level / split).glob("*.json"))
+    sidecars = sorted((Path(folder) / level / split).glob("*.json"))
     if not sidecars:
-        raise ValueError(f"no photos under {FOLDER / level / split}: see vmc_lib.data.render")
+        raise ValueError(f"no photos under {Path(folder) / level / split}: see vmc_lib.data.render")
     return [_read(sidecar) for sidecar in sidecars]
 
 

@@ -36,7 +36,8 @@ def whiten(pictures, cutoff=0.4):
         raise ValueError(f"pictures are (n, height, width), not {tuple(x.shape)}")
     if not (x.isfinite().all() and (x.std((1, 2)) > 1e-4).all()):
         raise ValueError("a picture needs finite values and some contrast: one has not")
-    border = max(1, min(x.shape[1:]) // 10)  # mirrored, so that opposite edges do not meet in the transform
+    # A mirrored border, so that opposite edges do not meet in the transform
+    border = max(1, min(x.shape[1:]) // 10)
     x = torch.nn.functional.pad(x[:, None], [border] * 4, mode="reflect")
     fy, fx = torch.fft.fftfreq(x.shape[-2])[:, None], torch.fft.rfftfreq(x.shape[-1])
     f = torch.hypot(fy, fx)

@@ -1,8 +1,12 @@
-"""Remake the photos: `python -m vmc_lib.data.render [--only rig/test/003] [--samples 25]`."""
+"""Remake the photos: `python -m vmc_lib.data.render [--only rig/test/003] [--samples 25]`.
+
+More of a kind: `--only varied/train --count 400 --folder more`.
+"""
 
 import argparse
 import itertools
 import json
+from pathlib import Path
 
 import numpy as np
 from PIL import Image
@@ -21,7 +25,7 @@ def box(mask):
     return [int(columns[0]), int(rows[0]), int(columns[-1]) + 1, int(rows[-1]) + 1]
 
 
-def make(level, split, number, samples):
+def make(level, split, number, samples, folder):
     """Draw scenes until shuttlecock and cup are in full view; write the photo and its sidecar."""
     seed = (LEVELS.index(level), SPLITS.index(split), number)
     rng = np.random.default_rng(seed)
@@ -40,7 +44,7 @@ def make(level, split, number, samples):
         "pose": drawn.pose,
         "seed": seed,
     }
-    path = FOLDER / level / split / f"{number:03d}.jpg"
+    path = folder / level / split / f"{number:03d}.jpg"
     path.parent.mkdir(parents=True, exist_ok=True)
     Image.fromarray(image).save(path, quality=90)
     path.with_suffix(".json").write_text(json.dumps(truth, indent=1) + "\n")
@@ -50,11 +54,15 @@ def main():
     parser = argparse.ArgumentParser(prog="python -m vmc_lib.data.render", description=__doc__)
     parser.add_argument("--only", default="", help="a level, level/split or level/split/number")
     parser.add_argument("--samples", type=int, default=25, help="light paths a pixel")
+    parser.add_argument(
+        "--count", type=int, help="photos of each kind; by default, as many as ship"
+    )
+    parser.add_argument("--folder", type=Path, default=FOLDER, help="where to write them")
     arguments = parser.parse_args()
     for level, split in itertools.product(LEVELS, SPLITS):
-        for number in range(MORE.get((level, split), COUNTS[split])):
+        for number in range(arguments.count or MORE.get((level, split), COUNTS[split])):
             if f"{level}/{split}/{number:03d}".startswith(arguments.only):
-                make(level, split, number, arguments.samples)
+                make(level, split, number, arguments.samples, arguments.folder)
 
 
 if __name__ == "__main__":
