@@ -73,6 +73,12 @@ def test_photo_view_draws_boxes_and_points():
     assert 'cx="30.0" cy="40.0"' in svg and "target" in svg
 
 
+def test_a_pad_reads_a_photo_in_pixels_unless_it_is_told_otherwise():
+    image = np.zeros((400, 600, 3), np.uint8)
+    assert 'data-axes="0 600 400 0 0 1 1 0"' in photo_view(image)
+    assert 'data-axes="0.5 5.5 2.5 0.5 0 1 1 0"' in photo_view(image, axes=(0.5, 5.5, 2.5, 0.5))
+
+
 def test_plots_share_no_names_unless_they_are_states_of_one():
     def drawn():
         fig, ax = plt.subplots()

@@ -32,7 +32,7 @@ def arm_scene(
     stands; `balls` are (position (3,), colour name) pairs; `trail` (n, 3) is a line, for instance
     the hand's path. Only the arm turns with the trunk: all else stays where it is.
     """
-    scene = Scene(_furniture())
+    scene, q = Scene(_furniture()), np.asarray(q, float)
     seen = geometry(q)
     pulls = np.minimum(force(activation, *fibres(*paths(q), velocity), maximum=1.0), 1)
     thin, thick = TUBE

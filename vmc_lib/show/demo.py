@@ -11,7 +11,6 @@ import html
 import itertools
 import json
 import math
-import os
 
 import ipywidgets as widgets
 import numpy as np
@@ -19,6 +18,7 @@ from IPython.display import HTML, display
 
 from vmc_lib.show.controls import as_control
 from vmc_lib.show.figures import framed, pictures, side_by_side
+from vmc_lib.show.life import life
 from vmc_lib.show.scene import Scene, SceneView
 
 MOST_POSITIONS = 200
@@ -44,16 +44,12 @@ def explore(draw, caption, alt, **controls):
             "give the controls fewer values"
         )
     describe = alt if callable(alt) else lambda **values: alt
-    life = os.environ.get("VMC_LIFE", "live")
-    if life == "live":
-        _live(draw, caption, describe, controls)
-    elif life in ("book", "test"):
-        name = f"demo-{next(_demos)}"
-        states = _evaluate(draw, describe, controls, name)
-        if life == "book":
-            display(HTML(_page(states, caption, controls, name)))
-    else:
-        raise ValueError(f"VMC_LIFE={life!r}: must be 'live', 'book' or 'test'")
+    if life() == "live":
+        return _live(draw, caption, describe, controls)
+    name = f"demo-{next(_demos)}"
+    states = _evaluate(draw, describe, controls, name)
+    if life() == "book":
+        display(HTML(_page(states, caption, controls, name)))
 
 
 def figure(picture, caption, alt):

@@ -192,13 +192,15 @@ def _encode(pixels, shape):
     return f"data:image/{kind};base64,{base64.b64encode(data).decode()}"
 
 
-def photo_view(image, boxes=(), points=()):
+def photo_view(image, boxes=(), points=(), axes=None):
     """A photo with boxes on it, as SVG.
 
     `boxes` holds (box, label, colour name) with box = (x0, y0, x1, y1) in pixels; `points` holds
-    ((x, y), label, colour name). Labels may be empty.
+    ((x, y), label, colour name). Labels may be empty. `axes` is what a `Pad` reads at the photo's
+    left, right, bottom and top edge: pixels, unless told otherwise.
     """
     height, width = image.shape[:2]
+    left, right, bottom, top = axes or (0, width, height, 0)
     marks = []
     for (x0, y0, x1, y1), label, colour in boxes:
         rect = f'x="{x0:.1f}" y="{y0:.1f}" width="{x1 - x0:.1f}" height="{y1 - y0:.1f}"'
@@ -211,7 +213,7 @@ def photo_view(image, boxes=(), points=()):
     return "\n".join(
         [
             f'<svg viewBox="0 0 {width} {height}" width="{width}" height="{height}" fill="none" '
-            f'stroke-width="3" font-size="20" data-axes="0 {width} {height} 0 0 1 1 0">',
+            f'stroke-width="3" font-size="20" data-axes="{left} {right} {bottom} {top} 0 1 1 0">',
             f'<image width="{width}" height="{height}" href="',
             _data_uri(image),
             '"/>',

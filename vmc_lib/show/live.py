@@ -8,7 +8,6 @@ import base64
 import html
 import itertools
 import json
-import os
 from pathlib import Path
 
 import anywidget
@@ -28,10 +27,12 @@ from vmc_lib.motor.inverse import STEPS, hold, spline
 from vmc_lib.motor.planning import plan
 from vmc_lib.show.arm import BONE, BONE_RADIUS, TUBE, arm_scene
 from vmc_lib.show.figures import COLOURS, framed, pictures, say, side_by_side
+from vmc_lib.show.life import life
 from vmc_lib.show.moving import plane_view
 from vmc_lib.show.reaching import plane
 from vmc_lib.show.scene import STATIC, SceneView
 
+MODES = ("bench", "reach")
 TRIALS = 2  # of our own calibration: off-line, the page has no more to learn
 MUJOCO = Path(__file__).parents[2] / "book/_static/vendor/mujoco.js"
 _ENDS = ("red", "purple")  # where the planned and the calibrated reach end
@@ -52,10 +53,13 @@ def live_arm(mode, caption, alt, target=(0.12, -0.42)):
     says what to notice, `alt` describes the picture in words. Raises ValueError when the mode is
     unknown or when no templates surround the target.
     """
-    if mode not in _MODES:
-        raise ValueError(f"mode {mode!r} is unknown: choose one of {sorted(_MODES)}")
+    if mode not in MODES:
+        raise ValueError(f"mode {mode!r} is unknown: choose one of {MODES}")
+    if life() == "live" and not MUJOCO.exists():
+        away = "*Without the book's own files this arm stays at rest: start it in the built page.*"
+        return say(away)
     name = f"live-{next(_made)}"
-    scene, plot, form = _MODES[mode](name, np.asarray(target, dtype=float))
+    scene, plot, form = _bench(name) if mode == "bench" else _reach(name, np.asarray(target, float))
     data = json.dumps(given() | {"scene": scene.messages()}, allow_nan=False)
     data = data.replace("<", r"\u003c")  # or the model's XML would confuse the page's
     page = (
@@ -63,13 +67,10 @@ def live_arm(mode, caption, alt, target=(0.12, -0.42)):
         f"{side_by_side(pictures((scene, plot), name), alt)}{form}"
         f'<script type="application/json">{data}</script></div>'
     )
-    life = os.environ.get("VMC_LIFE", "live")
-    if life == "book":
+    if life() == "book":
         display(HTML(framed(page, caption)))
-    elif life == "live" and MUJOCO.exists():
+    elif life() == "live":
         display(LiveArm(page=page), HTML(framed("", caption)))
-    elif life == "live":
-        say("*Without the book's own files this arm stays at rest: start it in the built page.*")
 
 
 class LiveArm(anywidget.AnyWidget):
@@ -119,7 +120,7 @@ def given():
     }
 
 
-def _bench(name, target):
+def _bench(name):
     """The arm at rest, the plane it moves in, and six sliders."""
     scene = arm_scene(templates.START)
     scene.look((0.75, 0.0, 0.95), at=(0.08, -0.2, -0.03))
@@ -164,10 +165,11 @@ def _form(legend, buttons, controls, tells):
     told = "".join(
         f'<div><dt>{label}</dt><dd data-tell="{name}">–</dd></div>' for name, label in tells.items()
     )
+    size = f"{MUJOCO.stat().st_size / 1e6:.1f} MB"
     return (
         '<form class="vmc-live-form" autocomplete="off">'
         f'<div><button type="button" name="main">Start the arm</button>{closed}</div>'
-        '<p role="status">MuJoCo (3.7 MB, part of this book) is loaded when you start.</p>'
+        f'<p role="status">MuJoCo ({size}, part of this book) is loaded when you start.</p>'
         f'<fieldset disabled><legend class="vmc-spoken">{legend}</legend>{controls}</fieldset>'
         f"<dl>{told}</dl></form>"
     )
@@ -189,6 +191,3 @@ def _choice(name, label, options):
         for i, (value, text) in enumerate(options.items())
     )
     return f'<fieldset class="vmc-control"><legend>{label}</legend>{radios}</fieldset>'
-
-
-_MODES = {"bench": _bench, "reach": _reach}

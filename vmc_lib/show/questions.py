@@ -6,12 +6,12 @@ page has no kernel to run the reader's line, `check` offers a field to type the 
 
 import html
 import json
-import os
 
 import numpy as np
 from IPython.display import HTML, display
 
 from vmc_lib.show.figures import inline
+from vmc_lib.show.life import life
 
 # JupyterLab would take Enter as its own, and the answer would stay closed.
 _OWN_KEYS = 'onkeydown="event.stopPropagation()"'
@@ -49,13 +49,12 @@ def check(answer, expected, tolerance=1e-6, hint=""):
     `hint` (Markdown) and, in a test (`VMC_LIFE=test`), raises AssertionError: running a chapter
     proves its solutions.
     """
-    life = os.environ.get("VMC_LIFE")
     if None in np.ravel(np.asarray(answer, object)).tolist():
-        typed = life == "book" and isinstance(expected, (int, float, str, tuple))
+        typed = life() == "book" and isinstance(expected, (int, float, str, tuple))
         return display(HTML(_field(expected, tolerance, hint) if typed else _verdict(NOT_YET)))
     if _agree(answer, expected, tolerance):
         return display(HTML(_verdict(RIGHT)))
-    if life == "test":
+    if life() == "test":
         raise AssertionError(f"check: {answer!r} is not {expected!r} within {tolerance}")
     display(HTML(_verdict(f"{WRONG} You have {html.escape(str(answer))}. {inline(hint)}")))
 

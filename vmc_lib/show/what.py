@@ -39,8 +39,7 @@ def units(stack, column, row, zoom):
     height, width = image.shape
     high, wide = height / 2, width / 5
     box = (column - 1) * wide, (row - 1) * high, column * wide, row * high
-    svg = photo_view(image, [(box, "", "orange")])
-    return svg.replace(f'data-axes="0 {width} {height} 0 ', 'data-axes="0.5 5.5 2.5 0.5 ')
+    return photo_view(image, [(box, "", "orange")], axes=(0.5, 5.5, 2.5, 0.5))
 
 
 def explanations_of(v, energies, chances, names):

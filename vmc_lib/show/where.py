@@ -12,6 +12,7 @@ from IPython.display import display
 from vmc_lib.photos import read_image
 from vmc_lib.show.demo import figure
 from vmc_lib.show.figures import COLOURS, photo_view
+from vmc_lib.show.life import life
 from vmc_lib.where.boxes import iou
 
 
@@ -80,7 +81,7 @@ def your_own(draw, example, caption, alt):
     `draw` takes an image (400, 600, 3) and returns markup. The photo stays in the kernel.
     """
     figure(draw(example), caption, alt)
-    if os.environ.get("VMC_LIFE", "live") == "live":
+    if life() == "live":
         button = widgets.FileUpload(accept="image/*", description="Your photo")
         view = widgets.HTML()
         button.observe(lambda _: setattr(view, "value", drawn(draw, button.value)), "value")

@@ -289,7 +289,7 @@ const vmcArm = (() => {
     }
   }
 
-  /* ---- Getting MuJoCo: 3.7 MB from the book's own files, when an arm is first started ---- */
+  /* ---- Getting MuJoCo from the book's own files, when an arm is first started ---- */
 
   const fetchMujoco = async () => {
     if (typeof loadMujoco === "undefined")
