@@ -15,7 +15,8 @@ UNLISTED = re.compile(
     r"__main__|data\.render|show\.(browser|photos|where|what|moving|reaching|loop)"
 )
 SCIENCE = ("where", "what", "arm", "motor", "cerebellum")
-MAY_IMPORT = {  # beside itself, the photos and the data: dependencies point one way
+SHARED = ("photos", "data", "intervals")
+MAY_IMPORT = {  # beside itself and what is shared: dependencies point one way
     "where": set(),
     "what": {"where"},
     "arm": set(),
@@ -43,6 +44,19 @@ def test_everything_public_says_what_it_is(path):
     ]
     assert ast.get_docstring(tree)
     assert not [node.name for node in public if not ast.get_docstring(node)]
+
+
+@pytest.mark.parametrize("path", [p for p in FILES if p.stem != "simulate"], ids=module)
+def test_every_public_method_says_what_it_does(path):  # of a name that classes share, one may
+    methods = [
+        method
+        for node in ast.parse(path.read_text()).body
+        if isinstance(node, ast.ClassDef) and not node.name.startswith("_")
+        for method in node.body
+        if isinstance(method, ast.FunctionDef) and not method.name.startswith("_")
+    ]
+    said = {method.name for method in methods if ast.get_docstring(method)}
+    assert {method.name for method in methods} == said
 
 
 def imports(source, part):
@@ -77,7 +91,7 @@ def test_no_form_of_import_goes_unseen(source):
 def test_dependencies_point_one_way(part):
     sources = (path.read_text() for path in (ROOT / "vmc_lib" / part).glob("*.py"))
     imported = set().union(*(imports(source, part) for source in sources))
-    assert imported - {part, "photos", "data"} <= MAY_IMPORT[part]
+    assert imported - {part, *SHARED} <= MAY_IMPORT[part]
 
 
 @pytest.mark.parametrize("path", FILES, ids=module)

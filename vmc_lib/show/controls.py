@@ -1,7 +1,6 @@
 """The controls of a demo: what the reader moves.
 
-Each knows its values, its face in the built page (`html`) and its face in a live kernel
-(`widget`, which returns the widgets to listen to and the one to show).
+Each knows its values, its face in the built page and its face in a live kernel.
 """
 
 import html
@@ -49,8 +48,20 @@ class Control:
         """The value that the control's widgets stand at."""
         return sources[0].value
 
+    def html(self, name, stride):
+        """Its face in the built page: markup named `name`; a value's place counts `stride` times.
+
+        Demos count their positions in mixed radix, and the page's script adds up the places.
+        """
+        raise NotImplementedError
+
+    def widget(self):
+        """Its face in a live kernel: the widgets to listen to, and the one to show."""
+        raise NotImplementedError
+
     @property
     def texts(self):
+        """The values as the reader sees them, with their unit."""
         unit = self.unit if self.unit in ("", "°") else f" {self.unit}"
         return [f"{_text(value)}{unit}" for value in self.values]
 

@@ -3,8 +3,8 @@
 import matplotlib.pyplot as plt
 import numpy as np
 
+from vmc_lib.intervals import wilson
 from vmc_lib.show.figures import COLOURS, photo_view
-from vmc_lib.what.comparison import wilson
 
 
 def grey(v, reach=3.0, zoom=1):

@@ -9,11 +9,11 @@ from itertools import product
 
 import numpy as np
 from joblib import Parallel, delayed
-from scipy.stats import t
 
 from vmc_lib import photos
 
 from ..data import FOLDER, arrays
+from ..intervals import student
 from .boxes import iou
 from .lessons import candidates, examples, lessons, training_examples
 from .machine import Machine, best_threshold
@@ -92,8 +92,7 @@ def spread(level, name):
 
     Precision and recall on the test photos at IoU 0.8; the recipe is one of SEEDED.
     """
-    rows = arrays("found")[f"{level}/{name}/seeds"]
-    return rows.mean(0), t.ppf(0.975, len(rows) - 1) * rows.std(0, ddof=1) / len(rows) ** 0.5
+    return student(arrays("found")[f"{level}/{name}/seeds"])
 
 
 def figure_6(level, split="test", name="published"):
