@@ -50,7 +50,6 @@ TABLE_6_ERRORS = np.array([0.0093, 0.0181, 0.0152, 0.0414, 0.0125])  # after onl
 MEAN_ERROR = {"planned": 0.0393, "off-line": 0.0234, "online": 0.0238}  # over all 25 movements
 TEMPLATES = 4  # N
 MOVEMENTS = 25  # an experiment
-N_MAX = 20  # n of Eq. 7 is searched in [0, 20]
 
 
 def planned_error_ratio() -> float:

@@ -194,7 +194,9 @@ def _as_rgb(array):
         raise ValueError(f"an array of shape {array.shape} is no image: give (h, w, 3)")
     if np.issubdtype(image.dtype, np.floating):
         if not (np.all(image >= 0) and np.all(image <= 1)):
-            raise ValueError("a float image must lie within [0, 1]: divide it by its maximum")
+            raise ValueError(
+                "a float image needs finite values in 0..1; divide 8-bit values by 255"
+            )
         image = np.round(image * 255).astype(np.uint8)
     if image.dtype != np.uint8:
         raise ValueError(f"an image of {image.dtype} has no known range: give uint8")

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from vmc_lib.arm import muscle
-from vmc_lib.arm.others import MUSCLES
+from vmc_lib.arm.others import LAWS
 
 UNIT = st.floats(0, 1)
 ANY = st.floats(-1e6, 1e6)
@@ -62,21 +62,21 @@ def test_mujocos_muscle_is_mujocos(a, length, v):
     constants = np.array([0, 1, 1, 0, 0.5, 1.6, 1.5, 1.3, 1.2])  # its defaults, with F0 = l0 = 1
     gain = mujoco.mju_muscleGain(length, muscle.MAX_VELOCITY * v, (0, 1), 0, constants)
     bias = mujoco.mju_muscleBias(length, (0, 1), 0, constants)
-    force = MUSCLES["MuJoCo"].force(a, length, v, 1.0)
+    force = LAWS["MuJoCo"].force(a, length, v, 1.0)
     np.testing.assert_allclose(force, -gain * a - bias, atol=1e-12)
 
 
 @given(UNIT, UNIT)
 def test_mujocos_lag_is_mujocos(u, a):
     taus = np.array([muscle.TAU_ACTIVATION, muscle.TAU_DEACTIVATION, 0])
-    rate = MUSCLES["MuJoCo"].activation_rate(u, a)
+    rate = LAWS["MuJoCo"].activation_rate(u, a)
     np.testing.assert_allclose(rate, mujoco.mju_muscleDynamics(u, a, taus), rtol=1e-12, atol=1e-12)
 
 
 @given(st.floats(0.05, 1), st.floats(0.5, 1.5), st.floats(-1, 1.5))
 def test_thelens_force_solves_his_equation(a, length, v):
     """Eq. 6 of Thelen (2003) gives the speed of an active fibre from its force; ours, the force."""
-    thelen = MUSCLES["Thelen 2003"].force
+    thelen = LAWS["Thelen 2003"].force
     passive = thelen(0.0, length, v, 1.0)
     active, most = thelen(a, length, v, 1.0) - passive, a * np.exp(-((length - 1) ** 2) / 0.5)
     resists = most + active / 0.3
@@ -86,9 +86,9 @@ def test_thelens_force_solves_his_equation(a, length, v):
     np.testing.assert_allclose(speed, v * muscle.MAX_VELOCITY, atol=1e-9)
 
 
-@pytest.mark.parametrize("name", MUSCLES)
+@pytest.mark.parametrize("name", LAWS)
 def test_every_muscle_pulls_and_never_pushes(name):
     a, length, v = np.meshgrid(
         np.linspace(0, 1, 5), np.linspace(0.2, 2, 30), np.linspace(-4, 4, 41)
     )
-    assert np.all(MUSCLES[name].force(a, length, v, 1.0) >= 0)
+    assert np.all(LAWS[name].force(a, length, v, 1.0) >= 0)

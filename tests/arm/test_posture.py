@@ -34,8 +34,8 @@ def test_a_turn_is_to_the_left():
 @pytest.mark.parametrize(
     ("target", "complaint"),
     [
-        ((1.0, -0.4, 0.1), "beyond the arm's reach"),
-        ((0.1, 0.9, 0.1), "beyond the arm's reach"),
+        ((1.0, -0.4, 0.1), r"\[ 1\.  -0\.4  0\.1\] m lies beyond the arm's reach"),
+        ((0.1, 0.9, 0.1), r"\[0\.1 0\.9 0\.1\] m lies beyond the arm's reach"),
         ((0.0, -0.4, -0.17), "beyond the arm's reach"),
         ((-0.3, -0.4, 0.0), "needs a turn"),
         ((np.nan, -0.4, 0.0), "not finite"),
@@ -47,5 +47,5 @@ def test_targets_that_cannot_be_met(target, complaint):
 
 
 def test_one_bad_position_of_many_is_named():
-    with pytest.raises(ValueError, match=r"0\.6"):
+    with pytest.raises(ValueError, match=r"position \[0\.6 0\.1\] m"):
         posture([[0.15, -0.4], [0.6, 0.1]])

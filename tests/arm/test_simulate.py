@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from vmc_lib.arm.model import LIMITS
-from vmc_lib.arm.others import MUSCLES
+from vmc_lib.arm.others import LAWS
 from vmc_lib.arm.simulate import World, simulate, steady
 from vmc_lib.data import arrays
 
@@ -41,7 +41,7 @@ def test_the_arm_with_opensims_muscles_moves_as_opensims():
     levels, expected = (arrays("opensim")[name] for name in ("levels", "rigid"))
     start = np.radians([0, 60])
     thelen, paper = (
-        simulate(steady(levels, 0.6), start, muscle=MUSCLES[m]).q[:, 10::10]
+        simulate(steady(levels, 0.6), start, muscle=LAWS[m]).q[:, 10::10]
         for m in ("Thelen 2003", "the paper (Eq. 9–11)")
     )
     assert np.abs(thelen - expected).max() < 0.012

@@ -11,7 +11,7 @@ from .muscle import MAX_VELOCITY, PAPER, TAU_ACTIVATION, TAU_DEACTIVATION, Muscl
 
 
 def activation_rate(excitation, activation):
-    """Both muscles' lag, per second: an active one hears faster and forgets more slowly."""
+    """Both muscles' lag, per second: the more active, the slower to rise and the faster to fall."""
     gap, pace = excitation - activation, 0.5 + 1.5 * activation
     return gap / np.where(gap > 0, TAU_ACTIVATION * pace, TAU_DEACTIVATION / pace)
 
@@ -39,7 +39,7 @@ def mujoco_force(activation, length, velocity, maximum):
     return maximum * (active * speed * activation + passive)
 
 
-MUSCLES = {
+LAWS = {
     "the paper (Eq. 9–11)": PAPER,
     "Thelen 2003": Muscle(activation_rate, thelen_force),
     "MuJoCo": Muscle(activation_rate, mujoco_force),

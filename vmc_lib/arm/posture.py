@@ -21,7 +21,7 @@ def posture(p):
     ValueError when p is out of the arm's reach.
     """
     p = np.asarray(p, dtype=float)
-    return _solve(lambda q: hand(q)[..., :2], p, p)
+    return _solve(lambda q: hand(q)[..., :2], p, p, p)
 
 
 def turn_towards(target):
@@ -33,7 +33,9 @@ def turn_towards(target):
     x, z = target[[0, 2]] - TRUNK
     wanted = np.array([np.hypot(x, z), target[1]])  # distance from the trunk's axis, and height
     guess = [TRUNK[0] + np.sqrt(max(wanted[0] ** 2 - 0.23**2, 0)), target[1]]  # hand's z near .06
-    q = _solve(lambda q: np.stack([np.hypot(*_aside(q)), hand(q)[..., 1]], -1), wanted, guess)
+    q = _solve(
+        lambda q: np.stack([np.hypot(*_aside(q)), hand(q)[..., 1]], -1), wanted, guess, target
+    )
     turn = np.arctan2(*_aside(q)[::-1]) - np.arctan2(z, x)
     if not TRUNK_RANGE[0] <= turn <= TRUNK_RANGE[1]:
         raise ValueError(f"{target} m needs a turn of {np.degrees(turn):.0f}°; move the target")
@@ -52,14 +54,16 @@ def to_world(points, psi):
     return points
 
 
-def _solve(measure, wanted, guess):
+def _solve(measure, wanted, guess, target):
     """Postures q with measure(q) = wanted, by Newton's method from near plane position `guess`.
+
+    `target` (…, 2 or 3) is what the caller asked for; an error names it.
 
     For the guess the joints' axes count as parallel: then the wrist's distance from the shoulder
     depends on the elbow alone, and the shoulder turns the wrist to its bearing.
     """
-    if not np.all(np.isfinite(wanted)):
-        raise ValueError(f"position {wanted} m is not finite; give numbers")
+    if not np.all(np.isfinite(target)):
+        raise ValueError(f"position {target} m is not finite; give numbers")
     elbow = np.linspace(*BENT[1], 100)[::-1]
     distance = np.linalg.norm(hand(np.stack([0 * elbow, elbow], -1))[:, :2], axis=-1)
     bend = np.interp(np.linalg.norm(guess, axis=-1), distance, elbow)
@@ -71,9 +75,9 @@ def _solve(measure, wanted, guess):
         q = np.clip(q + np.clip(step[..., 0], -0.2, 0.2), *BENT.T)
     missed = np.abs(measure(q) - wanted).max(axis=-1) > 1e-9
     if np.any(missed):
-        far = np.round(np.broadcast_to(guess, q.shape)[missed][0], 3)
+        far = np.round(target[missed][0], 3)
         raise ValueError(
-            f"plane position {far} m lies beyond the arm's reach of "
+            f"position {far} m lies beyond the arm's reach of "
             f"{distance[0]:.2f} to {distance[-1]:.2f} m; move the target"
         )
     return q
