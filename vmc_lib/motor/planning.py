@@ -76,20 +76,22 @@ def turned(points, angle):
     return (points - EYE) @ np.array([[c, s], [-s, c]]) + EYE
 
 
-def habitual_weights(target, points):
+def habitual_weights(target, points, power=1):
     """Eq. 5: weights (…, N) by nearness of the templates' points (…, N, 2), summing to 1.
 
-    A target on a template gives that template all the weight, the limit of the equation.
+    Nearness is one over the distance; the paper has its first `power`. A target on a template
+    gives that template all the weight, the limit of the equation.
     """
     distance = np.linalg.norm(points - target[..., None, :], axis=-1)
     on = distance < 1e-9
-    nearness = np.where(on.any(axis=-1, keepdims=True), on, 1 / np.where(on, 1, distance))
+    nearness = np.where(on, 1, distance) ** -power
+    nearness = np.where(on.any(axis=-1, keepdims=True), on, nearness)
     return nearness / nearness.sum(axis=-1, keepdims=True)
 
 
-def exact_weights(target, points):
+def exact_weights(target, points, power=1):
     """Weights (…, N) that satisfy Eq. 4, Σ w_i p_i = p_t, and sum to 1: the nearest to Eq. 5's."""
-    habit = habitual_weights(target, points)
+    habit = habitual_weights(target, points, power)
     missing = target - (habit[..., None, :] @ points)[..., 0, :]
     return habit + least_change(np.swapaxes(points, -1, -2), missing)
 
