@@ -1,9 +1,8 @@
 import numpy as np
 import pytest
 import torch
-from scipy.stats import binomtest
 
-from vmc_lib.what.comparison import METHODS, judge, load, precision_recall, tally, verdicts, wilson
+from vmc_lib.what.comparison import METHODS, judge, load, precision_recall, tally, verdicts
 from vmc_lib.what.hmax import c1, draw_prototypes, hmax, s1
 
 
@@ -12,12 +11,6 @@ def test_counts_by_hand():
     assert counts == (2, 1, 1, 1)
     assert precision_recall(counts) == pytest.approx((2 / 3, 2 / 3))
     assert np.isnan(precision_recall((0, 0, 3, 1))[0])
-
-
-@pytest.mark.parametrize("right, n", [(40, 40), (37, 40), (1, 7)])
-def test_wilson_agrees_with_scipy(right, n):
-    theirs = binomtest(right, n).proportion_ci(method="wilson")
-    assert wilson(right, n) == pytest.approx((theirs.low, theirs.high), abs=1e-4)
 
 
 def test_what_ships_is_what_the_shipped_weights_say():

@@ -15,7 +15,6 @@ from typing import NamedTuple
 
 import numpy as np
 from joblib import Parallel, delayed
-from scipy.stats import t as student
 
 from ..arm.simulate import World
 from ..motor.planning import draw_targets, plan, surrounded, turned
@@ -148,13 +147,6 @@ def repeat(experiment, seeds=SEEDS, jobs=-1):
     """An experiment (seed -> dictionary of numbers) with every seed: name -> (seeds, …)."""
     results = Parallel(n_jobs=jobs)(delayed(experiment)(seed) for seed in seeds)
     return {name: np.array([r[name] for r in results]) for name in results[0]}
-
-
-def interval(values):
-    """Mean over seeds (the first axis), and half the width of its 95% confidence interval."""
-    n = len(values)
-    half = student.ppf(0.975, n - 1) * np.std(values, axis=0, ddof=1) / np.sqrt(n)
-    return np.mean(values, axis=0), half
 
 
 def measured():

@@ -51,13 +51,6 @@ def precision_recall(counts):
     return tuple(right / n if n else np.nan for n in (right + wrong, right + missed))
 
 
-def wilson(right, n, z=1.96):
-    """The 95 % interval of a share, right of n (Wilson 1927)."""
-    share, z2 = right / n, z * z / n
-    middle, half = share + z2 / 2, z * np.sqrt(share * (1 - share) / n + z2 / n / 4)
-    return (middle - half) / (1 + z2), (middle + half) / (1 + z2)
-
-
 def load(file=FILE):
     """What was learnt: what `features` needs, and a Linear for (level, method)."""
     with np.load(file, allow_pickle=False) as z:
