@@ -46,7 +46,7 @@ def test_everything_public_says_what_it_is(path):
     assert not [node.name for node in public if not ast.get_docstring(node)]
 
 
-@pytest.mark.parametrize("path", [p for p in FILES if p.stem != "simulate"], ids=module)
+@pytest.mark.parametrize("path", FILES, ids=module)
 def test_every_public_method_says_what_it_does(path):  # of a name that classes share, one may
     methods = [
         method

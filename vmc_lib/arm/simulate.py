@@ -158,9 +158,11 @@ class ClosedForm:
         self.load, self.seconds = load, step
 
     def paths(self):
+        """Where the muscles are now: lengths (B, 6) and moment arms (B, 2, 6)."""
         return closed_form.paths(self.q)
 
     def step(self, torque):
+        """Move on by one step under joint torques (B, 2)."""
         acceleration = closed_form.acceleration_from(
             self.q, self.velocity, torque, self.load, self.seconds
         )
@@ -181,9 +183,11 @@ class MuJoCo:
         self.arms.forward(stage=mujoco.mjtStage.mjSTAGE_VEL)
 
     def paths(self):
+        """As `ClosedForm.paths`."""
         return muscle_paths(self.arms)
 
     def step(self, torque):
+        """As `ClosedForm.step`."""
         self.arms.qfrc_applied = torque
         self.arms.step(stage=mujoco.mjtStage.mjSTAGE_VEL)
 
