@@ -1,8 +1,8 @@
 """Forward dynamics (Eq. 9–12): from muscle excitations to a movement, one loop, two engines.
 
 `"mujoco"` steps the MuJoCo model and is the reference; `"closed form"` steps a whole batch of
-movements at once and is the one to use for hundreds. Both meet the same muscles and the same
-joint stops, with the same semi-implicit Euler steps, of 1 ms unless told otherwise.
+movements at once. Both meet the same muscles and the same joint stops, with the same
+semi-implicit Euler steps, of 1 ms unless told otherwise; the quicker one is taken.
 """
 
 from copy import copy
@@ -20,6 +20,7 @@ from .muscle import MAX_VELOCITY, PAPER
 
 STOP_STIFFNESS = 200.0  # N m / rad: ours, not arm26's; bone and ligament beyond the joints' limits
 STOP_DAMPING = 0.5  # s / rad
+FEW = 4  # movements: as many are quicker in MuJoCo than in closed form
 LENGTHENING = -1 / (MAX_VELOCITY * L0)  # per metre that a muscle shortens in a second
 
 
@@ -61,7 +62,7 @@ def simulate(
     excitations,
     start,
     activation=None,
-    engine="closed form",
+    engine=None,
     world=EMPTY,
     muscle=PAPER,
     step=STEP,
@@ -69,8 +70,9 @@ def simulate(
     """The `Motion` that excitations (…, T, 6), one every `step` seconds, give the arm.
 
     It starts still, in the posture `start` (…, 2), with the muscles' `activation` (…, 6); by
-    default they have settled to the first excitation. `world` may load its hand or push it about,
-    and `muscle` may be another `Muscle` than the paper's.
+    default they have settled to the first excitation. `engine` names one of `ENGINES`; by default
+    it is MuJoCo for a `FEW` movements and the closed form for more. `world` may load its hand or
+    push it about, and `muscle` may be another `Muscle` than the paper's.
     ValueError when an excitation is not a number in [0, 1], a shape is wrong, or a step too long.
     """
     u = np.asarray(excitations, dtype=float)
@@ -78,7 +80,7 @@ def simulate(
         raise ValueError(f"excitations have shape {u.shape}; use (T, 6) or (…, T, 6), T ≥ 1")
     if not (np.all(u >= 0) and np.all(u <= 1)):
         raise ValueError(f"excitations lie in [{u.min():.3g}, {u.max():.3g}]; clip them to [0, 1]")
-    if engine not in ENGINES:
+    if engine not in (None, *ENGINES):
         raise ValueError(f"engine {engine!r} is unknown; choose one of {sorted(ENGINES)}")
     if not 0 < step <= 0.01:
         raise ValueError(f"steps of {step} s would blow up or stand still; choose up to 0.01 s")
@@ -86,6 +88,7 @@ def simulate(
     q = _each("start", start, leading, 2)
     first = _each("activation", u[..., 0, :] if activation is None else activation, leading, 6)
     a = activations(u.reshape(-1, *u.shape[-2:]), first, muscle, step)
+    engine = engine or ("mujoco" if len(q) <= FEW else "closed form")
     path = _move(ENGINES[engine](q, world.load, step), a, world.field, muscle)
     return Motion(*(x.reshape(*leading, *x.shape[1:]) for x in (*path, a)))
 
