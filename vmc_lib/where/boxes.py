@@ -62,7 +62,7 @@ def nms(boxes, scores, overlap=0.3):
 
 
 def vote(kept, boxes, scores, warmth=0.2):
-    """The boxes `kept` (indices), each the mean of itself and those it silenced: votes.
+    """The boxes `kept` (indices), each the weighted mean of those that vote for it and itself.
 
     A box votes for each kept one that it overlaps by half or more and does not outscore. A vote
     weighs exp(-lag / warmth), its score lagging that much behind the kept box's (after Gidaris &
