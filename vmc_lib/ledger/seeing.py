@@ -242,8 +242,6 @@ ROWS = (
         "Diverse grouping makes selective search independent of the object's class.",
         "02_candidates",
         _classes,
-        differs="Feathers on a pale table melt into it, and their gaps show what lies behind; a "
-        "cup is one smooth surface.",
     ),
     Row(
         "III, Block 1-1",
