@@ -95,11 +95,17 @@ def _boxes(sight, step):
         "candidates": [(box, "", "grey") for box in regions.candidates],
         "regions": [(box, "", "orange") for box in regions.passed],
         "after suppression": [(box, "", "blue") for box in regions.boxes],
-        "names": [
-            (box, f"shuttlecock? {p:.0%}", "green" if p > 0.5 else "blue")
-            for box, p in zip(regions.boxes, sight.probability, strict=True)
-        ],
+        "names": named_boxes(sight),
     }[step]
+
+
+def named_boxes(sight):
+    """For `photo_view`: each kept box with its chance of a shuttlecock, the likeliest on top."""
+    found = sorted(zip(sight.probability, sight.regions.boxes.tolist(), strict=True))
+    return [
+        (box, f"shuttlecock {p:.0%}", "green") if p > 0.5 else (box, f"{p:.0%}", "blue")
+        for p, box in found
+    ]
 
 
 def step_in_words(photo, sight, reach, step):
