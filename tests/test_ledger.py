@@ -12,8 +12,8 @@ STORED = {entry["where"]: entry for entry in ledger.load()["rows"]}
 
 
 def same(number):
-    """A stored number or None, and what rounding on another machine may change of it."""
-    return pytest.approx(number, rel=0.02, abs=1e-9)
+    """A stored number or None, and what another machine may change of it: one photo of forty."""
+    return number if number is None else pytest.approx(number, rel=0.05, abs=1e-9)
 
 
 def test_every_table_and_figure_of_the_paper_has_one_row():
