@@ -37,9 +37,12 @@ def offline(chromium):
 
 @pytest.fixture(scope="session")
 def serious():
-    """A function: what axe-core finds serious in part of a page, in a theme, [(rule, markup)]."""
+    """A function: what axe-core finds serious in part of a page, in a theme, [(rule, markup)].
 
-    def found(page, within, theme):
+    With `all_of_it`, what it finds less than serious too.
+    """
+
+    def found(page, within, theme, all_of_it=False):
         page.evaluate("theme => { document.documentElement.dataset.theme = theme }", theme)
         if not page.evaluate("() => 'axe' in window"):
             page.evaluate(AXE.read_text())
@@ -47,7 +50,7 @@ def serious():
         return [
             (violation["id"], node["html"][:200])
             for violation in found["violations"]
-            if violation["impact"] in ("serious", "critical")
+            if all_of_it or violation["impact"] in ("serious", "critical")
             for node in violation["nodes"]
         ]
 

@@ -12,8 +12,8 @@ STORED = {entry["where"]: entry for entry in ledger.load()["rows"]}
 
 
 def same(number):
-    """A stored number or None, and what another machine may change of it: one photo of forty."""
-    return number if number is None else pytest.approx(number, rel=0.05, abs=1e-9)
+    """A stored number or None, and what rounding on another machine may change of it."""
+    return number if number is None else pytest.approx(number, rel=0.02, abs=1e-9)
 
 
 def test_every_table_and_figure_of_the_paper_has_one_row():
@@ -29,7 +29,8 @@ def test_row_is_what_a_run_gives(row):
     measured, stored = measure(row), STORED[row.where]
     assert [q["name"] for q in measured["quantities"]] == [q["name"] for q in stored["quantities"]]
     for now, then in zip(measured["quantities"], stored["quantities"], strict=True):
-        for number in ("claimed", "obtained", "in_sample"):
+        assert now["claimed"] == then["claimed"]
+        for number in ("obtained", "in_sample"):
             assert now[number] == same(then[number]), (now["name"], number)
     assert measured["state"] == stored["state"]
 
@@ -44,8 +45,8 @@ def test_the_loop_on_the_test_photos_is_what_a_run_gives(level):
     now, then = whole.fate(level), ledger.load()["loop"][level]
     medians = ("target", "planned", *RULES)  # in m; the others are shares of forty photos
     for key, value in now["summary"].items():
-        slack = {"rel": 0.05} if key in medians else {"abs": 0.05}
-        assert value == pytest.approx(then["summary"][key], **slack), key
+        slack = 0 if key in medians else 0.03
+        assert value == pytest.approx(then["summary"][key], rel=0.05, abs=slack), key
     for rule, stages in now["failures"].items():
         moved = sum(a != b for a, b in zip(stages, then["failures"][rule], strict=True))
         assert moved <= 0.05 * len(stages), rule

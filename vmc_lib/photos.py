@@ -102,9 +102,10 @@ def load(level, split, folder=FOLDER):
         raise ValueError(f"unknown level {level!r}: choose from {LEVELS}")
     if split not in SPLITS:
         raise ValueError(f"unknown split {split!r}: choose from {SPLITS}")
-    sidecars = sorted((Path(folder) / level / split).glob("*.json"))
+    place = Path(folder) / level / split
+    sidecars = sorted(place.glob("*.json"))
     if not sidecars:
-        raise ValueError(f"no photos under {Path(folder) / level / split}: see vmc_lib.data.render")
+        raise ValueError(f"no photos under {place}: see vmc_lib.data.render")
     return [_read(sidecar) for sidecar in sidecars]
 
 

@@ -162,5 +162,5 @@ def test_questions_are_accessible(open_questions, serious, theme):
     check(3, 3)
     page = open_questions()
     page.eval_on_selector_all("details", "all => all.forEach((d) => (d.open = true))")
-    assert serious(page, "body", theme) == []
+    assert serious(page, "html", theme, all_of_it=True) == []
     page.close()

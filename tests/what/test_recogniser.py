@@ -9,12 +9,13 @@ from vmc_lib.what.crops import crop
 from vmc_lib.what.recogniser import (
     EVERYWHERE,
     READ_OUTS,
+    SHAKE,
     Recogniser,
     elsewhere,
     examples,
     fit,
 )
-from vmc_lib.where.boxes import iou
+from vmc_lib.where.boxes import iou, shaken
 
 
 @pytest.mark.parametrize("name", READ_OUTS)
@@ -81,3 +82,5 @@ def test_examples():
     for shot in shots:
         objects = np.array(list(shot.boxes.values()))
         assert iou([elsewhere(shot, rng)], objects).max() < 0.3
+        near = [iou([shaken(box, SHAKE, rng)], [box])[0, 0] for box in objects for _ in range(20)]
+        assert 0.6 < np.mean(near) < 0.95

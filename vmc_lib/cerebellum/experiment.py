@@ -10,20 +10,20 @@ The paper reports movements that were practised; `held_out` is what was learned 
 
 import json
 from functools import partial
-from importlib.resources import files
 from typing import NamedTuple
 
 import numpy as np
 from joblib import Parallel, delayed
 
 from ..arm.simulate import World
+from ..data import FOLDER
 from ..motor.planning import draw_targets, plan, surrounded, turned
 from ..motor.templates import Library, load
 from .adaptation import CORRECTIONS, Adaptation
 from .offline import calibrate, published
 from .online import Aim, Linear
 
-FILE = files("vmc_lib.data") / "movements.json"
+FILE = FOLDER / "movements.json"
 SEEDS = range(6)
 SCENARIOS = ("changing neighbours", "four fixed templates")
 PRISM = np.radians(6.0)

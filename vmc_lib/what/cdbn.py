@@ -4,17 +4,17 @@ Remake its weights, `data/cdbn.npz`, with `python -m vmc_lib.what.cdbn`.
 """
 
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 import torch
 from torch.nn import functional as F
 
 from vmc_lib import photos
+from vmc_lib.data import FOLDER
 from vmc_lib.what.crbm import CRBM, bar
 from vmc_lib.what.crops import Patches, crop, whiten
 
-FILE = Path(__file__).parents[1] / "data" / "cdbn.npz"
+FILE = FOLDER / "cdbn.npz"
 K, C, N_W, PATCHES = 10, 2, 8, 50_000  # as in the paper
 FIRST = {"epochs": 4, "width": 21, "sparsity": 0.002, "rate": 0.2, "decay": 0.0003}
 SECOND = {"epochs": 2, "width": 25, "sparsity": 0.1, "rate": 0.2, "decay": 0.0003}

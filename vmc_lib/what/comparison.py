@@ -3,19 +3,17 @@
 Remake what is learnt, `data/comparison.npz`, with `python -m vmc_lib.what.comparison`.
 """
 
-from pathlib import Path
-
 import numpy as np
 import torch
 from sklearn.cluster import KMeans
 
 from vmc_lib import photos
+from vmc_lib.data import FOLDER, arrays
 from vmc_lib.what.baselines import bag_of_sift, histograms_of_gradients, raw_pixels, sift
 from vmc_lib.what.cdbn import CDBN, crops_of
 from vmc_lib.what.hmax import draw_prototypes, hmax
 from vmc_lib.what.recogniser import Linear, examples, fit, read_outs
 
-FILE = Path(__file__).parents[1] / "data" / "comparison.npz"
 WORDS = 100
 
 METHODS = (
@@ -51,13 +49,13 @@ def precision_recall(counts):
     return tuple(right / n if n else np.nan for n in (right + wrong, right + missed))
 
 
-def load(file=FILE):
+def load():
     """What was learnt: what `features` needs, and a Linear for (level, method)."""
-    with np.load(file, allow_pickle=False) as z:
-        learnt = {"cdbn": CDBN.load(), "words": z["words"]}
-        learnt["prototypes"] = torch.from_numpy(z["prototypes"])
-        keys = [(level, method) for level in photos.LEVELS for method in METHODS]
-        linear = {k: Linear(z["/".join((*k, "w"))], float(z["/".join((*k, "b"))])) for k in keys}
+    kept = arrays("comparison")
+    learnt = {"cdbn": CDBN.load(), "words": kept["words"]}
+    learnt["prototypes"] = torch.from_numpy(kept["prototypes"])
+    keys = [(level, method) for level in photos.LEVELS for method in METHODS]
+    linear = {k: Linear(kept["/".join((*k, "w"))], float(kept["/".join((*k, "b"))])) for k in keys}
     return learnt, linear
 
 
@@ -81,11 +79,10 @@ def table_3(level):
     return table
 
 
-def verdicts(level, split, file=FILE):
+def verdicts(level, split):
     """What `judge` found when the file was made: it ships, since finding it takes a while."""
-    with np.load(file, allow_pickle=False) as z:
-        found = {method: z[f"{level}/{method}/{split}"] for method in METHODS}
-        return found, z[f"{level}/{split}"]
+    kept = arrays("comparison")
+    return {m: kept[f"{level}/{m}/{split}"] for m in METHODS}, kept[f"{level}/{split}"]
 
 
 def learn_without_labels(rng):
@@ -101,7 +98,7 @@ def learn_without_labels(rng):
 if __name__ == "__main__":
     rng = np.random.default_rng(0)
     learnt = learn_without_labels(rng)
-    arrays = {name: np.asarray(x) for name, x in learnt.items()}
+    kept = {name: np.asarray(x) for name, x in learnt.items()}
     learnt["cdbn"] = CDBN.load()
     for level in photos.LEVELS:
         crops, y = examples(photos.load(level, "train"), rng)
@@ -109,13 +106,13 @@ if __name__ == "__main__":
         exams = {split: crops_of(photos.load(level, split)) for split in photos.SPLITS}
         seen = {split: features(crops, learnt) for split, (crops, _) in exams.items()}
         for split, (_, truth) in exams.items():
-            arrays[f"{level}/{split}"] = truth
+            kept[f"{level}/{split}"] = truth
         for method in METHODS:
             checked = seen["validation"][method], exams["validation"][1]
             linear = fit(x[method], y, *checked)
             print(level, method, tally(linear.probability(checked[0]), checked[1]))
-            arrays[f"{level}/{method}/w"] = linear.weights
-            arrays[f"{level}/{method}/b"] = linear.bias
+            kept[f"{level}/{method}/w"] = linear.weights
+            kept[f"{level}/{method}/b"] = linear.bias
             for split in photos.SPLITS:
-                arrays[f"{level}/{method}/{split}"] = linear.probability(seen[split][method])
-    np.savez_compressed(FILE, **arrays)
+                kept[f"{level}/{method}/{split}"] = linear.probability(seen[split][method])
+    np.savez_compressed(FOLDER / "comparison.npz", **kept)

@@ -104,7 +104,7 @@ class CRBM:
         of the hidden units that would see them, and learning would make up for it with blobs.
         ValueError where that leaves no pixel free.
         """
-        inside = self._free(v) if clamp else ...
+        free = self._free(v, clamp)
         while True:
             on, _ = self.posterior(v)
             yield v, on
@@ -112,10 +112,12 @@ class CRBM:
             if noise:
                 new = new + torch.randn(new.shape, generator=rng, dtype=v.dtype, device=v.device)
             v = v.clone()
-            v[inside] = new[inside]
+            v[free] = new[free]
 
-    def _free(self, v):
-        """Where v is more than n_w - 1 pixels from its edge: an index."""
+    def _free(self, v, clamp):
+        """Where v may change: everywhere or, with `clamp`, n_w - 1 pixels from its edge."""
+        if not clamp:
+            return ...
         edge = self.W.shape[-1] - 1
         if min(v.shape[2:]) <= 2 * edge:
             raise ValueError(
@@ -174,8 +176,7 @@ class CRBM:
                 self.W = self.W + step * speed
                 self.b = self.b + step * (db / area + pressure * (sparsity - on.mean((0, 2, 3))))
                 self.a = self.a + step * da / area
-                free = self._free(v) if clamp else ...
-                errors.append((v - dream)[free].square().mean())
+                errors.append((v - dream)[self._free(v, clamp)].square().mean())
             error = float(torch.stack(errors).mean())
             if not isfinite(error):
                 raise ValueError(

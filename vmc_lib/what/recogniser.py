@@ -4,7 +4,6 @@ Remake the weights that ship, `data/recogniser.npz`, with `python -m vmc_lib.wha
 """
 
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 import torch
@@ -15,11 +14,11 @@ from sklearn.linear_model import LogisticRegression
 from torch.nn import functional as F
 
 from vmc_lib import photos
+from vmc_lib.data import FOLDER, arrays
 from vmc_lib.what.cdbn import CDBN
 from vmc_lib.what.crops import crop, whiten
 from vmc_lib.where.boxes import iou, shaken
 
-FILE = Path(__file__).parents[1] / "data" / "recogniser.npz"
 STRENGTHS = 10.0 ** np.arange(-1, 5)
 COPIES, SHAKE = 4, 0.08  # training boxes: copies of each, and how far their sides stray
 
@@ -134,7 +133,7 @@ class Recogniser:
     linear: Linear
 
     @classmethod
-    def load(cls, level=EVERYWHERE, name="P1 + P2", file=FILE):
+    def load(cls, level=EVERYWHERE, name="P1 + P2"):
         """The recogniser that has learnt names from the training photos of a level.
 
         Its read-out "MP2" is the paper's, the default the best. ValueError for an unknown one.
@@ -142,9 +141,8 @@ class Recogniser:
         for given, known in ((level, (*photos.LEVELS, EVERYWHERE)), (name, READ_OUTS)):
             if given not in known:
                 raise ValueError(f"there is no {given!r}: choose from {', '.join(known)}")
-        with np.load(file, allow_pickle=False) as z:
-            linear = Linear(z[f"{level}/{name}/w"], float(z[f"{level}/{name}/b"]))
-        return cls(CDBN.load(), name, linear)
+        weights, bias = (arrays("recogniser")[f"{level}/{name}/{part}"] for part in "wb")
+        return cls(CDBN.load(), name, Linear(weights, float(bias)))
 
     def probability(self, crops):
         """The chance (n,) that each grey crop (n, 200, 200) shows a shuttlecock."""
@@ -179,4 +177,4 @@ if __name__ == "__main__":
             print(f"{level}, {name}: {right.mean():.4f} of {len(right)} validation crops right")
             linear[f"{level}/{name}/w"] = np.float32(found.weights)
             linear[f"{level}/{name}/b"] = found.bias
-    np.savez_compressed(FILE, **linear)
+    np.savez_compressed(FOLDER / "recogniser.npz", **linear)

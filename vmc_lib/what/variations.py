@@ -6,26 +6,25 @@ Remake what it finds, `data/variations.npz`, with `python -m vmc_lib.what.variat
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import redirect_stdout
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 import torch
 
 from vmc_lib import photos
+from vmc_lib.data import FOLDER, arrays
 from vmc_lib.what.cdbn import N_W, crops_of, train
 from vmc_lib.what.comparison import tally
 from vmc_lib.what.crops import whiten
 from vmc_lib.what.recogniser import READ_OUTS, examples, fit, read_outs
 
-FILE = Path(__file__).parents[1] / "data" / "variations.npz"
 VARIATIONS = (N_W, 0), (N_W, 1), (N_W, 2), (6, 0), (10, 0), (12, 0)  # (n_w, seed)
 SPLITS = "validation", "test"
 
 
-def load(file=FILE):
+def load():
     """What was found for each of VARIATIONS: (n_w, seed) -> (filters, counts), as from `vary`."""
-    with np.load(file, allow_pickle=False) as z:
-        return {k: (z[f"{k}/filters"], z[f"{k}/counts"]) for k in VARIATIONS}
+    kept = arrays("variations")
+    return {k: (kept[f"{k}/filters"], kept[f"{k}/counts"]) for k in VARIATIONS}
 
 
 @cache
@@ -61,7 +60,7 @@ def vary(variation):
 if __name__ == "__main__":
     with ProcessPoolExecutor(2, initializer=torch.set_num_threads, initargs=(1,)) as pool:
         found = dict(zip(VARIATIONS, pool.map(vary, VARIATIONS), strict=True))
-    arrays = {}
+    learnt = {}
     for variation, (filters, counts) in found.items():
-        arrays |= {f"{variation}/filters": filters, f"{variation}/counts": counts}
-    np.savez_compressed(FILE, **arrays)
+        learnt |= {f"{variation}/filters": filters, f"{variation}/counts": counts}
+    np.savez_compressed(FOLDER / "variations.npz", **learnt)
