@@ -13,7 +13,7 @@ def grey(v, reach=3.0, zoom=1):
 
 
 def tiles(stack, columns=5, zoom=1):
-    """Filters or maps (n, height, width) in a grid, as one grey picture.
+    """Filters or maps (n, height, width) in a grid of up to `columns`, as one grey picture.
 
     Each has its own contrast, up to its strongest value. Zero is middle grey, or black where
     nothing is negative.
@@ -23,6 +23,7 @@ def tiles(stack, columns=5, zoom=1):
     if stack.min() < 0:
         stack = (1 + stack) / 2
     stack = np.kron(stack, np.ones((1, zoom, zoom)))
+    columns = min(columns, len(stack))
     rows = -(-len(stack) // columns)
     stack = np.pad(stack, [(0, rows * columns - len(stack)), (2, 2), (2, 2)], constant_values=0.5)
     _, height, width = stack.shape

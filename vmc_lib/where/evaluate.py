@@ -117,7 +117,7 @@ def classified(level, name):
 
 
 def trained_anew(level, name):
-    """Precision and recall (SEEDS, 2) on the test photos of finders from as many seeds."""
+    """Precision and recall on the test photos of finders from SEEDS seeds, (SEEDS, 2)."""
     rows, some = [], photos.load(level, "test")
     for seed in range(SEEDS):
         rng = np.random.default_rng(seed)
