@@ -40,19 +40,17 @@ def test_a_judge_tells_a_fit_from_a_near_miss(finder):
     better = []
     for photo in photos.load("rig", "validation")[:10]:
         boxes = astray(photo, [0.15, 0.1, 0, 0])
-        fits, misses = (
-            finder.judge.score(finder.recipe.describe(photo.image, some)) for some in boxes
-        )
+        fits, misses = (finder.judge(finder.recipe.describe(photo.image, some)) for some in boxes)
         better += list(fits > misses)
     assert np.mean(better) > 0.9
 
 
 def test_a_bare_photo_teaches_the_judge_misfits(finder, monkeypatch):
     """Candidates beside no object at all are counter-examples, like others far from one."""
-    monkeypatch.setattr(looks, "SCATTERED", 600)
+    monkeypatch.setattr(looks, "JUDGED", 600)
     seen = lessons(photos.load("rig", "train")[:3], replace(IMPROVED, mirror=False))
     bare = replace(seen[0], truth=np.empty((0, 4)))
-    judge = looks.Judge.fit(
-        [*seen, bare], IMPROVED, finder.machine, finder.maps, np.random.default_rng(0)
+    judge = looks.learn_to_judge(
+        [*seen, bare], IMPROVED, finder.machine, finder.looks, np.random.default_rng(0)
     )
     assert judge.axes.shape == (800, looks.DIRECTIONS)

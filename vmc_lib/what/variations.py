@@ -34,10 +34,11 @@ def lessons():
     return {level: examples(photos.load(level, "train"), rng) for level in photos.LEVELS}
 
 
-def vary(variation):
+def vary(variation, folder=photos.FOLDER):
     """For (n_w, seed), the first layer's filters (10, n_w, n_w), and how well the network names.
 
-    That is, counts (levels, read-outs, SPLITS, 4), as from `tally`.
+    That is, counts (levels, read-outs, SPLITS, 4), as from `tally`. The test photos are those in
+    `folder`.
     """
     n_w, seed = variation
     shots = [shot for level in photos.LEVELS for shot in photos.load(level, "train")]
@@ -47,8 +48,8 @@ def vary(variation):
     counts = np.zeros((len(photos.LEVELS), len(READ_OUTS), len(SPLITS), 4), int)
     for i, (level, (shaken, y)) in enumerate(lessons().items()):
         x = read_outs(cdbn, shaken)
-        exams = [crops_of(photos.load(level, split)) for split in SPLITS]
-        seen = [(read_outs(cdbn, crops), truth) for crops, truth in exams]
+        exams = photos.load(level, "validation"), photos.load(level, "test", folder)
+        seen = [(read_outs(cdbn, crops), truth) for crops, truth in map(crops_of, exams)]
         (checked, checked_truth), _ = seen
         for j, name in enumerate(READ_OUTS):
             linear = fit(x[name], y, checked[name], checked_truth)

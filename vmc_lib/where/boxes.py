@@ -61,7 +61,7 @@ def nms(boxes, scores, overlap=0.3):
     return np.array(kept, int)
 
 
-def vote(kept, boxes, scores, warmth=0.2):
+def vote(kept, boxes, scores, warmth=0.1):
     """The boxes `kept` (indices), each the weighted mean of those that vote for it and itself.
 
     A box votes for each kept one that it overlaps by half or more and does not outscore. A vote

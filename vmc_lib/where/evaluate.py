@@ -20,7 +20,7 @@ from .machine import Machine, best_threshold
 from .recipes import RECIPES
 from .regions import RegionFinder
 
-TABLE_1_KERNELS = {"linear": 0.1, "rbf": 10, "poly": 10, "sigmoid": 0.1}  # with their costs
+TABLE_1_KERNELS = {"linear": None, "rbf": 10, "poly": 10, "sigmoid": 0.1}  # cost; None: recipe's
 TABLE_1_RECIPES = ("published", "context")
 SEEDED = ("published", "improved")  # trained anew from each of SEEDS seeds
 SEEDS = 5
@@ -38,23 +38,27 @@ def table_1(level, split="test", name="published"):
     }
 
 
-def classify(level, name, kernel):
-    """A row of Table I: (precision, recall) of one kernel in each of the SPLITS, (3, 2).
+def classifier(level, name, kernel):
+    """The Machine of a row of Table I, trained with the recipe `name`, and its threshold.
 
     Beyond the published recipe, whose threshold is 0, the threshold is the validation photos' best.
     """
     recipe, rng = RECIPES[name], np.random.default_rng(0)
     learnt = training_examples(lessons(photos.load(level, "train"), recipe), recipe, rng)
-    machine = Machine.fit(*learnt, kernel, TABLE_1_KERNELS[kernel])
-    scored = {}
-    for split in photos.SPLITS:
-        x, truth = examples(photos.load(level, split), recipe)
-        scored[split] = machine.score(x), truth
-    scores, truth = scored["validation"]
-    threshold = 0 if name == "published" else best_threshold(scores, truth, truth.sum())
+    machine = Machine.fit(*learnt, kernel, TABLE_1_KERNELS[kernel] or recipe.cost)
+    if name == "published":
+        return machine, 0
+    x, truth = examples(photos.load(level, "validation"), recipe)
+    return machine, best_threshold(machine.score(x), truth, truth.sum())
+
+
+def classify(level, name, kernel):
+    """A row of Table I: (precision, recall) of one kernel in each of the SPLITS, (3, 2)."""
+    machine, threshold = classifier(level, name, kernel)
     rows = []
-    for scores, truth in scored.values():
-        right = truth[scores > threshold]
+    for split in photos.SPLITS:
+        x, truth = examples(photos.load(level, split), RECIPES[name])
+        right = truth[machine.score(x) > threshold]
         rows.append((right.sum() / max(len(right), 1), right.sum() / truth.sum()))
     return rows
 
@@ -81,10 +85,17 @@ def localisation(shots, boxes, overlap=0.8):
 
     Precision is the share of boxes that are right, recall that of objects with a right box.
     """
-    shared = [iou(b, list(p.boxes.values())) >= overlap for p, b in zip(shots, boxes, strict=True)]
-    right = np.concatenate([hits.any(1) for hits in shared])
-    reached = np.concatenate([hits.any(0) for hits in shared])
+    right, reached = hits(shots, boxes, overlap)
     return float(right.sum() / max(right.size, 1)), float(reached.mean())
+
+
+def hits(shots, boxes, overlap=0.8):
+    """Of a list of boxes a photo, which boxes are right, and which objects have a right box.
+
+    Truth values for all boxes of all photos in turn, and for all objects.
+    """
+    shared = [iou(b, list(p.boxes.values())) >= overlap for p, b in zip(shots, boxes, strict=True)]
+    return tuple(np.concatenate([pairs.any(axis) for pairs in shared]) for axis in (1, 0))
 
 
 def spread(level, name):

@@ -1,82 +1,109 @@
 """To look again: what a box shows says how to correct it, and how well it fits in the end.
 
-Both are learnt from true boxes that were scattered on purpose. The numbers were chosen on the
-validation photos.
+Both are estimates, learnt from true boxes that were scattered on purpose. The numbers were chosen
+on 120 validation photos a level (20 ship; CONTRIBUTING.md says how to render more).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.spatial.distance import cdist
 from sklearn.linear_model import Ridge
 
 from .boxes import corrected, corrections, iou
-from .machine import Machine
 
 SCATTERED = 12_800  # boxes, strewn about the true ones, that a look learns from
-PENALTY = 30  # of a look's ridge regression
+DIRECTIONS = 100  # of the features, in which likeness is measured
+PENALTY = 0.1  # of the ridge regression
+REMEMBERED_LOOKING, REMEMBERED_JUDGING = 1000, 2000  # boxes
 
-FIT, ASTRAY = 0.75, 0.3  # IoU from which a box fits, and under which it shows no object
-NEAR = (0.03, 0.08, 0.15)  # how far, in sides, the judge's scattered boxes stray
-FOOLED, PLAIN = 25, 10  # candidates a photo that the judge sees: led astray by looks, and as found
-JUDGED, DIRECTIONS, COST = 8000, 60, 10  # of the judge: boxes, directions of features, SVM's C
+JUDGED = 25_600  # scattered boxes that the judge learns from
+UNFIT, FIT = 0.5, 0.9  # IoU up to which a box is worth 0, and from which it is worth 1
+ASTRAY = 0.3  # IoU under which a box shows no object
+NEAR = (0.03, 0.08, 0.15)  # how far, in sides, the scattered boxes stray that are judged
+FOOLED, PLAIN = 25, 10  # candidates a photo judged too: led astray by looks, and as found
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """Numbers read off what a box shows: a linear part, and one for likeness to boxes remembered.
+
+    estimate(x) = weights · (x - mean, exp(-gamma ‖axes · (x - mean) - remembered‖²)) + bias: a
+    network of radial basis functions (Broomhead & Lowe 1988) beside a linear map.
+    """
+
+    mean: np.ndarray  # (d,)
+    axes: np.ndarray  # (d, k) the main directions of the features
+    remembered: np.ndarray  # (r, k)
+    gamma: float
+    weights: np.ndarray = 0  # (d + r,), or (d + r, m) for m numbers
+    bias: np.ndarray = 0
+
+    @classmethod
+    def fit(cls, x, y, remembered, rng):
+        """Learn from features x (n, d) and their numbers y (n,) or (n, m), by ridge regression.
+
+        So many of the examples are `remembered`, a draw.
+        """
+        mean = x.mean(0)
+        axes = np.linalg.eigh(np.cov(x.T))[1][:, -DIRECTIONS:]
+        places = (x - mean) @ axes
+        some = places[rng.permutation(len(x))[:remembered]]
+        blank = cls(mean, axes, some, 1 / places.var(0).sum())
+        ridge = Ridge(PENALTY).fit(blank.terms(x), y)
+        return replace(blank, weights=ridge.coef_.T, bias=ridge.intercept_)
+
+    def terms(self, x):
+        """What the weights weigh, for features x (n, d): (n, d + r)."""
+        x = x - self.mean
+        likeness = np.exp(-self.gamma * cdist(x @ self.axes, self.remembered, "sqeuclidean"))
+        return np.hstack([x, likeness])
+
+    def __call__(self, x):
+        """The estimates (n,) or (n, m) for features x (n, d)."""
+        return self.terms(x) @ self.weights + self.bias
 
 
 def learn_to_look(lessons, recipe, rng):
-    """One linear map (d + 1, 4) a look, from what a box shows to its correction.
+    """One Estimate a look, of the correction (4,) that a box needs by what it shows.
 
     Box regression (Girshick et al. 2014); the later a look, the nearer it expects the box to be.
     """
-    times, maps = SCATTERED // sum(len(lesson.truth) for lesson in lessons) + 1, []
+    times, looks = SCATTERED // sum(len(lesson.truth) for lesson in lessons) + 1, []
     for spread in recipe.looks:
         x, goal = [], []
         for lesson in lessons:
             truth, boxes = lesson.scattered(times, spread, rng)
             x.append(recipe.describe(lesson.image, boxes))
             goal.append(corrections(boxes, truth))
-        ridge = Ridge(PENALTY).fit(np.concatenate(x), np.concatenate(goal))
-        maps.append(np.vstack([ridge.coef_.T, ridge.intercept_]))
-    return tuple(maps)
+        x, goal = np.concatenate(x), np.concatenate(goal)
+        looks.append(Estimate.fit(x, goal, REMEMBERED_LOOKING, rng))
+    return tuple(looks)
 
 
-def look_again(recipe, maps, image, boxes):
-    """The boxes (n, 4), each corrected by what it shows, once for every map."""
-    for weights in maps:
-        shown = recipe.describe(image, boxes)
-        boxes = corrected(boxes, shown @ weights[:-1] + weights[-1])
+def look_again(recipe, looks, image, boxes):
+    """The boxes (n, 4), each corrected by what it shows, once for every one of the `looks`."""
+    for look in looks:
+        boxes = corrected(boxes, look(recipe.describe(image, boxes)))
     return boxes
 
 
-@dataclass(frozen=True)
-class Judge:
-    """Scores how well a box fits its object, from the features' main directions."""
+def learn_to_judge(lessons, recipe, gate, looks, rng):
+    """An Estimate of how well a box fits its object: 0 where it does not (UNFIT), 1 where it does.
 
-    axes: np.ndarray  # (d, k)
-    machine: Machine  # of RBF kernel
-
-    @classmethod
-    def fit(cls, lessons, recipe, gate, maps, rng):
-        """Learn to tell fits from misfits, the classifier's blind zone (0.5 to 0.8) included.
-
-        Fits and near misses are true boxes, scattered; other misfits are candidates, and above all
-        those that pass the `gate` (a Machine) and are led by the looks to what is no object.
-        """
-        total = sum(len(lesson.truth) for lesson in lessons)
-        times, x, y = SCATTERED // total // len(NEAR) + 1, [], []
-        for lesson in lessons:
-            near = [lesson.scattered(times, spread, rng)[1] for spread in NEAR]
-            some = rng.permutation(lesson.boxes)[: 2 * SCATTERED // len(lessons)]
-            off = some[iou(some, lesson.truth).max(1, initial=0) < ASTRAY]
-            fooled = gate.score(recipe.describe(lesson.image, off)) > recipe.gate
-            led = look_again(recipe, maps, lesson.image, off[fooled][:FOOLED])
-            boxes = np.vstack([*near, led, some[:PLAIN]])
-            x.append(recipe.describe(lesson.image, boxes))
-            y.append(iou(boxes, lesson.truth).max(1, initial=0) >= FIT)
-        x, y = np.concatenate(x), np.concatenate(y)
-        some = rng.permutation(len(x))[:JUDGED]
-        x, y = x[some], y[some]
-        axes = np.linalg.eigh(np.cov(x.T))[1][:, -DIRECTIONS:]
-        return cls(axes, Machine.fit(x @ axes, y, "rbf", COST))
-
-    def score(self, x):
-        """How well boxes with features x (n, d) fit, in margins: (n,)."""
-        return self.machine.score(x @ self.axes)
+    It learns from true boxes, scattered, the classifier's blind zone (0.5 to 0.8) included; from
+    candidates; and above all from those that pass the `gate` (a Machine) and are led by the looks
+    to what is no object.
+    """
+    total = sum(len(lesson.truth) for lesson in lessons)
+    times, x, y = JUDGED // total // len(NEAR) + 1, [], []
+    for lesson in lessons:
+        near = [lesson.scattered(times, spread, rng)[1] for spread in NEAR]
+        some = rng.permutation(lesson.boxes)[: 2 * JUDGED // len(lessons)]
+        off = some[iou(some, lesson.truth).max(1, initial=0) < ASTRAY]
+        fooled = gate.score(recipe.describe(lesson.image, off)) > recipe.gate
+        led = look_again(recipe, looks, lesson.image, off[fooled][:FOOLED])
+        boxes = np.vstack([*near, led, some[:PLAIN]])
+        x.append(recipe.describe(lesson.image, boxes))
+        y.append(np.interp(iou(boxes, lesson.truth).max(1, initial=0), (UNFIT, FIT), (0, 1)))
+    return Estimate.fit(np.concatenate(x), np.concatenate(y), REMEMBERED_JUDGING, rng)

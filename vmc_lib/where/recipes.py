@@ -34,8 +34,8 @@ class Recipe:
 
 
 PUBLISHED = Recipe()
-CONTEXT = replace(PUBLISHED, features="context", shaken=5, mirror=True, gate=-1)
-GRADIENTS = replace(CONTEXT, features="gradients")
+CONTEXT = replace(PUBLISHED, features="context", cost=0.3, shaken=5, mirror=True, gate=-1)
+GRADIENTS = replace(CONTEXT, features="gradients", cost=0.1)
 LOOKS = replace(GRADIENTS, strategy="finer", looks=(0.15, 0.1, 0.07, 0.05))
 JUDGED = replace(LOOKS, judged=True)
 IMPROVED = replace(JUDGED, vote=True)

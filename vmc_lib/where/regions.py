@@ -8,7 +8,7 @@ candidates, trains every recipe on every level, and stores them.
 """
 
 from collections import ChainMap
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from itertools import product
 
 import numpy as np
@@ -19,7 +19,7 @@ from vmc_lib import photos
 from ..data import FOLDER, arrays
 from .boxes import as_boxes, iou, nms, vote
 from .lessons import lessons, store_candidates, training_examples
-from .looks import Judge, learn_to_look, look_again
+from .looks import Estimate, learn_to_judge, learn_to_look, look_again
 from .machine import PARTS, Machine, best_threshold
 from .recipes import PUBLISHED, RECIPES, TRAINED_AS, Recipe
 from .selective_search import propose
@@ -49,8 +49,8 @@ class RegionFinder:
 
     recipe: Recipe
     machine: Machine
-    maps: tuple = ()  # of (d + 1, 4), one a look, from what a box shows to its correction
-    judge: Judge | None = None
+    looks: tuple = ()  # of Estimates: how to correct a box
+    judge: Estimate | None = None  # of how well a box fits
     threshold: float = 0.0  # what the boxes must score in the end
 
     @classmethod
@@ -62,9 +62,9 @@ class RegionFinder:
         rng, seen = rng or np.random.default_rng(0), lessons(shots, recipe)
         x, y = training_examples(seen, recipe, rng)
         machine = Machine.fit(x, y, recipe.kernel, recipe.cost)
-        maps = learn_to_look(seen, recipe, rng)
-        judge = Judge.fit(seen, recipe, machine, maps, rng) if recipe.judged else None
-        return cls(recipe, machine, maps, judge)
+        looks = learn_to_look(seen, recipe, rng)
+        judge = learn_to_judge(seen, recipe, machine, looks, rng) if recipe.judged else None
+        return cls(recipe, machine, looks, judge)
 
     def used_as(self, name):
         """The same training, used for the recipe `name`, which does less."""
@@ -98,20 +98,23 @@ class RegionFinder:
             for part, value in learnt.items()
             if part.startswith(f"{key}/")
         }
-        recipe, judge = RECIPES[name], None
-        if recipe.judged:
-            judged = Machine("rbf", *(parts[f"judge/{part}"] for part in PARTS))
-            judge = Judge(parts["judge/axes"], judged)
+
+        def estimate(called):
+            return Estimate(*(parts[f"{called}/{field.name}"] for field in fields(Estimate)))
+
+        recipe = RECIPES[name]
         machine = Machine(recipe.kernel, *(parts[part] for part in PARTS))
-        threshold = learnt[f"{level}/{name}/threshold"].item()
-        return cls(recipe, machine, tuple(parts["maps"]), judge, threshold)
+        looks = tuple(estimate(f"look {i}") for i in range(len(recipe.looks)))
+        judge = estimate("judge") if recipe.judged else None
+        return cls(recipe, machine, looks, judge, learnt[f"{level}/{name}/threshold"].item())
 
     def parts(self):
         """The arrays that `load` reads, by name."""
-        parts = {part: getattr(self.machine, part) for part in PARTS} | {"maps": self.maps}
-        if self.judge:
-            parts["judge/axes"] = self.judge.axes
-            parts |= {f"judge/{part}": getattr(self.judge.machine, part) for part in PARTS}
+        parts = {part: getattr(self.machine, part) for part in PARTS}
+        estimates = {f"look {i}": look for i, look in enumerate(self.looks)}
+        for called, estimate in (estimates | {"judge": self.judge}).items():
+            if estimate:
+                parts |= {f"{called}/{part}": value for part, value in vars(estimate).items()}
         return parts
 
     def score(self, image, boxes):
@@ -120,7 +123,7 @@ class RegionFinder:
 
     def look_again(self, image, boxes, looks=None):
         """The boxes (n, 4), each corrected by what it shows, `looks` times (by default all)."""
-        return look_again(self.recipe, self.maps[:looks], image, boxes)
+        return look_again(self.recipe, self.looks[:looks], image, boxes)
 
     def find(self, image, boxes=None):
         """The Regions of a uint8 image; `boxes` are its candidates, if they are known already.
@@ -134,8 +137,7 @@ class RegionFinder:
         passed, passed_scores = boxes[scores > recipe.gate], scores[scores > recipe.gate]
         if recipe.looks:
             passed = self.look_again(image, passed)
-            judge = self.judge or self.machine
-            passed_scores = judge.score(recipe.describe(image, passed))
+            passed_scores = (self.judge or self.machine.score)(recipe.describe(image, passed))
         good = passed_scores > self.threshold
         passed, passed_scores = passed[good], passed_scores[good]
         kept = nms(passed, passed_scores, recipe.overlap)

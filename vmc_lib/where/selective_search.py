@@ -250,9 +250,9 @@ class Strategy:
                     raise ValueError(f"{name!r} is none of {', '.join(known)}")
 
 
-STRATEGIES = {  # Uijlings et al. (2013), Table 6; "finer" is ours
+STRATEGIES = {  # Uijlings et al. (2013), Table 6, whose fast has k of 50 and 100; "finer" is ours
     "single": Strategy(),
-    "fast": Strategy(("HSV", "Lab"), (50, 100), (ALL, COLOURLESS)),
+    "fast": Strategy(("HSV", "Lab"), (75, 150), (ALL, COLOURLESS)),
     "quality": Strategy(
         ("HSV", "Lab", "rgI", "H", "I"),
         (50, 100, 150, 300),

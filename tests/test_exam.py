@@ -1,0 +1,35 @@
+import numpy as np
+import pytest
+
+from vmc_lib import exam, photos
+from vmc_lib.where import evaluate
+
+
+def test_every_question_was_put_to_a_hundred_photos_of_each_level():
+    for question, levels in exam.answers().items():
+        assert list(levels) == list(photos.LEVELS)
+        for right, _, missed in levels.values():
+            if question in exam.FINDERS:  # a cup and a shuttlecock a photo
+                assert right + missed == 200
+            elif isinstance(question, tuple):  # shuttlecocks, among as many cups
+                assert right + missed == 100
+
+
+def test_the_exam_asks_what_the_tables_ask():
+    """Put to the photos that ship, its questions get the tables' answers."""
+    found = exam.where("rig", photos.load("rig", "test"))
+    tables = evaluate.table_1("rig", "test", "context") | evaluate.table_2("rig", "test")
+    for question, counts in found.items():
+        shares = [share for share, *_ in exam.shares(*counts)]
+        assert shares == pytest.approx(tables[question], abs=0.02)
+
+
+def test_shares_by_hand():
+    (precision, low, high), (recall, *_) = exam.shares(30, 10, 20)
+    assert (precision, recall) == (0.75, 0.6)
+    assert low < precision < high and np.isclose(high - low, 0.26, atol=0.01)
+
+
+def test_a_table_has_a_row_for_each_question():
+    *_, first, last = exam.table("linear", ("MP2", 1)).splitlines()
+    assert first.startswith("| linear |") and last.startswith("| MP2, seed 1 |")

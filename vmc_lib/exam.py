@@ -1,0 +1,93 @@
+"""A larger exam: a hundred fresh test photos a level, for what forty are too few to tell.
+
+Nothing was chosen by these photos, and each question was put once. The answers ship, in
+`data/exam.json`; the photos do not, but can be rendered anew:
+
+    python -m vmc_lib.data.render --only rig/test --count 140 --folder more
+    (the same for free and varied, then without the first forty of each)
+    python -m vmc_lib.exam more
+"""
+
+import json
+import sys
+from concurrent.futures import ProcessPoolExecutor
+from functools import partial
+from pathlib import Path
+
+from vmc_lib import photos
+from vmc_lib.data import FOLDER
+from vmc_lib.intervals import wilson
+from vmc_lib.what.cdbn import N_W
+from vmc_lib.what.comparison import tally
+from vmc_lib.what.recogniser import READ_OUTS
+from vmc_lib.what.variations import SPLITS, vary
+from vmc_lib.where.evaluate import classifier, hits
+from vmc_lib.where.lessons import examples
+from vmc_lib.where.recipes import RECIPES
+from vmc_lib.where.regions import RegionFinder
+
+FILE = FOLDER / "exam.json"
+KERNELS, FINDERS, SEEDS = ("linear", "rbf"), ("published", "improved"), (0, 1, 2)
+
+
+def answers():
+    """Question -> level -> (right, wrong, missed): counts.
+
+    "linear" and "rbf" are rows of Table I with context; "published" and "improved" of Table II;
+    (read-out, seed) of Table III.
+    """
+    kept = json.loads(FILE.read_text())
+    return {tuple(q) if isinstance(q, list) else q: levels for q, levels in kept}
+
+
+def shares(right, wrong, missed):
+    """Precision and recall, and the 95 % interval of each (Wilson): ((share, low, high), …)."""
+    totals = right + wrong, right + missed
+    return tuple((right / n, *wilson(right, n)) for n in totals)
+
+
+def table(*questions):
+    """Answers as Markdown: precision / recall on every level, each with its interval."""
+    asked, lines = answers(), ["| | " + " | ".join(photos.LEVELS) + " |", "|---|---|---|---|"]
+    for question in questions:
+        cells = [question if isinstance(question, str) else "{}, seed {}".format(*question)]
+        for level in photos.LEVELS:
+            parts = shares(*asked[question][level])
+            cells.append(
+                " / ".join(f"{share:.3f} ({low:.2f}–{high:.2f})" for share, low, high in parts)
+            )
+        lines.append("| " + " | ".join(cells) + " |")
+    return "\n".join(lines)
+
+
+def where(level, shots):
+    """The answers of the dorsal pathway on photos of a level."""
+    found = {}
+    for kernel in KERNELS:
+        machine, threshold = classifier(level, "context", kernel)
+        x, truth = examples(shots, RECIPES["context"])
+        found[kernel] = tally(machine.score(x), truth, threshold)[:3]
+    for name in FINDERS:
+        finder = RegionFinder.load(level, name)
+        right, reached = hits(shots, [finder.find(photo.image).boxes for photo in shots])
+        found[name] = tuple(map(int, (right.sum(), (~right).sum(), (~reached).sum())))
+    return found
+
+
+def main(folder):
+    """Put every question, and keep the answers."""
+    found = {}
+    for level in photos.LEVELS:
+        for question, counts in where(level, photos.load(level, "test", folder)).items():
+            found.setdefault(question, {})[level] = counts
+    with ProcessPoolExecutor(2) as pool:
+        trained = [(N_W, seed) for seed in SEEDS]
+        for seed, (_, counts) in enumerate(pool.map(partial(vary, folder=folder), trained)):
+            for j, name in enumerate(READ_OUTS):
+                named = counts[:, j, SPLITS.index("test"), :3].tolist()
+                found[name, seed] = dict(zip(photos.LEVELS, named, strict=True))
+    FILE.write_text(json.dumps(list(found.items()), indent=1) + "\n")
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))
