@@ -1,18 +1,24 @@
+from itertools import product
+
 import numpy as np
 import pytest
 
 from vmc_lib import exam, photos
+from vmc_lib.what.recogniser import READ_OUTS
 from vmc_lib.where import evaluate
 
 
 def test_every_question_was_put_to_a_hundred_photos_of_each_level():
+    assert set(exam.answers()) == {*exam.KERNELS, *exam.FINDERS, *product(READ_OUTS, exam.SEEDS)}
     for question, levels in exam.answers().items():
         assert list(levels) == list(photos.LEVELS)
-        for right, _, missed in levels.values():
+        for level, (right, _, missed) in levels.items():
             if question in exam.FINDERS:  # a cup and a shuttlecock a photo
                 assert right + missed == 200
             elif isinstance(question, tuple):  # shuttlecocks, among as many cups
                 assert right + missed == 100
+            else:  # candidates on an object, the same for both kernels
+                assert right + missed == sum(exam.answers()["rbf"][level][::2]) > 200
 
 
 def test_the_exam_asks_what_the_tables_ask():
@@ -33,3 +39,10 @@ def test_shares_by_hand():
 def test_a_table_has_a_row_for_each_question():
     *_, first, last = exam.table("linear", ("MP2", 1)).splitlines()
     assert first.startswith("| linear |") and last.startswith("| MP2, seed 1 |")
+    (precision, *_), (recall, *_) = exam.shares(*exam.answers()["linear"]["rig"])
+    assert f"{precision:.3f}" in first.split("|")[2] and f"{recall:.3f}" in first.split("|")[2]
+
+
+def test_photos_that_ship_are_no_exam():
+    with pytest.raises(ValueError, match="rig/test/000"):
+        exam.main(photos.FOLDER)

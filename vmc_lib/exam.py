@@ -4,7 +4,7 @@ Nothing was chosen by these photos, and each question was put once. The answers 
 `data/exam.json`; the photos do not, but can be rendered anew:
 
     python -m vmc_lib.data.render --only rig/test --count 140 --folder more
-    (the same for free and varied, then without the first forty of each)
+    (the same for free and varied; then delete the first forty of each, which ship)
     python -m vmc_lib.exam more
 """
 
@@ -13,6 +13,8 @@ import sys
 from concurrent.futures import ProcessPoolExecutor
 from functools import partial
 from pathlib import Path
+
+import torch
 
 from vmc_lib import photos
 from vmc_lib.data import FOLDER
@@ -41,7 +43,10 @@ def answers():
 
 
 def shares(right, wrong, missed):
-    """Precision and recall, and the 95 % interval of each (Wilson): ((share, low, high), …)."""
+    """Precision and recall, and the 95 % interval of each (Wilson): ((share, low, high), …).
+
+    The intervals take the counts as independent; those of several boxes on one object are not.
+    """
     totals = right + wrong, right + missed
     return tuple((right / n, *wilson(right, n)) for n in totals)
 
@@ -75,14 +80,18 @@ def where(level, shots):
 
 
 def main(folder):
-    """Put every question, and keep the answers."""
+    """Put every question, and keep the answers. ValueError for a photo that ships."""
     found = {}
     for level in photos.LEVELS:
-        for question, counts in where(level, photos.load(level, "test", folder)).items():
+        shots = photos.load(level, "test", folder)
+        known = {photo.name for photo in photos.load(level, "test")}
+        if known & {photo.name for photo in shots}:
+            raise ValueError(f"{folder} holds photos that ship, no exam: delete {sorted(known)}")
+        for question, counts in where(level, shots).items():
             found.setdefault(question, {})[level] = counts
-    with ProcessPoolExecutor(2) as pool:
-        trained = [(N_W, seed) for seed in SEEDS]
-        for seed, (_, counts) in enumerate(pool.map(partial(vary, folder=folder), trained)):
+    with ProcessPoolExecutor(2, initializer=torch.set_num_threads, initargs=(1,)) as pool:
+        trained = pool.map(partial(vary, folder=folder), [(N_W, seed) for seed in SEEDS])
+        for seed, (_, counts) in zip(SEEDS, trained, strict=True):
             for j, name in enumerate(READ_OUTS):
                 named = counts[:, j, SPLITS.index("test"), :3].tolist()
                 found[name, seed] = dict(zip(photos.LEVELS, named, strict=True))

@@ -25,14 +25,14 @@ def astray(photo, by):
 
 
 def test_looking_again_brings_a_box_nearer(finder):
-    gains = []
+    first, rest = [], []
     for photo in photos.load("rig", "validation")[:5]:
         truth, off = astray(photo, [0.2, -0.2, 0.1, 0.1])
-        for before, after in ((0, 1), (1, 4)):
-            boxes = [finder.look_again(photo.image, off, n) for n in (before, after)]
-            gains.append([np.diag(iou(b, truth)).mean() for b in boxes])
-    before, after = np.mean(gains, 0)
-    assert after > before + 0.05
+        boxes = [finder.look_again(photo.image, off, n) for n in (0, 1, 4)]
+        before, once, again = (np.diag(iou(b, truth)).mean() for b in boxes)
+        first.append(once - before)
+        rest.append(again - once)
+    assert np.mean(first) > 0.05 and np.mean(rest) > 0.02
 
 
 def test_a_judge_tells_a_fit_from_a_near_miss(finder):
@@ -53,4 +53,6 @@ def test_a_bare_photo_teaches_the_judge_misfits(finder, monkeypatch):
     judge = looks.learn_to_judge(
         [*seen, bare], IMPROVED, finder.machine, finder.looks, np.random.default_rng(0)
     )
-    assert judge.axes.shape == (800, looks.DIRECTIONS)
+    shown = (IMPROVED.describe(seen[0].image, boxes) for boxes in (bare.boxes, seen[0].truth))
+    bared, objects = (judge(x).mean() for x in shown)
+    assert bared < 0.2 < objects

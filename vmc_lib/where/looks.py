@@ -21,14 +21,15 @@ JUDGED = 25_600  # scattered boxes that the judge learns from
 UNFIT, FIT = 0.5, 0.9  # IoU up to which a box is worth 0, and from which it is worth 1
 ASTRAY = 0.3  # IoU under which a box shows no object
 NEAR = (0.03, 0.08, 0.15)  # how far, in sides, the scattered boxes stray that are judged
-FOOLED, PLAIN = 25, 10  # candidates a photo judged too: led astray by looks, and as found
+FOOLED, PLAIN = 25, 10  # further candidates a lesson: fooled ones after the looks, any as found
+SIFTED = 51_200  # candidates of all lessons among which these are sought
 
 
 @dataclass(frozen=True)
 class Estimate:
     """Numbers read off what a box shows: a linear part, and one for likeness to boxes remembered.
 
-    estimate(x) = weights · (x - mean, exp(-gamma ‖axes · (x - mean) - remembered‖²)) + bias: a
+    estimate(x) = weights · (x - mean, exp(-gamma ‖axesᵀ (x - mean) - remembered‖²)) + bias: a
     network of radial basis functions (Broomhead & Lowe 1988) beside a linear map.
     """
 
@@ -40,15 +41,15 @@ class Estimate:
     bias: np.ndarray = 0
 
     @classmethod
-    def fit(cls, x, y, remembered, rng):
+    def fit(cls, x, y, memories, rng):
         """Learn from features x (n, d) and their numbers y (n,) or (n, m), by ridge regression.
 
-        So many of the examples are `remembered`, a draw.
+        So many of the examples, drawn at random, are remembered.
         """
         mean = x.mean(0)
         axes = np.linalg.eigh(np.cov(x.T))[1][:, -DIRECTIONS:]
         places = (x - mean) @ axes
-        some = places[rng.permutation(len(x))[:remembered]]
+        some = places[rng.permutation(len(x))[:memories]]
         blank = cls(mean, axes, some, 1 / places.var(0).sum())
         ridge = Ridge(PENALTY).fit(blank.terms(x), y)
         return replace(blank, weights=ridge.coef_.T, bias=ridge.intercept_)
@@ -88,20 +89,20 @@ def look_again(recipe, looks, image, boxes):
     return boxes
 
 
-def learn_to_judge(lessons, recipe, gate, looks, rng):
-    """An Estimate of how well a box fits its object: 0 where it does not (UNFIT), 1 where it does.
+def learn_to_judge(lessons, recipe, machine, looks, rng):
+    """An Estimate of how well a box fits its object: 0 up to IoU UNFIT, rising to 1 at FIT.
 
     It learns from true boxes, scattered, the classifier's blind zone (0.5 to 0.8) included; from
-    candidates; and above all from those that pass the `gate` (a Machine) and are led by the looks
-    to what is no object.
+    candidates; and from those that show no object and yet fool the `machine`, wherever the looks
+    then lead them.
     """
     total = sum(len(lesson.truth) for lesson in lessons)
     times, x, y = JUDGED // total // len(NEAR) + 1, [], []
     for lesson in lessons:
         near = [lesson.scattered(times, spread, rng)[1] for spread in NEAR]
-        some = rng.permutation(lesson.boxes)[: 2 * JUDGED // len(lessons)]
+        some = rng.permutation(lesson.boxes)[: SIFTED // len(lessons)]
         off = some[iou(some, lesson.truth).max(1, initial=0) < ASTRAY]
-        fooled = gate.score(recipe.describe(lesson.image, off)) > recipe.gate
+        fooled = machine.score(recipe.describe(lesson.image, off)) > recipe.gate
         led = look_again(recipe, looks, lesson.image, off[fooled][:FOOLED])
         boxes = np.vstack([*near, led, some[:PLAIN]])
         x.append(recipe.describe(lesson.image, boxes))

@@ -24,7 +24,7 @@ class Recipe:
     shaken: int = 0  # more examples of each object: its true box, shaken a little
     mirror: bool = False  # learn from the photos' mirror images too
     looks: tuple = ()  # corrections of a box; how far off, in sides, each expects it to be
-    judged: bool = False  # a second machine scores the boxes where the looks have led them
+    judged: bool = False  # an estimate of the fit scores the boxes where the looks have led them
     vote: bool = False  # boxes silenced by a better one still pull at its sides
     overlap: float = 0.3  # that non-maximum suppression allows
 
