@@ -5,7 +5,8 @@ training and validation renders, of all levels, and of the real photos that ship
 takes long: of ten photos of each at most).
 Boxes under 20 pixels are dropped from every list. Recall is the share of objects with a box at
 that overlap, ABO the average best overlap; "equal" cuts the lists of OpenCV and ours, photo by
-photo, to the shorter one. Our ranks hold a random draw: what depends on it is a mean over ten.
+photo, to the shorter one. Our ranks hold a random draw: what depends on it is a mean over ten. All
+these photos had been seen when the scales of our *fast* were settled.
 """
 
 import subprocess

@@ -10,11 +10,7 @@ Nothing was chosen by these photos, and each question was put once. The answers 
 
 import json
 import sys
-from concurrent.futures import ProcessPoolExecutor
-from functools import partial
 from pathlib import Path
-
-import torch
 
 from vmc_lib import photos
 from vmc_lib.data import FOLDER
@@ -22,14 +18,15 @@ from vmc_lib.intervals import wilson
 from vmc_lib.what.cdbn import N_W
 from vmc_lib.what.comparison import tally
 from vmc_lib.what.recogniser import READ_OUTS
-from vmc_lib.what.variations import SPLITS, vary
-from vmc_lib.where.evaluate import classifier, hits
+from vmc_lib.what.variations import SPLITS, VARIATIONS, vary_all
+from vmc_lib.where.evaluate import classifiers, hits
 from vmc_lib.where.lessons import examples
 from vmc_lib.where.recipes import RECIPES
 from vmc_lib.where.regions import RegionFinder
 
 FILE = FOLDER / "exam.json"
-KERNELS, FINDERS, SEEDS = ("linear", "rbf"), ("published", "improved"), (0, 1, 2)
+KERNELS, FINDERS = ("linear", "rbf"), ("published", "improved")
+SEEDS = tuple(seed for n_w, seed in VARIATIONS if n_w == N_W)
 
 
 def answers():
@@ -67,10 +64,9 @@ def table(*questions):
 
 def where(level, shots):
     """The answers of the dorsal pathway on photos of a level."""
-    found = {}
-    for kernel in KERNELS:
-        machine, threshold = classifier(level, "context", kernel)
-        x, truth = examples(shots, RECIPES["context"])
+    x, truth = examples(shots, RECIPES["context"])
+    trained, found = classifiers(level, "context", KERNELS), {}
+    for kernel, (machine, threshold) in zip(KERNELS, trained, strict=True):
         found[kernel] = tally(machine.score(x), truth, threshold)[:3]
     for name in FINDERS:
         finder = RegionFinder.load(level, name)
@@ -89,12 +85,11 @@ def main(folder):
             raise ValueError(f"{folder} holds photos that ship, no exam: delete {sorted(known)}")
         for question, counts in where(level, shots).items():
             found.setdefault(question, {})[level] = counts
-    with ProcessPoolExecutor(2, initializer=torch.set_num_threads, initargs=(1,)) as pool:
-        trained = pool.map(partial(vary, folder=folder), [(N_W, seed) for seed in SEEDS])
-        for seed, (_, counts) in zip(SEEDS, trained, strict=True):
-            for j, name in enumerate(READ_OUTS):
-                named = counts[:, j, SPLITS.index("test"), :3].tolist()
-                found[name, seed] = dict(zip(photos.LEVELS, named, strict=True))
+    trained = vary_all([(N_W, seed) for seed in SEEDS], folder)
+    for (_, seed), (_, counts) in trained.items():
+        for j, name in enumerate(READ_OUTS):
+            named = counts[:, j, SPLITS.index("test"), :3].tolist()
+            found[name, seed] = dict(zip(photos.LEVELS, named, strict=True))
     FILE.write_text(json.dumps(list(found.items()), indent=1) + "\n")
 
 

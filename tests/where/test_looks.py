@@ -32,7 +32,7 @@ def test_looking_again_brings_a_box_nearer(finder):
         before, once, again = (np.diag(iou(b, truth)).mean() for b in boxes)
         first.append(once - before)
         rest.append(again - once)
-    assert np.mean(first) > 0.05 and np.mean(rest) > 0.02
+    assert np.mean(first) > 0.05 and np.mean(rest) > 0.05
 
 
 def test_a_judge_tells_a_fit_from_a_near_miss(finder):
@@ -53,6 +53,7 @@ def test_a_bare_photo_teaches_the_judge_misfits(finder, monkeypatch):
     judge = looks.learn_to_judge(
         [*seen, bare], IMPROVED, finder.machine, finder.looks, np.random.default_rng(0)
     )
+    assert judge.axes.shape == (800, looks.DIRECTIONS)
     shown = (IMPROVED.describe(seen[0].image, boxes) for boxes in (bare.boxes, seen[0].truth))
     bared, objects = (judge(x).mean() for x in shown)
     assert bared < 0.2 < objects

@@ -5,7 +5,7 @@ Remake what it finds, `data/variations.npz`, with `python -m vmc_lib.what.variat
 
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import redirect_stdout
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 import torch
@@ -58,10 +58,15 @@ def vary(variation, folder=photos.FOLDER):
     return cdbn.first.W[:, 0].numpy(), counts
 
 
-if __name__ == "__main__":
+def vary_all(variations, folder=photos.FOLDER):
+    """`vary` each of the variations, on a core each: variation -> (filters, counts)."""
     with ProcessPoolExecutor(2, initializer=torch.set_num_threads, initargs=(1,)) as pool:
-        found = dict(zip(VARIATIONS, pool.map(vary, VARIATIONS), strict=True))
+        found = pool.map(partial(vary, folder=folder), variations)
+        return dict(zip(variations, found, strict=True))
+
+
+if __name__ == "__main__":
     learnt = {}
-    for variation, (filters, counts) in found.items():
+    for variation, (filters, counts) in vary_all(VARIATIONS).items():
         learnt |= {f"{variation}/filters": filters, f"{variation}/counts": counts}
     np.savez_compressed(FOLDER / "variations.npz", **learnt)

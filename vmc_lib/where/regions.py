@@ -112,9 +112,10 @@ class RegionFinder:
         """The arrays that `load` reads, by name."""
         parts = {part: getattr(self.machine, part) for part in PARTS}
         estimates = {f"look {i}": look for i, look in enumerate(self.looks)}
-        for called, estimate in (estimates | {"judge": self.judge}).items():
-            if estimate:
-                parts |= {f"{called}/{part}": value for part, value in vars(estimate).items()}
+        if self.judge:
+            estimates["judge"] = self.judge
+        for called, estimate in estimates.items():
+            parts |= {f"{called}/{part}": value for part, value in vars(estimate).items()}
         return parts
 
     def score(self, image, boxes):
