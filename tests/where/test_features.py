@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from vmc_lib.where.features import crops, gradients, raw_pixels
+from vmc_lib.where.features import crops, gradients, pixels_in_context, raw_pixels
 
 RNG = np.random.default_rng(0)
 NOISE = RNG.integers(0, 256, (40, 60, 3), dtype=np.uint8)
@@ -28,7 +28,9 @@ def test_a_box_without_area_shows_one_pixel():
     assert np.ptp(crops(NOISE, [(7, 9, 7, 9)], 16), axis=(1, 2)).max() == 0
 
 
-@pytest.mark.parametrize(("features", "length"), [(raw_pixels, 768), (gradients, 800)])
+@pytest.mark.parametrize(
+    ("features", "length"), [(raw_pixels, 768), (pixels_in_context, 770), (gradients, 800)]
+)
 def test_one_row_a_box(features, length):
     boxes = RNG.integers(0, 30, (5, 2))
     rows = features(NOISE, np.hstack([boxes, boxes + 20]))
@@ -48,6 +50,13 @@ def test_gradients_point_across_the_edge():
 def test_a_margin_shows_what_is_around():
     inner, outer = (10, 10, 30, 30), (5, 5, 35, 35)
     assert (raw_pixels(NOISE, [inner], 0.25) == raw_pixels(NOISE, [outer])).all()
+
+
+def test_context_is_a_margin_and_the_size():
+    boxes = [(10, 10, 25, 30), (7, 9, 7, 9)]
+    rows = pixels_in_context(NOISE, boxes)
+    assert (rows[:, :-2] == raw_pixels(NOISE, boxes, 0.25)).all()
+    assert rows[:, -2:] == pytest.approx(np.log2([[15 / 60, 20 / 40], [1 / 60, 1 / 40]]))
 
 
 def test_gradients_do_not_mind_the_light():

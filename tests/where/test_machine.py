@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sklearn.svm import SVC
 
-from vmc_lib.where.machine import KERNELS, Machine, best_threshold
+from vmc_lib.where.machine import KERNELS, Machine, best_threshold, steady_threshold
 
 RNG = np.random.default_rng(0)
 
@@ -51,3 +51,21 @@ def test_no_threshold_is_better_than_the_best(pairs):
 
     best = best_threshold(scores.astype(float), right, right.sum() + 1)
     assert f1(best) >= max(f1(s - 0.5) for s in scores) - 1e-9
+
+
+def noisy(n, rng):
+    """Scores (n,), and whether each is right: the more likely, the higher it is."""
+    scores = rng.normal(size=n)
+    return scores, rng.random(n) < 1 / (1 + np.exp(-4 * scores))
+
+
+def test_with_many_examples_a_steady_threshold_is_the_best():
+    scores, right = noisy(5000, RNG)
+    best = best_threshold(scores, right, right.sum())
+    assert steady_threshold(scores, right) == pytest.approx(best, abs=0.1)
+
+
+def test_with_few_examples_a_steady_threshold_strays_less():
+    draws = [noisy(100, RNG) for _ in range(50)]
+    best = np.std([best_threshold(scores, right, right.sum()) for scores, right in draws])
+    assert np.std([steady_threshold(*draw) for draw in draws]) < 0.7 * best

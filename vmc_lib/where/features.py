@@ -1,4 +1,4 @@
-"""What a box shows, as numbers: the raw pixels of the paper, and gradients with a margin."""
+"""What a box shows, as numbers: the raw pixels of the paper, alone or in context, and gradients."""
 
 import numpy as np
 
@@ -29,6 +29,18 @@ def crops(image, boxes, size):
 def raw_pixels(image, boxes, margin=0.0):
     """The paper's features: 16 × 16 RGB pixels of each box (and a margin), (n, 768)."""
     return crops(image, widened(boxes, margin), 16).reshape(-1, 768)
+
+
+def pixels_in_context(image, boxes, margin=0.25):
+    """Raw pixels of each box and a margin, and the box's width and height, (n, 770).
+
+    A crop of 16 × 16 forgets how large its box was. The sides are in octaves, 0 for those of the
+    image; one of no length counts as a pixel.
+    """
+    boxes = as_boxes(boxes)
+    sides = np.maximum(boxes[:, 2:] - boxes[:, :2], 1)
+    octaves = np.log2(sides / image.shape[1::-1])
+    return np.hstack([raw_pixels(image, boxes, margin), octaves], dtype=np.float32)
 
 
 def gradients(image, boxes, cells=10, bins=8, margin=0.25):

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from sklearn.linear_model import LogisticRegression
 from sklearn.metrics.pairwise import pairwise_kernels
 from sklearn.svm import SVC
 
@@ -49,9 +50,9 @@ class Machine:
 def best_threshold(scores, right, wanted):
     """The threshold for scores (n,) that finds most at fewest errors: the best F1.
 
-    right: (n,) which are hits; wanted: how many there are to hit. F1 is the harmonic mean of
-    precision and recall; the threshold lies midway between the last score taken and the next lower
-    one (or is -inf, where it is best to take all).
+    right: (n,) which are hits, or the chance of each; wanted: how many there are to hit. F1 is the
+    harmonic mean of precision and recall; the threshold lies midway between the last score taken
+    and the next lower one (or is -inf, where it is best to take all).
     ValueError where there is nothing to choose from.
     """
     if not len(scores):
@@ -61,3 +62,14 @@ def best_threshold(scores, right, wanted):
     f1 = 2 * right[order].cumsum() / (np.arange(len(order)) + 1 + wanted)
     last = np.where(left < taken, f1, -1).argmax()  # no line divides equal scores
     return float((taken[last] + left[last]) / 2)
+
+
+def steady_threshold(scores, right):
+    """The best threshold for scores (n,), of which a few odd examples cannot move it far.
+
+    What is right, (n,) true or false, is first smoothed into the chance that a score is: a logistic
+    curve (Platt 1999).
+    """
+    curve = LogisticRegression(C=1e3).fit(scores[:, None], right)
+    chances = curve.predict_proba(scores[:, None])[:, 1]
+    return best_threshold(scores, chances, chances.sum())

@@ -1,15 +1,10 @@
 """How to choose regions: the paper's recipe, and five that each add an idea to the one before."""
 
 from dataclasses import dataclass, replace
-from functools import partial
 
-from .features import gradients, raw_pixels
+from .features import gradients, pixels_in_context, raw_pixels
 
-FEATURES = {
-    "pixels": raw_pixels,
-    "context": partial(raw_pixels, margin=0.25),
-    "gradients": gradients,
-}
+FEATURES = {"pixels": raw_pixels, "context": pixels_in_context, "gradients": gradients}
 
 
 @dataclass(frozen=True)
@@ -34,8 +29,8 @@ class Recipe:
 
 
 PUBLISHED = Recipe()
-CONTEXT = replace(PUBLISHED, features="context", cost=0.3, shaken=5, mirror=True, gate=-1)
-GRADIENTS = replace(CONTEXT, features="gradients", cost=0.1)
+CONTEXT = replace(PUBLISHED, features="context", shaken=5, mirror=True, gate=-1)
+GRADIENTS = replace(CONTEXT, features="gradients")
 LOOKS = replace(GRADIENTS, strategy="finer", looks=(0.15, 0.1, 0.07, 0.05))
 JUDGED = replace(LOOKS, judged=True)
 IMPROVED = replace(JUDGED, vote=True)
