@@ -30,9 +30,8 @@ SEEDS = 5
 def table_1(level, split="test", name="published"):
     """Table I: precision and recall of the RoI classifier, for each kernel and before suppression.
 
-    As in the paper, over candidates that clearly hold an object or clearly do not; with the
-    features and examples of the recipe `name`: "published" or "context". The
-    means over SEEDS trainings.
+    Means over SEEDS trainings with the features and examples of the recipe `name`, "published" or
+    "context". As in the paper, over candidates that clearly hold an object or clearly do not.
     """
     return {kernel: row.mean(0) for kernel, row in trainings(level, split, name).items()}
 
@@ -44,7 +43,7 @@ def trainings(level, split="test", name="published"):
     return dict(zip(TABLE_1_KERNELS, by_kernel, strict=True))
 
 
-def classifiers(level, name, kernels=TABLE_1_KERNELS, seed=0):
+def classifiers(level, name, kernels, seed):
     """For each kernel of Table I, a Machine trained with the recipe `name`, and its threshold.
 
     Beyond the published recipe, whose threshold is 0, the validation photos set the threshold.
@@ -57,7 +56,7 @@ def classifiers(level, name, kernels=TABLE_1_KERNELS, seed=0):
         yield machine, 0 if name == "published" else steady_threshold(machine.score(x), truth)
 
 
-def classify(level, name, kernels=TABLE_1_KERNELS, seed=0):
+def classify(level, name, seed, kernels=TABLE_1_KERNELS):
     """Table I: (precision, recall) of each kernel in each of the SPLITS, (3, kernels, 2)."""
     trained, rows = list(classifiers(level, name, kernels, seed)), []
     for split in photos.SPLITS:
@@ -127,7 +126,7 @@ def found(level, split, name):
 
 def classified(level, name, seed):
     """Table I of one training, (3 splits, 4 kernels, 2)."""
-    return {f"{level}/{name}/table 1/{seed}": classify(level, name, seed=seed)}
+    return {f"{level}/{name}/table 1/{seed}": classify(level, name, seed)}
 
 
 def trained_anew(level, name):

@@ -31,8 +31,8 @@ def raw_pixels(image, boxes, margin=0.0):
     return crops(image, widened(boxes, margin), 16).reshape(-1, 768)
 
 
-def pixels_in_context(image, boxes, margin=0.25):
-    """Raw pixels of each box and a margin, and the box's width and height, (n, 770).
+def pixels_in_context(image, boxes):
+    """Raw pixels of each box and a quarter of it around, and the box's width and height, (n, 770).
 
     A crop of 16 × 16 forgets how large its box was. The sides are in octaves, 0 for those of the
     image; one of no length counts as a pixel.
@@ -40,7 +40,7 @@ def pixels_in_context(image, boxes, margin=0.25):
     boxes = as_boxes(boxes)
     sides = np.maximum(boxes[:, 2:] - boxes[:, :2], 1)
     octaves = np.log2(sides / image.shape[1::-1])
-    return np.hstack([raw_pixels(image, boxes, margin), octaves], dtype=np.float32)
+    return np.hstack([raw_pixels(image, boxes, 0.25), octaves], dtype=np.float32)
 
 
 def gradients(image, boxes, cells=10, bins=8, margin=0.25):

@@ -65,7 +65,7 @@ def best_threshold(scores, right, wanted):
 
 
 def steady_threshold(scores, right):
-    """The best threshold for scores (n,), of which a few odd examples cannot move it far.
+    """A threshold near the best for scores (n,), which a few odd examples cannot move far.
 
     What is right, (n,) true or false, is first smoothed into the chance that a score is: a logistic
     curve (Platt 1999).
