@@ -76,7 +76,7 @@ RAW_TEX = r"""() => {
 
 WIDE = """() => [...document.querySelectorAll("article *")]
   .filter((e) => e.getBoundingClientRect().right > innerWidth + 1
-    && !e.closest("pre, table, div.math, mjx-assistive-mml, .vmc-spoken, .vmc-picture"))
+    && !e.closest("pre, table, div.math, .vmc-spoken, .vmc-picture"))
   .map((e) => e.outerHTML.slice(0, 120))"""
 
 

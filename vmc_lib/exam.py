@@ -28,7 +28,7 @@ from vmc_lib.where.lessons import examples
 from vmc_lib.where.recipes import RECIPES
 from vmc_lib.where.regions import RegionFinder
 
-FRESH = 140  # the first photo that had no part in Table I
+FRESH = 140  # number of the first photo that had no part in Table I
 FILE = FOLDER / "exam.json"
 KERNELS, FINDERS = ("linear", "rbf"), ("published", "improved")
 SEEDS = tuple(seed for n_w, seed in VARIATIONS if n_w == N_W)
@@ -97,7 +97,7 @@ def main(folder):
         known = {photo.name for photo in photos.load(level, "test")}
         if known & {photo.name for photo in shots}:
             raise ValueError(f"{folder} holds photos that ship, no exam: delete {sorted(known)}")
-        fresh = [shot for shot in shots if int(shot.name[-3:]) >= FRESH]
+        fresh = [shot for shot in shots if shot.seed[-1] >= FRESH]
         for question, counts in (ask_kernels(level, fresh) | ask_finders(level, shots)).items():
             found.setdefault(question, {})[level] = counts
     trained = vary_all([(N_W, seed) for seed in SEEDS], folder)
