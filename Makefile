@@ -12,7 +12,7 @@ BIN    := .venv/bin
 READY  := .venv/.ready
 BUILT  := _build/.built
 BUILD  := $(BIN)/jupyter-book build -W -n --keep-going .
-INPUTS := _config.yml _toc.yml $(shell find book vmc_lib -type f -not -path '*/.*' -not -name '*.pyc')
+INPUTS := _config.yml _toc.yml $(shell find book vmc_lib arm_in_page reproduce -type f -not -path '*/.*' -not -name '*.pyc')
 
 PEERED := selective_search simulators crbm planning loop scaling
 
@@ -27,7 +27,7 @@ book: $(BUILT)
 test: $(BUILT)
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
-	$(BIN)/python -m vmc_lib.show.browser
+	$(BIN)/python -m tests.browser
 	$(BIN)/pytest -n auto --dist worksteal --nbmake --nbmake-timeout=3600 tests book
 
 lab: $(READY)

@@ -1,5 +1,7 @@
 """How fast the CDBN learns and names, beside scikit-learn's RBM doing as many multiply-adds."""
 
+from functools import partial
+
 import numpy as np
 import torch
 from sklearn.neural_network import BernoulliRBM
@@ -11,9 +13,7 @@ from vmc_lib.what.crbm import CRBM
 from vmc_lib.what.recogniser import Recogniser
 
 SAMPLE = 200  # patches timed, again and again; an epoch has PATCHES
-PASSES = (
-    5  # over each hidden unit's window: up, down, up again, and two counts of what goes together
-)
+PASSES = 5  # over a hidden unit's window: up, down, up again, and two counts of statistics
 
 
 def layer(channels, width, rng):
@@ -21,7 +21,7 @@ def layer(channels, width, rng):
     machine = CRBM.random(K, channels, N_W, rng)
     patches = machine.trim(torch.randn(SAMPLE, channels, width, width, generator=rng))
     hidden = (patches.shape[-1] - N_W + 1) ** 2
-    learning = lambda: next(machine.fit(patches, range(1), 0, sparsity=0.1))  # noqa: E731
+    learning = partial(machine.fit, patches, range(1), 0, sparsity=0.1)
     return learning, PASSES * hidden * N_W**2 * channels * K
 
 

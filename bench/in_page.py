@@ -10,9 +10,9 @@ import numpy as np
 from playwright.sync_api import sync_playwright
 
 from bench.report import publish, seconds
+from tests import browser
 from vmc_lib.arm.simulate import simulate
 from vmc_lib.motor import templates
-from vmc_lib.show import browser
 
 PAGE = Path(__file__).parents[1] / "_build/html/book/07_arm.html"
 DRAWN = 5.0  # s of drawing that are counted

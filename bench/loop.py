@@ -5,7 +5,7 @@ import numpy as np
 
 from bench.report import publish, seconds
 from vmc_lib import loop, photos
-from vmc_lib.cerebellum.offline import calibrate, published
+from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration
 from vmc_lib.motor.planning import plan
 
 
@@ -17,29 +17,32 @@ def opencv(image):
     return search.process()
 
 
-def stages(brain, photo):
+def stages(model, photo):
     """Every stage of the loop as a call of no arguments, in order."""
-    regions = brain.finder.find(photo.image)
-    sight = loop.see(brain, photo.image)
-    place = loop.locate(brain, photo.image, sight.box, photo.camera)
-    reach = loop.reach(brain, place, calibration=None)
+    regions = model.detector.detect(photo.image)
+    sight = loop.see(model, photo.image)
+    place = loop.locate(model, photo.image, sight.box, photo.camera)
+    reach = loop.reach(model, place, calibration=None)
     return {
-        "candidates and regions": lambda: brain.finder.find(photo.image),
-        "names": lambda: brain.recogniser.probability(
+        "candidates and regions": lambda: model.detector.detect(photo.image),
+        "names": lambda: model.recogniser.probability(
             np.array([loop.crop(photo.image, box) for box in regions.boxes])
         ),
-        "place": lambda: loop.locate(brain, photo.image, sight.box, photo.camera),
-        "turn and plan": lambda: plan(loop.turn_towards(place)[1], brain.library).excitations,
+        "place": lambda: loop.locate(model, photo.image, sight.box, photo.camera),
+        "turn and plan": lambda: plan(loop.turn_towards(place)[1], model.template_set).excitations,
         "first movement (simulated)": reach.plan.move,
-        "off-line, published (21 movements)": lambda: published(reach.plan),
-        "off-line, own (2 movements)": lambda: calibrate(reach.plan),
+        "off-line, published (21 movements)": lambda: algorithm_1(reach.plan),
+        "off-line, own (2 movements)": lambda: broyden_calibration(reach.plan),
     }
 
 
 if __name__ == "__main__":
     photo = photos.load("free", "validation")[1]
     peer = seconds(lambda: opencv(photo.image))
-    times = {name: seconds(call) for name, call in stages(loop.Brain.load("free"), photo).items()}
+    times = {
+        name: seconds(call)
+        for name, call in stages(loop.VisuomotorModel.load("free"), photo).items()
+    }
     first = dict(list(times.items())[:4])
     times["photo to first excitation"] = sum(first.values())
     publish(

@@ -10,27 +10,40 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from bench.report import publish, seconds
-from vmc_lib.cerebellum.experiment import skilled
-from vmc_lib.cerebellum.offline import calibrate, published
-from vmc_lib.motor import optimal, templates
+from reproduce.movements import skilled
+from reproduce.peers import optimal
+from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration
+from vmc_lib.motor import templates
 from vmc_lib.motor.planning import draw_targets, plan
 
-library = templates.load()
-targets = draw_targets(library, 25, np.random.default_rng(0))
-target, moved = targets[0], plan(targets[0], library)
+template_set = templates.load()
+targets = draw_targets(template_set, 25, np.random.default_rng(0))
+target, moved = targets[0], plan(targets[0], template_set)
 moved.reached()  # a plan remembers where it ended: to calibrate it again needs no new movement
-cerebellum = skilled(library, np.random.default_rng(1), 25)
+cerebellum = skilled(template_set, np.random.default_rng(1), 25)
 
 WORK = {  # what -> (call, how often, simulated movements)
-    "habitual plan": (lambda: plan(target, library).excitations, 20, 0),
-    "25 habitual plans": (lambda: plan(targets, library).excitations, 20, 0),
-    "one movement": (lambda: plan(target, library).reached(), 5, 1),
-    "Algorithm 1, one target, n = 0..20": (lambda: published(moved), 5, 21),
-    "Algorithm 1, 25 targets, n = 0..20": (lambda: published(plan(targets, library)), 3, 550),
-    "own rule, one target, two trials": (lambda: calibrate(moved), 5, 2),
-    "own rule, 25 targets, two trials": (lambda: calibrate(plan(targets, library)), 3, 75),
+    "habitual plan": (lambda: plan(target, template_set).excitations, 20, 0),
+    "25 habitual plans": (lambda: plan(targets, template_set).excitations, 20, 0),
+    "one movement": (lambda: plan(target, template_set).reached(), 5, 1),
+    "Algorithm 1, one target, n = 0..20": (lambda: algorithm_1(moved), 5, 21),
+    "Algorithm 1, 25 targets, n = 0..20": (
+        lambda: algorithm_1(plan(targets, template_set)),
+        3,
+        550,
+    ),
+    "own rule, one target, two trials": (lambda: broyden_calibration(moved), 5, 2),
+    "own rule, 25 targets, two trials": (
+        lambda: broyden_calibration(plan(targets, template_set)),
+        3,
+        75,
+    ),
     "online correction, one target": (lambda: cerebellum.correct(moved), 20, 0),
-    "25 movements, learned online": (lambda: cerebellum.practise(plan(targets, library)), 5, 25),
+    "25 movements, learned online": (
+        lambda: cerebellum.practise(plan(targets, template_set)),
+        5,
+        25,
+    ),
     "optimal control, one target": (lambda: optimal.solve(target), 2, None),
 }
 

@@ -1,14 +1,12 @@
 """Where a benchmark's table goes: to the screen, and to the book's performance page."""
 
-import json
 import os
 import platform
-from pathlib import Path
 from time import perf_counter
 
 import numpy as np
 
-RESULTS = Path(__file__).parent / "results"
+from reproduce import results
 
 
 def seconds(call, repeats=5, clock=perf_counter):
@@ -31,7 +29,7 @@ def sgemm(size=2048):
 
 
 def publish(name, rows):
-    """Print rows (dictionaries with the same keys) and keep them as results/<name>.json."""
+    """Print rows (dictionaries with the same keys) and keep them in `reproduce/results/bench`."""
     machine = {
         "cores": os.cpu_count(),
         "machine": platform.machine(),
@@ -40,6 +38,4 @@ def publish(name, rows):
     }
     for row in rows:
         print("  ".join(f"{key} {value}" for key, value in row.items()))
-    RESULTS.mkdir(exist_ok=True)
-    text = json.dumps({"machine": machine, "rows": rows}, indent=1)
-    (RESULTS / f"{name}.json").write_text(text + "\n")
+    results.write(f"bench/{name}", {"machine": machine, "rows": rows})

@@ -3,7 +3,7 @@
 Every point is a job of its own, handed to joblib: `parallel_config` decides where the jobs run.
 With `PHOTOS=folder`, the varied training photos come from there, and may be more than ship:
 
-    python -m vmc_lib.data.render --only varied/train --count 400 --folder folder
+    python -m render --only varied/train --count 400 --folder folder
 """
 
 import os
@@ -14,14 +14,15 @@ import numpy as np
 from joblib import Parallel, delayed, parallel_config
 
 from bench.report import publish
+from reproduce import template_making
+from reproduce.localisation import precision_recall
 from vmc_lib import photos
-from vmc_lib.cerebellum.online import Aim
+from vmc_lib.cerebellum.online import AimCorrection
 from vmc_lib.motor import templates
-from vmc_lib.motor.inverse import spline
+from vmc_lib.motor.inverse_dynamics import spline
 from vmc_lib.motor.planning import draw_targets, plan
-from vmc_lib.where.evaluate import localisation
+from vmc_lib.where.detector import ObjectDetector
 from vmc_lib.where.recipes import RECIPES
-from vmc_lib.where.regions import RegionFinder
 
 SPACINGS = (0.08, 0.06, 0.04, 0.03, 0.02)  # m
 ON_THE_TABLE = (0.08, -0.42), (0.22, -0.38)  # m: where the photos' shuttlecocks lie, in the plane
@@ -38,24 +39,28 @@ def missed(habit):
 def more_templates(spacing):
     """A library with templates so far apart: how far its plans miss, in mm."""
     start = process_time()
-    goals = templates.grid(spacing)
-    excitations = spline() @ np.array([templates.make(goal) for goal in goals])
+    goals = template_making.grid(spacing)
+    excitations = spline() @ np.array([template_making.make(goal) for goal in goals])
     seconds = process_time() - start
-    library = templates.Library(templates.reach(excitations).reached, excitations)
+    template_set = templates.TemplateSet(templates.reach(excitations).reached, excitations)
     held_out = np.random.default_rng(0).uniform(*ON_THE_TABLE, (200, 2))
-    error = 1000 * missed(plan(held_out, library))
+    error = 1000 * missed(plan(held_out, template_set))
     return [row("templates", len(goals), error, seconds)]
 
 
 def more_movements():
     """Granule cells that practise: the miss left on targets never practised, over the planned."""
-    library, rng = templates.load(), np.random.default_rng(0)
-    unseen, learner, seconds = plan(draw_targets(library, 200, rng), library), Aim(library), 0.0
+    template_set, rng = templates.load(), np.random.default_rng(0)
+    unseen, learner, seconds = (
+        plan(draw_targets(template_set, 200, rng), template_set),
+        AimCorrection(template_set),
+        0.0,
+    )
     rows = []
     for before, count in pairwise(LESSONS):
-        targets = draw_targets(library, count - before, rng)
+        targets = draw_targets(template_set, count - before, rng)
         start = process_time()
-        learner.practise(plan(targets, library))
+        learner.practise(plan(targets, template_set))
         seconds += process_time() - start
         error = missed(learner.correct(unseen)) / missed(unseen)
         rows.append(row("movements", count, error, seconds))
@@ -67,10 +72,10 @@ def more_photos(count):
     seen = photos.load("varied", "train", FOLDER)[:count]
     unseen = photos.load("varied", "validation")
     start = process_time()
-    finder = RegionFinder.fit(seen, RECIPES["improved"], np.random.default_rng(0))
+    detector = ObjectDetector.fit(seen, RECIPES["improved"], np.random.default_rng(0))
     seconds = process_time() - start
-    boxes = [finder.find(photo.image).boxes for photo in unseen]
-    return [row("photos", count, 1 - localisation(unseen, boxes)[1], seconds)]
+    boxes = [detector.detect(photo.image).boxes for photo in unseen]
+    return [row("photos", count, 1 - precision_recall(unseen, boxes)[1], seconds)]
 
 
 def row(more, size, error, seconds):

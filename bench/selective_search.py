@@ -20,7 +20,7 @@ import numpy as np
 
 from bench.report import publish
 from vmc_lib import photos
-from vmc_lib.where.boxes import iou
+from vmc_lib.boxes import iou
 from vmc_lib.where.selective_search import STRATEGIES, hierarchies, ranked
 
 cv2.setNumThreads(1)

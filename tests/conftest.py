@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-os.environ["VMC_LIFE"] = "test"  # chapters run by nbmake inherit it
+os.environ["VMC_RENDER_MODE"] = "test"  # chapters run by nbmake inherit it
 os.environ.setdefault("MPLBACKEND", "agg")
 
 AXE = Path(__file__).parent / "vendor/axe.js"
@@ -16,7 +16,7 @@ def chromium():
     """A headless browser; without one the test is skipped, in continuous integration it fails."""
     from playwright.sync_api import sync_playwright
 
-    from vmc_lib.show import browser
+    from tests import browser
 
     path = browser.find()
     if not path:

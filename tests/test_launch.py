@@ -23,7 +23,7 @@ def links(tmp_path, monkeypatch):
     shutil.copy(ROOT / "_config.yml", tmp_path)
     (tmp_path / "_toc.yml").write_text("format: jb-book\nroot: book/chapter\n")
     shutil.copytree(ROOT / "book/_ext", tmp_path / "book/_ext")
-    for folder in ("book/_static", "vmc_lib"):
+    for folder in ("book/_static", "vmc_lib", "arm_in_page"):
         (tmp_path / folder).symlink_to(ROOT / folder)
     (tmp_path / "book/references.bib").touch()
     nbformat.write(CHAPTER, tmp_path / "book/chapter.ipynb")

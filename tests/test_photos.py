@@ -7,7 +7,7 @@ import pytest
 from PIL import Image
 
 from vmc_lib import photos
-from vmc_lib.arm.posture import turn_towards
+from vmc_lib.arm.kinematics import turn_towards
 from vmc_lib.photos import FOLDER, HEIGHT, LEVELS, SPLITS, TABLE, WIDTH, Camera
 
 EVERY = [(level, split) for level in LEVELS for split in SPLITS]

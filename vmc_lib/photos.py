@@ -2,7 +2,7 @@
 
 Every photo is 600×400 with a sidecar that holds the exact boxes of the shuttlecock and the cup, the
 camera in the shoulder frame, and the shuttlecock's true place. The photos are rendered
-(`vmc_lib.data.render`), because the paper's own CASIA-RTA-VM set is private.
+(`render`), because the paper's own CASIA-RTA-VM set is private.
 
 A pixel (column i, row j) covers the square [i, i + 1) × [j, j + 1): boxes and projections share
 these coordinates, so a whole photo is the box (0, 0, 600, 400).
@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 from PIL import Image, ImageOps, UnidentifiedImageError
 
-from . import data
+from vmc_lib import NoReach, data
 
 LEVELS = ("rig", "free", "varied")
 SPLITS = ("train", "validation", "test")
@@ -57,13 +57,13 @@ class Camera:
     def back_project(self, pixels, height=TABLE):
         """Points (n, 3) where the rays through the pixels (n, 2) meet the plane y = height.
 
-        Raises ValueError where a ray runs level with the plane or away from it.
+        Raises `NoReach` where a ray runs level with the plane or away from it.
         """
         rays = self.rays(pixels)
         with np.errstate(divide="ignore", invalid="ignore"):
             distance = (height - self.position[1]) / rays[:, 1]
         if not np.all(np.isfinite(distance) & (distance > 0)):
-            raise ValueError(
+            raise NoReach(
                 f"a ray from the camera at {np.round(self.position, 3)} never meets the plane "
                 f"y = {height}: give pixels below the horizon"
             )
@@ -105,7 +105,7 @@ def load(level, split, folder=FOLDER):
     place = Path(folder) / level / split
     sidecars = sorted(place.glob("*.json"))
     if not sidecars:
-        raise ValueError(f"no photos under {place}: see vmc_lib.data.render")
+        raise ValueError(f"no photos under {place}: see render")
     return [_read(sidecar) for sidecar in sidecars]
 
 
@@ -171,8 +171,34 @@ def read_image(source):
     """
     if not isinstance(source, str | Path | np.ndarray):
         raise ValueError(f"a {type(source).__name__} is no photo: give a path or an array")
-    image = _as_rgb(source) if isinstance(source, np.ndarray) else _open(source)
+    image = as_rgb(source) if isinstance(source, np.ndarray) else _open(source)
     return image if image.shape == (HEIGHT, WIDTH, 3) else _letterbox(image)
+
+
+def as_rgb(array):
+    """An array (h, w), (h, w, 1), (h, w, 3) or (h, w, 4) as uint8 RGB (h, w, 3), a copy.
+
+    Takes uint8, or floats within [0, 1], scaled to 0..255. Grey is repeated in three channels,
+    transparency dropped. ValueError for anything else.
+    """
+    array = np.asarray(array)
+    image = array[..., None] if array.ndim == 2 else array
+    if image.ndim != 3 or image.shape[2] not in (1, 3, 4) or 0 in image.shape:
+        raise ValueError(f"an array of shape {array.shape} is not an image: give (h, w, 3)")
+    if np.issubdtype(image.dtype, np.floating):
+        if not (np.all(image >= 0) and np.all(image <= 1)):
+            raise ValueError(
+                "a float image needs finite values in 0..1; divide 8-bit values by 255"
+            )
+        image = np.round(image * 255).astype(np.uint8)
+    if image.dtype != np.uint8:
+        raise ValueError(f"an image of {image.dtype} has no known range: give uint8")
+    return np.repeat(image, 3, axis=2) if image.shape[2] == 1 else image[..., :3].copy()
+
+
+def as_float(image):
+    """What `as_rgb` makes of an image, as float32 in 0..1."""
+    return as_rgb(image).astype(np.float32) / 255
 
 
 def _open(path):
@@ -187,21 +213,6 @@ def _open(path):
         raise ValueError(f"{path} is not an image: give a JPEG or PNG") from None
     except (OSError, SyntaxError, Image.DecompressionBombError) as error:
         raise ValueError(f"{path} cannot be read ({error}): is the copy complete?") from None
-
-
-def _as_rgb(array):
-    image = array[..., None] if array.ndim == 2 else array
-    if image.ndim != 3 or image.shape[2] not in (1, 3, 4) or 0 in image.shape:
-        raise ValueError(f"an array of shape {array.shape} is no image: give (h, w, 3)")
-    if np.issubdtype(image.dtype, np.floating):
-        if not (np.all(image >= 0) and np.all(image <= 1)):
-            raise ValueError(
-                "a float image needs finite values in 0..1; divide 8-bit values by 255"
-            )
-        image = np.round(image * 255).astype(np.uint8)
-    if image.dtype != np.uint8:
-        raise ValueError(f"an image of {image.dtype} has no known range: give uint8")
-    return np.repeat(image, 3, axis=2) if image.shape[2] == 1 else image[..., :3].copy()
 
 
 def _letterbox(image):

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from playwright.sync_api import sync_playwright
 
-from vmc_lib.show import browser
+from tests import browser
 
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "_build/html/book/01_loop.html"

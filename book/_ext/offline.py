@@ -5,7 +5,7 @@ import re
 
 
 def setup(app):
-    os.environ["VMC_LIFE"] = "book"  # kernels inherit it: demos become self-contained pages
+    os.environ["VMC_RENDER_MODE"] = "book"  # kernels inherit it: demos become self-contained pages
     app.set_html_assets_policy("always")  # equations may come from a cell's output, unannounced
     app.connect("config-inited", launch)
     app.connect("env-get-outdated", every_page)

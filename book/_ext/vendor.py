@@ -60,7 +60,9 @@ def problems():
         elif hashlib.sha256(file.read_bytes()).hexdigest() != entry["sha256"]:
             wrong.append(f"{entry['file']} is not what the manifest says")
     listed = {ROOT / entry["file"] for entry in json.loads(MANIFEST.read_text())}
-    for file in sorted(set(MANIFEST.parent.iterdir()) - listed - {MANIFEST}):
+    folders = {file.parent for file in listed}
+    stray = {file for folder in folders for file in folder.iterdir()} - listed - {MANIFEST}
+    for file in sorted(stray):
         wrong.append(f"{file.relative_to(ROOT)} is not in the manifest")
     return wrong
 

@@ -6,7 +6,8 @@ import mujoco
 import numpy as np
 import pytest
 
-from vmc_lib.arm import closed_form
+from reproduce.results import arrays
+from vmc_lib.arm import dynamics
 from vmc_lib.arm.model import (
     DAMPING,
     LIMITS,
@@ -19,7 +20,6 @@ from vmc_lib.arm.model import (
     mass_matrix,
     muscle_paths,
 )
-from vmc_lib.data import arrays
 
 MILLIMETRE = 1e-3
 
@@ -73,7 +73,7 @@ def test_no_muscle_path_jumps():
         q = np.full((3000, 2), other)
         q[:, joint] = np.linspace(*LIMITS[joint], len(q))
         turned = q[1, joint] - q[0, joint]
-        lengths, arms = closed_form.paths(q)
+        lengths, arms = dynamics.paths(q)
         assert np.abs(np.diff(arms, axis=0)).max() < 0.15 * turned  # m: steep is no jump
         slope = -np.diff(lengths, axis=0) / turned
         between = (arms[:-1, joint] + arms[1:, joint]) / 2
@@ -84,16 +84,16 @@ def test_closed_form_is_exact():
     rng = np.random.default_rng(0)
     q = rng.uniform(*LIMITS.T, (200, 2))
     velocity, acceleration = rng.normal(scale=3, size=(2, 200, 2))
-    torque = closed_form.torque_for(q, velocity, acceleration)
-    lengths, arms = closed_form.paths(q)
+    torque = dynamics.torque_for(q, velocity, acceleration)
+    lengths, arms = dynamics.paths(q)
     for k, pose in enumerate(map(forward, q, velocity)):
         inertia = mass_matrix(pose) + STEP * np.diag(DAMPING)
         expected = inertia @ acceleration[k] + pose.qfrc_bias + DAMPING * velocity[k]
         np.testing.assert_allclose(torque[k], expected, atol=1e-11)
-        np.testing.assert_allclose(closed_form.hand(q[k]), pose.site("hand").xpos, atol=1e-14)
+        np.testing.assert_allclose(dynamics.hand(q[k]), pose.site("hand").xpos, atol=1e-14)
         np.testing.assert_allclose(lengths[k], muscle_paths(pose)[0], atol=1e-8)
         np.testing.assert_allclose(arms[k], muscle_paths(pose)[1], atol=1e-6)
-    back = closed_form.acceleration_from(q, velocity, torque)
+    back = dynamics.acceleration_from(q, velocity, torque)
     np.testing.assert_allclose(back, acceleration, atol=1e-10)
 
 
@@ -102,8 +102,8 @@ def test_geometry_draws_what_is_measured():
     bodies, muscles = geometry(q)
     rotation, elbow = bodies["forearm"]
     wrist = rotation @ MODEL.site("hand").pos + elbow
-    np.testing.assert_allclose(wrist, closed_form.hand(q), atol=1e-12)
-    lengths, _ = closed_form.paths(q)
+    np.testing.assert_allclose(wrist, dynamics.hand(q), atol=1e-12)
+    lengths, _ = dynamics.paths(q)
     for name, length in zip(MUSCLES, lengths, strict=True):
         chords = np.linalg.norm(np.diff(muscles[name], axis=0), axis=1).sum()
         assert 0.99 * length < chords <= length + 1e-8  # a chord cuts the corner of a wrap

@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from reproduce.peers.muscles import LAWS
 from vmc_lib.arm import muscle
-from vmc_lib.arm.others import LAWS
 
 UNIT = st.floats(0, 1)
 ANY = st.floats(-1e6, 1e6)

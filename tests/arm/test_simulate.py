@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
+from reproduce.peers.muscles import LAWS
+from reproduce.results import arrays
 from vmc_lib.arm.model import LIMITS
-from vmc_lib.arm.others import LAWS
-from vmc_lib.arm.simulate import World, simulate, steady
-from vmc_lib.data import arrays
+from vmc_lib.arm.simulate import Perturbation, simulate, steady
 
 START = np.radians([-20.0, 95.0])
 QUIET = np.zeros((10, 6))
@@ -27,10 +27,14 @@ def test_closed_form_moves_as_mujoco_does():
 
 def test_the_engines_agree_with_a_load_in_a_force_field():
     excitations = random_excitations(5, 800, np.random.default_rng(3))
-    world = World(load=0.5, field=((-1, 2), (-2, -1)))
+    perturbation = Perturbation(load=0.5, field=((-1, 2), (-2, -1)))
     fast, reference, bare = (
-        simulate(excitations, START, engine=e, world=w)
-        for e, w in [("closed form", world), ("mujoco", world), ("closed form", World())]
+        simulate(excitations, START, engine=e, perturbation=w)
+        for e, w in [
+            ("closed form", perturbation),
+            ("mujoco", perturbation),
+            ("closed form", Perturbation()),
+        ]
     )
     assert np.abs(fast.q - reference.q).max() < 1e-6
     assert np.abs(fast.q - bare.q).max() > 0.01
@@ -112,7 +116,7 @@ def test_bad_starts_and_engines():
     with pytest.raises(ValueError, match="activation"):
         simulate(QUIET, START, np.full(6, np.inf))
     with pytest.raises(ValueError, match="cannot be held"):
-        simulate(QUIET, START, world=World(load=-1))
+        simulate(QUIET, START, perturbation=Perturbation(load=-1))
     for step in (0, -0.001, 0.1, np.nan):
         with pytest.raises(ValueError, match="steps of"):
             simulate(QUIET, START, step=step)

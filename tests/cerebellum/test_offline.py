@@ -3,16 +3,16 @@
 import numpy as np
 import pytest
 
-from vmc_lib.arm.simulate import World
-from vmc_lib.cerebellum.offline import calibrate, published, published_change
+from vmc_lib.arm.simulate import Perturbation
+from vmc_lib.cerebellum.offline import algorithm_1, algorithm_1_change, broyden_calibration
 from vmc_lib.motor.planning import draw_targets, plan
 from vmc_lib.motor.templates import load
 
 
 @pytest.fixture(scope="module")
 def reaches():
-    library = load()
-    return plan(draw_targets(library, 60, np.random.default_rng(10)), library)
+    template_set = load()
+    return plan(draw_targets(template_set, 60, np.random.default_rng(10)), template_set)
 
 
 def share_left(trials):
@@ -20,10 +20,10 @@ def share_left(trials):
 
 
 def test_equations_6_and_7_by_hand():
-    library = load()
-    reach = plan([0.15, -0.4], library)
+    template_set = load()
+    reach = plan([0.15, -0.4], template_set)
     hand, n = np.array([0.14, -0.41]), 3
-    for w, p in zip(published_change(reach, hand, n), reach.points, strict=True):
+    for w, p in zip(algorithm_1_change(reach, hand, n), reach.points, strict=True):
         e, r = reach.target - hand, p - hand
         cosine = e @ r / np.linalg.norm(e) / np.linalg.norm(r)
         d_i = np.linalg.norm(p)
@@ -33,7 +33,7 @@ def test_equations_6_and_7_by_hand():
 
 
 def test_algorithm_1_takes_a_third_of_the_error_away(reaches):
-    trials = published(reaches)
+    trials = algorithm_1(reaches)
     np.testing.assert_allclose(
         trials.error[0], np.linalg.norm(reaches.reached() - reaches.target, axis=1)
     )
@@ -45,34 +45,36 @@ def test_algorithm_1_takes_a_third_of_the_error_away(reaches):
 
 
 def test_the_other_sign_of_the_error_does_not_help(reaches):
-    wrong = published(reaches, sign=-1)
+    wrong = algorithm_1(reaches, sign=-1)
     assert wrong.error[1:].min(axis=0).mean() > wrong.error[0].mean()
 
 
 def test_the_population_vector_done_right_meets_its_bars(reaches):
-    left = share_left(calibrate(reaches, trials=4))
+    left = share_left(broyden_calibration(reaches, trials=4))
     assert left[1] < 0.27
     assert left[2] < 0.05
     assert left[4] < 0.001
 
 
 def test_learning_from_each_trial_beats_repeating(reaches):
-    learning, repeating = (share_left(calibrate(reaches, 3, broyden=b)) for b in (True, False))
+    learning, repeating = (
+        share_left(broyden_calibration(reaches, 3, broyden=b)) for b in (True, False)
+    )
     assert learning[3] < 0.5 * repeating[3]
 
 
 def test_a_hand_on_the_target_or_on_a_template_is_no_trouble():
-    library = load()
-    reach = plan([0.15, -0.4], library)
-    np.testing.assert_allclose(published_change(reach, reach.target, 5), 0)
-    assert np.all(np.isfinite(published_change(reach, reach.points[0], 5)))
-    exact = plan(library.points[6], library)
-    np.testing.assert_allclose(calibrate(exact).weights, [exact.weights] * 3, atol=1e-6)
+    template_set = load()
+    reach = plan([0.15, -0.4], template_set)
+    np.testing.assert_allclose(algorithm_1_change(reach, reach.target, 5), 0)
+    assert np.all(np.isfinite(algorithm_1_change(reach, reach.points[0], 5)))
+    exact = plan(template_set.points[6], template_set)
+    np.testing.assert_allclose(broyden_calibration(exact).weights, [exact.weights] * 3, atol=1e-6)
 
 
 def test_guards_keep_a_loaded_hand_from_straying(reaches):
-    loaded = reaches.under(World(load=0.25))
-    trials = [calibrate(loaded, 4, guarded=on) for on in (True, False)]
+    loaded = reaches.perturbed(Perturbation(load=0.25))
+    trials = [broyden_calibration(loaded, 4, guarded=on) for on in (True, False)]
     guarded, bold = (each.error for each in trials)
     np.testing.assert_array_equal(guarded[0], bold[0])
     assert bold[1:].max() > 2 * bold[0].max()  # what the guards are there for
@@ -83,12 +85,12 @@ def test_guards_keep_a_loaded_hand_from_straying(reaches):
 
 
 def test_ten_thousand_corrections_are_finite_and_none_diverges():
-    library, rng = load(), np.random.default_rng(12)
-    many = plan(draw_targets(library, 10_000, rng), library)
+    template_set, rng = load(), np.random.default_rng(12)
+    many = plan(draw_targets(template_set, 10_000, rng), template_set)
     p_a = many.target + rng.normal(0, 0.03, many.target.shape)
     for n in (0, 20):
-        assert np.abs(published_change(many, p_a, n)).max() < 3
-    few = many[:500].with_weights((many.weights + published_change(many, p_a, 20))[:500])
+        assert np.abs(algorithm_1_change(many, p_a, n)).max() < 3
+    few = many[:500].with_weights((many.weights + algorithm_1_change(many, p_a, 20))[:500])
     motion = few.move()
     assert np.all(np.abs(motion.q) < np.pi)
     assert few.excitations.min() >= 0
@@ -102,6 +104,6 @@ def test_weights_that_are_no_numbers_are_refused():
 
 
 def test_no_correction_throws_the_arm_about(reaches):
-    trials = calibrate(reaches, trials=3)
+    trials = broyden_calibration(reaches, trials=3)
     assert np.all(np.isfinite(trials.weights))
     assert np.abs(np.diff(trials.weights[:2], axis=0)).max() <= 0.5

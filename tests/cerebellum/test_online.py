@@ -4,59 +4,62 @@ import numpy as np
 import pytest
 from sklearn.exceptions import NotFittedError
 
-from vmc_lib.cerebellum.online import Aim, GranuleCells, Linear, smooth_weights
+from vmc_lib.cerebellum.online import AimCorrection, GranuleCells, WeightCorrection, smooth_weights
 from vmc_lib.motor.planning import draw_targets, plan
 from vmc_lib.motor.templates import load
 
 
 @pytest.fixture(scope="module")
-def library():
+def template_set():
     return load()
 
 
 @pytest.fixture(scope="module")
-def held_out(library):
-    return plan(draw_targets(library, 100, np.random.default_rng(20)), library)
+def held_out(template_set):
+    return plan(draw_targets(template_set, 100, np.random.default_rng(20)), template_set)
 
 
 def error(reach):
     return np.linalg.norm(reach.reached() - reach.target, axis=-1).mean()
 
 
-def lessons(library, count, seed=21):
-    targets = draw_targets(library, count, np.random.default_rng(seed))
-    return [plan(targets[i : i + 25], library) for i in range(0, count, 25)]
+def lessons(template_set, count, seed=21):
+    targets = draw_targets(template_set, count, np.random.default_rng(seed))
+    return [plan(targets[i : i + 25], template_set) for i in range(0, count, 25)]
 
 
-def test_nothing_learned_changes_nothing(library, held_out):
-    assert Linear().correct(held_out) is held_out
-    beginner = Aim(library).correct(held_out)
+def test_nothing_learned_changes_nothing(template_set, held_out):
+    assert WeightCorrection().correct(held_out) is held_out
+    beginner = AimCorrection(template_set).correct(held_out)
     np.testing.assert_allclose(
         beginner.weights, smooth_weights(held_out.target, held_out.points), atol=1e-9
     )
 
 
-def test_the_linear_model_learns_what_it_practised(library):
-    (practised,) = lessons(library, 25)
-    before, model, after = error(practised), Linear(), []
+def test_the_linear_model_learns_what_it_practised(template_set):
+    (practised,) = lessons(template_set, 25)
+    before, model, after = error(practised), WeightCorrection(), []
     for _ in range(3):
         after.append(error(model.practise(practised).correct(practised)))
     assert after[0] < 0.7 * before
     assert after[2] < after[0]
 
 
-def test_granule_cells_generalise(library, held_out):
+def test_granule_cells_generalise(template_set, held_out):
     before = error(held_out)
-    learners = [Aim(library).practise(*lessons(library, 25, seed)) for seed in range(30, 35)]
+    learners = [
+        AimCorrection(template_set).practise(*lessons(template_set, 25, seed))
+        for seed in range(30, 35)
+    ]
     assert np.mean([error(learner.correct(held_out)) for learner in learners]) < 0.22 * before
-    for lesson in lessons(library, 125, seed=35):
+    for lesson in lessons(template_set, 125, seed=35):
         learners[0].practise(lesson)
     assert error(learners[0].correct(held_out)) < 0.10 * before
 
 
-def test_one_reach_is_corrected_as_in_a_batch(library, held_out):
-    cerebellum = Aim(library).practise(*lessons(library, 25))
-    alone = cerebellum.correct(plan(held_out.target[3], library))
+def test_one_reach_is_corrected_as_in_a_batch(template_set, held_out):
+    cerebellum = AimCorrection(template_set).practise(*lessons(template_set, 25))
+    alone = cerebellum.correct(plan(held_out.target[3], template_set))
     np.testing.assert_allclose(alone.weights, cerebellum.correct(held_out).weights[3], atol=1e-12)
 
 

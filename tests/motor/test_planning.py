@@ -23,7 +23,7 @@ INSIDE = st.tuples(st.floats(0, 0.1), st.floats(-0.4, -0.3)).map(np.array)
 
 
 @pytest.fixture(scope="module")
-def library():
+def template_set():
     return load()
 
 
@@ -45,26 +45,26 @@ def test_exact_weights_satisfy_equation_4(target):
 
 
 @pytest.mark.parametrize("rule", [habitual_weights, exact_weights])
-def test_a_target_on_a_template_is_that_template(rule, library):
-    points = library.points[surrounded(library.points, library.points)]
-    reaches = plan(points, library, rule)
+def test_a_target_on_a_template_is_that_template(rule, template_set):
+    points = template_set.points[surrounded(template_set.points, template_set.points)]
+    reaches = plan(points, template_set, rule)
     np.testing.assert_allclose(reaches.weights.max(axis=-1), 1, atol=1e-12)
     np.testing.assert_allclose(reaches.reached(), points, atol=1e-9)
 
 
-def test_the_neighbours_are_the_corners_of_the_targets_cell(library):
-    targets = draw_targets(library, 100, np.random.default_rng(0))
-    corners = library.points[surrounding(targets, library.points)]
+def test_the_neighbours_are_the_corners_of_the_targets_cell(template_set):
+    targets = draw_targets(template_set, 100, np.random.default_rng(0))
+    corners = template_set.points[surrounding(targets, template_set.points)]
     side = np.sign(corners - targets[:, None])
     assert np.all(side == [(1, 1), (-1, 1), (-1, -1), (1, -1)])
-    nearer = np.linalg.norm(library.points - targets[:, None], axis=-1).min(axis=-1)
+    nearer = np.linalg.norm(template_set.points - targets[:, None], axis=-1).min(axis=-1)
     assert np.all(np.linalg.norm(corners - targets[:, None], axis=-1).min(axis=-1) == nearer)
 
 
-def test_a_plan_is_a_weighted_sum_of_excitations(library):
-    reach = plan([0.15, -0.4], library)
+def test_a_plan_is_a_weighted_sum_of_excitations(template_set):
+    reach = plan([0.15, -0.4], template_set)
     expected = sum(
-        w * library.excitations[i] for w, i in zip(reach.weights, reach.chosen, strict=True)
+        w * template_set.excitations[i] for w, i in zip(reach.weights, reach.chosen, strict=True)
     )
     np.testing.assert_allclose(reach.excitations, expected, atol=1e-12)
     wild = reach.with_weights(reach.weights * [9, -9, 9, -9])
@@ -72,16 +72,16 @@ def test_a_plan_is_a_weighted_sum_of_excitations(library):
     assert wild.excitations.max() <= 1
 
 
-def test_a_large_batch_is_moved_in_parts_alike(library):
-    targets = draw_targets(library, 30, np.random.default_rng(1))
-    batch = plan(targets, library)
+def test_a_large_batch_is_moved_in_parts_alike(template_set):
+    targets = draw_targets(template_set, 30, np.random.default_rng(1))
+    batch = plan(targets, template_set)
     many = batch.with_weights(np.broadcast_to(batch.weights, (20, 30, 4))).reached()
-    np.testing.assert_allclose(many[-1], plan(targets, library).move().reached, atol=1e-12)
+    np.testing.assert_allclose(many[-1], plan(targets, template_set).move().reached, atol=1e-12)
 
 
-def test_habit_misses_by_a_few_percent_of_the_reach(library):
-    targets = draw_targets(library, 200, np.random.default_rng(2))
-    missed = np.linalg.norm(plan(targets, library).reached() - targets, axis=1)
+def test_habit_misses_by_a_few_percent_of_the_reach(template_set):
+    targets = draw_targets(template_set, 200, np.random.default_rng(2))
+    missed = np.linalg.norm(plan(targets, template_set).reached() - targets, axis=1)
     assert 0.01 < np.mean(missed / np.linalg.norm(targets, axis=1)) < 0.05
 
 
@@ -104,28 +104,28 @@ def test_templates_on_a_line_are_refused():
 
 
 @pytest.mark.parametrize("count", [3, 4, 6, 9])
-def test_more_templates_or_fewer_can_be_combined(count, library):
-    targets = draw_targets(library, 50, np.random.default_rng(3))
-    chosen = nearest(targets, library.points, count)
-    distance = np.linalg.norm(library.points - targets[:, None], axis=-1)
+def test_more_templates_or_fewer_can_be_combined(count, template_set):
+    targets = draw_targets(template_set, 50, np.random.default_rng(3))
+    chosen = nearest(targets, template_set.points, count)
+    distance = np.linalg.norm(template_set.points - targets[:, None], axis=-1)
     used = np.take_along_axis(distance, chosen, axis=-1)
     np.testing.assert_allclose(used, np.sort(distance, axis=-1)[:, :count])
-    mixed = plan(targets, library, chosen=chosen)
+    mixed = plan(targets, template_set, chosen=chosen)
     np.testing.assert_allclose(mixed.weights.sum(axis=-1), 1)
     with pytest.raises(ValueError, match="cannot choose"):
-        nearest(targets, library.points, 1 + len(library.points))
+        nearest(targets, template_set.points, 1 + len(template_set.points))
 
 
-def test_a_plan_is_moved_once(library, monkeypatch):
-    reach = plan([0.15, -0.4], library)
+def test_a_plan_is_moved_once(template_set, monkeypatch):
+    reach = plan([0.15, -0.4], template_set)
     first = reach.reached()
     monkeypatch.setattr(type(reach), "move", lambda _: pytest.fail("moved again"))
     np.testing.assert_array_equal(reach.reached(), first)
 
 
-def test_a_prism_turns_what_is_seen_not_what_is_done(library):
-    straight = plan([0.15, -0.4], library)
-    turned_view = straight.under(prism=0.1)
+def test_a_prism_turns_what_is_seen_not_what_is_done(template_set):
+    straight = plan([0.15, -0.4], template_set)
+    turned_view = straight.perturbed(prism=0.1)
     np.testing.assert_array_equal(turned_view.move().reached, straight.move().reached)
     seen = turned_view.reached()
     np.testing.assert_allclose(turned(seen, -0.1), straight.reached())
@@ -133,16 +133,16 @@ def test_a_prism_turns_what_is_seen_not_what_is_done(library):
 
 
 @pytest.mark.parametrize("rule", [habitual_weights, exact_weights])
-def test_ten_thousand_random_targets_are_planned_or_refused(rule, library):
+def test_ten_thousand_random_targets_are_planned_or_refused(rule, template_set):
     targets = np.random.default_rng(4).uniform([-0.1, -0.6], [0.4, -0.2], (10_000, 2))
-    inside = surrounded(targets, library.points)
+    inside = surrounded(targets, template_set.points)
     assert 1000 < inside.sum() < 9000
-    reaches = plan(targets[inside], library, rule)
+    reaches = plan(targets[inside], template_set, rule)
     assert np.abs(reaches.weights).max() < 1.5
     np.testing.assert_allclose(reaches.weights.sum(axis=-1), 1)
     for target in targets[~inside][:50]:
         with pytest.raises(ValueError, match="not surrounded"):
-            plan(target, library, rule)
+            plan(target, template_set, rule)
 
 
 @pytest.mark.parametrize(
@@ -154,6 +154,6 @@ def test_ten_thousand_random_targets_are_planned_or_refused(rule, library):
         ((0.15, -0.4, 0.05), "plane positions"),
     ],
 )
-def test_bad_targets(target, complaint, library):
+def test_bad_targets(target, complaint, template_set):
     with pytest.raises(ValueError, match=complaint):
-        plan(target, library)
+        plan(target, template_set)

@@ -3,25 +3,26 @@
 import numpy as np
 import pytest
 
+from reproduce import template_making
 from vmc_lib import photos
-from vmc_lib.arm.posture import posture, turn_towards
-from vmc_lib.motor import inverse, templates
+from vmc_lib.arm.kinematics import inverse_kinematics, turn_towards
+from vmc_lib.motor import inverse_dynamics, templates
 from vmc_lib.motor.planning import surrounded
 
 
 @pytest.mark.parametrize("spacing", templates.SPACINGS)
 def test_every_template_ends_at_rest_on_its_point(spacing):
-    library = templates.load(spacing)
-    motion = templates.reach(library.excitations)
-    assert np.linalg.norm(motion.reached - templates.grid(spacing), axis=-1).max() < 2e-4
+    template_set = templates.load(spacing)
+    motion = templates.reach(template_set.excitations)
+    assert np.linalg.norm(motion.reached - template_making.grid(spacing), axis=-1).max() < 2e-4
     assert motion.end_speed.max() < 0.02
-    np.testing.assert_array_equal(library.points, motion.reached)
+    np.testing.assert_array_equal(template_set.points, motion.reached)
 
 
 def test_the_reference_engine_agrees():
-    library = templates.load(0.08)
-    motion = templates.simulate(library.excitations[:4], templates.START, engine="mujoco")
-    np.testing.assert_allclose(motion.reached, library.points[:4], atol=1e-6)
+    template_set = templates.load(0.08)
+    motion = templates.simulate(template_set.excitations[:4], templates.START, engine="mujoco")
+    np.testing.assert_allclose(motion.reached, template_set.points[:4], atol=1e-6)
 
 
 @pytest.mark.parametrize("level", photos.LEVELS)
@@ -33,15 +34,15 @@ def test_every_library_surrounds_every_shuttlecock(level):
 
 
 def test_what_ships_can_be_made_again():
-    goal = templates.grid(0.08)[5]
-    remade = inverse.spline() @ templates.make(goal)
+    goal = template_making.grid(0.08)[5]
+    remade = inverse_dynamics.spline() @ template_making.make(goal)
     np.testing.assert_allclose(templates.reach(remade).reached, goal, atol=1e-6)
     np.testing.assert_allclose(remade, templates.load(0.08).excitations[5], atol=1e-3)
 
 
 def test_demand_is_met_by_the_holding_activation():
-    q = posture([0.12, -0.4])
-    held = templates.simulate(np.tile(inverse.hold(q), (300, 1)), q)
+    q = inverse_kinematics([0.12, -0.4])
+    held = templates.simulate(np.tile(inverse_dynamics.hold(q), (300, 1)), q)
     np.testing.assert_allclose(held.q[-1], q, atol=0.02)
 
 

@@ -23,7 +23,7 @@ def shown(monkeypatch):
 
 @pytest.fixture
 def book(monkeypatch):
-    monkeypatch.setenv("VMC_LIFE", "book")
+    monkeypatch.setenv("VMC_RENDER_MODE", "book")
 
 
 def names(**values):
@@ -83,7 +83,7 @@ def test_test_life_evaluates_everything_and_shows_nothing(shown):
 
 
 def test_live_life_redraws_when_a_widget_moves(shown, monkeypatch):
-    monkeypatch.setenv("VMC_LIFE", "live")
+    monkeypatch.setenv("VMC_RENDER_MODE", "live")
     show(k=Slider([1, 2], "k", play=True), c=Choice("abcdef", "letter"), on=[False, True])
     box = shown[0]
     assert isinstance(box, VBox)
@@ -96,8 +96,8 @@ def test_live_life_redraws_when_a_widget_moves(shown, monkeypatch):
 
 def test_a_pad_is_a_place_on_a_grid(shown, monkeypatch):
     pad = Pad([1, 2, 3], [10, 20], labels=("ahead", "up"), start=(3, 10))
-    for life in ("book", "live"):
-        monkeypatch.setenv("VMC_LIFE", life)
+    for render_mode in ("book", "live"):
+        monkeypatch.setenv("VMC_RENDER_MODE", render_mode)
         show(lambda at, on: names(at=at, on=on), at=pad, on=[False, True])
     page, box, _ = shown
     assert [svg for _, svg in states(page)][2:5] == [
@@ -131,9 +131,9 @@ def test_a_still_scene_carries_its_messages(shown, book):
         (dict(k=[False, False]), "k="),
     ],
 )
-@pytest.mark.parametrize("life", ["live", "book", "test"])
-def test_impossible_controls_are_refused_in_every_life(controls, says, life, monkeypatch):
-    monkeypatch.setenv("VMC_LIFE", life)
+@pytest.mark.parametrize("render_mode", ["live", "book", "test"])
+def test_impossible_controls_are_refused_in_every_life(controls, says, render_mode, monkeypatch):
+    monkeypatch.setenv("VMC_RENDER_MODE", render_mode)
     with pytest.raises(ValueError, match=re.escape(says)):
         show(**controls)
 
@@ -145,9 +145,9 @@ def test_impossible_sliders_are_refused():
         Slider([1, 2], "size", start=3)
 
 
-@pytest.mark.parametrize("life", ["book", "test"])
-def test_a_control_without_effect_is_refused(life, monkeypatch):
-    monkeypatch.setenv("VMC_LIFE", life)
+@pytest.mark.parametrize("render_mode", ["book", "test"])
+def test_a_control_without_effect_is_refused(render_mode, monkeypatch):
+    monkeypatch.setenv("VMC_RENDER_MODE", render_mode)
     with pytest.raises(ValueError, match="'idle hand' never changes the picture"):
         show(lambda k, idle_hand: names(k=k), k=Slider([1, 2], "k"), idle_hand=[False, True])
 
@@ -157,7 +157,7 @@ def test_a_start_may_be_off_by_rounding():
 
 
 def test_unknown_life_is_refused(monkeypatch):
-    monkeypatch.setenv("VMC_LIFE", "afterlife")
+    monkeypatch.setenv("VMC_RENDER_MODE", "afterlife")
     with pytest.raises(ValueError, match="afterlife"):
         show()
 

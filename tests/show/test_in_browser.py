@@ -23,7 +23,7 @@ CAPTURE = "div => vmcScene(div).viewer.capture_image()"
 @pytest.fixture
 def open_demos(offline, tmp_path, monkeypatch):
     """A function that opens a page made of what `declare()` shows in the book."""
-    monkeypatch.setenv("VMC_LIFE", "book")
+    monkeypatch.setenv("VMC_RENDER_MODE", "book")
     shutil.copytree(STATIC, tmp_path, dirs_exist_ok=True)
     (tmp_path / "vendor").mkdir()
     shutil.copy(MESHCAT, tmp_path / "vendor/meshcat.js")

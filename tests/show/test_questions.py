@@ -23,7 +23,7 @@ def shown(monkeypatch):
 
 @pytest.fixture
 def book(monkeypatch):
-    monkeypatch.setenv("VMC_LIFE", "book")
+    monkeypatch.setenv("VMC_RENDER_MODE", "book")
 
 
 def ask():
@@ -61,8 +61,8 @@ def test_a_quiz_that_cannot_be_answered_is_refused(answers, right):
     ],
 )
 def test_a_right_answer_is_right_in_every_life(answer, expected, tolerance, shown, monkeypatch):
-    for life in ("live", "book", "test"):
-        monkeypatch.setenv("VMC_LIFE", life)
+    for render_mode in ("live", "book", "test"):
+        monkeypatch.setenv("VMC_RENDER_MODE", render_mode)
         check(answer, expected, tolerance)
     assert all("✓ Right." in page for page in shown) and len(shown) == 3
 
@@ -84,16 +84,16 @@ def test_a_wrong_answer_is_shown_the_hint_and_fails_a_test(
 ):
     with pytest.raises(AssertionError, match="check: "):
         check(answer, expected, tolerance)
-    monkeypatch.setenv("VMC_LIFE", "live")
+    monkeypatch.setenv("VMC_RENDER_MODE", "live")
     check(answer, expected, tolerance, hint="Draw it: $x < y$.")
     [page] = shown
     assert "✗ Not yet." in page and r"\(x &lt; y\)" in page
 
 
 @pytest.mark.parametrize("answer", [None, (None, None), (1, None), [None, "a"]])
-@pytest.mark.parametrize("life", ["live", "test"])
-def test_none_is_not_answered_yet(answer, life, shown, monkeypatch):
-    monkeypatch.setenv("VMC_LIFE", life)
+@pytest.mark.parametrize("render_mode", ["live", "test"])
+def test_none_is_not_answered_yet(answer, render_mode, shown, monkeypatch):
+    monkeypatch.setenv("VMC_RENDER_MODE", render_mode)
     check(answer, 3)
     assert "Not answered yet." in shown[0] and "<input" not in shown[0]
 

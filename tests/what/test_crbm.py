@@ -8,7 +8,7 @@ import pytest
 import torch
 from scipy.signal import convolve2d
 
-from vmc_lib.what.crbm import CRBM, bar
+from vmc_lib.what.crbm import CRBM
 
 
 def rng(seed=0):
@@ -155,7 +155,10 @@ def test_gradient_is_data_minus_model():
     energies = CRBM(*parameters, machine.c).energy(mean, states)
     model = torch.autograd.grad(-(torch.softmax(chance, 0) @ energies), parameters)
     for data, dream, truth in zip(
-        machine.together(v, machine.posterior(v)[0]), model, exact_gradient(machine, v), strict=True
+        machine.statistics(v, machine.posterior(v)[0]),
+        model,
+        exact_gradient(machine, v),
+        strict=True,
     ):
         assert (data - dream).numpy() == pytest.approx(truth.numpy(), abs=1e-9)
 
@@ -182,7 +185,7 @@ def test_learning_raises_the_likelihood_of_the_data():
         return log_likelihood(machine.W, machine.b, machine.a, bars, machine.c).item()
 
     before = likelihood()
-    list(machine.fit(bars, range(10), seed=0, pressure=0, clamp=False))
+    machine.fit(bars, range(10), seed=0, pressure=0, clamp=False)
     assert likelihood() > before + 0.5
 
 
@@ -195,7 +198,7 @@ def noise(n=300):
 
 def trained(epochs, seed=0, start=None):
     machine = start or CRBM.random(3, 1, 4, rng(seed))
-    list(machine.fit(noise(), epochs, seed))
+    machine.fit(noise(), epochs, seed)
     return machine
 
 
@@ -209,18 +212,18 @@ def test_same_seed_same_machine_and_resuming_changes_nothing(tmp_path):
     assert not torch.equal(whole.W, trained(range(4), seed=1).W)
 
 
-def test_a_bar_watches_and_changes_nothing(capsys):
+def test_who_watches_is_told_each_epochs_error_and_changes_nothing():
     silent, watched = (CRBM.random(3, 1, 4, rng()) for _ in range(2))
-    list(silent.fit(noise(), range(1), 0))
-    list(watched.fit(noise(), range(1), 0, watch=bar))
+    told = []
+    errors = silent.fit(noise(), range(2), 0)
+    watched.fit(noise(), range(2), 0, after=lambda epoch, error: told.append((epoch, error)))
     assert torch.equal(silent.W, watched.W)
-    shown = capsys.readouterr().out.split("\r")[1:]
-    assert [line.count("█") for line in shown] == [13, 26, 40]  # 300 patches: three batches
+    assert told == list(enumerate(errors))
 
 
 def test_sparsity_is_reached():
     machine = CRBM.random(3, 1, 4, rng())
-    list(machine.fit(noise(2000), range(8), 0, sparsity=0.05, rate=0.2))
+    machine.fit(noise(2000), range(8), 0, sparsity=0.05, rate=0.2)
     assert machine.posterior(noise())[0].mean((0, 2, 3)).numpy() == pytest.approx(0.05, abs=0.005)
 
 
@@ -244,9 +247,9 @@ def test_bad_shapes_are_named():
     with pytest.raises(ValueError, match="hidden width"):
         machine.posterior(torch.zeros(1, 1, 3, 3))
     with pytest.raises(ValueError, match="no patches"):
-        next(machine.fit(torch.zeros(0, 1, 9, 9), range(1), 0))
+        machine.fit(torch.zeros(0, 1, 9, 9), range(1), 0)
     with pytest.raises(ValueError, match="finite"):
-        next(machine.fit(torch.full((5, 1, 9, 9), torch.nan), range(1), 0))
+        machine.fit(torch.full((5, 1, 9, 9), torch.nan), range(1), 0)
     with pytest.raises(ValueError, match="belong"):
         CRBM(torch.zeros(2, 1, 4, 4), torch.zeros(3), torch.zeros(1))
 
@@ -254,4 +257,4 @@ def test_bad_shapes_are_named():
 def test_a_patch_that_is_all_edge_has_nothing_to_learn():
     machine = tiny(n_w=5)
     with pytest.raises(ValueError, match="8 × 8 are all edge for filters of 5"):
-        next(machine.fit(torch.randn(10, 1, 8, 8, dtype=torch.float64), range(1), 0))
+        machine.fit(torch.randn(10, 1, 8, 8, dtype=torch.float64), range(1), 0)

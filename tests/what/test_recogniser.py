@@ -3,23 +3,16 @@ from itertools import combinations
 import numpy as np
 import pytest
 
+from reproduce.name_examples import JITTER, background_box, examples
 from vmc_lib import photos
+from vmc_lib.boxes import iou, jittered
 from vmc_lib.what.cdbn import crops_of
 from vmc_lib.what.crops import crop
-from vmc_lib.what.recogniser import (
-    EVERYWHERE,
-    READ_OUTS,
-    SHAKE,
-    Recogniser,
-    elsewhere,
-    examples,
-    fit,
-)
-from vmc_lib.where.boxes import iou, shaken
+from vmc_lib.what.recogniser import ALL_LEVELS, READ_OUTS, Recogniser, fit
 
 
 @pytest.mark.parametrize("name", READ_OUTS)
-@pytest.mark.parametrize("level", ["rig", EVERYWHERE])
+@pytest.mark.parametrize("level", ["rig", ALL_LEVELS])
 def test_it_knows_a_shuttlecock_from_a_cup(level, name):
     crops, shuttlecock = crops_of(photos.load("rig", "validation")[:8])
     chance = Recogniser.load(level, name).probability(crops)
@@ -30,7 +23,7 @@ def test_it_knows_a_shuttlecock_from_a_cup(level, name):
 
 def test_the_table_is_no_shuttlecock():
     rng, shots = np.random.default_rng(0), photos.load("rig", "validation")[:8]
-    crops = [crop(shot.image, elsewhere(shot, rng)) for shot in shots for _ in range(2)]
+    crops = [crop(shot.image, background_box(shot, rng)) for shot in shots for _ in range(2)]
     assert (Recogniser.load().probability(crops) < 0.5).mean() >= 14 / 16
 
 
@@ -44,7 +37,7 @@ def test_nothing_and_nonsense():
 
 
 def test_each_level_has_a_recogniser_of_its_own():
-    weights = [Recogniser.load(level).linear.weights for level in (*photos.LEVELS, EVERYWHERE)]
+    weights = [Recogniser.load(level).classifier.weights for level in (*photos.LEVELS, ALL_LEVELS)]
     assert all(not np.allclose(a, b) for a, b in combinations(weights, 2))
 
 
@@ -56,9 +49,9 @@ def blobs(n, rng, apart):
 def test_probabilities_are_calibrated():
     """Of the cases called 70 to 90 %, about 80 % are so."""
     rng = np.random.default_rng(0)
-    linear = fit(*blobs(400, rng, 0.6), *blobs(2000, rng, 0.6))
+    classifier = fit(*blobs(400, rng, 0.6), *blobs(2000, rng, 0.6))
     x, y = blobs(20_000, rng, 0.6)
-    chance = linear.probability(x)
+    chance = classifier.probability(x)
     for low in (0.1, 0.3, 0.5, 0.7):
         here = (chance > low) & (chance < low + 0.2)
         assert y[here].mean() == pytest.approx(chance[here].mean(), abs=0.05)
@@ -81,6 +74,8 @@ def test_examples():
     assert labels.tolist() == [True, False, True, False, False] * 3
     for shot in shots:
         objects = np.array(list(shot.boxes.values()))
-        assert iou([elsewhere(shot, rng)], objects).max() < 0.3
-        near = [iou([shaken(box, SHAKE, rng)], [box])[0, 0] for box in objects for _ in range(20)]
+        assert iou([background_box(shot, rng)], objects).max() < 0.3
+        near = [
+            iou([jittered(box, JITTER, rng)], [box])[0, 0] for box in objects for _ in range(20)
+        ]
         assert 0.6 < np.mean(near) < 0.95

@@ -9,8 +9,10 @@ from scipy.ndimage import gaussian_filter
 from skimage.data import coffee
 from skimage.segmentation import felzenszwalb
 
+from vmc_lib.boxes import area
+from vmc_lib.photos import as_float
+from vmc_lib.where import appearance
 from vmc_lib.where import selective_search as ss
-from vmc_lib.where.boxes import area
 
 PHOTO = coffee()[100:300:2, 100:400:2]
 
@@ -67,7 +69,7 @@ def test_the_segmentation_engine_is_the_published_algorithm(scale, min_size):
 
 
 def test_larger_scale_larger_segments():
-    counts = [ss.segment(ss.as_rgb(PHOTO), k).max() + 1 for k in (20, 60, 200)]
+    counts = [appearance.segment(as_float(PHOTO), k).max() + 1 for k in (20, 60, 200)]
     assert counts[0] > counts[1] > counts[2] > 1
 
 
@@ -96,13 +98,13 @@ def test_boxes_hold_their_regions(grown):
 
 def test_described_from_parts_as_from_pixels():
     """A merged region's row equals the one its own pixels would give."""
-    channels = ss.as_rgb(PHOTO)
-    codes = ss.colour_codes(channels), ss.texture_codes(channels)
-    labels = ss.segment(channels, 30)
-    look = ss.describe(labels, *codes)
+    channels = as_float(PHOTO)
+    codes = appearance.colour_codes(channels), appearance.texture_codes(channels)
+    labels = appearance.segment(channels, 30)
+    look = appearance.describe(labels, *codes)
     tree = ss.grow(labels, look, ss.ALL)
     top = look.colour[-1], look.texture[-1], look.size[-1]
-    whole = ss.describe(np.zeros_like(labels), *codes)
+    whole = appearance.describe(np.zeros_like(labels), *codes)
     assert len(tree.merges) > 10
     for merged, direct in zip(top, (whole.colour[0], whole.texture[0], whole.size[0]), strict=True):
         assert merged == pytest.approx(direct, abs=1e-5)
@@ -112,8 +114,10 @@ def test_described_from_parts_as_from_pixels():
 @settings(max_examples=10, deadline=None)
 def test_similarities_are_shares_and_symmetric(seed):
     channels = blobs(seed).astype(np.float32)
-    labels = ss.segment(channels, 30)
-    look = ss.describe(labels, ss.colour_codes(channels), ss.texture_codes(channels))
+    labels = appearance.segment(channels, 30)
+    look = appearance.describe(
+        labels, appearance.colour_codes(channels), appearance.texture_codes(channels)
+    )
     i, j = ss.touching(labels).T
     for similarity in ss.SIMILARITIES.values():
         value = similarity(look, i, j)
@@ -127,15 +131,17 @@ def test_the_most_similar_pair_merges_first():
     image[:, 30:60] = 0.55
     image[:, 60:] = [0.9, 0.1, 0.1]
     labels = np.repeat([[0] * 30 + [1] * 30 + [2] * 30], 60, axis=0)
-    look = ss.describe(labels, ss.colour_codes(image), ss.texture_codes(image))
+    look = appearance.describe(
+        labels, appearance.colour_codes(image), appearance.texture_codes(image)
+    )
     assert ss.grow(labels, look, ("colour",)).merges.tolist() == [[0, 1], [2, 3]]
 
 
-@pytest.mark.parametrize("name", ss.COLOUR_SPACES)
+@pytest.mark.parametrize("name", appearance.COLOUR_SPACES)
 def test_colour_spaces_fill_the_unit_range(name):
     """Each channel, on all eight corners of the colour cube."""
     chart = np.array(list(product((0, 255), repeat=3)), np.uint8)[None]
-    channels = ss.COLOUR_SPACES[name](ss.as_rgb(chart))
+    channels = appearance.COLOUR_SPACES[name](as_float(chart))
     assert channels.ndim == 3 and channels.dtype == np.float32
     assert channels.min() >= 0 and channels.max() <= 1
     assert (np.ptp(channels, axis=(0, 1)) > 0.6).all()

@@ -36,7 +36,7 @@ class Geometry(NamedTuple):
 
 
 @cache
-def holding(load):
+def loaded(load):
     """The model with a weight of `load` kg, a point, held at the wrist; `MODEL` itself for 0."""
     if not 0 <= load <= 10:
         raise ValueError(f"a load of {load} kg cannot be held; choose 0 to 10")

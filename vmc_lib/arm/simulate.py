@@ -13,34 +13,39 @@ import mujoco
 import numpy as np
 from mujoco.batch import Batch
 
-from . import closed_form
-from .closed_form import hand
-from .model import F0, L0, LIMITS, SLACK, STEP, holding, muscle_paths
-from .muscle import MAX_VELOCITY, PAPER
+from vmc_lib.arm import dynamics
+from vmc_lib.arm.dynamics import hand
+from vmc_lib.arm.model import F0, L0, LIMITS, SLACK, STEP, loaded, muscle_paths
+from vmc_lib.arm.muscle import MAX_VELOCITY, PAPER
 
 STOP_STIFFNESS = 200.0  # N m / rad: ours, not arm26's; bone and ligament beyond the joints' limits
 STOP_DAMPING = 0.5  # s / rad
-FEW = 4  # movements: as many are quicker in MuJoCo than in closed form
+MUJOCO_UP_TO = 4  # movements: as many are quicker in MuJoCo than in closed form
 LENGTHENING = -1 / (MAX_VELOCITY * L0)  # per metre that a muscle shortens in a second
 
 
-class World(NamedTuple):
+class Perturbation(NamedTuple):
     """What the arm meets while it moves; as it is here, nothing."""
 
     load: float = 0.0  # kg, held at the wrist
     field: tuple = ((0.0, 0.0), (0.0, 0.0))  # N m s / rad: torque = field @ joint velocity
 
 
-EMPTY = World()
+UNPERTURBED = Perturbation()
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Motion:
     """A movement, or a batch of them; sample t is the state t steps after the start."""
 
     q: np.ndarray  # joint angles (…, T + 1, 2), rad
     velocity: np.ndarray  # joint velocities (…, T + 1, 2), rad/s
     activation: np.ndarray  # muscle activations (…, T + 1, 6)
+
+    def __iter__(self):
+        """Every movement of a batch, or the one there is, as a `Motion` of its own."""
+        parts = (x.reshape(-1, *x.shape[-2:]) for x in (self.q, self.velocity, self.activation))
+        return (Motion(*one) for one in zip(*parts, strict=True))
 
     @property
     def hand(self):
@@ -63,7 +68,7 @@ def simulate(
     start,
     activation=None,
     engine=None,
-    world=EMPTY,
+    perturbation=UNPERTURBED,
     muscle=PAPER,
     step=STEP,
 ):
@@ -71,8 +76,8 @@ def simulate(
 
     It starts still, in the posture `start` (…, 2), with the muscles' `activation` (…, 6); by
     default they have settled to the first excitation. `engine` names one of `ENGINES`; by default
-    it is MuJoCo for a `FEW` movements and the closed form for more. `world` may load its hand or
-    push it about, and `muscle` may be another `Muscle` than the paper's.
+    it is MuJoCo for up to `MUJOCO_UP_TO` movements and the closed form for more. `perturbation` may
+    load its hand or push it about, and `muscle` may be another `Muscle` than the paper's.
     ValueError when an excitation is not a number in [0, 1], a shape is wrong, or a step too long.
     """
     u = np.asarray(excitations, dtype=float)
@@ -88,8 +93,8 @@ def simulate(
     q = _each("start", start, leading, 2)
     first = _each("activation", u[..., 0, :] if activation is None else activation, leading, 6)
     a = activations(u.reshape(-1, *u.shape[-2:]), first, muscle, step)
-    engine = engine or ("mujoco" if len(q) <= FEW else "closed form")
-    path = _move(ENGINES[engine](q, world.load, step), a, world.field, muscle)
+    engine = engine or ("mujoco" if len(q) <= MUJOCO_UP_TO else "closed form")
+    path = _move(ENGINES[engine](q, perturbation.load, step), a, perturbation.field, muscle)
     return Motion(*(x.reshape(*leading, *x.shape[1:]) for x in (*path, a)))
 
 
@@ -162,11 +167,11 @@ class ClosedForm:
 
     def paths(self):
         """Where the muscles are now: lengths (B, 6) and moment arms (B, 2, 6)."""
-        return closed_form.paths(self.q)
+        return dynamics.paths(self.q)
 
     def step(self, torque):
         """Move on by one step under joint torques (B, 2)."""
-        acceleration = closed_form.acceleration_from(
+        acceleration = dynamics.acceleration_from(
             self.q, self.velocity, torque, self.load, self.seconds
         )
         self.velocity = self.velocity + self.seconds * acceleration
@@ -177,7 +182,7 @@ class MuJoCo:
     """The same arms, each stepped by MuJoCo; `q` and `velocity` are views of its states."""
 
     def __init__(self, start, load, step):
-        model = copy(holding(load))
+        model = copy(loaded(load))
         model.opt.timestep = step
         self.arms = Batch(model, len(start), nthread=1, persistent=True)
         self.q, self.velocity = self.arms.bind("qpos"), self.arms.bind("qvel")

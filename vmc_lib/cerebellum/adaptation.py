@@ -1,9 +1,9 @@
 """Adaptation: when hand, arm or eyes have changed, learn from the error itself.
 
-`Aim` learns by hindsight what its arm does. Let the hand hold a weight, and hindsight is slow: it
-teaches about the places where the hand ends, not about those that it is meant for. So each miss
-becomes an error at its *target*, and the Purkinje weights make the smallest change that takes a
-share of it away (Albus, 1971). The error alone does not say what is wrong. It can be corrected
+`AimCorrection` learns by hindsight what its arm does. Let the hand hold a weight, and hindsight is
+slow: it teaches about the places where the hand ends, not about those that it is meant for. So each
+miss becomes an error at its *target*, and the Purkinje weights make the smallest change that takes
+a share of it away (Albus, 1971). The error alone does not say what is wrong. It can be corrected
 
 - in the **aim**, as behind a prism: plan for another place, with the templates there;
 - in the **pull**, as with a weight: give the same templates other weights, which need not sum to
@@ -14,26 +14,32 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..motor.planning import Plan, plan, surrounded
-from ..motor.templates import REACH, Library
-from .online import GranuleCells
+from vmc_lib.cerebellum.online import GranuleCells
+from vmc_lib.motor.planning import Plan, plan, surrounded
+from vmc_lib.motor.templates import REACH, TemplateSet
 
-HANGING = np.array([0.0, -REACH])  # where the hand ends when every muscle is silent
+SILENT = np.array([0.0, -REACH])  # where the hand ends when every muscle is silent
 CORRECTIONS = ("aim", "pull")
 
 
 class Adaptation:
-    """A skilled learner (`Aim`, `Linear`) in a world that may change; its plans are batches.
+    """A skilled learner in a world that may change; its plans are batches.
 
+    The skill is an `AimCorrection` or a `WeightCorrection`.
     A lesson alone takes a share 1 / (1 + caution) of its error away.
     """
 
-    def __init__(self, skill, library: Library, corrects="aim", width=0.1, caution=0.3):
+    def __init__(self, skill, template_set: TemplateSet, corrects="aim", width=0.1, caution=0.3):
         if corrects not in CORRECTIONS:
             raise ValueError(f"cannot correct {corrects!r}; choose one of {CORRECTIONS}")
-        self.skill, self.library, self.corrects, self.caution = skill, library, corrects, caution
-        nothing = np.zeros_like(library.points)
-        self.cells = GranuleCells(width, cells=300).fit(library.points, nothing)
+        self.skill, self.template_set, self.corrects, self.caution = (
+            skill,
+            template_set,
+            corrects,
+            caution,
+        )
+        nothing = np.zeros_like(template_set.points)
+        self.cells = GranuleCells(width, cells=300).fit(template_set.points, nothing)
         self.purkinje = self.cells.purkinje_
 
     def correct(self, plan: Plan):
@@ -61,16 +67,16 @@ class Adaptation:
 
     def _aimed(self, habit, place):
         """The skilled plan for another place; with the target's own templates where none are."""
-        known = surrounded(place, self.library.points)
-        there = plan(np.where(known[:, None], place, habit.target), self.library).chosen
+        known = surrounded(place, self.template_set.points)
+        there = plan(np.where(known[:, None], place, habit.target), self.template_set).chosen
         chosen = np.where(known[:, None], there, habit.chosen)
-        skilled = self.skill.correct(plan(place, self.library, chosen=chosen))
+        skilled = self.skill.correct(plan(place, self.template_set, chosen=chosen))
         return replace(habit, chosen=chosen, weights=skilled.weights)
 
 
 def pull(points, shift):
-    """The smallest Δw (…, N) that shifts the hand by `shift` (…, 2), by Eq. 4 from `HANGING`.
+    """The smallest Δw (…, N) that shifts the hand by `shift` (…, 2), by Eq. 4 from `SILENT`.
 
     It sums to more than zero where the hand must be lifted: more of everything.
     """
-    return (np.linalg.pinv(np.swapaxes(points - HANGING, -1, -2)) @ shift[..., None])[..., 0]
+    return (np.linalg.pinv(np.swapaxes(points - SILENT, -1, -2)) @ shift[..., None])[..., 0]

@@ -1,6 +1,6 @@
 """Off-line calibration: try, see the error, correct the weights, try again.
 
-`published` is the paper's rule (Eq. 6–7, Algorithm 1); `calibrate` is ours. Both take a `Plan`, of
+`algorithm_1` is the paper's rule (Eq. 6–7); `broyden_calibration` is ours. Both take a `Plan`, of
 one reach or a batch, and return `Trials`, the plan's own reach first.
 """
 
@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..motor.planning import Plan, least_change
+from vmc_lib.motor.planning import Plan, least_change
 
 GAINS = tuple(range(21))  # the paper's n in [0, 20]
 LARGEST_STEP = 0.5  # of Δw's norm: no single correction may throw the arm about
@@ -20,6 +20,7 @@ class Trials(NamedTuple):
     weights: np.ndarray  # (trials, …, N)
     reached: np.ndarray  # (trials, …, 2), m
     error: np.ndarray  # (trials, …), m: how far from the target
+    plans: tuple  # as they were made: `Plan`s, whose leading axis may count trials
 
     @property
     def best(self):
@@ -27,8 +28,14 @@ class Trials(NamedTuple):
         winner = self.error.argmin(axis=0)
         return np.take_along_axis(self.weights, winner[None, ..., None], axis=0)[0]
 
+    @property
+    def best_motion(self):
+        """The `Motion` of the trial that came nearest, of one reach: it need not be made again."""
+        motions = [motion for plan in self.plans for motion in plan.move()]
+        return motions[self.error.argmin()]
 
-def published(plan: Plan, gains=GAINS, origin=(0.0, 0.0), sign=1):
+
+def algorithm_1(plan: Plan, gains=GAINS, origin=(0.0, 0.0), sign=1):
     """Algorithm 1: try every n at once, each with the correction of Eq. 6–7.
 
     The paper leaves open where positions are measured from (`origin`, here the shoulder) and which
@@ -37,14 +44,12 @@ def published(plan: Plan, gains=GAINS, origin=(0.0, 0.0), sign=1):
     among the n alone, does not allow: no correction should make a reach worse.
     """
     reached = plan.reached()
-    changes = np.stack([published_change(plan, reached, n, origin, sign) for n in gains])
+    changes = np.stack([algorithm_1_change(plan, reached, n, origin, sign) for n in gains])
     tried = plan.with_weights(plan.weights + changes)
-    return _trials(
-        plan, [(plan.weights, reached), *zip(tried.weights, tried.reached(), strict=True)]
-    )
+    return _trials(plan, tried)
 
 
-def published_change(plan, reached, n, origin=(0.0, 0.0), sign=1):
+def algorithm_1_change(plan, reached, n, origin=(0.0, 0.0), sign=1):
     """Eq. 6–7: Δw_i = k_i cos θ_i (…, N), with k_i growing with n for templates nearer than p_t."""
     error = sign * (plan.target - reached)
     towards = plan.points - reached[..., None, :]
@@ -54,7 +59,7 @@ def published_change(plan, reached, n, origin=(0.0, 0.0), sign=1):
     return (_norm(error) / d_a)[..., None] * (1 + n * (d_t[..., None] - d_i) / d_i) * cosine
 
 
-def calibrate(plan: Plan, trials=2, broyden=True, guarded=True):
+def broyden_calibration(plan: Plan, trials=2, broyden=True, guarded=True):
     """The population vector done right: solve Eq. 4 for the error, and learn from each trial.
 
     Each trial makes the smallest Δw that shifts the hand by the whole error, if moving a weight
@@ -63,13 +68,12 @@ def calibrate(plan: Plan, trials=2, broyden=True, guarded=True):
     one starts from the best weights so far.
     """
     jacobian = np.swapaxes(plan.points, -1, -2)
-    weights, reached = plan.weights, plan.reached()
-    history = [(weights, reached)]
+    weights, reached, history = plan.weights, plan.reached(), []
     for _ in range(trials):
         change = least_change(jacobian, plan.target - reached)
         change = _capped(change) if guarded else change
-        tried = plan.with_weights(weights + change).reached()
-        history.append((weights + change, tried))
+        history.append(plan.with_weights(weights + change))
+        tried = history[-1].reached()
         if broyden:
             surprise = tried - reached - (jacobian @ change[..., None])[..., 0]
             square = np.maximum((change**2).sum(axis=-1), 1e-24)[..., None, None]
@@ -77,12 +81,15 @@ def calibrate(plan: Plan, trials=2, broyden=True, guarded=True):
         better = (_norm(plan.target - tried) < _norm(plan.target - reached))[..., None]
         weights = np.where(better | (not guarded), weights + change, weights)
         reached = np.where(better | (not guarded), tried, reached)
-    return _trials(plan, history)
+    return _trials(plan, *history)
 
 
-def _trials(plan, history):
-    weights, reached = map(np.stack, zip(*history, strict=True))
-    return Trials(weights, reached, _norm(plan.target - reached))
+def _trials(plan, *tried):
+    """`Trials` of a plan and what was tried after it: each one reach, or several at once."""
+    plans, size = (plan, *tried), plan.weights.shape
+    weights = np.concatenate([p.weights.reshape(-1, *size) for p in plans])
+    reached = np.concatenate([p.reached().reshape(-1, *plan.target.shape) for p in plans])
+    return Trials(weights, reached, _norm(plan.target - reached), plans)
 
 
 def _capped(change):

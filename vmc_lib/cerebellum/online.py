@@ -1,10 +1,10 @@
 """Online calibration: correct the plan before moving, from what past movements taught.
 
-`Linear` is the paper's g (Eq. 8, Algorithm 2): a linear regression of Δw on the target, the
-weights and the templates' positions. `Aim` is ours: it learns where to aim instead. Granule cells,
-each excited by its own small region of targets, feed a few Purkinje weights (Marr, 1969; Albus,
-1971), and every movement teaches by hindsight: wherever the hand went, the aim taken was the
-right one for going there.
+`WeightCorrection` is the paper's g (Eq. 8, Algorithm 2): a linear regression of Δw on the target,
+the weights and the templates' positions. `AimCorrection` is ours: it learns where to aim instead.
+Granule cells, each excited by its own small region of targets, feed a few Purkinje weights (Marr,
+1969; Albus, 1971), and every movement teaches by hindsight: wherever the hand went, the aim taken
+was the right one for going there.
 
 Both have `correct(plan)`, the plan with what was learned, and `practise(plan)`, more lessons; what
 is practised is a batch of plans.
@@ -17,15 +17,15 @@ from sklearn.base import BaseEstimator, RegressorMixin
 from sklearn.linear_model import LinearRegression
 from sklearn.utils.validation import check_is_fitted, validate_data
 
-from ..motor.planning import Plan, exact_weights, surrounded, surrounding
-from ..motor.templates import Library
-from .offline import published
+from vmc_lib.cerebellum.offline import algorithm_1
+from vmc_lib.motor.planning import Plan, exact_weights, surrounded, surrounding
+from vmc_lib.motor.templates import TemplateSet
 
 # With Eq. 5's power of 1 the weights have a kink at every template; chosen on validation targets
 smooth_weights = partial(exact_weights, power=1.25)
 
 
-class Linear:
+class WeightCorrection:
     """Eq. 8 with the paper's linear g, updated by Algorithm 2."""
 
     def __init__(self):
@@ -38,7 +38,7 @@ class Linear:
         g = LinearRegression().fit(np.concatenate(self.inputs), np.concatenate(self.changes))
         return plan.with_weights(plan.weights + g.predict(_inputs(plan)))
 
-    def practise(self, plan: Plan, rule=published):
+    def practise(self, plan: Plan, rule=algorithm_1):
         """Algorithm 2 for a batch: correct online, calibrate that off-line, learn the sum."""
         calibrated = rule(self.correct(plan)).best
         self.inputs.append(_inputs(plan))
@@ -51,18 +51,18 @@ def _inputs(plan):
     return np.concatenate([plan.target, plan.weights, points], axis=-1)
 
 
-class Aim:
+class AimCorrection:
     """Learn how far beyond a target to aim for the hand to end on it, then satisfy Eq. 4 there.
 
     It begins with what is known without moving: aiming at a template needs no correction.
     """
 
-    def __init__(self, library: Library, cells=None):
+    def __init__(self, template_set: TemplateSet, cells=None):
         self.cells = cells or GranuleCells()
-        edges = library.points.min(axis=0), library.points.max(axis=0)
+        edges = template_set.points.min(axis=0), template_set.points.max(axis=0)
         spots = np.stack(np.meshgrid(*np.linspace(*edges, 40).T), axis=-1).reshape(-1, 2)
-        spots = spots[surrounded(spots, library.points)]
-        four = library.points[np.unique(surrounding(spots, library.points), axis=0)]
+        spots = spots[surrounded(spots, template_set.points)]
+        four = template_set.points[np.unique(surrounding(spots, template_set.points), axis=0)]
         self.cells.fit(*_lessons(_place(four, four[:, None]), np.zeros_like(four)))
 
     def correct(self, plan: Plan):

@@ -1,6 +1,6 @@
-"""What ships beside the code: photos, trained weights, measurements.
+"""What ships beside the code: photos, and what training has learnt, as arrays.
 
-CONTRIBUTING.md names the command that remakes each.
+`python -m reproduce --list` names the step that remakes each.
 """
 
 from functools import cache
@@ -12,10 +12,13 @@ FOLDER = Path(__file__).parent
 
 
 @cache
-def arrays(name):
-    """The arrays of the data file `name`.npz, by name; the file is read only once.
+def arrays(name, folder=FOLDER):
+    """The arrays of the data file `name`.npz, by name; read once, shared, and so read-only.
 
     FileNotFoundError when nothing of that name ships.
     """
-    with np.load(FOLDER / f"{name}.npz", allow_pickle=False) as file:
-        return dict(file)
+    with np.load(Path(folder) / f"{name}.npz", allow_pickle=False) as file:
+        found = dict(file)
+    for array in found.values():
+        array.flags.writeable = False
+    return found

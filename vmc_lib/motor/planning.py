@@ -8,49 +8,56 @@ from functools import cached_property
 
 import numpy as np
 
-from ..arm.simulate import EMPTY, World
-from .templates import Library, reach
+from vmc_lib import NoReach
+from vmc_lib.arm.simulate import UNPERTURBED, Perturbation
+from vmc_lib.motor.templates import TemplateSet, reach
 
 PART = 512  # movements simulated at once
 EYE = np.array([0.10, 0.25])  # above and a little in front of the shoulder
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Plan:
     """Which templates a reach uses, and how much of each."""
 
-    library: Library
+    template_set: TemplateSet
     target: np.ndarray  # (…, 2): where it is seen
     chosen: np.ndarray  # (…, N): rows of the library
     weights: np.ndarray  # (…, N)
-    world: World = EMPTY  # what the arm will meet; the plan does not know it …
+    perturbation: Perturbation = UNPERTURBED  # what the arm will meet; the plan does not know it …
     prism: float = 0.0  # … nor, in rad, how far glass before the eyes turns what they see
 
     @property
     def points(self):
         """Where the chosen templates reach: p_i, (…, N, 2)."""
-        return self.library.points[self.chosen]
+        return self.template_set.points[self.chosen]
 
     @property
     def excitations(self):
         """Eq. 3: u_t(t) = Σ w_i u_i(t), (…, T, 6), held to [0, 1]: no nerve can do otherwise."""
-        share = np.zeros((*self.weights.shape[:-1], len(self.library.points)))
+        share = np.zeros((*self.weights.shape[:-1], len(self.template_set.points)))
         np.put_along_axis(share, self.chosen, self.weights, axis=-1)
-        return np.clip(np.tensordot(share, self.library.excitations, axes=1), 0, 1)
+        return np.clip(np.tensordot(share, self.template_set.excitations, axes=1), 0, 1)
 
     def move(self):
-        """The `Motion` that the plan gives the arm."""
-        return reach(self.excitations, self.world)
+        """The `Motion` that the plan gives the arm. A plan is moved once, and remembers it."""
+        return self._motion
+
+    @cached_property
+    def _motion(self):
+        return reach(self.excitations, self.perturbation)
 
     def reached(self):
-        """Where the hand is seen to end, (…, 2). A plan is moved once, and remembers it."""
+        """Where the hand is seen to end, (…, 2)."""
         return turned(self._ends, self.prism)
 
     @cached_property
     def _ends(self):
         count = self.weights.shape[-1]
         weights, chosen = self.weights.reshape(-1, count), self.chosen.reshape(-1, count)
-        parts = [  # large batches are moved in parts, to spare memory
+        if len(weights) <= PART:
+            return self.move().reached
+        parts = [  # a larger batch is moved in parts, and its motions forgotten, to spare memory
             replace(self, chosen=chosen[i : i + PART], weights=weights[i : i + PART]).move().reached
             for i in range(0, len(weights), PART)
         ]
@@ -65,9 +72,9 @@ class Plan:
         """The same templates, weighted otherwise; leading axes may be added, for many trials."""
         return replace(self, weights=weights, chosen=np.broadcast_to(self.chosen, weights.shape))
 
-    def under(self, world=EMPTY, prism=0.0):
-        """The same plan in another `World`, with a load or a force field, or behind a prism."""
-        return replace(self, world=world, prism=prism)
+    def perturbed(self, perturbation=UNPERTURBED, prism=0.0):
+        """The same plan under a `Perturbation`, a load or a force field, or behind a prism."""
+        return replace(self, perturbation=perturbation, prism=prism)
 
 
 def turned(points, angle):
@@ -116,11 +123,11 @@ def least_change(jacobian, shift):
 def surrounding(target, points):
     """The nearest point (of N, 2) in each of the four quadrants round a target: rows (…, 4).
 
-    ValueError when a quadrant is empty: the target is outside the plane that experience covers.
+    `NoReach` when a quadrant is empty: the target is outside the plane that experience covers.
     """
     if not np.all(inside := surrounded(target, points)):
         alone = np.atleast_2d(target)[~np.atleast_1d(inside)][0]
-        raise ValueError(f"target {alone} m is not surrounded by templates; move it inside them")
+        raise NoReach(f"target {alone} m is not surrounded by templates; move it inside them")
     return _by_quadrant(target, points).argmin(axis=-1)
 
 
@@ -148,19 +155,19 @@ def _by_quadrant(target, points):
     return np.where(here, np.linalg.norm(away, axis=-1)[..., None, :], np.inf)
 
 
-def draw_targets(library, count, rng):
+def draw_targets(template_set, count, rng):
     """Targets (count, 2), drawn evenly from the plane that the library surrounds."""
-    low, high = library.points.min(axis=0), library.points.max(axis=0)
+    low, high = template_set.points.min(axis=0), template_set.points.max(axis=0)
     drawn = rng.uniform(low, high, (4 * count + 20, 2))
-    return drawn[surrounded(drawn, library.points)][:count]
+    return drawn[surrounded(drawn, template_set.points)][:count]
 
 
-def plan(target, library, rule=habitual_weights, chosen=None):
+def plan(target, template_set, rule=habitual_weights, chosen=None):
     """Plan a reach to `target` (…, 2) with the four surrounding templates (or those `chosen`)."""
     target = np.asarray(target, dtype=float)
     if target.shape[-1:] != (2,) or not np.all(np.isfinite(target)):
         raise ValueError(f"target {target} must be finite plane positions (…, 2) in m")
     if chosen is None:
-        chosen = surrounding(target, library.points)
+        chosen = surrounding(target, template_set.points)
     chosen = np.broadcast_to(chosen, (*target.shape[:-1], np.shape(chosen)[-1]))
-    return Plan(library, target, chosen, rule(target, library.points[chosen]))
+    return Plan(template_set, target, chosen, rule(target, template_set.points[chosen]))

@@ -1,12 +1,12 @@
 """How things are shown: `explore` (demos that answer their sliders), plots, photos, questions.
 
 The arm's own scenes are in `vmc_lib.show.arm`, and the arm that runs in the page in
-`vmc_lib.show.live`: what needs no arm need not wait for one.
+`arm_in_page.live`: what needs no arm need not wait for one.
 """
 
 from vmc_lib.show.controls import Choice, Pad, Slider, Switch
 from vmc_lib.show.demo import explore, figure
-from vmc_lib.show.figures import COLOURS, photo_view, say
+from vmc_lib.show.figures import COLOURS, markdown, photo_view
 from vmc_lib.show.questions import check, quiz
 from vmc_lib.show.scene import Scene
 
@@ -20,7 +20,7 @@ __all__ = [
     "check",
     "explore",
     "figure",
+    "markdown",
     "photo_view",
     "quiz",
-    "say",
 ]

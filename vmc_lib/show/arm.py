@@ -8,10 +8,10 @@ from functools import cache
 import numpy as np
 from meshcat import geometry as g
 
-from vmc_lib.arm.closed_form import paths
+from vmc_lib.arm.dynamics import paths
+from vmc_lib.arm.kinematics import to_world
 from vmc_lib.arm.model import MUSCLES, geometry
 from vmc_lib.arm.muscle import force
-from vmc_lib.arm.posture import to_world
 from vmc_lib.arm.simulate import fibres
 from vmc_lib.photos import TABLE
 from vmc_lib.show.figures import COLOURS

@@ -1,8 +1,9 @@
-"""`explore`: one declaration of an interactive demo, three lives.
+"""`explore`: one declaration of an interactive demo, three render modes.
 
 A demo is a pure function of its controls over a finite grid. In a live kernel, widgets call the
-function; in the built book (`VMC_LIFE=book`) every position is computed once and travels in the
-page; in a test (`VMC_LIFE=test`) every position is evaluated and every control must matter.
+function; in the built book (`VMC_RENDER_MODE=book`) every position is computed once and travels
+in the page; in a test (`VMC_RENDER_MODE=test`) every position is evaluated and every control must
+matter.
 """
 
 import base64
@@ -18,7 +19,7 @@ from IPython.display import HTML, display
 
 from vmc_lib.show.controls import as_control
 from vmc_lib.show.figures import framed, pictures, side_by_side
-from vmc_lib.show.life import life
+from vmc_lib.show.render_mode import render_mode
 from vmc_lib.show.scene import Scene, SceneView
 
 MOST_POSITIONS = 200
@@ -44,11 +45,11 @@ def explore(draw, caption, alt, **controls):
             "give the controls fewer values"
         )
     describe = alt if callable(alt) else lambda **values: alt
-    if life() == "live":
+    if render_mode() == "live":
         return _live(draw, caption, describe, controls)
     name = f"demo-{next(_demos)}"
     states = _evaluate(draw, describe, controls, name)
-    if life() == "book":
+    if render_mode() == "book":
         display(HTML(_page(states, caption, controls, name)))
 
 

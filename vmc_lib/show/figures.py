@@ -250,6 +250,6 @@ def side_by_side(parts, alt):
     return f'<div class="vmc-pictures" role="img" aria-label="{html.escape(alt)}">{inner}</div>'
 
 
-def say(text):
+def markdown(text):
     """Show Markdown; an f-string puts the run's own numbers into a sentence."""
     display(Markdown(text))

@@ -11,7 +11,7 @@ import numpy as np
 from IPython.display import HTML, display
 
 from vmc_lib.show.figures import inline
-from vmc_lib.show.life import life
+from vmc_lib.show.render_mode import render_mode
 
 # JupyterLab would take Enter as its own, and the answer would stay closed.
 _OWN_KEYS = 'onkeydown="event.stopPropagation()"'
@@ -46,15 +46,15 @@ def check(answer, expected, tolerance=1e-6, hint=""):
 
     `expected` is a number, a text, or any nesting of these; each number may be off by `tolerance`,
     in its own unit. An answer with a None in it is not answered yet; a wrong one is shown the
-    `hint` (Markdown) and, in a test (`VMC_LIFE=test`), raises AssertionError: running a chapter
-    proves its solutions.
+    `hint` (Markdown) and, in a test (`VMC_RENDER_MODE=test`), raises AssertionError: running a
+    chapter proves its solutions.
     """
     if None in np.ravel(np.asarray(answer, object)).tolist():
-        typed = life() == "book" and isinstance(expected, (int, float, str, tuple))
+        typed = render_mode() == "book" and isinstance(expected, (int, float, str, tuple))
         return display(HTML(_field(expected, tolerance, hint) if typed else _verdict(NOT_YET)))
     if _agree(answer, expected, tolerance):
         return display(HTML(_verdict(RIGHT)))
-    if life() == "test":
+    if render_mode() == "test":
         raise AssertionError(f"check: {answer!r} is not {expected!r} within {tolerance}")
     display(HTML(_verdict(f"{WRONG} You have {html.escape(str(answer))}. {inline(hint)}")))
 

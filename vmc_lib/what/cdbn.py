@@ -1,7 +1,4 @@
-"""The convolutional deep belief network (CDBN): one CRBM learns the picture, a second the first.
-
-Remake its weights, `data/cdbn.npz`, with `python -m vmc_lib.what.cdbn`.
-"""
+"""The convolutional deep belief network (CDBN): one CRBM learns the picture, a second the first."""
 
 from dataclasses import dataclass
 
@@ -9,12 +6,10 @@ import numpy as np
 import torch
 from torch.nn import functional as F
 
-from vmc_lib import photos
-from vmc_lib.data import FOLDER
-from vmc_lib.what.crbm import CRBM, bar
-from vmc_lib.what.crops import Patches, crop, whiten
+from vmc_lib.data import arrays
+from vmc_lib.what.crbm import CRBM
+from vmc_lib.what.crops import Patches, crop
 
-FILE = FOLDER / "cdbn.npz"
 K, C, N_W, PATCHES = 10, 2, 8, 50_000  # as in the paper
 FIRST = {"epochs": 4, "width": 21, "sparsity": 0.002, "rate": 0.2, "decay": 0.0003}
 SECOND = {"epochs": 2, "width": 25, "sparsity": 0.1, "rate": 0.2, "decay": 0.0003}
@@ -50,21 +45,25 @@ class CDBN:
         spread_out = F.interpolate(self.second.W, scale_factor=c) / c**2
         return F.conv_transpose2d(spread_out, self.first.W)[:, 0]
 
-    def save(self, file):
-        """Write the network where `load` can read it: an .npz file, no pickle."""
+    def arrays(self):
+        """The network as a dict of arrays, to be saved with `np.savez`."""
         machines = {"first": self.first, "second": self.second}
-        arrays = {f"{m}.{k}": x for m, crbm in machines.items() for k, x in crbm.arrays().items()}
-        np.savez_compressed(file, mean=self.mean, spread=self.spread, **arrays)
+        parts = {f"{m}.{k}": x for m, crbm in machines.items() for k, x in crbm.arrays().items()}
+        return parts | {"mean": self.mean, "spread": self.spread}
 
     @classmethod
-    def load(cls, file=FILE, device="cpu"):
-        """The network that ships with the book, or another that was saved."""
-        with np.load(file, allow_pickle=False) as z:
-            machines = [
-                CRBM.from_arrays({k: z[f"{m}.{k}"] for k in ("W", "b", "a", "c")}, device)
-                for m in ("first", "second")
-            ]
-            return cls(*machines, float(z["mean"]), float(z["spread"]))
+    def from_arrays(cls, arrays, device="cpu"):
+        """The network that `arrays` describes (a dict, or an open .npz file)."""
+        machines = (
+            CRBM.from_arrays({k: arrays[f"{m}.{k}"] for k in ("W", "b", "a", "c")}, device)
+            for m in ("first", "second")
+        )
+        return cls(*machines, float(arrays["mean"]), float(arrays["spread"]))
+
+    @classmethod
+    def load(cls, device="cpu"):
+        """The network that ships with the book."""
+        return cls.from_arrays(arrays("cdbn"), device)
 
 
 def learn(maps, seed, n_w, patches, *, epochs, width, **how):
@@ -78,8 +77,7 @@ def learn(maps, seed, n_w, patches, *, epochs, width, **how):
     width -= (width - n_w + 1) % C  # whole blocks only
     sample = Patches(maps, width, patches, rng)
     crbm = CRBM.random(K, maps.shape[1], n_w, rng, C, maps.device)
-    for epoch, error in crbm.fit(sample, range(epochs), seed, watch=bar, **how):
-        print(f"epoch {epoch + 1} of {epochs}: reconstruction error {error:.4f}")
+    crbm.fit(sample, range(epochs), seed, **how)
     return crbm
 
 
@@ -103,9 +101,3 @@ def crops_of(shots):
     """The crops (n, 200, 200) in the true boxes of photos, and which are shuttlecocks (n,)."""
     named = [(crop(shot.image, box), name) for shot in shots for name, box in shot.boxes.items()]
     return np.array([x for x, _ in named]), np.array([name == "shuttlecock" for _, name in named])
-
-
-if __name__ == "__main__":
-    shots = [shot for level in photos.LEVELS for shot in photos.load(level, "train")]
-    crops, positive = crops_of(shots)
-    train(whiten(crops), positive).save(FILE)

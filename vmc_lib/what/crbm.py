@@ -128,7 +128,7 @@ class CRBM:
 
     # ------------------------------------------------------------ learning
 
-    def together(self, v, on):
+    def statistics(self, v, on):
         """How v and its hidden units, on with chances `on`, go together: mean -∂E/∂(W, b, a)."""
         pairs = F.conv2d(v.transpose(0, 1), on.transpose(0, 1)).transpose(0, 1)
         return pairs / len(v), on.sum((2, 3)).mean(0), v.sum((2, 3)).mean(0)
@@ -144,31 +144,31 @@ class CRBM:
         chain = self.gibbs(v, rng, **how)
         _, on = next(chain)
         dream, on_in_dream = next(islice(chain, steps - 1, None))
-        pairs = zip(self.together(v, on), self.together(dream, on_in_dream), strict=True)
+        pairs = zip(self.statistics(v, on), self.statistics(dream, on_in_dream), strict=True)
         return [data - model for data, model in pairs], on, dream
 
     def fit(
         self, patches, epochs, seed, steps=1, rate=0.05, batch=100, sparsity=0.02,
-        pressure=5.0, decay=0.001, clamp=True, watch=iter,
+        pressure=5.0, decay=0.001, clamp=True, after=None,
     ):  # fmt: skip
         """Learn from `patches` (any (n, channels, n_v, n_v) that takes index lists), in place.
 
-        A generator: yields (epoch, mean squared reconstruction error of the pixels that are not
-        clamped) after each of `epochs`, a range. Every epoch draws its own random numbers from
-        (seed, epoch) and starts without momentum, so a machine saved after epoch 3 and trained on
-        range(4, 8) ends as one trained on range(8). `pressure` pulls each map's mean activity
-        towards `sparsity` through its bias.
-        `watch` wraps an epoch's batches: `bar`, or any progress bar of its kind. ValueError for no
-        patches, for NaN in them, and when learning runs away.
+        Returns for each of `epochs`, a range, the mean squared reconstruction error of the pixels
+        that are not clamped; after each, `after(epoch, error)` is called. Every epoch draws its own
+        random numbers from (seed, epoch) and starts without momentum, so a machine saved after
+        epoch 3 and trained on range(4, 8) ends as one trained on range(8). `pressure` pulls each
+        map's mean activity towards `sparsity` through its bias.
+        ValueError for no patches, for NaN in them, and when learning runs away.
         """
         if len(patches) == 0:
             raise ValueError("there are no patches to learn from")
+        history = []
         for epoch in epochs:
             rng = torch.Generator(self.W.device).manual_seed(1000 * seed + epoch)
             order = torch.randperm(len(patches), generator=rng, device=self.W.device).split(batch)
             step, momentum = rate / (1 + rate * epoch), 0.5 if epoch < 2 else 0.9
             speed, errors = torch.zeros_like(self.W), []
-            for rows in watch(order):
+            for rows in order:
                 v = patches[rows]
                 (dW, db, da), on, dream = self.gradient(v, steps, rng, noise=False, clamp=clamp)
                 area = on[0, 0].numel()
@@ -183,7 +183,10 @@ class CRBM:
                     f"learning ran away in epoch {epoch}: give finite patches or a lower rate "
                     f"than {rate}"
                 )
-            yield epoch, error
+            history.append(error)
+            if after:
+                after(epoch, error)
+        return history
 
     # ------------------------------------------------------------ keeping
 
@@ -194,13 +197,5 @@ class CRBM:
     @classmethod
     def from_arrays(cls, arrays, device="cpu"):
         """The machine that `arrays` describes (a dict, or an open .npz file)."""
-        W, b, a = (torch.from_numpy(arrays[name]).to(device) for name in "Wba")
+        W, b, a = (torch.tensor(arrays[name], device=device) for name in "Wba")
         return cls(W, b, a, int(arrays["c"]))
-
-
-def bar(batches, width=40):
-    """The batches, one by one, and a bar on the screen that grows with them."""
-    for done, batch in enumerate(batches, 1):
-        yield batch
-        full = width * done // len(batches)
-        print(f"\r  {'█' * full}{'░' * (width - full)} ", end="", flush=True)

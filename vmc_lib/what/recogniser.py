@@ -1,7 +1,4 @@
-"""Is it a shuttlecock? A linear classifier on what the CDBN sees, with a calibrated probability.
-
-Remake the weights that ship, `data/recogniser.npz`, with `python -m vmc_lib.what.recogniser`.
-"""
+"""Is it a shuttlecock? A linear classifier on what the CDBN sees, with a calibrated probability."""
 
 from dataclasses import dataclass
 
@@ -14,18 +11,14 @@ from sklearn.linear_model import LogisticRegression
 from torch.nn import functional as F
 
 from vmc_lib import photos
-from vmc_lib.data import FOLDER, arrays
+from vmc_lib.data import arrays
 from vmc_lib.what.cdbn import CDBN
-from vmc_lib.what.crops import crop, whiten
-from vmc_lib.where.boxes import iou, shaken
+from vmc_lib.what.crops import whiten
 
-STRENGTHS = 10.0 ** np.arange(-1, 5)
-COPIES, SHAKE = 4, 0.08  # training boxes: copies of each, and how far their sides stray
-
-BARE = 6  # training crops of the bare scene a photo
+INVERSE_PENALTIES = 10.0 ** np.arange(-1, 5)
 
 READ_OUTS = "MP2", "P2", "P1 + P2"
-EVERYWHERE = "everywhere"  # all levels together: for a photo of none of them
+ALL_LEVELS = "everywhere"  # all levels together: for a photo of none of them
 
 
 def read_outs(cdbn, crops):
@@ -51,8 +44,8 @@ def read_outs(cdbn, crops):
 # ---------------------------------------------------------------- the classifier
 
 
-@dataclass(frozen=True)
-class Linear:
+@dataclass(frozen=True, eq=False)
+class NameClassifier:
     """The probability of being a shuttlecock, from features: a weight each, (d,), and a bias."""
 
     weights: np.ndarray
@@ -64,9 +57,9 @@ class Linear:
 
 
 def fit(x, y, x_validation, y_validation):
-    """A Linear classifier of features x (n, d) with labels y (n,), True for a shuttlecock.
+    """A `NameClassifier` of features x (n, d) with labels y (n,), True for a shuttlecock.
 
-    Logistic regression; of the STRENGTHS (inverse of the regularisation) the one with the best
+    Logistic regression; of the INVERSE_PENALTIES the one with the best
     likelihood on the validation set is kept, and its probabilities are calibrated there with
     Platt's sigmoid (1999). ValueError for an empty set, NaN, or labels of one class only.
     """
@@ -84,97 +77,40 @@ def fit(x, y, x_validation, y_validation):
         platt = sigmoid.calibrated_classifiers_[0].calibrators[0]
         weights = -platt.a_ * model.coef_[0] / size
         bias = -platt.a_ * model.intercept_[0] - platt.b_ - weights @ centre
-        return Linear(weights, float(bias))
+        return NameClassifier(weights, float(bias))
 
-    def likelihood(linear):
-        logit = (x_validation * size + centre) @ linear.weights + linear.bias
+    def likelihood(classifier):
+        logit = (x_validation * size + centre) @ classifier.weights + classifier.bias
         return -np.logaddexp(0, np.where(y_validation, -logit, logit)).sum()
 
-    return max(map(calibrated, STRENGTHS), key=likelihood)
-
-
-# ---------------------------------------------------------------- crops to learn from
-
-
-def elsewhere(shot, rng):
-    """A box of a likely size that overlaps with no object (IoU below 0.3)."""
-    objects = np.array(list(shot.boxes.values()))
-    while True:
-        width, height = rng.uniform(50, 180, 2)
-        x, y = rng.uniform(0, photos.WIDTH - width), rng.uniform(0, photos.HEIGHT - height)
-        if (iou([(x, y, x + width, y + height)], objects) < 0.3).all():
-            return np.array([x, y, x + width, y + height])
-
-
-def examples(shots, rng, copies=COPIES, background=0):
-    """Crops (n, 200, 200) and labels (n,) from photos: each object `copies` times, shaken and
-    half of them mirrored; and so many crops of `background` a photo."""
-    crops, labels = [], []
-    for shot in shots:
-        boxes = [(box, name == "shuttlecock") for name, box in shot.boxes.items()] * copies
-        boxes = [(shaken(box, SHAKE, rng), label) for box, label in boxes]
-        boxes += [(elsewhere(shot, rng), False) for _ in range(background)]
-        for box, label in boxes:
-            picture = crop(shot.image, box)
-            crops.append(picture[:, ::-1] if rng.random() < 0.5 else picture)
-            labels.append(label)
-    return np.array(crops), np.array(labels)
+    return max(map(calibrated, INVERSE_PENALTIES), key=likelihood)
 
 
 # ---------------------------------------------------------------- the recogniser
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Recogniser:
     """A CDBN, the name of a read-out, and the classifier on it."""
 
     cdbn: CDBN
     name: str
-    linear: Linear
+    classifier: NameClassifier
 
     @classmethod
-    def load(cls, level=EVERYWHERE, name="P1 + P2"):
+    def load(cls, level=ALL_LEVELS, name="P1 + P2"):
         """The recogniser that has learnt names from the training photos of a level.
 
         Its read-out "MP2" is the paper's, the default the best. ValueError for an unknown one.
         """
-        for given, known in ((level, (*photos.LEVELS, EVERYWHERE)), (name, READ_OUTS)):
+        for given, known in ((level, (*photos.LEVELS, ALL_LEVELS)), (name, READ_OUTS)):
             if given not in known:
                 raise ValueError(f"there is no {given!r}: choose from {', '.join(known)}")
         weights, bias = (arrays("recogniser")[f"{level}/{name}/{part}"] for part in "wb")
-        return cls(CDBN.load(), name, Linear(weights, float(bias)))
+        return cls(CDBN.load(), name, NameClassifier(weights, float(bias)))
 
     def probability(self, crops):
         """The chance (n,) that each grey crop (n, 200, 200) shows a shuttlecock."""
         if len(crops) == 0:
             return np.zeros(0)
-        return self.linear.probability(read_outs(self.cdbn, crops)[self.name])
-
-
-def lesson(level, split, rng, cdbn):
-    """The read-outs of a level's `examples`, bare scene among them, and their labels."""
-    crops, labels = examples(photos.load(level, split), rng, background=BARE)
-    return read_outs(cdbn, crops), labels
-
-
-def together(lessons):
-    """Several lessons as one."""
-    found, labels = zip(*lessons, strict=True)
-    return {name: np.concatenate([x[name] for x in found]) for name in READ_OUTS}, np.hstack(labels)
-
-
-if __name__ == "__main__":
-    rng, cdbn, linear = np.random.default_rng(0), CDBN.load(), {}
-    lessons = {
-        level: [lesson(level, split, rng, cdbn) for split in ("train", "validation")]
-        for level in photos.LEVELS
-    }
-    lessons[EVERYWHERE] = [together(split) for split in zip(*lessons.values(), strict=True)]
-    for level, ((x, y), (x_validation, y_validation)) in lessons.items():
-        for name in READ_OUTS:
-            found = fit(x[name], y, x_validation[name], y_validation)
-            right = (found.probability(x_validation[name]) > 0.5) == y_validation
-            print(f"{level}, {name}: {right.mean():.4f} of {len(right)} validation crops right")
-            linear[f"{level}/{name}/w"] = np.float32(found.weights)
-            linear[f"{level}/{name}/b"] = found.bias
-    np.savez_compressed(FOLDER / "recogniser.npz", **linear)
+        return self.classifier.probability(read_outs(self.cdbn, crops)[self.name])

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .boxes import as_boxes, widened
+from vmc_lib.boxes import as_boxes, widened
 
 
 def crops(image, boxes, size):

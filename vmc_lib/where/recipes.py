@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, replace
 
-from .features import gradients, pixels_in_context, raw_pixels
+from vmc_lib.where.features import gradients, pixels_in_context, raw_pixels
 
 FEATURES = {"pixels": raw_pixels, "context": pixels_in_context, "gradients": gradients}
 
@@ -16,10 +16,10 @@ class Recipe:
     kernel: str = "linear"
     cost: float = 0.1  # of an example on the wrong side
     gate: float = 0.0  # candidates that score above it pass
-    shaken: int = 0  # more examples of each object: its true box, shaken a little
+    jittered: int = 0  # more examples of each object: its true box, jittered a little
     mirror: bool = False  # learn from the photos' mirror images too
-    looks: tuple = ()  # corrections of a box; how far off, in sides, each expects it to be
-    judged: bool = False  # an estimate of the fit scores the boxes where the looks have led them
+    regressions: tuple = ()  # rounds of box regression; how far off, in sides, each expects a box
+    predicts_iou: bool = False  # what the regressed boxes score: their fit, as it is predicted
     vote: bool = False  # boxes silenced by a better one still pull at its sides
     overlap: float = 0.3  # that non-maximum suppression allows
 
@@ -29,17 +29,18 @@ class Recipe:
 
 
 PUBLISHED = Recipe()
-CONTEXT = replace(PUBLISHED, features="context", shaken=5, mirror=True, gate=-1)
+CONTEXT = replace(PUBLISHED, features="context", jittered=5, mirror=True, gate=-1)
 GRADIENTS = replace(CONTEXT, features="gradients")
-LOOKS = replace(GRADIENTS, strategy="finer", looks=(0.15, 0.1, 0.07, 0.05))
-JUDGED = replace(LOOKS, judged=True)
-IMPROVED = replace(JUDGED, vote=True)
+REGRESSED = replace(GRADIENTS, strategy="finer", regressions=(0.15, 0.1, 0.07, 0.05))
+PREDICTED = replace(REGRESSED, predicts_iou=True)
+IMPROVED = replace(PREDICTED, vote=True)
 RECIPES = {
     "published": PUBLISHED,
     "context": CONTEXT,
     "gradients": GRADIENTS,
-    "looks": LOOKS,
-    "judged": JUDGED,
+    "box regression": REGRESSED,
+    "IoU prediction": PREDICTED,
     "improved": IMPROVED,
 }
-TRAINED_AS = {"looks": "improved", "judged": "improved"}  # these do less with the same training
+# These do less with the same training
+TRAINED_AS = {"box regression": "improved", "IoU prediction": "improved"}

@@ -9,122 +9,17 @@ from dataclasses import dataclass
 from heapq import heapify, heappop, heappush
 from itertools import chain, product
 
-import cv2
 import numpy as np
-from scipy.ndimage import find_objects
-from skimage.segmentation import felzenszwalb
 
-from .boxes import area, enclosing
-
-# ---------------------------------------------------------------- the image, seen in other ways
-
-LAB_LOWEST, LAB_RANGE = np.float32([[0, -128, -128], [100, 255, 255]])  # L, a and b
-COLOUR_SPACES = {  # float RGB in 0..1 -> channels in about 0..1
-    "RGB": lambda rgb: rgb,
-    "HSV": lambda rgb: cv2.cvtColor(rgb, cv2.COLOR_RGB2HSV) / np.float32([360, 1, 1]),
-    "Lab": lambda rgb: (cv2.cvtColor(rgb, cv2.COLOR_RGB2Lab) - LAB_LOWEST) / LAB_RANGE,
-    "rgI": lambda rgb: np.dstack([rgb[..., :2] / (rgb.sum(2, keepdims=True) + 1e-6), rgb.mean(2)]),
-    "H": lambda rgb: COLOUR_SPACES["HSV"](rgb)[..., :1],
-    "I": lambda rgb: rgb.mean(2, keepdims=True),
-}
-
-
-def as_rgb(image):
-    """The image as float32 RGB in 0..1, shape (height, width, 3).
-
-    Takes uint8 or float in 0..1; a grey image is stacked, an alpha channel dropped. ValueError
-    for anything else: no pixels, NaN, values out of range, other shapes.
-    """
-    image = np.asarray(image)
-    if image.ndim == 2:
-        image = np.dstack([image] * 3)
-    if image.ndim != 3 or image.shape[2] not in (3, 4) or image.size == 0:
-        raise ValueError(f"an image is (height, width, 3), not {image.shape}")
-    rgb = image[..., :3].astype(np.float32)
-    if image.dtype == np.uint8:
-        return rgb / 255
-    if not (rgb.min() >= 0 and rgb.max() <= 1):  # so written, NaN fails too
-        raise ValueError("a float image needs finite values in 0..1; divide 8-bit values by 255")
-    return rgb
-
-
-# ---------------------------------------------------------------- segments, and what they look like
-
-
-def segment(channels, k=100, sigma=0.8):
-    """Segments of an image (height, width, c) with values in 0..1: labels (height, width).
-
-    Two neighbouring patches stay apart where the step between them is large beside the steps
-    inside them; a larger scale `k` lets patches grow larger, and none stays under k pixels. The
-    graph-based method of Felzenszwalb & Huttenlocher (2004), by scikit-image.
-    """
-    smooth = cv2.GaussianBlur(channels, (0, 0), sigma).reshape(channels.shape)
-    return felzenszwalb(smooth, scale=k, sigma=0, min_size=int(k))
-
-
-@dataclass
-class Appearance:
-    """What selective search knows of each region: rows for segments, then for merged regions."""
-
-    size: np.ndarray  # (n,) pixels
-    boxes: np.ndarray  # (n, 4)
-    colour: np.ndarray  # (n, 25 c) histogram of each channel, sums to 1
-    texture: np.ndarray  # (n, 80 c) histogram of each channel's slopes, sums to 1
-    pixels: int  # in the whole image
-
-    def merge(self, i, j, new):
-        """Write into row `new` the union of regions i and j, from their rows alone."""
-        a, b = self.size[i], self.size[j]
-        self.size[new] = a + b
-        self.boxes[new] = enclosing(self.boxes[i], self.boxes[j])
-        for histogram in (self.colour, self.texture):
-            histogram[new] = (a * histogram[i] + b * histogram[j]) / (a + b)
-
-
-def colour_codes(channels, bins=25):
-    """For each channel, which of `bins` bins each pixel's value falls into.
-
-    Returns the codes (c, pixels), and `bins`.
-    """
-    values = channels.reshape(-1, channels.shape[2]).T
-    return (values * bins).clip(0, bins - 1).astype(np.uint8), bins
-
-
-def texture_codes(channels, bins=10):
-    """For each channel and eight directions, which of `bins` bins each pixel's upward slope is in.
-
-    Returns the codes (8c rows of pixels), and `bins`.
-    """
-    codes = []
-    for channel in np.moveaxis(channels, 2, 0):
-        smooth = cv2.GaussianBlur(channel, (0, 0), 1)
-        dx, dy = cv2.Sobel(smooth, -1, 1, 0), cv2.Sobel(smooth, -1, 0, 1)
-        for angle in np.arange(4) * np.pi / 4:
-            slope = bins * (np.cos(angle) * dx + np.sin(angle) * dy).ravel()
-            codes += [way.clip(0, bins - 1).astype(np.uint8) for way in (slope, -slope)]
-    return codes, bins
-
-
-def histograms(labels, codes, bins):
-    """The share of each region's pixels in each bin: (regions, rows of codes * bins)."""
-    n, labels = labels.max() + 1, labels.ravel() * bins
-    counts = [np.bincount(labels + row, minlength=n * bins).reshape(n, bins) for row in codes]
-    counts = np.hstack(counts).astype(np.float32)
-    return counts / counts.sum(1, keepdims=True)
-
-
-def describe(labels, colours, textures):
-    """The Appearance of a segmentation, with room for every merge: 2n - 1 rows for n segments."""
-    places = find_objects(labels + 1)
-    rows = {
-        "size": np.bincount(labels.ravel()),
-        "boxes": np.array([(x.start, y.start, x.stop, y.stop) for y, x in places], float),
-        "colour": histograms(labels, *colours),
-        "texture": histograms(labels, *textures),
-    }
-    room = {name: np.concatenate([row, np.zeros_like(row[1:])]) for name, row in rows.items()}
-    return Appearance(**room, pixels=labels.size)
-
+from vmc_lib.boxes import area, enclosing
+from vmc_lib.photos import as_float
+from vmc_lib.where.appearance import (
+    COLOUR_SPACES,
+    colour_codes,
+    describe,
+    segment,
+    texture_codes,
+)
 
 # ---------------------------------------------------------------- how alike two regions are
 
@@ -269,7 +164,7 @@ def hierarchies(image, strategy):
 
     Most of the time goes into the segmentations: two threads are ahead with them.
     """
-    rgb = as_rgb(image)
+    rgb = as_float(image)
     seen = {colour: COLOUR_SPACES[colour](rgb) for colour in strategy.colours}
     with ThreadPoolExecutor(2) as pool:
         cuts = zip(*product(seen.values(), strategy.k), strict=True)
@@ -307,7 +202,7 @@ def propose(image, strategy="single", rng=None, smallest=20):
 
     `strategy` is one of STRATEGIES, by name, or a Strategy; without an `rng` the draw of the ranks
     repeats from call to call. A blank image gives one box, one with a side under `smallest` none.
-    ValueError for an unknown strategy, and as for `as_rgb`.
+    ValueError for an unknown strategy, and as for `as_float`.
     """
     if not isinstance(strategy, Strategy):
         if strategy not in STRATEGIES:

@@ -1,0 +1,200 @@
+"""The arm itself in the page: its physics runs there, in the reader's hand.
+
+MuJoCo's WebAssembly build reads the library's own `arm26.xml`; `static/arm.js` adds the muscle law,
+planning and calibration, and a test holds it to the Python. Its constants come from here.
+"""
+
+import base64
+import html
+import itertools
+import json
+from pathlib import Path
+
+import anywidget
+import matplotlib.pyplot as plt
+import numpy as np
+import traitlets
+from IPython.display import HTML, display
+
+from vmc_lib.arm import muscle
+from vmc_lib.arm.dynamics import hand
+from vmc_lib.arm.kinematics import inverse_kinematics
+from vmc_lib.arm.model import F0, L0, LIMITS, MUSCLES, SLACK, STEP, XML
+from vmc_lib.arm.simulate import STOP_DAMPING, STOP_STIFFNESS
+from vmc_lib.cerebellum.offline import GAINS, LARGEST_STEP
+from vmc_lib.motor import templates
+from vmc_lib.motor.inverse_dynamics import SAMPLES, hold, spline
+from vmc_lib.motor.planning import plan
+from vmc_lib.show.arm import BONE, BONE_RADIUS, TUBE, arm_scene
+from vmc_lib.show.figures import COLOURS, framed, markdown, pictures, side_by_side
+from vmc_lib.show.plane import plane, plane_view
+from vmc_lib.show.render_mode import render_mode
+from vmc_lib.show.scene import STATIC as SHOW
+from vmc_lib.show.scene import SceneView
+
+MODES = ("bench", "reach")
+TRIALS = 2  # of our own calibration: off-line, the page has no more to learn
+STATIC = Path(__file__).parent / "static"
+MUJOCO = STATIC / "vendor/mujoco.js"
+_ENDS = ("red", "purple")  # where the planned and the calibrated reach end
+_POSE = {
+    "shoulder": "shoulder",
+    "elbow": "elbow",
+    **{way: f"hand, {way}" for way in ("forward", "up", "right")},
+}
+_made = itertools.count(1)
+
+
+def live_arm(mode, caption, alt, target=(0.12, -0.42)):
+    """Show the arm with its physics in the page, behind a button that starts it.
+
+    `mode` is "bench" (six excitation sliders move the arm) or "reach" (the reader sets a target;
+    the page plans, moves, shows the miss, calibrates off-line and moves again). `target` (2,), in
+    the arm's plane and in m, is where the reach's target first stands. `caption` is Markdown and
+    says what to notice, `alt` describes the picture in words. Raises ValueError when the mode is
+    unknown or when no templates surround the target.
+    """
+    if mode not in MODES:
+        raise ValueError(f"mode {mode!r} is unknown: choose one of {MODES}")
+    if render_mode() == "live" and not MUJOCO.exists():
+        away = "*Without the book's own files this arm stays at rest: start it in the built page.*"
+        return markdown(away)
+    name = f"live-{next(_made)}"
+    scene, plot, form = _bench(name) if mode == "bench" else _reach(name, np.asarray(target, float))
+    data = json.dumps(given() | {"scene": scene.messages()}, allow_nan=False)
+    data = data.replace("<", r"\u003c")  # or the model's XML would confuse the page's
+    page = (
+        f'<div class="vmc-live" id="{name}" data-mode="{mode}">'
+        f"{side_by_side(pictures((scene, plot), name), alt)}{form}"
+        f'<script type="application/json">{data}</script></div>'
+    )
+    if render_mode() == "book":
+        display(HTML(framed(page, caption)))
+    elif render_mode() == "live":
+        display(LiveArm(page=page), HTML(framed("", caption)))
+
+
+class LiveArm(anywidget.AnyWidget):
+    """The same page in a live kernel; it brings the viewer and MuJoCo along."""
+
+    _css = (SHOW / "demo.css").read_text() + (STATIC / "live.css").read_text()
+    page = traitlets.Unicode().tag(sync=True)
+
+    def __init__(self, page):
+        viewer, _, _ = SceneView._esm.rpartition("export default")
+        scripts = [path.read_text() for path in (MUJOCO, STATIC / "arm.js", STATIC / "live.js")]
+        render = "export default { render: ({ model, el }) => vmcLive(el, model.get('page')) };"
+        self._esm = "\n".join([viewer, *scripts, render])
+        super().__init__(page=page)
+
+
+def given():
+    """What the page has from Python, as JSON takes it: the model, constants, past experience."""
+    template_set = templates.load()
+    knots = np.float32(np.linalg.pinv(spline()) @ template_set.excitations)
+    return {
+        "xml": XML,
+        "muscles": MUSCLES,
+        "F0": F0.tolist(),
+        "L0": L0.tolist(),
+        "slack": SLACK.tolist(),
+        "limits": LIMITS.tolist(),
+        "step": STEP,
+        "stop": {"stiffness": STOP_STIFFNESS, "damping": STOP_DAMPING},
+        "muscle": {
+            "tauActivation": muscle.TAU_ACTIVATION,
+            "tauDeactivation": muscle.TAU_DEACTIVATION,
+            "maxVelocity": muscle.MAX_VELOCITY,
+            "velocityRange": muscle.VELOCITY_RANGE,
+        },
+        "start": templates.START.tolist(),
+        "rest": hold(templates.START).tolist(),
+        "library": {
+            "points": template_set.points.tolist(),
+            "knots": base64.b64encode(knots.tobytes()).decode(),
+            "shape": knots.shape,
+            "steps": SAMPLES,
+        },
+        "calibration": {"gains": GAINS, "trials": TRIALS, "largestStep": LARGEST_STEP},
+        "radius": dict(zip(("bone", "thin", "thick"), (BONE_RADIUS, *TUBE), strict=True)),
+        "colours": [f"#{BONE:x}", COLOURS["blue"], COLOURS["red"]],
+    }
+
+
+def _bench(name):
+    """The arm at rest, the plane it moves in, and six sliders."""
+    scene = arm_scene(templates.START)
+    scene.look((0.75, 0.0, 0.95), at=(0.08, -0.2, -0.03))
+    rest = zip(MUSCLES, hold(templates.START), strict=True)
+    sliders = "".join(
+        _slider(name, muscle, muscle, (0, 1, 0.01), round(u, 2)) for muscle, u in rest
+    )
+    buttons = {"step": "Step 10 ms", "reset": "Reset"}
+    form = _form("Excitation of each muscle", buttons, sliders, {"time": "time"} | _POSE)
+    return scene, plane_view(), form
+
+
+def _reach(name, target):
+    """The arm at rest before its remembered reaches, and a target to be set."""
+    template_set = templates.load()
+    plan(target, template_set)  # raises when no templates surround it
+    balls = [
+        (hand(inverse_kinematics(target)), "green"),
+        *((hand(templates.START), c) for c in _ENDS),
+    ]
+    scene = arm_scene(templates.START, balls=balls)
+    scene.look((0.72, -0.02, 0.85), at=(0.1, -0.25, 0.0))
+    figure, ax = plt.subplots(figsize=(5.2, 4.4))
+    plane(ax, template_set.points)
+    low, high = (
+        np.round(template_set.points.min(axis=0), 3),
+        np.round(template_set.points.max(axis=0), 3),
+    )
+    sliders = "".join(
+        _slider(name, key, f"target, {key}", (low[k], high[k], 0.005), target[k])
+        for k, key in enumerate(("forward", "up"))
+    )
+    rules = {"published": "published (Eq. 6–7)", "calibrate": "ours"}
+    plans = {"habitualWeights": "habit (Eq. 5)", "exactWeights": "exact (Eq. 4)"}
+    choices = _choice("weights", "plan", plans) + _choice("rule", "calibration", rules)
+    tells = {"planned": "planned miss", "tries": "tries", "calibrated": "calibrated miss"}
+    tells |= {"weights": "weights"} | _POSE
+    form = _form("Target and rules", {"calibrate": "Calibrate"}, sliders + choices, tells)
+    return scene, figure, form
+
+
+def _form(legend, buttons, controls, tells):
+    """What the reader moves, closed until the arm is started, and what the arm tells."""
+    closed = "".join(
+        f'<button type="button" name="{name}" disabled>{text}</button>'
+        for name, text in buttons.items()
+    )
+    told = "".join(
+        f'<div><dt>{label}</dt><dd data-tell="{name}">–</dd></div>' for name, label in tells.items()
+    )
+    size = f"{MUJOCO.stat().st_size / 1e6:.1f} MB"
+    return (
+        '<form class="vmc-live-form" autocomplete="off">'
+        f'<div><button type="button" name="main">Start the arm</button>{closed}</div>'
+        f'<p role="status">MuJoCo ({size}, part of this book) is loaded when you start.</p>'
+        f'<fieldset disabled><legend class="vmc-spoken">{legend}</legend>{controls}</fieldset>'
+        f"<dl>{told}</dl></form>"
+    )
+
+
+def _slider(page, name, label, span, start):
+    low, high, step = span
+    return (
+        f'<div class="vmc-control"><label for="{page}-{name}">{html.escape(label)}</label>'
+        f'<input type="range" id="{page}-{name}" name="{name}" min="{low}" max="{high}" '
+        f'step="{step}" value="{start:.3g}"><output>{start:.3g}</output></div>'
+    )
+
+
+def _choice(name, label, options):
+    radios = "".join(
+        f'<label><input type="radio" name="{name}" value="{value}"{" checked" * (i == 0)}>'
+        f"{text}</label>"
+        for i, (value, text) in enumerate(options.items())
+    )
+    return f'<fieldset class="vmc-control"><legend>{label}</legend>{radios}</fieldset>'

@@ -1,0 +1,120 @@
+"""The loop as pictures: what the eye sees beside what the arm does, one step after the other."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+from vmc_lib.arm.kinematics import TRUNK, to_world
+from vmc_lib.arm.model import geometry
+from vmc_lib.motor.templates import START
+from vmc_lib.show.arm import arm_scene
+from vmc_lib.show.figures import COLOURS, photo_view
+
+TICKS = range(0, 1001, 100)  # ms: the moments of a movement that are shown
+SEEING = ("a photo", "candidates", "regions", "after suppression", "names")
+LOOP_STEPS = (
+    *SEEING,
+    *(f"first reach, {t / 1000:.1f} s" for t in TICKS),
+    *(f"calibrated, {t / 1000:.1f} s" for t in TICKS),
+)
+TURNED = 500  # ms: by then the trunk has turned
+LOOP_STAGES = (*SEEING, "place", "plan", "off-line", "online")
+
+
+def draw_step(photo, sight, reach, step):
+    """The photo with what is known by this step of `LOOP_STEPS`, and the arm at that moment."""
+    if step in SEEING:
+        return photo_view(photo.image, _boxes(sight, step)), arm_scene(
+            START, shuttlecock=photo.target
+        )
+    motion = reach.planned if step.startswith("first") else reach.calibrated
+    return draw_moment(
+        photo, sight.box, reach, motion, TICKS[(LOOP_STEPS.index(step) - len(SEEING)) % len(TICKS)]
+    )
+
+
+def draw_moment(photo, box, reach, motion, t):
+    """The chosen box, the place reached for and the hand, `t` ms into a movement; and the arm."""
+    path = reach.hand(motion)
+    turn = reach.turn * min(1.0, t / TURNED)
+    points = [("", reach.target, "green"), ("hand", path[t], "orange")]
+    view = photo_view(
+        photo.image,
+        [(box, "target", "green")],
+        [(photo.camera.project(place[None])[0], label, colour) for label, place, colour in points],
+    )
+    return view, arm_scene(
+        motion.q[t],
+        motion.activation[t],
+        turn=turn,
+        shuttlecock=photo.target,
+        balls=[(reach.target, "green")],
+    )
+
+
+def draw_stage(photo, sight, reach, online, stage):
+    """A stage of `LOOP_STAGES`: what the eye has made of the photo, and where the arm is by then.
+
+    `online` is the `Motion` of the plan as the cerebellum corrected it before moving. Where nothing
+    was recognised, `reach` is None: the arm stays at rest.
+    """
+    if stage in SEEING or reach is None:
+        return draw_step(photo, sight, reach, stage if stage in SEEING else "names")
+    if stage == "place":
+        place = photo.camera.project(reach.target)[0]
+        view = photo_view(photo.image, [(sight.box, "target", "green")], [(place, "", "green")])
+        balls = [(reach.target, "green")]
+        return view, arm_scene(START, turn=reach.turn, shuttlecock=photo.target, balls=balls)
+    motion = {"plan": reach.planned, "off-line": reach.calibrated, "online": online}[stage]
+    return draw_moment(photo, sight.box, reach, motion, TICKS[-1])
+
+
+def from_above(photo, reach, turned):
+    """Eye, shoulder, arm and target from above, before or after the trunk's turn (a figure)."""
+    q, turn = (reach.planned.q[-1], reach.turn) if turned else (START, 0.0)
+    fig, ax = plt.subplots()
+    for places, style, colour, label in (
+        ([photo.camera.position, photo.target], ":", "blue", "line of sight"),
+        (to_world(geometry(q).joints, turn), "o-", "ink", "arm"),
+        (to_world([[0, 0, 0.06], [0.5, 0, 0.06]], turn), "--", "grey", "the arm's plane"),
+        ([np.insert(TRUNK, 1, 0)], "s", "purple", "trunk's axis"),
+        ([photo.camera.position], "^", "blue", "eye"),
+        ([photo.target], "*", "green", "shuttlecock"),
+    ):
+        x, _, z = np.transpose(places)
+        ax.plot(z, x, style, color=COLOURS[colour], label=label)
+    ax.set(xlim=(-0.45, 0.4), ylim=(-0.2, 0.6), aspect="equal")
+    ax.set(xlabel="to the right (m)", ylabel="forward (m)")
+    ax.legend(loc="center left", bbox_to_anchor=(1, 0.5))
+    return fig
+
+
+def _boxes(sight, step):
+    found = sight.detections
+    return {
+        "a photo": [],
+        "candidates": [(box, "", "grey") for box in found.candidates],
+        "regions": [(box, "", "orange") for box in found.passed],
+        "after suppression": [(box, "", "blue") for box in found.boxes],
+        "names": named_boxes(sight),
+    }[step]
+
+
+def named_boxes(sight):
+    """For `photo_view`: each kept box with its chance of a shuttlecock, the likeliest on top."""
+    found = sorted(zip(sight.probability, sight.detections.boxes.tolist(), strict=True))
+    return [
+        (box, f"shuttlecock {p:.0%}", "green") if p > 0.5 else (box, f"{p:.0%}", "blue")
+        for p, box in found
+    ]
+
+
+def step_in_words(photo, sight, reach, step):
+    """The same moment for those who cannot see it."""
+    found = sight.detections
+    return {
+        "a photo": "A photo of a table with a shuttlecock and a cup; the arm rests.",
+        "candidates": f"{len(found.candidates)} candidate boxes cover the photo; the arm rests.",
+        "regions": f"{len(found.passed)} boxes are left, in heaps; the arm rests.",
+        "after suppression": f"{len(found.boxes)} boxes are left; the arm rests.",
+        "names": "Each box carries its probability of holding a shuttlecock; the arm rests.",
+    }.get(step, f"The arm reaches for the shuttlecock: {step}.")

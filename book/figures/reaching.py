@@ -1,0 +1,61 @@
+"""Reaches in the arm's plane, for the chapters on planning and calibration.
+
+Every function draws on matplotlib axes. Positions are in the plane, in metres.
+"""
+
+import numpy as np
+
+from vmc_lib.show.figures import COLOURS
+from vmc_lib.show.plane import plane
+
+
+def shares(ax, target, points, weights):
+    """Threads from the target (2,) to the templates used (N, 2), as thick as their weights (N,)."""
+    for point, weight in zip(points, weights, strict=True):
+        ax.plot(*np.transpose([target, point]), color=COLOURS["blue"], lw=10 * abs(weight))
+        ax.plot(*point, "o", ms=7, color=COLOURS["blue"])
+        ax.annotate(f"{weight:.2f}", point, (0, 7), textcoords="offset points", ha="center")
+
+
+def ends(ax, targets, reached):
+    """Targets (…, 2) as green rings; where the hand ended (…, 2) as red dots, each on a line."""
+    targets, reached = np.reshape(targets, (-1, 2)), np.reshape(reached, (-1, 2))
+    ax.plot(*np.stack([targets, reached]).transpose(2, 0, 1), color=COLOURS["red"], lw=1)
+    ax.plot(*targets.T, "o", ms=8, mfc="none", mew=1.8, color=COLOURS["green"])
+    ax.plot(*reached.T, "o", ms=4, color=COLOURS["red"])
+
+
+def arrows(ax, tails, tips, colour, label=None):
+    """Arrows from tails (…, 2) to tips (…, 2) in one named colour; the label is for a legend."""
+    tails, tips = (np.reshape(p, (-1, 2)) for p in np.broadcast_arrays(tails, tips))
+    ax.quiver(
+        *tails.T,
+        *(tips - tails).T,
+        angles="xy",
+        scale_units="xy",
+        scale=1,
+        width=0.005,
+        minlength=0,
+        color=COLOURS[colour],
+        label=label,
+        zorder=3,
+    )
+
+
+def corrections(ax, target, reached, points, change):
+    """Fig. 4: the error, the way from the hand to each template (N, 2), and its weight's change."""
+    plane(ax, points, within=np.stack([points.min(axis=0) - 0.015, points.max(axis=0) + 0.015], -1))
+    arrows(ax, reached, points, "grey")
+    arrows(ax, reached, target, "blue")
+    for point, by in zip(points, change, strict=True):
+        ax.annotate(f"{by:+.3f}", point, (0, 6), textcoords="offset points", ha="center")
+
+
+def weighted_sum(ax, excitations, weights):
+    """Fig. 9: one muscle's excitations (N, T), each times its weight (N,), and their sum."""
+    time = np.arange(excitations.shape[-1]) / 1000
+    for n, part in enumerate(weights[:, None] * excitations):
+        ax.plot(time, part, color=COLOURS["blue"], lw=1, label="$w_i u_i$" if n == 0 else None)
+    ax.plot(time, weights @ excitations, color=COLOURS["red"], label=r"$u_t = \sum w_i u_i$")
+    ax.set(xlabel="time (s)", ylabel="excitation")
+    ax.legend()

@@ -1,0 +1,99 @@
+"""Pictures of regions and boxes, for the chapters on the dorsal pathway."""
+
+import os
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import ipywidgets as widgets
+import matplotlib.pyplot as plt
+import numpy as np
+from IPython.display import display
+
+from vmc_lib.boxes import iou
+from vmc_lib.photos import read_image
+from vmc_lib.show.demo import figure
+from vmc_lib.show.figures import COLOURS, photo_view
+from vmc_lib.show.render_mode import render_mode
+
+
+def mosaic(image, labels):
+    """The image (height, width, 3) with every region of `labels` painted in its mean colour."""
+    flat = labels.ravel()
+    size = np.maximum(np.bincount(flat), 1)
+    means = np.stack([np.bincount(flat, channel) / size for channel in image.reshape(-1, 3).T], 1)
+    return np.uint8(means[labels])
+
+
+def nearest(truth, boxes, colour="green"):
+    """For each named true box the nearest of `boxes`, labelled with its IoU, for `photo_view`."""
+    marks = []
+    for name, true in truth.items():
+        overlap = iou(true, boxes)[0]
+        marks.append((boxes[overlap.argmax()], f"{name} {overlap.max():.2f}", colour))
+    return marks
+
+
+def judged(image, boxes, truth, good=0.8):
+    """The image with its boxes (n, 4): green where they hold an object, red where they do not."""
+    right = iou(boxes, list(truth.values())).max(1, initial=0) >= good
+    return photo_view(
+        image, [(b, "", "green" if r else "red") for b, r in zip(boxes, right, strict=True)]
+    )
+
+
+def bars(shares):
+    """Named shares of one as horizontal bars, in SVG."""
+    rows = []
+    for place, (name, share) in enumerate(shares.items()):
+        y = 28 * place + 4
+        rows += [
+            f'<rect x="95" y="{y}" width="220" height="18" fill="var(--vmc-line, #d3d8df)"/>',
+            f'<rect x="95" y="{y}" width="{220 * share:.0f}" height="18" '
+            'fill="var(--vmc-blue, #1f63b4)"/>',
+            f'<text x="0" y="{y + 14}">{name}</text><text x="325" y="{y + 14}">{share:.2f}</text>',
+        ]
+    size = f'viewBox="0 0 370 {28 * len(shares)}" width="370" height="{28 * len(shares)}"'
+    return "\n".join(
+        [f'<svg {size} font-size="14" fill="var(--vmc-ink, #1c2430)">', *rows, "</svg>"]
+    )
+
+
+def best_so_far(truth, boxes):
+    """For each named true box, the best IoU among the first 1, 2, ... of `boxes`: name → (n,)."""
+    best = np.maximum.accumulate(iou(list(truth.values()), boxes), axis=1)
+    return dict(zip(truth, best, strict=True))
+
+
+def rising(best, now):
+    """A plot of what `best_so_far` returned, with a mark at the box of number `now`."""
+    fig, ax = plt.subplots(figsize=(4.2, 3.2))
+    for name, overlap in best.items():
+        ax.plot(np.arange(1, len(overlap) + 1), overlap, label=f"{name} {overlap[now - 1]:.2f}")
+    ax.axvline(now, color=COLOURS["ink"], lw=1)
+    ax.set(xlabel="regions made", ylabel="best overlap so far", ylim=(0, 1))
+    ax.legend(loc="lower right")
+    return fig
+
+
+def your_own(draw, example, caption, alt):
+    """Show `draw(example)`; in a live kernel, a button puts the reader's own photo in its place.
+
+    `draw` takes an image (400, 600, 3) and returns markup. The photo stays in the kernel.
+    """
+    figure(draw(example), caption, alt)
+    if render_mode() == "live":
+        button = widgets.FileUpload(accept="image/*", description="Your photo")
+        view = widgets.HTML()
+        button.observe(lambda _: setattr(view, "value", drawn(draw, button.value)), "value")
+        display(widgets.VBox([button, view]))
+
+
+def drawn(draw, uploads):
+    """Markup of the first uploaded file, drawn; or in words, why it cannot be."""
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / Path(uploads[0]["name"]).name
+        path.write_bytes(uploads[0]["content"])
+        try:
+            return draw(read_image(path))
+        except ValueError as error:
+            return f"<p>{str(error).replace(folder + os.sep, '')}</p>"

@@ -1,0 +1,109 @@
+"""A larger exam: two hundred fresh test photos a level, for what forty are too few to tell.
+
+No answer is of a photo that had a part in a choice: what the first hundred said of Table I led to
+the sizes, the cost and the threshold of its context, so its rows are of the second hundred alone.
+The answers ship, in `data/exam.json`; the photos do not, but can be rendered anew:
+
+    python -m render --only rig/test --count 240 --folder more
+    (the same for free and varied; then delete the first forty of each, which ship)
+    python -m reproduce.fresh_test_set more
+"""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from reproduce import results
+from reproduce.intervals import wilson
+from reproduce.localisation import TRAININGS, classifiers, hits
+from reproduce.recognition import tally
+from reproduce.variations import SPLITS, VARIATIONS, vary_all
+from vmc_lib import photos
+from vmc_lib.what.cdbn import N_W
+from vmc_lib.what.recogniser import READ_OUTS
+from vmc_lib.where.detector import ObjectDetector
+from vmc_lib.where.recipes import RECIPES
+from vmc_lib.where.training import examples
+
+FRESH = 140  # number of the first photo that had no part in Table I
+KERNELS, FINDERS = ("linear", "rbf"), ("published", "improved")
+SEEDS = tuple(seed for n_w, seed in VARIATIONS if n_w == N_W)
+
+
+def answers():
+    """Question -> level -> (right, wrong, missed): counts.
+
+    "linear" and "rbf" are rows of Table I with context, means over as many trainings as there;
+    "published" and "improved" of Table II; (read-out, seed) of Table III.
+    """
+    kept = results.records("fresh_test_set")
+    return {tuple(q) if isinstance(q, list) else q: levels for q, levels in kept}
+
+
+def shares(right, wrong, missed):
+    """Precision and recall, and the 95 % interval of each (Wilson): ((share, low, high), …).
+
+    The intervals take the counts as independent, which those of several boxes on one object are
+    not, and leave out the luck of training.
+    """
+    totals = right + wrong, right + missed
+    return tuple((right / n, *wilson(right, n)) for n in totals)
+
+
+def table(*questions):
+    """Answers as Markdown: precision / recall on every level, each with its interval."""
+    asked, lines = answers(), ["| | " + " | ".join(photos.LEVELS) + " |", "|---|---|---|---|"]
+    for question in questions:
+        cells = [question if isinstance(question, str) else "{}, seed {}".format(*question)]
+        for level in photos.LEVELS:
+            parts = shares(*asked[question][level])
+            cells.append(
+                " / ".join(f"{share:.3f} ({low:.2f}–{high:.2f})" for share, low, high in parts)
+            )
+        lines.append("| " + " | ".join(cells) + " |")
+    return "\n".join(lines)
+
+
+def ask_kernels(level, shots):
+    """The answers of Table I's kernels on photos of a level."""
+    x, truth = examples(shots, RECIPES["context"])
+    trainings = (classifiers(level, "context", KERNELS, seed) for seed in range(TRAININGS))
+    counts = [
+        [tally(svm.score(x), truth, threshold)[:3] for svm, threshold in machines]
+        for machines in trainings
+    ]
+    return dict(zip(KERNELS, np.mean(counts, axis=0).tolist(), strict=True))
+
+
+def ask_finders(level, shots):
+    """The answers of Table II's finders on photos of a level."""
+    found = {}
+    for name in FINDERS:
+        detector = ObjectDetector.load(level, name)
+        right, reached = hits(shots, [detector.detect(photo.image).boxes for photo in shots])
+        found[name] = tuple(map(int, (right.sum(), (~right).sum(), (~reached).sum())))
+    return found
+
+
+def main(folder):
+    """Put every question, and keep the answers. ValueError for a photo that ships."""
+    found = {}
+    for level in photos.LEVELS:
+        shots = photos.load(level, "test", folder)
+        known = {photo.name for photo in photos.load(level, "test")}
+        if known & {photo.name for photo in shots}:
+            raise ValueError(f"{folder} holds photos that ship, no exam: delete {sorted(known)}")
+        fresh = [shot for shot in shots if shot.seed[-1] >= FRESH]
+        for question, counts in (ask_kernels(level, fresh) | ask_finders(level, shots)).items():
+            found.setdefault(question, {})[level] = counts
+    trained = vary_all([(N_W, seed) for seed in SEEDS], folder)
+    for (_, seed), (_, counts) in trained.items():
+        for j, name in enumerate(READ_OUTS):
+            named = counts[:, j, SPLITS.index("test"), :3].tolist()
+            found[name, seed] = dict(zip(photos.LEVELS, named, strict=True))
+    results.write("fresh_test_set", list(found.items()))
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))

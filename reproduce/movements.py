@@ -1,0 +1,181 @@
+"""The paper's experiments on movement, whole: plan, calibrate off-line, learn, test on new targets.
+
+Tables IV to VI are `planned`, `offline` and a row of `in_sample`; Fig. 12 is the mean of each row.
+The paper reports movements that were practised; `held_out` is what was learned for others.
+
+`python -m reproduce.movements` repeats them all with other seeds and writes
+`results/movements.json`. The seeds are shared out by joblib: inside
+`joblib.parallel_config("dask")` a whole cluster takes them.
+"""
+
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+from joblib import Parallel, delayed
+
+from reproduce import results
+from vmc_lib.arm.simulate import Perturbation
+from vmc_lib.cerebellum.adaptation import CORRECTIONS, Adaptation
+from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration
+from vmc_lib.cerebellum.online import AimCorrection, WeightCorrection
+from vmc_lib.motor.planning import draw_targets, plan, surrounded, turned
+from vmc_lib.motor.templates import TemplateSet, load
+
+SEEDS = range(6)
+SCENARIOS = ("changing neighbours", "four fixed templates")
+PRISM = np.radians(6.0)
+PERTURBATIONS = {  # what may change, as `Plan.perturbed` takes it
+    "a load of 0.5 kg": {"perturbation": Perturbation(load=0.5)},
+    "a viscous field": {"perturbation": Perturbation(field=((-1.0, 0.0), (0.0, -1.0)))},
+    "a prism": {"prism": PRISM},
+}
+
+# Algorithm 1 with every fifth n: a quarter of the reaches, and hardly a difference
+quick = partial(algorithm_1, gains=range(0, 21, 5))
+
+
+class Errors(NamedTuple):
+    """How far from the target the hand ends, in m; row k is after k experiments."""
+
+    planned: np.ndarray  # (movements,): the first experiment's, by habit (Table IV) …
+    offline: np.ndarray  # (movements,): … and after their off-line calibration (Table V)
+    in_sample: np.ndarray  # (experiments + 1, movements): online, for movements just practised
+    held_out: np.ndarray  # (experiments + 1, held_out): online, for movements never practised
+    held_out_planned: np.ndarray  # (held_out,): those by habit
+
+
+def run(
+    learner, template_set, rng, movements=25, held_out=200, experiments=10, fresh=False, **lesson
+):
+    """`Errors` of a learner that practises so many `movements` in every experiment.
+
+    They are the same movements each time, as we read Fig. 12, or new ones where `fresh`. What
+    `lesson` names is passed to the learner's `practise`: `rule=quick` saves Algorithm 1's time.
+    """
+    unseen = plan(draw_targets(template_set, held_out, rng), template_set)
+    first = practised = plan(draw_targets(template_set, movements, rng), template_set)
+    in_sample, others = [_errors(learner.correct(first))], [_errors(learner.correct(unseen))]
+    for experiment in range(experiments):
+        if fresh and experiment:
+            practised = plan(draw_targets(template_set, movements, rng), template_set)
+        learner.practise(practised, **lesson)
+        in_sample.append(_errors(learner.correct(practised)))
+        others.append(_errors(learner.correct(unseen)))
+    offline = lesson.get("rule", algorithm_1)(first).error.min(axis=0)
+    return Errors(_errors(first), offline, np.array(in_sample), np.array(others), _errors(unseen))
+
+
+def around(template_set, place):
+    """The four templates around a place (2,), as a `TemplateSet`."""
+    four = plan(place, template_set).chosen
+    return TemplateSet(template_set.points[four], template_set.excitations[four])
+
+
+class Curve(NamedTuple):
+    """An adaptation, block by block; every movement is made before it is learned from."""
+
+    target: np.ndarray  # (blocks, movements, 2), m, as seen
+    reached: np.ndarray  # (blocks, movements, 2), m, as seen
+
+    @property
+    def error(self):
+        """Mean distance from the target in each block, (blocks,), m."""
+        return np.linalg.norm(self.reached - self.target, axis=-1).mean(axis=-1)
+
+
+def adapt(learner, template_set, rng, perturbation, blocks=(2, 8, 6), movements=8):
+    """The `Curve` of an `Adaptation` in a world (of `PERTURBATIONS`) that comes and goes.
+
+    `blocks` counts those before, in and after the changed world. All targets are new, and lie
+    where the arm has experience with the prism and without it.
+    """
+    before, during, _ = blocks
+    targets = draw_targets(template_set, 4 * sum(blocks) * movements, rng)
+    inside = targets[surrounded(turned(targets, -PRISM), template_set.points)]
+    targets = inside[: sum(blocks) * movements].reshape(-1, movements, 2)
+    reached = [
+        learner.practise(
+            plan(t, template_set).perturbed(
+                **(perturbation if before <= b < before + during else {})
+            )
+        )
+        for b, t in enumerate(targets)
+    ]
+    return Curve(targets, np.array(reached))
+
+
+def skilled(template_set, rng, movements=150):
+    """An `AimCorrection` that has practised."""
+    return AimCorrection(template_set).practise(
+        plan(draw_targets(template_set, movements, rng), template_set)
+    )
+
+
+def tables(seed, scenario=SCENARIOS[0]):
+    """Tables IV to VI and the own rules for one seed and scenario: ratios of errors, by name."""
+    rng, template_set = np.random.default_rng(seed), load()
+    if scenario != SCENARIOS[0]:
+        template_set = around(template_set, draw_targets(template_set, 1, rng)[0])
+    paper = run(WeightCorrection(), template_set, rng)
+    own = run(AimCorrection(template_set), template_set, rng, fresh=True, experiments=10)
+    many = plan(draw_targets(template_set, 200, rng), template_set)
+    tried, practised = broyden_calibration(many, 4).error.mean(axis=1), paper.in_sample.mean(axis=1)
+    others, aimed = (e.held_out.mean(axis=1) / e.held_out_planned.mean() for e in (paper, own))
+    return {
+        "planned / reach": tried[0] / np.linalg.norm(many.target, axis=-1).mean(),
+        "off-line, published": paper.offline.mean() / paper.planned.mean(),
+        "online, 1 experiment, in-sample": practised[1] / paper.planned.mean(),
+        "online, 1 experiment, held-out": others[1],
+        "online, 10 experiments, in-sample": practised[10] / paper.planned.mean(),
+        "online, 10 experiments, held-out": others[10],
+        **{f"own off-line, {k} trials": tried[k] / tried[0] for k in (1, 2, 4)},
+        **{f"own online, {25 * k} movements, held-out": aimed[k] for k in (0, 1, 6, 10)},
+    }
+
+
+def worlds(seed):
+    """Mean error in mm of each block, by world and by what is corrected, for one seed."""
+    template_set = load()
+    return {
+        f"{name}, {corrects}": 1000 * _adapted(seed, template_set, perturbation, corrects).error
+        for name, perturbation in PERTURBATIONS.items()
+        for corrects in CORRECTIONS
+    }
+
+
+def _adapted(seed, template_set, perturbation, corrects):
+    rng = np.random.default_rng(seed)
+    return adapt(
+        Adaptation(skilled(template_set, rng), template_set, corrects),
+        template_set,
+        rng,
+        perturbation,
+    )
+
+
+def repeat(experiment, seeds=SEEDS, jobs=-1):
+    """An experiment (seed -> dictionary of numbers) with every seed: name -> (seeds, …)."""
+    results = Parallel(n_jobs=jobs)(delayed(experiment)(seed) for seed in seeds)
+    return {name: np.array([r[name] for r in results]) for name in results[0]}
+
+
+def measured():
+    """What shipped: by scenario and "perturbations", name -> one entry for each of `SEEDS`."""
+    shipped = results.records("movements")
+    return {part: {k: np.array(v) for k, v in rows.items()} for part, rows in shipped.items()}
+
+
+def _errors(plan):
+    return np.linalg.norm(plan.reached() - plan.target, axis=-1)
+
+
+if __name__ == "__main__":
+    parts = {s: repeat(partial(tables, scenario=s)) for s in SCENARIOS} | {
+        "perturbations": repeat(worlds)
+    }
+    rounded = {
+        part: {name: np.round(values, 4).tolist() for name, values in rows.items()}
+        for part, rows in parts.items()
+    }
+    results.write("movements", rounded)

@@ -1,0 +1,92 @@
+"""Optimal control, habit's rival: of all commands that bring the hand there, the cheapest.
+
+Effort is the mean square of the excitations (Diedrichsen et al., 2010). The task is a template's:
+be at the target, still, when a movement ends, and again when the hold ends. Sequential quadratic
+programming minimises one subject to the other, with the closed form as the arm. What ships are
+the optima of `TARGETS`; `python -m reproduce.peers.optimal` remakes them.
+"""
+
+from functools import cache
+from itertools import product
+
+import numpy as np
+from scipy.optimize import minimize
+
+from reproduce.results import FOLDER, arrays
+from vmc_lib.arm.kinematics import inverse_kinematics
+from vmc_lib.motor.inverse_dynamics import MOVING, SAMPLES, least, spline
+from vmc_lib.motor.planning import plan
+from vmc_lib.motor.templates import load, reach
+
+KNOTS = 12  # spline coefficients of each muscle's excitation: fewer than a template's, to be quick
+TARGETS = np.array(
+    list(product((0.03, 0.06, 0.09, 0.12, 0.15), (-0.46, -0.43, -0.40, -0.37, -0.34)))
+)
+NUDGE = 1e-4
+
+
+def effort(excitations):
+    """The mean square of excitations (…, T, 6)."""
+    return np.square(excitations).mean(axis=(-1, -2))
+
+
+def solve(target):
+    """The excitations (T, 6) of least effort that bring the hand to a target (2,) and hold it.
+
+    The search begins at the habitual plan. RuntimeError when it does not come to an end.
+    """
+    return _excitations(search(target).x)
+
+
+def search(target):
+    """SciPy's account of the search: the knots `x` found, and how often the arm was tried.
+
+    Each of its `nfev` trials moves the arm once, and each of its `njev` slopes once for every knot
+    and once more.
+    """
+    start = plan(target, load()).excitations
+    first = np.stack([least(spline(KNOTS), muscle) for muscle in start.T], axis=-1).ravel()
+    goal = np.concatenate([np.tile(inverse_kinematics(target), 2), np.zeros(4)])
+    price = np.kron(spline(KNOTS).T @ spline(KNOTS), np.eye(6))
+    price /= np.diag(price).mean()  # about 1 in every direction, as the method likes it
+    found = minimize(
+        lambda x: x @ price @ x / 2,
+        first,
+        jac=lambda x: price @ x,
+        bounds=[(0, 1)] * first.size,
+        constraints={"type": "eq", "fun": lambda x: _ends(x) - goal, "jac": _slopes},
+        method="SLSQP",
+        options={"ftol": 1e-4, "maxiter": 60},
+    )
+    if not found.success:
+        raise RuntimeError(f"no optimum for the target {target} m: {found.message}")
+    return found
+
+
+@cache
+def shipped():
+    """The optimal excitations (25, T, 6) of `TARGETS`."""
+    return _excitations(arrays("optimal")["knots"].astype(float))
+
+
+def _excitations(x):
+    return np.clip(spline(KNOTS) @ x.reshape(*x.shape[:-1], KNOTS, 6), 0, 1)
+
+
+def _ends(x):
+    """Angles and velocities (…, 8) when the movement ends and when the hold ends."""
+    motion = reach(_excitations(x))
+    q, velocity = (path[..., [MOVING, SAMPLES], :] for path in (motion.q, 0.05 * motion.velocity))
+    return np.concatenate([q, velocity], axis=-2).reshape(*x.shape[:-1], 8)
+
+
+def _slopes(x):
+    """How `_ends` changes with each knot, (8, n): all knots nudged, in one batch of movements."""
+    nudge = np.where(x > 0.5, -NUDGE, NUDGE)
+    nudged = _ends(np.vstack([x, x + np.diag(nudge)]))
+    return (nudged[1:] - nudged[0]).T / nudge
+
+
+if __name__ == "__main__":
+    knots = np.array([search(target).x for target in TARGETS], np.float32)
+    np.savez_compressed(FOLDER / "optimal.npz", knots=knots)

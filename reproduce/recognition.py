@@ -1,0 +1,121 @@
+"""Table III: the CDBN's read-outs and other features, under one classifier and the same splits.
+
+Remake what is learnt, `data/comparison.npz`, with `python -m reproduce.recognition`.
+"""
+
+import numpy as np
+import torch
+from sklearn.cluster import KMeans
+
+from reproduce.name_examples import examples
+from reproduce.peers.features import bag_of_sift, histograms_of_gradients, raw_pixels, sift
+from reproduce.peers.hmax import draw_prototypes, hmax
+from reproduce.results import FOLDER, arrays
+from vmc_lib import photos
+from vmc_lib.what.cdbn import CDBN, crops_of
+from vmc_lib.what.recogniser import NameClassifier, fit, read_outs
+
+WORDS = 100
+
+METHODS = (
+    "CDBN, MP2",
+    "CDBN, P2",
+    "CDBN, P1 + P2",
+    "HMAX, 10 prototypes",
+    "HMAX, 250 prototypes",
+    "HOG",
+    "SIFT, bag of words",
+    "raw pixels",
+)
+
+
+def features(crops, learnt):
+    """Every method's features (n, d) of crops (n, 200, 200), given what was learnt unlabelled."""
+    seen, matches = read_outs(learnt["cdbn"], crops), hmax(crops, learnt["prototypes"])
+    by_hand = [histograms_of_gradients(crops), bag_of_sift(crops, learnt["words"])]
+    found = [*seen.values(), matches[:, :10], matches, *by_hand, raw_pixels(crops)]
+    return dict(zip(METHODS, found, strict=True))
+
+
+def tally(probability, shuttlecock, threshold=0.5):
+    """Counts (true positives, false positives, false negatives, true negatives)."""
+    called = np.asarray(probability) > threshold
+    pairs = [(True, True), (True, False), (False, True), (False, False)]
+    return tuple(int(((called == c) & (shuttlecock == s)).sum()) for c, s in pairs)
+
+
+def precision_recall(counts):
+    """Precision and recall from `tally`; nan where nothing was called or nothing was there."""
+    right, wrong, missed, _ = counts
+    return tuple(right / n if n else np.nan for n in (right + wrong, right + missed))
+
+
+def load():
+    """What was learnt: what `features` needs, and a Linear for (level, method)."""
+    kept = arrays("recognition")
+    learnt = {"cdbn": CDBN.load(), "words": kept["words"]}
+    learnt["prototypes"] = torch.tensor(kept["prototypes"])
+    keys = [(level, method) for level in photos.LEVELS for method in METHODS]
+    linear = {
+        k: NameClassifier(kept["/".join((*k, "w"))], float(kept["/".join((*k, "b"))])) for k in keys
+    }
+    return learnt, linear
+
+
+def probabilities(level, split, learnt, linear):
+    """Each method's probabilities (n,) for the true boxes of a level and split, and the labels."""
+    crops, shuttlecock = crops_of(photos.load(level, split))
+    found = features(crops, learnt)
+    return {m: linear[level, m].probability(found[m]) for m in METHODS}, shuttlecock
+
+
+def table_3(level):
+    """Table III for one level, measured now: method -> {"in_sample": counts, "held_out": counts}.
+
+    The counts (see `tally`) are over both objects' true boxes in the training and the test photos.
+    """
+    table = {method: {} for method in METHODS}
+    for key, split in (("in_sample", "train"), ("held_out", "test")):
+        found, shuttlecock = probabilities(level, split, *load())
+        for method, probability in found.items():
+            table[method][key] = tally(probability, shuttlecock)
+    return table
+
+
+def verdicts(level, split):
+    """What `probabilities` found when the file was made: finding it takes a while."""
+    kept = arrays("recognition")
+    return {m: kept[f"{level}/{m}/{split}"] for m in METHODS}, kept[f"{level}/{split}"]
+
+
+def learn_without_labels(rng):
+    """HMAX's prototypes and SIFT's words, from the training crops of all levels."""
+    shots = [shot for level in photos.LEVELS for shot in photos.load(level, "train")]
+    crops, _ = crops_of(shots)
+    some = crops[rng.permutation(len(crops))[:60]]
+    descriptors = np.concatenate([sift(crop) for crop in some])
+    words = KMeans(WORDS, n_init=1, random_state=0).fit(descriptors).cluster_centers_
+    return {"prototypes": draw_prototypes(some, 250, rng), "words": np.float32(words)}
+
+
+if __name__ == "__main__":
+    rng = np.random.default_rng(0)
+    learnt = learn_without_labels(rng)
+    kept = {name: np.asarray(x) for name, x in learnt.items()}
+    learnt["cdbn"] = CDBN.load()
+    for level in photos.LEVELS:
+        crops, y = examples(photos.load(level, "train"), rng)
+        x = features(crops, learnt)
+        exams = {split: crops_of(photos.load(level, split)) for split in photos.SPLITS}
+        seen = {split: features(crops, learnt) for split, (crops, _) in exams.items()}
+        for split, (_, truth) in exams.items():
+            kept[f"{level}/{split}"] = truth
+        for method in METHODS:
+            checked = seen["validation"][method], exams["validation"][1]
+            linear = fit(x[method], y, *checked)
+            print(level, method, tally(linear.probability(checked[0]), checked[1]))
+            kept[f"{level}/{method}/w"] = linear.weights
+            kept[f"{level}/{method}/b"] = linear.bias
+            for split in photos.SPLITS:
+                kept[f"{level}/{method}/{split}"] = linear.probability(seen[split][method])
+    np.savez_compressed(FOLDER / "recognition.npz", **kept)

@@ -1,0 +1,71 @@
+"""How past experience was made: reaches to a grid of places, each settled until it ends there.
+
+A minimum-jerk path (Flash and Hogan, 1985) gives torques by inverse dynamics; torques are shared
+among the six muscles, smoothly and with least effort; Eq. 9 solved backwards gives excitations.
+"""
+
+import numpy as np
+
+from vmc_lib.arm.kinematics import inverse_kinematics
+from vmc_lib.arm.model import STEP
+from vmc_lib.arm.muscle import excitation_for
+from vmc_lib.motor.inverse_dynamics import KNOTS, MOVING, SAMPLES, demand, hold, least, spline
+from vmc_lib.motor.templates import REACH, START, reach
+
+CORNER = np.array([0.24, -0.37])  # every grid is laid out from this point
+ZONE = np.array([[-0.01, -0.50], [0.25, -0.28]])  # lowest and highest (x, y): in front, table high
+
+
+EFFORT, ROUGHNESS = 0.02, 0.5  # what activation, and its bending, cost beside a missed N m
+
+
+def minimum_jerk(start, goal):
+    """The smoothest joint path (STEPS + 1, 2) from start to goal in `MOVING` ms, then still."""
+    s = np.minimum(np.arange(SAMPLES + 1) / MOVING, 1)[:, None]
+    return start + (goal - start) * (10 * s**3 - 15 * s**4 + 6 * s**5)
+
+
+def excitation_knots(path):
+    """Spline knots (KNOTS, 6) of excitations that keep the arm near a joint path from rest."""
+    torque, gain = demand(path)
+    rows = slice(0, SAMPLES, 5)
+    asked = np.einsum("tjm,tk->tjkm", gain[rows], spline()[rows]).reshape(-1, KNOTS * 6)
+    bending = np.kron(np.diff(np.eye(KNOTS), 2, axis=0), np.eye(6))
+    matrix = np.vstack([asked, EFFORT * np.eye(KNOTS * 6), ROUGHNESS * bending])
+    wanted = np.append(torque[rows].ravel(), np.zeros(len(matrix) - len(asked)))
+    activation = spline() @ least(matrix, wanted).reshape(KNOTS, 6)
+    excitation = excitation_for(activation, np.gradient(activation, STEP, axis=0))
+    knots = np.stack([least(spline(), muscle) for muscle in excitation.T], axis=-1)
+    knots[:2] = hold(path[0])
+    return knots
+
+
+def grid(spacing):
+    """Plane positions (N, 2) of a square grid: those within `ZONE` that the arm can reach."""
+    steps = spacing * np.arange(-12, 13)
+    points = CORNER + np.stack(np.meshgrid(steps, steps), axis=-1).reshape(-1, 2)
+    within = points[np.all((ZONE[0] <= points) & (points <= ZONE[1]), axis=-1)]
+    return within[np.linalg.norm(within, axis=-1) < REACH]
+
+
+def make(goal):
+    """Spline knots (KNOTS, 6) of a reach that comes to rest at the plane position `goal` (2,)."""
+    knots = excitation_knots(minimum_jerk(START, inverse_kinematics(goal)))
+    for _ in range(3):
+        knots = _settle(knots, goal)
+    return knots
+
+
+def _settle(knots, goal):
+    """One Gauss–Newton step: nudge every knot, see where each reach ends, correct all of them."""
+    nudge = 1e-4
+    nudged = knots + nudge * np.eye(knots.size).reshape(-1, *knots.shape)
+    motion = reach(np.clip(spline() @ np.concatenate([knots[None], nudged]), 0, 1))
+    ends = np.concatenate([motion.q[:, -1], 0.05 * motion.velocity[:, -1]], axis=-1)
+    slope = (ends[1:] - ends[0]).T / nudge
+    room = knots * (1 - knots)  # knots at 0 or 1 stay there …
+    room[:2] = 0  # … and so does the resting start
+    correction = np.linalg.pinv(slope * room.ravel()) @ (
+        np.append(inverse_kinematics(goal), [0, 0]) - ends[0]
+    )
+    return np.clip(knots + room * correction.reshape(knots.shape), 0, 1)

@@ -1,0 +1,89 @@
+"""The loop on trial: photos from pixels to reach, held against what is true of each."""
+
+from contextlib import suppress
+
+import numpy as np
+from joblib import Parallel, delayed
+
+from vmc_lib import NoReach, photos
+from vmc_lib.boxes import iou
+from vmc_lib.loop import RULES, VisuomotorModel, locate, reach, recalibrated, see
+
+FOUND = 0.8  # IoU at which a box counts as the object's (Section IV A)
+ARRIVED, CLOSE_BY = 0.010, 0.005  # m: a hand so near the shuttlecock has arrived, or done well
+FAILURE_STAGES = ("proposals", "regions", "names", "place", "movement")  # where a reach goes wrong
+
+
+def score(photo, sight, place, reaches):
+    """How it went, stage by stage, held against the photo's truth.
+
+    proposed: a candidate overlaps the shuttlecock by 0.8; found: a kept box does; named: the chosen
+    box is the shuttlecock's (more than half of the union shared); cup: it is the cup's; then
+    distances in m from the true place: of the `place` found (3,), of the hand before calibration,
+    and after it by each rule of `reaches` (name -> `Reach`). They are NaN where no place was found
+    (`place` is None), or where it could not be reached for (`reaches` is empty).
+    """
+    ends = {} if place is None else {"target": place}
+    for rule, made in reaches.items():
+        ends |= {"planned": made.hand(made.planned)[-1], rule: made.hand(made.calibrated)[-1]}
+    errors = {
+        name: np.linalg.norm(ends[name] - photo.target) if name in ends else np.nan
+        for name in ("target", "planned", *RULES)
+    }
+    chosen = np.empty((0, 4)) if sight.box is None else sight.box[None]
+    return {
+        "proposed": _overlap(sight.detections.candidates, photo, "shuttlecock") >= FOUND,
+        "found": _overlap(sight.detections.boxes, photo, "shuttlecock") >= FOUND,
+        "named": _overlap(chosen, photo, "shuttlecock") > 0.5,
+        "cup": _overlap(chosen, photo, "cup") > 0.5,
+        **errors,
+    }
+
+
+def _overlap(boxes, photo, name):
+    return iou(boxes, photo.boxes[name][None]).max(initial=0.0)
+
+
+def first_failure(scores, rule="own"):
+    """Where each reach went wrong first: names (n,) of `FAILURE_STAGES`, "" where it arrived.
+
+    Without a good candidate a good box can still be found, for boxes are corrected. A place is
+    wrong beyond `ARRIVED`; where all else was right, the movement is to blame.
+    """
+    found, named, placed = scores["found"], scores["named"], scores["target"] <= ARRIVED
+    moved = np.zeros_like(found)
+    broken = ~np.column_stack([found | scores["proposed"], found, named, placed, moved])
+    arrived = scores[rule] <= ARRIVED
+    return np.where(arrived, "", np.array(FAILURE_STAGES)[broken.argmax(axis=1)])
+
+
+def trial(level, split="test"):
+    """`score` of every photo of a level and split, as a dictionary of arrays (n,).
+
+    The photos go through joblib: `with parallel_config(n_jobs=…)` sends them to several cores, and
+    with its "dask" backend to a cluster.
+    """
+    model = VisuomotorModel.load(level)
+    scores = Parallel()(delayed(_tried)(model, photo) for photo in photos.load(level, split))
+    return {key: np.array([s[key] for s in scores]) for key in scores[0]}
+
+
+def _tried(model, photo):
+    sight, place, reaches = see(model, photo.image), None, {}
+    with suppress(NoReach):  # nothing named, or out of reach: no movement, and counted as such
+        place = locate(model, photo.image, sight.box, photo.camera)
+        first = reach(model, place, calibration=None)
+        reaches = {name: recalibrated(first, rule) for name, rule in RULES.items()}
+    return score(photo, sight, place, reaches)
+
+
+def summary(scores):
+    """Shares (in [0, 1]) found, named, arrived and close by each rule; median distances in m.
+
+    The medians leave out what there is not: a photo without a place, or without a reach.
+    """
+    shares = {name: float(scores[name].mean()) for name in ("found", "named", "cup")}
+    medians = {name: float(np.nanmedian(scores[name])) for name in ("target", "planned", *RULES)}
+    for name, distance in (("arrived", ARRIVED), ("close", CLOSE_BY)):
+        shares |= {f"{name}, {rule}": float((scores[rule] <= distance).mean()) for rule in RULES}
+    return shares | medians

@@ -1,0 +1,51 @@
+"""Inverse kinematics and the trunk's turn undo the forward ones, or say why not."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from vmc_lib.arm.dynamics import hand
+from vmc_lib.arm.kinematics import inverse_kinematics, to_world, turn_towards
+
+ANGLE = st.floats(np.radians(-59), np.radians(59))  # inside the trunk's range, not on its edge
+
+
+@settings(max_examples=40, deadline=None)
+@given(ANGLE, st.floats(np.radians(8), np.radians(129)))
+def test_posture_undoes_hand(shoulder, elbow):
+    q = np.array([shoulder, elbow])
+    np.testing.assert_allclose(inverse_kinematics(hand(q)[:2]), q, atol=1e-8)
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.floats(0.05, 0.25), st.floats(-0.43, -0.33), ANGLE)
+def test_the_turned_arm_meets_its_target(x, y, psi):
+    target = to_world(hand(inverse_kinematics([x, y])), psi)
+    turn, p = turn_towards(target)
+    np.testing.assert_allclose([turn, *p], [psi, x, y], atol=1e-8)
+
+
+def test_a_turn_is_to_the_left():
+    ahead = np.array([0.3, -0.4, -0.17])
+    assert to_world(ahead, 0.5)[2] < ahead[2]
+
+
+@pytest.mark.parametrize(
+    ("target", "complaint"),
+    [
+        ((1.0, -0.4, 0.1), r"\[ 1\.  -0\.4  0\.1\] m lies beyond the arm's reach"),
+        ((0.1, 0.9, 0.1), r"\[0\.1 0\.9 0\.1\] m lies beyond the arm's reach"),
+        ((0.0, -0.4, -0.17), "beyond the arm's reach"),
+        ((-0.3, -0.4, 0.0), "needs a turn"),
+        ((np.nan, -0.4, 0.0), "not finite"),
+    ],
+)
+def test_targets_that_cannot_be_met(target, complaint):
+    with pytest.raises(ValueError, match=complaint):
+        turn_towards(target)
+
+
+def test_one_bad_position_of_many_is_named():
+    with pytest.raises(ValueError, match=r"position \[0\.6 0\.1\] m"):
+        inverse_kinematics([[0.15, -0.4], [0.6, 0.1]])

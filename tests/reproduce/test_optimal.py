@@ -1,0 +1,45 @@
+"""Optimal control: at the target, at rest, and cheaper than anything else we know."""
+
+import numpy as np
+import pytest
+
+from reproduce.peers import optimal
+from vmc_lib.motor import templates
+from vmc_lib.motor.planning import exact_weights, plan
+
+
+def test_every_optimum_is_at_its_target_and_stays():
+    motion = templates.reach(optimal.shipped())
+    reached = motion.hand[:, [700, 1000], :2]
+    assert np.linalg.norm(reached - optimal.TARGETS[:, None], axis=-1).max() < 1e-3
+    assert motion.end_speed.max() < 0.02
+
+
+def test_every_optimum_costs_less_than_habit():
+    spent = optimal.effort(optimal.shipped())
+    for rule in (None, exact_weights):
+        habit = plan(optimal.TARGETS, templates.load(), *([rule] if rule else []))
+        share = spent / optimal.effort(habit.excitations)
+        assert share.max() < 1.05  # habit saves a little where it misses: it need not be there
+        assert np.median(share) < 0.5
+
+
+def test_what_ships_can_be_solved_again():
+    solved = optimal.effort(optimal.solve(optimal.TARGETS[12]))
+    np.testing.assert_allclose(solved, optimal.effort(optimal.shipped()[12]), rtol=0.01)
+
+
+def test_slopes_are_what_a_nudge_does():
+    x = np.random.default_rng(0).uniform(0.02, 0.2, 6 * optimal.KNOTS)
+    step = 1e-5 * np.random.default_rng(1).normal(size=x.size)
+    change = optimal._ends(x + step) - optimal._ends(x - step)
+    np.testing.assert_allclose(2 * optimal._slopes(x) @ step, change, atol=2e-6)
+
+
+def test_effort_is_the_mean_square():
+    assert optimal.effort(np.full((3, 10, 6), 0.5)) == pytest.approx([0.25] * 3)
+
+
+def test_targets_outside_are_refused():
+    with pytest.raises(ValueError, match="not surrounded"):
+        optimal.solve(np.array([0.5, -0.4]))

@@ -1,0 +1,46 @@
+"""Planning in space: a memory is repeated exactly, and practice brings the hand nearer."""
+
+import numpy as np
+import pytest
+
+from reproduce import space
+from vmc_lib.arm.kinematics import TRUNK, to_world
+from vmc_lib.motor import templates
+
+
+@pytest.fixture(scope="module")
+def memories():
+    return space.SpatialTemplates.of(templates.load(0.08))
+
+
+def test_a_turn_carries_the_hand_about_the_trunk(memories):
+    points = memories.points.reshape(-1, len(space.TURNS), 3)
+    radius = np.linalg.norm(points[..., [0, 2]] - TRUNK, axis=-1)
+    np.testing.assert_allclose(radius, np.broadcast_to(radius[:, :1], radius.shape))
+    np.testing.assert_allclose(points[..., 1], np.broadcast_to(points[:, :1, 1], radius.shape))
+
+
+def test_a_memory_alone_is_repeated(memories):
+    chosen = np.array([[7, 1, 2, 3, 4, 5, 6, 8]])
+    np.testing.assert_allclose(memories.move(chosen, np.eye(8)[:1]), memories.points[[7]])
+
+
+def test_the_eight_memories_lie_round_the_target(memories):
+    target = to_world(np.array([0.15, -0.40, 0.06]), np.radians(30))
+    points = memories.points[memories.surrounding(target)]
+    assert np.all((points.min(axis=0) < target) & (target < points.max(axis=0)))
+
+
+def test_practice_brings_the_hand_nearer(memories):
+    places = np.array([[0.12, -0.40, 0.06], [0.17, -0.39, 0.06], [0.15, -0.42, 0.06]])
+    targets = to_world(places, np.radians([12.0, 28, 44]))
+    weights, (planned, *_, last) = space.practise(memories, targets)
+    np.testing.assert_allclose(weights.sum(axis=-1), 1)
+    assert np.all(last < 0.5 * planned) and last.mean() < 0.1 * planned.mean()
+
+
+def test_a_place_beyond_experience_is_refused(memories):
+    with pytest.raises(ValueError, match="reach"):
+        memories.surrounding(np.array([0.9, -0.4, 0.1]))
+    with pytest.raises(ValueError, match="turn"):
+        memories.surrounding(to_world([0.15, -0.40, 0.06], np.radians(-30)))

@@ -1,0 +1,159 @@
+import cv2
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from vmc_lib.boxes import (
+    area,
+    as_boxes,
+    corrected,
+    corrections,
+    iou,
+    jittered,
+    mirrored,
+    nms,
+    vote,
+    widened,
+)
+
+coordinate = st.integers(-50, 700)
+box = st.builds(
+    lambda x, y, w, h: (x, y, x + w, y + h), coordinate, coordinate, *[st.integers(0, 300)] * 2
+)
+crowd = st.lists(box, max_size=30).map(as_boxes)
+
+
+def test_iou_by_hand():
+    a = [(0, 0, 10, 10)]
+    b = [(0, 0, 10, 10), (5, 0, 15, 10), (20, 20, 30, 30), (10, 0, 20, 10), (0, 0, 10, 5)]
+    assert iou(a, b) == pytest.approx(np.array([[1, 1 / 3, 0, 0, 0.5]]))
+
+
+@given(crowd, crowd)
+def test_iou_is_a_symmetric_share(a, b):
+    shares = iou(a, b)
+    assert shares.shape == (len(a), len(b))
+    assert ((shares >= 0) & (shares <= 1)).all()
+    assert (shares == iou(b, a).T).all()
+
+
+@given(box)
+def test_a_box_agrees_with_itself_unless_it_is_empty(one):
+    has_area = one[2] > one[0] and one[3] > one[1]
+    assert iou(one, one) == float(has_area)
+
+
+@given(crowd, st.floats(0, 1))
+def test_nms_keeps_no_overlaps_and_explains_every_loss(boxes, overlap):
+    scores = np.random.default_rng(len(boxes)).permutation(len(boxes)).astype(float)
+    kept = nms(boxes, scores, overlap)
+    assert (np.diff(scores[kept]) < 0).all()
+    between = iou(boxes[kept], boxes[kept])
+    assert (between[np.triu_indices(len(kept), 1)] <= overlap).all()
+    for lost in set(range(len(boxes))) - set(kept):
+        better = kept[scores[kept] > scores[lost]]
+        assert (iou(boxes[better], boxes[lost]) > overlap).any()
+
+
+@given(crowd, st.sampled_from([0.1, 0.3, 0.5, 0.8]))
+def test_nms_agrees_with_opencv(boxes, overlap):
+    """Where nothing hangs on rounding: no two scores alike, no IoU at the very limit."""
+    boxes = boxes[area(boxes) > 0]
+    assume(len(boxes) and abs(iou(boxes, boxes) - overlap).min() > 1e-4)
+    scores = np.random.default_rng(len(boxes)).permutation(len(boxes)) / 100 + 0.01
+    corners_and_sides = np.hstack([boxes[:, :2], boxes[:, 2:] - boxes[:, :2]]).astype(int)
+    theirs = cv2.dnn.NMSBoxes(corners_and_sides.tolist(), scores.tolist(), 0, overlap)
+    assert nms(boxes, scores, overlap).tolist() == list(theirs)
+
+
+@given(box, box)
+def test_iou_agrees_with_opencv(a, b):
+    """OpenCV has no IoU, but the shared polygon of two rectangles, and its area."""
+    boxes = as_boxes([a, b])
+    assume((area(boxes) > 0).all())
+    corners = [
+        np.float32([[x0, y0], [x1, y0], [x1, y1], [x0, y1]]) for x0, y0, x1, y1 in boxes.tolist()
+    ]
+    shared, _ = cv2.intersectConvexConvex(*corners)
+    assert iou(a, b).item() == pytest.approx(shared / (area(boxes).sum() - shared), abs=1e-4)
+
+
+def test_boxes_without_area_are_kept_each():
+    """They overlap nothing, not even themselves, so that nothing silences them."""
+    assert nms([(3, 3, 3, 3)] * 2 + [(0, 0, 9, 0)], [1, 3, 2]).tolist() == [1, 2, 0]
+
+
+def test_ties_go_to_the_earlier_box():
+    assert nms([(0, 0, 9, 9)] * 3, [1, 2, 2]).tolist() == [1]
+
+
+def test_nothing_in_nothing_out():
+    assert nms([], []).shape == (0,)
+    assert iou([], [(0, 0, 1, 1)]).shape == (0, 1)
+
+
+@pytest.mark.parametrize(
+    "bad", [(3, 0, 1, 5), (0, 0, np.nan, 1), (0, 0, np.inf, 1), (1, 2, 3), [[[0, 0, 1, 1]]]]
+)
+def test_boxes_that_are_no_boxes(bad):
+    with pytest.raises(ValueError, match="box"):
+        iou(bad, [(0, 0, 1, 1)])
+
+
+@pytest.mark.parametrize("scores", [[1.0], [1.0, 2.0, 3.0], [np.nan, 1.0]])
+def test_one_finite_score_a_box(scores):
+    with pytest.raises(ValueError, match="scores"):
+        nms([(0, 0, 1, 1), (0, 0, 2, 2)], scores)
+
+
+def test_votes_pull_towards_the_crowd():
+    crowd = np.array([[0, 0, 10, 10], [0, 0, 12, 10], [50, 50, 60, 60]], float)
+    voted = vote(np.array([0]), crowd, np.array([2.0, 2.0, 3.0]))
+    assert voted == pytest.approx(np.array([[0, 0, 11, 10]]))
+    lagging = vote(np.array([0]), crowd, np.array([2.0, 0.0, 3.0]))
+    assert lagging == pytest.approx(crowd[:1], abs=1e-3)
+
+
+def test_no_vote_outweighs_the_box_it_is_for():
+    """The middle box, silenced by the first, scored higher than the last, and has no vote on it."""
+    row = np.array([[0, 0, 10, 10], [3, 0, 13, 10], [6, 0, 16, 10]], float)
+    scores = np.array([3.0, 2.9, 1.0])
+    kept = nms(row, scores)
+    assert kept.tolist() == [0, 2] and iou(row[1], row[kept]).min() > 0.5
+    first, last = vote(kept, row, scores, temperature=0.2)
+    assert first[0] > 1 and (last == row[2]).all()
+
+
+def test_a_box_without_area_has_its_own_vote():
+    point = as_boxes([3, 3, 3, 3])
+    assert (vote(np.array([0]), point, np.array([1.0])) == point).all()
+
+
+solid = st.builds(
+    lambda x, y, w, h: np.array([[x, y, x + w, y + h]], float),
+    *[st.integers(0, 300)] * 2,
+    *[st.integers(5, 200)] * 2,
+)
+
+
+@given(solid, solid)
+def test_a_corrected_box_is_the_true_box(box, true):
+    assert corrected(box, corrections(box, true)) == pytest.approx(true, abs=1e-6)
+
+
+@given(solid)
+def test_two_mirrors_change_nothing(box):
+    assert (mirrored(mirrored(box, 600), 600) == box).all()
+
+
+def test_a_margin_is_a_share_of_the_sides():
+    assert widened([(10, 10, 30, 50)], 0.25).tolist() == [[5, 0, 35, 60]]
+
+
+def test_shaken_boxes_stray_in_proportion():
+    boxes = np.tile([0.0, 0, 100, 10], (4000, 1))
+    strays = jittered(boxes, 0.08, np.random.default_rng(0)) - boxes
+    assert strays.std(0) == pytest.approx([8, 0.8, 8, 0.8], rel=0.05)
+    one = jittered(boxes[0], 0.08, np.random.default_rng(0))
+    assert (one == (boxes + strays)[0]).all()

@@ -1,0 +1,108 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from vmc_lib import photos
+from vmc_lib.boxes import as_boxes, iou
+from vmc_lib.where import box_regression
+from vmc_lib.where.detector import ObjectDetector
+from vmc_lib.where.recipes import IMPROVED, RECIPES
+
+
+@pytest.fixture(scope="module")
+def photo():
+    return photos.load("rig", "validation")[0]
+
+
+@pytest.mark.parametrize("name", ["published", "context"])
+def test_training_again_gives_the_finder_that_ships(name):
+    few = photos.load("rig", "train")
+    trained, shipped = (
+        ObjectDetector.fit(few, RECIPES[name]),
+        ObjectDetector.load("rig", name),
+    )
+    assert trained.svm.support == pytest.approx(shipped.svm.support, abs=1e-3)
+    assert trained.svm.bias == pytest.approx(shipped.svm.bias, abs=1e-3)
+
+
+def test_the_same_seed_learns_the_same(monkeypatch):
+    for boxes in ("REGRESSION_BOXES", "PREDICTION_BOXES"):
+        monkeypatch.setattr(box_regression, boxes, 200)
+    few, small = photos.load("rig", "train")[:4], replace(IMPROVED, strategy="single")
+    once, again, other = (
+        ObjectDetector.fit(few, small, np.random.default_rng(seed)).parts() for seed in (1, 1, 2)
+    )
+    for part, value in once.items():
+        np.testing.assert_array_equal(value, again[part])
+    for part in ("regression 0/weights", "iou predictor/weights"):
+        assert not np.array_equal(once[part], other[part])
+
+
+def test_a_finder_narrows_down_step_by_step(photo):
+    detector = ObjectDetector.load("rig", "published")
+    found = detector.detect(photo.image)
+    counts = list(found.counts.values())
+    assert counts[0] > counts[1] >= counts[2] > 0
+    assert (found.passed_scores > 0).all() and (np.diff(found.scores) <= 0).all()
+    between = iou(found.boxes, found.boxes)
+    assert between[np.triu_indices(len(found.boxes), 1)].max(initial=0) <= 0.3
+    assert detector.score(photo.image, found.boxes) == pytest.approx(found.scores)
+
+
+def test_candidates_may_be_a_list(photo):
+    detector, box = ObjectDetector.load("rig", "published"), [300, 200, 360, 280]
+    assert detector.detect(photo.image, [box]).candidates.tolist() == [box]
+    with pytest.raises(ValueError, match="box"):
+        detector.detect(photo.image, [[0, 0, np.nan, 1]])
+
+
+def test_tuning_moves_the_threshold_alone(photo):
+    detector = ObjectDetector.load("rig", "gradients")
+    tuned = detector.tuned([photo])
+    assert replace(tuned, threshold=detector.threshold) == detector
+    algorithm_1 = ObjectDetector.load("rig", "published")
+    assert algorithm_1.tuned([photo]) is algorithm_1 and algorithm_1.threshold == 0
+
+
+@pytest.mark.parametrize("name", RECIPES)
+def test_nothing_there_nothing_found(name):
+    detector = ObjectDetector.load("rig", name)
+    blank = np.full((400, 600, 3), 128, np.uint8)
+    for boxes in (None, np.empty((0, 4)), []):
+        found = detector.detect(blank, boxes)
+        assert found.boxes.shape == (0, 4) and found.scores.shape == (0,)
+
+
+anywhere = st.builds(
+    lambda x, y, w, h: (x, y, x + w, y + h),
+    *[st.integers(-300, 900)] * 2,
+    *[st.sampled_from([0, 1, 60, 700])] * 2,
+)
+
+
+@settings(max_examples=15, deadline=None)
+@given(st.lists(anywhere, max_size=8).map(as_boxes), st.sampled_from(["published", "improved"]))
+def test_candidates_of_no_area_or_beyond_the_image(photo, boxes, name):
+    """Whatever the candidates, what is kept are boxes: finite, none inside out."""
+    found = ObjectDetector.load("rig", name).detect(photo.image, boxes)
+    assert len(found.candidate_scores) == len(boxes)
+    assert as_boxes(found.boxes).shape == (len(found.scores), 4)
+    assert np.isfinite(found.scores).all()
+
+
+@pytest.mark.parametrize("image", [np.zeros((40, 60)), np.zeros((40, 60, 3)), np.uint8([[1, 2]])])
+def test_an_image_of_another_kind(image):
+    with pytest.raises(ValueError, match="read_image"):
+        ObjectDetector.load("rig").score(image, [(0, 0, 30, 30)])
+
+
+def test_unknown_finders():
+    for level, name in (("rig", "best"), ("attic", "published")):
+        with pytest.raises(
+            ValueError,
+            match="published, context, gradients, box regression, IoU prediction, improved",
+        ):
+            ObjectDetector.load(level, name)

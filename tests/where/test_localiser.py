@@ -1,0 +1,42 @@
+"""From a box to a place: learnt from training photos, better than plain geometry on others."""
+
+import numpy as np
+import pytest
+
+from vmc_lib import photos
+from vmc_lib.where.localiser import Localiser
+
+
+@pytest.fixture(scope="module")
+def localiser():
+    return Localiser.fit(photos.load("rig", "train"), np.random.default_rng(0))
+
+
+def errors(place, shots):
+    return [np.linalg.norm(place(p, p.boxes["shuttlecock"]) - p.target) for p in shots]
+
+
+def test_held_out_places_are_within_a_centimetre_and_better_than_plain_geometry(localiser):
+    height = np.mean([p.target[1] for p in photos.load("rig", "train")])
+
+    def plain(photo, box):
+        return photo.camera.back_project((box[:2] + box[2:]) / 2, height)[0]
+
+    def learnt(photo, box):
+        return localiser.locate(photo.image, box, photo.camera)
+
+    shots = photos.load("rig", "validation")
+    assert np.mean(errors(learnt, shots)) < 0.01 < np.mean(errors(plain, shots))
+
+
+def test_the_same_seed_learns_the_same(localiser):
+    again = Localiser.fit(photos.load("rig", "train"), np.random.default_rng(0))
+    photo = photos.load("rig", "validation")[0]
+    seen = photo.image, photo.boxes["shuttlecock"], photo.camera
+    np.testing.assert_array_equal(again.locate(*seen), localiser.locate(*seen))
+
+
+def test_a_line_of_sight_above_the_horizon_is_said(localiser):
+    photo = photos.load("free", "train")[0]
+    with pytest.raises(ValueError, match="never meets the plane"):
+        localiser.locate(photo.image, [200, -9000, 300, -8900], photo.camera)

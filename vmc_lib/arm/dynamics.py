@@ -1,0 +1,109 @@
+"""The same arm in closed form, for many postures at once.
+
+Two facts make it exact. No muscle wraps over both joints at once, so every musculotendon length is
+a function of the shoulder angle plus a function of the elbow angle: two tables. And the inertia,
+the pull of gravity and the hand's position are trigonometric polynomials in the two angles, sums
+of eleven waves: a few dozen snapshots of the MuJoCo model determine their coefficients.
+"""
+
+from functools import cache
+from itertools import product
+
+import mujoco
+import numpy as np
+
+from vmc_lib.arm.model import DAMPING, LIMITS, STEP, forward, loaded, mass_matrix, muscle_paths
+
+ROWS = 10_001  # of the muscle tables: steps of half a milliradian
+MARGIN = 0.4  # rad: the tables reach a little beyond the joints' stops
+LOW, HIGH = LIMITS[:, 0] - MARGIN, LIMITS[:, 1] + MARGIN
+ROWS_PER_RADIAN = (ROWS - 1) / (HIGH - LOW)
+FIRST_ROWS = np.array([0, ROWS])  # the elbow's rows come after the shoulder's
+SHOULDER, ELBOW = DAMPING.tolist()
+PHASES = np.array([[0.0, 1, 1, 0, 0, 1, 1], [0, 0, 0, 1, 1, 1, 1]])  # shoulder's, elbow's share
+LAGS = np.array([0, 0, 1, 0, 1, 0, 1]) * np.pi / 2  # a sine lags a cosine
+
+
+def _waves(q):
+    """Cosines and sines of the two angles, their sum, and their products: (…, 11)."""
+    waves = np.cos(np.asarray(q) @ PHASES - LAGS)
+    return np.concatenate([waves, waves[..., 3:4] * waves[..., 1:5]], axis=-1)
+
+
+@cache
+def _coefficients(load=0.0):
+    """Of the waves in the dynamics (11, 7), as `_dynamics` unpacks it, and the hand (11, 3)."""
+    angles = np.linspace(0, 2 * np.pi, 6, endpoint=False)
+    snapshots = np.array(list(product(angles, angles)))
+    data = mujoco.MjData(loaded(load))
+    seen = np.array([_snapshot(q, data) for q in snapshots])
+    solved = np.linalg.lstsq(_waves(snapshots), seen)[0]
+    return solved[:, :7].copy(), solved[:, 7:].copy()
+
+
+def _snapshot(q, data):
+    gravity = forward(q, data=data).qfrc_bias.copy()
+    inertia = mass_matrix(data)
+    # A turning shoulder throws the forearm outwards, and a bending elbow the upper arm.
+    swing = forward(q, (1, 0), data).qfrc_bias[1] - gravity[1]
+    bend = forward(q, (0, 1), data).qfrc_bias[0] - gravity[0]
+    terms = [inertia[0, 0], inertia[0, 1], inertia[1, 1], swing, bend, *gravity]
+    return [*terms, *data.site("hand").xpos]
+
+
+def hand(q):
+    """Position of the wrist (…, 3) in the shoulder frame for postures q (…, 2)."""
+    return _waves(q) @ _coefficients()[1]
+
+
+def torque_for(q, velocity, acceleration, load=0.0, step=STEP):
+    """Inverse dynamics: torques (…, 2) in N m that give these accelerations over one step."""
+    m11, m12, m22, b1, b2 = _dynamics(q, velocity, load, step)
+    a1, a2 = acceleration.T
+    return np.array([m11 * a1 + m12 * a2 + b1, m12 * a1 + m22 * a2 + b2]).T
+
+
+def acceleration_from(q, velocity, torque, load=0.0, step=STEP):
+    """Forward dynamics, Eq. 12: the accelerations (…, 2) that joint torques cause; `load` in kg."""
+    m11, m12, m22, b1, b2 = _dynamics(q, velocity, load, step)
+    t1, t2 = torque.T
+    t1, t2 = t1 - b1, t2 - b2
+    determinant = m11 * m22 - m12 * m12
+    return (np.array([m22 * t1 - m12 * t2, m11 * t2 - m12 * t1]) / determinant).T
+
+
+def _dynamics(q, velocity, load, step):
+    """The mass matrix's entries, and the torques of motion, gravity and damping, each (…).T."""
+    terms = _waves(q) @ _coefficients(load)[0]
+    m11, m12, m22, swing, bend, gravity1, gravity2 = terms.T
+    w1, w2 = velocity.T
+    thrown = swing * w1
+    b1 = (bend * w2 - 2 * thrown) * w2 + gravity1 + SHOULDER * w1
+    b2 = thrown * w1 + gravity2 + ELBOW * w2
+    # Damping acts on the velocity at the end of the step, as MuJoCo's integrator has it: stable.
+    return m11 + step * SHOULDER, m12, m22 + step * ELBOW, b1, b2
+
+
+def paths(q):
+    """Musculotendon lengths (…, 6) and moment arms (…, 2, 6) in m; angles held to the tables."""
+    place = (q.clip(LOW, HIGH) - LOW) * ROWS_PER_RADIAN
+    row = place.astype(int)
+    entry = _tables().take(row + FIRST_ROWS, axis=0)
+    value = entry[..., :12] + (place - row)[..., None] * entry[..., 12:]
+    return value[..., 0, :6] + value[..., 1, :6], value[..., 6:]
+
+
+@cache
+def _tables():
+    """Lengths and moment arms as the shoulder turns, then the elbow, and slopes (2 · ROWS, 24)."""
+    data = forward((0, 0))
+    straight = muscle_paths(data)[0].copy()
+    turned = np.empty((2, ROWS, 12))
+    for joint, posture in enumerate(np.eye(2)):
+        angles = np.linspace(LOW[joint], HIGH[joint], ROWS)
+        for row, angle in zip(turned[joint], angles, strict=True):
+            row[:6], arms = muscle_paths(forward(angle * posture, data=data))
+            row[6:] = arms[joint]
+    turned[1, :, :6] -= straight
+    slopes = np.diff(turned, axis=1, append=turned[:, -1:])
+    return np.concatenate([turned, slopes], axis=-1).reshape(-1, 24)

@@ -1,0 +1,92 @@
+"""From where the hand should be to the angles that put it there, and the trunk's turn before.
+
+The trunk turns about a vertical axis beside the shoulder (positive to the left) until the arm's
+plane meets the target. What remains is planar: p = (x, y) of the wrist in the turned shoulder
+frame. Its z follows from the posture, for the joints' axes are not quite parallel to z.
+"""
+
+import numpy as np
+
+from vmc_lib import NoReach
+from vmc_lib.arm.dynamics import hand
+from vmc_lib.arm.model import LIMITS
+
+TRUNK = np.array([0.017545, -0.17])  # x and z of the axis about which the trunk turns, m
+TRUNK_RANGE = np.radians([-60.0, 90.0])
+BENT = np.array([LIMITS[0], [0.1, LIMITS[1, 1]]])  # a straighter elbow adds no reach, only doubt
+
+
+def inverse_kinematics(p):
+    """Joint angles (…, 2) that put the wrist at plane position p (…, 2).
+
+    `NoReach` when p is out of the arm's reach.
+    """
+    p = np.asarray(p, dtype=float)
+    return _solve(lambda q: hand(q)[..., :2], p, p, p)
+
+
+def turn_towards(target):
+    """The trunk's turn psi in rad and the plane position p (2,) that meet a target (3,).
+
+    `NoReach` when no turn within `TRUNK_RANGE` brings the target within the arm's reach.
+    """
+    target = np.asarray(target, dtype=float)
+    x, z = target[[0, 2]] - TRUNK
+    wanted = np.array([np.hypot(x, z), target[1]])  # distance from the trunk's axis, and height
+    guess = [TRUNK[0] + np.sqrt(max(wanted[0] ** 2 - 0.23**2, 0)), target[1]]  # hand's z near .06
+    q = _solve(
+        lambda q: np.stack([np.hypot(*_aside(q)), hand(q)[..., 1]], -1), wanted, guess, target
+    )
+    turn = np.arctan2(*_aside(q)[::-1]) - np.arctan2(z, x)
+    if not TRUNK_RANGE[0] <= turn <= TRUNK_RANGE[1]:
+        raise NoReach(f"{target} m needs a turn of {np.degrees(turn):.0f}°; move the target")
+    return turn, hand(q)[:2]
+
+
+def to_world(points, psi):
+    """Points (…, 3) of the turned shoulder frame, in the frame of the trunk straight ahead.
+
+    One turn `psi` in rad for all of them, or one for each, (…).
+    """
+    points = np.array(points, dtype=float)
+    x, z = np.moveaxis(points[..., [0, 2]] - TRUNK, -1, 0)
+    c, s = np.cos(psi), np.sin(psi)
+    points[..., [0, 2]] = np.stack([c * x + s * z, c * z - s * x], axis=-1) + TRUNK
+    return points
+
+
+def _solve(measure, wanted, guess, target):
+    """Postures q with measure(q) = wanted, by Newton's method from near plane position `guess`.
+
+    `target` (…, 2 or 3) is what the caller asked for; an error names it.
+
+    For the guess the joints' axes count as parallel: then the wrist's distance from the shoulder
+    depends on the elbow alone, and the shoulder turns the wrist to its bearing.
+    """
+    if not np.all(np.isfinite(target)):
+        raise ValueError(f"position {target} m is not finite; give numbers")
+    elbow = np.linspace(*BENT[1], 100)[::-1]
+    distance = np.linalg.norm(hand(np.stack([0 * elbow, elbow], -1))[:, :2], axis=-1)
+    bend = np.interp(np.linalg.norm(guess, axis=-1), distance, elbow)
+    q = np.stack([0 * bend, bend], axis=-1)
+    q[..., 0] = _bearing(np.asarray(guess)) - _bearing(hand(q))
+    for _ in range(12):
+        slope = (measure(q[..., None, :] + 1e-6 * np.eye(2)) - measure(q)[..., None, :]) / 1e-6
+        step = np.linalg.pinv(np.swapaxes(slope, -1, -2)) @ (wanted - measure(q))[..., None]
+        q = np.clip(q + np.clip(step[..., 0], -0.2, 0.2), *BENT.T)
+    missed = np.abs(measure(q) - wanted).max(axis=-1) > 1e-9
+    if np.any(missed):
+        far = np.round(target[missed][0], 3)
+        raise NoReach(
+            f"position {far} m lies beyond the arm's reach of "
+            f"{distance[0]:.2f} to {distance[-1]:.2f} m; move the target"
+        )
+    return q
+
+
+def _aside(q):
+    return np.moveaxis(hand(q)[..., [0, 2]] - TRUNK, -1, 0)
+
+
+def _bearing(point):
+    return np.arctan2(point[..., 0], -point[..., 1])

@@ -1,0 +1,117 @@
+"""Boxes: how far two of them agree, which of a crowd to keep, how to move one onto another."""
+
+import numpy as np
+
+
+def as_boxes(boxes):
+    """Boxes as a float64 array (n, 4) of (x0, y0, x1, y1), x1 and y1 exclusive.
+
+    One box, or an empty list, becomes an array of one row or none. A box may have no area, and
+    may lie outside the image. ValueError when a box is inside out or not finite.
+    """
+    boxes = np.asarray(boxes, float)
+    if boxes.size == 0:
+        return np.empty((0, 4))
+    boxes = np.atleast_2d(boxes)
+    if boxes.ndim != 2 or boxes.shape[1] != 4:
+        raise ValueError(f"boxes must be rows of (x0, y0, x1, y1), not an array {boxes.shape}")
+    wrong = ~np.isfinite(boxes).all(1) | (boxes[:, 2:] < boxes[:, :2]).any(1)
+    if wrong.any():
+        raise ValueError(f"box {boxes[wrong][0]} needs finite x0 <= x1 and y0 <= y1")
+    return boxes
+
+
+def area(boxes):
+    """Areas (n,) of boxes (n, 4), in square pixels."""
+    return np.prod(boxes[..., 2:] - boxes[..., :2], axis=-1)
+
+
+def centres_and_sides(boxes):
+    """Centres (n, 2) and sides (n, 2), along x and y, of boxes (n, 4)."""
+    return (boxes[..., :2] + boxes[..., 2:]) / 2, boxes[..., 2:] - boxes[..., :2]
+
+
+def iou(a, b):
+    """Intersection over union of every box in a (n, 4) with every box in b (m, 4): (n, m).
+
+    Two boxes without area share nothing: 0, even when they coincide.
+    """
+    a, b = as_boxes(a)[:, None], as_boxes(b)[None]
+    sides = np.minimum(a[..., 2:], b[..., 2:]) - np.maximum(a[..., :2], b[..., :2])
+    shared = sides.clip(0).prod(-1)
+    union = area(a) + area(b) - shared
+    return np.divide(shared, union, out=np.zeros_like(shared), where=union > 0)
+
+
+def nms(boxes, scores, overlap=0.3):
+    """Greedy non-maximum suppression: indices of the boxes kept, by falling score.
+
+    The best box stays and silences every box that overlaps it by more than `overlap` (an IoU);
+    then the best of the rest, and so on. Of equal scores the earlier box goes first.
+    ValueError when there is not one finite score a box. (Neubeck & Van Gool 2006, greedy form.)
+    """
+    boxes, scores = as_boxes(boxes), np.asarray(scores, float)
+    if scores.shape != (len(boxes),) or not np.isfinite(scores).all():
+        raise ValueError(f"{len(boxes)} boxes need as many finite scores, not {scores.shape}")
+    waiting, kept = np.argsort(-scores, kind="stable"), []
+    while len(waiting):
+        best, rest = waiting[0], waiting[1:]
+        kept.append(best)
+        waiting = rest[iou(boxes[best], boxes[rest])[0] <= overlap]
+    return np.array(kept, int)
+
+
+def vote(kept, boxes, scores, temperature=0.1):
+    """The boxes `kept` (indices), each the weighted mean of those that vote for it and itself.
+
+    A box votes for each kept one that it overlaps by half or more and does not outscore. A vote
+    weighs exp(-lag / warmth), its score lagging that much behind the kept box's (after Gidaris &
+    Komodakis 2015).
+    """
+    lag = scores[kept, None] - scores
+    votes = (lag >= 0) & (iou(boxes[kept], boxes) >= 0.5)
+    votes[np.arange(len(kept)), kept] = True  # without area, it does not overlap even itself
+    weights = votes * np.exp(-lag.clip(0) / temperature)
+    return weights @ boxes / weights.sum(1, keepdims=True)
+
+
+# ---------------------------------------------------------------- boxes from boxes
+
+
+def enclosing(a, b):
+    """The smallest boxes around boxes a and b, row by row."""
+    return np.concatenate(
+        [np.minimum(a[..., :2], b[..., :2]), np.maximum(a[..., 2:], b[..., 2:])], axis=-1
+    )
+
+
+def widened(boxes, margin):
+    """Boxes (n, 4) with a margin around them, given as a share of their sides."""
+    boxes = as_boxes(boxes)
+    pad = margin * (boxes[:, 2:] - boxes[:, :2])
+    return np.hstack([boxes[:, :2] - pad, boxes[:, 2:] + pad])
+
+
+def mirrored(boxes, width):
+    """Boxes (n, 4) in the mirror image of an image of that width."""
+    return np.stack([width - boxes[:, 2], boxes[:, 1], width - boxes[:, 0], boxes[:, 3]], axis=1)
+
+
+def jittered(boxes, amount, rng):
+    """Boxes (..., 4) each edge of which strays by about `amount` of the box's sides."""
+    _, sides = centres_and_sides(boxes)
+    return boxes + rng.normal(0, amount, boxes.shape) * np.tile(sides, 2)
+
+
+def corrections(boxes, truth):
+    """How to move (in sides) and stretch (as logarithms) each box to its true box: (n, 4)."""
+    (centres, sides), (true_centres, true_sides) = map(centres_and_sides, (boxes, truth))
+    return np.hstack([(true_centres - centres) / sides, np.log(true_sides / sides)])
+
+
+def corrected(boxes, corrections):
+    """Boxes (n, 4) moved and stretched by corrections (n, 4)."""
+    centres, sides = centres_and_sides(boxes)
+    centres = centres + corrections[:, :2] * sides
+    half = sides * np.exp(corrections[:, 2:]) / 2
+    return np.hstack([centres - half, centres + half])

@@ -1,6 +1,0 @@
-"""How the photos were made: a shuttlecock, a cup and what else lies about, rendered physically.
-
-`shapes` builds the things from triangles, `materials` the table tops, `scene` draws who stands
-where before which camera and light, and `picture` traces the light. Needs the optional dependency
-`mitsuba` (`pip install vmc_lib[render]`) and LLVM; remake with `python -m vmc_lib.data.render`.
-"""

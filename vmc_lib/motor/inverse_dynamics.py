@@ -1,0 +1,51 @@
+"""Inverse dynamics: what a joint path asks of the muscles, and the least that holds a posture.
+
+The brain's habitual planning never does this. It is how its past experience was made, as smooth
+excitations that a few spline coefficients keep.
+"""
+
+from functools import cache
+
+import numpy as np
+from scipy.interpolate import BSpline
+from scipy.optimize import lsq_linear
+
+from vmc_lib.arm import dynamics
+from vmc_lib.arm.model import F0, STEP
+from vmc_lib.arm.muscle import force
+from vmc_lib.arm.simulate import fibres
+
+MOVING, SAMPLES = 700, 1000  # ms: a movement; the movement and the hold that follows
+KNOTS = 28  # spline coefficients of each muscle's excitation
+
+
+@cache
+def spline(knots=KNOTS):
+    """Cubic B-splines (STEPS, knots); each row sums to 1, so knots in [0, 1] stay in [0, 1]."""
+    edges = np.concatenate([[0] * 3, np.linspace(0, 1, knots - 2), [1] * 3])
+    return BSpline.design_matrix(np.linspace(0, 1, SAMPLES), edges, 3).toarray()
+
+
+def demand(path):
+    """What a joint path (T + 1, 2) asks of the muscles: torque (T, 2) and gain (T, 2, 6).
+
+    Whatever activation (T, 6) satisfies torque = gain @ activation at every step keeps to it.
+    """
+    velocity = np.diff(path, axis=0, prepend=path[:1]) / STEP
+    acceleration = np.diff(velocity, axis=0) / STEP
+    q, velocity = path[:-1], velocity[:-1]
+    lengths, arms = dynamics.paths(q)
+    slack, full = (force(a, *fibres(lengths, arms, velocity), F0)[:, None] for a in (0, 1))
+    torque = dynamics.torque_for(q, velocity, acceleration) - (arms * slack).sum(axis=-1)
+    return torque, arms * (full - slack)
+
+
+def hold(q):
+    """The least activations (6,) that hold the posture q (2,) against gravity."""
+    torque, gain = demand(np.tile(q, (2, 1)))
+    return least(np.vstack([gain[0], 0.01 * np.eye(6)]), np.append(torque[0], np.zeros(6)))
+
+
+def least(matrix, wanted):
+    """The x (n,) in [0, 1] whose matrix @ x comes nearest to what is wanted, in least squares."""
+    return lsq_linear(matrix, wanted, (0, 1), method="bvls").x

@@ -1,0 +1,15 @@
+"""How demos are rendered: in a live kernel, for the built book, or in a test."""
+
+import os
+
+MODES = ("live", "book", "test")
+
+
+def render_mode():
+    """What the variable VMC_RENDER_MODE says: one of `MODES`, "live" where it is unset or empty.
+
+    ValueError for anything else.
+    """
+    if (told := os.environ.get("VMC_RENDER_MODE") or "live") not in MODES:
+        raise ValueError(f"VMC_RENDER_MODE={told!r}: must be one of {MODES}")
+    return told

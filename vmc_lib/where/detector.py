@@ -1,0 +1,144 @@
+"""The object detector: a classifier scores candidates, the best ones silence their neighbours.
+
+The paper's Block 1-1, top-down part: a support vector machine tells examples from counter-examples
+by their raw pixels, and non-maximum suppression leaves a few boxes. The recipe `PUBLISHED` is that;
+each further one of `RECIPES` adds an idea: context, gradients, box regression, a prediction of the
+IoU in the end, votes.
+"""
+
+from dataclasses import dataclass, fields, replace
+
+import numpy as np
+
+from vmc_lib.boxes import as_boxes, iou, nms, vote
+from vmc_lib.data import arrays
+from vmc_lib.where.box_regression import RBFRidge, fit_box_regression, fit_iou_predictor, regress
+from vmc_lib.where.recipes import PUBLISHED, RECIPES, TRAINED_AS, Recipe
+from vmc_lib.where.selective_search import propose
+from vmc_lib.where.svm import PARTS, KernelSVM, best_threshold
+from vmc_lib.where.training import training_examples, training_images
+
+
+@dataclass(frozen=True, eq=False)
+class Detections:
+    """What the search of one image came to, step by step (the paper's Fig. 6)."""
+
+    candidates: np.ndarray  # (n, 4) of selective search
+    candidate_scores: np.ndarray  # (n,)
+    passed: np.ndarray  # (m, 4) boxes above the threshold, after their corrections if any
+    passed_scores: np.ndarray  # (m,)
+    boxes: np.ndarray  # (k, 4) left by non-maximum suppression, the best first
+    scores: np.ndarray  # (k,)
+
+    @property
+    def counts(self):
+        """How many boxes each step leaves."""
+        steps = self.candidates, self.passed, self.boxes
+        return dict(zip(("candidates", "passed", "kept"), map(len, steps), strict=True))
+
+
+@dataclass(frozen=True)
+class ObjectDetector:
+    """A trained recipe: finds the few boxes of an image that hold an object."""
+
+    recipe: Recipe
+    svm: KernelSVM
+    regressions: tuple = ()  # of RBFRidge: how to correct a box, round by round
+    iou_predictor: RBFRidge | None = None  # of how well a box fits
+    threshold: float = 0.0  # what the boxes must score in the end
+
+    @classmethod
+    def fit(cls, shots, recipe=PUBLISHED, rng=None):
+        """Learn from photos; `rng` draws counter-examples and jitters boxes.
+
+        The threshold stays 0: see `tuned`.
+        """
+        rng, images = rng or np.random.default_rng(0), training_images(shots, recipe)
+        x, y = training_examples(images, recipe, rng)
+        svm = KernelSVM.fit(x, y, recipe.kernel, recipe.cost)
+        regressions = fit_box_regression(images, recipe, rng)
+        predictor = None
+        if recipe.predicts_iou:
+            predictor = fit_iou_predictor(images, recipe, svm, regressions, rng)
+        return cls(recipe, svm, regressions, predictor)
+
+    def used_as(self, name):
+        """The same training, used for the recipe `name`, which does less."""
+        recipe = RECIPES[name]
+        predictor = self.iou_predictor if recipe.predicts_iou else None
+        return replace(self, recipe=recipe, iou_predictor=predictor)
+
+    def tuned(self, shots):
+        """The same detector, with the threshold that is best on photos it did not learn from.
+
+        The published recipe has none to choose: it stays at 0.
+        """
+        if self.recipe == PUBLISHED:
+            return self
+        lenient, scores, right, wanted = replace(self, threshold=-np.inf), [], [], 0
+        for image in training_images(shots, replace(self.recipe, mirror=False)):
+            found = lenient.detect(image.pixels, image.candidates)
+            scores.append(found.scores)
+            right.append(iou(found.boxes, image.truth).max(1, initial=0) >= 0.8)
+            wanted += len(image.truth)
+        best = best_threshold(np.concatenate(scores), np.concatenate(right), wanted)
+        return replace(self, threshold=best)
+
+    @classmethod
+    def load(cls, level, name="improved"):
+        """The shipped detector of a level, by the name of its recipe; ValueError for another."""
+        learnt, key = arrays("detectors"), f"{level}/{TRAINED_AS.get(name, name)}"
+        if f"{level}/{name}/threshold" not in learnt:
+            raise ValueError(f"no detector {name!r} for level {level!r}: see {', '.join(RECIPES)}")
+        parts = {
+            part.removeprefix(f"{key}/"): value.astype(float)
+            for part, value in learnt.items()
+            if part.startswith(f"{key}/")
+        }
+
+        def ridge(called):
+            return RBFRidge(*(parts[f"{called}/{field.name}"] for field in fields(RBFRidge)))
+
+        recipe = RECIPES[name]
+        svm = KernelSVM(recipe.kernel, *(parts[part] for part in PARTS))
+        regressions = tuple(ridge(f"regression {i}") for i in range(len(recipe.regressions)))
+        predictor = ridge("iou predictor") if recipe.predicts_iou else None
+        return cls(recipe, svm, regressions, predictor, learnt[f"{level}/{name}/threshold"].item())
+
+    def parts(self):
+        """The arrays that `load` reads, by name."""
+        parts = {part: getattr(self.svm, part) for part in PARTS}
+        ridges = {f"regression {i}": ridge for i, ridge in enumerate(self.regressions)}
+        if self.iou_predictor:
+            ridges["iou predictor"] = self.iou_predictor
+        for called, ridge in ridges.items():
+            parts |= {f"{called}/{part}": value for part, value in vars(ridge).items()}
+        return parts
+
+    def score(self, image, boxes):
+        """The classifier's score (n,) of boxes (n, 4) in an image."""
+        return self.svm.score(self.recipe.describe(image, boxes))
+
+    def regress(self, image, boxes, rounds=None):
+        """The boxes (n, 4), each corrected by what it shows, `rounds` times (by default all)."""
+        return regress(self.recipe, self.regressions[:rounds], image, boxes)
+
+    def detect(self, image, boxes=None):
+        """The `Detections` of a uint8 image; `boxes` are its candidates, if known already.
+
+        With nothing to find, `boxes` and `scores` are empty. ValueError as for `propose`, and
+        `as_boxes`.
+        """
+        recipe = self.recipe
+        boxes = propose(image, recipe.strategy) if boxes is None else as_boxes(boxes)
+        scores = self.score(image, boxes)
+        passed, passed_scores = boxes[scores > recipe.gate], scores[scores > recipe.gate]
+        if recipe.regressions:
+            passed = self.regress(image, passed)
+            score = self.iou_predictor.predict if self.iou_predictor else self.svm.score
+            passed_scores = score(recipe.describe(image, passed))
+        good = passed_scores > self.threshold
+        passed, passed_scores = passed[good], passed_scores[good]
+        kept = nms(passed, passed_scores, recipe.overlap)
+        best = vote(kept, passed, passed_scores) if recipe.vote else passed[kept]
+        return Detections(boxes, scores, passed, passed_scores, best, passed_scores[kept])

@@ -1,0 +1,88 @@
+"""From a box in the picture to a place in the room.
+
+A line of sight goes through the middle of a box, but the middle of the shuttlecock need not lie on
+it (seen from above, its far end looks smaller), nor is it known where along the line to stop: a
+standing shuttlecock is taller than a lying one. What the box shows tells: `Localiser` learns both
+corrections from training photos, as `box_regression` learns to correct boxes. The paper is silent
+on this step.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from sklearn.kernel_ridge import KernelRidge
+from sklearn.metrics.pairwise import rbf_kernel
+
+from vmc_lib.boxes import as_boxes, centres_and_sides, jittered
+from vmc_lib.data import arrays
+from vmc_lib.where.features import gradients, raw_pixels
+
+COPIES, JITTER = 12, 0.05  # boxes learnt from per photo, and how far their sides stray
+GAMMA, PENALTY = 0.01, 0.01  # of the kernel regression; chosen on the validation photos
+PARTS = ("shown", "shape", "weights", "mean", "spread")  # as they are stored
+SIDE = 0.05  # m: makes a height comparable with a share of a box
+
+
+@dataclass(frozen=True, eq=False)
+class Localiser:
+    """Where the middle of a shuttlecock is, given a box around it: a kernel ridge regression.
+
+    predict(x) = mean + spread · K(remembered, x) @ weights, K a radial basis function.
+    """
+
+    remembered: np.ndarray  # (n, d) features of the boxes learnt from
+    weights: np.ndarray  # (n, 3)
+    mean: np.ndarray  # (3,) of what is predicted: right and down in sides, height in SIDE
+    spread: np.ndarray  # (3,)
+
+    @classmethod
+    def fit(cls, shots, rng):
+        """Learn from photos whose shuttlecocks' places are known; `rng` jitters their boxes."""
+        seen, wanted = [], []
+        for photo in shots:
+            box = photo.boxes["shuttlecock"]
+            boxes = np.vstack([box, jittered(np.tile(box, (COPIES, 1)), JITTER, rng)])
+            centres, sides = centres_and_sides(boxes)
+            away = (photo.camera.project(photo.target) - centres) / sides
+            seen.append(_describe(photo.image, boxes))
+            wanted.append(np.column_stack([away, np.full(len(boxes), photo.target[1] / SIDE)]))
+        x, y = np.vstack(seen), np.vstack(wanted)
+        x[:, :-2] = np.round(255 * x[:, :-2]) / 255  # as they ship: a byte each
+        mean, spread = y.mean(axis=0), y.std(axis=0)
+        ridge = KernelRidge(kernel="rbf", gamma=GAMMA, alpha=PENALTY).fit(x, (y - mean) / spread)
+        return cls(x, ridge.dual_coef_, mean, spread)
+
+    @classmethod
+    def load(cls, level):
+        """The shipped localiser of a level of photos; ValueError for an unknown one."""
+        learnt = arrays("localisers")
+        if f"{level}/mean" not in learnt:
+            raise ValueError(f"no localiser for level {level!r}: choose a level of photos")
+        shown, shape, *rest = (learnt[f"{level}/{part}"] for part in PARTS)
+        return cls(np.hstack([shown / 255, shape]), *rest)
+
+    def parts(self):
+        """The arrays that `load` reads, by name; what the boxes show takes a byte a number."""
+        shown, shape = np.uint8(np.round(255 * self.remembered[:, :-2])), self.remembered[:, -2:]
+        return dict(zip(PARTS, (shown, shape, self.weights, self.mean, self.spread), strict=True))
+
+    def locate(self, image, box, camera):
+        """The place (3,) in the shoulder frame (m) of a shuttlecock in `box` (4,) of an image.
+
+        `NoReach` when the line of sight misses the height it should have.
+        """
+        boxes = as_boxes(box)
+        centres, sides = centres_and_sides(boxes)
+        likeness = rbf_kernel(_describe(image, boxes), self.remembered, GAMMA)
+        right, down, height = self.mean + self.spread * (likeness @ self.weights)[0]
+        return camera.back_project(centres + [right, down] * sides, height * SIDE)[0]
+
+
+def _describe(image, boxes):
+    """What boxes (n, 4) show, coarse and fine, and their shapes: (n, d)."""
+    _, sides = centres_and_sides(boxes)
+    outlines = [
+        gradients(image, boxes, cells, margin=margin)
+        for cells, margin in ((8, 0.0), (10, 0.25), (14, 0.1))
+    ]
+    return np.hstack([*outlines, 0.3 * raw_pixels(image, boxes), np.log(sides)])

@@ -1,0 +1,63 @@
+"""A support vector machine that tells objects from table, and where to draw the line."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from sklearn.metrics.pairwise import pairwise_kernels
+from sklearn.svm import SVC
+
+KERNELS = ("linear", "poly", "rbf", "sigmoid")
+PARTS = ("gamma", "support", "weights", "bias")  # of an SVM, as they are stored
+
+
+@dataclass(frozen=True, eq=False)
+class KernelSVM:
+    """A kernel support vector machine: score(x) = Σ weights · K(support, x) + bias."""
+
+    kernel: str
+    gamma: float
+    support: np.ndarray  # (s, d)
+    weights: np.ndarray  # (s,)
+    bias: float
+
+    @classmethod
+    def fit(cls, x, y, kernel="linear", cost=0.1):
+        """A support vector machine for features x (n, d) and labels y (n,), true or false.
+
+        ValueError for an unknown kernel, and where one of the two labels has no example.
+        """
+        if kernel not in KERNELS:
+            raise ValueError(f"kernel {kernel!r} is none of {', '.join(KERNELS)}")
+        if len(np.unique(y)) < 2:
+            raise ValueError("a classifier needs examples and counter-examples: give more photos")
+        gamma = 1 / (x.shape[1] * x.var())
+        svc = SVC(C=cost, kernel=kernel, gamma=gamma, cache_size=500).fit(x, y)
+        support, weights = svc.support_vectors_, svc.dual_coef_[0]
+        if kernel == "linear":  # then the sum is one term: a weight for each feature
+            support, weights = (weights @ support)[None], np.ones(1)
+        return cls(kernel, gamma, support, weights, svc.intercept_[0])
+
+    def score(self, x):
+        """How far each row of x (n, d) lies on the examples' side, in margins: (n,)."""
+        if not len(x):
+            return np.empty(0)
+        shape = {"gamma": self.gamma, "degree": 3, "coef0": 0.0}
+        alike = pairwise_kernels(x, self.support, self.kernel, filter_params=True, **shape)
+        return alike @ self.weights + self.bias
+
+
+def best_threshold(scores, right, wanted):
+    """The threshold for scores (n,) that finds most at fewest errors: the best F1.
+
+    right: (n,) which are hits, or the chance of each; wanted: how many there are to hit. F1 is the
+    harmonic mean of precision and recall; the threshold lies midway between the last score taken
+    and the next lower one (or is -inf, where it is best to take all).
+    ValueError where there is nothing to choose from.
+    """
+    if not len(scores):
+        raise ValueError("no score to choose a threshold from: give photos with something found")
+    order = np.argsort(-scores, kind="stable")
+    taken, left = scores[order], np.append(scores[order][1:], -np.inf)
+    f1 = 2 * right[order].cumsum() / (np.arange(len(order)) + 1 + wanted)
+    last = np.where(left < taken, f1, -1).argmax()  # no line divides equal scores
+    return float((taken[last] + left[last]) / 2)
