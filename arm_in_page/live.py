@@ -26,7 +26,8 @@ from vmc_lib.motor import templates
 from vmc_lib.motor.inverse_dynamics import SAMPLES, hold, spline
 from vmc_lib.motor.planning import plan
 from vmc_lib.show.arm import BONE, BONE_RADIUS, TUBE, arm_scene
-from vmc_lib.show.figures import COLOURS, framed, markdown, pictures, side_by_side
+from vmc_lib.show.figures import framed, markdown, pictures, side_by_side
+from vmc_lib.show.palette import COLOURS, STYLE
 from vmc_lib.show.plane import plane, plane_view
 from vmc_lib.show.render_mode import render_mode
 from vmc_lib.show.scene import STATIC as SHOW
@@ -60,7 +61,9 @@ def live_arm(mode, caption, alt, target=(0.12, -0.42)):
         away = "*Without the book's own files this arm stays at rest: start it in the built page.*"
         return markdown(away)
     name = f"live-{next(_made)}"
-    scene, plot, form = _bench(name) if mode == "bench" else _reach(name, np.asarray(target, float))
+    with plt.rc_context(STYLE):
+        parts = _bench(name) if mode == "bench" else _reach(name, np.asarray(target, float))
+    scene, plot, form = parts
     data = json.dumps(given() | {"scene": scene.messages()}, allow_nan=False)
     data = data.replace("<", r"\u003c")  # or the model's XML would confuse the page's
     page = (

@@ -7,7 +7,8 @@ from vmc_lib.arm.kinematics import TRUNK, to_world
 from vmc_lib.arm.model import geometry
 from vmc_lib.motor.templates import START
 from vmc_lib.show.arm import arm_scene
-from vmc_lib.show.figures import COLOURS, photo_view
+from vmc_lib.show.figures import photo_view
+from vmc_lib.show.palette import COLOURS
 
 TICKS = range(0, 1001, 100)  # ms: the moments of a movement that are shown
 SEEING = ("a photo", "candidates", "regions", "after suppression", "names")

@@ -4,7 +4,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from vmc_lib.arm.model import MUSCLES
-from vmc_lib.show.figures import COLOURS
+from vmc_lib.show.palette import COLOURS
 
 # What straightens the elbow is blue; what bends it is orange, or red where it spans no shoulder.
 STYLES = {

@@ -5,7 +5,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from vmc_lib.photos import TABLE
-from vmc_lib.show.figures import COLOURS
+from vmc_lib.show.palette import COLOURS
 
 
 def contact_sheet(shots, columns=8, size=(120, 80)):

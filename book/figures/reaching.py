@@ -5,7 +5,7 @@ Every function draws on matplotlib axes. Positions are in the plane, in metres.
 
 import numpy as np
 
-from vmc_lib.show.figures import COLOURS
+from vmc_lib.show.palette import COLOURS
 from vmc_lib.show.plane import plane
 
 

@@ -12,7 +12,8 @@ from IPython.display import display
 from vmc_lib.boxes import iou
 from vmc_lib.photos import read_image
 from vmc_lib.show.demo import figure
-from vmc_lib.show.figures import COLOURS, photo_view
+from vmc_lib.show.figures import photo_view
+from vmc_lib.show.palette import COLOURS
 from vmc_lib.show.render_mode import render_mode
 
 

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from vmc_lib.show import figures, photo_view
-from vmc_lib.show.figures import COLOURS, ON_PHOTO, pictures
+from vmc_lib.show.figures import pictures
+from vmc_lib.show.palette import COLOURS, ON_PHOTO
 
 
 def pixels(markup):

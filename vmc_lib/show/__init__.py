@@ -6,7 +6,8 @@ The arm's own scenes are in `vmc_lib.show.arm`, and the arm that runs in the pag
 
 from vmc_lib.show.controls import Choice, Pad, Slider, Switch
 from vmc_lib.show.demo import explore, figure
-from vmc_lib.show.figures import COLOURS, markdown, photo_view
+from vmc_lib.show.figures import markdown, photo_view, table
+from vmc_lib.show.palette import COLOURS
 from vmc_lib.show.questions import check, quiz
 from vmc_lib.show.scene import Scene
 
@@ -23,4 +24,5 @@ __all__ = [
     "markdown",
     "photo_view",
     "quiz",
+    "table",
 ]

@@ -14,7 +14,7 @@ from vmc_lib.arm.model import MUSCLES, geometry
 from vmc_lib.arm.muscle import force
 from vmc_lib.arm.simulate import fibres
 from vmc_lib.photos import TABLE
-from vmc_lib.show.figures import COLOURS
+from vmc_lib.show.palette import COLOURS
 from vmc_lib.show.scene import Scene
 
 POINTS = 12  # no muscle's path has more

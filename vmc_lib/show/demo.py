@@ -14,11 +14,13 @@ import json
 import math
 
 import ipywidgets as widgets
+import matplotlib.pyplot as plt
 import numpy as np
 from IPython.display import HTML, display
 
 from vmc_lib.show.controls import as_control
 from vmc_lib.show.figures import framed, pictures, side_by_side
+from vmc_lib.show.palette import STYLE
 from vmc_lib.show.render_mode import render_mode
 from vmc_lib.show.scene import Scene, SceneView
 
@@ -54,8 +56,8 @@ def explore(draw, caption, alt, **controls):
 
 
 def figure(picture, caption, alt):
-    """Show a picture that does not move, in the same frame as the demos."""
-    explore(lambda: picture, caption, alt)
+    """Show a picture that does not move, or what a function without arguments draws."""
+    explore(picture if callable(picture) else lambda: picture, caption, alt)
 
 
 def _evaluate(draw, describe, controls, name):
@@ -63,7 +65,7 @@ def _evaluate(draw, describe, controls, name):
     states = []
     for values in itertools.product(*(control.values for control in controls.values())):
         chosen = dict(zip(controls, values, strict=True))
-        parts = pictures(draw(**chosen), name)
+        parts = _drawn(draw, chosen, name)
         states.append((describe(**chosen), parts))
     kinds = {tuple(isinstance(part, Scene) for part in parts) for _, parts in states}
     if len(kinds) > 1:
@@ -75,6 +77,11 @@ def _evaluate(draw, describe, controls, name):
         if (grid == grid.take([0], axis)).all():
             raise ValueError(f"the control {control.label!r} never changes the picture")
     return states
+
+
+def _drawn(draw, values, name):
+    with plt.rc_context(STYLE):
+        return pictures(draw(**values), name)
 
 
 def _lines(part):
@@ -121,7 +128,7 @@ def _live(draw, caption, describe, controls):
 
     def show(_=None):
         values = {key: controls[key].read(sources) for key, (sources, _) in made.items()}
-        parts = pictures(draw(**values), name)
+        parts = _drawn(draw, values, name)
         if not views:
             views.extend(SceneView() if isinstance(p, Scene) else widgets.HTML() for p in parts)
         for view, part in zip(views, parts, strict=True):

@@ -8,7 +8,7 @@ from vmc_lib.arm.dynamics import hand
 from vmc_lib.arm.model import LIMITS, geometry
 from vmc_lib.motor.templates import REACH, START
 from vmc_lib.photos import TABLE
-from vmc_lib.show.figures import COLOURS
+from vmc_lib.show.palette import COLOURS
 
 ALL = ((-0.02, 0.26), (-0.51, -0.29))  # the plane before the trunk, from (x, y) low to high
 

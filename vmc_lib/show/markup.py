@@ -1,0 +1,104 @@
+"""Plots and images as markup that carries everything it needs: SVG with text, `<img>` with data."""
+
+import base64
+import io
+import re
+from functools import lru_cache
+
+import cv2
+import matplotlib.pyplot as plt
+import numpy as np
+
+from vmc_lib.show.palette import COLOURS, STYLE
+
+_NAMES = {value: name for name, value in COLOURS.items()} | {"#000000": "ink", "#ffffff": "paper"}
+_SVG_ROOT = 'font-family="DejaVu Sans, Verdana, sans-serif" stroke-linejoin="round"'
+
+
+def svg(fig, salt):
+    """The figure as SVG, its text as text and its colours as CSS variables; closes the figure."""
+    text = io.StringIO()
+    with plt.rc_context(STYLE | {"svg.hashsalt": salt}):
+        fig.savefig(text, format="svg", metadata={"Date": None})
+    plt.close(fig)  # or the notebook would show it a second time
+    svg = text.getvalue()
+    least = 0.62 * 72 * fig.get_figwidth()  # on a phone a wide plot scrolls, its words stay legible
+    root = f'<svg {_SVG_ROOT} {_axes(fig)} style="--least: {least:.0f}pt" '
+    svg = svg[svg.index("<svg ") :].replace("<svg ", root, 1)
+    svg = re.sub(r"<metadata>.*?</metadata>|<!--.*?-->|<style.*?</style>", "", svg, flags=re.S)
+    used = set(re.findall(r"#([\w.-]+)", svg))
+    svg = re.sub(r' id="([^"]*)"', lambda name: name[0] if name[1] in used else "", svg)
+    svg = re.sub(r"font-family: [^;\"]+(; )?", "", svg)
+    svg = re.sub(r' d="[^"]*"', lambda d: re.sub(r"(\.\d\d)\d+", r"\1", d[0]), svg)
+    svg = re.sub(r"#[0-9a-f]{6}\b", lambda colour: _variable(colour[0]), svg)
+    return _stackable(re.sub(r"\n\s*", "\n", svg).strip(), fig, f"{salt}-panels")
+
+
+def _axes(fig):
+    """Where the first axes lie and what they measure, for a `Pad`: x, then y from bottom to top."""
+    if not fig.axes:
+        return ""
+    box = fig.axes[0].get_position()
+    numbers = (
+        *fig.axes[0].get_xlim(),
+        *fig.axes[0].get_ylim(),
+        box.x0,
+        box.x1,
+        1 - box.y0,
+        1 - box.y1,
+    )
+    return f'data-axes="{" ".join(f"{n:.5g}" for n in numbers)}"'
+
+
+def _stackable(svg, fig, name):
+    """A plot of two panels side by side, so that a phone shows the second below the first.
+
+    The second is the same drawing once more, by reference; the style sheet crops both at the split.
+    """
+    columns = {tuple(np.round(ax.get_position().intervalx, 3)) for ax in fig.axes}
+    if len(columns) != 2 or fig.legends or fig.texts:
+        return svg
+    split = min(columns)[1] + 0.08 / fig.get_figwidth()  # in the gap stand the second's numbers
+    root, drawing = svg.split(">", 1)
+    drawing = drawing.removesuffix("</svg>")
+    view = re.search(r'viewBox="[^"]*"', root)[0]
+    return (
+        f'<div class="vmc-panels" style="--split: {split:.3f}">\n'
+        f'<div>{root}><g id="{name}">{drawing}</g></svg></div>\n'
+        f'<div><svg {_SVG_ROOT} {view}><use href="#{name}"/></svg></div></div>'
+    )
+
+
+def _variable(colour):
+    name = _NAMES.get(colour)
+    return f"var(--vmc-{name}, {colour})" if name else colour
+
+
+def image_tag(image):
+    """An image as an `<img>`: small ones enlarged with sharp pixels, as one must see each."""
+    if image.dtype != np.uint8:
+        image = np.uint8(np.clip(np.nan_to_num(image), 0, 1) * 255 + 0.5)
+    if image.ndim not in (2, 3) or (image.ndim == 3 and image.shape[2] != 3) or 0 in image.shape:
+        raise ValueError(f"cannot show an array of shape {image.shape}: give (h, w) or (h, w, 3)")
+    height, width = image.shape[:2]
+    zoom = max(1, round(260 / width))
+    return (
+        f'<img class="vmc-image" alt="" width="{zoom * width}" height="{zoom * height}" '
+        f'src="{data_uri(image)}">'
+    )
+
+
+def data_uri(image):
+    """An image (height, width) or (height, width, 3) of uint8 as a `data:` address."""
+    return _encode(image.tobytes(), image.shape)
+
+
+@lru_cache(maxsize=64)  # the states of a demo often share a photo
+def _encode(pixels, shape):
+    """PNG for small or flat pictures, JPEG for photographs: whichever is shorter."""
+    image = np.frombuffer(pixels, np.uint8).reshape(shape)
+    bgr = image if image.ndim == 2 else image[..., ::-1]
+    png = cv2.imencode(".png", bgr)[1].tobytes()
+    jpeg = cv2.imencode(".jpg", bgr, [cv2.IMWRITE_JPEG_QUALITY, 85])[1].tobytes()
+    kind, data = ("png", png) if len(png) < 12_000 or len(png) < len(jpeg) else ("jpeg", jpeg)
+    return f"data:image/{kind};base64,{base64.b64encode(data).decode()}"

@@ -1,0 +1,55 @@
+"""Named colours, on the page and on photos, and the style of every plot.
+
+In the page each name is a CSS variable, so that light and dark pages both read well.
+"""
+
+import matplotlib.pyplot as plt
+
+COLOURS = {
+    "blue": "#1f63b4",
+    "orange": "#b3560a",
+    "green": "#1b7a4a",
+    "red": "#c22f3a",
+    "purple": "#7a4cb8",
+    "grey": "#67707e",
+    "ink": "#1c2430",
+    "line": "#d3d8df",
+    "paper": "#fefefe",
+}
+# On a photo the page's theme does not matter: bright strokes with a dark edge read everywhere.
+ON_PHOTO = {
+    "blue": "#6cb6ff",
+    "orange": "#ffa94d",
+    "green": "#69e09a",
+    "red": "#ff7b7b",
+    "purple": "#d0aaff",
+    "grey": "#c8ced6",
+    "ink": "#ffffff",
+}
+EDGE = 'stroke="#10151c" stroke-width="6" stroke-linejoin="round"'
+
+# One look for every plot of the book: what `explore` and `figure` draw, they draw with this.
+STYLE = {
+    "figure.figsize": (5.5, 3.2),
+    "figure.constrained_layout.use": True,
+    "font.size": 10,
+    "axes.titlesize": 10,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "axes.prop_cycle": plt.cycler(
+        color=[COLOURS[c] for c in ("blue", "orange", "green", "red", "purple", "grey")]
+    ),
+    "grid.color": COLOURS["line"],
+    "legend.frameon": False,
+    "lines.linewidth": 1.8,
+    "image.cmap": "gray",
+    "svg.fonttype": "none",
+    **{f"{part}.facecolor": "none" for part in ("figure", "axes", "savefig")},
+    **{
+        part: COLOURS["ink"]
+        for part in ("text.color", "axes.edgecolor", "axes.labelcolor", "xtick.color")
+    },
+    "ytick.color": COLOURS["ink"],
+}
