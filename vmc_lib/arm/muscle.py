@@ -18,16 +18,14 @@ import numpy as np
 
 TAU_ACTIVATION = 0.010  # s: calcium floods in quickly …
 TAU_DEACTIVATION = 0.040  # s: … and is pumped back slowly
-FALL = 1 / TAU_DEACTIVATION  # 1/s
-HASTE = 1 / TAU_ACTIVATION - FALL  # 1/s: by how much full excitation speeds the rise
 MAX_VELOCITY = 2.5  # optimal fibre lengths per second
 VELOCITY_RANGE = 1 - 11**0.5, 0.9
 
 
 def activation_rate(excitation, activation):
     """Eq. 9: how fast activation follows excitation, both in [0, 1]; per second, same shape."""
-    gap = excitation - activation
-    return gap * (FALL + HASTE * excitation * (gap >= 0))
+    gap, (fall, haste) = excitation - activation, _rates()
+    return gap * (fall + haste * excitation * (gap >= 0))
 
 
 def excitation_for(activation, rate):
@@ -36,9 +34,15 @@ def excitation_for(activation, rate):
     Rising, it is a quadratic in the excitation; falling, it is linear. Outside [0, 1] no
     excitation can do it: the caller decides.
     """
-    half = (FALL - HASTE * activation) / 2
-    root = np.sqrt(half**2 + HASTE * np.maximum(FALL * activation + rate, 0))
-    return np.where(rate >= 0, (root - half) / HASTE, activation + rate / FALL)
+    fall, haste = _rates()
+    half = (fall - haste * activation) / 2
+    root = np.sqrt(half**2 + haste * np.maximum(fall * activation + rate, 0))
+    return np.where(rate >= 0, (root - half) / haste, activation + rate / fall)
+
+
+def _rates():
+    """How fast activation falls, and how much full excitation speeds its rise: 1/s."""
+    return 1 / TAU_DEACTIVATION, 1 / TAU_ACTIVATION - 1 / TAU_DEACTIVATION
 
 
 def force_length(length):
