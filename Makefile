@@ -46,7 +46,8 @@ bench: $(READY) .bench/.ready
 	@touch $@
 
 $(BUILT): $(READY) $(INPUTS)
-	$(BUILD)
+	@rm -f _build/.failed
+	$(BUILD) || { cat _build/.failed; exit 1; }
 	@touch $@
 
 $(READY): requirements.txt constraints.txt pyproject.toml

@@ -8,7 +8,6 @@ def setup(app):
     os.environ["VMC_RENDER_MODE"] = "book"  # kernels inherit it: demos become self-contained pages
     app.set_html_assets_policy("always")  # equations may come from a cell's output, unannounced
     app.connect("config-inited", launch)
-    app.connect("env-get-outdated", every_page)
     app.connect("html-page-context", mend, priority=900)
     app.connect("autodoc-process-docstring", code_marks)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
@@ -23,11 +22,6 @@ def launch(app, config):
         options["repository_url"] = "{GITHUB_SERVER_URL}/{GITHUB_REPOSITORY}".format_map(told)
     if not options.get("repository_url"):
         options.pop("launch_buttons", None)
-
-
-def every_page(app, env, added, changed, removed):
-    """Run every chapter again: Sphinx does not see that the library under it changed."""
-    return list(env.found_docs)
 
 
 def mend(app, pagename, templatename, context, doctree):

@@ -1,0 +1,103 @@
+"""Chapters are executed side by side, and only those that changed or whose library did.
+
+The outputs wait in a cache whose folder is named after everything that a chapter can import: when
+one line of that changes, the folder is another one, and empty.
+"""
+
+import hashlib
+import shutil
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from pathlib import Path
+from time import monotonic
+
+import nbformat
+from joblib import cpu_count
+from jupyter_cache import get_cache
+from jupyter_cache.base import CacheBundleIn
+from jupyter_cache.executors.utils import single_nb_execution
+from sphinx.errors import ExtensionError
+from sphinx.util import logging
+
+READ_BY_CHAPTERS = ("vmc_lib", "arm_in_page", "reproduce", "render", "book/figures", "tests")
+say = logging.getLogger(__name__).info
+
+
+def setup(app):
+    app.connect("config-inited", name_cache)
+    app.connect("env-before-read-docs", execute_what_changed)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
+
+
+def digest(root):
+    """A name for the state of all files under `root` that a chapter can import or read."""
+    files = (f for top in READ_BY_CHAPTERS for f in sorted((root / top).rglob("*")) if f.is_file())
+    summed = hashlib.sha256()
+    for file in (root / "constraints.txt", *files):
+        if file.exists() and "__pycache__" not in file.parts:
+            summed.update(f"{file.relative_to(root)}\n".encode() + file.read_bytes())
+    return summed.hexdigest()[:16]
+
+
+def name_cache(app, config):
+    """Point MyST-NB to the cache of this state of the library; those of other states go."""
+    caches = Path(app.outdir).parent / ".executed"
+    here = caches / digest(Path(app.srcdir))
+    for other in set(caches.glob("*")) - {here}:
+        shutil.rmtree(other)
+    config.nb_execution_cache_path = str(here)
+
+
+def execute_what_changed(app, env, names):
+    """Execute the chapters that the cache does not have, on the cores there are."""
+    cache = get_cache(app.config.nb_execution_cache_path)
+    pages = (Path(env.doc2path(name)) for name in env.found_docs)
+    missing = [page for page in sorted(pages) if page.suffix == ".ipynb" and not known(cache, page)]
+    if not missing:
+        return
+    start, failed = monotonic(), []
+    with ProcessPoolExecutor(min(cpu_count(), len(missing))) as pool:
+        jobs = {
+            pool.submit(execute, page, app.config.nb_execution_timeout): page for page in missing
+        }
+        for done, job in enumerate(as_completed(jobs), start=1):
+            page, (notebook, seconds, error) = jobs[job], job.result()
+            left = (monotonic() - start) / done * (len(missing) - done)
+            say(
+                f"executed {page.stem} in {seconds:.0f} s: {done}/{len(missing)}, {left:.0f} s left"
+            )
+            if error:
+                failed.append(f"{page.name}, {error}")
+            else:
+                bundle = CacheBundleIn(notebook, page, data={"execution_seconds": seconds})
+                cache.cache_notebook_bundle(bundle, check_validity=False, overwrite=True)
+    if failed:
+        told = "\n".join(["These chapters failed:", *failed, REMEDY])
+        (Path(app.outdir).parent / ".failed").write_text(f"{told}\n")  # which make shows last
+        raise ExtensionError(told)
+
+
+REMEDY = "Open them with `make lab`, run them to that cell, and mend it or what it imports."
+
+
+def known(cache, page):
+    try:
+        return cache.match_cache_notebook(nbformat.read(page, as_version=4))
+    except KeyError:
+        return None
+
+
+def execute(page, timeout):
+    """The executed notebook, its seconds, and where and how it failed, or None."""
+    notebook = nbformat.read(page, as_version=4)
+    result = single_nb_execution(notebook, cwd=page.parent, timeout=timeout, allow_errors=False)
+    return notebook, result.time, result.err and where(notebook, result.err)
+
+
+def where(notebook, error):
+    """The cell that failed, by its first line, and what it said."""
+    for cell in notebook.cells:
+        for output in cell.get("outputs", []):
+            if output.output_type == "error":
+                first = cell.source.splitlines()[0]
+                return f"cell {cell.id} (`{first}`): {output.ename}: {output.evalue}"
+    return f"{type(error).__name__}: {error}"
