@@ -57,6 +57,13 @@ def test_a_quiz_that_cannot_be_answered_is_refused(answers, right):
         ((190, 189.9, 95), (190, 190, 95), 0.2),
         (np.eye(2), [[1, 0], [0, 1]], 1e-9),
         ("same", "same", 0),
+        (" Same", "same", 0),
+        ("1/9", 1 / 9, 1e-6),
+        ("11,5", 11.5, 0),
+        ("11.5 mm", 11.5, 0),
+        ("−11,5°", -11.5, 0),
+        ("80 %", 0.8, 1e-9),
+        ("80%", 80, 0),
         (True, True, 0),
     ],
 )
@@ -75,6 +82,10 @@ WRONG = [
     ([1, 2], 1, 5),
     (np.zeros(3), [1, 0.1, 0], 1e-3),
     ("same", "different", 0),
+    ("11.5", 12, 0.1),
+    ("1/0", 1, 1),
+    ([1, [2, 3]], (1, 2), 5),
+    ("11.5", "same", 0),
 ]
 
 
@@ -139,7 +150,12 @@ def test_a_quiz_is_answered_from_the_keyboard(open_questions):
     ("expected", "tries"),
     [
         (-11.5, {"": "Not answered", "11": "Not yet", "−11.55": "Right", "x": "Not yet"}),
-        ((190, 95), {"190": "Not yet", "190, 95": "Right", "95 190": "Not yet"}),
+        ((190, 95), {"190": "Not yet", "190, 95": "Right", "190,95": "Right", "95 190": "Not yet"}),
+        ((0.5, 8), {"0,5 8": "Right", "1/2; 8": "Right", "0.5": "Not yet"}),
+        (
+            0.8,
+            {"4/5": "Right", "80 %": "Right", "0,8 m": "Right", "8": "Not yet", "1/0": "Not yet"},
+        ),
         ("same", {"different": "Not yet", "Same": "Right"}),
     ],
 )

@@ -6,6 +6,7 @@ page has no kernel to run the reader's line, `check` offers a field to type the 
 
 import html
 import json
+import re
 
 import numpy as np
 from IPython.display import HTML, display
@@ -15,6 +16,8 @@ from vmc_lib.show.render_mode import render_mode
 
 # JupyterLab would take Enter as its own, and the answer would stay closed.
 _OWN_KEYS = 'onkeydown="event.stopPropagation()"'
+# A number, perhaps over another, and perhaps a unit or a per cent sign
+_NUMBER = re.compile(r"([-+]?\d*[.,]?\d+)\s*(?:/\s*(\d*[.,]?\d+))?\s*(%|[^\W\d]*|°)")
 NOT_YET, RIGHT, WRONG = "Not answered yet.", "✓ Right.", "✗ Not yet."
 
 
@@ -56,16 +59,34 @@ def check(answer, expected, tolerance=1e-6, hint=""):
         return display(HTML(_verdict(RIGHT)))
     if render_mode() == "test":
         raise AssertionError(f"check: {answer!r} is not {expected!r} within {tolerance}")
-    display(HTML(_verdict(f"{WRONG} You have {html.escape(str(answer))}. {inline(hint)}")))
+    display(HTML(_verdict(f"{WRONG} You have {html.escape(repr(answer))}. {inline(hint)}")))
 
 
 def _agree(answer, expected, tolerance):
-    answer, expected = np.asarray(answer), np.asarray(expected)
-    if answer.shape != expected.shape:
+    if isinstance(expected, str):
+        return isinstance(answer, str) and answer.strip().lower() == expected.lower()
+    if isinstance(answer, str):
+        return np.ndim(expected) == 0 and any(
+            abs(value - expected) <= tolerance for value in readings(answer)
+        )
+    try:
+        answer, expected = np.asarray(answer, float), np.asarray(expected, float)
+    except (TypeError, ValueError):  # words among numbers, or rows of unequal length
         return False
-    if {answer.dtype.kind, expected.dtype.kind} <= set("biuf"):
-        return np.allclose(answer, expected, rtol=0, atol=tolerance)
-    return (answer == expected).all()
+    return answer.shape == expected.shape and np.allclose(answer, expected, rtol=0, atol=tolerance)
+
+
+def readings(text):
+    """The numbers that a typed answer may mean: "1/9", "11,5", "11.5 mm"; of "80 %", 80 and 0.8.
+
+    None where it is no number. questions.js reads what is typed into a page by the same rule.
+    """
+    found = _NUMBER.fullmatch(text.strip().replace("−", "-"))
+    if not found:
+        return []
+    over, under = (float(part.replace(",", ".")) for part in (found[1], found[2] or "1"))
+    value = over / under if under else np.nan
+    return [value, value / 100] if found[3] == "%" else [value]
 
 
 def _verdict(text):

@@ -1,16 +1,28 @@
-/* Checks what the reader types into a page that has no kernel (vmc_lib.show.check). */
+/* Checks what the reader types into a page that has no kernel (vmc_lib.show.check, by its rule). */
+const vmcReadings = (text) => {
+  const number = /^([-+]?\d*[.,]?\d+)\s*(?:\/\s*(\d*[.,]?\d+))?\s*(%|\p{L}*|°)$/u;
+  const found = text.trim().replace("−", "-").match(number);
+  if (!found) return [];
+  const [over, under] = [found[1], found[2] ?? "1"].map((part) => Number(part.replace(",", ".")));
+  return found[3] === "%" ? [over / under, over / under / 100] : [over / under];
+};
+
 addEventListener("submit", (event) => {
   const form = event.target;
   if (!form.matches("form.vmc-check")) return;
   event.preventDefault();
   const { expected, tolerance } = JSON.parse(form.dataset.check);
-  const typed = form.querySelector("input").value.replace("−", "-").split(/[\s,;]+/).filter(Boolean);
-  const agrees = (text, wanted) =>
+  const text = form.querySelector("input").value.trim();
+  const several = (gap) => text.split(gap).filter((part) => /\d/.test(part));
+  const apart = several(/,?\s+|;/); // "190, 95" and "0,5 0,8"; else a comma parts
+  const typed =
+    expected.length === 1 ? [text] : apart.length === expected.length ? apart : several(/[\s;,]+/);
+  const agrees = (part, wanted) =>
     typeof wanted === "number"
-      ? Math.abs(Number(text) - wanted) <= tolerance
-      : text.toLowerCase() === wanted.toLowerCase();
+      ? vmcReadings(part).some((value) => Math.abs(value - wanted) <= tolerance)
+      : part.toLowerCase() === wanted.toLowerCase();
   const right = typed.length === expected.length && typed.every((t, i) => agrees(t, expected[i]));
-  const verdict = typed.length ? (right ? "right" : "wrong") : "empty";
+  const verdict = text ? (right ? "right" : "wrong") : "empty";
   form.querySelector("[role=status]").innerHTML = JSON.parse(form.dataset.words)[verdict];
   window.MathJax?.typesetPromise?.([form]);
 });
