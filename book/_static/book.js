@@ -8,3 +8,28 @@
   addEventListener("load", () => window.MathJax?.startup?.promise.then(reach));
   addEventListener("resize", reach);
 })();
+
+/* A page shows the model's own code; what imports, draws and tabulates is folded. One switch in the
+   header unfolds it all, and is remembered where the browser remembers. */
+addEventListener("DOMContentLoaded", () => {
+  const folded = document.querySelectorAll("details.hide.above-input");
+  const header = document.querySelector(".article-header-buttons");
+  if (!folded.length || !header) return;
+  const memory = { get: () => localStorage.vmcCode, set: (text) => (localStorage.vmcCode = text) };
+  const tried = (act) => { try { return act(); } catch { return null; } };
+  const button = document.createElement("button");
+  button.className = "btn vmc-code";
+  const show = (all) => {
+    button.textContent = `Code: ${all ? "all" : "model"}`;
+    button.setAttribute("aria-pressed", all);
+    folded.forEach((cell) => (cell.open = all));
+  };
+  button.title = "Show the model's code alone, or all code of the page";
+  button.addEventListener("click", () => {
+    const all = button.getAttribute("aria-pressed") !== "true";
+    show(all);
+    tried(() => memory.set(all ? "all" : "model"));
+  });
+  show(tried(memory.get) === "all");
+  header.prepend(button);
+});
