@@ -32,7 +32,7 @@ STEPS = """async (count) => {
 def in_page(count):
     """Seconds from the click to a moving arm, drawn frames a second, seconds for `count` steps."""
     with sync_playwright() as playwright:
-        chromium = playwright.chromium.launch(executable_path=browser.find(), args=browser.FLAGS)
+        chromium = playwright.chromium.launch(**browser.options(browser.find()))
         page = chromium.new_context(offline=True).new_page()
         page.goto(PAGE.as_uri())
         arm = page.locator(".vmc-live")

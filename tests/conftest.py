@@ -22,7 +22,7 @@ def chromium():
     if not path:
         (pytest.fail if os.environ.get("CI") else pytest.skip)(browser.MISSING)
     with sync_playwright() as playwright:
-        chromium = playwright.chromium.launch(executable_path=path, args=browser.FLAGS)
+        chromium = playwright.chromium.launch(**browser.options(path))
         yield chromium
         chromium.close()
 

@@ -36,6 +36,13 @@ def test_a_file_that_is_no_photo_is_named(content):
     assert where.drawn(str, upload(content)).startswith("<p>mine.png is not an image")
 
 
+def test_a_file_name_is_shown_and_never_run():
+    name = "<img src=x onerror=alert(1)>.jpg"
+    shown = where.drawn(str, upload(b"no picture", name))
+    assert shown.startswith("<p>&lt;img src=x onerror=alert(1)&gt;.jpg is not an image")
+    assert "<" not in shown.removeprefix("<p>").removesuffix("</p>")
+
+
 def test_the_button_is_there_only_where_a_kernel_answers(monkeypatch):
     shown, figures = [], []
     monkeypatch.setattr(where, "display", shown.append)

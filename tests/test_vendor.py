@@ -38,15 +38,36 @@ def test_a_module_and_its_wasm_become_one_classic_script():
     assert gzip.decompress(base64.b64decode(packed)) == b"\0asm"
 
 
-def test_a_changed_file_is_noticed(monkeypatch, tmp_path):
+@pytest.fixture
+def elsewhere(monkeypatch, tmp_path):
+    """A folder whose manifest names two files, a.js and b.js; a.js lies there, changed."""
     file = tmp_path / "book/_static/vendor/a.js"
     file.parent.mkdir(parents=True)
     file.write_text("changed")
-    (file.parent / "stray.js").write_text("")
     manifest = file.parent / "manifest.json"
-    entries = [{"file": f"book/_static/vendor/{name}", "sha256": "0"} for name in ("a.js", "b.js")]
+    entries = [
+        {"file": f"book/_static/vendor/{name}", "origin": f"npm:{name}", "sha256": "0"}
+        for name in ("a.js", "b.js")
+    ]
     manifest.write_text(json.dumps(entries))
     monkeypatch.setattr(vendor, "ROOT", tmp_path)
     monkeypatch.setattr(vendor, "MANIFEST", manifest)
+    return file.parent
+
+
+def test_a_changed_file_is_noticed(elsewhere):
+    (elsewhere / "stray.js").write_text("")
     said = " ".join(vendor.problems())
     assert "a.js is not what" in said and "b.js is missing" in said and "stray.js is not in" in said
+
+
+def test_what_is_fetched_is_what_the_manifest_says_or_is_refused(monkeypatch, elsewhere):
+    monkeypatch.setattr(vendor, "fetch", lambda origin: b"another")
+    before = vendor.MANIFEST.read_bytes()
+    with pytest.raises(ValueError, match=r"npm:a\.js has the checksum .* --update"):
+        vendor.refresh()
+    assert (elsewhere / "a.js").read_text() == "changed" and vendor.MANIFEST.read_bytes() == before
+    vendor.refresh(update=True)
+    assert (elsewhere / "a.js").read_bytes() == b"another" and vendor.problems() == []
+    vendor.refresh()
+    assert vendor.problems() == []

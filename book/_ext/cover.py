@@ -14,7 +14,7 @@ PAGE = ROOT / "_build/html/book/01_loop.html"
 STEP = 15  # the end of the first reach
 
 with sync_playwright() as playwright:
-    chromium = playwright.chromium.launch(executable_path=browser.find(), args=browser.FLAGS)
+    chromium = playwright.chromium.launch(**browser.options(browser.find()))
     page = chromium.new_page(viewport={"width": 1400, "height": 1000}, device_scale_factor=1.5)
     page.goto(PAGE.as_uri())
     demo = page.locator(".vmc-demo").first

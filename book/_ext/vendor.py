@@ -1,7 +1,8 @@
 """Third-party scripts that the book ships, each pinned by version and checksum.
 
-python book/_ext/vendor.py            fetch them again (npm, and the installed meshcat package)
-python book/_ext/vendor.py --check    compare the files here with the manifest
+python book/_ext/vendor.py             fetch them again (npm, and the installed meshcat package)
+python book/_ext/vendor.py --update    the same, where the manifest names new versions
+python book/_ext/vendor.py --check     compare the files here with the manifest
 """
 
 import base64
@@ -67,19 +68,29 @@ def problems():
     return wrong
 
 
-def refresh():
-    """Fetch every file anew and write its checksum into the manifest."""
+def refresh(update=False):
+    """Fetch every file anew; with `update`, write the checksums of what came into the manifest.
+
+    Raises ValueError, and leaves the file as it is, where what came is not what the manifest says.
+    """
     entries = json.loads(MANIFEST.read_text())
     for entry in entries:
         data = fetch(entry["origin"])
+        summed = hashlib.sha256(data).hexdigest()
+        if update:
+            entry["sha256"] = summed
+        elif summed != entry["sha256"]:
+            raise ValueError(
+                f"{entry['origin']} has the checksum {summed}, the manifest wants "
+                f"{entry['sha256']}: look at it, and if it is right, accept it with --update"
+            )
         file = ROOT / entry["file"]
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_bytes(data)
-        entry["sha256"] = hashlib.sha256(data).hexdigest()
     MANIFEST.write_text(json.dumps(entries, indent=2) + "\n")
 
 
 if __name__ == "__main__":
     if "--check" not in sys.argv:
-        refresh()
+        refresh(update="--update" in sys.argv)
     sys.exit("\n".join(problems()) or 0)

@@ -1,6 +1,7 @@
-"""Pictures of regions and boxes, for the chapters on the dorsal pathway."""
+"""Pictures of segments and boxes, for the chapters on the dorsal pathway."""
 
 import os
+from html import escape
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -34,7 +35,7 @@ def nearest(truth, boxes, colour="green"):
     return marks
 
 
-def judged(image, boxes, truth, good=0.8):
+def right_and_wrong(image, boxes, truth, good=0.8):
     """The image with its boxes (n, 4): green where they hold an object, red where they do not."""
     right = iou(boxes, list(truth.values())).max(1, initial=0) >= good
     return photo_view(
@@ -97,4 +98,4 @@ def drawn(draw, uploads):
         try:
             return draw(read_image(path))
         except ValueError as error:
-            return f"<p>{str(error).replace(folder + os.sep, '')}</p>"
+            return f"<p>{escape(str(error).replace(folder + os.sep, ''))}</p>"

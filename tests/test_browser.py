@@ -1,0 +1,20 @@
+"""The browser keeps its sandbox wherever it starts in one."""
+
+import pytest
+
+from tests import browser
+
+
+@pytest.mark.parametrize("refusal", [0, 1])
+def test_the_sandbox_is_left_only_where_the_browser_refuses_it(tmp_path, refusal):
+    program = tmp_path / "chromium"
+    program.write_text(f"#!/bin/sh\nexit {refusal}\n")
+    program.chmod(0o755)
+    options = browser.options(str(program))
+    assert options["chromium_sandbox"] == (refusal == 0)
+    assert "--no-sandbox" not in options["args"]
+
+
+@pytest.mark.browser
+def test_the_browser_starts_as_it_is_told(chromium):
+    assert chromium.is_connected()
