@@ -48,13 +48,13 @@ def test_the_iou_predictor_tells_a_fit_from_a_near_miss(detector):
     assert np.mean(better) > 0.9
 
 
-def test_a_bare_photo_teaches_the_iou_predictor_misfits(detector, monkeypatch):
+def test_a_bare_photo_teaches_the_iou_predictor_misfits(detector):
     """Candidates beside no object at all are counter-examples, like others far from one."""
-    monkeypatch.setattr(box_regression, "PREDICTION_BOXES", 600)
-    seen = training_images(photos.load("rig", "train")[:3], replace(IMPROVED, mirror=False))
+    quick = replace(IMPROVED, mirror=False, boxes=300)
+    seen = training_images(photos.load("rig", "train")[:3], quick)
     bare = replace(seen[0], truth=np.empty((0, 4)))
     iou_predictor = box_regression.fit_iou_predictor(
-        [*seen, bare], IMPROVED, detector.svm, detector.regressions, np.random.default_rng(0)
+        [*seen, bare], quick, detector.svm, detector.regressions, np.random.default_rng(0)
     )
     assert iou_predictor.axes.shape == (800, box_regression.DIRECTIONS)
     shown = (IMPROVED.describe(seen[0].pixels, boxes) for boxes in (bare.candidates, seen[0].truth))

@@ -7,7 +7,6 @@ from hypothesis import strategies as st
 
 from vmc_lib import photos
 from vmc_lib.boxes import as_boxes, iou
-from vmc_lib.where import box_regression
 from vmc_lib.where.detector import ObjectDetector
 from vmc_lib.where.recipes import IMPROVED, RECIPES
 
@@ -28,10 +27,9 @@ def test_training_again_gives_the_finder_that_ships(name):
     assert trained.svm.bias == pytest.approx(shipped.svm.bias, abs=1e-3)
 
 
-def test_the_same_seed_learns_the_same(monkeypatch):
-    for boxes in ("REGRESSION_BOXES", "PREDICTION_BOXES"):
-        monkeypatch.setattr(box_regression, boxes, 200)
-    few, small = photos.load("rig", "train")[:4], replace(IMPROVED, strategy="single")
+def test_the_same_seed_learns_the_same():
+    small = replace(IMPROVED, strategy="single", boxes=200)
+    few = photos.load("rig", "train")[:4]
     once, again, other = (
         ObjectDetector.fit(few, small, np.random.default_rng(seed)).parts() for seed in (1, 1, 2)
     )

@@ -1,8 +1,7 @@
 """Box regression and IoU prediction: how to correct a box, and how well it fits in the end.
 
 Both are ridge regressions on a few radial basis functions, learnt from true boxes that were
-jittered on purpose. The numbers were chosen on 120 validation photos a level (20 ship;
-CONTRIBUTING.md says how to render more).
+jittered on purpose. The numbers were chosen on 120 validation photos a level, of which 20 ship.
 """
 
 from dataclasses import dataclass, replace
@@ -15,12 +14,11 @@ from vmc_lib.boxes import corrected, corrections, iou
 
 DIRECTIONS = 100  # of the features, in which likeness to a centre is measured
 PENALTY = 0.1  # of the ridge regression
-REGRESSION_BOXES, REGRESSION_CENTRES = 12_800, 1000  # jittered boxes; those kept as centres
+REGRESSION_CENTRES, PREDICTION_CENTRES = 1000, 2000  # jittered boxes that are kept as centres
 
-PREDICTION_BOXES, PREDICTION_CENTRES = 25_600, 2000  # the same for the IoU predictor
 UNFIT, FIT = 0.5, 0.9  # IoU up to which a box is worth 0, and from which it is worth 1
 BACKGROUND = 0.3  # IoU under which a box shows no object
-JITTERS = (0.03, 0.08, 0.15)  # how far, in sides, the boxes stray that the predictor learns from
+JITTERS = (0.03, 0.08, 0.15)  # in sides: how far the predictor's boxes are jittered
 HARD_NEGATIVES, EASY_NEGATIVES = 25, 10  # further candidates a photo: mined ones, any ones
 MINED = 51_200  # candidates of all photos among which the hard ones are sought
 
@@ -71,7 +69,7 @@ def fit_box_regression(images, recipe, rng):
     Box regression (Girshick et al. 2014) on training images; the later the round, the nearer it
     expects the box to be.
     """
-    times, rounds = REGRESSION_BOXES // sum(len(image.truth) for image in images) + 1, []
+    times, rounds = recipe.boxes // sum(len(image.truth) for image in images) + 1, []
     for spread in recipe.regressions:
         x, goal = [], []
         for image in images:
@@ -93,12 +91,12 @@ def regress(recipe, regressions, pixels, boxes):
 def fit_iou_predictor(images, recipe, svm, regressions, rng):
     """An `RBFRidge` of how well a box fits its object: 0 up to IoU UNFIT, rising to 1 at FIT.
 
-    It learns from true boxes, jittered, the classifier's blind zone (0.5 to 0.8) included; from
-    candidates; and from hard negatives: those that show no object and yet pass the `svm`, wherever
-    the regressions then lead them.
+    It learns from true boxes, jittered, so that IoUs of 0.5 to 0.8, which the `svm` never learnt
+    from, are among them; from candidates; and from hard negatives: candidates that show no object
+    and yet pass the `svm`, as the regressions then correct them.
     """
     total = sum(len(image.truth) for image in images)
-    times, x, y = PREDICTION_BOXES // total // len(JITTERS) + 1, [], []
+    times, x, y = 2 * recipe.boxes // total // len(JITTERS) + 1, [], []
     for image in images:
         near = [image.jittered(times, spread, rng)[1] for spread in JITTERS]
         some = rng.permutation(image.candidates)[: MINED // len(images)]

@@ -1,4 +1,4 @@
-"""How to choose regions: the paper's recipe, and five that each add an idea to the one before."""
+"""How to detect objects: the paper's recipe, and five that each add an idea to the one before."""
 
 from dataclasses import dataclass, replace
 
@@ -9,7 +9,7 @@ FEATURES = {"pixels": raw_pixels, "context": pixels_in_context, "gradients": gra
 
 @dataclass(frozen=True)
 class Recipe:
-    """How to choose regions; the defaults are the paper's."""
+    """How to detect objects; the defaults are the paper's."""
 
     strategy: str = "single"  # of selective search
     features: str = "pixels"  # one of FEATURES
@@ -19,8 +19,9 @@ class Recipe:
     jittered: int = 0  # more examples of each object: its true box, jittered a little
     mirror: bool = False  # learn from the photos' mirror images too
     regressions: tuple = ()  # rounds of box regression; how far off, in sides, each expects a box
+    boxes: int = 12_800  # jittered ones that each round learns from, and the IoU predictor twice
     predicts_iou: bool = False  # what the regressed boxes score: their fit, as it is predicted
-    vote: bool = False  # boxes silenced by a better one still pull at its sides
+    vote: bool = False  # suppressed boxes vote for the sides of the box that suppressed them
     overlap: float = 0.3  # that non-maximum suppression allows
 
     def describe(self, image, boxes):
