@@ -5,6 +5,8 @@ import pytest
 
 from vmc_lib import loop, photos
 from vmc_lib.arm.kinematics import to_world
+from vmc_lib.arm.simulate import simulate
+from vmc_lib.motor import templates
 
 
 @pytest.fixture(scope="module")
@@ -51,3 +53,25 @@ def test_nothing_recognised_is_said(model, photo, sight):
 def test_a_place_out_of_reach_is_said(model):
     with pytest.raises(ValueError, match="reach"):
         loop.reach(model, np.array([2.0, -0.4, 0.1]))
+
+
+def test_a_reach_is_simulated_once_a_command(model, photo, monkeypatch):
+    """One planned movement and 21 tried off-line; the best of them need not be made again."""
+    made = []
+
+    def counted(excitations, *rest, **named):
+        made.append(np.prod(excitations.shape[:-2], dtype=int))
+        return simulate(excitations, *rest, **named)
+
+    monkeypatch.setattr(templates, "simulate", counted)
+    reach = loop.reach(model, photo.target)
+    assert sum(made) == 22
+    assert reach.plan.move() is reach.planned and sum(made) == 22
+    [best] = reach.plan.with_weights(loop.RULES["published"](reach.plan).best[None]).move()
+    np.testing.assert_allclose(best.q, reach.calibrated.q, atol=1e-5)
+
+
+def test_what_is_shared_cannot_be_written_to(model):
+    for array in (model.template_set.points, model.template_set.excitations):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 0

@@ -18,7 +18,10 @@ def arrays(name, folder=FOLDER):
     FileNotFoundError when nothing of that name ships.
     """
     with np.load(Path(folder) / f"{name}.npz", allow_pickle=False) as file:
-        found = dict(file)
-    for array in found.values():
-        array.flags.writeable = False
-    return found
+        return {part: read_only(array) for part, array in file.items()}
+
+
+def read_only(array):
+    """The same array, which refuses to be written to: what is cached is shared by all."""
+    array.flags.writeable = False
+    return array

@@ -14,6 +14,7 @@ from vmc_lib.arm import dynamics
 from vmc_lib.arm.model import F0, STEP
 from vmc_lib.arm.muscle import force
 from vmc_lib.arm.simulate import fibres
+from vmc_lib.data import read_only
 
 MOVING, SAMPLES = 700, 1000  # ms: a movement; the movement and the hold that follows
 KNOTS = 28  # spline coefficients of each muscle's excitation
@@ -23,7 +24,7 @@ KNOTS = 28  # spline coefficients of each muscle's excitation
 def spline(knots=KNOTS):
     """Cubic B-splines (STEPS, knots); each row sums to 1, so knots in [0, 1] stay in [0, 1]."""
     edges = np.concatenate([[0] * 3, np.linspace(0, 1, knots - 2), [1] * 3])
-    return BSpline.design_matrix(np.linspace(0, 1, SAMPLES), edges, 3).toarray()
+    return read_only(BSpline.design_matrix(np.linspace(0, 1, SAMPLES), edges, 3).toarray())
 
 
 def demand(path):

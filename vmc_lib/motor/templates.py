@@ -10,7 +10,7 @@ from functools import cache
 import numpy as np
 
 from vmc_lib.arm.simulate import UNPERTURBED, simulate
-from vmc_lib.data import arrays
+from vmc_lib.data import arrays, read_only
 from vmc_lib.motor.inverse_dynamics import hold, spline
 
 START = np.radians([-20.0, 95.0])  # every reach begins here: elbow bent, the hand over the table
@@ -33,7 +33,7 @@ def load(spacing=SPACING):
     if spacing not in SPACINGS:
         raise ValueError(f"no library has its points {spacing} m apart; choose one of {SPACINGS}")
     excitations = spline() @ arrays("templates")[key(spacing)].astype(float)
-    return TemplateSet(reach(excitations).reached, excitations)
+    return TemplateSet(read_only(reach(excitations).reached), read_only(excitations))
 
 
 def reach(excitations, perturbation=UNPERTURBED):
