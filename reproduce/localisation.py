@@ -1,7 +1,7 @@
 """The paper's Tables I and II and Fig. 6, measured: numbers for the chapters and the ledger.
 
 A split is "train" (in-sample), or "validation" or "test" (held out). What every recipe finds in
-every photo is stored, by `python -m reproduce.localisation`, so that a table costs no search.
+every photo is stored, as `make` finds it, so that a table costs no search.
 """
 
 from collections import ChainMap
@@ -12,7 +12,7 @@ from joblib import Parallel, delayed
 from sklearn.linear_model import LogisticRegression
 
 from reproduce.intervals import student
-from reproduce.results import FOLDER, arrays
+from reproduce.results import arrays
 from vmc_lib import photos
 from vmc_lib.boxes import iou
 from vmc_lib.where.detector import ObjectDetector
@@ -20,37 +20,39 @@ from vmc_lib.where.recipes import RECIPES
 from vmc_lib.where.svm import KernelSVM, best_threshold
 from vmc_lib.where.training import candidates, examples, training_examples, training_images
 
-COSTS = {"rbf": 10, "poly": 10, "sigmoid": 0.1}  # of the kernels that no recipe uses
+COSTS = {"rbf": 10, "poly": 10, "sigmoid": 0.1}  # C; the linear kernel's is its recipe's
 TABLE_1_KERNELS = ("linear", *COSTS)
 TABLE_1_RECIPES = ("published", "context")
-RETRAINED = ("published", "improved")  # trained anew from each of SEEDS seeds
+RETRAINED = ("published", "improved")  # trained anew from TRAININGS seeds
 TRAININGS = 5
 
 
 def table_1(level, split="test", name="published"):
     """Table I: precision and recall of the RoI classifier, for each kernel and before suppression.
 
-    Means over SEEDS trainings with the features and examples of the recipe `name`, "published" or
-    "context". As in the paper, over candidates that clearly hold an object or clearly do not.
+    Means over TRAININGS trainings with the features and examples of the recipe `name`, "published"
+    or "context". As in the paper, over candidates that clearly hold an object or clearly do not.
     """
     return {kernel: row.mean(0) for kernel, row in trainings(level, split, name).items()}
 
 
 def trainings(level, split="test", name="published"):
-    """For each kernel of Table I, precision and recall of each of SEEDS trainings, (SEEDS, 2)."""
+    """For each kernel of Table I, precision and recall of each training, (TRAININGS, 2)."""
     rows = [arrays("localisation")[f"{level}/{name}/table 1/{seed}"] for seed in range(TRAININGS)]
     by_kernel = np.swapaxes(rows, 0, 2)[:, photos.SPLITS.index(split)]
     return dict(zip(TABLE_1_KERNELS, by_kernel, strict=True))
 
 
-def classifiers(level, name, kernels, seed):
-    """For each kernel of Table I, a Machine trained with the recipe `name`, and its threshold.
+def classifiers(level, name, kernels, seed, folder=photos.FOLDER):
+    """For each kernel of Table I, a KernelSVM trained with the recipe `name`, and its threshold.
 
     Beyond the published recipe, whose threshold is 0, the validation photos set the threshold.
+    Both kinds of photos lie in `folder`.
     """
     recipe, rng = RECIPES[name], np.random.default_rng(seed)
-    learnt = training_examples(training_images(photos.load(level, "train"), recipe), recipe, rng)
-    x, truth = examples(photos.load(level, "validation"), recipe)
+    images = training_images(photos.load(level, "train", folder), recipe)
+    learnt = training_examples(images, recipe, rng)
+    x, truth = examples(photos.load(level, "validation", folder), recipe)
     for kernel in kernels:
         svm = KernelSVM.fit(*learnt, kernel, COSTS.get(kernel, recipe.cost))
         yield svm, 0 if name == "published" else steady_threshold(svm.score(x), truth)
@@ -67,21 +69,21 @@ def steady_threshold(scores, right):
     return best_threshold(scores, chances, chances.sum())
 
 
-def classify(level, name, seed, kernels=TABLE_1_KERNELS):
+def classify(level, name, seed, kernels=TABLE_1_KERNELS, folder=photos.FOLDER):
     """Table I: (precision, recall) of each kernel in each of the SPLITS, (3, kernels, 2)."""
-    trained, rows = list(classifiers(level, name, kernels, seed)), []
+    trained, rows = list(classifiers(level, name, kernels, seed, folder)), []
     for split in photos.SPLITS:
-        x, truth = examples(photos.load(level, split), RECIPES[name])
+        x, truth = examples(photos.load(level, split, folder), RECIPES[name])
         called = [truth[svm.score(x) > threshold] for svm, threshold in trained]
         rows.append([(r.sum() / max(len(r), 1), r.sum() / truth.sum()) for r in called])
     return np.array(rows)
 
 
-def search(level, split, detector="published"):
-    """The Regions that a finder (or the shipped one of that name) sees in each photo of a split."""
+def search(level, split, detector="published", folder=photos.FOLDER):
+    """The Detections of a detector (or the shipped one of that name) in each photo of a split."""
     if isinstance(detector, str):
         detector = ObjectDetector.load(level, detector)
-    for photo in photos.load(level, split):
+    for photo in photos.load(level, split, folder):
         yield detector.detect(photo.image, candidates(photo, detector.recipe.strategy))
 
 
@@ -113,49 +115,57 @@ def hits(shots, boxes, overlap=0.8):
 
 
 def spread(level, name):
-    """Table II's row of a recipe over SEEDS trainings: means (2,), half 95 % intervals (2,).
+    """Table II's row of a recipe over TRAININGS trainings: means (2,), half 95 % intervals (2,).
 
-    Precision and recall on the test photos at IoU 0.8; the recipe is one of SEEDED.
+    Precision and recall on the test photos at IoU 0.8; the recipe is one of RETRAINED.
     """
     return student(arrays("localisation")[f"{level}/{name}/seeds"])
 
 
 def figure_6(level, split="test", name="published"):
     """Fig. 6: the mean number of boxes a photo that each step leaves."""
-    counts = [regions.counts for regions in search(level, split, name)]
+    counts = [detections.counts for detections in search(level, split, name)]
     return {step: float(np.mean([count[step] for count in counts])) for step in counts[0]}
 
 
 # ---------------------------------------------------------------- measured once, and stored
 
 
-def found(level, split, name):
-    """The boxes that the shipped finder `name` leaves, by photo."""
-    pairs = zip(photos.load(level, split), search(level, split, name), strict=True)
-    return {f"{photo.name}/{name}": regions.boxes.astype(np.float32) for photo, regions in pairs}
-
-
-def classified(level, name, seed):
-    """Table I of one training, (3 splits, 4 kernels, 2)."""
-    return {f"{level}/{name}/table 1/{seed}": classify(level, name, seed)}
-
-
-def trained_anew(level, name):
-    """Precision and recall on the test photos of finders from SEEDS seeds, (SEEDS, 2)."""
-    rows, some = [], photos.load(level, "test")
-    for seed in range(TRAININGS):
-        rng = np.random.default_rng(seed)
-        detector = ObjectDetector.fit(photos.load(level, "train"), RECIPES[name], rng)
-        detector = detector.tuned(photos.load(level, "validation"))
-        rows.append(precision_recall(some, [r.boxes for r in search(level, "test", detector)]))
-    return {f"{level}/{name}/seeds": np.array(rows)}
-
-
-if __name__ == "__main__":
+def make(folder=photos.FOLDER, recipes=RECIPES, trainings=TRAININGS):
+    """What `results/localisation.npz` holds, of the photos in `folder`."""
     levels = photos.LEVELS[::-1]  # the longest first
     jobs = [
-        *(delayed(trained_anew)(*job) for job in product(levels, RETRAINED[::-1])),
-        *(delayed(classified)(*job) for job in product(levels, TABLE_1_RECIPES, range(TRAININGS))),
-        *(delayed(found)(*job) for job in product(levels, photos.SPLITS, RECIPES)),
+        *(
+            delayed(trained_anew)(level, name, recipes[name], trainings, folder)
+            for level, name in product(levels, RETRAINED[::-1])
+        ),
+        *(
+            delayed(classified)(*job, folder)
+            for job in product(levels, TABLE_1_RECIPES, range(trainings))
+        ),
+        *(delayed(found)(*job, folder) for job in product(levels, photos.SPLITS, RECIPES)),
     ]
-    np.savez_compressed(FOLDER / "localisation.npz", **ChainMap(*Parallel(n_jobs=-1)(jobs)))
+    return dict(ChainMap(*Parallel()(jobs)))
+
+
+def found(level, split, name, folder):
+    """The boxes that the shipped detector `name` leaves, by photo."""
+    shots = photos.load(level, split, folder)
+    pairs = zip(shots, search(level, split, name, folder), strict=True)
+    return {f"{photo.name}/{name}": seen.boxes.astype(np.float32) for photo, seen in pairs}
+
+
+def classified(level, name, seed, folder):
+    """Table I of one training, (3 splits, 4 kernels, 2)."""
+    return {f"{level}/{name}/table 1/{seed}": classify(level, name, seed, folder=folder)}
+
+
+def trained_anew(level, name, recipe, trainings, folder):
+    """Precision and recall on the test photos of detectors from many seeds, (trainings, 2)."""
+    train, held_out, test = (photos.load(level, split, folder) for split in photos.SPLITS)
+    rows = []
+    for seed in range(trainings):
+        detector = ObjectDetector.fit(train, recipe, np.random.default_rng(seed)).tuned(held_out)
+        seen = search(level, "test", detector, folder)
+        rows.append(precision_recall(test, [detections.boxes for detections in seen]))
+    return {f"{level}/{name}/seeds": np.array(rows)}

@@ -1,6 +1,6 @@
 """Table III: the CDBN's read-outs and other features, under one classifier and the same splits.
 
-Remake what is learnt, `data/comparison.npz`, with `python -m reproduce.recognition`.
+The classifiers, and what they say of every photo, are stored, as `make` finds them.
 """
 
 import numpy as np
@@ -10,7 +10,7 @@ from sklearn.cluster import KMeans
 from reproduce.name_examples import examples
 from reproduce.peers.features import bag_of_sift, histograms_of_gradients, raw_pixels, sift
 from reproduce.peers.hmax import draw_prototypes, hmax
-from reproduce.results import FOLDER, arrays
+from reproduce.results import arrays
 from vmc_lib import photos
 from vmc_lib.what.cdbn import CDBN, crops_of
 from vmc_lib.what.recogniser import NameClassifier, fit, read_outs
@@ -30,7 +30,7 @@ METHODS = (
 
 
 def features(crops, learnt):
-    """Every method's features (n, d) of crops (n, 200, 200), given what was learnt unlabelled."""
+    """Every method's features (n, d) of crops (n, 200, 200), given what was learnt before."""
     seen, matches = read_outs(learnt["cdbn"], crops), hmax(crops, learnt["prototypes"])
     by_hand = [histograms_of_gradients(crops), bag_of_sift(crops, learnt["words"])]
     found = [*seen.values(), matches[:, :10], matches, *by_hand, raw_pixels(crops)]
@@ -51,7 +51,7 @@ def precision_recall(counts):
 
 
 def load():
-    """What was learnt: what `features` needs, and a Linear for (level, method)."""
+    """What was learnt: what `features` needs, and a NameClassifier for each (level, method)."""
     kept = arrays("recognition")
     learnt = {"cdbn": CDBN.load(), "words": kept["words"]}
     learnt["prototypes"] = torch.tensor(kept["prototypes"])
@@ -88,34 +88,35 @@ def verdicts(level, split):
     return {m: kept[f"{level}/{m}/{split}"] for m in METHODS}, kept[f"{level}/{split}"]
 
 
-def learn_without_labels(rng):
-    """HMAX's prototypes and SIFT's words, from the training crops of all levels."""
-    shots = [shot for level in photos.LEVELS for shot in photos.load(level, "train")]
+def make(folder=photos.FOLDER):
+    """What `results/recognition.npz` holds: all that is learnt from the photos in `folder`.
+
+    And what it says of each: a probability for every true box of every split.
+    """
+    rng = np.random.default_rng(0)
+    learnt = learn_without_labels(folder, rng)
+    kept = {name: np.asarray(x) for name, x in learnt.items()}
+    learnt["cdbn"] = CDBN.load()
+    for level in photos.LEVELS:
+        crops, y = examples(photos.load(level, "train", folder), rng)
+        x = features(crops, learnt)
+        exams = {split: crops_of(photos.load(level, split, folder)) for split in photos.SPLITS}
+        seen = {split: features(crops, learnt) for split, (crops, _) in exams.items()}
+        kept |= {f"{level}/{split}": truth for split, (_, truth) in exams.items()}
+        for method in METHODS:
+            linear = fit(x[method], y, seen["validation"][method], exams["validation"][1])
+            kept[f"{level}/{method}/w"] = linear.weights
+            kept[f"{level}/{method}/b"] = linear.bias
+            for split in photos.SPLITS:
+                kept[f"{level}/{method}/{split}"] = linear.probability(seen[split][method])
+    return kept
+
+
+def learn_without_labels(folder, rng):
+    """HMAX's prototypes and SIFT's words, from training crops of all levels, labels unused."""
+    shots = [shot for level in photos.LEVELS for shot in photos.load(level, "train", folder)]
     crops, _ = crops_of(shots)
     some = crops[rng.permutation(len(crops))[:60]]
     descriptors = np.concatenate([sift(crop) for crop in some])
     words = KMeans(WORDS, n_init=1, random_state=0).fit(descriptors).cluster_centers_
     return {"prototypes": draw_prototypes(some, 250, rng), "words": np.float32(words)}
-
-
-if __name__ == "__main__":
-    rng = np.random.default_rng(0)
-    learnt = learn_without_labels(rng)
-    kept = {name: np.asarray(x) for name, x in learnt.items()}
-    learnt["cdbn"] = CDBN.load()
-    for level in photos.LEVELS:
-        crops, y = examples(photos.load(level, "train"), rng)
-        x = features(crops, learnt)
-        exams = {split: crops_of(photos.load(level, split)) for split in photos.SPLITS}
-        seen = {split: features(crops, learnt) for split, (crops, _) in exams.items()}
-        for split, (_, truth) in exams.items():
-            kept[f"{level}/{split}"] = truth
-        for method in METHODS:
-            checked = seen["validation"][method], exams["validation"][1]
-            linear = fit(x[method], y, *checked)
-            print(level, method, tally(linear.probability(checked[0]), checked[1]))
-            kept[f"{level}/{method}/w"] = linear.weights
-            kept[f"{level}/{method}/b"] = linear.bias
-            for split in photos.SPLITS:
-                kept[f"{level}/{method}/{split}"] = linear.probability(seen[split][method])
-    np.savez_compressed(FOLDER / "recognition.npz", **kept)

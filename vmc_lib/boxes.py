@@ -1,4 +1,4 @@
-"""Boxes: how far two of them agree, which of a crowd to keep, how to move one onto another."""
+"""Boxes: how far two of them agree, which of many to keep, how to correct one to another."""
 
 import numpy as np
 
@@ -46,7 +46,7 @@ def iou(a, b):
 def nms(boxes, scores, overlap=0.3):
     """Greedy non-maximum suppression: indices of the boxes kept, by falling score.
 
-    The best box stays and silences every box that overlaps it by more than `overlap` (an IoU);
+    The best box stays and suppresses every box that overlaps it by more than `overlap` (an IoU);
     then the best of the rest, and so on. Of equal scores the earlier box goes first.
     ValueError when there is not one finite score a box. (Neubeck & Van Gool 2006, greedy form.)
     """
@@ -65,7 +65,7 @@ def vote(kept, boxes, scores, temperature=0.1):
     """The boxes `kept` (indices), each the weighted mean of those that vote for it and itself.
 
     A box votes for each kept one that it overlaps by half or more and does not outscore. A vote
-    weighs exp(-lag / warmth), its score lagging that much behind the kept box's (after Gidaris &
+    weighs exp(-lag / temperature), its score being `lag` below the kept box's (after Gidaris &
     Komodakis 2015).
     """
     lag = scores[kept, None] - scores

@@ -19,13 +19,13 @@ from vmc_lib.what.recogniser import Recogniser
 from vmc_lib.where.detector import Detections, ObjectDetector
 from vmc_lib.where.localiser import Localiser
 
-NAMING_MARGIN = 1.0  # how much less a box must score to be named; chosen on validation photos
+NAMING_MARGIN = 1.0  # how much lower than the detector's its threshold is; set on validation photos
 RULES = {"published": algorithm_1, "own": broyden_calibration}  # of off-line calibration
 
 
 @dataclass(frozen=True)
 class VisuomotorModel:
-    """What training photos and past reaches have taught: where to look, what it is, how to move."""
+    """What photos and past reaches have taught: where objects are, their names, how to move."""
 
     detector: ObjectDetector
     recogniser: Recogniser
@@ -36,7 +36,10 @@ class VisuomotorModel:
     def load(cls, level):
         """The shipped model of a level of photos.
 
-        It asks less of a box than the detector alone does: what is no shuttlecock gets no name.
+        What was learnt from that level's training photos, its thresholds and probabilities set on
+        its validation photos; but the CDBN has learnt from the training photos of all levels. A box
+        may score NAMING_MARGIN less than the detector alone asks, for the recogniser is still to
+        choose among the boxes.
         """
         detector = ObjectDetector.load(level)
         lenient = replace(detector, threshold=detector.threshold - NAMING_MARGIN)

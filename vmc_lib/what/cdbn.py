@@ -82,10 +82,11 @@ def learn(maps, seed, n_w, patches, *, epochs, width, **how):
 
 
 def train(pictures, positive, seed=0, n_w=N_W, patches=PATCHES, device="cpu"):
-    """A CDBN learnt without labels from whitened pictures (n, 1, 200, 200).
+    """A CDBN learnt from whitened pictures (n, 1, 200, 200).
 
-    The first layer learns from all of them, the second, as in the paper, from the positive ones
-    (`positive` (n,) bool) only. `device` says where: "cpu" or "cuda". ValueError for no positive.
+    No target is learnt, but a label chooses: the first layer learns from all pictures, the second,
+    as in the paper, only from the positive ones (`positive` (n,) bool), the shuttlecocks. `device`
+    says where: "cpu" or "cuda". ValueError for no positive.
     """
     if not np.any(positive):
         raise ValueError("the second layer learns from the positive pictures: give at least one")

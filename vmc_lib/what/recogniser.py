@@ -59,9 +59,9 @@ class NameClassifier:
 def fit(x, y, x_validation, y_validation):
     """A `NameClassifier` of features x (n, d) with labels y (n,), True for a shuttlecock.
 
-    Logistic regression; of the INVERSE_PENALTIES the one with the best
-    likelihood on the validation set is kept, and its probabilities are calibrated there with
-    Platt's sigmoid (1999). ValueError for an empty set, NaN, or labels of one class only.
+    Logistic regression; of the INVERSE_PENALTIES the one with the best likelihood on the validation
+    set is kept, and its probabilities are calibrated there with Platt's sigmoid (1999). ValueError
+    for an empty set, NaN, or labels of one class only.
     """
     for use, features, labels in (("train", x, y), ("validate", x_validation, y_validation)):
         if len(features) == 0 or len(np.unique(labels)) < 2 or not np.isfinite(features).all():
@@ -101,7 +101,8 @@ class Recogniser:
     def load(cls, level=ALL_LEVELS, name="P1 + P2"):
         """The recogniser that has learnt names from the training photos of a level.
 
-        Its read-out "MP2" is the paper's, the default the best. ValueError for an unknown one.
+        Its CDBN has learnt from those of all levels. Its read-out "MP2" is the paper's, the default
+        the best. ValueError for an unknown one.
         """
         for given, known in ((level, (*photos.LEVELS, ALL_LEVELS)), (name, READ_OUTS)):
             if given not in known:

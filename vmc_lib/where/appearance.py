@@ -1,4 +1,4 @@
-"""What selective search sees: a picture in several colour spaces, its segments, and their looks.
+"""What selective search sees: a picture in several colour spaces, its segments, their features.
 
 A segment is described by its size, its box, and histograms of its colours and of its texture, all
 of which a merged region inherits from its two parts (Uijlings et al. 2013).

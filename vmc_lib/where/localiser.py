@@ -1,7 +1,7 @@
 """From a box in the picture to a place in the room.
 
 A line of sight goes through the middle of a box, but the middle of the shuttlecock need not lie on
-it (seen from above, its far end looks smaller), nor is it known where along the line to stop: a
+it (seen from above, its far end appears smaller), nor is it known where along the line to stop: a
 standing shuttlecock is taller than a lying one. What the box shows tells: `Localiser` learns both
 corrections from training photos, as `box_regression` learns to correct boxes. The paper is silent
 on this step.
@@ -27,10 +27,10 @@ SIDE = 0.05  # m: makes a height comparable with a share of a box
 class Localiser:
     """Where the middle of a shuttlecock is, given a box around it: a kernel ridge regression.
 
-    predict(x) = mean + spread · K(remembered, x) @ weights, K a radial basis function.
+    predict(x) = mean + spread · K(support, x) @ weights, K a radial basis function.
     """
 
-    remembered: np.ndarray  # (n, d) features of the boxes learnt from
+    support: np.ndarray  # (n, d) features of the boxes learnt from
     weights: np.ndarray  # (n, 3)
     mean: np.ndarray  # (3,) of what is predicted: right and down in sides, height in SIDE
     spread: np.ndarray  # (3,)
@@ -63,7 +63,7 @@ class Localiser:
 
     def parts(self):
         """The arrays that `load` reads, by name; what the boxes show takes a byte a number."""
-        shown, shape = np.uint8(np.round(255 * self.remembered[:, :-2])), self.remembered[:, -2:]
+        shown, shape = np.uint8(np.round(255 * self.support[:, :-2])), self.support[:, -2:]
         return dict(zip(PARTS, (shown, shape, self.weights, self.mean, self.spread), strict=True))
 
     def locate(self, image, box, camera):
@@ -73,7 +73,7 @@ class Localiser:
         """
         boxes = as_boxes(box)
         centres, sides = centres_and_sides(boxes)
-        likeness = rbf_kernel(_describe(image, boxes), self.remembered, GAMMA)
+        likeness = rbf_kernel(_describe(image, boxes), self.support, GAMMA)
         right, down, height = self.mean + self.spread * (likeness @ self.weights)[0]
         return camera.back_project(centres + [right, down] * sides, height * SIDE)[0]
 

@@ -82,18 +82,18 @@ def touching(labels):
     return np.stack(np.divmod(np.unique(low * n + high), n), axis=1)
 
 
-def grow(labels, look, similarities):
+def grow(labels, appearance, similarities):
     """Merge the two most similar neighbours, again and again, until one region is left.
 
-    `look` is the Appearance of the segments in `labels`, whose empty rows are filled; likeness is
-    the sum of the named `similarities` (with none, the lowest numbers merge first). A merged
-    region's row follows from its two parts' rows, so no step looks at pixels, and a heap has the
-    best pair at hand: n segments cost about n log n.
+    The Appearance describes the segments in `labels`; its empty rows are filled. Likeness is the
+    sum of the named `similarities` (with none, the lowest numbers merge first). A merged region's
+    row follows from its two parts' rows, so no step reads a pixel, and a heap has the best pair at
+    hand: n segments cost about n log n.
     """
     n = labels.max() + 1
 
     def alike(i, j):
-        return sum((SIMILARITIES[s](look, i, j) for s in similarities), np.zeros(len(j)))
+        return sum((SIMILARITIES[s](appearance, i, j) for s in similarities), np.zeros(len(j)))
 
     pairs = touching(labels)
     neighbours = {i: set() for i in range(n)}
@@ -109,7 +109,7 @@ def grow(labels, look, similarities):
             continue  # one of the two has been merged away since
         new = n + len(merges)
         merges.append((i, j))
-        look.merge(i, j, new)
+        appearance.merge(i, j, new)
         around = (neighbours.pop(i) | neighbours.pop(j)) - {i, j}
         neighbours[new] = around
         for k in around:
@@ -117,7 +117,7 @@ def grow(labels, look, similarities):
         rest = list(around)
         for likeness, k in zip(alike(new, rest).tolist(), rest, strict=True):
             heappush(queue, (-likeness, k, new))
-    return Hierarchy(labels, np.array(merges, int).reshape(-1, 2), look.boxes.copy())
+    return Hierarchy(labels, np.array(merges, int).reshape(-1, 2), appearance.boxes.copy())
 
 
 # ---------------------------------------------------------------- many hierarchies, one list
@@ -173,9 +173,9 @@ def hierarchies(image, strategy):
             codes = colour_codes(channels), texture_codes(channels)
             for _ in strategy.k:
                 labels = next(segmentations)
-                look = describe(labels, *codes)
+                appearance = describe(labels, *codes)
                 for similarities in strategy.similarities:
-                    yield grow(labels, look, similarities)
+                    yield grow(labels, appearance, similarities)
 
 
 def ranked(trees, rng, smallest=20):

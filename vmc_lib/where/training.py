@@ -14,7 +14,7 @@ from vmc_lib.where.recipes import PUBLISHED
 from vmc_lib.where.selective_search import propose
 
 ROIS = 4700  # counter-examples to learn from, as in the paper; a random draw where there are more
-JITTER = 0.05  # how far, in sides, the jittered examples stray
+JITTER = 0.05  # how far, in sides, the examples are jittered
 
 
 def candidates(photo, strategy="single"):
@@ -25,7 +25,7 @@ def candidates(photo, strategy="single"):
 
 @dataclass(frozen=True, eq=False)
 class TrainingImage:
-    """What a photo teaches."""
+    """A photo to learn from: its pixels, true boxes and candidates."""
 
     pixels: np.ndarray  # (height, width, 3)
     truth: np.ndarray  # (m, 4) true boxes
