@@ -27,17 +27,17 @@ def draw_step(photo, sight, reach, step):
         return photo_view(photo.image, _boxes(sight, step)), arm_scene(
             START, shuttlecock=photo.target
         )
-    motion = reach.planned if step.startswith("first") else reach.calibrated
-    return draw_moment(
-        photo, sight.box, reach, motion, TICKS[(LOOP_STEPS.index(step) - len(SEEING)) % len(TICKS)]
-    )
+    return draw_moment(photo, sight.box, reach, *_moment(reach, step))
 
 
 def draw_moment(photo, box, reach, motion, t):
-    """The chosen box, the place reached for and the hand, `t` ms into a movement; and the arm."""
-    path = reach.hand(motion)
+    """The chosen box, the place reached for and the hand, `t` ms into a movement; and the arm.
+
+    The hand's label says how far it still is from the place.
+    """
     turn = reach.turn * min(1.0, t / TURNED)
-    points = [("", reach.target, "green"), ("hand", path[t], "orange")]
+    label = f"hand, {_away(reach, motion, t)}"
+    points = [("", reach.target, "green"), (label, reach.hand(motion)[t], "orange")]
     view = photo_view(
         photo.image,
         [(box, "target", "green")],
@@ -89,6 +89,16 @@ def from_above(photo, reach, turned):
     return fig
 
 
+def _moment(reach, step):
+    """The movement that a step of `LOOP_STEPS` belongs to, and the time in it (ms)."""
+    motion = reach.planned if step.startswith("first") else reach.calibrated
+    return motion, TICKS[(LOOP_STEPS.index(step) - len(SEEING)) % len(TICKS)]
+
+
+def _away(reach, motion, t):
+    return f"{1000 * np.linalg.norm(reach.hand(motion)[t] - reach.target):.0f} mm away"
+
+
 def _boxes(sight, step):
     found = sight.detections
     return {
@@ -101,7 +111,7 @@ def _boxes(sight, step):
 
 
 def named_boxes(sight):
-    """For `photo_view`: each kept box with its chance of a shuttlecock, the likeliest on top."""
+    """For `photo_view`: each kept box with its chance of a shuttlecock, by rising chance."""
     found = sorted(zip(sight.probability, sight.detections.boxes.tolist(), strict=True))
     return [
         (box, f"shuttlecock {p:.0%}", "green") if p > 0.5 else (box, f"{p:.0%}", "blue")
@@ -111,11 +121,13 @@ def named_boxes(sight):
 
 def step_in_words(photo, sight, reach, step):
     """The same moment for those who cannot see it."""
+    if step not in SEEING:
+        return f"{step}: the hand is {_away(reach, *_moment(reach, step))}."
     found = sight.detections
     return {
         "a photo": "A photo of a table with a shuttlecock and a cup; the arm rests.",
         "candidates": f"{len(found.candidates)} candidate boxes cover the photo; the arm rests.",
-        "regions": f"{len(found.passed)} boxes are left, in heaps; the arm rests.",
+        "regions": f"{len(found.passed)} boxes are left, many for each thing; the arm rests.",
         "after suppression": f"{len(found.boxes)} boxes are left; the arm rests.",
         "names": "Each box carries its probability of holding a shuttlecock; the arm rests.",
-    }.get(step, f"The arm reaches for the shuttlecock: {step}.")
+    }[step]
