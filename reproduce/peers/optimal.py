@@ -3,25 +3,27 @@
 Effort is the mean square of the excitations (Diedrichsen et al., 2010). The task is a template's:
 be at the target, still, when a movement ends, and again when the hold ends. Sequential quadratic
 programming minimises one subject to the other, with the closed form as the arm. What ships are
-the optima of `TARGETS`; `python -m reproduce.peers.optimal` remakes them.
+the optima of `TARGETS`.
 """
 
 from functools import cache
 from itertools import product
 
 import numpy as np
+from joblib import Parallel, delayed
 from scipy.optimize import minimize
 
-from reproduce.results import FOLDER, arrays
+from reproduce.results import arrays
 from vmc_lib.arm.kinematics import inverse_kinematics
 from vmc_lib.motor.inverse_dynamics import MOVING, SAMPLES, least, spline
 from vmc_lib.motor.planning import plan
-from vmc_lib.motor.templates import load, reach
+from vmc_lib.motor.templates import TemplateSet, load, reach
 
 KNOTS = 12  # spline coefficients of each muscle's excitation: fewer than a template's, to be quick
 TARGETS = np.array(
     list(product((0.03, 0.06, 0.09, 0.12, 0.15), (-0.46, -0.43, -0.40, -0.37, -0.34)))
 )
+INNER = np.flatnonzero(np.all(abs(TARGETS - [0.09, -0.40]) < 0.04, axis=1))  # others all round
 NUDGE = 1e-4
 
 
@@ -63,10 +65,26 @@ def search(target):
     return found
 
 
+def make(targets=TARGETS):
+    """What `results/optimal.npz` holds: the knots (n, 6 KNOTS) of targets (n, 2)."""
+    found = Parallel()(delayed(search)(target) for target in targets)
+    return {"knots": np.array([optimum.x for optimum in found], np.float32)}
+
+
 @cache
 def shipped():
     """The optimal excitations (25, T, 6) of `TARGETS`."""
     return _excitations(arrays("optimal")["knots"].astype(float))
+
+
+def mixed():
+    """Habit with optima for templates: a `Plan` of the nine `INNER` targets.
+
+    Each mixes the four optima that lie 3 cm to its sides, above and below: a square of 6 cm.
+    """
+    memories = TemplateSet(reach(shipped()).reached, shipped())
+    corners = INNER[:, None] + [-6, -4, 4, 6]  # `TARGETS` has rows of five
+    return plan(TARGETS[INNER], memories, chosen=corners)
 
 
 def _excitations(x):
@@ -85,8 +103,3 @@ def _slopes(x):
     nudge = np.where(x > 0.5, -NUDGE, NUDGE)
     nudged = _ends(np.vstack([x, x + np.diag(nudge)]))
     return (nudged[1:] - nudged[0]).T / nudge
-
-
-if __name__ == "__main__":
-    knots = np.array([search(target).x for target in TARGETS], np.float32)
-    np.savez_compressed(FOLDER / "optimal.npz", knots=knots)

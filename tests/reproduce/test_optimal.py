@@ -24,6 +24,16 @@ def test_every_optimum_costs_less_than_habit():
         assert np.median(share) < 0.5
 
 
+def test_optima_mixed_cost_little_more_than_the_optimum():
+    """The price of habit is its templates', not the mixing's."""
+    cheap = optimal.mixed()
+    np.testing.assert_allclose(cheap.weights, 0.25, atol=1e-3)  # half-way between all four
+    spent = optimal.effort(optimal.shipped())[optimal.INNER]
+    habit = plan(cheap.target, templates.load())
+    mixed, shipped = (np.mean(optimal.effort(p.excitations) / spent) for p in (cheap, habit))
+    assert mixed < 1.5 < 3 < shipped
+
+
 def test_what_ships_can_be_solved_again():
     solved = optimal.effort(optimal.solve(optimal.TARGETS[12]))
     np.testing.assert_allclose(solved, optimal.effort(optimal.shipped()[12]), rtol=0.01)
