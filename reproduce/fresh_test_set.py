@@ -2,15 +2,8 @@
 
 No answer is of a photo that had a part in a choice: what the first hundred said of Table I led to
 the sizes, the cost and the threshold of its context, so its rows are of the second hundred alone.
-The answers ship, in `data/exam.json`; the photos do not, but can be rendered anew:
-
-    python -m render --only rig/test --count 240 --folder more
-    (the same for free and varied; then delete the first forty of each, which ship)
-    python -m reproduce.fresh_test_set more
+The answers ship; the photos do not, but the step `fresh photos` renders them anew.
 """
-
-import sys
-from pathlib import Path
 
 import numpy as np
 
@@ -20,7 +13,7 @@ from reproduce.localisation import TRAININGS, classifiers, hits
 from reproduce.recognition import tally
 from reproduce.variations import SPLITS, VARIATIONS, vary_all
 from vmc_lib import photos
-from vmc_lib.what.cdbn import N_W
+from vmc_lib.what.cdbn import N_W, PATCHES
 from vmc_lib.what.recogniser import READ_OUTS
 from vmc_lib.where.detector import ObjectDetector
 from vmc_lib.where.recipes import RECIPES
@@ -65,13 +58,38 @@ def table(*questions):
     return "\n".join(lines)
 
 
-def ask_kernels(level, shots):
+def make(exam, folder=photos.FOLDER, trainings=TRAININGS, seeds=SEEDS, patches=PATCHES):
+    """What `results/fresh_test_set.json` holds: every question put to the test photos in `exam`.
+
+    What is trained for it learns from the photos in `folder`. ValueError for a photo that ships.
+    """
+    found = {}
+    for level in photos.LEVELS:
+        shots = photos.load(level, "test", exam)
+        known = {photo.name for photo in photos.load(level, "test")}
+        if known & {photo.name for photo in shots}:
+            raise ValueError(f"{exam} holds photos that ship, no exam: delete {sorted(known)}")
+        fresh = [shot for shot in shots if shot.seed[-1] >= FRESH]
+        asked = ask_kernels(level, fresh, folder, trainings) | ask_finders(level, shots)
+        for question, counts in asked.items():
+            found.setdefault(question, {})[level] = counts
+    trained = vary_all([(N_W, seed) for seed in seeds], folder, exam, patches)
+    for (_, seed), (_, counts) in trained.items():
+        for j, name in enumerate(READ_OUTS):
+            named = counts[:, j, SPLITS.index("test"), :3].tolist()
+            found[name, seed] = dict(zip(photos.LEVELS, named, strict=True))
+    return list(found.items())
+
+
+def ask_kernels(level, shots, folder=photos.FOLDER, trainings=TRAININGS):
     """The answers of Table I's kernels on photos of a level."""
     x, truth = examples(shots, RECIPES["context"])
-    trainings = (classifiers(level, "context", KERNELS, seed) for seed in range(TRAININGS))
     counts = [
-        [tally(svm.score(x), truth, threshold)[:3] for svm, threshold in machines]
-        for machines in trainings
+        [
+            tally(svm.score(x), truth, threshold)[:3]
+            for svm, threshold in classifiers(level, "context", KERNELS, seed, folder)
+        ]
+        for seed in range(trainings)
     ]
     return dict(zip(KERNELS, np.mean(counts, axis=0).tolist(), strict=True))
 
@@ -84,26 +102,3 @@ def ask_finders(level, shots):
         right, reached = hits(shots, [detector.detect(photo.image).boxes for photo in shots])
         found[name] = tuple(map(int, (right.sum(), (~right).sum(), (~reached).sum())))
     return found
-
-
-def main(folder):
-    """Put every question, and keep the answers. ValueError for a photo that ships."""
-    found = {}
-    for level in photos.LEVELS:
-        shots = photos.load(level, "test", folder)
-        known = {photo.name for photo in photos.load(level, "test")}
-        if known & {photo.name for photo in shots}:
-            raise ValueError(f"{folder} holds photos that ship, no exam: delete {sorted(known)}")
-        fresh = [shot for shot in shots if shot.seed[-1] >= FRESH]
-        for question, counts in (ask_kernels(level, fresh) | ask_finders(level, shots)).items():
-            found.setdefault(question, {})[level] = counts
-    trained = vary_all([(N_W, seed) for seed in SEEDS], folder)
-    for (_, seed), (_, counts) in trained.items():
-        for j, name in enumerate(READ_OUTS):
-            named = counts[:, j, SPLITS.index("test"), :3].tolist()
-            found[name, seed] = dict(zip(photos.LEVELS, named, strict=True))
-    results.write("fresh_test_set", list(found.items()))
-
-
-if __name__ == "__main__":
-    main(Path(sys.argv[1]))

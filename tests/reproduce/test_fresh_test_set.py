@@ -52,4 +52,4 @@ def test_a_table_has_a_row_for_each_question():
 
 def test_photos_that_ship_are_no_exam():
     with pytest.raises(ValueError, match="rig/test/000"):
-        fresh_test_set.main(photos.FOLDER)
+        fresh_test_set.make(photos.FOLDER)
