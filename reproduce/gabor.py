@@ -6,8 +6,10 @@ from functools import cache
 import numpy as np
 from scipy.optimize import minimize
 
-# angle (rad), wavelength, breadth across and along the stripes, centre x and y (pixels)
+# angle (rad), wavelength, breadth across and along the stripes, centre x and y: pixels of a filter
+# that is EIGHT wide; for a wider one, all lengths grow with it
 BOUNDS = np.array([(-np.inf, 3, 1, 1, -2.5, -2.5), (np.inf, 12, 4, 5, 2.5, 2.5)])
+EIGHT = 8
 PATIENCE = {"maxiter": 400}
 
 
@@ -29,12 +31,17 @@ def fit(W, pair):
     return mixture, np.linalg.norm(mixture) / np.linalg.norm(target)
 
 
+def scaled(shapes, n_w):
+    """Shapes (m, 6) for filters EIGHT pixels wide, as shapes for filters `n_w` wide."""
+    return np.asarray(shapes, float) * [1, *[n_w / EIGHT] * 5]
+
+
 @cache
 def coarse(n_w):
     """Shapes on a coarse grid (m, 6), and an orthonormal basis of each one's pair (m, 2, n_w²)."""
     angles = np.arange(12) * np.pi / 12
-    shapes = np.array(
-        list(itertools.product(angles, (4, 6, 9), (1.5, 2.5), (2, 4), (-1, 1), (-1, 1)))
+    shapes = scaled(
+        list(itertools.product(angles, (4, 6, 9), (1.5, 2.5), (2, 4), (-1, 1), (-1, 1))), n_w
     )
     pairs = [np.linalg.qr(gabor_pair(n_w, *shape).T)[0].T for shape in shapes]
     return shapes, np.array(pairs)
@@ -47,14 +54,15 @@ def best_gabor(W):
     """
     W = np.asarray(W, float)
     n_w = len(W)
+    bounds = scaled(BOUNDS, n_w)
 
     def miss(shape):
-        return -fit(W, gabor_pair(n_w, *np.clip(shape, *BOUNDS)))[1]
+        return -fit(W, gabor_pair(n_w, *np.clip(shape, *bounds)))[1]
 
     shapes, pairs = coarse(n_w)
     fits = np.square(pairs @ (W - W.mean()).ravel()).sum(1)
     starts = shapes[fits.argsort()[-2:]]
     ends = [minimize(miss, start, method="Nelder-Mead", options=PATIENCE) for start in starts]
     shape = min(ends, key=lambda end: end.fun).x
-    mixture, correlation = fit(W, gabor_pair(n_w, *np.clip(shape, *BOUNDS)))
+    mixture, correlation = fit(W, gabor_pair(n_w, *np.clip(shape, *bounds)))
     return mixture.reshape(n_w, n_w), float(correlation)

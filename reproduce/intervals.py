@@ -1,7 +1,7 @@
 """How sure a number is that was measured a few times: 95 % intervals of a mean and of a share."""
 
 import numpy as np
-from scipy.stats import t
+from scipy.stats import binomtest, sem, t
 
 
 def student(values):
@@ -13,12 +13,13 @@ def student(values):
     n = len(values)
     if n < 2:
         raise ValueError(f"{n} values have no spread: give two or more")
-    half = t.ppf(0.975, n - 1) * np.std(values, axis=0, ddof=1) / np.sqrt(n)
-    return np.mean(values, axis=0), half
+    return np.mean(values, axis=0), t.interval(0.95, n - 1)[1] * sem(values)
 
 
-def wilson(right, n, z=1.96):
-    """The lower and upper end of the 95 % interval of a share, `right` of `n` (Wilson 1927)."""
-    share, z2 = right / n, z * z / n
-    middle, half = share + z2 / 2, z * np.sqrt(share * (1 - share) / n + z2 / n / 4)
-    return (middle - half) / (1 + z2), (middle + half) / (1 + z2)
+def wilson(right, n):
+    """The lower and upper end of the 95 % interval of a share, `right` of `n` (Wilson 1927).
+
+    Counts that are means over trainings are rounded first.
+    """
+    interval = binomtest(round(right), round(n)).proportion_ci(method="wilson")
+    return interval.low, interval.high

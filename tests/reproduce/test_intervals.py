@@ -14,12 +14,24 @@ def test_student_agrees_with_scipy():
     np.testing.assert_allclose([mean - half, mean + half], [low, high])
 
 
+def test_values_that_are_all_the_same_are_sure():
+    assert student([2.0, 2.0, 2.0]) == (2.0, 0.0)
+
+
 def test_one_value_has_no_interval():
     with pytest.raises(ValueError, match="1 values have no spread"):
         student([3.0])
 
 
 @pytest.mark.parametrize("right, n", [(40, 40), (37, 40), (1, 7)])
-def test_wilson_agrees_with_scipy(right, n):
-    theirs = stats.binomtest(right, n).proportion_ci(method="wilson")
-    assert wilson(right, n) == pytest.approx((theirs.low, theirs.high), abs=1e-4)
+def test_wilson_by_its_formula(right, n, z=1.96):
+    """The ends are the shares p that lie z standard errors, √(p(1 − p)/n), from what was seen."""
+    low, high = wilson(right, n)
+    assert 0 <= low <= right / n <= high <= 1
+    for end in (low, high):
+        gap = abs(right / n - end)
+        assert gap == pytest.approx(z * np.sqrt(end * (1 - end) / n), abs=1e-4)
+
+
+def test_counts_may_be_means_over_trainings():
+    assert wilson(37.4, 40) == wilson(37, 40)
