@@ -1,17 +1,17 @@
 """The arm itself in the page: its physics runs there, in the reader's hand.
 
-MuJoCo's WebAssembly build reads the library's own `arm26.xml`; `static/arm.js` adds the muscle law,
-planning and calibration, and a test holds it to the Python. Its constants come from here.
+MuJoCo's WebAssembly build reads the library's own `arm26.xml`; scripts in `static` add the muscle
+law, planning and calibration, and a test holds them to the Python. Their constants come from here.
 """
 
 import base64
-import html
 import itertools
 import json
 from pathlib import Path
 
 import anywidget
 import matplotlib.pyplot as plt
+import mujoco
 import numpy as np
 import traitlets
 from IPython.display import HTML, display
@@ -26,17 +26,25 @@ from vmc_lib.motor import templates
 from vmc_lib.motor.inverse_dynamics import SAMPLES, hold, spline
 from vmc_lib.motor.planning import plan
 from vmc_lib.show.arm import BONE, BONE_RADIUS, TUBE, arm_scene
-from vmc_lib.show.figures import framed, markdown, pictures, side_by_side
+from vmc_lib.show.controls import radios, slider
+from vmc_lib.show.figures import framed, pictures, side_by_side
 from vmc_lib.show.palette import COLOURS, STYLE
 from vmc_lib.show.plane import plane, plane_view
 from vmc_lib.show.render_mode import render_mode
 from vmc_lib.show.scene import STATIC as SHOW
-from vmc_lib.show.scene import SceneView
+from vmc_lib.show.scene import VIEWER
 
 MODES = ("bench", "reach")
 TRIALS = 2  # of our own calibration: off-line, the page has no more to learn
 STATIC = Path(__file__).parent / "static"
 MUJOCO = STATIC / "vendor/mujoco.js"
+VERSIONS = {"Python": mujoco.__version__, "page": "3.14.0"}  # of MuJoCo
+MODEL_SCRIPTS = ("vectors", "engine", "muscle", "arm", "templates", "planning", "calibration")
+PAGE_SCRIPTS = ("drawing", "live", "bench", "reach", "start")
+SCRIPTS = (  # in the order in which they need one another
+    SHOW / "axes.js",
+    *(STATIC / f"{name}.js" for name in MODEL_SCRIPTS + PAGE_SCRIPTS),
+)
 _ENDS = ("red", "purple")  # where the planned and the calibrated reach end
 _POSE = {
     "shoulder": "shoulder",
@@ -57,9 +65,6 @@ def live_arm(mode, caption, alt, target=(0.12, -0.42)):
     """
     if mode not in MODES:
         raise ValueError(f"mode {mode!r} is unknown: choose one of {MODES}")
-    if render_mode() == "live" and not MUJOCO.exists():
-        away = "*Without the book's own files this arm stays at rest: start it in the built page.*"
-        return markdown(away)
     name = f"live-{next(_made)}"
     with plt.rc_context(STYLE):
         parts = _bench(name) if mode == "bench" else _reach(name, np.asarray(target, float))
@@ -84,10 +89,9 @@ class LiveArm(anywidget.AnyWidget):
     page = traitlets.Unicode().tag(sync=True)
 
     def __init__(self, page):
-        viewer, _, _ = SceneView._esm.rpartition("export default")
-        scripts = [path.read_text() for path in (MUJOCO, STATIC / "arm.js", STATIC / "live.js")]
-        render = "export default { render: ({ model, el }) => vmcLive(el, model.get('page')) };"
-        self._esm = "\n".join([viewer, *scripts, render])
+        scripts = [path.read_text() for path in (MUJOCO, *SCRIPTS)]
+        render = "export default { render: ({ model, el }) => vmcStart(el, model.get('page')) };"
+        self._esm = "\n".join([VIEWER, *scripts, render])
         super().__init__(page=page)
 
 
@@ -112,7 +116,7 @@ def given():
         },
         "start": templates.START.tolist(),
         "rest": hold(templates.START).tolist(),
-        "library": {
+        "templateSet": {
             "points": template_set.points.tolist(),
             "knots": base64.b64encode(knots.tobytes()).decode(),
             "shape": knots.shape,
@@ -128,10 +132,8 @@ def _bench(name):
     """The arm at rest, the plane it moves in, and six sliders."""
     scene = arm_scene(templates.START)
     scene.look((0.75, 0.0, 0.95), at=(0.08, -0.2, -0.03))
-    rest = zip(MUSCLES, hold(templates.START), strict=True)
-    sliders = "".join(
-        _slider(name, muscle, muscle, (0, 1, 0.01), round(u, 2)) for muscle, u in rest
-    )
+    rest = zip(MUSCLES, hold(templates.START).round(2), strict=True)
+    sliders = "".join(_slider(name, muscle, muscle, (0, 1, 0.01), u) for muscle, u in rest)
     buttons = {"step": "Step 10 ms", "reset": "Reset"}
     form = _form("Excitation of each muscle", buttons, sliders, {"time": "time"} | _POSE)
     return scene, plane_view(), form
@@ -149,17 +151,15 @@ def _reach(name, target):
     scene.look((0.72, -0.02, 0.85), at=(0.1, -0.25, 0.0))
     figure, ax = plt.subplots(figsize=(5.2, 4.4))
     plane(ax, template_set.points)
-    low, high = (
-        np.round(template_set.points.min(axis=0), 3),
-        np.round(template_set.points.max(axis=0), 3),
-    )
+    low, high = (end(template_set.points, axis=0).round(3) for end in (np.min, np.max))
     sliders = "".join(
         _slider(name, key, f"target, {key}", (low[k], high[k], 0.005), target[k])
         for k, key in enumerate(("forward", "up"))
     )
-    rules = {"published": "published (Eq. 6–7)", "calibrate": "ours"}
+    rules = {"algorithm1": "published (Eq. 6–7)", "broydenCalibration": "ours"}
     plans = {"habitualWeights": "habit (Eq. 5)", "exactWeights": "exact (Eq. 4)"}
-    choices = _choice("weights", "plan", plans) + _choice("rule", "calibration", rules)
+    choices = radios("weights", "plan", plans, "habitualWeights", {})
+    choices += radios("rule", "calibration", rules, "algorithm1", {})
     tells = {"planned": "planned miss", "tries": "tries", "calibrated": "calibrated miss"}
     tells |= {"weights": "weights"} | _POSE
     form = _form("Target and rules", {"calibrate": "Calibrate"}, sliders + choices, tells)
@@ -176,10 +176,11 @@ def _form(legend, buttons, controls, tells):
         f'<div><dt>{label}</dt><dd data-tell="{name}">–</dd></div>' for name, label in tells.items()
     )
     size = f"{MUJOCO.stat().st_size / 1e6:.1f} MB"
+    physics = f"MuJoCo {VERSIONS['page']} ({size}, part of this book)"
     return (
         '<form class="vmc-live-form" autocomplete="off">'
         f'<div><button type="button" name="main">Start the arm</button>{closed}</div>'
-        f'<p role="status">MuJoCo ({size}, part of this book) is loaded when you start.</p>'
+        f'<p role="status">{physics} is loaded when you start.</p>'
         f'<fieldset disabled><legend class="vmc-spoken">{legend}</legend>{controls}</fieldset>'
         f"<dl>{told}</dl></form>"
     )
@@ -187,17 +188,5 @@ def _form(legend, buttons, controls, tells):
 
 def _slider(page, name, label, span, start):
     low, high, step = span
-    return (
-        f'<div class="vmc-control"><label for="{page}-{name}">{html.escape(label)}</label>'
-        f'<input type="range" id="{page}-{name}" name="{name}" min="{low}" max="{high}" '
-        f'step="{step}" value="{start:.3g}"><output>{start:.3g}</output></div>'
-    )
-
-
-def _choice(name, label, options):
-    radios = "".join(
-        f'<label><input type="radio" name="{name}" value="{value}"{" checked" * (i == 0)}>'
-        f"{text}</label>"
-        for i, (value, text) in enumerate(options.items())
-    )
-    return f'<fieldset class="vmc-control"><legend>{label}</legend>{radios}</fieldset>'
+    own = {"name": name, "min": low, "max": high, "step": step, "value": f"{start:.3g}"}
+    return slider(f"{page}-{name}", label, own["value"], own)

@@ -1,13 +1,18 @@
 """The arm in the page: the same numbers as the library's, and a reader who moves it."""
 
 import json
+import os
 import re
 import shutil
+import subprocess
+import sys
 from pathlib import Path
 from types import SimpleNamespace
 
+import mujoco
 import numpy as np
 import pytest
+import yaml
 
 from arm_in_page import live
 from arm_in_page.live import live_arm
@@ -18,21 +23,25 @@ from vmc_lib.arm.simulate import simulate
 from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration
 from vmc_lib.motor import templates
 from vmc_lib.motor.planning import exact_weights, habitual_weights, plan, surrounded
+from vmc_lib.show.arm import _place, _span
 
 ROOT = Path(__file__).parents[2]
+CONFIG = yaml.safe_load((ROOT / "_config.yml").read_text())["sphinx"]["config"]
+LISTED = [name for name, _ in CONFIG["html_js_files"]]  # the book's scripts, in its order
 HEAD = """<!doctype html><html lang="en"><meta charset="utf-8">
 <meta name="viewport" content="width=device-width"><title>An arm</title>
 <link rel="stylesheet" href="demo.css"><link rel="stylesheet" href="live.css">
-<script defer src="scene.js"></script><script defer src="demo.js"></script>
-<script defer src="arm.js"></script><script defer src="live.js"></script>
-<body style="background: var(--vmc-paper); color: var(--vmc-ink)"><main>"""
-# `arm` and `template_set` for a script that asks them something, made once a page
+SCRIPTS
+<body style="background: var(--vmc-paper); color: var(--vmc-ink)"><main>""".replace(
+    "SCRIPTS", "".join(f'<script defer src="{name}"></script>' for name in LISTED)
+)
+# `arm` and `templateSet` for a script that asks them something, made once a page
 ARM = """async (asked) => {
   const given = JSON.parse(document.querySelector(".vmc-live script").textContent);
   const arm = await (self.testArm ??= vmcArm.load(given));
-  const library = new vmcArm.Library(given.library);
+  const templateSet = new vmcTemplates.TemplateSet(given.templateSet);
   const ended = (plan) => (weights) =>
-    arm.hand(arm.move(library.excitations({ ...plan, weights })).at(-1).q).slice(0, 2);
+    arm.hand(arm.move(templateSet.excitations({ ...plan, weights })).at(-1).q).slice(0, 2);
   %s
 }"""
 TARGETS = np.array([[0.12, -0.42], [0.045, -0.345], [0.17, -0.46]])
@@ -132,7 +141,7 @@ def wait_for_status(arm, beginning):
 def test_the_muscle_law_is_pythons(ask, name, law, low, high):
     asked = np.random.default_rng(1).uniform(low, high, (300, len(low)))
     answer = ask(
-        f"return asked.map((values) => new vmcArm.Muscle(given.muscle).{name}(...values));",
+        f"return asked.map((values) => new vmcMuscle.Muscle(given.muscle).{name}(...values));",
         asked.tolist(),
     )
     expected = law(*asked.T)
@@ -162,11 +171,19 @@ def test_what_is_drawn_is_where_it_is(ask):
 
 
 @pytest.mark.browser
+@pytest.mark.parametrize("along", [[1, 0, 0], [0, -2, 0], [0, 0, 0.1], [1, 2, -3], [0, 0, 0]])
+def test_balls_and_cylinders_lie_where_python_lays_them(ask, along):
+    ends = np.array([[0.3, 0.2, 0.1], np.add([0.3, 0.2, 0.1], along)])
+    script = "return [vmcDrawing.place(asked[1], 0.05), vmcDrawing.span(...asked, 0.05)];"
+    expected = [_place(ends[1], 0.05), _span(*ends, 0.05)]
+    assert np.allclose(ask(script, ends.tolist()), [m.T.ravel() for m in expected], atol=1e-15)
+
+
+@pytest.mark.browser
 @pytest.mark.parametrize("target", TARGETS, ids=str)
 def test_postures_for_targets_are_pythons(ask, target):
-    assert np.allclose(
-        ask("return arm.inverse_kinematics(asked);", target.tolist()), inverse_kinematics(target)
-    )
+    found = ask("return arm.inverseKinematics(asked);", target.tolist())
+    assert np.allclose(found, inverse_kinematics(target))
 
 
 @pytest.mark.browser
@@ -174,13 +191,11 @@ def test_postures_for_targets_are_pythons(ask, target):
     ("name", "rule"), [("habitualWeights", habitual_weights), ("exactWeights", exact_weights)]
 )
 def test_plans_are_pythons(ask, name, rule):
-    script = f"""const plan = vmcArm.plan(asked, library, vmcArm.{name});
-      return {{ ...plan, u: template_set.excitations(plan) }};"""
+    script = f"""const plan = vmcPlanning.plan(asked, templateSet, vmcPlanning.{name});
+      return {{ ...plan, u: templateSet.excitations(plan) }};"""
     template_set = templates.load()
-    own = template_set.points[
-        surrounded(template_set.points, template_set.points)
-    ]  # on a template itself
-    for target in [*TARGETS, *own[:2]]:
+    own = template_set.points[surrounded(template_set.points, template_set.points)]
+    for target in [*TARGETS, *own[:2]]:  # the last two on a template itself
         planned, expected = ask(script, target.tolist()), plan(target, template_set, rule)
         assert planned["chosen"] == expected.chosen.tolist()
         assert np.allclose(planned["weights"], expected.weights, atol=1e-12)
@@ -188,31 +203,30 @@ def test_plans_are_pythons(ask, name, rule):
 
 
 @pytest.mark.browser
-@pytest.mark.parametrize("name", ["published", "calibrate"])
+@pytest.mark.parametrize("name", ["algorithm1", "broydenCalibration"])
 def test_calibration_is_pythons(ask, name):
-    script = f"""const plan = vmcArm.plan(asked, library);
-      return [...vmcArm.{name}(plan, ended(plan), given.calibration)];"""
+    script = f"""const plan = vmcPlanning.plan(asked, templateSet);
+      return [...vmcCalibration.{name}(plan, ended(plan), given.calibration)];"""
     habit = plan(TARGETS, templates.load())
-    expected = (
-        algorithm_1(habit) if name == "published" else broyden_calibration(habit, live.TRIALS)
-    )
+    rules = {
+        "algorithm1": algorithm_1(habit),
+        "broydenCalibration": broyden_calibration(habit, live.TRIALS),
+    }
     for k, target in enumerate(TARGETS):
         trials = ask(script, target.tolist())
         for key in ("weights", "reached", "error"):
             got = np.array([trial[key] for trial in trials])
-            assert np.abs(got - getattr(expected, key)[:, k]).max() < 1e-6, key
+            assert np.abs(got - getattr(rules[name], key)[:, k]).max() < 1e-6, key
 
 
 @pytest.mark.browser
 def test_templates_on_a_line_and_targets_outside_are_refused(ask):
     script = "try {{ {} }} catch (error) {{ return error.message; }}"
     on_a_line = [[0.1, -0.4], [0.2, -0.4], [0.3, -0.4], [0.4, -0.4]]
-    assert "on one line" in ask(
-        script.format("return vmcArm.exactWeights([0.25, -0.35], asked);"), on_a_line
-    )
-    assert "not surrounded" in ask(
-        script.format("return vmcArm.plan(asked, library);"), [0.5, -0.4]
-    )
+    exact = script.format("return vmcPlanning.exactWeights([0.25, -0.35], asked);")
+    assert "on one line" in ask(exact, on_a_line)
+    planned = script.format("return vmcPlanning.plan(asked, templateSet);")
+    assert "not surrounded" in ask(planned, [0.5, -0.4])
 
 
 # ---- A reader who moves it ----
@@ -226,6 +240,13 @@ def test_mujoco_is_loaded_on_a_click_and_from_the_books_own_files(opened, site):
     assert any("vendor/mujoco.js" in url for url in opened.asked)
     inside = (site.as_uri(), "data:", "blob:")
     assert [url for url in opened.asked if not url.startswith(inside)] == []
+
+
+@pytest.mark.browser
+def test_the_page_tells_which_mujoco_it_has(opened, ask):
+    assert ask("return arm.mujoco.mj_versionString();") == live.VERSIONS["page"]
+    said = opened.bench.locator("[role=status]").inner_text()
+    assert said.startswith(f"MuJoCo {live.VERSIONS['page']} (")
 
 
 @pytest.mark.browser
@@ -359,14 +380,33 @@ def test_fits_a_phone(opened):
 # ---- What Python gives ----
 
 
-def test_the_knots_that_travel_are_the_librarys():
-    given = live.given()["library"]
+def test_the_knots_that_travel_are_pythons():
+    given = live.given()["templateSet"]
     knots = np.frombuffer(live.base64.b64decode(given["knots"]), np.float32)
     knots = knots.reshape(given["shape"]).astype(float)
     template_set = templates.load()
     assert np.abs(live.spline() @ knots - template_set.excitations).max() < 1e-12
     json.dumps(given, allow_nan=False)
     assert len(live.given()["F0"]) == len(F0)
+
+
+def test_the_book_lists_every_script_in_the_order_of_need():
+    assert [name for name in LISTED if name in {script.name for script in live.SCRIPTS}] == [
+        script.name for script in live.SCRIPTS
+    ]
+    assert {*live.STATIC.glob("*.js")} <= {*live.SCRIPTS}
+    assert {"demo.css", "live.css"} <= {*CONFIG["html_css_files"]}
+
+
+def test_scripts_are_short():
+    for script in (*live.STATIC.glob("*.*"), *live.SHOW.glob("*.*")):
+        assert len(script.read_text().splitlines()) <= 250, script.name
+
+
+def test_the_versions_of_mujoco_are_those_of_the_files():
+    manifest = json.loads((ROOT / "book/_static/vendor/manifest.json").read_text())
+    (entry,) = [entry for entry in manifest if ROOT / entry["file"] == live.MUJOCO]
+    assert live.VERSIONS == {"Python": mujoco.__version__, "page": entry["version"]}
 
 
 def test_what_could_not_work_is_refused():
@@ -383,7 +423,7 @@ def test_a_live_kernel_brings_its_own_viewer_and_physics(monkeypatch):
     live_arm("bench", "Move it.", "An arm.")
     widget, caption = shown
     assert 'data-mode="bench"' in widget.page and "Move it." in caption.data
-    for needed in ("MeshCat", "loadMujoco.wasm", "vmcArm", "export default"):
+    for needed in ("MeshCat", "loadMujoco.wasm", "vmcVendored", "vmcArm", "export default"):
         assert needed in widget._esm
 
 
@@ -408,10 +448,19 @@ def test_a_live_kernels_widget_moves(offline, monkeypatch):
     page.close()
 
 
-def test_without_the_books_files_a_live_kernel_says_where_the_arm_runs(monkeypatch):
-    monkeypatch.setenv("VMC_RENDER_MODE", "live")
-    monkeypatch.setattr(live, "MUJOCO", Path("nowhere"))
-    said = []
-    monkeypatch.setattr(live, "say", said.append)
-    live_arm("bench", "Move it.", "An arm.")
-    assert "built page" in said[0]
+def test_installed_elsewhere_a_live_kernel_has_all_it_needs(tmp_path):
+    run = {"cwd": ROOT, "check": True, "capture_output": True, "text": True}
+    build = "from setuptools import setup; setup()", "build", "--build-base", tmp_path
+    subprocess.run([sys.executable, "-c", *build], **run)
+    show = """
+import arm_in_page, vmc_lib
+from arm_in_page import live
+shown = []
+live.display = lambda *items: shown.extend(items)
+live.live_arm("reach", "Let it reach.", "An arm.")
+print(arm_in_page.__file__, vmc_lib.__file__, len(shown[0]._esm))"""
+    told = os.environ | {"PYTHONPATH": f"{tmp_path}/lib", "VMC_RENDER_MODE": "live"}
+    run |= {"cwd": tmp_path, "env": told}
+    *packages, size = subprocess.run([sys.executable, "-c", show], **run).stdout.split()
+    assert all(Path(package).is_relative_to(tmp_path / "lib") for package in packages)
+    assert int(size) > live.MUJOCO.stat().st_size

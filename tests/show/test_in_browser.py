@@ -16,7 +16,8 @@ from vmc_lib.show.scene import STATIC
 pytestmark = pytest.mark.browser
 MESHCAT = Path(__file__).parents[2] / "book/_static/vendor/meshcat.js"
 HEAD = """<!doctype html><meta charset="utf-8"><link rel="stylesheet" href="demo.css">
-<script defer src="scene.js"></script><script defer src="demo.js"></script>"""
+<script defer src="vendored.js"></script><script defer src="scene.js"></script>
+<script defer src="axes.js"></script><script defer src="demo.js"></script>"""
 CAPTURE = "div => vmcScene(div).viewer.capture_image()"
 
 

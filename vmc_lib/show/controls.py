@@ -73,16 +73,11 @@ class Slider(Control):
     play: bool = False
 
     def html(self, name, stride):
-        texts = html.escape(json.dumps(self.texts, ensure_ascii=False))
+        shown, texts = self.texts[self.first], json.dumps(self.texts, ensure_ascii=False)
+        along = {"min": 0, "max": len(self.values) - 1, "value": self.first}
+        said = {"data-stride": stride, "data-texts": texts, "aria-valuetext": shown}
         play = '<button type="button" class="vmc-play" aria-pressed="false">Play</button>'
-        return (
-            f'<div class="vmc-control"><label for="{name}">{html.escape(self.label)}</label>'
-            f'<input type="range" id="{name}" min="0" max="{len(self.values) - 1}" '
-            f'value="{self.first}" data-stride="{stride}" data-texts="{texts}" '
-            f'aria-valuetext="{html.escape(self.texts[self.first])}">'
-            f'<output for="{name}">{html.escape(self.texts[self.first])}</output>'
-            f"{play if self.play else ''}</div>"
-        )
+        return slider(name, self.label, shown, along | said, play if self.play else "")
 
     def widget(self):
         options = list(zip(self.texts, self.values, strict=True))
@@ -102,22 +97,17 @@ class Choice(Control):
     """One of a few alternatives: buttons, or a menu when there are many."""
 
     def html(self, name, stride):
-        label, texts = html.escape(self.label), map(html.escape, self.texts)
         if len(self.values) >= MENU:
             options = "".join(
-                f'<option value="{i}"{" selected" * (i == self.first)}>{text}</option>'
-                for i, text in enumerate(texts)
+                f'<option value="{i}"{" selected" * (i == self.first)}>{html.escape(text)}</option>'
+                for i, text in enumerate(self.texts)
             )
             return (
-                f'<div class="vmc-control"><label for="{name}">{label}</label>'
+                f'<div class="vmc-control"><label for="{name}">{html.escape(self.label)}</label>'
                 f'<select id="{name}" data-stride="{stride}">{options}</select></div>'
             )
-        radios = "".join(
-            f'<label><input type="radio" name="{name}" value="{i}" data-stride="{stride}"'
-            f"{' checked' * (i == self.first)}>{text}</label>"
-            for i, text in enumerate(texts)
-        )
-        return f'<fieldset class="vmc-control"><legend>{label}</legend>{radios}</fieldset>'
+        options, own = dict(enumerate(self.texts)), {"data-stride": stride}
+        return radios(name, self.label, options, self.first, own)
 
     def widget(self):
         kind = widgets.Dropdown if len(self.values) >= MENU else widgets.RadioButtons
@@ -169,6 +159,37 @@ class Pad(Control):
 
     def read(self, sources):
         return tuple(source.value for source in sources)
+
+
+def slider(name, label, shown, attributes, after=""):
+    """A range input named `name` as markup: before it its label, behind it the value `shown`.
+
+    `attributes` are the input's own, by name; `after` is markup that follows.
+    """
+    return (
+        f'<div class="vmc-control"><label for="{name}">{html.escape(label)}</label>'
+        f'<input type="range" id="{name}"{_markup(attributes)}>'
+        f'<output for="{name}">{html.escape(shown)}</output>{after}</div>'
+    )
+
+
+def radios(name, label, options, chosen, attributes):
+    """A row of radio buttons as markup: `options` are their texts by value, one is `chosen`.
+
+    `attributes` are those that every button has, by name.
+    """
+    buttons = "".join(
+        f'<label><input type="radio" name="{name}" value="{value}"{_markup(attributes)}'
+        f"{' checked' * (value == chosen)}>{html.escape(text)}</label>"
+        for value, text in options.items()
+    )
+    return (
+        f'<fieldset class="vmc-control"><legend>{html.escape(label)}</legend>{buttons}</fieldset>'
+    )
+
+
+def _markup(attributes):
+    return "".join(f' {name}="{html.escape(str(value))}"' for name, value in attributes.items())
 
 
 def _is_number(value):

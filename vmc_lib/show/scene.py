@@ -63,15 +63,18 @@ class Scene:
         return f'<div class="vmc-scene"><p>{html.escape(alt)}</p></div>'
 
 
+# The viewer's scripts, as a live kernel's widgets bring them along.
+VIEWER = "\n".join(
+    [
+        "var define, exports, module;",  # meshcat is to find no module loader
+        (Path(meshcat.__file__).parent / "viewer/dist/main.min.js").read_text(),
+        *((STATIC / name).read_text() for name in ("vendored.js", "scene.js")),
+    ]
+)
+
+
 class SceneView(anywidget.AnyWidget):
     """The viewer in a live kernel; set its `messages` to show a scene."""
 
-    _esm = "\n".join(
-        [
-            "var define, exports, module;",  # meshcat is to find no module loader
-            (Path(meshcat.__file__).parent / "viewer/dist/main.min.js").read_text(),
-            (STATIC / "scene.js").read_text(),
-            "export default { render: ({ model, el }) => vmcSceneWidget(model, el) };",
-        ]
-    )
+    _esm = f"{VIEWER}\nexport default {{ render: ({{ model, el }}) => vmcSceneWidget(model, el) }};"
     messages = traitlets.List().tag(sync=True)

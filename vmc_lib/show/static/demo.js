@@ -83,13 +83,7 @@
     const drag = (event) => {
       const svg = event.buttons && event.target.closest("svg[data-axes]");
       if (!svg) return;
-      const [x0, x1, y0, y1, left, right, bottom, top] = svg.dataset.axes.split(" ").map(Number);
-      const box = svg.getBoundingClientRect();
-      const along = [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height];
-      const place = [
-        x0 + ((x1 - x0) * (along[0] - left)) / (right - left),
-        y0 + ((y1 - y0) * (along[1] - bottom)) / (top - bottom),
-      ];
+      const place = vmcAxes(svg).pointed(event);
       event.preventDefault(); // no text is selected on the way
       JSON.parse(pad.dataset.grid).forEach((values, i) => {
         const far = values.map((value) => Math.abs(value - place[i]));

@@ -7,18 +7,10 @@ const vmcScene = (() => {
   const MOST_LIVE = 6; // browsers keep few WebGL contexts: the scene unseen longest becomes a still
   const live = new Set(); // in the order in which they came into sight
   const views = new Map();
-  const script = document.currentScript?.src;
 
   let loading;
   const loadMeshCat = () =>
-    (loading ??= self.MeshCat
-      ? Promise.resolve()
-      : new Promise((resolve, reject) => {
-          const tag = document.createElement("script");
-          tag.src = new URL("vendor/meshcat.js", script);
-          Object.assign(tag, { onload: resolve, onerror: reject });
-          document.head.append(tag);
-        }));
+    (loading ??= self.MeshCat ? Promise.resolve() : vmcVendored("meshcat.js"));
 
   const hasWebGL = () => {
     const context = document.createElement("canvas").getContext("webgl");

@@ -1,0 +1,131 @@
+/* The reach: the reader sets a target; the page plans, moves, misses, calibrates. */
+const vmcReach = (() => {
+  "use strict";
+
+  const { TemplateSet } = vmcTemplates;
+  const { Live, OFTEN, frame, millimetres, signed } = vmcLive;
+
+  class Reach extends Live {
+    ready() {
+      this.templateSet = new TemplateSet(this.given.templateSet);
+      this.form.elements.calibrate.addEventListener("click", () => this.calibrate());
+      this.controls.addEventListener("input", () => this.aim());
+      const point = (event) => {
+        const finger = event.pointerType === "touch"; // it taps, for dragging scrolls the page
+        if (finger ? event.type !== "click" : !event.buttons) return;
+        event.preventDefault(); // no text is selected on the way
+        const { forward, up } = this.form.elements;
+        [forward.value, up.value] = this.drawing.axes.pointed(event);
+        this.aim();
+      };
+      for (const type of ["pointerdown", "pointermove", "click"])
+        this.drawing.plot.addEventListener(type, point);
+      this.label("Reach");
+      this.aim();
+    }
+
+    /* Take the target from the sliders and plan anew; what was under way ends. */
+    aim() {
+      this.turn = {}; // whose turn it is: whoever waited for a frame looks whether it is still his
+      const { forward, up, rule, weights } = this.form.elements;
+      for (const slider of [forward, up])
+        slider.nextElementSibling.textContent = `${signed(+slider.value, 3)} m`;
+      Object.assign(this, { target: [+forward.value, +up.value], rule: rule.value, plan: null });
+      Object.assign(this, { goal: null, planned: null, calibrated: null });
+      this.tell({ planned: "–", calibrated: "–", weights: "–", tries: "–" });
+      try {
+        this.plan = vmcPlanning.plan(this.target, this.templateSet, vmcPlanning[weights.value]);
+        this.goal = this.arm.hand(this.arm.inverseKinematics(this.target));
+        this.say("A target is set: let the arm reach for it.");
+      } catch (error) {
+        this.say(`Nothing planned: ${error.message}`);
+      }
+      this.mark([]);
+      const { start, rest } = this.given;
+      this.show({ q: start, activation: rest, pull: rest.map(() => 0) });
+    }
+
+    /* All on the plot and in the scene but the arm: target, templates, ends, the hand's path. */
+    mark(path) {
+      const { plan, target, planned, calibrated } = this;
+      const shown = (calibrated ?? planned)?.weights ?? plan?.weights;
+      const width = (i) => 8 * Math.abs(shown[i]);
+      const threads = plan?.points.map((p, i) => ["line", "blue", [target, p], width(i)]);
+      const ends = [[planned, "red"], [calibrated, "purple"]].filter(([trial]) => trial);
+      this.drawing.marks = [
+        ...(threads ?? []),
+        ["line", "orange", path, 2],
+        ["ring", "green", target, 7],
+        ...ends.map(([trial, colour]) => ["dot", colour, trial.reached, 4]),
+      ];
+      this.drawing.balls = [this.goal, planned?.hand, calibrated?.hand];
+    }
+
+    motion(weights) {
+      return this.arm.move(this.templateSet.excitations({ ...this.plan, weights }));
+    }
+
+    ended(weights) {
+      return this.arm.hand(this.motion(weights).at(-1).q).slice(0, 2);
+    }
+
+    /* Play a movement in its own time; `trial` is then known as `name`. */
+    async play(name, trial, turn) {
+      const motion = this.motion(trial.weights);
+      const path = motion.filter((_, t) => t % 10 === 0).map(({ q }) => this.arm.hand(q));
+      const start = await frame();
+      for (let n = 0, t = this.calm.matches ? motion.length : 0; t < motion.length - 1; n++) {
+        this.mark(path.slice(0, 1 + t / 10));
+        this.show(motion[t], n % OFTEN > 0);
+        t = Math.max(0, Math.round((await frame()) - start));
+        if (turn !== this.turn) return false;
+      }
+      this[name] = { ...trial, hand: path.at(-1) };
+      this.mark(path);
+      this.show(motion.at(-1));
+      this.tell({
+        [name]: millimetres(trial.error, 1),
+        weights: trial.weights.map((w) => signed(w, 2)).join(", "),
+      });
+      return true;
+    }
+
+    /* The habitual reach. */
+    async main() {
+      const turn = (this.turn = {});
+      if (!this.plan) return;
+      Object.assign(this, { planned: null, calibrated: null });
+      this.tell({ calibrated: "–", tries: "–" });
+      const reach = (weights) => this.ended(weights);
+      const [first] = vmcCalibration.algorithm1(this.plan, reach, { gains: [] });
+      if (!(await this.play("planned", first, turn))) return;
+      this.say(`The planned reach stopped ${millimetres(first.error, 1)} from the target.`);
+    }
+
+    /* Try off-line, as fast as the page can; then move once more, with the best weights. */
+    async calibrate() {
+      if (!this.planned) await this.main();
+      if (!this.planned) return;
+      const turn = (this.turn = {});
+      this.say("Trying off-line …");
+      const trials = [];
+      const rule = vmcCalibration[this.rule];
+      for (const trial of rule(this.plan, (w) => this.ended(w), this.given.calibration)) {
+        trials.push(trial);
+        this.tell({ tries: `${trials.length - 1}` });
+        await frame();
+        if (turn !== this.turn) return;
+      }
+      const best = trials.reduce((a, b) => (b.error < a.error ? b : a));
+      if (!(await this.play("calibrated", best, turn))) return;
+      const which = best.n === undefined ? "" : ` (n = ${best.n})`;
+      this.say(
+        `After ${trials.length - 1} tries the best${which} stops ` +
+        `${millimetres(best.error, 1)} from the target; ` +
+        `the planned reach missed by ${millimetres(this.planned.error, 1)}.`
+      );
+    }
+  }
+
+  return { Reach };
+})();

@@ -1,0 +1,49 @@
+/* Past experience: reaches that ended where they should (vmc_lib/motor/templates.py). */
+const vmcTemplates = (() => {
+  "use strict";
+
+  const { clip, sum } = vmcVectors;
+
+  /* N remembered reaches: where they ended, and the knots of their excitations' splines. */
+  class TemplateSet {
+    constructor({ points, knots, shape, steps }) {
+      const [count, rows, muscles] = shape;
+      const bytes = Uint8Array.from(atob(knots), (c) => c.charCodeAt(0));
+      const values = new Float32Array(bytes.buffer);
+      const at = (n, i, k) => values[(n * rows + i) * muscles + k];
+      const fill = (length, make) => Array.from({ length }, (_, i) => make(i));
+      this.points = points;
+      this.knots = fill(count, (n) => fill(rows, (i) => fill(muscles, (k) => at(n, i, k))));
+      this.spline = fill(steps, (t) => basis(t / (steps - 1), rows));
+    }
+
+    /* Eq. 3: Σ w_i u_i(t), held to [0, 1]; splines are linear, so their knots may be mixed. */
+    excitations({ chosen, weights }) {
+      const mixed = this.knots[0].map((row, i) =>
+        row.map((_, k) => sum(chosen.map((n, j) => weights[j] * this.knots[n][i][k]))));
+      return this.spline.map(({ first, values }) =>
+        mixed[0].map((_, k) => clip(sum(values.map((v, i) => v * mixed[first + i][k])), 0, 1)));
+    }
+  }
+
+  /* The four cubic B-splines of `rows` that are not zero at x in [0, 1]: de Boor's recursion. */
+  const basis = (x, rows) => {
+    const edge = (i) => clip((i - 3) / (rows - 3), 0, 1);
+    let place = 3;
+    while (place < rows - 1 && x >= edge(place + 1)) place++;
+    const values = [1];
+    for (let degree = 1; degree <= 3; degree++) {
+      let carried = 0;
+      for (let i = 0; i < degree; i++) {
+        const [low, high] = [edge(place + 1 + i - degree), edge(place + 1 + i)];
+        const share = values[i] / (high - low);
+        values[i] = carried + (high - x) * share;
+        carried = (x - low) * share;
+      }
+      values.push(carried);
+    }
+    return { first: place - 3, values };
+  };
+
+  return { TemplateSet };
+})();

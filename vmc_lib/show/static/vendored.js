@@ -1,0 +1,13 @@
+/* Fetches a vendored script from the book's own files: a promise that settles when it has run. */
+const vmcVendored = (() => {
+  "use strict";
+
+  const here = document.currentScript?.src;
+  return (name) =>
+    new Promise((resolve, reject) => {
+      const tag = document.createElement("script");
+      tag.src = new URL(`vendor/${name}`, here);
+      Object.assign(tag, { onload: resolve, onerror: () => reject(new Error(`no ${tag.src}`)) });
+      document.head.append(tag);
+    });
+})();
