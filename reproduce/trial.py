@@ -7,11 +7,13 @@ from joblib import Parallel, delayed
 
 from vmc_lib import NoReach, photos
 from vmc_lib.boxes import iou
+from vmc_lib.cerebellum.offline import algorithm_1
 from vmc_lib.loop import RULES, VisuomotorModel, locate, reach, recalibrated, see
 
 FOUND = 0.8  # IoU at which a box counts as the object's (Section IV A)
 ARRIVED, CLOSE_BY = 0.010, 0.005  # m: a hand so near the shuttlecock has arrived, or done well
 FAILURE_STAGES = ("proposals", "regions", "names", "place", "movement")  # where a reach goes wrong
+LESIONS = ("none", "ventral", "dorsal", "cerebellum")
 
 
 def score(photo, sight, place, reaches):
@@ -87,3 +89,60 @@ def summary(scores):
     for name, distance in (("arrived", ARRIVED), ("close", CLOSE_BY)):
         shares |= {f"{name}, {rule}": float((scores[rule] <= distance).mean()) for rule in RULES}
     return shares | medians
+
+
+def gone_for(sight, lesion):
+    """The box (4,) a reach goes for under one of `LESIONS`, or None.
+
+    Without the ventral pathway nothing has a name: it is the box of the highest score.
+    """
+    boxes = sight.detections.boxes
+    return sight.box if lesion != "ventral" else boxes[0] if len(boxes) else None
+
+
+def lesioned(model, photo, box, lesion):
+    """The `Reach` for a box under one of `LESIONS`; `NoReach` as from `locate` and `reach`.
+
+    Without the dorsal pathway nothing has a place: the hand goes where the last shuttlecock of
+    the training photos was. Without a cerebellum it is not calibrated, else by Algorithm 1.
+    """
+    place = locate(model, photo.image, box, photo.camera)
+    if lesion == "dorsal":
+        place = photos.load("rig", "train")[-1].target
+    return reach(model, place, None if lesion == "cerebellum" else algorithm_1)
+
+
+def lesions(level, split="test"):
+    """Every photo of a level and split under each of `LESIONS`: two lists for each lesion.
+
+    "object" is what the box holds that is gone for: "shuttlecock", "cup", "neither" or, with no
+    box, "nothing"; "missed" is how far the hand ends from the true shuttlecock in mm, None where
+    there was no reach.
+    """
+    model = VisuomotorModel.load(level)
+    left = Parallel()(delayed(_lesioned)(model, photo) for photo in photos.load(level, split))
+    keys = ("object", "missed")
+    return {how: {key: [one[how][key] for one in left] for key in keys} for how in LESIONS}
+
+
+def _lesioned(model, photo):
+    sight, left = see(model, photo.image), {}
+    for how in LESIONS:
+        box = gone_for(sight, how)
+        left[how] = {"object": held(photo, box), "missed": None}
+        with suppress(NoReach):
+            made = lesioned(model, photo, box, how)
+            missed = np.linalg.norm(made.hand(made.calibrated)[-1] - photo.target)
+            left[how]["missed"] = round(1000 * float(missed), 1)
+    return left
+
+
+def held(photo, box):
+    """What a box (4,) holds, sharing more than half of the union: "shuttlecock", "cup", "neither".
+
+    "nothing" when there is no box.
+    """
+    if box is None:
+        return "nothing"
+    names = ("shuttlecock", "cup")
+    return next((name for name in names if _overlap(box[None], photo, name) > 0.5), "neither")

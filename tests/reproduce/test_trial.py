@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from reproduce import trial
-from vmc_lib import loop, photos
+from reproduce import results, trial
+from vmc_lib import NoReach, loop, photos
 
 
 @pytest.fixture(scope="module")
@@ -56,3 +56,39 @@ def test_a_failure_is_the_first_stage_that_went_wrong():
 def test_a_lucky_reach_is_no_failure():
     lucky = {"proposed": False, "found": False, "named": True, "target": 0.004, "own": 0.006}
     assert trial.first_failure({key: np.array([value]) for key, value in lucky.items()}) == [""]
+
+
+def test_what_a_lesion_leaves(photo, sight):
+    """Without names the best-scored box, without a place the old one, without calibration habit."""
+    model = loop.VisuomotorModel.load("rig")
+    reaches = {}
+    for how in trial.LESIONS:
+        reaches[how] = trial.lesioned(model, photo, sight.box, how)
+    old = photos.load("rig", "train")[-1].target
+    np.testing.assert_array_equal(reaches["dorsal"].target, old)
+    for how in ("none", "ventral", "cerebellum"):
+        np.testing.assert_array_equal(reaches[how].target, reaches["none"].target)
+    uncorrected = reaches["cerebellum"]
+    assert uncorrected.calibrated is uncorrected.planned
+    assert reaches["none"].calibrated is not reaches["none"].planned
+    np.testing.assert_array_equal(trial.gone_for(sight, "ventral"), sight.detections.boxes[0])
+    np.testing.assert_array_equal(trial.gone_for(sight, "dorsal"), sight.box)
+    blind = loop.Sight(sight.detections, 0 * sight.probability)
+    assert trial.gone_for(blind, "none") is None and trial.gone_for(blind, "ventral") is not None
+    with pytest.raises(NoReach):
+        trial.lesioned(model, photo, None, "none")
+
+
+def test_what_a_box_holds(photo):
+    for name, box in photo.boxes.items():
+        assert trial.held(photo, box) == name
+    assert trial.held(photo, np.array([0.0, 0, 5, 5])) == "neither"
+    assert trial.held(photo, None) == "nothing"
+
+
+def test_lesions_that_shipped_can_be_measured_again():
+    model, shipped = loop.VisuomotorModel.load("rig"), results.records("lesions")["rig"]
+    once = trial._lesioned(model, photos.load("rig", "test")[0])
+    for how, left in once.items():
+        assert left["object"] == shipped[how]["object"][0]
+        assert left["missed"] == pytest.approx(shipped[how]["missed"][0], abs=0.2)
