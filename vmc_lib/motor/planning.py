@@ -10,7 +10,7 @@ import numpy as np
 
 from vmc_lib import NoReach
 from vmc_lib.arm.simulate import UNPERTURBED, Perturbation
-from vmc_lib.motor.templates import TemplateSet, reach
+from vmc_lib.motor.templates import TemplateSet
 
 PART = 512  # movements simulated at once
 EYE = np.array([0.10, 0.25])  # above and a little in front of the shoulder
@@ -34,10 +34,11 @@ class Plan:
 
     @property
     def excitations(self):
-        """Eq. 3: u_t(t) = Σ w_i u_i(t), (…, T, 6), held to [0, 1]: no nerve can do otherwise."""
+        """Eq. 3: u_t(t) = Σ w_i u_i(t), (…, T, 6), held to the limits of a command, [0, 1]."""
         share = np.zeros((*self.weights.shape[:-1], len(self.template_set.points)))
         np.put_along_axis(share, self.chosen, self.weights, axis=-1)
-        return np.clip(np.tensordot(share, self.template_set.excitations, axes=1), 0, 1)
+        mixed = np.tensordot(share, self.template_set.excitations, axes=1)
+        return np.clip(mixed, *self.template_set.limits)
 
     def move(self):
         """The `Motion` that the plan gives the arm. A plan is moved once, and remembers it."""
@@ -45,7 +46,7 @@ class Plan:
 
     @cached_property
     def _motion(self):
-        return reach(self.excitations, self.perturbation)
+        return self.template_set.reach(self.excitations, self.perturbation)
 
     def reached(self):
         """Where the hand is seen to end, (…, 2)."""

@@ -4,6 +4,7 @@ Every reach starts at rest in the same posture and lasts a second. What ships is
 of the excitations.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 
@@ -19,12 +20,22 @@ SPACING = 0.06  # … unless another is asked for
 REACH = 0.525  # m from the shoulder: a nearly straight arm
 
 
+def reach(excitations, perturbation=UNPERTURBED):
+    """The `Motion` that excitations (…, T, 6) give the arm from rest in `START`."""
+    return simulate(excitations, START, _rest(), perturbation=perturbation)
+
+
 @dataclass(frozen=True, eq=False)
 class TemplateSet:
-    """N remembered reaches from one resting posture."""
+    """N remembered reaches from one resting posture, of our arm or of another.
+
+    Another arm brings its own commands (N, T, m), their limits, and a `reach` that moves it.
+    """
 
     points: np.ndarray  # (N, 2): where in the arm's plane each reach ended, m
     excitations: np.ndarray  # (N, T, 6), in [0, 1], 1 kHz
+    limits: tuple = (0.0, 1.0)  # of a command: no nerve can do otherwise
+    reach: Callable = reach  # commands (…, T, m), perturbation -> a motion with `reached` (…, 2)
 
 
 @cache
@@ -34,11 +45,6 @@ def load(spacing=SPACING):
         raise ValueError(f"no library has its points {spacing} m apart; choose one of {SPACINGS}")
     excitations = spline() @ arrays("templates")[key(spacing)].astype(float)
     return TemplateSet(read_only(reach(excitations).reached), read_only(excitations))
-
-
-def reach(excitations, perturbation=UNPERTURBED):
-    """The `Motion` that excitations (…, T, 6) give the arm from rest in `START`."""
-    return simulate(excitations, START, _rest(), perturbation=perturbation)
 
 
 @cache
