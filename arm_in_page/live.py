@@ -136,7 +136,9 @@ def _bench(name):
     sliders = "".join(_slider(name, muscle, muscle, (0, 1, 0.01), u) for muscle, u in rest)
     buttons = {"step": "Step 10 ms", "reset": "Reset"}
     form = _form("Excitation of each muscle", buttons, sliders, {"time": "time"} | _POSE)
-    return scene, plane_view(), form
+    figure, ax = plt.subplots(figsize=(4.4, 4.4))
+    plane_view(ax)
+    return scene, figure, form
 
 
 def _reach(name, target):

@@ -52,7 +52,7 @@ IDLE_CONTROLS = """async () => {
     const all = controls(demo);
     for (const control of all) {
       const others = all.filter((other) => other !== control);
-      const settings = muscles.flatMap((o) => [...Array(o.count).keys()].map((v) => [o, v]));
+      const settings = others.flatMap((o) => [...Array(o.count).keys()].map((v) => [o, v]));
       if (!moves(demo, control) && !settings.some(([o, v]) => (o.set(v), moves(demo, control))))
         idle.push(`${demo.id} ${control.name}`);
     }
