@@ -10,16 +10,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from vmc_lib import NoReach
-from vmc_lib.arm.kinematics import to_world, turn_towards
-from vmc_lib.motor.planning import habitual_weights, least_change, surrounding
-from vmc_lib.motor.templates import TemplateSet, reach
+from vmc_lib.arm.dynamics import hand
+from vmc_lib.arm.kinematics import inverse_kinematics, to_world, turn_towards
+from vmc_lib.motor.planning import draw_targets, habitual_weights, least_change, plan, surrounding
+from vmc_lib.motor.templates import TemplateSet, load, reach
 
 TURNS = np.radians([-10.0, 5.0, 20.0, 35.0, 50.0, 65.0])
 
 
 @dataclass(frozen=True, eq=False)
 class SpatialTemplates:
-    """Every reach of a library, made under every turn of the trunk."""
+    """Every reach of a template set, made under every turn of the trunk."""
 
     template_set: TemplateSet
     turns: np.ndarray  # (M,), rad
@@ -27,7 +28,7 @@ class SpatialTemplates:
 
     @classmethod
     def of(cls, template_set, turns=TURNS):
-        """The memories of a library's N reaches under M turns."""
+        """The memories of a template set's N reaches under M turns."""
         ends = reach(template_set.excitations).hand[:, -1]
         points = np.stack([to_world(ends, turn) for turn in turns], axis=1)
         return cls(template_set, np.asarray(turns), points.reshape(-1, 3))
@@ -59,17 +60,64 @@ class SpatialTemplates:
         return to_world(reach(excitations).hand[..., -1, :], turn)
 
 
-def practise(memories, targets, trials=3):
-    """Plan by Eq. 5, then correct by Eq. 4 in R³, a trial at a time.
+def practise(memories, targets, trials=3, rule=habitual_weights):
+    """Plan by Eq. 5 (or another rule), then correct by Eq. 4 in R³, a trial at a time.
 
     Returns, for the plan and each trial of targets (n, 3), the weights (trials + 1, n, 8) and how
     far the hand ended from its target, (trials + 1, n) in m.
     """
     chosen = np.array([memories.surrounding(target) for target in targets])
     points = memories.points[chosen]
-    history, weights = [], habitual_weights(targets, points)
+    history, weights = [], rule(targets, points)
     for _ in range(trials + 1):
         missing = targets - memories.move(chosen, weights)
         history.append((weights, np.linalg.norm(missing, axis=-1)))
         weights = weights + least_change(np.swapaxes(points, -1, -2), missing)
     return tuple(map(np.array, zip(*history, strict=True)))
+
+
+def measured(seed, count=100, trials=3):
+    """One draw of `count` targets in space: numbers by name.
+
+    "planned / reach" is the mean miss over the mean distance from the shoulder; "in the plane",
+    the same for the same reaches before the trunk turns; "k corrections", what is left of the
+    planned miss.
+    """
+    rng, template_set = np.random.default_rng(seed), load()
+    memories, flat = SpatialTemplates.of(template_set), draw_targets(template_set, count, rng)
+    turns = rng.uniform(*memories.turns[[0, -1]], count)
+    places = hand(inverse_kinematics(flat))
+    _, missed = practise(memories, to_world(places, turns), trials)
+    planned, *left = missed.mean(axis=1)
+    in_plane = np.linalg.norm(plan(flat, template_set).reached() - flat, axis=1).mean()
+    return {
+        "planned / reach": planned / np.linalg.norm(places, axis=1).mean(),
+        "in the plane": in_plane / np.linalg.norm(flat, axis=1).mean(),
+        **{f"{k} corrections": mean / planned for k, mean in enumerate(left, start=1)},
+    }
+
+
+def draw_places(memories, count, rng):
+    """Targets (count, 3), drawn evenly from the space that the memories cover, and their reach.
+
+    The reach (count,) is the distance from the shoulder, once the trunk has turned.
+    """
+    flat = hand(inverse_kinematics(draw_targets(memories.template_set, count, rng)))
+    turns = rng.uniform(*memories.turns[[0, -1]], count)
+    return to_world(flat, turns), np.linalg.norm(flat, axis=-1)
+
+
+def experiment(seed, count=100):
+    """For one draw of targets, by name: what Eq. 5, Eq. 4 exactly, and corrections leave."""
+    memories = SpatialTemplates.of(load())
+    targets, distance = draw_places(memories, count, np.random.default_rng(seed))
+    _, (planned, *corrected) = practise(memories, targets, 2)
+    _, (exact,) = practise(memories, targets, 0, exact_weights)
+    return {
+        "planned / reach": planned.mean() / distance.mean(),
+        "planned exactly / reach": exact.mean() / distance.mean(),
+        **{
+            f"{trial} corrections": missed.mean() / planned.mean()
+            for trial, missed in enumerate(corrected, 1)
+        },
+    }
