@@ -12,7 +12,14 @@ import numpy as np
 from vmc_lib import NoReach
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.arm.kinematics import inverse_kinematics, to_world, turn_towards
-from vmc_lib.motor.planning import draw_targets, habitual_weights, least_change, plan, surrounding
+from vmc_lib.motor.planning import (
+    draw_targets,
+    exact_weights,
+    habitual_weights,
+    least_change,
+    plan,
+    surrounding,
+)
 from vmc_lib.motor.templates import TemplateSet, load, reach
 
 TURNS = np.radians([-10.0, 5.0, 20.0, 35.0, 50.0, 65.0])
@@ -79,45 +86,22 @@ def practise(memories, targets, trials=3, rule=habitual_weights):
 def measured(seed, count=100, trials=3):
     """One draw of `count` targets in space: numbers by name.
 
-    "planned / reach" is the mean miss over the mean distance from the shoulder; "in the plane",
-    the same for the same reaches before the trunk turns; "k corrections", what is left of the
-    planned miss.
+    "planned / reach" is the mean miss over the mean distance from the shoulder; "exact / reach",
+    the same with weights that satisfy Eq. 4; "in the plane", the same for the same reaches before
+    the trunk turns; "k corrections", what is left of the planned miss.
     """
     rng, template_set = np.random.default_rng(seed), load()
     memories, flat = SpatialTemplates.of(template_set), draw_targets(template_set, count, rng)
     turns = rng.uniform(*memories.turns[[0, -1]], count)
     places = hand(inverse_kinematics(flat))
-    _, missed = practise(memories, to_world(places, turns), trials)
+    targets, distance = to_world(places, turns), np.linalg.norm(places, axis=1).mean()
+    _, missed = practise(memories, targets, trials)
+    _, (exact,) = practise(memories, targets, 0, exact_weights)
     planned, *left = missed.mean(axis=1)
     in_plane = np.linalg.norm(plan(flat, template_set).reached() - flat, axis=1).mean()
     return {
-        "planned / reach": planned / np.linalg.norm(places, axis=1).mean(),
+        "planned / reach": planned / distance,
+        "exact / reach": exact.mean() / distance,
         "in the plane": in_plane / np.linalg.norm(flat, axis=1).mean(),
         **{f"{k} corrections": mean / planned for k, mean in enumerate(left, start=1)},
-    }
-
-
-def draw_places(memories, count, rng):
-    """Targets (count, 3), drawn evenly from the space that the memories cover, and their reach.
-
-    The reach (count,) is the distance from the shoulder, once the trunk has turned.
-    """
-    flat = hand(inverse_kinematics(draw_targets(memories.template_set, count, rng)))
-    turns = rng.uniform(*memories.turns[[0, -1]], count)
-    return to_world(flat, turns), np.linalg.norm(flat, axis=-1)
-
-
-def experiment(seed, count=100):
-    """For one draw of targets, by name: what Eq. 5, Eq. 4 exactly, and corrections leave."""
-    memories = SpatialTemplates.of(load())
-    targets, distance = draw_places(memories, count, np.random.default_rng(seed))
-    _, (planned, *corrected) = practise(memories, targets, 2)
-    _, (exact,) = practise(memories, targets, 0, exact_weights)
-    return {
-        "planned / reach": planned.mean() / distance.mean(),
-        "planned exactly / reach": exact.mean() / distance.mean(),
-        **{
-            f"{trial} corrections": missed.mean() / planned.mean()
-            for trial, missed in enumerate(corrected, 1)
-        },
     }

@@ -6,7 +6,6 @@ import pytest
 from reproduce import space
 from vmc_lib.arm.kinematics import TRUNK, to_world
 from vmc_lib.motor import templates
-from vmc_lib.motor.planning import exact_weights, habitual_weights
 
 
 @pytest.fixture(scope="module")
@@ -40,16 +39,6 @@ def test_practice_brings_the_hand_nearer(memories):
     assert np.all(last < 0.5 * planned) and last.mean() < 0.1 * planned.mean()
 
 
-def test_exact_weights_miss_less(memories):
-    """Much of what looks like the arm's error in space is that of Eq. 5."""
-    targets, distance = space.draw_places(memories, 8, np.random.default_rng(0))
-    assert targets.shape == (8, 3) and (distance > 0.2).all()
-    (_, (habit,)), (_, (exact,)) = (
-        space.practise(memories, targets, 0, rule) for rule in (habitual_weights, exact_weights)
-    )
-    assert exact.mean() < 0.7 * habit.mean()
-
-
 def test_a_place_beyond_experience_is_refused(memories):
     with pytest.raises(ValueError, match="reach"):
         memories.surrounding(np.array([0.9, -0.4, 0.1]))
@@ -60,5 +49,6 @@ def test_a_place_beyond_experience_is_refused(memories):
 def test_what_is_measured_is_a_share_and_corrections_leave_less_and_less():
     numbers = space.measured(0, count=8, trials=2)
     assert 0 < numbers["planned / reach"] < 0.1 and 0 < numbers["in the plane"] < 0.1
+    assert 0 < numbers["exact / reach"] < 0.7 * numbers["planned / reach"]
     assert 0 < numbers["2 corrections"] < numbers["1 corrections"] < 1
     assert numbers == space.measured(0, count=8, trials=2)
