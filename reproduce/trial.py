@@ -125,6 +125,11 @@ def lesions(level, split="test"):
     return {how: {key: [one[how][key] for one in left] for key in keys} for how in LESIONS}
 
 
+def make(levels=photos.LEVELS):
+    """What `results/lesions.json` holds: `lesions` of every level."""
+    return {level: lesions(level) for level in levels}
+
+
 def _lesioned(model, photo):
     sight, left = see(model, photo.image), {}
     for how in LESIONS:
