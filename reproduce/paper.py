@@ -6,6 +6,10 @@ units from the origin, ours reaches 0.53 m): across the two, only ratios of erro
 
 import numpy as np
 
+# Half a unit of the last digit that is printed: of shares in Tables I and II, in Table III, and of
+# lengths
+SHARE, SHARE_3, LENGTH = 0.00005, 0.0005, 0.00005
+
 # Block 1-1 and Section IV A: localisation
 PHOTOS = 80  # 40 to train, 40 to test
 BOXES_PER_PHOTO = 130  # "in average"; 10,560 boxes in all
@@ -76,3 +80,9 @@ def planned_error_ratio() -> float:
 def calibrated_error_ratio(kind: str) -> float:
     """Mean error after "off-line" or "online" calibration, over the planned one (Tables IV-VI)."""
     return MEAN_ERROR[kind] / MEAN_ERROR["planned"]
+
+
+def ratio_rounding(*kinds) -> float:
+    """What rounding can change of a ratio of two mean errors, such as "off-line" over "planned"."""
+    above, below = (MEAN_ERROR[kind] for kind in kinds)
+    return above / below * (LENGTH / above + LENGTH / below)

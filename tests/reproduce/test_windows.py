@@ -1,7 +1,7 @@
 import numpy as np
 
-from reproduce.peers.windows import edge_density, sliding_windows
-from vmc_lib.boxes import area
+from reproduce.peers.windows import edge_density, exhaustive, sliding_windows
+from vmc_lib.boxes import area, iou
 
 
 def windows(seed=0):
@@ -32,3 +32,12 @@ def test_edges_prefer_the_window_that_holds_the_outline():
         ),
     )
     assert tight > around > apart == 0 > inside
+
+
+def test_exhaustive_windows_miss_no_box():
+    everywhere, rng = exhaustive((400, 600)), np.random.default_rng(0)
+    for _ in range(20):
+        side, ratio = rng.uniform(40, 180), rng.uniform(0.5, 2)
+        w, h = side * ratio**0.5, side / ratio**0.5
+        x, y = rng.uniform(0, 600 - w), rng.uniform(0, 400 - h)
+        assert iou(everywhere, [[x, y, x + w, y + h]]).max() >= 0.8
