@@ -48,7 +48,8 @@ def corrections(ax, target, reached, points, change):
     arrows(ax, reached, points, "grey")
     arrows(ax, reached, target, "blue")
     for point, by in zip(points, change, strict=True):
-        ax.annotate(f"{by:+.3f}", point, (0, 6), textcoords="offset points", ha="center")
+        text = f"{by:+.3f}".replace("-", "−")
+        ax.annotate(text, point, (0, 6), textcoords="offset points", ha="center")
 
 
 def weighted_sum(ax, excitations, weights):
