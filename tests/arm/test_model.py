@@ -1,4 +1,4 @@
-"""The arm is OpenSim's arm26, and its closed form is the same arm again."""
+"""The arm is OpenSim's arm26, and its trigonometric polynomials are the same arm again."""
 
 from itertools import product
 

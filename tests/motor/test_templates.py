@@ -26,7 +26,7 @@ def test_the_reference_engine_agrees():
 
 
 @pytest.mark.parametrize("level", photos.LEVELS)
-def test_every_library_surrounds_every_shuttlecock(level):
+def test_every_template_set_surrounds_every_shuttlecock(level):
     shots = [shot for split in photos.SPLITS for shot in photos.load(level, split)]
     places = np.array([turn_towards(shot.target)[1] for shot in shots])
     for spacing in templates.SPACINGS:

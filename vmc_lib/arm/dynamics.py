@@ -1,9 +1,9 @@
-"""The same arm in closed form, for many postures at once.
+"""The arm's dynamics as trigonometric polynomials, for many postures at once.
 
-Two facts make it exact. No muscle wraps over both joints at once, so every musculotendon length is
-a function of the shoulder angle plus a function of the elbow angle: two tables. And the inertia,
-the pull of gravity and the hand's position are trigonometric polynomials in the two angles, sums
-of eleven waves: a few dozen snapshots of the MuJoCo model determine their coefficients.
+The inertia, the pull of gravity and the hand's position are trigonometric polynomials in the two
+angles, sums of eleven waves: a few dozen snapshots of the MuJoCo model determine their
+coefficients exactly. And no muscle wraps over both joints at once, so every musculotendon length
+is a function of the shoulder angle plus a function of the elbow angle: two tables.
 """
 
 from functools import cache

@@ -1,8 +1,9 @@
 """Forward dynamics (Eq. 9–12): from muscle excitations to a movement, one loop, two engines.
 
-`"mujoco"` steps the MuJoCo model and is the reference; `"closed form"` steps a whole batch of
-movements at once. Both meet the same muscles and the same joint stops, with the same
-semi-implicit Euler steps, of 1 ms unless told otherwise; the quicker one is taken.
+`"mujoco"` steps the MuJoCo model and is the reference; `"closed form"` takes the trigonometric
+polynomials of `dynamics` and steps a whole batch of movements at once. Both meet the same muscles
+and the same joint stops, with the same semi-implicit Euler steps, of 1 ms unless told otherwise;
+the quicker one is taken.
 """
 
 from copy import copy
@@ -20,7 +21,7 @@ from vmc_lib.arm.muscle import MAX_VELOCITY, PAPER
 
 STOP_STIFFNESS = 200.0  # N m / rad: ours, not arm26's; bone and ligament beyond the joints' limits
 STOP_DAMPING = 0.5  # s / rad
-MUJOCO_UP_TO = 4  # movements: as many are quicker in MuJoCo than in closed form
+MUJOCO_UP_TO = 4  # movements: as many are quicker in MuJoCo than in the other
 LENGTHENING = -1 / (MAX_VELOCITY * L0)  # per metre that a muscle shortens in a second
 
 

@@ -1,6 +1,6 @@
 """Off-line calibration: try, see the error, correct the weights, try again.
 
-`algorithm_1` is the paper's rule (Eq. 6–7); `broyden_calibration` is ours. Both take a `Plan`, of
+`algorithm_1` is the paper's (Eq. 6–7), `broyden_calibration` our own. Both take a `Plan`, of
 one reach or a batch, and return `Trials`, the plan's own reach first.
 """
 
@@ -39,7 +39,8 @@ def algorithm_1(plan: Plan, gains=GAINS, origin=(0.0, 0.0), sign=1):
     """Algorithm 1: try every n at once, each with the correction of Eq. 6–7.
 
     The paper leaves open where positions are measured from (`origin`, here the shoulder) and which
-    way the error points (`sign` = 1: from the hand to the target). `Trials` holds the plan's reach
+    way the error points (`sign` = 1: from the hand to the target): both were chosen for the ratio
+    of errors that it prints, a reading fitted to the answer. `Trials` holds the plan's reach
     and then one for each of `gains`; its `best` may be the plan itself, which the paper, choosing
     among the n alone, does not allow: no correction should make a reach worse.
     """
@@ -60,8 +61,9 @@ def algorithm_1_change(plan, reached, n, origin=(0.0, 0.0), sign=1):
 
 
 def broyden_calibration(plan: Plan, trials=2, broyden=True, guarded=True):
-    """The population vector done right: solve Eq. 4 for the error, and learn from each trial.
+    """Solve Eq. 4 for the error by the pseudo-inverse, and learn from each trial.
 
+    It is for templates what the optimal linear estimator (Salinas & Abbott, 1994) is for neurons.
     Each trial makes the smallest Δw that shifts the hand by the whole error, if moving a weight
     moved the hand as `jacobian` says: at first along p_i (Eq. 4); afterwards corrected by what the
     arm really did (Broyden, 1965). Two guards: no step is larger than `LARGEST_STEP`, and the next

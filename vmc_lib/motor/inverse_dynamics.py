@@ -1,7 +1,7 @@
 """Inverse dynamics: what a joint path asks of the muscles, and the least that holds a posture.
 
-The brain's habitual planning never does this. It is how its past experience was made, as smooth
-excitations that a few spline coefficients keep.
+Habitual planning never does this. It is how the templates were made, as smooth excitations that a
+few spline coefficients keep.
 """
 
 from functools import cache
@@ -42,7 +42,7 @@ def demand(path):
 
 
 def hold(q):
-    """The least activations (6,) that hold the posture q (2,) against gravity."""
+    """The activations (6,) with the least sum of squares that hold the posture q (2,)."""
     torque, gain = demand(np.tile(q, (2, 1)))
     return least(np.vstack([gain[0], 0.01 * np.eye(6)]), np.append(torque[0], np.zeros(6)))
 

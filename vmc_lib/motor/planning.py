@@ -1,4 +1,4 @@
-"""Habitual planning (Eq. 3–5): a new reach as a weighted sum of remembered ones.
+"""Habitual planning (Eq. 3–5): a new reach as a weighted sum of templates.
 
 Every function takes one target (2,) or a batch (B, 2). Positions are in the arm's plane, in m.
 """
@@ -22,7 +22,7 @@ class Plan:
 
     template_set: TemplateSet
     target: np.ndarray  # (…, 2): where it is seen
-    chosen: np.ndarray  # (…, N): rows of the library
+    chosen: np.ndarray  # (…, N): rows of the template set
     weights: np.ndarray  # (…, N)
     perturbation: Perturbation = UNPERTURBED  # what the arm will meet; the plan does not know it …
     prism: float = 0.0  # … nor, in rad, how far glass before the eyes turns what they see
@@ -157,7 +157,7 @@ def _by_quadrant(target, points):
 
 
 def draw_targets(template_set, count, rng):
-    """Targets (count, 2), drawn evenly from the plane that the library surrounds."""
+    """Targets (count, 2), drawn evenly from the plane that the templates surround."""
     low, high = template_set.points.min(axis=0), template_set.points.max(axis=0)
     drawn = rng.uniform(low, high, (4 * count + 20, 2))
     return drawn[surrounded(drawn, template_set.points)][:count]

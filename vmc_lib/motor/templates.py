@@ -42,7 +42,7 @@ class TemplateSet:
 def load(spacing=SPACING):
     """The shipped `TemplateSet` whose reached points lie `spacing` metres apart."""
     if spacing not in SPACINGS:
-        raise ValueError(f"no library has its points {spacing} m apart; choose one of {SPACINGS}")
+        raise ValueError(f"no templates lie {spacing} m apart; choose one of {SPACINGS}")
     excitations = spline() @ arrays("templates")[key(spacing)].astype(float)
     return TemplateSet(read_only(reach(excitations).reached), read_only(excitations))
 
