@@ -4,7 +4,10 @@ import os
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
 
+settings.register_profile("untimed", deadline=None)  # a busy machine is slow, and no failure
+settings.load_profile("untimed")
 os.environ["VMC_RENDER_MODE"] = "test"  # chapters run by nbmake inherit it
 os.environ.setdefault("MPLBACKEND", "agg")
 
