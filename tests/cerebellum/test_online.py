@@ -3,9 +3,17 @@
 import numpy as np
 import pytest
 from sklearn.exceptions import NotFittedError
+from sklearn.linear_model import LinearRegression
 
-from vmc_lib.cerebellum.online import AimCorrection, GranuleCells, WeightCorrection, smooth_weights
-from vmc_lib.motor.planning import draw_targets, plan
+from vmc_lib.cerebellum.offline import algorithm_1
+from vmc_lib.cerebellum.online import (
+    AimCorrection,
+    GranuleCells,
+    WeightCorrection,
+    equation_8,
+    smooth_weights,
+)
+from vmc_lib.motor.planning import draw_targets, habitual_weights, plan
 from vmc_lib.motor.templates import load
 
 
@@ -29,7 +37,10 @@ def lessons(template_set, count, seed=21):
 
 
 def test_nothing_learned_changes_nothing(template_set, held_out):
-    assert WeightCorrection().correct(held_out) is held_out
+    for hindsight in (True, False):
+        untaught = WeightCorrection(hindsight).correct(held_out)
+        np.testing.assert_array_equal(untaught.weights, held_out.weights)
+        np.testing.assert_array_equal(untaught.chosen, held_out.chosen)
     beginner = AimCorrection(template_set).correct(held_out)
     np.testing.assert_allclose(
         beginner.weights, smooth_weights(held_out.target, held_out.points), atol=1e-9
@@ -43,6 +54,38 @@ def test_the_linear_model_learns_what_it_practised(template_set):
         after.append(error(model.practise(practised).correct(practised)))
     assert after[0] < 0.7 * before
     assert after[2] < after[0]
+
+
+def test_algorithm_2_step_by_step(template_set, held_out):
+    """Its five steps for one reach at a time, in the paper's letters."""
+    (practised,), g = lessons(template_set, 25), WeightCorrection()
+    taught, right = [], []
+    for p_t, p in zip(practised.target, practised.points, strict=True):
+        trials = algorithm_1(plan(p_t, template_set))
+        w_off = trials.weights[trials.error.argmin()]
+        p_a = plan(p_t, template_set).with_weights(w_off).reached()
+        w_there = habitual_weights(p_a, p)
+        taught.append(np.concatenate([p_a, w_there, p.ravel()]))
+        right.append(w_off - w_there)
+    line = LinearRegression().fit(taught, right)
+    change = line.predict(equation_8(held_out))
+    found = g.practise(practised).correct(held_out).weights - held_out.weights
+    np.testing.assert_allclose(found, change, atol=1e-6)
+
+
+def test_the_other_reading_learns_for_the_target(template_set):
+    (practised,), model = lessons(template_set, 25), WeightCorrection(hindsight=False)
+    ((inputs, change),) = model.practise(practised).lessons
+    np.testing.assert_array_equal(inputs, equation_8(practised))
+    np.testing.assert_allclose(practised.weights + change, algorithm_1(practised).best)
+
+
+def test_algorithm_2_as_printed_beats_the_other_reading(template_set, held_out):
+    (practised,), left = lessons(template_set, 25), []
+    for hindsight in (True, False):
+        left.append(error(WeightCorrection(hindsight).practise(practised).correct(held_out)))
+    assert left[0] < 0.61 * error(held_out)  # the paper's own ratio, on what it practised
+    assert left[0] < 0.9 * left[1]
 
 
 def test_granule_cells_generalise(template_set, held_out):

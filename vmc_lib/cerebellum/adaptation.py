@@ -20,6 +20,7 @@ from vmc_lib.motor.templates import REACH, TemplateSet
 
 SILENT = np.array([0.0, -REACH])  # where the hand ends when every muscle is silent
 CORRECTIONS = ("aim", "pull")
+SHARES = np.linspace(1, 0, 41)  # of a shift of the aim: the largest that experience allows is made
 
 
 class Adaptation:
@@ -44,7 +45,7 @@ class Adaptation:
 
     def correct(self, plan: Plan):
         """The plan as the skill corrects it, and with what was learned since."""
-        shift = self._excite(plan) @ self.purkinje
+        shift = self.shift(plan)
         if self.corrects == "aim":
             return self._aimed(plan, plan.target + shift)
         skilled = self.skill.correct(plan)
@@ -53,25 +54,30 @@ class Adaptation:
     def practise(self, plan: Plan):
         """Move, and learn from the error that is seen. Returns where it ended.
 
-        The batch is learned at once: all its movements are made before the first lesson.
+        The batch is learned at once: all its movements are made before the first lesson. What
+        should have been done is what was done and the error more. What could not be done is thus
+        forgotten, or it would pile up with every miss: *windup*, as engineers call it.
         """
-        reached = self.correct(plan).reached()
-        active = self._excite(plan)
+        reached, active = self.correct(plan).reached(), self.cells.excite(plan.target)
+        lesson = self.shift(plan) + plan.target - reached - active @ self.purkinje
         overlap = active @ active.T
         overlap += self.caution * np.diag(np.diag(overlap))
-        self.purkinje = self.purkinje + active.T @ np.linalg.solve(overlap, plan.target - reached)
+        self.purkinje = self.purkinje + active.T @ np.linalg.solve(overlap, lesson)
         return reached
 
-    def _excite(self, plan):
-        return self.cells.excite(plan.target)
+    def shift(self, plan: Plan):
+        """How far to shift the hand, (B, 2), as learned; an aim is kept where templates are."""
+        shift = self.cells.excite(plan.target) @ self.purkinje
+        if self.corrects == "pull":
+            return shift
+        shares = SHARES[:, None, None] * shift
+        known = surrounded(plan.target + shares, self.template_set.points)
+        return shares[known.argmax(axis=0), np.arange(len(shift))]
 
     def _aimed(self, habit, place):
-        """The skilled plan for another place; with the target's own templates where none are."""
-        known = surrounded(place, self.template_set.points)
-        there = plan(np.where(known[:, None], place, habit.target), self.template_set).chosen
-        chosen = np.where(known[:, None], there, habit.chosen)
-        skilled = self.skill.correct(plan(place, self.template_set, chosen=chosen))
-        return replace(habit, chosen=chosen, weights=skilled.weights)
+        """The skilled plan for another place, with the templates there."""
+        there = self.skill.correct(plan(place, self.template_set))
+        return replace(habit, chosen=there.chosen, weights=there.weights)
 
 
 def pull(points, shift):

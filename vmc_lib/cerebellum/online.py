@@ -1,16 +1,21 @@
 """Online calibration: correct the plan before moving, from what past movements taught.
 
 `WeightCorrection` is the paper's g (Eq. 8, Algorithm 2): a linear regression of Δw on the target,
-the weights and the templates' positions. `AimCorrection` is ours: it learns where to aim instead.
-Granule cells, each excited by its own small region of targets, feed a few Purkinje weights (Marr,
-1969; Albus, 1971), and every movement teaches by hindsight: wherever the hand went, the aim taken
-was the right one for going there.
+the weights and the templates' positions. `AimCorrection` is ours: it learns where to aim instead,
+by granule cells, each excited by its own small region of targets, that feed a few Purkinje weights
+(Marr, 1969; Albus, 1971).
+
+Both learn by hindsight: wherever the hand went, what was commanded was the right command for going
+there. That is step 5 of Algorithm 2, and direct inverse modelling (Jordan & Rumelhart, 1992).
 
 Both have `correct(plan)`, the plan with what was learned, and `practise(plan)`, more lessons; what
 is practised is a batch of plans.
 """
 
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
 from functools import partial
+from typing import Any
 
 import numpy as np
 from sklearn.base import BaseEstimator, RegressorMixin
@@ -18,37 +23,73 @@ from sklearn.linear_model import LinearRegression
 from sklearn.utils.validation import check_is_fitted, validate_data
 
 from vmc_lib.cerebellum.offline import algorithm_1
-from vmc_lib.motor.planning import Plan, exact_weights, surrounded, surrounding
+from vmc_lib.motor.planning import (
+    Plan,
+    exact_weights,
+    habitual_weights,
+    plan,
+    surrounded,
+    surrounding,
+)
 from vmc_lib.motor.templates import TemplateSet
 
 # With Eq. 5's power of 1 the weights have a kink at every template; chosen on validation targets
 smooth_weights = partial(exact_weights, power=1.25)
 
 
-class WeightCorrection:
-    """Eq. 8 with the paper's linear g, updated by Algorithm 2."""
+def equation_8(plan: Plan):
+    """What the paper's g is told of a plan: p_t, every w_i and every p_i, (…, 2 + 3 N).
 
-    def __init__(self):
-        self.inputs, self.changes = [], []
-
-    def correct(self, plan: Plan):
-        """The plan with the learned Δw added; as it was before the first lesson."""
-        if not self.inputs:
-            return plan
-        g = LinearRegression().fit(np.concatenate(self.inputs), np.concatenate(self.changes))
-        return plan.with_weights(plan.weights + g.predict(_inputs(plan)))
-
-    def practise(self, plan: Plan, rule=algorithm_1):
-        """Algorithm 2 for a batch: correct online, calibrate that off-line, learn the sum."""
-        calibrated = rule(self.correct(plan)).best
-        self.inputs.append(_inputs(plan))
-        self.changes.append(calibrated - plan.weights)
-        return self
-
-
-def _inputs(plan):
+    Eq. 8 names w_i^off and p_i^off, "the positions of the movement after off-line calibration",
+    which a movement that is still to be made does not have. Here they are the plan's weights and
+    its templates' positions.
+    """
     points = plan.points.reshape(*plan.points.shape[:-2], -1)
     return np.concatenate([plan.target, plan.weights, points], axis=-1)
+
+
+def mossy_fibres(plan: Plan):
+    """What the granule cells are told of a plan: its target, also among its templates, (…, 4)."""
+    return np.concatenate([plan.target, plan.target - plan.points.mean(axis=-2)], axis=-1)
+
+
+@dataclass(eq=False)
+class WeightCorrection:
+    """Eq. 8, learned by Algorithm 2 as it is printed; or, without `hindsight`, by another reading.
+
+    A lesson says which Δw was right for a target. As printed, "the modified weights w_i' and
+    position p_a'" are learned: w' was right for p_a', where it took the hand. In the other reading
+    w' is learned as if it had been right for the target p_t that it was calibrated for.
+
+    The paper plans by Eq. 5 (`weigh`) and has a linear `g` that senses `equation_8`. Others can be
+    put in their place, one by one, to see what each is worth.
+    """
+
+    hindsight: bool = True
+    weigh: Callable = habitual_weights
+    g: Any = field(default_factory=LinearRegression)
+    senses: Callable = equation_8
+    lessons: list = field(default_factory=list)
+
+    def correct(self, plan: Plan):
+        """The plan with the learned Δw added; as `weigh` has it before the first lesson."""
+        planned = self._planned(plan)
+        if not self.lessons:
+            return planned
+        return planned.with_weights(planned.weights + self.g.predict(self.senses(planned)))
+
+    def practise(self, plan: Plan, rule=algorithm_1):
+        """Algorithm 2, its steps for every plan of a batch; `rule` is the off-line calibration."""
+        online = self.correct(plan)  # 1, 2: "calibrated weights w_i^on = w_i + Δw_i^on"
+        modified = online.with_weights(rule(online).best)  # 3, 4: "w_i' = w_i^on + Δw_i^off"
+        place = modified.reached() if self.hindsight else plan.target  # 4: "actual position p_a'"
+        right = self._planned(replace(plan, target=place))
+        self.lessons.append((self.senses(right), modified.weights - right.weights))
+        self.g.fit(*map(np.concatenate, zip(*self.lessons, strict=True)))  # 5: "update … to g'"
+        return self
+
+    def _planned(self, plan):
+        return plan.with_weights(self.weigh(plan.target, plan.points))
 
 
 class AimCorrection:
@@ -62,8 +103,9 @@ class AimCorrection:
         edges = template_set.points.min(axis=0), template_set.points.max(axis=0)
         spots = np.stack(np.meshgrid(*np.linspace(*edges, 40).T), axis=-1).reshape(-1, 2)
         spots = spots[surrounded(spots, template_set.points)]
-        four = template_set.points[np.unique(surrounding(spots, template_set.points), axis=0)]
-        self.cells.fit(*_lessons(_place(four, four[:, None]), np.zeros_like(four)))
+        fours = np.unique(surrounding(spots, template_set.points), axis=0)
+        known = plan(template_set.points[fours], template_set, chosen=fours[:, None])
+        self.cells.fit(*_lessons(known, np.zeros_like(known.target)))
 
     def correct(self, plan: Plan):
         """The plan aimed where it should be for the hand to end on the target."""
@@ -71,8 +113,8 @@ class AimCorrection:
 
     def aim(self, plan: Plan):
         """Where to aim, (…, 2), for the hand to end on the plan's target."""
-        place = _place(plan.target, plan.points)
-        return plan.target + self.cells.predict(place.reshape(-1, 4)).reshape(plan.target.shape)
+        shift = self.cells.predict(mossy_fibres(plan).reshape(-1, 4))
+        return plan.target + shift.reshape(plan.target.shape)
 
     def practise(self, plan: Plan, together=5):
         """Move, and learn from where the hand went: a lesson for each movement of the batch.
@@ -83,20 +125,15 @@ class AimCorrection:
             some = plan[first : first + together]
             aim = self.aim(some)
             reached = self._at(some, aim).reached()
-            self.cells.partial_fit(*_lessons(_place(reached, some.points), aim - reached))
+            self.cells.partial_fit(*_lessons(replace(some, target=reached), aim - reached))
         return self
 
     def _at(self, plan, aim):
         return plan.with_weights(smooth_weights(aim, plan.points))
 
 
-def _place(position, points):
-    """Position, and position among the templates' points: what the granule cells sense, (…, 4)."""
-    return np.concatenate([position, position - points.mean(axis=-2)], axis=-1)
-
-
-def _lessons(places, corrections):
-    return places.reshape(-1, 4), corrections.reshape(-1, 2)
+def _lessons(plan, corrections):
+    return mossy_fibres(plan).reshape(-1, 4), corrections.reshape(-1, 2)
 
 
 class GranuleCells(RegressorMixin, BaseEstimator):
