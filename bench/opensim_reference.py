@@ -1,4 +1,4 @@
-"""Remake `vmc_lib/data/opensim.npz`, the arm in OpenSim, which the book's arm is held against.
+"""Remake `reproduce/results/opensim.npz`, the arm in OpenSim, which the book's arm is held against.
 
     ARM26=path/to/arm26.osim .bench/bin/python -m bench.opensim_reference
 
@@ -7,11 +7,11 @@ CC BY 3.0. The file is in OpenSim's collection of models, and not here.
 """
 
 import os
-from importlib.resources import files
 
 import numpy as np
 import opensim
 
+from reproduce.results import FOLDER
 from vmc_lib.arm.model import DAMPING, MUSCLES, STEP
 from vmc_lib.arm.simulate import steady
 
@@ -107,7 +107,7 @@ def movement(levels, elastic):
 if __name__ == "__main__":
     levels = STEADY.repeat(3, axis=1)
     np.savez_compressed(
-        files("vmc_lib.data") / "opensim.npz",
+        FOLDER / "opensim.npz",
         **geometry(load()),
         released=RELEASED,
         swung=[swing(q) for q in RELEASED],

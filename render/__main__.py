@@ -1,11 +1,12 @@
 """Remake the photos: `python -m render [--only rig/test/003] [--samples 25]`.
 
-More of a kind: `--only varied/train --count 400 --folder more`.
+More of a kind: `--only varied/train --count 400 --folder more`. `*` stands for any level or split.
 """
 
 import argparse
 import itertools
 import json
+from fnmatch import fnmatch
 from pathlib import Path
 
 import numpy as np
@@ -54,14 +55,16 @@ def main():
     parser = argparse.ArgumentParser(prog="python -m render", description=__doc__)
     parser.add_argument("--only", default="", help="a level, level/split or level/split/number")
     parser.add_argument("--samples", type=int, default=25, help="light paths a pixel")
+    parser.add_argument("--first", type=int, default=0, help="the number of the first photo")
     parser.add_argument(
         "--count", type=int, help="photos of each kind; by default, as many as ship"
     )
     parser.add_argument("--folder", type=Path, default=FOLDER, help="where to write them")
     arguments = parser.parse_args()
     for level, split in itertools.product(LEVELS, SPLITS):
-        for number in range(arguments.count or MORE.get((level, split), COUNTS[split])):
-            if f"{level}/{split}/{number:03d}".startswith(arguments.only):
+        count = arguments.count or MORE.get((level, split), COUNTS[split])
+        for number in range(arguments.first, arguments.first + count):
+            if fnmatch(f"{level}/{split}/{number:03d}", f"{arguments.only}*"):
                 make(level, split, number, arguments.samples, arguments.folder)
 
 

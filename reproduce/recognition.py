@@ -88,13 +88,13 @@ def verdicts(level, split):
     return {m: kept[f"{level}/{m}/{split}"] for m in METHODS}, kept[f"{level}/{split}"]
 
 
-def make(folder=photos.FOLDER):
+def make(folder=photos.FOLDER, prototypes=250):
     """What `results/recognition.npz` holds: all that is learnt from the photos in `folder`.
 
     And what it says of each: a probability for every true box of every split.
     """
     rng = np.random.default_rng(0)
-    learnt = learn_without_labels(folder, rng)
+    learnt = learn_without_labels(folder, prototypes, rng)
     kept = {name: np.asarray(x) for name, x in learnt.items()}
     learnt["cdbn"] = CDBN.load()
     for level in photos.LEVELS:
@@ -112,11 +112,11 @@ def make(folder=photos.FOLDER):
     return kept
 
 
-def learn_without_labels(folder, rng):
+def learn_without_labels(folder, prototypes, rng):
     """HMAX's prototypes and SIFT's words, from training crops of all levels, labels unused."""
     shots = [shot for level in photos.LEVELS for shot in photos.load(level, "train", folder)]
     crops, _ = crops_of(shots)
     some = crops[rng.permutation(len(crops))[:60]]
     descriptors = np.concatenate([sift(crop) for crop in some])
     words = KMeans(WORDS, n_init=1, random_state=0).fit(descriptors).cluster_centers_
-    return {"prototypes": draw_prototypes(some, 250, rng), "words": np.float32(words)}
+    return {"prototypes": draw_prototypes(some, prototypes, rng), "words": np.float32(words)}

@@ -24,9 +24,9 @@ from vmc_lib.where.selective_search import propose
 BARE = 6  # training crops of the bare scene a photo
 
 
-def candidates(folder=photos.FOLDER):
+def candidates(folder=photos.FOLDER, splits=photos.SPLITS):
     """The candidates (n, 4) of every photo in `folder`, by its name and the strategy."""
-    kinds = product(photos.LEVELS, photos.SPLITS)
+    kinds = product(photos.LEVELS, splits)
     shots = [photo for kind in kinds for photo in photos.load(*kind, folder)]
     jobs = list(product(shots, ("single", "finer")))
     found = Parallel()(delayed(propose)(photo.image, strategy) for photo, strategy in jobs)

@@ -13,12 +13,12 @@ FOLDER = Path(__file__).parent
 arrays = partial(data.arrays, folder=FOLDER)
 
 
-def records(name):
-    """The JSON file `name`.json of this folder."""
-    return json.loads((FOLDER / f"{name}.json").read_text())
+def records(name, folder=FOLDER):
+    """The JSON file `name`.json of a folder."""
+    return json.loads((Path(folder) / f"{name}.json").read_text())
 
 
-def write(name, content):
+def write(name, content, folder=FOLDER):
     """Write what `records` reads."""
     text = json.dumps(content, indent=1, ensure_ascii=False)
-    (FOLDER / f"{name}.json").write_text(text + "\n")
+    (Path(folder) / f"{name}.json").write_text(text + "\n")
