@@ -1,6 +1,7 @@
 # make book   build the book and say where to open it
 # make test   run every test: library, chapters, pages in a browser
 # make lab    open the chapters in JupyterLab
+# make data   remake all that ships, where something changed (hours; python -m reproduce --list says more)
 # make bench  measure what everything costs, beside named peers (half an hour; a quiet machine)
 # Each sets up its own environment in .venv (the benchmarks' peers: in .bench), once.
 
@@ -16,7 +17,14 @@ INPUTS := _config.yml _toc.yml $(shell find book vmc_lib arm_in_page reproduce -
 
 PEERED := selective_search simulators crbm planning loop scaling
 
-.PHONY: book test lab bench lock clean
+# Locked, each file by its checksum. The library comes second, and torch, whose build (CPU, CUDA) differs
+# from machine to machine: pip takes no file without a checksum beside those that have one.
+define install
+$(1)/pip install --quiet --require-hashes -r constraints.txt
+$(1)/pip install --quiet --no-build-isolation -r requirements.txt -e .
+endef
+
+.PHONY: book test lab data bench lock clean
 .DEFAULT_GOAL := book
 
 book: $(BUILT)
@@ -28,10 +36,13 @@ test: $(BUILT)
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(BIN)/python -m tests.browser
-	$(BIN)/pytest -n auto --dist worksteal --nbmake --nbmake-timeout=3600 tests book
+	$(BIN)/pytest -n auto --dist worksteal --nbmake --nbmake-timeout=3600 --cov tests book
 
 lab: $(READY)
 	$(BIN)/jupyter lab book/01_loop.ipynb
+
+data: $(READY)
+	$(BIN)/python -m reproduce
 
 bench: $(READY) .bench/.ready
 	for name in $(PEERED); do .bench/bin/python -m bench.$$name || exit 1; done
@@ -39,10 +50,9 @@ bench: $(READY) .bench/.ready
 
 .bench/.ready: requirements.txt constraints.txt bench/requirements.txt
 	$(PYTHON) -m venv .bench
-	.bench/bin/pip install --quiet -r requirements.txt -c constraints.txt
+	$(call install,.bench/bin)
 	.bench/bin/pip uninstall --quiet --yes opencv-python-headless
 	.bench/bin/pip install --quiet -r bench/requirements.txt
-	.bench/bin/pip install --quiet --no-deps -e .
 	@touch $@
 
 $(BUILT): $(READY) $(INPUTS)
@@ -54,13 +64,14 @@ $(READY): requirements.txt constraints.txt pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info[:2] < (3, 11))' || \
 	  { echo "Python 3.11 or newer is needed: make PYTHON=python3.11"; exit 1; }
 	@$(PYTHON) -m venv .venv || { echo "Python's venv is missing: sudo apt install python3-venv"; exit 1; }
-	$(BIN)/pip install --quiet -r requirements.txt -c constraints.txt
-	$(BIN)/pip install --quiet --no-deps -e .
+	$(call install,$(BIN))
 	@touch $@
 
-lock: $(READY)  # torch stays out: its build (CPU, CUDA) differs from machine to machine
-	@echo "# Every package of the environment, locked. Remake it with: make lock" > constraints.txt
-	$(BIN)/pip freeze --exclude-editable | grep '==' | grep -v '^torch==' >> constraints.txt
+lock:  # for every system and every Python from 3.11 on
+	@$(PYTHON) -m venv _build/uv && _build/uv/bin/pip install --quiet uv==0.13.9
+	_build/uv/bin/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes \
+	  --no-annotate --custom-compile-command "make lock" -o constraints.txt requirements.txt
+	sed -i.old '/^\(torch\|triton\|cuda-\|nvidia-\)/,/[^\\]$$/d' constraints.txt && rm constraints.txt.old
 
 clean:
 	rm -rf _build

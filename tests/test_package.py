@@ -1,0 +1,146 @@
+"""The library as a package: it declares what it imports, and its wheel is enough for a chapter."""
+
+import ast
+import os
+import re
+import shutil
+import subprocess
+import sys
+import sysconfig
+import tomllib
+from importlib import metadata
+from pathlib import Path
+
+import nbformat
+import pytest
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name as canonical
+
+ROOT = Path(__file__).parents[1]
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+OURS = {"vmc_lib", "arm_in_page", "reproduce", "render", "bench", "book", "tests"}
+PINS = re.findall(r"^([\w.\[\]-]+)==([\w.]+)", (ROOT / "requirements.txt").read_text(), flags=re.M)
+
+
+def declared(*extras):
+    """What the core and some extras ask for: name → versions."""
+    lists = [PROJECT["dependencies"], *(PROJECT["optional-dependencies"][e] for e in extras)]
+    asked = [Requirement(line) for lines in lists for line in lines]
+    return {canonical(r.name): r.specifier for r in asked if r.name != "vmc_lib"}
+
+
+EVERYTHING = declared("book", "test", "cluster")
+
+
+def sources(pattern):
+    """The code of the files: a module whole, of a notebook its cells."""
+    for path in ROOT.glob(pattern):
+        if path.suffix == ".py":
+            yield path.read_text()
+        else:
+            cells = nbformat.read(path, as_version=4).cells
+            yield from (cell.source for cell in cells if cell.cell_type == "code")
+
+
+def imported(code):
+    """Names of the packages that some code imports, but for Python's and ours."""
+    for node in ast.walk(ast.parse(code)):
+        if isinstance(node, ast.Import):
+            modules = [alias.name for alias in node.names]
+        else:
+            modules = [node.module] if isinstance(node, ast.ImportFrom) else []
+        yield from {module.split(".")[0] for module in modules} - OURS - sys.stdlib_module_names
+
+
+@pytest.mark.parametrize(
+    ("patterns", "extras"),
+    [
+        ("vmc_lib/**/*.py arm_in_page/**/*.py reproduce/**/*.py book/figures/*.py", ()),
+        ("book/*.ipynb", ()),
+        ("render/*.py", ("render",)),
+        ("book/_ext/*.py tests/**/*.py", ("book", "test", "cluster")),
+    ],
+)
+def test_what_is_imported_is_declared(patterns, extras):
+    makers, asked = metadata.packages_distributions(), declared(*extras)
+    codes = [code for pattern in patterns.split() for code in sources(pattern)]
+    names = {name for code in codes for name in imported(code)}
+    assert names
+    assert not {n for n in names if not {*map(canonical, makers.get(n, [n]))} & asked.keys()}
+
+
+def test_what_is_declared_is_pinned_and_nothing_else():
+    pinned = {canonical(name.split("[")[0]): version for name, version in PINS}
+    assert pinned.keys() == EVERYTHING.keys()
+    assert not {n for n, version in pinned.items() if version not in EVERYTHING[n]}
+
+
+def test_the_lock_holds_every_pin_but_torch_by_checksum():
+    lock = (ROOT / "constraints.txt").read_text()
+    locked = re.findall(r"^([\w.-]+)==([\w.]+).*\\\n +--hash=sha256:", lock, flags=re.M)
+    assert len(locked) == len(re.findall(r"^\w", lock, flags=re.M)) and "://" not in lock
+    pinned = {(canonical(name.split("[")[0]), version) for name, version in PINS}
+    assert {name for name, _ in pinned - {*locked}} == {"torch"}
+
+
+def test_a_reader_installs_no_tools():
+    core = declared()
+    assert len(core) <= 25 and all(core.values())
+    pulled, waiting = set(), [*core]
+    while waiting:
+        if (name := waiting.pop()) not in pulled:
+            pulled.add(name)
+            asked = (Requirement(line) for line in metadata.requires(name) or [])
+            here = (r for r in asked if not r.marker or r.marker.evaluate({"extra": ""}))
+            waiting += (canonical(r.name) for r in here)
+    assert not pulled & {"pytest", "playwright", "ruff", "sphinx", "jupyter-book", "dask"}
+
+
+@pytest.fixture(scope="session")
+def reader(tmp_path_factory):
+    """A Python that has the wheel and what it needs, but neither the repository nor its paths."""
+    folder = tmp_path_factory.mktemp("reader")
+    unwanted = shutil.ignore_patterns(".*", "_build", "build", "__pycache__", "*.egg-info")
+    shutil.copytree(ROOT, folder / "source", ignore=unwanted)
+    wheel = "wheel --quiet --no-deps --no-build-isolation --wheel-dir".split()
+    subprocess.run([sys.executable, "-m", "pip", *wheel, folder, folder / "source"], check=True)
+    shutil.rmtree(folder / "source")
+    subprocess.run([sys.executable, "-m", "venv", "--without-pip", folder / "venv"], check=True)
+    (site,) = (folder / "venv").glob("**/site-packages")
+    install = ["install", "--quiet", "--no-deps", "--target", site, *folder.glob("*.whl")]
+    subprocess.run([sys.executable, "-m", "pip", *install], check=True)
+    (site / "others.pth").write_text(sysconfig.get_path("purelib"))  # its own .pth files rest
+    return folder / "venv/bin/python"
+
+
+@pytest.fixture
+def alone(reader, tmp_path):
+    """A function that runs the reader's Python in an empty folder, and returns what it printed."""
+    told = {k: v for k, v in os.environ.items() if k not in ("PYTHONPATH", "VMC_RENDER_MODE")}
+
+    def alone(*arguments):
+        done = subprocess.run(
+            [reader, *arguments], cwd=tmp_path, env=told, capture_output=True, text=True
+        )
+        assert done.returncode == 0, done.stderr
+        return done.stdout
+
+    return alone
+
+
+def test_the_wheel_holds_the_library_and_nothing_comes_from_the_repository(alone):
+    names = "vmc_lib arm_in_page reproduce render book.figures"
+    code = f"import {names.replace(' ', ', ')}; print(vmc_lib.__file__, *book.figures.__path__)"
+    for path in alone("-c", code).split():
+        assert "site-packages" in path and not Path(path).is_relative_to(ROOT)
+
+
+@pytest.mark.parametrize("chapter", ["06_muscle", "07_arm", "photos"])
+def test_a_chapter_alone_runs_with_the_wheel(alone, tmp_path, chapter):
+    notebook = nbformat.read(ROOT / f"book/{chapter}.ipynb", as_version=4)
+    notebook.cells.append(nbformat.v4.new_code_cell("import vmc_lib\nvmc_lib.__file__"))
+    nbformat.write(notebook, tmp_path / "chapter.ipynb")
+    alone("-m", "nbconvert", "--execute", "--to=notebook", "--inplace", "chapter.ipynb")
+    executed = nbformat.read(tmp_path / "chapter.ipynb", as_version=4)
+    (told,) = executed.cells[-1].outputs
+    assert "reader" in told.data["text/plain"] and str(ROOT) not in told.data["text/plain"]
