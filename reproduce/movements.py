@@ -166,12 +166,16 @@ def tables(seed, scenario=SCENARIOS[0], movements=25, held_out=200, experiments=
 
 def _left(errors):
     """Of the planned error after the first experiment and the last, in-sample and held-out."""
-    last = len(errors.in_sample) - 1
-    left = {}
-    for k, made in ((1, "1 experiment"), (last, f"{last} experiments"))[: 1 + (last > 1)]:
-        left[f"{made}, in-sample"] = errors.in_sample[k].mean() / errors.planned.mean()
-        left[f"{made}, held-out"] = errors.held_out[k].mean() / errors.held_out_planned.mean()
-    return left
+    practised, others = errors.in_sample.mean(axis=1), errors.held_out.mean(axis=1)
+    left = {
+        "in-sample": practised / errors.planned.mean(),
+        "held-out": others / errors.held_out_planned.mean(),
+    }
+    return {
+        f"{k} experiment{'s' * (k > 1)}, {measured_on}": share[k]
+        for k in sorted({1, len(practised) - 1})
+        for measured_on, share in left.items()
+    }
 
 
 def worlds(seed, before=150, **size):
