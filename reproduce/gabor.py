@@ -66,3 +66,18 @@ def best_gabor(W):
     shape = min(ends, key=lambda end: end.fun).x
     mixture, correlation = fit(W, gabor_pair(n_w, *np.clip(shape, *bounds)))
     return mixture.reshape(n_w, n_w), float(correlation)
+
+
+def bandwidths(W, step=0.05):
+    """How sharply a filter W (n_w, n_w) is tuned to stripes: octaves, and degrees of direction.
+
+    Both are full widths at half height of its answers to gratings, each at its best phase.
+    """
+    octaves, angles = np.arange(-4.5, -1, step), np.radians(np.arange(180))
+    y, x = np.mgrid[: len(W), : len(W)]
+    across = np.multiply.outer(np.cos(angles), x) + np.multiply.outer(np.sin(angles), y)
+    gratings = np.exp(2j * np.pi * np.multiply.outer(2**octaves, across))
+    answers = abs((gratings * W).sum((-2, -1)))  # (frequencies, directions)
+    best, direction = np.unravel_index(answers.argmax(), answers.shape)
+    enough = answers >= answers.max() / 2
+    return enough[:, direction].sum() * step, enough[best].sum()

@@ -1,13 +1,27 @@
 """The ledger: every table and figure of the paper, and its text's claims, beside what we obtained.
 
-`python -m reproduce.ledger` measures every row and writes `results/ledger.json`; the book's page
-shows that file, and a test measures the rows again and compares. Nothing in it is typed by hand.
+`make` measures every row, and `results/ledger.json` holds what it found; the book's page shows
+that file, and a test measures the rows again and compares. Nothing in it is typed by hand.
 """
 
-from reproduce import results
-from reproduce.ledger import moving, seeing, whole
+from dataclasses import fields
 
-ROWS = (*whole.ROWS, *seeing.ROWS, *moving.ROWS)
+from reproduce import results
+from reproduce.ledger import calibration, naming, planning, regions, search, whole
+from reproduce.ledger.entry import VERDICTS, Quantity, measure
+from vmc_lib.photos import LEVELS
+from vmc_lib.show import table
+
+PARTS = (whole, search, regions, naming, planning, calibration)
+ROWS = tuple(row for part in PARTS for row in part.ROWS)
+
+
+def make(rows=ROWS, levels=LEVELS):
+    """What `results/ledger.json` holds: the rows measured, and how the loop fares on each level."""
+    return {
+        "rows": [measure(row) for row in rows],
+        "loop": {level: whole.fate(level) for level in levels},
+    }
 
 
 def load():
@@ -15,21 +29,64 @@ def load():
     return results.records("ledger")
 
 
-def as_markdown(entries):
-    """The rows as Markdown: what is claimed and how it stands, then a table of its quantities."""
+def value(where, name):
+    """The `Quantity` of that name in the row `where`, as it was last measured.
+
+    Chapters ask here, so that a claim has one number. ValueError where there is none.
+    """
+    entries = {entry["where"]: entry["quantities"] for entry in load()["rows"]}
+    for q in entries.get(where, ()):
+        if q["name"] == name:
+            return Quantity(**{field.name: q[field.name] for field in fields(Quantity)})
+    known = [q["name"] for q in entries.get(where, ())] or list(entries)
+    raise ValueError(f"the ledger has no {name!r} of {where!r}; choose from {known}")
+
+
+def counted(entries):
+    """How many rows and quantities have each verdict, as a Markdown table."""
+    rows = [entry["verdict"] for entry in entries]
+    numbers = [q["verdict"] for entry in entries for q in entry["quantities"]]
+    lines = [[f"*{v}*", rows.count(v), numbers.count(v)] for v in VERDICTS]
+    return table(["verdict", "rows", "numbers"], [*lines, ["together", len(rows), len(numbers)]])
+
+
+def summary(entries):
+    """All rows in one Markdown table, each with its verdict and the number that decides it."""
     lines = []
     for entry in entries:
-        why = f": {entry['because']}" if entry["because"] else "."
-        place = f"**[{entry['where']}]({entry['chapter']}.ipynb)**"
-        lines += [f"{place} · {entry['claim']} *{entry['state'].capitalize()}*{why}", ""]
-        lines += ["| quantity | paper | obtained | in sample | tolerance |", "|---" * 5 + "|"]
-        for q in entry["quantities"]:
-            arrow = {1: " ↑", -1: " ↓", 0: ""}[q["better"]]
-            numbers = map(_number, (q["claimed"], q["obtained"], q["in_sample"], q["tolerance"]))
-            lines.append("| " + " | ".join([q["name"] + arrow, *numbers]) + " |")
-        lines.append("")
-    return "\n".join(lines)
+        key = decisive(entry)
+        place = f"[{entry['where']}]({entry['chapter']}.ipynb)"
+        ours, theirs = spread(key), claim(key)
+        lines.append([place, entry["claim"], f"*{entry['verdict']}*", key["name"], ours, theirs])
+    return table(["place", "claim", "verdict", "number", "ours", "paper"], lines)
 
 
-def _number(x):
-    return "" if x is None else f"{x:.3g}"
+def decisive(entry):
+    """The first quantity of an entry whose verdict is that of the entry."""
+    return next(q for q in entry["quantities"] if q["verdict"] == entry["verdict"])
+
+
+def details(entry):
+    """An entry's reasons and all of its numbers, folded, as Markdown."""
+    told = " ".join(filter(None, (entry["because"], entry["note"])))
+    heads = ["number", "paper", "ours (95 %)", "in sample", "verdict"]
+    rows = [
+        [q["name"] + " ↓↑"[q["better"]].strip(), claim(q), spread(q), q["in_sample"], q["verdict"]]
+        for q in entry["quantities"]
+    ]
+    title = f"<summary>{entry['where']}: <i>{entry['verdict']}</i></summary>"
+    return f"<details>{title}\n\n{told}\n\n{table(heads, rows)}\n\n</details>\n"
+
+
+def claim(q):
+    """What is claimed, as text: a number, or a limit."""
+    sign = {1: "> ", -1: "< "}[q["better"]] if q["bound"] else ""
+    return f"{sign}{q['claimed']:.3g}"
+
+
+def spread(q):
+    """What was obtained, as text, with its interval or the chance of such a difference."""
+    told = f"{q['obtained']:.3g}"
+    if q["low"] is not None:
+        told += f" ({q['low']:.3g} to {q['high']:.3g})"
+    return told if q["p"] is None else f"{told} (p = {q['p']:.2g})"

@@ -1,0 +1,153 @@
+"""The ledger's rows on choosing regions: Tables I and II, and what we do better."""
+
+import numpy as np
+
+from reproduce import localisation, paper
+from reproduce.ledger.entry import Row, mean, share, trained
+from reproduce.ledger.search import FOUND, rois
+from reproduce.results import arrays
+from vmc_lib import photos
+from vmc_lib.boxes import area, iou
+from vmc_lib.where.training import candidates
+
+KERNELS = {"linear": "linear", "RBF": "rbf", "polynomial": "poly", "Gaussian": "sigmoid"}
+MEASURES = ("precision", "recall")
+
+
+def _table_1():
+    return [q for name in KERNELS for q in _classifier("published", name)]
+
+
+def _classifier(recipe, name):
+    """Precision and recall of one kernel's classifier, over its trainings."""
+    held_out, in_sample = (
+        localisation.trainings("rig", split, recipe)[KERNELS[name]] for split in ("test", "train")
+    )
+    return _precision_recall(
+        name, paper.TABLE_1[name], held_out, in_sample.mean(axis=0), rois("test")[0].sum()
+    )
+
+
+def _precision_recall(name, claimed, rows, in_sample, wanted):
+    """Of rows (trainings, 2) measured where so many regions or objects were wanted."""
+    precision, recall = rows.mean(axis=0)
+    called = recall * wanted / precision if precision else 0
+    return [
+        trained(
+            f"{name}: {measure}",
+            claimed[k],
+            rows[:, k],
+            (called, wanted)[k],
+            in_sample=in_sample[k],
+            better=1,
+            rounding=paper.SHARE,
+        )
+        for k, measure in enumerate(MEASURES)
+    ]
+
+
+def _kernels():
+    rows = localisation.trainings("rig", "test", "published")
+    gaps = rows["rbf"] - rows["linear"]
+    return [
+        mean(f"{measure}, RBF less linear", 0, gaps[:, k], better=-1)
+        for k, measure in enumerate(MEASURES)
+    ]
+
+
+def _finder(name):
+    rows = arrays("localisation")[f"rig/{name}/seeds"]
+    in_sample = localisation.table_2("rig", "train")[name]
+    return _precision_recall(f"{name}, IoU", paper.TABLE_2, rows, in_sample, 80)
+
+
+def coverage(boxes, truth):
+    """The share of each true box (m, 4) that each box (n, 4) covers, (n, m)."""
+    sides = np.minimum(boxes[:, None, 2:], truth[:, 2:]) - np.maximum(
+        boxes[:, None, :2], truth[:, :2]
+    )
+    return sides.clip(0).prod(axis=-1) / area(truth)
+
+
+def _table_2():
+    some = photos.load("rig", "test")
+    kept = [arrays("localisation")[f"{photo.name}/published"].astype(float) for photo in some]
+    truth = [np.array(list(photo.boxes.values())) for photo in some]
+    ceiling = [iou(candidates(p), t).max(axis=0) for p, t in zip(some, truth, strict=True)]
+    properest = [
+        candidates(p)[iou(candidates(p), t).argmax(axis=0)]
+        for p, t in zip(some, truth, strict=True)
+    ]
+    readings = {
+        "coverage of the truth": [coverage(*pair) for pair in zip(kept, truth, strict=True)],
+        "the best candidate as truth": [iou(*pair) for pair in zip(kept, properest, strict=True)],
+    }
+    quantities = _finder("published")
+    for reading, overlaps in readings.items():
+        for k, measure in enumerate(MEASURES):
+            right = np.concatenate([(o >= FOUND).any(axis=1 - k) for o in overlaps])
+            quantities.append(
+                share(
+                    f"published, {reading}: {measure}",
+                    paper.TABLE_2[k],
+                    right.sum(),
+                    len(right),
+                    better=1,
+                    rounding=paper.SHARE,
+                )
+            )
+    found = np.concatenate(ceiling) >= FOUND
+    limit = "recall that the candidates allow"
+    return [
+        *quantities,
+        share(limit, paper.TABLE_2[1], found.sum(), len(found), better=1, rounding=paper.SHARE),
+    ]
+
+
+ROWS = (
+    Row(
+        "Table I",
+        "The RoI classifier tells regions well.",
+        "03_regions",
+        _table_1,
+        differs="Our candidates often cut the shuttlecock's skirt, and our rig turns it to every "
+        "pose: the pixels of the box alone do not cover that. A margin, the box's size, and shaken "
+        "and mirrored examples (context) help: see *Ours, Table I*.",
+        note="The cost of each kernel was chosen on the rig's validation photos, from one grid. "
+        "“Gaussian” beside “RBF” is unclear; we read it as the fourth kernel of LibSVM, the "
+        "sigmoid, which calls nothing an object at any of these costs.",
+    ),
+    Row(
+        "IV A, kernels",
+        "The linear kernel does as well as RBF.",
+        "03_regions",
+        _kernels,
+        differs="With costs chosen alike, the linear kernel is behind RBF by "
+        "{q[precision, RBF less linear].obtained:.2f} in precision and "
+        "{q[recall, RBF less linear].obtained:.2f} in recall.",
+    ),
+    Row(
+        "Table II",
+        "Search, classifier and suppression localise both objects.",
+        "03_regions",
+        _table_2,
+        differs="“Overlapped region” may be the intersection over the union, or the share of the "
+        "truth that is covered; the “properest box” may be the true one, or the best candidate. No "
+        "reading reaches the claim. The candidates allow a recall of "
+        "{q[recall that the candidates allow].obtained:.2f} at most; and the classifier never "
+        "learns from boxes that overlap an object by 0.5 to 0.8, so suppression often keeps one of "
+        "those. See *Ours, Table II*.",
+    ),
+    Row(
+        "Ours, Table I",
+        "With context, the linear kernel does as well as the paper's.",
+        "03_regions",
+        lambda: _classifier("context", "linear"),
+    ),
+    Row(
+        "Ours, Table II",
+        "Corrected boxes and a judge of near misses localise both objects.",
+        "03_regions",
+        lambda: _finder("improved"),
+    ),
+)
