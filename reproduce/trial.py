@@ -112,7 +112,7 @@ def lesioned(model, photo, box, lesion):
     return reach(model, place, None if lesion == "cerebellum" else algorithm_1)
 
 
-def lesions(level, split="test"):
+def lesions(level, split="test", folder=photos.FOLDER):
     """Every photo of a level and split under each of `LESIONS`: two lists for each lesion.
 
     "object" is what the box holds that is gone for: "shuttlecock", "cup", "neither" or, with no
@@ -120,14 +120,15 @@ def lesions(level, split="test"):
     there was no reach.
     """
     model = VisuomotorModel.load(level)
-    left = Parallel()(delayed(_lesioned)(model, photo) for photo in photos.load(level, split))
+    shots = photos.load(level, split, folder)
+    left = Parallel()(delayed(_lesioned)(model, photo) for photo in shots)
     keys = ("object", "missed")
     return {how: {key: [one[how][key] for one in left] for key in keys} for how in LESIONS}
 
 
-def make(levels=photos.LEVELS):
-    """What `results/lesions.json` holds: `lesions` of every level."""
-    return {level: lesions(level) for level in levels}
+def make(levels=photos.LEVELS, folder=photos.FOLDER):
+    """What `results/lesions.json` holds: `lesions` of every level's test photos in `folder`."""
+    return {level: lesions(level, folder=folder) for level in levels}
 
 
 def _lesioned(model, photo):

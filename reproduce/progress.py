@@ -1,0 +1,39 @@
+"""Steps run in order by doit, which leaves out what is up to date; a line of progress each."""
+
+from time import perf_counter
+
+from doit.cmd_base import ModuleTaskLoader
+from doit.doit_cmd import DoitMain
+from doit.reporter import ConsoleReporter
+
+
+class Progress(ConsoleReporter):
+    """A line a step: its name, and how long it took."""
+
+    def say(self, words):
+        """Write at once."""
+        self.outstream.write(words)
+        self.outstream.flush()
+
+    def execute_task(self, task):
+        """A step begins."""
+        self.begun = perf_counter()
+        self.say(f"{task.name} … ")
+
+    def add_success(self, task):
+        """It is done."""
+        self.say(f"{perf_counter() - self.begun:.0f} s\n")
+
+    def skip_uptodate(self, task):
+        """Nothing that it reads has changed."""
+        self.say(f"{task.name}: up to date\n")
+
+
+def run(tasks, names, folder, *options):
+    """Run those of doit's `tasks` that are named, and return the exit status: 0 is good.
+
+    What they read and made is remembered in `folder`, to know what is up to date.
+    """
+    config = {"dep_file": f"{folder}/.doit.json", "backend": "json", "reporter": Progress}
+    namespace = {"DOIT_CONFIG": config, "task_steps": lambda: (task for task in tasks)}
+    return DoitMain(ModuleTaskLoader(namespace)).run(["run", *options, *names])

@@ -1,0 +1,137 @@
+"""The steps that remake all that ships: what each makes, from what, and about how long it takes."""
+
+import sys
+from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+from functools import partial
+from inspect import getsourcefile
+from multiprocessing import get_context
+from pathlib import Path
+
+import numpy as np
+from joblib import parallel_config
+
+from reproduce import (
+    fresh_test_set,
+    ledger,
+    localisation,
+    movements,
+    recognition,
+    results,
+    training,
+    trial,
+    variations,
+)
+from reproduce.peers import optimal
+from vmc_lib import data
+
+ROOT, MODEL, RESULTS = Path(__file__).parents[1], data.FOLDER, results.FOLDER
+FRESH = ROOT / "_build/fresh_photos"  # of tests to come: they do not ship
+CODE_AND_DATA = {".py", ".xml", ".npz", ".json", ".jpg"}
+
+
+@dataclass(frozen=True)
+class Step:
+    """One file, or one folder, and how it is made."""
+
+    make: Callable | str  # gives what the file holds; or a command that writes it
+    file: Path
+    reads: str = ""  # the steps whose files it reads, and the folders of the code that it runs
+    minutes: float = 1  # about, on two cores
+    needs: str = ""  # what not every machine has: such a step runs only when it is asked for
+
+    @property
+    def name(self):
+        """What the step is called: as its file."""
+        return self.file.stem
+
+    def inputs(self):
+        """Every file that the step depends on."""
+        makes = {step.name: step.file for step in STEPS}
+        places = [makes.get(name, ROOT / name) for name in self.reads.split()]
+        within = (file for place in places for file in (place, *place.rglob("*")))
+        found = {file for file in within if file.suffix in CODE_AND_DATA}
+        return found | {Path(getsourcefile(getattr(self.make, "func", self.make)))}
+
+    def run(self):
+        """Make the file, on all cores, in a new process: one that has read no older file."""
+        with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
+            pool.submit(_made, self).result()
+
+
+def _made(step):
+    with parallel_config(n_jobs=-1):
+        write(step.file, step.make)
+
+
+def write(file, make):
+    """Write what `make()` gives: arrays by name as .npz, or anything plain as .json."""
+    content = make()
+    if file.suffix == ".npz":
+        np.savez_compressed(file, **content)
+    else:
+        results.write(file.stem, content, file.parent)
+
+
+def tasks():
+    """The steps as doit's tasks."""
+    for step in STEPS:
+        if isinstance(step.make, str):
+            yield {"basename": step.name, "actions": [step.make]}
+        else:
+            files = {"file_dep": sorted(step.inputs()), "targets": [step.file]}
+            yield {"basename": step.name, "actions": [step.run], **files}
+
+
+def listed():
+    """The steps as lines: name, what is made, minutes, and what else is needed."""
+    for step in STEPS:
+        needs = f"; needs {step.needs}, so only with --only" if step.needs else ""
+        where = step.file.relative_to(ROOT)
+        yield f"{step.name:15} {where!s:38} about {step.minutes:g} min{needs}"
+
+
+RENDER, OPENSIM = f"{sys.executable} -m render", ".bench/bin/python -m bench.opensim_reference"
+WHERE, WHAT = "photos vmc_lib/where", "photos vmc_lib/what reproduce/name_examples.py"
+ARM = "vmc_lib/arm vmc_lib/motor"
+STEPS = (
+    Step(RENDER, MODEL / "photos", minutes=25, needs="mitsuba and LLVM 19"),
+    Step(training.candidates, MODEL / "candidates.npz", WHERE, 4),
+    Step(training.detectors, MODEL / "detectors.npz", f"candidates {WHERE}", 6),
+    Step(training.localisers, MODEL / "localisers.npz", WHERE, 1),
+    Step(training.cdbn, MODEL / "cdbn.npz", WHAT, 2),
+    Step(training.recogniser, MODEL / "recogniser.npz", f"cdbn {WHAT}", 2),
+    Step(training.templates, MODEL / "templates.npz", f"{ARM} reproduce/template_making.py", 1),
+    Step(localisation.make, RESULTS / "localisation.npz", f"candidates detectors {WHERE}", 25),
+    Step(recognition.make, RESULTS / "recognition.npz", f"cdbn {WHAT} reproduce/peers", 3),
+    Step(variations.make, RESULTS / "variations.npz", WHAT, 15),
+    Step(optimal.make, RESULTS / "optimal.npz", f"templates {ARM}", 3),
+    Step(movements.make, RESULTS / "movements.json", f"templates {ARM} vmc_lib/cerebellum", 10),
+    Step(
+        trial.make,
+        RESULTS / "lesions.json",
+        "photos detectors localisers recogniser templates vmc_lib",
+        6,
+    ),
+    Step(
+        ledger.make,
+        RESULTS / "ledger.json",
+        "localisation recognition movements optimal vmc_lib reproduce/ledger reproduce/trial.py",
+        8,
+    ),
+    Step(
+        f'{RENDER} --only "*/test" --first 40 --count 200 --folder {FRESH}',
+        FRESH,
+        minutes=40,
+        needs="mitsuba and LLVM 19",
+    ),
+    Step(
+        partial(fresh_test_set.make, FRESH),
+        RESULTS / "fresh_test_set.json",
+        f"detectors {WHERE} vmc_lib/what",
+        25,
+        needs="fresh_photos",
+    ),
+    Step(OPENSIM, RESULTS / "opensim.npz", needs="OpenSim in .bench, ARM26=path/to/arm26.osim"),
+)

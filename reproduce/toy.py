@@ -1,0 +1,104 @@
+"""Every step at toy size: a few photos, seeds and patches, to see in a minute that all of it runs.
+
+What a step reads of other steps' files is what ships; what it makes is of no use.
+"""
+
+import json
+from dataclasses import replace
+from functools import partial
+from itertools import product
+from shutil import copy
+
+import numpy as np
+
+from render import scene
+from reproduce import (
+    fresh_test_set,
+    ledger,
+    localisation,
+    movements,
+    recognition,
+    training,
+    trial,
+    variations,
+)
+from reproduce.peers import optimal
+from reproduce.progress import run
+from reproduce.steps import STEPS, write
+from vmc_lib import photos
+from vmc_lib.where.recipes import RECIPES
+
+FEW = {"train": (1, 2), "validation": (1, 2), "test": (1,)}  # numbers of each level's photos
+NAMED = FEW | {"validation": (1, 2, 3, 4, 5)}  # Platt's sigmoid asks for five of a kind
+PATCHES = 200  # of the pictures that a network learns from
+LATER = 200  # what turns the number of a photo that ships into that of a later one
+
+
+def steps(folder):
+    """What a toy step's file holds, to be called, by the step's name; `folder` takes photos."""
+    few, named, fresh = (folder / name for name in ("few", "named", "fresh"))
+    copy_photos(few, FEW)
+    copy_photos(named, NAMED)
+    copy_photos(fresh, {"test": FEW["test"]}, LATER)
+    recipes = {
+        name: replace(recipe, boxes=100, regressions=recipe.regressions[:1])
+        for name, recipe in RECIPES.items()
+    }
+    size = {"movements": 2, "held_out": 4, "experiments": 1}
+    experiments = {
+        "tables": partial(movements.tables, scenario=movements.SCENARIOS[1], **size),
+        "perturbations": partial(movements.worlds, before=20, blocks=(1, 1, 1), movements=2),
+    }
+    return {
+        "photos": scenes,
+        "candidates": partial(training.candidates, few, ["test"]),
+        "detectors": partial(training.detectors, few, recipes),
+        "localisers": partial(training.localisers, few),
+        "cdbn": partial(training.cdbn, few, PATCHES),
+        "recogniser": partial(training.recogniser, named),
+        "templates": partial(training.templates, [0.16]),
+        "localisation": partial(localisation.make, few, recipes, trainings=1),
+        "recognition": partial(recognition.make, named, prototypes=20),
+        "variations": partial(variations.make, [(6, 0)], named, PATCHES),
+        "optimal": partial(optimal.make, optimal.TARGETS[12:13]),
+        "movements": partial(movements.make, experiments, seeds=[0]),
+        "fresh_test_set": partial(
+            fresh_test_set.make, fresh, named, trainings=1, seeds=[0], patches=PATCHES
+        ),
+        "lesions": partial(trial.make, ["rig"], few),
+        "ledger": partial(ledger.make, ledger.ROWS[-1:], levels=()),
+    }
+
+
+def run_all(folder):
+    """Run all toy steps, one after the other in this process; what they make lies in `folder`."""
+    kinds = {step.name: step.file.suffix or ".npz" for step in STEPS}
+    made = steps(folder)
+    tasks = [
+        {"basename": name, "actions": [(write, [folder / f"{name}{kinds[name]}", make])]}
+        for name, make in made.items()
+    ]
+    return run(tasks, made, folder)
+
+
+def copy_photos(folder, numbers, later=0):
+    """Some of the photos that ship (split -> numbers), as if they were numbered `later`."""
+    for level, split in product(photos.LEVELS, numbers):
+        shipped, copied = (place / level / split for place in (photos.FOLDER, folder))
+        copied.mkdir(parents=True)
+        for number in numbers[split]:
+            old, new = shipped / f"{number:03d}.json", copied / f"{number + later:03d}.json"
+            truth = json.loads(old.read_text())
+            truth["seed"][-1] += later
+            new.write_text(json.dumps(truth))
+            copy(old.with_suffix(".jpg"), new.with_suffix(".jpg"))
+
+
+def scenes():
+    """A scene of each level, drawn but not rendered: the vertices of its things, by name."""
+    drawn = {level: scene.draw(level, np.random.default_rng(0)) for level in photos.LEVELS}
+    return {
+        f"{level}/{name}": mesh.vertices
+        for level, one in drawn.items()
+        for name, mesh in one.things.items()
+    }
