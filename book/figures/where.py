@@ -26,6 +26,11 @@ def mosaic(image, labels):
     return np.uint8(means[labels])
 
 
+def in_corner(words):
+    """Words in a photo's upper left corner, as a box without area for `photo_view`."""
+    return (8, 0, 8, 0), words, "ink"
+
+
 def nearest(truth, boxes, colour="green"):
     """For each named true box the nearest of `boxes`, labelled with its IoU, for `photo_view`."""
     marks = []
