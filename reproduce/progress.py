@@ -10,23 +10,18 @@ from doit.reporter import ConsoleReporter
 class Progress(ConsoleReporter):
     """A line a step: its name, and how long it took."""
 
-    def say(self, words):
-        """Write at once."""
-        self.outstream.write(words)
-        self.outstream.flush()
-
     def execute_task(self, task):
         """A step begins."""
         self.begun = perf_counter()
-        self.say(f"{task.name} … ")
+        print(task.name, end=" … ", flush=True)
 
     def add_success(self, task):
         """It is done."""
-        self.say(f"{perf_counter() - self.begun:.0f} s\n")
+        print(f"{perf_counter() - self.begun:.0f} s", flush=True)
 
     def skip_uptodate(self, task):
         """Nothing that it reads has changed."""
-        self.say(f"{task.name}: up to date\n")
+        print(f"{task.name}: up to date", flush=True)
 
 
 def run(tasks, names, folder, *options):
