@@ -20,7 +20,7 @@ from vmc_lib.where.recipes import RECIPES
 from vmc_lib.where.training import examples
 
 FRESH = 140  # number of the first photo that had no part in Table I
-KERNELS, FINDERS = ("linear", "rbf"), ("published", "improved")
+KERNELS, DETECTORS = ("linear", "rbf"), ("published", "improved")
 SEEDS = tuple(seed for n_w, seed in VARIATIONS if n_w == N_W)
 
 
@@ -70,7 +70,7 @@ def make(exam, folder=photos.FOLDER, trainings=TRAININGS, seeds=SEEDS, patches=P
         if known & {photo.name for photo in shots}:
             raise ValueError(f"{exam} holds photos that ship, no exam: delete {sorted(known)}")
         fresh = [shot for shot in shots if shot.seed[-1] >= FRESH]
-        asked = ask_kernels(level, fresh, folder, trainings) | ask_finders(level, shots)
+        asked = ask_kernels(level, fresh, folder, trainings) | ask_detectors(level, shots)
         for question, counts in asked.items():
             found.setdefault(question, {})[level] = counts
     trained = vary_all([(N_W, seed) for seed in seeds], folder, exam, patches)
@@ -94,10 +94,10 @@ def ask_kernels(level, shots, folder=photos.FOLDER, trainings=TRAININGS):
     return dict(zip(KERNELS, np.mean(counts, axis=0).tolist(), strict=True))
 
 
-def ask_finders(level, shots):
-    """The answers of Table II's finders on photos of a level."""
+def ask_detectors(level, shots):
+    """The answers of Table II's detectors on photos of a level."""
     found = {}
-    for name in FINDERS:
+    for name in DETECTORS:
         detector = ObjectDetector.load(level, name)
         right, reached = hits(shots, [detector.detect(photo.image).boxes for photo in shots])
         found[name] = tuple(map(int, (right.sum(), (~right).sum(), (~reached).sum())))

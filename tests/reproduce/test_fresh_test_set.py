@@ -11,13 +11,13 @@ from vmc_lib.what.recogniser import READ_OUTS
 def test_every_question_was_put_to_two_hundred_photos_of_each_level():
     assert set(fresh_test_set.answers()) == {
         *fresh_test_set.KERNELS,
-        *fresh_test_set.FINDERS,
+        *fresh_test_set.DETECTORS,
         *product(READ_OUTS, fresh_test_set.SEEDS),
     }
     for question, levels in fresh_test_set.answers().items():
         assert list(levels) == list(photos.LEVELS)
         for level, (right, _, missed) in levels.items():
-            if question in fresh_test_set.FINDERS:  # a cup and a shuttlecock a photo
+            if question in fresh_test_set.DETECTORS:  # a cup and a shuttlecock a photo
                 assert right + missed == 400
             elif isinstance(question, tuple):  # shuttlecocks, among as many cups
                 assert right + missed == 200
@@ -28,7 +28,7 @@ def test_every_question_was_put_to_two_hundred_photos_of_each_level():
 def test_the_exam_asks_what_the_tables_ask():
     """Put to the photos that ship, its questions get the tables' answers."""
     shots = photos.load("rig", "test")
-    found = fresh_test_set.ask_kernels("rig", shots) | fresh_test_set.ask_finders("rig", shots)
+    found = fresh_test_set.ask_kernels("rig", shots) | fresh_test_set.ask_detectors("rig", shots)
     tables = localisation.table_1("rig", "test", "context") | localisation.table_2("rig", "test")
     for question, counts in found.items():
         shares = [share for share, *_ in fresh_test_set.shares(*counts)]

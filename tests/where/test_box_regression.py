@@ -1,4 +1,4 @@
-"""On photos that the shipped finder never saw."""
+"""On photos that the shipped detector never saw."""
 
 from dataclasses import replace
 

@@ -17,7 +17,7 @@ def photo():
 
 
 @pytest.mark.parametrize("name", ["published", "context"])
-def test_training_again_gives_the_finder_that_ships(name):
+def test_training_again_gives_the_detector_that_ships(name):
     few = photos.load("rig", "train")
     trained, shipped = (
         ObjectDetector.fit(few, RECIPES[name]),
@@ -39,7 +39,7 @@ def test_the_same_seed_learns_the_same():
         assert not np.array_equal(once[part], other[part])
 
 
-def test_a_finder_narrows_down_step_by_step(photo):
+def test_a_detector_narrows_down_step_by_step(photo):
     detector = ObjectDetector.load("rig", "published")
     found = detector.detect(photo.image)
     counts = list(found.counts.values())
@@ -97,7 +97,7 @@ def test_an_image_of_another_kind(image):
         ObjectDetector.load("rig").score(image, [(0, 0, 30, 30)])
 
 
-def test_unknown_finders():
+def test_unknown_detectors():
     for level, name in (("rig", "best"), ("attic", "published")):
         with pytest.raises(
             ValueError,
