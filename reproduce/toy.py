@@ -41,10 +41,8 @@ def steps(folder):
     copy_photos(few, FEW)
     copy_photos(named, NAMED)
     copy_photos(fresh, {"test": FEW["test"]}, LATER)
-    recipes = {
-        name: replace(recipe, boxes=100, regressions=recipe.regressions[:1])
-        for name, recipe in RECIPES.items()
-    }
+    improved = replace(RECIPES["improved"], boxes=100, regressions=(0.1,))
+    recipes = RECIPES | {"improved": improved}
     size = {"movements": 2, "held_out": 4, "experiments": 1}
     experiments = {
         "tables": partial(movements.tables, scenario=movements.SCENARIOS[1], **size),
