@@ -15,13 +15,13 @@ from joblib import Parallel, delayed, parallel_config
 
 from bench.report import publish
 from reproduce import template_making
+from reproduce.detector_training import fit_detector
 from reproduce.localisation import precision_recall
 from vmc_lib import photos
 from vmc_lib.cerebellum.online import AimCorrection
 from vmc_lib.motor import templates
 from vmc_lib.motor.inverse_dynamics import spline
 from vmc_lib.motor.planning import draw_targets, plan
-from vmc_lib.where.detector import ObjectDetector
 from vmc_lib.where.recipes import RECIPES
 
 SPACINGS = (0.08, 0.06, 0.04, 0.03, 0.02)  # m
@@ -72,7 +72,7 @@ def more_photos(count):
     seen = photos.load("varied", "train", FOLDER)[:count]
     unseen = photos.load("varied", "validation")
     start = process_time()
-    detector = ObjectDetector.fit(seen, RECIPES["improved"], np.random.default_rng(0))
+    detector = fit_detector(seen, RECIPES["improved"], np.random.default_rng(0))
     seconds = process_time() - start
     boxes = [detector.detect(photo.image).boxes for photo in unseen]
     return [row("photos", count, 1 - precision_recall(unseen, boxes)[1], seconds)]

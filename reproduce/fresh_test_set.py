@@ -8,6 +8,7 @@ The answers ship; the photos do not, but the step `fresh photos` renders them an
 import numpy as np
 
 from reproduce import results
+from reproduce.detector_training import examples
 from reproduce.intervals import wilson
 from reproduce.localisation import TRAININGS, classifiers, hits
 from reproduce.recognition import tally
@@ -17,7 +18,6 @@ from vmc_lib.what.cdbn import N_W, PATCHES
 from vmc_lib.what.recogniser import READ_OUTS
 from vmc_lib.where.detector import ObjectDetector
 from vmc_lib.where.recipes import RECIPES
-from vmc_lib.where.training import examples
 
 FRESH = 140  # number of the first photo that had no part in Table I
 KERNELS, DETECTORS = ("linear", "rbf"), ("published", "improved")

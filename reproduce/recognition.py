@@ -7,13 +7,13 @@ import numpy as np
 import torch
 from sklearn.cluster import KMeans
 
-from reproduce.name_examples import examples
+from reproduce.name_training import examples, fit_name_classifier
 from reproduce.peers.features import bag_of_sift, histograms_of_gradients, raw_pixels, sift
 from reproduce.peers.hmax import draw_prototypes, hmax
 from reproduce.results import arrays
 from vmc_lib import photos
 from vmc_lib.what.cdbn import CDBN, crops_of
-from vmc_lib.what.recogniser import NameClassifier, fit, read_outs
+from vmc_lib.what.recogniser import NameClassifier, read_outs
 
 WORDS = 100
 
@@ -104,7 +104,9 @@ def make(folder=photos.FOLDER, prototypes=250):
         seen = {split: features(crops, learnt) for split, (crops, _) in exams.items()}
         kept |= {f"{level}/{split}": truth for split, (_, truth) in exams.items()}
         for method in METHODS:
-            linear = fit(x[method], y, seen["validation"][method], exams["validation"][1])
+            linear = fit_name_classifier(
+                x[method], y, seen["validation"][method], exams["validation"][1]
+            )
             kept[f"{level}/{method}/w"] = linear.weights
             kept[f"{level}/{method}/b"] = linear.bias
             for split in photos.SPLITS:

@@ -93,7 +93,7 @@ def listed():
 
 
 RENDER, OPENSIM = f"{sys.executable} -m render", ".bench/bin/python -m bench.opensim_reference"
-WHERE, WHAT = "photos vmc_lib/where", "photos vmc_lib/what reproduce/name_examples.py"
+WHERE, WHAT = "photos vmc_lib/where", "photos vmc_lib/what reproduce/name_training.py"
 ARM = "vmc_lib/arm vmc_lib/motor"
 STEPS = (
     Step(RENDER, MODEL / "photos", minutes=25, needs="mitsuba and LLVM 19"),
@@ -117,7 +117,8 @@ STEPS = (
     Step(
         ledger.make,
         RESULTS / "ledger.json",
-        "localisation recognition movements optimal vmc_lib reproduce/ledger reproduce/trial.py",
+        "localisation recognition variations movements optimal vmc_lib reproduce/ledger "
+        "reproduce/trial.py reproduce/space.py reproduce/second_plant.py reproduce/gabor.py",
         8,
     ),
     Step(

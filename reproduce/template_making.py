@@ -1,7 +1,8 @@
 """How the templates were made: reaches to a grid of places, each settled until it ends there.
 
 A minimum-jerk path (Flash and Hogan, 1985) gives torques by inverse dynamics; torques are shared
-among the six muscles, smoothly and with the least squares of activation; Eq. 9 solved backwards gives excitations.
+among the six muscles, smoothly and with the least squares of activation; Eq. 9 solved backwards
+gives excitations.
 """
 
 import numpy as np

@@ -10,13 +10,13 @@ import numpy as np
 from joblib import Parallel, delayed
 
 from reproduce import template_making
-from reproduce.name_examples import examples
+from reproduce.detector_training import fit_detector, tuned, used_as
+from reproduce.name_training import examples, fit_name_classifier
 from vmc_lib import photos
 from vmc_lib.motor.templates import SPACINGS, key
 from vmc_lib.what.cdbn import CDBN, PATCHES, crops_of, train
 from vmc_lib.what.crops import whiten
-from vmc_lib.what.recogniser import ALL_LEVELS, READ_OUTS, fit, read_outs
-from vmc_lib.where.detector import ObjectDetector
+from vmc_lib.what.recogniser import ALL_LEVELS, READ_OUTS, read_outs
 from vmc_lib.where.localiser import Localiser
 from vmc_lib.where.recipes import RECIPES, TRAINED_AS
 from vmc_lib.where.selective_search import propose
@@ -43,13 +43,13 @@ def detectors(folder=photos.FOLDER, recipes=RECIPES):
 
 def detector(level, name, recipes, folder):
     """What `load` reads of the recipe `name`, and of those that are TRAINED_AS it, on a level."""
-    trained = ObjectDetector.fit(photos.load(level, "train", folder), recipes[name])
+    trained = fit_detector(photos.load(level, "train", folder), recipes[name])
     held_out, learnt = photos.load(level, "validation", folder), {}
     for part, value in trained.parts().items():
         half = np.size(value) > 10_000
         learnt[f"{level}/{name}/{part}"] = np.array(value, np.float16 if half else np.float32)
     for row in (name, *(row for row, source in TRAINED_AS.items() if source == name)):
-        learnt[f"{level}/{row}/threshold"] = trained.used_as(row).tuned(held_out).threshold
+        learnt[f"{level}/{row}/threshold"] = tuned(used_as(trained, row), held_out).threshold
     return learnt
 
 
@@ -83,7 +83,7 @@ def recogniser(folder=photos.FOLDER):
     sets[ALL_LEVELS] = [merged(split) for split in zip(*sets.values(), strict=True)]
     for level, ((x, y), (x_validation, y_validation)) in sets.items():
         for name in READ_OUTS:
-            found = fit(x[name], y, x_validation[name], y_validation)
+            found = fit_name_classifier(x[name], y, x_validation[name], y_validation)
             learnt[f"{level}/{name}/w"] = np.float32(found.weights)
             learnt[f"{level}/{name}/b"] = found.bias
     return learnt

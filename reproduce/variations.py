@@ -5,13 +5,13 @@ from functools import cache
 import numpy as np
 from joblib import Parallel, delayed
 
-from reproduce.name_examples import examples
+from reproduce.name_training import examples, fit_name_classifier
 from reproduce.recognition import tally
 from reproduce.results import arrays
 from vmc_lib import photos
 from vmc_lib.what.cdbn import N_W, PATCHES, crops_of, train
 from vmc_lib.what.crops import whiten
-from vmc_lib.what.recogniser import READ_OUTS, fit, read_outs
+from vmc_lib.what.recogniser import READ_OUTS, read_outs
 
 VARIATIONS = (N_W, 0), (N_W, 1), (N_W, 2), (6, 0), (10, 0), (12, 0)  # (n_w, seed)
 SPLITS = "validation", "test"
@@ -54,7 +54,7 @@ def vary(variation, folder, exam, patches=PATCHES):
         seen = [(read_outs(cdbn, crops), truth) for crops, truth in map(crops_of, exams)]
         (checked, checked_truth), _ = seen
         for j, name in enumerate(READ_OUTS):
-            linear = fit(x[name], y, checked[name], checked_truth)
+            linear = fit_name_classifier(x[name], y, checked[name], checked_truth)
             counts[i, j] = [tally(linear.probability(z[name]), truth) for z, truth in seen]
     return cdbn.first.W[:, 0].numpy(), counts
 

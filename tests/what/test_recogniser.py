@@ -3,12 +3,12 @@ from itertools import combinations
 import numpy as np
 import pytest
 
-from reproduce.name_examples import JITTER, background_box, examples
+from reproduce.name_training import JITTER, background_box, examples, fit_name_classifier
 from vmc_lib import photos
 from vmc_lib.boxes import iou, jittered
 from vmc_lib.what.cdbn import crops_of
 from vmc_lib.what.crops import crop
-from vmc_lib.what.recogniser import ALL_LEVELS, READ_OUTS, Recogniser, fit
+from vmc_lib.what.recogniser import ALL_LEVELS, READ_OUTS, Recogniser
 
 
 @pytest.mark.parametrize("name", READ_OUTS)
@@ -49,7 +49,7 @@ def blobs(n, rng, apart):
 def test_probabilities_are_calibrated():
     """Of the cases called 70 to 90 %, about 80 % are so."""
     rng = np.random.default_rng(0)
-    classifier = fit(*blobs(400, rng, 0.6), *blobs(2000, rng, 0.6))
+    classifier = fit_name_classifier(*blobs(400, rng, 0.6), *blobs(2000, rng, 0.6))
     x, y = blobs(20_000, rng, 0.6)
     chance = classifier.probability(x)
     for low in (0.1, 0.3, 0.5, 0.7):
@@ -62,9 +62,9 @@ def test_fit_refuses_what_it_cannot_learn_from():
     bad = [(x[:0], y[:0]), (x, np.ones(40, bool)), (np.full_like(x, np.nan), y)]
     for features, labels in bad:
         with pytest.raises(ValueError, match="both classes"):
-            fit(features, labels, x, y)
+            fit_name_classifier(features, labels, x, y)
         with pytest.raises(ValueError, match="both classes"):
-            fit(x, y, features, labels)
+            fit_name_classifier(x, y, features, labels)
 
 
 def test_examples():

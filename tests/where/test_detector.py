@@ -1,5 +1,3 @@
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -8,35 +6,12 @@ from hypothesis import strategies as st
 from vmc_lib import photos
 from vmc_lib.boxes import as_boxes, iou
 from vmc_lib.where.detector import ObjectDetector
-from vmc_lib.where.recipes import IMPROVED, RECIPES
+from vmc_lib.where.recipes import RECIPES
 
 
 @pytest.fixture(scope="module")
 def photo():
     return photos.load("rig", "validation")[0]
-
-
-@pytest.mark.parametrize("name", ["published", "context"])
-def test_training_again_gives_the_detector_that_ships(name):
-    few = photos.load("rig", "train")
-    trained, shipped = (
-        ObjectDetector.fit(few, RECIPES[name]),
-        ObjectDetector.load("rig", name),
-    )
-    assert trained.svm.support == pytest.approx(shipped.svm.support, abs=1e-3)
-    assert trained.svm.bias == pytest.approx(shipped.svm.bias, abs=1e-3)
-
-
-def test_the_same_seed_learns_the_same():
-    small = replace(IMPROVED, strategy="single", boxes=200)
-    few = photos.load("rig", "train")[:4]
-    once, again, other = (
-        ObjectDetector.fit(few, small, np.random.default_rng(seed)).parts() for seed in (1, 1, 2)
-    )
-    for part, value in once.items():
-        np.testing.assert_array_equal(value, again[part])
-    for part in ("regression 0/weights", "iou predictor/weights"):
-        assert not np.array_equal(once[part], other[part])
 
 
 def test_a_detector_narrows_down_step_by_step(photo):
@@ -55,14 +30,6 @@ def test_candidates_may_be_a_list(photo):
     assert detector.detect(photo.image, [box]).candidates.tolist() == [box]
     with pytest.raises(ValueError, match="box"):
         detector.detect(photo.image, [[0, 0, np.nan, 1]])
-
-
-def test_tuning_moves_the_threshold_alone(photo):
-    detector = ObjectDetector.load("rig", "gradients")
-    tuned = detector.tuned([photo])
-    assert replace(tuned, threshold=detector.threshold) == detector
-    algorithm_1 = ObjectDetector.load("rig", "published")
-    assert algorithm_1.tuned([photo]) is algorithm_1 and algorithm_1.threshold == 0
 
 
 @pytest.mark.parametrize("name", RECIPES)

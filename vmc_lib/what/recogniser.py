@@ -5,17 +5,12 @@ from dataclasses import dataclass
 import numpy as np
 import torch
 from scipy.special import expit
-from sklearn.calibration import CalibratedClassifierCV
-from sklearn.frozen import FrozenEstimator
-from sklearn.linear_model import LogisticRegression
 from torch.nn import functional as F
 
 from vmc_lib import photos
 from vmc_lib.data import arrays
 from vmc_lib.what.cdbn import CDBN
 from vmc_lib.what.crops import whiten
-
-INVERSE_PENALTIES = 10.0 ** np.arange(-1, 5)
 
 READ_OUTS = "MP2", "P2", "P1 + P2"
 ALL_LEVELS = "everywhere"  # all levels together: for a photo of none of them
@@ -54,36 +49,6 @@ class NameClassifier:
     def probability(self, x):
         """For features (n, d): (n,)."""
         return expit(x @ self.weights + self.bias)
-
-
-def fit(x, y, x_validation, y_validation):
-    """A `NameClassifier` of features x (n, d) with labels y (n,), True for a shuttlecock.
-
-    Logistic regression; of the INVERSE_PENALTIES the one with the best likelihood on the validation
-    set is kept, and its probabilities are calibrated there with Platt's sigmoid (1999). ValueError
-    for an empty set, NaN, or labels of one class only.
-    """
-    for use, features, labels in (("train", x, y), ("validate", x_validation, y_validation)):
-        if len(features) == 0 or len(np.unique(labels)) < 2 or not np.isfinite(features).all():
-            raise ValueError(f"to {use}, give finite features of both classes")
-    centre = x.mean(0)
-    size = np.sqrt(np.square(x - centre).sum(1).mean())
-    x, x_validation = (x - centre) / size, (x_validation - centre) / size
-
-    def calibrated(strength):
-        model = LogisticRegression(C=strength, max_iter=2000).fit(x, y)
-        sigmoid = CalibratedClassifierCV(FrozenEstimator(model), method="sigmoid")
-        sigmoid.fit(x_validation, y_validation)
-        platt = sigmoid.calibrated_classifiers_[0].calibrators[0]
-        weights = -platt.a_ * model.coef_[0] / size
-        bias = -platt.a_ * model.intercept_[0] - platt.b_ - weights @ centre
-        return NameClassifier(weights, float(bias))
-
-    def likelihood(classifier):
-        logit = (x_validation * size + centre) @ classifier.weights + classifier.bias
-        return -np.logaddexp(0, np.where(y_validation, -logit, logit)).sum()
-
-    return max(map(calibrated, INVERSE_PENALTIES), key=likelihood)
 
 
 # ---------------------------------------------------------------- the recogniser

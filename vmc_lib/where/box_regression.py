@@ -10,17 +10,10 @@ import numpy as np
 from scipy.spatial.distance import cdist
 from sklearn.linear_model import Ridge
 
-from vmc_lib.boxes import corrected, corrections, iou
+from vmc_lib.boxes import corrected
 
 DIRECTIONS = 100  # of the features, in which likeness to a centre is measured
 PENALTY = 0.1  # of the ridge regression
-REGRESSION_CENTRES, PREDICTION_CENTRES = 1000, 2000  # jittered boxes that are kept as centres
-
-UNFIT, FIT = 0.5, 0.9  # IoU up to which a box is worth 0, and from which it is worth 1
-BACKGROUND = 0.3  # IoU under which a box shows no object
-JITTERS = (0.03, 0.08, 0.15)  # in sides: how far the predictor's boxes are jittered
-HARD_NEGATIVES, EASY_NEGATIVES = 25, 10  # further candidates a photo: mined ones, any ones
-MINED = 51_200  # candidates of all photos among which the hard ones are sought
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,47 +56,8 @@ class RBFRidge:
         return self.basis(x) @ self.weights + self.bias
 
 
-def fit_box_regression(images, recipe, rng):
-    """One `RBFRidge` a round, of the correction (4,) that a box needs by what it shows.
-
-    Box regression (Girshick et al. 2014) on training images; the later the round, the nearer it
-    expects the box to be.
-    """
-    times, rounds = recipe.boxes // sum(len(image.truth) for image in images) + 1, []
-    for spread in recipe.regressions:
-        x, goal = [], []
-        for image in images:
-            truth, boxes = image.jittered(times, spread, rng)
-            x.append(recipe.describe(image.pixels, boxes))
-            goal.append(corrections(boxes, truth))
-        x, goal = np.concatenate(x), np.concatenate(goal)
-        rounds.append(RBFRidge.fit(x, goal, REGRESSION_CENTRES, rng))
-    return tuple(rounds)
-
-
 def regress(recipe, regressions, pixels, boxes):
     """The boxes (n, 4), each corrected by what it shows, once for every one of `regressions`."""
     for regression in regressions:
         boxes = corrected(boxes, regression.predict(recipe.describe(pixels, boxes)))
     return boxes
-
-
-def fit_iou_predictor(images, recipe, svm, regressions, rng):
-    """An `RBFRidge` of how well a box fits its object: 0 up to IoU UNFIT, rising to 1 at FIT.
-
-    It learns from true boxes, jittered, so that IoUs of 0.5 to 0.8, which the `svm` never learnt
-    from, are among them; from candidates; and from hard negatives: candidates that show no object
-    and yet pass the `svm`, as the regressions then correct them.
-    """
-    total = sum(len(image.truth) for image in images)
-    times, x, y = 2 * recipe.boxes // total // len(JITTERS) + 1, [], []
-    for image in images:
-        near = [image.jittered(times, spread, rng)[1] for spread in JITTERS]
-        some = rng.permutation(image.candidates)[: MINED // len(images)]
-        off = some[iou(some, image.truth).max(1, initial=0) < BACKGROUND]
-        passed = svm.score(recipe.describe(image.pixels, off)) > recipe.gate
-        led = regress(recipe, regressions, image.pixels, off[passed][:HARD_NEGATIVES])
-        boxes = np.vstack([*near, led, some[:EASY_NEGATIVES]])
-        x.append(recipe.describe(image.pixels, boxes))
-        y.append(np.interp(iou(boxes, image.truth).max(1, initial=0), (UNFIT, FIT), (0, 1)))
-    return RBFRidge.fit(np.concatenate(x), np.concatenate(y), PREDICTION_CENTRES, rng)

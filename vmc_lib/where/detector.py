@@ -6,17 +6,16 @@ each further one of `RECIPES` adds an idea: context, gradients, box regression, 
 final IoU, votes.
 """
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
 
 import numpy as np
 
-from vmc_lib.boxes import as_boxes, iou, nms, vote
+from vmc_lib.boxes import as_boxes, nms, vote
 from vmc_lib.data import arrays
-from vmc_lib.where.box_regression import RBFRidge, fit_box_regression, fit_iou_predictor, regress
-from vmc_lib.where.recipes import PUBLISHED, RECIPES, TRAINED_AS, Recipe
+from vmc_lib.where.box_regression import RBFRidge, regress
+from vmc_lib.where.recipes import RECIPES, TRAINED_AS, Recipe
 from vmc_lib.where.selective_search import propose
-from vmc_lib.where.svm import PARTS, KernelSVM, best_threshold
-from vmc_lib.where.training import training_examples, training_images
+from vmc_lib.where.svm import PARTS, KernelSVM
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,43 +45,6 @@ class ObjectDetector:
     regressions: tuple = ()  # of RBFRidge: how to correct a box, round by round
     iou_predictor: RBFRidge | None = None  # of how well a box fits
     threshold: float = 0.0  # what the boxes must score in the end
-
-    @classmethod
-    def fit(cls, shots, recipe=PUBLISHED, rng=None):
-        """Learn from photos; `rng` draws counter-examples and jitters boxes.
-
-        The threshold stays 0: see `tuned`.
-        """
-        rng, images = rng or np.random.default_rng(0), training_images(shots, recipe)
-        x, y = training_examples(images, recipe, rng)
-        svm = KernelSVM.fit(x, y, recipe.kernel, recipe.cost)
-        regressions = fit_box_regression(images, recipe, rng)
-        predictor = None
-        if recipe.predicts_iou:
-            predictor = fit_iou_predictor(images, recipe, svm, regressions, rng)
-        return cls(recipe, svm, regressions, predictor)
-
-    def used_as(self, name):
-        """The same training, used for the recipe `name`, which does less."""
-        recipe = RECIPES[name]
-        predictor = self.iou_predictor if recipe.predicts_iou else None
-        return replace(self, recipe=recipe, iou_predictor=predictor)
-
-    def tuned(self, shots):
-        """The same detector, with the threshold that is best on photos it did not learn from.
-
-        The published recipe has none to choose: it stays at 0.
-        """
-        if self.recipe == PUBLISHED:
-            return self
-        lenient, scores, right, wanted = replace(self, threshold=-np.inf), [], [], 0
-        for image in training_images(shots, replace(self.recipe, mirror=False)):
-            found = lenient.detect(image.pixels, image.candidates)
-            scores.append(found.scores)
-            right.append(iou(found.boxes, image.truth).max(1, initial=0) >= 0.8)
-            wanted += len(image.truth)
-        best = best_threshold(np.concatenate(scores), np.concatenate(right), wanted)
-        return replace(self, threshold=best)
 
     @classmethod
     def load(cls, level, name="improved"):

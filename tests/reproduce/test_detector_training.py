@@ -3,12 +3,20 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from reproduce.detector_training import (
+    candidates,
+    examples,
+    fit_detector,
+    training_examples,
+    training_images,
+    tuned,
+)
 from vmc_lib import photos
 from vmc_lib.boxes import iou
 from vmc_lib.data import arrays
-from vmc_lib.where.recipes import PUBLISHED
+from vmc_lib.where.detector import ObjectDetector
+from vmc_lib.where.recipes import IMPROVED, PUBLISHED, RECIPES
 from vmc_lib.where.selective_search import propose
-from vmc_lib.where.training import candidates, examples, training_examples, training_images
 
 
 @pytest.fixture(scope="module")
@@ -48,3 +56,34 @@ def test_a_mirrored_image_is_as_hard(photo):
     seen = training_images([photo], replace(PUBLISHED, mirror=True))
     assert len(seen) == 2 and (seen[0].overlap == seen[1].overlap).all()
     assert (seen[1].pixels[:, 0] == photo.image[:, -1]).all()
+
+
+@pytest.mark.parametrize("name", ["published", "context"])
+def test_training_again_gives_the_detector_that_ships(name):
+    few = photos.load("rig", "train")
+    trained, shipped = (
+        fit_detector(few, RECIPES[name]),
+        ObjectDetector.load("rig", name),
+    )
+    assert trained.svm.support == pytest.approx(shipped.svm.support, abs=1e-3)
+    assert trained.svm.bias == pytest.approx(shipped.svm.bias, abs=1e-3)
+
+
+def test_the_same_seed_learns_the_same():
+    small = replace(IMPROVED, strategy="single", boxes=200)
+    few = photos.load("rig", "train")[:4]
+    once, again, other = (
+        fit_detector(few, small, np.random.default_rng(seed)).parts() for seed in (1, 1, 2)
+    )
+    for part, value in once.items():
+        np.testing.assert_array_equal(value, again[part])
+    for part in ("regression 0/weights", "iou predictor/weights"):
+        assert not np.array_equal(once[part], other[part])
+
+
+def test_tuning_moves_the_threshold_alone(photo):
+    detector = ObjectDetector.load("rig", "gradients")
+    again = tuned(detector, [photo])
+    assert replace(again, threshold=detector.threshold) == detector
+    published = ObjectDetector.load("rig", "published")
+    assert tuned(published, [photo]) is published and published.threshold == 0

@@ -1,0 +1,180 @@
+"""How the object detector learns: from photos, their true boxes and their candidates.
+
+Candidates that overlap an object by 0.8 are examples, those that overlap none by more than 0.5 are
+counter-examples. A shuttlecock and a cup are the same here: general objects. The numbers of box
+regression and IoU prediction were chosen on 120 validation photos a level, of which 20 ship.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from vmc_lib.boxes import corrected, corrections, iou, mirrored
+from vmc_lib.data import arrays
+from vmc_lib.where.box_regression import RBFRidge, regress
+from vmc_lib.where.detector import ObjectDetector
+from vmc_lib.where.recipes import PUBLISHED, RECIPES
+from vmc_lib.where.selective_search import propose
+from vmc_lib.where.svm import KernelSVM, best_threshold
+
+ROIS = 4700  # counter-examples to learn from, as in the paper; a random draw where there are more
+JITTER = 0.05  # how far, in sides, the examples are jittered
+
+
+REGRESSION_CENTRES, PREDICTION_CENTRES = 1000, 2000  # jittered boxes that are kept as centres
+
+UNFIT, FIT = 0.5, 0.9  # IoU up to which a box is worth 0, and from which it is worth 1
+BACKGROUND = 0.3  # IoU under which a box shows no object
+JITTERS = (0.03, 0.08, 0.15)  # in sides: how far the predictor's boxes are jittered
+HARD_NEGATIVES, EASY_NEGATIVES = 25, 10  # further candidates a photo: mined ones, any ones
+MINED = 51_200  # candidates of all photos among which the hard ones are sought
+
+
+def candidates(photo, strategy="single"):
+    """`propose(photo.image, strategy)`, looked up where the photo ships with its candidates."""
+    boxes = arrays("candidates").get(f"{photo.name}/{strategy}")
+    return propose(photo.image, strategy) if boxes is None else boxes.astype(float)
+
+
+@dataclass(frozen=True, eq=False)
+class TrainingImage:
+    """A photo to learn from: its pixels, true boxes and candidates."""
+
+    pixels: np.ndarray  # (height, width, 3)
+    truth: np.ndarray  # (m, 4) true boxes
+    candidates: np.ndarray  # (n, 4)
+
+    @property
+    def overlap(self):
+        """How well each candidate fits the object it fits best: (n,)."""
+        return iou(self.candidates, self.truth).max(1, initial=0)
+
+    def mirrored(self):
+        """The same image in a mirror."""
+        width = self.pixels.shape[1]
+        boxes = (mirrored(some, width) for some in (self.truth, self.candidates))
+        return TrainingImage(self.pixels[:, ::-1], *boxes)
+
+    def jittered(self, times, spread, rng):
+        """Each true box so many times, and boxes moved and stretched from it by about `spread`."""
+        truth = np.repeat(self.truth, times, axis=0)
+        return truth, corrected(truth, rng.normal(scale=spread, size=truth.shape))
+
+
+def training_images(shots, recipe):
+    """The `TrainingImage`s of photos for a recipe: one each, one more mirrored if it asks so."""
+    plain = [
+        TrainingImage(
+            shot.image, np.array(list(shot.boxes.values())), candidates(shot, recipe.strategy)
+        )
+        for shot in shots
+    ]
+    return plain + [image.mirrored() for image in plain] if recipe.mirror else plain
+
+
+def examples(shots, recipe=PUBLISHED):
+    """What the classifier is to tell apart: features x (n, d), labels y (n,).
+
+    The clear cases among the photos' candidates: IoU of 0.8 and more, 0.5 and less.
+    """
+    x, y = [], []
+    for image in training_images(shots, replace(recipe, mirror=False)):
+        overlap = image.overlap
+        clear = (overlap >= 0.8) | (overlap <= 0.5)
+        x.append(recipe.describe(image.pixels, image.candidates[clear]))
+        y.append(overlap[clear] >= 0.8)
+    return np.concatenate(x), np.concatenate(y)
+
+
+def training_examples(images, recipe, rng):
+    """What the classifier learns from: every example, jittered ones too, ROIS counter-examples.
+
+    Of `TrainingImage`s. Returns features x (n, d), labels y (n,).
+    """
+    x, y = [], []
+    for image in images:
+        overlap = image.overlap
+        good, bad = image.candidates[overlap >= 0.8], image.candidates[overlap <= 0.5]
+        bad = rng.permutation(bad)[: -(-ROIS // len(images))]
+        _, jittered = image.jittered(recipe.jittered, JITTER, rng)
+        x.append(recipe.describe(image.pixels, np.vstack([good, jittered, bad])))
+        y.append(np.arange(len(x[-1])) < len(good) + len(jittered))
+    return np.concatenate(x), np.concatenate(y)
+
+
+def fit_box_regression(images, recipe, rng):
+    """One `RBFRidge` a round, of the correction (4,) that a box needs by what it shows.
+
+    Box regression (Girshick et al. 2014) on training images; the later the round, the nearer it
+    expects the box to be.
+    """
+    times, rounds = recipe.boxes // sum(len(image.truth) for image in images) + 1, []
+    for spread in recipe.regressions:
+        x, goal = [], []
+        for image in images:
+            truth, boxes = image.jittered(times, spread, rng)
+            x.append(recipe.describe(image.pixels, boxes))
+            goal.append(corrections(boxes, truth))
+        x, goal = np.concatenate(x), np.concatenate(goal)
+        rounds.append(RBFRidge.fit(x, goal, REGRESSION_CENTRES, rng))
+    return tuple(rounds)
+
+
+def fit_iou_predictor(images, recipe, svm, regressions, rng):
+    """An `RBFRidge` of how well a box fits its object: 0 up to IoU UNFIT, rising to 1 at FIT.
+
+    It learns from true boxes, jittered, so that IoUs of 0.5 to 0.8, which the `svm` never learnt
+    from, are among them; from candidates; and from hard negatives: candidates that show no object
+    and yet pass the `svm`, as the regressions then correct them.
+    """
+    total = sum(len(image.truth) for image in images)
+    times, x, y = 2 * recipe.boxes // total // len(JITTERS) + 1, [], []
+    for image in images:
+        near = [image.jittered(times, spread, rng)[1] for spread in JITTERS]
+        some = rng.permutation(image.candidates)[: MINED // len(images)]
+        off = some[iou(some, image.truth).max(1, initial=0) < BACKGROUND]
+        passed = svm.score(recipe.describe(image.pixels, off)) > recipe.gate
+        led = regress(recipe, regressions, image.pixels, off[passed][:HARD_NEGATIVES])
+        boxes = np.vstack([*near, led, some[:EASY_NEGATIVES]])
+        x.append(recipe.describe(image.pixels, boxes))
+        y.append(np.interp(iou(boxes, image.truth).max(1, initial=0), (UNFIT, FIT), (0, 1)))
+    return RBFRidge.fit(np.concatenate(x), np.concatenate(y), PREDICTION_CENTRES, rng)
+
+
+def fit_detector(shots, recipe=PUBLISHED, rng=None):
+    """An `ObjectDetector` that learns from photos; `rng` draws counter-examples, jitters boxes.
+
+    Its threshold stays 0: see `tuned`.
+    """
+    rng, images = rng or np.random.default_rng(0), training_images(shots, recipe)
+    x, y = training_examples(images, recipe, rng)
+    svm = KernelSVM.fit(x, y, recipe.kernel, recipe.cost)
+    regressions = fit_box_regression(images, recipe, rng)
+    predictor = None
+    if recipe.predicts_iou:
+        predictor = fit_iou_predictor(images, recipe, svm, regressions, rng)
+    return ObjectDetector(recipe, svm, regressions, predictor)
+
+
+def used_as(detector, name):
+    """The same training, used for the recipe `name`, which does less."""
+    recipe = RECIPES[name]
+    predictor = detector.iou_predictor if recipe.predicts_iou else None
+    return replace(detector, recipe=recipe, iou_predictor=predictor)
+
+
+def tuned(detector, shots):
+    """The same detector, with the threshold that is best on photos it did not learn from.
+
+    The published recipe has none to choose: it stays at 0.
+    """
+    if detector.recipe == PUBLISHED:
+        return detector
+    lenient, scores, right, wanted = replace(detector, threshold=-np.inf), [], [], 0
+    for image in training_images(shots, replace(detector.recipe, mirror=False)):
+        found = lenient.detect(image.pixels, image.candidates)
+        scores.append(found.scores)
+        right.append(iou(found.boxes, image.truth).max(1, initial=0) >= 0.8)
+        wanted += len(image.truth)
+    best = best_threshold(np.concatenate(scores), np.concatenate(right), wanted)
+    return replace(detector, threshold=best)
