@@ -93,7 +93,8 @@ def listed():
 
 
 RENDER, OPENSIM = f"{sys.executable} -m render", ".bench/bin/python -m bench.opensim_reference"
-WHERE, WHAT = "photos vmc_lib/where", "photos vmc_lib/what reproduce/name_training.py"
+WHERE = "photos vmc_lib/where reproduce/detector_training.py"
+WHAT = "photos vmc_lib/what reproduce/name_training.py"
 ARM = "vmc_lib/arm vmc_lib/motor"
 STEPS = (
     Step(RENDER, MODEL / "photos", minutes=25, needs="mitsuba and LLVM 19"),
