@@ -107,7 +107,7 @@ def _as_good():
     offline, rounding = measured()[name]["off-line, published"], paper.ratio_rounding
     return [
         mean(
-            f"error after online over off-line calibration, {kind}",
+            f"online over off-line, {kind}",
             claimed,
             online(name, kind) / offline,
             better=-1,
@@ -173,10 +173,9 @@ ROWS = (
         "Online calibration errs about as little as off-line.",
         "10_online",
         _as_good,
-        differs="It errs {q[error after online over off-line calibration, in-sample].obtained:.2f} "
+        differs="It errs {q[online over off-line, in-sample].obtained:.2f} "
         "times as much for movements just practised, and "
-        "{q[error after online over off-line calibration, held-out].obtained:.2f} times as much for "
-        "others.",
+        "{q[online over off-line, held-out].obtained:.2f} times for others.",
     ),
     Row(
         "V, robots",

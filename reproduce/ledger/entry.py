@@ -69,10 +69,10 @@ def trained(name, claimed, shares, n, **rest):
     """A `Quantity` that is the mean of the shares of `n` that several trainings gave.
 
     Its interval is the wider of two: Student's, for another training, and Wilson's, for others of
-    what was counted.
+    what was counted (if anything was).
     """
     middle, half = student(shares)
-    low, high = wilson(middle * n, n)
+    low, high = wilson(middle * n, n) if n else (middle, middle)
     low, high = min(low, middle - half), max(high, middle + half)
     return Quantity(name, claimed, middle, low=low, high=high, **rest)
 

@@ -145,8 +145,7 @@ def _layers():
 
 
 def _learnt():
-    """Errors of MP2 less others', on the test crops of all levels, by McNemar's test with Holm's
-    correction for their number."""
+    """Errors of MP2 less others', on the test crops of all levels: McNemar's test, with Holm's."""
     right = _right("test")
     wins = {
         m: ((right["CDBN, MP2"] & ~right[m]).sum(), (~right["CDBN, MP2"] & right[m]).sum())

@@ -155,9 +155,9 @@ ROWS = (
         "A habitual plan misses by a few per cent of the reach.",
         "08_planning",
         _table_4,
-        differs="It depends on how densely templates lie, which the paper does not print: somewhere "
-        "between 8 cm and our 6 cm the numbers would agree. It is another arm, too, and our reaches are "
-        "measured from the shoulder; the paper does not say from where.",
+        differs="It depends on how densely templates lie, which the paper does not print: "
+        "somewhere between 8 cm and our 6 cm the numbers would agree. It is another arm, too, and "
+        "our reaches are measured from the shoulder; the paper does not say from where.",
     ),
     Row(
         "Fig. 3",

@@ -3,12 +3,13 @@
 import pytest
 
 from reproduce import ledger
-from reproduce.ledger import whole
-from reproduce.ledger.entry import Quantity, measure
+from reproduce.ledger import entry, whole
+from reproduce.ledger.entry import BEATEN, BY_CONSTRUCTION, DIFFERS, REPRODUCED, Quantity, measure
 from vmc_lib.loop import RULES
 from vmc_lib.photos import LEVELS
 
 STORED = {entry["where"]: entry for entry in ledger.load()["rows"]}
+NUMBERS = [q for entry in STORED.values() for q in entry["quantities"]]
 
 
 def same(number):
@@ -24,20 +25,27 @@ def test_every_table_and_figure_of_the_paper_has_one_row():
     assert sorted(where for where in rows if where.startswith(("Table", "Fig."))) == sorted(wanted)
 
 
+def test_sixty_numbers_and_more_can_fail():
+    assert sum(not q["trivial"] for q in NUMBERS) >= 60
+    for q in NUMBERS:
+        assert q["trivial"] == (q["verdict"] == BY_CONSTRUCTION), q["name"]
+
+
 @pytest.mark.parametrize("row", ledger.ROWS, ids=lambda row: row.where)
 def test_row_is_what_a_run_gives(row):
     measured, stored = measure(row), STORED[row.where]
     assert [q["name"] for q in measured["quantities"]] == [q["name"] for q in stored["quantities"]]
     for now, then in zip(measured["quantities"], stored["quantities"], strict=True):
         assert now["claimed"] == then["claimed"]
-        for number in ("obtained", "in_sample"):
-            assert now[number] == same(then[number]), (now["name"], number)
-    assert measured["state"] == stored["state"]
+        assert now["verdict"] == then["verdict"], now["name"]
+        for number in ("obtained", "in_sample", "low", "high", "p"):
+            assert now["clock"] or now[number] == same(then[number]), (now["name"], number)
+    assert measured["verdict"] == stored["verdict"]
 
 
 @pytest.mark.parametrize("row", ledger.ROWS, ids=lambda row: row.where)
 def test_a_reason_stands_where_and_only_where_we_differ(row):
-    assert bool(row.differs) == (STORED[row.where]["state"] == "differs")
+    assert bool(row.differs) == (STORED[row.where]["verdict"] == DIFFERS)
 
 
 @pytest.mark.parametrize("level", LEVELS)
@@ -53,16 +61,78 @@ def test_the_loop_on_the_test_photos_is_what_a_run_gives(level):
 
 
 @pytest.mark.parametrize(
-    ("claimed", "obtained", "better", "agrees"),
+    ("claimed", "obtained", "better", "verdict"),
     [
-        (0.9, 0.95, 0, True),
-        (0.9, 1.05, 0, False),
-        (0.9, 1.00, 1, True),
-        (0.9, 0.50, 1, False),
-        (0.9, 0.50, -1, True),
-        (0.9, 1.10, -1, False),
+        (0.9, 0.95, 0, REPRODUCED),
+        (0.9, 1.05, 0, DIFFERS),
+        (0.9, 0.95, 1, REPRODUCED),
+        (0.9, 1.05, 1, BEATEN),
+        (0.9, 0.50, 1, DIFFERS),
+        (0.9, 0.50, -1, BEATEN),
+        (0.9, 1.05, -1, DIFFERS),
     ],
 )
-def test_agreement_has_a_direction(claimed, obtained, better, agrees):
-    quantity = Quantity("q", claimed, obtained, tolerance=0.1, better=better)
-    assert quantity.agrees == agrees
+def test_a_number_is_held_against_its_interval(claimed, obtained, better, verdict):
+    ends = {"low": obtained - 0.1, "high": obtained + 0.1}
+    assert Quantity("q", claimed, obtained, **ends, better=better).verdict == verdict
+
+
+def test_rounding_widens_the_interval():
+    assert Quantity("q", 0.595, 0.5954).verdict == DIFFERS
+    assert Quantity("q", 0.595, 0.5954, rounding=0.0005).verdict == REPRODUCED
+
+
+@pytest.mark.parametrize(
+    ("obtained", "better", "p", "verdict"),
+    [
+        (0.8, -1, None, REPRODUCED),
+        (0.95, -1, None, DIFFERS),  # the limit lies in the interval
+        (0.8, 1, None, DIFFERS),
+        (1.2, 1, None, REPRODUCED),
+        (1.2, 1, 0.2, DIFFERS),
+        (1.2, 1, 0.01, REPRODUCED),
+    ],
+)
+def test_all_of_an_interval_is_beyond_a_limit(obtained, better, p, verdict):
+    ends = {"low": obtained - 0.1, "high": obtained + 0.1, "p": p}
+    assert Quantity("q", 1, obtained, **ends, better=better, bound=True).verdict == verdict
+
+
+def test_a_row_follows_from_what_can_fail():
+    trivial, good = entry.fixed("q", 1, 1), Quantity("q", 1, 1)
+    better, worse = Quantity("q", 1, 2, better=1), Quantity("q", 1, 0)
+    assert entry.verdict([trivial]) == BY_CONSTRUCTION
+    assert entry.verdict([trivial, good]) == REPRODUCED
+    assert entry.verdict([trivial, good, better]) == BEATEN
+    assert entry.verdict([trivial, better, worse]) == DIFFERS
+    assert entry.verdict([entry.fixed("q", 1, 2), good]) == DIFFERS, "a bug"
+
+
+def test_the_wider_interval_of_trainings_over_photos_counts():
+    alike, unlike = (
+        entry.trained("q", 0.5, shares, n)
+        for shares, n in (([0.5, 0.5, 0.5], 40), ([0.1, 0.5, 0.9], 10**6))
+    )
+    assert (alike.low, alike.high) == entry.wilson(20, 40)
+    middle, half = entry.student([0.1, 0.5, 0.9])
+    assert (unlike.low, unlike.high) == (middle - half, middle + half)
+
+
+def test_a_chapter_asks_for_a_number_by_its_name():
+    row = ledger.load()["rows"][0]
+    stored = row["quantities"][0]
+    assert ledger.value(row["where"], stored["name"]).obtained == stored["obtained"]
+    with pytest.raises(ValueError, match="no 'beauty'"):
+        ledger.value("Fig. 1", "beauty")
+    with pytest.raises(ValueError, match="no 'x'"):
+        ledger.value("Fig. 99", "x")
+
+
+def test_the_page_shows_every_row_and_every_number():
+    entries = ledger.load()["rows"]
+    page, lines = ledger.summary(entries), ledger.counted(entries).splitlines()
+    assert len(page.splitlines()) == 2 + len(entries)
+    assert lines[-1].replace(" ", "") == f"|together|{len(entries)}|{len(NUMBERS)}|"
+    for one in entries:
+        assert f"[{one['where']}]({one['chapter']}.ipynb)" in page
+        assert all(q["name"] in ledger.details(one) for q in one["quantities"])
