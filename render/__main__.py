@@ -52,6 +52,7 @@ def make(level, split, number, samples, folder):
 
 
 def main():
+    """Render what the command line asks for."""
     parser = argparse.ArgumentParser(prog="python -m render", description=__doc__)
     parser.add_argument("--only", default="", help="a level, level/split or level/split/number")
     parser.add_argument("--samples", type=int, default=25, help="light paths a pixel")

@@ -25,8 +25,11 @@ def background_box(shot, rng):
 
 
 def examples(shots, rng, copies=COPIES, background=0):
-    """Crops (n, 200, 200) and labels (n,) from photos: each object `copies` times, jittered
-    and half of them mirrored; and so many crops of `background` a photo."""
+    """Crops (n, 200, 200) and labels (n,) from photos, True for a shuttlecock.
+
+    Each object `copies` times, jittered and half of them mirrored; and so many crops of
+    `background` a photo.
+    """
     crops, labels = [], []
     for shot in shots:
         boxes = [(box, name == "shuttlecock") for name, box in shot.boxes.items()] * copies

@@ -120,9 +120,11 @@ def test_no_vote_outweighs_the_box_it_is_for():
     row = np.array([[0, 0, 10, 10], [3, 0, 13, 10], [6, 0, 16, 10]], float)
     scores = np.array([3.0, 2.9, 1.0])
     kept = nms(row, scores)
-    assert kept.tolist() == [0, 2] and iou(row[1], row[kept]).min() > 0.5
+    assert kept.tolist() == [0, 2]
+    assert iou(row[1], row[kept]).min() > 0.5
     first, last = vote(kept, row, scores, temperature=0.2)
-    assert first[0] > 1 and (last == row[2]).all()
+    assert first[0] > 1
+    assert (last == row[2]).all()
 
 
 def test_a_box_without_area_has_its_own_vote():

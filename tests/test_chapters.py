@@ -42,7 +42,8 @@ def test_cells_are_short_enough_to_read(notebook):
 
 def test_starts_with_one_title(notebook):
     first = notebook.cells[0]
-    assert first.cell_type == "markdown" and first.source.startswith("# ")
+    assert first.cell_type == "markdown"
+    assert first.source.startswith("# ")
     titles = [
         line
         for cell in notebook.cells
@@ -60,7 +61,8 @@ def test_a_chapter_teaches(path):
     prose = [cell.source for cell in notebook.cells if cell.cell_type == "markdown"]
     text = "\n".join(prose)
     code = "\n".join(cell.source for cell in notebook.cells if cell.cell_type == "code")
-    assert "be able to" in prose[0] and re.search(r"\d+\s+minutes", prose[0])
+    assert "be able to" in prose[0]
+    assert re.search(r"\d+\s+minutes", prose[0])
     assert "explore(" in code
     assert "Predict first" in text
     assert re.search(r"`\{exercise(-start)?\}", text)
@@ -75,4 +77,5 @@ def test_quizzes_hide_their_answers(notebook):
     """Neither the page nor a notebook shows the code, which names the right answer."""
     for cell in notebook.cells:
         if cell.cell_type == "code" and re.search(r"^quiz\(", cell.source, re.M):
-            assert "remove-input" in cell.metadata.tags and cell.metadata.jupyter.source_hidden
+            assert "remove-input" in cell.metadata.tags
+            assert cell.metadata.jupyter.source_hidden

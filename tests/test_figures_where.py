@@ -52,7 +52,8 @@ def test_the_button_is_there_only_where_a_kernel_answers(monkeypatch):
         monkeypatch.setenv("VMC_RENDER_MODE", render_mode)
         where.your_own(lambda image: "<p>drawn</p>", image, "caption", "alt")
     assert figures == [("<p>drawn</p>", "caption", "alt")] * 3
-    assert len(shown) == 1 and isinstance(shown[0], VBox)
+    assert len(shown) == 1
+    assert isinstance(shown[0], VBox)
     button, view = shown[0].children
     assert isinstance(button, FileUpload)
     button.value = upload(b"no picture")

@@ -66,7 +66,8 @@ def test_a_reach_is_simulated_once_a_command(model, photo, monkeypatch):
     monkeypatch.setattr(templates, "simulate", counted)
     reach = loop.reach(model, photo.target)
     assert sum(made) == 22
-    assert reach.plan.move() is reach.planned and sum(made) == 22
+    assert reach.plan.move() is reach.planned
+    assert sum(made) == 22
     [best] = reach.plan.with_weights(loop.RULES["published"](reach.plan).best[None]).move()
     np.testing.assert_allclose(best.q, reach.calibrated.q, atol=1e-5)
 

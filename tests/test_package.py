@@ -78,14 +78,16 @@ def test_what_is_declared_is_pinned_and_nothing_else():
 def test_the_lock_holds_every_pin_but_torch_by_checksum():
     lock = (ROOT / "constraints.txt").read_text()
     locked = re.findall(r"^([\w.-]+)==([\w.]+).*\\\n +--hash=sha256:", lock, flags=re.M)
-    assert len(locked) == len(re.findall(r"^\w", lock, flags=re.M)) and "://" not in lock
+    assert len(locked) == len(re.findall(r"^\w", lock, flags=re.M))
+    assert "://" not in lock
     pinned = {(canonical(name.split("[")[0]), version) for name, version in PINS}
     assert {name for name, _ in pinned - {*locked}} == {"torch"}
 
 
 def test_a_reader_installs_no_tools():
     core = declared()
-    assert len(core) <= 25 and all(core.values())
+    assert len(core) <= 25
+    assert all(core.values())
     pulled, waiting = set(), [*core]
     while waiting:
         if (name := waiting.pop()) not in pulled:
@@ -132,7 +134,8 @@ def test_the_wheel_holds_the_library_and_nothing_comes_from_the_repository(alone
     names = "vmc_lib arm_in_page reproduce render book.figures"
     code = f"import {names.replace(' ', ', ')}; print(vmc_lib.__file__, *book.figures.__path__)"
     for path in alone("-c", code).split():
-        assert "site-packages" in path and not Path(path).is_relative_to(ROOT)
+        assert "site-packages" in path
+        assert not Path(path).is_relative_to(ROOT)
 
 
 @pytest.mark.parametrize("chapter", ["06_muscle", "07_arm", "photos"])
@@ -143,4 +146,5 @@ def test_a_chapter_alone_runs_with_the_wheel(alone, tmp_path, chapter):
     alone("-m", "nbconvert", "--execute", "--to=notebook", "--inplace", "chapter.ipynb")
     executed = nbformat.read(tmp_path / "chapter.ipynb", as_version=4)
     (told,) = executed.cells[-1].outputs
-    assert "reader" in told.data["text/plain"] and str(ROOT) not in told.data["text/plain"]
+    assert "reader" in told.data["text/plain"]
+    assert str(ROOT) not in told.data["text/plain"]

@@ -26,8 +26,10 @@ def test_every_photo_agrees_with_its_sidecar(level, split):
         assert shot.image.std() > 10
         assert set(shot.boxes) == set(photos.CLASSES)
         for x0, y0, x1, y1 in shot.boxes.values():
-            assert 0 < x0 < x1 < WIDTH and 0 < y0 < y1 < HEIGHT  # whole, clear of the border
-            assert 15 < x1 - x0 < 250 and 15 < y1 - y0 < 250
+            assert 0 < x0 < x1 < WIDTH
+            assert 0 < y0 < y1 < HEIGHT
+            assert 15 < x1 - x0 < 250
+            assert 15 < y1 - y0 < 250
         rotation = shot.camera.rotation
         np.testing.assert_allclose(rotation @ rotation.T, np.eye(3), atol=1e-12)
         assert np.linalg.det(rotation) == pytest.approx(1)
@@ -86,12 +88,15 @@ def test_the_real_photos_are_small_and_credited_with_their_boxes_inside():
     assert len(shots) == len(list(photos.REAL.glob("*.jpg"))) >= 8
     credits = (FOLDER.parents[2] / "CREDITS.md").read_text()
     for shot in shots:
-        assert shot.image.shape == (HEIGHT, WIDTH, 3) and shot.image.std() > 10
+        assert shot.image.shape == (HEIGHT, WIDTH, 3)
+        assert shot.image.std() > 10
         assert not shot.image.flags.writeable
         assert (photos.REAL / f"{shot.name}.jpg").stat().st_size <= 60_000
-        assert f"`{shot.name}`" in credits and shot.credit.split("; ")[-1] in credits
+        assert f"`{shot.name}`" in credits
+        assert shot.credit.split("; ")[-1] in credits
         for x0, y0, x1, y1 in shot.boxes.values():
-            assert 0 <= x0 < x0 + 20 <= x1 <= WIDTH and 0 <= y0 < y0 + 20 <= y1 <= HEIGHT
+            assert 0 <= x0 < x0 + 20 <= x1 <= WIDTH
+            assert 0 <= y0 < y0 + 20 <= y1 <= HEIGHT
 
 
 def test_loading_names_an_unknown_level_or_split():
@@ -163,7 +168,8 @@ def test_reading_converts_grey_transparent_and_float_images(picture):
 def test_reading_fits_another_size_into_the_frame_and_keeps_its_proportions():
     tall = photos.read_image(np.full((800, 400, 3), 200, np.uint8))
     assert tall.shape == (HEIGHT, WIDTH, 3)
-    assert np.all(tall[:, 200:400] == 200) and np.all(tall[:, :200] == 128)
+    assert np.all(tall[:, 200:400] == 200)
+    assert np.all(tall[:, :200] == 128)
     small = photos.read_image(np.full((20, 30), 9, np.uint8))
     assert np.all(small == 9)
 

@@ -33,7 +33,8 @@ def test_page_and_kernel_use_one_viewer():
 def test_a_module_and_its_wasm_become_one_classic_script():
     module = b"var load = () => import.meta.url;\nexport default load;\n"
     script = vendor.with_wasm(module, b"\0asm").decode()
-    assert "import.meta" not in script and "export" not in script
+    assert "import.meta" not in script
+    assert "export" not in script
     packed = script.split('load.wasm = "')[1].split('"')[0]
     assert gzip.decompress(base64.b64decode(packed)) == b"\0asm"
 
@@ -58,7 +59,9 @@ def elsewhere(monkeypatch, tmp_path):
 def test_a_changed_file_is_noticed(elsewhere):
     (elsewhere / "stray.js").write_text("")
     said = " ".join(vendor.problems())
-    assert "a.js is not what" in said and "b.js is missing" in said and "stray.js is not in" in said
+    assert "a.js is not what" in said
+    assert "b.js is missing" in said
+    assert "stray.js is not in" in said
 
 
 def test_what_is_fetched_is_what_the_manifest_says_or_is_refused(monkeypatch, elsewhere):
@@ -66,8 +69,10 @@ def test_what_is_fetched_is_what_the_manifest_says_or_is_refused(monkeypatch, el
     before = vendor.MANIFEST.read_bytes()
     with pytest.raises(ValueError, match=r"npm:a\.js has the checksum .* --update"):
         vendor.refresh()
-    assert (elsewhere / "a.js").read_text() == "changed" and vendor.MANIFEST.read_bytes() == before
+    assert (elsewhere / "a.js").read_text() == "changed"
+    assert vendor.MANIFEST.read_bytes() == before
     vendor.refresh(update=True)
-    assert (elsewhere / "a.js").read_bytes() == b"another" and vendor.problems() == []
+    assert (elsewhere / "a.js").read_bytes() == b"another"
+    assert vendor.problems() == []
     vendor.refresh()
     assert vendor.problems() == []

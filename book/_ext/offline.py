@@ -14,8 +14,9 @@ def setup(app):
 
 
 def launch(app, config):
-    """Buttons that open a chapter elsewhere need the repository's public address: the one in
-    _config.yml, else the one that a build on GitHub is told. Without an address, no buttons.
+    """Give a chapter buttons that open it elsewhere, if the repository has a public address.
+
+    It is the one in _config.yml, else the one that a build on GitHub is told.
     """
     options, told = config.html_theme_options, os.environ
     if not options.get("repository_url") and "GITHUB_REPOSITORY" in told:
@@ -25,9 +26,11 @@ def launch(app, config):
 
 
 def mend(app, pagename, templatename, context, doctree):
-    """Mend the page: no sphinx-thebe, which asks the network; no list role on what is no list, and
-    no label that hides a summary's own words; the number of an equation outside the `split` that
-    Sphinx puts around its lines.
+    """Mend the page.
+
+    No sphinx-thebe, which asks the network; no list role on what is no list, and no label that
+    hides a summary's own words; the number of an equation outside the `split` that Sphinx puts
+    around its lines.
     """
     context["script_files"] = [
         script

@@ -294,7 +294,8 @@ def test_the_arm_reaches_misses_and_calibrates(opened):
     reach.locator("[name=calibrate]").click()
     said = wait_for_status(reach, "After 21 tries")
     best = trials.error.argmin()
-    assert f"n = {best - 1}" in said and f"{1000 * trials.error[best]:.1f} mm" in said
+    assert f"n = {best - 1}" in said
+    assert f"{1000 * trials.error[best]:.1f} mm" in said
     assert told(reach, "calibrated") == f"{1000 * trials.error[best]:.1f} mm"
     reach.get_by_label("ours").check()
     assert told(reach, "calibrated") == "–"  # another rule, another try
@@ -422,7 +423,8 @@ def test_a_live_kernel_brings_its_own_viewer_and_physics(monkeypatch):
     monkeypatch.setattr(live, "display", lambda *items: shown.extend(items))
     live_arm("bench", "Move it.", "An arm.")
     widget, caption = shown
-    assert 'data-mode="bench"' in widget.page and "Move it." in caption.data
+    assert 'data-mode="bench"' in widget.page
+    assert "Move it." in caption.data
     for needed in ("MeshCat", "loadMujoco.wasm", "vmcVendored", "vmcArm", "export default"):
         assert needed in widget._esm
 

@@ -49,10 +49,12 @@ def test_book_holds_every_position_and_shows_the_first(shown, book):
     expected = [(k, c, on) for k in (1, 2, 3) for c in "ab" for on in (False, True)]
     assert [alt for alt, _ in states(shown[0])] == [f"{k}{c}{on}" for k, c, on in expected]
     assert [svg for _, svg in states(shown[0])] == [names(a=k, b=c, c=on) for k, c, on in expected]
-    assert names(a=2, b="a", c=True) in page and 'aria-label="2aTrue"' in page
+    assert names(a=2, b="a", c=True) in page
+    assert 'aria-label="2aTrue"' in page
     # mixed radix, last control fastest: what the page's script multiplies positions with
     assert re.findall(r'data-stride="(\d+)"', page) == ["4", "2", "2", "1"]
-    assert "<em>caption</em>" in page and r"\(x &lt; y\)" in page
+    assert "<em>caption</em>" in page
+    assert r"\(x &lt; y\)" in page
 
 
 def test_book_page_is_the_same_in_every_build(shown, book, monkeypatch):
@@ -112,13 +114,16 @@ def test_a_pad_is_a_place_on_a_grid(shown, monkeypatch):
 
 def test_figure_has_no_controls(shown, book):
     figure(np.eye(3), caption="An eye.", alt="a diagonal")
-    assert "<form" not in shown[0].data and "<img" in shown[0].data
+    assert "<form" not in shown[0].data
+    assert "<img" in shown[0].data
 
 
 def test_a_still_scene_carries_its_messages(shown, book):
     figure((Scene(), "<p>beside</p>"), caption="c", alt="a scene")
     [[alt, scene, beside]] = states(shown[0])
-    assert alt == "a scene" and scene.startswith("camera|") and beside == "<p>beside</p>"
+    assert alt == "a scene"
+    assert scene.startswith("camera|")
+    assert beside == "<p>beside</p>"
 
 
 @pytest.mark.parametrize(
@@ -175,7 +180,8 @@ def test_the_kinds_of_pictures_may_not_change():
 
 def test_labels_are_escaped(shown, book):
     show(k=Slider([1, 2], "a < b & c"), c=["<i>", "&"])
-    assert "a &lt; b &amp; c" in shown[0].data and "&lt;i&gt;" in shown[0].data
+    assert "a &lt; b &amp; c" in shown[0].data
+    assert "&lt;i&gt;" in shown[0].data
 
 
 def test_plots_use_the_palette(shown, book):
@@ -183,6 +189,7 @@ def test_plots_use_the_palette(shown, book):
     ax.plot([1, 2], color=COLOURS["red"])
     figure(fig, caption="c", alt="a")
     svg = shown[0].data
-    assert "var(--vmc-red" in svg and "var(--vmc-ink" in svg
+    assert "var(--vmc-red" in svg
+    assert "var(--vmc-ink" in svg
     assert not re.findall(r"[:\"]\s*#(?:000000|ffffff|1c2430)", svg)
     assert plt.get_fignums() == []

@@ -59,7 +59,8 @@ def test_arrays_keep_their_pixels():
 def test_photographs_are_small():
     noise = np.random.default_rng(0).integers(0, 255, (40, 60, 3), dtype=np.uint8)
     photo = cv2.resize(noise, (600, 400), interpolation=cv2.INTER_CUBIC)
-    assert "image/jpeg" in photo_view(photo) and len(photo_view(photo)) < 100_000
+    assert "image/jpeg" in photo_view(photo)
+    assert len(photo_view(photo)) < 100_000
     assert "image/png" in photo_view(photo // 255)
 
 
@@ -70,8 +71,10 @@ def test_photo_view_draws_boxes_and_points():
         points=[((30.04, 40), "target", "green")],
     )
     assert 'x="10.0" y="20.0" width="100.0" height="50.0"' in svg
-    assert "cup &lt;1&gt;" in svg and ON_PHOTO["orange"] in svg
-    assert 'cx="30.0" cy="40.0"' in svg and "target" in svg
+    assert "cup &lt;1&gt;" in svg
+    assert ON_PHOTO["orange"] in svg
+    assert 'cx="30.0" cy="40.0"' in svg
+    assert "target" in svg
 
 
 def test_a_pad_reads_a_photo_in_pixels_unless_it_is_told_otherwise():
@@ -89,7 +92,8 @@ def test_plots_share_no_names_unless_they_are_states_of_one():
     one, same, other = (pictures(drawn(), name)[0] for name in ("demo-1", "demo-1", "demo-2"))
     assert one == same
     ids = [set(re.findall(r' id="([^"]+)"', svg)) for svg in (one, other)]
-    assert ids[0] and not ids[0] & ids[1]
+    assert ids[0]
+    assert not ids[0] & ids[1]
 
 
 def test_only_two_panels_of_one_plot_each_are_stackable():
@@ -99,7 +103,8 @@ def test_only_two_panels_of_one_plot_each_are_stackable():
             fig.suptitle("over both")
         return pictures(fig, "p")[0]
 
-    assert drawn(1, 2).count("<svg") == 2 and 'href="#p-0-panels"' in drawn(1, 2)
+    assert drawn(1, 2).count("<svg") == 2
+    assert 'href="#p-0-panels"' in drawn(1, 2)
     assert drawn(2, 2).count("<svg") == 2
     assert [drawn(1, 1).count("<svg"), drawn(1, 3).count("<svg")] == [1, 1]
     assert drawn(1, 2, title=True).count("<svg") == 1

@@ -76,7 +76,8 @@ def test_a_scene_is_what_it_shows_and_not_how_it_got_there(open_demos):
     for place in (0, 1, 2, 3, 2, 1, 0):
         set_value(page, "input", place)
         looks.append(scene.evaluate(CAPTURE))
-    assert looks[:3] == looks[:-4:-1] and len(set(looks)) == 4
+    assert looks[:3] == looks[:-4:-1]
+    assert len(set(looks)) == 4
     set_value(page, ".vmc-controls > label input", 90)  # walk around
     assert scene.evaluate(CAPTURE) != looks[-1]
     assert page.get_attribute(".vmc-pictures", "aria-label") == "ball at 0.0"
@@ -93,7 +94,9 @@ def test_few_scenes_live_and_the_others_are_stills(open_demos):
     assert len(page.query_selector_all(".vmc-scene img")) == 3
     page.evaluate("dispatchEvent(new Event('beforeprint'))")
     stills = page.eval_on_selector_all(".vmc-scene img", "all => all.map(i => i.src)")
-    assert len(stills) == 9 and len(set(stills)) == 1 and len(stills[0]) > 3000
+    assert len(stills) == 9
+    assert len(set(stills)) == 1
+    assert len(stills[0]) > 3000
     page.evaluate("dispatchEvent(new Event('afterprint'))")
     page.wait_for_selector(".vmc-scene canvas")
     assert page.errors == []
@@ -153,11 +156,14 @@ def test_paper_shows_every_demo_as_it_stands(open_demos):
     page.evaluate("() => { document.documentElement.dataset.theme = 'dark' }")
     pdf = pypdfium2.PdfDocument(page.pdf(print_background=True))
     text = "\n".join(sheet.get_textpage().get_text_range() for sheet in pdf)
-    assert "now at 0.4" in text and "place" in text and "A ball." in text
+    assert "now at 0.4" in text
+    assert "place" in text
+    assert "A ball." in text
     assert not any(word in text for word in ("then", "0.1", "Play", "turn the view"))
     sheets = [np.int16(sheet.render().to_numpy()) for sheet in pdf]
     blue, _, red = np.moveaxis(np.concatenate([s.reshape(-1, s.shape[-1]) for s in sheets]), 1, 0)
-    assert (red > blue + 60).any() and (blue > red + 60).any()  # the ball, and the box at 0.4
+    assert (red > blue + 60).any()
+    assert (blue > red + 60).any()
     assert page.get_attribute("html", "data-theme") == "dark"
 
 

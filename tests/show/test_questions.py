@@ -36,7 +36,9 @@ def test_every_answer_says_why(shown):
     [page] = shown
     assert page.count("<details") == page.count("<summary>") == 2
     assert page.count("✓ Right.") == page.count("✗ No.") == 1
-    assert r"\(1 + 1\)" in page and "<em>one</em>" in page and "&lt; 3" in page
+    assert r"\(1 + 1\)" in page
+    assert "<em>one</em>" in page
+    assert "&lt; 3" in page
     assert page.index("two") < page.index("✓ Right.") < page.index("three")
 
 
@@ -71,7 +73,8 @@ def test_a_right_answer_is_right_in_every_life(answer, expected, tolerance, show
     for render_mode in ("live", "book", "test"):
         monkeypatch.setenv("VMC_RENDER_MODE", render_mode)
         check(answer, expected, tolerance)
-    assert all("✓ Right." in page for page in shown) and len(shown) == 3
+    assert all("✓ Right." in page for page in shown)
+    assert len(shown) == 3
 
 
 WRONG = [
@@ -98,7 +101,8 @@ def test_a_wrong_answer_is_shown_the_hint_and_fails_a_test(
     monkeypatch.setenv("VMC_RENDER_MODE", "live")
     check(answer, expected, tolerance, hint="Draw it: $x < y$.")
     [page] = shown
-    assert "✗ Not yet." in page and r"\(x &lt; y\)" in page
+    assert "✗ Not yet." in page
+    assert r"\(x &lt; y\)" in page
 
 
 @pytest.mark.parametrize("answer", [None, (None, None), (1, None), [None, "a"]])
@@ -106,7 +110,8 @@ def test_a_wrong_answer_is_shown_the_hint_and_fails_a_test(
 def test_none_is_not_answered_yet(answer, render_mode, shown, monkeypatch):
     monkeypatch.setenv("VMC_RENDER_MODE", render_mode)
     check(answer, 3)
-    assert "Not answered yet." in shown[0] and "<input" not in shown[0]
+    assert "Not answered yet." in shown[0]
+    assert "<input" not in shown[0]
 
 
 def test_the_page_asks_for_numbers_and_words_but_not_for_what_code_returns(shown, book):
@@ -136,12 +141,14 @@ def test_a_quiz_is_answered_from_the_keyboard(open_questions):
     assert not page.is_visible("text=One and")
     page.keyboard.press("Tab")
     page.keyboard.press("Enter")
-    assert page.is_visible("text=✓ Right.") and not page.is_visible("text=✗ No.")
+    assert page.is_visible("text=✓ Right.")
+    assert not page.is_visible("text=✗ No.")
     page.keyboard.press("Tab")
     page.keyboard.press("Space")
     assert page.is_visible("text=✗ No.")
     page.emulate_media(media="print")  # on paper the question stands alone
-    assert page.is_visible("text=three") and not page.is_visible("text=✗ No.")
+    assert page.is_visible("text=three")
+    assert not page.is_visible("text=✗ No.")
     page.close()
 
 
@@ -166,7 +173,8 @@ def test_the_page_checks_what_is_typed(open_questions, expected, tries):
         page.fill("input", typed)
         page.keyboard.press("Enter")
         said = page.inner_text("[role=status]")
-        assert verdict in said and ("Think." in said) == (verdict == "Not yet")
+        assert verdict in said
+        assert ("Think." in said) == (verdict == "Not yet")
     page.close()
 
 

@@ -55,7 +55,8 @@ def test_the_last_word_counts_and_copies_are_free():
 def test_the_live_viewer_takes_the_same_messages():
     view = SceneView()
     view.messages = ball([1, 2, 3]).messages()
-    assert "MeshCat" in view._esm and "vmcSceneWidget" in view._esm
+    assert "MeshCat" in view._esm
+    assert "vmcSceneWidget" in view._esm
 
 
 @pytest.mark.parametrize("along", [[1, 0, 0], [0, -2, 0], [0, 0, 0.1], [1, 2, -3]])
@@ -80,6 +81,7 @@ def test_the_arm_changes_only_what_moves():
 def test_active_muscles_are_red_and_the_shuttlecock_stands_where_it_is():
     sent = decode(arm_scene((-0.3, 1.0), [1, 0, 0, 0, 0, 0], shuttlecock=(0.2, -0.39, 0.1)))
     red, *_, blue = (message["value"] for key, message in sent.items() if key.endswith(" color"))
-    assert red[0] > red[2] and blue[2] > blue[0]
+    assert red[0] > red[2]
+    assert blue[2] > blue[0]
     matrix = sent["set_transform /meshcat/shuttlecock "]["matrix"]
     assert np.allclose(matrix[12:15], (0.2, -0.39, 0.1))

@@ -26,7 +26,8 @@ def test_layers_have_the_papers_sizes(cdbn, white):
         assert layers[name].shape == (4, count, width, width)
     assert torch.equal(layers["MP2"][:, 0], layers["P2"].mean(1))
     for name in ("H1", "P1", "H2", "P2"):
-        assert 0 <= layers[name].min() and layers[name].max() <= 1
+        assert 0 <= layers[name].min()
+        assert layers[name].max() <= 1
 
 
 def test_projection_is_what_a_second_layer_unit_paints(cdbn):
@@ -60,7 +61,8 @@ def test_training_is_repeatable_and_saves_whole(white, tmp_path):
     with np.load(tmp_path / "one.npz") as file:
         kept = CDBN.from_arrays(file)
     p2 = [net.layers(white)["P2"] for net in (one, two, kept)]
-    assert torch.equal(p2[0], p2[1]) and torch.equal(p2[0], p2[2])
+    assert torch.equal(p2[0], p2[1])
+    assert torch.equal(p2[0], p2[2])
     other = train(white, positive, 2, patches=200)
     assert not torch.equal(p2[0], other.layers(white)["P2"])
 
@@ -73,7 +75,8 @@ def test_without_a_positive_picture_the_second_layer_has_nothing_to_learn(white)
 @pytest.mark.skipif(not torch.cuda.is_available(), reason="no GPU here")
 def test_one_argument_moves_training_to_the_gpu(white):
     there = train(white, np.ones(4, bool), patches=200, device="cuda")
-    assert there.first.W.is_cuda and there.second.W.is_cuda
+    assert there.first.W.is_cuda
+    assert there.second.W.is_cuda
     here = CDBN.from_arrays(there.arrays())
     assert torch.allclose(
         there.layers(white.cuda())["P2"].cpu(), here.layers(white)["P2"], atol=1e-3

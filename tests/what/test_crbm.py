@@ -231,7 +231,8 @@ def test_the_clamp_keeps_the_edge_of_the_data():
     machine, v = CRBM.random(3, 1, 4, rng()), noise(5)
     *_, (dream, _) = islice(machine.gibbs(v, rng(), clamp=True), 3)
     changed = (dream != v).any(0)[0]
-    assert changed[3:-3, 3:-3].all() and changed.sum() == 9
+    assert changed[3:-3, 3:-3].all()
+    assert changed.sum() == 9
 
 
 # ---------------------------------------------------------------- what it refuses

@@ -13,7 +13,8 @@ def test_crop_is_the_inside_of_the_box():
     assert crop(image, np.array([200, 100, 300, 150])).shape == (200, 200)
     assert crop(image, np.array([200, 100, 300, 150])).min() == 1
     half = crop(image, np.array([150, 100, 250, 150]))
-    assert half[:, :90].max() == 0 and half[:, 110:].min() == 1
+    assert half[:, :90].max() == 0
+    assert half[:, 110:].min() == 1
 
 
 def test_crop_stops_at_the_edge_of_the_image():
@@ -62,5 +63,7 @@ def test_patches_are_windows_of_the_maps():
     corner = some[:, 0, 0, 0].long()
     picture, y, x = corner // 3600, corner % 3600 // 40, corner % 40
     assert torch.equal(some[3], maps[picture[3], :, y[3] : y[3] + 7, x[3] : x[3] + 7])
-    assert {0, 1} == set(picture.tolist()) and y.max() == 23 and x.max() == 33
+    assert {0, 1} == set(picture.tolist())
+    assert y.max() == 23
+    assert x.max() == 33
     assert torch.equal(patches[torch.arange(500)], some)

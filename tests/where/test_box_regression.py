@@ -33,7 +33,8 @@ def test_box_regression_brings_a_box_nearer(detector):
         before, once, again = (np.diag(iou(b, truth)).mean() for b in boxes)
         first.append(once - before)
         rest.append(again - once)
-    assert np.mean(first) > 0.05 and np.mean(rest) > 0.05
+    assert np.mean(first) > 0.05
+    assert np.mean(rest) > 0.05
 
 
 def test_the_iou_predictor_tells_a_fit_from_a_near_miss(detector):

@@ -19,7 +19,8 @@ def test_a_detector_narrows_down_step_by_step(photo):
     found = detector.detect(photo.image)
     counts = list(found.counts.values())
     assert counts[0] > counts[1] >= counts[2] > 0
-    assert (found.passed_scores > 0).all() and (np.diff(found.scores) <= 0).all()
+    assert (found.passed_scores > 0).all()
+    assert (np.diff(found.scores) <= 0).all()
     between = iou(found.boxes, found.boxes)
     assert between[np.triu_indices(len(found.boxes), 1)].max(initial=0) <= 0.3
     assert detector.score(photo.image, found.boxes) == pytest.approx(found.scores)
@@ -38,7 +39,8 @@ def test_nothing_there_nothing_found(name):
     blank = np.full((400, 600, 3), 128, np.uint8)
     for boxes in (None, np.empty((0, 4)), []):
         found = detector.detect(blank, boxes)
-        assert found.boxes.shape == (0, 4) and found.scores.shape == (0,)
+        assert found.boxes.shape == (0, 4)
+        assert found.scores.shape == (0,)
 
 
 anywhere = st.builds(

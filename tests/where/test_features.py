@@ -34,7 +34,9 @@ def test_a_box_without_area_shows_one_pixel():
 def test_one_row_a_box(features, length):
     boxes = RNG.integers(0, 30, (5, 2))
     rows = features(NOISE, np.hstack([boxes, boxes + 20]))
-    assert rows.shape == (5, length) and np.isfinite(rows).all() and np.ptp(rows) > 0
+    assert rows.shape == (5, length)
+    assert np.isfinite(rows).all()
+    assert np.ptp(rows) > 0
     assert features(NOISE, []).shape == (0, length)
 
 
@@ -44,7 +46,8 @@ def test_gradients_point_across_the_edge():
     image[..., 2] = np.arange(60) * 4
     for turned, bin_ in ((image, 0), (image.swapaxes(0, 1), 2), (image[:, ::-1], 4)):
         counts = gradients(turned, [(15, 15, 45, 45)]).reshape(-1, 8).sum(0)
-        assert counts.argmax() == bin_ and counts[bin_] > 0.9 * counts.sum()
+        assert counts.argmax() == bin_
+        assert counts[bin_] > 0.9 * counts.sum()
 
 
 def test_a_margin_shows_what_is_around():

@@ -142,8 +142,10 @@ def test_colour_spaces_fill_the_unit_range(name):
     """Each channel, on all eight corners of the colour cube."""
     chart = np.array(list(product((0, 255), repeat=3)), np.uint8)[None]
     channels = appearance.COLOUR_SPACES[name](as_float(chart))
-    assert channels.ndim == 3 and channels.dtype == np.float32
-    assert channels.min() >= 0 and channels.max() <= 1
+    assert channels.ndim == 3
+    assert channels.dtype == np.float32
+    assert channels.min() >= 0
+    assert channels.max() <= 1
     assert (np.ptp(channels, axis=(0, 1)) > 0.6).all()
 
 
@@ -158,7 +160,8 @@ def test_proposals_are_whole_distinct_boxes_inside_the_image():
     boxes = ss.propose(PHOTO, "fast")
     assert len(boxes) > 50
     assert len(np.unique(boxes, axis=0)) == len(boxes)
-    assert (boxes >= 0).all() and (boxes <= [150, 100, 150, 100]).all()
+    assert (boxes >= 0).all()
+    assert (boxes <= [150, 100, 150, 100]).all()
     assert ((boxes[:, 2:] - boxes[:, :2]) >= 20).all()
 
 
@@ -213,7 +216,8 @@ def images():
 def test_any_image_gives_distinct_boxes_inside_it_and_the_whole_among_them(image, smallest):
     height, width = image.shape[:2]
     boxes = ss.propose(image, "fast", smallest=smallest)
-    assert (boxes[:, :2] >= 0).all() and (boxes[:, 2:] <= [width, height]).all()
+    assert (boxes[:, :2] >= 0).all()
+    assert (boxes[:, 2:] <= [width, height]).all()
     assert (boxes[:, 2:] - boxes[:, :2] >= smallest).all()
     assert len(np.unique(boxes, axis=0)) == len(boxes)
     whole = (boxes == [0, 0, width, height]).all(1).sum()
@@ -225,7 +229,8 @@ def test_a_huge_image_is_searched_like_any_other():
     boxes = ss.propose(wide)
     assert wide.shape == (100, 6000, 3)
     assert len(boxes) > 10 * len(ss.propose(PHOTO))
-    assert (boxes[:, 2:] <= [6000, 100]).all() and boxes[:, 0].max() > 5000
+    assert (boxes[:, 2:] <= [6000, 100]).all()
+    assert boxes[:, 0].max() > 5000
 
 
 @pytest.mark.parametrize(

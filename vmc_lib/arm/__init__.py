@@ -1,0 +1,1 @@
+"""The arm: muscles, geometry, dynamics, movement."""

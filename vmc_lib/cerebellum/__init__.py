@@ -1,0 +1,1 @@
+"""The cerebellum: calibration off-line and online, and adaptation."""

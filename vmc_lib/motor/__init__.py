@@ -1,0 +1,1 @@
+"""Motor planning: remembered reaches, and how they are mixed."""

@@ -50,7 +50,7 @@ class CRBM:
         return F.conv2d(v, self.W, self.b)
 
     def trim(self, v):
-        """v without the last rows and columns that no whole block of hidden units would see."""
+        """Drop the last rows and columns of v, those that fill no block of hidden units."""
         return v[..., *(slice(n - (n - self.W.shape[-1] + 1) % self.c) for n in v.shape[2:])]
 
     def energy(self, v, h):

@@ -1,0 +1,1 @@
+"""The "where" pathway (dorsal): candidates, features, the object detector, places."""
