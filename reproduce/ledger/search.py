@@ -99,7 +99,7 @@ def _seconds(image, everywhere, part=5000):
 
 
 def _boxed(some, found):
-    """Which objects some box overlaps by 0.8, (2 photos,): shuttlecock, cup, shuttlecock, …"""
+    """Which objects some box overlaps by 0.8, (2 photos,): first the shuttlecock, then the cup."""
     return np.array(
         [
             iou(boxes, photo.boxes[name][None]).max() >= FOUND

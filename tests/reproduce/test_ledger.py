@@ -21,7 +21,8 @@ def test_every_table_and_figure_of_the_paper_has_one_row():
     wanted = [f"Table {n}" for n in ("I", "II", "III", "IV", "V", "VI")]
     wanted += [f"Fig. {n}" for n in range(1, 13)]
     rows = [row.where for row in ledger.ROWS]
-    assert list(STORED) == rows and len(set(rows)) == len(rows)
+    assert list(STORED) == rows
+    assert len(set(rows)) == len(rows)
     assert sorted(where for where in rows if where.startswith(("Table", "Fig."))) == sorted(wanted)
 
 
