@@ -13,6 +13,7 @@ from vmc_lib.photos import LEVELS
 from vmc_lib.show import table
 
 PARTS = (whole, search, regions, naming, planning, calibration)
+ARROWS = {1: " ↑", -1: " ↓", 0: ""}
 ROWS = tuple(row for part in PARTS for row in part.ROWS)
 
 
@@ -71,7 +72,7 @@ def details(entry):
     told = " ".join(filter(None, (entry["because"], entry["note"])))
     heads = ["number", "paper", "ours (95 %)", "in sample", "verdict"]
     rows = [
-        [q["name"] + " ↓↑"[q["better"]].strip(), claim(q), spread(q), q["in_sample"], q["verdict"]]
+        [q["name"] + ARROWS[q["better"]], claim(q), spread(q), q["in_sample"], q["verdict"]]
         for q in entry["quantities"]
     ]
     title = f"<summary>{entry['where']}: <i>{entry['verdict']}</i></summary>"

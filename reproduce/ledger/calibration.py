@@ -138,7 +138,7 @@ def _own(kind, entries, rules):
 ROWS = (
     Row(
         "Table V",
-        "Off-line calibration shrinks the error.",
+        "Off-line calibration shrinks the error (a reading fitted to this number).",
         "09_offline",
         _table_5,
         note=FITTED + "So that we come near it is no proof.",

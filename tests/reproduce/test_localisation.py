@@ -34,9 +34,8 @@ def test_table_1_ships_as_it_is_measured(name):
     table = localisation.table_1("rig", "validation", name)
     assert list(table) == ["linear", "rbf", "poly", "sigmoid"]
     rows = localisation.trainings("rig", "validation", name)["linear"]
-    assert rows.shape == (localisation.TRAININGS, 2) and table["linear"] == pytest.approx(
-        rows.mean(0)
-    )
+    assert rows.shape == (localisation.TRAININGS, 2)
+    assert table["linear"] == pytest.approx(rows.mean(0))
     for seed in (0, localisation.TRAININGS - 1):
         again = localisation.classify("rig", name, seed, ["linear"])[
             photos.SPLITS.index("validation")
@@ -57,7 +56,8 @@ def test_table_1_counts_the_examples_of_the_split():
 def test_costs_are_chosen_on_validation_photos_from_one_grid():
     """With one training instead of all, to be quick: each chosen cost is as good as any."""
     chosen, grid = localisation.costs(), localisation.GRID
-    assert list(chosen) == list(localisation.TABLE_1_KERNELS) and set(chosen.values()) <= {*grid}
+    assert list(chosen) == list(localisation.TABLE_1_KERNELS)
+    assert set(chosen.values()) <= {*grid}
     rows = {
         cost: localisation.classify("rig", "published", 0, chosen=dict.fromkeys(chosen, cost))[1]
         for cost in grid
@@ -75,7 +75,8 @@ def test_the_finder_that_ships_is_one_of_its_kind(name):
     assert localisation.table_2("rig")[name] == pytest.approx(rows[0], abs=0.03)
     mean, half = localisation.spread("rig", name)
     low, high = t.interval(0.95, len(rows) - 1, rows.mean(0), sem(rows))
-    assert mean - half == pytest.approx(low) and mean + half == pytest.approx(high)
+    assert mean - half == pytest.approx(low)
+    assert mean + half == pytest.approx(high)
 
 
 @pytest.mark.parametrize("level", photos.LEVELS)

@@ -36,7 +36,8 @@ def test_practice_brings_the_hand_nearer(memories):
     targets = to_world(places, np.radians([12.0, 28, 44]))
     weights, (planned, *_, last) = space.practise(memories, targets)
     np.testing.assert_allclose(weights.sum(axis=-1), 1)
-    assert np.all(last < 0.5 * planned) and last.mean() < 0.1 * planned.mean()
+    assert np.all(last < 0.5 * planned)
+    assert last.mean() < 0.1 * planned.mean()
 
 
 def test_a_place_beyond_experience_is_refused(memories):
@@ -48,7 +49,8 @@ def test_a_place_beyond_experience_is_refused(memories):
 
 def test_what_is_measured_is_a_share_and_corrections_leave_less_and_less():
     numbers = space.measured(0, count=8, trials=2)
-    assert 0 < numbers["planned / reach"] < 0.1 and 0 < numbers["in the plane"] < 0.1
+    assert 0 < numbers["planned / reach"] < 0.1
+    assert 0 < numbers["in the plane"] < 0.1
     assert 0 < numbers["exact / reach"] < 0.7 * numbers["planned / reach"]
     assert 0 < numbers["2 corrections"] < numbers["1 corrections"] < 1
     assert numbers == space.measured(0, count=8, trials=2)

@@ -11,9 +11,11 @@ def windows(seed=0):
 def test_windows_stay_inside_and_come_in_an_order_of_the_generator():
     boxes = windows()
     assert len(np.unique(boxes, axis=0)) == len(boxes) > 1000
-    assert (boxes >= 0).all() and (boxes <= [600, 400, 600, 400]).all()
+    assert (boxes >= 0).all()
+    assert (boxes <= [600, 400, 600, 400]).all()
     assert np.allclose(np.unique(np.sqrt(area(boxes)).round(3)), [40, 60, 90, 135, 200])
-    assert (windows() == boxes).all() and (windows(1) != boxes).any()
+    assert (windows() == boxes).all()
+    assert (windows(1) != boxes).any()
 
 
 def test_an_image_smaller_than_every_window_has_none():
