@@ -15,6 +15,7 @@ from vmc_lib.motor.planning import draw_targets, plan
 
 OFFLINE = {"better": -1, "rounding": paper.ratio_rounding("off-line", "planned")}
 ONLINE = {"better": -1, "rounding": paper.ratio_rounding("online", "planned")}
+KINDS = ("in-sample", "held-out")
 FITTED = (
     "The reading is fitted: where Eq. 6–7 measure from, and which way the error points, were "
     "chosen by the published ratio. "
@@ -52,11 +53,23 @@ def _table_5():
 
 
 def _table_6():
-    claimed = paper.calibrated_error_ratio("online")
+    claimed, name = paper.calibrated_error_ratio("online"), "error after over planned, {}, {}"
+    other = "online, the other reading, 1 experiment, {}"
     return [
-        mean(f"error after over planned, {name}, {kind}", claimed, online(name, kind), **ONLINE)
-        for name in SCENARIOS
-        for kind in ("in-sample", "held-out")
+        *(
+            mean(name.format(scenario, kind), claimed, online(scenario, kind), **ONLINE)
+            for scenario in SCENARIOS
+            for kind in KINDS
+        ),
+        *(
+            mean(
+                name.format("the other reading", kind),
+                claimed,
+                measured()[SCENARIOS[0]][other.format(kind)],
+                **ONLINE,
+            )
+            for kind in KINDS
+        ),
     ]
 
 
@@ -84,7 +97,7 @@ def _figure_11():
             examples()[f"online, {kind}"],
             better=1,
         )
-        for kind in ("in-sample", "held-out")
+        for kind in KINDS
     ]
 
 
@@ -98,7 +111,7 @@ def _figure_12():
             bound=True,
         )
         for name in SCENARIOS
-        for kind in ("in-sample", "held-out")
+        for kind in KINDS
     ]
 
 
@@ -113,7 +126,7 @@ def _as_good():
             better=-1,
             rounding=rounding("online", "off-line"),
         )
-        for kind in ("in-sample", "held-out")
+        for kind in KINDS
     ]
 
 
@@ -148,6 +161,11 @@ ROWS = (
         "Online calibration does nearly as well, before the movement.",
         "10_online",
         _table_6,
+        note="Algorithm 2 is taken as printed: w' is learned for the place p_a' that it reached. "
+        "Learned for the target instead (the other reading), it leaves "
+        "{q[error after over planned, the other reading, in-sample].obtained:.2f} and "
+        "{q[error after over planned, the other reading, held-out].obtained:.2f}, as the paper's "
+        "does.",
     ),
     Row(
         "Fig. 4",
@@ -167,15 +185,19 @@ ROWS = (
         "practised, and {q[examples that online calibration brings nearer, held-out].obtained:.2f} "
         "among others.",
     ),
-    Row("Fig. 12", "The error falls from experiment to experiment.", "10_online", _figure_12),
+    Row(
+        "Fig. 12",
+        "The error falls from experiment to experiment.",
+        "10_online",
+        _figure_12,
+        differs="It does for movements that are practised again. For movements never practised, "
+        "six draws do not tell the ratio from 1: the first experiment teaches most.",
+    ),
     Row(
         "IV D, online",
         "Online calibration errs about as little as off-line.",
         "10_online",
         _as_good,
-        differs="It errs {q[online over off-line, in-sample].obtained:.2f} "
-        "times as much for movements just practised, and "
-        "{q[online over off-line, held-out].obtained:.2f} times for others.",
     ),
     Row(
         "V, robots",
