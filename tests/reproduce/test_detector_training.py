@@ -48,13 +48,15 @@ def test_what_is_learnt_from(photo):
     seen = training_images([photo] * 30, recipe)
     x, y = training_examples(seen, recipe, np.random.default_rng(0))
     good = (seen[0].overlap >= 0.8).sum()
-    assert x.shape == (len(y), 768) and y.sum() == 60 * (good + 10)
+    assert x.shape == (len(y), 768)
+    assert y.sum() == 60 * (good + 10)
     assert (~y).sum() == 60 * min(79, (seen[0].overlap <= 0.5).sum())
 
 
 def test_a_mirrored_image_is_as_hard(photo):
     seen = training_images([photo], replace(PUBLISHED, mirror=True))
-    assert len(seen) == 2 and (seen[0].overlap == seen[1].overlap).all()
+    assert len(seen) == 2
+    assert (seen[0].overlap == seen[1].overlap).all()
     assert (seen[1].pixels[:, 0] == photo.image[:, -1]).all()
 
 
@@ -86,4 +88,5 @@ def test_tuning_moves_the_threshold_alone(photo):
     again = tuned(detector, [photo])
     assert replace(again, threshold=detector.threshold) == detector
     published = ObjectDetector.load("rig", "published")
-    assert tuned(published, [photo]) is published and published.threshold == 0
+    assert tuned(published, [photo]) is published
+    assert published.threshold == 0

@@ -23,9 +23,10 @@ def test_one_value_has_no_interval():
         student([3.0])
 
 
-@pytest.mark.parametrize("right, n", [(40, 40), (37, 40), (1, 7)])
-def test_wilson_by_its_formula(right, n, z=1.96):
+@pytest.mark.parametrize(("right", "n"), [(40, 40), (37, 40), (1, 7)])
+def test_wilson_by_its_formula(right, n):
     """The ends are the shares p that lie z standard errors, √(p(1 − p)/n), from what was seen."""
+    z = 1.96
     low, high = wilson(right, n)
     assert 0 <= low <= right / n <= high <= 1
     for end in (low, high):

@@ -39,7 +39,8 @@ def test_a_toy_file_holds_what_ships(made, name):
     assert {key for key in shipped if not re.search(r"regression [1-3]", key)} == set(small)
     for key, value in small.items():
         kinds = {value.dtype.kind, shipped[key].dtype.kind}
-        assert value.ndim == shipped[key].ndim and len(kinds) == 1, key
+        assert value.ndim == shipped[key].ndim, key
+        assert len(kinds) == 1, key
 
 
 @pytest.mark.parametrize("name", ["candidates", "localisation"])
@@ -56,10 +57,12 @@ def test_toy_candidates_are_those_that_ship(made):
 def test_toy_experiments_give_shares_and_counts(made):
     table = data.arrays("localisation", made)["rig/context/table 1/0"]
     assert table.shape == (len(photos.SPLITS), len(TABLE_1_KERNELS), 2)
-    assert table.min() >= 0 and table.max() <= 1
+    assert table.min() >= 0
+    assert table.max() <= 1
     counts = data.arrays("variations", made)["(6, 0)/counts"]
     boxes = [2 * len(toy.NAMED[split]) for split in ("validation", "test")]
-    assert (counts.sum(3) == boxes).all() and counts.shape[1] == len(READ_OUTS)
+    assert (counts.sum(3) == boxes).all()
+    assert counts.shape[1] == len(READ_OUTS)
     moved = results.records("movements", made)
     assert all(np.isfinite(x).all() for part in moved.values() for x in part.values())
     asked = {str(question) for question, _ in results.records("fresh_test_set", made)}
@@ -73,7 +76,8 @@ def test_nothing_that_ships_depends_on_itself():
     order = list(BY_NAME)
     for step in STEPS:
         if not isinstance(step.make, str):
-            assert step.inputs() and all(file.is_file() for file in step.inputs())
+            assert step.inputs()
+            assert all(file.is_file() for file in step.inputs())
         for name in step.reads.split():
             if name in BY_NAME:
                 assert order.index(name) < order.index(step.name)
@@ -99,7 +103,8 @@ def test_a_step_runs_until_it_is_up_to_date(tmp_path, monkeypatch, capsys):
     assert data.arrays("squares", tmp_path)["squares"].tolist() == [0, 1, 4]
     assert progress.run(tasks(), ["squares"], tmp_path) == 0
     begun, left = capsys.readouterr().out.splitlines()
-    assert begun.startswith("squares … ") and begun.endswith(" s")
+    assert begun.startswith("squares … ")
+    assert begun.endswith(" s")
     assert left == "squares: up to date"
 
 
@@ -114,17 +119,20 @@ def test_the_list_names_every_step_its_file_and_its_minutes(capsys):
 def test_by_default_nothing_runs_that_needs_more_than_this_machine(monkeypatch):
     ran = []
     monkeypatch.setattr(__main__, "run", lambda tasks, names, *rest: ran.append((names, rest)) or 0)
-    assert __main__.main([]) == 0 and __main__.main(["--only", "opensim"]) == 0
+    assert __main__.main([]) == 0
+    assert __main__.main(["--only", "opensim"]) == 0
     (usual, _), (only, (_, *options)) = ran
     assert usual == [name for name, step in BY_NAME.items() if not step.needs]
-    assert only == ["opensim"] and options == ["--single", "--always-execute"]
+    assert only == ["opensim"]
+    assert options == ["--single", "--always-execute"]
 
 
 def test_smoke_uses_a_folder_of_its_own(monkeypatch):
     seen = []
     monkeypatch.setattr(toy, "run_all", lambda folder: seen.append(folder) or 0)
     assert __main__.main(["--smoke"]) == 0
-    assert seen[0] not in (ROOT, data.FOLDER, results.FOLDER) and not seen[0].exists()
+    assert seen[0] not in (ROOT, data.FOLDER, results.FOLDER)
+    assert not seen[0].exists()
 
 
 def test_an_unknown_step_is_refused(capsys):

@@ -19,7 +19,9 @@ def sight(photo):
 
 def test_scores_count_what_went_wrong(photo, sight):
     missed = trial.score(photo, sight, None, {})
-    assert missed["found"] and missed["named"] and not missed["cup"]
+    assert missed["found"]
+    assert missed["named"]
+    assert not missed["cup"]
     assert np.isnan([missed[key] for key in ("target", "planned", *loop.RULES)]).all()
     arrived = missed | dict.fromkeys(("target", "planned", *loop.RULES), 0.004)
     both = {key: np.array([missed[key], arrived[key]]) for key in missed}
@@ -31,7 +33,8 @@ def test_scores_count_what_went_wrong(photo, sight):
 
 def test_a_right_place_that_cannot_be_reached_for_is_no_wrong_place(photo, sight):
     scores = trial.score(photo, sight, photo.target, {})
-    assert scores["target"] == 0 and np.isnan(scores["own"])
+    assert scores["target"] == 0
+    assert np.isnan(scores["own"])
     several = {key: np.array([value]) for key, value in scores.items()}
     assert list(trial.first_failure(several)) == ["movement"]
 
@@ -40,7 +43,9 @@ def test_the_cup_is_told_from_the_shuttlecock(photo, sight):
     cup = photo.boxes["cup"]
     detections = type(sight.detections)(**{**vars(sight.detections), "boxes": cup[None]})
     fooled = trial.score(photo, loop.Sight(detections, np.array([0.9])), None, {})
-    assert fooled["cup"] and not fooled["named"] and not fooled["found"]
+    assert fooled["cup"]
+    assert not fooled["named"]
+    assert not fooled["found"]
 
 
 def test_a_failure_is_the_first_stage_that_went_wrong():
@@ -74,7 +79,8 @@ def test_what_a_lesion_leaves(photo, sight):
     np.testing.assert_array_equal(trial.gone_for(sight, "ventral"), sight.detections.boxes[0])
     np.testing.assert_array_equal(trial.gone_for(sight, "dorsal"), sight.box)
     blind = loop.Sight(sight.detections, 0 * sight.probability)
-    assert trial.gone_for(blind, "none") is None and trial.gone_for(blind, "ventral") is not None
+    assert trial.gone_for(blind, "none") is None
+    assert trial.gone_for(blind, "ventral") is not None
     with pytest.raises(NoReach):
         trial.lesioned(model, photo, None, "none")
 
