@@ -36,7 +36,7 @@ test: $(BUILT)
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(BIN)/python -m tests.browser
-	$(BIN)/pytest -n auto --dist worksteal --nbmake --nbmake-timeout=3600 --cov tests book
+	$(BIN)/pytest -n auto --dist worksteal --nbmake --nbmake-timeout=3600 tests book --cov
 
 lab: $(READY)
 	$(BIN)/jupyter lab book/01_loop.ipynb
