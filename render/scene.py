@@ -7,9 +7,9 @@ import numpy as np
 
 from render import materials, shapes
 from render.materials import rgb
+from vmc_lib.arm.kinematics import to_world
 from vmc_lib.photos import HEIGHT, TABLE, WIDTH, Camera
 
-TRUNK = np.array([0.017545, 0.0, -0.17])  # the vertical axis about which the trunk turns
 HAND = 0.06  # how far to the right of the shoulder the hand moves, about (m)
 MIDDLE = np.array([0.19, -0.42, -0.07])  # of the places the hand can reach
 BORDER = 8  # pixels kept free around the shuttlecock and the cup
@@ -46,11 +46,6 @@ class Scene:
     target: np.ndarray
     turn: float
     pose: str
-
-
-def turned(point, turn):
-    """The place (3,) to which the trunk's turn takes a point of the shoulder frame."""
-    return shapes.rotation(1, turn) @ (point - TRUNK) + TRUNK
 
 
 def look(centre, distance, elevation, azimuth, focal, roll=0.0):
@@ -147,7 +142,7 @@ def draw(level, rng):
         turn, reach = np.radians(rng.uniform(-10, 60)), rng.uniform(0.08, 0.22)
         standing = bool(rng.random() < 0.25)
         bird, middle = shapes.resting(feathered, standing, *rng.uniform(0, 2 * np.pi, 2))
-        target = turned(np.array([reach, TABLE + middle[1], HAND]), turn)
+        target = to_world(np.array([reach, TABLE + middle[1], HAND]), turn)
         bird = bird.moved(shift=target - middle)
         vessel = place(cup, rng, target, 0.08, 0.24)
         if apart(vessel, [bird]) and whole(bird, camera) and whole(vessel, camera):

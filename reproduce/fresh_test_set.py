@@ -21,7 +21,7 @@ from vmc_lib.where.recipes import RECIPES
 
 FRESH = 140  # number of the first photo that had no part in Table I
 KERNELS, DETECTORS = ("linear", "rbf"), ("published", "improved")
-SEEDS = tuple(seed for n_w, seed in VARIATIONS if n_w == N_W)
+NETWORK_SEEDS = tuple(seed for n_w, seed in VARIATIONS if n_w == N_W)
 
 
 def answers():
@@ -58,7 +58,7 @@ def table(*questions):
     return "\n".join(lines)
 
 
-def make(exam, folder=photos.FOLDER, trainings=TRAININGS, seeds=SEEDS, patches=PATCHES):
+def make(exam, folder=photos.FOLDER, trainings=TRAININGS, seeds=NETWORK_SEEDS, patches=PATCHES):
     """What `results/fresh_test_set.json` holds: every question put to the test photos in `exam`.
 
     What is trained for it learns from the photos in `folder`. ValueError for a photo that ships.

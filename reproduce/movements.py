@@ -123,7 +123,7 @@ def _cells():
     return WeightCorrection(weigh=smooth_weights, g=GranuleCells(), senses=mossy_fibres)
 
 
-STEPS = {  # from Algorithm 2 to our rule, one thing more at each: the learner, and how it practises
+ABLATION = {  # from Algorithm 2 to our rule, one thing more at each: a learner, how it practises
     "+ exact weights": (partial(WeightCorrection, weigh=smooth_weights), {}),
     "+ granule cells": (_cells, {}),
     "+ no off-line trials": (_cells, {"rule": uncalibrated}),
@@ -133,7 +133,7 @@ STEPS = {  # from Algorithm 2 to our rule, one thing more at each: the learner, 
 def tables(seed, scenario=SCENARIOS[0], movements=25, held_out=200, experiments=10):
     """Tables IV to VI and the own rules for one seed and scenario: ratios of errors, by name.
 
-    "online" is Algorithm 2 as printed. The other reading of it, and `STEPS` from it to our rule,
+    "online" is Algorithm 2 as printed. The other reading of it, and `ABLATION` from it to our rule,
     practise the same movements and are tested on the same others.
     """
     rng, template_set = np.random.default_rng(seed), load()
@@ -142,7 +142,7 @@ def tables(seed, scenario=SCENARIOS[0], movements=25, held_out=200, experiments=
     size, same = (movements, held_out, experiments), partial(deepcopy, rng)
     runs = {
         f"online, {step}": run(learner(), template_set, same(), movements, held_out, 1, **lesson)
-        for step, (learner, lesson) in STEPS.items()
+        for step, (learner, lesson) in ABLATION.items()
     }
     other, paper = WeightCorrection(hindsight=False), WeightCorrection()
     runs["online, the other reading"] = run(other, template_set, same(), *size)

@@ -16,7 +16,7 @@ from vmc_lib.what.recogniser import READ_OUTS
 MACAQUE = 40  # degrees
 MEASURES = ("precision", "recall")
 RIVALS = ("HMAX, 10 prototypes", "HOG", "SIFT, bag of words")
-SEEDS = [variation for variation in variations.VARIATIONS if variation[0] == cdbn.N_W]
+NETWORKS = [variation for variation in variations.VARIATIONS if variation[0] == cdbn.N_W]
 
 
 def _table_3():
@@ -60,15 +60,15 @@ def _trainings(level, read_out, split="test"):
     """Counts (trainings, 4) of the network trained again, as from `tally`."""
     i, j = photos.LEVELS.index(level), READ_OUTS.index(read_out)
     found = variations.load()
-    return np.array([found[k][1][i, j, variations.SPLITS.index(split)] for k in SEEDS])
+    return np.array([found[k][1][i, j, variations.SPLITS.index(split)] for k in NETWORKS])
 
 
 def _width():
     """How well other widths name, less how well the paper's does; MP2, all levels."""
     found, test = variations.load(), variations.SPLITS.index("test")
     right = {k: found[k][1][:, 0, test][:, [0, 3]].sum() for k in variations.VARIATIONS}
-    n = found[SEEDS[0]][1][:, 0, test].sum()
-    ours = np.mean([right[k] for k in SEEDS]) / n
+    n = found[NETWORKS[0]][1][:, 0, test].sum()
+    ours = np.mean([right[k] for k in NETWORKS]) / n
     quantities = []
     for width in sorted({k[0] for k in right} - {cdbn.N_W}):
         theirs = right[width, 0] / n

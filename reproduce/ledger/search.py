@@ -9,12 +9,11 @@ from reproduce import localisation, paper
 from reproduce.detector_training import candidates
 from reproduce.ledger.entry import Quantity, Row, fixed, mean, share
 from reproduce.peers import windows
+from reproduce.trial import FOUND
 from vmc_lib import photos
 from vmc_lib.boxes import iou
 from vmc_lib.where.features import raw_pixels
 from vmc_lib.where.selective_search import propose
-
-FOUND = 0.8  # IoU at which a box counts as the object's
 
 
 @cache

@@ -12,7 +12,7 @@ def test_every_question_was_put_to_two_hundred_photos_of_each_level():
     assert set(fresh_test_set.answers()) == {
         *fresh_test_set.KERNELS,
         *fresh_test_set.DETECTORS,
-        *product(READ_OUTS, fresh_test_set.SEEDS),
+        *product(READ_OUTS, fresh_test_set.NETWORK_SEEDS),
     }
     for question, levels in fresh_test_set.answers().items():
         assert list(levels) == list(photos.LEVELS)

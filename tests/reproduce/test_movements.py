@@ -5,9 +5,9 @@ import pytest
 
 from reproduce import paper
 from reproduce.movements import (
+    ABLATION,
     SCENARIOS,
     SEEDS,
-    STEPS,
     around,
     measured,
     quick,
@@ -131,7 +131,7 @@ def test_steps_are_measured_on_the_same_movements():
     errors = run(WeightCorrection(), template_set, rng, 5, 8, 1)
     expected = errors.held_out[1].mean() / errors.held_out_planned.mean()
     assert one["online, 1 experiment, held-out"] == expected
-    for step, (learner, lesson) in STEPS.items():
+    for step, (learner, lesson) in ABLATION.items():
         errors = run(learner(), template_set, np.random.default_rng(7), 5, 8, 1, **lesson)
         expected = errors.held_out[1].mean() / errors.held_out_planned.mean()
         assert one[f"online, {step}, 1 experiment, held-out"] == expected

@@ -77,7 +77,8 @@ class Slider(Control):
         along = {"min": 0, "max": len(self.values) - 1, "value": self.first}
         said = {"data-stride": stride, "data-texts": texts, "aria-valuetext": shown}
         play = '<button type="button" class="vmc-play" aria-pressed="false">Play</button>'
-        return slider(name, self.label, shown, along | said, play if self.play else "")
+        widest = max(map(len, self.texts))
+        return slider(name, self.label, shown, along | said, play if self.play else "", widest)
 
     def widget(self):
         options = list(zip(self.texts, self.values, strict=True))
@@ -161,15 +162,17 @@ class Pad(Control):
         return tuple(source.value for source in sources)
 
 
-def slider(name, label, shown, attributes, after=""):
+def slider(name, label, shown, attributes, after="", width=0):
     """A range input named `name` as markup: before it its label, behind it the value `shown`.
 
-    `attributes` are the input's own, by name; `after` is markup that follows.
+    `attributes` are the input's own, by name; `after` is markup that follows. The value has room
+    for `width` letters: nothing moves under the reader's hand when another one is shown.
     """
     return (
         f'<div class="vmc-control"><label for="{name}">{html.escape(label)}</label>'
         f'<input type="range" id="{name}"{_markup(attributes)}>'
-        f'<output for="{name}">{html.escape(shown)}</output>{after}</div>'
+        f'<output for="{name}" style="min-width: {max(width, 5)}ch">{html.escape(shown)}</output>'
+        f"{after}</div>"
     )
 
 
