@@ -171,7 +171,7 @@ def slider(name, label, shown, attributes, after="", width=0):
     return (
         f'<div class="vmc-control"><label for="{name}">{html.escape(label)}</label>'
         f'<input type="range" id="{name}"{_markup(attributes)}>'
-        f'<output for="{name}" style="min-width: {max(width, 5)}ch">{html.escape(shown)}</output>'
+        f'<output for="{name}" style="--widest: {max(width, 5)}ch">{html.escape(shown)}</output>'
         f"{after}</div>"
     )
 
