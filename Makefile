@@ -57,7 +57,7 @@ bench: $(READY) .bench/.ready
 
 $(BUILT): $(READY) $(INPUTS)
 	@rm -f _build/.failed
-	$(BUILD) || { cat _build/.failed; exit 1; }
+	$(BUILD) || { cat _build/.failed 2>/dev/null; exit 1; }
 	@touch $@
 
 $(READY): requirements.txt constraints.txt pyproject.toml
