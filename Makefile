@@ -42,7 +42,7 @@ test: $(BUILT)
 
 lab: $(READY)
 	@mkdir -p .venv/etc/ipython && cp .binder/ipython_kernel_config.py .venv/etc/ipython
-	$(BIN)/jupyter lab book/01_loop.ipynb
+	$(BIN)/jupyter lab --LabApp.app_settings_dir=.binder book/01_loop.ipynb
 
 kit: $(BUILT)
 	$(BIN)/python -m kit

@@ -1,6 +1,5 @@
 """The chapters in JupyterLab, as a reader runs them: a real server, a real browser."""
 
-import json
 import os
 import re
 import shutil
@@ -18,7 +17,6 @@ from tests.conftest import AXE
 pytestmark = pytest.mark.browser
 ROOT = Path(__file__).parents[1]
 CHAPTERS = {"02_candidates", "07_muscle", "08_arm"}  # plots, photos, an upload; scenes, the arm
-SETTINGS = {"apputils-extension/notification": {"fetchNews": "false", "checkForUpdates": False}}
 NOTEBOOK = "const panel = jupyterapp.shell.currentWidget, notebook = panel.content;"
 OURS = ".vmc-demo:not(.vmc-still), .vmc-live, .vmc-quiz, .vmc-predict, .vmc-check"
 
@@ -28,12 +26,8 @@ def server(tmp_path_factory):
     """The address of a JupyterLab of its own, with copies of some chapters."""
     home = tmp_path_factory.mktemp("lab")
     (home / "book").mkdir()
-    for chapter in CHAPTERS:
-        shutil.copy(ROOT / f"book/{chapter}.ipynb", home / "book")
-    for name, content in SETTINGS.items():
-        file = home / f"settings/@jupyterlab/{name}.jupyterlab-settings"
-        file.parent.mkdir(parents=True)
-        file.write_text(json.dumps(content))
+    for file in (*(f"{chapter}.ipynb" for chapter in CHAPTERS), "glossary.md"):
+        shutil.copy(ROOT / "book" / file, home / "book")
     folders = ("JUPYTER_CONFIG_DIR", "JUPYTER_DATA_DIR", "JUPYTERLAB_WORKSPACES_DIR", "IPYTHONDIR")
     told = os.environ | {name: str(home / name) for name in folders}
     told |= {"JUPYTERLAB_SETTINGS_DIR": str(home / "settings"), "VMC_RENDER_MODE": ""}
@@ -44,6 +38,7 @@ def server(tmp_path_factory):
     options = f"--no-browser --allow-root --ip=127.0.0.1 --port={port}"
     options += " --ServerApp.port_retries=0 --IdentityProvider.token=secret"
     options += f" --LabApp.expose_app_in_browser=True --ServerApp.root_dir={home / 'book'}"
+    options += f" --LabApp.app_settings_dir={ROOT / '.binder'}"  # as make lab does
     command = [sys.executable, "-m", "jupyterlab", *options.split()]
     with open(home / "log", "w") as log:
         lab = subprocess.Popen(command, env=told, stdout=log, stderr=log)
@@ -60,14 +55,14 @@ def listens(port):
 
 
 @pytest.fixture
-def run_all(chromium, server):
-    """A function that opens a chapter, runs all of it, and returns the page."""
+def visit(chromium, server):
+    """A function that opens a chapter and returns the page."""
     context = chromium.new_context(viewport={"width": 1200, "height": 900})
     context.route(lambda url: not url.startswith(server), lambda route: route.abort())
     context.set_default_timeout(600_000)  # ends a hang, never a busy machine's work
     pages = []
 
-    def run_all(chapter):
+    def visit(chapter):
         page = context.new_page()
         pages.append(page)
         page.faults = []
@@ -82,6 +77,21 @@ def run_all(chromium, server):
         page.goto(f"{server}/lab/tree/{chapter}.ipynb?token=secret&reset")
         ready(page)
         page.evaluate("() => jupyterapp.shell.collapseLeft()")
+        return page
+
+    yield visit
+    for page in pages:
+        ours = [f for f in page.faults if re.search(r"vmc|blob:|anywidget|MeshCat|mujoco", f)]
+        assert ours == []
+    context.close()
+
+
+@pytest.fixture
+def run_all(visit):
+    """A function that opens a chapter, runs all of it, and returns the page."""
+
+    def run_all(chapter):
+        page = visit(chapter)
         page.evaluate("() => jupyterapp.commands.execute('notebook:run-all-cells')")
         assert outputs(page, "error") == []
         page.wait_for_function(
@@ -90,11 +100,7 @@ def run_all(chromium, server):
         )
         return page
 
-    yield run_all
-    for page in pages:
-        ours = [f for f in page.faults if re.search(r"vmc|blob:|anywidget|MeshCat|mujoco", f)]
-        assert ours == []
-    context.close()
+    return run_all
 
 
 def ready(page):
@@ -191,6 +197,45 @@ def luminance(colour):
     return linear @ [0.2126, 0.7152, 0.0722]
 
 
+PROSE = """async () => {
+  const { content: notebook } = jupyterapp.shell.currentWidget, shown = [];
+  for (const [i, cell] of notebook.widgets.entries()) {
+    const source = cell.model.sharedModel.getSource();
+    if (cell.model.type !== "markdown" || /^`+\\{solution-end/.test(source)) continue;
+    await notebook.scrollToItem(i);
+    const words = () => {
+      const prose = cell.node.querySelector(".myst")?.cloneNode(true);
+      prose?.querySelectorAll("code, .katex").forEach((part) => part.remove());
+      return prose?.textContent.trim();
+    };
+    while (!words()) await new Promise(requestAnimationFrame);
+    shown.push(words());
+  }
+  return shown; }"""
+
+
+@pytest.mark.parametrize("chapter", sorted(CHAPTERS))
+def test_a_notebook_shows_prose_and_no_markup(visit, chapter):
+    shown = visit(chapter).evaluate(PROSE)
+    assert len(shown) > 10
+    assert not re.findall(r"\{[a-z-]+\}|```|:::|\]\(|\$|:[a-z]+: ", "\n".join(shown))
+
+
+@pytest.mark.parametrize(
+    ("href", "opened", "words"),
+    [
+        ("08_arm.ipynb", ".jp-NotebookPanel", "six muscles on two joints"),
+        ("glossary.md", ".jp-MarkdownViewer", "each in one breath"),
+    ],
+)
+def test_a_link_opens_as_something_to_read(visit, href, opened, words):
+    page = visit("07_muscle")
+    link = page.locator(f".myst a[href*='{href}']").first
+    link.scroll_into_view_if_needed()
+    link.click()
+    page.locator(f"{opened}:visible").get_by_text(words).first.wait_for()
+
+
 def test_a_plot_moves_fails_aloud_and_leaves_a_still(run_all):
     page = run_all("07_muscle")
     slider = page.locator(".vmc-demo[data-ready] input[type=range]").first
@@ -258,7 +303,7 @@ def test_scenes_and_the_arm_move_and_leave_nothing_behind(run_all):
         f"([demo, before]) => ({capture})(demo) !== before", arg=[scene.element_handle(), before]
     )
     heap = []
-    for _ in range(4):
+    for _ in range(7):  # run, and run again six times
         arm = page.locator(".vmc-live[data-ready]").first
         arm.scroll_into_view_if_needed()
         arm.locator("[name=main]").click()
