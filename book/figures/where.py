@@ -1,19 +1,23 @@
 """Pictures of segments and boxes, for the chapters on the dorsal pathway."""
 
+import re
 from base64 import b64decode
+from html import escape
 from io import BytesIO
 from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
-from IPython.display import display
+from IPython.display import HTML, display
 from PIL import Image
 
 from vmc_lib.boxes import iou
 from vmc_lib.photos import read_image
-from vmc_lib.show.demo import figure
-from vmc_lib.show.figures import photo_view
+from vmc_lib.show.controls import slider
+from vmc_lib.show.demo import figure, still_of
+from vmc_lib.show.figures import framed, photo_view
 from vmc_lib.show.live import Live
+from vmc_lib.show.markup import data_uri, styled
 from vmc_lib.show.palette import COLOURS
 from vmc_lib.show.render_mode import render_mode
 
@@ -72,14 +76,49 @@ def best_so_far(truth, boxes):
 
 
 def rising(best, now):
-    """A plot of what `best_so_far` returned, with a mark at the box of number `now`."""
+    """A plot of what `best_so_far` returned for the boxes up to number `now`, none later."""
     fig, ax = plt.subplots(figsize=(4.2, 3.2))
     for name, overlap in best.items():
-        ax.plot(np.arange(1, len(overlap) + 1), overlap, label=f"{name} {overlap[now - 1]:.2f}")
+        ax.plot(np.arange(1, now + 1), overlap[:now], label=f"{name} {overlap[now - 1]:.2f}")
     ax.axvline(now, color=COLOURS["ink"], lw=1)
-    ax.set(xlabel="regions made", ylabel="best overlap so far", ylim=(0, 1))
+    ax.set(xlabel="regions made", ylabel="best overlap so far", xlim=(0, len(overlap)), ylim=(0, 1))
     ax.legend(loc="lower right")
     return fig
+
+
+STATIC = Path(__file__).parents[1] / "_static"
+DISSOLVE = """<div class="vmc-dissolve"><div class="vmc-picture" style="display: grid;
+justify-items: center">PHOTO<canvas aria-hidden="true" style="LAYER" hidden></canvas></div>
+<form class="vmc-controls" autocomplete="off">SLIDERS
+<button type="button" class="vmc-play">Play</button>
+<button type="button" class="vmc-play">Your photo …</button>
+<button type="button" class="vmc-play">Take a photo …</button>
+<input type="file" accept="image/*" aria-label="Your photo" hidden></form>
+<p class="vmc-strip" style="min-height: 1.6em; CENTRED"></p>
+<p role="status" style="CENTRED"></p></div>"""
+LAYER = "grid-area: 1 / 1; max-width: 100%; height: auto"
+CENTRED = "text-align: center"
+
+
+def dissolving(image, caption, alt):
+    """Show how an image (height, width, 3) falls into segments, which grow back, in the page.
+
+    The reader may put a photo of their own in its place; it is looked at there and sent nowhere.
+    """
+    photo = f'<img alt="{escape(alt)}" src="{data_uri(image)}" style="{LAYER}">'
+    scale = {"min": 4.64, "max": 9.64, "step": 0.01, "value": 6.64}  # powers of two: 25 to 800
+    merged = {"min": 0, "max": 1, "step": 0.001, "value": 0}
+    sliders = slider("dissolve-k", "scale k", "100", scale)
+    sliders += slider("dissolve-merged", "grown back", "", merged, width=9)
+    parts = {"PHOTO": photo, "LAYER": LAYER, "CENTRED": CENTRED, "SLIDERS": sliders}
+    page = re.sub("|".join(parts), lambda name: parts[name[0]], DISSOLVE)
+    if render_mode() == "book":
+        display(HTML(framed(page, caption)))
+    elif render_mode() == "live":
+        scripts = [STATIC / "selective_search.js", STATIC / "dissolve.js"]
+        display(HTML(styled(still_of(alt, [photo], "dissolve"))))
+        display(Live(framed(page, "", "dissolve"), "vmcDissolve", scripts))
+        display(HTML(framed("", caption)))
 
 
 UPLOAD = """<div class="vmc-demo"><form class="vmc-control">

@@ -1,0 +1,112 @@
+/* A photo falls into segments, which grow back: ours, or the reader's own, which never leaves the page. */
+const vmcDissolve = (() => {
+  "use strict";
+
+  const AREA = 600 * 400, PLAY_TIME = 9000; // pixels, as our photos have; ms
+
+  const start = (box) => {
+    const [still, canvas, strip, say, file] = ["img", "canvas", ".vmc-strip", "[role=status]", "[type=file]"]
+      .map((name) => box.querySelector(name));
+    const [k, merged] = box.querySelectorAll("[type=range]");
+    const [play, choose, camera] = box.querySelectorAll("button");
+    const context = canvas.getContext("2d", { willReadFrequently: true });
+    let photo, tree, due;
+
+    const look = (picture) => {
+      const shrink = Math.sqrt(AREA / (picture.width * picture.height));
+      [canvas.width, canvas.height] = [picture.width, picture.height].map((side) => Math.round(shrink * side));
+      context.fillStyle = "white"; // behind what is transparent
+      context.fillRect(0, 0, canvas.width, canvas.height);
+      context.imageSmoothingQuality = "high";
+      context.drawImage(picture, 0, 0, canvas.width, canvas.height);
+      if (photo) still.src = canvas.toDataURL("image/jpeg", 0.9);
+      const { data, width, height } = context.getImageData(0, 0, canvas.width, canvas.height);
+      photo = { data, image: new ImageData(width, height), ...vmcSearch.prepare(data, width, height) };
+      tree = null;
+      canvas.hidden = false;
+      canvas.animate({ opacity: [0, 1] }, matchMedia("(prefers-reduced-motion: reduce)").matches ? 0 : 1500);
+    };
+
+    /* The segments and all regions above them, with their mean colours as four bytes. */
+    const grow = (scale) => {
+      const grown = photo.grow(scale), { labels, merges, size } = grown, sums = Array.from(size, () => [0, 0, 0]);
+      labels.forEach((label, i) => { for (let c = 0; c < 3; c++) sums[label][c] += photo.data[4 * i + c]; });
+      merges.forEach(([i, j], made) => (sums[grown.count + made] = sums[i].map((sum, c) => sum + sums[j][c])));
+      const bytes = Uint8Array.from(sums.flatMap((sum, i) => [...sum.map((x) => x / size[i]), 255]));
+      tree = { scale, ...grown, colours: new Uint32Array(bytes.buffer) };
+    };
+
+    const draw = () => {
+      if (!photo) look(still);
+      const scale = Math.round(2 ** k.value);
+      if (tree?.scale !== scale) grow(scale);
+      const { labels, count, merges, boxes, colours } = tree, { width, height } = canvas;
+      const left = Math.max(1, Math.round(count ** (1 - merged.value))), regions = 2 * count - left;
+      const into = Uint32Array.from({ length: regions }, (_, i) => i), pixels = new Uint32Array(photo.image.data.buffer);
+      for (let made = regions - 1; made >= count; made--) for (const part of merges[made - count]) into[part] = into[made];
+      labels.forEach((label, i) => (pixels[i] = colours[into[label]]));
+      context.putImageData(photo.image, 0, 0);
+      const [x0, y0, x1, y1] = boxes[regions - 1];
+      for (const [colour, wide] of left < count ? [["black", 5], ["orange", 3]] : []) {
+        Object.assign(context, { strokeStyle: colour, lineWidth: wide });
+        context.strokeRect(x0, y0, x1 - x0, y1 - y0);
+      }
+      const all = (width * (width + 1) * height * (height + 1)) / 4, told = (n) => n.toLocaleString("en-GB");
+      [k, merged].forEach((slider, i) => (slider.nextElementSibling.textContent = [scale, `${told(left)} left`][i]));
+      strip.textContent = `${told(regions)} regions so far, a box around each; ${width} × ${height} pixels hold ${told(all)} boxes.`;
+    };
+    const soon = () => {
+      clearTimeout(due);
+      due = setTimeout(draw);
+    };
+
+    let turn;
+    const stop = () => {
+      cancelAnimationFrame(turn);
+      play.textContent = "Play";
+    };
+    const run = () => {
+      const from = merged.value < 1 ? +merged.value : 0;
+      draw();
+      const begun = performance.now();
+      const step = (now) => {
+        merged.value = Math.min(1, from + Math.max(0, now - begun) / PLAY_TIME);
+        draw();
+        if (merged.value < 1) turn = requestAnimationFrame(step);
+        else stop();
+      };
+      play.textContent = "Pause";
+      turn = requestAnimationFrame(step);
+    };
+    play.addEventListener("click", () => (play.textContent === "Play" ? run() : stop()));
+    for (const slider of [k, merged]) slider.addEventListener("input", () => { stop(); soon(); });
+
+    const own = async (chosen) => {
+      if (!chosen) return;
+      stop();
+      const picture = await createImageBitmap(chosen).catch(() => null);
+      say.textContent = picture ? `${chosen.name} stays in this page: it is sent nowhere.`
+        : `This browser cannot read ${chosen.name}: save it as a JPEG or PNG.`;
+      if (!picture) return;
+      merged.value = 0;
+      photo ??= {};
+      look(picture);
+      run();
+    };
+    const ask = (how) => { file.toggleAttribute("capture", how); file.click(); };
+    file.addEventListener("change", () => own(file.files[0]).then(() => (file.value = "")));
+    choose.addEventListener("click", () => ask(false));
+    camera.addEventListener("click", () => ask(true));
+    camera.hidden = !matchMedia("(pointer: coarse)").matches;
+    box.addEventListener("dragover", (event) => event.preventDefault());
+    box.addEventListener("drop", (event) => { event.preventDefault(); own(event.dataTransfer.files[0]); });
+    box.dataset.ready = "";
+    return stop;
+  };
+
+  const startAll = () => document.querySelectorAll(".vmc-demo:has(> .vmc-dissolve)").forEach(start);
+  if (self.vmcKernel); // which starts its own
+  else if (document.readyState === "loading") addEventListener("DOMContentLoaded", startAll);
+  else startAll();
+  return start;
+})();
