@@ -6,8 +6,10 @@ exercises and their solutions from the notebook.
 
 import re
 from html import unescape
+from importlib import import_module
 
 from kit.student import EXERCISE, pieces
+from vmc_lib.show.grading import source
 
 ASKED = re.compile(
     r'<fieldset class="vmc-(predict|quiz)".*?<legend>(.*?)</legend>(.*?)</fieldset>', re.S
@@ -19,6 +21,8 @@ FOLDED = re.compile(
     r"<p><strong>(.*?)</strong>(.*?)</p></details>",
     re.S,
 )
+GRADED = re.compile(r"^from (book\.exercises\.\w+) import", re.M)
+SHOWN = re.compile(r"^solution\((\w+)\)$", re.M)
 HEADS = {"predict": "Predict first", "quiz": "Quiz"}
 
 
@@ -69,9 +73,16 @@ def _exercises(notebook):
             yield "**Solution.**"
         solved = solving
         if solving:
-            yield cell.source if cell.cell_type == "markdown" else f"```python\n{cell.source}\n```"
+            text = SHOWN.sub(lambda name: _lines(notebook, name[1]), cell.source)
+            yield text if cell.cell_type == "markdown" else f"```python\n{text}\n```"
         elif cell.cell_type == "markdown" and (found := EXERCISE.search(cell.source)):
             yield f"### Exercise `{found[1]}`\n\n{_inside(cell.source[found.start() :])}"
+
+
+def _lines(notebook, name):
+    """The solution of the chapter's graded exercise of that name."""
+    module = next(found[1] for cell in notebook.cells if (found := GRADED.search(cell.source)))
+    return source(getattr(import_module(module), name)).strip()
 
 
 def _inside(directive):

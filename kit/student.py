@@ -30,8 +30,8 @@ def pieces(notebook):
 def student(notebook):
     """The chapter without solutions and outputs; what is graded carries the tag "graded".
 
-    Of an exercise with a check, that is the cell of the check; of another, a cell for words. Its
-    metadata say of which `exercise`, by label.
+    Of an exercise that is checked, that is the cell of its `check` or `grade`; of another, a cell
+    for words. Its metadata say of which `exercise`, by label.
     """
     cells, label = [], None
     for cell, solving in pieces(notebook):
@@ -44,7 +44,7 @@ def student(notebook):
             label = (EXERCISE.findall(cell.source) or [label])[-1]
         else:
             cell = nbformat.from_dict(cell | {"outputs": [], "execution_count": None})
-            if label and re.search(r"\bcheck\(", cell.source):
+            if label and re.search(r"\b(check|grade)\(", cell.source):
                 cell, label = _graded(cell, label), None
         cells.append(cell)
     for number, cell in enumerate(cells):

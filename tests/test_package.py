@@ -131,7 +131,7 @@ def alone(reader, tmp_path):
 
 
 def test_the_wheel_holds_the_library_and_nothing_comes_from_the_repository(alone):
-    names = "vmc_lib arm_in_page reproduce render book.figures"
+    names = "vmc_lib arm_in_page reproduce render book.figures book.exercises"
     code = f"import {names.replace(' ', ', ')}; print(vmc_lib.__file__, *book.figures.__path__)"
     for path in alone("-c", code).split():
         assert "site-packages" in path

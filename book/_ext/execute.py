@@ -18,7 +18,10 @@ from jupyter_cache.executors.utils import single_nb_execution
 from sphinx.errors import ExtensionError
 from sphinx.util import logging
 
-READ_BY_CHAPTERS = ("vmc_lib", "arm_in_page", "reproduce", "render", "book/figures", "tests")
+READ_BY_CHAPTERS = (
+    *("vmc_lib", "arm_in_page", "reproduce", "render", "tests"),
+    *("book/figures", "book/exercises"),
+)
 say = logging.getLogger(__name__).info
 
 

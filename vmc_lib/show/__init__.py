@@ -7,6 +7,7 @@ The arm's own scenes are in `vmc_lib.show.arm`, and the arm that runs in the pag
 from vmc_lib.show.controls import Choice, Pad, Slider, Switch
 from vmc_lib.show.demo import explore, figure
 from vmc_lib.show.figures import dot_plot, folded, markdown, photo_view, table
+from vmc_lib.show.grading import grade, solution
 from vmc_lib.show.palette import COLOURS
 from vmc_lib.show.questions import check, predict, quiz
 from vmc_lib.show.scene import Scene
@@ -23,9 +24,11 @@ __all__ = [
     "explore",
     "figure",
     "folded",
+    "grade",
     "markdown",
     "photo_view",
     "predict",
     "quiz",
+    "solution",
     "table",
 ]

@@ -98,15 +98,16 @@ def check(answer, expected, tolerance=1e-6, hint=""):
     """
     if None in np.ravel(np.asarray(answer, object)).tolist():
         typed = render_mode() == "book" and isinstance(expected, (int, float, str, tuple))
-        return display(HTML(_field(expected, tolerance, hint) if typed else _verdict(NOT_YET)))
-    if _agree(answer, expected, tolerance):
-        return display(HTML(_verdict(RIGHT)))
+        return display(HTML(_field(expected, tolerance, hint) if typed else verdict(NOT_YET)))
+    if agree(answer, expected, tolerance):
+        return display(HTML(verdict(RIGHT)))
     if render_mode() == "test":
         raise AssertionError(f"check: {answer!r} is not {expected!r} within {tolerance}")
-    display(HTML(_verdict(f"{WRONG} You have {html.escape(repr(answer))}. {inline(hint)}")))
+    display(HTML(verdict(f"{WRONG} You have {html.escape(repr(answer))}. {inline(hint)}")))
 
 
-def _agree(answer, expected, tolerance):
+def agree(answer, expected, tolerance):
+    """Whether a reader's `answer` is `expected`, as `check` has it; NaN is NaN."""
     if isinstance(expected, str):
         return isinstance(answer, str) and answer.strip().lower() == expected.lower()
     if isinstance(answer, str):
@@ -117,7 +118,9 @@ def _agree(answer, expected, tolerance):
         answer, expected = np.asarray(answer, float), np.asarray(expected, float)
     except (TypeError, ValueError):  # words among numbers, or rows of unequal length
         return False
-    return answer.shape == expected.shape and np.allclose(answer, expected, rtol=0, atol=tolerance)
+    return answer.shape == expected.shape and np.allclose(
+        answer, expected, rtol=0, atol=tolerance, equal_nan=True
+    )
 
 
 def readings(text):
@@ -133,7 +136,8 @@ def readings(text):
     return [value, value / 100] if found[3] == "%" else [value]
 
 
-def _verdict(text):
+def verdict(text):
+    """A line that says how an answer is, HTML."""
     return styled(f'<p class="vmc-check" role="status">{text}</p>')
 
 

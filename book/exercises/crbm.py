@@ -1,0 +1,106 @@
+"""Exercises of the chapter on one CRBM."""
+
+import numpy as np
+from scipy.signal import convolve2d, correlate2d
+
+from vmc_lib.show.grading import Exercise
+
+
+def energy(v, h, W, b, a):
+    fit = correlate2d(v, W, mode="valid")  # W is not turned
+    return -(h * (fit + b)).sum() - a * v.sum() + (v**2).sum() / 2
+
+
+def _picture_and_explanation(rng):
+    return rng.normal(size=(4, 4)), np.eye(4)[rng.integers(4)].reshape(2, 2), *_filter(rng)
+
+
+def _filter(rng):
+    return rng.normal(size=(3, 3)), rng.normal(), rng.normal()
+
+
+ENERGY = Exercise(
+    energy,
+    _picture_and_explanation,
+    {
+        "Your filter is turned once too often: a unit compares $W$ itself with its window.": (
+            lambda v, h, W, b, a: energy(v, h, W[::-1, ::-1], b, a)
+        ),
+        "A unit that is on and fits must *lower* the energy: mind the sign of the first sum.": (
+            lambda v, h, W, b, a: energy(v, h, -W, b, a)
+        ),
+        "The unit's own bias is missing: $-b \\sum h$.": lambda v, h, W, b, a: energy(
+            v, h, W, 0, a
+        ),
+        "Every unit counted, on or off. Multiply each fit by its $h$.": lambda v, h, W, b, a: (
+            energy(v, np.ones_like(h), W, b, a)
+        ),
+        "The last term is *half* the sum of squares.": lambda v, h, W, b, a: (
+            energy(v, h, W, b, a) + (v**2).sum() / 2
+        ),
+    },
+)
+
+
+def unit_on(drives, die):
+    chances = np.exp(drives) / (1 + np.exp(drives).sum())
+    return np.searchsorted(chances.cumsum(), die)
+
+
+UNIT_ON = Exercise(
+    unit_on,
+    lambda rng: (rng.normal(size=4).round(1), round(rng.random(), 3)),
+    {
+        "In yours one unit is always on. All of them off is a state too: the 1 below the line.": (
+            lambda drives, die: np.searchsorted(
+                (np.exp(drives) / np.exp(drives).sum()).cumsum(), die
+            )
+        ),
+        "That is the likeliest unit. A draw gives the others their chance as well: use the die.": (
+            lambda drives, die: drives.argmax()
+        ),
+        "You gave each unit the chance that it would have alone. Units of a block compete: all "
+        "drives stand below the line.": lambda drives, die: np.searchsorted(
+            (1 / (1 + np.exp(-drives))).cumsum(), die
+        ),
+        "You took the first unit whose own chance is above the die. Add up the chances on the "
+        "way: the units share the numbers from 0 to 1 among them.": lambda drives, die: np.argmax(
+            [*(np.exp(drives) / (1 + np.exp(drives).sum()) > die), True]
+        ),
+    },
+)
+
+
+def cd_step(v, h, dream_v, dream_h):
+    data = correlate2d(v, h, mode="valid")
+    dream = correlate2d(dream_v, dream_h, mode="valid")
+    return data - dream
+
+
+def _data_and_dream(rng):
+    return *_seen(rng), *_seen(rng)
+
+
+def _seen(rng):
+    return rng.normal(size=(6, 6)), rng.random((4, 4))
+
+
+CD_STEP = Exercise(
+    cd_step,
+    _data_and_dream,
+    {
+        "The wrong way round: what goes together in the *data* is to become likelier.": (
+            lambda v, h, dream_v, dream_h: -cd_step(v, h, dream_v, dream_h)
+        ),
+        "That is what the data say alone. The filter would grow for ever: take away what goes "
+        "together in the dream.": lambda v, h, dream_v, dream_h: correlate2d(v, h, mode="valid"),
+        "Your change is turned by 180°: slide $h$ over $v$ as it is.": (
+            lambda v, h, dream_v, dream_h: (
+                convolve2d(v, h, mode="valid") - convolve2d(dream_v, dream_h, mode="valid")
+            )
+        ),
+        "The dream has an explanation of its own: use `dream_h` with it.": (
+            lambda v, h, dream_v, dream_h: cd_step(v, h, dream_v, h)
+        ),
+    },
+)

@@ -1,0 +1,60 @@
+"""Exercises of the chapter on the loop."""
+
+import numpy as np
+
+from vmc_lib.show.grading import Exercise
+
+
+def chosen_box(scores, chances):
+    named = chances > 0.5
+    if not named.any():
+        return -1
+    return np.where(named, scores, -np.inf).argmax()
+
+
+CHOSEN_BOX = Exercise(
+    chosen_box,
+    lambda rng: (rng.normal(size=5).round(2), (rng.choice([0.45, 1]) * rng.random(5)).round(2)),
+    {
+        "You took the likeliest box. All that are above 0.5 have the right name: of these the "
+        "best score counts.": lambda scores, chances: (
+            chances.argmax() if max(chances) > 0.5 else -1
+        ),
+        "You took the best score of all, and it may be the cup's: ask for the chance first.": (
+            lambda scores, chances: scores.argmax()
+        ),
+        "You took the first box that is likely enough. These boxes are in no order: compare their "
+        "scores.": lambda scores, chances: (
+            np.flatnonzero(chances > 0.5)[0] if max(chances) > 0.5 else -1
+        ),
+        "Right, as long as there is a shuttlecock. Where no chance is above 0.5, return −1.": (
+            lambda scores, chances: np.where(chances > 0.5, scores, -np.inf).argmax()
+        ),
+    },
+)
+
+
+def mixed(distances, commands):
+    nearness = 1 / distances
+    weights = nearness / nearness.sum()
+    return np.tensordot(weights, commands, axes=1)
+
+
+MIXED = Exercise(
+    mixed,
+    lambda rng: (rng.uniform(0.01, 0.08, 4), rng.random((4, 3, 6))),
+    {
+        "The farthest template has the largest weight now. Take one over the distance.": (
+            lambda d, u: np.tensordot(d / d.sum(), u, axes=1)
+        ),
+        "The weights do not sum to one: divide each by the sum of all.": (
+            lambda d, u: np.tensordot(1 / d, u, axes=1)
+        ),
+        "That is the plain mean: every template has a quarter. Weigh the nearer ones more.": (
+            lambda d, u: u.mean(axis=0)
+        ),
+        "Eq. 5 has one over the distance; yours is over its square.": (
+            lambda d, u: np.tensordot(d**-2 / (d**-2).sum(), u, axes=1)
+        ),
+    },
+)

@@ -1,0 +1,86 @@
+"""Exercises of the chapter on names."""
+
+import numpy as np
+
+from vmc_lib.show.grading import Exercise
+
+
+def precision_recall(chances, truth, threshold):
+    called = chances >= threshold
+    right = (called & truth).sum()
+    return right / called.sum(), right / truth.sum()
+
+
+def _named_crops(rng):
+    truth = np.arange(12) < rng.integers(3, 9)
+    return np.append((rng.integers(0, 10, 11) + 0.5 * truth[1:]).round() / 10, 0.9), truth, 0.6
+
+
+PRECISION_RECALL = Exercise(
+    precision_recall,
+    _named_crops,
+    {
+        "The two are exchanged: return precision first.": lambda chances, truth, threshold: (
+            precision_recall(chances, truth, threshold)[::-1]
+        ),
+        "A crop whose chance is exactly the threshold is called a shuttlecock, too.": (
+            lambda chances, truth, threshold: precision_recall(chances, truth, threshold + 1e-9)
+        ),
+        "You divided both by the number of all crops. Precision is a share of those *called* so, "
+        "recall of those that *are*.": lambda chances, truth, threshold: (
+            ((chances >= threshold) & truth).mean(),
+            ((chances >= threshold) & truth).mean(),
+        ),
+        "The first is the share of crops named right, cups among them. Precision looks only at "
+        "those that are called a shuttlecock.": lambda chances, truth, threshold: (
+            ((chances >= threshold) == truth).mean(),
+            precision_recall(chances, truth, threshold)[1],
+        ),
+    },
+)
+
+
+def broken_promise(chances, truth, bins):
+    place = np.minimum(chances * bins, bins - 1).astype(int)
+    off = 0
+    for k in set(place):
+        here = place == k
+        off += here.mean() * abs(chances[here].mean() - truth[here].mean())
+    return off
+
+
+def _promised(chances, truth, bins):
+    """For each bin that is not empty: its share, the chance promised, and what came."""
+    place = np.minimum(chances * bins, bins - 1).astype(int)
+    rows = [(place == k, k) for k in sorted(set(place))]
+    return np.array([[h.mean(), chances[h].mean(), truth[h].mean(), k] for h, k in rows]).T
+
+
+def _signed(chances, truth, bins):
+    share, promised, came, _ = _promised(chances, truth, bins)
+    return share @ (promised - came)
+
+
+def _all_alike(chances, truth, bins):
+    _, promised, came, _ = _promised(chances, truth, bins)
+    return abs(promised - came).mean()
+
+
+def _by_the_middle(chances, truth, bins):
+    share, _, came, k = _promised(chances, truth, bins)
+    return share @ abs((k + 0.5) / bins - came)
+
+
+BROKEN_PROMISE = Exercise(
+    broken_promise,
+    lambda rng: (rng.random(30).round(3), rng.random(30) < 0.5, 5),
+    {
+        "Too high in one bin and too low in another cancel now: take each gap's size.": _signed,
+        "A bin with few crops counts as much as a full one. Weigh each by its share of the "
+        "crops.": _all_alike,
+        "You compared with the middle of the bin. What was promised is the mean chance of the "
+        "crops in it.": _by_the_middle,
+        "That compares every crop with its own truth, 0 or 1. A chance is a promise about many: "
+        "compare means, bin by bin.": lambda chances, truth, bins: abs(chances - truth).mean(),
+    },
+)

@@ -1,0 +1,76 @@
+"""Exercises of the chapter on off-line calibration."""
+
+import numpy as np
+
+from vmc_lib.show.grading import Exercise
+
+
+def fair_vote(rates, preferred):
+    spread = preferred.T @ preferred  # a multiple of 1 when even
+    return np.linalg.solve(spread, preferred.T @ rates)
+
+
+def _neurons_that_fire(rng):
+    angle = rng.uniform(0, 2 * np.pi, 6)
+    preferred = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    return preferred @ rng.normal(size=2), preferred
+
+
+FAIR_VOTE = Exercise(
+    fair_vote,
+    _neurons_that_fire,
+    {
+        "That is the population vector: it is drawn to where many neurons prefer to go. Undo "
+        "the spread: multiply by the inverse of $\\sum \\mathbf c_i \\mathbf c_i^{\\mathsf T}$.": (
+            lambda rates, preferred: preferred.T @ rates
+        ),
+        "Dividing by $N/2$ is right only for neurons that are evenly spread.": (
+            lambda rates, preferred: 2 / len(rates) * preferred.T @ rates
+        ),
+        "That is the favourite of the neuron that fires most. Let all of them vote.": (
+            lambda rates, preferred: preferred[rates.argmax()]
+        ),
+        "Right in its direction, but not in its length: the reach may be longer than 1.": (
+            lambda rates, preferred: _unit(fair_vote(rates, preferred))
+        ),
+    },
+)
+
+
+def _unit(vector):
+    return vector / np.linalg.norm(vector)
+
+
+def guarded(changes, longest):
+    length = np.linalg.norm(changes, axis=1, keepdims=True)
+    return changes * longest / np.maximum(length, longest)
+
+
+def _length(changes):
+    return np.linalg.norm(changes, axis=1, keepdims=True)
+
+
+def _changes(rng):
+    changes = (rng.normal(size=(3, 4)) * rng.uniform(0.05, 0.6, (3, 1))).round(2)
+    changes[rng.integers(3)] *= rng.random() < 0.7
+    return changes, 0.5
+
+
+GUARDED = Exercise(
+    guarded,
+    _changes,
+    {
+        "You cut each number by itself. That turns the change; shorten it as a whole, and it "
+        "keeps its direction.": lambda changes, longest: changes.clip(-longest, longest),
+        "Short changes must stay as they are: shorten only what is longer than `longest`.": (
+            lambda changes, longest: np.nan_to_num(changes * longest / _length(changes))
+        ),
+        "A change of nought has length nought: do not divide by it.": lambda changes, longest: (
+            changes / _length(changes) * np.minimum(_length(changes), longest)
+        ),
+        "You shortened all reaches by the same factor. Each change has a length of its own: sum "
+        "along `axis=1`.": lambda changes, longest: (
+            changes * min(1, longest / np.linalg.norm(changes))
+        ),
+    },
+)

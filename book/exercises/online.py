@@ -1,0 +1,77 @@
+"""Exercises of the chapter on online calibration."""
+
+import numpy as np
+
+from vmc_lib.show.grading import Exercise
+
+
+def taught(v, active, answers, rate):
+    for a, y in zip(active, answers, strict=True):
+        v = v + rate * (y - v @ a) * a
+    return v
+
+
+def _lessons(rng):
+    return rng.normal(size=5), rng.random((4, 5)), rng.normal(size=4), 0.3
+
+
+def _taught(change):
+    """`taught` with another change after one lesson."""
+
+    def wrong(v, active, answers, rate):
+        for a, y in zip(active, answers, strict=True):
+            v = v + rate * change(v, a, y)
+        return v
+
+    return wrong
+
+
+TAUGHT = Exercise(
+    taught,
+    _lessons,
+    {
+        "Your cells learn the answer again and again, even when they know it. Let only the "
+        "*error* teach: $y - \\mathbf v \\cdot \\mathbf a$.": _taught(lambda v, a, y: y * a),
+        "The error grows from lesson to lesson: mind its sign.": (
+            _taught(lambda v, a, y: (v @ a - y) * a)
+        ),
+        "Every weight changes by the same amount. Only cells that are active are to blame: "
+        "multiply by the activity.": _taught(lambda v, a, y: y - v @ a),
+        "You found all errors with the first weights. Each lesson meets what the one before it "
+        "has left.": lambda v, active, answers, rate: v + rate * (answers - active @ v) @ active,
+    },
+)
+
+
+def sparse(x, centres, width, most):
+    square = ((centres - x) ** 2).sum(axis=1)
+    active = np.exp(-square / (2 * width**2))
+    active[np.argsort(-active)[most:]] = 0
+    return active
+
+
+def _place_and_cells(rng):
+    return rng.random(2).round(2), rng.random((8, 2)).round(2), 0.3, 3
+
+
+SPARSE = Exercise(
+    sparse,
+    _place_and_cells,
+    {
+        "All cells answer still. Silence all but the `most` strongest.": (
+            lambda x, centres, width, most: sparse(x, centres, width, len(centres))
+        ),
+        "You kept the weakest. `argsort` puts the smallest first.": (
+            lambda x, centres, width, most: (
+                sparse(x, centres, width, len(centres))
+                - sparse(x, centres, width, len(centres) - most)
+            )
+        ),
+        "The right cells are on, but how strongly they answer is lost: keep their activity.": (
+            lambda x, centres, width, most: 1.0 * (sparse(x, centres, width, most) > 0)
+        ),
+        "Your bells are too narrow: the square is to be divided by $2\\sigma^2$.": (
+            lambda x, centres, width, most: sparse(x, centres, width / np.sqrt(2), most)
+        ),
+    },
+)

@@ -1,0 +1,54 @@
+"""Exercises of the chapter on movements that are watched."""
+
+import numpy as np
+
+from vmc_lib.show.grading import Exercise
+
+
+def late(signal, steps):
+    then = np.arange(len(signal)) - steps
+    return signal[np.maximum(then, 0)]
+
+
+LATE = Exercise(
+    late,
+    lambda rng: (rng.normal(size=(8, 2)).round(1), int(rng.integers(1, 5))),
+    {
+        "The end of the movement comes in at its beginning: an index below nought counts from "
+        "the end. Before the first report, the first value holds.": (
+            lambda signal, steps: np.roll(signal, steps, axis=0)
+        ),
+        "Before the first report you say nought, as if the hand were at the shoulder. It rests "
+        "at its first place.": lambda signal, steps: np.concatenate(
+            [np.zeros((steps, 2)), signal[:-steps]]
+        ),
+        "You look ahead: at step $t$ the report is of step $t - $ `steps`.": (
+            lambda signal, steps: late(signal[::-1], steps)[::-1]
+        ),
+        "Your result is shorter than the movement. There is a report at every step: at first, of "
+        "the first place.": lambda signal, steps: signal[:-steps],
+    },
+)
+
+
+def smith(seen, model, steps):
+    then = np.maximum(np.arange(len(model)) - steps, 0)
+    return model + (seen - model[then])
+
+
+SMITH = Exercise(
+    smith,
+    lambda rng: (rng.normal(size=8).round(1), rng.normal(size=8).round(1), int(rng.integers(1, 4))),
+    {
+        "That trusts the model alone, however wrong it is. Correct it by what the eye reports.": (
+            lambda seen, model, steps: model
+        ),
+        "You compared the report with what the model says *now*. The report is old: compare it "
+        "with what the model said then.": lambda seen, model, steps: seen,
+        "Mind the sign: add what was seen, less what the model said then.": (
+            lambda seen, model, steps: 2 * model - smith(seen, model, steps)
+        ),
+        "A mean of report and model is late by half. Let the model tell what has happened since "
+        "the report, and add it.": lambda seen, model, steps: (seen + model) / 2,
+    },
+)
