@@ -95,7 +95,7 @@ def test_a_chapter_teaches(path):
     assert "Predict first" not in text  # a box that nothing closes
     assert re.search(r"[`:]\{exercise(-start)?\}", text)
     assert re.search(r"`\{solution(-start)?\}", text)
-    assert len(re.findall(r"\bcheck\(", code)) >= 2  # the reader's answer, and the solution's
+    assert len(re.findall(r"\b(check|grade|solution)\(", code)) >= 2  # to answer, and solved
     assert 2 <= len(re.findall(r"\bquiz\(", code)) <= 3
     assert re.search(r"^## (Recap|What to take along)", text, re.M)
     assert "](glossary.md" in text

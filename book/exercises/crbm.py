@@ -6,7 +6,7 @@ from scipy.signal import convolve2d, correlate2d
 from vmc_lib.show.grading import Exercise
 
 
-def energy(v, h, W, b, a):
+def energy_of(v, h, W, b, a):
     fit = correlate2d(v, W, mode="valid")  # W is not turned
     return -(h * (fit + b)).sum() - a * v.sum() + (v**2).sum() / 2
 
@@ -19,24 +19,24 @@ def _filter(rng):
     return rng.normal(size=(3, 3)), rng.normal(), rng.normal()
 
 
-ENERGY = Exercise(
-    energy,
+ENERGY_OF = Exercise(
+    energy_of,
     _picture_and_explanation,
     {
         "Your filter is turned once too often: a unit compares $W$ itself with its window.": (
-            lambda v, h, W, b, a: energy(v, h, W[::-1, ::-1], b, a)
+            lambda v, h, W, b, a: energy_of(v, h, W[::-1, ::-1], b, a)
         ),
         "A unit that is on and fits must *lower* the energy: mind the sign of the first sum.": (
-            lambda v, h, W, b, a: energy(v, h, -W, b, a)
+            lambda v, h, W, b, a: energy_of(v, h, -W, b, a)
         ),
-        "The unit's own bias is missing: $-b \\sum h$.": lambda v, h, W, b, a: energy(
+        "The unit's own bias is missing: $-b \\sum h$.": lambda v, h, W, b, a: energy_of(
             v, h, W, 0, a
         ),
         "Every unit counted, on or off. Multiply each fit by its $h$.": lambda v, h, W, b, a: (
-            energy(v, np.ones_like(h), W, b, a)
+            energy_of(v, np.ones_like(h), W, b, a)
         ),
         "The last term is *half* the sum of squares.": lambda v, h, W, b, a: (
-            energy(v, h, W, b, a) + (v**2).sum() / 2
+            energy_of(v, h, W, b, a) + (v**2).sum() / 2
         ),
     },
 )

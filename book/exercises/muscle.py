@@ -8,14 +8,14 @@ from vmc_lib.arm.muscle import passive_force as f3
 from vmc_lib.show.grading import Exercise
 
 
-def rates(u, a, rise, fall):
+def activation_rates(u, a, rise, fall):
     up = (u - a) * (u / rise + (1 - u) / fall)
     down = (u - a) / fall
     return np.where(u >= a, up, down)
 
 
-RATES = Exercise(
-    rates,
+ACTIVATION_RATES = Exercise(
+    activation_rates,
     lambda rng: (rng.random(6).round(2), rng.random(6).round(2), 0.010, 0.040),
     {
         "Too slow on the way up: while $u \\ge a$, both time constants count, mixed by $u$.": (
@@ -32,7 +32,9 @@ RATES = Exercise(
                 u < a, (u - a) * (u / rise + (1 - u) / fall), (u - a) / fall
             )
         ),
-        "`rise` and `fall` are exchanged.": lambda u, a, rise, fall: rates(u, a, fall, rise),
+        "`rise` and `fall` are exchanged.": lambda u, a, rise, fall: activation_rates(
+            u, a, fall, rise
+        ),
     },
 )
 

@@ -5,7 +5,7 @@ import numpy as np
 from vmc_lib.show.grading import Exercise
 
 
-def precision_recall(chances, truth, threshold):
+def precision_and_recall(chances, truth, threshold):
     called = chances >= threshold
     right = (called & truth).sum()
     return right / called.sum(), right / truth.sum()
@@ -16,15 +16,15 @@ def _named_crops(rng):
     return np.append((rng.integers(0, 10, 11) + 0.5 * truth[1:]).round() / 10, 0.9), truth, 0.6
 
 
-PRECISION_RECALL = Exercise(
-    precision_recall,
+PRECISION_AND_RECALL = Exercise(
+    precision_and_recall,
     _named_crops,
     {
         "The two are exchanged: return precision first.": lambda chances, truth, threshold: (
-            precision_recall(chances, truth, threshold)[::-1]
+            precision_and_recall(chances, truth, threshold)[::-1]
         ),
         "A crop whose chance is exactly the threshold is called a shuttlecock, too.": (
-            lambda chances, truth, threshold: precision_recall(chances, truth, threshold + 1e-9)
+            lambda chances, truth, threshold: precision_and_recall(chances, truth, threshold + 1e-9)
         ),
         "You divided both by the number of all crops. Precision is a share of those *called* so, "
         "recall of those that *are*.": lambda chances, truth, threshold: (
@@ -34,7 +34,7 @@ PRECISION_RECALL = Exercise(
         "The first is the share of crops named right, cups among them. Precision looks only at "
         "those that are called a shuttlecock.": lambda chances, truth, threshold: (
             ((chances >= threshold) == truth).mean(),
-            precision_recall(chances, truth, threshold)[1],
+            precision_and_recall(chances, truth, threshold)[1],
         ),
     },
 )

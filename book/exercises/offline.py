@@ -41,7 +41,7 @@ def _unit(vector):
     return vector / np.linalg.norm(vector)
 
 
-def guarded(changes, longest):
+def shortened(changes, longest):
     length = np.linalg.norm(changes, axis=1, keepdims=True)
     return changes * longest / np.maximum(length, longest)
 
@@ -56,8 +56,8 @@ def _changes(rng):
     return changes, 0.5
 
 
-GUARDED = Exercise(
-    guarded,
+SHORTENED = Exercise(
+    shortened,
     _changes,
     {
         "You cut each number by itself. That turns the change; shorten it as a whole, and it "

@@ -5,7 +5,7 @@ import numpy as np
 from vmc_lib.show.grading import Exercise
 
 
-def taught(v, active, answers, rate):
+def after_lessons(v, active, answers, rate):
     for a, y in zip(active, answers, strict=True):
         v = v + rate * (y - v @ a) * a
     return v
@@ -16,7 +16,7 @@ def _lessons(rng):
 
 
 def _taught(change):
-    """`taught` with another change after one lesson."""
+    """`after_lessons` with another change after one lesson."""
 
     def wrong(v, active, answers, rate):
         for a, y in zip(active, answers, strict=True):
@@ -26,8 +26,8 @@ def _taught(change):
     return wrong
 
 
-TAUGHT = Exercise(
-    taught,
+AFTER_LESSONS = Exercise(
+    after_lessons,
     _lessons,
     {
         "Your cells learn the answer again and again, even when they know it. Let only the "

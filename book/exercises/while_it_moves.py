@@ -5,13 +5,13 @@ import numpy as np
 from vmc_lib.show.grading import Exercise
 
 
-def late(signal, steps):
+def seen_late(signal, steps):
     then = np.arange(len(signal)) - steps
     return signal[np.maximum(then, 0)]
 
 
-LATE = Exercise(
-    late,
+SEEN_LATE = Exercise(
+    seen_late,
     lambda rng: (rng.normal(size=(8, 2)).round(1), int(rng.integers(1, 5))),
     {
         "The end of the movement comes in at its beginning: an index below nought counts from "
@@ -23,7 +23,7 @@ LATE = Exercise(
             [np.zeros((steps, 2)), signal[:-steps]]
         ),
         "You look ahead: at step $t$ the report is of step $t - $ `steps`.": (
-            lambda signal, steps: late(signal[::-1], steps)[::-1]
+            lambda signal, steps: seen_late(signal[::-1], steps)[::-1]
         ),
         "Your result is shorter than the movement. There is a report at every step: at first, of "
         "the first place.": lambda signal, steps: signal[:-steps],
