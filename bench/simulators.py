@@ -67,7 +67,7 @@ def main():
     for name, make in {
         "MuJoCo, its own muscle": native,
         "ours, MuJoCo": partial(ours, "mujoco"),
-        "ours, closed form": partial(ours, "closed form"),
+        "ours, compiled": partial(ours, "compiled"),
     }.items():
         finest = make(1, FINE)()
         runs += [(name, batch, make(batch), finest) for batch in BATCHES]

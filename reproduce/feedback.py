@@ -38,11 +38,18 @@ def taught(template_set, rng, count=20):
 
 
 def jumps(template_set, count, rng, by=JUMP):
-    """Targets (count, 2) and where they jump to, `by` metres in any direction, all within reach."""
+    """Targets (count, 2) and where they jump to, `by` metres in any direction, all within reach.
+
+    ValueError when so few of those drawn jump to a place within reach that targets are missing.
+    """
     first = draw_targets(template_set, 4 * count, rng)
     angle = rng.uniform(0, 2 * np.pi, len(first))
     second = first + by * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
     inside = surrounded(second, template_set.points)
+    if inside.sum() < count:
+        raise ValueError(
+            f"{inside.sum()} of {count} jumps by {by} m stay within reach; jump less far"
+        )
     return first[inside][:count], second[inside][:count]
 
 

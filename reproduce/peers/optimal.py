@@ -2,7 +2,7 @@
 
 Effort is the mean square of the excitations (Diedrichsen et al., 2010). The task is a template's:
 be at the target, still, when a movement ends, and again when the hold ends. Sequential quadratic
-programming minimises one subject to the other, with the closed form as the arm. What ships are
+programming minimises one subject to the other, with the compiled arm. What ships are
 the optima of `TARGETS`.
 """
 

@@ -16,11 +16,11 @@ def random_excitations(count, steps, rng):
     return np.repeat(rng.uniform(0, 1, (count, steps // 100, 6)) ** 2, 100, axis=1)
 
 
-def test_closed_form_moves_as_mujoco_does():
+def test_the_compiled_engine_moves_as_mujoco_does():
     rng = np.random.default_rng(0)
     excitations = random_excitations(100, 800, rng)
     starts = rng.uniform(np.radians([-50, 20]), np.radians([20, 100]), (100, 2))
-    fast, reference = (simulate(excitations, starts, engine=e) for e in ("closed form", "mujoco"))
+    fast, reference = (simulate(excitations, starts, engine=e) for e in ("compiled", "mujoco"))
     assert np.abs(fast.q - reference.q).max() < 1e-6
     np.testing.assert_array_equal(fast.activation, reference.activation)
 
@@ -31,9 +31,9 @@ def test_the_engines_agree_with_a_load_in_a_force_field():
     fast, reference, bare = (
         simulate(excitations, START, engine=e, perturbation=w)
         for e, w in [
-            ("closed form", perturbation),
+            ("compiled", perturbation),
             ("mujoco", perturbation),
-            ("closed form", Perturbation()),
+            ("compiled", Perturbation()),
         ]
     )
     assert np.abs(fast.q - reference.q).max() < 1e-6
@@ -120,5 +120,5 @@ def test_bad_starts_and_engines():
     for step in (0, -0.001, 0.1, np.nan):
         with pytest.raises(ValueError, match="steps of"):
             simulate(QUIET, START, step=step)
-    with pytest.raises(ValueError, match="closed form"):
+    with pytest.raises(ValueError, match="compiled"):
         simulate(QUIET, START, engine="opensim")

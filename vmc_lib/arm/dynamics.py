@@ -18,26 +18,29 @@ ROWS = 10_001  # of the muscle tables: steps of half a milliradian
 MARGIN = 0.4  # rad: the tables reach a little beyond the joints' stops
 LOW, HIGH = LIMITS[:, 0] - MARGIN, LIMITS[:, 1] + MARGIN
 ROWS_PER_RADIAN = (ROWS - 1) / (HIGH - LOW)
-FIRST_ROWS = np.array([0, ROWS])  # the elbow's rows come after the shoulder's
 SHOULDER, ELBOW = DAMPING.tolist()
-PHASES = np.array([[0.0, 1, 1, 0, 0, 1, 1], [0, 0, 0, 1, 1, 1, 1]])  # shoulder's, elbow's share
-LAGS = np.array([0, 0, 1, 0, 1, 0, 1]) * np.pi / 2  # a sine lags a cosine
 
 
-def _waves(q):
-    """Cosines and sines of the two angles, their sum, and their products: (…, 11)."""
-    waves = np.cos(np.asarray(q) @ PHASES - LAGS)
-    return np.concatenate([waves, waves[..., 3:4] * waves[..., 1:5]], axis=-1)
+def waves(shoulder, elbow):
+    """Cosines and sines of the two angles, their sum, and their products: eleven."""
+    c1, s1, c2, s2 = np.cos(shoulder), np.sin(shoulder), np.cos(elbow), np.sin(elbow)
+    c12, s12 = c1 * c2 - s1 * s2, s1 * c2 + c1 * s2
+    return c1 * 0 + 1, c1, s1, c2, s2, c12, s12, c2 * c1, c2 * s1, c2 * c2, c2 * s2
+
+
+def _each_wave(q):
+    """`waves` of postures (…, 2), as an array (…, 11)."""
+    return np.array(waves(*np.transpose(q))).T
 
 
 @cache
-def _coefficients(load=0.0):
+def coefficients(load=0.0):
     """Of the waves in the dynamics (11, 7), as `_dynamics` unpacks it, and the hand (11, 3)."""
     angles = np.linspace(0, 2 * np.pi, 6, endpoint=False)
     snapshots = np.array(list(product(angles, angles)))
     data = mujoco.MjData(loaded(load))
     seen = np.array([_snapshot(q, data) for q in snapshots])
-    solved = np.linalg.lstsq(_waves(snapshots), seen)[0]
+    solved = np.linalg.lstsq(_each_wave(snapshots), seen)[0]
     return solved[:, :7].copy(), solved[:, 7:].copy()
 
 
@@ -53,30 +56,39 @@ def _snapshot(q, data):
 
 def hand(q):
     """Position of the wrist (…, 3) in the shoulder frame for postures q (…, 2)."""
-    return _waves(q) @ _coefficients()[1]
+    return _each_wave(q) @ coefficients()[1]
 
 
 def torque_for(q, velocity, acceleration, load=0.0, step=STEP):
     """Inverse dynamics: torques (…, 2) in N m that give these accelerations over one step."""
-    m11, m12, m22, b1, b2 = _dynamics(q, velocity, load, step)
+    m11, m12, m22, b1, b2 = _dynamics(_terms(q, load), *velocity.T, step)
     a1, a2 = acceleration.T
     return np.array([m11 * a1 + m12 * a2 + b1, m12 * a1 + m22 * a2 + b2]).T
 
 
 def acceleration_from(q, velocity, torque, load=0.0, step=STEP):
     """Forward dynamics, Eq. 12: the accelerations (…, 2) that joint torques cause; `load` in kg."""
-    m11, m12, m22, b1, b2 = _dynamics(q, velocity, load, step)
-    t1, t2 = torque.T
+    return np.array(accelerations(_terms(q, load), *velocity.T, *torque.T, step)).T
+
+
+def _terms(q, load):
+    return (_each_wave(q) @ coefficients(load)[0]).T
+
+
+def accelerations(terms, w1, w2, t1, t2, step):
+    """Eq. 12 of one arm, or of many: both accelerations from velocities and torques of the joints.
+
+    `terms` are the seven that `coefficients` makes of the waves.
+    """
+    m11, m12, m22, b1, b2 = _dynamics(terms, w1, w2, step)
     t1, t2 = t1 - b1, t2 - b2
     determinant = m11 * m22 - m12 * m12
-    return (np.array([m22 * t1 - m12 * t2, m11 * t2 - m12 * t1]) / determinant).T
+    return (m22 * t1 - m12 * t2) / determinant, (m11 * t2 - m12 * t1) / determinant
 
 
-def _dynamics(q, velocity, load, step):
-    """The mass matrix's entries, and the torques of motion, gravity and damping, each (…).T."""
-    terms = _waves(q) @ _coefficients(load)[0]
-    m11, m12, m22, swing, bend, gravity1, gravity2 = terms.T
-    w1, w2 = velocity.T
+def _dynamics(terms, w1, w2, step):
+    """The mass matrix's entries, and the torques of motion, gravity and damping."""
+    m11, m12, m22, swing, bend, gravity1, gravity2 = terms
     thrown = swing * w1
     b1 = (bend * w2 - 2 * thrown) * w2 + gravity1 + SHOULDER * w1
     b2 = thrown * w1 + gravity2 + ELBOW * w2
@@ -86,16 +98,21 @@ def _dynamics(q, velocity, load, step):
 
 def paths(q):
     """Musculotendon lengths (…, 6) and moment arms (…, 2, 6) in m; angles held to the tables."""
-    place = (q.clip(LOW, HIGH) - LOW) * ROWS_PER_RADIAN
-    row = place.astype(int)
-    entry = _tables().take(row + FIRST_ROWS, axis=0)
-    value = entry[..., :12] + (place - row)[..., None] * entry[..., 12:]
-    return value[..., 0, :6] + value[..., 1, :6], value[..., 6:]
+    entry = between(tables(), np.array([[0], [1]]), q[..., None], np.arange(12))
+    return entry[..., 0, :6] + entry[..., 1, :6], entry[..., 6:]
+
+
+def between(tables, joint, angle, column):
+    """What a column of the `tables` says of a joint at this angle, between two of their rows."""
+    low = LOW[joint]
+    place = (np.minimum(np.maximum(angle, low), HIGH[joint]) - low) * ROWS_PER_RADIAN[joint]
+    row = np.int64(place)
+    return tables[joint, row, column] + (place - row) * tables[joint, row, column + 12]
 
 
 @cache
-def _tables():
-    """Lengths and moment arms as the shoulder turns, then the elbow, and slopes (2 · ROWS, 24)."""
+def tables():
+    """Lengths and moment arms as the shoulder or the elbow turns, and slopes (2, ROWS, 24)."""
     data = forward((0, 0))
     straight = muscle_paths(data)[0].copy()
     turned = np.empty((2, ROWS, 12))
@@ -106,4 +123,4 @@ def _tables():
             row[6:] = arms[joint]
     turned[1, :, :6] -= straight
     slopes = np.diff(turned, axis=1, append=turned[:, -1:])
-    return np.concatenate([turned, slopes], axis=-1).reshape(-1, 24)
+    return np.concatenate([turned, slopes], axis=-1)

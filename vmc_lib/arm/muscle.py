@@ -9,6 +9,9 @@ Three curves and one lag. The paper leaves units and ranges open; we read it so:
 - Eq. 11 divides by zero at v = 1 and its even powers fall again beyond; at v = 1 − √11 it reaches
   zero and turns negative below. `force_velocity` therefore holds v inside `VELOCITY_RANGE`;
 - the passive force rises again below l = 0.22 (an even power): `passive_force` holds l above it.
+
+Every law takes numbers or arrays: NumPy works them out as they stand, and the arm's compiled loop
+is made of the same functions.
 """
 
 from collections.abc import Callable
@@ -69,6 +72,20 @@ def force(activation, length, velocity, maximum):
     return maximum * (active + passive_force(length))
 
 
+def fibre(length, shortening, optimal, slack):
+    """The fibre's length and velocity, normalised as Eq. 10 and 11 take them.
+
+    From the musculotendon length and its shortening (m, m/s); `optimal` is the fibre's best length
+    l0, `slack` the tendon's length (m).
+    """
+    return (length - slack) / optimal, -shortening / (MAX_VELOCITY * optimal)
+
+
+def tension(activation, length, shortening, optimal, slack, maximum):
+    """Eq. 10 for a muscle and its tendon, measured as `fibre` takes them: newtons."""
+    return force(activation, *fibre(length, shortening, optimal, slack), maximum)
+
+
 def noisy(excitation, share, rng):
     """Excitations (…) with motor noise: fresh each step, its deviation a `share` of the signal.
 
@@ -85,4 +102,5 @@ class Muscle(NamedTuple):
     force: Callable
 
 
-PAPER = Muscle(activation_rate, force)
+# Looked up when they are called: whoever replaces a law of this module is followed
+PAPER = Muscle(lambda *given: activation_rate(*given), lambda *given: force(*given))

@@ -1,9 +1,9 @@
-"""Forward dynamics (Eq. 9–12): from muscle excitations to a movement, one loop, two engines.
+"""Forward dynamics (Eq. 9–12): from muscle excitations to a movement, by one of two engines.
 
-`"mujoco"` steps the MuJoCo model and is the reference; `"closed form"` takes the trigonometric
-polynomials of `dynamics` and steps a whole batch of movements at once. Both meet the same muscles
-and the same joint stops, with the same semi-implicit Euler steps, of 1 ms unless told otherwise;
-the quicker one is taken.
+`"compiled"` takes the trigonometric polynomials of `dynamics` and is one plain loop, compiled;
+`"mujoco"` steps the MuJoCo model and is the reference, and the engine for other muscles than the
+paper's. Both meet the same muscles and the same joint stops, with the same semi-implicit Euler
+steps, of 1 ms unless told otherwise.
 """
 
 from copy import copy
@@ -15,14 +15,13 @@ import numpy as np
 from mujoco.batch import Batch
 
 from vmc_lib.arm import dynamics
-from vmc_lib.arm.dynamics import hand
+from vmc_lib.arm.dynamics import accelerations, between, hand, waves
 from vmc_lib.arm.model import F0, L0, LIMITS, SLACK, STEP, loaded, muscle_paths
-from vmc_lib.arm.muscle import MAX_VELOCITY, PAPER
+from vmc_lib.arm.muscle import PAPER, activation_rate, fibre, tension
+from vmc_lib.compiled import compiled
 
 STOP_STIFFNESS = 200.0  # N m / rad: ours, not arm26's; bone and ligament beyond the joints' limits
 STOP_DAMPING = 0.5  # s / rad
-MUJOCO_UP_TO = 4  # movements: as many are quicker in MuJoCo than in the other
-LENGTHENING = -1 / (MAX_VELOCITY * L0)  # per metre that a muscle shortens in a second
 
 
 class Perturbation(NamedTuple):
@@ -77,26 +76,27 @@ def simulate(
 
     It starts still, in the posture `start` (…, 2), with the muscles' `activation` (…, 6); by
     default they have settled to the first excitation. `engine` names one of `ENGINES`; by default
-    it is MuJoCo for up to `MUJOCO_UP_TO` movements and the closed form for more. `perturbation` may
-    load its hand or push it about, and `muscle` may be another `Muscle` than the paper's.
-    ValueError when an excitation is not a number in [0, 1], a shape is wrong, or a step too long.
+    it is the compiled one, or MuJoCo where `muscle` is another `Muscle` than the paper's.
+    `perturbation` may load its hand or push it about. ValueError when an excitation is not a
+    number in [0, 1], a shape is wrong, a step too long, or the engine not made for this muscle.
     """
     u = np.asarray(excitations, dtype=float)
     if u.ndim < 2 or u.shape[-1] != len(F0) or 0 in u.shape:
         raise ValueError(f"excitations have shape {u.shape}; use (T, 6) or (…, T, 6), T ≥ 1")
     if not (np.all(u >= 0) and np.all(u <= 1)):
         raise ValueError(f"excitations lie in [{u.min():.3g}, {u.max():.3g}]; clip them to [0, 1]")
-    if engine not in (None, *ENGINES):
+    engine = engine or ("compiled" if muscle is PAPER else "mujoco")
+    if engine not in ENGINES:
         raise ValueError(f"engine {engine!r} is unknown; choose one of {sorted(ENGINES)}")
+    if engine == "compiled" and muscle is not PAPER:
+        raise ValueError("the compiled engine has the paper's muscle; for another, leave it out")
     if not 0 < step <= 0.01:
         raise ValueError(f"steps of {step} s would blow up or stand still; choose up to 0.01 s")
     leading = u.shape[:-2]
     q = _each("start", start, leading, 2)
-    first = _each("activation", u[..., 0, :] if activation is None else activation, leading, 6)
-    a = activations(u.reshape(-1, *u.shape[-2:]), first, muscle, step)
-    engine = engine or ("mujoco" if len(q) <= MUJOCO_UP_TO else "closed form")
-    path = _move(ENGINES[engine](q, perturbation.load, step), a, perturbation.field, muscle)
-    return Motion(*(x.reshape(*leading, *x.shape[1:]) for x in (*path, a)))
+    a = _each("activation", u[..., 0, :] if activation is None else activation, leading, 6)
+    path = ENGINES[engine](u.reshape(-1, *u.shape[-2:]), q, a, perturbation, step, muscle)
+    return Motion(*(x.reshape(*leading, *x.shape[1:]) for x in path))
 
 
 def steady(level, duration, step=STEP):
@@ -138,67 +138,69 @@ def muscle_torque(activation, lengths, arms, velocity, muscle=PAPER):
 def fibres(lengths, arms, velocity):
     """The fibres' lengths and velocities (…, 6), normalised as Eq. 10 and 11 take them."""
     shortening = np.einsum("...jk,...j", arms, velocity)
-    return (lengths - SLACK) / L0, shortening * LENGTHENING
+    return fibre(lengths, shortening, L0, SLACK)
 
 
-def stop_torque(q, velocity):
+def stop_torque(q, velocity, limits=LIMITS.T):
     """Torques (…, 2) of the joints' stops: a damped spring beyond the limits, nothing within."""
-    beyond = q - q.clip(*LIMITS.T)
+    low, high = limits
+    beyond = q - np.minimum(np.maximum(q, low), high)
     return -STOP_STIFFNESS * (beyond + STOP_DAMPING * np.abs(beyond) * velocity)
 
 
-def _move(arm, activation, field, muscle):
-    """Eq. 12 step by step: q and velocity (B, T + 1, 2) of an engine's arms."""
-    q, velocity = (np.empty((activation.shape[1], *arm.q.shape)) for _ in range(2))
-    push = np.transpose(field)
-    for k, a in enumerate(np.swapaxes(activation, 0, 1)):
-        q[k], velocity[k] = arm.q, arm.velocity
-        torque = muscle_torque(a, *arm.paths(), arm.velocity, muscle)
-        torque += stop_torque(arm.q, arm.velocity) + arm.velocity @ push
-        arm.step(torque)
-    return np.swapaxes(q, 0, 1), np.swapaxes(velocity, 0, 1)
+def _in_one_loop(excitations, start, first, perturbation, step, muscle):
+    """The engine "compiled": q and velocity (B, T + 1, 2), activation (B, T + 1, 6)."""
+    batch, steps, _ = excitations.shape
+    q, velocity, activation = (np.empty((batch, steps + 1, n)) for n in (2, 2, 6))
+    q[:, 0], velocity[:, 0], activation[:, 0] = start, 0, first
+    arm = dynamics.tables(), dynamics.coefficients(perturbation.load)[0]
+    _move(excitations, q, velocity, activation, *arm, np.array(perturbation.field, float), step)
+    return q, velocity, activation
 
 
-class ClosedForm:
-    """A batch of arms, all at once: postures and velocities (B, 2)."""
-
-    def __init__(self, start, load, step):
-        self.q, self.velocity = start, np.zeros_like(start)
-        self.load, self.seconds = load, step
-
-    def paths(self):
-        """Where the muscles are now: lengths (B, 6) and moment arms (B, 2, 6)."""
-        return dynamics.paths(self.q)
-
-    def step(self, torque):
-        """Move on by one step under joint torques (B, 2)."""
-        acceleration = dynamics.acceleration_from(
-            self.q, self.velocity, torque, self.load, self.seconds
-        )
-        self.velocity = self.velocity + self.seconds * acceleration
-        self.q = self.q + self.seconds * self.velocity
-
-
-class MuJoCo:
-    """The same arms, each stepped by MuJoCo; `q` and `velocity` are views of its states."""
-
-    def __init__(self, start, load, step):
-        model = copy(loaded(load))
-        model.opt.timestep = step
-        self.arms = Batch(model, len(start), nthread=1, persistent=True)
-        self.q, self.velocity = self.arms.bind("qpos"), self.arms.bind("qvel")
-        self.q[:] = start
-        self.paths()  # before the first computation: from then on MuJoCo keeps them current
-        self.arms.forward(stage=mujoco.mjtStage.mjSTAGE_VEL)
-
-    def paths(self):
-        """As `ClosedForm.paths`."""
-        return muscle_paths(self.arms)
-
-    def step(self, torque):
-        """As `ClosedForm.step`."""
-        self.arms.qfrc_applied = torque
-        self.arms.step(stage=mujoco.mjtStage.mjSTAGE_VEL)
+@compiled
+def _move(excitations, q, velocity, activation, tables, coefficients, field, step):
+    """Eq. 9–12 of one arm after the other, step by step from the first samples, which are given."""
+    terms = np.empty(7)
+    for arm in range(len(q)):
+        for t in range(excitations.shape[1]):
+            (q1, q2), (w1, w2) = q[arm, t], velocity[arm, t]
+            t1 = stop_torque(q1, w1, LIMITS[0]) + field[0, 0] * w1 + field[0, 1] * w2
+            t2 = stop_torque(q2, w2, LIMITS[1]) + field[1, 0] * w1 + field[1, 1] * w2
+            for k in range(6):
+                a, u = activation[arm, t, k], excitations[arm, t, k]
+                activation[arm, t + 1, k] = a + step * activation_rate(u, a)
+                length = between(tables, 0, q1, k) + between(tables, 1, q2, k)
+                r1, r2 = between(tables, 0, q1, 6 + k), between(tables, 1, q2, 6 + k)
+                pull = tension(a, length, r1 * w1 + r2 * w2, L0[k], SLACK[k], F0[k])
+                t1, t2 = t1 + r1 * pull, t2 + r2 * pull
+            terms[:] = 0
+            for n, wave in enumerate(waves(q1, q2)):
+                for k in range(7):
+                    terms[k] += wave * coefficients[n, k]
+            a1, a2 = accelerations(terms, w1, w2, t1, t2, step)
+            w1, w2 = w1 + step * a1, w2 + step * a2
+            velocity[arm, t + 1] = w1, w2
+            q[arm, t + 1] = q1 + step * w1, q2 + step * w2
 
 
-ENGINES = {"closed form": ClosedForm, "mujoco": MuJoCo}
+def _in_mujoco(excitations, start, first, perturbation, step, muscle):
+    """The engine "mujoco", as `_in_one_loop`."""
+    activation = activations(excitations, first, muscle, step)
+    model = copy(loaded(perturbation.load))
+    model.opt.timestep = step
+    arms = Batch(model, len(start), nthread=1, persistent=True)
+    now = arms.bind("qpos"), arms.bind("qvel")  # views of its states
+    now[0][:] = start
+    muscle_paths(arms)  # before the first computation: from then on MuJoCo keeps them current
+    arms.forward(stage=mujoco.mjtStage.mjSTAGE_VEL)
+    path = [[x.copy() for x in now]]
+    for a in np.swapaxes(activation, 0, 1)[:-1]:
+        torque = muscle_torque(a, *muscle_paths(arms), now[1], muscle)
+        arms.qfrc_applied = torque + stop_torque(*now) + now[1] @ np.transpose(perturbation.field)
+        arms.step(stage=mujoco.mjtStage.mjSTAGE_VEL)
+        path.append([x.copy() for x in now])
+    return *(np.stack(x, axis=1) for x in zip(*path, strict=True)), activation
+
+
+ENGINES = {"compiled": _in_one_loop, "mujoco": _in_mujoco}

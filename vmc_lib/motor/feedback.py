@@ -13,11 +13,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from vmc_lib.arm.dynamics import hand, paths, torque_for
+from vmc_lib.arm.dynamics import acceleration_from, hand, paths, torque_for
 from vmc_lib.arm.kinematics import inverse_kinematics
 from vmc_lib.arm.model import STEP
-from vmc_lib.arm.muscle import activation_rate, noisy
-from vmc_lib.arm.simulate import ClosedForm, Motion, fibres, muscle_torque, stop_torque
+from vmc_lib.arm.muscle import PAPER, noisy
+from vmc_lib.arm.simulate import Motion, fibres, muscle_torque, stop_torque
 from vmc_lib.motor.inverse_dynamics import SAMPLES, minimum_jerk, muscle_gain, smooth
 from vmc_lib.motor.templates import START
 
@@ -90,9 +90,8 @@ def move(intention, senses=SIGHT, model=None, world=None, noise=0.0, rng=None):
     told = np.swapaxes(intention.excitations, 0, 1)
     q, velocity = (np.empty_like(meant[0]) for _ in range(2))
     activation = np.concatenate([told[:1], np.empty_like(told)])
-    arm = ClosedForm(meant[0][0], 0.0, STEP)
+    q[0], velocity[0] = meant[0][0], 0
     for k, plan in enumerate(told):
-        q[k], velocity[k] = arm.q, arm.velocity
         if k % TICK == 0:
             seen = max(k - late[0], 0)
             here = foresee(model, q[seen], velocity[seen], activation[seen:k:TICK])
@@ -102,9 +101,10 @@ def move(intention, senses=SIGHT, model=None, world=None, noise=0.0, rng=None):
         reflex = _reflex(senses, q[felt], velocity[felt], *(x[felt] for x in lengths))
         u = np.clip(plan + sight + reflex, 0, 1)
         u = noisy(u, noise, rng) if noise else u
-        activation[k + 1] = activation[k] + STEP * activation_rate(u, activation[k])
-        arm.step(_torque(arm, activation[k], world, k * STEP))
-    q[-1], velocity[-1] = arm.q, arm.velocity
+        activation[k + 1] = activation[k] + STEP * PAPER.activation_rate(u, activation[k])
+        torque = _torque(q[k], velocity[k], activation[k], world, k * STEP)
+        velocity[k + 1] = velocity[k] + STEP * acceleration_from(q[k], velocity[k], torque)
+        q[k + 1] = q[k] + STEP * velocity[k + 1]
     return Motion(*(np.swapaxes(x, 0, 1) for x in (q, velocity, activation)))
 
 
@@ -155,15 +155,14 @@ def _reflex(senses, q, velocity, meant_length, meant_rate):
     return senses.stretch * (length - meant_length) + senses.rate * (rate - meant_rate)
 
 
-def _torque(arm, activation, world, time):
+def _torque(q, velocity, activation, world, time):
     """The joint torques (B, 2) of the muscles, the joints' stops and the world."""
-    torque = muscle_torque(activation, *arm.paths(), arm.velocity)
-    torque = torque + stop_torque(arm.q, arm.velocity)
+    torque = muscle_torque(activation, *paths(q), velocity) + stop_torque(q, velocity)
     if world is None:
         return torque
-    nudged = hand(arm.q[:, None] + 1e-6 * np.eye(2)) - hand(arm.q)[:, None]
+    nudged = hand(q[:, None] + 1e-6 * np.eye(2)) - hand(q)[:, None]
     slopes = nudged[..., :2] / 1e-6  # (B, joints, 2): where each joint takes the hand
-    force = world(time, (arm.velocity[:, None] @ slopes)[:, 0])
+    force = world(time, (velocity[:, None] @ slopes)[:, 0])
     return torque + (slopes @ force[..., None])[..., 0]
 
 

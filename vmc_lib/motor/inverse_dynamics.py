@@ -12,7 +12,7 @@ from scipy.optimize import lsq_linear
 
 from vmc_lib.arm import dynamics
 from vmc_lib.arm.model import F0, STEP
-from vmc_lib.arm.muscle import force
+from vmc_lib.arm.muscle import PAPER
 from vmc_lib.arm.simulate import fibres
 from vmc_lib.data import read_only
 
@@ -48,7 +48,8 @@ def muscle_gain(q, velocity):
     An activation (…, 6) adds gain @ activation to the torque of the slack muscles.
     """
     lengths, arms = dynamics.paths(q)
-    slack, full = (force(a, *fibres(lengths, arms, velocity), F0)[..., None, :] for a in (0.0, 1.0))
+    normal = fibres(lengths, arms, velocity)
+    slack, full = (PAPER.force(a, *normal, F0)[..., None, :] for a in (0.0, 1.0))
     return (arms * slack).sum(axis=-1), arms * (full - slack)
 
 
