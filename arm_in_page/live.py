@@ -43,7 +43,7 @@ VERSIONS = {"Python": mujoco.__version__, "page": "3.14.0"}  # of MuJoCo
 MODEL_SCRIPTS = ("vectors", "engine", "muscle", "arm", "templates", "planning", "calibration")
 PAGE_SCRIPTS = ("drawing", "live", "bench", "reach", "start")
 SCRIPTS = (  # in the order in which they need one another
-    SHOW / "axes.js",
+    *(SHOW / name for name in ("axes.js", "handle.js")),
     *(STATIC / f"{name}.js" for name in MODEL_SCRIPTS + PAGE_SCRIPTS),
 )
 _ENDS = ("red", "purple")  # where the planned and the calibrated reach end

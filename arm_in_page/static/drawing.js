@@ -25,7 +25,7 @@ const vmcDrawing = (() => {
       this.place();
       if (brief) return;
       this.plot.lastElementChild.innerHTML =
-        [["line", "ink", seen.joints, 5], ...this.marks].map((mark) => this.mark(...mark)).join("");
+        [["line", "ink", seen.joints, 5], ...this.marks].map((mark) => this.axes.mark(...mark)).join("");
     }
 
     place() {
@@ -36,21 +36,6 @@ const vmcDrawing = (() => {
         viewer.set_property(path, "visible", Boolean(position));
         if (position) viewer.set_transform(path, [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, ...position, 1]);
       });
-    }
-
-    mark(kind, colour, points, size) {
-      const { width, height } = this.plot.viewBox.baseVal;
-      const put = (point) => {
-        const [right, down] = this.axes.drawn(point);
-        return [(width * right).toFixed(1), (height * down).toFixed(1)];
-      };
-      const paint = `var(--vmc-${colour})`;
-      if (kind === "line")
-        return `<polyline points="${points.map(put).join(" ")}" fill="none" stroke="${paint}"
-          stroke-width="${size}" stroke-opacity=".7" stroke-linecap="round"/>`;
-      const [x, y] = put(points);
-      const look = kind === "ring" ? `fill="none" stroke-width="2" stroke` : "fill";
-      return `<circle cx="${x}" cy="${y}" r="${size}" ${look}="${paint}"/>`;
     }
   }
 

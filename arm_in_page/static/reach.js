@@ -10,16 +10,11 @@ const vmcReach = (() => {
       this.templateSet = new TemplateSet(this.given.templateSet);
       this.form.elements.calibrate.addEventListener("click", () => this.calibrate());
       this.controls.addEventListener("input", () => this.aim());
-      const point = (event) => {
-        const finger = event.pointerType === "touch"; // it taps, for dragging scrolls the page
-        if (finger ? event.type !== "click" : !event.buttons) return;
-        event.preventDefault(); // no text is selected on the way
-        const { forward, up } = this.form.elements;
-        [forward.value, up.value] = this.drawing.axes.pointed(event);
+      const { forward, up } = this.form.elements;
+      this.handle = vmcHandle(this.box.querySelector(".vmc-pictures"), (place) => {
+        [forward.value, up.value] = place;
         this.aim();
-      };
-      for (const type of ["pointerdown", "pointermove", "click"])
-        this.drawing.plot.addEventListener(type, point);
+      });
       this.label("Reach");
       this.aim();
     }
@@ -41,6 +36,7 @@ const vmcReach = (() => {
         this.say(`Nothing planned: ${error.message}`);
       }
       this.mark([]);
+      this.handle(this.target);
       const { start, rest } = this.given;
       this.show({ q: start, activation: rest });
     }

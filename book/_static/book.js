@@ -45,7 +45,7 @@ addEventListener("DOMContentLoaded", () =>
     heading.prepend(button);
     button.addEventListener("click", () => open(section.matches(".vmc-folded")));
     const asked = () => {
-      const place = document.getElementById(decodeURIComponent(location.hash.slice(1)));
+      const place = document.getElementById(decodeURIComponent(location.hash.slice(1)).split("?")[0]);
       if (place && section.contains(place)) { open(true); place.scrollIntoView(); }
     };
     addEventListener("hashchange", asked);

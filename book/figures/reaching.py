@@ -5,6 +5,9 @@ Every function draws on matplotlib axes. Positions are in the plane, in metres.
 
 import numpy as np
 
+from book.figures.panels import panels
+from vmc_lib.arm.model import MUSCLES
+from vmc_lib.motor.planning import plan
 from vmc_lib.show.palette import COLOURS
 from vmc_lib.show.plane import plane
 
@@ -60,3 +63,32 @@ def weighted_sum(ax, excitations, weights):
     ax.plot(time, weights @ excitations, color=COLOURS["red"], label=r"$u_t = \sum w_i u_i$")
     ax.set(xlabel="time (s)", ylabel="excitation")
     ax.legend()
+
+
+def planned(past, muscle, target=None, ended=None):
+    """Two figures: a plan in the plane, and one muscle's excitation as its sum; or both empty.
+
+    The plan mixes templates of `past` for `target` (2,), and took the hand to `ended` (2,).
+    """
+    (in_plane, left), (over_time, right) = (panels(1, (4.1, 3.4)) for _ in range(2))
+    plane(left, past.points)
+    commands, weights = np.empty((1, 0)), np.ones(1)
+    if target is not None:
+        one = plan(target, past)
+        commands, weights = past.excitations[one.chosen, :, muscle], one.weights
+        shares(left, target, one.points, weights)
+        ends(left, target, ended)
+        miss = 1000 * np.linalg.norm(np.subtract(ended, target))
+        left.set_title(f"the hand misses by {miss:.1f} mm")
+    weighted_sum(right, commands, weights)
+    right.set(title=f"excitation of {MUSCLES[muscle]}", xlim=(-0.05, 1.05), ylim=(0, 0.3))
+    return in_plane, over_time
+
+
+def planned_in_page(past, muscle, ended):
+    """The same for the page to work out (see `explore`); `ended` (N, 2) for all its positions."""
+    every = 20  # ms
+    commands = past.excitations[:, ::every, muscle]
+    given = {"points": past.points, "commands": commands.round(4), "ends": ended.round(5)}
+    given = {name: values.tolist() for name, values in given.items()} | {"every": every / 1000}
+    return "plan", lambda: planned(past, muscle), given

@@ -18,7 +18,7 @@ from vmc_lib.show.demo import figure, still_of
 from vmc_lib.show.figures import framed, photo_view
 from vmc_lib.show.live import Live
 from vmc_lib.show.markup import data_uri, styled
-from vmc_lib.show.palette import COLOURS
+from vmc_lib.show.palette import COLOURS, EDGE, ON_PHOTO
 from vmc_lib.show.render_mode import render_mode
 
 
@@ -33,6 +33,23 @@ def mosaic(image, labels):
 def in_corner(words):
     """Words in a photo's upper left corner, as a box without area for `photo_view`."""
     return (8, 0, 8, 0), words, "ink"
+
+
+def overlap(image, thing, corner):
+    """A photo with a thing's box, and one as large from `corner` (x, y): how much do they share?
+
+    Green at an IoU of 0.8 or more, red at 0.5 or less.
+    """
+    box = np.concatenate([corner, corner + thing[2:] - thing[:2]])
+    shared = round(iou(box, thing).item(), 2)
+    colour = "green" if shared >= 0.8 else "orange" if shared > 0.5 else "red"
+    return photo_view(image, [(thing, "", "grey"), (box, f"IoU {shared:.2f}", colour)])
+
+
+def overlap_in_page(image, thing):
+    """The same for the page to work out (see `explore`)."""
+    given = {"object": thing.tolist(), "edge": EDGE, "paint": ON_PHOTO}
+    return "overlap", lambda: photo_view(image), given
 
 
 def nearest(truth, boxes, colour="green"):

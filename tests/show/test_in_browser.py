@@ -11,17 +11,15 @@ from meshcat import geometry as g
 from meshcat.transformations import translation_matrix
 
 from vmc_lib.arm.dynamics import hand
-from vmc_lib.show import Pad, Scene, Slider, demo, explore, figure
+from vmc_lib.show import Choice, Pad, Scene, Slider, demo, explore, figure, photo_view
 from vmc_lib.show.arm import arm_scene
 from vmc_lib.show.live import STATIC
-from vmc_lib.show.scene import SCRIPTS
 
 pytestmark = pytest.mark.browser
 MESHCAT = Path(__file__).parents[2] / "book/_static/vendor/meshcat.js"
 HEAD = """<!doctype html><meta charset="utf-8"><link rel="stylesheet" href="demo.css">
 <link rel="stylesheet" href="scene.css">""" + "".join(
-    f'<script defer src="{name}"></script>'
-    for name in (*(path.name for path in SCRIPTS), "axes.js", "demo.js")
+    f'<script defer src="{path.name}"></script>' for path in demo.SCRIPTS
 )
 CAPTURE = "div => vmcScene(div).viewer.capture_image()"
 
@@ -304,3 +302,171 @@ def test_without_webgl_the_numbers_follow_the_controls(open_demos, chromium):
     assert numbers(page)["elbow"] == "57.3°"
     assert page.errors == []
     context.close()
+
+
+# ---- A demo's state is in the address ----
+
+
+def every_kind(**values):
+    return f"<svg>\n<text>{list(values.values())}</text>\n</svg>"
+
+
+@pytest.fixture
+def addressed(open_demos):
+    kinds = dict(
+        x=Slider(range(5), "x", play=True),
+        way=["left", "right"],
+        name=Choice("abcdefg", "name"),
+        on=[False, True],
+    )
+    page = open_demos(
+        lambda: [
+            figure("<p style='height: 90em'>Tall.</p>", "Above.", "tall"),
+            explore(every_kind, "Below.", lambda **values: f"{values}", **kinds),
+        ]
+    )
+    page.id = page.get_attribute(".vmc-demo >> nth=1", "id")
+    yield page
+    assert page.errors == []
+
+
+def shown_now(page):
+    return page.locator(".vmc-demo").nth(1).locator("text").text_content()
+
+
+def test_a_link_opens_a_demo_as_it_was(addressed):
+    link = addressed.locator(".vmc-link")
+    assert link.get_attribute("href") == f"#{addressed.id}?x=0&way=0&name=0&on=0"
+    addressed.focus("[type=range]")
+    addressed.keyboard.press("End")
+    addressed.get_by_label("right").check()
+    addressed.select_option("select", "2")
+    addressed.get_by_role("checkbox").check()
+    state = f"#{addressed.id}?x=4&way=1&name=2&on=1"
+    addressed.wait_for_function("state => location.hash === state", arg=state)
+    assert link.get_attribute("href") == state
+    assert shown_now(addressed) == "[4, 'right', 'c', True]"
+    other = addressed.context.new_page()
+    other.goto(addressed.url)
+    other.wait_for_selector(".vmc-demo[data-ready] >> nth=0")
+    other.wait_for_function("() => scrollY > 0")
+    assert shown_now(other) == "[4, 'right', 'c', True]"
+    assert other.locator("output").inner_text() == "4"
+    other.close()
+
+
+def test_an_address_is_followed_and_what_it_cannot_mean_is_ignored(addressed):
+    for state, seen in (
+        ("x=2&way=1", "[2, 'right', 'a', False]"),
+        ("on=1&x=99&name=99&way=7&who=3", "[4, 'right', 'a', True]"),
+        ("", "[4, 'right', 'a', True]"),
+    ):
+        addressed.evaluate(f"location.hash = '#{addressed.id}?{state}'")
+        addressed.wait_for_function(
+            "seen => document.querySelectorAll('.vmc-demo text')[0].textContent === seen", arg=seen
+        )
+    addressed.evaluate("location.hash = '#%'")
+    assert shown_now(addressed) == "[4, 'right', 'a', True]"
+
+
+def test_playing_leaves_the_address_alone_and_yields_to_any_control(addressed):
+    addressed.click(".vmc-play")
+    addressed.get_by_label("right").check()
+    assert addressed.get_attribute(".vmc-play", "aria-pressed") == "false"
+    addressed.wait_for_function("() => location.hash.includes('way=1')")
+    addressed.click(".vmc-play")
+    addressed.wait_for_selector(".vmc-play[aria-pressed=false]")
+    assert "x=4" not in addressed.evaluate("location.hash")
+
+
+# ---- A finger ----
+
+
+def test_a_pad_is_dragged_by_its_handle_with_a_finger(open_demos, chromium):
+    context = chromium.new_context(
+        offline=True, has_touch=True, viewport={"width": 360, "height": 640}
+    )
+    page = open_demos(
+        lambda: [
+            explore(
+                lambda at: photo_view(
+                    np.zeros((200, 300, 3), np.uint8), points=[(at, "", "green")]
+                ),
+                "c",
+                lambda at: f"{at}",
+                at=Pad(range(0, 301, 20), range(0, 201, 25), start=(100, 100)),
+            ),
+            figure("<p style='height: 90em'>Tall.</p>", "Below.", "tall"),
+        ],
+        context,
+    )
+    touch = context.new_cdp_session(page)
+
+    def finger(*path):
+        for kind, (x, y) in zip(["touchStart", "touchMove", "touchMove"], path, strict=True):
+            touch.send(
+                "Input.dispatchTouchEvent", {"type": kind, "touchPoints": [{"x": x, "y": y}]}
+            )
+        touch.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+
+    def middle(selector):
+        box = page.locator(selector).bounding_box()
+        return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+    x, y = middle(".vmc-handle")
+    assert middle("circle >> nth=0") == pytest.approx((x, y), abs=1.5)
+    size = page.locator(".vmc-handle").bounding_box()
+    assert min(size["width"], size["height"]) >= 24
+    wide = page.locator("svg[data-axes]").bounding_box()["width"]
+    finger((x + 8, y + 8), (x + 30, y + 40), (x + 8 + wide / 5, y + 8 + wide / 6))
+    outputs = [page.locator("output").nth(i).inner_text() for i in (0, 1)]
+    assert outputs == ["160", "150"]  # 60 and 50 of 300 farther; where it was taken does not matter
+    assert middle(".vmc-handle") == pytest.approx((x + wide / 5, y + wide / 6), abs=1.5)
+    assert page.evaluate("scrollY") == 0
+    page.touchscreen.tap(x, y)
+    page.locator("output", has_text="100").first.wait_for()
+    assert page.errors == []
+    context.close()
+
+
+def test_a_movement_that_comes_after_a_posture_is_shown_at_its_end(open_demos):
+    page = open_demos(
+        lambda: explore(
+            lambda moves: movement(1.2)[1] if moves else arm_scene([0, 1]),
+            "c",
+            "an arm",
+            moves=[False, True],
+        )
+    )
+    assert page.locator(".vmc-clock").is_hidden()
+    page.get_by_role("checkbox").check()
+    assert page.inner_text(".vmc-clock output") == "0.20 s"
+    assert page.inner_text(".vmc-clock button") == "Play the movement"
+    assert page.errors == []
+
+
+def test_the_row_of_a_slider_stays_where_the_hand_is(open_demos):
+    widths = ["i", "WWWW", "mmmm mmmm", "%"]
+    page = open_demos(
+        lambda: [
+            figure("<p style='height: 40em'>Tall.</p>", "Above.", "tall"),
+            explore(
+                lambda size: f'<p style="height: {4 + 3 * widths.index(size)}em">{size}</p>',
+                "c",
+                "words",
+                size=Slider(widths, "size", play=True),
+            ),
+            figure("<p style='height: 90em'>Tall.</p>", "Below.", "tall"),
+        ]
+    )
+    page.focus("[type=range]")
+    page.locator("[type=range]").scroll_into_view_if_needed()
+    places = []
+    for key in ("Home", "ArrowRight", "ArrowRight", "ArrowRight"):
+        page.keyboard.press(key)
+        places.append([page.locator(s).bounding_box() for s in ("[type=range]", ".vmc-play")])
+    for place in places[1:]:
+        assert [box["x"] for box in place] == [box["x"] for box in places[0]]
+        assert place[0]["y"] == pytest.approx(places[0][0]["y"], abs=1)
+    assert page.evaluate("scrollY") > 0
+    assert page.errors == []

@@ -66,4 +66,5 @@ def _furniture(table):
     scene.tell("anatomy", anatomy() | {"beyond": BEYOND.tolist(), "every": EVERY / 1000})
     if table:
         things.table(scene["table"])
+        scene["table"].set_transform(things.place((0, BEYOND[1], 0)))  # under what lies on it
     return scene

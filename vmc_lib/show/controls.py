@@ -72,7 +72,7 @@ class Slider(Control):
         said = {"data-stride": stride, "data-texts": texts, "aria-valuetext": shown}
         unasked = " data-unasked" * (self.play == "unasked")
         play = f'<button type="button" class="vmc-play" aria-pressed="false"{unasked}>Play</button>'
-        widest = max(map(len, self.texts))
+        widest = max(len(text) + 0.6 * sum(c in "mwMW%" for c in text) for text in self.texts)
         return slider(name, self.label, shown, along | said, play if self.play else "", widest)
 
 
@@ -99,9 +99,9 @@ class Switch(Control):
     """On or off."""
 
     def html(self, name, stride):
+        own = f'type="checkbox" name="{name}" data-stride="{stride}"{" checked" * self.first}'
         return (
-            f'<div class="vmc-control"><label><input type="checkbox" data-stride="{stride}"'
-            f"{' checked' * self.first}>{html.escape(self.label)}</label></div>"
+            f'<div class="vmc-control"><label><input {own}>{html.escape(self.label)}</label></div>'
         )
 
 

@@ -23,13 +23,16 @@ from vmc_lib.show.live import STATIC, Live
 from vmc_lib.show.markup import styled
 from vmc_lib.show.palette import STYLE
 from vmc_lib.show.render_mode import render_mode
-from vmc_lib.show.scene import SCRIPTS, Scene
+from vmc_lib.show.scene import SCRIPTS as VIEWER
+from vmc_lib.show.scene import Scene
 
+SCRIPTS = [*VIEWER, *(STATIC / f"{name}.js" for name in ("axes", "handle", "address", "demo"))]
 MOST_POSITIONS = 200
+SAMPLE = 25  # positions of a demo that the page works out
 _demos = itertools.count(1)
 
 
-def explore(draw, caption, alt, **controls):
+def explore(draw, caption, alt, in_page=None, **controls):
     """Show what `draw` returns and let the reader move its controls.
 
     `draw(**values)` is a pure function that returns a picture (see `figures`). Each control is a
@@ -38,10 +41,15 @@ def explore(draw, caption, alt, **controls):
     as text or as a function of the same controls. Raises ValueError for a demo that could not
     work: more than 200 positions, a control without effect, a start that is no value, an unknown
     picture.
+
+    A demo of one control may have as many positions as it likes if the book's page works them out
+    itself: `in_page` is (name, ground, given). The page's `vmcInPage[name]` draws what `draw` does,
+    by what it is `given` (as JSON takes it), on plots or photos that `ground()` returned. Here a
+    sample is evaluated.
     """
     controls = {name: as_control(name, spec) for name, spec in controls.items()}
     positions = math.prod(len(control.values) for control in controls.values())
-    if positions > MOST_POSITIONS:
+    if positions > MOST_POSITIONS and not (in_page and len(controls) == 1):
         raise ValueError(
             f"{positions} positions are too many for a page (at most {MOST_POSITIONS}): "
             "give the controls fewer values"
@@ -63,10 +71,13 @@ def explore(draw, caption, alt, **controls):
 
     if render_mode() == "live":
         return _live(state, caption, controls, name)
-    states = [state(place) for place in range(positions)]
-    _must_work(states, controls)
+    every = math.ceil(positions / SAMPLE) if in_page else 1
+    states = [state(place) for place in range(0, positions, every)]
+    _must_work(states, controls, [len(states)] if in_page else None)
     if render_mode() == "book":
-        display(HTML(_page(states, caption, controls, name)))
+        first = state(_first(controls)) if in_page else states[_first(controls)]
+        data = _worked_out(*in_page, controls, name) if in_page else _stored(states)
+        display(HTML(_page(*first, data, caption, controls, name)))
 
 
 def figure(picture, caption, alt):
@@ -74,13 +85,16 @@ def figure(picture, caption, alt):
     explore(picture if callable(picture) else lambda: picture, caption, alt)
 
 
-def _must_work(states, controls):
-    """Raise ValueError where kinds of pictures change, or a control never changes a picture."""
+def _must_work(states, controls, shape=None):
+    """Raise ValueError where kinds of pictures change, or a control never changes a picture.
+
+    `shape` is how many states there are along each control, if not one for each of its values.
+    """
     for _, parts in states:
         _same_kinds(parts, states[0][1])
     looks = {}  # equal pictures get equal numbers
     grid = [looks.setdefault(repr([_lines(p) for p in parts]), len(looks)) for _, parts in states]
-    grid = np.reshape(grid, [len(control.values) for control in controls.values()])
+    grid = np.reshape(grid, shape or [len(control.values) for control in controls.values()])
     for axis, control in enumerate(controls.values()):
         if (grid == grid.take([0], axis)).all():
             raise ValueError(f"the control {control.label!r} never changes the picture")
@@ -122,17 +136,16 @@ def _moves(parts, controls):
     return controls or any(isinstance(part, Scene) for part in parts)
 
 
-def _page(states, caption, controls, name):
-    """The demo as HTML: its first state to be seen at once, and all states as compressed data."""
-    alt, parts = states[_first(controls)]
+def _page(alt, parts, data, caption, controls, name):
+    """The demo as HTML: its first state to be seen at once, and compressed data for all others."""
     if not _moves(parts, controls):
         return framed(side_by_side(parts, alt), caption, name)
-    data = f'<script type="application/gzip">{_pack(states)}</script>'
+    data = f'<script type="application/gzip">{_pack(data)}</script>'
     return framed(_face(alt, parts, controls, name) + data, caption, name)
 
 
-def _pack(states):
-    """All states as gzip in base64: a table of distinct lines, and each state as places in it.
+def _stored(states):
+    """All states: a table of distinct lines, and each state as places in it.
 
     States have most of their lines in common (a photo is one line), so each is stored once.
     """
@@ -142,7 +155,21 @@ def _pack(states):
         return [table.setdefault(line, len(table)) for line in lines]
 
     rows = [[places([alt]), *(places(_lines(part)) for part in parts)] for alt, parts in states]
-    data = json.dumps({"lines": list(table), "states": rows}, separators=(",", ":"))
+    return {"lines": list(table), "states": rows}
+
+
+def _worked_out(work, ground, given, controls, name):
+    """What the page needs to work every state out: see `explore`."""
+    with plt.rc_context(STYLE):
+        grounds = [_lines(part) for part in pictures(ground(), name)]
+    [control] = controls.values()
+    grid = [np.asarray(axis.values).tolist() for axis in getattr(control, "pair", [control])]
+    return {"work": work, "grounds": grounds, "given": given, "grid": grid}
+
+
+def _pack(data):
+    """JSON as gzip in base64."""
+    data = json.dumps(data, separators=(",", ":"))
     return base64.b64encode(gzip.compress(data.encode(), mtime=0)).decode()
 
 
@@ -171,9 +198,8 @@ def _live(state, caption, controls, name):
         still.update(HTML(styled(still_of(alt, kept, name))))
 
     face = _face(alt, parts, controls, name) + '<p class="vmc-error" role="alert"></p>'
-    scripts = [*SCRIPTS, STATIC / "axes.js", STATIC / "demo.js"]
     still = display(HTML(styled(still_of(alt, parts, name))), display_id=True)
-    display(Live(framed(face, "", name), "vmcDemo", scripts, {"state": moved, "rested": rested}))
+    display(Live(framed(face, "", name), "vmcDemo", SCRIPTS, {"state": moved, "rested": rested}))
     display(HTML(framed("", caption)))
 
 

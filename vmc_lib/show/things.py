@@ -9,9 +9,13 @@ from meshcat import geometry as g
 from vmc_lib.camera import TABLE
 from vmc_lib.show.palette import COLOURS
 
-WOOD, CORK, FEATHER = 0xC08F5A, 0xD9C9A3, 0xF1EDE2
+WOOD, CORK, BAND, FEATHERS = 0xC08F5A, 0xE3CFA0, 0x1D4F91, (0xFFFFFF, 0xCDD5DF)
 LENGTH, RIM, BALL = 0.085, 0.033, 0.013  # a shuttlecock: axis, radius of its skirt, of its cork
 SKIRT = 0.024  # from the cork's tip to where the skirt begins
+VANE = [  # a feather: how far along the axis, and half its width there
+    *((SKIRT, 0.001), (0.036, 0.0012), (0.042, 0.0032), (0.06, 0.0052), (0.079, 0.0063)),
+    (LENGTH, 0.0032),
+]
 
 
 def table(part):
@@ -38,10 +42,12 @@ def ball(part, position, colour):
 def shuttlecock(part, photo):
     """The shuttlecock of a photo: on its skirt, or lying as its box in the photo says."""
     x = np.linspace(0, np.pi / 2, 7)
-    cork = [*BALL * np.column_stack([np.sin(x), 1 - np.cos(x)]), (BALL, SKIRT)]
-    skirt = [(BALL, SKIRT), (0.6 * RIM, 0.6 * LENGTH), (RIM, LENGTH)]
-    part["cork"].set_object(lathe(cork), paint(CORK))
-    part["skirt"].set_object(lathe(skirt, scallops=16), paint(FEATHER))
+    dome = BALL * np.column_stack([np.sin(x), 1 - np.cos(x)])
+    part["cork"].set_object(lathe([*dome, (0.95 * BALL, SKIRT), (0, SKIRT)]), paint(CORK))
+    part["band"].set_object(lathe([(BALL, 0.018), (BALL, SKIRT)]), paint(BAND))
+    for k, colour in enumerate(FEATHERS):  # by turns, or at a distance they were one grey arch
+        angle = 2 * np.pi * np.arange(k, 16, 2) / 16
+        part[f"feathers{k}"].set_object(_feathers(angle), paint(colour, 0x404040))
     part.set_transform(resting(photo))
 
 
@@ -81,23 +87,35 @@ def cup(part, photo):
     part.set_transform(place((centre[0], TABLE, centre[2])))
 
 
-def lathe(profile, sides=32, scallops=0):
-    """A mesh: the profile (n, 2) of (radius, height) turned about y, its rim scalloped."""
+def lathe(profile, sides=32):
+    """A mesh: the profile (n, 2) of (radius, height) turned about y."""
     angle = np.linspace(0, 2 * np.pi, sides + 1)
     radius, height = np.array(profile, float).T[:, :, None]
     around = np.broadcast_arrays(radius * np.cos(angle), height, radius * np.sin(angle))
-    points = np.stack(around, axis=-1)
-    if scallops:
-        points[-1, :, 1] -= 0.004 * (np.arange(sides + 1) % (sides // scallops))
-    corner = np.arange(points[..., 0].size).reshape(len(profile), sides + 1)
-    a, b, c, d = corner[:-1, :-1], corner[:-1, 1:], corner[1:, 1:], corner[1:, :-1]
+    return _surface(np.stack(around, axis=-1))
+
+
+def _feathers(angles):
+    """A mesh of the shuttlecock's feathers that stand at `angles` (n,) round its axis."""
+    height, half = np.array(VANE).T[:, :, None]
+    radius = BALL - 0.002 + (RIM - BALL + 0.002) * (height - SKIRT) / (LENGTH - SKIRT)
+    angle = angles[:, None, None] + half / radius * [-1, 1]
+    around = np.broadcast_arrays(radius * np.cos(angle), height, radius * np.sin(angle))
+    return _surface(np.stack(around, axis=-1))
+
+
+def _surface(points):
+    """A mesh over grids of points (..., rows, columns, 3)."""
+    corner = np.arange(points[..., 0].size).reshape(points.shape[:-1])
+    a, b = corner[..., :-1, :-1], corner[..., :-1, 1:]
+    c, d = corner[..., 1:, 1:], corner[..., 1:, :-1]
     faces = np.stack([a, c, b, a, d, c], axis=-1).reshape(-1, 3)
     return g.TriangularMeshGeometry(points.reshape(-1, 3), faces)
 
 
-def paint(colour):
-    """A matt surface in a colour, 0xRRGGBB."""
-    return g.MeshLambertMaterial(color=colour)
+def paint(colour, glow=0):
+    """A matt surface in a colour, 0xRRGGBB, that in the shade still shows so much of its `glow`."""
+    return g.MeshLambertMaterial(color=colour, emissive=glow)
 
 
 def place(position):

@@ -5,11 +5,34 @@ const vmcAxes = (svg) => {
 
   const [x0, x1, y0, y1, left, right, bottom, top] = svg.dataset.axes.split(" ").map(Number);
   const [wide, high] = [(right - left) / (x1 - x0), (top - bottom) / (y1 - y0)];
-  return {
-    left, right, bottom, top,
+  const { width, height } = svg.viewBox.baseVal;
 
-    /* Where in the picture the place (x, y) is drawn, as shares of its width and height. */
-    drawn: ([x, y]) => [left + wide * (x - x0), bottom + high * (y - y0)],
+  /* Where in the picture the place (x, y) is drawn, as shares of its width and height. */
+  const drawn = ([x, y]) => [left + wide * (x - x0), bottom + high * (y - y0)];
+
+  const put = (point) => {
+    const [right, down] = drawn(point);
+    return [(width * right).toFixed(1), (height * down).toFixed(1)];
+  };
+
+  return {
+    left, right, bottom, top, drawn,
+    head: [(x0 + x1) / 2, y1], // where a title stands
+
+    /* Markup of a mark in a named colour: a "line" through points of some width, a "ring" or a "dot" of
+       some radius, or "words" so far above a point. */
+    mark: (kind, colour, points, size, above) => {
+      const paint = `var(--vmc-${colour})`;
+      if (kind === "line")
+        return `<polyline points="${points.map(put).join(" ")}" fill="none" stroke="${paint}"
+          stroke-width="${size}" stroke-opacity=".7" stroke-linecap="round"/>`;
+      const [x, y] = put(points);
+      if (kind === "words")
+        return `<text x="${x}" y="${y - above}" fill="${paint}" font-size="10"
+          text-anchor="middle">${size}</text>`;
+      const look = kind === "ring" ? `fill="none" stroke-width="2" stroke` : "fill";
+      return `<circle cx="${x}" cy="${y}" r="${size}" ${look}="${paint}"/>`;
+    },
 
     /* The place (x, y) that the reader points at. */
     pointed: ({ clientX, clientY }) => {

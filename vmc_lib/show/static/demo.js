@@ -22,8 +22,28 @@ const vmcDemo = (() => {
 
   /* What the page brings along, as a function that gives a state to `draw`. */
   const brought = async (demo) => {
-    const { lines, states } = await vmcInflate(demo.querySelector("script").textContent);
+    const data = await vmcInflate(demo.querySelector("script").textContent);
+    if (data.work) return workedOut(data);
+    const { lines, states } = data;
     return (place, draw) => draw(states[place].map((places) => places.map((line) => lines[line])));
+  };
+
+  /* The same for what the page works out itself: a function of the book, given the values that a
+     place stands for, tells it in words and draws it on the pictures that came along. */
+  const workedOut = ({ work, grounds, given, grid }) => {
+    const axes = grounds.map((lines) => {
+      const box = document.createElement("template");
+      box.innerHTML = lines.join("\n");
+      return vmcAxes(box.content.firstElementChild);
+    });
+    return (place, draw) => {
+      const values = grid.map((along, i) => {
+        const stride = grid.slice(i + 1).reduce((product, { length }) => product * length, 1);
+        return along[Math.floor(place / stride) % along.length];
+      });
+      const [words, ...marks] = vmcInPage[work](given, values, axes, place);
+      draw([[words], ...grounds.map((lines, i) => [...lines.slice(0, -1), marks[i], "</svg>"])]);
+    };
   };
 
   /* `ask(place, draw)` gives `draw` the state at a place: its words and its pictures, as lines. */
@@ -37,7 +57,11 @@ const vmcDemo = (() => {
     const at = ({ type, checked, value }) =>
       type === "checkbox" ? +checked : type === "radio" && !checked ? 0 : +value;
 
+    let drawn = () => {}; // what else follows a picture
+
     const draw = ([alt, ...parts]) => {
+      const row = demo.querySelector(".vmc-controls"), held = demo.matches(":hover, :focus-within");
+      const before = held && row.getBoundingClientRect().top;
       parts.forEach((lines, i) => {
         const picture = pictures.children[i];
         const scene = picture.querySelector(".vmc-scene");
@@ -49,6 +73,9 @@ const vmcDemo = (() => {
       const words = alt.join();
       if (spoken && pictures.getAttribute("aria-label") !== words) spoken.textContent = words;
       pictures.setAttribute("aria-label", words);
+      drawn();
+      /* A picture of another height moves the page, and not what the reader's hand is on. */
+      if (held) scrollBy({ top: row.getBoundingClientRect().top - before, behavior: "instant" });
     };
 
     const show = () => {
@@ -90,7 +117,11 @@ const vmcDemo = (() => {
         }
         stop();
       });
-      input.addEventListener("input", stop); // the reader's hand comes first
+      /* The reader's hand comes first, on whatever it lies; a movement's speed may change. */
+      for (const type of ["pointerdown", "input"])
+        demo.addEventListener(type, ({ target }) => {
+          if (target.closest("[data-stride], .vmc-clock :is(input, button), .vmc-handle")) stop();
+        }, true);
       if ("unasked" in button.dataset && !reduced.matches) {
         const watch = new IntersectionObserver(([{ isIntersecting }]) => {
           if (!isIntersecting) return;
@@ -100,20 +131,19 @@ const vmcDemo = (() => {
         watch.observe(demo);
       }
     }
-    /* A pad: pressing or dragging on the first plot moves its two sliders to the nearest place. */
+    /* A pad: a handle on the first plot moves its two sliders to the nearest place. */
     const pad = demo.querySelector(".vmc-pad");
-    const drag = (event) => {
-      const svg = event.buttons && event.target.closest("svg[data-axes]");
-      if (!svg) return;
-      const place = vmcAxes(svg).pointed(event);
-      event.preventDefault(); // no text is selected on the way
-      JSON.parse(pad.dataset.grid).forEach((values, i) => {
-        const far = values.map((value) => Math.abs(value - place[i]));
-        pad.querySelectorAll("input")[i].value = far.indexOf(Math.min(...far));
+    if (pad) {
+      const [grid, twins] = [JSON.parse(pad.dataset.grid), [...pad.querySelectorAll("input")]];
+      const put = vmcHandle(pictures, (place) => {
+        grid.forEach((values, i) => {
+          const far = values.map((value) => Math.abs(value - place[i]));
+          twins[i].value = far.indexOf(Math.min(...far));
+        });
+        twins[0].dispatchEvent(new Event("input", { bubbles: true }));
       });
-      show();
-    };
-    if (pad) for (const type of ["pointerdown", "pointermove"]) pictures.addEventListener(type, drag);
+      drawn = () => put(twins.map((twin, i) => grid[i][twin.value]));
+    }
 
     demo.addEventListener("input", show);
     show();
@@ -130,8 +160,10 @@ const vmcDemo = (() => {
   addEventListener("afterprint", () => (dataset.theme = theme));
 
   const startAll = () =>
-    document.querySelectorAll(".vmc-demo:has(> script)").forEach(async (demo) =>
-      start(demo, await brought(demo)));
+    document.querySelectorAll(".vmc-demo:has(> script)").forEach(async (demo) => {
+      vmcAddress(demo);
+      start(demo, await brought(demo));
+    });
   if (document.readyState === "loading") addEventListener("DOMContentLoaded", startAll);
   else startAll();
   return start;

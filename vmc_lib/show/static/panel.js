@@ -29,7 +29,7 @@ const vmcPanel = (() => {
   /* Play, a slider of time, and how fast: shown where there is a movement. */
   const clock = (views) => {
     const box = made(`<div class="vmc-control vmc-clock">
-      <button type="button" class="vmc-play" aria-pressed="false">Play</button>
+      <button type="button" class="vmc-play" aria-pressed="false">Play the movement</button>
       <label>time <input type="range" min="0" step="0.01" value="0"></label>
       <output>0.00 s</output><select aria-label="speed">${Object.entries(SPEEDS)
         .map(([text, pace]) => `<option value="${pace}">${text}</option>`).join("")}</select></div>`);
@@ -37,7 +37,7 @@ const vmcPanel = (() => {
     let playing = null;
     const stop = () => {
       playing = null;
-      button.textContent = "Play";
+      button.textContent = "Play the movement";
       button.setAttribute("aria-pressed", "false");
     };
     const set = (time) => views.forEach((view) => view.at(time));
@@ -63,6 +63,7 @@ const vmcPanel = (() => {
       stop();
     };
     button.addEventListener("click", () => (playing ? stop() : play()));
+    slider.addEventListener("pointerdown", stop);
     slider.addEventListener("input", () => (stop(), set(+slider.value)));
     box.addEventListener("input", (event) => event.stopPropagation()); // no control of the demo
     box.play = play;
@@ -81,7 +82,7 @@ const vmcPanel = (() => {
 
   /* The joints' angles, and how far the hand is from the target. */
   const numbers = (view) => {
-    const box = made(`<dl class="vmc-numbers"></dl>`);
+    const box = made(`<dl class="vmc-numbers simple"></dl>`);
     view.listeners.push((pose) => {
       if (!pose) return;
       const rows = [["shoulder", degrees(pose.q[0])], ["elbow", degrees(pose.q[1])]];
@@ -162,7 +163,7 @@ const vmcPanel = (() => {
       if (!view.anatomy || box.childElementCount) return;
       box.append(clock(views), numbers(view), muscles(view));
       if (view.told.target) box.append(made(`<p class="vmc-note">${WRIST}</p>`));
-      view.at(view.time);
+      view.at(view.wanted);
     };
     view.listeners.push(fill);
     fill();

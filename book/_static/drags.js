@@ -1,0 +1,54 @@
+/* What the book's demos work out in the page, for any position of the reader's hand (vmc_lib.show.explore,
+   `in_page`). Each takes what Python gave, the control's values, the pictures' axes, and the place of these
+   values among all; it returns what is seen in words, and the marks on each picture. */
+const vmcInPage = (() => {
+  "use strict";
+
+  const { sum, times } = vmcVectors;
+
+  /* Intersection over union of two boxes [x0, y0, x1, y1] (vmc_lib/boxes.py). */
+  const iou = (a, b) => {
+    const area = ([x0, y0, x1, y1]) => Math.max(0, x1 - x0) * Math.max(0, y1 - y0);
+    const shared = area([Math.max(a[0], b[0]), Math.max(a[1], b[1]), Math.min(a[2], b[2]), Math.min(a[3], b[3])]);
+    return shared / (area(a) + area(b) - shared);
+  };
+
+  /* Two boxes on a photo: the object's, and one as large whose corner the reader drags. */
+  const overlap = ({ object, edge, paint }, [x, y]) => {
+    const box = [x, y, x + object[2] - object[0], y + object[3] - object[1]];
+    const shared = iou(box, object).toFixed(2);
+    const colour = shared >= 0.8 ? paint.green : shared > 0.5 ? paint.orange : paint.red;
+    const frame = ([x0, y0, x1, y1], stroke) => {
+      const at = `x="${x0}" y="${y0}" width="${x1 - x0}" height="${y1 - y0}"`;
+      return `<rect ${at} ${edge}/><rect ${at} stroke="${stroke}"/>`;
+    };
+    const label = `<text x="${x}" y="${y > 26 ? y - 7 : box[3] + 21}" fill="${colour}" ${edge}
+      paint-order="stroke">IoU ${shared}</text>`;
+    return [`A box at ${x.toFixed(0)}, ${y.toFixed(0)}: IoU ${shared}.`, frame(object, paint.grey) + frame(box, colour) + label];
+  };
+
+  /* A reach planned from four templates, where it ends, and one muscle's excitation as their sum. */
+  const plan = ({ points, commands, ends, every }, target, [plane, time], place) => {
+    const { chosen, weights } = vmcPlanning.plan(target, { points });
+    const end = ends[place];
+    const miss = (1000 * Math.hypot(end[0] - target[0], end[1] - target[1])).toFixed(1);
+    const parts = chosen.map((row, i) => times(weights[i], commands[row]));
+    const mixed = parts[0].map((_, t) => sum(parts.map((part) => part[t])));
+    const curve = (colour, values, width) =>
+      time.mark("line", colour, values.map((value, t) => [t * every, value]), width);
+    const thread = (row, i) =>
+      plane.mark("line", "blue", [target, points[row]], 10 * weights[i]) + plane.mark("dot", "blue", points[row], 3.5) +
+      plane.mark("words", "ink", points[row], weights[i].toFixed(2), 7);
+    const from = `${target.map((x) => x.toFixed(3).replace("-", "−")).join(", ")}`;
+    return [
+      `A target at ${from} m and the four templates that plan it; the hand ends ${miss} mm away. ` +
+        "Beside it, one muscle's excitation as a weighted sum.",
+      chosen.map(thread).join("") + plane.mark("line", "red", [target, end], 1) +
+        plane.mark("ring", "green", target, 4) + plane.mark("dot", "red", end, 2) +
+        plane.mark("words", "ink", plane.head, `the hand misses by ${miss} mm`, 6),
+      parts.map((part) => curve("blue", part, 1)).join("") + curve("red", mixed, 1.8),
+    ];
+  };
+
+  return { iou, overlap, plan };
+})();

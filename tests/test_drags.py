@@ -1,0 +1,143 @@
+"""What the page works out for any position of the reader's hand is what Python works out."""
+
+import re
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+
+from arm_in_page import live
+from book.figures import reaching, where
+from vmc_lib import photos
+from vmc_lib.arm.model import MUSCLES
+from vmc_lib.boxes import iou
+from vmc_lib.motor import templates
+from vmc_lib.motor.planning import plan
+from vmc_lib.show import Pad, demo, explore
+from vmc_lib.show.markup import data_uri
+
+pytestmark = pytest.mark.browser
+ROOT = Path(__file__).parents[1]
+CONFIG = yaml.safe_load((ROOT / "_config.yml").read_text())["sphinx"]["config"]
+HEAD = '<!doctype html><meta charset="utf-8"><link rel="stylesheet" href="demo.css">' + "".join(
+    f'<script defer src="{name}"></script>' for name, _ in CONFIG["html_js_files"]
+)
+CUP = np.array([120.0, 90.0, 200.0, 180.0])
+XS, YS = np.arange(80, 161, 4), np.arange(46, 135, 4)
+PAST, MUSCLE = templates.load(spacing=0.06), MUSCLES.index("BIClong")
+ACROSS, UP = np.arange(0.015, 0.17, 0.015), np.arange(-0.475, -0.33, 0.015)
+SPOTS = [(x, y) for x in ACROSS.tolist() for y in UP.tolist()]
+ENDED = plan(SPOTS, PAST).reached()
+
+
+@pytest.fixture(scope="module")
+def page(offline, tmp_path_factory):
+    """Both demos of the book that the page works out, on a page with the book's scripts."""
+    folder, shown = tmp_path_factory.mktemp("drags"), []
+    for static in (live.SHOW, live.STATIC, ROOT / "book/_static"):
+        shutil.copytree(static, folder, dirs_exist_ok=True)
+    image = photos.load("rig", "validation")[0].image
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("VMC_RENDER_MODE", "book")
+        patch.setattr(demo, "display", lambda *items: shown.extend(item.data for item in items))
+        explore(
+            lambda corner: where.overlap(image, CUP, np.array(corner)),
+            "c",
+            lambda corner: f"{corner}",
+            in_page=where.overlap_in_page(image, CUP),
+            corner=Pad(XS, YS, start=(120, 90)),
+        )
+        explore(
+            lambda place: reaching.planned(PAST, MUSCLE, place, ENDED[SPOTS.index(place)]),
+            "c",
+            lambda place: f"{place}",
+            in_page=reaching.planned_in_page(PAST, MUSCLE, ENDED),
+            place=Pad(ACROSS, UP),
+        )
+    (folder / "page.html").write_text(HEAD + "\n".join(shown))
+    page = offline.new_page()
+    errors = []
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    page.goto((folder / "page.html").as_uri())
+    page.wait_for_function("() => document.querySelectorAll('[data-ready]').length === 2")
+    yield page
+    page.close()
+    assert errors == []
+
+
+def move(page, number, *places):
+    """Move a demo's two sliders; what it then shows: its pictures as markup, its words."""
+    box = page.locator(".vmc-demo").nth(number)
+    for slider, place in zip(box.locator("[data-stride]").all(), places, strict=True):
+        slider.fill(str(place))
+    pictures = [picture.inner_html() for picture in box.locator(".vmc-picture").all()]
+    return pictures, box.locator(".vmc-pictures").get_attribute("aria-label")
+
+
+def numbers(markup, tag):
+    """The numbers in a mark's attributes, mark by mark."""
+    marks = re.findall(rf"<{tag} [^>]*>", markup)
+    return [[float(n) for n in re.findall(r'="(-?[\d.]+)', mark)] for mark in marks]
+
+
+def words(markup):
+    return re.findall(r"<text[^>]*>([^<]*)</text>", markup)
+
+
+@pytest.mark.parametrize("place", [(10, 11), (0, 0), (20, 22), (12, 11), (9, 14), (3, 20)])
+def test_two_boxes_share_what_python_says(page, place):
+    corner = np.array([XS[place[0]], YS[place[1]]])
+    [seen], said = move(page, 0, *place)
+    drawn = where.overlap(photos.load("rig", "validation")[0].image, CUP, corner)
+    assert numbers(seen, "rect") == numbers(drawn, "rect")
+    assert words(seen) == [text for text in words(drawn) if text]
+    colours = re.compile(r'<rect[^>]*stroke="(#\w+)"')
+    assert colours.findall(seen) == colours.findall(drawn)
+    box = np.concatenate([corner, corner + CUP[2:] - CUP[:2]])
+    assert said == f"A box at {corner[0]}, {corner[1]}: IoU {iou(box, CUP).item():.2f}."
+
+
+def test_overlap_of_any_two_boxes(page):
+    rng = np.random.default_rng(4)
+    corners = rng.integers(0, 12, (2, 60, 2, 2))
+    a, b = np.concatenate([corners.min(2), corners.max(2) + 1], axis=-1).tolist()
+    seen = page.evaluate("([a, b]) => a.map((box, i) => vmcInPage.iou(box, b[i]))", [a, b])
+    assert np.allclose(seen, np.diag(iou(a, b)), atol=1e-12)
+    assert 0 in seen
+
+
+@pytest.mark.parametrize("place", [(0, 0), (10, 9), (5, 4), (7, 2), (3, 3), (2, 8)])
+def test_a_plan_is_drawn_as_python_plans_it(page, place):
+    spot = place[0] * len(UP) + place[1]
+    one = plan(SPOTS[spot], PAST)
+    (in_plane, over_time), said = move(page, 1, *place)
+    miss = f"{1000 * np.linalg.norm(ENDED[spot] - one.target):.1f} mm"
+    labels = words(in_plane)[-5:]
+    assert labels == [*(f"{w:.2f}" for w in one.weights), f"the hand misses by {miss}"]
+    assert f"the hand ends {miss} away" in said
+
+    def on(markup, points):
+        """Where points (..., 2) of the first axes lie in the picture."""
+        x0, x1, y0, y1, left, right, bottom, top = np.float64(
+            re.search(r'data-axes="([^"]*)"', markup)[1].split()
+        )
+        size = np.float64(re.search(r'viewBox="0 0 ([\d. ]+)"', markup)[1].split())
+        shares = (np.array(points) - [x0, y0]) / [x1 - x0, y1 - y0]
+        return size * ([left, bottom] + shares * [right - left, top - bottom])
+
+    marks = [mark[:2] for mark in numbers(in_plane, "circle")]
+    expected = on(in_plane, [*one.points, one.target, ENDED[spot]])
+    assert np.abs(np.array(marks) - expected).max() < 0.1
+    lines = re.findall(r'<polyline points="([^"]*)"', over_time)
+    curves = np.float64([[pair.split(",") for pair in line.split()] for line in lines])
+    parts = one.weights[:, None] * PAST.excitations[one.chosen, ::20, MUSCLE]
+    time = np.arange(parts.shape[1]) * 0.02
+    wanted = [on(over_time, np.stack([time, part], -1)) for part in [*parts, parts.sum(0)]]
+    assert np.abs(curves - wanted).max() < 0.2
+
+
+def test_a_photo_lies_below(page):
+    [seen], _ = move(page, 0, 1, 1)
+    assert data_uri(photos.load("rig", "validation")[0].image) in seen

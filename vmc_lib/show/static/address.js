@@ -1,0 +1,56 @@
+/* A demo's state in the page's address: `#demo-3?photo=1&step=4` says where each control stands. It is
+   read when the page opens and when the address changes, and written when the reader moves a control;
+   the sign at the caption's end is a link to it. */
+const vmcAddress = (demo) => {
+  "use strict";
+
+  const inputs = [...demo.querySelectorAll("[data-stride]")];
+  const caption = demo.querySelector("figcaption");
+  if (!inputs.length || !caption) return;
+  const name = (input) => (input.name || input.id).slice(demo.id.length + 1);
+  const link = document.createElement("a");
+  Object.assign(link, { className: "vmc-link", textContent: "#", title: "Link to what the demo shows now" });
+  link.setAttribute("aria-label", link.title);
+  caption.append(" ", link);
+
+  const state = () => {
+    const places = new URLSearchParams();
+    for (const input of inputs)
+      if (input.type === "checkbox") places.set(name(input), +input.checked);
+      else if (input.type !== "radio" || input.checked) places.set(name(input), input.value);
+    return `#${demo.id}?${places}`;
+  };
+
+  /* Put the controls where the address says; whether it speaks of this demo. */
+  const read = () => {
+    const [id, places] = location.hash.slice(1).split("?");
+    if (id !== demo.id || places === undefined) return false;
+    for (const [key, place] of new URLSearchParams(places))
+      for (const input of inputs.filter((input) => name(input) === key))
+        if (input.type === "range") input.value = place; // the browser keeps it within the range
+        else if (input.type === "checkbox") input.checked = place === "1";
+        else if (input.type === "radio") input.checked ||= input.value === place;
+        else if (input.options[place]) input.value = place;
+    return true;
+  };
+
+  /* Bring it into sight, out of whatever it is folded in. */
+  const come = () => {
+    for (let fold = demo; (fold = fold.parentElement.closest("details")); ) fold.open = true;
+    demo.scrollIntoView({ block: "center" });
+  };
+
+  addEventListener("hashchange", () => {
+    if (!read()) return;
+    demo.dispatchEvent(new Event("input", { bubbles: true }));
+    come();
+  });
+  let waiting; // until the hand rests: browsers bear only so many new addresses a second
+  demo.addEventListener("input", () => {
+    link.href = state();
+    clearTimeout(waiting);
+    waiting = setTimeout(() => history.replaceState(history.state, "", link.href), 200);
+  });
+  if (read()) addEventListener("load", come); // pictures take their room
+  link.href = state();
+};

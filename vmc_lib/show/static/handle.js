@@ -1,0 +1,41 @@
+/* A handle on a plot or a photo, for a mouse or a finger: it stands at a place of the picture's axes,
+   and is dragged over them. A mouse may press anywhere, a finger may tap; fingers that move beside the
+   handle scroll the page. `moved(place)` hears where it is wanted; the function returned puts it at a
+   place. */
+const vmcHandle = (pictures, moved) => {
+  "use strict";
+
+  const handle = document.createElement("span");
+  handle.className = "vmc-handle";
+  pictures.append(handle);
+  const plot = () => pictures.querySelector("svg[data-axes]");
+  let place, held = null; // how far beside the handle's middle it was taken
+
+  const put = () => {
+    const [box, frame] = [plot(), pictures].map((element) => element.getBoundingClientRect());
+    const [right, down] = vmcAxes(plot()).drawn(place);
+    handle.style.transform =
+      `translate(${box.left - frame.left + right * box.width}px, ${box.top - frame.top + down * box.height}px)`;
+  };
+
+  const go = ({ clientX, clientY }, [x, y] = [0, 0]) =>
+    moved(vmcAxes(plot()).pointed({ clientX: clientX - x, clientY: clientY - y }));
+
+  pictures.addEventListener("pointerdown", (event) => {
+    const own = event.target === handle;
+    if (!own && (event.pointerType === "touch" || !event.target.closest("svg[data-axes]"))) return;
+    event.preventDefault(); // no text is selected on the way
+    const { left, top, width, height } = handle.getBoundingClientRect();
+    held = own ? [event.clientX - left - width / 2, event.clientY - top - height / 2] : [0, 0];
+    handle.setPointerCapture(event.pointerId);
+    if (!own) go(event);
+  });
+  pictures.addEventListener("pointermove", (event) => held && go(event, held));
+  for (const type of ["pointerup", "pointercancel"]) pictures.addEventListener(type, () => (held = null));
+  pictures.addEventListener("click", (event) => {
+    if (event.pointerType === "touch" && event.target.closest("svg[data-axes]")) go(event);
+  });
+  pictures.addEventListener("scroll", () => put(), true); // a wide plot scrolls on a phone
+  new ResizeObserver(() => place && put()).observe(pictures);
+  return (where) => ((place = where), put());
+};
