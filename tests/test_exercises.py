@@ -8,9 +8,19 @@ from pathlib import Path
 import nbformat
 import numpy as np
 import pytest
+import torch
+from sklearn.metrics import precision_score, recall_score
 
-from vmc_lib.show.grading import EMPTY, Exercise, feedback
+from vmc_lib.arm import muscle
+from vmc_lib.camera import Camera
+from vmc_lib.cerebellum import offline
+from vmc_lib.motor.planning import habitual_weights
+from vmc_lib.show import grading
+from vmc_lib.show.grading import EMPTY, Exercise, feedback, grade, solution
 from vmc_lib.show.questions import RIGHT, WRONG
+from vmc_lib.what.crbm import CRBM
+from vmc_lib.where.appearance import Appearance
+from vmc_lib.where.selective_search import alike
 
 BOOK = Path(__file__).parents[1] / "book"
 CHAPTERS = sorted(BOOK.glob("[0-9]*.ipynb"))
@@ -92,3 +102,143 @@ def test_a_chapter_grades_two_functions_or_more(path):
         assert f"grade({asked}, {name})" in code
         assert f"solution({name})" in code
         assert 3 <= len(inspect.getsource(one.right).splitlines()) <= 12
+
+
+# ---------------------------------------------------------------- ours is right
+
+
+def fill(box_i, box_j, size_i, size_j, pixels):
+    sizes, boxes = np.array([size_i, size_j]), np.array([box_i, box_j])
+    regions = Appearance(sizes, boxes, np.zeros((2, 1)), np.zeros((2, 1)), pixels)
+    return alike(regions, np.array([[0, 1]]), ("fill",)).item()
+
+
+def machine(W, b, a):
+    return CRBM(batch(W), torch.tensor([b]).double(), torch.tensor([a]).double())
+
+
+def batch(picture):
+    return torch.tensor(picture)[None, None]
+
+
+def posterior_drawn(drives, die):
+    copies = CRBM(torch.ones(1, 1, 1, 1).double(), torch.zeros(1).double(), torch.zeros(1).double())
+    on, _ = copies.posterior(batch(drives.reshape(2, 2)))
+    return int((on.numpy().cumsum() < die).sum())
+
+
+def widths(width, filter_width, block, layers):
+    layer, found = CRBM.random(1, 1, filter_width, torch.Generator(), c=block), []
+    for _ in range(layers):
+        width = layer.posterior(layer.trim(torch.zeros(1, 1, width, width)))[1].shape[-1]
+        found.append(width)
+    return found
+
+
+LIBRARY = {
+    "SIMILAR_FILL": fill,
+    "ENERGY_OF": lambda v, h, W, b, a: machine(W, b, a).energy(batch(v), batch(h)).item(),
+    "UNIT_ON": posterior_drawn,
+    "POOLED_WIDTHS": widths,
+    "PRECISION_AND_RECALL": lambda chances, truth, threshold: [
+        score(truth, chances >= threshold) for score in (precision_score, recall_score)
+    ],
+    "ACTIVATION_RATES": lambda u, a, rise, fall: muscle.activation_rate(u, a),
+    "NEAR_WEIGHTS": habitual_weights,
+    "FAIR_VOTE": lambda rates, preferred: np.linalg.pinv(preferred) @ rates,
+    "SHORTENED": lambda changes, longest: offline._capped(changes),
+    "ON_THE_TABLE": lambda eye, direction, height: (
+        Camera(1, np.zeros(2), np.outer([0, 0, 1], direction), eye)
+        .back_project(np.zeros(2), height)
+        .squeeze()
+    ),
+}
+
+
+@pytest.mark.parametrize("name", LIBRARY)
+def test_the_library_passes(name):
+    assert feedback(LIBRARY[name], EVERY[name]) == RIGHT
+
+
+@pytest.fixture
+def some(request):
+    """Our solution, and the inputs of a case."""
+    one = EVERY[request.param]
+    return one.right, one.draw(np.random.default_rng(7))
+
+
+@pytest.mark.parametrize("some", ["POSTURE"], indirect=True)
+def test_a_posture_puts_the_hand_there(some):
+    posture, (hand, upper, fore) = some
+    shoulder, elbow = posture(hand, upper, fore)
+    forward, up = np.transpose([[np.sin(q), -np.cos(q)] for q in (shoulder, shoulder + elbow)])
+    assert np.allclose([forward @ [upper, fore], up @ [upper, fore]], hand)
+
+
+@pytest.mark.parametrize("some", ["ACTIVATION_TO_HOLD"], indirect=True)
+def test_what_is_held_weighs_what_the_muscle_pulls(some):
+    hold, (mass, length, strongest) = some
+    a = hold(mass, length, strongest)
+    pull, within = muscle.force(a, length, 0, strongest), (a > 0) & (a < 1)
+    assert within.any()
+    assert np.allclose(pull[within], 9.81 * mass[within])
+
+
+@pytest.mark.parametrize("some", ["CD_STEP"], indirect=True)
+def test_the_data_become_likelier_downhill(some):
+    """What goes together is how the energy falls as a weight grows."""
+    together, (v, h, *dream) = some
+    tiny = 1e-6 * np.eye(9).reshape(9, 3, 3)
+    energy = EVERY["ENERGY_OF"].right
+    slope = [-(energy(v, h, W, 0, 0) - energy(v, h, 0 * W, 0, 0)) / 1e-6 for W in tiny]
+    silent = [0 * one for one in dream]
+    assert np.allclose(together(v, h, *silent), np.reshape(slope, (3, 3)))
+
+
+@pytest.mark.parametrize("some", ["CUBE_WEIGHTS"], indirect=True)
+def test_weights_in_a_cube_satisfy_eq_4(some):
+    weigh, (place, corners) = some
+    weights = weigh(place, corners)
+    assert np.allclose(weights @ corners, place)
+    assert weights.sum() == pytest.approx(1)
+
+
+# ---------------------------------------------------------------- what is shown
+
+
+@pytest.fixture
+def shown(monkeypatch):
+    """What `grade` displays, in order, as HTML."""
+    outputs = []
+    monkeypatch.setattr(grading, "display", lambda html: outputs.append(html.data))
+    return outputs
+
+
+def test_a_grade_is_a_line_and_in_a_test_a_failure(shown, monkeypatch):
+    one = EVERY["MIXED"]
+    grade(one.right, one)
+    grade(lambda *_: None, one)
+    with pytest.raises(AssertionError, match="grade: ✗ Not yet"):
+        grade(lambda *_: 0, one)
+    monkeypatch.setenv("VMC_RENDER_MODE", "live")
+    grade(lambda *_: "<b>`", one)
+    assert [line.count('<p class="vmc-check"') for line in shown] == [1, 1, 1]
+    assert "✓ Right." in shown[0]
+    assert "returns nothing" in shown[1]
+    assert "&lt;b&gt;" in shown[2]
+
+
+def test_the_page_says_where_a_function_can_be_graded(shown, monkeypatch):
+    monkeypatch.setenv("VMC_RENDER_MODE", "book")
+    grade(lambda *_: None, EVERY["MIXED"])
+    assert "a running notebook</a>" in shown[0]
+
+
+@pytest.mark.parametrize(("mode", "folds"), [("live", 1), ("book", 0)])
+def test_a_solution_is_folded_once(monkeypatch, mode, folds):
+    monkeypatch.setenv("VMC_RENDER_MODE", mode)
+    texts = []
+    monkeypatch.setattr("vmc_lib.show.figures.display", lambda shown: texts.append(shown.data))
+    solution(EVERY["MIXED"])
+    assert texts[0].count("<details>") == folds
+    assert "```python\ndef mixed(distances, commands):\n" in texts[0]

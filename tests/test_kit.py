@@ -4,6 +4,7 @@ import ast
 import io
 import re
 from collections import Counter
+from inspect import getsource
 from math import atan, degrees, exp, isfinite, log, radians, sin, tan
 from xml.etree import ElementTree
 from zipfile import ZipFile
@@ -12,6 +13,7 @@ import nbformat
 import numpy as np
 import pytest
 
+from book.exercises.loop import MIXED
 from kit.__main__ import CHAPTERS, bank, build
 from kit.gift import gift
 from kit.key import ASKING, key
@@ -97,10 +99,12 @@ def test_the_key_tells_what_is_right_and_why(monkeypatch):
     quiz("Which?", {"this": "It is.", "that": "It is `not`."}, right="that")
     cells = [
         nbformat.v4.new_markdown_cell("# Title"),
+        nbformat.v4.new_code_cell("from book.exercises.loop import MIXED\n\ngrade(mixed, MIXED)"),
         nbformat.v4.new_markdown_cell(
             ":::{exercise}\n:label: one\n\nHow many?\n:::\n\n````{solution-start} one\n````\nOne."
         ),
         nbformat.v4.new_code_cell("check(1, 1)"),
+        nbformat.v4.new_code_cell("solution(MIXED)"),
         nbformat.v4.new_markdown_cell("````{solution-end}\n````\nMore."),
         nbformat.v4.new_code_cell("predict(...)"),
         nbformat.v4.new_code_cell("quiz(...)"),
@@ -120,7 +124,8 @@ def test_the_key_tells_what_is_right_and_why(monkeypatch):
         "How many?",
         "**Solution.**",
         "One.",
-        "```python\ncheck(1, 1)\n```\n",
+        "```python\ncheck(1, 1)\n```",
+        f"```python\n{getsource(MIXED.right)}```\n",
     ]
 
 

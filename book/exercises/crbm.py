@@ -82,7 +82,7 @@ def _data_and_dream(rng):
 
 
 def _seen(rng):
-    return rng.normal(size=(6, 6)), rng.random((4, 4))
+    return rng.normal(size=(5, 5)), rng.random((3, 3))
 
 
 CD_STEP = Exercise(

@@ -15,7 +15,7 @@ def pooled_widths(width, filter_width, block, layers):
 
 
 def _machine(rng):
-    return int(rng.integers(100, 300)), int(rng.integers(4, 12)), int(rng.choice([2, 3])), 3
+    return int(rng.integers(200, 400)), int(rng.integers(4, 9)), int(rng.choice([2, 3])), 3
 
 
 def _widths(after):

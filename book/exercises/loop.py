@@ -42,7 +42,7 @@ def mixed(distances, commands):
 
 MIXED = Exercise(
     mixed,
-    lambda rng: (rng.uniform(0.01, 0.08, 4), rng.random((4, 3, 6))),
+    lambda rng: (rng.uniform(0.01, 0.08, 4), rng.random((4, 2, 6))),
     {
         "The farthest template has the largest weight now. Take one over the distance.": (
             lambda d, u: np.tensordot(d / d.sum(), u, axes=1)

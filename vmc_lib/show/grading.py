@@ -92,12 +92,18 @@ def _example(exercise, case, got, wanted):
 
 
 def _short(value):
-    """A value in few words, an array with its shape."""
+    """A value in few words."""
     if callable(value):
         return "a function"
-    with np.printoptions(precision=4, suppress=True, threshold=16, edgeitems=2):
+    if isinstance(value, tuple):
+        return f"({', '.join(map(_short, value))})"
+    if isinstance(value, float):
+        return f"{value:.4g}"
+    with np.printoptions(precision=4, suppress=True):
         said = " ".join(str(value).split())
-    return f"{said}, shape {value.shape}" if getattr(value, "ndim", 0) > 1 else said
+    if getattr(value, "ndim", 0) < 2:
+        return said
+    return f"{said}, shape {value.shape}" if value.size <= 25 else f"numbers of shape {value.shape}"
 
 
 def _code(text):
