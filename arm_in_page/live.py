@@ -53,6 +53,9 @@ _POSE = {
     **{way: f"hand, {way}" for way in ("forward", "up", "right")},
 }
 _made = itertools.count(1)
+_ASKED = tuple(
+    itertools.product((0.1, 0.9), (0.3, 0.7), (0.6, 1.3), (-0.5, 0.3))
+)  # u, a, length, velocity
 
 
 def live_arm(mode, caption, alt, target=(0.12, -0.42)):
@@ -104,6 +107,7 @@ def given():
             "tauDeactivation": muscle.TAU_DEACTIVATION,
             "maxVelocity": muscle.MAX_VELOCITY,
             "velocityRange": muscle.VELOCITY_RANGE,
+            "answers": _answers(),
         },
         "start": templates.START.tolist(),
         "rest": hold(templates.START).tolist(),
@@ -115,6 +119,14 @@ def given():
         },
         "calibration": {"gains": GAINS, "trials": TRIALS, "largestStep": LARGEST_STEP},
     }
+
+
+def _answers():
+    """What Python's muscle answers now: a page that answers otherwise has another law."""
+    return [
+        (u, a, *rest, float(muscle.activation_rate(u, a)), float(muscle.force(a, *rest, 1.0)))
+        for u, a, *rest in _ASKED
+    ]
 
 
 def _bench(name):

@@ -64,7 +64,9 @@ const vmcLive = (() => {
     say(words) {
       const flat = this.arm && !this.drawing.view.viewer;
       const note = flat ? " (This browser draws no 3-D picture: watch the side view.)" : "";
-      this.box.querySelector("[role=status]").textContent = words + note;
+      const law = this.arm?.muscle.differs
+        ? " (The muscle's law was changed in Python: this arm keeps the book's.)" : "";
+      this.box.querySelector("[role=status]").textContent = words + note + law;
     }
 
     label(words) {

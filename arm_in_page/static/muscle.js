@@ -34,6 +34,14 @@ const vmcMuscle = (() => {
       const active = this.forceLength(length) * this.forceVelocity(velocity) * activation;
       return maximum * (active + this.passiveForce(length));
     }
+
+    /* Python sends its constants, and its answers to a few questions. Does its law differ? */
+    get differs() {
+      return this.answers.some(([u, a, length, velocity, rate, pull]) => {
+        const own = [this.activationRate(u, a) / rate, this.force(a, length, velocity, 1) / pull];
+        return own.some((ratio) => !(Math.abs(ratio - 1) < 1e-9));
+      });
+    }
   }
 
   return { Muscle };

@@ -151,6 +151,32 @@ def test_the_muscle_law_is_pythons(ask, name, law, low, high):
 
 
 @pytest.mark.browser
+def test_the_page_takes_pythons_constants_and_knows_another_law(ask, monkeypatch):
+    script = "return new vmcMuscle.Muscle(asked).differs;"
+    assert ask(script, live.given()["muscle"]) is False
+    monkeypatch.setattr(muscle, "TAU_ACTIVATION", 0.05)
+    assert ask(script, live.given()["muscle"]) is False
+    for name in ("activation_rate", "force_length", "force_velocity", "passive_force"):
+        with monkeypatch.context() as patch:
+            law = getattr(muscle, name)
+            patch.setattr(muscle, name, lambda *given, law=law: 1.01 * law(*given))
+            assert ask(script, live.given()["muscle"]) is True, name
+
+
+@pytest.mark.browser
+def test_an_arm_with_another_law_than_pythons_says_so(visit):
+    opened = visit(
+        """const parse = JSON.parse;
+        JSON.parse = (text) => {
+          const given = parse(text);
+          if (given.muscle) given.muscle.answers[0][4] *= 2;
+          return given; };"""
+    )
+    opened.bench.locator("[name=main]").click()
+    assert "keeps the book's" in wait_for_status(opened.bench, "The arm is running")
+
+
+@pytest.mark.browser
 def test_the_arm_goes_where_pythons_mujoco_goes(ask):
     rng = np.random.default_rng(2)
     wild = np.repeat(rng.random((3, 20, 6)), 50, axis=1)  # 1 s, a new command every 50 ms

@@ -31,6 +31,11 @@ def activation_rate(excitation, activation):
     return gap * (fall + haste * excitation * (gap >= 0))
 
 
+def activated(excitation, activation, step):
+    """Eq. 9 by Euler's method: the activation one `step` in s later; same shape."""
+    return activation + step * activation_rate(excitation, activation)
+
+
 def excitation_for(activation, rate):
     """Eq. 9 solved for the excitation that changes this activation at this rate; same shape.
 

@@ -17,7 +17,7 @@ from mujoco.batch import Batch
 from vmc_lib.arm import dynamics
 from vmc_lib.arm.dynamics import accelerations, between, hand, waves
 from vmc_lib.arm.model import F0, L0, LIMITS, SLACK, STEP, loaded, muscle_paths
-from vmc_lib.arm.muscle import PAPER, activation_rate, fibre, tension
+from vmc_lib.arm.muscle import PAPER, activated, fibre, tension
 from vmc_lib.compiled import compiled
 
 STOP_STIFFNESS = 200.0  # N m / rad: ours, not arm26's; bone and ligament beyond the joints' limits
@@ -161,27 +161,31 @@ def _in_one_loop(excitations, start, first, perturbation, step, muscle):
 @compiled
 def _move(excitations, q, velocity, activation, tables, coefficients, field, step):
     """Eq. 9–12 of one arm after the other, step by step from the first samples, which are given."""
-    terms = np.empty(7)
+    entry, torque, terms = np.empty((2, 12)), np.empty(2), np.empty(7)
     for arm in range(len(q)):
         for t in range(excitations.shape[1]):
-            (q1, q2), (w1, w2) = q[arm, t], velocity[arm, t]
-            t1 = stop_torque(q1, w1, LIMITS[0]) + field[0, 0] * w1 + field[0, 1] * w2
-            t2 = stop_torque(q2, w2, LIMITS[1]) + field[1, 0] * w1 + field[1, 1] * w2
+            w1, w2 = velocity[arm, t, 0], velocity[arm, t, 1]
+            for joint in range(2):
+                angle, w = q[arm, t, joint], velocity[arm, t, joint]
+                torque[joint] = field[joint, 0] * w1 + field[joint, 1] * w2
+                torque[joint] += stop_torque(angle, w, LIMITS[joint])
+                for k in range(12):
+                    entry[joint, k] = between(tables, joint, angle, k)
             for k in range(6):
-                a, u = activation[arm, t, k], excitations[arm, t, k]
-                activation[arm, t + 1, k] = a + step * activation_rate(u, a)
-                length = between(tables, 0, q1, k) + between(tables, 1, q2, k)
-                r1, r2 = between(tables, 0, q1, 6 + k), between(tables, 1, q2, 6 + k)
+                a = activation[arm, t, k]
+                activation[arm, t + 1, k] = activated(excitations[arm, t, k], a, step)
+                length, r1, r2 = entry[0, k] + entry[1, k], entry[0, 6 + k], entry[1, 6 + k]
                 pull = tension(a, length, r1 * w1 + r2 * w2, L0[k], SLACK[k], F0[k])
-                t1, t2 = t1 + r1 * pull, t2 + r2 * pull
+                torque[0] += r1 * pull
+                torque[1] += r2 * pull
             terms[:] = 0
-            for n, wave in enumerate(waves(q1, q2)):
+            for n, wave in enumerate(waves(q[arm, t, 0], q[arm, t, 1])):
                 for k in range(7):
                     terms[k] += wave * coefficients[n, k]
-            a1, a2 = accelerations(terms, w1, w2, t1, t2, step)
-            w1, w2 = w1 + step * a1, w2 + step * a2
-            velocity[arm, t + 1] = w1, w2
-            q[arm, t + 1] = q1 + step * w1, q2 + step * w2
+            changes = accelerations(terms, w1, w2, torque[0], torque[1], step)
+            for joint in range(2):
+                velocity[arm, t + 1, joint] = velocity[arm, t, joint] + step * changes[joint]
+                q[arm, t + 1, joint] = q[arm, t, joint] + step * velocity[arm, t + 1, joint]
 
 
 def _in_mujoco(excitations, start, first, perturbation, step, muscle):

@@ -16,7 +16,7 @@ import numpy as np
 from vmc_lib.arm.dynamics import acceleration_from, hand, paths, torque_for
 from vmc_lib.arm.kinematics import inverse_kinematics
 from vmc_lib.arm.model import STEP
-from vmc_lib.arm.muscle import PAPER, noisy
+from vmc_lib.arm.muscle import activated, noisy
 from vmc_lib.arm.simulate import Motion, fibres, muscle_torque, stop_torque
 from vmc_lib.motor.inverse_dynamics import SAMPLES, minimum_jerk, muscle_gain, smooth
 from vmc_lib.motor.templates import START
@@ -101,7 +101,7 @@ def move(intention, senses=SIGHT, model=None, world=None, noise=0.0, rng=None):
         reflex = _reflex(senses, q[felt], velocity[felt], *(x[felt] for x in lengths))
         u = np.clip(plan + sight + reflex, 0, 1)
         u = noisy(u, noise, rng) if noise else u
-        activation[k + 1] = activation[k] + STEP * PAPER.activation_rate(u, activation[k])
+        activation[k + 1] = activated(u, activation[k], STEP)
         torque = _torque(q[k], velocity[k], activation[k], world, k * STEP)
         velocity[k + 1] = velocity[k] + STEP * acceleration_from(q[k], velocity[k], torque)
         q[k + 1] = q[k] + STEP * velocity[k + 1]

@@ -1,0 +1,90 @@
+"""Change a line, see it move: whoever changes a constant or a law of the muscle is followed."""
+
+import numpy as np
+import pytest
+
+from vmc_lib.arm import muscle, simulate
+from vmc_lib.motor import feedback
+from vmc_lib.motor.inverse_dynamics import muscle_gain
+
+START = np.radians([-20.0, 95.0])
+WILD = np.repeat(np.random.default_rng(0).random((2, 3, 6)), 50, axis=1)
+
+
+def feeble(activation, length, velocity, maximum):
+    return 0.3 * maximum * activation * (1 + 0 * length * velocity)
+
+
+def slow(excitation, activation):
+    return 9.0 * (excitation - activation)
+
+
+def scalar(excitation, activation, fall=0.05):  # as chapter 7 writes it, for numbers alone
+    if excitation < activation:
+        return (excitation - activation) / fall
+    return (excitation - activation) / 0.02
+
+
+def moved(engine):
+    return simulate.simulate(WILD, START, engine=engine)
+
+
+@pytest.mark.parametrize(
+    ("name", "other"),
+    [
+        ("TAU_ACTIVATION", 0.05),
+        ("TAU_DEACTIVATION", 0.2),
+        ("MAX_VELOCITY", 10.0),
+        ("VELOCITY_RANGE", (-0.1, 0.1)),
+        ("activation_rate", slow),
+        ("force", feeble),
+        ("force_length", lambda length: 0.2 + 0 * length),
+    ],
+)
+def test_every_engine_follows_the_module(monkeypatch, name, other):
+    before = moved("compiled").q
+    monkeypatch.setattr(muscle, name, other)
+    after, reference = moved("compiled"), moved("mujoco")
+    assert np.abs(after.q - before).max() > 1e-3
+    assert np.abs(after.q - reference.q).max() < 1e-6
+    np.testing.assert_allclose(after.activation, reference.activation, atol=1e-12)
+    monkeypatch.undo()
+    np.testing.assert_array_equal(moved("compiled").q, before)
+
+
+def test_a_law_for_numbers_alone_is_compiled_and_its_default_followed(monkeypatch):
+    monkeypatch.setattr(muscle, "activation_rate", scalar)
+    before = moved("compiled").activation
+    monkeypatch.setattr(scalar, "__defaults__", (0.3,))
+    assert np.abs(moved("compiled").activation - before).max() > 0.1
+
+
+def test_a_law_that_numba_cannot_take_is_followed_with_a_warning(monkeypatch):
+    known = {}  # what a compiled loop cannot read
+    monkeypatch.setattr(muscle, "activation_rate", lambda u, a: known.get("gain", 9.0) * (u - a))
+    few = WILD[:1, :20]
+    with pytest.warns(UserWarning, match="runs as plain Python"):
+        odd = simulate.simulate(few, START)
+    monkeypatch.setattr(muscle, "activation_rate", slow)
+    np.testing.assert_allclose(odd.q, simulate.simulate(few, START).q, atol=1e-12)
+
+
+def test_the_compiled_loop_does_what_its_source_does(monkeypatch):
+    fast = moved("compiled")
+    monkeypatch.setattr(simulate, "_move", simulate._move.__wrapped__)
+    plain = moved("compiled")
+    for ours, theirs in zip(vars(fast).values(), vars(plain).values(), strict=True):
+        np.testing.assert_allclose(ours, theirs, atol=1e-12)
+
+
+def test_what_plans_and_watches_follows_too(monkeypatch):
+    still = np.zeros((1, 2))
+    meant = feedback.Intention(np.tile(START, (1, 101, 1)), WILD[:1, :100])
+    before = muscle_gain(START + still, still)[1], feedback.move(meant, feedback.BLIND)
+    monkeypatch.setattr(muscle, "force", feeble)
+    monkeypatch.setattr(muscle, "activation_rate", slow)
+    after = muscle_gain(START + still, still)[1], feedback.move(meant, feedback.BLIND)
+    assert np.abs(after[0] - before[0]).max() > 0.1
+    expected = simulate.simulate(meant.excitations, START)
+    np.testing.assert_allclose(after[1].q, expected.q, atol=1e-9)
+    assert np.abs(after[1].q - before[1].q).max() > 1e-3
