@@ -49,7 +49,7 @@ def equation_8(plan: Plan):
 
 
 def mossy_fibres(plan: Plan):
-    """What the granule cells are told of a plan: its target, also among its templates, (…, 4)."""
+    """What the granule cells are told: a plan's target, also among its templates, (…, 4 or 6)."""
     return np.concatenate([plan.target, plan.target - plan.points.mean(axis=-2)], axis=-1)
 
 
@@ -96,15 +96,13 @@ class WeightCorrection:
 class AimCorrection:
     """Learn how far beyond a target to aim for the hand to end on it, then satisfy Eq. 4 there.
 
-    It begins with what is known without moving: aiming at a template needs no correction.
+    It begins with what is known without moving: aiming at a template needs no correction, whichever
+    `neighbours` (n, N) it is mixed with; by default the fours that surround a place in the plane.
     """
 
-    def __init__(self, template_set: TemplateSet, cells=None):
+    def __init__(self, template_set: TemplateSet, cells=None, neighbours=None):
         self.cells = cells or GranuleCells()
-        edges = template_set.points.min(axis=0), template_set.points.max(axis=0)
-        spots = np.stack(np.meshgrid(*np.linspace(*edges, 40).T), axis=-1).reshape(-1, 2)
-        spots = spots[surrounded(spots, template_set.points)]
-        fours = np.unique(surrounding(spots, template_set.points), axis=0)
+        fours = _neighbours(template_set.points) if neighbours is None else neighbours
         known = plan(template_set.points[fours], template_set, chosen=fours[:, None])
         self.cells.fit(*_lessons(known, np.zeros_like(known.target)))
 
@@ -114,7 +112,7 @@ class AimCorrection:
 
     def aim(self, plan: Plan):
         """Where to aim, (…, 2), for the hand to end on the plan's target."""
-        shift = self.cells.predict(mossy_fibres(plan).reshape(-1, 4))
+        shift = self.cells.predict(_rows(mossy_fibres(plan)))
         return plan.target + shift.reshape(plan.target.shape)
 
     def practise(self, plan: Plan, together=5):
@@ -133,8 +131,19 @@ class AimCorrection:
         return plan.with_weights(smooth_weights(aim, plan.points))
 
 
+def _neighbours(points):
+    """The fours of templates (n, 4) that surround some place in the plane."""
+    edges = points.min(axis=0), points.max(axis=0)
+    spots = np.stack(np.meshgrid(*np.linspace(*edges, 40).T), axis=-1).reshape(-1, 2)
+    return np.unique(surrounding(spots[surrounded(spots, points)], points), axis=0)
+
+
 def _lessons(plan, corrections):
-    return mossy_fibres(plan).reshape(-1, 4), corrections.reshape(-1, 2)
+    return _rows(mossy_fibres(plan)), _rows(corrections)
+
+
+def _rows(values):
+    return values.reshape(-1, values.shape[-1])
 
 
 class GranuleCells(RegressorMixin, BaseEstimator):

@@ -49,8 +49,8 @@ class Plan:
         return self.template_set.reach(self.excitations, self.perturbation)
 
     def reached(self):
-        """Where the hand is seen to end, (…, 2)."""
-        return turned(self._ends, self.prism)
+        """Where the hand is seen to end, (…, 2); in space (…, 3), where there is no prism."""
+        return turned(self._ends, self.prism) if self.prism else self._ends
 
     @cached_property
     def _ends(self):
@@ -62,7 +62,7 @@ class Plan:
             replace(self, chosen=chosen[i : i + PART], weights=weights[i : i + PART]).move().reached
             for i in range(0, len(weights), PART)
         ]
-        return np.concatenate(parts).reshape(*self.weights.shape[:-1], 2)
+        return np.concatenate(parts).reshape(*self.weights.shape[:-1], -1)
 
     def __getitem__(self, rows):
         """Some plans of a batch."""
@@ -164,10 +164,13 @@ def draw_targets(template_set, count, rng):
 
 
 def plan(target, template_set, rule=habitual_weights, chosen=None):
-    """Plan a reach to `target` (…, 2) with the four surrounding templates (or those `chosen`)."""
-    target = np.asarray(target, dtype=float)
-    if target.shape[-1:] != (2,) or not np.all(np.isfinite(target)):
-        raise ValueError(f"target {target} must be finite plane positions (…, 2) in m")
+    """Plan a reach to `target` (…, 2) with the four surrounding templates (or those `chosen`).
+
+    In space targets are (…, 3), as the templates' points are, and `chosen` must be given.
+    """
+    target, axes = np.asarray(target, dtype=float), template_set.points.shape[-1:]
+    if target.shape[-1:] != axes or not np.all(np.isfinite(target)):
+        raise ValueError(f"target {target} must be finite plane positions (…, {axes[0]}) in m")
     if chosen is None:
         chosen = surrounding(target, template_set.points)
     chosen = np.broadcast_to(chosen, (*target.shape[:-1], np.shape(chosen)[-1]))

@@ -1,0 +1,148 @@
+"""Does mixing (Eq. 3–5) survive redundancy? The whole arm's reaches, planned, corrected, practised.
+
+Eight memories surround a place in space, one in each octant; whatever plans and corrects is
+`vmc_lib`'s, the same as for the arm of six muscles.
+"""
+
+from functools import partial
+from time import process_time
+
+import numpy as np
+
+from reproduce import results
+from reproduce.whole_arm import habits, plant
+from reproduce.whole_arm.habits import ZONE, grid
+from vmc_lib.cerebellum.offline import broyden_calibration
+from vmc_lib.cerebellum.online import AimCorrection, GranuleCells
+from vmc_lib.motor.planning import exact_weights, plan
+
+INSIDE = ZONE + np.array([[0.04], [-0.04]])  # m: targets keep so far from its edge
+SEEDS, COUNT = range(6), 17  # draws of targets, and targets of each
+LESSONS = 6  # movements practised, for each target held out
+WIDTH = 0.2  # m: how wide granule cells are; chosen on validation targets
+SPARE = 0.5  # rad: how far apart memories' easy postures are that share no habit
+
+
+def octants(target, points):
+    """The nearest point in each octant round targets (…, 3): rows (…, 8), and whether all exist."""
+    away = points - target[..., None, :]
+    here = ((away >= 0) @ [1, 2, 4])[..., None, :] == np.arange(8)[:, None]
+    distance = np.where(here, np.linalg.norm(away, axis=-1)[..., None, :], np.inf)
+    return distance.argmin(axis=-1), np.isfinite(distance.min(axis=-1)).all(axis=-1)
+
+
+def draw_targets(past, count, rng):
+    """Targets (count, 3) in the zone that the templates surround."""
+    drawn = rng.uniform(*INSIDE, (8 * count + 20, 3))
+    return drawn[octants(drawn, past.points)[1]][:count]
+
+
+def planned(targets, past, **rule):
+    """The `Plan`s to targets (n, 3), each by the eight memories around it."""
+    return plan(targets, past, chosen=octants(targets, past.points)[0], **rule)
+
+
+def missed(plans):
+    """How far the finger ends from each target, (n,), m."""
+    return np.linalg.norm(plans.target - plans.reached(), axis=-1)
+
+
+def habitual(past, seed, count=COUNT):
+    """One draw: the mean miss over the mean reach, by name; what corrections leave of it."""
+    targets = draw_targets(past, count, np.random.default_rng(seed))
+    habit, reach = planned(targets, past), np.linalg.norm(targets, axis=-1).mean()
+    none, *left = broyden_calibration(habit).error.mean(axis=1)
+    exact = missed(planned(targets, past, rule=exact_weights)).mean()
+    shares = {f"{k} corrections": miss / none for k, miss in enumerate(left, start=1)}
+    return {"planned / reach": none / reach, "Eq. 4 / reach": exact / reach, **shares}
+
+
+def practised(past, seed, count=COUNT, width=WIDTH):
+    """One draw: what online calibration leaves of the planned miss, in sample and held out."""
+    rng = np.random.default_rng(100 + seed)
+    new, seen = (planned(draw_targets(past, n, rng), past) for n in (count, LESSONS * count))
+    spots = octants(rng.uniform(*ZONE, (4000, 3)), past.points)
+    around = np.unique(spots[0][spots[1]], axis=0)
+    aims = AimCorrection(past, GranuleCells(width), around).practise(seen)
+    return {
+        name: missed(aims.correct(plans)).mean() / missed(plans).mean()
+        for name, plans in (("in-sample", seen[:count]), ("held-out", new))
+    }
+
+
+def optimised(past, nerves, seed, count=COUNT):
+    """One draw: every reach computed afresh, as the memories were made, beside mixing them.
+
+    The optimiser's miss over the reach, at once and aimed again; seconds that a plan takes.
+    """
+    targets = draw_targets(past, count, np.random.default_rng(seed))
+    began = process_time()
+    told = np.array([nerves.commands(habits.posture(goal)) for goal in targets])
+    spent = process_time() - began
+    began = process_time()
+    planned(targets, past).excitations  # noqa: B018 (they are made when they are asked for)
+    seconds = {
+        "seconds, optimiser": spent / count,
+        "seconds, habit": (process_time() - began) / count,
+    }
+    ends = {"once": nerves.move(told).reached, "again": habits.remember(nerves, targets).points}
+    reach = np.linalg.norm(targets, axis=-1).mean()
+    off = {k: np.linalg.norm(end - targets, axis=-1).mean() for k, end in ends.items()}
+    return seconds | {f"{name} / reach": miss / reach for name, miss in off.items()}
+
+
+def covered(past, count=1000):
+    """The share of the zone that memories surround."""
+    spots = np.random.default_rng(0).uniform(*INSIDE, (count, 3))
+    return float(octants(spots, past.points)[1].mean())
+
+
+def seconds_per_second(nerves, count=5):
+    """How many seconds of the arm's life one second of a processor simulates."""
+    began = process_time()
+    nerves.move(np.tile(nerves.rest, (count, plant.TICKS, 1)))
+    return count * plant.TICK * plant.TICKS / (process_time() - began)
+
+
+def any_posture(goals, rng):
+    """Easy postures (N, 7), another for each goal: memories that share no habit of posture."""
+    return habits.EASY + rng.uniform(-SPARE, SPARE, (len(goals), len(habits.EASY)))
+
+
+def drawn(experiment, *given, seeds=SEEDS, **size):
+    """What an experiment of one draw finds in all of them, by name: lists."""
+    rows = [experiment(*given, seed, **size) for seed in seeds]
+    return {name: [float(row[name]) for row in rows] for name in rows[0]}
+
+
+def make(sides=(3, 4), shared=(6, 14, 34), past=None, **draws):
+    """What ships: every experiment's numbers, by name; each a list over draws.
+
+    `past` are the densest memories, by default those that ship.
+    """
+    past, own, few = past or habits.load(), habits.sharing(), grid(sides[0])
+    apart = any_posture(few, np.random.default_rng(0))
+    sets = {f"{side**3} memories": partial(habits.remember, own, grid(side)) for side in sides}
+    sets |= {
+        f"{count} commands": partial(habits.remember, habits.sharing(count), few)
+        for count in shared
+    }
+    sets["any posture"] = partial(habits.remember, own, few, apart)
+    sets[f"{len(past.points)} memories"] = lambda: past
+    found = {"real time": seconds_per_second(own)}
+    for name, remembered in sets.items():
+        known = remembered()
+        found[name] = {"covered": covered(known)}
+        if found[name]["covered"] > 0.5:
+            found[name] |= drawn(habitual, known, **draws)
+    found["online"] = drawn(practised, past, **draws)
+    found["afresh"] = drawn(optimised, past, own, **draws)
+    return found
+
+
+def measured():
+    """What ships: `make`'s numbers, in arrays."""
+    return {
+        name: {key: np.array(value) for key, value in row.items()} if isinstance(row, dict) else row
+        for name, row in results.records("whole_arm").items()
+    }

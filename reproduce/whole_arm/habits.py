@@ -1,0 +1,130 @@
+"""How the whole arm came by its habits: where to stop, what to ask of muscles, what they remember.
+
+A posture is the one nearest to a comfortable posture among all that reach the goal. A minimum-jerk
+path there gives torques by inverse dynamics; static optimisation shares them among the muscles with
+the least squares of activation; excitations are what makes those activations.
+"""
+
+from dataclasses import dataclass
+from functools import cache, cached_property
+
+import numpy as np
+from scipy.cluster.hierarchy import fcluster, linkage
+from scipy.optimize import least_squares, nnls
+
+from reproduce import results
+from reproduce.whole_arm import plant
+from vmc_lib.motor.inverse_dynamics import MOVING, least, smooth
+from vmc_lib.motor.templates import TemplateSet
+
+START = np.radians([70.0, 25.0, 0.0, 95.0, 0.0, 0.0, 0.0])  # elbow bent, the hand before the body
+EASY = np.radians([70.0, 40.0, 0.0, 80.0, 0.0, 0.0, 0.0])  # what a posture would be, if it could
+ZONE = np.array([[0.40, -0.25, -0.25], [0.58, 0.15, 0.20]])  # lowest and highest (x, y, z), m
+SIDE = 5  # memories along each edge of the zone, of those that ship
+EFFORT = 0.05  # what full activation of a muscle costs beside a missed N m
+
+
+def posture(goal, easy=EASY):
+    """The posture (7,) nearest to an easy one that puts the finger's tip on a goal (3,)."""
+    ease, bounds = 0.1, plant.LIMITS.T + np.array([[0.01], [-0.01]])
+
+    def off(q):
+        return np.append(100 * (plant.tip(q)[0] - goal), ease * (q - easy))
+
+    def slopes(q):
+        return np.vstack([100 * plant.tip(q)[1], ease * np.eye(len(q))])
+
+    return least_squares(off, easy.clip(*bounds), slopes, bounds=bounds).x
+
+
+@dataclass(frozen=True, eq=False)
+class Nerves:
+    """Which muscles share a command: `groups` (63, n), one 1 in each row."""
+
+    groups: np.ndarray
+
+    @cached_property
+    def rest(self):
+        """The commands (n,) that hold the arm where every reach starts."""
+        return self._share(START, 0 * START, 0 * START)
+
+    def move(self, commands, _perturbation=None):
+        """The `plant.Motion` that commands (…, T, n) give the arm from rest in `START`."""
+        return plant.move(commands @ self.groups.T, START, self.groups @ self.rest)
+
+    def commands(self, goal):
+        """The commands (T, n) of the smoothest way to a posture (7,), and a hold there."""
+        seconds = plant.TICK * np.arange(plant.TICKS + 1)
+        path = START + smooth(1000 * seconds / MOVING)[:, None] * (goal - START)
+        velocity = np.gradient(path, plant.TICK, axis=0)
+        acceleration = np.gradient(velocity, plant.TICK, axis=0)
+        return excite([self._share(*now) for now in zip(path, velocity, acceleration, strict=True)])
+
+    def _share(self, *moment):
+        """Static optimisation: the activations (n,) with the least sum of squares that do it."""
+        torque, gain = plant.demand(*moment)
+        matrix = np.vstack([gain @ self.groups, EFFORT * np.diag(self.groups.sum(axis=0) ** 0.5)])
+        wanted = np.append(torque, np.zeros(matrix.shape[1]))
+        pull = nnls(matrix, wanted)[0]  # quicker, and right unless a muscle would need more than 1
+        return pull if pull.max() <= 1 else least(matrix, wanted)
+
+
+def excite(wanted):
+    """Excitations (T, n) that give activations (T + 1, n) by MuJoCo's law, as far as they can."""
+    active, told = wanted[0], []
+    for want in wanted[1:]:
+        quick = 0.5 + 1.5 * active
+        lag = np.where(want > active, 0.010 * quick, 0.040 / quick)  # s: it rises sooner than falls
+        told.append(np.clip(active + lag / plant.TICK * (want - active), 0, 1))
+        active = active + (told[-1] - active) * -np.expm1(-plant.TICK / lag)
+    return np.array(told)
+
+
+def sharing(count=plant.MODEL.nu):
+    """The `Nerves` by which muscles of like effect share `count` commands; all: each has its own.
+
+    Alike are muscles whose pulls turn the joints alike in `START` (Ward's clusters of unit
+    vectors); what turns none of the seven joints joins any.
+    """
+    gain = plant.demand(START, 0 * START, 0 * START)[1].T
+    effect = gain / np.maximum(np.linalg.norm(gain, axis=1, keepdims=True), 0.1)
+    kind = fcluster(linkage(effect, "ward"), count, "maxclust")
+    if count == len(plant.MUSCLES):
+        kind = np.arange(count) + 1
+    return Nerves((kind[:, None] == np.unique(kind)).astype(float))
+
+
+def remember(nerves, goals, easy=EASY, corrected=1):
+    """Past experience: a `TemplateSet` of reaches that end near the goals (N, 3).
+
+    Each is aimed beyond its goal, so often `corrected`, by as much as it missed. `easy` is the easy
+    posture (7,), or one for each goal (N, 7).
+    """
+    aims = goals
+    for more in range(corrected + 1):
+        ways = zip(aims, np.broadcast_to(easy, (len(goals), len(EASY))), strict=True)
+        commands = np.array([nerves.commands(posture(*way)) for way in ways])
+        reached = nerves.move(commands).reached
+        if more < corrected:
+            aims = aims + goals - reached
+    return TemplateSet(reached, commands, reach=nerves.move)
+
+
+def grid(side=SIDE):
+    """Goals (side³, 3) that fill the zone evenly."""
+    return np.stack(np.meshgrid(*np.linspace(*ZONE, side).T), axis=-1).reshape(-1, 3)
+
+
+def make(goals=None):
+    """What ships: the densest memories' commands, rounded, and where they end so."""
+    nerves = sharing()
+    commands = remember(nerves, grid() if goals is None else goals).excitations.astype(np.float16)
+    return {"commands": commands, "points": nerves.move(commands.astype(float)).reached}
+
+
+@cache
+def load():
+    """The shipped `TemplateSet`: 125 reaches of all 63 muscles."""
+    shipped = results.arrays("whole_arm_habits")
+    commands = shipped["commands"].astype(float)
+    return TemplateSet(shipped["points"], commands, reach=sharing().move)

@@ -1,0 +1,104 @@
+"""The whole arm: MyoArm's 63 muscles on the seven joints of shoulder, elbow, forearm and wrist.
+
+The fingers are held straight. Collarbone and shoulder blade follow the upper arm, in fixed shares.
+Positions are in the book's axes from the right shoulder, in m: x forward, y up, z to the right.
+`arm63.xml` is made by `reproduce.whole_arm.derive`; muscles obey MuJoCo's own law, as in MyoArm.
+"""
+
+from pathlib import Path
+from typing import NamedTuple
+
+import mujoco
+import numpy as np
+from mujoco import rollout
+
+FILE = Path(__file__).with_name("arm63.xml")
+MODEL = mujoco.MjModel.from_xml_path(str(FILE))
+MUSCLES = [MODEL.actuator(k).name for k in range(MODEL.nu)]
+JOINTS = (
+    *("elv_angle_r", "shoulder_elv_r", "shoulder_rot_r", "elbow_flexion_r"),
+    *("pro_sup_r", "deviation_r", "flexion_r"),
+)
+FREE = [MODEL.joint(name).qposadr[0] for name in JOINTS]
+LIMITS = MODEL.jnt_range[FREE]  # (7, 2), rad
+HOLD = 10  # steps of 2 ms: a command changes fifty times a second
+TICK, TICKS = HOLD * MODEL.opt.timestep, 60  # s; commands of a movement, its hold included
+STATE = mujoco.mjtState.mjSTATE_FULLPHYSICS
+_TIP = MODEL.site("fingertip").id
+_DATA = mujoco.MjData(MODEL)
+
+
+def _follows():
+    """How all 18 joints turn with the seven free ones, (18, 7)."""
+    shares = np.zeros((MODEL.nq, len(FREE)))
+    shares[FREE, range(len(FREE))] = 1
+    for one, other, data in zip(MODEL.eq_obj1id, MODEL.eq_obj2id, MODEL.eq_data, strict=True):
+        shares[one, FREE.index(other)] = data[1]
+    return shares
+
+
+FOLLOWS = _follows()
+
+
+class Motion(NamedTuple):
+    """A movement, or a batch of them, sampled with its commands."""
+
+    joints: np.ndarray  # (…, TICKS, 18), rad
+    velocity: np.ndarray  # (…, TICKS, 18), rad/s
+    activation: np.ndarray  # (…, TICKS, 63)
+
+    @property
+    def reached(self):
+        """Where the tip of the index finger ended, (…, 3), m."""
+        ends = self.joints[..., -1, :]
+        return np.array([_tip(q) for q in ends.reshape(-1, MODEL.nq)]).reshape(*ends.shape[:-1], 3)
+
+
+def move(excitations, posture, activation):
+    """The `Motion` that excitations (…, T, 63) give the arm from rest in a posture (7,), rad."""
+    _DATA.time, _DATA.qpos[:], _DATA.qvel[:], _DATA.act[:] = 0, FOLLOWS @ posture, 0, activation
+    first = np.empty(mujoco.mj_stateSize(MODEL, STATE))
+    mujoco.mj_getState(MODEL, _DATA, first, STATE)
+    told = np.reshape(excitations, (-1, *np.shape(excitations)[-2:])).repeat(HOLD, axis=1)
+    states, _ = rollout.rollout(MODEL, _DATA, np.tile(first, (len(told), 1)), told)
+    parts = np.split(states[:, HOLD - 1 :: HOLD, 1:], [MODEL.nq, 2 * MODEL.nq], axis=-1)
+    return Motion(*(x.reshape(*np.shape(excitations)[:-1], -1) for x in parts))
+
+
+def tip(posture):
+    """Where a posture (7,) puts the tip of the index finger, (3,), m, and its slopes (3, 7)."""
+    slopes, at = np.zeros((3, MODEL.nv)), _tip(FOLLOWS @ posture)
+    mujoco.mj_comPos(MODEL, _DATA)
+    mujoco.mj_jacSite(MODEL, _DATA, slopes, None, _TIP)
+    return at, slopes @ FOLLOWS
+
+
+def _tip(joints):
+    _DATA.qpos[:] = joints
+    mujoco.mj_kinematics(MODEL, _DATA)
+    return _DATA.site_xpos[_TIP].copy()
+
+
+def demand(posture, velocity, acceleration):
+    """What a moment of a movement, each (7,), asks: torque (7,) and the muscles' gain (7, 63).
+
+    Whatever activation (63,) satisfies torque = gain @ activation gives this acceleration.
+    """
+    data = _DATA
+    data.qpos[:], data.qvel[:] = FOLLOWS @ posture, FOLLOWS @ velocity
+    mujoco.mj_fwdPosition(MODEL, data)
+    mujoco.mj_fwdVelocity(MODEL, data)
+    mass, arms = np.zeros((MODEL.nv, MODEL.nv)), np.zeros((MODEL.nu, MODEL.nv))
+    mujoco.mj_fullM(MODEL, data, mass)
+    moment = data.actuator_moment, data.moment_rownnz, data.moment_rowadr, data.moment_colind
+    mujoco.mju_sparse2dense(arms, *moment)
+    slack, full = _pulls(0.0), _pulls(1.0)
+    needed = mass @ FOLLOWS @ acceleration + data.qfrc_bias - data.qfrc_passive - arms.T @ slack
+    return FOLLOWS.T @ needed, FOLLOWS.T @ (arms * (full - slack)[:, None]).T
+
+
+def _pulls(activation):
+    """The muscles' forces (63,) in N in the state that is set, all as active as this."""
+    _DATA.act[:] = activation
+    mujoco.mj_fwdActuation(MODEL, _DATA)
+    return _DATA.actuator_force.copy()
