@@ -1,7 +1,7 @@
 # make book   build the book and say where to open it
 # make test   run every test: library, chapters, pages in a browser
 # make lab    open the chapters in JupyterLab
-# make kit    build the teacher's kit: notebooks for students, the key, a bank of questions
+# make kit    build the teacher's kit: notebooks for students, slides, the key, a bank of questions
 # make data   remake all that ships, where something changed (hours; python -m reproduce --list says more)
 # make bench  measure what everything costs, beside named peers (half an hour; a quiet machine)
 # Each sets up its own environment in .venv (the benchmarks' peers: in .bench), once.

@@ -1,1 +1,1 @@
-"""The teacher's kit, made from the chapters: student notebooks, a key, a bank of questions."""
+"""The teacher's kit, made from the chapters: notebooks, slides, a key, a bank of questions."""

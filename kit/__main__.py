@@ -13,6 +13,7 @@ from kit.gift import gift
 from kit.key import key
 from kit.qti import package
 from kit.question import variants
+from kit.slides import build as slides
 from kit.student import student
 
 ROOT = Path(__file__).parents[1]
@@ -54,6 +55,7 @@ def build(folder, pages):
     asked = bank()
     (folder / "questions.gift").write_text(gift(asked))
     (folder / "questions-qti.zip").write_bytes(package(asked))
+    slides(folder / "slides", pages)
 
 
 def _page(text):

@@ -12,16 +12,20 @@ from zipfile import ZipFile
 import nbformat
 import numpy as np
 import pytest
+from bs4 import BeautifulSoup
 
 from book.exercises.loop import MIXED
-from kit.__main__ import CHAPTERS, bank, build
+from kit.__main__ import CHAPTERS, ROOT, bank, build
 from kit.gift import gift
-from kit.key import ASKING, key
+from kit.key import key
 from kit.marks import marks
 from kit.qti import SPACE, package
 from kit.question import VARIANTS, choice, number, variants
+from kit.slides import cut
 from kit.student import pieces, student
 from vmc_lib.show import predict, questions, quiz
+
+BUILT = ROOT / "_build/html/book"
 
 
 @pytest.fixture(scope="module")
@@ -264,20 +268,74 @@ def test_qti_is_well_formed_and_each_item_accepts_its_answer(asked):
                 assert float(right) == pytest.approx(question.answer)
 
 
-def test_the_whole_kit_is_built_from_chapters_and_pages(tmp_path, monkeypatch):
-    page = []
-    monkeypatch.setattr(questions, "display", lambda html: page.append(html.data))
-    quiz("Which?", {"this": "It is.", "that": "It is not."}, right="this")
-    for path in CHAPTERS:
-        cells = nbformat.read(path, as_version=4).cells
-        asking = sum(len(ASKING.findall(cell.source)) for cell in cells)
-        (tmp_path / f"{path.stem}.html").write_text(asking * page[0])
-    build(tmp_path / "kit", tmp_path)
-    made = {file.name for file in (tmp_path / "kit").iterdir()}
+# ---------------------------------------------------------------- the whole, and its slides
+
+
+@pytest.fixture(scope="module")
+def kit(tmp_path_factory):
+    assert (BUILT / "teaching.html").exists(), "no built book in _build/html: run `make book` first"
+    folder = tmp_path_factory.mktemp("made") / "kit"
+    build(folder, BUILT)
+    return folder
+
+
+def test_the_whole_kit_is_built_from_chapters_and_pages(kit):
+    made = {file.name for file in kit.iterdir()}
     pages = {"key.md", "key.html", "mathjax.js", "projects.md"}
-    assert made == pages | {"students", "questions.gift", "questions-qti.zip"}
-    students = {file.name for file in (tmp_path / "kit/students").glob("*.ipynb")}
+    assert made == pages | {"students", "slides", "questions.gift", "questions-qti.zip"}
+    students = {file.name for file in (kit / "students").glob("*.ipynb")}
     assert students == {path.name for path in CHAPTERS}
-    told = (tmp_path / "kit/key.md").read_text()
+    told = (kit / "key.md").read_text()
     assert told.count("**Solution.**") == told.count("### Exercise")
     assert "{solution" not in told
+
+
+def test_slides_show_every_section_and_tell_the_speaker_the_rest():
+    page = """<section><h2>Why<a>#</a></h2><p>First.</p><p>Second.</p>
+      <div class="math">x</div><div class="cell"><details>folded</details>
+      <div class="cell_output"><div class="output"><div class="admonition"><fieldset>
+      <details><summary>Asked</summary><p>Answer.</p></details></fieldset></div></div></div></div>
+      <p>Third.</p><section><h3>Below</h3><p>Fourth.</p></section></section>"""
+    first, question, below = cut(BeautifulSoup(page, "html.parser").section)
+    assert [part.get_text() for part in first.shown] == ["Why#", "First.", "x"]
+    assert [part.get_text() for part in first.told] == ["Second."]
+    assert question.shown[1]["class"] == ["admonition"]
+    assert "".join(map(str, question.told)) == "<p>Asked: Answer.</p><p>Third.</p>"
+    assert [part.get_text() for part in below.shown] == ["Below", "Fourth."]
+
+
+def test_every_chapter_and_every_quiz_is_on_a_slide(kit):
+    decks = sorted((kit / "slides").glob("session-*.html"))
+    assert [deck.stem for deck in decks] == [f"session-{n}" for n in range(1, 7)]
+    text = "".join(deck.read_text() for deck in decks)
+    assert text.count("<h1>") == len(CHAPTERS) + len(decks)
+    told = (kit / "key.md").read_text()
+    assert text.count('<fieldset class="vmc-quiz"') == told.count("### Quiz")
+    asked = text.count('<fieldset class="vmc-predict"')  # but for those that the page folds
+    assert told.count("### Predict first") >= asked > 5 * len(CHAPTERS)
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("number", range(1, 7))
+def test_slides_are_shown_offline_and_their_demos_move(kit, offline, number):
+    page, failed = offline.new_page(), []
+    for event in ("pageerror", "requestfailed"):
+        page.on(event, lambda told: failed.append(str(told)))
+    page.on("console", lambda told: told.type == "error" and failed.append(told.text))
+    page.goto((kit / f"slides/session-{number}.html").as_uri())
+    page.wait_for_function("() => window.Reveal?.isReady()")
+    demo = page.locator(".vmc-demo:not(:has(.vmc-scene)):has(input[type=range])").first
+    demo.evaluate("""demo => {
+      const { h, v } = Reveal.getIndices(demo.closest("section"));
+      Reveal.slide(h, v);
+    }""")
+    page.wait_for_function("demo => 'ready' in demo.dataset", arg=demo.element_handle())
+    slider, pictures = demo.locator("input[type=range]").first, demo.locator(".vmc-pictures")
+    slider.press("Home")
+    seen = pictures.inner_html()
+    slider.press("End")
+    assert pictures.is_visible()
+    assert pictures.inner_html() != seen
+    assert page.evaluate("() => Reveal.getCurrentSlide().querySelector('.vmc-demo') !== null")
+    assert failed == []
+    page.close()
