@@ -63,7 +63,7 @@ SHORTENED = Exercise(
         "You cut each number by itself. That turns the change; shorten it as a whole, and it "
         "keeps its direction.": lambda changes, longest: changes.clip(-longest, longest),
         "Short changes must stay as they are: shorten only what is longer than `longest`.": (
-            lambda changes, longest: np.nan_to_num(changes * longest / _length(changes))
+            lambda changes, longest: changes * longest / _length(changes)
         ),
         "A change of nought has length nought: do not divide by it.": lambda changes, longest: (
             changes / _length(changes) * np.minimum(_length(changes), longest)

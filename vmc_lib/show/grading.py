@@ -12,11 +12,11 @@ import numpy as np
 from IPython.display import HTML, display
 
 from vmc_lib.show.figures import folded, inline, markdown
-from vmc_lib.show.questions import RIGHT, WRONG, agree, verdict
+from vmc_lib.show.questions import NOT_YET, RIGHT, WRONG, agree, verdict
 from vmc_lib.show.render_mode import render_mode
 
 CASES = 20
-EMPTY = "Not answered yet: the function returns nothing."
+EMPTY = f"{NOT_YET} The function returns nothing."
 NEEDS_KERNEL = "To have it checked, write it in [a running notebook](index.html)."
 
 
