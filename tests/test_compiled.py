@@ -1,20 +1,75 @@
 """Compiled where it can be kept, and where it cannot."""
 
+import os
 import subprocess
 import sys
+from pathlib import Path
+from types import ModuleType, SimpleNamespace
+
+import numpy as np
+import pytest
 
 from vmc_lib.compiled import compiled
 
+ROOT = Path(__file__).parents[1]
 SOURCE = "def total(values):\n    s = 0.0\n    for v in values:\n        s += v\n    return s\n"
 
 
+def made(source, **read):
+    """What a source defines, whose functions read these values from outside."""
+    exec(source, read)  # noqa: S102
+    return SimpleNamespace(**read), read
+
+
 def test_a_function_without_a_file_is_compiled_for_this_process_alone():
-    space = {}
-    exec(SOURCE, space)  # noqa: S102  no folder can hold what was compiled
-    total = compiled(space["total"])
+    total = compiled(made(SOURCE)[0].total)  # no folder can hold what was compiled
     assert total((1.0, 2.5)) == total.__wrapped__((1.0, 2.5)) == 3.5
 
 
 def test_nothing_is_compiled_before_it_is_called():
     code = "import sys, vmc_lib.loop; assert 'numba' not in sys.modules"
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+@pytest.mark.parametrize(
+    ("expression", "first", "second"),
+    [
+        ("x * c", 2.0, 3.0),
+        ("x * c[1]", np.array([1.0, 2.0]), np.array([1.0, 3.0])),
+        ("x * c[0][1]", ((1, 2.0),), ((1, 3.0),)),
+        ("c(x)", lambda x: 2 * x, lambda x: 3 * x),
+        ("x * c(x)", lambda x, by=2.0: by, lambda x, by=3.0: by),
+    ],
+)
+def test_whatever_a_loop_reads_it_reads_anew(expression, first, second):
+    functions, space = made(
+        f"def inner(x):\n    return {expression}\ndef outer(x):\n    return inner(x)\n", c=first
+    )
+    outer = compiled(functions.outer)
+    for value in (first, second, first):
+        space["c"] = value
+        assert outer(1.5) == outer.__wrapped__(1.5)
+    assert outer(1.5) == 3.0
+
+
+def test_a_constant_of_another_module_is_read_anew():
+    other = ModuleType("other")
+    other.c = 2.0
+    half = compiled(made("def half(x):\n    return x / other.c", other=other)[0].half)
+    assert half(3.0) == 1.5
+    other.c = 4.0
+    assert half(3.0) == 0.75
+
+
+def test_what_is_kept_for_the_next_process_is_not_used_for_another_source(tmp_path):
+    loop = "from law import law\nfrom vmc_lib.compiled import compiled\n"
+    loop += "@compiled\ndef total(x):\n    return law(x) + 1.0\nprint(total(2.0))\n"
+    (tmp_path / "loop.py").write_text(loop)
+    told = os.environ | {"PYTHONPATH": str(ROOT), "PYTHONDONTWRITEBYTECODE": "1"}
+    said = []
+    for law in ("x * 2", "x * 2", "x * 5"):
+        (tmp_path / "law.py").write_text(f"def law(x):\n    return {law}\n")
+        command = [sys.executable, "loop.py"]
+        done = subprocess.run(command, cwd=tmp_path, env=told, check=True, capture_output=True)
+        said.append((float(done.stdout), len(list(tmp_path.rglob("*.nbc")))))
+    assert said == [(5.0, 1), (5.0, 1), (11.0, 2)]
