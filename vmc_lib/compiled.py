@@ -3,6 +3,7 @@
 from functools import cache, wraps
 from hashlib import sha256
 from inspect import unwrap
+from numbers import Number
 from types import CodeType, FunctionType, ModuleType
 from warnings import warn
 
@@ -74,10 +75,9 @@ def _frozen_in(value, names=()):
     if isinstance(value, CodeType):
         return value.co_code, value.co_names, *map(_frozen_in, value.co_consts)
     if isinstance(value, ModuleType):
-        found = (vars(value).get(n) for n in names)
-        return tuple(x for x in found if isinstance(x, float | int | tuple))
+        return tuple(x for n in names if isinstance(x := vars(value).get(n), Number | tuple))
     if isinstance(value, np.ndarray):
         return value.shape, value.dtype.str, value.tobytes()
     if isinstance(value, tuple):
         return tuple(map(_frozen_in, value))
-    return value if isinstance(value, float | int | str | np.generic) else type(value).__name__
+    return value if isinstance(value, Number | str | bytes) else type(value).__name__

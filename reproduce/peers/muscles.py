@@ -7,13 +7,14 @@ defaults. As in our reading of the paper, tendons are rigid and pennation is lef
 
 import numpy as np
 
-from vmc_lib.arm.muscle import MAX_VELOCITY, PAPER, TAU_ACTIVATION, TAU_DEACTIVATION, Muscle
+from vmc_lib.arm import muscle
+from vmc_lib.arm.muscle import PAPER, Muscle
 
 
 def activation_rate(excitation, activation):
     """Both muscles' lag, per second: the more active, the slower to rise and the faster to fall."""
     gap, pace = excitation - activation, 0.5 + 1.5 * activation
-    return gap / np.where(gap > 0, TAU_ACTIVATION * pace, TAU_DEACTIVATION / pace)
+    return gap / np.where(gap > 0, muscle.TAU_ACTIVATION * pace, muscle.TAU_DEACTIVATION / pace)
 
 
 def thelen_force(activation, length, velocity, maximum):
@@ -21,7 +22,9 @@ def thelen_force(activation, length, velocity, maximum):
 
     A muscle that is half active is also slower: its greatest speed follows its activation.
     """
-    rate = velocity * MAX_VELOCITY / (2.5 + 7.5 * activation)  # 10 fibre lengths a second at most
+    rate = (
+        velocity * muscle.MAX_VELOCITY / (2.5 + 7.5 * activation)
+    )  # 10 fibre lengths a second at most
     shrinking, growing = np.clip(rate, -1, 0), np.maximum(rate, 0) * (2 + 2 / 0.3) / 0.8
     speed = (1 + shrinking) / (1 - shrinking / 0.3) + 0.8 * growing / (1 + growing)
     passive = np.expm1(4 * np.maximum(length - 1, 0) / 0.6) / np.expm1(4)
@@ -32,7 +35,7 @@ def mujoco_force(activation, length, velocity, maximum):
     """MuJoCo's `mju_muscleGain` and `mju_muscleBias`: parabolas, joined."""
     slope = np.clip(np.where(length < 1, (length - 0.5) / 0.5, (1.6 - length) / 0.6), 0, 1)
     active = np.where(slope < 0.5, 2 * slope**2, 1 - 2 * (1 - slope) ** 2)
-    rate = np.clip(velocity * MAX_VELOCITY / 1.5, -1, 0.2)
+    rate = np.clip(velocity * muscle.MAX_VELOCITY / 1.5, -1, 0.2)
     speed = np.where(rate < 0, (1 + rate) ** 2, 1.2 - (0.2 - rate) ** 2 / 0.2)
     taut = np.maximum(length - 1, 0) / 0.3
     passive = 1.3 * np.where(taut < 1, taut**2 / 2, taut - 0.5)
