@@ -8,8 +8,8 @@ from sklearn.neural_network import BernoulliRBM
 
 from bench.report import publish, seconds, sgemm
 from vmc_lib import photos
-from vmc_lib.what.cdbn import FIRST, N_W, PATCHES, SECOND, K, crops_of
-from vmc_lib.what.crbm import CRBM
+from vmc_lib.what.cdbn import N_W, PATCHES, K, crops_of
+from vmc_lib.what.learning import FIRST, SECOND, Learner
 from vmc_lib.what.recogniser import Recogniser
 
 SAMPLE = 200  # patches timed, again and again; an epoch has PATCHES
@@ -18,7 +18,7 @@ PASSES = 5  # over a hidden unit's window: up, down, up again, and two counts of
 
 def layer(channels, width, rng):
     """A call that learns from SAMPLE patches for one epoch, and its multiply-adds a patch."""
-    machine = CRBM.random(K, channels, N_W, rng)
+    machine = Learner.random(K, channels, N_W, rng)
     patches = machine.trim(torch.randn(SAMPLE, channels, width, width, generator=rng))
     hidden = (patches.shape[-1] - N_W + 1) ** 2
     learning = partial(machine.fit, patches, range(1), 0, sparsity=0.1)

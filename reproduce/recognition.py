@@ -4,12 +4,10 @@ The classifiers, and what they say of every photo, are stored, as `make` finds t
 """
 
 import numpy as np
-import torch
 from sklearn.cluster import KMeans
 
 from reproduce.name_training import examples, fit_name_classifier
 from reproduce.peers.features import bag_of_sift, histograms_of_gradients, raw_pixels, sift
-from reproduce.peers.hmax import draw_prototypes, hmax
 from reproduce.results import arrays
 from vmc_lib import photos
 from vmc_lib.what.cdbn import CDBN, crops_of
@@ -31,6 +29,8 @@ METHODS = (
 
 def features(crops, learnt):
     """Every method's features (n, d) of crops (n, 200, 200), given what was learnt before."""
+    from reproduce.peers.hmax import hmax  # here, for torch weighs on who only reads the results
+
     seen, matches = read_outs(learnt["cdbn"], crops), hmax(crops, learnt["prototypes"])
     by_hand = [histograms_of_gradients(crops), bag_of_sift(crops, learnt["words"])]
     found = [*seen.values(), matches[:, :10], matches, *by_hand, raw_pixels(crops)]
@@ -53,8 +53,7 @@ def precision_recall(counts):
 def load():
     """What was learnt: what `features` needs, and a NameClassifier for each (level, method)."""
     kept = arrays("recognition")
-    learnt = {"cdbn": CDBN.load(), "words": kept["words"]}
-    learnt["prototypes"] = torch.tensor(kept["prototypes"])
+    learnt = {"cdbn": CDBN.load()} | {name: kept[name] for name in ("words", "prototypes")}
     keys = [(level, method) for level in photos.LEVELS for method in METHODS]
     linear = {
         k: NameClassifier(kept["/".join((*k, "w"))], float(kept["/".join((*k, "b"))])) for k in keys
@@ -116,6 +115,8 @@ def make(folder=photos.FOLDER, prototypes=250):
 
 def learn_without_labels(folder, prototypes, rng):
     """HMAX's prototypes and SIFT's words, from training crops of all levels, labels unused."""
+    from reproduce.peers.hmax import draw_prototypes
+
     shots = [shot for level in photos.LEVELS for shot in photos.load(level, "train", folder)]
     crops, _ = crops_of(shots)
     some = crops[rng.permutation(len(crops))[:60]]

@@ -14,8 +14,9 @@ from reproduce.detector_training import fit_detector, tuned, used_as
 from reproduce.name_training import examples, fit_name_classifier
 from vmc_lib import photos
 from vmc_lib.motor.templates import SPACINGS, key
-from vmc_lib.what.cdbn import CDBN, PATCHES, crops_of, train
+from vmc_lib.what.cdbn import CDBN, PATCHES, crops_of
 from vmc_lib.what.crops import whiten
+from vmc_lib.what.learning import train
 from vmc_lib.what.recogniser import ALL_LEVELS, READ_OUTS, read_outs
 from vmc_lib.where.localiser import Localiser
 from vmc_lib.where.recipes import RECIPES, TRAINED_AS

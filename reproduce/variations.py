@@ -9,7 +9,7 @@ from reproduce.name_training import examples, fit_name_classifier
 from reproduce.recognition import tally
 from reproduce.results import arrays
 from vmc_lib import photos
-from vmc_lib.what.cdbn import N_W, PATCHES, crops_of, train
+from vmc_lib.what.cdbn import CDBN, N_W, PATCHES, crops_of
 from vmc_lib.what.crops import whiten
 from vmc_lib.what.recogniser import READ_OUTS, read_outs
 
@@ -43,10 +43,12 @@ def vary(variation, folder, exam, patches=PATCHES):
     That is, counts (levels, read-outs, SPLITS, 4), as from `tally`. It learns from photos in
     `folder`, so many patches of them; the test photos are those in the folder `exam`.
     """
+    from vmc_lib.what.learning import train  # here, for torch weighs on who only reads the results
+
     n_w, seed = variation
     shots = [shot for level in photos.LEVELS for shot in photos.load(level, "train", folder)]
     crops, positive = crops_of(shots)
-    cdbn = train(whiten(crops), positive, seed, n_w, patches)
+    cdbn = CDBN.from_arrays(train(whiten(crops), positive, seed, n_w, patches).arrays())
     counts = np.zeros((len(photos.LEVELS), len(READ_OUTS), len(SPLITS), 4), int)
     for i, (level, (jittered, y)) in enumerate(lessons(folder).items()):
         x = read_outs(cdbn, jittered)
@@ -56,7 +58,7 @@ def vary(variation, folder, exam, patches=PATCHES):
         for j, name in enumerate(READ_OUTS):
             linear = fit_name_classifier(x[name], y, checked[name], checked_truth)
             counts[i, j] = [tally(linear.probability(z[name]), truth) for z, truth in seen]
-    return cdbn.first.W[:, 0].numpy(), counts
+    return cdbn.first.W[:, 0], counts
 
 
 @cache

@@ -17,8 +17,8 @@ from reproduce.pools import NARROW, pools, show
 from vmc_lib import loop, photos
 from vmc_lib.boxes import iou
 from vmc_lib.what.cdbn import CDBN, N_W, C
-from vmc_lib.what.crbm import CRBM
 from vmc_lib.what.crops import whiten
+from vmc_lib.what.learning import Learner
 from vmc_lib.what.recogniser import NameClassifier, Recogniser, read_outs, seen
 
 MAPS = 32, 64  # of the two layers
@@ -44,24 +44,22 @@ def end_to_end(draw, rng, maps=MAPS, steps=STEPS):
     rise_and_fall = torch.optim.lr_scheduler.OneCycleLR(learner, RATE, steps, pct_start=0.15)
     for _ in range(steps):
         crops, labels = draw(BATCH)
-        logit = scale(seen(cdbn, whiten(crops))[READ_OUT]) @ readout + bias
+        logit = scale(seen(cdbn, torch.from_numpy(whiten(crops)))[READ_OUT]) @ readout + bias
         loss = F.binary_cross_entropy_with_logits(logit, torch.tensor(labels, dtype=torch.float))
         learner.zero_grad()
         loss.backward()
         learner.step()
         rise_and_fall.step()
-    for weight in weights:
-        weight.requires_grad_(False)
-    return cdbn
+    return CDBN.from_arrays(cdbn.arrays())
 
 
 def blank(maps, rng):
-    """A CDBN that knows nothing: random filters, hidden units that are on half the time."""
+    """A CDBN of Learners that know nothing: random filters, hidden units on half the time."""
     layers, channels = [], 1
     for count in maps:
         W = torch.randn(count, channels, N_W, N_W, generator=rng) / (N_W * channels**0.5)
         b = torch.full((count,), -float(np.log(C**2)))
-        layers.append(CRBM(W.requires_grad_(), b.requires_grad_(), torch.zeros(channels), C))
+        layers.append(Learner(W.requires_grad_(), b.requires_grad_(), torch.zeros(channels), C))
         channels = count
     return CDBN(*layers, mean=0.5, spread=0.2)
 

@@ -4,18 +4,18 @@ import numpy as np
 import torch
 
 from kit.question import between, count, number, pick
-from vmc_lib.what.crbm import CRBM
+from vmc_lib.what.learning import Learner
 
 
 def _blank(width, n_w, c, maps=1):
     """A machine of zeros and a blank picture, trimmed to whole blocks."""
-    crbm = CRBM(torch.zeros(maps, 1, n_w, n_w), torch.zeros(maps), torch.zeros(1), c)
+    crbm = Learner(torch.zeros(maps, 1, n_w, n_w), torch.zeros(maps), torch.zeros(1), c)
     return crbm, crbm.trim(torch.zeros(1, 1, width, width))
 
 
 def _block(drives):
     """Probabilities in one block of 2 × 2 units that receive these drives: units', pooled."""
-    crbm = CRBM(torch.ones(1, 1, 1, 1), torch.zeros(1), torch.zeros(1), 2)
+    crbm = Learner(torch.ones(1, 1, 1, 1), torch.zeros(1), torch.zeros(1), 2)
     on, pooled = crbm.posterior(torch.tensor(drives).reshape(1, 1, 2, 2))
     return on.ravel().numpy(), pooled.item()
 
@@ -54,7 +54,7 @@ def pooled_width(rng):
 
 def numbers_to_learn(rng):
     maps, channels, n_w = between(rng, 4, 40, 2), pick(rng, 1, 3, 10), between(rng, 5, 15, 1)
-    machine = CRBM.random(maps, channels, n_w, torch.Generator().manual_seed(0))
+    machine = Learner.random(maps, channels, n_w, torch.Generator().manual_seed(0))
     return count(
         f"A CRBM has {maps} filters of {n_w} × {n_w} on {channels} channel(s), a bias for every "
         "hidden map and one for every channel. How many numbers does it learn?",
@@ -98,7 +98,7 @@ def states_of_a_map(rng):
 def drive_of_a_unit(rng):
     patch, filter_ = (torch.tensor(rng.integers(-2, 3, (1, 1, 2, 2))).float() for _ in range(2))
     bias = between(rng, -2, 2, 0.5)
-    crbm = CRBM(filter_, torch.tensor([bias]), torch.zeros(1), 1)
+    crbm = Learner(filter_, torch.tensor([bias]), torch.zeros(1), 1)
     return number(
         f"A filter with the rows {filter_[0, 0].tolist()} is laid on a patch with the "
         f"rows {patch[0, 0].tolist()}; the hidden bias is {bias}. What drive does the unit get?",
@@ -111,7 +111,7 @@ def drive_of_a_unit(rng):
 def energy_of_a_pair(rng):
     v, w = between(rng, -2, 2, 0.5) or 1.0, between(rng, -2, 2, 0.5) or 1.0
     on, bias = pick(rng, 0, 1), between(rng, -1, 1, 0.5)
-    crbm = CRBM(torch.full((1, 1, 1, 1), w), torch.tensor([bias]), torch.zeros(1), 1)
+    crbm = Learner(torch.full((1, 1, 1, 1), w), torch.tensor([bias]), torch.zeros(1), 1)
     energy = crbm.energy(torch.full((1, 1, 1, 1), v), torch.full((1, 1, 1, 1), float(on)))
     return number(
         f"A CRBM has one pixel v = {v}, one hidden unit h = {on}, the weight {w} between them, the "

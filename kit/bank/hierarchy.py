@@ -5,14 +5,14 @@ import torch
 
 from kit.question import between, choice, count, number, pick
 from vmc_lib.what.cdbn import CDBN
-from vmc_lib.what.crbm import CRBM
+from vmc_lib.what.learning import Learner
 
 
 def _network(n_w, maps=2):
     """Two layers of filters so wide, without knowledge, on the book's blocks of two."""
     zeros = torch.zeros
-    first = CRBM(zeros(maps, 1, n_w, n_w), zeros(maps), zeros(1))
-    return CDBN(first, CRBM(zeros(maps, maps, n_w, n_w), zeros(maps), zeros(maps)), 0.0, 1.0)
+    first = Learner(zeros(maps, 1, n_w, n_w), zeros(maps), zeros(1))
+    return CDBN(first, Learner(zeros(maps, maps, n_w, n_w), zeros(maps), zeros(maps)), 0.0, 1.0)
 
 
 def _chain(rng):
@@ -56,7 +56,7 @@ def window_of_the_second_layer(rng):
 
 def weights_of_the_second_layer(rng):
     maps, second, n_w = between(rng, 4, 20, 2), between(rng, 4, 40, 4), between(rng, 4, 10, 1)
-    machine = CRBM.random(second, maps, n_w, torch.Generator().manual_seed(0))
+    machine = Learner.random(second, maps, n_w, torch.Generator().manual_seed(0))
     return count(
         f"The first layer has {maps} maps; the second has {second} filters of {n_w} × {n_w} units "
         "on all of them. How many weights has the second layer, biases not counted?",

@@ -121,7 +121,7 @@ def _apart(name, some, others, better):
 
 
 def _v1():
-    widths = [gabor.bandwidths(filter_)[1] for filter_ in cdbn.CDBN.load().first.W[:, 0].numpy()]
+    widths = [gabor.bandwidths(filter_)[1] for filter_ in cdbn.CDBN.load().first.W[:, 0]]
     found = quantile_test(widths).confidence_interval()
     name = "median bandwidth of direction (°), the paper's claim being the macaque's"
     return [Quantity(name, MACAQUE, np.median(widths), low=found.low, high=found.high, rounding=5)]

@@ -8,6 +8,8 @@ import numpy as np
 import torch
 from torch.nn import functional as F
 
+torch.set_num_threads(1)  # why: see `vmc_lib.what.learning`
+
 # Serre et al. 2007, Table 1: filter widths of a band, its C1 neighbourhood; wavelength and breadth
 BANDS = {(7, 9): 8, (11, 13): 10, (15, 17): 12, (19, 21): 14}
 WAVELENGTH = {7: 3.5, 9: 4.6, 11: 5.6, 13: 6.8, 15: 7.9, 17: 9.1, 19: 10.3, 21: 11.5}
@@ -51,11 +53,12 @@ def draw_prototypes(crops, count, rng):
         maps = bands[rng.integers(len(bands))]
         y, x = rng.integers(0, np.array(maps.shape[2:]) - SCALE + 1)
         drawn.append(maps[rng.integers(len(maps)), :, y : y + SCALE, x : x + SCALE])
-    return torch.stack(drawn)
+    return torch.stack(drawn).numpy()
 
 
 def hmax(crops, prototypes):
     """C2 features (n, prototypes): 1 where a crop holds a prototype exactly, towards 0 if not."""
+    prototypes = torch.tensor(prototypes)
     return torch.cat([c2(few, prototypes) for few in torch.as_tensor(crops).split(2)]).numpy()
 
 

@@ -4,8 +4,9 @@ import torch
 
 from reproduce.gabor import best_gabor, gabor_pair
 from vmc_lib import photos
-from vmc_lib.what.cdbn import CDBN, crops_of, train
+from vmc_lib.what.cdbn import CDBN, crops_of
 from vmc_lib.what.crops import whiten
+from vmc_lib.what.learning import Learner, train
 
 
 @pytest.fixture(scope="module")
@@ -24,10 +25,31 @@ def test_layers_have_the_papers_sizes(cdbn, white):
     widths = {"V": (1, 200), "H1": (10, 192), "P1": (10, 96), "H2": (10, 88), "P2": (10, 44)}
     for name, (count, width) in (widths | {"MP2": (1, 44)}).items():
         assert layers[name].shape == (4, count, width, width)
-    assert torch.equal(layers["MP2"][:, 0], layers["P2"].mean(1))
+    assert np.array_equal(layers["MP2"][:, 0], layers["P2"].mean(1))
     for name in ("H1", "P1", "H2", "P2"):
         assert 0 <= layers[name].min()
         assert layers[name].max() <= 1
+
+
+def test_to_see_and_to_learn_are_the_same_equations(cdbn, white):
+    """NumPy's layers beside torch's own convolution and softmax, and beside those of a Learner."""
+    F = torch.nn.functional
+    learner = CDBN.load(Learner).layers(torch.from_numpy(white))
+    ours = cdbn.layers(white)
+    for name, maps in ours.items():
+        np.testing.assert_allclose(maps, learner[name], atol=5e-5)  # float32, steep
+    drive = F.conv2d(
+        torch.from_numpy(white)[..., :199, :199],
+        *map(torch.tensor, (cdbn.first.W, cdbn.first.b)),
+    )
+    units = F.pixel_unshuffle(drive, 2).unflatten(1, (10, 4))
+    on = torch.softmax(F.pad(units, (0, 0, 0, 0, 0, 1)), 2)
+    np.testing.assert_allclose(ours["P1"], 1 - on[:, :, 4], atol=1e-5)
+    np.testing.assert_allclose(
+        ours["H1"], F.pixel_shuffle(on[:, :, :4].flatten(1, 2), 2), atol=1e-5
+    )
+    for alone, name in zip(cdbn.pooled(white), ("P1", "P2"), strict=True):
+        assert np.array_equal(alone, ours[name])
 
 
 def test_projection_is_what_a_second_layer_unit_paints(cdbn):
@@ -35,9 +57,10 @@ def test_projection_is_what_a_second_layer_unit_paints(cdbn):
     projected = cdbn.projected()
     assert projected.shape == (10, 23, 23)
     for k in (0, 7):
-        h1 = torch.nn.functional.interpolate(cdbn.second.W[k : k + 1], scale_factor=2) / 4
-        painted = cdbn.first.visible_mean(h1) - cdbn.first.a
-        assert torch.allclose(painted[0, 0], projected[k], atol=1e-5)
+        W = torch.tensor(cdbn.second.W[k : k + 1])
+        h1 = torch.nn.functional.interpolate(W, scale_factor=2) / 4
+        painted = torch.nn.functional.conv_transpose2d(h1, torch.tensor(cdbn.first.W))
+        assert projected[k] == pytest.approx(painted[0, 0].numpy(), abs=1e-5)
 
 
 def test_first_layer_filters_are_gabor_like(cdbn):
@@ -59,7 +82,8 @@ def test_training_is_repeatable_and_saves_whole(white, tmp_path):
     one, two = (train(white, positive, 1, patches=200) for _ in range(2))
     np.savez(tmp_path / "one.npz", **one.arrays())
     with np.load(tmp_path / "one.npz") as file:
-        kept = CDBN.from_arrays(file)
+        kept = CDBN.from_arrays(file, Learner)
+    white = torch.from_numpy(white)
     p2 = [net.layers(white)["P2"] for net in (one, two, kept)]
     assert torch.equal(p2[0], p2[1])
     assert torch.equal(p2[0], p2[2])
@@ -78,13 +102,12 @@ def test_one_argument_moves_training_to_the_gpu(white):
     assert there.first.W.is_cuda
     assert there.second.W.is_cuda
     here = CDBN.from_arrays(there.arrays())
-    assert torch.allclose(
-        there.layers(white.cuda())["P2"].cpu(), here.layers(white)["P2"], atol=1e-3
-    )
+    on_gpu = there.layers(torch.from_numpy(white).cuda())["P2"].cpu().numpy()
+    assert on_gpu == pytest.approx(here.layers(white)["P2"], abs=1e-3)
 
 
 @pytest.mark.parametrize("n_w", [7, 10, 11])
 def test_other_filter_widths_are_trimmed_to_whole_blocks(white, n_w):
     net = train(white, np.ones(4, bool), n_w=n_w, patches=100)
     for layer in ("H1", "H2"):
-        assert net.layers(white)[layer].shape[-1] % 2 == 0
+        assert net.layers(torch.from_numpy(white))[layer].shape[-1] % 2 == 0

@@ -8,7 +8,7 @@ import pytest
 import torch
 from scipy.signal import convolve2d
 
-from vmc_lib.what.crbm import CRBM
+from vmc_lib.what.learning import Learner
 
 
 def rng(seed=0):
@@ -23,7 +23,7 @@ def tiny(K=2, channels=1, n_w=2, c=2, size=1.0):
         draw.normal(size=K),
         draw.normal(size=channels),
     )
-    return CRBM(*map(torch.from_numpy, (W, b, a)), c)
+    return Learner(*map(torch.from_numpy, (W, b, a)), c)
 
 
 def picture(machine, rows, columns, n=1, seed=0):
@@ -152,7 +152,7 @@ def test_gradient_is_data_minus_model():
     v = picture(machine, 3, 5, n=5)
     states, mean, chance = model_states(machine.W, machine.b, machine.a, 3, 5, machine.c)
     parameters = differentiable(machine)
-    energies = CRBM(*parameters, machine.c).energy(mean, states)
+    energies = Learner(*parameters, machine.c).energy(mean, states)
     model = torch.autograd.grad(-(torch.softmax(chance, 0) @ energies), parameters)
     for data, dream, truth in zip(
         machine.statistics(v, machine.posterior(v)[0]),
@@ -197,7 +197,7 @@ def noise(n=300):
 
 
 def trained(epochs, seed=0, start=None):
-    machine = start or CRBM.random(3, 1, 4, rng(seed))
+    machine = start or Learner.random(3, 1, 4, rng(seed))
     machine.fit(noise(), epochs, seed)
     return machine
 
@@ -206,14 +206,14 @@ def test_same_seed_same_machine_and_resuming_changes_nothing(tmp_path):
     whole = trained(range(4))
     np.savez(tmp_path / "half.npz", **trained(range(2)).arrays())
     with np.load(tmp_path / "half.npz", allow_pickle=False) as half:
-        resumed = trained(range(2, 4), start=CRBM.from_arrays(half))
+        resumed = trained(range(2, 4), start=Learner.from_arrays(half))
     for name in "Wba":
         assert torch.equal(getattr(whole, name), getattr(resumed, name))
     assert not torch.equal(whole.W, trained(range(4), seed=1).W)
 
 
 def test_who_watches_is_told_each_epochs_error_and_changes_nothing():
-    silent, watched = (CRBM.random(3, 1, 4, rng()) for _ in range(2))
+    silent, watched = (Learner.random(3, 1, 4, rng()) for _ in range(2))
     told = []
     errors = silent.fit(noise(), range(2), 0)
     watched.fit(noise(), range(2), 0, after=lambda epoch, error: told.append((epoch, error)))
@@ -222,13 +222,13 @@ def test_who_watches_is_told_each_epochs_error_and_changes_nothing():
 
 
 def test_sparsity_is_reached():
-    machine = CRBM.random(3, 1, 4, rng())
+    machine = Learner.random(3, 1, 4, rng())
     machine.fit(noise(2000), range(8), 0, sparsity=0.05, rate=0.2)
     assert machine.posterior(noise())[0].mean((0, 2, 3)).numpy() == pytest.approx(0.05, abs=0.005)
 
 
 def test_the_clamp_keeps_the_edge_of_the_data():
-    machine, v = CRBM.random(3, 1, 4, rng()), noise(5)
+    machine, v = Learner.random(3, 1, 4, rng()), noise(5)
     *_, (dream, _) = islice(machine.gibbs(v, rng(), clamp=True), 3)
     changed = (dream != v).any(0)[0]
     assert changed[3:-3, 3:-3].all()
@@ -239,7 +239,7 @@ def test_the_clamp_keeps_the_edge_of_the_data():
 
 
 def test_bad_shapes_are_named():
-    machine = CRBM.random(2, 1, 4, rng())
+    machine = Learner.random(2, 1, 4, rng())
     with pytest.raises(ValueError, match="trim"):
         machine.posterior(torch.zeros(1, 1, 8, 8))
     assert machine.trim(torch.zeros(1, 1, 8, 9)).shape == (1, 1, 7, 9)
@@ -252,7 +252,7 @@ def test_bad_shapes_are_named():
     with pytest.raises(ValueError, match="finite"):
         machine.fit(torch.full((5, 1, 9, 9), torch.nan), range(1), 0)
     with pytest.raises(ValueError, match="belong"):
-        CRBM(torch.zeros(2, 1, 4, 4), torch.zeros(3), torch.zeros(1))
+        Learner(torch.zeros(2, 1, 4, 4), torch.zeros(3), torch.zeros(1))
 
 
 def test_a_patch_that_is_all_edge_has_nothing_to_learn():

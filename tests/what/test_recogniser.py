@@ -2,13 +2,15 @@ from itertools import combinations
 
 import numpy as np
 import pytest
+import torch
 
 from reproduce.name_training import JITTER, background_box, examples, fit_name_classifier
 from vmc_lib import photos
 from vmc_lib.boxes import iou, jittered
-from vmc_lib.what.cdbn import crops_of
-from vmc_lib.what.crops import crop, shrunk
-from vmc_lib.what.recogniser import ALL_LEVELS, READ_OUTS, Recogniser
+from vmc_lib.what.cdbn import CDBN, crops_of
+from vmc_lib.what.crops import crop, shrunk, whiten
+from vmc_lib.what.learning import Learner
+from vmc_lib.what.recogniser import ALL_LEVELS, READ_OUTS, Recogniser, seen
 
 
 @pytest.mark.parametrize("name", READ_OUTS)
@@ -19,6 +21,14 @@ def test_it_knows_a_shuttlecock_from_a_cup(level, name):
     assert chance.shape == (16,)
     assert ((chance >= 0) & (chance <= 1)).all()
     assert ((chance > 0.5) == shuttlecock).mean() >= 14 / 16
+
+
+def test_a_name_is_the_same_to_numpy_and_to_torch():
+    crops, _ = crops_of(photos.load("varied", "validation")[:4])
+    recogniser = Recogniser.load("varied")
+    told = seen(CDBN.load(Learner), torch.from_numpy(whiten(crops)))[recogniser.name]
+    theirs = recogniser.classifier.probability(told.numpy())
+    assert recogniser.probability(crops) == pytest.approx(theirs, abs=1e-5)
 
 
 def test_the_table_is_no_shuttlecock():

@@ -2,7 +2,7 @@
 
 import cv2
 import numpy as np
-import torch
+from scipy import fft
 
 WIDTH = 200  # pixels of a crop, as in the paper
 
@@ -24,12 +24,15 @@ def crop(image, box):
 
 def shrunk(pictures, width):
     """Grey pictures (n, height, height), scaled down to (n, width, width) by means of areas."""
-    x = torch.as_tensor(np.asarray(pictures))[:, None]
-    return torch.nn.functional.interpolate(x, (width, width), mode="area")[:, 0].numpy()
+    size = pictures.shape[1]
+    edges = np.arange(width) * size // width, -(-np.arange(1, width + 1) * size // width)
+    areas = [slice(*ends) for ends in zip(*edges, strict=True)]
+    rows = np.stack([pictures[:, area].mean(1) for area in areas], 1)
+    return np.stack([rows[:, :, area].mean(2) for area in areas], 2)
 
 
 def whiten(pictures, cutoff=0.4):
-    """Grey pictures (n, height, width) as input for a CRBM: a tensor (n, 1, height, width).
+    """Grey pictures (n, height, width) as input for a CRBM: float32 (n, 1, height, width).
 
     In photos, neighbouring pixels are alike and coarse contrast outweighs fine contrast: amplitude
     falls as 1/f. Multiplying it by f evens it out, and exp(-(f / cutoff)⁴), with f in cycles a
@@ -37,36 +40,16 @@ def whiten(pictures, cutoff=0.4):
     the same. Each picture then gets mean 0 and standard deviation 1. ValueError for pictures of
     other shapes, with NaN, or without any contrast.
     """
-    x = torch.as_tensor(np.asarray(pictures), dtype=torch.float32)
+    x = np.asarray(pictures, np.float32)
     if x.ndim != 3 or 0 in x.shape:
-        raise ValueError(f"pictures are (n, height, width), not {tuple(x.shape)}")
-    if not (x.isfinite().all() and (x.std((1, 2)) > 1e-4).all()):
+        raise ValueError(f"pictures are (n, height, width), not {x.shape}")
+    if not (np.isfinite(x).all() and (x.std((1, 2)) > 1e-4).all()):
         raise ValueError("a picture needs finite values and some contrast: one has not")
     # A mirrored border, so that opposite edges do not meet in the transform
     border = max(1, min(x.shape[1:]) // 10)
-    x = torch.nn.functional.pad(x[:, None], [border] * 4, mode="reflect")
-    fy, fx = torch.fft.fftfreq(x.shape[-2])[:, None], torch.fft.rfftfreq(x.shape[-1])
-    f = torch.hypot(fy, fx)
-    x = torch.fft.irfft2(torch.fft.rfft2(x) * f * torch.exp(-((f / cutoff) ** 4)), x.shape[-2:])
-    x = x[..., border:-border, border:-border]
-    return (x - x.mean((2, 3), keepdim=True)) / x.std((2, 3), keepdim=True)
-
-
-class Patches:
-    """Windows cut at random from maps (n, channels, height, width), cut anew whenever asked for.
-
-    50,000 patches of 25 × 25 × 10 would fill 1.25 GB; their places fill one.
-    """
-
-    def __init__(self, maps, width, count, rng):
-        self.windows = maps.unfold(2, width, 1).unfold(3, width, 1)
-        n, _, rows, columns = self.windows.shape[:4]
-        draws = torch.rand(3, count, generator=rng)
-        self.places = (draws * torch.tensor([[n], [rows], [columns]])).long().to(maps.device)
-
-    def __len__(self):
-        return self.places.shape[1]
-
-    def __getitem__(self, rows):
-        picture, y, x = self.places[:, rows]
-        return self.windows[picture, :, y, x]
+    x = np.pad(x, [(0, 0), (border, border), (border, border)], mode="reflect")
+    fy, fx = np.fft.fftfreq(x.shape[1])[:, None], np.fft.rfftfreq(x.shape[2])
+    f = np.hypot(fy, fx)
+    even = np.float32(f * np.exp(-((f / cutoff) ** 4)))
+    x = fft.irfft2(fft.rfft2(x) * even, x.shape[1:])[:, None, border:-border, border:-border]
+    return (x - x.mean((2, 3), keepdims=True)) / x.std((2, 3), keepdims=True, ddof=1)

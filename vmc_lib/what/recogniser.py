@@ -3,9 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
-import torch
 from scipy.special import expit
-from torch.nn import functional as F
 
 from vmc_lib import photos
 from vmc_lib.data import arrays
@@ -17,7 +15,7 @@ ALL_LEVELS = "everywhere"  # all rendered levels together: for a photo of none o
 
 
 def seen(cdbn, v):
-    """Features (n, d), tensors, of whitened crops v (n, 1, 200, 200), by the name of the read-out.
+    """Features (n, d) of whitened crops v (n, 1, 200, 200), by the name of the read-out.
 
     "MP2" is the paper's, the mean map of Eq. 2: where is anything? "P2" keeps the ten maps apart,
     and of each only its means in the four quarters of the crop: how much of what? "P1 + P2" adds
@@ -25,18 +23,21 @@ def seen(cdbn, v):
     """
 
     def means(maps, parts):
-        return F.avg_pool2d(maps, maps.shape[-1] // parts).flatten(1)
+        n, K, width, _ = maps.shape
+        part, whole = width // parts, width // parts * parts
+        squares = maps[..., :whole, :whole].reshape(n, K, parts, part, parts, part)
+        return squares.mean(5).mean(3).reshape(n, -1)
 
-    layers = cdbn.layers(v)
-    p1 = 3 * means(layers["P1"], 4)  # its units are on more rarely: weighed up
-    p2 = means(layers["P2"], 2)
-    return {"MP2": layers["MP2"].flatten(1), "P2": p2, "P1 + P2": torch.cat([p1, p2], 1)}
+    p1, p2 = cdbn.pooled(v)
+    few = 3 * means(p1, 4), means(p2, 2)  # those of P1 are on more rarely: weighed up
+    both = cdbn.first.lib.concatenate(few, 1)
+    return {"MP2": p2.mean(1).reshape(len(v), -1), "P2": few[1], "P1 + P2": both}
 
 
 def read_outs(cdbn, crops):
     """Features (n, d) of grey crops (n, 200, 200), by the name of the read-out: see `seen`."""
-    parts = [seen(cdbn, part) for part in whiten(crops).split(20)]
-    return {name: torch.cat([part[name] for part in parts]).numpy() for name in READ_OUTS}
+    parts = [seen(cdbn, v[None]) for v in whiten(crops)]
+    return {name: np.concatenate([part[name] for part in parts]) for name in READ_OUTS}
 
 
 # ---------------------------------------------------------------- the classifier
