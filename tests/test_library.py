@@ -2,6 +2,8 @@
 
 import ast
 import re
+import subprocess
+import sys
 from importlib.util import resolve_name
 from pathlib import Path
 
@@ -107,3 +109,9 @@ def test_nothing_is_pickled_and_chance_is_passed_in(path):
     text = path.read_text()
     assert not re.search(r"allow_pickle=True|import pickle|torch\.(load|save)\(|joblib\.dump", text)
     assert not re.search(r"np\.random\.(seed|rand|randn|normal|uniform)\(|torch\.manual_seed", text)
+
+
+def test_who_only_sees_and_reads_needs_no_torch():
+    """It weighs 200 MB and a second or more on every kernel that imports it."""
+    code = "import sys, vmc_lib.loop, reproduce.ledger; sys.exit('torch' in sys.modules)"
+    subprocess.run([sys.executable, "-c", code], check=True, cwd=ROOT)

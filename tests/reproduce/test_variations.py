@@ -20,7 +20,7 @@ def test_every_variation_was_examined_on_every_photo():
 
 def test_the_network_that_ships_is_the_first_variation():
     filters, _ = variations.load()[N_W, 0]
-    shipped = CDBN.load().first.W[:, 0].numpy()
+    shipped = CDBN.load().first.W[:, 0]
     likeness = [
         np.corrcoef(a.ravel(), b.ravel())[0, 1] for a, b in zip(filters, shipped, strict=True)
     ]
