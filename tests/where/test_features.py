@@ -70,3 +70,28 @@ def test_gradients_do_not_mind_the_light():
 
 def test_flat_is_no_gradient():
     assert (gradients(np.full((40, 60, 3), 99, np.uint8), [(10, 10, 40, 30)]) == 0).all()
+
+
+def test_compiled_features_are_those_of_whole_arrays_to_the_bit():
+    boxes = np.array([(10, 10, 40, 30), (-5, -5, 70, 50), (3.5, 7.2, 3.5, 9)])
+    pixels = crops(NOISE, boxes, 30)
+    where = (np.arange(60) + 0.5) / 60
+    x0, y0, x1, y1 = boxes[1]
+    x, y = (x0 + where * (x1 - x0)).clip(0, 59), (y0 + where * (y1 - y0)).clip(0, 39)
+    samples = NOISE[np.ix_(y.astype(int), x.astype(int))].reshape(30, 2, 30, 2, 3)
+    assert (pixels[1] == samples.mean((1, 3), dtype=np.float32) / 255).all()
+
+    slopes = np.stack(np.gradient(pixels, axis=(2, 1)))
+    steepest = np.linalg.norm(slopes, axis=0).argmax(-1)[None, ..., None]
+    dx, dy = np.take_along_axis(slopes, steepest, -1)[..., 0]
+    angle = np.arctan2(dy, dx) / (2 * np.pi) % 1 * 8
+    low, share = angle.astype(int) % 8, angle % 1
+    row = np.arange(30) // 3
+    cell = np.arange(3)[:, None, None] * 100 + row[:, None] * 10 + row
+    parts = (low, 1 - share), ((low + 1) % 8, share)
+    counts = sum(
+        np.bincount((cell * 8 + bin_).ravel(), (np.hypot(dx, dy) * part).ravel(), 2400)
+        for bin_, part in parts
+    ).reshape(3, 800)
+    shares = counts / (np.linalg.norm(counts, axis=1, keepdims=True) + 1e-3)
+    assert (gradients(NOISE, boxes, margin=0) == np.sqrt(shares, dtype=np.float32)).all()

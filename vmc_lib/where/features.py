@@ -3,6 +3,7 @@
 import numpy as np
 
 from vmc_lib.boxes import as_boxes, widened
+from vmc_lib.compiled import compiled
 
 
 def crops(image, boxes, size):
@@ -15,15 +16,25 @@ def crops(image, boxes, size):
     if image.dtype != np.uint8 or image.ndim != 3 or image.size == 0:
         raise ValueError(f"{image.dtype} {image.shape} is no uint8 image: see photos.read_image")
     boxes = as_boxes(boxes)
-    height, width, channels = image.shape
+    height, width = image.shape[:2]
     steps = (np.arange(size * 2) + 0.5) / (size * 2)
     x, y = (
         (boxes[:, [low]] + steps * (boxes[:, [low + 2]] - boxes[:, [low]])).clip(0, limit - 1)
         for low, limit in ((0, width), (1, height))
     )
-    samples = image[y.astype(int)[:, :, None], x.astype(int)[:, None, :]]
-    cells = samples.reshape(len(boxes), size, 2, size, 2, channels)
-    return cells.mean((2, 4), dtype=np.float32) / 255
+    return _means_of_four(image, y.astype(int), x.astype(int)) / np.float32(255)
+
+
+@compiled
+def _means_of_four(image, y, x):
+    size, channels = x.shape[1] // 2, image.shape[2]
+    cells = np.zeros((len(y), size, size, channels), np.float32)
+    for box in range(len(y)):
+        for i in range(2 * size):
+            for j in range(2 * size):
+                for c in range(channels):
+                    cells[box, i // 2, j // 2, c] += image[y[box, i], x[box, j], c]
+    return cells / np.float32(4)
 
 
 def raw_pixels(image, boxes, margin=0.0):
@@ -50,17 +61,44 @@ def gradients(image, boxes, cells=10, bins=8, margin=0.25):
     of the 3 × 3 pixels of a cell counts the steepest of its three colours, for the two nearest of
     eight directions all around. After Dalal & Triggs (2005), with one normalisation a box.
     """
-    pixels = crops(image, widened(boxes, margin), 3 * cells)
-    slopes = np.stack(np.gradient(pixels, axis=(2, 1)))  # along x and y
-    steepest = np.linalg.norm(slopes, axis=0).argmax(-1)[None, ..., None]
-    dx, dy = np.take_along_axis(slopes, steepest, -1)[..., 0]
+    dx, dy = _steepest(crops(image, widened(boxes, margin), 3 * cells))
     strength, angle = np.hypot(dx, dy), np.arctan2(dy, dx) / (2 * np.pi) % 1 * bins
     low, share = angle.astype(int) % bins, angle % 1
-    row = np.arange(3 * cells) // 3
-    cell = np.arange(len(pixels))[:, None, None] * cells**2 + row[:, None] * cells + row
-    counts = sum(
-        np.bincount((cell * bins + bin_).ravel(), (strength * part).ravel(), cell.size // 9 * bins)
-        for bin_, part in ((low, 1 - share), ((low + 1) % bins, share))
-    ).reshape(len(pixels), cells**2 * bins)
+    counts = _count(strength * (1 - share), low, cells, bins)
+    counts += _count(strength * share, (low + 1) % bins, cells, bins)
     shares = counts / (np.linalg.norm(counts, axis=1, keepdims=True) + 1e-3)
     return np.sqrt(shares, dtype=np.float32)
+
+
+@compiled
+def _steepest(pixels):
+    """The slopes along x and y of pixels (n, size, size, c), of that colour in which they are most.
+
+    From neighbour to neighbour; at the edge, where one is missing, from the pixel itself.
+    """
+    n, size, _, channels = pixels.shape
+    slopes = np.zeros((2, n, size, size), np.float32)
+    for box in range(n):
+        for y in range(size):
+            for x in range(size):
+                most, left, right = np.float32(-1), max(x - 1, 0), min(x + 1, size - 1)
+                above, below = max(y - 1, 0), min(y + 1, size - 1)
+                for c in range(channels):
+                    dx = pixels[box, y, right, c] - pixels[box, y, left, c]
+                    dy = pixels[box, below, x, c] - pixels[box, above, x, c]
+                    dx, dy = dx / np.float32(right - left), dy / np.float32(below - above)
+                    steep = np.sqrt(dx * dx + dy * dy)
+                    if steep > most:
+                        most, slopes[0, box, y, x], slopes[1, box, y, x] = steep, dx, dy
+    return slopes
+
+
+@compiled
+def _count(weights, codes, cells, bins):
+    """The sum of weights (n, 3 cells, 3 cells) of each code in each of a box's cells."""
+    counts = np.zeros((len(weights), cells, cells, bins))
+    for box in range(len(weights)):
+        for y in range(3 * cells):
+            for x in range(3 * cells):
+                counts[box, y // 3, x // 3, codes[box, y, x]] += weights[box, y, x]
+    return counts.reshape(len(weights), cells**2 * bins)
