@@ -60,7 +60,8 @@ def _machine(loop, frozen):
 def _called(function):
     """The plain functions that a function finds in its module: pairs of name and function."""
     names = {n: function.__globals__.get(n) for n in function.__code__.co_names}
-    return [(n, unwrap(f)) for n, f in names.items() if isinstance(f, FunctionType)]
+    found = ((n, unwrap(f)) for n, f in names.items() if isinstance(f, FunctionType))
+    return [(n, f) for n, f in found if f is not function]
 
 
 def _frozen_in(value, names=()):

@@ -98,16 +98,18 @@ def _dynamics(terms, w1, w2, step):
 
 def paths(q):
     """Musculotendon lengths (…, 6) and moment arms (…, 2, 6) in m; angles held to the tables."""
-    entry = between(tables(), np.array([[0], [1]]), q[..., None], np.arange(12))
-    return entry[..., 0, :6] + entry[..., 1, :6], entry[..., 6:]
+    row, share = row_of(q, slice(2))
+    entry = tables()[np.arange(2), row]
+    value = entry[..., :12] + share[..., None] * entry[..., 12:]
+    return value[..., 0, :6] + value[..., 1, :6], value[..., 6:]
 
 
-def between(tables, joint, angle, column):
-    """What a column of the `tables` says of a joint at this angle, between two of their rows."""
+def row_of(angle, joint):
+    """The row of the `tables` for a joint at this angle, and how far on the way to the next."""
     low = LOW[joint]
     place = (np.minimum(np.maximum(angle, low), HIGH[joint]) - low) * ROWS_PER_RADIAN[joint]
     row = np.int64(place)
-    return tables[joint, row, column] + (place - row) * tables[joint, row, column + 12]
+    return row, place - row
 
 
 @cache

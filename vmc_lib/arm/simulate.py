@@ -15,7 +15,7 @@ import numpy as np
 from mujoco.batch import Batch
 
 from vmc_lib.arm import dynamics
-from vmc_lib.arm.dynamics import accelerations, between, hand, waves
+from vmc_lib.arm.dynamics import accelerations, hand, row_of, waves
 from vmc_lib.arm.model import F0, L0, LIMITS, SLACK, STEP, loaded, muscle_paths
 from vmc_lib.arm.muscle import PAPER, activated, fibre, tension
 from vmc_lib.compiled import compiled
@@ -169,8 +169,9 @@ def _move(excitations, q, velocity, activation, tables, coefficients, field, ste
                 angle, w = q[arm, t, joint], velocity[arm, t, joint]
                 torque[joint] = field[joint, 0] * w1 + field[joint, 1] * w2
                 torque[joint] += stop_torque(angle, w, LIMITS[joint])
+                row, share = row_of(angle, joint)
                 for k in range(12):
-                    entry[joint, k] = between(tables, joint, angle, k)
+                    entry[joint, k] = tables[joint, row, k] + share * tables[joint, row, 12 + k]
             for k in range(6):
                 a = activation[arm, t, k]
                 activation[arm, t + 1, k] = activated(excitations[arm, t, k], a, step)
