@@ -47,7 +47,7 @@ def solution(exercise):
     if render_mode() == "book":
         markdown(lines)
     else:
-        folded("Our lines", lines)
+        folded("Show our lines", lines)
 
 
 def source(exercise):
