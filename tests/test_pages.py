@@ -173,9 +173,23 @@ def test_pictures_are_there(opened):
     assert opened.page.eval_on_selector_all("img[src]", missing) == []
 
 
-def test_is_light(opened):
-    pictures = [Path(unquote(urlsplit(url).path)) for url in opened.asked if "/_images/" in url]
-    assert sum(path.stat().st_size for path in [opened.path, *pictures]) <= 5e6
+LINKED = re.compile(r'(?:src|href)="([^"#?:]+\.(?:js|css|png|svg|jpg|webp))[?"]')
+
+
+@pytest.mark.parametrize("path", PAGES, ids=lambda path: path.relative_to(BUILT).as_posix())
+def test_is_light(path):
+    """A page with all that it links to; what is fetched later (a scene's viewer) aside."""
+    text = path.read_text()
+    linked = {(path.parent / unquote(link)).resolve() for link in LINKED.findall(text)}
+    weight = sum(file.stat().st_size for file in {path, *linked} if file.is_file())
+    assert weight <= (5e6 if 'class="vmc-demo"' in text else 3e6)
+    assert ("mathjax.js" in text) == bool(re.search(r'class="math|\\\(', text))
+
+
+def test_every_icon_is_drawn(opened):
+    assert opened.page.locator("i[class*=fa-]").count() == 0
+    heights = "icons => icons.map((icon) => icon.getBoundingClientRect().height)"
+    assert max(opened.page.eval_on_selector_all(".svg-inline--fa", heights)) < 40
 
 
 def test_every_control_moves_its_picture(opened):

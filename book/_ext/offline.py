@@ -8,6 +8,13 @@ TERM = re.compile(r'\[([^\]]+)\]\(glossary\.md(?: "([^"]+)")?\)')
 SOURCE = r"\[[^\]]+\]\(references\.bib#(\w+)\)"
 SOURCES = re.compile(rf"\({SOURCE}(?:, {SOURCE})*\)")
 
+EVERYWHERE = ("book.js", "questions.js")
+NEEDS = {  # what a page must hold to need an asset; none needs thebe, which asks the network
+    "thebe": r"(?!)",
+    "mathjax": r'class="math|\\\(',
+    "design": r'class="[^"]*\bsd-',
+}
+
 
 def setup(app):
     os.environ["VMC_RENDER_MODE"] = "book"  # kernels inherit it: demos become self-contained pages
@@ -55,19 +62,24 @@ def cite(links):
 def mend(app, pagename, templatename, context, doctree):
     """Mend the page.
 
-    No sphinx-thebe, which asks the network; no list role on what is no list, and no label that
-    hides a summary's own words; the number of an equation outside the `split` that Sphinx puts
-    around its lines.
+    No script or style sheet that it has no use for (MathJax alone is 2.3 MB); no list role on what
+    is no list, and no label that hides a summary's own words; the number of an equation outside the
+    `split` that Sphinx puts around its lines.
     """
-    context["script_files"] = [
-        script
-        for script in context["script_files"]
-        if "thebe" not in f"{script.filename} {script.attributes.get('body', '')}".lower()
-    ]
+    body = context.get("body", "")
+    demos = "|".join(name for name, _ in app.config.html_js_files if name not in EVERYWHERE)
+    needs = NEEDS | {rf"/({demos})\b": 'class="vmc-'}
+    needless = "|".join(asset for asset, mark in needs.items() if not re.search(mark, body))
+    for kind in ("script_files", "css_files"):
+        context[kind] = [
+            file
+            for file in context[kind]
+            if not re.search(needless, f"{file.filename} {file.attributes.get('body', '')}", re.I)
+        ]
     thebe = (
         r'<script type="text/x-thebe-config">.*?</script>(\s*<script>kernelName = .*?</script>)?'
     )
-    body = re.sub(thebe, "", context.get("body", ""), flags=re.S)
+    body = re.sub(thebe, "", body, flags=re.S)
     body = re.sub(r"(\\tag\{[^}]*\})(\s*\\end\{split\})", r"\2\1", body)
     body = body.replace('<div role="list" class="citation-list">', "<div>")
     context["body"] = body.replace('<summary aria-label="Toggle hidden content">', "<summary>")

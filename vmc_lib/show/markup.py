@@ -109,10 +109,10 @@ def data_uri(image):
 
 @lru_cache(maxsize=64)  # the states of a demo often share a photo
 def _encode(pixels, shape):
-    """PNG for small or flat pictures, JPEG for photographs: whichever is shorter."""
+    """PNG for small or flat pictures, WebP for photographs: whichever is shorter."""
     image = np.frombuffer(pixels, np.uint8).reshape(shape)
     bgr = image if image.ndim == 2 else image[..., ::-1]
     png = cv2.imencode(".png", bgr)[1].tobytes()
-    jpeg = cv2.imencode(".jpg", bgr, [cv2.IMWRITE_JPEG_QUALITY, 85])[1].tobytes()
-    kind, data = ("png", png) if len(png) < 12_000 or len(png) < len(jpeg) else ("jpeg", jpeg)
+    webp = cv2.imencode(".webp", bgr, [cv2.IMWRITE_WEBP_QUALITY, 75])[1].tobytes()
+    kind, data = ("png", png) if len(png) < 12_000 or len(png) < len(webp) else ("webp", webp)
     return f"data:image/{kind};base64,{base64.b64encode(data).decode()}"
