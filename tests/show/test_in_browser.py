@@ -470,3 +470,44 @@ def test_the_row_of_a_slider_stays_where_the_hand_is(open_demos):
         assert place[0]["y"] == pytest.approx(places[0][0]["y"], abs=1)
     assert page.evaluate("scrollY") > 0
     assert page.errors == []
+
+
+def test_a_plots_numbers_are_a_table_that_follows_its_controls(open_demos):
+    def draw(slope):
+        fig, ax = plt.subplots()
+        ax.plot([0, 1, 2], [0, slope, 2 * slope], label="pull")
+        ax.set(xlabel="time (s)", ylabel="force (N)")
+        return fig
+
+    page = open_demos(
+        lambda: explore(draw, "c", lambda slope: f"{slope}", slope=Slider([1, 3], "s"))
+    )
+    page.click(".vmc-demo summary")
+    page.focus("[type=range]")
+    page.keyboard.press("End")
+    rows = [row.split() for row in page.locator(".vmc-data tr").all_inner_texts()]
+    assert rows == [
+        ["time", "(s)", "force", "(N)"],
+        *(["pull", x, y] for x, y in (("0", "0"), ("1", "3"), ("2", "6"))),
+    ]
+    assert page.locator("details").get_attribute("open") is not None
+    assert page.errors == []
+
+
+def test_paper_shows_where_a_demo_leads_that_nobody_touched(open_demos):
+    def draw(x):
+        return ball(x), f"<p>now at {x}</p>"
+
+    page = open_demos(
+        lambda: explore(draw, "A ball.", "alt", x=Slider([0.1, 0.2, 0.4], "place", play=True))
+    )
+    page.wait_for_selector(".vmc-scene canvas")
+    pdf = pypdfium2.PdfDocument(page.pdf(print_background=True))
+    assert "now at 0.4" in pdf[0].get_textpage().get_text_range()
+    pixels = np.int16(pdf[0].render().to_numpy())
+    assert (
+        pixels[..., 0] > pixels[..., 2] + 60
+    ).any()  # the blue box, which stands there at 0.4 only
+    assert page.inner_text("output") == "0.1"
+    assert page.inner_text(".vmc-picture p") == "now at 0.1"
+    assert page.errors == []

@@ -21,6 +21,7 @@ from vmc_lib.show.controls import as_control
 from vmc_lib.show.figures import framed, pictures, side_by_side
 from vmc_lib.show.live import STATIC, Live
 from vmc_lib.show.markup import styled
+from vmc_lib.show.numbers import numbers
 from vmc_lib.show.palette import STYLE
 from vmc_lib.show.render_mode import render_mode
 from vmc_lib.show.scene import SCRIPTS as VIEWER
@@ -63,7 +64,9 @@ def explore(draw, caption, alt, in_page=None, **controls):
         values = dict(zip(controls, grid[place], strict=True))
         try:
             with plt.rc_context(STYLE):
-                parts = pictures(draw(**values), name)
+                drawn = draw(**values)
+                told = [] if in_page else numbers(drawn)  # before the figures are closed
+                parts = [*pictures(drawn, name), *told]
             return alt(**values) if callable(alt) else alt, parts
         except Exception as error:
             error.add_note(f"It was asked for {values}.")

@@ -123,12 +123,24 @@ def framed(inside, caption, name=""):
 
 
 def side_by_side(parts, alt):
-    """The pictures next to each other, described by `alt` for those who do not see them."""
+    """The pictures next to each other, described by `alt` for those who do not see them.
+
+    A table of their numbers stands folded below.
+    """
+    tables = [part for part in parts if isinstance(part, str) and part.startswith("<table>")]
     inner = "".join(
         f'<div class="vmc-picture">{part if isinstance(part, str) else part.html(alt)}</div>'
         for part in parts
+        if part not in tables
     )
-    return f'<div class="vmc-pictures" role="img" aria-label="{html.escape(alt)}">{inner}</div>'
+    below = "".join(
+        '<details class="vmc-numbers-of"><summary>The plot\'s numbers</summary>'
+        f'<div class="vmc-data" tabindex="0">{table}</div></details>'
+        for table in tables
+    )
+    return (
+        f'<div class="vmc-pictures" role="img" aria-label="{html.escape(alt)}">{inner}</div>{below}'
+    )
 
 
 def markdown(text):

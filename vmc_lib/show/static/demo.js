@@ -49,6 +49,7 @@ const vmcDemo = (() => {
   /* `ask(place, draw)` gives `draw` the state at a place: its words and its pictures, as lines. */
   const start = (demo, ask) => {
     const pictures = demo.querySelector(".vmc-pictures");
+    const places = [...demo.querySelectorAll(".vmc-picture, .vmc-data")];
     const spoken = demo.querySelector(".vmc-spoken");
     const inputs = [...demo.querySelectorAll("[data-stride]")];
     const reduced = matchMedia("(prefers-reduced-motion: reduce)");
@@ -63,7 +64,7 @@ const vmcDemo = (() => {
       const row = demo.querySelector(".vmc-controls"), held = demo.matches(":hover, :focus-within");
       const before = held && row.getBoundingClientRect().top;
       parts.forEach((lines, i) => {
-        const picture = pictures.children[i];
+        const picture = places[i];
         const scene = picture.querySelector(".vmc-scene");
         if (scene) return vmcScene(scene).show(lines);
         const next = picture.cloneNode(false);
@@ -122,6 +123,19 @@ const vmcDemo = (() => {
         demo.addEventListener(type, ({ target }) => {
           if (target.closest("[data-stride], .vmc-clock :is(input, button), .vmc-handle")) stop();
         }, true);
+      /* Paper shows where a demo leads, if the reader left it where it begins. */
+      let begun = null;
+      addEventListener("beforeprint", () => {
+        if (input.value !== input.defaultValue) return;
+        [begun, input.value] = [input.value, input.max];
+        show();
+        for (const scene of scenes) if (scene.div.querySelector("img")) (scene.start(), scene.stop()); // anew
+      });
+      addEventListener("afterprint", () => {
+        if (begun === null) return;
+        [input.value, begun] = [begun, null];
+        show();
+      });
       if ("unasked" in button.dataset && !reduced.matches) {
         const watch = new IntersectionObserver(([{ isIntersecting }]) => {
           if (!isIntersecting) return;

@@ -1,0 +1,73 @@
+"""The numbers behind a plot as a table, taken from the plot itself: for who reads, not sees."""
+
+import html
+from itertools import islice
+
+import numpy as np
+from matplotlib.container import BarContainer
+from matplotlib.figure import Figure
+from matplotlib.ticker import FixedFormatter, FuncFormatter
+
+from vmc_lib.show.palette import COLOURS
+
+POINTS, SERIES = 9, 12  # of a long curve so many points are told, of a plot so many curves
+_NAMES = {value: name for name, value in COLOURS.items()}
+
+
+def numbers(drawn):
+    """A table (HTML) of the curves, dots and bars in the figures of what a draw function returned.
+
+    A list: of one table, or empty where nothing is a figure. Each row is a point: what it belongs
+    to, its x, its y.
+    """
+    figures = [
+        p for p in (drawn if isinstance(drawn, tuple) else (drawn,)) if isinstance(p, Figure)
+    ]
+    rows = [row for figure in figures for ax in figure.axes for row in _rows(ax)]
+    return ["\n".join(["<table>", *rows, "</table>"])] if figures else []
+
+
+def _rows(ax):
+    """An axes' table rows, under a row that says what is measured."""
+    told = list(islice(_series(ax), SERIES))
+    if told:
+        title, x, y = ax.get_title(), ax.get_xlabel() or "x", ax.get_ylabel() or "y"
+        yield _row("th", title, x, y)
+    across, up = _reader(ax.xaxis), _reader(ax.yaxis)
+    for name, xs, ys in told:
+        for k in np.unique(np.linspace(0, len(xs) - 1, POINTS).round().astype(int)):
+            yield _row("td", name, across(xs[k]), up(ys[k]))
+
+
+def _series(ax):
+    """(name, xs, ys) of what was plotted against the axes' own measures; not their guide lines."""
+    for line in ax.lines:
+        xs, ys = np.broadcast_arrays(*(np.ravel(v) for v in line.get_data(orig=False)))
+        kind = "dots" if line.get_linestyle() == "None" else "line"
+        if line.get_transform() == ax.transData and len(xs) and line.get_visible():
+            yield _name(line, f"{_NAMES.get(line.get_color(), '')} {kind}"), xs, ys
+    for bars in ax.containers:
+        if isinstance(bars, BarContainer):
+            boxes = [bar.get_bbox() for bar in bars]
+            if bars.orientation == "vertical":
+                yield _name(bars, "bars"), [(b.x0 + b.x1) / 2 for b in boxes], bars.datavalues
+            else:
+                yield _name(bars, "bars"), bars.datavalues, [(b.y0 + b.y1) / 2 for b in boxes]
+
+
+def _name(artist, otherwise):
+    label = str(artist.get_label())
+    return otherwise.strip() if label.startswith("_") else label
+
+
+def _reader(axis):
+    """How an axis tells a value: where its places have names, by the nearest name."""
+    if isinstance(axis.get_major_formatter(), FixedFormatter | FuncFormatter):
+        names = [text.get_text() for text in axis.get_ticklabels()]
+        if all(name[:1].isalpha() for name in names):
+            return lambda value: names[np.abs(axis.get_ticklocs() - value).argmin()]
+    return lambda value: f"{value:.3g}".replace("-", "−")
+
+
+def _row(cell, *texts):
+    return "<tr>" + "".join(f"<{cell}>{html.escape(text)}</{cell}>" for text in texts) + "</tr>"
