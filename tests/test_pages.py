@@ -196,6 +196,20 @@ def test_every_control_moves_its_picture(opened):
     assert opened.page.evaluate(IDLE_CONTROLS) == []
 
 
+# Runs in the page. Moves each slider of a place that can be dragged through all its values; returns
+# the pictures, as markup, that hold what is no number.
+BROKEN_DRAGS = """() => [...document.querySelectorAll(".vmc-demo[data-ready] .vmc-pad input")]
+  .flatMap((slider) => [...Array(+slider.max + 1).keys()].map((place) => {
+    slider.value = place;
+    slider.dispatchEvent(new Event("input", { bubbles: true }));
+    return slider.closest(".vmc-demo").querySelector(".vmc-pictures").outerHTML;
+  })).filter((markup) => /NaN|undefined|Infinity/.test(markup))"""
+
+
+def test_every_place_of_a_dragged_slider_is_drawn(opened):
+    assert opened.page.evaluate(BROKEN_DRAGS) == []
+
+
 def test_sliders_answer_the_keyboard(opened):
     for fold in opened.page.query_selector_all(".vmc-folded button[aria-expanded=false]"):
         fold.click()
