@@ -6,7 +6,7 @@ const vmcAddress = (demo) => {
 
   const inputs = [...demo.querySelectorAll("[data-stride]")];
   const caption = demo.querySelector("figcaption");
-  if (!inputs.length || !caption) return;
+  if (!inputs.length || !caption || self.Reveal) return; // slides keep their own place in the address
   const name = (input) => (input.name || input.id).slice(demo.id.length + 1);
   const link = document.createElement("a");
   Object.assign(link, { className: "vmc-link", textContent: "#", title: "Link to what the demo shows now" });
