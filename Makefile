@@ -2,6 +2,7 @@
 # make test   run every test: library, chapters, pages in a browser
 # make lab    open the chapters in JupyterLab
 # make kit    build the teacher's kit: notebooks for students, slides, the key, a bank of questions
+# make pdf    print the whole book as one PDF, _build/book.pdf (with a browser)
 # make data   remake all that ships, where something changed (hours; python -m reproduce --list says more)
 # make bench  measure what everything costs, beside named peers (half an hour; a quiet machine)
 # Each sets up its own environment in .venv (the benchmarks' peers: in .bench), once.
@@ -25,7 +26,7 @@ $(1)/pip install --quiet --require-hashes -r constraints.txt
 $(1)/pip install --quiet --no-build-isolation -r requirements.txt -e .
 endef
 
-.PHONY: book test lab kit data bench lock clean
+.PHONY: book test lab kit pdf data bench lock clean
 .DEFAULT_GOAL := book
 
 book: $(BUILT)
@@ -46,6 +47,10 @@ lab: $(READY)
 
 kit: $(BUILT)
 	$(BIN)/python -m kit
+
+pdf: $(BUILT)
+	$(BIN)/python -m tests.browser
+	$(BIN)/python -m kit.pdf
 
 data: $(READY)
 	$(BIN)/python -m reproduce

@@ -3,11 +3,16 @@
 import json
 import re
 import tomllib
+from ctypes import c_int
 from pathlib import Path
 
+import pypdfium2
+import pypdfium2.raw as pdfium
 import pytest
 import yaml
 from pybtex.database import parse_file
+
+from kit import pdf
 
 ROOT = Path(__file__).parents[1]
 VERSION = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["version"]
@@ -58,3 +63,39 @@ def test_what_the_checklist_names_is_there(item, state, places):
     files = re.findall(r"`([\w./-]+)`", places)
     assert files
     assert all((ROOT / file).is_file() for file in files)
+
+
+# ---------------------------------------------------------------- on paper
+
+
+def test_every_page_is_printed_once():
+    names = pdf.names()
+    assert len(set(names)) == len(names)
+    pages = [path for kind in ("ipynb", "md") for path in (ROOT / "book").rglob(f"*.{kind}")]
+    assert {ROOT / name for name in names} == {path.with_suffix("") for path in pages}
+
+
+@pytest.mark.browser
+def test_pages_are_printed_as_one_book(chromium, tmp_path):
+    """Numbered, with bookmarks and links inside; each demo in two positions, and nothing folded."""
+    names = ["book/07_muscle", "book/glossary"]
+    pdf.printed(chromium, ROOT / "_build/html", names, tmp_path / "book.pdf")
+    with pypdfium2.PdfDocument(tmp_path / "book.pdf") as book:
+        titles = [mark.get_title() for mark in book.get_toc()]
+        assert "From excitation to activation" in titles
+        assert any("Glossary" in title for title in titles)
+        texts = [page.get_textpage().get_text_bounded().split() for page in book]
+        for number, words in enumerate(texts, start=1):
+            assert words[-1] == str(number)
+        words = [word for page in texts for word in page]
+        assert "import" not in words
+        assert len(re.findall(r"pulses a second (\d+)", " ".join(words))) == 2
+        assert sum(map(_links_inside, book)) > 10
+
+
+def _links_inside(page):
+    """How many links of a page lead to a place in the same document."""
+    place, link, found = c_int(0), pdfium.FPDF_LINK(), 0
+    while pdfium.FPDFLink_Enumerate(page, place, link):
+        found += bool(pdfium.FPDFLink_GetDest(page.pdf, link))
+    return found

@@ -1,0 +1,94 @@
+"""The whole book as one PDF, _build/book.pdf: `make pdf`.
+
+Each built page is opened in a browser and stands still (still.js); joined to one page, all are
+printed.
+"""
+
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import yaml
+from bs4 import BeautifulSoup
+from playwright.sync_api import sync_playwright
+
+from tests import browser
+
+ROOT = Path(__file__).parents[1]
+PATIENCE = 600_000  # ms: ends a hang, never a slow machine's work
+READY = """() => document.readyState === "complete" &&
+  !document.querySelector(".vmc-demo:has(> script):not([data-ready])")"""
+FOOT = '<p class="pageNumber" style="width: 100%; font-size: 8px; text-align: center"></p>'
+STYLE = """<style>
+article { break-before: page; }
+figure.vmc-demo { break-inside: auto; }
+.vmc-scene { height: 18rem; }
+.vmc-picture svg, .vmc-picture img { max-height: 24rem; }
+</style>"""
+
+
+def names():
+    """The pages of the book in the order of its table of contents."""
+
+    def files(entry):
+        yield from [entry["file"]] if "file" in entry else []
+        for below in entry.get("parts", []) + entry.get("chapters", []) + entry.get("sections", []):
+            yield from files(below)
+
+    toc = yaml.safe_load((ROOT / "_toc.yml").read_text())
+    return [toc["root"], *files(toc)]
+
+
+def printed(chromium, html, names, path):
+    """Print the pages `names` of the built book in the folder `html` as one PDF, to `path`."""
+    context = chromium.new_context(offline=True, viewport={"width": 900, "height": 1200})
+    context.set_default_timeout(PATIENCE)
+    page = context.new_page()
+    articles = [_still(page, html, name) for name in names]
+    head = BeautifulSoup((html / f"{names[0]}.html").read_text(), "html.parser")
+    styles = "".join(
+        f'<link rel="stylesheet" href="{(html / names[0]).parent.as_uri()}/{link["href"]}">'
+        for link in head.select("link[rel=stylesheet]")
+    )
+    with TemporaryDirectory() as folder:
+        whole = Path(folder) / "book.html"
+        whole.write_text(
+            f'<!doctype html><html lang="en" data-theme="light"><meta charset="utf-8">'
+            f"{head.title}{styles}{STYLE}<body><div class='bd-content'><div>"
+            f"{_joined(articles)}</div></div></body></html>"
+        )
+        page.goto(whole.as_uri())
+        page.pdf(
+            path=path,
+            format="A4",
+            margin=dict.fromkeys(("top", "bottom", "left", "right"), "18mm"),
+            display_header_footer=True,
+            header_template="<p></p>",
+            footer_template=FOOT,
+            outline=True,
+            tagged=True,
+        )
+    context.close()
+
+
+def _still(page, html, name):
+    page.goto((html / f"{name}.html").as_uri())
+    page.wait_for_function(READY)
+    page.evaluate("() => window.MathJax?.startup?.promise")
+    return page.evaluate((ROOT / "kit/still.js").read_text(), f"{html.as_posix()}/")
+
+
+def _joined(articles):
+    """All articles; a link to what is none of them is plain words."""
+    whole = BeautifulSoup("".join(articles), "html.parser")
+    there = {part["id"] for part in whole.select("[id]")}
+    for link in whole.select('a[href^="#"]'):
+        if link["href"][1:] not in there:
+            link.unwrap()
+    return str(whole)
+
+
+if __name__ == "__main__":
+    with sync_playwright() as playwright:
+        chromium = playwright.chromium.launch(**browser.options(browser.find()))
+        printed(chromium, ROOT / "_build/html", names(), ROOT / "_build/book.pdf")
+    print(f"The book is at {ROOT / '_build/book.pdf'}")
