@@ -69,6 +69,11 @@ def test_a_law_that_numba_cannot_take_is_followed_with_a_warning(monkeypatch):
     np.testing.assert_allclose(odd.q, simulate.simulate(few, START).q, atol=1e-12)
 
 
+def test_a_law_that_gives_no_number_gives_no_movement(monkeypatch):
+    monkeypatch.setattr(muscle, "passive_force", lambda length: np.nan * length)
+    assert np.isnan(moved("compiled").q[:, 1:]).all()
+
+
 def test_the_compiled_loop_does_what_its_source_does(monkeypatch):
     fast = moved("compiled")
     monkeypatch.setattr(simulate, "_move", simulate._move.__wrapped__)

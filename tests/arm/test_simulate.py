@@ -122,3 +122,5 @@ def test_bad_starts_and_engines():
             simulate(QUIET, START, step=step)
     with pytest.raises(ValueError, match="compiled"):
         simulate(QUIET, START, engine="opensim")
+    with pytest.raises(ValueError, match="leave the engine out"):
+        simulate(QUIET, START, engine="compiled", muscle=LAWS["MuJoCo"])

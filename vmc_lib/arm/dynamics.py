@@ -107,7 +107,8 @@ def paths(q):
 def row_of(angle, joint):
     """The row of the `tables` for a joint at this angle, and how far on the way to the next."""
     low = LOW[joint]
-    place = (np.minimum(np.maximum(angle, low), HIGH[joint]) - low) * ROWS_PER_RADIAN[joint]
+    # fmin, fmax: an angle that is not a number has a row, too; its movement is not a number either
+    place = (np.fmin(np.fmax(angle, low), HIGH[joint]) - low) * ROWS_PER_RADIAN[joint]
     row = np.int64(place)
     return row, place - row
 

@@ -89,7 +89,7 @@ def simulate(
     if engine not in ENGINES:
         raise ValueError(f"engine {engine!r} is unknown; choose one of {sorted(ENGINES)}")
     if engine == "compiled" and muscle is not PAPER:
-        raise ValueError("the compiled engine has the paper's muscle; for another, leave it out")
+        raise ValueError("engine 'compiled' knows the paper's muscle alone; leave the engine out")
     if not 0 < step <= 0.01:
         raise ValueError(f"steps of {step} s would blow up or stand still; choose up to 0.01 s")
     leading = u.shape[:-2]
@@ -153,8 +153,9 @@ def _in_one_loop(excitations, start, first, perturbation, step, muscle):
     batch, steps, _ = excitations.shape
     q, velocity, activation = (np.empty((batch, steps + 1, n)) for n in (2, 2, 6))
     q[:, 0], velocity[:, 0], activation[:, 0] = start, 0, first
+    told = np.require(excitations, float, "CW")  # of one type: each costs a compilation
     arm = dynamics.tables(), dynamics.coefficients(perturbation.load)[0]
-    _move(excitations, q, velocity, activation, *arm, np.array(perturbation.field, float), step)
+    _move(told, q, velocity, activation, *arm, np.array(perturbation.field, float), step)
     return q, velocity, activation
 
 
