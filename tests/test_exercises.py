@@ -8,7 +8,6 @@ from pathlib import Path
 import nbformat
 import numpy as np
 import pytest
-import torch
 from sklearn.metrics import precision_score, recall_score
 
 from vmc_lib.arm import muscle
@@ -65,7 +64,7 @@ def test_what_fails_is_told_in_a_sentence(exercise):
     assert "it stops: `TypeError" in feedback(3, exercise)
 
 
-@pytest.mark.parametrize("result", [np.zeros((7, 7)), [1, [2, 3]], "words", np.nan, [], {}])
+@pytest.mark.parametrize("result", [np.zeros((7, 7)), [1, [2, 3]], "words", np.nan])
 def test_what_cannot_be_right_is_set_beside_what_is(exercise, result):
     said = feedback(lambda *_: result, exercise)
     assert said.startswith(f"{WRONG} Where ")
@@ -113,31 +112,26 @@ def fill(box_i, box_j, size_i, size_j, pixels):
     return alike(regions, np.array([[0, 1]]), ("fill",)).item()
 
 
-def machine(W, b, a):
-    return CRBM(batch(W), torch.tensor([b]).double(), torch.tensor([a]).double())
-
-
-def batch(picture):
-    return torch.tensor(picture)[None, None]
+def machine(W, b=0.0, a=0.0, c=2):
+    return CRBM(W[None, None], np.array([b]), np.array([a]), c)
 
 
 def posterior_drawn(drives, die):
-    copies = CRBM(torch.ones(1, 1, 1, 1).double(), torch.zeros(1).double(), torch.zeros(1).double())
-    on, _ = copies.posterior(batch(drives.reshape(2, 2)))
-    return int((on.numpy().cumsum() < die).sum())
+    on, _ = machine(np.ones((1, 1))).posterior(drives.reshape(1, 1, 2, 2))
+    return int((on.cumsum() < die).sum())
 
 
 def widths(width, filter_width, block, layers):
-    layer, found = CRBM.random(1, 1, filter_width, torch.Generator(), c=block), []
+    layer, found = machine(np.zeros((filter_width, filter_width)), c=block), []
     for _ in range(layers):
-        width = layer.posterior(layer.trim(torch.zeros(1, 1, width, width)))[1].shape[-1]
+        width = layer.posterior(layer.trim(np.zeros((1, 1, width, width))))[1].shape[-1]
         found.append(width)
     return found
 
 
 LIBRARY = {
     "SIMILAR_FILL": fill,
-    "ENERGY_OF": lambda v, h, W, b, a: machine(W, b, a).energy(batch(v), batch(h)).item(),
+    "ENERGY_OF": lambda v, h, W, b, a: machine(W, b, a).energy(v[None, None], h[None, None]).item(),
     "UNIT_ON": posterior_drawn,
     "POOLED_WIDTHS": widths,
     "PRECISION_AND_RECALL": lambda chances, truth, threshold: [
