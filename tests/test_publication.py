@@ -65,6 +65,16 @@ def test_what_the_checklist_names_is_there(item, state, places):
     assert all((ROOT / file).is_file() for file in files)
 
 
+def test_on_windows_the_same_is_installed_as_by_make():
+    """README's lines of PowerShell, and the Makefile's: pip gets the same arguments in both."""
+    asked = {
+        file: re.findall(r"pip install (?:--quiet )?(.* -r .*)", (ROOT / file).read_text())
+        for file in ("README.md", "Makefile")
+    }
+    assert len(asked["README.md"]) == 2
+    assert asked["README.md"] == asked["Makefile"][:2]
+
+
 # ---------------------------------------------------------------- on paper
 
 
