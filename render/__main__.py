@@ -13,7 +13,7 @@ import numpy as np
 from PIL import Image
 
 from render import picture, scene
-from vmc_lib.photos import CLASSES, FOLDER, LEVELS, SPLITS
+from vmc_lib.photos import CLASSES, FOLDER, LEVELS, SHEET_LEVEL, SPLITS
 
 COUNTS = {"train": 40, "validation": 20, "test": 40}
 MORE = {("varied", "train"): 160}  # its variety asks for more to learn from
@@ -28,10 +28,10 @@ def box(mask):
 
 def make(level, split, number, samples, folder):
     """Draw scenes until shuttlecock and cup are in full view; write the photo and its sidecar."""
-    seed = (LEVELS.index(level), SPLITS.index(split), number)
+    seed = ((*LEVELS, SHEET_LEVEL).index(level), SPLITS.index(split), number)
     rng = np.random.default_rng(seed)
     while True:
-        drawn = scene.draw(level, rng)
+        drawn = scene.draw_with_sheet(rng) if level == SHEET_LEVEL else scene.draw(level, rng)
         masks = picture.masks(drawn)
         if all(seen.sum() >= SHOWN * whole.sum() for whole, seen in masks.values()):
             break
@@ -60,9 +60,11 @@ def main():
     parser.add_argument(
         "--count", type=int, help="photos of each kind; by default, as many as ship"
     )
+    parser.add_argument("--sheet", action="store_true", help="those with the printed sheet instead")
     parser.add_argument("--folder", type=Path, default=FOLDER, help="where to write them")
     arguments = parser.parse_args()
-    for level, split in itertools.product(LEVELS, SPLITS):
+    kinds = [(SHEET_LEVEL, "test")] if arguments.sheet else itertools.product(LEVELS, SPLITS)
+    for level, split in kinds:
         count = arguments.count or MORE.get((level, split), COUNTS[split])
         for number in range(arguments.first, arguments.first + count):
             if fnmatch(f"{level}/{split}/{number:03d}", f"{arguments.only}*"):

@@ -1,15 +1,16 @@
 """Who stands where, before which camera and in what light: drawn at random, level by level."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
 
 from render import materials, shapes
 from render.materials import rgb
+from vmc_lib import sheet
 from vmc_lib.arm.kinematics import to_world
 from vmc_lib.camera import TABLE, Camera
-from vmc_lib.photos import HEIGHT, WIDTH
+from vmc_lib.photos import CLASSES, HEIGHT, WIDTH
 
 HAND = 0.06  # how far to the right of the shoulder the hand moves, about (m)
 MIDDLE = np.array([0.19, -0.42, -0.07])  # of the places the hand can reach
@@ -158,3 +159,37 @@ def draw(level, rng):
                 break
     pose = "standing" if standing else "lying"
     return Scene(things, table, gloss, light, camera, target, float(turn), pose)
+
+
+def draw_with_sheet(rng):
+    """A varied scene with the printed sheet on its table, before a hand-held camera.
+
+    The camera has shuttlecock and cup whole in its picture, and half of the markers' corners.
+    """
+    while True:
+        scene = draw("varied", rng)
+        focal, width = rng.uniform(420, 800), rng.uniform(0.6, 0.85)  # of the table seen, m
+        camera = look(
+            np.array([0.19, TABLE, 0.06]) + rng.uniform(-0.04, 0.04, 3) * [1, 0, 1],
+            distance=width * focal / WIDTH,
+            elevation=np.radians(rng.uniform(40, 75)),
+            azimuth=rng.uniform(-0.6, 0.9),
+            focal=focal,
+            roll=rng.uniform(-0.1, 0.1),
+        )
+        corners = camera.project(sheet.places().reshape(-1, 3))
+        shown = np.all((corners > 0) & (corners < [WIDTH, HEIGHT]), axis=1)
+        pair = (scene.things[name] for name in CLASSES)
+        if shown.mean() >= 0.5 and all(whole(thing, camera) for thing in pair):
+            return replace(scene, table=with_sheet(scene.table), camera=camera)
+
+
+def with_sheet(table):
+    """A table's texture with the sheet on it: texels and the sheet's pixels are millimetres."""
+    x, _, z = np.round(1000 * (sheet.CORNER - MIDDLE)).astype(int)
+    column, row = len(table) // 2 + x, len(table) // 2 - z
+    wide, high = sheet.PAGE
+    covered = table.copy()
+    ink = sheet.page().T[::-1, ::-1, None] / 255
+    covered[row - wide : row, column - high : column] = 0.04 + 0.76 * ink  # toner, paper
+    return covered

@@ -20,6 +20,7 @@ from reproduce import (
     ledger,
     localisation,
     movements,
+    printed_sheet,
     real_world,
     recognition,
     results,
@@ -142,6 +143,17 @@ STEPS = (
         RESULTS / "real_world.json",
         "photos detectors localisers cdbn recogniser photographs templates vmc_lib",
         3,
+    ),
+    Step(
+        f"{RENDER} --sheet --samples 16",
+        MODEL / "photos/sheet",
+        minutes=5,
+        needs="mitsuba and LLVM 19",
+    ),
+    Step(
+        printed_sheet.make,
+        RESULTS / "printed_sheet.json",
+        "sheet detectors localisers recogniser photographs vmc_lib",
     ),
     Step(
         ledger.make,

@@ -18,6 +18,7 @@ from reproduce import (
     ledger,
     localisation,
     movements,
+    printed_sheet,
     real_world,
     recognition,
     training,
@@ -78,6 +79,7 @@ def steps(folder):
         "lesions": partial(trial.make, ["rig"], few),
         "photographs": partial(wide_training.photographs, named, 2, 80, everyday=1),
         "real_world": partial(real_world.make, few, splits=["validation"]),
+        "printed_sheet": partial(printed_sheet.make, count=1),
         "ledger": partial(ledger.make, ledger.ROWS[-1:], levels=()),
     }
 

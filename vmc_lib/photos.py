@@ -20,6 +20,9 @@ from vmc_lib.camera import Camera
 
 LEVELS = ("rig", "free", "varied")  # rendered, so that cameras and places are known
 REAL_LEVEL = "real"  # photographs
+SHEET_LEVEL = (
+    "sheet"  # rendered too, with the printed sheet of `vmc_lib.sheet`; to test, not to learn
+)
 EVERY_LEVEL = (*LEVELS, REAL_LEVEL)
 SPLITS = ("train", "validation", "test")
 CLASSES = ("shuttlecock", "cup")
@@ -57,7 +60,7 @@ def load(level, split, folder=FOLDER):
     otherwise.
     Raises ValueError for an unknown level or split, and for a photo that is missing or damaged.
     """
-    if level not in EVERY_LEVEL:
+    if level not in (*EVERY_LEVEL, SHEET_LEVEL):
         raise ValueError(f"unknown level {level!r}: choose from {EVERY_LEVEL}")
     if split not in SPLITS:
         raise ValueError(f"unknown split {split!r}: choose from {SPLITS}")

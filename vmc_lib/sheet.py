@@ -1,0 +1,80 @@
+"""A printed sheet on the table tells where an unknown camera is: its markers have known places.
+
+A hand-held camera's focal length and pose follow from where they appear (OpenCV's calibration, with
+the focal length as the one inner unknown). The sheet lies to the right of what is reached for, and
+defines the shoulder frame.
+"""
+
+import cv2
+import numpy as np
+
+from vmc_lib.camera import TABLE, Camera
+
+PAGE = np.array([210, 297])  # mm, to the right and down: A4
+MARKER, GAP, GRID = 48, 12, (3, 4)  # mm, mm, columns and rows of markers
+MARGIN = np.array([21, 34])  # mm, from the page's upper left corner to the first marker
+CORNER = np.array([0.337, TABLE, 0.12])  # the page's upper left corner, in the shoulder frame (m)
+AXES = np.array([[0, 0, 1.0], [-1, 0, 0], [0, -1, 0]])  # right, down the page, into the table
+FIRST = CORNER + MARGIN / 1000 @ AXES[:2]  # of the first marker
+FEWEST = 3  # markers that must be seen
+BOARD = cv2.aruco.GridBoard(
+    GRID, MARKER / 1000, GAP / 1000, cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_4X4_50)
+)
+
+
+def places():
+    """Where the markers' corners lie in the shoulder frame: (markers, 4, 3), in m."""
+    return FIRST + np.array(BOARD.getObjPoints()) @ AXES
+
+
+def page():
+    """The sheet as it is printed, one pixel a millimetre: (297, 210) uint8, black on white."""
+    picture = np.full(PAGE[::-1], 255, np.uint8)
+    right, down = MARGIN
+    wide, high = np.array(GRID) * (MARKER + GAP) - GAP
+    picture[down : down + high, right : right + wide] = BOARD.generateImage((int(wide), int(high)))
+    return picture
+
+
+def look(image):
+    """The `Camera` of an image (height, width, 3), or None; and the image without the sheet.
+
+    Painted over in the colour around it, none of its markers passes for an object.
+    """
+    eye = camera(image)
+    if eye is None:
+        return None, image
+    corners = CORNER + np.array([[0, 0], [1, 0], [1, 1], [0, 1]]) * PAGE / 1000 @ AXES[:2]
+    outline = np.int32(np.round(eye.project(corners)))
+    covered = cv2.fillConvexPoly(np.zeros(image.shape[:2], np.uint8), outline, 1)
+    covered = cv2.dilate(covered, np.ones((9, 9)))
+    around = image[cv2.dilate(covered, np.ones((15, 15))) > covered]
+    bare = image.copy()
+    bare[covered > 0] = np.median(around if len(around) else image.reshape(-1, 3), axis=0)
+    return eye, bare
+
+
+def camera(image):
+    """The `Camera` of an image (height, width, 3), uint8, in which the sheet lies on the table.
+
+    Its one unknown beside its pose is the focal length: the principal point is the image's middle,
+    and the lens has no distortion. None where fewer than FEWEST markers are seen.
+    """
+    fine = cv2.aruco.DetectorParameters()
+    fine.cornerRefinementMethod = cv2.aruco.CORNER_REFINE_SUBPIX
+    corners, names, _ = cv2.aruco.ArucoDetector(BOARD.getDictionary(), fine).detectMarkers(image)
+    known = [] if names is None else np.flatnonzero(np.isin(names, BOARD.getIds()))
+    if len(known) < FEWEST:
+        return None
+    points, pixels = BOARD.matchImagePoints([corners[k] for k in known], names[known])
+    height, width = image.shape[:2]
+    guess = np.array([[width, 0, width / 2], [0, width, height / 2], [0, 0, 1.0]])
+    only_focal = cv2.CALIB_USE_INTRINSIC_GUESS | cv2.CALIB_FIX_PRINCIPAL_POINT
+    only_focal |= cv2.CALIB_FIX_ASPECT_RATIO | cv2.CALIB_ZERO_TANGENT_DIST
+    only_focal |= cv2.CALIB_FIX_K1 | cv2.CALIB_FIX_K2 | cv2.CALIB_FIX_K3
+    size = (width, height)  # OpenCV counts from the middle of a pixel
+    _, found, _, [turn], [shift] = cv2.calibrateCamera(
+        [points], [pixels + np.float32(0.5)], size, guess, None, flags=only_focal
+    )
+    turn = cv2.Rodrigues(turn)[0]
+    return Camera(found[0, 0], guess[:2, 2], turn @ AXES, FIRST - shift[:, 0] @ turn @ AXES)
