@@ -338,7 +338,7 @@ def test_photos_move_and_the_readers_own_is_seen_whatever_its_size(run_all, tmp_
     noise = np.random.default_rng(0).integers(0, 255, (3000, 4000, 3), np.uint8)
     Image.fromarray(noise).save(tmp_path / "phone.jpg", quality=95)
     assert (tmp_path / "phone.jpg").stat().st_size > 10e6
-    upload = page.locator(".vmc-demo:has(input[type=file])")
+    upload = page.locator(".vmc-demo:has(input[type=file]:not([hidden]))")
     upload.locator("input").set_input_files(tmp_path / "phone.jpg")
     upload.locator("svg image").wait_for()
     assert upload.locator("[role=status]").text_content() == "phone.jpg: seen."
