@@ -1,5 +1,7 @@
 """From a photo to the first movement: how long each stage takes, beside OpenCV's search alone."""
 
+from dataclasses import replace
+
 import cv2
 import numpy as np
 
@@ -30,7 +32,8 @@ def stages(model, photo):
         ),
         "place": lambda: loop.locate(model, photo.image, sight.box, photo.camera),
         "turn and plan": lambda: plan(loop.turn_towards(place)[1], model.template_set).excitations,
-        "first movement (simulated)": reach.plan.move,
+        # anew each time: a plan remembers its own
+        "first movement (simulated)": lambda: replace(reach.plan).move(),
         "off-line, published (21 movements)": lambda: algorithm_1(reach.plan),
         "off-line, own (2 movements)": lambda: broyden_calibration(reach.plan),
     }

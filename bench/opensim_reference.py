@@ -76,19 +76,19 @@ def excited(excitations, elastic):
     (OpenSim has no rigid tendon for Thelen's muscle: a very stiff one must do).
     """
     model = load()
-    model = opensim.PrescribedController()
+    controller = opensim.PrescribedController()
     for name, excitation in zip(MUSCLES, excitations.T.tolist(), strict=True):
         muscle = opensim.Thelen2003Muscle.safeDownCast(model.updMuscles().get(name))
         muscle.setDefaultActivation(max(excitation[0], muscle.getMinimumActivation()))
         if not elastic:
             muscle.set_FmaxTendonStrain(0.001)
             muscle.setPennationAngleAtOptimalFiberLength(0)
-        model.addActuator(muscle)
+        controller.addActuator(muscle)
         told = opensim.PiecewiseLinearFunction()
         for k, level in enumerate(excitation):
             told.addPoint(STEP * k, level)
-        model.prescribeControlForActuator(name, told)
-    model.addController(model)
+        controller.prescribeControlForActuator(name, told)
+    model.addController(controller)
     for name, damping in zip(JOINTS, DAMPING, strict=True):
         skin = opensim.SpringGeneralizedForce(name)
         skin.setViscosity(damping)
