@@ -3,9 +3,9 @@
 .venv/bin/python -m bench.seat        (the book's own environment: a seat has no other)
 """
 
+import ast
 import subprocess
 import sys
-from ast import literal_eval
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import perf_counter, sleep
@@ -52,7 +52,7 @@ def kernel(what, cells):
             demo = perf_counter() - began
     reply = client.execute_interactive("", user_expressions={"usage": USAGE})
     usage = reply["content"]["user_expressions"]["usage"]["data"]["text/plain"]
-    kilobytes, processor = literal_eval(usage)
+    kilobytes, processor = ast.literal_eval(usage)
     client.stop_channels()
     manager.shutdown_kernel()
     return row(what, 1.024e-3 * kilobytes, started, demo, processor)
@@ -69,8 +69,16 @@ def code(chapter):
     return [cell.source for cell in cells if cell.cell_type == "code"]
 
 
+def imports(chapter):
+    """All that a chapter's cells import, as a cell."""
+    body = ast.parse("\n".join(code(chapter))).body
+    return "\n".join(ast.unparse(s) for s in body if isinstance(s, ast.Import | ast.ImportFrom))
+
+
 if __name__ == "__main__":
     rows = [server(), kernel("an empty kernel", [])]
+    chapters = sorted(path.stem for path in BOOK.glob("[0-9]*.ipynb"))
+    rows += [kernel(f"a kernel importing all of {name}", [imports(name)]) for name in chapters]
     rows += [kernel(f"a kernel running {name}", code(name)) for name in CHAPTERS]
     most = rows[0]["memory (MB)"] + max(r["memory (MB)"] for r in rows[1:])
     publish("seat", [*rows, row("a seat: server and kernel", most)])
