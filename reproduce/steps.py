@@ -30,6 +30,7 @@ from reproduce import (
     wide_training,
 )
 from reproduce.peers import optimal
+from reproduce.whole_arm import experiment, habits, plant
 from vmc_lib import data
 
 ROOT, MODEL, RESULTS = Path(__file__).parents[1], data.FOLDER, results.FOLDER
@@ -103,6 +104,7 @@ def listed():
 RENDER, OPENSIM = f"{sys.executable} -m render", ".bench/bin/python -m bench.opensim_reference"
 BONES = f"{sys.executable} -m reproduce.bones"
 SUMMED = f"{sys.executable} -m reproduce.checksums"
+DERIVED = f"{sys.executable} -m reproduce.whole_arm.derive"
 WHERE = "photos vmc_lib/where reproduce/detector_training.py"
 WHAT = "photos vmc_lib/what reproduce/name_training.py"
 WIDE = f"{WHAT} reproduce/looks.py reproduce/pools.py reproduce/wide_training.py"
@@ -175,6 +177,19 @@ STEPS = (
         25,
         needs="fresh_photos",
     ),
+    Step(
+        habits.make,
+        RESULTS / "whole_arm_habits.npz",
+        "vmc_lib/motor reproduce/whole_arm",
+        1,
+    ),
+    Step(
+        experiment.make,
+        RESULTS / "whole_arm.json",
+        "whole_arm_habits vmc_lib/motor vmc_lib/cerebellum reproduce/whole_arm",
+        8,
+    ),
+    Step(DERIVED, plant.FILE, needs="myo-sim"),
     Step(BONES, bones.FILE, needs="arm26's bone meshes, GEOMETRY=path/to/folder"),
     Step(OPENSIM, RESULTS / "opensim.npz", needs="OpenSim in .bench, ARM26=path/to/arm26.osim"),
 )

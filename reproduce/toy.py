@@ -29,6 +29,7 @@ from reproduce import (
 from reproduce.peers import optimal
 from reproduce.progress import run
 from reproduce.steps import STEPS, write
+from reproduce.whole_arm import experiment, habits
 from vmc_lib import photos
 from vmc_lib.where.recipes import RECIPES
 
@@ -80,6 +81,8 @@ def steps(folder):
         "photographs": partial(wide_training.photographs, named, 2, 80, everyday=1),
         "real_world": partial(real_world.make, few, splits=["validation"]),
         "printed_sheet": partial(printed_sheet.make, count=1),
+        "whole_arm_habits": partial(habits.make, habits.grid(2)[:2]),
+        "whole_arm": partial(experiment.make, [2], [14], seeds=[0], count=2),
         "ledger": partial(ledger.make, ledger.ROWS[-1:], levels=()),
     }
 

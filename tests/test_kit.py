@@ -211,6 +211,8 @@ AGAIN = {  # the answer from the numbers in the text, by a formula that is not t
     "lesson_with_caution": lambda miss, caution: miss * caution / (1 + caution),
     "numbers_that_g_learns": lambda n, *_: n * (3 * n + 3),
     "chain_of_links": lambda n, p: p**n,
+    "shared_torque": lambda one, other, torque: torque * one / (one**2 + other**2),
+    "weight_by_equation_4": lambda side, x, *_: x / side,
     "interval_of_arrivals": lambda k, n, *_: _wilson(k, n, 1) - _wilson(k, n, -1),
 }
 

@@ -2,7 +2,8 @@
 
 Kept are what moves and pulls: the bodies from the collarbone on with their masses in numbers, the
 joints as far as the wrist, the muscles, the points and shapes that they run over. The fingers stay
-straight, the trunk is the world, and the shoulder is its origin. Couplings are ten times as stiff.
+straight, the trunk is the world, and the shoulder is its origin. The shoulder blade follows more
+strictly than there: its couplings settle in 5 ms in place of 20.
 """
 
 from xml.etree import ElementTree

@@ -19,7 +19,7 @@ from vmc_lib.motor.planning import exact_weights, plan
 INSIDE = ZONE + np.array([[0.04], [-0.04]])  # m: targets keep so far from its edge
 SEEDS, COUNT = range(6), 17  # draws of targets, and targets of each
 LESSONS = 6  # movements practised, for each target held out
-WIDTH = 0.2  # m: how wide granule cells are; chosen on validation targets
+WIDTH = 0.1  # m: how wide granule cells are; chosen on validation targets
 SPARE = 0.5  # rad: how far apart memories' easy postures are that share no habit
 
 

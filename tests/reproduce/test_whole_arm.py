@@ -1,0 +1,149 @@
+"""The whole arm: its physics by what must hold, its memories, and that mixing meets its bars."""
+
+import mujoco
+import numpy as np
+import pytest
+
+from reproduce.whole_arm import derive, experiment, habits, plant
+from vmc_lib.cerebellum.offline import broyden_calibration
+
+STILL = np.zeros(7)
+
+SMALL = """
+<mujoco>
+  <option timestep="0.002"/>
+  <worldbody>
+    <body name="torso" pos="0 0 1" euler="90 0 0">
+      <geom name="chest" type="sphere" size="0.04" pos="0 0.02 0.02"/>
+      <site name="origin" pos="0.05 0.1 0"/> <site name="aside" pos="0.1 0 0.1"/>
+      <body name="clavicle_r" pos="0 0.1 0">
+        <joint name="one" axis="0 0 1" range="-2 2" damping="0.1"/>
+        <geom size="0.02" mass="1"/>
+        <site name="passing" pos="0.05 0 0.01"/>
+        <body name="humerus_r" pos="0.1 0 0" euler="0 20 0">
+          <joint name="two" axis="0 1 0.2" range="-2 2" armature="0.01"/>
+          <geom name="bone" type="cylinder" size="0.02 0.1" mass="2"/>
+          <site name="insertion" pos="0.1 0 0.02"/> <site name="IFtip_r" pos="0.2 0 0"/>
+        </body>
+      </body>
+    </body>
+  </worldbody>
+  <tendon>
+    <spatial name="t"><site site="origin"/><geom geom="chest" sidesite="aside"/>
+      <site site="passing"/><geom geom="bone"/><site site="insertion"/>
+      <pulley divisor="2"/><site site="origin"/><site site="passing"/></spatial>
+  </tendon>
+  <actuator><muscle name="t" tendon="t" force="100" lengthrange="0.1 0.5"/></actuator>
+  <equality><joint joint1="one" joint2="two" polycoef="0 0.5 0 0 0"/></equality>
+</mujoco>
+"""
+
+
+@pytest.fixture(scope="module")
+def nerves():
+    return habits.sharing()
+
+
+def test_what_is_derived_moves_as_what_it_came_from():
+    """The same lengths and, but for gravity's direction, the same forces, in any posture."""
+    full = mujoco.MjModel.from_xml_string(SMALL)
+    small = mujoco.MjModel.from_xml_string(derive.derived(full))
+    turn = mujoco.MjData(full)
+    mujoco.mj_kinematics(full, turn)
+    full.opt.gravity[:] = turn.body("torso").xmat.reshape(3, 3) @ [0, -9.81, 0]
+    one, other = mujoco.MjData(full), mujoco.MjData(small)
+    for q in np.random.default_rng(0).uniform(-1, 1, (20, 2)):
+        for model, data in ((full, one), (small, other)):
+            data.qpos[:] = q
+            mujoco.mj_forward(model, data)
+        np.testing.assert_allclose(other.ten_length, one.ten_length, atol=1e-5)
+        np.testing.assert_allclose(other.qfrc_bias, one.qfrc_bias, atol=1e-3)
+
+
+def test_what_ships_has_the_muscles_and_joints_that_it_should():
+    assert len(plant.MUSCLES) == len(set(plant.MUSCLES)) == 63
+    assert plant.FOLLOWS.shape == (18, 7)
+    np.testing.assert_array_equal(plant.FOLLOWS[plant.FREE], np.eye(7))
+
+
+def test_a_posture_puts_the_finger_on_its_goal():
+    for goal in habits.grid(2):
+        at, _ = plant.tip(habits.posture(goal))
+        np.testing.assert_allclose(at, goal, atol=2e-3)
+
+
+def test_the_slopes_of_the_finger_are_its_slopes():
+    at, slopes = plant.tip(habits.START)
+    nudged = [plant.tip(habits.START + step)[0] for step in 1e-6 * np.eye(7)]
+    np.testing.assert_allclose((np.array(nudged) - at).T / 1e-6, slopes, atol=1e-5)
+
+
+def test_the_commands_of_rest_hold_the_arm_and_the_shoulder_follows(nerves):
+    motion = nerves.move(np.tile(nerves.rest, (plant.TICKS, 1)))
+    assert np.linalg.norm(motion.reached - plant.tip(habits.START)[0]) < 0.005
+    joints = motion.joints[-1]
+    np.testing.assert_allclose(joints, plant.FOLLOWS @ joints[plant.FREE], atol=np.radians(0.5))
+
+
+def test_static_optimisation_gives_the_torque_with_pulls_alone(nerves):
+    torque, gain = plant.demand(habits.START, STILL, STILL)
+    assert nerves.rest.min() >= 0
+    np.testing.assert_allclose(gain @ nerves.rest, torque, atol=0.01)
+
+
+def test_what_no_muscle_can_do_is_done_as_far_as_full_activation_goes(nerves):
+    pull = nerves._share(habits.START, STILL, np.full(7, 300.0))
+    assert pull.max() == pytest.approx(1)
+    assert pull.min() > -1e-9
+
+
+def test_excitations_give_the_activations_that_are_wanted():
+    wanted = np.linspace([0.2, 0.6], [0.5, 0.4], 30)
+    active = wanted[0].copy()
+    for told in habits.excite(wanted):
+        for _ in range(plant.HOLD):
+            rate = [
+                mujoco.mju_muscleDynamics(u, a, np.array([0.01, 0.04, 0]))
+                for u, a in zip(told, active, strict=True)
+            ]
+            active += plant.MODEL.opt.timestep * np.array(rate)
+    np.testing.assert_allclose(active, wanted[-1], atol=0.02)
+
+
+@pytest.mark.parametrize("count", [1, 6, 14, 34, 63])
+def test_every_muscle_obeys_one_command(count):
+    groups = habits.sharing(count).groups
+    assert groups.shape == (63, count)
+    np.testing.assert_array_equal(groups.sum(axis=1), 1)
+
+
+def test_many_reaches_move_as_each_alone(nerves):
+    past = habits.load()
+    both = past.reach(past.excitations[:4].reshape(2, 2, plant.TICKS, -1)).reached
+    np.testing.assert_allclose(both.reshape(4, 3), past.points[:4], atol=1e-9)
+
+
+def test_octants_are_told_apart():
+    corners = np.stack(np.meshgrid(*[[-1.0, 1.0]] * 3), axis=-1).reshape(-1, 3)
+    rows, inside = experiment.octants(np.zeros((2, 3)), np.vstack([2 * corners, corners]))
+    assert inside.all()
+    assert (rows >= 8).all()
+    assert not experiment.octants(np.array([3.0, 0, 0]), corners)[1]
+
+
+def test_the_same_functions_plan_and_correct_it():
+    """Three targets of a fresh draw: the plan is near, two corrections nearer."""
+    past = habits.load()
+    targets = experiment.draw_targets(past, 3, np.random.default_rng(77))
+    tried = broyden_calibration(experiment.planned(targets, past)).error.mean(axis=1)
+    assert tried[0] < 0.1 * np.linalg.norm(targets, axis=1).mean()
+    assert tried[2] < 0.5 * tried[0]
+
+
+def test_what_ships_meets_its_bars():
+    found = experiment.measured()
+    assert found["real time"] >= 5
+    dense = found[f"{len(habits.load().points)} memories"]
+    assert dense["planned / reach"].size * experiment.COUNT >= 100
+    assert dense["planned / reach"].mean() <= 0.10
+    assert dense["2 corrections"].mean() <= 0.25
