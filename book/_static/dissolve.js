@@ -12,14 +12,14 @@ const vmcDissolve = (() => {
     const context = canvas.getContext("2d", { willReadFrequently: true });
     let photo, tree, due;
 
-    const look = (picture) => {
+    const look = (picture, own) => {
       const shrink = Math.sqrt(AREA / (picture.width * picture.height));
       [canvas.width, canvas.height] = [picture.width, picture.height].map((side) => Math.round(shrink * side));
       context.fillStyle = "white"; // behind what is transparent
       context.fillRect(0, 0, canvas.width, canvas.height);
       context.imageSmoothingQuality = "high";
       context.drawImage(picture, 0, 0, canvas.width, canvas.height);
-      if (photo) still.src = canvas.toDataURL("image/jpeg", 0.9);
+      if (own) still.src = canvas.toDataURL("image/jpeg", 0.9);
       const { data, width, height } = context.getImageData(0, 0, canvas.width, canvas.height);
       photo = { data, image: new ImageData(width, height), ...vmcSearch.prepare(data, width, height) };
       tree = null;
@@ -37,7 +37,7 @@ const vmcDissolve = (() => {
     };
 
     const draw = () => {
-      if (!photo) look(still);
+      if (!photo) look(still, false);
       const scale = Math.round(2 ** k.value);
       if (tree?.scale !== scale) grow(scale);
       const { labels, count, merges, boxes, colours } = tree, { width, height } = canvas;
@@ -89,8 +89,7 @@ const vmcDissolve = (() => {
         : `This browser cannot read ${chosen.name}: save it as a JPEG or PNG.`;
       if (!picture) return;
       merged.value = 0;
-      photo ??= {};
-      look(picture);
+      look(picture, true);
       run();
     };
     const ask = (how) => { file.toggleAttribute("capture", how); file.click(); };
