@@ -46,6 +46,11 @@ def test_a_jumping_target_is_reached(template_set, model):
     np.testing.assert_allclose(np.linalg.norm(second - first, axis=-1), 0.05)
 
 
+def test_too_few_jumps_within_reach_are_an_error(template_set):
+    with pytest.raises(ValueError, match="of 5 jumps by"):
+        measure.jumps(template_set, 5, np.random.default_rng(0), by=2.0)
+
+
 def test_without_its_forward_model_the_arm_shakes(template_set, model):
     """The bar: the lesion's tremor is at least five times the healthy arm's."""
     targets = draw_targets(template_set, 40, np.random.default_rng(4))
