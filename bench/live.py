@@ -1,6 +1,9 @@
 """How soon every demo of the book answers in a live kernel: from a question to the whole reply.
 
-.venv/bin/python -m bench.live        (a quiet machine; without the browser, which draws the reply)
+It is the processor's time, on one thread: what a reader waits on a quiet core, without the browser,
+which draws the reply.
+
+.venv/bin/python -m bench.live
 """
 
 import json
@@ -10,7 +13,7 @@ import subprocess
 import sys
 from itertools import pairwise
 from pathlib import Path
-from time import perf_counter
+from time import process_time
 from types import SimpleNamespace
 
 import nbformat
@@ -45,12 +48,12 @@ def latencies(answer):
     """Milliseconds of each of many answers: the state drawn, and the reply as text."""
     times = []
     for place in np.random.default_rng(0).permutation(200).tolist():
-        began = perf_counter()
+        began = process_time()
         try:
             json.dumps(answer(place))
         except IndexError:  # a smaller grid
             continue
-        times.append(1000 * (perf_counter() - began))
+        times.append(1000 * (process_time() - began))
         if len(times) == MOST:
             break
     return times

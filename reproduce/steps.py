@@ -76,7 +76,8 @@ def write(file, make):
     """Write what `make()` gives: arrays by name as .npz, or anything plain as .json."""
     content = make()
     if file.suffix == ".npz":
-        np.savez_compressed(file, **content)
+        with results.replaced(file) as new:
+            np.savez_compressed(new, **content)
         if file.parent == MODEL:
             checksums.write()
     else:

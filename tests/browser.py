@@ -20,6 +20,7 @@ MISSING = (
     "NO BROWSER: the built pages are NOT tested. Install Chromium (apt install chromium), or let "
     "Playwright fetch its own (playwright install chromium)."
 )
+NOT_TESTED = "NOT TESTED in {}: apt install firefox-esr webkit2gtk-driver xvfb"
 
 
 def find():
@@ -50,6 +51,11 @@ def main():
     if not find():
         print(f"\n{MISSING}\n", file=sys.stderr)
         sys.exit(bool(os.environ.get("CI")))
+    from tests.engines import Firefox, WebKit
+
+    for engine in (Firefox, WebKit):
+        if not engine.program():
+            print(f"\n{NOT_TESTED.format(engine.__name__)}\n", file=sys.stderr)
 
 
 if __name__ == "__main__":

@@ -49,7 +49,8 @@ def serious():
         page.evaluate("theme => { document.documentElement.dataset.theme = theme }", theme)
         if not page.evaluate("() => 'axe' in window"):
             page.evaluate(AXE.read_text())
-        found = page.evaluate("within => axe.run(within, { preload: false })", within)
+        options = {"preload": False, "rules": {"target-size": {"enabled": True}}}  # of WCAG 2.2
+        found = page.evaluate("([within, options]) => axe.run(within, options)", [within, options])
         return [
             (violation["id"], node["html"][:200])
             for violation in found["violations"]

@@ -13,7 +13,7 @@ import nbformat
 import numpy as np
 import pytest
 
-from reproduce import checksums, results
+from reproduce import checksums, results, steps
 from vmc_lib import data, photos
 from vmc_lib.show import check, questions
 
@@ -116,6 +116,42 @@ def test_a_read_only_checkout_is_enough(tmp_path):
     for path in (copy, *copy.rglob("*")):
         path.chmod(path.stat().st_mode | 0o200)
     assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize("name", ["kept.npz", "kept.json"])
+def test_a_full_disk_leaves_what_was_there(tmp_path, name):
+    file = tmp_path / name
+    steps.write(file, lambda: {"rows": [1, 2]})
+    before = file.read_bytes()
+    noise = np.random.default_rng(0).random(9999).tolist()
+    resource = pytest.importorskip("resource", reason="NOT TESTED: no limits on this system")
+    least, most = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (1000, most))  # no file may become longer
+    try:
+        with pytest.raises(OSError, match=r"File too large|No space left"):
+            steps.write(file, lambda: {"rows": noise})
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (least, most))
+    assert file.read_bytes() == before
+    assert list(tmp_path.iterdir()) == [file]
+
+
+def test_an_installation_broken_off_is_taken_up_again(tmp_path):
+    for name in ("Makefile", "requirements.txt", "constraints.txt", "pyproject.toml"):
+        shutil.copy(ROOT / name, tmp_path)
+    python = tmp_path / "python"  # it makes an environment whose pip only ends as it is told
+    pip = "#!/bin/sh\\nexit $PIP_ENDS\\n"
+    python.write_text(
+        f"#!/bin/sh\n[ $1 = -c ] || {{ mkdir -p .venv/bin; printf '{pip}' >.venv/bin/pip; "
+        "chmod +x .venv/bin/pip; }\n"
+    )
+    python.chmod(0o755)
+    for ends in (130, 0):  # Ctrl-C, then once more
+        told = os.environ | {"PIP_ENDS": str(ends)}
+        command = ["make", ".venv/.ready", f"PYTHON={python}"]
+        done = subprocess.run(command, cwd=tmp_path, env=told, capture_output=True)
+        assert (done.returncode == 0) == (ends == 0)
+        assert (tmp_path / ".venv/.ready").exists() == (ends == 0)
 
 
 @pytest.mark.parametrize("path", CHAPTERS, ids=lambda path: path.stem)

@@ -283,8 +283,8 @@ def test_a_plot_moves_fails_aloud_and_leaves_a_still(run_all):
     page.reload()
     ready(page)
     still = page.locator(f"#{number}-still")
-    still.wait_for(state="visible")
-    assert "Run this cell to make it move" in still.inner_text()
+    still.scroll_into_view_if_needed()
+    still.get_by_text("Run this cell to make it move").wait_for()
     assert line in still.inner_html()
     assert not page.get_by_text("model not found").first.is_visible()
 

@@ -63,8 +63,8 @@ def mend(app, pagename, templatename, context, doctree):
     """Mend the page.
 
     No script or style sheet that it has no use for (MathJax alone is 2.3 MB); no list role on what
-    is no list, and no label that hides a summary's own words; the number of an equation outside the
-    `split` that Sphinx puts around its lines.
+    is no list, no role that is out of use, and no label that hides a summary's own words; the
+    number of an equation outside the `split` that Sphinx puts around its lines.
     """
     body = context.get("body", "")
     demos = "|".join(name for name, _ in app.config.html_js_files if name not in EVERYWHERE)
@@ -82,6 +82,7 @@ def mend(app, pagename, templatename, context, doctree):
     body = re.sub(thebe, "", body, flags=re.S)
     body = re.sub(r"(\\tag\{[^}]*\})(\s*\\end\{split\})", r"\2\1", body)
     body = body.replace('<div role="list" class="citation-list">', "<div>")
+    body = body.replace(' role="doc-biblioentry"', "")
     context["body"] = body.replace('<summary aria-label="Toggle hidden content">', "<summary>")
 
 

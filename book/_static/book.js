@@ -52,3 +52,17 @@ addEventListener("DOMContentLoaded", () =>
     open(false);
     asked();
   }));
+
+/* Parts of the theme that a screen reader would meet without a name, or by another than is seen. */
+addEventListener("load", () => {
+  const side = document.querySelector(".bd-sidebar-primary");
+  side?.setAttribute("role", "navigation");
+  side?.setAttribute("aria-label", "Book");
+  document.querySelectorAll(".bd-sidebar-primary summary").forEach((summary) => {
+    const above = summary.closest("li").querySelector("a").textContent.trim();
+    summary.setAttribute("aria-label", `Pages of ${above}`);
+  });
+  document.querySelectorAll(".search-button-field").forEach((b) => b.removeAttribute("aria-label"));
+  document.querySelectorAll(".theme-switch-button").forEach((button) =>
+    button.setAttribute("aria-label", "Color mode: Light, Dark or System Settings"));
+});

@@ -4,6 +4,7 @@
 """
 
 import json
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 
@@ -25,4 +26,16 @@ def records(name, folder=FOLDER):
 def write(name, content, folder=FOLDER):
     """Write what `records` reads."""
     text = json.dumps(content, indent=1, ensure_ascii=False)
-    (Path(folder) / f"{name}.json").write_text(text + "\n")
+    with replaced(Path(folder) / f"{name}.json") as new:
+        new.write_text(text + "\n")
+
+
+@contextmanager
+def replaced(file):
+    """A path to write to: when all is written, what lies there takes the place of `file`."""
+    new = file.with_name(f"new-{file.name}")
+    try:
+        yield new
+        new.replace(file)
+    finally:
+        new.unlink(missing_ok=True)

@@ -1,0 +1,162 @@
+"""Firefox and WebKit, as the page tests need them: open a page, run a script in it, what failed.
+
+Firefox is asked as its own driver asks it (Marionette), WebKit through WebKitWebDriver; both come
+from the system: `apt install firefox-esr webkit2gtk-driver xvfb`. No network is within their reach.
+"""
+
+import json
+import os
+import shutil
+import socket
+import subprocess
+import time
+import urllib.request
+from glob import glob
+from pathlib import Path
+
+BUILT = Path(__file__).parents[1] / "_build/html"
+NOWHERE = "127.0.0.1:9"  # the proxy through which they would reach a network
+# Async, as a script may wait; what it throws becomes an error here
+WAITING = """const done = arguments[arguments.length - 1];
+(async () => {%s})().then((value) => done({ value }),
+  (error) => done({ error: `${error}` }));"""
+
+
+# What fails from the page's first line on, kept where a script of the driver's can read it
+LISTEN = """<script>
+const vmcFailed = (what) => (document.documentElement.dataset.failed =
+  (document.documentElement.dataset.failed ?? "") + `${what}\n`);
+addEventListener("error", ({ message, target }) =>
+  vmcFailed(message ?? `no ${target.src ?? target.href}`), true);
+addEventListener("unhandledrejection", (event) => vmcFailed(event.reason));
+</script>"""
+
+
+class Engine:
+    """A browser in a folder of its own; `_navigate` and `_script` are its driver's."""
+
+    def open(self, path):
+        """Open a built page, whose failures are listened to."""
+        copy = self.folder / "site/book" / path.name
+        if not copy.parent.exists():
+            copy.parent.mkdir(parents=True)
+            for name in ("_static", "_images", "searchindex.js"):
+                (self.folder / "site" / name).symlink_to(BUILT / name)
+        copy.write_text(path.read_text().replace("<head>", f"<head>{LISTEN}", 1))
+        self._navigate(copy.as_uri())
+
+    def run(self, text):
+        """What a script returns that may wait; AssertionError with what it throws."""
+        said = self._script(WAITING % text)
+        assert "error" not in said, said
+        return said.get("value")
+
+    def errors(self):
+        return self.run("return document.documentElement.dataset.failed ?? '';")
+
+    def close(self):
+        os.killpg(self.process.pid, 15)  # with all that it started
+        self.process.wait()
+
+
+class Firefox(Engine):
+    """Debian's Firefox; without a screen it has no WebGL."""
+
+    @staticmethod
+    def program():
+        return shutil.which("firefox-esr") or shutil.which("firefox")
+
+    def __init__(self, folder):
+        self.folder = folder
+        host, port = NOWHERE.split(":")
+        told = {"marionette.port": 0, "network.proxy.type": 1}
+        for kind in ("http", "ssl"):
+            told |= {f"network.proxy.{kind}": host, f"network.proxy.{kind}_port": int(port)}
+        lines = [f"user_pref({json.dumps(k)}, {json.dumps(v)});\n" for k, v in told.items()]
+        (folder / "user.js").write_text("".join(lines))
+        options = "--headless --no-remote --marionette --profile"
+        self.process = start([self.program(), *options.split(), folder], folder / "log")
+        chosen = folder / "MarionetteActivePort"
+        wait(lambda: chosen.exists() and chosen.read_text(), self.process)
+        self.line = socket.create_connection(("127.0.0.1", int(chosen.read_text())))
+        self.replies = self.line.makefile("rb")
+        self._reply()  # its greeting
+        self._ask("WebDriver:NewSession")
+        self._ask("WebDriver:SetTimeouts", script=600_000, pageLoad=600_000)
+
+    def _ask(self, name, **said):
+        message = json.dumps([0, 1, name, said]).encode()
+        self.line.sendall(b"%d:%s" % (len(message), message))
+        _, _, error, answer = self._reply()
+        assert not error, error
+        return answer.get("value")
+
+    def _reply(self):
+        length = b"".join(iter(lambda: self.replies.read(1), b":"))
+        return json.loads(self.replies.read(int(length)))
+
+    def close(self):
+        self.replies.close()
+        self.line.close()
+        super().close()
+
+    def _navigate(self, url):
+        self._ask("WebDriver:Navigate", url=url)
+
+    def _script(self, text):
+        return self._ask("WebDriver:ExecuteAsyncScript", script=text, args=[])
+
+
+class WebKit(Engine):
+    """WebKitGTK's own small browser, on a screen that is not there (Xvfb)."""
+
+    @staticmethod
+    def program():
+        browsers = glob("/usr/lib/*/webkit2gtk-4.*/MiniBrowser")
+        tools = all(map(shutil.which, ("WebKitWebDriver", "xvfb-run")))
+        return browsers[0] if browsers and tools else None
+
+    def __init__(self, folder):
+        self.folder = folder
+        with socket.socket() as free:
+            free.bind(("127.0.0.1", 0))
+            self.port = free.getsockname()[1]
+        driver = ["xvfb-run", "--auto-servernum", "WebKitWebDriver", f"--port={self.port}"]
+        self.process = start(driver, folder / "log")
+        wait(self._listens, self.process)
+        options = ["--automation", f"--proxy=http://{NOWHERE}"]
+        told = {"webkitgtk:browserOptions": {"binary": self.program(), "args": options}}
+        self.session = ""
+        self.session = "/" + self._ask("", capabilities={"alwaysMatch": told})["sessionId"]
+        self._ask("/timeouts", script=600_000, pageLoad=600_000)
+
+    def _listens(self):
+        with socket.socket() as knock:
+            return knock.connect_ex(("127.0.0.1", self.port)) == 0
+
+    def _ask(self, about, **said):
+        address = f"http://127.0.0.1:{self.port}/session{self.session}{about}"
+        told = {"Content-Type": "application/json"}
+        request = urllib.request.Request(address, json.dumps(said).encode(), told)
+        with urllib.request.urlopen(request) as reply:  # noqa: S310
+            return json.load(reply)["value"]
+
+    def _navigate(self, url):
+        self._ask("/url", url=url)
+
+    def _script(self, text):
+        return self._ask("/execute/async", script=text, args=[])
+
+
+def start(command, log):
+    """A process in a group of its own."""
+    with open(log, "w") as said:
+        return subprocess.Popen(
+            command, stdout=said, stderr=said, start_new_session=True, env=os.environ
+        )
+
+
+def wait(ready, process):
+    while not ready():
+        assert process.poll() is None, process.args
+        time.sleep(0.05)

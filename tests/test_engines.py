@@ -1,0 +1,59 @@
+"""The chapters in the two other engines: they open offline, their demos move, nothing fails."""
+
+import re
+
+import pytest
+
+from tests import browser
+from tests.engines import Firefox, WebKit
+from tests.test_pages import CHAPTERS
+
+pytestmark = pytest.mark.browser
+DEMOS = [path for path in CHAPTERS if path.stem[0].isdigit()]
+
+# Moves the first control of every demo that it can move; returns those that showed nothing new.
+IDLE = """
+  await window.MathJax?.startup?.promise;
+  const demos = [...document.querySelectorAll(".vmc-demo:has(> script)")];
+  while (demos.some((demo) => !("ready" in demo.dataset))) await new Promise(requestAnimationFrame);
+  return demos.filter((demo) => {
+    const slider = demo.querySelector("input[data-texts]");
+    if (!slider || demo.querySelector(".vmc-scene")) return false;
+    const pictures = demo.querySelector(".vmc-pictures"), before = pictures.innerHTML;
+    const moved = [...Array(+slider.max + 1).keys()].some((place) => {
+      slider.value = place;
+      slider.dispatchEvent(new Event("input", { bubbles: true }));
+      return pictures.innerHTML !== before;
+    });
+    return !moved;
+  }).map((demo) => demo.id);"""
+UNSET = """
+  return [...document.querySelectorAll(".math")]
+    .filter((one) => !one.querySelector("mjx-container")).map((one) => one.textContent);"""
+
+
+@pytest.fixture(scope="module", params=[Firefox, WebKit], ids=["Firefox", "WebKit"])
+def engine(request, tmp_path_factory):
+    if not request.param.program():
+        pytest.skip(browser.NOT_TESTED.format(request.param.__name__))
+    engine = request.param(tmp_path_factory.mktemp("engine"))
+    yield engine
+    engine.close()
+
+
+@pytest.mark.parametrize("path", DEMOS, ids=lambda path: path.stem)
+def test_a_chapter_opens_offline_and_its_demos_move(engine, path):
+    engine.open(path)
+    assert engine.run(IDLE) == []
+    assert engine.run(UNSET) == []
+    assert engine.errors() == ""
+
+
+def test_what_fails_is_heard(engine, tmp_path):
+    page = tmp_path / "book/page.html"
+    page.parent.mkdir()
+    page.write_text("<html><head></head><img src='nowhere.png'><script>throw 'aloud'</script>")
+    engine.open(page)
+    thrown, missing = engine.errors().splitlines()
+    assert re.search("aloud|Script error", thrown)  # WebKit tells no more of a file's script
+    assert "nowhere.png" in missing
