@@ -7,7 +7,7 @@ The answers ship; the photos do not, but the step `fresh photos` renders them an
 
 import numpy as np
 
-from reproduce import results
+from reproduce import recognition, results
 from reproduce.detector_training import examples
 from reproduce.intervals import wilson
 from reproduce.localisation import TRAININGS, classifiers, hits
@@ -79,6 +79,16 @@ def make(exam, folder=photos.FOLDER, trainings=TRAININGS, seeds=NETWORK_SEEDS, p
             named = counts[:, j, SPLITS.index("test"), :3].tolist()
             found[name, seed] = dict(zip(photos.LEVELS, named, strict=True))
     return list(found.items())
+
+
+def names(exam):
+    """What `results/fresh_names.npz` holds: `recognition.probabilities` for the second hundred."""
+    kept, learnt = {}, recognition.load()
+    for level in photos.LEVELS:
+        shots = [shot for shot in photos.load(level, "test", exam) if shot.seed[-1] >= FRESH]
+        found, kept[f"{level}/fresh"] = recognition.probabilities(level, shots, *learnt)
+        kept |= {f"{level}/{method}/fresh": seen for method, seen in found.items()}
+    return kept
 
 
 def ask_kernels(level, shots, folder=photos.FOLDER, trainings=TRAININGS):

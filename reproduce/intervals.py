@@ -1,4 +1,4 @@
-"""How sure a number is that was measured a few times: 95 % intervals of a mean and of a share."""
+"""How sure a number is that was measured a few times, and how sure a difference."""
 
 import numpy as np
 from scipy.stats import binomtest, sem, t
@@ -23,3 +23,21 @@ def wilson(right, n):
     """
     interval = binomtest(round(right), round(n)).proportion_ci(method="wilson")
     return interval.low, interval.high
+
+
+def mcnemar(one, other):
+    """Of two methods' answers, (n,) each, right or not: only one right, only the other right, p.
+
+    If neither is better, each wins about half of the cases on which they differ (McNemar 1947).
+    """
+    wins, losses = int((one & ~other).sum()), int((other & ~one).sum())
+    return wins, losses, binomtest(wins, wins + losses).pvalue if wins + losses else 1.0
+
+
+def holm(chances):
+    """Chances (n,) of many tests, corrected for their number (Holm 1979)."""
+    order = np.argsort(chances)
+    left = len(chances) - np.arange(len(chances))
+    corrected = np.empty(len(chances))
+    corrected[order] = np.minimum(np.maximum.accumulate(np.array(chances)[order] * left), 1)
+    return corrected

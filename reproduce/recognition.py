@@ -61,9 +61,9 @@ def load():
     return learnt, linear
 
 
-def probabilities(level, split, learnt, linear):
-    """Each method's probabilities (n,) for the true boxes of a level and split, and the labels."""
-    crops, shuttlecock = crops_of(photos.load(level, split))
+def probabilities(level, shots, learnt, linear):
+    """Each method's probabilities (n,) for the true boxes in photos of a level, and the labels."""
+    crops, shuttlecock = crops_of(shots)
     found = features(crops, learnt)
     return {m: linear[level, m].probability(found[m]) for m in METHODS}, shuttlecock
 
@@ -75,16 +75,25 @@ def table_3(level):
     """
     table = {method: {} for method in METHODS}
     for key, split in (("in_sample", "train"), ("held_out", "test")):
-        found, shuttlecock = probabilities(level, split, *load())
+        found, shuttlecock = probabilities(level, photos.load(level, split), *load())
         for method, probability in found.items():
             table[method][key] = tally(probability, shuttlecock)
     return table
 
 
 def verdicts(level, split):
-    """What `probabilities` found when the file was made: finding it takes a while."""
-    kept = arrays("recognition")
+    """What `probabilities` found when the file was made: finding it takes a while.
+
+    The split "fresh" is of the test photos that were rendered when all was settled.
+    """
+    kept = arrays("fresh_names" if split == "fresh" else "recognition")
     return {m: kept[f"{level}/{m}/{split}"] for m in METHODS}, kept[f"{level}/{split}"]
+
+
+def named_right(split):
+    """Which true boxes of all levels each method names right: (n,) by method."""
+    found = [verdicts(level, split) for level in photos.LEVELS]
+    return {m: np.hstack([(seen[m] > 0.5) == truth for seen, truth in found]) for m in METHODS}
 
 
 def make(folder=photos.FOLDER, prototypes=250):

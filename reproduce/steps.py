@@ -29,7 +29,7 @@ from reproduce import (
     variations,
     wide_training,
 )
-from reproduce.peers import optimal
+from reproduce.peers import cerebella, optimal
 from reproduce.whole_arm import experiment, habits, plant
 from vmc_lib import data
 
@@ -124,6 +124,12 @@ STEPS = (
     Step(optimal.make, RESULTS / "optimal.npz", f"templates {ARM}", 3),
     Step(movements.make, RESULTS / "movements.json", f"templates {ARM} vmc_lib/cerebellum", 10),
     Step(
+        cerebella.make,
+        RESULTS / "cerebella.json",
+        f"templates {ARM} vmc_lib/cerebellum reproduce/movements.py",
+        5,
+    ),
+    Step(
         feedback.make,
         RESULTS / "feedback.json",
         f"templates {ARM} vmc_lib/cerebellum reproduce/movements.py",
@@ -159,17 +165,25 @@ STEPS = (
         "sheet detectors localisers recogniser photographs vmc_lib",
     ),
     Step(
-        ledger.make,
-        RESULTS / "ledger.json",
-        "localisation recognition variations movements optimal vmc_lib reproduce/ledger "
-        "reproduce/trial.py reproduce/space.py reproduce/second_plant.py reproduce/gabor.py",
-        8,
-    ),
-    Step(
         f'{RENDER} --only "*/test" --first 40 --count 200 --folder {FRESH}',
         FRESH,
         minutes=40,
         needs="mitsuba and LLVM 19",
+    ),
+    Step(
+        partial(fresh_test_set.names, FRESH),
+        RESULTS / "fresh_names.npz",
+        f"recognition {WHAT} reproduce/peers",
+        5,
+        needs="fresh_photos",
+    ),
+    Step(
+        ledger.make,
+        RESULTS / "ledger.json",
+        "localisation recognition fresh_names variations movements optimal vmc_lib "
+        "reproduce/ledger reproduce/trial.py reproduce/space.py reproduce/second_plant.py "
+        "reproduce/gabor.py",
+        8,
     ),
     Step(
         partial(fresh_test_set.make, FRESH),

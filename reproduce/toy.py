@@ -26,7 +26,7 @@ from reproduce import (
     variations,
     wide_training,
 )
-from reproduce.peers import optimal
+from reproduce.peers import cerebella, optimal
 from reproduce.progress import run
 from reproduce.steps import STEPS, write
 from reproduce.whole_arm import experiment, habits
@@ -70,9 +70,11 @@ def steps(folder):
         "templates": partial(training.templates, [0.16]),
         "localisation": partial(localisation.make, few, recipes, trainings=1),
         "recognition": partial(recognition.make, named, prototypes=20),
+        "fresh_names": partial(fresh_test_set.names, fresh),
         "variations": partial(variations.make, [(6, 0)], named, PATCHES),
         "optimal": partial(optimal.make, optimal.TARGETS[12:13]),
         "movements": partial(movements.make, experiments, seeds=[0]),
+        "cerebella": partial(cerebella.make, seeds=[0], movements=(2, 4), held_out=4),
         "feedback": partial(feedback.make, watched, seeds=[0]),
         "fresh_test_set": partial(
             fresh_test_set.make, fresh, named, trainings=1, seeds=[0], patches=PATCHES

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from reproduce.intervals import student, wilson
+from reproduce.intervals import holm, mcnemar, student, wilson
 
 
 def test_student_agrees_with_scipy():
@@ -36,3 +36,16 @@ def test_wilson_by_its_formula(right, n):
 
 def test_counts_may_be_means_over_trainings():
     assert wilson(37.4, 40) == wilson(37, 40)
+
+
+def test_mcnemar_counts_only_where_two_differ():
+    one = np.array([True] * 9 + [False] * 3 + [True] * 50)
+    other = np.array([False] * 9 + [True] * 3 + [True] * 50)
+    assert mcnemar(one, other) == (9, 3, stats.binomtest(9, 12).pvalue)
+    assert mcnemar(one, one) == (0, 0, 1.0)
+
+
+def test_holm_by_hand():
+    """The smallest of three times three, the next times two, none below one before it."""
+    np.testing.assert_allclose(holm([0.04, 0.01, 0.03]), [0.06, 0.03, 0.06])
+    assert holm([0.9, 0.8]).max() == 1

@@ -3,7 +3,16 @@ import pytest
 import torch
 
 from reproduce.peers.hmax import c1, draw_prototypes, hmax, s1
-from reproduce.recognition import METHODS, load, precision_recall, probabilities, tally, verdicts
+from reproduce.recognition import (
+    METHODS,
+    load,
+    named_right,
+    precision_recall,
+    probabilities,
+    tally,
+    verdicts,
+)
+from vmc_lib import photos
 
 
 def test_counts_by_hand():
@@ -15,11 +24,15 @@ def test_counts_by_hand():
 
 def test_what_ships_is_what_the_shipped_weights_say():
     learnt, linear = load()
-    found, truth = probabilities("rig", "validation", learnt, linear)
+    found, truth = probabilities("rig", photos.load("rig", "validation"), learnt, linear)
     kept, kept_truth = verdicts("rig", "validation")
     assert (truth == kept_truth).all()
     for method in METHODS:
         assert found[method] == pytest.approx(kept[method], abs=1e-3)
+
+
+def test_every_method_was_put_to_both_things_in_a_hundred_fresh_photos_a_level():
+    assert {len(right) for right in named_right("fresh").values()} == {2 * 100 * len(photos.LEVELS)}
 
 
 def test_s1_answers_to_direction_not_contrast():

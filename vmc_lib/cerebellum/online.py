@@ -123,9 +123,15 @@ class AimCorrection:
         for first in range(0, len(plan.target), together):
             some = plan[first : first + together]
             aim = self.aim(some)
-            reached = self._at(some, aim).reached()
-            self.cells.partial_fit(*_lessons(replace(some, target=reached), aim - reached))
+            self.cells.partial_fit(*self.lessons(some, aim, self._at(some, aim).reached()))
         return self
+
+    def lessons(self, plan: Plan, aim, reached):
+        """What movements teach: mossy fibres (B, 4), and how far beyond to aim there, (B, 2).
+
+        By hindsight: each aim was right for the place that its movement `reached`.
+        """
+        return _lessons(replace(plan, target=reached), aim - reached)
 
     def _at(self, plan, aim):
         return plan.with_weights(smooth_weights(aim, plan.points))

@@ -1,0 +1,227 @@
+"""Peers of the granule cells: other ways to learn where to aim, all practising the same movements.
+
+Every one of them plans with the same exact weights, senses the same `mossy_fibres` and begins with
+what the templates teach. Those of `BY_HINDSIGHT` hold the aim for right at the place where the hand
+ended, as ours does. Two learn from the error at the target instead: feedback-error learning takes
+it as it is (Kawato & Gomi 1992), a distal teacher through a model of what an aim leads to
+(Jordan & Rumelhart 1992).
+
+What each must be told was chosen with the seeds 100 to 102, among 2 to 12 neighbours, 10 or 30
+hidden units with a penalty of 1e-4 to 1, and for the delta rule widths of .02 to .08 m and rates
+of .02 to .4.
+"""
+
+import warnings
+from dataclasses import replace
+from functools import partial
+from time import process_time
+
+import numpy as np
+from sklearn.base import BaseEstimator, RegressorMixin, clone
+from sklearn.compose import TransformedTargetRegressor
+from sklearn.exceptions import ConvergenceWarning
+from sklearn.linear_model import LinearRegression
+from sklearn.neighbors import KNeighborsRegressor
+from sklearn.neural_network import MLPRegressor
+from sklearn.pipeline import make_pipeline
+from sklearn.preprocessing import StandardScaler
+
+from reproduce import results
+from reproduce.movements import SEEDS, repeat
+from vmc_lib.arm.muscle import noisy
+from vmc_lib.cerebellum.online import AimCorrection, GranuleCells, mossy_fibres
+from vmc_lib.motor.planning import draw_targets, plan
+from vmc_lib.motor.templates import load, reach
+
+MOVEMENTS = (25, 50, 100, 250)
+NOISE = 0.2  # of every excitation's size, fresh in every step
+SMALL = 0.001  # m: over so much a forward model is asked for its slope
+
+
+class Remembering(RegressorMixin, BaseEstimator):
+    """Any regression, fitted anew to all lessons so far."""
+
+    def __init__(self, regression):
+        self.regression = regression
+
+    def fit(self, X, y):
+        """Forget everything, learn y (n, k) at X (n, d)."""
+        self.lessons_ = []
+        return self.partial_fit(X, y)
+
+    def partial_fit(self, X, y):
+        """Learn these lessons as well."""
+        self.lessons_.append((X, y))
+        every_x, every_y = map(np.concatenate, zip(*self.lessons_, strict=True))
+        with warnings.catch_warnings():  # a perceptron is stopped after so many rounds, and says so
+            warnings.simplefilter("ignore", ConvergenceWarning)
+            self.fitted_ = clone(self.regression).fit(every_x, every_y)
+        return self
+
+    def predict(self, X):
+        """The answers (n, k) at X (n, d)."""
+        return self.fitted_.predict(X)
+
+
+class LocalCells(GranuleCells):
+    """The same granule cells, learnt by the delta rule, lesson by lesson.
+
+    A Purkinje weight changes by its own line's activity times the error, a `rate` of it, and needs
+    to know nothing of other weights: no matrix is inverted (Albus 1971).
+    """
+
+    def __init__(self, width=0.03, cells=600, rate=0.2, random_state=0):
+        super().__init__(width, cells, random_state=random_state)
+        self.rate = rate
+
+    def fit(self, X, y):
+        """Forget everything, place the cells about X (n, d), learn y (n, k)."""
+        self.purkinje_ = np.zeros((self.cells, y.shape[1]))
+        super().fit(X, y)
+        del self.gram_, self.climbing_  # what it has no use for
+        return self
+
+    def partial_fit(self, X, y):
+        """Learn these lessons as well, one after the other."""
+        for active, answer in zip(self.excite(X), y, strict=True):
+            error = answer - active @ self.purkinje_
+            self.purkinje_ = self.purkinje_ + self.rate * np.outer(active, error)
+        return self
+
+
+class FeedbackError(AimCorrection):
+    """Aim further by the error that was seen, at the target that was missed."""
+
+    def lessons(self, plan, aim, reached):
+        """What the climbing fibre carries is the error itself."""
+        return mossy_fibres(plan), aim + (plan.target - reached) - plan.target
+
+
+class DistalTeacher(AimCorrection):
+    """Learn what an aim leads to, and ask this model how to change the aim against the error."""
+
+    def __init__(self, template_set, cells):
+        super().__init__(template_set, cells)
+        self.model = GranuleCells()
+
+    def lessons(self, plan, aim, reached):
+        """The error, sent back through the model's slopes (its transposed Jacobian)."""
+        self.model.partial_fit(self._inputs(plan, aim), reached - aim)
+        ends = self._foreseen(plan, aim)
+        slopes = [(self._foreseen(plan, aim + step) - ends) / SMALL for step in SMALL * np.eye(2)]
+        error = plan.target - reached
+        change = np.stack([(slope * error).sum(axis=-1) for slope in slopes], axis=-1)
+        return mossy_fibres(plan), aim + change - plan.target
+
+    def _foreseen(self, plan, aim):
+        return aim + self.model.predict(self._inputs(plan, aim))
+
+    def _inputs(self, plan, aim):
+        return np.concatenate([aim, aim - plan.points.mean(axis=-2)], axis=-1)
+
+
+def perceptron(hidden, penalty):
+    """A small multi-layer perceptron, trained to the end on all lessons so far."""
+    network = MLPRegressor(
+        hidden_layer_sizes=(hidden,),
+        activation="tanh",
+        solver="lbfgs",
+        alpha=penalty,
+        max_iter=400,
+        random_state=0,
+    )
+    scaled = make_pipeline(StandardScaler(), network)
+    return Remembering(TransformedTargetRegressor(scaled, transformer=StandardScaler()))
+
+
+def interpolation(neighbours):
+    """What the nearest lessons taught, the nearer the more."""
+    return Remembering(KNeighborsRegressor(neighbours, weights="distance"))
+
+
+BY_HINDSIGHT = {
+    "granule cells (ours)": GranuleCells,
+    "their delta rule": LocalCells,
+    "linear rule": partial(Remembering, LinearRegression()),
+    "interpolation": partial(interpolation, 2),
+    "perceptron": partial(perceptron, 30, 0.1),
+}
+LEARNERS = {
+    **{name: (AimCorrection, cells) for name, cells in BY_HINDSIGHT.items()},
+    "feedback error": (FeedbackError, LocalCells),
+    "distal teacher": (DistalTeacher, LocalCells),
+}
+
+
+def make(seeds=SEEDS, **size):
+    """What `results/cerebella.json` holds: each learner's `compare`, with every seed."""
+    return {
+        name: {
+            key: np.round(values, 4).tolist()
+            for key, values in repeat(partial(compare, *learner, **size), seeds).items()
+        }
+        for name, learner in LEARNERS.items()
+    }
+
+
+def measured():
+    """What shipped: learner -> name -> one entry for each seed."""
+    kept = results.records("cerebella")
+    return {learner: {k: np.array(v) for k, v in rows.items()} for learner, rows in kept.items()}
+
+
+def compare(kind, cells, seed, movements=MOVEMENTS, held_out=200):
+    """A learner's shares of habit's error that are left after so many `movements`, by name.
+
+    "seconds" are the processor's, while the last of them were practised; "numbers" is how many the
+    learner remembers then.
+    """
+    pupil, seconds, shares = practise(kind, cells, seed, movements, held_out)
+    noisy_shares = practise(kind, cells, seed, movements, held_out, NOISE)[-1]
+    return {
+        "in-sample": shares[:, 0],
+        "held-out": shares[:, 1],
+        "held-out, noisy arm": noisy_shares[:, 1],
+        "seconds": seconds,
+        "numbers": numbers(pupil.cells),
+    }
+
+
+def practise(kind, cells, seed, movements, held_out, noise=0.0):
+    """A learner that has practised, the seconds it took, and the shares of habit's error left.
+
+    Those are in-sample and held-out, (len(movements), 2).
+    """
+    rng, template_set = np.random.default_rng(seed), load()
+    if noise:
+        unsteady = partial(_unsteady, share=noise, rng=np.random.default_rng(seed))
+        template_set = replace(template_set, reach=unsteady)
+    unseen, practised = (
+        plan(draw_targets(template_set, n, rng), template_set) for n in (held_out, movements[-1])
+    )
+    pupil, shares = kind(template_set, cells()), []
+    for first, last in zip((0, *movements[:-1]), movements, strict=True):
+        start = process_time()
+        pupil.practise(practised[first:last])
+        seconds = process_time() - start
+        shares.append([_left(pupil, plans) for plans in (practised[:last], unseen)])
+    return pupil, seconds, np.array(shares)
+
+
+def numbers(cells):
+    """How many numbers a regression remembers: its arrays, or its lessons."""
+    arrays = [x for lesson in getattr(cells, "lessons_", ()) for x in lesson]
+    return sum(np.size(x) for x in (*arrays, *vars(cells).values()) if isinstance(x, np.ndarray))
+
+
+def _left(pupil, plans):
+    """The mean miss of plans that the pupil corrects, over that of habit."""
+    miss, habit = (
+        np.linalg.norm(some.reached() - some.target, axis=-1).mean()
+        for some in (pupil.correct(plans), plans)
+    )
+    return miss / habit
+
+
+def _unsteady(excitations, perturbation, share, rng):
+    return reach(noisy(excitations, share, rng), perturbation)
