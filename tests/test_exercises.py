@@ -8,6 +8,7 @@ from pathlib import Path
 import nbformat
 import numpy as np
 import pytest
+from scipy.optimize import nnls
 from sklearn.metrics import precision_score, recall_score
 
 from vmc_lib.arm import muscle
@@ -129,6 +130,11 @@ def widths(width, filter_width, block, layers):
     return found
 
 
+def least_pulls(torque, gain):
+    lazy = 1e-4 * np.eye(len(gain))
+    return nnls(np.vstack([gain, lazy]), np.append(torque, np.zeros(len(gain))))[0]
+
+
 LIBRARY = {
     "SIMILAR_FILL": fill,
     "ENERGY_OF": lambda v, h, W, b, a: machine(W, b, a).energy(v[None, None], h[None, None]).item(),
@@ -141,6 +147,7 @@ LIBRARY = {
     "NEAR_WEIGHTS": habitual_weights,
     "FAIR_VOTE": lambda rates, preferred: np.linalg.pinv(preferred) @ rates,
     "SHORTENED": lambda changes, longest: offline._capped(changes),
+    "ONE_JOINT": least_pulls,
     "ON_THE_TABLE": lambda eye, direction, height: (
         Camera(1, np.zeros(2), np.outer([0, 0, 1], direction), eye)
         .back_project(np.zeros(2), height)
@@ -195,6 +202,15 @@ def test_weights_in_a_cube_satisfy_eq_4(some):
     weights = weigh(place, corners)
     assert np.allclose(weights @ corners, place)
     assert weights.sum() == pytest.approx(1)
+
+
+@pytest.mark.parametrize("some", ["SELF_MOTION"], indirect=True)
+def test_a_self_motion_leaves_the_finger_and_all_else_is_at_right_angles(some):
+    move, (turning, jacobian) = some
+    part = move(turning, jacobian)
+    assert np.linalg.norm(part) > 0.1
+    assert np.allclose(jacobian @ part, 0)
+    assert part @ (turning - part) == pytest.approx(0)
 
 
 # ---------------------------------------------------------------- what is shown
