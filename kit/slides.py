@@ -88,9 +88,21 @@ def stacks(article):
     yield [Slide([heading, idea], aims)]
     *sections, last = article.find_all("section", recursive=False)
     for section in sections:
-        if not section.select(".exercise") and not section["id"].startswith("how-sure-are-we"):
+        _leave_out_exercises(section)
+        _heading, *told = section.find_all(recursive=False)
+        if told and not section["id"].startswith("how-sure-are-we"):
             yield cut(section)
     yield [Slide(last.find_all(recursive=False))]
+
+
+def _leave_out_exercises(section):
+    """Take out of a section its exercises, each from its text to the end of its solution."""
+    for exercise in section.select(".exercise"):
+        for part in [*exercise.find_next_siblings()]:
+            part.extract()
+            if "solution" in part.get("class", []):
+                break
+        exercise.extract()
 
 
 def cut(section):

@@ -21,7 +21,7 @@ from kit.key import key
 from kit.marks import marks
 from kit.qti import SPACE, package
 from kit.question import VARIANTS, choice, number, variants
-from kit.slides import cut
+from kit.slides import cut, stacks
 from kit.student import pieces, student
 from vmc_lib.show import predict, questions, quiz
 
@@ -304,6 +304,17 @@ def test_slides_show_every_section_and_tell_the_speaker_the_rest():
     assert question.shown[1]["class"] == ["admonition"]
     assert "".join(map(str, question.told)) == "<p>Asked: Answer.</p><p>Third.</p>"
     assert [part.get_text() for part in below.shown] == ["Below", "Fourth."]
+
+
+def test_an_exercise_leaves_its_section_to_the_slides():
+    exercise = """<div class="exercise">Do.</div><div class="cell">Yours.</div>
+      <div class="solution">So.</div>"""
+    page = f"""<section><h1>Arm</h1><p>Idea.</p>
+      <section id="pull"><h2>Pull</h2><p>Why.</p>{exercise}<p>Then.</p></section>
+      <section id="try-it"><h2>Try it</h2>{exercise}{exercise}</section>
+      <section id="recap"><h2>Recap</h2></section></section>"""
+    _title, [pull], _recap = stacks(BeautifulSoup(page, "html.parser").section)
+    assert [part.get_text() for part in pull.shown + pull.told] == ["Pull", "Why.", "Then."]
 
 
 def test_every_chapter_and_every_quiz_is_on_a_slide(kit):
