@@ -6,11 +6,13 @@ async (root) => {
 
   /* The demo as it looks now: its pictures, and where its controls stand. */
   const look = async (demo) => {
-    const images = [];
-    for (const scene of demo.querySelectorAll(".vmc-scene")) {
-      await vmcScene(scene).awake();
-      images.push(vmcScene(scene).viewer.capture_image());
+    const scenes = [...demo.querySelectorAll(".vmc-scene")].map(vmcScene);
+    for (const scene of scenes) await scene.awake();
+    for (const time of demo.querySelectorAll(".vmc-clock:not([hidden]) input")) {
+      time.value = time.max; // where the movement leads
+      time.dispatchEvent(new Event("input"));
     }
+    const images = scenes.map((scene) => scene.viewer.capture_image());
     for (const input of demo.querySelectorAll("input")) input.toggleAttribute("checked", input.checked);
     for (const option of demo.querySelectorAll("option"))
       option.toggleAttribute("selected", option.selected);

@@ -17,14 +17,16 @@ from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name as canonical
 
 ROOT = Path(__file__).parents[1]
-PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+PYPROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
+PROJECT = PYPROJECT["project"]
+OPTIONAL = PROJECT["optional-dependencies"] | PYPROJECT["dependency-groups"]
 OURS = {"vmc_lib", "arm_in_page", "reproduce", "render", "bench", "book", "kit", "tests"}
 PINS = re.findall(r"^([\w.\[\]-]+)==([\w.]+)", (ROOT / "requirements.txt").read_text(), flags=re.M)
 
 
 def declared(*extras):
     """What the core and some extras ask for: name → versions."""
-    lists = [PROJECT["dependencies"], *(PROJECT["optional-dependencies"][e] for e in extras)]
+    lists = [PROJECT["dependencies"], *(OPTIONAL[e] for e in extras)]
     asked = [Requirement(line) for lines in lists for line in lines]
     return {canonical(r.name): r.specifier for r in asked if r.name != "vmc_lib"}
 
@@ -55,7 +57,8 @@ def imported(code):
 @pytest.mark.parametrize(
     ("patterns", "extras"),
     [
-        ("vmc_lib/**/*.py arm_in_page/**/*.py reproduce/**/*.py book/figures/*.py", ()),
+        ("vmc_lib/**/*.py arm_in_page/**/*.py book/figures/*.py", ()),
+        ("reproduce/**/*.py", ("derive",)),
         ("book/*.ipynb", ()),
         ("render/*.py", ("render",)),
         ("book/_ext/*.py kit/**/*.py tests/**/*.py", ("book", "test", "cluster")),

@@ -10,6 +10,7 @@ import pypdfium2
 import pypdfium2.raw as pdfium
 import pytest
 import yaml
+from bs4 import BeautifulSoup
 from pybtex.database import parse_file
 
 from kit import pdf
@@ -88,19 +89,28 @@ def test_every_page_is_printed_once():
 @pytest.mark.browser
 def test_pages_are_printed_as_one_book(chromium, tmp_path):
     """Numbered, with bookmarks and links inside; each demo in two positions, and nothing folded."""
-    names = ["book/07_muscle", "book/glossary"]
+    names = ["book/07_muscle", "book/09_planning", "book/glossary"]
     pdf.printed(chromium, ROOT / "_build/html", names, tmp_path / "book.pdf")
     with pypdfium2.PdfDocument(tmp_path / "book.pdf") as book:
         titles = [mark.get_title() for mark in book.get_toc()]
         assert "From excitation to activation" in titles
-        assert any("Glossary" in title for title in titles)
+        assert "Glossary" in titles
+        assert not {*titles} - {title for name in names for title in _headings(name)}
         texts = [page.get_textpage().get_text_bounded().split() for page in book]
         for number, words in enumerate(texts, start=1):
             assert words[-1] == str(number)
         words = [word for page in texts for word in page]
         assert "import" not in words
         assert len(re.findall(r"pulses a second (\d+)", " ".join(words))) == 2
+        moments = re.findall(r"time (\d\.\d\d) s", " ".join(words))
+        assert moments
+        assert "0.00" not in moments
         assert sum(map(_links_inside, book)) > 10
+
+
+def _headings(name):
+    page = BeautifulSoup((ROOT / f"_build/html/{name}.html").read_text(), "html.parser")
+    return [heading.get_text().removesuffix("#") for heading in page.select("h1, h2, h3")]
 
 
 def _links_inside(page):

@@ -4,6 +4,7 @@ Kept are what moves and pulls: the bodies from the collarbone on with their mass
 joints as far as the wrist, the muscles, the points and shapes that they run over. The fingers stay
 straight, the trunk is the world, and the shoulder is its origin. The shoulder blade follows more
 strictly than there: its couplings settle in 5 ms in place of 20.
+Needs `pip install --no-deps myo-sim==0.2.4`: it asks for MuJoCo 3, and works with ours.
 """
 
 from xml.etree import ElementTree
@@ -20,7 +21,7 @@ SITE, PULLEY = 3, 2  # of mujoco.mjtWrap
 
 def main():
     """Write the file."""
-    import myo_sim  # an extra: nothing else needs it
+    import myo_sim  # nothing else needs it
 
     FILE.write_text(derived(myo_sim.load_spec("myoarm_r").compile()) + "\n")
 
