@@ -337,7 +337,8 @@ def test_slides_are_shown_offline_and_their_demos_move(kit, offline, number):
     page.on("console", lambda told: told.type == "error" and failed.append(told.text))
     page.goto((kit / f"slides/session-{number}.html").as_uri())
     page.wait_for_function("() => window.Reveal?.isReady()")
-    demo = page.locator(".vmc-demo:not(:has(.vmc-scene)):has(input[type=range])").first
+    plain = ".vmc-demo:has(> .vmc-pictures):not(:has(.vmc-scene)):has(input[type=range])"
+    demo = page.locator(plain).first
     demo.evaluate("""demo => {
       const { h, v } = Reveal.getIndices(demo.closest("section"));
       Reveal.slide(h, v);
