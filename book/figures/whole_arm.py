@@ -13,6 +13,8 @@ from vmc_lib.show import COLOURS
 
 BONES = ("humerus_r", "ulna_r", "lunate_r")  # shoulder, elbow and wrist are where these begin
 VIEWS = {"from the side": (0, 1, "up (m)"), "from above": (0, 2, "to the right (m)")}
+CORNER = (0.02, 0.02, 0.3, 0.4)  # of a plot: where the target's surroundings are seen larger
+NEAR = 0.06  # m: how far they reach
 
 
 def lines(joints):
@@ -30,23 +32,35 @@ def lines(joints):
 
 
 def views(motion, moment, target):
-    """A movement at one of its moments, the finger's way so far, and the target (a green ring)."""
-    fig, *axes = panels(2, (8.2, 3.9))
+    """A movement at one of its moments, the finger's way so far, and the target (a green ring).
+
+    A figure for each view; in its corner, the target's surroundings, larger.
+    """
     bones, ways = lines(motion.joints[moment])
-    tips = np.array([lines(q)[0][-1] for q in motion.joints[: moment + 1 : 3]])
+    tips = np.array([lines(q)[0][-1] for q in [*motion.joints[:moment:3], motion.joints[moment]]])
+    away = 1000 * np.linalg.norm(tips[-1] - target)
     active = motion.activation[moment]
-    for ax, (title, (x, y, label)) in zip(axes, VIEWS.items(), strict=True):
+    shade = np.clip(0.22 + 1.6 * active, 0, 1)
+    drawn = []
+    for title, (x, y, label) in VIEWS.items():
+        fig, ax = panels(size=(4.1, 3.9))
         paths = [way[:, [x, y]] for way in ways]
         ax.plot(bones[:, x], bones[:, y], color=COLOURS["line"], lw=7, solid_capstyle="round")
-        shade = np.clip(0.22 + 1.6 * active, 0, 1)
         ax.add_collection(
             LineCollection(paths, colors=COLOURS["red"], alpha=shade, lw=0.7 + 2 * active)
         )
-        ax.plot(tips[:, x], tips[:, y], color=COLOURS["blue"], lw=1.4)
-        ax.plot(bones[-1, x], bones[-1, y], "o", ms=4, color=COLOURS["blue"])
-        ring = {"ms": 9, "mfc": "none", "mew": 1.8, "color": COLOURS["green"]}
-        ax.plot(target[x], target[y], "o", **ring)
+        near = ax.inset_axes(CORNER, xticks=[], yticks=[])
+        near.spines[:].set_visible(True)
+        for each in (ax, near):
+            each.plot(tips[:, x], tips[:, y], color=COLOURS["blue"], lw=1.4)
+            each.plot(tips[-1, x], tips[-1, y], "o", ms=4, color=COLOURS["blue"])
+            ring = {"ms": 9, "mfc": "none", "mew": 1.8, "color": COLOURS["green"]}
+            each.plot(target[x], target[y], "o", **ring)
         low, high = ((-0.4, 0.25), (0.35, -0.4))[y == 2]
         ax.set(xlim=(-0.2, 0.68), ylim=(low, high), aspect="equal")
-        ax.set(xlabel="forward (m)", ylabel=label, title=title)
-    return fig
+        ax.set(xlabel="forward (m)", ylabel=label, title=f"{title}: {away:.0f} mm away")
+        side = NEAR * np.sign(high - low)
+        near.set(xlim=(target[x] - NEAR, target[x] + NEAR))
+        near.set(ylim=(target[y] - side, target[y] + side))
+        drawn.append(fig)
+    return tuple(drawn)
