@@ -13,8 +13,8 @@ from vmc_lib.show import COLOURS
 
 BONES = ("humerus_r", "ulna_r", "lunate_r")  # shoulder, elbow and wrist are where these begin
 VIEWS = {"from the side": (0, 1, "up (m)"), "from above": (0, 2, "to the right (m)")}
-CORNER = (0.02, 0.02, 0.3, 0.4)  # of a plot: where the target's surroundings are seen larger
-NEAR = 0.06  # m: how far they reach
+CORNER = (0.02, 0.02, 0.3, 0.352)  # of a plot: a square, the target's surroundings in it
+NEAR = 0.05  # m: how far they reach
 
 
 def lines(joints):
@@ -56,7 +56,7 @@ def views(motion, moment, target):
             each.plot(tips[-1, x], tips[-1, y], "o", ms=4, color=COLOURS["blue"])
             ring = {"ms": 9, "mfc": "none", "mew": 1.8, "color": COLOURS["green"]}
             each.plot(target[x], target[y], "o", **ring)
-        low, high = ((-0.4, 0.25), (0.35, -0.4))[y == 2]
+        low, high = ((-0.45, 0.3), (0.35, -0.4))[y == 2]
         ax.set(xlim=(-0.2, 0.68), ylim=(low, high), aspect="equal")
         ax.set(xlabel="forward (m)", ylabel=label, title=f"{title}: {away:.0f} mm away")
         side = NEAR * np.sign(high - low)
