@@ -98,11 +98,11 @@ def stacks(article):
 def _leave_out_exercises(section):
     """Take out of a section its exercises, each from its text to the end of its solution."""
     for exercise in section.select(".exercise"):
-        for part in [*exercise.find_next_siblings()]:
+        solution = exercise.find_next_sibling(class_="solution")
+        while solution and exercise.next_sibling is not solution:
+            exercise.next_sibling.extract()
+        for part in filter(None, (solution, exercise)):
             part.extract()
-            if "solution" in part.get("class", []):
-                break
-        exercise.extract()
 
 
 def cut(section):

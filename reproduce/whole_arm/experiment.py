@@ -4,7 +4,6 @@ Eight memories surround a place in space, one in each octant; whatever plans and
 `vmc_lib`'s, the same as for the arm of six muscles.
 """
 
-from functools import partial
 from time import process_time
 
 import numpy as np
@@ -31,10 +30,11 @@ def octants(target, points):
     return distance.argmin(axis=-1), np.isfinite(distance.min(axis=-1)).all(axis=-1)
 
 
-def draw_targets(past, count, rng):
-    """Targets (count, 3) in the zone that the templates surround."""
+def draw_targets(*memories, count, rng):
+    """Targets (count, 3) in the zone that all these sets of memories surround."""
     drawn = rng.uniform(*INSIDE, (8 * count + 20, 3))
-    return drawn[octants(drawn, past.points)[1]][:count]
+    inside = [octants(drawn, known.points)[1] for known in memories]
+    return drawn[np.all(inside, axis=0)][:count]
 
 
 def planned(targets, past, **rule):
@@ -47,20 +47,26 @@ def missed(plans):
     return np.linalg.norm(plans.target - plans.reached(), axis=-1)
 
 
-def habitual(past, seed, count=COUNT):
-    """One draw: the mean miss over the mean reach, by name; what corrections leave of it."""
-    targets = draw_targets(past, count, np.random.default_rng(seed))
-    habit, reach = planned(targets, past), np.linalg.norm(targets, axis=-1).mean()
-    none, *left = broyden_calibration(habit).error.mean(axis=1)
+def habitual(past, targets):
+    """The mean miss over the mean reach, by name; what corrections leave of it.
+
+    A reach is as long as its target (n, 3) is far from the shoulder; the way is what is moved.
+    """
+    reach = np.linalg.norm(targets, axis=-1).mean()
+    way = np.linalg.norm(targets - plant.tip(habits.START)[0], axis=-1).mean()
+    none, *left = broyden_calibration(planned(targets, past)).error.mean(axis=1)
     exact = missed(planned(targets, past, rule=exact_weights)).mean()
+    over = {"planned / reach": none / reach, "planned / way": none / way}
     shares = {f"{k} corrections": miss / none for k, miss in enumerate(left, start=1)}
-    return {"planned / reach": none / reach, "Eq. 4 / reach": exact / reach, **shares}
+    return {**over, "Eq. 4 / reach": exact / reach, **shares}
 
 
 def practised(past, seed, count=COUNT, width=WIDTH):
     """One draw: what online calibration leaves of the planned miss, in sample and held out."""
     rng = np.random.default_rng(100 + seed)
-    new, seen = (planned(draw_targets(past, n, rng), past) for n in (count, LESSONS * count))
+    new, seen = (
+        planned(draw_targets(past, count=n, rng=rng), past) for n in (count, LESSONS * count)
+    )
     spots = octants(rng.uniform(*ZONE, (4000, 3)), past.points)
     around = np.unique(spots[0][spots[1]], axis=0)
     aims = AimCorrection(past, GranuleCells(width), around).practise(seen)
@@ -75,7 +81,7 @@ def optimised(past, nerves, seed, count=COUNT):
 
     The optimiser's miss over the reach, at once and aimed again; seconds that a plan takes.
     """
-    targets = draw_targets(past, count, np.random.default_rng(seed))
+    targets = draw_targets(past, count=count, rng=np.random.default_rng(seed))
     began = process_time()
     told = np.array([nerves.commands(habits.posture(goal)) for goal in targets])
     spent = process_time() - began
@@ -109,35 +115,43 @@ def any_posture(goals, rng):
     return habits.EASY + rng.uniform(-SPARE, SPARE, (len(goals), len(habits.EASY)))
 
 
-def drawn(experiment, *given, seeds=SEEDS, **size):
-    """What an experiment of one draw finds in all of them, by name: lists."""
-    rows = [experiment(*given, seed, **size) for seed in seeds]
-    return {name: [float(row[name]) for row in rows] for name in rows[0]}
-
-
-def make(sides=(3, 4), shared=(6, 14, 34), past=None, **draws):
+def make(sides=(3, 4), shared=(6, 14, 34), past=None, seeds=SEEDS, **size):
     """What ships: every experiment's numbers, by name; each a list over draws.
 
-    `past` are the densest memories, by default those that ship.
+    `past` are the densest memories, by default those that ship. All memories are asked for the same
+    targets; those of any posture are made anew for every draw.
     """
     past, own, few = past or habits.load(), habits.sharing(), grid(sides[0])
-    apart = any_posture(few, np.random.default_rng(0))
-    sets = {f"{side**3} memories": partial(habits.remember, own, grid(side)) for side in sides}
-    sets |= {
-        f"{count} commands": partial(habits.remember, habits.sharing(count), few)
-        for count in shared
-    }
-    sets["any posture"] = partial(habits.remember, own, few, apart)
-    sets[f"{len(past.points)} memories"] = lambda: past
-    found = {"real time": seconds_per_second(own)}
-    for name, remembered in sets.items():
-        known = remembered()
-        found[name] = {"covered": covered(known)}
-        if found[name]["covered"] > 0.5:
-            found[name] |= drawn(habitual, known, **draws)
-    found["online"] = drawn(practised, past, **draws)
-    found["afresh"] = drawn(optimised, past, own, **draws)
+    sets = {f"{side**3} memories": habits.remember(own, grid(side)) for side in sides}
+    for count in shared:
+        sets[f"{count} commands"] = habits.remember(habits.sharing(count), few)
+    sets[f"{len(past.points)} memories"] = past
+    found = {name: {"covered": covered(known)} for name, known in sets.items()}
+    known = {name: memories for name, memories in sets.items() if found[name]["covered"] > 0.5}
+    draws = [compared(known, own, few, seed, **size) for seed in seeds]
+    for name, row in joined(draws).items():
+        found.setdefault(name, {}).update(joined(row))
+    found["real time"] = seconds_per_second(own)
+    found["online"] = joined([practised(past, seed, **size) for seed in seeds])
+    found["afresh"] = joined([optimised(past, own, seed, **size) for seed in seeds])
     return found
+
+
+def compared(sets, nerves, goals, seed, count=COUNT):
+    """One draw: what `habitual` finds of all these memories, and of those of any posture."""
+    rng = np.random.default_rng(seed)
+    apart = habits.remember(nerves, goals, any_posture(goals, np.random.default_rng((seed, 1))))
+    sets = {**sets, "any posture": apart}
+    targets = draw_targets(*sets.values(), count=count, rng=rng)
+    away = np.linalg.norm(apart.points - goals, axis=-1).mean()
+    rows = {name: habitual(known, targets) for name, known in sets.items()}
+    rows["any posture"] |= {"covered": covered(apart), "from their goals": away}
+    return rows
+
+
+def joined(rows):
+    """What several draws found, by name: lists."""
+    return {name: [row[name] for row in rows] for name in rows[0]}
 
 
 def measured():

@@ -68,7 +68,6 @@ def test_a_batch_is_its_movements_one_by_one():
     excitations = random_excitations(6, 200, np.random.default_rng(1))
     batch = simulate(excitations.reshape(2, 3, 200, 6), START)
     assert batch.hand.shape == (2, 3, 201, 3)
-    assert batch.end_speed.shape == (2, 3)
     alone = simulate(excitations[4], START)
     np.testing.assert_allclose(batch.q[1, 1], alone.q, atol=1e-12)
     np.testing.assert_allclose(batch.reached[1, 1], alone.hand[-1, :2], atol=1e-12)

@@ -3,15 +3,16 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from reproduce.peers import cerebella
 from reproduce.peers.cerebella import (
     BY_HINDSIGHT,
     LEARNERS,
+    MOVEMENTS,
     DistalTeacher,
     FeedbackError,
     LocalCells,
     compare,
     measured,
+    numbers,
 )
 from vmc_lib.cerebellum.online import AimCorrection, GranuleCells, mossy_fibres
 from vmc_lib.motor.planning import draw_targets, plan
@@ -70,18 +71,19 @@ def test_a_distal_teacher_sends_the_error_back_through_its_models_slopes(some):
 
 def test_a_peer_remembers_its_lessons_and_ours_its_arrays(some):
     x, y = mossy_fibres(some), some.target
-    assert cerebella.numbers(BY_HINDSIGHT["linear rule"]().fit(x, y)) == x.size + y.size
-    cells = GranuleCells(cells=30).fit(x, y)
-    assert cerebella.numbers(cells) == 30 * (4 + 30 + 2 + 2)
+    linear, ours = BY_HINDSIGHT["linear rule"]().fit(x, y), GranuleCells(cells=30).fit(x, y)
+    assert numbers(SimpleNamespace(cells=linear)) == x.size + y.size
+    assert numbers(SimpleNamespace(cells=ours)) == 30 * (4 + 30 + 2 + 2)
+    both = SimpleNamespace(cells=LocalCells(cells=30).fit(x, y), model=ours)  # a distal teacher
+    assert numbers(both) == 30 * (4 + 2) + 30 * (4 + 30 + 2 + 2)
 
 
-def test_what_ships_is_what_is_measured():
-    """The quickest peer, one seed, a few movements fewer: the same numbers again."""
+@pytest.mark.parametrize("name", ["linear rule", "feedback error"])
+def test_what_ships_is_what_is_measured(name):
+    """One seed, fewer movements: the same numbers again, on the calm arm and on the noisy one."""
     kept = measured()
     assert list(kept) == list(LEARNERS)
-    found = compare(*LEARNERS["linear rule"], seed=0, movements=(25, 50))
-    for name in ("in-sample", "held-out", "held-out, noisy arm"):
-        assert kept["linear rule"][name].shape == (6, len(cerebella.MOVEMENTS))
-    np.testing.assert_allclose(
-        found["held-out"][0], kept["linear rule"]["held-out"][0, 0], atol=2e-4
-    )
+    assert all(rows["held-out"].shape == (6, len(MOVEMENTS)) for rows in kept.values())
+    found = compare(*LEARNERS[name], seed=0, movements=MOVEMENTS[:2])
+    for key in ("in-sample", "held-out", "held-out, noisy arm"):
+        np.testing.assert_allclose(found[key], kept[name][key][0, :2], atol=2e-4)

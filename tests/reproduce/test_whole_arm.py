@@ -134,7 +134,7 @@ def test_octants_are_told_apart():
 def test_the_same_functions_plan_and_correct_it():
     """Three targets of a fresh draw: the plan is near, two corrections nearer."""
     past = habits.load()
-    targets = experiment.draw_targets(past, 3, np.random.default_rng(77))
+    targets = experiment.draw_targets(past, count=3, rng=np.random.default_rng(77))
     tried = broyden_calibration(experiment.planned(targets, past)).error.mean(axis=1)
     assert tried[0] < 0.1 * np.linalg.norm(targets, axis=1).mean()
     assert tried[2] < 0.5 * tried[0]
@@ -147,3 +147,20 @@ def test_what_ships_meets_its_bars():
     assert dense["planned / reach"].size * experiment.COUNT >= 100
     assert dense["planned / reach"].mean() <= 0.10
     assert dense["2 corrections"].mean() <= 0.25
+
+
+def test_what_ships_is_what_is_measured():
+    """The cheapest of its experiments again, one draw."""
+    found = experiment.practised(habits.load(), 0)
+    for name, left in found.items():
+        assert left == pytest.approx(experiment.measured()["online"][name][0], rel=1e-3)
+
+
+def test_a_miss_is_told_beside_the_reach_and_beside_the_way():
+    """Both shares are of the same miss, and the finger starts nearer to its targets."""
+    targets = experiment.draw_targets(habits.load(), count=2, rng=np.random.default_rng(5))
+    found = experiment.habitual(habits.load(), targets)
+    way = np.linalg.norm(targets - plant.tip(habits.START)[0], axis=1).mean()
+    longer = np.linalg.norm(targets, axis=1).mean() / way
+    assert found["planned / way"] == pytest.approx(longer * found["planned / reach"])
+    assert longer > 2

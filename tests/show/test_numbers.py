@@ -55,9 +55,17 @@ def test_long_curves_and_many_are_cut_short():
     for _ in range(SERIES + 3):
         ax.plot(np.arange(1000))
     rows = told(fig)
-    assert len(rows) == 1 + SERIES * POINTS
+    assert len(rows) == 1 + SERIES * POINTS + 1
+    assert rows[-1] == ("and 3 more", "", "")
     assert {rows[1][1], rows[POINTS][1]} == {"0", "999"}
 
 
 def test_what_is_no_figure_has_no_numbers():
     assert numbers((np.eye(3), "<p></p>")) == []
+
+
+def test_dots_and_bars_are_told_one_by_one():
+    fig, ax = plt.subplots()
+    ax.plot(range(20), range(20), "o")
+    ax.bar(range(15), range(15))
+    assert len(told(fig)) == 1 + 20 + 15

@@ -57,11 +57,6 @@ class Motion:
         """Where in the arm's plane the wrist ended: p = (x, y), (…, 2), m."""
         return hand(self.q[..., -1, :])[..., :2]
 
-    @property
-    def end_speed(self):
-        """The faster joint's speed at the end, (…), rad/s."""
-        return np.abs(self.velocity[..., -1, :]).max(axis=-1)
-
 
 def simulate(
     excitations,

@@ -111,7 +111,7 @@ class AimCorrection:
         return self._at(plan, self.aim(plan))
 
     def aim(self, plan: Plan):
-        """Where to aim, (…, 2), for the hand to end on the plan's target."""
+        """Where to aim, (…, d), for the hand to end on the plan's target."""
         shift = self.cells.predict(_rows(mossy_fibres(plan)))
         return plan.target + shift.reshape(plan.target.shape)
 
@@ -127,7 +127,7 @@ class AimCorrection:
         return self
 
     def lessons(self, plan: Plan, aim, reached):
-        """What movements teach: mossy fibres (B, 4), and how far beyond to aim there, (B, 2).
+        """What movements teach: mossy fibres (B, 2 d), and how far beyond to aim there, (B, d).
 
         By hindsight: each aim was right for the place that its movement `reached`.
         """

@@ -1,7 +1,6 @@
 """The numbers behind a plot as a table, taken from the plot itself: for who reads, not sees."""
 
 import html
-from itertools import islice
 
 import numpy as np
 from matplotlib.container import BarContainer
@@ -10,7 +9,7 @@ from matplotlib.ticker import FixedFormatter, FuncFormatter
 
 from vmc_lib.show.palette import COLOURS
 
-POINTS, SERIES = 9, 12  # of a long curve so many points are told, of a plot so many curves
+POINTS, DOTS, SERIES = 9, 24, 12  # at most so many are told: of a line, of dots, of a plot's curves
 _NAMES = {value: name for name, value in COLOURS.items()}
 
 
@@ -18,7 +17,8 @@ def numbers(drawn):
     """A table (HTML) of the curves, dots and bars in the figures of what a draw function returned.
 
     A list: of one table, or empty where nothing is a figure. Each row is a point: what it belongs
-    to, its x, its y.
+    to, its x, its y. Of a long line some points are told, evenly spread; of many curves the first,
+    and how many more there are.
     """
     figures = [
         p for p in (drawn if isinstance(drawn, tuple) else (drawn,)) if isinstance(p, Figure)
@@ -29,23 +29,26 @@ def numbers(drawn):
 
 def _rows(ax):
     """An axes' table rows, under a row that says what is measured."""
-    told = list(islice(_series(ax), SERIES))
+    told = list(_series(ax))
     if told:
         title, x, y = ax.get_title(), ax.get_xlabel() or "x", ax.get_ylabel() or "y"
         yield _row("th", title, x, y)
     across, up = _reader(ax.xaxis), _reader(ax.yaxis)
-    for name, xs, ys in told:
-        for k in np.unique(np.linspace(0, len(xs) - 1, POINTS).round().astype(int)):
-            yield _row("td", name, across(xs[k]), up(ys[k]))
+    for name, xs, ys in told[:SERIES]:
+        for x, y in zip(xs, ys, strict=True):
+            yield _row("td", name, across(x), up(y))
+    if len(told) > SERIES:
+        yield _row("td", f"and {len(told) - SERIES} more", "", "")
 
 
 def _series(ax):
     """(name, xs, ys) of what was plotted against the axes' own measures; not their guide lines."""
     for line in ax.lines:
         xs, ys = np.broadcast_arrays(*(np.ravel(v) for v in line.get_data(orig=False)))
-        kind = "dots" if line.get_linestyle() == "None" else "line"
+        kind, most = ("dots", DOTS) if line.get_linestyle() == "None" else ("line", POINTS)
         if line.get_transform() == ax.transData and len(xs) and line.get_visible():
-            yield _name(line, f"{_NAMES.get(line.get_color(), '')} {kind}"), xs, ys
+            some = np.unique(np.linspace(0, len(xs) - 1, most).round().astype(int))
+            yield _name(line, f"{_NAMES.get(line.get_color(), '')} {kind}"), xs[some], ys[some]
     for bars in ax.containers:
         if isinstance(bars, BarContainer):
             boxes = [bar.get_bbox() for bar in bars]

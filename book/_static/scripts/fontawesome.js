@@ -29,7 +29,7 @@ addEventListener("DOMContentLoaded", () => {
     for (const { name, value } of sign.attributes) svg.setAttribute(name, value);
     svg.classList.remove("fa-solid", "fas");
     svg.classList.add("svg-inline--fa");
-    svg.setAttribute("role", "img");
+    svg.setAttribute("aria-hidden", "true"); // the button has a name of its own
     sign.replaceWith(svg);
   }
 });
