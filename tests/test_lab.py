@@ -230,9 +230,7 @@ def test_a_notebook_shows_prose_and_no_markup(visit, chapter):
 )
 def test_a_link_opens_as_something_to_read(visit, href, opened, words):
     page = visit("07_muscle")
-    link = page.locator(f".myst a[href*='{href}']").first
-    link.scroll_into_view_if_needed()
-    link.click()
+    page.locator(f".myst a[href*='{href}']").first.click()
     page.locator(f"{opened}:visible").get_by_text(words).first.wait_for()
 
 

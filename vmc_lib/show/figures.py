@@ -156,8 +156,11 @@ def folded(summary, text):
 def table(heads, rows):
     """A Markdown table of column heads and rows of as many cells: text, numbers, or None.
 
-    Numbers get three digits. ValueError where a row has another number of cells.
+    Numbers get three digits. ValueError where a row has another number of cells, or a column no head:
+    a screen reader would call the column nothing.
     """
+    if not all(heads):
+        raise ValueError(f"every column needs a head, and {list(heads)} leaves one empty")
     lines = [heads, ["---"] * len(heads), *rows]
     if wrong := [row for row in rows if len(row) != len(heads)]:
         raise ValueError(f"the row {wrong[0]} does not have {len(heads)} cells, as {heads} has")
