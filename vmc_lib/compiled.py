@@ -72,9 +72,9 @@ def _frozen_in(value, names=()):
         cells = [cell.cell_contents for cell in value.__closure__ or ()]
         read = [space.get(n) for n in code.co_names if space.get(n) is not value]
         read += [value.__defaults__, *cells]
-        return _frozen_in(code), *(_frozen_in(x, code.co_names) for x in read)
+        return _instructions(code), *(_frozen_in(x, code.co_names) for x in read)
     if isinstance(value, CodeType):
-        return value.co_code, value.co_names, *map(_frozen_in, value.co_consts)
+        return _instructions(value)
     if isinstance(value, ModuleType):
         return tuple(x for n in names if isinstance(x := vars(value).get(n), Number | tuple))
     if isinstance(value, np.ndarray):
@@ -82,3 +82,8 @@ def _frozen_in(value, names=()):
     if isinstance(value, tuple):
         return tuple(map(_frozen_in, value))
     return value if isinstance(value, Number | str | bytes) else type(value).__name__
+
+
+@cache  # code never changes
+def _instructions(code):
+    return code.co_code, code.co_names, *map(_frozen_in, code.co_consts)

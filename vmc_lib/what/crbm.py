@@ -20,12 +20,16 @@ def laid_on(v, W, padding=0):
     (n, K, height - n_w + 1, width - n_w + 1), after so many zeros of `padding` around v. Every row
     of a filter is laid on every row of the maps at once; then the rows below each other are added.
     """
-    v = np.pad(v, [(0, 0), (0, 0), (padding, padding), (padding, padding)])
+    if padding:
+        v = np.pad(v, [(0, 0), (0, 0), (padding, padding), (padding, padding)])
     (n, channels, height, width), (K, _, n_w, _) = v.shape, W.shape
     across = np.moveaxis(sliding_window_view(v, n_w, 3), -1, 2).reshape(n, channels * n_w, -1)
     rows = W.transpose(2, 0, 1, 3).reshape(n_w * K, channels * n_w) @ across
     rows = rows.reshape(n, n_w, K, height, width - n_w + 1)
-    return sum(rows[:, i, :, i : height - n_w + 1 + i] for i in range(n_w))
+    total = rows[:, 0, :, : height - n_w + 1].copy()
+    for i in range(1, n_w):
+        total += rows[:, i, :, i : height - n_w + 1 + i]
+    return total
 
 
 class CRBM:

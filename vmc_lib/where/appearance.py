@@ -94,15 +94,24 @@ def texture_codes(channels, bins=10):
 
     Returns the codes (8c rows of pixels), and `bins`.
     """
-    codes = []
-    for channel in np.moveaxis(channels, 2, 0):
-        smooth = cv2.GaussianBlur(channel, (0, 0), 1)
-        dx, dy = cv2.Sobel(smooth, -1, 1, 0), cv2.Sobel(smooth, -1, 0, 1)
-        for angle in np.arange(4) * np.pi / 4:
-            slope = bins * (np.cos(angle) * dx + np.sin(angle) * dy).ravel()
-            code = slope.clip(1 - bins, bins - 1).astype(np.int8)
-            codes += [code.clip(0), (-code).clip(0)]
-    return np.array(codes, np.uint8), bins
+    smooth = [cv2.GaussianBlur(channel, (0, 0), 1) for channel in np.moveaxis(channels, 2, 0)]
+    slopes = [cv2.Sobel(x, -1, *way).ravel() for x in smooth for way in ((1, 0), (0, 1))]
+    return _upward(np.array(slopes), np.arange(4) * np.pi / 4, bins), bins
+
+
+@compiled
+def _upward(slopes, angles, bins):
+    """Codes of the slopes (2c, pixels), to the right and down, along each angle and against it."""
+    channels, pixels = len(slopes) // 2, slopes.shape[1]
+    codes = np.zeros((channels, len(angles), 2, pixels), np.uint8)
+    for c in range(channels):
+        for a in range(len(angles)):
+            across, down = np.cos(angles[a]), np.sin(angles[a])
+            for pixel in range(pixels):
+                slope = across * slopes[2 * c, pixel] + down * slopes[2 * c + 1, pixel]
+                against = int(slope < 0)
+                codes[c, a, against, pixel] = min(bins * abs(slope), bins - 1)
+    return codes.reshape(-1, pixels)
 
 
 def histograms(labels, codes, bins):
