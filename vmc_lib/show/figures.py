@@ -156,8 +156,8 @@ def folded(summary, text):
 def table(heads, rows):
     """A Markdown table of column heads and rows of as many cells: text, numbers, or None.
 
-    Numbers get three digits. ValueError where a row has another number of cells, or a column no head:
-    a screen reader would call the column nothing.
+    Numbers get three digits. ValueError where a row has another number of cells, or a column has no
+    head: a screen reader would call it nothing.
     """
     if not all(heads):
         raise ValueError(f"every column needs a head, and {list(heads)} leaves one empty")
