@@ -225,7 +225,7 @@ def test_a_notebook_shows_prose_and_no_markup(visit, chapter):
     ("href", "opened", "words"),
     [
         ("08_arm.ipynb", ".jp-NotebookPanel", "six muscles on two joints"),
-        ("glossary.md", ".jp-MarkdownViewer", "each in one breath"),
+        ("glossary.md", ".jp-MarkdownViewer", "each explained in a sentence"),
     ],
 )
 def test_a_link_opens_as_something_to_read(visit, href, opened, words):
