@@ -7,12 +7,14 @@ from reproduce.real_world import MODELS
 from vmc_lib import NoReach, photos, sheet
 from vmc_lib.loop import VisuomotorModel, locate, see
 
+FOUND = ", camera from the sheet"
+
 
 def make(folder=photos.FOLDER, models=MODELS, count=None):
     """What `results/printed_sheet.json` holds: way -> how far off each place is (mm), or None.
 
     Of the true box with the true camera; of the true box with the sheet's camera; and of the box
-    that each model chooses, with the sheet's camera, by the model's name.
+    that each model chooses, with the sheet's camera.
     """
     shots = photos.load(photos.SHEET_LEVEL, "test", folder)[:count]
     loaded = {name: VisuomotorModel.load(name) for name in models}
@@ -26,11 +28,11 @@ def missed(photo, models):
     true = photo.boxes["shuttlecock"]
     [model, *_] = models.values()  # all have the same localiser
     row = {
-        "true box and camera": _off(photo, bare, model, true, photo.camera),
-        "true box": _off(photo, bare, model, true, camera),
+        "true box, true camera": _off(photo, bare, model, true, photo.camera),
+        f"true box{FOUND}": _off(photo, bare, model, true, camera),
     }
     for name, model in models.items():
-        row[name] = _off(photo, bare, model, see(model, bare).box, camera)
+        row[f"box of {name}{FOUND}"] = _off(photo, bare, model, see(model, bare).box, camera)
     return row
 
 

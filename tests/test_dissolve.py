@@ -105,7 +105,9 @@ def test_the_readers_photo_is_seen_in_the_page_alone(page, site):
     assert [url for url in asked if not url.startswith("data:")] == []
     assert page.evaluate("() => localStorage.length + sessionStorage.length") == 0
     page.locator("[type=file]").set_input_files(site / "words.jpg")
-    page.get_by_text("cannot read words.jpg: save it as a JPEG or PNG").wait_for()
+    page.get_by_text(
+        "cannot read words.jpg: save it, or a phone's HEIC, as a JPEG or PNG"
+    ).wait_for()
     assert "367 × 653" in told(page)
 
 

@@ -197,7 +197,9 @@ def _open(path):
     except FileNotFoundError:
         raise ValueError(f"no photo at {path.absolute()}: is the name right?") from None
     except UnidentifiedImageError:
-        raise ValueError(f"{path} is not an image: give a JPEG or PNG") from None
+        raise ValueError(
+            f"{path} is not an image that can be read: save it, or a phone's HEIC, as a JPEG or PNG"
+        ) from None
     except (OSError, SyntaxError, Image.DecompressionBombError) as error:
         raise ValueError(f"{path} cannot be read ({error}): is the copy complete?") from None
 

@@ -10,7 +10,7 @@ const vmcDissolve = (() => {
     const [k, merged] = box.querySelectorAll("[type=range]");
     const [play, choose, camera] = box.querySelectorAll("button");
     const context = canvas.getContext("2d", { willReadFrequently: true });
-    let photo, tree, due;
+    let photo, tree, asked = 0;
 
     const look = (picture, own) => {
       const shrink = Math.sqrt(AREA / (picture.width * picture.height));
@@ -21,14 +21,14 @@ const vmcDissolve = (() => {
       context.drawImage(picture, 0, 0, canvas.width, canvas.height);
       if (own) still.src = canvas.toDataURL("image/jpeg", 0.9);
       const { data, width, height } = context.getImageData(0, 0, canvas.width, canvas.height);
-      photo = { data, image: new ImageData(width, height), ...vmcSearch.prepare(data, width, height) };
+      photo = { data, image: new ImageData(width, height) };
       tree = null;
-      canvas.hidden = false;
-      canvas.animate({ opacity: [0, 1] }, matchMedia("(prefers-reduced-motion: reduce)").matches ? 0 : 1500);
+      canvas.hidden = true;
     };
 
     /* The segments and all regions above them, with their mean colours as four bytes. */
     const grow = (scale) => {
+      photo.grow ??= vmcSearch.prepare(photo.data, canvas.width, canvas.height).grow;
       const grown = photo.grow(scale), { labels, merges, size } = grown, sums = Array.from(size, () => [0, 0, 0]);
       labels.forEach((label, i) => { for (let c = 0; c < 3; c++) sums[label][c] += photo.data[4 * i + c]; });
       merges.forEach(([i, j], made) => (sums[grown.count + made] = sums[i].map((sum, c) => sum + sums[j][c])));
@@ -37,7 +37,6 @@ const vmcDissolve = (() => {
     };
 
     const draw = () => {
-      if (!photo) look(still, false);
       const scale = Math.round(2 ** k.value);
       if (tree?.scale !== scale) grow(scale);
       const { labels, count, merges, boxes, colours } = tree, { width, height } = canvas;
@@ -53,40 +52,50 @@ const vmcDissolve = (() => {
       }
       const all = (width * (width + 1) * height * (height + 1)) / 4, told = (n) => n.toLocaleString("en-GB");
       [k, merged].forEach((slider, i) => (slider.nextElementSibling.textContent = [scale, `${told(left)} left`][i]));
+      if (canvas.hidden) {
+        canvas.hidden = false;
+        const fade = matchMedia("(prefers-reduced-motion: reduce)").matches ? 0 : 1500;
+        canvas.animate({ opacity: [0, 1] }, fade).onfinish = draw;
+      }
+      if (canvas.getAnimations().length) return; // the words wait for the picture
       strip.textContent = `${told(regions)} regions so far, a box around each; ${width} × ${height} pixels hold ${told(all)} boxes.`;
     };
-    const soon = () => {
-      clearTimeout(due);
-      due = setTimeout(draw);
+
+    /* To cut takes a moment: say so, and begin when that can be seen. */
+    const soon = (then) => {
+      if (!photo) look(still, false);
+      if (tree?.scale !== Math.round(2 ** k.value)) strip.textContent = "Cutting …";
+      const mine = ++asked;
+      requestAnimationFrame(() => setTimeout(() => mine === asked && then()));
     };
 
     let turn;
     const stop = () => {
+      asked++;
       cancelAnimationFrame(turn);
       play.textContent = "Play";
     };
     const run = () => {
       const from = merged.value < 1 ? +merged.value : 0;
-      draw();
-      const begun = performance.now();
+      let begun;
       const step = (now) => {
-        merged.value = Math.min(1, from + Math.max(0, now - begun) / PLAY_TIME);
+        merged.value = Math.min(1, from + (now - (begun ??= now)) / PLAY_TIME);
         draw();
         if (merged.value < 1) turn = requestAnimationFrame(step);
         else stop();
       };
       play.textContent = "Pause";
-      turn = requestAnimationFrame(step);
+      soon(() => { draw(); turn = requestAnimationFrame(step); });
     };
     play.addEventListener("click", () => (play.textContent === "Play" ? run() : stop()));
-    for (const slider of [k, merged]) slider.addEventListener("input", () => { stop(); soon(); });
+    for (const slider of [k, merged]) slider.addEventListener("input", () => { stop(); soon(draw); });
 
     const own = async (chosen) => {
       if (!chosen) return;
       stop();
       const picture = await createImageBitmap(chosen).catch(() => null);
       say.textContent = picture ? `${chosen.name} stays in this page: it is sent nowhere.`
-        : `This browser cannot read ${chosen.name}: save it as a JPEG or PNG.`;
+        : `This browser cannot read ${chosen.name}: save it, or a phone's HEIC, as a JPEG or PNG.`;
       if (!picture) return;
       merged.value = 0;
       look(picture, true);

@@ -24,7 +24,8 @@ const vmcUpload = (box, _, ask) => {
     view.innerHTML = "";
     say.textContent = `Looking at ${file.name} …`;
     const photo = await small(file).catch(() => null);
-    const drawn = photo ? await ask("photo", photo) : { error: "This browser cannot read it: choose a JPEG or PNG." };
+    const drawn = photo ? await ask("photo", photo)
+      : { error: "this browser cannot read it. Save it, or a phone's HEIC, as a JPEG or PNG." };
     say.textContent = `${file.name}: ${drawn.error ?? "seen."}`;
     if (!drawn.error) view.innerHTML = drawn;
   });

@@ -111,7 +111,7 @@ justify-items: center">PHOTO<canvas aria-hidden="true" style="LAYER" hidden></ca
 <button type="button" class="vmc-play">Your photo …</button>
 <button type="button" class="vmc-play">Take a photo …</button>
 <input type="file" accept="image/*" aria-label="Your photo" hidden></form>
-<p class="vmc-strip" style="min-height: 1.6em; CENTRED"></p>
+<p class="vmc-strip" style="min-height: 3.6em; CENTRED"></p>
 <p role="status" style="CENTRED"></p></div>"""
 LAYER = "grid-area: 1 / 1; max-width: 100%; height: auto"
 CENTRED = "text-align: center"
@@ -126,7 +126,7 @@ def dissolving(image, caption, alt):
     scale = {"min": 4.64, "max": 9.64, "step": 0.01, "value": 6.64}  # powers of two: 25 to 800
     merged = {"min": 0, "max": 1, "step": 0.001, "value": 0}
     sliders = slider("dissolve-k", "scale k", "100", scale)
-    sliders += slider("dissolve-merged", "grown back", "", merged, width=9)
+    sliders += slider("dissolve-merged", "merged", "", merged, width=9)
     parts = {"PHOTO": photo, "LAYER": LAYER, "CENTRED": CENTRED, "SLIDERS": sliders}
     page = re.sub("|".join(parts), lambda name: parts[name[0]], DISSOLVE)
     if render_mode() == "book":
