@@ -186,3 +186,15 @@ def test_what_a_reader_meets_is_the_mechanism(path):
     assert all(8 <= lines[name] <= 25 for name in core)
     rest = sum(lines[name] for name in lines.keys() - {*core, *asked})
     assert rest <= 0.05 * sum(lines.values())
+
+
+def test_no_session_asks_for_much_more_reading_than_another():
+    """The minutes of the sessions on the page on teaching, added up from the chapters' own."""
+    cells = nbformat.read(ROOT / "book/teaching.ipynb", as_version=4).cells
+    [plan] = [cell.source for cell in cells if cell.id == "teach-plan"]
+    sessions = ast.literal_eval(plan.partition("SESSIONS = ")[2])
+    heads = {path.stem: nbformat.read(path, as_version=4).cells[0].source for path in NUMBERED}
+    minutes = {name: int(re.search(r"(\d+)\s+minutes", head)[1]) for name, head in heads.items()}
+    assert [page for pages in sessions.values() for page in pages] == [*minutes, "ledger"]
+    totals = [sum(minutes.get(page, 0) for page in pages) for pages in sessions.values()]
+    assert max(totals) <= 1.5 * min(totals)
