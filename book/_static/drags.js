@@ -22,8 +22,7 @@ const vmcInPage = (() => {
       const at = `x="${x0}" y="${y0}" width="${x1 - x0}" height="${y1 - y0}"`;
       return `<rect ${at} ${edge}/><rect ${at} stroke="${stroke}"/>`;
     };
-    const label = `<text x="${x}" y="${y > 26 ? y - 7 : box[3] + 21}" fill="${colour}" ${edge}
-      paint-order="stroke">IoU ${shared}</text>`;
+    const label = `<text x="8" y="21" fill="${colour}" ${edge} paint-order="stroke">IoU ${shared}</text>`;
     return [`A box at ${x.toFixed(0)}, ${y.toFixed(0)}: IoU ${shared}.`, frame(object, paint.grey) + frame(box, colour) + label];
   };
 

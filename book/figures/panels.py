@@ -26,7 +26,7 @@ def panels(columns=1, size=(6.5, 2.7)):
         right=1 - 0.2 / width,
         bottom=0.5 / height,
         top=1 - 0.3 / height,
-        wspace=0.75 * columns / width,
+        wspace=0.75 * columns / (width - 0.9 - 0.75 * (columns - 1)),  # 0.75 inches
     )
     return fig, *axes[0]
 

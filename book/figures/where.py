@@ -43,7 +43,8 @@ def overlap(image, thing, corner):
     box = np.concatenate([corner, corner + thing[2:] - thing[:2]])
     shared = round(iou(box, thing).item(), 2)
     colour = "green" if shared >= 0.8 else "orange" if shared > 0.5 else "red"
-    return photo_view(image, [(thing, "", "grey"), (box, f"IoU {shared:.2f}", colour)])
+    said = (*in_corner(f"IoU {shared:.2f}")[:2], colour)  # at the box a hand would hide it
+    return photo_view(image, [(thing, "", "grey"), (box, "", colour), said])
 
 
 def overlap_in_page(image, thing):
