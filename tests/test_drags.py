@@ -9,13 +9,13 @@ import pytest
 import yaml
 
 from arm_in_page import live
-from book.figures import reaching, where
+from book.figures import reaching, votes, where
 from vmc_lib import photos
 from vmc_lib.arm.model import MUSCLES
 from vmc_lib.boxes import iou
 from vmc_lib.motor import templates
 from vmc_lib.motor.planning import plan
-from vmc_lib.show import Pad, demo, explore
+from vmc_lib.show import Pad, Slider, Switch, demo, explore
 from vmc_lib.show.markup import data_uri
 
 pytestmark = pytest.mark.browser
@@ -30,11 +30,12 @@ PAST, MUSCLE = templates.load(spacing=0.06), MUSCLES.index("BIClong")
 ACROSS, UP = np.arange(0.015, 0.17, 0.015), np.arange(-0.475, -0.33, 0.015)
 SPOTS = [(x, y) for x in ACROSS.tolist() for y in UP.tolist()]
 ENDED = plan(SPOTS, PAST).reached()
+AROUND, NEURONS = np.linspace(-0.95, 0.95, 20), (4, 12, 60)
 
 
 @pytest.fixture(scope="module")
 def page(offline, tmp_path_factory):
-    """Both demos of the book that the page works out, on a page with the book's scripts."""
+    """The demos of the book that the page works out, on a page with the book's scripts."""
     folder, shown = tmp_path_factory.mktemp("drags"), []
     for static in (live.SHOW, live.STATIC, ROOT / "book/_static"):
         shutil.copytree(static, folder, dirs_exist_ok=True)
@@ -56,22 +57,32 @@ def page(offline, tmp_path_factory):
             in_page=reaching.planned_in_page(PAST, MUSCLE, ENDED),
             place=Pad(ACROSS, UP),
         )
+        explore(
+            votes.voted,
+            "c",
+            lambda target, neurons, evenly: f"{target}, {neurons}, {evenly}",
+            in_page=votes.voted_in_page(),
+            target=Pad(AROUND, AROUND),
+            neurons=Slider(NEURONS, "neurons"),
+            evenly=Switch((False, True), "evenly spread"),
+        )
     (folder / "page.html").write_text(HEAD + "\n".join(shown))
     page = offline.new_page()
     errors = []
     page.on("pageerror", lambda error: errors.append(str(error)))
     page.goto((folder / "page.html").as_uri())
-    page.wait_for_function("() => document.querySelectorAll('[data-ready]').length === 2")
+    page.wait_for_function("() => document.querySelectorAll('[data-ready]').length === 3")
     yield page
     page.close()
     assert errors == []
 
 
 def move(page, number, *places):
-    """Move a demo's two sliders; what it then shows: its pictures as markup, its words."""
+    """Move a demo's controls; what it then shows: its pictures as markup, its words."""
     box = page.locator(".vmc-demo").nth(number)
-    for slider, place in zip(box.locator("[data-stride]").all(), places, strict=True):
-        slider.fill(str(place))
+    for control, place in zip(box.locator("[data-stride]").all(), places, strict=True):
+        switch = control.get_attribute("type") == "checkbox"
+        control.set_checked(bool(place)) if switch else control.fill(str(place))
     pictures = [picture.inner_html() for picture in box.locator(".vmc-picture").all()]
     return pictures, box.locator(".vmc-pictures").get_attribute("aria-label")
 
@@ -80,6 +91,21 @@ def numbers(markup, tag):
     """The numbers in a mark's attributes, mark by mark."""
     marks = re.findall(rf"<{tag} [^>]*>", markup)
     return [[float(n) for n in re.findall(r'="(-?[\d.]+)', mark)] for mark in marks]
+
+
+def on(markup, points):
+    """Where points (..., 2) of the first axes lie in the picture."""
+    x0, x1, y0, y1, left, right, bottom, top = np.float64(
+        re.search(r'data-axes="([^"]*)"', markup)[1].split()
+    )
+    size = np.float64(re.search(r'viewBox="0 0 ([\d. ]+)"', markup)[1].split())
+    shares = (np.array(points) - [x0, y0]) / [x1 - x0, y1 - y0]
+    return size * ([left, bottom] + shares * [right - left, top - bottom])
+
+
+def polylines(markup):
+    lines = re.findall(r'<polyline points="([^"]*)"', markup)
+    return np.float64([[pair.split(",") for pair in line.split()] for line in lines])
 
 
 def words(markup):
@@ -118,24 +144,28 @@ def test_a_plan_is_drawn_as_python_plans_it(page, place):
     assert labels == [*(f"{w:.2f}" for w in one.weights), f"the hand misses by {miss}"]
     assert f"the hand ends {miss} away" in said
 
-    def on(markup, points):
-        """Where points (..., 2) of the first axes lie in the picture."""
-        x0, x1, y0, y1, left, right, bottom, top = np.float64(
-            re.search(r'data-axes="([^"]*)"', markup)[1].split()
-        )
-        size = np.float64(re.search(r'viewBox="0 0 ([\d. ]+)"', markup)[1].split())
-        shares = (np.array(points) - [x0, y0]) / [x1 - x0, y1 - y0]
-        return size * ([left, bottom] + shares * [right - left, top - bottom])
-
     marks = [mark[:2] for mark in numbers(in_plane, "circle")]
     expected = on(in_plane, [*one.points, one.target, ENDED[spot]])
     assert np.abs(np.array(marks) - expected).max() < 0.1
-    lines = re.findall(r'<polyline points="([^"]*)"', over_time)
-    curves = np.float64([[pair.split(",") for pair in line.split()] for line in lines])
+    curves = polylines(over_time)
     parts = one.weights[:, None] * PAST.excitations[one.chosen, ::20, MUSCLE]
     time = np.arange(parts.shape[1]) * 0.02
     wanted = [on(over_time, np.stack([time, part], -1)) for part in [*parts, parts.sum(0)]]
     assert np.abs(curves - wanted).max() < 0.2
+
+
+@pytest.mark.parametrize("place", [(0, 0, 0, 0), (19, 3, 1, 0), (15, 15, 0, 1), (9, 10, 2, 1)])
+def test_neurons_vote_as_in_python(page, place):
+    x, y, many, evenly = place
+    target, neurons = AROUND[[x, y]], NEURONS[many]
+    [seen], said = move(page, 2, *place)
+    off = f"{votes.lean(target, neurons, evenly):.0f}° off"
+    assert words(seen)[-3:] == ["the reach", "the sum", off]
+    assert said.endswith(f"their sum is {off}.")
+    tips = polylines(seen)[:, 1]
+    cast = votes.votes(target, votes.preferred(neurons, evenly))
+    wanted = [*cast, target, votes.vote(target, neurons, evenly)]
+    assert np.abs(tips - on(seen, wanted)).max() < 0.1
 
 
 def test_a_photo_lies_below(page):

@@ -4,7 +4,7 @@
 const vmcInPage = (() => {
   "use strict";
 
-  const { sum, times } = vmcVectors;
+  const { dot, plus, sum, times } = vmcVectors;
 
   /* Intersection over union of two boxes [x0, y0, x1, y1] (vmc_lib/boxes.py). */
   const iou = (a, b) => {
@@ -23,7 +23,11 @@ const vmcInPage = (() => {
       return `<rect ${at} ${edge}/><rect ${at} stroke="${stroke}"/>`;
     };
     const label = `<text x="8" y="21" fill="${colour}" ${edge} paint-order="stroke">IoU ${shared}</text>`;
-    return [`A box at ${x.toFixed(0)}, ${y.toFixed(0)}: IoU ${shared}.`, frame(object, paint.grey) + frame(box, colour) + label];
+    const corner = frame([8, 0, 8, 0], colour); // what it labels: book/figures/where.py, in_corner
+    return [
+      `A box at ${x.toFixed(0)}, ${y.toFixed(0)}: IoU ${shared}.`,
+      frame(object, paint.grey) + frame(box, colour) + corner + label,
+    ];
   };
 
   /* A reach planned from four templates, where it ends, and one muscle's excitation as their sum. */
@@ -49,5 +53,28 @@ const vmcInPage = (() => {
     ];
   };
 
-  return { iou, overlap, plan };
+  /* How neurons vote for a reach, each along the direction that it prefers, and their sum
+     (book/figures/votes.py). */
+  const votes = (_, [x, y, neurons, evenly], [plane]) => {
+    const target = [x, y];
+    const cast = Array.from({ length: neurons }, (_, i) => {
+      const angle = 2 * Math.PI * (evenly ? i / neurons : (i / neurons) ** 2);
+      const prefers = [Math.cos(angle), Math.sin(angle)];
+      return times(dot(prefers, target), prefers);
+    });
+    const total = times(2 / neurons, cast.reduce(plus));
+    const along = dot(total, target) / (Math.hypot(...total) * Math.hypot(...target));
+    const off = `${((Math.acos(Math.min(1, along)) * 180) / Math.PI).toFixed(0)}° off`;
+    const arrow = (colour, tip, width) => plane.mark("arrow", colour, [[0, 0], tip], width);
+    const named = (colour, tip, words, above) =>
+      arrow(colour, tip, 2) + plane.mark("words", colour, tip, words, above);
+    const to = target.map((n) => n.toFixed(2).replace("-", "−")).join(", ");
+    return [
+      `Votes of ${neurons} neurons for a reach to ${to}; their sum is ${off}.`,
+      cast.map((vote) => arrow("grey", vote, 1)).join("") + named("green", target, "the reach", 8) +
+        named("red", total, "the sum", -16) + plane.mark("words", "ink", plane.head, off, 6),
+    ];
+  };
+
+  return { iou, overlap, plan, votes };
 })();

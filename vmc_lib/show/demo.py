@@ -29,7 +29,7 @@ from vmc_lib.show.scene import Scene
 
 SCRIPTS = [*VIEWER, *(STATIC / f"{name}.js" for name in ("axes", "handle", "address", "demo"))]
 MOST_POSITIONS = 200
-SAMPLE = 25  # positions of a demo that the page works out
+SAMPLE = 25  # positions along a control, of a demo that the page works out
 _demos = itertools.count(1)
 
 
@@ -43,14 +43,14 @@ def explore(draw, caption, alt, in_page=None, **controls):
     work: more than 200 positions, a control without effect, a start that is no value, an unknown
     picture.
 
-    A demo of one control may have as many positions as it likes if the book's page works them out
-    itself: `in_page` is (name, ground, given). The page's `vmcInPage[name]` draws what `draw` does,
-    by what it is `given` (as JSON takes it), on plots or photos that `ground()` returned. Here a
-    sample is evaluated.
+    A demo may have as many positions as it likes if the book's page works them out itself:
+    `in_page` is (name, ground, given). The page's `vmcInPage[name]` draws what `draw` does, by what
+    it is `given` (as JSON takes it), on plots or photos that `ground()` returned. Here a sample is
+    evaluated, along each control.
     """
     controls = {name: as_control(name, spec) for name, spec in controls.items()}
     positions = math.prod(len(control.values) for control in controls.values())
-    if positions > MOST_POSITIONS and not (in_page and len(controls) == 1):
+    if positions > MOST_POSITIONS and not in_page:
         raise ValueError(
             f"{positions} positions are too many for a page (at most {MOST_POSITIONS}): "
             "give the controls fewer values"
@@ -74,13 +74,19 @@ def explore(draw, caption, alt, in_page=None, **controls):
 
     if render_mode() == "live":
         return _live(state, caption, controls, name)
-    every = math.ceil(positions / SAMPLE) if in_page else 1
-    states = [state(place) for place in range(0, positions, every)]
-    _must_work(states, controls, [len(states)] if in_page else None)
+    first = _first(controls)
+    if in_page:
+        for control, stride in zip(controls.values(), _strides(controls), strict=True):
+            steps = range(0, len(control.values), math.ceil(len(control.values) / SAMPLE))
+            seen = [state(first + (step - control.first) * int(stride)) for step in steps]
+            _must_work(seen, [control], [len(steps)])
+        data, shown = _worked_out(*in_page, controls, name), state(first)
+    else:
+        states = [state(place) for place in range(positions)]
+        _must_work(states, controls.values())
+        data, shown = _stored(states), states[first]
     if render_mode() == "book":
-        first = state(_first(controls)) if in_page else states[_first(controls)]
-        data = _worked_out(*in_page, controls, name) if in_page else _stored(states)
-        display(HTML(_page(*first, data, caption, controls, name)))
+        display(HTML(_page(*shown, data, caption, controls, name)))
 
 
 def figure(picture, caption, alt):
@@ -91,14 +97,14 @@ def figure(picture, caption, alt):
 def _must_work(states, controls, shape=None):
     """Raise ValueError where kinds of pictures change, or a control never changes a picture.
 
-    `shape` is how many states there are along each control, if not one for each of its values.
+    `shape` is how many states there are along each of the controls, if not one for each value.
     """
     for _, parts in states:
         _same_kinds(parts, states[0][1])
     looks = {}  # equal pictures get equal numbers
     grid = [looks.setdefault(repr([_lines(p) for p in parts]), len(looks)) for _, parts in states]
-    grid = np.reshape(grid, shape or [len(control.values) for control in controls.values()])
-    for axis, control in enumerate(controls.values()):
+    grid = np.reshape(grid, shape or [len(control.values) for control in controls])
+    for axis, control in enumerate(controls):
         if (grid == grid.take([0], axis)).all():
             raise ValueError(f"the control {control.label!r} never changes the picture")
 
@@ -165,8 +171,8 @@ def _worked_out(work, ground, given, controls, name):
     """What the page needs to work every state out: see `explore`."""
     with plt.rc_context(STYLE):
         grounds = [_lines(part) for part in pictures(ground(), name)]
-    [control] = controls.values()
-    grid = [np.asarray(axis.values).tolist() for axis in getattr(control, "pair", [control])]
+    axes = [axis for control in controls.values() for axis in getattr(control, "pair", [control])]
+    grid = [np.asarray(axis.values).tolist() for axis in axes]
     return {"work": work, "grounds": grounds, "given": given, "grid": grid}
 
 

@@ -15,16 +15,26 @@ const vmcAxes = (svg) => {
     return [(width * right).toFixed(1), (height * down).toFixed(1)];
   };
 
+  /* An arrow's head: one side, its tip again, the other side. */
+  const head = (points) => {
+    const [[x0, y0], [x, y]] = points.slice(-2).map((point) => put(point).map(Number));
+    const side = (turn) => {
+      const angle = Math.atan2(y - y0, x - x0) + turn;
+      return [x - 6 * Math.cos(angle), y - 6 * Math.sin(angle)].map((n) => n.toFixed(1));
+    };
+    return [side(0.45), [x, y], side(-0.45)];
+  };
+
   return {
     left, right, bottom, top, drawn,
     head: [(x0 + x1) / 2, y1], // where a title stands
 
-    /* Markup of a mark in a named colour: a "line" through points of some width, a "ring" or a "dot" of
-       some radius, or "words" so far above a point. */
+    /* Markup of a mark in a named colour: a "line" or an "arrow" through points of some width, a "ring" or
+       a "dot" of some radius, or "words" so far above a point. */
     mark: (kind, colour, points, size, above) => {
       const paint = `var(--vmc-${colour})`;
-      if (kind === "line")
-        return `<polyline points="${points.map(put).join(" ")}" fill="none" stroke="${paint}"
+      if (kind === "line" || kind === "arrow")
+        return `<polyline points="${[...points.map(put), ...(kind === "arrow" ? head(points) : [])].join(" ")}" fill="none" stroke="${paint}"
           stroke-width="${size}" stroke-opacity=".7" stroke-linecap="round"/>`;
       const [x, y] = put(points);
       if (kind === "words")
