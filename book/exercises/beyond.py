@@ -18,7 +18,7 @@ HONEST = Exercise(
     {
         "That is the error of the lucky trial itself. Choose by `first`, and report what `again` "
         "says.": lambda first, again: first.min(axis=0),
-        "You chose by `again`, and the luck is back. Who reports may not choose.": (
+        "You chose by `again`, and the luck is back. Choose by other errors than you report.": (
             lambda first, again: again.min(axis=0)
         ),
         "You kept one trial for all targets. Each target has its own best.": (

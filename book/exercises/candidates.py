@@ -109,6 +109,6 @@ ENGULFED = Exercise(
             _shared_over(lambda a, b, shared: a)
         ),
         "Boxes that lie apart share nothing. Two negative sides make a positive area: clip each "
-        "side at nought first.": _shared_over(lambda a, b, shared: np.minimum(a, b), -np.inf),
+        "side at zero first.": _shared_over(lambda a, b, shared: np.minimum(a, b), -np.inf),
     },
 )

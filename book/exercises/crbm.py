@@ -56,7 +56,7 @@ UNIT_ON = Exercise(
                 (np.exp(drives) / np.exp(drives).sum()).cumsum(), die
             )
         ),
-        "That is the likeliest unit. A draw gives the others their chance as well: use the die.": (
+        "That is the most likely unit. A draw gives the others their chance too: use the die.": (
             lambda drives, die: drives.argmax()
         ),
         "You gave each unit the chance that it would have alone. Units of a block compete: all "
@@ -89,7 +89,7 @@ CD_STEP = Exercise(
     cd_step,
     _data_and_dream,
     {
-        "The wrong way round: what goes together in the *data* is to become likelier.": (
+        "The wrong way round: what goes together in the *data* must become more likely.": (
             lambda v, h, dream_v, dream_h: -cd_step(v, h, dream_v, dream_h)
         ),
         "That is what the data say alone. The filter would grow for ever: take away what goes "

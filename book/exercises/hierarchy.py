@@ -35,7 +35,7 @@ POOLED_WIDTHS = Exercise(
     pooled_widths,
     _machine,
     {
-        "A filter of width 200 fits once into 200 pixels, not nought times: add 1.": (
+        "A filter of width 200 fits once into 200 pixels, not zero times: add 1.": (
             _widths(lambda width, n, block: (width - n) // block)
         ),
         "A block that is not full is left out: round down.": (

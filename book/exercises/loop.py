@@ -16,7 +16,7 @@ CHOSEN_BOX = Exercise(
     chosen_box,
     lambda rng: (rng.normal(size=5).round(2), (rng.choice([0.45, 1]) * rng.random(5)).round(2)),
     {
-        "You took the likeliest box. All that are above 0.5 have the right name: of these the "
+        "You took the most likely box. All that are above 0.5 have the right name: of these the "
         "best score counts.": lambda scores, chances: (
             chances.argmax() if max(chances) > 0.5 else -1
         ),

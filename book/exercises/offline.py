@@ -65,7 +65,7 @@ SHORTENED = Exercise(
         "Short changes must stay as they are: shorten only what is longer than `longest`.": (
             lambda changes, longest: changes * longest / _length(changes)
         ),
-        "A change of nought has length nought: do not divide by it.": lambda changes, longest: (
+        "A change of zero has length zero: do not divide by it.": lambda changes, longest: (
             changes / _length(changes) * np.minimum(_length(changes), longest)
         ),
         "You shortened all reaches by the same factor. Each change has a length of its own: sum "

@@ -30,12 +30,12 @@ NEAR_WEIGHTS = Exercise(
     near_weights,
     _target_and_points,
     {
-        "Right, but for a target that lies on a template: there you divide by nought. That "
+        "Right, but for a target that lies on a template: there you divide by zero. That "
         "template has it all: weight 1.": lambda target, points: _normed(
             1 / _distance(target, points)
         ),
-        "A small number added to each distance avoids nought, and spoils all other weights a "
-        "little. Treat a distance of nought by itself.": lambda target, points: _normed(
+        "A small number added to each distance avoids zero, and spoils all other weights a "
+        "little. Treat a distance of zero by itself.": lambda target, points: _normed(
             1 / (_distance(target, points) + 1e-3)
         ),
         "Where the target lies on a template, you gave the others a share as well. That template "

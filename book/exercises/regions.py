@@ -24,11 +24,11 @@ SVM_COST = Exercise(
         "$y f$ should be 1 at least.": lambda w, b, x, y, C: (
             w @ w / 2 + C * np.maximum(-y * (x @ w + b), 0).sum()
         ),
-        "Examples far on the right side earn a discount now. They cost nothing: no cost is "
+        "Examples far on the right side lower the cost now. They cost nothing: no cost is "
         "below 0.": lambda w, b, x, y, C: w @ w / 2 + C * (1 - y * (x @ w + b)).sum(),
         "You count the examples that cost. Each costs the more, the farther it is from where it "
         "should be.": lambda w, b, x, y, C: w @ w / 2 + C * (y * (x @ w + b) < 1).sum(),
-        "The wish for a wide margin is missing: $\\lVert w \\rVert^2 / 2$.": (
+        "The term for a wide margin is missing: $\\lVert w \\rVert^2 / 2$.": (
             lambda w, b, x, y, C: svm_cost(w, b, x, y, C) - w @ w / 2
         ),
         "You took the mean over the examples; the cost is their sum.": lambda w, b, x, y, C: (
@@ -67,7 +67,7 @@ WEAKENED = Exercise(
         "that had its turn.": lambda overlaps, scores: (
             scores * (1 - overlaps + np.eye(len(scores))).prod(axis=1)
         ),
-        "A box overlaps itself by 1 and so weakened itself to nought. Take it from those that "
+        "A box overlaps itself by 1 and so weakened itself to zero. Take it from those that "
         "wait first.": lambda overlaps, scores: 0 * scores,
         "Only the best box of all had a turn. Go on with the best of those that wait.": (
             lambda overlaps, scores: np.where(

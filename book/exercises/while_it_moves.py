@@ -14,11 +14,11 @@ SEEN_LATE = Exercise(
     seen_late,
     lambda rng: (rng.normal(size=(8, 2)).round(1), int(rng.integers(1, 5))),
     {
-        "The end of the movement comes in at its beginning: an index below nought counts from "
+        "The end of the movement comes in at its beginning: an index below zero counts from "
         "the end. Before the first report, the first value holds.": (
             lambda signal, steps: np.roll(signal, steps, axis=0)
         ),
-        "Before the first report you say nought, as if the hand were at the shoulder. It rests "
+        "Before the first report you say zero, as if the hand were at the shoulder. It rests "
         "at its first place.": lambda signal, steps: np.concatenate(
             [np.zeros((steps, 2)), signal[:-steps]]
         ),

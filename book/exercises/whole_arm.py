@@ -32,11 +32,11 @@ ONE_JOINT = Exercise(
         "muscles out first, then share.": (
             lambda torque, gain: np.maximum(_in_proportion(torque, gain, gain), 0)
         ),
-        "All who help are equally active. The squares add up to less when a muscle that turns "
-        "more is more active.": (
+        "All that help are equally active. The squares add up to less when a muscle that turns more "
+        "is more active.": (
             lambda torque, gain: _in_proportion(torque, gain, 1.0 * (torque * gain > 0))
         ),
-        "One muscle does it all. The squares add up to less when all who help share.": (
+        "One muscle does it all. The squares add up to less when all that help share.": (
             lambda torque, gain: _in_proportion(
                 torque, gain, np.eye(len(gain))[(torque * gain).argmax()]
             )
