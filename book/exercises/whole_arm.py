@@ -32,7 +32,7 @@ ONE_JOINT = Exercise(
         "muscles out first, then share.": (
             lambda torque, gain: np.maximum(_in_proportion(torque, gain, gain), 0)
         ),
-        "All that help are equally active. The squares add up to less when a muscle that turns more "
+        "All that help are equally active. The squares sum to less when a muscle that turns more "
         "is more active.": (
             lambda torque, gain: _in_proportion(torque, gain, 1.0 * (torque * gain > 0))
         ),
