@@ -214,6 +214,17 @@ def test_every_place_of_a_dragged_slider_is_drawn(opened):
     assert opened.page.evaluate(BROKEN_DRAGS) == []
 
 
+def test_a_chapter_begins_with_a_demo(opened):
+    """Its first demo begins within one and a half screens of 1280 × 800."""
+    if not opened.path.stem[:2].isdigit():
+        pytest.skip("not a chapter")
+    opened.page.set_viewport_size({"width": 1280, "height": 800})
+    opened.page.evaluate(TWO_FRAMES)
+    first = opened.page.locator(".vmc-demo:has(.vmc-controls), .vmc-live").first
+    top = first.evaluate("(demo) => demo.getBoundingClientRect().top + scrollY")
+    assert top <= 1.5 * 800
+
+
 def unfold(page):
     for fold in page.query_selector_all(".vmc-folded button[aria-expanded=false]"):
         fold.click()

@@ -217,6 +217,22 @@ def test_a_prediction_is_kept_and_shown_beside_what_came_out(open_questions):
 
 
 @pytest.mark.browser
+@pytest.mark.parametrize("by", ["input >> nth=0", "summary"])
+def test_what_stands_still_below_a_prediction_waits_for_it(open_questions, shown, by):
+    foresee()
+    below = ["<p>four</p>", "<form class='vmc-controls'></form>a demo"]
+    cells = [f"<div class='cell'><div class='cell_output'>{x}</div></div>" for x in shown + below]
+    code = "<div class='cell'>code</div>"
+    shown[:] = [cells[0], code, cells[1], cells[0].replace("predict-", "again-"), cells[2]]
+    page = open_questions()
+    assert not page.is_visible("text=four")
+    assert page.is_visible("text=a demo")
+    page.click(by)
+    assert page.is_visible("text=four")
+    page.close()
+
+
+@pytest.mark.browser
 def test_a_prediction_works_where_storage_is_forbidden(open_questions):
     foresee()
     page = open_questions()

@@ -17,6 +17,19 @@ const vmcMemory = {
   });
 }
 
+/* What stands still below a prediction, and would give it away, waits until the reader has chosen or
+   asked what came out. */
+addEventListener("DOMContentLoaded", () =>
+  document.querySelectorAll(".cell .vmc-predict").forEach((asked) => {
+    let cell = asked.closest(".cell").nextElementSibling;
+    while (cell?.matches(".cell:not(:has(> .cell_output))")) cell = cell.nextElementSibling;
+    if (!cell?.matches(".cell") || cell.querySelector(".vmc-controls, fieldset, input, button.vmc-play")) return;
+    const shown = cell.querySelector(".cell_output");
+    const wait = () => shown.classList.toggle("vmc-waits", !asked.querySelector(":checked, [open]"));
+    for (const type of ["change", "toggle"]) asked.addEventListener(type, wait, true);
+    wait();
+  }));
+
 /* Checks what the reader types into a page that has no kernel (vmc_lib.show.check, by its rule). */
 const vmcReadings = (text) => {
   const number = /^([-+]?\d*[.,]?\d+)\s*(?:\/\s*(\d*[.,]?\d+))?\s*(%|\p{L}*|°)$/u;
