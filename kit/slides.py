@@ -126,6 +126,8 @@ def _article(path):
     """The text of a built page; of a chapter, without links and without citations."""
     article = BeautifulSoup(path.read_text(), "html.parser").select_one("article > section")
     for part in article.select("a.headerlink, .bibtex-citation"):
+        if isinstance(part.previous_sibling, str):  # or a space is left before the full stop
+            part.previous_sibling.replace_with(part.previous_sibling.rstrip())
         part.decompose()
     for link in article.select("a") if path.stem != "teaching" else []:
         link.unwrap()
