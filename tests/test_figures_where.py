@@ -22,7 +22,7 @@ def test_the_best_so_far_never_falls():
 def test_a_photo_of_the_readers_is_seen():
     red = cv2.imencode(".png", np.full((800, 1200, 3), [0, 0, 255], np.uint8))[1].tobytes()
     image = where.received(f"data:image/png;base64,{b64encode(red).decode()}")
-    assert image.shape == (400, 600, 3)
+    assert image.shape == (800, 1200, 3)
     assert image[0, 0].tolist() == [255, 0, 0]
 
 

@@ -14,14 +14,18 @@ from vmc_lib.photos import HEIGHT, WIDTH
 SHOTS = photos.load(photos.SHEET_LEVEL, "test")
 
 
-def drawn(eye, scale=4):
-    """The sheet on a grey table, as a camera sees it: by the homography of its page."""
+def drawn(eye, scale=4, size=1):
+    """The sheet on a grey table, as a camera sees it: by the homography of its page.
+
+    `size` is how many times as wide and high the photo is as the eye's.
+    """
     corners = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
     seen = eye.project(sheet.CORNER + corners * sheet.PAGE / 1000 @ sheet.AXES[:2])
     print_ = cv2.resize(sheet.page(), None, fx=8, fy=8, interpolation=cv2.INTER_NEAREST)
     to = cv2.getPerspectiveTransform(np.float32(corners * sheet.PAGE * 8), np.float32(scale * seen))
     big = cv2.warpPerspective(print_, to, (scale * WIDTH, scale * HEIGHT), borderValue=120)
-    return np.dstack([cv2.resize(big, (WIDTH, HEIGHT), interpolation=cv2.INTER_AREA)] * 3)
+    whole = size * WIDTH, size * HEIGHT
+    return np.dstack([cv2.resize(big, whole, interpolation=cv2.INTER_AREA)] * 3)
 
 
 @pytest.mark.parametrize("focal", [420.0, 600.0, 800.0])
@@ -39,7 +43,20 @@ def test_without_the_sheet_the_camera_is_unknown():
     image = photos.load("rig", "train")[0].image
     eye, bare = sheet.look(image)
     assert eye is None
-    assert bare is image
+    assert (bare == image).all()
+
+
+@pytest.mark.parametrize("distance", [0.9, 2.2])
+def test_markers_are_sought_in_the_whole_photo(distance):
+    """In a photo twice as wide and high, a place is less than half as far off."""
+    eye = scene.look(np.array([0.2, TABLE, 0.15]), distance, 0.9, 0.3, 600.0, 0.05)
+    there, off = np.array([[0.2, TABLE, -0.05]]), []
+    for size in (1, 2):
+        found, bare = sheet.look(drawn(eye, size=size))
+        assert bare.shape == (HEIGHT, WIDTH, 3)
+        assert sheet.camera(bare) is None
+        off.append(np.linalg.norm(found.back_project(eye.project(there)) - there))
+    assert off[1] < off[0] / 2
 
 
 def test_the_sheet_is_painted_over_and_nothing_else():

@@ -9,6 +9,7 @@ import cv2
 import numpy as np
 
 from vmc_lib.camera import TABLE, Camera
+from vmc_lib.photos import HEIGHT, WIDTH, read_image
 
 PAGE = np.array([210, 297])  # mm, to the right and down: A4
 MARKER, GAP, GRID = 48, 12, (3, 4)  # mm, mm, columns and rows of markers
@@ -36,12 +37,12 @@ def page():
     return picture
 
 
-def look(image):
-    """The `Camera` of an image (height, width, 3), or None; and the image without the sheet.
+def look(photo):
+    """The eye's `Camera`, or None, and what it sees of a photo (height, width, 3) but the sheet.
 
-    Painted over in the colour around it, none of its markers passes for an object.
+    That is painted over in the colour around it, so that none of its markers passes for an object.
     """
-    eye = camera(image)
+    eye, image = camera(photo), read_image(photo)
     if eye is None:
         return None, image
     corners = CORNER + np.array([[0, 0], [1, 0], [1, 1], [0, 1]]) * PAGE / 1000 @ AXES[:2]
@@ -54,20 +55,21 @@ def look(image):
     return eye, bare
 
 
-def camera(image):
-    """The `Camera` of an image (height, width, 3), uint8, in which the sheet lies on the table.
+def camera(photo):
+    """The `Camera` of a photo (height, width, 3), uint8, in which the sheet lies on the table.
 
-    Its one unknown beside its pose is the focal length: the principal point is the image's middle,
-    and the lens has no distortion. None where fewer than FEWEST markers are seen.
+    Markers are sought in the whole photo; the camera's pixels are those of the eye, 600 × 400. Its
+    one unknown beside its pose is the focal length: the principal point is the photo's middle, and
+    the lens has no distortion. None where fewer than FEWEST markers are seen.
     """
     fine = cv2.aruco.DetectorParameters()
     fine.cornerRefinementMethod = cv2.aruco.CORNER_REFINE_SUBPIX
-    corners, names, _ = cv2.aruco.ArucoDetector(BOARD.getDictionary(), fine).detectMarkers(image)
+    corners, names, _ = cv2.aruco.ArucoDetector(BOARD.getDictionary(), fine).detectMarkers(photo)
     known = [] if names is None else np.flatnonzero(np.isin(names, BOARD.getIds()))
     if len(known) < FEWEST:
         return None
     points, pixels = BOARD.matchImagePoints([corners[k] for k in known], names[known])
-    height, width = image.shape[:2]
+    height, width = photo.shape[:2]
     guess = np.array([[width, 0, width / 2], [0, width, height / 2], [0, 0, 1.0]])
     only_focal = cv2.CALIB_USE_INTRINSIC_GUESS | cv2.CALIB_FIX_PRINCIPAL_POINT
     only_focal |= cv2.CALIB_FIX_ASPECT_RATIO | cv2.CALIB_ZERO_TANGENT_DIST
@@ -77,4 +79,6 @@ def camera(image):
         [points], [pixels + np.float32(0.5)], size, guess, None, flags=only_focal
     )
     turn = cv2.Rodrigues(turn)[0]
-    return Camera(found[0, 0], guess[:2, 2], turn @ AXES, FIRST - shift[:, 0] @ turn @ AXES)
+    focal = found[0, 0] * min(WIDTH / width, HEIGHT / height)
+    middle = np.array([WIDTH, HEIGHT]) / 2
+    return Camera(focal, middle, turn @ AXES, FIRST - shift[:, 0] @ turn @ AXES)

@@ -12,7 +12,7 @@ from IPython.display import HTML, display
 from PIL import Image
 
 from vmc_lib.boxes import iou
-from vmc_lib.photos import read_image
+from vmc_lib.photos import as_rgb
 from vmc_lib.show.controls import slider
 from vmc_lib.show.demo import figure, still_of
 from vmc_lib.show.figures import framed, photo_view
@@ -147,7 +147,7 @@ UPLOAD = """<div class="vmc-demo"><form class="vmc-control">
 def your_own(draw, example, caption, alt):
     """Show `draw(example)`; in a live kernel, a button puts the reader's own photo in its place.
 
-    `draw` takes an image (400, 600, 3) and returns markup. The photo stays in the kernel.
+    `draw` takes an image of any size and returns markup. The photo stays in the kernel.
     """
     figure(draw(example), caption, alt)
     if render_mode() == "live":
@@ -156,6 +156,6 @@ def your_own(draw, example, caption, alt):
 
 
 def received(sent):
-    """The image (400, 600, 3) that a browser sent, a `data:` address, as the eye sees it."""
+    """The image (height, width, 3) that a browser sent, a `data:` address."""
     with Image.open(BytesIO(b64decode(sent.partition(",")[2]))) as file:
-        return read_image(np.array(file))
+        return as_rgb(np.array(file))
