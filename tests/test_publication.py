@@ -11,6 +11,7 @@ import pypdfium2.raw as pdfium
 import pytest
 import yaml
 from bs4 import BeautifulSoup
+from PIL import Image
 from pybtex.database import parse_file
 
 from kit import pdf
@@ -74,6 +75,15 @@ def test_on_windows_the_same_is_installed_as_by_make():
     }
     assert len(asked["README.md"]) == 2
     assert asked["README.md"] == asked["Makefile"][:2]
+
+
+def test_readme_shows_the_loop_move():
+    """A picture that is quick to load, and that comes to rest."""
+    [shown] = re.findall(r"!\[[^]]+\]\(([^)]+)\)", (ROOT / "README.md").read_text())
+    assert (ROOT / shown).stat().st_size < 1.5e6
+    with Image.open(ROOT / shown) as picture:
+        assert picture.n_frames > 1
+        assert picture.info["loop"] > 0  # 0 is for ever
 
 
 # ---------------------------------------------------------------- on paper
