@@ -26,6 +26,7 @@ from reproduce import (
     results,
     training,
     trial,
+    unsteady,
     variations,
     wide_training,
 )
@@ -134,6 +135,12 @@ STEPS = (
         RESULTS / "feedback.json",
         f"templates {ARM} vmc_lib/cerebellum reproduce/movements.py",
         2,
+    ),
+    Step(
+        unsteady.make,
+        RESULTS / "unsteady.json",
+        f"templates {ARM} vmc_lib/cerebellum reproduce/movements.py reproduce/peers/cerebella.py",
+        3,
     ),
     Step(
         trial.make,

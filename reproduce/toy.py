@@ -23,6 +23,7 @@ from reproduce import (
     recognition,
     training,
     trial,
+    unsteady,
     variations,
     wide_training,
 )
@@ -76,6 +77,7 @@ def steps(folder):
         "movements": partial(movements.make, experiments, seeds=[0]),
         "cerebella": partial(cerebella.make, seeds=[0], movements=(2, 4), held_out=4),
         "feedback": partial(feedback.make, watched, seeds=[0]),
+        "unsteady": partial(unsteady.make, [5], seeds=[0], sizes=(2, 4), held_out=8),
         "fresh_test_set": partial(
             fresh_test_set.make, fresh, named, trainings=1, seeds=[0], patches=PATCHES
         ),

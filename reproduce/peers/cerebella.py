@@ -178,7 +178,8 @@ def compare(kind, cells, seed, movements=MOVEMENTS, held_out=200):
     learner remembers then.
     """
     pupil, seconds, shares = practise(kind, cells, seed, movements, held_out)
-    noisy_shares = practise(kind, cells, seed, movements, held_out, NOISE)[-1]
+    white = partial(noisy, share=NOISE)
+    noisy_shares = practise(kind, cells, seed, movements, held_out, white)[-1]
     return {
         "in-sample": shares[:, 0],
         "held-out": shares[:, 1],
@@ -188,20 +189,20 @@ def compare(kind, cells, seed, movements=MOVEMENTS, held_out=200):
     }
 
 
-def practise(kind, cells, seed, movements, held_out, noise=0.0):
+def practise(kind, cells, seed, movements, held_out, noise=None):
     """A learner that has practised, the seconds it took, and the shares of habit's error left.
 
-    Those are in-sample and held-out, (len(movements), 2).
+    Those are in-sample and held-out, (len(movements), 2); `noise` is that of the `arm`.
     """
     rng = np.random.default_rng(seed)
     unseen, targets = (draw_targets(load(), n, rng) for n in (held_out, movements[-1]))
-    practised = plan(targets, _arm(noise, (seed, 1)))
+    practised = plan(targets, arm(noise, (seed, 1)))
     pupil, shares = kind(load(), cells()), []
     for first, last in zip((0, *movements[:-1]), movements, strict=True):
         start = process_time()
         pupil.practise(practised[first:last])
         seconds = process_time() - start
-        tests = (plan(some, _arm(noise, (seed, 2))) for some in (targets[:last], unseen))
+        tests = (plan(some, arm(noise, (seed, 2))) for some in (targets[:last], unseen))
         shares.append([_left(pupil, plans) for plans in tests])
     return pupil, seconds, np.array(shares)
 
@@ -226,10 +227,12 @@ def _left(pupil, plans):
     return miss / habit
 
 
-def _arm(noise, stream):
-    """The templates, and an arm whose every excitation varies by a share `noise` of itself."""
+def arm(noise, stream):
+    """The templates, and an arm whose excitations vary: `noise(excitations, rng=…)`, or None."""
+    if noise is None:
+        return load()
     return replace(load(), reach=partial(_unsteady, noise, np.random.default_rng(stream)))
 
 
 def _unsteady(noise, rng, excitations, perturbation):
-    return reach(noisy(excitations, noise, rng), perturbation)
+    return reach(noise(excitations, rng=rng), perturbation)
