@@ -71,8 +71,8 @@ const vmcInPage = (() => {
     const to = target.map((n) => n.toFixed(2).replace("-", "−")).join(", ");
     return [
       `Votes of ${neurons} neurons for a reach to ${to}; their sum is ${off}.`,
-      cast.map((vote) => arrow("grey", vote, 1)).join("") + named("green", target, "the reach", 8) +
-        named("red", total, "the sum", -16) + plane.mark("words", "ink", plane.head, off, 6),
+      cast.map((vote) => arrow("grey", vote, 1)).join("") + named("green", target, "the reach", 22) +
+        named("red", total, "the sum", -30) + plane.mark("words", "ink", [0, 1.15], off, 0),
     ];
   };
 

@@ -36,20 +36,20 @@ def lean(target, neurons, evenly):
 
 def voted(target=None, neurons=4, evenly=True):
     """A figure of the votes (grey), the reach (green) and the votes' sum (red); or it is empty."""
-    fig, ax = plt.subplots(figsize=(4, 4))
-    ax.set(xlim=(-1.5, 1.5), ylim=(-1.5, 1.5), aspect="equal")
+    fig, ax = plt.subplots(figsize=(4.6, 3.6))
+    ax.set(xlim=(-1.6, 1.6), ylim=(-1.25, 1.25), aspect="equal")
     ax.axis("off")
     if target is not None:
         total = vote(target, neurons, evenly)
         arrows(ax, [0, 0], votes(target, preferred(neurons, evenly)), "grey")
         for tip, colour, words, above in (
-            (target, "green", "the reach", 8),
-            (total, "red", "the sum", -16),
+            (target, "green", "the reach", 22),
+            (total, "red", "the sum", -30),
         ):
             arrows(ax, [0, 0], tip, colour)
             look = dict(textcoords="offset points", ha="center", color=COLOURS[colour])
             ax.annotate(words, tip, (0, above), **look)
-        ax.set_title(f"{lean(target, neurons, evenly):.0f}° off")
+        ax.text(0, 1.15, f"{lean(target, neurons, evenly):.0f}° off", ha="center")
     return fig
 
 
