@@ -132,3 +132,10 @@ def test_what_is_folded_is_still_markdown(monkeypatch):
     monkeypatch.setattr(figures, "display", lambda text: shown.append(text.data))
     folded("The numbers", "| a |")
     assert shown == ["<details><summary>The numbers</summary>\n\n| a |\n\n</details>"]
+
+
+def test_a_number_below_zero_has_a_minus_sign(monkeypatch):
+    shown = []
+    monkeypatch.setattr(figures, "display", lambda item: shown.append(item.data))
+    figures.markdown("From -1.5 (-.2) to **-3**; $x = -1$, `f -1`, 2003-4, two-thirds")
+    assert shown == ["From −1.5 (−.2) to **−3**; $x = -1$, `f -1`, 2003-4, two-thirds"]

@@ -5,6 +5,7 @@ tuple of these shown side by side. Colours are named, never raw.
 """
 
 import html
+import re
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -20,6 +21,9 @@ from vmc_lib.show.scene import Scene
 _MARKDOWN = MarkdownIt().use(
     dollarmath_plugin, renderer=lambda tex, _: rf"\({html.escape(tex.strip())}\)"
 )
+
+# The hyphen that Python writes before a number, beyond maths and code
+_MINUS = re.compile(r"(\$[^$]*\$|`[^`]*`)|(?<=[\s(*])-(?=\.?\d)")
 
 
 def pictures(drawn, name):
@@ -145,7 +149,7 @@ def side_by_side(parts, alt):
 
 def markdown(text):
     """Show Markdown; an f-string puts the run's own numbers into a sentence."""
-    display(Markdown(text))
+    display(Markdown(_MINUS.sub(lambda found: found[1] or "−", text)))
 
 
 def folded(summary, text):

@@ -29,9 +29,9 @@ def table(part):
 
 
 def ball(part, position, colour):
-    """A small ball in a named colour; nothing hides it, nor the halo around it."""
+    """A small ball in a named colour; nothing hides it, nor its halo, which hides little itself."""
     colour = int(COLOURS[colour][1:], 16)
-    for name, radius, opacity in (("core", 0.007, 0.9), ("halo", 0.02, 0.35)):
+    for name, radius, opacity in (("core", 0.006, 0.9), ("halo", 0.02, 0.2)):
         part[name].set_object(
             g.Sphere(radius), g.MeshBasicMaterial(color=colour, opacity=opacity, depthTest=False)
         )

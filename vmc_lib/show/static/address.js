@@ -11,7 +11,7 @@ const vmcAddress = (demo) => {
   const link = document.createElement("a");
   Object.assign(link, { className: "vmc-link", textContent: "#", title: "Link to what the demo shows now" });
   link.setAttribute("aria-label", link.title);
-  caption.append(" ", link);
+  caption.append("\u00a0", link); // never alone on a line
 
   const state = () => {
     const places = new URLSearchParams();
