@@ -59,7 +59,7 @@ def lesson_of_a_miss(rng):
     reading = pick(rng, "as printed", "in the other reading")
     return number(
         f"The target is at x = {x} cm. With the modified weights w' the hand ended {miss} mm "
-        f"beyond it. For which x, {reading} of Algorithm 2, is w' learned as right?",
+        f"beyond it. For which x, {reading} of Algorithm 2, is w' learnt as right?",
         x + (miss / 10 if reading == "as printed" else 0),
         "cm",
         "As printed, by hindsight: for where w' took the hand. Otherwise: for the target.",
@@ -136,10 +136,10 @@ def after_effect(rng):
     other = {"left": "right", "right": "left"}[side]
     sizes = [f"{shift * learned:g} mm to the {way}" for way in (side, other)]
     return choice(
-        f"Through a prism the world looks shifted by {shift} mm to the {side}. The arm has learned "
+        f"Through a prism the world looks shifted by {shift} mm to the {side}. The arm has learnt "
         f"to take {learned:.0%} of that away. Then the prism is taken off. Where does the next "
         "reach end?",
         (*sizes, "on the target"),
         sizes[1],
-        "The correction stays when its cause is gone: as large as was learned, the other way.",
+        "The correction stays when its cause is gone: as large as was learnt, the other way.",
     )
