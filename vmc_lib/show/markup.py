@@ -8,6 +8,7 @@ from functools import cache, lru_cache
 import cv2
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.backends.backend_svg import FigureCanvasSVG
 
 from vmc_lib.show.live import STATIC
 from vmc_lib.show.palette import COLOURS, STYLE
@@ -32,7 +33,7 @@ def svg(fig, salt):
     """The figure as SVG, its text as text and its colours as CSS variables; closes the figure."""
     text = io.StringIO()
     with plt.rc_context(STYLE | {"svg.hashsalt": salt}):
-        fig.savefig(text, format="svg", metadata={"Date": None})
+        FigureCanvasSVG(fig).print_svg(text, metadata={"Date": None})  # `savefig` draws twice
     plt.close(fig)  # or the notebook would show it a second time
     svg = text.getvalue()
     least = 0.62 * 72 * fig.get_figwidth()  # on a phone a wide plot scrolls, its words stay legible
