@@ -92,7 +92,7 @@ def lathe(profile, sides=32):
     angle = np.linspace(0, 2 * np.pi, sides + 1)
     radius, height = np.array(profile, float).T[:, :, None]
     around = np.broadcast_arrays(radius * np.cos(angle), height, radius * np.sin(angle))
-    return _surface(np.stack(around, axis=-1))
+    return surface(np.stack(around, axis=-1))
 
 
 def _feathers(angles):
@@ -101,10 +101,10 @@ def _feathers(angles):
     radius = BALL - 0.002 + (RIM - BALL + 0.002) * (height - SKIRT) / (LENGTH - SKIRT)
     angle = angles[:, None, None] + half / radius * [-1, 1]
     around = np.broadcast_arrays(radius * np.cos(angle), height, radius * np.sin(angle))
-    return _surface(np.stack(around, axis=-1))
+    return surface(np.stack(around, axis=-1))
 
 
-def _surface(points):
+def surface(points):
     """A mesh over grids of points (..., rows, columns, 3)."""
     corner = np.arange(points[..., 0].size).reshape(points.shape[:-1])
     a, b = corner[..., :-1, :-1], corner[..., :-1, 1:]
