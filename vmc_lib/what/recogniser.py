@@ -36,7 +36,7 @@ def seen(cdbn, v):
 
 def read_outs(cdbn, crops):
     """Features (n, d) of grey crops (n, 200, 200), by the name of the read-out: see `seen`."""
-    parts = [seen(cdbn, v[None]) for v in whiten(crops)]
+    parts = [seen(cdbn, whiten(crop[None])) for crop in crops]  # one at a time: less memory
     return {name: np.concatenate([part[name] for part in parts]) for name in READ_OUTS}
 
 
