@@ -80,12 +80,12 @@ def explore(draw, caption, alt, in_page=None, **controls):
             steps = range(0, len(control.values), math.ceil(len(control.values) / SAMPLE))
             seen = [state(first + (step - control.first) * int(stride)) for step in steps]
             _must_work(seen, [control], [len(steps)])
-        data, shown = _worked_out(*in_page, controls, name), state(first)
     else:
         states = [state(place) for place in range(positions)]
         _must_work(states, controls.values())
-        data, shown = _stored(states), states[first]
     if render_mode() == "book":
+        shown = state(first) if in_page else states[first]
+        data = _worked_out(*in_page, controls, name) if in_page else _stored(states)
         display(HTML(_page(*shown, data, caption, controls, name)))
 
 
