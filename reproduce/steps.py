@@ -15,6 +15,7 @@ from joblib import parallel_config
 from reproduce import (
     bones,
     checksums,
+    domains,
     feedback,
     fresh_test_set,
     ledger,
@@ -160,6 +161,7 @@ STEPS = (
         "photos detectors localisers cdbn recogniser photographs templates vmc_lib",
         3,
     ),
+    Step(domains.make, RESULTS / "domains.npz", f"{WIDE} reproduce/peers", 8),
     Step(
         f"{RENDER} --sheet --samples 16",
         MODEL / "photos/sheet",

@@ -13,6 +13,7 @@ import numpy as np
 
 from render import scene
 from reproduce import (
+    domains,
     feedback,
     fresh_test_set,
     ledger,
@@ -36,7 +37,8 @@ from vmc_lib.where.recipes import RECIPES
 
 # Numbers of each level's photos; of the first two, one's shuttlecock stands and one's lies
 FEW = {"train": (0, 2), "validation": (1,), "test": (1,)}
-REAL = {"train": (1, 74), "validation": (13, 79)}  # a shuttlecock and none
+# of each split a photo with a shuttlecock and one with none
+REAL = {"train": (1, 74), "validation": (13, 79), "test": (17, 80)}
 NAMED = FEW | {"validation": (1, 2, 3, 4, 5)}  # Platt's sigmoid asks for five of a kind
 PATCHES = 200  # of the pictures that a network learns from
 LATER = 200  # what turns the number of a photo that ships into that of a later one
@@ -84,6 +86,7 @@ def steps(folder):
         "lesions": partial(trial.make, ["rig"], few),
         "photographs": partial(wide_training.photographs, named, 2, 80, everyday=1),
         "real_world": partial(real_world.make, few, splits=["validation"]),
+        "domains": partial(domains.make, few, [4], equal=4, draws=2, patches=PATCHES, steps=2),
         "printed_sheet": partial(printed_sheet.make, count=1),
         "whole_arm_habits": partial(habits.make, habits.grid(2)[:2]),
         "whole_arm": partial(experiment.make, [2], [14], seeds=[0], count=2),

@@ -27,7 +27,7 @@ EXAMPLES = 4000  # that a read-out learns from; a quarter as many validate it
 READ_OUT, TURNS = "P1 + P2", 4  # of what ships; the turns were chosen on validation photographs
 
 
-def end_to_end(draw, rng, maps=MAPS, steps=STEPS):
+def end_to_end(draw, rng, maps=MAPS, steps=STEPS, batch=BATCH, rate=RATE):
     """A CDBN whose every weight learns at once, from random ones, what tells the labels apart.
 
     draw: gives so many crops (n, NARROW, NARROW) and labels (n,). A linear read-out learns along,
@@ -40,10 +40,10 @@ def end_to_end(draw, rng, maps=MAPS, steps=STEPS):
     size = seen(cdbn, torch.randn(1, 1, NARROW, NARROW, generator=torch_rng))[READ_OUT].shape[1]
     scale = torch.nn.BatchNorm1d(size, affine=False)
     readout, bias = torch.zeros(size, requires_grad=True), torch.zeros(1, requires_grad=True)
-    learner = torch.optim.AdamW([*weights, readout, bias], lr=RATE, weight_decay=0.01)
-    rise_and_fall = torch.optim.lr_scheduler.OneCycleLR(learner, RATE, steps, pct_start=0.15)
+    learner = torch.optim.AdamW([*weights, readout, bias], lr=rate, weight_decay=0.01)
+    rise_and_fall = torch.optim.lr_scheduler.OneCycleLR(learner, rate, steps, pct_start=0.15)
     for _ in range(steps):
-        crops, labels = draw(BATCH)
+        crops, labels = draw(batch)
         logit = scale(seen(cdbn, torch.from_numpy(whiten(crops)))[READ_OUT]) @ readout + bias
         loss = F.binary_cross_entropy_with_logits(logit, torch.tensor(labels, dtype=torch.float))
         learner.zero_grad()

@@ -1,0 +1,75 @@
+"""Names away from home, and from few labels: what is told of them, and the small parts."""
+
+import numpy as np
+import pytest
+
+from reproduce import domains
+from reproduce.peers.features import histograms_of_gradients
+from vmc_lib import photos
+
+RNG = np.random.default_rng(0)
+
+
+def test_what_is_told_is_there():
+    found, asked = domains.load(), 1 + len(domains.LEVELS)
+    assert found["shift"].shape == (len(domains.LEVELS), 2, domains.DRAWS, asked)
+    assert found["few"].shape == (len(domains.LABELS), 3, domains.DRAWS, asked)
+    assert all(0 <= x.min() <= x.max() <= 1 for x in found.values())
+
+
+def test_what_is_told_of_the_rig_comes_out_again():
+    sets = [domains.things("rig", split) for split in photos.SPLITS]
+    train, validation, test = [(histograms_of_gradients(x), y) for x, y in sets]
+    again = domains.over_draws(domains.fixed, train, validation, [test], domains.EQUAL, 6)
+    told = domains.load()["shift"][0, 0, :, :2]
+    assert again == pytest.approx(told, abs=0.02)
+
+
+def test_a_photo_gives_its_things_and_a_window():
+    crops, labels = domains.things("rig", "test")
+    assert crops.shape == (120, 200, 200)
+    assert labels.sum() == 40
+    _, real = domains.things("real", "test")
+    shots = photos.load("real", "test")
+    assert real.sum() == sum(len(photos.all_of(shot, "shuttlecock")) for shot in shots)
+
+
+def test_both_kinds_count_alike():
+    truth = np.array([True, False, False, False])
+    assert domains.named_right(np.ones(4, bool), truth) == 0.5
+    assert domains.named_right(truth, truth) == 1
+
+
+def test_labels_are_drawn_until_both_kinds_are_there():
+    labels = np.arange(50) == 7
+    for count in (2, 10):
+        rows = domains.drawn(labels, count, RNG)
+        assert len(set(rows)) == count
+        assert 7 in rows
+    assert len(domains.drawn(labels, 640, RNG)) == 50
+
+
+def test_the_choice_is_made_on_validation_crops_alone():
+    """Of two choices the second does better there, and worse elsewhere."""
+
+    def two(taught, validation, exams, rng):
+        return [[1.0, 0.6, 0.9], [0.8, 0.7, 0.5]]
+
+    labels = np.arange(9) < 4
+    found = domains.over_draws(two, (labels, labels), None, None, 5, draws=3)
+    assert found.tolist() == [[0.8, 0.5]] * 3
+
+
+def test_a_read_out_tells_apart_what_can_be():
+    labels = np.arange(40) % 2 == 0
+    told = labels[:, None] + 0.01 * RNG.standard_normal((40, 3))
+    found = domains.fixed((told, labels), (told, labels), [(told, ~labels)], RNG)
+    assert np.shape(found) == (len(domains.PENALTIES), 3)
+    assert found[-1] == [1, 1, 0]
+
+
+def test_end_to_end_has_a_choice_for_each_rate_and_penalty():
+    crops, labels = RNG.random((6, 200, 200), np.float32), np.arange(6) < 3
+    few = crops, labels
+    found = domains.learned(few, few, [few], RNG, steps=2)
+    assert np.shape(found) == (len(domains.RATES) * len(domains.PENALTIES), 3)
