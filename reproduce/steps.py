@@ -31,7 +31,7 @@ from reproduce import (
     variations,
     wide_training,
 )
-from reproduce.peers import cerebella, optimal
+from reproduce.peers import cerebella, optimal, steady
 from reproduce.whole_arm import experiment, habits, plant
 from vmc_lib import data
 
@@ -124,6 +124,12 @@ STEPS = (
     Step(recognition.make, RESULTS / "recognition.npz", f"cdbn {WHAT} reproduce/peers", 3),
     Step(variations.make, RESULTS / "variations.npz", WHAT, 15),
     Step(optimal.make, RESULTS / "optimal.npz", f"templates {ARM}", 3),
+    Step(
+        steady.make,
+        RESULTS / "steady.npz",
+        f"templates {ARM} reproduce/peers/optimal.py reproduce/unsteady.py",
+        5,
+    ),
     Step(movements.make, RESULTS / "movements.json", f"templates {ARM} vmc_lib/cerebellum", 10),
     Step(
         cerebella.make,

@@ -28,7 +28,7 @@ from reproduce import (
     variations,
     wide_training,
 )
-from reproduce.peers import cerebella, optimal
+from reproduce.peers import cerebella, optimal, steady
 from reproduce.progress import run
 from reproduce.steps import STEPS, write
 from reproduce.whole_arm import experiment, habits
@@ -76,6 +76,7 @@ def steps(folder):
         "fresh_names": partial(fresh_test_set.names, fresh),
         "variations": partial(variations.make, [(6, 0)], named, PATCHES),
         "optimal": partial(optimal.make, optimal.TARGETS[12:13]),
+        "steady": partial(steady.make, optimal.TARGETS[12:13]),
         "movements": partial(movements.make, experiments, seeds=[0]),
         "cerebella": partial(cerebella.make, seeds=[0], movements=(2, 4), held_out=4),
         "feedback": partial(feedback.make, watched, seeds=[0]),

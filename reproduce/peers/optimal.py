@@ -37,35 +37,41 @@ def solve(target):
 
     The search begins at the habitual plan. RuntimeError when it does not come to an end.
     """
-    return _excitations(search(target).x)
+    return excited(search(target).x)
 
 
 def search(target):
-    """SciPy's account of the search: the knots `x` found, and how often the arm was tried.
+    """SciPy's account of the search for the knots `x` of least effort."""
+    price = np.kron(spline(KNOTS).T @ spline(KNOTS), np.eye(6))
+    price /= np.diag(price).mean()  # about 1 in every direction, as the method likes it
+    return sought(target, lambda x: x @ price @ x / 2, lambda x: price @ x)
 
-    Each of its `nfev` trials moves the arm once, and each of its `njev` slopes once for every knot
-    and once more.
+
+def sought(target, cost, slope, ftol=1e-4):
+    """SciPy's account of the search for the knots `x` that bring the hand there at least `cost`.
+
+    `slope` (n,) is the cost's; how often the arm was tried: each of the search's `nfev` trials
+    moves it once, each of its `njev` slopes once for every knot and once more (beside what the cost
+    takes).
     """
     start = plan(target, load()).excitations
     first = np.stack([least(spline(KNOTS), muscle) for muscle in start.T], axis=-1).ravel()
     goal = np.concatenate([np.tile(inverse_kinematics(target), 2), np.zeros(4)])
-    price = np.kron(spline(KNOTS).T @ spline(KNOTS), np.eye(6))
-    price /= np.diag(price).mean()  # about 1 in every direction, as the method likes it
     found = minimize(
-        lambda x: x @ price @ x / 2,
+        cost,
         first,
-        jac=lambda x: price @ x,
+        jac=slope,
         bounds=[(0, 1)] * first.size,
         constraints={"type": "eq", "fun": lambda x: _ends(x) - goal, "jac": _slopes},
         method="SLSQP",
-        options={"ftol": 1e-4, "maxiter": 60},
+        options={"ftol": ftol, "maxiter": 60},
     )
     if not found.success:
         raise RuntimeError(f"no optimum for the target {target} m: {found.message}")
     return found
 
 
-def make(targets=TARGETS):
+def make(targets=TARGETS, search=search):
     """What `results/optimal.npz` holds: the knots (n, 6 KNOTS) of targets (n, 2)."""
     found = Parallel()(delayed(search)(target) for target in targets)
     return {"knots": np.array([optimum.x for optimum in found], np.float32)}
@@ -74,7 +80,7 @@ def make(targets=TARGETS):
 @cache
 def shipped():
     """The optimal excitations (25, T, 6) of `TARGETS`."""
-    return _excitations(arrays("optimal")["knots"].astype(float))
+    return excited(arrays("optimal")["knots"].astype(float))
 
 
 def mixed():
@@ -87,13 +93,14 @@ def mixed():
     return plan(TARGETS[INNER], memories, chosen=corners)
 
 
-def _excitations(x):
+def excited(x):
+    """The excitations (…, T, 6) of knots (…, 6 KNOTS)."""
     return np.clip(spline(KNOTS) @ x.reshape(*x.shape[:-1], KNOTS, 6), 0, 1)
 
 
 def _ends(x):
     """Angles and velocities (…, 8) when the movement ends and when the hold ends."""
-    motion = reach(_excitations(x))
+    motion = reach(excited(x))
     q, velocity = (path[..., [MOVING, SAMPLES], :] for path in (motion.q, 0.05 * motion.velocity))
     return np.concatenate([q, velocity], axis=-2).reshape(*x.shape[:-1], 8)
 

@@ -1,0 +1,137 @@
+"""Minimum variance, another rival of habit: the steadiest commands that bring the hand there.
+
+Where noise grows with the command, commands differ in how far they let the hand scatter; Harris and
+Wolpert (1998) took the least scatter for the brain's aim. Task, arm and search are those of
+`optimal`. The scatter is counted at three moments of the hold, to first order of the noise of
+`unsteady.wavering`. What ships are the optima of those inner targets of `optimal`
+on which no template lies.
+"""
+
+from functools import cache
+
+import numpy as np
+
+from reproduce import unsteady
+from reproduce.peers import optimal
+from reproduce.peers.optimal import INNER, TARGETS
+from reproduce.results import arrays
+from vmc_lib.motor.inverse_dynamics import MOVING, SAMPLES, smooth
+from vmc_lib.motor.planning import plan
+from vmc_lib.motor.templates import load, reach
+
+AMONG = [1, 3, 4, 5, 7]  # of the nine `INNER` targets, those on which no template lies
+NEW = INNER[AMONG]
+HOLD = slice(MOVING, None, 150)  # ms: when scatter counts
+NUDGE = 1e-3  # of a knot: larger than `optimal`'s, for what is compared are differences
+WAVER = 0.03  # the share of noise by which its effect is found: about what reaches meet
+LEVEL, REPEATS = 5, 100  # mm that habit scatters by; reaches by which scatter is measured
+EVERY = 10  # ms between the samples of a path whose jerk is asked for
+
+
+def search(target):
+    """SciPy's account of the search for the knots `x` of least variance; `optimal.sought`."""
+    return optimal.sought(target, variance, variance_slope, ftol=3e-3)
+
+
+def variance(x):
+    """How far the hand scatters when every pool's noise is as large as its command: its variance.
+
+    In cm², the mean over both axes and the moments of `HOLD`.
+    """
+    return np.square(_effects(optimal.excited(x), _pools())).sum() / _places()
+
+
+def variance_slope(x):
+    """How the variance changes with each knot, (n,).
+
+    Each noise of `_pools` moves the places of the hand by its effect. All noises that move one
+    place are first added up, each times its effect there: then a nudged knot needs two reaches a
+    place, instead of two a noise.
+    """
+    pools = _pools()
+    worth = np.tensordot(_effects(optimal.excited(x), pools), pools, axes=(0, 0))
+    size = np.abs(worth).max(axis=(1, 2))
+    nudge = np.where(x > 0.5, -NUDGE, NUDGE)
+    nudged = optimal.excited(np.vstack([x, x + np.diag(nudge)]))
+    moved = np.einsum("nkk,k->n", _effects(nudged, worth / size[:, None, None]), size)
+    return 2 * (moved[1:] - moved[0]) / nudge / _places()
+
+
+def make(targets=TARGETS[NEW]):
+    """What `results/steady.npz` holds: the knots (n, 6 KNOTS) of targets (n, 2)."""
+    return optimal.make(targets, search)
+
+
+@cache
+def shipped():
+    """The steadiest excitations (5, T, 6) of the `NEW` targets."""
+    return optimal.excited(arrays("steady")["knots"].astype(float))
+
+
+def rivals():
+    """The excitations (5, T, 6) of the `NEW` targets, by the rule that makes them."""
+    return {
+        "habit": plan(TARGETS[NEW], load()).excitations,
+        "least effort": optimal.shipped()[NEW],
+        "least variance": shipped(),
+        "habit of least effort": optimal.mixed().excitations[AMONG],
+    }
+
+
+def compared(rng, repeats=REPEATS):
+    """By rule and measure, one number for each of the `NEW` targets.
+
+    How far the hand scatters when the reach is repeated on an arm that wavers by `LEVEL` mm (mm, a
+    standard deviation), how far it misses without noise (mm), the effort, and the `jerk`.
+    """
+    share, found = unsteady.share_for(LEVEL), {}
+    for name, told in rivals().items():
+        many = reach(unsteady.wavering(np.tile(told, (repeats, 1, 1, 1)), share, rng)).reached
+        calm = reach(told)
+        found[name] = {
+            "scatter": 1000 * np.sqrt(many.var(axis=0, ddof=1).mean(axis=-1)),
+            "miss": 1000 * np.linalg.norm(calm.reached - TARGETS[NEW], axis=-1),
+            "effort": optimal.effort(told),
+            "jerk": jerk(calm.hand[..., :2]),
+        }
+    return found
+
+
+def jerk(path):
+    """The squared jerk of paths (…, T + 1, d) while they should move, over the least there can be.
+
+    The least is that of a straight way of minimum jerk to where the hand is at the end.
+    """
+    way = path[..., : MOVING + 1, :]
+    straight = way[..., :1, :] + smooth(np.arange(MOVING + 1) / MOVING)[:, None] * (
+        way[..., -1:, :] - way[..., :1, :]
+    )
+    both = (
+        np.square(np.diff(x[..., ::EVERY, :], 3, axis=-2)).sum((-1, -2)) for x in (way, straight)
+    )
+    return np.divide(*both)
+
+
+def _effects(excitations, noises):
+    """How far noises (n, T, 6) move the places of the hand, in cm: (…, n, places)."""
+    ends = (
+        _held(np.clip(excitations[..., None, :, :] * (1 + side * WAVER * noises), 0, 1))
+        for side in (1, -1)
+    )
+    return np.subtract(*ends) / (2 * WAVER)
+
+
+def _held(excitations):
+    """Where the hand is at the moments of `HOLD`, in cm, (…, places)."""
+    return 100 * reach(excitations).hand[..., HOLD, :2].reshape(*excitations.shape[:-2], _places())
+
+
+def _places():
+    return 2 * len(range(SAMPLES + 1)[HOLD])
+
+
+@cache
+def _pools():
+    """Every curve of `unsteady.waves`, in one pool alone: (6 KNOTS, T, 6)."""
+    each = np.einsum("tn,km->nktm", unsteady.waves(), np.eye(6))
+    return each.reshape(-1, SAMPLES, 6)
