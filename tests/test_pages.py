@@ -165,7 +165,7 @@ def test_equations_that_are_named_are_linked(opened):
 
 
 def test_figures_are_numbered(opened):
-    captions = opened.page.locator("figcaption").all_inner_texts()
+    captions = opened.page.locator("figcaption").all_text_contents()
     numbers = [re.match(r"Figure (?:\d+\.)?(\d+) ", caption) for caption in captions]
     assert [number and int(number[1]) for number in numbers] == [*range(1, len(captions) + 1)]
 
