@@ -97,7 +97,8 @@ def dot_plot(series, xlabel, published=None, xlim=None):
     multiples: a tuple of such figures.
     """
     names = list(dict.fromkeys(name for rows in series.values() for name in rows))
-    fig, ax = plt.subplots(figsize=(4.2, 0.95 + len(names) * (0.16 + 0.14 * len(series))))
+    wide = max(4.2, 2.2 + 0.085 * max(map(len, names)))  # room for the longest name
+    fig, ax = plt.subplots(figsize=(wide, 0.95 + len(names) * (0.16 + 0.14 * len(series))))
     for number, (label, rows) in enumerate(series.items()):
         apart = 0.5 * ((number + 0.5) / len(series) - 0.5)
         value, low, high = np.transpose([np.broadcast_to(row, 3) for row in rows.values()])
