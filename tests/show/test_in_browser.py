@@ -436,8 +436,12 @@ def test_a_pad_is_dragged_by_its_handle_with_a_finger(open_demos, chromium):
         page.locator(f"output >> nth={i} >> text={told}").wait_for()
     stands(f"[{x + wide / 5}, {y + wide / 6}]")
     assert page.evaluate("scrollY") == 0
-    page.touchscreen.tap(x, y)
-    page.locator("output", has_text="100").first.wait_for()
+    there = page.locator("output", has_text="100").first
+    for _ in range(5):  # on a busy machine a tap may last so long that it is a press, and no click
+        page.touchscreen.tap(x, y)
+        if there.count():
+            break
+    there.wait_for()
     assert page.errors == []
     context.close()
 
