@@ -3,6 +3,8 @@
 The obstacle is a ball that only the hand must not touch. Positions are in the arm's plane, in m.
 """
 
+from functools import cache
+
 import numpy as np
 
 from reproduce.feedback import plans
@@ -33,20 +35,26 @@ def around(target, ball, template_set):
     Of all via-points whose meant way keeps `APART` of the ball, that of the shortest. ValueError
     when there is none.
     """
-    low, high = template_set.points.min(axis=0), template_set.points.max(axis=0)
-    spots = np.stack(np.meshgrid(*(np.arange(a, b, GRID) for a, b in zip(low, high, strict=True))))
-    spots = spots.reshape(2, -1).T
-    spots = spots[surrounded(spots, template_set.points)]
-    first = intend(plans(spots, template_set))
-    second = intend(plans(np.tile(target, (len(spots), 1)), template_set))
+    spots, first = _starts(template_set)
+    second = intend(plans(target[None], template_set))
     both = switch(first, second, TURN)
     ways = meant(both)
     length = np.linalg.norm(np.diff(ways, axis=1), axis=-1).sum(axis=1)
-    free = clearance(ways, np.tile(ball, (len(spots), 1))) > APART
+    free = clearance(ways, ball[None]) > APART
     if not free.any():
         raise ValueError(f"no way to {target} m keeps {APART} m from {ball} m; move the ball")
     best = np.where(free, length, np.inf).argmin()
     return spots[best], type(both)(both.q[[best]], both.excitations[[best]])
+
+
+@cache
+def _starts(template_set):
+    """All places (n, 2) that may become via-points, and the `Intention` to reach each."""
+    low, high = template_set.points.min(axis=0), template_set.points.max(axis=0)
+    spots = np.stack(np.meshgrid(*(np.arange(a, b, GRID) for a, b in zip(low, high, strict=True))))
+    spots = spots.reshape(2, -1).T
+    spots = spots[surrounded(spots, template_set.points)]
+    return spots, intend(plans(spots, template_set))
 
 
 def meant(intention):
