@@ -228,7 +228,7 @@ def test_what_stands_still_below_a_prediction_waits_for_it(open_questions, shown
     assert not page.is_visible("text=four")
     assert page.is_visible("text=a demo")
     page.click(by)
-    assert page.is_visible("text=four")
+    page.wait_for_selector("text=four", state="visible")
     page.close()
 
 
