@@ -41,7 +41,7 @@ const vmcInPage = (() => {
       time.mark("line", colour, values.map((value, t) => [t * every, value]), width);
     const thread = (row, i) =>
       plane.mark("line", "blue", [target, points[row]], 10 * weights[i]) + plane.mark("dot", "blue", points[row], 3.5) +
-      plane.mark("words", "ink", points[row], weights[i].toFixed(2), 7);
+      plane.mark("words", "ink", points[row], weights[i].toFixed(2), points[row][1] >= target[1] ? 7 : -14);
     const from = `${target.map((x) => x.toFixed(3).replace("-", "−")).join(", ")}`;
     return [
       `A target at ${from} m and the four templates that plan it; the hand ends ${miss} mm away. ` +

@@ -17,7 +17,8 @@ def shares(ax, target, points, weights):
     for point, weight in zip(points, weights, strict=True):
         ax.plot(*np.transpose([target, point]), color=COLOURS["blue"], lw=10 * abs(weight))
         ax.plot(*point, "o", ms=7, color=COLOURS["blue"])
-        ax.annotate(f"{weight:.2f}", point, (0, 7), textcoords="offset points", ha="center")
+        away = 7 if point[1] >= target[1] else -14  # from the threads
+        ax.annotate(f"{weight:.2f}", point, (0, away), textcoords="offset points", ha="center")
 
 
 def ends(ax, targets, reached):

@@ -108,10 +108,11 @@ STATIC = Path(__file__).parents[1] / "_static"
 DISSOLVE = """<div class="vmc-dissolve"><div class="vmc-picture" style="display: grid;
 justify-items: center">PHOTO<canvas aria-hidden="true" style="LAYER" hidden></canvas></div>
 <form class="vmc-controls" autocomplete="off">SLIDERS
+<div class="vmc-control"><div class="vmc-options">
 <button type="button" class="vmc-play">Play</button>
 <button type="button" class="vmc-play">Your photo …</button>
 <button type="button" class="vmc-play">Take a photo …</button>
-<input type="file" accept="image/*" aria-label="Your photo" hidden></form>
+<input type="file" accept="image/*" aria-label="Your photo" hidden></div></div></form>
 <p class="vmc-strip" style="min-height: 3.6em; CENTRED"></p>
 <p role="status" style="CENTRED"></p></div>"""
 LAYER = "grid-area: 1 / 1; max-width: 100%; height: auto"

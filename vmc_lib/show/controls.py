@@ -100,9 +100,7 @@ class Switch(Control):
 
     def html(self, name, stride):
         own = f'type="checkbox" name="{name}" data-stride="{stride}"{" checked" * self.first}'
-        return (
-            f'<div class="vmc-control"><label><input {own}>{html.escape(self.label)}</label></div>'
-        )
+        return f"<label><input {own}>{html.escape(self.label)}</label>"
 
 
 class Pad(Control):
@@ -153,7 +151,8 @@ def radios(name, label, options, chosen, attributes):
         for value, text in options.items()
     )
     return (
-        f'<fieldset class="vmc-control"><legend>{html.escape(label)}</legend>{buttons}</fieldset>'
+        f'<fieldset class="vmc-control"><legend>{html.escape(label)}</legend>'
+        f'<div class="vmc-options">{buttons}</div></fieldset>'
     )
 
 

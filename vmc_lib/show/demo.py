@@ -17,7 +17,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from IPython.display import HTML, display
 
-from vmc_lib.show.controls import as_control
+from vmc_lib.show.controls import Switch, as_control
 from vmc_lib.show.figures import framed, pictures, side_by_side
 from vmc_lib.show.live import STATIC, Live
 from vmc_lib.show.markup import styled
@@ -29,6 +29,7 @@ from vmc_lib.show.scene import Scene
 
 SCRIPTS = [*VIEWER, *(STATIC / f"{name}.js" for name in ("axes", "handle", "address", "demo"))]
 MOST_POSITIONS = 200
+SWITCHES = '<div class="vmc-control"><div class="vmc-options">{}</div></div>'  # a row of them
 SAMPLE = 25  # positions along a control, of a demo that the page works out
 _demos = itertools.count(1)
 
@@ -131,10 +132,10 @@ def _first(controls):
 
 def _face(alt, parts, controls, name):
     """The pictures, and below them what the script moves them by."""
-    form = "".join(
-        control.html(f"{name}-{key}", int(stride))
-        for (key, control), stride in zip(controls.items(), _strides(controls), strict=True)
-    )
+    form, pairs = "", zip(controls.items(), _strides(controls), strict=True)
+    for switches, row in itertools.groupby(pairs, lambda pair: isinstance(pair[0][1], Switch)):
+        faces = "".join(one.html(f"{name}-{key}", int(stride)) for (key, one), stride in row)
+        form += SWITCHES.format(faces) if switches else faces
     return (
         f'{side_by_side(parts, alt)}<form class="vmc-controls" autocomplete="off">{form}</form>'
         '<p class="vmc-spoken" aria-live="polite"></p>'
