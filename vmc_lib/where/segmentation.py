@@ -10,6 +10,7 @@ import numpy as np
 from vmc_lib.compiled import compiled
 
 WAYS = (0, 1), (1, 0), (1, 1), (1, -1)  # from a pixel down or to the right; the rest come back
+BLOCK = 1024  # edges looked at side by side: what they need of a large picture then comes at once
 
 
 def segment(channels, k=100, sigma=0.8):
@@ -24,9 +25,8 @@ def segment(channels, k=100, sigma=0.8):
 def segmentations(channels, scales, sigma=0.8):
     """The labels of `segment` at one scale k after another; the edges are sorted once for all."""
     smooth = cv2.GaussianBlur(channels, (0, 0), sigma).reshape(channels.shape)
-    weights = edge_weights(smooth)
+    weights, edges = lightest_first(edge_weights(smooth))
     del smooth  # of a large picture, each of these weighs a hundred megabytes
-    weights, edges = lightest_first(weights)
     inside = np.searchsorted(weights, np.inf)
     for k in scales:
         yield join(weights[:inside], edges[:inside], *channels.shape[:2], k / 255, k)
@@ -58,19 +58,24 @@ def lightest_first(weights):
 
     Read as integers, the bits of such numbers sort alike: eleven bits at a time, the last first.
     """
-    keys, order = weights.view(np.uint32), np.arange(len(weights)).astype(np.uint32)
-    for shift in (0, 11, 22):
-        place = np.zeros(2049, np.int64)
+    half, digits = np.uint64(32), np.uint64(2047)
+    keys, moved = np.empty(len(weights), np.uint64), np.empty(len(weights), np.uint64)
+    for i, bits in enumerate(weights.view(np.uint32)):
+        keys[i] = np.uint64(bits) << half | np.uint64(i)  # a weight and which it is, moved as one
+    for shift in np.array([32, 43, 54], np.uint64):
+        counts = np.zeros(2048, np.int64)
         for key in keys:
-            place[(key >> shift & 2047) + 1] += 1
-        place = np.cumsum(place)
-        sorted_keys, sorted_order = np.empty_like(keys), np.empty_like(order)
-        for i in range(len(keys)):
-            digit = keys[i] >> shift & 2047
-            sorted_keys[place[digit]], sorted_order[place[digit]] = keys[i], order[i]
+            counts[key >> shift & digits] += 1
+        place = np.cumsum(counts) - counts
+        for key in keys:
+            digit = key >> shift & digits
+            moved[place[digit]] = key
             place[digit] += 1
-        keys, order = sorted_keys, sorted_order
-    return keys.view(np.float32), order
+        keys, moved = moved, keys
+    ordered, order = np.empty(len(keys), np.uint32), np.empty(len(keys), np.uint32)
+    for i, key in enumerate(keys):
+        ordered[i], order[i] = key >> half, key & np.uint64(0xFFFFFFFF)
+    return ordered.view(np.float32), order
 
 
 @compiled
@@ -80,9 +85,14 @@ def join(weights, edges, height, width, k, smallest):
     An edge joins two patches that both tolerate its weight: the weight of the last edge inside
     each, and k / size. At the second walk it joins any two if one has under `smallest` pixels.
     """
-    root, size = np.arange(height * width, dtype=np.int32), np.ones(height * width, np.int32)
-    tolerance = np.full(height * width, k, np.float32)
-    neighbour = np.array([1, width, width + 1, width - 1], np.int32)
+    n = height * width
+    root, size = np.arange(n).astype(np.uint32), np.ones(n, np.int32)
+    tolerance = np.full(n, k, np.float32)
+    neighbour = np.array([1, width, width + 1, width - 1]).astype(np.uint32)
+
+    def ends(edge):
+        pixel = edge >> np.uint32(2)
+        return pixel, pixel + neighbour[edge & np.uint32(3)]
 
     def find(pixel):
         while root[pixel] != pixel:
@@ -90,23 +100,36 @@ def join(weights, edges, height, width, k, smallest):
             pixel = root[pixel]
         return pixel
 
-    waiting, left = edges.copy(), len(edges)
-    for last in (False, True):
-        walk, left = left, 0
-        for e in range(walk):
-            pixel = np.int32(waiting[e] // 4)
-            a, b = find(pixel), find(pixel + neighbour[waiting[e] % 4])
-            light = not last and weights[e] < min(tolerance[a], tolerance[b])
-            if a != b and (light or (last and min(size[a], size[b]) < smallest)):
-                a, b = min(a, b), max(a, b)
-                root[b], size[a] = a, size[a] + size[b]
+    def unite(a, b):
+        a, b = (b, a) if size[a] < size[b] else (a, b)
+        root[b], size[a] = a, size[a] + size[b]
+        return a
+
+    apart, waiting, left = np.empty(BLOCK, np.int64), np.empty_like(edges), 0
+    for start in range(0, len(edges), BLOCK):
+        count = 0
+        for e in range(start, min(start + BLOCK, len(edges))):
+            one, other = ends(edges[e])
+            apart[count] = e
+            count += root[one] != root[other]
+        for e in apart[:count]:
+            one, other = ends(edges[e])
+            a, b = find(one), find(other)
+            if a != b and weights[e] < min(tolerance[a], tolerance[b]):
+                a = unite(a, b)
                 tolerance[a] = weights[e] + k / size[a]
             elif a != b:
-                waiting[left], left = waiting[e], left + 1
+                waiting[left], left = edges[e], left + 1
+    for edge in waiting[:left]:
+        one, other = ends(edge)
+        a, b = find(one), find(other)
+        if a != b and min(size[a], size[b]) < smallest:
+            unite(a, b)
 
-    labels, count = np.empty(height * width, np.int64), 0
-    for pixel in range(height * width):
-        first = find(pixel)
-        labels[pixel] = labels[first] if first < pixel else count
-        count += first == pixel
+    labels, count, number = np.empty(n, np.int64), 0, np.full(n, -1, np.int32)
+    for pixel in range(n):
+        patch = find(np.uint32(pixel))
+        if number[patch] < 0:
+            number[patch], count = count, count + 1
+        labels[pixel] = number[patch]
     return labels.reshape(height, width)
