@@ -85,6 +85,13 @@ def test_a_push_is_mended_by_the_reflex_and_more_by_sight(few):
     assert far["all"] < far["reflex"] < far["none"]
 
 
+def test_each_of_a_batch_may_get_a_push_of_its_own():
+    still = np.zeros((2, 2))
+    both = push([[1.0, 0.0], [0.0, 2.0]], at=np.array([[0.1], [0.2]]))
+    np.testing.assert_array_equal(both(0.12, still), [[1, 0], [0, 0]])
+    np.testing.assert_array_equal(both(0.22, still), [[0, 0], [0, 2]])
+
+
 def test_a_foreseen_state_is_where_the_arm_will_be(few):
     motion, late, ticks = move(intend(few), BLIND), 300, 12
     now = late + ticks * feedback.TICK

@@ -145,8 +145,13 @@ def curl(strength):
 
 
 def push(force, at, lasts=0.05):
-    """A world that pushes the hand once, by `force` (2,) in N, `at` s, while it `lasts`."""
-    return lambda time, velocity: np.array(force) * (at <= time < at + lasts) + 0 * velocity
+    """A world that pushes the hand once, by `force` (2,) in N, `at` s, while it `lasts`.
+
+    Each of a batch may have its own: forces (B, 2), and times (B, 1).
+    """
+    return lambda time, velocity: (
+        np.array(force) * ((at <= time) & (time < at + lasts)) + 0 * velocity
+    )
 
 
 def _reflex(senses, q, velocity, meant_length, meant_rate):
