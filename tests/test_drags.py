@@ -9,8 +9,9 @@ import pytest
 import yaml
 
 from arm_in_page import live
-from book.figures import reaching, votes, where
+from book.figures import aiming, reaching, votes, where
 from vmc_lib import photos
+from vmc_lib.arm.kinematics import to_world
 from vmc_lib.arm.model import MUSCLES
 from vmc_lib.boxes import iou
 from vmc_lib.motor import templates
@@ -30,6 +31,8 @@ PAST, MUSCLE = templates.load(spacing=0.06), MUSCLES.index("BIClong")
 ACROSS, UP = np.arange(0.015, 0.17, 0.015), np.arange(-0.475, -0.33, 0.015)
 SPOTS = [(x, y) for x in ACROSS.tolist() for y in UP.tolist()]
 ENDED = plan(SPOTS, PAST).reached()
+SHOT = photos.load("free", "test")[0]
+ACROSS_SHOT, DOWN_SHOT = np.arange(0, 601, 10), np.arange(0, 401, 10)
 AROUND, NEURONS = np.linspace(-0.95, 0.95, 20), (4, 12, 60)
 
 
@@ -66,12 +69,19 @@ def page(offline, tmp_path_factory):
             neurons=Slider(NEURONS, "neurons"),
             evenly=Switch((False, True), "evenly spread"),
         )
+        explore(
+            lambda target: aiming.aimed(SHOT, target),
+            "c",
+            lambda target: aiming.told(SHOT, target),
+            in_page=aiming.aimed_in_page(SHOT),
+            target=Pad(ACROSS_SHOT, DOWN_SHOT, start=(300, 200)),
+        )
     (folder / "page.html").write_text(HEAD + "\n".join(shown))
     page = offline.new_page()
     errors = []
     page.on("pageerror", lambda error: errors.append(str(error)))
     page.goto((folder / "page.html").as_uri())
-    page.wait_for_function("() => document.querySelectorAll('[data-ready]').length === 3")
+    page.wait_for_function("() => document.querySelectorAll('[data-ready]').length === 4")
     yield page
     page.close()
     assert errors == []
@@ -166,6 +176,59 @@ def test_neurons_vote_as_in_python(page, place):
     cast = votes.votes(target, votes.preferred(neurons, evenly))
     wanted = [*cast, target, votes.vote(target, neurons, evenly)]
     assert np.abs(tips - on(seen, wanted)).max() < 0.1
+
+
+@pytest.mark.parametrize("place", [(30, 20), (21, 5), (40, 10), (33, 38), (0, 0), (60, 1)])
+def test_a_dragged_target_is_where_the_camera_says(page, place):
+    pixel = np.array([ACROSS_SHOT[place[0]], DOWN_SHOT[place[1]]])
+    (photo, table), said = move(page, 3, *place)
+    spot = aiming.placed(SHOT, pixel)
+    assert said == f"{aiming.told(SHOT, pixel)}."
+    assert words(table)[-1] == aiming.told(SHOT, pixel)
+    rings = numbers(photo, "circle")
+    assert rings == numbers(aiming.aimed(SHOT, pixel)[0], "circle")
+    x, z = spot[[0, 2]]
+    assert np.abs(numbers(table, "circle")[-1][:2] - on(table, [z, x])).max() < 0.1
+    turn, lines = aiming.turned(spot), re.findall(r'<polyline points="([^"]*)"', table)
+    assert (len(lines) == 3) == (turn is not None)
+    if turn is not None:
+        tip = np.float64(lines[-1].split()[-1].split(","))
+        x, _, z = to_world(aiming.AHEAD, turn)[1]
+        assert np.abs(tip - on(table, [z, x])).max() < 1
+
+
+def test_a_place_is_dragged_in_either_picture(page):
+    move(page, 3, 30, 20)
+    box = page.locator(".vmc-demo").nth(3)
+    box.scroll_into_view_if_needed()
+    twins = box.locator("input").all()
+    for handle, way in ((0, (40, -20)), (1, (-15, 25))):
+        before = [int(twin.input_value()) for twin in twins]
+        grip = box.locator(".vmc-handle").nth(handle).bounding_box()
+        x, y = grip["x"] + grip["width"] / 2, grip["y"] + grip["height"] / 2
+        page.mouse.move(x, y)
+        page.mouse.down()
+        page.mouse.move(x + way[0], y + way[1], steps=3)
+        page.mouse.up()
+        assert [int(twin.input_value()) for twin in twins] != before
+        grip = box.locator(".vmc-handle").nth(handle).bounding_box()
+        now = np.array([grip["x"] + grip["width"] / 2, grip["y"] + grip["height"] / 2])
+        assert np.abs(now - [x + way[0], y + way[1]]).max() < 8  # to the nearest place of the grid
+
+
+def test_the_camera_is_python_s(page):
+    rng = np.random.default_rng(2)
+    pixels = rng.uniform([0, 0], [600, 400], (20, 2))
+    points = SHOT.camera.back_project(pixels, -0.4)
+    given = aiming.aimed_in_page(SHOT)[2]
+    seen, back = page.evaluate(
+        """([camera, pixels, points]) => [
+          pixels.map((pixel) => vmcInPage.backProject(camera, pixel, -0.4)),
+          points.map((point) => vmcInPage.project(camera, point))]""",
+        [given["camera"], pixels.tolist(), points.tolist()],
+    )
+    assert np.allclose(seen, points, atol=1e-9)
+    assert np.allclose(back, pixels, atol=1e-6)
 
 
 def test_a_photo_lies_below(page):

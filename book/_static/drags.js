@@ -4,7 +4,7 @@
 const vmcInPage = (() => {
   "use strict";
 
-  const { dot, plus, sum, times } = vmcVectors;
+  const { dot, minus, plus, sum, times } = vmcVectors;
 
   /* Intersection over union of two boxes [x0, y0, x1, y1] (vmc_lib/boxes.py). */
   const iou = (a, b) => {
@@ -76,5 +76,62 @@ const vmcInPage = (() => {
     ];
   };
 
-  return { iou, overlap, plan, votes };
+  /* Where the ray through a pixel meets a height, and at which pixel a point of the room appears
+     (vmc_lib/camera.py). */
+  const backProject = ({ focal, centre, rotation, position }, pixel, height) => {
+    const [x, y] = times(1 / focal, minus(pixel, centre));
+    const ray = rotation[0].map((_, k) => dot([x, y, 1], rotation.map((axis) => axis[k])));
+    return plus(position, times((height - position[1]) / ray[1], ray));
+  };
+  const project = ({ focal, centre, rotation, position }, point) => {
+    const [x, y, z] = rotation.map((axis) => dot(axis, minus(point, position)));
+    return plus(centre, times(focal / Math.max(z, 1e-6), [x, y]));
+  };
+
+  /* The trunk's turn that brings the hand's plane to a place, from the turns at some distances from its
+     axis; nothing where the hand cannot be (vmc_lib/arm/kinematics.py). */
+  const turnTowards = ({ turns, trunk: { axis, range } }, [x, , z]) => {
+    const [ahead, right] = minus([x, z], axis);
+    const i = turns.findIndex(([away]) => away >= Math.hypot(ahead, right));
+    if (i < 1) return null;
+    const [[near, less], [far, more]] = turns.slice(i - 1, i + 1);
+    const turn = less + ((Math.hypot(ahead, right) - near) / (far - near)) * (more - less) - Math.atan2(right, ahead);
+    return turn < range[0] || turn > range[1] ? null : turn;
+  };
+
+  /* A target in a photo, and from above the place that it means (book/figures/aiming.py). */
+  const aim = (given, pixel, [photo, above]) => {
+    const { camera, trunk: { axis }, marks: { height, ahead, edge, paint } } = given;
+    const place = backProject(camera, pixel, height);
+    const turn = turnTowards(given, place);
+    const reached = turn !== null;
+    const flat = ([x, , z]) => [z, x];
+    const turned = ([x, , z]) => {
+      const [u, v] = minus([x, z], axis), [c, s] = [Math.cos(turn), Math.sin(turn)];
+      return flat([c * u + s * v + axis[0], 0, c * v - s * u + axis[1]]);
+    };
+    const [far, , right] = times(100, place);
+    const trunk = reached ? `the trunk turns by ${((turn * 180) / Math.PI).toFixed(0)}°` : "out of reach";
+    const words = `${far.toFixed(0)} cm ahead, ${Math.abs(right).toFixed(0)} cm to the ${right > 0 ? "right" : "left"}: ${trunk}`
+      .replaceAll("-", "−");
+    const ring = `<circle cx="${pixel[0].toFixed(1)}" cy="${pixel[1].toFixed(1)}" r="6"`;
+    const line = (colour, ...points) => above.mark("line", colour, points, 1.8);
+    return [
+      `${words}.`,
+      `${ring} ${edge}/>${ring} stroke="${paint[reached ? "green" : "red"]}"/>`,
+      line("blue", flat(camera.position), flat(place)) +
+        (reached ? line("purple", [...axis].reverse(), turned([0, 0, 0])) + line("grey", ...ahead.map(turned)) : "") +
+        above.mark("dot", reached ? "green" : "red", flat(place), 4.5) + above.mark("words", "ink", above.head, words, 6),
+    ];
+  };
+  /* Each picture takes a handle: how it shows what the pad stands at, and what a place on it means. */
+  aim.views = ({ camera, marks: { height } }) => [
+    { shown: (pixel) => pixel, meant: (pixel) => pixel },
+    {
+      shown: (pixel) => backProject(camera, pixel, height).filter((_, k) => k !== 1).reverse(),
+      meant: ([right, ahead]) => project(camera, [ahead, height, right]),
+    },
+  ];
+
+  return { aim, backProject, iou, overlap, plan, project, turnTowards, votes };
 })();

@@ -75,8 +75,7 @@ def from_above(photo, reach, turned):
     q, turn = (reach.planned.q[-1], reach.turn) if turned else (START, 0.0)
     shoulder, ahead = to_world([[0, 0, 0.06], [0.5, 0, 0.06]], turn)
     axis = np.insert(TRUNK, 1, 0)
-    fig, ax = plt.subplots(figsize=(5.2, 4.8))
-    for places, style, colour, label in (
+    parts = (
         ([photo.camera.position, photo.target], ":", "blue", ""),
         ([shoulder, ahead], "--", "grey", "the arm's plane"),
         ([axis, to_world([[0, 0, 0]], turn)[0]], "-", "purple", ""),
@@ -85,13 +84,20 @@ def from_above(photo, reach, turned):
         ([to_world([[0, 0, 0]], turn)[0]], "o", "ink", "shoulder"),
         ([photo.camera.position], "^", "blue", "eye"),
         ([photo.target], "*", "green", "shuttlecock"),
-    ):
+    )
+    aside = f"the trunk {'has turned' if turned else 'will turn'} by {np.degrees(reach.turn):.0f}°"
+    return above(parts, aside, (-0.45, 0.4), (-0.2, 0.6))
+
+
+def above(parts, title, xlim, ylim):
+    """Things seen from above (a figure): each part is (places (n, 3), style, colour, label)."""
+    fig, ax = plt.subplots(figsize=(5.2, 4.8))
+    for places, style, colour, label in parts:
         x, _, z = np.transpose(places)
         ax.plot(z, x, style, color=COLOURS[colour], ms=9)
         at = z[-1], x[-1]
         ax.annotate(label, at, (7, 4), textcoords="offset points", color=COLOURS[colour])
-    aside = f"the trunk {'has turned' if turned else 'will turn'} by {np.degrees(reach.turn):.0f}°"
-    ax.set(xlim=(-0.45, 0.4), ylim=(-0.2, 0.6), aspect="equal", title=aside)
+    ax.set(xlim=xlim, ylim=ylim, aspect="equal", title=title)
     ax.set(xlabel="to the right (m)", ylabel="forward (m)")
     return fig
 

@@ -36,7 +36,7 @@ const vmcDemo = (() => {
       box.innerHTML = lines.join("\n");
       return vmcAxes(box.content.firstElementChild);
     });
-    return (place, draw) => {
+    const ask = (place, draw) => {
       const values = grid.map((along, i) => {
         const stride = grid.slice(i + 1).reduce((product, { length }) => product * length, 1);
         return along[Math.floor(place / stride) % along.length];
@@ -44,6 +44,7 @@ const vmcDemo = (() => {
       const [words, ...marks] = vmcInPage[work](given, values, axes, place);
       draw([[words], ...grounds.map((lines, i) => [...lines.slice(0, -1), marks[i], "</svg>"])]);
     };
+    return Object.assign(ask, { views: vmcInPage[work].views?.(given) });
   };
 
   /* `ask(place, draw)` gives `draw` the state at a place: its words and its pictures, as lines. */
@@ -145,18 +146,24 @@ const vmcDemo = (() => {
         watch.observe(demo);
       }
     }
-    /* A pad: a handle on the first plot moves its two sliders to the nearest place. */
+    /* A pad: a handle on the first plot, or on each that has a view of it, moves its two sliders to the
+       nearest place. */
     const pad = demo.querySelector(".vmc-pad");
     if (pad) {
       const [grid, twins] = [JSON.parse(pad.dataset.grid), [...pad.querySelectorAll("input")]];
-      const put = vmcHandle(pictures, (place) => {
+      const move = (place) => {
         grid.forEach((values, i) => {
           const far = values.map((value) => Math.abs(value - place[i]));
           twins[i].value = far.indexOf(Math.min(...far));
         });
         twins[0].dispatchEvent(new Event("input", { bubbles: true }));
+      };
+      const same = (place) => place;
+      const puts = (ask.views ?? [{ shown: same, meant: same }]).map(({ shown, meant }, i) => {
+        const put = vmcHandle(pictures, (place) => move(meant(place)), i);
+        return (place) => put(shown(place));
       });
-      drawn = () => put(twins.map((twin, i) => grid[i][twin.value]));
+      drawn = () => puts.forEach((put) => put(twins.map((twin, i) => grid[i][twin.value])));
     }
 
     demo.addEventListener("input", show);

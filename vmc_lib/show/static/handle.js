@@ -1,14 +1,15 @@
 /* A handle on a plot or a photo, for a mouse or a finger: it stands at a place of the picture's axes,
    and is dragged over them. A mouse may press anywhere, a finger may tap; fingers that move beside the
    handle scroll the page. `moved(place)` hears where it is wanted; the function returned puts it at a
-   place. */
-const vmcHandle = (pictures, moved) => {
+   place. The picture is the first, or another by its number, of those that have axes. */
+const vmcHandle = (pictures, moved, number) => {
   "use strict";
 
   const handle = document.createElement("span");
   handle.className = "vmc-handle";
   pictures.append(handle);
-  const plot = () => pictures.querySelector("svg[data-axes]");
+  const plot = () => pictures.querySelectorAll("svg[data-axes]")[number ?? 0];
+  const on = ({ target }) => target.closest("svg[data-axes]") === plot();
   let place, held = null; // how far beside the handle's middle it was taken
 
   const put = () => {
@@ -23,7 +24,7 @@ const vmcHandle = (pictures, moved) => {
 
   pictures.addEventListener("pointerdown", (event) => {
     const own = event.target === handle;
-    if (!own && (event.pointerType === "touch" || !event.target.closest("svg[data-axes]"))) return;
+    if (!own && (event.pointerType === "touch" || !on(event))) return;
     event.preventDefault(); // no text is selected on the way
     const { left, top, width, height } = handle.getBoundingClientRect();
     held = own ? [event.clientX - left - width / 2, event.clientY - top - height / 2] : [0, 0];
@@ -33,7 +34,7 @@ const vmcHandle = (pictures, moved) => {
   pictures.addEventListener("pointermove", (event) => held && go(event, held));
   for (const type of ["pointerup", "pointercancel"]) pictures.addEventListener(type, () => (held = null));
   pictures.addEventListener("click", (event) => {
-    if (event.pointerType === "touch" && event.target.closest("svg[data-axes]")) go(event);
+    if (event.pointerType === "touch" && on(event)) go(event);
   });
   pictures.addEventListener("scroll", () => put(), true); // a wide plot scrolls on a phone
   new ResizeObserver(() => place && put()).observe(pictures);
