@@ -34,21 +34,26 @@ class Appearance:
     texture: np.ndarray  # (n, 80 c) histogram of each channel's slopes, sums to 1
     pixels: int  # in the whole image
 
+    @property
+    def rows(self):
+        """All that is known of the regions, as the compiled loops take it."""
+        return self.size, self.boxes, self.colour, self.texture
+
     def merge(self, i, j, new):
         """Write into row `new` the union of regions i and j, from their rows alone."""
-        _merge(self.size, self.boxes, self.colour, self.texture, i, j, new)
+        union(*self.rows, i, j, new)
 
     def likeness(self, pairs, counts):
         """How alike pairs (m, 2) of regions are, (m,): the sum of those MEASURES that count.
 
         Each is 1 at most, and the more, the more alike. `counts`: a truth value for each measure.
         """
-        rows = self.size, self.boxes, self.colour, self.texture
-        return _likeness(*rows, self.pixels, pairs, counts)
+        return likeness(*self.rows, self.pixels, pairs, counts)
 
 
 @compiled
-def _merge(size, boxes, colour, texture, i, j, new):
+def union(size, boxes, colour, texture, i, j, new):
+    """What `Appearance.merge` does, for a compiled loop to call."""
     size[new] = size[i] + size[j]
     for low, high in ((0, 2), (1, 3)):
         boxes[new, low] = min(boxes[i, low], boxes[j, low])
@@ -60,7 +65,8 @@ def _merge(size, boxes, colour, texture, i, j, new):
 
 
 @compiled
-def _likeness(size, boxes, colour, texture, pixels, pairs, counts):
+def likeness(size, boxes, colour, texture, pixels, pairs, counts):
+    """What `Appearance.likeness` returns, for a compiled loop to call."""
     by_colour, by_texture, by_size, by_fill = counts
     total = np.zeros(len(pairs))
     for n, (i, j) in enumerate(pairs):
@@ -90,35 +96,29 @@ def colour_codes(channels, bins=25):
 
 
 def texture_codes(channels, bins=10):
-    """For each channel and eight directions, which of `bins` bins each pixel's upward slope is in.
+    """For each channel and four lines through a pixel, how steeply it rises, and which way.
 
-    Returns the codes (8c rows of pixels), and `bins`.
+    Returns the codes (4c rows of pixels), and how many there are: `bins` of slopes up one way of
+    the line, then as many up the other.
     """
     smooth = [cv2.GaussianBlur(channel, (0, 0), 1) for channel in np.moveaxis(channels, 2, 0)]
     slopes = [cv2.Sobel(x, -1, *way).ravel() for x in smooth for way in ((1, 0), (0, 1))]
-    return _upward(np.array(slopes), np.arange(4) * np.pi / 4, bins), bins
+    return _rises(np.array(slopes), np.arange(4) * np.pi / 4, bins), 2 * bins
 
 
 @compiled
-def _upward(slopes, angles, bins):
-    """Codes of the slopes (2c, pixels), to the right and down, along each angle and against it."""
-    channels, pixels = len(slopes) // 2, slopes.shape[1]
-    codes = np.zeros((channels, len(angles), 2, pixels), np.uint8)
+def _rises(slopes, angles, bins):
+    """Codes of the slopes (2c, pixels), to the right and down, along a line at each angle."""
+    channels, lines, pixels = len(slopes) // 2, len(angles), slopes.shape[1]
+    codes = np.empty((channels * lines, pixels), np.uint8)
     for c in range(channels):
-        for a in range(len(angles)):
-            across, down = np.cos(angles[a]), np.sin(angles[a])
+        for line in range(lines):
+            across, down = np.cos(angles[line]), np.sin(angles[line])
             for pixel in range(pixels):
                 slope = across * slopes[2 * c, pixel] + down * slopes[2 * c + 1, pixel]
-                against = int(slope < 0)
-                codes[c, a, against, pixel] = min(bins * abs(slope), bins - 1)
-    return codes.reshape(-1, pixels)
-
-
-def histograms(labels, codes, bins):
-    """The share of each region's pixels in each bin: (regions, rows of codes * bins)."""
-    counts = _count(labels.ravel(), codes, labels.max() + 1, bins)
-    counts = counts.reshape(len(counts), -1).astype(np.float32)
-    return counts / counts.sum(1, keepdims=True)
+                code = min(bins * abs(slope), bins - 1)
+                codes[c * lines + line, pixel] = int(code) + bins * (slope < 0)
+    return codes
 
 
 @compiled
@@ -130,14 +130,25 @@ def _count(labels, codes, regions, bins):
     return counts
 
 
+def histograms(counts):
+    """Counts (regions, ...) as shares of all of a region's: (regions, bins), float32."""
+    counts = counts.reshape(len(counts), -1).astype(np.float32)
+    return counts / counts.sum(1, keepdims=True)
+
+
 def describe(labels, colours, textures):
     """The Appearance of a segmentation, with room for every merge: 2n - 1 rows for n segments."""
     places = find_objects(labels + 1)
+    colour, texture = (
+        _count(labels.ravel(), codes, len(places), bins) for codes, bins in (colours, textures)
+    )
+    texture = texture.reshape(len(places), -1, 2, textures[1] // 2)
+    texture[..., 0] += texture.sum(3)[..., ::-1]  # what rises one way does not rise the other
     rows = {
         "size": np.bincount(labels.ravel()),
         "boxes": np.array([(x.start, y.start, x.stop, y.stop) for y, x in places], float),
-        "colour": histograms(labels, *colours),
-        "texture": histograms(labels, *textures),
+        "colour": histograms(colour),
+        "texture": histograms(texture),
     }
     room = {name: np.concatenate([row, np.zeros_like(row[1:])]) for name, row in rows.items()}
     return Appearance(**room, pixels=labels.size)

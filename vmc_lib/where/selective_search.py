@@ -5,18 +5,22 @@ object (Uijlings et al. 2013; the paper's Block 1-1, bottom-up part).
 """
 
 from dataclasses import dataclass
+from functools import partial
 from heapq import heapify, heappop, heappush
 from itertools import chain
 
 import numpy as np
 
+from vmc_lib.compiled import compiled
 from vmc_lib.photos import as_float
 from vmc_lib.where.appearance import (
     COLOUR_SPACES,
     MEASURES,
     colour_codes,
     describe,
+    likeness,
     texture_codes,
+    union,
 )
 from vmc_lib.where.segmentation import segmentations
 
@@ -27,9 +31,14 @@ SIMILARITIES = dict.fromkeys(MEASURES)
 
 def alike(appearance, pairs, similarities):
     """How alike pairs (n, 2) of regions are, (n,): the sum of the named similarities."""
-    total = appearance.likeness(pairs, tuple(name in similarities for name in MEASURES))
+    total = appearance.likeness(pairs, _counting(similarities))
     others = (SIMILARITIES[name] for name in similarities if name not in MEASURES)
     return sum((other(appearance, *pairs.T) for other in others), total)
+
+
+def _counting(similarities):
+    """For each of MEASURES, whether it is among the named similarities."""
+    return tuple(name in similarities for name in MEASURES)
 
 
 # ---------------------------------------------------------------- growing back
@@ -68,31 +77,53 @@ def grow(labels, appearance, similarities):
     row follows from its two parts' rows, so no step reads a pixel, and a heap has the best pair at
     hand: n segments cost about n log n.
     """
-    n, pairs = labels.max() + 1, touching(labels)
-    neighbours = {i: set() for i in range(n)}
-    for i, j in pairs.tolist():
-        neighbours[i].add(j)
-        neighbours[j].add(i)
-    likeness = alike(appearance, pairs, similarities)
-    queue = list(zip((-likeness).tolist(), *pairs.T.tolist(), strict=True))
+    pairs = touching(labels)
+    given = appearance.rows, appearance.pixels, pairs, alike(appearance, pairs, similarities)
+    if set(similarities) <= set(MEASURES):
+        merges = _merge_all(*given, _counting(similarities), None)
+    else:  # a reader's own measure is no machine code, and neither is the loop that asks it
+        like = partial(alike, appearance, similarities=similarities)
+        merges = _merge_all.__wrapped__(*given, None, like)
+    return Hierarchy(labels, merges, appearance.boxes.copy())
+
+
+@compiled
+def _merge_all(rows, pixels, pairs, first_alike, counting, like):
+    """Which two regions each step merges, (n - 1, 2); fills the empty rows of an Appearance.
+
+    The first `pairs` (m, 2) are `first_alike`, (m,). How alike later ones are says `like`, or, if
+    that is None, the sum of those MEASURES that are `counting`.
+    """
+    total = len(rows[0])
+    into, met = np.arange(total), np.zeros(total, np.int64)  # by what merged; by what last met
+    neighbours = [[i for i in range(0)] for _ in range(total)]
+    for i, j in pairs:
+        neighbours[i].append(j)
+        neighbours[j].append(i)
+    queue = [(-first_alike[p], pairs[p, 0], pairs[p, 1]) for p in range(len(pairs))]
     heapify(queue)
-    merges = []
-    while len(neighbours) > 1:
+    merges = np.empty((total // 2, 2), np.int64)
+    for new in range(total - len(merges), total):
         _, i, j = heappop(queue)
-        if i not in neighbours or j not in neighbours:
-            continue  # one of the two has been merged away since
-        new = n + len(merges)
-        merges.append((i, j))
-        appearance.merge(i, j, new)
-        around = (neighbours.pop(i) | neighbours.pop(j)) - {i, j}
-        neighbours[new] = around
-        for k in around:
-            neighbours[k] -= {i, j}
-            neighbours[k].add(new)
-        rest = np.array([(k, new) for k in around], int).reshape(-1, 2)
-        for likeness, k in zip(alike(appearance, rest, similarities), around, strict=True):
-            heappush(queue, (-likeness, k, new))
-    return Hierarchy(labels, np.array(merges, int).reshape(-1, 2), appearance.boxes.copy())
+        while into[i] != i or into[j] != j:  # one of the two has been merged away since
+            _, i, j = heappop(queue)
+        merges[new - total] = i, j
+        union(*rows, i, j, new)
+        into[i] = into[j] = new
+        for k in neighbours[i] + neighbours[j]:
+            while into[k] != k:
+                into[k] = into[into[k]]  # half as far for who asks next
+                k = into[k]
+            if k != new and met[k] != new:
+                met[k] = new
+                neighbours[new].append(k)
+        around = np.full((len(neighbours[new]), 2), new)
+        for p, k in enumerate(neighbours[new]):
+            around[p, 0] = k
+        found = likeness(*rows, pixels, around, counting) if like is None else like(around)
+        for p, k in enumerate(neighbours[new]):
+            heappush(queue, (-found[p], k, new))
+    return merges
 
 
 # ---------------------------------------------------------------- many hierarchies, one list
