@@ -182,7 +182,9 @@ def as_rgb(array):
 
 def as_float(image):
     """What `as_rgb` makes of an image, as float32 in 0..1."""
-    return as_rgb(image).astype(np.float32) / 255
+    rgb = as_rgb(image).astype(np.float32)
+    rgb /= 255
+    return rgb
 
 
 def _open(path):

@@ -1,5 +1,7 @@
 """What the ventral pathway is given: the crop inside a box, whitened as the retina does."""
 
+from functools import cache
+
 import cv2
 import numpy as np
 from scipy import fft
@@ -48,8 +50,13 @@ def whiten(pictures, cutoff=0.4):
     # A mirrored border, so that opposite edges do not meet in the transform
     border = max(1, min(x.shape[1:]) // 10)
     x = np.pad(x, [(0, 0), (border, border), (border, border)], mode="reflect")
-    fy, fx = np.fft.fftfreq(x.shape[1])[:, None], np.fft.rfftfreq(x.shape[2])
-    f = np.hypot(fy, fx)
-    even = np.float32(f * np.exp(-((f / cutoff) ** 4)))
-    x = fft.irfft2(fft.rfft2(x) * even, x.shape[1:])[:, None, border:-border, border:-border]
+    x = fft.irfft2(fft.rfft2(x) * _evened(*x.shape[1:], cutoff), x.shape[1:])
+    x = x[:, None, border:-border, border:-border]
     return (x - x.mean((2, 3), keepdims=True)) / x.std((2, 3), keepdims=True, ddof=1)
+
+
+@cache
+def _evened(height, width, cutoff):
+    """By how much `whiten` multiplies each frequency of pictures of a size."""
+    f = np.hypot(np.fft.fftfreq(height)[:, None], np.fft.rfftfreq(width))
+    return np.float32(f * np.exp(-((f / cutoff) ** 4)))

@@ -7,8 +7,8 @@ jittered on purpose. The numbers were chosen on 120 validation photos a level, o
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.spatial.distance import cdist
 from sklearn.linear_model import Ridge
+from sklearn.metrics.pairwise import rbf_kernel
 
 from vmc_lib.boxes import corrected
 
@@ -48,7 +48,7 @@ class RBFRidge:
     def basis(self, x):
         """What the weights weigh, for features x (n, d): (n, d + r)."""
         x = x - self.mean
-        likeness = np.exp(-self.gamma * cdist(x @ self.axes, self.centres, "sqeuclidean"))
+        likeness = rbf_kernel(x @ self.axes, self.centres, self.gamma)
         return np.hstack([x, likeness])
 
     def predict(self, x):

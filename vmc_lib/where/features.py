@@ -28,13 +28,16 @@ def crops(image, boxes, size):
 @compiled
 def _means_of_four(image, y, x):
     size, channels = x.shape[1] // 2, image.shape[2]
-    cells = np.zeros((len(y), size, size, channels), np.float32)
+    cells = np.empty((len(y), size, size, channels), np.float32)
     for box in range(len(y)):
-        for i in range(2 * size):
-            for j in range(2 * size):
+        for i in range(size):
+            above, below = image[y[box, 2 * i]], image[y[box, 2 * i + 1]]
+            for j in range(size):
+                left, right = x[box, 2 * j], x[box, 2 * j + 1]
                 for c in range(channels):
-                    cells[box, i // 2, j // 2, c] += image[y[box, i], x[box, j], c]
-    return cells / np.float32(4)
+                    one, other = int(above[left, c]) + above[right, c], below[left, c]
+                    cells[box, i, j, c] = np.float32(one + other + below[right, c]) / 4
+    return cells
 
 
 def raw_pixels(image, boxes, margin=0.0):
@@ -62,10 +65,12 @@ def gradients(image, boxes, cells=10, bins=8, margin=0.25):
     eight directions all around. After Dalal & Triggs (2005), with one normalisation a box.
     """
     dx, dy = _steepest(crops(image, widened(boxes, margin), 3 * cells))
-    strength, angle = np.hypot(dx, dy), np.arctan2(dy, dx) / (2 * np.pi) % 1 * bins
-    low, share = angle.astype(int) % bins, angle % 1
+    strength, turns = np.hypot(dx, dy), np.arctan2(dy, dx) / (2 * np.pi)
+    angle = (turns - np.floor(turns)) * bins
+    low = np.floor(angle)
+    share = angle - low
     counts = _count(strength * (1 - share), low, cells, bins)
-    counts += _count(strength * share, (low + 1) % bins, cells, bins)
+    counts += _count(strength * share, low + 1, cells, bins)
     shares = counts / (np.linalg.norm(counts, axis=1, keepdims=True) + 1e-3)
     return np.sqrt(shares, dtype=np.float32)
 
@@ -83,10 +88,10 @@ def _steepest(pixels):
             for x in range(size):
                 most, left, right = np.float32(-1), max(x - 1, 0), min(x + 1, size - 1)
                 above, below = max(y - 1, 0), min(y + 1, size - 1)
+                across, down = np.float32(1 / (right - left)), np.float32(1 / (below - above))
                 for c in range(channels):
-                    dx = pixels[box, y, right, c] - pixels[box, y, left, c]
-                    dy = pixels[box, below, x, c] - pixels[box, above, x, c]
-                    dx, dy = dx / np.float32(right - left), dy / np.float32(below - above)
+                    dx = (pixels[box, y, right, c] - pixels[box, y, left, c]) * across
+                    dy = (pixels[box, below, x, c] - pixels[box, above, x, c]) * down
                     steep = np.sqrt(dx * dx + dy * dy)
                     if steep > most:
                         most, slopes[0, box, y, x], slopes[1, box, y, x] = steep, dx, dy
@@ -95,10 +100,12 @@ def _steepest(pixels):
 
 @compiled
 def _count(weights, codes, cells, bins):
-    """The sum of weights (n, 3 cells, 3 cells) of each code in each of a box's cells."""
+    """The sum of weights (n, 3 cells, 3 cells) of each code, modulo `bins`, in a box's cells."""
     counts = np.zeros((len(weights), cells, cells, bins))
     for box in range(len(weights)):
         for y in range(3 * cells):
             for x in range(3 * cells):
-                counts[box, y // 3, x // 3, codes[box, y, x]] += weights[box, y, x]
+                code = int(codes[box, y, x])
+                code = code - bins if code >= bins else code
+                counts[box, y // 3, x // 3, code] += weights[box, y, x]
     return counts.reshape(len(weights), cells**2 * bins)
