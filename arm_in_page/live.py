@@ -190,4 +190,4 @@ def _form(legend, buttons, controls, tells):
 def _slider(page, name, label, span, start):
     low, high, step = span
     own = {"name": name, "min": low, "max": high, "step": step, "value": f"{start:.3g}"}
-    return slider(f"{page}-{name}", label, own["value"], own)
+    return slider(f"{page}-{name}", label, own["value"].replace("-", "−"), own)

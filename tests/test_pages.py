@@ -1,13 +1,21 @@
 """Every page of the built book, opened in a browser with the network off."""
 
+import base64
+import gzip
+import json
 import re
 from functools import cache
 from pathlib import Path
 from types import SimpleNamespace
 from urllib.parse import unquote, urlsplit
 
+import numpy as np
 import pypdfium2
 import pytest
+
+from vmc_lib.arm.dynamics import hand
+from vmc_lib.arm.kinematics import to_world
+from vmc_lib.show.arm import BEYOND
 
 pytestmark = pytest.mark.browser
 
@@ -15,6 +23,7 @@ BUILT = Path(__file__).parents[1] / "_build/html"
 PAGES = sorted(path for path in BUILT.rglob("*.html") if "_static" not in path.parts)
 CHAPTERS = [path for path in PAGES if path.parent == BUILT / "book"]
 OTHERS = sorted({*PAGES} - {*CHAPTERS, BUILT / "index.html"})  # Sphinx's own: search, sources
+FINGERS = 2 * BEYOND  # from the wrist: what a hand holds lies half-way
 INSIDE = (f"{BUILT.as_uri()}/", "data:", "blob:")
 
 # Runs in the page. Moves every control of every demo through its values, if need be with the other
@@ -110,6 +119,30 @@ def settle(page):
     )
 
 
+def told_by_arms(path):
+    """What every arm scene of a page tells its viewer, state by state."""
+    text = path.read_text()
+    for packed in re.findall(r'<script type="application/gzip">(.*?)</script>', text, re.S):
+        data = json.loads(gzip.decompress(base64.b64decode(packed)))
+        for _, *parts in data.get("states", []):
+            for part in parts:
+                lines = [data["lines"][place] for place in part]
+                told = dict(line.split("|") for line in lines if re.match(r"\w+\|", line))
+                if "motion" in told:
+                    yield {name: json.loads(value) for name, value in told.items()}
+
+
+def in_picture(camera, points):
+    """Where points (n, 3) are seen, from −1 to 1 in the narrowest picture (vmc_lib's scene.js)."""
+    eye, at = np.array(camera)
+    forward = (at - eye) / np.linalg.norm(at - eye)
+    right = np.cross(forward, [0, 1, 0]) / np.linalg.norm(np.cross(forward, [0, 1, 0]))
+    axes = np.stack([right, np.cross(right, forward), forward])
+    x, y, far = axes @ (points - eye).T
+    half = far * np.tan(np.radians(35 / 2))
+    return x / (1.15 * half), y / half
+
+
 @pytest.fixture(scope="module", params=CHAPTERS, ids=lambda path: path.stem)
 def opened(request, offline):
     opened = open_page(offline, request.param.as_uri())
@@ -177,6 +210,18 @@ def test_pictures_are_there(opened):
 
 
 LINKED = re.compile(r'(?:src|href)="([^"#?:]+\.(?:js|css|png|svg|jpg|webp))[?"]')
+
+
+@pytest.mark.parametrize("path", CHAPTERS, ids=lambda path: path.stem)
+def test_hand_and_target_stay_in_the_picture(path):
+    for told in told_by_arms(path):
+        motion, target = told["motion"], told.get("target")
+        turn = np.array(motion["turn"])
+        wrist = hand(np.array(motion["q"]))
+        points = [to_world(wrist + FINGERS, turn), to_world(wrist, turn)]
+        if target:
+            points += [[target + to_world(BEYOND, turn[-1]) - to_world(np.zeros(3), turn[-1])]]
+        assert np.abs(in_picture(told["camera"], np.concatenate(points))).max() < 1
 
 
 @pytest.mark.parametrize("path", PAGES, ids=lambda path: path.relative_to(BUILT).as_posix())

@@ -62,7 +62,8 @@ def _turn_for(place):
 def _furniture(table):
     """What arm scenes share: the arm's anatomy, and perhaps a table."""
     scene = Scene()
-    scene.look((0.58, 0.04, 0.78), at=(0.12, -0.21, 0.0))
+    at, far = ((0.13, -0.24, 0), 1.05) if table else ((0.2, -0.18, 0), 1.3)  # what may be in sight
+    scene.look(np.add(at, far * np.array([0.46, 0.25, 0.78])), at)
     scene.tell("anatomy", anatomy() | {"beyond": BEYOND.tolist(), "every": EVERY / 1000})
     if table:
         things.table(scene["table"])
