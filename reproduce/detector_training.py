@@ -13,7 +13,7 @@ from vmc_lib.boxes import corrected, corrections, iou, mirrored
 from vmc_lib.data import arrays
 from vmc_lib.where.box_regression import RBFRidge, regress
 from vmc_lib.where.detector import ObjectDetector
-from vmc_lib.where.recipes import PUBLISHED, RECIPES
+from vmc_lib.where.recipes import EVERY_RECIPE, PUBLISHED
 from vmc_lib.where.selective_search import propose
 from vmc_lib.where.svm import KernelSVM, best_threshold
 
@@ -160,7 +160,7 @@ def fit_detector(shots, recipe=PUBLISHED, rng=None):
 
 def used_as(detector, name):
     """The same training, used for the recipe `name`, which does less."""
-    recipe = RECIPES[name]
+    recipe = EVERY_RECIPE[name]
     predictor = detector.iou_predictor if recipe.predicts_iou else None
     return replace(detector, recipe=recipe, iou_predictor=predictor)
 

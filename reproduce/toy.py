@@ -33,7 +33,7 @@ from reproduce.progress import run
 from reproduce.steps import STEPS, write
 from reproduce.whole_arm import experiment, habits
 from vmc_lib import photos
-from vmc_lib.where.recipes import RECIPES
+from vmc_lib.where.recipes import EVERY_RECIPE, RECIPES
 
 # Numbers of each level's photos; of the first two, one's shuttlecock stands and one's lies
 FEW = {"train": (0, 2), "validation": (1,), "test": (1,)}
@@ -52,8 +52,11 @@ def steps(folder):
     copy_photos(fresh, {"test": FEW["test"]}, LATER)
     for place in (few, named):
         copy_real(place)
-    improved = replace(RECIPES["improved"], boxes=100, regressions=(0.1,))
-    recipes = RECIPES | {"improved": improved}
+    small = {"boxes": 100, "regressions": (0.1,)}
+    improved, photographed = (
+        replace(EVERY_RECIPE[name], **small) for name in ("improved", "photographed")
+    )
+    recipes = EVERY_RECIPE | {"improved": improved, "photographed": photographed}
     size = {"movements": 2, "held_out": 4, "experiments": 1}
     experiments = {
         "tables": partial(movements.tables, scenario=movements.SCENARIOS[1], **size),
@@ -71,7 +74,9 @@ def steps(folder):
         "cdbn": partial(training.cdbn, few, PATCHES),
         "recogniser": partial(training.recogniser, named),
         "templates": partial(training.templates, [0.16]),
-        "localisation": partial(localisation.make, few, recipes, trainings=1),
+        "localisation": partial(
+            localisation.make, few, RECIPES | {"improved": improved}, trainings=1
+        ),
         "recognition": partial(recognition.make, named, prototypes=20),
         "fresh_names": partial(fresh_test_set.names, fresh),
         "variations": partial(variations.make, [(6, 0)], named, PATCHES),

@@ -19,10 +19,11 @@ from vmc_lib.what.crops import whiten
 from vmc_lib.what.learning import train
 from vmc_lib.what.recogniser import ALL_LEVELS, READ_OUTS, read_outs
 from vmc_lib.where.localiser import Localiser
-from vmc_lib.where.recipes import RECIPES, TRAINED_AS
+from vmc_lib.where.recipes import EVERY_RECIPE, RECIPES, TRAINED_AS
 from vmc_lib.where.selective_search import propose
 
 BARE = 6  # training crops of the bare scene a photo
+WEIGHED = 3  # times that a photograph counts where renders teach too: chosen on validation ones
 
 
 def candidates(folder=photos.FOLDER, splits=photos.SPLITS):
@@ -35,16 +36,23 @@ def candidates(folder=photos.FOLDER, splits=photos.SPLITS):
     return {name: boxes.astype(np.int16) for name, boxes in zip(names, found, strict=True)}
 
 
-def detectors(folder=photos.FOLDER, recipes=RECIPES):
+def detectors(folder=photos.FOLDER, recipes=EVERY_RECIPE):
     """Every recipe trained on every level; all but the published one tuned."""
-    names = [name for name in recipes if name not in TRAINED_AS]
-    jobs = [delayed(detector)(*job, recipes, folder) for job in product(photos.LEVELS, names)]
+    names = [name for name in RECIPES if name not in TRAINED_AS]
+    which = [*product(photos.LEVELS, names), (photos.REAL_LEVEL, "photographed")]
+    jobs = [delayed(detector)(*one, recipes[one[1]], folder) for one in which]
     return dict(ChainMap(*Parallel()(jobs)))
 
 
-def detector(level, name, recipes, folder):
-    """What `load` reads of the recipe `name`, and of those that are TRAINED_AS it, on a level."""
-    trained = fit_detector(photos.load(level, "train", folder), recipes[name])
+def detector(level, name, recipe, folder):
+    """What `load` reads of the recipe `name`, and of those that are TRAINED_AS it, on a level.
+
+    Photographs are few: those of the level "real" teach together with renders.
+    """
+    shots = photos.load(level, "train", folder)
+    if level == photos.REAL_LEVEL:
+        shots = photos.load("varied", "train", folder) + WEIGHED * shots
+    trained = fit_detector(shots, recipe)
     held_out, learnt = photos.load(level, "validation", folder), {}
     for part, value in trained.parts().items():
         half = np.size(value) > 10_000

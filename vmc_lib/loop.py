@@ -21,7 +21,7 @@ from vmc_lib.where.detector import Detections, ObjectDetector
 from vmc_lib.where.localiser import Localiser
 
 NAMING_MARGIN = 1.0  # how much lower than the detector's its threshold is; set on validation photos
-PHOTOGRAPHS_AS = "varied"  # the level whose boxes and places serve for photographs too
+PHOTOGRAPHS_AS = "varied"  # the level whose places serve for photographs too
 RULES = {"published": algorithm_1, "own": broyden_calibration}  # of off-line calibration
 
 
@@ -42,15 +42,14 @@ class VisuomotorModel:
         What was learnt from that level's training photos, its thresholds and probabilities set on
         its validation photos; but the CDBN has learnt from the training photos of all levels. A box
         may score NAMING_MARGIN less than the detector alone asks, for the recogniser is still to
-        choose among the boxes. That of the level "real" is PHOTOGRAPHS_AS but for its recogniser,
-        and weighs what both pathways say.
+        choose among the boxes. That of the level "real" has learnt from renders and photographs,
+        places things as PHOTOGRAPHS_AS does, and weighs what both pathways say.
         """
         real = level == photos.REAL_LEVEL
-        where = PHOTOGRAPHS_AS if real else level
         return cls(
-            lenient_detector(where),
+            lenient_detector(level),
             Recogniser.load(level),
-            Localiser.load(where),
+            Localiser.load(PHOTOGRAPHS_AS if real else level),
             templates.load(),
             NameClassifier.load("photographs", "judge") if real else None,
         )
@@ -58,7 +57,8 @@ class VisuomotorModel:
 
 def lenient_detector(level):
     """The shipped detector of a level, NAMING_MARGIN more lenient than alone."""
-    detector = ObjectDetector.load(level)
+    best = "photographed" if level == photos.REAL_LEVEL else "improved"
+    detector = ObjectDetector.load(level, best)
     return replace(detector, threshold=detector.threshold - NAMING_MARGIN)
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from vmc_lib.boxes import as_boxes, nms, vote
 from vmc_lib.data import arrays
 from vmc_lib.where.box_regression import RBFRidge, regress
-from vmc_lib.where.recipes import RECIPES, TRAINED_AS, Recipe
+from vmc_lib.where.recipes import EVERY_RECIPE, TRAINED_AS, Recipe
 from vmc_lib.where.selective_search import propose
 from vmc_lib.where.svm import PARTS, KernelSVM
 
@@ -51,7 +51,8 @@ class ObjectDetector:
         """The shipped detector of a level, by the name of its recipe; ValueError for another."""
         learnt, key = arrays("detectors"), f"{level}/{TRAINED_AS.get(name, name)}"
         if f"{level}/{name}/threshold" not in learnt:
-            raise ValueError(f"no detector {name!r} for level {level!r}: see {', '.join(RECIPES)}")
+            known = ", ".join(EVERY_RECIPE)
+            raise ValueError(f"no detector {name!r} for level {level!r}: see {known}")
         parts = {
             part.removeprefix(f"{key}/"): value.astype(float)
             for part, value in learnt.items()
@@ -61,7 +62,7 @@ class ObjectDetector:
         def ridge(called):
             return RBFRidge(*(parts[f"{called}/{field.name}"] for field in fields(RBFRidge)))
 
-        recipe = RECIPES[name]
+        recipe = EVERY_RECIPE[name]
         svm = KernelSVM(recipe.kernel, *(parts[part] for part in PARTS))
         regressions = tuple(ridge(f"regression {i}") for i in range(len(recipe.regressions)))
         predictor = ridge("iou predictor") if recipe.predicts_iou else None

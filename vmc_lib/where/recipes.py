@@ -1,4 +1,7 @@
-"""How to detect objects: the paper's recipe, and five that each add an idea to the one before."""
+"""How to detect objects: the paper's recipe, and five that each add an idea to the one before.
+
+A last one is for photographs.
+"""
 
 from dataclasses import dataclass, replace
 
@@ -35,6 +38,7 @@ GRADIENTS = replace(CONTEXT, features="gradients")
 REGRESSED = replace(GRADIENTS, strategy="finer", regressions=(0.15, 0.1, 0.07, 0.05))
 PREDICTED = replace(REGRESSED, predicts_iou=True)
 IMPROVED = replace(PREDICTED, vote=True)
+PHOTOGRAPHED = replace(IMPROVED, strategy="fast")  # real things differ more: more candidates
 RECIPES = {
     "published": PUBLISHED,
     "context": CONTEXT,
@@ -43,5 +47,6 @@ RECIPES = {
     "IoU prediction": PREDICTED,
     "improved": IMPROVED,
 }
+EVERY_RECIPE = RECIPES | {"photographed": PHOTOGRAPHED}  # the last for the level "real" alone
 # These do less with the same training
 TRAINED_AS = {"box regression": "improved", "IoU prediction": "improved"}
