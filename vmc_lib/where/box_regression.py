@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from sklearn.linear_model import Ridge
-from sklearn.metrics.pairwise import rbf_kernel
 
 from vmc_lib.boxes import corrected
 
@@ -48,7 +47,9 @@ class RBFRidge:
     def basis(self, x):
         """What the weights weigh, for features x (n, d): (n, d + r)."""
         x = x - self.mean
-        likeness = rbf_kernel(x @ self.axes, self.centres, self.gamma)
+        place = x @ self.axes
+        apart = (place**2).sum(1)[:, None] + (self.centres**2).sum(1) - 2 * place @ self.centres.T
+        likeness = np.exp(-self.gamma * apart)
         return np.hstack([x, likeness])
 
     def predict(self, x):
