@@ -63,7 +63,7 @@ def weighted_sum(ax, excitations, weights):
         ax.plot(time, part, color=COLOURS["blue"], lw=1, label="$w_i u_i$" if n == 0 else None)
     ax.plot(time, weights @ excitations, color=COLOURS["red"], label=r"$u_t = \sum w_i u_i$")
     ax.set(xlabel="time (s)", ylabel="excitation")
-    ax.legend()
+    ax.legend(loc="upper left")
 
 
 def planned(past, muscle, target=None, ended=None):

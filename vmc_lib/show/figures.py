@@ -60,11 +60,13 @@ def photo_view(image, boxes=(), points=(), axes=None):
     """
     height, width = image.shape[:2]
     left, right, bottom, top = axes or (0, width, height, 0)
-    marks = []
+    marks, labels = [], []  # where words stand already
     for (x0, y0, x1, y1), label, colour in boxes:
         rect = f'x="{x0:.1f}" y="{y0:.1f}" width="{x1 - x0:.1f}" height="{y1 - y0:.1f}"'
         marks += [f'<rect {rect} {EDGE}/><rect {rect} stroke="{ON_PHOTO[colour]}"/>']
-        marks += [_label(x0, y0 - 7 if y0 > 26 else y1 + 21, label, colour)]
+        free = all(abs(y0 - y) > 20 or x0 > end or x > x0 + 11 * len(label) for x, y, end in labels)
+        marks += [_label(x0, y0 - 7 if y0 > 26 and free else y1 + 21, label, colour)]
+        labels += [(x0, y0, x0 + 11 * len(label))] * bool(label)
     for (x, y), label, colour in points:
         circle = f'<circle cx="{x:.1f}" cy="{y:.1f}" r="6"'
         marks += [f'{circle} {EDGE}/>{circle} stroke="{ON_PHOTO[colour]}"/>']

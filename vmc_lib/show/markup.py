@@ -43,6 +43,7 @@ def svg(fig, salt):
     used = set(re.findall(r"#([\w.-]+)", svg))
     svg = re.sub(r' id="([^"]*)"', lambda name: name[0] if name[1] in used else "", svg)
     svg = re.sub(r"font-family: [^;\"]+(; )?", "", svg)
+    svg = re.sub(r"(?<=[\s(>])-(?=\.?\d[^<>]*</t)", "−", svg)  # in words, as the axes have it
     svg = re.sub(r' d="[^"]*"', lambda d: re.sub(r"(\.\d\d)\d+", r"\1", d[0]), svg)
     svg = re.sub(r"#[0-9a-f]{6}\b", lambda colour: _variable(colour[0]), svg)
     return _stackable(re.sub(r"\n\s*", "\n", svg).strip(), fig, f"{salt}-panels")

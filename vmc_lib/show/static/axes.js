@@ -37,9 +37,11 @@ const vmcAxes = (svg) => {
         return `<polyline points="${[...points.map(put), ...(kind === "arrow" ? head(points) : [])].join(" ")}" fill="none" stroke="${paint}"
           stroke-width="${size}" stroke-opacity=".7" stroke-linecap="round"/>`;
       const [x, y] = put(points);
-      if (kind === "words")
-        return `<text x="${x}" y="${y - above}" fill="${paint}" font-size="10"
+      if (kind === "words") { // whole, at the picture's edge too
+        const half = 3 * size.length;
+        return `<text x="${Math.min(Math.max(x, half), width - half)}" y="${y - above}" fill="${paint}" font-size="10"
           text-anchor="middle">${size}</text>`;
+      }
       const look = kind === "ring" ? `fill="none" stroke-width="2" stroke` : "fill";
       return `<circle cx="${x}" cy="${y}" r="${size}" ${look}="${paint}"/>`;
     },
