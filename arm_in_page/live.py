@@ -5,8 +5,10 @@ law, planning and calibration, and a test holds them to the Python. Their consta
 """
 
 import base64
+import gzip
 import itertools
 import json
+from functools import partial
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -37,22 +39,21 @@ from vmc_lib.show.scene import SCRIPTS as VIEWER
 
 MODES = ("bench", "reach")
 TRIALS = 2  # of our own calibration: off-line, the page has no more to learn
+CALIBRATION = {"gains": GAINS, "trials": TRIALS, "largestStep": LARGEST_STEP}
 STATIC = Path(__file__).parent / "static"
 MUJOCO = STATIC / "vendor/mujoco.js"
 VERSIONS = {"Python": mujoco.__version__, "page": "3.14.0"}  # of MuJoCo
-MODEL_SCRIPTS = ("vectors", "engine", "muscle", "arm", "templates", "planning", "calibration")
-PAGE_SCRIPTS = ("drawing", "live", "bench", "reach", "start")
+MODEL_SCRIPTS = ("vectors", "engine", "muscle", "arm", "arm26")
+MODEL_SCRIPTS += ("templates", "planning", "calibration")
+PAGE_SCRIPTS = ("whole", "drawing", "live", "bench", "reach", "start")
 SCRIPTS = (  # in the order in which they need one another
     *(SHOW / name for name in ("axes.js", "handle.js")),
     *(STATIC / f"{name}.js" for name in MODEL_SCRIPTS + PAGE_SCRIPTS),
 )
 _ENDS = ("red", "purple")  # where the planned and the calibrated reach end
-_POSE = {
-    "shoulder": "shoulder",
-    "elbow": "elbow",
-    **{way: f"hand, {way}" for way in ("forward", "up", "right")},
-}
-_made = itertools.count(1)
+HAND = {way: f"hand, {way}" for way in ("forward", "up", "right")}
+_POSE = {"shoulder": "shoulder", "elbow": "elbow", **HAND}
+names = map("live-{}".format, itertools.count(1))
 _ASKED = tuple(
     itertools.product((0.1, 0.9), (0.3, 0.7), (0.6, 1.3), (-0.5, 0.3))
 )  # u, a, length, velocity
@@ -69,15 +70,26 @@ def live_arm(mode, caption, alt, target=(0.12, -0.42)):
     """
     if mode not in MODES:
         raise ValueError(f"mode {mode!r} is unknown: choose one of {MODES}")
-    name = f"live-{next(_made)}"
+    name = next(names)
+    if mode == "bench":
+        draw, controls = _bench_view, _bench(name)
+    else:
+        target = np.asarray(target, float)
+        draw, controls = partial(_reach_view, target), _reach(name, target)
+    show(name, mode, draw, controls, given(), caption, alt)
+
+
+def show(name, mode, draw, controls, data, caption, alt):
+    """Show an arm named `name`: the scene and plots that `draw()` returns, controls, what it has.
+
+    `controls` is the markup of its `form`, `data` what its scripts have from Python.
+    """
     with plt.rc_context(STYLE):
-        parts = _bench(name) if mode == "bench" else _reach(name, np.asarray(target, float))
-    scene, plot, form = parts
-    data = json.dumps(given() | {"scene": scene.messages()}, allow_nan=False)
+        drawn = pictures(draw(), name)
+    data = json.dumps(data | {"scene": drawn[0].messages()}, allow_nan=False)
     data = data.replace("<", r"\u003c")  # or the model's XML would confuse the page's
-    drawn = pictures((scene, plot), name)
     page = (
-        f'<div class="vmc-live" id="{name}" data-mode="{mode}">{side_by_side(drawn, alt)}{form}'
+        f'<div class="vmc-live" id="{name}" data-mode="{mode}">{side_by_side(drawn, alt)}{controls}'
         f'<script type="application/json">{data}</script></div>'
     )
     if render_mode() == "book":
@@ -92,9 +104,12 @@ def live_arm(mode, caption, alt, target=(0.12, -0.42)):
 def given():
     """What the page has from Python, as JSON takes it: the model, constants, past experience."""
     template_set = templates.load()
-    knots = np.float32(np.linalg.pinv(spline()) @ template_set.excitations)
+    knots = np.linalg.pinv(spline()) @ template_set.excitations
     return {
         "xml": XML,
+        "joints": ["humerus", "forearm"],
+        "tip": "hand",
+        "views": [[0, 1]],
         "muscles": MUSCLES,
         "F0": F0.tolist(),
         "L0": L0.tolist(),
@@ -111,13 +126,19 @@ def given():
         },
         "start": templates.START.tolist(),
         "rest": hold(templates.START).tolist(),
-        "templateSet": {
-            "points": template_set.points.tolist(),
-            "knots": base64.b64encode(knots.tobytes()).decode(),
-            "shape": knots.shape,
-            "steps": SAMPLES,
-        },
-        "calibration": {"gains": GAINS, "trials": TRIALS, "largestStep": LARGEST_STEP},
+        "templateSet": experience(template_set.points, knots, SAMPLES),
+        "calibration": CALIBRATION,
+    }
+
+
+def experience(points, knots, steps):
+    """Templates as the page takes them: where they end, and the knots (N, …) of their commands."""
+    packed = gzip.compress(np.float32(knots).tobytes(), mtime=0)
+    return {
+        "points": points.tolist(),
+        "knots": base64.b64encode(packed).decode(),
+        "shape": knots.shape,
+        "steps": steps,
     }
 
 
@@ -129,45 +150,60 @@ def _answers():
     ]
 
 
+def _bench_view():
+    """The arm at rest, and the plane it moves in."""
+    figure, ax = plt.subplots(figsize=(4.4, 4.4))
+    plane_view(ax)
+    return arm_scene(templates.START), figure
+
+
 def _bench(name):
-    """The arm at rest, the plane it moves in, and six sliders."""
-    scene = arm_scene(templates.START)
+    """Six sliders."""
     rest = zip(MUSCLES, hold(templates.START).round(2), strict=True)
     sliders = "".join(_slider(name, muscle, muscle, (0, 1, 0.01), u) for muscle, u in rest)
     buttons = {"step": "Step 10 ms", "reset": "Reset"}
-    form = _form("Excitation of each muscle", buttons, sliders, {"time": "time"} | _POSE)
-    figure, ax = plt.subplots(figsize=(4.4, 4.4))
-    plane_view(ax)
-    return scene, figure, form
+    return form("Excitation of each muscle", buttons, sliders, {"time": "time"} | _POSE)
 
 
-def _reach(name, target):
-    """The arm at rest before its remembered reaches, and a target to be set."""
-    template_set = templates.load()
-    plan(target, template_set)  # raises when no templates surround it
+def _reach_view(target):
+    """The arm at rest before its remembered reaches, and a target."""
     balls = [
         (hand(inverse_kinematics(target)), "green"),
         *((hand(templates.START), c) for c in _ENDS),
     ]
-    scene = arm_scene(templates.START, balls=balls)
     figure, ax = plt.subplots(figsize=(5.2, 4.4))
-    plane(ax, template_set.points)
-    low, high = (end(template_set.points, axis=0).round(3) for end in (np.min, np.max))
-    sliders = "".join(
-        _slider(name, key, f"target, {key}", (low[k], high[k], 0.005), target[k])
-        for k, key in enumerate(("forward", "up"))
-    )
+    plane(ax, templates.load().points)
+    return arm_scene(templates.START, balls=balls), figure
+
+
+def _reach(name, target):
+    """A target to be set, and rules to choose from."""
+    template_set = templates.load()
+    plan(target, template_set)  # raises when no templates surround it
+    zone = [end(template_set.points, axis=0).round(3) for end in (np.min, np.max)]
     rules = {"algorithm1": "published (Eq. 6–7)", "broydenCalibration": "ours"}
-    plans = {"habitualWeights": "habit (Eq. 5)", "exactWeights": "exact (Eq. 4)"}
-    choices = radios("weights", "plan", plans, "habitualWeights", {})
-    choices += radios("rule", "calibration", rules, "algorithm1", {})
+    controls = target_sliders(name, zone, target) + plans()
+    controls += radios("rule", "calibration", rules, "algorithm1", {})
     tells = {"planned": "planned miss", "tries": "tries", "calibrated": "calibrated miss"}
     tells |= {"weights": "weights"} | _POSE
-    form = _form("Target and rules", {"calibrate": "Calibrate"}, sliders + choices, tells)
-    return scene, figure, form
+    return form("Target and rules", {"calibrate": "Calibrate"}, controls, tells)
 
 
-def _form(legend, buttons, controls, tells):
+def plans():
+    """The two rules by which a reach may be planned, to choose from."""
+    rules = {"habitualWeights": "habit (Eq. 5)", "exactWeights": "exact (Eq. 4)"}
+    return radios("weights", "plan", rules, "habitualWeights", {})
+
+
+def target_sliders(name, zone, target):
+    """A slider for each axis of a target, in m, between the corners of its `zone` (2, axes)."""
+    return "".join(
+        _slider(name, key, f"target, {key}", (low, high, 0.005), at)
+        for key, low, high, at in zip(HAND, *zone, target, strict=False)
+    )
+
+
+def form(legend, buttons, controls, tells):
     """What the reader moves, closed until the arm is started, and what the arm tells."""
     closed = "".join(
         f'<button type="button" name="{name}" disabled>{text}</button>'

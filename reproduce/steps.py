@@ -32,6 +32,7 @@ from reproduce import (
     wide_training,
 )
 from reproduce.peers import cerebella, optimal, steady
+from reproduce.whole_arm import bones as bones63
 from reproduce.whole_arm import experiment, habits, plant
 from vmc_lib import data
 
@@ -107,7 +108,7 @@ def listed():
 RENDER, OPENSIM = f"{sys.executable} -m render", ".bench/bin/python -m bench.opensim_reference"
 BONES = f"{sys.executable} -m reproduce.bones"
 SUMMED = f"{sys.executable} -m reproduce.checksums"
-DERIVED = f"{sys.executable} -m reproduce.whole_arm.derive"
+DERIVED, BONES63 = (f"{sys.executable} -m reproduce.whole_arm.{x}" for x in ("derive", "bones"))
 WHERE = "photos vmc_lib/where reproduce/detector_training.py"
 WHAT = "photos vmc_lib/what reproduce/name_training.py"
 WIDE = f"{WHAT} reproduce/looks.py reproduce/pools.py reproduce/wide_training.py"
@@ -220,6 +221,7 @@ STEPS = (
         8,
     ),
     Step(DERIVED, plant.FILE, needs="myo-sim"),
+    Step(BONES63, bones63.FILE, needs="myo-sim"),
     Step(BONES, bones.FILE, needs="arm26's bone meshes, GEOMETRY=path/to/folder"),
     Step(OPENSIM, RESULTS / "opensim.npz", needs="OpenSim in .bench, ARM26=path/to/arm26.osim"),
 )

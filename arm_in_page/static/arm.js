@@ -1,20 +1,19 @@
-/* The arm, Eq. 12 (vmc_lib/arm/simulate.py, the engine "mujoco"). MuJoCo reads the same arm26.xml;
-   what vmc_lib adds to it in Python is said once more in muscle.js, here, templates.js, planning.js
-   and calibration.js, by the same names; constants come from Python, in `given`. A test holds every
-   number to Python's. Positions are metres, angles radians; none of these touches the page. */
+/* An arm whose model MuJoCo reads from the same file as in Python; its constants come from there, in
+   `given`. Here muscles obey MuJoCo's own law (reproduce/whole_arm/plant.py); arm26.js has the book's.
+   Positions are metres, angles radians; none of these touches the page. */
 const vmcArm = (() => {
   "use strict";
 
-  const { clip, minus, plus, times } = vmcVectors;
-  const { Muscle } = vmcMuscle;
-
   class Arm {
     constructor(mujoco, given) {
-      Object.assign(this, { mujoco, given, muscle: new Muscle(given.muscle) });
+      Object.assign(this, { mujoco, given });
+      const number = (kind, name) => mujoco.mj_name2id(this.model, mujoco.mjtObj[kind].value, name);
       this.model = mujoco.MjModel.from_xml_string(given.xml);
       this.data = new mujoco.MjData(this.model); // steps
       this.seen = new mujoco.MjData(this.model); // is looked at, in any posture
-      this.wrist = mujoco.mj_name2id(this.model, mujoco.mjtObj.mjOBJ_SITE.value, "hand");
+      this.bodies = given.joints.map((name) => number("mjOBJ_BODY", name)); // begin at these joints
+      this.bones = Object.keys(given.bones ?? {}).map((name) => number("mjOBJ_BODY", name));
+      this.tip = number("mjOBJ_SITE", given.tip);
       this.reset();
     }
 
@@ -22,46 +21,30 @@ const vmcArm = (() => {
     reset(posture = this.given.start, activation = this.given.rest) {
       this.mujoco.mj_resetData(this.model, this.data);
       this.state.qpos.set(posture);
-      this.activation = Float64Array.from(activation);
+      this.activation.set(activation);
     }
 
     /* Views of MuJoCo's memory: slow to make, void once another arm has made that memory grow. */
     get state() {
       if (!this.views?.qpos.length) {
-        const { qpos, qvel, ten_length, ten_J, qfrc_applied } = this.data;
-        this.views = { qpos, qvel, ten_length, ten_J, qfrc_applied };
+        const { qpos, qvel, act, ctrl, ten_length, ten_J, qfrc_applied } = this.data;
+        this.views = { qpos, qvel, act, ctrl, ten_length, ten_J, qfrc_applied };
       }
       return this.views;
     }
 
-    /* One step of 1 ms: the muscles pull as they are active now, and hear `excitation` (6). */
+    get activation() {
+      return this.state.act;
+    }
+
+    /* So long as a command holds, `given.step` seconds, the muscles hear `excitation`. */
     step(excitation) {
-      const { mujoco, model, data, muscle, activation, given } = this;
-      const { qpos, qvel, ten_length, ten_J, qfrc_applied } = this.state;
-      mujoco.mj_step1(model, data);
-      const torque = [0, 1].map((joint) => this.stopTorque(qpos[joint], qvel[joint], joint));
-      for (let k = 0; k < activation.length; k++) {
-        const [shoulder, elbow] = [ten_J[2 * k], ten_J[2 * k + 1]]; // minus the moment arms
-        const stretching = shoulder * qvel[0] + elbow * qvel[1];
-        const length = (ten_length[k] - given.slack[k]) / given.L0[k];
-        const velocity = stretching / (muscle.maxVelocity * given.L0[k]);
-        const pull = muscle.force(activation[k], length, velocity, given.F0[k]);
-        torque[0] -= shoulder * pull;
-        torque[1] -= elbow * pull;
-        activation[k] += given.step * muscle.activationRate(excitation[k], activation[k]);
-      }
-      qfrc_applied.set(torque);
-      mujoco.mj_step2(model, data);
+      const { mujoco, model, data } = this;
+      this.state.ctrl.set(excitation);
+      for (let i = 0; i < this.given.hold; i++) mujoco.mj_step(model, data);
     }
 
-    /* The torque of a joint's stop: a damped spring beyond its limits, nothing within. */
-    stopTorque(angle, velocity, joint) {
-      const { limits, stop } = this.given;
-      const beyond = angle - clip(angle, ...limits[joint]);
-      return -stop.stiffness * (beyond + stop.damping * Math.abs(beyond) * velocity);
-    }
-
-    /* A movement from rest, as excitations (a list of T times six) ask: every millisecond of it. */
+    /* A movement from rest, as excitations (a list) ask: its moments, before and after each. */
     move(excitations) {
       this.reset();
       const moment = () => ({ q: [...this.state.qpos], activation: [...this.activation] });
@@ -73,37 +56,45 @@ const vmcArm = (() => {
       return motion;
     }
 
-    /* Shoulder, elbow and wrist in posture q. */
+    /* From the shoulder to the hand: where the joints are in posture q, and what reaches. */
     joints(q) {
       const { model, seen } = this;
       seen.qpos.set(q);
       this.mujoco.mj_kinematics(model, seen);
       const { xpos, site_xpos } = seen;
-      const point = (list, i) => [list[3 * i], list[3 * i + 1], list[3 * i + 2]];
-      return [point(xpos, 1), point(xpos, 2), point(site_xpos, this.wrist)];
+      return [...this.bodies.map((body) => point(xpos, body)), point(site_xpos, this.tip)];
     }
 
     hand(q) {
-      return this.joints(q)[2];
+      return this.joints(q).at(-1);
     }
 
-    /* The posture that puts the wrist at a place (x, y) of the plane: Newton's method. */
-    inverseKinematics(target) {
-      const q = [...this.given.start];
-      for (let i = 0; i < 20; i++) {
-        const nudged = [[0, 0], [1e-6, 0], [0, 1e-6]];
-        const [here, first, second] = nudged.map((by) => this.hand(plus(q, by)));
-        const [a, b] = [minus(first, here), minus(second, here)].map((v) => times(1e6, v));
-        const miss = minus(target, here);
-        const determinant = a[0] * b[1] - b[0] * a[1];
-        q[0] += clip((miss[0] * b[1] - miss[1] * b[0]) / determinant, -0.2, 0.2);
-        q[1] += clip((miss[1] * a[0] - miss[0] * a[1]) / determinant, -0.2, 0.2);
-      }
-      return q;
+    /* What is drawn of a posture: its joints, each bone's frame, each muscle's way. */
+    look(q) {
+      const { mujoco, model, seen } = this;
+      const joints = this.joints(q);
+      mujoco.mj_comPos(model, seen); // which tendons need
+      mujoco.mj_tendon(model, seen);
+      const { xpos, xmat, ten_wrapadr, ten_wrapnum, wrap_xpos } = seen;
+      const frames = this.bones.map((body) => [...xmat.slice(9 * body, 9 * body + 9), ...point(xpos, body)]);
+      const way = (first, k) =>
+        Array.from({ length: ten_wrapnum[k] }, (_, i) => point(wrap_xpos, first + i));
+      return { joints, frames, ways: Array.from(ten_wrapadr, way) };
+    }
+
+    /* Where in space a target lies. */
+    place(target) {
+      return target;
     }
   }
 
-  const load = async (given) => new Arm(await vmcEngine(), given);
+  /* The arm that `given` describes: the book's own where it has the book's muscle law. */
+  const load = async (given) => {
+    const Kind = given.muscle ? vmcArm26.Arm26 : Arm;
+    return new Kind(await vmcEngine(), given);
+  };
 
-  return { load };
+  const point = (list, i) => [list[3 * i], list[3 * i + 1], list[3 * i + 2]];
+
+  return { Arm, load };
 })();

@@ -37,7 +37,7 @@ const vmcCalibration = (() => {
 
   /* Ours: Eq. 4 solved for the error, by a Jacobian that every surprise corrects (Broyden). */
   function* broydenCalibration(plan, reach, { trials, largestStep }) {
-    let jacobian = [0, 1].map((axis) => plan.points.map((point) => point[axis]));
+    let jacobian = plan.target.map((_, axis) => plan.points.map((point) => point[axis]));
     let best = attempt(plan, plan.weights, reach);
     yield best;
     for (let trial = 1; trial <= trials; trial++) {

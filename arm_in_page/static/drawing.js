@@ -3,20 +3,24 @@ const vmcDrawing = (() => {
   "use strict";
 
   class Drawing {
+    /* On each plot two axes are seen, as `given.views` says. */
     constructor(box, given) {
       this.balls = []; // where the scene's balls are, or nothing
       this.marks = []; // on the plot: [kind, colour, points in metres, size]
       this.view = vmcScene(box.querySelector(".vmc-scene"));
-      this.view.onstart = () => this.place(); // or the balls would be as recorded
+      this.view.onstart = () => this.start(given);
       this.view.show(given.scene);
-      this.plot = box.querySelector("svg[data-axes]");
-      this.axes = vmcAxes(this.plot);
-      const { left, right, bottom, top } = this.axes;
-      const { width, height } = this.plot.viewBox.baseVal;
-      this.plot.insertAdjacentHTML("beforeend", `<clipPath id="${box.id}-frame"><rect
-        x="${left * width}" width="${(right - left) * width}"
-        y="${top * height}" height="${(bottom - top) * height}"/></clipPath>
-        <g clip-path="url(#${box.id}-frame)"></g>`);
+      if (given.still) Object.assign(this.view, { anatomy: given, posed: given.still });
+      this.plots = [...box.querySelectorAll("svg[data-axes]")].map((svg, nth) => {
+        const measure = vmcAxes(svg);
+        const { left, right, bottom, top } = measure;
+        const { width, height } = svg.viewBox.baseVal;
+        svg.insertAdjacentHTML("beforeend", `<clipPath id="${box.id}-frame-${nth}"><rect
+          x="${left * width}" width="${(right - left) * width}"
+          y="${top * height}" height="${(bottom - top) * height}"/></clipPath>
+          <g clip-path="url(#${box.id}-frame-${nth})"></g>`);
+        return { svg, measure, axes: given.views[nth] };
+      });
     }
 
     /* Show the arm, { q, activation, joints }; if `brief`, in 3-D alone. */
@@ -24,8 +28,23 @@ const vmcDrawing = (() => {
       this.view.pose(seen);
       this.place();
       if (brief) return;
-      this.plot.lastElementChild.innerHTML =
-        [["line", "ink", seen.joints, 5], ...this.marks].map((mark) => this.axes.mark(...mark)).join("");
+      const marks = [["line", "ink", seen.joints, 5], ...this.marks];
+      for (const { svg, measure, axes } of this.plots) {
+        const flat = (point) => axes.map((axis) => point[axis]);
+        const drawn = marks.map(([kind, colour, points, size]) =>
+          measure.mark(kind, colour, kind === "line" ? points.map(flat) : flat(points), size));
+        svg.lastElementChild.innerHTML = drawn.join("");
+      }
+    }
+
+    /* The viewer is there: draw in it what no recorded scene holds. */
+    start({ still, muscles, bones }) {
+      const { view } = this;
+      if (still) {
+        view.body = new vmcWhole.Body(view.viewer, muscles, bones);
+        view.pose(view.posed);
+      }
+      this.place(); // or the balls would be as recorded
     }
 
     place() {

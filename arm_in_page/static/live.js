@@ -5,6 +5,7 @@ const vmcLive = (() => {
   const { Drawing } = vmcDrawing;
 
   const OFTEN = 6; // of so many frames one also moves the plot and the numbers: these are slow
+  const ACTIVE = 0.05; // what is called an active muscle
   const frame = () => new Promise(requestAnimationFrame);
   const signed = (number, digits) => number.toFixed(digits).replace("-", "−");
   const degrees = (angle) => `${signed((angle * 180) / Math.PI, 1)}°`;
@@ -37,34 +38,36 @@ const vmcLive = (() => {
         const arm = await vmcArm.load(this.given);
         await this.drawing.view.awake();
         this.arm = arm;
+        await this.ready();
       } catch (error) {
         return this.say(`This browser cannot run the arm: ${error.message ?? error}`);
       }
       for (const element of this.form.elements) element.disabled = false;
-      this.ready();
     }
 
     /* Show one moment of a movement, { q, activation }; if `brief`, in the scene alone. */
     show(moment, brief = false) {
-      const joints = this.arm.joints(moment.q);
-      this.drawing.show({ ...moment, joints }, brief);
-      const [forward, up, right] = joints[2];
+      const seen = this.arm.look(moment.q);
+      this.drawing.show({ ...moment, ...seen }, brief);
+      const [forward, up, right] = seen.joints.at(-1);
       if (!brief) this.tell({
         shoulder: degrees(moment.q[0]), elbow: degrees(moment.q[1]),
+        active: `${moment.activation.filter((a) => a > ACTIVE).length}`,
         forward: millimetres(forward), up: millimetres(up), right: millimetres(right),
       });
-      return joints[2];
+      return seen.joints.at(-1);
     }
 
+    /* Put into words what the form has room for. */
     tell(values) {
-      for (const [name, text] of Object.entries(values))
-        this.box.querySelector(`[data-tell="${name}"]`).textContent = text;
+      for (const place of this.box.querySelectorAll("[data-tell]"))
+        place.textContent = values[place.dataset.tell] ?? place.textContent;
     }
 
     say(words) {
       const flat = this.arm && !this.drawing.view.viewer;
       const note = flat ? " (This browser draws no 3-D picture: watch the side view.)" : "";
-      const law = this.arm?.muscle.differs
+      const law = this.arm?.muscle?.differs
         ? " (The muscle's law was changed in Python: this arm keeps the book's.)" : "";
       this.box.querySelector("[role=status]").textContent = words + note + law;
     }

@@ -15,38 +15,43 @@ const vmcPlanning = (() => {
   /* Eq. 4: Σ w_i p_i = p_t and Σ w_i = 1, as near to Eq. 5 as may be. */
   const exactWeights = (target, points) => {
     const habit = habitualWeights(target, points);
-    const columns = [0, 1].map((axis) => points.map((point) => point[axis]));
+    const columns = target.map((_, axis) => points.map((point) => point[axis]));
     return plus(habit, leastChange(columns, minus(target, columns.map((x) => dot(habit, x)))));
   };
 
-  /* The smallest Δw with Σ Δw = 0 that shifts the hand by `shift`; `jacobian` is two rows of N. */
+  /* The smallest Δw with Σ Δw = 0 that shifts the hand by `shift`; `jacobian` is a row of N for each
+     axis, made orthogonal one after the other (Gram and Schmidt). */
   const leastChange = (jacobian, shift) => {
-    const [x, y] = jacobian.map((row) => row.map((value) => value - sum(row) / row.length));
-    const [xx, xy, yy] = [dot(x, x), dot(x, y), dot(y, y)];
-    const [middle, half] = [(xx + yy) / 2, Math.hypot((xx - yy) / 2, xy)];
-    if (middle - half < 1e-12 * (middle + half))
-      throw new RangeError("the templates lie on one line; choose templates around the target");
-    const determinant = xx * yy - xy * xy;
-    const a = (yy * shift[0] - xy * shift[1]) / determinant;
-    const b = (xx * shift[1] - xy * shift[0]) / determinant;
-    return x.map((value, i) => a * value + b * y[i]);
+    const centred = jacobian.map((row) => row.map((value) => value - sum(row) / row.length));
+    const units = [];
+    return centred.reduce((change, row, axis) => {
+      const rest = units.reduce((left, unit) => minus(left, times(dot(left, unit), unit)), row);
+      const length = Math.hypot(...rest);
+      if (length <= 1e-6 * Math.hypot(...centred.flat()))
+        throw new RangeError("the templates lie on one line, or in space in one plane; choose templates around the target");
+      units.push(times(1 / length, rest));
+      return plus(change, times((shift[axis] - dot(row, change)) / length, units[axis]));
+    }, centred[0].map(() => 0));
   };
 
-  /* The nearest template in each quadrant round the target. */
+  const quadrant = ([x, y]) => (Math.floor(Math.atan2(y, x) / (Math.PI / 2)) + 4) % 4;
+  const octant = ([x, y, z]) => (x >= 0) + 2 * (y >= 0) + 4 * (z >= 0); // reproduce/whole_arm/experiment.py
+
+  /* The nearest template in each quadrant round the target; in space, in each octant. */
   const surrounding = (target, points) => {
-    const nearest = [0, 1, 2, 3].map(() => ({ distance: Infinity }));
+    const part = target.length > 2 ? octant : quadrant;
+    const nearest = Array.from({ length: 2 ** target.length }, () => ({ distance: Infinity }));
     points.forEach((point, row) => {
-      const [x, y] = minus(point, target);
-      const quadrant = (Math.floor(Math.atan2(y, x) / (Math.PI / 2)) + 4) % 4;
-      const distance = Math.hypot(x, y);
-      if (distance < nearest[quadrant].distance) nearest[quadrant] = { row, distance };
+      const away = minus(point, target);
+      const [here, distance] = [part(away), Math.hypot(...away)];
+      if (distance < nearest[here].distance) nearest[here] = { row, distance };
     });
     if (nearest.some(({ row }) => row === undefined))
       throw new RangeError("this target is not surrounded by templates; move it inside them");
     return nearest.map(({ row }) => row);
   };
 
-  /* A reach to `target` with the four templates that surround it. */
+  /* A reach to `target` with the templates that surround it: four, in space eight. */
   const plan = (target, templateSet, rule = habitualWeights) => {
     const chosen = surrounding(target, templateSet.points);
     const points = chosen.map((row) => templateSet.points[row]);

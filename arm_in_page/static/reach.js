@@ -2,18 +2,20 @@
 const vmcReach = (() => {
   "use strict";
 
-  const { TemplateSet } = vmcTemplates;
   const { Live, OFTEN, frame, millimetres, signed } = vmcLive;
 
   class Reach extends Live {
-    ready() {
-      this.templateSet = new TemplateSet(this.given.templateSet);
+    async ready() {
+      this.templateSet = await vmcTemplates.load(this.given.templateSet);
       this.form.elements.calibrate.addEventListener("click", () => this.calibrate());
       this.controls.addEventListener("input", () => this.aim());
-      const { forward, up } = this.form.elements;
-      this.handle = vmcHandle(this.box.querySelector(".vmc-pictures"), (place) => {
-        [forward.value, up.value] = place;
-        this.aim();
+      this.sliders = [...this.controls.querySelectorAll("input[type=range]")];
+      this.handles = this.drawing.plots.map(({ axes }, nth) => {
+        const put = vmcHandle(this.box.querySelector(".vmc-pictures"), (place) => {
+          axes.forEach((axis, i) => (this.sliders[axis].value = place[i]));
+          this.aim();
+        }, nth);
+        return (place) => put(axes.map((axis) => place[axis]));
       });
       this.label("Reach");
       this.aim();
@@ -22,21 +24,22 @@ const vmcReach = (() => {
     /* Take the target from the sliders and plan anew; what was under way ends. */
     aim() {
       this.turn = {}; // whose turn it is: whoever waited for a frame looks whether it is still his
-      const { forward, up, rule, weights } = this.form.elements;
-      for (const slider of [forward, up])
+      const { rule, weights } = this.form.elements;
+      for (const slider of this.sliders)
         slider.nextElementSibling.textContent = `${signed(+slider.value, 3)} m`;
-      Object.assign(this, { target: [+forward.value, +up.value], rule: rule.value, plan: null });
+      const target = this.sliders.map((slider) => +slider.value);
+      Object.assign(this, { target, rule: rule.value, plan: null });
       Object.assign(this, { goal: null, planned: null, calibrated: null });
       this.tell({ planned: "–", calibrated: "–", weights: "–", tries: "–" });
       try {
         this.plan = vmcPlanning.plan(this.target, this.templateSet, vmcPlanning[weights.value]);
-        this.goal = this.arm.hand(this.arm.inverseKinematics(this.target));
+        this.goal = this.arm.place(this.target);
         this.say("A target is set: let the arm reach for it.");
       } catch (error) {
         this.say(`Nothing planned: ${error.message}`);
       }
       this.mark([]);
-      this.handle(this.target);
+      for (const put of this.handles) put(this.target);
       const { start, rest } = this.given;
       this.show({ q: start, activation: rest });
     }
@@ -62,18 +65,20 @@ const vmcReach = (() => {
     }
 
     ended(weights) {
-      return this.arm.hand(this.motion(weights).at(-1).q).slice(0, 2);
+      return this.arm.hand(this.motion(weights).at(-1).q).slice(0, this.target.length);
     }
 
     /* Play a movement in its own time; `trial` is then known as `name`. */
     async play(name, trial, turn) {
       const motion = this.motion(trial.weights);
-      const path = motion.filter((_, t) => t % 10 === 0).map(({ q }) => this.arm.hand(q));
+      const step = 1000 * this.given.step; // ms
+      const every = Math.ceil(10 / step); // of its moments the path has one
+      const path = motion.filter((_, t) => t % every === 0).map(({ q }) => this.arm.hand(q));
       const start = await frame();
       for (let n = 0, t = this.calm.matches ? motion.length : 0; t < motion.length - 1; n++) {
-        this.mark(path.slice(0, 1 + t / 10));
+        this.mark(path.slice(0, 1 + t / every));
         this.show(motion[t], n % OFTEN > 0);
-        t = Math.max(0, Math.round((await frame()) - start));
+        t = Math.max(0, Math.round(((await frame()) - start) / step));
         if (turn !== this.turn) return false;
       }
       this[name] = { ...trial, hand: path.at(-1) };

@@ -4,17 +4,17 @@ const vmcTemplates = (() => {
 
   const { clip, sum } = vmcVectors;
 
-  /* N remembered reaches: where they ended, and the knots of their excitations' splines. */
+  /* N remembered reaches: where they ended, and the knots of their excitations' splines, or these
+     excitations themselves. */
   class TemplateSet {
-    constructor({ points, knots, shape, steps }) {
+    constructor({ points, shape, steps }, values) {
       const [count, rows, muscles] = shape;
-      const bytes = Uint8Array.from(atob(knots), (c) => c.charCodeAt(0));
-      const values = new Float32Array(bytes.buffer);
       const at = (n, i, k) => values[(n * rows + i) * muscles + k];
       const fill = (length, make) => Array.from({ length }, (_, i) => make(i));
       this.points = points;
       this.knots = fill(count, (n) => fill(rows, (i) => fill(muscles, (k) => at(n, i, k))));
-      this.spline = fill(steps, (t) => basis(t / (steps - 1), rows));
+      this.spline = fill(steps, (t) =>
+        rows === steps ? { first: t, values: [1] } : basis(t / (steps - 1), rows));
     }
 
     /* Eq. 3: Σ w_i u_i(t), held to [0, 1]; splines are linear, so their knots may be mixed. */
@@ -45,5 +45,8 @@ const vmcTemplates = (() => {
     return { first: place - 3, values };
   };
 
-  return { TemplateSet };
+  const load = async (given) =>
+    new TemplateSet(given, new Float32Array(await vmcUnzip(given.knots).arrayBuffer()));
+
+  return { load };
 })();

@@ -23,9 +23,7 @@ NEAR = 0.05  # m: how far they reach
 
 def lines(joints):
     """The bones' ends (4, 3), and of every muscle the points (n, 3) that it runs through, in m."""
-    data = mujoco.MjData(plant.MODEL)
-    data.qpos[:] = joints
-    mujoco.mj_fwdPosition(plant.MODEL, data)
+    data = placed(joints)
     places = data.wrap_xpos.reshape(-1, 3)
     ways = [
         places[first : first + count]
@@ -33,6 +31,14 @@ def lines(joints):
     ]
     ends = [data.body(name).xpos for name in BONES]
     return np.array([*ends, data.site("fingertip").xpos]), ways
+
+
+def placed(joints):
+    """MuJoCo's data of the arm with its joints (18,) so."""
+    data = mujoco.MjData(plant.MODEL)
+    data.qpos[:] = joints
+    mujoco.mj_fwdPosition(plant.MODEL, data)
+    return data
 
 
 def views(motion, moment, target):
@@ -60,14 +66,19 @@ def views(motion, moment, target):
             each.plot(tips[-1, x], tips[-1, y], "o", ms=4, color=COLOURS["blue"])
             ring = {"ms": 9, "mfc": "none", "mew": 1.8, "color": COLOURS["green"]}
             each.plot(target[x], target[y], "o", **ring)
-        low, high = ((-0.45, 0.3), (0.35, -0.4))[y == 2]
-        ax.set(xlim=(-0.2, 0.68), ylim=(low, high), aspect="equal")
-        ax.set(xlabel="forward (m)", ylabel=label, title=f"{title}: {away:.0f} mm away")
-        side = NEAR * np.sign(high - low)
+        view_from(ax, y, label, f"{title}: {away:.0f} mm away")
+        side = NEAR * (-1 if y == 2 else 1)
         near.set(xlim=(target[x] - NEAR, target[x] + NEAR))
         near.set(ylim=(target[y] - side, target[y] + side))
         drawn.append(fig)
     return tuple(drawn)
+
+
+def view_from(ax, y, label, title):
+    """The axes of a view, which shows the axis `y` upwards."""
+    low, high = ((-0.45, 0.3), (0.35, -0.4))[y == 2]
+    ax.set(xlim=(-0.2, 0.68), ylim=(low, high), aspect="equal")
+    ax.set(xlabel="forward (m)", ylabel=label, title=title)
 
 
 def scene(motion, moment, target):

@@ -76,19 +76,24 @@ def _muscle(full, k, tendons, pulls):
     _add(pulls, "general", name=name, tendon=name, **law, **limits, **numbers, dynprm=dynamics)
 
 
+def in_world(data, body):
+    """Where a body of MyoArm lies in our world, (3,), and its axes (3, 3)."""
+    turn, origin = data.body("torso").xmat.reshape(3, 3), data.body("humerus_r").xpos
+    return turn.T @ (data.xpos[body] - origin), turn.T @ data.xmat[body].reshape(3, 3)
+
+
 def _bodies(full, world, used):
     """The bodies, and on each what muscles run over; the trunk's things belong to the world."""
     data, made, arm = mujoco.MjData(full), {}, full.body("clavicle_r").id
     mujoco.mj_kinematics(full, data)
-    turn, origin = data.body("torso").xmat.reshape(3, 3), data.body("humerus_r").xpos
     for body in range(full.nbody):
-        place, axes = turn.T @ (data.xpos[body] - origin), turn.T @ data.xmat[body].reshape(3, 3)
+        place, axes = in_world(data, body)
         if body < arm:
             _things(full, body, world, used, place, axes)
             continue
         parent = made.get(full.body_parentid[body])
         if parent is not None:
-            place, axes = full.body_pos[body], _matrix(full.body_quat[body])
+            place, axes = full.body_pos[body], turned(full.body_quat[body])
         parent = world if parent is None else parent
         frame = {"name": full.body(body).name, "pos": place, "quat": _quaternion(axes)}
         made[body] = _add(parent, "body", **frame)
@@ -113,7 +118,7 @@ def _things(full, body, element, used, place=0.0, axes=np.eye(3)):  # noqa: B008
     for k in np.flatnonzero(full.geom_bodyid == body):
         if ("geom", f"w{k}") in used:
             frame = {"pos": place + axes @ full.geom_pos[k]}
-            frame["quat"] = _quaternion(axes @ _matrix(full.geom_quat[k]))
+            frame["quat"] = _quaternion(axes @ turned(full.geom_quat[k]))
             kind = SHAPES[full.geom_type[k]]
             size = full.geom_size[k, : 1 + (kind == "cylinder")]
             loose = {"contype": "0", "conaffinity": "0", "mass": "0"}
@@ -124,7 +129,8 @@ def _things(full, body, element, used, place=0.0, axes=np.eye(3)):  # noqa: B008
             _add(element, "site", name=name, pos=place + axes @ full.site_pos[k])
 
 
-def _matrix(quaternion):
+def turned(quaternion):
+    """The rotation matrix (3, 3) of a quaternion (4,)."""
     matrix = np.empty(9)
     mujoco.mju_quat2Mat(matrix, quaternion)
     return matrix.reshape(3, 3)

@@ -1,5 +1,7 @@
 """The arm in the page: the same numbers as the library's, and a reader who moves it."""
 
+import base64
+import gzip
 import json
 import os
 import re
@@ -39,7 +41,7 @@ SCRIPTS
 ARM = """async (asked) => {
   const given = JSON.parse(document.querySelector(".vmc-live script").textContent);
   const arm = await (self.testArm ??= vmcArm.load(given));
-  const templateSet = new vmcTemplates.TemplateSet(given.templateSet);
+  const templateSet = await vmcTemplates.load(given.templateSet);
   const ended = (plan) => (weights) =>
     arm.hand(arm.move(templateSet.excitations({ ...plan, weights })).at(-1).q).slice(0, 2);
   %s
@@ -212,7 +214,7 @@ def test_what_is_drawn_is_where_it_is(ask):
 
 @pytest.mark.browser
 def test_a_muscle_reddens_with_activation_and_swells_as_it_shortens(ask):
-    rest, half, full = ask("return [0, 0.25, 1].map(vmcBody.redness);")
+    rest, half, full = ask("return [0, 0.25, 1].map(vmcMuscles.redness);")
     assert np.allclose(half, np.mean([rest, full], axis=0))  # the root of a quarter
     assert full[1] < 0.2 < rest[1]
     script = """const told = JSON.parse(given.scene.find((m) => m.startsWith("anatomy|")).slice(8));
@@ -437,7 +439,7 @@ def test_fits_a_phone(opened):
 
 def test_the_knots_that_travel_are_pythons():
     given = live.given()["templateSet"]
-    knots = np.frombuffer(live.base64.b64decode(given["knots"]), np.float32)
+    knots = np.frombuffer(gzip.decompress(base64.b64decode(given["knots"])), np.float32)
     knots = knots.reshape(given["shape"]).astype(float)
     template_set = templates.load()
     assert np.abs(live.spline() @ knots - template_set.excitations).max() < 1e-12

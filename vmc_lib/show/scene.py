@@ -19,7 +19,8 @@ import umsgpack
 from vmc_lib.show.live import STATIC
 
 SCRIPTS = [  # what shows a scene, in order
-    STATIC / f"{name}.js" for name in ("vendored", "anatomy", "body", "hands", "scene", "panel")
+    STATIC / f"{name}.js"
+    for name in ("vendored", "anatomy", "muscles", "body", "hands", "scene", "panel")
 ]
 _UUID = re.compile(rb"[0-9a-f]{8}(?:-[0-9a-f]{4}){3}-[0-9a-f]{12}")
 

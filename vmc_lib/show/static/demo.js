@@ -22,7 +22,7 @@ const vmcDemo = (() => {
 
   /* What the page brings along, as a function that gives a state to `draw`. */
   const brought = async (demo) => {
-    const data = await vmcInflate(demo.querySelector("script").textContent);
+    const data = await vmcUnzip(demo.querySelector("script").textContent).json();
     if (data.work) return workedOut(data);
     const { lines, states } = data;
     return (place, draw) => draw(states[place].map((places) => places.map((line) => lines[line])));

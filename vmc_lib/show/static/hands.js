@@ -11,7 +11,7 @@ const vmcHands = (view, canvas) => {
   const under = ({ clientX, clientY }) => {
     const { left, top, width, height } = canvas.getBoundingClientRect();
     const place = [(2 * (clientX - left)) / width - 1, 1 - (2 * (clientY - top)) / height];
-    const k = view.body?.found(place) ?? null;
+    const k = view.body?.muscles.found(place) ?? null;
     tip.textContent = k === null ? "" : view.anatomy.muscles[k].name;
     tip.style.transform = `translate(${clientX - left + 12}px, ${clientY - top - 24}px)`;
     return k;
@@ -21,11 +21,11 @@ const vmcHands = (view, canvas) => {
     held = { x: event.clientX, y: event.clientY, turned: view.turned, raised: view.raised };
     canvas.setPointerCapture(event.pointerId);
     const k = under(event);
-    view.body?.point(k);
+    view.body?.muscles.point(k);
     if (k !== null) view.onmuscle?.(k);
   });
   canvas.addEventListener("pointermove", (event) => {
-    if (!held) return view.body?.point(under(event));
+    if (!held) return view.body?.muscles.point(under(event));
     const [right, down] = [event.clientX - held.x, event.clientY - held.y];
     const turned = ((held.turned - 0.5 * right + 540) % 360) - 180;
     const raised = event.pointerType === "touch" ? view.raised : held.raised + 0.3 * down;
@@ -34,6 +34,6 @@ const vmcHands = (view, canvas) => {
   for (const type of ["pointerup", "pointercancel"]) canvas.addEventListener(type, () => (held = null));
   canvas.addEventListener("pointerleave", () => {
     tip.textContent = "";
-    view.body?.point(null);
+    view.body?.muscles.point(null);
   });
 };

@@ -126,7 +126,7 @@ const vmcScene = (() => {
           this.viewer.handle_command_bytearray(Uint8Array.from(atob(data), (c) => c.charCodeAt(0)));
           this.sent.set(key, data);
         }
-      if (this.anatomy && !this.body)
+      if (this.told.anatomy && !this.body)
         this.body = new vmcBody.Body(this.viewer, this.anatomy, bones);
     }
 
@@ -155,7 +155,7 @@ const vmcScene = (() => {
     /* Put the arm into a pose { q, activation, turn, grasp }; who listens is told. */
     pose(pose) {
       this.posed = pose;
-      this.body?.pose(pose, this.time / this.told.anatomy.every);
+      this.body?.pose(pose, this.time / this.told.anatomy?.every);
       this.listeners.forEach((listen) => listen(pose));
     }
 

@@ -14,9 +14,9 @@ const vmcVendored = (() => {
     });
 })();
 
-/* What base64 holds of gzipped JSON. */
-const vmcInflate = async (base64) => {
+/* What base64 holds of something gzipped, as a response: its JSON, its bytes. */
+const vmcUnzip = (base64) => {
   const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
-  return new Response(stream).json();
+  return new Response(stream);
 };

@@ -1,0 +1,28 @@
+"""A whole arm in the page: a target in space, and a reach of all muscles that MuJoCo runs there."""
+
+from arm_in_page.live import CALIBRATION, form, names, plans, show, target_sliders
+
+TELLS = {
+    "planned": "planned miss",
+    "tries": "corrections",
+    "calibrated": "corrected miss",
+    "active": "muscles above 5 %",
+    "weights": "weights",
+}
+
+
+def live_whole_arm(arm, draw, zone, target, caption, alt):
+    """Show a whole arm with its physics in the page, behind a button that starts it.
+
+    `arm` is what the page has of it, as JSON takes it: the model's `xml`, its `start` and the
+    activations of `rest`, the seconds of a `step` and how often physics is stepped in it (`hold`),
+    the bodies at its `joints` and the site of its `tip`; the `templateSet` (see `experience`);
+    `muscles`, `bones` and how all lies at first, `still`. `draw()` returns its scene and plots,
+    each of which shows two of three axes (`views`). The reader sets a target within `zone` (2, 3),
+    in m; it first stands at `target` (3,). `caption` is Markdown, `alt` describes it all in words.
+    """
+    name = next(names)
+    rule = '<input type="hidden" name="rule" value="broydenCalibration">'
+    controls = target_sliders(name, zone, target) + plans() + rule
+    told = form("Target and plan", {"calibrate": "Correct"}, controls, TELLS)
+    show(name, "reach", draw, told, arm | {"calibration": CALIBRATION}, caption, alt)

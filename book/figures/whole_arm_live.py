@@ -1,0 +1,79 @@
+"""What the page needs to run the whole arm: the model, its memories, and where it is shown."""
+
+import json
+
+import numpy as np
+
+from arm_in_page.live import experience
+from book.figures.panels import panels
+from book.figures.whole_arm import BONES, VIEWS, lines, placed, view_from
+from reproduce.whole_arm import bones, habits, plant
+from vmc_lib.show import COLOURS, things
+from vmc_lib.show.anatomy import STRENGTH
+from vmc_lib.show.scene import Scene
+
+BEFORE = 0.25  # share of each tendon before the belly (ours, by eye)
+SLACK = 0.4, 0.6  # of a muscle's length at rest, at least and at most (ours: MyoArm's may be < 0)
+START = habits.START @ plant.FOLLOWS.T  # (18,)
+
+
+def arm(past, rest):
+    """The arm and its memories, at rest with activations (63,), as `live_whole_arm` takes it."""
+    surfaces = json.loads(bones.FILE.read_text())
+    ends, ways = lines(START)
+    still = {
+        "q": START.tolist(),
+        "activation": rest.tolist(),
+        "joints": ends.tolist(),
+        "frames": _frames(surfaces),
+        "ways": [way.round(5).tolist() for way in ways],
+    }
+    return {
+        "xml": plant.FILE.read_text(),
+        "joints": BONES,
+        "tip": "fingertip",
+        "views": [[x, y] for x, y, _ in VIEWS.values()],
+        "start": START.tolist(),
+        "rest": rest.tolist(),
+        "step": plant.TICK,
+        "hold": plant.HOLD,
+        "templateSet": experience(past.points, past.excitations, plant.TICKS),
+        "muscles": _bellies(),
+        "bones": surfaces,
+        "still": still,
+    }
+
+
+def _frames(surfaces):
+    """Axes and place (12,) of every body that has bones."""
+    data = placed(START)
+    bodies = [data.body(name) for name in surfaces]
+    return [[*body.xmat, *body.xpos] for body in bodies]
+
+
+def _bellies():
+    """What each muscle's belly is drawn by: name, tendon's slack in m, volume in m³ (`anatomy`)."""
+    model, length = plant.MODEL, placed(START).ten_length
+    low, high, force = model.actuator_gainprm[:, :3].T
+    fibre = np.ptp(model.actuator_lengthrange, axis=1) / (high - low)
+    slack = length * np.clip((model.actuator_lengthrange[:, 0] - low * fibre) / length, *SLACK)
+    numbers = zip(plant.MUSCLES, slack, force / STRENGTH * fibre, strict=True)
+    return [
+        {"name": name, "slack": slack, "volume": volume, "before": BEFORE}
+        for name, slack, volume in numbers
+    ]
+
+
+def pictures(past, target):
+    """Where it is shown: a scene with a target (3,), and two views with where memories end."""
+    space = Scene()
+    space.look((0.62, 0.12, 0.92), at=(0.27, -0.06, 0.0))
+    for k, colour in enumerate(("green", "red", "purple")):  # the target, both reaches' ends
+        things.ball(space[f"goal/ball{k}"], target, colour)
+    plots = []
+    for title, (x, y, label) in VIEWS.items():
+        fig, ax = panels(size=(4.1, 3.9))
+        ax.plot(past.points[:, x], past.points[:, y], "o", ms=2, color=COLOURS["line"])
+        view_from(ax, y, label, title)
+        plots.append(fig)
+    return space, *plots
