@@ -7,8 +7,10 @@ exercises and their solutions from the notebook.
 import re
 from html import unescape
 from importlib import import_module
+from itertools import groupby
 
-from kit.student import EXERCISE, pieces
+from book._ext.plain import EXERCISE, FOLD
+from kit.student import solves
 from vmc_lib.show.grading import source
 
 ASKED = re.compile(
@@ -67,24 +69,18 @@ def markdown(html):
 
 def _exercises(notebook):
     """Each exercise, then its solution, text and code."""
-    solved = False
-    for cell, solving in pieces(notebook):
-        if solving and not solved:
-            yield "**Solution.**"
-        solved = solving
+    for solving, cells in groupby(notebook.cells, solves):
         if solving:
-            text = SHOWN.sub(lambda name: _lines(notebook, name[1]), cell.source)
-            yield text if cell.cell_type == "markdown" else f"```python\n{text}\n```"
-        elif cell.cell_type == "markdown" and (found := EXERCISE.search(cell.source)):
-            yield f"### Exercise `{found[1]}`\n\n{_inside(cell.source[found.start() :])}"
+            yield "**Solution.**"
+        for cell in cells:
+            text = SHOWN.sub(lambda name: _lines(notebook, name[1]), FOLD.sub("", cell.source))
+            if "exercise" in cell.metadata:
+                yield f"### Exercise `{cell.metadata.exercise}`\n\n{EXERCISE.sub('', text)}"
+            elif solving:
+                yield text if cell.cell_type == "markdown" else f"```python\n{text}\n```"
 
 
 def _lines(notebook, name):
     """The solution of the chapter's graded exercise of that name."""
     module = next(found[1] for cell in notebook.cells if (found := GRADED.search(cell.source)))
     return source(getattr(import_module(module), name)).strip()
-
-
-def _inside(directive):
-    """The text of a directive, without its fences and its label."""
-    return re.sub(r"^(?:[:`]{3,}|:label:).*\n?", "", directive, flags=re.M).strip()

@@ -23,8 +23,8 @@ def marks(chapter, handed_in, folder):
     Runs that in `folder`, with our own checks in place of the student's; answers in words are left
     to the lecturer.
     """
-    ours = {cell.id: cell for cell in student(chapter).cells if "exercise" in cell.metadata}
-    checks = {name: cell for name, cell in ours.items() if cell.cell_type == "code"}
+    code = [cell for cell in student(chapter).cells if cell.cell_type == "code"]
+    checks = {cell.id: cell for cell in code if "exercise" in cell.metadata}
     handed_in.cells = [checks.get(cell.id, cell) for cell in handed_in.cells]
     single_nb_execution(handed_in, folder, TIMEOUT, allow_errors=True)
     return {cell.metadata.exercise: _right(cell) for cell in checks.values()}

@@ -22,7 +22,7 @@ from kit.marks import marks
 from kit.qti import SPACE, package
 from kit.question import VARIANTS, choice, number, variants
 from kit.slides import cut, stacks
-from kit.student import pieces, student
+from kit.student import solves, student
 from vmc_lib.show import predict, questions, quiz
 
 BUILT = ROOT / "_build/html/book"
@@ -45,30 +45,25 @@ def test_a_student_gets_every_exercise_and_no_solution(chapter):
     given = student(chapter)
     nbformat.validate(given)
     text = "\n".join(cell.source for cell in given.cells)
-    assert "{solution" not in text
+    assert "<summary>Solution" not in text
     assert "# The solution" not in text
     assert not any(cell.get("outputs") for cell in given.cells)
-    labels = re.findall(r"\{exercise(?:-start)?\}.*\n:label: (\S+)", text)
+    asked = [cell.metadata.exercise for cell in given.cells if "**Exercise" in cell.source]
     graded = [cell.metadata.exercise for cell in given.cells if "graded" in _tags(cell)]
-    assert graded == labels
-    assert labels
+    assert graded == asked
+    assert asked
 
 
 def test_nothing_that_a_student_gets_needs_a_solution(chapter):
     """A name that a solution alone binds is used by nothing that stays."""
     bound, used = {True: set(), False: set()}, set()
-    for cell, solving in pieces(chapter):
+    for cell in chapter.cells:
+        solving = solves(cell)
         if cell.cell_type == "code":
             names = [n for n in ast.walk(ast.parse(cell.source)) if isinstance(n, ast.Name)]
             bound[solving] |= {n.id for n in names if isinstance(n.ctx, ast.Store)}
             used |= set() if solving else {n.id for n in names if isinstance(n.ctx, ast.Load)}
     assert not (bound[True] - bound[False]) & used
-
-
-def test_a_solution_that_never_ends_is_named():
-    cell = nbformat.v4.new_markdown_cell("````{solution-start} one\n````\nIt is one.")
-    with pytest.raises(ValueError, match="never ends"):
-        student(nbformat.v4.new_notebook(cells=[cell]))
 
 
 @pytest.mark.parametrize(
@@ -78,7 +73,7 @@ def test_a_mark_says_what_is_right_by_our_own_check(tmp_path, monkeypatch, line,
     monkeypatch.setenv("VMC_RENDER_MODE", "live")
     cells = [
         nbformat.v4.new_code_cell("from vmc_lib.show import check"),
-        nbformat.v4.new_markdown_cell(":::{exercise}\n:label: sum\n\nHow much is 1 + 1?\n:::"),
+        _asked("sum", "**Exercise**\n\nHow much is 1 + 1?"),
         nbformat.v4.new_code_cell("a = None"),
         nbformat.v4.new_code_cell("check(a, 2)"),
     ]
@@ -87,6 +82,13 @@ def test_a_mark_says_what_is_right_by_our_own_check(tmp_path, monkeypatch, line,
     handed_in.cells[2].source = line
     handed_in.cells[3].source = "print('✓ Right.')"
     assert marks(chapter, handed_in, tmp_path) == {"sum": right}
+
+
+SOLVED = {"tags": ["solution"]}
+
+
+def _asked(label, text):
+    return nbformat.v4.new_markdown_cell(text, metadata={"exercise": label})
 
 
 def _tags(cell):
@@ -104,12 +106,13 @@ def test_the_key_tells_what_is_right_and_why(monkeypatch):
     cells = [
         nbformat.v4.new_markdown_cell("# Title"),
         nbformat.v4.new_code_cell("from book.exercises.loop import MIXED\n\ngrade(mixed, MIXED)"),
+        _asked("one", "**Exercise: One**\n\nHow many?"),
         nbformat.v4.new_markdown_cell(
-            ":::{exercise}\n:label: one\n\nHow many?\n:::\n\n````{solution-start} one\n````\nOne."
+            "<details><summary>Solution</summary>\n\nOne.\n\n</details>", metadata=SOLVED
         ),
-        nbformat.v4.new_code_cell("check(1, 1)"),
-        nbformat.v4.new_code_cell("solution(MIXED)"),
-        nbformat.v4.new_markdown_cell("````{solution-end}\n````\nMore."),
+        nbformat.v4.new_code_cell("check(1, 1)", metadata=SOLVED),
+        nbformat.v4.new_code_cell("solution(MIXED)", metadata=SOLVED),
+        nbformat.v4.new_markdown_cell("More."),
         nbformat.v4.new_code_cell("predict(...)"),
         nbformat.v4.new_code_cell("quiz(...)"),
     ]
@@ -289,7 +292,7 @@ def test_the_whole_kit_is_built_from_chapters_and_pages(kit):
     assert students == {path.name for path in CHAPTERS}
     told = (kit / "key.md").read_text()
     assert told.count("**Solution.**") == told.count("### Exercise")
-    assert "{solution" not in told
+    assert "<details>" not in told
 
 
 def test_slides_show_every_section_and_tell_the_speaker_the_rest():

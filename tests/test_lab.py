@@ -200,8 +200,7 @@ def luminance(colour):
 PROSE = """async () => {
   const { content: notebook } = jupyterapp.shell.currentWidget, shown = [];
   for (const [i, cell] of notebook.widgets.entries()) {
-    const source = cell.model.sharedModel.getSource();
-    if (cell.model.type !== "markdown" || /^`+\\{solution-end/.test(source)) continue;
+    if (cell.model.type !== "markdown") continue;
     await notebook.scrollToItem(i);
     const words = () => {
       const prose = cell.node.querySelector(".myst")?.cloneNode(true);

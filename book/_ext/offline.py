@@ -1,12 +1,7 @@
 """What makes the built book whole: no page asks anything of a network, or of a kernel."""
 
-import json
 import os
 import re
-
-TERM = re.compile(r'\[([^\]]+)\]\(glossary\.md(?: "([^"]+)")?\)')
-SOURCE = r"\[[^\]]+\]\(references\.bib#(\w+)\)"
-SOURCES = re.compile(rf"\({SOURCE}(?:, {SOURCE})*\)")
 
 EVERYWHERE = ("book.js", "questions.js")
 NEEDS = {  # what a page must hold to need an asset; none needs thebe, which asks the network
@@ -20,7 +15,6 @@ def setup(app):
     os.environ["VMC_RENDER_MODE"] = "book"  # kernels inherit it: demos become self-contained pages
     app.set_html_assets_policy("always")  # equations may come from a cell's output, unannounced
     app.connect("config-inited", launch)
-    app.connect("source-read", roles)
     app.connect("html-page-context", mend, priority=900)
     app.connect("autodoc-process-docstring", code_marks)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
@@ -36,27 +30,6 @@ def launch(app, config):
         options["repository_url"] = "{GITHUB_SERVER_URL}/{GITHUB_REPOSITORY}".format_map(told)
     if not options.get("repository_url"):
         options.pop("launch_buttons", None)
-
-
-def roles(app, page, source):
-    """Turn a chapter's links to glossary and sources, which any notebook shows, into Sphinx's own.
-
-    `[arms](glossary.md "arm")` shows the term, `([Hill 1938](references.bib#Hill1938))` the source.
-    """
-    if not app.env.doc2path(page).endswith(".ipynb"):
-        return
-    notebook = json.loads(source[0])
-    for cell in notebook["cells"]:
-        if cell["cell_type"] == "markdown":
-            text = "".join(cell["source"])
-            text = TERM.sub(lambda to: f"{{term}}`{to[1]} <{to[2] or to[1]}>`", text)
-            cell["source"] = SOURCES.sub(cite, text)
-    source[0] = json.dumps(notebook)
-
-
-def cite(links):
-    keys = re.findall(SOURCE, links[0])
-    return f"{{cite}}`{','.join(keys)}`"
 
 
 def mend(app, pagename, templatename, context, doctree):

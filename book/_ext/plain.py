@@ -1,0 +1,81 @@
+"""A chapter's plain Markdown, which reads well in any notebook, in Sphinx's own words.
+
+A link to the glossary becomes a term, one to the sources a citation. A cell whose metadata name an
+`exercise` becomes that exercise, the cells after it that carry the tag `solution` become its
+solution, and a quotation that begins with a line in bold becomes an admonition.
+"""
+
+import json
+import re
+from itertools import groupby
+
+TERM = re.compile(r'\[([^\]]+)\]\(glossary\.md(?: "([^"]+)")?\)')
+SOURCE = r"\[[^\]]+\]\(references\.bib#(\w+)\)"
+SOURCES = re.compile(rf"\({SOURCE}(?:, {SOURCE})*\)")
+EXERCISE = re.compile(r"\*\*Exercise(?:: (.+))?\*\*\n\n")
+FOLD = re.compile(r"<details><summary>Solution</summary>\n\n|\n\n</details>")
+BOX = re.compile(r"^> \*\*(.+)\*\*\n((?:>.*\n?)+)", re.M)
+
+
+def setup(app):
+    app.connect("source-read", translate)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
+
+
+def translate(app, page, source):
+    if app.env.doc2path(page).endswith(".ipynb"):
+        notebook = json.loads(source[0])
+        notebook["cells"] = list(with_directives(notebook["cells"]))
+        source[0] = json.dumps(notebook)
+
+
+def with_directives(cells):
+    """The cells, each with Sphinx's own words, and between them where a solution starts and ends.
+
+    ValueError for a solution that follows no exercise.
+    """
+    label = None
+    for solving, group in groupby(cells, _solves):
+        if solving and not label:
+            raise ValueError("a solution follows no exercise; name the `exercise` in its metadata")
+        if solving:
+            yield _cell(f"{label}-start", f"{{solution-start}} {label}\n:class: dropdown")
+        for cell in group:
+            label = cell["metadata"].get("exercise", label)
+            if cell["cell_type"] == "markdown":
+                cell["source"] = _text("".join(cell["source"]), cell["metadata"])
+            yield cell
+        if solving:
+            yield _cell(f"{label}-end", "{solution-end}")
+
+
+def _solves(cell):
+    return "solution" in cell["metadata"].get("tags", [])
+
+
+def _cell(name, directive):
+    source = f"````{directive}\n````"
+    return {"cell_type": "markdown", "id": name, "metadata": {}, "source": source}
+
+
+def _text(text, metadata):
+    text = TERM.sub(lambda to: f"{{term}}`{to[1]} <{to[2] or to[1]}>`", text)
+    text = SOURCES.sub(_cite, FOLD.sub("", text))
+    text = BOX.sub(_box, text)
+    if "exercise" not in metadata:
+        return text
+    title = EXERCISE.match(text)
+    return (
+        f":::{{exercise}} {title[1] or ''}\n:label: {metadata['exercise']}\n\n"
+        f"{text[title.end() :]}\n:::"
+    )
+
+
+def _cite(links):
+    keys = re.findall(SOURCE, links[0])
+    return f"{{cite}}`{','.join(keys)}`"
+
+
+def _box(quotation):
+    inside = re.sub(r"^> ?", "", quotation[2], flags=re.M).strip()
+    return f"```{{admonition}} {quotation[1]}\n{inside}\n```\n"
