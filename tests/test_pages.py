@@ -259,6 +259,22 @@ def test_every_place_of_a_dragged_slider_is_drawn(opened):
     assert opened.page.evaluate(BROKEN_DRAGS) == []
 
 
+# Runs in the page. The demos whose sliders begin at different places, or move when others do.
+RESTLESS = """() => [...document.querySelectorAll(".vmc-demo[data-ready]")].filter((demo) => {
+  const sliders = [...demo.querySelectorAll("input[data-texts]")];
+  const ends = () => sliders.map((slider) => slider.getBoundingClientRect())
+    .map(({ left, right }) => `${left} ${right}`);
+  const before = ends();
+  for (const slider of sliders) slider.value = slider.max;
+  demo.dispatchEvent(new Event("input", { bubbles: true }));
+  return new Set([...before, ...ends()]).size > 1;
+}).map((demo) => demo.id)"""
+
+
+def test_sliders_stand_in_a_grid_and_still(opened):
+    assert opened.page.evaluate(RESTLESS) == []
+
+
 def test_a_chapter_begins_with_a_demo(opened):
     """Its first demo begins within one and a half screens of 1280 × 800."""
     if not opened.path.stem[:2].isdigit():
