@@ -274,7 +274,7 @@ def test_a_muscle_is_named_where_one_points_and_found_by_its_name(moving):
       const view = vmcScene(div);
       const { top, left, width, height } = div.getBoundingClientRect();
       for (let x = -1; x < 1; x += 0.02) for (let y = -1; y < 1; y += 0.02) {
-        const k = view.body.found([x, y]);
+        const k = view.body.muscles.found([x, y]);
         if (k !== null) return [left + (x + 1) / 2 * width, top + (1 - y) / 2 * height,
                                 view.anatomy.muscles[k].name];
       } }"""
