@@ -9,9 +9,9 @@ from book.figures.panels import panels
 from book.figures.whole_arm import BONES, VIEWS, lines, placed, view_from
 from reproduce.whole_arm import bones, habits, plant
 from vmc_lib.show import COLOURS, things
-from vmc_lib.show.anatomy import STRENGTH
 from vmc_lib.show.scene import Scene
 
+STRENGTH = 1.5e6  # N/m²: a drawn belly's cross-section is its force / STRENGTH (ours, for the eye)
 BEFORE = 0.25  # share of each tendon before the belly (ours, by eye)
 SLACK = 0.4, 0.6  # of a muscle's length at rest, at least and at most (ours: MyoArm's may be < 0)
 START = habits.START @ plant.FOLLOWS.T  # (18,)
@@ -57,7 +57,7 @@ def _bellies():
     low, high, force = model.actuator_gainprm[:, :3].T
     fibre = np.ptp(model.actuator_lengthrange, axis=1) / (high - low)
     slack = length * np.clip((model.actuator_lengthrange[:, 0] - low * fibre) / length, *SLACK)
-    numbers = zip(plant.MUSCLES, slack, force / STRENGTH * fibre, strict=True)
+    numbers = zip(plant.MUSCLES, slack, force / STRENGTH * (length - slack), strict=True)
     return [
         {"name": name, "slack": slack, "volume": volume, "before": BEFORE}
         for name, slack, volume in numbers
