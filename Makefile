@@ -17,7 +17,7 @@ BUILT  := _build/.built
 BUILD  := $(BIN)/jupyter-book build -W -n --keep-going .
 INPUTS := README.md _config.yml _toc.yml $(shell find book vmc_lib arm_in_page reproduce -type f -not -path '*/.*' -not -name '*.pyc')
 
-PEERED := selective_search simulators crbm planning loop scaling
+PEERED := selective_search cuts simulators crbm planning loop scaling
 
 # Locked, each file by its checksum. The library comes second, and torch, whose build (CPU, CUDA) differs
 # from machine to machine: pip takes no file without a checksum beside those that have one.

@@ -131,6 +131,12 @@ def compare(name, some, strategy, costs):
         }
 
 
+def renders():
+    """Training and validation photos of all levels."""
+    kinds = product(photos.LEVELS, ("train", "validation"))
+    return [photo for kind in kinds for photo in photos.load(*kind)[:20]]
+
+
 def few(some):
     """Ten of them at most, evenly spread."""
     return some[:: -(-len(some) // 10)]
@@ -151,9 +157,7 @@ def growth(method):
 
 
 if __name__ == "__main__":
-    kinds = product(photos.LEVELS, ("train", "validation"))
-    renders = [photo for kind in kinds for photo in photos.load(*kind)[:20]]
-    sets = {"renders": renders, "real photos": photos.real()}
+    sets = {"renders": renders(), "real photos": photos.real()}
     one = wall(600, 400)
     costs = {(s, m): memory(m, s, one) for s, entrants in ENTRANTS.items() for m in entrants}
     table = [

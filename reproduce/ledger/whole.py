@@ -63,7 +63,7 @@ ROWS = (
         "performance",
         _speed,
         differs="Our model is serial: a region must be found before it can be named, and finding "
-        "takes {q[time for where over time for what].obtained:.0f} times as long as naming. In the "
+        "takes {q[time for where over time for what].obtained:.1f} times as long as naming. In the "
         "brain the two pathways work side by side.",
     ),
 )

@@ -24,9 +24,8 @@ def segment(channels, k=100, sigma=0.8):
 
 def segmentations(channels, scales, sigma=0.8):
     """The labels of `segment` at one scale k after another; the edges are sorted once for all."""
-    smooth = cv2.GaussianBlur(channels, (0, 0), sigma).reshape(channels.shape)
-    weights, edges = lightest_first(edge_weights(smooth))
-    del smooth  # of a large picture, each of these weighs a hundred megabytes
+    weights = edge_weights(cv2.GaussianBlur(channels, (0, 0), sigma).reshape(channels.shape))
+    weights, edges = lightest_first(weights)
     inside = np.searchsorted(weights, np.inf)
     for k in scales:
         yield join(weights[:inside], edges[:inside], *channels.shape[:2], k / 255, k)
@@ -72,7 +71,7 @@ def lightest_first(weights):
             moved[place[digit]] = key
             place[digit] += 1
         keys, moved = moved, keys
-    ordered, order = np.empty(len(keys), np.uint32), np.empty(len(keys), np.uint32)
+    ordered, order = moved.view(np.uint32)[: len(keys)], moved.view(np.uint32)[len(keys) :]
     for i, key in enumerate(keys):
         ordered[i], order[i] = key >> half, key & np.uint64(0xFFFFFFFF)
     return ordered.view(np.float32), order
