@@ -1,11 +1,13 @@
 """The whole arm: its physics by what must hold, its memories, and that mixing meets its bars."""
 
+import json
+
 import mujoco
 import numpy as np
 import pytest
 
 from book.figures import whole_arm as figures
-from reproduce.whole_arm import derive, experiment, habits, plant
+from reproduce.whole_arm import bones, derive, experiment, habits, plant
 from vmc_lib.cerebellum.offline import broyden_calibration
 
 STILL = np.zeros(7)
@@ -59,6 +61,36 @@ def test_what_is_derived_moves_as_what_it_came_from():
             mujoco.mj_forward(model, data)
         np.testing.assert_allclose(other.ten_length, one.ten_length, atol=1e-5)
         np.testing.assert_allclose(other.qfrc_bias, one.qfrc_bias, atol=1e-3)
+
+
+def test_bones_lie_where_the_bodies_have_them():
+    mesh = '<asset><mesh name="m" vertex="0 0 0  1 0 0  0 1 0  0 0 1"/></asset>'
+    geom = '<geom type="mesh" mesh="m" pos="{}" contype="0" conaffinity="0"/>'
+    text = SMALL.replace("<tendon>", mesh + "<tendon>")
+    text = text.replace('<geom name="chest"', geom.format("3 0 0") + '<geom name="chest"')
+    text = text.replace('<site name="passing"', geom.format("0 0 2") + '<site name="passing"')
+    full = mujoco.MjModel.from_xml_string(text)
+    corners = {tuple(x) for x in [*np.eye(3), np.zeros(3)]}
+    at = mujoco.MjData(full)
+    mujoco.mj_kinematics(full, at)
+    place, axes = derive.in_world(at, full.body("torso").id)
+    shifts = {
+        "world": lambda x: (x - place) @ axes - [3, 0, 0],
+        "clavicle_r": lambda x: x - [0, 0, 2],
+    }
+    made = bones.made(full)
+    assert set(made) == set(shifts)
+    for name, back in shifts.items():
+        points = back(np.reshape(made[name]["points"], (-1, 3)) / 1e4)
+        assert {tuple(np.abs(x)) for x in points.round(3)} == corners
+        assert len(made[name]["faces"]) == 12
+
+
+def test_bones_that_ship_are_small_and_whole():
+    assert bones.FILE.stat().st_size < 2e6
+    for name, part in json.loads(bones.FILE.read_text()).items():
+        plant.MODEL.body(name)  # raises KeyError where there is none
+        assert len(part["points"]) == 3 * (max(part["faces"]) + 1), name
 
 
 def test_what_ships_has_the_muscles_and_joints_that_it_should():
