@@ -46,8 +46,8 @@ def explore(draw, caption, alt, in_page=None, **controls):
 
     A demo may have as many positions as it likes if the book's page works them out itself:
     `in_page` is (name, ground, given). The page's `vmcInPage[name]` draws what `draw` does, by what
-    it is `given` (as JSON takes it), on plots or photos that `ground()` returned. Here a sample is
-    evaluated, along each control.
+    it is `given` (as JSON takes it), on plots or photos that `ground()` returned; with `views`, it
+    puts a pad's handle on several of them. Here a sample is evaluated, along each control.
     """
     controls = {name: as_control(name, spec) for name, spec in controls.items()}
     positions = math.prod(len(control.values) for control in controls.values())

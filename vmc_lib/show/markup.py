@@ -74,7 +74,10 @@ def _stackable(svg, fig, name):
     bars = any(ax.get_label() == "<colorbar>" for ax in fig.axes)  # they stay beside their panel
     if len(columns) != 2 or bars or fig.legends or fig.texts:
         return svg
-    split = min(columns)[1] + 0.08 / fig.get_figwidth()  # in the gap stand the second's numbers
+    left = [ax for ax in fig.axes if ax.get_position().x0 < min(columns)[1]]
+    last = any(np.isclose(ax.get_xticks(), ax.get_xlim()[1]).any() for ax in left)
+    past = 0.15 if last else 0.08  # inches: half of a last number, before those of the second
+    split = min(columns)[1] + past / fig.get_figwidth()
     root, drawing = svg.split(">", 1)
     drawing = drawing.removesuffix("</svg>")
     view = re.search(r'viewBox="[^"]*"', root)[0]
