@@ -110,7 +110,7 @@ def join(weights, edges, height, width, k, smallest):
         for e in range(start, min(start + BLOCK, len(edges))):
             one, other = ends(edges[e])
             apart[count] = e
-            count += root[one] != root[other]
+            count += root[one] != root[other]  # of one parent: of one patch already
         for e in apart[:count]:
             one, other = ends(edges[e])
             a, b = find(one), find(other)

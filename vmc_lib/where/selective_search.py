@@ -96,7 +96,7 @@ def _merge_all(rows, pixels, pairs, first_alike, counting, like):
     """
     total = len(rows[0])
     into, met = np.arange(total), np.zeros(total, np.int64)  # by what merged; by what last met
-    neighbours = [[i for i in range(0)] for _ in range(total)]
+    neighbours = [[i for i in range(0)] for _ in range(total)]  # empty, but of whole numbers
     for i, j in pairs:
         neighbours[i].append(j)
         neighbours[j].append(i)
