@@ -29,6 +29,7 @@ from reproduce import (
     trial,
     unsteady,
     variations,
+    weakened,
     wide_training,
 )
 from reproduce.peers import cerebella, optimal, steady
@@ -149,6 +150,12 @@ STEPS = (
         RESULTS / "unsteady.json",
         f"templates {ARM} vmc_lib/cerebellum reproduce/movements.py reproduce/peers/cerebella.py",
         3,
+    ),
+    Step(
+        weakened.make,
+        RESULTS / "weakened.npz",
+        f"optimal steady {ARM} vmc_lib/cerebellum reproduce/movements.py reproduce/unsteady.py",
+        1,
     ),
     Step(
         trial.make,

@@ -26,6 +26,7 @@ from reproduce import (
     trial,
     unsteady,
     variations,
+    weakened,
     wide_training,
 )
 from reproduce.peers import cerebella, optimal, steady
@@ -86,6 +87,7 @@ def steps(folder):
         "cerebella": partial(cerebella.make, seeds=[0], movements=(2, 4), held_out=4),
         "feedback": partial(feedback.make, watched, seeds=[0]),
         "unsteady": partial(unsteady.make, [5], seeds=[0], sizes=(2, 4), held_out=8),
+        "weakened": partial(weakened.make, [0], weakened.TARGETS[:1], ["BRA"], count=2, before=20),
         "fresh_test_set": partial(
             fresh_test_set.make, fresh, named, trainings=1, seeds=[0], patches=PATCHES
         ),

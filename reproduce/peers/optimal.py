@@ -25,6 +25,7 @@ TARGETS = np.array(
 )
 INNER = np.flatnonzero(np.all(abs(TARGETS - [0.09, -0.40]) < 0.04, axis=1))  # others all round
 NUDGE = 1e-4
+WHOLE = np.ones(6)  # of each muscle's strength: all of it
 
 
 def effort(excitations):
@@ -40,28 +41,33 @@ def solve(target):
     return excited(search(target).x)
 
 
-def search(target):
-    """SciPy's account of the search for the knots `x` of least effort."""
-    price = np.kron(spline(KNOTS).T @ spline(KNOTS), np.eye(6))
+def search(target, strength=WHOLE):
+    """SciPy's account of the search for the knots `x` of least effort.
+
+    `x` is what the muscles get: of each command the share that is the muscle's `strength` (6,).
+    """
+    price = np.kron(spline(KNOTS).T @ spline(KNOTS), np.diag(strength**-2.0))
     price /= np.diag(price).mean()  # about 1 in every direction, as the method likes it
-    return sought(target, lambda x: x @ price @ x / 2, lambda x: price @ x)
+    return sought(target, lambda x: x @ price @ x / 2, lambda x: price @ x, most=strength)
 
 
-def sought(target, cost, slope, ftol=1e-4):
+def sought(target, cost, slope, ftol=1e-4, most=WHOLE):
     """SciPy's account of the search for the knots `x` that bring the hand there at least `cost`.
 
+    No muscle gets more than `most` (6,).
     `slope` (n,) is the cost's; how often the arm was tried: each of the search's `nfev` trials
     moves it once, each of its `njev` slopes once for every knot and once more (beside what the cost
     takes).
     """
     start = plan(target, load()).excitations
     first = np.stack([least(spline(KNOTS), muscle) for muscle in start.T], axis=-1).ravel()
+    most = np.tile(most, KNOTS)
     goal = np.concatenate([np.tile(inverse_kinematics(target), 2), np.zeros(4)])
     found = minimize(
         cost,
-        first,
+        np.minimum(first, most),
         jac=slope,
-        bounds=[(0, 1)] * first.size,
+        bounds=[(0, limit) for limit in most],
         constraints={"type": "eq", "fun": lambda x: _ends(x) - goal, "jac": _slopes},
         method="SLSQP",
         options={"ftol": ftol, "maxiter": 60},
