@@ -154,7 +154,7 @@ STEPS = (
     Step(
         weakened.make,
         RESULTS / "weakened.npz",
-        f"optimal steady {ARM} vmc_lib/cerebellum reproduce/movements.py reproduce/unsteady.py",
+        f"templates {ARM} vmc_lib/cerebellum reproduce/movements.py reproduce/peers/optimal.py",
         1,
     ),
     Step(

@@ -54,12 +54,12 @@ def learned(seed, count=100, before=150, muscles=MUSCLES):
     for muscle, corrects in product(muscles, CORRECTIONS):
         lessons, unseen, shown = (plan(x, arm(muscle)) for x in (practised, others, TARGETS))
         pupil = Adaptation(skill, load(), corrects)
-        for when in WHEN:
+        for when, more in zip(WHEN, (0, count), strict=True):
+            for first in range(0, more, TOGETHER):
+                pupil.practise(lessons[first : first + TOGETHER])
             rows = {"in-sample": _miss(pupil, lessons), "held-out": _miss(pupil, unseen)}
             rows |= measures(pupil.correct(shown).excitations, muscle)
             found |= {f"{muscle}, {corrects}, {when}, {name}": x for name, x in rows.items()}
-            for first in range(0, count, TOGETHER):
-                pupil.practise(lessons[first : first + TOGETHER])
     return found
 
 
