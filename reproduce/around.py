@@ -21,7 +21,8 @@ GRID = 0.02  # between the places that may become via-points
 def obstacles(template_set, count, rng):
     """Targets (count, 2), and balls (count, 2), each in the middle of the meant way there."""
     targets = draw_targets(template_set, 20 * count, rng)
-    ways = meant(intend(plans(targets, template_set)))
+    parts = np.array_split(targets, 20)  # one after the other: less memory
+    ways = np.concatenate([meant(intend(plans(part, template_set))) for part in parts])
     start, end = ways[:, 0], ways[:, -1]
     long = np.linalg.norm(end - start, axis=-1) > LONG
     middle = (start + end)[:, None] / 2

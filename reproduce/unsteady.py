@@ -59,11 +59,12 @@ def share_for(mm):
     ValueError when no share up to one gives so much.
     """
     targets = draw_targets(load(), 200, np.random.default_rng(100))
-    told = np.tile(plan(targets, load(), exact_weights).excitations, (10, 1, 1, 1))
+    told = plan(targets, load(), exact_weights).excitations
 
     def missing(share):
-        ends = reach(wavering(told, share, np.random.default_rng(101))).reached
-        return 1000 * deviation(ends) - mm
+        rng = np.random.default_rng(101)  # one repeat at a time: less memory
+        ends = [reach(wavering(told, share, rng)).reached for _ in range(10)]
+        return 1000 * deviation(np.array(ends)) - mm
 
     if not 0 <= mm < missing(1.0) + mm:
         raise ValueError(f"no noise makes reaches end with {mm} mm; choose 0 to 20")

@@ -86,7 +86,8 @@ def compared(rng, repeats=REPEATS):
     """
     share, found = unsteady.share_for(LEVEL), {}
     for name, told in rivals().items():
-        many = reach(unsteady.wavering(np.tile(told, (repeats, 1, 1, 1)), share, rng)).reached
+        wavered = (unsteady.wavering(told, share, rng) for _ in range(repeats))
+        many = np.array([reach(one).reached for one in wavered])  # one at a time: less memory
         calm = reach(told)
         found[name] = {
             "scatter": 1000 * np.sqrt(many.var(axis=0, ddof=1).mean(axis=-1)),
