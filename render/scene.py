@@ -136,9 +136,9 @@ def place(mesh, rng, centre, near, far):
     return mesh.moved(shapes.rotation(1, rng.uniform(0, 2 * np.pi)), spot)
 
 
-def draw(level, rng):
+def draw(level, rng, furnish=setting):
     """A random scene of the level: shuttlecock and cup whole in the picture, nothing touching."""
-    table, gloss, light, cup, feathered = setting(level, rng)
+    table, gloss, light, cup, feathered = furnish(level, rng)
     while True:
         camera = EYE if level == "rig" else free_eye(rng)
         turn, reach = np.radians(rng.uniform(-10, 60)), rng.uniform(0.08, 0.22)

@@ -160,7 +160,7 @@ def resting(mesh, standing, roll, heading):
     return turned.on_table(), turn @ [0, LENGTH / 2, 0] - [0, drop, 0]
 
 
-def _vessel(profile, wall, colour, inside, roughness=0.3):
+def vessel(profile, wall, colour, inside, roughness=0.3):
     """A cup's wall: up the outside, over a rounded lip, down the inside."""
     outer = np.array(profile)
     inner = np.maximum(outer[::-1] - [wall, 0], [0, 2 * wall])
@@ -170,7 +170,8 @@ def _vessel(profile, wall, colour, inside, roughness=0.3):
     return lathe(points, colours, roughness)
 
 
-def _handle(top, bottom, reach, thickness, colour):
+def handle(top, bottom, reach, thickness, colour):
+    """A bent handle between two points (radius, height) of a cup's side."""
     angle = np.linspace(-np.pi / 2, np.pi / 2, 20)
     middle, half = np.add(top, bottom) / 2, np.subtract(top, bottom) / 2
     x = middle[0] + half[0] * np.sin(angle) + reach * np.cos(angle)
@@ -181,29 +182,29 @@ def _handle(top, bottom, reach, thickness, colour):
 def mug(colour, inside):
     """A straight mug with a handle."""
     side = [(0.034, 0), (0.0385, 0.003), (0.04, 0.009), (0.04, 0.05), (0.04, 0.09)]
-    body = _vessel(side, 0.004, colour, inside)
-    return join(body, _handle((0.038, 0.076), (0.038, 0.022), 0.03, 0.0055, colour))
+    body = vessel(side, 0.004, colour, inside)
+    return join(body, handle((0.038, 0.076), (0.038, 0.022), 0.03, 0.0055, colour))
 
 
 def teacup(colour, inside):
     """A rounded, low cup with a small handle."""
     angle = np.linspace(0.15, 1.45, 12)
     bowl = [(0.022 + 0.025 * np.sin(a), 0.006 + 0.056 * (1 - np.cos(a))) for a in angle]
-    body = _vessel([(0.022, 0), (0.023, 0.006), *bowl], 0.003, colour, inside)
-    return join(body, _handle((0.044, 0.048), (0.035, 0.016), 0.02, 0.004, colour))
+    body = vessel([(0.022, 0), (0.023, 0.006), *bowl], 0.003, colour, inside)
+    return join(body, handle((0.044, 0.048), (0.035, 0.016), 0.02, 0.004, colour))
 
 
 def beaker(colour, inside):
     """A cup without a handle, wider at the top."""
     side = [(0.026, 0), (0.03, 0.003), (0.033, 0.03), (0.037, 0.065), (0.041, 0.1)]
-    return _vessel(side, 0.003, colour, inside)
+    return vessel(side, 0.003, colour, inside)
 
 
 def espresso(colour, inside):
     """A small thick cup with a ring for a handle."""
     side = [(0.02, 0), (0.024, 0.004), (0.029, 0.02), (0.032, 0.038), (0.033, 0.058)]
-    body = _vessel(side, 0.005, colour, inside)
-    return join(body, _handle((0.032, 0.046), (0.03, 0.018), 0.019, 0.0045, colour))
+    body = vessel(side, 0.005, colour, inside)
+    return join(body, handle((0.032, 0.046), (0.03, 0.018), 0.019, 0.0045, colour))
 
 
 CUPS = (mug, teacup, beaker, espresso)

@@ -1,4 +1,4 @@
-"""The level "real": what models make of photographs, photo by photo, and as shares."""
+"""What models make of photographs, and of another renderer's scenes, photo by photo, as shares."""
 
 from joblib import Parallel, delayed
 
@@ -30,11 +30,12 @@ def load(model, split):
 
 
 def answers(found):
-    """Question -> (how many, of how many), from what `load` gives."""
+    """Question -> (how many, of how many), from what `load` gives; of what there is in it."""
     counts = {}
     for question, (kind, holds) in QUESTIONS.items():
         right = [holds(seen) for seen in found.values() if seen["holds"] == kind]
-        counts[question] = sum(right), len(right)
+        if right:
+            counts[question] = sum(right), len(right)
     return counts
 
 
@@ -49,18 +50,28 @@ def make(folder=photos.FOLDER, models=MODELS, splits=SPLITS):
     found = {}
     for name in models:
         model = VisuomotorModel.load(name)
-        found[name] = {split: _examined(model, split, folder) for split in splits}
+        found[name] = {
+            split: _examined(model, photos.load("real", split, folder)) for split in splits
+        }
     return found
 
 
-def _examined(model, split, folder):
-    shots = photos.load("real", split, folder)
+def elsewhere(folder, models=MODELS):
+    """What `results/elsewhere.json` holds: model -> photo -> what `examine` found.
+
+    Of the scenes of `render.elsewhere`, by another renderer, of which no model has seen one.
+    """
+    shots = photos.load("varied", "test", folder)
+    return {name: _examined(VisuomotorModel.load(name), shots) for name in models}
+
+
+def _examined(model, shots):
     seen = Parallel()(delayed(examine)(model, photo) for photo in shots)
     return {photo.name: one for photo, one in zip(shots, seen, strict=True)}
 
 
 def examine(model, photo):
-    """What a model makes of a photo of the level "real".
+    """What a model makes of a photo.
 
     holds: "shuttlecock", "cup" or "neither"; chance: that its true box holds a shuttlecock, to the
     recogniser; candidate, kept: how well (IoU) the best candidate and the best kept box fit it;

@@ -39,6 +39,7 @@ from vmc_lib import data
 
 ROOT, MODEL, RESULTS = Path(__file__).parents[1], data.FOLDER, results.FOLDER
 FRESH = ROOT / "_build/fresh_photos"  # of tests to come: they do not ship
+ELSEWHERE = ROOT / "_build/elsewhere_photos"  # likewise
 CODE_AND_DATA = {".py", ".xml", ".npz", ".json", ".jpg"}
 
 
@@ -174,6 +175,18 @@ STEPS = (
         RESULTS / "real_world.json",
         "photos detectors localisers cdbn recogniser photographs templates vmc_lib",
         3,
+    ),
+    Step(
+        f"{sys.executable} -m render.elsewhere {ELSEWHERE}",
+        ELSEWHERE,
+        minutes=5,
+        needs="vtk",
+    ),
+    Step(
+        partial(real_world.elsewhere, ELSEWHERE),
+        RESULTS / "elsewhere.json",
+        "detectors recogniser photographs vmc_lib",
+        needs="elsewhere_photos",
     ),
     Step(domains.make, RESULTS / "domains.npz", f"{WIDE} reproduce/peers", 8),
     Step(

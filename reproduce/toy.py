@@ -94,6 +94,7 @@ def steps(folder):
         "lesions": partial(trial.make, ["rig"], few),
         "photographs": partial(wide_training.photographs, named, 2, 80, everyday=1),
         "real_world": partial(real_world.make, few, splits=["validation"]),
+        "elsewhere": partial(real_world.elsewhere, few),
         "domains": partial(domains.make, few, [4], equal=4, draws=2, patches=PATCHES, steps=2),
         "printed_sheet": partial(printed_sheet.make, count=1),
         "whole_arm_habits": partial(habits.make, habits.grid(2)[:2]),

@@ -1,6 +1,6 @@
 import pytest
 
-from reproduce import real_world
+from reproduce import real_world, results
 from vmc_lib import loop, photos
 from vmc_lib.photos import RealPhoto
 
@@ -30,3 +30,12 @@ def test_the_box_that_is_chosen_counts_for_any_of_the_shuttlecocks():
 
 def test_a_share_is_told_with_its_interval():
     assert real_world.told(1, 17) == "1 of 17 (1% to 27%)"
+
+
+@pytest.mark.parametrize("model", real_world.MODELS)
+def test_another_renderers_scenes_all_show_a_shuttlecock(model):
+    found = results.records("elsewhere")[model]
+    assert len(found) == 30
+    counts = real_world.answers(found)
+    assert {of for _, of in counts.values()} == {30}
+    assert {real_world.QUESTIONS[question][0] for question in counts} == {"shuttlecock"}

@@ -1,0 +1,44 @@
+"""What lies beside a photo: the truth about it."""
+
+import json
+
+import numpy as np
+from PIL import Image
+
+from vmc_lib.photos import CLASSES
+
+SHOWN = 0.96  # the least share of shuttlecock and cup that nothing else hides
+
+
+def in_full_view(draw, masks):
+    """A scene of `draw()` that hides neither shuttlecock nor cup, and the boxes around them.
+
+    Scenes are drawn until one does. `masks` gives, by name, a thing's mask alone and among others.
+    """
+    while True:
+        drawn = draw()
+        seen = masks(drawn)
+        if all(part.sum() >= SHOWN * whole.sum() for whole, part in seen.values()):
+            return drawn, {name: box(seen[name][1]) for name in CLASSES}
+
+
+def box(mask):
+    """The smallest box (x0, y0, x1, y1) around a mask."""
+    rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
+    return [int(columns[0]), int(rows[0]), int(columns[-1]) + 1, int(rows[-1]) + 1]
+
+
+def store(path, image, drawn, boxes, seed):
+    """Write a photo and its sidecar."""
+    camera = {key: np.asarray(value).tolist() for key, value in vars(drawn.camera).items()}
+    truth = {
+        "boxes": boxes,
+        "camera": camera,
+        "target": drawn.target.tolist(),
+        "turn": drawn.turn,
+        "pose": drawn.pose,
+        "seed": seed,
+    }
+    path.parent.mkdir(parents=True, exist_ok=True)
+    Image.fromarray(image).save(path, quality=90)
+    path.with_suffix(".json").write_text(json.dumps(truth, indent=1) + "\n")

@@ -1,0 +1,42 @@
+"""Scenes as they are drawn, and what lies beside a photo; rendering itself is not tested."""
+
+import numpy as np
+import pytest
+
+from render import furniture, scene
+from render.sidecar import in_full_view, store
+from vmc_lib import photos
+
+
+@pytest.mark.parametrize("furnish", [scene.setting, furniture.setting])
+def test_shuttlecock_and_cup_stand_whole_in_view_and_nothing_touches(furnish):
+    drawn = scene.draw("varied", np.random.default_rng(1), furnish)
+    things = list(drawn.things.values())
+    assert list(drawn.things)[:2] == list(photos.CLASSES)
+    assert all(scene.whole(thing, drawn.camera) for thing in things[:2])
+    for thing in things:
+        assert scene.apart(thing, [other for other in things if other is not thing])
+    assert drawn.table.shape == (2048, 2048, 3)
+
+
+def test_scenes_are_drawn_until_nothing_is_hidden_and_are_read_as_written(tmp_path):
+    full, half, drawn = np.zeros((400, 600), bool), np.zeros((400, 600), bool), []
+    full[10:30, 40:80], half[10:30, 40:60] = True, True
+
+    def draw():
+        drawn.append(scene.draw("varied", np.random.default_rng(len(drawn)), furniture.setting))
+        return drawn[-1]
+
+    def masks(shown):
+        return {"shuttlecock": (full, full if shown is not drawn[0] else half), "cup": (full, full)}
+
+    last, boxes = in_full_view(draw, masks)
+    assert len(drawn) == 2
+    assert last is drawn[1]
+    assert boxes["shuttlecock"] == [40, 10, 80, 30]
+    path = tmp_path / "varied/test/000.jpg"
+    store(path, np.full((400, 600, 3), 9, np.uint8), last, boxes, (4, 2, 0))
+    (photo,) = photos.load("varied", "test", tmp_path)
+    assert photo.target.tolist() == last.target.tolist()
+    assert photo.camera.focal == last.camera.focal
+    assert photo.boxes["cup"].tolist() == boxes["cup"]
