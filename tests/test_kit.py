@@ -45,7 +45,7 @@ def test_a_student_gets_every_exercise_and_no_solution(chapter):
     given = student(chapter)
     nbformat.validate(given)
     text = "\n".join(cell.source for cell in given.cells)
-    assert "<summary>Solution" not in text
+    assert "<summary>Show the solution" not in text
     assert "# The solution" not in text
     assert not any(cell.get("outputs") for cell in given.cells)
     asked = [cell.metadata.exercise for cell in given.cells if "**Exercise" in cell.source]
@@ -108,7 +108,7 @@ def test_the_key_tells_what_is_right_and_why(monkeypatch):
         nbformat.v4.new_code_cell("from book.exercises.loop import MIXED\n\ngrade(mixed, MIXED)"),
         _asked("one", "**Exercise: One**\n\nHow many?"),
         nbformat.v4.new_markdown_cell(
-            "<details><summary>Solution</summary>\n\nOne.\n\n</details>", metadata=SOLVED
+            "<details><summary>Show the solution</summary>\n\nOne.\n\n</details>", metadata=SOLVED
         ),
         nbformat.v4.new_code_cell("check(1, 1)", metadata=SOLVED),
         nbformat.v4.new_code_cell("solution(MIXED)", metadata=SOLVED),

@@ -13,7 +13,7 @@ TERM = re.compile(r'\[([^\]]+)\]\(glossary\.md(?: "([^"]+)")?\)')
 SOURCE = r"\[[^\]]+\]\(references\.bib#(\w+)\)"
 SOURCES = re.compile(rf"\({SOURCE}(?:, {SOURCE})*\)")
 EXERCISE = re.compile(r"\*\*Exercise(?:: (.+))?\*\*\n\n")
-FOLD = re.compile(r"<details><summary>Solution</summary>\n\n|\n\n</details>")
+FOLD = re.compile(r"<details><summary>Show the solution</summary>\n\n|\n\n</details>")
 BOX = re.compile(r"^> \*\*(.+)\*\*\n((?:>.*\n?)+)", re.M)
 
 
