@@ -13,7 +13,9 @@ TERM = re.compile(r'\[([^\]]+)\]\(glossary\.md(?: "([^"]+)")?\)')
 SOURCE = r"\[[^\]]+\]\(references\.bib#(\w+)\)"
 SOURCES = re.compile(rf"\({SOURCE}(?:, {SOURCE})*\)")
 EXERCISE = re.compile(r"\*\*Exercise(?:: (.+))?\*\*\n\n")
-FOLD = re.compile(r"<details><summary>Show the solution</summary>\n\n|\n\n</details>")
+FOLD = re.compile(
+    r"\A\*\*Solution\*\*\n\n|\A<details><summary>Show the solution</summary>\n\n|\n\n</details>\Z"
+)
 BOX = re.compile(r"^> \*\*(.+)\*\*\n((?:>.*\n?)+)", re.M)
 
 
