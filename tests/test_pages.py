@@ -286,6 +286,24 @@ def test_a_chapter_begins_with_a_demo(opened):
     assert top <= 1.5 * 800
 
 
+def test_folded_cells_in_a_row_are_one_fold(opened):
+    """Only the first line of a row is seen; it opens them all, and folds them all again."""
+    page, seen = opened.page, "(cells) => cells.map((cell) => cell.checkVisibility())"
+    row = page.locator(
+        ".cell.tag_hide-input:not(:has(> .cell_output)):visible"
+        " + .cell.tag_hide-input:not(:has(> .cell_output))"
+    )
+    if not row.count():
+        pytest.skip("no row of folded cells")
+    assert not any(row.evaluate_all(seen))
+    first = row.first.locator("xpath=preceding-sibling::div[1]/details/summary")
+    assert first.evaluate("(line) => line.checkVisibility()")
+    first.click()
+    page.wait_for_function("(cell) => cell.checkVisibility()", arg=row.first.element_handle())
+    first.click()
+    page.wait_for_function("(cell) => !cell.checkVisibility()", arg=row.first.element_handle())
+
+
 def unfold(page):
     for fold in page.query_selector_all(".vmc-folded button[aria-expanded=false]"):
         fold.click()

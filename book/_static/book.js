@@ -32,6 +32,17 @@ addEventListener("DOMContentLoaded", () => {
   header.prepend(button);
 });
 
+/* Several folded cells in a row are one fold, whose line is the first one's. */
+(() => {
+  const folded = (cell) => cell?.matches(".cell.tag_hide-input:not(:has(> .cell_output))");
+  document.documentElement.classList.add("vmc-scripted");
+  document.addEventListener("toggle", ({ target }) => {
+    const cell = target.matches("details.hide") && target.closest(".cell");
+    const next = cell && cell.nextElementSibling;
+    if (folded(cell) && folded(next)) next.querySelector("details.hide").open = target.open;
+  }, true);
+})();
+
 /* How sure a result is stands folded below its heading, until asked for or linked to; paper shows it. */
 addEventListener("DOMContentLoaded", () =>
   document.querySelectorAll("section[id^='how-sure-are-we']").forEach((section) => {
