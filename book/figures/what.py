@@ -62,10 +62,12 @@ def explanations_of(v, energies, chances, names):
     fig, (left, middle, right) = plt.subplots(1, 3, figsize=(6.8, 2.3), width_ratios=[1, 1.2, 1.2])
     left.pcolormesh(v, vmin=-2, vmax=2, edgecolor=COLOURS["grey"], cmap="gray")
     left.set(title="v", xticks=[], yticks=[], aspect="equal")
-    middle.barh(names, energies, color=COLOURS["orange"])
-    middle.set(title="energy E(v, h)", xlim=(-9, 34))
-    right.barh(names, chances, color=COLOURS["blue"])
-    right.set(title="p(h | v)", xlim=(0, 1), yticks=[])
+    bars = middle.barh(names, energies, color=COLOURS["orange"])
+    middle.bar_label(bars, fmt="%.1f", padding=2)
+    middle.set(title="energy E(v, h)", xlim=(0, 45))
+    bars = right.barh(names, chances, color=COLOURS["blue"])
+    right.bar_label(bars, fmt="%.2f", padding=2)
+    right.set(title="p(h | v)", xlim=(0, 1.25), yticks=[])
     for ax in (left, middle, right):
         ax.invert_yaxis()
     return fig

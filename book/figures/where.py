@@ -100,7 +100,7 @@ def rising(best, now):
         ax.plot(np.arange(1, now + 1), overlap[:now], label=f"{name} {overlap[now - 1]:.2f}")
     ax.axvline(now, color=COLOURS["ink"], lw=1)
     ax.set(xlabel="regions made", ylabel="best overlap so far", xlim=(0, len(overlap)), ylim=(0, 1))
-    ax.legend(loc="lower right")
+    fig.legend(loc="outside upper center", ncols=2)
     return fig
 
 

@@ -17,8 +17,8 @@ def numbers(drawn):
     """A table (HTML) of the curves, dots and bars in the figures of what a draw function returned.
 
     A list: of one table, or empty where nothing is a figure. Each row is a point: what it belongs
-    to, its x, its y. Of a long line some points are told, evenly spread; of many curves the first,
-    and how many more there are.
+    to, its x, its y. Of a long line some points are told, evenly spread over the
+    axis; of many curves the first, and how many more there are.
     """
     figures = [
         p for p in (drawn if isinstance(drawn, tuple) else (drawn,)) if isinstance(p, Figure)
@@ -47,7 +47,7 @@ def _series(ax):
         xs, ys = np.broadcast_arrays(*(np.ravel(v) for v in line.get_data(orig=False)))
         kind, most = ("dots", DOTS) if line.get_linestyle() == "None" else ("line", POINTS)
         if line.get_transform() == ax.transData and len(xs) and line.get_visible():
-            some = np.unique(np.linspace(0, len(xs) - 1, most).round().astype(int))
+            some = _spread(xs, most, ax.get_xscale() == "log")
             yield _name(line, f"{_NAMES.get(line.get_color(), '')} {kind}"), xs[some], ys[some]
     for bars in ax.containers:
         if isinstance(bars, BarContainer):
@@ -56,6 +56,14 @@ def _series(ax):
                 yield _name(bars, "bars"), [(b.x0 + b.x1) / 2 for b in boxes], bars.datavalues
             else:
                 yield _name(bars, "bars"), bars.datavalues, [(b.y0 + b.y1) / 2 for b in boxes]
+
+
+def _spread(xs, most, logarithmic):
+    """Which of the points xs (n,) to tell, at most so many, evenly spread over the axis."""
+    last = len(xs) - 1
+    if logarithmic and last >= most and (np.diff(xs) > 0).all():
+        return np.unique(np.searchsorted(xs, np.geomspace(xs[0], xs[-1], most)).clip(0, last))
+    return np.unique(np.linspace(0, last, most).round().astype(int))
 
 
 def _name(artist, otherwise):
