@@ -63,7 +63,7 @@ def explanations_of(v, energies, chances, names):
     left.pcolormesh(v, vmin=-2, vmax=2, edgecolor=COLOURS["grey"], cmap="gray")
     left.set(title="v", xticks=[], yticks=[], aspect="equal")
     bars = middle.barh(names, energies, color=COLOURS["orange"])
-    middle.bar_label(bars, fmt="%.1f", padding=2)
+    middle.bar_label(bars, fmt="{:z.1f}", padding=2)  # no minus zero
     middle.set(title="energy E(v, h)", xlim=(0, 45))
     bars = right.barh(names, chances, color=COLOURS["blue"])
     right.bar_label(bars, fmt="%.2f", padding=2)

@@ -69,3 +69,9 @@ def test_dots_and_bars_are_told_one_by_one():
     ax.plot(range(20), range(20), "o")
     ax.bar(range(15), range(15))
     assert len(told(fig)) == 1 + 20 + 15
+
+
+def test_a_long_line_on_a_logarithmic_axis_is_told_evenly_along_that_axis():
+    fig, ax = plt.subplots()
+    ax.semilogx(np.arange(1, 257), np.arange(1, 257))
+    assert [row[1] for row in told(fig)[1:]] == ["1", "2", "4", "8", "16", "32", "64", "128", "256"]

@@ -62,7 +62,7 @@ def _spread(xs, most, logarithmic):
     """Which of the points xs (n,) to tell, at most so many, evenly spread over the axis."""
     last = len(xs) - 1
     if logarithmic and last >= most and (np.diff(xs) > 0).all():
-        return np.unique(np.searchsorted(xs, np.geomspace(xs[0], xs[-1], most)).clip(0, last))
+        return np.unique(np.abs(xs[:, None] - np.geomspace(xs[0], xs[-1], most)).argmin(axis=0))
     return np.unique(np.linspace(0, last, most).round().astype(int))
 
 
