@@ -6,18 +6,14 @@ What is drawn is played back: the movement is simulated first.
 import mujoco
 import numpy as np
 from matplotlib.collections import LineCollection
-from meshcat.geometry import MeshLambertMaterial, TriangularMeshGeometry
 
 from book.figures.panels import panels
 from reproduce.whole_arm import plant
-from vmc_lib.show import COLOURS, things
-from vmc_lib.show.scene import Scene
+from vmc_lib.show import COLOURS
 
 BONES = ("humerus_r", "ulna_r", "lunate_r")  # shoulder, elbow and wrist are where these begin
 VIEWS = {"from the side": (0, 1, "up (m)"), "from above": (0, 2, "to the right (m)")}
 CORNER = (0.02, 0.02, 0.3, 0.352)  # of a plot: a square, the target's surroundings in it
-SIDES = 5  # of a tube
-BONE, REST, FULL = np.array([[0.91, 0.87, 0.79], [0.93, 0.74, 0.70], [0.78, 0.02, 0.06]])
 NEAR = 0.05  # m: how far they reach
 
 
@@ -79,42 +75,3 @@ def view_from(ax, y, label, title):
     low, high = ((-0.45, 0.3), (0.35, -0.4))[y == 2]
     ax.set(xlim=(-0.2, 0.68), ylim=(low, high), aspect="equal")
     ax.set(xlabel="forward (m)", ylabel=label, title=title)
-
-
-def scene(motion, moment, target):
-    """The same arm at one of its moments, as a scene to be turned: bones, and muscles as tubes.
-
-    The redder a muscle, the more active; green is the target, blue the finger's tip.
-    """
-    bones, ways = lines(motion.joints[moment])
-    shown = Scene()
-    shown.look((0.75, 0.05, 0.7), at=(0.24, -0.13, 0.0))
-    limbs = [_tube(bones[k : k + 2], 0.008) for k in range(len(bones) - 1)]
-    shown["bones"].set_object(*_tubes(limbs, np.tile(BONE, (len(limbs), 1))))
-    shade = np.clip(3 * motion.activation[moment], 0, 1)[:, None]
-    muscles = [_tube(way, 0.0038) for way in ways]
-    shown["muscles"].set_object(*_tubes(muscles, REST + shade * (FULL - REST)))
-    things.ball(shown["tip"], bones[-1], "blue")
-    things.ball(shown["target"], target, "green")
-    return shown
-
-
-def _tube(way, radius):
-    """Rings (n, SIDES + 1, 3) round the points of a way (n, 3)."""
-    along = way[-1] - way[0]
-    side = np.cross(along, np.eye(3)[np.abs(along).argmin()])
-    across = np.stack([side, np.cross(along, side)])
-    across /= np.linalg.norm(across, axis=1, keepdims=True)
-    angle = 2 * np.pi * np.arange(SIDES + 1) / SIDES
-    return way[:, None] + radius * np.column_stack([np.cos(angle), np.sin(angle)]) @ across
-
-
-def _tubes(rings, colours):
-    """One mesh of many tubes, each in its colour (n, 3), and its paint: a viewer's one object."""
-    meshes = [things.surface(ring) for ring in rings]
-    sizes = [len(mesh.vertices) for mesh in meshes]
-    firsts = np.cumsum([0, *sizes[:-1]])
-    vertices = np.concatenate([mesh.vertices for mesh in meshes])
-    faces = np.concatenate([m.faces + first for m, first in zip(meshes, firsts, strict=True)])
-    shades = np.repeat(colours, sizes, axis=0)
-    return TriangularMeshGeometry(vertices, faces, shades), MeshLambertMaterial(vertexColors=True)

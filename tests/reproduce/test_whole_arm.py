@@ -6,7 +6,6 @@ import mujoco
 import numpy as np
 import pytest
 
-from book.figures import whole_arm as figures
 from reproduce.whole_arm import bones, derive, experiment, habits, plant
 from vmc_lib.cerebellum.offline import broyden_calibration
 
@@ -197,25 +196,3 @@ def test_a_miss_is_told_beside_the_reach_and_beside_the_way():
     longer = np.linalg.norm(targets, axis=1).mean() / way
     assert found["planned / way"] == pytest.approx(longer * found["planned / reach"])
     assert longer > 2
-
-
-def test_in_the_scene_muscles_run_where_they_run_in_the_model():
-    _, ways = figures.lines(plant.FOLLOWS @ habits.START)
-    tubes = [figures._tube(way, 0.004) for way in ways]
-    for tube, way in zip(tubes, ways, strict=True):
-        np.testing.assert_allclose(tube[:, :-1].mean(axis=1), way, atol=1e-9)
-    colours = np.arange(189).reshape(63, 3) / 189
-    mesh, _ = figures._tubes(tubes, colours)
-    assert len(mesh.vertices) == sum(tube[..., 0].size for tube in tubes)
-    assert mesh.faces.max() == len(mesh.vertices) - 1
-    np.testing.assert_allclose(mesh.color[mesh.faces[:, 0]], mesh.color[mesh.faces[:, 2]])
-
-
-def test_in_the_scene_what_changes_with_activation_are_the_muscles():
-    still = (plant.FOLLOWS @ habits.START)[None]
-    idle, active = (
-        figures.scene(plant.Motion(still, 0 * still, np.full((1, 63), a)), 0, np.zeros(3))
-        for a in (0.0, 1.0)
-    )
-    changed = set(idle.messages()) ^ set(active.messages())
-    assert {message.split("|")[0].split()[1] for message in changed} == {"/meshcat/muscles"}
