@@ -70,6 +70,7 @@ def pictures(past, target):
     space.look((0.62, 0.12, 0.92), at=(0.27, -0.06, 0.0))
     for k, colour in enumerate(("green", "red", "purple")):  # the target, both reaches' ends
         things.ball(space[f"goal/ball{k}"], target, colour)
+        space[f"goal/ball{k}"].set_property("visible", k == 0)  # until a reach ends there
     plots = []
     for title, (x, y, label) in VIEWS.items():
         fig, ax = panels(size=(4.1, 3.9))
