@@ -49,6 +49,7 @@ def serious():
         # Colours that are still on their way to a theme are nobody's contrast
         page.add_style_tag(content="* { transition: none !important }")
         page.evaluate("theme => { document.documentElement.dataset.theme = theme }", theme)
+        page.evaluate("() => scrollTo(0, 0)")  # lest the sticky header covers a target
         if not page.evaluate("() => 'axe' in window"):
             page.evaluate(AXE.read_text())
         options = {"preload": False, "rules": {"target-size": {"enabled": True}}}  # of WCAG 2.2
