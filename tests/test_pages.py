@@ -290,13 +290,12 @@ def test_folded_cells_in_a_row_are_one_fold(opened):
     """Only the first line of a row is seen; it opens them all, and folds them all again."""
     page, seen = opened.page, "(cells) => cells.map((cell) => cell.checkVisibility())"
     row = page.locator(
-        ".cell.tag_hide-input:not(:has(> .cell_output)):visible"
-        " + .cell.tag_hide-input:not(:has(> .cell_output))"
+        ".cell.tag_hide-input:not(:has(> .cell_output)):visible + .cell.tag_hide-input > details"
     )
     if not row.count():
         pytest.skip("no row of folded cells")
     assert not any(row.evaluate_all(seen))
-    first = row.first.locator("xpath=preceding-sibling::div[1]/details/summary")
+    first = row.first.locator("xpath=../preceding-sibling::div[1]/details/summary")
     assert first.evaluate("(line) => line.checkVisibility()")
     first.click()
     page.wait_for_function("(cell) => cell.checkVisibility()", arg=row.first.element_handle())
@@ -324,6 +323,25 @@ def test_sliders_answer_the_keyboard(opened):
 @pytest.mark.parametrize("theme", ["light", "dark"])
 def test_is_accessible(opened, serious, theme):
     assert serious(opened.page, "html", theme, all_of_it=True) == []
+
+
+# Runs in the page. Equations that would scroll, and words that leave their picture.
+CUT = """() => {
+  const equations = [...document.querySelectorAll("div.math")];
+  const wide = equations.filter((e) => e.scrollWidth > e.clientWidth + 1);
+  const out = [...document.querySelectorAll(".vmc-picture svg text")].filter((word) => {
+    const [box, frame] = [word, word.ownerSVGElement].map((e) => e.getBoundingClientRect());
+    return box.width && (box.left < frame.left - 3 || box.right > frame.right + 3
+      || box.top < frame.top - 3 || box.bottom > frame.bottom + 3);
+  });
+  return [...wide, ...out].map((e) => e.textContent);
+}"""
+
+
+def test_no_equation_and_no_word_of_a_picture_is_cut(opened):
+    opened.page.set_viewport_size({"width": 1280, "height": 800})
+    opened.page.evaluate(TWO_FRAMES)
+    assert opened.page.evaluate(CUT) == []
 
 
 def test_fits_phones_tablets_and_enlarged_pages(opened):

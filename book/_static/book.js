@@ -32,14 +32,13 @@ addEventListener("DOMContentLoaded", () => {
   header.prepend(button);
 });
 
-/* Several folded cells in a row are one fold, whose line is the first one's. */
+/* Several folded cells in a row, up to one that shows something, are one fold: its line is the first one's. */
 (() => {
-  const folded = (cell) => cell?.matches(".cell.tag_hide-input:not(:has(> .cell_output))");
   document.documentElement.classList.add("vmc-scripted");
   document.addEventListener("toggle", ({ target }) => {
-    const cell = target.matches("details.hide") && target.closest(".cell");
-    const next = cell && cell.nextElementSibling;
-    if (folded(cell) && folded(next)) next.querySelector("details.hide").open = target.open;
+    const cell = target.matches("details.hide") && target.closest(".cell.tag_hide-input:not(:has(> .cell_output))");
+    const next = cell?.nextElementSibling;
+    if (next?.matches(".tag_hide-input")) next.querySelector("details.hide").open = target.open;
   }, true);
 })();
 

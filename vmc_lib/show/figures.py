@@ -60,17 +60,18 @@ def photo_view(image, boxes=(), points=(), axes=None):
     """
     height, width = image.shape[:2]
     left, right, bottom, top = axes or (0, width, height, 0)
-    marks, labels = [], []  # where words stand already
+    marks, words, taken = [], [], []  # words lie above marks; where they stand already
     for (x0, y0, x1, y1), label, colour in boxes:
         rect = f'x="{x0:.1f}" y="{y0:.1f}" width="{x1 - x0:.1f}" height="{y1 - y0:.1f}"'
         marks += [f'<rect {rect} {EDGE}/><rect {rect} stroke="{ON_PHOTO[colour]}"/>']
-        free = all(abs(y0 - y) > 20 or x0 > end or x > x0 + 11 * len(label) for x, y, end in labels)
-        marks += [_label(x0, y0 - 7 if y0 > 26 and free else y1 + 21, label, colour)]
-        labels += [(x0, y0, x0 + 11 * len(label))] * bool(label)
+        free = all(abs(y0 - y) > 20 or x0 > end or x > x0 + 11 * len(label) for x, y, end in taken)
+        y = y0 - 7 if y0 > 26 and free else min(y1 + 21, height - 7)
+        words += [_label(x0, y, label, colour)]
+        taken += [(x0, y0, x0 + 11 * len(label))] * bool(label)
     for (x, y), label, colour in points:
         circle = f'<circle cx="{x:.1f}" cy="{y:.1f}" r="6"'
         marks += [f'{circle} {EDGE}/>{circle} stroke="{ON_PHOTO[colour]}"/>']
-        marks += [_label(x + 11, y + 7, label, colour)]
+        words += [_label(x + 11, y + 7, label, colour)]
     return "\n".join(
         [
             f'<svg viewBox="0 0 {width} {height}" width="{width}" height="{height}" fill="none" '
@@ -79,6 +80,7 @@ def photo_view(image, boxes=(), points=(), axes=None):
             data_uri(image),
             '"/>',
             *marks,
+            *words,
             "</svg>",
         ]
     )
