@@ -1,17 +1,16 @@
 """Plots and images as markup that carries everything it needs: SVG with text, `<img>` with data."""
 
 import base64
-import io
 import re
 from functools import cache, lru_cache
 
 import cv2
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.backends.backend_svg import FigureCanvasSVG
 
 from vmc_lib.show.live import STATIC
 from vmc_lib.show.palette import COLOURS, STYLE
+from vmc_lib.show.pen import drawn
 from vmc_lib.show.render_mode import render_mode
 
 _NAMES = {value: name for name, value in COLOURS.items()} | {"#000000": "ink", "#ffffff": "paper"}
@@ -31,11 +30,9 @@ def _style_sheet():
 
 def svg(fig, salt):
     """The figure as SVG, its text as text and its colours as CSS variables; closes the figure."""
-    text = io.StringIO()
     with plt.rc_context(STYLE | {"svg.hashsalt": salt}):
-        FigureCanvasSVG(fig).print_svg(text, metadata={"Date": None})  # `savefig` draws twice
+        svg = drawn(fig)
     plt.close(fig)  # or the notebook would show it a second time
-    svg = text.getvalue()
     least = 0.62 * 72 * fig.get_figwidth()  # on a phone a wide plot scrolls, its words stay legible
     root = f'<svg {_SVG_ROOT} {_axes(fig)} style="--least: {least:.0f}pt" '
     svg = svg[svg.index("<svg ") :].replace("<svg ", root, 1)

@@ -1,0 +1,42 @@
+import io
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+from matplotlib.backends.backend_svg import FigureCanvasSVG
+
+from vmc_lib.show import pen
+from vmc_lib.show.palette import STYLE
+
+
+@pytest.mark.parametrize("layout", ["constrained", "none"])
+def test_the_pen_writes_what_matplotlib_does(layout):
+    def plot():
+        fig, axes = plt.subplots(1, 3, layout=layout)
+        axes[0].semilogy([1, 20, 300], label="two\nlines, and $\\theta_1$")
+        axes[0].legend(title="a legend")
+        axes[0].set_title("long words $W_{ij}$", fontsize=14, weight="bold")
+        axes[1].set_yticks([0, 1], ["first\nname", "second"], rotation=30)
+        axes[2].imshow(np.eye(3))
+        fig.suptitle("over all")
+        return fig
+
+    usual = io.StringIO()
+    with plt.rc_context(STYLE | {"svg.hashsalt": "same"}):
+        FigureCanvasSVG(plot()).print_svg(usual, metadata={"Date": None})
+        assert pen.drawn(plot()) == usual.getvalue()
+    plt.close("all")
+
+
+def test_the_pen_leaves_a_font_without_measures_to_matplotlib(monkeypatch):
+    class Font:
+        def get_sfnt_table(self, _):
+            return None
+
+    monkeypatch.setattr(pen, "get_font", lambda path: Font())
+    pen._height.cache_clear()
+    fig = plt.figure()
+    fig.text(0.5, 0.5, "words")
+    assert "words" in pen.drawn(fig)
+    plt.close("all")
+    pen._height.cache_clear()

@@ -1,0 +1,50 @@
+"""matplotlib's writer of SVG, which measures a font and a word once, not whenever it is asked.
+
+To lay a plot out, matplotlib asks some hundred times how large its words are.
+"""
+
+import io
+from functools import lru_cache
+
+from matplotlib.backends.backend_svg import FigureCanvasSVG, RendererSVG
+from matplotlib.font_manager import findfont, get_font
+from matplotlib.textpath import text_to_path
+
+
+class _Pen(RendererSVG):
+    def get_text_width_height_descent(self, s, prop, ismath):
+        return _size(s, prop.copy(), ismath)
+
+    def _get_font_height_metrics(self, prop):  # matplotlib 3.11 asks, before it reads the file
+        return _height(prop.copy())
+
+
+class _Canvas(FigureCanvasSVG):
+    def get_renderer(self):  # the layout measures with the pen that draws
+        return self.pen
+
+
+def drawn(fig):
+    """A figure as SVG, the very text that matplotlib's own canvas writes."""
+    canvas, text, dpi = _Canvas(fig), io.StringIO(), fig.dpi
+    fig.dpi = 72  # points
+    canvas.pen = _Pen(*72 * fig.get_size_inches(), text, image_dpi=dpi, metadata={"Date": None})
+    fig.draw(canvas.pen)
+    canvas.pen.finalize()
+    return text.getvalue()
+
+
+@lru_cache(4096)
+def _size(s, prop, ismath):
+    """Width, height and descent of a line of text, in points."""
+    return text_to_path.get_text_width_height_descent(s, prop, ismath)
+
+
+@lru_cache(256)
+def _height(prop):
+    """Ascent, descent and line gap of a font, in points; None where its file says nothing."""
+    font = get_font(findfont(prop))
+    if not (told := font.get_sfnt_table("OS/2")):
+        return None, None, None
+    em = prop.get_size_in_points() / font.get_sfnt_table("head")["unitsPerEm"]
+    return em * told["sTypoAscender"], -em * told["sTypoDescender"], em * told["sTypoLineGap"]
