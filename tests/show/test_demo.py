@@ -1,6 +1,7 @@
 """One declaration, three lives: what a demo shows, and what it refuses."""
 
 import base64
+import gc
 import gzip
 import json
 import re
@@ -118,6 +119,12 @@ def test_live_life_has_the_face_of_the_page_and_answers_for_each_state(live):
     for place, values in ((17, dict(k=2, c="c", on=True)), (0, dict(k=1, c="a", on=False))):
         told = {"to": "1", "answer": [["words"], names(**values).split("\n")]}
         assert shown.ask("state", place) == told
+
+
+def test_no_picture_waits_until_all_that_is_loaded_has_been_looked_through(live):
+    gc.unfreeze()
+    live(k=Slider([1, 2], "k"))
+    assert len(gc.get_objects()) < gc.get_freeze_count()
 
 
 def test_what_draw_raises_is_told_with_the_values_that_it_was_asked_for(live):

@@ -7,6 +7,7 @@ and every control must matter.
 """
 
 import base64
+import gc
 import gzip
 import itertools
 import json
@@ -211,6 +212,8 @@ def _live(state, caption, controls, name):
     still = display(HTML(styled(still_of(alt, parts, name))), display_id=True)
     display(Live(framed(face, "", name), "vmcDemo", SCRIPTS, {"state": moved, "rested": rested}))
     display(HTML(framed("", caption)))
+    gc.collect()
+    gc.freeze()  # or at times a picture waits until all that is loaded has been looked through
 
 
 def still_of(alt, parts, name):

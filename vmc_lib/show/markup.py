@@ -14,6 +14,7 @@ from vmc_lib.show.pen import drawn
 from vmc_lib.show.render_mode import render_mode
 
 _NAMES = {value: name for name, value in COLOURS.items()} | {"#000000": "ink", "#ffffff": "paper"}
+_MINUS = re.compile(r"(?<=[\s(>])-(?=\.?\d)")  # before a number in words: the axes have it so
 _SVG_ROOT = 'font-family="DejaVu Sans, Verdana, sans-serif" stroke-linejoin="round"'
 
 
@@ -40,7 +41,7 @@ def svg(fig, salt):
     used = set(re.findall(r"#([\w.-]+)", svg))
     svg = re.sub(r' id="([^"]*)"', lambda name: name[0] if name[1] in used else "", svg)
     svg = re.sub(r"font-family: [^;\"]+(; )?", "", svg)
-    svg = re.sub(r"(?<=[\s(>])-(?=\.?\d[^<>]*</t)", "−", svg)  # in words, as the axes have it
+    svg = re.sub(r">[^<>]*</t", lambda words: _MINUS.sub("−", words[0]), svg)
     svg = re.sub(r' d="[^"]*"', lambda d: re.sub(r"(\.\d\d)\d+", r"\1", d[0]), svg)
     svg = re.sub(r"#[0-9a-f]{6}\b", lambda colour: _variable(colour[0]), svg)
     return _stackable(re.sub(r"\n\s*", "\n", svg).strip(), fig, f"{salt}-panels")
