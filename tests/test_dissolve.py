@@ -3,7 +3,6 @@
 import shutil
 from base64 import b64decode, b64encode
 from itertools import chain
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -16,7 +15,8 @@ from vmc_lib.where.selective_search import Strategy, hierarchies
 
 HEAD = """<!doctype html><html lang="en"><meta charset="utf-8"><title>A photo</title>
 <meta name="viewport" content="width=device-width"><link rel="stylesheet" href="demo.css">
-<script defer src="selective_search.js"></script><script defer src="dissolve.js"></script>
+<script defer src="redrawn.js"></script><script defer src="selective_search.js"></script>
+<script defer src="dissolve.js"></script>
 <body style="background: var(--vmc-paper); color: var(--vmc-ink)"><main>"""
 GROWN = """([pixels, k]) => {
   const tree = vmcSearch.prepare(
@@ -138,7 +138,7 @@ def test_in_a_kernel_it_is_the_same_page(monkeypatch):
     monkeypatch.setattr(where, "display", shown.append)
     monkeypatch.setenv("VMC_RENDER_MODE", "live")
     where.dissolving(SHOTS[0].image, "Play.", "A cup.")
-    assert shown[1].scripts == [Path(name).name for name in ("selective_search.js", "dissolve.js")]
+    assert shown[1].scripts == ["redrawn.js", "selective_search.js", "dissolve.js"]
     assert 'class="vmc-dissolve"' in shown[1].page
     monkeypatch.setenv("VMC_RENDER_MODE", "test")
     where.dissolving(SHOTS[0].image, "Play.", "A cup.")

@@ -8,18 +8,11 @@ const vmcDissolve = (() => {
     const [still, canvas, strip, say, file] = ["img", "canvas", ".vmc-strip", "[role=status]", "[type=file]"]
       .map((name) => box.querySelector(name));
     const [k, merged] = box.querySelectorAll("[type=range]");
-    const [play, choose, camera] = box.querySelectorAll("button");
-    const context = canvas.getContext("2d", { willReadFrequently: true });
-    let photo, tree, asked = 0;
+    const [play, choose] = box.querySelectorAll("button");
+    let context, photo, tree, asked = 0;
 
-    const look = (picture, own) => {
-      const shrink = Math.sqrt(AREA / (picture.width * picture.height));
-      [canvas.width, canvas.height] = [picture.width, picture.height].map((side) => Math.round(shrink * side));
-      context.fillStyle = "white"; // behind what is transparent
-      context.fillRect(0, 0, canvas.width, canvas.height);
-      context.imageSmoothingQuality = "high";
-      context.drawImage(picture, 0, 0, canvas.width, canvas.height);
-      if (own) still.src = canvas.toDataURL("image/jpeg", 0.9);
+    const look = (picture) => {
+      context = vmcRedrawn(picture, Math.sqrt(AREA / (picture.width * picture.height)), canvas);
       const { data, width, height } = context.getImageData(0, 0, canvas.width, canvas.height);
       photo = { data, image: new ImageData(width, height) };
       tree = null;
@@ -61,31 +54,30 @@ const vmcDissolve = (() => {
       strip.textContent = `${told(regions)} regions so far, a box around each; ${width} × ${height} pixels hold ${told(all)} boxes.`;
     };
 
-    /* To cut takes a moment: say so, and begin when that can be seen. */
+    /* To cut takes a moment: say so, and begin when that can be seen. The last who asked is heard. */
     const soon = (then) => {
-      if (!photo) look(still, false);
+      if (!photo) look(still);
       if (tree?.scale !== Math.round(2 ** k.value)) strip.textContent = "Cutting …";
       const mine = ++asked;
       requestAnimationFrame(() => setTimeout(() => mine === asked && then()));
     };
-
-    let turn;
     const stop = () => {
       asked++;
-      cancelAnimationFrame(turn);
       play.textContent = "Play";
     };
     const run = () => {
-      const from = merged.value < 1 ? +merged.value : 0;
+      const from = merged.value % 1;
       let begun;
-      const step = (now) => {
-        merged.value = Math.min(1, from + (now - (begun ??= now)) / PLAY_TIME);
+      const step = () => {
         draw();
-        if (merged.value < 1) turn = requestAnimationFrame(step);
-        else stop();
+        if (+merged.value === 1) return stop();
+        begun ??= performance.now();
+        merged.value = Math.min(1, from + (performance.now() - begun) / PLAY_TIME);
+        soon(step);
       };
+      merged.value = from;
       play.textContent = "Pause";
-      soon(() => { draw(); turn = requestAnimationFrame(step); });
+      soon(step);
     };
     play.addEventListener("click", () => (play.textContent === "Play" ? run() : stop()));
     for (const slider of [k, merged]) slider.addEventListener("input", () => { stop(); soon(draw); });
@@ -98,23 +90,19 @@ const vmcDissolve = (() => {
         : `This browser cannot read ${chosen.name}: save it, or a phone's HEIC, as a JPEG or PNG.`;
       if (!picture) return;
       merged.value = 0;
-      look(picture, true);
+      look(picture);
+      still.src = canvas.toDataURL("image/jpeg", 0.9);
       run();
     };
-    const ask = (how) => { file.toggleAttribute("capture", how); file.click(); };
     file.addEventListener("change", () => own(file.files[0]).then(() => (file.value = "")));
-    choose.addEventListener("click", () => ask(false));
-    camera.addEventListener("click", () => ask(true));
-    camera.hidden = !matchMedia("(pointer: coarse)").matches;
+    choose.addEventListener("click", () => file.click());
     box.addEventListener("dragover", (event) => event.preventDefault());
     box.addEventListener("drop", (event) => { event.preventDefault(); own(event.dataTransfer.files[0]); });
     box.dataset.ready = "";
     return stop;
   };
 
-  const startAll = () => document.querySelectorAll(".vmc-demo:has(> .vmc-dissolve)").forEach(start);
-  if (self.vmcKernel); // which starts its own
-  else if (document.readyState === "loading") addEventListener("DOMContentLoaded", startAll);
-  else startAll();
+  /* A kernel starts its own. */
+  if (!self.vmcKernel) document.querySelectorAll(".vmc-demo:has(> .vmc-dissolve)").forEach(start);
   return start;
 })();

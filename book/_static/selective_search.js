@@ -4,7 +4,7 @@ const vmcSearch = (() => {
   "use strict";
 
   const single = Math.fround;
-  const COLOUR_BINS = 25, TEXTURE_BINS = 10, WAYS = [[0, 1], [1, 0], [1, 1], [1, -1]];
+  const COLOUR_BINS = 25, COLOURS = 3 * COLOUR_BINS, TEXTURE_BINS = 10, WAYS = [[0, 1], [1, 0], [1, 1], [1, -1]];
   const COS = [0, 1, 2, 3].map((i) => Math.cos((i * Math.PI) / 4));
   const SIN = [0, 1, 2, 3].map((i) => Math.sin((i * Math.PI) / 4));
 
@@ -100,9 +100,10 @@ const vmcSearch = (() => {
   /* Which of a few bins a value falls into. */
   const bin = (value, bins) => Math.trunc(Math.max(1 - bins, Math.min(bins - 1, value)));
 
-  /* For eight directions, the bin of each pixel's upward slope. */
-  const textures = (plane, width, height) => {
-    const smooth = blur(plane, width, height, 1), rows = Array.from({ length: 8 }, () => new Uint8Array(plane.length));
+  /* For eight directions, the bin of each pixel's upward slope, counted on from `first`. */
+  const textures = (plane, width, height, first) => {
+    const smooth = blur(plane, width, height, 1);
+    const rows = Array.from({ length: 8 }, (_, r) => new Uint16Array(plane.length).fill(first + r * TEXTURE_BINS));
     const [left, right] = [-1, 1].map((d) => steps(width, d)), [above, below] = [-1, 1].map((d) => steps(height, d));
     for (let y = 0, i = 0; y < height; y++)
       for (let x = 0; x < width; x++, i++) {
@@ -112,80 +113,64 @@ const vmcSearch = (() => {
         const dx = single(single(rise(up) + rise(down)) + 2 * rise(here)), dy = single(mean(down) - mean(up));
         for (let way = 0; way < 4; way++) {
           const code = bin(TEXTURE_BINS * (COS[way] * dx + SIN[way] * dy), TEXTURE_BINS);
-          rows[2 * way + (code < 0)][i] = Math.abs(code);
+          rows[2 * way + (code < 0)][i] += Math.abs(code);
         }
       }
     return rows;
-  };
-
-  /* Shares of each segment's pixels in each bin of each row, with room for the regions to be made. */
-  const histograms = ({ rows, bins }, { labels, count }, size) => {
-    const wide = rows.length * bins, all = new Float32Array((2 * count - 1) * wide);
-    rows.forEach((row, r) => {
-      for (let i = 0; i < row.length; i++) all[labels[i] * wide + r * bins + row[i]]++;
-    });
-    for (let i = 0; i < count * wide; i++) all[i] /= size[Math.floor(i / wide)] * rows.length;
-    return { all, wide };
   };
 
   /* A photo, RGBA bytes, made ready once; then `grow(k)` gives its segments and how they grow back:
      labels, their count, the two regions of every merge, and the box around every region. */
   const prepare = (bytes, width, height) => {
     const planes = hsv(bytes), sorted = edges(planes.map((p) => blur(p, width, height, 0.8)), width, height);
-    const colours = planes.map((plane) => Uint8Array.from(plane, (v) => bin(single(v * COLOUR_BINS), COLOUR_BINS)));
-    const looks = [
-      { rows: colours, bins: COLOUR_BINS },
-      { rows: planes.flatMap((plane) => textures(plane, width, height)), bins: TEXTURE_BINS },
-    ];
-    return { grow: (k) => grow(join(sorted, width, height, k), looks, width, height) };
+    const colours = planes.map((plane, c) =>
+      Uint16Array.from(plane, (v) => c * COLOUR_BINS + bin(single(v * COLOUR_BINS), COLOUR_BINS)));
+    const rows = planes.flatMap((plane, c) => textures(plane, width, height, COLOURS + c * 8 * TEXTURE_BINS));
+    return { grow: (k) => grow(join(sorted, width, height, k), [...colours, ...rows], width, height) };
   };
 
-  const grow = (segments, looks, width, height) => {
-    const { labels, count } = segments, n = labels.length, regions = 2 * count - 1;
-    const size = new Int32Array(regions), near = Array.from({ length: count }, () => new Set());
-    const boxes = Array.from({ length: regions }, () => [Infinity, Infinity, 0, 0]), merges = [];
-    const around = (a, b) => [0, 1, 2, 3].map((i) => (i < 2 ? Math.min : Math.max)(a[i], b[i]));
+  /* Of each segment, the shares of its pixels in the bins of colour, and in those of texture. */
+  const describe = (rows, labels, size) => {
+    const looks = size.map(() => new Float32Array(COLOURS + 3 * 8 * TEXTURE_BINS));
+    for (const row of rows) for (let i = 0; i < row.length; i++) looks[labels[i]][row[i]]++;
+    return looks.map((look, segment) => look.map((n, x) => n / (size[segment] * (x < COLOURS ? 3 : 3 * 8))));
+  };
+
+  const around = (a, b) => [Math.min(a[0], b[0]), Math.min(a[1], b[1]), Math.max(a[2], b[2]), Math.max(a[3], b[3])];
+
+  const grow = ({ labels, count }, rows, width, height) => {
+    const size = Array(count).fill(0), boxes = Array(count).fill([Infinity, Infinity, 0, 0]);
+    const touching = new Set(), merges = [];
     for (let y = 0, i = 0; y < height; y++)
       for (let x = 0; x < width; x++, i++) {
-        const label = labels[i], box = boxes[label];
+        const label = labels[i];
         size[label]++;
-        if (x < box[0]) box[0] = x;
-        if (y < box[1]) box[1] = y;
-        if (x >= box[2]) box[2] = x + 1;
-        box[3] = y + 1;
+        boxes[label] = around(boxes[label], [x, y, x + 1, y + 1]);
         for (const other of [x + 1 < width ? labels[i + 1] : label, y + 1 < height ? labels[i + width] : label])
-          if (other !== label) near[label].add(other), near[other].add(label);
+          if (other !== label) touching.add(Math.min(label, other) * count + Math.max(label, other));
       }
-    const [colour, texture] = looks.map((look) => histograms(look, segments, size));
+    const looks = describe(rows, labels, size);
 
     const alike = (i, j) => {
+      const [one, other] = [looks[i], looks[j]], both = size[i] + size[j], [x0, y0, x1, y1] = around(boxes[i], boxes[j]);
       let total = 0;
-      for (const { all, wide } of [colour, texture])
-        for (let x = 0; x < wide; x++) total += Math.min(all[i * wide + x], all[j * wide + x]);
-      const both = size[i] + size[j], [x0, y0, x1, y1] = around(boxes[i], boxes[j]);
-      return total + (1 - both / n) + (1 - ((x1 - x0) * (y1 - y0) - both) / n);
+      for (let x = 0; x < one.length; x++) total += Math.min(one[x], other[x]);
+      return total + (1 - both / labels.length) + (1 - ((x1 - x0) * (y1 - y0) - both) / labels.length);
     };
 
-    let pairs = [];
-    const meet = (i, j) => pairs.push({ i, j, like: alike(i, j) });
+    const meet = (i, j) => ({ i, j, like: alike(i, j) });
     const before = (a, b) => (b.like - a.like || a.i - b.i || a.j - b.j) < 0;
-    near.forEach((others, i) => others.forEach((j) => i < j && meet(i, j)));
-    for (let made = count; made < regions; made++) {
+    let pairs = Array.from(touching, (pair) => meet(Math.floor(pair / count), pair % count));
+    for (let made = count; pairs.length; made++) {
       const { i, j } = pairs.reduce((best, pair) => (before(pair, best) ? pair : best));
       merges.push([i, j]);
-      size[made] = size[i] + size[j];
-      boxes[made] = around(boxes[i], boxes[j]);
-      for (const { all, wide } of [colour, texture])
-        for (let x = 0; x < wide; x++)
-          all[made * wide + x] = (size[i] * all[i * wide + x] + size[j] * all[j * wide + x]) / size[made];
-      near[made] = new Set([...near[i], ...near[j]].filter((other) => other !== i && other !== j));
-      pairs = pairs.filter((pair) => ![pair.i, pair.j].some((one) => one === i || one === j));
-      for (const other of near[made]) {
-        near[other].delete(i);
-        near[other].delete(j);
-        near[other].add(made);
-        meet(other, made);
-      }
+      size.push(size[i] + size[j]);
+      boxes.push(around(boxes[i], boxes[j]));
+      looks.push(looks[i].map((share, x) => (size[i] * share + size[j] * looks[j][x]) / size[made]));
+      const gone = (one) => one === i || one === j, parted = (pair) => gone(pair.i) || gone(pair.j);
+      const others = new Set(pairs.filter(parted).flatMap((pair) => [pair.i, pair.j]));
+      pairs = pairs.filter((pair) => !parted(pair));
+      for (const other of others) if (!gone(other)) pairs.push(meet(other, made));
     }
     return { labels, count, merges, boxes, size };
   };

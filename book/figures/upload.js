@@ -8,12 +8,7 @@ const vmcUpload = (box, _, ask) => {
     const bitmap = await createImageBitmap(file);
     const scale = Math.min(1, LARGEST / Math.max(bitmap.width, bitmap.height));
     const canvas = document.createElement("canvas");
-    Object.assign(canvas, { width: scale * bitmap.width, height: scale * bitmap.height });
-    const context = canvas.getContext("2d");
-    context.fillStyle = "white"; // behind what is transparent
-    context.fillRect(0, 0, canvas.width, canvas.height);
-    context.imageSmoothingQuality = "high";
-    context.drawImage(bitmap, 0, 0, canvas.width, canvas.height);
+    vmcRedrawn(bitmap, scale, canvas);
     return canvas.toDataURL("image/jpeg", 0.92);
   };
 

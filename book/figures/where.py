@@ -105,13 +105,13 @@ def rising(best, now):
 
 
 STATIC = Path(__file__).parents[1] / "_static"
+REDRAWN = STATIC / "redrawn.js"
 DISSOLVE = """<div class="vmc-dissolve"><div class="vmc-picture" style="display: grid;
 justify-items: center">PHOTO<canvas aria-hidden="true" style="LAYER" hidden></canvas></div>
 <form class="vmc-controls" autocomplete="off">SLIDERS
 <div class="vmc-control"><div class="vmc-options">
 <button type="button" class="vmc-play">Play</button>
 <button type="button" class="vmc-play">Your photo …</button>
-<button type="button" class="vmc-play">Take a photo …</button>
 <input type="file" accept="image/*" aria-label="Your photo" hidden></div></div></form>
 <p class="vmc-strip" style="min-height: 3.6em; CENTRED"></p>
 <p role="status" style="CENTRED"></p></div>"""
@@ -134,7 +134,7 @@ def dissolving(image, caption, alt):
     if render_mode() == "book":
         display(HTML(framed(page, caption)))
     elif render_mode() == "live":
-        scripts = [STATIC / "selective_search.js", STATIC / "dissolve.js"]
+        scripts = [REDRAWN, STATIC / "selective_search.js", STATIC / "dissolve.js"]
         display(HTML(styled(still_of(alt, [photo], "dissolve"))))
         display(Live(framed(page, "", "dissolve"), "vmcDissolve", scripts))
         display(HTML(framed("", caption)))
@@ -152,8 +152,8 @@ def your_own(draw, example, caption, alt):
     """
     figure(draw(example), caption, alt)
     if render_mode() == "live":
-        script = Path(__file__).with_name("upload.js")
-        display(Live(UPLOAD, "vmcUpload", [script], {"photo": lambda sent: draw(received(sent))}))
+        scripts = [REDRAWN, Path(__file__).with_name("upload.js")]
+        display(Live(UPLOAD, "vmcUpload", scripts, {"photo": lambda sent: draw(received(sent))}))
 
 
 def received(sent):
