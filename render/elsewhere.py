@@ -16,7 +16,7 @@ from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to
 from render import furniture, scene, shapes
 from render.sidecar import in_full_view, store
 from vmc_lib.camera import TABLE
-from vmc_lib.photos import CLASSES, HEIGHT, WIDTH
+from vmc_lib.photos import CLASSES, HEIGHT, SPLITS, WIDTH
 
 COUNT, LAMPS, SPAN = 30, 9, 2.048  # photos; pictures that one is the mean of; the table's side (m)
 
@@ -117,16 +117,18 @@ def masks(drawn):
 
 
 def main():
-    """Paint the photos into a folder, as the test photos of `varied`."""
+    """Paint the photos into a folder, as photos of `varied`."""
     parser = argparse.ArgumentParser(prog="python -m render.elsewhere", description=__doc__)
     parser.add_argument("folder", type=Path)
+    parser.add_argument("--split", choices=SPLITS, default="test")
+    parser.add_argument("--first", type=int, default=0, help="the number of the first photo")
     parser.add_argument("--count", type=int, default=COUNT)
     arguments = parser.parse_args()
-    for number in range(arguments.count):
-        seed = (4, 2, number)  # a level of its own
+    for number in range(arguments.first, arguments.first + arguments.count):
+        seed = (4, SPLITS.index(arguments.split), number)  # a level of its own
         rng = np.random.default_rng(seed)
         drawn, boxes = in_full_view(partial(scene.draw, "varied", rng, furniture.setting), masks)
-        path = arguments.folder / f"varied/test/{number:03d}.jpg"
+        path = arguments.folder / f"varied/{arguments.split}/{number:03d}.jpg"
         store(path, take(drawn, rng), drawn, boxes, seed)
 
 
