@@ -8,7 +8,7 @@ are photographs: boxes drawn by hand, cameras and places unknown.
 
 import json
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -30,8 +30,23 @@ WIDTH, HEIGHT = 600, 400
 FOLDER, REAL = data.FOLDER / "photos", data.FOLDER / "real"
 
 
+class _Picture:
+    """What has a `file`, and its `image` (400, 600, 3), uint8, read when it is asked for."""
+
+    @property
+    def image(self):
+        return _image(self.file)
+
+
+@lru_cache(64)  # a level can have hundreds
+def _image(file):
+    image = read_image(file)
+    image.flags.writeable = False  # shared by all who ask
+    return image
+
+
 @dataclass(frozen=True, eq=False)
-class Photo:
+class Photo(_Picture):
     """A photo and the truth about it.
 
     image: (400, 600, 3) uint8; boxes: class → (4,), around the visible pixels; camera: the eye;
@@ -43,7 +58,7 @@ class Photo:
     name: str
     level: str
     split: str
-    image: np.ndarray
+    file: Path
     boxes: dict
     camera: Camera
     target: np.ndarray
@@ -54,7 +69,7 @@ class Photo:
 
 
 def load(level, split, folder=FOLDER):
-    """The photos of one level and split, in order of their names; each is read only once.
+    """The photos of one level and split, in order of their names; images are read when asked for.
 
     `Photo`s, or `RealPhoto`s of the level "real". `folder` holds them; those that ship, unless told
     otherwise.
@@ -72,24 +87,23 @@ def load(level, split, folder=FOLDER):
 
 
 def _described(sidecar):
-    """A photo's sidecar, its image and its boxes."""
+    """A photo's sidecar, the file of its image and its boxes."""
     truth = json.loads(data.read(sidecar))
-    data.read(sidecar.with_suffix(".jpg"))  # as it shipped?
-    image = read_image(sidecar.with_suffix(".jpg"))
-    image.flags.writeable = False  # shared by all who load it
-    return truth, image, {name: np.array(box, float) for name, box in truth["boxes"].items()}
+    file = sidecar.with_suffix(".jpg")
+    data.read(file)  # as it shipped?
+    return truth, file, {name: np.array(box, float) for name, box in truth["boxes"].items()}
 
 
 @cache
 def _read(sidecar):
-    truth, image, boxes = _described(sidecar)
+    truth, file, boxes = _described(sidecar)
     split = sidecar.parent
     camera = {key: np.array(value)[()] for key, value in truth["camera"].items()}
     return Photo(
         name=f"{split.parent.name}/{split.name}/{sidecar.stem}",
         level=split.parent.name,
         split=split.name,
-        image=image,
+        file=file,
         boxes=boxes,
         camera=Camera(**camera),
         target=np.array(truth["target"]),
@@ -100,7 +114,7 @@ def _read(sidecar):
 
 
 @dataclass(frozen=True, eq=False)
-class RealPhoto:
+class RealPhoto(_Picture):
     """A photo that no renderer made, to see what holds beyond our own renders.
 
     image: (400, 600, 3) uint8; boxes: thing → (4,), around the visible pixels, drawn by hand, and
@@ -110,7 +124,7 @@ class RealPhoto:
     """
 
     name: str
-    image: np.ndarray
+    file: Path
     boxes: dict
     more: np.ndarray
     unclear: np.ndarray
@@ -121,12 +135,12 @@ class RealPhoto:
 @cache
 def _read_real(sidecar):
     """A photo of the level "real", or of everyday things, which stand in no level."""
-    truth, image, boxes = _described(sidecar)
+    truth, file, boxes = _described(sidecar)
     split = sidecar.parent
     name = sidecar.stem if split == REAL else f"{split.parent.name}/{split.name}/{sidecar.stem}"
     more, unclear = (as_boxes(truth.get(key, [])) for key in ("also", "ignore"))
     credit = "; ".join(truth[key] for key in ("credit", "licence") if key in truth)
-    return RealPhoto(name, image, boxes, more, unclear, credit)
+    return RealPhoto(name, file, boxes, more, unclear, credit)
 
 
 @cache

@@ -2,7 +2,8 @@
 
 A link to the glossary becomes a term, one to the sources a citation. A cell whose metadata name an
 `exercise` becomes that exercise, the cells after it that carry the tag `solution` become its
-solution, and a quotation that begins with a line in bold becomes an admonition.
+solution, and a quotation that begins with a line in bold becomes an admonition. A line that is
+nothing but a link to a section of another file becomes that section.
 """
 
 import json
@@ -16,6 +17,8 @@ EXERCISE = re.compile(r"\*\*Exercise(?:: (.+))?\*\*\n\n")
 FOLD = re.compile(
     r"\A\*\*Solution\*\*\n\n|\A<details><summary>Show the solution</summary>\n\n|\n\n</details>\Z"
 )
+SECTION = re.compile(r'^\[[^\]]+\]\((\.\./[^ )]+) "([^"]+)"\)$', re.M)
+INCLUDED = '```{include} \\1\n:start-after: "## \\2"\n:end-before: "## "\n```'
 BOX = re.compile(r"^> \*\*(.+)\*\*\n((?:>.*\n?)+)", re.M)
 
 
@@ -63,7 +66,7 @@ def _cell(name, directive):
 def _text(text, metadata):
     text = TERM.sub(lambda to: f"{{term}}`{to[1]} <{to[2] or to[1]}>`", text)
     text = SOURCES.sub(_cite, FOLD.sub("", text))
-    text = BOX.sub(_box, text)
+    text = SECTION.sub(INCLUDED, BOX.sub(_box, text))
     if "exercise" not in metadata:
         return text
     title = EXERCISE.match(text)

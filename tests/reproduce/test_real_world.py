@@ -21,7 +21,7 @@ def test_what_is_stored_is_of_every_photo(model, split):
 def test_the_box_that_is_chosen_counts_for_any_of_the_shuttlecocks():
     shot = photos.load("real", "train")[0]  # two shuttlecocks
     swapped = {"shuttlecock": shot.more[0]}
-    other = RealPhoto(shot.name, shot.image, swapped, shot.boxes["shuttlecock"][None], [], "")
+    other = RealPhoto(shot.name, shot.file, swapped, shot.boxes["shuttlecock"][None], [], "")
     model = loop.VisuomotorModel.load("varied")
     one, two = (real_world.examine(model, photo) for photo in (shot, other))
     assert one["fit"] == two["fit"]
