@@ -8,6 +8,7 @@ import pytest
 import torch
 from scipy.signal import convolve2d
 
+from vmc_lib.what.crbm import CRBM
 from vmc_lib.what.learning import Learner
 
 
@@ -89,7 +90,17 @@ def test_posterior_and_pooling_probabilities(world):
     K, rows, columns = states.shape[1:]
     c = machine.c
     pooled = states.reshape(-1, K, rows // c, c, columns // c, c).max((3, 5))
-    assert p[0].numpy() == pytest.approx(np.tensordot(chance, pooled, 1), abs=1e-9)
+    for alone in (p, machine.pooled(v)):
+        assert alone[0].numpy() == pytest.approx(np.tensordot(chance, pooled, 1), abs=1e-9)
+
+
+def test_no_drive_is_too_strong_or_too_weak():
+    """In single precision a number over e to the 88 overflows: the chances are 1 and 0."""
+    machine = CRBM(*(np.ones(n, np.float32) for n in ((1, 1, 1, 1), 1, 1)))
+    with np.errstate(all="raise", under="ignore"):
+        for drive, chance in ((1e4, 1), (90, 1), (-1e4, 0)):
+            v = np.full((1, 1, 2, 2), drive, np.float32)
+            assert machine.pooled(v) == machine.posterior(v)[1] == chance
 
 
 def test_samples_obey_the_constraint_and_the_posterior(world):

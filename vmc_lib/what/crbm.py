@@ -104,8 +104,9 @@ class CRBM:
 
     def pooled(self, v):
         """The probabilities p alone: a fraction of the time, where h is not asked for."""
-        units, off, _ = self._weights(v)
-        return 1 - off / (off + units.sum(0))
+        on = self.lib.exp(self.drive(v).clip(max=80))  # more would overflow; p is 1 long before
+        rows = sum(on[..., y :: self.c, :] for y in range(self.c))
+        return 1 - 1 / (1 + sum(rows[..., x :: self.c] for x in range(self.c)))
 
     def visible_mean(self, h):
         """The mean of v given h, Σₖ hᵏ * Wᵏ + a: each unit that is on paints its filter.

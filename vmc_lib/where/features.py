@@ -82,19 +82,23 @@ def _steepest(pixels):
     From neighbour to neighbour; at the edge, where one is missing, from the pixel itself.
     """
     n, size, _, channels = pixels.shape
-    slopes = np.zeros((2, n, size, size), np.float32)
+    slopes = np.empty((2, n, size, size), np.float32)
     for box in range(n):
         for y in range(size):
+            low, high = max(y - 1, 0), min(y + 1, size - 1)
+            above, here, below = pixels[box, low], pixels[box, y], pixels[box, high]
+            down = np.float32(1 / (high - low))
             for x in range(size):
-                most, left, right = np.float32(-1), max(x - 1, 0), min(x + 1, size - 1)
-                above, below = max(y - 1, 0), min(y + 1, size - 1)
-                across, down = np.float32(1 / (right - left)), np.float32(1 / (below - above))
+                left, right = max(x - 1, 0), min(x + 1, size - 1)
+                across = np.float32(1 / (right - left))
+                most, most_x, most_y = np.float32(-1), np.float32(0), np.float32(0)
                 for c in range(channels):
-                    dx = (pixels[box, y, right, c] - pixels[box, y, left, c]) * across
-                    dy = (pixels[box, below, x, c] - pixels[box, above, x, c]) * down
+                    dx = (here[right, c] - here[left, c]) * across
+                    dy = (below[x, c] - above[x, c]) * down
                     steep = np.sqrt(dx * dx + dy * dy)
                     if steep > most:
-                        most, slopes[0, box, y, x], slopes[1, box, y, x] = steep, dx, dy
+                        most, most_x, most_y = steep, dx, dy
+                slopes[0, box, y, x], slopes[1, box, y, x] = most_x, most_y
     return slopes
 
 
