@@ -161,6 +161,12 @@ def test_code_that_only_draws_is_folded_in_a_notebook_too(notebook):
             assert cell.metadata.jupyter.source_hidden
 
 
+def test_a_solution_is_folded_in_a_notebook_too(notebook):
+    for cell in notebook.cells:
+        if cell.cell_type == "markdown" and tagged(cell, "solution"):
+            assert cell.source.startswith("<details>") or cell.metadata.jupyter.source_hidden
+
+
 def test_code_is_as_wide_as_the_page():
     """No line of a chapter's code is cut off at the page's edge: 79 columns."""
     wide = [

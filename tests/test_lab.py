@@ -200,7 +200,7 @@ def luminance(colour):
 PROSE = """async () => {
   const { content: notebook } = jupyterapp.shell.currentWidget, shown = [];
   for (const [i, cell] of notebook.widgets.entries()) {
-    if (cell.model.type !== "markdown") continue;
+    if (cell.model.type !== "markdown" || cell.inputHidden) continue;
     await notebook.scrollToItem(i);
     const words = () => {
       const prose = cell.node.querySelector(".myst")?.cloneNode(true);
