@@ -89,7 +89,8 @@ def photographs(folder=photos.FOLDER, steps=STEPS, count=EXAMPLES, everyday=None
     both = pools(show(("train", "validation"), rng, folder, everyday))
     cdbn = end_to_end(partial(both[0].examples, rng=rng), rng, steps=steps)
     recogniser = named(cdbn, both, rng, count)
-    held_out = photos.load(photos.REAL_LEVEL, "validation", folder)
+    levels = (photos.load(level, "validation", folder) for level in photos.EVERY_LEVEL)
+    held_out = [shot for shots in levels for shot in shots]
     learnt = cdbn.arrays() | {"looks": np.array([recogniser.width, recogniser.turns])}
     linear = {READ_OUT: recogniser.classifier, "judge": judge(recogniser, held_out)}
     for name, one in linear.items():
@@ -100,13 +101,15 @@ def photographs(folder=photos.FOLDER, steps=STEPS, count=EXAMPLES, everyday=None
 def judge(recogniser, shots):
     """Of boxes that the object detector finds in photos: the chance that one is a shuttlecock's.
 
-    Logistic regression on `loop.evidence`, as a `NameClassifier`; right is an IoU above 0.5.
+    Logistic regression on what `loop.weighed` gives, as a `NameClassifier`; right is an IoU above
+    0.5. Renders teach with the photographs, for these alone are too few: a fit that says much in
+    some photos says little in others.
     """
     detector, x, y = loop.lenient_detector(photos.REAL_LEVEL), [], []
     for shot in shots:
-        found = detector.detect(shot.image)
-        x.append(loop.evidence(found, loop.names(recogniser, shot.image, found.boxes)))
-        truth = photos.all_of(shot, "shuttlecock")
-        y.append(iou(found.boxes, truth).max(1, initial=0) > 0.5)
+        found, evidence = loop.weighed(detector, recogniser, shot.image)
+        x.append(evidence)
+        truth, boxes = photos.all_of(shot, "shuttlecock"), found.boxes[: len(evidence)]
+        y.append(iou(boxes, truth).max(1, initial=0) > 0.5)
     logistic = LogisticRegression(C=np.inf).fit(np.vstack(x), np.hstack(y))  # three numbers
     return NameClassifier(logistic.coef_[0], float(logistic.intercept_[0]))

@@ -87,6 +87,27 @@ def test_where_and_what_are_weighed_together():
     np.testing.assert_array_equal(alone.shuttlecocks, BOXES[[1, 2]])
 
 
+def test_of_many_boxes_those_that_fit_best_are_weighed():
+    many = np.add(np.arange(48.0).reshape(12, 4), [0, 0, 60, 60])
+    scores = np.linspace(0.9, 0.1, 12)
+    found = Detections(many, scores, many, scores, many, scores)
+    detector = SimpleNamespace(detect=lambda image: found)
+    recogniser = SimpleNamespace(probability=lambda crops: np.linspace(0.1, 0.5, len(crops)))
+    model = loop.VisuomotorModel(detector, recogniser, None, None, JUDGE)
+    sight = loop.see(model, np.zeros((400, 600, 3), np.uint8))
+    assert np.count_nonzero(sight.probability) == loop.WEIGHED
+    assert (np.diff(sight.probability) <= 0).all()
+    np.testing.assert_array_equal(np.sort(sight.detections.scores), np.sort(scores))
+    np.testing.assert_array_equal(sight.detections.boxes[loop.WEIGHED :], many[loop.WEIGHED :])
+
+
+def test_a_judge_speaks_up_from_the_chance_that_validation_set():
+    [fair] = looked([0.5], [0.4]).probability
+    assert loop.SURE < fair < 0.5
+    assert looked([0.5], [0.4]).told.startswith("1 shuttlecock")
+    assert looked([0.5], [0.4], judge=None).box is None
+
+
 def test_who_is_unsure_abstains_and_says_what_was_seen():
     unsure = looked([0.3, 0.2], [0.6, 0.5])
     assert unsure.box is None

@@ -22,6 +22,9 @@ from vmc_lib.where.localiser import Localiser
 
 NAMING_MARGIN = 1.0  # how much lower than the detector's its threshold is; set on validation photos
 PHOTOGRAPHS_AS = "varied"  # the level whose places serve for photographs too
+# Where a judge decides: how many boxes, those that fit best, it weighs, and the chance of being a
+# shuttlecock's from which a box is chosen; set on validation photos, as the judge itself
+WEIGHED, SURE = 8, 0.3
 RULES = {"published": algorithm_1, "own": broyden_calibration}  # of off-line calibration
 
 
@@ -33,7 +36,7 @@ class VisuomotorModel:
     recogniser: Recogniser
     localiser: Localiser
     template_set: templates.TemplateSet
-    judge: NameClassifier | None = None  # of `evidence`; without one, the recogniser alone names
+    judge: NameClassifier | None = None  # of what `weighed` gives; without, the recogniser decides
 
     @classmethod
     def load(cls, level):
@@ -67,12 +70,13 @@ class Sight:
     """What both visual pathways made of an image."""
 
     detections: Detections
-    probability: np.ndarray  # (k,): that each kept box holds a shuttlecock
+    probability: np.ndarray  # (k,): that each kept box holds a shuttlecock; 0 if not weighed
+    sure: float = 0.5  # the probability above which it is said so
 
     @property
     def shuttlecocks(self):
-        """The boxes (n, 4) that likely hold one, the best first."""
-        return self.detections.boxes[self.probability > 0.5]
+        """The boxes (n, 4) that are said to hold one, the best first."""
+        return self.detections.boxes[self.probability > self.sure]
 
     @property
     def box(self):
@@ -82,7 +86,7 @@ class Sight:
     @property
     def told(self):
         """What was seen, in words."""
-        sure = [f"{chance:.0%}" for chance in self.probability if chance > 0.5]
+        sure = [f"{chance:.0%}" for chance in self.probability if chance > self.sure]
         if sure:
             return f"{len(sure)} shuttlecock{'s' * (len(sure) > 1)} ({', '.join(sure)} sure)"
         if not len(self.probability):
@@ -108,14 +112,15 @@ class Reach:
 
 def see(model, image):
     """`Sight` of an image (400, 600, 3): where are objects, and which is a shuttlecock?"""
-    detections = model.detector.detect(image)
-    named = names(model.recogniser, image, detections.boxes)
     if model.judge is None:
-        return Sight(detections, named)
-    chance = model.judge.probability(evidence(detections, named))
+        detections = model.detector.detect(image)
+        return Sight(detections, names(model.recogniser, image, detections.boxes))
+    detections, evidence = weighed(model.detector, model.recogniser, image)
+    chance = np.zeros(len(detections.boxes))
+    chance[:WEIGHED] = model.judge.probability(evidence)
     best = np.argsort(-chance, kind="stable")
     boxes, scores = detections.boxes[best], detections.scores[best]
-    return Sight(replace(detections, boxes=boxes, scores=scores), chance[best])
+    return Sight(replace(detections, boxes=boxes, scores=scores), chance[best], SURE)
 
 
 def names(recogniser, image, boxes):
@@ -123,9 +128,15 @@ def names(recogniser, image, boxes):
     return recogniser.probability(np.array([crop(image, box) for box in boxes]))
 
 
-def evidence(detections, named):
-    """What both pathways say of each box, (n, 2): how well it fits, the log-odds of its name."""
-    return np.column_stack([detections.scores, logit(np.clip(named, 1e-6, 1 - 1e-6))])
+def weighed(detector, recogniser, image):
+    """The `Detections` of an image, and what both pathways say of the WEIGHED best boxes, (n, 2).
+
+    That is how well each fits, and the log-odds of its name.
+    """
+    found = detector.detect(image)
+    named = names(recogniser, image, found.boxes[:WEIGHED])
+    odds = logit(np.clip(named, 1e-6, 1 - 1e-6))
+    return found, np.column_stack([found.scores[:WEIGHED], odds])
 
 
 def locate(model, image, box, camera):

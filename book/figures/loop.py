@@ -121,7 +121,7 @@ def named_boxes(sight):
     """For `photo_view`: each kept box with its chance of a shuttlecock, by rising chance."""
     found = sorted(zip(sight.probability, sight.detections.boxes.tolist(), strict=True))
     return [
-        (box, f"shuttlecock {p:.0%}", "green") if p > 0.5 else (box, f"{p:.0%}", "blue")
+        (box, f"shuttlecock {p:.0%}", "green") if p > sight.sure else (box, f"{p:.0%}", "blue")
         for p, box in found
     ]
 
