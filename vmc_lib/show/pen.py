@@ -12,6 +12,10 @@ from matplotlib.textpath import text_to_path
 
 
 class _Pen(RendererSVG):
+    def __init__(self, *args, **named):
+        super().__init__(*args, **named)
+        self._text2path = text_to_path  # one for all pictures: it knows the maths it has read
+
     def get_text_width_height_descent(self, s, prop, ismath):
         return _size(s, prop.copy(), ismath)
 
