@@ -103,7 +103,7 @@ def above(parts, title, xlim, ylim):
 
 
 def _away(reach, motion):
-    return f"{1000 * np.linalg.norm(reach.hand(motion)[-1] - reach.target):.0f} mm away"
+    return f"{1000 * np.linalg.norm(reach.hand(motion)[-1] - reach.target):.1f} mm away"
 
 
 def _boxes(sight, step):

@@ -53,7 +53,8 @@ def corrections(ax, target, reached, points, change):
     arrows(ax, reached, target, "blue")
     for point, by in zip(points, change, strict=True):
         text = f"{by:+.3f}".replace("-", "−")
-        ax.annotate(text, point, (0, 6), textcoords="offset points", ha="center")
+        away = 6 if point[1] >= reached[1] else -14  # from the arrows
+        ax.annotate(text, point, (0, away), textcoords="offset points", ha="center")
 
 
 def weighted_sum(ax, excitations, weights):

@@ -12,6 +12,8 @@ from typing import Any
 
 import numpy as np
 
+from vmc_lib.show.markup import number
+
 MENU = 6  # a choice among this many or more is a menu, not a row of buttons
 
 
@@ -165,7 +167,7 @@ def _is_number(value):
 
 
 def _text(value):
-    return f"{value:.4g}".replace("-", "−") if _is_number(value) else str(value)
+    return number(value, 4) if _is_number(value) else str(value)
 
 
 def as_control(name, spec):

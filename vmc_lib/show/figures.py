@@ -14,7 +14,7 @@ from markdown_it import MarkdownIt
 from matplotlib.figure import Figure
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 
-from vmc_lib.show.markup import data_uri, image_tag, svg
+from vmc_lib.show.markup import data_uri, image_tag, number, svg
 from vmc_lib.show.palette import COLOURS, EDGE, ON_PHOTO
 from vmc_lib.show.scene import Scene
 
@@ -103,8 +103,8 @@ def dot_plot(series, xlabel, published=None, xlim=None):
     names = list(dict.fromkeys(name for rows in series.values() for name in rows))
     wide = max(4.2, 2.2 + 0.085 * max(map(len, names)))  # room for the longest name
     fig, ax = plt.subplots(figsize=(wide, 0.95 + len(names) * (0.16 + 0.14 * len(series))))
-    for number, (label, rows) in enumerate(series.items()):
-        apart = 0.5 * ((number + 0.5) / len(series) - 0.5)
+    for k, (label, rows) in enumerate(series.items()):
+        apart = 0.5 * ((k + 0.5) / len(series) - 0.5)
         value, low, high = np.transpose([np.broadcast_to(row, 3) for row in rows.values()])
         places = [names.index(name) + apart for name in rows]
         [dots] = ax.plot(value, places, "o", ms=4.5, label=label, zorder=3)
@@ -179,4 +179,4 @@ def table(heads, rows):
 def _cell(value):
     if value is None:
         return ""
-    return f"{value:.3g}" if isinstance(value, float) else str(value)
+    return number(value) if isinstance(value, float) else str(value)

@@ -15,12 +15,20 @@ from vmc_lib.show.render_mode import render_mode
 
 _NAMES = {value: name for name, value in COLOURS.items()} | {"#000000": "ink", "#ffffff": "paper"}
 _MINUS = re.compile(r"(?<=[\s(>])-(?=\.?\d)")  # before a number in words: the axes have it so
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _SVG_ROOT = 'font-family="DejaVu Sans, Verdana, sans-serif" stroke-linejoin="round"'
 
 
 def styled(markup):
     """The markup, in a live kernel with its style sheet: there is no page that has it."""
     return _style_sheet() + markup if render_mode() == "live" else markup
+
+
+def number(value, digits=3):
+    """A number in words, of so many digits: −0.5, 1200 (not 1.2e+03), 3·10⁻⁸ (not 3e-08)."""
+    text, _, power = f"{float(f'{value:.{digits}g}'):g}".partition("e")
+    times = f"·10{str(int(power)).translate(_RAISED)}" if power else ""
+    return text.replace("-", "−") + times
 
 
 @cache

@@ -7,6 +7,7 @@ from matplotlib.container import BarContainer
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedFormatter, FuncFormatter
 
+from vmc_lib.show.markup import number
 from vmc_lib.show.palette import COLOURS
 
 POINTS, DOTS, SERIES = 9, 24, 12  # at most so many are told: of a line, of dots, of a plot's curves
@@ -77,7 +78,7 @@ def _reader(axis):
         names = [text.get_text() for text in axis.get_ticklabels()]
         if all(name[:1].isalpha() for name in names):
             return lambda value: names[np.abs(axis.get_ticklocs() - value).argmin()]
-    return lambda value: f"{value:.3g}".replace("-", "−")
+    return number
 
 
 def _row(cell, *texts):

@@ -5,8 +5,8 @@ const vmcPanel = (() => {
 
   const SPEEDS = { "real time": 1, "half speed": 0.5, "quarter speed": 0.25 };
   const LATE = 100; // ms: where pictures come late a movement takes longer, and is still seen whole
-  const WRIST = "The model ends at the wrist. The hand is drawn, and what it reaches for as far beyond " +
-    "the wrist as its palm.";
+  const WRIST = "The model ends at the wrist. The hand and its target are drawn one palm's length " +
+    "beyond it.";
   const calm = matchMedia("(prefers-reduced-motion: reduce)");
   const signed = (number, digits) => number.toFixed(digits).replace("-", "−");
   const degrees = (angle) => `${signed((angle * 180) / Math.PI, 1)}°`;
