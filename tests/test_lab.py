@@ -19,6 +19,7 @@ ROOT = Path(__file__).parents[1]
 CHAPTERS = {"02_candidates", "07_muscle", "08_arm"}  # plots, photos, an upload; scenes, the arm
 NOTEBOOK = "const panel = jupyterapp.shell.currentWidget, notebook = panel.content;"
 OURS = ".vmc-demo:not(.vmc-still), .vmc-live, .vmc-quiz, .vmc-predict, .vmc-check"
+OURS += ", .jp-OutputArea table, .jp-OutputArea details"  # folded numbers, exercises' verdicts
 
 
 @pytest.fixture(scope="module")
@@ -168,6 +169,7 @@ def assert_readable(page):
             " && document.querySelector('.vmc-quiz')",
             arg=str(theme == "Light").lower(),
         )
+        page.evaluate("() => document.querySelectorAll('details').forEach((d) => (d.open = true))")
         if not page.evaluate("() => 'axe' in window"):
             page.evaluate(AXE.read_text())
         found = page.evaluate(
