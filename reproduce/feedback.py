@@ -21,7 +21,7 @@ from vmc_lib.motor.templates import load, reach
 
 NOISE = 0.2  # of every excitation's size, fresh in every step
 JUMP, JUMPS_AT = 0.05, 0.15  # m and s: how far a target jumps, and when
-TREMOR = 3.0, 8.0  # Hz
+SWING, TREMOR = (0.5, 3.0), (3.0, 8.0)  # Hz
 FIELD = 15.0  # N for each m/s
 ARMS = {"the plan alone": (BLIND, False), "forward model": (SIGHT, True), "lesion": (SIGHT, False)}
 
@@ -59,8 +59,8 @@ def jumping(template_set, first, second, delay=SIGHT.delay, seconds=2.0):
     return switch(before, after, JUMPS_AT + delay)
 
 
-def tremor(path, since=1.0):
-    """Power in mm² between 3 and 8 Hz, and the strongest frequency in Hz, of hand paths.
+def tremor(path, since=1.0, band=TREMOR):
+    """Power in mm² in a band (low, high) in Hz, and the strongest frequency in Hz, of hand paths.
 
     `path` is (B, T + 1, 2) in m; what comes before `since` s is left out. Both answers are (B,).
     """
@@ -69,8 +69,9 @@ def tremor(path, since=1.0):
     waves = np.fft.rfft((late - late.mean(axis=1, keepdims=True)) * window, axis=1)
     power = 2 * (np.abs(waves) ** 2).sum(axis=-1) / (window.sum() * late.shape[1] * 0.75)
     frequency = np.fft.rfftfreq(late.shape[1], STEP)
-    band = (frequency >= TREMOR[0]) & (frequency <= TREMOR[1])
-    return power[:, band].sum(axis=1), frequency[1:][power[:, 1:].argmax(axis=1)]
+    low, high = band
+    within = (frequency >= low) & (frequency < high)
+    return power[:, within].sum(axis=1), frequency[1:][power[:, 1:].argmax(axis=1)]
 
 
 def overshoot(path, target):
@@ -114,6 +115,7 @@ def reaches(seed, count=100, seconds=3.0):
         power, frequency = tremor(path)
         missed = 1000 * _norm(ends - second)
         measures = {
+            "swing (mm²)": tremor(path, band=SWING)[0].mean(),
             "tremor (mm²)": power.mean(),
             "strongest at (Hz)": np.median(frequency),
             "overshoot (mm)": 1000 * overshoot(path, first).mean(),

@@ -115,8 +115,10 @@ def dot_plot(series, xlabel, published=None, xlim=None):
         ax.plot(list(published.values()), places, "|", **style)
     ax.set_yticks(range(len(names)), names)
     ax.set(xlabel=xlabel, xlim=xlim, ylim=(len(names) - 0.5, -0.5))
-    if len(ax.get_legend_handles_labels()[1]) > 1:
-        fig.legend(loc="outside upper center", ncols=3, columnspacing=1, handletextpad=0.3)
+    labels = ax.get_legend_handles_labels()[1]
+    if len(labels) > 1:
+        ncols = 4 if len("".join(labels)) < 24 else 3
+        fig.legend(loc="outside upper center", ncols=ncols, columnspacing=1, handletextpad=0.3)
     return fig
 
 
