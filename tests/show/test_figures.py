@@ -9,8 +9,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
-from vmc_lib.show import dot_plot, figures, folded, photo_view
+from vmc_lib.show import dot_plot, figures, folded, photo_view, table
 from vmc_lib.show.figures import pictures
+from vmc_lib.show.markup import number
 from vmc_lib.show.palette import COLOURS, ON_PHOTO
 
 
@@ -139,3 +140,10 @@ def test_a_number_below_zero_has_a_minus_sign(monkeypatch):
     monkeypatch.setattr(figures, "display", lambda item: shown.append(item.data))
     figures.markdown("From -1.5 (-.2) to **-3**; $x = -1$, `f -1`, 2003-4, two-thirds")
     assert shown == ["From −1.5 (−.2) to **−3**; $x = -1$, `f -1`, 2003-4, two-thirds"]
+
+
+def test_numbers_are_written_as_in_a_text_and_not_as_in_code():
+    values = -0.5, 1234.0, 3e-8, -2e9, 7, 0.0
+    assert [number(v) for v in values] == ["−0.5", "1230", "3·10⁻⁸", "−2·10⁹", "7", "0"]
+    assert number(1234.5, 4) == "1234"
+    assert "1200" in table(["metres"], [[1200.0]])
