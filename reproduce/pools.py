@@ -7,7 +7,7 @@ import numpy as np
 from joblib import Parallel, delayed
 
 from reproduce.detector_training import candidates
-from reproduce.looks import look
+from reproduce.looks import ALL, Looks, look
 from vmc_lib import loop, photos
 from vmc_lib.boxes import iou
 
@@ -26,6 +26,7 @@ class Pool:
 
     rendered: dict
     real: dict
+    looks: Looks = ALL
 
     def draw(self, rng):
         """An image, a box of it, and whether it shows a shuttlecock."""
@@ -36,12 +37,12 @@ class Pool:
         return image, boxes[rng.integers(len(boxes))], kind == "shuttlecock"
 
     def examples(self, count, rng):
-        """Crops (count, NARROW, NARROW), each in a look of its own, and their labels (count,)."""
+        """Crops (count, NARROW, NARROW), each in one of its looks, and their labels (count,)."""
         crops, labels = np.zeros((count, NARROW, NARROW), np.float32), np.zeros(count, bool)
         for i in range(count):
             while crops[i].std() < 0.01:  # a window of nothing teaches nothing
                 image, box, labels[i] = self.draw(rng)
-                crops[i] = look(image, box, rng, NARROW)
+                crops[i] = look(image, box, rng, NARROW, self.looks)
         return crops, labels
 
 

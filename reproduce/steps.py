@@ -13,6 +13,7 @@ import numpy as np
 from joblib import parallel_config
 
 from reproduce import (
+    ablation,
     bones,
     checksums,
     domains,
@@ -189,6 +190,12 @@ STEPS = (
         needs="elsewhere_photos",
     ),
     Step(domains.make, RESULTS / "domains.npz", f"{WIDE} reproduce/peers", 8),
+    Step(
+        ablation.make,
+        RESULTS / "ablation.npz",
+        f"candidates detectors {WHERE} {WIDE} reproduce/domains.py",
+        15,
+    ),
     Step(
         f"{RENDER} --sheet --samples 16",
         MODEL / "photos/sheet",

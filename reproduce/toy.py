@@ -13,6 +13,7 @@ import numpy as np
 
 from render import scene
 from reproduce import (
+    ablation,
     domains,
     feedback,
     fresh_test_set,
@@ -96,6 +97,7 @@ def steps(folder):
         "real_world": partial(real_world.make, few, splits=["validation"]),
         "elsewhere": partial(real_world.elsewhere, few),
         "domains": partial(domains.make, few, [4], equal=4, draws=2, patches=PATCHES, steps=2),
+        "ablation": partial(ablation.make, named, draws=1, steps=2, examples=80, everyday=1),
         "printed_sheet": partial(printed_sheet.make, count=1),
         "whole_arm_habits": partial(habits.make, habits.grid(2)[:2]),
         "whole_arm": partial(experiment.make, [2], [14], seeds=[0], count=2),
