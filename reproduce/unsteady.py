@@ -41,10 +41,15 @@ def waves():
     return spline(KNOTS) / np.linalg.norm(spline(KNOTS), axis=1, keepdims=True)
 
 
+def waver(shape, share, rng):
+    """By what noise multiplies commands of a shape (…, T, 6): 1 + share · (a smooth curve)."""
+    random = rng.standard_normal((*shape[:-2], KNOTS, 6))
+    return 1 + share * waves() @ random
+
+
 def wavering(excitations, share, rng):
-    """Excitations (…, T, 6), each pool's times 1 + share · (a smooth curve), held to [0, 1]."""
-    random = rng.standard_normal((*np.shape(excitations)[:-2], KNOTS, 6))
-    return np.clip(excitations * (1 + share * waves() @ random), 0, 1)
+    """Excitations (…, T, 6), each pool's times its `waver`, held to [0, 1]."""
+    return np.clip(excitations * waver(np.shape(excitations), share, rng), 0, 1)
 
 
 def deviation(ends):

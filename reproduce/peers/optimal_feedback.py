@@ -1,0 +1,135 @@
+"""Optimal feedback control, a third rival: commands of least effort, corrected on the way.
+
+Todorov and Jordan (2002) took for the brain's aim not the best commands but the best *corrections*:
+those that disturb the task least, for the least change of command. A deviation that does not matter
+to the task is left alone. Here the commands are `optimal`'s, and deviations from them small: so the
+arm is taken to be linear in them, step by step, and the best gains follow from the end backwards
+(Riccati's equation). The state is all that there is to know of the arm: angles, speeds and
+activations (10,). The task is that of `steady`: be there, still, during the hold.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from vmc_lib.arm.dynamics import acceleration_from, hand, paths
+from vmc_lib.arm.model import STEP
+from vmc_lib.arm.muscle import activated
+from vmc_lib.arm.simulate import muscle_torque, stop_torque
+from vmc_lib.motor.feedback import TICK
+from vmc_lib.motor.inverse_dynamics import MOVING
+from vmc_lib.motor.templates import reach
+
+PLACE, SPEED, CHANGE = 0.005, 0.05, 0.1  # m, m/s, of a command: these three weigh the same
+NUDGE = 1e-5
+LATE = 12  # ticks: as late as sight
+
+
+def advanced(state, told):
+    """States (…, 10) a tick later, of arms whose muscles are told (…, TICK, 6)."""
+    for u in np.moveaxis(told, -2, 0):
+        q, velocity, activation = np.split(state, [2, 4], axis=-1)
+        torque = muscle_torque(activation, *paths(q), velocity) + stop_torque(q, velocity)
+        velocity = velocity + STEP * acceleration_from(q, velocity, torque)
+        state = np.concatenate([q + STEP * velocity, velocity, activated(u, activation, STEP)], -1)
+    return state
+
+
+def in_ticks(excitations):
+    """Excitations (…, T, 6) tick by tick, (…, T / TICK, TICK, 6)."""
+    return excitations.reshape(*excitations.shape[:-2], -1, TICK, excitations.shape[-1])
+
+
+def states(excitations):
+    """The states (…, ticks + 1, 10) that excitations (…, T, 6) lead the arm through."""
+    motion = reach(excitations)
+    whole = np.concatenate([motion.q, motion.velocity, motion.activation], axis=-1)
+    return whole[..., ::TICK, :]
+
+
+def slopes(state, told):
+    """How the next state moves with the state, (…, 10, 10), and with what is told, (…, 10, 6)."""
+    nudges = NUDGE * np.eye(16)
+    ends = [
+        advanced(state[..., None, :] + side[:, :10], told[..., None, :, :] + side[:, None, 10:])
+        for side in (nudges, -nudges)
+    ]
+    return np.split(np.swapaxes(np.subtract(*ends), -1, -2) / (2 * NUDGE), [10], axis=-1)
+
+
+def seen(state):
+    """Where the hand is and how fast, in the units that weigh the same: (…, 4)."""
+    q, velocity, _ = np.split(state, [2, 4], axis=-1)
+    ahead = hand(q + STEP * velocity)[..., :2]
+    place = hand(q)[..., :2]
+    return np.concatenate([place / PLACE, (ahead - place) / STEP / SPEED], axis=-1)
+
+
+def gains(state, told):
+    """The best gains (…, ticks, 6, 10) along states (…, ticks + 1, 10), and the arm's slopes.
+
+    A correction is minus the gain times the deviation. Only the hold is paid for, and corrections.
+    """
+    A, B = slopes(state[..., :-1, :], told)
+    nudges = NUDGE * np.eye(10)
+    C = seen(state[..., None, :] + nudges) - seen(state[..., None, :] - nudges)
+    C = np.swapaxes(C, -1, -2) / (2 * NUDGE)
+    price = np.swapaxes(C, -1, -2) @ C  # of a deviation (…, ticks + 1, 10, 10)
+    price[..., : MOVING // TICK, :, :] = 0
+    ahead, found = price[..., -1, :, :], []
+    for t in reversed(range(told.shape[-3])):
+        a, b = A[..., t, :, :], B[..., t, :, :]
+        back = np.swapaxes(b, -1, -2) @ ahead
+        gain = np.linalg.solve(np.eye(6) / CHANGE**2 + back @ b, back @ a)
+        ahead = price[..., t, :, :] + np.swapaxes(a, -1, -2) @ ahead @ (a - b @ gain)
+        found.append(gain)
+    return np.stack(found[::-1], axis=-3), A, B
+
+
+class Law(NamedTuple):
+    """Commands, where they should lead, and how deviations are corrected: `law` makes it."""
+
+    told: np.ndarray  # (n, ticks, TICK, 6)
+    meant: np.ndarray  # (n, ticks + 1, 10)
+    gains: np.ndarray  # (n, ticks, 6, 10)
+    A: np.ndarray  # (n, ticks, 10, 10)
+    B: np.ndarray  # (n, ticks, 10, 6)
+
+
+def law(excitations):
+    """The best corrections of commands (n, T, 6)."""
+    told, meant = in_ticks(excitations), states(excitations)
+    return Law(told, meant, *gains(meant, told))
+
+
+def move(law, share, late=0):
+    """Where hands go (…, n, ticks + 1, 2) in m, and what muscles are told (…, n, T, 6).
+
+    They get a `share` (…, n, T, 6) of it, as far as there is more. Deviations are known `late` by
+    so many ticks; what has become of them since is foreseen by the law's own slopes.
+    """
+    share = in_ticks(share)
+    now = np.broadcast_to(law.meant[:, 0], (*share.shape[:-3], 10))
+    way, off, changes, told = [now], [], [], []
+    for t in range(law.told.shape[1]):
+        off.append(now - law.meant[:, t])
+        known = max(t - late, 0)
+        here = off[known]
+        for k in range(known, t):
+            here = _times(law.A[:, k], here) + _times(law.B[:, k], changes[k])
+        change = -_times(law.gains[:, t], here)[..., None, :]
+        told.append(np.clip(law.told[:, t] + change, 0, 1))
+        changes.append((told[-1] - law.told[:, t]).mean(axis=-2))
+        now = advanced(now, np.clip(told[-1] * share[..., t, :, :], 0, 1))
+        way.append(now)
+    path = hand(np.stack(way, axis=-2)[..., :2])[..., :2]
+    return path, np.concatenate(told, axis=-2)
+
+
+def scatter(path):
+    """The standard deviation in m of repeated paths (repeats, …, ticks, 2), (…, ticks)."""
+    return np.sqrt(path.var(axis=0, ddof=1).mean(axis=-1))
+
+
+def _times(matrix, vector):
+    return (matrix @ vector[..., None])[..., 0]
