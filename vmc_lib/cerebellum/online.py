@@ -18,6 +18,7 @@ from functools import partial
 from typing import Any
 
 import numpy as np
+from scipy.spatial.distance import cdist
 from sklearn.base import BaseEstimator, RegressorMixin
 from sklearn.linear_model import LinearRegression
 from sklearn.utils.validation import check_is_fitted, validate_data
@@ -191,5 +192,4 @@ class GranuleCells(RegressorMixin, BaseEstimator):
 
     def excite(self, X):
         """How active each granule cell is, (n, cells) in [0, 1], for each X (n, d)."""
-        square = ((X[:, None] - self.centres_) ** 2).sum(axis=-1)
-        return np.exp(-square / (2 * self.width**2))
+        return np.exp(-cdist(X, self.centres_, "sqeuclidean") / (2 * self.width**2))

@@ -86,7 +86,7 @@ def move(intention, senses=SIGHT, model=None, world=None, noise=0.0, rng=None):
         raise ValueError(f"noise of {noise} needs an rng; give np.random.default_rng(seed)")
     late = _steps(senses.delay, TICK), _steps(senses.spinal, 1)
     meant = [np.swapaxes(x, 0, 1) for x in (intention.q, intention.velocity)]
-    lengths = fibres(*paths(meant[0]), meant[1])
+    lengths = [fibres(*paths(q), velocity) for q, velocity in zip(*meant, strict=True)]
     told = np.swapaxes(intention.excitations, 0, 1)
     q, velocity = (np.empty_like(meant[0]) for _ in range(2))
     activation = np.concatenate([told[:1], np.empty_like(told)])
@@ -98,7 +98,7 @@ def move(intention, senses=SIGHT, model=None, world=None, noise=0.0, rng=None):
             wish = ask(senses, meant[0][k], meant[1][k], *here)
             sight = accelerate(*here, wish, plan) - plan
         felt = max(k - late[1], 0)
-        reflex = _reflex(senses, q[felt], velocity[felt], *(x[felt] for x in lengths))
+        reflex = _reflex(senses, q[felt], velocity[felt], *lengths[felt])
         u = np.clip(plan + sight + reflex, 0, 1)
         u = noisy(u, noise, rng) if noise else u
         activation[k + 1] = activated(u, activation[k], STEP)

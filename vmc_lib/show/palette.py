@@ -34,6 +34,7 @@ STYLE = {
     "figure.constrained_layout.use": True,
     "font.size": 10,
     "axes.titlesize": 10,
+    "axes.titley": 1.0,  # where it stands anyway: not sought anew at each draw
     "axes.spines.top": False,
     "axes.spines.right": False,
     "axes.grid": True,

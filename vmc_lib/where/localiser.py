@@ -8,13 +8,14 @@ on this step.
 """
 
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from sklearn.kernel_ridge import KernelRidge
 from sklearn.metrics.pairwise import rbf_kernel
 
 from vmc_lib.boxes import as_boxes, centres_and_sides, jittered
-from vmc_lib.data import arrays
+from vmc_lib.data import arrays, read_only
 from vmc_lib.where.features import gradients, raw_pixels
 
 COPIES, JITTER = 12, 0.05  # boxes learnt from per photo, and how far their sides stray
@@ -53,13 +54,14 @@ class Localiser:
         return cls(x, ridge.dual_coef_, mean, spread)
 
     @classmethod
+    @cache
     def load(cls, level):
-        """The shipped localiser of a level of photos; ValueError for an unknown one."""
+        """The shipped localiser of a level of photos, read once; ValueError for an unknown one."""
         learnt = arrays("localisers")
         if f"{level}/mean" not in learnt:
             raise ValueError(f"no localiser for level {level!r}: choose a level of photos")
         shown, shape, *rest = (learnt[f"{level}/{part}"] for part in PARTS)
-        return cls(np.hstack([shown / 255, shape]), *rest)
+        return cls(read_only(np.hstack([shown / 255, shape])), *rest)
 
     def parts(self):
         """The arrays that `load` reads, by name; what the boxes show takes a byte a number."""
