@@ -10,6 +10,7 @@ import shutil
 import socket
 import subprocess
 import time
+import urllib.error
 import urllib.request
 from glob import glob
 from pathlib import Path
@@ -138,8 +139,11 @@ class WebKit(Engine):
         address = f"http://127.0.0.1:{self.port}/session{self.session}{about}"
         told = {"Content-Type": "application/json"}
         request = urllib.request.Request(address, json.dumps(said).encode(), told)
-        with urllib.request.urlopen(request) as reply:  # noqa: S310
-            return json.load(reply)["value"]
+        try:
+            with urllib.request.urlopen(request) as reply:  # noqa: S310
+                return json.load(reply)["value"]
+        except urllib.error.HTTPError as error:
+            raise AssertionError(f"{about}: {error.read().decode()}") from error
 
     def _navigate(self, url):
         self._ask("/url", url=url)
