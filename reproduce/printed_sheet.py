@@ -3,7 +3,7 @@
 import numpy as np
 from joblib import Parallel, delayed
 
-from reproduce.real_world import MODELS
+from reproduce.real_world import MODELS, SIZED
 from vmc_lib import NoReach, photos, sheet
 from vmc_lib.loop import VisuomotorModel, locate, see
 
@@ -14,7 +14,8 @@ def make(folder=photos.FOLDER, models=MODELS, count=None):
     """What `results/printed_sheet.json` holds: way -> how far off each place is (mm), or None.
 
     Of the true box with the true camera; of the true box with the sheet's camera; and of the box
-    that each model chooses, with the sheet's camera.
+    that each model chooses, with the sheet's camera: from what it sees alone, and where it also
+    counts how large things are.
     """
     shots = photos.load(photos.SHEET_LEVEL, "test", folder)[:count]
     loaded = {name: VisuomotorModel.load(name) for name in models}
@@ -32,7 +33,9 @@ def missed(photo, models):
         f"true box{FOUND}": _off(photo, bare, model, true, camera),
     }
     for name, model in models.items():
-        row[f"box of {name}{FOUND}"] = _off(photo, bare, model, see(model, bare).box, camera)
+        for way, known in (("", None), (SIZED, camera)):
+            box = see(model, bare, known).box
+            row[f"box of {name}{FOUND}{way}"] = _off(photo, bare, model, box, camera)
     return row
 
 

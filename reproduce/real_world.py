@@ -11,6 +11,7 @@ from vmc_lib.loop import VisuomotorModel, see
 from vmc_lib.what.crops import crop
 
 MODELS, SPLITS = ("varied", "real"), ("validation", "test")
+SIZED = ", size counts"  # where the camera is known
 QUESTIONS = {  # about which photos, and what has to be so
     "shuttlecocks named, in their true boxes": ("shuttlecock", lambda seen: seen["chance"] > 0.5),
     "cups called a shuttlecock": ("cup", lambda seen: seen["chance"] > 0.5),
@@ -59,25 +60,33 @@ def make(folder=photos.FOLDER, models=MODELS, splits=SPLITS):
 def elsewhere(folder, models=MODELS):
     """What `results/elsewhere.json` holds: model -> photo -> what `examine` found.
 
-    Of the scenes of `render.elsewhere`, by another renderer, of which no model has seen one.
+    Of the scenes of `render.elsewhere`, by another renderer, of which no model has seen one; each
+    model once more where it knows the camera, and so how large things are.
     """
-    shots = photos.load("varied", "test", folder)
-    return {name: _examined(VisuomotorModel.load(name), shots) for name in models}
+    shots, found = photos.load("varied", "test", folder), {}
+    for name in models:
+        model = VisuomotorModel.load(name)
+        found[name] = _examined(model, shots)
+        found[name + SIZED] = _examined(model, shots, sized=True)
+    return found
 
 
-def _examined(model, shots):
-    seen = Parallel()(delayed(examine)(model, photo) for photo in shots)
+def _examined(model, shots, sized=False):
+    seen = Parallel()(delayed(examine)(model, photo, sized) for photo in shots)
     return {photo.name: one for photo, one in zip(shots, seen, strict=True)}
 
 
-def examine(model, photo):
-    """What a model makes of a photo.
+def examine(model, photo, sized=False):
+    """What a model makes of a photo; `sized`: also of how large things are, as its camera tells.
 
     holds: "shuttlecock", "cup" or "neither"; chance: that its true box holds a shuttlecock, to the
     recogniser; candidate, kept: how well (IoU) the best candidate and the best kept box fit it;
     chosen: the box (4,) that the loop takes for a shuttlecock; fit: how well that fits one.
     """
-    sight, [holds, *_] = see(model, photo.image), [*photo.boxes, "neither"]
+    sight, [holds, *_] = (
+        see(model, photo.image, photo.camera if sized else None),
+        [*photo.boxes, "neither"],
+    )
     chosen = [] if sight.box is None else sight.box
     found = {"holds": holds, "chosen": None if sight.box is None else _rounded(sight.box)}
     if holds == "neither":

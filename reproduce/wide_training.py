@@ -107,9 +107,9 @@ def judge(recogniser, shots):
     """
     detector, x, y = loop.lenient_detector(photos.REAL_LEVEL), [], []
     for shot in shots:
-        found, evidence = loop.weighed(detector, recogniser, shot.image)
-        x.append(evidence)
-        truth, boxes = photos.all_of(shot, "shuttlecock"), found.boxes[: len(evidence)]
+        found = detector.detect(shot.image)
+        x.append(loop.weighed(found, recogniser, shot.image))
+        truth, boxes = photos.all_of(shot, "shuttlecock"), found.boxes[: loop.WEIGHED]
         y.append(iou(boxes, truth).max(1, initial=0) > 0.5)
     logistic = LogisticRegression(C=np.inf).fit(np.vstack(x), np.hstack(y))  # three numbers
     return NameClassifier(logistic.coef_[0], float(logistic.intercept_[0]))

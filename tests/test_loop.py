@@ -66,15 +66,15 @@ BOXES = np.array([[0, 0, 50, 50], [100, 0, 150, 50], [200, 0, 250, 50.0]])
 JUDGE = NameClassifier(np.array([10.0, 1.0]), -5.0)
 
 
-def looked(scores, named, judge=JUDGE):
+def looked(scores, named, judge=JUDGE, camera=None):
     """What a model sees that finds BOXES with these scores, and gives them these names."""
     scores = np.array(scores)
     boxes = BOXES[: len(scores)]
     found = Detections(boxes, scores, boxes, scores, boxes, scores)
     detector = SimpleNamespace(detect=lambda image: found)
-    recogniser = SimpleNamespace(probability=lambda crops: np.array(named))
+    recogniser = SimpleNamespace(probability=lambda crops: np.array(named)[: len(crops)])
     image = np.random.default_rng(0).integers(0, 255, (400, 600, 3), dtype=np.uint8)
-    return loop.see(loop.VisuomotorModel(detector, recogniser, None, None, judge), image)
+    return loop.see(loop.VisuomotorModel(detector, recogniser, None, None, judge), image, camera)
 
 
 def test_where_and_what_are_weighed_together():
@@ -85,6 +85,17 @@ def test_where_and_what_are_weighed_together():
     assert sight.told.startswith("2 shuttlecocks")
     alone = looked([0.9, 0.5, 0.4], [0.001, 0.97, 0.98], judge=None)
     np.testing.assert_array_equal(alone.shuttlecocks, BOXES[[1, 2]])
+
+
+@pytest.mark.parametrize("judge", [JUDGE, None])
+def test_where_size_counts_the_wrong_sizes_are_left_out_and_the_right_ones_likelier(judge):
+    camera = SimpleNamespace(sizes=lambda boxes: np.array([0.07, 0.2, 0.08])[: len(boxes)])
+    before, after = (looked([0.3] * 3, [0.4] * 3, judge, of) for of in (None, camera))
+    np.testing.assert_array_equal(after.detections.boxes, BOXES[[0, 2]])
+    odds = [one.probability[0] / (1 - one.probability[0]) for one in (before, after)]
+    assert odds[1] == pytest.approx(loop.RIGHT_SIZE * odds[0])
+    nothing = looked([0.3], [0.9], judge, SimpleNamespace(sizes=lambda boxes: np.full(1, 0.3)))
+    assert nothing.box is None
 
 
 def test_of_many_boxes_those_that_fit_best_are_weighed():

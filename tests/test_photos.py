@@ -11,6 +11,7 @@ from PIL import Image
 from vmc_lib import photos
 from vmc_lib.arm.kinematics import turn_towards
 from vmc_lib.camera import TABLE, Camera
+from vmc_lib.loop import SIZES
 from vmc_lib.photos import FOLDER, HEIGHT, LEVELS, SPLITS, WIDTH
 
 EVERY = [(level, split) for level in LEVELS for split in SPLITS]
@@ -256,3 +257,24 @@ def test_reading_refuses_damaged_files(picture, tmp_path, monkeypatch):
     Image.fromarray(np.zeros((40, 60), np.uint16)).save(tmp_path / "deep.png")
     with pytest.raises(ValueError, match="more than 8 bits"):
         photos.read_image(tmp_path / "deep.png")
+
+
+def test_a_thing_far_away_is_as_large_as_it_is_near():
+    """A square of 10 cm that faces the camera, its lower edge on the table."""
+    away = np.array([2.0, 4.0])
+    camera = Camera(800.0, np.array([300.0, 200]), np.eye(3)[[0, 1, 2]] * [1, -1, 1], np.zeros(3))
+    foot = camera.project(np.column_stack([[0, 0], [TABLE, TABLE], away]))
+    top = camera.project(np.column_stack([[0.1, 0.1], [TABLE + 0.1] * 2, away]))
+    boxes = np.column_stack([foot[:, 0], top[:, 1], top[:, 0], foot[:, 1]])
+    assert boxes[0, 2] - boxes[0, 0] == pytest.approx(2 * (boxes[1, 2] - boxes[1, 0]))
+    assert camera.sizes(boxes) == pytest.approx([0.1, 0.1])
+    assert camera.sizes([[0, 10, 50, 60]]) == np.inf  # nothing stands above the horizon
+
+
+@pytest.mark.parametrize("level", LEVELS)
+def test_the_sizes_that_count_hold_every_shuttlecock_learnt_from(level):
+    sizes = [
+        shot.camera.sizes(shot.boxes["shuttlecock"][None]) for shot in photos.load(level, "train")
+    ]
+    smallest, largest = SIZES
+    assert smallest < np.min(sizes) < np.max(sizes) < largest

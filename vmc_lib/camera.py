@@ -55,3 +55,16 @@ class Camera:
                 f"y = {height}: give pixels below the horizon"
             )
         return self.position + distance[:, None] * rays
+
+    def sizes(self, boxes):
+        """How large what fills the boxes (n, 4) is, if it stands on the table: (n,), in m.
+
+        The root of the area that it covers as the camera faces it; inf for what stands beyond the
+        horizon.
+        """
+        x0, y0, x1, y1 = np.transpose(boxes)
+        rays = self.rays(np.column_stack([(x0 + x1) / 2, y1]))  # one unit deep, to its foot
+        with np.errstate(divide="ignore"):
+            depth = (TABLE - self.position[1]) / rays[:, 1]
+        pixels = np.sqrt((x1 - x0) * (y1 - y0))
+        return np.where(depth > 0, pixels * depth / self.focal, np.inf)

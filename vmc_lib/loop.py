@@ -7,7 +7,7 @@ movement, its off-line calibration, and the movement again. No mathematics of it
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.special import logit
+from scipy.special import expit, logit
 
 from vmc_lib import NoReach, photos
 from vmc_lib.arm.kinematics import to_world, turn_towards
@@ -25,6 +25,9 @@ PHOTOGRAPHS_AS = "varied"  # the level whose places serve for photographs too
 # Where a judge decides: how many boxes, those that fit best, it weighs, and the chance of being a
 # shuttlecock's from which a box is chosen; set on validation photos, as the judge itself
 WEIGHED, SURE = 8, 0.3
+# Where size counts: how large what is in a shuttlecock's box can be (m), and how many times as
+# often as another box it is of that size; set on validation photos
+SIZES, RIGHT_SIZE = (0.05, 0.092), 5
 RULES = {"published": algorithm_1, "own": broyden_calibration}  # of off-line calibration
 
 
@@ -110,17 +113,34 @@ class Reach:
         return to_world(motion.hand, self.turn)
 
 
-def see(model, image):
-    """`Sight` of an image (400, 600, 3): where are objects, and which is a shuttlecock?"""
+def see(model, image, camera=None):
+    """`Sight` of an image (400, 600, 3): where are objects, and which is a shuttlecock?
+
+    A `Camera` tells how large things are: then boxes of another size than a shuttlecock's are left
+    out, and the odds of the others grow by RIGHT_SIZE (Bayes' rule).
+    """
+    found, times = model.detector.detect(image), 1
+    if camera is not None:
+        found, times = sized(found, camera), RIGHT_SIZE
     if model.judge is None:
-        detections = model.detector.detect(image)
-        return Sight(detections, names(model.recogniser, image, detections.boxes))
-    detections, evidence = weighed(model.detector, model.recogniser, image)
-    chance = np.zeros(len(detections.boxes))
-    chance[:WEIGHED] = model.judge.probability(evidence)
+        chance = names(model.recogniser, image, found.boxes)
+        return Sight(found, expit(logit(chance) + np.log(times)))
+    chance = np.zeros(len(found.boxes))
+    odds = model.judge.log_odds(weighed(found, model.recogniser, image))
+    chance[:WEIGHED] = expit(odds + np.log(times))
     best = np.argsort(-chance, kind="stable")
-    boxes, scores = detections.boxes[best], detections.scores[best]
-    return Sight(replace(detections, boxes=boxes, scores=scores), chance[best], SURE)
+    return Sight(_kept(found, best), chance[best], SURE)
+
+
+def sized(found, camera):
+    """Of `Detections`, the boxes that are of a shuttlecock's size where a `Camera` stands."""
+    smallest, largest = SIZES
+    size = camera.sizes(found.boxes)
+    return _kept(found, (size > smallest) & (size < largest))
+
+
+def _kept(found, which):
+    return replace(found, boxes=found.boxes[which], scores=found.scores[which])
 
 
 def names(recogniser, image, boxes):
@@ -128,15 +148,14 @@ def names(recogniser, image, boxes):
     return recogniser.probability(np.array([crop(image, box) for box in boxes]))
 
 
-def weighed(detector, recogniser, image):
-    """The `Detections` of an image, and what both pathways say of the WEIGHED best boxes, (n, 2).
+def weighed(found, recogniser, image):
+    """What both pathways say of the WEIGHED best boxes of an image's `Detections`: (n, 2).
 
     That is how well each fits, and the log-odds of its name.
     """
-    found = detector.detect(image)
     named = names(recogniser, image, found.boxes[:WEIGHED])
     odds = logit(np.clip(named, 1e-6, 1 - 1e-6))
-    return found, np.column_stack([found.scores[:WEIGHED], odds])
+    return np.column_stack([found.scores[:WEIGHED], odds])
 
 
 def locate(model, image, box, camera):
