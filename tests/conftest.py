@@ -1,6 +1,7 @@
 """What all tests share: demos live their test life, and page tests find a browser."""
 
 import os
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -12,6 +13,7 @@ os.environ["VMC_RENDER_MODE"] = "test"  # chapters run by nbmake inherit it
 os.environ.setdefault("MPLBACKEND", "agg")
 
 AXE = Path(__file__).parent / "vendor/axe.js"
+PATIENCE = 180_000  # ms
 
 
 @pytest.fixture(scope="session")
@@ -26,8 +28,16 @@ def chromium():
         (pytest.fail if os.environ.get("CI") else pytest.skip)(browser.MISSING)
     with sync_playwright() as playwright:
         chromium = playwright.chromium.launch(**browser.options(path))
+        chromium.new_context = partial(patient, chromium.new_context)
         yield chromium
         chromium.close()
+
+
+def patient(new_context, **kind):
+    """A browser window that waits as long as a busy machine may need."""
+    context = new_context(**kind)
+    context.set_default_timeout(PATIENCE)
+    return context
 
 
 @pytest.fixture(scope="module")
