@@ -33,6 +33,10 @@ addEventListener("unhandledrejection", (event) => vmcFailed(event.reason));
 </script>"""
 
 
+class Fallen(Exception):
+    """The process that shows pages has died; WebKit ends its driver's session with it."""
+
+
 class Engine:
     """A browser in a folder of its own; `_navigate` and `_script` are its driver's."""
 
@@ -58,6 +62,10 @@ class Engine:
     def close(self):
         os.killpg(self.process.pid, 15)  # with all that it started
         self.process.wait()
+
+    def restart(self):
+        self.close()
+        self.__init__(self.folder)
 
 
 class Firefox(Engine):
@@ -143,7 +151,9 @@ class WebKit(Engine):
             with urllib.request.urlopen(request) as reply:  # noqa: S310
                 return json.load(reply)["value"]
         except urllib.error.HTTPError as error:
-            raise AssertionError(f"{about}: {error.read().decode()}") from error
+            why = error.read().decode()
+            kind = Fallen if "invalid session id" in why else AssertionError
+            raise kind(f"{about}: {why}") from error
 
     def _navigate(self, url):
         self._ask("/url", url=url)
