@@ -49,6 +49,9 @@ class Engine:
                 (self.folder / "site" / name).symlink_to(BUILT / name)
         copy.write_text(path.read_text().replace("<head>", f"<head>{LISTEN}", 1))
         self._navigate(copy.as_uri())
+        here = f"return location.href === {json.dumps(copy.as_uri())}"
+        while not self.run(f"{here} && document.readyState === 'complete';"):
+            time.sleep(0.05)  # a driver may answer before the page is there
 
     def run(self, text):
         """What a script returns that may wait; AssertionError with what it throws."""
