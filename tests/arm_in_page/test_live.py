@@ -29,14 +29,15 @@ from vmc_lib.motor.planning import exact_weights, habitual_weights, plan, surrou
 
 ROOT = Path(__file__).parents[2]
 CONFIG = yaml.safe_load((ROOT / "_config.yml").read_text())["sphinx"]["config"]
+STYLES = CONFIG["html_css_files"]
 LISTED = [name for name, _ in CONFIG["html_js_files"]]  # the book's scripts, in its order
 HEAD = """<!doctype html><html lang="en"><meta charset="utf-8">
 <meta name="viewport" content="width=device-width"><title>An arm</title>
-<link rel="stylesheet" href="demo.css"><link rel="stylesheet" href="live.css">
+STYLES
 SCRIPTS
 <body style="background: var(--vmc-paper); color: var(--vmc-ink)"><main>""".replace(
-    "SCRIPTS", "".join(f'<script defer src="{name}"></script>' for name in LISTED)
-)
+    "STYLES", "".join(f'<link rel="stylesheet" href="{name}">' for name in STYLES)
+).replace("SCRIPTS", "".join(f'<script defer src="{name}"></script>' for name in LISTED))
 # `arm` and `templateSet` for a script that asks them something, made once a page
 ARM = """async (asked) => {
   const given = JSON.parse(document.querySelector(".vmc-live script").textContent);
