@@ -18,7 +18,8 @@ from vmc_lib.where.appearance import COLOUR_SPACES, colour_codes, describe, text
 from vmc_lib.where.segmentation import edge_weights, join, lightest_first
 from vmc_lib.where.selective_search import ALL, grow, ranked
 
-SCALE, FOUR, HUE = {"k": 200, "smallest": 100}, {"neighbours": 4}, {"narrow_hue": True}
+PATCH = 100  # pixels: the smallest, of ours and of OpenCV's
+SCALE, FOUR, HUE = {"k": 200}, {"neighbours": 4}, {"narrow_hue": True}
 CUTS = {
     "ours": {},
     "k 200, patches from 100 pixels": SCALE,
@@ -28,7 +29,7 @@ CUTS = {
 }
 
 
-def cut(image, k=100, smallest=100, neighbours=8, narrow_hue=False):
+def cut(image, k=100, neighbours=8, narrow_hue=False):
     """The Hierarchy of one cut of an image."""
     rgb = photos.as_float(image)
     channels = COLOUR_SPACES["HSV"](rgb)
@@ -39,7 +40,7 @@ def cut(image, k=100, smallest=100, neighbours=8, narrow_hue=False):
     weights[:, neighbours // 2 :] = np.inf
     weights, edges = lightest_first(weights.ravel())
     inside = np.searchsorted(weights, np.inf)
-    labels = join(weights[:inside], edges[:inside], *image.shape[:2], k / 255, smallest)
+    labels = join(weights[:inside], edges[:inside], *image.shape[:2], k / 255, PATCH)
     codes = colour_codes(channels), texture_codes(channels)
     return grow(labels, describe(labels, *codes), ALL)
 

@@ -27,9 +27,7 @@ def stages(model, photo):
     reach = loop.reach(model, place, calibration=None)
     return {
         "candidates and regions": lambda: model.detector.detect(photo.image),
-        "names": lambda: model.recogniser.probability(
-            np.array([loop.crop(photo.image, box) for box in regions.boxes])
-        ),
+        "names": lambda: loop.names(model.recogniser, photo.image, regions.boxes),
         "place": lambda: loop.locate(model, photo.image, sight.box, photo.camera),
         "turn and plan": lambda: plan(loop.turn_towards(place)[1], model.template_set).excitations,
         # anew each time: a plan remembers its own

@@ -31,11 +31,6 @@ PHOTOS = (10, 20, 40, 80, 160, 400)
 FOLDER = os.environ.get("PHOTOS", photos.FOLDER)
 
 
-def missed(habit):
-    """The mean distance from the targets, m."""
-    return np.linalg.norm(habit.reached() - habit.target, axis=-1).mean()
-
-
 def more_templates(spacing):
     """A library with templates so far apart: how far its plans miss, in mm."""
     start = process_time()
@@ -44,7 +39,7 @@ def more_templates(spacing):
     seconds = process_time() - start
     template_set = templates.TemplateSet(templates.reach(excitations).reached, excitations)
     held_out = np.random.default_rng(0).uniform(*ON_THE_TABLE, (200, 2))
-    error = 1000 * missed(plan(held_out, template_set))
+    error = 1000 * plan(held_out, template_set).missed().mean()
     return [row("templates", len(goals), error, seconds)]
 
 
@@ -62,7 +57,7 @@ def more_movements():
         start = process_time()
         learner.practise(plan(targets, template_set))
         seconds += process_time() - start
-        error = missed(learner.correct(unseen)) / missed(unseen)
+        error = learner.correct(unseen).missed().mean() / unseen.missed().mean()
         rows.append(row("movements", count, error, seconds))
     return rows
 

@@ -14,11 +14,12 @@ import vtk
 from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 
 from render import furniture, scene, shapes
+from render.materials import SPAN
 from render.sidecar import in_full_view, store
 from vmc_lib.camera import TABLE
 from vmc_lib.photos import CLASSES, HEIGHT, SPLITS, WIDTH
 
-COUNT, LAMPS, SPAN = 30, 9, 2.048  # photos; pictures that one is the mean of; the table's side (m)
+COUNT, LAMPS = 30, 9  # photos; pictures that one is the mean of
 
 
 def solid(mesh):

@@ -4,6 +4,7 @@ import cv2
 import numpy as np
 
 SIZE = 2048
+SPAN = SIZE / 1000  # m: side of the table
 
 
 def rgb(code):
@@ -12,10 +13,10 @@ def rgb(code):
     return np.where(value <= 0.04045, value / 12.92, ((value + 0.055) / 1.055) ** 2.4)
 
 
-def noise(rng, along, across, size=SIZE):
-    """Smooth noise (size, size) of unit variance, with `along` × `across` bumps."""
+def noise(rng, along, across):
+    """Smooth noise (SIZE, SIZE) of unit variance, with `along` × `across` bumps."""
     coarse = rng.standard_normal((across, along)).astype(np.float32)
-    smooth = cv2.resize(coarse, (size, size), interpolation=cv2.INTER_CUBIC)
+    smooth = cv2.resize(coarse, (SIZE, SIZE), interpolation=cv2.INTER_CUBIC)
     return smooth / smooth.std()
 
 

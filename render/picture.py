@@ -6,11 +6,11 @@ import numpy as np
 
 mi.set_variant("llvm_ad_rgb")
 
+from render.materials import SPAN  # noqa: E402
 from render.scene import MIDDLE  # noqa: E402
 from vmc_lib.camera import TABLE  # noqa: E402
 from vmc_lib.photos import CLASSES, HEIGHT, WIDTH  # noqa: E402
 
-SPAN = 2.048  # side of the table (m)
 DAYLIGHT = 2.8  # irradiance of the table by the window
 
 

@@ -59,7 +59,7 @@ def rotation(axis, angle):
 
 
 def sheet(points, colour, roughness=0.5):
-    """A grid of points (rows, columns, 3) as a surface; `colour` is one or one per row."""
+    """A grid of points (rows, columns, 3) as a surface; `colour` is one, one a row or a point."""
     rows, columns, _ = points.shape
     corner = np.arange(rows * columns).reshape(rows, columns)
     a, b, c, d = corner[:-1, :-1], corner[:-1, 1:], corner[1:, 1:], corner[1:, :-1]

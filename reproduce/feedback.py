@@ -7,7 +7,7 @@ from functools import partial
 
 import numpy as np
 
-from reproduce import movements, results
+from reproduce import movements
 from reproduce.movements import SEEDS
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.arm.model import STEP
@@ -53,10 +53,10 @@ def jumps(template_set, count, rng, by=JUMP):
     return first[inside][:count], second[inside][:count]
 
 
-def jumping(template_set, first, second, delay=SIGHT.delay, seconds=2.0):
-    """The `Intention` of reaches whose target jumps at `JUMPS_AT`, and is seen to after a delay."""
-    before, after = (intend(plans(p, template_set), seconds) for p in (first, second))
-    return switch(before, after, JUMPS_AT + delay)
+def jumping(template_set, first, second):
+    """The `Intention`, for 2 s, of reaches whose target jumps at `JUMPS_AT`, and is seen later."""
+    before, after = (intend(plans(p, template_set), 2.0) for p in (first, second))
+    return switch(before, after, JUMPS_AT + SIGHT.delay)
 
 
 def tremor(path, since=1.0, band=TREMOR):
@@ -176,10 +176,5 @@ def make(experiments=EXPERIMENTS, seeds=SEEDS):
     return movements.make(experiments, seeds)
 
 
-def measured():
-    """What shipped, as `movements.measured` has it."""
-    shipped = results.records("feedback")
-    return {part: {k: np.array(v) for k, v in rows.items()} for part, rows in shipped.items()}
-
-
+measured = partial(movements.measured, "feedback")
 _norm = partial(np.linalg.norm, axis=-1)

@@ -37,17 +37,13 @@ RETRAINED = ("published", "improved")  # trained anew from TRAININGS seeds
 TRAININGS = 6
 
 
-def table_1(level, split="test", name="published"):
-    """Table I: precision and recall of the RoI classifier, for each kernel and before suppression.
-
-    Means over TRAININGS trainings with the features and examples of the recipe `name`, "published"
-    or "context". As in the paper, over candidates that clearly hold an object or clearly do not.
-    """
-    return {kernel: row.mean(0) for kernel, row in trainings(level, split, name).items()}
-
-
 def trainings(level, split="test", name="published"):
-    """For each kernel of Table I, precision and recall of each training, (TRAININGS, 2)."""
+    """Table I: for each kernel, precision and recall of each training, (TRAININGS, 2).
+
+    Of the RoI classifier, before suppression, with the features and examples of the recipe `name`,
+    "published" or "context". As in the paper, over candidates that clearly hold an object or
+    clearly do not.
+    """
     rows = [arrays("localisation")[f"{level}/{name}/table 1/{seed}"] for seed in range(TRAININGS)]
     by_kernel = np.swapaxes(rows, 0, 2)[:, photos.SPLITS.index(split)]
     return dict(zip(TABLE_1_KERNELS, by_kernel, strict=True))

@@ -62,15 +62,15 @@ def run(
     """
     unseen = plan(draw_targets(template_set, held_out, rng), template_set)
     first = practised = plan(draw_targets(template_set, movements, rng), template_set)
-    in_sample, others = [_errors(learner.correct(first))], [_errors(learner.correct(unseen))]
+    in_sample, others = [learner.correct(first).missed()], [learner.correct(unseen).missed()]
     for experiment in range(experiments):
         if fresh and experiment:
             practised = plan(draw_targets(template_set, movements, rng), template_set)
         learner.practise(practised, **lesson)
-        in_sample.append(_errors(learner.correct(practised)))
-        others.append(_errors(learner.correct(unseen)))
+        in_sample.append(learner.correct(practised).missed())
+        others.append(learner.correct(unseen).missed())
     offline = lesson.get("rule", algorithm_1)(first).error.min(axis=0)
-    return Errors(_errors(first), offline, np.array(in_sample), np.array(others), _errors(unseen))
+    return Errors(first.missed(), offline, np.array(in_sample), np.array(others), unseen.missed())
 
 
 def around(template_set, place):
@@ -214,11 +214,7 @@ def repeat(experiment, seeds=SEEDS):
     return {name: np.array([r[name] for r in results]) for name in results[0]}
 
 
-def measured():
-    """What shipped: by scenario and "perturbations", name -> one entry for each of `SEEDS`."""
-    shipped = results.records("movements")
+def measured(name="movements"):
+    """What `make` made and shipped by that name: experiment -> name -> an entry for each seed."""
+    shipped = results.records(name)
     return {part: {k: np.array(v) for k, v in rows.items()} for part, rows in shipped.items()}
-
-
-def _errors(plan):
-    return np.linalg.norm(plan.reached() - plan.target, axis=-1)

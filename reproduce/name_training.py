@@ -54,19 +54,19 @@ def fit_name_classifier(x, y, x_validation, y_validation):
             raise ValueError(f"to {use}, give finite features of both classes")
     centre = x.mean(0)
     size = np.sqrt(np.square(x - centre).sum(1).mean())
-    x, x_validation = (x - centre) / size, (x_validation - centre) / size
+    x, scaled = (x - centre) / size, (x_validation - centre) / size
 
     def calibrated(strength):
         model = LogisticRegression(C=strength, max_iter=2000).fit(x, y)
         sigmoid = CalibratedClassifierCV(FrozenEstimator(model), method="sigmoid")
-        sigmoid.fit(x_validation, y_validation)
+        sigmoid.fit(scaled, y_validation)
         platt = sigmoid.calibrated_classifiers_[0].calibrators[0]
         weights = -platt.a_ * model.coef_[0] / size
         bias = -platt.a_ * model.intercept_[0] - platt.b_ - weights @ centre
         return NameClassifier(weights, float(bias))
 
     def likelihood(classifier):
-        logit = (x_validation * size + centre) @ classifier.weights + classifier.bias
+        logit = classifier.log_odds(x_validation)
         return -np.logaddexp(0, np.where(y_validation, -logit, logit)).sum()
 
     return max(map(calibrated, INVERSE_PENALTIES), key=likelihood)

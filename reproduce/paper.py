@@ -57,14 +57,6 @@ TABLE_5_WEIGHTS = np.array(
         [0.1905, 0.0438, 0.1659, 0.0444, 0.1058],
     ]
 )
-TABLE_6_WEIGHTS = np.array(
-    [
-        [0.2666, 0.3166, 0.1575, 0.1794, 0.3545],
-        [0.3365, 0.3255, 0.5504, 0.3179, 0.2599],
-        [0.2078, 0.2210, 0.1293, 0.3884, 0.2241],
-        [0.1795, 0.0851, 0.1482, 0.0749, 0.1186],
-    ]
-)
 TABLE_5_ERRORS = np.array([0.0040, 0.0256, 0.0157, 0.0395, 0.0147])  # after off-line calibration
 TABLE_6_ERRORS = np.array([0.0093, 0.0181, 0.0152, 0.0414, 0.0125])  # after online calibration
 TABLE_6_WEIGHTS = np.array(  # after it; as in Table IV, and the columns sum to less than one

@@ -68,19 +68,6 @@ def probabilities(level, shots, learnt, linear):
     return {m: linear[level, m].probability(found[m]) for m in METHODS}, shuttlecock
 
 
-def table_3(level):
-    """Table III for one level, measured now: method -> {"in_sample": counts, "held_out": counts}.
-
-    The counts (see `tally`) are over both objects' true boxes in the training and the test photos.
-    """
-    table = {method: {} for method in METHODS}
-    for key, split in (("in_sample", "train"), ("held_out", "test")):
-        found, shuttlecock = probabilities(level, photos.load(level, split), *load())
-        for method, probability in found.items():
-            table[method][key] = tally(probability, shuttlecock)
-    return table
-
-
 def verdicts(level, split):
     """What `probabilities` found when the file was made: finding it takes a while.
 

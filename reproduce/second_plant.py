@@ -11,6 +11,7 @@ import numpy as np
 
 from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration
 from vmc_lib.cerebellum.online import AimCorrection
+from vmc_lib.motor.inverse_dynamics import smooth
 from vmc_lib.motor.planning import draw_targets, plan
 from vmc_lib.motor.templates import TemplateSet
 
@@ -56,8 +57,8 @@ def reach(torques, _perturbation=None):
 
 def templates(goals=GOALS):
     """Past experience: the torques that bring the tip smoothly to each of the goals (N, 2)."""
-    t = np.minimum(np.arange(SAMPLES + 1) / MOVING, 1)[:, None]
-    q = START + t**3 * (10 - 15 * t + 6 * t**2) * (posture(goals) - START)[:, None]
+    done = smooth(np.arange(SAMPLES + 1) / MOVING)[:, None]
+    q = START + done * (posture(goals) - START)[:, None]
     velocity = np.diff(q, axis=1, prepend=q[:, :1]) / STEP
     mass, drag = mass_and_drag(q[:, :-1], velocity[:, :-1])
     torques = (mass @ (np.diff(velocity, axis=1) / STEP)[..., None])[..., 0] + drag
@@ -71,7 +72,7 @@ def experiment(seed):
     tries = broyden_calibration(habit).error.mean(axis=1)
     aimed = AimCorrection(past).practise(lessons).correct(habit)
     published = algorithm_1(habit).error.min(axis=0).mean()
-    missed = np.linalg.norm(aimed.reached() - habit.target, axis=-1).mean()
-    left = {"off-line, published": published, "own off-line": tries[2], "own online": missed}
+    own = {"own off-line": tries[2], "own online": aimed.missed().mean()}
+    left = {"off-line, published": published, **own}
     reach_of = np.linalg.norm(habit.target, axis=-1).mean()
     return {"planned / reach": tries[0] / reach_of, **{k: v / tries[0] for k, v in left.items()}}

@@ -6,6 +6,7 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from functools import partial
 from inspect import getsourcefile
+from modulefinder import ModuleFinder
 from multiprocessing import get_context
 from pathlib import Path
 
@@ -41,7 +42,7 @@ from vmc_lib import data
 ROOT, MODEL, RESULTS = Path(__file__).parents[1], data.FOLDER, results.FOLDER
 FRESH = ROOT / "_build/fresh_photos"  # of tests to come: they do not ship
 ELSEWHERE = ROOT / "_build/elsewhere_photos"  # likewise
-CODE_AND_DATA = {".py", ".xml", ".npz", ".json", ".jpg"}
+DATA = {".xml", ".npz", ".json", ".jpg"}
 
 
 @dataclass(frozen=True)
@@ -50,7 +51,7 @@ class Step:
 
     make: Callable | str  # gives what the file holds; or a command that writes it
     file: Path
-    reads: str = ""  # the steps whose files it reads, and the folders of the code that it runs
+    reads: str = ""  # the steps whose files it reads, and folders that hold more of such
     minutes: float = 1  # about, on two cores
     needs: str = ""  # what not every machine has: such a step runs only when it is asked for
 
@@ -60,12 +61,12 @@ class Step:
         return self.file.stem
 
     def inputs(self):
-        """Every file that the step depends on."""
+        """Every file that the step depends on: what it reads, and the code that it can run."""
         makes = {step.name: step.file for step in STEPS}
         places = [makes.get(name, ROOT / name) for name in self.reads.split()]
         within = (file for place in places for file in (place, *place.rglob("*")))
-        found = {file for file in within if file.suffix in CODE_AND_DATA}
-        return found | {Path(getsourcefile(getattr(self.make, "func", self.make)))}
+        found = {file for file in within if file.suffix in DATA}
+        return found | imported(getsourcefile(getattr(self.make, "func", self.make)))
 
     def run(self):
         """Make the file, on all cores, in a new process: one that has read no older file."""
@@ -76,6 +77,13 @@ class Step:
 def _made(step):
     with parallel_config(n_jobs=-1):
         write(step.file, step.make)
+
+
+def imported(file):
+    """A file of Python, and all of the project's that it imports, or that these import."""
+    finder = ModuleFinder([str(ROOT)])
+    finder.run_script(file)
+    return {Path(module.__file__) for module in finder.modules.values() if module.__file__}
 
 
 def write(file, make):
@@ -112,71 +120,38 @@ RENDER, OPENSIM = f"{sys.executable} -m render", ".bench/bin/python -m bench.ope
 BONES = f"{sys.executable} -m reproduce.bones"
 SUMMED = f"{sys.executable} -m reproduce.checksums"
 DERIVED, BONES63 = (f"{sys.executable} -m reproduce.whole_arm.{x}" for x in ("derive", "bones"))
-WHERE = "photos vmc_lib/where reproduce/detector_training.py"
-WHAT = "photos vmc_lib/what reproduce/name_training.py"
-WIDE = f"{WHAT} reproduce/looks.py reproduce/pools.py reproduce/wide_training.py"
-ARM = "vmc_lib/arm vmc_lib/motor"
+ARM, WHOLE_ARM, REAL, SHIPPED = (
+    "vmc_lib/arm",
+    "vmc_lib/arm reproduce/whole_arm",
+    "vmc_lib/data/real",
+    "vmc_lib/data vmc_lib/arm",
+)
 STEPS = (
     Step(RENDER, MODEL / "photos", minutes=25, needs="mitsuba and LLVM 19"),
-    Step(training.candidates, MODEL / "candidates.npz", WHERE, 4),
-    Step(training.detectors, MODEL / "detectors.npz", f"candidates {WHERE}", 6),
-    Step(training.localisers, MODEL / "localisers.npz", WHERE, 1),
-    Step(training.cdbn, MODEL / "cdbn.npz", WHAT, 2),
-    Step(training.recogniser, MODEL / "recogniser.npz", f"cdbn {WHAT}", 2),
-    Step(training.templates, MODEL / "templates.npz", f"{ARM} reproduce/template_making.py", 1),
-    Step(localisation.make, RESULTS / "localisation.npz", f"candidates detectors {WHERE}", 25),
-    Step(recognition.make, RESULTS / "recognition.npz", f"cdbn {WHAT} reproduce/peers", 3),
-    Step(variations.make, RESULTS / "variations.npz", WHAT, 15),
+    Step(training.candidates, MODEL / "candidates.npz", "photos", 4),
+    Step(training.detectors, MODEL / "detectors.npz", "photos candidates", 6),
+    Step(training.localisers, MODEL / "localisers.npz", "photos", 1),
+    Step(training.cdbn, MODEL / "cdbn.npz", "photos", 2),
+    Step(training.recogniser, MODEL / "recogniser.npz", "photos cdbn", 2),
+    Step(training.templates, MODEL / "templates.npz", ARM, 1),
+    Step(localisation.make, RESULTS / "localisation.npz", "photos candidates detectors", 25),
+    Step(recognition.make, RESULTS / "recognition.npz", "photos cdbn", 3),
+    Step(variations.make, RESULTS / "variations.npz", "photos", 15),
     Step(optimal.make, RESULTS / "optimal.npz", f"templates {ARM}", 3),
-    Step(
-        steady.make,
-        RESULTS / "steady.npz",
-        f"templates {ARM} reproduce/peers/optimal.py reproduce/unsteady.py",
-        5,
-    ),
-    Step(movements.make, RESULTS / "movements.json", f"templates {ARM} vmc_lib/cerebellum", 10),
-    Step(
-        cerebella.make,
-        RESULTS / "cerebella.json",
-        f"templates {ARM} vmc_lib/cerebellum reproduce/movements.py",
-        5,
-    ),
-    Step(
-        feedback.make,
-        RESULTS / "feedback.json",
-        f"templates {ARM} vmc_lib/cerebellum reproduce/movements.py",
-        2,
-    ),
-    Step(
-        unsteady.make,
-        RESULTS / "unsteady.json",
-        f"templates {ARM} vmc_lib/cerebellum reproduce/movements.py reproduce/peers/cerebella.py",
-        3,
-    ),
-    Step(
-        weakened.make,
-        RESULTS / "weakened.npz",
-        f"templates {ARM} vmc_lib/cerebellum reproduce/movements.py reproduce/peers/optimal.py",
-        1,
-    ),
-    Step(
-        trial.make,
-        RESULTS / "lesions.json",
-        "photos detectors localisers recogniser templates vmc_lib",
-        6,
-    ),
+    Step(steady.make, RESULTS / "steady.npz", f"templates optimal {ARM}", 5),
+    Step(movements.make, RESULTS / "movements.json", f"templates {ARM}", 10),
+    Step(cerebella.make, RESULTS / "cerebella.json", f"templates {ARM}", 5),
+    Step(feedback.make, RESULTS / "feedback.json", f"templates {ARM}", 2),
+    Step(unsteady.make, RESULTS / "unsteady.json", f"templates {ARM}", 3),
+    Step(weakened.make, RESULTS / "weakened.npz", f"templates optimal {ARM}", 1),
+    Step(trial.make, RESULTS / "lesions.json", SHIPPED, 6),
     Step(
         wide_training.photographs,
         MODEL / "photographs.npz",
-        f"candidates detectors {WHERE} {WIDE}",
+        f"photos candidates detectors {REAL}",
         15,
     ),
-    Step(
-        real_world.make,
-        RESULTS / "real_world.json",
-        "photos detectors localisers cdbn recogniser photographs templates vmc_lib",
-        3,
-    ),
+    Step(real_world.make, RESULTS / "real_world.json", SHIPPED, 3),
     Step(
         f"{sys.executable} -m render.elsewhere {ELSEWHERE}",
         ELSEWHERE,
@@ -186,16 +161,11 @@ STEPS = (
     Step(
         partial(real_world.elsewhere, ELSEWHERE),
         RESULTS / "elsewhere.json",
-        "detectors recogniser photographs vmc_lib",
+        SHIPPED,
         needs="elsewhere_photos",
     ),
-    Step(domains.make, RESULTS / "domains.npz", f"{WIDE} reproduce/peers", 8),
-    Step(
-        ablation.make,
-        RESULTS / "ablation.npz",
-        f"candidates detectors {WHERE} {WIDE} reproduce/domains.py",
-        15,
-    ),
+    Step(domains.make, RESULTS / "domains.npz", f"photos candidates detectors {REAL}", 8),
+    Step(ablation.make, RESULTS / "ablation.npz", f"photos candidates detectors {REAL}", 15),
     Step(
         f"{RENDER} --sheet --samples 16",
         MODEL / "photos/sheet",
@@ -205,7 +175,7 @@ STEPS = (
     Step(
         printed_sheet.make,
         RESULTS / "printed_sheet.json",
-        "sheet detectors localisers recogniser photographs vmc_lib",
+        f"sheet {SHIPPED}",
     ),
     Step(
         f'{RENDER} --only "*/test" --first 40 --count 200 --folder {FRESH}',
@@ -216,35 +186,34 @@ STEPS = (
     Step(
         partial(fresh_test_set.names, FRESH),
         RESULTS / "fresh_names.npz",
-        f"recognition {WHAT} reproduce/peers",
+        f"recognition {SHIPPED}",
         5,
         needs="fresh_photos",
     ),
     Step(
         ledger.make,
         RESULTS / "ledger.json",
-        "localisation recognition fresh_names variations movements optimal vmc_lib "
-        "reproduce/ledger reproduce/trial.py reproduce/space.py reproduce/second_plant.py "
-        "reproduce/gabor.py",
+        "localisation recognition fresh_names variations movements optimal "
+        f"reproduce/results/bench {SHIPPED}",
         8,
     ),
     Step(
         partial(fresh_test_set.make, FRESH),
         RESULTS / "fresh_test_set.json",
-        f"detectors {WHERE} vmc_lib/what",
+        f"localisation recognition variations {SHIPPED}",
         25,
         needs="fresh_photos",
     ),
     Step(
         habits.make,
         RESULTS / "whole_arm_habits.npz",
-        "vmc_lib/motor reproduce/whole_arm",
+        WHOLE_ARM,
         1,
     ),
     Step(
         experiment.make,
         RESULTS / "whole_arm.json",
-        "whole_arm_habits vmc_lib/motor vmc_lib/cerebellum reproduce/whole_arm",
+        f"whole_arm_habits {WHOLE_ARM}",
         8,
     ),
     Step(DERIVED, plant.FILE, needs="myo-sim"),

@@ -12,7 +12,7 @@ from functools import cache, partial
 import numpy as np
 from scipy.optimize import brentq
 
-from reproduce import movements, results
+from reproduce import movements
 from reproduce.movements import SEEDS
 from reproduce.peers import cerebella
 from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration
@@ -115,10 +115,5 @@ def make(levels=LEVELS, seeds=SEEDS, **size):
     return movements.make(experiments, seeds)
 
 
-def measured():
-    """What shipped, as `movements.measured` has it."""
-    shipped = results.records("unsteady")
-    return {part: {k: np.array(v) for k, v in rows.items()} for part, rows in shipped.items()}
-
-
+measured = partial(movements.measured, "unsteady")
 _norm = partial(np.linalg.norm, axis=-1)

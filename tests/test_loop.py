@@ -123,6 +123,7 @@ def test_who_is_unsure_abstains_and_says_what_was_seen():
     unsure = looked([0.3, 0.2], [0.6, 0.5])
     assert unsure.box is None
     assert unsure.told.startswith("no shuttlecock, but 2 things")
+    assert looked([0.3], [0.6]).told.startswith("no shuttlecock, but 1 thing;")
     blind = looked(np.empty(0), np.empty(0))
     assert blind.told == "nothing that looks like an object"
 

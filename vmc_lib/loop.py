@@ -94,8 +94,8 @@ class Sight:
             return f"{len(sure)} shuttlecock{'s' * (len(sure) > 1)} ({', '.join(sure)} sure)"
         if not len(self.probability):
             return "nothing that looks like an object"
-        likeliest = self.probability.max()
-        return f"no shuttlecock, but {len(self.probability)} things; likeliest {likeliest:.0%}"
+        count, likeliest = len(self.probability), self.probability.max()
+        return f"no shuttlecock, but {count} thing{'s' * (count > 1)}; likeliest {likeliest:.0%}"
 
 
 @dataclass(frozen=True, eq=False)

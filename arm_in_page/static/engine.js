@@ -5,9 +5,7 @@ const vmcEngine = (() => {
 
   const load = async () => {
     if (typeof loadMujoco === "undefined") await vmcVendored("mujoco.js");
-    const packed = await fetch(`data:application/gzip;base64,${loadMujoco.wasm}`);
-    const stream = packed.body.pipeThrough(new DecompressionStream("gzip"));
-    const wasmBinary = await new Response(stream).arrayBuffer();
+    const wasmBinary = await vmcUnzip(loadMujoco.wasm).arrayBuffer();
     return loadMujoco({ wasmBinary, locateFile: (name) => name }); // nothing is left to locate
   };
 

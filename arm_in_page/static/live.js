@@ -3,12 +3,11 @@ const vmcLive = (() => {
   "use strict";
 
   const { Drawing } = vmcDrawing;
+  const { degrees, signed } = vmcPanel;
 
   const OFTEN = 6; // of so many frames one also moves the plot and the numbers: these are slow
   const ACTIVE = 0.05; // what is called an active muscle
   const frame = () => new Promise(requestAnimationFrame);
-  const signed = (number, digits) => number.toFixed(digits).replace("-", "−");
-  const degrees = (angle) => `${signed((angle * 180) / Math.PI, 1)}°`;
   const millimetres = (metres, digits = 0) => `${signed(1000 * metres, digits)} mm`;
 
   class Live {

@@ -4,6 +4,7 @@ Every function draws on matplotlib axes. Positions are in the plane, in metres.
 """
 
 import numpy as np
+from matplotlib.collections import LineCollection
 
 from book.figures.panels import panels
 from vmc_lib.arm.model import MUSCLES
@@ -14,9 +15,9 @@ from vmc_lib.show.plane import plane
 
 def shares(ax, target, points, weights):
     """Threads from the target (2,) to the templates used (N, 2), as thick as their weights (N,)."""
+    threads(ax, target, points, color=COLOURS["blue"], lw=10 * np.abs(weights))
+    ax.plot(*np.transpose(points), "o", ms=7, color=COLOURS["blue"])
     for point, weight in zip(points, weights, strict=True):
-        ax.plot(*np.transpose([target, point]), color=COLOURS["blue"], lw=10 * abs(weight))
-        ax.plot(*point, "o", ms=7, color=COLOURS["blue"])
         away = 7 if point[1] >= target[1] else -14  # from the threads
         ax.annotate(f"{weight:.2f}", point, (0, away), textcoords="offset points", ha="center")
 
@@ -24,9 +25,14 @@ def shares(ax, target, points, weights):
 def ends(ax, targets, reached):
     """Targets (…, 2) as green rings; where the hand ended (…, 2) as red dots, each on a line."""
     targets, reached = np.reshape(targets, (-1, 2)), np.reshape(reached, (-1, 2))
-    ax.plot(*np.stack([targets, reached]).transpose(2, 0, 1), color=COLOURS["red"], lw=1)
+    threads(ax, targets, reached, color=COLOURS["red"], lw=1)
     ax.plot(*targets.T, "o", ms=8, mfc="none", mew=1.8, color=COLOURS["green"])
     ax.plot(*reached.T, "o", ms=4, color=COLOURS["red"])
+
+
+def threads(ax, tails, tips, **style):
+    """Straight lines from tails (…, 2) to tips (n, 2); `style` as for a LineCollection."""
+    ax.add_collection(LineCollection(np.stack(np.broadcast_arrays(tails, tips), axis=1), **style))
 
 
 def arrows(ax, tails, tips, colour, label=None):

@@ -6,8 +6,7 @@ import numpy as np
 
 from reproduce import paper, second_plant
 from reproduce.ledger.entry import Row, mean
-from reproduce.ledger.planning import missed
-from reproduce.movements import SCENARIOS, SEEDS, measured
+from reproduce.movements import SCENARIOS, measured, repeat
 from vmc_lib.cerebellum.offline import algorithm_1
 from vmc_lib.cerebellum.online import WeightCorrection
 from vmc_lib.motor import templates
@@ -28,19 +27,19 @@ def examples():
 
     The searched n is the best of the paper's n, even where no correction would be better still.
     """
-    rows = [_example(np.random.default_rng(seed), templates.load()) for seed in SEEDS]
-    return {name: np.array([row[name] for row in rows]) for name in rows[0]}
+    return repeat(_example)
 
 
-def _example(rng, template_set):
+def _example(seed):
+    rng, template_set = np.random.default_rng(seed), templates.load()
     habit, others = (plan(draw_targets(template_set, n, rng), template_set) for n in (25, 100))
     planned, *tried = algorithm_1(habit).error
     learner = WeightCorrection().practise(habit)
     return {
         "off-line": (np.min(tried, axis=0) < planned).mean(),
         "searched n, error": np.min(tried, axis=0).mean() / planned.mean(),
-        "online, in-sample": (missed(learner.correct(habit)) < planned).mean(),
-        "online, held-out": (missed(learner.correct(others)) < missed(others)).mean(),
+        "online, in-sample": (learner.correct(habit).missed() < planned).mean(),
+        "online, held-out": (learner.correct(others).missed() < others.missed()).mean(),
     }
 
 
@@ -131,12 +130,10 @@ def _as_good():
 
 
 def _robots():
-    rows = [second_plant.experiment(seed) for seed in SEEDS]
-    found = {name: np.array([row[name] for row in rows]) for name in rows[0]}
     limit = {"planned / reach": paper.planned_error_ratio()}
     return [
         mean(f"two links, torques: {name}", limit.get(name, 1), values, better=-1, bound=True)
-        for name, values in found.items()
+        for name, values in repeat(second_plant.experiment).items()
     ]
 
 

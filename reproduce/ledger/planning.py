@@ -6,7 +6,7 @@ import numpy as np
 
 from reproduce import paper, results, space
 from reproduce.ledger.entry import Quantity, Row, fixed, mean
-from reproduce.movements import SCENARIOS, SEEDS, measured
+from reproduce.movements import SCENARIOS, SEEDS, measured, repeat
 from reproduce.peers import optimal
 from vmc_lib import photos
 from vmc_lib.motor import templates
@@ -14,11 +14,6 @@ from vmc_lib.motor.planning import draw_targets, exact_weights, habitual_weights
 from vmc_lib.where.localiser import Localiser
 
 PLANNED = {"better": -1, "rounding": paper.planned_rounding()}
-
-
-def missed(plans):
-    """How far the hand ends from its targets, (…), m."""
-    return np.linalg.norm(plans.reached() - plans.target, axis=-1)
 
 
 @cache
@@ -30,7 +25,7 @@ def draws(spacing=templates.SPACING, rule=habitual_weights, count=200):
 def _draw(seed, template_set, rule, count):
     targets = draw_targets(template_set, count, np.random.default_rng(seed))
     plans = plan(targets, template_set, rule)
-    return missed(plans).mean() / np.linalg.norm(targets, axis=-1).mean()
+    return plans.missed().mean() / np.linalg.norm(targets, axis=-1).mean()
 
 
 def _table_4():
@@ -86,7 +81,7 @@ def _nearby():
     gaps = np.linalg.norm(template_set.points[:, None] - template_set.points, axis=-1)
     pairs = np.argwhere(np.triu((gaps > 0) & (gaps < 1.1 * templates.SPACING)))
     habit = plan(template_set.points[pairs].mean(axis=1), template_set, chosen=pairs)
-    astray = missed(habit) / gaps[*pairs.T]
+    astray = habit.missed() / gaps[*pairs.T]
     return [
         mean("half-way mixtures end astray, over the gap", 0.5, astray, better=-1, bound=True),
         mean("mixtures that end between the two", 1, (astray < 0.5).astype(float)),
@@ -127,8 +122,7 @@ def _effort():
 @cache
 def in_space():
     """Draws in space: name -> (seeds,)."""
-    rows = [space.measured(seed) for seed in SEEDS]
-    return {name: np.array([row[name] for row in rows]) for name in rows[0]}
+    return repeat(space.measured)
 
 
 def _in_space():

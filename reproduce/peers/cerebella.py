@@ -28,8 +28,8 @@ from sklearn.neural_network import MLPRegressor
 from sklearn.pipeline import make_pipeline
 from sklearn.preprocessing import StandardScaler
 
-from reproduce import results
-from reproduce.movements import SEEDS, repeat
+from reproduce import movements as experiments
+from reproduce.movements import SEEDS
 from vmc_lib.arm.muscle import noisy
 from vmc_lib.cerebellum.online import AimCorrection, GranuleCells, mossy_fibres
 from vmc_lib.motor.planning import draw_targets, plan
@@ -156,19 +156,11 @@ LEARNERS = {
 
 def make(seeds=SEEDS, **size):
     """What `results/cerebella.json` holds: each learner's `compare`, with every seed."""
-    return {
-        name: {
-            key: np.round(values, 4).tolist()
-            for key, values in repeat(partial(compare, *learner, **size), seeds).items()
-        }
-        for name, learner in LEARNERS.items()
-    }
+    compared = {name: partial(compare, *learner, **size) for name, learner in LEARNERS.items()}
+    return experiments.make(compared, seeds)
 
 
-def measured():
-    """What shipped: learner -> name -> one entry for each seed."""
-    kept = results.records("cerebella")
-    return {learner: {k: np.array(v) for k, v in rows.items()} for learner, rows in kept.items()}
+measured = partial(experiments.measured, "cerebella")
 
 
 def compare(kind, cells, seed, movements=MOVEMENTS, held_out=200):
@@ -220,11 +212,7 @@ def _kept(regression):
 
 def _left(pupil, plans):
     """The mean miss of plans that the pupil corrects, over that of habit."""
-    miss, habit = (
-        np.linalg.norm(some.reached() - some.target, axis=-1).mean()
-        for some in (pupil.correct(plans), plans)
-    )
-    return miss / habit
+    return pupil.correct(plans).missed().mean() / plans.missed().mean()
 
 
 def arm(noise, stream):

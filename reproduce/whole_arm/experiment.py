@@ -42,11 +42,6 @@ def planned(targets, past, **rule):
     return plan(targets, past, chosen=octants(targets, past.points)[0], **rule)
 
 
-def missed(plans):
-    """How far the finger ends from each target, (n,), m."""
-    return np.linalg.norm(plans.target - plans.reached(), axis=-1)
-
-
 def habitual(past, targets):
     """The mean miss over the mean reach, by name; what corrections leave of it.
 
@@ -55,7 +50,7 @@ def habitual(past, targets):
     reach = np.linalg.norm(targets, axis=-1).mean()
     way = np.linalg.norm(targets - plant.tip(habits.START)[0], axis=-1).mean()
     none, *left = broyden_calibration(planned(targets, past)).error.mean(axis=1)
-    exact = missed(planned(targets, past, rule=exact_weights)).mean()
+    exact = planned(targets, past, rule=exact_weights).missed().mean()
     over = {"planned / reach": none / reach, "planned / way": none / way}
     shares = {f"{k} corrections": miss / none for k, miss in enumerate(left, start=1)}
     return {**over, "Eq. 4 / reach": exact / reach, **shares}
@@ -71,7 +66,7 @@ def practised(past, seed, count=COUNT, width=WIDTH):
     around = np.unique(spots[0][spots[1]], axis=0)
     aims = AimCorrection(past, GranuleCells(width), around).practise(seen)
     return {
-        name: missed(aims.correct(plans)).mean() / missed(plans).mean()
+        name: aims.correct(plans).missed().mean() / plans.missed().mean()
         for name, plans in (("in-sample", seen[:count]), ("held-out", new))
     }
 

@@ -94,19 +94,18 @@ def sharing(count=plant.MODEL.nu):
     return Nerves((kind[:, None] == np.unique(kind)).astype(float))
 
 
-def remember(nerves, goals, easy=EASY, corrected=1):
+def remember(nerves, goals, easy=EASY):
     """Past experience: a `TemplateSet` of reaches that end near the goals (N, 3).
 
-    Each is aimed beyond its goal, so often `corrected`, by as much as it missed. `easy` is the easy
+    Each is tried once, and then aimed beyond its goal by as much as it missed. `easy` is the easy
     posture (7,), or one for each goal (N, 7).
     """
-    aims = goals
-    for more in range(corrected + 1):
-        ways = zip(aims, np.broadcast_to(easy, (len(goals), len(EASY))), strict=True)
+    missed = 0
+    for _ in ("tried", "corrected"):
+        ways = zip(goals + missed, np.broadcast_to(easy, (len(goals), len(EASY))), strict=True)
         commands = np.array([nerves.commands(posture(*way)) for way in ways])
         reached = nerves.move(commands).reached
-        if more < corrected:
-            aims = aims + goals - reached
+        missed = goals - reached
     return TemplateSet(reached, commands, reach=nerves.move)
 
 

@@ -16,7 +16,7 @@ from vmc_lib.motor.planning import (
     surrounding,
     turned,
 )
-from vmc_lib.motor.templates import load
+from vmc_lib.motor.templates import TemplateSet, load
 
 SQUARE = np.array([(0.1, -0.3), (0.0, -0.3), (0.0, -0.4), (0.1, -0.4)])
 INSIDE = st.tuples(st.floats(0, 0.1), st.floats(-0.4, -0.3)).map(np.array)
@@ -79,9 +79,18 @@ def test_a_large_batch_is_moved_in_parts_alike(template_set):
     np.testing.assert_allclose(many[-1], plan(targets, template_set).move().reached, atol=1e-12)
 
 
+def test_targets_are_drawn_only_where_templates_surround_them(template_set):
+    leaning = np.array([[0, 0], [0.1, 0.05], [0.05, 0.1], [0.15, 0.15]])
+    few = TemplateSet(leaning, template_set.excitations[:4])
+    with pytest.raises(ValueError, match="too few for 50 targets; take templates that cover"):
+        draw_targets(few, 50, np.random.default_rng(0))
+
+
 def test_habit_misses_by_a_few_percent_of_the_reach(template_set):
     targets = draw_targets(template_set, 200, np.random.default_rng(2))
-    missed = np.linalg.norm(plan(targets, template_set).reached() - targets, axis=1)
+    reach = plan(targets, template_set)
+    missed = np.linalg.norm(reach.reached() - targets, axis=1)
+    assert reach.missed() == pytest.approx(missed, abs=1e-12)
     assert 0.01 < np.mean(missed / np.linalg.norm(targets, axis=1)) < 0.05
 
 

@@ -29,7 +29,9 @@ def test_the_exam_asks_what_the_tables_ask():
     """Put to the photos that ship, its questions get the tables' answers."""
     shots = photos.load("rig", "test")
     found = fresh_test_set.ask_kernels("rig", shots) | fresh_test_set.ask_detectors("rig", shots)
-    tables = localisation.table_1("rig", "test", "context") | localisation.table_2("rig", "test")
+    kernels = localisation.trainings("rig", "test", "context")
+    tables = {kernel: rows.mean(0) for kernel, rows in kernels.items()}
+    tables |= localisation.table_2("rig", "test")
     for question, counts in found.items():
         shares = [share for share, *_ in fresh_test_set.shares(*counts)]
         assert shares == pytest.approx(tables[question], abs=0.02)

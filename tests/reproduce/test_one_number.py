@@ -14,7 +14,7 @@ BOOK = Path(ledger.__file__).parents[2] / "book"
 CHAPTERS = sorted(BOOK.glob("[0-9]*.ipynb"))
 CLAIMS = {"planned_error_ratio", "calibrated_error_ratio", "MEAN_ERROR"}
 CLAIMS |= {"TABLE_1", "TABLE_2", "TABLE_3"}
-SHARED = {"value", "measured", "trainings", "table_1", "table_2", "spread", "verdicts"}
+SHARED = {"value", "measured", "trainings", "table_2", "spread", "verdicts"}
 PAPER_ALONE = {  # cells that show what the paper prints, and no number of ours beside it
     "d68265bb",  # the counts behind Table I's percentages
     "printed-sums",  # what Tables IV to VI add up to

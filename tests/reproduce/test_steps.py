@@ -87,6 +87,15 @@ def test_nothing_that_ships_depends_on_itself():
                 assert (ROOT / name).exists(), name
 
 
+def test_a_step_depends_on_all_code_that_it_can_run():
+    for name, code in {
+        "ledger": "reproduce/paper.py reproduce/intervals.py reproduce/peers/optimal.py",
+        "detectors": "vmc_lib/boxes.py vmc_lib/compiled.py reproduce/training.py",
+        "ablation": "reproduce/wide_training.py",  # imported in a function
+    }.items():
+        assert {ROOT / file for file in code.split()} <= BY_NAME[name].inputs()
+
+
 def test_every_file_that_ships_has_its_step():
     shipped = {*data.FOLDER.glob("*.npz"), *results.FOLDER.glob("*.npz")}
     shipped |= set(results.FOLDER.glob("*.json"))

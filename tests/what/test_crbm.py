@@ -76,11 +76,6 @@ def test_energy_is_equation_1(world):
     assert ours.numpy() == pytest.approx(energies, abs=1e-9)
 
 
-def test_free_energy_sums_over_every_state(world):
-    machine, v, _, energies = world
-    assert machine.free_energy(v).item() == pytest.approx(-np.logaddexp.reduce(-energies), abs=1e-9)
-
-
 def test_posterior_and_pooling_probabilities(world):
     machine, v, states, energies = world
     chance = np.exp(energies.min() - energies)

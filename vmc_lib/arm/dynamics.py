@@ -59,20 +59,20 @@ def hand(q):
     return _each_wave(q) @ coefficients()[1]
 
 
-def torque_for(q, velocity, acceleration, load=0.0, step=STEP):
+def torque_for(q, velocity, acceleration):
     """Inverse dynamics: torques (…, 2) in N m that give these accelerations over one step."""
-    m11, m12, m22, b1, b2 = _dynamics(_terms(q, load), *velocity.T, step)
+    m11, m12, m22, b1, b2 = _dynamics(_terms(q), *velocity.T, STEP)
     a1, a2 = acceleration.T
     return np.array([m11 * a1 + m12 * a2 + b1, m12 * a1 + m22 * a2 + b2]).T
 
 
-def acceleration_from(q, velocity, torque, load=0.0, step=STEP):
-    """Forward dynamics, Eq. 12: the accelerations (…, 2) that joint torques cause; `load` in kg."""
-    return np.array(accelerations(_terms(q, load), *velocity.T, *torque.T, step)).T
+def acceleration_from(q, velocity, torque):
+    """Forward dynamics, Eq. 12: the accelerations (…, 2) that joint torques cause."""
+    return np.array(accelerations(_terms(q), *velocity.T, *torque.T, STEP)).T
 
 
-def _terms(q, load):
-    return (_each_wave(q) @ coefficients(load)[0]).T
+def _terms(q):
+    return (_each_wave(q) @ coefficients()[0]).T
 
 
 def accelerations(terms, w1, w2, t1, t2, step):

@@ -22,7 +22,7 @@ KNOTS = 28  # spline coefficients of each muscle's excitation
 
 @cache
 def spline(knots=KNOTS):
-    """Cubic B-splines (STEPS, knots); each row sums to 1, so knots in [0, 1] stay in [0, 1]."""
+    """Cubic B-splines (SAMPLES, knots); a row sums to 1, so knots in [0, 1] stay in [0, 1]."""
     edges = np.concatenate([[0] * 3, np.linspace(0, 1, knots - 2), [1] * 3])
     return read_only(BSpline.design_matrix(np.linspace(0, 1, SAMPLES), edges, 3).toarray())
 

@@ -52,6 +52,10 @@ class Plan:
         """Where the hand is seen to end, (…, 2); in space (…, 3), where there is no prism."""
         return turned(self._ends, self.prism) if self.prism else self._ends
 
+    def missed(self):
+        """How far from the target the hand is seen to end, (…), m."""
+        return np.linalg.norm(self.reached() - self.target, axis=-1)
+
     @cached_property
     def _ends(self):
         count = self.weights.shape[-1]
@@ -157,10 +161,19 @@ def _by_quadrant(target, points):
 
 
 def draw_targets(template_set, count, rng):
-    """Targets (count, 2), drawn evenly from the plane that the templates surround."""
+    """Targets (count, 2), drawn evenly from the plane that the templates surround.
+
+    ValueError where they surround so little of it that the draw does not fill up.
+    """
     low, high = template_set.points.min(axis=0), template_set.points.max(axis=0)
     drawn = rng.uniform(low, high, (4 * count + 20, 2))
-    return drawn[surrounded(drawn, template_set.points)][:count]
+    inside = drawn[surrounded(drawn, template_set.points)]
+    if len(inside) < count:
+        raise ValueError(
+            f"the templates surround {len(inside)} of {len(drawn)} places drawn, too few for "
+            f"{count} targets; take templates that cover the plane"
+        )
+    return inside[:count]
 
 
 def plan(target, template_set, rule=habitual_weights, chosen=None):

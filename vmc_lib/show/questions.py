@@ -126,7 +126,7 @@ def agree(answer, expected, tolerance):
 def readings(text):
     """The numbers that a typed answer may mean: "1/9", "11,5", "11.5 mm"; of "80 %", 80 and 0.8.
 
-    None where it is no number. questions.js reads what is typed into a page by the same rule.
+    Empty where it is no number. questions.js reads what is typed into a page by the same rule.
     """
     found = _NUMBER.fullmatch(text.strip().replace("−", "-"))
     if not found:

@@ -69,33 +69,15 @@ class CRBM:
         agreement = (h * self.drive(v)).sum((1, 2, 3))
         return -agreement - (self.a[:, None, None] * v - v**2 / 2).sum((1, 2, 3))
 
-    def free_energy(self, v):
-        """-log of the sum of exp(-E(v, h)) over every allowed h: (n,).
-
-        Blocks do not speak to each other, so the sum is a product over them, each with c² + 1
-        terms: one unit on, or none.
-        """
-        units, off, most = self._weights(v)
-        pooled = (most + self.lib.log(off + units.sum(0))).sum((1, 2, 3))
-        return -pooled - (self.a[:, None, None] * v - v**2 / 2).sum((1, 2, 3))
-
-    def _weights(self, v):
-        """In each block, exp(drive) of its units (c², n, K, rows, columns), and 1 for all off.
-
-        Both over exp(most), so that nothing overflows; and `most`.
-        """
-        drive = self.drive(v)
-        places = product(range(self.c), repeat=2)
-        units = self.lib.stack([drive[..., y :: self.c, x :: self.c] for y, x in places])
-        most = self.lib.amax(units, 0).clip(0)
-        return self.lib.exp(units - most), self.lib.exp(-most), most
-
     def posterior(self, v):
         """Probabilities that hidden and pooled units are on, given v: (h, p).
 
         In a block, the units and the off state share one softmax of their drives.
         """
-        units, off, _ = self._weights(v)
+        drive, places = self.drive(v), product(range(self.c), repeat=2)
+        units = self.lib.stack([drive[..., y :: self.c, x :: self.c] for y, x in places])
+        most = self.lib.amax(units, 0).clip(0)  # taken off, so that nothing overflows
+        units, off = self.lib.exp(units - most), self.lib.exp(-most)
         every = off + units.sum(0)
         n, K, rows, columns = every.shape
         h = (units / every).reshape(self.c, self.c, n, K, rows, columns)

@@ -170,5 +170,5 @@ const vmcPanel = (() => {
     return [box, turner(views)];
   };
 
-  return Object.assign(panel, { muscles, turner });
+  return Object.assign(panel, { degrees, muscles, signed, turner });
 })();
