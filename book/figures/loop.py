@@ -30,7 +30,7 @@ def draw_movement(photo, box, reach, motion):
     hand = reach.hand(motion)
     turn = reach.turn * np.minimum(1, np.arange(len(hand)) / TURNED)
     [place] = photo.camera.project(reach.target[None])
-    view = photo_view(photo.image, [(box, "target", "green")], [(place, "", "green")])
+    view = photo_view(photo.image, [(box, "seen", "green")], [(place, "", "green")])
     view = view.replace("</svg>", _moving(photo.camera.project(hand[::EVERY]), "orange") + "</svg>")
     return view, arm_scene(
         motion.q,
@@ -60,7 +60,7 @@ def draw_stage(photo, sight, reach, online, stage):
         return draw_step(photo, sight, reach, stage if stage in SEEING else "names")
     if stage == "place":
         place = photo.camera.project(reach.target)[0]
-        view = photo_view(photo.image, [(sight.box, "target", "green")], [(place, "", "green")])
+        view = photo_view(photo.image, [(sight.box, "seen", "green")], [(place, "", "green")])
         balls = [(reach.target, "green")]
         return view, arm_scene(START, turn=reach.turn, photo=photo, balls=balls)
     motion = {"plan": reach.planned, "off-line": reach.calibrated, "online": online}[stage]
@@ -77,9 +77,9 @@ def from_above(photo, reach, turned):
     axis = np.insert(TRUNK, 1, 0)
     parts = (
         ([photo.camera.position, photo.target], ":", "blue", ""),
-        ([shoulder, ahead], "--", "grey", "the arm's plane"),
+        *([([shoulder, ahead], "--", "grey", "the arm's plane")] if turned else []),
         ([axis, to_world([[0, 0, 0]], turn)[0]], "-", "purple", ""),
-        (to_world(geometry(q).joints, turn), "o-", "ink", "hand"),
+        (to_world(geometry(q).joints, turn), "o-", "ink", "" if turned else "hand"),
         ([axis], "s", "purple", "trunk's axis"),
         ([to_world([[0, 0, 0]], turn)[0]], "o", "ink", "shoulder"),
         ([photo.camera.position], "^", "blue", "eye"),
