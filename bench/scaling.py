@@ -46,11 +46,8 @@ def more_templates(spacing):
 def more_movements():
     """Granule cells that practise: the miss left on targets never practised, over the planned."""
     template_set, rng = templates.load(), np.random.default_rng(0)
-    unseen, learner, seconds = (
-        plan(draw_targets(template_set, 200, rng), template_set),
-        AimCorrection(template_set),
-        0.0,
-    )
+    unseen = plan(draw_targets(template_set, 200, rng), template_set)
+    learner, seconds = AimCorrection(template_set), 0.0
     rows = []
     for before, count in pairwise(LESSONS):
         targets = draw_targets(template_set, count - before, rng)

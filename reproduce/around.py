@@ -9,7 +9,7 @@ import numpy as np
 
 from reproduce.feedback import plans
 from vmc_lib.arm.dynamics import hand
-from vmc_lib.motor.feedback import TICK, intend, switch
+from vmc_lib.motor.feedback import TICK, Intention, intend, switch
 from vmc_lib.motor.planning import draw_targets, surrounded
 
 RADIUS, APART = 0.02, 0.03  # of the ball; how near to its middle a way may be meant
@@ -45,7 +45,7 @@ def around(target, ball, template_set):
     if not free.any():
         raise ValueError(f"no way to {target} m keeps {APART} m from {ball} m; move the ball")
     best = np.where(free, length, np.inf).argmin()
-    return spots[best], type(both)(both.q[[best]], both.excitations[[best]])
+    return spots[best], Intention(both.q[[best]], both.excitations[[best]])
 
 
 @cache

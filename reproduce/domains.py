@@ -14,7 +14,7 @@ from reproduce.peers.features import histograms_of_gradients
 from reproduce.pools import NARROW, by_kind
 from reproduce.results import arrays
 from vmc_lib import photos
-from vmc_lib.what.cdbn import CDBN, N_W, K
+from vmc_lib.what.cdbn import CDBN, K
 from vmc_lib.what.crops import crop, shrunk, whiten
 from vmc_lib.what.recogniser import READ_OUTS, read_outs
 
@@ -78,18 +78,13 @@ def things(level, split, folder=photos.FOLDER):
     return tuple(map(np.array, zip(*found, strict=True)))
 
 
-def without_labels(crops, patches, seed=0):
+def without_labels(crops, patches):
     """A CDBN of the paper's size that has learnt from crops as they are: no label chose any."""
-    import torch  # here, for torch weighs on who only reads the results
+    from vmc_lib.what.learning import SECOND, train  # here, for torch weighs on who only reads
 
-    from vmc_lib.what.learning import FIRST, SECOND, learn
-
-    pictures = torch.from_numpy(whiten(shrunk(crops, NARROW)))
-    first = learn(pictures, seed, N_W, patches, **FIRST)
-    _, p1 = first.posterior(first.trim(pictures))
-    mean, spread = float(p1.mean()), float(p1.std())
-    second = learn((p1 - mean) / spread, seed, N_W, patches, **SECOND | ON_NARROW)
-    return CDBN.from_arrays(CDBN(first, second, mean, spread).arrays())
+    pictures, every = whiten(shrunk(crops, NARROW)), np.ones(len(crops), bool)
+    network = train(pictures, every, patches=patches, second=SECOND | ON_NARROW)
+    return CDBN.from_arrays(network.arrays())
 
 
 def looked_at(network, crops):

@@ -13,7 +13,7 @@ from reproduce.intervals import wilson
 from reproduce.localisation import TRAININGS, classifiers, hits
 from reproduce.recognition import tally
 from reproduce.variations import SPLITS, VARIATIONS, vary_all
-from vmc_lib import photos
+from vmc_lib import photos, show
 from vmc_lib.what.cdbn import N_W, PATCHES
 from vmc_lib.what.recogniser import READ_OUTS
 from vmc_lib.where.detector import ObjectDetector
@@ -46,7 +46,7 @@ def shares(right, wrong, missed):
 
 def table(*questions):
     """Answers as Markdown: precision / recall on every level, each with its interval."""
-    asked, lines = answers(), ["| | " + " | ".join(photos.LEVELS) + " |", "|---|---|---|---|"]
+    asked, rows = answers(), []
     for question in questions:
         cells = [question if isinstance(question, str) else "{}, seed {}".format(*question)]
         for level in photos.LEVELS:
@@ -54,8 +54,8 @@ def table(*questions):
             cells.append(
                 " / ".join(f"{share:.3f} ({low:.2f}–{high:.2f})" for share, low, high in parts)
             )
-        lines.append("| " + " | ".join(cells) + " |")
-    return "\n".join(lines)
+        rows.append(cells)
+    return show.table(["asked", *photos.LEVELS], rows)
 
 
 def make(exam, folder=photos.FOLDER, trainings=TRAININGS, seeds=NETWORK_SEEDS, patches=PATCHES):

@@ -13,7 +13,6 @@ SHARE, SHARE_3, LENGTH = 0.00005, 0.0005, 0.00005
 # Block 1-1 and Section IV A: localisation
 PHOTOS = 80  # 40 to train, 40 to test
 BOXES_PER_PHOTO = 130  # "in average"; 10,560 boxes in all
-BOXES = 10_560
 TRAINING_ROIS = {"positive": 224, "negative": 4707}
 TEST_ROIS = {"positive": 232, "negative": 4702}
 
@@ -32,7 +31,6 @@ POOL = 2  # c
 FILTER_WIDTH = 8  # n_w in Fig. 7
 PROJECTED_WIDTH = 23  # a unit of the second layer seen in the image, Fig. 7
 CROP_WIDTH = 200
-PATCHES = 50_000
 
 # Blocks 2-3 and Section IV C-D: movement. Five examples, a column each.
 TARGETS = np.array(
@@ -69,7 +67,6 @@ TABLE_6_WEIGHTS = np.array(  # after it; as in Table IV, and the columns sum to 
 )
 MEAN_ERROR = {"planned": 0.0393, "off-line": 0.0234, "online": 0.0238}  # over all 25 movements
 TEMPLATES = 4  # N
-MOVEMENTS = 25  # an experiment
 
 
 def planned_error_ratio() -> float:

@@ -83,10 +83,8 @@ def examine(model, photo, sized=False):
     recogniser; candidate, kept: how well (IoU) the best candidate and the best kept box fit it;
     chosen: the box (4,) that the loop takes for a shuttlecock; fit: how well that fits one.
     """
-    sight, [holds, *_] = (
-        see(model, photo.image, photo.camera if sized else None),
-        [*photo.boxes, "neither"],
-    )
+    sight = see(model, photo.image, photo.camera if sized else None)
+    holds = next(iter(photo.boxes), "neither")
     chosen = [] if sight.box is None else sight.box
     found = {"holds": holds, "chosen": None if sight.box is None else _rounded(sight.box)}
     if holds == "neither":

@@ -138,12 +138,12 @@ STEPS = (
     Step(recognition.make, RESULTS / "recognition.npz", "photos cdbn", 3),
     Step(variations.make, RESULTS / "variations.npz", "photos", 15),
     Step(optimal.make, RESULTS / "optimal.npz", f"templates {ARM}", 3),
-    Step(steady.make, RESULTS / "steady.npz", f"templates optimal {ARM}", 5),
+    Step(steady.make, RESULTS / "steady.npz", f"templates {ARM}", 5),
     Step(movements.make, RESULTS / "movements.json", f"templates {ARM}", 10),
     Step(cerebella.make, RESULTS / "cerebella.json", f"templates {ARM}", 5),
     Step(feedback.make, RESULTS / "feedback.json", f"templates {ARM}", 2),
     Step(unsteady.make, RESULTS / "unsteady.json", f"templates {ARM}", 3),
-    Step(weakened.make, RESULTS / "weakened.npz", f"templates optimal {ARM}", 1),
+    Step(weakened.make, RESULTS / "weakened.npz", f"templates {ARM}", 1),
     Step(trial.make, RESULTS / "lesions.json", SHIPPED, 6),
     Step(
         wide_training.photographs,
@@ -164,7 +164,7 @@ STEPS = (
         SHIPPED,
         needs="elsewhere_photos",
     ),
-    Step(domains.make, RESULTS / "domains.npz", f"photos candidates detectors {REAL}", 8),
+    Step(domains.make, RESULTS / "domains.npz", "photos", 8),
     Step(ablation.make, RESULTS / "ablation.npz", f"photos candidates detectors {REAL}", 15),
     Step(
         f"{RENDER} --sheet --samples 16",
@@ -200,7 +200,7 @@ STEPS = (
     Step(
         partial(fresh_test_set.make, FRESH),
         RESULTS / "fresh_test_set.json",
-        f"localisation recognition variations {SHIPPED}",
+        f"localisation {SHIPPED}",
         25,
         needs="fresh_photos",
     ),

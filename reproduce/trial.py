@@ -59,14 +59,14 @@ def first_failure(scores, rule="own"):
     return np.where(arrived, "", np.array(FAILURE_STAGES)[broken.argmax(axis=1)])
 
 
-def trial(level, split="test"):
-    """`score` of every photo of a level and split, as a dictionary of arrays (n,).
+def trial(level):
+    """`score` of every test photo of a level, as a dictionary of arrays (n,).
 
     The photos go through joblib: `with parallel_config(n_jobs=…)` sends them to several cores, and
     with its "dask" backend to a cluster.
     """
     model = VisuomotorModel.load(level)
-    scores = Parallel()(delayed(_tried)(model, photo) for photo in photos.load(level, split))
+    scores = Parallel()(delayed(_tried)(model, photo) for photo in photos.load(level, "test"))
     return {key: np.array([s[key] for s in scores]) for key in scores[0]}
 
 
@@ -112,15 +112,15 @@ def lesioned(model, photo, box, lesion):
     return reach(model, place, None if lesion == "cerebellum" else algorithm_1)
 
 
-def lesions(level, split="test", folder=photos.FOLDER):
-    """Every photo of a level and split under each of `LESIONS`: two lists for each lesion.
+def lesions(level, folder=photos.FOLDER):
+    """Every test photo of a level under each of `LESIONS`: two lists for each lesion.
 
     "object" is what the box holds that is gone for: "shuttlecock", "cup", "neither" or, with no
     box, "nothing"; "missed" is how far the hand ends from the true shuttlecock in mm, None where
     there was no reach.
     """
     model = VisuomotorModel.load(level)
-    shots = photos.load(level, split, folder)
+    shots = photos.load(level, "test", folder)
     left = Parallel()(delayed(_lesioned)(model, photo) for photo in shots)
     keys = ("object", "missed")
     return {how: {key: [one[how][key] for one in left] for key in keys} for how in LESIONS}
@@ -128,7 +128,7 @@ def lesions(level, split="test", folder=photos.FOLDER):
 
 def make(levels=photos.LEVELS, folder=photos.FOLDER):
     """What `results/lesions.json` holds: `lesions` of every level's test photos in `folder`."""
-    return {level: lesions(level, folder=folder) for level in levels}
+    return {level: lesions(level, folder) for level in levels}
 
 
 def _lesioned(model, photo):

@@ -59,6 +59,9 @@ def test_a_constant_of_another_module_is_read_anew():
     assert half(3.0) == 1.5
     other.c = 4.0
     assert half(3.0) == 0.75
+    first = compiled(made("def first(x):\n    return x / other.c[0]", other=other)[0].first)
+    for other.c in (np.array([2.0]), np.array([4.0])):
+        assert first(3.0) == 3.0 / other.c[0]
 
 
 def test_what_is_kept_for_the_next_process_is_not_used_for_another_source(tmp_path):

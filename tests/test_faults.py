@@ -170,6 +170,8 @@ def test_a_demo_whose_cells_were_not_run_says_what_it_misses(path):
         (float("nan"), 11.5, "✗ Not yet. You have nan."),
         ([11.5, [1, 2]], 11.5, "✗ Not yet. You have [11.5, [1, 2]]."),
         ([None, [1, 2]], 11.5, "Not answered yet."),
+        ([[None, 1], [3]], 11.5, "Not answered yet."),
+        ([np.zeros(2), np.zeros((2, 3))], 11.5, "✗ Not yet."),
         (np.array([11.5]), 11.5, "✗ Not yet."),
         ("1/9", 1 / 9, "✓ Right."),
         ("11,5", 11.5, "✓ Right."),

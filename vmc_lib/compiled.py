@@ -76,7 +76,8 @@ def _frozen_in(value, names=()):
     if isinstance(value, CodeType):
         return _instructions(value)
     if isinstance(value, ModuleType):
-        return tuple(x for n in names if isinstance(x := vars(value).get(n), Number | tuple))
+        read = (vars(value).get(n) for n in names)
+        return tuple(_frozen_in(x) for x in read if isinstance(x, Number | tuple | np.ndarray))
     if isinstance(value, np.ndarray):
         return value.shape, value.dtype.str, value.tobytes()
     if isinstance(value, tuple):

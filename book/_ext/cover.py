@@ -1,6 +1,6 @@
 """The moving picture in README: the demo of the front page, photographed in a browser.
 
-Build the book, then run python book/_ext/cover.py.
+Build the book, then run python -m book._ext.cover.
 """
 
 import io

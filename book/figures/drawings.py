@@ -24,9 +24,9 @@ def drawing(width, height, *parts):
     )
 
 
-def words(x, y, text, colour="ink", anchor="middle"):
-    """A line of text, by the middle of its foot unless told otherwise."""
-    style = f'fill="{ink(colour)}" stroke="none" text-anchor="{anchor}"'
+def words(x, y, text, colour="ink"):
+    """A line of text, by the middle of its foot."""
+    style = f'fill="{ink(colour)}" stroke="none" text-anchor="middle"'
     return f'<text x="{x}" y="{y}" {style}>{text}</text>'
 
 

@@ -31,8 +31,8 @@ def panels(columns=1, size=(6.5, 2.7)):
     return fig, *axes[0]
 
 
-def muscle_lines(ax, x, values, names=MUSCLES):
+def muscle_lines(ax, x, values):
     """A line for each muscle: `values` (n, muscles) over `x` (n,)."""
-    for name, line in zip(names, np.transpose(values), strict=True):
+    for name, line in zip(MUSCLES, np.transpose(values), strict=True):
         colour, style = STYLES[name]
         ax.plot(x, line, style, color=COLOURS[colour], label=name)

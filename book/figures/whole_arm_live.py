@@ -20,11 +20,9 @@ START = habits.START @ plant.FOLLOWS.T  # (18,)
 def arm(past, rest):
     """The arm and its memories, at rest with activations (63,), as `live_whole_arm` takes it."""
     surfaces = json.loads(bones.FILE.read_text())
-    ends, ways = lines(START)
+    _, ways = lines(START)
     still = {
-        "q": START.tolist(),
         "activation": rest.tolist(),
-        "joints": ends.tolist(),
         "frames": _frames(surfaces),
         "ways": [way.round(5).tolist() for way in ways],
     }

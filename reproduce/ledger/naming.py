@@ -57,11 +57,11 @@ def _table_3():
     ]
 
 
-def _trainings(level, read_out, split="test"):
-    """Counts (trainings, 4) of the network trained again, as from `tally`."""
+def _trainings(level, read_out):
+    """Test counts (trainings, 4) of the network trained again, as from `tally`."""
     i, j = photos.LEVELS.index(level), READ_OUTS.index(read_out)
     found = variations.load()
-    return np.array([found[k][1][i, j, variations.SPLITS.index(split)] for k in NETWORKS])
+    return np.array([found[k][1][i, j, variations.SPLITS.index("test")] for k in NETWORKS])
 
 
 def _width():

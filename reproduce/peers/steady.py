@@ -14,6 +14,7 @@ import numpy as np
 from reproduce import unsteady
 from reproduce.peers import optimal
 from reproduce.peers.optimal import INNER, TARGETS
+from reproduce.peers.optimal_feedback import scatter
 from reproduce.results import arrays
 from vmc_lib.motor.inverse_dynamics import MOVING, SAMPLES, smooth
 from vmc_lib.motor.planning import plan
@@ -90,7 +91,7 @@ def compared(rng, repeats=REPEATS):
         many = np.array([reach(one).reached for one in wavered])  # one at a time: less memory
         calm = reach(told)
         found[name] = {
-            "scatter": 1000 * np.sqrt(many.var(axis=0, ddof=1).mean(axis=-1)),
+            "scatter": 1000 * scatter(many),
             "miss": 1000 * np.linalg.norm(calm.reached - TARGETS[NEW], axis=-1),
             "effort": optimal.effort(told),
             "jerk": jerk(calm.hand[..., :2]),

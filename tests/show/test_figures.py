@@ -55,6 +55,8 @@ def test_arrays_keep_their_pixels():
     assert np.array_equal(pixels(pictures(colour, "x")[0])[..., ::-1], colour)
     grey = np.array([[0.0, 0.5], [1.0, 2.0]])
     assert pixels(pictures(grey, "x")[0]).tolist() == [[0, 128], [255, 255]]
+    with pytest.raises(ValueError, match="int64 has no known range: give uint8"):
+        pictures(np.full((4, 4), 200), "x")
 
 
 def test_photographs_are_small():

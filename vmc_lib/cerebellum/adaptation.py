@@ -33,12 +33,8 @@ class Adaptation:
     def __init__(self, skill, template_set: TemplateSet, corrects="aim", width=0.1, caution=0.3):
         if corrects not in CORRECTIONS:
             raise ValueError(f"cannot correct {corrects!r}; choose one of {CORRECTIONS}")
-        self.skill, self.template_set, self.corrects, self.caution = (
-            skill,
-            template_set,
-            corrects,
-            caution,
-        )
+        self.skill, self.template_set = skill, template_set
+        self.corrects, self.caution = corrects, caution
         nothing = np.zeros_like(template_set.points)
         self.cells = GranuleCells(width, cells=300).fit(template_set.points, nothing)
         self.purkinje = self.cells.purkinje_

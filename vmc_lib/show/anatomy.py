@@ -23,7 +23,8 @@ def anatomy():
     """What the viewer draws the arm with, as JSON takes it.
 
     `joints`: where each turns in its parent's frame (3,), and its axis (3,); `hand`: the wrist in
-    the forearm's frame (3,); `limits` (2, 2) in rad. `muscles`: name, tendon's `slack` in m, the
+    the forearm's frame (3,); `limits` (2, 2) in rad; `trunk`: x and z of the axis that it turns
+    about (2,), m. `muscles`: name, tendon's `slack` in m, the
     belly's `volume` in m³, the share of the tendon `before` it, and the `path`: points `on` a body
     (trunk 0, humerus 1, forearm 2), `at` one place (3,) or, between the limits of a `joint`, many.
     """

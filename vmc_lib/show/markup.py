@@ -101,6 +101,8 @@ def _variable(colour):
 
 def image_tag(image):
     """An image as an `<img>`: small ones enlarged with sharp pixels, as one must see each."""
+    if image.dtype.kind in "iu" and image.dtype != np.uint8:
+        raise ValueError(f"{image.dtype} has no known range: give uint8, or floats in 0..1")
     if image.dtype != np.uint8:
         image = np.uint8(np.clip(np.nan_to_num(image), 0, 1) * 255 + 0.5)
     if image.ndim not in (2, 3) or (image.ndim == 3 and image.shape[2] != 3) or 0 in image.shape:

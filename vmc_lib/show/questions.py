@@ -91,12 +91,12 @@ def _folded(summary, verdict, why, kind):
 def check(answer, expected, tolerance=1e-6, hint=""):
     """Show whether the reader's `answer` is right.
 
-    `expected` is a number, a text, or any nesting of these; each number may be off by `tolerance`,
+    `expected` is a number, a text, or any nesting of numbers; a number may be off by `tolerance`,
     in its own unit. An answer with a None in it is not answered yet; a wrong one is shown the
     `hint` (Markdown) and, in a test (`VMC_RENDER_MODE=test`), raises AssertionError: running a
     chapter proves its solutions.
     """
-    if None in np.ravel(np.asarray(answer, object)).tolist():
+    if _unanswered(answer):
         typed = render_mode() == "book" and isinstance(expected, (int, float, str, tuple))
         return display(HTML(_field(expected, tolerance, hint) if typed else verdict(NOT_YET)))
     if agree(answer, expected, tolerance):
@@ -104,6 +104,13 @@ def check(answer, expected, tolerance=1e-6, hint=""):
     if render_mode() == "test":
         raise AssertionError(f"check: {answer!r} is not {expected!r} within {tolerance}")
     display(HTML(verdict(f"{WRONG} You have {html.escape(repr(answer))}. {inline(hint)}")))
+
+
+def _unanswered(answer):
+    """Whether an answer is None, or one within it is."""
+    parts = answer.ravel() if isinstance(answer, np.ndarray) else answer
+    several = isinstance(parts, np.ndarray | list | tuple)
+    return answer is None or (several and any(map(_unanswered, parts)))
 
 
 def agree(answer, expected, tolerance):

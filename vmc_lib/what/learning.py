@@ -176,12 +176,12 @@ def learn(maps, seed, n_w, patches, *, epochs, width, **how):
     return crbm
 
 
-def train(pictures, positive, seed=0, n_w=N_W, patches=PATCHES, device="cpu"):
+def train(pictures, positive, seed=0, n_w=N_W, patches=PATCHES, device="cpu", second=SECOND):
     """A CDBN of Learners, taught by whitened pictures (n, 1, 200, 200).
 
     No target is learnt, but a label chooses: the first layer learns from all pictures, the second,
     as in the paper, only from the positive ones (`positive` (n,) bool), the shuttlecocks. `device`
-    says where: "cpu" or "cuda". ValueError for no positive.
+    says where: "cpu" or "cuda"; `second` how the second layer learns. ValueError for no positive.
     """
     if not np.any(positive):
         raise ValueError("the second layer learns from the positive pictures: give at least one")
@@ -189,5 +189,5 @@ def train(pictures, positive, seed=0, n_w=N_W, patches=PATCHES, device="cpu"):
     first = learn(pictures, seed, n_w, patches, **FIRST)
     _, p1 = first.posterior(first.trim(pictures[torch.as_tensor(positive)]))
     mean, spread = float(p1.mean()), float(p1.std())
-    second = learn((p1 - mean) / spread, seed, n_w, patches, **SECOND)
-    return CDBN(first, second, mean, spread)
+    taught = learn((p1 - mean) / spread, seed, n_w, patches, **second)
+    return CDBN(first, taught, mean, spread)

@@ -129,7 +129,7 @@ def _merge_all(rows, pixels, pairs, first_alike, counting, like):
 # ---------------------------------------------------------------- many hierarchies, one list
 
 
-ALL, COLOURLESS = ("colour", "texture", "size", "fill"), ("texture", "size", "fill")
+ALL, COLOURLESS = MEASURES, MEASURES[1:]
 
 
 @dataclass(frozen=True)

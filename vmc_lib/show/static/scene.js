@@ -134,7 +134,7 @@ const vmcScene = (() => {
     forget(path) {
       this.viewer.handle_command({ type: "delete", path });
       for (const key of [...this.sent.keys()]) {
-        const other = key.split(" ")[1] ?? "";
+        const other = key.split(" ")[1];
         if (other === path || other.startsWith(`${path}/`)) this.sent.delete(key);
       }
     }
