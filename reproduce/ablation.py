@@ -27,7 +27,7 @@ WITHOUT = {  # how a `Pool` changes when an idea is left out
     "without photographs": lambda pool: replace(pool, real=dict.fromkeys(SHARES, ())),
 }
 DRAWS, STEPS, BATCH = 6, 300, 16
-EXAMPLES, WINDOWS = 1000, 12  # that a read-out learns from; of a photograph, about, that are asked
+EXAMPLES, WINDOWS = 1000, 12  # a read-out learns from; about how many of a photograph are asked
 
 
 def make(folder=photos.FOLDER, draws=DRAWS, steps=STEPS, examples=EXAMPLES, everyday=None):

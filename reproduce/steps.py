@@ -4,7 +4,7 @@ import sys
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
 from inspect import getsourcefile
 from modulefinder import ModuleFinder
 from multiprocessing import get_context
@@ -79,6 +79,7 @@ def _made(step):
         write(step.file, step.make)
 
 
+@cache
 def imported(file):
     """A file of Python, and all of the project's that it imports, or that these import."""
     finder = ModuleFinder([str(ROOT)])

@@ -75,9 +75,10 @@ def from_above(photo, reach, turned):
     q, turn = (reach.planned.q[-1], reach.turn) if turned else (START, 0.0)
     shoulder, ahead = to_world([[0, 0, 0.06], [0.5, 0, 0.06]], turn)
     axis = np.insert(TRUNK, 1, 0)
+    plane = [([shoulder, ahead], "--", "grey", "the arm's plane")] if turned else []
     parts = (
         ([photo.camera.position, photo.target], ":", "blue", ""),
-        *([([shoulder, ahead], "--", "grey", "the arm's plane")] if turned else []),
+        *plane,
         ([axis, to_world([[0, 0, 0]], turn)[0]], "-", "purple", ""),
         (to_world(geometry(q).joints, turn), "o-", "ink", "" if turned else "hand"),
         ([axis], "s", "purple", "trunk's axis"),
