@@ -6,11 +6,11 @@ from html import escape
 from io import BytesIO
 from pathlib import Path
 
-import matplotlib.pyplot as plt
 import numpy as np
 from IPython.display import HTML, display
 from PIL import Image
 
+from book.figures.panels import panels
 from vmc_lib.boxes import iou
 from vmc_lib.photos import as_rgb
 from vmc_lib.show.controls import slider
@@ -95,12 +95,12 @@ def best_so_far(truth, boxes):
 
 def rising(best, now):
     """A plot of what `best_so_far` returned for the boxes up to number `now`, none later."""
-    fig, ax = plt.subplots(figsize=(4.2, 3.2))
+    fig, ax = panels(size=(4.2, 3.2))
     for name, overlap in best.items():
         ax.plot(np.arange(1, now + 1), overlap[:now], label=f"{name} {overlap[now - 1]:.2f}")
     ax.axvline(now, color=COLOURS["ink"], lw=1)
     ax.set(xlabel="regions made", ylabel="best overlap so far", xlim=(0, len(overlap)), ylim=(0, 1))
-    fig.legend(loc="outside upper center", ncols=2)
+    fig.legend(loc="upper center", ncols=2)
     return fig
 
 

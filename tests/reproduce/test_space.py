@@ -9,8 +9,13 @@ from vmc_lib.motor import templates
 
 
 @pytest.fixture(scope="module")
-def memories():
-    return space.SpatialTemplates.of(templates.load(0.08))
+def flat():
+    return templates.load(0.08)
+
+
+@pytest.fixture(scope="module")
+def memories(flat):
+    return space.turned(flat)
 
 
 def test_a_turn_carries_the_hand_about_the_trunk(memories):
@@ -21,30 +26,31 @@ def test_a_turn_carries_the_hand_about_the_trunk(memories):
 
 
 def test_a_memory_alone_is_repeated(memories):
-    chosen = np.array([[7, 1, 2, 3, 4, 5, 6, 8]])
-    np.testing.assert_allclose(memories.move(chosen, np.eye(8)[:1]), memories.points[[7]])
+    again = memories.reach(memories.excitations[[7]])
+    np.testing.assert_allclose(again.reached, memories.points[[7]])
 
 
-def test_the_eight_memories_lie_round_the_target(memories):
+def test_the_eight_memories_lie_round_the_target(flat, memories):
     target = to_world(np.array([0.15, -0.40, 0.06]), np.radians(30))
-    points = memories.points[memories.surrounding(target)]
+    points = memories.points[space.surrounding(target, flat)]
     assert np.all((points.min(axis=0) < target) & (target < points.max(axis=0)))
 
 
-def test_practice_brings_the_hand_nearer(memories):
+def test_practice_brings_the_hand_nearer(flat):
     places = np.array([[0.12, -0.40, 0.06], [0.17, -0.39, 0.06], [0.15, -0.42, 0.06]])
     targets = to_world(places, np.radians([12.0, 28, 44]))
-    weights, (planned, *_, last) = space.practise(memories, targets)
-    np.testing.assert_allclose(weights.sum(axis=-1), 1)
+    practised = space.practise(targets, flat)
+    planned, *_, last = practised.error
+    np.testing.assert_allclose(practised.weights.sum(axis=-1), 1)
     assert np.all(last < 0.5 * planned)
     assert last.mean() < 0.1 * planned.mean()
 
 
-def test_a_place_beyond_experience_is_refused(memories):
+def test_a_place_beyond_experience_is_refused(flat):
     with pytest.raises(ValueError, match="reach"):
-        memories.surrounding(np.array([0.9, -0.4, 0.1]))
+        space.surrounding(np.array([0.9, -0.4, 0.1]), flat)
     with pytest.raises(ValueError, match="turn"):
-        memories.surrounding(to_world([0.15, -0.40, 0.06], np.radians(-30)))
+        space.surrounding(to_world([0.15, -0.40, 0.06], np.radians(-30)), flat)
 
 
 def test_what_is_measured_is_a_share_and_corrections_leave_less_and_less():
@@ -52,5 +58,5 @@ def test_what_is_measured_is_a_share_and_corrections_leave_less_and_less():
     assert 0 < numbers["planned / reach"] < 0.1
     assert 0 < numbers["in the plane"] < 0.1
     assert 0 < numbers["exact / reach"] < 0.7 * numbers["planned / reach"]
-    assert 0 < numbers["2 corrections"] < numbers["1 corrections"] < 1
+    assert 0 < numbers["corrected 2 ×"] < numbers["corrected 1 ×"] < 1
     assert numbers == space.measured(0, count=8, trials=2)

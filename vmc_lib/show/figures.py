@@ -5,6 +5,7 @@ tuple of these shown side by side. Colours are named, never raw.
 """
 
 import html
+import math
 import re
 
 import matplotlib.pyplot as plt
@@ -16,6 +17,7 @@ from mdit_py_plugins.dollarmath import dollarmath_plugin
 
 from vmc_lib.show.markup import data_uri, image_tag, number, svg
 from vmc_lib.show.palette import COLOURS, EDGE, ON_PHOTO
+from vmc_lib.show.pen import width
 from vmc_lib.show.scene import Scene
 
 _MARKDOWN = MarkdownIt().use(
@@ -102,8 +104,9 @@ def dot_plot(series, xlabel, published=None, xlim=None):
     multiples: a tuple of such figures.
     """
     names = list(dict.fromkeys(name for rows in series.values() for name in rows))
-    wide = max(4.2, 2.2 + 0.085 * max(map(len, names)))  # room for the longest name
-    fig, ax = plt.subplots(figsize=(wide, 0.95 + len(names) * (0.16 + 0.14 * len(series))))
+    room = 0.15 + max(map(width, names))  # for the longest name
+    size = max(4.2, room + 2.4), 0.95 + len(names) * (0.16 + 0.14 * len(series))
+    fig, ax = plt.subplots(figsize=size, layout="none")
     for k, (label, rows) in enumerate(series.items()):
         apart = 0.5 * ((k + 0.5) / len(series) - 0.5)
         value, low, high = np.transpose([np.broadcast_to(row, 3) for row in rows.values()])
@@ -117,9 +120,13 @@ def dot_plot(series, xlabel, published=None, xlim=None):
     ax.set_yticks(range(len(names)), names)
     ax.set(xlabel=xlabel, xlim=xlim, ylim=(len(names) - 0.5, -0.5))
     labels = ax.get_legend_handles_labels()[1]
-    if len(labels) > 1:
-        ncols = 4 if len("".join(labels)) < 24 else 3
-        fig.legend(loc="outside upper center", ncols=ncols, columnspacing=1, handletextpad=0.3)
+    ncols = 4 if len("".join(labels)) < 24 else 3
+    rows = math.ceil(len(labels) / ncols) if len(labels) > 1 else 0
+    if rows:
+        fig.legend(loc="upper center", ncols=ncols, columnspacing=1, handletextpad=0.3)
+    left, right = room / size[0], 1 - 0.2 / size[0]
+    bottom, top = 0.5 / size[1], 1 - (0.12 + 0.22 * rows) / size[1]
+    fig.subplots_adjust(left=left, right=right, bottom=bottom, top=top)
     return fig
 
 

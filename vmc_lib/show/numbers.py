@@ -74,10 +74,11 @@ def _name(artist, otherwise):
 
 def _reader(axis):
     """How an axis tells a value: where its places have names, by the nearest name."""
-    if isinstance(axis.get_major_formatter(), FixedFormatter | FuncFormatter):
-        names = [text.get_text() for text in axis.get_ticklabels()]
+    if isinstance(formatter := axis.get_major_formatter(), FixedFormatter | FuncFormatter):
+        places = axis.get_ticklocs()
+        names = [str(name) for name in formatter.format_ticks(places)]
         if all(name[:1].isalpha() for name in names):
-            return lambda value: names[np.abs(axis.get_ticklocs() - value).argmin()]
+            return lambda value: names[np.abs(places - value).argmin()]
     return number
 
 

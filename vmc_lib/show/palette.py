@@ -39,6 +39,7 @@ STYLE = {
     "axes.spines.right": False,
     "axes.grid": True,
     "axes.axisbelow": True,
+    **{"xtick.bottom": False, "ytick.left": False},  # the grid's lines are ticks
     "axes.prop_cycle": plt.cycler(
         color=[COLOURS[c] for c in ("blue", "orange", "green", "red", "purple", "grey")]
     ),

@@ -7,7 +7,8 @@ import io
 from functools import lru_cache
 
 from matplotlib.backends.backend_svg import FigureCanvasSVG, RendererSVG
-from matplotlib.font_manager import findfont, get_font
+from matplotlib.cbook import is_math_text
+from matplotlib.font_manager import FontProperties, findfont, get_font
 from matplotlib.textpath import text_to_path
 
 
@@ -36,6 +37,11 @@ def drawn(fig):
     fig.draw(canvas.pen)
     canvas.pen.finalize()
     return text.getvalue()
+
+
+def width(words):
+    """How wide a plot's words stand on a line, in inches."""
+    return _size(words, FontProperties(), is_math_text(words))[0] / 72
 
 
 @lru_cache(4096)
