@@ -1,8 +1,8 @@
 """The loop as pictures: what the eye sees beside what the arm does, one step after the other."""
 
-import matplotlib.pyplot as plt
 import numpy as np
 
+from book.figures.panels import panels
 from vmc_lib.arm.kinematics import TRUNK, to_world
 from vmc_lib.arm.model import geometry
 from vmc_lib.motor.templates import START
@@ -92,7 +92,7 @@ def from_above(photo, reach, turned):
 
 def above(parts, title, xlim, ylim):
     """Things seen from above (a figure): each part is (places (n, 3), style, colour, label)."""
-    fig, ax = plt.subplots(figsize=(5.2, 4.8))
+    fig, ax = panels(size=(5.2, 4.8))
     for places, style, colour, label in parts:
         x, _, z = np.transpose(places)
         ax.plot(z, x, style, color=COLOURS[colour], ms=9)
