@@ -7,7 +7,7 @@ from functools import cache, lru_cache
 import cv2
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.ticker import AutoLocator
+from matplotlib.ticker import AutoLocator, FixedLocator
 
 from vmc_lib.show.live import STATIC
 from vmc_lib.show.palette import COLOURS, STYLE
@@ -62,8 +62,9 @@ def _thin_ticks(fig):
     for axis in (axis for ax in fig.axes for axis in (ax.xaxis, ax.yaxis)):
         if isinstance(locator := axis.get_major_locator(), AutoLocator):
             locator.set_params(nbins=5, steps=[1, 2, 5, 10])
-        if axis.get_scale() == "log" and np.ptp(np.log10(axis.get_view_interval())) > 1:
-            axis.minorticks_off()  # they bear no numbers where a decade does
+        decades = np.ptp(np.log10(axis.get_view_interval())) if axis.get_scale() == "log" else 0
+        if decades > 1 or (decades and isinstance(locator, FixedLocator)):
+            axis.minorticks_off()  # they bear no numbers
 
 
 def _axes(fig):
