@@ -54,7 +54,7 @@ def same_partition(a, b):
 
 
 def walked(image, scale, min_size, way=lambda loop: loop):
-    weights, edges = way(lightest_first)(way(edge_weights)(image))
+    weights, edges = lightest_first(way(edge_weights)(image))
     inside = np.searchsorted(weights, np.inf)
     return way(join)(weights[:inside], edges[:inside], *image.shape[:2], scale / 255, min_size)
 

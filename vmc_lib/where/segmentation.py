@@ -51,30 +51,16 @@ def edge_weights(channels):
     return weights.ravel()
 
 
-@compiled
 def lightest_first(weights):
     """Weights (n,), float32 from 0 up, sorted, and which they are, (n,): equal ones in order.
 
-    Read as integers, the bits of such numbers sort alike: eight bits at a time, the last first.
+    The bits of such numbers sort as they do: a weight is the upper half of a number of 64 bits,
+    which one it is the lower.
     """
-    half, digits = np.uint64(32), np.uint64(255)
-    keys, moved = np.empty(len(weights), np.uint64), np.empty(len(weights), np.uint64)
-    shifts, counts = np.array([32, 40, 48, 56], np.uint64), np.zeros((4, 256), np.int64)
-    for i, bits in enumerate(weights.view(np.uint32)):
-        keys[i] = np.uint64(bits) << half | np.uint64(i)  # a weight and which it is, moved as one
-        for turn, shift in enumerate(shifts):
-            counts[turn, keys[i] >> shift & digits] += 1
-    for turn, shift in enumerate(shifts):
-        place = np.cumsum(counts[turn]) - counts[turn]
-        for key in keys:
-            digit = key >> shift & digits
-            moved[place[digit]] = key
-            place[digit] += 1
-        keys, moved = moved, keys
-    ordered, order = moved.view(np.uint32)[: len(keys)], moved.view(np.uint32)[len(keys) :]
-    for i, key in enumerate(keys):
-        ordered[i], order[i] = key >> half, key & np.uint64(0xFFFFFFFF)
-    return ordered.view(np.float32), order
+    halves = np.stack([np.arange(len(weights), dtype="<u4"), weights.view("<u4")], axis=-1)
+    halves.ravel().view("<u8").sort()  # in place
+    edges, bits = halves.T.copy()
+    return bits.view(np.float32), edges
 
 
 @compiled
