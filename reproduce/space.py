@@ -18,7 +18,6 @@ from vmc_lib.cerebellum.offline import broyden_calibration
 from vmc_lib.motor import planning, templates
 
 TURNS = np.radians([-10.0, 5.0, 20.0, 35.0, 50.0, 65.0])
-MUSCLES = slice(0, 6)  # of the commands; the last is the turn
 
 
 class Turned(NamedTuple):
@@ -34,8 +33,8 @@ class Turned(NamedTuple):
 
 
 def move(commands, perturbation=UNPERTURBED):
-    """What commands (…, T, 7) make of the arm and the trunk."""
-    return Turned(templates.reach(commands[..., MUSCLES], perturbation), commands[..., -1, -1])
+    """What commands (…, T, 7), six excitations and the turn, make of the arm and the trunk."""
+    return Turned(templates.reach(commands[..., :-1], perturbation), commands[..., -1, -1])
 
 
 def turned(template_set):
@@ -43,14 +42,13 @@ def turned(template_set):
 
     Its commands are (6 N, T, 7).
     """
-    excitations = np.repeat(template_set.excitations, len(TURNS), axis=0)
-    turns = np.broadcast_to(
-        np.tile(TURNS, len(template_set.points))[:, None], excitations.shape[:2]
-    )
-    ends = np.repeat(templates.reach(template_set.excitations).hand[:, -1], len(TURNS), axis=0)
-    limits = np.append(np.zeros(6), -np.inf), np.append(np.ones(6), np.inf)
-    commands = np.concatenate([excitations, turns[..., None]], axis=-1)
-    return templates.TemplateSet(to_world(ends, turns[:, 0]), commands, limits, move)
+    count, turns = len(TURNS), np.tile(TURNS, len(template_set.points))
+    excitations = np.repeat(template_set.excitations, count, axis=0)
+    held = np.broadcast_to(turns[:, None, None], (*excitations.shape[:2], 1))
+    ends = np.repeat(templates.reach(template_set.excitations).hand[:, -1], count, axis=0)
+    limits = np.append(np.zeros(6), -np.inf), np.append(np.ones(6), np.inf)  # the trunk's: none
+    commands = np.concatenate([excitations, held], axis=-1)
+    return templates.TemplateSet(to_world(ends, turns), commands, limits, move)
 
 
 def surrounding(target, template_set):

@@ -4,6 +4,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from vmc_lib.arm.model import MUSCLES
+from vmc_lib.show.figures import margins
 from vmc_lib.show.palette import COLOURS
 
 # What straightens the elbow is blue; what bends it is orange, or red where it spans no shoulder.
@@ -19,15 +20,11 @@ STYLES = {
 
 def panels(columns=1, size=(6.5, 2.7)):
     """A figure with a row of plots. Its layout is fixed: a demo draws many, and quickly."""
-    fig, axes = plt.subplots(1, columns, figsize=size, layout="none", squeeze=False)
-    width, height = size
-    fig.subplots_adjust(
-        left=0.7 / width,
-        right=1 - 0.2 / width,
-        bottom=0.5 / height,
-        top=1 - 0.3 / height,
-        wspace=0.75 * columns / (width - 0.9 - 0.75 * (columns - 1)),  # 0.75 inches
-    )
+    apart = 0.75  # inches
+    room = (size[0] - 0.9 - apart * (columns - 1)) / columns  # for each plot
+    grid = {"layout": "none", "gridspec_kw": {"wspace": apart / room}}
+    fig, axes = plt.subplots(1, columns, figsize=size, squeeze=False, **grid)
+    margins(fig)
     return fig, *axes[0]
 
 

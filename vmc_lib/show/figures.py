@@ -17,7 +17,7 @@ from mdit_py_plugins.dollarmath import dollarmath_plugin
 
 from vmc_lib.show.markup import data_uri, image_tag, number, svg
 from vmc_lib.show.palette import COLOURS, EDGE, ON_PHOTO
-from vmc_lib.show.pen import width
+from vmc_lib.show.pen import wide
 from vmc_lib.show.scene import Scene
 
 _MARKDOWN = MarkdownIt().use(
@@ -104,7 +104,7 @@ def dot_plot(series, xlabel, published=None, xlim=None):
     multiples: a tuple of such figures.
     """
     names = list(dict.fromkeys(name for rows in series.values() for name in rows))
-    room = 0.15 + max(map(width, names))  # for the longest name
+    room = 0.15 + max(map(wide, names))  # for the longest name
     size = max(4.2, room + 2.4), 0.95 + len(names) * (0.16 + 0.14 * len(series))
     fig, ax = plt.subplots(figsize=size, layout="none")
     for k, (label, rows) in enumerate(series.items()):
@@ -124,10 +124,14 @@ def dot_plot(series, xlabel, published=None, xlim=None):
     rows = math.ceil(len(labels) / ncols) if len(labels) > 1 else 0
     if rows:
         fig.legend(loc="upper center", ncols=ncols, columnspacing=1, handletextpad=0.3)
-    left, right = room / size[0], 1 - 0.2 / size[0]
-    bottom, top = 0.5 / size[1], 1 - (0.12 + 0.22 * rows) / size[1]
-    fig.subplots_adjust(left=left, right=right, bottom=bottom, top=top)
+    margins(fig, left=room, top=0.12 + 0.22 * rows)
     return fig
+
+
+def margins(fig, left=0.7, right=0.2, bottom=0.5, top=0.3):
+    """Leave so many inches around a figure's plots: quicker than to have their room sought."""
+    width, height = fig.get_size_inches()
+    fig.subplots_adjust(left / width, bottom / height, 1 - right / width, 1 - top / height)
 
 
 def inline(text):

@@ -62,9 +62,10 @@ def _thin_ticks(fig):
     for axis in (axis for ax in fig.axes for axis in (ax.xaxis, ax.yaxis)):
         if isinstance(locator := axis.get_major_locator(), AutoLocator):
             locator.set_params(nbins=5, steps=[1, 2, 5, 10])
-        decades = np.ptp(np.log10(axis.get_view_interval())) if axis.get_scale() == "log" else 0
-        if decades > 1 or (decades and isinstance(locator, FixedLocator)):
-            axis.minorticks_off()  # they bear no numbers
+        if axis.get_scale() == "log":
+            decades = np.ptp(np.log10(axis.get_view_interval()))
+            if decades > 1 or isinstance(locator, FixedLocator):
+                axis.minorticks_off()  # they bear no numbers
 
 
 def _axes(fig):

@@ -39,7 +39,7 @@ def drawn(fig):
     return text.getvalue()
 
 
-def width(words):
+def wide(words):
     """How wide a plot's words stand on a line, in inches."""
     return _size(words, FontProperties(), is_math_text(words))[0] / 72
 
