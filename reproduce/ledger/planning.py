@@ -130,8 +130,8 @@ def _in_space():
     left = "error after {} over planned"
     return [
         mean("planned error over reach, in space", claimed, found["planned / reach"], **PLANNED),
-        mean(left.format("one correction"), 1, found["1 corrections"], better=-1, bound=True),
-        mean(left.format("three corrections"), 1, found["3 corrections"], better=-1, bound=True),
+        mean(left.format("one correction"), 1, found["corrected 1 ×"], better=-1, bound=True),
+        mean(left.format("three corrections"), 1, found["corrected 3 ×"], better=-1, bound=True),
     ]
 
 
