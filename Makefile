@@ -81,7 +81,7 @@ $(READY): requirements.txt constraints.txt pyproject.toml
 lock:  # for every system and every Python from 3.11 on
 	@$(PYTHON) -m venv _build/uv && _build/uv/bin/pip install --quiet uv==0.13.9
 	_build/uv/bin/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes \
-	  --no-annotate --custom-compile-command "make lock" -o constraints.txt requirements.txt
+	  --no-strip-extras --no-annotate --custom-compile-command "make lock" -o constraints.txt requirements.txt
 	sed -i.old '/^\(torch\|triton\|cuda-\|nvidia-\)/,/[^\\]$$/d' constraints.txt && rm constraints.txt.old
 
 clean:

@@ -78,13 +78,35 @@ def test_what_is_declared_is_pinned_and_nothing_else():
     assert not {n for n, version in pinned.items() if version not in EVERYTHING[n]}
 
 
-def test_the_lock_holds_every_pin_but_torch_by_checksum():
+def locked():
+    """The lock's lines, each with a checksum: name → requirement."""
     lock = (ROOT / "constraints.txt").read_text()
-    locked = re.findall(r"^([\w.-]+)==([\w.]+).*\\\n +--hash=sha256:", lock, flags=re.M)
-    assert len(locked) == len(re.findall(r"^\w", lock, flags=re.M))
     assert "://" not in lock
-    pinned = {(canonical(name.split("[")[0]), version) for name, version in PINS}
-    assert {name for name, _ in pinned - {*locked}} == {"torch"}
+    lines = re.findall(r"^(\w.*?) *\\\n +--hash=sha256:", lock, flags=re.M)
+    assert len(lines) == len(re.findall(r"^\w", lock, flags=re.M))
+    return {canonical(r.name): r for r in map(Requirement, lines)}
+
+
+def test_the_lock_holds_every_pin_but_torch():
+    held = {(name, str(r.specifier)) for name, r in locked().items()}
+    pinned = {(canonical(name.split("[")[0]), f"=={version}") for name, version in PINS}
+    assert {name for name, _ in pinned - held} == {"torch"}
+
+
+def test_the_lock_names_every_extra_that_is_asked_for():
+    """Where it does not, pip 23 takes the extra's newest release, which the lock does not hold."""
+    lock = locked()
+    here = {name: r for name, r in lock.items() if not r.marker or r.marker.evaluate()}
+    missing = {
+        (name, asked.name)
+        for name, package in here.items()
+        for asked in map(Requirement, metadata.requires(name) or [])
+        for extra in ("", *package.extras)
+        if not asked.marker or asked.marker.evaluate({"extra": extra})
+        if not asked.extras <= lock.get(canonical(asked.name), asked).extras
+    }
+    assert len(here) > 100
+    assert not missing
 
 
 def test_a_reader_installs_no_tools():
