@@ -1,7 +1,8 @@
 """How sure a number is that was measured a few times, and how sure a difference."""
 
 import numpy as np
-from scipy.stats import binomtest, sem, t
+from scipy.special import stdtrit
+from scipy.stats import binomtest, sem
 
 
 def student(values):
@@ -13,7 +14,7 @@ def student(values):
     n = len(values)
     if n < 2:
         raise ValueError(f"{n} values have no spread: give two or more")
-    return np.mean(values, axis=0), t.interval(0.95, n - 1)[1] * sem(values)
+    return np.mean(values, axis=0), stdtrit(n - 1, 0.975) * sem(values)
 
 
 def wilson(right, n):

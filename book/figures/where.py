@@ -27,7 +27,7 @@ def mosaic(image, labels):
     flat = labels.ravel()
     size = np.maximum(np.bincount(flat), 1)
     means = np.stack([np.bincount(flat, channel) / size for channel in image.reshape(-1, 3).T], 1)
-    return np.uint8(means[labels])
+    return np.uint8(means)[labels]
 
 
 def in_corner(words):

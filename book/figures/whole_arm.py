@@ -6,6 +6,8 @@ What is drawn is played back: the movement is simulated first.
 import mujoco
 import numpy as np
 from matplotlib.collections import LineCollection
+from matplotlib.patches import Rectangle
+from matplotlib.transforms import Affine2D
 
 from book.figures.panels import panels
 from reproduce.whole_arm import plant
@@ -13,8 +15,10 @@ from vmc_lib.show import COLOURS
 
 BONES = ("humerus_r", "ulna_r", "lunate_r")  # shoulder, elbow and wrist are where these begin
 VIEWS = {"from the side": (0, 1, "up (m)"), "from above": (0, 2, "to the right (m)")}
-CORNER = (0.02, 0.02, 0.3, 0.352)  # of a plot: a square, the target's surroundings in it
-NEAR = 0.05  # m: how far they reach
+CORNER = np.array([0.02, 0.02]), np.array([0.3, 0.352])  # of a plot: a square, its place and size
+NEAR = 0.05  # m: how far around the target one sees in the corner
+BONE = {"color": COLOURS["grey"], "alpha": 0.4, "lw": 7, "solid_capstyle": "round"}
+RING = {"ms": 9, "mfc": "none", "mew": 1.8, "color": COLOURS["green"]}
 
 
 def lines(joints):
@@ -40,38 +44,44 @@ def placed(joints):
 def views(motion, moment, target):
     """A movement at one of its moments, the finger's way so far, and the target (a green ring).
 
-    A figure for each view; in its corner, the target's surroundings, larger.
+    A plot for each view; in its corner, the target's surroundings, larger.
     """
     bones, ways = lines(motion.joints[moment])
-    tips = np.array([lines(q)[0][-1] for q in [*motion.joints[:moment:3], motion.joints[moment]]])
+    tips = plant.fingertip([*motion.joints[:moment:3], motion.joints[moment]])
     away = 1000 * np.linalg.norm(tips[-1] - target)
     active = motion.activation[moment]
     shade = np.clip(0.22 + 1.6 * active, 0, 1)
-    drawn = []
-    for title, (x, y, label) in VIEWS.items():
-        fig, ax = panels(size=(4.1, 3.9))
+    fig, *axes = panels(2, size=(8.2, 3.9))
+    for ax, (title, (x, y, label)) in zip(axes, VIEWS.items(), strict=True):
         paths = [way[:, [x, y]] for way in ways]
-        ax.plot(bones[:, x], bones[:, y], color=COLOURS["line"], lw=7, solid_capstyle="round")
+        ax.plot(bones[:, x], bones[:, y], **BONE)
         ax.add_collection(
             LineCollection(paths, colors=COLOURS["red"], alpha=shade, lw=0.7 + 2 * active)
         )
-        near = ax.inset_axes(CORNER, xticks=[], yticks=[])
-        near.spines[:].set_visible(True)
-        for each in (ax, near):
-            each.plot(tips[:, x], tips[:, y], color=COLOURS["blue"], lw=1.4)
-            each.plot(tips[-1, x], tips[-1, y], "o", ms=4, color=COLOURS["blue"])
-            ring = {"ms": 9, "mfc": "none", "mew": 1.8, "color": COLOURS["green"]}
-            each.plot(target[x], target[y], "o", **ring)
+        for near in ({}, corner(ax, target[[x, y]], upside_down=y == 2)):
+            ax.plot(tips[:, x], tips[:, y], color=COLOURS["blue"], lw=1.4, **near)
+            ax.plot(tips[-1, x], tips[-1, y], "o", ms=4, color=COLOURS["blue"], **near)
+            ax.plot(target[x], target[y], "o", **RING, **near)
         view_from(ax, y, label, f"{title}: {away:.0f} mm away")
-        side = NEAR * (-1 if y == 2 else 1)
-        near.set(xlim=(target[x] - NEAR, target[x] + NEAR))
-        near.set(ylim=(target[y] - side, target[y] + side))
-        drawn.append(fig)
-    return tuple(drawn)
+    return fig
+
+
+def corner(ax, middle, upside_down):
+    """What draws in a framed corner of a plot, larger, what lies around `middle` (2,).
+
+    It has no axes of its own: a demo draws them for longer than all that is in them.
+    """
+    place, size = CORNER
+    frame = ax.add_patch(Rectangle(place, *size, transform=ax.transAxes, fill=False, lw=0.8))
+    larger = (
+        Affine2D().translate(*-middle).scale(*size / (2 * NEAR) * [1, -1 if upside_down else 1])
+    )
+    return {"transform": larger.translate(*place + size / 2) + ax.transAxes, "clip_path": frame}
 
 
 def view_from(ax, y, label, title):
     """The axes of a view, which shows the axis `y` upwards."""
     low, high = ((-0.45, 0.3), (0.35, -0.4))[y == 2]
     ax.set(xlim=(-0.2, 0.68), ylim=(low, high), aspect="equal")
+    ax.set(xticks=(0, 0.3, 0.6), yticks=(-0.3, 0, 0.3))
     ax.set(xlabel="forward (m)", ylabel=label, title=title)

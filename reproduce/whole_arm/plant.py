@@ -50,8 +50,7 @@ class Motion(NamedTuple):
     @property
     def reached(self):
         """Where the tip of the index finger ended, (…, 3), m."""
-        ends = self.joints[..., -1, :]
-        return np.array([_tip(q) for q in ends.reshape(-1, MODEL.nq)]).reshape(*ends.shape[:-1], 3)
+        return fingertip(self.joints[..., -1, :])
 
 
 def move(excitations, posture, activation):
@@ -67,16 +66,20 @@ def move(excitations, posture, activation):
 
 def tip(posture):
     """Where a posture (7,) puts the tip of the index finger, (3,), m, and its slopes (3, 7)."""
-    slopes, at = np.zeros((3, MODEL.nv)), _tip(FOLLOWS @ posture)
+    slopes, at = np.zeros((3, MODEL.nv)), fingertip(FOLLOWS @ posture)
     mujoco.mj_comPos(MODEL, _DATA)
     mujoco.mj_jacSite(MODEL, _DATA, slopes, None, _TIP)
     return at, slopes @ FOLLOWS
 
 
-def _tip(joints):
-    _DATA.qpos[:] = joints
-    mujoco.mj_kinematics(MODEL, _DATA)
-    return _DATA.site_xpos[_TIP].copy()
+def fingertip(joints):
+    """Where joints (…, 18), rad, put the tip of the index finger: (…, 3), m."""
+    at = []
+    for q in np.reshape(joints, (-1, MODEL.nq)):
+        _DATA.qpos[:] = q
+        mujoco.mj_kinematics(MODEL, _DATA)
+        at.append(_DATA.site_xpos[_TIP].copy())
+    return np.reshape(at, (*np.shape(joints)[:-1], 3))
 
 
 def demand(posture, velocity, acceleration):

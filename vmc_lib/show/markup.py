@@ -7,7 +7,7 @@ from functools import cache, lru_cache
 import cv2
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.ticker import AutoLocator, FixedLocator
+from matplotlib.ticker import AutoLocator, FixedLocator, MaxNLocator
 
 from vmc_lib.show.live import STATIC
 from vmc_lib.show.palette import COLOURS, STYLE
@@ -17,6 +17,7 @@ from vmc_lib.show.render_mode import render_mode
 _NAMES = {value: name for name, value in COLOURS.items()} | {"#000000": "ink", "#ffffff": "paper"}
 _MINUS = re.compile(r"(?<=[\s(>])-(?=\.?\d)")  # before a number in words: the axes have it so
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+_STEPS = MaxNLocator(5, steps=[1, 2, 5, 10])
 _SVG_ROOT = 'font-family="DejaVu Sans, Verdana, sans-serif" stroke-linejoin="round"'
 
 
@@ -40,7 +41,7 @@ def _style_sheet():
 
 def svg(fig, salt):
     """The figure as SVG, its text as text and its colours as CSS variables; closes the figure."""
-    _thin_ticks(fig)
+    _set_ticks(fig)
     with plt.rc_context(STYLE | {"svg.hashsalt": salt}):
         svg = drawn(fig)
     plt.close(fig)  # or the notebook would show it a second time
@@ -57,15 +58,16 @@ def svg(fig, salt):
     return _stackable(re.sub(r"\n\s*", "\n", svg).strip(), fig, f"{salt}-panels")
 
 
-def _thin_ticks(fig):
-    """At most five steps on an axis: a third of the time to draw a plot went into its ticks."""
+def _set_ticks(fig):
+    """At most five steps on an axis, known before it is drawn: a third of its time went there."""
     for axis in (axis for ax in fig.axes for axis in (ax.xaxis, ax.yaxis)):
+        low, high = sorted(axis.get_view_interval())
         if isinstance(locator := axis.get_major_locator(), AutoLocator):
-            locator.set_params(nbins=5, steps=[1, 2, 5, 10])
-        if axis.get_scale() == "log":
-            decades = np.ptp(np.log10(axis.get_view_interval()))
-            if decades > 1 or isinstance(locator, FixedLocator):
-                axis.minorticks_off()  # they bear no numbers
+            ticks = _STEPS.tick_values(low, high)
+            seen = np.abs(ticks - (low + high) / 2) <= (0.5 + 1e-9) * (high - low)
+            axis.set_ticks(np.clip(ticks[seen], low, high))
+        if axis.get_scale() == "log" and (high > 10 * low or isinstance(locator, FixedLocator)):
+            axis.minorticks_off()  # they bear no numbers
 
 
 def _axes(fig):
