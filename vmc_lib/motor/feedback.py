@@ -86,7 +86,7 @@ def move(intention, senses=SIGHT, model=None, world=None, noise=0.0, rng=None):
         raise ValueError(f"noise of {noise} needs an rng; give np.random.default_rng(seed)")
     late = _steps(senses.delay, TICK), _steps(senses.spinal, 1)
     meant = [np.swapaxes(x, 0, 1) for x in (intention.q, intention.velocity)]
-    lengths = [fibres(*paths(q), velocity) for q, velocity in zip(*meant, strict=True)]
+    lengths, rates = fibres(*paths(meant[0]), meant[1])
     told = np.swapaxes(intention.excitations, 0, 1)
     q, velocity = (np.empty_like(meant[0]) for _ in range(2))
     activation = np.concatenate([told[:1], np.empty_like(told)])
@@ -98,7 +98,7 @@ def move(intention, senses=SIGHT, model=None, world=None, noise=0.0, rng=None):
             wish = ask(senses, meant[0][k], meant[1][k], *here)
             sight = accelerate(*here, wish, plan) - plan
         felt = max(k - late[1], 0)
-        reflex = _reflex(senses, q[felt], velocity[felt], *lengths[felt])
+        reflex = _reflex(senses, q[felt], velocity[felt], lengths[felt], rates[felt])
         u = np.clip(plan + sight + reflex, 0, 1)
         u = noisy(u, noise, rng) if noise else u
         activation[k + 1] = activated(u, activation[k], STEP)
@@ -165,8 +165,8 @@ def _torque(q, velocity, activation, world, time):
     torque = muscle_torque(activation, *paths(q), velocity) + stop_torque(q, velocity)
     if world is None:
         return torque
-    nudged = hand(q[:, None] + 1e-6 * np.eye(2)) - hand(q)[:, None]
-    slopes = nudged[..., :2] / 1e-6  # (B, joints, 2): where each joint takes the hand
+    places = hand(q[:, None] + 1e-6 * np.eye(3, 2))[..., :2]  # a joint nudged each time, or none
+    slopes = (places[:, :2] - places[:, 2:]) / 1e-6  # (B, joints, 2): where each takes the hand
     force = world(time, (velocity[:, None] @ slopes)[:, 0])
     return torque + (slopes @ force[..., None])[..., 0]
 
