@@ -13,6 +13,8 @@ os.environ["VMC_RENDER_MODE"] = "test"  # chapters run by nbmake inherit it
 os.environ.setdefault("MPLBACKEND", "agg")
 
 AXE = Path(__file__).parent / "vendor/axe.js"
+# What passed is long: it stays in the page
+AXE_RUN = "async ([within, options]) => (await axe.run(within, options)).violations"
 PATIENCE = 180_000  # ms
 
 
@@ -63,10 +65,10 @@ def serious():
         if not page.evaluate("() => 'axe' in window"):
             page.evaluate(AXE.read_text())
         options = {"preload": False, "rules": {"target-size": {"enabled": True}}}  # of WCAG 2.2
-        found = page.evaluate("([within, options]) => axe.run(within, options)", [within, options])
+        violations = page.evaluate(AXE_RUN, [within, options])
         return [
             (violation["id"], node["html"][:200])
-            for violation in found["violations"]
+            for violation in violations
             if all_of_it or violation["impact"] in ("serious", "critical")
             for node in violation["nodes"]
         ]

@@ -175,10 +175,10 @@ def assert_readable(page):
         found = page.evaluate(
             "(ours) => axe.run({ include: ours.split(', ').filter((one) =>"
             " document.querySelector(one)).map((one) => [one]) },"
-            " { runOnly: ['color-contrast'], preload: false })",
+            " { runOnly: ['color-contrast'], preload: false }).then((all) => all.violations)",
             OURS,
         )
-        assert [node["html"] for rule in found["violations"] for node in rule["nodes"]] == []
+        assert [node["html"] for rule in found for node in rule["nodes"]] == []
         colours = page.evaluate(
             """() => {
               const style = (where, name) =>
