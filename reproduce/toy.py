@@ -83,7 +83,7 @@ def steps(folder):
         "fresh_names": partial(fresh_test_set.names, fresh),
         "variations": partial(variations.make, [(6, 0)], named, PATCHES),
         "optimal": partial(optimal.make, optimal.TARGETS[12:13]),
-        "steady": partial(steady.make, optimal.TARGETS[12:13]),
+        "steady": partial(steady.make, optimal.TARGETS[12:13], ftol=1.0),
         "movements": partial(movements.make, experiments, seeds=[0]),
         "cerebella": partial(cerebella.make, seeds=[0], movements=(2, 4), held_out=4),
         "feedback": partial(feedback.make, watched, seeds=[0]),

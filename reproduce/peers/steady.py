@@ -7,7 +7,7 @@ Wolpert (1998) took the least scatter for the brain's aim. Task, arm and search 
 on which no template lies.
 """
 
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 
@@ -29,9 +29,12 @@ LEVEL, REPEATS = 5, 100  # mm that habit scatters by; reaches by which scatter i
 EVERY = 10  # ms between the samples of a path whose jerk is asked for
 
 
-def search(target):
-    """SciPy's account of the search for the knots `x` of least variance; `optimal.sought`."""
-    return optimal.sought(target, variance, variance_slope, ftol=3e-3)
+def search(target, ftol=3e-3):
+    """SciPy's account of the search for the knots `x` of least variance; `optimal.sought`.
+
+    It ends where a step changes the variance by less than `ftol`, in cm².
+    """
+    return optimal.sought(target, variance, variance_slope, ftol=ftol)
 
 
 def variance(x):
@@ -58,9 +61,9 @@ def variance_slope(x):
     return 2 * (moved[1:] - moved[0]) / nudge / _places()
 
 
-def make(targets=TARGETS[NEW]):
-    """What `results/steady.npz` holds: the knots (n, 6 KNOTS) of targets (n, 2)."""
-    return optimal.make(targets, search)
+def make(targets=TARGETS[NEW], **how):
+    """What `results/steady.npz` holds: the knots (n, 6 KNOTS) of targets (n, 2), by `search`."""
+    return optimal.make(targets, partial(search, **how))
 
 
 @cache
