@@ -1,6 +1,7 @@
 """The arm's plane seen from the right, in metres: the whole of it, or where the templates lie."""
 
 import numpy as np
+from matplotlib.ticker import MultipleLocator
 
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.arm.model import LIMITS
@@ -20,6 +21,7 @@ def plane_view(ax, within=WHOLE):
     ax.plot(*rim.T[:2], ":", color=COLOURS["grey"], lw=1)
     ax.plot(0, 0, "o", color=COLOURS["ink"], ms=7)
     ax.set(xlim=within[0], ylim=within[1], aspect="equal", xlabel="forward (m)", ylabel="up (m)")
+    ax.yaxis.set_major_locator(MultipleLocator(0.1 if np.ptp(within[1]) > 0.2 else 0.02))
     ax.grid(False)
 
 
