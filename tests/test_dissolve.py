@@ -19,8 +19,7 @@ HEAD = """<!doctype html><html lang="en"><meta charset="utf-8"><title>A photo</t
 <script defer src="dissolve.js"></script>
 <body style="background: var(--vmc-paper); color: var(--vmc-ink)"><main>"""
 GROWN = """([pixels, k]) => {
-  const tree = vmcSearch.prepare(
-    Uint8Array.from(atob(pixels), (c) => c.charCodeAt(0)), 600, 400).grow(k);
+  const tree = vmcSearch(Uint8Array.from(atob(pixels), (c) => c.charCodeAt(0)), 600, 400)(k);
   let text = "";
   for (const byte of new Uint8Array(tree.labels.buffer)) text += String.fromCharCode(byte);
   return { ...tree, labels: btoa(text) };

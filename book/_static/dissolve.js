@@ -1,108 +1,99 @@
 /* A photo falls into segments, which grow back: ours, or the reader's own, which never leaves the page. */
-const vmcDissolve = (() => {
+const vmcDissolve = (box) => {
   "use strict";
 
   const AREA = 600 * 400, PLAY_TIME = 9000; // pixels, as our photos have; ms
+  const [still, canvas, k, merged, play, choose, file, strip, say] = // as they stand in the page
+    box.querySelectorAll("img, canvas, input, button, .vmc-strip, [role=status]");
+  const scale = () => Math.round(2 ** k.value);
+  let context, photo, search, tree, asked = 0;
 
-  const start = (box) => {
-    const [still, canvas, strip, say, file] = ["img", "canvas", ".vmc-strip", "[role=status]", "[type=file]"]
-      .map((name) => box.querySelector(name));
-    const [k, merged] = box.querySelectorAll("[type=range]");
-    const [play, choose] = box.querySelectorAll("button");
-    let context, photo, tree, asked = 0;
-
-    const look = (picture) => {
-      context = vmcRedrawn(picture, Math.sqrt(AREA / (picture.width * picture.height)), canvas);
-      const { data, width, height } = context.getImageData(0, 0, canvas.width, canvas.height);
-      photo = { data, image: new ImageData(width, height) };
-      tree = null;
-      canvas.hidden = true;
-    };
-
-    /* The segments and all regions above them, with their mean colours as four bytes. */
-    const grow = (scale) => {
-      photo.grow ??= vmcSearch.prepare(photo.data, canvas.width, canvas.height).grow;
-      const grown = photo.grow(scale), { labels, merges, size } = grown, sums = Array.from(size, () => [0, 0, 0]);
-      labels.forEach((label, i) => { for (let c = 0; c < 3; c++) sums[label][c] += photo.data[4 * i + c]; });
-      merges.forEach(([i, j], made) => (sums[grown.count + made] = sums[i].map((sum, c) => sum + sums[j][c])));
-      const bytes = Uint8Array.from(sums.flatMap((sum, i) => [...sum.map((x) => x / size[i]), 255]));
-      tree = { scale, ...grown, colours: new Uint32Array(bytes.buffer) };
-    };
-
-    const draw = () => {
-      const scale = Math.round(2 ** k.value);
-      if (tree?.scale !== scale) grow(scale);
-      const { labels, count, merges, boxes, colours } = tree, { width, height } = canvas;
-      const left = Math.max(1, Math.round(count ** (1 - merged.value))), regions = 2 * count - left;
-      const into = Uint32Array.from({ length: regions }, (_, i) => i), pixels = new Uint32Array(photo.image.data.buffer);
-      for (let made = regions - 1; made >= count; made--) for (const part of merges[made - count]) into[part] = into[made];
-      labels.forEach((label, i) => (pixels[i] = colours[into[label]]));
-      context.putImageData(photo.image, 0, 0);
-      const [x0, y0, x1, y1] = boxes[regions - 1];
-      for (const [colour, wide] of left < count ? [["black", 5], ["orange", 3]] : []) {
-        Object.assign(context, { strokeStyle: colour, lineWidth: wide });
-        context.strokeRect(x0, y0, x1 - x0, y1 - y0);
-      }
-      const all = (width * (width + 1) * height * (height + 1)) / 4, told = (n) => n.toLocaleString("en-GB");
-      [k, merged].forEach((slider, i) => (slider.nextElementSibling.textContent = [scale, `${told(left)} left`][i]));
-      if (canvas.hidden) {
-        canvas.hidden = false;
-        const fade = matchMedia("(prefers-reduced-motion: reduce)").matches ? 0 : 1500;
-        canvas.animate({ opacity: [0, 1] }, fade).onfinish = draw;
-      }
-      if (canvas.getAnimations().length) return; // the words wait for the picture
-      strip.textContent = `${told(regions)} regions so far, a box around each; ${width} × ${height} pixels hold ${told(all)} boxes.`;
-    };
-
-    /* To cut takes a moment: say so, and begin when that can be seen. The last who asked is heard. */
-    const soon = (then) => {
-      if (!photo) look(still);
-      if (tree?.scale !== Math.round(2 ** k.value)) strip.textContent = "Cutting …";
-      const mine = ++asked;
-      requestAnimationFrame(() => setTimeout(() => mine === asked && then()));
-    };
-    const stop = () => {
-      asked++;
-      play.textContent = "Play";
-    };
-    const run = () => {
-      const from = merged.value % 1;
-      let begun;
-      const step = () => {
-        draw();
-        if (+merged.value === 1) return stop();
-        begun ??= performance.now();
-        merged.value = Math.min(1, from + (performance.now() - begun) / PLAY_TIME);
-        soon(step);
-      };
-      merged.value = from;
-      play.textContent = "Pause";
-      soon(step);
-    };
-    play.addEventListener("click", () => (play.textContent === "Play" ? run() : stop()));
-    for (const slider of [k, merged]) slider.addEventListener("input", () => { stop(); soon(draw); });
-
-    const own = async (chosen) => {
-      if (!chosen) return;
-      stop();
-      const picture = await createImageBitmap(chosen).catch(() => null);
-      say.textContent = picture ? `${chosen.name} stays in this page: it is sent nowhere.`
-        : `This browser cannot read ${chosen.name}: save it, or a phone's HEIC, as a JPEG or PNG.`;
-      if (!picture) return;
-      merged.value = 0;
-      look(picture);
-      still.src = canvas.toDataURL("image/jpeg", 0.9);
-      run();
-    };
-    file.addEventListener("change", () => own(file.files[0]).then(() => (file.value = "")));
-    choose.addEventListener("click", () => file.click());
-    box.addEventListener("dragover", (event) => event.preventDefault());
-    box.addEventListener("drop", (event) => { event.preventDefault(); own(event.dataTransfer.files[0]); });
-    box.dataset.ready = "";
-    return stop;
+  const look = (picture) => {
+    context = vmcRedrawn(picture, Math.sqrt(AREA / (picture.width * picture.height)), canvas);
+    photo = context.getImageData(0, 0, canvas.width, canvas.height);
+    search = tree = null;
+    canvas.hidden = true;
   };
 
-  /* A kernel starts its own. */
-  if (!self.vmcKernel) document.querySelectorAll(".vmc-demo:has(> .vmc-dissolve)").forEach(start);
-  return start;
-})();
+  /* The segments and all regions above them, with their mean colours as four bytes. */
+  const grow = () => {
+    search ??= vmcSearch(photo.data, photo.width, photo.height);
+    const { labels, merges, boxes } = search(scale()), count = merges.length + 1;
+    const sums = Array.from({ length: count }, () => [0, 0, 0, 0]);
+    photo.data.forEach((byte, i) => (sums[labels[i >> 2]][i & 3] += byte));
+    for (const [i, j] of merges) sums.push(sums[i].map((sum, c) => sum + sums[j][c]));
+    const bytes = Uint8Array.from(sums.flatMap((sum) => sum.map((x) => (255 * x) / sum[3]))); // they are opaque
+    tree = { scale: scale(), labels, count, merges, boxes, colours: new Int32Array(bytes.buffer) };
+  };
+
+  const draw = () => {
+    if (tree?.scale !== scale()) grow();
+    const { labels, count, merges, boxes, colours } = tree, { width, height } = photo;
+    const left = Math.round(count ** (1 - merged.value)), regions = 2 * count - left, shown = colours.slice();
+    for (let made = regions - 1; made >= count; made--)
+      for (const part of merges[made - count]) shown[part] = shown[made];
+    const pixels = labels.map((label) => shown[label]);
+    context.putImageData(new ImageData(new Uint8ClampedArray(pixels.buffer), width), 0, 0);
+    const [x0, y0, x1, y1] = boxes[regions - 1];
+    for (const [colour, wide] of left < count ? [["black", 5], ["orange", 3]] : []) {
+      Object.assign(context, { strokeStyle: colour, lineWidth: wide });
+      context.strokeRect(x0, y0, x1 - x0, y1 - y0);
+    }
+    const all = (width * (width + 1) * height * (height + 1)) / 4, told = (n) => n.toLocaleString("en-GB");
+    k.nextElementSibling.textContent = scale();
+    merged.nextElementSibling.textContent = `${told(left)} left`;
+    if (canvas.hidden) {
+      canvas.hidden = false;
+      const fade = matchMedia("(prefers-reduced-motion: reduce)").matches ? 0 : 1500;
+      canvas.animate({ opacity: [0, 1] }, fade).onfinish = draw;
+    }
+    if (canvas.getAnimations().length) return; // the words wait for the picture
+    strip.textContent = `${told(regions)} regions so far, a box around each; ${width} × ${height} pixels hold ${told(all)} boxes.`;
+  };
+
+  /* To cut takes a moment: say so, and begin when that can be seen. Only the last who asked is answered. */
+  const drawn = () => new Promise((done) => {
+    const mine = ++asked;
+    if (!photo) look(still);
+    if (tree?.scale !== scale()) strip.textContent = "Cutting …";
+    requestAnimationFrame(() => setTimeout(() => mine === asked && done(draw())));
+  });
+  const stop = () => {
+    asked++;
+    play.textContent = "Play";
+  };
+  const run = async () => {
+    play.textContent = "Pause";
+    merged.value %= 1;
+    await drawn();
+    const begun = performance.now() - PLAY_TIME * merged.value;
+    while (+merged.value < 1) {
+      merged.value = (performance.now() - begun) / PLAY_TIME;
+      await drawn();
+    }
+    stop();
+  };
+  play.addEventListener("click", () => (play.textContent === "Play" ? run() : stop()));
+  for (const slider of [k, merged]) slider.addEventListener("input", () => { stop(); drawn(); });
+
+  const own = async (chosen) => {
+    if (!chosen) return;
+    const picture = await createImageBitmap(chosen).catch(() => null);
+    say.textContent = picture ? `${chosen.name} stays in this page: it is sent nowhere.`
+      : `This browser cannot read ${chosen.name}: save it, or a phone's HEIC, as a JPEG or PNG.`;
+    if (!picture) return;
+    merged.value = 0;
+    look(picture);
+    still.src = canvas.toDataURL("image/jpeg", 0.9);
+    run();
+  };
+  file.addEventListener("change", () => own(file.files[0]).then(() => (file.value = "")));
+  choose.addEventListener("click", () => file.click());
+  box.addEventListener("dragover", (event) => event.preventDefault());
+  box.addEventListener("drop", (event) => { event.preventDefault(); own(event.dataTransfer.files[0]); });
+  box.dataset.ready = "";
+  return stop;
+};
+
+/* A kernel starts its own. */
+if (!self.vmcKernel) document.querySelectorAll(".vmc-demo:has(> .vmc-dissolve)").forEach(vmcDissolve);
