@@ -109,14 +109,61 @@ def slab(size, colour, roughness=0.5, low=0.0):
 
 def shuttlecock(rng):
     """A feathered shuttlecock along +y: cork tip at the origin, the skirt's rim at y = LENGTH."""
+    foot = _foot(rng, (0.037, 0.048))
+    feathers = [_feather(rng).moved(rotation(1, 2 * np.pi * k / FEATHERS)) for k in range(FEATHERS)]
+    return join(*foot, *feathers)
+
+
+def _foot(rng, threads):
+    """Its cork with a coloured band, and rings of thread at some heights."""
     angle = np.linspace(0, np.pi / 2, 10)
     dome = np.column_stack([CORK * np.sin(angle), CORK * (1 - np.cos(angle))])
     profile = [*dome, (CORK, 0.019), (CORK, 0.019), (CORK, 0.025), (CORK, 0.025), (0, 0.025)]
     band = rgb(rng.choice(["#b3202a", "#1d4f91", "#1f7a3f", "#20242b"]))
     cork = np.where(np.arange(len(profile))[:, None] < len(dome) + 1, [0.84, 0.81, 0.74], band)
-    rings = [_thread(height, band * 0.5 + 0.2) for height in (0.037, 0.048)]
-    feathers = [_feather(rng).moved(rotation(1, 2 * np.pi * k / FEATHERS)) for k in range(FEATHERS)]
-    return join(lathe(profile, cork, roughness=0.6, sides=32), *rings, *feathers)
+    rings = [_thread(height, band * 0.5 + 0.2) for height in threads]
+    return [lathe(profile, cork, roughness=0.6, sides=32), *rings]
+
+
+def worn(rng):
+    """A feathered shuttlecock along +y that was played with: feathers bent, a few of them lost."""
+    bend, lost = rng.uniform(0, 0.07), rng.uniform(0, 0.1)
+    shade = rgb(rng.choice(["#ffffff", "#ffffff", "#f3ead2", "#e6e9ee"]))
+    feathers = []
+    for k in range(FEATHERS):
+        foot = np.array([_cone(0.025), 0.025, 0])
+        tilt = rotation(2, bend * rng.normal()) @ rotation(0, bend * rng.normal())
+        feather = _feather(rng).moved(shift=-foot).moved(tilt, foot)
+        if rng.random() > lost:
+            feather = replace(feather, colours=feather.colours * shade)
+            feathers.append(feather.moved(rotation(1, 2 * np.pi * k / FEATHERS)))
+    return join(*_foot(rng, (0.037, 0.048)), *feathers)
+
+
+def nylon(rng, dye):
+    """A nylon shuttlecock along +y: ribs that rings hold, close above and far apart below."""
+    ribs, rim = int(rng.integers(14, 22)), rng.uniform(0.9, 1.05)
+    angle, turn = np.linspace(0, 2 * np.pi, 12 * ribs + 1), np.linspace(0, 2 * np.pi, ribs + 1)[:-1]
+    thick = rng.uniform(0.8, 1.3)
+
+    def strand(angle, height, radius):
+        r = _cone(height) * rim
+        path = np.column_stack(np.broadcast_arrays(r * np.cos(angle), height, r * np.sin(angle)))
+        return tube(path, thick * radius, dye, 0.35, sides=5)
+
+    scallop = LENGTH - rng.uniform(0.001, 0.004) * (1 - np.abs(np.cos(ribs * angle / 2)))
+    close = rng.uniform(0.042, 0.052)
+    rings = [0.034, *np.arange(close, LENGTH - 0.004, rng.uniform(0.0026, 0.0045))]
+    along, upper = np.linspace(0.022, LENGTH, 9), np.linspace(close, LENGTH - 0.003, 7)
+    fine = int(rng.integers(2, 5))  # strands from rib to rib
+    between = [a + 2 * np.pi / ribs * k / fine for a in turn for k in range(1, fine)]
+    return join(
+        *_foot(rng, ()),
+        *(strand(a, along, np.linspace(0.0012, 0.0007, 9)) for a in turn),
+        *(strand(a, upper, 0.0004) for a in between),
+        *(strand(angle, height, 0.0004) for height in rings),
+        strand(angle, scallop, 0.0009),
+    )
 
 
 def _cone(height):

@@ -7,7 +7,7 @@ import json
 
 from vmc_lib import data
 
-KINDS = {".npz", ".json", ".jpg"}
+KINDS = {".npz", ".json", ".jpg", ".webp"}
 
 
 def found():

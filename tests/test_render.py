@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from render import furniture, scene
+from render import furniture, scene, shapes
 from render.sidecar import in_full_view, store
 from vmc_lib import photos
 
@@ -40,3 +40,19 @@ def test_scenes_are_drawn_until_nothing_is_hidden_and_are_read_as_written(tmp_pa
     assert photo.target.tolist() == last.target.tolist()
     assert photo.camera.focal == last.camera.focal
     assert photo.boxes["cup"].tolist() == boxes["cup"]
+
+
+def make_nylon(rng):
+    return shapes.nylon(rng, np.ones(3))
+
+
+@pytest.mark.parametrize("make", [shapes.shuttlecock, shapes.worn, make_nylon])
+def test_every_shuttlecock_stands_on_its_cork_and_is_as_long_as_they_are(make):
+    for seed in range(3):
+        mesh = make(np.random.default_rng(seed))
+        low, high = mesh.vertices[:, 1].min(), mesh.vertices[:, 1].max()
+        assert low == pytest.approx(0, abs=1e-3)
+        assert high == pytest.approx(shapes.LENGTH, abs=0.01)
+        cork = mesh.vertices[mesh.vertices[:, 1] < 0.02]
+        assert np.hypot(cork[:, 0], cork[:, 2]).max() == pytest.approx(shapes.CORK, abs=1e-3)
+        assert mesh.faces.max() < len(mesh.vertices) == len(mesh.colours)

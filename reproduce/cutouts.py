@@ -1,0 +1,105 @@
+"""Shuttlecocks cut out of renders, laid on photographs: many things, on many grounds, with boxes.
+
+A renderer's shuttlecock on a renderer's table teaches renders. On a photograph, what is around it
+is real, and nothing but the shuttlecock tells it apart from there.
+"""
+
+import io
+from dataclasses import dataclass
+from functools import cache
+
+import cv2
+import numpy as np
+from PIL import Image
+
+from vmc_lib import data, photos
+
+FILE, WIDTH, COLUMNS, HELD_OUT = data.FOLDER / "cutouts.webp", 128, 20, 80
+SEEN = 0.4  # of light that a cut-out keeps off what is behind: from there it has an edge
+LARGE = 0.2, 1.2  # of the photo's height: how wide a cut-out is laid there, what is empty with it
+
+
+def store(cutouts, file=FILE):
+    """Write cut-outs (n, WIDTH, WIDTH, 4) uint8 as one picture; n is a multiple of COLUMNS."""
+    rows = np.reshape(cutouts, (-1, COLUMNS, WIDTH, WIDTH, 4)).swapaxes(1, 2)
+    sheet = rows.reshape(-1, COLUMNS * WIDTH, 4)
+    Image.fromarray(sheet).save(file, quality=80, alpha_quality=80, method=6)
+
+
+@cache
+def load(file=FILE):
+    """What `store` has written."""
+    sheet = np.array(Image.open(io.BytesIO(data.read(file))))
+    rows = sheet.reshape(-1, WIDTH, COLUMNS, WIDTH, 4).swapaxes(1, 2)
+    return data.read_only(rows.reshape(-1, WIDTH, WIDTH, 4))
+
+
+@dataclass(frozen=True, eq=False)
+class Pasted:
+    """A photograph on which a shuttlecock was laid, as a `RealPhoto`."""
+
+    image: np.ndarray
+    boxes: dict
+    name, more, camera = "pasted", np.empty((0, 4)), None
+
+
+def pasted(shots, split, count, rng):
+    """So many `Pasted`: on those of the real photos `shots` that show no shuttlecock, in turn.
+
+    The last HELD_OUT cut-outs validate ("validation"), the others teach ("train").
+    """
+    grounds = [shot for shot in shots if "shuttlecock" not in shot.boxes]
+    some = load()[:-HELD_OUT] if split == "train" else load()[-HELD_OUT:]
+    return [
+        paste(grounds[i % len(grounds)], some[rng.integers(len(some))], rng) for i in range(count)
+    ]
+
+
+def paste(background, cutout, rng):
+    """A `Pasted`: a cut-out of any size, turned and lit anyhow, with a shadow, on a photo."""
+    image = background.image[:, :: rng.choice([-1, 1])].astype(np.float32) / 255
+    x = turned(cutout, rng)
+    height, width = x.shape[:2]
+    top, left = rng.integers(np.subtract(image.shape[:2], (height, width)))
+    colour, alpha = lit(x[..., :3], rng), x[..., 3:]
+    image *= 1 - shadow(alpha[..., 0], (top, left), rng)[..., None]
+    there = image[top : top + height, left : left + width]
+    there += alpha * (colour - there)
+    box = np.array([left, top, left + width, top + height], float)
+    return Pasted(np.uint8(255 * image.clip(0, 1) + 0.5), {"shuttlecock": box})
+
+
+def turned(cutout, rng):
+    """A cut-out as floats (h, w, 4), turned by any angle, of any size, sharp or soft, no margin."""
+    width = photos.HEIGHT * np.exp(rng.uniform(*np.log(LARGE)))
+    scale, size = width / WIDTH, int(1.5 * width)
+    matrix = cv2.getRotationMatrix2D((WIDTH / 2, WIDTH / 2), rng.uniform(0, 360), scale)
+    matrix[:, 2] += (size - WIDTH) / 2
+    x = cutout.astype(np.float32) / 255
+    x[..., :3] *= x[..., 3:]  # or what is transparent would bleed into the edge
+    if scale < 1:  # or it would fall into dots
+        x = cv2.GaussianBlur(x, (0, 0), 0.4 / scale)
+    x = cv2.warpAffine(x, matrix, (size, size))
+    x = cv2.GaussianBlur(x, (0, 0), 0.3 + 1.5 * max(scale, 0.5) * rng.random() ** 2)
+    x[..., :3] /= np.maximum(x[..., 3:], 1e-3)
+    rows, columns = (np.flatnonzero(x[..., 3].max(axis) > SEEN) for axis in (1, 0))
+    part = x[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
+    return part[: photos.HEIGHT - 1, : photos.WIDTH - 1]
+
+
+def lit(colour, rng):
+    """Colours (h, w, 3) in another light: brighter or darker, warmer or colder, uneven."""
+    gain = np.exp(rng.normal(0, 0.25) + rng.normal(0, 0.06, 3))
+    slope = 1 + rng.uniform(-0.4, 0.4) * np.linspace(-1, 1, len(colour))
+    return np.float32(colour * gain * slope[:, None, None])
+
+
+def shadow(mask, corner, rng):
+    """How much light (400, 600) a thing takes from the photo, whose mask (h, w) is at a corner."""
+    dark = np.zeros((photos.HEIGHT, photos.WIDTH), np.float32)
+    there = dark[corner[0] : corner[0] + len(mask), corner[1] : corner[1] + len(mask[0])]
+    there[:] = rng.uniform(0, 0.7) * mask
+    away = np.float32([[1, 0, 0], [0, 1, 0]])
+    away[:, 2] = rng.normal(0, 0.08, 2) * len(mask)
+    moved = cv2.warpAffine(dark, away, dark.shape[::-1])
+    return cv2.GaussianBlur(moved, (0, 0), rng.uniform(0.02, 0.12) * len(mask) + 1)
