@@ -11,13 +11,14 @@ from joblib import Parallel, delayed
 from sklearn.linear_model import LogisticRegression
 
 from reproduce.peers.features import histograms_of_gradients
-from reproduce.pools import NARROW, by_kind
+from reproduce.pools import by_kind
 from reproduce.results import arrays
 from vmc_lib import photos
 from vmc_lib.what.cdbn import CDBN, K
 from vmc_lib.what.crops import crop, shrunk, whiten
 from vmc_lib.what.recogniser import READ_OUTS, read_outs
 
+NARROW = 48  # pixels of a crop: wider ones would take hours to learn from end to end
 LEVELS, LABELS, EQUAL, DRAWS = photos.EVERY_LEVEL, (10, 40, 160, 640), 80, 6
 WAYS = "HOG", "without labels", "end to end"  # the last two of the CDBN
 PATCHES, STEPS, BATCH = 20_000, 600, 16
@@ -132,7 +133,7 @@ def fixed(taught, validation, exams, rng):
 
 def learned(taught, validation, exams, rng, steps=STEPS):
     """Features learned from the labels too, then `fixed`: a choice for each rate and penalty."""
-    from reproduce.wide_training import end_to_end  # as `without_labels` does
+    from reproduce.end_to_end import end_to_end  # as `without_labels` does
 
     crops, labels = shrunk(taught[0], NARROW), taught[1]
 
@@ -142,7 +143,7 @@ def learned(taught, validation, exams, rng, steps=STEPS):
 
     found = []
     for rate in RATES:
-        network = end_to_end(draw, rng, (K, K), steps, BATCH, rate)
+        network = end_to_end(draw, rng, NARROW, (K, K), steps, BATCH, rate)
         sets = [(looked_at(network, x), y) for x, y in (taught, validation, *exams)]
         found += fixed(sets[0], sets[1], sets[2:], rng)
     return found

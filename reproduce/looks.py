@@ -10,17 +10,20 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
-from vmc_lib.boxes import jittered
+from vmc_lib.boxes import corrected, corrections, iou, jittered, widened
+from vmc_lib.what.stream import MARGIN, WIDTH
+
+STRAYS = 0.05, 0.12, 0.2  # in sides: how far a box lies from the shuttlecock's, by turns
+TINT = 0.2  # of a colour's strength, as a logarithm
 
 
 @dataclass(frozen=True)
 class Looks:
     """How much looks vary; at 0 a thing stays as it is."""
 
-    stray: float = 0.08  # of the box's edges, in sides
+    stray: float = 0.08  # of the edges of other boxes than a shuttlecock's, in sides
     quarters: bool = True  # any quarter turn, mirrored or not
-    turn: float = 12.0  # degrees beside these
-    colour: float = 1.0  # 0: the usual grey; 1: as grey as behind any colour filter
+    colour: float = 1.0  # of the light, in TINT
     light: float = 0.4  # of the exposure's exponent, as a logarithm, and of a shade across
     blur: float = 1.2  # pixels of the crop
     noise: float = 0.04
@@ -29,17 +32,32 @@ class Looks:
 
 
 ALL = Looks()
-GREY = np.array([0.299, 0.587, 0.114])  # of red, green and blue, as OpenCV weighs them
 
 
-def look(image, box, rng, width, looks=ALL):
-    """The inside of a box (4,) of an image in one of its looks: grey (width, width) in 0..1."""
-    x = turned(cut(image, jittered(box, looks.stray, rng), 2 * width), looks, rng)
-    weights = (1 - looks.colour) * GREY + looks.colour * rng.dirichlet([1, 1, 1])
-    x = lit(x @ weights.astype(np.float32), looks, rng)
+def look(image, box, holds, rng, looks=ALL):
+    """What a box (4,) of an image, or one near it, shows in one of its looks.
+
+    holds: whether it holds a shuttlecock, from which the box then strays. Returns the picture
+    (WIDTH, WIDTH, 3) in 0..1; how well the box fits, an IoU, or 0; and the corrections (4,) that
+    would mend it.
+    """
+    box, fit, lack = box[None], 0.0, np.zeros(4)
+    near = jittered(box, looks.stray, rng)
+    if holds:
+        near = corrected(box, rng.normal(0, rng.choice(STRAYS), (1, 4)))
+        fit, lack = iou(near, box)[0, 0], corrections(near, box)[0]
+    x = cut(image, widened(near, MARGIN), 2 * WIDTH)
+    x, lack = turned(x, lack, rng) if looks.quarters else (x, lack)
+    x = x * np.exp(rng.normal(0, TINT * looks.colour, 3)).astype(np.float32)
+    return taken(np.ascontiguousarray(x), rng, looks), fit, lack
+
+
+def taken(x, rng, looks=ALL):
+    """A picture (n, n, 3) as another camera takes it in another light, WIDTH pixels wide."""
+    x = lit(x, looks, rng)
     if rng.random() < looks.hide:
         x = hidden(x, rng)
-    x = cv2.resize(x, (width, width), interpolation=cv2.INTER_AREA)
+    x = cv2.resize(x, (WIDTH, WIDTH), interpolation=cv2.INTER_AREA)
     sigma = looks.blur * rng.random() ** 2
     if sigma > 0.2:
         x = cv2.GaussianBlur(x, (0, 0), sigma)
@@ -59,38 +77,35 @@ def cut(image, box, width):
     return cv2.resize(part, (width, width), interpolation=how).astype(np.float32) / 255
 
 
-def turned(x, looks, rng):
-    """A picture turned by any quarter, mirrored or not, and then a little further."""
-    if looks.quarters:
-        x = np.rot90(x, rng.integers(4))
-        x = x[:, ::-1] if rng.random() < 0.5 else x
-    angle, middle = looks.turn * rng.standard_normal(), (x.shape[1] / 2, x.shape[0] / 2)
-    matrix = cv2.getRotationMatrix2D(middle, angle, 1)
-    x = np.ascontiguousarray(x)
-    return cv2.warpAffine(x, matrix, x.shape[1::-1], borderMode=cv2.BORDER_REFLECT)
+def turned(x, lack, rng):
+    """A picture turned by any quarter, mirrored or not, and its corrections (4,) with it."""
+    for _ in range(rng.integers(4)):
+        x, lack = np.rot90(x), lack[[1, 0, 3, 2]] * [1, -1, 1, 1]
+    return (x[:, ::-1], lack * [-1, 1, 1, 1]) if rng.random() < 0.5 else (x, lack)
 
 
 def lit(x, looks, rng):
-    """A grey picture with a shade across it, exposed otherwise."""
+    """A picture with a shade across it, exposed otherwise."""
     ramp = np.linspace(-0.5, 0.5, len(x), dtype=np.float32)
     right, down = looks.light * rng.uniform(-1, 1, 2)
-    x = x * np.exp(right * ramp + down * ramp[:, None])
+    shade = np.exp(right * ramp + down * ramp[:, None])
+    x = x * shade[..., None]
     return (x / max(x.max(), 1e-3)) ** np.exp(looks.light * rng.standard_normal())
 
 
 def hidden(x, rng):
-    """A grey picture with up to a third of it behind a band of stripes, most often at a side."""
+    """A picture with up to a third of it behind a band of stripes, most often at a side."""
     n, x = len(x), x.copy()
     depth = int(n * rng.uniform(0.05, 0.35))
     start = 0 if rng.random() < 0.7 else int(rng.uniform(0, n - depth))
-    stripes = rng.random() + 0.1 * rng.standard_normal((depth, 1))
+    stripes = rng.random(3) + 0.1 * rng.standard_normal((depth, 1, 3))
     np.rot90(x, rng.integers(4))[start : start + depth] = stripes
     return x
 
 
 def compressed(x, quality):
-    """A grey picture (height, width) in 0..1 as a JPEG of that quality keeps it."""
+    """A picture (n, n, 3) in 0..1 as a JPEG of that quality keeps it."""
     _, code = cv2.imencode(
         ".jpg", np.uint8(255 * x.clip(0, 1)), [cv2.IMWRITE_JPEG_QUALITY, quality]
     )
-    return cv2.imdecode(code, cv2.IMREAD_GRAYSCALE) / np.float32(255)
+    return cv2.imdecode(code, cv2.IMREAD_COLOR) / np.float32(255)

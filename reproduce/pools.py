@@ -1,74 +1,63 @@
 """What names are learnt from: boxes of renders and of photographs, drawn in ever new looks."""
 
 from dataclasses import dataclass
-from itertools import product
 
 import numpy as np
 from joblib import Parallel, delayed
 
+from reproduce import cutouts
 from reproduce.detector_training import candidates
-from reproduce.looks import ALL, Looks, look
+from reproduce.looks import ALL, Looks
 from vmc_lib import loop, photos
 from vmc_lib.boxes import iou
 
-NARROW = 48  # pixels of a crop
 SHARES = {"shuttlecock": 0.4, "other": 0.15, "scene": 0.45}  # of what is drawn
-REAL = 0.55  # of each, how much comes from photographs
+SOURCES = {"rendered": 0.3, "real": 0.4, "pasted": 0.3}  # of each, as far as a source has it
+PASTED = 500  # photographs on which a shuttlecock is laid
 APART = 0.3  # IoU under which a window shows no shuttlecock
 
 
 @dataclass(frozen=True, eq=False)
 class Pool:
-    """Boxes to draw from, by kind: lists of (image, boxes (n, 4)), of renders and of photographs.
+    """Boxes to draw from: a source -> a kind -> a list of (image, boxes (n, 4)).
 
-    A kind is one of `SHARES`; where one sort of picture has none of it, it comes from the other.
+    A source is one of `SOURCES`: renders, photographs, photographs on which renders were laid. A
+    kind is one of `SHARES`; what one source has none of comes from the others.
     """
 
-    rendered: dict
-    real: dict
+    sources: dict
     looks: Looks = ALL
 
     def draw(self, rng):
         """An image, a box of it, and whether it shows a shuttlecock."""
         kind = rng.choice(list(SHARES), p=list(SHARES.values()))
-        sides = [side[kind] for side in (self.rendered, self.real) if side[kind]]
-        side = sides[-1 if rng.random() < REAL else 0]
-        image, boxes = side[rng.integers(len(side))]
+        some = {name: share for name, share in SOURCES.items() if self.sources[name].get(kind)}
+        source = rng.choice(list(some), p=np.array(list(some.values())) / sum(some.values()))
+        shown = self.sources[source][kind]
+        image, boxes = shown[rng.integers(len(shown))]
         return image, boxes[rng.integers(len(boxes))], kind == "shuttlecock"
-
-    def examples(self, count, rng):
-        """Crops (count, NARROW, NARROW), each in one of its looks, and their labels (count,)."""
-        crops, labels = np.zeros((count, NARROW, NARROW), np.float32), np.zeros(count, bool)
-        for i in range(count):
-            while crops[i].std() < 0.01:  # a window of nothing teaches nothing
-                image, box, labels[i] = self.draw(rng)
-                crops[i] = look(image, box, rng, NARROW, self.looks)
-        return crops, labels
 
 
 def pool(shown):
-    """The `Pool` of what some levels show: level -> what `seen_in` gives."""
-    renders = [photo for level in photos.LEVELS for photo in shown.get(level, [])]
-    return Pool(
-        *(
-            {kind: [photo[kind] for photo in side if kind in photo] for kind in SHARES}
-            for side in (renders, shown.get(photos.REAL_LEVEL, []))
-        )
-    )
+    """The `Pool` of what photos show: where they are from (a level, or "pasted") -> `seen_in`."""
+    levels = {"rendered": photos.LEVELS, "real": [photos.REAL_LEVEL], "pasted": ["pasted"]}
+    sources = {}
+    for source, names in levels.items():
+        seen = [photo for name in names for photo in shown.get(name, [])]
+        sources[source] = {kind: [one[kind] for one in seen if kind in one] for kind in SHARES}
+    return Pool(sources)
 
 
-def show(splits, rng, folder=photos.FOLDER, everyday=None):
-    """What the photos of each level and of each of the `splits` show: level -> a list for each.
+def show(rng, folder=photos.FOLDER, everyday=None, pasted=PASTED):
+    """What the training photos of each level show: level -> what `seen_in` gives.
 
-    Among the real ones of the first split are those of everyday things, or so many of them.
+    Among the real ones are those of everyday things, or so many of them. On real ones without a
+    shuttlecock one is laid, as often as `pasted` says: the level "pasted".
     """
-    shown = {}
-    for level, split in product(photos.EVERY_LEVEL, splits):
-        shots = photos.load(level, split, folder)
-        if (level, split) == (photos.REAL_LEVEL, splits[0]):
-            shots += photos.real()[:everyday]
-        shown.setdefault(level, []).append(seen_in(shots, rng))
-    return shown
+    shots = {level: photos.load(level, "train", folder) for level in photos.EVERY_LEVEL}
+    shots[photos.REAL_LEVEL] += photos.real()[:everyday]
+    shots["pasted"] = cutouts.pasted(shots[photos.REAL_LEVEL], "train", pasted, rng)
+    return {level: seen_in(some, rng) for level, some in shots.items()}
 
 
 def seen_in(shots, rng):
@@ -103,8 +92,3 @@ def anywhere(rng, count=60):
     """Up to `count` windows (n, 4) of any place and size, at least 30 pixels wide and high."""
     ends = np.sort(rng.random((count, 2, 2)), axis=1) * [photos.WIDTH, photos.HEIGHT]
     return ends[(np.diff(ends, axis=1) >= 30).all((1, 2))].reshape(-1, 4)
-
-
-def pools(shown):
-    """What to train on and what to validate on: two `Pool`s of what `show` gives, level -> pair."""
-    return [pool({level: pair[k] for level, pair in shown.items()}) for k in (0, 1)]

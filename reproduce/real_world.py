@@ -8,7 +8,6 @@ from reproduce.trial import FOUND
 from vmc_lib import photos
 from vmc_lib.boxes import iou
 from vmc_lib.loop import VisuomotorModel, see
-from vmc_lib.what.crops import crop
 
 MODELS, SPLITS = ("varied", "real"), ("validation", "test")
 SIZED = ", size counts"  # where the camera is known
@@ -83,18 +82,19 @@ def examine(model, photo, sized=False):
     recogniser; candidate, kept: how well (IoU) the best candidate and the best kept box fit it;
     chosen: the box (4,) that the loop takes for a shuttlecock; fit: how well that fits one.
     """
+    found = model.detector.detect(photo.image)
     sight = see(model, photo.image, photo.camera if sized else None)
     holds = next(iter(photo.boxes), "neither")
     chosen = [] if sight.box is None else sight.box
-    found = {"holds": holds, "chosen": None if sight.box is None else _rounded(sight.box)}
+    told = {"holds": holds, "chosen": None if sight.box is None else _rounded(sight.box)}
     if holds == "neither":
-        return found
+        return told
     truth = photo.boxes[holds]
-    chance = model.recogniser.probability(crop(photo.image, truth)[None])
-    return found | {
+    chance = model.recogniser.chance(photo.image, truth[None])
+    return told | {
         "chance": round(float(chance[0]), 4),
-        "candidate": _best(sight.detections.candidates, [truth]),
-        "kept": _best(sight.detections.boxes, [truth]),
+        "candidate": _best(found.candidates, [truth]),
+        "kept": _best(found.boxes, [truth]),
         "fit": _best(chosen, photos.all_of(photo, "shuttlecock")),
     }
 

@@ -17,6 +17,7 @@ from reproduce import (
     ablation,
     bones,
     checksums,
+    cutouts,
     domains,
     feedback,
     fresh_test_set,
@@ -27,12 +28,12 @@ from reproduce import (
     real_world,
     recognition,
     results,
+    stream_training,
     training,
     trial,
     unsteady,
     variations,
     weakened,
-    wide_training,
 )
 from reproduce.peers import cerebella, optimal, steady
 from reproduce.whole_arm import bones as bones63
@@ -42,7 +43,7 @@ from vmc_lib import data
 ROOT, MODEL, RESULTS = Path(__file__).parents[1], data.FOLDER, results.FOLDER
 FRESH = ROOT / "_build/fresh_photos"  # of tests to come: they do not ship
 ELSEWHERE = ROOT / "_build/elsewhere_photos"  # likewise
-DATA = {".xml", ".npz", ".json", ".jpg"}
+DATA = {".xml", ".npz", ".json", ".jpg", ".webp"}
 
 
 @dataclass(frozen=True)
@@ -129,6 +130,12 @@ ARM, WHOLE_ARM, REAL, SHIPPED = (
 )
 STEPS = (
     Step(RENDER, MODEL / "photos", minutes=25, needs="mitsuba and LLVM 19"),
+    Step(
+        f"{sys.executable} -m render.cutouts",
+        cutouts.FILE,
+        minutes=6,
+        needs="mitsuba and LLVM 19",
+    ),
     Step(training.candidates, MODEL / "candidates.npz", "photos", 4),
     Step(training.detectors, MODEL / "detectors.npz", "photos candidates", 6),
     Step(training.localisers, MODEL / "localisers.npz", "photos", 1),
@@ -147,10 +154,10 @@ STEPS = (
     Step(weakened.make, RESULTS / "weakened.npz", f"templates {ARM}", 1),
     Step(trial.make, RESULTS / "lesions.json", SHIPPED, 6),
     Step(
-        wide_training.photographs,
+        stream_training.photographs,
         MODEL / "photographs.npz",
-        f"photos candidates detectors {REAL}",
-        15,
+        f"photos candidates detectors cutouts {REAL}",
+        25,
     ),
     Step(real_world.make, RESULTS / "real_world.json", SHIPPED, 3),
     Step(
@@ -166,7 +173,9 @@ STEPS = (
         needs="elsewhere_photos",
     ),
     Step(domains.make, RESULTS / "domains.npz", "photos", 8),
-    Step(ablation.make, RESULTS / "ablation.npz", f"photos candidates detectors {REAL}", 15),
+    Step(
+        ablation.make, RESULTS / "ablation.npz", f"photos candidates detectors cutouts {REAL}", 15
+    ),
     Step(
         f"{RENDER} --sheet --samples 16",
         MODEL / "photos/sheet",

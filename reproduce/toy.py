@@ -23,12 +23,12 @@ from reproduce import (
     printed_sheet,
     real_world,
     recognition,
+    stream_training,
     training,
     trial,
     unsteady,
     variations,
     weakened,
-    wide_training,
 )
 from reproduce.peers import cerebella, optimal, steady
 from reproduce.progress import run
@@ -93,11 +93,13 @@ def steps(folder):
             fresh_test_set.make, fresh, named, trainings=1, seeds=[0], patches=PATCHES
         ),
         "lesions": partial(trial.make, ["rig"], few),
-        "photographs": partial(wide_training.photographs, named, 2, 80, everyday=1),
+        "photographs": partial(
+            stream_training.photographs, named, (2, 1), (2, 2, 2, 2), everyday=1, pasted=2
+        ),
         "real_world": partial(real_world.make, few, splits=["validation"]),
         "elsewhere": partial(real_world.elsewhere, few),
         "domains": partial(domains.make, few, [4], equal=4, draws=2, patches=PATCHES, steps=2),
-        "ablation": partial(ablation.make, named, draws=1, steps=2, examples=80, everyday=1),
+        "ablation": partial(ablation.make, named, draws=1, steps=2, everyday=1, pasted=2),
         "printed_sheet": partial(printed_sheet.make, count=1),
         "whole_arm_habits": partial(habits.make, habits.grid(2)[:2]),
         "whole_arm": partial(experiment.make, [2], [14], seeds=[0], count=2),

@@ -4,10 +4,12 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from scipy.special import logit
 
 from vmc_lib import loop, photos
 from vmc_lib.arm.kinematics import to_world
 from vmc_lib.arm.simulate import simulate
+from vmc_lib.boxes import corrected
 from vmc_lib.motor import templates
 from vmc_lib.what.recogniser import NameClassifier
 from vmc_lib.where.detector import Detections
@@ -66,13 +68,25 @@ BOXES = np.array([[0, 0, 50, 50], [100, 0, 150, 50], [200, 0, 250, 50.0]])
 JUDGE = NameClassifier(np.array([10.0, 1.0]), -5.0)
 
 
+def named_at(places, named, lacks=0.0):
+    """A stream's `look`: to each box the name of the nearest place; all have the same lacks."""
+
+    def look(image, boxes):
+        nearest = np.abs(boxes[:, None] - places).sum(2).argmin(1) if len(boxes) else []
+        return logit(np.take(named, nearest)), np.full((len(boxes), 4), lacks)
+
+    return look
+
+
 def looked(scores, named, judge=JUDGE, camera=None):
     """What a model sees that finds BOXES with these scores, and gives them these names."""
     scores = np.array(scores)
     boxes = BOXES[: len(scores)]
     found = Detections(boxes, scores, boxes, scores, boxes, scores)
     detector = SimpleNamespace(detect=lambda image: found)
-    recogniser = SimpleNamespace(probability=lambda crops: np.array(named)[: len(crops)])
+    recogniser = SimpleNamespace(
+        chance=lambda image, boxes: np.array(named)[: len(boxes)], look=named_at(boxes, named)
+    )
     image = np.random.default_rng(0).integers(0, 255, (400, 600, 3), dtype=np.uint8)
     return loop.see(loop.VisuomotorModel(detector, recogniser, None, None, judge), image, camera)
 
@@ -98,18 +112,38 @@ def test_where_size_counts_the_wrong_sizes_are_left_out_and_the_right_ones_likel
     assert nothing.box is None
 
 
-def test_of_many_boxes_those_that_fit_best_are_weighed():
-    many = np.add(np.arange(48.0).reshape(12, 4), [0, 0, 60, 60])
-    scores = np.linspace(0.9, 0.1, 12)
+def test_of_many_boxes_those_that_fit_best_are_looked_at_and_the_likeliest_again():
+    corners = 60.0 * np.column_stack([np.arange(40) % 10, np.arange(40) // 10])
+    many, scores = np.hstack([corners, corners + 50]), np.linspace(0.9, 0.1, 40)
     found = Detections(many, scores, many, scores, many, scores)
-    detector = SimpleNamespace(detect=lambda image: found)
-    recogniser = SimpleNamespace(probability=lambda crops: np.linspace(0.1, 0.5, len(crops)))
-    model = loop.VisuomotorModel(detector, recogniser, None, None, JUDGE)
+    asked = []
+
+    def look(image, boxes):
+        asked.append(boxes)
+        return named_at(many, np.linspace(0.1, 0.5, 40), lacks=0.02)(image, boxes)
+
+    model = loop.VisuomotorModel(
+        SimpleNamespace(detect=lambda image: found), SimpleNamespace(look=look), None, None, JUDGE
+    )
     sight = loop.see(model, np.zeros((400, 600, 3), np.uint8))
-    assert np.count_nonzero(sight.probability) == loop.WEIGHED
+    first, again = asked
+    np.testing.assert_array_equal(first, many[: loop.GLANCES])
+    best = np.arange(loop.GLANCES)[::-1][: loop.WEIGHED]
+    step = np.full((loop.WEIGHED, 4), 0.02)
+    np.testing.assert_allclose(again, corrected(many[best], step))
     assert (np.diff(sight.probability) <= 0).all()
-    np.testing.assert_array_equal(np.sort(sight.detections.scores), np.sort(scores))
-    np.testing.assert_array_equal(sight.detections.boxes[loop.WEIGHED :], many[loop.WEIGHED :])
+    rows = [list(scores).index(score) for score in sight.detections.scores]
+    assert sorted(rows) == sorted(best)
+    np.testing.assert_allclose(sight.detections.boxes, corrected(corrected(many[rows], step), step))
+
+
+def test_of_boxes_that_come_to_lie_on_each_other_one_is_kept():
+    boxes = np.array([[0, 0, 50, 50], [2, 0, 52, 50], [200, 0, 250, 50.0]])
+    found = Detections(boxes, np.ones(3), boxes, np.ones(3), boxes, np.ones(3))
+    stream = SimpleNamespace(look=named_at(boxes, [0.7, 0.9, 0.8]))
+    kept, told = loop.weighed(found, stream, None)
+    np.testing.assert_array_equal(kept, boxes[[1, 2]])
+    np.testing.assert_allclose(told, np.column_stack([[1, 1], logit([0.9, 0.8])]))
 
 
 def test_a_judge_speaks_up_from_the_chance_that_validation_set():

@@ -12,19 +12,20 @@ from scipy.special import expit, logit
 from vmc_lib import NoReach, photos
 from vmc_lib.arm.kinematics import to_world, turn_towards
 from vmc_lib.arm.simulate import Motion
+from vmc_lib.boxes import corrected, nms
 from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration, calibrated
 from vmc_lib.motor import templates
 from vmc_lib.motor.planning import Plan, plan
-from vmc_lib.what.crops import crop
 from vmc_lib.what.recogniser import NameClassifier, Recogniser
+from vmc_lib.what.stream import VentralStream
 from vmc_lib.where.detector import Detections, ObjectDetector
 from vmc_lib.where.localiser import Localiser
 
 NAMING_MARGIN = 1.0  # how much lower than the detector's its threshold is; set on validation photos
 PHOTOGRAPHS_AS = "varied"  # the level whose places serve for photographs too
-# Where a judge decides: how many boxes, those that fit best, it weighs, and the chance of being a
-# shuttlecock's from which a box is chosen; set on validation photos, as the judge itself
-WEIGHED, SURE = 8, 0.3
+# Where a judge decides: how many boxes, those that fit best, are looked at, how many of them again,
+# and the chance of being a shuttlecock's from which a box is chosen; set on validation photos
+GLANCES, WEIGHED, SURE = 32, 8, 0.3
 # Where size counts: how large what is in a shuttlecock's box can be (m), and how many times as
 # often as another box it is of that size; set on validation photos
 SIZES, RIGHT_SIZE = (0.05, 0.092), 5
@@ -36,7 +37,7 @@ class VisuomotorModel:
     """What photos and past reaches have taught: where objects are, their names, how to move."""
 
     detector: ObjectDetector
-    recogniser: Recogniser
+    recogniser: Recogniser | VentralStream
     localiser: Localiser
     template_set: templates.TemplateSet
     judge: NameClassifier | None = None  # of what `weighed` gives; without, the recogniser decides
@@ -54,7 +55,7 @@ class VisuomotorModel:
         real = level == photos.REAL_LEVEL
         return cls(
             lenient_detector(level),
-            Recogniser.load(level),
+            VentralStream.load() if real else Recogniser.load(level),
             Localiser.load(PHOTOGRAPHS_AS if real else level),
             templates.load(),
             NameClassifier.load("photographs", "judge") if real else None,
@@ -73,7 +74,7 @@ class Sight:
     """What both visual pathways made of an image."""
 
     detections: Detections
-    probability: np.ndarray  # (k,): that each kept box holds a shuttlecock; 0 if not weighed
+    probability: np.ndarray  # (k,): that each kept box holds a shuttlecock
     sure: float = 0.5  # the probability above which it is said so
 
     @property
@@ -123,39 +124,39 @@ def see(model, image, camera=None):
     if camera is not None:
         found, times = sized(found, camera), RIGHT_SIZE
     if model.judge is None:
-        chance = names(model.recogniser, image, found.boxes)
+        chance = model.recogniser.chance(image, found.boxes)
         return Sight(found, expit(logit(chance) + np.log(times)))
-    chance = np.zeros(len(found.boxes))
-    odds = model.judge.log_odds(weighed(found, model.recogniser, image))
-    chance[:WEIGHED] = expit(odds + np.log(times))
+    boxes, told = weighed(found, model.recogniser, image)
+    chance = expit(model.judge.log_odds(told) + np.log(times))
     best = np.argsort(-chance, kind="stable")
-    return Sight(_kept(found, best), chance[best], SURE)
+    judged = replace(found, boxes=boxes[best], scores=told[best, 0])
+    return Sight(judged, chance[best], SURE)
 
 
 def sized(found, camera):
     """Of `Detections`, the boxes that are of a shuttlecock's size where a `Camera` stands."""
     smallest, largest = SIZES
     size = camera.sizes(found.boxes)
-    return _kept(found, (size > smallest) & (size < largest))
+    right = (size > smallest) & (size < largest)
+    return replace(found, boxes=found.boxes[right], scores=found.scores[right])
 
 
-def _kept(found, which):
-    return replace(found, boxes=found.boxes[which], scores=found.scores[which])
+def weighed(found, stream, image):
+    """The boxes of an image's `Detections` to choose from, and what both pathways say of each.
 
-
-def names(recogniser, image, boxes):
-    """The chance (n,), to a recogniser, that each of the boxes (n, 4) shows a shuttlecock."""
-    return recogniser.probability(np.array([crop(image, box) for box in boxes]))
-
-
-def weighed(found, recogniser, image):
-    """What both pathways say of the WEIGHED best boxes of an image's `Detections`: (n, 2).
-
-    That is how well each fits, and the log-odds of its name.
+    A `VentralStream` looks at the GLANCES that fit best, and again at the WEIGHED likeliest of
+    them, as it has tightened them. Of those that then lie on each other the likeliest is kept.
+    Returns boxes (n, 4), tightened once more; and, (n, 2), how well each fitted, and the log-odds
+    of its name.
     """
-    named = names(recogniser, image, found.boxes[:WEIGHED])
-    odds = logit(np.clip(named, 1e-6, 1 - 1e-6))
-    return np.column_stack([found.scores[:WEIGHED], odds])
+    boxes, scores = found.boxes[:GLANCES], found.scores[:GLANCES]
+    odds, lacks = stream.look(image, boxes)
+    best = np.argsort(-odds, kind="stable")[:WEIGHED]
+    boxes = corrected(boxes[best], lacks[best])
+    odds, lacks = stream.look(image, boxes)
+    boxes = corrected(boxes, lacks)
+    kept = nms(boxes, odds)
+    return boxes[kept], np.column_stack([scores[best], odds])[kept]
 
 
 def locate(model, image, box, camera):

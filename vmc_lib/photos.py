@@ -17,6 +17,7 @@ from PIL import Image, ImageOps, UnidentifiedImageError
 from vmc_lib import data
 from vmc_lib.boxes import as_boxes
 from vmc_lib.camera import Camera
+from vmc_lib.compiled import compiled
 
 LEVELS = ("rig", "free", "varied")  # rendered, so that cameras and places are known
 REAL_LEVEL = "real"  # photographs
@@ -199,6 +200,40 @@ def as_float(image):
     rgb = as_rgb(image).astype(np.float32)
     rgb /= 255
     return rgb
+
+
+def crops(image, boxes, size):
+    """What boxes (n, 4) show of a uint8 image (height, width, c): cells (n, size, size, c) in 0..1.
+
+    A cell is the mean of four samples spread evenly over it. Beyond the image its edge pixels
+    repeat; a box without area shows the one pixel, or row of pixels, it lies on. ValueError for
+    another kind of image.
+    """
+    if image.dtype != np.uint8 or image.ndim != 3 or image.size == 0:
+        raise ValueError(f"{image.dtype} {image.shape} is no uint8 image: see photos.read_image")
+    boxes = as_boxes(boxes)
+    height, width = image.shape[:2]
+    steps = (np.arange(size * 2) + 0.5) / (size * 2)
+    x, y = (
+        (boxes[:, [low]] + steps * (boxes[:, [low + 2]] - boxes[:, [low]])).clip(0, limit - 1)
+        for low, limit in ((0, width), (1, height))
+    )
+    return _means_of_four(image, y.astype(int), x.astype(int)) / np.float32(255)
+
+
+@compiled
+def _means_of_four(image, y, x):
+    size, channels = x.shape[1] // 2, image.shape[2]
+    cells = np.empty((len(y), size, size, channels), np.float32)
+    for box in range(len(y)):
+        for i in range(size):
+            above, below = image[y[box, 2 * i]], image[y[box, 2 * i + 1]]
+            for j in range(size):
+                left, right = x[box, 2 * j], x[box, 2 * j + 1]
+                for c in range(channels):
+                    one, other = int(above[left, c]) + above[right, c], below[left, c]
+                    cells[box, i, j, c] = np.float32(one + other + below[right, c]) / 4
+    return cells
 
 
 def _open(path):

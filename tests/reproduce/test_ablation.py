@@ -1,10 +1,9 @@
 """What each idea of training buys: what is told of it, and what leaving one out leaves."""
 
 import numpy as np
-import pytest
 
 from reproduce import ablation, pools
-from reproduce.looks import ALL, cut, look
+from reproduce.looks import ALL, look
 from vmc_lib import photos
 
 SHOT = photos.load("real", "train")[0]
@@ -14,7 +13,7 @@ RENDER = pools.by_kind(
     pools.anywhere(np.random.default_rng(1)),
     np.random.default_rng(0),
 )
-POOL = pools.pool({"real": [REAL], "rig": [RENDER]})
+POOL = pools.pool({"real": [REAL], "rig": [RENDER], "pasted": [REAL]})
 
 
 def test_what_is_told_is_there():
@@ -26,28 +25,36 @@ def test_what_is_told_is_there():
 
 
 def test_each_way_leaves_one_idea_out():
-    whole, plain, windowless, rendered = (less(POOL) for less in ablation.WITHOUT.values())
-    assert whole.looks is rendered.looks is windowless.looks is ALL
-    assert plain.real is POOL.real
-    assert not any(rendered.real.values())
-    assert [kind for kind, shown in windowless.real.items() if not shown] == ["other", "scene"]
-    crops, labels = rendered.examples(20, np.random.default_rng(0))
-    assert len(set(labels)) == 2
-    assert np.isfinite(crops).all()
+    ways = {name: change(POOL) for name, (change, _) in ablation.WITHOUT.items()}
+    maps = [maps for _, maps in ablation.WITHOUT.values()]
+    assert [len(some) for some in maps] == [4, 2, 4, 4, 4, 4]
+
+    def has(name):
+        sources = ways[name].sources
+        return {(s, kind) for s in sources for kind, shown in sources[s].items() if shown}
+
+    everything = has("all of them")
+    assert has("two stages, not four") == everything
+    assert has("without new looks") == everything
+    assert [way.looks is ALL for way in ways.values()] == [True, True, False, True, True, True]
+    laid = {(s, kind) for s, kind in everything if s == "pasted"}
+    windows = {(s, kind) for s, kind in everything if s != "rendered" and kind == "scene"}
+    assert has("without shuttlecocks laid on photographs") == everything - laid
+    assert has("without windows of photographs") == everything - windows
+    assert {s for s, _ in has("without photographs")} == {"rendered"}
 
 
-def test_without_new_looks_a_box_always_looks_the_same():
+def test_without_new_looks_a_thing_always_looks_the_same():
     box = SHOT.boxes["shuttlecock"]
     one, other = (
-        look(SHOT.image, box, np.random.default_rng(seed), 48, ablation.PLAIN) for seed in (0, 1)
+        look(SHOT.image, box, False, np.random.default_rng(seed), ablation.PLAIN)[0]
+        for seed in (0, 1)
     )
     np.testing.assert_array_equal(one, other)
-    grey = cut(SHOT.image, box, 48) @ np.float32([0.299, 0.587, 0.114])
-    assert np.corrcoef(one.ravel(), grey.ravel())[0, 1] == pytest.approx(1, abs=0.02)
 
 
 def test_a_photograph_is_asked_about_its_things_and_some_windows():
-    crops, labels = ablation.asked(POOL.real)
-    assert crops.shape[1:] == (200, 200)
-    assert labels.sum() == 2
-    assert ablation.WINDOWS <= (~labels).sum() < 2 * ablation.WINDOWS
+    exam = ablation.asked([REAL])
+    labels = [label for _, boxes, label in exam for _ in boxes]
+    assert sum(labels) == 2
+    assert ablation.WINDOWS <= len(labels) - 2 < 2 * ablation.WINDOWS

@@ -35,30 +35,30 @@ def test_windows_lie_in_the_photo_and_are_not_slivers():
 
 
 def test_kinds_are_drawn_as_often_as_they_should_be():
-    pool = pools.pool(SHOWN)
+    pool = pools.pool(SHOWN | {"pasted": [{"shuttlecock": SHOWN["real"][0]["shuttlecock"]}]})
     drawn = [pool.draw(RNG) for _ in range(2000)]
     assert abs(np.mean([label for *_, label in drawn]) - pools.SHARES["shuttlecock"]) < 0.05
     renders = {shot.image[0].tobytes() for shot in photos.load("rig", "train")[:3]}
-    real = np.mean([image[0].tobytes() not in renders for image, *_ in drawn])
-    assert abs(real - pools.REAL) < 0.05
+    rendered = np.mean([image[0].tobytes() in renders for image, _, label in drawn if label])
+    assert abs(rendered - pools.SOURCES["rendered"]) < 0.06
 
 
 def test_what_photographs_lack_comes_from_renders():
     alone = pools.pool({"rig": SHOWN["rig"]})
-    crops, labels = alone.examples(30, RNG)
-    assert crops.shape == (30, pools.NARROW, pools.NARROW)
-    assert 0 < labels.sum() < 30
-    assert (crops.std((1, 2)) >= 0.01).all()
+    drawn = [alone.draw(RNG) for _ in range(30)]
+    assert 0 < sum(label for *_, label in drawn) < 30
+    assert all(box.shape == (4,) for _, box, _ in drawn)
 
 
-def test_everyday_photos_are_learnt_from_and_never_asked(monkeypatch):
+def test_everyday_photos_are_learnt_from_and_shuttlecocks_laid_on_others(monkeypatch):
     class Blind:
         def detect(self, image):
             return type("Found", (), {"boxes": np.empty((0, 4))})
 
     monkeypatch.setattr(pools.loop, "lenient_detector", lambda level: Blind())
-    shown = pools.show(("train", "validation"), RNG, everyday=2)
-    for level, both in shown.items():
-        more = 2 * (level == "real"), 0
-        for split, some, extra in zip(("train", "validation"), both, more, strict=True):
-            assert len(some) == len(photos.load(level, split)) + extra
+    shown = pools.show(RNG, everyday=2, pasted=3)
+    assert list(shown) == [*photos.EVERY_LEVEL, "pasted"]
+    for level in photos.EVERY_LEVEL:
+        assert len(shown[level]) == len(photos.load(level, "train")) + 2 * (level == "real")
+    assert len(shown["pasted"]) == 3
+    assert all("shuttlecock" in photo for photo in shown["pasted"])

@@ -91,7 +91,7 @@ def test_a_step_depends_on_all_code_that_it_can_run():
     for name, code in {
         "ledger": "reproduce/paper.py reproduce/intervals.py reproduce/peers/optimal.py",
         "detectors": "vmc_lib/boxes.py vmc_lib/compiled.py reproduce/training.py",
-        "ablation": "reproduce/wide_training.py",  # imported in a function
+        "ablation": "reproduce/stream_training.py",  # imported in a function
     }.items():
         assert {ROOT / file for file in code.split()} <= BY_NAME[name].inputs()
 

@@ -1,7 +1,8 @@
 import numpy as np
 import pytest
 
-from vmc_lib.where.features import crops, gradients, pixels_in_context, raw_pixels
+from vmc_lib.photos import crops
+from vmc_lib.where.features import gradients, pixels_in_context, raw_pixels
 
 RNG = np.random.default_rng(0)
 NOISE = RNG.integers(0, 256, (40, 60, 3), dtype=np.uint8)

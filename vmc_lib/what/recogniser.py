@@ -8,7 +8,7 @@ from scipy.special import expit
 from vmc_lib import photos
 from vmc_lib.data import arrays
 from vmc_lib.what.cdbn import CDBN
-from vmc_lib.what.crops import WIDTH, shrunk, whiten
+from vmc_lib.what.crops import crop, whiten
 
 READ_OUTS = "MP2", "P2", "P1 + P2"
 ALL_LEVELS = "everywhere"  # all rendered levels together: for a photo of none of them
@@ -69,28 +69,19 @@ class NameClassifier:
 
 @dataclass(frozen=True, eq=False)
 class Recogniser:
-    """A CDBN, the name of a read-out, and the classifier on it.
-
-    Crops are scaled to its width, and seen under so many quarter turns: the mean log-odds count.
-    """
+    """A CDBN, the name of a read-out, and the classifier on it."""
 
     cdbn: CDBN
     name: str
     classifier: NameClassifier
-    width: int = WIDTH  # pixels
-    turns: int = 1
 
     @classmethod
     def load(cls, level=ALL_LEVELS, name="P1 + P2"):
         """The recogniser that has learnt names from the training photos of a level.
 
         Its CDBN has learnt from those of all levels. Its read-out "MP2" is the paper's, the default
-        the best. That of the level "real" is another network: larger, learnt end to end, and from
-        the renders too. ValueError for an unknown one.
+        the best. ValueError for an unknown one; for photographs there is a `VentralStream`.
         """
-        if (level, name) == (photos.REAL_LEVEL, "P1 + P2"):
-            learnt, linear = arrays("photographs"), NameClassifier.load("photographs", name)
-            return cls(CDBN.from_arrays(learnt), name, linear, *map(int, learnt["looks"]))
         for given, known in ((level, (*photos.LEVELS, ALL_LEVELS)), (name, READ_OUTS)):
             if given not in known:
                 raise ValueError(f"there is no {given!r}: choose from {', '.join(known)}")
@@ -100,8 +91,8 @@ class Recogniser:
         """The chance (n,) that each grey crop (n, 200, 200) shows a shuttlecock."""
         if len(crops) == 0:
             return np.zeros(0)
-        if self.width != WIDTH:
-            crops = shrunk(crops, self.width)
-        turned = (np.rot90(crops, turn, (1, 2)) for turn in range(self.turns))
-        seen_as = (read_outs(self.cdbn, np.ascontiguousarray(x))[self.name] for x in turned)
-        return expit(np.mean([self.classifier.log_odds(x) for x in seen_as], axis=0))
+        return self.classifier.probability(read_outs(self.cdbn, crops)[self.name])
+
+    def chance(self, image, boxes):
+        """The chance (n,) that each of the boxes (n, 4) of an image shows a shuttlecock."""
+        return self.probability(np.array([crop(image, box) for box in boxes]))

@@ -1,0 +1,70 @@
+"""The deeper ventral stream: what its stages pass on, and what it says of boxes."""
+
+import numpy as np
+import pytest
+
+from vmc_lib import photos
+from vmc_lib.boxes import corrected, iou
+from vmc_lib.what.stream import MARGIN, STAGES, WIDTH, VentralStream, shown
+
+STREAM = VentralStream.load()
+SHOTS = [shot for shot in photos.load("real", "train") if "shuttlecock" in shot.boxes]
+
+
+def test_a_stage_is_a_convolution_the_strongest_of_four_and_a_threshold():
+    rng = np.random.default_rng(0)
+    x = rng.normal(size=(2, 3, WIDTH, WIDTH)).astype(np.float32)
+    first = STREAM.stages(x)[STAGES[0]]
+    W, b = STREAM.filters[0], STREAM.biases[0]
+    assert first.shape == (2, len(W), WIDTH // 2, WIDTH // 2)
+    padded = np.pad(x, [(0, 0), (0, 0), (1, 1), (1, 1)])
+    for y, column, k in ((0, 0, 1), (23, 23, 0), (7, 11, 2)):
+        drives = [
+            (padded[1, :, i : i + 3, j : j + 3] * W[k]).sum() + b[k]
+            for i in (2 * y, 2 * y + 1)
+            for j in (2 * column, 2 * column + 1)
+        ]
+        assert first[1, k, y, column] == pytest.approx(max(0, *drives), abs=1e-4)
+
+
+def test_each_stage_halves_the_places():
+    maps = STREAM.stages(shown(SHOTS[0].image, SHOTS[0].boxes["shuttlecock"]))
+    assert list(maps) == list(STAGES)
+    assert [x.shape[-1] for x in maps.values()] == [24, 12, 6, 3]
+    assert all((x >= 0).all() for x in maps.values())
+
+
+def test_a_box_is_shown_with_a_margin_and_in_any_light():
+    image = np.zeros((400, 600, 3), np.uint8)
+    image[100:200, 100:200] = 255, 0, 0
+    [seen] = shown(image, [100, 100, 200, 200])
+    edge = round(WIDTH * MARGIN / (1 + 2 * MARGIN))
+    assert seen[0, edge + 1 : -edge - 1, edge + 1 : -edge - 1].min() > 1
+    assert seen[0, : edge - 1].max() < 0
+    [darker] = shown(image // 2, [100, 100, 200, 200])
+    np.testing.assert_allclose(darker, seen, atol=0.1)
+
+
+def test_it_knows_shuttlecocks_and_mends_boxes():
+    chances, before, after = [], [], []
+    for shot in SHOTS[::3]:
+        true = shot.boxes["shuttlecock"][None]
+        chances.append(STREAM.chance(shot.image, true)[0])
+        astray = corrected(true, np.array([[0.1, -0.1, 0.15, -0.1]]))
+        before.append(iou(astray, true)[0, 0])
+        after.append(iou(STREAM.tightened(shot.image, astray), true)[0, 0])
+    assert np.mean(np.array(chances) > 0.5) > 0.8
+    assert np.mean(after) > np.mean(before) + 0.05
+
+
+def test_of_no_box_it_says_nothing():
+    odds, lacks = STREAM.look(SHOTS[0].image, np.empty((0, 4)))
+    assert odds.shape == (0,)
+    assert lacks.shape == (0, 4)
+
+
+def test_it_is_small_and_saves_what_it_loads():
+    assert (photos.data.FOLDER / "photographs.npz").stat().st_size < 4e6
+    shipped = photos.data.arrays("photographs")
+    for name, part in STREAM.arrays().items():
+        np.testing.assert_array_equal(np.float16(part), shipped[name])
