@@ -94,6 +94,7 @@ def teach(network, batches, rate):
     By torch's AdamW, whose rate rises and falls once (OneCycleLR). While it learns, each map is
     brought to one scale (batch normalisation).
     """
+    network.to(memory_format=torch.channels_last)  # as the crops lie: twice as quick
     learner = torch.optim.AdamW(network.parameters(), lr=rate, weight_decay=0.02)
     rise_and_fall = torch.optim.lr_scheduler.OneCycleLR(learner, rate, len(batches), pct_start=0.15)
     with chance_of(batches.seed):

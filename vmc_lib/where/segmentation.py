@@ -51,15 +51,26 @@ def edge_weights(channels):
     return weights.ravel()
 
 
+@compiled
 def lightest_first(weights):
     """Weights (n,), float32 from 0 up, sorted, and which they are, (n,): equal ones in order.
 
-    The bits of such numbers sort as they do: a weight is the upper half of a number of 64 bits,
-    which one it is the lower.
+    The bits of such numbers sort as they do. Radix sort: by the lowest eleven bits, then by the
+    next, then by the highest, each time by counting; so the time grows as n, not as n log n.
     """
-    halves = np.stack([np.arange(len(weights), dtype="<u4"), weights.view("<u4")], axis=-1)
-    halves.ravel().view("<u8").sort()  # in place
-    edges, bits = halves.T.copy()
+    bits, edges = weights.view(np.uint32), np.arange(len(weights)).astype(np.uint32)
+    for low in (0, 11, 22):
+        digits = bits >> np.uint32(low) & np.uint32(2047)
+        place = np.zeros(2049, np.int64)  # where a digit's next edge goes
+        for digit in digits:
+            place[digit + 1] += 1
+        place = np.cumsum(place)
+        old_bits, bits = bits, np.empty_like(bits)
+        old_edges, edges = edges, np.empty_like(edges)
+        for e, digit in enumerate(digits):
+            to = place[digit]
+            bits[to], edges[to] = old_bits[e], old_edges[e]
+            place[digit] = to + 1
     return bits.view(np.float32), edges
 
 
