@@ -69,7 +69,7 @@ def mean_of_photos(gains, rng, draws=2000):
 
 if __name__ == "__main__":
     rows = []
-    for name, some in {"renders": renders(), "real photos": photos.real()}.items():
+    for name, some in {"renders": renders(), "real photos": photos.everyday()}.items():
         shots = [(p.image, list(p.boxes.values()), opencv(p.image, "single")[0]) for p in some]
         for called, how in CUTS.items():
             counts, gains = zip(*(gain(*shot, **how) for shot in shots), strict=True)

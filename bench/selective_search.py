@@ -75,7 +75,7 @@ def timed(method, image, strategy):
 
 def wall(width, height):
     """The middle of a wall of 5 x 5 photos: content grows with the pixels."""
-    shots = [p.image for p in photos.load("varied", "validation")[:14] + list(photos.real())]
+    shots = [p.image for p in photos.load("varied", "validation")[:14] + list(photos.everyday())]
     rows = [np.hstack(shots[5 * row : 5 * row + 5]) for row in range(5)]
     x, y = (3000 - width) // 2, (2000 - height) // 2
     return np.vstack(rows)[y : y + height, x : x + width].copy()
@@ -157,7 +157,7 @@ def growth(method):
 
 
 if __name__ == "__main__":
-    sets = {"renders": renders(), "real photos": photos.real()}
+    sets = {"renders": renders(), "real photos": photos.everyday()}
     one = wall(600, 400)
     costs = {(s, m): memory(m, s, one) for s, entrants in ENTRANTS.items() for m in entrants}
     table = [

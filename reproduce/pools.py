@@ -55,7 +55,7 @@ def show(rng, folder=photos.FOLDER, everyday=None, pasted=PASTED):
     shuttlecock one is laid, as often as `pasted` says: the level "pasted".
     """
     shots = {level: photos.load(level, "train", folder) for level in photos.EVERY_LEVEL}
-    shots[photos.REAL_LEVEL] += photos.real()[:everyday]
+    shots[photos.REAL_LEVEL] += photos.everyday()[:everyday]
     shots["pasted"] = cutouts.pasted(shots[photos.REAL_LEVEL], "train", pasted, rng)
     return {level: seen_in(some, rng) for level, some in shots.items()}
 

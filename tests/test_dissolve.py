@@ -24,7 +24,10 @@ GROWN = """([pixels, k]) => {
   for (const byte of new Uint8Array(tree.labels.buffer)) text += String.fromCharCode(byte);
   return { ...tree, labels: btoa(text) };
 }"""
-SHOTS = *chain(*(photos.load(level, "train")[:4] for level in photos.LEVELS)), *photos.real()[:8]
+SHOTS = (
+    *chain(*(photos.load(level, "train")[:4] for level in photos.LEVELS)),
+    *photos.everyday()[:8],
+)
 
 
 @pytest.fixture(scope="module")

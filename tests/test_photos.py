@@ -116,15 +116,15 @@ def test_the_real_level_is_split_by_place_and_credited():
 
 
 def test_the_real_photos_are_small_and_credited_with_their_boxes_inside():
-    shots = photos.real()
-    assert len(shots) == len(list(photos.REAL.glob("*.jpg"))) >= 8
+    shots = photos.everyday()
+    assert len(shots) == len(list(photos.EVERYDAY.glob("*.jpg"))) >= 8
     credits = (FOLDER.parents[2] / "CREDITS.md").read_text()
     for shot in (*shots, *photos.load("real", "train")):
         assert shot.image.shape == (HEIGHT, WIDTH, 3)
         assert not shot.image.flags.writeable
     for shot in shots:
         assert shot.image.std() > 10
-        assert (photos.REAL / f"{shot.name}.jpg").stat().st_size <= 60_000
+        assert (photos.EVERYDAY / f"{shot.name}.jpg").stat().st_size <= 60_000
         assert f"`{shot.name}`" in credits
         assert shot.credit.split("; ")[-1] in credits
         for x0, y0, x1, y1 in shot.boxes.values():

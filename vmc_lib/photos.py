@@ -28,7 +28,7 @@ EVERY_LEVEL = (*LEVELS, REAL_LEVEL)
 SPLITS = ("train", "validation", "test")
 CLASSES = ("shuttlecock", "cup")
 WIDTH, HEIGHT = 600, 400
-FOLDER, REAL = data.FOLDER / "photos", data.FOLDER / "real"
+FOLDER, EVERYDAY = data.FOLDER / "photos", data.FOLDER / "real"
 
 
 class _Picture:
@@ -138,16 +138,16 @@ def _read_real(sidecar):
     """A photo of the level "real", or of everyday things, which stand in no level."""
     truth, file, boxes = _described(sidecar)
     split = sidecar.parent
-    name = sidecar.stem if split == REAL else f"{split.parent.name}/{split.name}/{sidecar.stem}"
+    name = sidecar.stem if split == EVERYDAY else f"{split.parent.name}/{split.name}/{sidecar.stem}"
     more, unclear = (as_boxes(truth.get(key, [])) for key in ("also", "ignore"))
     credit = "; ".join(truth[key] for key in ("credit", "licence") if key in truth)
     return RealPhoto(name, file, boxes, more, unclear, credit)
 
 
 @cache
-def real():
+def everyday():
     """The real photos of everyday things, without shuttlecocks, in order of their names."""
-    return tuple(_read_real(sidecar) for sidecar in sorted(REAL.glob("*.json")))
+    return tuple(_read_real(sidecar) for sidecar in sorted(EVERYDAY.glob("*.json")))
 
 
 def all_of(photo, name):

@@ -11,7 +11,7 @@ SHOWN = {
     ],
     "real": [
         pools.by_kind(shot, pools.anywhere(RNG), RNG)
-        for shot in [*photos.load("real", "train")[::12], photos.real()[0]]
+        for shot in [*photos.load("real", "train")[::12], photos.everyday()[0]]
     ],
 }
 

@@ -88,7 +88,7 @@ def test_weights_are_sorted_and_equal_ones_keep_their_order():
 @pytest.mark.parametrize("shot", ["rig", "varied", "real"])
 def test_photos_are_cut_as_scikit_image_cuts_them(shot, colour):
     """To the pixel; where edges of equal weight decide (few), it depends on its machine's sort."""
-    some = photos.real() if shot == "real" else photos.load(shot, "validation")
+    some = photos.everyday() if shot == "real" else photos.load(shot, "validation")
     channels = COLOUR_SPACES[colour](as_float(some[1].image))
     smooth = cv2.GaussianBlur(channels, (0, 0), 0.8)
     theirs = felzenszwalb(smooth, scale=100, sigma=0, min_size=100)
