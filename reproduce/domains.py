@@ -15,7 +15,7 @@ from reproduce.pools import by_kind
 from reproduce.results import arrays
 from vmc_lib import photos
 from vmc_lib.what.cdbn import CDBN, K
-from vmc_lib.what.crops import crop, shrunk, whiten
+from vmc_lib.what.crops import crop, whiten
 from vmc_lib.what.recogniser import READ_OUTS, read_outs
 
 NARROW = 48  # pixels of a crop: wider ones would take hours to learn from end to end
@@ -77,6 +77,15 @@ def things(level, split, folder=photos.FOLDER):
             some = boxes[:1] if kind == "scene" else boxes
             found += [(crop(image, box), kind == "shuttlecock") for box in some]
     return tuple(map(np.array, zip(*found, strict=True)))
+
+
+def shrunk(pictures, width):
+    """Grey pictures (n, height, height), scaled down to (n, width, width) by means of areas."""
+    size = pictures.shape[1]
+    edges = np.arange(width) * size // width, -(-np.arange(1, width + 1) * size // width)
+    areas = [slice(*ends) for ends in zip(*edges, strict=True)]
+    rows = np.stack([pictures[:, area].mean(1) for area in areas], 1)
+    return np.stack([rows[:, :, area].mean(2) for area in areas], 2)
 
 
 def without_labels(crops, patches):

@@ -34,6 +34,12 @@ def test_a_photo_gives_its_things_and_a_window():
     assert real.sum() == sum(len(photos.all_of(shot, "shuttlecock")) for shot in shots)
 
 
+def test_pictures_are_scaled_down_by_areas():
+    pictures = np.random.default_rng(0).random((2, 40, 40)).astype(np.float32)
+    small = domains.shrunk(pictures, 10)
+    np.testing.assert_allclose(small, pictures.reshape(2, 10, 4, 10, 4).mean((2, 4)), atol=1e-6)
+
+
 def test_both_kinds_count_alike():
     truth = np.array([True, False, False, False])
     assert domains.named_right(np.ones(4, bool), truth) == 0.5

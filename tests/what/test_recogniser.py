@@ -8,7 +8,7 @@ from reproduce.name_training import JITTER, background_box, examples, fit_name_c
 from vmc_lib import photos
 from vmc_lib.boxes import iou, jittered
 from vmc_lib.what.cdbn import CDBN, crops_of
-from vmc_lib.what.crops import crop, shrunk, whiten
+from vmc_lib.what.crops import crop, whiten
 from vmc_lib.what.learning import Learner
 from vmc_lib.what.recogniser import ALL_LEVELS, READ_OUTS, Recogniser, seen
 
@@ -59,12 +59,6 @@ def test_what_is_in_a_box_is_named():
         recogniser.chance(shot.image, boxes), recogniser.probability(crops)
     )
     assert recogniser.chance(shot.image, []).shape == (0,)
-
-
-def test_pictures_are_scaled_down_by_areas():
-    pictures = np.random.default_rng(0).random((2, 40, 40)).astype(np.float32)
-    small = shrunk(pictures, 10)
-    np.testing.assert_allclose(small, pictures.reshape(2, 10, 4, 10, 4).mean((2, 4)), atol=1e-6)
 
 
 def blobs(n, rng, apart):

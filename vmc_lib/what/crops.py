@@ -24,15 +24,6 @@ def crop(image, box):
     return cv2.resize(grey, (WIDTH, WIDTH), interpolation=how).astype(np.float32) / 255
 
 
-def shrunk(pictures, width):
-    """Grey pictures (n, height, height), scaled down to (n, width, width) by means of areas."""
-    size = pictures.shape[1]
-    edges = np.arange(width) * size // width, -(-np.arange(1, width + 1) * size // width)
-    areas = [slice(*ends) for ends in zip(*edges, strict=True)]
-    rows = np.stack([pictures[:, area].mean(1) for area in areas], 1)
-    return np.stack([rows[:, :, area].mean(2) for area in areas], 2)
-
-
 def whiten(pictures, cutoff=0.4):
     """Grey pictures (n, height, width) as input for a CRBM: float32 (n, 1, height, width).
 
