@@ -9,13 +9,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from vmc_lib.boxes import corrected, corrections, iou, mirrored
+from vmc_lib.boxes import corrected, corrections, iou
 from vmc_lib.data import arrays
 from vmc_lib.where.box_regression import RBFRidge, regress
 from vmc_lib.where.detector import ObjectDetector
 from vmc_lib.where.recipes import EVERY_RECIPE, PUBLISHED
 from vmc_lib.where.selective_search import propose
-from vmc_lib.where.svm import KernelSVM, best_threshold
+from vmc_lib.where.svm import KernelSVM
 
 ROIS = 4700  # counter-examples to learn from, as in the paper; a random draw where there are more
 JITTER = 0.05  # how far, in sides, the examples are jittered
@@ -52,7 +52,10 @@ class TrainingImage:
     def mirrored(self):
         """The same image in a mirror."""
         width = self.pixels.shape[1]
-        boxes = (mirrored(some, width) for some in (self.truth, self.candidates))
+        boxes = (
+            np.stack([width - x1, y0, width - x0, y1], axis=1)
+            for x0, y0, x1, y1 in (self.truth.T, self.candidates.T)
+        )
         return TrainingImage(self.pixels[:, ::-1], *boxes)
 
     def jittered(self, times, spread, rng):
@@ -163,6 +166,23 @@ def used_as(detector, name):
     recipe = EVERY_RECIPE[name]
     predictor = detector.iou_predictor if recipe.predicts_iou else None
     return replace(detector, recipe=recipe, iou_predictor=predictor)
+
+
+def best_threshold(scores, right, wanted):
+    """The threshold for scores (n,) that finds most at fewest errors: the best F1.
+
+    right: (n,) which are hits, or the chance of each; wanted: how many there are to hit. F1 is the
+    harmonic mean of precision and recall; the threshold lies midway between the last score taken
+    and the next lower one (or is -inf, where it is best to take all).
+    ValueError where there is nothing to choose from.
+    """
+    if not len(scores):
+        raise ValueError("no score to choose a threshold from: give photos with something found")
+    order = np.argsort(-scores, kind="stable")
+    taken, left = scores[order], np.append(scores[order][1:], -np.inf)
+    f1 = 2 * right[order].cumsum() / (np.arange(len(order)) + 1 + wanted)
+    last = np.where(left < taken, f1, -1).argmax()  # no line divides equal scores
+    return float((taken[last] + left[last]) / 2)
 
 
 def tuned(detector, shots):

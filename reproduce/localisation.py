@@ -14,6 +14,7 @@ from sklearn.linear_model import LogisticRegression
 from sklearn.metrics import f1_score
 
 from reproduce.detector_training import (
+    best_threshold,
     candidates,
     examples,
     fit_detector,
@@ -27,7 +28,7 @@ from vmc_lib import photos
 from vmc_lib.boxes import iou
 from vmc_lib.where.detector import ObjectDetector
 from vmc_lib.where.recipes import RECIPES
-from vmc_lib.where.svm import KernelSVM, best_threshold
+from vmc_lib.where.svm import KernelSVM
 
 GRID = (0.01, 0.1, 1.0, 10.0, 100.0)  # costs (C) from which each kernel gets its own …
 CONTEXT_COSTS = {"linear": 0.1, "rbf": 10, "poly": 10, "sigmoid": 0.1}  # … but with context

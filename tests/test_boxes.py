@@ -11,7 +11,6 @@ from vmc_lib.boxes import (
     corrections,
     iou,
     jittered,
-    mirrored,
     nms,
     vote,
     widened,
@@ -142,11 +141,6 @@ solid = st.builds(
 @given(solid, solid)
 def test_a_corrected_box_is_the_true_box(box, true):
     assert corrected(box, corrections(box, true)) == pytest.approx(true, abs=1e-6)
-
-
-@given(solid)
-def test_two_mirrors_change_nothing(box):
-    assert (mirrored(mirrored(box, 600), 600) == box).all()
 
 
 def test_a_margin_is_a_share_of_the_sides():

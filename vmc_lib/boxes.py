@@ -85,11 +85,6 @@ def widened(boxes, margin):
     return np.hstack([boxes[:, :2] - pad, boxes[:, 2:] + pad])
 
 
-def mirrored(boxes, width):
-    """Boxes (n, 4) in the mirror image of an image of that width."""
-    return np.stack([width - boxes[:, 2], boxes[:, 1], width - boxes[:, 0], boxes[:, 3]], axis=1)
-
-
 def jittered(boxes, amount, rng):
     """Boxes (..., 4) each edge of which strays by about `amount` of the box's sides."""
     _, sides = centres_and_sides(boxes)

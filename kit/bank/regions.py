@@ -3,9 +3,9 @@
 import numpy as np
 
 from kit.question import between, choice, count, number, pick
+from reproduce.detector_training import best_threshold
 from reproduce.intervals import wilson
 from vmc_lib.boxes import corrections, iou, nms, vote
-from vmc_lib.where.svm import best_threshold
 
 SIZE = 100  # pixels: the side of the boxes below
 

@@ -2,8 +2,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from reproduce.detector_training import (
+    best_threshold,
     candidates,
     examples,
     fit_detector,
@@ -58,6 +61,9 @@ def test_a_mirrored_image_is_as_hard(photo):
     assert len(seen) == 2
     assert (seen[0].overlap == seen[1].overlap).all()
     assert (seen[1].pixels[:, 0] == photo.image[:, -1]).all()
+    again = seen[1].mirrored()
+    assert (again.truth == seen[0].truth).all()
+    assert (again.candidates == seen[0].candidates).all()
 
 
 @pytest.mark.parametrize("name", ["published", "context"])
@@ -90,3 +96,29 @@ def test_tuning_moves_the_threshold_alone(photo):
     published = ObjectDetector.load("rig", "published")
     assert tuned(published, [photo]) is published
     assert published.threshold == 0
+
+
+def test_the_best_threshold_by_hand():
+    scores, right = np.array([0.0, 3, 1, 2]), np.array([True, True, False, True])
+    assert best_threshold(scores, right, 2) == 1.5  # 2 of 2, none wrong
+    assert best_threshold(scores, right, 9) == -np.inf  # the more the better
+    with pytest.raises(ValueError, match="found"):
+        best_threshold(np.empty(0), np.empty(0, bool), 2)
+
+
+def test_equal_scores_are_taken_together():
+    scores, right = np.array([2.0, 2, 1]), np.array([True, True, False])
+    assert best_threshold(scores, right, 2) == 1.5
+    assert best_threshold(scores, right[::-1], 2) == -np.inf
+
+
+@given(st.lists(st.tuples(st.integers(-9, 9), st.booleans()), min_size=1))
+def test_no_threshold_is_better_than_the_best(pairs):
+    scores, right = map(np.array, zip(*pairs, strict=True))
+
+    def f1(threshold):
+        taken = scores > threshold
+        return 2 * (right & taken).sum() / (taken.sum() + right.sum() + 1)
+
+    best = best_threshold(scores.astype(float), right, right.sum() + 1)
+    assert f1(best) >= max(f1(s - 0.5) for s in scores) - 1e-9

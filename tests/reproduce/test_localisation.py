@@ -3,7 +3,7 @@ import pytest
 from scipy.stats import sem, t
 
 from reproduce import localisation
-from reproduce.detector_training import examples
+from reproduce.detector_training import best_threshold, examples
 from reproduce.results import arrays
 from vmc_lib import photos
 from vmc_lib.where.detector import ObjectDetector
@@ -88,3 +88,23 @@ def test_a_stricter_overlap_finds_less(level):
 def test_figure_6_narrows():
     counts = localisation.figure_6("rig", "validation")
     assert counts["candidates"] > counts["passed"] > counts["kept"] > 0
+
+
+def noisy(n, rng):
+    """Scores (n,), and whether each is right: the more likely, the higher it is."""
+    scores = rng.normal(size=n)
+    return scores, rng.random(n) < 1 / (1 + np.exp(-4 * scores))
+
+
+def test_with_many_examples_a_steady_threshold_is_the_best():
+    scores, right = noisy(5000, np.random.default_rng(0))
+    best = best_threshold(scores, right, right.sum())
+    assert localisation.steady_threshold(scores, right) == pytest.approx(best, abs=0.15)
+
+
+def test_with_few_examples_a_steady_threshold_strays_less():
+    rng = np.random.default_rng(0)
+    draws = [noisy(100, rng) for _ in range(50)]
+    best = np.std([best_threshold(scores, right, right.sum()) for scores, right in draws])
+    steady = np.std([localisation.steady_threshold(*draw) for draw in draws])
+    assert steady < 0.8 * best

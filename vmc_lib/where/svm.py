@@ -1,4 +1,4 @@
-"""A support vector machine that tells objects from table, and where to draw the line."""
+"""A support vector machine that tells objects from table."""
 
 from dataclasses import dataclass
 
@@ -44,20 +44,3 @@ class KernelSVM:
         shape = {"gamma": self.gamma, "degree": 3, "coef0": 0.0}
         alike = pairwise_kernels(x, self.support, self.kernel, filter_params=True, **shape)
         return alike @ self.weights + self.bias
-
-
-def best_threshold(scores, right, wanted):
-    """The threshold for scores (n,) that finds most at fewest errors: the best F1.
-
-    right: (n,) which are hits, or the chance of each; wanted: how many there are to hit. F1 is the
-    harmonic mean of precision and recall; the threshold lies midway between the last score taken
-    and the next lower one (or is -inf, where it is best to take all).
-    ValueError where there is nothing to choose from.
-    """
-    if not len(scores):
-        raise ValueError("no score to choose a threshold from: give photos with something found")
-    order = np.argsort(-scores, kind="stable")
-    taken, left = scores[order], np.append(scores[order][1:], -np.inf)
-    f1 = 2 * right[order].cumsum() / (np.arange(len(order)) + 1 + wanted)
-    last = np.where(left < taken, f1, -1).argmax()  # no line divides equal scores
-    return float((taken[last] + left[last]) / 2)
