@@ -82,7 +82,7 @@ def looked(scores, named, judge=JUDGE, camera=None):
     """What a model sees that finds BOXES with these scores, and gives them these names."""
     scores = np.array(scores)
     boxes = BOXES[: len(scores)]
-    found = Detections(boxes, scores, boxes, scores, boxes, scores)
+    found = Detections(boxes, scores, boxes, boxes, scores)
     detector = SimpleNamespace(detect=lambda image: found)
     recogniser = SimpleNamespace(
         chance=lambda image, boxes: np.array(named)[: len(boxes)], look=named_at(boxes, named)
@@ -115,7 +115,7 @@ def test_where_size_counts_the_wrong_sizes_are_left_out_and_the_right_ones_likel
 def test_of_many_boxes_those_that_fit_best_are_looked_at_and_the_likeliest_again():
     corners = 60.0 * np.column_stack([np.arange(40) % 10, np.arange(40) // 10])
     many, scores = np.hstack([corners, corners + 50]), np.linspace(0.9, 0.1, 40)
-    found = Detections(many, scores, many, scores, many, scores)
+    found = Detections(many, scores, many, many, scores)
     asked = []
 
     def look(image, boxes):
@@ -139,7 +139,7 @@ def test_of_many_boxes_those_that_fit_best_are_looked_at_and_the_likeliest_again
 
 def test_of_boxes_that_come_to_lie_on_each_other_one_is_kept():
     boxes = np.array([[0, 0, 50, 50], [2, 0, 52, 50], [200, 0, 250, 50.0]])
-    found = Detections(boxes, np.ones(3), boxes, np.ones(3), boxes, np.ones(3))
+    found = Detections(boxes, np.ones(3), boxes, boxes, np.ones(3))
     stream = SimpleNamespace(look=named_at(boxes, [0.7, 0.9, 0.8]))
     kept, told = loop.weighed(found, stream, None)
     np.testing.assert_array_equal(kept, boxes[[1, 2]])

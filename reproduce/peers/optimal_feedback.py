@@ -22,7 +22,6 @@ from vmc_lib.motor.templates import reach
 
 PLACE, SPEED, CHANGE = 0.005, 0.05, 0.1  # m, m/s, of a command: these three weigh the same
 NUDGE = 1e-5
-LATE = 12  # ticks: as late as sight
 
 
 def advanced(state, told):

@@ -64,7 +64,7 @@ def test_it_corrects_what_matters_to_the_task():
     blind = np.array(
         [reach(np.clip(TOLD * w, 0, 1)).hand[:, :: feedback.TICK, :2] for w in noise()]
     )
-    now, late = (feedback.move(law(), noise(), late)[0] for late in (0, feedback.LATE))
+    now, late = (feedback.move(law(), noise(), late)[0] for late in (0, 12))  # ticks: 12, as sight
     alone, watched, foreseen = (feedback.scatter(x).mean(axis=0) for x in (blind, now, late))
     assert watched[-1] < 0.2 * alone[-1]
     assert watched[50] > 0.5 * alone[50]

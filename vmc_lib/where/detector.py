@@ -25,7 +25,6 @@ class Detections:
     candidates: np.ndarray  # (n, 4) of selective search
     candidate_scores: np.ndarray  # (n,)
     passed: np.ndarray  # (m, 4) boxes above the threshold, after their corrections if any
-    passed_scores: np.ndarray  # (m,)
     boxes: np.ndarray  # (k, 4) left by non-maximum suppression, the best first
     scores: np.ndarray  # (k,)
 
@@ -104,4 +103,4 @@ class ObjectDetector:
         passed, passed_scores = passed[good], passed_scores[good]
         kept = nms(passed, passed_scores, recipe.overlap)
         best = vote(kept, passed, passed_scores) if recipe.vote else passed[kept]
-        return Detections(boxes, scores, passed, passed_scores, best, passed_scores[kept])
+        return Detections(boxes, scores, passed, best, passed_scores[kept])
