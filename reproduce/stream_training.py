@@ -20,6 +20,7 @@ from reproduce.looks import look
 from reproduce.pools import APART, PASTED, pool, show
 from vmc_lib import loop, photos
 from vmc_lib.boxes import iou
+from vmc_lib.what.judge import weighed
 from vmc_lib.what.recogniser import NameClassifier
 from vmc_lib.what.stream import WIDTH, VentralStream, adapted
 
@@ -167,13 +168,13 @@ def held_out(folder=photos.FOLDER):
 def judge(stream, shots):
     """Of boxes that the object detector finds in photos: the chance that one is a shuttlecock's.
 
-    Logistic regression on what `loop.weighed` gives, as a `NameClassifier`; right is an IoU above
+    Logistic regression on what `weighed` gives, as a `NameClassifier`; right is an IoU above
     0.5. Renders teach with the photographs, for these alone are too few.
     """
     detector, x, y = loop.lenient_detector(photos.REAL_LEVEL), [], []
     for shot in shots:
         found = detector.detect(shot.image)
-        boxes, told = loop.weighed(found, stream, shot.image)
+        boxes, told = weighed(found, stream, shot.image)
         x.append(told)
         y.append(iou(boxes, photos.all_of(shot, "shuttlecock")).max(1, initial=0) > 0.5)
     logistic = LogisticRegression(C=np.inf).fit(np.vstack(x), np.hstack(y))  # three numbers

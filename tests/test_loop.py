@@ -11,6 +11,7 @@ from vmc_lib.arm.kinematics import to_world
 from vmc_lib.arm.simulate import simulate
 from vmc_lib.boxes import corrected
 from vmc_lib.motor import templates
+from vmc_lib.what.judge import GLANCES, RIGHT_SIZE, SURE, WEIGHED, weighed
 from vmc_lib.what.recogniser import NameClassifier
 from vmc_lib.where.detector import Detections
 
@@ -107,7 +108,7 @@ def test_where_size_counts_the_wrong_sizes_are_left_out_and_the_right_ones_likel
     before, after = (looked([0.3] * 3, [0.4] * 3, judge, of) for of in (None, camera))
     np.testing.assert_array_equal(after.detections.boxes, BOXES[[0, 2]])
     odds = [one.probability[0] / (1 - one.probability[0]) for one in (before, after)]
-    assert odds[1] == pytest.approx(loop.RIGHT_SIZE * odds[0])
+    assert odds[1] == pytest.approx(RIGHT_SIZE * odds[0])
     nothing = looked([0.3], [0.9], judge, SimpleNamespace(sizes=lambda boxes: np.full(1, 0.3)))
     assert nothing.box is None
 
@@ -127,9 +128,9 @@ def test_of_many_boxes_those_that_fit_best_are_looked_at_and_the_likeliest_again
     )
     sight = loop.see(model, np.zeros((400, 600, 3), np.uint8))
     first, again = asked
-    np.testing.assert_array_equal(first, many[: loop.GLANCES])
-    best = np.arange(loop.GLANCES)[::-1][: loop.WEIGHED]
-    step = np.full((loop.WEIGHED, 4), 0.02)
+    np.testing.assert_array_equal(first, many[:GLANCES])
+    best = np.arange(GLANCES)[::-1][:WEIGHED]
+    step = np.full((WEIGHED, 4), 0.02)
     np.testing.assert_allclose(again, corrected(many[best], step))
     assert (np.diff(sight.probability) <= 0).all()
     rows = [list(scores).index(score) for score in sight.detections.scores]
@@ -141,14 +142,14 @@ def test_of_boxes_that_come_to_lie_on_each_other_one_is_kept():
     boxes = np.array([[0, 0, 50, 50], [2, 0, 52, 50], [200, 0, 250, 50.0]])
     found = Detections(boxes, np.ones(3), boxes, boxes, np.ones(3))
     stream = SimpleNamespace(look=named_at(boxes, [0.7, 0.9, 0.8]))
-    kept, told = loop.weighed(found, stream, None)
+    kept, told = weighed(found, stream, None)
     np.testing.assert_array_equal(kept, boxes[[1, 2]])
     np.testing.assert_allclose(told, np.column_stack([[1, 1], logit([0.9, 0.8])]))
 
 
 def test_a_judge_speaks_up_from_the_chance_that_validation_set():
     [fair] = looked([0.5], [0.4]).probability
-    assert loop.SURE < fair < 0.5
+    assert SURE < fair < 0.5
     assert looked([0.5], [0.4]).told.startswith("1 shuttlecock")
     assert looked([0.5], [0.4], judge=None).box is None
 

@@ -11,8 +11,8 @@ from PIL import Image
 from vmc_lib import photos
 from vmc_lib.arm.kinematics import turn_towards
 from vmc_lib.camera import TABLE, Camera
-from vmc_lib.loop import SIZES
 from vmc_lib.photos import FOLDER, HEIGHT, LEVELS, SPLITS, WIDTH
+from vmc_lib.what.judge import SIZES
 
 EVERY = [(level, split) for level in LEVELS for split in SPLITS]
 COUNTS = {(level, split): 40 if split != "validation" else 20 for level, split in EVERY}

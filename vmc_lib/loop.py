@@ -7,15 +7,14 @@ movement, its off-line calibration, and the movement again. No mathematics of it
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.special import expit, logit
 
 from vmc_lib import NoReach, photos
 from vmc_lib.arm.kinematics import to_world, turn_towards
 from vmc_lib.arm.simulate import Motion
-from vmc_lib.boxes import corrected, nms
 from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration, calibrated
 from vmc_lib.motor import templates
 from vmc_lib.motor.planning import Plan, plan
+from vmc_lib.what.judge import RIGHT_SIZE, SURE, likelier, sized, weighed
 from vmc_lib.what.recogniser import NameClassifier, Recogniser
 from vmc_lib.what.stream import VentralStream
 from vmc_lib.where.detector import Detections, ObjectDetector
@@ -23,12 +22,6 @@ from vmc_lib.where.localiser import Localiser
 
 NAMING_MARGIN = 1.0  # how much lower than the detector's its threshold is; set on validation photos
 PHOTOGRAPHS_AS = "varied"  # the level whose places serve for photographs too
-# Where a judge decides: how many boxes, those that fit best, are looked at, how many of them again,
-# and the chance of being a shuttlecock's from which a box is chosen; set on validation photos
-GLANCES, WEIGHED, SURE = 32, 8, 0.3
-# Where size counts: how large what is in a shuttlecock's box can be (m), and how many times as
-# often as another box it is of that size; set on validation photos
-SIZES, RIGHT_SIZE = (0.05, 0.092), 5
 RULES = {"published": algorithm_1, "own": broyden_calibration}  # of off-line calibration
 
 
@@ -124,39 +117,12 @@ def see(model, image, camera=None):
     if camera is not None:
         found, times = sized(found, camera), RIGHT_SIZE
     if model.judge is None:
-        chance = model.recogniser.chance(image, found.boxes)
-        return Sight(found, expit(logit(chance) + np.log(times)))
+        return Sight(found, likelier(model.recogniser.chance(image, found.boxes), times))
     boxes, told = weighed(found, model.recogniser, image)
-    chance = expit(model.judge.log_odds(told) + np.log(times))
+    chance = likelier(model.judge.probability(told), times)
     best = np.argsort(-chance, kind="stable")
     judged = replace(found, boxes=boxes[best], scores=told[best, 0])
     return Sight(judged, chance[best], SURE)
-
-
-def sized(found, camera):
-    """Of `Detections`, the boxes that are of a shuttlecock's size where a `Camera` stands."""
-    smallest, largest = SIZES
-    size = camera.sizes(found.boxes)
-    right = (size > smallest) & (size < largest)
-    return replace(found, boxes=found.boxes[right], scores=found.scores[right])
-
-
-def weighed(found, stream, image):
-    """The boxes of an image's `Detections` to choose from, and what both pathways say of each.
-
-    A `VentralStream` looks at the GLANCES that fit best, and again at the WEIGHED likeliest of
-    them, as it has tightened them. Of those that then lie on each other the likeliest is kept.
-    Returns boxes (n, 4), tightened once more; and, (n, 2), how well each fitted, and the log-odds
-    of its name.
-    """
-    boxes, scores = found.boxes[:GLANCES], found.scores[:GLANCES]
-    odds, lacks = stream.look(image, boxes)
-    best = np.argsort(-odds, kind="stable")[:WEIGHED]
-    boxes = corrected(boxes[best], lacks[best])
-    odds, lacks = stream.look(image, boxes)
-    boxes = corrected(boxes, lacks)
-    kept = nms(boxes, odds)
-    return boxes[kept], np.column_stack([scores[best], odds])[kept]
 
 
 def locate(model, image, box, camera):
