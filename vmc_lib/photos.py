@@ -120,7 +120,7 @@ class RealPhoto(_Picture):
 
     image: (400, 600, 3) uint8; boxes: thing → (4,), around the visible pixels, drawn by hand, and
     empty where there is neither shuttlecock nor cup; more: (n, 4), further things of the same kind;
-    unclear: (n, 4), what may be a cup or not and so is not scored; credit: whose it is, and its
+    unclear: (n, 4), what may be a cup or not, and counts as neither; credit: whose it is, and its
     licence. Its camera is unknown.
     """
 

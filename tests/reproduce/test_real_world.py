@@ -18,6 +18,18 @@ def test_what_is_stored_is_of_every_photo(model, split):
         assert 0 <= count <= of == [seen["holds"] for seen in found.values()].count(kind)
 
 
+@pytest.mark.parametrize("model", real_world.MODELS)
+def test_what_is_stored_is_what_the_model_makes_of_a_photo(model):
+    stored = real_world.load(model, "validation")
+    first, *_, last = photos.load("real", "validation")  # with a shuttlecock, and with neither
+    for photo in (first, last):
+        now = real_world.examine(loop.VisuomotorModel.load(model), photo)
+        then = stored[photo.name]
+        assert now.pop("holds") == then["holds"]
+        assert now.pop("chosen") == (then["chosen"] and pytest.approx(then["chosen"], abs=3))
+        assert now == pytest.approx({key: then[key] for key in now}, abs=0.02)
+
+
 def test_the_box_that_is_chosen_counts_for_any_of_the_shuttlecocks():
     shot = photos.load("real", "train")[0]  # two shuttlecocks
     swapped = {"shuttlecock": shot.more[0]}
