@@ -41,9 +41,9 @@ def solid(mesh):
     return one
 
 
-def table_top(texture, step=3):
-    """The table: a surface whose vertices, one every `step` mm, have the texture's colours."""
-    colours = texture[::step, ::step]
+def table_top(texture):
+    """The table: a surface whose vertices, one every 3 mm, have the texture's colours."""
+    colours = texture[::3, ::3]
     x, z = (scene.MIDDLE[k] + np.linspace(-SPAN / 2, SPAN / 2, len(colours)) for k in (0, 2))
     return shapes.sheet(np.dstack(np.broadcast_arrays(x, TABLE, z[:, None])), colours, 0.8)
 

@@ -31,8 +31,9 @@ def blend(low, high, weight):
     return low + weight * (high - low)
 
 
-def wood(rng, light, dark, planks=12):
+def wood(rng, light, dark):
     """Planks sawn from a trunk: year rings, cut aslant, with fibres and pores along the grain."""
+    planks = 12
     v, u = np.mgrid[0:SIZE, 0:SIZE].astype(np.float32) / SIZE
     plank = np.minimum((v * planks).astype(int), planks - 1)
     heart, depth = rng.uniform(-0.1, 0.1, planks), rng.uniform(0.05, 0.4, planks)

@@ -117,13 +117,13 @@ def take(scene, samples, seed):
     return develop(albedo * smooth(light / albedo, normals))
 
 
-def smooth(shade, normals, radius=3):
+def smooth(shade, normals):
     """Remove the noise of few light paths from the shading (h, w, 3): a joint bilateral filter.
 
     A neighbour counts the less, the more its normal and its (median) shade differ. Without the
     colour of things there is no fine texture to lose. Paths far brighter than around are clipped.
     """
-    median = cv2.medianBlur(shade, 5)
+    radius, median = 3, cv2.medianBlur(shade, 5)
     guide = np.dstack([3 * normals, 2 * np.log(median.mean(axis=2) + 0.02)])
     counted = np.dstack([np.minimum(shade, 2 * median + 0.05), np.ones_like(shade[..., :1])])
     pad = ((radius, radius), (radius, radius), (0, 0))

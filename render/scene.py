@@ -116,11 +116,11 @@ def circle(mesh):
     return centre, np.linalg.norm(flat - centre, axis=1).max()
 
 
-def apart(mesh, others, gap=0.004):
-    """Whether the mesh keeps clear of all the others."""
+def apart(mesh, others):
+    """Whether the mesh keeps clear of all the others, by 4 mm."""
     centre, radius = circle(mesh)
     rounds = map(circle, others)
-    return all(np.linalg.norm(centre - c) > radius + r + gap for c, r in rounds)
+    return all(np.linalg.norm(centre - c) > radius + r + 0.004 for c, r in rounds)
 
 
 def whole(mesh, camera):

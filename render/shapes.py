@@ -177,10 +177,10 @@ def _thread(height, colour):
     return tube(path, 0.0009, colour, sides=6)
 
 
-def _feather(rng, rows=14, columns=7):
+def _feather(rng):
     """One feather on the x > 0 side: a quill that carries a curved vane with a rounded tip."""
-    t = np.linspace(0, 1, rows)[:, None]  # from the foot of the vane to its tip
-    across = np.linspace(-1, 1, columns)
+    t = np.linspace(0, 1, 14)[:, None]  # from the foot of the vane to its tip
+    across = np.linspace(-1, 1, 7)
     width = 0.0085 * np.sqrt(np.clip(1 - t**6, 0.03, 1)) * np.clip(0.25 + 2.2 * t, 0, 1)
     height = 0.044 + (LENGTH - 0.044) * t - 0.006 * across**2 * t**4
     lean = across * 0.22  # each vane lies over its neighbour, as roof tiles do

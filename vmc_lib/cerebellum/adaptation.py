@@ -30,13 +30,13 @@ class Adaptation:
     A lesson alone takes a share 1 / (1 + caution) of its error away.
     """
 
-    def __init__(self, skill, template_set: TemplateSet, corrects="aim", width=0.1, caution=0.3):
+    def __init__(self, skill, template_set: TemplateSet, corrects="aim", caution=0.3):
         if corrects not in CORRECTIONS:
             raise ValueError(f"cannot correct {corrects!r}; choose one of {CORRECTIONS}")
         self.skill, self.template_set = skill, template_set
         self.corrects, self.caution = corrects, caution
         nothing = np.zeros_like(template_set.points)
-        self.cells = GranuleCells(width, cells=300).fit(template_set.points, nothing)
+        self.cells = GranuleCells(width=0.1, cells=300).fit(template_set.points, nothing)
         self.purkinje = self.cells.purkinje_
 
     def correct(self, plan: Plan):

@@ -22,11 +22,13 @@ class FeedbackErrorLearning:
     A lone lesson takes a share 1 / (1 + caution) of what the feedback asked for.
     """
 
-    def __init__(self, template_set, width=0.5, cells=300, caution=0.3):
+    caution = 0.3
+
+    def __init__(self, template_set):
         ways = minimum_jerk(START, inverse_kinematics(template_set.points))
         places = mossy_fibres(Intention(ways, template_set.excitations)).reshape(-1, 4)
-        self.cells = GranuleCells(width, cells).fit(places, np.zeros((len(places), 2)))
-        self.purkinje, self.caution = self.cells.purkinje_, caution
+        self.cells = GranuleCells(width=0.5, cells=300).fit(places, np.zeros((len(places), 2)))
+        self.purkinje = self.cells.purkinje_
 
     def correct(self, intention):
         """The `Intention` with what was learned added to its excitations."""

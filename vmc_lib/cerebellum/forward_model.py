@@ -33,8 +33,8 @@ def arm_copy(strength=1.0):
 class ForwardModel:
     """Granule cells that learn which acceleration (…, 2) follows; called as `arm_copy()` is."""
 
-    def __init__(self, cells=None):
-        self.cells = cells or GranuleCells(width=1.0, cells=300, ridge=1e-3)
+    def __init__(self):
+        self.cells = GranuleCells(width=1.0, cells=300, ridge=1e-3)
 
     def learn(self, motion, every=20):
         """Lessons from a batch of movements, one every so many steps: what was felt there."""

@@ -66,9 +66,9 @@ def intend(plan, seconds=2.0):
     return Intention(q, held)
 
 
-def switch(first, second, at, within=0.4):
-    """The first intention until `at` s, then smoothly the second, after another `within` s."""
-    share = smooth((np.arange(first.q.shape[1]) * STEP - at) / within)[:, None]
+def switch(first, second, at):
+    """The first intention until `at` s, then smoothly the second, after another 0.4 s."""
+    share = smooth((np.arange(first.q.shape[1]) * STEP - at) / 0.4)[:, None]
     q = first.q + share * (second.q - first.q)
     return Intention(q, first.excitations + share[:-1] * (second.excitations - first.excitations))
 
@@ -144,13 +144,13 @@ def curl(strength):
     return lambda time, velocity: strength * velocity[..., ::-1] * [1.0, -1.0]
 
 
-def push(force, at, lasts=0.05):
-    """A world that pushes the hand once, by `force` (2,) in N, `at` s, while it `lasts`.
+def push(force, at):
+    """A world that pushes the hand once, by `force` (2,) in N, from `at` s on, for 50 ms.
 
     Each of a batch may have its own: forces (B, 2), and times (B, 1).
     """
     return lambda time, velocity: (
-        np.array(force) * ((at <= time) & (time < at + lasts)) + 0 * velocity
+        np.array(force) * ((at <= time) & (time < at + 0.05)) + 0 * velocity
     )
 
 

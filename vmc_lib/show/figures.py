@@ -128,10 +128,10 @@ def dot_plot(series, xlabel, published=None, xlim=None):
     return fig
 
 
-def margins(fig, left=0.7, right=0.2, bottom=0.5, top=0.3):
-    """Leave so many inches around a figure's plots: quicker than to have their room sought."""
+def margins(fig, left=0.7, top=0.3):
+    """Leave so many inches beside and above a figure's plots: quicker than to seek their room."""
     width, height = fig.get_size_inches()
-    fig.subplots_adjust(left / width, bottom / height, 1 - right / width, 1 - top / height)
+    fig.subplots_adjust(left / width, 0.5 / height, 1 - 0.2 / width, 1 - top / height)
 
 
 def inline(text):

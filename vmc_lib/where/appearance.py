@@ -22,6 +22,7 @@ COLOUR_SPACES = {  # float RGB in 0..1 -> channels in about 0..1
     "I": lambda rgb: rgb.mean(2, keepdims=True),
 }
 MEASURES = "colour", "texture", "size", "fill"  # of how alike two regions are
+COLOUR_BINS, SLOPE_BINS = 25, 10  # of a channel; of a channel along one way of a line
 
 
 @dataclass
@@ -86,24 +87,24 @@ def likeness(size, boxes, colour, texture, pixels, pairs, counts):
     return total
 
 
-def colour_codes(channels, bins=25):
-    """For each channel, which of `bins` bins each pixel's value falls into.
+def colour_codes(channels):
+    """For each channel, which of 25 bins each pixel's value falls into.
 
-    Returns the codes (c, pixels), and `bins`.
+    Returns the codes (c, pixels), and how many there are.
     """
     values = np.moveaxis(channels, 2, 0).reshape(channels.shape[2], -1)
-    return (values * bins).clip(0, bins - 1).astype(np.uint8), bins
+    return (values * COLOUR_BINS).clip(0, COLOUR_BINS - 1).astype(np.uint8), COLOUR_BINS
 
 
-def texture_codes(channels, bins=10):
+def texture_codes(channels):
     """For each channel and four lines through a pixel, how steeply it rises, and which way.
 
-    Returns the codes (4c rows of pixels), and how many there are: `bins` of slopes up one way of
+    Returns the codes (4c rows of pixels), and how many there are: ten of slopes up one way of
     the line, then as many up the other.
     """
     smooth = [cv2.GaussianBlur(channel, (0, 0), 1) for channel in np.moveaxis(channels, 2, 0)]
     slopes = [cv2.Sobel(x, -1, *way).ravel() for x in smooth for way in ((1, 0), (0, 1))]
-    return _rises(np.array(slopes), np.arange(4) * np.pi / 4, bins), 2 * bins
+    return _rises(np.array(slopes), np.arange(4) * np.pi / 4, SLOPE_BINS), 2 * SLOPE_BINS
 
 
 @compiled

@@ -6,6 +6,8 @@ from vmc_lib.boxes import as_boxes, widened
 from vmc_lib.compiled import compiled
 from vmc_lib.photos import crops
 
+DIRECTIONS = 8  # that gradients are counted in, all around
+
 
 def raw_pixels(image, boxes, margin=0.0):
     """The paper's features: 16 × 16 RGB pixels of each box (and a margin), (n, 768)."""
@@ -24,7 +26,7 @@ def pixels_in_context(image, boxes):
     return np.hstack([raw_pixels(image, boxes, 0.25), octaves], dtype=np.float32)
 
 
-def gradients(image, boxes, cells=10, bins=8, margin=0.25):
+def gradients(image, boxes, cells=10, margin=0.25):
     """Histograms of oriented gradients in 10 × 10 cells over each box and a margin, (n, 800).
 
     The margin, a share of the box's sides, shows whether the object ends where the box does. Each
@@ -33,11 +35,11 @@ def gradients(image, boxes, cells=10, bins=8, margin=0.25):
     """
     dx, dy = _steepest(crops(image, widened(boxes, margin), 3 * cells))
     strength, turns = np.hypot(dx, dy), np.arctan2(dy, dx) / (2 * np.pi)
-    angle = (turns - np.floor(turns)) * bins
+    angle = (turns - np.floor(turns)) * DIRECTIONS
     low = np.floor(angle)
     share = angle - low
-    counts = _count(strength * (1 - share), low, cells, bins)
-    counts += _count(strength * share, low + 1, cells, bins)
+    counts = _count(strength * (1 - share), low, cells)
+    counts += _count(strength * share, low + 1, cells)
     shares = counts / (np.linalg.norm(counts, axis=1, keepdims=True) + 1e-3)
     return np.sqrt(shares, dtype=np.float32)
 
@@ -70,13 +72,13 @@ def _steepest(pixels):
 
 
 @compiled
-def _count(weights, codes, cells, bins):
-    """The sum of weights (n, 3 cells, 3 cells) of each code, modulo `bins`, in a box's cells."""
-    counts = np.zeros((len(weights), cells, cells, bins))
+def _count(weights, codes, cells):
+    """The sum of weights (n, 3 cells, 3 cells) of each direction's code, in a box's cells."""
+    counts = np.zeros((len(weights), cells, cells, DIRECTIONS))
     for box in range(len(weights)):
         for y in range(3 * cells):
             for x in range(3 * cells):
                 code = int(codes[box, y, x])
-                code = code - bins if code >= bins else code
+                code = code - DIRECTIONS if code >= DIRECTIONS else code
                 counts[box, y // 3, x // 3, code] += weights[box, y, x]
-    return counts.reshape(len(weights), cells**2 * bins)
+    return counts.reshape(len(weights), cells**2 * DIRECTIONS)
