@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from vmc_lib.boxes import corrected, corrections, iou
+from vmc_lib.boxes import FOUND, corrected, corrections, iou
 from vmc_lib.data import arrays
 from vmc_lib.where.box_regression import RBFRidge, regress
 from vmc_lib.where.detector import ObjectDetector
@@ -85,9 +85,9 @@ def examples(shots, recipe=PUBLISHED):
     x, y = [], []
     for image in training_images(shots, replace(recipe, mirror=False)):
         overlap = image.overlap
-        clear = (overlap >= 0.8) | (overlap <= 0.5)
+        clear = (overlap >= FOUND) | (overlap <= 0.5)
         x.append(recipe.describe(image.pixels, image.candidates[clear]))
-        y.append(overlap[clear] >= 0.8)
+        y.append(overlap[clear] >= FOUND)
     return np.concatenate(x), np.concatenate(y)
 
 
@@ -99,7 +99,7 @@ def training_examples(images, recipe, rng):
     x, y = [], []
     for image in images:
         overlap = image.overlap
-        good, bad = image.candidates[overlap >= 0.8], image.candidates[overlap <= 0.5]
+        good, bad = image.candidates[overlap >= FOUND], image.candidates[overlap <= 0.5]
         bad = rng.permutation(bad)[: -(-ROIS // len(images))]
         _, jittered = image.jittered(recipe.jittered, JITTER, rng)
         x.append(recipe.describe(image.pixels, np.vstack([good, jittered, bad])))
@@ -196,7 +196,7 @@ def tuned(detector, shots):
     for image in training_images(shots, replace(detector.recipe, mirror=False)):
         found = lenient.detect(image.pixels, image.candidates)
         scores.append(found.scores)
-        right.append(iou(found.boxes, image.truth).max(1, initial=0) >= 0.8)
+        right.append(iou(found.boxes, image.truth).max(1, initial=0) >= FOUND)
         wanted += len(image.truth)
     best = best_threshold(np.concatenate(scores), np.concatenate(right), wanted)
     return replace(detector, threshold=best)

@@ -25,7 +25,7 @@ from reproduce.detector_training import (
 from reproduce.intervals import student
 from reproduce.results import arrays
 from vmc_lib import photos
-from vmc_lib.boxes import iou
+from vmc_lib.boxes import FOUND, iou
 from vmc_lib.where.detector import ObjectDetector
 from vmc_lib.where.recipes import RECIPES
 from vmc_lib.where.svm import KernelSVM
@@ -119,7 +119,7 @@ def search(level, split, detector="published", folder=photos.FOLDER):
         yield detector.detect(photo.image, candidates(photo, detector.recipe.strategy))
 
 
-def table_2(level, split="test", overlap=0.8):
+def table_2(level, split="test", overlap=FOUND):
     """Table II: precision and recall of the final boxes of each recipe, right at IoU `overlap`."""
     some, rows = photos.load(level, split), {}
     for name in RECIPES:
@@ -128,7 +128,7 @@ def table_2(level, split="test", overlap=0.8):
     return rows
 
 
-def precision_recall(shots, boxes, overlap=0.8):
+def precision_recall(shots, boxes, overlap=FOUND):
     """Precision and recall of a list of boxes a photo: a box is right at IoU `overlap` or more.
 
     Precision is the share of boxes that are right, recall that of objects with a right box.
@@ -137,7 +137,7 @@ def precision_recall(shots, boxes, overlap=0.8):
     return float(right.sum() / max(right.size, 1)), float(reached.mean())
 
 
-def hits(shots, boxes, overlap=0.8):
+def hits(shots, boxes, overlap=FOUND):
     """Of a list of boxes a photo, which boxes are right, and which objects have a right box.
 
     Truth values for all boxes of all photos in turn, and for all objects.

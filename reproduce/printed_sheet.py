@@ -7,7 +7,7 @@ from reproduce.real_world import MODELS, SIZED
 from vmc_lib import NoReach, photos, sheet
 from vmc_lib.loop import VisuomotorModel, locate, see
 
-FOUND = ", camera from the sheet"
+FROM_SHEET = ", camera from the sheet"
 
 
 def make(folder=photos.FOLDER, models=MODELS, count=None):
@@ -30,12 +30,12 @@ def missed(photo, models):
     [model, *_] = models.values()  # all have the same localiser
     row = {
         "true box, true camera": _off(photo, bare, model, true, photo.camera),
-        f"true box{FOUND}": _off(photo, bare, model, true, camera),
+        f"true box{FROM_SHEET}": _off(photo, bare, model, true, camera),
     }
     for name, model in models.items():
         for way, known in (("", None), (SIZED, camera)):
             box = see(model, bare, known).box
-            row[f"box of {name}{FOUND}{way}"] = _off(photo, bare, model, box, camera)
+            row[f"box of {name}{FROM_SHEET}{way}"] = _off(photo, bare, model, box, camera)
     return row
 
 

@@ -6,11 +6,10 @@ import numpy as np
 from joblib import Parallel, delayed
 
 from vmc_lib import NoReach, photos
-from vmc_lib.boxes import iou
+from vmc_lib.boxes import FOUND, iou
 from vmc_lib.cerebellum.offline import algorithm_1
 from vmc_lib.loop import RULES, VisuomotorModel, locate, reach, recalibrated, see
 
-FOUND = 0.8  # IoU at which a box counts as the object's (Section IV A)
 ARRIVED, CLOSE_BY = 0.010, 0.005  # m: a hand so near the shuttlecock has arrived, or done well
 FAILURE_STAGES = ("proposals", "regions", "names", "place", "movement")  # where a reach goes wrong
 LESIONS = ("none", "ventral", "dorsal", "cerebellum")

@@ -73,7 +73,7 @@ def test_the_sheet_is_painted_over_and_nothing_else():
 
 def test_a_place_is_found_in_photos_of_unknown_cameras():
     """Half of the places within 8 mm, nine in ten within 15 mm, the box being known."""
-    far = results.records("printed_sheet")[f"true box{printed_sheet.FOUND}"]
+    far = results.records("printed_sheet")[f"true box{printed_sheet.FROM_SHEET}"]
     assert len(far) == 40
     far = np.array([np.inf if mm is None else mm for mm in far])
     assert np.median(far) <= 8

@@ -2,6 +2,8 @@
 
 import numpy as np
 
+FOUND = 0.8  # IoU at which a box counts as the object's (Section IV A)
+
 
 def as_boxes(boxes):
     """Boxes as a float64 array (n, 4) of (x0, y0, x1, y1), x1 and y1 exclusive.

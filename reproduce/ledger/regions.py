@@ -5,10 +5,10 @@ import numpy as np
 from reproduce import localisation, paper
 from reproduce.detector_training import candidates
 from reproduce.ledger.entry import Row, mean, share, trained
-from reproduce.ledger.search import FOUND, rois
+from reproduce.ledger.search import rois
 from reproduce.results import arrays
 from vmc_lib import photos
-from vmc_lib.boxes import area, iou
+from vmc_lib.boxes import FOUND, area, iou
 
 KERNELS = {"linear": "linear", "RBF": "rbf", "polynomial": "poly", "Gaussian": "sigmoid"}
 MEASURES = ("precision", "recall")

@@ -9,9 +9,8 @@ from reproduce import localisation, paper
 from reproduce.detector_training import candidates
 from reproduce.ledger.entry import Quantity, Row, fixed, mean, share
 from reproduce.peers import windows
-from reproduce.trial import FOUND
 from vmc_lib import photos
-from vmc_lib.boxes import iou
+from vmc_lib.boxes import FOUND, iou
 from vmc_lib.where.features import raw_pixels
 from vmc_lib.where.selective_search import propose
 
