@@ -11,7 +11,7 @@ import numpy as np
 
 from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration
 from vmc_lib.cerebellum.online import AimCorrection
-from vmc_lib.motor.inverse_dynamics import smooth
+from vmc_lib.motor.inverse_dynamics import minimum_jerk
 from vmc_lib.motor.planning import draw_targets, plan
 from vmc_lib.motor.templates import TemplateSet
 
@@ -57,8 +57,7 @@ def reach(torques, _perturbation=None):
 
 def templates(goals=GOALS):
     """Past experience: the torques that bring the tip smoothly to each of the goals (N, 2)."""
-    done = smooth(np.arange(SAMPLES + 1) / MOVING)[:, None]
-    q = START + done * (posture(goals) - START)[:, None]
+    q = minimum_jerk(START, posture(goals), SAMPLES, MOVING)
     velocity = np.diff(q, axis=1, prepend=q[:, :1]) / STEP
     mass, drag = mass_and_drag(q[:, :-1], velocity[:, :-1])
     torques = (mass @ (np.diff(velocity, axis=1) / STEP)[..., None])[..., 0] + drag

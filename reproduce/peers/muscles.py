@@ -11,10 +11,15 @@ from vmc_lib.arm import muscle
 from vmc_lib.arm.muscle import PAPER, Muscle
 
 
+def lag(wanted, activation):
+    """Both muscles' lag in s: the more active, the slower to rise and the faster to fall."""
+    pace, rises = 0.5 + 1.5 * activation, wanted > activation
+    return np.where(rises, muscle.TAU_ACTIVATION * pace, muscle.TAU_DEACTIVATION / pace)
+
+
 def activation_rate(excitation, activation):
-    """Both muscles' lag, per second: the more active, the slower to rise and the faster to fall."""
-    gap, pace = excitation - activation, 0.5 + 1.5 * activation
-    return gap / np.where(gap > 0, muscle.TAU_ACTIVATION * pace, muscle.TAU_DEACTIVATION / pace)
+    """How fast an activation follows its excitation, per second."""
+    return (excitation - activation) / lag(excitation, activation)
 
 
 def thelen_force(activation, length, velocity, maximum):

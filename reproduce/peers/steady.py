@@ -16,7 +16,7 @@ from reproduce.peers import optimal
 from reproduce.peers.optimal import INNER, TARGETS
 from reproduce.peers.optimal_feedback import scatter
 from reproduce.results import arrays
-from vmc_lib.motor.inverse_dynamics import MOVING, SAMPLES, smooth
+from vmc_lib.motor.inverse_dynamics import MOVING, SAMPLES, minimum_jerk
 from vmc_lib.motor.planning import plan
 from vmc_lib.motor.templates import load, reach
 
@@ -108,9 +108,7 @@ def jerk(path):
     The least is that of a straight way of minimum jerk to where the hand is at the end.
     """
     way = path[..., : MOVING + 1, :]
-    straight = way[..., :1, :] + smooth(np.arange(MOVING + 1) / MOVING)[:, None] * (
-        way[..., -1:, :] - way[..., :1, :]
-    )
+    straight = minimum_jerk(way[..., 0, :], way[..., -1, :], MOVING)
     both = (
         np.square(np.diff(x[..., ::EVERY, :], 3, axis=-2)).sum((-1, -2)) for x in (way, straight)
     )

@@ -13,8 +13,9 @@ from scipy.cluster.hierarchy import fcluster, linkage
 from scipy.optimize import least_squares, nnls
 
 from reproduce import results
+from reproduce.peers.muscles import lag
 from reproduce.whole_arm import plant
-from vmc_lib.motor.inverse_dynamics import MOVING, least, smooth
+from vmc_lib.motor.inverse_dynamics import MOVING, least, minimum_jerk
 from vmc_lib.motor.templates import TemplateSet
 
 START = np.radians([70.0, 25.0, 0.0, 95.0, 0.0, 0.0, 0.0])  # elbow bent, the hand before the body
@@ -54,8 +55,7 @@ class Nerves:
 
     def commands(self, goal):
         """The commands (T, n) of the smoothest way to a posture (7,), and a hold there."""
-        seconds = plant.TICK * np.arange(plant.TICKS + 1)
-        path = START + smooth(1000 * seconds / MOVING)[:, None] * (goal - START)
+        path = minimum_jerk(START, goal, plant.TICKS, MOVING / 1000 / plant.TICK)
         velocity = np.gradient(path, plant.TICK, axis=0)
         acceleration = np.gradient(velocity, plant.TICK, axis=0)
         return excite([self._share(*now) for now in zip(path, velocity, acceleration, strict=True)])
@@ -73,10 +73,9 @@ def excite(wanted):
     """Excitations (T, n) that give activations (T + 1, n) by MuJoCo's law, as far as they can."""
     active, told = wanted[0], []
     for want in wanted[1:]:
-        quick = 0.5 + 1.5 * active
-        lag = np.where(want > active, 0.010 * quick, 0.040 / quick)  # s: it rises sooner than falls
-        told.append(np.clip(active + lag / plant.TICK * (want - active), 0, 1))
-        active = active + (told[-1] - active) * -np.expm1(-plant.TICK / lag)
+        slow = lag(want, active)
+        told.append(np.clip(active + slow / plant.TICK * (want - active), 0, 1))
+        active = active + (told[-1] - active) * -np.expm1(-plant.TICK / slow)
     return np.array(told)
 
 

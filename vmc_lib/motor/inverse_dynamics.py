@@ -33,13 +33,13 @@ def smooth(share):
     return s**3 * (10 - 15 * s + 6 * s**2)
 
 
-def minimum_jerk(start, goal, samples=SAMPLES):
-    """The smoothest joint paths (…, samples + 1, 2) from start to goal (…, 2) in `MOVING` ms.
+def minimum_jerk(start, goal, samples=SAMPLES, moving=MOVING):
+    """The smoothest paths (…, samples + 1, n) from start to goal (…, n), there after `moving`.
 
     Then they stay there.
     """
-    done = smooth(np.arange(samples + 1) / MOVING)[:, None]
-    return start + (goal - start)[..., None, :] * done
+    done = smooth(np.arange(samples + 1) / moving)[:, None]
+    return start[..., None, :] + (goal - start)[..., None, :] * done
 
 
 def muscle_gain(q, velocity):
