@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 
 from reproduce import movements
-from reproduce.movements import SEEDS
+from reproduce.movements import NOISE, SEEDS
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.arm.model import STEP
 from vmc_lib.arm.muscle import noisy
@@ -19,7 +19,6 @@ from vmc_lib.motor.inverse_dynamics import MOVING
 from vmc_lib.motor.planning import draw_targets, exact_weights, plan, surrounded
 from vmc_lib.motor.templates import load, reach
 
-NOISE = 0.2  # of every excitation's size, fresh in every step
 JUMP, JUMPS_AT = 0.05, 0.15  # m and s: how far a target jumps, and when
 SWING, TREMOR = (0.5, 3.0), (3.0, 8.0)  # Hz
 FIELD = 15.0  # N for each m/s

@@ -29,6 +29,7 @@ from vmc_lib.motor.planning import draw_targets, plan, surrounded, turned
 from vmc_lib.motor.templates import TemplateSet, load
 
 SEEDS = range(6)
+NOISE = 0.2  # of every excitation's size, fresh in every step
 SCENARIOS = ("changing neighbours", "four fixed templates")
 PRISM = np.radians(6.0)
 PERTURBATIONS = {  # what may change, as `Plan.perturbed` takes it

@@ -15,6 +15,7 @@ from scipy.optimize import brentq
 from reproduce import movements
 from reproduce.movements import SEEDS
 from reproduce.peers import cerebella
+from reproduce.peers.cerebella import MOVEMENTS
 from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration
 from vmc_lib.cerebellum.online import AimCorrection, GranuleCells, WeightCorrection
 from vmc_lib.motor.inverse_dynamics import spline
@@ -23,7 +24,6 @@ from vmc_lib.motor.templates import load, reach
 
 KNOTS = 12  # spline coefficients of a pool's noise: it wavers about as slowly as commands change
 LEVELS = (0, 2, 5, 10)  # mm: the hand's standard deviation
-MOVEMENTS = (25, 50, 100, 250)
 LEARNERS = {
     "Algorithm 2": (lambda past, cells: WeightCorrection(), GranuleCells),
     "granule cells": (AimCorrection, GranuleCells),

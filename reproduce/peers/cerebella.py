@@ -29,14 +29,13 @@ from sklearn.pipeline import make_pipeline
 from sklearn.preprocessing import StandardScaler
 
 from reproduce import movements as experiments
-from reproduce.movements import SEEDS
+from reproduce.movements import NOISE, SEEDS
 from vmc_lib.arm.muscle import noisy
 from vmc_lib.cerebellum.online import AimCorrection, GranuleCells, mossy_fibres
 from vmc_lib.motor.planning import draw_targets, plan
 from vmc_lib.motor.templates import load, reach
 
 MOVEMENTS = (25, 50, 100, 250)
-NOISE = 0.2  # of every excitation's size, fresh in every step
 RIDGE = 0.1  # instead of 3e-4: how reluctantly weights move where lessons are noisy
 SMALL = 0.001  # m: over so much a forward model is asked for its slope
 
