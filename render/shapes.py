@@ -5,9 +5,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from render.materials import rgb
+from vmc_lib.show.things import BALL, LEAN, LENGTH, RIM
 
 FEATHERS = 16
-LENGTH, RIM, CORK = 0.085, 0.033, 0.013  # a shuttlecock: axis, radius of its skirt, of its cork
 FEATHER = np.array([0.88, 0.86, 0.80])
 
 
@@ -117,8 +117,8 @@ def shuttlecock(rng):
 def _foot(rng, threads):
     """Its cork with a coloured band, and rings of thread at some heights."""
     angle = np.linspace(0, np.pi / 2, 10)
-    dome = np.column_stack([CORK * np.sin(angle), CORK * (1 - np.cos(angle))])
-    profile = [*dome, (CORK, 0.019), (CORK, 0.019), (CORK, 0.025), (CORK, 0.025), (0, 0.025)]
+    dome = np.column_stack([BALL * np.sin(angle), BALL * (1 - np.cos(angle))])
+    profile = [*dome, (BALL, 0.019), (BALL, 0.019), (BALL, 0.025), (BALL, 0.025), (0, 0.025)]
     band = rgb(rng.choice(["#b3202a", "#1d4f91", "#1f7a3f", "#20242b"]))
     cork = np.where(np.arange(len(profile))[:, None] < len(dome) + 1, [0.84, 0.81, 0.74], band)
     rings = [_thread(height, band * 0.5 + 0.2) for height in threads]
@@ -194,13 +194,8 @@ def _feather(rng):
 
 
 def resting(mesh, standing, roll, heading):
-    """The shuttlecock on its skirt, or lying on cork and rim, turned; and the middle of its axis.
-
-    Lying, its axis leans by the slope of the line that touches the skirt's rim and the cork's ball.
-    """
-    reach = np.hypot(LENGTH - CORK, RIM)
-    lean = np.arctan2(RIM, LENGTH - CORK) - np.arcsin(CORK / reach)
-    tilt = np.pi if standing else lean - np.pi / 2
+    """The shuttlecock on its skirt, or on cork and rim, turned; and the middle of its axis."""
+    tilt = np.pi if standing else LEAN - np.pi / 2
     turn = rotation(1, heading) @ rotation(2, tilt) @ rotation(1, roll)
     turned = mesh.moved(turn)
     drop = turned.vertices[:, 1].min()

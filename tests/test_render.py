@@ -54,5 +54,5 @@ def test_every_shuttlecock_stands_on_its_cork_and_is_as_long_as_they_are(make):
         assert low == pytest.approx(0, abs=1e-3)
         assert high == pytest.approx(shapes.LENGTH, abs=0.01)
         cork = mesh.vertices[mesh.vertices[:, 1] < 0.02]
-        assert np.hypot(cork[:, 0], cork[:, 2]).max() == pytest.approx(shapes.CORK, abs=1e-3)
+        assert np.hypot(cork[:, 0], cork[:, 2]).max() == pytest.approx(shapes.BALL, abs=1e-3)
         assert mesh.faces.max() < len(mesh.vertices) == len(mesh.colours)

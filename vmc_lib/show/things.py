@@ -11,6 +11,8 @@ from vmc_lib.show.palette import COLOURS
 
 WOOD, CORK, BAND, FEATHERS = 0xC08F5A, 0xE3CFA0, 0x1D4F91, (0xFFFFFF, 0xCDD5DF)
 LENGTH, RIM, BALL = 0.085, 0.033, 0.013  # a shuttlecock: axis, radius of its skirt, of its cork
+# rad, how a lying one's axis rises: the slope of the line that touches the skirt's rim and the ball
+LEAN = np.arctan2(RIM, LENGTH - BALL) - np.arcsin(BALL / np.hypot(LENGTH - BALL, RIM))
 SKIRT = 0.024  # from the cork's tip to where the skirt begins
 VANE = [  # a feather: how far along the axis, and half its width there
     *((SKIRT, 0.001), (0.036, 0.0012), (0.042, 0.0032), (0.06, 0.0052), (0.079, 0.0063)),
@@ -58,10 +60,9 @@ def resting(photo):
     """
     if photo.pose == "standing":
         return _pose(photo.target, np.array([0.0, -1.0, 0.0]))
-    lean = np.arctan2(RIM, LENGTH - BALL) - np.arcsin(BALL / np.hypot(LENGTH - BALL, RIM))
     heading = np.linspace(0, 2 * np.pi, 72, endpoint=False)
-    level = np.cos(lean) * np.array([np.cos(heading), np.sin(heading)])
-    poses = [_pose(photo.target, np.array([x, np.sin(lean), z])) for x, z in level.T]
+    level = np.cos(LEAN) * np.array([np.cos(heading), np.sin(heading)])
+    poses = [_pose(photo.target, np.array([x, np.sin(LEAN), z])) for x, z in level.T]
     rim = RIM * np.array([np.cos(heading), 0 * heading, np.sin(heading)]).T + [0, LENGTH, 0]
     outline = np.vstack([rim, 0.4 * rim - [0, 0.4 * LENGTH - BALL, 0]])  # skirt and cork
 
