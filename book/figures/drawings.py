@@ -1,11 +1,6 @@
 """Drawings: two streams on an outline of the brain, a CRBM's block, the CDBN's stack. All SVG."""
 
-from vmc_lib.show.palette import COLOURS
-
-
-def ink(name):
-    """A colour of the palette, light or dark with the page."""
-    return f"var(--vmc-{name}, {COLOURS[name]})"
+from vmc_lib.show.palette import css
 
 
 def drawing(width, height, *parts):
@@ -17,7 +12,7 @@ def drawing(width, height, *parts):
     return "\n".join(
         [
             f'<svg viewBox="0 0 {width} {height}" width="{width}" height="{height}" '
-            f'font-size="14" fill="none" stroke="{ink("ink")}" stroke-width="1.5">{tip}',
+            f'font-size="14" fill="none" stroke="{css("ink")}" stroke-width="1.5">{tip}',
             *parts,
             "</svg>",
         ]
@@ -26,14 +21,14 @@ def drawing(width, height, *parts):
 
 def words(x, y, text, colour="ink"):
     """A line of text, by the middle of its foot."""
-    style = f'fill="{ink(colour)}" stroke="none" text-anchor="middle"'
+    style = f'fill="{css(colour)}" stroke="none" text-anchor="middle"'
     return f'<text x="{x}" y="{y}" {style}>{text}</text>'
 
 
 def arrow(path, colour="ink", width=1.5):
     """A line along `path` (SVG) with a tip at its end."""
     return (
-        f'<path d="{path}" stroke="{ink(colour)}" stroke-width="{width}" marker-end="url(#tip)"/>'
+        f'<path d="{path}" stroke="{css(colour)}" stroke-width="{width}" marker-end="url(#tip)"/>'
     )
 
 
@@ -46,10 +41,10 @@ def grid(x, y, side, count, filled=(), colour="blue"):
     return (
         "".join(
             f'<rect x="{x + c * cell:.1f}" y="{y + r * cell:.1f}" width="{cell:.1f}" '
-            f'height="{cell:.1f}" fill="{ink(colour)}" stroke="none"/>'
+            f'height="{cell:.1f}" fill="{css(colour)}" stroke="none"/>'
             for c, r in filled
         )
-        + f'<path d="{lines}" stroke="{ink("grey")}" stroke-width="1"/>'
+        + f'<path d="{lines}" stroke="{css("grey")}" stroke-width="1"/>'
     )
 
 
@@ -65,13 +60,13 @@ def two_streams():
     return drawing(
         520,
         290,
-        f'<path d="{outline}" fill="{ink("line")}" fill-opacity=".35"/>',
-        f'<path d="{folds}" stroke="{ink("grey")}"/>',
+        f'<path d="{outline}" fill="{css("line")}" fill-opacity=".35"/>',
+        f'<path d="{folds}" stroke="{css("grey")}"/>',
         f'<path d="{cerebellum}"/>',
         arrow("M408 138C390 92 345 66 262 66", "blue", 4),
         arrow("M404 160C360 196 280 205 190 220", "orange", 4),
         arrow("M236 66C214 68 200 82 192 104", "blue", 2),
-        f'<circle cx="418" cy="150" r="15" fill="{ink("paper")}"/>',
+        f'<circle cx="418" cy="150" r="15" fill="{css("paper")}"/>',
         words(418, 155, "V1"),
         words(322, 92, "parietal", "blue"),
         words(372, 22, "where: the dorsal stream", "blue"),
@@ -84,9 +79,9 @@ def two_streams():
 
 def crbm_block():
     """Picture, one map of hidden units with a block of 2 × 2, and the map of its pooled units."""
-    window = f'<rect x="66" y="46" width="60" height="60" stroke="{ink("blue")}" stroke-width="3"/>'
+    window = f'<rect x="66" y="46" width="60" height="60" stroke="{css("blue")}" stroke-width="3"/>'
     block = (
-        f'<rect x="276" y="36" width="50" height="50" stroke="{ink("orange")}" stroke-width="3"/>'
+        f'<rect x="276" y="36" width="50" height="50" stroke="{css("orange")}" stroke-width="3"/>'
     )
     return drawing(
         560,
@@ -115,7 +110,7 @@ def stack(sizes, n_w):
         for i in reversed(range(copies)):
             parts.append(
                 f'<rect x="{x + 4 * i:.0f}" y="{104 - side / 2 - 4 * i:.0f}" width="{side:.0f}" '
-                f'height="{side:.0f}" fill="{ink("paper")}"/>'
+                f'height="{side:.0f}" fill="{css("paper")}"/>'
             )
         middle = x + side / 2
         parts.append(words(f"{middle:.0f}", 164, layer))

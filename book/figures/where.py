@@ -18,7 +18,7 @@ from vmc_lib.show.demo import figure, still_of
 from vmc_lib.show.figures import framed, photo_view
 from vmc_lib.show.live import Live
 from vmc_lib.show.markup import data_uri, styled
-from vmc_lib.show.palette import COLOURS, EDGE, ON_PHOTO
+from vmc_lib.show.palette import COLOURS, EDGE, ON_PHOTO, css
 from vmc_lib.show.render_mode import render_mode
 
 
@@ -76,15 +76,12 @@ def bars(shares):
     for place, (name, share) in enumerate(shares.items()):
         y = 28 * place + 4
         rows += [
-            f'<rect x="95" y="{y}" width="220" height="18" fill="var(--vmc-line, #d3d8df)"/>',
-            f'<rect x="95" y="{y}" width="{220 * share:.0f}" height="18" '
-            'fill="var(--vmc-blue, #1f63b4)"/>',
+            f'<rect x="95" y="{y}" width="220" height="18" fill="{css("line")}"/>',
+            f'<rect x="95" y="{y}" width="{220 * share:.0f}" height="18" fill="{css("blue")}"/>',
             f'<text x="0" y="{y + 14}">{name}</text><text x="325" y="{y + 14}">{share:.2f}</text>',
         ]
     size = f'viewBox="0 0 370 {28 * len(shares)}" width="370" height="{28 * len(shares)}"'
-    return "\n".join(
-        [f'<svg {size} font-size="14" fill="var(--vmc-ink, #1c2430)">', *rows, "</svg>"]
-    )
+    return "\n".join([f'<svg {size} font-size="14" fill="{css("ink")}">', *rows, "</svg>"])
 
 
 def best_so_far(truth, boxes):

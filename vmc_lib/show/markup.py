@@ -10,11 +10,12 @@ import numpy as np
 from matplotlib.ticker import AutoLocator, FixedLocator, MaxNLocator
 
 from vmc_lib.show.live import STATIC
-from vmc_lib.show.palette import COLOURS, STYLE
+from vmc_lib.show.palette import COLOURS, STYLE, css
 from vmc_lib.show.pen import drawn
 from vmc_lib.show.render_mode import render_mode
 
-_NAMES = {value: name for name, value in COLOURS.items()} | {"#000000": "ink", "#ffffff": "paper"}
+_NAMED = {code: css(name) for name, code in COLOURS.items()}
+_NAMED |= {"#000000": css("ink"), "#ffffff": css("paper")}
 _MINUS = re.compile(r"(?<=[\s(>])-(?=\.?\d)")  # before a number in words: the axes have it so
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _STEPS = MaxNLocator(5, steps=[1, 2, 5, 10])
@@ -54,7 +55,7 @@ def svg(fig, salt):
     svg = re.sub(r"font-family: [^;\"]+(; )?", "", svg)
     svg = re.sub(r">[^<>]*</t", lambda words: _MINUS.sub("−", words[0]), svg)
     svg = re.sub(r' d="[^"]*"', lambda d: re.sub(r"(\.\d\d)\d+", r"\1", d[0]), svg)
-    svg = re.sub(r"#[0-9a-f]{6}\b", lambda colour: _variable(colour[0]), svg)
+    svg = re.sub(r"#[0-9a-f]{6}\b", lambda code: _NAMED.get(code[0], code[0]), svg)
     return _stackable(re.sub(r"\n\s*", "\n", svg).strip(), fig, f"{salt}-panels")
 
 
@@ -107,11 +108,6 @@ def _stackable(svg, fig, name):
         f'<div>{root}><g id="{name}">{drawing}</g></svg></div>\n'
         f'<div><svg {_SVG_ROOT} {view}><use href="#{name}"/></svg></div></div>'
     )
-
-
-def _variable(colour):
-    name = _NAMES.get(colour)
-    return f"var(--vmc-{name}, {colour})" if name else colour
 
 
 def image_tag(image):

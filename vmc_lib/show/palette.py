@@ -28,6 +28,12 @@ ON_PHOTO = {
 }
 EDGE = 'stroke="#10151c" stroke-width="6" stroke-linejoin="round"'
 
+
+def css(name):
+    """A named colour as CSS: the page's own, or else that of `COLOURS`."""
+    return f"var(--vmc-{name}, {COLOURS[name]})"
+
+
 # One look for every plot of the book: what `explore` and `figure` draw, they draw with this.
 STYLE = {
     "figure.figsize": (5.5, 3.2),
