@@ -75,11 +75,11 @@ def free_eye(rng):
     )
 
 
-def light_from(elevation, azimuth, size, temperature, fill):
-    """A light; warmth −1 is a blue sky, 0 white, 1 a lamp."""
+def light_from(elevation, azimuth, size, warmth, fill):
+    """A light; `warmth` −1 is a blue sky, 0 white, 1 a lamp."""
     level = np.cos(elevation)
     direction = [level * np.cos(azimuth), np.sin(elevation), level * np.sin(azimuth)]
-    tint = np.array([1 + 0.22 * temperature, 1.0, 1 - 0.28 * temperature])
+    tint = np.array([1 + 0.22 * warmth, 1.0, 1 - 0.28 * warmth])
     return Light(np.array(direction), size, tint, fill * np.array([0.95, 1.0, 1.07]))
 
 

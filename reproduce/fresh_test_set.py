@@ -2,7 +2,7 @@
 
 No answer is of a photo that had a part in a choice: what the first hundred said of Table I led to
 the sizes, the cost and the threshold of its context, so its rows are of the second hundred alone.
-The answers ship; the photos do not, but the step `fresh photos` renders them anew.
+The answers ship; the photos do not, but the step `fresh_photos` renders them anew.
 """
 
 import numpy as np

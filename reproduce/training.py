@@ -1,6 +1,7 @@
-"""What training has learnt and the model reads: everything in `vmc_lib/data` but the photos.
+"""What training has learnt and the model reads: the arrays in `vmc_lib/data`.
 
-Each function returns the arrays of the file of its name; `reproduce.steps` writes them.
+`candidates`, `detectors`, `localisers`, `cdbn`, `recogniser` and `templates` return the arrays of
+the file of their name, and `reproduce.steps` writes them; `photographs` is of `stream_training`.
 """
 
 from collections import ChainMap
