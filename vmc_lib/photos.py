@@ -76,14 +76,15 @@ def load(level, split, folder=FOLDER):
     otherwise.
     Raises ValueError for an unknown level or split, and for a photo that is missing or damaged.
     """
-    if level not in (*EVERY_LEVEL, SHEET_LEVEL):
-        raise ValueError(f"unknown level {level!r}: choose from {EVERY_LEVEL}")
+    known = *EVERY_LEVEL, SHEET_LEVEL
+    if level not in known:
+        raise ValueError(f"unknown level {level!r}: choose from {known}")
     if split not in SPLITS:
         raise ValueError(f"unknown split {split!r}: choose from {SPLITS}")
     place = Path(folder) / level / split
     sidecars = sorted(place.glob("*.json"))
     if not sidecars:
-        raise ValueError(f"no photos under {place}: see render")
+        raise ValueError(f"no photos under {place}: python -m render makes them")
     return [_read_real(file) if level == REAL_LEVEL else _read(file) for file in sidecars]
 
 

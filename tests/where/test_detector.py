@@ -67,9 +67,11 @@ def test_an_image_of_another_kind(image):
 
 
 def test_unknown_detectors():
-    for level, name in (("rig", "best"), ("attic", "published")):
-        with pytest.raises(
-            ValueError,
-            match="published, context, gradients, box regression, IoU prediction, improved",
-        ):
+    recipes = "published, context, gradients, box regression, IoU prediction, improved$"
+    for level, name, remedy in (
+        ("rig", "best", recipes),
+        ("real", "published", "from photographed$"),
+        ("attic", "published", "rig, free, varied, real$"),
+    ):
+        with pytest.raises(ValueError, match=remedy):
             ObjectDetector.load(level, name)

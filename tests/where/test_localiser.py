@@ -36,6 +36,11 @@ def test_the_same_seed_learns_the_same(localiser):
     np.testing.assert_array_equal(again.locate(*seen), localiser.locate(*seen))
 
 
+def test_an_unknown_level():
+    with pytest.raises(ValueError, match=r"'attic': choose from .'rig', 'free', 'varied'.$"):
+        Localiser.load("attic")
+
+
 def test_a_line_of_sight_above_the_horizon_is_said(localiser):
     photo = photos.load("free", "train")[0]
     with pytest.raises(ValueError, match="never meets the plane"):

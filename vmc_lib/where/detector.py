@@ -12,6 +12,7 @@ import numpy as np
 
 from vmc_lib.boxes import as_boxes, nms, vote
 from vmc_lib.data import arrays
+from vmc_lib.photos import EVERY_LEVEL
 from vmc_lib.where.box_regression import RBFRidge, regress
 from vmc_lib.where.recipes import EVERY_RECIPE, TRAINED_AS, Recipe
 from vmc_lib.where.selective_search import propose
@@ -50,8 +51,9 @@ class ObjectDetector:
         """The shipped detector of a level, by the name of its recipe; ValueError for another."""
         learnt, key = arrays("detectors"), f"{level}/{TRAINED_AS.get(name, name)}"
         if f"{level}/{name}/threshold" not in learnt:
-            known = ", ".join(EVERY_RECIPE)
-            raise ValueError(f"no detector {name!r} for level {level!r}: see {known}")
+            trained = [one for one in EVERY_RECIPE if f"{level}/{one}/threshold" in learnt]
+            known = ", ".join(trained or EVERY_LEVEL)
+            raise ValueError(f"no detector {name!r} for level {level!r}: choose from {known}")
         parts = {
             part.removeprefix(f"{key}/"): value.astype(float)
             for part, value in learnt.items()

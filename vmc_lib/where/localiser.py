@@ -16,6 +16,7 @@ from sklearn.metrics.pairwise import rbf_kernel
 
 from vmc_lib.boxes import as_boxes, centres_and_sides, jittered
 from vmc_lib.data import arrays, read_only
+from vmc_lib.photos import LEVELS
 from vmc_lib.where.features import gradients, raw_pixels
 
 COPIES, JITTER = 12, 0.05  # boxes learnt from per photo, and how far their sides stray
@@ -59,7 +60,7 @@ class Localiser:
         """The shipped localiser of a level of photos, read once; ValueError for an unknown one."""
         learnt = arrays("localisers")
         if f"{level}/mean" not in learnt:
-            raise ValueError(f"no localiser for level {level!r}: choose a level of photos")
+            raise ValueError(f"no localiser for level {level!r}: choose from {LEVELS}")
         shown, shape, *rest = (learnt[f"{level}/{part}"] for part in PARTS)
         return cls(read_only(np.hstack([shown / 255, shape])), *rest)
 
