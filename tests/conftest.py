@@ -4,6 +4,7 @@ import os
 from functools import partial
 from pathlib import Path
 
+import numpy as np
 import pytest
 from hypothesis import settings
 
@@ -16,6 +17,12 @@ AXE = Path(__file__).parent / "vendor/axe.js"
 # What passed is long: it stays in the page
 AXE_RUN = "async ([within, options]) => (await axe.run(within, options)).violations"
 PATIENCE = 180_000  # ms
+
+
+@pytest.fixture
+def rng():
+    """Random numbers of a test's own: the same whatever ran before it."""
+    return np.random.default_rng(0)
 
 
 @pytest.fixture(scope="session")

@@ -7,8 +7,6 @@ from reproduce import domains
 from reproduce.peers.features import histograms_of_gradients
 from vmc_lib import photos
 
-RNG = np.random.default_rng(0)
-
 
 def test_what_is_told_is_there():
     found, asked = domains.load(), 1 + len(domains.LEVELS)
@@ -46,13 +44,13 @@ def test_both_kinds_count_alike():
     assert domains.named_right(truth, truth) == 1
 
 
-def test_labels_are_drawn_until_both_kinds_are_there():
+def test_labels_are_drawn_until_both_kinds_are_there(rng):
     labels = np.arange(50) == 7
     for count in (2, 10):
-        rows = domains.drawn(labels, count, RNG)
+        rows = domains.drawn(labels, count, rng)
         assert len(set(rows)) == count
         assert 7 in rows
-    assert len(domains.drawn(labels, 640, RNG)) == 50
+    assert len(domains.drawn(labels, 640, rng)) == 50
 
 
 def test_the_choice_is_made_on_validation_crops_alone():
@@ -66,16 +64,16 @@ def test_the_choice_is_made_on_validation_crops_alone():
     assert found.tolist() == [[0.8, 0.5]] * 3
 
 
-def test_a_read_out_tells_apart_what_can_be():
+def test_a_read_out_tells_apart_what_can_be(rng):
     labels = np.arange(40) % 2 == 0
-    told = labels[:, None] + 0.01 * RNG.standard_normal((40, 3))
-    found = domains.fixed((told, labels), (told, labels), [(told, ~labels)], RNG)
+    told = labels[:, None] + 0.01 * rng.standard_normal((40, 3))
+    found = domains.fixed((told, labels), (told, labels), [(told, ~labels)], rng)
     assert np.shape(found) == (len(domains.PENALTIES), 3)
     assert found[-1] == [1, 1, 0]
 
 
-def test_end_to_end_has_a_choice_for_each_rate_and_penalty():
-    crops, labels = RNG.random((6, 200, 200), np.float32), np.arange(6) < 3
+def test_end_to_end_has_a_choice_for_each_rate_and_penalty(rng):
+    crops, labels = rng.random((6, 200, 200), np.float32), np.arange(6) < 3
     few = crops, labels
-    found = domains.learned(few, few, [few], RNG, steps=2)
+    found = domains.learned(few, few, [few], rng, steps=2)
     assert np.shape(found) == (len(domains.RATES) * len(domains.PENALTIES), 3)

@@ -5,8 +5,6 @@ import torch
 from vmc_lib.what.crops import crop, whiten
 from vmc_lib.what.learning import Patches
 
-noise = np.random.default_rng(0)
-
 
 def test_crop_is_the_inside_of_the_box():
     image = np.zeros((400, 600, 3), np.uint8)
@@ -18,18 +16,18 @@ def test_crop_is_the_inside_of_the_box():
     assert half[:, 110:].min() == 1
 
 
-def test_crop_stops_at_the_edge_of_the_image():
-    image = noise.integers(0, 255, (400, 600, 3), dtype=np.uint8)
+def test_crop_stops_at_the_edge_of_the_image(rng):
+    image = rng.integers(0, 255, (400, 600, 3), dtype=np.uint8)
     assert (crop(image, [-50, -50, 80, 90]) == crop(image, [0, 0, 80, 90])).all()
     for box in ([700, 10, 800, 50], [10, 10, 11, 90]):
         with pytest.raises(ValueError, match="box"):
             crop(image, box)
 
 
-def test_whitening_makes_1_over_f_noise_white():
+def test_whitening_makes_1_over_f_noise_white(rng):
     f = np.hypot(np.fft.fftfreq(200)[:, None], np.fft.rfftfreq(200))
     f[0, 0] = np.inf
-    spectrum = np.fft.rfft2(noise.normal(size=(20, 200, 200))) / f
+    spectrum = np.fft.rfft2(rng.normal(size=(20, 200, 200))) / f
     v = whiten(np.fft.irfft2(spectrum))
     assert v.shape == (20, 1, 200, 200)
     assert abs(v.mean((2, 3))).max() < 1e-5

@@ -4,8 +4,7 @@ import pytest
 from vmc_lib.photos import crops
 from vmc_lib.where.features import gradients, pixels_in_context, raw_pixels
 
-RNG = np.random.default_rng(0)
-NOISE = RNG.integers(0, 256, (40, 60, 3), dtype=np.uint8)
+NOISE = np.random.default_rng(0).integers(0, 256, (40, 60, 3), dtype=np.uint8)
 
 
 def test_a_crop_of_its_own_size_is_the_pixels():
@@ -32,8 +31,8 @@ def test_a_box_without_area_shows_one_pixel():
 @pytest.mark.parametrize(
     ("features", "length"), [(raw_pixels, 768), (pixels_in_context, 770), (gradients, 800)]
 )
-def test_one_row_a_box(features, length):
-    boxes = RNG.integers(0, 30, (5, 2))
+def test_one_row_a_box(features, length, rng):
+    boxes = rng.integers(0, 30, (5, 2))
     rows = features(NOISE, np.hstack([boxes, boxes + 20]))
     assert rows.shape == (5, length)
     assert np.isfinite(rows).all()

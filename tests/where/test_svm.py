@@ -4,12 +4,10 @@ from sklearn.svm import SVC
 
 from vmc_lib.where.svm import KERNELS, KernelSVM
 
-RNG = np.random.default_rng(0)
-
 
 @pytest.mark.parametrize("kernel", KERNELS)
-def test_a_machine_scores_as_libsvm_does(kernel):
-    x = RNG.normal(size=(60, 5))
+def test_a_machine_scores_as_libsvm_does(kernel, rng):
+    x = rng.normal(size=(60, 5))
     y = x[:, 0] + x[:, 1] ** 2 > 0.5
     ours = KernelSVM.fit(x, y, kernel, 1.0)
     theirs = SVC(kernel=kernel, C=1.0).fit(x, y)
