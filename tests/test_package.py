@@ -16,6 +16,8 @@ import pytest
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name as canonical
 
+from arm_in_page.live import MUJOCO
+
 ROOT = Path(__file__).parents[1]
 PYPROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
 PROJECT = PYPROJECT["project"]
@@ -161,6 +163,19 @@ def test_the_wheel_holds_the_library_and_nothing_comes_from_the_repository(alone
     for path in alone("-c", code).split():
         assert "site-packages" in path
         assert not Path(path).is_relative_to(ROOT)
+
+
+def test_the_wheel_brings_a_live_kernel_the_arm_that_runs_in_the_page(alone):
+    shown = alone(
+        "-c",
+        """
+from arm_in_page import live
+shown = []
+live.display = lambda *items: shown.extend(items)
+live.live_arm("reach", "Let it reach.", "An arm.")
+print(sum(file.stat().st_size for file in shown[1].files.values()))""",
+    )
+    assert int(shown) > MUJOCO.stat().st_size
 
 
 @pytest.mark.parametrize("chapter", ["07_muscle", "08_arm", "photos"])
