@@ -237,7 +237,8 @@ def test_a_link_opens_as_something_to_read(visit, href, opened, words):
         "(link) => { link = document.querySelector(link); link?.click(); return link; }",
         arg=f".myst a[href*='/files/{href}']",
     )
-    page.locator(f"{opened}:visible").get_by_text(words).first.wait_for()
+    said = page.locator(f"{opened}:visible").get_by_text(words)
+    said.filter(visible=True).first.wait_for()  # its source is there too, and hidden
 
 
 def test_a_plot_moves_fails_aloud_and_leaves_a_still(run_all):
