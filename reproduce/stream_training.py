@@ -27,7 +27,7 @@ from vmc_lib.what.stream import WIDTH, VentralStream, adapted
 torch.set_num_threads(1)
 
 MAPS = 32, 64, 128, 128  # of the four STAGES
-STEPS, BATCH, RATE = (3000, 1500), 64, (0.003, 0.0015)  # before and after mining
+STEPS, BATCH, RATE = (9000, 4500), 64, (0.003, 0.0015)  # before and after mining
 HARD = 24  # windows of a photo that teach after mining: those most like a shuttlecock
 LAID = 40  # validation photographs on which a shuttlecock is laid
 NEAR, YES, NO = 0.3, 0.55, 0.4  # IoU from which edges are taught; of boxes called one, and not

@@ -20,7 +20,9 @@ from vmc_lib.what.stream import VentralStream
 from vmc_lib.where.detector import Detections, ObjectDetector
 from vmc_lib.where.localiser import Localiser
 
-NAMING_MARGIN = 1.0  # how much lower than the detector's its threshold is; set on validation photos
+# Set on validation photos: how much lower than the detector's its threshold is, and how much boxes
+# may overlap that a stream is still to tighten
+NAMING_MARGIN, OVERLAP = 1.0, 0.6
 PHOTOGRAPHS_AS = "varied"  # the level whose places serve for photographs too
 RULES = {"published": algorithm_1, "own": broyden_calibration}  # of off-line calibration
 
@@ -56,9 +58,15 @@ class VisuomotorModel:
 
 
 def lenient_detector(level):
-    """The shipped detector of a level, NAMING_MARGIN more lenient than alone."""
-    best = "photographed" if level == photos.REAL_LEVEL else "improved"
-    detector = ObjectDetector.load(level, best)
+    """The shipped detector of a level, NAMING_MARGIN more lenient than alone.
+
+    In photographs it also keeps boxes that overlap by up to OVERLAP.
+    """
+    if level == photos.REAL_LEVEL:
+        detector = ObjectDetector.load(level, "photographed")
+        detector = replace(detector, recipe=replace(detector.recipe, overlap=OVERLAP))
+    else:
+        detector = ObjectDetector.load(level)
     return replace(detector, threshold=detector.threshold - NAMING_MARGIN)
 
 

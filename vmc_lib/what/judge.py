@@ -13,7 +13,7 @@ from vmc_lib.boxes import corrected, nms
 
 # How many boxes, those that fit best, are looked at, how many of them again, and the chance of
 # being a shuttlecock's from which a box is chosen; set on validation photos
-GLANCES, WEIGHED, SURE = 32, 8, 0.3
+GLANCES, WEIGHED, SURE = 48, 8, 0.3
 # How large what is in a shuttlecock's box can be (m), and how many times as often as another box
 # it is of that size; set on validation photos
 SIZES, RIGHT_SIZE = (0.05, 0.092), 5
