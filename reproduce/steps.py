@@ -157,7 +157,7 @@ STEPS = (
         stream_training.photographs,
         MODEL / "photographs.npz",
         f"photos candidates detectors cutouts {REAL}",
-        25,
+        35,
     ),
     Step(real_world.make, RESULTS / "real_world.json", SHIPPED, 3),
     Step(
