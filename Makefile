@@ -67,9 +67,9 @@ bench: $(READY) .bench/.ready
 	@touch $@
 
 $(BUILT): $(READY) $(INPUTS)
-	@rm -f _build/.failed
+	@mkdir -p _build && rm -f _build/.failed && touch _build/.begun
 	$(BUILD) || { cat _build/.failed 2>/dev/null; exit 1; }
-	@touch $@
+	@mv _build/.begun $@  # of the time of its beginning: what was saved since is newer
 
 $(READY): requirements.txt constraints.txt pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info[:2] < (3, 11))' || \
