@@ -153,6 +153,7 @@ STEPS = (
     Step(unsteady.make, RESULTS / "unsteady.json", f"templates {ARM}", 3),
     Step(weakened.make, RESULTS / "weakened.npz", f"templates {ARM}", 1),
     Step(trial.make, RESULTS / "lesions.json", SHIPPED, 6),
+    Step(trial.generalist, RESULTS / "generalist.json", SHIPPED, 1),
     Step(
         stream_training.photographs,
         MODEL / "photographs.npz",

@@ -152,17 +152,17 @@ def photographs(folder=photos.FOLDER, steps=STEPS, maps=MAPS, everyday=None, pas
             lessons = {level: Parallel()(map(mine, seen)) for level, seen in lessons.items()}
         teach(network, Batches(pool(lessons), part, some), rate)
     stream = folded(network)
-    linear = judge(stream, held_out(folder))
+    linear = judge(stream, held_out(folder, min(LAID, pasted)))
     learnt = {name: np.float16(part) for name, part in stream.arrays().items()}
     return learnt | {"judge/w": np.float32(linear.weights), "judge/b": linear.bias}
 
 
-def held_out(folder=photos.FOLDER):
-    """The validation photos of all levels, and real ones on which held-out cut-outs were laid."""
+def held_out(folder=photos.FOLDER, laid=LAID):
+    """The validation photos of all levels, and `laid` real ones with held-out cut-outs on them."""
     levels = {level: photos.load(level, "validation", folder) for level in photos.EVERY_LEVEL}
     rng = np.random.default_rng(0)
-    laid = cutouts.pasted(levels[photos.REAL_LEVEL], "validation", LAID, rng)
-    return [shot for shots in (*levels.values(), laid) for shot in shots]
+    pasted = cutouts.pasted(levels[photos.REAL_LEVEL], "validation", laid, rng)
+    return [shot for shots in (*levels.values(), pasted) for shot in shots]
 
 
 def judge(stream, shots):

@@ -93,6 +93,7 @@ def steps(folder):
             fresh_test_set.make, fresh, named, trainings=1, seeds=[0], patches=PATCHES
         ),
         "lesions": partial(trial.make, ["rig"], few),
+        "generalist": partial(trial.generalist, ["rig"], few),
         "photographs": partial(
             stream_training.photographs, named, (2, 1), (2, 2, 2, 2), everyday=1, pasted=2
         ),

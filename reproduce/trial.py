@@ -58,15 +58,22 @@ def first_failure(scores, rule="own"):
     return np.where(arrived, "", np.array(FAILURE_STAGES)[broken.argmax(axis=1)])
 
 
-def trial(level):
-    """`score` of every test photo of a level, as a dictionary of arrays (n,).
+def trial(level, taught=None, folder=photos.FOLDER):
+    """`score` of every test photo of a level in `folder`, as a dictionary of arrays (n,).
 
-    The photos go through joblib: `with parallel_config(n_jobs=…)` sends them to several cores, and
-    with its "dask" backend to a cluster.
+    By the model that was taught on the level `taught`; by default the level's own. The photos go
+    through joblib: `with parallel_config(n_jobs=…)` sends them to several cores, and with its
+    "dask" backend to a cluster.
     """
-    model = VisuomotorModel.load(level)
-    scores = Parallel()(delayed(_tried)(model, photo) for photo in photos.load(level, "test"))
+    model = VisuomotorModel.load(taught or level)
+    shots = photos.load(level, "test", folder)
+    scores = Parallel()(delayed(_tried)(model, photo) for photo in shots)
     return {key: np.array([s[key] for s in scores]) for key in scores[0]}
+
+
+def generalist(levels=photos.LEVELS, folder=photos.FOLDER):
+    """What `results/generalist.json` holds: level -> `summary` of how the model of "real" fares."""
+    return {level: summary(trial(level, photos.REAL_LEVEL, folder)) for level in levels}
 
 
 def _tried(model, photo):

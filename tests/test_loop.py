@@ -114,14 +114,14 @@ def test_where_size_counts_the_wrong_sizes_are_left_out_and_the_right_ones_likel
 
 
 def test_of_many_boxes_those_that_fit_best_are_looked_at_and_the_likeliest_again():
-    corners = 60.0 * np.column_stack([np.arange(40) % 10, np.arange(40) // 10])
-    many, scores = np.hstack([corners, corners + 50]), np.linspace(0.9, 0.1, 40)
+    corners = 60.0 * np.column_stack([np.arange(60) % 10, np.arange(60) // 10])
+    many, scores = np.hstack([corners, corners + 50]), np.linspace(0.9, 0.1, 60)
     found = Detections(many, scores, many, many, scores)
     asked = []
 
     def look(image, boxes):
         asked.append(boxes)
-        return named_at(many, np.linspace(0.1, 0.5, 40), lacks=0.02)(image, boxes)
+        return named_at(many, np.linspace(0.1, 0.5, 60), lacks=0.02)(image, boxes)
 
     model = loop.VisuomotorModel(
         SimpleNamespace(detect=lambda image: found), SimpleNamespace(look=look), None, None, JUDGE

@@ -7,7 +7,7 @@ import re
 from functools import cache
 from pathlib import Path
 from types import SimpleNamespace
-from urllib.parse import unquote, urlsplit
+from urllib.parse import unquote, urljoin, urlsplit
 
 import numpy as np
 import pypdfium2
@@ -23,6 +23,9 @@ BUILT = Path(__file__).parents[1] / "_build/html"
 PAGES = sorted(path for path in BUILT.rglob("*.html") if "_static" not in path.parts)
 CHAPTERS = [path for path in PAGES if path.parent == BUILT / "book"]
 OTHERS = sorted({*PAGES} - {*CHAPTERS, BUILT / "index.html"})  # Sphinx's own: search, sources
+KINDS = {path.relative_to(BUILT).parts[0]: path for path in OTHERS}.values()  # one of each
+SCRIPTS = re.compile(r'<script[^>]* src="([^"]+)"')
+SCRIPTED = {frozenset(SCRIPTS.findall(path.read_text())): path for path in CHAPTERS}.values()
 FINGERS = 2 * BEYOND  # from the wrist: what a hand holds lies half-way
 INSIDE = (f"{BUILT.as_uri()}/", "data:", "blob:")
 
@@ -170,8 +173,13 @@ def anchors(path):
 
 
 def broken_links(page):
-    """Links from `page` into the book whose file or anchor is not there."""
-    for href in set(page.eval_on_selector_all("a[href]", "links => links.map(a => a.href)")):
+    """Links from a page in the browser that are `broken`."""
+    return broken(page.eval_on_selector_all("a[href]", "links => links.map(a => a.href)"))
+
+
+def broken(links):
+    """Of `links` those into the book whose file or anchor is not there."""
+    for href in set(links):
         link = urlsplit(href)
         target = Path(unquote(link.path))
         if link.scheme == "file" and not target.is_file():
@@ -415,12 +423,18 @@ def test_what_cannot_move_shows_its_first_picture_and_its_words(chromium, missin
     context.close()
 
 
-@pytest.mark.parametrize("path", OTHERS, ids=lambda path: path.relative_to(BUILT).as_posix())
+@pytest.mark.parametrize("path", KINDS, ids=lambda path: path.relative_to(BUILT).as_posix())
 def test_pages_made_by_sphinx(offline, path):
     opened = open_page(offline, path.as_uri())
     assert [url for url in opened.asked if not url.startswith(INSIDE)] == []
     assert opened.errors == opened.failed == list(broken_links(opened.page)) == []
     opened.page.close()
+
+
+@pytest.mark.parametrize("path", OTHERS, ids=lambda path: path.relative_to(BUILT).as_posix())
+def test_links_of_pages_made_by_sphinx(path):
+    links = re.findall(r'<a [^>]*href="([^"]+)"', path.read_text())
+    assert list(broken(urljoin(path.as_uri(), link) for link in links)) == []
 
 
 def test_the_front_door_leads_into_the_book(offline):
@@ -452,7 +466,7 @@ def test_search_finds_the_shuttlecock(offline, over_http, scheme):
     opened.page.close()
 
 
-@pytest.mark.parametrize("path", CHAPTERS, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", SCRIPTED, ids=lambda path: path.stem)
 def test_reads_over_http_too(offline, over_http, path):
     opened = open_page(offline, f"{over_http}/book/{path.name}")
     assert opened.errors == opened.failed == []

@@ -1,5 +1,8 @@
 """The loop on trial: what went wrong is counted where it went wrong first."""
 
+import itertools
+import shutil
+
 import numpy as np
 import pytest
 
@@ -90,6 +93,18 @@ def test_what_a_box_holds(photo):
         assert trial.held(photo, box) == name
     assert trial.held(photo, np.array([0.0, 0, 5, 5])) == "neither"
     assert trial.held(photo, None) == "nothing"
+
+
+def test_the_model_of_photographs_is_tried_on_renders_too(tmp_path):
+    for number, kind in itertools.product((0, 1), ("json", "jpg")):
+        (tmp_path / "varied/test").mkdir(parents=True, exist_ok=True)
+        shutil.copy(photos.FOLDER / f"varied/test/{number:03d}.{kind}", tmp_path / "varied/test")
+    few = trial.generalist(["varied"], tmp_path)["varied"]
+    stored = results.records("generalist")
+    assert few.keys() == stored["varied"].keys()
+    assert list(stored) == list(photos.LEVELS)
+    assert few["named"] == few["arrived, own"] == 1
+    assert few["own"] < few["planned"]
 
 
 def test_lesions_that_shipped_can_be_measured_again():

@@ -137,6 +137,6 @@ def _encode(pixels, shape):
     image = np.frombuffer(pixels, np.uint8).reshape(shape)
     bgr = image if image.ndim == 2 else image[..., ::-1]
     png = cv2.imencode(".png", bgr)[1].tobytes()
-    webp = cv2.imencode(".webp", bgr, [cv2.IMWRITE_WEBP_QUALITY, 72])[1].tobytes()
+    webp = cv2.imencode(".webp", bgr, [cv2.IMWRITE_WEBP_QUALITY, 70])[1].tobytes()
     kind, data = ("png", png) if len(png) < 12_000 or len(png) < len(webp) else ("webp", webp)
     return f"data:image/{kind};base64,{base64.b64encode(data).decode()}"
