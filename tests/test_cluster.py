@@ -10,7 +10,7 @@ from vmc_lib import photos
 
 def test_a_dask_cluster_takes_the_trial(monkeypatch):
     few = {split: photos.load("rig", split)[:n] for split, n in (("train", 10), ("test", 2))}
-    monkeypatch.setattr(photos, "load", lambda level, split: few[split])
+    monkeypatch.setattr(photos, "load", lambda level, split, folder: few[split])
     alone = trial("rig")
     with (
         LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=None) as cluster,

@@ -59,17 +59,17 @@ def lightest_first(weights):
     next, then by the highest, each time by counting; so the time grows as n, not as n log n.
     """
     bits, edges = weights.view(np.uint32), np.arange(len(weights)).astype(np.uint32)
-    for low in (0, 11, 22):
-        digits = bits >> np.uint32(low) & np.uint32(2047)
+    for low in (np.uint32(0), np.uint32(11), np.uint32(22)):
         place = np.zeros(2049, np.int64)  # where a digit's next edge goes
-        for digit in digits:
-            place[digit + 1] += 1
+        for weight in bits:
+            place[(weight >> low & np.uint32(2047)) + 1] += 1
         place = np.cumsum(place)
         old_bits, bits = bits, np.empty_like(bits)
         old_edges, edges = edges, np.empty_like(edges)
-        for e, digit in enumerate(digits):
+        for weight, edge in zip(old_bits, old_edges):  # noqa: B905 (numba has no strict)
+            digit = weight >> low & np.uint32(2047)
             to = place[digit]
-            bits[to], edges[to] = old_bits[e], old_edges[e]
+            bits[to], edges[to] = weight, edge
             place[digit] = to + 1
     return bits.view(np.float32), edges
 
