@@ -149,6 +149,7 @@ def few(some):
 
 def growth(method):
     """Rows for growing images: time and memory of *single*, and the power of the pixels."""
+    timed(method, wall(*SIZES[0]), "single")  # loads what is compiled
     rows = []
     for width, height in SIZES:
         image = wall(width, height)
