@@ -25,7 +25,8 @@ CHAPTERS = [path for path in PAGES if path.parent == BUILT / "book"]
 OTHERS = sorted({*PAGES} - {*CHAPTERS, BUILT / "index.html"})  # Sphinx's own: search, sources
 KINDS = {path.relative_to(BUILT).parts[0]: path for path in OTHERS}.values()  # one of each
 SCRIPTS = re.compile(r'<script[^>]* src="([^"]+)"')
-SCRIPTED = {frozenset(SCRIPTS.findall(path.read_text())): path for path in CHAPTERS}.values()
+HEAVIER = sorted(CHAPTERS, key=lambda path: path.stat().st_size)  # the heaviest of each kind counts
+SCRIPTED = {frozenset(SCRIPTS.findall(path.read_text())): path for path in HEAVIER}.values()
 FINGERS = 2 * BEYOND  # from the wrist: what a hand holds lies half-way
 INSIDE = (f"{BUILT.as_uri()}/", "data:", "blob:")
 

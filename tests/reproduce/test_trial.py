@@ -1,12 +1,9 @@
 """The loop on trial: what went wrong is counted where it went wrong first."""
 
-import itertools
-import shutil
-
 import numpy as np
 import pytest
 
-from reproduce import results, trial
+from reproduce import results, toy, trial
 from vmc_lib import NoReach, loop, photos
 
 
@@ -96,9 +93,7 @@ def test_what_a_box_holds(photo):
 
 
 def test_the_model_of_photographs_is_tried_on_renders_too(tmp_path):
-    for number, kind in itertools.product((0, 1), ("json", "jpg")):
-        (tmp_path / "varied/test").mkdir(parents=True, exist_ok=True)
-        shutil.copy(photos.FOLDER / f"varied/test/{number:03d}.{kind}", tmp_path / "varied/test")
+    toy.copy_photos(tmp_path, {"test": (0, 1)})
     few = trial.generalist(["varied"], tmp_path)["varied"]
     stored = results.records("generalist")
     assert few.keys() == stored["varied"].keys()
