@@ -5,7 +5,7 @@ import pytest
 
 from vmc_lib import photos
 from vmc_lib.boxes import corrected, iou
-from vmc_lib.what.stream import MARGIN, STAGES, WIDTH, VentralStream, shown
+from vmc_lib.what.stream import MARGIN, MIRRORS, STAGES, WIDTH, VentralStream, shown
 
 STREAM = VentralStream.load()
 SHOTS = [shot for shot in photos.load("real", "train") if "shuttlecock" in shot.boxes]
@@ -55,6 +55,23 @@ def test_it_knows_shuttlecocks_and_mends_boxes():
         after.append(iou(STREAM.tightened(shot.image, astray), true)[0, 0])
     assert np.mean(np.array(chances) > 0.5) > 0.8
     assert np.mean(after) > np.mean(before) + 0.05
+
+
+@pytest.mark.parametrize(("along", "down"), MIRRORS[1:])
+def test_who_looks_in_all_mirrors_sees_the_same_in_a_mirror(along, down):
+    image, box = SHOTS[0].image, np.round(SHOTS[0].boxes["shuttlecock"])
+    (height, width), (x, y, right, bottom) = image.shape[:2], box
+    mirrored = np.array([x, y, right, bottom])
+    if along < 0:
+        mirrored[[0, 2]] = width - right, width - x
+    if down < 0:
+        mirrored[[1, 3]] = height - bottom, height - y
+    odds, lacks = STREAM.look(image, box[None], MIRRORS)
+    same, turned = STREAM.look(image[::down, ::along], mirrored[None], MIRRORS)
+    np.testing.assert_allclose(same, odds, atol=0.01)
+    np.testing.assert_allclose(turned, lacks * [along, down, 1, 1], atol=1e-3)
+    alone = STREAM.look(image[::down, ::along], mirrored[None])[0]
+    assert abs(alone - STREAM.look(image, box[None])[0]) > 0.01
 
 
 def test_of_no_box_it_says_nothing():

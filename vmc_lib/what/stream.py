@@ -18,6 +18,8 @@ from vmc_lib.what.crbm import laid_on
 
 STAGES = "V1", "V2", "V4", "IT"  # what stands there in the brain
 WIDTH, MARGIN = 48, 0.25  # of a crop, in pixels; what it shows around the box, in sides
+# How a crop is read, along x and along y: as it is, and as three mirrors show it
+MIRRORS = (1, 1), (-1, 1), (1, -1), (-1, -1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,15 +41,19 @@ class VentralStream:
             maps[name] = x = (strongest + b[:, None, None]).clip(0)
         return maps
 
-    def look(self, image, boxes):
+    def look(self, image, boxes, ways=MIRRORS[:1]):
         """Log-odds (n,) that boxes (n, 4) of an image hold a shuttlecock, and how to correct them.
 
-        The corrections (n, 4) are those of `boxes.corrected`.
+        Each crop is read in all `ways`, such as MIRRORS, and what is told is the mean. The
+        corrections (n, 4) are those of `boxes.corrected`.
         """
         if not len(boxes):
             return np.zeros(0), np.zeros((0, 4))
-        *_, last = self.stages(shown(image, boxes)).values()
-        told = last.reshape(len(last), -1) @ self.readout.T + self.offsets
+        x, told = shown(image, boxes), 0
+        for along, down in ways:
+            *_, last = self.stages(x[:, :, ::down, ::along]).values()
+            seen = last.reshape(len(last), -1) @ self.readout.T + self.offsets
+            told = told + seen * np.array([1, along, down, 1, 1]) / len(ways)
         return told[:, 0], told[:, 1:]
 
     def chance(self, image, boxes):
