@@ -10,6 +10,7 @@ import numpy as np
 from vmc_lib.compiled import compiled
 
 WAYS = (0, 1), (1, 0), (1, 1), (1, -1)  # from a pixel down or to the right; the rest come back
+EDGE = np.dtype([("which", "<u4"), ("weight", "<f4")])  # one number, whose highest bits are weight
 BLOCK = 1024  # edges looked at side by side: what they need of a large picture then comes at once
 
 
@@ -51,27 +52,37 @@ def edge_weights(channels):
     return weights.ravel()
 
 
-@compiled
 def lightest_first(weights):
     """Weights (n,), float32 from 0 up, sorted, and which they are, (n,): equal ones in order.
 
     The bits of such numbers sort as they do. Radix sort: by the lowest eleven bits, then by the
-    next, then by the highest, each time by counting; so the time grows as n, not as n log n.
+    next, then by the highest; so the time grows as n, not as n log n.
     """
-    bits, edges = weights.view(np.uint32), np.arange(len(weights)).astype(np.uint32)
-    for low in (np.uint32(0), np.uint32(11), np.uint32(22)):
-        place = np.zeros(2049, np.int64)  # where a digit's next edge goes
-        for weight in bits:
-            place[(weight >> low & np.uint32(2047)) + 1] += 1
-        place = np.cumsum(place)
-        old_bits, bits = bits, np.empty_like(bits)
-        old_edges, edges = edges, np.empty_like(edges)
-        for weight, edge in zip(old_bits, old_edges):  # noqa: B905 (numba has no strict)
-            digit = weight >> low & np.uint32(2047)
-            to = place[digit]
-            bits[to], edges[to] = weight, edge
-            place[digit] = to + 1
-    return bits.view(np.float32), edges
+    edges = np.empty(len(weights), EDGE)
+    edges["which"], edges["weight"] = np.arange(len(weights), dtype=np.uint32), weights
+    numbers, room = edges.view("<u8"), np.empty(len(weights), "<u8")
+    for lowest in (32, 43, 54):
+        numbers, room = dealt(numbers, room, lowest), numbers
+    edges = numbers.view(EDGE)
+    return edges["weight"], edges["which"]
+
+
+@compiled
+def dealt(numbers, room, lowest):
+    """Numbers (n,), uint64, sorted by eleven of their bits by counting them, equal ones in order.
+
+    They are put into `room` (n,).
+    """
+    lowest, digits = np.uint64(lowest), np.uint64(2047)
+    place = np.zeros(2049, np.int64)  # where a digit's next number goes
+    for number in numbers:
+        place[np.int64(number >> lowest & digits) + 1] += 1
+    place = np.cumsum(place)
+    for number in numbers:
+        digit = np.int64(number >> lowest & digits)
+        room[place[digit]] = number
+        place[digit] += 1
+    return room
 
 
 @compiled
