@@ -11,7 +11,7 @@ import cv2
 import numpy as np
 
 from bench.report import publish
-from bench.selective_search import DRAWS, SMALLEST, opencv, renders
+from bench.selective_search import DRAWS, SMALLEST, opencv, outdoors, renders
 from vmc_lib import photos
 from vmc_lib.boxes import iou
 from vmc_lib.where.appearance import COLOUR_SPACES, colour_codes, describe, texture_codes
@@ -69,7 +69,7 @@ def mean_of_photos(gains, rng, draws=2000):
 
 if __name__ == "__main__":
     rows = []
-    for name, some in {"renders": renders(), "real photos": photos.everyday()}.items():
+    for name, some in {"renders": renders(), "real photos": outdoors()}.items():
         shots = [(p.image, list(p.boxes.values()), opencv(p.image, "single")[0]) for p in some]
         for called, how in CUTS.items():
             counts, gains = zip(*(gain(*shot, **how) for shot in shots), strict=True)
