@@ -66,7 +66,7 @@ def tremor(path, since=1.0, band=TREMOR):
     late = 1000 * path[:, round(since / STEP) :]
     window = np.hanning(late.shape[1])[:, None]
     waves = np.fft.rfft((late - late.mean(axis=1, keepdims=True)) * window, axis=1)
-    power = 2 * (np.abs(waves) ** 2).sum(axis=-1) / (window.sum() * late.shape[1] * 0.75)
+    power = 2 * (np.abs(waves) ** 2).sum(axis=-1) / ((window**2).sum() * late.shape[1])
     frequency = np.fft.rfftfreq(late.shape[1], STEP)
     low, high = band
     within = (frequency >= low) & (frequency < high)

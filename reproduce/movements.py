@@ -165,6 +165,11 @@ def tables(seed, scenario=SCENARIOS[0], movements=25, held_out=200, experiments=
     }
 
 
+def after(experiments, measured_on):
+    """The key of what is left after so many experiments, "in-sample" or "held-out"."""
+    return f"{experiments} experiment{'s' * (experiments > 1)}, {measured_on}"
+
+
 def _left(errors):
     """Of the planned error after the first experiment and the last, in-sample and held-out."""
     practised, others = errors.in_sample.mean(axis=1), errors.held_out.mean(axis=1)
@@ -173,7 +178,7 @@ def _left(errors):
         "held-out": others / errors.held_out_planned.mean(),
     }
     return {
-        f"{k} experiment{'s' * (k > 1)}, {measured_on}": share[k]
+        after(k, measured_on): share[k]
         for k in sorted({1, len(practised) - 1})
         for measured_on, share in left.items()
     }

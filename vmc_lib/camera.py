@@ -46,15 +46,19 @@ class Camera:
 
         Raises `NoReach` where a ray runs level with the plane or away from it.
         """
-        rays = self.rays(pixels)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            distance = (height - self.position[1]) / rays[:, 1]
+        rays, distance = self._met(pixels, height)
         if not np.all(np.isfinite(distance) & (distance > 0)):
             raise NoReach(
                 f"a ray from the camera at {np.round(self.position, 3)} never meets the plane "
                 f"y = {height}: give pixels below the horizon"
             )
         return self.position + distance[:, None] * rays
+
+    def _met(self, pixels, height):
+        """Rays (n, 3), one unit deep, through pixels (n, 2), and how deep each meets a height."""
+        rays = self.rays(pixels)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return rays, (height - self.position[1]) / rays[:, 1]
 
     def sizes(self, boxes):
         """How large what fills the boxes (n, 4) is, if it stands on the table: (n,), in m.
@@ -63,8 +67,6 @@ class Camera:
         horizon.
         """
         x0, y0, x1, y1 = np.transpose(boxes)
-        rays = self.rays(np.column_stack([(x0 + x1) / 2, y1]))  # one unit deep, to its foot
-        with np.errstate(divide="ignore"):
-            depth = (TABLE - self.position[1]) / rays[:, 1]
+        _, depth = self._met(np.column_stack([(x0 + x1) / 2, y1]), TABLE)  # of its foot
         pixels = np.sqrt((x1 - x0) * (y1 - y0))
         return np.where(depth > 0, pixels * depth / self.focal, np.inf)

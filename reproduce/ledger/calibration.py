@@ -6,7 +6,7 @@ import numpy as np
 
 from reproduce import paper, second_plant
 from reproduce.ledger.entry import Row, mean
-from reproduce.movements import SCENARIOS, measured, repeat
+from reproduce.movements import SCENARIOS, after, measured, repeat
 from vmc_lib.cerebellum.offline import algorithm_1
 from vmc_lib.cerebellum.online import WeightCorrection
 from vmc_lib.motor import templates
@@ -53,7 +53,6 @@ def _table_5():
 
 def _table_6():
     claimed, name = paper.calibrated_error_ratio("online"), "error after over planned, {}, {}"
-    other = "online, the other reading, 1 experiment, {}"
     return [
         *(
             mean(name.format(scenario, kind), claimed, online(scenario, kind), **ONLINE)
@@ -64,7 +63,7 @@ def _table_6():
             mean(
                 name.format("the other reading", kind),
                 claimed,
-                measured()[SCENARIOS[0]][other.format(kind)],
+                measured()[SCENARIOS[0]][f"online, the other reading, {after(1, kind)}"],
                 **ONLINE,
             )
             for kind in KINDS
@@ -74,8 +73,7 @@ def _table_6():
 
 def online(scenario, kind, experiments=1):
     """The error after online calibration over the planned one, (seeds,)."""
-    plural = "s" if experiments > 1 else ""
-    return measured()[scenario][f"online, {experiments} experiment{plural}, {kind}"]
+    return measured()[scenario][f"online, {after(experiments, kind)}"]
 
 
 def _figure_4():

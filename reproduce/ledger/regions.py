@@ -58,7 +58,8 @@ def _kernels():
 def _finder(name):
     rows = arrays("localisation")[f"rig/{name}/seeds"]
     in_sample = localisation.table_2("rig", "train")[name]
-    return _precision_recall(f"{name}, IoU", paper.TABLE_2, rows, in_sample, 80)
+    objects = sum(len(photo.boxes) for photo in photos.load("rig", "test"))
+    return _precision_recall(f"{name}, IoU", paper.TABLE_2, rows, in_sample, objects)
 
 
 def coverage(boxes, truth):

@@ -27,7 +27,7 @@ def rois(split):
 def _rois():
     claims = {"train": paper.TRAINING_ROIS, "test": paper.TEST_ROIS}
     return [
-        mean(f"{kind} RoIs a photo, {split}", claim[kind] / 40, rois(split)[k])
+        mean(f"{kind} RoIs a photo, {split}", 2 * claim[kind] / paper.PHOTOS, rois(split)[k])
         for split, claim in claims.items()
         for k, kind in enumerate(("positive", "negative"))
     ]

@@ -12,10 +12,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from vmc_lib.arm.dynamics import acceleration_from, hand, paths
+from vmc_lib.arm.dynamics import hand
 from vmc_lib.arm.model import STEP
 from vmc_lib.arm.muscle import activated
-from vmc_lib.arm.simulate import muscle_torque, stop_torque
+from vmc_lib.arm.simulate import acceleration
 from vmc_lib.motor.feedback import TICK
 from vmc_lib.motor.inverse_dynamics import MOVING
 from vmc_lib.motor.templates import reach
@@ -28,8 +28,7 @@ def advanced(state, told):
     """States (…, 10) a tick later, of arms whose muscles are told (…, TICK, 6)."""
     for u in np.moveaxis(told, -2, 0):
         q, velocity, activation = np.split(state, [2, 4], axis=-1)
-        torque = muscle_torque(activation, *paths(q), velocity) + stop_torque(q, velocity)
-        velocity = velocity + STEP * acceleration_from(q, velocity, torque)
+        velocity = velocity + STEP * acceleration(q, velocity, activation)
         state = np.concatenate([q + STEP * velocity, velocity, activated(u, activation, STEP)], -1)
     return state
 

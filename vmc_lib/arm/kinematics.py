@@ -33,7 +33,8 @@ def turn_towards(target):
     target = np.asarray(target, dtype=float)
     x, z = target[[0, 2]] - TRUNK
     wanted = np.array([np.hypot(x, z), target[1]])  # distance from the trunk's axis, and height
-    guess = [TRUNK[0] + np.sqrt(max(wanted[0] ** 2 - 0.23**2, 0)), target[1]]  # hand's z near .06
+    aside = 0.06 - TRUNK[1]  # about, of the hand from the axis; ahead is what is left
+    guess = [TRUNK[0] + np.sqrt(max(wanted[0] ** 2 - aside**2, 0)), target[1]]
     q = _solve(
         lambda q: np.stack([np.hypot(*_aside(q)), hand(q)[..., 1]], -1), wanted, guess, target
     )

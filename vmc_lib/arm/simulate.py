@@ -143,6 +143,15 @@ def stop_torque(q, velocity, limits=LIMITS.T):
     return -STOP_STIFFNESS * (beyond + STOP_DAMPING * np.abs(beyond) * velocity)
 
 
+def acceleration(q, velocity, activation, strength=1.0, push=0.0):
+    """Eq. 10–12: the accelerations (…, 2) of arms at q (…, 2), by muscles, stops and a push.
+
+    The muscles are `strength` times as strong as they are; the push is a joint torque (…, 2).
+    """
+    torque = strength * muscle_torque(activation, *dynamics.paths(q), velocity)
+    return dynamics.acceleration_from(q, velocity, torque + stop_torque(q, velocity) + push)
+
+
 def _in_one_loop(excitations, start, first, perturbation, step, muscle):
     """The engine "compiled": q and velocity (B, T + 1, 2), activation (B, T + 1, 6)."""
     batch, steps, _ = excitations.shape

@@ -5,11 +5,13 @@ the muscles' torque, and Purkinje cells sum them to the acceleration. The teache
 report later. `arm_copy` is the true equations, or true but for the strength of the muscles.
 """
 
+from functools import partial
+
 import numpy as np
 
-from vmc_lib.arm.dynamics import acceleration_from, paths
+from vmc_lib.arm.dynamics import paths
 from vmc_lib.arm.model import STEP
-from vmc_lib.arm.simulate import muscle_torque, stop_torque
+from vmc_lib.arm.simulate import acceleration, muscle_torque
 from vmc_lib.cerebellum.online import GranuleCells
 
 FAST, STRONG = 5.0, 8.0  # rad/s and N m: they bring what the cells sense to about one
@@ -23,11 +25,7 @@ def arm_copy(strength=1.0):
     if np.any(np.asarray(strength) < 0):
         raise ValueError(f"muscles {strength} times as strong? give 0 or more")
 
-    def acceleration(q, velocity, activation):
-        torque = strength * muscle_torque(activation, *paths(q), velocity)
-        return acceleration_from(q, velocity, torque + stop_torque(q, velocity))
-
-    return acceleration
+    return partial(acceleration, strength=strength)
 
 
 class ForwardModel:

@@ -13,15 +13,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from vmc_lib.arm.dynamics import acceleration_from, hand, paths, torque_for
+from vmc_lib.arm.dynamics import hand, paths, torque_for
 from vmc_lib.arm.kinematics import inverse_kinematics
 from vmc_lib.arm.model import STEP
 from vmc_lib.arm.muscle import activated, noisy
-from vmc_lib.arm.simulate import Motion, fibres, muscle_torque, stop_torque
+from vmc_lib.arm.simulate import Motion, acceleration, fibres
 from vmc_lib.motor.inverse_dynamics import SAMPLES, minimum_jerk, muscle_gain, smooth
 from vmc_lib.motor.templates import START
 
-TICK = 10  # ms: sight corrects, and the model foresees, a hundred times a second
+TICK = 10  # steps: sight corrects, and the model foresees, a hundred times a second
 
 
 class Senses(NamedTuple):
@@ -102,8 +102,9 @@ def move(intention, senses=SIGHT, model=None, world=None, noise=0.0, rng=None):
         u = np.clip(plan + sight + reflex, 0, 1)
         u = noisy(u, noise, rng) if noise else u
         activation[k + 1] = activated(u, activation[k], STEP)
-        torque = _torque(q[k], velocity[k], activation[k], world, k * STEP)
-        velocity[k + 1] = velocity[k] + STEP * acceleration_from(q[k], velocity[k], torque)
+        push = _push(q[k], velocity[k], world, k * STEP) if world else 0.0
+        moved = acceleration(q[k], velocity[k], activation[k], push=push)
+        velocity[k + 1] = velocity[k] + STEP * moved
         q[k + 1] = q[k] + STEP * velocity[k + 1]
     return Motion(*(np.swapaxes(x, 0, 1) for x in (q, velocity, activation)))
 
@@ -160,15 +161,12 @@ def _reflex(senses, q, velocity, meant_length, meant_rate):
     return senses.stretch * (length - meant_length) + senses.rate * (rate - meant_rate)
 
 
-def _torque(q, velocity, activation, world, time):
-    """The joint torques (B, 2) of the muscles, the joints' stops and the world."""
-    torque = muscle_torque(activation, *paths(q), velocity) + stop_torque(q, velocity)
-    if world is None:
-        return torque
+def _push(q, velocity, world, time):
+    """The joint torques (B, 2) of the force with which the world pushes the hand."""
     places = hand(q[:, None] + 1e-6 * np.eye(3, 2))[..., :2]  # a joint nudged each time, or none
     slopes = (places[:, :2] - places[:, 2:]) / 1e-6  # (B, joints, 2): where each takes the hand
     force = world(time, (velocity[:, None] @ slopes)[:, 0])
-    return torque + (slopes @ force[..., None])[..., 0]
+    return (slopes @ force[..., None])[..., 0]
 
 
 def _steps(delay, multiple):

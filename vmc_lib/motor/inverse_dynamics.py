@@ -66,7 +66,7 @@ def demand(path):
 
 
 def hold(q):
-    """The activations (6,) with the least sum of squares that hold the posture q (2,)."""
+    """The activations (6,) that hold the posture q (2,), small ones preferred (a ridge)."""
     torque, gain = demand(np.tile(q, (2, 1)))
     return least(np.vstack([gain[0], 0.01 * np.eye(6)]), np.append(torque[0], np.zeros(6)))
 

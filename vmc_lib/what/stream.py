@@ -18,7 +18,7 @@ from vmc_lib.what.crbm import laid_on
 
 STAGES = "V1", "V2", "V4", "IT"  # what stands there in the brain
 WIDTH, MARGIN = 48, 0.25  # of a crop, in pixels; what it shows around the box, in sides
-# How a crop is read, along x and along y: as it is, and as three mirrors show it
+# How a crop is read, along x and along y: as it is, in a mirror beside it, below it, and in both
 MIRRORS = (1, 1), (-1, 1), (1, -1), (-1, -1)
 
 
