@@ -8,7 +8,7 @@ The answers ship; the photos do not, but the step `fresh_photos` renders them an
 import numpy as np
 
 from reproduce import recognition, results
-from reproduce.detector_training import examples
+from reproduce.detector_training import candidates, examples
 from reproduce.intervals import wilson
 from reproduce.localisation import TRAININGS, classifiers, hits
 from reproduce.recognition import tally
@@ -109,6 +109,8 @@ def ask_detectors(level, shots):
     found = {}
     for name in DETECTORS:
         detector = ObjectDetector.load(level, name)
-        right, reached = hits(shots, [detector.detect(photo.image).boxes for photo in shots])
+        strategy = detector.recipe.strategy
+        seen = (detector.detect(photo.image, candidates(photo, strategy)) for photo in shots)
+        right, reached = hits(shots, [detections.boxes for detections in seen])
         found[name] = tuple(map(int, (right.sum(), (~right).sum(), (~reached).sum())))
     return found

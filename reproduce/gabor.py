@@ -15,19 +15,19 @@ PATIENCE = {"maxiter": 400}
 
 def gabor_pair(n_w, angle, wavelength, across, along, x0, y0):
     """Cosine and sine Gabor (2, n_w²) at the same place, each with mean 0."""
-    y, x = np.mgrid[:n_w, :n_w] - (n_w - 1) / 2
-    u = (x - x0) * np.cos(angle) + (y - y0) * np.sin(angle)
-    w = (y - y0) * np.cos(angle) - (x - x0) * np.sin(angle)
+    x, y = np.arange(n_w) - (n_w - 1) / 2 - x0, np.arange(n_w)[:, None] - (n_w - 1) / 2 - y0
+    c, s = np.cos(angle), np.sin(angle)
+    u, w = x * c + y * s, y * c - x * s
     window = np.exp(-((u / across) ** 2 + (w / along) ** 2) / 2)
-    phase = 2 * np.pi * u / wavelength
-    pair = np.stack([window * np.cos(phase), window * np.sin(phase)]).reshape(2, -1)
+    phase = 2 * np.pi / wavelength * u
+    pair = np.array([window * np.cos(phase), window * np.sin(phase)]).reshape(2, -1)
     return pair - pair.mean(1, keepdims=True)
 
 
 def fit(W, pair):
     """The best mixture of a pair (any phase and contrast) for filter W, and its correlation."""
     target = W.ravel() - W.mean()
-    mixture = np.linalg.lstsq(pair.T, target, rcond=None)[0] @ pair
+    mixture = np.linalg.solve(pair @ pair.T, pair @ target) @ pair
     return mixture, np.linalg.norm(mixture) / np.linalg.norm(target)
 
 

@@ -92,19 +92,19 @@ def _figure_2():
 
 
 @cache
-def likeness():
-    """How well Gabors fit the filters of both layers, and noise: correlations (10,) each."""
+def likeness(kind):
+    """How well Gabors fit the filters of a layer, "W1" or "W2", or "noise": correlations (10,)."""
     network = cdbn.CDBN.load()
     first = network.first.W[:, 0]
     noise = np.random.default_rng(0).normal(size=first.shape)
-    kinds = {"W1": first, "W2": network.projected(), "noise": noise}
-    return {name: np.array([gabor.best_gabor(W)[1] for W in some]) for name, some in kinds.items()}
+    some = {"W1": first, "W2": network.projected(), "noise": noise}[kind]
+    return np.array([gabor.best_gabor(W)[1] for W in some])
 
 
 def _figure_7():
-    network, alike = cdbn.CDBN.load(), likeness()
+    network, alike = cdbn.CDBN.load(), (likeness("W1"), likeness("noise"))
     return [
-        _apart("fit of a Gabor, first layer less noise", alike["W1"], alike["noise"], 1),
+        _apart("fit of a Gabor, first layer less noise", *alike, 1),
         fixed("width of a first-layer filter", paper.FILTER_WIDTH, network.first.W.shape[-1]),
         fixed(
             "the same in the second layer, in the image",
@@ -168,9 +168,9 @@ def _deeper():
     crops, shuttlecock = cdbn.crops_of(photos.load("rig", "validation"))
     answers = np.asarray(cdbn.CDBN.load().layers(whiten(crops))["P2"]).mean(axis=(1, 2, 3))
     prefers = answers[shuttlecock] / answers[~shuttlecock]  # one of each in every photo
-    alike = likeness()
+    alike = likeness("W2"), likeness("W1")
     return [
-        _apart("fit of a Gabor, second layer less first", alike["W2"], alike["W1"], -1),
+        _apart("fit of a Gabor, second layer less first", *alike, -1),
         mean("answer of P² to shuttlecocks over cups", 1, prefers, better=1, bound=True),
     ]
 

@@ -26,11 +26,12 @@ def test_every_question_was_put_to_two_hundred_photos_of_each_level():
 
 
 def test_the_exam_asks_what_the_tables_ask():
-    """Put to the photos that ship, its questions get the tables' answers."""
+    """Put to the photos that ship, its questions get the tables' answers: of the first training."""
     shots = photos.load("rig", "test")
-    found = fresh_test_set.ask_kernels("rig", shots) | fresh_test_set.ask_detectors("rig", shots)
+    found = fresh_test_set.ask_kernels("rig", shots, trainings=1)
+    found |= fresh_test_set.ask_detectors("rig", shots)
     kernels = localisation.trainings("rig", "test", "context")
-    tables = {kernel: rows.mean(0) for kernel, rows in kernels.items()}
+    tables = {kernel: rows[0] for kernel, rows in kernels.items()}
     tables |= localisation.table_2("rig", "test")
     for question, counts in found.items():
         shares = [share for share, *_ in fresh_test_set.shares(*counts)]
