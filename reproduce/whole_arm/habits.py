@@ -73,9 +73,9 @@ def excite(wanted):
     """Excitations (T, n) that give activations (T + 1, n) by MuJoCo's law, as far as they can."""
     active, told = wanted[0], []
     for want in wanted[1:]:
-        slow = lag(want, active)
-        told.append(np.clip(active + slow / plant.TICK * (want - active), 0, 1))
-        active = active + (told[-1] - active) * -np.expm1(-plant.TICK / slow)
+        gain = -np.expm1(-plant.TICK / lag(want, active))  # how much of the way a tick goes
+        told.append(np.clip(active + (want - active) / gain, 0, 1))
+        active = active + (told[-1] - active) * gain
     return np.array(told)
 
 

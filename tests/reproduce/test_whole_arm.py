@@ -129,8 +129,9 @@ def test_what_no_muscle_can_do_is_done_as_far_as_full_activation_goes(nerves):
     assert pull.min() > -1e-9
 
 
-def test_excitations_give_the_activations_that_are_wanted():
-    wanted = np.linspace([0.2, 0.6], [0.5, 0.4], 30)
+@pytest.mark.parametrize("ticks", [1, 30])
+def test_excitations_give_the_activations_that_are_wanted(ticks):
+    wanted = np.linspace([0.2, 0.6], [0.4, 0.5], ticks + 1)
     active = wanted[0].copy()
     for told in habits.excite(wanted):
         for _ in range(plant.HOLD):
