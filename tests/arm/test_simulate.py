@@ -5,8 +5,17 @@ import pytest
 
 from reproduce.peers.muscles import LAWS
 from reproduce.results import arrays
-from vmc_lib.arm.model import LIMITS
-from vmc_lib.arm.simulate import Perturbation, simulate, steady
+from vmc_lib.arm.dynamics import acceleration_from, hand, paths
+from vmc_lib.arm.model import LIMITS, STEP
+from vmc_lib.arm.simulate import (
+    Perturbation,
+    advance,
+    muscle_torque,
+    simulate,
+    steady,
+    still,
+    stop_torque,
+)
 
 START = np.radians([-20.0, 95.0])
 QUIET = np.zeros((10, 6))
@@ -38,6 +47,24 @@ def test_the_engines_agree_with_a_load_in_a_force_field():
     )
     assert np.abs(fast.q - reference.q).max() < 1e-6
     assert np.abs(fast.q - bare.q).max() > 0.01
+
+
+def test_a_force_on_the_hand_acts_through_the_joints():
+    """A push, and a drag that grows with the hand's velocity, held against a numeric Jacobian."""
+    rng = np.random.default_rng(4)
+    told, push = random_excitations(3, 300, rng), rng.normal(scale=10, size=(3, 300, 2))
+    drag, path = rng.normal(scale=5, size=(2, 2)), still(told, START, told[:, 0])
+    advance(told, path, range(100), push=push, drag=drag)
+    advance(told, path, range(100, 300), push=push, drag=drag)
+    for t in (0, 50, 99, 100, 299):
+        q, velocity, activation = (x[:, t] for x in path)
+        there, back = (hand(q[:, None] + side * np.eye(2))[..., :2] for side in (1e-6, -1e-6))
+        slopes = (there - back) / 2e-6  # (arms, joints, 2)
+        force = push[:, t] + (velocity[:, None] @ slopes)[:, 0] @ drag.T
+        torque = (slopes @ force[..., None])[..., 0] + stop_torque(q, velocity)
+        torque += muscle_torque(activation, *paths(q), velocity)
+        change = (path[1][:, t + 1] - velocity) / STEP
+        np.testing.assert_allclose(change, acceleration_from(q, velocity, torque), rtol=1e-5)
 
 
 def test_the_arm_with_opensims_muscles_moves_as_opensims():

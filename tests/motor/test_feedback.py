@@ -126,7 +126,9 @@ def test_motor_noise_comes_from_the_rng_alone(few):
     assert not np.array_equal(first, other)
 
 
-@pytest.mark.parametrize("senses", [Senses(delay=-0.01), Senses(delay=0.125), Senses(spinal=2e-4)])
+@pytest.mark.parametrize(
+    "senses", [Senses(delay=-0.01), Senses(delay=0.125), Senses(spinal=2e-4), Senses(spinal=0.0)]
+)
 def test_a_delay_that_cannot_be_is_refused(few, senses):
     with pytest.raises(ValueError, match="delay of"):
         move(intend(few, 1.0), senses)

@@ -28,6 +28,16 @@ def waves(shoulder, elbow):
     return c1 * 0 + 1, c1, s1, c2, s2, c12, s12, c2 * c1, c2 * s1, c2 * c2, c2 * s2
 
 
+def turns(shoulder, elbow):
+    """How fast each of the `waves` changes as the shoulder turns, and as the elbow does."""
+    _, c1, s1, c2, s2, c12, s12, cc, cs, cc2, cs2 = waves(shoulder, elbow)
+    o = c1 * 0
+    return (
+        (o, -s1, c1, o, o, -s12, c12, -cs, cc, o, o),
+        (o, o, o, -s2, c2, -s12, c12, -s2 * c1, -s2 * s1, -2 * cs2, cc2 - s2 * s2),
+    )
+
+
 def _each_wave(q):
     """`waves` of postures (…, 2), as an array (…, 11)."""
     return np.array(waves(*np.transpose(q))).T

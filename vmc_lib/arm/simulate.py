@@ -15,7 +15,7 @@ import numpy as np
 from mujoco.batch import Batch
 
 from vmc_lib.arm import dynamics
-from vmc_lib.arm.dynamics import accelerations, hand, row_of, waves
+from vmc_lib.arm.dynamics import accelerations, hand, row_of, turns, waves
 from vmc_lib.arm.model import F0, L0, LIMITS, SLACK, STEP, loaded, muscle_paths
 from vmc_lib.arm.muscle import PAPER, activated, fibre, tension
 from vmc_lib.compiled import compiled
@@ -32,6 +32,7 @@ class Perturbation(NamedTuple):
 
 
 UNPERTURBED = Perturbation()
+UNPUSHED, UNDRAGGED = np.empty((0, 0, 2)), np.zeros((2, 2))
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,32 +144,53 @@ def stop_torque(q, velocity, limits=LIMITS.T):
     return -STOP_STIFFNESS * (beyond + STOP_DAMPING * np.abs(beyond) * velocity)
 
 
-def acceleration(q, velocity, activation, strength=1.0, push=0.0):
-    """Eq. 10–12: the accelerations (…, 2) of arms at q (…, 2), by muscles, stops and a push.
+def acceleration(q, velocity, activation, strength=1.0):
+    """Eq. 10–12: the accelerations (…, 2) of arms at q (…, 2), by muscles and stops.
 
-    The muscles are `strength` times as strong as they are; the push is a joint torque (…, 2).
+    The muscles are `strength` times as strong as they are.
     """
     torque = strength * muscle_torque(activation, *dynamics.paths(q), velocity)
-    return dynamics.acceleration_from(q, velocity, torque + stop_torque(q, velocity) + push)
+    return dynamics.acceleration_from(q, velocity, torque + stop_torque(q, velocity))
 
 
 def _in_one_loop(excitations, start, first, perturbation, step, muscle):
     """The engine "compiled": q and velocity (B, T + 1, 2), activation (B, T + 1, 6)."""
-    batch, steps, _ = excitations.shape
-    q, velocity, activation = (np.empty((batch, steps + 1, n)) for n in (2, 2, 6))
-    q[:, 0], velocity[:, 0], activation[:, 0] = start, 0, first
     told = np.require(excitations, float, "CW")  # of one type: each costs a compilation
-    arm = dynamics.tables(), dynamics.coefficients(perturbation.load)[0]
-    _move(told, q, velocity, activation, *arm, np.array(perturbation.field, float), step)
-    return q, velocity, activation
+    path = still(told, start, first)
+    advance(told, path, range(told.shape[1]), perturbation, step)
+    return path
+
+
+def still(excitations, start, first):
+    """Room for the path that excitations (B, T, 6) give: q, velocity and activation, (B, T + 1, …).
+
+    At first the arms are still, at `start` (B, 2), their muscles at `first` (B, 6).
+    """
+    batch, steps, _ = excitations.shape
+    path = [np.empty((batch, steps + 1, n)) for n in (2, 2, 6)]
+    for x, now in zip(path, (start, 0, first), strict=True):
+        x[:, 0] = now
+    return path
+
+
+def advance(told, path, steps, perturbation=UNPERTURBED, step=STEP, push=UNPUSHED, drag=UNDRAGGED):
+    """Go on along the path of `still`, in place, through these of its steps, by Eq. 9–12.
+
+    The hand is pushed by `push`, (B, T, 2) in N, and by `drag`, (2, 2), times its velocity.
+    """
+    arm = dynamics.tables(), *dynamics.coefficients(perturbation.load)
+    world = (np.require(x, float, "CW") for x in (perturbation.field, push, drag))
+    _move(told, *path, steps[0], steps[-1] + 1, *arm, *world, step)
 
 
 @compiled
-def _move(excitations, q, velocity, activation, tables, coefficients, field, step):
-    """Eq. 9–12 of one arm after the other, step by step from the first samples, which are given."""
-    entry, torque, terms = np.empty((2, 12)), np.empty(2), np.empty(7)
+def _move(
+    told, q, velocity, activation, first, end, tables, terms_of, hand_of, field, push, drag, step
+):
+    """Eq. 9–12 of one arm after the other, step by step from the first sample, which is given."""
+    entry, torque, terms, slope = np.empty((2, 12)), np.empty(2), np.empty(7), np.empty((2, 2))
     for arm in range(len(q)):
-        for t in range(excitations.shape[1]):
+        for t in range(first, end):
             w1, w2 = velocity[arm, t, 0], velocity[arm, t, 1]
             for joint in range(2):
                 angle, w = q[arm, t, joint], velocity[arm, t, joint]
@@ -179,15 +201,25 @@ def _move(excitations, q, velocity, activation, tables, coefficients, field, ste
                     entry[joint, k] = tables[joint, row, k] + share * tables[joint, row, 12 + k]
             for k in range(6):
                 a = activation[arm, t, k]
-                activation[arm, t + 1, k] = activated(excitations[arm, t, k], a, step)
+                activation[arm, t + 1, k] = activated(told[arm, t, k], a, step)
                 length, r1, r2 = entry[0, k] + entry[1, k], entry[0, 6 + k], entry[1, 6 + k]
                 pull = tension(a, length, r1 * w1 + r2 * w2, L0[k], SLACK[k], F0[k])
                 torque[0] += r1 * pull
                 torque[1] += r2 * pull
+            if len(push):
+                slope[:] = 0  # how fast each joint takes the hand along x and y
+                for joint, rises in enumerate(turns(q[arm, t, 0], q[arm, t, 1])):
+                    for n, rise in enumerate(rises):
+                        for axis in range(2):
+                            slope[joint, axis] += rise * hand_of[n, axis]
+                vx, vy = slope[0] * w1 + slope[1] * w2
+                for axis in range(2):
+                    force = push[arm, t, axis] + drag[axis, 0] * vx + drag[axis, 1] * vy
+                    torque += slope[:, axis] * force
             terms[:] = 0
             for n, wave in enumerate(waves(q[arm, t, 0], q[arm, t, 1])):
                 for k in range(7):
-                    terms[k] += wave * coefficients[n, k]
+                    terms[k] += wave * terms_of[n, k]
             changes = accelerations(terms, w1, w2, torque[0], torque[1], step)
             for joint in range(2):
                 velocity[arm, t + 1, joint] = velocity[arm, t, joint] + step * changes[joint]

@@ -13,11 +13,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from vmc_lib.arm.dynamics import hand, paths, torque_for
+from vmc_lib.arm.dynamics import paths, torque_for
 from vmc_lib.arm.kinematics import inverse_kinematics
 from vmc_lib.arm.model import STEP
-from vmc_lib.arm.muscle import activated, noisy
-from vmc_lib.arm.simulate import Motion, acceleration, fibres
+from vmc_lib.arm.muscle import noisy
+from vmc_lib.arm.simulate import UNDRAGGED, Motion, advance, fibres, still
 from vmc_lib.motor.inverse_dynamics import SAMPLES, minimum_jerk, muscle_gain, smooth
 from vmc_lib.motor.templates import START
 
@@ -77,36 +77,33 @@ def move(intention, senses=SIGHT, model=None, world=None, noise=0.0, rng=None):
     """The `Motion` of the arm when it means this `Intention`, (B, T + 1, …).
 
     `model(q, velocity, activation)`, the accelerations (B, 2) that it expects, is the forward
-    model; without one, late sight is taken for the present. `world(time, velocity)` is the force
-    (B, 2) in N on a hand that moves at this velocity (B, 2) in m/s. `noise` is the share of
-    `muscle.noisy`, drawn from `rng`. ValueError when there is noise but no `rng`, or a delay is not
-    a whole number of steps (of ticks, for the eye).
+    model; without one, late sight is taken for the present. The `world` is a `World`. `noise` is
+    the share of `muscle.noisy`, drawn from `rng`. ValueError when there is noise but no `rng`, or a
+    delay is not a whole number of ticks, for the reflex one or more.
     """
     if noise and rng is None:
         raise ValueError(f"noise of {noise} needs an rng; give np.random.default_rng(seed)")
-    late = _steps(senses.delay, TICK), _steps(senses.spinal, 1)
-    meant = [np.swapaxes(x, 0, 1) for x in (intention.q, intention.velocity)]
-    lengths, rates = fibres(*paths(meant[0]), meant[1])
-    told = np.swapaxes(intention.excitations, 0, 1)
-    q, velocity = (np.empty_like(meant[0]) for _ in range(2))
-    activation = np.concatenate([told[:1], np.empty_like(told)])
-    q[0], velocity[0] = meant[0][0], 0
-    for k, plan in enumerate(told):
-        if k % TICK == 0:
-            seen = max(k - late[0], 0)
-            here = foresee(model, q[seen], velocity[seen], activation[seen:k:TICK])
-            wish = ask(senses, meant[0][k], meant[1][k], *here)
-            sight = accelerate(*here, wish, plan) - plan
-        felt = max(k - late[1], 0)
-        reflex = _reflex(senses, q[felt], velocity[felt], lengths[felt], rates[felt])
-        u = np.clip(plan + sight + reflex, 0, 1)
-        u = noisy(u, noise, rng) if noise else u
-        activation[k + 1] = activated(u, activation[k], STEP)
-        push = _push(q[k], velocity[k], world, k * STEP) if world else 0.0
-        moved = acceleration(q[k], velocity[k], activation[k], push=push)
-        velocity[k + 1] = velocity[k] + STEP * moved
-        q[k + 1] = q[k] + STEP * velocity[k + 1]
-    return Motion(*(np.swapaxes(x, 0, 1) for x in (q, velocity, activation)))
+    late, spinal = _steps(senses.delay), _steps(senses.spinal, least=TICK)
+    meant, meant_velocity, told = intention.q, intention.velocity, intention.excitations
+    lengths, rates = fibres(*paths(meant), meant_velocity)
+    u, path = np.empty(told.shape), still(told, meant[:, 0], told[:, 0])
+    q, velocity, activation = path
+    world = world or World()
+    times = STEP * np.arange(told.shape[1])[:, None, None]
+    pushes = world(times, np.zeros((len(times), len(told), 2)))  # on a hand at rest
+    push = np.ascontiguousarray(np.swapaxes(pushes, 0, 1))
+    for k in range(0, len(times), TICK):
+        seen, tick = max(k - late, 0), np.arange(k, min(k + TICK, len(times)))
+        sent = np.swapaxes(activation[:, seen:k:TICK], 0, 1)
+        here = foresee(model, q[:, seen], velocity[:, seen], sent)
+        wish = ask(senses, meant[:, k], meant_velocity[:, k], *here)
+        sight = accelerate(*here, wish, told[:, k]) - told[:, k]
+        felt = np.maximum(tick - spinal, 0)
+        reflex = _reflex(senses, q[:, felt], velocity[:, felt], lengths[:, felt], rates[:, felt])
+        now = np.clip(np.swapaxes(told[:, tick] + sight[:, None] + reflex, 0, 1), 0, 1)
+        u[:, tick] = np.swapaxes(noisy(now, noise, rng) if noise else now, 0, 1)
+        advance(u, path, tick, push=push, drag=world.drag)
+    return Motion(*path)
 
 
 def foresee(model, q, velocity, activations):
@@ -140,9 +137,22 @@ def accelerate(q, velocity, acceleration, excitations):
     return u
 
 
+class World(NamedTuple):
+    """What pushes the hand in its plane: a drag that grows with its velocity, and a short push."""
+
+    drag: np.ndarray = UNDRAGGED  # (2, 2), N for each m/s
+    force: np.ndarray | float = 0.0  # (2,) or (B, 2), N, from …
+    at: np.ndarray | float = 0.0  # … this time on, one or (B, 1), s, for 50 ms
+
+    def __call__(self, time, velocity):
+        """The force (…, 2) in N on hands that move at this velocity (…, 2) in m/s."""
+        pushed = (self.at <= time) & (time < self.at + 0.05)
+        return velocity @ np.transpose(self.drag) + self.force * pushed
+
+
 def curl(strength):
     """A world that pushes a moving hand aside, clockwise of its way: N for each m/s."""
-    return lambda time, velocity: strength * velocity[..., ::-1] * [1.0, -1.0]
+    return World(drag=strength * np.array([[0.0, 1.0], [-1.0, 0.0]]))
 
 
 def push(force, at):
@@ -150,9 +160,7 @@ def push(force, at):
 
     Each of a batch may have its own: forces (B, 2), and times (B, 1).
     """
-    return lambda time, velocity: (
-        np.array(force) * ((at <= time) & (time < at + 0.05)) + 0 * velocity
-    )
+    return World(force=np.array(force), at=at)
 
 
 def _reflex(senses, q, velocity, meant_length, meant_rate):
@@ -161,16 +169,9 @@ def _reflex(senses, q, velocity, meant_length, meant_rate):
     return senses.stretch * (length - meant_length) + senses.rate * (rate - meant_rate)
 
 
-def _push(q, velocity, world, time):
-    """The joint torques (B, 2) of the force with which the world pushes the hand."""
-    places = hand(q[:, None] + 1e-6 * np.eye(3, 2))[..., :2]  # a joint nudged each time, or none
-    slopes = (places[:, :2] - places[:, 2:]) / 1e-6  # (B, joints, 2): where each takes the hand
-    force = world(time, (velocity[:, None] @ slopes)[:, 0])
-    return (slopes @ force[..., None])[..., 0]
-
-
-def _steps(delay, multiple):
-    steps = delay / (multiple * STEP)
-    if delay < 0 or not np.isclose(steps, round(steps)):
-        raise ValueError(f"a delay of {delay} s: give a multiple of {multiple * STEP:g} s")
-    return multiple * round(steps)
+def _steps(delay, least=0):
+    steps = TICK * round(delay / (TICK * STEP))
+    if steps < least or not np.isclose(steps * STEP, delay):
+        unit, low = TICK * STEP, least * STEP
+        raise ValueError(f"a delay of {delay} s: give a multiple of {unit:g} s, from {low:g} s on")
+    return steps
