@@ -3,6 +3,8 @@
 The classifiers, and what they say of every photo, are stored, as `make` finds them.
 """
 
+from itertools import product
+
 import numpy as np
 from sklearn.cluster import KMeans
 
@@ -54,11 +56,8 @@ def load():
     """What was learnt: what `features` needs, and a NameClassifier for each (level, method)."""
     kept = arrays("recognition")
     learnt = {"cdbn": CDBN.load()} | {name: kept[name] for name in ("words", "prototypes")}
-    keys = [(level, method) for level in photos.LEVELS for method in METHODS]
-    linear = {
-        k: NameClassifier(kept["/".join((*k, "w"))], float(kept["/".join((*k, "b"))])) for k in keys
-    }
-    return learnt, linear
+    keys = product(photos.LEVELS, METHODS)
+    return learnt, {key: NameClassifier.from_arrays(kept, "/".join(key)) for key in keys}
 
 
 def probabilities(level, shots, learnt, linear):
@@ -102,8 +101,7 @@ def make(folder=photos.FOLDER, prototypes=250):
             linear = fit_name_classifier(
                 x[method], y, seen["validation"][method], exams["validation"][1]
             )
-            kept[f"{level}/{method}/w"] = linear.weights
-            kept[f"{level}/{method}/b"] = linear.bias
+            kept |= linear.arrays(f"{level}/{method}")
             for split in photos.SPLITS:
                 kept[f"{level}/{method}/{split}"] = linear.probability(seen[split][method])
     return kept

@@ -154,7 +154,7 @@ def photographs(folder=photos.FOLDER, steps=STEPS, maps=MAPS, everyday=None, pas
     stream = folded(network)
     linear = judge(stream, held_out(folder, min(LAID, pasted)))
     learnt = {name: np.float16(part) for name, part in stream.arrays().items()}
-    return learnt | {"judge/w": np.float32(linear.weights), "judge/b": linear.bias}
+    return learnt | linear.arrays("judge")
 
 
 def held_out(folder=photos.FOLDER, laid=LAID):

@@ -94,8 +94,7 @@ def recogniser(folder=photos.FOLDER):
     for level, ((x, y), (x_validation, y_validation)) in sets.items():
         for name in READ_OUTS:
             found = fit_name_classifier(x[name], y, x_validation[name], y_validation)
-            learnt[f"{level}/{name}/w"] = np.float32(found.weights)
-            learnt[f"{level}/{name}/b"] = found.bias
+            learnt |= found.arrays(f"{level}/{name}")
     return learnt
 
 

@@ -25,6 +25,7 @@ HOLD = 10  # steps of 2 ms: a command changes fifty times a second
 TICK, TICKS = HOLD * MODEL.opt.timestep, 60  # s; commands of a movement, its hold included
 STATE = mujoco.mjtState.mjSTATE_FULLPHYSICS
 _TIP = MODEL.site("fingertip").id
+# Room to compute in: to make it takes longer than to use it. Who reads from it has written first
 _DATA = mujoco.MjData(MODEL)
 
 
@@ -66,10 +67,12 @@ def move(excitations, posture, activation):
 
 def tip(posture):
     """Where a posture (7,) puts the tip of the index finger, (3,), m, and its slopes (3, 7)."""
-    slopes, at = np.zeros((3, MODEL.nv)), fingertip(FOLLOWS @ posture)
+    slopes = np.zeros((3, MODEL.nv))
+    _DATA.qpos[:] = FOLLOWS @ posture
+    mujoco.mj_kinematics(MODEL, _DATA)
     mujoco.mj_comPos(MODEL, _DATA)
     mujoco.mj_jacSite(MODEL, _DATA, slopes, None, _TIP)
-    return at, slopes @ FOLLOWS
+    return _DATA.site_xpos[_TIP].copy(), slopes @ FOLLOWS
 
 
 def fingertip(joints):

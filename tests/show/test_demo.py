@@ -123,6 +123,7 @@ def test_live_life_has_the_face_of_the_page_and_answers_for_each_state(live):
 
 def test_no_picture_waits_until_all_that_is_loaded_has_been_looked_through(live):
     gc.unfreeze()
+    demo._freeze_once.cache_clear()
     live(k=Slider([1, 2], "k"))
     assert len(gc.get_objects()) < gc.get_freeze_count()
 

@@ -12,6 +12,7 @@ import gzip
 import itertools
 import json
 import math
+from functools import cache
 from uuid import uuid4
 
 import matplotlib.pyplot as plt
@@ -212,6 +213,11 @@ def _live(state, caption, controls, name):
     still = display(HTML(styled(still_of(alt, parts, name))), display_id=True)
     display(Live(framed(face, "", name), "vmcDemo", SCRIPTS, {"state": moved, "rested": rested}))
     display(HTML(framed("", caption)))
+    _freeze_once()
+
+
+@cache
+def _freeze_once():
     gc.collect()
     gc.freeze()  # or at times a picture waits until all that is loaded has been looked through
 

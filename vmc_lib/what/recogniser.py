@@ -53,7 +53,16 @@ class NameClassifier:
     @classmethod
     def load(cls, file, key):
         """The one stored in a data file under `key`/w and `key`/b."""
-        return cls(arrays(file)[f"{key}/w"], float(arrays(file)[f"{key}/b"]))
+        return cls.from_arrays(arrays(file), key)
+
+    @classmethod
+    def from_arrays(cls, arrays, key):
+        """The one in a dict of arrays under `key`/w and `key`/b."""
+        return cls(arrays[f"{key}/w"], float(arrays[f"{key}/b"]))
+
+    def arrays(self, key):
+        """The classifier as a dict of arrays, to be saved with `np.savez`."""
+        return {f"{key}/w": np.float32(self.weights), f"{key}/b": self.bias}
 
     def log_odds(self, x):
         """The log-odds (n,) for features (n, d)."""
