@@ -38,7 +38,8 @@ test: $(BUILT)
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(BIN)/codespell
-	$(BIN)/python -m tests.browser
+	$(BIN)/python -m kit.browser
+	$(BIN)/python -m tests.engines
 	$(BIN)/pytest -n auto --dist worksteal --nbmake --nbmake-timeout=3600 tests book --cov
 
 lab: $(READY)
@@ -49,7 +50,7 @@ kit: $(BUILT)
 	$(BIN)/python -m kit
 
 pdf: $(BUILT)
-	$(BIN)/python -m tests.browser
+	$(BIN)/python -m kit.browser
 	$(BIN)/python -m kit.pdf
 
 data: $(READY)

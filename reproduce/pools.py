@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from joblib import Parallel, delayed
 
-from reproduce import cutouts
+from reproduce import pasting
 from reproduce.detector_training import candidates
 from reproduce.looks import ALL, Looks
 from vmc_lib import loop, photos
@@ -56,7 +56,7 @@ def show(rng, folder=photos.FOLDER, everyday=None, pasted=PASTED):
     """
     shots = {level: photos.load(level, "train", folder) for level in photos.EVERY_LEVEL}
     shots[photos.REAL_LEVEL] += photos.everyday()[:everyday]
-    shots["pasted"] = cutouts.pasted(shots[photos.REAL_LEVEL], "train", pasted, rng)
+    shots["pasted"] = pasting.pasted(shots[photos.REAL_LEVEL], "train", pasted, rng)
     return {level: seen_in(some, rng) for level, some in shots.items()}
 
 

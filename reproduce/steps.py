@@ -17,7 +17,6 @@ from reproduce import (
     ablation,
     bones,
     checksums,
-    cutouts,
     domains,
     feedback,
     fresh_test_set,
@@ -38,7 +37,7 @@ from reproduce import (
 from reproduce.peers import cerebella, optimal, steady
 from reproduce.whole_arm import bones as bones63
 from reproduce.whole_arm import experiment, habits, plant
-from vmc_lib import data
+from vmc_lib import cutouts, data
 
 ROOT, MODEL, RESULTS = Path(__file__).parents[1], data.FOLDER, results.FOLDER
 FRESH = ROOT / "_build/fresh_photos"  # of tests to come: they do not ship

@@ -15,7 +15,7 @@ from torch import nn
 from torch.nn import functional as F
 from torch.utils.data import DataLoader, Dataset
 
-from reproduce import cutouts
+from reproduce import pasting
 from reproduce.looks import look
 from reproduce.pools import APART, PASTED, pool, show
 from vmc_lib import loop, photos
@@ -161,7 +161,7 @@ def held_out(folder=photos.FOLDER, laid=LAID):
     """The validation photos of all levels, and `laid` real ones with held-out cut-outs on them."""
     levels = {level: photos.load(level, "validation", folder) for level in photos.EVERY_LEVEL}
     rng = np.random.default_rng(0)
-    pasted = cutouts.pasted(levels[photos.REAL_LEVEL], "validation", laid, rng)
+    pasted = pasting.pasted(levels[photos.REAL_LEVEL], "validation", laid, rng)
     return [shot for shots in (*levels.values(), pasted) for shot in shots]
 
 

@@ -30,7 +30,7 @@ def chromium():
     """A headless browser; without one the test is skipped, in continuous integration it fails."""
     from playwright.sync_api import sync_playwright
 
-    from tests import browser
+    from kit import browser
 
     path = browser.find()
     if not path:

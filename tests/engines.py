@@ -2,6 +2,7 @@
 
 Firefox is asked as its own driver asks it (Marionette), WebKit through WebKitWebDriver; both come
 from the system: `apt install firefox-esr webkit2gtk-driver xvfb`. No network is within their reach.
+`python -m tests.engines` says loudly which of them is not there.
 """
 
 import json
@@ -9,6 +10,7 @@ import os
 import shutil
 import socket
 import subprocess
+import sys
 import time
 import urllib.error
 import urllib.request
@@ -16,6 +18,7 @@ from glob import glob
 from pathlib import Path
 
 BUILT = Path(__file__).parents[1] / "_build/html"
+NOT_TESTED = "NOT TESTED in {}: apt install firefox-esr webkit2gtk-driver xvfb"
 NOWHERE = "127.0.0.1:9"  # the proxy through which they would reach a network
 # Async, as a script may wait; what it throws becomes an error here
 WAITING = """const done = arguments[arguments.length - 1];
@@ -177,3 +180,9 @@ def wait(ready, process):
     while not ready():
         assert process.poll() is None, process.args
         time.sleep(0.05)
+
+
+if __name__ == "__main__":
+    for engine in (Firefox, WebKit):
+        if not engine.program():
+            print(f"\n{NOT_TESTED.format(engine.__name__)}\n", file=sys.stderr)

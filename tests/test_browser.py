@@ -2,7 +2,7 @@
 
 import pytest
 
-from tests import browser
+from kit import browser
 
 
 @pytest.mark.parametrize("refusal", [0, 1])

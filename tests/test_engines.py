@@ -7,8 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests import browser
-from tests.engines import Fallen, Firefox, WebKit
+from tests.engines import NOT_TESTED, Fallen, Firefox, WebKit
 from tests.test_pages import CHAPTERS
 
 pytestmark = pytest.mark.browser
@@ -38,7 +37,7 @@ UNSET = """
 @pytest.fixture(scope="module", params=[Firefox, WebKit], ids=["Firefox", "WebKit"])
 def engine(request, tmp_path_factory):
     if not request.param.program():
-        pytest.skip(browser.NOT_TESTED.format(request.param.__name__))
+        pytest.skip(NOT_TESTED.format(request.param.__name__))
     engine = request.param(tmp_path_factory.mktemp("engine"))
     yield engine
     engine.close()

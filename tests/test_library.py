@@ -15,7 +15,13 @@ EMPTY = [ROOT / f"vmc_lib/{name}/__init__.py" for name in ("where", "arm", "moto
 FILES = sorted(p for top in PACKAGES for p in (ROOT / top).rglob("*.py") if p not in EMPTY)
 # what only gathers others, or is run by command: no part of the reference
 UNLISTED = re.compile(r"__main__$|^(vmc_lib(\.(what|show))?|arm_in_page|reproduce(\.peers)?)$")
-HOUSE = (("vmc_lib",), ("arm_in_page", "reproduce"), ("bench", "tests", "book"))
+HOUSE = (
+    ("vmc_lib",),
+    ("render", "arm_in_page"),
+    ("reproduce",),
+    ("kit", "bench", "book"),
+    ("tests",),
+)
 SHARED = ("photos", "boxes", "data", "compiled", "NoReach")
 MAY_IMPORT = {  # beside itself and what is shared: dependencies point one way
     "where": set(),

@@ -10,7 +10,7 @@ from PIL import Image
 from playwright.sync_api import sync_playwright
 
 from book.figures.loop import LOOP_STEPS, SEEING
-from tests import browser
+from kit import browser
 
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "_build/html/book/index.html"

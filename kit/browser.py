@@ -1,6 +1,6 @@
-"""Which browser the page tests use: the system's Chromium, else Playwright's own.
+"""Which browser opens pages: the system's Chromium, else Playwright's own.
 
-`python -m tests.browser` installs Playwright's where the system has none. Where neither can
+`python -m kit.browser` installs Playwright's where the system has none. Where neither can
 be had it says so loudly; in continuous integration (CI=true) that is a failure.
 """
 
@@ -21,7 +21,6 @@ MISSING = (
     "NO BROWSER: the built pages are NOT tested. Install Chromium (apt install chromium), or let "
     "Playwright fetch its own (playwright install chromium)."
 )
-NOT_TESTED = "NOT TESTED in {}: apt install firefox-esr webkit2gtk-driver xvfb"
 
 
 def find():
@@ -42,21 +41,17 @@ def options(path):
     As root, and in a container without user namespaces, it does not.
     """
     command = [path, "--headless", *FLAGS, "--dump-dom", "about:blank"]
-    sandbox = subprocess.run(command, capture_output=True).returncode == 0
+    sandbox = subprocess.run(command, capture_output=True).returncode == 0  # noqa: S603
     return {"executable_path": path, "args": FLAGS, "chromium_sandbox": sandbox}
 
 
 def main():
+    """Install a browser where there is none, or say loudly that there is none."""
     if not find():
         subprocess.run([sys.executable, "-m", "playwright", "install", "chromium"], check=False)
     if not find():
         print(f"\n{MISSING}\n", file=sys.stderr)
         sys.exit(bool(os.environ.get("CI")))
-    from tests.engines import Firefox, WebKit
-
-    for engine in (Firefox, WebKit):
-        if not engine.program():
-            print(f"\n{NOT_TESTED.format(engine.__name__)}\n", file=sys.stderr)
 
 
 if __name__ == "__main__":

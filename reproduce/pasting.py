@@ -4,34 +4,17 @@ A renderer's shuttlecock on a renderer's table teaches renders. On a photograph,
 is real, and nothing but the shuttlecock tells it apart from there.
 """
 
-import io
 from dataclasses import dataclass
-from functools import cache
 
 import cv2
 import numpy as np
-from PIL import Image
 
-from vmc_lib import data, photos
+from vmc_lib import photos
+from vmc_lib.cutouts import WIDTH, load
 
-FILE, WIDTH, COLUMNS, HELD_OUT = data.FOLDER / "cutouts.webp", 128, 20, 80
+HELD_OUT = 80  # cut-outs: those that validate
 SEEN = 0.4  # of light that a cut-out keeps off what is behind: from there it has an edge
 LARGE = 0.2, 1.2  # of the photo's height: how wide a cut-out is laid there, what is empty with it
-
-
-def store(cutouts, file=FILE):
-    """Write cut-outs (n, WIDTH, WIDTH, 4) uint8 as one picture; n is a multiple of COLUMNS."""
-    rows = np.reshape(cutouts, (-1, COLUMNS, WIDTH, WIDTH, 4)).swapaxes(1, 2)
-    sheet = rows.reshape(-1, COLUMNS * WIDTH, 4)
-    Image.fromarray(sheet).save(file, quality=80, alpha_quality=80, method=6)
-
-
-@cache
-def load(file=FILE):
-    """What `store` has written."""
-    sheet = np.array(Image.open(io.BytesIO(data.read(file))))
-    rows = sheet.reshape(-1, WIDTH, COLUMNS, WIDTH, 4).swapaxes(1, 2)
-    return data.read_only(rows.reshape(-1, WIDTH, WIDTH, 4))
 
 
 @dataclass(frozen=True, eq=False)
