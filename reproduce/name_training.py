@@ -58,7 +58,8 @@ def fit_name_classifier(x, y, x_validation, y_validation):
 
     def calibrated(strength):
         model = LogisticRegression(C=strength, max_iter=2000).fit(x, y)
-        sigmoid = CalibratedClassifierCV(FrozenEstimator(model), method="sigmoid")
+        frozen = FrozenEstimator(model)  # so that parts matter not, and two of a kind are enough
+        sigmoid = CalibratedClassifierCV(frozen, method="sigmoid", cv=2)
         sigmoid.fit(scaled, y_validation)
         platt = sigmoid.calibrated_classifiers_[0].calibrators[0]
         weights = -platt.a_ * model.coef_[0] / size

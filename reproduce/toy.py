@@ -41,7 +41,7 @@ from vmc_lib.where.recipes import EVERY_RECIPE, RECIPES
 FEW = {"train": (0, 2), "validation": (1,), "test": (1,)}
 # of each split a photo with a shuttlecock and one with none
 REAL = {"train": (1, 74), "validation": (13, 79), "test": (17, 80)}
-NAMED = FEW | {"validation": (1, 2, 3, 4, 5)}  # Platt's sigmoid asks for five of a kind
+NAMED = {"train": (0,), "validation": (1, 2), "test": (1,)}  # Platt's sigmoid asks for two each
 PATCHES = 200  # of the pictures that a network learns from
 LATER = 200  # what turns the number of a photo that ships into that of a later one
 
@@ -87,7 +87,7 @@ def steps(folder):
         "movements": partial(movements.make, experiments, seeds=[0]),
         "cerebella": partial(cerebella.make, seeds=[0], movements=(2, 4), held_out=4),
         "feedback": partial(feedback.make, watched, seeds=[0]),
-        "unsteady": partial(unsteady.make, [5], seeds=[0], sizes=(2, 4), held_out=8),
+        "unsteady": partial(unsteady.make, [0], seeds=[0], sizes=(2, 4), held_out=8),
         "weakened": partial(weakened.make, [0], weakened.TARGETS[:1], ["BRA"], count=2, before=20),
         "fresh_test_set": partial(
             fresh_test_set.make, fresh, named, trainings=1, seeds=[0], patches=PATCHES
@@ -95,12 +95,12 @@ def steps(folder):
         "lesions": partial(trial.make, ["rig"], few),
         "generalist": partial(trial.generalist, ["rig"], few),
         "photographs": partial(
-            stream_training.photographs, named, (2, 1), (2, 2, 2, 2), everyday=1, pasted=2
+            stream_training.photographs, few, (2, 1), (2, 2, 2, 2), everyday=1, pasted=2
         ),
         "real_world": partial(real_world.make, few, splits=["validation"]),
         "elsewhere": partial(real_world.elsewhere, few),
         "domains": partial(domains.make, few, [4], equal=4, draws=2, patches=PATCHES, steps=2),
-        "ablation": partial(ablation.make, named, draws=1, steps=2, everyday=1, pasted=2),
+        "ablation": partial(ablation.make, few, draws=1, steps=2, everyday=1, pasted=2),
         "printed_sheet": partial(printed_sheet.make, count=1),
         "whole_arm_habits": partial(habits.make, habits.grid(2)[:2]),
         "whole_arm": partial(experiment.make, [2], [14], seeds=[0], count=2),
