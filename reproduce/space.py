@@ -52,24 +52,25 @@ def turned(template_set):
 
 
 def surrounding(target, template_set):
-    """Rows (8,) round a target (3,): four reaches of a set about it, each under two turns.
+    """Rows (…, 8) round a target (…, 3): four reaches of a set about it, each under two turns.
 
     `NoReach` when the target is outside the space that experience covers.
     """
     turn, p = turn_towards(target)
-    if not TURNS[0] < turn < TURNS[-1]:
+    far = (turn <= TURNS[0]) | (turn >= TURNS[-1])
+    if np.any(far):
+        first, needed = target[far][0], np.degrees(np.asarray(turn)[far][0])
         raise NoReach(
-            f"target {target} m needs a turn of {np.degrees(turn):.0f}°, outside those "
-            f"remembered; move it"
+            f"target {first} m needs a turn of {needed:.0f}°, outside those remembered; move it"
         )
-    before = np.searchsorted(TURNS, turn) - 1
-    reaches = planning.surrounding(p, template_set.points) * len(TURNS)
-    return np.concatenate([reaches + before, reaches + before + 1])
+    before = np.searchsorted(TURNS, turn)[..., None] - 1
+    rows = planning.surrounding(p, template_set.points) * len(TURNS) + before
+    return np.concatenate([rows, rows + 1], axis=-1)
 
 
 def practise(targets, template_set, trials=3, rule=planning.habitual_weights):
     """`Trials` for targets (n, 3): planned by Eq. 5 (or another rule), then corrected by Eq. 4."""
-    chosen = np.array([surrounding(target, template_set) for target in targets])
+    chosen = surrounding(targets, template_set)
     planned = planning.plan(targets, turned(template_set), rule, chosen)
     return broyden_calibration(planned, trials, broyden=False, guarded=False)
 

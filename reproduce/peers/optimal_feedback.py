@@ -14,8 +14,7 @@ import numpy as np
 
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.arm.model import STEP
-from vmc_lib.arm.muscle import activated
-from vmc_lib.arm.simulate import acceleration
+from vmc_lib.arm.simulate import advance, begun
 from vmc_lib.motor.feedback import TICK
 from vmc_lib.motor.inverse_dynamics import MOVING
 from vmc_lib.motor.templates import reach
@@ -26,11 +25,11 @@ NUDGE = 1e-5
 
 def advanced(state, told):
     """States (…, 10) a tick later, of arms whose muscles are told (…, TICK, 6)."""
-    for u in np.moveaxis(told, -2, 0):
-        q, velocity, activation = np.split(state, [2, 4], axis=-1)
-        velocity = velocity + STEP * acceleration(q, velocity, activation)
-        state = np.concatenate([q + STEP * velocity, velocity, activated(u, activation, STEP)], -1)
-    return state
+    u = np.ascontiguousarray(np.reshape(told, (-1, TICK, 6)))
+    q, velocity, activation = np.split(state.reshape(-1, 10), [2, 4], axis=-1)
+    path = begun(u, q, velocity, activation)
+    advance(u, path, range(TICK))
+    return np.concatenate([x[:, -1] for x in path], axis=-1).reshape(state.shape)
 
 
 def in_ticks(excitations):

@@ -49,3 +49,13 @@ def test_targets_that_cannot_be_met(target, complaint):
 def test_one_bad_position_of_many_is_named():
     with pytest.raises(ValueError, match=r"position \[0\.6 0\.1\] m"):
         inverse_kinematics([[0.15, -0.4], [0.6, 0.1]])
+
+
+def test_many_targets_are_met_as_each_alone_and_one_bad_one_is_named():
+    places = np.array([[0.25, -0.4, 0.1], [0.2, -0.38, 0.05], [-0.3, -0.4, 0.0]])
+    turns, points = turn_towards(places[:2])
+    for place, turn, point in zip(places, turns, points, strict=False):
+        alone = turn_towards(place)
+        np.testing.assert_allclose([turn, *point], [alone[0], *alone[1]], atol=1e-12)
+    with pytest.raises(ValueError, match=r"\[-0\.3 -0\.4  0\. \] m needs a turn"):
+        turn_towards(places)

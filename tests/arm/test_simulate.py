@@ -10,10 +10,10 @@ from vmc_lib.arm.model import LIMITS, STEP
 from vmc_lib.arm.simulate import (
     Perturbation,
     advance,
+    begun,
     muscle_torque,
     simulate,
     steady,
-    still,
     stop_torque,
 )
 
@@ -53,7 +53,7 @@ def test_a_force_on_the_hand_acts_through_the_joints():
     """A push, and a drag that grows with the hand's velocity, held against a numeric Jacobian."""
     rng = np.random.default_rng(4)
     told, push = random_excitations(3, 300, rng), rng.normal(scale=10, size=(3, 300, 2))
-    drag, path = rng.normal(scale=5, size=(2, 2)), still(told, START, told[:, 0])
+    drag, path = rng.normal(scale=5, size=(2, 2)), begun(told, START, 0, told[:, 0])
     advance(told, path, range(100), push=push, drag=drag)
     advance(told, path, range(100, 300), push=push, drag=drag)
     for t in (0, 50, 99, 100, 299):

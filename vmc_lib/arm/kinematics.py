@@ -26,22 +26,26 @@ def inverse_kinematics(p):
 
 
 def turn_towards(target):
-    """The trunk's turn psi in rad and the plane position p (2,) that meet a target (3,).
+    """The trunk's turn psi (…) in rad and the plane position p (…, 2) that meet a target (…, 3).
 
     `NoReach` when no turn within `TRUNK_RANGE` brings the target within the arm's reach.
     """
     target = np.asarray(target, dtype=float)
-    x, z = target[[0, 2]] - TRUNK
-    wanted = np.array([np.hypot(x, z), target[1]])  # distance from the trunk's axis, and height
+    x, z = np.moveaxis(target[..., [0, 2]] - TRUNK, -1, 0)
+    distance, height = np.hypot(x, z), target[..., 1]  # from the trunk's axis
+    wanted = np.stack([distance, height], axis=-1)
     aside = 0.06 - TRUNK[1]  # about, of the hand from the axis; ahead is what is left
-    guess = [TRUNK[0] + np.sqrt(max(wanted[0] ** 2 - aside**2, 0)), target[1]]
+    ahead = np.sqrt(np.maximum(distance**2 - aside**2, 0))
+    guess = np.stack([TRUNK[0] + ahead, height], axis=-1)
     q = _solve(
         lambda q: np.stack([np.hypot(*_aside(q)), hand(q)[..., 1]], -1), wanted, guess, target
     )
     turn = np.arctan2(*_aside(q)[::-1]) - np.arctan2(z, x)
-    if not TRUNK_RANGE[0] <= turn <= TRUNK_RANGE[1]:
-        raise NoReach(f"{target} m needs a turn of {np.degrees(turn):.0f}°; move the target")
-    return turn, hand(q)[:2]
+    far = (turn < TRUNK_RANGE[0]) | (turn > TRUNK_RANGE[1])
+    if np.any(far):
+        first, needed = target[far][0], np.degrees(np.asarray(turn)[far][0])
+        raise NoReach(f"{first} m needs a turn of {needed:.0f}°; move the target")
+    return turn, hand(q)[..., :2]
 
 
 def to_world(points, psi):

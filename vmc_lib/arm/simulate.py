@@ -156,25 +156,25 @@ def acceleration(q, velocity, activation, strength=1.0):
 def _in_one_loop(excitations, start, first, perturbation, step, muscle):
     """The engine "compiled": q and velocity (B, T + 1, 2), activation (B, T + 1, 6)."""
     told = np.require(excitations, float, "CW")  # of one type: each costs a compilation
-    path = still(told, start, first)
+    path = begun(told, start, 0, first)
     advance(told, path, range(told.shape[1]), perturbation, step)
     return path
 
 
-def still(excitations, start, first):
-    """Room for the path that excitations (B, T, 6) give: q, velocity and activation, (B, T + 1, …).
+def begun(excitations, q, velocity, activation):
+    """The paths of q, velocity and activation, (B, T + 1, …), with the first sample alone.
 
-    At first the arms are still, at `start` (B, 2), their muscles at `first` (B, 6).
+    Room for what excitations (B, T, 6) will make of it.
     """
     batch, steps, _ = excitations.shape
     path = [np.empty((batch, steps + 1, n)) for n in (2, 2, 6)]
-    for x, now in zip(path, (start, 0, first), strict=True):
+    for x, now in zip(path, (q, velocity, activation), strict=True):
         x[:, 0] = now
     return path
 
 
 def advance(told, path, steps, perturbation=UNPERTURBED, step=STEP, push=UNPUSHED, drag=UNDRAGGED):
-    """Go on along the path of `still`, in place, through these of its steps, by Eq. 9–12.
+    """Go on along a path that has `begun`, in place, through these of its steps, by Eq. 9–12.
 
     The hand is pushed by `push`, (B, T, 2) in N, and by `drag`, (2, 2), times its velocity.
     """

@@ -17,7 +17,7 @@ from vmc_lib.arm.dynamics import paths, torque_for
 from vmc_lib.arm.kinematics import inverse_kinematics
 from vmc_lib.arm.model import STEP
 from vmc_lib.arm.muscle import noisy
-from vmc_lib.arm.simulate import UNDRAGGED, Motion, advance, fibres, still
+from vmc_lib.arm.simulate import UNDRAGGED, Motion, advance, begun, fibres
 from vmc_lib.motor.inverse_dynamics import SAMPLES, minimum_jerk, muscle_gain, smooth
 from vmc_lib.motor.templates import START
 
@@ -86,7 +86,7 @@ def move(intention, senses=SIGHT, model=None, world=None, noise=0.0, rng=None):
     late, spinal = _steps(senses.delay), _steps(senses.spinal, least=TICK)
     meant, meant_velocity, told = intention.q, intention.velocity, intention.excitations
     lengths, rates = fibres(*paths(meant), meant_velocity)
-    u, path = np.empty(told.shape), still(told, meant[:, 0], told[:, 0])
+    u, path = np.empty(told.shape), begun(told, meant[:, 0], 0, told[:, 0])
     q, velocity, activation = path
     world = world or World()
     times = STEP * np.arange(told.shape[1])[:, None, None]
