@@ -33,7 +33,8 @@ def test_every_step_that_a_function_makes_has_a_toy(made):
 
 
 @pytest.mark.parametrize(
-    "name", ["detectors", "localisers", "cdbn", "recogniser", "recognition", "photographs"]
+    "name",
+    ["detectors", "localisers", "cdbn", "recogniser", "recognition", "photographs", "tricks"],
 )
 def test_a_toy_file_holds_what_ships(made, name):
     """Array by array, of the same kind and with as many axes; but one round of box regression."""
