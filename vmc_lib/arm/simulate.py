@@ -212,10 +212,12 @@ def _move(
                     for n, rise in enumerate(rises):
                         for axis in range(2):
                             slope[joint, axis] += rise * hand_of[n, axis]
-                vx, vy = slope[0] * w1 + slope[1] * w2
+                vx = slope[0, 0] * w1 + slope[1, 0] * w2
+                vy = slope[0, 1] * w1 + slope[1, 1] * w2
                 for axis in range(2):
                     force = push[arm, t, axis] + drag[axis, 0] * vx + drag[axis, 1] * vy
-                    torque += slope[:, axis] * force
+                    for joint in range(2):
+                        torque[joint] += slope[joint, axis] * force
             terms[:] = 0
             for n, wave in enumerate(waves(q[arm, t, 0], q[arm, t, 1])):
                 for k in range(7):
