@@ -42,8 +42,14 @@ def trial(level):
 
 
 def fate(level):
-    """`summary` of a level, and the stage at which each photo's reach went wrong first."""
+    """How the loop fares on a level: what is `told` of its `trial`, and every photo's scores."""
     scores = trial(level)
+    kept = {k: [None if x != x else x for x in v.tolist()] for k, v in scores.items()}  # no NaN
+    return told(scores) | {"scores": kept}
+
+
+def told(scores):
+    """The `summary` of scores, and the stage at which each photo's reach went wrong first."""
     failures = {rule: trials.first_failure(scores, rule).tolist() for rule in RULES}
     return {"summary": trials.summary(scores), "failures": failures}
 
