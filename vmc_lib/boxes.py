@@ -25,7 +25,8 @@ def as_boxes(boxes):
 
 def area(boxes):
     """Areas (n,) of boxes (n, 4), in square pixels."""
-    return np.prod(boxes[..., 2:] - boxes[..., :2], axis=-1)
+    x0, y0, x1, y1 = np.moveaxis(boxes, -1, 0)
+    return (x1 - x0) * (y1 - y0)
 
 
 def centres_and_sides(boxes):
@@ -40,7 +41,8 @@ def iou(a, b):
     """
     a, b = as_boxes(a)[:, None], as_boxes(b)[None]
     sides = np.minimum(a[..., 2:], b[..., 2:]) - np.maximum(a[..., :2], b[..., :2])
-    shared = sides.clip(0).prod(-1)
+    width, height = np.moveaxis(sides.clip(0), -1, 0)
+    shared = width * height
     union = area(a) + area(b) - shared
     return np.divide(shared, union, out=np.zeros_like(shared), where=union > 0)
 

@@ -98,13 +98,11 @@ def _seconds(image, everywhere, part=5000):
 
 def _boxed(some, found):
     """Which objects some box overlaps by 0.8, (2 photos,): first the shuttlecock, then the cup."""
-    return np.array(
-        [
-            iou(boxes, photo.boxes[name][None]).max() >= FOUND
-            for photo, boxes in zip(some, found, strict=True)
-            for name in photos.CLASSES
-        ]
-    )
+    best = [
+        iou(boxes, [photo.boxes[name] for name in photos.CLASSES]).max(axis=0)
+        for photo, boxes in zip(some, found, strict=True)
+    ]
+    return np.hstack(best) >= FOUND
 
 
 def _classes():
