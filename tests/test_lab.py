@@ -89,10 +89,11 @@ def visit(chromium, server):
 
 @pytest.fixture
 def run_all(visit):
-    """A function that opens a chapter, runs all of it, and returns the page."""
+    """A function that opens a chapter, reads its prose, runs all of it, and returns the page."""
 
     def run_all(chapter):
         page = visit(chapter)
+        assert_prose(page)
         page.evaluate("() => jupyterapp.commands.execute('notebook:run-all-cells')")
         assert outputs(page, "error") == []
         page.wait_for_function(
@@ -215,30 +216,28 @@ PROSE = """async () => {
   return shown; }"""
 
 
-@pytest.mark.parametrize("chapter", sorted(CHAPTERS))
-def test_a_notebook_shows_prose_and_no_markup(visit, chapter):
-    shown = visit(chapter).evaluate(PROSE)
+def assert_prose(page):
+    """The text shows no markup."""
+    shown = page.evaluate(PROSE)
     assert len(shown) > 10
     assert not re.findall(r"\{[a-z-]+\}|```|:::|\]\(|\$|:[a-z]+: ", "\n".join(shown))
 
 
-@pytest.mark.parametrize(
-    ("href", "opened", "words"),
-    [
+def test_links_open_as_something_to_read(visit):
+    page = visit("07_muscle")
+    for href, opened, words in (
         ("08_arm.ipynb", ".jp-NotebookPanel", "six muscles on two joints"),
         ("glossary.md", ".jp-MarkdownViewer", "each explained in a sentence"),
-    ],
-)
-def test_a_link_opens_as_something_to_read(visit, href, opened, words):
-    page = visit("07_muscle")
-    # jupyterlab-myst makes every link anew whenever a cell of text is shown first, so a mouse may
-    # press one and release another; "/files/" stands in a link that has its handler
-    page.wait_for_function(
-        "(link) => { link = document.querySelector(link); link?.click(); return link; }",
-        arg=f".myst a[href*='/files/{href}']",
-    )
-    said = page.locator(f"{opened}:visible").get_by_text(words)
-    said.filter(visible=True).first.wait_for()  # its source is there too, and hidden
+    ):
+        page.get_by_role("tab", name="07_muscle.ipynb").click()
+        # jupyterlab-myst makes every link anew whenever a cell of text is shown first, so a mouse
+        # may press one and release another; "/files/" stands in a link that has its handler
+        page.wait_for_function(
+            "(link) => { link = document.querySelector(link); link?.click(); return link; }",
+            arg=f".myst a[href*='/files/{href}']",
+        )
+        said = page.locator(f"{opened}:visible").get_by_text(words)
+        said.filter(visible=True).first.wait_for()  # its source is there too, and hidden
 
 
 def test_a_plot_moves_fails_aloud_and_leaves_a_still(run_all):
