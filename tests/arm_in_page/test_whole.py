@@ -180,11 +180,10 @@ def test_without_webgl_its_views_move(visit):
 
 
 @pytest.mark.browser
-@pytest.mark.parametrize("theme", ["light", "dark"])
-def test_it_is_accessible_and_fits_a_phone(visit, serious, theme):
+def test_it_is_accessible_and_fits_a_phone(visit, serious):
     page, arm = visit(viewport={"width": 360, "height": 700})
     start(arm)
-    assert serious(page, "main", theme) == []
+    assert serious(page, "main") == []
     wide = """() => [...document.querySelectorAll("main *")]
       .filter((e) => e.getBoundingClientRect().right > 361)
       .filter((e) => !e.closest(".vmc-picture, .vmc-spoken"))

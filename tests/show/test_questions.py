@@ -274,13 +274,12 @@ def test_the_page_checks_what_is_typed(open_questions, expected, tries):
 
 
 @pytest.mark.browser
-@pytest.mark.parametrize("theme", ["light", "dark"])
-def test_questions_are_accessible(open_questions, serious, theme):
+def test_questions_are_accessible(open_questions, serious):
     ask()
     foresee()
     check(None, 3)
     check(3, 3)
     page = open_questions()
     page.eval_on_selector_all("details", "all => all.forEach((d) => (d.open = true))")
-    assert serious(page, "html", theme, all_of_it=True) == []
+    assert serious(page, "html", all_of_it=True) == []
     page.close()
