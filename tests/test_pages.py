@@ -467,6 +467,14 @@ def test_search_finds_the_shuttlecock(offline, over_http, scheme):
     opened.page.close()
 
 
+def test_what_was_sought_is_marked_and_can_be_read(offline, serious):
+    opened = open_page(offline, f"{BUILT.as_uri()}/book/glossary.html?highlight=cell")
+    opened.page.wait_for_selector("span.highlighted")
+    assert serious(opened.page, "article") == []
+    opened.page.evaluate("() => localStorage.clear()")
+    opened.page.close()
+
+
 @pytest.mark.parametrize("path", SCRIPTED, ids=lambda path: path.stem)
 def test_reads_over_http_too(offline, over_http, path):
     opened = open_page(offline, f"{over_http}/book/{path.name}")

@@ -66,7 +66,7 @@ def photo_view(image, boxes=(), points=(), axes=None):
     for (x0, y0, x1, y1), label, colour in boxes:
         rect = f'x="{x0:.1f}" y="{y0:.1f}" width="{x1 - x0:.1f}" height="{y1 - y0:.1f}"'
         marks += [f'<rect {rect} {EDGE}/><rect {rect} stroke="{ON_PHOTO[colour]}"/>']
-        long = 11 * len(label)
+        long = 11 * len(label) + 9 * label.count("%")  # about; a % is wide
         free = all(abs(y0 - y) > 20 or x0 > end or x > x0 + long for x, y, end in taken)
         y = y0 - 7 if y0 > 26 and free else min(y1 + 21, height - 7)
         words += [_label(max(min(x0, width - long), 0), y, label, colour)]
