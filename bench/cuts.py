@@ -15,7 +15,7 @@ from bench.selective_search import DRAWS, SMALLEST, opencv, outdoors, renders
 from vmc_lib import photos
 from vmc_lib.boxes import iou
 from vmc_lib.where.appearance import COLOUR_SPACES, colour_codes, describe, texture_codes
-from vmc_lib.where.segmentation import edge_weights, join, lightest_first
+from vmc_lib.where.segmentation import cut_along, edges_of, single_pixels, to_neighbours
 from vmc_lib.where.selective_search import ALL, grow, ranked
 
 PATCH = 100  # pixels: the smallest, of ours and of OpenCV's
@@ -36,11 +36,12 @@ def cut(image, k=100, neighbours=8, narrow_hue=False):
     if narrow_hue:
         channels[..., 0] *= 180 / 255
     smooth = cv2.GaussianBlur(channels, (0, 0), 0.8)
-    weights = edge_weights(smooth).reshape(-1, 4)
-    weights[:, neighbours // 2 :] = np.inf
-    weights, edges = lightest_first(weights.ravel())
-    inside = np.searchsorted(weights, np.inf)
-    labels = join(weights[:inside], edges[:inside], *image.shape[:2], k / 255, PATCH)
+    height, width = image.shape[:2]
+    edges = edges_of(smooth, 0, height)
+    edges = edges[edges % 4 < neighbours // 2]
+    patches = single_pixels(height * width, k / 255)
+    labels = cut_along(edges, to_neighbours(width), k / 255, PATCH, patches)
+    labels = labels.reshape(height, width)
     codes = colour_codes(channels), texture_codes(channels)
     return grow(labels, describe(labels, *codes), ALL)
 

@@ -6,8 +6,9 @@ from skimage.segmentation import felzenszwalb
 
 from vmc_lib import photos
 from vmc_lib.photos import as_float
+from vmc_lib.where import segmentation
 from vmc_lib.where.appearance import COLOUR_SPACES
-from vmc_lib.where.segmentation import edge_weights, join, lightest_first, segment, segmentations
+from vmc_lib.where.segmentation import edges_of, lightest_first, segment, segmentations
 
 
 def blobs(seed, shape=(40, 60)):
@@ -53,10 +54,12 @@ def same_partition(a, b):
     return pairs == len(np.unique(a)) == len(np.unique(b))
 
 
-def walked(image, scale, min_size, way=lambda loop: loop):
-    weights, edges = lightest_first(way(edge_weights)(image))
-    inside = np.searchsorted(weights, np.inf)
-    return way(join)(weights[:inside], edges[:inside], *image.shape[:2], scale / 255, min_size)
+def walked(image, scale, min_size):
+    height, width = image.shape[:2]
+    patches = segmentation.single_pixels(height * width, scale / 255)
+    edges, away = edges_of(image, 0, height), segmentation.to_neighbours(width)
+    labels = segmentation.cut_along(edges, away, scale / 255, min_size, patches)
+    return labels.reshape(height, width)
 
 
 @pytest.mark.parametrize(("scale", "min_size"), [(20, 1), (100, 20), (300, 60)])
@@ -69,19 +72,42 @@ def test_the_segmentation_is_the_published_algorithm(scale, min_size):
 
 
 @pytest.mark.parametrize("shape", [(1, 1, 3), (1, 9, 1), (9, 1, 2), (12, 17, 3)])
-def test_the_compiled_loops_do_what_their_source_does(shape):
+def test_the_compiled_loops_do_what_their_source_does(shape, monkeypatch):
     image = np.random.default_rng(0).integers(0, 4, shape).astype(np.float32) / 4  # many ties
-    compiled, plain = (walked(image, 90, 4, way) for way in (lambda f: f, lambda f: f.__wrapped__))
+    compiled = segment(image, 30)
+    for loop in ("_edges", "dealt", "join", "labels_of"):
+        monkeypatch.setattr(segmentation, loop, getattr(segmentation, loop).__wrapped__)
     assert compiled.shape == shape[:2]
-    assert (compiled == plain).all()
+    assert (compiled == segment(image, 30)).all()
 
 
-def test_weights_are_sorted_and_equal_ones_keep_their_order():
-    weights = np.random.default_rng(0).integers(0, 50, 1000).astype(np.float32) ** 3 / 7
-    weights[::100] = np.inf
-    ordered, order = lightest_first(weights)
-    assert (order == weights.argsort(kind="stable")).all()
-    assert (ordered == weights[order]).all()
+@pytest.mark.parametrize("strip", [1, 100, 900])
+def test_a_picture_falls_apart_the_same_in_strips_of_any_height(strip, monkeypatch):
+    """Ties and textures, patches across many strips, and a scale beside another."""
+    grid = np.random.default_rng(1).integers(0, 4, (40, 60, 3)).astype(np.float32) / 4
+    for image in (
+        grid,
+        blobs(4),
+        photos.load("real", "validation")[0].image[::4, ::4] / np.float32(255),
+    ):
+        whole = list(segmentations(image, (20, 90)))
+        monkeypatch.setattr(segmentation, "STRIP", strip)
+        for one, other in zip(whole, segmentations(image, (20, 90)), strict=True):
+            assert one.max() > 0
+            assert (one == other).all()
+        monkeypatch.undo()
+
+
+def test_edges_are_sorted_by_their_weights_and_equal_ones_keep_their_order():
+    image = np.random.default_rng(0).integers(0, 4, (12, 17, 3)).astype(np.float32) / 4
+    edges = edges_of(image, 0, 12)
+    assert len(edges) == 12 * 16 + 11 * 17 + 2 * 11 * 16
+    assert (np.diff(edges % 2**32) > 0).all()
+    weights = (edges >> 32).astype(np.uint32).view(np.float32)
+    below = np.linalg.norm(image[1:] - image[:-1], axis=2)
+    assert weights[edges % 4 == 1] == pytest.approx(below.ravel())
+    expected = edges[weights.argsort(kind="stable")]
+    assert (lightest_first(edges.copy())[0] == expected).all()
 
 
 @pytest.mark.parametrize("colour", ["HSV", "Lab"])

@@ -10,7 +10,7 @@ from skimage.data import coffee
 
 from vmc_lib.boxes import area
 from vmc_lib.photos import as_float
-from vmc_lib.where import appearance
+from vmc_lib.where import appearance, segmentation
 from vmc_lib.where import selective_search as ss
 from vmc_lib.where.segmentation import segment
 
@@ -91,6 +91,16 @@ def test_similarities_are_shares_and_symmetric_and_what_is_published(seed):
         assert value == pytest.approx(measure(look, *pairs.T), abs=1e-6)
     together = sum(measure(look, *pairs.T) for measure in MEASURED.values())
     assert ss.alike(look, pairs, ss.ALL) == pytest.approx(together, abs=1e-6)
+
+
+@pytest.mark.parametrize("strip", [1, 300, 2000])
+@pytest.mark.parametrize("of", [appearance.colour_codes, appearance.texture_codes])
+def test_codes_are_the_same_in_strips_of_any_height(of, strip, monkeypatch):
+    channels = blobs(6).astype(np.float32)
+    whole, count = of(channels)
+    monkeypatch.setattr(segmentation, "STRIP", strip)
+    assert whole.max() >= count / 2
+    assert (of(channels)[0] == whole).all()
 
 
 COMPILED = "_count", "_rises", "likeness", "union", "_merge_all"

@@ -11,11 +11,20 @@ import numpy as np
 from scipy.ndimage import find_objects
 
 from vmc_lib.compiled import compiled
+from vmc_lib.where.segmentation import strips
 
 LAB_LOWEST, LAB_RANGE = np.float32([[0, -128, -128], [100, 255, 255]])  # L, a and b
+
+
+def _hsv(rgb):
+    channels = cv2.cvtColor(rgb, cv2.COLOR_RGB2HSV)
+    channels[..., 0] /= 360
+    return channels
+
+
 COLOUR_SPACES = {  # float RGB in 0..1 -> channels in about 0..1
     "RGB": lambda rgb: rgb,
-    "HSV": lambda rgb: cv2.cvtColor(rgb, cv2.COLOR_RGB2HSV) / np.float32([360, 1, 1]),
+    "HSV": _hsv,
     "Lab": lambda rgb: (cv2.cvtColor(rgb, cv2.COLOR_RGB2Lab) - LAB_LOWEST) / LAB_RANGE,
     "rgI": lambda rgb: np.dstack([rgb[..., :2] / (rgb.sum(2, keepdims=True) + 1e-6), rgb.mean(2)]),
     "H": lambda rgb: COLOUR_SPACES["HSV"](rgb)[..., :1],
@@ -23,6 +32,7 @@ COLOUR_SPACES = {  # float RGB in 0..1 -> channels in about 0..1
 }
 MEASURES = "colour", "texture", "size", "fill"  # of how alike two regions are
 COLOUR_BINS, SLOPE_BINS = 25, 10  # of a channel; of a channel along one way of a line
+REACH = 5  # pixels that a pixel's slope depends on, each way: four to smooth, one to see it rise
 
 
 @dataclass
@@ -92,8 +102,12 @@ def colour_codes(channels):
 
     Returns the codes (c, pixels), and how many there are.
     """
-    values = np.moveaxis(channels, 2, 0).reshape(channels.shape[2], -1)
-    return (values * COLOUR_BINS).clip(0, COLOUR_BINS - 1).astype(np.uint8), COLOUR_BINS
+    height, width, depth = channels.shape
+    codes = np.empty((depth, height, width), np.uint8)
+    for top, bottom in strips(height, width):
+        bins = np.clip(channels[top:bottom] * COLOUR_BINS, 0, COLOUR_BINS - 1)
+        codes[:, top:bottom] = np.moveaxis(bins, 2, 0)
+    return codes.reshape(depth, -1), COLOUR_BINS
 
 
 def texture_codes(channels):
@@ -102,23 +116,32 @@ def texture_codes(channels):
     Returns the codes (4c rows of pixels), and how many there are: ten of slopes up one way of
     the line, then as many up the other.
     """
-    smooth = [cv2.GaussianBlur(channel, (0, 0), 1) for channel in np.moveaxis(channels, 2, 0)]
-    slopes = [cv2.Sobel(x, -1, *way).ravel() for x in smooth for way in ((1, 0), (0, 1))]
-    return _rises(np.array(slopes), np.arange(4) * np.pi / 4, SLOPE_BINS), 2 * SLOPE_BINS
+    height, width, depth = channels.shape
+    lines = np.arange(4) * np.pi / 4
+    codes = np.empty((depth * len(lines), height, width), np.uint8)
+    for top, bottom in strips(height, width):
+        first = max(top - REACH, 0)
+        inside = slice(top - first, bottom - first)
+        seen = np.moveaxis(channels[first : bottom + REACH], 2, 0)
+        smooth = [cv2.GaussianBlur(channel, (0, 0), 1) for channel in seen]
+        slopes = [cv2.Sobel(x, -1, *way)[inside] for x in smooth for way in ((1, 0), (0, 1))]
+        codes[:, top:bottom] = _rises(np.array(slopes), lines, SLOPE_BINS)
+    return codes.reshape(len(codes), -1), 2 * SLOPE_BINS
 
 
 @compiled
 def _rises(slopes, angles, bins):
-    """Codes of the slopes (2c, pixels), to the right and down, along a line at each angle."""
-    channels, lines, pixels = len(slopes) // 2, len(angles), slopes.shape[1]
-    codes = np.empty((channels * lines, pixels), np.uint8)
+    """Codes of the slopes (2c, height, width), right and down, along a line at each angle."""
+    channels, lines, (height, width) = len(slopes) // 2, len(angles), slopes.shape[1:]
+    codes = np.empty((channels * lines, height, width), np.uint8)
     for c in range(channels):
         for line in range(lines):
             across, down = np.cos(angles[line]), np.sin(angles[line])
-            for pixel in range(pixels):
-                slope = across * slopes[2 * c, pixel] + down * slopes[2 * c + 1, pixel]
-                code = min(bins * abs(slope), bins - 1)
-                codes[c * lines + line, pixel] = int(code) + bins * (slope < 0)
+            for y in range(height):
+                for x in range(width):
+                    slope = across * slopes[2 * c, y, x] + down * slopes[2 * c + 1, y, x]
+                    code = min(bins * abs(slope), bins - 1)
+                    codes[c * lines + line, y, x] = int(code) + bins * (slope < 0)
     return codes
 
 
