@@ -81,20 +81,29 @@ def wall(width, height):
     return np.vstack(rows)[y : y + height, x : x + width].copy()
 
 
-def memory(method, strategy, image):
-    """MB that a fresh process holds with the image loaded, and at most during one search of it."""
+MB, SECONDS = ("MB at rest", "MB at most"), ("processor s, first", "processor s")
+
+
+def alone(method, strategy, image):
+    """What searching an image takes a process that has searched a tiny part of it before.
+
+    MB with the image loaded, and at most; processor s of the first search, and the least that
+    one of three more takes.
+    """
     code = f"""
 import sys
-from bench.selective_search import METHODS, np
+from bench.selective_search import np, timed
 held = lambda kind: int(open("/proc/self/status").read().split(kind + ":")[1].split()[0]) >> 10
 image = np.frombuffer(sys.stdin.buffer.read(), np.uint8).reshape({image.shape})
-rest = held("VmRSS")
-METHODS[{method!r}](image, {strategy!r})
-print(rest, held("VmHWM"))
+search = lambda image: timed({method!r}, image, {strategy!r})[2]
+search(image[:100, :150].copy())
+print(held("VmRSS"), search(image), held("VmHWM"), min(search(image) for _ in range(3)))
 """
     command = [sys.executable, "-c", code]
     done = subprocess.run(command, input=image.tobytes(), capture_output=True, check=True)
-    return dict(zip(("MB at rest", "MB at most"), map(int, done.stdout.split()), strict=True))
+    rest, first, most, again = map(float, done.stdout.split())
+    megabytes = dict(zip(MB, (int(rest), int(most)), strict=True))
+    return megabytes, dict(zip(SECONDS, (round(first, 3), round(again, 3)), strict=True))
 
 
 def fit(runs, some, most):
@@ -148,24 +157,21 @@ def few(some):
 
 
 def growth(method):
-    """Rows for growing images: time and memory of *single*, and the power of the pixels."""
-    timed(method, wall(*SIZES[0]), "single")  # loads what is compiled
+    """Rows for growing images: time and memory of *single*, and the powers of the pixels."""
     rows = []
     for width, height in SIZES:
-        image = wall(width, height)
-        _, seconds, busy = timed(method, image, "single")
-        row = {"by": method, "pixels": width * height, "s": round(seconds, 3)}
-        row["processor s"] = round(busy, 3)
-        rows.append(row | memory(method, "single", image))
-    pixels, busy = (np.log([row[key] for row in rows[1:]]) for key in ("pixels", "processor s"))
-    power = round(float(np.polyfit(pixels, busy, 1)[0]), 2)
-    return [row | {"power of the pixels": power} for row in rows]
+        megabytes, seconds = alone(method, "single", wall(width, height))
+        rows.append({"by": method, "pixels": width * height, **seconds, **megabytes})
+    pixels, *times = (np.log([row[key] for row in rows[1:]]) for key in ("pixels", *SECONDS))
+    powers = (round(float(np.polyfit(pixels, busy, 1)[0]), 2) for busy in times)
+    powers = dict(zip(("power, first", "power of the pixels"), powers, strict=True))
+    return [row | powers for row in rows]
 
 
 if __name__ == "__main__":
     sets = {"renders": renders(), "real photos": outdoors()}
     one = wall(600, 400)
-    costs = {(s, m): memory(m, s, one) for s, entrants in ENTRANTS.items() for m in entrants}
+    costs = {(s, m): alone(m, s, one)[0] for s, entrants in ENTRANTS.items() for m in entrants}
     table = [
         row
         for strategy in ENTRANTS
