@@ -19,7 +19,7 @@ from render.sidecar import in_full_view, store
 from vmc_lib.camera import TABLE
 from vmc_lib.photos import CLASSES, HEIGHT, SPLITS, WIDTH
 
-COUNT, LAMPS = 60, 9  # photos; pictures that one is the mean of
+COUNT, LAMPS = 160, 9  # photos; pictures that one is the mean of
 
 
 def solid(mesh):

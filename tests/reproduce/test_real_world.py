@@ -47,7 +47,7 @@ def test_a_share_is_told_with_its_interval():
 @pytest.mark.parametrize("model", real_world.MODELS)
 def test_another_renderers_scenes_all_show_a_shuttlecock(model):
     found = results.records("elsewhere")[model]
-    assert len(found) == 60
+    assert len(found) == 160
     counts = real_world.answers(found)
-    assert {of for _, of in counts.values()} == {60}
+    assert {of for _, of in counts.values()} == {160}
     assert {real_world.QUESTIONS[question][0] for question in counts} == {"shuttlecock"}
