@@ -165,13 +165,14 @@ STEPS = (
     Step(
         f"{sys.executable} -m render.elsewhere {ELSEWHERE}",
         ELSEWHERE,
-        minutes=5,
+        minutes=15,
         needs="vtk",
     ),
     Step(
         partial(real_world.elsewhere, ELSEWHERE),
         RESULTS / "elsewhere.json",
         SHIPPED,
+        3,
         needs="elsewhere_photos",
     ),
     Step(domains.make, RESULTS / "domains.npz", "photos", 8),

@@ -85,7 +85,7 @@ def steps(folder):
         "variations": partial(variations.make, [(6, 0)], named, PATCHES),
         "tricks": partial(tricks.make, few, epochs=1, patches=50),
         "optimal": partial(optimal.make, optimal.TARGETS[12:13]),
-        "steady": partial(steady.make, optimal.TARGETS[12:13], ftol=1.0),
+        "steady": partial(steady.make, optimal.TARGETS[12:13], 0, ftol=1.0),
         "movements": partial(movements.make, experiments, seeds=[0]),
         "cerebella": partial(cerebella.make, seeds=[0], movements=(2, 4), held_out=4),
         "feedback": partial(feedback.make, watched, seeds=[0]),

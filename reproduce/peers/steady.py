@@ -61,15 +61,25 @@ def variance_slope(x):
     return 2 * (moved[1:] - moved[0]) / nudge / _places()
 
 
-def make(targets=TARGETS[NEW], **how):
-    """What `results/steady.npz` holds: the knots (n, 6 KNOTS) of targets (n, 2), by `search`."""
-    return optimal.make(targets, partial(search, **how))
+def make(targets=TARGETS[NEW], level=LEVEL, **how):
+    """What `results/steady.npz` holds.
+
+    The knots (n, 6 KNOTS) of targets (n, 2), by `search`; the share of noise by which the hand
+    scatters by `level` mm.
+    """
+    knots = optimal.make(targets, partial(search, **how))
+    return knots | {"share": np.array(unsteady.share_for(level))}
 
 
 @cache
 def shipped():
     """The steadiest excitations (5, T, 6) of the `NEW` targets."""
     return optimal.excited(arrays("steady")["knots"].astype(float))
+
+
+def share():
+    """The share of noise by which a habitual reach scatters by `LEVEL` mm."""
+    return float(arrays("steady")["share"])
 
 
 def rivals():
@@ -88,9 +98,9 @@ def compared(rng, repeats=REPEATS):
     How far the hand scatters when the reach is repeated on an arm that wavers by `LEVEL` mm (mm, a
     standard deviation), how far it misses without noise (mm), the effort, and the `jerk`.
     """
-    share, found = unsteady.share_for(LEVEL), {}
+    found = {}
     for name, told in rivals().items():
-        wavered = (unsteady.wavering(told, share, rng) for _ in range(repeats))
+        wavered = (unsteady.wavering(told, share(), rng) for _ in range(repeats))
         many = np.array([reach(one).reached for one in wavered])  # one at a time: less memory
         calm = reach(told)
         found[name] = {

@@ -21,7 +21,7 @@ def law():
 @cache
 def noise():
     shape = (30, *TOLD.shape)
-    return unsteady.waver(shape, unsteady.share_for(steady.LEVEL), np.random.default_rng(2))
+    return unsteady.waver(shape, steady.share(), np.random.default_rng(2))
 
 
 def test_undisturbed_it_is_the_plan():

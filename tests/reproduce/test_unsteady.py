@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from reproduce import unsteady
+from reproduce.peers import steady
 from vmc_lib.motor.planning import draw_targets, exact_weights, plan
 from vmc_lib.motor.templates import load, reach
 
@@ -19,13 +20,15 @@ def test_the_noise_is_the_pools_own_smooth_and_a_share_of_the_command():
     assert abs(np.corrcoef(noise[:, 300, 0], noise[:, 800, 0])[0, 1]) < 0.2
 
 
-@pytest.mark.parametrize("mm", [5])
-def test_its_strength_is_told_by_where_the_hand_ends(mm):
-    """Other targets than those by which it was set, and other noise."""
+def test_its_strength_is_told_by_where_the_hand_ends():
+    """Other targets than those by which it was set, and other noise; one share of it ships."""
+    mm = steady.LEVEL
     targets = draw_targets(load(), 200, np.random.default_rng(1))
     told = np.tile(plan(targets, load(), exact_weights).excitations, (5, 1, 1, 1))
-    ends = reach(unsteady.wavering(told, unsteady.share_for(mm), np.random.default_rng(2))).reached
+    share = unsteady.share_for(mm)
+    ends = reach(unsteady.wavering(told, share, np.random.default_rng(2))).reached
     assert 1000 * unsteady.deviation(ends) == pytest.approx(mm, rel=0.15)
+    assert share == pytest.approx(steady.share(), rel=1e-6)
 
 
 def test_a_noise_that_nobody_could_have_is_refused():
