@@ -84,20 +84,21 @@ def wall(width, height):
 MB, SECONDS = ("MB at rest", "MB at most"), ("processor s, first", "processor s")
 
 
-def alone(method, strategy, image):
+def alone(method, strategy, image, again=1):
     """What searching an image takes a process that has searched a tiny part of it before.
 
     MB with the image loaded, and at most; processor s of the first search, and the least that
-    one of three more takes.
+    one of so many more takes.
     """
     code = f"""
 import sys
 from bench.selective_search import np, timed
 held = lambda kind: int(open("/proc/self/status").read().split(kind + ":")[1].split()[0]) >> 10
 image = np.frombuffer(sys.stdin.buffer.read(), np.uint8).reshape({image.shape})
+rest = held("VmRSS")
 search = lambda image: timed({method!r}, image, {strategy!r})[2]
 search(image[:100, :150].copy())
-print(held("VmRSS"), search(image), held("VmHWM"), min(search(image) for _ in range(3)))
+print(rest, search(image), held("VmHWM"), min(search(image) for _ in range({again})))
 """
     command = [sys.executable, "-c", code]
     done = subprocess.run(command, input=image.tobytes(), capture_output=True, check=True)
@@ -160,7 +161,7 @@ def growth(method):
     """Rows for growing images: time and memory of *single*, and the powers of the pixels."""
     rows = []
     for width, height in SIZES:
-        megabytes, seconds = alone(method, "single", wall(width, height))
+        megabytes, seconds = alone(method, "single", wall(width, height), again=3)
         rows.append({"by": method, "pixels": width * height, **seconds, **megabytes})
     pixels, *times = (np.log([row[key] for row in rows[1:]]) for key in ("pixels", *SECONDS))
     powers = (round(float(np.polyfit(pixels, busy, 1)[0]), 2) for busy in times)

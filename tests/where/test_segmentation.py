@@ -74,22 +74,21 @@ def test_the_segmentation_is_the_published_algorithm(scale, min_size):
 @pytest.mark.parametrize("shape", [(1, 1, 3), (1, 9, 1), (9, 1, 2), (12, 17, 3)])
 def test_the_compiled_loops_do_what_their_source_does(shape, monkeypatch):
     image = np.random.default_rng(0).integers(0, 4, shape).astype(np.float32) / 4  # many ties
-    compiled = segment(image, 30)
+    monkeypatch.setattr(segmentation, "STRIP", 40)
+    compiled, in_strips = walked(image, 90, 4), segment(image, 4)
     for loop in ("_edges", "dealt", "join", "labels_of"):
         monkeypatch.setattr(segmentation, loop, getattr(segmentation, loop).__wrapped__)
     assert compiled.shape == shape[:2]
-    assert (compiled == segment(image, 30)).all()
+    assert (compiled == walked(image, 90, 4)).all()
+    assert (in_strips == segment(image, 4)).all()
 
 
 @pytest.mark.parametrize("strip", [1, 100, 900])
 def test_a_picture_falls_apart_the_same_in_strips_of_any_height(strip, monkeypatch):
     """Ties and textures, patches across many strips, and a scale beside another."""
     grid = np.random.default_rng(1).integers(0, 4, (40, 60, 3)).astype(np.float32) / 4
-    for image in (
-        grid,
-        blobs(4),
-        photos.load("real", "validation")[0].image[::4, ::4] / np.float32(255),
-    ):
+    photo = as_float(photos.load("real", "validation")[0].image)
+    for image in (grid, blobs(4), photo[::4, ::4]):
         whole = list(segmentations(image, (20, 90)))
         monkeypatch.setattr(segmentation, "STRIP", strip)
         for one, other in zip(whole, segmentations(image, (20, 90)), strict=True):

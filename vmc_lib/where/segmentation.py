@@ -47,7 +47,7 @@ def segmentations(channels, scales, sigma=0.8):
 
 
 def cut_along(edges, away, k, smallest, patches):
-    """Labels (pixels,) once the edges (m,), sorted or not, have joined what they join."""
+    """Labels (pixels,) once edges (m,), in any order, have joined `patches`; the edges are lost."""
     edges, room = lightest_first(edges)
     edges = join(edges, room, 0, len(patches[0]), away, k, *patches)
     return labels_of(edges, away, smallest, *patches)
@@ -93,8 +93,8 @@ def _edges(channels, top, bottom, edges):
 def lightest_first(edges):
     """Edges (m,) sorted by their weights, equal ones in the order given; and free room, (m,).
 
-    The bits of floats from 0 up sort as they do. Radix sort: by the lowest eleven bits, then by
-    the next, then by the highest; so the time grows as m, not as m log m.
+    What was given is lost. The bits of floats from 0 up sort as they do. Radix sort: by the lowest
+    eleven bits, then by the next, then by the highest; so the time grows as m, not as m log m.
     """
     room = np.empty_like(edges)
     for lowest in (32, 43, 54):
