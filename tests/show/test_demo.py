@@ -78,11 +78,19 @@ def test_a_photo_that_stays_is_stored_once(shown, book):
     assert all("data:image/" in picture for _, picture in states(shown[0]))
 
 
-def test_test_life_evaluates_everything_and_shows_nothing(shown):
+def test_test_life_moves_one_control_after_the_other_and_shows_nothing(shown):
     seen = []
-    show(lambda k, c: seen.append((k, c)) or names(k=k, c=c), k=Slider([1, 2], "k"), c=["a", "b"])
-    assert seen == [(1, "a"), (1, "b"), (2, "a"), (2, "b")]
+    k = Slider([1, 2, 3], "k", start=2)
+    show(lambda k, c: seen.append((k, c)) or names(k=k, c=c), k=k, c=["a", "b"])
+    assert seen == [(2, "a"), (1, "a"), (3, "a"), (2, "b")]
     assert shown == []
+
+
+def test_a_control_may_matter_only_where_another_has_moved(shown):
+    seen = []
+    draw = lambda on, c: seen.append((on, c)) or names(c=on and c)  # noqa: E731 (a demo's one line)
+    show(draw, on=[False, True], c=["a", "b"])
+    assert seen == [(False, "a"), (True, "a"), (False, "b"), (True, "b")]
 
 
 @pytest.fixture

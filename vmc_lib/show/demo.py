@@ -2,8 +2,8 @@
 
 A demo is a pure function of its controls over a finite grid. In a live kernel the page's script
 asks for one state after the other; in the built book (`VMC_RENDER_MODE=book`) every state is
-computed once and travels in the page; in a test (`VMC_RENDER_MODE=test`) every state is evaluated
-and every control must matter.
+computed once and travels in the page; in a test (`VMC_RENDER_MODE=test`) one control after the
+other goes through all its values. In both, every control must matter.
 """
 
 import base64
@@ -77,19 +77,17 @@ def explore(draw, caption, alt, in_page=None, **controls):
 
     if render_mode() == "live":
         return _live(state, caption, controls, name)
-    first = _first(controls)
-    if in_page:
-        for control, stride in zip(controls.values(), _strides(controls), strict=True):
-            steps = range(0, len(control.values), math.ceil(len(control.values) / SAMPLE))
-            seen = [state(first + (step - control.first) * int(stride)) for step in steps]
-            _must_work(seen, [control], [len(steps)])
-    else:
-        states = [state(place) for place in range(positions)]
-        _must_work(states, controls.values())
+    state, places = cache(state), _along(controls, SAMPLE if in_page else MOST_POSITIONS)
+    if not in_page and (render_mode() == "book" or _idle(map(state, places), places, controls)):
+        places = range(positions)  # some controls matter only where another has moved
+    states = [state(place) for place in places]
+    for _, parts in states:
+        _same_kinds(parts, states[0][1])
+    for control in _idle(states, places, controls):
+        raise ValueError(f"the control {control.label!r} never changes the picture")
     if render_mode() == "book":
-        shown = state(first) if in_page else states[first]
         data = _worked_out(*in_page, controls, name) if in_page else _stored(states)
-        display(HTML(_page(*shown, data, caption, controls, name)))
+        display(HTML(_page(*state(_first(controls)), data, caption, controls, name)))
 
 
 def figure(picture, caption, alt):
@@ -97,19 +95,24 @@ def figure(picture, caption, alt):
     explore(picture if callable(picture) else lambda: picture, caption, alt)
 
 
-def _must_work(states, controls, shape=None):
-    """Raise ValueError where kinds of pictures change, or a control never changes a picture.
+def _along(controls, most):
+    """The places where all controls begin, and where one has moved: at most so many of each."""
+    places = [_first(controls)]
+    for control, stride in zip(controls.values(), _strides(controls), strict=True):
+        steps = range(0, len(control.values), math.ceil(len(control.values) / most))
+        places += [places[0] + (step - control.first) * stride for step in steps]
+    return places
 
-    `shape` is how many states there are along each of the controls, if not one for each value.
-    """
-    for _, parts in states:
-        _same_kinds(parts, states[0][1])
-    looks = {}  # equal pictures get equal numbers
-    grid = [looks.setdefault(repr([_lines(p) for p in parts]), len(looks)) for _, parts in states]
-    grid = np.reshape(grid, shape or [len(control.values) for control in controls])
-    for axis, control in enumerate(controls):
-        if (grid == grid.take([0], axis)).all():
-            raise ValueError(f"the control {control.label!r} never changes the picture")
+
+def _idle(states, places, controls):
+    """The controls of which no two of these states say that the one changes the picture."""
+    looks = [repr([_lines(part) for part in parts]) for _, parts in states]
+    idle = []
+    for control, stride in zip(controls.values(), _strides(controls), strict=True):
+        others = [(p // stride // len(control.values), p % stride) for p in places]
+        if len(set(zip(others, looks, strict=True))) == len(set(others)):
+            idle.append(control)
+    return idle
 
 
 def _same_kinds(parts, others):
@@ -124,19 +127,19 @@ def _lines(part):
 
 def _strides(controls):
     """How much each control's place counts in the place of a state: the last moves by one."""
-    return np.cumprod([1, *(len(c.values) for c in reversed(controls.values()))])[-2::-1]
+    return np.cumprod([1, *(len(c.values) for c in reversed(controls.values()))])[-2::-1].tolist()
 
 
 def _first(controls):
     pairs = zip(controls.values(), _strides(controls), strict=True)
-    return sum(control.first * int(stride) for control, stride in pairs)
+    return sum(control.first * stride for control, stride in pairs)
 
 
 def _face(alt, parts, controls, name):
     """The pictures, and below them what the script moves them by."""
     form, pairs = "", zip(controls.items(), _strides(controls), strict=True)
     for switches, row in itertools.groupby(pairs, lambda pair: isinstance(pair[0][1], Switch)):
-        faces = "".join(one.html(f"{name}-{key}", int(stride)) for (key, one), stride in row)
+        faces = "".join(one.html(f"{name}-{key}", stride) for (key, one), stride in row)
         form += SWITCHES.format(faces) if switches else faces
     return (
         f'{side_by_side(parts, alt)}<form class="vmc-controls" autocomplete="off">{form}</form>'
