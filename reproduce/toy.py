@@ -105,7 +105,7 @@ def steps(folder):
         "ablation": partial(ablation.make, few, draws=1, steps=2, everyday=1, pasted=2),
         "printed_sheet": partial(printed_sheet.make, count=1),
         "whole_arm_habits": partial(habits.make, habits.grid(2)[:2]),
-        "whole_arm": partial(experiment.make, [2], [14], seeds=[0], count=2),
+        "whole_arm": partial(experiment.make, [2], [14], seeds=[0], count=1),
         "ledger": partial(ledger.make, ledger.ROWS[-1:], levels=()),
     }
 

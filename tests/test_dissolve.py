@@ -25,8 +25,8 @@ GROWN = """([pixels, k]) => {
   return { ...tree, labels: btoa(text) };
 }"""
 SHOTS = (
-    *chain(*(photos.load(level, "train")[:4] for level in photos.LEVELS)),
-    *photos.everyday()[:8],
+    *chain(*(photos.load(level, "train")[:2] for level in photos.LEVELS)),
+    *photos.everyday()[:4],
 )
 
 
