@@ -87,7 +87,7 @@ RAW_TEX = r"""() => {
   return raw;
 }"""
 
-WIDE = """() => [...document.querySelectorAll("article *")]
+WIDE = """() => [...document.querySelectorAll("article *:not(pre *, table *, svg *)")]
   .filter((e) => e.getBoundingClientRect().right > innerWidth + 1
     && !e.closest("pre, table, div.math, .vmc-spoken, .vmc-picture"))
   .map((e) => e.outerHTML.slice(0, 120))"""
