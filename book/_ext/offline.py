@@ -9,6 +9,8 @@ NEEDS = {  # what a page must hold to need an asset; none needs thebe, which ask
     "mathjax": r'class="math|\\\(',
     "design": r'class="[^"]*\bsd-',
 }
+# Names, punctuation and spaces of code are coloured as all around them
+COLOURLESS = re.compile(r'<span class="(?:n|nn|p|w)">([^<]*)</span>')
 
 
 def setup(app):
@@ -35,9 +37,10 @@ def launch(app, config):
 def mend(app, pagename, templatename, context, doctree):
     """Mend the page.
 
-    No script or style sheet that it has no use for (MathJax alone is 2.3 MB); no list role on what
-    is no list, no role that is out of use, and no label that hides a summary's own words; the
-    number of an equation outside the `split` that Sphinx puts around its lines.
+    No script or style sheet that it has no use for (MathJax alone is 2.3 MB), and no element around
+    a word of code without a colour of its own; no list role on what is no list, no role that is out
+    of use, and no label that hides a summary's own words; the number of an equation outside the
+    `split` that Sphinx puts around its lines.
     """
     body = context.get("body", "")
     demos = "|".join(name for name, _ in app.config.html_js_files if name not in EVERYWHERE)
@@ -52,7 +55,7 @@ def mend(app, pagename, templatename, context, doctree):
     thebe = (
         r'<script type="text/x-thebe-config">.*?</script>(\s*<script>kernelName = .*?</script>)?'
     )
-    body = re.sub(thebe, "", body, flags=re.S)
+    body = COLOURLESS.sub(r"\1", re.sub(thebe, "", body, flags=re.S))
     body = re.sub(r"(\\tag\{[^}]*\})(\s*\\end\{split\})", r"\2\1", body)
     body = body.replace('<div role="list" class="citation-list">', "<div>")
     body = body.replace(' role="doc-biblioentry"', "")
