@@ -15,7 +15,7 @@ BIN    := .venv/bin
 READY  := .venv/.ready
 BUILT  := _build/.built
 BUILD  := $(BIN)/jupyter-book build -W -n --keep-going .
-INPUTS := README.md _config.yml _toc.yml $(shell find book vmc_lib arm_in_page reproduce -type f -not -path '*/.*' -not -name '*.pyc')
+INPUTS := README.md _config.yml _toc.yml $(shell find book vmc_lib arm_in_page reproduce -type f -not -path '*/.*' -not -path '*/__pycache__/*')
 
 PEERED := selective_search cuts simulators crbm planning loop scaling
 
