@@ -5,9 +5,8 @@ training and validation renders, of all levels, and of real photos: those of eve
 training photographs (*quality*, which takes long: of ten photos of each at most).
 Boxes under 20 pixels are dropped from every list. Recall is the share of objects with a box at
 that overlap, ABO the average best overlap; "equal" cuts the lists of OpenCV and ours, photo by
-photo, to the shorter one. OpenCV's *single* has a scale k of 200, ours the published 100; with
-"k = 200" both have the same. Our ranks hold a random draw: what depends on it is a mean over ten.
-The renders and everyday things had been seen when the scales of our *fast* were settled.
+photo, to the shorter one. Our ranks hold a random draw: what depends on it is a mean over ten. The
+renders and everyday things had been seen when the scales of our *fast* were settled.
 """
 
 import subprocess
@@ -22,17 +21,16 @@ import numpy as np
 from bench.report import publish
 from vmc_lib import photos
 from vmc_lib.boxes import iou
-from vmc_lib.where.selective_search import STRATEGIES, Strategy, hierarchies, ranked
+from vmc_lib.where.selective_search import STRATEGIES, hierarchies, ranked
 
 cv2.setNumThreads(1)
 SMALLEST, DRAWS = 20, 10
-OURS = {"single": Strategy(), "single, k = 200": Strategy(k=(200,))} | STRATEGIES
 SIZES = [(150, 100), (300, 200), (600, 400), (1200, 800), (2100, 1400), (3000, 2000)]
 
 
 def ours(image, strategy):
     """Boxes (n, 4), in the order of every draw."""
-    trees = list(hierarchies(image, OURS[strategy]))
+    trees = list(hierarchies(image, STRATEGIES[strategy]))
     return [ranked(trees, np.random.default_rng(draw), SMALLEST) for draw in range(DRAWS)]
 
 
@@ -41,7 +39,6 @@ def opencv(image, strategy):
     search.setBaseImage(np.ascontiguousarray(image[..., ::-1]))
     {
         "single": search.switchToSingleStrategy,
-        "single, k = 200": search.switchToSingleStrategy,
         "fast": search.switchToSelectiveSearchFast,
         "quality": search.switchToSelectiveSearchQuality,
     }[strategy]()
@@ -66,7 +63,7 @@ def large(rects):
 
 
 METHODS = {"ours": ours, "OpenCV contrib": opencv, "PyPI selectivesearch": pypi}
-ENTRANTS = {name: list(METHODS)[:2] for name in OURS if name != "finer"} | {"single": list(METHODS)}
+ENTRANTS = {"single": list(METHODS), "fast": list(METHODS)[:2], "quality": list(METHODS)[:2]}
 
 
 def timed(method, image, strategy):
