@@ -9,7 +9,7 @@ NEEDS = {  # what a page must hold to need an asset; none needs thebe, which ask
     "mathjax": r'class="math|\\\(',
     "design": r'class="[^"]*\bsd-',
 }
-# Names, punctuation and spaces of code are coloured as all around them
+# Names, punctuation and spaces: coloured as all code is
 COLOURLESS = re.compile(r'<span class="(?:n|nn|p|w)">([^<]*)</span>')
 
 

@@ -77,14 +77,17 @@ def explore(draw, caption, alt, in_page=None, **controls):
 
     if render_mode() == "live":
         return _live(state, caption, controls, name)
-    state, places = cache(state), _along(controls, SAMPLE if in_page else MOST_POSITIONS)
-    if not in_page and (render_mode() == "book" or _idle(map(state, places), places, controls)):
-        places = range(positions)  # some controls matter only where another has moved
-    states = [state(place) for place in places]
+    state = cache(state)
+    some = _along(controls, SAMPLE if in_page else MOST_POSITIONS)
+    every = some if in_page else range(positions)
+    for places in [every] if render_mode() == "book" else [some, every]:
+        states = [state(place) for place in places]
+        if not (idle := _idle(states, places, controls)):
+            break  # or else it may matter only where another control has moved
     for _, parts in states:
         _same_kinds(parts, states[0][1])
-    for control in _idle(states, places, controls):
-        raise ValueError(f"the control {control.label!r} never changes the picture")
+    if idle:
+        raise ValueError(f"the control {idle[0].label!r} never changes the picture")
     if render_mode() == "book":
         data = _worked_out(*in_page, controls, name) if in_page else _stored(states)
         display(HTML(_page(*state(_first(controls)), data, caption, controls, name)))
@@ -105,7 +108,7 @@ def _along(controls, most):
 
 
 def _idle(states, places, controls):
-    """The controls of which no two of these states say that the one changes the picture."""
+    """The controls that change no picture: states that differ in one of them alone look alike."""
     looks = [repr([_lines(part) for part in parts]) for _, parts in states]
     idle = []
     for control, stride in zip(controls.values(), _strides(controls), strict=True):

@@ -50,7 +50,7 @@ def cut_along(edges, away, k, smallest, patches):
     """Labels (pixels,) once edges (m,), in any order, have joined `patches`; the edges are lost."""
     edges, room = lightest_first(edges)
     edges = join(edges, room, 0, len(patches[0]), away, k, *patches)
-    return labels_of(edges, away, smallest, *patches)
+    return labels_of(edges, away, smallest, *patches[:2])
 
 
 def strips(height, width):
@@ -166,7 +166,7 @@ def join(edges, left, first, last, away, k, root, size, tolerance):
 
 
 @compiled
-def labels_of(edges, away, smallest, root, size, tolerance):
+def labels_of(edges, away, smallest, root, size):
     """Labels (pixels,) of patches, once a walk along the edges left has joined the small ones.
 
     It joins any two patches if one has under `smallest` pixels.
