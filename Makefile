@@ -38,7 +38,7 @@ test: $(BUILT)
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(BIN)/codespell
-	$(BIN)/python -m kit.browser
+	$(BIN)/python -m tools.browser
 	$(BIN)/python -m tests.engines
 	$(BIN)/pytest -n auto --dist worksteal --nbmake --nbmake-timeout=3600 book tests $(if $(CI),--cov)
 
@@ -50,7 +50,7 @@ kit: $(BUILT)
 	$(BIN)/python -m kit
 
 pdf: $(BUILT)
-	$(BIN)/python -m kit.browser
+	$(BIN)/python -m tools.browser
 	$(BIN)/python -m kit.pdf
 
 data: $(READY)

@@ -10,9 +10,9 @@ import numpy as np
 from playwright.sync_api import sync_playwright
 
 from bench.report import publish, seconds
-from kit import browser
 from reproduce.whole_arm import habits
 from reproduce.whole_arm.experiment import seconds_per_second
+from tools import browser
 from vmc_lib.arm.model import STEP
 from vmc_lib.arm.simulate import simulate
 from vmc_lib.motor import templates

@@ -10,8 +10,8 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from bench.report import publish, seconds
-from reproduce.movements import skilled
-from reproduce.peers import optimal
+from reproduce.experiments.calibration import skilled
+from reproduce.peers import optimal_control
 from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration
 from vmc_lib.motor import templates
 from vmc_lib.motor.planning import draw_targets, plan
@@ -44,7 +44,7 @@ WORK = {  # what -> (call, how often, simulated movements)
         5,
         25,
     ),
-    "optimal control, one target": (lambda: optimal.solve(target), 2, None),
+    "optimal control, one target": (lambda: optimal_control.solve(target), 2, None),
 }
 
 

@@ -14,9 +14,9 @@ import numpy as np
 from joblib import Parallel, delayed, parallel_config
 
 from bench.report import publish
-from reproduce import template_making
-from reproduce.detector_training import fit_detector
-from reproduce.localisation import precision_recall
+from reproduce.experiments.localisation import precision_recall
+from reproduce.training import reach_templates
+from reproduce.training.detectors import fit_detector
 from vmc_lib import photos
 from vmc_lib.cerebellum.online import AimCorrection
 from vmc_lib.motor import templates
@@ -34,8 +34,8 @@ FOLDER = os.environ.get("PHOTOS", photos.FOLDER)
 def more_templates(spacing):
     """A library with templates so far apart: how far its plans miss, in mm."""
     start = process_time()
-    goals = template_making.grid(spacing)
-    excitations = spline() @ np.array([template_making.make(goal) for goal in goals])
+    goals = reach_templates.grid(spacing)
+    excitations = spline() @ np.array([reach_templates.make(goal) for goal in goals])
     seconds = process_time() - start
     template_set = templates.TemplateSet(templates.reach(excitations).reached, excitations)
     held_out = np.random.default_rng(0).uniform(*ON_THE_TABLE, (200, 2))

@@ -11,7 +11,7 @@ import yaml
 from bs4 import BeautifulSoup
 from playwright.sync_api import sync_playwright
 
-from kit import browser
+from tools import browser
 
 ROOT = Path(__file__).parents[1]
 PATIENCE = 600_000  # ms: ends a hang, never a slow machine's work

@@ -1,7 +1,7 @@
 """Shuttlecocks alone, cut out: `python -m render.cutouts` (needs mitsuba).
 
 Feathered and nylon ones, new and worn, of several colours, turned any way, near and far, in any
-light, on nothing. `reproduce.pasting` lays them on photographs.
+light, on nothing. `reproduce.training.pasting` lays them on photographs.
 """
 
 import argparse

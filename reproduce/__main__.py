@@ -5,9 +5,9 @@ import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from reproduce import toy
-from reproduce.progress import run
-from reproduce.steps import ROOT, STEPS, listed, tasks
+from reproduce.pipeline import smoke_test
+from reproduce.pipeline.progress import run
+from reproduce.pipeline.steps import ROOT, STEPS, listed, tasks
 
 
 def main(arguments=None):
@@ -24,7 +24,7 @@ def main(arguments=None):
         return 0
     if given.smoke:
         with TemporaryDirectory() as folder:
-            return toy.run_all(Path(folder))
+            return smoke_test.run_all(Path(folder))
     if given.only:
         return run(tasks(), [given.only], ROOT, "--single", "--always-execute")
     return run(tasks(), [step.name for step in STEPS if not step.needs], ROOT)

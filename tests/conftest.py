@@ -37,7 +37,7 @@ def chromium():
     """A headless browser; without one the test is skipped, in continuous integration it fails."""
     from playwright.sync_api import sync_playwright
 
-    from kit import browser
+    from tools import browser
 
     path = browser.find()
     if not path:

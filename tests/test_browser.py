@@ -2,7 +2,7 @@
 
 import pytest
 
-from kit import browser
+from tools import browser
 
 
 @pytest.mark.parametrize("refusal", [0, 1])

@@ -4,7 +4,7 @@ import numpy as np
 from dask.distributed import Client, LocalCluster
 from joblib import parallel_config
 
-from reproduce.trial import trial
+from reproduce.experiments.loop_evaluation import trial
 from vmc_lib import photos
 
 

@@ -13,7 +13,8 @@ import nbformat
 import numpy as np
 import pytest
 
-from reproduce import checksums, results, steps
+from reproduce import results
+from reproduce.pipeline import checksums, steps
 from vmc_lib import data, photos
 from vmc_lib.show import check, questions
 
@@ -24,7 +25,9 @@ REMEDY = "git checkout -- .*python -m reproduce --list"
 
 def test_what_ships_is_what_its_checksums_say():
     found = checksums.found()
-    assert found == json.loads(data.CHECKSUMS.read_text()), "run python -m reproduce.checksums"
+    assert found == json.loads(data.CHECKSUMS.read_text()), (
+        "run python -m reproduce.pipeline.checksums"
+    )
     assert {"templates.npz", "photos/rig/test/000.jpg"} <= found.keys()
 
 

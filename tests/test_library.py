@@ -14,12 +14,17 @@ PACKAGES = ("vmc_lib", "arm_in_page", "reproduce")
 EMPTY = [ROOT / f"vmc_lib/{name}/__init__.py" for name in ("where", "arm", "motor", "cerebellum")]
 FILES = sorted(p for top in PACKAGES for p in (ROOT / top).rglob("*.py") if p not in EMPTY)
 # what only gathers others, or is run by command: no part of the reference
-UNLISTED = re.compile(r"__main__$|^(vmc_lib(\.(what|show))?|arm_in_page|reproduce(\.peers)?)$")
+UNLISTED = re.compile(
+    r"__main__$|^(vmc_lib(\.(what|show))?|arm_in_page"
+    r"|reproduce(\.(training|experiments|peers|pipeline))?)$"
+)
 HOUSE = (
     ("vmc_lib",),
     ("render", "arm_in_page"),
     ("reproduce",),
-    ("kit", "bench", "book"),
+    ("book",),
+    ("tools",),
+    ("kit", "bench"),
     ("tests",),
 )
 SHARED = ("photos", "boxes", "data", "compiled", "NoReach")
@@ -111,7 +116,7 @@ def test_what_stands_above_is_not_imported_from_below(below):
 
 
 # Within `fork_rng`: what torch's layers draw takes no generator
-FORKED = "reproduce.stream_training", "torch.random.default_generator.manual_seed(seed)"
+FORKED = "reproduce.training.ventral_stream", "torch.random.default_generator.manual_seed(seed)"
 
 
 @pytest.mark.parametrize("path", FILES, ids=module)

@@ -22,7 +22,7 @@ ROOT = Path(__file__).parents[1]
 PYPROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
 PROJECT = PYPROJECT["project"]
 OPTIONAL = PROJECT["optional-dependencies"] | PYPROJECT["dependency-groups"]
-OURS = {"vmc_lib", "arm_in_page", "reproduce", "render", "bench", "book", "kit", "tests"}
+OURS = {"vmc_lib", "arm_in_page", "reproduce", "render", "bench", "book", "kit", "tests", "tools"}
 PINS = re.findall(r"^([\w.\[\]-]+)==([\w.]+)", (ROOT / "requirements.txt").read_text(), flags=re.M)
 
 
@@ -63,7 +63,7 @@ def imported(code):
         ("reproduce/**/*.py", ("derive",)),
         ("book/*.ipynb", ()),
         ("render/*.py", ("render",)),
-        ("book/_ext/*.py kit/**/*.py tests/**/*.py", ("book", "test", "cluster")),
+        ("book/_ext/*.py kit/**/*.py tests/**/*.py tools/*.py", ("book", "test", "cluster")),
     ],
 )
 def test_what_is_imported_is_declared(patterns, extras):

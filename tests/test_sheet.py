@@ -6,7 +6,8 @@ import pypdfium2
 import pytest
 
 from render import scene
-from reproduce import printed_sheet, results
+from reproduce import results
+from reproduce.experiments import printed_sheet
 from vmc_lib import photos, sheet
 from vmc_lib.camera import TABLE
 from vmc_lib.photos import HEIGHT, WIDTH

@@ -2,17 +2,15 @@
 
 import base64
 import gzip
-import importlib.util
 import json
 from pathlib import Path
 
 import meshcat
 import pytest
 
+from tools import vendor
+
 ROOT = Path(__file__).parents[1]
-SPEC = importlib.util.spec_from_file_location("vendor", ROOT / "book/_ext/vendor.py")
-vendor = importlib.util.module_from_spec(SPEC)
-SPEC.loader.exec_module(vendor)
 
 
 def test_vendored_files_are_what_the_manifest_says():

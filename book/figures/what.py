@@ -3,9 +3,9 @@
 import matplotlib.pyplot as plt
 import numpy as np
 
-from reproduce.intervals import wilson
 from vmc_lib.show.figures import photo_view
 from vmc_lib.show.palette import COLOURS
+from vmc_lib.statistics import wilson
 
 
 def grey(v, reach=3.0, zoom=1):

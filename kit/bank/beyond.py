@@ -3,8 +3,8 @@
 import numpy as np
 
 from kit.question import between, count, number, pick
-from reproduce.intervals import student
 from vmc_lib.arm.muscle import force
+from vmc_lib.statistics import student
 
 
 def share_that_is_left(rng):

@@ -3,9 +3,9 @@
 import numpy as np
 
 from kit.question import between, choice, count, number, pick
-from reproduce.detector_training import best_threshold
-from reproduce.intervals import wilson
+from reproduce.training.detectors import best_threshold
 from vmc_lib.boxes import corrections, iou, nms, vote
+from vmc_lib.statistics import wilson
 
 SIZE = 100  # pixels: the side of the boxes below
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from kit.question import between, choice, count, number, pick
-from reproduce.intervals import wilson
+from vmc_lib.statistics import wilson
 
 STEPS = ("finding", "naming", "placing", "moving")
 

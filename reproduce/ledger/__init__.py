@@ -7,12 +7,12 @@ that file, and a test measures the rows again and compares. Nothing in it is typ
 from dataclasses import fields
 
 from reproduce import results
-from reproduce.ledger import calibration, naming, planning, regions, search, whole
+from reproduce.ledger import calibration, loop, naming, planning, regions, search
 from reproduce.ledger.entry import VERDICTS, Quantity, measure
 from vmc_lib.photos import LEVELS
 from vmc_lib.show import table
 
-PARTS = (whole, search, regions, naming, planning, calibration)
+PARTS = (loop, search, regions, naming, planning, calibration)
 ARROWS = {1: " ↑", -1: " ↓", 0: ""}
 ROWS = tuple(row for part in PARTS for row in part.ROWS)
 
@@ -21,12 +21,12 @@ def make(rows=ROWS, levels=LEVELS):
     """What `results/ledger.json` holds: the rows measured, and how the loop fares on each level."""
     return {
         "rows": [measure(row) for row in rows],
-        "loop": {level: whole.fate(level) for level in levels},
+        "loop": {level: loop.fate(level) for level in levels},
     }
 
 
 def load():
-    """The ledger as it was last measured: {"rows": [...], "loop": {level: `whole.fate`}}."""
+    """The ledger as it was last measured: {"rows": [...], "loop": {level: `loop.fate`}}."""
     return results.records("ledger")
 
 

@@ -4,9 +4,10 @@ from functools import cache
 
 import numpy as np
 
-from reproduce import paper, second_plant
+from reproduce import paper
+from reproduce.experiments import second_plant
+from reproduce.experiments.calibration import SCENARIOS, after, measured, repeat
 from reproduce.ledger.entry import Row, mean
-from reproduce.movements import SCENARIOS, after, measured, repeat
 from vmc_lib.cerebellum.offline import algorithm_1
 from vmc_lib.cerebellum.online import WeightCorrection
 from vmc_lib.motor import templates

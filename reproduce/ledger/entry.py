@@ -5,7 +5,7 @@ from dataclasses import KW_ONLY, asdict, dataclass
 
 import numpy as np
 
-from reproduce.intervals import student, wilson
+from vmc_lib.statistics import student, wilson
 
 BY_CONSTRUCTION, REPRODUCED, BEATEN, DIFFERS = VERDICTS = (
     "by construction",

@@ -5,10 +5,11 @@ from functools import cache
 import numpy as np
 from scipy.stats import quantile_test, ttest_ind
 
-from reproduce import gabor, paper, recognition, variations
-from reproduce.intervals import holm, mcnemar
+from reproduce import paper
+from reproduce.experiments import cdbn_sensitivity, gabor, recognition
 from reproduce.ledger.entry import Quantity, Row, fixed, mean, share, trained
 from vmc_lib import photos
+from vmc_lib.statistics import holm, mcnemar
 from vmc_lib.what import cdbn
 from vmc_lib.what.crops import whiten
 from vmc_lib.what.recogniser import READ_OUTS
@@ -17,7 +18,7 @@ from vmc_lib.what.recogniser import READ_OUTS
 MACAQUE = 40  # degrees
 MEASURES = ("precision", "recall")
 RIVALS = ("HMAX, 10 prototypes", "HOG", "SIFT, bag of words")
-NETWORKS = [variation for variation in variations.VARIATIONS if variation[0] == cdbn.N_W]
+NETWORKS = [variation for variation in cdbn_sensitivity.VARIATIONS if variation[0] == cdbn.N_W]
 
 
 def _table_3():
@@ -60,14 +61,14 @@ def _table_3():
 def _trainings(level, read_out):
     """Test counts (trainings, 4) of the network trained again, as from `tally`."""
     i, j = photos.LEVELS.index(level), READ_OUTS.index(read_out)
-    found = variations.load()
-    return np.array([found[k][1][i, j, variations.SPLITS.index("test")] for k in NETWORKS])
+    found = cdbn_sensitivity.load()
+    return np.array([found[k][1][i, j, cdbn_sensitivity.SPLITS.index("test")] for k in NETWORKS])
 
 
 def _width():
     """How well other widths name, less how well the paper's does; MP2, all levels."""
-    found, test = variations.load(), variations.SPLITS.index("test")
-    right = {k: found[k][1][:, 0, test][:, [0, 3]].sum() for k in variations.VARIATIONS}
+    found, test = cdbn_sensitivity.load(), cdbn_sensitivity.SPLITS.index("test")
+    right = {k: found[k][1][:, 0, test][:, [0, 3]].sum() for k in cdbn_sensitivity.VARIATIONS}
     n = found[NETWORKS[0]][1][:, 0, test].sum()
     ours = np.mean([right[k] for k in NETWORKS]) / n
     quantities = []

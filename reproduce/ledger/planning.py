@@ -4,10 +4,11 @@ from functools import cache
 
 import numpy as np
 
-from reproduce import paper, results, space
+from reproduce import paper, results
+from reproduce.experiments import planning_3d
+from reproduce.experiments.calibration import SCENARIOS, SEEDS, measured, repeat
 from reproduce.ledger.entry import Quantity, Row, fixed, mean
-from reproduce.movements import SCENARIOS, SEEDS, measured, repeat
-from reproduce.peers import optimal
+from reproduce.peers import optimal_control
 from vmc_lib import photos
 from vmc_lib.motor import templates
 from vmc_lib.motor.planning import draw_targets, exact_weights, habitual_weights, plan
@@ -100,7 +101,7 @@ def _computation():
     """How much quicker a plan is than the exact optimum, and how often that tries the arm."""
     timed = {row["task"]: row for row in results.records("bench/planning")["rows"]}
     quicker = timed["habitual plan"]["× faster than optimal control"]
-    found = optimal.search(optimal.TARGETS[12])
+    found = optimal_control.search(optimal_control.TARGETS[12])
     tried = found.nfev + found.njev * (1 + found.x.size)
     return [
         Quantity("times quicker than optimal control", 1, quicker, better=1, bound=True),
@@ -110,9 +111,11 @@ def _computation():
 
 def _effort():
     """What habit spends over the optimum, with our templates and with optima for templates."""
-    habit, best = plan(optimal.TARGETS, templates.load()), optimal.shipped()
-    mixed = optimal.effort(optimal.mixed().excitations) / optimal.effort(best[optimal.INNER])
-    spent = optimal.effort(habit.excitations) / optimal.effort(best)
+    habit, best = plan(optimal_control.TARGETS, templates.load()), optimal_control.shipped()
+    mixed = optimal_control.effort(optimal_control.mixed().excitations) / optimal_control.effort(
+        best[optimal_control.INNER]
+    )
+    spent = optimal_control.effort(habit.excitations) / optimal_control.effort(best)
     return [
         mean("effort of habit over the optimum", 1, spent, better=1, bound=True),
         mean("the same where habit mixes optima", 1, mixed, better=1, bound=True),
@@ -122,7 +125,7 @@ def _effort():
 @cache
 def in_space():
     """Draws in space: name -> (seeds,)."""
-    return repeat(space.measured)
+    return repeat(planning_3d.measured)
 
 
 def _in_space():

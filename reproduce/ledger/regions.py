@@ -2,11 +2,12 @@
 
 import numpy as np
 
-from reproduce import localisation, paper
-from reproduce.detector_training import candidates
+from reproduce import paper
+from reproduce.experiments import localisation
 from reproduce.ledger.entry import Row, mean, share, trained
 from reproduce.ledger.search import rois
 from reproduce.results import arrays
+from reproduce.training.detectors import candidates
 from vmc_lib import photos
 from vmc_lib.boxes import FOUND, area, iou
 

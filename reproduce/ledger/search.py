@@ -5,10 +5,11 @@ from time import perf_counter
 
 import numpy as np
 
-from reproduce import localisation, paper
-from reproduce.detector_training import candidates
+from reproduce import paper
+from reproduce.experiments import localisation
 from reproduce.ledger.entry import Quantity, Row, fixed, mean, share
-from reproduce.peers import windows
+from reproduce.peers import window_proposals
+from reproduce.training.detectors import candidates
 from vmc_lib import photos
 from vmc_lib.boxes import FOUND, iou
 from vmc_lib.where.features import raw_pixels
@@ -62,7 +63,7 @@ def _fewer():
 def _search():
     """Selective search beside windows of every size, everywhere."""
     some = photos.load("rig", "test")
-    everywhere = windows.exhaustive((photos.HEIGHT, photos.WIDTH))
+    everywhere = window_proposals.exhaustive((photos.HEIGHT, photos.WIDTH))
     found = [candidates(photo) for photo in some]
     ours, theirs = (_boxed(some, every) for every in (found, [everywhere] * len(some)))
     fewer = np.mean([len(boxes) for boxes in found]) / len(everywhere)

@@ -1,5 +1,6 @@
 """What the model is held beside.
 
-`features` and `hmax` name crops, `windows` lists candidates, `muscles` pull by other laws,
-`cerebella` learn where to aim; `optimal`, `steady` and `optimal_feedback` choose other commands.
+`baseline_features` and `hmax` name crops, `window_proposals` lists candidates, `muscle_models` pull
+by other laws, `adaptive_controllers` learn where to aim; `optimal_control`, `minimum_variance` and
+`optimal_feedback` choose other commands.
 """

@@ -2,10 +2,10 @@
 
 Todorov and Jordan (2002) took for the brain's aim not the best commands but the best *corrections*:
 those that disturb the task least, for the least change of command. A deviation that does not matter
-to the task is left alone. Here the commands are `optimal`'s, and deviations from them small: so the
+to the task is left alone. Here the commands are `optimal_control`'s, and deviations small: so the
 arm is taken to be linear in them, step by step, and the best gains follow from the end backwards
 (Riccati's equation). The state is all that there is to know of the arm: angles, speeds and
-activations (10,). The task is that of `steady`: be there, still, during the hold.
+activations (10,). The task is that of `minimum_variance`: be there, still, during the hold.
 """
 
 from typing import NamedTuple

@@ -9,7 +9,7 @@ import json
 import mujoco
 import numpy as np
 
-from reproduce.bones import clustered, joined, packed
+from render.bone_meshes import clustered, joined, packed
 from reproduce.whole_arm.derive import in_world, turned
 from reproduce.whole_arm.plant import FILE as MODEL
 

@@ -13,7 +13,7 @@ from scipy.cluster.hierarchy import fcluster, linkage
 from scipy.optimize import least_squares, nnls
 
 from reproduce import results
-from reproduce.peers.muscles import lag
+from reproduce.peers.muscle_models import lag
 from reproduce.whole_arm import plant
 from vmc_lib.motor.inverse_dynamics import MOVING, least, minimum_jerk
 from vmc_lib.motor.templates import TemplateSet

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from reproduce.peers.muscles import LAWS
+from reproduce.peers.muscle_models import LAWS
 from vmc_lib.arm import muscle
 
 UNIT = st.floats(0, 1)

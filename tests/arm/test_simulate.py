@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from reproduce.peers.muscles import LAWS
+from reproduce.peers.muscle_models import LAWS
 from reproduce.results import arrays
 from vmc_lib.arm.dynamics import acceleration_from, hand, paths
 from vmc_lib.arm.model import LIMITS, STEP

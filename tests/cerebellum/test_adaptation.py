@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from reproduce.movements import PERTURBATIONS, adapt, skilled
+from reproduce.experiments.calibration import PERTURBATIONS, adapt, skilled
 from vmc_lib.cerebellum.adaptation import SILENT, Adaptation, pull
 from vmc_lib.cerebellum.online import AimCorrection
 from vmc_lib.motor.planning import draw_targets, plan

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from reproduce import feedback as measure
+from reproduce.experiments import feedback_control as measure
 from vmc_lib.cerebellum.feedback_error import FeedbackErrorLearning
 from vmc_lib.motor.feedback import intend
 from vmc_lib.motor.planning import draw_targets

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from reproduce.feedback import plans, taught
+from reproduce.experiments.feedback_control import plans, taught
 from vmc_lib.cerebellum.forward_model import ForwardModel, arm_copy
 from vmc_lib.motor.planning import draw_targets
 from vmc_lib.motor.templates import load

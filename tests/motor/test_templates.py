@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from reproduce import template_making
+from reproduce.training import reach_templates
 from vmc_lib import photos
 from vmc_lib.arm.kinematics import inverse_kinematics, turn_towards
 from vmc_lib.motor import inverse_dynamics, templates
@@ -14,7 +14,7 @@ from vmc_lib.motor.planning import surrounded
 def test_every_template_ends_at_rest_on_its_point(spacing):
     template_set = templates.load(spacing)
     motion = templates.reach(template_set.excitations)
-    assert np.linalg.norm(motion.reached - template_making.grid(spacing), axis=-1).max() < 2e-4
+    assert np.linalg.norm(motion.reached - reach_templates.grid(spacing), axis=-1).max() < 2e-4
     assert np.abs(motion.velocity[..., -1, :]).max() < 0.02
     np.testing.assert_array_equal(template_set.points, motion.reached)
 
@@ -34,8 +34,8 @@ def test_every_template_set_surrounds_every_shuttlecock(level):
 
 
 def test_what_ships_can_be_made_again():
-    goal = template_making.grid(0.08)[5]
-    remade = inverse_dynamics.spline() @ template_making.make(goal)
+    goal = reach_templates.grid(0.08)[5]
+    remade = inverse_dynamics.spline() @ reach_templates.make(goal)
     np.testing.assert_allclose(templates.reach(remade).reached, goal, atol=1e-6)
     np.testing.assert_allclose(remade, templates.load(0.08).excitations[5], atol=1e-3)
 

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 import torch
 
-from reproduce.gabor import best_gabor, gabor_pair
+from reproduce.experiments.gabor import best_gabor, gabor_pair
 from vmc_lib import photos
 from vmc_lib.what.cdbn import CDBN, crops_of
 from vmc_lib.what.crops import whiten

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import torch
 
-from reproduce.name_training import JITTER, background_box, examples, fit_name_classifier
+from reproduce.training.name_classifier import JITTER, background_box, examples, fit_name_classifier
 from vmc_lib import photos
 from vmc_lib.boxes import iou, jittered
 from vmc_lib.what.cdbn import CDBN, crops_of

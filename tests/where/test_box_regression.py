@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from reproduce import detector_training
-from reproduce.detector_training import training_images
+from reproduce.training import detectors
+from reproduce.training.detectors import training_images
 from vmc_lib import photos
 from vmc_lib.boxes import corrected, iou
 from vmc_lib.where import box_regression
@@ -55,7 +55,7 @@ def test_a_bare_photo_teaches_the_iou_predictor_misfits(detector):
     quick = replace(IMPROVED, mirror=False, boxes=300)
     seen = training_images(photos.load("rig", "train")[:3], quick)
     bare = replace(seen[0], truth=np.empty((0, 4)))
-    iou_predictor = detector_training.fit_iou_predictor(
+    iou_predictor = detectors.fit_iou_predictor(
         [*seen, bare], quick, detector.svm, detector.regressions, np.random.default_rng(0)
     )
     assert iou_predictor.axes.shape == (800, box_regression.DIRECTIONS)

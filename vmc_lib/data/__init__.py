@@ -66,7 +66,7 @@ def checksum(content):
 def _remedy(path):
     return (
         f"Restore it (git checkout -- {path}), or remake it: python -m reproduce --list names the "
-        "step. If it is your own and meant to be so: python -m reproduce.checksums"
+        "step. If it is your own and meant to be so: python -m reproduce.pipeline.checksums"
     )
 
 

@@ -1,0 +1,179 @@
+"""Movements that are watched: with a forward model and without, and in a field that bends them.
+
+What is measured of a hand's path, and the experiments whose results ship.
+"""
+
+from functools import partial
+
+import numpy as np
+
+from reproduce.experiments import calibration
+from reproduce.experiments.calibration import NOISE, SEEDS
+from vmc_lib.arm.dynamics import hand
+from vmc_lib.arm.model import STEP
+from vmc_lib.arm.muscle import noisy
+from vmc_lib.cerebellum.feedback_error import FeedbackErrorLearning
+from vmc_lib.cerebellum.forward_model import ForwardModel
+from vmc_lib.motor.feedback import BLIND, SIGHT, curl, intend, move, switch
+from vmc_lib.motor.inverse_dynamics import MOVING
+from vmc_lib.motor.planning import draw_targets, exact_weights, plan, surrounded
+from vmc_lib.motor.templates import load, reach
+
+JUMP, JUMPS_AT = 0.05, 0.15  # m and s: how far a target jumps, and when
+SWING, TREMOR = (0.5, 3.0), (3.0, 8.0)  # Hz
+FIELD = 15.0  # N for each m/s
+ARMS = {"the plan alone": (BLIND, False), "forward model": (SIGHT, True), "lesion": (SIGHT, False)}
+
+
+def plans(targets, template_set):
+    """Plans to targets (B, 2), with weights that satisfy Eq. 4."""
+    return plan(targets, template_set, exact_weights)
+
+
+def taught(template_set, rng, count=20):
+    """A `ForwardModel` that has felt so many reaches with motor noise, without sight."""
+    some = plans(draw_targets(template_set, count, rng), template_set)
+    return ForwardModel().learn(reach(noisy(some.excitations, NOISE, rng)))
+
+
+def jumps(template_set, count, rng, by=JUMP):
+    """Targets (count, 2) and where they jump to, `by` metres in any direction, all within reach.
+
+    ValueError when so few of those drawn jump to a place within reach that targets are missing.
+    """
+    first = draw_targets(template_set, 4 * count, rng)
+    angle = rng.uniform(0, 2 * np.pi, len(first))
+    second = first + by * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    inside = surrounded(second, template_set.points)
+    if inside.sum() < count:
+        raise ValueError(
+            f"{inside.sum()} of {count} jumps by {by} m stay within reach; jump less far"
+        )
+    return first[inside][:count], second[inside][:count]
+
+
+def jumping(template_set, first, second):
+    """The `Intention`, for 2 s, of reaches whose target jumps at `JUMPS_AT`, and is seen later."""
+    before, after = (intend(plans(p, template_set), 2.0) for p in (first, second))
+    return switch(before, after, JUMPS_AT + SIGHT.delay)
+
+
+def tremor(path, since=1.0, band=TREMOR):
+    """Power in mm² in a band (low, high) in Hz, and the strongest frequency in Hz, of hand paths.
+
+    `path` is (B, T + 1, 2) in m; what comes before `since` s is left out. Both answers are (B,).
+    """
+    late = 1000 * path[:, round(since / STEP) :]
+    window = np.hanning(late.shape[1])[:, None]
+    waves = np.fft.rfft((late - late.mean(axis=1, keepdims=True)) * window, axis=1)
+    power = 2 * (np.abs(waves) ** 2).sum(axis=-1) / ((window**2).sum() * late.shape[1])
+    frequency = np.fft.rfftfreq(late.shape[1], STEP)
+    low, high = band
+    within = (frequency >= low) & (frequency < high)
+    return power[:, within].sum(axis=1), frequency[1:][power[:, 1:].argmax(axis=1)]
+
+
+def overshoot(path, target):
+    """How far hands (B, T + 1, 2) go beyond their targets (B, 2), along the way there, (B,), m."""
+    way = target - path[:, 0]
+    along = ((path - target[:, None]) * (way / _norm(way)[:, None])[:, None]).sum(axis=-1)
+    return along.max(axis=1).clip(0)
+
+
+def detour(path):
+    """The length of each path in its first second, over the distance between its ends, (B,)."""
+    first = path[:, : round(1 / STEP) + 1]
+    length = np.linalg.norm(np.diff(first, axis=1), axis=-1).sum(axis=1)
+    return length / np.linalg.norm(first[:, -1] - first[:, 0], axis=-1)
+
+
+def deviation(path, meant):
+    """Where paths (B, T + 1, 2) are farthest from the meant ones across their way, (B,), m.
+
+    Across the straight line from the first meant place to the last, while the hand should move;
+    positive to the left.
+    """
+    way = meant[:, -1] - meant[:, 0]
+    left = np.stack([-way[:, 1], way[:, 0]], axis=-1) / _norm(way)[:, None]
+    aside = ((path - meant)[:, :MOVING] * left[:, None]).sum(axis=-1)
+    farthest = np.abs(aside).argmax(axis=1)[:, None]
+    return np.take_along_axis(aside, farthest, axis=1)[:, 0]
+
+
+def reaches(seed, count=100, seconds=3.0):
+    """By arm and measure, the means over so many reaches to a target that stays, or jumps."""
+    rng, template_set = np.random.default_rng(seed), load()
+    model = taught(template_set, rng)
+    first, second = jumps(template_set, count, rng)
+    steady, jump = intend(plans(first, template_set), seconds), jumping(template_set, first, second)
+    measured = {}
+    for arm, (senses, foresees) in ARMS.items():
+        known = model if foresees else None
+        path = move(steady, senses, known, noise=NOISE, rng=rng).hand[..., :2]
+        ends = move(jump, senses, known, noise=NOISE, rng=rng).reached
+        power, frequency = tremor(path)
+        missed = 1000 * _norm(ends - second)
+        measures = {
+            "swing (mm²)": tremor(path, band=SWING)[0].mean(),
+            "tremor (mm²)": power.mean(),
+            "strongest at (Hz)": np.median(frequency),
+            "overshoot (mm)": 1000 * overshoot(path, first).mean(),
+            "path over distance": detour(path).mean(),
+            "miss after a jump (mm)": missed.mean(),
+            "jumps within 10 mm": (missed < 10).mean(),
+        }
+        measured |= {f"{arm}, {name}": float(value) for name, value in measures.items()}
+    return measured
+
+
+def field(learner, template_set, model, rng, blocks=(2, 20, 10), targets=5):
+    """How far a curl field bends reaches as they are learned: deviations (blocks, targets), in m.
+
+    The same targets come in every block; `blocks` counts those before, in and after the field.
+    The second answer, (before or after learning, others), is the same for targets never practised.
+    """
+    practised, others = (
+        intend(plans(draw_targets(template_set, n, rng), template_set), 1.0) for n in (targets, 20)
+    )
+    before, during, _ = blocks
+    bends, held_out = [], []
+    for block in range(sum(blocks)):
+        on = before <= block < before + during
+        if block in (before, before + during):
+            held_out.append(_bend(learner, others, curl(FIELD), model, rng)[0])
+        bend, motion = _bend(learner, practised, curl(FIELD) if on else None, model, rng)
+        learner.practise(practised, motion)
+        bends.append(bend)
+    return np.array(bends), np.array(held_out)
+
+
+def _bend(learner, intention, world, model, rng):
+    motion = move(learner.correct(intention), SIGHT, model, world, NOISE, rng)
+    return deviation(motion.hand[..., :2], hand(intention.q)[..., :2]), motion
+
+
+def fields(seed, **size):
+    """For one seed, the mean deviation in mm of each block, to the left, and its mean size.
+
+    And the mean size for targets never practised, before and after; `size` is passed to `field`.
+    """
+    rng, template_set = np.random.default_rng(seed), load()
+    model, learner = taught(template_set, rng), FeedbackErrorLearning(template_set)
+    bends, held_out = field(learner, template_set, model, rng, **size)
+    return {
+        "to the left": 1000 * bends.mean(axis=1),
+        "size": 1000 * np.abs(bends).mean(axis=1),
+        "held-out": 1000 * np.abs(held_out).mean(axis=1),
+    }
+
+
+EXPERIMENTS = {"reaches": reaches, "field": fields}
+
+
+def make(experiments=EXPERIMENTS, seeds=SEEDS):
+    """What `results/feedback.json` holds: every experiment with every seed, to four digits."""
+    return calibration.make(experiments, seeds)
+
+
+measured = partial(calibration.measured, "feedback")
+_norm = partial(np.linalg.norm, axis=-1)

@@ -1,0 +1,117 @@
+"""A larger exam: two hundred fresh test photos a level, for what forty are too few to tell.
+
+No answer is of a photo that had a part in a choice: what the first hundred said of Table I led to
+the sizes, the cost and the threshold of its context, so its rows are of the second hundred alone.
+The answers ship; the photos do not, but the step `fresh_photos` renders them anew.
+"""
+
+import numpy as np
+
+from reproduce import results
+from reproduce.experiments import recognition
+from reproduce.experiments.cdbn_sensitivity import SPLITS, VARIATIONS, vary_all
+from reproduce.experiments.localisation import TRAININGS, classifiers, hits
+from reproduce.experiments.recognition import tally
+from reproduce.training.detectors import candidates, examples
+from vmc_lib import photos, show
+from vmc_lib.statistics import wilson
+from vmc_lib.what.cdbn import N_W, PATCHES
+from vmc_lib.what.recogniser import READ_OUTS
+from vmc_lib.where.detector import ObjectDetector
+from vmc_lib.where.recipes import RECIPES
+
+FRESH = 140  # number of the first photo that had no part in Table I
+KERNELS, DETECTORS = ("linear", "rbf"), ("published", "improved")
+NETWORK_SEEDS = tuple(seed for n_w, seed in VARIATIONS if n_w == N_W)
+
+
+def answers():
+    """Question -> level -> (right, wrong, missed): counts.
+
+    "linear" and "rbf" are rows of Table I with context, means over as many trainings as there;
+    "published" and "improved" of Table II; (read-out, seed) of Table III.
+    """
+    kept = results.records("fresh_test_set")
+    return {tuple(q) if isinstance(q, list) else q: levels for q, levels in kept}
+
+
+def shares(right, wrong, missed):
+    """Precision and recall, and the 95 % interval of each (Wilson): ((share, low, high), …).
+
+    The intervals take the counts as independent, which those of several boxes on one object are
+    not, and leave out the luck of training.
+    """
+    totals = right + wrong, right + missed
+    return tuple((right / n, *wilson(right, n)) for n in totals)
+
+
+def table(*questions):
+    """Answers as Markdown: precision / recall on every level, each with its interval."""
+    asked, rows = answers(), []
+    for question in questions:
+        cells = [question if isinstance(question, str) else "{}, seed {}".format(*question)]
+        for level in photos.LEVELS:
+            parts = shares(*asked[question][level])
+            cells.append(
+                " / ".join(f"{share:.3f} ({low:.2f}–{high:.2f})" for share, low, high in parts)
+            )
+        rows.append(cells)
+    return show.table(["asked", *photos.LEVELS], rows)
+
+
+def make(exam, folder=photos.FOLDER, trainings=TRAININGS, seeds=NETWORK_SEEDS, patches=PATCHES):
+    """What `results/fresh_test_set.json` holds: every question put to the test photos in `exam`.
+
+    What is trained for it learns from the photos in `folder`. ValueError for a photo that ships.
+    """
+    found = {}
+    for level in photos.LEVELS:
+        shots = photos.load(level, "test", exam)
+        known = {photo.name for photo in photos.load(level, "test")}
+        if known & {photo.name for photo in shots}:
+            raise ValueError(f"{exam} holds photos that ship, no exam: delete {sorted(known)}")
+        fresh = [shot for shot in shots if shot.seed[-1] >= FRESH]
+        asked = ask_kernels(level, fresh, folder, trainings) | ask_detectors(level, shots)
+        for question, counts in asked.items():
+            found.setdefault(question, {})[level] = counts
+    trained = vary_all([(N_W, seed) for seed in seeds], folder, exam, patches)
+    for (_, seed), (_, counts) in trained.items():
+        for j, name in enumerate(READ_OUTS):
+            named = counts[:, j, SPLITS.index("test"), :3].tolist()
+            found[name, seed] = dict(zip(photos.LEVELS, named, strict=True))
+    return list(found.items())
+
+
+def names(exam):
+    """What `results/fresh_names.npz` holds: `recognition.probabilities` for the second hundred."""
+    kept, learnt = {}, recognition.load()
+    for level in photos.LEVELS:
+        shots = [shot for shot in photos.load(level, "test", exam) if shot.seed[-1] >= FRESH]
+        found, kept[f"{level}/fresh"] = recognition.probabilities(level, shots, *learnt)
+        kept |= {f"{level}/{method}/fresh": seen for method, seen in found.items()}
+    return kept
+
+
+def ask_kernels(level, shots, folder=photos.FOLDER, trainings=TRAININGS):
+    """The answers of Table I's kernels on photos of a level."""
+    x, truth = examples(shots, RECIPES["context"])
+    counts = [
+        [
+            tally(svm.score(x), truth, threshold)[:3]
+            for svm, threshold in classifiers(level, "context", KERNELS, seed, folder)
+        ]
+        for seed in range(trainings)
+    ]
+    return dict(zip(KERNELS, np.mean(counts, axis=0).tolist(), strict=True))
+
+
+def ask_detectors(level, shots):
+    """The answers of Table II's detectors on photos of a level."""
+    found = {}
+    for name in DETECTORS:
+        detector = ObjectDetector.load(level, name)
+        strategy = detector.recipe.strategy
+        seen = (detector.detect(photo.image, candidates(photo, strategy)) for photo in shots)
+        right, reached = hits(shots, [detections.boxes for detections in seen])
+        found[name] = tuple(map(int, (right.sum(), (~right).sum(), (~reached).sum())))
+    return found

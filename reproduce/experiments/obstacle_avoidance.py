@@ -1,0 +1,68 @@
+"""Around an obstacle: two mixed reaches in one, the first of them to a via-point beside it.
+
+The obstacle is a ball that only the hand must not touch. Positions are in the arm's plane, in m.
+"""
+
+from functools import cache
+
+import numpy as np
+
+from reproduce.experiments.feedback_control import plans
+from vmc_lib.arm.dynamics import hand
+from vmc_lib.motor.feedback import TICK, Intention, intend, switch
+from vmc_lib.motor.planning import draw_targets, surrounded
+
+RADIUS, APART = 0.02, 0.03  # of the ball; how near to its middle a way may be meant
+LONG = 0.12  # the straight way, at least: on a short one there is no room for a ball
+TURN = 0.3  # s: when the second reach begins to take the first one's place
+GRID = 0.02  # between the places that may become via-points
+
+
+def obstacles(template_set, count, rng):
+    """Targets (count, 2), and balls (count, 2), each in the middle of the meant way there."""
+    targets = draw_targets(template_set, 20 * count, rng)
+    parts = np.array_split(targets, 20)  # one after the other: less memory
+    ways = np.concatenate([meant(intend(plans(part, template_set))) for part in parts])
+    start, end = ways[:, 0], ways[:, -1]
+    long = np.linalg.norm(end - start, axis=-1) > LONG
+    middle = (start + end)[:, None] / 2
+    nearest = np.linalg.norm(ways - middle, axis=-1).argmin(axis=1)
+    return targets[long][:count], ways[np.arange(len(ways)), nearest][long][:count]
+
+
+def around(target, ball, template_set):
+    """The via-point (2,) to a target (2,) round a ball (2,), and the `Intention` (a batch of one).
+
+    Of all via-points whose meant way keeps `APART` of the ball, that of the shortest. ValueError
+    when there is none.
+    """
+    spots, first = _starts(template_set)
+    second = intend(plans(target[None], template_set))
+    both = switch(first, second, TURN)
+    ways = meant(both)
+    length = np.linalg.norm(np.diff(ways, axis=1), axis=-1).sum(axis=1)
+    free = clearance(ways, ball[None]) > APART
+    if not free.any():
+        raise ValueError(f"no way to {target} m keeps {APART} m from {ball} m; move the ball")
+    best = np.where(free, length, np.inf).argmin()
+    return spots[best], Intention(both.q[[best]], both.excitations[[best]])
+
+
+@cache
+def _starts(template_set):
+    """All places (n, 2) that may become via-points, and the `Intention` to reach each."""
+    low, high = template_set.points.min(axis=0), template_set.points.max(axis=0)
+    spots = np.stack(np.meshgrid(*(np.arange(a, b, GRID) for a, b in zip(low, high, strict=True))))
+    spots = spots.reshape(2, -1).T
+    spots = spots[surrounded(spots, template_set.points)]
+    return spots, intend(plans(spots, template_set))
+
+
+def meant(intention):
+    """The hand's ways (B, ticks, 2) as they are meant."""
+    return hand(intention.q[:, ::TICK])[..., :2]
+
+
+def clearance(ways, balls):
+    """How near ways (B, T, 2) come to the middle of their balls (B, 2), (B,)."""
+    return np.linalg.norm(ways - balls[:, None], axis=-1).min(axis=1)

@@ -1,0 +1,107 @@
+"""What models make of photographs, and of another renderer's scenes, photo by photo, as shares."""
+
+from joblib import Parallel, delayed
+
+from reproduce.experiments.loop_evaluation import FOUND
+from reproduce.results import records
+from vmc_lib import photos
+from vmc_lib.boxes import iou
+from vmc_lib.loop import VisuomotorModel, see
+from vmc_lib.statistics import wilson
+
+MODELS, SPLITS = ("varied", "real"), ("validation", "test")
+SIZED = ", size counts"  # where the camera is known
+QUESTIONS = {  # about which photos, and what has to be so
+    "shuttlecocks named, in their true boxes": ("shuttlecock", lambda seen: seen["chance"] > 0.5),
+    "cups called a shuttlecock": ("cup", lambda seen: seen["chance"] > 0.5),
+    "a good candidate": ("shuttlecock", lambda seen: seen["candidate"] >= FOUND),
+    "a box on the shuttlecock": ("shuttlecock", lambda seen: seen["kept"] > 0.5),
+    "a good box": ("shuttlecock", lambda seen: seen["kept"] >= FOUND),
+    "the chosen box is the shuttlecock's": ("shuttlecock", lambda seen: seen["fit"] > 0.5),
+    "and fits well": ("shuttlecock", lambda seen: seen["fit"] >= FOUND),
+    "photos of a cup with a false alarm": ("cup", lambda seen: seen["chosen"] is not None),
+    "photos of neither with one": ("neither", lambda seen: seen["chosen"] is not None),
+}
+
+
+def load(model, split):
+    """What `examine` found in each photo of a split, by the photo's name."""
+    return records("real_world")[model][split]
+
+
+def answers(found):
+    """Question -> (how many, of how many), from what `load` gives; of what there is in it."""
+    counts = {}
+    for question, (kind, holds) in QUESTIONS.items():
+        right = [holds(seen) for seen in found.values() if seen["holds"] == kind]
+        if right:
+            counts[question] = sum(right), len(right)
+    return counts
+
+
+def told(count, of):
+    """A share as text, with its 95 % interval (Wilson)."""
+    low, high = wilson(count, of)
+    return f"{count} of {of} ({low:.0%} to {high:.0%})"
+
+
+def make(folder=photos.FOLDER, models=MODELS, splits=SPLITS):
+    """What `results/real_world.json` holds: model -> split -> photo -> what `examine` found."""
+    found = {}
+    for name in models:
+        model = VisuomotorModel.load(name)
+        found[name] = {
+            split: _examined(model, photos.load("real", split, folder)) for split in splits
+        }
+    return found
+
+
+def elsewhere(folder, models=MODELS):
+    """What `results/elsewhere.json` holds: model -> photo -> what `examine` found.
+
+    Of the scenes of `render.elsewhere`, by another renderer, of which no model has seen one; each
+    model once more where it knows the camera, and so how large things are.
+    """
+    shots, found = photos.load("varied", "test", folder), {}
+    for name in models:
+        model = VisuomotorModel.load(name)
+        found[name] = _examined(model, shots)
+        found[name + SIZED] = _examined(model, shots, sized=True)
+    return found
+
+
+def _examined(model, shots, sized=False):
+    seen = Parallel()(delayed(examine)(model, photo, sized) for photo in shots)
+    return {photo.name: one for photo, one in zip(shots, seen, strict=True)}
+
+
+def examine(model, photo, sized=False):
+    """What a model makes of a photo; `sized`: also of how large things are, as its camera tells.
+
+    holds: "shuttlecock", "cup" or "neither"; chance: that its true box holds a shuttlecock, to the
+    recogniser; candidate, kept: how well (IoU) the best candidate and the best kept box fit it;
+    chosen: the box (4,) that the loop takes for a shuttlecock; fit: how well that fits one.
+    """
+    found = model.detector.detect(photo.image)
+    sight = see(model, photo.image, photo.camera if sized else None)
+    holds = next(iter(photo.boxes), "neither")
+    chosen = [] if sight.box is None else sight.box
+    told = {"holds": holds, "chosen": None if sight.box is None else _rounded(sight.box)}
+    if holds == "neither":
+        return told
+    truth = photo.boxes[holds]
+    chance = model.recogniser.chance(photo.image, truth[None])
+    return told | {
+        "chance": round(float(chance[0]), 4),
+        "candidate": _best(found.candidates, [truth]),
+        "kept": _best(found.boxes, [truth]),
+        "fit": _best(chosen, photos.all_of(photo, "shuttlecock")),
+    }
+
+
+def _best(boxes, truth):
+    return round(float(iou(boxes, truth).max(initial=0)), 3)
+
+
+def _rounded(box):
+    return [round(float(edge), 1) for edge in box]

@@ -1,0 +1,119 @@
+"""Table III: the CDBN's read-outs and other features, under one classifier and the same splits.
+
+The classifiers, and what they say of every photo, are stored, as `make` finds them.
+"""
+
+from itertools import product
+
+import numpy as np
+from sklearn.cluster import KMeans
+
+from reproduce.peers.baseline_features import bag_of_sift, histograms_of_gradients, raw_pixels, sift
+from reproduce.results import arrays
+from reproduce.training.name_classifier import examples, fit_name_classifier
+from vmc_lib import photos
+from vmc_lib.what.cdbn import CDBN, crops_of
+from vmc_lib.what.recogniser import NameClassifier, read_outs
+
+WORDS = 100
+
+METHODS = (
+    "CDBN, MP2",
+    "CDBN, P2",
+    "CDBN, P1 + P2",
+    "HMAX, 10 prototypes",
+    "HMAX, 250 prototypes",
+    "HOG",
+    "SIFT, bag of words",
+    "raw pixels",
+)
+
+
+def features(crops, learnt):
+    """Every method's features (n, d) of crops (n, 200, 200), given what was learnt before."""
+    from reproduce.peers.hmax import hmax  # here, for torch weighs on who only reads the results
+
+    seen, matches = read_outs(learnt["cdbn"], crops), hmax(crops, learnt["prototypes"])
+    by_hand = [histograms_of_gradients(crops), bag_of_sift(crops, learnt["words"])]
+    found = [*seen.values(), matches[:, :10], matches, *by_hand, raw_pixels(crops)]
+    return dict(zip(METHODS, found, strict=True))
+
+
+def tally(probability, shuttlecock, threshold=0.5):
+    """Counts (true positives, false positives, false negatives, true negatives)."""
+    called = np.asarray(probability) > threshold
+    pairs = [(True, True), (True, False), (False, True), (False, False)]
+    return tuple(int(((called == c) & (shuttlecock == s)).sum()) for c, s in pairs)
+
+
+def precision_recall(counts):
+    """Precision and recall from `tally`; nan where nothing was called or nothing was there."""
+    right, wrong, missed, _ = counts
+    return tuple(right / n if n else np.nan for n in (right + wrong, right + missed))
+
+
+def load():
+    """What was learnt: what `features` needs, and a NameClassifier for each (level, method)."""
+    kept = arrays("recognition")
+    learnt = {"cdbn": CDBN.load()} | {name: kept[name] for name in ("words", "prototypes")}
+    keys = product(photos.LEVELS, METHODS)
+    return learnt, {key: NameClassifier.from_arrays(kept, "/".join(key)) for key in keys}
+
+
+def probabilities(level, shots, learnt, linear):
+    """Each method's probabilities (n,) for the true boxes in photos of a level, and the labels."""
+    crops, shuttlecock = crops_of(shots)
+    found = features(crops, learnt)
+    return {m: linear[level, m].probability(found[m]) for m in METHODS}, shuttlecock
+
+
+def verdicts(level, split):
+    """What `probabilities` found when the file was made: finding it takes a while.
+
+    The split "fresh" is of the test photos that were rendered when all was settled.
+    """
+    kept = arrays("fresh_names" if split == "fresh" else "recognition")
+    return {m: kept[f"{level}/{m}/{split}"] for m in METHODS}, kept[f"{level}/{split}"]
+
+
+def named_right(split):
+    """Which true boxes of all levels each method names right: (n,) by method."""
+    found = [verdicts(level, split) for level in photos.LEVELS]
+    return {m: np.hstack([(seen[m] > 0.5) == truth for seen, truth in found]) for m in METHODS}
+
+
+def make(folder=photos.FOLDER, prototypes=250):
+    """What `results/recognition.npz` holds: all that is learnt from the photos in `folder`.
+
+    And what it says of each: a probability for every true box of every split.
+    """
+    rng = np.random.default_rng(0)
+    learnt = learn_without_labels(folder, prototypes, rng)
+    kept = {name: np.asarray(x) for name, x in learnt.items()}
+    learnt["cdbn"] = CDBN.load()
+    for level in photos.LEVELS:
+        crops, y = examples(photos.load(level, "train", folder), rng)
+        x = features(crops, learnt)
+        exams = {split: crops_of(photos.load(level, split, folder)) for split in photos.SPLITS}
+        seen = {split: features(crops, learnt) for split, (crops, _) in exams.items()}
+        kept |= {f"{level}/{split}": truth for split, (_, truth) in exams.items()}
+        for method in METHODS:
+            linear = fit_name_classifier(
+                x[method], y, seen["validation"][method], exams["validation"][1]
+            )
+            kept |= linear.arrays(f"{level}/{method}")
+            for split in photos.SPLITS:
+                kept[f"{level}/{method}/{split}"] = linear.probability(seen[split][method])
+    return kept
+
+
+def learn_without_labels(folder, prototypes, rng):
+    """HMAX's prototypes and SIFT's words, from training crops of all levels, labels unused."""
+    from reproduce.peers.hmax import draw_prototypes
+
+    shots = [shot for level in photos.LEVELS for shot in photos.load(level, "train", folder)]
+    crops, _ = crops_of(shots)
+    some = crops[rng.permutation(len(crops))[:60]]
+    descriptors = np.concatenate([sift(crop) for crop in some])
+    words = KMeans(WORDS, n_init=1, random_state=0).fit(descriptors).cluster_centers_
+    return {"prototypes": draw_prototypes(some, prototypes, rng), "words": np.float32(words)}

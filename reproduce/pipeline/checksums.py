@@ -1,0 +1,29 @@
+"""The checksums of what ships in `vmc_lib.data`, by which damage is noticed when it is read.
+
+`python -m reproduce.pipeline.checksums` writes them anew; the steps do so by themselves.
+"""
+
+import json
+
+from vmc_lib import data
+
+KINDS = {".npz", ".json", ".jpg", ".webp"}
+
+
+def found():
+    """The checksum of every file that ships, by its place in the folder."""
+    files = sorted(file for file in data.FOLDER.rglob("*") if file.suffix in KINDS)
+    return {
+        file.relative_to(data.FOLDER).as_posix(): data.checksum(file.read_bytes())
+        for file in files
+        if file != data.CHECKSUMS
+    }
+
+
+def write():
+    """Write them."""
+    data.CHECKSUMS.write_text(json.dumps(found(), indent=0) + "\n")
+
+
+if __name__ == "__main__":  # pragma: no cover: the tests call `found`
+    write()

@@ -1,0 +1,237 @@
+"""The steps that remake all that ships: what each makes, from what, and about how long it takes."""
+
+import sys
+from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+from functools import cache, partial
+from inspect import getsourcefile
+from modulefinder import ModuleFinder
+from multiprocessing import get_context
+from pathlib import Path
+
+import numpy as np
+from joblib import parallel_config
+
+from render import bone_meshes
+from reproduce import ledger, results
+from reproduce.experiments import (
+    calibration,
+    cdbn_sensitivity,
+    crbm_ablation,
+    domain_shift,
+    feedback_control,
+    fresh_test_set,
+    localisation,
+    loop_evaluation,
+    motor_noise,
+    muscle_weakness,
+    printed_sheet,
+    real_world,
+    recognition,
+    stream_ablation,
+)
+from reproduce.peers import adaptive_controllers, minimum_variance, optimal_control
+from reproduce.pipeline import checksums
+from reproduce.training import shipped_models, ventral_stream
+from reproduce.whole_arm import bones as bones63
+from reproduce.whole_arm import experiment, habits, plant
+from vmc_lib import cutouts, data
+
+ROOT, MODEL, RESULTS = Path(__file__).parents[2], data.FOLDER, results.FOLDER
+FRESH = ROOT / "_build/fresh_photos"  # of tests to come: they do not ship
+ELSEWHERE = ROOT / "_build/elsewhere_photos"  # likewise
+DATA = {".xml", ".npz", ".json", ".jpg", ".webp"}
+
+
+@dataclass(frozen=True)
+class Step:
+    """One file, or one folder, and how it is made."""
+
+    make: Callable | str  # gives what the file holds; or a command that writes it
+    file: Path
+    reads: str = ""  # the steps whose files it reads, and folders that hold more of such
+    minutes: float = 1  # about, on two cores
+    needs: str = ""  # what not every machine has: such a step runs only when it is asked for
+
+    @property
+    def name(self):
+        """What the step is called: as its file."""
+        return self.file.stem
+
+    def inputs(self):
+        """Every file that the step depends on: what it reads, and the code that it can run."""
+        makes = {step.name: step.file for step in STEPS}
+        places = [makes.get(name, ROOT / name) for name in self.reads.split()]
+        within = (file for place in places for file in (place, *place.rglob("*")))
+        found = {file for file in within if file.suffix in DATA}
+        return found | imported(getsourcefile(getattr(self.make, "func", self.make)))
+
+    def run(self):
+        """Make the file, on all cores, in a new process: one that has read no older file."""
+        with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
+            pool.submit(_made, self).result()
+
+
+def _made(step):
+    with parallel_config(n_jobs=-1):
+        write(step.file, step.make)
+
+
+@cache
+def imported(file):
+    """A file of Python, and all of the project's that it imports, or that these import."""
+    finder = ModuleFinder([str(ROOT)])
+    finder.run_script(file)
+    return {Path(module.__file__) for module in finder.modules.values() if module.__file__}
+
+
+def write(file, make):
+    """Write what `make()` gives: arrays by name as .npz, or anything plain as .json."""
+    content = make()
+    if file.suffix == ".npz":
+        with results.replaced(file) as new:
+            np.savez_compressed(new, **content)
+        if file.parent == MODEL:
+            checksums.write()
+    else:
+        results.write(file.stem, content, file.parent)
+
+
+def tasks():
+    """The steps as doit's tasks."""
+    for step in STEPS:
+        if isinstance(step.make, str):
+            yield {"basename": step.name, "actions": [step.make, SUMMED]}
+        else:
+            files = {"file_dep": sorted(step.inputs()), "targets": [step.file]}
+            yield {"basename": step.name, "actions": [step.run], **files}
+
+
+def listed():
+    """The steps as lines: name, what is made, minutes, and what else is needed."""
+    for step in STEPS:
+        needs = f"; needs {step.needs}, so only with --only" if step.needs else ""
+        where = step.file.relative_to(ROOT)
+        yield f"{step.name:15} {where!s:38} about {step.minutes:g} min{needs}"
+
+
+RENDER, OPENSIM = f"{sys.executable} -m render", ".bench/bin/python -m bench.opensim_reference"
+BONES = f"{sys.executable} -m render.bone_meshes"
+SUMMED = f"{sys.executable} -m reproduce.pipeline.checksums"
+DERIVED, BONES63 = (f"{sys.executable} -m reproduce.whole_arm.{x}" for x in ("derive", "bones"))
+ARM, WHOLE_ARM, REAL, SHIPPED = (
+    "vmc_lib/arm",
+    "vmc_lib/arm reproduce/whole_arm",
+    "vmc_lib/data/real",
+    "vmc_lib/data vmc_lib/arm",
+)
+STEPS = (
+    Step(RENDER, MODEL / "photos", minutes=25, needs="mitsuba and LLVM 19"),
+    Step(
+        f"{sys.executable} -m render.cutouts",
+        cutouts.FILE,
+        minutes=6,
+        needs="mitsuba and LLVM 19",
+    ),
+    Step(shipped_models.candidates, MODEL / "candidates.npz", "photos", 4),
+    Step(shipped_models.detectors, MODEL / "detectors.npz", "photos candidates", 6),
+    Step(shipped_models.localisers, MODEL / "localisers.npz", "photos", 1),
+    Step(shipped_models.cdbn, MODEL / "cdbn.npz", "photos", 2),
+    Step(shipped_models.recogniser, MODEL / "recogniser.npz", "photos cdbn", 2),
+    Step(shipped_models.templates, MODEL / "templates.npz", ARM, 1),
+    Step(localisation.make, RESULTS / "localisation.npz", "photos candidates detectors", 25),
+    Step(recognition.make, RESULTS / "recognition.npz", "photos cdbn", 3),
+    Step(cdbn_sensitivity.make, RESULTS / "variations.npz", "photos", 15),
+    Step(crbm_ablation.make, RESULTS / "tricks.npz", "photos"),
+    Step(optimal_control.make, RESULTS / "optimal.npz", f"templates {ARM}", 3),
+    Step(minimum_variance.make, RESULTS / "steady.npz", f"templates {ARM}", 5),
+    Step(calibration.make, RESULTS / "movements.json", f"templates {ARM}", 10),
+    Step(adaptive_controllers.make, RESULTS / "cerebella.json", f"templates {ARM}", 5),
+    Step(feedback_control.make, RESULTS / "feedback.json", f"templates {ARM}", 2),
+    Step(motor_noise.make, RESULTS / "unsteady.json", f"templates {ARM}", 3),
+    Step(muscle_weakness.make, RESULTS / "weakened.npz", f"templates {ARM}", 1),
+    Step(loop_evaluation.make, RESULTS / "lesions.json", SHIPPED, 6),
+    Step(loop_evaluation.generalist, RESULTS / "generalist.json", SHIPPED, 1),
+    Step(
+        ventral_stream.photographs,
+        MODEL / "photographs.npz",
+        f"photos candidates detectors cutouts {REAL}",
+        35,
+    ),
+    Step(real_world.make, RESULTS / "real_world.json", SHIPPED, 3),
+    Step(
+        f"{sys.executable} -m render.elsewhere {ELSEWHERE}",
+        ELSEWHERE,
+        minutes=15,
+        needs="vtk",
+    ),
+    Step(
+        partial(real_world.elsewhere, ELSEWHERE),
+        RESULTS / "elsewhere.json",
+        SHIPPED,
+        3,
+        needs="elsewhere_photos",
+    ),
+    Step(domain_shift.make, RESULTS / "domains.npz", "photos", 8),
+    Step(
+        stream_ablation.make,
+        RESULTS / "ablation.npz",
+        f"photos candidates detectors cutouts {REAL}",
+        15,
+    ),
+    Step(
+        f"{RENDER} --sheet --samples 16",
+        MODEL / "photos/sheet",
+        minutes=5,
+        needs="mitsuba and LLVM 19",
+    ),
+    Step(
+        printed_sheet.make,
+        RESULTS / "printed_sheet.json",
+        f"sheet {SHIPPED}",
+    ),
+    Step(
+        f'{RENDER} --only "*/test" --first 40 --count 200 --folder {FRESH}',
+        FRESH,
+        minutes=40,
+        needs="mitsuba and LLVM 19",
+    ),
+    Step(
+        partial(fresh_test_set.names, FRESH),
+        RESULTS / "fresh_names.npz",
+        f"recognition {SHIPPED}",
+        5,
+        needs="fresh_photos",
+    ),
+    Step(
+        ledger.make,
+        RESULTS / "ledger.json",
+        "localisation recognition fresh_names variations movements optimal "
+        f"reproduce/results/bench {SHIPPED}",
+        8,
+    ),
+    Step(
+        partial(fresh_test_set.make, FRESH),
+        RESULTS / "fresh_test_set.json",
+        f"localisation {SHIPPED}",
+        25,
+        needs="fresh_photos",
+    ),
+    Step(
+        habits.make,
+        RESULTS / "whole_arm_habits.npz",
+        WHOLE_ARM,
+        1,
+    ),
+    Step(
+        experiment.make,
+        RESULTS / "whole_arm.json",
+        f"whole_arm_habits {WHOLE_ARM}",
+        8,
+    ),
+    Step(DERIVED, plant.FILE, needs="myo-sim"),
+    Step(BONES63, bones63.FILE, needs="myo-sim"),
+    Step(BONES, bone_meshes.FILE, needs="arm26's bone meshes, GEOMETRY=path/to/folder"),
+    Step(OPENSIM, RESULTS / "opensim.npz", needs="OpenSim in .bench, ARM26=path/to/arm26.osim"),
+)

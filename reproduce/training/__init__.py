@@ -1,0 +1,1 @@
+"""What trains: every array that the model reads is learnt here, from photos and movements."""

@@ -1,0 +1,181 @@
+"""How the ventral stream learns: from boxes near things, in ever new looks, by back-propagation.
+
+One network learns two things at once: whether a box shows a shuttlecock, and how far its edges are
+from the true ones. A box that strays far is a lesson in both.
+"""
+
+from contextlib import contextmanager
+from functools import partial
+
+import numpy as np
+import torch
+from joblib import Parallel, delayed
+from sklearn.linear_model import LogisticRegression
+from torch import nn
+from torch.nn import functional as F
+from torch.utils.data import DataLoader, Dataset
+
+from reproduce.training import pasting
+from reproduce.training.augmentation import look
+from reproduce.training.samples import APART, PASTED, pool, show
+from vmc_lib import loop, photos
+from vmc_lib.boxes import iou
+from vmc_lib.what.judge import weighed
+from vmc_lib.what.recogniser import NameClassifier
+from vmc_lib.what.stream import WIDTH, VentralStream, adapted
+
+torch.set_num_threads(1)
+
+MAPS = 32, 64, 128, 128  # of the four STAGES
+STEPS, BATCH, RATE = (9000, 4500), 64, (0.003, 0.0015)  # before and after mining
+HARD = 24  # windows of a photo that teach after mining: those most like a shuttlecock
+LAID = 200  # validation photographs on which a shuttlecock is laid
+NEAR, YES, NO = 0.3, 0.55, 0.4  # IoU from which edges are taught; of boxes called one, and not
+DROPPED = 0.3  # share of the last maps that the read-out does not see, while it learns
+SCALE, EDGES = 0.2, 2  # of the corrections that are read out; how much they count
+
+
+# ---------------------------------------------------------------- what is shown
+
+
+def examples(pool, count, rng):
+    """So many boxes in new looks: crops (n, 3, WIDTH, WIDTH), fits (n,), lacks (n, 4), float32."""
+    parts = zip(*(look(*pool.draw(rng), rng, pool.looks) for _ in range(count)), strict=True)
+    x, fit, lack = (np.array(part, np.float32) for part in parts)
+    return adapted(np.moveaxis(x, 3, 1)), fit, lack
+
+
+# ---------------------------------------------------------------- learning
+
+
+def blank(seed, maps=MAPS):
+    """A network that knows nothing: the stages of a `VentralStream`, and its read-out."""
+    layers, channels, places = [], 3, (WIDTH // 2 ** len(maps)) ** 2
+    with chance_of(seed):
+        for count in maps:
+            layers.append(nn.Conv2d(channels, count, 3, padding=1, bias=False))
+            layers += nn.BatchNorm2d(count), nn.ReLU(), nn.MaxPool2d(2)
+            channels = count
+        readout = nn.Flatten(), nn.Dropout(DROPPED), nn.Linear(places * channels, 5)
+    return nn.Sequential(*layers, *readout)
+
+
+@contextmanager
+def chance_of(seed):
+    """Within, torch's own random numbers are those of a seed; outside they are as they were."""
+    with torch.random.fork_rng():
+        torch.random.default_generator.manual_seed(seed)
+        yield
+
+
+def loss(told, fit, lack):
+    """How wrong the network is about names, and about the edges of boxes near a shuttlecock."""
+    clear, near = (fit > YES) | (fit < NO), fit > NEAR
+    name = F.binary_cross_entropy_with_logits(told[clear, 0], (fit[clear] > YES).float())
+    off = F.smooth_l1_loss(SCALE * told[near, 1:], lack[near], beta=0.05)
+    return name + EDGES * off if near.any() else name
+
+
+class Batches(Dataset):
+    """So many batches of `examples`, each of its own random numbers, drawn when asked for."""
+
+    def __init__(self, pool, seed, steps, batch=BATCH):
+        self.pool, self.seed, self.steps, self.batch = pool, seed, steps, batch
+
+    def __len__(self):
+        return self.steps
+
+    def __getitem__(self, i):
+        return examples(self.pool, self.batch, np.random.default_rng((self.seed, i)))
+
+
+def teach(network, batches, rate):
+    """Let every weight of a network learn at once, in place, from `Batches`.
+
+    By torch's AdamW, whose rate rises and falls once (OneCycleLR). While it learns, each map is
+    brought to one scale (batch normalisation).
+    """
+    network.to(memory_format=torch.channels_last)  # as the crops lie: twice as quick
+    learner = torch.optim.AdamW(network.parameters(), lr=rate, weight_decay=0.02)
+    rise_and_fall = torch.optim.lr_scheduler.OneCycleLR(learner, rate, len(batches), pct_start=0.15)
+    with chance_of(batches.seed):
+        for x, fit, lack in DataLoader(batches, batch_size=None, num_workers=1):  # drawn beside
+            error = loss(network(x), fit, lack)
+            learner.zero_grad()
+            error.backward()
+            learner.step()
+            rise_and_fall.step()
+
+
+def folded(network):
+    """The `VentralStream` of a network: what brought maps to one scale is in its filters now."""
+    filters, biases = [], []
+    for conv, norm in zip(network[:-3:4], network[1:-3:4], strict=True):
+        gain = norm.weight / torch.sqrt(norm.running_var + norm.eps)
+        filters.append((conv.weight * gain[:, None, None, None]).detach().numpy())
+        biases.append((norm.bias - norm.running_mean * gain).detach().numpy())
+    told, size = network[-1], torch.tensor([[1.0]] + 4 * [[SCALE]])
+    readout, offsets = (told.weight * size).detach(), (told.bias * size[:, 0]).detach()
+    return VentralStream(tuple(filters), tuple(biases), readout.numpy(), offsets.numpy())
+
+
+# ---------------------------------------------------------------- hard counter-examples
+
+
+def mined(stream, photo):
+    """What a photo shows, of its windows those that a stream most takes for shuttlecocks.
+
+    As `samples.by_kind` gives it. They are sought among its windows as they are, and as the stream
+    tightens them.
+    """
+    image, windows = photo["scene"]
+    some = np.vstack([windows, stream.tightened(image, windows)])
+    if "shuttlecock" in photo:
+        some = some[iou(some, photo["shuttlecock"][1]).max(1) < APART]
+    hardest = np.argsort(-stream.look(image, some)[0])[:HARD]
+    return photo | {"scene": (image, some[hardest])}
+
+
+# ---------------------------------------------------------------- what ships
+
+
+def photographs(folder=photos.FOLDER, steps=STEPS, maps=MAPS, everyday=None, pasted=PASTED):
+    """What `data/photographs.npz` holds: a `VentralStream`, and the judge of both pathways.
+
+    It learns, its mistakes are mined, and it learns on. `everyday` and `pasted` as for
+    `samples.show`.
+    """
+    lessons, network = show(np.random.default_rng(0), folder, everyday, pasted), blank(0, maps)
+    for part, (some, rate) in enumerate(zip(steps, RATE, strict=True)):
+        if part:
+            mine = delayed(partial(mined, folded(network)))
+            lessons = {level: Parallel()(map(mine, seen)) for level, seen in lessons.items()}
+        teach(network, Batches(pool(lessons), part, some), rate)
+    stream = folded(network)
+    linear = judge(stream, held_out(folder, min(LAID, pasted)))
+    learnt = {name: np.float16(part) for name, part in stream.arrays().items()}
+    return learnt | linear.arrays("judge")
+
+
+def held_out(folder=photos.FOLDER, laid=LAID):
+    """The validation photos of all levels, and `laid` real ones with held-out cut-outs on them."""
+    levels = {level: photos.load(level, "validation", folder) for level in photos.EVERY_LEVEL}
+    rng = np.random.default_rng(0)
+    pasted = pasting.pasted(levels[photos.REAL_LEVEL], "validation", laid, rng)
+    return [shot for shots in (*levels.values(), pasted) for shot in shots]
+
+
+def judge(stream, shots):
+    """Of boxes that the object detector finds in photos: the chance that one is a shuttlecock's.
+
+    Logistic regression on what `weighed` gives, as a `NameClassifier`; right is an IoU above
+    0.5. Renders teach with the photographs, for these alone are too few.
+    """
+    detector, x, y = loop.lenient_detector(photos.REAL_LEVEL), [], []
+    for shot in shots:
+        found = detector.detect(shot.image)
+        boxes, told = weighed(found, stream, shot.image)
+        x.append(told)
+        y.append(iou(boxes, photos.all_of(shot, "shuttlecock")).max(1, initial=0) > 0.5)
+    logistic = LogisticRegression(C=np.inf).fit(np.vstack(x), np.hstack(y))  # three numbers
+    return NameClassifier(logistic.coef_[0], float(logistic.intercept_[0]))

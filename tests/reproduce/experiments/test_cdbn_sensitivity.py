@@ -1,0 +1,32 @@
+import numpy as np
+
+from reproduce.experiments import cdbn_sensitivity
+from reproduce.experiments.gabor import best_gabor
+from vmc_lib import photos
+from vmc_lib.what.cdbn import CDBN, N_W
+from vmc_lib.what.recogniser import READ_OUTS
+
+
+def test_every_variation_was_examined_on_every_photo():
+    found = cdbn_sensitivity.load()
+    assert len({seed for n_w, seed in found if n_w == N_W}) >= 3
+    assert len({n_w for n_w, _ in found}) >= 3
+    boxes = [2 * len(photos.load("rig", split)) for split in cdbn_sensitivity.SPLITS]
+    for (n_w, _), (filters, counts) in found.items():
+        assert filters.shape == (10, n_w, n_w)
+        assert counts.shape == (len(photos.LEVELS), len(READ_OUTS), len(cdbn_sensitivity.SPLITS), 4)
+        assert (counts.sum(3) == boxes).all()
+
+
+def test_the_network_that_ships_is_the_first_variation():
+    filters, _ = cdbn_sensitivity.load()[N_W, 0]
+    shipped = CDBN.load().first.W[:, 0]
+    likeness = [
+        np.corrcoef(a.ravel(), b.ravel())[0, 1] for a, b in zip(filters, shipped, strict=True)
+    ]
+    assert min(likeness) > 0.9  # another machine may round otherwise
+
+
+def test_every_width_finds_edges():
+    for variation, (filters, _) in cdbn_sensitivity.load().items():
+        assert np.median([best_gabor(w)[1] for w in filters]) > 0.75, variation

@@ -1,0 +1,116 @@
+"""The loop on trial: what went wrong is counted where it went wrong first."""
+
+import numpy as np
+import pytest
+
+from reproduce import results
+from reproduce.experiments import loop_evaluation
+from reproduce.pipeline import smoke_test
+from vmc_lib import NoReach, loop, photos
+
+
+@pytest.fixture(scope="module")
+def photo():
+    return photos.load("rig", "validation")[0]
+
+
+@pytest.fixture(scope="module")
+def sight(photo):
+    return loop.see(loop.VisuomotorModel.load("rig"), photo.image)
+
+
+def test_scores_count_what_went_wrong(photo, sight):
+    missed = loop_evaluation.score(photo, sight, None, {})
+    assert missed["found"]
+    assert missed["named"]
+    assert not missed["cup"]
+    assert np.isnan([missed[key] for key in ("target", "planned", *loop.RULES)]).all()
+    arrived = missed | dict.fromkeys(("target", "planned", *loop.RULES), 0.004)
+    both = {key: np.array([missed[key], arrived[key]]) for key in missed}
+    summary = loop_evaluation.summary(both)
+    assert summary["arrived, own"] == summary["arrived, published"] == summary["close, own"] == 0.5
+    assert summary["planned"] == 0.004
+    assert list(loop_evaluation.first_failure(both)) == ["place", ""]
+
+
+def test_a_right_place_that_cannot_be_reached_for_is_no_wrong_place(photo, sight):
+    scores = loop_evaluation.score(photo, sight, photo.target, {})
+    assert scores["target"] == 0
+    assert np.isnan(scores["own"])
+    several = {key: np.array([value]) for key, value in scores.items()}
+    assert list(loop_evaluation.first_failure(several)) == ["movement"]
+
+
+def test_the_cup_is_told_from_the_shuttlecock(photo, sight):
+    cup = photo.boxes["cup"]
+    detections = type(sight.detections)(**{**vars(sight.detections), "boxes": cup[None]})
+    fooled = loop_evaluation.score(photo, loop.Sight(detections, np.array([0.9])), None, {})
+    assert fooled["cup"]
+    assert not fooled["named"]
+    assert not fooled["found"]
+
+
+def test_a_failure_is_the_first_stage_that_went_wrong():
+    fine = {"proposed": True, "found": True, "named": True, "target": 0.002, "own": 0.05}
+    wrong = {"target": 0.02, "named": False, "found": False, "proposed": False}
+    cases, now = [fine], fine
+    for key, value in wrong.items():
+        cases.append(now := now | {key: value})
+    scores = {key: np.array([case[key] for case in cases]) for key in fine}
+    assert list(loop_evaluation.first_failure(scores)) == list(loop_evaluation.FAILURE_STAGES[::-1])
+
+
+def test_a_lucky_reach_is_no_failure():
+    lucky = {"proposed": False, "found": False, "named": True, "target": 0.004, "own": 0.006}
+    assert loop_evaluation.first_failure(
+        {key: np.array([value]) for key, value in lucky.items()}
+    ) == [""]
+
+
+def test_what_a_lesion_leaves(photo, sight):
+    """Without names the best-scored box, without a place the old one, without calibration habit."""
+    model = loop.VisuomotorModel.load("rig")
+    reaches = {}
+    for how in loop_evaluation.LESIONS:
+        reaches[how] = loop_evaluation.lesioned(model, photo, sight.box, how)
+    old = photos.load("rig", "train")[-1].target
+    np.testing.assert_array_equal(reaches["dorsal"].target, old)
+    for how in ("none", "ventral", "cerebellum"):
+        np.testing.assert_array_equal(reaches[how].target, reaches["none"].target)
+    uncorrected = reaches["cerebellum"]
+    assert uncorrected.calibrated is uncorrected.planned
+    assert reaches["none"].calibrated is not reaches["none"].planned
+    np.testing.assert_array_equal(
+        loop_evaluation.gone_for(sight, "ventral"), sight.detections.boxes[0]
+    )
+    np.testing.assert_array_equal(loop_evaluation.gone_for(sight, "dorsal"), sight.box)
+    blind = loop.Sight(sight.detections, 0 * sight.probability)
+    assert loop_evaluation.gone_for(blind, "none") is None
+    assert loop_evaluation.gone_for(blind, "ventral") is not None
+    with pytest.raises(NoReach):
+        loop_evaluation.lesioned(model, photo, None, "none")
+
+
+def test_what_a_box_holds(photo):
+    for name, box in photo.boxes.items():
+        assert loop_evaluation.held(photo, box) == name
+    assert loop_evaluation.held(photo, np.array([0.0, 0, 5, 5])) == "neither"
+    assert loop_evaluation.held(photo, None) == "nothing"
+
+
+def test_the_model_of_photographs_is_tried_on_renders_too(tmp_path):
+    smoke_test.copy_photos(tmp_path, {"test": (0, 1)})
+    few = loop_evaluation.generalist(["varied"], tmp_path)["varied"]
+    stored = results.records("generalist")
+    assert few.keys() == stored["varied"].keys()
+    assert list(stored) == list(photos.LEVELS)
+    assert few["named"] == few["arrived, own"] == 1
+    assert few["own"] < few["planned"]
+
+
+def test_lesions_that_shipped_can_be_measured_again():
+    model, shipped = loop.VisuomotorModel.load("rig"), results.records("lesions")["rig"]
+    once = loop_evaluation._lesioned(model, photos.load("rig", "test")[0])
+    for how, left in once.items():
+        assert left["object"] == shipped[how]["object"][0]
+        assert left["missed"] == pytest.approx(shipped[how]["missed"][0], abs=0.2)

@@ -1,0 +1,54 @@
+"""The arm that wavers: how its noise is, how strong, and that what ships is what is measured."""
+
+import numpy as np
+import pytest
+
+from reproduce.experiments import motor_noise
+from reproduce.peers import minimum_variance
+from vmc_lib.motor.planning import draw_targets, exact_weights, plan
+from vmc_lib.motor.templates import load, reach
+
+
+def test_the_noise_is_the_pools_own_smooth_and_a_share_of_the_command():
+    told = np.full((300, 1000, 6), 0.5) * [1, 1, 1, 1, 0.5, 0]
+    noise = motor_noise.wavering(told, 0.1, np.random.default_rng(0)) - told
+    np.testing.assert_allclose(noise.std(axis=(0, 1))[:5], [0.05] * 4 + [0.025], rtol=0.05)
+    assert not noise[..., 5].any()
+    together = np.corrcoef(noise.reshape(-1, 6)[::50, :5].T)
+    assert np.abs(together - np.eye(5)).max() < 0.1
+    assert np.corrcoef(noise[:, 500, 0], noise[:, 510, 0])[0, 1] > 0.95  # 10 ms later
+    assert abs(np.corrcoef(noise[:, 300, 0], noise[:, 800, 0])[0, 1]) < 0.2
+
+
+def test_its_strength_is_told_by_where_the_hand_ends():
+    """Other targets than those by which it was set, and other noise; one share of it ships."""
+    mm = minimum_variance.LEVEL
+    targets = draw_targets(load(), 200, np.random.default_rng(1))
+    told = np.tile(plan(targets, load(), exact_weights).excitations, (5, 1, 1, 1))
+    share = motor_noise.share_for(mm)
+    ends = reach(motor_noise.wavering(told, share, np.random.default_rng(2))).reached
+    assert 1000 * motor_noise.deviation(ends) == pytest.approx(mm, rel=0.15)
+    assert share == pytest.approx(minimum_variance.share(), rel=1e-6)
+
+
+def test_a_noise_that_nobody_could_have_is_refused():
+    with pytest.raises(ValueError, match="500 mm"):
+        motor_noise.share_for(500)
+
+
+def test_what_ships_is_what_is_measured():
+    """One seed, fewer movements: the same numbers again."""
+    kept = motor_noise.measured()
+    assert list(kept) == [f"{mm} mm" for mm in motor_noise.LEVELS]
+    name = "granule cells"
+    found = motor_noise.learned(5, 0, {name: motor_noise.LEARNERS[name]}, sizes=(25, 50))
+    for key, values in found.items():
+        shipped = kept["5 mm"][key][0]
+        np.testing.assert_allclose(values, shipped[:2] if shipped.ndim else shipped, atol=2e-4)
+
+
+def test_slower_learning_ends_nearer_where_noise_is_strong():
+    strong = {k: v.mean(axis=0) for k, v in motor_noise.measured()["10 mm"].items()}
+    last = [strong[f"delta rule, rate {rate}, held-out"][-1] for rate in (0.02, 0.1, 0.4)]
+    assert last == sorted(last)
+    assert strong["a larger ridge, held-out"][-1] < strong["granule cells, held-out"][-1]

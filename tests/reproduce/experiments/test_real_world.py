@@ -1,0 +1,54 @@
+import pytest
+
+from reproduce import results
+from reproduce.experiments import real_world
+from vmc_lib import loop, photos
+from vmc_lib.photos import RealPhoto
+
+
+@pytest.mark.parametrize("split", real_world.SPLITS)
+@pytest.mark.parametrize("model", real_world.MODELS)
+def test_what_is_stored_is_of_every_photo(model, split):
+    found = real_world.load(model, split)
+    shots = photos.load("real", split)
+    assert list(found) == [photo.name for photo in shots]
+    for photo, seen in zip(shots, found.values(), strict=True):
+        assert seen["holds"] == next(iter(photo.boxes), "neither")
+    for question, (count, of) in real_world.answers(found).items():
+        kind = real_world.QUESTIONS[question][0]
+        assert 0 <= count <= of == [seen["holds"] for seen in found.values()].count(kind)
+
+
+@pytest.mark.parametrize("model", real_world.MODELS)
+def test_what_is_stored_is_what_the_model_makes_of_a_photo(model):
+    stored = real_world.load(model, "validation")
+    first, *_, last = photos.load("real", "validation")  # with a shuttlecock, and with neither
+    for photo in (first, last):
+        now = real_world.examine(loop.VisuomotorModel.load(model), photo)
+        then = stored[photo.name]
+        assert now.pop("holds") == then["holds"]
+        assert now.pop("chosen") == (then["chosen"] and pytest.approx(then["chosen"], abs=3))
+        assert now == pytest.approx({key: then[key] for key in now}, abs=0.02)
+
+
+def test_the_box_that_is_chosen_counts_for_any_of_the_shuttlecocks():
+    shot = photos.load("real", "train")[0]  # two shuttlecocks
+    swapped = {"shuttlecock": shot.more[0]}
+    other = RealPhoto(shot.name, shot.file, swapped, shot.boxes["shuttlecock"][None], [], "")
+    model = loop.VisuomotorModel.load("varied")
+    one, two = (real_world.examine(model, photo) for photo in (shot, other))
+    assert one["fit"] == two["fit"]
+    assert one["kept"] != two["kept"]
+
+
+def test_a_share_is_told_with_its_interval():
+    assert real_world.told(1, 17) == "1 of 17 (1% to 27%)"
+
+
+@pytest.mark.parametrize("model", real_world.MODELS)
+def test_another_renderers_scenes_all_show_a_shuttlecock(model):
+    found = results.records("elsewhere")[model]
+    assert len(found) == 160
+    counts = real_world.answers(found)
+    assert {of for _, of in counts.values()} == {160}
+    assert {real_world.QUESTIONS[question][0] for question in counts} == {"shuttlecock"}

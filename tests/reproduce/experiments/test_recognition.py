@@ -1,0 +1,54 @@
+import numpy as np
+import pytest
+import torch
+
+from reproduce.experiments.recognition import (
+    METHODS,
+    load,
+    named_right,
+    precision_recall,
+    probabilities,
+    tally,
+    verdicts,
+)
+from reproduce.peers.hmax import c1, draw_prototypes, hmax, s1
+from vmc_lib import photos
+
+
+def test_counts_by_hand():
+    counts = tally([0.9, 0.8, 0.2, 0.6, 0.1], np.array([True, True, True, False, False]))
+    assert counts == (2, 1, 1, 1)
+    assert precision_recall(counts) == pytest.approx((2 / 3, 2 / 3))
+    assert np.isnan(precision_recall((0, 0, 3, 1))[0])
+
+
+def test_what_ships_is_what_the_shipped_weights_say():
+    learnt, linear = load()
+    found, truth = probabilities("rig", photos.load("rig", "validation"), learnt, linear)
+    kept, kept_truth = verdicts("rig", "validation")
+    assert (truth == kept_truth).all()
+    for method in METHODS:
+        assert found[method] == pytest.approx(kept[method], abs=1e-3)
+
+
+def test_every_method_was_put_to_both_things_in_a_hundred_fresh_photos_a_level():
+    assert {len(right) for right in named_right("fresh").values()} == {2 * 100 * len(photos.LEVELS)}
+
+
+def test_s1_answers_to_direction_not_contrast():
+    stripes = torch.cos(2 * torch.pi * torch.arange(60) / 5.6).expand(1, 1, 60, 60)
+    answers = s1(stripes, 11)[0, :, 20:40, 20:40].amax((1, 2))
+    assert answers.argmax() == 0
+    assert answers[0] > 2 * answers[2]
+    assert s1(10 * stripes, 11)[0, 0, 20:40, 20:40].amax() == pytest.approx(
+        float(answers[0]), rel=0.05
+    )
+
+
+def test_c2_is_one_where_the_prototype_came_from_and_forgives_a_shift():
+    crops = np.float32(np.random.default_rng(0).random((2, 200, 200)))
+    prototypes = draw_prototypes(crops[:1], 5, np.random.default_rng(0))
+    assert prototypes.shape == (5, 4, 4, 4)
+    assert hmax(crops[:1], prototypes)[0] == pytest.approx(1, abs=1e-3)
+    assert (hmax(crops[1:], prototypes) < 0.99).any()
+    assert [maps.shape[1] for maps in c1(crops)] == [4] * 4

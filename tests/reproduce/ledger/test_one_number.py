@@ -1,0 +1,100 @@
+"""A claim has one number: what a chapter sets beside the paper's is what the ledger sets there."""
+
+import ast
+from functools import cache
+from pathlib import Path
+
+import nbformat
+import pytest
+
+from reproduce import ledger
+from reproduce.experiments import localisation
+from reproduce.experiments.calibration import SCENARIOS, measured
+
+BOOK = Path(ledger.__file__).parents[2] / "book"
+CHAPTERS = sorted(BOOK.glob("[0-9]*.ipynb"))
+CLAIMS = {"planned_error_ratio", "calibrated_error_ratio", "MEAN_ERROR"}
+CLAIMS |= {"TABLE_1", "TABLE_2", "TABLE_3"}
+SHARED = {"value", "measured", "trainings", "table_2", "spread", "verdicts"}
+PAPER_ALONE = {  # cells that show what the paper prints, and no number of ours beside it
+    "d68265bb",  # the counts behind Table I's percentages
+    "printed-sums",  # what Tables IV to VI add up to
+    "7c16b207",  # a line in a figure
+}
+
+
+@cache
+def cells(chapter):
+    """The code cells of a chapter, by id: what each names, calls and defines."""
+    book = nbformat.read(chapter, as_version=4)
+    return {c.id: Names(ast.parse(c.source)) for c in book.cells if c.cell_type == "code"}
+
+
+class Names:
+    """What a piece of code mentions, and the names that it gives a value."""
+
+    def __init__(self, tree):
+        nodes = list(ast.walk(tree))
+        names = [n for n in nodes if isinstance(n, ast.Name)]
+        attributes = {n.attr for n in nodes if isinstance(n, ast.Attribute)}
+        self.calls = {
+            getattr(n.func, "attr", getattr(n.func, "id", None)): n
+            for n in nodes
+            if isinstance(n, ast.Call)
+        }
+        self.uses = attributes | {n.id for n in names}
+        self.gives = {n.id for n in names if isinstance(n.ctx, ast.Store)}
+        self.gives |= {n.name for n in nodes if isinstance(n, ast.FunctionDef)}
+        self.values = [
+            [a.value for a in n.args]
+            for n in nodes
+            if isinstance(n, ast.Call)
+            and ast.unparse(n.func) == "ledger.value"
+            and all(isinstance(a, ast.Constant) for a in n.args)
+        ]
+
+
+def rests_on(chapter, cell):
+    """Whether a cell, or one that gives it a name, calls what the ledger calls."""
+    known, waiting, seen = cells(chapter), [cell], set()
+    while waiting:
+        if SHARED & set(known[one := waiting.pop()].calls):
+            return True
+        seen.add(one)
+        waiting += [k for k, c in known.items() if c.gives & known[one].uses and k not in seen]
+    return False
+
+
+@pytest.mark.parametrize("chapter", CHAPTERS, ids=lambda chapter: chapter.stem)
+def test_beside_a_claim_stands_the_ledgers_number(chapter):
+    for name, cell in cells(chapter).items():
+        if CLAIMS & cell.uses and name not in PAPER_ALONE:
+            assert rests_on(chapter, name), f"{chapter.stem}, {name}: ask `ledger.value`"
+
+
+@pytest.mark.parametrize("chapter", CHAPTERS, ids=lambda chapter: chapter.stem)
+def test_what_a_chapter_asks_the_ledger_for_is_there(chapter):
+    for cell in cells(chapter).values():
+        for asked in cell.values:
+            ledger.value(*asked)
+
+
+def test_the_shared_functions_give_the_ledgers_numbers():
+    here = SCENARIOS[0]
+    pairs = {
+        ("Table IV", "planned error over reach"): "planned / reach",
+        ("Table V", f"error after over planned, {here}"): "off-line, published",
+        ("Ours, Table V", "error over planned, own off-line, 2 trials"): "own off-line, 2 trials",
+    }
+    for asked, entry in pairs.items():
+        assert ledger.value(*asked).obtained == pytest.approx(measured()[here][entry].mean())
+    for kernel, key in (("linear", "linear"), ("RBF", "rbf")):
+        ours = localisation.trainings("rig", "test")[key].mean(axis=0)
+        for k, measure in enumerate(("precision", "recall")):
+            assert ledger.value("Table I", f"{kernel}: {measure}").obtained == pytest.approx(
+                ours[k]
+            )
+    for name, row in (("published", "Table II"), ("improved", "Ours, Table II")):
+        middle, _ = localisation.spread("rig", name)
+        obtained = ledger.value(row, f"{name}, IoU: recall").obtained
+        assert obtained == pytest.approx(middle[1])

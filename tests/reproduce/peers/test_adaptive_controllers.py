@@ -1,0 +1,89 @@
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from reproduce.peers.adaptive_controllers import (
+    BY_HINDSIGHT,
+    LEARNERS,
+    MOVEMENTS,
+    DistalTeacher,
+    FeedbackError,
+    LocalCells,
+    compare,
+    measured,
+    numbers,
+)
+from vmc_lib.cerebellum.online import AimCorrection, GranuleCells, mossy_fibres
+from vmc_lib.motor.planning import draw_targets, plan
+from vmc_lib.motor.templates import load
+
+
+@pytest.fixture(scope="module")
+def some():
+    return plan(draw_targets(load(), 20, np.random.default_rng(7)), load())
+
+
+@pytest.mark.parametrize("name", LEARNERS)
+def test_every_peer_learns_something(name, some):
+    kind, cells = LEARNERS[name]
+    pupil = kind(load(), cells())
+    before = np.linalg.norm(pupil.correct(some).reached() - some.target, axis=-1).mean()
+    pupil.practise(some)
+    after = np.linalg.norm(pupil.correct(some).reached() - some.target, axis=-1).mean()
+    assert after < 0.9 * before
+
+
+def test_the_delta_rule_moves_only_by_the_error_and_the_lines_own_activity():
+    x, y = np.random.default_rng(0).uniform(size=(2, 3, 2))
+    cells = LocalCells(width=0.3, cells=50, rate=0.1).fit(x, np.zeros_like(y))
+    cells.partial_fit(x[:1], y[:1])
+    active = cells.excite(x[:1])
+    np.testing.assert_allclose(cells.purkinje_, 0.1 * active.T @ y[:1])
+    again = LocalCells(width=0.3, cells=50, rate=0.1).fit(x, y)
+    for _ in range(3000):
+        again.partial_fit(x, y)
+    np.testing.assert_allclose(again.predict(x), y, atol=1e-3)
+
+
+def test_hindsight_and_feedback_error_say_the_same_of_two_places(some):
+    """How far beyond to aim is the same number; they differ in where it is held for right."""
+    aim, reached = some.target + 0.01, some.target - [0.02, 0.0]
+    (at_end, then), (at_target, asked) = (
+        kind(load(), LocalCells()).lessons(some, aim, reached)
+        for kind in (AimCorrection, FeedbackError)
+    )
+    np.testing.assert_allclose(then, asked)
+    np.testing.assert_allclose(at_end[:, :2], reached)
+    np.testing.assert_allclose(at_target, mossy_fibres(some))
+
+
+def test_a_distal_teacher_sends_the_error_back_through_its_models_slopes(some):
+    """The model's arm goes twice as far as it aims to the side, and turns up into side as well."""
+    turn = np.array([[1.0, 0.0], [0.5, 0.0]])
+    pupil = DistalTeacher(load(), LocalCells())
+    pupil.model = SimpleNamespace(partial_fit=lambda x, y: None, predict=lambda x: x[:, :2] @ turn)
+    reached = some.target - [0.02, 0.01]
+    inputs, change = pupil.lessons(some, some.target, reached)
+    np.testing.assert_allclose(change, np.tile([0.04, 0.02], (len(reached), 1)), atol=1e-9)
+    np.testing.assert_allclose(inputs, mossy_fibres(some))
+
+
+def test_a_peer_remembers_its_lessons_and_ours_its_arrays(some):
+    x, y = mossy_fibres(some), some.target
+    linear, ours = BY_HINDSIGHT["linear rule"]().fit(x, y), GranuleCells(cells=30).fit(x, y)
+    assert numbers(SimpleNamespace(cells=linear)) == x.size + y.size
+    assert numbers(SimpleNamespace(cells=ours)) == 30 * (4 + 30 + 2 + 2)
+    both = SimpleNamespace(cells=LocalCells(cells=30).fit(x, y), model=ours)  # a distal teacher
+    assert numbers(both) == 30 * (4 + 2) + 30 * (4 + 30 + 2 + 2)
+
+
+@pytest.mark.parametrize("name", ["linear rule", "feedback error"])
+def test_what_ships_is_what_is_measured(name):
+    """One seed, fewer movements: the same numbers again, on the calm arm and on the noisy one."""
+    kept = measured()
+    assert list(kept) == list(LEARNERS)
+    assert all(rows["held-out"].shape == (6, len(MOVEMENTS)) for rows in kept.values())
+    found = compare(*LEARNERS[name], seed=0, movements=MOVEMENTS[:2])
+    for key in ("in-sample", "held-out", "held-out, noisy arm"):
+        np.testing.assert_allclose(found[key], kept[name][key][0, :2], atol=2e-4)

@@ -1,0 +1,69 @@
+"""Minimum variance: there, at rest, steadier than its rivals; slopes are what a nudge does."""
+
+import numpy as np
+import pytest
+
+from reproduce.experiments.motor_noise import wavering
+from reproduce.peers import minimum_variance, optimal_control
+from vmc_lib.motor import templates
+from vmc_lib.motor.inverse_dynamics import smooth
+
+
+def test_every_optimum_is_at_its_target_and_stays():
+    motion = templates.reach(minimum_variance.shipped())
+    reached = motion.hand[:, [700, 1000], :2]
+    assert (
+        np.linalg.norm(
+            reached - optimal_control.TARGETS[minimum_variance.NEW][:, None], axis=-1
+        ).max()
+        < 2e-3
+    )
+    assert np.abs(motion.velocity[..., -1, :]).max() < 0.05
+
+
+def test_no_template_lies_on_the_targets():
+    away = optimal_control.TARGETS[optimal_control.INNER][:, None] - templates.load().points
+    apart = np.linalg.norm(away, axis=-1).min(axis=1) > 0.01
+    np.testing.assert_array_equal(optimal_control.INNER[apart], minimum_variance.NEW)
+
+
+def test_it_is_the_steadiest_of_all():
+    found = minimum_variance.compared(np.random.default_rng(1), repeats=40)
+    scatter = {name: rows["scatter"].mean() for name, rows in found.items()}
+    assert min(scatter, key=scatter.get) == "least variance"
+    assert all(len(values) == 5 for rows in found.values() for values in rows.values())
+
+
+def test_it_is_steadier_than_the_cheapest_at_every_target():
+    cheapest, steadiest = (optimal_control.arrays(name)["knots"] for name in ("optimal", "steady"))
+    for cheap, steady_one in zip(cheapest[minimum_variance.NEW], steadiest, strict=True):
+        assert minimum_variance.variance(steady_one.astype(float)) < minimum_variance.variance(
+            cheap.astype(float)
+        )
+
+
+def test_the_variance_is_that_of_many_reaches():
+    """To first order, and at the moments that count."""
+    x = optimal_control.arrays("optimal")["knots"][12].astype(float)
+    told = np.tile(optimal_control.excited(x), (400, 1, 1))
+    many = templates.reach(wavering(told, 0.04, np.random.default_rng(0))).hand[
+        :, minimum_variance.HOLD, :2
+    ]
+    found = 100 * many.std(axis=0, ddof=1)
+    assert np.sqrt(np.square(found).mean()) / 0.04 == pytest.approx(
+        np.sqrt(minimum_variance.variance(x)), rel=0.1
+    )
+
+
+def test_slopes_are_what_a_nudge_does():
+    rng = np.random.default_rng(0)
+    x = optimal_control.arrays("optimal")["knots"][12].astype(float) + 0.02
+    step = 1e-3 * rng.normal(size=x.size)
+    change = minimum_variance.variance(x + step) - minimum_variance.variance(x - step)
+    assert 2 * minimum_variance.variance_slope(x) @ step == pytest.approx(change, rel=0.05)
+
+
+def test_the_least_jerk_is_one():
+    way = smooth(np.arange(1001) / 700)[:, None] * [0.1, 0.2]
+    assert minimum_variance.jerk(way) == pytest.approx(1)
+    assert minimum_variance.jerk(way[None] + 0.001 * np.sin(np.arange(1001) / 20)[:, None]) > 1.5

@@ -1,0 +1,71 @@
+"""Optimal feedback: the plan itself while nothing disturbs it; the best gains; late care."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from reproduce.experiments import motor_noise
+from reproduce.peers import minimum_variance, optimal_control
+from reproduce.peers import optimal_feedback as feedback
+from vmc_lib.motor.templates import reach
+
+TOLD = optimal_control.shipped()[minimum_variance.NEW]
+
+
+@cache
+def law():
+    return feedback.law(TOLD)
+
+
+@cache
+def noise():
+    shape = (30, *TOLD.shape)
+    return motor_noise.waver(shape, minimum_variance.share(), np.random.default_rng(2))
+
+
+def test_undisturbed_it_is_the_plan():
+    path, told = feedback.move(law(), np.ones_like(TOLD))
+    np.testing.assert_allclose(path, reach(TOLD).hand[:, :: feedback.TICK, :2], atol=1e-9)
+    np.testing.assert_allclose(told, TOLD, atol=1e-9)
+
+
+def test_slopes_are_what_a_nudge_does():
+    rng = np.random.default_rng(0)
+    state, told = law().meant[0, 40], np.full((feedback.TICK, 6), 0.3)
+    state = np.concatenate([state[:4], np.full(6, 0.2)])  # away from where Eq. 9 has its kink
+    by, more = 1e-4 * rng.normal(size=10), 1e-4 * rng.normal(size=6)
+    A, B = feedback.slopes(state, told)
+    moved = feedback.advanced(state + by, told + more) - feedback.advanced(state - by, told - more)
+    np.testing.assert_allclose(moved / 2, A @ by + B @ more, rtol=1e-3, atol=1e-9)
+
+
+@pytest.mark.parametrize("scale", [0.7, 1.3])
+def test_no_larger_or_smaller_gain_costs_less(scale):
+    """In the linear arm for which they are best, from a deviation at the start."""
+
+    def cost(gains):
+        off, paid = np.full(10, 0.01), 0.0
+        for t, gain in enumerate(gains):
+            change = -gain @ off
+            paid += np.square(change / feedback.CHANGE).sum()
+            off = law().A[0, t] @ off + law().B[0, t] @ change
+            if t + 1 >= feedback.MOVING // feedback.TICK:
+                meant = law().meant[0, t + 1]
+                ends = feedback.seen(meant + 1e-4 * off) - feedback.seen(meant - 1e-4 * off)
+                paid += np.square(ends / 2e-4).sum()
+        return paid
+
+    assert cost(law().gains[0]) < cost(scale * law().gains[0])
+
+
+def test_it_corrects_what_matters_to_the_task():
+    """Steadier at the end than the same commands unwatched; half-way it leaves most as it is."""
+    blind = np.array(
+        [reach(np.clip(TOLD * w, 0, 1)).hand[:, :: feedback.TICK, :2] for w in noise()]
+    )
+    now, late = (feedback.move(law(), noise(), late)[0] for late in (0, 12))  # ticks: 12, as sight
+    alone, watched, foreseen = (feedback.scatter(x).mean(axis=0) for x in (blind, now, late))
+    assert watched[-1] < 0.2 * alone[-1]
+    assert watched[50] > 0.5 * alone[50]
+    assert watched[-1] < foreseen[-1] < alone[-1]

@@ -1,0 +1,124 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from reproduce.training.detectors import (
+    best_threshold,
+    candidates,
+    examples,
+    fit_detector,
+    training_examples,
+    training_images,
+    tuned,
+)
+from vmc_lib import photos
+from vmc_lib.boxes import iou
+from vmc_lib.data import arrays
+from vmc_lib.where.detector import ObjectDetector
+from vmc_lib.where.recipes import IMPROVED, PUBLISHED, RECIPES
+from vmc_lib.where.selective_search import propose
+
+
+@pytest.fixture(scope="module")
+def photo():
+    return photos.load("rig", "validation")[0]
+
+
+@pytest.mark.parametrize("strategy", ["single", "finer"])
+def test_candidates_that_ship_are_those_of_the_search(photo, strategy):
+    """Most of them: another processor may round a pixel differently."""
+    known, found = candidates(photo, strategy), propose(photo.image, strategy)
+    assert arrays("candidates")[f"{photo.name}/{strategy}"].dtype == np.int16
+    shipped, again = ({tuple(box) for box in boxes} for boxes in (known, found))
+    assert len(shipped & again) > 0.9 * len(shipped | again)
+    assert (candidates(replace(photo, name="mine"), strategy) == found).all()
+
+
+def test_examples_are_clear_cases(photo):
+    x, y = examples([photo])
+    overlap = iou(candidates(photo), list(photo.boxes.values())).max(1)
+    assert x.shape == (len(y), 768)
+    assert y.sum() == (overlap >= 0.8).sum() > 0
+    assert (~y).sum() == (overlap <= 0.5).sum() > 50
+
+
+def test_what_is_learnt_from(photo):
+    """Every example, so many shaken boxes an object, and no more counter-examples than asked."""
+    recipe = replace(PUBLISHED, jittered=5, mirror=True)
+    seen = training_images([photo] * 30, recipe)
+    x, y = training_examples(seen, recipe, np.random.default_rng(0))
+    good = (seen[0].overlap >= 0.8).sum()
+    assert x.shape == (len(y), 768)
+    assert y.sum() == 60 * (good + 10)
+    assert (~y).sum() == 60 * min(79, (seen[0].overlap <= 0.5).sum())
+
+
+def test_a_mirrored_image_is_as_hard(photo):
+    seen = training_images([photo], replace(PUBLISHED, mirror=True))
+    assert len(seen) == 2
+    assert (seen[0].overlap == seen[1].overlap).all()
+    assert (seen[1].pixels[:, 0] == photo.image[:, -1]).all()
+    again = seen[1].mirrored()
+    assert (again.truth == seen[0].truth).all()
+    assert (again.candidates == seen[0].candidates).all()
+
+
+@pytest.mark.parametrize("name", ["published", "context"])
+def test_training_again_gives_the_detector_that_ships(name):
+    few = photos.load("rig", "train")
+    trained, shipped = (
+        fit_detector(few, RECIPES[name]),
+        ObjectDetector.load("rig", name),
+    )
+    assert trained.svm.support == pytest.approx(shipped.svm.support, abs=1e-3)
+    assert trained.svm.bias == pytest.approx(shipped.svm.bias, abs=1e-3)
+
+
+def test_the_same_seed_learns_the_same():
+    small = replace(IMPROVED, strategy="single", boxes=200)
+    few = photos.load("rig", "train")[:4]
+    once, again, other = (
+        fit_detector(few, small, np.random.default_rng(seed)).parts() for seed in (1, 1, 2)
+    )
+    for part, value in once.items():
+        np.testing.assert_array_equal(value, again[part])
+    for part in ("regression 0/weights", "iou predictor/weights"):
+        assert not np.array_equal(once[part], other[part])
+
+
+def test_tuning_moves_the_threshold_alone(photo):
+    detector = ObjectDetector.load("rig", "gradients")
+    again = tuned(detector, [photo])
+    assert replace(again, threshold=detector.threshold) == detector
+    published = ObjectDetector.load("rig", "published")
+    assert tuned(published, [photo]) is published
+    assert published.threshold == 0
+
+
+def test_the_best_threshold_by_hand():
+    scores, right = np.array([0.0, 3, 1, 2]), np.array([True, True, False, True])
+    assert best_threshold(scores, right, 2) == 1.5  # 2 of 2, none wrong
+    assert best_threshold(scores, right, 9) == -np.inf  # the more the better
+    with pytest.raises(ValueError, match="found"):
+        best_threshold(np.empty(0), np.empty(0, bool), 2)
+
+
+def test_equal_scores_are_taken_together():
+    scores, right = np.array([2.0, 2, 1]), np.array([True, True, False])
+    assert best_threshold(scores, right, 2) == 1.5
+    assert best_threshold(scores, right[::-1], 2) == -np.inf
+
+
+@given(st.lists(st.tuples(st.integers(-9, 9), st.booleans()), min_size=1))
+def test_no_threshold_is_better_than_the_best(pairs):
+    scores, right = map(np.array, zip(*pairs, strict=True))
+
+    def f1(threshold):
+        taken = scores > threshold
+        return 2 * (right & taken).sum() / (taken.sum() + right.sum() + 1)
+
+    best = best_threshold(scores.astype(float), right, right.sum() + 1)
+    assert f1(best) >= max(f1(s - 0.5) for s in scores) - 1e-9

@@ -1,0 +1,68 @@
+"""Shuttlecocks laid on photographs: they lie in their boxes, and nothing else changes."""
+
+import numpy as np
+import pytest
+
+from reproduce.training.pasting import HELD_OUT, paste, pasted
+from vmc_lib import cutouts, photos
+from vmc_lib.boxes import area
+
+GROUND = next(shot for shot in photos.load("real", "train") if not shot.boxes)
+
+
+def test_what_is_stored_is_read(tmp_path):
+    rng = np.random.default_rng(0)
+    some = np.zeros((cutouts.COLUMNS, cutouts.WIDTH, cutouts.WIDTH, 4), np.uint8)
+    some[:, 32:96, 32:96, :3] = rng.integers(0, 255, (cutouts.COLUMNS, 1, 1, 3))
+    some[:, 32:96, 32:96, 3] = 255
+    cutouts.store(some, tmp_path / "some.webp")
+    read = cutouts.load(tmp_path / "some.webp")
+    assert read.shape == some.shape
+    assert np.abs(read[:, 40:88, 40:88].astype(int) - some[:, 40:88, 40:88]).mean() < 4
+
+
+def test_what_ships_are_whole_shuttlecocks_on_nothing():
+    some = cutouts.load()
+    assert some.shape == (480, cutouts.WIDTH, cutouts.WIDTH, 4)
+    edges = [some[:, k, :, 3].max() for k in (0, -1)] + [some[:, :, k, 3].max() for k in (0, -1)]
+    assert max(edges) < 60
+    covered = (some[..., 3] > 128).mean((1, 2))
+    assert covered.min() > 0.02
+    assert covered.max() < 0.8
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_shuttlecock_lies_in_its_box(seed):
+    class Grey:
+        image = np.full((400, 600, 3), 120, np.uint8)
+
+    black = np.zeros((cutouts.WIDTH, cutouts.WIDTH, 4), np.uint8)
+    black[30:100, 50:80] = 0, 0, 0, 255  # and opaque
+    laid = paste(Grey, black, np.random.default_rng(seed))
+    x0, y0, x1, y1 = laid.boxes["shuttlecock"].astype(int)
+    assert 0 <= x0 < x1 <= photos.WIDTH
+    assert 0 <= y0 < y1 <= photos.HEIGHT
+    dark = laid.image.max(2) < 12
+    rows, columns = np.flatnonzero(dark.any(1)), np.flatnonzero(dark.any(0))
+    inner = [columns[0], rows[0], columns[-1] + 1, rows[-1] + 1]
+    soft = 3 + 0.04 * max(x1 - x0, y1 - y0)  # a thing out of focus is grey at its edge
+    assert np.abs(laid.boxes["shuttlecock"] - inner).max() < soft
+
+
+def test_those_that_validate_teach_nothing_and_shuttlecocks_lie_on_others_photos():
+    shots = photos.load("real", "train")
+    some = pasted(shots, "train", 6, np.random.default_rng(0))
+    assert len(some) == 6
+    assert all(one.image.shape == GROUND.image.shape for one in some)
+    assert all(area(one.boxes["shuttlecock"]) > 400 for one in some)
+    drawn = []
+    for split in ("train", "validation"):
+
+        class Told:
+            def integers(self, high):
+                drawn.append(high)
+                raise StopIteration
+
+        with pytest.raises(StopIteration):
+            pasted(shots, split, 1, Told())
+    assert drawn == [480 - HELD_OUT, HELD_OUT]

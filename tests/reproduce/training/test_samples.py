@@ -1,0 +1,64 @@
+import numpy as np
+import pytest
+
+from reproduce.training import samples
+from vmc_lib import photos
+from vmc_lib.boxes import iou
+
+
+@pytest.fixture(scope="module")
+def shown():
+    rng, real = np.random.default_rng(0), photos.load("real", "train")[::12]
+    shots = {"rig": photos.load("rig", "train")[:3], "real": [*real, photos.everyday()[0]]}
+    return {
+        level: [samples.by_kind(shot, samples.anywhere(rng), rng) for shot in some]
+        for level, some in shots.items()
+    }
+
+
+def test_a_photo_shows_its_shuttlecocks_other_things_and_scene(shown, rng):
+    two = photos.load("real", "train")[0]
+    found = samples.by_kind(two, np.array([two.more[0]]), rng)
+    assert set(found) == {"shuttlecock", "scene"}
+    image, boxes = found["shuttlecock"]
+    assert image is two.image
+    np.testing.assert_array_equal(boxes, [two.boxes["shuttlecock"], two.more[0]])
+    assert iou(found["scene"][1], boxes).max() < samples.APART
+    assert set(shown["rig"][0]) == set(samples.SHARES)
+
+
+def test_windows_lie_in_the_photo_and_are_not_slivers(rng):
+    windows = np.vstack([samples.anywhere(rng) for _ in range(20)])
+    assert (windows >= 0).all()
+    assert (windows <= [photos.WIDTH, photos.HEIGHT] * 2).all()
+    assert ((windows[:, 2:] - windows[:, :2]) >= 30).all()
+
+
+def test_kinds_are_drawn_as_often_as_they_should_be(shown, rng):
+    pool = samples.pool(shown | {"pasted": [{"shuttlecock": shown["real"][0]["shuttlecock"]}]})
+    drawn = [pool.draw(rng) for _ in range(2000)]
+    assert abs(np.mean([label for *_, label in drawn]) - samples.SHARES["shuttlecock"]) < 0.05
+    renders = {shot.image[0].tobytes() for shot in photos.load("rig", "train")[:3]}
+    rendered = np.mean([image[0].tobytes() in renders for image, _, label in drawn if label])
+    assert abs(rendered - samples.SOURCES["rendered"]) < 0.06
+
+
+def test_what_photographs_lack_comes_from_renders(shown, rng):
+    alone = samples.pool({"rig": shown["rig"]})
+    drawn = [alone.draw(rng) for _ in range(30)]
+    assert 0 < sum(label for *_, label in drawn) < 30
+    assert all(box.shape == (4,) for _, box, _ in drawn)
+
+
+def test_everyday_photos_are_learnt_from_and_shuttlecocks_laid_on_others(monkeypatch, rng):
+    class Blind:
+        def detect(self, image):
+            return type("Found", (), {"boxes": np.empty((0, 4))})
+
+    monkeypatch.setattr(samples.loop, "lenient_detector", lambda level: Blind())
+    shown = samples.show(rng, everyday=2, pasted=3)
+    assert list(shown) == [*photos.EVERY_LEVEL, "pasted"]
+    for level in photos.EVERY_LEVEL:
+        assert len(shown[level]) == len(photos.load(level, "train")) + 2 * (level == "real")
+    assert len(shown["pasted"]) == 3
+    assert all("shuttlecock" in photo for photo in shown["pasted"])

@@ -1,0 +1,96 @@
+"""How the stream learns: what teaches it, and that what ships is what was learnt."""
+
+import numpy as np
+import torch
+
+from reproduce.training import samples
+from reproduce.training import ventral_stream as training
+from vmc_lib import photos
+from vmc_lib.boxes import iou
+from vmc_lib.what.stream import WIDTH
+
+MAPS = 4, 4, 4, 4
+SHOT = photos.load("rig", "train")[0]
+
+
+def pool():
+    rng = np.random.default_rng(0)
+    return samples.pool({"rig": [samples.by_kind(SHOT, samples.anywhere(rng), rng)]})
+
+
+def test_a_batch_is_drawn_again_as_it_was():
+    one, other = (training.Batches(pool(), 3, steps=2, batch=4) for _ in range(2))
+    assert len(one) == 2
+    for x, y in zip(one[1], other[1], strict=True):
+        np.testing.assert_array_equal(x, y)
+        assert x.dtype == np.float32
+    assert one[0][0].shape == (4, 3, WIDTH, WIDTH)
+    assert not np.array_equal(one[0][0], one[1][0])
+
+
+def test_folded_the_network_says_the_same():
+    network = training.blank(0, MAPS)
+    x = torch.randn(8, 3, WIDTH, WIDTH, generator=torch.Generator().manual_seed(0))
+    for _ in range(3):
+        network(x)  # its normalisation has met something
+    stream, told = training.folded(network), network.eval()(x).detach().numpy()
+    last = list(stream.stages(x.numpy()).values())[-1].reshape(8, -1)
+    said = last @ stream.readout.T + stream.offsets
+    np.testing.assert_allclose(said[:, 0], told[:, 0], atol=1e-4)
+    np.testing.assert_allclose(said[:, 1:], training.SCALE * told[:, 1:], atol=1e-4)
+
+
+def test_names_count_where_they_are_clear_and_edges_near_a_shuttlecock():
+    told = torch.zeros(3, 5)
+    fit, lack = torch.tensor([0.9, 0.5, 0.0]), torch.zeros(3, 4)
+    plain = training.loss(told, fit, lack)
+    told[1, 0], told[2, 1:] = 9, 9  # an unclear name, and the edges of no shuttlecock
+    assert training.loss(told, fit, lack) == plain
+    told[0, 0] = 5
+    named = training.loss(told, fit, lack)
+    assert named < plain
+    told[0, 1] = 3
+    assert training.loss(told, fit, lack) > named
+
+
+def test_it_learns_what_it_is_taught():
+    batches = training.Batches(pool(), 0, steps=25, batch=16)
+    network = training.blank(0, MAPS)
+
+    def wrong():
+        x, fit, lack = map(
+            torch.from_numpy, training.examples(pool(), 64, np.random.default_rng(9))
+        )
+        with torch.no_grad():
+            return training.loss(network(x), fit, lack)
+
+    before = wrong()
+    training.teach(network, batches, 0.01)
+    assert wrong() < 0.8 * before
+
+
+def test_the_hardest_windows_are_mined_and_none_holds_a_shuttlecock():
+    class Fond:
+        """Takes for a shuttlecock what lies to the left, and tightens nothing."""
+
+        def look(self, image, boxes):
+            return -boxes[:, 0], np.zeros((len(boxes), 4))
+
+        def tightened(self, image, boxes):
+            return boxes + 1
+
+    rng = np.random.default_rng(0)
+    photo = samples.by_kind(SHOT, samples.anywhere(rng), rng)
+    found = training.mined(Fond(), photo)
+    image, boxes = found["scene"]
+    assert image is photo["scene"][0]
+    assert len(boxes) == training.HARD
+    assert iou(boxes, photo["shuttlecock"][1]).max() < samples.APART
+    assert boxes[:, 0].max() <= np.median(photo["scene"][1][:, 0])
+    assert found["shuttlecock"] is photo["shuttlecock"]
+
+
+def test_what_is_held_out_holds_all_levels_and_cut_outs_that_taught_nothing():
+    shots = training.held_out()
+    assert [shot.name for shot in shots].count("pasted") == training.LAID
+    assert not any("train" in shot.name for shot in shots)

@@ -1,0 +1,96 @@
+"""Third-party scripts that the book ships, each pinned by version and checksum.
+
+python -m tools.vendor             fetch them again (npm, and the installed meshcat package)
+python -m tools.vendor --update    the same, where the manifest names new versions
+python -m tools.vendor --check     compare the files here with the manifest
+"""
+
+import base64
+import gzip
+import hashlib
+import json
+import re
+import subprocess
+import sys
+import tarfile
+import tempfile
+from importlib import metadata, resources
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+MANIFEST = ROOT / "book/_static/vendor/manifest.json"
+
+
+def fetch(origin):
+    """The bytes of `origin`: "npm:name@version:path" or "python:name@version:path".
+
+    A path may be "module.js+module.wasm": then the two are made one script.
+    """
+    registry, package, path = origin.split(":")
+    name, version = package.rsplit("@", 1)
+    if registry == "python":
+        installed = metadata.version(name)
+        if installed != version:
+            raise ValueError(f"{name} {installed} is installed, the manifest wants {version}")
+        return resources.files(name).joinpath(path).read_bytes()
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run(["npm", "pack", "--silent", package], cwd=folder, check=True)
+        with tarfile.open(next(Path(folder).glob("*.tgz"))) as archive:
+            parts = [archive.extractfile(f"package/{p}").read() for p in path.split("+")]
+    return with_wasm(*parts) if len(parts) == 2 else parts[0]
+
+
+def with_wasm(module, wasm):
+    """An ES module and its WebAssembly as one classic script: from file:// nothing else loads.
+
+    The module's default export becomes a global function, its `wasm` the binary in gzip and base64.
+    """
+    script = module.decode().replace("import.meta.url", "document.baseURI")
+    script, name, _ = re.split(r"^export default (\w+);$", script, flags=re.M)
+    packed = base64.b64encode(gzip.compress(wasm, mtime=0)).decode()
+    return f'{script}{name}.wasm = "{packed}";\n'.encode()
+
+
+def problems():
+    """What is wrong with the vendored files, one sentence each; none is right."""
+    wrong = []
+    for entry in json.loads(MANIFEST.read_text()):
+        file = ROOT / entry["file"]
+        if not file.exists():
+            wrong.append(f"{entry['file']} is missing")
+        elif hashlib.sha256(file.read_bytes()).hexdigest() != entry["sha256"]:
+            wrong.append(f"{entry['file']} is not what the manifest says")
+    listed = {ROOT / entry["file"] for entry in json.loads(MANIFEST.read_text())}
+    folders = {file.parent for file in listed}
+    stray = {file for folder in folders for file in folder.iterdir()} - listed - {MANIFEST}
+    for file in sorted(stray):
+        wrong.append(f"{file.relative_to(ROOT)} is not in the manifest")
+    return wrong
+
+
+def refresh(update=False):
+    """Fetch every file anew; with `update`, write the checksums of what came into the manifest.
+
+    Raises ValueError, and leaves the file as it is, where what came is not what the manifest says.
+    """
+    entries = json.loads(MANIFEST.read_text())
+    for entry in entries:
+        data = fetch(entry["origin"])
+        summed = hashlib.sha256(data).hexdigest()
+        if update:
+            entry["sha256"] = summed
+        elif summed != entry["sha256"]:
+            raise ValueError(
+                f"{entry['origin']} has the checksum {summed}, the manifest wants "
+                f"{entry['sha256']}: look at it, and if it is right, accept it with --update"
+            )
+        file = ROOT / entry["file"]
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_bytes(data)
+    MANIFEST.write_text(json.dumps(entries, indent=2) + "\n")
+
+
+if __name__ == "__main__":
+    if "--check" not in sys.argv:
+        refresh(update="--update" in sys.argv)
+    sys.exit("\n".join(problems()) or 0)
