@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from reproduce.pipeline import smoke_test
+from reproduce.pipeline import smoke_run
 from reproduce.pipeline.progress import run
 from reproduce.pipeline.steps import ROOT, STEPS, listed, tasks
 
@@ -24,7 +24,7 @@ def main(arguments=None):
         return 0
     if given.smoke:
         with TemporaryDirectory() as folder:
-            return smoke_test.run_all(Path(folder))
+            return smoke_run.run_all(Path(folder))
     if given.only:
         return run(tasks(), [given.only], ROOT, "--single", "--always-execute")
     return run(tasks(), [step.name for step in STEPS if not step.needs], ROOT)

@@ -11,8 +11,7 @@ from functools import cache, partial
 
 import numpy as np
 
-from reproduce.experiments import motor_noise
-from reproduce.peers import optimal_control
+from reproduce.peers import motor_noise, optimal_control
 from reproduce.peers.optimal_control import INNER, TARGETS
 from reproduce.peers.optimal_feedback import scatter
 from reproduce.results import arrays

@@ -18,20 +18,21 @@ from reproduce import ledger, results
 from reproduce.experiments import (
     calibration,
     cdbn_sensitivity,
+    controller_comparison,
     crbm_ablation,
     domain_shift,
     feedback_control,
     fresh_test_set,
+    learning_under_noise,
     localisation,
     loop_evaluation,
-    motor_noise,
     muscle_weakness,
     printed_sheet,
     real_world,
     recognition,
     stream_ablation,
 )
-from reproduce.peers import adaptive_controllers, minimum_variance, optimal_control
+from reproduce.peers import minimum_variance, optimal_control
 from reproduce.pipeline import checksums
 from reproduce.training import shipped_models, ventral_stream
 from reproduce.whole_arm import bones as bones63
@@ -147,9 +148,9 @@ STEPS = (
     Step(optimal_control.make, RESULTS / "optimal.npz", f"templates {ARM}", 3),
     Step(minimum_variance.make, RESULTS / "steady.npz", f"templates {ARM}", 5),
     Step(calibration.make, RESULTS / "movements.json", f"templates {ARM}", 10),
-    Step(adaptive_controllers.make, RESULTS / "cerebella.json", f"templates {ARM}", 5),
+    Step(controller_comparison.make, RESULTS / "cerebella.json", f"templates {ARM}", 5),
     Step(feedback_control.make, RESULTS / "feedback.json", f"templates {ARM}", 2),
-    Step(motor_noise.make, RESULTS / "unsteady.json", f"templates {ARM}", 3),
+    Step(learning_under_noise.make, RESULTS / "unsteady.json", f"templates {ARM}", 3),
     Step(muscle_weakness.make, RESULTS / "weakened.npz", f"templates {ARM}", 1),
     Step(loop_evaluation.make, RESULTS / "lesions.json", SHIPPED, 6),
     Step(loop_evaluation.generalist, RESULTS / "generalist.json", SHIPPED, 1),

@@ -5,7 +5,7 @@ import pytest
 
 from reproduce import results
 from reproduce.experiments import loop_evaluation
-from reproduce.pipeline import smoke_test
+from reproduce.pipeline import smoke_run
 from vmc_lib import NoReach, loop, photos
 
 
@@ -99,7 +99,7 @@ def test_what_a_box_holds(photo):
 
 
 def test_the_model_of_photographs_is_tried_on_renders_too(tmp_path):
-    smoke_test.copy_photos(tmp_path, {"test": (0, 1)})
+    smoke_run.copy_photos(tmp_path, {"test": (0, 1)})
     few = loop_evaluation.generalist(["varied"], tmp_path)["varied"]
     stored = results.records("generalist")
     assert few.keys() == stored["varied"].keys()

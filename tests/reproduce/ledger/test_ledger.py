@@ -7,7 +7,7 @@ from reproduce import ledger
 from reproduce.experiments.loop_evaluation import trial
 from reproduce.ledger import entry, loop
 from reproduce.ledger.entry import BEATEN, BY_CONSTRUCTION, DIFFERS, REPRODUCED, Quantity, measure
-from reproduce.pipeline import smoke_test
+from reproduce.pipeline import smoke_run
 from vmc_lib.photos import LEVELS
 
 STORED = {entry["where"]: entry for entry in ledger.load()["rows"]}
@@ -61,7 +61,7 @@ def scores(level):
 def test_the_loop_on_test_photos_is_what_a_run_gives(level, tmp_path):
     """On every fourth, to be quick, photo by photo; one may round otherwise elsewhere."""
     some = range(0, 40, 4)
-    smoke_test.copy_photos(tmp_path, {"test": some})
+    smoke_run.copy_photos(tmp_path, {"test": some})
     now, then = trial(level, folder=tmp_path), scores(level)
     assert set(now) == set(then)
     for key, values in now.items():

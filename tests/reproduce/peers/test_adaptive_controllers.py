@@ -4,17 +4,12 @@ import numpy as np
 import pytest
 
 from reproduce.peers.adaptive_controllers import (
-    BY_HINDSIGHT,
     LEARNERS,
-    MOVEMENTS,
     DistalTeacher,
     FeedbackError,
     LocalCells,
-    compare,
-    measured,
-    numbers,
 )
-from vmc_lib.cerebellum.online import AimCorrection, GranuleCells, mossy_fibres
+from vmc_lib.cerebellum.online import AimCorrection, mossy_fibres
 from vmc_lib.motor.planning import draw_targets, plan
 from vmc_lib.motor.templates import load
 
@@ -67,23 +62,3 @@ def test_a_distal_teacher_sends_the_error_back_through_its_models_slopes(some):
     inputs, change = pupil.lessons(some, some.target, reached)
     np.testing.assert_allclose(change, np.tile([0.04, 0.02], (len(reached), 1)), atol=1e-9)
     np.testing.assert_allclose(inputs, mossy_fibres(some))
-
-
-def test_a_peer_remembers_its_lessons_and_ours_its_arrays(some):
-    x, y = mossy_fibres(some), some.target
-    linear, ours = BY_HINDSIGHT["linear rule"]().fit(x, y), GranuleCells(cells=30).fit(x, y)
-    assert numbers(SimpleNamespace(cells=linear)) == x.size + y.size
-    assert numbers(SimpleNamespace(cells=ours)) == 30 * (4 + 30 + 2 + 2)
-    both = SimpleNamespace(cells=LocalCells(cells=30).fit(x, y), model=ours)  # a distal teacher
-    assert numbers(both) == 30 * (4 + 2) + 30 * (4 + 30 + 2 + 2)
-
-
-@pytest.mark.parametrize("name", ["linear rule", "feedback error"])
-def test_what_ships_is_what_is_measured(name):
-    """One seed, fewer movements: the same numbers again, on the calm arm and on the noisy one."""
-    kept = measured()
-    assert list(kept) == list(LEARNERS)
-    assert all(rows["held-out"].shape == (6, len(MOVEMENTS)) for rows in kept.values())
-    found = compare(*LEARNERS[name], seed=0, movements=MOVEMENTS[:2])
-    for key in ("in-sample", "held-out", "held-out, noisy arm"):
-        np.testing.assert_allclose(found[key], kept[name][key][0, :2], atol=2e-4)

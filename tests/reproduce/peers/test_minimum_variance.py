@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from reproduce.experiments.motor_noise import wavering
 from reproduce.peers import minimum_variance, optimal_control
+from reproduce.peers.motor_noise import wavering
 from vmc_lib.motor import templates
 from vmc_lib.motor.inverse_dynamics import smooth
 

@@ -5,8 +5,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from reproduce.experiments import motor_noise
-from reproduce.peers import minimum_variance, optimal_control
+from reproduce.peers import minimum_variance, motor_noise, optimal_control
 from reproduce.peers import optimal_feedback as feedback
 from vmc_lib.motor.templates import reach
 

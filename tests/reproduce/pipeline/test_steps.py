@@ -8,7 +8,7 @@ import pytest
 from reproduce import __main__, results
 from reproduce.experiments.localisation import TABLE_1_KERNELS
 from reproduce.ledger.entry import VERDICTS
-from reproduce.pipeline import progress, smoke_test
+from reproduce.pipeline import progress, smoke_run
 from reproduce.pipeline.steps import ROOT, STEPS, Step, tasks
 from vmc_lib import data, photos
 from vmc_lib.what.recogniser import READ_OUTS
@@ -20,7 +20,7 @@ BY_NAME = {step.name: step for step in STEPS}
 def made(tmp_path_factory):
     """The folder in which every step has made its file at toy size."""
     folder = tmp_path_factory.mktemp("toy")
-    assert smoke_test.run_all(folder) == 0
+    assert smoke_run.run_all(folder) == 0
     return folder
 
 
@@ -64,7 +64,7 @@ def test_toy_experiments_give_shares_and_counts(made):
     assert table.min() >= 0
     assert table.max() <= 1
     counts = data.arrays("variations", made)["(6, 0)/counts"]
-    boxes = [2 * len(smoke_test.NAMED[split]) for split in ("validation", "test")]
+    boxes = [2 * len(smoke_run.NAMED[split]) for split in ("validation", "test")]
     assert (counts.sum(3) == boxes).all()
     assert counts.shape[1] == len(READ_OUTS)
     moved = results.records("movements", made)
@@ -142,7 +142,7 @@ def test_by_default_nothing_runs_that_needs_more_than_this_machine(monkeypatch):
 
 def test_smoke_uses_a_folder_of_its_own(monkeypatch):
     seen = []
-    monkeypatch.setattr(smoke_test, "run_all", lambda folder: seen.append(folder) or 0)
+    monkeypatch.setattr(smoke_run, "run_all", lambda folder: seen.append(folder) or 0)
     assert __main__.main(["--smoke"]) == 0
     assert seen[0] not in (ROOT, data.FOLDER, results.FOLDER)
     assert not seen[0].exists()

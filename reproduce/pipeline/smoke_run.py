@@ -16,20 +16,21 @@ from reproduce import ledger
 from reproduce.experiments import (
     calibration,
     cdbn_sensitivity,
+    controller_comparison,
     crbm_ablation,
     domain_shift,
     feedback_control,
     fresh_test_set,
+    learning_under_noise,
     localisation,
     loop_evaluation,
-    motor_noise,
     muscle_weakness,
     printed_sheet,
     real_world,
     recognition,
     stream_ablation,
 )
-from reproduce.peers import adaptive_controllers, minimum_variance, optimal_control
+from reproduce.peers import minimum_variance, optimal_control
 from reproduce.pipeline.progress import run
 from reproduce.pipeline.steps import STEPS, write
 from reproduce.training import shipped_models, ventral_stream
@@ -86,9 +87,9 @@ def steps(folder):
         "optimal": partial(optimal_control.make, optimal_control.TARGETS[12:13]),
         "steady": partial(minimum_variance.make, optimal_control.TARGETS[12:13], 0, ftol=1.0),
         "movements": partial(calibration.make, experiments, seeds=[0]),
-        "cerebella": partial(adaptive_controllers.make, seeds=[0], movements=(2, 4), held_out=4),
+        "cerebella": partial(controller_comparison.make, seeds=[0], movements=(2, 4), held_out=4),
         "feedback": partial(feedback_control.make, watched, seeds=[0]),
-        "unsteady": partial(motor_noise.make, [0], seeds=[0], sizes=(2, 4), held_out=8),
+        "unsteady": partial(learning_under_noise.make, [0], seeds=[0], sizes=(2, 4), held_out=8),
         "weakened": partial(
             muscle_weakness.make, [0], muscle_weakness.TARGETS[:1], ["BRA"], count=2, before=20
         ),

@@ -1,0 +1,70 @@
+"""What calibration and learning make of an arm that wavers (`motor_noise`)."""
+
+from functools import partial
+
+import numpy as np
+
+from reproduce.experiments import calibration
+from reproduce.experiments.calibration import SEEDS
+from reproduce.experiments.controller_comparison import MOVEMENTS, arm, practise
+from reproduce.peers.adaptive_controllers import RIDGE, LocalCells
+from reproduce.peers.motor_noise import share_for, wavering
+from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration
+from vmc_lib.cerebellum.online import AimCorrection, GranuleCells, WeightCorrection
+from vmc_lib.motor.planning import draw_targets, plan
+from vmc_lib.motor.templates import load
+
+LEVELS = (0, 2, 5, 10)  # mm: the hand's standard deviation
+LEARNERS = {
+    "Algorithm 2": (lambda past, cells: WeightCorrection(), GranuleCells),
+    "granule cells": (AimCorrection, GranuleCells),
+    "a larger ridge": (AimCorrection, partial(GranuleCells, ridge=RIDGE)),
+    **{
+        f"delta rule, rate {rate}": (AimCorrection, partial(LocalCells, rate=rate))
+        for rate in (0.02, 0.1, 0.4)
+    },
+}
+
+
+def learned(mm, seed, learners=LEARNERS, sizes=MOVEMENTS, held_out=200):
+    """One draw on an arm that wavers by `mm`: shares of habit's miss that are left, by name.
+
+    In-sample and held-out after so many movements (`controller_comparison.practise`), and after
+    off-line calibration: of the best trial, and of the same command given again. "Nothing but
+    noise" is how far reaches end from their own mean, "habit" the miss in mm that all are shares
+    of.
+    """
+    noise = partial(wavering, share=share_for(mm))
+    left = {}
+    for name, learner in learners.items():
+        shares = practise(*learner, seed, sizes, held_out, noise)[-1]
+        left |= {f"{name}, in-sample": shares[:, 0], f"{name}, held-out": shares[:, 1]}
+    return left | calibrated(noise, seed, held_out // 4)
+
+
+def calibrated(noise, seed, count):
+    """The off-line part of `learned`, for so many targets."""
+    rng = np.random.default_rng((seed, 3))
+    habit = plan(draw_targets(load(), count, rng), arm(noise, (seed, 4)))
+    many = habit.with_weights(np.tile(habit.weights, (20, 1, 1))).reached()
+    miss = _norm(many - habit.target).mean()
+    left = {
+        "habit": 1000 * miss,
+        "nothing but noise": _norm(many - many.mean(axis=0)).mean() / miss,
+    }
+    for name, rule in {"Algorithm 1": algorithm_1, "Broyden": broyden_calibration}.items():
+        trials = rule(habit)
+        again = habit.with_weights(np.tile(trials.best, (20, 1, 1))).reached()
+        left[f"{name}, best trial"] = trials.error.min(axis=0).mean() / miss
+        left[f"{name}, again"] = _norm(again - habit.target).mean() / miss
+    return left
+
+
+def make(levels=LEVELS, seeds=SEEDS, **size):
+    """What `results/unsteady.json` holds: `learned` for every level, with every seed."""
+    experiments = {f"{mm} mm": partial(learned, mm, **size) for mm in levels}
+    return calibration.make(experiments, seeds)
+
+
+measured = partial(calibration.measured, "unsteady")
+_norm = partial(np.linalg.norm, axis=-1)
