@@ -37,10 +37,10 @@ def the_cup_is_named(patch):
 
 
 def labels_are_permuted(patch):
-    found = naming.variations.load()
+    found = naming.cdbn_sensitivity.load()
     turned = {k: (filters, counts[..., [1, 0, 3, 2]]) for k, (filters, counts) in found.items()}
     wrong = {k: turned[k] if k in naming.NETWORKS else found[k] for k in found}
-    patch.setattr(naming.variations, "load", lambda: wrong)
+    patch.setattr(naming.cdbn_sensitivity, "load", lambda: wrong)
 
 
 def pixels_are_shuffled(patch):
