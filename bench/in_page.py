@@ -81,7 +81,7 @@ def main():
     still = np.tile(np.full(6, 0.1), (COUNT, 1))
     spent = seconds(lambda: simulate(still, templates.START, engine="mujoco"), repeats=3)
     six = row("six muscles", in_page("08_arm", reaches=False), COUNT * STEP / spent)
-    python = seconds_per_second(habits.sharing())
+    python = seconds_per_second(habits.muscle_synergies())
     publish("in_page", [six, row("whole", in_page("15_whole_arm", reaches=True), python)])
 
 

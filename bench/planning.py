@@ -10,7 +10,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from bench.report import publish, seconds
-from reproduce.experiments.calibration import skilled
+from reproduce.experiments.calibration import train_aim_correction
 from reproduce.peers import optimal_control
 from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration
 from vmc_lib.motor import templates
@@ -20,7 +20,7 @@ template_set = templates.load()
 targets = draw_targets(template_set, 25, np.random.default_rng(0))
 target, moved = targets[0], plan(targets[0], template_set)
 moved.reached()  # a plan remembers where it ended: to calibrate it again needs no new movement
-cerebellum = skilled(template_set, np.random.default_rng(1), 25)
+cerebellum = train_aim_correction(template_set, np.random.default_rng(1), 25)
 
 WORK = {  # what -> (call, how often, simulated movements)
     "habitual plan": (lambda: plan(target, template_set).excitations, 20, 0),

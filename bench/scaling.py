@@ -34,8 +34,8 @@ FOLDER = os.environ.get("PHOTOS", photos.FOLDER)
 def more_templates(spacing):
     """A library with templates so far apart: how far its plans miss, in mm."""
     start = process_time()
-    goals = reach_templates.grid(spacing)
-    excitations = spline() @ np.array([reach_templates.make(goal) for goal in goals])
+    goals = reach_templates.reachable_grid(spacing)
+    excitations = spline() @ np.array([reach_templates.find_reach(goal) for goal in goals])
     seconds = process_time() - start
     template_set = templates.TemplateSet(templates.reach(excitations).reached, excitations)
     held_out = np.random.default_rng(0).uniform(*ON_THE_TABLE, (200, 2))

@@ -39,18 +39,20 @@ FINGERS = {
 def read(file):
     """Points (n, 3) in metres and triangles (m, 3) of an ASCII .vtp file."""
     text = file.read_text()
-    points = numbers(text, "<Points>.*?<DataArray", float).reshape(-1, 3)
-    corners, ends = (numbers(text, f'Name="{name}"', int) for name in ("connectivity", "offsets"))
+    points = parse_numbers(text, "<Points>.*?<DataArray", float).reshape(-1, 3)
+    corners, ends = (
+        parse_numbers(text, f'Name="{name}"', int) for name in ("connectivity", "offsets")
+    )
     faces = np.split(corners, ends[:-1])
     return points, np.array([(face[0], *pair) for face in faces for pair in pairwise(face[1:])])
 
 
-def numbers(text, before, kind):
+def parse_numbers(text, before, kind):
     """The numbers of the array whose tag begins with the pattern `before`."""
     return np.array(re.search(f"{before}[^>]*>([^<]*)<", text, re.S)[1].split(), kind)
 
 
-def clustered(points, faces, cell):
+def cluster_vertices(points, faces, cell):
     """The mesh with one vertex, the mean, for all in a cell; what collapses to a line goes."""
     _, where = np.unique(np.floor(points / cell), axis=0, return_inverse=True)
     where = where.ravel()
@@ -64,14 +66,14 @@ def clustered(points, faces, cell):
     return means[used], faces.reshape(-1, 3)
 
 
-def joined(meshes):
+def join_meshes(meshes):
     """Many meshes as one."""
     starts = np.cumsum([0, *(len(points) for points, _ in meshes[:-1])])
     faces = [faces + start for (_, faces), start in zip(meshes, starts, strict=True)]
     return np.concatenate([points for points, _ in meshes]), np.concatenate(faces)
 
 
-def made(folder):
+def bone_meshes(folder):
     """All that the page draws, as JSON takes it, from the .vtp files in `folder`.
 
     `parts`: name -> points and faces, flat; of a bone of a finger also the bone `on` which it
@@ -80,7 +82,7 @@ def made(folder):
     """
 
     def mesh(names):
-        return joined([read(Path(folder) / f"{name}.vtp") for name in names.split()])
+        return join_meshes([read(Path(folder) / f"{name}.vtp") for name in names.split()])
 
     def middle(*names):
         return np.mean([mesh(f"arm_r_{name}")[0].mean(0) for name in names], axis=0)
@@ -89,37 +91,37 @@ def made(folder):
     for name, (cell, of) in PARTS.items():
         points, faces = mesh(of)
         shift = SHOULDER if of.startswith("ground") else 0
-        parts[name] = packed(*clustered(points - shift, faces, cell))
+        parts[name] = pack_mesh(*cluster_vertices(points - shift, faces, cell))
     wrist, knuckles = middle("scaphoid", "lunate", "triquetrum"), middle(*MIDDLE)
-    along = unit(knuckles - wrist)
-    facing = unit(np.cross(middle("5mc") - middle("2mc"), along))
+    along = unit_vector(knuckles - wrist)
+    facing = unit_vector(np.cross(middle("5mc") - middle("2mc"), along))
     facing *= np.sign((middle("thumbdist") - knuckles) @ facing)
     palm = middle("2proxph", "3proxph", "4proxph") - 0.012 * along + 0.035 * facing
     for finger, names in FINGERS.items():
         on, before = "palm", mesh(PARTS["palm"][1])[0]
         for k, bone in enumerate(f"arm_r_{name}" for name in names.split()):
             points, faces = mesh(bone)
-            pivot = between(points, before)
-            axis = unit(np.cross(points.mean(0) - pivot, palm - points.mean(0)))
+            pivot = joint_centre(points, before)
+            axis = unit_vector(np.cross(points.mean(0) - pivot, palm - points.mean(0)))
             turns = {"on": on, "pivot": pivot.round(4).tolist(), "axis": axis.round(3).tolist()}
             on, before = f"{finger} {k}", points
-            parts[on] = packed(*clustered(points, faces, 0.004)) | turns
+            parts[on] = pack_mesh(*cluster_vertices(points, faces, 0.004)) | turns
     vectors = {"wrist": wrist, "palm": palm, "along": along, "facing": facing}
     return {"parts": parts} | {name: vector.round(4).tolist() for name, vector in vectors.items()}
 
 
-def between(bone, before):
+def joint_centre(bone, before):
     """Where two bones (n, 3), (m, 3) meet: the middle of what is near the other, (3,)."""
     gaps = np.linalg.norm(bone[:, None] - before[None, ::5], axis=-1)
     return bone[gaps.min(1) < gaps.min() + 0.004].mean(0)
 
 
-def unit(vector):
+def unit_vector(vector):
     """The vector (3,), 1 long."""
     return vector / np.linalg.norm(vector)
 
 
-def packed(points, faces):
+def pack_mesh(points, faces):
     """A mesh as JSON takes it."""
     return {
         "points": np.rint(1e4 * points).astype(int).ravel().tolist(),
@@ -128,8 +130,8 @@ def packed(points, faces):
 
 
 def write(folder):
-    """Write what is `made` as a script: a page from disk can load nothing else."""
-    text = json.dumps(made(folder), separators=(",", ":"))
+    """Write what is `bone_meshes` as a script: a page from disk can load nothing else."""
+    text = json.dumps(bone_meshes(folder), separators=(",", ":"))
     data = base64.b64encode(gzip.compress(text.encode(), mtime=0)).decode()
     FILE.parent.mkdir(exist_ok=True)
     FILE.write_text(f'/* arm26\'s bones (render/bone_meshes.py). */\nself.vmcBones = "{data}";\n')

@@ -29,7 +29,7 @@ def test_polygons_become_triangles_and_near_vertices_one(tmp_path):
     (tmp_path / "a.vtp").write_text(VTP)
     points, faces = bone_meshes.read(tmp_path / "a.vtp")
     assert faces.tolist() == [[0, 1, 2], [0, 2, 3], [1, 2, 4]]
-    fewer, left = bone_meshes.clustered(points, faces, 0.002)
+    fewer, left = bone_meshes.cluster_vertices(points, faces, 0.002)
     assert len(fewer) == 4
     assert len(left) == 2  # the sliver between two vertices that became one is gone
     assert np.allclose(fewer.max(axis=0), [0.0101, 0.01005, 0])
@@ -38,7 +38,7 @@ def test_polygons_become_triangles_and_near_vertices_one(tmp_path):
 def test_a_joint_lies_where_two_bones_meet():
     along = np.linspace(0, 1, 101)[:, None] * [0, -0.04, 0]
     assert np.allclose(
-        bone_meshes.between(along - [0, 0.041, 0], along), [0, -0.041, 0], atol=0.004
+        bone_meshes.joint_centre(along - [0, 0.041, 0], along), [0, -0.041, 0], atol=0.004
     )
 
 

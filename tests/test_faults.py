@@ -24,7 +24,7 @@ REMEDY = "git checkout -- .*python -m reproduce --list"
 
 
 def test_what_ships_is_what_its_checksums_say():
-    found = checksums.found()
+    found = checksums.data_checksums()
     assert found == json.loads(data.CHECKSUMS.read_text()), (
         "run python -m reproduce.pipeline.checksums"
     )

@@ -14,7 +14,7 @@ from vmc_lib.show.scene import Scene
 STRENGTH = 1.5e6  # N/m²: a drawn belly's cross-section is its force / STRENGTH (ours, for the eye)
 BEFORE = 0.25  # share of each tendon before the belly (ours, by eye)
 SLACK = 0.4, 0.6  # of a muscle's length at rest, at least and at most (ours: MyoArm's may be < 0)
-START = habits.START @ plant.FOLLOWS.T  # (18,)
+START = habits.START @ plant.JOINT_COUPLING.T  # (18,)
 
 
 def arm(past, rest):

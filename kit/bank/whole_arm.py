@@ -4,7 +4,7 @@ import numpy as np
 from scipy.optimize import nnls
 
 from kit.question import between, choice, count, number, pick
-from reproduce.whole_arm.habits import excite
+from reproduce.whole_arm.habits import invert_activation
 from vmc_lib.motor.planning import exact_weights, habitual_weights
 
 
@@ -109,7 +109,7 @@ def weight_by_equation_4(rng):
 
 def slow_to_fall(rng):
     active, want = between(rng, 0.2, 0.8, 0.1), between(rng, 0.2, 0.8, 0.1)
-    told = excite(np.array([[active], [want]]))[0, 0]
+    told = invert_activation(np.array([[active], [want]]))[0, 0]
     names = ("more", "less", "just as much")
     return choice(
         f"A muscle's activation is {active}, and in 20 ms it should be {want}. Is it told more "

@@ -39,8 +39,8 @@ PERTURBATIONS = {  # what may change, as `Plan.perturbed` takes it
 }
 
 # Algorithm 1 with every fifth n: a quarter of the reaches, and hardly a difference
-quick = partial(algorithm_1, gains=range(0, 21, 5))
-uncalibrated = partial(broyden_calibration, trials=0)  # no trial at all: a movement as it is
+coarse_algorithm_1 = partial(algorithm_1, gains=range(0, 21, 5))
+no_calibration = partial(broyden_calibration, trials=0)  # no trial at all: a movement as it is
 
 
 class Errors(NamedTuple):
@@ -53,7 +53,7 @@ class Errors(NamedTuple):
     held_out_planned: np.ndarray  # (held_out,): those by habit
 
 
-def run(
+def run_experiments(
     learner, template_set, rng, movements=25, held_out=200, experiments=10, fresh=False, **lesson
 ):
     """`Errors` of a learner that practises so many `movements` in every experiment.
@@ -74,7 +74,7 @@ def run(
     return Errors(first.missed(), offline, np.array(in_sample), np.array(others), unseen.missed())
 
 
-def around(template_set, place):
+def nearest_templates(template_set, place):
     """The four templates around a place (2,), as a `TemplateSet`."""
     four = plan(place, template_set).chosen
     return TemplateSet(template_set.points[four], template_set.excitations[four])
@@ -113,25 +113,25 @@ def adapt(learner, template_set, rng, perturbation, blocks=(2, 8, 6), movements=
     return Curve(targets, np.array(reached))
 
 
-def skilled(template_set, rng, movements=150):
+def train_aim_correction(template_set, rng, movements=150):
     """An `AimCorrection` that has practised."""
     return AimCorrection(template_set).practise(
         plan(draw_targets(template_set, movements, rng), template_set)
     )
 
 
-def _cells():
+def _granule_cell_rule():
     return WeightCorrection(weigh=smooth_weights, g=GranuleCells(), senses=mossy_fibres)
 
 
 ABLATION = {  # from Algorithm 2 to our rule, one thing more at each: a learner, how it practises
     "+ exact weights": (partial(WeightCorrection, weigh=smooth_weights), {}),
-    "+ granule cells": (_cells, {}),
-    "+ no off-line trials": (_cells, {"rule": uncalibrated}),
+    "+ granule cells": (_granule_cell_rule, {}),
+    "+ no off-line trials": (_granule_cell_rule, {"rule": no_calibration}),
 }
 
 
-def tables(seed, scenario=SCENARIOS[0], movements=25, held_out=200, experiments=10):
+def error_ratios(seed, scenario=SCENARIOS[0], movements=25, held_out=200, experiments=10):
     """Tables IV to VI and the own rules for one seed and scenario: ratios of errors, by name.
 
     "online" is Algorithm 2 as printed. The other reading of it, and `ABLATION` from it to our rule,
@@ -139,23 +139,25 @@ def tables(seed, scenario=SCENARIOS[0], movements=25, held_out=200, experiments=
     """
     rng, template_set = np.random.default_rng(seed), load()
     if scenario != SCENARIOS[0]:
-        template_set = around(template_set, draw_targets(template_set, 1, rng)[0])
+        template_set = nearest_templates(template_set, draw_targets(template_set, 1, rng)[0])
     size, same = (movements, held_out, experiments), partial(deepcopy, rng)
     runs = {
-        f"online, {step}": run(learner(), template_set, same(), movements, held_out, 1, **lesson)
+        f"online, {step}": run_experiments(
+            learner(), template_set, same(), movements, held_out, 1, **lesson
+        )
         for step, (learner, lesson) in ABLATION.items()
     }
     other, paper = WeightCorrection(hindsight=False), WeightCorrection()
-    runs["online, the other reading"] = run(other, template_set, same(), *size)
-    runs["online"] = published = run(paper, template_set, rng, *size)
-    own = run(AimCorrection(template_set), template_set, rng, *size, fresh=True)
+    runs["online, the other reading"] = run_experiments(other, template_set, same(), *size)
+    runs["online"] = published = run_experiments(paper, template_set, rng, *size)
+    own = run_experiments(AimCorrection(template_set), template_set, rng, *size, fresh=True)
     aimed = own.held_out.mean(axis=1) / own.held_out_planned.mean()
     many = plan(draw_targets(template_set, held_out, rng), template_set)
     tried = broyden_calibration(many, 4).error.mean(axis=1)
     return {
         "planned / reach": tried[0] / np.linalg.norm(many.target, axis=-1).mean(),
         "off-line, published": published.offline.mean() / published.planned.mean(),
-        **{f"{name}, {k}": left for name, e in runs.items() for k, left in _left(e).items()},
+        **{f"{name}, {k}": left for name, e in runs.items() for k, left in _ratios(e).items()},
         **{f"own off-line, {k} trials": tried[k] / tried[0] for k in (1, 2, 4)},
         **{
             f"own online, {movements * k} movements, held-out": aimed[k]
@@ -165,12 +167,12 @@ def tables(seed, scenario=SCENARIOS[0], movements=25, held_out=200, experiments=
     }
 
 
-def after(experiments, measured_on):
+def ratio_name(experiments, measured_on):
     """The key of what is left after so many experiments, "in-sample" or "held-out"."""
     return f"{experiments} experiment{'s' * (experiments > 1)}, {measured_on}"
 
 
-def _left(errors):
+def _ratios(errors):
     """Of the planned error after the first experiment and the last, in-sample and held-out."""
     practised, others = errors.in_sample.mean(axis=1), errors.held_out.mean(axis=1)
     left = {
@@ -178,49 +180,53 @@ def _left(errors):
         "held-out": others / errors.held_out_planned.mean(),
     }
     return {
-        after(k, measured_on): share[k]
+        ratio_name(k, measured_on): share[k]
         for k in sorted({1, len(practised) - 1})
         for measured_on, share in left.items()
     }
 
 
-def worlds(seed, before=150, **size):
+def block_errors(seed, before=150, **size):
     """Mean error in mm of each block, by world and by what is corrected, for one seed.
 
     So many movements are practised `before`; `size` is passed to `adapt`: `blocks`, `movements`.
     """
     return {
-        f"{name}, {corrects}": 1000 * _adapted(seed, world, corrects, before, size).error
+        f"{name}, {corrects}": 1000 * _adapt_in_world(seed, world, corrects, before, size).error
         for name, world in PERTURBATIONS.items()
         for corrects in CORRECTIONS
     }
 
 
-def _adapted(seed, world, corrects, before, size):
+def _adapt_in_world(seed, world, corrects, before, size):
     rng, template_set = np.random.default_rng(seed), load()
-    learner = Adaptation(skilled(template_set, rng, before), template_set, corrects)
+    learner = Adaptation(train_aim_correction(template_set, rng, before), template_set, corrects)
     return adapt(learner, template_set, rng, world, **size)
 
 
-EXPERIMENTS = {s: partial(tables, scenario=s) for s in SCENARIOS} | {"perturbations": worlds}
+EXPERIMENTS = {s: partial(error_ratios, scenario=s) for s in SCENARIOS} | {
+    "perturbations": block_errors
+}
 
 
 def make(experiments=EXPERIMENTS, seeds=SEEDS):
-    """What `results/movements.json` holds: every experiment `repeat`ed, to four digits."""
-    repeated = {name: repeat(experiment, seeds) for name, experiment in experiments.items()}
+    """What `results/movements.json` holds: every experiment with every seed, to four digits."""
+    repeated = {
+        name: repeat_over_seeds(experiment, seeds) for name, experiment in experiments.items()
+    }
     return {
         part: {name: np.round(values, 4).tolist() for name, values in rows.items()}
         for part, rows in repeated.items()
     }
 
 
-def repeat(experiment, seeds=SEEDS):
+def repeat_over_seeds(experiment, seeds=SEEDS):
     """An experiment (seed -> dictionary of numbers) with every seed: name -> (seeds, …)."""
     results = Parallel()(delayed(experiment)(seed) for seed in seeds)
     return {name: np.array([r[name] for r in results]) for name in results[0]}
 
 
-def measured(name="movements"):
+def load_results(name="movements"):
     """What `make` made and shipped by that name: experiment -> name -> an entry for each seed."""
     shipped = results.records(name)
     return {part: {k: np.array(v) for k, v in rows.items()} for part, rows in shipped.items()}

@@ -5,9 +5,9 @@ from functools import cache
 import numpy as np
 from joblib import Parallel, delayed
 
-from reproduce.experiments.recognition import tally
+from reproduce.experiments.recognition import confusion_counts
 from reproduce.results import arrays
-from reproduce.training.name_classifier import examples, fit_name_classifier
+from reproduce.training.name_classifier import fit_name_classifier, labelled_crops
 from vmc_lib import photos
 from vmc_lib.what.cdbn import CDBN, N_W, PATCHES, crops_of
 from vmc_lib.what.crops import whiten
@@ -17,27 +17,29 @@ VARIATIONS = (N_W, 0), (N_W, 1), (N_W, 2), (6, 0), (10, 0), (12, 0)  # (n_w, see
 SPLITS = "validation", "test"
 
 
-def load():
-    """What was found for each of VARIATIONS: (n_w, seed) -> (filters, counts), as from `vary`."""
+def load_results():
+    """Results by VARIATION: (n_w, seed) -> (filters, counts), as from `train_variation`."""
     kept = arrays("variations")
     return {k: (kept[f"{k}/filters"], kept[f"{k}/counts"]) for k in VARIATIONS}
 
 
 def make(variations=VARIATIONS, folder=photos.FOLDER, patches=PATCHES):
-    """What `results/variations.npz` holds: the arrays that `load` reads."""
+    """What `results/variations.npz` holds: the arrays that `load_results` reads."""
     learnt = {}
-    for variation, (filters, counts) in vary_all(variations, folder, folder, patches).items():
+    for variation, (filters, counts) in train_variations(
+        variations, folder, folder, patches
+    ).items():
         learnt |= {f"{variation}/filters": filters, f"{variation}/counts": counts}
     return learnt
 
 
-def vary_all(variations, folder, exam, patches=PATCHES):
-    """`vary` each of the variations: variation -> (filters, counts)."""
-    found = Parallel()(delayed(vary)(each, folder, exam, patches) for each in variations)
+def train_variations(variations, folder, exam, patches=PATCHES):
+    """`train_variation` each of the variations: variation -> (filters, counts)."""
+    found = Parallel()(delayed(train_variation)(each, folder, exam, patches) for each in variations)
     return dict(zip(variations, found, strict=True))
 
 
-def vary(variation, folder, exam, patches=PATCHES):
+def train_variation(variation, folder, exam, patches=PATCHES):
     """For (n_w, seed), the first layer's filters (10, n_w, n_w), and how well the network names.
 
     That is, counts (levels, read-outs, SPLITS, 4), as from `tally`. It learns from photos in
@@ -50,19 +52,23 @@ def vary(variation, folder, exam, patches=PATCHES):
     crops, positive = crops_of(shots)
     cdbn = CDBN.from_arrays(train(whiten(crops), positive, seed, n_w, patches).arrays())
     counts = np.zeros((len(photos.LEVELS), len(READ_OUTS), len(SPLITS), 4), int)
-    for i, (level, (jittered, y)) in enumerate(lessons(folder).items()):
+    for i, (level, (jittered, y)) in enumerate(training_crops(folder).items()):
         x = read_outs(cdbn, jittered)
         exams = photos.load(level, "validation", folder), photos.load(level, "test", exam)
-        seen = [(read_outs(cdbn, crops), truth) for crops, truth in map(crops_of, exams)]
-        (checked, checked_truth), _ = seen
+        sets = [(read_outs(cdbn, crops), truth) for crops, truth in map(crops_of, exams)]
+        (checked, checked_truth), _ = sets
         for j, name in enumerate(READ_OUTS):
             linear = fit_name_classifier(x[name], y, checked[name], checked_truth)
-            counts[i, j] = [tally(linear.probability(z[name]), truth) for z, truth in seen]
+            counts[i, j] = [
+                confusion_counts(linear.probability(z[name]), truth) for z, truth in sets
+            ]
     return cdbn.first.W[:, 0], counts
 
 
 @cache
-def lessons(folder):
+def training_crops(folder):
     """For each level, the crops (n, 200, 200) to learn names from, and their labels."""
     rng = np.random.default_rng(0)
-    return {level: examples(photos.load(level, "train", folder), rng) for level in photos.LEVELS}
+    return {
+        level: labelled_crops(photos.load(level, "train", folder), rng) for level in photos.LEVELS
+    }

@@ -22,7 +22,7 @@ def make(seeds=SEEDS, **size):
     return calibration.make(compared, seeds)
 
 
-measured = partial(calibration.measured, "cerebella")
+load_results = partial(calibration.load_results, "cerebella")
 
 
 def compare(kind, cells, seed, movements=MOVEMENTS, held_out=200):
@@ -31,58 +31,60 @@ def compare(kind, cells, seed, movements=MOVEMENTS, held_out=200):
     "seconds" are the processor's, while the last of them were practised; "numbers" is how many the
     learner remembers then.
     """
-    pupil, seconds, shares = practise(kind, cells, seed, movements, held_out)
+    learner, seconds, shares = train_controller(kind, cells, seed, movements, held_out)
     white = partial(noisy, share=NOISE)
-    noisy_shares = practise(kind, cells, seed, movements, held_out, white)[-1]
+    noisy_shares = train_controller(kind, cells, seed, movements, held_out, white)[-1]
     return {
         "in-sample": shares[:, 0],
         "held-out": shares[:, 1],
         "held-out, noisy arm": noisy_shares[:, 1],
         "seconds": seconds,
-        "numbers": numbers(pupil),
+        "numbers": memory_size(learner),
     }
 
 
-def practise(kind, cells, seed, movements, held_out, noise=None):
+def train_controller(kind, cells, seed, movements, held_out, noise=None):
     """A learner that has practised, the seconds it took, and the shares of habit's error left.
 
-    Those are in-sample and held-out, (len(movements), 2); `noise` is that of the `arm`.
+    Those are in-sample and held-out, (len(movements), 2); `noise` as for `templates_with_noise`.
     """
     rng = np.random.default_rng(seed)
     unseen, targets = (draw_targets(load(), n, rng) for n in (held_out, movements[-1]))
-    practised = plan(targets, arm(noise, (seed, 1)))
-    pupil, shares = kind(load(), cells()), []
+    practised = plan(targets, templates_with_noise(noise, (seed, 1)))
+    learner, shares = kind(load(), cells()), []
     for first, last in zip((0, *movements[:-1]), movements, strict=True):
         start = process_time()
-        pupil.practise(practised[first:last])
+        learner.practise(practised[first:last])
         seconds = process_time() - start
-        tests = (plan(some, arm(noise, (seed, 2))) for some in (targets[:last], unseen))
-        shares.append([_left(pupil, plans) for plans in tests])
-    return pupil, seconds, np.array(shares)
+        tests = (
+            plan(some, templates_with_noise(noise, (seed, 2))) for some in (targets[:last], unseen)
+        )
+        shares.append([_error_share(learner, plans) for plans in tests])
+    return learner, seconds, np.array(shares)
 
 
-def numbers(pupil):
+def memory_size(learner):
     """How many numbers a learner remembers: the arrays of its regressions, or their lessons."""
-    parts = [part for regression in vars(pupil).values() for part in _kept(regression)]
+    parts = [part for regression in vars(learner).values() for part in _stored_arrays(regression)]
     return sum(part.size for part in parts if isinstance(part, np.ndarray))
 
 
-def _kept(regression):
+def _stored_arrays(regression):
     lessons = [part for lesson in getattr(regression, "lessons_", ()) for part in lesson]
     return lessons or vars(regression).values()
 
 
-def _left(pupil, plans):
-    """The mean miss of plans that the pupil corrects, over that of habit."""
-    return pupil.correct(plans).missed().mean() / plans.missed().mean()
+def _error_share(learner, plans):
+    """The mean miss of plans that the learner corrects, over that of habit."""
+    return learner.correct(plans).missed().mean() / plans.missed().mean()
 
 
-def arm(noise, stream):
+def templates_with_noise(noise, stream):
     """The templates, and an arm whose excitations vary: `noise(excitations, rng=…)`, or None."""
     if noise is None:
         return load()
-    return replace(load(), reach=partial(_unsteady, noise, np.random.default_rng(stream)))
+    return replace(load(), reach=partial(_noisy_reach, noise, np.random.default_rng(stream)))
 
 
-def _unsteady(noise, rng, excitations, perturbation):
+def _noisy_reach(noise, rng, excitations, perturbation):
     return reach(noise(excitations, rng=rng), perturbation)

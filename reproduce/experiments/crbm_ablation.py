@@ -23,7 +23,7 @@ CHANGES = {
 }
 
 
-def over_epochs(crops, name, epochs=EPOCHS, patches=PATCHES):
+def filters_over_epochs(crops, name, epochs=EPOCHS, patches=PATCHES):
     """Filters (epochs + 1, K, N_W, N_W), at first and after each epoch, of one of `CHANGES`."""
     pictures = crops[:, None] - crops.mean() if name == "no whitening" else whiten(crops)
     maps, rng = torch.from_numpy(pictures / pictures.std()), torch.Generator().manual_seed(0)
@@ -36,11 +36,11 @@ def over_epochs(crops, name, epochs=EPOCHS, patches=PATCHES):
 
 
 def make(folder=photos.FOLDER, **size):
-    """What `results/tricks.npz` holds: by what is left out, `over_epochs` on the rig's crops."""
+    """What `results/tricks.npz` holds: `filters_over_epochs` by what is left out."""
     crops, _ = crops_of(photos.load("rig", "train", folder))
-    return {name: np.float16(over_epochs(crops, name, **size)) for name in CHANGES}
+    return {name: np.float16(filters_over_epochs(crops, name, **size)) for name in CHANGES}
 
 
-def load():
+def load_results():
     """What `make` found: filters over epochs, by what is left out."""
     return {name: np.float32(filters) for name, filters in arrays("tricks").items()}

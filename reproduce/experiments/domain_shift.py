@@ -12,7 +12,7 @@ from sklearn.linear_model import LogisticRegression
 
 from reproduce.peers.baseline_features import histograms_of_gradients
 from reproduce.results import arrays
-from reproduce.training.samples import by_kind
+from reproduce.training.samples import boxes_by_kind
 from vmc_lib import photos
 from vmc_lib.what.cdbn import CDBN, K
 from vmc_lib.what.crops import crop, whiten
@@ -35,22 +35,40 @@ def make(
     level; "few" (labels, WAYS, draws, 1 + levels asked): so many of all levels together. Asked
     in-sample, then on the test crops of each level.
     """
-    seen = {split: [things(level, split, folder) for level in LEVELS] for split in photos.SPLITS}
-    network = without_labels(together(seen["train"])[0], patches)
-    eyes = [histograms_of_gradients, partial(looked_at, network)]
+    labelled = {
+        split: [labelled_crops(level, split, folder) for level in LEVELS] for split in photos.SPLITS
+    }
+    network = train_cdbn(concatenate(labelled["train"])[0], patches)
+    eyes = [histograms_of_gradients, partial(cdbn_features, network)]
     looked = [
-        {split: [(eye(x), y) for x, y in sets] for split, sets in seen.items()} for eye in eyes
+        {split: [(eye(x), y) for x, y in sets] for split, sets in labelled.items()} for eye in eyes
     ]
     shift = [
-        [over_draws(fixed, one["train"][i], one["validation"][i], one["test"], equal, draws)
-         for one in looked]
+        [
+            evaluate_over_draws(
+                evaluate_linear_readout,
+                one["train"][i],
+                one["validation"][i],
+                one["test"],
+                equal,
+                draws,
+            )
+            for one in looked
+        ]
         for i in range(len(LEVELS))
-    ]  # fmt: skip
-    ways = [(fixed, one) for one in looked] + [(partial(learned, steps=steps), seen)]
+    ]
+    ways = [(evaluate_linear_readout, one) for one in looked] + [
+        (partial(evaluate_end_to_end, steps=steps), labelled)
+    ]
     few = [
         [
-            over_draws(
-                learn_by, together(one["train"]), together(one["validation"]), one["test"], n, draws
+            evaluate_over_draws(
+                learn_by,
+                concatenate(one["train"]),
+                concatenate(one["validation"]),
+                one["test"],
+                n,
+                draws,
             )
             for learn_by, one in ways
         ]
@@ -59,27 +77,27 @@ def make(
     return {"shift": np.float32(shift), "few": np.float32(few)}
 
 
-def load():
+def load_results():
     """What `make` found: arrays by name."""
     return arrays("domains")
 
 
-def together(sets):
+def concatenate(sets):
     """Pairs of arrays as one pair."""
     return tuple(np.concatenate(part) for part in zip(*sets, strict=True))
 
 
-def things(level, split, folder=photos.FOLDER):
+def labelled_crops(level, split, folder=photos.FOLDER):
     """Crops (n, 200, 200), labels (n,): of all shuttlecocks and cups, and a window a photo."""
     rng, found = np.random.default_rng((LEVELS.index(level), photos.SPLITS.index(split))), []
     for photo in photos.load(level, split, folder):
-        for kind, (image, boxes) in by_kind(photo, np.empty((0, 4)), rng).items():
+        for kind, (image, boxes) in boxes_by_kind(photo, np.empty((0, 4)), rng).items():
             some = boxes[:1] if kind == "scene" else boxes
             found += [(crop(image, box), kind == "shuttlecock") for box in some]
     return tuple(map(np.array, zip(*found, strict=True)))
 
 
-def shrunk(pictures, width):
+def downsample(pictures, width):
     """Grey pictures (n, height, height), scaled down to (n, width, width) by means of areas."""
     size = pictures.shape[1]
     edges = np.arange(width) * size // width, -(-np.arange(1, width + 1) * size // width)
@@ -88,21 +106,21 @@ def shrunk(pictures, width):
     return np.stack([rows[:, :, area].mean(2) for area in areas], 2)
 
 
-def without_labels(crops, patches):
+def train_cdbn(crops, patches):
     """A CDBN of the paper's size that has learnt from crops as they are: no label chose any."""
     from vmc_lib.what.learning import SECOND, train  # here, for torch weighs on who only reads
 
-    pictures, every = whiten(shrunk(crops, NARROW)), np.ones(len(crops), bool)
+    pictures, every = whiten(downsample(crops, NARROW)), np.ones(len(crops), bool)
     network = train(pictures, every, patches=patches, second=SECOND | ON_NARROW)
     return CDBN.from_arrays(network.arrays())
 
 
-def looked_at(network, crops):
+def cdbn_features(network, crops):
     """What a network's read-out sees of crops: (n, d)."""
-    return read_outs(network, shrunk(crops, NARROW))[READ_OUTS[-1]]
+    return read_outs(network, downsample(crops, NARROW))[READ_OUTS[-1]]
 
 
-def over_draws(learn_by, train, validation, exams, count, draws):
+def evaluate_over_draws(learn_by, train, validation, exams, count, draws):
     """What labels of `count` crops teach, draw by draw: (draws, 1 + exams), in-sample first.
 
     learn_by: gives the choices that there are, (choices, 2 + exams), asked in-sample, on validation
@@ -113,7 +131,7 @@ def over_draws(learn_by, train, validation, exams, count, draws):
 
     def one(draw):
         rng = np.random.default_rng((count, draw))
-        rows = drawn(y, count, rng)
+        rows = draw_rows(y, count, rng)
         return learn_by((x[rows], y[rows]), validation, exams, rng)
 
     found = np.array(Parallel()(delayed(one)(draw) for draw in range(draws)))
@@ -121,7 +139,7 @@ def over_draws(learn_by, train, validation, exams, count, draws):
     return np.delete(found[:, best], 1, axis=1)
 
 
-def drawn(labels, count, rng):
+def draw_rows(labels, count, rng):
     """`count` rows of labels (n,), or all of fewer, drawn until both kinds are among them."""
     while True:
         rows = rng.permutation(len(labels))[:count]
@@ -129,22 +147,22 @@ def drawn(labels, count, rng):
             return rows
 
 
-def fixed(taught, validation, exams, rng):
+def evaluate_linear_readout(taught, validation, exams, rng):
     """Features that stay, and a linear read-out: a choice for each of the PENALTIES."""
     centre, size = taught[0].mean(0), taught[0].std(0) + 1e-3
     sets = [((x - centre) / size, y) for x, y in (taught, validation, *exams)]
     found = []
     for penalty in PENALTIES:
         linear = LogisticRegression(C=penalty, class_weight="balanced", max_iter=300).fit(*sets[0])
-        found.append([named_right(linear.predict(x), y) for x, y in sets])
+        found.append([balanced_accuracy(linear.predict(x), y) for x, y in sets])
     return found
 
 
-def learned(taught, validation, exams, rng, steps=STEPS):
-    """Features learned from the labels too, then `fixed`: a choice for each rate and penalty."""
-    from reproduce.training.end_to_end import end_to_end  # as `without_labels` does
+def evaluate_end_to_end(taught, validation, exams, rng, steps=STEPS):
+    """Features learned from the labels too: a choice for each rate and penalty."""
+    from reproduce.training.end_to_end import train_end_to_end  # as `train_cdbn` does
 
-    crops, labels = shrunk(taught[0], NARROW), taught[1]
+    crops, labels = downsample(taught[0], NARROW), taught[1]
 
     def draw(count):
         rows = rng.integers(len(crops), size=count)
@@ -152,12 +170,12 @@ def learned(taught, validation, exams, rng, steps=STEPS):
 
     found = []
     for rate in RATES:
-        network = end_to_end(draw, rng, NARROW, (K, K), steps, BATCH, rate)
-        sets = [(looked_at(network, x), y) for x, y in (taught, validation, *exams)]
-        found += fixed(sets[0], sets[1], sets[2:], rng)
+        network = train_end_to_end(draw, rng, NARROW, (K, K), steps, BATCH, rate)
+        sets = [(cdbn_features(network, x), y) for x, y in (taught, validation, *exams)]
+        found += evaluate_linear_readout(sets[0], sets[1], sets[2:], rng)
     return found
 
 
-def named_right(called, labels):
+def balanced_accuracy(called, labels):
     """The mean of the share of shuttlecocks called so, and of other things not called so."""
     return (called[labels].mean() + (~called[~labels]).mean()) / 2

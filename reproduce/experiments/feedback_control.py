@@ -25,18 +25,18 @@ FIELD = 15.0  # N for each m/s
 ARMS = {"the plan alone": (BLIND, False), "forward model": (SIGHT, True), "lesion": (SIGHT, False)}
 
 
-def plans(targets, template_set):
+def exact_plans(targets, template_set):
     """Plans to targets (B, 2), with weights that satisfy Eq. 4."""
     return plan(targets, template_set, exact_weights)
 
 
-def taught(template_set, rng, count=20):
+def fit_forward_model(template_set, rng, count=20):
     """A `ForwardModel` that has felt so many reaches with motor noise, without sight."""
-    some = plans(draw_targets(template_set, count, rng), template_set)
+    some = exact_plans(draw_targets(template_set, count, rng), template_set)
     return ForwardModel().learn(reach(noisy(some.excitations, NOISE, rng)))
 
 
-def jumps(template_set, count, rng, by=JUMP):
+def draw_target_jumps(template_set, count, rng, by=JUMP):
     """Targets (count, 2) and where they jump to, `by` metres in any direction, all within reach.
 
     ValueError when so few of those drawn jump to a place within reach that targets are missing.
@@ -52,9 +52,9 @@ def jumps(template_set, count, rng, by=JUMP):
     return first[inside][:count], second[inside][:count]
 
 
-def jumping(template_set, first, second):
+def reference_after_jump(template_set, first, second):
     """The `Intention`, for 2 s, of reaches whose target jumps at `JUMPS_AT`, and is seen later."""
-    before, after = (intend(plans(p, template_set), 2.0) for p in (first, second))
+    before, after = (intend(exact_plans(p, template_set), 2.0) for p in (first, second))
     return switch(before, after, JUMPS_AT + SIGHT.delay)
 
 
@@ -80,14 +80,14 @@ def overshoot(path, target):
     return along.max(axis=1).clip(0)
 
 
-def detour(path):
+def path_length_ratio(path):
     """The length of each path in its first second, over the distance between its ends, (B,)."""
     first = path[:, : round(1 / STEP) + 1]
     length = np.linalg.norm(np.diff(first, axis=1), axis=-1).sum(axis=1)
     return length / np.linalg.norm(first[:, -1] - first[:, 0], axis=-1)
 
 
-def deviation(path, meant):
+def path_deviation(path, meant):
     """Where paths (B, T + 1, 2) are farthest from the meant ones across their way, (B,), m.
 
     Across the straight line from the first meant place to the last, while the hand should move;
@@ -100,12 +100,15 @@ def deviation(path, meant):
     return np.take_along_axis(aside, farthest, axis=1)[:, 0]
 
 
-def reaches(seed, count=100, seconds=3.0):
+def reach_measures(seed, count=100, seconds=3.0):
     """By arm and measure, the means over so many reaches to a target that stays, or jumps."""
     rng, template_set = np.random.default_rng(seed), load()
-    model = taught(template_set, rng)
-    first, second = jumps(template_set, count, rng)
-    steady, jump = intend(plans(first, template_set), seconds), jumping(template_set, first, second)
+    model = fit_forward_model(template_set, rng)
+    first, second = draw_target_jumps(template_set, count, rng)
+    steady, jump = (
+        intend(exact_plans(first, template_set), seconds),
+        reference_after_jump(template_set, first, second),
+    )
     measured = {}
     for arm, (senses, foresees) in ARMS.items():
         known = model if foresees else None
@@ -118,7 +121,7 @@ def reaches(seed, count=100, seconds=3.0):
             "tremor (mm²)": power.mean(),
             "strongest at (Hz)": np.median(frequency),
             "overshoot (mm)": 1000 * overshoot(path, first).mean(),
-            "path over distance": detour(path).mean(),
+            "path over distance": path_length_ratio(path).mean(),
             "miss after a jump (mm)": missed.mean(),
             "jumps within 10 mm": (missed < 10).mean(),
         }
@@ -126,14 +129,15 @@ def reaches(seed, count=100, seconds=3.0):
     return measured
 
 
-def field(learner, template_set, model, rng, blocks=(2, 20, 10), targets=5):
+def curl_field_deviations(learner, template_set, model, rng, blocks=(2, 20, 10), targets=5):
     """How far a curl field bends reaches as they are learned: deviations (blocks, targets), in m.
 
     The same targets come in every block; `blocks` counts those before, in and after the field.
     The second answer, (before or after learning, others), is the same for targets never practised.
     """
     practised, others = (
-        intend(plans(draw_targets(template_set, n, rng), template_set), 1.0) for n in (targets, 20)
+        intend(exact_plans(draw_targets(template_set, n, rng), template_set), 1.0)
+        for n in (targets, 20)
     )
     before, during, _ = blocks
     bends, held_out = [], []
@@ -149,17 +153,18 @@ def field(learner, template_set, model, rng, blocks=(2, 20, 10), targets=5):
 
 def _bend(learner, intention, world, model, rng):
     motion = move(learner.correct(intention), SIGHT, model, world, NOISE, rng)
-    return deviation(motion.hand[..., :2], hand(intention.q)[..., :2]), motion
+    return path_deviation(motion.hand[..., :2], hand(intention.q)[..., :2]), motion
 
 
-def fields(seed, **size):
+def curl_field_errors(seed, **size):
     """For one seed, the mean deviation in mm of each block, to the left, and its mean size.
 
-    And the mean size for targets never practised, before and after; `size` is passed to `field`.
+    And the mean size for targets never practised, before and after; `size` as for
+    `curl_field_deviations`.
     """
     rng, template_set = np.random.default_rng(seed), load()
-    model, learner = taught(template_set, rng), FeedbackErrorLearning(template_set)
-    bends, held_out = field(learner, template_set, model, rng, **size)
+    model, learner = fit_forward_model(template_set, rng), FeedbackErrorLearning(template_set)
+    bends, held_out = curl_field_deviations(learner, template_set, model, rng, **size)
     return {
         "to the left": 1000 * bends.mean(axis=1),
         "size": 1000 * np.abs(bends).mean(axis=1),
@@ -167,7 +172,7 @@ def fields(seed, **size):
     }
 
 
-EXPERIMENTS = {"reaches": reaches, "field": fields}
+EXPERIMENTS = {"reaches": reach_measures, "field": curl_field_errors}
 
 
 def make(experiments=EXPERIMENTS, seeds=SEEDS):
@@ -175,5 +180,5 @@ def make(experiments=EXPERIMENTS, seeds=SEEDS):
     return calibration.make(experiments, seeds)
 
 
-measured = partial(calibration.measured, "feedback")
+load_results = partial(calibration.load_results, "feedback")
 _norm = partial(np.linalg.norm, axis=-1)

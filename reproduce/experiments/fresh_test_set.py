@@ -9,10 +9,10 @@ import numpy as np
 
 from reproduce import results
 from reproduce.experiments import recognition
-from reproduce.experiments.cdbn_sensitivity import SPLITS, VARIATIONS, vary_all
-from reproduce.experiments.localisation import TRAININGS, classifiers, hits
-from reproduce.experiments.recognition import tally
-from reproduce.training.detectors import candidates, examples
+from reproduce.experiments.cdbn_sensitivity import SPLITS, VARIATIONS, train_variations
+from reproduce.experiments.localisation import TRAININGS, train_classifiers, true_positives
+from reproduce.experiments.recognition import confusion_counts
+from reproduce.training.detectors import candidates, labelled_candidates
 from vmc_lib import photos, show
 from vmc_lib.statistics import wilson
 from vmc_lib.what.cdbn import N_W, PATCHES
@@ -25,7 +25,7 @@ KERNELS, DETECTORS = ("linear", "rbf"), ("published", "improved")
 NETWORK_SEEDS = tuple(seed for n_w, seed in VARIATIONS if n_w == N_W)
 
 
-def answers():
+def load_counts():
     """Question -> level -> (right, wrong, missed): counts.
 
     "linear" and "rbf" are rows of Table I with context, means over as many trainings as there;
@@ -35,7 +35,7 @@ def answers():
     return {tuple(q) if isinstance(q, list) else q: levels for q, levels in kept}
 
 
-def shares(right, wrong, missed):
+def rates(right, wrong, missed):
     """Precision and recall, and the 95 % interval of each (Wilson): ((share, low, high), …).
 
     The intervals take the counts as independent, which those of several boxes on one object are
@@ -45,13 +45,13 @@ def shares(right, wrong, missed):
     return tuple((right / n, *wilson(right, n)) for n in totals)
 
 
-def table(*questions):
+def markdown_table(*questions):
     """Answers as Markdown: precision / recall on every level, each with its interval."""
-    asked, rows = answers(), []
+    counts, rows = load_counts(), []
     for question in questions:
         cells = [question if isinstance(question, str) else "{}, seed {}".format(*question)]
         for level in photos.LEVELS:
-            parts = shares(*asked[question][level])
+            parts = rates(*counts[question][level])
             cells.append(
                 " / ".join(f"{share:.3f} ({low:.2f}–{high:.2f})" for share, low, high in parts)
             )
@@ -71,10 +71,10 @@ def make(exam, folder=photos.FOLDER, trainings=TRAININGS, seeds=NETWORK_SEEDS, p
         if known & {photo.name for photo in shots}:
             raise ValueError(f"{exam} holds photos that ship, no exam: delete {sorted(known)}")
         fresh = [shot for shot in shots if shot.seed[-1] >= FRESH]
-        asked = ask_kernels(level, fresh, folder, trainings) | ask_detectors(level, shots)
-        for question, counts in asked.items():
+        answers = kernel_counts(level, fresh, folder, trainings) | detector_counts(level, shots)
+        for question, counts in answers.items():
             found.setdefault(question, {})[level] = counts
-    trained = vary_all([(N_W, seed) for seed in seeds], folder, exam, patches)
+    trained = train_variations([(N_W, seed) for seed in seeds], folder, exam, patches)
     for (_, seed), (_, counts) in trained.items():
         for j, name in enumerate(READ_OUTS):
             named = counts[:, j, SPLITS.index("test"), :3].tolist()
@@ -82,36 +82,36 @@ def make(exam, folder=photos.FOLDER, trainings=TRAININGS, seeds=NETWORK_SEEDS, p
     return list(found.items())
 
 
-def names(exam):
+def make_names(exam):
     """What `results/fresh_names.npz` holds: `recognition.probabilities` for the second hundred."""
-    kept, learnt = {}, recognition.load()
+    kept, learnt = {}, recognition.load_classifiers()
     for level in photos.LEVELS:
         shots = [shot for shot in photos.load(level, "test", exam) if shot.seed[-1] >= FRESH]
         found, kept[f"{level}/fresh"] = recognition.probabilities(level, shots, *learnt)
-        kept |= {f"{level}/{method}/fresh": seen for method, seen in found.items()}
+        kept |= {f"{level}/{method}/fresh": chances for method, chances in found.items()}
     return kept
 
 
-def ask_kernels(level, shots, folder=photos.FOLDER, trainings=TRAININGS):
+def kernel_counts(level, shots, folder=photos.FOLDER, trainings=TRAININGS):
     """The answers of Table I's kernels on photos of a level."""
-    x, truth = examples(shots, RECIPES["context"])
+    x, truth = labelled_candidates(shots, RECIPES["context"])
     counts = [
         [
-            tally(svm.score(x), truth, threshold)[:3]
-            for svm, threshold in classifiers(level, "context", KERNELS, seed, folder)
+            confusion_counts(svm.score(x), truth, threshold)[:3]
+            for svm, threshold in train_classifiers(level, "context", KERNELS, seed, folder)
         ]
         for seed in range(trainings)
     ]
     return dict(zip(KERNELS, np.mean(counts, axis=0).tolist(), strict=True))
 
 
-def ask_detectors(level, shots):
+def detector_counts(level, shots):
     """The answers of Table II's detectors on photos of a level."""
     found = {}
     for name in DETECTORS:
         detector = ObjectDetector.load(level, name)
         strategy = detector.recipe.strategy
-        seen = (detector.detect(photo.image, candidates(photo, strategy)) for photo in shots)
-        right, reached = hits(shots, [detections.boxes for detections in seen])
+        searches = (detector.detect(photo.image, candidates(photo, strategy)) for photo in shots)
+        right, reached = true_positives(shots, [detections.boxes for detections in searches])
         found[name] = tuple(map(int, (right.sum(), (~right).sum(), (~reached).sum())))
     return found

@@ -24,23 +24,23 @@ def gabor_pair(n_w, angle, wavelength, across, along, x0, y0):
     return pair - pair.mean(1, keepdims=True)
 
 
-def fit(W, pair):
+def fit_pair(W, pair):
     """The best mixture of a pair (any phase and contrast) for filter W, and its correlation."""
     target = W.ravel() - W.mean()
     mixture = np.linalg.solve(pair @ pair.T, pair @ target) @ pair
     return mixture, np.linalg.norm(mixture) / np.linalg.norm(target)
 
 
-def scaled(shapes, n_w):
+def scale_shapes(shapes, n_w):
     """Shapes (m, 6) for filters EIGHT pixels wide, as shapes for filters `n_w` wide."""
     return np.asarray(shapes, float) * [1, *[n_w / EIGHT] * 5]
 
 
 @cache
-def coarse(n_w):
+def coarse_grid(n_w):
     """Shapes on a coarse grid (m, 6), and an orthonormal basis of each one's pair (m, 2, n_w²)."""
     angles = np.arange(12) * np.pi / 12
-    shapes = scaled(
+    shapes = scale_shapes(
         list(itertools.product(angles, (4, 6, 9), (1.5, 2.5), (2, 4), (-1, 1), (-1, 1))), n_w
     )
     pairs = [np.linalg.qr(gabor_pair(n_w, *shape).T)[0].T for shape in shapes]
@@ -54,17 +54,17 @@ def best_gabor(W):
     """
     W = np.asarray(W, float)
     n_w = len(W)
-    bounds = scaled(BOUNDS, n_w)
+    bounds = scale_shapes(BOUNDS, n_w)
 
     def miss(shape):
-        return -fit(W, gabor_pair(n_w, *np.clip(shape, *bounds)))[1]
+        return -fit_pair(W, gabor_pair(n_w, *np.clip(shape, *bounds)))[1]
 
-    shapes, pairs = coarse(n_w)
+    shapes, pairs = coarse_grid(n_w)
     fits = np.square(pairs @ (W - W.mean()).ravel()).sum(1)
     starts = shapes[fits.argsort()[-2:]]
     ends = [minimize(miss, start, method="Nelder-Mead", options=PATIENCE) for start in starts]
     shape = min(ends, key=lambda end: end.fun).x
-    mixture, correlation = fit(W, gabor_pair(n_w, *np.clip(shape, *bounds)))
+    mixture, correlation = fit_pair(W, gabor_pair(n_w, *np.clip(shape, *bounds)))
     return mixture.reshape(n_w, n_w), float(correlation)
 
 

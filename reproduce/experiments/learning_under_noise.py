@@ -6,9 +6,13 @@ import numpy as np
 
 from reproduce.experiments import calibration
 from reproduce.experiments.calibration import SEEDS
-from reproduce.experiments.controller_comparison import MOVEMENTS, arm, practise
-from reproduce.peers.adaptive_controllers import RIDGE, LocalCells
-from reproduce.peers.motor_noise import share_for, wavering
+from reproduce.experiments.controller_comparison import (
+    MOVEMENTS,
+    templates_with_noise,
+    train_controller,
+)
+from reproduce.peers.adaptive_controllers import RIDGE, DeltaRuleCells
+from reproduce.peers.motor_noise import noise_share_for, with_noise
 from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration
 from vmc_lib.cerebellum.online import AimCorrection, GranuleCells, WeightCorrection
 from vmc_lib.motor.planning import draw_targets, plan
@@ -20,32 +24,31 @@ LEARNERS = {
     "granule cells": (AimCorrection, GranuleCells),
     "a larger ridge": (AimCorrection, partial(GranuleCells, ridge=RIDGE)),
     **{
-        f"delta rule, rate {rate}": (AimCorrection, partial(LocalCells, rate=rate))
+        f"delta rule, rate {rate}": (AimCorrection, partial(DeltaRuleCells, rate=rate))
         for rate in (0.02, 0.1, 0.4)
     },
 }
 
 
-def learned(mm, seed, learners=LEARNERS, sizes=MOVEMENTS, held_out=200):
+def compare_learners(mm, seed, learners=LEARNERS, sizes=MOVEMENTS, held_out=200):
     """One draw on an arm that wavers by `mm`: shares of habit's miss that are left, by name.
 
-    In-sample and held-out after so many movements (`controller_comparison.practise`), and after
-    off-line calibration: of the best trial, and of the same command given again. "Nothing but
-    noise" is how far reaches end from their own mean, "habit" the miss in mm that all are shares
-    of.
+    In-sample and held-out after so many movements (`train_controller`), and after off-line
+    calibration: of the best trial, and of the same command given again. "Nothing but noise" is how
+    far reaches end from their own mean, "habit" the miss in mm that all are shares of.
     """
-    noise = partial(wavering, share=share_for(mm))
+    noise = partial(with_noise, share=noise_share_for(mm))
     left = {}
     for name, learner in learners.items():
-        shares = practise(*learner, seed, sizes, held_out, noise)[-1]
+        shares = train_controller(*learner, seed, sizes, held_out, noise)[-1]
         left |= {f"{name}, in-sample": shares[:, 0], f"{name}, held-out": shares[:, 1]}
-    return left | calibrated(noise, seed, held_out // 4)
+    return left | compare_calibration(noise, seed, held_out // 4)
 
 
-def calibrated(noise, seed, count):
-    """The off-line part of `learned`, for so many targets."""
+def compare_calibration(noise, seed, count):
+    """The off-line part of `compare_learners`, for so many targets."""
     rng = np.random.default_rng((seed, 3))
-    habit = plan(draw_targets(load(), count, rng), arm(noise, (seed, 4)))
+    habit = plan(draw_targets(load(), count, rng), templates_with_noise(noise, (seed, 4)))
     many = habit.with_weights(np.tile(habit.weights, (20, 1, 1))).reached()
     miss = _norm(many - habit.target).mean()
     left = {
@@ -61,10 +64,10 @@ def calibrated(noise, seed, count):
 
 
 def make(levels=LEVELS, seeds=SEEDS, **size):
-    """What `results/unsteady.json` holds: `learned` for every level, with every seed."""
-    experiments = {f"{mm} mm": partial(learned, mm, **size) for mm in levels}
+    """What `results/unsteady.json` holds: `compare_learners` for every level, with every seed."""
+    experiments = {f"{mm} mm": partial(compare_learners, mm, **size) for mm in levels}
     return calibration.make(experiments, seeds)
 
 
-measured = partial(calibration.measured, "unsteady")
+load_results = partial(calibration.load_results, "unsteady")
 _norm = partial(np.linalg.norm, axis=-1)

@@ -16,11 +16,11 @@ from reproduce.results import arrays
 from reproduce.training.detectors import (
     best_threshold,
     candidates,
-    examples,
     fit_detector,
-    training_examples,
+    labelled_candidates,
+    svm_training_set,
     training_images,
-    tuned,
+    with_best_threshold,
 )
 from vmc_lib import photos
 from vmc_lib.boxes import FOUND, iou
@@ -37,7 +37,7 @@ RETRAINED = ("published", "improved")  # trained anew from TRAININGS seeds
 TRAININGS = 6
 
 
-def trainings(level, split="test", name="published"):
+def table_1(level, split="test", name="published"):
     """Table I: for each kernel, precision and recall of each training, (TRAININGS, 2).
 
     Of the RoI classifier, before suppression, with the features and examples of the recipe `name`,
@@ -49,7 +49,7 @@ def trainings(level, split="test", name="published"):
     return dict(zip(TABLE_1_KERNELS, by_kernel, strict=True))
 
 
-def costs(name="published"):
+def kernel_costs(name="published"):
     """The cost C of each kernel of Table I: with the published recipe as `choose_costs` chose."""
     if name == "context":
         return CONTEXT_COSTS
@@ -72,8 +72,8 @@ def f1_by_cost(folder=photos.FOLDER, trainings=TRAININGS):
     """
     recipe = RECIPES["published"]
     images = training_images(photos.load("rig", "train", folder), recipe)
-    x, truth = examples(photos.load("rig", "validation", folder), recipe)
-    draws = [training_examples(images, recipe, np.random.default_rng(k)) for k in range(trainings)]
+    x, truth = labelled_candidates(photos.load("rig", "validation", folder), recipe)
+    draws = [svm_training_set(images, recipe, np.random.default_rng(k)) for k in range(trainings)]
 
     def f1(kernel, cost):
         called = [KernelSVM.fit(*learnt, kernel, cost).score(x) > 0 for learnt in draws]
@@ -82,23 +82,23 @@ def f1_by_cost(folder=photos.FOLDER, trainings=TRAININGS):
     return np.array([[f1(kernel, cost) for cost in GRID] for kernel in TABLE_1_KERNELS])
 
 
-def classifiers(level, name, kernels, seed, folder=photos.FOLDER, chosen=None):
+def train_classifiers(level, name, kernels, seed, folder=photos.FOLDER, chosen=None):
     """For each kernel of Table I, a KernelSVM trained with the recipe `name`, and its threshold.
 
     Beyond the published recipe, whose threshold is 0, the validation photos set the threshold.
-    Both kinds of photos lie in `folder`. Costs other than `costs` may be `chosen`.
+    Both kinds of photos lie in `folder`. Costs other than `kernel_costs` may be `chosen`.
     """
-    chosen = chosen or costs(name)
+    chosen = chosen or kernel_costs(name)
     recipe, rng = RECIPES[name], np.random.default_rng(seed)
     images = training_images(photos.load(level, "train", folder), recipe)
-    learnt = training_examples(images, recipe, rng)
-    x, truth = examples(photos.load(level, "validation", folder), recipe)
+    learnt = svm_training_set(images, recipe, rng)
+    x, truth = labelled_candidates(photos.load(level, "validation", folder), recipe)
     for kernel in kernels:
         svm = KernelSVM.fit(*learnt, kernel, chosen[kernel])
-        yield svm, 0 if name == "published" else steady_threshold(svm.score(x), truth)
+        yield svm, 0 if name == "published" else smoothed_threshold(svm.score(x), truth)
 
 
-def steady_threshold(scores, right):
+def smoothed_threshold(scores, right):
     """A threshold near the best for scores (n,), which a few odd examples cannot move far.
 
     What is right, (n,) true or false, is first smoothed into the chance that a score is: a logistic
@@ -109,17 +109,17 @@ def steady_threshold(scores, right):
     return best_threshold(scores, chances, chances.sum())
 
 
-def classify(level, name, seed, kernels=TABLE_1_KERNELS, folder=photos.FOLDER, chosen=None):
+def measure_table_1(level, name, seed, kernels=TABLE_1_KERNELS, folder=photos.FOLDER, chosen=None):
     """Table I: (precision, recall) of each kernel in each of the SPLITS, (3, kernels, 2)."""
-    trained, rows = list(classifiers(level, name, kernels, seed, folder, chosen)), []
+    trained, rows = list(train_classifiers(level, name, kernels, seed, folder, chosen)), []
     for split in photos.SPLITS:
-        x, truth = examples(photos.load(level, split, folder), RECIPES[name])
+        x, truth = labelled_candidates(photos.load(level, split, folder), RECIPES[name])
         called = [truth[svm.score(x) > threshold] for svm, threshold in trained]
         rows.append([(r.sum() / max(len(r), 1), r.sum() / truth.sum()) for r in called])
     return np.array(rows)
 
 
-def search(level, split, detector="published", folder=photos.FOLDER):
+def detect_photos(level, split, detector="published", folder=photos.FOLDER):
     """The Detections of a detector (or the shipped one of that name) in each photo of a split."""
     if isinstance(detector, str):
         detector = ObjectDetector.load(level, detector)
@@ -141,11 +141,11 @@ def precision_recall(shots, boxes, overlap=FOUND):
 
     Precision is the share of boxes that are right, recall that of objects with a right box.
     """
-    right, reached = hits(shots, boxes, overlap)
+    right, reached = true_positives(shots, boxes, overlap)
     return float(right.sum() / max(right.size, 1)), float(reached.mean())
 
 
-def hits(shots, boxes, overlap=FOUND):
+def true_positives(shots, boxes, overlap=FOUND):
     """Of a list of boxes a photo, which boxes are right, and which objects have a right box.
 
     Truth values for all boxes of all photos in turn, and for all objects.
@@ -154,7 +154,7 @@ def hits(shots, boxes, overlap=FOUND):
     return tuple(np.concatenate([pairs.any(axis) for pairs in shared]) for axis in (1, 0))
 
 
-def spread(level, name):
+def table_2_interval(level, name):
     """Table II's row of a recipe over TRAININGS trainings: means (2,), half 95 % intervals (2,).
 
     Precision and recall on the test photos at IoU 0.8; the recipe is one of RETRAINED.
@@ -164,7 +164,7 @@ def spread(level, name):
 
 def figure_6(level, split="test"):
     """Fig. 6: the mean number of boxes a photo that each step leaves."""
-    counts = [detections.counts for detections in search(level, split, "published")]
+    counts = [detections.counts for detections in detect_photos(level, split, "published")]
     return {step: float(np.mean([count[step] for count in counts])) for step in counts[0]}
 
 
@@ -177,37 +177,41 @@ def make(folder=photos.FOLDER, recipes=RECIPES, trainings=TRAININGS):
     chosen = {"published": dict(zip(TABLE_1_KERNELS, costs, strict=True)), "context": CONTEXT_COSTS}
     jobs = [
         *(
-            delayed(trained_anew)(level, name, recipes[name], trainings, folder)
+            delayed(retrain_detectors)(level, name, recipes[name], trainings, folder)
             for level, name in product(levels, RETRAINED[::-1])
         ),
         *(
-            delayed(classified)(*job, folder, chosen[job[1]])
+            delayed(table_1_arrays)(*job, folder, chosen[job[1]])
             for job in product(levels, TABLE_1_RECIPES, range(trainings))
         ),
-        *(delayed(found)(*job, folder) for job in product(levels, photos.SPLITS, RECIPES)),
+        *(delayed(final_boxes)(*job, folder) for job in product(levels, photos.SPLITS, RECIPES)),
     ]
     return dict(ChainMap({"published/costs": costs}, *Parallel()(jobs)))
 
 
-def found(level, split, name, folder):
+def final_boxes(level, split, name, folder):
     """The boxes that the shipped detector `name` leaves, by photo."""
     shots = photos.load(level, split, folder)
-    pairs = zip(shots, search(level, split, name, folder), strict=True)
-    return {f"{photo.name}/{name}": seen.boxes.astype(np.float32) for photo, seen in pairs}
+    pairs = zip(shots, detect_photos(level, split, name, folder), strict=True)
+    return {
+        f"{photo.name}/{name}": detections.boxes.astype(np.float32) for photo, detections in pairs
+    }
 
 
-def classified(level, name, seed, folder, chosen):
+def table_1_arrays(level, name, seed, folder, chosen):
     """Table I of one training, (3 splits, 4 kernels, 2)."""
-    rows = classify(level, name, seed, folder=folder, chosen=chosen)
+    rows = measure_table_1(level, name, seed, folder=folder, chosen=chosen)
     return {f"{level}/{name}/table 1/{seed}": rows}
 
 
-def trained_anew(level, name, recipe, trainings, folder):
+def retrain_detectors(level, name, recipe, trainings, folder):
     """Precision and recall on the test photos of detectors from many seeds, (trainings, 2)."""
     train, held_out, test = (photos.load(level, split, folder) for split in photos.SPLITS)
     rows = []
     for seed in range(trainings):
-        detector = tuned(fit_detector(train, recipe, np.random.default_rng(seed)), held_out)
-        seen = search(level, "test", detector, folder)
-        rows.append(precision_recall(test, [detections.boxes for detections in seen]))
+        detector = with_best_threshold(
+            fit_detector(train, recipe, np.random.default_rng(seed)), held_out
+        )
+        searches = detect_photos(level, "test", detector, folder)
+        rows.append(precision_recall(test, [detections.boxes for detections in searches]))
     return {f"{level}/{name}/seeds": np.array(rows)}

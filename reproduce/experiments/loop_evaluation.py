@@ -58,7 +58,7 @@ def first_failure(scores, rule="own"):
     return np.where(arrived, "", np.array(FAILURE_STAGES)[broken.argmax(axis=1)])
 
 
-def trial(level, taught=None, folder=photos.FOLDER):
+def evaluate(level, taught=None, folder=photos.FOLDER):
     """`score` of every test photo of a level in `folder`, as a dictionary of arrays (n,).
 
     By the model that was taught on the level `taught`; by default the level's own. The photos go
@@ -67,16 +67,16 @@ def trial(level, taught=None, folder=photos.FOLDER):
     """
     model = VisuomotorModel.load(taught or level)
     shots = photos.load(level, "test", folder)
-    scores = Parallel()(delayed(_tried)(model, photo) for photo in shots)
+    scores = Parallel()(delayed(_evaluate_photo)(model, photo) for photo in shots)
     return {key: np.array([s[key] for s in scores]) for key in scores[0]}
 
 
-def generalist(levels=photos.LEVELS, folder=photos.FOLDER):
+def make_generalist(levels=photos.LEVELS, folder=photos.FOLDER):
     """What `results/generalist.json` holds: level -> `summary` of how the model of "real" fares."""
-    return {level: summary(trial(level, photos.REAL_LEVEL, folder)) for level in levels}
+    return {level: summary(evaluate(level, photos.REAL_LEVEL, folder)) for level in levels}
 
 
-def _tried(model, photo):
+def _evaluate_photo(model, photo):
     sight, place, reaches = see(model, photo.image), None, {}
     with suppress(NoReach):  # nothing named, or out of reach: no movement, and counted as such
         place = locate(model, photo.image, sight.box, photo.camera)
@@ -97,7 +97,7 @@ def summary(scores):
     return shares | medians
 
 
-def gone_for(sight, lesion):
+def target_box(sight, lesion):
     """The box (4,) a reach goes for under one of `LESIONS`, or None.
 
     Without the ventral pathway nothing has a name: it is the box of the highest score.
@@ -106,7 +106,7 @@ def gone_for(sight, lesion):
     return sight.box if lesion != "ventral" else boxes[0] if len(boxes) else None
 
 
-def lesioned(model, photo, box, lesion):
+def reach_with_lesion(model, photo, box, lesion):
     """The `Reach` for a box under one of `LESIONS`; `NoReach` as from `locate` and `reach`.
 
     Without the dorsal pathway nothing has a place: the hand goes where the last shuttlecock of
@@ -118,7 +118,7 @@ def lesioned(model, photo, box, lesion):
     return reach(model, place, None if lesion == "cerebellum" else algorithm_1)
 
 
-def lesions(level, folder=photos.FOLDER):
+def evaluate_lesions(level, folder=photos.FOLDER):
     """Every test photo of a level under each of `LESIONS`: two lists for each lesion.
 
     "object" is what the box holds that is gone for: "shuttlecock", "cup", "neither" or, with no
@@ -127,29 +127,29 @@ def lesions(level, folder=photos.FOLDER):
     """
     model = VisuomotorModel.load(level)
     shots = photos.load(level, "test", folder)
-    left = Parallel()(delayed(_lesioned)(model, photo) for photo in shots)
+    left = Parallel()(delayed(_photo_lesions)(model, photo) for photo in shots)
     keys = ("object", "missed")
     return {how: {key: [one[how][key] for one in left] for key in keys} for how in LESIONS}
 
 
 def make(levels=photos.LEVELS, folder=photos.FOLDER):
-    """What `results/lesions.json` holds: `lesions` of every level's test photos in `folder`."""
-    return {level: lesions(level, folder) for level in levels}
+    """What `results/lesions.json` holds: `evaluate_lesions` of every level."""
+    return {level: evaluate_lesions(level, folder) for level in levels}
 
 
-def _lesioned(model, photo):
+def _photo_lesions(model, photo):
     sight, left = see(model, photo.image), {}
     for how in LESIONS:
-        box = gone_for(sight, how)
-        left[how] = {"object": held(photo, box), "missed": None}
+        box = target_box(sight, how)
+        left[how] = {"object": object_in_box(photo, box), "missed": None}
         with suppress(NoReach):
-            made = lesioned(model, photo, box, how)
+            made = reach_with_lesion(model, photo, box, how)
             missed = np.linalg.norm(made.hand(made.calibrated)[-1] - photo.target)
             left[how]["missed"] = round(1000 * float(missed), 1)
     return left
 
 
-def held(photo, box):
+def object_in_box(photo, box):
     """What a box (4,) holds, sharing more than half of the union: "shuttlecock", "cup", "neither".
 
     "nothing" when there is no box.

@@ -14,7 +14,7 @@ from itertools import product
 import numpy as np
 from joblib import Parallel, delayed
 
-from reproduce.experiments.calibration import SEEDS, repeat, skilled
+from reproduce.experiments.calibration import SEEDS, repeat_over_seeds, train_aim_correction
 from reproduce.peers import minimum_variance, optimal_control
 from reproduce.results import arrays
 from vmc_lib.arm.model import MUSCLES
@@ -31,105 +31,108 @@ TARGETS = optimal_control.TARGETS[
 RIVALS = "least effort", "least variance"
 
 
-def strength(muscle):
+def muscle_strength(muscle):
     """What is left of each muscle's command, (6,), where the one of this name is weak."""
     if muscle not in MUSCLES:
         raise ValueError(f"the arm has no muscle {muscle!r}; choose one of {MUSCLES}")
     return np.where(np.array(MUSCLES) == muscle, LEFT, 1.0)
 
 
-def arm(muscle):
+def weak_arm(muscle):
     """The templates of the whole arm, as they are remembered, on one whose `muscle` is weak."""
-    return replace(load(), reach=partial(_moved, strength(muscle)))
+    return replace(load(), reach=partial(_weak_reach, muscle_strength(muscle)))
 
 
-def learned(seed, count=100, before=150, muscles=MUSCLES):
+def learn_weak_arm(seed, count=100, before=150, muscles=MUSCLES):
     """What habit makes of each muscle's weakness, in one draw: numbers by name.
 
     It has practised `before` movements with the whole arm, and then `count` with the weak one: of
-    these, and of as many others, the mean miss in mm, and `measures`, before and after.
+    these, and of as many others, the mean miss in mm, and `command_measures`, before and after.
     """
     rng = np.random.default_rng(seed)
-    skill = skilled(load(), rng, before)
+    skill = train_aim_correction(load(), rng, before)
     practised, others = (draw_targets(load(), count, rng) for _ in range(2))
     found = {}
     for muscle, corrects in product(muscles, CORRECTIONS):
-        lessons, unseen, shown = (plan(x, arm(muscle)) for x in (practised, others, TARGETS))
-        pupil = Adaptation(skill, load(), corrects)
+        lessons, unseen, test = (plan(x, weak_arm(muscle)) for x in (practised, others, TARGETS))
+        learner = Adaptation(skill, load(), corrects)
         for when, more in zip(WHEN, (0, count), strict=True):
             for first in range(0, more, TOGETHER):
-                pupil.practise(lessons[first : first + TOGETHER])
-            rows = {"in-sample": _miss(pupil, lessons), "held-out": _miss(pupil, unseen)}
-            rows |= measures(pupil.correct(shown).excitations, muscle)
+                learner.practise(lessons[first : first + TOGETHER])
+            rows = {
+                "in-sample": _mean_miss(learner, lessons),
+                "held-out": _mean_miss(learner, unseen),
+            }
+            rows |= command_measures(learner.correct(test).excitations, muscle)
             found |= {f"{muscle}, {corrects}, {when}, {name}": x for name, x in rows.items()}
     return found
 
 
-def measures(told, muscle):
+def command_measures(excitations, muscle):
     """Numbers by name of commands (5, T, 6) to `TARGETS`, where this `muscle` is weak.
 
     The mean miss in mm, the mean effort, and how hard each muscle is driven, (6,): the root of its
     command's mean square.
     """
-    ends = reach(told * strength(muscle)).reached
+    ends = reach(excitations * muscle_strength(muscle)).reached
     return {
         "miss": 1000 * np.linalg.norm(ends - TARGETS, axis=-1).mean(),
-        "effort": optimal_control.effort(told).mean(),
-        "drive": np.sqrt(np.square(told).mean(axis=(0, 1))),
+        "effort": optimal_control.effort(excitations).mean(),
+        "drive": np.sqrt(np.square(excitations).mean(axis=(0, 1))),
     }
 
 
-def searched(targets=TARGETS, muscles=MUSCLES):
+def search_optima(targets=TARGETS, muscles=MUSCLES):
     """What muscles get by least effort, where one is known to be weak: knots (muscles, n, 72)."""
     each = product(muscles, targets)
     found = Parallel()(
-        delayed(optimal_control.search)(goal, strength(muscle)) for muscle, goal in each
+        delayed(optimal_control.search)(goal, muscle_strength(muscle)) for muscle, goal in each
     )
     knots = np.array([optimum.x for optimum in found], np.float32)
     return knots.reshape(len(muscles), len(targets), -1)
 
 
 def make(seeds=SEEDS, targets=TARGETS, muscles=MUSCLES, **size):
-    """What `results/weakened.npz` holds: the cheapest knots, and `learned` with every seed."""
-    habit = repeat(partial(learned, muscles=muscles, **size), seeds)
-    return {"least effort": searched(targets, muscles)} | habit
+    """What `results/weakened.npz` holds: the cheapest knots, and `learn_weak_arm` by seed."""
+    habit = repeat_over_seeds(partial(learn_weak_arm, muscles=muscles, **size), seeds)
+    return {"least effort": search_optima(targets, muscles)} | habit
 
 
-def shipped():
+def load_results():
     """What `make` gave, by name."""
     return arrays("weakened")
 
 
 @cache
-def compared(muscle):
-    """By rule and by `WHEN`, `measures` where this muscle is weak.
+def compare_rules(muscle):
+    """By rule and by `WHEN`, `command_measures` where this muscle is weak.
 
     Of habit, which corrects its aim or its pull, there are six draws, (6, …); of a rival, (1, …).
     """
-    told, found = minimum_variance.rivals(), {}
+    commands_by_rule, found = minimum_variance.excitations_by_rule(), {}
     for corrects in CORRECTIONS:
         keys = {when: f"{muscle}, {corrects}, {when}" for when in WHEN}
         found[f"habit, {corrects}"] = {
-            when: {name: shipped()[f"{key}, {name}"] for name in ("miss", "effort", "drive")}
+            when: {name: load_results()[f"{key}, {name}"] for name in ("miss", "effort", "drive")}
             for when, key in keys.items()
         }
-    cheapest = optimal_control.excited(
-        shipped()["least effort"][MUSCLES.index(muscle)].astype(float)
+    cheapest = optimal_control.excitations_from_knots(
+        load_results()["least effort"][MUSCLES.index(muscle)].astype(float)
     )
-    again = cheapest, np.minimum(told["least variance"], strength(muscle))
+    again = cheapest, np.minimum(commands_by_rule["least variance"], muscle_strength(muscle))
     for rival, got in zip(RIVALS, again, strict=True):
-        both = zip(WHEN, (told[rival], got / strength(muscle)), strict=True)
+        both = zip(WHEN, (commands_by_rule[rival], got / muscle_strength(muscle)), strict=True)
         found[rival] = {
-            when: {name: np.array([x]) for name, x in measures(commands, muscle).items()}
+            when: {name: np.array([x]) for name, x in command_measures(commands, muscle).items()}
             for when, commands in both
         }
     return found
 
 
-def _moved(share, excitations, perturbation):
+def _weak_reach(share, excitations, perturbation):
     return reach(excitations * share, perturbation)
 
 
-def _miss(pupil, test):
-    """The mean miss in mm of plans that a pupil corrects."""
-    return 1000 * pupil.correct(test).missed().mean()
+def _mean_miss(learner, test):
+    """The mean miss in mm of plans that a learner corrects."""
+    return 1000 * learner.correct(test).missed().mean()

@@ -7,7 +7,7 @@ from functools import cache
 
 import numpy as np
 
-from reproduce.experiments.feedback_control import plans
+from reproduce.experiments.feedback_control import exact_plans
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.motor.feedback import TICK, Intention, intend, switch
 from vmc_lib.motor.planning import draw_targets, surrounded
@@ -22,7 +22,9 @@ def obstacles(template_set, count, rng):
     """Targets (count, 2), and balls (count, 2), each in the middle of the meant way there."""
     targets = draw_targets(template_set, 20 * count, rng)
     parts = np.array_split(targets, 20)  # one after the other: less memory
-    ways = np.concatenate([meant(intend(plans(part, template_set))) for part in parts])
+    ways = np.concatenate(
+        [reference_paths(intend(exact_plans(part, template_set))) for part in parts]
+    )
     start, end = ways[:, 0], ways[:, -1]
     long = np.linalg.norm(end - start, axis=-1) > LONG
     middle = (start + end)[:, None] / 2
@@ -30,16 +32,16 @@ def obstacles(template_set, count, rng):
     return targets[long][:count], ways[np.arange(len(ways)), nearest][long][:count]
 
 
-def around(target, ball, template_set):
+def plan_around(target, ball, template_set):
     """The via-point (2,) to a target (2,) round a ball (2,), and the `Intention` (a batch of one).
 
     Of all via-points whose meant way keeps `APART` of the ball, that of the shortest. ValueError
     when there is none.
     """
-    spots, first = _starts(template_set)
-    second = intend(plans(target[None], template_set))
+    spots, first = _via_points(template_set)
+    second = intend(exact_plans(target[None], template_set))
     both = switch(first, second, TURN)
-    ways = meant(both)
+    ways = reference_paths(both)
     length = np.linalg.norm(np.diff(ways, axis=1), axis=-1).sum(axis=1)
     free = clearance(ways, ball[None]) > APART
     if not free.any():
@@ -49,16 +51,16 @@ def around(target, ball, template_set):
 
 
 @cache
-def _starts(template_set):
+def _via_points(template_set):
     """All places (n, 2) that may become via-points, and the `Intention` to reach each."""
     low, high = template_set.points.min(axis=0), template_set.points.max(axis=0)
     spots = np.stack(np.meshgrid(*(np.arange(a, b, GRID) for a, b in zip(low, high, strict=True))))
     spots = spots.reshape(2, -1).T
     spots = spots[surrounded(spots, template_set.points)]
-    return spots, intend(plans(spots, template_set))
+    return spots, intend(exact_plans(spots, template_set))
 
 
-def meant(intention):
+def reference_paths(intention):
     """The hand's ways (B, ticks, 2) as they are meant."""
     return hand(intention.q[:, ::TICK])[..., :2]
 

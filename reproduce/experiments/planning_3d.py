@@ -20,7 +20,7 @@ from vmc_lib.motor import planning, templates
 TURNS = np.radians([-10.0, 5.0, 20.0, 35.0, 50.0, 65.0])
 
 
-class Turned(NamedTuple):
+class TrunkMovement(NamedTuple):
     """A movement of the arm on a trunk that has turned by `turn` (…), rad."""
 
     motion: Motion
@@ -34,10 +34,10 @@ class Turned(NamedTuple):
 
 def move(commands, perturbation=UNPERTURBED):
     """What commands (…, T, 7), six excitations and the turn, make of the arm and the trunk."""
-    return Turned(templates.reach(commands[..., :-1], perturbation), commands[..., -1, -1])
+    return TrunkMovement(templates.reach(commands[..., :-1], perturbation), commands[..., -1, -1])
 
 
-def turned(template_set):
+def with_trunk_turns(template_set):
     """A `TemplateSet` in space: every reach of a set (N) under every turn, which changes fastest.
 
     Its commands are (6 N, T, 7).
@@ -68,14 +68,14 @@ def surrounding(target, template_set):
     return np.concatenate([rows, rows + 1], axis=-1)
 
 
-def practise(targets, template_set, trials=3, rule=planning.habitual_weights):
+def plan_and_correct(targets, template_set, trials=3, rule=planning.habitual_weights):
     """`Trials` for targets (n, 3): planned by Eq. 5 (or another rule), then corrected by Eq. 4."""
     chosen = surrounding(targets, template_set)
-    planned = planning.plan(targets, turned(template_set), rule, chosen)
+    planned = planning.plan(targets, with_trunk_turns(template_set), rule, chosen)
     return broyden_calibration(planned, trials, broyden=False, guarded=False)
 
 
-def measured(seed, count=100, trials=3):
+def experiment(seed, count=100, trials=3):
     """One draw of `count` targets in space: numbers by name.
 
     "planned / reach" is the mean miss over the mean distance from the shoulder; "exact / reach",
@@ -87,8 +87,8 @@ def measured(seed, count=100, trials=3):
     places = hand(inverse_kinematics(flat))
     targets = to_world(places, rng.uniform(TURNS[0], TURNS[-1], count))
     distance = np.linalg.norm(places, axis=1).mean()
-    planned, *left = practise(targets, past, trials).error.mean(axis=1)
-    exact = practise(targets, past, 0, planning.exact_weights).error.mean()
+    planned, *left = plan_and_correct(targets, past, trials).error.mean(axis=1)
+    exact = plan_and_correct(targets, past, 0, planning.exact_weights).error.mean()
     in_plane = planning.plan(flat, past).missed().mean()
     return {
         "planned / reach": planned / distance,

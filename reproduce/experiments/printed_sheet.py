@@ -19,27 +19,27 @@ def make(folder=photos.FOLDER, models=MODELS, count=None):
     """
     shots = photos.load(photos.SHEET_LEVEL, "test", folder)[:count]
     loaded = {name: VisuomotorModel.load(name) for name in models}
-    rows = Parallel()(delayed(missed)(photo, loaded) for photo in shots)
+    rows = Parallel()(delayed(photo_errors)(photo, loaded) for photo in shots)
     return {way: [row[way] for row in rows] for way in rows[0]}
 
 
-def missed(photo, models):
+def photo_errors(photo, models):
     """The row of one photo."""
     camera, bare = sheet.look(photo.image)
     true = photo.boxes["shuttlecock"]
     [model, *_] = models.values()  # all have the same localiser
     row = {
-        "true box, true camera": _off(photo, bare, model, true, photo.camera),
-        f"true box{FROM_SHEET}": _off(photo, bare, model, true, camera),
+        "true box, true camera": _error(photo, bare, model, true, photo.camera),
+        f"true box{FROM_SHEET}": _error(photo, bare, model, true, camera),
     }
     for name, model in models.items():
         for way, known in (("", None), (SIZED, camera)):
             box = see(model, bare, known).box
-            row[f"box of {name}{FROM_SHEET}{way}"] = _off(photo, bare, model, box, camera)
+            row[f"box of {name}{FROM_SHEET}{way}"] = _error(photo, bare, model, box, camera)
     return row
 
 
-def _off(photo, bare, model, box, camera):
+def _error(photo, bare, model, box, camera):
     try:
         place = locate(model, bare, box, camera)
     except NoReach:

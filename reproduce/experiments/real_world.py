@@ -12,34 +12,37 @@ from vmc_lib.statistics import wilson
 MODELS, SPLITS = ("varied", "real"), ("validation", "test")
 SIZED = ", size counts"  # where the camera is known
 QUESTIONS = {  # about which photos, and what has to be so
-    "shuttlecocks named, in their true boxes": ("shuttlecock", lambda seen: seen["chance"] > 0.5),
-    "cups called a shuttlecock": ("cup", lambda seen: seen["chance"] > 0.5),
-    "a good candidate": ("shuttlecock", lambda seen: seen["candidate"] >= FOUND),
-    "a box on the shuttlecock": ("shuttlecock", lambda seen: seen["kept"] > 0.5),
-    "a good box": ("shuttlecock", lambda seen: seen["kept"] >= FOUND),
-    "the chosen box is the shuttlecock's": ("shuttlecock", lambda seen: seen["fit"] > 0.5),
-    "and fits well": ("shuttlecock", lambda seen: seen["fit"] >= FOUND),
-    "photos of a cup with a false alarm": ("cup", lambda seen: seen["chosen"] is not None),
-    "photos of neither with one": ("neither", lambda seen: seen["chosen"] is not None),
+    "shuttlecocks named, in their true boxes": (
+        "shuttlecock",
+        lambda result: result["chance"] > 0.5,
+    ),
+    "cups called a shuttlecock": ("cup", lambda result: result["chance"] > 0.5),
+    "a good candidate": ("shuttlecock", lambda result: result["candidate"] >= FOUND),
+    "a box on the shuttlecock": ("shuttlecock", lambda result: result["kept"] > 0.5),
+    "a good box": ("shuttlecock", lambda result: result["kept"] >= FOUND),
+    "the chosen box is the shuttlecock's": ("shuttlecock", lambda result: result["fit"] > 0.5),
+    "and fits well": ("shuttlecock", lambda result: result["fit"] >= FOUND),
+    "photos of a cup with a false alarm": ("cup", lambda result: result["chosen"] is not None),
+    "photos of neither with one": ("neither", lambda result: result["chosen"] is not None),
 }
 
 
-def load(model, split):
+def load_results(model, split):
     """What `examine` found in each photo of a split, by the photo's name."""
     return records("real_world")[model][split]
 
 
-def answers(found):
-    """Question -> (how many, of how many), from what `load` gives; of what there is in it."""
+def count_answers(found):
+    """Question -> (how many, of how many), of what `load_results` gives."""
     counts = {}
     for question, (kind, holds) in QUESTIONS.items():
-        right = [holds(seen) for seen in found.values() if seen["holds"] == kind]
+        right = [holds(result) for result in found.values() if result["holds"] == kind]
         if right:
             counts[question] = sum(right), len(right)
     return counts
 
 
-def told(count, of):
+def share_text(count, of):
     """A share as text, with its 95 % interval (Wilson)."""
     low, high = wilson(count, of)
     return f"{count} of {of} ({low:.0%} to {high:.0%})"
@@ -51,12 +54,12 @@ def make(folder=photos.FOLDER, models=MODELS, splits=SPLITS):
     for name in models:
         model = VisuomotorModel.load(name)
         found[name] = {
-            split: _examined(model, photos.load("real", split, folder)) for split in splits
+            split: _examine_all(model, photos.load("real", split, folder)) for split in splits
         }
     return found
 
 
-def elsewhere(folder, models=MODELS):
+def make_elsewhere(folder, models=MODELS):
     """What `results/elsewhere.json` holds: model -> photo -> what `examine` found.
 
     Of the scenes of `render.elsewhere`, by another renderer, of which no model has seen one; each
@@ -65,14 +68,14 @@ def elsewhere(folder, models=MODELS):
     shots, found = photos.load("varied", "test", folder), {}
     for name in models:
         model = VisuomotorModel.load(name)
-        found[name] = _examined(model, shots)
-        found[name + SIZED] = _examined(model, shots, sized=True)
+        found[name] = _examine_all(model, shots)
+        found[name + SIZED] = _examine_all(model, shots, sized=True)
     return found
 
 
-def _examined(model, shots, sized=False):
-    seen = Parallel()(delayed(examine)(model, photo, sized) for photo in shots)
-    return {photo.name: one for photo, one in zip(shots, seen, strict=True)}
+def _examine_all(model, shots, sized=False):
+    results = Parallel()(delayed(examine)(model, photo, sized) for photo in shots)
+    return {photo.name: one for photo, one in zip(shots, results, strict=True)}
 
 
 def examine(model, photo, sized=False):
@@ -86,12 +89,12 @@ def examine(model, photo, sized=False):
     sight = see(model, photo.image, photo.camera if sized else None)
     holds = next(iter(photo.boxes), "neither")
     chosen = [] if sight.box is None else sight.box
-    told = {"holds": holds, "chosen": None if sight.box is None else _rounded(sight.box)}
+    record = {"holds": holds, "chosen": None if sight.box is None else _rounded(sight.box)}
     if holds == "neither":
-        return told
+        return record
     truth = photo.boxes[holds]
     chance = model.recogniser.chance(photo.image, truth[None])
-    return told | {
+    return record | {
         "chance": round(float(chance[0]), 4),
         "candidate": _best(found.candidates, [truth]),
         "kept": _best(found.boxes, [truth]),

@@ -10,7 +10,7 @@ from sklearn.cluster import KMeans
 
 from reproduce.peers.baseline_features import bag_of_sift, histograms_of_gradients, raw_pixels, sift
 from reproduce.results import arrays
-from reproduce.training.name_classifier import examples, fit_name_classifier
+from reproduce.training.name_classifier import fit_name_classifier, labelled_crops
 from vmc_lib import photos
 from vmc_lib.what.cdbn import CDBN, crops_of
 from vmc_lib.what.recogniser import NameClassifier, read_outs
@@ -33,13 +33,13 @@ def features(crops, learnt):
     """Every method's features (n, d) of crops (n, 200, 200), given what was learnt before."""
     from reproduce.peers.hmax import hmax  # here, for torch weighs on who only reads the results
 
-    seen, matches = read_outs(learnt["cdbn"], crops), hmax(crops, learnt["prototypes"])
+    readouts, matches = read_outs(learnt["cdbn"], crops), hmax(crops, learnt["prototypes"])
     by_hand = [histograms_of_gradients(crops), bag_of_sift(crops, learnt["words"])]
-    found = [*seen.values(), matches[:, :10], matches, *by_hand, raw_pixels(crops)]
+    found = [*readouts.values(), matches[:, :10], matches, *by_hand, raw_pixels(crops)]
     return dict(zip(METHODS, found, strict=True))
 
 
-def tally(probability, shuttlecock, threshold=0.5):
+def confusion_counts(probability, shuttlecock, threshold=0.5):
     """Counts (true positives, false positives, false negatives, true negatives)."""
     called = np.asarray(probability) > threshold
     pairs = [(True, True), (True, False), (False, True), (False, False)]
@@ -47,12 +47,12 @@ def tally(probability, shuttlecock, threshold=0.5):
 
 
 def precision_recall(counts):
-    """Precision and recall from `tally`; nan where nothing was called or nothing was there."""
+    """Precision and recall of `confusion_counts`; NaN where a denominator is 0."""
     right, wrong, missed, _ = counts
     return tuple(right / n if n else np.nan for n in (right + wrong, right + missed))
 
 
-def load():
+def load_classifiers():
     """What was learnt: what `features` needs, and a NameClassifier for each (level, method)."""
     kept = arrays("recognition")
     learnt = {"cdbn": CDBN.load()} | {name: kept[name] for name in ("words", "prototypes")}
@@ -67,7 +67,7 @@ def probabilities(level, shots, learnt, linear):
     return {m: linear[level, m].probability(found[m]) for m in METHODS}, shuttlecock
 
 
-def verdicts(level, split):
+def load_probabilities(level, split):
     """What `probabilities` found when the file was made: finding it takes a while.
 
     The split "fresh" is of the test photos that were rendered when all was settled.
@@ -76,10 +76,13 @@ def verdicts(level, split):
     return {m: kept[f"{level}/{m}/{split}"] for m in METHODS}, kept[f"{level}/{split}"]
 
 
-def named_right(split):
+def correct_by_method(split):
     """Which true boxes of all levels each method names right: (n,) by method."""
-    found = [verdicts(level, split) for level in photos.LEVELS]
-    return {m: np.hstack([(seen[m] > 0.5) == truth for seen, truth in found]) for m in METHODS}
+    found = [load_probabilities(level, split) for level in photos.LEVELS]
+    return {
+        m: np.hstack([(probability[m] > 0.5) == truth for probability, truth in found])
+        for m in METHODS
+    }
 
 
 def make(folder=photos.FOLDER, prototypes=250):
@@ -88,26 +91,26 @@ def make(folder=photos.FOLDER, prototypes=250):
     And what it says of each: a probability for every true box of every split.
     """
     rng = np.random.default_rng(0)
-    learnt = learn_without_labels(folder, prototypes, rng)
+    learnt = learn_unsupervised(folder, prototypes, rng)
     kept = {name: np.asarray(x) for name, x in learnt.items()}
     learnt["cdbn"] = CDBN.load()
     for level in photos.LEVELS:
-        crops, y = examples(photos.load(level, "train", folder), rng)
+        crops, y = labelled_crops(photos.load(level, "train", folder), rng)
         x = features(crops, learnt)
         exams = {split: crops_of(photos.load(level, split, folder)) for split in photos.SPLITS}
-        seen = {split: features(crops, learnt) for split, (crops, _) in exams.items()}
+        by_split = {split: features(crops, learnt) for split, (crops, _) in exams.items()}
         kept |= {f"{level}/{split}": truth for split, (_, truth) in exams.items()}
         for method in METHODS:
             linear = fit_name_classifier(
-                x[method], y, seen["validation"][method], exams["validation"][1]
+                x[method], y, by_split["validation"][method], exams["validation"][1]
             )
             kept |= linear.arrays(f"{level}/{method}")
             for split in photos.SPLITS:
-                kept[f"{level}/{method}/{split}"] = linear.probability(seen[split][method])
+                kept[f"{level}/{method}/{split}"] = linear.probability(by_split[split][method])
     return kept
 
 
-def learn_without_labels(folder, prototypes, rng):
+def learn_unsupervised(folder, prototypes, rng):
     """HMAX's prototypes and SIFT's words, from training crops of all levels, labels unused."""
     from reproduce.peers.hmax import draw_prototypes
 

@@ -55,7 +55,7 @@ def reach(torques, _perturbation=None):
     return SimpleNamespace(reached=tip(q))
 
 
-def templates(goals=GOALS):
+def torque_templates(goals=GOALS):
     """Past experience: the torques that bring the tip smoothly to each of the goals (N, 2)."""
     q = minimum_jerk(START, posture(goals), SAMPLES, MOVING)
     velocity = np.diff(q, axis=1, prepend=q[:, :1]) / STEP
@@ -66,7 +66,7 @@ def templates(goals=GOALS):
 
 def experiment(seed):
     """For one draw of targets, by name: the planned miss over the reach, and what rules leave."""
-    rng, past = np.random.default_rng(seed), templates()
+    rng, past = np.random.default_rng(seed), torque_templates()
     habit, lessons = (plan(draw_targets(past, n, rng), past) for n in (25, 100))
     tries = broyden_calibration(habit).error.mean(axis=1)
     aimed = AimCorrection(past).practise(lessons).correct(habit)

@@ -21,12 +21,12 @@ def make(rows=ROWS, levels=LEVELS):
     """What `results/ledger.json` holds: the rows measured, and how the loop fares on each level."""
     return {
         "rows": [measure(row) for row in rows],
-        "loop": {level: loop.fate(level) for level in levels},
+        "loop": {level: loop.loop_results(level) for level in levels},
     }
 
 
 def load():
-    """The ledger as it was last measured: {"rows": [...], "loop": {level: `loop.fate`}}."""
+    """The ledger as it was last measured: {"rows": [...], "loop": {level: `loop.loop_results`}}."""
     return results.records("ledger")
 
 
@@ -43,7 +43,7 @@ def value(where, name):
     raise ValueError(f"the ledger has no {name!r} of {where!r}; choose from {known}")
 
 
-def counted(entries):
+def verdict_counts(entries):
     """How many rows and quantities have each verdict, as a Markdown table."""
     rows = [entry["verdict"] for entry in entries]
     numbers = [q["verdict"] for entry in entries for q in entry["quantities"]]
@@ -55,39 +55,45 @@ def summary(entries):
     """All rows in one Markdown table, each with its verdict and the number that decides it."""
     lines = []
     for entry in entries:
-        key = decisive(entry)
+        key = deciding_quantity(entry)
         place = f"[{entry['where']}]({entry['chapter']}.ipynb)"
-        ours, theirs = spread(key), claim(key)
+        ours, theirs = result_text(key), claim_text(key)
         lines.append([place, entry["claim"], f"*{entry['verdict']}*", key["name"], ours, theirs])
     return table(["place", "claim", "verdict", "number", "ours", "paper"], lines)
 
 
-def decisive(entry):
+def deciding_quantity(entry):
     """The first quantity of an entry whose verdict is that of the entry."""
     return next(q for q in entry["quantities"] if q["verdict"] == entry["verdict"])
 
 
 def details(entry):
     """An entry's reasons and all of its numbers, folded, as Markdown."""
-    told = " ".join(filter(None, (entry["because"], entry["note"])))
+    text = " ".join(filter(None, (entry["because"], entry["note"])))
     heads = ["number", "paper", "ours (95 %)", "in sample", "verdict"]
     rows = [
-        [q["name"] + ARROWS[q["better"]], claim(q), spread(q), q["in_sample"], q["verdict"]]
+        [
+            q["name"] + ARROWS[q["better"]],
+            claim_text(q),
+            result_text(q),
+            q["in_sample"],
+            q["verdict"],
+        ]
         for q in entry["quantities"]
     ]
     title = f"<summary>{entry['where']}: <i>{entry['verdict']}</i></summary>"
-    return f"<details>{title}\n\n{told}\n\n{table(heads, rows)}\n\n</details>\n"
+    return f"<details>{title}\n\n{text}\n\n{table(heads, rows)}\n\n</details>\n"
 
 
-def claim(q):
+def claim_text(q):
     """What is claimed, as text: a number, or a limit."""
     sign = {1: "> ", -1: "< "}[q["better"]] if q["bound"] else ""
     return f"{sign}{q['claimed']:.3g}"
 
 
-def spread(q):
+def result_text(q):
     """What was obtained, as text, with its interval or the chance of such a difference."""
-    told = f"{q['obtained']:.3g}"
+    text = f"{q['obtained']:.3g}"
     if q["low"] is not None:
-        told += f" ({q['low']:.3g} to {q['high']:.3g})"
-    return told if q["p"] is None else f"{told} (p = {q['p']:.2g})"
+        text += f" ({q['low']:.3g} to {q['high']:.3g})"
+    return text if q["p"] is None else f"{text} (p = {q['p']:.2g})"

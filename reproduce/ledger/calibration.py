@@ -6,7 +6,7 @@ import numpy as np
 
 from reproduce import paper
 from reproduce.experiments import second_plant
-from reproduce.experiments.calibration import SCENARIOS, after, measured, repeat
+from reproduce.experiments.calibration import SCENARIOS, load_results, ratio_name, repeat_over_seeds
 from reproduce.ledger.entry import Row, mean
 from vmc_lib.cerebellum.offline import algorithm_1
 from vmc_lib.cerebellum.online import WeightCorrection
@@ -23,15 +23,15 @@ FITTED = (
 
 
 @cache
-def examples():
+def nearer_shares():
     """The shares of movements that calibration brings nearer, for each of SEEDS: name -> (seeds,).
 
     The searched n is the best of the paper's n, even where no correction would be better still.
     """
-    return repeat(_example)
+    return repeat_over_seeds(_nearer_share)
 
 
-def _example(seed):
+def _nearer_share(seed):
     rng, template_set = np.random.default_rng(seed), templates.load()
     habit, others = (plan(draw_targets(template_set, n, rng), template_set) for n in (25, 100))
     planned, *tried = algorithm_1(habit).error
@@ -47,7 +47,7 @@ def _example(seed):
 def _table_5():
     claimed, entry = paper.calibrated_error_ratio("off-line"), "off-line, published"
     return [
-        mean(f"error after over planned, {name}", claimed, measured()[name][entry], **OFFLINE)
+        mean(f"error after over planned, {name}", claimed, load_results()[name][entry], **OFFLINE)
         for name in SCENARIOS
     ]
 
@@ -56,7 +56,9 @@ def _table_6():
     claimed, name = paper.calibrated_error_ratio("online"), "error after over planned, {}, {}"
     return [
         *(
-            mean(name.format(scenario, kind), claimed, online(scenario, kind), **ONLINE)
+            mean(
+                name.format(scenario, kind), claimed, online_error_ratios(scenario, kind), **ONLINE
+            )
             for scenario in SCENARIOS
             for kind in KINDS
         ),
@@ -64,7 +66,7 @@ def _table_6():
             mean(
                 name.format("the other reading", kind),
                 claimed,
-                measured()[SCENARIOS[0]][f"online, the other reading, {after(1, kind)}"],
+                load_results()[SCENARIOS[0]][f"online, the other reading, {ratio_name(1, kind)}"],
                 **ONLINE,
             )
             for kind in KINDS
@@ -72,19 +74,19 @@ def _table_6():
     ]
 
 
-def online(scenario, kind, experiments=1):
+def online_error_ratios(scenario, kind, experiments=1):
     """The error after online calibration over the planned one, (seeds,)."""
-    return measured()[scenario][f"online, {after(experiments, kind)}"]
+    return load_results()[scenario][f"online, {ratio_name(experiments, kind)}"]
 
 
 def _figure_4():
     name = "error after Eq. 6 with the searched n of Eq. 7, over planned"
-    return [mean(name, 1, examples()["searched n, error"], better=-1, bound=True)]
+    return [mean(name, 1, nearer_shares()["searched n, error"], better=-1, bound=True)]
 
 
 def _figure_10():
     name = "examples that off-line calibration brings nearer"
-    return [mean(name, 1, examples()["off-line"], better=1)]
+    return [mean(name, 1, nearer_shares()["off-line"], better=1)]
 
 
 def _figure_11():
@@ -92,7 +94,7 @@ def _figure_11():
         mean(
             f"examples that online calibration brings nearer, {kind}",
             1,
-            examples()[f"online, {kind}"],
+            nearer_shares()[f"online, {kind}"],
             better=1,
         )
         for kind in KINDS
@@ -104,7 +106,7 @@ def _figure_12():
         mean(
             f"error in the tenth experiment over the first, {name}, {kind}",
             1,
-            online(name, kind, 10) / online(name, kind),
+            online_error_ratios(name, kind, 10) / online_error_ratios(name, kind),
             better=-1,
             bound=True,
         )
@@ -115,12 +117,12 @@ def _figure_12():
 
 def _as_good():
     claimed, name = paper.MEAN_ERROR["online"] / paper.MEAN_ERROR["off-line"], SCENARIOS[0]
-    offline, rounding = measured()[name]["off-line, published"], paper.ratio_rounding
+    offline, rounding = load_results()[name]["off-line, published"], paper.ratio_rounding
     return [
         mean(
             f"online over off-line, {kind}",
             claimed,
-            online(name, kind) / offline,
+            online_error_ratios(name, kind) / offline,
             better=-1,
             rounding=rounding("online", "off-line"),
         )
@@ -132,13 +134,13 @@ def _robots():
     limit = {"planned / reach": paper.planned_error_ratio()}
     return [
         mean(f"two links, torques: {name}", limit.get(name, 1), values, better=-1, bound=True)
-        for name, values in repeat(second_plant.experiment).items()
+        for name, values in repeat_over_seeds(second_plant.experiment).items()
     ]
 
 
 def _own(kind, entries, rules):
     """What our own rules leave, beside what the paper's did."""
-    claimed, found = paper.calibrated_error_ratio(kind), measured()[SCENARIOS[0]]
+    claimed, found = paper.calibrated_error_ratio(kind), load_results()[SCENARIOS[0]]
     return [
         mean(f"error over planned, {entry}", claimed, found[entry], **rules) for entry in entries
     ]

@@ -65,7 +65,7 @@ def share(name, claimed, right, n, **rest):
     return Quantity(name, claimed, right / n, low=low, high=high, **rest)
 
 
-def trained(name, claimed, shares, n, **rest):
+def mean_of_trainings(name, claimed, shares, n, **rest):
     """A `Quantity` that is the mean of the shares of `n` that several trainings gave.
 
     Its interval is the wider of two: Student's, for another training, and Wilson's, for others of
@@ -77,7 +77,7 @@ def trained(name, claimed, shares, n, **rest):
     return Quantity(name, claimed, middle, low=low, high=high, **rest)
 
 
-def fixed(name, claimed, obtained, **rest):
+def trivial_quantity(name, claimed, obtained, **rest):
     """A `Quantity` that cannot differ, short of a bug."""
     return Quantity(name, claimed, obtained, trivial=True, **rest)
 

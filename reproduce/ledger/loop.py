@@ -6,26 +6,26 @@ import numpy as np
 
 from reproduce import paper, results
 from reproduce.experiments import loop_evaluation as trials
-from reproduce.ledger.entry import Quantity, Row, fixed, mean, share
+from reproduce.ledger.entry import Quantity, Row, mean, share, trivial_quantity
 from vmc_lib.loop import RULES
 
 
 def _figure_1():
-    scores = trial("rig")
-    seen = scores["found"] & scores["named"]
+    scores = level_scores("rig")
+    named = scores["found"] & scores["named"]
     recall = paper.TABLE_2[1] * paper.TABLE_3["CDBN"][1]
     nearer = 1000 * (scores["planned"] - scores["published"])
     return [
         share(
             "photos whose shuttlecock is found and named",
             recall,
-            seen.sum(),
-            len(seen),
+            named.sum(),
+            len(named),
             better=1,
             rounding=paper.SHARE,
         ),
         mean("how much nearer calibration brings the hand (mm)", 0, nearer, better=1, bound=True),
-        fixed("photos that end in a movement", 1, np.isfinite(scores["planned"]).mean()),
+        trivial_quantity("photos that end in a movement", 1, np.isfinite(scores["planned"]).mean()),
     ]
 
 
@@ -36,19 +36,19 @@ def _speed():
 
 
 @cache
-def trial(level):
-    """`trial` on the test photos of a level, run once."""
-    return trials.trial(level)
+def level_scores(level):
+    """`level_scores` on the test photos of a level, run once."""
+    return trials.evaluate(level)
 
 
-def fate(level):
-    """How the loop fares on a level: what is `told` of its `trial`, and every photo's scores."""
-    scores = trial(level)
+def loop_results(level):
+    """The closed loop on a level: its `outcomes`, and the scores of every photo."""
+    scores = level_scores(level)
     kept = {k: [None if x != x else x for x in v.tolist()] for k, v in scores.items()}  # no NaN
-    return told(scores) | {"scores": kept}
+    return outcomes(scores) | {"scores": kept}
 
 
-def told(scores):
+def outcomes(scores):
     """The `summary` of scores, and the stage at which each photo's reach went wrong first."""
     failures = {rule: trials.first_failure(scores, rule).tolist() for rule in RULES}
     return {"summary": trials.summary(scores), "failures": failures}

@@ -7,7 +7,7 @@ from scipy.stats import quantile_test, ttest_ind
 
 from reproduce import paper
 from reproduce.experiments import cdbn_sensitivity, gabor, recognition
-from reproduce.ledger.entry import Quantity, Row, fixed, mean, share, trained
+from reproduce.ledger.entry import Quantity, Row, mean, mean_of_trainings, share, trivial_quantity
 from vmc_lib import photos
 from vmc_lib.statistics import holm, mcnemar
 from vmc_lib.what import cdbn
@@ -22,9 +22,9 @@ NETWORKS = [variation for variation in cdbn_sensitivity.VARIATIONS if variation[
 
 
 def _table_3():
-    kinds = {split: recognition.verdicts("rig", split) for split in ("test", "train")}
+    kinds = {split: recognition.load_probabilities("rig", split) for split in ("test", "train")}
     counts = {
-        split: {m: recognition.tally(p, truth) for m, p in found.items()}
+        split: {m: recognition.confusion_counts(p, truth) for m, p in found.items()}
         for split, (found, truth) in kinds.items()
     }
     cdbn_rows, hmax = _trainings("rig", "MP2"), counts["test"]["HMAX, 10 prototypes"]
@@ -34,7 +34,7 @@ def _table_3():
     exact = {"better": 1, "rounding": paper.SHARE_3}
     return [
         *(
-            trained(
+            mean_of_trainings(
                 f"CDBN: {measure}",
                 paper.TABLE_3["CDBN"][k],
                 shares[:, k],
@@ -61,13 +61,13 @@ def _table_3():
 def _trainings(level, read_out):
     """Test counts (trainings, 4) of the network trained again, as from `tally`."""
     i, j = photos.LEVELS.index(level), READ_OUTS.index(read_out)
-    found = cdbn_sensitivity.load()
+    found = cdbn_sensitivity.load_results()
     return np.array([found[k][1][i, j, cdbn_sensitivity.SPLITS.index("test")] for k in NETWORKS])
 
 
 def _width():
     """How well other widths name, less how well the paper's does; MP2, all levels."""
-    found, test = cdbn_sensitivity.load(), cdbn_sensitivity.SPLITS.index("test")
+    found, test = cdbn_sensitivity.load_results(), cdbn_sensitivity.SPLITS.index("test")
     right = {k: found[k][1][:, 0, test][:, [0, 3]].sum() for k in cdbn_sensitivity.VARIATIONS}
     n = found[NETWORKS[0]][1][:, 0, test].sum()
     ours = np.mean([right[k] for k in NETWORKS]) / n
@@ -85,15 +85,15 @@ def _figure_2():
     layers = _layers()
     width = {name: maps.shape[-1] for name, maps in layers.items()}
     return [
-        fixed("maps K of each CRBM", paper.MAPS, layers["P1"].shape[1]),
-        fixed("width of H1 over P1", paper.POOL, width["H1"] / width["P1"]),
-        fixed("width of H2 over P2", paper.POOL, width["H2"] / width["P2"]),
-        fixed("maps of MP2 (Eq. 2)", 1, layers["MP2"].shape[1]),
+        trivial_quantity("maps K of each CRBM", paper.MAPS, layers["P1"].shape[1]),
+        trivial_quantity("width of H1 over P1", paper.POOL, width["H1"] / width["P1"]),
+        trivial_quantity("width of H2 over P2", paper.POOL, width["H2"] / width["P2"]),
+        trivial_quantity("maps of MP2 (Eq. 2)", 1, layers["MP2"].shape[1]),
     ]
 
 
 @cache
-def likeness(kind):
+def gabor_correlations(kind):
     """How well Gabors fit the filters of a layer, "W1" or "W2", or "noise": correlations (10,)."""
     network = cdbn.CDBN.load()
     first = network.first.W[:, 0]
@@ -103,11 +103,13 @@ def likeness(kind):
 
 
 def _figure_7():
-    network, alike = cdbn.CDBN.load(), (likeness("W1"), likeness("noise"))
+    network, alike = cdbn.CDBN.load(), (gabor_correlations("W1"), gabor_correlations("noise"))
     return [
-        _apart("fit of a Gabor, first layer less noise", *alike, 1),
-        fixed("width of a first-layer filter", paper.FILTER_WIDTH, network.first.W.shape[-1]),
-        fixed(
+        _mean_difference("fit of a Gabor, first layer less noise", *alike, 1),
+        trivial_quantity(
+            "width of a first-layer filter", paper.FILTER_WIDTH, network.first.W.shape[-1]
+        ),
+        trivial_quantity(
             "the same in the second layer, in the image",
             paper.PROJECTED_WIDTH,
             network.projected().shape[-1],
@@ -115,7 +117,7 @@ def _figure_7():
     ]
 
 
-def _apart(name, some, others, better):
+def _mean_difference(name, some, others, better):
     """The difference of two means, with Welch's interval; it should be beyond 0."""
     found = ttest_ind(some, others, equal_var=False).confidence_interval()
     ends = {"low": found.low, "high": found.high}
@@ -135,7 +137,7 @@ def _figure_8():
     p2 = (p1 - paper.FILTER_WIDTH + 1) // pool
     layers = _layers()
     return [
-        fixed(f"width of {name}", claimed, layers[name].shape[-1])
+        trivial_quantity(f"width of {name}", claimed, layers[name].shape[-1])
         for name, claimed in (("P1", p1), ("P2", p2), ("MP2", p2))
     ]
 
@@ -146,9 +148,9 @@ def _layers():
     return cdbn.CDBN.load().layers(whiten(crops[:1]))
 
 
-def _learnt():
+def _mcnemar_tests():
     """Errors of MP2 less others', on the fresh crops of all levels: McNemar's test, with Holm's."""
-    right, learnt = map(recognition.named_right, ("fresh", "train"))
+    right, learnt = map(recognition.correct_by_method, ("fresh", "train"))
     duels = {m: mcnemar(right["CDBN, MP2"], right[m]) for m in RIVALS}
     chance = holm([p for *_, p in duels.values()])
     return [
@@ -169,9 +171,9 @@ def _deeper():
     crops, shuttlecock = cdbn.crops_of(photos.load("rig", "validation"))
     answers = np.asarray(cdbn.CDBN.load().layers(whiten(crops))["P2"]).mean(axis=(1, 2, 3))
     prefers = answers[shuttlecock] / answers[~shuttlecock]  # one of each in every photo
-    alike = likeness("W2"), likeness("W1")
+    alike = gabor_correlations("W2"), gabor_correlations("W1")
     return [
-        _apart("fit of a Gabor, second layer less first", *alike, -1),
+        _mean_difference("fit of a Gabor, second layer less first", *alike, -1),
         mean("answer of P² to shuttlecocks over cups", 1, prefers, better=1, bound=True),
     ]
 
@@ -216,7 +218,7 @@ ROWS = (
         "IV B, features",
         "Learnt features tell more than templates (HMAX) or features made by hand (HOG, SIFT).",
         "06_names",
-        _learnt,
+        _mcnemar_tests,
         differs="HMAX makes more errors than MP2, but HOG and SIFT, made by hand, make fewer. The "
         "corrected chances of such differences are "
         "{q[errors of MP2 less those of HMAX, 10 prototypes].p:.4f}, "

@@ -6,8 +6,8 @@ import numpy as np
 
 from reproduce import paper, results
 from reproduce.experiments import planning_3d
-from reproduce.experiments.calibration import SCENARIOS, SEEDS, measured, repeat
-from reproduce.ledger.entry import Quantity, Row, fixed, mean
+from reproduce.experiments.calibration import SCENARIOS, SEEDS, load_results, repeat_over_seeds
+from reproduce.ledger.entry import Quantity, Row, mean, trivial_quantity
 from reproduce.peers import optimal_control
 from vmc_lib import photos
 from vmc_lib.motor import templates
@@ -18,12 +18,14 @@ PLANNED = {"better": -1, "rounding": paper.planned_rounding()}
 
 
 @cache
-def draws(spacing=templates.SPACING, rule=habitual_weights, count=200):
+def planned_error_ratios(spacing=templates.SPACING, rule=habitual_weights, count=200):
     """The mean miss over the mean reach, for each of SEEDS draws of targets: (seeds,)."""
-    return np.array([_draw(seed, templates.load(spacing), rule, count) for seed in SEEDS])
+    return np.array(
+        [_planned_error_ratio(seed, templates.load(spacing), rule, count) for seed in SEEDS]
+    )
 
 
-def _draw(seed, template_set, rule, count):
+def _planned_error_ratio(seed, template_set, rule, count):
     targets = draw_targets(template_set, count, np.random.default_rng(seed))
     plans = plan(targets, template_set, rule)
     return plans.missed().mean() / np.linalg.norm(targets, axis=-1).mean()
@@ -31,10 +33,10 @@ def _draw(seed, template_set, rule, count):
 
 def _table_4():
     claimed, name = paper.planned_error_ratio(), "planned error over reach"
-    others = {"8 cm": draws(0.08), "4 cm": draws(0.04)}
+    others = {"8 cm": planned_error_ratios(0.08), "4 cm": planned_error_ratios(0.04)}
     rounding = PLANNED["rounding"]
     return [
-        mean(name, claimed, measured()[SCENARIOS[0]]["planned / reach"], rounding=rounding),
+        mean(name, claimed, load_results()[SCENARIOS[0]]["planned / reach"], rounding=rounding),
         *(
             mean(f"{name}, templates {apart} apart", claimed, values, rounding=rounding)
             for apart, values in others.items()
@@ -64,11 +66,21 @@ def _figure_9():
     digits = paper.planned_rounding()
     return [
         mean(
-            "near: miss over reach, below the worst example", worst, draws(), better=-1, bound=True
+            "near: miss over reach, below the worst example",
+            worst,
+            planned_error_ratios(),
+            better=-1,
+            bound=True,
         ),
-        mean("not on it: the same, above the last digit", digits, draws(), better=1, bound=True),
-        fixed("templates N", paper.TEMPLATES, habit.weights.shape[-1]),
-        fixed(
+        mean(
+            "not on it: the same, above the last digit",
+            digits,
+            planned_error_ratios(),
+            better=1,
+            bound=True,
+        ),
+        trivial_quantity("templates N", paper.TEMPLATES, habit.weights.shape[-1]),
+        trivial_quantity(
             "plan beside weighted sum, largest gap",
             0,
             np.abs(habit.excitations - summed).max().round(9),
@@ -90,7 +102,9 @@ def _nearby():
 
 
 def _few_templates():
-    few, some, many = (draws(spacing) for spacing in sorted(templates.SPACINGS, reverse=True))
+    few, some, many = (
+        planned_error_ratios(spacing) for spacing in sorted(templates.SPACINGS, reverse=True)
+    )
     return [
         mean("planned error, templates 6 cm apart over 8", 1, some / few, better=-1, bound=True),
         mean("planned error, templates 4 cm apart over 6", 1, many / some, better=-1, bound=True),
@@ -105,16 +119,21 @@ def _computation():
     tried = found.nfev + found.njev * (1 + found.x.size)
     return [
         Quantity("times quicker than optimal control", 1, quicker, better=1, bound=True),
-        fixed("movements tried for an optimum (habit: 0)", 0, tried, better=1, bound=True),
+        trivial_quantity(
+            "movements tried for an optimum (habit: 0)", 0, tried, better=1, bound=True
+        ),
     ]
 
 
 def _effort():
     """What habit spends over the optimum, with our templates and with optima for templates."""
-    habit, best = plan(optimal_control.TARGETS, templates.load()), optimal_control.shipped()
-    mixed = optimal_control.effort(optimal_control.mixed().excitations) / optimal_control.effort(
-        best[optimal_control.INNER]
+    habit, best = (
+        plan(optimal_control.TARGETS, templates.load()),
+        optimal_control.optimal_excitations(),
     )
+    mixed = optimal_control.effort(
+        optimal_control.mix_optima().excitations
+    ) / optimal_control.effort(best[optimal_control.INNER])
     spent = optimal_control.effort(habit.excitations) / optimal_control.effort(best)
     return [
         mean("effort of habit over the optimum", 1, spent, better=1, bound=True),
@@ -123,13 +142,13 @@ def _effort():
 
 
 @cache
-def in_space():
+def errors_3d():
     """Draws in space: name -> (seeds,)."""
-    return repeat(planning_3d.measured)
+    return repeat_over_seeds(planning_3d.experiment)
 
 
-def _in_space():
-    found, claimed = in_space(), paper.planned_error_ratio()
+def _figure_3d():
+    found, claimed = errors_3d(), paper.planned_error_ratio()
     left = "error after {} over planned"
     return [
         mean("planned error over reach, in space", claimed, found["planned / reach"], **PLANNED),
@@ -141,8 +160,13 @@ def _in_space():
 def _exact():
     claimed, name = paper.planned_error_ratio(), "planned error over reach, {}, exact weights"
     return [
-        mean(name.format("in the plane"), claimed, draws(rule=exact_weights), **PLANNED),
-        mean(name.format("in space"), claimed, in_space()["exact / reach"], **PLANNED),
+        mean(
+            name.format("in the plane"),
+            claimed,
+            planned_error_ratios(rule=exact_weights),
+            **PLANNED,
+        ),
+        mean(name.format("in space"), claimed, errors_3d()["exact / reach"], **PLANNED),
     ]
 
 
@@ -202,7 +226,7 @@ ROWS = (
         "IV C, space",
         "The method is proposed for three dimensions.",
         "14_beyond",
-        _in_space,
+        _figure_3d,
         differs="It works there, and corrections mend it. But Eq. 5 now spreads the weight over "
         "eight memories, some of them far from the target. See *Ours, Eq. 5*.",
     ),

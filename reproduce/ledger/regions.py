@@ -4,7 +4,7 @@ import numpy as np
 
 from reproduce import paper
 from reproduce.experiments import localisation
-from reproduce.ledger.entry import Row, mean, share, trained
+from reproduce.ledger.entry import Row, mean, mean_of_trainings, share
 from reproduce.ledger.search import rois
 from reproduce.results import arrays
 from reproduce.training.detectors import candidates
@@ -22,7 +22,7 @@ def _table_1():
 def _classifier(recipe, name):
     """Precision and recall of one kernel's classifier, over its trainings."""
     held_out, in_sample = (
-        localisation.trainings("rig", split, recipe)[KERNELS[name]] for split in ("test", "train")
+        localisation.table_1("rig", split, recipe)[KERNELS[name]] for split in ("test", "train")
     )
     return _precision_recall(
         name, paper.TABLE_1[name], held_out, in_sample.mean(axis=0), rois("test")[0].sum()
@@ -34,7 +34,7 @@ def _precision_recall(name, claimed, rows, in_sample, wanted):
     precision, recall = rows.mean(axis=0)
     called = recall * wanted / precision if precision else 0
     return [
-        trained(
+        mean_of_trainings(
             f"{name}: {measure}",
             claimed[k],
             rows[:, k],
@@ -48,7 +48,7 @@ def _precision_recall(name, claimed, rows, in_sample, wanted):
 
 
 def _kernels():
-    rows = localisation.trainings("rig", "test", "published")
+    rows = localisation.table_1("rig", "test", "published")
     gaps = rows["rbf"] - rows["linear"]
     return [
         mean(f"{measure}, RBF less linear", 0, gaps[:, k], better=-1)

@@ -7,7 +7,7 @@ import numpy as np
 
 from reproduce import paper
 from reproduce.experiments import localisation
-from reproduce.ledger.entry import Quantity, Row, fixed, mean, share
+from reproduce.ledger.entry import Quantity, Row, mean, share, trivial_quantity
 from reproduce.peers import window_proposals
 from reproduce.training.detectors import candidates
 from vmc_lib import photos
@@ -38,8 +38,8 @@ def _figure_5():
     shots = photos.load("rig", "train") + photos.load("rig", "test")
     whole = [set(p.boxes) == set(photos.CLASSES) and p.image.shape == (400, 600, 3) for p in shots]
     return [
-        fixed("photos", paper.PHOTOS, len(shots)),
-        fixed("of 600 × 400 with a shuttlecock and a cup", 1, np.mean(whole)),
+        trivial_quantity("photos", paper.PHOTOS, len(shots)),
+        trivial_quantity("of 600 × 400 with a shuttlecock and a cup", 1, np.mean(whole)),
     ]
 
 
@@ -49,15 +49,17 @@ def _figure_6():
     passed, kept = counts["passed"] / counts["candidates"], counts["kept"] / counts["passed"]
     return [
         mean("candidates a photo", paper.BOXES_PER_PHOTO, found, rounding=0.5),
-        fixed("passed by the classifier, over candidates", 1, passed, better=-1, bound=True),
-        fixed("kept after suppression, over passed", 1, kept, better=-1, bound=True),
+        trivial_quantity(
+            "passed by the classifier, over candidates", 1, passed, better=-1, bound=True
+        ),
+        trivial_quantity("kept after suppression, over passed", 1, kept, better=-1, bound=True),
     ]
 
 
 def _fewer():
     counts = localisation.figure_6("rig")
     left = counts["kept"] / counts["candidates"]
-    return [fixed("crops to be named, over candidates", 1, left, better=-1, bound=True)]
+    return [trivial_quantity("crops to be named, over candidates", 1, left, better=-1, bound=True)]
 
 
 def _search():
@@ -65,7 +67,7 @@ def _search():
     some = photos.load("rig", "test")
     everywhere = window_proposals.exhaustive((photos.HEIGHT, photos.WIDTH))
     found = [candidates(photo) for photo in some]
-    ours, theirs = (_boxed(some, every) for every in (found, [everywhere] * len(some)))
+    ours, theirs = (_objects_found(some, every) for every in (found, [everywhere] * len(some)))
     fewer = np.mean([len(boxes) for boxes in found]) / len(everywhere)
     return [
         share(
@@ -83,7 +85,9 @@ def _search():
             bound=True,
             clock=True,
         ),
-        fixed("boxes to look at, over those of exhaustive search", 1, fewer, better=-1, bound=True),
+        trivial_quantity(
+            "boxes to look at, over those of exhaustive search", 1, fewer, better=-1, bound=True
+        ),
     ]
 
 
@@ -97,7 +101,7 @@ def _seconds(image, everywhere, part=5000):
     return (searched - start) / described
 
 
-def _boxed(some, found):
+def _objects_found(some, found):
     """Which objects some box overlaps by 0.8, (2 photos,): first the shuttlecock, then the cup."""
     best = [
         iou(boxes, [photo.boxes[name] for name in photos.CLASSES]).max(axis=0)
@@ -111,7 +115,7 @@ def _classes():
     some, ways = photos.load("varied", "test"), {"one way": "single", "two ways": "finer"}
     quantities = []
     for way, strategy in ways.items():
-        boxed = _boxed(some, [candidates(photo, strategy) for photo in some]).reshape(-1, 2)
+        boxed = _objects_found(some, [candidates(photo, strategy) for photo in some]).reshape(-1, 2)
         bird, cup = boxed.T.astype(float)
         quantities.append(mean(f"shuttlecocks boxed well, less cups, {way}", 0, bird - cup))
     return quantities

@@ -33,7 +33,7 @@ RIDGE = 0.1  # instead of 3e-4: how reluctantly weights move where lessons are n
 SMALL = 0.001  # m: over so much a forward model is asked for its slope
 
 
-class Remembering(RegressorMixin, BaseEstimator):
+class RefitRegressor(RegressorMixin, BaseEstimator):
     """Any regression, fitted anew to all lessons so far."""
 
     def __init__(self, regression):
@@ -58,7 +58,7 @@ class Remembering(RegressorMixin, BaseEstimator):
         return self.fitted_.predict(X)
 
 
-class LocalCells(GranuleCells):
+class DeltaRuleCells(GranuleCells):
     """The same granule cells, learnt by the delta rule, lesson by lesson.
 
     A Purkinje weight changes by its own line's activity times the error, a `rate` of it, and needs
@@ -123,24 +123,24 @@ def perceptron(hidden, penalty):
         random_state=0,
     )
     scaled = make_pipeline(StandardScaler(), network)
-    return Remembering(TransformedTargetRegressor(scaled, transformer=StandardScaler()))
+    return RefitRegressor(TransformedTargetRegressor(scaled, transformer=StandardScaler()))
 
 
 def interpolation(neighbours):
     """What the nearest lessons taught, the nearer the more."""
-    return Remembering(KNeighborsRegressor(neighbours, weights="distance"))
+    return RefitRegressor(KNeighborsRegressor(neighbours, weights="distance"))
 
 
 BY_HINDSIGHT = {
     "granule cells (ours)": GranuleCells,
     "with a larger ridge": partial(GranuleCells, ridge=RIDGE),
-    "their delta rule": LocalCells,
-    "linear rule": partial(Remembering, LinearRegression()),
+    "their delta rule": DeltaRuleCells,
+    "linear rule": partial(RefitRegressor, LinearRegression()),
     "interpolation": partial(interpolation, 2),
     "perceptron": partial(perceptron, 30, 0.1),
 }
 LEARNERS = {
     **{name: (AimCorrection, cells) for name, cells in BY_HINDSIGHT.items()},
-    "feedback error": (FeedbackError, LocalCells),
-    "distal teacher": (DistalTeacher, LocalCells),
+    "feedback error": (FeedbackError, DeltaRuleCells),
+    "distal teacher": (DistalTeacher, DeltaRuleCells),
 }

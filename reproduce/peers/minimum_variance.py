@@ -3,8 +3,8 @@
 Where noise grows with the command, commands differ in how far they let the hand scatter; Harris and
 Wolpert (1998) took the least scatter for the brain's aim. Task, arm and search are those of
 `optimal_control`. The scatter is counted at three moments of the hold, to first order of the noise
-of `motor_noise.wavering`. What ships are the optima of those inner targets of `optimal_control` on
-which no template lies.
+of `motor_noise.with_noise`. What ships are the optima of those inner targets of `optimal_control`
+on which no template lies.
 """
 
 from functools import cache, partial
@@ -29,11 +29,11 @@ EVERY = 10  # ms between the samples of a path whose jerk is asked for
 
 
 def search(target, ftol=3e-3):
-    """SciPy's account of the search for the knots `x` of least variance; `optimal_control.sought`.
+    """The knots `x` of least variance, as a `scipy.optimize.OptimizeResult`.
 
     It ends where a step changes the variance by less than `ftol`, in cm².
     """
-    return optimal_control.sought(target, variance, variance_slope, ftol=ftol)
+    return optimal_control.minimise_cost(target, variance, variance_gradient, ftol=ftol)
 
 
 def variance(x):
@@ -41,23 +41,28 @@ def variance(x):
 
     In cm², the mean over both axes and the moments of `HOLD`.
     """
-    return np.square(_effects(optimal_control.excited(x), _pools())).sum() / _places()
+    return (
+        np.square(_noise_effects(optimal_control.excitations_from_knots(x), _unit_noises())).sum()
+        / _position_count()
+    )
 
 
-def variance_slope(x):
+def variance_gradient(x):
     """How the variance changes with each knot, (n,).
 
-    Each noise of `_pools` moves the places of the hand by its effect. All noises that move one
+    Each noise of `_unit_noises` moves the places of the hand by its effect. All that move one
     place are first added up, each times its effect there: then a nudged knot needs two reaches a
     place, instead of two a noise.
     """
-    pools = _pools()
-    worth = np.tensordot(_effects(optimal_control.excited(x), pools), pools, axes=(0, 0))
+    pools = _unit_noises()
+    worth = np.tensordot(
+        _noise_effects(optimal_control.excitations_from_knots(x), pools), pools, axes=(0, 0)
+    )
     size = np.abs(worth).max(axis=(1, 2))
     nudge = np.where(x > 0.5, -NUDGE, NUDGE)
-    nudged = optimal_control.excited(np.vstack([x, x + np.diag(nudge)]))
-    moved = np.einsum("nkk,k->n", _effects(nudged, worth / size[:, None, None]), size)
-    return 2 * (moved[1:] - moved[0]) / nudge / _places()
+    nudged = optimal_control.excitations_from_knots(np.vstack([x, x + np.diag(nudge)]))
+    moved = np.einsum("nkk,k->n", _noise_effects(nudged, worth / size[:, None, None]), size)
+    return 2 * (moved[1:] - moved[0]) / nudge / _position_count()
 
 
 def make(targets=TARGETS[NEW], level=LEVEL, **how):
@@ -67,45 +72,45 @@ def make(targets=TARGETS[NEW], level=LEVEL, **how):
     scatters by `level` mm.
     """
     knots = optimal_control.make(targets, partial(search, **how))
-    return knots | {"share": np.array(motor_noise.share_for(level))}
+    return knots | {"share": np.array(motor_noise.noise_share_for(level))}
 
 
 @cache
-def shipped():
+def optimal_excitations():
     """The steadiest excitations (5, T, 6) of the `NEW` targets."""
-    return optimal_control.excited(arrays("steady")["knots"].astype(float))
+    return optimal_control.excitations_from_knots(arrays("steady")["knots"].astype(float))
 
 
-def share():
+def noise_share():
     """The share of noise by which a habitual reach scatters by `LEVEL` mm."""
     return float(arrays("steady")["share"])
 
 
-def rivals():
+def excitations_by_rule():
     """The excitations (5, T, 6) of the `NEW` targets, by the rule that makes them."""
     return {
         "habit": plan(TARGETS[NEW], load()).excitations,
-        "least effort": optimal_control.shipped()[NEW],
-        "least variance": shipped(),
-        "habit of least effort": optimal_control.mixed().excitations[AMONG],
+        "least effort": optimal_control.optimal_excitations()[NEW],
+        "least variance": optimal_excitations(),
+        "habit of least effort": optimal_control.mix_optima().excitations[AMONG],
     }
 
 
-def compared(rng, repeats=REPEATS):
+def compare_rules(rng, repeats=REPEATS):
     """By rule and measure, one number for each of the `NEW` targets.
 
     How far the hand scatters when the reach is repeated on an arm that wavers by `LEVEL` mm (mm, a
     standard deviation), how far it misses without noise (mm), the effort, and the `jerk`.
     """
     found = {}
-    for name, told in rivals().items():
-        wavered = (motor_noise.wavering(told, share(), rng) for _ in range(repeats))
+    for name, excitations in excitations_by_rule().items():
+        wavered = (motor_noise.with_noise(excitations, noise_share(), rng) for _ in range(repeats))
         many = np.array([reach(one).reached for one in wavered])  # one at a time: less memory
-        calm = reach(told)
+        calm = reach(excitations)
         found[name] = {
             "scatter": 1000 * scatter(many),
             "miss": 1000 * np.linalg.norm(calm.reached - TARGETS[NEW], axis=-1),
-            "effort": optimal_control.effort(told),
+            "effort": optimal_control.effort(excitations),
             "jerk": jerk(calm.hand[..., :2]),
         }
     return found
@@ -124,26 +129,28 @@ def jerk(path):
     return np.divide(*both)
 
 
-def _effects(excitations, noises):
+def _noise_effects(excitations, noises):
     """How far noises (n, T, 6) move the places of the hand, in cm: (…, n, places)."""
     ends = (
-        _held(np.clip(excitations[..., None, :, :] * (1 + side * WAVER * noises), 0, 1))
+        _hold_positions(np.clip(excitations[..., None, :, :] * (1 + side * WAVER * noises), 0, 1))
         for side in (1, -1)
     )
     return np.subtract(*ends) / (2 * WAVER)
 
 
-def _held(excitations):
+def _hold_positions(excitations):
     """Where the hand is at the moments of `HOLD`, in cm, (…, places)."""
-    return 100 * reach(excitations).hand[..., HOLD, :2].reshape(*excitations.shape[:-2], _places())
+    return 100 * reach(excitations).hand[..., HOLD, :2].reshape(
+        *excitations.shape[:-2], _position_count()
+    )
 
 
-def _places():
+def _position_count():
     return 2 * len(range(SAMPLES + 1)[HOLD])
 
 
 @cache
-def _pools():
-    """Every curve of `motor_noise.waves`, in one pool alone: (6 KNOTS, T, 6)."""
-    each = np.einsum("tn,km->nktm", motor_noise.waves(), np.eye(6))
+def _unit_noises():
+    """Every curve of `motor_noise.noise_basis`, in one pool alone: (6 KNOTS, T, 6)."""
+    each = np.einsum("tn,km->nktm", motor_noise.noise_basis(), np.eye(6))
     return each.reshape(-1, SAMPLES, 6)

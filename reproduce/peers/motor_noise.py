@@ -20,43 +20,43 @@ KNOTS = 12  # spline coefficients of a pool's noise: it wavers about as slowly a
 
 
 @cache
-def waves():
+def noise_basis():
     """The smooth curves (T, KNOTS) of which noise is made: random sums of them vary by one."""
     return spline(KNOTS) / np.linalg.norm(spline(KNOTS), axis=1, keepdims=True)
 
 
-def waver(shape, share, rng):
+def noise_factor(shape, share, rng):
     """By what noise multiplies commands of a shape (…, T, 6): 1 + share · (a smooth curve)."""
     random = rng.standard_normal((*shape[:-2], KNOTS, 6))
-    return 1 + share * waves() @ random
+    return 1 + share * noise_basis() @ random
 
 
-def wavering(excitations, share, rng):
-    """Excitations (…, T, 6), each pool's times its `waver`, held to [0, 1]."""
-    return np.clip(excitations * waver(np.shape(excitations), share, rng), 0, 1)
+def with_noise(excitations, share, rng):
+    """Excitations (…, T, 6), each pool's times its `noise_factor`, held to [0, 1]."""
+    return np.clip(excitations * noise_factor(np.shape(excitations), share, rng), 0, 1)
 
 
-def deviation(ends):
+def endpoint_deviation(ends):
     """The standard deviation in m of ends (repeats, n, 2) about their means, over both axes."""
     return np.sqrt(ends.var(axis=0, ddof=1).mean())
 
 
 @cache
-def share_for(mm):
-    """The share of `wavering` with which repeated reaches end with a standard deviation of `mm`.
+def noise_share_for(mm):
+    """The share of `with_noise` with which repeated reaches end with a standard deviation of `mm`.
 
     ValueError when no share up to one gives so much.
     """
     targets = draw_targets(load(), 200, np.random.default_rng(100))
-    told = plan(targets, load(), exact_weights).excitations
+    excitations = plan(targets, load(), exact_weights).excitations
 
     @cache  # the ends of the search are asked for twice
     def missing(share):
         if not share:
             return -mm
         rng = np.random.default_rng(101)  # one repeat at a time: less memory
-        ends = [reach(wavering(told, share, rng)).reached for _ in range(10)]
-        return 1000 * deviation(np.array(ends)) - mm
+        ends = [reach(with_noise(excitations, share, rng)).reached for _ in range(10)]
+        return 1000 * endpoint_deviation(np.array(ends)) - mm
 
     if not (mm == 0 or (mm > 0 and missing(1.0) > 0)):
         raise ValueError(f"no noise makes reaches end with {mm} mm; choose 0 to 20")

@@ -25,7 +25,7 @@ TARGETS = np.array(
 )
 INNER = np.flatnonzero(np.all(abs(TARGETS - [0.09, -0.40]) < 0.04, axis=1))  # others all round
 NUDGE = 1e-4
-WHOLE = np.ones(6)  # of each muscle's strength: all of it
+FULL_STRENGTH = np.ones(6)  # of each muscle's strength: all of it
 
 
 def effort(excitations):
@@ -38,21 +38,21 @@ def solve(target):
 
     The search begins at the habitual plan. RuntimeError when it does not come to an end.
     """
-    return excited(search(target).x)
+    return excitations_from_knots(search(target).x)
 
 
-def search(target, strength=WHOLE):
-    """SciPy's account of the search for the knots `x` of least effort.
+def search(target, strength=FULL_STRENGTH):
+    """The knots `x` of least effort, as a `scipy.optimize.OptimizeResult`.
 
     `x` is what the muscles get: of each command the share that is the muscle's `strength` (6,).
     """
     price = np.kron(spline(KNOTS).T @ spline(KNOTS), np.diag(strength**-2.0))
     price /= np.diag(price).mean()  # about 1 in every direction, as the method likes it
-    return sought(target, lambda x: x @ price @ x / 2, lambda x: price @ x, most=strength)
+    return minimise_cost(target, lambda x: x @ price @ x / 2, lambda x: price @ x, most=strength)
 
 
-def sought(target, cost, slope, ftol=1e-4, most=WHOLE):
-    """SciPy's account of the search for the knots `x` that bring the hand there at least `cost`.
+def minimise_cost(target, cost, slope, ftol=1e-4, most=FULL_STRENGTH):
+    """The knots `x` that bring the hand there at least `cost`, as an `OptimizeResult`.
 
     No muscle gets more than `most` (6,).
     `slope` (n,) is the cost's; how often the arm was tried: each of the search's `nfev` trials
@@ -68,7 +68,7 @@ def sought(target, cost, slope, ftol=1e-4, most=WHOLE):
         np.minimum(first, most),
         jac=slope,
         bounds=[(0, limit) for limit in most],
-        constraints={"type": "eq", "fun": lambda x: _ends(x) - goal, "jac": _slopes},
+        constraints={"type": "eq", "fun": lambda x: _ends(x) - goal, "jac": _end_gradients},
         method="SLSQP",
         options={"ftol": ftol, "maxiter": 60},
     )
@@ -84,34 +84,34 @@ def make(targets=TARGETS, search=search):
 
 
 @cache
-def shipped():
+def optimal_excitations():
     """The optimal excitations (25, T, 6) of `TARGETS`."""
-    return excited(arrays("optimal")["knots"].astype(float))
+    return excitations_from_knots(arrays("optimal")["knots"].astype(float))
 
 
-def mixed():
+def mix_optima():
     """Habit with optima for templates: a `Plan` of the nine `INNER` targets.
 
     Each mixes the four optima that lie 3 cm to its sides, above and below: a square of 6 cm.
     """
-    memories = TemplateSet(reach(shipped()).reached, shipped())
+    memories = TemplateSet(reach(optimal_excitations()).reached, optimal_excitations())
     corners = INNER[:, None] + [-6, -4, 4, 6]  # `TARGETS` has rows of five
     return plan(TARGETS[INNER], memories, chosen=corners)
 
 
-def excited(x):
+def excitations_from_knots(x):
     """The excitations (…, T, 6) of knots (…, 6 KNOTS)."""
     return np.clip(spline(KNOTS) @ x.reshape(*x.shape[:-1], KNOTS, 6), 0, 1)
 
 
 def _ends(x):
     """Angles and velocities (…, 8) when the movement ends and when the hold ends."""
-    motion = reach(excited(x))
+    motion = reach(excitations_from_knots(x))
     q, velocity = (path[..., [MOVING, SAMPLES], :] for path in (motion.q, 0.05 * motion.velocity))
     return np.concatenate([q, velocity], axis=-2).reshape(*x.shape[:-1], 8)
 
 
-def _slopes(x):
+def _end_gradients(x):
     """How `_ends` changes with each knot, (8, n): all knots nudged, in one batch of movements."""
     nudge = np.where(x > 0.5, -NUDGE, NUDGE)
     nudged = _ends(np.vstack([x, x + np.diag(nudge)]))

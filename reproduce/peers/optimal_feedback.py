@@ -23,9 +23,9 @@ PLACE, SPEED, CHANGE = 0.005, 0.05, 0.1  # m, m/s, of a command: these three wei
 NUDGE = 1e-5
 
 
-def advanced(state, told):
-    """States (…, 10) a tick later, of arms whose muscles are told (…, TICK, 6)."""
-    u = np.ascontiguousarray(np.reshape(told, (-1, TICK, 6)))
+def next_states(state, commands):
+    """States (…, 10) a tick later, under commands (…, TICK, 6)."""
+    u = np.ascontiguousarray(np.reshape(commands, (-1, TICK, 6)))
     q, velocity, activation = np.split(state.reshape(-1, 10), [2, 4], axis=-1)
     path = begun(u, q, velocity, activation)
     advance(u, path, range(TICK))
@@ -44,17 +44,19 @@ def states(excitations):
     return whole[..., ::TICK, :]
 
 
-def slopes(state, told):
-    """How the next state moves with the state, (…, 10, 10), and with what is told, (…, 10, 6)."""
+def linearise(state, commands):
+    """Linearised dynamics: Jacobians of the next state, (…, 10, 10) and (…, 10, 6)."""
     nudges = NUDGE * np.eye(16)
     ends = [
-        advanced(state[..., None, :] + side[:, :10], told[..., None, :, :] + side[:, None, 10:])
+        next_states(
+            state[..., None, :] + side[:, :10], commands[..., None, :, :] + side[:, None, 10:]
+        )
         for side in (nudges, -nudges)
     ]
     return np.split(np.swapaxes(np.subtract(*ends), -1, -2) / (2 * NUDGE), [10], axis=-1)
 
 
-def seen(state):
+def observe(state):
     """Where the hand is and how fast, in the units that weigh the same: (…, 4)."""
     q, velocity, _ = np.split(state, [2, 4], axis=-1)
     ahead = hand(q + STEP * velocity)[..., :2]
@@ -62,19 +64,19 @@ def seen(state):
     return np.concatenate([place / PLACE, (ahead - place) / STEP / SPEED], axis=-1)
 
 
-def gains(state, told):
+def gains(state, commands):
     """The best gains (…, ticks, 6, 10) along states (…, ticks + 1, 10), and the arm's slopes.
 
     A correction is minus the gain times the deviation. Only the hold is paid for, and corrections.
     """
-    A, B = slopes(state[..., :-1, :], told)
+    A, B = linearise(state[..., :-1, :], commands)
     nudges = NUDGE * np.eye(10)
-    C = seen(state[..., None, :] + nudges) - seen(state[..., None, :] - nudges)
+    C = observe(state[..., None, :] + nudges) - observe(state[..., None, :] - nudges)
     C = np.swapaxes(C, -1, -2) / (2 * NUDGE)
     price = np.swapaxes(C, -1, -2) @ C  # of a deviation (…, ticks + 1, 10, 10)
     price[..., : MOVING // TICK, :, :] = 0
     ahead, found = price[..., -1, :, :], []
-    for t in reversed(range(told.shape[-3])):
+    for t in reversed(range(commands.shape[-3])):
         a, b = A[..., t, :, :], B[..., t, :, :]
         back = np.swapaxes(b, -1, -2) @ ahead
         gain = np.linalg.solve(np.eye(6) / CHANGE**2 + back @ b, back @ a)
@@ -83,44 +85,44 @@ def gains(state, told):
     return np.stack(found[::-1], axis=-3), A, B
 
 
-class Law(NamedTuple):
-    """Commands, where they should lead, and how deviations are corrected: `law` makes it."""
+class FeedbackLaw(NamedTuple):
+    """Commands, the states they should lead to, and the gains that correct deviations."""
 
-    told: np.ndarray  # (n, ticks, TICK, 6)
-    meant: np.ndarray  # (n, ticks + 1, 10)
+    commands: np.ndarray  # (n, ticks, TICK, 6)
+    reference: np.ndarray  # (n, ticks + 1, 10)
     gains: np.ndarray  # (n, ticks, 6, 10)
     A: np.ndarray  # (n, ticks, 10, 10)
     B: np.ndarray  # (n, ticks, 10, 6)
 
 
-def law(excitations):
+def feedback_law(excitations):
     """The best corrections of commands (n, T, 6)."""
-    told, meant = in_ticks(excitations), states(excitations)
-    return Law(told, meant, *gains(meant, told))
+    commands, reference = in_ticks(excitations), states(excitations)
+    return FeedbackLaw(commands, reference, *gains(reference, commands))
 
 
 def move(law, share, late=0):
-    """Where hands go (…, n, ticks + 1, 2) in m, and what muscles are told (…, n, T, 6).
+    """Where hands go (…, n, ticks + 1, 2) in m, and the commands (…, n, T, 6).
 
     They get a `share` (…, n, T, 6) of it, as far as there is more. Deviations are known `late` by
     so many ticks; what has become of them since is foreseen by the law's own slopes.
     """
     share = in_ticks(share)
-    now = np.broadcast_to(law.meant[:, 0], (*share.shape[:-3], 10))
-    way, off, changes, told = [now], [], [], []
-    for t in range(law.told.shape[1]):
-        off.append(now - law.meant[:, t])
+    now = np.broadcast_to(law.reference[:, 0], (*share.shape[:-3], 10))
+    way, off, changes, commands = [now], [], [], []
+    for t in range(law.commands.shape[1]):
+        off.append(now - law.reference[:, t])
         known = max(t - late, 0)
         here = off[known]
         for k in range(known, t):
             here = _times(law.A[:, k], here) + _times(law.B[:, k], changes[k])
         change = -_times(law.gains[:, t], here)[..., None, :]
-        told.append(np.clip(law.told[:, t] + change, 0, 1))
-        changes.append((told[-1] - law.told[:, t]).mean(axis=-2))
-        now = advanced(now, np.clip(told[-1] * share[..., t, :, :], 0, 1))
+        commands.append(np.clip(law.commands[:, t] + change, 0, 1))
+        changes.append((commands[-1] - law.commands[:, t]).mean(axis=-2))
+        now = next_states(now, np.clip(commands[-1] * share[..., t, :, :], 0, 1))
         way.append(now)
     path = hand(np.stack(way, axis=-2)[..., :2])[..., :2]
-    return path, np.concatenate(told, axis=-2)
+    return path, np.concatenate(commands, axis=-2)
 
 
 def scatter(path):

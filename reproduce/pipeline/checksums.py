@@ -10,7 +10,7 @@ from vmc_lib import data
 KINDS = {".npz", ".json", ".jpg", ".webp"}
 
 
-def found():
+def data_checksums():
     """The checksum of every file that ships, by its place in the folder."""
     files = sorted(file for file in data.FOLDER.rglob("*") if file.suffix in KINDS)
     return {
@@ -22,8 +22,8 @@ def found():
 
 def write():
     """Write them."""
-    data.CHECKSUMS.write_text(json.dumps(found(), indent=0) + "\n")
+    data.CHECKSUMS.write_text(json.dumps(data_checksums(), indent=0) + "\n")
 
 
-if __name__ == "__main__":  # pragma: no cover: the tests call `found`
+if __name__ == "__main__":  # pragma: no cover: the tests call `data_checksums`
     write()

@@ -24,7 +24,7 @@ class Progress(ConsoleReporter):
         print(f"{task.name}: up to date", flush=True)
 
 
-def run(tasks, names, folder, *options):
+def run_tasks(tasks, names, folder, *options):
     """Run those of doit's `tasks` that are named, and return the exit status: 0 is good.
 
     What they read and made is remembered in `folder`, to know what is up to date.

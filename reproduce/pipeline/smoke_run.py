@@ -31,7 +31,7 @@ from reproduce.experiments import (
     stream_ablation,
 )
 from reproduce.peers import minimum_variance, optimal_control
-from reproduce.pipeline.progress import run
+from reproduce.pipeline.progress import run_tasks
 from reproduce.pipeline.steps import STEPS, write
 from reproduce.training import shipped_models, ventral_stream
 from reproduce.whole_arm import experiment, habits
@@ -47,7 +47,7 @@ PATCHES = 200  # of the pictures that a network learns from
 LATER = 200  # what turns the number of a photo that ships into that of a later one
 
 
-def steps(folder):
+def toy_steps(folder):
     """What a toy step's file holds, to be called, by the step's name; `folder` takes photos."""
     few, named, fresh = (folder / name for name in ("few", "named", "fresh"))
     copy_photos(few, FEW)
@@ -62,12 +62,14 @@ def steps(folder):
     recipes = EVERY_RECIPE | {"improved": improved, "photographed": photographed}
     size = {"movements": 2, "held_out": 4, "experiments": 1}
     experiments = {
-        "tables": partial(calibration.tables, scenario=calibration.SCENARIOS[1], **size),
-        "perturbations": partial(calibration.worlds, before=20, blocks=(1, 1, 1), movements=2),
+        "tables": partial(calibration.error_ratios, scenario=calibration.SCENARIOS[1], **size),
+        "perturbations": partial(
+            calibration.block_errors, before=20, blocks=(1, 1, 1), movements=2
+        ),
     }
     watched = {
-        "reaches": partial(feedback_control.reaches, count=2, seconds=2.0),
-        "field": partial(feedback_control.fields, blocks=(1, 1, 1), targets=2),
+        "reaches": partial(feedback_control.reach_measures, count=2, seconds=2.0),
+        "field": partial(feedback_control.curl_field_errors, blocks=(1, 1, 1), targets=2),
     }
     return {
         "photos": scenes,
@@ -81,7 +83,7 @@ def steps(folder):
             localisation.make, few, RECIPES | {"improved": improved}, trainings=1
         ),
         "recognition": partial(recognition.make, named, prototypes=20),
-        "fresh_names": partial(fresh_test_set.names, fresh),
+        "fresh_names": partial(fresh_test_set.make_names, fresh),
         "variations": partial(cdbn_sensitivity.make, [(6, 0)], named, PATCHES),
         "tricks": partial(crbm_ablation.make, few, epochs=1, patches=50),
         "optimal": partial(optimal_control.make, optimal_control.TARGETS[12:13]),
@@ -97,16 +99,16 @@ def steps(folder):
             fresh_test_set.make, fresh, named, trainings=1, seeds=[0], patches=PATCHES
         ),
         "lesions": partial(loop_evaluation.make, ["rig"], few),
-        "generalist": partial(loop_evaluation.generalist, ["rig"], few),
+        "generalist": partial(loop_evaluation.make_generalist, ["rig"], few),
         "photographs": partial(
             ventral_stream.photographs, few, (2, 1), (2, 2, 2, 2), everyday=1, pasted=2
         ),
         "real_world": partial(real_world.make, few, splits=["validation"]),
-        "elsewhere": partial(real_world.elsewhere, few),
+        "elsewhere": partial(real_world.make_elsewhere, few),
         "domains": partial(domain_shift.make, few, [4], equal=4, draws=2, patches=PATCHES, steps=2),
         "ablation": partial(stream_ablation.make, few, draws=1, steps=2, everyday=1, pasted=2),
         "printed_sheet": partial(printed_sheet.make, count=1),
-        "whole_arm_habits": partial(habits.make, habits.grid(2)[:2]),
+        "whole_arm_habits": partial(habits.make, habits.goal_grid(2)[:2]),
         "whole_arm": partial(experiment.make, [2], [14], seeds=[0], count=1),
         "ledger": partial(ledger.make, ledger.ROWS[-1:], levels=()),
     }
@@ -115,12 +117,12 @@ def steps(folder):
 def run_all(folder):
     """Run all toy steps, one after the other in this process; what they make lies in `folder`."""
     kinds = {step.name: step.file.suffix or ".npz" for step in STEPS}
-    made = steps(folder)
+    made = toy_steps(folder)
     tasks = [
         {"basename": name, "actions": [(write, [folder / f"{name}{kinds[name]}", make])]}
         for name, make in made.items()
     ]
-    return run(tasks, made, folder)
+    return run_tasks(tasks, made, folder)
 
 
 def copy_photos(folder, numbers, later=0):

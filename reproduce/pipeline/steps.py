@@ -66,21 +66,21 @@ class Step:
         places = [makes.get(name, ROOT / name) for name in self.reads.split()]
         within = (file for place in places for file in (place, *place.rglob("*")))
         found = {file for file in within if file.suffix in DATA}
-        return found | imported(getsourcefile(getattr(self.make, "func", self.make)))
+        return found | imported_files(getsourcefile(getattr(self.make, "func", self.make)))
 
     def run(self):
         """Make the file, on all cores, in a new process: one that has read no older file."""
         with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
-            pool.submit(_made, self).result()
+            pool.submit(_make_file, self).result()
 
 
-def _made(step):
+def _make_file(step):
     with parallel_config(n_jobs=-1):
         write(step.file, step.make)
 
 
 @cache
-def imported(file):
+def imported_files(file):
     """A file of Python, and all of the project's that it imports, or that these import."""
     finder = ModuleFinder([str(ROOT)])
     finder.run_script(file)
@@ -91,7 +91,7 @@ def write(file, make):
     """Write what `make()` gives: arrays by name as .npz, or anything plain as .json."""
     content = make()
     if file.suffix == ".npz":
-        with results.replaced(file) as new:
+        with results.replacement(file) as new:
             np.savez_compressed(new, **content)
         if file.parent == MODEL:
             checksums.write()
@@ -109,7 +109,7 @@ def tasks():
             yield {"basename": step.name, "actions": [step.run], **files}
 
 
-def listed():
+def describe_steps():
     """The steps as lines: name, what is made, minutes, and what else is needed."""
     for step in STEPS:
         needs = f"; needs {step.needs}, so only with --only" if step.needs else ""
@@ -153,7 +153,7 @@ STEPS = (
     Step(learning_under_noise.make, RESULTS / "unsteady.json", f"templates {ARM}", 3),
     Step(muscle_weakness.make, RESULTS / "weakened.npz", f"templates {ARM}", 1),
     Step(loop_evaluation.make, RESULTS / "lesions.json", SHIPPED, 6),
-    Step(loop_evaluation.generalist, RESULTS / "generalist.json", SHIPPED, 1),
+    Step(loop_evaluation.make_generalist, RESULTS / "generalist.json", SHIPPED, 1),
     Step(
         ventral_stream.photographs,
         MODEL / "photographs.npz",
@@ -168,7 +168,7 @@ STEPS = (
         needs="vtk",
     ),
     Step(
-        partial(real_world.elsewhere, ELSEWHERE),
+        partial(real_world.make_elsewhere, ELSEWHERE),
         RESULTS / "elsewhere.json",
         SHIPPED,
         3,
@@ -199,7 +199,7 @@ STEPS = (
         needs="mitsuba and LLVM 19",
     ),
     Step(
-        partial(fresh_test_set.names, FRESH),
+        partial(fresh_test_set.make_names, FRESH),
         RESULTS / "fresh_names.npz",
         f"recognition {SHIPPED}",
         5,

@@ -26,12 +26,12 @@ def records(name, folder=FOLDER):
 def write(name, content, folder=FOLDER):
     """Write what `records` reads."""
     text = json.dumps(content, indent=1, ensure_ascii=False)
-    with replaced(Path(folder) / f"{name}.json") as new:
+    with replacement(Path(folder) / f"{name}.json") as new:
         new.write_text(text + "\n")
 
 
 @contextmanager
-def replaced(file):
+def replacement(file):
     """A path to write to: when all is written, what lies there takes the place of `file`."""
     new = file.with_name(f"new-{file.name}")
     try:

@@ -18,7 +18,7 @@ TINT = 0.2  # of a colour's strength, as a logarithm
 
 
 @dataclass(frozen=True)
-class Looks:
+class Augmentation:
     """How much looks vary; at 0 a thing stays as it is."""
 
     stray: float = 0.08  # of the edges of other boxes than a shuttlecock's, in sides
@@ -31,43 +31,43 @@ class Looks:
     hide: float = 0.2  # share of crops of which something hides a part
 
 
-ALL = Looks()
+ALL = Augmentation()
 
 
-def look(image, box, holds, rng, looks=ALL):
-    """What a box (4,) of an image, or one near it, shows in one of its looks.
+def augment(image, box, holds, rng, augmentation=ALL):
+    """What a box (4,) of an image, or one near it, shows in one of its augmentation.
 
     holds: whether it holds a shuttlecock, from which the box then strays. Returns the picture
     (WIDTH, WIDTH, 3) in 0..1; how well the box fits, an IoU, or 0; and the corrections (4,) that
     would mend it.
     """
     box, fit, lack = box[None], 0.0, np.zeros(4)
-    near = jittered(box, looks.stray, rng)
+    near = jittered(box, augmentation.stray, rng)
     if holds:
         near = corrected(box, rng.normal(0, rng.choice(STRAYS), (1, 4)))
         fit, lack = iou(near, box)[0, 0], corrections(near, box)[0]
-    x = cut(image, widened(near, MARGIN), 2 * WIDTH)
-    x, lack = turned(x, lack, rng) if looks.quarters else (x, lack)
-    x = x * np.exp(rng.normal(0, TINT * looks.colour, 3)).astype(np.float32)
-    return taken(np.ascontiguousarray(x), rng, looks), fit, lack
+    x = crop_in_colour(image, widened(near, MARGIN), 2 * WIDTH)
+    x, lack = quarter_turn(x, lack, rng) if augmentation.quarters else (x, lack)
+    x = x * np.exp(rng.normal(0, TINT * augmentation.colour, 3)).astype(np.float32)
+    return simulate_camera(np.ascontiguousarray(x), rng, augmentation), fit, lack
 
 
-def taken(x, rng, looks=ALL):
+def simulate_camera(x, rng, augmentation=ALL):
     """A picture (n, n, 3) as another camera takes it in another light, WIDTH pixels wide."""
-    x = lit(x, looks, rng)
-    if rng.random() < looks.hide:
-        x = hidden(x, rng)
+    x = relight(x, augmentation, rng)
+    if rng.random() < augmentation.hide:
+        x = occlude(x, rng)
     x = cv2.resize(x, (WIDTH, WIDTH), interpolation=cv2.INTER_AREA)
-    sigma = looks.blur * rng.random() ** 2
+    sigma = augmentation.blur * rng.random() ** 2
     if sigma > 0.2:
         x = cv2.GaussianBlur(x, (0, 0), sigma)
-    x = x + looks.noise * rng.random() ** 2 * rng.standard_normal(x.shape)
-    if rng.random() < looks.compress:
-        x = compressed(x, int(rng.integers(20, 80)))
+    x = x + augmentation.noise * rng.random() ** 2 * rng.standard_normal(x.shape)
+    if rng.random() < augmentation.compress:
+        x = compress_jpeg(x, int(rng.integers(20, 80)))
     return np.float32(x.clip(0, 1))
 
 
-def cut(image, box, width):
+def crop_in_colour(image, box, width):
     """The inside of a box in colour, (width, width, 3) in 0..1; beyond the image, edges repeat."""
     (x0, y0), (x1, y1) = np.round(np.reshape(box, (2, 2))).astype(int)
     columns = np.arange(x0, max(x1, x0 + 4)).clip(0, image.shape[1] - 1)
@@ -77,23 +77,23 @@ def cut(image, box, width):
     return cv2.resize(part, (width, width), interpolation=how).astype(np.float32) / 255
 
 
-def turned(x, lack, rng):
+def quarter_turn(x, lack, rng):
     """A picture turned by any quarter, mirrored or not, and its corrections (4,) with it."""
     for _ in range(rng.integers(4)):
         x, lack = np.rot90(x), lack[[1, 0, 3, 2]] * [1, -1, 1, 1]
     return (x[:, ::-1], lack * [-1, 1, 1, 1]) if rng.random() < 0.5 else (x, lack)
 
 
-def lit(x, looks, rng):
+def relight(x, augmentation, rng):
     """A picture with a shade across it, exposed otherwise."""
     ramp = np.linspace(-0.5, 0.5, len(x), dtype=np.float32)
-    right, down = looks.light * rng.uniform(-1, 1, 2)
+    right, down = augmentation.light * rng.uniform(-1, 1, 2)
     shade = np.exp(right * ramp + down * ramp[:, None])
     x = x * shade[..., None]
-    return (x / max(x.max(), 1e-3)) ** np.exp(looks.light * rng.standard_normal())
+    return (x / max(x.max(), 1e-3)) ** np.exp(augmentation.light * rng.standard_normal())
 
 
-def hidden(x, rng):
+def occlude(x, rng):
     """A picture with up to a third of it behind a band of stripes, most often at a side."""
     n, x = len(x), x.copy()
     depth = int(n * rng.uniform(0.05, 0.35))
@@ -103,7 +103,7 @@ def hidden(x, rng):
     return x
 
 
-def compressed(x, quality):
+def compress_jpeg(x, quality):
     """A picture (n, n, 3) in 0..1 as a JPEG of that quality keeps it."""
     _, code = cv2.imencode(
         ".jpg", np.uint8(255 * x.clip(0, 1)), [cv2.IMWRITE_JPEG_QUALITY, quality]

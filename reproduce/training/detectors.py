@@ -77,7 +77,7 @@ def training_images(shots, recipe):
     return plain + [image.mirrored() for image in plain] if recipe.mirror else plain
 
 
-def examples(shots, recipe=PUBLISHED):
+def labelled_candidates(shots, recipe=PUBLISHED):
     """What the classifier is to tell apart: features x (n, d), labels y (n,).
 
     The clear cases among the photos' candidates: IoU of 0.8 and more, 0.5 and less.
@@ -91,7 +91,7 @@ def examples(shots, recipe=PUBLISHED):
     return np.concatenate(x), np.concatenate(y)
 
 
-def training_examples(images, recipe, rng):
+def svm_training_set(images, recipe, rng):
     """What the classifier learns from: every example, jittered ones too, ROIS counter-examples.
 
     Of `TrainingImage`s. Returns features x (n, d), labels y (n,).
@@ -149,10 +149,10 @@ def fit_iou_predictor(images, recipe, svm, regressions, rng):
 def fit_detector(shots, recipe=PUBLISHED, rng=None):
     """An `ObjectDetector` that learns from photos; `rng` draws counter-examples, jitters boxes.
 
-    Its threshold stays 0: see `tuned`.
+    Its threshold stays 0: see `with_best_threshold`.
     """
     rng, images = rng or np.random.default_rng(0), training_images(shots, recipe)
-    x, y = training_examples(images, recipe, rng)
+    x, y = svm_training_set(images, recipe, rng)
     svm = KernelSVM.fit(x, y, recipe.kernel, recipe.cost)
     regressions = fit_box_regression(images, recipe, rng)
     predictor = None
@@ -161,7 +161,7 @@ def fit_detector(shots, recipe=PUBLISHED, rng=None):
     return ObjectDetector(recipe, svm, regressions, predictor)
 
 
-def used_as(detector, name):
+def with_recipe(detector, name):
     """The same training, used for the recipe `name`, which does less."""
     recipe = EVERY_RECIPE[name]
     predictor = detector.iou_predictor if recipe.predicts_iou else None
@@ -185,7 +185,7 @@ def best_threshold(scores, right, wanted):
     return float((taken[last] + left[last]) / 2)
 
 
-def tuned(detector, shots):
+def with_best_threshold(detector, shots):
     """The same detector, with the threshold that is best on photos it did not learn from.
 
     The published recipe has none to choose: it stays at 0.

@@ -12,7 +12,7 @@ from vmc_lib.what.recogniser import seen
 READ_OUT = "P1 + P2"
 
 
-def end_to_end(draw, rng, width, maps, steps, batch, rate):
+def train_end_to_end(draw, rng, width, maps, steps, batch, rate):
     """A CDBN whose every weight learns at once, from random ones, what tells the labels apart.
 
     draw: gives so many crops (n, width, width) and labels (n,). A linear read-out learns along,
@@ -20,7 +20,7 @@ def end_to_end(draw, rng, width, maps, steps, batch, rate):
     and falls once (OneCycleLR).
     """
     torch_rng = torch.Generator().manual_seed(int(rng.integers(2**31)))
-    cdbn = blank(maps, torch_rng)
+    cdbn = random_network(maps, torch_rng)
     weights = [getattr(crbm, part) for crbm in (cdbn.first, cdbn.second) for part in "Wb"]
     size = seen(cdbn, torch.randn(1, 1, width, width, generator=torch_rng))[READ_OUT].shape[1]
     scale = torch.nn.BatchNorm1d(size, affine=False)
@@ -38,7 +38,7 @@ def end_to_end(draw, rng, width, maps, steps, batch, rate):
     return CDBN.from_arrays(cdbn.arrays())
 
 
-def blank(maps, rng):
+def random_network(maps, rng):
     """A CDBN of Learners that know nothing: random filters, hidden units on half the time."""
     layers, channels = [], 1
     for count in maps:

@@ -24,7 +24,7 @@ def background_box(shot, rng):
             return np.array([x, y, x + width, y + height])
 
 
-def examples(shots, rng, copies=COPIES, background=0):
+def labelled_crops(shots, rng, copies=COPIES, background=0):
     """Crops (n, 200, 200) and labels (n,) from photos, True for a shuttlecock.
 
     Each object `copies` times, jittered and half of them mirrored; and so many crops of

@@ -18,7 +18,7 @@ LARGE = 0.2, 1.2  # of the photo's height: how wide a cut-out is laid there, wha
 
 
 @dataclass(frozen=True, eq=False)
-class Pasted:
+class PastedPhoto:
     """A photograph on which a shuttlecock was laid, as a `RealPhoto`."""
 
     image: np.ndarray
@@ -26,33 +26,34 @@ class Pasted:
     name, more, camera = "pasted", np.empty((0, 4)), None
 
 
-def pasted(shots, split, count, rng):
-    """So many `Pasted`: on those of the real photos `shots` that show no shuttlecock, in turn.
+def paste_cutouts(shots, split, count, rng):
+    """So many `PastedPhoto`: on those of the real photos `shots` that show no shuttlecock, in turn.
 
     The last HELD_OUT cut-outs validate ("validation"), the others teach ("train").
     """
     grounds = [shot for shot in shots if "shuttlecock" not in shot.boxes]
     some = load()[:-HELD_OUT] if split == "train" else load()[-HELD_OUT:]
     return [
-        paste(grounds[i % len(grounds)], some[rng.integers(len(some))], rng) for i in range(count)
+        paste_cutout(grounds[i % len(grounds)], some[rng.integers(len(some))], rng)
+        for i in range(count)
     ]
 
 
-def paste(background, cutout, rng):
-    """A `Pasted`: a cut-out of any size, turned and lit anyhow, with a shadow, on a photo."""
+def paste_cutout(background, cutout, rng):
+    """A `PastedPhoto`: a cut-out of any size, turned and lit anyhow, with a shadow, on a photo."""
     image = background.image[:, :: rng.choice([-1, 1])].astype(np.float32) / 255
-    x = turned(cutout, rng)
+    x = transform_cutout(cutout, rng)
     height, width = x.shape[:2]
     top, left = rng.integers(np.subtract(image.shape[:2], (height, width)))
-    colour, alpha = lit(x[..., :3], rng), x[..., 3:]
+    colour, alpha = relight(x[..., :3], rng), x[..., 3:]
     image *= 1 - shadow(alpha[..., 0], (top, left), rng)[..., None]
     there = image[top : top + height, left : left + width]
     there += alpha * (colour - there)
     box = np.array([left, top, left + width, top + height], float)
-    return Pasted(np.uint8(255 * image.clip(0, 1) + 0.5), {"shuttlecock": box})
+    return PastedPhoto(np.uint8(255 * image.clip(0, 1) + 0.5), {"shuttlecock": box})
 
 
-def turned(cutout, rng):
+def transform_cutout(cutout, rng):
     """A cut-out as floats (h, w, 4), turned by any angle, of any size, sharp or soft, no margin."""
     width = photos.HEIGHT * np.exp(rng.uniform(*np.log(LARGE)))
     scale, size = width / WIDTH, int(1.5 * width)
@@ -70,7 +71,7 @@ def turned(cutout, rng):
     return part[: photos.HEIGHT - 1, : photos.WIDTH - 1]
 
 
-def lit(colour, rng):
+def relight(colour, rng):
     """Colours (h, w, 3) in another light: brighter or darker, warmer or colder, uneven."""
     gain = np.exp(rng.normal(0, 0.25) + rng.normal(0, 0.06, 3))
     slope = 1 + rng.uniform(-0.4, 0.4) * np.linspace(-1, 1, len(colour))

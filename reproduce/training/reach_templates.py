@@ -32,10 +32,10 @@ def excitation_knots(path):
     """Spline knots (KNOTS, 6) of excitations that keep the arm near a joint path from rest."""
     torque, gain = demand(path)
     rows = slice(0, SAMPLES, 5)
-    asked = np.einsum("tjm,tk->tjkm", gain[rows], spline()[rows]).reshape(-1, KNOTS * 6)
+    design = np.einsum("tjm,tk->tjkm", gain[rows], spline()[rows]).reshape(-1, KNOTS * 6)
     bending = np.kron(np.diff(np.eye(KNOTS), 2, axis=0), np.eye(6))
-    matrix = np.vstack([asked, EFFORT * np.eye(KNOTS * 6), ROUGHNESS * bending])
-    wanted = np.append(torque[rows].ravel(), np.zeros(len(matrix) - len(asked)))
+    matrix = np.vstack([design, EFFORT * np.eye(KNOTS * 6), ROUGHNESS * bending])
+    wanted = np.append(torque[rows].ravel(), np.zeros(len(matrix) - len(design)))
     activation = spline() @ least(matrix, wanted).reshape(KNOTS, 6)
     excitation = excitation_for(activation, np.gradient(activation, STEP, axis=0))
     knots = np.stack([least(spline(), muscle) for muscle in excitation.T], axis=-1)
@@ -43,7 +43,7 @@ def excitation_knots(path):
     return knots
 
 
-def grid(spacing):
+def reachable_grid(spacing):
     """Plane positions (N, 2) of a square grid: those within `ZONE` that the arm can reach."""
     steps = spacing * np.arange(-12, 13)
     points = CORNER + np.stack(np.meshgrid(steps, steps), axis=-1).reshape(-1, 2)
@@ -51,15 +51,15 @@ def grid(spacing):
     return within[np.linalg.norm(within, axis=-1) < REACH]
 
 
-def make(goal):
+def find_reach(goal):
     """Spline knots (KNOTS, 6) of a reach that comes to rest at the plane position `goal` (2,)."""
     knots = excitation_knots(minimum_jerk(START, inverse_kinematics(goal)))
     for _ in range(3):
-        knots = _settle(knots, goal)
+        knots = _gauss_newton_step(knots, goal)
     return knots
 
 
-def _settle(knots, goal):
+def _gauss_newton_step(knots, goal):
     """One Gauss–Newton step: nudge every knot, see where each reach ends, correct all of them."""
     nudge = 1e-4
     nudged = knots + nudge * np.eye(knots.size).reshape(-1, *knots.shape)

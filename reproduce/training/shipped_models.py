@@ -12,8 +12,8 @@ import numpy as np
 from joblib import Parallel, delayed
 
 from reproduce.training import reach_templates
-from reproduce.training.detectors import fit_detector, tuned, used_as
-from reproduce.training.name_classifier import examples, fit_name_classifier
+from reproduce.training.detectors import fit_detector, with_best_threshold, with_recipe
+from reproduce.training.name_classifier import fit_name_classifier, labelled_crops
 from vmc_lib import photos
 from vmc_lib.motor.templates import SPACINGS, key
 from vmc_lib.what.cdbn import CDBN, PATCHES, crops_of
@@ -60,7 +60,9 @@ def detector(level, name, recipe, folder):
         half = np.size(value) > 10_000
         learnt[f"{level}/{name}/{part}"] = np.array(value, np.float16 if half else np.float32)
     for row in (name, *(row for row, source in TRAINED_AS.items() if source == name)):
-        learnt[f"{level}/{row}/threshold"] = tuned(used_as(trained, row), held_out).threshold
+        learnt[f"{level}/{row}/threshold"] = with_best_threshold(
+            with_recipe(trained, row), held_out
+        ).threshold
     return learnt
 
 
@@ -86,12 +88,12 @@ def recogniser(folder=photos.FOLDER):
     rng, network, learnt = np.random.default_rng(0), CDBN.load(), {}
     sets = {
         level: [
-            training_set(photos.load(level, split, folder), rng, network)
+            readout_training_set(photos.load(level, split, folder), rng, network)
             for split in ("train", "validation")
         ]
         for level in photos.LEVELS
     }
-    sets[ALL_LEVELS] = [merged(split) for split in zip(*sets.values(), strict=True)]
+    sets[ALL_LEVELS] = [merge_sets(split) for split in zip(*sets.values(), strict=True)]
     for level, ((x, y), (x_validation, y_validation)) in sets.items():
         for name in READ_OUTS:
             found = fit_name_classifier(x[name], y, x_validation[name], y_validation)
@@ -99,13 +101,13 @@ def recogniser(folder=photos.FOLDER):
     return learnt
 
 
-def training_set(shots, rng, network):
+def readout_training_set(shots, rng, network):
     """The read-outs of photos' `examples`, bare scene among them, and their labels."""
-    crops, labels = examples(shots, rng, background=BARE)
+    crops, labels = labelled_crops(shots, rng, background=BARE)
     return read_outs(network, crops), labels
 
 
-def merged(sets):
+def merge_sets(sets):
     """Several training sets as one."""
     found, labels = zip(*sets, strict=True)
     return {name: np.concatenate([x[name] for x in found]) for name in READ_OUTS}, np.hstack(labels)
@@ -115,7 +117,10 @@ def templates(spacings=SPACINGS):
     """The spline knots (N, KNOTS, 6) of every template of every set."""
     return {
         key(spacing): np.array(
-            Parallel()(delayed(reach_templates.make)(g) for g in reach_templates.grid(spacing)),
+            Parallel()(
+                delayed(reach_templates.find_reach)(g)
+                for g in reach_templates.reachable_grid(spacing)
+            ),
             np.float32,
         )
         for spacing in spacings

@@ -16,8 +16,8 @@ from torch.nn import functional as F
 from torch.utils.data import DataLoader, Dataset
 
 from reproduce.training import pasting
-from reproduce.training.augmentation import look
-from reproduce.training.samples import APART, PASTED, pool, show
+from reproduce.training.augmentation import augment
+from reproduce.training.samples import APART, PASTED, collect_samples, training_samples
 from vmc_lib import loop, photos
 from vmc_lib.boxes import iou
 from vmc_lib.what.judge import weighed
@@ -38,9 +38,11 @@ SCALE, EDGES = 0.2, 2  # of the corrections that are read out; how much they cou
 # ---------------------------------------------------------------- what is shown
 
 
-def examples(pool, count, rng):
+def augmented_batch(pool, count, rng):
     """So many boxes in new looks: crops (n, 3, WIDTH, WIDTH), fits (n,), lacks (n, 4), float32."""
-    parts = zip(*(look(*pool.draw(rng), rng, pool.looks) for _ in range(count)), strict=True)
+    parts = zip(
+        *(augment(*pool.draw(rng), rng, pool.augmentation) for _ in range(count)), strict=True
+    )
     x, fit, lack = (np.array(part, np.float32) for part in parts)
     return adapted(np.moveaxis(x, 3, 1)), fit, lack
 
@@ -48,10 +50,10 @@ def examples(pool, count, rng):
 # ---------------------------------------------------------------- learning
 
 
-def blank(seed, maps=MAPS):
+def build_network(seed, maps=MAPS):
     """A network that knows nothing: the stages of a `VentralStream`, and its read-out."""
     layers, channels, places = [], 3, (WIDTH // 2 ** len(maps)) ** 2
-    with chance_of(seed):
+    with torch_seed(seed):
         for count in maps:
             layers.append(nn.Conv2d(channels, count, 3, padding=1, bias=False))
             layers += nn.BatchNorm2d(count), nn.ReLU(), nn.MaxPool2d(2)
@@ -61,23 +63,23 @@ def blank(seed, maps=MAPS):
 
 
 @contextmanager
-def chance_of(seed):
+def torch_seed(seed):
     """Within, torch's own random numbers are those of a seed; outside they are as they were."""
     with torch.random.fork_rng():
         torch.random.default_generator.manual_seed(seed)
         yield
 
 
-def loss(told, fit, lack):
+def loss(outputs, fit, lack):
     """How wrong the network is about names, and about the edges of boxes near a shuttlecock."""
     clear, near = (fit > YES) | (fit < NO), fit > NEAR
-    name = F.binary_cross_entropy_with_logits(told[clear, 0], (fit[clear] > YES).float())
-    off = F.smooth_l1_loss(SCALE * told[near, 1:], lack[near], beta=0.05)
+    name = F.binary_cross_entropy_with_logits(outputs[clear, 0], (fit[clear] > YES).float())
+    off = F.smooth_l1_loss(SCALE * outputs[near, 1:], lack[near], beta=0.05)
     return name + EDGES * off if near.any() else name
 
 
 class Batches(Dataset):
-    """So many batches of `examples`, each of its own random numbers, drawn when asked for."""
+    """Batches of `augmented_batch`, each with its own random numbers, drawn when indexed."""
 
     def __init__(self, pool, seed, steps, batch=BATCH):
         self.pool, self.seed, self.steps, self.batch = pool, seed, steps, batch
@@ -86,10 +88,10 @@ class Batches(Dataset):
         return self.steps
 
     def __getitem__(self, i):
-        return examples(self.pool, self.batch, np.random.default_rng((self.seed, i)))
+        return augmented_batch(self.pool, self.batch, np.random.default_rng((self.seed, i)))
 
 
-def teach(network, batches, rate):
+def train(network, batches, rate):
     """Let every weight of a network learn at once, in place, from `Batches`.
 
     By torch's AdamW, whose rate rises and falls once (OneCycleLR). While it learns, each map is
@@ -98,7 +100,7 @@ def teach(network, batches, rate):
     network.to(memory_format=torch.channels_last)  # as the crops lie: twice as quick
     learner = torch.optim.AdamW(network.parameters(), lr=rate, weight_decay=0.02)
     rise_and_fall = torch.optim.lr_scheduler.OneCycleLR(learner, rate, len(batches), pct_start=0.15)
-    with chance_of(batches.seed):
+    with torch_seed(batches.seed):
         for x, fit, lack in DataLoader(batches, batch_size=None, num_workers=1):  # drawn beside
             error = loss(network(x), fit, lack)
             learner.zero_grad()
@@ -107,26 +109,26 @@ def teach(network, batches, rate):
             rise_and_fall.step()
 
 
-def folded(network):
+def fold_batch_norm(network):
     """The `VentralStream` of a network: what brought maps to one scale is in its filters now."""
     filters, biases = [], []
     for conv, norm in zip(network[:-3:4], network[1:-3:4], strict=True):
         gain = norm.weight / torch.sqrt(norm.running_var + norm.eps)
         filters.append((conv.weight * gain[:, None, None, None]).detach().numpy())
         biases.append((norm.bias - norm.running_mean * gain).detach().numpy())
-    told, size = network[-1], torch.tensor([[1.0]] + 4 * [[SCALE]])
-    readout, offsets = (told.weight * size).detach(), (told.bias * size[:, 0]).detach()
+    linear, size = network[-1], torch.tensor([[1.0]] + 4 * [[SCALE]])
+    readout, offsets = (linear.weight * size).detach(), (linear.bias * size[:, 0]).detach()
     return VentralStream(tuple(filters), tuple(biases), readout.numpy(), offsets.numpy())
 
 
 # ---------------------------------------------------------------- hard counter-examples
 
 
-def mined(stream, photo):
+def hard_negatives(stream, photo):
     """What a photo shows, of its windows those that a stream most takes for shuttlecocks.
 
-    As `samples.by_kind` gives it. They are sought among its windows as they are, and as the stream
-    tightens them.
+    As `samples.boxes_by_kind` gives it. They are sought among its windows as they are, and as the
+    stream tightens them.
     """
     image, windows = photo["scene"]
     some = np.vstack([windows, stream.tightened(image, windows)])
@@ -143,29 +145,32 @@ def photographs(folder=photos.FOLDER, steps=STEPS, maps=MAPS, everyday=None, pas
     """What `data/photographs.npz` holds: a `VentralStream`, and the judge of both pathways.
 
     It learns, its mistakes are mined, and it learns on. `everyday` and `pasted` as for
-    `samples.show`.
+    `samples.collect_samples`.
     """
-    lessons, network = show(np.random.default_rng(0), folder, everyday, pasted), blank(0, maps)
+    lessons, network = (
+        collect_samples(np.random.default_rng(0), folder, everyday, pasted),
+        build_network(0, maps),
+    )
     for part, (some, rate) in enumerate(zip(steps, RATE, strict=True)):
         if part:
-            mine = delayed(partial(mined, folded(network)))
+            mine = delayed(partial(hard_negatives, fold_batch_norm(network)))
             lessons = {level: Parallel()(map(mine, seen)) for level, seen in lessons.items()}
-        teach(network, Batches(pool(lessons), part, some), rate)
-    stream = folded(network)
-    linear = judge(stream, held_out(folder, min(LAID, pasted)))
+        train(network, Batches(training_samples(lessons), part, some), rate)
+    stream = fold_batch_norm(network)
+    linear = fit_rescoring(stream, validation_photos(folder, min(LAID, pasted)))
     learnt = {name: np.float16(part) for name, part in stream.arrays().items()}
     return learnt | linear.arrays("judge")
 
 
-def held_out(folder=photos.FOLDER, laid=LAID):
+def validation_photos(folder=photos.FOLDER, laid=LAID):
     """The validation photos of all levels, and `laid` real ones with held-out cut-outs on them."""
     levels = {level: photos.load(level, "validation", folder) for level in photos.EVERY_LEVEL}
     rng = np.random.default_rng(0)
-    pasted = pasting.pasted(levels[photos.REAL_LEVEL], "validation", laid, rng)
+    pasted = pasting.paste_cutouts(levels[photos.REAL_LEVEL], "validation", laid, rng)
     return [shot for shots in (*levels.values(), pasted) for shot in shots]
 
 
-def judge(stream, shots):
+def fit_rescoring(stream, shots):
     """Of boxes that the object detector finds in photos: the chance that one is a shuttlecock's.
 
     Logistic regression on what `weighed` gives, as a `NameClassifier`; right is an IoU above
@@ -174,8 +179,8 @@ def judge(stream, shots):
     detector, x, y = loop.lenient_detector(photos.REAL_LEVEL), [], []
     for shot in shots:
         found = detector.detect(shot.image)
-        boxes, told = weighed(found, stream, shot.image)
-        x.append(told)
+        boxes, features = weighed(found, stream, shot.image)
+        x.append(features)
         y.append(iou(boxes, photos.all_of(shot, "shuttlecock")).max(1, initial=0) > 0.5)
     logistic = LogisticRegression(C=np.inf).fit(np.vstack(x), np.hstack(y))  # three numbers
     return NameClassifier(logistic.coef_[0], float(logistic.intercept_[0]))

@@ -9,8 +9,8 @@ import json
 import mujoco
 import numpy as np
 
-from render.bone_meshes import clustered, joined, packed
-from reproduce.whole_arm.derive import in_world, turned
+from render.bone_meshes import cluster_vertices, join_meshes, pack_mesh
+from reproduce.whole_arm.derive import rotation_matrix, world_frame
 from reproduce.whole_arm.plant import FILE as MODEL
 
 FILE = MODEL.with_name("bones63.json")
@@ -22,19 +22,19 @@ def main():
     import myo_sim  # nothing else needs it
 
     full = myo_sim.load_spec("myoarm_r").compile()
-    FILE.write_text(json.dumps(made(full), separators=(",", ":")) + "\n")
+    FILE.write_text(json.dumps(bone_meshes(full), separators=(",", ":")) + "\n")
 
 
-def made(full):
+def bone_meshes(full):
     """The bones of a compiled MyoArm, as JSON takes them: by body, points and faces, flat."""
     data = mujoco.MjData(full)
     mujoco.mj_kinematics(full, data)
-    place, axes = in_world(data, full.body("torso").id)
+    place, axes = world_frame(data, full.body("torso").id)
     points, faces = _mesh(full, full.body("torso").id)
-    bones = {"world": packed(*clustered(points @ axes.T + place, faces, RIBS))}
+    bones = {"world": pack_mesh(*cluster_vertices(points @ axes.T + place, faces, RIBS))}
     for body in range(full.body("clavicle_r").id, full.nbody):
         if mesh := _mesh(full, body):
-            bones[full.body(body).name] = packed(*clustered(*mesh, CELL))
+            bones[full.body(body).name] = pack_mesh(*cluster_vertices(*mesh, CELL))
     return bones
 
 
@@ -48,8 +48,10 @@ def _mesh(full, body):
         first, faces = mesh.vertadr[0], mesh.faceadr[0]
         points = full.mesh_vert[first : first + mesh.vertnum[0]]
         triangles = full.mesh_face[faces : faces + mesh.facenum[0]]
-        meshes.append((points @ turned(full.geom_quat[geom]).T + full.geom_pos[geom], triangles))
-    return joined(meshes) if meshes else None
+        meshes.append(
+            (points @ rotation_matrix(full.geom_quat[geom]).T + full.geom_pos[geom], triangles)
+        )
+    return join_meshes(meshes) if meshes else None
 
 
 if __name__ == "__main__":

@@ -23,10 +23,10 @@ def main():
     """Write the file."""
     import myo_sim  # nothing else needs it
 
-    FILE.write_text(derived(myo_sim.load_spec("myoarm_r").compile()) + "\n")
+    FILE.write_text(arm_mjcf(myo_sim.load_spec("myoarm_r").compile()) + "\n")
 
 
-def derived(full):
+def arm_mjcf(full):
     """The MJCF text of the arm in a compiled MyoArm."""
     root = ElementTree.Element("mujoco", model="MyoArm without meshes: see CREDITS.md")
     ElementTree.SubElement(root, "compiler", angle="radian")
@@ -76,7 +76,7 @@ def _muscle(full, k, tendons, pulls):
     _add(pulls, "general", name=name, tendon=name, **law, **limits, **numbers, dynprm=dynamics)
 
 
-def in_world(data, body):
+def world_frame(data, body):
     """Where a body of MyoArm lies in our world, (3,), and its axes (3, 3)."""
     turn, origin = data.body("torso").xmat.reshape(3, 3), data.body("humerus_r").xpos
     return turn.T @ (data.xpos[body] - origin), turn.T @ data.xmat[body].reshape(3, 3)
@@ -87,13 +87,13 @@ def _bodies(full, world, used):
     data, made, arm = mujoco.MjData(full), {}, full.body("clavicle_r").id
     mujoco.mj_kinematics(full, data)
     for body in range(full.nbody):
-        place, axes = in_world(data, body)
+        place, axes = world_frame(data, body)
         if body < arm:
-            _things(full, body, world, used, place, axes)
+            _geometries(full, body, world, used, place, axes)
             continue
         parent = made.get(full.body_parentid[body])
         if parent is not None:
-            place, axes = full.body_pos[body], turned(full.body_quat[body])
+            place, axes = full.body_pos[body], rotation_matrix(full.body_quat[body])
         parent = world if parent is None else parent
         frame = {"name": full.body(body).name, "pos": place, "quat": _quaternion(axes)}
         made[body] = _add(parent, "body", **frame)
@@ -104,7 +104,7 @@ def _bodies(full, world, used):
         for joint in range(first, first + full.body_jntnum[body]):
             if joint < JOINTS:
                 _joint(full, joint, made[body])
-        _things(full, body, made[body], used)
+        _geometries(full, body, made[body], used)
 
 
 def _joint(full, k, body):
@@ -113,12 +113,12 @@ def _joint(full, k, body):
     _add(body, "joint", name=full.joint(k).name, **turns, **slow)
 
 
-def _things(full, body, element, used, place=0.0, axes=np.eye(3)):  # noqa: B008 (never written to)
+def _geometries(full, body, element, used, place=0.0, axes=np.eye(3)):  # noqa: B008 (never written to)
     """What muscles run over on a body, whose place and axes an element has so."""
     for k in np.flatnonzero(full.geom_bodyid == body):
         if ("geom", f"w{k}") in used:
             frame = {"pos": place + axes @ full.geom_pos[k]}
-            frame["quat"] = _quaternion(axes @ turned(full.geom_quat[k]))
+            frame["quat"] = _quaternion(axes @ rotation_matrix(full.geom_quat[k]))
             kind = SHAPES[full.geom_type[k]]
             size = full.geom_size[k, : 1 + (kind == "cylinder")]
             loose = {"contype": "0", "conaffinity": "0", "mass": "0"}
@@ -129,7 +129,7 @@ def _things(full, body, element, used, place=0.0, axes=np.eye(3)):  # noqa: B008
             _add(element, "site", name=name, pos=place + axes @ full.site_pos[k])
 
 
-def turned(quaternion):
+def rotation_matrix(quaternion):
     """The rotation matrix (3, 3) of a quaternion (4,)."""
     matrix = np.empty(9)
     mujoco.mju_quat2Mat(matrix, quaternion)

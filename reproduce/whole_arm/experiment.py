@@ -10,7 +10,7 @@ import numpy as np
 
 from reproduce import results
 from reproduce.whole_arm import habits, plant
-from reproduce.whole_arm.habits import ZONE, grid
+from reproduce.whole_arm.habits import ZONE, goal_grid
 from vmc_lib.cerebellum.offline import broyden_calibration
 from vmc_lib.cerebellum.online import AimCorrection, GranuleCells
 from vmc_lib.motor.planning import exact_weights, plan
@@ -37,75 +37,78 @@ def draw_targets(*memories, count, rng):
     return drawn[np.all(inside, axis=0)][:count]
 
 
-def planned(targets, past, **rule):
+def plan_reaches(targets, past, **rule):
     """The `Plan`s to targets (n, 3), each by the eight memories around it."""
     return plan(targets, past, chosen=octants(targets, past.points)[0], **rule)
 
 
-def habitual(past, targets):
+def planned_errors(past, targets):
     """The mean miss over the mean reach, by name; what corrections leave of it.
 
     A reach is as long as its target (n, 3) is far from the shoulder; the way is what is moved.
     """
     reach = np.linalg.norm(targets, axis=-1).mean()
-    way = np.linalg.norm(targets - plant.tip(habits.START)[0], axis=-1).mean()
-    none, *left = broyden_calibration(planned(targets, past)).error.mean(axis=1)
-    exact = planned(targets, past, rule=exact_weights).missed().mean()
+    way = np.linalg.norm(targets - plant.tip_and_jacobian(habits.START)[0], axis=-1).mean()
+    none, *left = broyden_calibration(plan_reaches(targets, past)).error.mean(axis=1)
+    exact = plan_reaches(targets, past, rule=exact_weights).missed().mean()
     over = {"planned / reach": none / reach, "planned / way": none / way}
     shares = {f"{k} corrections": miss / none for k, miss in enumerate(left, start=1)}
     return {**over, "Eq. 4 / reach": exact / reach, **shares}
 
 
-def practised(past, seed, count=COUNT, width=WIDTH):
+def online_errors(past, seed, count=COUNT, width=WIDTH):
     """One draw: what online calibration leaves of the planned miss, in sample and held out."""
     rng = np.random.default_rng(100 + seed)
-    new, seen = (
-        planned(draw_targets(past, count=n, rng=rng), past) for n in (count, LESSONS * count)
+    new, practised = (
+        plan_reaches(draw_targets(past, count=n, rng=rng), past) for n in (count, LESSONS * count)
     )
     spots = octants(rng.uniform(*ZONE, (4000, 3)), past.points)
     around = np.unique(spots[0][spots[1]], axis=0)
-    aims = AimCorrection(past, GranuleCells(width), around).practise(seen)
+    aims = AimCorrection(past, GranuleCells(width), around).practise(practised)
     return {
         name: aims.correct(plans).missed().mean() / plans.missed().mean()
-        for name, plans in (("in-sample", seen[:count]), ("held-out", new))
+        for name, plans in (("in-sample", practised[:count]), ("held-out", new))
     }
 
 
-def optimised(past, nerves, seed, count=COUNT):
+def optimised_errors(past, synergies, seed, count=COUNT):
     """One draw: every reach computed afresh, as the memories were made, beside mixing them.
 
     The optimiser's miss over the reach, at once and aimed again; seconds that a plan takes.
     """
     targets = draw_targets(past, count=count, rng=np.random.default_rng(seed))
     began = process_time()
-    told = np.array([nerves.commands(habits.posture(goal)) for goal in targets])
+    commands = np.array([synergies.commands(habits.reach_posture(goal)) for goal in targets])
     spent = process_time() - began
     began = process_time()
-    planned(targets, past).excitations  # noqa: B018 (they are made when they are asked for)
+    plan_reaches(targets, past).excitations  # noqa: B018 (they are made when they are asked for)
     seconds = {
         "seconds, optimiser": spent / count,
         "seconds, habit": (process_time() - began) / count,
     }
-    ends = {"once": nerves.move(told).reached, "again": habits.remember(nerves, targets).points}
+    ends = {
+        "once": synergies.move(commands).reached,
+        "again": habits.record_templates(synergies, targets).points,
+    }
     reach = np.linalg.norm(targets, axis=-1).mean()
     off = {k: np.linalg.norm(end - targets, axis=-1).mean() for k, end in ends.items()}
     return seconds | {f"{name} / reach": miss / reach for name, miss in off.items()}
 
 
-def covered(past, count=1000):
+def covered_share(past, count=1000):
     """The share of the zone that memories surround."""
     spots = np.random.default_rng(0).uniform(*INSIDE, (count, 3))
     return float(octants(spots, past.points)[1].mean())
 
 
-def seconds_per_second(nerves, count=5):
+def seconds_per_second(synergies, count=5):
     """How many seconds of the arm's life one second of a processor simulates."""
     began = process_time()
-    nerves.move(np.tile(nerves.rest, (count, plant.TICKS, 1)))
+    synergies.move(np.tile(synergies.rest, (count, plant.TICKS, 1)))
     return count * plant.TICK * plant.TICKS / (process_time() - began)
 
 
-def any_posture(goals, rng):
+def random_postures(goals, rng):
     """Easy postures (N, 7), another for each goal: memories that share no habit of posture."""
     return habits.EASY + rng.uniform(-SPARE, SPARE, (len(goals), len(habits.EASY)))
 
@@ -116,40 +119,42 @@ def make(sides=(3, 4), shared=(6, 14, 34), past=None, seeds=SEEDS, **size):
     `past` are the densest memories, by default those that ship. All memories are asked for the same
     targets; those of any posture are made anew for every draw.
     """
-    past, own, few = past or habits.load(), habits.sharing(), grid(sides[0])
-    sets = {f"{side**3} memories": habits.remember(own, grid(side)) for side in sides}
+    past, own, few = past or habits.load_templates(), habits.muscle_synergies(), goal_grid(sides[0])
+    sets = {f"{side**3} memories": habits.record_templates(own, goal_grid(side)) for side in sides}
     for count in shared:
-        sets[f"{count} commands"] = habits.remember(habits.sharing(count), few)
+        sets[f"{count} commands"] = habits.record_templates(habits.muscle_synergies(count), few)
     sets[f"{len(past.points)} memories"] = past
-    found = {name: {"covered": covered(known)} for name, known in sets.items()}
+    found = {name: {"covered": covered_share(known)} for name, known in sets.items()}
     known = {name: memories for name, memories in sets.items() if found[name]["covered"] > 0.5}
-    draws = [compared(known, own, few, seed, **size) for seed in seeds]
-    for name, row in joined(draws).items():
-        found.setdefault(name, {}).update(joined(row))
+    draws = [compare_memories(known, own, few, seed, **size) for seed in seeds]
+    for name, row in join_draws(draws).items():
+        found.setdefault(name, {}).update(join_draws(row))
     found["real time"] = seconds_per_second(own)
-    found["online"] = joined([practised(past, seed, **size) for seed in seeds])
-    found["afresh"] = joined([optimised(past, own, seed, **size) for seed in seeds])
+    found["online"] = join_draws([online_errors(past, seed, **size) for seed in seeds])
+    found["afresh"] = join_draws([optimised_errors(past, own, seed, **size) for seed in seeds])
     return found
 
 
-def compared(sets, nerves, goals, seed, count=COUNT):
-    """One draw: what `habitual` finds of all these memories, and of those of any posture."""
+def compare_memories(sets, synergies, goals, seed, count=COUNT):
+    """One draw: what `planned_errors` finds of all these memories, and of those of any posture."""
     rng = np.random.default_rng(seed)
-    apart = habits.remember(nerves, goals, any_posture(goals, np.random.default_rng((seed, 1))))
+    apart = habits.record_templates(
+        synergies, goals, random_postures(goals, np.random.default_rng((seed, 1)))
+    )
     sets = {**sets, "any posture": apart}
     targets = draw_targets(*sets.values(), count=count, rng=rng)
     away = np.linalg.norm(apart.points - goals, axis=-1).mean()
-    rows = {name: habitual(known, targets) for name, known in sets.items()}
-    rows["any posture"] |= {"covered": covered(apart), "from their goals": away}
+    rows = {name: planned_errors(known, targets) for name, known in sets.items()}
+    rows["any posture"] |= {"covered": covered_share(apart), "from their goals": away}
     return rows
 
 
-def joined(rows):
+def join_draws(rows):
     """What several draws found, by name: lists."""
     return {name: [row[name] for row in rows] for name in rows[0]}
 
 
-def measured():
+def load_results():
     """What ships: `make`'s numbers, in arrays."""
     return {
         name: {key: np.array(value) for key, value in row.items()} if isinstance(row, dict) else row

@@ -25,21 +25,21 @@ SIDE = 5  # memories along each edge of the zone, of those that ship
 EFFORT = 0.05  # what full activation of a muscle costs beside a missed N m
 
 
-def posture(goal, easy=EASY):
+def reach_posture(goal, easy=EASY):
     """The posture (7,) nearest to an easy one that puts the finger's tip on a goal (3,)."""
     ease, bounds = 0.1, plant.LIMITS.T + np.array([[0.01], [-0.01]])
 
     def off(q):
-        return np.append(100 * (plant.tip(q)[0] - goal), ease * (q - easy))
+        return np.append(100 * (plant.tip_and_jacobian(q)[0] - goal), ease * (q - easy))
 
     def slopes(q):
-        return np.vstack([100 * plant.tip(q)[1], ease * np.eye(len(q))])
+        return np.vstack([100 * plant.tip_and_jacobian(q)[1], ease * np.eye(len(q))])
 
     return least_squares(off, easy.clip(*bounds), slopes, bounds=bounds).x
 
 
 @dataclass(frozen=True, eq=False)
-class Nerves:
+class SynergyMap:
     """Which muscles share a command: `groups` (63, n), one 1 in each row."""
 
     groups: np.ndarray
@@ -58,42 +58,44 @@ class Nerves:
         path = minimum_jerk(START, goal, plant.TICKS, MOVING / 1000 / plant.TICK)
         velocity = np.gradient(path, plant.TICK, axis=0)
         acceleration = np.gradient(velocity, plant.TICK, axis=0)
-        return excite([self._share(*now) for now in zip(path, velocity, acceleration, strict=True)])
+        return invert_activation(
+            [self._share(*now) for now in zip(path, velocity, acceleration, strict=True)]
+        )
 
     def _share(self, *moment):
         """Static optimisation: the activations (n,) with the least sum of squares that do it."""
-        torque, gain = plant.demand(*moment)
+        torque, gain = plant.required_torque(*moment)
         matrix = np.vstack([gain @ self.groups, EFFORT * np.diag(self.groups.sum(axis=0) ** 0.5)])
         wanted = np.append(torque, np.zeros(matrix.shape[1]))
         pull = nnls(matrix, wanted)[0]  # quicker, and right unless a muscle would need more than 1
         return pull if pull.max() <= 1 else least(matrix, wanted)
 
 
-def excite(wanted):
+def invert_activation(wanted):
     """Excitations (T, n) that give activations (T + 1, n) by MuJoCo's law, as far as they can."""
-    active, told = wanted[0], []
+    active, excitations = wanted[0], []
     for want in wanted[1:]:
         gain = -np.expm1(-plant.TICK / lag(want, active))  # how much of the way a tick goes
-        told.append(np.clip(active + (want - active) / gain, 0, 1))
-        active = active + (told[-1] - active) * gain
-    return np.array(told)
+        excitations.append(np.clip(active + (want - active) / gain, 0, 1))
+        active = active + (excitations[-1] - active) * gain
+    return np.array(excitations)
 
 
-def sharing(count=plant.MODEL.nu):
-    """The `Nerves` by which muscles of like effect share `count` commands; all: each has its own.
+def muscle_synergies(count=plant.MODEL.nu):
+    """Muscle synergies: a `SynergyMap` of `count` commands, shared by muscles of like effect.
 
     Alike are muscles whose pulls turn the joints alike in `START` (Ward's clusters of unit
     vectors); what turns none of the seven joints joins any.
     """
-    gain = plant.demand(START, 0 * START, 0 * START)[1].T
+    gain = plant.required_torque(START, 0 * START, 0 * START)[1].T
     effect = gain / np.maximum(np.linalg.norm(gain, axis=1, keepdims=True), 0.1)
     kind = fcluster(linkage(effect, "ward"), count, "maxclust")
     if count == len(plant.MUSCLES):
         kind = np.arange(count) + 1
-    return Nerves((kind[:, None] == np.unique(kind)).astype(float))
+    return SynergyMap((kind[:, None] == np.unique(kind)).astype(float))
 
 
-def remember(nerves, goals, easy=EASY):
+def record_templates(synergies, goals, easy=EASY):
     """Past experience: a `TemplateSet` of reaches that end near the goals (N, 3).
 
     Each is tried once, and then aimed beyond its goal by as much as it missed. `easy` is the easy
@@ -102,27 +104,29 @@ def remember(nerves, goals, easy=EASY):
     missed = 0
     for _ in ("tried", "corrected"):
         ways = zip(goals + missed, np.broadcast_to(easy, (len(goals), len(EASY))), strict=True)
-        commands = np.array([nerves.commands(posture(*way)) for way in ways])
-        reached = nerves.move(commands).reached
+        commands = np.array([synergies.commands(reach_posture(*way)) for way in ways])
+        reached = synergies.move(commands).reached
         missed = goals - reached
-    return TemplateSet(reached, commands, reach=nerves.move)
+    return TemplateSet(reached, commands, reach=synergies.move)
 
 
-def grid(side=SIDE):
+def goal_grid(side=SIDE):
     """Goals (side³, 3) that fill the zone evenly."""
     return np.stack(np.meshgrid(*np.linspace(*ZONE, side).T), axis=-1).reshape(-1, 3)
 
 
 def make(goals=None):
     """What ships: the densest memories' commands, rounded, and where they end so."""
-    nerves = sharing()
-    commands = remember(nerves, grid() if goals is None else goals).excitations.astype(np.float16)
-    return {"commands": commands, "points": nerves.move(commands.astype(float)).reached}
+    synergies = muscle_synergies()
+    commands = record_templates(
+        synergies, goal_grid() if goals is None else goals
+    ).excitations.astype(np.float16)
+    return {"commands": commands, "points": synergies.move(commands.astype(float)).reached}
 
 
 @cache
-def load():
+def load_templates():
     """The shipped `TemplateSet`: 125 reaches of all 63 muscles."""
     shipped = results.arrays("whole_arm_habits")
     commands = shipped["commands"].astype(float)
-    return TemplateSet(shipped["points"], commands, reach=sharing().move)
+    return TemplateSet(shipped["points"], commands, reach=muscle_synergies().move)

@@ -29,7 +29,7 @@ _TIP = MODEL.site("fingertip").id
 _DATA = mujoco.MjData(MODEL)
 
 
-def _follows():
+def _joint_coupling():
     """How all 18 joints turn with the seven free ones, (18, 7)."""
     shares = np.zeros((MODEL.nq, len(FREE)))
     shares[FREE, range(len(FREE))] = 1
@@ -38,7 +38,7 @@ def _follows():
     return shares
 
 
-FOLLOWS = _follows()
+JOINT_COUPLING = _joint_coupling()
 
 
 class Motion(NamedTuple):
@@ -56,23 +56,28 @@ class Motion(NamedTuple):
 
 def move(excitations, posture, activation):
     """The `Motion` that excitations (…, T, 63) give the arm from rest in a posture (7,), rad."""
-    _DATA.time, _DATA.qpos[:], _DATA.qvel[:], _DATA.act[:] = 0, FOLLOWS @ posture, 0, activation
+    _DATA.time, _DATA.qpos[:], _DATA.qvel[:], _DATA.act[:] = (
+        0,
+        JOINT_COUPLING @ posture,
+        0,
+        activation,
+    )
     first = np.empty(mujoco.mj_stateSize(MODEL, STATE))
     mujoco.mj_getState(MODEL, _DATA, first, STATE)
-    told = np.reshape(excitations, (-1, *np.shape(excitations)[-2:])).repeat(HOLD, axis=1)
-    states, _ = rollout.rollout(MODEL, _DATA, np.tile(first, (len(told), 1)), told)
+    controls = np.reshape(excitations, (-1, *np.shape(excitations)[-2:])).repeat(HOLD, axis=1)
+    states, _ = rollout.rollout(MODEL, _DATA, np.tile(first, (len(controls), 1)), controls)
     parts = np.split(states[:, HOLD - 1 :: HOLD, 1:], [MODEL.nq, 2 * MODEL.nq], axis=-1)
     return Motion(*(x.reshape(*np.shape(excitations)[:-1], -1) for x in parts))
 
 
-def tip(posture):
+def tip_and_jacobian(posture):
     """Where a posture (7,) puts the tip of the index finger, (3,), m, and its slopes (3, 7)."""
     slopes = np.zeros((3, MODEL.nv))
-    _DATA.qpos[:] = FOLLOWS @ posture
+    _DATA.qpos[:] = JOINT_COUPLING @ posture
     mujoco.mj_kinematics(MODEL, _DATA)
     mujoco.mj_comPos(MODEL, _DATA)
     mujoco.mj_jacSite(MODEL, _DATA, slopes, None, _TIP)
-    return _DATA.site_xpos[_TIP].copy(), slopes @ FOLLOWS
+    return _DATA.site_xpos[_TIP].copy(), slopes @ JOINT_COUPLING
 
 
 def fingertip(joints):
@@ -85,25 +90,27 @@ def fingertip(joints):
     return np.reshape(at, (*np.shape(joints)[:-1], 3))
 
 
-def demand(posture, velocity, acceleration):
+def required_torque(posture, velocity, acceleration):
     """What a moment of a movement, each (7,), asks: torque (7,) and the muscles' gain (7, 63).
 
     Whatever activation (63,) satisfies torque = gain @ activation gives this acceleration.
     """
     data = _DATA
-    data.qpos[:], data.qvel[:] = FOLLOWS @ posture, FOLLOWS @ velocity
+    data.qpos[:], data.qvel[:] = JOINT_COUPLING @ posture, JOINT_COUPLING @ velocity
     mujoco.mj_fwdPosition(MODEL, data)
     mujoco.mj_fwdVelocity(MODEL, data)
     mass, arms = np.zeros((MODEL.nv, MODEL.nv)), np.zeros((MODEL.nu, MODEL.nv))
     mujoco.mj_fullM(MODEL, data, mass)
     moment = data.actuator_moment, data.moment_rownnz, data.moment_rowadr, data.moment_colind
     mujoco.mju_sparse2dense(arms, *moment)
-    slack, full = _pulls(0.0), _pulls(1.0)
-    needed = mass @ FOLLOWS @ acceleration + data.qfrc_bias - data.qfrc_passive - arms.T @ slack
-    return FOLLOWS.T @ needed, FOLLOWS.T @ (arms * (full - slack)[:, None]).T
+    slack, full = _muscle_forces(0.0), _muscle_forces(1.0)
+    needed = (
+        mass @ JOINT_COUPLING @ acceleration + data.qfrc_bias - data.qfrc_passive - arms.T @ slack
+    )
+    return JOINT_COUPLING.T @ needed, JOINT_COUPLING.T @ (arms * (full - slack)[:, None]).T
 
 
-def _pulls(activation):
+def _muscle_forces(activation):
     """The muscles' forces (63,) in N in the state that is set, all as active as this."""
     _DATA.act[:] = activation
     mujoco.mj_fwdActuation(MODEL, _DATA)

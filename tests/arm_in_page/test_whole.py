@@ -28,7 +28,7 @@ CLOSE = 1e-3  # rad, m: the page has another version of MuJoCo
 
 @pytest.fixture(scope="module")
 def past():
-    return habits.load()
+    return habits.load_templates()
 
 
 @pytest.fixture(scope="module")
@@ -42,7 +42,7 @@ def site(tmp_path_factory, past):
         patch.setenv("VMC_RENDER_MODE", "book")
         patch.setattr(live, "display", lambda *items: shown.extend(item.data for item in items))
         live_whole_arm(
-            whole_arm_live.arm(past, habits.sharing().rest),
+            whole_arm_live.arm(past, habits.muscle_synergies().rest),
             lambda: whole_arm_live.pictures(past, GOAL),
             experiment.INSIDE,
             GOAL,
@@ -89,7 +89,10 @@ def test_its_memories_are_mixed_as_in_python(ask, past, name, rule):
     script = f"""const plan = vmcPlanning.plan(asked, templateSet, vmcPlanning.{name});
       return {{ ...plan, u: templateSet.excitations(plan) }};"""
     for target in TARGETS:
-        mixed, expected = ask(script, target.tolist()), experiment.planned(target, past, rule=rule)
+        mixed, expected = (
+            ask(script, target.tolist()),
+            experiment.plan_reaches(target, past, rule=rule),
+        )
         assert mixed["chosen"] == expected.chosen.tolist()
         assert np.allclose(mixed["weights"], expected.weights, atol=1e-10)
         assert np.allclose(mixed["u"], expected.excitations, atol=1e-10)
@@ -97,7 +100,7 @@ def test_its_memories_are_mixed_as_in_python(ask, past, name, rule):
 
 @pytest.mark.browser
 def test_it_moves_as_in_python(ask, past):
-    plan = experiment.planned(GOAL, past)
+    plan = experiment.plan_reaches(GOAL, past)
     moved = ask("return arm.move(asked);", plan.excitations.tolist())[1:]
     motion = plan.move()
     off = np.array([moment["q"] for moment in moved]) - motion.joints
@@ -108,7 +111,7 @@ def test_it_moves_as_in_python(ask, past):
 
 @pytest.mark.browser
 def test_what_is_drawn_is_where_python_has_it(ask, past):
-    joints = experiment.planned(GOAL, past).move().joints[-1]
+    joints = experiment.plan_reaches(GOAL, past).move().joints[-1]
     for q in (whole_arm_live.START, joints):
         seen, (ends, ways), data = ask("return arm.look(asked);", q.tolist()), lines(q), placed(q)
         assert np.allclose(seen["joints"], ends, atol=1e-9)
@@ -124,7 +127,7 @@ def test_what_is_drawn_is_where_python_has_it(ask, past):
 def test_its_corrections_are_pythons(ask, past):
     script = """const plan = vmcPlanning.plan(asked, templateSet);
       return [...vmcCalibration.broydenCalibration(plan, ended(plan), given.calibration)];"""
-    expected = broyden_calibration(experiment.planned(TARGETS, past), live.TRIALS)
+    expected = broyden_calibration(experiment.plan_reaches(TARGETS, past), live.TRIALS)
     for k, target in enumerate(TARGETS):
         reached = np.array([trial["reached"] for trial in ask(script, target.tolist())])
         assert np.abs(reached - expected.reached[:, k]).max() < CLOSE
@@ -139,7 +142,7 @@ def test_a_reader_sets_a_target_in_space(visit, past):
         arm.get_by_label(f"target, {name}").fill(str(place))
     arm.locator("[name=main]").click()
     wait_for_status(arm, "The planned reach")
-    trials = broyden_calibration(experiment.planned(target, past), live.TRIALS)
+    trials = broyden_calibration(experiment.plan_reaches(target, past), live.TRIALS)
     assert number(told(arm, "planned")) == pytest.approx(1000 * trials.error[0], abs=0.3)
     final = trials.plans[0].move().activation[-1]
     assert told(arm, "active") == str((final > 0.05).sum())

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from reproduce.experiments.calibration import PERTURBATIONS, adapt, skilled
+from reproduce.experiments.calibration import PERTURBATIONS, adapt, train_aim_correction
 from vmc_lib.cerebellum.adaptation import SILENT, Adaptation, pull
 from vmc_lib.cerebellum.online import AimCorrection
 from vmc_lib.motor.planning import draw_targets, plan
@@ -17,7 +17,7 @@ def template_set():
 
 @pytest.fixture(scope="module")
 def skill(template_set):
-    return skilled(template_set, np.random.default_rng(0), 75)
+    return train_aim_correction(template_set, np.random.default_rng(0), 75)
 
 
 @pytest.mark.parametrize(

@@ -14,8 +14,11 @@ from vmc_lib.motor.templates import load
 def bends():
     """Deviations (blocks, targets) in m, 100 movements in the field; and those of other targets."""
     rng, template_set = np.random.default_rng(0), load()
-    model, learner = measure.taught(template_set, rng), FeedbackErrorLearning(template_set)
-    return measure.field(learner, template_set, model, rng, (1, 20, 8))
+    model, learner = (
+        measure.fit_forward_model(template_set, rng),
+        FeedbackErrorLearning(template_set),
+    )
+    return measure.curl_field_deviations(learner, template_set, model, rng, (1, 20, 8))
 
 
 def test_a_curl_field_is_learned_within_a_hundred_movements(bends):
@@ -39,14 +42,14 @@ def test_the_after_effect_is_a_mirror_image_and_washes_out(bends):
 def test_a_beginner_changes_nothing():
     template_set = load()
     targets = draw_targets(template_set, 3, np.random.default_rng(1))
-    meant = intend(measure.plans(targets, template_set))
+    meant = intend(measure.exact_plans(targets, template_set))
     corrected = FeedbackErrorLearning(template_set).correct(meant)
     np.testing.assert_allclose(corrected.excitations, meant.excitations, atol=1e-12)
 
 
 def test_what_shipped_meets_the_bar():
     """Six seeds: deviation in the field, after-effect, washout; jumps and tremor."""
-    shipped = measure.measured()
+    shipped = measure.load_results()
     aside, size = (shipped["field"][name] for name in ("to the left", "size"))
     assert (size[:, 21] <= 0.4 * size[:, 2]).all()
     assert (aside[:, 2] < 0).all()

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from reproduce.experiments.feedback_control import plans, taught
+from reproduce.experiments.feedback_control import exact_plans, fit_forward_model
 from vmc_lib.cerebellum.forward_model import ForwardModel, arm_copy
 from vmc_lib.motor.planning import draw_targets
 from vmc_lib.motor.templates import load
@@ -18,11 +18,11 @@ def at_rest_and_on_the_way(motion, every=50):
 
 def test_it_learns_the_arm_by_feeling_it_move():
     template_set, rng = load(), np.random.default_rng(0)
-    others = plans(draw_targets(template_set, 20, rng), template_set).move()
+    others = exact_plans(draw_targets(template_set, 20, rng), template_set).move()
     states = at_rest_and_on_the_way(others)
     truth = arm_copy()(*states)
     off = [
-        (taught(template_set, np.random.default_rng(1), count)(*states) - truth).std()
+        (fit_forward_model(template_set, np.random.default_rng(1), count)(*states) - truth).std()
         for count in (1, 20)
     ]
     assert off[1] < 0.1 * truth.std()
@@ -31,7 +31,9 @@ def test_it_learns_the_arm_by_feeling_it_move():
 
 def test_lessons_are_what_was_felt():
     template_set = load()
-    motion = plans(draw_targets(template_set, 5, np.random.default_rng(2)), template_set).move()
+    motion = exact_plans(
+        draw_targets(template_set, 5, np.random.default_rng(2)), template_set
+    ).move()
     model, lessons = ForwardModel(), at_rest_and_on_the_way(motion, 20)
     felt = arm_copy()(*lessons)
     learned = model.learn(motion)(*lessons)

@@ -19,14 +19,14 @@ def template_set():
 
 @pytest.fixture(scope="module")
 def model(template_set):
-    return measure.taught(template_set, np.random.default_rng(1))
+    return measure.fit_forward_model(template_set, np.random.default_rng(1))
 
 
 @pytest.fixture(scope="module")
 def few(template_set):
     """Three reaches."""
     targets = draw_targets(template_set, 3, np.random.default_rng(2))
-    return measure.plans(targets, template_set)
+    return measure.exact_plans(targets, template_set)
 
 
 def test_blind_it_moves_as_the_plan_alone(few):
@@ -39,8 +39,8 @@ def test_blind_it_moves_as_the_plan_alone(few):
 def test_a_jumping_target_is_reached(template_set, model):
     """The bar: 5 cm at 150 ms, seen 120 ms late; within 10 mm in nine of ten reaches."""
     rng = np.random.default_rng(3)
-    first, second = measure.jumps(template_set, 100, rng)
-    meant = measure.jumping(template_set, first, second)
+    first, second = measure.draw_target_jumps(template_set, 100, rng)
+    meant = measure.reference_after_jump(template_set, first, second)
     ends = move(meant, SIGHT, model, noise=measure.NOISE, rng=rng).reached
     assert (np.linalg.norm(ends - second, axis=-1) < 0.010).mean() >= 0.9
     np.testing.assert_allclose(np.linalg.norm(second - first, axis=-1), 0.05)
@@ -48,13 +48,13 @@ def test_a_jumping_target_is_reached(template_set, model):
 
 def test_too_few_jumps_within_reach_are_an_error(template_set):
     with pytest.raises(ValueError, match="of 5 jumps by"):
-        measure.jumps(template_set, 5, np.random.default_rng(0), by=2.0)
+        measure.draw_target_jumps(template_set, 5, np.random.default_rng(0), by=2.0)
 
 
 def test_without_its_forward_model_the_arm_shakes(template_set, model):
     """The bar: the lesion's tremor is at least five times the healthy arm's."""
     targets = draw_targets(template_set, 40, np.random.default_rng(4))
-    meant = intend(measure.plans(targets, template_set))
+    meant = intend(measure.exact_plans(targets, template_set))
     healthy, lesion = (
         move(meant, SIGHT, known, noise=measure.NOISE, rng=np.random.default_rng(5)).hand[..., :2]
         for known in (model, None)

@@ -14,7 +14,10 @@ from vmc_lib.motor.planning import surrounded
 def test_every_template_ends_at_rest_on_its_point(spacing):
     template_set = templates.load(spacing)
     motion = templates.reach(template_set.excitations)
-    assert np.linalg.norm(motion.reached - reach_templates.grid(spacing), axis=-1).max() < 2e-4
+    assert (
+        np.linalg.norm(motion.reached - reach_templates.reachable_grid(spacing), axis=-1).max()
+        < 2e-4
+    )
     assert np.abs(motion.velocity[..., -1, :]).max() < 0.02
     np.testing.assert_array_equal(template_set.points, motion.reached)
 
@@ -34,8 +37,8 @@ def test_every_template_set_surrounds_every_shuttlecock(level):
 
 
 def test_what_ships_can_be_made_again():
-    goal = reach_templates.grid(0.08)[5]
-    remade = inverse_dynamics.spline() @ reach_templates.make(goal)
+    goal = reach_templates.reachable_grid(0.08)[5]
+    remade = inverse_dynamics.spline() @ reach_templates.find_reach(goal)
     np.testing.assert_allclose(templates.reach(remade).reached, goal, atol=1e-6)
     np.testing.assert_allclose(remade, templates.load(0.08).excitations[5], atol=1e-3)
 

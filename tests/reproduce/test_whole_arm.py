@@ -43,13 +43,13 @@ SMALL = """
 
 @pytest.fixture(scope="module")
 def nerves():
-    return habits.sharing()
+    return habits.muscle_synergies()
 
 
 def test_what_is_derived_moves_as_what_it_came_from():
     """The same lengths and, but for gravity's direction, the same forces, in any posture."""
     full = mujoco.MjModel.from_xml_string(SMALL)
-    small = mujoco.MjModel.from_xml_string(derive.derived(full))
+    small = mujoco.MjModel.from_xml_string(derive.arm_mjcf(full))
     turn = mujoco.MjData(full)
     mujoco.mj_kinematics(full, turn)
     full.opt.gravity[:] = turn.body("torso").xmat.reshape(3, 3) @ [0, -9.81, 0]
@@ -72,12 +72,12 @@ def test_bones_lie_where_the_bodies_have_them():
     corners = {tuple(x) for x in [*np.eye(3), np.zeros(3)]}
     at = mujoco.MjData(full)
     mujoco.mj_kinematics(full, at)
-    place, axes = derive.in_world(at, full.body("torso").id)
+    place, axes = derive.world_frame(at, full.body("torso").id)
     shifts = {
         "world": lambda x: (x - place) @ axes - [3, 0, 0],
         "clavicle_r": lambda x: x - [0, 0, 2],
     }
-    made = bones.made(full)
+    made = bones.bone_meshes(full)
     assert set(made) == set(shifts)
     for name, back in shifts.items():
         points = back(np.reshape(made[name]["points"], (-1, 3)) / 1e4)
@@ -94,31 +94,33 @@ def test_bones_that_ship_are_small_and_whole():
 
 def test_what_ships_has_the_muscles_and_joints_that_it_should():
     assert len(plant.MUSCLES) == len(set(plant.MUSCLES)) == 63
-    assert plant.FOLLOWS.shape == (18, 7)
-    np.testing.assert_array_equal(plant.FOLLOWS[plant.FREE], np.eye(7))
+    assert plant.JOINT_COUPLING.shape == (18, 7)
+    np.testing.assert_array_equal(plant.JOINT_COUPLING[plant.FREE], np.eye(7))
 
 
 def test_a_posture_puts_the_finger_on_its_goal():
-    for goal in habits.grid(2):
-        at, _ = plant.tip(habits.posture(goal))
+    for goal in habits.goal_grid(2):
+        at, _ = plant.tip_and_jacobian(habits.reach_posture(goal))
         np.testing.assert_allclose(at, goal, atol=2e-3)
 
 
 def test_the_slopes_of_the_finger_are_its_slopes():
-    at, slopes = plant.tip(habits.START)
-    nudged = [plant.tip(habits.START + step)[0] for step in 1e-6 * np.eye(7)]
+    at, slopes = plant.tip_and_jacobian(habits.START)
+    nudged = [plant.tip_and_jacobian(habits.START + step)[0] for step in 1e-6 * np.eye(7)]
     np.testing.assert_allclose((np.array(nudged) - at).T / 1e-6, slopes, atol=1e-5)
 
 
 def test_the_commands_of_rest_hold_the_arm_and_the_shoulder_follows(nerves):
     motion = nerves.move(np.tile(nerves.rest, (plant.TICKS, 1)))
-    assert np.linalg.norm(motion.reached - plant.tip(habits.START)[0]) < 0.005
+    assert np.linalg.norm(motion.reached - plant.tip_and_jacobian(habits.START)[0]) < 0.005
     joints = motion.joints[-1]
-    np.testing.assert_allclose(joints, plant.FOLLOWS @ joints[plant.FREE], atol=np.radians(0.5))
+    np.testing.assert_allclose(
+        joints, plant.JOINT_COUPLING @ joints[plant.FREE], atol=np.radians(0.5)
+    )
 
 
 def test_static_optimisation_gives_the_torque_with_pulls_alone(nerves):
-    torque, gain = plant.demand(habits.START, STILL, STILL)
+    torque, gain = plant.required_torque(habits.START, STILL, STILL)
     assert nerves.rest.min() >= 0
     np.testing.assert_allclose(gain @ nerves.rest, torque, atol=0.01)
 
@@ -133,7 +135,7 @@ def test_what_no_muscle_can_do_is_done_as_far_as_full_activation_goes(nerves):
 def test_excitations_give_the_activations_that_are_wanted(ticks):
     wanted = np.linspace([0.2, 0.6], [0.4, 0.5], ticks + 1)
     active = wanted[0].copy()
-    for told in habits.excite(wanted):
+    for told in habits.invert_activation(wanted):
         for _ in range(plant.HOLD):
             rate = [
                 mujoco.mju_muscleDynamics(u, a, np.array([0.01, 0.04, 0]))
@@ -145,13 +147,13 @@ def test_excitations_give_the_activations_that_are_wanted(ticks):
 
 @pytest.mark.parametrize("count", [1, 6, 14, 34, 63])
 def test_every_muscle_obeys_one_command(count):
-    groups = habits.sharing(count).groups
+    groups = habits.muscle_synergies(count).groups
     assert groups.shape == (63, count)
     np.testing.assert_array_equal(groups.sum(axis=1), 1)
 
 
 def test_many_reaches_move_as_each_alone(nerves):
-    past = habits.load()
+    past = habits.load_templates()
     both = past.reach(past.excitations[:4].reshape(2, 2, plant.TICKS, -1)).reached
     np.testing.assert_allclose(both.reshape(4, 3), past.points[:4], atol=1e-9)
 
@@ -166,17 +168,17 @@ def test_octants_are_told_apart():
 
 def test_the_same_functions_plan_and_correct_it():
     """Three targets of a fresh draw: the plan is near, two corrections nearer."""
-    past = habits.load()
+    past = habits.load_templates()
     targets = experiment.draw_targets(past, count=3, rng=np.random.default_rng(77))
-    tried = broyden_calibration(experiment.planned(targets, past)).error.mean(axis=1)
+    tried = broyden_calibration(experiment.plan_reaches(targets, past)).error.mean(axis=1)
     assert tried[0] < 0.1 * np.linalg.norm(targets, axis=1).mean()
     assert tried[2] < 0.5 * tried[0]
 
 
 def test_what_ships_meets_its_bars():
-    found = experiment.measured()
+    found = experiment.load_results()
     assert found["real time"] >= 5
-    dense = found[f"{len(habits.load().points)} memories"]
+    dense = found[f"{len(habits.load_templates().points)} memories"]
     assert dense["planned / reach"].size * experiment.COUNT >= 100
     assert dense["planned / reach"].mean() <= 0.10
     assert dense["2 corrections"].mean() <= 0.25
@@ -184,16 +186,18 @@ def test_what_ships_meets_its_bars():
 
 def test_what_ships_is_what_is_measured():
     """The cheapest of its experiments again, one draw."""
-    found = experiment.practised(habits.load(), 0)
+    found = experiment.online_errors(habits.load_templates(), 0)
     for name, left in found.items():
-        assert left == pytest.approx(experiment.measured()["online"][name][0], rel=1e-3)
+        assert left == pytest.approx(experiment.load_results()["online"][name][0], rel=1e-3)
 
 
 def test_a_miss_is_told_beside_the_reach_and_beside_the_way():
     """Both shares are of the same miss, and the finger starts nearer to its targets."""
-    targets = experiment.draw_targets(habits.load(), count=2, rng=np.random.default_rng(5))
-    found = experiment.habitual(habits.load(), targets)
-    way = np.linalg.norm(targets - plant.tip(habits.START)[0], axis=1).mean()
+    targets = experiment.draw_targets(
+        habits.load_templates(), count=2, rng=np.random.default_rng(5)
+    )
+    found = experiment.planned_errors(habits.load_templates(), targets)
+    way = np.linalg.norm(targets - plant.tip_and_jacobian(habits.START)[0], axis=1).mean()
     longer = np.linalg.norm(targets, axis=1).mean() / way
     assert found["planned / way"] == pytest.approx(longer * found["planned / reach"])
     assert longer > 2

@@ -4,7 +4,12 @@ import numpy as np
 import pytest
 import torch
 
-from reproduce.training.name_classifier import JITTER, background_box, examples, fit_name_classifier
+from reproduce.training.name_classifier import (
+    JITTER,
+    background_box,
+    fit_name_classifier,
+    labelled_crops,
+)
 from vmc_lib import photos
 from vmc_lib.boxes import iou, jittered
 from vmc_lib.what.cdbn import CDBN, crops_of
@@ -89,7 +94,7 @@ def test_fit_refuses_what_it_cannot_learn_from():
 
 def test_examples():
     rng, shots = np.random.default_rng(0), photos.load("rig", "train")[:3]
-    crops, labels = examples(shots, rng, copies=2, background=1)
+    crops, labels = labelled_crops(shots, rng, copies=2, background=1)
     assert crops.shape == (15, 200, 200)
     assert labels.tolist() == [True, False, True, False, False] * 3
     for shot in shots:

@@ -8,11 +8,11 @@ from reproduce.experiments.calibration import (
     ABLATION,
     SCENARIOS,
     SEEDS,
-    around,
-    measured,
-    quick,
-    run,
-    tables,
+    coarse_algorithm_1,
+    error_ratios,
+    load_results,
+    nearest_templates,
+    run_experiments,
 )
 from vmc_lib.cerebellum.offline import algorithm_1
 from vmc_lib.cerebellum.online import AimCorrection, WeightCorrection
@@ -28,8 +28,14 @@ def template_set():
 @pytest.fixture(scope="module")
 def linear(template_set):
     rng = np.random.default_rng(0)
-    return run(
-        WeightCorrection(), template_set, rng, movements=15, held_out=20, experiments=3, rule=quick
+    return run_experiments(
+        WeightCorrection(),
+        template_set,
+        rng,
+        movements=15,
+        held_out=20,
+        experiments=3,
+        rule=coarse_algorithm_1,
     )
 
 
@@ -52,7 +58,7 @@ def test_calibration_helps_what_was_practised(linear):
 
 def test_the_same_seed_gives_the_same_experiment(template_set):
     one, two = (
-        run(
+        run_experiments(
             AimCorrection(template_set), template_set, np.random.default_rng(5), 5, 5, 2, fresh=True
         )
         for _ in range(2)
@@ -63,7 +69,7 @@ def test_the_same_seed_gives_the_same_experiment(template_set):
 
 def test_fresh_movements_are_new(template_set):
     same, new = (
-        run(
+        run_experiments(
             AimCorrection(template_set),
             template_set,
             np.random.default_rng(6),
@@ -80,22 +86,22 @@ def test_fresh_movements_are_new(template_set):
 
 def test_quick_is_algorithm_1_with_fewer_tries(template_set):
     reaches = plan(draw_targets(template_set, 10, np.random.default_rng(7)), template_set)
-    tried = quick(reaches)
+    tried = coarse_algorithm_1(reaches)
     np.testing.assert_allclose(tried.error, algorithm_1(reaches).error[[0, 1, 6, 11, 16, 21]])
 
 
 def test_around_keeps_four_templates(template_set):
     place = np.array([0.09, -0.40])
-    four = around(template_set, place)
+    four = nearest_templates(template_set, place)
     assert len(four.points) == 4
     np.testing.assert_allclose(four.points.mean(axis=0), place, atol=1e-3)
     with pytest.raises(ValueError, match="surrounded"):
-        around(template_set, np.array([0.5, 0.0]))
+        nearest_templates(template_set, np.array([0.5, 0.0]))
 
 
 def test_what_shipped_meets_the_bars_on_movements_never_practised():
     mean, fixed = (
-        {name: values.mean() for name, values in measured()[scenario].items()}
+        {name: values.mean() for name, values in load_results()[scenario].items()}
         for scenario in SCENARIOS
     )
     assert mean["off-line, published"] < 0.70
@@ -110,7 +116,7 @@ def test_what_shipped_meets_the_bars_on_movements_never_practised():
 
 @pytest.mark.parametrize("scenario", SCENARIOS)
 def test_algorithm_2_as_printed_reaches_the_published_ratio_on_movements_never_practised(scenario):
-    left = {name: values.mean() for name, values in measured()[scenario].items()}
+    left = {name: values.mean() for name, values in load_results()[scenario].items()}
     assert left["online, 1 experiment, held-out"] <= paper.calibrated_error_ratio("online")
     other = left["online, the other reading, 1 experiment, held-out"]
     assert left["online, 1 experiment, held-out"] < 0.85 * other
@@ -118,7 +124,7 @@ def test_algorithm_2_as_printed_reaches_the_published_ratio_on_movements_never_p
 
 def test_each_step_from_the_paper_to_ours_helps_where_neighbours_change():
     names = "", ", + exact weights", ", + granule cells"
-    shipped = measured()[SCENARIOS[0]]
+    shipped = load_results()[SCENARIOS[0]]
     left = [shipped[f"online{name}, 1 experiment, held-out"].mean() for name in names]
     assert left == sorted(left, reverse=True)
     assert shipped["own online, 25 movements, held-out"].mean() < left[-1]
@@ -126,20 +132,22 @@ def test_each_step_from_the_paper_to_ours_helps_where_neighbours_change():
 
 def test_steps_are_measured_on_the_same_movements():
     size = {"movements": 5, "held_out": 8, "experiments": 1}
-    one = tables(7, **size)
+    one = error_ratios(7, **size)
     rng, template_set = np.random.default_rng(7), load()
-    errors = run(WeightCorrection(), template_set, rng, 5, 8, 1)
+    errors = run_experiments(WeightCorrection(), template_set, rng, 5, 8, 1)
     expected = errors.held_out[1].mean() / errors.held_out_planned.mean()
     assert one["online, 1 experiment, held-out"] == expected
     for step, (learner, lesson) in ABLATION.items():
-        errors = run(learner(), template_set, np.random.default_rng(7), 5, 8, 1, **lesson)
+        errors = run_experiments(
+            learner(), template_set, np.random.default_rng(7), 5, 8, 1, **lesson
+        )
         expected = errors.held_out[1].mean() / errors.held_out_planned.mean()
         assert one[f"online, {step}, 1 experiment, held-out"] == expected
 
 
 def test_no_cure_gets_worse_with_practice():
     """An aim that cannot be kept must not pile up: late blocks beside the early ones."""
-    for name, error in measured()["perturbations"].items():
+    for name, error in load_results()["perturbations"].items():
         early, late = error[:, 3:6].mean(), error[:, 7:10].mean()
         assert late < 1.15 * early, name
 
@@ -149,5 +157,5 @@ def test_what_shipped_can_be_measured_again(template_set):
     rng = np.random.default_rng(seed)
     draw_targets(template_set, 200, rng)
     tried = algorithm_1(plan(draw_targets(template_set, 25, rng), template_set)).error
-    shipped = measured()[SCENARIOS[0]]["off-line, published"][seed]
+    shipped = load_results()[SCENARIOS[0]]["off-line, published"][seed]
     np.testing.assert_allclose(tried.min(axis=0).mean() / tried[0].mean(), shipped, atol=1e-4)

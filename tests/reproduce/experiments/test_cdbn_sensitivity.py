@@ -8,7 +8,7 @@ from vmc_lib.what.recogniser import READ_OUTS
 
 
 def test_every_variation_was_examined_on_every_photo():
-    found = cdbn_sensitivity.load()
+    found = cdbn_sensitivity.load_results()
     assert len({seed for n_w, seed in found if n_w == N_W}) >= 3
     assert len({n_w for n_w, _ in found}) >= 3
     boxes = [2 * len(photos.load("rig", split)) for split in cdbn_sensitivity.SPLITS]
@@ -19,7 +19,7 @@ def test_every_variation_was_examined_on_every_photo():
 
 
 def test_the_network_that_ships_is_the_first_variation():
-    filters, _ = cdbn_sensitivity.load()[N_W, 0]
+    filters, _ = cdbn_sensitivity.load_results()[N_W, 0]
     shipped = CDBN.load().first.W[:, 0]
     likeness = [
         np.corrcoef(a.ravel(), b.ravel())[0, 1] for a, b in zip(filters, shipped, strict=True)
@@ -28,5 +28,5 @@ def test_the_network_that_ships_is_the_first_variation():
 
 
 def test_every_width_finds_edges():
-    for variation, (filters, _) in cdbn_sensitivity.load().items():
+    for variation, (filters, _) in cdbn_sensitivity.load_results().items():
         assert np.median([best_gabor(w)[1] for w in filters]) > 0.75, variation

@@ -5,8 +5,13 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from reproduce.experiments.controller_comparison import MOVEMENTS, compare, measured, numbers
-from reproduce.peers.adaptive_controllers import BY_HINDSIGHT, LEARNERS, LocalCells
+from reproduce.experiments.controller_comparison import (
+    MOVEMENTS,
+    compare,
+    load_results,
+    memory_size,
+)
+from reproduce.peers.adaptive_controllers import BY_HINDSIGHT, LEARNERS, DeltaRuleCells
 from vmc_lib.cerebellum.online import GranuleCells, mossy_fibres
 from vmc_lib.motor.planning import draw_targets, plan
 from vmc_lib.motor.templates import load
@@ -16,16 +21,16 @@ def test_a_peer_remembers_its_lessons_and_ours_its_arrays():
     some = plan(draw_targets(load(), 20, np.random.default_rng(7)), load())
     x, y = mossy_fibres(some), some.target
     linear, ours = BY_HINDSIGHT["linear rule"]().fit(x, y), GranuleCells(cells=30).fit(x, y)
-    assert numbers(SimpleNamespace(cells=linear)) == x.size + y.size
-    assert numbers(SimpleNamespace(cells=ours)) == 30 * (4 + 30 + 2 + 2)
-    both = SimpleNamespace(cells=LocalCells(cells=30).fit(x, y), model=ours)  # a distal teacher
-    assert numbers(both) == 30 * (4 + 2) + 30 * (4 + 30 + 2 + 2)
+    assert memory_size(SimpleNamespace(cells=linear)) == x.size + y.size
+    assert memory_size(SimpleNamespace(cells=ours)) == 30 * (4 + 30 + 2 + 2)
+    both = SimpleNamespace(cells=DeltaRuleCells(cells=30).fit(x, y), model=ours)  # a distal teacher
+    assert memory_size(both) == 30 * (4 + 2) + 30 * (4 + 30 + 2 + 2)
 
 
 @pytest.mark.parametrize("name", ["linear rule", "feedback error"])
 def test_what_ships_is_what_is_measured(name):
     """One seed, fewer movements: the same numbers again, on the calm arm and on the noisy one."""
-    kept = measured()
+    kept = load_results()
     assert list(kept) == list(LEARNERS)
     assert all(rows["held-out"].shape == (6, len(MOVEMENTS)) for rows in kept.values())
     found = compare(*LEARNERS[name], seed=0, movements=MOVEMENTS[:2])

@@ -9,50 +9,50 @@ from vmc_lib import photos
 
 
 def test_what_is_told_is_there():
-    found, asked = domain_shift.load(), 1 + len(domain_shift.LEVELS)
+    found, asked = domain_shift.load_results(), 1 + len(domain_shift.LEVELS)
     assert found["shift"].shape == (len(domain_shift.LEVELS), 2, domain_shift.DRAWS, asked)
     assert found["few"].shape == (len(domain_shift.LABELS), 3, domain_shift.DRAWS, asked)
     assert all(0 <= x.min() <= x.max() <= 1 for x in found.values())
 
 
 def test_what_is_told_of_the_rig_comes_out_again():
-    sets = [domain_shift.things("rig", split) for split in photos.SPLITS]
+    sets = [domain_shift.labelled_crops("rig", split) for split in photos.SPLITS]
     train, validation, test = [(histograms_of_gradients(x), y) for x, y in sets]
-    again = domain_shift.over_draws(
-        domain_shift.fixed, train, validation, [test], domain_shift.EQUAL, 6
+    again = domain_shift.evaluate_over_draws(
+        domain_shift.evaluate_linear_readout, train, validation, [test], domain_shift.EQUAL, 6
     )
-    told = domain_shift.load()["shift"][0, 0, :, :2]
+    told = domain_shift.load_results()["shift"][0, 0, :, :2]
     assert again == pytest.approx(told, abs=0.02)
 
 
 def test_a_photo_gives_its_things_and_a_window():
-    crops, labels = domain_shift.things("rig", "test")
+    crops, labels = domain_shift.labelled_crops("rig", "test")
     assert crops.shape == (120, 200, 200)
     assert labels.sum() == 40
-    _, real = domain_shift.things("real", "test")
+    _, real = domain_shift.labelled_crops("real", "test")
     shots = photos.load("real", "test")
     assert real.sum() == sum(len(photos.all_of(shot, "shuttlecock")) for shot in shots)
 
 
 def test_pictures_are_scaled_down_by_areas():
     pictures = np.random.default_rng(0).random((2, 40, 40)).astype(np.float32)
-    small = domain_shift.shrunk(pictures, 10)
+    small = domain_shift.downsample(pictures, 10)
     np.testing.assert_allclose(small, pictures.reshape(2, 10, 4, 10, 4).mean((2, 4)), atol=1e-6)
 
 
 def test_both_kinds_count_alike():
     truth = np.array([True, False, False, False])
-    assert domain_shift.named_right(np.ones(4, bool), truth) == 0.5
-    assert domain_shift.named_right(truth, truth) == 1
+    assert domain_shift.balanced_accuracy(np.ones(4, bool), truth) == 0.5
+    assert domain_shift.balanced_accuracy(truth, truth) == 1
 
 
 def test_labels_are_drawn_until_both_kinds_are_there(rng):
     labels = np.arange(50) == 7
     for count in (2, 10):
-        rows = domain_shift.drawn(labels, count, rng)
+        rows = domain_shift.draw_rows(labels, count, rng)
         assert len(set(rows)) == count
         assert 7 in rows
-    assert len(domain_shift.drawn(labels, 640, rng)) == 50
+    assert len(domain_shift.draw_rows(labels, 640, rng)) == 50
 
 
 def test_the_choice_is_made_on_validation_crops_alone():
@@ -62,14 +62,16 @@ def test_the_choice_is_made_on_validation_crops_alone():
         return [[1.0, 0.6, 0.9], [0.8, 0.7, 0.5]]
 
     labels = np.arange(9) < 4
-    found = domain_shift.over_draws(two, (labels, labels), None, None, 5, draws=3)
+    found = domain_shift.evaluate_over_draws(two, (labels, labels), None, None, 5, draws=3)
     assert found.tolist() == [[0.8, 0.5]] * 3
 
 
 def test_a_read_out_tells_apart_what_can_be(rng):
     labels = np.arange(40) % 2 == 0
     told = labels[:, None] + 0.01 * rng.standard_normal((40, 3))
-    found = domain_shift.fixed((told, labels), (told, labels), [(told, ~labels)], rng)
+    found = domain_shift.evaluate_linear_readout(
+        (told, labels), (told, labels), [(told, ~labels)], rng
+    )
     assert np.shape(found) == (len(domain_shift.PENALTIES), 3)
     assert found[-1] == [1, 1, 0]
 
@@ -77,5 +79,5 @@ def test_a_read_out_tells_apart_what_can_be(rng):
 def test_end_to_end_has_a_choice_for_each_rate_and_penalty(rng):
     crops, labels = rng.random((6, 200, 200), np.float32), np.arange(6) < 3
     few = crops, labels
-    found = domain_shift.learned(few, few, [few], rng, steps=2)
+    found = domain_shift.evaluate_end_to_end(few, few, [few], rng, steps=2)
     assert np.shape(found) == (len(domain_shift.RATES) * len(domain_shift.PENALTIES), 3)

@@ -9,12 +9,12 @@ from vmc_lib.what.recogniser import READ_OUTS
 
 
 def test_every_question_was_put_to_two_hundred_photos_of_each_level():
-    assert set(fresh_test_set.answers()) == {
+    assert set(fresh_test_set.load_counts()) == {
         *fresh_test_set.KERNELS,
         *fresh_test_set.DETECTORS,
         *product(READ_OUTS, fresh_test_set.NETWORK_SEEDS),
     }
-    for question, levels in fresh_test_set.answers().items():
+    for question, levels in fresh_test_set.load_counts().items():
         assert list(levels) == list(photos.LEVELS)
         for level, (right, _, missed) in levels.items():
             if question in fresh_test_set.DETECTORS:  # a cup and a shuttlecock a photo
@@ -22,35 +22,35 @@ def test_every_question_was_put_to_two_hundred_photos_of_each_level():
             elif isinstance(question, tuple):  # shuttlecocks, among as many cups
                 assert right + missed == 200
             else:  # candidates on an object, the same for both kernels, in the second hundred
-                assert right + missed == sum(fresh_test_set.answers()["rbf"][level][::2]) > 200
+                assert right + missed == sum(fresh_test_set.load_counts()["rbf"][level][::2]) > 200
 
 
 def test_the_exam_asks_what_the_tables_ask():
     """Put to the photos that ship, its questions get the tables' answers: of the first training."""
     shots = photos.load("rig", "test")
-    found = fresh_test_set.ask_kernels("rig", shots, trainings=1)
-    found |= fresh_test_set.ask_detectors("rig", shots)
-    kernels = localisation.trainings("rig", "test", "context")
+    found = fresh_test_set.kernel_counts("rig", shots, trainings=1)
+    found |= fresh_test_set.detector_counts("rig", shots)
+    kernels = localisation.table_1("rig", "test", "context")
     tables = {kernel: rows[0] for kernel, rows in kernels.items()}
     tables |= localisation.table_2("rig", "test")
     for question, counts in found.items():
-        shares = [share for share, *_ in fresh_test_set.shares(*counts)]
+        shares = [share for share, *_ in fresh_test_set.rates(*counts)]
         assert shares == pytest.approx(tables[question], abs=0.02)
 
 
 def test_shares_by_hand():
-    (precision, low, high), (recall, *_) = fresh_test_set.shares(30, 10, 20)
+    (precision, low, high), (recall, *_) = fresh_test_set.rates(30, 10, 20)
     assert (precision, recall) == (0.75, 0.6)
     assert low < precision < high
     assert np.isclose(high - low, 0.26, atol=0.01)
 
 
 def test_a_table_has_a_row_for_each_question():
-    *_, first, last = fresh_test_set.table("linear", ("MP2", 1)).splitlines()
+    *_, first, last = fresh_test_set.markdown_table("linear", ("MP2", 1)).splitlines()
     assert first.startswith("| linear |")
     assert last.startswith("| MP2, seed 1 |")
-    (precision, *_), (recall, *_) = fresh_test_set.shares(
-        *fresh_test_set.answers()["linear"]["rig"]
+    (precision, *_), (recall, *_) = fresh_test_set.rates(
+        *fresh_test_set.load_counts()["linear"]["rig"]
     )
     assert f"{precision:.3f}" in first.split("|")[2]
     assert f"{recall:.3f}" in first.split("|")[2]

@@ -11,7 +11,7 @@ def test_an_ideal_gabor_is_recognised_at_every_width(n_w, least):
     rng = np.random.default_rng(0)
     low, high = gabor.BOUNDS[:, 1:]
     for _ in range(8):
-        shape = gabor.scaled([[rng.uniform(0, np.pi), *rng.uniform(low, high)]], n_w)[0]
+        shape = gabor.scale_shapes([[rng.uniform(0, np.pi), *rng.uniform(low, high)]], n_w)[0]
         ideal = rng.normal(size=2) @ gabor.gabor_pair(n_w, *shape)
         assert gabor.best_gabor(ideal.reshape(n_w, n_w))[1] > least
 

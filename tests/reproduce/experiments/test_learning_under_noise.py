@@ -2,22 +2,27 @@
 
 import numpy as np
 
-from reproduce.experiments.learning_under_noise import LEARNERS, LEVELS, learned, measured
+from reproduce.experiments.learning_under_noise import (
+    LEARNERS,
+    LEVELS,
+    compare_learners,
+    load_results,
+)
 
 
 def test_what_ships_is_what_is_measured():
     """One seed, fewer movements: the same numbers again."""
-    kept = measured()
+    kept = load_results()
     assert list(kept) == [f"{mm} mm" for mm in LEVELS]
     name = "granule cells"
-    found = learned(5, 0, {name: LEARNERS[name]}, sizes=(25, 50))
+    found = compare_learners(5, 0, {name: LEARNERS[name]}, sizes=(25, 50))
     for key, values in found.items():
         shipped = kept["5 mm"][key][0]
         np.testing.assert_allclose(values, shipped[:2] if shipped.ndim else shipped, atol=2e-4)
 
 
 def test_slower_learning_ends_nearer_where_noise_is_strong():
-    strong = {k: v.mean(axis=0) for k, v in measured()["10 mm"].items()}
+    strong = {k: v.mean(axis=0) for k, v in load_results()["10 mm"].items()}
     last = [strong[f"delta rule, rate {rate}, held-out"][-1] for rate in (0.02, 0.1, 0.4)]
     assert last == sorted(last)
     assert strong["a larger ridge, held-out"][-1] < strong["granule cells, held-out"][-1]

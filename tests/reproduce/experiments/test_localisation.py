@@ -4,7 +4,7 @@ from scipy.stats import sem, t
 
 from reproduce.experiments import localisation
 from reproduce.results import arrays
-from reproduce.training.detectors import best_threshold, examples
+from reproduce.training.detectors import best_threshold, labelled_candidates
 from vmc_lib import photos
 from vmc_lib.where.detector import ObjectDetector
 from vmc_lib.where.recipes import RECIPES
@@ -15,7 +15,7 @@ from vmc_lib.where.recipes import RECIPES
 def test_what_ships_as_found_is_found(level, name):
     """In all but a few photos: another processor may round a pixel differently."""
     some, same = photos.load(level, "test")[:5], 0
-    for photo, regions in zip(some, localisation.search(level, "test", name), strict=False):
+    for photo, regions in zip(some, localisation.detect_photos(level, "test", name), strict=False):
         kept = arrays("localisation")[f"{photo.name}/{name}"]
         same += len(kept) == len(regions.boxes) and np.allclose(kept, regions.boxes, atol=1)
     assert same >= 4
@@ -31,12 +31,12 @@ def test_localisation_by_hand():
 
 @pytest.mark.parametrize("name", localisation.TABLE_1_RECIPES)
 def test_table_1_ships_as_it_is_measured(name):
-    table = localisation.trainings("rig", "validation", name)
+    table = localisation.table_1("rig", "validation", name)
     assert list(table) == ["linear", "rbf", "poly", "sigmoid"]
     rows = table["linear"]
     assert rows.shape == (localisation.TRAININGS, 2)
     for seed in (0, localisation.TRAININGS - 1):
-        again = localisation.classify("rig", name, seed, ["linear"])[
+        again = localisation.measure_table_1("rig", name, seed, ["linear"])[
             photos.SPLITS.index("validation")
         ]
         assert rows[seed] == pytest.approx(again[0], abs=0.02)
@@ -44,9 +44,9 @@ def test_table_1_ships_as_it_is_measured(name):
 
 def test_table_1_counts_the_examples_of_the_split():
     """With the cost of the detector that ships, its own precision and recall."""
-    chosen = localisation.costs() | {"linear": RECIPES["published"].cost}
-    rows = localisation.classify("rig", "published", 0, ["linear"], chosen=chosen)
-    x, truth = examples(photos.load("rig", "validation"))
+    chosen = localisation.kernel_costs() | {"linear": RECIPES["published"].cost}
+    rows = localisation.measure_table_1("rig", "published", 0, ["linear"], chosen=chosen)
+    x, truth = labelled_candidates(photos.load("rig", "validation"))
     says = ObjectDetector.load("rig", "published").svm.score(x) > 0
     expected = (truth[says].mean(), says[truth].mean())
     assert rows[photos.SPLITS.index("validation"), 0] == pytest.approx(expected, abs=0.02)
@@ -54,7 +54,7 @@ def test_table_1_counts_the_examples_of_the_split():
 
 def test_costs_are_chosen_on_validation_photos_from_one_grid():
     """With one training instead of all, to be quick: each chosen cost is as good as any."""
-    chosen, grid = localisation.costs(), localisation.GRID
+    chosen, grid = localisation.kernel_costs(), localisation.GRID
     assert list(chosen) == list(localisation.TABLE_1_KERNELS)
     assert set(chosen.values()) <= {*grid}
     for cost, f1 in zip(chosen.values(), localisation.f1_by_cost(trainings=1), strict=True):
@@ -67,7 +67,7 @@ def test_the_finder_that_ships_is_one_of_its_kind(name):
     rows = arrays("localisation")[f"rig/{name}/seeds"]
     assert rows.shape == (localisation.TRAININGS, 2)
     assert localisation.table_2("rig")[name] == pytest.approx(rows[0], abs=0.03)
-    mean, half = localisation.spread("rig", name)
+    mean, half = localisation.table_2_interval("rig", name)
     low, high = t.interval(0.95, len(rows) - 1, rows.mean(0), sem(rows))
     assert mean - half == pytest.approx(low)
     assert mean + half == pytest.approx(high)
@@ -94,12 +94,12 @@ def noisy(n, rng):
 def test_with_many_examples_a_steady_threshold_is_the_best():
     scores, right = noisy(5000, np.random.default_rng(0))
     best = best_threshold(scores, right, right.sum())
-    assert localisation.steady_threshold(scores, right) == pytest.approx(best, abs=0.15)
+    assert localisation.smoothed_threshold(scores, right) == pytest.approx(best, abs=0.15)
 
 
 def test_with_few_examples_a_steady_threshold_strays_less():
     rng = np.random.default_rng(0)
     draws = [noisy(100, rng) for _ in range(50)]
     best = np.std([best_threshold(scores, right, right.sum()) for scores, right in draws])
-    steady = np.std([localisation.steady_threshold(*draw) for draw in draws])
+    steady = np.std([localisation.smoothed_threshold(*draw) for draw in draws])
     assert steady < 0.8 * best

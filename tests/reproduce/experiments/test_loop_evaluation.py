@@ -72,7 +72,7 @@ def test_what_a_lesion_leaves(photo, sight):
     model = loop.VisuomotorModel.load("rig")
     reaches = {}
     for how in loop_evaluation.LESIONS:
-        reaches[how] = loop_evaluation.lesioned(model, photo, sight.box, how)
+        reaches[how] = loop_evaluation.reach_with_lesion(model, photo, sight.box, how)
     old = photos.load("rig", "train")[-1].target
     np.testing.assert_array_equal(reaches["dorsal"].target, old)
     for how in ("none", "ventral", "cerebellum"):
@@ -81,26 +81,26 @@ def test_what_a_lesion_leaves(photo, sight):
     assert uncorrected.calibrated is uncorrected.planned
     assert reaches["none"].calibrated is not reaches["none"].planned
     np.testing.assert_array_equal(
-        loop_evaluation.gone_for(sight, "ventral"), sight.detections.boxes[0]
+        loop_evaluation.target_box(sight, "ventral"), sight.detections.boxes[0]
     )
-    np.testing.assert_array_equal(loop_evaluation.gone_for(sight, "dorsal"), sight.box)
+    np.testing.assert_array_equal(loop_evaluation.target_box(sight, "dorsal"), sight.box)
     blind = loop.Sight(sight.detections, 0 * sight.probability)
-    assert loop_evaluation.gone_for(blind, "none") is None
-    assert loop_evaluation.gone_for(blind, "ventral") is not None
+    assert loop_evaluation.target_box(blind, "none") is None
+    assert loop_evaluation.target_box(blind, "ventral") is not None
     with pytest.raises(NoReach):
-        loop_evaluation.lesioned(model, photo, None, "none")
+        loop_evaluation.reach_with_lesion(model, photo, None, "none")
 
 
 def test_what_a_box_holds(photo):
     for name, box in photo.boxes.items():
-        assert loop_evaluation.held(photo, box) == name
-    assert loop_evaluation.held(photo, np.array([0.0, 0, 5, 5])) == "neither"
-    assert loop_evaluation.held(photo, None) == "nothing"
+        assert loop_evaluation.object_in_box(photo, box) == name
+    assert loop_evaluation.object_in_box(photo, np.array([0.0, 0, 5, 5])) == "neither"
+    assert loop_evaluation.object_in_box(photo, None) == "nothing"
 
 
 def test_the_model_of_photographs_is_tried_on_renders_too(tmp_path):
     smoke_run.copy_photos(tmp_path, {"test": (0, 1)})
-    few = loop_evaluation.generalist(["varied"], tmp_path)["varied"]
+    few = loop_evaluation.make_generalist(["varied"], tmp_path)["varied"]
     stored = results.records("generalist")
     assert few.keys() == stored["varied"].keys()
     assert list(stored) == list(photos.LEVELS)
@@ -110,7 +110,7 @@ def test_the_model_of_photographs_is_tried_on_renders_too(tmp_path):
 
 def test_lesions_that_shipped_can_be_measured_again():
     model, shipped = loop.VisuomotorModel.load("rig"), results.records("lesions")["rig"]
-    once = loop_evaluation._lesioned(model, photos.load("rig", "test")[0])
+    once = loop_evaluation._photo_lesions(model, photos.load("rig", "test")[0])
     for how, left in once.items():
         assert left["object"] == shipped[how]["object"][0]
         assert left["missed"] == pytest.approx(shipped[how]["missed"][0], abs=0.2)

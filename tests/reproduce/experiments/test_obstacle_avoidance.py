@@ -11,24 +11,28 @@ from vmc_lib.motor.templates import load
 @pytest.fixture(scope="module")
 def drawn():
     targets, balls = obstacle_avoidance.obstacles(load(), 5, np.random.default_rng(3))
-    found = [obstacle_avoidance.around(*pair, load()) for pair in zip(targets, balls, strict=True)]
+    found = [
+        obstacle_avoidance.plan_around(*pair, load()) for pair in zip(targets, balls, strict=True)
+    ]
     way = Intention(*(np.concatenate(parts) for parts in zip(*(w for _, w in found), strict=True)))
     return targets, balls, way
 
 
 def test_the_ball_lies_in_the_way_and_the_second_way_goes_round(drawn):
     targets, balls, way = drawn
-    straight = obstacle_avoidance.meant(intend(feedback_control.plans(targets, load())))
+    straight = obstacle_avoidance.reference_paths(
+        intend(feedback_control.exact_plans(targets, load()))
+    )
     assert obstacle_avoidance.clearance(straight, balls).max() < 0.001
     assert np.linalg.norm(straight[:, -1] - straight[:, 0], axis=-1).min() > obstacle_avoidance.LONG
-    ways = obstacle_avoidance.meant(way)
+    ways = obstacle_avoidance.reference_paths(way)
     assert obstacle_avoidance.clearance(ways, balls).min() > obstacle_avoidance.APART
     np.testing.assert_allclose(ways[:, -1], targets, atol=1e-6)
 
 
 def test_the_watched_arm_goes_that_way_and_arrives(drawn):
     targets, balls, way = drawn
-    model = feedback_control.taught(load(), np.random.default_rng(0))
+    model = feedback_control.fit_forward_model(load(), np.random.default_rng(0))
     path = move(way, SIGHT, model, noise=feedback_control.NOISE, rng=np.random.default_rng(1)).hand[
         ..., :2
     ]
@@ -39,4 +43,4 @@ def test_the_watched_arm_goes_that_way_and_arrives(drawn):
 def test_a_ball_that_leaves_no_way_is_named(monkeypatch):
     monkeypatch.setattr(obstacle_avoidance, "APART", 1.0)
     with pytest.raises(ValueError, match="move the ball"):
-        obstacle_avoidance.around(np.array([0.07, -0.42]), np.array([0.1, -0.4]), load())
+        obstacle_avoidance.plan_around(np.array([0.07, -0.42]), np.array([0.1, -0.4]), load())

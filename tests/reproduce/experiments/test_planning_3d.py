@@ -15,7 +15,7 @@ def flat():
 
 @pytest.fixture(scope="module")
 def memories(flat):
-    return planning_3d.turned(flat)
+    return planning_3d.with_trunk_turns(flat)
 
 
 def test_a_turn_carries_the_hand_about_the_trunk(memories):
@@ -39,7 +39,7 @@ def test_the_eight_memories_lie_round_the_target(flat, memories):
 def test_practice_brings_the_hand_nearer(flat):
     places = np.array([[0.12, -0.40, 0.06], [0.17, -0.39, 0.06], [0.15, -0.42, 0.06]])
     targets = to_world(places, np.radians([12.0, 28, 44]))
-    practised = planning_3d.practise(targets, flat)
+    practised = planning_3d.plan_and_correct(targets, flat)
     planned, *_, last = practised.error
     np.testing.assert_allclose(practised.weights.sum(axis=-1), 1)
     assert np.all(last < 0.5 * planned)
@@ -54,9 +54,9 @@ def test_a_place_beyond_experience_is_refused(flat):
 
 
 def test_what_is_measured_is_a_share_and_corrections_leave_less_and_less():
-    numbers = planning_3d.measured(0, count=8, trials=2)
+    numbers = planning_3d.experiment(0, count=8, trials=2)
     assert 0 < numbers["planned / reach"] < 0.1
     assert 0 < numbers["in the plane"] < 0.1
     assert 0 < numbers["exact / reach"] < 0.7 * numbers["planned / reach"]
     assert 0 < numbers["corrected 2 ×"] < numbers["corrected 1 ×"] < 1
-    assert numbers == planning_3d.measured(0, count=8, trials=2)
+    assert numbers == planning_3d.experiment(0, count=8, trials=2)

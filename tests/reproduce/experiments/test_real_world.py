@@ -9,19 +9,19 @@ from vmc_lib.photos import RealPhoto
 @pytest.mark.parametrize("split", real_world.SPLITS)
 @pytest.mark.parametrize("model", real_world.MODELS)
 def test_what_is_stored_is_of_every_photo(model, split):
-    found = real_world.load(model, split)
+    found = real_world.load_results(model, split)
     shots = photos.load("real", split)
     assert list(found) == [photo.name for photo in shots]
     for photo, seen in zip(shots, found.values(), strict=True):
         assert seen["holds"] == next(iter(photo.boxes), "neither")
-    for question, (count, of) in real_world.answers(found).items():
+    for question, (count, of) in real_world.count_answers(found).items():
         kind = real_world.QUESTIONS[question][0]
         assert 0 <= count <= of == [seen["holds"] for seen in found.values()].count(kind)
 
 
 @pytest.mark.parametrize("model", real_world.MODELS)
 def test_what_is_stored_is_what_the_model_makes_of_a_photo(model):
-    stored = real_world.load(model, "validation")
+    stored = real_world.load_results(model, "validation")
     first, *_, last = photos.load("real", "validation")  # with a shuttlecock, and with neither
     for photo in (first, last):
         now = real_world.examine(loop.VisuomotorModel.load(model), photo)
@@ -42,13 +42,13 @@ def test_the_box_that_is_chosen_counts_for_any_of_the_shuttlecocks():
 
 
 def test_a_share_is_told_with_its_interval():
-    assert real_world.told(1, 17) == "1 of 17 (1% to 27%)"
+    assert real_world.share_text(1, 17) == "1 of 17 (1% to 27%)"
 
 
 @pytest.mark.parametrize("model", real_world.MODELS)
 def test_another_renderers_scenes_all_show_a_shuttlecock(model):
     found = results.records("elsewhere")[model]
     assert len(found) == 160
-    counts = real_world.answers(found)
+    counts = real_world.count_answers(found)
     assert {of for _, of in counts.values()} == {160}
     assert {real_world.QUESTIONS[question][0] for question in counts} == {"shuttlecock"}

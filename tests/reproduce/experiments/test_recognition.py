@@ -4,35 +4,37 @@ import torch
 
 from reproduce.experiments.recognition import (
     METHODS,
-    load,
-    named_right,
+    confusion_counts,
+    correct_by_method,
+    load_classifiers,
+    load_probabilities,
     precision_recall,
     probabilities,
-    tally,
-    verdicts,
 )
 from reproduce.peers.hmax import c1, draw_prototypes, hmax, s1
 from vmc_lib import photos
 
 
 def test_counts_by_hand():
-    counts = tally([0.9, 0.8, 0.2, 0.6, 0.1], np.array([True, True, True, False, False]))
+    counts = confusion_counts([0.9, 0.8, 0.2, 0.6, 0.1], np.array([True, True, True, False, False]))
     assert counts == (2, 1, 1, 1)
     assert precision_recall(counts) == pytest.approx((2 / 3, 2 / 3))
     assert np.isnan(precision_recall((0, 0, 3, 1))[0])
 
 
 def test_what_ships_is_what_the_shipped_weights_say():
-    learnt, linear = load()
+    learnt, linear = load_classifiers()
     found, truth = probabilities("rig", photos.load("rig", "validation"), learnt, linear)
-    kept, kept_truth = verdicts("rig", "validation")
+    kept, kept_truth = load_probabilities("rig", "validation")
     assert (truth == kept_truth).all()
     for method in METHODS:
         assert found[method] == pytest.approx(kept[method], abs=1e-3)
 
 
 def test_every_method_was_put_to_both_things_in_a_hundred_fresh_photos_a_level():
-    assert {len(right) for right in named_right("fresh").values()} == {2 * 100 * len(photos.LEVELS)}
+    assert {len(right) for right in correct_by_method("fresh").values()} == {
+        2 * 100 * len(photos.LEVELS)
+    }
 
 
 def test_s1_answers_to_direction_not_contrast():

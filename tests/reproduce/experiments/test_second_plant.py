@@ -10,7 +10,7 @@ from vmc_lib.motor.planning import draw_targets, plan
 
 @pytest.fixture(scope="module")
 def past():
-    return plant.templates()
+    return plant.torque_templates()
 
 
 def test_a_posture_puts_the_tip_where_it_should():

@@ -4,21 +4,23 @@ import numpy as np
 
 from reproduce.experiments import stream_ablation
 from reproduce.training import samples
-from reproduce.training.augmentation import ALL, look
+from reproduce.training.augmentation import ALL, augment
 from vmc_lib import photos
 
 SHOT = photos.load("real", "train")[0]
-REAL = samples.by_kind(SHOT, samples.anywhere(np.random.default_rng(0)), np.random.default_rng(0))
-RENDER = samples.by_kind(
+REAL = samples.boxes_by_kind(
+    SHOT, samples.random_windows(np.random.default_rng(0)), np.random.default_rng(0)
+)
+RENDER = samples.boxes_by_kind(
     photos.load("rig", "train")[0],
-    samples.anywhere(np.random.default_rng(1)),
+    samples.random_windows(np.random.default_rng(1)),
     np.random.default_rng(0),
 )
-POOL = samples.pool({"real": [REAL], "rig": [RENDER], "pasted": [REAL]})
+POOL = samples.training_samples({"real": [REAL], "rig": [RENDER], "pasted": [REAL]})
 
 
 def test_what_is_told_is_there():
-    found = stream_ablation.load()
+    found = stream_ablation.load_results()
     assert list(found) == list(stream_ablation.WITHOUT)
     for shares in found.values():
         assert shares.shape == (stream_ablation.DRAWS,)
@@ -37,7 +39,14 @@ def test_each_way_leaves_one_idea_out():
     everything = has("all of them")
     assert has("two stages, not four") == everything
     assert has("without new looks") == everything
-    assert [way.looks is ALL for way in ways.values()] == [True, True, False, True, True, True]
+    assert [way.augmentation is ALL for way in ways.values()] == [
+        True,
+        True,
+        False,
+        True,
+        True,
+        True,
+    ]
     laid = {(s, kind) for s, kind in everything if s == "pasted"}
     windows = {(s, kind) for s, kind in everything if s != "rendered" and kind == "scene"}
     assert has("without shuttlecocks laid on photographs") == everything - laid
@@ -48,14 +57,14 @@ def test_each_way_leaves_one_idea_out():
 def test_without_new_looks_a_thing_always_looks_the_same():
     box = SHOT.boxes["shuttlecock"]
     one, other = (
-        look(SHOT.image, box, False, np.random.default_rng(seed), stream_ablation.PLAIN)[0]
+        augment(SHOT.image, box, False, np.random.default_rng(seed), stream_ablation.PLAIN)[0]
         for seed in (0, 1)
     )
     np.testing.assert_array_equal(one, other)
 
 
 def test_a_photograph_is_asked_about_its_things_and_some_windows():
-    exam = stream_ablation.asked([REAL])
+    exam = stream_ablation.evaluation_set([REAL])
     labels = [label for _, boxes, label in exam for _ in boxes]
     assert sum(labels) == 2
     assert stream_ablation.WINDOWS <= len(labels) - 2 < 2 * stream_ablation.WINDOWS

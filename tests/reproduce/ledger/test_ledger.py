@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from reproduce import ledger
-from reproduce.experiments.loop_evaluation import trial
+from reproduce.experiments.loop_evaluation import evaluate
 from reproduce.ledger import entry, loop
 from reproduce.ledger.entry import BEATEN, BY_CONSTRUCTION, DIFFERS, REPRODUCED, Quantity, measure
 from reproduce.pipeline import smoke_run
@@ -62,7 +62,7 @@ def test_the_loop_on_test_photos_is_what_a_run_gives(level, tmp_path):
     """On every fourth, to be quick, photo by photo; one may round otherwise elsewhere."""
     some = range(0, 40, 4)
     smoke_run.copy_photos(tmp_path, {"test": some})
-    now, then = trial(level, folder=tmp_path), scores(level)
+    now, then = evaluate(level, folder=tmp_path), scores(level)
     assert set(now) == set(then)
     for key, values in now.items():
         same = np.isclose(values, then[key][some], rtol=0.05, atol=5e-4, equal_nan=True)
@@ -72,7 +72,7 @@ def test_the_loop_on_test_photos_is_what_a_run_gives(level, tmp_path):
 @pytest.mark.parametrize("level", LEVELS)
 def test_what_is_told_of_the_loop_follows_from_its_scores(level):
     told = ledger.load()["loop"][level]
-    assert loop.told(scores(level)) == {k: told[k] for k in ("summary", "failures")}
+    assert loop.outcomes(scores(level)) == {k: told[k] for k in ("summary", "failures")}
 
 
 @pytest.mark.parametrize(
@@ -114,18 +114,18 @@ def test_all_of_an_interval_is_beyond_a_limit(obtained, better, p, verdict):
 
 
 def test_a_row_follows_from_what_can_fail():
-    trivial, good = entry.fixed("q", 1, 1), Quantity("q", 1, 1)
+    trivial, good = entry.trivial_quantity("q", 1, 1), Quantity("q", 1, 1)
     better, worse = Quantity("q", 1, 2, better=1), Quantity("q", 1, 0)
     assert entry.verdict([trivial]) == BY_CONSTRUCTION
     assert entry.verdict([trivial, good]) == REPRODUCED
     assert entry.verdict([trivial, good, better]) == BEATEN
     assert entry.verdict([trivial, better, worse]) == DIFFERS
-    assert entry.verdict([entry.fixed("q", 1, 2), good]) == DIFFERS, "a bug"
+    assert entry.verdict([entry.trivial_quantity("q", 1, 2), good]) == DIFFERS, "a bug"
 
 
 def test_the_wider_interval_of_trainings_over_photos_counts():
     alike, unlike = (
-        entry.trained("q", 0.5, shares, n)
+        entry.mean_of_trainings("q", 0.5, shares, n)
         for shares, n in (([0.5, 0.5, 0.5], 40), ([0.1, 0.5, 0.9], 10**6))
     )
     assert (alike.low, alike.high) == entry.wilson(20, 40)
@@ -145,7 +145,7 @@ def test_a_chapter_asks_for_a_number_by_its_name():
 
 def test_the_page_shows_every_row_and_every_number():
     entries = ledger.load()["rows"]
-    page, lines = ledger.summary(entries), ledger.counted(entries).splitlines()
+    page, lines = ledger.summary(entries), ledger.verdict_counts(entries).splitlines()
     assert len(page.splitlines()) == 2 + len(entries)
     assert lines[-1].replace(" ", "") == f"|together|{len(entries)}|{len(NUMBERS)}|"
     for one in entries:

@@ -23,7 +23,12 @@ FEW = range(3)  # draws, to be quick
 @pytest.fixture(autouse=True)
 def afresh():
     """What a row has measured is kept for the next: not across a break."""
-    kept = planning.draws, planning.in_space, calibration.examples, naming.likeness
+    kept = (
+        planning.planned_error_ratios,
+        planning.errors_3d,
+        calibration.nearer_shares,
+        naming.gabor_correlations,
+    )
     for function in kept:
         function.cache_clear()
     yield
@@ -32,15 +37,15 @@ def afresh():
 
 
 def the_cup_is_named(patch):
-    scores = loop.trial("rig")
-    patch.setattr(loop, "trial", lambda level: scores | {"named": scores["cup"]})
+    scores = loop.level_scores("rig")
+    patch.setattr(loop, "level_scores", lambda level: scores | {"named": scores["cup"]})
 
 
 def labels_are_permuted(patch):
-    found = naming.cdbn_sensitivity.load()
+    found = naming.cdbn_sensitivity.load_results()
     turned = {k: (filters, counts[..., [1, 0, 3, 2]]) for k, (filters, counts) in found.items()}
     wrong = {k: turned[k] if k in naming.NETWORKS else found[k] for k in found}
-    patch.setattr(naming.cdbn_sensitivity, "load", lambda: wrong)
+    patch.setattr(naming.cdbn_sensitivity, "load_results", lambda: wrong)
 
 
 def pixels_are_shuffled(patch):
@@ -97,37 +102,41 @@ def weights_are_shuffled(patch):
         return np.random.default_rng(0).permuted(weights, axis=-1)
 
     patch.setattr(planning, "exact_weights", shuffled)
-    patch.setattr(planning, "in_space", lambda: {"exact / reach": np.full(6, 0.01)})
+    patch.setattr(planning, "errors_3d", lambda: {"exact / reach": np.full(6, 0.01)})
     patch.setattr(planning, "SEEDS", FEW)
 
 
 def nothing_is_learned(patch):
     """Such a learner leaves the whole error."""
-    found = calibration.measured()
+    found = calibration.load_results()
     left = {k: {name: np.ones_like(x) for name, x in rows.items()} for k, rows in found.items()}
-    patch.setattr(calibration, "measured", lambda: left)
+    patch.setattr(calibration, "load_results", lambda: left)
 
 
 def nothing_is_learned_online(patch):
     """Off-line calibration still does its share; what is learned for the next time is nothing."""
-    found = calibration.measured()
+    found = calibration.load_results()
     left = {
         k: {name: np.ones_like(x) if name.startswith("online") else x for name, x in rows.items()}
         for k, rows in found.items()
     }
-    patch.setattr(calibration, "measured", lambda: left)
+    patch.setattr(calibration, "load_results", lambda: left)
 
 
 def the_error_points_away(patch):
     patch.setattr(calibration, "algorithm_1", partial(calibration.algorithm_1, sign=-1))
-    patch.setattr(calibration, "repeat", partial(calibration.repeat, seeds=FEW))
+    patch.setattr(
+        calibration, "repeat_over_seeds", partial(calibration.repeat_over_seeds, seeds=FEW)
+    )
 
 
 def torques_are_mixed_up(patch):
-    past = second_plant.templates()
+    past = second_plant.torque_templates()
     points = np.random.default_rng(0).permutation(past.points)
-    patch.setattr(second_plant, "templates", lambda: replace(past, points=points))
-    patch.setattr(calibration, "repeat", partial(calibration.repeat, seeds=FEW))
+    patch.setattr(second_plant, "torque_templates", lambda: replace(past, points=points))
+    patch.setattr(
+        calibration, "repeat_over_seeds", partial(calibration.repeat_over_seeds, seeds=FEW)
+    )
 
 
 def classes_are_permuted(patch):
@@ -137,11 +146,9 @@ def classes_are_permuted(patch):
         return real(x, np.random.default_rng(0).permutation(y), *rest)
 
     patch.setattr(localisation.KernelSVM, "fit", permuted)
-    rows = [localisation.classify("rig", "context", seed, ["linear"]) for seed in FEW]
+    rows = [localisation.measure_table_1("rig", "context", seed, ["linear"]) for seed in FEW]
     trainings = {split: np.array(rows)[:, k, 0] for k, split in enumerate(photos.SPLITS)}
-    patch.setattr(
-        localisation, "trainings", lambda level, split, name: {"linear": trainings[split]}
-    )
+    patch.setattr(localisation, "table_1", lambda level, split, name: {"linear": trainings[split]})
 
 
 def boxes_are_random(patch):

@@ -9,7 +9,7 @@ import pytest
 
 from reproduce import ledger
 from reproduce.experiments import localisation
-from reproduce.experiments.calibration import SCENARIOS, measured
+from reproduce.experiments.calibration import SCENARIOS, load_results
 
 BOOK = Path(ledger.__file__).parents[2] / "book"
 CHAPTERS = sorted(BOOK.glob("[0-9]*.ipynb"))
@@ -87,14 +87,14 @@ def test_the_shared_functions_give_the_ledgers_numbers():
         ("Ours, Table V", "error over planned, own off-line, 2 trials"): "own off-line, 2 trials",
     }
     for asked, entry in pairs.items():
-        assert ledger.value(*asked).obtained == pytest.approx(measured()[here][entry].mean())
+        assert ledger.value(*asked).obtained == pytest.approx(load_results()[here][entry].mean())
     for kernel, key in (("linear", "linear"), ("RBF", "rbf")):
-        ours = localisation.trainings("rig", "test")[key].mean(axis=0)
+        ours = localisation.table_1("rig", "test")[key].mean(axis=0)
         for k, measure in enumerate(("precision", "recall")):
             assert ledger.value("Table I", f"{kernel}: {measure}").obtained == pytest.approx(
                 ours[k]
             )
     for name, row in (("published", "Table II"), ("improved", "Ours, Table II")):
-        middle, _ = localisation.spread("rig", name)
+        middle, _ = localisation.table_2_interval("rig", name)
         obtained = ledger.value(row, f"{name}, IoU: recall").obtained
         assert obtained == pytest.approx(middle[1])

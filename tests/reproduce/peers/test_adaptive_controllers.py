@@ -5,9 +5,9 @@ import pytest
 
 from reproduce.peers.adaptive_controllers import (
     LEARNERS,
+    DeltaRuleCells,
     DistalTeacher,
     FeedbackError,
-    LocalCells,
 )
 from vmc_lib.cerebellum.online import AimCorrection, mossy_fibres
 from vmc_lib.motor.planning import draw_targets, plan
@@ -31,11 +31,11 @@ def test_every_peer_learns_something(name, some):
 
 def test_the_delta_rule_moves_only_by_the_error_and_the_lines_own_activity():
     x, y = np.random.default_rng(0).uniform(size=(2, 3, 2))
-    cells = LocalCells(width=0.3, cells=50, rate=0.1).fit(x, np.zeros_like(y))
+    cells = DeltaRuleCells(width=0.3, cells=50, rate=0.1).fit(x, np.zeros_like(y))
     cells.partial_fit(x[:1], y[:1])
     active = cells.excite(x[:1])
     np.testing.assert_allclose(cells.purkinje_, 0.1 * active.T @ y[:1])
-    again = LocalCells(width=0.3, cells=50, rate=0.1).fit(x, y)
+    again = DeltaRuleCells(width=0.3, cells=50, rate=0.1).fit(x, y)
     for _ in range(3000):
         again.partial_fit(x, y)
     np.testing.assert_allclose(again.predict(x), y, atol=1e-3)
@@ -45,7 +45,7 @@ def test_hindsight_and_feedback_error_say_the_same_of_two_places(some):
     """How far beyond to aim is the same number; they differ in where it is held for right."""
     aim, reached = some.target + 0.01, some.target - [0.02, 0.0]
     (at_end, then), (at_target, asked) = (
-        kind(load(), LocalCells()).lessons(some, aim, reached)
+        kind(load(), DeltaRuleCells()).lessons(some, aim, reached)
         for kind in (AimCorrection, FeedbackError)
     )
     np.testing.assert_allclose(then, asked)
@@ -56,7 +56,7 @@ def test_hindsight_and_feedback_error_say_the_same_of_two_places(some):
 def test_a_distal_teacher_sends_the_error_back_through_its_models_slopes(some):
     """The model's arm goes twice as far as it aims to the side, and turns up into side as well."""
     turn = np.array([[1.0, 0.0], [0.5, 0.0]])
-    pupil = DistalTeacher(load(), LocalCells())
+    pupil = DistalTeacher(load(), DeltaRuleCells())
     pupil.model = SimpleNamespace(partial_fit=lambda x, y: None, predict=lambda x: x[:, :2] @ turn)
     reached = some.target - [0.02, 0.01]
     inputs, change = pupil.lessons(some, some.target, reached)

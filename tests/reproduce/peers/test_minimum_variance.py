@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 from reproduce.peers import minimum_variance, optimal_control
-from reproduce.peers.motor_noise import wavering
+from reproduce.peers.motor_noise import with_noise
 from vmc_lib.motor import templates
 from vmc_lib.motor.inverse_dynamics import smooth
 
 
 def test_every_optimum_is_at_its_target_and_stays():
-    motion = templates.reach(minimum_variance.shipped())
+    motion = templates.reach(minimum_variance.optimal_excitations())
     reached = motion.hand[:, [700, 1000], :2]
     assert (
         np.linalg.norm(
@@ -28,7 +28,7 @@ def test_no_template_lies_on_the_targets():
 
 
 def test_it_is_the_steadiest_of_all():
-    found = minimum_variance.compared(np.random.default_rng(1), repeats=40)
+    found = minimum_variance.compare_rules(np.random.default_rng(1), repeats=40)
     scatter = {name: rows["scatter"].mean() for name, rows in found.items()}
     assert min(scatter, key=scatter.get) == "least variance"
     assert all(len(values) == 5 for rows in found.values() for values in rows.values())
@@ -45,8 +45,8 @@ def test_it_is_steadier_than_the_cheapest_at_every_target():
 def test_the_variance_is_that_of_many_reaches():
     """To first order, and at the moments that count."""
     x = optimal_control.arrays("optimal")["knots"][12].astype(float)
-    told = np.tile(optimal_control.excited(x), (400, 1, 1))
-    many = templates.reach(wavering(told, 0.04, np.random.default_rng(0))).hand[
+    told = np.tile(optimal_control.excitations_from_knots(x), (400, 1, 1))
+    many = templates.reach(with_noise(told, 0.04, np.random.default_rng(0))).hand[
         :, minimum_variance.HOLD, :2
     ]
     found = 100 * many.std(axis=0, ddof=1)
@@ -60,7 +60,7 @@ def test_slopes_are_what_a_nudge_does():
     x = optimal_control.arrays("optimal")["knots"][12].astype(float) + 0.02
     step = 1e-3 * rng.normal(size=x.size)
     change = minimum_variance.variance(x + step) - minimum_variance.variance(x - step)
-    assert 2 * minimum_variance.variance_slope(x) @ step == pytest.approx(change, rel=0.05)
+    assert 2 * minimum_variance.variance_gradient(x) @ step == pytest.approx(change, rel=0.05)
 
 
 def test_the_least_jerk_is_one():

@@ -9,14 +9,14 @@ from vmc_lib.motor.planning import exact_weights, plan
 
 
 def test_every_optimum_is_at_its_target_and_stays():
-    motion = templates.reach(optimal_control.shipped())
+    motion = templates.reach(optimal_control.optimal_excitations())
     reached = motion.hand[:, [700, 1000], :2]
     assert np.linalg.norm(reached - optimal_control.TARGETS[:, None], axis=-1).max() < 1e-3
     assert np.abs(motion.velocity[..., -1, :]).max() < 0.02
 
 
 def test_every_optimum_costs_less_than_habit():
-    spent = optimal_control.effort(optimal_control.shipped())
+    spent = optimal_control.effort(optimal_control.optimal_excitations())
     for rule in (None, exact_weights):
         habit = plan(optimal_control.TARGETS, templates.load(), *([rule] if rule else []))
         share = spent / optimal_control.effort(habit.excitations)
@@ -26,9 +26,9 @@ def test_every_optimum_costs_less_than_habit():
 
 def test_optima_mixed_cost_little_more_than_the_optimum():
     """The price of habit is its templates', not the mixing's."""
-    cheap = optimal_control.mixed()
+    cheap = optimal_control.mix_optima()
     np.testing.assert_allclose(cheap.weights, 0.25, atol=1e-3)  # half-way between all four
-    spent = optimal_control.effort(optimal_control.shipped())[optimal_control.INNER]
+    spent = optimal_control.effort(optimal_control.optimal_excitations())[optimal_control.INNER]
     habit = plan(cheap.target, templates.load())
     mixed, shipped = (
         np.mean(optimal_control.effort(p.excitations) / spent) for p in (cheap, habit)
@@ -39,7 +39,7 @@ def test_optima_mixed_cost_little_more_than_the_optimum():
 def test_what_ships_can_be_solved_again():
     solved = optimal_control.effort(optimal_control.solve(optimal_control.TARGETS[12]))
     np.testing.assert_allclose(
-        solved, optimal_control.effort(optimal_control.shipped()[12]), rtol=0.01
+        solved, optimal_control.effort(optimal_control.optimal_excitations()[12]), rtol=0.01
     )
 
 
@@ -47,7 +47,7 @@ def test_slopes_are_what_a_nudge_does():
     x = np.random.default_rng(0).uniform(0.02, 0.2, 6 * optimal_control.KNOTS)
     step = 1e-5 * np.random.default_rng(1).normal(size=x.size)
     change = optimal_control._ends(x + step) - optimal_control._ends(x - step)
-    np.testing.assert_allclose(2 * optimal_control._slopes(x) @ step, change, atol=2e-6)
+    np.testing.assert_allclose(2 * optimal_control._end_gradients(x) @ step, change, atol=2e-6)
 
 
 def test_effort_is_the_mean_square():

@@ -9,33 +9,35 @@ from reproduce.peers import minimum_variance, motor_noise, optimal_control
 from reproduce.peers import optimal_feedback as feedback
 from vmc_lib.motor.templates import reach
 
-TOLD = optimal_control.shipped()[minimum_variance.NEW]
+TOLD = optimal_control.optimal_excitations()[minimum_variance.NEW]
 
 
 @cache
 def law():
-    return feedback.law(TOLD)
+    return feedback.feedback_law(TOLD)
 
 
 @cache
 def noise():
     shape = (30, *TOLD.shape)
-    return motor_noise.waver(shape, minimum_variance.share(), np.random.default_rng(2))
+    return motor_noise.noise_factor(shape, minimum_variance.noise_share(), np.random.default_rng(2))
 
 
 def test_undisturbed_it_is_the_plan():
-    path, told = feedback.move(law(), np.ones_like(TOLD))
+    path, commands = feedback.move(law(), np.ones_like(TOLD))
     np.testing.assert_allclose(path, reach(TOLD).hand[:, :: feedback.TICK, :2], atol=1e-9)
-    np.testing.assert_allclose(told, TOLD, atol=1e-9)
+    np.testing.assert_allclose(commands, TOLD, atol=1e-9)
 
 
 def test_slopes_are_what_a_nudge_does():
     rng = np.random.default_rng(0)
-    state, told = law().meant[0, 40], np.full((feedback.TICK, 6), 0.3)
+    state, commands = law().reference[0, 40], np.full((feedback.TICK, 6), 0.3)
     state = np.concatenate([state[:4], np.full(6, 0.2)])  # away from where Eq. 9 has its kink
     by, more = 1e-4 * rng.normal(size=10), 1e-4 * rng.normal(size=6)
-    A, B = feedback.slopes(state, told)
-    moved = feedback.advanced(state + by, told + more) - feedback.advanced(state - by, told - more)
+    A, B = feedback.linearise(state, commands)
+    moved = feedback.next_states(state + by, commands + more) - feedback.next_states(
+        state - by, commands - more
+    )
     np.testing.assert_allclose(moved / 2, A @ by + B @ more, rtol=1e-3, atol=1e-9)
 
 
@@ -50,8 +52,10 @@ def test_no_larger_or_smaller_gain_costs_less(scale):
             paid += np.square(change / feedback.CHANGE).sum()
             off = law().A[0, t] @ off + law().B[0, t] @ change
             if t + 1 >= feedback.MOVING // feedback.TICK:
-                meant = law().meant[0, t + 1]
-                ends = feedback.seen(meant + 1e-4 * off) - feedback.seen(meant - 1e-4 * off)
+                reference = law().reference[0, t + 1]
+                ends = feedback.observe(reference + 1e-4 * off) - feedback.observe(
+                    reference - 1e-4 * off
+                )
                 paid += np.square(ends / 2e-4).sum()
         return paid
 

@@ -112,9 +112,9 @@ def squares(n=3):
 def test_a_step_runs_until_it_is_up_to_date(tmp_path, monkeypatch, capsys):
     step = Step(squares, tmp_path / "squares.npz", "README.md")
     monkeypatch.setattr("reproduce.pipeline.steps.STEPS", (step,))
-    assert progress.run(tasks(), ["squares"], tmp_path) == 0
+    assert progress.run_tasks(tasks(), ["squares"], tmp_path) == 0
     assert data.arrays("squares", tmp_path)["squares"].tolist() == [0, 1, 4]
-    assert progress.run(tasks(), ["squares"], tmp_path) == 0
+    assert progress.run_tasks(tasks(), ["squares"], tmp_path) == 0
     begun, left = capsys.readouterr().out.splitlines()
     assert begun.startswith("squares … ")
     assert begun.endswith(" s")
@@ -131,7 +131,9 @@ def test_the_list_names_every_step_its_file_and_its_minutes(capsys):
 
 def test_by_default_nothing_runs_that_needs_more_than_this_machine(monkeypatch):
     ran = []
-    monkeypatch.setattr(__main__, "run", lambda tasks, names, *rest: ran.append((names, rest)) or 0)
+    monkeypatch.setattr(
+        __main__, "run_tasks", lambda tasks, names, *rest: ran.append((names, rest)) or 0
+    )
     assert __main__.main([]) == 0
     assert __main__.main(["--only", "opensim"]) == 0
     (usual, _), (only, (_, *options)) = ran

@@ -1,18 +1,26 @@
 import numpy as np
 import pytest
 
-from reproduce.training.augmentation import ALL, Looks, compressed, cut, hidden, look, turned
+from reproduce.training.augmentation import (
+    ALL,
+    Augmentation,
+    augment,
+    compress_jpeg,
+    crop_in_colour,
+    occlude,
+    quarter_turn,
+)
 from vmc_lib import photos
 from vmc_lib.boxes import corrected
 from vmc_lib.what.stream import WIDTH, adapted, shown
 
-STILL = Looks(**dict.fromkeys(vars(ALL), 0))
+STILL = Augmentation(**dict.fromkeys(vars(ALL), 0))
 SHOT = photos.load("real", "train")[0]
 BOX = SHOT.boxes["shuttlecock"]
 
 
 def test_a_thing_left_as_it_is_looks_as_the_stream_is_shown_it():
-    seen, fit, lack = look(SHOT.image, BOX, False, np.random.default_rng(0), STILL)
+    seen, fit, lack = augment(SHOT.image, BOX, False, np.random.default_rng(0), STILL)
     [given] = shown(SHOT.image, BOX)
     [taught] = adapted(np.moveaxis(seen, 2, 0)[None])
     assert np.corrcoef(taught.ravel(), given.ravel())[0, 1] > 0.98
@@ -22,7 +30,7 @@ def test_a_thing_left_as_it_is_looks_as_the_stream_is_shown_it():
 
 def test_looks_differ_and_keep_to_their_range():
     rng = np.random.default_rng(0)
-    seen = np.array([look(SHOT.image, BOX, True, rng)[0] for _ in range(20)])
+    seen = np.array([augment(SHOT.image, BOX, True, rng)[0] for _ in range(20)])
     assert seen.shape == (20, WIDTH, WIDTH, 3)
     assert seen.dtype == np.float32
     assert seen.min() >= 0
@@ -32,7 +40,7 @@ def test_looks_differ_and_keep_to_their_range():
 
 def test_a_box_that_strays_fits_less_and_its_lack_mends_it():
     rng = np.random.default_rng(0)
-    fits, lacks = zip(*(look(SHOT.image, BOX, True, rng)[1:] for _ in range(40)), strict=True)
+    fits, lacks = zip(*(augment(SHOT.image, BOX, True, rng)[1:] for _ in range(40)), strict=True)
     assert 0.1 < min(fits) < max(fits) < 1
     size = np.abs(lacks).sum(1)
     assert np.corrcoef(size, fits)[0, 1] < -0.8
@@ -40,7 +48,7 @@ def test_a_box_that_strays_fits_less_and_its_lack_mends_it():
 
 def test_beyond_the_image_its_edge_repeats():
     image = np.arange(60, dtype=np.uint8).reshape(4, 5, 3)
-    seen = cut(image, (-5, -4, 0, 0), 8)
+    seen = crop_in_colour(image, (-5, -4, 0, 0), 8)
     np.testing.assert_allclose(seen, np.broadcast_to(image[0, 0] / 255, (8, 8, 3)), atol=1e-6)
 
 
@@ -51,7 +59,7 @@ def test_a_picture_is_turned_with_what_its_box_lacks(seed):
     x = np.zeros((100, 100, 3))
     x0, y0, x1, y1 = corrected(np.array([[0, 0, 100, 100.0]]), lack[None])[0].round().astype(int)
     x[y0:y1, x0:x1] = 1
-    seen, lack = turned(x, lack, np.random.default_rng(seed))
+    seen, lack = quarter_turn(x, lack, np.random.default_rng(seed))
     x0, y0, x1, y1 = corrected(np.array([[0, 0, 100, 100.0]]), lack[None])[0]
     rows, columns = np.flatnonzero(seen.any((1, 2))), np.flatnonzero(seen.any((0, 2)))
     found = [columns[0], rows[0], columns[-1] + 1, rows[-1] + 1]
@@ -61,11 +69,11 @@ def test_a_picture_is_turned_with_what_its_box_lacks(seed):
 def test_at_most_a_third_is_hidden_and_the_picture_itself_stays():
     rng, x = np.random.default_rng(0), np.full((40, 40, 3), -1.0)
     for _ in range(20):
-        assert 0 < (hidden(x, rng) != -1).mean() <= 0.35
+        assert 0 < (occlude(x, rng) != -1).mean() <= 0.35
     assert (x == -1).all()
 
 
 def test_a_poorer_jpeg_keeps_less():
     x = np.random.default_rng(0).random((40, 40, 3))
-    lost = [np.abs(compressed(x, quality) - x).mean() for quality in (95, 20)]
+    lost = [np.abs(compress_jpeg(x, quality) - x).mean() for quality in (95, 20)]
     assert lost[0] < lost[1]

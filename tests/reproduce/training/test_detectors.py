@@ -8,11 +8,11 @@ from hypothesis import strategies as st
 from reproduce.training.detectors import (
     best_threshold,
     candidates,
-    examples,
     fit_detector,
-    training_examples,
+    labelled_candidates,
+    svm_training_set,
     training_images,
-    tuned,
+    with_best_threshold,
 )
 from vmc_lib import photos
 from vmc_lib.boxes import iou
@@ -38,7 +38,7 @@ def test_candidates_that_ship_are_those_of_the_search(photo, strategy):
 
 
 def test_examples_are_clear_cases(photo):
-    x, y = examples([photo])
+    x, y = labelled_candidates([photo])
     overlap = iou(candidates(photo), list(photo.boxes.values())).max(1)
     assert x.shape == (len(y), 768)
     assert y.sum() == (overlap >= 0.8).sum() > 0
@@ -49,7 +49,7 @@ def test_what_is_learnt_from(photo):
     """Every example, so many shaken boxes an object, and no more counter-examples than asked."""
     recipe = replace(PUBLISHED, jittered=5, mirror=True)
     seen = training_images([photo] * 30, recipe)
-    x, y = training_examples(seen, recipe, np.random.default_rng(0))
+    x, y = svm_training_set(seen, recipe, np.random.default_rng(0))
     good = (seen[0].overlap >= 0.8).sum()
     assert x.shape == (len(y), 768)
     assert y.sum() == 60 * (good + 10)
@@ -91,10 +91,10 @@ def test_the_same_seed_learns_the_same():
 
 def test_tuning_moves_the_threshold_alone(photo):
     detector = ObjectDetector.load("rig", "gradients")
-    again = tuned(detector, [photo])
+    again = with_best_threshold(detector, [photo])
     assert replace(again, threshold=detector.threshold) == detector
     published = ObjectDetector.load("rig", "published")
-    assert tuned(published, [photo]) is published
+    assert with_best_threshold(published, [photo]) is published
     assert published.threshold == 0
 
 

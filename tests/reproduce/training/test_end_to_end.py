@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import torch
 
-from reproduce.training.end_to_end import blank, end_to_end
+from reproduce.training.end_to_end import random_network, train_end_to_end
 from vmc_lib.what.cdbn import CDBN
 from vmc_lib.what.crops import whiten
 from vmc_lib.what.recogniser import read_outs
@@ -21,7 +21,7 @@ def stripes(n, rng):
 
 def test_back_propagation_learns_what_labels_tell():
     rng = np.random.default_rng(0)
-    cdbn = end_to_end(
+    cdbn = train_end_to_end(
         partial(stripes, rng=rng), np.random.default_rng(0), 48, (4, 4), 60, 64, 0.005
     )
     assert isinstance(cdbn.first.W, np.ndarray)
@@ -35,7 +35,7 @@ def test_back_propagation_learns_what_labels_tell():
 
 
 def untaught():
-    return CDBN.from_arrays(blank((4, 4), torch.Generator().manual_seed(0)).arrays())
+    return CDBN.from_arrays(random_network((4, 4), torch.Generator().manual_seed(0)).arrays())
 
 
 def test_a_blank_network_is_on_half_the_time():

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from reproduce.training.pasting import HELD_OUT, paste, pasted
+from reproduce.training.pasting import HELD_OUT, paste_cutout, paste_cutouts
 from vmc_lib import cutouts, photos
 from vmc_lib.boxes import area
 
@@ -38,7 +38,7 @@ def test_a_shuttlecock_lies_in_its_box(seed):
 
     black = np.zeros((cutouts.WIDTH, cutouts.WIDTH, 4), np.uint8)
     black[30:100, 50:80] = 0, 0, 0, 255  # and opaque
-    laid = paste(Grey, black, np.random.default_rng(seed))
+    laid = paste_cutout(Grey, black, np.random.default_rng(seed))
     x0, y0, x1, y1 = laid.boxes["shuttlecock"].astype(int)
     assert 0 <= x0 < x1 <= photos.WIDTH
     assert 0 <= y0 < y1 <= photos.HEIGHT
@@ -51,7 +51,7 @@ def test_a_shuttlecock_lies_in_its_box(seed):
 
 def test_those_that_validate_teach_nothing_and_shuttlecocks_lie_on_others_photos():
     shots = photos.load("real", "train")
-    some = pasted(shots, "train", 6, np.random.default_rng(0))
+    some = paste_cutouts(shots, "train", 6, np.random.default_rng(0))
     assert len(some) == 6
     assert all(one.image.shape == GROUND.image.shape for one in some)
     assert all(area(one.boxes["shuttlecock"]) > 400 for one in some)
@@ -64,5 +64,5 @@ def test_those_that_validate_teach_nothing_and_shuttlecocks_lie_on_others_photos
                 raise StopIteration
 
         with pytest.raises(StopIteration):
-            pasted(shots, split, 1, Told())
+            paste_cutouts(shots, split, 1, Told())
     assert drawn == [480 - HELD_OUT, HELD_OUT]

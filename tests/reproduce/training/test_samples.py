@@ -11,14 +11,14 @@ def shown():
     rng, real = np.random.default_rng(0), photos.load("real", "train")[::12]
     shots = {"rig": photos.load("rig", "train")[:3], "real": [*real, photos.everyday()[0]]}
     return {
-        level: [samples.by_kind(shot, samples.anywhere(rng), rng) for shot in some]
+        level: [samples.boxes_by_kind(shot, samples.random_windows(rng), rng) for shot in some]
         for level, some in shots.items()
     }
 
 
 def test_a_photo_shows_its_shuttlecocks_other_things_and_scene(shown, rng):
     two = photos.load("real", "train")[0]
-    found = samples.by_kind(two, np.array([two.more[0]]), rng)
+    found = samples.boxes_by_kind(two, np.array([two.more[0]]), rng)
     assert set(found) == {"shuttlecock", "scene"}
     image, boxes = found["shuttlecock"]
     assert image is two.image
@@ -28,14 +28,16 @@ def test_a_photo_shows_its_shuttlecocks_other_things_and_scene(shown, rng):
 
 
 def test_windows_lie_in_the_photo_and_are_not_slivers(rng):
-    windows = np.vstack([samples.anywhere(rng) for _ in range(20)])
+    windows = np.vstack([samples.random_windows(rng) for _ in range(20)])
     assert (windows >= 0).all()
     assert (windows <= [photos.WIDTH, photos.HEIGHT] * 2).all()
     assert ((windows[:, 2:] - windows[:, :2]) >= 30).all()
 
 
 def test_kinds_are_drawn_as_often_as_they_should_be(shown, rng):
-    pool = samples.pool(shown | {"pasted": [{"shuttlecock": shown["real"][0]["shuttlecock"]}]})
+    pool = samples.training_samples(
+        shown | {"pasted": [{"shuttlecock": shown["real"][0]["shuttlecock"]}]}
+    )
     drawn = [pool.draw(rng) for _ in range(2000)]
     assert abs(np.mean([label for *_, label in drawn]) - samples.SHARES["shuttlecock"]) < 0.05
     renders = {shot.image[0].tobytes() for shot in photos.load("rig", "train")[:3]}
@@ -44,7 +46,7 @@ def test_kinds_are_drawn_as_often_as_they_should_be(shown, rng):
 
 
 def test_what_photographs_lack_comes_from_renders(shown, rng):
-    alone = samples.pool({"rig": shown["rig"]})
+    alone = samples.training_samples({"rig": shown["rig"]})
     drawn = [alone.draw(rng) for _ in range(30)]
     assert 0 < sum(label for *_, label in drawn) < 30
     assert all(box.shape == (4,) for _, box, _ in drawn)
@@ -56,7 +58,7 @@ def test_everyday_photos_are_learnt_from_and_shuttlecocks_laid_on_others(monkeyp
             return type("Found", (), {"boxes": np.empty((0, 4))})
 
     monkeypatch.setattr(samples.loop, "lenient_detector", lambda level: Blind())
-    shown = samples.show(rng, everyday=2, pasted=3)
+    shown = samples.collect_samples(rng, everyday=2, pasted=3)
     assert list(shown) == [*photos.EVERY_LEVEL, "pasted"]
     for level in photos.EVERY_LEVEL:
         assert len(shown[level]) == len(photos.load(level, "train")) + 2 * (level == "real")

@@ -15,7 +15,9 @@ SHOT = photos.load("rig", "train")[0]
 
 def pool():
     rng = np.random.default_rng(0)
-    return samples.pool({"rig": [samples.by_kind(SHOT, samples.anywhere(rng), rng)]})
+    return samples.training_samples(
+        {"rig": [samples.boxes_by_kind(SHOT, samples.random_windows(rng), rng)]}
+    )
 
 
 def test_a_batch_is_drawn_again_as_it_was():
@@ -29,11 +31,11 @@ def test_a_batch_is_drawn_again_as_it_was():
 
 
 def test_folded_the_network_says_the_same():
-    network = training.blank(0, MAPS)
+    network = training.build_network(0, MAPS)
     x = torch.randn(8, 3, WIDTH, WIDTH, generator=torch.Generator().manual_seed(0))
     for _ in range(3):
         network(x)  # its normalisation has met something
-    stream, told = training.folded(network), network.eval()(x).detach().numpy()
+    stream, told = training.fold_batch_norm(network), network.eval()(x).detach().numpy()
     last = list(stream.stages(x.numpy()).values())[-1].reshape(8, -1)
     said = last @ stream.readout.T + stream.offsets
     np.testing.assert_allclose(said[:, 0], told[:, 0], atol=1e-4)
@@ -55,17 +57,17 @@ def test_names_count_where_they_are_clear_and_edges_near_a_shuttlecock():
 
 def test_it_learns_what_it_is_taught():
     batches = training.Batches(pool(), 0, steps=25, batch=16)
-    network = training.blank(0, MAPS)
+    network = training.build_network(0, MAPS)
 
     def wrong():
         x, fit, lack = map(
-            torch.from_numpy, training.examples(pool(), 64, np.random.default_rng(9))
+            torch.from_numpy, training.augmented_batch(pool(), 64, np.random.default_rng(9))
         )
         with torch.no_grad():
             return training.loss(network(x), fit, lack)
 
     before = wrong()
-    training.teach(network, batches, 0.01)
+    training.train(network, batches, 0.01)
     assert wrong() < 0.8 * before
 
 
@@ -80,8 +82,8 @@ def test_the_hardest_windows_are_mined_and_none_holds_a_shuttlecock():
             return boxes + 1
 
     rng = np.random.default_rng(0)
-    photo = samples.by_kind(SHOT, samples.anywhere(rng), rng)
-    found = training.mined(Fond(), photo)
+    photo = samples.boxes_by_kind(SHOT, samples.random_windows(rng), rng)
+    found = training.hard_negatives(Fond(), photo)
     image, boxes = found["scene"]
     assert image is photo["scene"][0]
     assert len(boxes) == training.HARD
@@ -91,6 +93,6 @@ def test_the_hardest_windows_are_mined_and_none_holds_a_shuttlecock():
 
 
 def test_what_is_held_out_holds_all_levels_and_cut_outs_that_taught_nothing():
-    shots = training.held_out()
+    shots = training.validation_photos()
     assert [shot.name for shot in shots].count("pasted") == training.LAID
     assert not any("train" in shot.name for shot in shots)
