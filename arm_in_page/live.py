@@ -95,7 +95,7 @@ def show(name, mode, draw, controls, data, caption, alt):
     if render_mode() == "book":
         display(HTML(framed(page, caption)))
     elif render_mode() == "live":
-        style = f"<style>{(STATIC / 'live.css').read_text()}</style>"
+        style = f"<style>{(STATIC / 'live.css').read_text(encoding='utf-8')}</style>"
         mujoco_js = {MUJOCO.name: MUJOCO}
         widget = Live(page, "vmcStart", [*VIEWER, *SCRIPTS], vendored=VENDORED | mujoco_js)
         display(HTML(style + styled(still_of(alt, drawn, name))), widget, HTML(framed("", caption)))

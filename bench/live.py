@@ -65,7 +65,7 @@ def main():
     for path in sorted(BOOK.glob("[0-9]*.ipynb")):
         command = [sys.executable, "-m", "bench.live", path.stem]
         told = os.environ | {"VMC_RENDER_MODE": "live"}
-        done = subprocess.run(command, env=told, check=True, capture_output=True, text=True)
+        done = subprocess.run(command, env=told, check=True, capture_output=True, encoding="utf-8")
         rows += json.loads(done.stdout.splitlines()[-1])
     rows.sort(key=lambda row: -row["median"])
     for row in rows:

@@ -47,13 +47,13 @@ def build(folder, pages):
     for chapter in CHAPTERS:
         notebook = nbformat.read(chapter, as_version=4)
         nbformat.write(student(notebook), students / chapter.name)
-        keys.append(key(notebook, (pages / f"{chapter.stem}.html").read_text()))
-    (folder / "key.md").write_text("\n".join(keys))
-    (folder / "key.html").write_text(HEAD + _page("\n".join(keys)))
+        keys.append(key(notebook, (pages / f"{chapter.stem}.html").read_text(encoding="utf-8")))
+    (folder / "key.md").write_text("\n".join(keys), encoding="utf-8")
+    (folder / "key.html").write_text(HEAD + _page("\n".join(keys)), encoding="utf-8")
     shutil.copy(ROOT / "book/_static/vendor/mathjax.js", folder)
     shutil.copy(ROOT / "kit/projects.md", folder)
     asked = bank()
-    (folder / "questions.gift").write_text(gift(asked))
+    (folder / "questions.gift").write_text(gift(asked), encoding="utf-8")
     (folder / "questions-qti.zip").write_bytes(package(asked))
     slides(folder / "slides", pages)
 

@@ -40,7 +40,7 @@ def names():
         for below in entry.get("parts", []) + entry.get("chapters", []) + entry.get("sections", []):
             yield from files(below)
 
-    toc = yaml.safe_load((ROOT / "_toc.yml").read_text())
+    toc = yaml.safe_load((ROOT / "_toc.yml").read_bytes())
     return [toc["root"], *files(toc)]
 
 
@@ -50,7 +50,7 @@ def printed(chromium, html, names, path):
     context.set_default_timeout(PATIENCE)
     page = context.new_page()
     articles = [_still(page, html, name) for name in names]
-    head = BeautifulSoup((html / f"{names[0]}.html").read_text(), "html.parser")
+    head = BeautifulSoup((html / f"{names[0]}.html").read_text(encoding="utf-8"), "html.parser")
     styles = "".join(
         f'<link rel="stylesheet" href="{(html / names[0]).parent.as_uri()}/{link["href"]}">'
         for link in head.select("link[rel=stylesheet]")
@@ -60,7 +60,8 @@ def printed(chromium, html, names, path):
         whole.write_text(
             f'<!doctype html><html lang="en" data-theme="light"><meta charset="utf-8">'
             f"{head.title}{styles}{STYLE}<body><div class='bd-content'><div>"
-            f"{_joined(articles)}</div></div></body></html>"
+            f"{_joined(articles)}</div></div></body></html>",
+            encoding="utf-8",
         )
         page.goto(whole.as_uri())
         page.pdf(
@@ -80,7 +81,7 @@ def _still(page, html, name):
     page.goto((html / f"{name}.html").as_uri())
     page.wait_for_function(READY)
     page.evaluate("() => window.MathJax?.startup?.promise")
-    return page.evaluate((ROOT / "kit/still.js").read_text(), f"{html.as_posix()}/")
+    return page.evaluate((ROOT / "kit/still.js").read_text(encoding="utf-8"), f"{html.as_posix()}/")
 
 
 def _joined(articles):

@@ -15,7 +15,7 @@ import yaml
 from bs4 import BeautifulSoup
 
 ROOT = Path(__file__).parents[1]
-LOOKS = yaml.safe_load((ROOT / "_config.yml").read_text())["sphinx"]["config"]
+LOOKS = yaml.safe_load((ROOT / "_config.yml").read_bytes())["sphinx"]["config"]
 SCRIPTS = [name for name, _ in LOOKS["html_js_files"]]
 STYLES = ["pygments.css", *LOOKS["html_css_files"]]
 VENDOR = sorted((ROOT / "kit/vendor").glob("*.*"))
@@ -64,7 +64,9 @@ def build(folder, pages):
     for file in (*VENDOR, ROOT / "kit/slides.css"):
         shutil.copy(file, static)
     for number, (title, deck) in enumerate(sessions(pages), start=1):
-        (folder / f"session-{number}.html").write_text(_page(f"{number}. {title}", *deck))
+        (folder / f"session-{number}.html").write_text(
+            _page(f"{number}. {title}", *deck), encoding="utf-8"
+        )
 
 
 def sessions(pages):
@@ -124,7 +126,9 @@ def cut(section):
 
 def _article(path):
     """The text of a built page; of a chapter, without links and without citations."""
-    article = BeautifulSoup(path.read_text(), "html.parser").select_one("article > section")
+    article = BeautifulSoup(path.read_text(encoding="utf-8"), "html.parser").select_one(
+        "article > section"
+    )
     for part in article.select("a.headerlink, .bibtex-citation"):
         if isinstance(part.previous_sibling, str):  # or a space is left before the full stop
             part.previous_sibling.replace_with(part.previous_sibling.rstrip())

@@ -38,7 +38,7 @@ FINGERS = {
 
 def read(file):
     """Points (n, 3) in metres and triangles (m, 3) of an ASCII .vtp file."""
-    text = file.read_text()
+    text = file.read_text(encoding="utf-8")
     points = parse_numbers(text, "<Points>.*?<DataArray", float).reshape(-1, 3)
     corners, ends = (
         parse_numbers(text, f'Name="{name}"', int) for name in ("connectivity", "offsets")
@@ -134,7 +134,10 @@ def write(folder):
     text = json.dumps(bone_meshes(folder), separators=(",", ":"))
     data = base64.b64encode(gzip.compress(text.encode(), mtime=0)).decode()
     FILE.parent.mkdir(exist_ok=True)
-    FILE.write_text(f'/* arm26\'s bones (render/bone_meshes.py). */\nself.vmcBones = "{data}";\n')
+    FILE.write_text(
+        f'/* arm26\'s bones (render/bone_meshes.py). */\nself.vmcBones = "{data}";\n',
+        encoding="utf-8",
+    )
 
 
 if __name__ == "__main__":

@@ -41,4 +41,6 @@ def store(path, image, drawn, boxes, seed):
     }
     path.parent.mkdir(parents=True, exist_ok=True)
     Image.fromarray(image).save(path, quality=90)
-    path.with_suffix(".json").write_text(json.dumps(truth, indent=1) + "\n")
+    path.with_suffix(".json").write_text(
+        json.dumps(truth, indent=1) + "\n", encoding="utf-8", newline="\n"
+    )

@@ -76,7 +76,7 @@ def serious():
         page.add_style_tag(content="* { transition: none !important }")
         page.evaluate("() => scrollTo(0, 0)")  # lest the sticky header covers a target
         if not page.evaluate("() => 'axe' in window"):
-            page.evaluate(AXE.read_text())
+            page.evaluate(AXE.read_text(encoding="utf-8"))
         return [
             (theme, violation["id"], node["html"][:200])
             for theme, options in ASKED.items()

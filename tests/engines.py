@@ -50,7 +50,10 @@ class Engine:
             copy.parent.mkdir(parents=True)
             for name in ("_static", "_images", "searchindex.js"):
                 (self.folder / "site" / name).symlink_to(BUILT / name)
-        copy.write_text(path.read_text().replace("<head>", f"<head>{LISTEN}", 1))
+        copy.write_text(
+            path.read_text(encoding="utf-8").replace("<head>", f"<head>{LISTEN}", 1),
+            encoding="utf-8",
+        )
         self._navigate(copy.as_uri())
         here = f"return location.href === {json.dumps(copy.as_uri())}"
         while not self.run(f"{here} && document.readyState === 'complete';"):
@@ -88,12 +91,12 @@ class Firefox(Engine):
         for kind in ("http", "ssl"):
             told |= {f"network.proxy.{kind}": host, f"network.proxy.{kind}_port": int(port)}
         lines = [f"user_pref({json.dumps(k)}, {json.dumps(v)});\n" for k, v in told.items()]
-        (folder / "user.js").write_text("".join(lines))
+        (folder / "user.js").write_text("".join(lines), encoding="utf-8")
         options = "--headless --no-remote --marionette --profile"
         self.process = start([self.program(), *options.split(), folder], folder / "log")
         chosen = folder / "MarionetteActivePort"
-        wait(lambda: chosen.exists() and chosen.read_text(), self.process)
-        self.line = socket.create_connection(("127.0.0.1", int(chosen.read_text())))
+        wait(lambda: chosen.exists() and chosen.read_bytes(), self.process)
+        self.line = socket.create_connection(("127.0.0.1", int(chosen.read_bytes())))
         self.replies = self.line.makefile("rb")
         self._reply()  # its greeting
         self._ask("WebDriver:NewSession")
@@ -170,7 +173,7 @@ class WebKit(Engine):
 
 def start(command, log):
     """A process in a group of its own."""
-    with open(log, "w") as said:
+    with open(log, "w", encoding="utf-8") as said:
         return subprocess.Popen(
             command, stdout=said, stderr=said, start_new_session=True, env=os.environ
         )

@@ -21,12 +21,12 @@ VTP = """<?xml version="1.0"?><VTKFile><PolyData><Piece>
 
 @pytest.fixture(scope="module")
 def shipped():
-    data = re.search('"(.*)"', bone_meshes.FILE.read_text())[1]
+    data = re.search('"(.*)"', bone_meshes.FILE.read_text(encoding="utf-8"))[1]
     return json.loads(gzip.decompress(base64.b64decode(data)))
 
 
 def test_polygons_become_triangles_and_near_vertices_one(tmp_path):
-    (tmp_path / "a.vtp").write_text(VTP)
+    (tmp_path / "a.vtp").write_text(VTP, encoding="utf-8")
     points, faces = bone_meshes.read(tmp_path / "a.vtp")
     assert faces.tolist() == [[0, 1, 2], [0, 2, 3], [1, 2, 4]]
     fewer, left = bone_meshes.cluster_vertices(points, faces, 0.002)
@@ -64,10 +64,10 @@ def test_a_step_writes_it_from_a_folder(tmp_path, monkeypatch):
             "2 2 0",
         ]
         text = re.sub(r"0 0 0  .*\n", "  ".join(moved) + "\n", VTP)
-        (tmp_path / f"{name}.vtp").write_text(text)
+        (tmp_path / f"{name}.vtp").write_text(text, encoding="utf-8")
     monkeypatch.setattr(bone_meshes, "FILE", tmp_path / "vendor/bones.js")
     bone_meshes.write(tmp_path)
-    data = re.search('"(.*)"', bone_meshes.FILE.read_text())[1]
+    data = re.search('"(.*)"', bone_meshes.FILE.read_text(encoding="utf-8"))[1]
     made = json.loads(gzip.decompress(base64.b64decode(data)))
     assert set(made["parts"]) == {
         *bone_meshes.PARTS,

@@ -8,7 +8,7 @@ from tools import browser
 @pytest.mark.parametrize("refusal", [0, 1])
 def test_the_sandbox_is_left_only_where_the_browser_refuses_it(tmp_path, refusal):
     program = tmp_path / "chromium"
-    program.write_text(f"#!/bin/sh\nexit {refusal}\n")
+    program.write_text(f"#!/bin/sh\nexit {refusal}\n", encoding="utf-8")
     program.chmod(0o755)
     options = browser.options(str(program))
     assert options["chromium_sandbox"] == (refusal == 0)

@@ -23,7 +23,7 @@ def notebook(request):
 
 
 def test_every_page_is_in_the_table_of_contents():
-    toc = yaml.safe_load((ROOT / "_toc.yml").read_text())
+    toc = yaml.safe_load((ROOT / "_toc.yml").read_bytes())
     listed = {toc["root"]} | {page["file"] for part in toc["parts"] for page in part["chapters"]}
     pages = {*NOTEBOOKS, *(ROOT / "book").glob("*.md")}
     assert listed == {f"book/{path.stem}" for path in pages}
@@ -134,7 +134,7 @@ def test_reads_well_where_neither_roles_nor_directives_are_known(notebook):
     assert not re.findall(r"(?<!`)\{[a-z-]+\}`[^`]+`", text)
     assert not re.findall(r"^ *(?:`{3,}|:{3,})\{.*", text, re.M)
     for file, section in re.findall(r'\]\(\.\./(\S+) "([^"]+)"\)', text):  # which the page quotes
-        assert f"\n## {section}\n" in (ROOT / file).read_text()
+        assert f"\n## {section}\n" in (ROOT / file).read_text(encoding="utf-8")
     cited = re.findall(r"[(, ]\[([^\]]+)\]\(references\.bib#(\w+)\)[),]", text)
     assert len(cited) == text.count("references.bib")
     entries = parse_file(ROOT / "book/references.bib").entries
@@ -179,7 +179,7 @@ def test_code_is_as_wide_as_the_page():
     ]
     assert not wide
     style = [sys.executable, "-m", "ruff", "format", "--check", "--line-length", "79"]
-    done = subprocess.run([*style, *NUMBERED], capture_output=True, text=True, check=False)
+    done = subprocess.run([*style, *NUMBERED], capture_output=True, encoding="utf-8", check=False)
     assert done.returncode == 0, done.stdout
 
 

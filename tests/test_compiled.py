@@ -67,11 +67,11 @@ def test_a_constant_of_another_module_is_read_anew():
 def test_what_is_kept_for_the_next_process_is_not_used_for_another_source(tmp_path):
     loop = "from law import law\nfrom vmc_lib.compiled import compiled\n"
     loop += "@compiled\ndef total(x):\n    return law(x) + 1.0\nprint(total(2.0))\n"
-    (tmp_path / "loop.py").write_text(loop)
+    (tmp_path / "loop.py").write_text(loop, encoding="utf-8")
     told = os.environ | {"PYTHONPATH": str(ROOT), "PYTHONDONTWRITEBYTECODE": "1"}
     said = []
     for law in ("x * 2", "x * 2", "x * 5"):
-        (tmp_path / "law.py").write_text(f"def law(x):\n    return {law}\n")
+        (tmp_path / "law.py").write_text(f"def law(x):\n    return {law}\n", encoding="utf-8")
         command = [sys.executable, "loop.py"]
         done = subprocess.run(command, cwd=tmp_path, env=told, check=True, capture_output=True)
         said.append((float(done.stdout), len(list(tmp_path.rglob("*.nbc")))))

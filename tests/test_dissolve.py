@@ -40,9 +40,9 @@ def site(tmp_path_factory):
         patch.setenv("VMC_RENDER_MODE", "book")
         patch.setattr(where, "display", lambda item: shown.append(item.data))
         where.dissolving(SHOTS[0].image, "Play.", "A shuttlecock and a cup.")
-    (folder / "page.html").write_text(HEAD + shown[0])
+    (folder / "page.html").write_text(HEAD + shown[0], encoding="utf-8")
     Image.new("RGB", (900, 1600), "teal").save(folder / "tall.jpg")
-    (folder / "words.jpg").write_text("no picture")
+    (folder / "words.jpg").write_text("no picture", encoding="utf-8")
     return folder
 
 

@@ -21,7 +21,7 @@ from vmc_lib.show.markup import data_uri
 
 pytestmark = pytest.mark.browser
 ROOT = Path(__file__).parents[1]
-CONFIG = yaml.safe_load((ROOT / "_config.yml").read_text())["sphinx"]["config"]
+CONFIG = yaml.safe_load((ROOT / "_config.yml").read_bytes())["sphinx"]["config"]
 HEAD = '<!doctype html><meta charset="utf-8"><link rel="stylesheet" href="demo.css">' + "".join(
     f'<script defer src="{name}"></script>' for name, _ in CONFIG["html_js_files"]
 )
@@ -76,7 +76,7 @@ def page(offline, tmp_path_factory):
             in_page=aiming.aimed_in_page(SHOT),
             target=Pad(ACROSS_SHOT, DOWN_SHOT, start=(300, 200)),
         )
-    (folder / "page.html").write_text(HEAD + "\n".join(shown))
+    (folder / "page.html").write_text(HEAD + "\n".join(shown), encoding="utf-8")
     page = offline.new_page()
     errors = []
     page.on("pageerror", lambda error: errors.append(str(error)))

@@ -74,7 +74,7 @@ def test_an_engine_that_fell_is_noticed_and_starts_anew(engine):
     for name in Path("/proc").glob("[0-9]*/comm"):
         with suppress(OSError):  # others come and go
             pid = int(name.parent.name)
-            if os.getpgid(pid) == engine.process.pid and "WebKitWebProces" in name.read_text():
+            if os.getpgid(pid) == engine.process.pid and b"WebKitWebProces" in name.read_bytes():
                 os.kill(pid, 9)
     assert any(fell(engine) for _ in range(100))
     engine.restart()
@@ -84,7 +84,9 @@ def test_an_engine_that_fell_is_noticed_and_starts_anew(engine):
 def test_what_fails_is_heard(engine, tmp_path):
     page = tmp_path / "book/page.html"
     page.parent.mkdir()
-    page.write_text("<html><head></head><img src='nowhere.png'><script>throw 'aloud'</script>")
+    page.write_text(
+        "<html><head></head><img src='nowhere.png'><script>throw 'aloud'</script>", encoding="utf-8"
+    )
     engine.open(page)
     thrown, missing = engine.errors().splitlines()
     assert re.search("aloud|Script error", thrown)  # WebKit tells no more of a file's script

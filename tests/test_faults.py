@@ -25,7 +25,7 @@ REMEDY = "git checkout -- .*python -m reproduce --list"
 
 def test_what_ships_is_what_its_checksums_say():
     found = checksums.data_checksums()
-    assert found == json.loads(data.CHECKSUMS.read_text()), (
+    assert found == json.loads(data.CHECKSUMS.read_bytes()), (
         "run python -m reproduce.pipeline.checksums"
     )
     assert {"templates.npz", "photos/rig/test/000.jpg"} <= found.keys()
@@ -96,7 +96,7 @@ def test_damage_is_noticed_where_no_checksum_is_known(tmp_path):
     cut(tmp_path / "optimal.npz")
     with pytest.raises(ValueError, match=f"optimal.npz is damaged: .*{REMEDY}"):
         results.arrays("optimal", folder=tmp_path)
-    (tmp_path / "lesions.json").write_text('{"rows": [')
+    (tmp_path / "lesions.json").write_text('{"rows": [', encoding="utf-8")
     with pytest.raises(ValueError, match=f"lesions.json is damaged: .*{REMEDY}"):
         results.records("lesions", tmp_path)
 
@@ -115,7 +115,7 @@ def test_a_read_only_checkout_is_enough(tmp_path):
         if not shutil.which("setpriv"):
             pytest.skip("NOT TESTED as root: setpriv is missing")
     told = os.environ | {"PYTHONPATH": str(copy)}
-    done = subprocess.run(command, cwd=copy, env=told, capture_output=True, text=True)
+    done = subprocess.run(command, cwd=copy, env=told, capture_output=True, encoding="utf-8")
     for path in (copy, *copy.rglob("*")):
         path.chmod(path.stat().st_mode | 0o200)
     assert done.returncode == 0, done.stderr
@@ -146,7 +146,8 @@ def test_an_installation_broken_off_is_taken_up_again(tmp_path):
     pip = "#!/bin/sh\\nexit $PIP_ENDS\\n"
     python.write_text(
         f"#!/bin/sh\n[ $1 = -c ] || {{ mkdir -p .venv/bin; printf '{pip}' >.venv/bin/pip; "
-        "chmod +x .venv/bin/pip; }\n"
+        "chmod +x .venv/bin/pip; }\n",
+        encoding="utf-8",
     )
     python.chmod(0o755)
     for ends in (130, 0):  # Ctrl-C, then once more

@@ -290,7 +290,7 @@ def test_the_whole_kit_is_built_from_chapters_and_pages(kit):
     assert made == pages | {"students", "slides", "questions.gift", "questions-qti.zip"}
     students = {file.name for file in (kit / "students").glob("*.ipynb")}
     assert students == {path.name for path in CHAPTERS}
-    told = (kit / "key.md").read_text()
+    told = (kit / "key.md").read_text(encoding="utf-8")
     assert told.count("**Solution.**") == told.count("### Exercise")
     assert "<details>" not in told
 
@@ -323,9 +323,9 @@ def test_an_exercise_leaves_its_section_to_the_slides():
 def test_every_chapter_and_every_quiz_is_on_a_slide(kit):
     decks = sorted((kit / "slides").glob("session-*.html"))
     assert [deck.stem for deck in decks] == [f"session-{n}" for n in range(1, 7)]
-    text = "".join(deck.read_text() for deck in decks)
+    text = "".join(deck.read_text(encoding="utf-8") for deck in decks)
     assert text.count("<h1>") == len(CHAPTERS) + len(decks)
-    told = (kit / "key.md").read_text()
+    told = (kit / "key.md").read_text(encoding="utf-8")
     assert text.count('<fieldset class="vmc-quiz"') == told.count("### Quiz")
     asked = text.count('<fieldset class="vmc-predict"')  # but for those that the page folds
     assert told.count("### Predict first") >= asked > 5 * len(CHAPTERS)

@@ -42,12 +42,12 @@ def server(tmp_path_factory):
     options += f" --LabApp.expose_app_in_browser=True --ServerApp.root_dir={home / 'book'}"
     options += f" --LabApp.app_settings_dir={ROOT / '.binder'}"  # as make lab does
     command = [sys.executable, "-m", "jupyterlab", *options.split()]
-    with open(home / "log", "w") as log:
+    with open(home / "log", "w", encoding="utf-8") as log:
         lab = subprocess.Popen(command, env=told, stdout=log, stderr=log)
     while not listens(port):
         with suppress(subprocess.TimeoutExpired):
             lab.wait(0.1)  # to ask without a pause would take its processor
-        assert lab.poll() is None, (home / "log").read_text()
+        assert lab.poll() is None, (home / "log").read_text(encoding="utf-8")
     yield f"http://127.0.0.1:{port}"
     lab.terminate()
     lab.wait()
@@ -183,7 +183,7 @@ def assert_readable(page):
         )
         page.evaluate("() => document.querySelectorAll('details').forEach((d) => (d.open = true))")
         if not page.evaluate("() => 'axe' in window"):
-            page.evaluate(AXE.read_text())
+            page.evaluate(AXE.read_text(encoding="utf-8"))
         found = page.evaluate(
             "(ours) => axe.run({ include: ours.split(', ').filter((one) =>"
             " document.querySelector(one)).map((one) => [one]) },"
@@ -357,7 +357,7 @@ def test_photos_move_and_the_readers_own_is_seen_whatever_its_size(run_all, tmp_
     upload.locator("input").set_input_files(tmp_path / "phone.jpg")
     upload.locator("svg image").wait_for()
     assert upload.locator("[role=status]").text_content() == "phone.jpg: seen."
-    (tmp_path / "words.jpg").write_text("no picture")
+    (tmp_path / "words.jpg").write_text("no picture", encoding="utf-8")
     upload.locator("input").set_input_files(tmp_path / "words.jpg")
     upload.get_by_text("cannot read it").wait_for()
     assert upload.locator("svg").count() == 0

@@ -21,7 +21,7 @@ CHAPTER = nbformat.v4.new_notebook(
 def links(tmp_path, monkeypatch):
     """A function that builds the book for a repository and returns the page's links."""
     shutil.copy(ROOT / "_config.yml", tmp_path)
-    (tmp_path / "_toc.yml").write_text("format: jb-book\nroot: book/chapter\n")
+    (tmp_path / "_toc.yml").write_text("format: jb-book\nroot: book/chapter\n", encoding="utf-8")
     shutil.copytree(ROOT / "book/_ext", tmp_path / "book/_ext")
     for folder in ("book/_static", "vmc_lib", "arm_in_page"):
         (tmp_path / folder).symlink_to(ROOT / folder)
@@ -32,7 +32,7 @@ def links(tmp_path, monkeypatch):
         environment = {k: v for k, v in os.environ.items() if not k.startswith("GITHUB_")} | told
         command = [Path(sys.executable).with_name("jupyter-book"), "build", "-W", "-n", "."]
         subprocess.run(command, cwd=tmp_path, env=environment, check=True, capture_output=True)
-        page = (tmp_path / "_build/html/book/chapter.html").read_text()
+        page = (tmp_path / "_build/html/book/chapter.html").read_text(encoding="utf-8")
         return re.findall(r'href="([^"]+)"', page)
 
     return links

@@ -42,14 +42,16 @@ def module(path):
 
 
 def test_the_reference_lists_every_module():
-    pages = "".join(page.read_text() for page in (ROOT / "book/library").glob("*.md"))
+    pages = "".join(
+        page.read_text(encoding="utf-8") for page in (ROOT / "book/library").glob("*.md")
+    )
     listed = re.findall(r"automodule:: (\S+)", pages)
     assert sorted(listed) == sorted(n for n in map(module, FILES) if not UNLISTED.search(n))
 
 
 @pytest.mark.parametrize("path", FILES, ids=module)
 def test_everything_public_says_what_it_is(path):
-    tree = ast.parse(path.read_text())
+    tree = ast.parse(path.read_bytes())
     public = [
         node
         for node in tree.body
@@ -63,7 +65,7 @@ def test_everything_public_says_what_it_is(path):
 def test_every_public_method_says_what_it_does(path):  # of a name that classes share, one may
     methods = [
         method
-        for node in ast.parse(path.read_text()).body
+        for node in ast.parse(path.read_bytes()).body
         if isinstance(node, ast.ClassDef) and not node.name.startswith("_")
         for method in node.body
         if isinstance(method, ast.FunctionDef) and not method.name.startswith("_")
@@ -102,7 +104,7 @@ def test_no_form_of_import_goes_unseen(source):
 
 @pytest.mark.parametrize("part", MAY_IMPORT)
 def test_dependencies_point_one_way(part):
-    sources = (path.read_text() for path in (ROOT / "vmc_lib" / part).glob("*.py"))
+    sources = (path.read_text(encoding="utf-8") for path in (ROOT / "vmc_lib" / part).glob("*.py"))
     imported = set().union(*(imports(source, part) for source in sources))
     assert imported - {part, *SHARED} <= MAY_IMPORT[part]
 
@@ -112,7 +114,9 @@ def test_what_stands_above_is_not_imported_from_below(below):
     above = "|".join(name for names in HOUSE[below + 1 :] for name in names)
     for name in HOUSE[below]:
         for path in (ROOT / name).rglob("*.py"):
-            assert not re.search(rf"^\s*(from|import) ({above})\b", path.read_text(), re.M), path
+            assert not re.search(
+                rf"^\s*(from|import) ({above})\b", path.read_text(encoding="utf-8"), re.M
+            ), path
 
 
 # Within `fork_rng`: what torch's layers draw takes no generator
@@ -121,7 +125,7 @@ FORKED = "reproduce.training.ventral_stream", "torch.random.default_generator.ma
 
 @pytest.mark.parametrize("path", FILES, ids=module)
 def test_nothing_is_pickled_and_chance_is_passed_in(path):
-    text = path.read_text()
+    text = path.read_text(encoding="utf-8")
     assert not re.search(r"allow_pickle=True|import pickle|torch\.(load|save)\(|joblib\.dump", text)
     if module(path) == FORKED[0]:
         text = text.replace(FORKED[1], "", 1)

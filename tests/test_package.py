@@ -19,11 +19,13 @@ from packaging.utils import canonicalize_name as canonical
 from arm_in_page.live import MUJOCO
 
 ROOT = Path(__file__).parents[1]
-PYPROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
+PYPROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 PROJECT = PYPROJECT["project"]
 OPTIONAL = PROJECT["optional-dependencies"] | PYPROJECT["dependency-groups"]
 OURS = {"vmc_lib", "arm_in_page", "reproduce", "render", "bench", "book", "kit", "tests", "tools"}
-PINS = re.findall(r"^([\w.\[\]-]+)==([\w.]+)", (ROOT / "requirements.txt").read_text(), flags=re.M)
+PINS = re.findall(
+    r"^([\w.\[\]-]+)==([\w.]+)", (ROOT / "requirements.txt").read_text(encoding="utf-8"), flags=re.M
+)
 
 
 def declared(*extras):
@@ -40,7 +42,7 @@ def sources(pattern):
     """The code of the files: a module whole, of a notebook its cells."""
     for path in ROOT.glob(pattern):
         if path.suffix == ".py":
-            yield path.read_text()
+            yield path.read_text(encoding="utf-8")
         else:
             cells = nbformat.read(path, as_version=4).cells
             yield from (cell.source for cell in cells if cell.cell_type == "code")
@@ -82,7 +84,7 @@ def test_what_is_declared_is_pinned_and_nothing_else():
 
 def locked():
     """The lock's lines, each with a checksum: name → requirement."""
-    lock = (ROOT / "constraints.txt").read_text()
+    lock = (ROOT / "constraints.txt").read_text(encoding="utf-8")
     assert "://" not in lock
     lines = re.findall(r"^(\w.*?) *\\\n +--hash=sha256:", lock, flags=re.M)
     assert len(lines) == len(re.findall(r"^\w", lock, flags=re.M))
@@ -138,7 +140,8 @@ def reader(tmp_path_factory):
     (site,) = (folder / "venv").glob("**/site-packages")
     install = ["install", "--quiet", "--no-deps", "--target", site, *folder.glob("*.whl")]
     subprocess.run([sys.executable, "-m", "pip", *install], check=True)
-    (site / "others.pth").write_text(sysconfig.get_path("purelib"))  # its own .pth files rest
+    installed = sysconfig.get_path("purelib")  # its own .pth files rest
+    (site / "others.pth").write_text(installed, encoding="utf-8")
     return folder / "venv/bin/python"
 
 
@@ -149,7 +152,7 @@ def alone(reader, tmp_path):
 
     def alone(*arguments):
         done = subprocess.run(
-            [reader, *arguments], cwd=tmp_path, env=told, capture_output=True, text=True
+            [reader, *arguments], cwd=tmp_path, env=told, capture_output=True, encoding="utf-8"
         )
         assert done.returncode == 0, done.stderr
         return done.stdout

@@ -26,7 +26,9 @@ OTHERS = sorted({*PAGES} - {*CHAPTERS, BUILT / "index.html"})  # Sphinx's own: s
 KINDS = {path.relative_to(BUILT).parts[0]: path for path in OTHERS}.values()  # one of each
 SCRIPTS = re.compile(r'<script[^>]* src="([^"]+)"')
 HEAVIER = sorted(CHAPTERS, key=lambda path: path.stat().st_size)  # the heaviest of each kind counts
-SCRIPTED = {frozenset(SCRIPTS.findall(path.read_text())): path for path in HEAVIER}.values()
+SCRIPTED = {
+    frozenset(SCRIPTS.findall(path.read_text(encoding="utf-8"))): path for path in HEAVIER
+}.values()
 FINGERS = 2 * BEYOND  # from the wrist: what a hand holds lies half-way
 INSIDE = (f"{BUILT.as_uri()}/", "data:", "blob:")
 
@@ -125,7 +127,7 @@ def settle(page):
 
 def told_by_arms(path):
     """What every arm scene of a page tells its viewer, state by state."""
-    text = path.read_text()
+    text = path.read_text(encoding="utf-8")
     for packed in re.findall(r'<script type="application/gzip">(.*?)</script>', text, re.S):
         data = json.loads(gzip.decompress(base64.b64decode(packed)))
         for _, *parts in data.get("states", []):
@@ -170,7 +172,7 @@ def test_equations_are_typeset(opened):
 
 @cache
 def anchors(path):
-    return set(re.findall(r'\b(?:id|name)="([^"]+)"', path.read_text()))
+    return set(re.findall(r'\b(?:id|name)="([^"]+)"', path.read_text(encoding="utf-8")))
 
 
 def broken_links(page):
@@ -236,7 +238,7 @@ def test_hand_and_target_stay_in_the_picture(path):
 @pytest.mark.parametrize("path", PAGES, ids=lambda path: path.relative_to(BUILT).as_posix())
 def test_is_light(path):
     """A page with all that it links to; what is fetched later (a scene's viewer) aside."""
-    text = path.read_text()
+    text = path.read_text(encoding="utf-8")
     linked = {(path.parent / unquote(link)).resolve() for link in LINKED.findall(text)}
     weight = sum(file.stat().st_size for file in {path, *linked} if file.is_file())
     assert weight <= (5e6 if 'class="vmc-demo"' in text else 3e6)
@@ -433,7 +435,7 @@ def test_pages_made_by_sphinx(offline, path):
 
 @pytest.mark.parametrize("path", OTHERS, ids=lambda path: path.relative_to(BUILT).as_posix())
 def test_links_of_pages_made_by_sphinx(path):
-    links = re.findall(r'<a [^>]*href="([^"]+)"', path.read_text())
+    links = re.findall(r'<a [^>]*href="([^"]+)"', path.read_text(encoding="utf-8"))
     assert list(broken(urljoin(path.as_uri(), link) for link in links)) == []
 
 

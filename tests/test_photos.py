@@ -104,10 +104,10 @@ def test_the_real_level_shows_shuttlecocks_cups_and_neither():
 
 
 def test_the_real_level_is_split_by_place_and_credited():
-    credits = (FOLDER.parents[2] / "CREDITS.md").read_text()
+    credits = (FOLDER.parents[2] / "CREDITS.md").read_text(encoding="utf-8")
     places = {}
     for file in FOLDER.glob("real/*/*.json"):
-        told = json.loads(file.read_text())
+        told = json.loads(file.read_bytes())
         assert places.setdefault(told["place"], file.parent.name) == file.parent.name
         assert told["licence"] in credits
         assert photos.load("real", file.parent.name)[0].credit.endswith(told["licence"])
@@ -118,7 +118,7 @@ def test_the_real_level_is_split_by_place_and_credited():
 def test_the_real_photos_are_small_and_credited_with_their_boxes_inside():
     shots = photos.everyday()
     assert len(shots) == len(list(photos.EVERYDAY.glob("*.jpg"))) >= 8
-    credits = (FOLDER.parents[2] / "CREDITS.md").read_text()
+    credits = (FOLDER.parents[2] / "CREDITS.md").read_text(encoding="utf-8")
     for shot in (*shots, *photos.load("real", "train")):
         assert shot.image.shape == (HEIGHT, WIDTH, 3)
         assert not shot.image.flags.writeable
@@ -245,7 +245,7 @@ def test_reading_refuses_damaged_files(picture, tmp_path, monkeypatch):
         photos.read_image("missing.jpg")
     with pytest.raises(ValueError, match="cannot be read"):
         photos.read_image(tmp_path)
-    (tmp_path / "text.jpg").write_text("not a photo")
+    (tmp_path / "text.jpg").write_text("not a photo", encoding="utf-8")
     with pytest.raises(ValueError, match="not an image"):
         photos.read_image(tmp_path / "text.jpg")
     for name in ("cut.jpg", "cut.png"):

@@ -17,20 +17,22 @@ from pybtex.database import parse_file
 from kit import pdf
 
 ROOT = Path(__file__).parents[1]
-VERSION = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["version"]
-CITATION = yaml.safe_load((ROOT / "CITATION.cff").read_text())
-CODEMETA = json.loads((ROOT / "codemeta.json").read_text())
-PAPER = (ROOT / "jose/paper.md").read_text()
+VERSION = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["version"]
+CITATION = yaml.safe_load((ROOT / "CITATION.cff").read_bytes())
+CODEMETA = json.loads((ROOT / "codemeta.json").read_bytes())
+PAPER = (ROOT / "jose/paper.md").read_text(encoding="utf-8")
 _, HEAD, BODY = PAPER.split("---\n", 2)
 REFERENCES = parse_file(ROOT / "book/references.bib").entries
 CHECKLIST = re.findall(
-    r"^\| ([^|]+) \| (has|a person) \| (.+) \|$", (ROOT / "CONTRIBUTING.md").read_text(), re.M
+    r"^\| ([^|]+) \| (has|a person) \| (.+) \|$",
+    (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8"),
+    re.M,
 )
 
 
 def test_there_is_one_version():
     assert CITATION["version"] == CODEMETA["version"] == VERSION
-    assert f"## {VERSION}\n" in (ROOT / "CHANGELOG.md").read_text()
+    assert f"## {VERSION}\n" in (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
 
 
 def test_there_is_one_list_of_authors():
@@ -70,7 +72,9 @@ def test_what_the_checklist_names_is_there(item, state, places):
 def test_on_windows_the_same_is_installed_as_by_make():
     """README's lines of PowerShell, and the Makefile's: pip gets the same arguments in both."""
     asked = {
-        file: re.findall(r"pip install (?:--quiet )?(.* -r .*)", (ROOT / file).read_text())
+        file: re.findall(
+            r"pip install (?:--quiet )?(.* -r .*)", (ROOT / file).read_text(encoding="utf-8")
+        )
         for file in ("README.md", "Makefile")
     }
     assert len(asked["README.md"]) == 2
@@ -79,7 +83,7 @@ def test_on_windows_the_same_is_installed_as_by_make():
 
 def test_readme_shows_the_loop_move():
     """A picture that is quick to load, and that comes to rest."""
-    [shown] = re.findall(r"!\[[^]]+\]\(([^)]+)\)", (ROOT / "README.md").read_text())
+    [shown] = re.findall(r"!\[[^]]+\]\(([^)]+)\)", (ROOT / "README.md").read_text(encoding="utf-8"))
     assert (ROOT / shown).stat().st_size < 1.5e6
     with Image.open(ROOT / shown) as picture:
         assert picture.n_frames > 1
@@ -119,7 +123,9 @@ def test_pages_are_printed_as_one_book(chromium, tmp_path):
 
 
 def _headings(name):
-    page = BeautifulSoup((ROOT / f"_build/html/{name}.html").read_text(), "html.parser")
+    page = BeautifulSoup(
+        (ROOT / f"_build/html/{name}.html").read_text(encoding="utf-8"), "html.parser"
+    )
     return [heading.get_text().removesuffix("#") for heading in page.select("h1, h2, h3")]
 
 

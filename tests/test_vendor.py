@@ -17,7 +17,7 @@ def test_vendored_files_are_what_the_manifest_says():
     assert vendor.problems() == []
 
 
-@pytest.mark.parametrize("entry", json.loads(vendor.MANIFEST.read_text()), ids=lambda e: e["name"])
+@pytest.mark.parametrize("entry", json.loads(vendor.MANIFEST.read_bytes()), ids=lambda e: e["name"])
 def test_everything_vendored_is_credited(entry):
     assert all(entry[key] for key in ("name", "version", "licence", "for", "origin", "sha256"))
     assert entry["version"] in entry["origin"]
@@ -42,20 +42,20 @@ def elsewhere(monkeypatch, tmp_path):
     """A folder whose manifest names two files, a.js and b.js; a.js lies there, changed."""
     file = tmp_path / "book/_static/vendor/a.js"
     file.parent.mkdir(parents=True)
-    file.write_text("changed")
+    file.write_text("changed", encoding="utf-8")
     manifest = file.parent / "manifest.json"
     entries = [
         {"file": f"book/_static/vendor/{name}", "origin": f"npm:{name}", "sha256": "0"}
         for name in ("a.js", "b.js")
     ]
-    manifest.write_text(json.dumps(entries))
+    manifest.write_text(json.dumps(entries), encoding="utf-8")
     monkeypatch.setattr(vendor, "ROOT", tmp_path)
     monkeypatch.setattr(vendor, "MANIFEST", manifest)
     return file.parent
 
 
 def test_a_changed_file_is_noticed(elsewhere):
-    (elsewhere / "stray.js").write_text("")
+    (elsewhere / "stray.js").write_text("", encoding="utf-8")
     said = " ".join(vendor.problems())
     assert "a.js is not what" in said
     assert "b.js is missing" in said
@@ -67,7 +67,7 @@ def test_what_is_fetched_is_what_the_manifest_says_or_is_refused(monkeypatch, el
     before = vendor.MANIFEST.read_bytes()
     with pytest.raises(ValueError, match=r"npm:a\.js has the checksum .* --update"):
         vendor.refresh()
-    assert (elsewhere / "a.js").read_text() == "changed"
+    assert (elsewhere / "a.js").read_text(encoding="utf-8") == "changed"
     assert vendor.MANIFEST.read_bytes() == before
     vendor.refresh(update=True)
     assert (elsewhere / "a.js").read_bytes() == b"another"

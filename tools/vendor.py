@@ -54,13 +54,13 @@ def with_wasm(module, wasm):
 def problems():
     """What is wrong with the vendored files, one sentence each; none is right."""
     wrong = []
-    for entry in json.loads(MANIFEST.read_text()):
+    for entry in json.loads(MANIFEST.read_bytes()):
         file = ROOT / entry["file"]
         if not file.exists():
             wrong.append(f"{entry['file']} is missing")
         elif hashlib.sha256(file.read_bytes()).hexdigest() != entry["sha256"]:
             wrong.append(f"{entry['file']} is not what the manifest says")
-    listed = {ROOT / entry["file"] for entry in json.loads(MANIFEST.read_text())}
+    listed = {ROOT / entry["file"] for entry in json.loads(MANIFEST.read_bytes())}
     folders = {file.parent for file in listed}
     stray = {file for folder in folders for file in folder.iterdir()} - listed - {MANIFEST}
     for file in sorted(stray):
@@ -73,7 +73,7 @@ def refresh(update=False):
 
     Raises ValueError, and leaves the file as it is, where what came is not what the manifest says.
     """
-    entries = json.loads(MANIFEST.read_text())
+    entries = json.loads(MANIFEST.read_bytes())
     for entry in entries:
         data = fetch(entry["origin"])
         summed = hashlib.sha256(data).hexdigest()
@@ -87,7 +87,7 @@ def refresh(update=False):
         file = ROOT / entry["file"]
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_bytes(data)
-    MANIFEST.write_text(json.dumps(entries, indent=2) + "\n")
+    MANIFEST.write_text(json.dumps(entries, indent=2) + "\n", encoding="utf-8", newline="\n")
 
 
 if __name__ == "__main__":

@@ -77,7 +77,8 @@ def execute_what_changed(app, env, names):
                 cache.cache_notebook_bundle(bundle, check_validity=False, overwrite=True)
     if failed:
         told = "\n".join(["These chapters failed:", *failed, REMEDY])
-        (Path(app.outdir).parent / ".failed").write_text(f"{told}\n")  # which make shows last
+        failures = Path(app.outdir).parent / ".failed"  # which make shows last
+        failures.write_text(f"{told}\n", encoding="utf-8")
         raise ExtensionError(told)
 
 

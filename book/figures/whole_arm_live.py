@@ -19,7 +19,7 @@ START = habits.START @ plant.JOINT_COUPLING.T  # (18,)
 
 def arm(past, rest):
     """The arm and its memories, at rest with activations (63,), as `live_whole_arm` takes it."""
-    surfaces = json.loads(bones.FILE.read_text())
+    surfaces = json.loads(bones.FILE.read_bytes())
     _, ways = lines(START)
     still = {
         "activation": rest.tolist(),
@@ -27,7 +27,7 @@ def arm(past, rest):
         "ways": [way.round(5).tolist() for way in ways],
     }
     return {
-        "xml": plant.FILE.read_text(),
+        "xml": plant.FILE.read_text(encoding="utf-8"),
         "joints": BONES,
         "tip": "fingertip",
         "views": [[x, y] for x, y, _ in VIEWS.values()],

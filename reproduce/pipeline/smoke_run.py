@@ -132,9 +132,9 @@ def copy_photos(folder, numbers, later=0):
         copied.mkdir(parents=True)
         for number in numbers[split]:
             old, new = shipped / f"{number:03d}.json", copied / f"{number + later:03d}.json"
-            truth = json.loads(old.read_text())
+            truth = json.loads(old.read_bytes())
             truth["seed"][-1] += later
-            new.write_text(json.dumps(truth))
+            new.write_text(json.dumps(truth), encoding="utf-8")
             copy(old.with_suffix(".jpg"), new.with_suffix(".jpg"))
 
 

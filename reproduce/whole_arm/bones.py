@@ -22,7 +22,7 @@ def main():
     import myo_sim  # nothing else needs it
 
     full = myo_sim.load_spec("myoarm_r").compile()
-    FILE.write_text(json.dumps(bone_meshes(full), separators=(",", ":")) + "\n")
+    FILE.write_text(json.dumps(bone_meshes(full), separators=(",", ":")) + "\n", encoding="utf-8")
 
 
 def bone_meshes(full):

@@ -23,7 +23,7 @@ def main():
     """Write the file."""
     import myo_sim  # nothing else needs it
 
-    FILE.write_text(arm_mjcf(myo_sim.load_spec("myoarm_r").compile()) + "\n")
+    FILE.write_text(arm_mjcf(myo_sim.load_spec("myoarm_r").compile()) + "\n", encoding="utf-8")
 
 
 def arm_mjcf(full):

@@ -25,7 +25,7 @@ from vmc_lib.motor import templates
 from vmc_lib.motor.planning import exact_weights, habitual_weights, plan, surrounded
 
 ROOT = Path(__file__).parents[2]
-CONFIG = yaml.safe_load((ROOT / "_config.yml").read_text())["sphinx"]["config"]
+CONFIG = yaml.safe_load((ROOT / "_config.yml").read_bytes())["sphinx"]["config"]
 STYLES = CONFIG["html_css_files"]
 LISTED = [name for name, _ in CONFIG["html_js_files"]]  # the book's scripts, in its order
 HEAD = """<!doctype html><html lang="en"><meta charset="utf-8">
@@ -60,7 +60,7 @@ def site(tmp_path_factory):
         patch.setattr(live, "display", lambda *items: shown.extend(item.data for item in items))
         live_arm("bench", "Move it.", "An arm of two joints and six muscles.")
         live_arm("reach", "Let it reach.", "An arm before a plane of templates.")
-    (folder / "page.html").write_text(HEAD + "\n".join(shown))
+    (folder / "page.html").write_text(HEAD + "\n".join(shown), encoding="utf-8")
     return folder
 
 
@@ -454,11 +454,11 @@ def test_the_book_lists_every_script_in_the_order_of_need():
 
 def test_scripts_are_short():
     for script in (*live.STATIC.glob("*.*"), *live.SHOW.glob("*.*")):
-        assert len(script.read_text().splitlines()) <= 250, script.name
+        assert len(script.read_text(encoding="utf-8").splitlines()) <= 250, script.name
 
 
 def test_the_versions_of_mujoco_are_those_of_the_files():
-    manifest = json.loads((ROOT / "book/_static/vendor/manifest.json").read_text())
+    manifest = json.loads((ROOT / "book/_static/vendor/manifest.json").read_bytes())
     (entry,) = [entry for entry in manifest if ROOT / entry["file"] == live.MUJOCO]
     assert live.VERSIONS == {"Python": mujoco.__version__, "page": entry["version"]}
 

@@ -49,7 +49,7 @@ def site(tmp_path_factory, past):
             "Set a target.",
             "A whole arm before two views of it.",
         )
-    (folder / "page.html").write_text(HEAD + "".join(shown))
+    (folder / "page.html").write_text(HEAD + "".join(shown), encoding="utf-8")
     return folder
 
 

@@ -87,7 +87,7 @@ def test_bones_lie_where_the_bodies_have_them():
 
 def test_bones_that_ship_are_small_and_whole():
     assert bones.FILE.stat().st_size < 2e6
-    for name, part in json.loads(bones.FILE.read_text()).items():
+    for name, part in json.loads(bones.FILE.read_bytes()).items():
         plant.MODEL.body(name)  # raises KeyError where there is none
         assert len(part["points"]) == 3 * (max(part["faces"]) + 1), name
 

@@ -33,7 +33,7 @@ def contrast(one, other):
 
 
 def palette(theme):
-    css = (Path(figures.__file__).parent / "static/demo.css").read_text()
+    css = (Path(figures.__file__).parent / "static/demo.css").read_text(encoding="utf-8")
     block = re.search(re.escape(theme) + r" \{(.*?)\}", css, re.S)[1]
     return dict(re.findall(r"--vmc-(\w+): (#[0-9a-f]{6})", block))
 

@@ -35,7 +35,7 @@ def open_demos(offline, tmp_path, monkeypatch):
         shown = []
         monkeypatch.setattr(demo, "display", lambda *items: shown.extend(i.data for i in items))
         declare()
-        (tmp_path / "page.html").write_text(HEAD + "\n".join(shown))
+        (tmp_path / "page.html").write_text(HEAD + "\n".join(shown), encoding="utf-8")
         page = context.new_page()
         page.errors = []
         page.on("pageerror", lambda error: page.errors.append(str(error)))

@@ -163,7 +163,9 @@ def open_questions(offline, tmp_path, shown, book):
     shutil.copytree(STATIC, tmp_path, dirs_exist_ok=True)
 
     def open_questions():
-        (tmp_path / "page.html").write_text(f"{HEAD}<main><h1>Q</h1>{''.join(shown)}</main>")
+        (tmp_path / "page.html").write_text(
+            f"{HEAD}<main><h1>Q</h1>{''.join(shown)}</main>", encoding="utf-8"
+        )
         page = offline.new_page()
         page.goto((tmp_path / "page.html").as_uri())
         return page

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import mujoco
 import numpy as np
 
-XML = (files("vmc_lib.arm") / "arm26.xml").read_text()
+XML = (files("vmc_lib.arm") / "arm26.xml").read_text(encoding="utf-8")
 MODEL = mujoco.MjModel.from_xml_string(XML)
 MUSCLES = tuple(MODEL.tendon(k).name for k in range(MODEL.ntendon))
 F0, L0, SLACK = (MODEL.numeric(name).data.copy() for name in ("F0", "L0", "slack"))

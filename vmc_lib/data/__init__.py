@@ -74,4 +74,4 @@ def _remedy(path):
 def _checksums():
     if not CHECKSUMS.is_file():
         return {}
-    return {FOLDER / name: sums for name, sums in json.loads(CHECKSUMS.read_text()).items()}
+    return {FOLDER / name: sums for name, sums in json.loads(CHECKSUMS.read_bytes()).items()}

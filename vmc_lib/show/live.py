@@ -26,7 +26,7 @@ class Live(anywidget.AnyWidget):
     files by the name under which a script asks for them, late or never.
     """
 
-    _esm = (STATIC / "kernel.js").read_text()
+    _esm = (STATIC / "kernel.js").read_text(encoding="utf-8")
     page, start = traitlets.Unicode().tag(sync=True), traitlets.Unicode().tag(sync=True)
     scripts, vendored = traitlets.List().tag(sync=True), traitlets.List().tag(sync=True)
 
@@ -34,7 +34,9 @@ class Live(anywidget.AnyWidget):
         names = {"scripts": [path.name for path in scripts], "vendored": list(vendored)}
         super().__init__(page=page, start=start, **names)
         self.files = {path.name: path for path in scripts} | vendored
-        self.answers = (answers or {}) | {"script": lambda name: self.files[name].read_text()}
+        self.answers = (answers or {}) | {
+            "script": lambda name: self.files[name].read_text(encoding="utf-8")
+        }
         self.on_msg(lambda _, asked, buffers: self._reply(**asked))
 
     def _reply(self, to, about, said):

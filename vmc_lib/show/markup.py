@@ -36,7 +36,7 @@ def number(value, digits=3):
 
 @cache
 def _style_sheet():
-    sheets = "".join(sheet.read_text() for sheet in sorted(STATIC.glob("*.css")))
+    sheets = "".join(sheet.read_text(encoding="utf-8") for sheet in sorted(STATIC.glob("*.css")))
     return f"<style>{sheets}</style>"
 
 
