@@ -41,7 +41,8 @@ async (root) => {
   article.querySelectorAll(`script, button, ${folded}`).forEach((node) => node.remove());
   article.querySelectorAll("img").forEach((image) => (image.src = image.src));
 
-  const name = (path) => decodeURI(path).replace(root, "").replace(/\.html$/, "");
+  const folder = new URL(root).pathname;
+  const name = (path) => decodeURIComponent(path.replace(folder, "")).replace(/\.html$/, "");
   const here = name(location.pathname);
   article.id = here;
   article.querySelectorAll("[id]:not(svg *)").forEach((node) => (node.id = `${here}#${node.id}`));

@@ -122,6 +122,18 @@ def test_pages_are_printed_as_one_book(chromium, tmp_path):
         assert sum(map(_links_inside, book)) > 10
 
 
+@pytest.mark.browser
+def test_links_hold_on_paper_wherever_the_book_lies(chromium, tmp_path):
+    html = tmp_path / "a b&c#d+ü"
+    html.mkdir()
+    for name, other in (("one", "two"), ("two", "one")):
+        page = f'<article><h1 id="top">{name}</h1><a href="{other}.html#top">{other}</a></article>'
+        (html / f"{name}.html").write_text(f"<title>A book</title>{page}", encoding="utf-8")
+    pdf.printed(chromium, html, ["one", "two"], tmp_path / "book.pdf")
+    with pypdfium2.PdfDocument(tmp_path / "book.pdf") as book:
+        assert sum(map(_links_inside, book)) == 2
+
+
 def _headings(name):
     page = BeautifulSoup(
         (ROOT / f"_build/html/{name}.html").read_text(encoding="utf-8"), "html.parser"
