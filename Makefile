@@ -15,6 +15,8 @@ BIN    := .venv/bin
 READY  := .venv/.ready
 BUILT  := _build/.built
 BUILD  := $(BIN)/jupyter-book build -W -n --keep-going .
+PAGE   := _build/html/index.html
+LAYOUT := .venv/share/jupyter/lab/workspaces/book-9271.jupyterlab-workspace
 INPUTS := README.md _config.yml _toc.yml $(shell find book vmc_lib arm_in_page reproduce -type f -not -path '*/.*' -not -path '*/__pycache__/*')
 
 PEERED := selective_search cuts simulators crbm planning loop scaling
@@ -30,9 +32,10 @@ endef
 .DEFAULT_GOAL := book
 
 book: $(BUILT)
-	@echo "The book is at file://$(CURDIR)/_build/html/index.html"
-	@if [ -n "$$DISPLAY$$WAYLAND_DISPLAY" ] || [ "$$(uname)" = Darwin ]; then \
-	  $(BIN)/python -m webbrowser -t "file://$(CURDIR)/_build/html/index.html"; fi
+	@at=$$($(BIN)/python -c 'from pathlib import Path; print(Path("$(PAGE)").absolute().as_uri())') && \
+	echo "The book is at $$at" && \
+	if [ -n "$$DISPLAY$$WAYLAND_DISPLAY" ] || [ "$$(uname)" = Darwin ]; then \
+	  $(BIN)/python -m webbrowser -t "$$at"; fi
 
 test: $(BUILT)
 	$(BIN)/ruff check
@@ -42,9 +45,13 @@ test: $(BUILT)
 	$(BIN)/python -m tests.engines
 	$(BIN)/pytest -n auto --dist worksteal --nbmake --nbmake-timeout=3600 book tests $(if $(CI),--cov)
 
-lab: $(READY)
+lab: $(READY) $(LAYOUT)
 	@mkdir -p .venv/etc/ipython && cp .binder/ipython_kernel_config.py .venv/etc/ipython
-	$(BIN)/jupyter lab --LabApp.app_settings_dir=.binder book/01_loop.ipynb
+	$(BIN)/jupyter lab --LabApp.app_settings_dir=.binder \
+	  --LabApp.workspaces_dir=$(dir $(LAYOUT)) --LabApp.default_url=/lab/workspaces/book
+
+$(LAYOUT): | $(READY)  # at first the project's folders and chapter 1, then what the reader leaves open
+	@mkdir -p $(@D) && cp .binder/workspace.json $@
 
 kit: $(BUILT)
 	$(BIN)/python -m kit

@@ -362,3 +362,21 @@ def test_photos_move_and_the_readers_own_is_seen_whatever_its_size(run_all, tmp_
     upload.get_by_text("cannot read it").wait_for()
     assert upload.locator("svg").count() == 0
     assert_readable(page)
+
+
+def test_a_chapter_that_is_closed_keeps_no_kernel(visit, server):
+    page = visit("08_arm")
+    session = "() => jupyterapp.shell.currentWidget.sessionContext.session?.kernel"
+    page.wait_for_function(session)
+
+    def runs():
+        running = page.request.get(f"{server}/api/sessions?token=secret").json()
+        return "08_arm.ipynb" in [each["name"] for each in running]
+
+    assert runs()
+    page.evaluate("() => jupyterapp.commands.execute('docmanager:save')")  # or it asks whether to
+    page.evaluate("() => void jupyterapp.commands.execute('application:close')")
+    for _ in range(600):  # ends a hang, never a busy machine's work
+        if runs():
+            page.wait_for_timeout(1000)
+    assert not runs()
