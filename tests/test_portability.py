@@ -19,7 +19,7 @@ from jupyterlab.labapp import LabApp
 ROOT = Path(__file__).parents[1]
 SCHEMAS = Path(sysconfig.get_path("data")) / "share/jupyter/lab/schemas"
 AWKWARD = "a b&c#d+ü"  # a folder of a name that is lawful everywhere
-OURS = "vmc_lib|arm_in_page|reproduce|render|book|bench|kit|tests"
+OURS = "vmc_lib|arm_in_page|reproduce|render|book|bench|kit|tools|tests"
 # Python reads and writes text as ASCII, and warns where it was not told how: Windows at its worst
 ASCII = {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
 ASCII |= {"PYTHONWARNDEFAULTENCODING": "1"}
@@ -60,11 +60,11 @@ def test_a_clone_that_turns_line_ends_loads_every_level(clone):
 
 
 def test_a_clone_that_turns_line_ends_holds_what_the_manifest_says(clone):
-    run(sys.executable, "book/_ext/vendor.py", "--check", cwd=clone)
+    run(sys.executable, "tools/vendor.py", "--check", cwd=clone)
 
 
 def test_the_programs_run_in_a_folder_of_an_awkward_name(clone):
-    assert "bones.js" in run(sys.executable, "-m", "reproduce", "--list", cwd=clone)
+    assert "templates.npz" in run(sys.executable, "-m", "reproduce", "--list", cwd=clone)
 
 
 def test_every_file_can_lie_on_a_disk_of_windows():
