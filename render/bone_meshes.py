@@ -137,6 +137,7 @@ def write(folder):
     FILE.write_text(
         f'/* arm26\'s bones (render/bone_meshes.py). */\nself.vmcBones = "{data}";\n',
         encoding="utf-8",
+        newline="\n",
     )
 
 

@@ -91,22 +91,20 @@ def test_make_says_where_the_book_is_in_an_address_that_a_browser_takes(tmp_path
 # ---------------------------------------------------------------- encodings
 
 
-def unnamed(code):
-    """Calls that read or write text in whatever encoding a system has."""
+def lacking(keyword, code, names="read_text write_text run"):
+    """Calls that read or write text without an argument; ruff's PLW1514 sees but plain paths."""
     for node in ast.walk(ast.parse(code)):
-        if isinstance(node, ast.Call):
-            told = {keyword.arg: ast.unparse(keyword.value) for keyword in node.keywords}
-            called = getattr(node.func, "attr", None)
-            if called in ("read_text", "write_text") or told.get("text") == "True":
-                if "encoding" not in told:
-                    yield ast.unparse(node)
+        if isinstance(node, ast.Call) and getattr(node.func, "attr", None) in names.split():
+            told = {each.arg: ast.unparse(each.value) for each in node.keywords}
+            if keyword not in told and (node.func.attr != "run" or told.get("text") == "True"):
+                yield ast.unparse(node)
 
 
 @pytest.mark.parametrize(
-    "call", ["path.read_text()", "(a / b).write_text(text)", "run(command, text=True)"]
+    "call", ["path.read_text()", "(a / b).write_text(text)", "subprocess.run(name, text=True)"]
 )
-def test_a_text_of_unnamed_encoding_is_noticed(call):  # where ruff's PLW1514 sees no path
-    assert list(unnamed(call)) == [call]
+def test_a_text_of_unnamed_encoding_is_noticed(call):
+    assert list(lacking("encoding", call)) == [call]
 
 
 def test_every_text_names_its_encoding():
@@ -116,7 +114,14 @@ def test_every_text_names_its_encoding():
         cells = nbformat.read(notebook, as_version=4).cells
         codes += [cell.source for cell in cells if cell.cell_type == "code"]
     assert len(codes) > 500
-    assert [call for code in codes for call in unnamed(code)] == []
+    assert [call for code in codes for call in lacking("encoding", code)] == []
+
+
+@pytest.mark.parametrize("room", ["render", "reproduce", "tools"])
+def test_what_ships_has_the_same_line_ends_wherever_it_is_made(room):
+    codes = [file.read_text(encoding="utf-8") for file in (ROOT / room).rglob("*.py")]
+    assert any("write_text(" in code for code in codes)
+    assert [c for code in codes for c in lacking("newline", code, "write_text")] == []
 
 
 def test_a_live_chapter_runs_where_text_is_ascii_unless_named(tmp_path):

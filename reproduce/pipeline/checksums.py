@@ -22,7 +22,9 @@ def data_checksums():
 
 def write():
     """Write them."""
-    data.CHECKSUMS.write_text(json.dumps(data_checksums(), indent=0) + "\n", encoding="utf-8")
+    data.CHECKSUMS.write_text(
+        json.dumps(data_checksums(), indent=0) + "\n", encoding="utf-8", newline="\n"
+    )
 
 
 if __name__ == "__main__":  # pragma: no cover: the tests call `data_checksums`

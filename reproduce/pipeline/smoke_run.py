@@ -134,7 +134,7 @@ def copy_photos(folder, numbers, later=0):
             old, new = shipped / f"{number:03d}.json", copied / f"{number + later:03d}.json"
             truth = json.loads(old.read_bytes())
             truth["seed"][-1] += later
-            new.write_text(json.dumps(truth), encoding="utf-8")
+            new.write_text(json.dumps(truth), encoding="utf-8", newline="\n")
             copy(old.with_suffix(".jpg"), new.with_suffix(".jpg"))
 
 

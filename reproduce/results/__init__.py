@@ -27,7 +27,7 @@ def write(name, content, folder=FOLDER):
     """Write what `records` reads."""
     text = json.dumps(content, indent=1, ensure_ascii=False)
     with replacement(Path(folder) / f"{name}.json") as new:
-        new.write_text(text + "\n", encoding="utf-8")
+        new.write_text(text + "\n", encoding="utf-8", newline="\n")
 
 
 @contextmanager

@@ -22,7 +22,9 @@ def main():
     import myo_sim  # nothing else needs it
 
     full = myo_sim.load_spec("myoarm_r").compile()
-    FILE.write_text(json.dumps(bone_meshes(full), separators=(",", ":")) + "\n", encoding="utf-8")
+    FILE.write_text(
+        json.dumps(bone_meshes(full), separators=(",", ":")) + "\n", encoding="utf-8", newline="\n"
+    )
 
 
 def bone_meshes(full):

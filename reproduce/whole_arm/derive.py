@@ -23,7 +23,9 @@ def main():
     """Write the file."""
     import myo_sim  # nothing else needs it
 
-    FILE.write_text(arm_mjcf(myo_sim.load_spec("myoarm_r").compile()) + "\n", encoding="utf-8")
+    FILE.write_text(
+        arm_mjcf(myo_sim.load_spec("myoarm_r").compile()) + "\n", encoding="utf-8", newline="\n"
+    )
 
 
 def arm_mjcf(full):
