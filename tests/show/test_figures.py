@@ -9,7 +9,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
-from vmc_lib.show import dot_plot, figures, folded, photo_view, table
+from vmc_lib.show import figures, folded, photo_view, table
 from vmc_lib.show.figures import pictures
 from vmc_lib.show.markup import number
 from vmc_lib.show.palette import COLOURS, ON_PHOTO
@@ -114,20 +114,6 @@ def test_only_two_panels_of_one_plot_each_are_stackable():
     assert [drawn(1, 1).count("<svg"), drawn(1, 3).count("<svg")] == [1, 1]
     assert drawn(1, 2, title=True).count("<svg") == 1
     assert drawn(1, 1, bar=True).count("<svg") == 1
-
-
-def test_a_dot_plot_shows_values_intervals_and_what_was_published():
-    series = {"test": {"linear": (0.9, 0.8, 1.0), "RBF": 0.7}, "train": {"RBF": 0.95}}
-    fig = dot_plot(series, "recall", {"RBF": 0.99})
-    [ax] = fig.axes
-    values = [line.get_xdata().tolist() for line in ax.lines]
-    assert values == [[0.9, 0.7], [0.95], [0.99]]
-    assert [text.get_text() for text in ax.get_yticklabels()] == ["linear", "RBF"]
-    intervals = [c.get_segments() for c in ax.collections]
-    assert [[line[0][0], line[1][0]] for line in intervals[0]] == [[0.8, 1.0], [0.7, 0.7]]
-    assert fig.legends
-    assert not dot_plot({"": {"a": 1}}, "x").legends
-    plt.close("all")
 
 
 def test_what_is_folded_is_still_markdown(monkeypatch):

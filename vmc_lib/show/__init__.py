@@ -4,9 +4,11 @@ The arm's own scenes are in `vmc_lib.show.arm`, and the arm that runs in the pag
 `arm_in_page.live`: what needs no arm need not wait for one.
 """
 
+from vmc_lib.show.compare import compare, dot_plot
 from vmc_lib.show.controls import Choice, Pad, Slider, Switch
 from vmc_lib.show.demo import explore, figure
-from vmc_lib.show.figures import dot_plot, folded, markdown, photo_view, table
+from vmc_lib.show.estimate import Estimate, estimate
+from vmc_lib.show.figures import folded, markdown, photo_view, table
 from vmc_lib.show.grading import grade, solution
 from vmc_lib.show.palette import COLOURS
 from vmc_lib.show.questions import check, predict, quiz
@@ -15,12 +17,15 @@ from vmc_lib.show.scene import Scene
 __all__ = [
     "COLOURS",
     "Choice",
+    "Estimate",
     "Pad",
     "Scene",
     "Slider",
     "Switch",
     "check",
+    "compare",
     "dot_plot",
+    "estimate",
     "explore",
     "figure",
     "folded",

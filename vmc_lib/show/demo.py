@@ -19,11 +19,12 @@ import matplotlib.pyplot as plt
 import numpy as np
 from IPython.display import HTML, display
 
+from vmc_lib.show.alt_text import alt_text
 from vmc_lib.show.controls import Switch, as_control
+from vmc_lib.show.data_table import data_tables
 from vmc_lib.show.figures import framed, pictures, side_by_side
 from vmc_lib.show.live import STATIC, Live
 from vmc_lib.show.markup import styled
-from vmc_lib.show.numbers import numbers
 from vmc_lib.show.palette import STYLE
 from vmc_lib.show.render_mode import render_mode
 from vmc_lib.show.scene import SCRIPTS as VIEWER
@@ -36,15 +37,15 @@ SAMPLE = 25  # positions along a control, of a demo that the page works out
 _demos = itertools.count(1)
 
 
-def explore(draw, caption, alt, in_page=None, **controls):
+def explore(draw, caption, alt=None, in_page=None, **controls):
     """Show what `draw` returns and let the reader move its controls.
 
     `draw(**values)` is a pure function that returns a picture (see `figures`). Each control is a
     `Slider`, a `Pad`, a list of strings (a choice) or `[False, True]` (a switch); a list starts at
     its first. `caption` is Markdown and says what to notice; `alt` describes the picture in words,
-    as text or as a function of the same controls. Raises ValueError for a demo that could not
-    work: more than 200 positions, a control without effect, a start that is no value, an unknown
-    picture.
+    as text or as a function of the same controls; a plot without it describes itself. Raises
+    ValueError for a demo that could not work: more than 200 positions, a control without effect, a
+    start that is no value, an unknown picture.
 
     A demo may have as many positions as it likes if the book's page works them out itself:
     `in_page` is (name, ground, given). The page's `vmcInPage[name]` draws what `draw` does, by what
@@ -68,9 +69,10 @@ def explore(draw, caption, alt, in_page=None, **controls):
         try:
             with plt.rc_context(STYLE):
                 drawn = draw(**values)
-                told = [] if in_page else numbers(drawn)  # before the figures are closed
+                told = [] if in_page else data_tables(drawn)  # before the figures are closed
+                words = alt(**values) if callable(alt) else alt or alt_text(drawn)
                 parts = [*pictures(drawn, name), *told]
-            return alt(**values) if callable(alt) else alt, parts
+            return words, parts
         except Exception as error:
             error.add_note(f"It was asked for {values}.")
             raise
@@ -93,7 +95,7 @@ def explore(draw, caption, alt, in_page=None, **controls):
         display(HTML(_page(*state(_first(controls)), data, caption, controls, name)))
 
 
-def figure(picture, caption, alt):
+def figure(picture, caption, alt=None):
     """Show a picture that does not move, or what a function without arguments draws."""
     explore(picture if callable(picture) else lambda: picture, caption, alt)
 

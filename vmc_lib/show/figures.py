@@ -5,19 +5,18 @@ tuple of these shown side by side. Colours are named, never raw.
 """
 
 import html
-import math
 import re
 
-import matplotlib.pyplot as plt
 import numpy as np
 from IPython.display import Markdown, display
 from markdown_it import MarkdownIt
 from matplotlib.figure import Figure
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 
+from vmc_lib.show.data_table import DataTable
+from vmc_lib.show.estimate import estimate
 from vmc_lib.show.markup import data_uri, image_tag, number, svg
-from vmc_lib.show.palette import COLOURS, EDGE, ON_PHOTO
-from vmc_lib.show.pen import wide
+from vmc_lib.show.palette import EDGE, ON_PHOTO
 from vmc_lib.show.scene import Scene
 
 _MARKDOWN = MarkdownIt().use(
@@ -96,38 +95,6 @@ def _label(x, y, text, colour):
     )
 
 
-def dot_plot(series, xlabel, published=None, xlim=None):
-    """A table as a picture: a dot for each row of each series, its interval, and a figure.
-
-    `series` maps a label to its rows, and a row's name to its value or to (value, low, high);
-    `published` maps rows to what the paper printed, shown as ticks. Levels or measures are small
-    multiples: a tuple of such figures.
-    """
-    names = list(dict.fromkeys(name for rows in series.values() for name in rows))
-    room = 0.15 + max(map(wide, names))  # for the longest name
-    size = max(4.2, room + 2.4), 0.95 + len(names) * (0.16 + 0.14 * len(series))
-    fig, ax = plt.subplots(figsize=size, layout="none")
-    for k, (label, rows) in enumerate(series.items()):
-        apart = 0.5 * ((k + 0.5) / len(series) - 0.5)
-        value, low, high = np.transpose([np.broadcast_to(row, 3) for row in rows.values()])
-        places = [names.index(name) + apart for name in rows]
-        [dots] = ax.plot(value, places, "o", ms=4.5, label=label, zorder=3)
-        ax.hlines(places, low, high, color=dots.get_color(), lw=1.4)
-    if published:
-        places = [names.index(name) for name in published]
-        style = dict(ms=15, mew=1.6, color=COLOURS["ink"], label="published")
-        ax.plot(list(published.values()), places, "|", **style)
-    ax.set_yticks(range(len(names)), names)
-    ax.set(xlabel=xlabel, xlim=xlim, ylim=(len(names) - 0.5, -0.5))
-    labels = ax.get_legend_handles_labels()[1]
-    ncols = 4 if len("".join(labels)) < 24 else 3
-    rows = math.ceil(len(labels) / ncols) if len(labels) > 1 else 0
-    if rows:
-        fig.legend(loc="upper center", ncols=ncols, columnspacing=1, handletextpad=0.3)
-    margins(fig, left=room, top=0.12 + 0.22 * rows)
-    return fig
-
-
 def margins(fig, left=0.7, top=0.3):
     """Leave so many inches beside and above a figure's plots: quicker than to seek their room."""
     width, height = fig.get_size_inches()
@@ -150,7 +117,7 @@ def side_by_side(parts, alt):
 
     A table of their numbers stands folded below.
     """
-    tables = [part for part in parts if isinstance(part, str) and part.startswith("<table>")]
+    tables = [part for part in parts if isinstance(part, DataTable)]
     inner = "".join(
         f'<div class="vmc-picture">{part if isinstance(part, str) else part.html(alt)}</div>'
         for part in parts
@@ -179,7 +146,8 @@ def folded(summary, text):
 def table(heads, rows):
     """A Markdown table of column heads and rows of as many cells: text, numbers, or None.
 
-    Numbers get three digits. ValueError where a row has another number of cells, or a column has no
+    Numbers get three digits; draws (n,) and (value, low, high) are written as an `estimate`, with
+    their 95 % interval. ValueError where a row has another number of cells, or a column has no
     head: a screen reader would call it nothing.
     """
     if not all(heads):
@@ -193,4 +161,6 @@ def table(heads, rows):
 def _cell(value):
     if value is None:
         return ""
-    return number(value) if isinstance(value, float) else str(value)
+    if isinstance(value, float):
+        return number(value)
+    return str(estimate(value) if isinstance(value, tuple | np.ndarray) else value)

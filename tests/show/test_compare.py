@@ -1,0 +1,107 @@
+"""Estimates and comparisons: what their intervals are, and how they are drawn and described."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+
+from vmc_lib.show import compare, demo, dot_plot, estimate, photo_view, table
+from vmc_lib.show.alt_text import alt_text
+from vmc_lib.show.scene import Scene
+from vmc_lib.statistics import student
+
+DRAWS = [0.3, 0.5, 0.4]
+
+
+@pytest.fixture(autouse=True)
+def closed():
+    yield
+    plt.close("all")
+
+
+def test_an_estimate_of_draws_is_their_mean_with_students_interval():
+    mean, half = student(DRAWS)
+    assert estimate(DRAWS) == estimate(np.array(DRAWS)) == (mean, mean - half, mean + half)
+    assert estimate((0.4, 0.2, 0.7)) == (0.4, 0.2, 0.7)
+    assert estimate(0.4) == estimate([0.4]) == (0.4, 0.4, 0.4)
+
+
+def test_an_estimate_is_written_with_two_digits_of_its_intervals_width():
+    said = [str(estimate(e)) for e in ((0.341, 0.268, 0.414), (34.2, 33.01, 35.4), (-3, -9, 90))]
+    assert said == ["0.34 (0.27 to 0.41)", "34.2 (33.0 to 35.4)", "−3 (−9 to 90)"]
+    assert f"{estimate((0.341, 0.268, 0.414)):.0%}" == "34% (27% to 41%)"
+    assert str(estimate(0.3412)) == "0.341"
+
+
+def test_a_cell_of_a_table_may_be_an_estimate():
+    assert table(["a", "b"], [["x", (0.5, 0.4, 0.6)], ["y", np.array(DRAWS)]]).splitlines()[2:] == [
+        "| x | 0.50 (0.40 to 0.60) |", "| y | 0.40 (0.15 to 0.65) |"
+    ]  # fmt: skip
+
+
+def test_a_dot_plot_shows_values_intervals_and_what_was_published():
+    series = {"test": {"linear": (0.9, 0.8, 1.0), "RBF": 0.7}, "train": {"RBF": 0.95}}
+    fig = dot_plot(series, "recall", {"RBF": 0.99})
+    [ax] = fig.axes
+    values = [line.get_xdata().tolist() for line in ax.lines]
+    assert values == [[0.9, 0.7], [0.95], [0.99]]
+    assert [text.get_text() for text in ax.get_yticklabels()] == ["linear", "RBF"]
+    intervals = [c.get_segments() for c in ax.collections]
+    assert [[line[0][0], line[1][0]] for line in intervals[0]] == [[0.8, 1.0], [0.7, 0.7]]
+    [legend] = fig.legends
+    assert [text.get_text() for text in legend.get_texts()] == ["test", "train", "published"]
+    assert not dot_plot({"": {"a": 1}}, "x").legends
+
+
+def test_a_comparison_has_one_table_and_its_own_description(monkeypatch):
+    shown = []
+    monkeypatch.setenv("VMC_RENDER_MODE", "book")
+    monkeypatch.setattr(demo, "display", shown.append)
+    compare({"ours": {"a": DRAWS, "b": 0.7}}, "recall", "A *caption*.", {"a": 0.6}, (0, 1))
+    page = shown[0].data
+    assert page.count("<table>") == page.count("<details") == 1
+    assert "0.40 (0.15 to 0.65)" in page
+    said = "recall: ours: a 0.40 (0.15 to 0.65), b 0.7; published: a 0.6."
+    assert f'aria-label="{said}"' in page
+
+
+def drawn(*lines, **labels):
+    fig, ax = plt.subplots()
+    for line in lines:
+        ax.plot(*line)
+    ax.set(**labels)
+    return fig
+
+
+def test_a_line_is_described_by_its_ends_and_what_lies_beyond_them():
+    fig = drawn(([0, 1, 2], [1, 3, 2]), xlabel="time (s)", ylabel="force (N)", title="held")
+    said = "force (N) against time (s): from 1 at 0 to 2 at 2, highest 3 at 1."
+    assert alt_text(fig) == f"held: {said}"
+
+
+def test_dots_and_ways_are_described_by_their_range():
+    ways = drawn(([0, 1, 0], [1, 3, -1]), xlabel="forward (m)", ylabel="up (m)")
+    said = "up (m) against forward (m): 3 points from −1 to 3, forward (m) 0 to 1."
+    assert alt_text(ways) == said
+    assert alt_text(drawn(([0, 1, 2], [1, 3, -1], "o"))) == "3 points from −1 to 3, x 0 to 2."
+
+
+def test_of_many_series_and_rows_some_are_described_and_the_others_counted():
+    rows = {f"row {i}": i / 10 for i in range(13)}
+    said = "recall: from row 0 0 to row 12 1.2."
+    assert alt_text(dot_plot({"": rows}, "recall")) == said
+    assert alt_text(drawn(*[([0, 1], [0, i]) for i in range(7)])).endswith("; and 3 more.")
+
+
+def test_a_heat_map_is_described_by_its_range_and_not_by_its_colour_bar():
+    fig, ax = plt.subplots()
+    fig.colorbar(ax.imshow([[0, np.nan], [2, 5]]))
+    ax.set_title("error")
+    assert alt_text(fig) == "error: a heat map of values from 0 to 5."
+
+
+def test_words_in_markup_are_its_description_and_what_has_none_needs_one():
+    photo = photo_view(np.zeros((9, 9, 3), np.uint8), [((1, 2, 3, 4), "cup <1>", "blue")])
+    assert alt_text((photo, "<p>It is <b>3</b>.</p>")) == "A photo with labels: cup <1> It is 3."
+    for silent in (np.eye(3), Scene(), "<svg></svg>", (photo, np.eye(3))):
+        with pytest.raises(ValueError, match="give `alt`"):
+            alt_text(silent)

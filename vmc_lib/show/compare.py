@@ -1,0 +1,49 @@
+"""Comparisons: estimates with their intervals, as a dot plot, in words and in one table."""
+
+import math
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+from vmc_lib.show.demo import figure
+from vmc_lib.show.estimate import estimate
+from vmc_lib.show.figures import margins
+from vmc_lib.show.palette import COLOURS
+from vmc_lib.show.pen import wide
+
+
+def compare(series, measure, caption, published=None, xlim=None, alt=None):
+    """Show a `dot_plot`; its numbers stand folded below, and its description comes from them."""
+    figure(lambda: dot_plot(series, measure, published, xlim), caption, alt)
+
+
+def dot_plot(series, measure, published=None, xlim=None):
+    """A table as a picture: a dot for each row of each series, with its interval; a figure.
+
+    `series` maps a label to its rows, and a row's name to draws (n,), to (value, low, high) or to a
+    number (see `estimate`); `measure` names what is measured. `published` maps rows to what the
+    paper printed, shown as ticks. Levels or measures are small multiples: a tuple of such figures.
+    """
+    names = list(dict.fromkeys(name for rows in series.values() for name in rows))
+    room = 0.15 + max(map(wide, names))  # for the longest name
+    size = max(4.2, room + 2.4), 0.95 + len(names) * (0.16 + 0.14 * len(series))
+    fig, ax = plt.subplots(figsize=size, layout="none")
+    for k, (label, rows) in enumerate(series.items()):
+        apart = 0.5 * ((k + 0.5) / len(series) - 0.5)
+        value, low, high = np.transpose([estimate(row) for row in rows.values()])
+        places = [names.index(name) + apart for name in rows]
+        style = dict(fmt="o", ms=4.5, elinewidth=1.4, label=label, zorder=3)
+        ax.errorbar(value, places, xerr=(value - low, high - value), **style)
+    if published:
+        places = [names.index(name) for name in published]
+        style = dict(fmt="|", ms=15, mew=1.6, color=COLOURS["ink"], label="published")
+        ax.errorbar(list(published.values()), places, **style)
+    ax.set_yticks(range(len(names)), names)
+    ax.set(xlabel=measure, xlim=xlim, ylim=(len(names) - 0.5, -0.5))
+    labels = ax.get_legend_handles_labels()[1]
+    ncols = 4 if len("".join(labels)) < 24 else 3
+    rows = math.ceil(len(labels) / ncols) if len(labels) > 1 else 0
+    if rows:
+        fig.legend(loc="upper center", ncols=ncols, columnspacing=1, handletextpad=0.3)
+    margins(fig, left=room, top=0.12 + 0.22 * rows)
+    return fig

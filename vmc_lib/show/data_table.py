@@ -1,0 +1,188 @@
+"""The data of plots, read from the plots themselves, as tables."""
+
+import html
+from typing import NamedTuple
+
+import numpy as np
+from matplotlib.category import StrCategoryFormatter
+from matplotlib.collections import QuadMesh
+from matplotlib.container import BarContainer, ErrorbarContainer
+from matplotlib.figure import Figure
+from matplotlib.ticker import FixedFormatter, FuncFormatter
+
+from vmc_lib.show.estimate import Estimate
+from vmc_lib.show.markup import number
+from vmc_lib.show.palette import COLOURS
+
+POINTS, DOTS, SERIES = 9, 24, 12  # at most so many in a table: of a line, of dots, of a plot
+COLUMNS = 6  # of a wide table, at most
+_COLOUR_NAMES = {value: name for name, value in COLOURS.items()}
+
+
+class DataTable(str):
+    """Markup of the tables with a picture's data, one for each of its plots."""
+
+
+class Series(NamedTuple):
+    """A line, dots or bars: `values` (n,) at `keys` (n,), the `ends` (n, 2) of their intervals."""
+
+    name: str
+    kind: str  # such as red dots, blue line, bars
+    keys: np.ndarray
+    values: np.ndarray
+    ends: np.ndarray
+    listed: np.ndarray  # the places that a table lists
+
+    def at(self, i):
+        """The value at place i as text, with its interval."""
+        low, high = self.ends[i]
+        return str(Estimate(self.values[i], low, high)) if high > low else number(self.values[i])
+
+
+class Panel(NamedTuple):
+    """A plot: what it is called, what its keys and values measure, and its series."""
+
+    title: str
+    key: str
+    value: str
+    series: list
+    text: object  # a key as text
+    named: bool  # keys are names, as in a dot plot
+    image: str  # what an image or a heat map in it shows
+
+
+def figures_of(drawn):
+    """The matplotlib figures in what a draw function returned."""
+    return [p for p in (drawn if isinstance(drawn, tuple) else (drawn,)) if isinstance(p, Figure)]
+
+
+def data_tables(drawn):
+    """A list of the `DataTable` of what a draw function returned; empty where nothing is a figure.
+
+    A row for each key and a column for each series, or where their keys differ a row for each
+    point. Of a long line some points are listed, evenly spread over the axis; of many lines the
+    first, and how many more there are.
+    """
+    tables = [_table(panel) for panel in panels(drawn) if panel.series]
+    return [DataTable("\n".join(tables))] if figures_of(drawn) else []
+
+
+def panels(drawn):
+    """The `Panel`s of what a draw function returned, without colour bars."""
+    axes = (ax for figure in figures_of(drawn) for ax in figure.axes)
+    return [_panel(ax) for ax in axes if ax.get_label() != "<colorbar>"]
+
+
+def _panel(ax):
+    """What an axes shows; its keys stand along x, or along y where y has names or bars lie."""
+    lying = any(getattr(bars, "orientation", "") == "horizontal" for bars in ax.containers)
+    turned = bool(lying or _names(ax.yaxis))
+    key, value = (ax.yaxis, ax.xaxis) if turned else (ax.xaxis, ax.yaxis)
+    names, title = _names(key), ax.get_title()
+    measure = value.get_label_text() or title or "yx"[turned]
+    series = list(_series(ax, int(turned)))
+    unnamed = measure if len(series) == 1 else ""
+    return Panel(
+        title,
+        key.get_label_text() or ("case" if names else "xy"[turned]),
+        measure,
+        [one._replace(name=one.name or unnamed or one.kind) for one in series],
+        names or number,
+        bool(names),
+        next(
+            map(_image, [*ax.images, *(c for c in ax.collections if isinstance(c, QuadMesh))]), ""
+        ),
+    )
+
+
+def _series(ax, turned):
+    """The `Series` that were plotted against the axes' own measures; not their guide lines."""
+    owners = {c.lines[0]: c for c in ax.containers if isinstance(c, ErrorbarContainer)}
+    logarithmic = (ax.yaxis if turned else ax.xaxis).get_scale() == "log"
+    for line in ax.lines:
+        points = np.broadcast_arrays(*(np.ravel(v) for v in line.get_data(orig=False)))
+        keys, values = (np.asarray(points[i], float) for i in (turned, 1 - turned))
+        known = np.isfinite(keys) & np.isfinite(values)
+        if line.get_transform() != ax.transData or not line.get_visible() or not known.any():
+            continue
+        ends, owner = np.stack([values, values], axis=1), owners.get(line, line)
+        if owner is not line and (owner.has_xerr if turned else owner.has_yerr):
+            ends = np.array(owner.lines[2][0].get_segments())[..., 1 - turned]
+        kind, most = ("dots", DOTS) if line.get_linestyle() == "None" else ("line", POINTS)
+        kind = f"{_COLOUR_NAMES.get(line.get_color(), '')} {kind}".strip()
+        some = _spread(keys[known], most, logarithmic)
+        yield Series(_label(owner), kind, keys[known], values[known], ends[known], some)
+    for bars in ax.containers:
+        if isinstance(bars, BarContainer):
+            boxes = np.array([bar.get_bbox().get_points() for bar in bars])
+            values = np.asarray(bars.datavalues, float)
+            ends, some = np.stack([values, values], axis=1), np.arange(len(values))
+            keys = boxes.mean(axis=1)[:, turned]
+            yield Series(_label(bars), "bars", keys, values, ends, some)
+
+
+def _label(artist):
+    """An artist's label; empty where matplotlib made one up."""
+    label = str(artist.get_label())
+    return "" if label.startswith("_") else label
+
+
+def _names(axis):
+    """How a place on an axis with names is written, by the nearest; None where it has numbers."""
+    formatter = axis.get_major_formatter()
+    if isinstance(formatter, FixedFormatter | FuncFormatter | StrCategoryFormatter):
+        places = axis.get_ticklocs()
+        names = [str(name) for name in formatter.format_ticks(places)]
+        counted = np.array_equal(places, range(len(places))) and names != [*map(number, places)]
+        if names and (counted or all(name[:1].isalpha() for name in names)):
+            return lambda place: names[np.abs(places - place).argmin()]
+    return None
+
+
+def _image(artist):
+    values = np.ma.filled(np.ma.asarray(artist.get_array(), float), np.nan)
+    if values.ndim == 3 or np.isnan(values).all():
+        return "a picture"
+    return f"a heat map of values from {number(np.nanmin(values))} to {number(np.nanmax(values))}"
+
+
+def _spread(keys, most, logarithmic):
+    """Which of the points at keys (n,) to list, at most so many, evenly spread over the axis."""
+    last = len(keys) - 1
+    if logarithmic and last >= most and (np.diff(keys) > 0).all():
+        even = np.geomspace(keys[0], keys[-1], most)
+        return np.unique(np.abs(keys[:, None] - even).argmin(axis=0))
+    return np.unique(np.linspace(0, last, most).round().astype(int))
+
+
+def _table(panel):
+    """A plot's table (HTML): as wide as its series, where that fits, else a row for each point."""
+    points = {
+        one.name: [(panel.text(one.keys[i]), one.at(i)) for i in one.listed] for one in panel.series
+    }
+    columns = [dict(some) for some in points.values()]
+    keys = list(dict.fromkeys(key for column in columns for key in column))
+    whole = [len(some) for some in points.values()] == [len(column) for column in columns]
+    even = panel.named or all(len(column) == len(keys) for column in columns)
+    if len(points) == len(panel.series) <= COLUMNS and whole and even:
+        heads = [panel.key, *points] if len(points) > 1 else [panel.key, panel.value]
+        rows = [[key, *(column.get(key, "") for column in columns)] for key in keys]
+        title = [panel.title, panel.value][: len(points)]
+    else:
+        heads, title = ["series", panel.key, panel.value], [panel.title]
+        rows = [
+            [one.name, panel.text(one.keys[i]), one.at(i)]
+            for one in panel.series[:SERIES]
+            for i in one.listed
+        ]
+        if len(panel.series) > SERIES:
+            rows.append([f"and {len(panel.series) - SERIES} more", "", ""])
+    caption = html.escape(": ".join(dict.fromkeys(filter(None, title))))
+    caption = f"<caption>{caption}</caption>" * bool(caption)
+    return "\n".join(
+        [f"<table>{caption}", _row("th", heads), *(_row("td", row) for row in rows), "</table>"]
+    )
+
+
+def _row(cell, texts):
+    return "<tr>" + "".join(f"<{cell}>{html.escape(text)}</{cell}>" for text in texts) + "</tr>"

@@ -1,0 +1,45 @@
+"""An estimate with its 95 % interval, from draws or as given, and how it is written."""
+
+from math import floor, log10
+from typing import NamedTuple
+
+import numpy as np
+
+from vmc_lib.statistics import student
+
+
+class Estimate(NamedTuple):
+    """A value and the ends of its interval; the same number three times where there is none.
+
+    As text "0.34 (0.27 to 0.42)": with two digits of the interval's width, or as a format says,
+    each of the three: f"{estimate:.0%}".
+    """
+
+    value: float
+    low: float
+    high: float
+
+    def __str__(self):
+        return format(self)
+
+    def __format__(self, spec):
+        width = self.high - self.low
+        if not width > 0:
+            return format(self.value, spec or ".3g").replace("-", "−")
+        spec = spec or f".{max(0, 1 - floor(log10(width)))}f"
+        value, low, high = (format(x, spec).replace("-", "−") for x in self)
+        return f"{value} ({low} to {high})"
+
+
+def estimate(value):
+    """The `Estimate` of draws (n,), by Student's t; or of a number, or of (value, low, high).
+
+    Draws are an array or a list, an interval is a tuple. A single draw has no interval.
+    """
+    if isinstance(value, tuple):
+        return Estimate(*value)
+    draws = np.ravel(value)
+    if len(draws) == 1:
+        return Estimate(*3 * (draws[0],))
+    mean, half = student(draws)
+    return Estimate(mean, mean - half, mean + half)
