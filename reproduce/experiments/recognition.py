@@ -8,14 +8,17 @@ from itertools import product
 import numpy as np
 from sklearn.cluster import KMeans
 
+from reproduce import paper
 from reproduce.peers.baseline_features import bag_of_sift, histograms_of_gradients, raw_pixels, sift
 from reproduce.results import arrays
 from reproduce.training.name_classifier import fit_name_classifier, labelled_crops
 from vmc_lib import photos
+from vmc_lib.statistics import wilson
 from vmc_lib.what.cdbn import CDBN, crops_of
 from vmc_lib.what.recogniser import NameClassifier, read_outs
 
 WORDS = 100
+MEASURES = ("named right", "precision", "recall")
 
 METHODS = (
     "CDBN, MP2",
@@ -27,6 +30,15 @@ METHODS = (
     "SIFT, bag of words",
     "raw pixels",
 )
+
+# What the paper printed of two of them: measure -> method -> share
+PUBLISHED = {
+    measure: {
+        ours: paper.TABLE_3[theirs][column]
+        for ours, theirs in {"CDBN, MP2": "CDBN", "HMAX, 10 prototypes": "HMAX"}.items()
+    }
+    for column, measure in enumerate(MEASURES[1:])
+}
 
 
 def features(crops, learnt):
@@ -50,6 +62,19 @@ def precision_recall(counts):
     """Precision and recall of `confusion_counts`; NaN where a denominator is 0."""
     right, wrong, missed, _ = counts
     return tuple(right / n if n else np.nan for n in (right + wrong, right + missed))
+
+
+def table_3(level):
+    """Table III on a level: measure -> split -> method -> (share, low, high), Wilson's 95 %."""
+    rows = {measure: {"held-out": {}, "in-sample": {}} for measure in MEASURES}
+    for label, split in (("held-out", "test"), ("in-sample", "train")):
+        probability, truth = load_probabilities(level, split)
+        for method in METHODS:
+            right, wrong, missed, rest = confusion_counts(probability[method], truth)
+            counts = (right + rest, len(truth)), (right, right + wrong), (right, right + missed)
+            for measure, (k, n) in zip(MEASURES, counts, strict=True):
+                rows[measure][label][method] = k / n, *wilson(k, n)
+    return rows
 
 
 def load_classifiers():
