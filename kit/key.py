@@ -16,11 +16,11 @@ from vmc_lib.show.grading import source
 ASKED = re.compile(
     r'<fieldset class="vmc-(predict|quiz)".*?<legend>(.*?)</legend>(.*?)</fieldset>', re.S
 )
-ASKING = re.compile(r"^(?:show\.)?(?:predict|quiz)\(", re.M)
+ASKING = re.compile(r"^(?:(?:show\.)?predict\(|\*\*Quiz\.\*\* )", re.M)
 CHOICE = re.compile(r"<label[^>]*><input[^>]*>(.*?)</label>", re.S)
 FOLDED = re.compile(
     r'<details class="vmc-(right|wrong)"><summary>(.*?)</summary>'
-    r"<p><strong>(.*?)</strong>(.*?)</p></details>",
+    r"\s*<p><strong>(.*?)</strong>(.*?)</p>\s*</details>",
     re.S,
 )
 GRADED = re.compile(r"^from (book\.exercises\.\w+) import", re.M)

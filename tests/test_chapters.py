@@ -96,15 +96,15 @@ def test_a_chapter_teaches(path):
     assert re.search(r"^\*\*Exercise(: .+)?\*\*$", text, re.M)
     assert any(tagged(cell, "solution") for cell in notebook.cells)
     assert len(re.findall(r"\b(check|grade|solution)\(", code)) >= 2  # to answer, and solved
-    assert 2 <= len(re.findall(r"\bquiz\(", code)) <= 3
+    assert 2 <= len(re.findall(r"^\*\*Quiz\.\*\* ", text, re.M)) <= 3
     assert re.search(r"^## (Recap|What to take along)", text, re.M)
     assert "](glossary.md" in text
 
 
-def test_questions_hide_their_answers(notebook):
-    """Neither the page nor a notebook shows the code, which names the right answer."""
+def test_predictions_hide_their_outcome(notebook):
+    """Neither the page nor a notebook shows the code, which names what comes out."""
     for cell in notebook.cells:
-        if cell.cell_type == "code" and re.search(r"^(quiz|predict)\(", cell.source, re.M):
+        if cell.cell_type == "code" and re.search(r"^predict\(", cell.source, re.M):
             assert "remove-input" in cell.metadata.tags
             assert cell.metadata.jupyter.source_hidden
 

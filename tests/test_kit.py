@@ -23,7 +23,7 @@ from kit.qti import SPACE, package
 from kit.question import VARIANTS, choice, number, variants
 from kit.slides import cut, stacks
 from kit.student import solves, student
-from vmc_lib.show import predict, questions, quiz
+from vmc_lib.show import predict, questions
 
 BUILT = ROOT / "_build/html/book"
 
@@ -102,7 +102,13 @@ def test_the_key_tells_what_is_right_and_why(monkeypatch):
     page = []
     monkeypatch.setattr(questions, "display", lambda html: page.append(html.data))
     predict("Is $a < b$?", ["yes", "*no*"], "yes", "It *must*.")
-    quiz("Which?", {"this": "It is.", "that": "It is `not`."}, right="that")
+    page.append(
+        '<fieldset class="vmc-quiz"><legend>\n<p>Which?</p>\n</legend>\n'
+        '<details class="vmc-wrong"><summary>this</summary>\n'
+        "<p><strong>✗ No.</strong> It is.</p>\n</details>\n"
+        '<details class="vmc-right"><summary>that</summary>\n'
+        "<p><strong>✓ Right.</strong> It is <code>not</code>.</p>\n</details>\n</fieldset>"
+    )
     cells = [
         nbformat.v4.new_markdown_cell("# Title"),
         nbformat.v4.new_code_cell("from book.exercises.loop import MIXED\n\ngrade(mixed, MIXED)"),
@@ -114,7 +120,7 @@ def test_the_key_tells_what_is_right_and_why(monkeypatch):
         nbformat.v4.new_code_cell("solution(MIXED)", metadata=SOLVED),
         nbformat.v4.new_markdown_cell("More."),
         nbformat.v4.new_code_cell("predict(...)"),
-        nbformat.v4.new_code_cell("quiz(...)"),
+        nbformat.v4.new_markdown_cell("**Quiz.** Which? …"),
     ]
     notebook = nbformat.v4.new_notebook(cells=cells)
     with pytest.raises(ValueError, match="make book first"):

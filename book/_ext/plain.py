@@ -2,8 +2,9 @@
 
 A link to the glossary becomes a term, one to the sources a citation. A cell whose metadata name an
 `exercise` becomes that exercise, the cells after it that carry the tag `solution` become its
-solution, and a quotation that begins with a line in bold becomes an admonition. A line that is
-nothing but a link to a section of another file becomes that section.
+solution, and a quotation that begins with a line in bold becomes an admonition. A quiz, whose
+folded answers begin with ✓ or ✗, gets the page's own style. A line that is nothing but a link to a
+section of another file becomes that section.
 """
 
 import json
@@ -20,6 +21,10 @@ FOLD = re.compile(
 SECTION = re.compile(r'^\[[^\]]+\]\((\.\./[^ )]+) "([^"]+)"\)$', re.M)
 INCLUDED = '```{include} \\1\n:start-after: "## \\2"\n:end-before: "## "\n```'
 BOX = re.compile(r"^> \*\*(.+)\*\*\n((?:>.*\n?)+)", re.M)
+
+QUIZ = re.compile(r"\*\*Quiz\.\*\* (.+)\n\n(<details>[\s\S]+</details>)")
+ANSWER = re.compile(r"<details>(<summary>.+</summary>)\n\n([✓✗]) (?=\S)")
+VERDICTS = {"✓": ("right", "✓ Right."), "✗": ("wrong", "✗ No.")}
 
 
 def setup(app):
@@ -65,6 +70,8 @@ def _cell(name, directive):
 
 def _text(text, metadata):
     text = TERM.sub(lambda to: f"{{term}}`{to[1]} <{to[2] or to[1]}>`", text)
+    if quiz := QUIZ.fullmatch(text):
+        text = _quiz(*quiz.groups())
     text = SOURCES.sub(_cite, FOLD.sub("", text))
     text = SECTION.sub(INCLUDED, BOX.sub(_box, text))
     if "exercise" not in metadata:
@@ -74,6 +81,27 @@ def _text(text, metadata):
         f":::{{exercise}} {title[1] or ''}\n:label: {metadata['exercise']}\n\n"
         f"{text[title.end() :]}\n:::"
     )
+
+
+def _quiz(question, answers):
+    """A quiz: each answer, when opened, says whether it is right, and why.
+
+    ValueError for fewer than two answers, one without a verdict and a why, or another number of
+    right ones than one.
+    """
+    found = [mark for _, mark in ANSWER.findall(answers)]
+    if not len(found) == answers.count("<details>") >= 2 or found.count("✓") != 1:
+        raise ValueError(
+            f"the quiz {question!r} needs two or more answers, one of them right; after its "
+            f"<summary> and an empty line each goes on with ✓ or ✗ and why: got {answers}"
+        )
+    legend = f'<fieldset class="vmc-quiz"><legend>\n\n{question}\n\n</legend>'
+    return f"{legend}\n\n{ANSWER.sub(_answer, answers)}\n\n</fieldset>"
+
+
+def _answer(answer):
+    kind, verdict = VERDICTS[answer[2]]
+    return f'<details class="vmc-{kind}">{answer[1]}\n\n**{verdict}** '
 
 
 def _cite(links):

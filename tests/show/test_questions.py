@@ -1,11 +1,11 @@
-"""Predictions, quizzes and checks: what they show, what they refuse, and how the page answers."""
+"""Predictions and checks: what they show, what they refuse, and how the page answers."""
 
 import shutil
 
 import numpy as np
 import pytest
 
-from vmc_lib.show import check, predict, questions, quiz
+from vmc_lib.show import check, predict, questions
 from vmc_lib.show.scene import STATIC
 
 HEAD = """<!doctype html><html lang="en"><meta charset="utf-8"><title>Questions</title>
@@ -24,31 +24,6 @@ def shown(monkeypatch):
 @pytest.fixture
 def book(monkeypatch):
     monkeypatch.setenv("VMC_RENDER_MODE", "book")
-
-
-def ask():
-    answers = {"two": "One and *one*.", "three": "That is one too many: $1 + 1 < 3$."}
-    quiz("How much is $1 + 1$?", answers, right="two")
-
-
-def test_every_answer_says_why(shown):
-    ask()
-    [page] = shown
-    assert page.count("<details") == page.count("<summary>") == 2
-    assert page.count("✓ Right.") == page.count("✗ No.") == 1
-    assert r"\(1 + 1\)" in page
-    assert "<em>one</em>" in page
-    assert "&lt; 3" in page
-    assert page.index("two") < page.index("✓ Right.") < page.index("three")
-
-
-@pytest.mark.parametrize(
-    ("answers", "right"),
-    [({"yes": "It is."}, "yes"), ({"yes": "a", "no": ""}, "yes"), ({"yes": "a", "no": "b"}, "or")],
-)
-def test_a_quiz_that_cannot_be_answered_is_refused(answers, right):
-    with pytest.raises(ValueError, match="'Well\\?' needs two or more answers"):
-        quiz("Well?", answers, right)
 
 
 def foresee(outcome="two"):
@@ -173,24 +148,6 @@ def open_questions(offline, tmp_path, shown, book):
     return open_questions
 
 
-@pytest.mark.browser
-def test_a_quiz_is_answered_from_the_keyboard(open_questions):
-    ask()
-    page = open_questions()
-    assert not page.is_visible("text=One and")
-    page.keyboard.press("Tab")
-    page.keyboard.press("Enter")
-    assert page.is_visible("text=✓ Right.")
-    assert not page.is_visible("text=✗ No.")
-    page.keyboard.press("Tab")
-    page.keyboard.press("Space")
-    assert page.is_visible("text=✗ No.")
-    page.emulate_media(media="print")  # on paper the question stands alone
-    assert page.is_visible("text=three")
-    assert not page.is_visible("text=✗ No.")
-    page.close()
-
-
 MARKS = """() => [...document.querySelectorAll("label")]
   .map((label) => getComputedStyle(label, "::after").content.replaceAll('"', ""))"""
 
@@ -277,7 +234,6 @@ def test_the_page_checks_what_is_typed(open_questions, expected, tries):
 
 @pytest.mark.browser
 def test_questions_are_accessible(open_questions, serious):
-    ask()
     foresee()
     check(None, 3)
     check(3, 3)

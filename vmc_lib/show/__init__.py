@@ -11,7 +11,7 @@ from vmc_lib.show.estimate import Estimate, estimate
 from vmc_lib.show.figures import folded, markdown, photo_view, table
 from vmc_lib.show.grading import grade, solution
 from vmc_lib.show.palette import COLOURS
-from vmc_lib.show.questions import check, predict, quiz
+from vmc_lib.show.questions import check, predict
 from vmc_lib.show.scene import Scene
 
 __all__ = [
@@ -33,7 +33,6 @@ __all__ = [
     "markdown",
     "photo_view",
     "predict",
-    "quiz",
     "solution",
     "table",
 ]

@@ -1,6 +1,6 @@
-"""Questions to the reader: `predict` before a demo, `quiz` (read why), `check` (test an answer).
+"""Questions to the reader: `predict` before a demo, `check` to test an answer.
 
-All are plain HTML that works in a live notebook, in the built page and on paper. The page also
+Both are plain HTML that works in a live notebook, in the built page and on paper. The page also
 remembers a prediction; and as it has no kernel to run the reader's line, `check` offers a field
 to type the answer into.
 """
@@ -41,50 +41,22 @@ def predict(question, choices, outcome, why):
         )
     name = f"predict-{zlib.crc32(question.encode()):08x}"  # stays while the question does
     buttons = "".join(
-        f'<label class="{_kind(choice == outcome)}"><input type="radio" name="{name}" '
-        f'value="{html.escape(choice)}"> {inline(choice)}</label>'
+        f'<label class="vmc-{"right" if choice == outcome else "wrong"}">'
+        f'<input type="radio" name="{name}" value="{html.escape(choice)}"> {inline(choice)}</label>'
         for choice in choices
     )
-    verdict = _folded("What came out", f"{outcome}.", why, _kind(True))
-    asked = _asked("vmc-predict", question, buttons + verdict)
-    title = '<p class="admonition-title">Predict first</p>'
-    display(HTML(styled(f'<div class="admonition tip">{title}{asked}</div>')))
-
-
-def quiz(question, answers, right):
-    """Ask a multiple-choice question. Each answer, when opened, says whether it is right, and why.
-
-    `question` is Markdown; `answers` maps each answer to its why, both Markdown (an answer needs
-    words: maths alone has no name that could be read aloud); `right` is the right answer's own
-    text. Raises ValueError for fewer than two answers, an answer without a why, or a `right` that
-    is none of them.
-    """
-    if len(answers) < 2 or not all(answers.values()) or right not in answers:
-        raise ValueError(
-            f"the quiz {question!r} needs two or more answers, a why for each, and {right!r} "
-            f"among them: got {answers}"
-        )
-    choices = "".join(
-        _folded(answer, RIGHT if answer == right else "✗ No.", why, _kind(answer == right))
-        for answer, why in answers.items()
+    verdict = (
+        '<details class="vmc-right"><summary>What came out</summary>'
+        f"<p><strong>{inline(outcome)}.</strong> {inline(why)}</p></details>"
     )
-    display(HTML(styled(_asked("vmc-quiz", question, choices))))
-
-
-def _kind(right):
-    return "vmc-right" if right else "vmc-wrong"
-
-
-def _asked(kind, question, choices):
-    legend = f"<legend>{inline(question)}</legend>"
-    return f'<fieldset class="{kind}" {_OWN_KEYS}>{legend}{choices}</fieldset>'
-
-
-def _folded(summary, verdict, why, kind):
-    """A summary that opens to a verdict and its why, all Markdown."""
-    return (
-        f'<details class="{kind}"><summary>{inline(summary)}</summary>'
-        f"<p><strong>{inline(verdict)}</strong> {inline(why)}</p></details>"
+    title = '<p class="admonition-title">Predict first</p>'
+    display(
+        HTML(
+            styled(
+                f'<div class="admonition tip">{title}<fieldset class="vmc-predict" {_OWN_KEYS}>'
+                f"<legend>{inline(question)}</legend>{buttons}{verdict}</fieldset></div>"
+            )
+        )
     )
 
 

@@ -1,0 +1,82 @@
+"""A quiz is plain Markdown; the page gives it its style and says which answer is right."""
+
+import shutil
+
+import pytest
+from docutils.core import publish_parts
+from myst_parser.parsers.docutils_ import Parser
+
+from book._ext.plain import with_directives
+from vmc_lib.show.live import STATIC
+
+ANSWER = "<details><summary>{}</summary>\n\n{}\n\n</details>"
+TWO, THREE = ("two", "✓ One and *one*."), ("three", "✗ That is one too many: $1 + 1 < 3$.")
+
+
+def quiz(*answers):
+    """A quiz as the page has it, HTML."""
+    source = ["**Quiz.** How much is $1 + 1$?", *(ANSWER.format(*answer) for answer in answers)]
+    cell = {"cell_type": "markdown", "metadata": {}, "source": "\n\n".join(source)}
+    [cell] = with_directives([cell])
+    settings = {"myst_enable_extensions": ["dollarmath"], "math_output": "MathJax x"}
+    made = publish_parts(
+        cell["source"], parser=Parser(), writer_name="html5", settings_overrides=settings
+    )
+    return made["body"]
+
+
+def test_every_answer_says_why():
+    page = quiz(TWO, THREE)
+    assert page.count("<details") == page.count("<summary>") == 2
+    assert page.count("✓ Right.") == page.count("✗ No.") == 1
+    assert r"\(1 + 1\)" in page
+    assert "<em>one</em>" in page
+    assert "&lt; 3" in page
+    assert page.index("two") < page.index("✓ Right.") < page.index("three")
+    assert page.startswith('<fieldset class="vmc-quiz"><legend>')
+
+
+@pytest.mark.parametrize(
+    "answers", [[TWO], [TWO, TWO], [THREE, THREE], [TWO, ("three", "")], [TWO, ("three", "✗")]]
+)
+def test_a_quiz_that_cannot_be_answered_is_refused(answers):
+    with pytest.raises(ValueError, match=r"'How much .*' needs two or more answers, one of them"):
+        quiz(*answers)
+
+
+@pytest.fixture
+def page(offline, tmp_path):
+    """A page with a quiz."""
+    shutil.copytree(STATIC, tmp_path, dirs_exist_ok=True)
+    head = (
+        '<!doctype html><html lang="en"><meta charset="utf-8"><title>Quiz</title>'
+        '<link rel="stylesheet" href="demo.css">'
+        "<style>body { color: var(--vmc-ink); background: var(--vmc-paper); }</style>"
+    )
+    text = f"{head}<main><h1>Q</h1>{quiz(TWO, THREE)}</main>"
+    (tmp_path / "page.html").write_text(text, encoding="utf-8")
+    page = offline.new_page()
+    page.goto((tmp_path / "page.html").as_uri())
+    yield page
+    page.close()
+
+
+@pytest.mark.browser
+def test_a_quiz_is_answered_from_the_keyboard(page):
+    assert not page.is_visible("text=One and")
+    page.keyboard.press("Tab")
+    page.keyboard.press("Enter")
+    assert page.is_visible("text=✓ Right.")
+    assert not page.is_visible("text=✗ No.")
+    page.keyboard.press("Tab")
+    page.keyboard.press("Space")
+    assert page.is_visible("text=✗ No.")
+    page.emulate_media(media="print")  # on paper the question stands alone
+    assert page.is_visible("text=three")
+    assert not page.is_visible("text=✗ No.")
+
+
+@pytest.mark.browser
+def test_a_quiz_is_accessible(page, serious):
+    page.eval_on_selector_all("details", "all => all.forEach((d) => (d.open = true))")
+    assert serious(page, "html", all_of_it=True) == []
