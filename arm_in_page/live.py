@@ -26,6 +26,7 @@ from vmc_lib.motor import templates
 from vmc_lib.motor.inverse_dynamics import SAMPLES, hold, spline
 from vmc_lib.motor.planning import plan
 from vmc_lib.show.arm import arm_scene
+from vmc_lib.show.arm_plane import plane, plane_view
 from vmc_lib.show.controls import radios, slider
 from vmc_lib.show.demo import still_of
 from vmc_lib.show.figures import framed, pictures, side_by_side
@@ -33,7 +34,6 @@ from vmc_lib.show.live import STATIC as SHOW
 from vmc_lib.show.live import VENDORED, Live
 from vmc_lib.show.markup import styled
 from vmc_lib.show.palette import STYLE
-from vmc_lib.show.plane import plane, plane_view
 from vmc_lib.show.render_mode import render_mode
 from vmc_lib.show.scene import SCRIPTS as VIEWER
 

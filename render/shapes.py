@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from render.materials import rgb
-from vmc_lib.show.things import BALL, LEAN, LENGTH, RIM
+from vmc_lib.show.props import BALL, LEAN, LENGTH, RIM
 
 FEATHERS = 16
 FEATHER = np.array([0.88, 0.86, 0.80])

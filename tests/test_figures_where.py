@@ -33,8 +33,8 @@ def test_the_button_is_there_only_where_a_kernel_answers(monkeypatch):
     image = np.zeros((400, 600, 3), np.uint8)
     for render_mode in ("book", "test", "live"):
         monkeypatch.setenv("VMC_RENDER_MODE", render_mode)
-        where.your_own(lambda image: "<p>drawn</p>", image, "caption", "alt")
+        where.photo_upload(lambda image: "<p>drawn</p>", image, "caption", "alt")
     assert figures == [("<p>drawn</p>", "caption", "alt")] * 3
     [button] = shown
     assert 'type="file"' in button.page
-    assert button.scripts == ["redrawn.js", "upload.js"]
+    assert button.scripts == ["canvas.js", "upload.js"]

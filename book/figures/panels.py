@@ -6,6 +6,7 @@ import numpy as np
 from vmc_lib.arm.model import MUSCLES
 from vmc_lib.show.figures import margins
 from vmc_lib.show.palette import COLOURS
+from vmc_lib.show.svg_renderer import text_width
 
 # What straightens the elbow is blue; what bends it is orange, or red where it spans no shoulder.
 STYLES = {
@@ -33,3 +34,31 @@ def muscle_lines(ax, x, values):
     for name, line in zip(MUSCLES, np.transpose(values), strict=True):
         colour, style = STYLES[name]
         ax.plot(x, line, style, color=COLOURS[colour], label=name)
+
+
+def curves(ax, x, lines, now=None, **style):
+    """Curves with their points: `lines` is name -> (n,) over x (n,); `now`, (x, y), is ringed red."""
+    for name, y in lines.items():
+        ax.plot(x[: len(y)], y, ".-", label=name, **style)
+    if now:
+        ax.plot(*now, "o", ms=9, color=COLOURS["red"], clip_on=False)
+    if len(lines) > 1:
+        ax.legend()
+
+
+def strip_plot(rows, measure, middle=np.median, xlim=None, text="{:.1f}"):
+    """Every value of each row, name -> (n,), as a dot on a logarithmic axis, and their middle.
+
+    A figure; the middle of a row stands as a bar, and as `text` after its name.
+    """
+    fig, ax = panels(size=(5.5, 0.9 + 0.5 * len(rows)))
+    aside = np.random.default_rng(0).uniform(-0.25, 0.25, max(map(len, rows.values())))
+    names = [f"{name}: {text.format(middle(values))}" for name, values in rows.items()]
+    for row, values in enumerate(rows.values()):
+        ax.plot(values, row + aside[: len(values)], "o", ms=4, alpha=0.5, label=names[row])
+        ax.plot(middle(values), row, "|", ms=26, mew=3, color=COLOURS["ink"])
+    ax.set_yticks(range(len(names)), names)
+    ax.set(xscale="log", xlim=xlim, xlabel=measure, ylim=(len(names) - 0.5, -0.5))
+    ax.xaxis.set_major_formatter("{x:g}")
+    margins(fig, left=0.15 + max(map(text_width, names)), top=0.12)
+    return fig

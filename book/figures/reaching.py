@@ -9,8 +9,8 @@ from matplotlib.collections import LineCollection
 from book.figures.panels import panels
 from vmc_lib.arm.model import MUSCLES
 from vmc_lib.motor.planning import plan
+from vmc_lib.show.arm_plane import plane
 from vmc_lib.show.palette import COLOURS
-from vmc_lib.show.plane import plane
 
 
 def shares(ax, target, points, weights):
@@ -28,6 +28,18 @@ def ends(ax, targets, reached):
     threads(ax, targets, reached, color=COLOURS["red"], lw=1)
     ax.plot(*targets.T, "o", ms=8, mfc="none", mew=1.8, color=COLOURS["green"])
     ax.plot(*reached.T, "o", ms=4, color=COLOURS["red"])
+
+
+def reaches(ax, templates, targets, reached, title=""):
+    """The plane with its templates (N, 2), and reaches: `ends` of targets and hands (…, 2)."""
+    plane(ax, templates)
+    ends(ax, targets, reached)
+    ax.set_title(title)
+
+
+def norm_mm(vectors):
+    """How long vectors (…, d) in m are, in mm."""
+    return 1000 * np.linalg.norm(vectors, axis=-1)
 
 
 def threads(ax, tails, tips, **style):

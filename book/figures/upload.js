@@ -8,7 +8,7 @@ const vmcUpload = (box, _, ask) => {
     const bitmap = await createImageBitmap(file);
     const scale = Math.min(1, LARGEST / Math.max(bitmap.width, bitmap.height));
     const canvas = document.createElement("canvas");
-    vmcRedrawn(bitmap, scale, canvas);
+    vmcDrawScaled(bitmap, scale, canvas);
     return canvas.toDataURL("image/jpeg", 0.92);
   };
 

@@ -102,8 +102,8 @@ def rising(best, now):
 
 
 STATIC = Path(__file__).parents[1] / "_static"
-REDRAWN = STATIC / "redrawn.js"
-DISSOLVE = """<div class="vmc-dissolve"><div class="vmc-picture" style="display: grid;
+CANVAS = STATIC / "canvas.js"
+SEGMENTATION = """<div class="vmc-segmentation"><div class="vmc-picture" style="display: grid;
 justify-items: center">PHOTO<canvas aria-hidden="true" style="LAYER" hidden></canvas></div>
 <form class="vmc-controls" autocomplete="off">SLIDERS
 <div class="vmc-control"><div class="vmc-options">
@@ -116,7 +116,7 @@ LAYER = "grid-area: 1 / 1; max-width: 100%; height: auto"
 CENTRED = "text-align: center"
 
 
-def dissolving(image, caption, alt):
+def segmentation_demo(image, caption, alt):
     """Show how an image (height, width, 3) falls into segments, which grow back, in the page.
 
     The reader may put a photo of their own in its place; it is looked at there and sent nowhere.
@@ -124,16 +124,16 @@ def dissolving(image, caption, alt):
     photo = f'<img alt="{escape(alt)}" src="{data_uri(image)}" style="{LAYER}">'
     scale = {"min": 4.64, "max": 9.64, "step": 0.01, "value": 6.64}  # powers of two: 25 to 800
     merged = {"min": 0, "max": 1, "step": 0.001, "value": 0}
-    sliders = slider("dissolve-k", "scale k", "100", scale)
-    sliders += slider("dissolve-merged", "merged", "", merged, width=9)
+    sliders = slider("segmentation-k", "scale k", "100", scale)
+    sliders += slider("segmentation-merged", "merged", "", merged, width=9)
     parts = {"PHOTO": photo, "LAYER": LAYER, "CENTRED": CENTRED, "SLIDERS": sliders}
-    page = re.sub("|".join(parts), lambda name: parts[name[0]], DISSOLVE)
+    page = re.sub("|".join(parts), lambda name: parts[name[0]], SEGMENTATION)
     if render_mode() == "book":
         display(HTML(framed(page, caption)))
     elif render_mode() == "live":
-        scripts = [REDRAWN, STATIC / "selective_search.js", STATIC / "dissolve.js"]
-        display(HTML(styled(still_of(alt, [photo], "dissolve"))))
-        display(Live(framed(page, "", "dissolve"), "vmcDissolve", scripts))
+        scripts = [CANVAS, STATIC / "selective_search.js", STATIC / "segmentation_demo.js"]
+        display(HTML(styled(still_of(alt, [photo], "segmentation"))))
+        display(Live(framed(page, "", "segmentation"), "vmcSegmentationDemo", scripts))
         display(HTML(framed("", caption)))
 
 
@@ -142,14 +142,14 @@ UPLOAD = """<div class="vmc-demo"><form class="vmc-control">
 <span role="status"></span></form><div class="vmc-picture"></div></div>"""
 
 
-def your_own(draw, example, caption, alt):
+def photo_upload(draw, example, caption, alt):
     """Show `draw(example)`; in a live kernel, a button puts the reader's own photo in its place.
 
     `draw` takes an image of any size and returns markup. The photo stays in the kernel.
     """
     figure(draw(example), caption, alt)
     if render_mode() == "live":
-        scripts = [REDRAWN, Path(__file__).with_name("upload.js")]
+        scripts = [CANVAS, Path(__file__).with_name("upload.js")]
         display(Live(UPLOAD, "vmcUpload", scripts, {"photo": lambda sent: draw(received(sent))}))
 
 

@@ -8,7 +8,7 @@ from arm_in_page.live import experience
 from book.figures.panels import panels
 from book.figures.whole_arm import BONES, VIEWS, lines, placed, view_from
 from reproduce.whole_arm import bones, habits, plant
-from vmc_lib.show import COLOURS, things
+from vmc_lib.show import COLOURS, props
 from vmc_lib.show.scene import Scene
 
 STRENGTH = 1.5e6  # N/m²: a drawn belly's cross-section is its force / STRENGTH (ours, for the eye)
@@ -67,7 +67,7 @@ def pictures(past, target):
     space = Scene()
     space.look((0.62, 0.12, 0.92), at=(0.27, -0.06, 0.0))
     for k, colour in enumerate(("green", "red", "purple")):  # the target, both reaches' ends
-        things.ball(space[f"goal/ball{k}"], target, colour)
+        props.ball(space[f"goal/ball{k}"], target, colour)
         space[f"goal/ball{k}"].set_property("visible", k == 0)  # until a reach ends there
     plots = []
     for title, (x, y, label) in VIEWS.items():

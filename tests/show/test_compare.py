@@ -101,7 +101,8 @@ def test_a_heat_map_is_described_by_its_range_and_not_by_its_colour_bar():
 
 def test_words_in_markup_are_its_description_and_what_has_none_needs_one():
     photo = photo_view(np.zeros((9, 9, 3), np.uint8), [((1, 2, 3, 4), "cup <1>", "blue")])
-    assert alt_text((photo, "<p>It is <b>3</b>.</p>")) == "A photo with labels: cup <1> It is 3."
-    for silent in (np.eye(3), Scene(), "<svg></svg>", (photo, np.eye(3))):
+    assert alt_text((photo, "<p>It is <b>3</b>.</p>")) == "A photo with labels: cup <1>. It is 3."
+    assert alt_text((Scene(), "<p>It misses.</p>")) == "It misses."
+    for silent in (np.eye(3), Scene(), "<svg></svg>"):
         with pytest.raises(ValueError, match="give `alt`"):
             alt_text(silent)

@@ -9,7 +9,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
-from vmc_lib.show import figures, folded, photo_view, table
+from vmc_lib.show import details, figures, photo_view, table
 from vmc_lib.show.figures import pictures
 from vmc_lib.show.markup import number
 from vmc_lib.show.palette import COLOURS, ON_PHOTO
@@ -119,7 +119,7 @@ def test_only_two_panels_of_one_plot_each_are_stackable():
 def test_what_is_folded_is_still_markdown(monkeypatch):
     shown = []
     monkeypatch.setattr(figures, "display", lambda text: shown.append(text.data))
-    folded("The numbers", "| a |")
+    details("The numbers", "| a |")
     assert shown == ["<details><summary>The numbers</summary>\n\n| a |\n\n</details>"]
 
 

@@ -10,7 +10,7 @@ from meshcat import geometry as g
 from meshcat.transformations import translation_matrix
 
 from vmc_lib import photos
-from vmc_lib.show import Scene, things
+from vmc_lib.show import Scene, props
 from vmc_lib.show.arm import BEYOND, arm_scene
 
 
@@ -89,11 +89,11 @@ def test_what_is_reached_for_lies_as_far_beyond_it_as_the_hand_beyond_the_wrist(
 def test_shuttlecock_and_cup_lie_as_in_the_photo(pose):
     seen = [p for level in photos.LEVELS for p in photos.load(level, "test") if p.pose == pose]
     for photo in seen[:10]:
-        matrix = things.resting(photo)
-        middle = matrix @ [0, things.LENGTH / 2, 0, 1]
+        matrix = props.resting(photo)
+        middle = matrix @ [0, props.LENGTH / 2, 0, 1]
         assert np.allclose(middle[:3], photo.target)
         assert np.allclose(matrix[:3, :3].T @ matrix[:3, :3], np.eye(3))
-        rim = matrix @ [0, things.LENGTH, 0, 1]
+        rim = matrix @ [0, props.LENGTH, 0, 1]
         x0, y0, x1, y1 = photo.boxes["shuttlecock"]
         [[x, y]] = photo.camera.project(rim[:3])
         assert x0 < x < x1

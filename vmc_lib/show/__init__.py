@@ -8,7 +8,7 @@ from vmc_lib.show.compare import compare, dot_plot
 from vmc_lib.show.controls import Choice, Pad, Slider, Switch
 from vmc_lib.show.demo import explore, figure
 from vmc_lib.show.estimate import Estimate, estimate
-from vmc_lib.show.figures import folded, markdown, photo_view, table
+from vmc_lib.show.figures import details, markdown, note, photo_view, table
 from vmc_lib.show.grading import grade, solution
 from vmc_lib.show.palette import COLOURS
 from vmc_lib.show.questions import check, predict
@@ -24,13 +24,14 @@ __all__ = [
     "Switch",
     "check",
     "compare",
+    "details",
     "dot_plot",
     "estimate",
     "explore",
     "figure",
-    "folded",
     "grade",
     "markdown",
+    "note",
     "photo_view",
     "predict",
     "solution",

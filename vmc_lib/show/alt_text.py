@@ -7,38 +7,42 @@ import numpy as np
 
 from vmc_lib.show.data_table import panels
 
-SERIES, NAMES = 4, 12  # at most so many told one by one
+SERIES, NAMES = 4, 12  # at most so many described one by one
 
 
-def alt_text(drawn):
+def alt_text(picture):
     """What a draw function returned, in words: the data of its plots, the text in its markup.
 
-    ValueError for a picture that says nothing by itself, as an image array or a scene.
+    An image array or a scene says nothing by itself: ValueError where nothing stands beside it.
     """
-    parts = drawn if isinstance(drawn, tuple) else (drawn,)
+    parts = picture if isinstance(picture, tuple) else (picture,)
     words = [" ".join(filter(None, map(_sentence, panels(p)))) or _labels(p) for p in parts]
-    if not all(words):
+    if not any(words):
         raise ValueError("a picture without words or data does not describe itself: give `alt`")
-    return " ".join(words).replace("$", "")
+    return " ".join(filter(None, words)).replace("$", "")
 
 
 def _labels(part):
     """The text in markup, label by label."""
     plain = re.sub(r"</?(?:b|em|strong)>", "", part) if isinstance(part, str) else ""
     labels = re.findall(r">\s*([^<>]*\w[^<>]*?)\s*<", plain)
-    kind = "A photo with labels: " if labels and "<image" in plain else ""
-    return kind + html.unescape("; ".join(labels))
+    kind = "A photo with labels: " if "<image" in plain else ""
+    return (kind + html.unescape("; ".join(labels))).rstrip(".") + "." if labels else ""
 
 
 def _sentence(panel):
     """What a plot shows; empty where there is nothing to say."""
     what = panel.value if panel.named else f"{panel.value} against {panel.key}"
     brief = sum(len(one.keys) for one in panel.series) > NAMES
-    said = [_words(panel, one, brief) for one in panel.series[:SERIES]]
-    said += [f"and {len(panel.series) - SERIES} more"] * (len(panel.series) > SERIES)
-    said += [panel.image] * bool(panel.image)
+    clauses = [_words(panel, one, brief) for one in panel.series[:SERIES]]
+    clauses += [f"and {len(panel.series) - SERIES} more"] * (len(panel.series) > SERIES)
+    clauses += [panel.image] * bool(panel.image)
     subject = [panel.title, what * bool(panel.series) * (what != "y against x")]
-    return ": ".join([*dict.fromkeys(filter(None, subject)), "; ".join(said)]) + "." if said else ""
+    return (
+        ": ".join([*dict.fromkeys(filter(None, subject)), "; ".join(clauses)]) + "."
+        if clauses
+        else ""
+    )
 
 
 def _words(panel, one, brief):
@@ -50,17 +54,17 @@ def _words(panel, one, brief):
 
     low, high = one.values.argmin(), one.values.argmax()
     if panel.named and not brief:
-        said = ", ".join(map(point, range(len(one.keys))))
+        text = ", ".join(map(point, range(len(one.keys))))
     elif panel.named:
-        said = f"from {point(low)} to {point(high)}"
+        text = f"from {point(low)} to {point(high)}"
     elif len(one.keys) == 1:
-        said = point(0)
+        text = point(0)
     elif one.kind.endswith("dots") or (np.diff(one.keys) <= 0).any():
         across = "{} to {}".format(*map(panel.text, (one.keys.min(), one.keys.max())))
-        said = f"{len(one.keys)} points from {one.at(low)} to {one.at(high)}, {panel.key} {across}"
+        text = f"{len(one.keys)} points from {one.at(low)} to {one.at(high)}, {panel.key} {across}"
     else:
-        said = f"from {point(0)} to {point(-1)}"
+        text = f"from {point(0)} to {point(-1)}"
         ends = one.at(0), one.at(-1)
         beyond = [(w, i) for w, i in (("lowest", low), ("highest", high)) if one.at(i) not in ends]
-        said += "".join(f", {word} {point(i)}" for word, i in beyond)
-    return f"{one.name}: {said}" if one.name != panel.value else said
+        text += "".join(f", {word} {point(i)}" for word, i in beyond)
+    return f"{one.name}: {text}" if one.name != panel.value else text

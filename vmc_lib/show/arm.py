@@ -12,7 +12,7 @@ import numpy as np
 
 from vmc_lib import NoReach
 from vmc_lib.arm.kinematics import to_world, turn_towards
-from vmc_lib.show import things
+from vmc_lib.show import props
 from vmc_lib.show.anatomy import anatomy
 from vmc_lib.show.scene import Scene
 
@@ -40,12 +40,12 @@ def arm_scene(q, activation=6 * (0,), turn=0.0, photo=None, balls=(), grasp=Fals
     scene.tell("motion", {name: value.round(4).tolist() for name, value in motion.items()})
     final = turns[-1] or (_turn_for(photo.target) if photo else 0.0)  # before a reach: its own
     beyond = to_world(BEYOND, final) - to_world(np.zeros(3), final)
-    scene["goal"].set_transform(things.place(beyond))
+    scene["goal"].set_transform(props.place(beyond))
     if photo:
-        things.shuttlecock(scene["goal/shuttlecock"], photo)
-        things.cup(scene["goal/cup"], photo)
+        props.shuttlecock(scene["goal/shuttlecock"], photo)
+        props.cup(scene["goal/cup"], photo)
     for i, (position, colour) in enumerate(balls):
-        things.ball(scene[f"goal/ball{i}"], position, colour)
+        props.ball(scene[f"goal/ball{i}"], position, colour)
         if colour == "green":
             scene.tell("target", np.round(position, 5).tolist())
     return scene
@@ -66,6 +66,6 @@ def _furniture(table):
     scene.look(np.add(at, far * np.array([0.46, 0.25, 0.78])), at)
     scene.tell("anatomy", anatomy() | {"beyond": BEYOND.tolist(), "every": EVERY / 1000})
     if table:
-        things.table(scene["table"])
-        scene["table"].set_transform(things.place((0, BEYOND[1], 0)))  # under what lies on it
+        props.table(scene["table"])
+        scene["table"].set_transform(props.place((0, BEYOND[1], 0)))  # under what lies on it
     return scene

@@ -9,7 +9,7 @@ from vmc_lib.show.demo import figure
 from vmc_lib.show.estimate import estimate
 from vmc_lib.show.figures import margins
 from vmc_lib.show.palette import COLOURS
-from vmc_lib.show.pen import wide
+from vmc_lib.show.svg_renderer import text_width
 
 
 def compare(series, measure, caption, published=None, xlim=None, alt=None):
@@ -25,7 +25,7 @@ def dot_plot(series, measure, published=None, xlim=None):
     paper printed, shown as ticks. Levels or measures are small multiples: a tuple of such figures.
     """
     names = list(dict.fromkeys(name for rows in series.values() for name in rows))
-    room = 0.15 + max(map(wide, names))  # for the longest name
+    room = 0.15 + max(map(text_width, names))  # for the longest name
     size = max(4.2, room + 2.4), 0.95 + len(names) * (0.16 + 0.14 * len(series))
     fig, ax = plt.subplots(figsize=size, layout="none")
     for k, (label, rows) in enumerate(series.items()):

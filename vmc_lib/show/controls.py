@@ -69,13 +69,13 @@ class Slider(Control):
     play: bool | str = False
 
     def html(self, name, stride):
-        shown, texts = self.texts[self.first], json.dumps(self.texts, ensure_ascii=False)
+        text, texts = self.texts[self.first], json.dumps(self.texts, ensure_ascii=False)
         along = {"min": 0, "max": len(self.values) - 1, "value": self.first}
-        said = {"data-stride": stride, "data-texts": texts, "aria-valuetext": shown}
+        state = {"data-stride": stride, "data-texts": texts, "aria-valuetext": text}
         unasked = " data-unasked" * (self.play == "unasked")
         play = f'<button type="button" class="vmc-play" aria-pressed="false"{unasked}>Play</button>'
         widest = max(len(text) + 0.6 * sum(c in "mwMW%" for c in text) for text in self.texts)
-        return slider(name, self.label, shown, along | said, play if self.play else "", widest)
+        return slider(name, self.label, text, along | state, play if self.play else "", widest)
 
 
 @dataclass(frozen=True)
@@ -128,8 +128,8 @@ class Pad(Control):
         return f'<div class="vmc-pad" data-grid="{grid}">{twins}</div>'
 
 
-def slider(name, label, shown, attributes, after="", width=0):
-    """A range input named `name` as markup: before it its label, behind it the value `shown`.
+def slider(name, label, text, attributes, after="", width=0):
+    """A range input named `name` as markup: before it its label, behind it the value as `text`.
 
     `attributes` are the input's own, by name; `after` is markup that follows. The value has room
     for `width` letters: nothing moves under the reader's hand when another one is shown.
@@ -137,7 +137,7 @@ def slider(name, label, shown, attributes, after="", width=0):
     return (
         f'<div class="vmc-control"><label for="{name}">{html.escape(label)}</label>'
         f'<input type="range" id="{name}"{_markup(attributes)}>'
-        f'<output for="{name}" style="--widest: {max(width, 5)}ch">{html.escape(shown)}</output>'
+        f'<output for="{name}" style="--widest: {max(width, 5)}ch">{html.escape(text)}</output>'
         f"{after}</div>"
     )
 

@@ -51,25 +51,27 @@ class Panel(NamedTuple):
     image: str  # what an image or a heat map in it shows
 
 
-def figures_of(drawn):
+def figures_of(picture):
     """The matplotlib figures in what a draw function returned."""
-    return [p for p in (drawn if isinstance(drawn, tuple) else (drawn,)) if isinstance(p, Figure)]
+    return [
+        p for p in (picture if isinstance(picture, tuple) else (picture,)) if isinstance(p, Figure)
+    ]
 
 
-def data_tables(drawn):
+def data_tables(picture):
     """A list of the `DataTable` of what a draw function returned; empty where nothing is a figure.
 
     A row for each key and a column for each series, or where their keys differ a row for each
     point. Of a long line some points are listed, evenly spread over the axis; of many lines the
     first, and how many more there are.
     """
-    tables = [_table(panel) for panel in panels(drawn) if panel.series]
-    return [DataTable("\n".join(tables))] if figures_of(drawn) else []
+    tables = [_table(panel) for panel in panels(picture) if panel.series]
+    return [DataTable("\n".join(tables))] if figures_of(picture) else []
 
 
-def panels(drawn):
+def panels(picture):
     """The `Panel`s of what a draw function returned, without colour bars."""
-    axes = (ax for figure in figures_of(drawn) for ax in figure.axes)
+    axes = (ax for figure in figures_of(picture) for ax in figure.axes)
     return [_panel(ax) for ax in axes if ax.get_label() != "<colorbar>"]
 
 

@@ -27,13 +27,13 @@ _MARKDOWN = MarkdownIt().use(
 _MINUS = re.compile(r"(\$[^$]*\$|`[^`]*`)|(?<=[\s(*])-(?=\.?\d)")
 
 
-def pictures(drawn, name):
+def pictures(picture, name):
     """The parts of what a draw function returned: a list of markup strings and `Scene`s.
 
     `name` is unique on the page and the same for all states of a demo: it salts the identifiers
     inside a plot, so that pictures share none of them but the states of one picture share all.
     """
-    parts = drawn if isinstance(drawn, tuple) else (drawn,)
+    parts = picture if isinstance(picture, tuple) else (picture,)
     return [_markup(part, f"{name}-{place}") for place, part in enumerate(parts)]
 
 
@@ -57,7 +57,7 @@ def photo_view(image, boxes=(), points=(), axes=None):
 
     `boxes` holds (box, label, colour name) with box = (x0, y0, x1, y1) in pixels; `points` holds
     ((x, y), label, colour name). Labels may be empty. `axes` is what a `Pad` reads at the photo's
-    left, right, bottom and top edge: pixels, unless told otherwise.
+    left, right, bottom and top edge: pixels, by default.
     """
     height, width = image.shape[:2]
     left, right, bottom, top = axes or (0, width, height, 0)
@@ -101,6 +101,11 @@ def margins(fig, left=0.7, top=0.3):
     fig.subplots_adjust(left / width, 0.5 / height, 1 - 0.2 / width, 1 - top / height)
 
 
+def note(text):
+    """A line of text as a picture (HTML), to stand beside others and to move with a demo."""
+    return f'<p class="vmc-strip">{html.escape(text)}</p>'
+
+
 def inline(text):
     """A line of Markdown, maths between dollar signs, as HTML."""
     return _MARKDOWN.renderInline(text)
@@ -135,10 +140,10 @@ def side_by_side(parts, alt):
 
 def markdown(text):
     """Show Markdown; an f-string puts the run's own numbers into a sentence."""
-    display(Markdown(_MINUS.sub(lambda found: found[1] or "−", text)))
+    display(Markdown(_MINUS.sub(lambda match: match[1] or "−", text)))
 
 
-def folded(summary, text):
+def details(summary, text):
     """Show Markdown that stays folded under its summary until the reader asks for it."""
     markdown(f"<details><summary>{summary}</summary>\n\n{text}\n\n</details>")
 

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from IPython.display import HTML, display
 
-from vmc_lib.show.figures import folded, inline, markdown
+from vmc_lib.show.figures import details, inline, markdown
 from vmc_lib.show.questions import NOT_YET, RIGHT, WRONG, agree, verdict
 from vmc_lib.show.render_mode import render_mode
 
@@ -34,11 +34,11 @@ def grade(function, exercise):
 
     In a test (`VMC_RENDER_MODE=test`) a wrong one raises AssertionError.
     """
-    said = feedback(function, exercise)
-    if said.startswith(WRONG) and render_mode() == "test":
-        raise AssertionError(f"grade: {said}")
-    unread = said == EMPTY and render_mode() == "book"
-    display(HTML(verdict(inline(NEEDS_KERNEL if unread else said))))
+    message = feedback(function, exercise)
+    if message.startswith(WRONG) and render_mode() == "test":
+        raise AssertionError(f"grade: {message}")
+    unread = message == EMPTY and render_mode() == "book"
+    display(HTML(verdict(inline(NEEDS_KERNEL if unread else message))))
 
 
 def solution(exercise):
@@ -47,7 +47,7 @@ def solution(exercise):
     if render_mode() == "book":
         markdown(lines)
     else:
-        folded("Show our lines", lines)
+        details("Show our lines", lines)
 
 
 def source(exercise):
@@ -87,8 +87,8 @@ def _example(exercise, case, got, wanted):
     """One case in words: its inputs, what is right, and what came instead."""
     names = inspect.signature(exercise.right).parameters
     inputs = zip(names, exercise.draw(np.random.default_rng(case)), strict=True)
-    given = ", ".join(_code(f"{name} = {_short(value)}") for name, value in inputs)
-    return f"Where {given}, {_code(_short(wanted))} is right; yours gives {_code(_short(got))}."
+    arguments = ", ".join(_code(f"{name} = {_short(value)}") for name, value in inputs)
+    return f"Where {arguments}, {_code(_short(wanted))} is right; yours gives {_code(_short(got))}."
 
 
 def _short(value):
@@ -100,10 +100,10 @@ def _short(value):
     if isinstance(value, float):
         return f"{value:.4g}"
     with np.printoptions(precision=4, suppress=True):
-        said = " ".join(str(value).split())
+        text = " ".join(str(value).split())
     if getattr(value, "ndim", 0) < 2:
-        return said
-    return f"{said}, shape {value.shape}" if value.size <= 25 else f"numbers of shape {value.shape}"
+        return text
+    return f"{text}, shape {value.shape}" if value.size <= 25 else f"numbers of shape {value.shape}"
 
 
 def _code(text):

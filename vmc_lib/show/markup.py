@@ -11,8 +11,8 @@ from matplotlib.ticker import AutoLocator, FixedLocator, MaxNLocator
 
 from vmc_lib.show.live import STATIC
 from vmc_lib.show.palette import COLOURS, STYLE, css
-from vmc_lib.show.pen import drawn
 from vmc_lib.show.render_mode import render_mode
+from vmc_lib.show.svg_renderer import figure_svg
 
 _NAMED = {code: css(name) for name, code in COLOURS.items()}
 _NAMED |= {"#000000": css("ink"), "#ffffff": css("paper")}
@@ -44,7 +44,7 @@ def svg(fig, salt):
     """The figure as SVG, its text as text and its colours as CSS variables; closes the figure."""
     _set_ticks(fig)
     with plt.rc_context(STYLE | {"svg.hashsalt": salt}):
-        svg = drawn(fig)
+        svg = figure_svg(fig)
     plt.close(fig)  # or the notebook would show it a second time
     least = 0.62 * 72 * fig.get_figwidth()  # on a phone a wide plot scrolls, its words stay legible
     root = f'<svg {_SVG_ROOT} {_axes(fig)} style="--least: {least:.0f}pt" '
@@ -65,8 +65,8 @@ def _set_ticks(fig):
         low, high = sorted(axis.get_view_interval())
         if isinstance(locator := axis.get_major_locator(), AutoLocator):
             ticks = _STEPS.tick_values(low, high)
-            seen = np.abs(ticks - (low + high) / 2) <= (0.5 + 1e-9) * (high - low)
-            axis.set_ticks(np.clip(ticks[seen], low, high))
+            visible = np.abs(ticks - (low + high) / 2) <= (0.5 + 1e-9) * (high - low)
+            axis.set_ticks(np.clip(ticks[visible], low, high))
         if axis.get_scale() == "log" and (high > 10 * low or isinstance(locator, FixedLocator)):
             axis.minorticks_off()  # they bear no numbers
 

@@ -107,12 +107,12 @@ def readings(text):
 
     Empty where it is no number. questions.js reads what is typed into a page by the same rule.
     """
-    found = _NUMBER.fullmatch(text.strip().replace("−", "-"))
-    if not found:
+    match = _NUMBER.fullmatch(text.strip().replace("−", "-"))
+    if not match:
         return []
-    over, under = (float(part.replace(",", ".")) for part in (found[1], found[2] or "1"))
+    over, under = (float(part.replace(",", ".")) for part in (match[1], match[2] or "1"))
     value = over / under if under else np.nan
-    return [value, value / 100] if found[3] == "%" else [value]
+    return [value, value / 100] if match[3] == "%" else [value]
 
 
 def verdict(text):

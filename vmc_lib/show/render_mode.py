@@ -10,6 +10,6 @@ def render_mode():
 
     ValueError for anything else.
     """
-    if (told := os.environ.get("VMC_RENDER_MODE") or "live") not in MODES:
-        raise ValueError(f"VMC_RENDER_MODE={told!r}: must be one of {MODES}")
-    return told
+    if (mode := os.environ.get("VMC_RENDER_MODE") or "live") not in MODES:
+        raise ValueError(f"VMC_RENDER_MODE={mode!r}: must be one of {MODES}")
+    return mode

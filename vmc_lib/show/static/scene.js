@@ -75,7 +75,7 @@ const vmcScene = (() => {
       this.show(this.messages);
       if (posed) this.pose(posed);
       this.onstart?.();
-      vmcHands(this, canvas);
+      vmcScenePointer(this, canvas);
       const draw = () => {
         if (this.viewer !== viewer) return;
         if (viewer.needs_render) viewer.render();

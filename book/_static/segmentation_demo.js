@@ -1,5 +1,5 @@
 /* A photo falls into segments, which grow back: ours, or the reader's own, which never leaves the page. */
-const vmcDissolve = (box) => {
+const vmcSegmentationDemo = (box) => {
   "use strict";
 
   const AREA = 600 * 400, PLAY_TIME = 9000; // pixels, as our photos have; ms
@@ -9,7 +9,7 @@ const vmcDissolve = (box) => {
   let context, photo, search, tree, asked = 0;
 
   const look = (picture) => {
-    context = vmcRedrawn(picture, Math.sqrt(AREA / (picture.width * picture.height)), canvas);
+    context = vmcDrawScaled(picture, Math.sqrt(AREA / (picture.width * picture.height)), canvas);
     photo = context.getImageData(0, 0, canvas.width, canvas.height);
     search = tree = null;
     canvas.hidden = true;
@@ -96,4 +96,4 @@ const vmcDissolve = (box) => {
 };
 
 /* A kernel starts its own. */
-if (!self.vmcKernel) document.querySelectorAll(".vmc-demo:has(> .vmc-dissolve)").forEach(vmcDissolve);
+if (!self.vmcKernel) document.querySelectorAll(".vmc-demo:has(> .vmc-segmentation)").forEach(vmcSegmentationDemo);

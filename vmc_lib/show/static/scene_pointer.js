@@ -1,6 +1,6 @@
 /* A mouse or a finger on a scene: dragging turns it, pointing at a muscle names it. Fingers that move
    up or down scroll the page. */
-const vmcHands = (view, canvas) => {
+const vmcScenePointer = (view, canvas) => {
   "use strict";
 
   const tip = document.createElement("span");

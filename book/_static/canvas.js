@@ -1,5 +1,5 @@
 /* A picture, drawn anew on a canvas, `scale` times as large; what is transparent stands on white. */
-const vmcRedrawn = (picture, scale, canvas) => {
+const vmcDrawScaled = (picture, scale, canvas) => {
   [canvas.width, canvas.height] = [picture.width, picture.height].map((side) => Math.round(scale * side));
   const context = canvas.getContext("2d", { willReadFrequently: true });
   context.fillStyle = "white";

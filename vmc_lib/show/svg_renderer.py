@@ -1,4 +1,4 @@
-"""matplotlib's writer of SVG, which measures a font and a word once, not whenever it is asked.
+"""matplotlib's SVG renderer with cached text metrics: each font and word is measured once.
 
 To lay a plot out, matplotlib asks some hundred times how large its words are.
 """
@@ -12,7 +12,7 @@ from matplotlib.font_manager import FontProperties, findfont, get_font
 from matplotlib.textpath import text_to_path
 
 
-class _Pen(RendererSVG):
+class _CachedRenderer(RendererSVG):
     def __init__(self, *args, **named):
         super().__init__(*args, **named)
         self._text2path = text_to_path  # one for all pictures: it knows the maths it has read
@@ -25,21 +25,23 @@ class _Pen(RendererSVG):
 
 
 class _Canvas(FigureCanvasSVG):
-    def get_renderer(self):  # the layout measures with the pen that draws
-        return self.pen
+    def get_renderer(self):  # the layout measures with the renderer that draws
+        return self.renderer
 
 
-def drawn(fig):
+def figure_svg(fig):
     """A figure as SVG, the very text that matplotlib's own canvas writes."""
     canvas, text, dpi = _Canvas(fig), io.StringIO(), fig.dpi
     fig.dpi = 72  # points
-    canvas.pen = _Pen(*72 * fig.get_size_inches(), text, image_dpi=dpi, metadata={"Date": None})
-    fig.draw(canvas.pen)
-    canvas.pen.finalize()
+    canvas.renderer = _CachedRenderer(
+        *72 * fig.get_size_inches(), text, image_dpi=dpi, metadata={"Date": None}
+    )
+    fig.draw(canvas.renderer)
+    canvas.renderer.finalize()
     return text.getvalue()
 
 
-def wide(words):
+def text_width(words):
     """How wide a plot's words stand on a line, in inches."""
     return _size(words, FontProperties(), is_math_text(words))[0] / 72
 
@@ -54,7 +56,11 @@ def _size(s, prop, ismath):
 def _height(prop):
     """Ascent, descent and line gap of a font, in points; None where its file says nothing."""
     font = get_font(findfont(prop))
-    if not (told := font.get_sfnt_table("OS/2")):
+    if not (metrics := font.get_sfnt_table("OS/2")):
         return None, None, None
     em = prop.get_size_in_points() / font.get_sfnt_table("head")["unitsPerEm"]
-    return em * told["sTypoAscender"], -em * told["sTypoDescender"], em * told["sTypoLineGap"]
+    return (
+        em * metrics["sTypoAscender"],
+        -em * metrics["sTypoDescender"],
+        em * metrics["sTypoLineGap"],
+    )

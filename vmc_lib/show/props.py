@@ -67,8 +67,8 @@ def resting(photo):
     outline = np.vstack([rim, 0.4 * rim - [0, 0.4 * LENGTH - BALL, 0]])  # skirt and cork
 
     def off(pose):
-        seen = photo.camera.project(outline @ pose[:3, :3].T + pose[:3, 3])
-        return np.abs([seen.min(axis=0), seen.max(axis=0)] - box).sum()
+        pixels = photo.camera.project(outline @ pose[:3, :3].T + pose[:3, 3])
+        return np.abs([pixels.min(axis=0), pixels.max(axis=0)] - box).sum()
 
     box = photo.boxes["shuttlecock"].reshape(2, 2)
     return min(poses, key=off)

@@ -5,12 +5,12 @@ import numpy as np
 import pytest
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 
-from vmc_lib.show import pen
+from vmc_lib.show import svg_renderer
 from vmc_lib.show.palette import STYLE
 
 
 @pytest.mark.parametrize("layout", ["constrained", "none"])
-def test_the_pen_writes_what_matplotlib_does(layout):
+def test_the_renderer_writes_what_matplotlib_does(layout):
     def plot():
         fig, axes = plt.subplots(1, 3, layout=layout)
         axes[0].semilogy([1, 20, 300], label="two\nlines, and $\\theta_1$")
@@ -24,19 +24,19 @@ def test_the_pen_writes_what_matplotlib_does(layout):
     usual = io.StringIO()
     with plt.rc_context(STYLE | {"svg.hashsalt": "same"}):
         FigureCanvasSVG(plot()).print_svg(usual, metadata={"Date": None})
-        assert pen.drawn(plot()) == usual.getvalue()
+        assert svg_renderer.figure_svg(plot()) == usual.getvalue()
     plt.close("all")
 
 
-def test_the_pen_leaves_a_font_without_measures_to_matplotlib(monkeypatch):
+def test_the_renderer_leaves_a_font_without_measures_to_matplotlib(monkeypatch):
     class Font:
         def get_sfnt_table(self, _):
             return None
 
-    monkeypatch.setattr(pen, "get_font", lambda path: Font())
-    pen._height.cache_clear()
+    monkeypatch.setattr(svg_renderer, "get_font", lambda path: Font())
+    svg_renderer._height.cache_clear()
     fig = plt.figure()
     fig.text(0.5, 0.5, "words")
-    assert "words" in pen.drawn(fig)
+    assert "words" in svg_renderer.figure_svg(fig)
     plt.close("all")
-    pen._height.cache_clear()
+    svg_renderer._height.cache_clear()

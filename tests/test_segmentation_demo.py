@@ -15,8 +15,8 @@ from vmc_lib.where.selective_search import Strategy, hierarchies
 
 HEAD = """<!doctype html><html lang="en"><meta charset="utf-8"><title>A photo</title>
 <meta name="viewport" content="width=device-width"><link rel="stylesheet" href="demo.css">
-<script defer src="redrawn.js"></script><script defer src="selective_search.js"></script>
-<script defer src="dissolve.js"></script>
+<script defer src="canvas.js"></script><script defer src="selective_search.js"></script>
+<script defer src="segmentation_demo.js"></script>
 <body style="background: var(--vmc-paper); color: var(--vmc-ink)"><main>"""
 GROWN = """([pixels, k]) => {
   const tree = vmcSearch(Uint8Array.from(atob(pixels), (c) => c.charCodeAt(0)), 600, 400)(k);
@@ -39,7 +39,7 @@ def site(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("VMC_RENDER_MODE", "book")
         patch.setattr(where, "display", lambda item: shown.append(item.data))
-        where.dissolving(SHOTS[0].image, "Play.", "A shuttlecock and a cup.")
+        where.segmentation_demo(SHOTS[0].image, "Play.", "A shuttlecock and a cup.")
     (folder / "page.html").write_text(HEAD + shown[0], encoding="utf-8")
     Image.new("RGB", (900, 1600), "teal").save(folder / "tall.jpg")
     (folder / "words.jpg").write_text("no picture", encoding="utf-8")
@@ -139,9 +139,9 @@ def test_in_a_kernel_it_is_the_same_page(monkeypatch):
     shown = []
     monkeypatch.setattr(where, "display", shown.append)
     monkeypatch.setenv("VMC_RENDER_MODE", "live")
-    where.dissolving(SHOTS[0].image, "Play.", "A cup.")
-    assert shown[1].scripts == ["redrawn.js", "selective_search.js", "dissolve.js"]
-    assert 'class="vmc-dissolve"' in shown[1].page
+    where.segmentation_demo(SHOTS[0].image, "Play.", "A cup.")
+    assert shown[1].scripts == ["canvas.js", "selective_search.js", "segmentation_demo.js"]
+    assert 'class="vmc-segmentation"' in shown[1].page
     monkeypatch.setenv("VMC_RENDER_MODE", "test")
-    where.dissolving(SHOTS[0].image, "Play.", "A cup.")
+    where.segmentation_demo(SHOTS[0].image, "Play.", "A cup.")
     assert len(shown) == 3
