@@ -37,11 +37,11 @@ def muscle_lines(ax, x, values):
 
 
 def curves(ax, x, lines, now=None, **style):
-    """Curves with their points: `lines` is name -> (n,) over x (n,); `now`, (x, y), is ringed red."""
+    """Curves, name -> (n,) over x (n,), with their points; a red dot where the reader is `now`."""
     for name, y in lines.items():
         ax.plot(x[: len(y)], y, ".-", label=name, **style)
     if now:
-        ax.plot(*now, "o", ms=9, color=COLOURS["red"], clip_on=False)
+        ax.plot(*now, "o", ms=9, color=COLOURS["red"], clip_on=False, gid="now")
     if len(lines) > 1:
         ax.legend()
 
@@ -55,8 +55,8 @@ def strip_plot(rows, measure, middle=np.median, xlim=None, text="{:.1f}"):
     aside = np.random.default_rng(0).uniform(-0.25, 0.25, max(map(len, rows.values())))
     names = [f"{name}: {text.format(middle(values))}" for name, values in rows.items()]
     for row, values in enumerate(rows.values()):
-        ax.plot(values, row + aside[: len(values)], "o", ms=4, alpha=0.5, label=names[row])
-        ax.plot(middle(values), row, "|", ms=26, mew=3, color=COLOURS["ink"])
+        ax.plot(values, row + aside[: len(values)], "o", ms=4, alpha=0.5)
+        ax.plot(middle(values), row, "|", ms=26, mew=3, color=COLOURS["ink"], gid="guide")
     ax.set_yticks(range(len(names)), names)
     ax.set(xscale="log", xlim=xlim, xlabel=measure, ylim=(len(names) - 0.5, -0.5))
     ax.xaxis.set_major_formatter("{x:g}")

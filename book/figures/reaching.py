@@ -16,7 +16,7 @@ from vmc_lib.show.palette import COLOURS
 def shares(ax, target, points, weights):
     """Threads from the target (2,) to the templates used (N, 2), as thick as their weights (N,)."""
     threads(ax, target, points, color=COLOURS["blue"], lw=10 * np.abs(weights))
-    ax.plot(*np.transpose(points), "o", ms=7, color=COLOURS["blue"])
+    ax.plot(*np.transpose(points), "o", ms=7, color=COLOURS["blue"], gid="templates used")
     for point, weight in zip(points, weights, strict=True):
         away = 7 if point[1] >= target[1] else -14  # from the threads
         ax.annotate(f"{weight:.2f}", point, (0, away), textcoords="offset points", ha="center")
@@ -26,8 +26,9 @@ def ends(ax, targets, reached):
     """Targets (…, 2) as green rings; where the hand ended (…, 2) as red dots, each on a line."""
     targets, reached = np.reshape(targets, (-1, 2)), np.reshape(reached, (-1, 2))
     threads(ax, targets, reached, color=COLOURS["red"], lw=1)
-    ax.plot(*targets.T, "o", ms=8, mfc="none", mew=1.8, color=COLOURS["green"])
-    ax.plot(*reached.T, "o", ms=4, color=COLOURS["red"])
+    ring = dict(ms=8, mfc="none", mew=1.8, color=COLOURS["green"])
+    ax.plot(*targets.T, "o", **ring, gid="targets")
+    ax.plot(*reached.T, "o", ms=4, color=COLOURS["red"], gid="the hand")
 
 
 def reaches(ax, templates, targets, reached, title=""):

@@ -82,7 +82,10 @@ def test_dots_and_ways_are_described_by_their_range():
     ways = drawn(([0, 1, 0], [1, 3, -1]), xlabel="forward (m)", ylabel="up (m)")
     said = "up (m) against forward (m): 3 points from −1 to 3, forward (m) 0 to 1."
     assert alt_text(ways) == said
-    assert alt_text(drawn(([0, 1, 2], [1, 3, -1], "o"))) == "3 points from −1 to 3, x 0 to 2."
+    assert (
+        alt_text(drawn(([0, 1, 2], [1, 3, -1], "o")))
+        == "a plot against x: 3 points from −1 to 3, x 0 to 2."
+    )
 
 
 def test_of_many_series_and_rows_some_are_described_and_the_others_counted():

@@ -46,7 +46,7 @@ def test_series_with_other_keys_have_a_row_for_each_point():
     ax.plot([5, np.nan], [6, 7], "s", color=COLOURS["red"])
     assert tables(fig) == (
         [[]],
-        [[["series", "x", "y"], ["a", "0", "2"], ["a", "1", "3"], ["red dots", "5", "6"]]],
+        [[["series", "x", "value"], ["a", "0", "2"], ["a", "1", "3"], ["red dots", "5", "6"]]],
     )
 
 
@@ -70,7 +70,7 @@ def test_intervals_upwards_and_bars_with_names_are_told():
     right.barh(["all", "none"], [9, 8])
     right.set(title="energy")
     _, [left_rows, right_rows] = tables(fig)
-    assert left_rows == [["x", "y"], ["1", "3.0 (2.5 to 3.5)"], ["2", "4.00 (3.90 to 4.10)"]]
+    assert left_rows == [["x", "value"], ["1", "3.0 (2.5 to 3.5)"], ["2", "4.00 (3.90 to 4.10)"]]
     assert right_rows == [["case", "energy"], ["all", "9"], ["none", "8"]]
 
 
@@ -87,7 +87,7 @@ def test_long_curves_and_many_are_cut_short():
 def test_every_head_has_a_name():
     fig, ax = plt.subplots()
     ax.plot(range(3))
-    assert tables(fig)[1][0][0] == ["x", "y"]
+    assert tables(fig)[1][0][0] == ["x", "value"]
 
 
 def test_what_is_no_figure_has_no_table():

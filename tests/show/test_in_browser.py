@@ -505,7 +505,7 @@ def test_a_plots_numbers_are_a_table_that_follows_its_controls(open_demos):
     rows = [row.split() for row in page.locator(".vmc-data tr").all_inner_texts()]
     assert rows == [
         ["time", "(s)", "force", "(N)"],
-        *(["pull", x, y] for x, y in (("0", "0"), ("1", "3"), ("2", "6"))),
+        *([x, y] for x, y in (("0", "0"), ("1", "3"), ("2", "6"))),
     ]
     assert page.locator("details").get_attribute("open") is not None
     assert page.errors == []

@@ -32,36 +32,37 @@ def _labels(part):
 
 def _sentence(panel):
     """What a plot shows; empty where there is nothing to say."""
-    what = panel.value if panel.named else f"{panel.value} against {panel.key}"
     brief = sum(len(one.keys) for one in panel.series) > NAMES
     clauses = [_words(panel, one, brief) for one in panel.series[:SERIES]]
     clauses += [f"and {len(panel.series) - SERIES} more"] * (len(panel.series) > SERIES)
     clauses += [panel.image] * bool(panel.image)
-    subject = [panel.title, what * bool(panel.series) * (what != "y against x")]
-    return (
-        ": ".join([*dict.fromkeys(filter(None, subject)), "; ".join(clauses)]) + "."
-        if clauses
-        else ""
-    )
+    measure = panel.value if panel.series and panel.value != "value" else ""
+    subject = ": ".join(dict.fromkeys(filter(None, [panel.title, measure])))
+    if panel.series and not panel.named:
+        subject = f"{subject or 'a plot'} against {panel.key}"
+    return f"{subject}: {'; '.join(clauses)}." if clauses else ""
 
 
 def _words(panel, one, brief):
     """What a series does: its values by name; its ends, and what lies beyond them; or its range."""
+    low, high = one.values.argmin(), one.values.argmax()
+    span = f"from {one.at(low)} to {one.at(high)}"
+    ahead, alone = np.diff(one.keys), len(one.keys) == 1
 
     def point(i):
         key = panel.text(one.keys[i])
         return f"{key} {one.at(i)}" if panel.named else f"{one.at(i)} at {key}"
 
-    low, high = one.values.argmin(), one.values.argmax()
-    if panel.named and not brief:
-        text = ", ".join(map(point, range(len(one.keys))))
-    elif panel.named:
+    if panel.named and len({*map(panel.text, one.keys)}) == 1 and not alone:
+        return f"{panel.text(one.keys[0])}: {len(one.keys)} points {span}"
+    if panel.named:
         text = f"from {point(low)} to {point(high)}"
-    elif len(one.keys) == 1:
+        text = text if brief else ", ".join(map(point, range(len(one.keys))))
+    elif alone:
         text = point(0)
-    elif one.kind.endswith("dots") or (np.diff(one.keys) <= 0).any():
+    elif one.kind.endswith("dots") or not ((ahead >= 0).all() or (ahead <= 0).all()):
         across = "{} to {}".format(*map(panel.text, (one.keys.min(), one.keys.max())))
-        text = f"{len(one.keys)} points from {one.at(low)} to {one.at(high)}, {panel.key} {across}"
+        text = f"{len(one.keys)} points {span}, {panel.key} {across}"
     else:
         text = f"from {point(0)} to {point(-1)}"
         ends = one.at(0), one.at(-1)

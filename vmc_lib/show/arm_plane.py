@@ -18,8 +18,8 @@ def plane_view(ax, within=WHOLE):
     straight = np.linspace(*LIMITS[0], 200)
     rim = hand(np.stack([straight, 0 * straight], axis=-1))
     ax.axhline(TABLE, color=COLOURS["grey"], lw=1, ls="--")
-    ax.plot(*rim.T[:2], ":", color=COLOURS["grey"], lw=1)
-    ax.plot(0, 0, "o", color=COLOURS["ink"], ms=7)
+    ax.plot(*rim.T[:2], ":", color=COLOURS["grey"], lw=1, gid="guide")
+    ax.plot(0, 0, "o", color=COLOURS["ink"], ms=7, gid="guide")
     ax.set(xlim=within[0], ylim=within[1], aspect="equal", xlabel="forward (m)", ylabel="up (m)")
     ax.yaxis.set_major_locator(MultipleLocator(0.1 if np.ptp(within[1]) > 0.2 else 0.02))
     ax.grid(False)
@@ -28,5 +28,5 @@ def plane_view(ax, within=WHOLE):
 def plane(ax, templates, within=BEFORE):
     """The same with the templates (N, 2), and a square where every reach starts."""
     plane_view(ax, within)
-    ax.plot(*hand(START)[:2], "s", ms=6, mfc="none", color=COLOURS["ink"])
-    ax.plot(*np.transpose(templates), "o", ms=4, color=COLOURS["grey"])
+    ax.plot(*hand(START)[:2], "s", ms=6, mfc="none", color=COLOURS["ink"], gid="guide")
+    ax.plot(*np.transpose(templates), "o", ms=4, color=COLOURS["grey"], gid="templates")

@@ -8,6 +8,7 @@ from matplotlib.category import StrCategoryFormatter
 from matplotlib.collections import QuadMesh
 from matplotlib.container import BarContainer, ErrorbarContainer
 from matplotlib.figure import Figure
+from matplotlib.image import AxesImage
 from matplotlib.ticker import FixedFormatter, FuncFormatter
 
 from vmc_lib.show.estimate import Estimate
@@ -17,6 +18,7 @@ from vmc_lib.show.palette import COLOURS
 POINTS, DOTS, SERIES = 9, 24, 12  # at most so many in a table: of a line, of dots, of a plot
 COLUMNS = 6  # of a wide table, at most
 _COLOUR_NAMES = {value: name for name, value in COLOURS.items()}
+_COLOUR_NAMES |= {COLOURS["line"]: "pale", COLOURS["ink"]: "dark"}
 
 
 class DataTable(str):
@@ -81,7 +83,7 @@ def _panel(ax):
     turned = bool(lying or _names(ax.yaxis))
     key, value = (ax.yaxis, ax.xaxis) if turned else (ax.xaxis, ax.yaxis)
     names, title = _names(key), ax.get_title()
-    measure = value.get_label_text() or title or "yx"[turned]
+    measure = value.get_label_text() or title or "value"
     series = list(_series(ax, int(turned)))
     unnamed = measure if len(series) == 1 else ""
     return Panel(
@@ -91,21 +93,23 @@ def _panel(ax):
         [one._replace(name=one.name or unnamed or one.kind) for one in series],
         names or number,
         bool(names),
-        next(
-            map(_image, [*ax.images, *(c for c in ax.collections if isinstance(c, QuadMesh))]), ""
-        ),
+        next((_image(c) for c in ax.get_children() if isinstance(c, AxesImage | QuadMesh)), ""),
     )
 
 
 def _series(ax, turned):
-    """The `Series` that were plotted against the axes' own measures; not their guide lines."""
+    """The `Series` that were plotted against the axes' own measures.
+
+    An artist's `gid` names what a legend need not; guide lines have "guide", and are left out.
+    """
     owners = {c.lines[0]: c for c in ax.containers if isinstance(c, ErrorbarContainer)}
     logarithmic = (ax.yaxis if turned else ax.xaxis).get_scale() == "log"
     for line in ax.lines:
         points = np.broadcast_arrays(*(np.ravel(v) for v in line.get_data(orig=False)))
-        keys, values = (np.asarray(points[i], float) for i in (turned, 1 - turned))
+        keys, values = (_rounded(points[i], (ax.xaxis, ax.yaxis)[i]) for i in (turned, 1 - turned))
         known = np.isfinite(keys) & np.isfinite(values)
-        if line.get_transform() != ax.transData or not line.get_visible() or not known.any():
+        guide = line.get_transform() != ax.transData or line.get_gid() == "guide"
+        if guide or not line.get_visible() or not known.any():
             continue
         ends, owner = np.stack([values, values], axis=1), owners.get(line, line)
         if owner is not line and (owner.has_xerr if turned else owner.has_yerr):
@@ -123,10 +127,17 @@ def _series(ax, turned):
             yield Series(_label(bars), "bars", keys, values, ends, some)
 
 
+def _rounded(values, axis):
+    """Values (n,), 0 where they are too small to be seen on their axis: what rounding leaves."""
+    values = np.asarray(values, float)
+    seen = 1e-9 * np.abs(axis.get_view_interval()).max() if axis.get_scale() == "linear" else 0
+    return np.where(np.abs(values) < seen, 0, values)
+
+
 def _label(artist):
-    """An artist's label; empty where matplotlib made one up."""
+    """An artist's label, or else its `gid`; empty where matplotlib made one up."""
     label = str(artist.get_label())
-    return "" if label.startswith("_") else label
+    return getattr(artist, "get_gid", str)() or "" if label.startswith("_") else label
 
 
 def _names(axis):
@@ -169,7 +180,7 @@ def _table(panel):
     if len(points) == len(panel.series) <= COLUMNS and whole and even:
         heads = [panel.key, *points] if len(points) > 1 else [panel.key, panel.value]
         rows = [[key, *(column.get(key, "") for column in columns)] for key in keys]
-        title = [panel.title, panel.value][: len(points)]
+        title = [panel.title, *points] if len(points) == 1 else [panel.title, panel.value]
     else:
         heads, title = ["series", panel.key, panel.value], [panel.title]
         rows = [
@@ -179,7 +190,9 @@ def _table(panel):
         ]
         if len(panel.series) > SERIES:
             rows.append([f"and {len(panel.series) - SERIES} more", "", ""])
-    caption = html.escape(": ".join(dict.fromkeys(filter(None, title))))
+    caption = html.escape(
+        ": ".join(dict.fromkeys(part for part in title if part and part != heads[-1]))
+    )
     caption = f"<caption>{caption}</caption>" * bool(caption)
     return "\n".join(
         [f"<table>{caption}", _row("th", heads), *(_row("td", row) for row in rows), "</table>"]
