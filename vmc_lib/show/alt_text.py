@@ -35,10 +35,9 @@ def _sentence(panel):
     brief = sum(len(one.keys) for one in panel.series) > NAMES
     clauses = [_words(panel, one, brief) for one in panel.series[:SERIES]]
     clauses += [f"and {len(panel.series) - SERIES} more"] * (len(panel.series) > SERIES)
-    clauses += [panel.image] * bool(panel.image)
-    measure = panel.value if panel.series and panel.value != "value" else ""
+    measure = panel.value if panel.value != "value" else ""
     subject = ": ".join(dict.fromkeys(filter(None, [panel.title, measure])))
-    if panel.series and not panel.named:
+    if not panel.named:
         subject = f"{subject or 'a plot'} against {panel.key}"
     return f"{subject}: {'; '.join(clauses)}." if clauses else ""
 

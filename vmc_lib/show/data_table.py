@@ -5,10 +5,8 @@ from typing import NamedTuple
 
 import numpy as np
 from matplotlib.category import StrCategoryFormatter
-from matplotlib.collections import QuadMesh
 from matplotlib.container import BarContainer, ErrorbarContainer
 from matplotlib.figure import Figure
-from matplotlib.image import AxesImage
 from matplotlib.ticker import FixedFormatter, FuncFormatter
 
 from vmc_lib.show.estimate import Estimate
@@ -50,14 +48,12 @@ class Panel(NamedTuple):
     series: list
     text: object  # a key as text
     named: bool  # keys are names, as in a dot plot
-    image: str  # what an image or a heat map in it shows
 
 
 def figures_of(picture):
     """The matplotlib figures in what a draw function returned."""
-    return [
-        p for p in (picture if isinstance(picture, tuple) else (picture,)) if isinstance(p, Figure)
-    ]
+    parts = picture if isinstance(picture, tuple) else (picture,)
+    return [part for part in parts if isinstance(part, Figure)]
 
 
 def data_tables(picture):
@@ -93,7 +89,6 @@ def _panel(ax):
         [one._replace(name=one.name or unnamed or one.kind) for one in series],
         names or number,
         bool(names),
-        next((_image(c) for c in ax.get_children() if isinstance(c, AxesImage | QuadMesh)), ""),
     )
 
 
@@ -152,13 +147,6 @@ def _names(axis):
     return None
 
 
-def _image(artist):
-    values = np.ma.filled(np.ma.asarray(artist.get_array(), float), np.nan)
-    if values.ndim == 3 or np.isnan(values).all():
-        return "a picture"
-    return f"a heat map of values from {number(np.nanmin(values))} to {number(np.nanmax(values))}"
-
-
 def _spread(keys, most, logarithmic):
     """Which of the points at keys (n,) to list, at most so many, evenly spread over the axis."""
     last = len(keys) - 1
@@ -170,33 +158,26 @@ def _spread(keys, most, logarithmic):
 
 def _table(panel):
     """A plot's table (HTML): as wide as its series, where that fits, else a row for each point."""
-    points = {
-        one.name: [(panel.text(one.keys[i]), one.at(i)) for i in one.listed] for one in panel.series
-    }
-    columns = [dict(some) for some in points.values()]
-    keys = list(dict.fromkeys(key for column in columns for key in column))
-    whole = [len(some) for some in points.values()] == [len(column) for column in columns]
-    even = panel.named or all(len(column) == len(keys) for column in columns)
-    if len(points) == len(panel.series) <= COLUMNS and whole and even:
-        heads = [panel.key, *points] if len(points) > 1 else [panel.key, panel.value]
-        rows = [[key, *(column.get(key, "") for column in columns)] for key in keys]
-        title = [panel.title, *points] if len(points) == 1 else [panel.title, panel.value]
+    listed = panel.series[:SERIES]
+    points = [[(panel.text(one.keys[i]), one.at(i)) for i in one.listed] for one in listed]
+    columns = {one.name: dict(some) for one, some in zip(listed, points, strict=True)}
+    keys = list(dict.fromkeys(key for some in points for key, _ in some))
+    whole = [len(some) for some in points] == [len(column) for column in columns.values()]
+    even = panel.named or all(len(column) == len(keys) for column in columns.values())
+    caption = [panel.title]
+    if len(panel.series) <= COLUMNS and whole and even:
+        heads = [panel.key, *(columns if len(columns) > 1 else [panel.value])]
+        rows = [[key, *(column.get(key, "") for column in columns.values())] for key in keys]
+        caption += [panel.value] if len(columns) > 1 else columns
     else:
-        heads, title = ["series", panel.key, panel.value], [panel.title]
-        rows = [
-            [one.name, panel.text(one.keys[i]), one.at(i)]
-            for one in panel.series[:SERIES]
-            for i in one.listed
-        ]
+        heads = ["series", panel.key, panel.value]
+        rows = [[one.name, *row] for one, some in zip(listed, points, strict=True) for row in some]
         if len(panel.series) > SERIES:
             rows.append([f"and {len(panel.series) - SERIES} more", "", ""])
-    caption = html.escape(
-        ": ".join(dict.fromkeys(part for part in title if part and part != heads[-1]))
-    )
-    caption = f"<caption>{caption}</caption>" * bool(caption)
-    return "\n".join(
-        [f"<table>{caption}", _row("th", heads), *(_row("td", row) for row in rows), "</table>"]
-    )
+    caption = ": ".join(dict.fromkeys(part for part in caption if part and part != heads[-1]))
+    caption = f"<caption>{html.escape(caption)}</caption>" if caption else ""
+    rows = [_row("th", heads), *(_row("td", row) for row in rows)]
+    return "\n".join([f"<table>{caption}", *rows, "</table>"])
 
 
 def _row(cell, texts):
