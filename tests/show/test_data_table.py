@@ -106,3 +106,12 @@ def test_a_long_line_on_a_logarithmic_axis_is_told_evenly_along_that_axis():
     ax.semilogx(np.arange(1, 257), np.arange(1, 257))
     told = [row[0] for row in tables(fig)[1][0][1:]]
     assert told == ["1", "2", "4", "8", "16", "32", "64", "128", "256"]
+
+
+def test_guide_lines_are_left_out_and_a_gid_is_a_name_without_a_legend():
+    fig, ax = plt.subplots()
+    ax.plot([0, 1], [1e-17, 1], gid="targets")
+    ax.plot([0, 1], [5, 5], gid="guide")
+    ax.plot([0, 1], [2, 3], color=COLOURS["ink"])
+    assert tables(fig)[1] == [[["x", "targets", "dark line"], ["0", "0", "2"], ["1", "1", "3"]]]
+    assert ax.get_legend_handles_labels() == ([], [])

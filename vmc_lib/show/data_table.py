@@ -95,7 +95,7 @@ def _panel(ax):
 def _series(ax, turned):
     """The `Series` that were plotted against the axes' own measures.
 
-    An artist's `gid` names what a legend need not; guide lines have "guide", and are left out.
+    A line's `gid` names what a legend need not; guide lines have "guide", and are left out.
     """
     owners = {c.lines[0]: c for c in ax.containers if isinstance(c, ErrorbarContainer)}
     logarithmic = (ax.yaxis if turned else ax.xaxis).get_scale() == "log"
@@ -112,7 +112,8 @@ def _series(ax, turned):
         kind, most = ("dots", DOTS) if line.get_linestyle() == "None" else ("line", POINTS)
         kind = f"{_COLOUR_NAMES.get(line.get_color(), '')} {kind}".strip()
         some = _spread(keys[known], most, logarithmic)
-        yield Series(_label(owner), kind, keys[known], values[known], ends[known], some)
+        name = _label(owner) or line.get_gid() or ""
+        yield Series(name, kind, keys[known], values[known], ends[known], some)
     for bars in ax.containers:
         if isinstance(bars, BarContainer):
             boxes = np.array([bar.get_bbox().get_points() for bar in bars])
@@ -125,14 +126,14 @@ def _series(ax, turned):
 def _rounded(values, axis):
     """Values (n,), 0 where they are too small to be seen on their axis: what rounding leaves."""
     values = np.asarray(values, float)
-    seen = 1e-9 * np.abs(axis.get_view_interval()).max() if axis.get_scale() == "linear" else 0
-    return np.where(np.abs(values) < seen, 0, values)
+    least = 1e-9 * np.abs(axis.get_view_interval()).max() if axis.get_scale() == "linear" else 0
+    return np.where(np.abs(values) < least, 0, values)
 
 
 def _label(artist):
-    """An artist's label, or else its `gid`; empty where matplotlib made one up."""
+    """An artist's label; empty where matplotlib made one up."""
     label = str(artist.get_label())
-    return getattr(artist, "get_gid", str)() or "" if label.startswith("_") else label
+    return "" if label.startswith("_") else label
 
 
 def _names(axis):
