@@ -10,7 +10,7 @@ from hypothesis import settings
 
 settings.register_profile("untimed", deadline=None)  # a busy machine is slow, and no failure
 settings.load_profile("untimed")
-os.environ["VMC_RENDER_MODE"] = "test"  # chapters run by nbmake inherit it
+os.environ["VMC_RENDER_MODE"] = "test"  # the chapters' kernels inherit it
 os.environ.setdefault("MPLBACKEND", "agg")
 
 AXE = Path(__file__).parent / "vendor/axe.js"

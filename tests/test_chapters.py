@@ -1,14 +1,18 @@
-"""The chapters as files: complete, tidy and in the table of contents (nbmake executes them)."""
+"""The chapters: complete, tidy, in the table of contents, and each runs from top to bottom."""
 
 import ast
+import os
 import re
 import subprocess
+import symtable
 import sys
 from pathlib import Path
 
 import nbformat
 import pytest
 import yaml
+from nbclient import NotebookClient
+from nbformat.v4 import new_code_cell
 from pybtex.database import parse_file
 from pybtex.richtext import Text
 
@@ -20,6 +24,43 @@ NUMBERED = [path for path in NOTEBOOKS if path.stem[:2].isdigit()]
 @pytest.fixture(params=NOTEBOOKS, ids=lambda path: path.stem)
 def notebook(request):
     return nbformat.read(request.param, as_version=4)
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_runs_from_top_to_bottom_and_its_demos_answer_still(path):
+    """Whatever the last cell has changed; and what may raise for a reader may not for us."""
+    notebook = nbformat.read(path, as_version=4)
+    notebook.cells.insert(0, new_code_cell("from tests import demos\ndemos.remember()"))
+    notebook.cells.append(new_code_cell("demos.ask_again()"))
+    told = os.environ | {"PYTHONPATH": str(ROOT)}
+    client = NotebookClient(notebook, timeout=3600, force_raise_errors=True)
+    client.execute(cwd=path.parent, env=told)
+
+
+def test_no_cell_rebinds_what_an_earlier_function_reads(notebook):
+    """Or a demo above it would fail, or show another thing, as soon as it is moved."""
+    bound, read = set(), set()
+    for cell in notebook.cells:
+        if cell.cell_type == "code":
+            names = symtable.symtable(cell.source, cell.id, "exec")
+            here = {
+                name.get_name()
+                for name in names.get_symbols()
+                if name.is_assigned() or name.is_imported()
+            }
+            assert not here & read, cell.id
+            bound |= here
+            read |= bound & read_by_functions(names)
+
+
+COMPREHENSIONS = {"listcomp", "setcomp", "dictcomp", "genexpr"}  # they read at once
+
+
+def read_by_functions(scope, called_later=False):
+    """The notebook's names that functions and lambdas in a scope read."""
+    called_later |= scope.get_type() == "function" and scope.get_name() not in COMPREHENSIONS
+    names = {name.get_name() for name in scope.get_symbols() if called_later and name.is_global()}
+    return names.union(*(read_by_functions(inner, called_later) for inner in scope.get_children()))
 
 
 def test_every_page_is_in_the_table_of_contents():

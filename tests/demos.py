@@ -1,0 +1,29 @@
+"""Demos asked again at a chapter's end, where a later cell may have changed what they read."""
+
+from vmc_lib import show
+from vmc_lib.show import demo
+
+DECLARED = []  # (caption, a function, its result) of each demo that moves
+
+
+def remember():
+    """Let `explore` remember the demos that it shows from now on."""
+    explore = show.explore
+
+    def remembered(draw, caption, alt, in_page=None, **controls):
+        explore(draw, caption, alt, in_page, **controls)
+        last = {name: demo.as_control(name, spec).values[-1] for name, spec in controls.items()}
+
+        def state():
+            words = alt(**last) if callable(alt) else alt
+            return words, [demo._lines(part) for part in demo.pictures(draw(**last), "again")]
+
+        DECLARED.append((caption, state, state()))
+
+    show.explore = remembered
+
+
+def ask_again():
+    """Ask every demo for its last state; AssertionError where it is another than at first."""
+    changed = [caption for caption, state, before in DECLARED if state() != before]
+    assert not changed, f"these demos show something else now: {changed}"
