@@ -73,7 +73,7 @@ def _exercises(notebook):
         if solving:
             yield "**Solution.**"
         for cell in cells:
-            text = SHOWN.sub(lambda name: _lines(notebook, name[1]), FOLD.sub("", cell.source))
+            text = SHOWN.sub(lambda name: _lines(notebook, name[1]), FOLD.sub(r"\1", cell.source))
             if "exercise" in cell.metadata:
                 yield f"### Exercise `{cell.metadata.exercise}`\n\n{EXERCISE.sub('', text)}"
             elif solving:

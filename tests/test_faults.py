@@ -7,7 +7,6 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
-from time import process_time
 
 import nbformat
 import numpy as np
@@ -29,16 +28,6 @@ def test_what_ships_is_what_its_checksums_say():
         "run python -m reproduce.pipeline.checksums"
     )
     assert {"templates.npz", "photos/rig/test/000.jpg"} <= found.keys()
-
-
-def test_a_file_is_verified_in_twenty_milliseconds():
-    largest = max(data.FOLDER.glob("*.npz"), key=lambda path: path.stat().st_size).read_bytes()
-    times = []
-    for _ in range(9):
-        began = process_time()
-        data.checksum(largest)
-        times.append(process_time() - began)
-    assert min(times) < 0.02
 
 
 @pytest.fixture
@@ -182,6 +171,8 @@ def test_a_demo_whose_cells_were_not_run_says_what_it_misses(path):
         ("80%", 0.8, "✓ Right."),
         ("11.5 mm", 11.5, "✓ Right."),
         ("SAME", "same", "✓ Right."),
+        ('"same"', "same", "✓ Right."),
+        ("‘same’ ", "same", "✓ Right."),
     ],
 )
 def test_whatever_a_reader_answers_is_answered(answer, expected, said, monkeypatch):

@@ -95,10 +95,11 @@ def known(cache, page):
 def execute(page, timeout):
     """The executed notebook, its seconds, and where and how it failed, or None."""
     notebook = nbformat.read(page, as_version=4)
-    quiet = ["--IPKernelApp.log_level=ERROR"]  # or each kernel warns that loopback is not encrypted
-    result = single_nb_execution(
-        notebook, page.parent, timeout, allow_errors=False, extra_arguments=quiet
-    )
+    told = {
+        "extra_arguments": ["--IPKernelApp.log_level=ERROR"],  # or it warns that loopback is plain
+        "force_raise_errors": True,  # also where a reader's error does not stop Run All
+    }
+    result = single_nb_execution(notebook, page.parent, timeout, allow_errors=False, **told)
     return notebook, result.time, result.err and where(notebook, result.err)
 
 

@@ -4,7 +4,8 @@ A link to the glossary becomes a term, one to the sources a citation. A cell who
 `exercise` becomes that exercise, the cells after it that carry the tag `solution` become its
 solution, and a quotation that begins with a line in bold becomes an admonition. A quiz, whose
 folded answers begin with ✓ or ✗, gets the page's own style. A line that is nothing but a link to a
-section of another file becomes that section.
+section of another file becomes that section. What only a notebook needs to say carries the tag
+`remove-cell`.
 """
 
 import json
@@ -15,9 +16,7 @@ TERM = re.compile(r'\[([^\]]+)\]\(glossary\.md(?: "([^"]+)")?\)')
 SOURCE = r"\[[^\]]+\]\(references\.bib#(\w+)\)"
 SOURCES = re.compile(rf"\({SOURCE}(?:, {SOURCE})*\)")
 EXERCISE = re.compile(r"\*\*Exercise(?:: (.+))?\*\*\n\n")
-FOLD = re.compile(
-    r"\A\*\*Solution\*\*\n\n|\A<details><summary>Show the solution</summary>\n\n|\n\n</details>\Z"
-)
+FOLD = re.compile(r"\A<details><summary>Show the solution</summary>\n\n(.*)\n\n</details>\Z", re.S)
 SECTION = re.compile(r'^\[[^\]]+\]\((\.\./[^ )]+) "([^"]+)"\)$', re.M)
 INCLUDED = '```{include} \\1\n:start-after: "## \\2"\n:end-before: "## "\n```'
 BOX = re.compile(r"^> \*\*(.+)\*\*\n((?:>.*\n?)+)", re.M)
@@ -45,6 +44,7 @@ def with_directives(cells):
     ValueError for a solution that follows no exercise.
     """
     label = None
+    cells = (cell for cell in cells if "remove-cell" not in _tags(cell))
     for solving, group in groupby(cells, _solves):
         if solving and not label:
             raise ValueError("a solution follows no exercise; name the `exercise` in its metadata")
@@ -60,7 +60,11 @@ def with_directives(cells):
 
 
 def _solves(cell):
-    return "solution" in cell["metadata"].get("tags", [])
+    return "solution" in _tags(cell)
+
+
+def _tags(cell):
+    return cell["metadata"].get("tags", [])
 
 
 def _cell(name, directive):
@@ -72,7 +76,7 @@ def _text(text, metadata):
     text = TERM.sub(lambda to: f"{{term}}`{to[1]} <{to[2] or to[1]}>`", text)
     if quiz := QUIZ.fullmatch(text):
         text = _quiz(*quiz.groups())
-    text = SOURCES.sub(_cite, FOLD.sub("", text))
+    text = SOURCES.sub(_cite, FOLD.sub(r"\1", text))
     text = SECTION.sub(INCLUDED, BOX.sub(_box, text))
     if "exercise" not in metadata:
         return text

@@ -77,10 +77,10 @@ RECALL_CURVE = Exercise(
 
 def engulfed(r, i, j):
     a, b = r.boxes[i], r.boxes[j]
-    low = np.maximum(a[..., :2], b[..., :2])
-    high = np.minimum(a[..., 2:], b[..., 2:])
-    areas = [np.prod(box[..., 2:] - box[..., :2], axis=-1) for box in (a, b)]
-    return (high - low).clip(0).prod(axis=-1) / np.minimum(*areas)
+    low = np.maximum(a[:, :2], b[:, :2])
+    high = np.minimum(a[:, 2:], b[:, 2:])
+    areas = [np.prod(box[:, 2:] - box[:, :2], axis=1) for box in (a, b)]
+    return (high - low).clip(0).prod(axis=1) / np.minimum(*areas)
 
 
 def _shared_over(over, least=0):
@@ -88,16 +88,17 @@ def _shared_over(over, least=0):
 
     def wrong(r, i, j):
         a, b = r.boxes[i], r.boxes[j]
-        sides = np.minimum(a[2:], b[:, 2:]) - np.maximum(a[:2], b[:, :2])
-        shared = sides.clip(least).prod(axis=-1)
-        return shared / over(_area(a[:2], a[2:]), (b[:, 2:] - b[:, :2]).prod(axis=-1), shared)
+        sides = np.minimum(a[:, 2:], b[:, 2:]) - np.maximum(a[:, :2], b[:, :2])
+        shared = sides.clip(least).prod(axis=1)
+        areas = [(box[:, 2:] - box[:, :2]).prod(axis=1) for box in (a, b)]
+        return shared / over(*areas, shared)
 
     return wrong
 
 
 ENGULFED = Exercise(
     engulfed,
-    lambda rng: (SimpleNamespace(boxes=_boxes(rng, 6)), 0, np.arange(1, 6)),
+    lambda rng: (SimpleNamespace(boxes=_boxes(rng, 8)), np.arange(4), np.arange(4, 8)),
     {
         "That is the IoU. Divide by the area of the smaller box, not of both together.": (
             _shared_over(lambda a, b, shared: a + b - shared)

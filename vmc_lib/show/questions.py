@@ -21,6 +21,7 @@ from vmc_lib.show.render_mode import render_mode
 _OWN_KEYS = 'onkeydown="event.stopPropagation()"'
 # A number, perhaps over another, and perhaps a unit or a per cent sign
 _NUMBER = re.compile(r"([-+]?\d*[.,]?\d+)\s*(?:/\s*(\d*[.,]?\d+))?\s*(%|[^\W\d]*|°)")
+_AROUND = " \t\"'“”‘’"  # a word may come in quotes
 NOT_YET, RIGHT, WRONG = "Not answered yet.", "✓ Right.", "✗ Not yet."
 
 
@@ -88,7 +89,7 @@ def _unanswered(answer):
 def agree(answer, expected, tolerance):
     """Whether a reader's `answer` is `expected`, as `check` has it; NaN is NaN."""
     if isinstance(expected, str):
-        return isinstance(answer, str) and answer.strip().lower() == expected.lower()
+        return isinstance(answer, str) and answer.strip(_AROUND).lower() == expected.lower()
     if isinstance(answer, str):
         return np.ndim(expected) == 0 and any(
             abs(value - expected) <= tolerance for value in readings(answer)

@@ -52,7 +52,7 @@ addEventListener("submit", (event) => {
   const agrees = (part, wanted) =>
     typeof wanted === "number"
       ? vmcReadings(part).some((value) => Math.abs(value - wanted) <= tolerance)
-      : part.toLowerCase() === wanted.toLowerCase();
+      : part.replace(/^["'“”‘’]+|["'“”‘’]+$/g, "").toLowerCase() === wanted.toLowerCase();
   const right = typed.length === expected.length && typed.every((t, i) => agrees(t, expected[i]));
   const verdict = text ? (right ? "right" : "wrong") : "empty";
   form.querySelector("[role=status]").innerHTML = JSON.parse(form.dataset.words)[verdict];
