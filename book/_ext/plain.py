@@ -1,6 +1,7 @@
 """A chapter's plain Markdown, which reads well in any notebook, in Sphinx's own words.
 
-A link to the glossary becomes a term, one to the sources a citation. A cell whose metadata name an
+A link to the glossary becomes a term, its sections become definitions, a link to the sources a
+citation. A cell whose metadata name an
 `exercise` becomes that exercise, the cells after it that carry the tag `solution` become its
 solution, and a quotation that begins with a line in bold becomes an admonition. A quiz, whose
 folded answers begin with ✓ or ✗, gets the page's own style. A line that is nothing but a link to a
@@ -11,8 +12,13 @@ section of another file becomes that section. What only a notebook needs to say 
 import json
 import re
 from itertools import groupby
+from pathlib import Path
+from textwrap import indent
 
-TERM = re.compile(r'\[([^\]]+)\]\(glossary\.md(?: "([^"]+)")?\)')
+GLOSSARY = Path(__file__).parents[1] / "glossary.md"
+HEAD = re.compile(r"^## (.+)\n", re.M)
+TERMS = {head.replace(" ", "-"): head for head in HEAD.findall(GLOSSARY.read_text("utf-8"))}
+TERM = re.compile(r"\[([^\]]+)\]\((?:glossary\.md)?#([^)]+)\)")
 SOURCE = r"\[[^\]]+\]\(references\.bib#(\w+)\)"
 SOURCES = re.compile(rf"\({SOURCE}(?:, {SOURCE})*\)")
 EXERCISE = re.compile(r"\*\*Exercise(?:: (.+))?\*\*\n\n")
@@ -32,10 +38,21 @@ def setup(app):
 
 
 def translate(app, page, source):
-    if app.env.doc2path(page).endswith(".ipynb"):
+    path = Path(app.env.doc2path(page))
+    if path == GLOSSARY:
+        source[0] = definitions(source[0])
+    if path.suffix == ".ipynb":
         notebook = json.loads(source[0])
         notebook["cells"] = list(with_directives(notebook["cells"]))
         source[0] = json.dumps(notebook)
+
+
+def definitions(text):
+    """The glossary's text, its sections as Sphinx's own definitions."""
+    first, *rest = HEAD.split(TERM.sub(_term, text))
+    pairs = zip(rest[::2], rest[1::2], strict=True)
+    defined = "\n\n".join(f"{head}\n{indent(told.strip(), '  ')}" for head, told in pairs)
+    return f"{first}```{{glossary}}\n{defined}\n```\n"
 
 
 def with_directives(cells):
@@ -73,7 +90,7 @@ def _cell(name, directive):
 
 
 def _text(text, metadata):
-    text = TERM.sub(lambda to: f"{{term}}`{to[1]} <{to[2] or to[1]}>`", text)
+    text = TERM.sub(_term, text)
     if quiz := QUIZ.fullmatch(text):
         text = _quiz(*quiz.groups())
     text = SOURCES.sub(_cite, FOLD.sub(r"\1", text))
@@ -106,6 +123,10 @@ def _quiz(question, answers):
 def _answer(answer):
     kind, verdict = VERDICTS[answer[2]]
     return f'<details class="vmc-{kind}">{answer[1]}\n\n**{verdict}** '
+
+
+def _term(link):
+    return f"{{term}}`{link[1]} <{TERMS[link[2]]}>`"
 
 
 def _cite(links):
