@@ -1,4 +1,12 @@
-"""In a live kernel an edited file of the library counts from the next cell that runs."""
+"""In a live kernel an edited file of the library counts from the next cell that runs.
+
+JupyterLab writes what a kernel says of itself into the notebook: ours leave out the one thing that
+changes from reader to reader, or each notebook would be changed as soon as it is opened.
+"""
+
+from ipykernel.ipkernel import IPythonKernel
+
+IPythonKernel.language_info.pop("version", None)
 
 c = get_config()  # noqa: F821
 c.InteractiveShellApp.extensions = ["autoreload"]

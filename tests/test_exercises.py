@@ -11,6 +11,7 @@ import pytest
 from scipy.optimize import nnls
 from sklearn.metrics import precision_score, recall_score
 
+from vmc_lib import photos
 from vmc_lib.arm import muscle
 from vmc_lib.camera import Camera
 from vmc_lib.cerebellum import offline
@@ -19,8 +20,8 @@ from vmc_lib.show import grading
 from vmc_lib.show.grading import EMPTY, Exercise, feedback, grade, solution
 from vmc_lib.show.questions import RIGHT, WRONG
 from vmc_lib.what.crbm import CRBM
+from vmc_lib.where import selective_search
 from vmc_lib.where.appearance import Appearance
-from vmc_lib.where.selective_search import alike
 
 BOOK = Path(__file__).parents[1] / "book"
 CHAPTERS = sorted(BOOK.glob("[0-9]*.ipynb"))
@@ -110,7 +111,7 @@ def test_a_chapter_grades_two_functions_or_more(path):
 def fill(box_i, box_j, size_i, size_j, pixels):
     sizes, boxes = np.array([size_i, size_j]), np.array([box_i, box_j])
     regions = Appearance(sizes, boxes, np.zeros((2, 1)), np.zeros((2, 1)), pixels)
-    return alike(regions, np.array([[0, 1]]), ("fill",)).item()
+    return selective_search.alike(regions, np.array([[0, 1]]), ("fill",)).item()
 
 
 def machine(W, b=0.0, a=0.0, c=2):
@@ -166,6 +167,13 @@ def some(request):
     """Our solution, and the inputs of a case."""
     one = EVERY[request.param]
     return one.right, one.draw(np.random.default_rng(7))
+
+
+def test_engulfed_serves_where_its_solution_puts_it(monkeypatch):
+    monkeypatch.setitem(selective_search.SIMILARITIES, "engulfed", EVERY["ENGULFED"].right)
+    image = photos.load("rig", "train")[0].image
+    ours = selective_search.Strategy(similarities=(("engulfed",),))
+    assert len(selective_search.propose(image, ours)) > 10
 
 
 @pytest.mark.parametrize("some", ["POSTURE"], indirect=True)

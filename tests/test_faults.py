@@ -171,8 +171,6 @@ def test_a_demo_whose_cells_were_not_run_says_what_it_misses(path):
         ("80%", 0.8, "✓ Right."),
         ("11.5 mm", 11.5, "✓ Right."),
         ("SAME", "same", "✓ Right."),
-        ('"same"', "same", "✓ Right."),
-        ("‘same’ ", "same", "✓ Right."),
     ],
 )
 def test_whatever_a_reader_answers_is_answered(answer, expected, said, monkeypatch):

@@ -12,6 +12,7 @@ from urllib.parse import unquote, urljoin, urlsplit
 import numpy as np
 import pypdfium2
 import pytest
+from bs4 import BeautifulSoup
 
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.arm.kinematics import to_world
@@ -243,6 +244,13 @@ def test_is_light(path):
     weight = sum(file.stat().st_size for file in {path, *linked} if file.is_file())
     assert weight <= (5e6 if 'class="vmc-demo"' in text else 3e6)
     assert ("mathjax.js" in text) == bool(re.search(r'class="math|\\\(', text))
+
+
+@pytest.mark.parametrize("path", CHAPTERS, ids=lambda path: path.stem)
+def test_folds_are_closed_and_hide_no_exercise(path):
+    text = path.read_text(encoding="utf-8")
+    assert text.count("<details") == text.count("</details>")
+    assert not BeautifulSoup(text, "html.parser").select("details .exercise")
 
 
 def test_every_icon_is_drawn(opened):

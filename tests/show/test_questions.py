@@ -72,6 +72,8 @@ def test_a_prediction_that_cannot_be_closed_is_refused(choices, outcome, why):
         (np.eye(2), [[1, 0], [0, 1]], 1e-9),
         ("same", "same", 0),
         (" Same", "same", 0),
+        ('"same" ', "same", 0),
+        ("‘same’", "same", 0),
         ("1/9", 1 / 9, 1e-6),
         ("11,5", 11.5, 0),
         ("11.5 mm", 11.5, 0),
@@ -217,7 +219,7 @@ def test_a_prediction_works_where_storage_is_forbidden(open_questions):
             0.8,
             {"4/5": "Right", "80 %": "Right", "0,8 m": "Right", "8": "Not yet", "1/0": "Not yet"},
         ),
-        ("same", {"different": "Not yet", "Same": "Right"}),
+        ("same", {"different": "Not yet", "Same": "Right", '"same"': "Right", "‘same’": "Right"}),
     ],
 )
 def test_the_page_checks_what_is_typed(open_questions, expected, tries):
