@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PIL import Image
+from playwright.sync_api import expect
 
 from tests.conftest import AXE
 
@@ -217,11 +218,12 @@ PROSE = """async () => {
     if (cell.model.type !== "markdown" || cell.inputHidden) continue;
     await notebook.scrollToItem(i);
     const words = () => {
-      const prose = cell.node.querySelector(".myst")?.cloneNode(true);
-      prose?.querySelectorAll("code, .katex").forEach((part) => part.remove());
+      const prose = cell.node.querySelector(".jp-RenderedMarkdown")?.cloneNode(true);
+      prose?.querySelectorAll("code, mjx-container").forEach((part) => part.remove());
       return prose?.textContent.trim();
     };
-    while (!words()) await new Promise(requestAnimationFrame);
+    for (let frames = 600; frames-- && (!words() || words().includes("$")); )
+      await new Promise(requestAnimationFrame); // formulas are set a little later
     shown.push(words());
   }
   return shown; }"""
@@ -238,17 +240,13 @@ def test_links_open_as_something_to_read(visit):
     page = visit("07_muscle")
     for href, opened, words in (
         ("08_arm.ipynb", ".jp-NotebookPanel", "six muscles on two joints"),
-        ("glossary.md", ".jp-MarkdownViewer", "each explained in a sentence"),
+        ("glossary.md", ".jp-MarkdownViewer", "excitation¶"),  # the term, not the page's top
     ):
         page.get_by_role("tab", name="07_muscle.ipynb").click()
-        # jupyterlab-myst makes every link anew whenever a cell of text is shown first, so a mouse
-        # may press one and release another; "/files/" stands in a link that has its handler
-        page.wait_for_function(
-            "(link) => { link = document.querySelector(link); link?.click(); return link; }",
-            arg=f".myst a[href*='/files/{href}']",
-        )
-        said = page.locator(f"{opened}:visible").get_by_text(words)
-        said.filter(visible=True).first.wait_for()  # its source is there too, and hidden
+        # "/files/" stands in a link that has its handler
+        page.locator(f".jp-RenderedMarkdown a[href*='/files/{href}']").first.click()
+        said = page.locator(f"{opened}:visible").get_by_text(words).filter(visible=True)
+        expect(said.first).to_be_in_viewport(timeout=600_000)  # its source is there too, and hidden
 
 
 def test_a_plot_moves_fails_aloud_and_leaves_a_still(run_all):
