@@ -244,7 +244,10 @@ def test_links_open_as_something_to_read(visit):
     ):
         page.get_by_role("tab", name="07_muscle.ipynb").click()
         # "/files/" stands in a link that has its handler
-        page.locator(f".jp-RenderedMarkdown a[href*='/files/{href}']").first.click()
+        page.wait_for_function(  # one within a fold, too
+            "(link) => { link = document.querySelector(link); link?.click(); return link; }",
+            arg=f".jp-RenderedMarkdown a[href*='/files/{href}']",
+        )
         said = page.locator(f"{opened}:visible").get_by_text(words).filter(visible=True)
         expect(said.first).to_be_in_viewport(timeout=600_000)  # its source is there too, and hidden
 
