@@ -8,11 +8,10 @@ import nbformat
 from markdown_it import MarkdownIt
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 
-from kit.bank import questions
+from kit.bank import templates
 from kit.gift import gift
 from kit.key import key
 from kit.qti import package
-from kit.question import variants
 from kit.slides import build as slides
 from kit.student import student
 
@@ -30,9 +29,9 @@ line-height: 1.5; } pre { overflow: auto; }</style>
 def bank():
     """The variants of every question, {(chapter, name): [Question]}, in the book's order."""
     return {
-        (chapter.stem, ask.__name__): variants(ask)
+        (chapter.stem, template.name): template.variants()
         for chapter in CHAPTERS
-        for ask in questions(chapter.stem)
+        for template in templates(chapter.stem)
     }
 
 
@@ -41,8 +40,8 @@ def build(folder, pages):
     shutil.rmtree(folder, ignore_errors=True)
     students = folder / "students"
     students.mkdir(parents=True)
-    for linked in (*(ROOT / "book").glob("*.md"), ROOT / "book/references.bib"):
-        shutil.copy(linked, students)
+    for page in (*(ROOT / "book").glob("*.md"), ROOT / "book/references.bib"):
+        shutil.copy(page, students)
     keys = []
     for chapter in CHAPTERS:
         notebook = nbformat.read(chapter, as_version=4)
@@ -52,9 +51,9 @@ def build(folder, pages):
     (folder / "key.html").write_text(HEAD + _page("\n".join(keys)), encoding="utf-8")
     shutil.copy(ROOT / "book/_static/vendor/mathjax.js", folder)
     shutil.copy(ROOT / "kit/projects.md", folder)
-    asked = bank()
-    (folder / "questions.gift").write_text(gift(asked), encoding="utf-8")
-    (folder / "questions-qti.zip").write_bytes(package(asked))
+    questions = bank()
+    (folder / "questions.gift").write_text(gift(questions), encoding="utf-8")
+    (folder / "questions-qti.zip").write_bytes(package(questions))
     slides(folder / "slides", pages)
 
 

@@ -9,36 +9,36 @@ def gift(bank):
     A quiz that draws one question at random from a category gives each student other numbers.
     """
     return "\n\n".join(
-        "\n\n".join([f"$CATEGORY: $course$/{chapter}/{name}", *map(_item, named(name, variants))])
+        "\n\n".join(
+            [
+                f"$CATEGORY: $course$/{chapter}/{name}",
+                *map(_item, item_names(name, variants), variants),
+            ]
+        )
         for (chapter, name), variants in bank.items()
     )
 
 
-def named(name, variants):
-    """Each variant with a name of its own: pairs."""
-    return [(f"{name} {k}", question) for k, question in enumerate(variants, start=1)]
+def item_names(name, variants):
+    """A name for each variant of a question."""
+    return [f"{name} {k}" for k, _ in enumerate(variants, start=1)]
 
 
-def _item(pair):
-    name, question = pair
-    hint = f"\n####{_plain(question.hint)}" if question.hint else ""
-    return f"::{_plain(name)}::[plain]{_plain(asked(question))} {{{_answers(question)}{hint}\n}}"
-
-
-def asked(question):
-    """The question's text, with the unit that its answer is wanted in."""
-    return f"{question.text} (in {question.unit})" if question.unit else question.text
+def _item(name, question):
+    hint = f"\n####{_escape(question.hint)}" if question.hint else ""
+    prompt = f"::{_escape(name)}::[plain]{_escape(question.prompt)}"
+    return f"{prompt} {{{_answers(question)}{hint}\n}}"
 
 
 def _answers(question):
     if question.choices:
         return "".join(
-            f"\n{'=' if text == question.answer else '~'}{_plain(text)}"
+            f"\n{'=' if text == question.answer else '~'}{_escape(text)}"
             for text in question.choices
         )
-    return f"#{question.answer:.10g}:{question.tolerance:.3g}"
+    return f"#{question.decimal(question.answer)}:{question.decimal(question.tolerance)}"
 
 
-def _plain(text):
+def _escape(text):
     """Text in which no character means anything to GIFT."""
     return re.sub(r"([~=#{}:\\])", r"\\\1", text)

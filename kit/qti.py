@@ -7,7 +7,7 @@ import io
 from xml.etree import ElementTree
 from zipfile import ZipFile, ZipInfo
 
-from kit.gift import asked, named
+from kit.gift import item_names
 
 SPACE = "http://www.imsglobal.org/xsd/ims_qtiasiv1p2"
 PACKAGE = "http://www.imsglobal.org/xsd/imscp_v1p1"
@@ -49,8 +49,8 @@ def _manifest(files):
         )
         for path in files
     )
-    listed = _element("organizations"), _element("resources", *resources)
-    return _element("manifest", *listed, identifier="quiz-bank", xmlns=PACKAGE)
+    parts = _element("organizations"), _element("resources", *resources)
+    return _element("manifest", *parts, identifier="quiz-bank", xmlns=PACKAGE)
 
 
 def _quiz(chapter, groups):
@@ -61,7 +61,7 @@ def _quiz(chapter, groups):
 
 
 def _group(chapter, name, variants):
-    drawn = _element(
+    selection = _element(
         "selection_ordering",
         _element(
             "selection",
@@ -69,8 +69,8 @@ def _group(chapter, name, variants):
             _element("selection_extension", _element("points_per_item", text="1.0")),
         ),
     )
-    items = [_item(f"{chapter} {one}", question) for one, question in named(name, variants)]
-    return _element("section", drawn, *items, ident=f"{chapter}.{name}", title=name)
+    items = map(_item, item_names(f"{chapter} {name}", variants), variants)
+    return _element("section", selection, *items, ident=f"{chapter}.{name}", title=name)
 
 
 def _item(name, question):
@@ -89,7 +89,7 @@ def _item(name, question):
     return _element(
         "item",
         _element("itemmetadata", _element("qtimetadata", *meta)),
-        _element("presentation", _material(asked(question)), response),
+        _element("presentation", _material(question.prompt), response),
         _element(
             "resprocessing",
             _element("outcomes", _element("decvar", **score)),
@@ -130,11 +130,13 @@ def _choices(question):
 def _number(question):
     field = _element("render_fib", _element("response_label", ident="answer1"), fibtype="Decimal")
     response = _element("response_str", field, ident="response1", rcardinality="Single")
-    exact, low, high = (question.answer + k * question.tolerance for k in (0, -1, 1))
+    exact, low, high = (
+        question.decimal(question.answer + k * question.tolerance) for k in (0, -1, 1)
+    )
     bounds = _element(
         "and",
-        _element("vargte", text=f"{low:.10g}", respident="response1"),
-        _element("varlte", text=f"{high:.10g}", respident="response1"),
+        _element("vargte", text=low, respident="response1"),
+        _element("varlte", text=high, respident="response1"),
     )
-    equal = _element("varequal", text=f"{exact:.10g}", respident="response1")
+    equal = _element("varequal", text=exact, respident="response1")
     return response, _element("or", equal, bounds)

@@ -1,72 +1,129 @@
-"""A question with numbers in it, and its variants: the same question with other numbers."""
+"""Question templates: a text with numbers to draw, the formula of its answer, and its variants.
 
+@numeric("m", hint="speed × time", tolerance=0.1)
+def distance(speed=steps(1, 9, 0.5), seconds=(10, 20)):
+    '''A car drives {seconds} s at {speed} m/s. How far does it come?'''
+    return speed * seconds
+"""
+
+from collections import ChainMap
+from collections.abc import Callable
+from dataclasses import dataclass
+from inspect import signature
+from math import floor, log10
 from typing import NamedTuple
 from zlib import crc32
 
 import numpy as np
 
 VARIANTS = 5
+DRAWS = 20  # for each variant, at most
 
 
 class Question(NamedTuple):
-    """What is asked, in plain text, and what is right."""
+    """A question in plain text, and its right answer."""
 
     text: str
     answer: float | str  # a number, or the right one of the choices
     tolerance: float = 0.0  # of a number, in its own unit
     unit: str = ""
     hint: str = ""  # shown after the answer
-    choices: tuple = ()  # texts; none where a number is asked for
+    choices: tuple = ()  # texts; none where a number is wanted
+
+    @property
+    def prompt(self):
+        """The text, with the unit of the answer."""
+        return f"{self.text} (in {self.unit})" if self.unit else self.text
+
+    def decimal(self, number):
+        """A number as plain decimals, to a hundredth of the tolerance: platforms read no 1e-15."""
+        digits = max(0, 2 - floor(log10(self.tolerance))) if self.tolerance else 0
+        return f"{number:.{digits}f}"
 
 
-def number(text, answer, unit="", hint="", tolerance=None):
-    """A `Question` for a number, by default to one per cent; ValueError if it is not finite."""
-    answer = float(answer)
-    if not np.isfinite(answer):
-        raise ValueError(f"the answer to {text!r} is {answer}; draw other numbers")
-    return Question(
-        text, answer, 0.01 * abs(answer) if tolerance is None else tolerance, unit, hint
-    )
+@dataclass(frozen=True)
+class Template:
+    """A question whose numbers are drawn.
 
-
-def count(text, answer, unit="", hint=""):
-    """A `Question` for a whole number: no other is right."""
-    return number(text, answer, unit, hint, tolerance=0)
-
-
-def choice(text, choices, right, hint=""):
-    """A `Question` with one right choice; ValueError if it is not among them, or twice."""
-    if right not in choices or len({*choices}) < len(choices):
-        raise ValueError(f"{right!r} must be one of the choices of {text!r}: {choices}")
-    return Question(text, right, hint=hint, choices=tuple(choices))
-
-
-def pick(rng, *values):
-    """One of the values, drawn."""
-    return values[rng.integers(len(values))]
-
-
-def between(rng, low, high, step):
-    """A number from low to high in whole steps, drawn; as short in print as the step."""
-    return round(low + step * int(rng.integers(round((high - low) / step) + 1)), 6)
-
-
-def boxes(rng, count, width=600, height=400, step=10):
-    """Boxes (count, 4) of whole tens of pixels, drawn, each with its sides from 40 to 200."""
-    sides = step * rng.integers(4, 21, (count, 2))
-    corner = step * rng.integers(0, (np.array([width, height]) - sides) // step + 1)
-    return np.hstack([corner, corner + sides])
-
-
-def variants(ask, amount=VARIANTS):
-    """The first so many variants of a question that differ, the same ones at every call.
-
-    `ask(rng)` makes a `Question`. ValueError where its numbers do not give so many.
+    The docstring of `formula` is the text; {name} in it stands for a parameter or for a constant of
+    the module. A parameter's default is what it is drawn from: a sequence of values, or a function
+    of an rng. The formula returns the answer, or the answer and a dictionary of further words.
     """
-    found = {}
-    for draw in range(20 * amount):
-        question = ask(np.random.default_rng([crc32(ask.__qualname__.encode()), draw]))
-        found.setdefault(question.text, question)
-        if len(found) == amount:
-            return list(found.values())
-    raise ValueError(f"{ask.__qualname__} has no {amount} variants; let more of it be drawn")
+
+    formula: Callable
+    unit: str = ""
+    hint: str = ""
+    tolerance: float | None = None  # None: one per cent of the answer
+    choices: tuple = ()  # texts like the docstring; the formula returns the index of the right one
+    zero: bool = False  # whether 0 may be the answer; else such numbers are drawn again
+
+    @property
+    def name(self):
+        """The question's name in the bank."""
+        return self.formula.__name__
+
+    def question(self, rng):
+        """A `Question` with numbers drawn by `rng`; ValueError where it has no one right answer."""
+        parameters = signature(self.formula).parameters.items()
+        numbers = {name: _draw(parameter.default, rng) for name, parameter in parameters}
+        answer = self.formula(**numbers)
+        answer, words = answer if isinstance(answer, tuple) else (answer, {})
+        names = {name: _plain(value) for name, value in (numbers | words).items()}
+        names = ChainMap(names, self.formula.__globals__)
+        text = " ".join(self.formula.__doc__.split()).format_map(names)
+        if self.choices:
+            choices = tuple(choice.format_map(names) for choice in self.choices)
+            if answer not in range(len(choices)) or len({*choices}) < len(choices):
+                raise ValueError(f"{text!r}: choice {answer} is not the one right one of {choices}")
+            return Question(text, choices[int(answer)], hint=self.hint, choices=choices)
+        if not np.isfinite(answer):
+            raise ValueError(f"the answer to {text!r} is {answer}: draw other numbers")
+        answer = float(answer)
+        tolerance = 0.01 * abs(answer) if self.tolerance is None else self.tolerance
+        return Question(text, answer, tolerance, self.unit, self.hint)
+
+    def variants(self, count=VARIANTS):
+        """The first `count` questions that differ, the same at every call; ValueError if fewer."""
+        questions = {}
+        for draw in range(DRAWS * count):
+            question = self.question(np.random.default_rng([crc32(self.name.encode()), draw]))
+            if question.choices or self.zero or abs(question.answer) > question.tolerance:
+                questions.setdefault(question.text, question)
+            if len(questions) == count:
+                return list(questions.values())
+        raise ValueError(f"{self.name} has no {count} variants: let it draw from more numbers")
+
+
+def _draw(domain, rng):
+    return domain(rng) if callable(domain) else domain[rng.integers(len(domain))]
+
+
+def _plain(value):
+    """An array as a list, which prints without NumPy's name."""
+    return value.tolist() if isinstance(value, np.ndarray) else value
+
+
+def numeric(unit="", hint="", tolerance=None, zero=False):
+    """Decorator: a `Template` for a number, by default to one per cent."""
+    return lambda formula: Template(formula, unit, hint, tolerance, zero=zero)
+
+
+def count(unit="", hint=""):
+    """Decorator: a `Template` for a whole number, with no tolerance."""
+    return numeric(unit, hint, tolerance=0)
+
+
+def choice(*choices, hint=""):
+    """Decorator: a `Template` whose formula returns the index of the right choice."""
+    return lambda formula: Template(formula, hint=hint, choices=choices)
+
+
+def steps(low, high, step, zero=None):
+    """Numbers from low to high, both included, as short in print as the step; `zero` for any 0."""
+    numbers = [round(low + step * k, 6) for k in range(round((high - low) / step) + 1)]
+    return [x if x or zero is None else zero for x in numbers]
+
+
+def tenths(low, high, count):
+    """A function of an rng: so many numbers (count,), drawn evenly, to one decimal."""
+    return lambda rng: np.round(rng.uniform(low, high, count), 1)

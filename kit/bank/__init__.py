@@ -1,18 +1,15 @@
-"""Questions of each chapter: every public function of a module here takes an rng and asks one.
+"""Question templates of each chapter: a module is named as its chapter, without the number.
 
-A module is named as its chapter is, without the number. Texts are plain, so that any learning
-platform shows them; answers come from the book's own functions.
+Texts are plain, so that any learning platform shows them; answers are computed by the book's own
+functions.
 """
 
 from importlib import import_module
-from inspect import isfunction
+
+from kit.question import Template
 
 
-def questions(chapter):
-    """The functions that ask about a chapter, such as "07_muscle", in the order of its module."""
+def templates(chapter):
+    """The `Template`s of a chapter, such as "07_muscle", in the order of its module."""
     module = import_module(f"kit.bank.{chapter.split('_', 1)[1]}")
-    return [
-        ask
-        for name, ask in vars(module).items()
-        if isfunction(ask) and ask.__module__ == module.__name__ and not name.startswith("_")
-    ]
+    return [value for value in vars(module).values() if isinstance(value, Template)]

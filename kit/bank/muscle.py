@@ -2,149 +2,109 @@
 
 import numpy as np
 
-from kit.question import between, choice, number, pick
+from kit.question import choice, numeric, steps
 from vmc_lib.arm import muscle
 from vmc_lib.arm.model import F0, L0, MUSCLES, SLACK
 
 RISE, FALL = (1000 * tau for tau in (muscle.TAU_ACTIVATION, muscle.TAU_DEACTIVATION))
 LAG = f"(Eq. 9, time constants {RISE:g} and {FALL:g} ms)"
+EACH = range(len(MUSCLES))
 
 
-def _named(rng):
-    """One of the arm's muscles: its name, greatest force (N), optimal and slack length (m)."""
-    k = int(rng.integers(len(MUSCLES)))
-    return MUSCLES[k], F0[k], L0[k], SLACK[k]
+@numeric("1/s", "(u - a)[u/τ_act + (1 - u)/τ_deact]")
+def rate_of_rising(a=steps(0, 0.5, 0.05), more=steps(0.1, 0.5, 0.05)):
+    """A muscle's activation is {a} and its excitation {u}. How fast does activation rise, per
+    second {LAG}?"""
+    u = round(a + more, 2)
+    return muscle.activation_rate(u, a), {"u": u}
 
 
-def rate_of_rising(rng):
-    a = between(rng, 0, 0.5, 0.05)
-    u = round(a + between(rng, 0.1, 0.5, 0.05), 2)
-    return number(
-        f"A muscle's activation is {a} and its excitation {u}. How fast does activation rise, per "
-        f"second {LAG}?",
-        muscle.activation_rate(u, a),
-        "1/s",
-        "(u - a)[u/τ_act + (1 - u)/τ_deact]",
-    )
+@numeric("1/s", "(u - a)/τ_deact")
+def rate_of_falling(u=steps(0, 0.4, 0.05), more=steps(0.1, 0.5, 0.05)):
+    """A muscle's activation is {a} and its excitation {u}. How fast does activation change, per
+    second (negative: it falls) {LAG}?"""
+    a = round(u + more, 2)
+    return muscle.activation_rate(u, a), {"a": a}
 
 
-def rate_of_falling(rng):
-    u = between(rng, 0, 0.4, 0.05)
-    a = round(u + between(rng, 0.1, 0.5, 0.05), 2)
-    return number(
-        f"A muscle's activation is {a} and its excitation {u}. How fast does activation change, "
-        f"per second (negative: it falls) {LAG}?",
-        muscle.activation_rate(u, a),
-        "1/s",
-        "(u - a)/τ_deact",
-    )
+@numeric(hint="Add the rate times the step, in seconds.", tolerance=0.002)
+def one_step_of_euler(u=steps(0, 1, 0.1), a=steps(0.1, 0.9, 0.1), ms=(1, 2)):
+    """Activation is {a}, excitation {u}. What is the activation {ms} ms later, by one step of
+    Euler's method {LAG}?"""
+    return a + ms / 1000 * muscle.activation_rate(u, a)
 
 
-def one_step_of_euler(rng):
-    u, a, ms = between(rng, 0, 1, 0.1), between(rng, 0.1, 0.9, 0.1), pick(rng, 1, 2)
-    return number(
-        f"Activation is {a}, excitation {u}. What is the activation {ms} ms later, by one step of "
-        f"Euler's method {LAG}?",
-        a + ms / 1000 * muscle.activation_rate(u, a),
-        hint="Add the rate times the step, in seconds.",
-        tolerance=0.002,
-    )
+@numeric(hint="It falls exponentially: a exp(-t/τ_deact).", tolerance=0.002)
+def silence(a=steps(0.3, 1, 0.1), ms=steps(10, 100, 10)):
+    """A muscle at activation {a} is told nothing more. What is it {ms} ms later {LAG}?"""
+    return a * np.exp(-ms / FALL)
 
 
-def silence(rng):
-    a, ms = between(rng, 0.3, 1, 0.1), between(rng, 10, 100, 10)
-    return number(
-        f"A muscle at activation {a} is told nothing more. What is it {ms} ms later {LAG}?",
-        a * np.exp(-ms / FALL),
-        hint="It falls exponentially: a exp(-t/τ_deact).",
-        tolerance=0.002,
-    )
+@numeric(hint="What goes up while u = 1 comes down while u = 0.")
+def flicker(on=steps(0.1, 0.9, 0.05)):
+    """Excitation flickers very fast between 0 and 1 and is 1 for {on:.0%} of the time. To which
+    value does activation settle {LAG}?"""
+    return on / RISE / (on / RISE + (1 - on) / FALL)
 
 
-def flicker(rng):
-    on = between(rng, 0.1, 0.9, 0.05)
-    return number(
-        f"Excitation flickers very fast between 0 and 1 and is 1 for {on:.0%} of the time. To "
-        f"which value does activation settle {LAG}?",
-        on / RISE / (on / RISE + (1 - on) / FALL),
-        hint="What goes up while u = 1 comes down while u = 0.",
-    )
+@numeric(
+    hint="Solve Eq. 9 for u: a quadratic while it rises, linear while it falls.", tolerance=0.005
+)
+def excitation_wanted(a=steps(0.1, 0.7, 0.1), rate=steps(-2, 10, 1, zero=5)):
+    """Activation is {a} and must change at {rate} per second. Which excitation does it {LAG}?"""
+    return muscle.excitation_for(a, float(rate))
 
 
-def excitation_wanted(rng):
-    a, rate = between(rng, 0.1, 0.7, 0.1), between(rng, -2, 10, 1) or 5
-    return number(
-        f"Activation is {a} and must change at {rate} per second. Which excitation does it {LAG}?",
-        muscle.excitation_for(a, float(rate)),
-        hint="Solve Eq. 9 for u: a quadratic while it rises, linear while it falls.",
-        tolerance=0.005,
-    )
+@numeric(hint="exp(-40 (l - 0.95)⁴ + (l - 0.95)²)", tolerance=0.002)
+def force_of_length(length=steps(0.4, 1.6, 0.05)):
+    """What is f1, the share of the greatest force that an active fibre has at {length} of its
+    optimal length (Eq. 11)?"""
+    return muscle.force_length(length)
 
 
-def force_of_length(rng):
-    length = between(rng, 0.4, 1.6, 0.05)
-    return number(
-        f"What is f1, the share of the greatest force that an active fibre has at {length} of its "
-        "optimal length (Eq. 11)?",
-        muscle.force_length(length),
-        hint="exp(-40 (l - 0.95)⁴ + (l - 0.95)²)",
-        tolerance=0.002,
-    )
+@numeric(
+    hint=f"v = speed / {muscle.MAX_VELOCITY}; 1.6 - 1.6 exp(-1.1/(1-v)⁴ + 0.1/(1-v)²)",
+    tolerance=0.005,
+)
+def force_of_velocity(speed=steps(-5, 2, 0.25)):
+    """A muscle changes its length by {speed} optimal lengths a second (positive: it lengthens).
+    What is f2 (Eq. 11)?"""
+    return muscle.force_velocity(speed / muscle.MAX_VELOCITY)
 
 
-def force_of_velocity(rng):
-    speed = between(rng, -5, 2, 0.25)
-    return number(
-        f"A muscle changes its length by {speed} optimal lengths a second (positive: it "
-        "lengthens). What is f2 (Eq. 11)?",
-        muscle.force_velocity(speed / muscle.MAX_VELOCITY),
-        hint=f"v = speed / {muscle.MAX_VELOCITY}; 1.6 - 1.6 exp(-1.1/(1-v)⁴ + 0.1/(1-v)²)",
-        tolerance=0.005,
-    )
+@numeric("N", "F0 (f1(l) f2(v) a + f3(l))")
+def pull_of_a_muscle(
+    k=EACH, a=steps(0.1, 1, 0.1), length=steps(0.7, 1.3, 0.05), v=steps(-0.8, 0.4, 0.1)
+):
+    """{name} (F0 = {strongest:.1f} N) has the activation {a}, the length l = {length} and the
+    velocity v = {v}. How hard does it pull (Eq. 10)?"""
+    return muscle.force(a, length, v, F0[k]), {"name": MUSCLES[k], "strongest": F0[k]}
 
 
-def pull_of_a_muscle(rng):
-    name, strongest, *_ = _named(rng)
-    a, length = between(rng, 0.1, 1, 0.1), between(rng, 0.7, 1.3, 0.05)
-    v = between(rng, -0.8, 0.4, 0.1)
-    return number(
-        f"{name} (F0 = {strongest:.1f} N) has the activation {a}, the length l = {length} and the "
-        f"velocity v = {v}. How hard does it pull (Eq. 10)?",
-        muscle.force(a, length, v, strongest),
-        "N",
-        "F0 (f1(l) f2(v) a + f3(l))",
-    )
+@numeric(hint="(whole - tendon) / optimal fibre")
+def length_of_a_fibre(k=EACH, length=steps(0.6, 1.3, 0.05)):
+    """{name} is {whole_cm:.2f} cm long, its slack tendon {slack_cm:.2f} cm, its optimal fibre
+    {optimal_cm:.2f} cm. What is its normalised length l?"""
+    whole = round(float(SLACK[k] + L0[k] * length), 4)
+    words = {"whole_cm": 100 * whole, "slack_cm": 100 * SLACK[k], "optimal_cm": 100 * L0[k]}
+    return (whole - SLACK[k]) / L0[k], words | {"name": MUSCLES[k]}
 
 
-def length_of_a_fibre(rng):
-    name, _, optimal, slack = _named(rng)
-    whole = round(float(slack + optimal * between(rng, 0.6, 1.3, 0.05)), 4)
-    return number(
-        f"{name} is {100 * whole:.2f} cm long, its slack tendon {100 * slack:.2f} cm, its optimal "
-        f"fibre {100 * optimal:.2f} cm. What is its normalised length l?",
-        (whole - slack) / optimal,
-        hint="(whole - tendon) / optimal fibre",
-    )
+@numeric(hint=f"In optimal lengths a second, over {muscle.MAX_VELOCITY}.")
+def speed_of_a_fibre(k=EACH, speed=steps(-0.3, 0.3, 0.02, zero=0.1)):
+    """{name} has an optimal fibre of {optimal_cm:.2f} cm and lengthens at {speed} m/s (negative: it
+    shortens). What is v of Eq. 11, in the book's reading?"""
+    return speed / L0[k] / muscle.MAX_VELOCITY, {"name": MUSCLES[k], "optimal_cm": 100 * L0[k]}
 
 
-def speed_of_a_fibre(rng):
-    name, _, optimal, _ = _named(rng)
-    speed = between(rng, -0.3, 0.3, 0.02) or 0.1
-    return number(
-        f"{name} has an optimal fibre of {100 * optimal:.2f} cm and lengthens at {speed} m/s "
-        "(negative: it shortens). What is v of Eq. 11, in the book's reading?",
-        speed / optimal / muscle.MAX_VELOCITY,
-        hint=f"In optimal lengths a second, over {muscle.MAX_VELOCITY}.",
-    )
-
-
-def when_does_it_pull_hardest(rng):
-    speeds = sorted(rng.choice(np.arange(-8, 4), 3, replace=False) / 4)
-    pulls = {f"{s:+g} l0/s": float(muscle.force_velocity(s / muscle.MAX_VELOCITY)) for s in speeds}
-    return choice(
-        "A fully active muscle of optimal length moves at one of three speeds (positive: it "
-        f"lengthens): {', '.join(pulls)}. At which one does it pull hardest?",
-        pulls,
-        max(pulls, key=pulls.get),
-        "f2 grows with v: a stretched muscle pulls harder, a shortening one less.",
-    )
+@choice(
+    *(f"{{speeds[{k}]:+g}} l0/s" for k in range(3)),
+    hint="f2 grows with v: a stretched muscle pulls harder, a shortening one less.",
+)
+def when_does_it_pull_hardest(
+    speeds=lambda rng: np.sort(rng.choice(np.arange(-8, 4), 3, replace=False) / 4),
+):
+    """A fully active muscle of optimal length moves at one of three speeds (positive: it
+    lengthens): {speeds[0]:+g} l0/s, {speeds[1]:+g} l0/s, {speeds[2]:+g} l0/s. At which one does it
+    pull hardest?"""
+    return np.argmax(muscle.force_velocity(speeds / muscle.MAX_VELOCITY))

@@ -1,140 +1,126 @@
 """Habitual planning: weights by nearness, and how far the mixture is from the target (Eq. 3–5)."""
 
+from types import SimpleNamespace
+
 import numpy as np
 
-from kit.question import between, choice, number, pick
+from kit.question import choice, numeric, steps
 from vmc_lib.motor.inverse_dynamics import smooth
 from vmc_lib.motor.planning import exact_weights, habitual_weights, least_change, surrounding
 
 
-def _four(rng):
+def four_templates(rng):
     """Four templates round a target, in whole centimetres: target (2,), points (4, 2)."""
-    steps = rng.integers(1, 6, (4, 2)) * [[1, 1], [-1, 1], [-1, -1], [1, -1]]
+    away = rng.integers(1, 6, (4, 2)) * [[1, 1], [-1, 1], [-1, -1], [1, -1]]
     target = rng.integers([10, -45], [20, -35])
-    return target.astype(float), (target + steps).astype(float)
+    at, *listed = (f"({x:g}, {y:g})" for x, y in [target, *target + away])
+    target = target.astype(float)
+    return SimpleNamespace(target=target, points=target + away, at=at, listed=", ".join(listed))
 
 
-def _told(rng):
-    target, points = _four(rng)
-    listed = ", ".join(f"({x:g}, {y:g})" for x, y in points)
-    return target, points, f"({target[0]:g}, {target[1]:g})", listed
+def distances(count):
+    """A function of an rng: so many distances (count,) from 1 to 9 cm."""
+    return lambda rng: rng.integers(1, 10, count).astype(float)
 
 
-def two_templates(rng):
-    share = between(rng, 0.05, 0.95, 0.05)
-    return number(
-        f"There are two templates, and a target on the line between them, {share:.0%} of the way "
-        "to the second. What is the weight of the first (Eq. 5)?",
-        habitual_weights(np.array([share]), np.array([[0.0], [1.0]]))[0],
-        hint="1/d1 over the sum of 1/d1 and 1/d2: linear interpolation.",
-    )
+@numeric(hint="1/d1 over the sum of 1/d1 and 1/d2: linear interpolation.")
+def two_templates(share=steps(0.05, 0.95, 0.05)):
+    """There are two templates, and a target on the line between them, {share:.0%} of the way to the
+    second. What is the weight of the first (Eq. 5)?"""
+    return habitual_weights(np.array([share]), np.array([[0.0], [1.0]]))[0]
 
 
-def weight_by_nearness(rng):
-    distances, k = rng.integers(1, 10, 4).astype(float), int(rng.integers(4))
-    return number(
-        f"Four templates lie {distances.tolist()} cm from the target. What is the weight of the "
-        f"one in place {k + 1} of this list (Eq. 5)?",
-        habitual_weights(np.zeros(1), distances[:, None])[k],
-        hint="One over its distance, over the sum of all four.",
-    )
+@numeric(hint="One over its distance, over the sum of all four.")
+def weight_by_nearness(cm=distances(4), place=(1, 2, 3, 4)):
+    """Four templates lie {cm} cm from the target. What is the weight of the one in place {place} of
+    this list (Eq. 5)?"""
+    return habitual_weights(np.zeros(1), cm[:, None])[place - 1]
 
 
-def weight_with_a_power(rng):
-    distances, power = rng.integers(1, 10, 3).astype(float), pick(rng, 0.5, 2, 3)
-    return number(
-        f"Three templates lie {distances.tolist()} cm from the target. Nearness is one over the "
-        f"distance to the power {power}. What is the weight of the first?",
-        habitual_weights(np.zeros(1), distances[:, None], power)[0],
-        hint="As Eq. 5, with d to that power in place of d.",
-    )
+@numeric(hint="As Eq. 5, with d to that power in place of d.")
+def weight_with_a_power(cm=distances(3), power=(0.5, 2, 3)):
+    """Three templates lie {cm} cm from the target. Nearness is one over the distance to the power
+    {power}. What is the weight of the first?"""
+    return habitual_weights(np.zeros(1), cm[:, None], power)[0]
 
 
-def miss_of_equation_four(rng):
-    target, points, at, listed = _told(rng)
-    return number(
-        f"The target is {at} cm, the templates' points are {listed} cm. With the weights of Eq. 5, "
-        "how far from the target is Σ w_i p_i, which Eq. 4 wants there?",
-        10 * np.linalg.norm(habitual_weights(target, points) @ points - target),
-        "mm",
-        "The length of Σ w_i p_i - p_t; mind the millimetres.",
-        tolerance=0.1,
-    )
+@numeric("mm", "The length of Σ w_i p_i - p_t; mind the millimetres.", tolerance=0.1)
+def miss_of_equation_four(four=four_templates):
+    """The target is {four.at} cm, the templates' points are {four.listed} cm. With the weights of
+    Eq. 5, how far from the target is Σ w_i p_i, which Eq. 4 wants there?"""
+    weights = habitual_weights(four.target, four.points)
+    return 10 * np.linalg.norm(weights @ four.points - four.target)
 
 
-def exact_weight(rng):
-    target, points, at, listed = _told(rng)
-    return number(
-        f"In a notebook: the target is {at}, the templates' points are {listed}. Which weight does "
-        "exact_weights give the first one, so that Eq. 4 holds?",
-        exact_weights(target, points)[0],
-        hint="exact_weights(target, points)[0], with arrays of floats.",
-        tolerance=0.002,
-    )
+@numeric(hint="exact_weights(target, points)[0], with arrays of floats.", tolerance=0.002)
+def exact_weight(four=four_templates):
+    """In a notebook: the target is {four.at}, the templates' points are {four.listed}. Which weight
+    does exact_weights give the first one, so that Eq. 4 holds?"""
+    return exact_weights(four.target, four.points)[0]
 
 
-def least_change_of_four(rng):
-    side, shift = between(rng, 4, 10, 1), between(rng, 2, 20, 1)
+@numeric(hint="By symmetry +x, +x, -x, -x; then side · 2x = shift.")
+def least_change_of_four(side=steps(4, 10, 1), shift=steps(2, 20, 1)):
+    """Four templates lie at the corners of a square of {side} cm. The mixture should move by
+    {shift} mm along one side. By how much must the weight of a corner on that side change, if the
+    change is to be the smallest that sums to zero?"""
     corners = side / 2 * np.array([[1.0, -1, -1, 1], [1, 1, -1, -1]])
-    return number(
-        f"Four templates lie at the corners of a square of {side} cm. The mixture should move by "
-        f"{shift} mm along one side. By how much must the weight of a corner on that side change, "
-        "if the change is to be the smallest that sums to zero?",
-        least_change(corners, np.array([shift / 10, 0]))[0],
-        hint="By symmetry +x, +x, -x, -x; then side · 2x = shift.",
-    )
+    return least_change(corners, np.array([shift / 10, 0]))[0]
 
 
-def origin_of_the_plane(rng):
+def four_weights(rng):
+    """Four weights with two decimals whose sum is not 1."""
     weights = np.round(rng.dirichlet(np.ones(4)), 2)
-    weights[0] = round(float(weights[0] + pick(rng, -0.1, 0.1, 0.2, 0.3)), 2)
-    apart = between(rng, 10, 40, 5)
-    return number(
-        f"The weights of four templates are {weights.tolist()}. All positions are now measured "
-        f"from an origin {apart} cm away. How far is the place that Σ w_i p_i describes from the "
-        "place it described before?",
-        abs(weights.sum() - 1) * apart,
-        "cm",
-        "|Σ w_i - 1| × distance: only weights that sum to one do not mind the origin.",
-        tolerance=0.05,
-    )
+    weights[0] = round(float(weights[0] + (-0.1, 0.1, 0.2, 0.3)[rng.integers(4)]), 2)
+    return weights
 
 
-def mixture_beyond_the_limits(rng):
-    extra = pick(rng, 0.3, 0.4, 0.6, 0.8)
-    told = np.array([between(rng, 0.6, 1, 0.1), between(rng, 0, 0.4, 0.1)])
-    weights = np.array([1 + extra, -extra])[:: pick(rng, 1, -1)]
-    return number(
-        f"Two templates excite a muscle by {told.tolist()}; their weights are {weights.tolist()}. "
-        "What does the book's plan tell the muscle (Eq. 3)?",
-        np.clip(weights @ told, 0, 1),
-        hint="No nerve can tell less than 0 or more than 1: the sum is held to these limits.",
-        tolerance=0.005,
-    )
+@numeric(
+    "cm",
+    "|Σ w_i - 1| × distance: only weights that sum to one do not mind the origin.",
+    tolerance=0.05,
+)
+def origin_of_the_plane(weights=four_weights, apart=steps(10, 40, 5)):
+    """The weights of four templates are {weights}. All positions are now measured from an origin
+    {apart} cm away. How far is the place that Σ w_i p_i describes from the place it described
+    before?"""
+    return abs(weights.sum() - 1) * apart
 
 
-def nearest_in_its_quadrant(rng):
-    target, points, at, _ = _told(rng)
-    farther = points + 2 * np.sign(points - target)
-    order = rng.permutation(8)
-    listed = np.vstack([points, farther])[order]
-    quadrant = int(rng.integers(4))
-    where = ("above and forward", "above and behind", "below and behind", "below and forward")
-    names = [f"({x:g}, {y:g})" for x, y in listed]
-    return choice(
-        f"The target is {at} cm (x forward, y up). Which of these templates does the plan take "
-        f"from the quadrant {where[quadrant]} of it?",
-        names,
-        names[surrounding(target, listed)[quadrant]],
-        "Only two lie there; the nearer one is taken.",
-    )
+@numeric(
+    hint="No nerve can tell less than 0 or more than 1: the sum is held to these limits.",
+    tolerance=0.005,
+    zero=True,
+)
+def mixture_beyond_the_limits(
+    extra=(0.3, 0.4, 0.6, 0.8),
+    high=steps(0.6, 1, 0.1),
+    low=steps(0, 0.4, 0.1),
+    order=(1, -1),
+):
+    """Two templates excite a muscle by [{high}, {low}]; their weights are {weights}. What does the
+    book's plan tell the muscle (Eq. 3)?"""
+    weights = np.array([1 + extra, -extra])[::order]
+    return np.clip(weights @ [high, low], 0, 1), {"weights": weights}
 
 
-def share_of_the_way(rng):
-    share = between(rng, 0.05, 0.95, 0.05)
-    return number(
-        f"A minimum-jerk movement has used {share:.0%} of its time. What share of the way is done?",
-        smooth(share),
-        hint="10 s³ - 15 s⁴ + 6 s⁵",
-        tolerance=0.002,
-    )
+QUADRANTS = "above and forward", "above and behind", "below and behind", "below and forward"
+
+
+@choice(*(f"{{names[{k}]}}" for k in range(8)), hint="Only two lie there; the nearer one is taken.")
+def nearest_in_its_quadrant(
+    four=four_templates, order=lambda rng: rng.permutation(8), quadrant=range(4)
+):
+    """The target is {four.at} cm (x forward, y up). Which of these templates does the plan take
+    from the quadrant {where} of it?"""
+    farther = four.points + 2 * np.sign(four.points - four.target)
+    points = np.vstack([four.points, farther])[order]
+    names = [f"({x:g}, {y:g})" for x, y in points]
+    right = surrounding(four.target, points)[quadrant]
+    return right, {"names": names, "where": QUADRANTS[quadrant]}
+
+
+@numeric(hint="10 s³ - 15 s⁴ + 6 s⁵", tolerance=0.002)
+def share_of_the_way(share=steps(0.05, 0.95, 0.05)):
+    """A minimum-jerk movement has used {share:.0%} of its time. What share of the way is done?"""
+    return smooth(share)

@@ -2,123 +2,100 @@
 
 import numpy as np
 
-from kit.question import between, choice, number, pick
+from kit.question import choice, numeric, steps
 from vmc_lib.cerebellum.two_rates import Rates, adapt
 from vmc_lib.motor.feedback import Senses, ask, curl
 from vmc_lib.motor.inverse_dynamics import smooth
 
-
-def _rates(rng):
-    kept = pick(rng, 0.5, 0.6, 0.7), pick(rng, 0.98, 0.99)
-    return *kept, pick(rng, 0.2, 0.25), pick(rng, 0.02, 0.03, 0.05)
+KEPT, SLOW = (0.5, 0.6, 0.7), (0.98, 0.99)
+QUICK, LITTLE = (0.2, 0.25), (0.02, 0.03, 0.05)
 
 
-def moved_unseen(rng):
-    speed, delay = between(rng, 0.2, 1.5, 0.1), between(rng, 60, 250, 10)
-    return number(
-        f"The hand moves at {speed} m/s, and sight is {delay} ms late. How far has the hand moved "
-        "from where it is seen?",
-        100 * speed * delay / 1000,
-        "cm",
-        "Speed × delay.",
-    )
+def memories(kept, slow, quick, little, reach):
+    """What the fast and the slow memory hold before a reach in a world that is off by 1, (2,)."""
+    return adapt(np.ones(reach), Rates((kept, slow), (quick, little)))[-1]
 
 
-def wanted_acceleration(rng):
-    gain, damping = between(rng, 10, 60, 5), pick(rng, 0.1, 0.2, 0.25, 0.4)
-    off, slow = between(rng, -0.2, 0.2, 0.02), between(rng, -1, 1, 0.1)
-    return number(
-        f"Feedback has the gain {gain} 1/s² and the damping {damping} s. A joint is {off} rad "
-        f"short of where it should be and {slow} rad/s slower than it should be (negative: beyond, "
-        "faster). Which acceleration does it ask for?",
-        ask(Senses(gain=gain, damping=damping), off, slow, 0.0, 0.0),
-        "rad/s²",
-        "gain × (error + damping × error of velocity)",
-        tolerance=0.02,
-    )
+@numeric("cm", "Speed × delay.")
+def moved_unseen(speed=steps(0.2, 1.5, 0.1), delay=steps(60, 250, 10)):
+    """The hand moves at {speed} m/s, and sight is {delay} ms late. How far has the hand moved from
+    where it is seen?"""
+    return 100 * speed * delay / 1000
 
 
-def force_of_a_curl_field(rng):
-    strength, speed = between(rng, 5, 20, 1), between(rng, 0.1, 1, 0.1)
-    vx, vy = pick(rng, (speed, 0), (0, speed), (speed, speed), (-speed, speed))
-    k = pick(rng, 0, 1)
-    return number(
-        f"A curl field of {strength} N for each m/s pushes the hand clockwise of its way, (b v_y, "
-        f"-b v_x). The hand moves at ({vx}, {vy}) m/s. What is the force along {'xy'[k]}?",
-        curl(strength)(0.0, np.array([vx, vy]))[k],
-        "N",
-        "Swap the velocity's parts and turn the sign of the second.",
-        tolerance=0.02,
-    )
+@numeric("rad/s²", "gain × (error + damping × error of velocity)", tolerance=0.02)
+def wanted_acceleration(
+    gain=steps(10, 60, 5),
+    damping=(0.1, 0.2, 0.25, 0.4),
+    off=steps(-0.2, 0.2, 0.02),
+    slow=steps(-1, 1, 0.1),
+):
+    """Feedback has the gain {gain} 1/s² and the damping {damping} s. A joint is {off} rad short of
+    where it should be and {slow} rad/s slower than it should be (negative: beyond, faster). Which
+    acceleration does it ask for?"""
+    return ask(Senses(gain=gain, damping=damping), off, slow, 0.0, 0.0)
 
 
-def fastest_moment(rng):
-    way, seconds = between(rng, 10, 40, 2), between(rng, 0.4, 1, 0.1)
-    steps = np.linspace(0, 1, 2001)
-    return number(
-        f"A minimum-jerk movement covers {way} cm in {seconds} s. How fast is it at its fastest?",
-        way / seconds * np.gradient(smooth(steps), steps).max(),
-        "cm/s",
-        "1.875 × way / time, at half of the time.",
-    )
+@numeric("N", "Swap the velocity's parts and turn the sign of the second.", tolerance=0.02)
+def force_of_a_curl_field(
+    strength=steps(5, 20, 1),
+    speed=steps(0.1, 1, 0.1),
+    way=range(4),
+    axis=("x", "y"),
+):
+    """A curl field of {strength} N for each m/s pushes the hand clockwise of its way, (b v_y,
+    -b v_x). The hand moves at ({velocity[0]}, {velocity[1]}) m/s. What is the force along
+    {axis}?"""
+    velocity = ((speed, 0), (0, speed), (speed, speed), (-speed, speed))[way]
+    force = curl(strength)(0.0, np.array(velocity))
+    return force[int(axis == "y")], {"velocity": velocity}
 
 
-def samples_of_a_delay(rng):
-    delay, tick = between(rng, 60, 240, 20), pick(rng, 5, 10, 20)
-    return number(
-        f"Sight is {delay} ms late, and a forward model foresees every {tick} ms. How many of its "
-        "steps must it replay to know where the arm is now?",
-        delay // tick,
-        "steps",
-        "Delay over step.",
-        tolerance=0,
-    )
+@numeric("cm/s", "1.875 × way / time, at half of the time.")
+def fastest_moment(way=steps(10, 40, 2), seconds=steps(0.4, 1, 0.1)):
+    """A minimum-jerk movement covers {way} cm in {seconds} s. How fast is it at its fastest?"""
+    times = np.linspace(0, 1, 2001)
+    return way / seconds * np.gradient(smooth(times), times).max()
 
 
-def period_of_a_tremor(rng):
-    delay, times = between(rng, 80, 240, 20), pick(rng, 2, 4)
-    return number(
-        f"An arm trembles with a period of {times} delays; its sight is {delay} ms late. What is "
-        "the tremor's frequency?",
-        1000 / (times * delay),
-        "Hz",
-        "One over the period.",
-    )
+@numeric("steps", "Delay over step.", tolerance=0)
+def samples_of_a_delay(delay=steps(60, 240, 20), tick=(5, 10, 20)):
+    """Sight is {delay} ms late, and a forward model foresees every {tick} ms. How many of its steps
+    must it replay to know where the arm is now?"""
+    return delay // tick
 
 
-def two_memories(rng):
-    kept, slow, quick, little = _rates(rng)
-    rates, reach = Rates((kept, slow), (quick, little)), pick(rng, 2, 3)
-    return number(
-        f"A fast memory keeps {kept} and learns {quick} of the error, a slow one keeps {slow} and "
-        f"learns {little}. Both begin at 0, and the world is off by 1 from the first reach on. "
-        f"What do they hold together before reach {reach}?",
-        adapt(np.ones(reach), rates)[-1].sum(),
-        hint="held = kept × held + learned × error, and error = 1 - what both hold",
-    )
+@numeric("Hz", "One over the period.")
+def period_of_a_tremor(delay=steps(80, 240, 20), times=(2, 4)):
+    """An arm trembles with a period of {times} delays; its sight is {delay} ms late. What is the
+    tremor's frequency?"""
+    return 1000 / (times * delay)
 
 
-def which_memory_holds_more(rng):
-    kept, slow, quick, little = _rates(rng)
-    reach = pick(rng, 2, 5, 40, 100)
-    held = adapt(np.ones(reach), Rates((kept, slow), (quick, little)))[-1]
-    names = ("the fast one", "the slow one")
-    return choice(
-        f"A fast memory keeps {kept} and learns {quick} of the error, a slow one keeps {slow} and "
-        f"learns {little}. The world is off by 1 from the first reach on. Which of them holds more "
-        f"before reach {reach}?",
-        names,
-        names[held.argmax()],
-        "Early the fast one, which forgets; later the slow one has caught up.",
-    )
+@numeric(hint="held = kept × held + learned × error, and error = 1 - what both hold")
+def two_memories(kept=KEPT, slow=SLOW, quick=QUICK, little=LITTLE, reach=(2, 3)):
+    """A fast memory keeps {kept} and learns {quick} of the error, a slow one keeps {slow} and
+    learns {little}. Both begin at 0, and the world is off by 1 from the first reach on. What do
+    they hold together before reach {reach}?"""
+    return memories(kept, slow, quick, little, reach).sum()
 
 
-def forgetting(rng):
-    kept, reaches = pick(rng, 0.6, 0.8, 0.9, 0.95, 0.99), pick(rng, 2, 5, 10, 20)
-    return number(
-        f"A memory keeps {kept} of what it holds from reach to reach and sees no error. What share "
-        f"is left after {reaches} reaches?",
-        kept**reaches,
-        hint="kept to the power of the reaches",
-        tolerance=0.003,
-    )
+@choice(
+    "the fast one",
+    "the slow one",
+    hint="Early the fast one, which forgets; later the slow one has caught up.",
+)
+def which_memory_holds_more(
+    kept=KEPT, slow=SLOW, quick=QUICK, little=LITTLE, reach=(2, 5, 40, 100)
+):
+    """A fast memory keeps {kept} and learns {quick} of the error, a slow one keeps {slow} and
+    learns {little}. The world is off by 1 from the first reach on. Which of them holds more before
+    reach {reach}?"""
+    return memories(kept, slow, quick, little, reach).argmax()
+
+
+@numeric(hint="kept to the power of the reaches", tolerance=0.003)
+def forgetting(kept=(0.6, 0.8, 0.9, 0.95, 0.99), reaches=(2, 5, 10, 20)):
+    """A memory keeps {kept} of what it holds from reach to reach and sees no error. What share is
+    left after {reaches} reaches?"""
+    return kept**reaches
