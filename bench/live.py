@@ -22,7 +22,7 @@ import numpy as np
 from bench.report import publish
 
 BOOK = Path(__file__).parents[1] / "book"
-MOST = 24  # states of a demo that are asked for
+STATES = 24  # of a demo, at most
 
 
 def chapter(name):
@@ -30,14 +30,14 @@ def chapter(name):
     from vmc_lib.show import demo
     from vmc_lib.show.live import Live
 
-    shown, names = [], {}
+    items, names = [], {}
     still = SimpleNamespace(update=lambda item: None)
-    demo.display = lambda item, **_: shown.append(item) or still
+    demo.display = lambda item, **_: items.append(item) or still
     for cell in nbformat.read(BOOK / f"{name}.ipynb", as_version=4).cells:
         if cell.cell_type == "code":
-            shown.clear()
+            items.clear()
             exec(cell.source, names)  # noqa: S102
-            for widget, caption in pairwise(shown):
+            for widget, caption in pairwise(items):
                 if isinstance(widget, Live) and (times := latencies(widget.answers["state"])):
                     words = re.sub("<.*?>", "", caption.data)[:40]
                     median, late = np.percentile(times, [50, 95])
@@ -54,7 +54,7 @@ def latencies(answer):
         except IndexError:  # a smaller grid
             continue
         times.append(1000 * (process_time() - began))
-        if len(times) == MOST:
+        if len(times) == STATES:
             break
     return times
 
@@ -64,8 +64,10 @@ def main():
     rows = []
     for path in sorted(BOOK.glob("[0-9]*.ipynb")):
         command = [sys.executable, "-m", "bench.live", path.stem]
-        told = os.environ | {"VMC_RENDER_MODE": "live"}
-        done = subprocess.run(command, env=told, check=True, capture_output=True, encoding="utf-8")
+        environment = os.environ | {"VMC_RENDER_MODE": "live"}
+        done = subprocess.run(
+            command, env=environment, check=True, capture_output=True, encoding="utf-8"
+        )
         rows += json.loads(done.stdout.splitlines()[-1])
     rows.sort(key=lambda row: -row["median"])
     for row in rows:

@@ -70,7 +70,7 @@ def swing(q):
 
 
 def excited(excitations, elastic):
-    """A model whose muscles hear excitations (T, 6) and have settled to the first; our damping.
+    """A model whose muscles get excitations (T, 6) and have settled to the first; our damping.
 
     Its tendons are `elastic` and its fibres pennate, as arm26 ships, or neither, as ours are
     (OpenSim has no rigid tendon for Thelen's muscle: a very stiff one must do).
@@ -84,10 +84,10 @@ def excited(excitations, elastic):
             muscle.set_FmaxTendonStrain(0.001)
             muscle.setPennationAngleAtOptimalFiberLength(0)
         controller.addActuator(muscle)
-        told = opensim.PiecewiseLinearFunction()
+        signal = opensim.PiecewiseLinearFunction()
         for k, level in enumerate(excitation):
-            told.addPoint(STEP * k, level)
-        controller.prescribeControlForActuator(name, told)
+            signal.addPoint(STEP * k, level)
+        controller.prescribeControlForActuator(name, signal)
     model.addController(controller)
     for name, damping in zip(JOINTS, DAMPING, strict=True):
         skin = opensim.SpringGeneralizedForce(name)

@@ -50,14 +50,14 @@ def native(batch, finer=1):
     data.qpos, data.act = START, REACH[0]
     state = np.empty(mujoco.mj_stateSize(model, full := mujoco.mjtState.mjSTATE_FULLPHYSICS))
     mujoco.mj_getState(model, data, state, full)
-    states, told = np.tile(state, (batch, 1)), np.tile(REACH.repeat(finer, 0), (batch, 1, 1))
-    return lambda: rollout.rollout(model, data, states, told)[0][:, -1, 1:3]
+    states, excitations = np.tile(state, (batch, 1)), np.tile(REACH.repeat(finer, 0), (batch, 1, 1))
+    return lambda: rollout.rollout(model, data, states, excitations)[0][:, -1, 1:3]
 
 
 def ours(engine, batch, finer=1):
     """Ends (batch, 2) in our arm with the paper's muscles, to be timed."""
-    told = np.tile(REACH.repeat(finer, 0), (batch, 1, 1))
-    return lambda: simulate(told, START, engine=engine, step=STEP / finer).q[:, -1]
+    excitations = np.tile(REACH.repeat(finer, 0), (batch, 1, 1))
+    return lambda: simulate(excitations, START, engine=engine, step=STEP / finer).q[:, -1]
 
 
 def main():

@@ -13,18 +13,18 @@ from book._ext.plain import EXERCISE, FOLD
 from kit.student import solves
 from vmc_lib.show.grading import source
 
-ASKED = re.compile(
+QUESTION = re.compile(
     r'<fieldset class="vmc-(predict|quiz)".*?<legend>(.*?)</legend>(.*?)</fieldset>', re.S
 )
-ASKING = re.compile(r"^(?:(?:show\.)?predict\(|\*\*Quiz\.\*\* )", re.M)
+CALL = re.compile(r"^(?:(?:show\\.)?predict\\(|\\*\\*Quiz\\.\\*\\* )", re.M)
 CHOICE = re.compile(r"<label[^>]*><input[^>]*>(.*?)</label>", re.S)
-FOLDED = re.compile(
+ANSWER = re.compile(
     r'<details class="vmc-(right|wrong)"><summary>(.*?)</summary>'
     r"\s*<p><strong>(.*?)</strong>(.*?)</p>\s*</details>",
     re.S,
 )
-GRADED = re.compile(r"^from (book\.exercises\.\w+) import", re.M)
-SHOWN = re.compile(r"^solution\((\w+)\)$", re.M)
+IMPORT = re.compile(r"^from (book\.exercises\.\w+) import", re.M)
+SOLUTION = re.compile(r"^solution\((\w+)\)$", re.M)
 HEADS = {"predict": "Predict first", "quiz": "Quiz"}
 
 
@@ -34,30 +34,30 @@ def key(notebook, page):
     ValueError where the page has other questions than the notebook.
     """
     title = notebook.cells[0].source.splitlines()[0]
-    asked = [_question(*parts) for parts in ASKED.findall(page)]
-    calls = sum(len(ASKING.findall(cell.source)) for cell in notebook.cells)
-    if len(asked) != calls:
+    questions = [_question(*parts) for parts in QUESTION.findall(page)]
+    calls = sum(len(CALL.findall(cell.source)) for cell in notebook.cells)
+    if len(questions) != calls:
         raise ValueError(
-            f"{title!r} asks {calls} questions, its built page {len(asked)}: make book first"
+            f"{title!r} asks {calls} questions, its built page {len(questions)}: make book first"
         )
-    return "\n\n".join([title, *asked, *_exercises(notebook)]) + "\n"
+    return "\n\n".join([title, *questions, *_exercises(notebook)]) + "\n"
 
 
 def _question(kind, question, inside):
     """A prediction or a quiz: the choices, the right one in bold, and why."""
-    folded = [tuple(map(markdown, parts)) for parts in FOLDED.findall(inside)]
+    answers = [tuple(map(markdown, parts)) for parts in ANSWER.findall(inside)]
     if kind == "predict":
-        [(_, _, outcome, why)] = folded
+        [(_, _, outcome, why)] = answers
         choices = [(markdown(choice), "") for choice in CHOICE.findall(inside)]
         right, why = outcome.removesuffix("."), f"\n\n{why}"
     else:
-        choices = [(answer, f": {why}") for _, answer, _, why in folded]
-        right, why = next(answer for state, answer, *_ in folded if state == "right"), ""
-    listed = "\n".join(
-        f"- **{choice}** ✓{told}" if choice == right else f"- {choice}{told}"
-        for choice, told in choices
+        choices = [(answer, f": {why}") for _, answer, _, why in answers]
+        right, why = next(answer for state, answer, *_ in answers if state == "right"), ""
+    lines = "\n".join(
+        f"- **{choice}** ✓{reason}" if choice == right else f"- {choice}{reason}"
+        for choice, reason in choices
     )
-    return f"### {HEADS[kind]}: {markdown(question)}\n\n{listed}{why}"
+    return f"### {HEADS[kind]}: {markdown(question)}\n\n{lines}{why}"
 
 
 def markdown(html):
@@ -73,14 +73,14 @@ def _exercises(notebook):
         if solving:
             yield "**Solution.**"
         for cell in cells:
-            text = SHOWN.sub(lambda name: _lines(notebook, name[1]), FOLD.sub(r"\1", cell.source))
+            text = SOLUTION.sub(lambda m: _solution(notebook, m[1]), FOLD.sub(r"\1", cell.source))
             if "exercise" in cell.metadata:
                 yield f"### Exercise `{cell.metadata.exercise}`\n\n{EXERCISE.sub('', text)}"
             elif solving:
                 yield text if cell.cell_type == "markdown" else f"```python\n{text}\n```"
 
 
-def _lines(notebook, name):
+def _solution(notebook, name):
     """The solution of the chapter's graded exercise of that name."""
-    module = next(found[1] for cell in notebook.cells if (found := GRADED.search(cell.source)))
+    module = next(match[1] for cell in notebook.cells if (match := IMPORT.search(cell.source)))
     return source(getattr(import_module(module), name)).strip()

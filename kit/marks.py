@@ -38,11 +38,11 @@ def marks(chapter, handed_in, folder, timeout=TIMEOUT):
     ]
     notebook = nbformat.v4.new_notebook(cells=cells)  # with our kernel, whatever the student's was
     single_nb_execution(notebook, folder, timeout, allow_errors=True, interrupt_on_timeout=True)
-    given = dict.fromkeys(checks, "no cell checks it")
+    results = dict.fromkeys(checks, "no cell checks it")
     for label, cell in zip(labels, cells, strict=True):
-        if label and given[label] != "right":  # of two copies, one that is right will do
-            given[label] = _mark(cell.outputs)
-    return given
+        if label and results[label] != "right":  # of two copies, one that is right will do
+            results[label] = _mark(cell.outputs)
+    return results
 
 
 def _label(cell, checks):
@@ -84,13 +84,19 @@ def line(path):
     """A hand-in's line: its file, and its marks or why it has none."""
     try:
         handed_in = nbformat.read(path, as_version=4)
-        given = marks(chapter_of(handed_in, path.name), handed_in, path.parent)
+        results = marks(chapter_of(handed_in, path.name), handed_in, path.parent)
     except Exception as error:  # whatever is wrong with one file, the others are marked
-        return f"{path}: cannot be marked ({type(error).__name__}: {str(error).splitlines()[0]})"
-    return f"{path}: " + "; ".join(f"{label}: {mark}" for label, mark in given.items())
+        reason, *_ = str(error).split("\n")
+        return f"{path}: cannot be marked ({type(error).__name__}: {reason})"
+    return f"{path}: " + "; ".join(f"{label}: {mark}" for label, mark in results.items())
 
 
-if __name__ == "__main__":
+def main():
+    """Print the line of each notebook in a folder."""
     for path in sorted(Path(sys.argv[1]).rglob("*.ipynb")):
         if ".ipynb_checkpoints" not in path.parts:
             print(line(path), flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -44,7 +44,7 @@ def names():
     return [toc["root"], *files(toc)]
 
 
-def printed(chromium, html, names, path):
+def print_book(chromium, html, names, path):
     """Print the pages `names` of the built book in the folder `html` as one PDF, to `path`."""
     context = chromium.new_context(offline=True, viewport={"width": 900, "height": 1200})
     context.set_default_timeout(PATIENCE)
@@ -60,7 +60,7 @@ def printed(chromium, html, names, path):
         whole.write_text(
             f'<!doctype html><html lang="en" data-theme="light"><meta charset="utf-8">'
             f"{head.title}{styles}{STYLE}<body><div class='bd-content'><div>"
-            f"{_joined(articles)}</div></div></body></html>",
+            f"{_join(articles)}</div></div></body></html>",
             encoding="utf-8",
         )
         page.goto(whole.as_uri())
@@ -84,12 +84,12 @@ def _still(page, html, name):
     return page.evaluate((ROOT / "kit/still.js").read_text(encoding="utf-8"), f"{html.as_uri()}/")
 
 
-def _joined(articles):
-    """All articles; a link to what is none of them is plain words."""
+def _join(articles):
+    """All articles as one; a link that leads out of them becomes plain text."""
     whole = BeautifulSoup("".join(articles), "html.parser")
-    there = {part["id"] for part in whole.select("[id]")}
+    ids = {part["id"] for part in whole.select("[id]")}
     for link in whole.select('a[href^="#"]'):
-        if link["href"][1:] not in there:
+        if link["href"][1:] not in ids:
             link.unwrap()
     return str(whole)
 
@@ -97,5 +97,5 @@ def _joined(articles):
 if __name__ == "__main__":
     with sync_playwright() as playwright:
         chromium = playwright.chromium.launch(**browser.options(browser.find()))
-        printed(chromium, ROOT / "_build/html", names(), ROOT / "_build/book.pdf")
+        print_book(chromium, ROOT / "_build/html", names(), ROOT / "_build/book.pdf")
     print(f"The book is at {ROOT / '_build/book.pdf'}")

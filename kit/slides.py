@@ -15,12 +15,12 @@ import yaml
 from bs4 import BeautifulSoup
 
 ROOT = Path(__file__).parents[1]
-LOOKS = yaml.safe_load((ROOT / "_config.yml").read_bytes())["sphinx"]["config"]
-SCRIPTS = [name for name, _ in LOOKS["html_js_files"]]
-STYLES = ["pygments.css", *LOOKS["html_css_files"]]
+CONFIG = yaml.safe_load((ROOT / "_config.yml").read_bytes())["sphinx"]["config"]
+SCRIPTS = [name for name, _ in CONFIG["html_js_files"]]
+STYLES = ["pygments.css", *CONFIG["html_css_files"]]
 VENDOR = sorted((ROOT / "kit/vendor").glob("*.*"))
-AROUND = {"cell", "cell_output", "output", "text_html"}  # what a cell's output is wrapped in
-ALONE = {"vmc-demo", "vmc-quiz", "admonition", "cell_input", "pst-scrollable-table-container"}
+WRAPPERS = {"cell", "cell_output", "output", "text_html"}  # of a cell's output
+OWN_SLIDE = {"vmc-demo", "vmc-quiz", "admonition", "cell_input", "pst-scrollable-table-container"}
 PAGE = """<!doctype html>
 <html lang="en">
 <meta charset="utf-8">
@@ -42,15 +42,15 @@ addEventListener("DOMContentLoaded", () => Reveal.initialize({options}));
 
 @dataclass
 class Slide:
-    """What all see, and what the speaker does; both as pieces of a page."""
+    """A slide: its body, which all see, and the speaker's notes; both as elements of a page."""
 
-    shown: list
-    told: list = field(default_factory=list)
+    body: list
+    notes: list = field(default_factory=list)
 
     def __str__(self):
-        notes = "".join(map(str, self.told))
-        shown = "\n".join(map(str, self.shown))
-        return f'<section>{shown}<aside class="notes">{notes}</aside></section>'
+        notes = "".join(map(str, self.notes))
+        body = "\n".join(map(str, self.body))
+        return f'<section>{body}<aside class="notes">{notes}</aside></section>'
 
 
 def build(folder, pages):
@@ -78,8 +78,8 @@ def sessions(pages):
     for row, plan in zip(teaching.tbody.select("tr"), plans, strict=True):
         title = row.select("td")[1].get_text().strip()
         links = row.select("a")
-        listed = "".join(f"<li>{link.get_text()}</li>" for link in links)
-        first = Slide([f"<h1>{escape(title)}</h1><ul>{listed}</ul>"], [runs, plan])
+        contents = "".join(f"<li>{link.get_text()}</li>" for link in links)
+        first = Slide([f"<h1>{escape(title)}</h1><ul>{contents}</ul>"], [runs, plan])
         chapters = [pages / link["href"] for link in links if link["href"][0].isdigit()]
         yield title, ([[first], *(s for c in chapters for s in stacks(_article(c)))], seconds)
 
@@ -90,15 +90,15 @@ def stacks(article):
     yield [Slide([heading, idea], aims)]
     *sections, last = article.find_all("section", recursive=False)
     for section in sections:
-        _leave_out_exercises(section)
-        _heading, *told = section.find_all(recursive=False)
-        if told and not section["id"].startswith("how-sure-are-we"):
+        _remove_exercises(section)
+        _heading, *text = section.find_all(recursive=False)
+        if text and not section["id"].startswith("how-sure-are-we"):
             yield cut(section)
     yield [Slide(last.find_all(recursive=False))]
 
 
-def _leave_out_exercises(section):
-    """Take out of a section its exercises, each from its text to the end of its solution."""
+def _remove_exercises(section):
+    """Remove the exercises of a section, each from its text to the end of its solution."""
     for exercise in section.select(".exercise"):
         solution = exercise.find_next_sibling(class_="solution")
         while solution and exercise.next_sibling is not solution:
@@ -110,18 +110,18 @@ def _leave_out_exercises(section):
 def cut(section):
     """The slides of a section and of those in it."""
     heading, *rest = _parts(section)
-    made = [Slide([heading])]
+    slides = [Slide([heading])]
     for part in rest:
         kinds = {*part.get("class", [])}
         if part.name == "section":
-            made += cut(part)
-        elif kinds & ALONE:
-            made.append(Slide([heading, part], _answers(part)))
-        elif "math" in kinds or len(made[0].shown) == 1 == len(made):
-            made[0].shown.append(part)
+            slides += cut(part)
+        elif kinds & OWN_SLIDE:
+            slides.append(Slide([heading, part], _answers(part)))
+        elif "math" in kinds or len(slides[0].body) == 1 == len(slides):
+            slides[0].body.append(part)
         else:
-            made[-1].told.append(part)
-    return made
+            slides[-1].notes.append(part)
+    return slides
 
 
 def _article(path):
@@ -139,16 +139,16 @@ def _article(path):
 
 
 def _parts(block):
-    """What a section is made of: its outputs out of their cells, without what is folded."""
+    """The elements of a section: outputs out of their cells, without what is folded."""
     for part in block.find_all(recursive=False):
-        if AROUND & {*part.get("class", [])}:
+        if WRAPPERS & {*part.get("class", [])}:
             yield from _parts(part)
         elif part.name not in ("details", "span"):  # folded; where a link leads
             yield part
 
 
 def _answers(part):
-    """What the answers of a prediction or a quiz say when they are opened."""
+    """The answers of a prediction or a quiz, as paragraphs."""
     return [
         f"<p>{folded.summary.decode_contents()}: {folded.p.decode_contents()}</p>"
         for folded in part.select("fieldset details")
@@ -158,13 +158,13 @@ def _answers(part):
 def _page(title, slides, seconds):
     styles = [*(file.name for file in VENDOR if file.suffix == ".css"), *STYLES, "slides.css"]
     scripts = [*(file.name for file in VENDOR if file.suffix == ".js"), *SCRIPTS]
-    scripts.insert(0, LOOKS["mathjax_path"])
+    scripts.insert(0, CONFIG["mathjax_path"])
     head = [f'<link rel="stylesheet" href="_static/{name}">' for name in styles]
     head += [f'<script defer src="_static/{name}"></script>' for name in scripts]
     return PAGE.format(
         title=escape(title),
         head="\n".join(head),
-        mathjax=json.dumps(LOOKS["mathjax3_config"]),
+        mathjax=json.dumps(CONFIG["mathjax3_config"]),
         options="{ disableLayout: true, hash: true, overview: false, slideNumber: 'c/t', "
         f"totalTime: {seconds}, transition: 'none', plugins: [RevealNotes] }}",
         slides="\n".join(f"<section>{''.join(map(str, stack))}</section>" for stack in slides),

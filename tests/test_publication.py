@@ -105,7 +105,7 @@ def test_every_page_is_printed_once():
 def test_pages_are_printed_as_one_book(chromium, tmp_path):
     """Numbered, with bookmarks and links inside; each demo in two positions, and nothing folded."""
     names = ["book/01_loop", "book/07_muscle", "book/glossary"]
-    pdf.printed(chromium, ROOT / "_build/html", names, tmp_path / "book.pdf")
+    pdf.print_book(chromium, ROOT / "_build/html", names, tmp_path / "book.pdf")
     with pypdfium2.PdfDocument(tmp_path / "book.pdf") as book:
         titles = [mark.get_title() for mark in book.get_toc()]
         assert "From excitation to activation" in titles

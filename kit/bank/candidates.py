@@ -52,18 +52,18 @@ def recall_at(
     best=lambda rng: np.round(rng.uniform(0.5, 1, 10), 2),
     level=(0.6, 0.7, 0.8, 0.9),
 ):
-    """The best overlap that any candidate has with each of ten things: {listed}. What is the recall
+    """The best overlap that any candidate has with each of ten things: {overlaps}. What is the recall
     at IoU {level}?"""
-    return np.mean(best >= level), {"listed": ", ".join(f"{x:.2f}" for x in best)}
+    return np.mean(best >= level), {"overlaps": ", ".join(f"{x:.2f}" for x in best)}
 
 
 @numeric(hint="The largest of the three.")
 def average_best_overlap(pair=near_boxes):
-    """A thing has the box {pair[0]}. The candidates are {listed}. What is its best overlap (IoU),
+    """A thing has the box {pair[0]}. The candidates are {names}. What is its best overlap (IoU),
     which enters the mean ABO?"""
     candidates = pair[1] + np.array([[0, 0, 0, 0], [10, 0, 10, 0], [0, 20, 0, 20]])
-    listed = "; ".join(str(tuple(corners)) for corners in candidates.tolist())
-    return iou(pair[0], candidates).max(), {"listed": listed}
+    names = "; ".join(str(tuple(corners)) for corners in candidates.tolist())
+    return iou(pair[0], candidates).max(), {"names": names}
 
 
 @count("", "Each merge takes two regions away and adds one.")

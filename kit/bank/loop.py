@@ -95,10 +95,10 @@ def turn_of_the_trunk(degrees=steps(-40, 60, 10, zero=15), ahead=steps(0.3, 0.5,
 
 @numeric("mm", "Squares add.")
 def errors_together(
-    seen=steps(3, 15, 1),
-    moved=steps(2, 12, 0.5),
+    seeing=steps(3, 15, 1),
+    moving=steps(2, 12, 0.5),
     pair=("at right angles", "independent, and these are root mean squares"),
 ):
-    """Seeing is {seen} mm off and moving {moved} mm; the two errors are {pair}. How far from the
+    """Seeing is {seeing} mm off and moving {moving} mm; the two errors are {pair}. How far from the
     thing does the hand end (its root mean square)?"""
-    return np.hypot(seen, moved)
+    return np.hypot(seeing, moving)

@@ -88,8 +88,8 @@ def belief_that_is_too_wide(wide=(1.25, 1.5, 2, 2.5, 4), part=("made", "left")):
     """The templates are believed to lie {wide} times as far apart as they do. The arm is linear.
     What share of the way to the target is {part} after one correction of Eq. 4?"""
     points = np.array([[1.0, -1, -1, 1], [1, 1, -1, -1]])
-    made = (points @ least_change(wide * points, np.array([1.0, 0])))[0]
-    return made if part == "made" else 1 - made
+    share = (points @ least_change(wide * points, np.array([1.0, 0])))[0]
+    return share if part == "made" else 1 - share
 
 
 def large_change(rng):

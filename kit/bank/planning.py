@@ -13,9 +13,9 @@ def four_templates(rng):
     """Four templates round a target, in whole centimetres: target (2,), points (4, 2)."""
     away = rng.integers(1, 6, (4, 2)) * [[1, 1], [-1, 1], [-1, -1], [1, -1]]
     target = rng.integers([10, -45], [20, -35])
-    at, *listed = (f"({x:g}, {y:g})" for x, y in [target, *target + away])
+    at, *names = (f"({x:g}, {y:g})" for x, y in [target, *target + away])
     target = target.astype(float)
-    return SimpleNamespace(target=target, points=target + away, at=at, listed=", ".join(listed))
+    return SimpleNamespace(target=target, points=target + away, at=at, names=", ".join(names))
 
 
 def distances(count):
@@ -46,7 +46,7 @@ def weight_with_a_power(cm=distances(3), power=(0.5, 2, 3)):
 
 @numeric("mm", "The length of Σ w_i p_i - p_t; mind the millimetres.", tolerance=0.1)
 def miss_of_equation_four(four=four_templates):
-    """The target is {four.at} cm, the templates' points are {four.listed} cm. With the weights of
+    """The target is {four.at} cm, the templates' points are {four.names} cm. With the weights of
     Eq. 5, how far from the target is Σ w_i p_i, which Eq. 4 wants there?"""
     weights = habitual_weights(four.target, four.points)
     return 10 * np.linalg.norm(weights @ four.points - four.target)
@@ -54,7 +54,7 @@ def miss_of_equation_four(four=four_templates):
 
 @numeric(hint="exact_weights(target, points)[0], with arrays of floats.", tolerance=0.002)
 def exact_weight(four=four_templates):
-    """In a notebook: the target is {four.at}, the templates' points are {four.listed}. Which weight
+    """In a notebook: the target is {four.at}, the templates' points are {four.names}. Which weight
     does exact_weights give the first one, so that Eq. 4 holds?"""
     return exact_weights(four.target, four.points)[0]
 

@@ -109,10 +109,10 @@ def hits(rng):
 
 @count("boxes", "Take the first n: F1 = 2 × hits / (n + 3). Try every n.")
 def threshold_of_best_f1(scores=falling_scores, right=hits):
-    """Five boxes score {listed}; there are 3 things to find. At the threshold with the best F1, how
+    """Five boxes score {marks}; there are 3 things to find. At the threshold with the best F1, how
     many boxes are taken?"""
     marks = (f"{s:.2f} ({'hit' if r else 'miss'})" for s, r in zip(scores, right, strict=True))
-    return (scores > best_threshold(scores, right, 3)).sum(), {"listed": ", ".join(marks)}
+    return (scores > best_threshold(scores, right, 3)).sum(), {"marks": ", ".join(marks)}
 
 
 @numeric(

@@ -7,13 +7,14 @@ from vmc_lib.cerebellum.two_rates import Rates, adapt
 from vmc_lib.motor.feedback import Senses, ask, curl
 from vmc_lib.motor.inverse_dynamics import smooth
 
-KEPT, SLOW = (0.5, 0.6, 0.7), (0.98, 0.99)
-QUICK, LITTLE = (0.2, 0.25), (0.02, 0.03, 0.05)
+# Of the fast and the slow memory: retention A, learning rate B (Smith et al. 2006)
+A_FAST, A_SLOW = (0.5, 0.6, 0.7), (0.98, 0.99)
+B_FAST, B_SLOW = (0.2, 0.25), (0.02, 0.03, 0.05)
 
 
-def memories(kept, slow, quick, little, reach):
+def memories(a_fast, a_slow, b_fast, b_slow, reach):
     """What the fast and the slow memory hold before a reach in a world that is off by 1, (2,)."""
-    return adapt(np.ones(reach), Rates((kept, slow), (quick, little)))[-1]
+    return adapt(np.ones(reach), Rates((a_fast, a_slow), (b_fast, b_slow)))[-1]
 
 
 @numeric("cm", "Speed × delay.")
@@ -73,11 +74,11 @@ def period_of_a_tremor(delay=steps(80, 240, 20), times=(2, 4)):
 
 
 @numeric(hint="held = kept × held + learned × error, and error = 1 - what both hold")
-def two_memories(kept=KEPT, slow=SLOW, quick=QUICK, little=LITTLE, reach=(2, 3)):
-    """A fast memory keeps {kept} and learns {quick} of the error, a slow one keeps {slow} and
-    learns {little}. Both begin at 0, and the world is off by 1 from the first reach on. What do
+def two_memories(a_fast=A_FAST, a_slow=A_SLOW, b_fast=B_FAST, b_slow=B_SLOW, reach=(2, 3)):
+    """A fast memory keeps {a_fast} and learns {b_fast} of the error, a slow one keeps {a_slow} and
+    learns {b_slow}. Both begin at 0, and the world is off by 1 from the first reach on. What do
     they hold together before reach {reach}?"""
-    return memories(kept, slow, quick, little, reach).sum()
+    return memories(a_fast, a_slow, b_fast, b_slow, reach).sum()
 
 
 @choice(
@@ -86,16 +87,16 @@ def two_memories(kept=KEPT, slow=SLOW, quick=QUICK, little=LITTLE, reach=(2, 3))
     hint="Early the fast one, which forgets; later the slow one has caught up.",
 )
 def which_memory_holds_more(
-    kept=KEPT, slow=SLOW, quick=QUICK, little=LITTLE, reach=(2, 5, 40, 100)
+    a_fast=A_FAST, a_slow=A_SLOW, b_fast=B_FAST, b_slow=B_SLOW, reach=(2, 5, 40, 100)
 ):
-    """A fast memory keeps {kept} and learns {quick} of the error, a slow one keeps {slow} and
-    learns {little}. The world is off by 1 from the first reach on. Which of them holds more before
+    """A fast memory keeps {a_fast} and learns {b_fast} of the error, a slow one keeps {a_slow} and
+    learns {b_slow}. The world is off by 1 from the first reach on. Which of them holds more before
     reach {reach}?"""
-    return memories(kept, slow, quick, little, reach).argmax()
+    return memories(a_fast, a_slow, b_fast, b_slow, reach).argmax()
 
 
 @numeric(hint="kept to the power of the reaches", tolerance=0.003)
-def forgetting(kept=(0.6, 0.8, 0.9, 0.95, 0.99), reaches=(2, 5, 10, 20)):
-    """A memory keeps {kept} of what it holds from reach to reach and sees no error. What share is
+def forgetting(retention=(0.6, 0.8, 0.9, 0.95, 0.99), reaches=(2, 5, 10, 20)):
+    """A memory keeps {retention} of what it holds from reach to reach and sees no error. What share is
     left after {reaches} reaches?"""
-    return kept**reaches
+    return retention**reaches
