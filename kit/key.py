@@ -16,7 +16,7 @@ from vmc_lib.show.grading import source
 QUESTION = re.compile(
     r'<fieldset class="vmc-(predict|quiz)".*?<legend>(.*?)</legend>(.*?)</fieldset>', re.S
 )
-CALL = re.compile(r"^(?:(?:show\\.)?predict\\(|\\*\\*Quiz\\.\\*\\* )", re.M)
+CALL = re.compile(r"^(?:(?:show\.)?predict\(|\*\*Quiz\.\*\* )", re.M)
 CHOICE = re.compile(r"<label[^>]*><input[^>]*>(.*?)</label>", re.S)
 ANSWER = re.compile(
     r'<details class="vmc-(right|wrong)"><summary>(.*?)</summary>'

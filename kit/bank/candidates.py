@@ -52,8 +52,8 @@ def recall_at(
     best=lambda rng: np.round(rng.uniform(0.5, 1, 10), 2),
     level=(0.6, 0.7, 0.8, 0.9),
 ):
-    """The best overlap that any candidate has with each of ten things: {overlaps}. What is the recall
-    at IoU {level}?"""
+    """The best overlap that any candidate has with each of ten things: {overlaps}. What is the
+    recall at IoU {level}?"""
     return np.mean(best >= level), {"overlaps": ", ".join(f"{x:.2f}" for x in best)}
 
 
@@ -85,8 +85,8 @@ def tolerance_of_a_patch(
     inside=steps(2, 12, 0.5),
     more=(-0.4, -0.2, 0.2, 0.4),
 ):
-    """A patch of {pixels} pixels was last joined by an edge of weight {inside}; the scale is
-    k = {k}. Does it tolerate an edge of weight {edge:.2f} to its neighbour?"""
+    """A patch of {pixels} pixels was last joined by an edge of weight {inside}; the scale is k =
+    {k}. Does it tolerate an edge of weight {edge:.2f} to its neighbour?"""
     edge = round(inside + k / pixels + more, 2)
     return edge >= inside + k / pixels, {"edge": edge}
 

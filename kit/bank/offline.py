@@ -35,8 +35,8 @@ def change(reach, n):
 
 @numeric(hint="Their dot product over their lengths.", tolerance=0.005)
 def cosine_of_a_template(reach=reach):
-    """{reach.text} What is cos θ, between the error and the way from the hand to the template
-    (Eq. 6)?"""
+    """{reach.text} What is cos θ, between the error and the way from the hand to the template (Eq.
+    6)?"""
     return reach.cosine
 
 

@@ -61,9 +61,9 @@ def second_box_kept(starts=four_starts, overlap=(0.3, 0.5)):
 
 @numeric("pixels", "The weighted mean of the two.")
 def voted_edge(shift=steps(5, 30, 5), lag=(0.05, 0.1, 0.2)):
-    """A box that begins at x = 0 is kept. One beside it, of the same {SIZE} pixels, begins at
-    x = {shift} and scores {lag} less; it votes with weight exp(-{lag} / 0.1), the kept box with
-    weight 1. Where does the voted box begin?"""
+    """A box that begins at x = 0 is kept. One beside it, of the same {SIZE} pixels, begins at x =
+    {shift} and scores {lag} less; it votes with weight exp(-{lag} / 0.1), the kept box with weight
+    1. Where does the voted box begin?"""
     return vote([0], boxes_at(0, shift), np.array([1.0, 1.0 - lag]))[0][0]
 
 

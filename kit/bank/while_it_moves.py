@@ -44,9 +44,8 @@ def force_of_a_curl_field(
     way=range(4),
     axis=("x", "y"),
 ):
-    """A curl field of {strength} N for each m/s pushes the hand clockwise of its way, (b v_y,
-    -b v_x). The hand moves at ({velocity[0]}, {velocity[1]}) m/s. What is the force along
-    {axis}?"""
+    """A curl field of {strength} N for each m/s pushes the hand clockwise of its way, (b v_y, -b
+    v_x). The hand moves at ({velocity[0]}, {velocity[1]}) m/s. What is the force along {axis}?"""
     velocity = ((speed, 0), (0, speed), (speed, speed), (-speed, speed))[way]
     force = curl(strength)(0.0, np.array(velocity))
     return force[int(axis == "y")], {"velocity": velocity}
@@ -97,6 +96,6 @@ def which_memory_holds_more(
 
 @numeric(hint="kept to the power of the reaches", tolerance=0.003)
 def forgetting(retention=(0.6, 0.8, 0.9, 0.95, 0.99), reaches=(2, 5, 10, 20)):
-    """A memory keeps {retention} of what it holds from reach to reach and sees no error. What share is
-    left after {reaches} reaches?"""
+    """A memory keeps {retention} of what it holds from reach to reach and sees no error. What share
+    is left after {reaches} reaches?"""
     return retention**reaches

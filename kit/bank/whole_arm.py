@@ -44,8 +44,8 @@ def none_below_zero(
     opens=steps(5, 30, 5),
     muscle=("bends", "opens"),
 ):
-    """One muscle bends a joint with {bends} N m when fully active, another opens it with {opens}
-    N m. {torque} N m of bending are needed, and no activation may be below zero. In static
+    """One muscle bends a joint with {bends} N m when fully active, another opens it with {opens} N
+    m. {torque} N m of bending are needed, and no activation may be below zero. In static
     optimisation, how active is the one that {muscle}?"""
     return nnls(np.array([[bends, -opens]]), [torque])[0][int(muscle == "opens")]
 

@@ -1,0 +1,114 @@
+"""Marks: right work is marked right whatever an editor did to its file; no file ends the run."""
+
+import json
+import sys
+
+import nbformat
+import pytest
+from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
+
+from kit import marks
+from kit.student import student
+
+EXERCISES = ("plain", "moved", "bare", "twice", "wrong", "forged", "none", "broken", "cut")
+
+
+@pytest.fixture(autouse=True)
+def live(monkeypatch):
+    monkeypatch.setenv("VMC_RENDER_MODE", "live")
+
+
+@pytest.fixture
+def chapter():
+    """A chapter of nine exercises: in each, its own variable has to become 2."""
+    cells = [
+        new_markdown_cell("# A chapter"),
+        new_code_cell("from vmc_lib.show import check"),
+    ]
+    for name in EXERCISES:
+        cells += [
+            new_markdown_cell("**Exercise**\n\nHow much is 1 + 1?", metadata={"exercise": name}),
+            new_code_cell(f"{name} = None"),
+            new_code_cell(f"check({name}, 2)"),
+        ]
+    return new_notebook(cells=cells)
+
+
+@pytest.fixture
+def hand_in(chapter):
+    """What a student made of it, right but for the last five exercises."""
+    notebook = student(chapter)
+    checks = {c.metadata.exercise: c for c in notebook.cells if c.source.startswith("check(")}
+    for cell in notebook.cells:
+        if cell.source.endswith(" = None"):
+            name = cell.source.split()[0]
+            lines = {"wrong": "3", "forged": "3", "none": "None", "broken": "unknown"}
+            cell.source = f"{name} = {lines.get(name, 2)}"
+    checks["moved"].id = "another"
+    checks["bare"].metadata = {}
+    notebook.cells.append(new_code_cell("twice = 3"))
+    notebook.cells.append(nbformat.from_dict(checks["twice"] | {"id": "copy"}))
+    checks["forged"].source = "print('✓ Right.')"
+    notebook.cells.remove(checks["cut"])
+    return notebook
+
+
+MARKS = {
+    "plain": "right",
+    "moved": "right",
+    "bare": "right",
+    "twice": "right",
+    "wrong": "not right",
+    "forged": "not right",
+    "none": "not answered",
+    "broken": "NameError: name 'broken' is not defined",
+    "cut": "no cell checks it",
+}
+
+
+def test_an_answer_is_marked_by_our_own_check(chapter, hand_in, tmp_path):
+    assert marks.marks(chapter, hand_in, tmp_path) == MARKS
+
+
+def test_an_endless_loop_is_interrupted_and_the_rest_is_marked(chapter, tmp_path):
+    notebook = student(chapter)
+    notebook.cells.insert(2, new_code_cell("while True:\n    pass"))
+    results = marks.marks(chapter, notebook, tmp_path, timeout=5)
+    assert set(results.values()) == {"not answered"}
+
+
+@pytest.fixture
+def book(chapter, tmp_path, monkeypatch):
+    """The chapter as the seventh of a book."""
+    nbformat.write(chapter, tmp_path / "07_chapter.ipynb")
+    monkeypatch.setattr(marks, "CHAPTERS", [tmp_path / "07_chapter.ipynb"])
+
+
+@pytest.mark.usefixtures("book")
+def test_every_file_gets_its_line(hand_in, tmp_path, monkeypatch, capsys):
+    """Renamed, without ids, metadata or our kernel; without a heading; cut; of no chapter."""
+    folder = tmp_path / "handed in"
+    folder.mkdir()
+    bare = json.loads(nbformat.writes(hand_in)) | {"nbformat_minor": 4}
+    bare["metadata"] = {"kernelspec": {"name": "none", "display_name": "None", "language": "R"}}
+    for cell in bare["cells"]:
+        del cell["id"]
+        cell["metadata"] = {}
+    (folder / "a student.ipynb").write_text(json.dumps(bare), encoding="utf-8")
+    (folder / "cut.ipynb").write_text(json.dumps(bare)[:-300], encoding="utf-8")
+    (folder / "empty.ipynb").touch()
+    nbformat.write(new_notebook(cells=[new_code_cell("1 / 0")]), folder / "7 a student.ipynb")
+    nbformat.write(new_notebook(), folder / "notes.ipynb")
+    monkeypatch.setattr(sys, "argv", ["kit.marks", str(folder)])
+    marks.main()
+    lines = {}
+    for line in capsys.readouterr().out.splitlines():
+        name, _, text = line.removeprefix(f"{folder}/").partition(": ")
+        lines[name] = text
+    marked = MARKS | {"forged": "no cell checks it"}  # neither its metadata nor its source is left
+    assert lines.pop("a student.ipynb") == "; ".join(f"{k}: {v}" for k, v in marked.items())
+    unmarked = "; ".join(f"{name}: no cell checks it" for name in EXERCISES)
+    assert lines.pop("7 a student.ipynb") == unmarked
+    assert lines.keys() == {"cut.ipynb", "empty.ipynb", "notes.ipynb"}
+    assert all(line.startswith("cannot be marked (") for line in lines.values())
+    assert "no chapter has its first heading" in lines["notes.ipynb"]
