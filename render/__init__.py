@@ -1,8 +1,8 @@
 """How the photos were made: a shuttlecock, a cup and what else lies about, rendered physically.
 
-`shapes` builds the things from triangles, `materials` the table tops, `scene` draws who stands
-where before which camera and light, `picture` traces the light, and `sidecar` writes the truth
-beside the photo. Needs the optional dependency `mitsuba` (`pip install vmc_lib[render]`) and LLVM;
-remake with `python -m render`. `elsewhere` paints other scenes, with the things of `furniture`, by
-VTK; `cutouts` renders shuttlecocks alone.
+`meshes` makes triangles, `shuttlecocks` and `objects` things of them, `materials` table tops;
+`scene` draws what stands where before which camera and light, `picture` traces the light, and
+`sidecar` writes the truth beside the photo. Needs the optional dependency `mitsuba`
+(`pip install vmc_lib[render]`) and LLVM; remake with `python -m render`. `elsewhere` paints other
+scenes, with the things of `furniture`, by VTK; `cutouts` renders shuttlecocks alone.
 """

@@ -11,7 +11,7 @@ import numpy as np
 
 mi.set_variant("llvm_ad_rgb")
 
-from render import scene, shapes  # noqa: E402
+from render import scene, shuttlecocks  # noqa: E402
 from render.materials import rgb  # noqa: E402
 from render.picture import develop, solid  # noqa: E402
 from vmc_lib import cutouts  # noqa: E402
@@ -20,17 +20,17 @@ COUNT, SAMPLES = 480, 64
 DYES = "#d3f000 #d3f000 #e8f53a #f4f4ee #f4f4ee #a8e04a #ff8a2a #f28fb0".split()
 
 
-def drawn(rng):
+def random_shuttlecock(rng):
     """A shuttlecock (a Mesh) whose middle is the origin, as it may lie, stand, fly or be held."""
     feathered = rng.random() < 0.5
-    one = shapes.worn(rng) if feathered else shapes.nylon(rng, rgb(rng.choice(DYES)))
+    one = shuttlecocks.worn(rng) if feathered else shuttlecocks.nylon(rng, rgb(rng.choice(DYES)))
     turn, _ = np.linalg.qr(rng.standard_normal((3, 3)))
     turn *= np.linalg.det(turn)  # no mirror
-    return one.moved(shift=(0, -shapes.LENGTH / 2, 0)).moved(turn)
+    return one.moved(shift=(0, -shuttlecocks.LENGTH / 2, 0)).moved(turn)
 
 
 def take(mesh, rng):
-    """A Mesh as a cut-out (WIDTH, WIDTH, 4) uint8: what it looks like, and what is seen of it."""
+    """A Mesh as a cut-out (WIDTH, WIDTH, 4) uint8: colour and opacity."""
     frame, size = mi.ScalarTransform4f, cutouts.WIDTH
     eye = np.array([0, 0, rng.uniform(0.15, 0.9)])
     wide = 1.05 * 2 * np.abs(mesh.vertices[:, :2] / (eye[2] - mesh.vertices[:, 2:])).max()
@@ -73,11 +73,11 @@ def main():
     """Render the cut-outs that ship."""
     parser = argparse.ArgumentParser(prog="python -m render.cutouts", description=__doc__)
     parser.add_argument("--count", type=int, default=COUNT)
-    taken = []
+    images = []
     for number in range(parser.parse_args().count):
         rng = np.random.default_rng((5, number))
-        taken.append(take(drawn(rng), rng))
-    cutouts.store(taken)
+        images.append(take(random_shuttlecock(rng), rng))
+    cutouts.store(images)
 
 
 if __name__ == "__main__":

@@ -13,7 +13,7 @@ import numpy as np
 import vtk
 from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 
-from render import furniture, scene, shapes
+from render import furniture, meshes, scene
 from render.materials import SPAN
 from render.sidecar import in_full_view, store
 from vmc_lib.camera import TABLE
@@ -45,7 +45,7 @@ def table_top(texture):
     """The table: a surface whose vertices, one every 3 mm, have the texture's colours."""
     colours = texture[::3, ::3]
     x, z = (scene.MIDDLE[k] + np.linspace(-SPAN / 2, SPAN / 2, len(colours)) for k in (0, 2))
-    return shapes.sheet(np.dstack(np.broadcast_arrays(x, TABLE, z[:, None])), colours, 0.8)
+    return meshes.grid_mesh(np.dstack(np.broadcast_arrays(x, TABLE, z[:, None])), colours, 0.8)
 
 
 def stage(actors, camera):
@@ -104,17 +104,17 @@ def take(drawn, rng):
 def masks(drawn):
     """For shuttlecock and cup, (whole, visible): its mask alone, and with all things there."""
 
-    def seen(name, shown):
+    def mask(name, group):
         flat = [
             solid(replace(mesh, colours=np.full_like(mesh.vertices, other == name)))
-            for other, mesh in shown.items()
+            for other, mesh in group.items()
         ]
         for one in flat:
             one.GetProperty().LightingOff()
         return shot(stage(flat, drawn.camera)[0])[..., 0] > 127
 
     things = drawn.things
-    return {name: (seen(name, {name: things[name]}), seen(name, things)) for name in CLASSES}
+    return {name: (mask(name, {name: things[name]}), mask(name, things)) for name in CLASSES}
 
 
 def main():

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from render import materials, scene, shapes
+from render import materials, meshes, objects, scene, shuttlecocks
 from render.materials import rgb
 
 COLOURS = "#c7413b #2f6f9f #e0b33c #3d3a4a #5d8f57 #d9d2c3 #7b4b8a #e08a5b".split()
@@ -33,20 +33,20 @@ def mats(rng, light, dark):
 def tumbler(colour, inside):
     """A cup that is wider above, with a thick foot."""
     side = [(0.024, 0), (0.03, 0.002), (0.029, 0.012), (0.034, 0.06), (0.045, 0.11)]
-    return shapes.vessel(side, 0.002, colour, inside, 0.15)
+    return objects.vessel(side, 0.002, colour, inside, 0.15)
 
 
 def stein(colour, inside):
     """A tall, narrow mug with a large square handle."""
-    body = shapes.vessel([(0.037, 0), (0.037, 0.01), (0.034, 0.12)], 0.004, colour, inside)
-    return shapes.join(body, shapes.handle((0.034, 0.11), (0.036, 0.02), 0.04, 0.007, colour))
+    body = objects.vessel([(0.037, 0), (0.037, 0.01), (0.034, 0.12)], 0.004, colour, inside)
+    return meshes.join(body, objects.handle((0.034, 0.11), (0.036, 0.02), 0.04, 0.007, colour))
 
 
 def bowl(colour, inside):
     """A wide cup without a handle."""
     angle = np.linspace(0.2, 1.5, 12)
     side = [(0.02 + 0.04 * np.sin(a), 0.062 * (1 - np.cos(a))) for a in angle]
-    return shapes.vessel(side, 0.003, colour, inside, 0.6)
+    return objects.vessel(side, 0.003, colour, inside, 0.6)
 
 
 def setting(_, rng):
@@ -59,4 +59,4 @@ def setting(_, rng):
     )  # fmt: skip
     glaze, inside = rgb(rng.choice(COLOURS)), rgb(rng.choice(COLOURS))
     cup = (tumbler, stein, bowl)[rng.integers(3)](glaze, inside)
-    return table, 0.5, lamp, cup, shapes.shuttlecock(rng)
+    return table, 0.5, lamp, cup, shuttlecocks.shuttlecock(rng)

@@ -1,4 +1,4 @@
-"""Light, traced: a scene's photo, and the exact pixels in which each of its things is seen."""
+"""Light, traced: a scene's photo, and the exact pixels of each visible thing."""
 
 import cv2
 import mitsuba as mi
@@ -79,12 +79,12 @@ def stage(scene):
 
 def develop(light):
     """Linear light as sRGB bytes; above .7 highlights roll off softly, as on film."""
-    shown = np.where(light < 0.7, light, 0.7 + 0.3 * np.tanh((light - 0.7) / 0.3))
-    srgb = np.where(shown < 0.0031308, 12.92 * shown, 1.055 * shown ** (1 / 2.4) - 0.055)
+    soft = np.where(light < 0.7, light, 0.7 + 0.3 * np.tanh((light - 0.7) / 0.3))
+    srgb = np.where(soft < 0.0031308, 12.92 * soft, 1.055 * soft ** (1 / 2.4) - 0.055)
     return np.round(255 * np.clip(srgb, 0, 1)).astype(np.uint8)
 
 
-def seen(solids, camera):
+def visible_masks(solids, camera):
     """Masks (400, 600) by name: where the ray through a pixel's middle meets each thing first."""
     j, i = np.mgrid[0:HEIGHT, 0:WIDTH].reshape(2, -1) + 0.5
     rays = camera.rays(np.column_stack([i, j])).astype(np.float32).T
@@ -101,9 +101,10 @@ def seen(solids, camera):
 def masks(scene):
     """For shuttlecock and cup, (whole, visible): its mask alone, and with all things there."""
     solids = {name: solid(mesh) for name, mesh in scene.things.items()}
-    visible = seen(solids, scene.camera)
+    visible = visible_masks(solids, scene.camera)
     return {
-        name: (seen({name: solids[name]}, scene.camera)[name], visible[name]) for name in CLASSES
+        name: (visible_masks({name: solids[name]}, scene.camera)[name], visible[name])
+        for name in CLASSES
     }
 
 

@@ -1,11 +1,11 @@
-"""Who stands where, before which camera and in what light: drawn at random, level by level."""
+"""Random scenes, level by level: what stands where, before which camera, in what light."""
 
 from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
 
-from render import materials, shapes
+from render import materials, meshes, objects, shuttlecocks
 from render.materials import rgb
 from vmc_lib import sheet
 from vmc_lib.arm.kinematics import to_world
@@ -57,7 +57,7 @@ def look(centre, distance, elevation, azimuth, focal, roll=0.0):
     right = np.cross(level, [0, 1, 0])
     axes = np.stack([right, np.cross(forward, right), forward])
     middle = np.array([WIDTH, HEIGHT]) / 2
-    return Camera(focal, middle, shapes.rotation(2, roll) @ axes, centre - distance * forward)
+    return Camera(focal, middle, meshes.rotation(2, roll) @ axes, centre - distance * forward)
 
 
 EYE = look(MIDDLE, distance=0.75, elevation=np.radians(60), azimuth=0.27, focal=800.0)
@@ -94,8 +94,8 @@ def setting(level, rng):
     """Table, its gloss, the light, the cup and the shuttlecock (still at the origin) of a photo."""
     if level != "varied":
         light = light_from(0.95, 2.5, 0.6, 0.15, 0.22)
-        cup = shapes.mug(rgb("#1b3f9c"), rgb("#efebe2"))
-        return rig_table(), 0.45, light, cup, shapes.shuttlecock(np.random.default_rng(3))
+        cup = objects.mug(rgb("#1b3f9c"), rgb("#efebe2"))
+        return rig_table(), 0.45, light, cup, shuttlecocks.shuttlecock(np.random.default_rng(3))
     make = list(PAIRS)[rng.integers(len(PAIRS))]
     texture = make(rng, *map(rgb, rng.choice(PAIRS[make]).split()))
     gloss = {materials.stone: 0.2, materials.cloth: 0.95}.get(make, rng.uniform(0.3, 0.6))
@@ -105,8 +105,8 @@ def setting(level, rng):
     )  # fmt: skip
     glaze = rgb(rng.choice(GLAZES))
     inside = glaze if rng.random() < 0.4 else rgb("#efebe2")
-    cup = shapes.CUPS[rng.integers(len(shapes.CUPS))](glaze, inside)
-    return texture, gloss, light, cup, shapes.shuttlecock(rng)
+    cup = objects.CUPS[rng.integers(len(objects.CUPS))](glaze, inside)
+    return texture, gloss, light, cup, shuttlecocks.shuttlecock(rng)
 
 
 def circle(mesh):
@@ -133,7 +133,7 @@ def place(mesh, rng, centre, near, far):
     """The mesh, turned at random, `near` to `far` from `centre` on the table in some direction."""
     angle, distance = rng.uniform(0, 2 * np.pi), rng.uniform(near, far)
     spot = [centre[0] + distance * np.cos(angle), TABLE, centre[2] + distance * np.sin(angle)]
-    return mesh.moved(shapes.rotation(1, rng.uniform(0, 2 * np.pi)), spot)
+    return mesh.moved(meshes.rotation(1, rng.uniform(0, 2 * np.pi)), spot)
 
 
 def draw(level, rng, furnish=setting):
@@ -143,7 +143,7 @@ def draw(level, rng, furnish=setting):
         camera = EYE if level == "rig" else free_eye(rng)
         turn, reach = np.radians(rng.uniform(-10, 60)), rng.uniform(0.08, 0.22)
         standing = bool(rng.random() < 0.25)
-        bird, middle = shapes.resting(feathered, standing, *rng.uniform(0, 2 * np.pi, 2))
+        bird, middle = shuttlecocks.resting(feathered, standing, *rng.uniform(0, 2 * np.pi, 2))
         target = to_world(np.array([reach, TABLE + middle[1], HAND]), turn)
         bird = bird.moved(shift=target - middle)
         vessel = place(cup, rng, target, 0.08, 0.24)
@@ -151,7 +151,7 @@ def draw(level, rng, furnish=setting):
             break
     things = {"shuttlecock": bird, "cup": vessel}
     for k in range(rng.integers(4) if level == "varied" else 0):
-        make, colour = shapes.CLUTTER[rng.integers(len(shapes.CLUTTER))], rgb(rng.choice(COVERS))
+        make, colour = objects.CLUTTER[rng.integers(len(objects.CLUTTER))], rgb(rng.choice(COVERS))
         for _ in range(20):
             thing = place(make(rng, colour), rng, MIDDLE, 0, 0.3)
             if apart(thing, things.values()):
@@ -178,9 +178,9 @@ def draw_with_sheet(rng):
             roll=rng.uniform(-0.1, 0.1),
         )
         corners = camera.project(sheet.places().reshape(-1, 3))
-        shown = np.all((corners > 0) & (corners < [WIDTH, HEIGHT]), axis=1)
+        inside = np.all((corners > 0) & (corners < [WIDTH, HEIGHT]), axis=1)
         pair = (scene.things[name] for name in CLASSES)
-        if shown.mean() >= 0.5 and all(whole(thing, camera) for thing in pair):
+        if inside.mean() >= 0.5 and all(whole(thing, camera) for thing in pair):
             return replace(scene, table=with_sheet(scene.table), camera=camera)
 
 

@@ -1,4 +1,4 @@
-"""What lies beside a photo: the truth about it."""
+"""Sidecar files of the photos: boxes, camera, target and pose as JSON."""
 
 import json
 
@@ -7,19 +7,19 @@ from PIL import Image
 
 from vmc_lib.photos import CLASSES
 
-SHOWN = 0.96  # the least share of shuttlecock and cup that nothing else hides
+VISIBLE = 0.96  # the least share of shuttlecock and cup that nothing else hides
 
 
 def in_full_view(draw, masks):
-    """A scene of `draw()` that hides neither shuttlecock nor cup, and the boxes around them.
+    """A scene of `draw()` in which shuttlecock and cup are in full view, and the boxes around them.
 
-    Scenes are drawn until one does. `masks` gives, by name, a thing's mask alone and among others.
+    Draws until one is. `masks` gives, by name, a thing's mask alone and among the others.
     """
     while True:
-        drawn = draw()
-        seen = masks(drawn)
-        if all(part.sum() >= SHOWN * whole.sum() for whole, part in seen.values()):
-            return drawn, {name: box(seen[name][1]) for name in CLASSES}
+        scene = draw()
+        visibility = masks(scene)
+        if all(part.sum() >= VISIBLE * whole.sum() for whole, part in visibility.values()):
+            return scene, {name: box(visibility[name][1]) for name in CLASSES}
 
 
 def box(mask):
@@ -28,15 +28,15 @@ def box(mask):
     return [int(columns[0]), int(rows[0]), int(columns[-1]) + 1, int(rows[-1]) + 1]
 
 
-def store(path, image, drawn, boxes, seed):
+def store(path, image, scene, boxes, seed):
     """Write a photo and its sidecar."""
-    camera = {key: np.asarray(value).tolist() for key, value in vars(drawn.camera).items()}
+    camera = {key: np.asarray(value).tolist() for key, value in vars(scene.camera).items()}
     truth = {
         "boxes": boxes,
         "camera": camera,
-        "target": drawn.target.tolist(),
-        "turn": drawn.turn,
-        "pose": drawn.pose,
+        "target": scene.target.tolist(),
+        "turn": scene.turn,
+        "pose": scene.pose,
         "seed": seed,
     }
     path.parent.mkdir(parents=True, exist_ok=True)

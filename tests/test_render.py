@@ -1,15 +1,15 @@
-"""Scenes as they are drawn, and what lies beside a photo; rendering itself is not tested."""
+"""Random scenes, meshes and sidecar files; rendering itself is not tested."""
 
 import numpy as np
 import pytest
 
-from render import furniture, scene, shapes
+from render import furniture, scene, shuttlecocks
 from render.sidecar import in_full_view, store
 from vmc_lib import photos
 
 
 @pytest.mark.parametrize("furnish", [scene.setting, furniture.setting])
-def test_shuttlecock_and_cup_stand_whole_in_view_and_nothing_touches(furnish):
+def test_a_scene_has_shuttlecock_and_cup_in_view_and_nothing_touches(furnish):
     drawn = scene.draw("varied", np.random.default_rng(1), furnish)
     things = list(drawn.things.values())
     assert list(drawn.things)[:2] == list(photos.CLASSES)
@@ -19,20 +19,20 @@ def test_shuttlecock_and_cup_stand_whole_in_view_and_nothing_touches(furnish):
     assert drawn.table.shape == (2048, 2048, 3)
 
 
-def test_scenes_are_drawn_until_nothing_is_hidden_and_are_read_as_written(tmp_path):
-    full, half, drawn = np.zeros((400, 600), bool), np.zeros((400, 600), bool), []
+def test_a_hidden_shuttlecock_is_drawn_again_and_photos_load_as_written(tmp_path):
+    full, half, scenes = np.zeros((400, 600), bool), np.zeros((400, 600), bool), []
     full[10:30, 40:80], half[10:30, 40:60] = True, True
 
     def draw():
-        drawn.append(scene.draw("varied", np.random.default_rng(len(drawn)), furniture.setting))
-        return drawn[-1]
+        scenes.append(scene.draw("varied", np.random.default_rng(len(scenes)), furniture.setting))
+        return scenes[-1]
 
-    def masks(shown):
-        return {"shuttlecock": (full, full if shown is not drawn[0] else half), "cup": (full, full)}
+    def masks(view):
+        return {"shuttlecock": (full, full if view is not scenes[0] else half), "cup": (full, full)}
 
     last, boxes = in_full_view(draw, masks)
-    assert len(drawn) == 2
-    assert last is drawn[1]
+    assert len(scenes) == 2
+    assert last is scenes[1]
     assert boxes["shuttlecock"] == [40, 10, 80, 30]
     path = tmp_path / "varied/test/000.jpg"
     store(path, np.full((400, 600, 3), 9, np.uint8), last, boxes, (4, 2, 0))
@@ -43,16 +43,16 @@ def test_scenes_are_drawn_until_nothing_is_hidden_and_are_read_as_written(tmp_pa
 
 
 def make_nylon(rng):
-    return shapes.nylon(rng, np.ones(3))
+    return shuttlecocks.nylon(rng, np.ones(3))
 
 
-@pytest.mark.parametrize("make", [shapes.shuttlecock, shapes.worn, make_nylon])
-def test_every_shuttlecock_stands_on_its_cork_and_is_as_long_as_they_are(make):
+@pytest.mark.parametrize("make", [shuttlecocks.shuttlecock, shuttlecocks.worn, make_nylon])
+def test_a_shuttlecock_stands_on_its_cork_and_has_its_length(make):
     for seed in range(3):
         mesh = make(np.random.default_rng(seed))
         low, high = mesh.vertices[:, 1].min(), mesh.vertices[:, 1].max()
         assert low == pytest.approx(0, abs=1e-3)
-        assert high == pytest.approx(shapes.LENGTH, abs=0.01)
+        assert high == pytest.approx(shuttlecocks.LENGTH, abs=0.01)
         cork = mesh.vertices[mesh.vertices[:, 1] < 0.02]
-        assert np.hypot(cork[:, 0], cork[:, 2]).max() == pytest.approx(shapes.BALL, abs=1e-3)
+        assert np.hypot(cork[:, 0], cork[:, 2]).max() == pytest.approx(shuttlecocks.BALL, abs=1e-3)
         assert mesh.faces.max() < len(mesh.vertices) == len(mesh.colours)
