@@ -1,10 +1,9 @@
-"""Why *single* boxes other objects than OpenCV's: where the two cut a picture differently.
+"""Selective search, *single*, with each of OpenCV's segmentation settings put into ours.
 
 Ours is as published (Uijlings et al. 2013): k is 100, no patch stays under k pixels, a pixel has
 eight neighbours, and hue counts as much as saturation. OpenCV's defaults: 200, 100 pixels, four
-neighbours, and a hue from 0 to 180 beside a saturation from 0 to 255. Each is put into ours alone,
-then all at once.
-Of the two lists of a photo, the longer is cut to the length of the other.
+neighbours, and a hue from 0 to 180 beside a saturation from 0 to 255. Each is put in alone, then
+all at once. Of the two lists of boxes of a photo, the longer is cut to the other's length.
 """
 
 import cv2
@@ -30,7 +29,7 @@ CUTS = {
 
 
 def cut(image, k=100, neighbours=8, narrow_hue=False):
-    """The Hierarchy of one cut of an image."""
+    """The `Hierarchy` of an image, segmented with these settings."""
     rgb = photos.as_float(image)
     channels = COLOUR_SPACES["HSV"](rgb)
     if narrow_hue:
@@ -46,39 +45,38 @@ def cut(image, k=100, neighbours=8, narrow_hue=False):
     return grow(labels, describe(labels, *codes), ALL)
 
 
-def gain(image, truth, theirs, **how):
-    """How many boxes a cut leaves, and for each object how often a draw boxes it and they do not.
-
-    Boxed is what a box overlaps by 0.8.
-    """
-    tree = cut(image, **how)
+def recall_difference(image, truth, opencv_boxes, **settings):
+    """How many boxes there are, and for each object our recall at IoU 0.8 less OpenCV's, (n,)."""
+    tree = cut(image, **settings)
     orders = [ranked([tree], np.random.default_rng(draw), SMALLEST) for draw in range(DRAWS)]
-    equal = min(len(orders[0]), len(theirs))
+    equal = min(len(orders[0]), len(opencv_boxes))
     ours, peers = (
         [iou(truth, order[:equal]).max(1, initial=0) >= 0.8 for order in lists]
-        for lists in (orders, [theirs])
+        for lists in (orders, [opencv_boxes])
     )
     return len(orders[0]), np.mean(ours, axis=0) - peers[0]
 
 
-def mean_of_photos(gains, rng, draws=2000):
+def bootstrap_over_photos(differences, rng, draws=2000):
     """The mean over all objects of photos (a list of arrays), and its 95 % interval over photos."""
-    some = rng.integers(0, len(gains), (draws, len(gains)))
-    means = [np.concatenate([gains[i] for i in photos]).mean() for photos in some]
-    return np.concatenate(gains).mean(), *np.percentile(means, [2.5, 97.5])
+    picks = rng.integers(0, len(differences), (draws, len(differences)))
+    means = [np.concatenate([differences[i] for i in photos]).mean() for photos in picks]
+    return np.concatenate(differences).mean(), *np.percentile(means, [2.5, 97.5])
 
 
 if __name__ == "__main__":
     rows = []
-    for name, some in {"renders": renders(), "real photos": outdoors()}.items():
-        shots = [(p.image, list(p.boxes.values()), opencv(p.image, "single")[0]) for p in some]
-        for called, how in CUTS.items():
-            counts, gains = zip(*(gain(*shot, **how) for shot in shots), strict=True)
-            mean, *interval = mean_of_photos(gains, np.random.default_rng(0))
+    for name, pictures in {"renders": renders(), "real photos": outdoors()}.items():
+        shots = [(p.image, list(p.boxes.values()), opencv(p.image, "single")[0]) for p in pictures]
+        for cut_name, settings in CUTS.items():
+            counts, differences = zip(
+                *(recall_difference(*shot, **settings) for shot in shots), strict=True
+            )
+            mean, *interval = bootstrap_over_photos(differences, np.random.default_rng(0))
             rows.append(
                 {
-                    "photos": f"{len(some)} {name}",
-                    "cut": called,
+                    "photos": f"{len(pictures)} {name}",
+                    "cut": cut_name,
                     "boxes": round(np.mean(counts)),
                     "recall .8 at equal count, less OpenCV's": round(mean, 3),
                     "95 %": " to ".join(f"{x:.3f}" for x in interval),

@@ -23,9 +23,9 @@ COUNT = 2000  # steps of the arm of six muscles
 FRAMES = """() => vmcScene(document.querySelector(".vmc-live .vmc-scene"))
   .viewer.renderer.info.render.frame"""
 LIFE = """async (seconds) => {
-  const given = JSON.parse(document.querySelector(".vmc-live script").textContent);
-  const arm = await vmcArm.load(given);
-  const movement = Array(Math.round(seconds / given.step)).fill(given.rest);
+  const data = JSON.parse(document.querySelector(".vmc-live script").textContent);
+  const arm = await vmcArm.load(data);
+  const movement = Array(Math.round(seconds / data.step)).fill(data.rest);
   const spent = () => {
     const start = performance.now();
     arm.move(movement);
@@ -64,9 +64,9 @@ def in_page(name, reaches):
     return loading, frames, pace
 
 
-def row(arm, measured, python):
+def row(arm, timing, python):
     """One line of the table; `python` is how many seconds of its life Python runs in one."""
-    loading, frames, pace = measured
+    loading, frames, pace = timing
     return {
         "arm": arm,
         "click to a moving arm (s)": round(loading, 2),

@@ -1,4 +1,4 @@
-"""What more experience buys, and what it costs in processor seconds: templates, movements, photos.
+"""Error and processor seconds against the amount of training: templates, movements, photos.
 
 Every point is a job of its own, handed to joblib: `parallel_config` decides where the jobs run.
 With `PHOTOS=folder`, the varied training photos come from there, and may be more than ship:
@@ -26,13 +26,13 @@ from vmc_lib.where.recipes import RECIPES
 
 SPACINGS = (0.08, 0.06, 0.04, 0.03, 0.02)  # m
 ON_THE_TABLE = (0.08, -0.42), (0.22, -0.38)  # m: where the photos' shuttlecocks lie, in the plane
-LESSONS = (0, 25, 50, 100, 250, 500, 1000, 2500)
+MOVEMENTS = (0, 25, 50, 100, 250, 500, 1000, 2500)
 PHOTOS = (10, 20, 40, 80, 160, 400)
 FOLDER = os.environ.get("PHOTOS", photos.FOLDER)
 
 
 def more_templates(spacing):
-    """A library with templates so far apart: how far its plans miss, in mm."""
+    """Mean planned error (mm) of a template set with this spacing (m)."""
     start = process_time()
     goals = reach_templates.reachable_grid(spacing)
     excitations = spline() @ np.array([reach_templates.find_reach(goal) for goal in goals])
@@ -44,30 +44,30 @@ def more_templates(spacing):
 
 
 def more_movements():
-    """Granule cells that practise: the miss left on targets never practised, over the planned."""
+    """Held-out error over planned error, as granule cells learn from more movements."""
     template_set, rng = templates.load(), np.random.default_rng(0)
-    unseen = plan(draw_targets(template_set, 200, rng), template_set)
+    held_out = plan(draw_targets(template_set, 200, rng), template_set)
     learner, seconds = AimCorrection(template_set), 0.0
     rows = []
-    for before, count in pairwise(LESSONS):
-        targets = draw_targets(template_set, count - before, rng)
+    for previous, count in pairwise(MOVEMENTS):
+        targets = draw_targets(template_set, count - previous, rng)
         start = process_time()
         learner.practise(plan(targets, template_set))
         seconds += process_time() - start
-        error = learner.correct(unseen).missed().mean() / unseen.missed().mean()
+        error = learner.correct(held_out).missed().mean() / held_out.missed().mean()
         rows.append(row("movements", count, error, seconds))
     return rows
 
 
 def more_photos(count):
-    """A finder that learnt from so many varied photos: the objects it misses on validation."""
-    seen = photos.load("varied", "train", FOLDER)[:count]
-    unseen = photos.load("varied", "validation")
+    """Share of validation objects missed by a detector trained on so many varied photos."""
+    training = photos.load("varied", "train", FOLDER)[:count]
+    validation = photos.load("varied", "validation")
     start = process_time()
-    detector = fit_detector(seen, RECIPES["improved"], np.random.default_rng(0))
+    detector = fit_detector(training, RECIPES["improved"], np.random.default_rng(0))
     seconds = process_time() - start
-    boxes = [detector.detect(photo.image).boxes for photo in unseen]
-    return [row("photos", count, 1 - precision_recall(unseen, boxes)[1], seconds)]
+    boxes = [detector.detect(photo.image).boxes for photo in validation]
+    return [row("photos", count, 1 - precision_recall(validation, boxes)[1], seconds)]
 
 
 def row(more, size, error, seconds):
@@ -76,9 +76,9 @@ def row(more, size, error, seconds):
 
 
 if __name__ == "__main__":
-    there = len(photos.load("varied", "train", FOLDER))
+    available = len(photos.load("varied", "train", FOLDER))
     jobs = [
-        *(delayed(more_photos)(count) for count in PHOTOS[::-1] if count <= there),
+        *(delayed(more_photos)(count) for count in PHOTOS[::-1] if count <= available),
         *(delayed(more_templates)(spacing) for spacing in SPACINGS[::-1]),
         delayed(more_movements)(),
     ]

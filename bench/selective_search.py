@@ -42,7 +42,7 @@ def opencv(image, strategy):
         "fast": search.switchToSelectiveSearchFast,
         "quality": search.switchToSelectiveSearchQuality,
     }[strategy]()
-    return [large(search.process())]
+    return [large_boxes(search.process())]
 
 
 def pypi(image, _):
@@ -52,10 +52,10 @@ def pypi(image, _):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         _, regions = selective_search(image, scale=500, sigma=0.9, min_size=10)
-    return [large(list(dict.fromkeys(region["rect"] for region in reversed(regions))))]
+    return [large_boxes(list(dict.fromkeys(region["rect"] for region in reversed(regions))))]
 
 
-def large(rects):
+def large_boxes(rects):
     """Boxes (n, 4) from those rows of x, y, width, height that are not too small."""
     rects = np.array(rects, float)
     rects = rects[(rects[:, 2:] >= SMALLEST).all(1)]
@@ -73,8 +73,8 @@ def timed(method, image, strategy):
     return orders, perf_counter() - wall, process_time() - busy
 
 
-def wall(width, height):
-    """The middle of a wall of 5 x 5 photos: content grows with the pixels."""
+def photo_mosaic(width, height):
+    """The middle of a mosaic of 5 x 5 photos: content grows with the pixels."""
     shots = [p.image for p in photos.load("varied", "validation")[:14] + list(photos.everyday())]
     rows = [np.hstack(shots[5 * row : 5 * row + 5]) for row in range(5)]
     x, y = (3000 - width) // 2, (2000 - height) // 2
@@ -84,7 +84,7 @@ def wall(width, height):
 MB, SECONDS = ("MB at rest", "MB at most"), ("processor s, first", "processor s")
 
 
-def alone(method, strategy, image, again=1):
+def process_cost(method, strategy, image, again=1):
     """What searching an image takes a process that has searched a tiny part of it before.
 
     MB with the image loaded, and at most; processor s of the first search, and the least that
@@ -93,12 +93,12 @@ def alone(method, strategy, image, again=1):
     code = f"""
 import sys
 from bench.selective_search import np, timed
-held = lambda kind: int(open("/proc/self/status").read().split(kind + ":")[1].split()[0]) >> 10
+memory = lambda kind: int(open("/proc/self/status").read().split(kind + ":")[1].split()[0]) >> 10
 image = np.frombuffer(sys.stdin.buffer.read(), np.uint8).reshape({image.shape})
-rest = held("VmRSS")
+rest = memory("VmRSS")
 search = lambda image: timed({method!r}, image, {strategy!r})[2]
 search(image[:100, :150].copy())
-print(rest, search(image), held("VmHWM"), min(search(image) for _ in range({again})))
+print(rest, search(image), memory("VmHWM"), min(search(image) for _ in range({again})))
 """
     command = [sys.executable, "-c", code]
     done = subprocess.run(command, input=image.tobytes(), capture_output=True, check=True)
@@ -107,11 +107,11 @@ print(rest, search(image), held("VmHWM"), min(search(image) for _ in range({agai
     return megabytes, dict(zip(SECONDS, (round(first, 3), round(again, 3)), strict=True))
 
 
-def fit(runs, some, most):
-    """Recall and ABO among the first `most` boxes of each photo's list."""
+def overlap_scores(runs, pictures, limits):
+    """Recall and ABO among the first boxes, up to its limit, of each photo's list."""
     best = [
         iou(list(photo.boxes.values()), order[:limit]).max(1, initial=0)
-        for orders, photo, limit in zip(runs, some, most, strict=True)
+        for orders, photo, limit in zip(runs, pictures, limits, strict=True)
         for order in orders
     ]
     best = np.concatenate(best)
@@ -119,24 +119,24 @@ def fit(runs, some, most):
     return dict(zip(("recall .5", "recall .8", "ABO"), np.round(values, 3).tolist(), strict=True))
 
 
-def compare(name, some, strategy, costs):
+def compare(name, pictures, strategy, costs):
     """A row for every entrant of a strategy on some photos."""
-    runs = {m: [timed(m, p.image, strategy) for p in some] for m in ENTRANTS[strategy]}
+    runs = {m: [timed(m, p.image, strategy) for p in pictures] for m in ENTRANTS[strategy]}
     count = {m: np.array([len(orders[0]) for orders, _, _ in run]) for m, run in runs.items()}
     equal = np.minimum(count["ours"], count["OpenCV contrib"])
     for method, run in runs.items():
         orders, seconds, busy = zip(*run, strict=True)
-        at_equal = fit(orders, some, equal)
+        at_equal = overlap_scores(orders, pictures, equal)
         yield {
-            "photos": f"{len(some)} {name}",
+            "photos": f"{len(pictures)} {name}",
             "strategy": strategy,
             "by": method,
             "s": round(float(np.median(seconds)), 2),
             "processor s": round(float(np.median(busy)), 2),
             **costs[strategy, method],
             "boxes": round(float(count[method].mean())),
-            **fit(orders, some, count[method]),
-            "ABO of 300": fit(orders, some, np.full(len(some), 300))["ABO"],
+            **overlap_scores(orders, pictures, count[method]),
+            "ABO of 300": overlap_scores(orders, pictures, np.full(len(pictures), 300))["ABO"],
             **{f"{key}, equal": value for key, value in at_equal.items()},
         }
 
@@ -152,16 +152,16 @@ def outdoors():
     return [p for p in (*photos.everyday(), *photos.load(photos.REAL_LEVEL, "train")) if p.boxes]
 
 
-def few(some):
+def ten_of(pictures):
     """Ten of them at most, evenly spread."""
-    return some[:: -(-len(some) // 10)]
+    return pictures[:: -(-len(pictures) // 10)]
 
 
 def growth(method):
     """Rows for growing images: time and memory of *single*, and the powers of the pixels."""
     rows = []
     for width, height in SIZES:
-        megabytes, seconds = alone(method, "single", wall(width, height), again=3)
+        megabytes, seconds = process_cost(method, "single", photo_mosaic(width, height), again=3)
         rows.append({"by": method, "pixels": width * height, **seconds, **megabytes})
     pixels, *times = (np.log([row[key] for row in rows[1:]]) for key in ("pixels", *SECONDS))
     powers = (round(float(np.polyfit(pixels, busy, 1)[0]), 2) for busy in times)
@@ -171,13 +171,17 @@ def growth(method):
 
 if __name__ == "__main__":
     sets = {"renders": renders(), "real photos": outdoors()}
-    one = wall(600, 400)
-    costs = {(s, m): alone(m, s, one)[0] for s, entrants in ENTRANTS.items() for m in entrants}
+    one = photo_mosaic(600, 400)
+    costs = {
+        (s, m): process_cost(m, s, one)[0] for s, entrants in ENTRANTS.items() for m in entrants
+    }
     table = [
         row
         for strategy in ENTRANTS
-        for name, some in sets.items()
-        for row in compare(name, few(some) if strategy == "quality" else some, strategy, costs)
+        for name, pictures in sets.items()
+        for row in compare(
+            name, ten_of(pictures) if strategy == "quality" else pictures, strategy, costs
+        )
     ]
     publish("selective_search", table)
     publish("selective_search_growth", growth("ours") + growth("OpenCV contrib"))
