@@ -22,7 +22,7 @@ CHAPTERS = sorted((ROOT / "book").glob("[0-9]*.ipynb"))
 REMEDY = "git checkout -- .*python -m reproduce --list"
 
 
-def test_what_ships_is_what_its_checksums_say():
+def test_shipped_files_have_their_checksums():
     found = checksums.data_checksums()
     assert found == json.loads(data.CHECKSUMS.read_bytes()), (
         "run python -m reproduce.pipeline.checksums"
@@ -59,7 +59,7 @@ def test_whole_files_are_read(shipped):
 
 
 @pytest.mark.parametrize("harm", [cut, swap])
-def test_a_damaged_file_is_named_and_the_remedy_told(shipped, harm):
+def test_a_damaged_file_is_named_with_its_remedy(shipped, harm):
     harm(shipped / "templates.npz")
     with pytest.raises(ValueError, match=f"templates.npz is damaged: .*{REMEDY}"):
         data.arrays("templates", shipped)
@@ -80,7 +80,7 @@ def test_a_missing_file_is_named(shipped):
         photos.load("free", "test", shipped / "photos")
 
 
-def test_damage_is_noticed_where_no_checksum_is_known(tmp_path):
+def test_damage_without_a_checksum_is_noticed(tmp_path):
     shutil.copy(results.FOLDER / "optimal.npz", tmp_path)
     cut(tmp_path / "optimal.npz")
     with pytest.raises(ValueError, match=f"optimal.npz is damaged: .*{REMEDY}"):
@@ -103,8 +103,8 @@ def test_a_read_only_checkout_is_enough(tmp_path):
         command = ["setpriv", "--bounding-set=-all", "--inh-caps=-all", *command]
         if not shutil.which("setpriv"):
             pytest.skip("NOT TESTED as root: setpriv is missing")
-    told = os.environ | {"PYTHONPATH": str(copy)}
-    done = subprocess.run(command, cwd=copy, env=told, capture_output=True, encoding="utf-8")
+    environment = os.environ | {"PYTHONPATH": str(copy)}
+    done = subprocess.run(command, cwd=copy, env=environment, capture_output=True, encoding="utf-8")
     for path in (copy, *copy.rglob("*")):
         path.chmod(path.stat().st_mode | 0o200)
     assert done.returncode == 0, done.stderr
@@ -128,7 +128,7 @@ def test_a_full_disk_leaves_what_was_there(tmp_path, name):
     assert list(tmp_path.iterdir()) == [file]
 
 
-def test_an_installation_broken_off_is_taken_up_again(tmp_path):
+def test_an_interrupted_installation_resumes(tmp_path):
     for name in ("Makefile", "requirements.txt", "constraints.txt", "pyproject.toml"):
         shutil.copy(ROOT / name, tmp_path)
     python = tmp_path / "python"  # it makes an environment whose pip only ends as it is told
@@ -140,15 +140,15 @@ def test_an_installation_broken_off_is_taken_up_again(tmp_path):
     )
     python.chmod(0o755)
     for ends in (130, 0):  # Ctrl-C, then once more
-        told = os.environ | {"PIP_ENDS": str(ends)}
+        environment = os.environ | {"PIP_ENDS": str(ends)}
         command = ["make", ".venv/.ready", f"PYTHON={python}"]
-        done = subprocess.run(command, cwd=tmp_path, env=told, capture_output=True)
+        done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True)
         assert (done.returncode == 0) == (ends == 0)
         assert (tmp_path / ".venv/.ready").exists() == (ends == 0)
 
 
 @pytest.mark.parametrize("path", CHAPTERS, ids=lambda path: path.stem)
-def test_a_demo_whose_cells_were_not_run_says_what_it_misses(path):
+def test_a_demo_without_its_cells_names_what_is_missing(path):
     cells = nbformat.read(path, as_version=4).cells
     demos = [c.source for c in cells if c.cell_type == "code" and "explore(" in c.source]
     with pytest.raises(NameError):
@@ -156,7 +156,7 @@ def test_a_demo_whose_cells_were_not_run_says_what_it_misses(path):
 
 
 @pytest.mark.parametrize(
-    ("answer", "expected", "said"),
+    ("answer", "expected", "verdict"),
     [
         (None, 11.5, "Not answered yet."),
         ("abc", 11.5, "✗ Not yet. You have 'abc'."),
@@ -173,10 +173,10 @@ def test_a_demo_whose_cells_were_not_run_says_what_it_misses(path):
         ("SAME", "same", "✓ Right."),
     ],
 )
-def test_whatever_a_reader_answers_is_answered(answer, expected, said, monkeypatch):
+def test_any_answer_gets_a_verdict(answer, expected, verdict, monkeypatch):
     monkeypatch.setenv("VMC_RENDER_MODE", "live")
-    shown = []
-    monkeypatch.setattr(questions, "display", lambda html: shown.append(html.data))
+    page = []
+    monkeypatch.setattr(questions, "display", lambda html: page.append(html.data))
     check(answer, expected)
-    words = re.sub(r"&#x27;", "'", re.sub(r"<style>.*?</style>|<[^>]*>", "", shown[0], flags=re.S))
-    assert words.startswith(said)
+    words = re.sub(r"&#x27;", "'", re.sub(r"<style>.*?</style>|<[^>]*>", "", page[0], flags=re.S))
+    assert words.startswith(verdict)

@@ -16,8 +16,6 @@ import pytest
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name as canonical
 
-from arm_in_page.live import MUJOCO
-
 ROOT = Path(__file__).parents[1]
 PYPROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 PROJECT = PYPROJECT["project"]
@@ -29,10 +27,10 @@ PINS = re.findall(
 
 
 def declared(*extras):
-    """What the core and some extras ask for: name → versions."""
+    """The requirements of the core and some extras: name → versions."""
     lists = [PROJECT["dependencies"], *(OPTIONAL[e] for e in extras)]
-    asked = [Requirement(line) for lines in lists for line in lines]
-    return {canonical(r.name): r.specifier for r in asked if r.name != "vmc_lib"}
+    requirements = [Requirement(line) for lines in lists for line in lines]
+    return {canonical(r.name): r.specifier for r in requirements if r.name != "vmc_lib"}
 
 
 EVERYTHING = declared("book", "test", "cluster")
@@ -68,15 +66,17 @@ def imported(code):
         ("book/_ext/*.py kit/**/*.py tests/**/*.py tools/*.py", ("book", "test", "cluster")),
     ],
 )
-def test_what_is_imported_is_declared(patterns, extras):
-    makers, asked = metadata.packages_distributions(), declared(*extras)
+def test_imports_are_declared(patterns, extras):
+    makers, names_declared = metadata.packages_distributions(), declared(*extras)
     codes = [code for pattern in patterns.split() for code in sources(pattern)]
     names = {name for code in codes for name in imported(code)}
     assert names
-    assert not {n for n in names if not {*map(canonical, makers.get(n, [n]))} & asked.keys()}
+    assert not {
+        n for n in names if not {*map(canonical, makers.get(n, [n]))} & names_declared.keys()
+    }
 
 
-def test_what_is_declared_is_pinned_and_nothing_else():
+def test_pins_are_the_declared_packages():
     pinned = {canonical(name.split("[")[0]): version for name, version in PINS}
     assert pinned.keys() == EVERYTHING.keys()
     assert not {n for n, version in pinned.items() if version not in EVERYTHING[n]}
@@ -92,22 +92,22 @@ def locked():
 
 
 def test_the_lock_holds_every_pin_but_torch():
-    held = {(name, str(r.specifier)) for name, r in locked().items()}
+    locks = {(name, str(r.specifier)) for name, r in locked().items()}
     pinned = {(canonical(name.split("[")[0]), f"=={version}") for name, version in PINS}
-    assert {name for name, _ in pinned - held} == {"torch"}
+    assert {name for name, _ in pinned - locks} == {"torch"}
 
 
-def test_the_lock_names_every_extra_that_is_asked_for():
+def test_the_lock_names_every_extra():
     """Where it does not, pip 23 takes the extra's newest release, which the lock does not hold."""
     lock = locked()
     here = {name: r for name, r in lock.items() if not r.marker or r.marker.evaluate()}
     missing = {
-        (name, asked.name)
+        (name, requirement.name)
         for name, package in here.items()
-        for asked in map(Requirement, metadata.requires(name) or [])
+        for requirement in map(Requirement, metadata.requires(name) or [])
         for extra in ("", *package.extras)
-        if not asked.marker or asked.marker.evaluate({"extra": extra})
-        if not asked.extras <= lock.get(canonical(asked.name), asked).extras
+        if not requirement.marker or requirement.marker.evaluate({"extra": extra})
+        if not requirement.extras <= lock.get(canonical(requirement.name), requirement).extras
     }
     assert len(here) > 100
     assert not missing
@@ -121,8 +121,8 @@ def test_a_reader_installs_no_tools():
     while waiting:
         if (name := waiting.pop()) not in pulled:
             pulled.add(name)
-            asked = (Requirement(line) for line in metadata.requires(name) or [])
-            here = (r for r in asked if not r.marker or r.marker.evaluate({"extra": ""}))
+            requirements = (Requirement(line) for line in metadata.requires(name) or [])
+            here = (r for r in requirements if not r.marker or r.marker.evaluate({"extra": ""}))
             waiting += (canonical(r.name) for r in here)
     assert not pulled & {"pytest", "playwright", "ruff", "sphinx", "jupyter-book", "dask"}
 
@@ -148,11 +148,17 @@ def reader(tmp_path_factory):
 @pytest.fixture
 def alone(reader, tmp_path):
     """A function that runs the reader's Python in an empty folder, and returns what it printed."""
-    told = {k: v for k, v in os.environ.items() if k not in ("PYTHONPATH", "VMC_RENDER_MODE")}
+    environment = {
+        k: v for k, v in os.environ.items() if k not in ("PYTHONPATH", "VMC_RENDER_MODE")
+    }
 
     def alone(*arguments):
         done = subprocess.run(
-            [reader, *arguments], cwd=tmp_path, env=told, capture_output=True, encoding="utf-8"
+            [reader, *arguments],
+            cwd=tmp_path,
+            env=environment,
+            capture_output=True,
+            encoding="utf-8",
         )
         assert done.returncode == 0, done.stderr
         return done.stdout
@@ -160,7 +166,7 @@ def alone(reader, tmp_path):
     return alone
 
 
-def test_the_wheel_holds_the_library_and_nothing_comes_from_the_repository(alone):
+def test_the_wheel_holds_the_packages(alone):
     names = "vmc_lib arm_in_page reproduce render book.figures book.exercises"
     code = f"import {names.replace(' ', ', ')}; print(vmc_lib.__file__, *book.figures.__path__)"
     for path in alone("-c", code).split():
@@ -168,26 +174,13 @@ def test_the_wheel_holds_the_library_and_nothing_comes_from_the_repository(alone
         assert not Path(path).is_relative_to(ROOT)
 
 
-def test_the_wheel_brings_a_live_kernel_the_arm_that_runs_in_the_page(alone):
-    shown = alone(
-        "-c",
-        """
-from arm_in_page import live
-shown = []
-live.display = lambda *items: shown.extend(items)
-live.live_arm("reach", "Let it reach.", "An arm.")
-print(sum(file.stat().st_size for file in shown[1].files.values()))""",
-    )
-    assert int(shown) > MUJOCO.stat().st_size
-
-
 @pytest.mark.parametrize("chapter", ["08_arm", "photos"])
-def test_a_chapter_alone_runs_with_the_wheel(alone, tmp_path, chapter):
+def test_a_chapter_runs_with_the_wheel_alone(alone, tmp_path, chapter):
     notebook = nbformat.read(ROOT / f"book/{chapter}.ipynb", as_version=4)
     notebook.cells.append(nbformat.v4.new_code_cell("import vmc_lib\nvmc_lib.__file__"))
     nbformat.write(notebook, tmp_path / "chapter.ipynb")
     alone("-m", "nbconvert", "--execute", "--to=notebook", "--inplace", "chapter.ipynb")
     executed = nbformat.read(tmp_path / "chapter.ipynb", as_version=4)
-    (told,) = executed.cells[-1].outputs
-    assert "reader" in told.data["text/plain"]
-    assert str(ROOT) not in told.data["text/plain"]
+    (output,) = executed.cells[-1].outputs
+    assert "reader" in output.data["text/plain"]
+    assert str(ROOT) not in output.data["text/plain"]

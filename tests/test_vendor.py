@@ -17,10 +17,12 @@ def test_vendored_files_are_what_the_manifest_says():
     assert vendor.problems() == []
 
 
-@pytest.mark.parametrize("entry", json.loads(vendor.MANIFEST.read_bytes()), ids=lambda e: e["name"])
-def test_everything_vendored_is_credited(entry):
-    assert all(entry[key] for key in ("name", "version", "licence", "for", "origin", "sha256"))
-    assert entry["version"] in entry["origin"]
+def test_everything_vendored_is_credited():
+    entries = json.loads(vendor.MANIFEST.read_bytes())
+    assert entries
+    for entry in entries:
+        assert all(entry[key] for key in ("name", "version", "licence", "for", "origin", "sha256"))
+        assert entry["version"] in entry["origin"], entry["name"]
 
 
 def test_page_and_kernel_use_one_viewer():
@@ -54,15 +56,15 @@ def elsewhere(monkeypatch, tmp_path):
     return file.parent
 
 
-def test_a_changed_file_is_noticed(elsewhere):
+def test_changed_missing_and_stray_files_are_named(elsewhere):
     (elsewhere / "stray.js").write_text("", encoding="utf-8")
-    said = " ".join(vendor.problems())
-    assert "a.js is not what" in said
-    assert "b.js is missing" in said
-    assert "stray.js is not in" in said
+    problems = " ".join(vendor.problems())
+    assert "a.js is not what" in problems
+    assert "b.js is missing" in problems
+    assert "stray.js is not in" in problems
 
 
-def test_what_is_fetched_is_what_the_manifest_says_or_is_refused(monkeypatch, elsewhere):
+def test_a_download_with_another_checksum_is_refused(monkeypatch, elsewhere):
     monkeypatch.setattr(vendor, "fetch", lambda origin: b"another")
     before = vendor.MANIFEST.read_bytes()
     with pytest.raises(ValueError, match=r"npm:a\.js has the checksum .* --update"):

@@ -1,5 +1,7 @@
-"""Chapters are executed when they, or what they import, changed: a tiny book, built."""
+"""A tiny book, built: chapters run only when they change, and open elsewhere by buttons."""
 
+import os
+import re
 import shutil
 import subprocess
 import sys
@@ -33,38 +35,55 @@ def write(book, code):
     cells = [nbformat.v4.new_markdown_cell("# A chapter", id="title")]
     cells += [nbformat.v4.new_code_cell(code, id="code")]
     kernel = {"kernelspec": {"name": "python3", "display_name": "Python 3"}}
-    nbformat.write(
-        nbformat.v4.new_notebook(cells=cells, metadata=kernel), book / "book/chapter.ipynb"
-    )
+    notebook = nbformat.v4.new_notebook(cells=cells, metadata=kernel)
+    nbformat.write(notebook, book / "book/chapter.ipynb")
 
 
-def build(book):
+def build(book, **repository):
+    """Build the book, as of a repository or of none: the page, or the failed process."""
+    environment = {k: v for k, v in os.environ.items() if not k.startswith("GITHUB_")} | repository
     command = [Path(sys.executable).with_name("jupyter-book"), "build", "-n", "."]
-    return subprocess.run(command, cwd=book, capture_output=True, encoding="utf-8", check=False)
+    done = subprocess.run(
+        command, cwd=book, env=environment, capture_output=True, encoding="utf-8", check=False
+    )
+    page = book / "_build/html/book/chapter.html"
+    return done if done.returncode else page.read_text(encoding="utf-8")
 
 
 def times_executed(book):
     return len((book / "book/count").read_text(encoding="utf-8"))
 
 
-def test_what_did_not_change_is_not_executed_again(book):
+def links(page):
+    return re.findall(r'href="([^"]+)"', page)
+
+
+def test_a_chapter_is_executed_when_it_or_the_library_changed(book):
     for _ in range(2):
-        build(book)
+        page = build(book)
         assert times_executed(book) == 1
-        assert "printed 42" in (book / "_build/html/book/chapter.html").read_text(encoding="utf-8")
+        assert "printed 42" in page
+    # It can be saved, and without a repository nothing leads out
+    assert "../_sources/book/chapter.ipynb" in links(page)
+    assert not [link for link in links(page) if link.startswith("http")]
     (book / "vmc_lib/one.py").write_text("line = 2\n", encoding="utf-8")  # one line of the library
     build(book)
     assert times_executed(book) == 2
     write(book, CODE + "  # another word")
-    build(book)
+    repository = {"GITHUB_SERVER_URL": "https://github.com", "GITHUB_REPOSITORY": "owner/name"}
+    page = build(book, **repository)
     assert times_executed(book) == 3
+    assert [link for link in links(page) if link.startswith("http")] == [
+        "https://mybinder.org/v2/gh/owner/name/main?urlpath=lab/tree/book/chapter.ipynb",
+        "https://colab.research.google.com/github/owner/name/blob/main/book/chapter.ipynb",
+    ]
 
 
 def test_a_failure_names_chapter_cell_and_remedy(book):
     write(book, "1 / 0")
     done = build(book)
     assert done.returncode != 0
-    told = (book / "_build/.failed").read_text(encoding="utf-8")
-    assert "chapter.ipynb, cell code (`1 / 0`): ZeroDivisionError: division by zero" in told
-    assert told in done.stdout + done.stderr
-    assert "make lab" in told
+    report = (book / "_build/.failed").read_text(encoding="utf-8")
+    assert "chapter.ipynb, cell code (`1 / 0`): ZeroDivisionError: division by zero" in report
+    assert report in done.stdout + done.stderr
+    assert "make lab" in report
