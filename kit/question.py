@@ -1,9 +1,11 @@
 """Question templates: a text with numbers to draw, the formula of its answer, and its variants.
 
-@numeric("m", hint="speed × time", tolerance=0.1)
-def distance(speed=steps(1, 9, 0.5), seconds=(10, 20)):
-    '''A car drives {seconds} s at {speed} m/s. How far does it come?'''
-    return speed * seconds
+For example:
+
+    @numeric("m", hint="speed × time", tolerance=0.1)
+    def distance(speed=steps(1, 9, 0.5), seconds=(10, 20)):
+        '''A car drives {seconds} s at {speed} m/s. How far does it come?'''
+        return speed * seconds
 """
 
 from collections import ChainMap

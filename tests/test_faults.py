@@ -23,11 +23,11 @@ REMEDY = "git checkout -- .*python -m reproduce --list"
 
 
 def test_shipped_files_have_their_checksums():
-    found = checksums.data_checksums()
-    assert found == json.loads(data.CHECKSUMS.read_bytes()), (
+    checksums_now = checksums.data_checksums()
+    assert checksums_now == json.loads(data.CHECKSUMS.read_bytes()), (
         "run python -m reproduce.pipeline.checksums"
     )
-    assert {"templates.npz", "photos/rig/test/000.jpg"} <= found.keys()
+    assert {"templates.npz", "photos/rig/test/000.jpg"} <= checksums_now.keys()
 
 
 @pytest.fixture
@@ -110,7 +110,7 @@ def test_a_read_only_checkout_is_enough(tmp_path):
     assert done.returncode == 0, done.stderr
 
 
-@pytest.mark.parametrize("name", ["kept.npz", "kept.json"])
+@pytest.mark.parametrize("name", ["a.npz", "a.json"])
 def test_a_full_disk_leaves_what_was_there(tmp_path, name):
     file = tmp_path / name
     steps.write(file, lambda: {"rows": [1, 2]})
