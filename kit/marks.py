@@ -18,7 +18,7 @@ from vmc_lib.show.questions import NOT_YET, RIGHT
 TIMEOUT = 600  # s a cell
 
 
-def marks(chapter, handed_in, folder, timeout=TIMEOUT):
+def marks(chapter, submission, folder, timeout=TIMEOUT):
     """The mark of each checked exercise of a chapter's notebook, {label: text}, in a hand-in.
 
     Runs the hand-in in `folder`, with our own checks in place of the student's, which are known by
@@ -30,7 +30,7 @@ def marks(chapter, handed_in, folder, timeout=TIMEOUT):
         for cell in student(chapter).cells
         if cell.cell_type == "code" and "exercise" in cell.metadata
     }
-    code = [cell for cell in handed_in.cells if cell.cell_type == "code"]
+    code = [cell for cell in submission.cells if cell.cell_type == "code"]
     labels = [_label(cell, checks) for cell in code]
     cells = [
         nbformat.v4.new_code_cell(checks.get(label, cell.source))
@@ -61,12 +61,12 @@ def _mark(outputs):
     return " ".join(errors) or ("not answered" if NOT_YET in text else "not right")
 
 
-def chapter_of(handed_in, name):
+def chapter_of(submission, name):
     """The notebook of the chapter that was handed in, known by its first heading or its number.
 
     `name` is the file's. ValueError where neither tells it.
     """
-    text = "\n".join(cell.source for cell in handed_in.cells if cell.cell_type == "markdown")
+    text = "\n".join(cell.source for cell in submission.cells if cell.cell_type == "markdown")
     heading, number = re.search(r"^# .*", text, re.M), re.match(r"\d+", name)
     by_title, by_number = {}, {}
     for path in CHAPTERS:
@@ -83,8 +83,8 @@ def chapter_of(handed_in, name):
 def line(path):
     """A hand-in's line: its file, and its marks or why it has none."""
     try:
-        handed_in = nbformat.read(path, as_version=4)
-        results = marks(chapter_of(handed_in, path.name), handed_in, path.parent)
+        submission = nbformat.read(path, as_version=4)
+        results = marks(chapter_of(submission, path.name), submission, path.parent)
     except Exception as error:  # whatever is wrong with one file, the others are marked
         reason, *_ = str(error).split("\n")
         return f"{path}: cannot be marked ({type(error).__name__}: {reason})"
