@@ -129,3 +129,13 @@ def steps(low, high, step, zero=None):
 def tenths(low, high, count):
     """A function of an rng: so many numbers (count,), drawn evenly, to one decimal."""
     return lambda rng: np.round(rng.uniform(low, high, count), 1)
+
+
+def successes(sizes):
+    """A function of an rng: how many of n succeed, at least half of them, and n, one of `sizes`."""
+
+    def draw(rng):
+        n = sizes[rng.integers(len(sizes))]
+        return n // 2 + int(rng.integers(n - n // 2 + 1)), n
+
+    return draw

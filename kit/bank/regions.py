@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from kit.question import choice, count, numeric, steps
+from kit.question import choice, count, numeric, steps, successes
 from reproduce.training.detectors import best_threshold
 from vmc_lib.boxes import corrections, iou, nms, vote
 from vmc_lib.statistics import wilson
@@ -22,11 +22,6 @@ def five_starts(rng):
 
 def four_starts(rng):
     return [0, *np.sort(5 * rng.choice(np.arange(2, 17), 2, replace=False)).tolist(), 150]
-
-
-def right_of_photos(rng):
-    n = (20, 40, 80, 160)[rng.integers(4)]
-    return n // 2 + int(rng.integers(n - n // 2 + 1)), n
 
 
 @numeric(hint="They share 1 - d and cover 1 + d.")
@@ -119,7 +114,7 @@ def threshold_of_best_f1(scores=falling_scores, right=hits):
     hint="(p + z²/2n ± z √(p(1-p)/n + z²/4n²)) / (1 + z²/n), z = 1.96",
     tolerance=0.005,
 )
-def how_sure_is_a_share(photos=right_of_photos, end=("lower", "upper")):
+def how_sure_is_a_share(photos=successes((20, 40, 80, 160)), end=("lower", "upper")):
     """A detector is right in {photos[0]} of {photos[1]} photos. Where is the {end} end of the
     share's 95 % interval, after Wilson?"""
     return wilson(*photos)[end == "upper"]

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from kit.question import choice, count, numeric, steps
+from kit.question import choice, count, numeric, steps, successes
 from vmc_lib.statistics import wilson
 
 STEPS = ("finding", "naming", "placing", "moving")
@@ -56,13 +56,8 @@ def arrivals_with_a_lesion(
     return photos * (1 - swapped) * arrive
 
 
-def arrived_of_photos(rng):
-    n = PHOTOS[rng.integers(3)]
-    return n // 2 + int(rng.integers(n - n // 2 + 1)), n
-
-
 @numeric(hint="The upper end less the lower; z = 1.96.", tolerance=0.005)
-def interval_of_arrivals(arrived=arrived_of_photos):
+def interval_of_arrivals(arrived=successes(PHOTOS)):
     """The hand arrived in {arrived[0]} of {arrived[1]} photos. How wide is the 95 % interval of
     that share (Wilson), from end to end?"""
     return np.ptp(wilson(*arrived))
