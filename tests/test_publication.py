@@ -128,7 +128,7 @@ def test_links_hold_on_paper_wherever_the_book_lies(chromium, tmp_path):
     for name, other in (("one", "two"), ("two", "one")):
         page = f'<article><h1 id="top">{name}</h1><a href="{other}.html#top">{other}</a></article>'
         (html / f"{name}.html").write_text(f"<title>A book</title>{page}", encoding="utf-8")
-    pdf.printed(chromium, html, ["one", "two"], tmp_path / "book.pdf")
+    pdf.print_book(chromium, html, ["one", "two"], tmp_path / "book.pdf")
     with pypdfium2.PdfDocument(tmp_path / "book.pdf") as book:
         assert sum(map(_links_inside, book)) == 2
 
