@@ -43,7 +43,7 @@ test: $(BUILT)
 	$(BIN)/codespell
 	$(BIN)/python -m tools.browser
 	$(BIN)/python -m tests.engines
-	$(BIN)/pytest -n auto --dist worksteal $(if $(CI),--cov)
+	$(BIN)/pytest -n auto --dist worksteal --nbmake --nbmake-timeout=3600 book tests $(if $(CI),--cov)
 
 lab: $(READY) $(LAYOUT)
 	@mkdir -p .venv/etc/ipython && cp .binder/ipython_kernel_config.py .venv/etc/ipython

@@ -1,7 +1,6 @@
 """The chapters: complete, tidy, in the table of contents, and each runs from top to bottom."""
 
 import ast
-import os
 import re
 import subprocess
 import symtable
@@ -13,8 +12,6 @@ import pytest
 import yaml
 from ipykernel.ipkernel import IPythonKernel
 from ipykernel.kernelspec import get_kernel_dict
-from nbclient import NotebookClient
-from nbformat.v4 import new_code_cell
 from pybtex.database import parse_file
 from pybtex.richtext import Text
 
@@ -28,17 +25,6 @@ NUMBERED = [path for path in NOTEBOOKS if path.stem[:2].isdigit()]
 @pytest.fixture(params=NOTEBOOKS, ids=lambda path: path.stem)
 def notebook(request):
     return nbformat.read(request.param, as_version=4)
-
-
-@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
-def test_runs_from_top_to_bottom_and_its_demos_answer_still(path):
-    """Whatever the last cell has changed; and what may raise for a reader may not for us."""
-    notebook = nbformat.read(path, as_version=4)
-    notebook.cells.insert(0, new_code_cell("from tests import demos\ndemos.remember()"))
-    notebook.cells.append(new_code_cell("demos.ask_again()"))
-    told = os.environ | {"PYTHONPATH": str(ROOT)}
-    client = NotebookClient(notebook, timeout=3600, force_raise_errors=True)
-    client.execute(cwd=path.parent, env=told)
 
 
 def test_no_cell_rebinds_what_an_earlier_function_reads(notebook):
