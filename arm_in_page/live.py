@@ -28,11 +28,10 @@ from vmc_lib.motor.planning import plan
 from vmc_lib.show.arm import arm_scene
 from vmc_lib.show.arm_plane import plane, plane_view
 from vmc_lib.show.controls import radios, slider
-from vmc_lib.show.demo import still_of
 from vmc_lib.show.figures import framed, pictures, side_by_side
 from vmc_lib.show.live import STATIC as SHOW
 from vmc_lib.show.live import VENDORED, Live
-from vmc_lib.show.markup import styled
+from vmc_lib.show.outputs import Markup, still
 from vmc_lib.show.palette import STYLE
 from vmc_lib.show.render_mode import render_mode
 from vmc_lib.show.scene import SCRIPTS as VIEWER
@@ -96,9 +95,9 @@ def show(name, mode, draw, controls, data, caption, alt):
         display(HTML(framed(page, caption)))
     elif render_mode() == "live":
         style = f"<style>{(STATIC / 'live.css').read_text(encoding='utf-8')}</style>"
-        mujoco_js = {MUJOCO.name: MUJOCO}
-        widget = Live(page, "vmcStart", [*VIEWER, *SCRIPTS], vendored=VENDORED | mujoco_js)
-        display(HTML(style + styled(still_of(alt, drawn, name))), widget, HTML(framed("", caption)))
+        vendored = VENDORED | {MUJOCO.name: MUJOCO}
+        widget = Live(page, "vmcStart", [*VIEWER, *SCRIPTS], vendored=vendored)
+        display(still(alt, drawn, name), widget, Markup(style + framed("", caption), caption))
 
 
 def given():

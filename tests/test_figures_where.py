@@ -37,4 +37,4 @@ def test_the_button_is_there_only_where_a_kernel_answers(monkeypatch):
     assert figures == [("<p>drawn</p>", "caption", "alt")] * 3
     [button] = shown
     assert 'type="file"' in button.page
-    assert button.scripts == ["canvas.js", "upload.js"]
+    assert list(button.scripts) == ["canvas.js", "upload.js"]

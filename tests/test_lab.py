@@ -8,7 +8,9 @@ import subprocess
 import sys
 from contextlib import suppress
 from pathlib import Path
+from urllib.parse import unquote
 
+import nbformat
 import numpy as np
 import pytest
 from PIL import Image
@@ -20,21 +22,42 @@ pytestmark = pytest.mark.browser
 ROOT = Path(__file__).parents[1]
 CHAPTERS = {"02_candidates", "07_muscle", "08_arm"}  # plots, photos, an upload; scenes, the arm
 NOTEBOOK = "const panel = jupyterapp.shell.currentWidget, notebook = panel.content;"
+LONG_CHAPTER = [  # a demo, and a cell that runs until the reader says so
+    """import time
+from pathlib import Path
+import matplotlib.pyplot as plt
+from vmc_lib.show import Slider, explore""",
+    """def draw(k):
+    fig, ax = plt.subplots()
+    ax.plot([0, k])
+    ax.set(xlim=(0, 0.5))
+    return fig
+explore(draw, "c", lambda k: f"up to {k}", k=Slider([1, 2, 3], "k"))""",
+    """Path("running").touch()
+while not Path("go on").exists():
+    time.sleep(0.05)
+plt.plot([0, 1]);""",
+]
 OURS = ".vmc-demo:not(.vmc-still), .vmc-live, .vmc-predict, .vmc-check"
 OURS += ", .jp-OutputArea table, .jp-OutputArea details"  # folded numbers, exercises' verdicts
 
 
 @pytest.fixture(scope="module")
 def server(tmp_path_factory):
-    """The address of a JupyterLab of its own, with copies of some chapters."""
+    """The address and the folder of a JupyterLab of its own, with copies of some chapters."""
     home = tmp_path_factory.mktemp("lab")
     (home / "book").mkdir()
     for file in (*(f"{chapter}.ipynb" for chapter in CHAPTERS), "glossary.md"):
         shutil.copy(ROOT / "book" / file, home / "book")
+    cells = map(nbformat.v4.new_code_cell, LONG_CHAPTER)
+    kernel = {"kernelspec": {"name": "python3", "display_name": "Python 3"}}
+    long = nbformat.v4.new_notebook(cells=list(cells), metadata=kernel)
+    nbformat.write(long, home / "book/long.ipynb")
     folders = ("JUPYTER_CONFIG_DIR", "JUPYTER_DATA_DIR", "JUPYTERLAB_WORKSPACES_DIR", "IPYTHONDIR")
     told = os.environ | {name: str(home / name) for name in folders}
     told |= {"JUPYTERLAB_SETTINGS_DIR": str(home / "settings"), "VMC_RENDER_MODE": ""}
     told |= {"PYTHONPATH": str(ROOT), "OMP_NUM_THREADS": "1"}
+    told.pop("MPLBACKEND", None)  # a reader's plots stand below the cell
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
@@ -49,7 +72,7 @@ def server(tmp_path_factory):
         with suppress(subprocess.TimeoutExpired):
             lab.wait(0.1)  # to ask without a pause would take its processor
         assert lab.poll() is None, (home / "log").read_text(encoding="utf-8")
-    yield f"http://127.0.0.1:{port}"
+    yield f"http://127.0.0.1:{port}", home / "book"
     lab.terminate()
     lab.wait()
 
@@ -87,7 +110,7 @@ def visit(window, server):
                 said.type == "error" and page.faults.append(f"{said.text} {said.location['url']}")
             ),
         )
-        page.goto(f"{server}/lab/tree/{chapter}.ipynb?token=secret&reset")
+        page.goto(f"{server[0]}/lab/tree/{chapter}.ipynb?token=secret&reset")
         ready(page)
         page.evaluate("() => jupyterapp.shell.collapseLeft()")
         return page
@@ -110,7 +133,7 @@ def run_all(visit):
         assert outputs(page, "error") == []
         page.wait_for_function(
             "() => document.querySelectorAll('.vmc-demo[data-ready]').length > 1"
-            " && !document.querySelector('.vmc-demo[aria-busy]')"
+            " && !document.querySelector('.vmc-demo[data-closed]')"
         )
         return page
 
@@ -284,7 +307,8 @@ def test_a_plot_moves_fails_aloud_and_leaves_a_still(run_all):
     line = demo.locator(".vmc-picture path").last.get_attribute("d")
     number = demo.get_attribute("id")
     page.wait_for_function(  # what the reader rests on has been kept
-        "([name, line]) => document.getElementById(name + '-still').innerHTML.includes(line)",
+        "([name, line]) => decodeURIComponent(document.getElementById(name + '-still').innerHTML)"
+        ".includes(line)",
         arg=[number, line],
     )
     page.evaluate(
@@ -297,8 +321,8 @@ def test_a_plot_moves_fails_aloud_and_leaves_a_still(run_all):
     ready(page)
     still = page.locator(f"#{number}-still")
     still.scroll_into_view_if_needed()
-    still.get_by_text("Run this cell to make it move").wait_for()
-    assert line in still.inner_html()
+    still.get_by_text("Run > Run All Cells to make it move").wait_for()
+    assert line in unquote(still.inner_html())
     assert not page.get_by_text("model not found").first.is_visible()
 
 
@@ -368,7 +392,7 @@ def test_a_chapter_that_is_closed_keeps_no_kernel(visit, server):
     page.wait_for_function(session)
 
     def runs():
-        running = page.request.get(f"{server}/api/sessions?token=secret").json()
+        running = page.request.get(f"{server[0]}/api/sessions?token=secret").json()
         return "08_arm.ipynb" in [each["name"] for each in running]
 
     assert runs()
@@ -378,3 +402,48 @@ def test_a_chapter_that_is_closed_keeps_no_kernel(visit, server):
         if runs():
             page.wait_for_timeout(1000)
     assert not runs()
+
+
+RUN_ALL = "() => void jupyterapp.commands.execute('notebook:run-all-cells')"  # and go on at once
+
+
+@pytest.fixture
+def long_chapter(visit, server):
+    """A chapter whose last cell runs until its `go on` lies in the folder: its page, that file."""
+    page, folder = visit("long"), server[1]
+    page.evaluate(RUN_ALL)
+    yield page, folder / "go on"
+    for mark in ("running", "go on"):
+        (folder / mark).unlink(missing_ok=True)
+
+
+def move_only_demo(page):
+    """Move the demo's slider as soon as it can be: what it then shows, in words."""
+    page.wait_for_selector("input[type=range]:enabled")
+    demo = move(page, page.locator("input[type=range]"))
+    return demo.locator(".vmc-pictures").get_attribute("aria-label")
+
+
+def test_a_demo_moves_while_the_chapter_still_runs(long_chapter):
+    page, go_on = long_chapter
+    assert move_only_demo(page) == "up to 3"
+    assert (go_on.parent / "running").exists()
+    assert outputs(page, "error") == []
+    go_on.touch()
+    last = f"() => {{ {NOTEBOOK} return notebook.widgets.at(-1).model.outputs.length; }}"
+    page.wait_for_function(last)
+    pictures = [out for out in outputs(page, "display_data") if "image/png" in out["data"]]
+    assert len(pictures) == 1  # the cell's own
+
+
+def test_a_restart_in_the_middle_leaves_no_dead_demo(long_chapter):
+    page, go_on = long_chapter
+    page.wait_for_selector(".vmc-demo[data-ready]")
+    restart = f"async () => {{ {NOTEBOOK} await panel.sessionContext.session.kernel.restart(); }}"
+    page.evaluate(restart)
+    page.get_by_text("The kernel has gone: Run > Run All Cells").wait_for()
+    assert page.locator("input[type=range]").is_disabled()
+    page.evaluate(RUN_ALL)
+    page.get_by_text("The kernel has gone").wait_for(state="detached")
+    assert move_only_demo(page) == "up to 3"
+    assert not go_on.exists()

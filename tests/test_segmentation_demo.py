@@ -140,7 +140,7 @@ def test_in_a_kernel_it_is_the_same_page(monkeypatch):
     monkeypatch.setattr(where, "display", shown.append)
     monkeypatch.setenv("VMC_RENDER_MODE", "live")
     where.segmentation_demo(SHOTS[0].image, "Play.", "A cup.")
-    assert shown[1].scripts == ["canvas.js", "selective_search.js", "segmentation_demo.js"]
+    assert list(shown[1].scripts) == ["canvas.js", "selective_search.js", "segmentation_demo.js"]
     assert 'class="vmc-segmentation"' in shown[1].page
     monkeypatch.setenv("VMC_RENDER_MODE", "test")
     where.segmentation_demo(SHOTS[0].image, "Play.", "A cup.")

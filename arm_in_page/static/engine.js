@@ -9,6 +9,10 @@ const vmcEngine = (() => {
     return loadMujoco({ wasmBinary, locateFile: (name) => name }); // nothing is left to locate
   };
 
-  let loading;
-  return () => (loading ??= load());
+  let loading; // unless that fails, once
+  const forget = (error) => {
+    loading = null;
+    throw error;
+  };
+  return () => (loading ??= load().catch(forget));
 })();

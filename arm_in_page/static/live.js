@@ -39,7 +39,9 @@ const vmcLive = (() => {
         this.arm = arm;
         await this.ready();
       } catch (error) {
-        return this.say(`This browser cannot run the arm: ${error.message ?? error}`);
+        this.loading = false;
+        return this.say(error.name === "KernelGone" ? error.message
+          : `This browser cannot run the arm: ${error.message ?? error}`);
       }
       for (const element of this.form.elements) element.disabled = false;
     }

@@ -126,10 +126,10 @@ const vmcInPage = (() => {
   };
   /* Each picture takes a handle: how it shows what the pad stands at, and what a place on it means. */
   aim.views = ({ camera, marks: { height } }) => [
-    { shown: (pixel) => pixel, meant: (pixel) => pixel },
+    { toView: (pixel) => pixel, fromView: (pixel) => pixel },
     {
-      shown: (pixel) => backProject(camera, pixel, height).filter((_, k) => k !== 1).reverse(),
-      meant: ([right, ahead]) => project(camera, [ahead, height, right]),
+      toView: (pixel) => backProject(camera, pixel, height).filter((_, k) => k !== 1).reverse(),
+      fromView: ([right, ahead]) => project(camera, [ahead, height, right]),
     },
   ];
 

@@ -14,10 +14,11 @@ from book.figures.panels import panels
 from vmc_lib.boxes import FOUND, iou
 from vmc_lib.photos import as_rgb
 from vmc_lib.show.controls import slider
-from vmc_lib.show.demo import figure, still_of
+from vmc_lib.show.demo import figure
 from vmc_lib.show.figures import framed, photo_view
 from vmc_lib.show.live import Live
-from vmc_lib.show.markup import data_uri, styled
+from vmc_lib.show.markup import data_uri
+from vmc_lib.show.outputs import Markup, still
 from vmc_lib.show.palette import COLOURS, EDGE, ON_PHOTO, css
 from vmc_lib.show.render_mode import render_mode
 
@@ -132,9 +133,9 @@ def segmentation_demo(image, caption, alt):
         display(HTML(framed(page, caption)))
     elif render_mode() == "live":
         scripts = [CANVAS, STATIC / "selective_search.js", STATIC / "segmentation_demo.js"]
-        display(HTML(styled(still_of(alt, [photo], "segmentation"))))
+        display(still(alt, [photo], "segmentation"))
         display(Live(framed(page, "", "segmentation"), "vmcSegmentationDemo", scripts))
-        display(HTML(framed("", caption)))
+        display(Markup(framed("", caption), caption))
 
 
 UPLOAD = """<div class="vmc-demo"><form class="vmc-control">

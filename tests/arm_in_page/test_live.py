@@ -15,6 +15,7 @@ import yaml
 
 from arm_in_page import live
 from arm_in_page.live import live_arm
+from tests.show.kernel import render
 from vmc_lib.arm import muscle
 from vmc_lib.arm.dynamics import paths
 from vmc_lib.arm.kinematics import inverse_kinematics, to_world
@@ -470,41 +471,49 @@ def test_what_could_not_work_is_refused():
         live_arm("reach", "c", "a", target=(0.5, 0.5))
 
 
-@pytest.mark.browser
-def test_a_live_kernels_widget_moves(offline, monkeypatch):
+@pytest.fixture
+def live_page(offline, monkeypatch):
+    """An empty page, and a function that makes a live widget of an arm."""
     monkeypatch.setenv("VMC_RENDER_MODE", "live")
-    shown = []
-    monkeypatch.setattr(live, "display", lambda *items: shown.extend(items))
-    live_arm("bench", "Move it.", "An arm.")
-    still, widget, caption = shown
-    assert "Run this cell" in still.data
-    assert "Move it." in caption.data
     page = offline.new_page()
-    replies = []
-    monkeypatch.setattr(widget, "send", replies.append)
 
-    def answer(asked):
-        widget._handle_custom_msg(asked, [])
-        return replies.pop()
+    def widget():
+        shown = []
+        monkeypatch.setattr(live, "display", lambda *items: shown.extend(items))
+        live_arm("bench", "Move it.", "An arm.")
+        still, widget, caption = shown
+        assert "Run > Run All Cells" in still.data
+        assert "Move it." in caption.data
+        return widget
 
-    page.expose_function("kernel", answer)
-    page.evaluate(
-        """async ([script, given]) => {
-          const url = URL.createObjectURL(new Blob([script], { type: "text/javascript" }));
-          const hears = [];
-          const model = {
-            get: (name) => given[name],
-            on: (_, hear) => hears.push(hear),
-            send: (asked) => kernel(asked).then((told) => hears.map((hear) => hear(told))),
-          };
-          await (await import(url)).default.render({ model, el: document.body });
-        }""",
-        [
-            widget._esm,
-            {name: getattr(widget, name) for name in ("page", "start", "scripts", "vendored")},
-        ],
-    )
+    yield page, widget
+    page.close()
+
+
+@pytest.mark.browser
+def test_a_live_kernels_widget_moves(live_page, monkeypatch):
+    page, widget = live_page
+    render(page, widget(), monkeypatch)
     start(page.locator(".vmc-live"))
     wait_for_status(page.locator(".vmc-live"), "The arm is running")
     page.wait_for_selector(".vmc-scene canvas")
-    page.close()
+
+
+@pytest.mark.browser
+def test_no_kernel_that_has_gone_is_asked_for_the_physics(live_page, monkeypatch):
+    page, widget = live_page
+    render(page, widget(), monkeypatch, "mine")
+    render(page, widget(), monkeypatch, "other")  # of a chapter that was run later
+    page.evaluate("() => { otherModel.closed = true }")
+    mine = page.locator(".vmc-live").first
+    start(mine)
+    wait_for_status(mine, "The arm is running")
+
+
+@pytest.mark.browser
+def test_the_arm_says_that_the_kernel_has_gone(live_page, monkeypatch):
+    page, widget = live_page
+    render(page, widget(), monkeypatch)
+    page.evaluate("() => { kernelModel.closed = true }")
+    page.locator("[name=main]").click()
+    wait_for_status(page.locator(".vmc-live"), "The kernel has gone: Run > Run All Cells")

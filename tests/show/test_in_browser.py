@@ -2,6 +2,7 @@
 
 import shutil
 from pathlib import Path
+from types import SimpleNamespace
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -10,6 +11,7 @@ import pytest
 from meshcat import geometry as g
 from meshcat.transformations import translation_matrix
 
+from tests.show.kernel import render
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.show import Choice, Pad, Scene, Slider, demo, explore, figure, photo_view
 from vmc_lib.show.arm import arm_scene
@@ -528,3 +530,82 @@ def test_paper_shows_where_a_demo_leads_that_nobody_touched(open_demos):
     assert page.inner_text("output") == "0.1"
     assert page.inner_text(".vmc-picture p") == "now at 0.1"
     assert page.errors == []
+
+
+@pytest.fixture
+def live_demo(offline, monkeypatch):
+    """A function that declares a demo in a live kernel, and returns a page with its widget."""
+    pages = []
+
+    def live_demo(draw, busy=False, **controls):
+        monkeypatch.setenv("VMC_RENDER_MODE", "live")
+        shown = []
+        handle = SimpleNamespace(update=shown.append)
+        monkeypatch.setattr(demo, "display", lambda item, **_: shown.append(item) or handle)
+        explore(draw, "c", "words", **controls)
+        page = offline.new_page()
+        pages.append(page)
+        page.faults = []
+        page.on("pageerror", lambda error: page.faults.append(str(error)))
+        page.set_content(shown[0].data)
+        render(page, shown[1], monkeypatch, busy=busy)
+        return page
+
+    yield live_demo
+    for page in pages:
+        page.close()
+        assert page.faults == []
+
+
+def dot(k):
+    return f'<svg width="20" height="20">\n<circle r="{k}"/>\n</svg>'
+
+
+RADIUS = "() => document.querySelector('circle').getAttribute('r')"
+
+
+def test_controls_stand_at_once_and_open_when_the_kernel_answers(live_demo):
+    page = live_demo(dot, busy=True, k=Slider([1, 2, 3], "k"))
+    slider = page.get_by_role("slider")
+    assert slider.is_visible()
+    assert slider.is_disabled()
+    assert page.evaluate(RADIUS) == "1"
+    page.get_by_text("The chapter is still running").wait_for()
+    page.evaluate("() => (kernelModel.busy = false)")
+    page.wait_for_function("() => !document.querySelector('input').disabled")
+    assert not page.get_by_text("The chapter is still running").count()
+    slider.press("End")
+    page.wait_for_function(f"() => ({RADIUS})() === '3'")
+
+
+def test_a_first_scene_needs_no_answer(live_demo):
+    page = live_demo(ball, busy=True, x=Slider([0.0, 0.4], "x"))
+    scene = page.locator(".vmc-demo:not(.vmc-still) .vmc-scene")
+    messages = scene.evaluate("(div) => vmcScene(div).messages.length")
+    assert messages == len(ball(0.0).messages())
+
+
+@pytest.mark.parametrize("way", ["emit('comm_live_update')", "closed = true"])
+def test_a_demo_says_that_its_kernel_has_gone(live_demo, way):
+    page = live_demo(dot, k=Slider([1, 2, 3], "k"))
+    slider = page.get_by_role("slider")
+    page.wait_for_function("() => !document.querySelector('input').disabled")
+    slider.press("ArrowRight")
+    page.wait_for_function(f"() => ({RADIUS})() === '2'")
+    page.evaluate(f"() => {{ kernelModel.{way} }}")
+    if slider.is_enabled():
+        slider.press("ArrowRight")
+    page.get_by_text("The kernel has gone: Run > Run All Cells").wait_for()
+    assert slider.is_disabled()
+    assert page.evaluate(RADIUS) == "2"
+
+
+def test_a_scene_is_no_wider_than_its_place(open_demos):
+    photo = np.zeros((400, 600, 3), np.uint8)
+    page = open_demos(lambda: figure((photo_view(photo), ball(0.1)), "c", "a photo and a ball"))
+    page.wait_for_selector(".vmc-scene canvas")
+    page.eval_on_selector(".vmc-pictures", "(box) => (box.style.width = '1105px')")
+    page.wait_for_function("() => document.querySelector('canvas').style.width === '545px'")
+    wide = "(box) => [box.scrollWidth, Math.ceil(box.getBoundingClientRect().width)]"
+    drawn, room = page.eval_on_selector(".vmc-pictures", wide)
+    assert drawn <= room

@@ -23,14 +23,15 @@ from vmc_lib.show.alt_text import alt_text
 from vmc_lib.show.controls import Switch, as_control
 from vmc_lib.show.data_table import data_tables
 from vmc_lib.show.figures import framed, pictures, side_by_side
-from vmc_lib.show.live import STATIC, Live
-from vmc_lib.show.markup import styled
+from vmc_lib.show.live import STATIC, Live, drawing
+from vmc_lib.show.outputs import Markup, still
 from vmc_lib.show.palette import STYLE
 from vmc_lib.show.render_mode import render_mode
 from vmc_lib.show.scene import SCRIPTS as VIEWER
 from vmc_lib.show.scene import Scene
 
-SCRIPTS = [*VIEWER, *(STATIC / f"{name}.js" for name in ("axes", "handle", "address", "demo"))]
+PLOT_SCRIPTS = [STATIC / f"{name}.js" for name in ("axes", "handle", "address", "demo")]
+SCRIPTS = [*VIEWER, *PLOT_SCRIPTS]
 MOST_POSITIONS = 200
 SWITCHES = '<div class="vmc-control"><div class="vmc-options">{}</div></div>'  # a row of them
 SAMPLE = 25  # positions along a control, of a demo that the page works out
@@ -64,14 +65,14 @@ def explore(draw, caption, alt=None, in_page=None, **controls):
     grid = list(itertools.product(*(control.values for control in controls.values())))
 
     def state(place):
-        """What is seen at a position of the grid: its description, its pictures."""
+        """The description and the pictures at a position of the grid."""
         values = dict(zip(controls, grid[place], strict=True))
         try:
-            with plt.rc_context(STYLE):
-                drawn = draw(**values)
-                told = [] if in_page else data_tables(drawn)  # before the figures are closed
-                words = alt(**values) if callable(alt) else alt or alt_text(drawn)
-                parts = [*pictures(drawn, name), *told]
+            with drawing(), plt.rc_context(STYLE):
+                picture = draw(**values)
+                tables = [] if in_page else data_tables(picture)  # before the figures are closed
+                words = alt(**values) if callable(alt) else alt or alt_text(picture)
+                parts = [*pictures(picture, name), *tables]
             return words, parts
         except Exception as error:
             error.add_note(f"It was asked for {values}.")
@@ -80,16 +81,18 @@ def explore(draw, caption, alt=None, in_page=None, **controls):
     if render_mode() == "live":
         return _live(state, caption, controls, name)
     state = cache(state)
-    some = _along(controls, SAMPLE if in_page else MOST_POSITIONS)
-    every = some if in_page else range(positions)
-    for places in [every] if render_mode() == "book" else [some, every]:
-        states = [state(place) for place in places]
-        if not (idle := _idle(states, places, controls)):
-            break  # or else it may matter only where another control has moved
-    for _, parts in states:
-        _same_kinds(parts, states[0][1])
+    sample = _along(controls, SAMPLE if in_page else MOST_POSITIONS)
+    every = sample if in_page else range(positions)
+    places = every if render_mode() == "book" else sample
+    idle = _idle(state, places, controls)
+    if idle and places is not every:  # a control may matter only where another has moved
+        places = every
+        idle = _idle(state, places, controls)
     if idle:
         raise ValueError(f"the control {idle[0].label!r} never changes the picture")
+    states = [state(place) for place in places]
+    for _, parts in states:
+        _same_kinds(parts, states[0][1])
     if render_mode() == "book":
         data = _worked_out(*in_page, controls, name) if in_page else _stored(states)
         display(HTML(_page(*state(_first(controls)), data, caption, controls, name)))
@@ -109,9 +112,9 @@ def _along(controls, most):
     return places
 
 
-def _idle(states, places, controls):
+def _idle(state, places, controls):
     """The controls that change no picture: states that differ in one of them alone look alike."""
-    looks = [repr([_lines(part) for part in parts]) for _, parts in states]
+    looks = [repr(_lines(state(place)[1])) for place in places]
     idle = []
     for control, stride in zip(controls.values(), _strides(controls), strict=True):
         others = [(p // stride // len(control.values), p % stride) for p in places]
@@ -126,8 +129,9 @@ def _same_kinds(parts, others):
         raise ValueError("the draw function must return the same kinds of pictures everywhere")
 
 
-def _lines(part):
-    return part.messages() if isinstance(part, Scene) else part.split("\n")
+def _lines(parts):
+    """The lines of each part: a scene's messages, or a picture's markup."""
+    return [part.messages() if isinstance(part, Scene) else part.split("\n") for part in parts]
 
 
 def _strides(controls):
@@ -171,17 +175,17 @@ def _stored(states):
     """
     table = {}
 
-    def places(lines):
+    def indices(lines):
         return [table.setdefault(line, len(table)) for line in lines]
 
-    rows = [[places([alt]), *(places(_lines(part)) for part in parts)] for alt, parts in states]
+    rows = [[indices(lines) for lines in ([alt], *_lines(parts))] for alt, parts in states]
     return {"lines": list(table), "states": rows}
 
 
 def _worked_out(work, ground, given, controls, name):
     """What the page needs to work every state out: see `explore`."""
     with plt.rc_context(STYLE):
-        grounds = [_lines(part) for part in pictures(ground(), name)]
+        grounds = _lines(pictures(ground(), name))
     axes = [axis for control in controls.values() for axis in getattr(control, "pair", [control])]
     grid = [np.asarray(axis.values).tolist() for axis in axes]
     return {"work": work, "grounds": grounds, "given": given, "grid": grid}
@@ -195,32 +199,33 @@ def _pack(data):
 
 def _live(state, caption, controls, name):
     """The same demo in a kernel, and a still of it for when the kernel is gone."""
-    first = _first(controls)
-    alt, parts = state(first)
+    alt, parts = state(_first(controls))
     if not _moves(parts, controls):
-        return display(HTML(styled(framed(side_by_side(parts, alt), caption))))
-    last = {first: (alt, parts)}  # what the reader sees
+        return display(Markup(framed(side_by_side(parts, alt), caption), alt))
+    current = alt, parts  # what the reader sees
 
-    def moved(place):
-        if place not in last:
-            alt, now = state(place)
-            _same_kinds(now, parts)
-            last.clear()
-            last[place] = alt, now
-        [(alt, now)] = last.values()
-        return [[alt], *map(_lines, now)]
+    def answer(place):
+        nonlocal current
+        alt, changed = state(place)
+        _same_kinds(changed, parts)
+        current = alt, changed
+        return [[alt], *_lines(changed)]
 
-    def rested(views):
-        """Keep what the reader sees; of scenes that were in sight the browser sends a `view`."""
-        [(alt, now)], views = last.values(), iter(views)
-        views = [isinstance(part, Scene) and next(views) for part in now]
-        kept = [f'<img alt="" src="{v}">' if v else p for p, v in zip(now, views, strict=True)]
-        still.update(HTML(styled(still_of(alt, kept, name))))
+    def keep(views):
+        """Let the still show what the reader sees; of scenes in sight the browser sends a view."""
+        (alt, parts), views = current, iter(views)
+        views = [isinstance(part, Scene) and next(views) for part in parts]
+        parts = [f'<img alt="" src="{v}">' if v else p for p, v in zip(parts, views, strict=True)]
+        handle.update(still(alt, parts, name))
 
-    face = _face(alt, parts, controls, name) + '<p class="vmc-error" role="alert"></p>'
-    still = display(HTML(styled(still_of(alt, parts, name))), display_id=True)
-    display(Live(framed(face, "", name), "vmcDemo", SCRIPTS, {"state": moved, "rested": rested}))
-    display(HTML(framed("", caption)))
+    face = _face(alt, parts, controls, name)
+    face += '<p class="vmc-kernel" role="status"></p><p class="vmc-error" role="alert"></p>'
+    scenes = [part.messages() if isinstance(part, Scene) else None for part in parts]
+    scripts = SCRIPTS if any(scenes) else PLOT_SCRIPTS
+    handle = display(still(alt, parts, name), display_id=True)
+    answers = {"state": answer, "still": keep}
+    display(Live(framed(face, "", name), "vmcDemo", scripts, answers, first=[[alt], *scenes]))
+    display(Markup(framed("", caption), caption))
     _freeze_once()
 
 
@@ -228,12 +233,3 @@ def _live(state, caption, controls, name):
 def _freeze_once():
     gc.collect()
     gc.freeze()  # or at times a picture waits until all that is loaded has been looked through
-
-
-def still_of(alt, parts, name):
-    """What stands where the kernel is gone: the demo, wherever it lives, hides it."""
-    return (
-        f"<style>:root:has(#{name}) #{name}-still {{ display: none; }}</style>"
-        f'<figure class="vmc-demo vmc-still" id="{name}-still">{side_by_side(parts, alt)}'
-        "<figcaption>Run this cell to make it move.</figcaption></figure>"
-    )

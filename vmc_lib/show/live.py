@@ -1,47 +1,95 @@
-"""Markup that lives in a live kernel: the page's own scripts move it, and the kernel answers them.
+"""Widgets in a live kernel: the page's own scripts move their markup, and the kernel answers them.
 
-The browser's end is `static/kernel.js`. It loads a script once for the whole window, however many
-demos stand in it and however often their cells are run.
+The browser's end is `static/kernel.js`. Questions are answered beside the cells, while a chapter
+still runs: so there may be two threads that draw.
 """
 
 import traceback
+from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
+from threading import RLock
 
 import anywidget
+import matplotlib.pyplot as plt
+import matplotlib_inline.backend_inline  # here: within `rc_context` what it switches on would end  # noqa: F401
 import meshcat
 import traitlets
+from IPython import get_ipython
 
 STATIC = Path(__file__).parent / "static"
 VENDORED = {
     "meshcat.js": Path(meshcat.__file__).parent / "viewer/dist/main.min.js",
     "bones.js": STATIC / "vendor/bones.js",
 }
+_pyplot = RLock()
 
 
 class Live(anywidget.AnyWidget):
-    """The markup `page`, given to the script's function `start` once `scripts` (paths) have run.
+    """A widget that shows the markup `page` and calls `start`, the name of a function, on it.
 
-    `answers` are functions by the name of what the scripts ask for; each takes what was said and
-    returns what JSON takes. What one raises is shown where the picture would be. `vendored` are
-    files by the name under which a script asks for them, late or never.
+    `scripts` are the paths of the JavaScript that `start` needs; they travel with the widget, and
+    run once in a window. `vendored` are the paths, by name, of what a script asks for only when it
+    needs it. `answers` maps a question to the function that answers it, of what JSON takes; what
+    that raises is shown where the picture would be. `first` is the first answer to "state": lines
+    of text for every part of the page, or None for a part that stands there already.
     """
 
     _esm = (STATIC / "kernel.js").read_text(encoding="utf-8")
     page, start = traitlets.Unicode().tag(sync=True), traitlets.Unicode().tag(sync=True)
-    scripts, vendored = traitlets.List().tag(sync=True), traitlets.List().tag(sync=True)
+    scripts, vendored = traitlets.Dict().tag(sync=True), traitlets.List().tag(sync=True)
+    first = traitlets.List(allow_none=True).tag(sync=True)
 
-    def __init__(self, page, start, scripts, answers=None, vendored=VENDORED):
-        names = {"scripts": [path.name for path in scripts], "vendored": list(vendored)}
-        super().__init__(page=page, start=start, **names)
-        self.files = {path.name: path for path in scripts} | vendored
-        self.answers = (answers or {}) | {
-            "script": lambda name: self.files[name].read_text(encoding="utf-8")
-        }
-        self.on_msg(lambda _, asked, buffers: self._reply(**asked))
+    def __init__(self, page, start, scripts, answers=None, vendored=VENDORED, first=None):
+        scripts = {path.name: path.read_text(encoding="utf-8") for path in scripts}
+        super().__init__(
+            page=page, start=start, scripts=scripts, vendored=list(vendored), first=first
+        )
+        self.answers = {
+            "ping": lambda _: True,
+            "script": lambda name: vendored[name].read_text(encoding="utf-8"),
+        } | (answers or {})
+        self.on_msg(lambda _, message, buffers: self._reply(**message))
+        # ipykernel 7.4 gives a question to the thread that last wrote to the browser, here the
+        # cells', behind all cells to come; without this it takes the one that the browser names
+        self.comm._reply_subshell_for = None
+        # nor are IPython's events for it: they show and close the figures of the cell that runs
+        self.comm.handle_msg = self._handle_msg
+        _lock_cells_end()
 
-    def _reply(self, to, about, said):
+    def __repr__(self):
+        return "(an interactive demo)"  # the text of an output that may not, or cannot, be shown
+
+    def _reply(self, id, question, value=None):
         try:
-            reply = {"answer": self.answers[about](said)}
+            reply = {"answer": self.answers[question](value)}
         except Exception as error:  # a reader's own code may raise anything
             reply = {"error": "".join(traceback.format_exception_only(error)).strip()}
-        self.send({"to": to} | reply)
+        self.send({"id": id} | reply)
+
+
+@contextmanager
+def drawing():
+    """While one thread draws with pyplot, others wait; of a drawing that fails, nothing is left."""
+    with _pyplot:
+        before = set(plt.get_fignums())
+        try:
+            yield
+        except Exception:
+            for number in set(plt.get_fignums()) - before:
+                plt.close(number)
+            raise
+
+
+def _lock_cells_end():
+    """Let the end of a cell, where matplotlib shows all open figures, wait for one being drawn."""
+    events = getattr(get_ipython(), "events", None)
+    for function in list(events.callbacks["post_execute"]) if events else []:
+        if function.__module__.startswith("matplotlib"):
+            events.unregister("post_execute", function)
+            events.register("post_execute", partial(_locked, function))
+
+
+def _locked(function):
+    with _pyplot:
+        function()

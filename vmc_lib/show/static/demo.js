@@ -20,17 +20,17 @@ const vmcDemo = (() => {
     old.slice(fresh.length).forEach((child) => child.remove());
   };
 
-  /* What the page brings along, as a function that gives a state to `draw`. */
-  const brought = async (demo) => {
+  /* The states that are stored in the page, as a function that gives one to `draw`. */
+  const stored = async (demo) => {
     const data = await vmcUnzip(demo.querySelector("script").textContent).json();
-    if (data.work) return workedOut(data);
+    if (data.work) return computed(data);
     const { lines, states } = data;
     return (place, draw) => draw(states[place].map((places) => places.map((line) => lines[line])));
   };
 
-  /* The same for what the page works out itself: a function of the book, given the values that a
-     place stands for, tells it in words and draws it on the pictures that came along. */
-  const workedOut = ({ work, grounds, given, grid }) => {
+  /* The same for states that the page computes: a function of the book, given the values that a place
+     stands for, describes it in words and draws it on the pictures that came along. */
+  const computed = ({ work, grounds, given, grid }) => {
     const axes = grounds.map((lines) => {
       const box = document.createElement("template");
       box.innerHTML = lines.join("\n");
@@ -59,12 +59,13 @@ const vmcDemo = (() => {
     const at = ({ type, checked, value }) =>
       type === "checkbox" ? +checked : type === "radio" && !checked ? 0 : +value;
 
-    let drawn = () => {}; // what else follows a picture
+    let follow = () => {}; // what else a new picture moves
 
     const draw = ([alt, ...parts]) => {
       const row = demo.querySelector(".vmc-controls"), held = demo.matches(":hover, :focus-within");
       const before = held && row.getBoundingClientRect().top;
       parts.forEach((lines, i) => {
+        if (!lines) return; // it stands there already
         const picture = places[i];
         const scene = picture.querySelector(".vmc-scene");
         if (scene) return vmcScene(scene).show(lines);
@@ -75,7 +76,7 @@ const vmcDemo = (() => {
       const words = alt.join();
       if (spoken && pictures.getAttribute("aria-label") !== words) spoken.textContent = words;
       pictures.setAttribute("aria-label", words);
-      drawn();
+      follow();
       /* A picture of another height moves the page, and not what the reader's hand is on. */
       if (held) scrollBy({ top: row.getBoundingClientRect().top - before, behavior: "instant" });
     };
@@ -91,7 +92,7 @@ const vmcDemo = (() => {
     };
 
     /* A step is looked at for a while; if it brings a movement, for as long as that takes. */
-    const seen = (input) => {
+    const look = (input) => {
       const clock = demo.querySelector(".vmc-clock:not([hidden])");
       if (clock) return clock.play();
       const pause = reduced.matches ? 1000 : Math.min(800, 5000 / input.max);
@@ -114,7 +115,7 @@ const vmcDemo = (() => {
         for (let step = input.value === input.max ? 0 : +input.value; step <= input.max; step++) {
           input.value = step;
           show();
-          await seen(input);
+          await look(input);
           if (playing !== mine) return;
         }
         stop();
@@ -143,7 +144,7 @@ const vmcDemo = (() => {
           watch.disconnect();
           if (+input.value === 0) button.click();
         }, { threshold: 0.6 });
-        watch.observe(demo);
+        Promise.resolve(ask.ready).then(() => watch.observe(demo));
       }
     }
     /* A pad: a handle on the first plot, or on each that has a view of it, moves its two sliders to the
@@ -159,11 +160,11 @@ const vmcDemo = (() => {
         twins[0].dispatchEvent(new Event("input", { bubbles: true }));
       };
       const same = (place) => place;
-      const puts = (ask.views ?? [{ shown: same, meant: same }]).map(({ shown, meant }, i) => {
-        const put = vmcHandle(pictures, (place) => move(meant(place)), i);
-        return (place) => put(shown(place));
+      const puts = (ask.views ?? [{ toView: same, fromView: same }]).map(({ toView, fromView }, i) => {
+        const put = vmcHandle(pictures, (place) => move(fromView(place)), i);
+        return (place) => put(toView(place));
       });
-      drawn = () => puts.forEach((put) => put(twins.map((twin, i) => grid[i][twin.value])));
+      follow = () => puts.forEach((put) => put(twins.map((twin, i) => grid[i][twin.value])));
     }
 
     demo.addEventListener("input", show);
@@ -183,7 +184,7 @@ const vmcDemo = (() => {
   const startAll = () =>
     document.querySelectorAll(".vmc-demo:has(> script)").forEach(async (demo) => {
       vmcAddress(demo);
-      start(demo, await brought(demo));
+      start(demo, await stored(demo));
     });
   if (document.readyState === "loading") addEventListener("DOMContentLoaded", startAll);
   else startAll();

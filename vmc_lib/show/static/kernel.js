@@ -1,23 +1,11 @@
-/* The browser's end of what lives in a live kernel (vmc_lib.show.live). */
-const { loaded, lent } = (globalThis.vmcScripts ??= {
-  loaded: new Map(), // scripts, once for the whole window
-  lent: new Map(), // who has a script that may be asked for later
+/* The browser's end of widgets that a kernel answers (vmc_lib.show.live). */
+const GONE = "The kernel has gone: Run > Run All Cells.";
+const RUNNING = "The chapter is still running: the controls move as soon as it can answer.";
+const { loaded, lenders, vendored } = (globalThis.vmcScripts ??= {
+  loaded: new Set(), // names of the scripts that have run, once for the whole window
+  lenders: new Set(), // kernels that send a vendored script to whoever needs it
+  vendored: new Map(), // promises of these, by name
 });
-
-/* A function that asks the kernel: a promise of its answer. */
-const asker = (model) => {
-  const waiting = new Map();
-  model.on("msg:custom", ({ to, answer, error }) => {
-    waiting.get(to)?.(error === undefined ? answer : { error });
-    waiting.delete(to);
-  });
-  return (about, said) =>
-    new Promise((resolve) => {
-      const to = `${Math.random()}`;
-      waiting.set(to, resolve);
-      model.send({ to, about, said });
-    });
-};
 
 const run = (text) => {
   const { define } = self; // a module loader, where there is one: a script is to find none
@@ -29,47 +17,118 @@ const run = (text) => {
   self.define = define;
 };
 
-const load = (ask, name) => {
-  if (!loaded.has(name)) loaded.set(name, ask("script", name).then(run));
-  return loaded.get(name);
+/* `ask(question, value)` promises the kernel's answer, or an { error }; so does every question that
+   is open when the kernel goes, of which `onleave` hears. */
+const connect = (model) => {
+  const pending = new Map();
+  const settle = (id, reply) => {
+    pending.get(id)?.(reply);
+    pending.delete(id);
+  };
+  const ask = (question, value) =>
+    new Promise((resolve) => {
+      const id = `${Math.random()}`;
+      pending.set(id, resolve);
+      try {
+        model.send({ id, question, value });
+      } catch {
+        ask.leave(); // the connection has been closed
+      }
+      if (ask.left) settle(id, { error: GONE });
+    });
+  ask.leave = () => {
+    ask.left = true;
+    lenders.delete(ask);
+    for (const id of [...pending.keys()]) settle(id, { error: GONE });
+    ask.onleave?.();
+  };
+  model.on("msg:custom", ({ id, answer, error }) => settle(id, error === undefined ? answer : { error }));
+  model.on("comm_live_update", ask.leave);
+  ask.vendored = model.get("vendored");
+  lenders.add(ask);
+  return ask;
 };
 
-/* Asks for states: of places that come while the kernel works, the last one wins. What a state's own
-   code raised is shown in its stead, and what the reader rests on is kept. */
-const states = (ask, box) => {
+/* A vendored script, from whichever kernel has it; of a kernel that goes, another takes the place. */
+const borrow = async (name) => {
+  for (const ask of [...lenders].reverse()) {
+    const text = ask.vendored.includes(name) && (await ask("script", name));
+    if (typeof text === "string") return run(text);
+  }
+  throw Object.assign(new Error(GONE), { name: "KernelGone" });
+};
+const fetchVendored = (name) => {
+  const forget = (error) => {
+    vendored.delete(name);
+    throw error;
+  };
+  if (!vendored.has(name)) vendored.set(name, borrow(name).catch(forget));
+  return vendored.get(name);
+};
+
+/* The first answer of a kernel. Until the browser has a channel beside the cells, a question waits
+   behind them; so it is repeated. */
+const firstAnswer = async (ask) => {
+  for (let wait = 250, answer; ; wait *= 2) {
+    const later = new Promise((resolve) => setTimeout(resolve, wait));
+    if ((answer = await Promise.race([ask("ping"), later]))) return answer;
+  }
+};
+
+/* A demo's states: `draw` is given the `first` at once, then what the kernel answers. Of places that
+   come while it works, the last wins. An error stands below the picture; the still follows the reader. */
+const states = (ask, box, first) => {
   let wanted, working, resting;
   const views = () =>
     [...box.querySelectorAll(".vmc-scene")].map((div) => vmcScene(div).viewer?.capture_image() ?? "");
-  return async (place, draw) => {
-    wanted = place;
-    if (working) return;
-    clearTimeout(resting);
+  const work = async (draw) => {
     working = true;
     box.setAttribute("aria-busy", "true");
     while (wanted !== undefined) {
-      const next = wanted;
+      const place = wanted;
       wanted = undefined;
-      const state = await ask("state", next);
+      const state = await ask("state", place);
+      if (ask.left) break;
       box.querySelector(".vmc-error").textContent = state.error ?? "";
       if (!state.error) draw(state);
     }
     working = false;
     box.removeAttribute("aria-busy");
-    resting = setTimeout(() => ask("rested", views()), 1000);
+    resting = setTimeout(() => ask("still", views()), 1000);
   };
+  const show = (place, draw) => {
+    if (first) return draw(first), (first = null);
+    clearTimeout(resting);
+    wanted = place;
+    if (!working) work(draw);
+  };
+  /* With words that say why, the controls are closed. */
+  const close = (words) => {
+    box.querySelector(".vmc-kernel").textContent = words;
+    box.toggleAttribute("data-closed", words);
+    for (const control of box.querySelectorAll("[data-stride], [data-stride] ~ .vmc-play"))
+      control.disabled = words;
+  };
+  close(RUNNING);
+  ask.onleave = () => close(GONE);
+  show.ready = firstAnswer(ask).then(() => close(ask.left ? GONE : ""));
+  return show;
 };
 
 export default {
-  async render({ model, el }) {
-    const ask = asker(model);
+  render({ model, el }) {
+    const ask = connect(model);
     el.innerHTML = model.get("page");
     el.dataset.lmSuppressShortcuts = true; // keys are the controls' own, not the notebook's
     el.addEventListener("keydown", (event) => event.stopPropagation());
-    for (const name of model.get("vendored")) lent.set(name, ask);
-    globalThis.vmcKernel = (name) => load(lent.get(name), name);
-    for (const name of model.get("scripts")) await load(ask, name);
-    const start = new Function(`return ${model.get("start")}`)();
-    const box = el.firstElementChild;
-    return start(box, states(ask, box), ask);
+    globalThis.vmcKernel = fetchVendored;
+    for (const [name, text] of Object.entries(model.get("scripts")))
+      if (!loaded.has(name)) run(text, loaded.add(name));
+    const [box, first] = [el.firstElementChild, model.get("first")];
+    const end = new Function(`return ${model.get("start")}`)()(box, first && states(ask, box, first), ask);
+    return () => {
+      ask.leave();
+      end?.();
+    };
   },
 };

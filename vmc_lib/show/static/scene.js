@@ -17,7 +17,7 @@ const vmcScene = (() => {
     if (!self.vmcBones) await vmcVendored("bones.js");
     bones = await vmcBody.bones();
   };
-  const load = () => (loading ??= fetchAll());
+  const load = () => (loading ??= fetchAll().catch(() => (loading = null))); // who needs it next, tries again
 
   const hasWebGL = () => {
     const context = document.createElement("canvas").getContext("webgl");
@@ -45,7 +45,7 @@ const vmcScene = (() => {
     async awake() {
       await load();
       live.delete(this);
-      if (!this.viewer && !hasWebGL()) return;
+      if (!this.viewer && !(bones && hasWebGL())) return;
       if (!this.viewer) this.start();
       live.add(this);
       if (live.size > MOST_LIVE) [...live][0].stop();

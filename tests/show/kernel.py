@@ -1,0 +1,38 @@
+"""A live widget in a page of its own: this process answers it, as a kernel would."""
+
+RENDER = """async ([script, traits, kernel, busy]) => {
+  const url = URL.createObjectURL(new Blob([script], { type: "text/javascript" }));
+  const listeners = {};
+  const model = {
+    busy,
+    get: (name) => traits[name],
+    on: (event, listener) => ((listeners[event] ??= []).push(listener)),
+    send: (message) => {
+      if (model.closed) throw new Error("Cannot send");
+      if (!model.busy) self[kernel](message).then((reply) => emit("msg:custom", reply));
+    },
+  };
+  const emit = (event, value) => listeners[event].forEach((listener) => listener(value));
+  Object.assign(self, { [`${kernel}Model`]: Object.assign(model, { emit }) });
+  const el = document.body.appendChild(document.createElement("div"));
+  (await import(url)).default.render({ model, el });
+}"""
+TRAITS = ("page", "start", "scripts", "vendored", "first")
+
+
+def render(page, widget, monkeypatch, kernel="kernel", busy=False):
+    """Show a widget (`Live`) at the end of a page; a `busy` kernel hears questions, and is silent.
+
+    The page's `kernelModel`, by another name where `kernel` has one, is what the widget talks to:
+    it may be `closed` or `busy`, and `emit(event, value)` is what Jupyter calls.
+    """
+    replies = []
+    monkeypatch.setattr(widget, "send", replies.append)
+
+    def answer(message):
+        widget._handle_custom_msg(message, [])
+        return replies.pop()
+
+    page.expose_function(kernel, answer)
+    traits = {name: getattr(widget, name) for name in TRAITS}
+    page.evaluate(RENDER, [widget._esm, traits, kernel, busy])
