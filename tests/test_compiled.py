@@ -3,8 +3,9 @@
 import os
 import subprocess
 import sys
+import warnings
 from pathlib import Path
-from types import ModuleType, SimpleNamespace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -52,16 +53,20 @@ def test_whatever_a_loop_reads_it_reads_anew(expression, first, second):
     assert outer(1.5) == 3.0
 
 
-def test_a_constant_of_another_module_is_read_anew():
-    other = ModuleType("other")
-    other.c = 2.0
-    half = compiled(made("def half(x):\n    return x / other.c", other=other)[0].half)
-    assert half(3.0) == 1.5
-    other.c = 4.0
-    assert half(3.0) == 0.75
-    first = compiled(made("def first(x):\n    return x / other.c[0]", other=other)[0].first)
-    for other.c in (np.array([2.0]), np.array([4.0])):
-        assert first(3.0) == 3.0 / other.c[0]
+def test_arguments_that_numba_cannot_take_slow_down_their_call_alone():
+    total = compiled(made(SOURCE)[0].total)
+    for _ in range(2):
+        with pytest.warns(UserWarning, match="total runs as plain Python"):
+            assert total(iter((1.0, 2.5))) == 3.5
+    with warnings.catch_warnings(action="error"):
+        assert total((1.0, 2.5)) == 3.5
+
+
+def test_without_numba_loops_run_as_plain_python(monkeypatch):
+    monkeypatch.setitem(sys.modules, "numba", None)
+    total = compiled(made(SOURCE)[0].total)
+    with pytest.warns(UserWarning, match="without numba"):
+        assert total((1.0, 2.5)) == 3.5
 
 
 def test_what_is_kept_for_the_next_process_is_not_used_for_another_source(tmp_path):

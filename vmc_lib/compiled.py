@@ -1,90 +1,88 @@
-"""Plain loops, run as fast as C: a decorator for what cannot be said in whole arrays."""
+"""Functions compiled by numba: at their first call, and again when what they read has changed."""
 
-from functools import cache, wraps
+from functools import wraps
 from hashlib import sha256
 from inspect import unwrap
-from numbers import Number
-from types import CodeType, FunctionType, ModuleType
+from types import CodeType, FunctionType
 from warnings import warn
 
 import numpy as np
 
 
 def compiled(loop):
-    """The function `loop`, compiled by numba for the processor at hand when it is first called.
+    """`numba.njit` of a function and of the plain functions that it calls.
 
-    The plain functions that it calls are compiled with it. Numba freezes what they read from
-    outside; so all of that is looked at in every call, and whoever changes a constant, or replaces
-    a function, has the loop compiled anew. What was compiled is kept beside the source, or in the
-    user's cache folder, for the next process; where neither can be written, each process compiles
-    anew. What numba cannot compile runs as it stands, with a warning. `__wrapped__` is the plain
-    Python.
+    Numba freezes the constants and functions that they find in their modules. Whoever sets one
+    anew, as chapters invite readers to, has the loop compiled again at its next call. The machine
+    code is kept for the next process, where its folder can be written. Without numba, or with what
+    numba cannot compile, a call runs as plain Python, slowly, with a warning. `__wrapped__` is that
+    plain Python.
     """
+    machine, frozen = None, []
 
     @wraps(loop)
     def call(*values):
-        return _machine(loop, _frozen_in(loop))(*values)
+        nonlocal machine, frozen
+        if machine is None or any(space.get(name) is not x for space, name, x in frozen):
+            frozen = list(_reads(loop))
+            machine = _machine(loop, frozen)
+        return machine(*values)
 
     return call
 
 
-@cache
+def _reads(function):
+    """What numba freezes of a function, and of those it calls: (module's names, name, value)."""
+    space = function.__globals__
+    for name in function.__code__.co_names:
+        if name in space and space[name] is not function:
+            yield space, name, space[name]
+            if isinstance(space[name], FunctionType) and unwrap(space[name]) is not function:
+                yield from _reads(unwrap(space[name]))
+
+
 def _machine(loop, frozen):
-    from numba import njit  # here, for it weighs 0.3 s and 100 MB on who never calls
-    from numba.core.errors import NumbaError
+    try:
+        from numba import njit  # here, for it takes 0.3 s and 100 MB
+        from numba.core.errors import NumbaError
+    except (ImportError, OSError) as error:
+        warn(f"without numba loops run as plain Python, slowly: {error}", stacklevel=3)
+        return loop
 
     def ready(function):
-        space = function.__globals__ | {n: njit(ready(f)) for n, f in _called(function)}
+        """The same function, which finds compiled ones in its module."""
+        code, space = function.__code__, function.__globals__
+        called = {n: unwrap(space[n]) for n in code.co_names if type(space.get(n)) is FunctionType}
+        callees = {n: njit(ready(f)) for n, f in called.items() if f is not function}
         parts = function.__name__, function.__defaults__, function.__closure__
-        return FunctionType(function.__code__, space, *parts)
+        return FunctionType(code, space | callees, *parts)
 
     plain = ready(loop)
-    plain.__qualname__ += "-" + sha256(repr(frozen).encode()).hexdigest()[:12]  # the file's name
+    content = _content(loop), [(name, _content(x)) for _, name, x in frozen]
+    plain.__qualname__ += "-" + sha256(repr(content).encode()).hexdigest()[:12]  # the file's name
     try:
         machine = njit(plain, cache=True, nogil=True)
     except RuntimeError:  # no folder for the cache
         machine = njit(plain, nogil=True)
 
     def run(*values):
-        nonlocal machine
         try:
             return machine(*values)
         except NumbaError as error:
             warn(f"{loop.__name__} runs as plain Python, slowly: {error}", stacklevel=3)
-            machine = loop
             return loop(*values)
 
     return run
 
 
-def _called(function):
-    """The plain functions that a function finds in its module: pairs of name and function."""
-    names = {n: function.__globals__.get(n) for n in function.__code__.co_names}
-    found = ((n, unwrap(f)) for n, f in names.items() if isinstance(f, FunctionType))
-    return [(n, f) for n, f in found if f is not function]
-
-
-def _frozen_in(value, names=()):
-    """What numba freezes of a function, or of what it reads: its code and values, all the way."""
+def _content(value):
+    """What tells a value from another, also in the next process."""
     if isinstance(value, FunctionType):
-        value = unwrap(value)
-        code, space = value.__code__, value.__globals__
-        cells = [cell.cell_contents for cell in value.__closure__ or ()]
-        read = [space.get(n) for n in code.co_names if space.get(n) is not value]
-        read += [value.__defaults__, *cells]
-        return _instructions(code), *(_frozen_in(x, code.co_names) for x in read)
+        function = unwrap(value)
+        cells = [cell.cell_contents for cell in function.__closure__ or ()]
+        return _content(function.__code__), function.__defaults__, [*map(_content, cells)]
     if isinstance(value, CodeType):
-        return _instructions(value)
-    if isinstance(value, ModuleType):
-        read = (vars(value).get(n) for n in names)
-        return tuple(_frozen_in(x) for x in read if isinstance(x, Number | tuple | np.ndarray))
+        return value.co_code, value.co_names, [*map(_content, value.co_consts)]
     if isinstance(value, np.ndarray):
         return value.shape, value.dtype.str, value.tobytes()
-    if isinstance(value, tuple):
-        return tuple(map(_frozen_in, value))
-    return value if isinstance(value, Number | str | bytes) else type(value).__name__
-
-
-@cache  # code never changes
-def _instructions(code):
-    return code.co_code, code.co_names, *map(_frozen_in, code.co_consts)
+    return value if isinstance(value, int | float | str | tuple) else type(value).__name__
