@@ -11,8 +11,9 @@ import numpy as np
 from vmc_lib import NoReach, photos
 from vmc_lib.arm.kinematics import to_world, turn_towards
 from vmc_lib.arm.simulate import Motion
-from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration, calibrated
+from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration, calibrate
 from vmc_lib.motor import templates
+from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import Plan, plan
 from vmc_lib.what.judge import RIGHT_SIZE, SURE, likelier, sized, weighed
 from vmc_lib.what.recogniser import NameClassifier, Recogniser
@@ -152,11 +153,11 @@ def reach(model, target, calibration=algorithm_1):
     """
     turn, point = turn_towards(target)
     habit = plan(point, model.template_set)
-    planned = habit.move()
+    planned = execute(habit).motion
     first = Reach(target, turn, habit, planned, planned)
     return recalibrated(first, calibration) if calibration else first
 
 
 def recalibrated(reach, calibration):
     """The same `Reach`, its second movement calibrated by a rule of `RULES`."""
-    return replace(reach, calibrated=calibrated(calibration, reach.plan).best_motion)
+    return replace(reach, calibrated=calibrate(calibration, reach.plan).best_motion)

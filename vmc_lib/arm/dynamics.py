@@ -1,9 +1,10 @@
-"""The arm's dynamics as trigonometric polynomials, for many postures at once.
+"""Forward and inverse dynamics, hand position and muscle paths in closed form, for many postures.
 
-The inertia, the pull of gravity and the hand's position are trigonometric polynomials in the two
-angles, sums of eleven waves: a few dozen snapshots of the MuJoCo model determine their
-coefficients exactly. And no muscle wraps over both joints at once, so every musculotendon length
-is a function of the shoulder angle plus a function of the elbow angle: two tables.
+Inertia, gravity and the hand's position are trigonometric polynomials in the two angles, sums of
+eleven basis functions: a few dozen snapshots of the MuJoCo model determine their coefficients
+exactly. And no muscle wraps over both joints at once, so every musculotendon length is a function
+of the shoulder angle plus a function of the elbow angle. They are tables, interpolated linearly:
+MuJoCo's wrapping takes ten times as long as all the rest of a step.
 """
 
 from functools import cache
@@ -21,16 +22,16 @@ ROWS_PER_RADIAN = (ROWS - 1) / (HIGH - LOW)
 SHOULDER, ELBOW = DAMPING.tolist()
 
 
-def waves(shoulder, elbow):
-    """Cosines and sines of the two angles, their sum, and their products: eleven."""
+def trig_basis(shoulder, elbow):
+    """Basis functions: cosines and sines of the two angles, their sum, their products; eleven."""
     c1, s1, c2, s2 = np.cos(shoulder), np.sin(shoulder), np.cos(elbow), np.sin(elbow)
     c12, s12 = c1 * c2 - s1 * s2, s1 * c2 + c1 * s2
     return c1 * 0 + 1, c1, s1, c2, s2, c12, s12, c2 * c1, c2 * s1, c2 * c2, c2 * s2
 
 
-def turns(shoulder, elbow):
-    """How fast each of the `waves` changes as the shoulder turns, and as the elbow does."""
-    _, c1, s1, c2, s2, c12, s12, cc, cs, cc2, cs2 = waves(shoulder, elbow)
+def trig_basis_gradient(shoulder, elbow):
+    """Derivatives of the `trig_basis` by the shoulder angle, and by the elbow angle: 2 × 11."""
+    _, c1, s1, c2, s2, c12, s12, cc, cs, cc2, cs2 = trig_basis(shoulder, elbow)
     o = c1 * 0
     return (
         (o, -s1, c1, o, o, -s12, c12, -cs, cc, o, o),
@@ -38,19 +39,22 @@ def turns(shoulder, elbow):
     )
 
 
-def _each_wave(q):
-    """`waves` of postures (…, 2), as an array (…, 11)."""
-    return np.array(waves(*np.transpose(q))).T
+def _trig_basis_of(q):
+    """`trig_basis` of postures (…, 2), as an array (…, 11)."""
+    return np.array(trig_basis(*np.transpose(q))).T
 
 
 @cache
 def coefficients(load=0.0):
-    """Of the waves in the dynamics (11, 7), as `_dynamics` unpacks it, and the hand (11, 3)."""
+    """Of the basis in the dynamics (11, 7), as `_dynamics` unpacks it, and in the hand (11, 3).
+
+    With a `load` in kg at the wrist.
+    """
     angles = np.linspace(0, 2 * np.pi, 6, endpoint=False)
     snapshots = np.array(list(product(angles, angles)))
     data = mujoco.MjData(loaded(load))
     seen = np.array([_snapshot(q, data) for q in snapshots])
-    solved = np.linalg.lstsq(_each_wave(snapshots), seen)[0]
+    solved = np.linalg.lstsq(_trig_basis_of(snapshots), seen)[0]
     return solved[:, :7].copy(), solved[:, 7:].copy()
 
 
@@ -65,8 +69,24 @@ def _snapshot(q, data):
 
 
 def hand(q):
-    """Position of the wrist (…, 3) in the shoulder frame for postures q (…, 2)."""
-    return _each_wave(q) @ coefficients()[1]
+    """Forward kinematics: the wrist's position in the shoulder frame.
+
+    Parameters
+    ----------
+    q : array (…, 2)
+        Shoulder and elbow angle, rad; zeros hang straight down.
+
+    Returns
+    -------
+    array (…, 3)
+        Metres; x forward, y up, z to the right.
+
+    Examples
+    --------
+    >>> hand(np.radians([0, 90])).round(3).tolist()
+    [0.249, -0.293, 0.061]
+    """
+    return _trig_basis_of(q) @ coefficients()[1]
 
 
 def torque_for(q, velocity, acceleration):
@@ -82,13 +102,13 @@ def acceleration_from(q, velocity, torque):
 
 
 def _terms(q):
-    return (_each_wave(q) @ coefficients()[0]).T
+    return (_trig_basis_of(q) @ coefficients()[0]).T
 
 
 def accelerations(terms, w1, w2, t1, t2, step):
     """Eq. 12 of one arm, or of many: both accelerations from velocities and torques of the joints.
 
-    `terms` are the seven that `coefficients` makes of the waves.
+    `terms` are the seven that `coefficients` makes of the basis.
     """
     m11, m12, m22, b1, b2 = _dynamics(terms, w1, w2, step)
     t1, t2 = t1 - b1, t2 - b2
@@ -108,14 +128,14 @@ def _dynamics(terms, w1, w2, step):
 
 def paths(q):
     """Musculotendon lengths (…, 6) and moment arms (…, 2, 6) in m; angles held to the tables."""
-    row, share = row_of(q, slice(2))
+    row, share = table_row(q, slice(2))
     entry = tables()[np.arange(2), row]
     value = entry[..., :12] + share[..., None] * entry[..., 12:]
     return value[..., 0, :6] + value[..., 1, :6], value[..., 6:]
 
 
-def row_of(angle, joint):
-    """The row of the `tables` for a joint at this angle, and how far on the way to the next."""
+def table_row(angle, joint):
+    """The row of the `tables` for a joint at this angle, and the share of the way to the next."""
     low = LOW[joint]
     # fmin, fmax: an angle that is not a number has a row, too; its movement is not a number either
     place = (np.fmin(np.fmax(angle, low), HIGH[joint]) - low) * ROWS_PER_RADIAN[joint]
@@ -125,7 +145,7 @@ def row_of(angle, joint):
 
 @cache
 def tables():
-    """Lengths and moment arms as the shoulder or the elbow turns, and slopes (2, ROWS, 24)."""
+    """Lengths and moment arms over the angle of either joint, and their slopes (2, ROWS, 24)."""
     data = forward((0, 0))
     straight = muscle_paths(data)[0].copy()
     turned = np.empty((2, ROWS, 12))

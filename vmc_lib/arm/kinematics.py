@@ -1,4 +1,4 @@
-"""From where the hand should be to the angles that put it there, and the trunk's turn before.
+"""Inverse kinematics: from where the hand should be to the joint angles and the trunk's turn.
 
 The trunk turns about a vertical axis beside the shoulder (positive to the left) until the arm's
 plane meets the target. What remains is planar: p = (x, y) of the wrist in the turned shoulder
@@ -17,18 +17,58 @@ BENT = np.array([LIMITS[0], [0.1, LIMITS[1, 1]]])  # a straighter elbow adds no 
 
 
 def inverse_kinematics(p):
-    """Joint angles (…, 2) that put the wrist at plane position p (…, 2).
+    """Inverse kinematics: joint angles that put the wrist at a position in the arm's plane.
 
-    `NoReach` when p is out of the arm's reach.
+    Parameters
+    ----------
+    p : array (…, 2)
+        Forward and up of the shoulder, m.
+
+    Returns
+    -------
+    array (…, 2)
+        Shoulder and elbow angle, rad.
+
+    Raises
+    ------
+    NoReach
+        Where a position is out of the arm's reach.
+
+    Examples
+    --------
+    >>> q = inverse_kinematics([0.15, -0.4])
+    >>> hand(q)[:2].round(6).tolist()
+    [0.15, -0.4]
     """
     p = np.asarray(p, dtype=float)
     return _solve(lambda q: hand(q)[..., :2], p, p, p)
 
 
 def turn_towards(target):
-    """The trunk's turn psi (…) in rad and the plane position p (…, 2) that meet a target (…, 3).
+    """Turn the trunk until a target in the room lies in the arm's plane.
 
-    `NoReach` when no turn within `TRUNK_RANGE` brings the target within the arm's reach.
+    Parameters
+    ----------
+    target : array (…, 3)
+        In the shoulder frame of the trunk straight ahead, m.
+
+    Returns
+    -------
+    psi : array (…)
+        The trunk's turn, rad, positive to the left.
+    p : array (…, 2)
+        The target's position in the plane, m.
+
+    Raises
+    ------
+    NoReach
+        Where no turn within `TRUNK_RANGE` brings the target within reach.
+
+    Examples
+    --------
+    >>> psi, p = turn_towards([0.25, -0.4, 0.1])
+    >>> to_world(hand(inverse_kinematics(p)), psi).round(6).tolist()
+    [0.25, -0.4, 0.1]
     """
     target = np.asarray(target, dtype=float)
     x, z = np.moveaxis(target[..., [0, 2]] - TRUNK, -1, 0)

@@ -6,7 +6,7 @@ miss becomes an error at its *target*, and the Purkinje weights make the smalles
 a share of it away (Albus, 1971). The error alone does not say what is wrong. It can be corrected
 
 - in the **aim**, as behind a prism: plan for another place, with the templates there;
-- in the **pull**, as with a weight: give the same templates other weights, which need not sum to
+- in the **weights**, as with a load: give the same templates other weights, which need not sum to
   one. To do nothing is a template too, and the hand then hangs straight down.
 """
 
@@ -15,77 +15,95 @@ from dataclasses import replace
 import numpy as np
 
 from vmc_lib.cerebellum.online import GranuleCells
+from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import Plan, plan, surrounded
-from vmc_lib.motor.templates import REACH, TemplateSet
+from vmc_lib.motor.templates import REACH
 
 SILENT = np.array([0.0, -REACH])  # where the hand ends when every muscle is silent
-CORRECTIONS = ("aim", "pull")
+CORRECTIONS = ("aim", "weights")
 SHARES = np.linspace(1, 0, 41)  # of a shift of the aim: the largest that experience allows is made
 
 
 class Adaptation:
-    """A skilled learner in a world that may change; its plans are batches.
+    """Error-based learning on top of a trained correction, in a world that may change.
 
-    The skill is an `AimCorrection` or a `WeightCorrection`.
-    A lesson alone takes a share 1 / (1 + caution) of its error away.
+    Parameters
+    ----------
+    trained_correction : AimCorrection or WeightCorrection
+        What was learned before the change.
+    template_set : TemplateSet
+        The remembered reaches.
+    corrects : {"aim", "weights"}
+        What to change about a plan.
+    regularisation : float
+        A single error is reduced by a share 1 / (1 + regularisation).
+
+    Examples
+    --------
+    >>> from vmc_lib.cerebellum.online import AimCorrection
+    >>> from vmc_lib.motor.templates import load
+    >>> learner = Adaptation(AimCorrection(load()), load())
+    >>> plans = plan(np.array([[0.15, -0.4], [0.12, -0.38]]), load())
+    >>> learner.update(plans).endpoint.shape
+    (2, 2)
     """
 
-    def __init__(self, skill, template_set: TemplateSet, corrects="aim", caution=0.3):
+    def __init__(self, trained_correction, template_set, corrects="aim", regularisation=0.3):
         if corrects not in CORRECTIONS:
             raise ValueError(f"cannot correct {corrects!r}; choose one of {CORRECTIONS}")
-        self.skill, self.template_set = skill, template_set
-        self.corrects, self.caution = corrects, caution
+        self.trained_correction, self.template_set = trained_correction, template_set
+        self.corrects, self.regularisation = corrects, regularisation
         nothing = np.zeros_like(template_set.points)
         self.cells = GranuleCells(width=0.1, cells=300).fit(template_set.points, nothing)
         self.purkinje = self.cells.purkinje_
 
     def correct(self, plan: Plan):
-        """The plan as the skill corrects it, and with what was learned since."""
+        """The plan with the trained correction, and with what was learned since."""
         shift = self.shift(plan)
         if self.corrects == "aim":
             return self._aimed(plan, plan.target + shift)
-        skilled = self.skill.correct(plan)
-        return skilled.with_weights(skilled.weights + pull(plan.points, shift))
+        trained = self.trained_correction.correct(plan)
+        return trained.with_weights(trained.weights + weight_correction(plan.points, shift))
 
-    def practise(self, plan: Plan):
-        """Move, and learn from the error that is seen. Returns where it ended.
+    def update(self, plan: Plan, execute=execute):
+        """Move, and learn from the error that is seen. Returns the `Movement`.
 
-        The batch is learned at once: all its movements are made before the first lesson. What
-        should have been done is what was done and the error more. What could not be done is thus
-        forgotten, or it would pile up with every miss: *windup*, as engineers call it.
+        The batch is learned at once: all its movements are made before. What should have been done
+        is what was done and the error more. What could not be done is thus forgotten, or it would
+        pile up with every error: *windup*, as engineers call it.
         """
-        reached, active = self.correct(plan).reached(), self.cells.excite(plan.target)
-        lesson = self.shift(plan) + plan.target - reached - active @ self.purkinje
-        self.purkinje = self.purkinje + least_lesson(active, lesson, self.caution)
-        return reached
+        movement, active = execute(self.correct(plan)), self.cells.excite(plan.target)
+        missing = self.shift(plan) + plan.target - movement.endpoint - active @ self.purkinje
+        self.purkinje = self.purkinje + minimum_norm_update(active, missing, self.regularisation)
+        return movement
 
     def shift(self, plan: Plan):
         """How far to shift the hand, (B, 2), as learned; an aim is kept where templates are."""
         shift = self.cells.excite(plan.target) @ self.purkinje
-        if self.corrects == "pull":
+        if self.corrects == "weights":
             return shift
         shares = SHARES[:, None, None] * shift
         known = surrounded(plan.target + shares, self.template_set.points)
         return shares[known.argmax(axis=0), np.arange(len(shift))]
 
     def _aimed(self, habit, place):
-        """The skilled plan for another place, with the templates there."""
-        there = self.skill.correct(plan(place, self.template_set))
-        return replace(habit, chosen=there.chosen, weights=there.weights)
+        """The corrected plan for another place, with the templates there."""
+        there = self.trained_correction.correct(plan(place, self.template_set))
+        return replace(habit, rows=there.rows, weights=there.weights)
 
 
-def least_lesson(active, missing, caution):
-    """The smallest change of Purkinje weights (cells, k) that takes away what is `missing` (n, k).
+def minimum_norm_update(active, missing, regularisation):
+    """Regularised least-squares (NLMS) update (cells, k) of Purkinje weights, for errors (n, k).
 
-    `active` (n, cells) says which granule cells took part; of a lone lesson, a share
-    1 / (1 + caution) is learned.
+    `active` (n, cells) says which granule cells took part; a single sample is learned by a share
+    1 / (1 + regularisation).
     """
     overlap = active @ active.T
-    overlap += caution * np.diag(np.diag(overlap))
+    overlap += regularisation * np.diag(np.diag(overlap))
     return active.T @ np.linalg.solve(overlap, missing)
 
 
-def pull(points, shift):
+def weight_correction(points, shift):
     """The smallest Δw (…, N) that shifts the hand by `shift` (…, 2), by Eq. 4 from `SILENT`.
 
     It sums to more than zero where the hand must be lifted: more of everything.

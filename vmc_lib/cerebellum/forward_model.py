@@ -1,4 +1,4 @@
-"""Forward models: what the arm will do, known from what the muscles were told.
+"""Forward models: predict the arm's acceleration from its state and the muscles' activations.
 
 `ForwardModel` learns it by feeling its own arm move: granule cells sense the posture, its speed and
 the muscles' torque, and Purkinje cells sum them to the acceleration. The teacher is what the senses
@@ -10,8 +10,8 @@ from functools import partial
 import numpy as np
 
 from vmc_lib.arm.dynamics import paths
+from vmc_lib.arm.engines import acceleration, muscle_torque
 from vmc_lib.arm.model import STEP
-from vmc_lib.arm.simulate import acceleration, muscle_torque
 from vmc_lib.cerebellum.online import GranuleCells
 
 FAST, STRONG = 5.0, 8.0  # rad/s and N m: they bring what the cells sense to about one
@@ -34,8 +34,8 @@ class ForwardModel:
     def __init__(self):
         self.cells = GranuleCells(width=1.0, cells=300, ridge=1e-3)
 
-    def learn(self, motion, every=20):
-        """Lessons from a batch of movements, one every so many steps: what was felt there."""
+    def update(self, motion, every=20):
+        """Learn from a batch of movements, one sample every so many steps."""
         q, velocity, activation = (
             x[:, every:-1:every].reshape(-1, x.shape[-1])
             for x in (motion.q, motion.velocity, motion.activation)
@@ -50,6 +50,6 @@ class ForwardModel:
 
 
 def mossy_fibres(q, velocity, activation):
-    """What the granule cells are told of an arm: posture, speed, muscles' torque, (B, 6)."""
+    """The inputs of the granule cells: posture, speed, muscles' torque, (B, 6)."""
     torque = muscle_torque(activation, *paths(q), velocity)
     return np.concatenate([q, velocity / FAST, torque / STRONG], axis=-1)

@@ -8,8 +8,8 @@ by granule cells, each excited by its own small region of targets, that feed a f
 Both learn by hindsight: wherever the hand went, what was commanded was the right command for going
 there. That is step 5 of Algorithm 2, and direct inverse modelling (Jordan & Rumelhart, 1992).
 
-Both have `correct(plan)`, the plan with what was learned, and `practise(plan)`, more lessons; what
-is practised is a batch of plans.
+Both have `correct(plan)`, the plan with what was learned, and `update(plan)`, which moves and
+learns; that is a batch of plans.
 """
 
 from collections.abc import Callable
@@ -23,7 +23,8 @@ from sklearn.base import BaseEstimator, RegressorMixin
 from sklearn.linear_model import LinearRegression
 from sklearn.utils.validation import check_is_fitted, validate_data
 
-from vmc_lib.cerebellum.offline import algorithm_1, calibrated
+from vmc_lib.cerebellum.offline import algorithm_1, calibrate
+from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import (
     Plan,
     exact_weights,
@@ -39,7 +40,7 @@ smooth_weights = partial(exact_weights, power=1.25)
 
 
 def equation_8(plan: Plan):
-    """What the paper's g is told of a plan: p_t, every w_i and every p_i, (…, 2 + 3 N).
+    """The inputs of the paper's g, for a plan: p_t, every w_i and every p_i, (…, 2 + 3 N).
 
     Eq. 8 names w_i^off and p_i^off, "the positions of the movement after off-line calibration",
     which a movement that is still to be made does not have. Here they are the plan's weights and
@@ -50,7 +51,7 @@ def equation_8(plan: Plan):
 
 
 def mossy_fibres(plan: Plan):
-    """What the granule cells are told: a plan's target, also among its templates, (…, 4 or 6)."""
+    """The inputs of the granule cells: a plan's target, also among its templates, (…, 4 or 6)."""
     return np.concatenate([plan.target, plan.target - plan.points.mean(axis=-2)], axis=-1)
 
 
@@ -58,36 +59,51 @@ def mossy_fibres(plan: Plan):
 class WeightCorrection:
     """Eq. 8, learned by Algorithm 2 as it is printed; or, without `hindsight`, by another reading.
 
-    A lesson says which Δw was right for a target. As printed, "the modified weights w_i' and
+    A training pair says which Δw was right for a target. As printed, "the modified weights w_i' and
     position p_a'" are learned: w' was right for p_a', where it took the hand. In the other reading
     w' is learned as if it had been right for the target p_t that it was calibrated for.
 
-    The paper plans by Eq. 5 (`weigh`) and has a linear `g` that senses `equation_8`. Others can be
-    put in their place, one by one, to see what each is worth.
+    Parameters
+    ----------
+    hindsight : bool
+        Learn as printed, or by the other reading.
+    weigh : callable
+        The rule of planning, as `plan` takes it; the paper's is Eq. 5.
+    g : estimator
+        scikit-learn's, from `inputs` to Δw; the paper's is linear.
+    inputs : callable
+        What g gets to know of a plan.
+
+    Examples
+    --------
+    >>> from vmc_lib.motor.templates import load
+    >>> plans = plan(np.array([[0.15, -0.4], [0.12, -0.38]]), load())
+    >>> WeightCorrection().update(plans).correct(plans).weights.shape
+    (2, 4)
     """
 
     hindsight: bool = True
     weigh: Callable = habitual_weights
     g: Any = field(default_factory=LinearRegression)
-    senses: Callable = equation_8
-    lessons: list = field(default_factory=list)
+    inputs: Callable = equation_8
+    training_pairs: list = field(default_factory=list)
 
     def correct(self, plan: Plan):
-        """The plan with the learned Δw added; as `weigh` has it before the first lesson."""
+        """The plan with the learned Δw added; as `weigh` has it before the first update."""
         planned = self._planned(plan)
-        if not self.lessons:
+        if not self.training_pairs:
             return planned
-        return planned.with_weights(planned.weights + self.g.predict(self.senses(planned)))
+        return planned.with_weights(planned.weights + self.g.predict(self.inputs(planned)))
 
-    def practise(self, plan: Plan, rule=algorithm_1):
+    def update(self, plan: Plan, rule=algorithm_1, execute=execute):
         """Algorithm 2, its steps for every plan of a batch; `rule` is the off-line calibration."""
         online = self.correct(plan)  # 1, 2: "calibrated weights w_i^on = w_i + Δw_i^on"
-        taught = calibrated(rule, online).best  # 3, 4: "w_i' = w_i^on + Δw_i^off"
-        modified = online.with_weights(taught)
-        place = modified.reached() if self.hindsight else plan.target  # 4: "actual position p_a'"
+        modified = online.with_weights(calibrate(rule, online).best)  # 3, 4: "w_i' = …"
+        place = execute(modified).endpoint if self.hindsight else plan.target  # 4: "actual p_a'"
         right = self._planned(replace(plan, target=place))
-        self.lessons.append((self.senses(right), modified.weights - right.weights))
-        self.g.fit(*map(np.concatenate, zip(*self.lessons, strict=True)))  # 5: "update … to g'"
+        self.training_pairs.append((self.inputs(right), modified.weights - right.weights))
+        pairs = map(np.concatenate, zip(*self.training_pairs, strict=True))
+        self.g.fit(*pairs)  # 5: "update … to g'"
         return self
 
     def _planned(self, plan):
@@ -97,15 +113,31 @@ class WeightCorrection:
 class AimCorrection:
     """Learn how far beyond a target to aim for the hand to end on it, then satisfy Eq. 4 there.
 
-    It begins with what is known without moving: aiming at a template needs no correction, whichever
-    `neighbours` (n, N) it is mixed with; by default the fours that surround a place in the plane.
+    It begins with what is known without moving: aiming at a template needs no correction.
+
+    Parameters
+    ----------
+    template_set : TemplateSet
+        The remembered reaches.
+    cells : GranuleCells, optional
+        The regression that learns.
+    neighbours : array (n, N), optional
+        Rows of templates that may be mixed; by default the fours around any place in the plane.
+
+    Examples
+    --------
+    >>> from vmc_lib.motor.templates import load
+    >>> plans = plan(np.array([[0.15, -0.4], [0.12, -0.38]]), load())
+    >>> learner = AimCorrection(load()).update(plans)
+    >>> bool(execute(learner.correct(plans)).error.max() < execute(plans).error.max())
+    True
     """
 
     def __init__(self, template_set: TemplateSet, cells=None, neighbours=None):
         self.cells = cells or GranuleCells()
         fours = _neighbours(template_set.points) if neighbours is None else neighbours
-        known = plan(template_set.points[fours], template_set, chosen=fours[:, None])
-        self.cells.fit(*_lessons(known, np.zeros_like(known.target)))
+        known = plan(template_set.points[fours], template_set, rows=fours[:, None])
+        self.cells.fit(*_training_pairs(known, np.zeros_like(known.target)))
 
     def correct(self, plan: Plan):
         """The plan aimed where it should be for the hand to end on the target."""
@@ -116,23 +148,24 @@ class AimCorrection:
         shift = self.cells.predict(_rows(mossy_fibres(plan)))
         return plan.target + shift.reshape(plan.target.shape)
 
-    def practise(self, plan: Plan, together=5):
-        """Move, and learn from where the hand went: a lesson for each movement of the batch.
+    def update(self, plan: Plan, together=5, execute=execute):
+        """Move, and learn from where the hand went: a training pair for each movement of the batch.
 
-        So many are made `together`; the next are aimed with what those taught.
+        So many are made `together`; the next are aimed with what was learned from those.
         """
         for first in range(0, len(plan.target), together):
             some = plan[first : first + together]
             aim = self.aim(some)
-            self.cells.partial_fit(*self.lessons(some, aim, self._at(some, aim).reached()))
+            end = execute(self._at(some, aim)).endpoint
+            self.cells.partial_fit(*self.training_pairs(some, aim, end))
         return self
 
-    def lessons(self, plan: Plan, aim, reached):
-        """What movements teach: mossy fibres (B, 2 d), and how far beyond to aim there, (B, d).
+    def training_pairs(self, plan: Plan, aim, endpoint):
+        """Mossy fibres (B, 2 d) of movements, and how far beyond to aim there, (B, d).
 
-        By hindsight: each aim was right for the place that its movement `reached`.
+        By hindsight: each aim was right for the place where its movement ended.
         """
-        return _lessons(replace(plan, target=reached), aim - reached)
+        return _training_pairs(replace(plan, target=endpoint), aim - endpoint)
 
     def _at(self, plan, aim):
         return plan.with_weights(smooth_weights(aim, plan.points))
@@ -145,7 +178,7 @@ def _neighbours(points):
     return np.unique(surrounding(spots[surrounded(spots, points)], points), axis=0)
 
 
-def _lessons(plan, corrections):
+def _training_pairs(plan, corrections):
     return _rows(mossy_fibres(plan)), _rows(corrections)
 
 
@@ -154,10 +187,10 @@ def _rows(values):
 
 
 class GranuleCells(RegressorMixin, BaseEstimator):
-    """Ridge regression on a random radial-basis expansion, learnt lesson by lesson.
+    """Ridge regression on a random radial-basis expansion, updated batch by batch.
 
     `cells` granule cells with receptive fields of the given `width` (in the units of X) lie at
-    random about the first lessons; `ridge` is how reluctantly Purkinje weights move from zero.
+    random about the first inputs; `ridge` is the L2 penalty on the Purkinje weights.
     """
 
     def __init__(self, width=0.05, cells=600, ridge=3e-4, random_state=0):
@@ -174,15 +207,15 @@ class GranuleCells(RegressorMixin, BaseEstimator):
         return self.partial_fit(X, y)
 
     def partial_fit(self, X, y):
-        """Learn these lessons as well; in which order they come does not matter."""
+        """Learn these as well; in which order batches come does not matter."""
         if not hasattr(self, "centres_"):
             return self.fit(X, y)
         X, y = validate_data(self, X, y, multi_output=True, reset=False)
         active = self.excite(X)
         self.gram_ += active.T @ active
         self.climbing_ += active.T @ y
-        reluctant = self.gram_ + self.ridge * np.eye(self.cells)
-        self.purkinje_ = np.linalg.solve(reluctant, self.climbing_)
+        regularised_gram = self.gram_ + self.ridge * np.eye(self.cells)
+        self.purkinje_ = np.linalg.solve(regularised_gram, self.climbing_)
         return self
 
     def predict(self, X):

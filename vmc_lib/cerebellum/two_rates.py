@@ -20,7 +20,7 @@ RATES = Rates()
 
 
 def adapt(disturbance, rates=RATES):
-    """What each memory holds before every reach, (T, 2), as `disturbance` (T,) comes and goes.
+    """States (T, 2) of the fast and slow process before each trial, under a `disturbance` (T,).
 
     What both hold together is taken off the disturbance; both learn from the error that is left.
     A disturbance that is not a number is a reach without an error, one that is guided straight.

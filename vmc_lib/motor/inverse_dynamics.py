@@ -1,4 +1,4 @@
-"""Inverse dynamics: what a joint path asks of the muscles, and the least that holds a posture.
+"""Inverse dynamics: the muscle activations that a joint path, or a posture, requires.
 
 Habitual planning never does this. It is how the templates were made, as smooth excitations that a
 few spline coefficients keep.
@@ -11,9 +11,9 @@ from scipy.interpolate import BSpline
 from scipy.optimize import lsq_linear
 
 from vmc_lib.arm import dynamics
+from vmc_lib.arm.engines import fibres
 from vmc_lib.arm.model import F0, STEP
 from vmc_lib.arm.muscle import PAPER
-from vmc_lib.arm.simulate import fibres
 from vmc_lib.data import read_only
 
 MOVING, SAMPLES = 700, 1000  # ms: a movement; the movement and the hold that follows
@@ -27,23 +27,23 @@ def spline(knots=KNOTS):
     return read_only(BSpline.design_matrix(np.linspace(0, 1, SAMPLES), edges, 3).toarray())
 
 
-def smooth(share):
-    """Minimum jerk (Flash & Hogan 1985): of a way, what is done at each share of its time."""
+def minimum_jerk_profile(share):
+    """Minimum jerk (Flash & Hogan 1985): the share of a way done at each share of its time."""
     s = np.clip(share, 0, 1)
     return s**3 * (10 - 15 * s + 6 * s**2)
 
 
 def minimum_jerk(start, goal, samples=SAMPLES, moving=MOVING):
-    """The smoothest paths (…, samples + 1, n) from start to goal (…, n), there after `moving`.
+    """Minimum-jerk paths (…, samples + 1, n) from start to goal (…, n), there after `moving`.
 
     Then they stay there.
     """
-    done = smooth(np.arange(samples + 1) / moving)[:, None]
+    done = minimum_jerk_profile(np.arange(samples + 1) / moving)[:, None]
     return start[..., None, :] + (goal - start)[..., None, :] * done
 
 
 def muscle_gain(q, velocity):
-    """What muscles do to the joints now: slack torque (…, 2), and gain (…, 2, 6) in N m.
+    """Muscle torque as a linear function of activation: slack torque (…, 2), gain (…, 2, 6), N m.
 
     An activation (…, 6) adds gain @ activation to the torque of the slack muscles.
     """
@@ -53,10 +53,28 @@ def muscle_gain(q, velocity):
     return (arms * slack).sum(axis=-1), arms * (full - slack)
 
 
-def demand(path):
-    """What a joint path (T + 1, 2) asks of the muscles: torque (T, 2) and gain (T, 2, 6).
+def required_torque(path):
+    """Inverse dynamics: the muscle torque that a joint path requires, and the torque of activation.
 
-    Whatever activation (T, 6) satisfies torque = gain @ activation at every step keeps to it.
+    Any activation (T, 6) with torque = gain @ activation at every step keeps to the path.
+
+    Parameters
+    ----------
+    path : array (T + 1, 2)
+        Joint angles, rad, a millisecond apart.
+
+    Returns
+    -------
+    torque : array (T, 2)
+        Beyond the torque of slack muscles, N m.
+    gain : array (T, 2, 6)
+        Torque per unit activation, N m.
+
+    Examples
+    --------
+    >>> torque, gain = required_torque(np.zeros((11, 2)))
+    >>> torque.shape, gain.shape
+    ((10, 2), (10, 2, 6))
     """
     velocity = np.diff(path, axis=0, prepend=path[:1]) / STEP
     acceleration = np.diff(velocity, axis=0) / STEP
@@ -65,12 +83,14 @@ def demand(path):
     return dynamics.torque_for(q, velocity, acceleration) - slack, gain
 
 
-def hold(q):
+def static_activation(q):
     """The activations (6,) that hold the posture q (2,), small ones preferred (a ridge)."""
-    torque, gain = demand(np.tile(q, (2, 1)))
-    return least(np.vstack([gain[0], 0.01 * np.eye(6)]), np.append(torque[0], np.zeros(6)))
+    torque, gain = required_torque(np.tile(q, (2, 1)))
+    return bounded_least_squares(
+        np.vstack([gain[0], 0.01 * np.eye(6)]), np.append(torque[0], np.zeros(6))
+    )
 
 
-def least(matrix, wanted):
-    """The x (n,) in [0, 1] whose matrix @ x comes nearest to what is wanted, in least squares."""
+def bounded_least_squares(matrix, wanted):
+    """The x (n,) in [0, 1] for which matrix @ x is nearest to `wanted`, in least squares."""
     return lsq_linear(matrix, wanted, (0, 1), method="bvls").x

@@ -4,16 +4,11 @@ Every function takes one target (2,) or a batch (B, 2). Positions are in the arm
 """
 
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 
 from vmc_lib import NoReach
-from vmc_lib.arm.simulate import UNPERTURBED, Perturbation
 from vmc_lib.motor.templates import TemplateSet
-
-PART = 512  # movements simulated at once
-EYE = np.array([0.10, 0.25])  # above and a little in front of the shoulder
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,78 +16,60 @@ class Plan:
     """Which templates a reach uses, and how much of each."""
 
     template_set: TemplateSet
-    target: np.ndarray  # (…, 2): where it is seen
-    chosen: np.ndarray  # (…, N): rows of the template set
+    target: np.ndarray  # (…, 2)
+    rows: np.ndarray  # (…, N): of the template set
     weights: np.ndarray  # (…, N)
-    perturbation: Perturbation = UNPERTURBED  # what the arm will meet; the plan does not know it …
-    prism: float = 0.0  # … nor, in rad, how far glass before the eyes turns what they see
 
     @property
     def points(self):
-        """Where the chosen templates reach: p_i, (…, N, 2)."""
-        return self.template_set.points[self.chosen]
+        """Where these templates reach: p_i, (…, N, 2)."""
+        return self.template_set.points[self.rows]
 
     @property
     def excitations(self):
         """Eq. 3: u_t(t) = Σ w_i u_i(t), (…, T, 6), held to the limits of a command, [0, 1]."""
         share = np.zeros((*self.weights.shape[:-1], len(self.template_set.points)))
-        np.put_along_axis(share, self.chosen, self.weights, axis=-1)
+        np.put_along_axis(share, self.rows, self.weights, axis=-1)
         mixed = np.tensordot(share, self.template_set.excitations, axes=1)
         return np.clip(mixed, *self.template_set.limits)
 
-    def move(self):
-        """The `Motion` that the plan gives the arm. A plan is moved once, and remembers it."""
-        return self._motion
-
-    @cached_property
-    def _motion(self):
-        return self.template_set.reach(self.excitations, self.perturbation)
-
-    def reached(self):
-        """Where the hand is seen to end, (…, 2); in space (…, 3), where there is no prism."""
-        return turned(self._ends, self.prism) if self.prism else self._ends
-
-    def missed(self):
-        """How far from the target the hand is seen to end, (…), m."""
-        return np.linalg.norm(self.reached() - self.target, axis=-1)
-
-    @cached_property
-    def _ends(self):
-        count = self.weights.shape[-1]
-        weights, chosen = self.weights.reshape(-1, count), self.chosen.reshape(-1, count)
-        if len(weights) <= PART:
-            return self.move().reached
-        parts = [  # a larger batch is moved in parts, and its motions forgotten, to spare memory
-            replace(self, chosen=chosen[i : i + PART], weights=weights[i : i + PART]).move().reached
-            for i in range(0, len(weights), PART)
-        ]
-        return np.concatenate(parts).reshape(*self.weights.shape[:-1], -1)
-
-    def __getitem__(self, rows):
+    def __getitem__(self, which):
         """Some plans of a batch."""
-        parts = {name: getattr(self, name)[rows] for name in ("target", "chosen", "weights")}
+        parts = {name: getattr(self, name)[which] for name in ("target", "rows", "weights")}
         return replace(self, **parts)
 
     def with_weights(self, weights):
         """The same templates, weighted otherwise; leading axes may be added, for many trials."""
-        return replace(self, weights=weights, chosen=np.broadcast_to(self.chosen, weights.shape))
-
-    def perturbed(self, perturbation=UNPERTURBED, prism=0.0):
-        """The same plan under a `Perturbation`, a load or a force field, or behind a prism."""
-        return replace(self, perturbation=perturbation, prism=prism)
-
-
-def turned(points, angle):
-    """Plane positions (…, 2) turned about the eye by `angle`, upwards where it is positive."""
-    c, s = np.cos(angle), np.sin(angle)
-    return (points - EYE) @ np.array([[c, s], [-s, c]]) + EYE
+        return replace(self, weights=weights, rows=np.broadcast_to(self.rows, weights.shape))
 
 
 def habitual_weights(target, points, power=1):
-    """Eq. 5: weights (…, N) by nearness of the templates' points (…, N, 2), summing to 1.
+    """Inverse-distance weights of templates, summing to 1 (Eq. 5).
 
-    Nearness is one over the distance; the paper has its first `power`. A target on a template
-    gives that template all the weight, the limit of the equation.
+    A target on a template gives that template all the weight, the limit of the equation.
+
+    Parameters
+    ----------
+    target : array (…, 2)
+        Where to reach, m.
+    points : array (…, N, 2)
+        Where the templates reach, m.
+    power : float
+        Of the inverse distance; 1 in the paper.
+
+    Returns
+    -------
+    array (…, N)
+
+    References
+    ----------
+    Shepard, D. (1968). A two-dimensional interpolation function for irregularly-spaced data.
+
+    Examples
+    --------
+    >>> points = np.array([[0.1, -0.3], [0.4, -0.4]])
+    >>> habitual_weights(np.array([0.1, -0.4]), points).round(3).tolist()
+    [0.75, 0.25]
     """
     distance = np.linalg.norm(points - target[..., None, :], axis=-1)
     on = distance < 1e-9
@@ -111,9 +88,10 @@ def exact_weights(target, points, power=1):
 def least_change(jacobian, shift):
     """The smallest Δw (…, N) with Σ Δw = 0 that shifts the hand by `shift` (…, D).
 
-    `jacobian` (…, D, N) says where each weight takes the hand; for Eq. 4 it is the points p_i, in
-    the arm's plane (D = 2) or in space (3). ValueError when the templates lie on one line (in
-    space, in one plane), for then they cannot span the shift.
+    The minimum-norm solution, by the pseudo-inverse. `jacobian` (…, D, N) says where each weight
+    takes the hand; for Eq. 4 it is the points p_i, in the arm's plane (D = 2) or in space (3).
+    ValueError when the templates lie on one line (in space, in one plane), for then they cannot
+    span the shift.
     """
     centred = jacobian - jacobian.mean(axis=-1, keepdims=True)
     strength = np.linalg.svd(centred, compute_uv=False)
@@ -176,15 +154,42 @@ def draw_targets(template_set, count, rng):
     return inside[:count]
 
 
-def plan(target, template_set, rule=habitual_weights, chosen=None):
-    """Plan a reach to `target` (…, 2) with the four surrounding templates (or those `chosen`).
+def plan(target, template_set, rule=habitual_weights, rows=None):
+    """Plan a reach, or a batch, as a weighted sum of templates (Eq. 3–5).
 
-    In space targets are (…, 3), as the templates' points are, and `chosen` must be given.
+    Parameters
+    ----------
+    target : array (…, 2), or in space (…, 3)
+        Where the hand should end, m.
+    template_set : TemplateSet
+        The remembered reaches.
+    rule : callable
+        Weights (…, N) from a target and the templates' points (…, N, 2).
+    rows : array (…, N), optional
+        Which templates; by default the nearest in each quadrant. In space they must be given.
+
+    Returns
+    -------
+    Plan
+
+    Raises
+    ------
+    ValueError
+        Where a target is not finite, or of another dimension than the templates' points.
+    NoReach
+        Where a target is not surrounded by templates.
+
+    Examples
+    --------
+    >>> from vmc_lib.motor.templates import load
+    >>> reach = plan([0.15, -0.4], load())
+    >>> reach.weights.shape, reach.excitations.shape
+    ((4,), (1000, 6))
     """
     target, axes = np.asarray(target, dtype=float), template_set.points.shape[-1:]
     if target.shape[-1:] != axes or not np.all(np.isfinite(target)):
         raise ValueError(f"target {target} must be finite plane positions (…, {axes[0]}) in m")
-    if chosen is None:
-        chosen = surrounding(target, template_set.points)
-    chosen = np.broadcast_to(chosen, (*target.shape[:-1], np.shape(chosen)[-1]))
-    return Plan(template_set, target, chosen, rule(target, template_set.points[chosen]))
+    if rows is None:
+        rows = surrounding(target, template_set.points)
+    rows = np.broadcast_to(rows, (*target.shape[:-1], np.shape(rows)[-1]))
+    return Plan(template_set, target, rows, rule(target, template_set.points[rows]))

@@ -12,7 +12,7 @@ import numpy as np
 
 from vmc_lib.arm.simulate import UNPERTURBED, simulate
 from vmc_lib.data import arrays, read_only
-from vmc_lib.motor.inverse_dynamics import hold, spline
+from vmc_lib.motor.inverse_dynamics import spline, static_activation
 
 START = np.radians([-20.0, 95.0])  # every reach begins here: elbow bent, the hand over the table
 SPACINGS = (0.04, 0.06, 0.08)  # m: how densely past experience covers the plane …
@@ -35,7 +35,7 @@ class TemplateSet:
     points: np.ndarray  # (N, 2): where in the arm's plane each reach ended, m
     excitations: np.ndarray  # (N, T, 6), in [0, 1], 1 kHz
     limits: tuple = (0.0, 1.0)  # of a command: no nerve can do otherwise
-    reach: Callable = reach  # commands (…, T, m), perturbation -> a motion with `reached` (…, 2)
+    reach: Callable = reach  # commands (…, T, m), perturbation -> a motion with `endpoint` (…, 2)
 
 
 @cache
@@ -44,12 +44,12 @@ def load(spacing=SPACING):
     if spacing not in SPACINGS:
         raise ValueError(f"no templates lie {spacing} m apart; choose one of {SPACINGS}")
     excitations = spline() @ arrays("templates")[key(spacing)].astype(float)
-    return TemplateSet(read_only(reach(excitations).reached), read_only(excitations))
+    return TemplateSet(read_only(reach(excitations).endpoint), read_only(excitations))
 
 
 @cache
 def _rest():
-    return hold(START)
+    return static_activation(START)
 
 
 def key(spacing):
