@@ -82,6 +82,7 @@ def step_trajectory(
     """Integrate Eq. 9–12 in place, through these steps of an allocated trajectory.
 
     The arm holds a `load` in kg, in a `field` on its joints. The hand is pushed by `push`,
+    (B, T, 2) in N, and by `drag`, (2, 2), times its velocity.
     """
     arm = dynamics.tables(), *dynamics.coefficients(load)
     forces = (np.require(x, float, "CW") for x in (field, push, drag))
