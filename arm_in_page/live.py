@@ -18,12 +18,12 @@ from IPython.display import HTML, display
 
 from vmc_lib.arm import muscle
 from vmc_lib.arm.dynamics import hand
+from vmc_lib.arm.engines import STOP_DAMPING, STOP_STIFFNESS
 from vmc_lib.arm.kinematics import inverse_kinematics
 from vmc_lib.arm.model import F0, L0, LIMITS, MUSCLES, SLACK, STEP, XML
-from vmc_lib.arm.simulate import STOP_DAMPING, STOP_STIFFNESS
 from vmc_lib.cerebellum.offline import GAINS, LARGEST_STEP
 from vmc_lib.motor import templates
-from vmc_lib.motor.inverse_dynamics import SAMPLES, hold, spline
+from vmc_lib.motor.inverse_dynamics import SAMPLES, spline, static_activation
 from vmc_lib.motor.planning import plan
 from vmc_lib.show.arm import arm_scene
 from vmc_lib.show.arm_plane import plane, plane_view
@@ -124,7 +124,7 @@ def given():
             "answers": _answers(),
         },
         "start": templates.START.tolist(),
-        "rest": hold(templates.START).tolist(),
+        "rest": static_activation(templates.START).tolist(),
         "templateSet": experience(template_set.points, knots, SAMPLES),
         "calibration": CALIBRATION,
     }
@@ -158,7 +158,7 @@ def _bench_view():
 
 def _bench(name):
     """Six sliders."""
-    rest = zip(MUSCLES, hold(templates.START).round(2), strict=True)
+    rest = zip(MUSCLES, static_activation(templates.START).round(2), strict=True)
     sliders = "".join(_slider(name, muscle, muscle, (0, 1, 0.01), u) for muscle, u in rest)
     buttons = {"step": "Step 10 ms", "reset": "Reset"}
     return form("Excitation of each muscle", buttons, sliders, {"time": "time"} | _POSE)

@@ -1,13 +1,12 @@
 """From a photo to the first movement: how long each stage takes, beside OpenCV's search alone."""
 
-from dataclasses import replace
-
 import cv2
 import numpy as np
 
 from bench.report import publish, seconds
 from vmc_lib import loop, photos
 from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration
+from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import plan
 
 
@@ -31,7 +30,7 @@ def stages(model, photo):
         "place": lambda: loop.locate(model, photo.image, sight.box, photo.camera),
         "turn and plan": lambda: plan(loop.turn_towards(place)[1], model.template_set).excitations,
         # anew each time: a plan remembers its own
-        "first movement (simulated)": lambda: replace(reach.plan).move(),
+        "first movement (simulated)": lambda: execute(reach.plan).motion,
         "off-line, published (21 movements)": lambda: algorithm_1(reach.plan),
         "off-line, own (2 movements)": lambda: broyden_calibration(reach.plan),
     }

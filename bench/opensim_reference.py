@@ -13,7 +13,7 @@ import opensim
 
 from reproduce.results import FOLDER
 from vmc_lib.arm.model import DAMPING, MUSCLES, STEP
-from vmc_lib.arm.simulate import steady
+from vmc_lib.arm.simulate import constant_excitation
 
 JOINTS = ("r_shoulder_elev", "r_elbow_flex")
 SHOULDER = np.array([-0.017545, 0.793, 0.17])  # of the shoulder joint, in OpenSim's ground, m
@@ -98,7 +98,7 @@ def excited(excitations, elastic):
 
 def movement(levels, elastic):
     """Joint angles (60, 2), every 10 ms, that constant excitations (6,) give; from (0°, 60°)."""
-    model = excited(steady(levels, 0.6), elastic)
+    model = excited(constant_excitation(levels, 0.6), elastic)
     state, joints = put(model, np.radians([0, 60]))
     model.equilibrateMuscles(state)
     return run(model, state, joints, 0.01 * np.arange(1, 61), 1e-7)

@@ -14,33 +14,33 @@ from reproduce.experiments.calibration import train_aim_correction
 from reproduce.peers import optimal_control
 from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration
 from vmc_lib.motor import templates
+from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import draw_targets, plan
 
 template_set = templates.load()
 targets = draw_targets(template_set, 25, np.random.default_rng(0))
-target, moved = targets[0], plan(targets[0], template_set)
-moved.reached()  # a plan remembers where it ended: to calibrate it again needs no new movement
+target, habit = targets[0], plan(targets[0], template_set)
 cerebellum = train_aim_correction(template_set, np.random.default_rng(1), 25)
 
 WORK = {  # what -> (call, how often, simulated movements)
     "habitual plan": (lambda: plan(target, template_set).excitations, 20, 0),
     "25 habitual plans": (lambda: plan(targets, template_set).excitations, 20, 0),
-    "one movement": (lambda: plan(target, template_set).reached(), 5, 1),
-    "Algorithm 1, one target, n = 0..20": (lambda: algorithm_1(moved), 5, 21),
+    "one movement": (lambda: execute(plan(target, template_set)).endpoint, 5, 1),
+    "Algorithm 1, one target, n = 0..20": (lambda: algorithm_1(habit), 5, 22),
     "Algorithm 1, 25 targets, n = 0..20": (
         lambda: algorithm_1(plan(targets, template_set)),
         3,
         550,
     ),
-    "own rule, one target, two trials": (lambda: broyden_calibration(moved), 5, 2),
+    "own rule, one target, two trials": (lambda: broyden_calibration(habit), 5, 3),
     "own rule, 25 targets, two trials": (
         lambda: broyden_calibration(plan(targets, template_set)),
         3,
         75,
     ),
-    "online correction, one target": (lambda: cerebellum.correct(moved), 20, 0),
+    "online correction, one target": (lambda: cerebellum.correct(habit), 20, 0),
     "25 movements, learned online": (
-        lambda: cerebellum.practise(plan(targets, template_set)),
+        lambda: cerebellum.update(plan(targets, template_set)),
         5,
         25,
     ),

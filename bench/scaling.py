@@ -20,6 +20,7 @@ from reproduce.training.detectors import fit_detector
 from vmc_lib import photos
 from vmc_lib.cerebellum.online import AimCorrection
 from vmc_lib.motor import templates
+from vmc_lib.motor.execution import execute
 from vmc_lib.motor.inverse_dynamics import spline
 from vmc_lib.motor.planning import draw_targets, plan
 from vmc_lib.where.recipes import RECIPES
@@ -37,9 +38,9 @@ def more_templates(spacing):
     goals = reach_templates.reachable_grid(spacing)
     excitations = spline() @ np.array([reach_templates.find_reach(goal) for goal in goals])
     seconds = process_time() - start
-    template_set = templates.TemplateSet(templates.reach(excitations).reached, excitations)
+    template_set = templates.TemplateSet(templates.reach(excitations).endpoint, excitations)
     held_out = np.random.default_rng(0).uniform(*ON_THE_TABLE, (200, 2))
-    error = 1000 * plan(held_out, template_set).missed().mean()
+    error = 1000 * execute(plan(held_out, template_set)).error.mean()
     return [row("templates", len(goals), error, seconds)]
 
 
@@ -52,9 +53,9 @@ def more_movements():
     for previous, count in pairwise(MOVEMENTS):
         targets = draw_targets(template_set, count - previous, rng)
         start = process_time()
-        learner.practise(plan(targets, template_set))
+        learner.update(plan(targets, template_set))
         seconds += process_time() - start
-        error = learner.correct(held_out).missed().mean() / held_out.missed().mean()
+        error = execute(learner.correct(held_out)).error.mean() / execute(held_out).error.mean()
         rows.append(row("movements", count, error, seconds))
     return rows
 

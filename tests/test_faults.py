@@ -97,7 +97,8 @@ def test_a_read_only_checkout_is_enough(tmp_path):
     for path in (copy, *copy.rglob("*")):
         path.chmod(path.stat().st_mode & ~0o222)
     see = "from vmc_lib.motor.planning import plan; from vmc_lib.motor import templates\n"
-    see += "print(plan((0.12, -0.42), templates.load()).move().q.shape)"
+    see += "from vmc_lib.motor.execution import execute\n"
+    see += "print(execute(plan((0.12, -0.42), templates.load())).motion.q.shape)"
     command = [sys.executable, "-c", see]
     if os.getuid() == 0:  # whom no permission stops: without root's power, then
         command = ["setpriv", "--bounding-set=-all", "--inh-caps=-all", *command]

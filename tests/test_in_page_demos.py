@@ -15,6 +15,7 @@ from vmc_lib.arm.kinematics import to_world
 from vmc_lib.arm.model import MUSCLES
 from vmc_lib.boxes import iou
 from vmc_lib.motor import templates
+from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import plan
 from vmc_lib.show import Pad, Slider, Switch, demo, explore
 from vmc_lib.show.markup import data_uri
@@ -30,7 +31,7 @@ XS, YS = np.arange(80, 161, 4), np.arange(46, 135, 4)
 PAST, MUSCLE = templates.load(spacing=0.06), MUSCLES.index("BIClong")
 ACROSS, UP = np.arange(0.015, 0.17, 0.015), np.arange(-0.475, -0.33, 0.015)
 SPOTS = [(x, y) for x in ACROSS.tolist() for y in UP.tolist()]
-ENDED = plan(SPOTS, PAST).reached()
+ENDED = execute(plan(SPOTS, PAST)).endpoint
 SHOT = photos.load("free", "test")[0]
 ACROSS_SHOT, DOWN_SHOT = np.arange(0, 601, 10), np.arange(0, 401, 10)
 AROUND, NEURONS = np.linspace(-0.95, 0.95, 20), (4, 12, 60)
@@ -158,7 +159,7 @@ def test_a_plan_is_drawn_as_python_plans_it(page, place):
     expected = on(in_plane, [*one.points, one.target, ENDED[spot]])
     assert np.abs(np.array(marks) - expected).max() < 0.1
     curves = polylines(over_time)
-    parts = one.weights[:, None] * PAST.excitations[one.chosen, ::20, MUSCLE]
+    parts = one.weights[:, None] * PAST.excitations[one.rows, ::20, MUSCLE]
     time = np.arange(parts.shape[1]) * 0.02
     wanted = [on(over_time, np.stack([time, part], -1)) for part in [*parts, parts.sum(0)]]
     assert np.abs(curves - wanted).max() < 0.2

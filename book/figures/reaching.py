@@ -96,7 +96,7 @@ def planned(past, muscle, target=None, ended=None):
     commands, weights = np.empty((1, 0)), np.ones(1)
     if target is not None:
         one = plan(target, past)
-        commands, weights = past.excitations[one.chosen, :, muscle], one.weights
+        commands, weights = past.excitations[one.rows, :, muscle], one.weights
         shares(left, target, one.points, weights)
         ends(left, target, ended)
         miss = 1000 * np.linalg.norm(np.subtract(ended, target))

@@ -3,9 +3,9 @@
 import numpy as np
 
 from kit.question import choice, count, numeric, steps, tenths
-from vmc_lib.cerebellum.adaptation import least_lesson
+from vmc_lib.cerebellum.adaptation import minimum_norm_update
 from vmc_lib.cerebellum.online import GranuleCells
-from vmc_lib.motor.planning import EYE, turned
+from vmc_lib.motor.execution import EYE, rotate_about_eye
 
 
 def activity(width, centres, target):
@@ -88,10 +88,10 @@ def ridge_of_one_cell(
 
 
 @numeric("mm", "The lesson takes 1 / (1 + caution).", tolerance=0.05)
-def lesson_with_caution(caution=(0.1, 0.25, 0.3, 0.5, 1.0), miss=steps(5, 40, 1)):
+def lesson_with_caution(regularisation=(0.1, 0.25, 0.3, 0.5, 1.0), miss=steps(5, 40, 1)):
     """A reach misses by {miss} mm. A lone lesson with a caution of {caution} takes a share of the
     error away. How large is the next miss at the same target?"""
-    return miss - least_lesson(np.ones((1, 1)), np.array([[float(miss)]]), caution)[0, 0]
+    return miss - minimum_norm_update(np.ones((1, 1)), np.array([[float(miss)]]), caution)[0, 0]
 
 
 @numeric("cm", "2 × distance × sin(angle / 2)")
@@ -99,7 +99,7 @@ def behind_a_prism(degrees=steps(-15, 15, 1, zero=8), away=steps(40, 70, 5)):
     """A prism turns all that the eye sees by {degrees} degrees about the eye. How far from its true
     place is a thing seen that is {away} cm away?"""
     point = EYE + np.array([away / 100, 0])
-    return 100 * np.linalg.norm(turned(point, np.radians(degrees)) - point)
+    return 100 * np.linalg.norm(rotate_about_eye(point, np.radians(degrees)) - point)
 
 
 @choice(

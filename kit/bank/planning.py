@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from kit.question import choice, numeric, steps
-from vmc_lib.motor.inverse_dynamics import smooth
+from vmc_lib.motor.inverse_dynamics import minimum_jerk_profile
 from vmc_lib.motor.planning import exact_weights, habitual_weights, least_change, surrounding
 
 
@@ -123,4 +123,4 @@ def nearest_in_its_quadrant(
 @numeric(hint="10 s³ - 15 s⁴ + 6 s⁵", tolerance=0.002)
 def share_of_the_way(share=steps(0.05, 0.95, 0.05)):
     """A minimum-jerk movement has used {share:.0%} of its time. What share of the way is done?"""
-    return smooth(share)
+    return minimum_jerk_profile(share)

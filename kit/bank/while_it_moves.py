@@ -4,8 +4,8 @@ import numpy as np
 
 from kit.question import choice, numeric, steps
 from vmc_lib.cerebellum.two_rates import Rates, adapt
-from vmc_lib.motor.feedback import Senses, ask, curl
-from vmc_lib.motor.inverse_dynamics import smooth
+from vmc_lib.motor.feedback import FeedbackGains, curl, feedback_acceleration
+from vmc_lib.motor.inverse_dynamics import minimum_jerk_profile
 
 # Of the fast and the slow memory: retention A, learning rate B (Smith et al. 2006)
 A_FAST, A_SLOW = (0.5, 0.6, 0.7), (0.98, 0.99)
@@ -34,7 +34,7 @@ def wanted_acceleration(
     """Feedback has the gain {gain} 1/s² and the damping {damping} s. A joint is {off} rad short of
     where it should be and {slow} rad/s slower than it should be (negative: beyond, faster). Which
     acceleration does it ask for?"""
-    return ask(Senses(gain=gain, damping=damping), off, slow, 0.0, 0.0)
+    return feedback_acceleration(FeedbackGains(gain=gain, damping=damping), off, slow, 0.0, 0.0)
 
 
 @numeric("N", "Swap the velocity's parts and turn the sign of the second.", tolerance=0.02)
@@ -55,7 +55,7 @@ def force_of_a_curl_field(
 def fastest_moment(way=steps(10, 40, 2), seconds=steps(0.4, 1, 0.1)):
     """A minimum-jerk movement covers {way} cm in {seconds} s. How fast is it at its fastest?"""
     times = np.linspace(0, 1, 2001)
-    return way / seconds * np.gradient(smooth(times), times).max()
+    return way / seconds * np.gradient(minimum_jerk_profile(times), times).max()
 
 
 @numeric("steps", "Delay over step.", tolerance=0)

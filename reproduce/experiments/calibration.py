@@ -25,14 +25,15 @@ from vmc_lib.cerebellum.online import (
     mossy_fibres,
     smooth_weights,
 )
-from vmc_lib.motor.planning import draw_targets, plan, surrounded, turned
+from vmc_lib.motor.execution import execute, rotate_about_eye
+from vmc_lib.motor.planning import draw_targets, plan, surrounded
 from vmc_lib.motor.templates import TemplateSet, load
 
 SEEDS = range(6)
 NOISE = 0.2  # of every excitation's size, fresh in every step
 SCENARIOS = ("changing neighbours", "four fixed templates")
 PRISM = np.radians(6.0)
-PERTURBATIONS = {  # what may change, as `Plan.perturbed` takes it
+PERTURBATIONS = {  # what may change, as `execute` takes it
     "a load of 0.5 kg": {"perturbation": Perturbation(load=0.5)},
     "a viscous field": {"perturbation": Perturbation(field=((-1.0, 0.0), (0.0, -1.0)))},
     "a prism": {"prism": PRISM},
@@ -59,24 +60,29 @@ def run_experiments(
     """`Errors` of a learner that practises so many `movements` in every experiment.
 
     They are the same movements each time, as we read Fig. 12, or new ones where `fresh`. What
-    `lesson` names is passed to the learner's `practise`: `rule=quick` saves Algorithm 1's time.
+    `lesson` names is passed to the learner's `update`: `rule=quick` saves Algorithm 1's time.
     """
     unseen = plan(draw_targets(template_set, held_out, rng), template_set)
     first = practised = plan(draw_targets(template_set, movements, rng), template_set)
-    in_sample, others = [learner.correct(first).missed()], [learner.correct(unseen).missed()]
+
+    def error(plans):
+        return execute(learner.correct(plans)).error
+
+    in_sample, others = [error(first)], [error(unseen)]
     for experiment in range(experiments):
         if fresh and experiment:
             practised = plan(draw_targets(template_set, movements, rng), template_set)
-        learner.practise(practised, **lesson)
-        in_sample.append(learner.correct(practised).missed())
-        others.append(learner.correct(unseen).missed())
+        learner.update(practised, **lesson)
+        in_sample.append(error(practised))
+        others.append(error(unseen))
     offline = lesson.get("rule", algorithm_1)(first).error.min(axis=0)
-    return Errors(first.missed(), offline, np.array(in_sample), np.array(others), unseen.missed())
+    planned, held_out_planned = execute(first).error, execute(unseen).error
+    return Errors(planned, offline, np.array(in_sample), np.array(others), held_out_planned)
 
 
 def nearest_templates(template_set, place):
     """The four templates around a place (2,), as a `TemplateSet`."""
-    four = plan(place, template_set).chosen
+    four = plan(place, template_set).rows
     return TemplateSet(template_set.points[four], template_set.excitations[four])
 
 
@@ -84,12 +90,12 @@ class Curve(NamedTuple):
     """An adaptation, block by block; every movement is made before it is learned from."""
 
     target: np.ndarray  # (blocks, movements, 2), m, as seen
-    reached: np.ndarray  # (blocks, movements, 2), m, as seen
+    endpoint: np.ndarray  # (blocks, movements, 2), m, as seen
 
     @property
     def error(self):
         """Mean distance from the target in each block, (blocks,), m."""
-        return np.linalg.norm(self.reached - self.target, axis=-1).mean(axis=-1)
+        return np.linalg.norm(self.endpoint - self.target, axis=-1).mean(axis=-1)
 
 
 def adapt(learner, template_set, rng, perturbation, blocks=(2, 8, 6), movements=8):
@@ -100,28 +106,27 @@ def adapt(learner, template_set, rng, perturbation, blocks=(2, 8, 6), movements=
     """
     before, during, _ = blocks
     targets = draw_targets(template_set, 4 * sum(blocks) * movements, rng)
-    inside = targets[surrounded(turned(targets, -PRISM), template_set.points)]
+    inside = targets[surrounded(rotate_about_eye(targets, -PRISM), template_set.points)]
     targets = inside[: sum(blocks) * movements].reshape(-1, movements, 2)
-    reached = [
-        learner.practise(
-            plan(t, template_set).perturbed(
-                **(perturbation if before <= b < before + during else {})
-            )
-        )
+    endpoint = [
+        learner.update(
+            plan(t, template_set),
+            partial(execute, **(perturbation if before <= b < before + during else {})),
+        ).endpoint
         for b, t in enumerate(targets)
     ]
-    return Curve(targets, np.array(reached))
+    return Curve(targets, np.array(endpoint))
 
 
 def train_aim_correction(template_set, rng, movements=150):
     """An `AimCorrection` that has practised."""
-    return AimCorrection(template_set).practise(
+    return AimCorrection(template_set).update(
         plan(draw_targets(template_set, movements, rng), template_set)
     )
 
 
 def _granule_cell_rule():
-    return WeightCorrection(weigh=smooth_weights, g=GranuleCells(), senses=mossy_fibres)
+    return WeightCorrection(weigh=smooth_weights, g=GranuleCells(), inputs=mossy_fibres)
 
 
 ABLATION = {  # from Algorithm 2 to our rule, one thing more at each: a learner, how it practises

@@ -10,6 +10,7 @@ from reproduce.experiments import calibration
 from reproduce.experiments.calibration import NOISE, SEEDS
 from reproduce.peers.adaptive_controllers import LEARNERS
 from vmc_lib.arm.muscle import noisy
+from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import draw_targets, plan
 from vmc_lib.motor.templates import load, reach
 
@@ -54,7 +55,7 @@ def train_controller(kind, cells, seed, movements, held_out, noise=None):
     learner, shares = kind(load(), cells()), []
     for first, last in zip((0, *movements[:-1]), movements, strict=True):
         start = process_time()
-        learner.practise(practised[first:last])
+        learner.update(practised[first:last])
         seconds = process_time() - start
         tests = (
             plan(some, templates_with_noise(noise, (seed, 2))) for some in (targets[:last], unseen)
@@ -76,7 +77,7 @@ def _stored_arrays(regression):
 
 def _error_share(learner, plans):
     """The mean miss of plans that the learner corrects, over that of habit."""
-    return learner.correct(plans).missed().mean() / plans.missed().mean()
+    return execute(learner.correct(plans)).error.mean() / execute(plans).error.mean()
 
 
 def templates_with_noise(noise, stream):

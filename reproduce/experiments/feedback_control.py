@@ -14,7 +14,14 @@ from vmc_lib.arm.model import STEP
 from vmc_lib.arm.muscle import noisy
 from vmc_lib.cerebellum.feedback_error import FeedbackErrorLearning
 from vmc_lib.cerebellum.forward_model import ForwardModel
-from vmc_lib.motor.feedback import BLIND, SIGHT, curl, intend, move, switch
+from vmc_lib.motor.feedback import (
+    BLIND,
+    SIGHT,
+    curl,
+    reference_trajectory,
+    simulate_feedback,
+    switch,
+)
 from vmc_lib.motor.inverse_dynamics import MOVING
 from vmc_lib.motor.planning import draw_targets, exact_weights, plan, surrounded
 from vmc_lib.motor.templates import load, reach
@@ -33,7 +40,7 @@ def exact_plans(targets, template_set):
 def fit_forward_model(template_set, rng, count=20):
     """A `ForwardModel` that has felt so many reaches with motor noise, without sight."""
     some = exact_plans(draw_targets(template_set, count, rng), template_set)
-    return ForwardModel().learn(reach(noisy(some.excitations, NOISE, rng)))
+    return ForwardModel().update(reach(noisy(some.excitations, NOISE, rng)))
 
 
 def draw_target_jumps(template_set, count, rng, by=JUMP):
@@ -53,8 +60,10 @@ def draw_target_jumps(template_set, count, rng, by=JUMP):
 
 
 def reference_after_jump(template_set, first, second):
-    """The `Intention`, for 2 s, of reaches whose target jumps at `JUMPS_AT`, and is seen later."""
-    before, after = (intend(exact_plans(p, template_set), 2.0) for p in (first, second))
+    """The reference, for 2 s, of reaches whose target jumps at `JUMPS_AT`, and is seen later."""
+    before, after = (
+        reference_trajectory(exact_plans(p, template_set), 2.0) for p in (first, second)
+    )
     return switch(before, after, JUMPS_AT + SIGHT.delay)
 
 
@@ -105,15 +114,13 @@ def reach_measures(seed, count=100, seconds=3.0):
     rng, template_set = np.random.default_rng(seed), load()
     model = fit_forward_model(template_set, rng)
     first, second = draw_target_jumps(template_set, count, rng)
-    steady, jump = (
-        intend(exact_plans(first, template_set), seconds),
-        reference_after_jump(template_set, first, second),
-    )
+    steady = reference_trajectory(exact_plans(first, template_set), seconds)
+    jump = reference_after_jump(template_set, first, second)
     measured = {}
-    for arm, (senses, foresees) in ARMS.items():
-        known = model if foresees else None
-        path = move(steady, senses, known, noise=NOISE, rng=rng).hand[..., :2]
-        ends = move(jump, senses, known, noise=NOISE, rng=rng).reached
+    for arm, (gains, predicts) in ARMS.items():
+        known = model if predicts else None
+        path = simulate_feedback(steady, gains, known, noise=NOISE, rng=rng).hand[..., :2]
+        ends = simulate_feedback(jump, gains, known, noise=NOISE, rng=rng).endpoint
         power, frequency = tremor(path)
         missed = 1000 * _norm(ends - second)
         measures = {
@@ -136,7 +143,7 @@ def curl_field_deviations(learner, template_set, model, rng, blocks=(2, 20, 10),
     The second answer, (before or after learning, others), is the same for targets never practised.
     """
     practised, others = (
-        intend(exact_plans(draw_targets(template_set, n, rng), template_set), 1.0)
+        reference_trajectory(exact_plans(draw_targets(template_set, n, rng), template_set), 1.0)
         for n in (targets, 20)
     )
     before, during, _ = blocks
@@ -146,14 +153,14 @@ def curl_field_deviations(learner, template_set, model, rng, blocks=(2, 20, 10),
         if block in (before, before + during):
             held_out.append(_bend(learner, others, curl(FIELD), model, rng)[0])
         bend, motion = _bend(learner, practised, curl(FIELD) if on else None, model, rng)
-        learner.practise(practised, motion)
+        learner.update(practised, motion)
         bends.append(bend)
     return np.array(bends), np.array(held_out)
 
 
-def _bend(learner, intention, world, model, rng):
-    motion = move(learner.correct(intention), SIGHT, model, world, NOISE, rng)
-    return path_deviation(motion.hand[..., :2], hand(intention.q)[..., :2]), motion
+def _bend(learner, reference, disturbance, model, rng):
+    motion = simulate_feedback(learner.correct(reference), SIGHT, model, disturbance, NOISE, rng)
+    return path_deviation(motion.hand[..., :2], hand(reference.q)[..., :2]), motion
 
 
 def curl_field_errors(seed, **size):

@@ -15,6 +15,7 @@ from reproduce.peers.adaptive_controllers import RIDGE, DeltaRuleCells
 from reproduce.peers.motor_noise import noise_share_for, with_noise
 from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration
 from vmc_lib.cerebellum.online import AimCorrection, GranuleCells, WeightCorrection
+from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import draw_targets, plan
 from vmc_lib.motor.templates import load
 
@@ -49,7 +50,7 @@ def compare_calibration(noise, seed, count):
     """The off-line part of `compare_learners`, for so many targets."""
     rng = np.random.default_rng((seed, 3))
     habit = plan(draw_targets(load(), count, rng), templates_with_noise(noise, (seed, 4)))
-    many = habit.with_weights(np.tile(habit.weights, (20, 1, 1))).reached()
+    many = execute(habit.with_weights(np.tile(habit.weights, (20, 1, 1)))).endpoint
     miss = _norm(many - habit.target).mean()
     left = {
         "habit": 1000 * miss,
@@ -57,7 +58,7 @@ def compare_calibration(noise, seed, count):
     }
     for name, rule in {"Algorithm 1": algorithm_1, "Broyden": broyden_calibration}.items():
         trials = rule(habit)
-        again = habit.with_weights(np.tile(trials.best, (20, 1, 1))).reached()
+        again = execute(habit.with_weights(np.tile(trials.best, (20, 1, 1)))).endpoint
         left[f"{name}, best trial"] = trials.error.min(axis=0).mean() / miss
         left[f"{name}, again"] = _norm(again - habit.target).mean() / miss
     return left

@@ -19,6 +19,7 @@ from reproduce.peers import minimum_variance, optimal_control
 from reproduce.results import arrays
 from vmc_lib.arm.model import MUSCLES
 from vmc_lib.cerebellum.adaptation import CORRECTIONS, Adaptation
+from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import draw_targets, plan
 from vmc_lib.motor.templates import load, reach
 
@@ -58,7 +59,7 @@ def learn_weak_arm(seed, count=100, before=150, muscles=MUSCLES):
         learner = Adaptation(skill, load(), corrects)
         for when, more in zip(WHEN, (0, count), strict=True):
             for first in range(0, more, TOGETHER):
-                learner.practise(lessons[first : first + TOGETHER])
+                learner.update(lessons[first : first + TOGETHER])
             rows = {
                 "in-sample": _mean_miss(learner, lessons),
                 "held-out": _mean_miss(learner, unseen),
@@ -74,7 +75,7 @@ def command_measures(excitations, muscle):
     The mean miss in mm, the mean effort, and how hard each muscle is driven, (6,): the root of its
     command's mean square.
     """
-    ends = reach(excitations * muscle_strength(muscle)).reached
+    ends = reach(excitations * muscle_strength(muscle)).endpoint
     return {
         "miss": 1000 * np.linalg.norm(ends - TARGETS, axis=-1).mean(),
         "effort": optimal_control.effort(excitations).mean(),
@@ -135,4 +136,4 @@ def _weak_reach(share, excitations, perturbation):
 
 def _mean_miss(learner, test):
     """The mean miss in mm of plans that a learner corrects."""
-    return 1000 * learner.correct(test).missed().mean()
+    return 1000 * execute(learner.correct(test)).error.mean()

@@ -9,7 +9,7 @@ import numpy as np
 
 from reproduce.experiments.feedback_control import exact_plans
 from vmc_lib.arm.dynamics import hand
-from vmc_lib.motor.feedback import TICK, Intention, intend, switch
+from vmc_lib.motor.feedback import TICK, ReferenceTrajectory, reference_trajectory, switch
 from vmc_lib.motor.planning import draw_targets, surrounded
 
 RADIUS, APART = 0.02, 0.03  # of the ball; how near to its middle a way may be meant
@@ -23,7 +23,7 @@ def obstacles(template_set, count, rng):
     targets = draw_targets(template_set, 20 * count, rng)
     parts = np.array_split(targets, 20)  # one after the other: less memory
     ways = np.concatenate(
-        [reference_paths(intend(exact_plans(part, template_set))) for part in parts]
+        [reference_paths(reference_trajectory(exact_plans(part, template_set))) for part in parts]
     )
     start, end = ways[:, 0], ways[:, -1]
     long = np.linalg.norm(end - start, axis=-1) > LONG
@@ -33,13 +33,13 @@ def obstacles(template_set, count, rng):
 
 
 def plan_around(target, ball, template_set):
-    """The via-point (2,) to a target (2,) round a ball (2,), and the `Intention` (a batch of one).
+    """The via-point (2,) to a target (2,) round a ball (2,), and the reference (a batch of one).
 
     Of all via-points whose meant way keeps `APART` of the ball, that of the shortest. ValueError
     when there is none.
     """
     spots, first = _via_points(template_set)
-    second = intend(exact_plans(target[None], template_set))
+    second = reference_trajectory(exact_plans(target[None], template_set))
     both = switch(first, second, TURN)
     ways = reference_paths(both)
     length = np.linalg.norm(np.diff(ways, axis=1), axis=-1).sum(axis=1)
@@ -47,17 +47,17 @@ def plan_around(target, ball, template_set):
     if not free.any():
         raise ValueError(f"no way to {target} m keeps {APART} m from {ball} m; move the ball")
     best = np.where(free, length, np.inf).argmin()
-    return spots[best], Intention(both.q[[best]], both.excitations[[best]])
+    return spots[best], ReferenceTrajectory(both.q[[best]], both.excitations[[best]])
 
 
 @cache
 def _via_points(template_set):
-    """All places (n, 2) that may become via-points, and the `Intention` to reach each."""
+    """All places (n, 2) that may become via-points, and the `ReferenceTrajectory` to reach each."""
     low, high = template_set.points.min(axis=0), template_set.points.max(axis=0)
     spots = np.stack(np.meshgrid(*(np.arange(a, b, GRID) for a, b in zip(low, high, strict=True))))
     spots = spots.reshape(2, -1).T
     spots = spots[surrounded(spots, template_set.points)]
-    return spots, intend(exact_plans(spots, template_set))
+    return spots, reference_trajectory(exact_plans(spots, template_set))
 
 
 def reference_paths(intention):

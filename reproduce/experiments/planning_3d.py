@@ -16,6 +16,7 @@ from vmc_lib.arm.kinematics import inverse_kinematics, to_world, turn_towards
 from vmc_lib.arm.simulate import UNPERTURBED, Motion
 from vmc_lib.cerebellum.offline import broyden_calibration
 from vmc_lib.motor import planning, templates
+from vmc_lib.motor.execution import execute
 
 TURNS = np.radians([-10.0, 5.0, 20.0, 35.0, 50.0, 65.0])
 
@@ -27,7 +28,7 @@ class TrunkMovement(NamedTuple):
     turn: np.ndarray
 
     @property
-    def reached(self):
+    def endpoint(self):
         """Where the hand ends, (…, 3)."""
         return to_world(self.motion.hand[..., -1, :], self.turn)
 
@@ -89,7 +90,7 @@ def experiment(seed, count=100, trials=3):
     distance = np.linalg.norm(places, axis=1).mean()
     planned, *left = plan_and_correct(targets, past, trials).error.mean(axis=1)
     exact = plan_and_correct(targets, past, 0, planning.exact_weights).error.mean()
-    in_plane = planning.plan(flat, past).missed().mean()
+    in_plane = execute(planning.plan(flat, past)).error.mean()
     return {
         "planned / reach": planned / distance,
         "exact / reach": exact / distance,

@@ -11,6 +11,7 @@ import numpy as np
 
 from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration
 from vmc_lib.cerebellum.online import AimCorrection
+from vmc_lib.motor.execution import execute
 from vmc_lib.motor.inverse_dynamics import minimum_jerk
 from vmc_lib.motor.planning import draw_targets, plan
 from vmc_lib.motor.templates import TemplateSet
@@ -46,13 +47,13 @@ def mass_and_drag(q, velocity):
 
 
 def reach(torques, _perturbation=None):
-    """Where torques (…, T, 2), in N m, take the arm from rest in `START`, as `reached`, in m."""
+    """Where torques (…, T, 2), in N m, take the arm from rest in `START`, as `endpoint`, in m."""
     q, velocity = (np.broadcast_to(x, (*torques.shape[:-2], 2)) for x in (START, np.zeros(2)))
     for torque in np.moveaxis(torques, -2, 0):
         mass, drag = mass_and_drag(q, velocity)
         velocity = velocity + STEP * np.linalg.solve(mass, (torque - drag)[..., None])[..., 0]
         q = q + STEP * velocity
-    return SimpleNamespace(reached=tip(q))
+    return SimpleNamespace(endpoint=tip(q))
 
 
 def torque_templates(goals=GOALS):
@@ -61,7 +62,7 @@ def torque_templates(goals=GOALS):
     velocity = np.diff(q, axis=1, prepend=q[:, :1]) / STEP
     mass, drag = mass_and_drag(q[:, :-1], velocity[:, :-1])
     torques = (mass @ (np.diff(velocity, axis=1) / STEP)[..., None])[..., 0] + drag
-    return TemplateSet(reach(torques).reached, torques, (-np.inf, np.inf), reach)
+    return TemplateSet(reach(torques).endpoint, torques, (-np.inf, np.inf), reach)
 
 
 def experiment(seed):
@@ -69,9 +70,9 @@ def experiment(seed):
     rng, past = np.random.default_rng(seed), torque_templates()
     habit, lessons = (plan(draw_targets(past, n, rng), past) for n in (25, 100))
     tries = broyden_calibration(habit).error.mean(axis=1)
-    aimed = AimCorrection(past).practise(lessons).correct(habit)
+    aimed = AimCorrection(past).update(lessons).correct(habit)
     published = algorithm_1(habit).error.min(axis=0).mean()
-    own = {"own off-line": tries[2], "own online": aimed.missed().mean()}
+    own = {"own off-line": tries[2], "own online": execute(aimed).error.mean()}
     left = {"off-line, published": published, **own}
     reach_of = np.linalg.norm(habit.target, axis=-1).mean()
     return {"planned / reach": tries[0] / reach_of, **{k: v / tries[0] for k, v in left.items()}}

@@ -11,6 +11,7 @@ from reproduce.ledger.entry import Row, mean
 from vmc_lib.cerebellum.offline import algorithm_1
 from vmc_lib.cerebellum.online import WeightCorrection
 from vmc_lib.motor import templates
+from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import draw_targets, plan
 
 OFFLINE = {"better": -1, "rounding": paper.ratio_rounding("off-line", "planned")}
@@ -35,12 +36,12 @@ def _nearer_share(seed):
     rng, template_set = np.random.default_rng(seed), templates.load()
     habit, others = (plan(draw_targets(template_set, n, rng), template_set) for n in (25, 100))
     planned, *tried = algorithm_1(habit).error
-    learner = WeightCorrection().practise(habit)
+    learner = WeightCorrection().update(habit)
     return {
         "off-line": (np.min(tried, axis=0) < planned).mean(),
         "searched n, error": np.min(tried, axis=0).mean() / planned.mean(),
-        "online, in-sample": (learner.correct(habit).missed() < planned).mean(),
-        "online, held-out": (learner.correct(others).missed() < others.missed()).mean(),
+        "online, in-sample": (execute(learner.correct(habit)).error < planned).mean(),
+        "online, held-out": (execute(learner.correct(others)).error < execute(others).error).mean(),
     }
 
 

@@ -11,6 +11,7 @@ from reproduce.ledger.entry import Quantity, Row, mean, trivial_quantity
 from reproduce.peers import optimal_control
 from vmc_lib import photos
 from vmc_lib.motor import templates
+from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import draw_targets, exact_weights, habitual_weights, plan
 from vmc_lib.where.localiser import Localiser
 
@@ -28,7 +29,7 @@ def planned_error_ratios(spacing=templates.SPACING, rule=habitual_weights, count
 def _planned_error_ratio(seed, template_set, rule, count):
     targets = draw_targets(template_set, count, np.random.default_rng(seed))
     plans = plan(targets, template_set, rule)
-    return plans.missed().mean() / np.linalg.norm(targets, axis=-1).mean()
+    return execute(plans).error.mean() / np.linalg.norm(targets, axis=-1).mean()
 
 
 def _table_4():
@@ -61,7 +62,7 @@ def _figure_3():
 def _figure_9():
     template_set = templates.load()
     habit = plan(draw_targets(template_set, 20, np.random.default_rng(2)), template_set)
-    summed = np.einsum("bi,bitm->btm", habit.weights, template_set.excitations[habit.chosen])
+    summed = np.einsum("bi,bitm->btm", habit.weights, template_set.excitations[habit.rows])
     worst = (paper.TABLE_4_ERRORS / np.linalg.norm(paper.TARGETS, axis=-1)).max()
     digits = paper.planned_rounding()
     return [
@@ -93,8 +94,8 @@ def _nearby():
     template_set = templates.load()
     gaps = np.linalg.norm(template_set.points[:, None] - template_set.points, axis=-1)
     pairs = np.argwhere(np.triu((gaps > 0) & (gaps < 1.1 * templates.SPACING)))
-    habit = plan(template_set.points[pairs].mean(axis=1), template_set, chosen=pairs)
-    astray = habit.missed() / gaps[*pairs.T]
+    habit = plan(template_set.points[pairs].mean(axis=1), template_set, rows=pairs)
+    astray = execute(habit).error / gaps[*pairs.T]
     return [
         mean("half-way mixtures end astray, over the gap", 0.5, astray, better=-1, bound=True),
         mean("mixtures that end between the two", 1, (astray < 0.5).astype(float)),

@@ -87,9 +87,9 @@ class DeltaRuleCells(GranuleCells):
 class FeedbackError(AimCorrection):
     """Aim further by the error that was seen, at the target that was missed."""
 
-    def lessons(self, plan, aim, reached):
+    def training_pairs(self, plan, aim, endpoint):
         """At the target, the aim's shift and the error: aim + (target − reached) − target."""
-        return mossy_fibres(plan), aim - reached
+        return mossy_fibres(plan), aim - endpoint
 
 
 class DistalTeacher(AimCorrection):
@@ -99,16 +99,16 @@ class DistalTeacher(AimCorrection):
         super().__init__(template_set, cells)
         self.model = GranuleCells()
 
-    def lessons(self, plan, aim, reached):
+    def training_pairs(self, plan, aim, endpoint):
         """The error, sent back through the model's slopes (its transposed Jacobian)."""
-        self.model.partial_fit(mossy_fibres(replace(plan, target=aim)), reached - aim)
-        ends = self._foreseen(plan, aim)
-        slopes = [(self._foreseen(plan, aim + step) - ends) / SMALL for step in SMALL * np.eye(2)]
-        error = plan.target - reached
+        self.model.partial_fit(mossy_fibres(replace(plan, target=aim)), endpoint - aim)
+        ends = self._predicted(plan, aim)
+        slopes = [(self._predicted(plan, aim + step) - ends) / SMALL for step in SMALL * np.eye(2)]
+        error = plan.target - endpoint
         change = np.stack([(slope * error).sum(axis=-1) for slope in slopes], axis=-1)
         return mossy_fibres(plan), aim + change - plan.target
 
-    def _foreseen(self, plan, aim):
+    def _predicted(self, plan, aim):
         return aim + self.model.predict(mossy_fibres(replace(plan, target=aim)))
 
 

@@ -105,11 +105,11 @@ def compare_rules(rng, repeats=REPEATS):
     found = {}
     for name, excitations in excitations_by_rule().items():
         wavered = (motor_noise.with_noise(excitations, noise_share(), rng) for _ in range(repeats))
-        many = np.array([reach(one).reached for one in wavered])  # one at a time: less memory
+        many = np.array([reach(one).endpoint for one in wavered])  # one at a time: less memory
         calm = reach(excitations)
         found[name] = {
             "scatter": 1000 * scatter(many),
-            "miss": 1000 * np.linalg.norm(calm.reached - TARGETS[NEW], axis=-1),
+            "miss": 1000 * np.linalg.norm(calm.endpoint - TARGETS[NEW], axis=-1),
             "effort": optimal_control.effort(excitations),
             "jerk": jerk(calm.hand[..., :2]),
         }

@@ -55,7 +55,7 @@ def noise_share_for(mm):
         if not share:
             return -mm
         rng = np.random.default_rng(101)  # one repeat at a time: less memory
-        ends = [reach(with_noise(excitations, share, rng)).reached for _ in range(10)]
+        ends = [reach(with_noise(excitations, share, rng)).endpoint for _ in range(10)]
         return 1000 * endpoint_deviation(np.array(ends)) - mm
 
     if not (mm == 0 or (mm > 0 and missing(1.0) > 0)):

@@ -15,7 +15,7 @@ from scipy.optimize import minimize
 
 from reproduce.results import arrays
 from vmc_lib.arm.kinematics import inverse_kinematics
-from vmc_lib.motor.inverse_dynamics import MOVING, SAMPLES, least, spline
+from vmc_lib.motor.inverse_dynamics import MOVING, SAMPLES, bounded_least_squares, spline
 from vmc_lib.motor.planning import plan
 from vmc_lib.motor.templates import TemplateSet, load, reach
 
@@ -60,7 +60,9 @@ def minimise_cost(target, cost, slope, ftol=1e-4, most=FULL_STRENGTH):
     takes).
     """
     start = plan(target, load()).excitations
-    first = np.stack([least(spline(KNOTS), muscle) for muscle in start.T], axis=-1).ravel()
+    first = np.stack(
+        [bounded_least_squares(spline(KNOTS), muscle) for muscle in start.T], axis=-1
+    ).ravel()
     most = np.tile(most, KNOTS)
     goal = np.concatenate([np.tile(inverse_kinematics(target), 2), np.zeros(4)])
     found = minimize(
@@ -94,9 +96,9 @@ def mix_optima():
 
     Each mixes the four optima that lie 3 cm to its sides, above and below: a square of 6 cm.
     """
-    memories = TemplateSet(reach(optimal_excitations()).reached, optimal_excitations())
+    memories = TemplateSet(reach(optimal_excitations()).endpoint, optimal_excitations())
     corners = INNER[:, None] + [-6, -4, 4, 6]  # `TARGETS` has rows of five
-    return plan(TARGETS[INNER], memories, chosen=corners)
+    return plan(TARGETS[INNER], memories, rows=corners)
 
 
 def excitations_from_knots(x):

@@ -13,8 +13,8 @@ from typing import NamedTuple
 import numpy as np
 
 from vmc_lib.arm.dynamics import hand
+from vmc_lib.arm.engines import allocate_trajectory, step_trajectory
 from vmc_lib.arm.model import STEP
-from vmc_lib.arm.simulate import advance, begun
 from vmc_lib.motor.feedback import TICK
 from vmc_lib.motor.inverse_dynamics import MOVING
 from vmc_lib.motor.templates import reach
@@ -27,8 +27,8 @@ def next_states(state, commands):
     """States (…, 10) a tick later, under commands (…, TICK, 6)."""
     u = np.ascontiguousarray(np.reshape(commands, (-1, TICK, 6)))
     q, velocity, activation = np.split(state.reshape(-1, 10), [2, 4], axis=-1)
-    path = begun(u, q, velocity, activation)
-    advance(u, path, range(TICK))
+    path = allocate_trajectory(u, q, velocity, activation)
+    step_trajectory(u, path, range(TICK))
     return np.concatenate([x[:, -1] for x in path], axis=-1).reshape(state.shape)
 
 

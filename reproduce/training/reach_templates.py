@@ -13,11 +13,11 @@ from vmc_lib.arm.muscle import excitation_for
 from vmc_lib.motor.inverse_dynamics import (
     KNOTS,
     SAMPLES,
-    demand,
-    hold,
-    least,
+    bounded_least_squares,
     minimum_jerk,
+    required_torque,
     spline,
+    static_activation,
 )
 from vmc_lib.motor.templates import REACH, START, reach
 
@@ -30,16 +30,16 @@ EFFORT, ROUGHNESS = 0.02, 0.5  # what activation, and its bending, cost beside a
 
 def excitation_knots(path):
     """Spline knots (KNOTS, 6) of excitations that keep the arm near a joint path from rest."""
-    torque, gain = demand(path)
+    torque, gain = required_torque(path)
     rows = slice(0, SAMPLES, 5)
     design = np.einsum("tjm,tk->tjkm", gain[rows], spline()[rows]).reshape(-1, KNOTS * 6)
     bending = np.kron(np.diff(np.eye(KNOTS), 2, axis=0), np.eye(6))
     matrix = np.vstack([design, EFFORT * np.eye(KNOTS * 6), ROUGHNESS * bending])
     wanted = np.append(torque[rows].ravel(), np.zeros(len(matrix) - len(design)))
-    activation = spline() @ least(matrix, wanted).reshape(KNOTS, 6)
+    activation = spline() @ bounded_least_squares(matrix, wanted).reshape(KNOTS, 6)
     excitation = excitation_for(activation, np.gradient(activation, STEP, axis=0))
-    knots = np.stack([least(spline(), muscle) for muscle in excitation.T], axis=-1)
-    knots[:2] = hold(path[0])
+    knots = np.stack([bounded_least_squares(spline(), muscle) for muscle in excitation.T], axis=-1)
+    knots[:2] = static_activation(path[0])
     return knots
 
 

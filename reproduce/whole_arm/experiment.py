@@ -13,6 +13,7 @@ from reproduce.whole_arm import habits, plant
 from reproduce.whole_arm.habits import ZONE, goal_grid
 from vmc_lib.cerebellum.offline import broyden_calibration
 from vmc_lib.cerebellum.online import AimCorrection, GranuleCells
+from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import exact_weights, plan
 
 INSIDE = ZONE + np.array([[0.04], [-0.04]])  # m: targets keep so far from its edge
@@ -39,7 +40,7 @@ def draw_targets(*memories, count, rng):
 
 def plan_reaches(targets, past, **rule):
     """The `Plan`s to targets (n, 3), each by the eight memories around it."""
-    return plan(targets, past, chosen=octants(targets, past.points)[0], **rule)
+    return plan(targets, past, rows=octants(targets, past.points)[0], **rule)
 
 
 def planned_errors(past, targets):
@@ -50,7 +51,7 @@ def planned_errors(past, targets):
     reach = np.linalg.norm(targets, axis=-1).mean()
     way = np.linalg.norm(targets - plant.tip_and_jacobian(habits.START)[0], axis=-1).mean()
     none, *left = broyden_calibration(plan_reaches(targets, past)).error.mean(axis=1)
-    exact = plan_reaches(targets, past, rule=exact_weights).missed().mean()
+    exact = execute(plan_reaches(targets, past, rule=exact_weights)).error.mean()
     over = {"planned / reach": none / reach, "planned / way": none / way}
     shares = {f"{k} corrections": miss / none for k, miss in enumerate(left, start=1)}
     return {**over, "Eq. 4 / reach": exact / reach, **shares}
@@ -64,9 +65,9 @@ def online_errors(past, seed, count=COUNT, width=WIDTH):
     )
     spots = octants(rng.uniform(*ZONE, (4000, 3)), past.points)
     around = np.unique(spots[0][spots[1]], axis=0)
-    aims = AimCorrection(past, GranuleCells(width), around).practise(practised)
+    aims = AimCorrection(past, GranuleCells(width), around).update(practised)
     return {
-        name: aims.correct(plans).missed().mean() / plans.missed().mean()
+        name: execute(aims.correct(plans)).error.mean() / execute(plans).error.mean()
         for name, plans in (("in-sample", practised[:count]), ("held-out", new))
     }
 
@@ -87,7 +88,7 @@ def optimised_errors(past, synergies, seed, count=COUNT):
         "seconds, habit": (process_time() - began) / count,
     }
     ends = {
-        "once": synergies.move(commands).reached,
+        "once": synergies.move(commands).endpoint,
         "again": habits.record_templates(synergies, targets).points,
     }
     reach = np.linalg.norm(targets, axis=-1).mean()

@@ -15,7 +15,7 @@ from scipy.optimize import least_squares, nnls
 from reproduce import results
 from reproduce.peers.muscle_models import lag
 from reproduce.whole_arm import plant
-from vmc_lib.motor.inverse_dynamics import MOVING, least, minimum_jerk
+from vmc_lib.motor.inverse_dynamics import MOVING, bounded_least_squares, minimum_jerk
 from vmc_lib.motor.templates import TemplateSet
 
 START = np.radians([70.0, 25.0, 0.0, 95.0, 0.0, 0.0, 0.0])  # elbow bent, the hand before the body
@@ -68,7 +68,7 @@ class SynergyMap:
         matrix = np.vstack([gain @ self.groups, EFFORT * np.diag(self.groups.sum(axis=0) ** 0.5)])
         wanted = np.append(torque, np.zeros(matrix.shape[1]))
         pull = nnls(matrix, wanted)[0]  # quicker, and right unless a muscle would need more than 1
-        return pull if pull.max() <= 1 else least(matrix, wanted)
+        return pull if pull.max() <= 1 else bounded_least_squares(matrix, wanted)
 
 
 def invert_activation(wanted):
@@ -105,7 +105,7 @@ def record_templates(synergies, goals, easy=EASY):
     for _ in ("tried", "corrected"):
         ways = zip(goals + missed, np.broadcast_to(easy, (len(goals), len(EASY))), strict=True)
         commands = np.array([synergies.commands(reach_posture(*way)) for way in ways])
-        reached = synergies.move(commands).reached
+        reached = synergies.move(commands).endpoint
         missed = goals - reached
     return TemplateSet(reached, commands, reach=synergies.move)
 
@@ -121,7 +121,7 @@ def make(goals=None):
     commands = record_templates(
         synergies, goal_grid() if goals is None else goals
     ).excitations.astype(np.float16)
-    return {"commands": commands, "points": synergies.move(commands.astype(float)).reached}
+    return {"commands": commands, "points": synergies.move(commands.astype(float)).endpoint}
 
 
 @cache

@@ -49,7 +49,7 @@ class Motion(NamedTuple):
     activation: np.ndarray  # (…, TICKS, 63)
 
     @property
-    def reached(self):
+    def endpoint(self):
         """Where the tip of the index finger ended, (…, 3), m."""
         return fingertip(self.joints[..., -1, :])
 

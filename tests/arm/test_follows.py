@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from vmc_lib.arm import muscle, simulate
+from vmc_lib.arm import engines, muscle, simulate
 from vmc_lib.motor import feedback
 from vmc_lib.motor.inverse_dynamics import muscle_gain
 
@@ -68,14 +68,16 @@ def test_a_law_that_numba_cannot_take_is_followed_with_a_warning(monkeypatch):
     np.testing.assert_allclose(odd.q, simulate.simulate(few, START).q, atol=1e-12)
 
 
-def test_a_law_that_gives_no_number_gives_no_movement(monkeypatch):
+@pytest.mark.parametrize("engine", ["compiled", "mujoco"])
+def test_a_law_that_gives_no_number_is_an_error(monkeypatch, engine):
     monkeypatch.setattr(muscle, "passive_force", lambda length: np.nan * length)
-    assert np.isnan(moved("compiled").q[:, 1:]).all()
+    with pytest.raises(ValueError, match="blows up: at step 1 a joint is at nan rad"):
+        moved(engine)
 
 
 def test_the_compiled_loop_does_what_its_source_does(monkeypatch):
     fast = moved("compiled")
-    monkeypatch.setattr(simulate, "_move", simulate._move.__wrapped__)
+    monkeypatch.setattr(engines, "_step", engines._step.__wrapped__)
     plain = moved("compiled")
     for ours, theirs in zip(vars(fast).values(), vars(plain).values(), strict=True):
         np.testing.assert_allclose(ours, theirs, atol=1e-12)
@@ -83,11 +85,11 @@ def test_the_compiled_loop_does_what_its_source_does(monkeypatch):
 
 def test_what_plans_and_watches_follows_too(monkeypatch):
     still = np.zeros((1, 2))
-    meant = feedback.Intention(np.tile(START, (1, 101, 1)), WILD[:1, :100])
-    before = muscle_gain(START + still, still)[1], feedback.move(meant, feedback.BLIND)
+    meant = feedback.ReferenceTrajectory(np.tile(START, (1, 101, 1)), WILD[:1, :100])
+    before = muscle_gain(START + still, still)[1], feedback.simulate_feedback(meant, feedback.BLIND)
     monkeypatch.setattr(muscle, "force", feeble)
     monkeypatch.setattr(muscle, "activation_rate", slow)
-    after = muscle_gain(START + still, still)[1], feedback.move(meant, feedback.BLIND)
+    after = muscle_gain(START + still, still)[1], feedback.simulate_feedback(meant, feedback.BLIND)
     assert np.abs(after[0] - before[0]).max() > 0.1
     expected = simulate.simulate(meant.excitations, START)
     np.testing.assert_allclose(after[1].q, expected.q, atol=1e-9)

@@ -1,21 +1,22 @@
 """Two engines, one movement."""
 
+import warnings
+
 import numpy as np
 import pytest
 
 from reproduce.peers.muscle_models import LAWS
 from reproduce.results import arrays
 from vmc_lib.arm.dynamics import acceleration_from, hand, paths
-from vmc_lib.arm.model import LIMITS, STEP
-from vmc_lib.arm.simulate import (
-    Perturbation,
-    advance,
-    begun,
+from vmc_lib.arm.engines import (
+    ENGINES,
+    allocate_trajectory,
     muscle_torque,
-    simulate,
-    steady,
+    step_trajectory,
     stop_torque,
 )
+from vmc_lib.arm.model import LIMITS, STEP
+from vmc_lib.arm.simulate import Perturbation, constant_excitation, simulate
 
 START = np.radians([-20.0, 95.0])
 QUIET = np.zeros((10, 6))
@@ -52,10 +53,10 @@ def test_the_engines_agree_with_a_load_in_a_force_field():
 def test_a_force_on_the_hand_acts_through_the_joints():
     """A push, and a drag that grows with the hand's velocity, held against a numeric Jacobian."""
     rng = np.random.default_rng(4)
-    told, push = random_excitations(3, 300, rng), rng.normal(scale=10, size=(3, 300, 2))
-    drag, path = rng.normal(scale=5, size=(2, 2)), begun(told, START, 0, told[:, 0])
-    advance(told, path, range(100), push=push, drag=drag)
-    advance(told, path, range(100, 300), push=push, drag=drag)
+    u, push = random_excitations(3, 300, rng), rng.normal(scale=10, size=(3, 300, 2))
+    drag, path = rng.normal(scale=5, size=(2, 2)), allocate_trajectory(u, START, 0, u[:, 0])
+    step_trajectory(u, path, range(100), push=push, drag=drag)
+    step_trajectory(u, path, range(100, 300), push=push, drag=drag)
     for t in (0, 50, 99, 100, 299):
         q, velocity, activation = (x[:, t] for x in path)
         there, back = (hand(q[:, None] + side * np.eye(2))[..., :2] for side in (1e-6, -1e-6))
@@ -72,7 +73,7 @@ def test_the_arm_with_opensims_muscles_moves_as_opensims():
     levels, expected = (arrays("opensim")[name] for name in ("levels", "rigid"))
     start = np.radians([0, 60])
     thelen, paper = (
-        simulate(steady(levels, 0.6), start, muscle=LAWS[m]).q[:, 10::10]
+        simulate(constant_excitation(levels, 0.6), start, muscle=LAWS[m]).q[:, 10::10]
         for m in ("Thelen 2003", "the paper (Eq. 9–11)")
     )
     assert np.abs(thelen - expected).max() < 0.012
@@ -82,10 +83,10 @@ def test_the_arm_with_opensims_muscles_moves_as_opensims():
 def test_smaller_steps_bring_both_engines_to_the_same_end():
     levels = np.repeat([[0.05, 0.1]], 3)
     coarse, fine, finer = (
-        simulate(steady(levels, 0.3, s), START, engine="mujoco", step=s).q[-1]
+        simulate(constant_excitation(levels, 0.3, s), START, engine="mujoco", step=s).q[-1]
         for s in (1e-3, 1e-4, 5e-5)
     )
-    fast = simulate(steady(levels, 0.3, 1e-4), START, step=1e-4).q[-1]
+    fast = simulate(constant_excitation(levels, 0.3, 1e-4), START, step=1e-4).q[-1]
     assert np.abs(fine - finer).max() < 0.15 * np.abs(coarse - finer).max()
     assert np.abs(coarse - finer).max() < 2e-3
     np.testing.assert_allclose(fast, fine, atol=1e-6)
@@ -97,7 +98,7 @@ def test_a_batch_is_its_movements_one_by_one():
     assert batch.hand.shape == (2, 3, 201, 3)
     alone = simulate(excitations[4], START)
     np.testing.assert_allclose(batch.q[1, 1], alone.q, atol=1e-12)
-    np.testing.assert_allclose(batch.reached[1, 1], alone.hand[-1, :2], atol=1e-12)
+    np.testing.assert_allclose(batch.endpoint[1, 1], alone.hand[-1, :2], atol=1e-12)
 
 
 def test_the_stops_hold_the_arm_together():
@@ -125,7 +126,7 @@ def test_bad_excitations(excitations, complaint):
 
 def test_steady_excitations_last_as_long_as_asked():
     levels = np.arange(12).reshape(2, 6) / 12
-    excitations = steady(levels, 0.05)
+    excitations = constant_excitation(levels, 0.05)
     assert excitations.shape == (2, 50, 6)
     np.testing.assert_array_equal(excitations[:, 31], levels)
 
@@ -133,19 +134,52 @@ def test_steady_excitations_last_as_long_as_asked():
 @pytest.mark.parametrize("duration", [-0.5, 0, 1e-4, np.nan, np.inf])
 def test_bad_durations(duration):
     with pytest.raises(ValueError, match="at least"):
-        steady(np.zeros(6), duration)
+        constant_excitation(np.zeros(6), duration)
 
 
-def test_bad_starts_and_engines():
-    with pytest.raises(ValueError, match="start"):
-        simulate(QUIET, np.zeros(3))
-    with pytest.raises(ValueError, match="activation"):
-        simulate(QUIET, START, np.full(6, np.inf))
-    with pytest.raises(ValueError, match="cannot be held"):
-        simulate(QUIET, START, perturbation=Perturbation(load=-1))
-    for step in (0, -0.001, 0.1, np.nan):
-        with pytest.raises(ValueError, match="steps of"):
-            simulate(QUIET, START, step=step)
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize(
+    ("named", "complaint"),
+    [
+        ({"start": np.zeros(3)}, r"start .* shape \(3,\)"),
+        ({"start": (30.0, 60.0)}, r"start \[30. 60.\] rad .* np.radians"),
+        ({"start": START + np.array([0, 2])}, "beyond the joints' limits"),
+        ({"activation": np.full(6, np.inf)}, "activation must be finite"),
+        ({"activation": np.full(6, -5.0)}, r"activation: values in \[-5, 0\]; clip"),
+        ({"activation": np.full(6, 1.5)}, r"activation: .*\[0, 1\]"),
+        ({"perturbation": Perturbation(load=-1)}, "cannot be held"),
+        ({"perturbation": Perturbation(field=3.0)}, r"field 3.0 must be a finite \(2, 2\)"),
+        ({"perturbation": Perturbation(field=((0, np.nan), (0, 0)))}, "field"),
+    ],
+)
+def test_wrong_inputs_are_named_by_both_engines(engine, named, complaint):
+    with pytest.raises(ValueError, match=complaint):
+        simulate(QUIET, **{"start": START, "engine": engine} | named)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("strength", [60.0, 1e4])
+def test_a_movement_that_blows_up_is_an_error_in_both_engines(engine, strength):
+    world = Perturbation(field=strength * np.eye(2))
+    with pytest.raises(ValueError, match=r"movement 0 blows up: at step .*weaken"):
+        simulate(np.full((300, 6), 0.2), START, engine=engine, perturbation=world)
+
+
+def test_a_wrong_argument_does_not_slow_down_later_calls():
+    simulate(QUIET, START)
+    with warnings.catch_warnings(action="error"):
+        with pytest.raises(ValueError, match="field"):
+            simulate(QUIET, START, perturbation=Perturbation(field=3.0))
+        simulate(QUIET, START)
+
+
+@pytest.mark.parametrize("step", [0, -0.001, 0.1, np.nan])
+def test_unstable_steps_are_refused(step):
+    with pytest.raises(ValueError, match=r"Euler's method needs one in \(0, 0.01\] s"):
+        simulate(QUIET, START, step=step)
+
+
+def test_engines_that_cannot_be_used_are_named():
     with pytest.raises(ValueError, match="compiled"):
         simulate(QUIET, START, engine="opensim")
     with pytest.raises(ValueError, match="leave the engine out"):

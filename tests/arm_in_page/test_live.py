@@ -252,7 +252,7 @@ def test_plans_are_pythons(ask, name, rule):
     own = template_set.points[surrounded(template_set.points, template_set.points)]
     for target in [*TARGETS, *own[:2]]:  # the last two on a template itself
         planned, expected = ask(script, target.tolist()), plan(target, template_set, rule)
-        assert planned["chosen"] == expected.chosen.tolist()
+        assert planned["chosen"] == expected.rows.tolist()
         assert np.allclose(planned["weights"], expected.weights, atol=1e-12)
         assert np.allclose(planned["u"], expected.excitations, atol=1e-12)
 

@@ -11,6 +11,7 @@ from book.figures.whole_arm import lines, placed
 from reproduce.whole_arm import experiment, habits
 from tests.arm_in_page.test_live import HEAD, ROOT, number, start, told, wait_for_status
 from vmc_lib.cerebellum.offline import broyden_calibration
+from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import exact_weights, habitual_weights
 
 GOAL = np.array([0.475, 0.105, -0.09])
@@ -93,7 +94,7 @@ def test_its_memories_are_mixed_as_in_python(ask, past, name, rule):
             ask(script, target.tolist()),
             experiment.plan_reaches(target, past, rule=rule),
         )
-        assert mixed["chosen"] == expected.chosen.tolist()
+        assert mixed["chosen"] == expected.rows.tolist()
         assert np.allclose(mixed["weights"], expected.weights, atol=1e-10)
         assert np.allclose(mixed["u"], expected.excitations, atol=1e-10)
 
@@ -102,7 +103,7 @@ def test_its_memories_are_mixed_as_in_python(ask, past, name, rule):
 def test_it_moves_as_in_python(ask, past):
     plan = experiment.plan_reaches(GOAL, past)
     moved = ask("return arm.move(asked);", plan.excitations.tolist())[1:]
-    motion = plan.move()
+    motion = execute(plan).motion
     off = np.array([moment["q"] for moment in moved]) - motion.joints
     assert np.abs(off).max() < CLOSE
     assert np.allclose([moment["activation"] for moment in moved], motion.activation, atol=1e-9)
@@ -111,7 +112,7 @@ def test_it_moves_as_in_python(ask, past):
 
 @pytest.mark.browser
 def test_what_is_drawn_is_where_python_has_it(ask, past):
-    joints = experiment.plan_reaches(GOAL, past).move().joints[-1]
+    joints = execute(experiment.plan_reaches(GOAL, past)).motion.joints[-1]
     for q in (whole_arm_live.START, joints):
         seen, (ends, ways), data = ask("return arm.look(asked);", q.tolist()), lines(q), placed(q)
         assert np.allclose(seen["joints"], ends, atol=1e-9)
@@ -130,7 +131,7 @@ def test_its_corrections_are_pythons(ask, past):
     expected = broyden_calibration(experiment.plan_reaches(TARGETS, past), live.TRIALS)
     for k, target in enumerate(TARGETS):
         reached = np.array([trial["reached"] for trial in ask(script, target.tolist())])
-        assert np.abs(reached - expected.reached[:, k]).max() < CLOSE
+        assert np.abs(reached - expected.endpoint[:, k]).max() < CLOSE
 
 
 @pytest.mark.browser
@@ -144,7 +145,7 @@ def test_a_reader_sets_a_target_in_space(visit, past):
     wait_for_status(arm, "The planned reach")
     trials = broyden_calibration(experiment.plan_reaches(target, past), live.TRIALS)
     assert number(told(arm, "planned")) == pytest.approx(1000 * trials.error[0], abs=0.3)
-    final = trials.plans[0].move().activation[-1]
+    final = trials.movements[0].motion.activation[-1]
     assert told(arm, "active") == str((final > 0.05).sum())
     shown = [float(text) for text in arm.locator(".vmc-muscles b").all_inner_texts()]
     assert np.allclose(shown, final, atol=0.0051)

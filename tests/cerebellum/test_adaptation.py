@@ -1,11 +1,14 @@
 """Adaptation: a changed world is learned from errors, leaves an after-effect, and washes out."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 
 from reproduce.experiments.calibration import PERTURBATIONS, adapt, train_aim_correction
-from vmc_lib.cerebellum.adaptation import SILENT, Adaptation, pull
+from vmc_lib.cerebellum.adaptation import SILENT, Adaptation, weight_correction
 from vmc_lib.cerebellum.online import AimCorrection
+from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import draw_targets, plan
 from vmc_lib.motor.templates import load
 
@@ -58,9 +61,9 @@ def test_a_beginner_is_only_skilled(template_set, skill):
 
 
 def test_a_lone_lesson_takes_its_share_away(template_set):
-    learner = Adaptation(AimCorrection(template_set), template_set, caution=1.0)
-    reach = plan(np.array([[0.1, -0.4]]), template_set).perturbed(prism=0.1)
-    error = reach.target - learner.practise(reach)
+    learner = Adaptation(AimCorrection(template_set), template_set, regularisation=1.0)
+    reach = plan(np.array([[0.1, -0.4]]), template_set)
+    error = reach.target - learner.update(reach, partial(execute, prism=0.1)).endpoint
     learned = learner.cells.excite(reach.target) @ learner.purkinje
     np.testing.assert_allclose(learned, error / 2)
 
@@ -68,7 +71,7 @@ def test_a_lone_lesson_takes_its_share_away(template_set):
 def test_a_pull_shifts_as_equation_4_says():
     points = np.array([[(0.0, -0.4), (0.1, -0.4), (0.1, -0.3), (0.0, -0.3)]])
     shift = np.array([[0.01, 0.03]])
-    change = pull(points, shift)
+    change = weight_correction(points, shift)
     np.testing.assert_allclose((change[:, None] @ (points - SILENT))[:, 0], shift)
     assert change.sum() > 0
 
@@ -76,7 +79,7 @@ def test_a_pull_shifts_as_equation_4_says():
 def test_curves_hold_new_targets_only(template_set, skill):
     learner, rng = Adaptation(skill, template_set), np.random.default_rng(5)
     curve = adapt(learner, template_set, rng, PERTURBATIONS["a prism"], (1, 1, 1), 4)
-    assert curve.target.shape == curve.reached.shape == (3, 4, 2)
+    assert curve.target.shape == curve.endpoint.shape == (3, 4, 2)
     assert len(np.unique(curve.target.reshape(-1, 2), axis=0)) == 12
 
 

@@ -5,7 +5,7 @@ import pytest
 
 from reproduce.experiments import feedback_control as measure
 from vmc_lib.cerebellum.feedback_error import FeedbackErrorLearning
-from vmc_lib.motor.feedback import intend
+from vmc_lib.motor.feedback import reference_trajectory
 from vmc_lib.motor.planning import draw_targets
 from vmc_lib.motor.templates import load
 
@@ -42,7 +42,7 @@ def test_the_after_effect_is_a_mirror_image_and_washes_out(bends):
 def test_a_beginner_changes_nothing():
     template_set = load()
     targets = draw_targets(template_set, 3, np.random.default_rng(1))
-    meant = intend(measure.exact_plans(targets, template_set))
+    meant = reference_trajectory(measure.exact_plans(targets, template_set))
     corrected = FeedbackErrorLearning(template_set).correct(meant)
     np.testing.assert_allclose(corrected.excitations, meant.excitations, atol=1e-12)
 

@@ -5,6 +5,7 @@ import pytest
 
 from reproduce.experiments.feedback_control import exact_plans, fit_forward_model
 from vmc_lib.cerebellum.forward_model import ForwardModel, arm_copy
+from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import draw_targets
 from vmc_lib.motor.templates import load
 
@@ -18,7 +19,7 @@ def at_rest_and_on_the_way(motion, every=50):
 
 def test_it_learns_the_arm_by_feeling_it_move():
     template_set, rng = load(), np.random.default_rng(0)
-    others = exact_plans(draw_targets(template_set, 20, rng), template_set).move()
+    others = execute(exact_plans(draw_targets(template_set, 20, rng), template_set)).motion
     states = at_rest_and_on_the_way(others)
     truth = arm_copy()(*states)
     off = [
@@ -31,12 +32,12 @@ def test_it_learns_the_arm_by_feeling_it_move():
 
 def test_lessons_are_what_was_felt():
     template_set = load()
-    motion = exact_plans(
-        draw_targets(template_set, 5, np.random.default_rng(2)), template_set
-    ).move()
+    motion = execute(
+        exact_plans(draw_targets(template_set, 5, np.random.default_rng(2)), template_set)
+    ).motion
     model, lessons = ForwardModel(), at_rest_and_on_the_way(motion, 20)
     felt = arm_copy()(*lessons)
-    learned = model.learn(motion)(*lessons)
+    learned = model.update(motion)(*lessons)
     assert np.abs(learned - felt).max() < 0.1 * np.abs(felt).max()
 
 

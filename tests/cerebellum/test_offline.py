@@ -1,5 +1,7 @@
 """Off-line calibration, as published and better."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 
@@ -8,8 +10,9 @@ from vmc_lib.cerebellum.offline import (
     algorithm_1,
     algorithm_1_change,
     broyden_calibration,
-    calibrated,
+    calibrate,
 )
+from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import draw_targets, plan
 from vmc_lib.motor.templates import load
 
@@ -40,12 +43,14 @@ def test_equations_6_and_7_by_hand():
 def test_algorithm_1_takes_a_third_of_the_error_away(reaches):
     trials = algorithm_1(reaches)
     np.testing.assert_allclose(
-        trials.error[0], np.linalg.norm(reaches.reached() - reaches.target, axis=1)
+        trials.error[0], np.linalg.norm(execute(reaches).endpoint - reaches.target, axis=1)
     )
     assert trials.error.min(axis=0).mean() < 0.7 * trials.error[0].mean()
     best = reaches.with_weights(trials.best)
     np.testing.assert_allclose(
-        np.linalg.norm(best.reached() - best.target, axis=1), trials.error.min(axis=0), atol=1e-12
+        np.linalg.norm(execute(best).endpoint - best.target, axis=1),
+        trials.error.min(axis=0),
+        atol=1e-12,
     )
 
 
@@ -78,8 +83,8 @@ def test_a_hand_on_the_target_or_on_a_template_is_no_trouble():
 
 
 def test_guards_keep_a_loaded_hand_from_straying(reaches):
-    loaded = reaches.perturbed(Perturbation(load=0.25))
-    trials = [broyden_calibration(loaded, 4, guarded=on) for on in (True, False)]
+    loaded = partial(execute, perturbation=Perturbation(load=0.25))
+    trials = [broyden_calibration(reaches, 4, guarded=g, execute=loaded) for g in (True, False)]
     guarded, bold = (each.error for each in trials)
     np.testing.assert_array_equal(guarded[0], bold[0])
     assert bold[1:].max() > 2 * bold[0].max()  # what the guards are there for
@@ -97,7 +102,7 @@ def test_ten_thousand_corrections_are_finite_and_none_diverges():
     for n in (0, 20):
         assert np.abs(algorithm_1_change(many, p_a, n)).max() < 3
     few = many[:500].with_weights((many.weights + algorithm_1_change(many, p_a, 20))[:500])
-    motion = few.move()
+    motion = execute(few).motion
     assert np.all(np.abs(motion.q) < np.pi)
     assert few.excitations.min() >= 0
     assert few.excitations.max() <= 1
@@ -106,7 +111,7 @@ def test_ten_thousand_corrections_are_finite_and_none_diverges():
 def test_weights_that_are_no_numbers_are_refused():
     reach = plan([0.15, -0.4], load())
     with pytest.raises(ValueError, match="nan"):
-        reach.with_weights(reach.weights * np.nan).reached()
+        _ = execute(reach.with_weights(reach.weights * np.nan)).endpoint
 
 
 def test_no_correction_throws_the_arm_about(reaches):
@@ -116,10 +121,10 @@ def test_no_correction_throws_the_arm_about(reaches):
 
 
 def test_a_readers_own_rule_is_told_what_it_must_return(reaches):
-    assert calibrated(broyden_calibration, reaches).error.shape == (3, 60)
+    assert calibrate(broyden_calibration, reaches).error.shape == (3, 60)
 
     def mine(plan):
         return plan.weights
 
     with pytest.raises(ValueError, match="rule mine returned a ndarray: it must return Trials"):
-        calibrated(mine, reaches)
+        calibrate(mine, reaches)

@@ -13,6 +13,7 @@ from vmc_lib.cerebellum.online import (
     equation_8,
     smooth_weights,
 )
+from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import draw_targets, habitual_weights, plan
 from vmc_lib.motor.templates import load
 
@@ -28,7 +29,7 @@ def held_out(template_set):
 
 
 def error(reach):
-    return np.linalg.norm(reach.reached() - reach.target, axis=-1).mean()
+    return np.linalg.norm(execute(reach).endpoint - reach.target, axis=-1).mean()
 
 
 def lessons(template_set, count, seed=21):
@@ -40,7 +41,7 @@ def test_nothing_learned_changes_nothing(template_set, held_out):
     for hindsight in (True, False):
         untaught = WeightCorrection(hindsight).correct(held_out)
         np.testing.assert_array_equal(untaught.weights, held_out.weights)
-        np.testing.assert_array_equal(untaught.chosen, held_out.chosen)
+        np.testing.assert_array_equal(untaught.rows, held_out.rows)
     beginner = AimCorrection(template_set).correct(held_out)
     np.testing.assert_allclose(
         beginner.weights, smooth_weights(held_out.target, held_out.points), atol=1e-9
@@ -51,7 +52,7 @@ def test_the_linear_model_learns_what_it_practised(template_set):
     (practised,) = lessons(template_set, 25)
     before, model, after = error(practised), WeightCorrection(), []
     for _ in range(3):
-        after.append(error(model.practise(practised).correct(practised)))
+        after.append(error(model.update(practised).correct(practised)))
     assert after[0] < 0.7 * before
     assert after[2] < after[0]
 
@@ -63,19 +64,19 @@ def test_algorithm_2_step_by_step(template_set, held_out):
     for p_t, p in zip(practised.target, practised.points, strict=True):
         trials = algorithm_1(plan(p_t, template_set))
         w_off = trials.weights[trials.error.argmin()]
-        p_a = plan(p_t, template_set).with_weights(w_off).reached()
+        p_a = execute(plan(p_t, template_set).with_weights(w_off)).endpoint
         w_there = habitual_weights(p_a, p)
         taught.append(np.concatenate([p_a, w_there, p.ravel()]))
         right.append(w_off - w_there)
     line = LinearRegression().fit(taught, right)
     change = line.predict(equation_8(held_out))
-    found = g.practise(practised).correct(held_out).weights - held_out.weights
+    found = g.update(practised).correct(held_out).weights - held_out.weights
     np.testing.assert_allclose(found, change, atol=1e-6)
 
 
 def test_the_other_reading_learns_for_the_target(template_set):
     (practised,), model = lessons(template_set, 25), WeightCorrection(hindsight=False)
-    ((inputs, change),) = model.practise(practised).lessons
+    ((inputs, change),) = model.update(practised).training_pairs
     np.testing.assert_array_equal(inputs, equation_8(practised))
     np.testing.assert_allclose(practised.weights + change, algorithm_1(practised).best)
 
@@ -83,7 +84,7 @@ def test_the_other_reading_learns_for_the_target(template_set):
 def test_algorithm_2_as_printed_beats_the_other_reading(template_set, held_out):
     (practised,), left = lessons(template_set, 25), []
     for hindsight in (True, False):
-        left.append(error(WeightCorrection(hindsight).practise(practised).correct(held_out)))
+        left.append(error(WeightCorrection(hindsight).update(practised).correct(held_out)))
     assert left[0] < 0.61 * error(held_out)  # the paper's own ratio, on what it practised
     assert left[0] < 0.9 * left[1]
 
@@ -91,17 +92,17 @@ def test_algorithm_2_as_printed_beats_the_other_reading(template_set, held_out):
 def test_granule_cells_generalise(template_set, held_out):
     before = error(held_out)
     learners = [
-        AimCorrection(template_set).practise(*lessons(template_set, 25, seed))
+        AimCorrection(template_set).update(*lessons(template_set, 25, seed))
         for seed in range(30, 35)
     ]
     assert np.mean([error(learner.correct(held_out)) for learner in learners]) < 0.22 * before
     for lesson in lessons(template_set, 125, seed=35):
-        learners[0].practise(lesson)
+        learners[0].update(lesson)
     assert error(learners[0].correct(held_out)) < 0.10 * before
 
 
 def test_one_reach_is_corrected_as_in_a_batch(template_set, held_out):
-    cerebellum = AimCorrection(template_set).practise(*lessons(template_set, 25))
+    cerebellum = AimCorrection(template_set).update(*lessons(template_set, 25))
     alone = cerebellum.correct(plan(held_out.target[3], template_set))
     np.testing.assert_allclose(alone.weights, cerebellum.correct(held_out).weights[3], atol=1e-12)
 

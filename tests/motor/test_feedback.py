@@ -7,7 +7,17 @@ from reproduce.experiments import feedback_control as measure
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.cerebellum.forward_model import arm_copy
 from vmc_lib.motor import feedback
-from vmc_lib.motor.feedback import BLIND, SIGHT, Senses, accelerate, curl, intend, move, push
+from vmc_lib.motor.execution import execute
+from vmc_lib.motor.feedback import (
+    BLIND,
+    SIGHT,
+    FeedbackGains,
+    curl,
+    excitations_for_acceleration,
+    push,
+    reference_trajectory,
+    simulate_feedback,
+)
 from vmc_lib.motor.planning import draw_targets, plan
 from vmc_lib.motor.templates import START, load
 
@@ -30,7 +40,7 @@ def few(template_set):
 
 
 def test_blind_it_moves_as_the_plan_alone(few):
-    motion, alone = move(intend(few), BLIND), few.move()
+    motion, alone = simulate_feedback(reference_trajectory(few), BLIND), execute(few).motion
     np.testing.assert_allclose(motion.q[:, :1000], alone.q[:, :1000], atol=1e-6)
     assert motion.q.shape == (3, 2001, 2)
     assert motion.activation.shape == (3, 2001, 6)
@@ -41,7 +51,7 @@ def test_a_jumping_target_is_reached(template_set, model):
     rng = np.random.default_rng(3)
     first, second = measure.draw_target_jumps(template_set, 100, rng)
     meant = measure.reference_after_jump(template_set, first, second)
-    ends = move(meant, SIGHT, model, noise=measure.NOISE, rng=rng).reached
+    ends = simulate_feedback(meant, SIGHT, model, noise=measure.NOISE, rng=rng).endpoint
     assert (np.linalg.norm(ends - second, axis=-1) < 0.010).mean() >= 0.9
     np.testing.assert_allclose(np.linalg.norm(second - first, axis=-1), 0.05)
 
@@ -54,9 +64,11 @@ def test_too_few_jumps_within_reach_are_an_error(template_set):
 def test_without_its_forward_model_the_arm_shakes(template_set, model):
     """The bar: the lesion's tremor is at least five times the healthy arm's."""
     targets = draw_targets(template_set, 40, np.random.default_rng(4))
-    meant = intend(measure.exact_plans(targets, template_set))
+    meant = reference_trajectory(measure.exact_plans(targets, template_set))
     healthy, lesion = (
-        move(meant, SIGHT, known, noise=measure.NOISE, rng=np.random.default_rng(5)).hand[..., :2]
+        simulate_feedback(
+            meant, SIGHT, known, noise=measure.NOISE, rng=np.random.default_rng(5)
+        ).hand[..., :2]
         for known in (model, None)
     )
     powers = [measure.tremor(path)[0].mean() for path in (lesion, healthy)]
@@ -66,19 +78,21 @@ def test_without_its_forward_model_the_arm_shakes(template_set, model):
 
 
 def test_quick_senses_need_no_model(few):
-    meant, quick = intend(few), SIGHT._replace(delay=0.0)
-    alone, with_model = (move(meant, quick, known).q for known in (None, arm_copy()))
+    meant, quick = reference_trajectory(few), SIGHT._replace(delay=0.0)
+    alone, with_model = (simulate_feedback(meant, quick, known).q for known in (None, arm_copy()))
     np.testing.assert_array_equal(alone, with_model)
     ends = hand(alone[:, -1])[:, :2]
     assert np.linalg.norm(ends - few.target, axis=-1).max() < 0.005
 
 
 def test_a_push_is_mended_by_the_reflex_and_more_by_sight(few):
-    meant, world = intend(few), push((0.0, 20.0), at=0.8)
+    meant, world = reference_trajectory(few), push((0.0, 20.0), at=0.8)
     reflex, none = SIGHT._replace(gain=0.0), BLIND
     far = {}
     for name, senses in {"none": none, "reflex": reflex, "all": SIGHT}.items():
-        pushed, left_alone = (move(meant, senses, arm_copy(), w).hand for w in (world, None))
+        pushed, left_alone = (
+            simulate_feedback(meant, senses, arm_copy(), w).hand for w in (world, None)
+        )
         away = np.linalg.norm(pushed - left_alone, axis=-1).mean(axis=0)
         assert away[800] < 1e-9 < away[860], name
         far[name] = away[1300]
@@ -93,14 +107,14 @@ def test_each_of_a_batch_may_get_a_push_of_its_own():
 
 
 def test_a_foreseen_state_is_where_the_arm_will_be(few):
-    motion, late, ticks = move(intend(few), BLIND), 300, 12
+    motion, late, ticks = simulate_feedback(reference_trajectory(few), BLIND), 300, 12
     now = late + ticks * feedback.TICK
     since = np.swapaxes(motion.activation[:, late : now : feedback.TICK], 0, 1)
     seen = motion.q[:, late], motion.velocity[:, late]
-    q, velocity = feedback.foresee(arm_copy(), *seen, since)
+    q, velocity = feedback.predict_state(arm_copy(), *seen, since)
     assert np.abs(q - motion.q[:, now]).max() < 0.05 * np.abs(seen[0] - motion.q[:, now]).max()
     assert np.abs(velocity - motion.velocity[:, now]).max() < 0.1
-    assert feedback.foresee(None, *seen, since) == seen
+    assert feedback.predict_state(None, *seen, since) == seen
 
 
 def test_muscles_accelerate_the_arm_as_asked():
@@ -108,7 +122,9 @@ def test_muscles_accelerate_the_arm_as_asked():
     q, velocity = np.tile(START, (20, 1)), np.zeros((20, 2))
     wish, before = rng.uniform(-3, 3, (20, 2)), np.full((20, 6), 0.2)
     model = arm_copy()
-    added = model(q, velocity, accelerate(q, velocity, wish, before)) - model(q, velocity, before)
+    added = model(q, velocity, excitations_for_acceleration(q, velocity, wish, before)) - model(
+        q, velocity, before
+    )
     np.testing.assert_allclose(added, wish, atol=0.05)
 
 
@@ -120,27 +136,34 @@ def test_a_curl_field_pushes_aside_and_not_along():
 
 def test_motor_noise_comes_from_the_rng_alone(few):
     first, again, other = (
-        move(intend(few, 1.0), noise=0.2, rng=np.random.default_rng(s)).q for s in (7, 7, 8)
+        simulate_feedback(reference_trajectory(few, 1.0), noise=0.2, rng=np.random.default_rng(s)).q
+        for s in (7, 7, 8)
     )
     np.testing.assert_array_equal(first, again)
     assert not np.array_equal(first, other)
 
 
 @pytest.mark.parametrize(
-    "senses", [Senses(delay=-0.01), Senses(delay=0.125), Senses(spinal=2e-4), Senses(spinal=0.0)]
+    "senses",
+    [
+        FeedbackGains(delay=-0.01),
+        FeedbackGains(delay=0.125),
+        FeedbackGains(spinal=2e-4),
+        FeedbackGains(spinal=0.0),
+    ],
 )
 def test_a_delay_that_cannot_be_is_refused(few, senses):
     with pytest.raises(ValueError, match="delay of"):
-        move(intend(few, 1.0), senses)
+        simulate_feedback(reference_trajectory(few, 1.0), senses)
 
 
 def test_noise_without_an_rng_is_refused(few):
     with pytest.raises(ValueError, match="needs an rng"):
-        move(intend(few, 1.0), noise=0.1)
+        simulate_feedback(reference_trajectory(few, 1.0), noise=0.1)
 
 
 def test_an_intention_is_as_long_as_a_reach_and_a_batch(few, template_set):
     with pytest.raises(ValueError, match=r"0\.5 s is too short"):
-        intend(few, 0.5)
+        reference_trajectory(few, 0.5)
     with pytest.raises(ValueError, match="no batch"):
-        intend(plan(few.target[0], template_set))
+        reference_trajectory(plan(few.target[0], template_set))

@@ -5,6 +5,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from vmc_lib.motor import templates
+from vmc_lib.motor.execution import execute, rotate_about_eye
 from vmc_lib.motor.planning import (
     draw_targets,
     exact_weights,
@@ -14,7 +16,6 @@ from vmc_lib.motor.planning import (
     plan,
     surrounded,
     surrounding,
-    turned,
 )
 from vmc_lib.motor.templates import TemplateSet, load
 
@@ -49,7 +50,7 @@ def test_a_target_on_a_template_is_that_template(rule, template_set):
     points = template_set.points[surrounded(template_set.points, template_set.points)]
     reaches = plan(points, template_set, rule)
     np.testing.assert_allclose(reaches.weights.max(axis=-1), 1, atol=1e-12)
-    np.testing.assert_allclose(reaches.reached(), points, atol=1e-9)
+    np.testing.assert_allclose(execute(reaches).endpoint, points, atol=1e-9)
 
 
 def test_the_neighbours_are_the_corners_of_the_targets_cell(template_set):
@@ -64,7 +65,7 @@ def test_the_neighbours_are_the_corners_of_the_targets_cell(template_set):
 def test_a_plan_is_a_weighted_sum_of_excitations(template_set):
     reach = plan([0.15, -0.4], template_set)
     expected = sum(
-        w * template_set.excitations[i] for w, i in zip(reach.weights, reach.chosen, strict=True)
+        w * template_set.excitations[i] for w, i in zip(reach.weights, reach.rows, strict=True)
     )
     np.testing.assert_allclose(reach.excitations, expected, atol=1e-12)
     wild = reach.with_weights(reach.weights * [9, -9, 9, -9])
@@ -75,8 +76,10 @@ def test_a_plan_is_a_weighted_sum_of_excitations(template_set):
 def test_a_large_batch_is_moved_in_parts_alike(template_set):
     targets = draw_targets(template_set, 30, np.random.default_rng(1))
     batch = plan(targets, template_set)
-    many = batch.with_weights(np.broadcast_to(batch.weights, (20, 30, 4))).reached()
-    np.testing.assert_allclose(many[-1], plan(targets, template_set).move().reached, atol=1e-12)
+    many = execute(batch.with_weights(np.broadcast_to(batch.weights, (20, 30, 4)))).endpoint
+    np.testing.assert_allclose(
+        many[-1], execute(plan(targets, template_set)).motion.endpoint, atol=1e-12
+    )
 
 
 def test_targets_are_drawn_only_where_templates_surround_them(template_set):
@@ -89,8 +92,8 @@ def test_targets_are_drawn_only_where_templates_surround_them(template_set):
 def test_habit_misses_by_a_few_percent_of_the_reach(template_set):
     targets = draw_targets(template_set, 200, np.random.default_rng(2))
     reach = plan(targets, template_set)
-    missed = np.linalg.norm(reach.reached() - targets, axis=1)
-    assert reach.missed() == pytest.approx(missed, abs=1e-12)
+    missed = np.linalg.norm(execute(reach).endpoint - targets, axis=1)
+    assert execute(reach).error == pytest.approx(missed, abs=1e-12)
     assert 0.01 < np.mean(missed / np.linalg.norm(targets, axis=1)) < 0.05
 
 
@@ -119,26 +122,26 @@ def test_more_templates_or_fewer_can_be_combined(count, template_set):
     distance = np.linalg.norm(template_set.points - targets[:, None], axis=-1)
     used = np.take_along_axis(distance, chosen, axis=-1)
     np.testing.assert_allclose(used, np.sort(distance, axis=-1)[:, :count])
-    mixed = plan(targets, template_set, chosen=chosen)
+    mixed = plan(targets, template_set, rows=chosen)
     np.testing.assert_allclose(mixed.weights.sum(axis=-1), 1)
     with pytest.raises(ValueError, match="cannot choose"):
         nearest(targets, template_set.points, 1 + len(template_set.points))
 
 
-def test_a_plan_is_moved_once(template_set, monkeypatch):
-    reach = plan([0.15, -0.4], template_set)
-    first = reach.reached()
-    monkeypatch.setattr(type(reach), "move", lambda _: pytest.fail("moved again"))
-    np.testing.assert_array_equal(reach.reached(), first)
+def test_a_movement_is_simulated_once(template_set, monkeypatch):
+    movement = execute(plan([0.15, -0.4], template_set))
+    first = movement.endpoint
+    monkeypatch.setattr(templates, "simulate", lambda *_, **__: pytest.fail("simulated again"))
+    np.testing.assert_array_equal(movement.motion.endpoint, first)
+    np.testing.assert_array_equal(movement.endpoint, first)
 
 
 def test_a_prism_turns_what_is_seen_not_what_is_done(template_set):
-    straight = plan([0.15, -0.4], template_set)
-    turned_view = straight.perturbed(prism=0.1)
-    np.testing.assert_array_equal(turned_view.move().reached, straight.move().reached)
-    seen = turned_view.reached()
-    np.testing.assert_allclose(turned(seen, -0.1), straight.reached())
-    assert seen[1] > straight.reached()[1]  # upwards
+    straight, behind_glass = (execute(plan([0.15, -0.4], template_set), prism=p) for p in (0, 0.1))
+    np.testing.assert_array_equal(behind_glass.motion.endpoint, straight.motion.endpoint)
+    seen = behind_glass.endpoint
+    np.testing.assert_allclose(rotate_about_eye(seen, -0.1), straight.endpoint)
+    assert seen[1] > straight.endpoint[1]  # upwards
 
 
 @pytest.mark.parametrize("rule", [habitual_weights, exact_weights])

@@ -15,17 +15,17 @@ def test_every_template_ends_at_rest_on_its_point(spacing):
     template_set = templates.load(spacing)
     motion = templates.reach(template_set.excitations)
     assert (
-        np.linalg.norm(motion.reached - reach_templates.reachable_grid(spacing), axis=-1).max()
+        np.linalg.norm(motion.endpoint - reach_templates.reachable_grid(spacing), axis=-1).max()
         < 2e-4
     )
     assert np.abs(motion.velocity[..., -1, :]).max() < 0.02
-    np.testing.assert_array_equal(template_set.points, motion.reached)
+    np.testing.assert_array_equal(template_set.points, motion.endpoint)
 
 
 def test_the_reference_engine_agrees():
     template_set = templates.load(0.08)
     motion = templates.simulate(template_set.excitations[:4], templates.START, engine="mujoco")
-    np.testing.assert_allclose(motion.reached, template_set.points[:4], atol=1e-6)
+    np.testing.assert_allclose(motion.endpoint, template_set.points[:4], atol=1e-6)
 
 
 @pytest.mark.parametrize("level", photos.LEVELS)
@@ -39,13 +39,13 @@ def test_every_template_set_surrounds_every_shuttlecock(level):
 def test_what_ships_can_be_made_again():
     goal = reach_templates.reachable_grid(0.08)[5]
     remade = inverse_dynamics.spline() @ reach_templates.find_reach(goal)
-    np.testing.assert_allclose(templates.reach(remade).reached, goal, atol=1e-6)
+    np.testing.assert_allclose(templates.reach(remade).endpoint, goal, atol=1e-6)
     np.testing.assert_allclose(remade, templates.load(0.08).excitations[5], atol=1e-3)
 
 
 def test_demand_is_met_by_the_holding_activation():
     q = inverse_kinematics([0.12, -0.4])
-    held = templates.simulate(np.tile(inverse_dynamics.hold(q), (300, 1)), q)
+    held = templates.simulate(np.tile(inverse_dynamics.static_activation(q), (300, 1)), q)
     np.testing.assert_allclose(held.q[-1], q, atol=0.02)
 
 

@@ -112,7 +112,7 @@ def test_the_slopes_of_the_finger_are_its_slopes():
 
 def test_the_commands_of_rest_hold_the_arm_and_the_shoulder_follows(nerves):
     motion = nerves.move(np.tile(nerves.rest, (plant.TICKS, 1)))
-    assert np.linalg.norm(motion.reached - plant.tip_and_jacobian(habits.START)[0]) < 0.005
+    assert np.linalg.norm(motion.endpoint - plant.tip_and_jacobian(habits.START)[0]) < 0.005
     joints = motion.joints[-1]
     np.testing.assert_allclose(
         joints, plant.JOINT_COUPLING @ joints[plant.FREE], atol=np.radians(0.5)
@@ -154,7 +154,7 @@ def test_every_muscle_obeys_one_command(count):
 
 def test_many_reaches_move_as_each_alone(nerves):
     past = habits.load_templates()
-    both = past.reach(past.excitations[:4].reshape(2, 2, plant.TICKS, -1)).reached
+    both = past.reach(past.excitations[:4].reshape(2, 2, plant.TICKS, -1)).endpoint
     np.testing.assert_allclose(both.reshape(4, 3), past.points[:4], atol=1e-9)
 
 

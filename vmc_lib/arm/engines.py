@@ -13,11 +13,12 @@ from mujoco.batch import Batch
 from vmc_lib.arm import dynamics
 from vmc_lib.arm.dynamics import accelerations, table_row, trig_basis, trig_basis_gradient
 from vmc_lib.arm.model import F0, L0, LIMITS, SLACK, STEP, loaded, muscle_paths
-from vmc_lib.arm.muscle import PAPER, activation_rate, fibre, force
+from vmc_lib.arm.muscle import PAPER, euler_activation, fibre, musculotendon_force
 from vmc_lib.compiled import compiled
 
 STOP_STIFFNESS = 200.0  # N m / rad: ours, not arm26's; bone and ligament beyond the joints' limits
 STOP_DAMPING = 0.5  # s / rad
+FARTHEST = 2 * np.pi  # rad: no joint turns so far, unless the movement blows up
 NO_PUSH, NO_DRAG, NO_FIELD = np.empty((0, 0, 2)), np.zeros((2, 2)), np.zeros((2, 2))
 
 
@@ -107,10 +108,10 @@ def _step(
                     entry[joint, k] = tables[joint, row, k] + share * tables[joint, row, 12 + k]
             for k in range(6):
                 a = activation[arm, t, k]
-                activation[arm, t + 1, k] = a + step * activation_rate(u[arm, t, k], a)
+                activation[arm, t + 1, k] = euler_activation(u[arm, t, k], a, step)
                 length, r1, r2 = entry[0, k] + entry[1, k], entry[0, 6 + k], entry[1, 6 + k]
-                normal = fibre(length, r1 * w1 + r2 * w2, L0[k], SLACK[k])
-                pull = force(a, normal[0], normal[1], F0[k])
+                shortening = r1 * w1 + r2 * w2
+                pull = musculotendon_force(a, length, shortening, L0[k], SLACK[k], F0[k])
                 torque[0] += r1 * pull
                 torque[1] += r2 * pull
             if len(push):
@@ -140,7 +141,7 @@ def _mujoco_engine(excitations, start, first, perturbation, step, muscle):
     activation = activations(excitations, first, muscle, step)
     model = copy(loaded(perturbation.load))
     model.opt.timestep = step
-    model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET  # let what blows up be seen
+    model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET  # let a blow-up be seen
     arms = Batch(model, len(start), nthread=1, persistent=True)
     now = arms.bind("qpos"), arms.bind("qvel")  # views of its states
     now[0][:] = start
@@ -152,6 +153,8 @@ def _mujoco_engine(excitations, start, first, perturbation, step, muscle):
         arms.qfrc_applied = torque + stop_torque(*now) + now[1] @ np.transpose(perturbation.field)
         arms.step(stage=mujoco.mjtStage.mjSTAGE_VEL)
         path.append([x.copy() for x in now])
+        if not np.all(np.abs(now[0]) < FARTHEST):
+            break
     return *(np.stack(x, axis=1) for x in zip(*path, strict=True)), activation
 
 

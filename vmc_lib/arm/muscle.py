@@ -31,6 +31,11 @@ def activation_rate(excitation, activation):
     return gap * (fall + haste * excitation * (gap >= 0))
 
 
+def euler_activation(excitation, activation, step):
+    """Eq. 9 by Euler's method: the activation one `step` in s later; same shape."""
+    return activation + step * activation_rate(excitation, activation)
+
+
 def excitation_for(activation, rate):
     """Eq. 9 solved for the excitation that changes this activation at this rate; same shape.
 
@@ -79,6 +84,11 @@ def fibre(length, shortening, optimal, slack):
     l0, `slack` the tendon's length (m).
     """
     return (length - slack) / optimal, -shortening / (MAX_VELOCITY * optimal)
+
+
+def musculotendon_force(activation, length, shortening, optimal, slack, maximum):
+    """Eq. 10 for a muscle and its tendon, measured as `fibre` takes them: newtons."""
+    return force(activation, *fibre(length, shortening, optimal, slack), maximum)
 
 
 def noisy(excitation, share, rng):

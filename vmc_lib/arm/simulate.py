@@ -11,11 +11,9 @@ from typing import NamedTuple
 import numpy as np
 
 from vmc_lib.arm.dynamics import MARGIN, hand
-from vmc_lib.arm.engines import ENGINES
+from vmc_lib.arm.engines import ENGINES, FARTHEST
 from vmc_lib.arm.model import F0, LIMITS, STEP
 from vmc_lib.arm.muscle import PAPER
-
-FARTHEST = 2 * np.pi  # rad: no joint turns so far, unless the movement blows up
 
 
 class Perturbation(NamedTuple):

@@ -6,7 +6,7 @@ miss becomes an error at its *target*, and the Purkinje weights make the smalles
 a share of it away (Albus, 1971). The error alone does not say what is wrong. It can be corrected
 
 - in the **aim**, as behind a prism: plan for another place, with the templates there;
-- in the **weights**, as with a load: give the same templates other weights, which need not sum to
+- in the **pull**, as with a load: give the same templates other weights, which need not sum to
   one. To do nothing is a template too, and the hand then hangs straight down.
 """
 
@@ -20,7 +20,7 @@ from vmc_lib.motor.planning import Plan, plan, surrounded
 from vmc_lib.motor.templates import REACH
 
 SILENT = np.array([0.0, -REACH])  # where the hand ends when every muscle is silent
-CORRECTIONS = ("aim", "weights")
+CORRECTIONS = ("aim", "pull")
 SHARES = np.linspace(1, 0, 41)  # of a shift of the aim: the largest that experience allows is made
 
 
@@ -33,7 +33,7 @@ class Adaptation:
         What was learned before the change.
     template_set : TemplateSet
         The remembered reaches.
-    corrects : {"aim", "weights"}
+    corrects : {"aim", "pull"}
         What to change about a plan.
     regularisation : float
         A single error is reduced by a share 1 / (1 + regularisation).
@@ -80,7 +80,7 @@ class Adaptation:
     def shift(self, plan: Plan):
         """How far to shift the hand, (B, 2), as learned; an aim is kept where templates are."""
         shift = self.cells.excite(plan.target) @ self.purkinje
-        if self.corrects == "weights":
+        if self.corrects == "pull":
             return shift
         shares = SHARES[:, None, None] * shift
         known = surrounded(plan.target + shares, self.template_set.points)

@@ -4,7 +4,12 @@ import numpy as np
 import pytest
 
 from reproduce.experiments import feedback_control, obstacle_avoidance
-from vmc_lib.motor.feedback import SIGHT, Intention, intend, move
+from vmc_lib.motor.feedback import (
+    SIGHT,
+    ReferenceTrajectory,
+    reference_trajectory,
+    simulate_feedback,
+)
 from vmc_lib.motor.templates import load
 
 
@@ -14,14 +19,16 @@ def drawn():
     found = [
         obstacle_avoidance.plan_around(*pair, load()) for pair in zip(targets, balls, strict=True)
     ]
-    way = Intention(*(np.concatenate(parts) for parts in zip(*(w for _, w in found), strict=True)))
+    way = ReferenceTrajectory(
+        *(np.concatenate(parts) for parts in zip(*(w for _, w in found), strict=True))
+    )
     return targets, balls, way
 
 
 def test_the_ball_lies_in_the_way_and_the_second_way_goes_round(drawn):
     targets, balls, way = drawn
     straight = obstacle_avoidance.reference_paths(
-        intend(feedback_control.exact_plans(targets, load()))
+        reference_trajectory(feedback_control.exact_plans(targets, load()))
     )
     assert obstacle_avoidance.clearance(straight, balls).max() < 0.001
     assert np.linalg.norm(straight[:, -1] - straight[:, 0], axis=-1).min() > obstacle_avoidance.LONG
@@ -33,9 +40,9 @@ def test_the_ball_lies_in_the_way_and_the_second_way_goes_round(drawn):
 def test_the_watched_arm_goes_that_way_and_arrives(drawn):
     targets, balls, way = drawn
     model = feedback_control.fit_forward_model(load(), np.random.default_rng(0))
-    path = move(way, SIGHT, model, noise=feedback_control.NOISE, rng=np.random.default_rng(1)).hand[
-        ..., :2
-    ]
+    path = simulate_feedback(
+        way, SIGHT, model, noise=feedback_control.NOISE, rng=np.random.default_rng(1)
+    ).hand[..., :2]
     assert obstacle_avoidance.clearance(path, balls).min() > obstacle_avoidance.RADIUS
     assert np.linalg.norm(path[:, -1] - targets, axis=-1).max() < 0.01
 

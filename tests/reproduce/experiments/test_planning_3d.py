@@ -27,7 +27,7 @@ def test_a_turn_carries_the_hand_about_the_trunk(memories):
 
 def test_a_memory_alone_is_repeated(memories):
     again = memories.reach(memories.excitations[[7]])
-    np.testing.assert_allclose(again.reached, memories.points[[7]])
+    np.testing.assert_allclose(again.endpoint, memories.points[[7]])
 
 
 def test_the_eight_memories_lie_round_the_target(flat, memories):

@@ -19,7 +19,7 @@ def test_a_posture_puts_the_tip_where_it_should():
 
 def test_many_trials_of_many_movements_move_as_each_alone(past):
     torques = past.excitations[:6].reshape(2, 3, plant.SAMPLES, 2)
-    np.testing.assert_allclose(plant.reach(torques).reached.reshape(6, 2), past.points[:6])
+    np.testing.assert_allclose(plant.reach(torques).endpoint.reshape(6, 2), past.points[:6])
 
 
 def test_kinetic_energy_is_kept_without_friction(monkeypatch):

@@ -10,6 +10,7 @@ from reproduce.peers.adaptive_controllers import (
     FeedbackError,
 )
 from vmc_lib.cerebellum.online import AimCorrection, mossy_fibres
+from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import draw_targets, plan
 from vmc_lib.motor.templates import load
 
@@ -23,9 +24,9 @@ def some():
 def test_every_peer_learns_something(name, some):
     kind, cells = LEARNERS[name]
     pupil = kind(load(), cells())
-    before = np.linalg.norm(pupil.correct(some).reached() - some.target, axis=-1).mean()
-    pupil.practise(some)
-    after = np.linalg.norm(pupil.correct(some).reached() - some.target, axis=-1).mean()
+    before = np.linalg.norm(execute(pupil.correct(some)).endpoint - some.target, axis=-1).mean()
+    pupil.update(some)
+    after = np.linalg.norm(execute(pupil.correct(some)).endpoint - some.target, axis=-1).mean()
     assert after < 0.9 * before
 
 
@@ -45,7 +46,7 @@ def test_hindsight_and_feedback_error_say_the_same_of_two_places(some):
     """How far beyond to aim is the same number; they differ in where it is held for right."""
     aim, reached = some.target + 0.01, some.target - [0.02, 0.0]
     (at_end, then), (at_target, asked) = (
-        kind(load(), DeltaRuleCells()).lessons(some, aim, reached)
+        kind(load(), DeltaRuleCells()).training_pairs(some, aim, reached)
         for kind in (AimCorrection, FeedbackError)
     )
     np.testing.assert_allclose(then, asked)
@@ -59,6 +60,6 @@ def test_a_distal_teacher_sends_the_error_back_through_its_models_slopes(some):
     pupil = DistalTeacher(load(), DeltaRuleCells())
     pupil.model = SimpleNamespace(partial_fit=lambda x, y: None, predict=lambda x: x[:, :2] @ turn)
     reached = some.target - [0.02, 0.01]
-    inputs, change = pupil.lessons(some, some.target, reached)
+    inputs, change = pupil.training_pairs(some, some.target, reached)
     np.testing.assert_allclose(change, np.tile([0.04, 0.02], (len(reached), 1)), atol=1e-9)
     np.testing.assert_allclose(inputs, mossy_fibres(some))

@@ -6,7 +6,7 @@ import pytest
 from reproduce.peers import minimum_variance, optimal_control
 from reproduce.peers.motor_noise import with_noise
 from vmc_lib.motor import templates
-from vmc_lib.motor.inverse_dynamics import smooth
+from vmc_lib.motor.inverse_dynamics import minimum_jerk_profile
 
 
 def test_every_optimum_is_at_its_target_and_stays():
@@ -64,6 +64,6 @@ def test_slopes_are_what_a_nudge_does():
 
 
 def test_the_least_jerk_is_one():
-    way = smooth(np.arange(1001) / 700)[:, None] * [0.1, 0.2]
+    way = minimum_jerk_profile(np.arange(1001) / 700)[:, None] * [0.1, 0.2]
     assert minimum_variance.jerk(way) == pytest.approx(1)
     assert minimum_variance.jerk(way[None] + 0.001 * np.sin(np.arange(1001) / 20)[:, None]) > 1.5

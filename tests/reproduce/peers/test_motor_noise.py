@@ -25,7 +25,7 @@ def test_its_strength_is_told_by_where_the_hand_ends():
     targets = draw_targets(load(), 200, np.random.default_rng(1))
     told = np.tile(plan(targets, load(), exact_weights).excitations, (5, 1, 1, 1))
     share = motor_noise.noise_share_for(mm)
-    ends = reach(motor_noise.with_noise(told, share, np.random.default_rng(2))).reached
+    ends = reach(motor_noise.with_noise(told, share, np.random.default_rng(2))).endpoint
     assert 1000 * motor_noise.endpoint_deviation(ends) == pytest.approx(mm, rel=0.15)
     assert share == pytest.approx(minimum_variance.noise_share(), rel=1e-6)
 
