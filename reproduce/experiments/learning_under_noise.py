@@ -1,6 +1,6 @@
 """What calibration and learning make of an arm that wavers (`motor_noise`)."""
 
-from functools import partial
+from functools import cache, partial
 
 import numpy as np
 
@@ -50,6 +50,7 @@ def compare_calibration(noise, seed, count):
     """The off-line part of `compare_learners`, for so many targets."""
     rng = np.random.default_rng((seed, 3))
     habit = plan(draw_targets(load(), count, rng), templates_with_noise(noise, (seed, 4)))
+    once = cache(execute)  # each plan meets its noise once
     many = execute(habit.with_weights(np.tile(habit.weights, (20, 1, 1)))).endpoint
     miss = _norm(many - habit.target).mean()
     left = {
@@ -57,7 +58,7 @@ def compare_calibration(noise, seed, count):
         "nothing but noise": _norm(many - many.mean(axis=0)).mean() / miss,
     }
     for name, rule in {"Algorithm 1": algorithm_1, "Broyden": broyden_calibration}.items():
-        trials = rule(habit)
+        trials = rule(habit, execute=once)
         again = execute(habit.with_weights(np.tile(trials.best, (20, 1, 1)))).endpoint
         left[f"{name}, best trial"] = trials.error.min(axis=0).mean() / miss
         left[f"{name}, again"] = _norm(again - habit.target).mean() / miss

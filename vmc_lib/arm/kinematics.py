@@ -31,7 +31,7 @@ def inverse_kinematics(p):
 
     Raises
     ------
-    NoReach
+    vmc_lib.NoReach
         Where a position is out of the arm's reach.
 
     Examples
@@ -61,7 +61,7 @@ def turn_towards(target):
 
     Raises
     ------
-    NoReach
+    vmc_lib.NoReach
         Where no turn within `TRUNK_RANGE` brings the target within reach.
 
     Examples

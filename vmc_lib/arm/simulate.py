@@ -46,7 +46,7 @@ class Motion:
 
     @property
     def endpoint(self):
-        """Where in the arm's plane the wrist ends: p = (x, y), (…, 2), m."""
+        """Where the wrist ends in the arm's plane, p = (x, y), (…, 2), m."""
         return hand(self.q[..., -1, :])[..., :2]
 
 

@@ -1,6 +1,6 @@
 """Execution of a plan: what the arm does with it, in a world that the plan does not know."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -70,13 +70,12 @@ class Movement:
         if len(weights) <= BATCH:
             return self.motion.endpoint
         parts = [  # of a larger batch the trajectories are not kept, to spare memory
-            Movement(
-                Plan(self.plan.template_set, self.plan.target, rows[part], weights[part]),
-                self.perturbation,
-            ).motion.endpoint
+            replace(self, plan=replace(self.plan, rows=rows[part], weights=weights[part])).motion
             for part in (slice(i, i + BATCH) for i in range(0, len(weights), BATCH))
         ]
-        return np.concatenate(parts).reshape(*self.plan.weights.shape[:-1], -1)
+        return np.concatenate([part.endpoint for part in parts]).reshape(
+            *self.plan.weights.shape[:-1], -1
+        )
 
 
 def rotate_about_eye(points, angle):

@@ -22,12 +22,12 @@ class Plan:
 
     @property
     def points(self):
-        """Where these templates reach: p_i, (…, N, 2)."""
+        """Where these templates reach, p_i, (…, N, 2), m."""
         return self.template_set.points[self.rows]
 
     @property
     def excitations(self):
-        """Eq. 3: u_t(t) = Σ w_i u_i(t), (…, T, 6), held to the limits of a command, [0, 1]."""
+        """The mix of Eq. 3, u_t(t) = Σ w_i u_i(t), (…, T, 6), clipped to a command's limits."""
         share = np.zeros((*self.weights.shape[:-1], len(self.template_set.points)))
         np.put_along_axis(share, self.rows, self.weights, axis=-1)
         mixed = np.tensordot(share, self.template_set.excitations, axes=1)
@@ -176,7 +176,7 @@ def plan(target, template_set, rule=habitual_weights, rows=None):
     ------
     ValueError
         Where a target is not finite, or of another dimension than the templates' points.
-    NoReach
+    vmc_lib.NoReach
         Where a target is not surrounded by templates.
 
     Examples
