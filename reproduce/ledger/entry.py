@@ -39,7 +39,7 @@ class Quantity:
 
     @property
     def verdict(self) -> str:
-        """One of VERDICTS: "beaten" is a number outside the interval, on its worse side."""
+        """One of VERDICTS; "beaten" is a number outside the interval, on its worse side."""
         low, high = (self.obtained if end is None else float(end) for end in (self.low, self.high))
         if self.bound:
             beyond = low > self.claimed if self.better > 0 else high < self.claimed

@@ -57,7 +57,7 @@ class Step:
 
     @property
     def name(self):
-        """What the step is called: as its file."""
+        """What the step is called, as its file."""
         return self.file.stem
 
     def inputs(self):

@@ -46,7 +46,7 @@ class TrainingImage:
 
     @property
     def overlap(self):
-        """How well each candidate fits the object it fits best: (n,)."""
+        """How well each candidate fits the object it fits best, (n,)."""
         return iou(self.candidates, self.truth).max(1, initial=0)
 
     def mirrored(self):
