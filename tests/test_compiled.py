@@ -22,12 +22,12 @@ def made(source, **read):
     return SimpleNamespace(**read), read
 
 
-def test_a_function_without_a_file_is_compiled_for_this_process_alone():
+def test_functions_without_a_file_are_compiled_without_a_cache():
     total = compiled(made(SOURCE)[0].total)  # no folder can hold what was compiled
     assert total((1.0, 2.5)) == total.__wrapped__((1.0, 2.5)) == 3.5
 
 
-def test_nothing_is_compiled_before_it_is_called():
+def test_numba_is_imported_at_the_first_call():
     code = "import sys, vmc_lib.loop; assert 'numba' not in sys.modules"
     subprocess.run([sys.executable, "-c", code], check=True)
 
@@ -42,7 +42,7 @@ def test_nothing_is_compiled_before_it_is_called():
         ("x * c(x)", lambda x, by=2.0: by, lambda x, by=3.0: by),
     ],
 )
-def test_whatever_a_loop_reads_it_reads_anew(expression, first, second):
+def test_changed_constants_and_functions_are_compiled_again(expression, first, second):
     functions, space = made(
         f"def inner(x):\n    return {expression}\ndef outer(x):\n    return inner(x)\n", c=first
     )
@@ -53,7 +53,7 @@ def test_whatever_a_loop_reads_it_reads_anew(expression, first, second):
     assert outer(1.5) == 3.0
 
 
-def test_arguments_that_numba_cannot_take_slow_down_their_call_alone():
+def test_unsupported_arguments_affect_their_call_alone():
     total = compiled(made(SOURCE)[0].total)
     for _ in range(2):
         with pytest.warns(UserWarning, match="total runs as plain Python"):
@@ -69,7 +69,7 @@ def test_without_numba_loops_run_as_plain_python(monkeypatch):
         assert total((1.0, 2.5)) == 3.5
 
 
-def test_what_is_kept_for_the_next_process_is_not_used_for_another_source(tmp_path):
+def test_disk_cache_is_not_used_for_changed_source(tmp_path):
     loop = "from law import law\nfrom vmc_lib.compiled import compiled\n"
     loop += "@compiled\ndef total(x):\n    return law(x) + 1.0\nprint(total(2.0))\n"
     (tmp_path / "loop.py").write_text(loop, encoding="utf-8")

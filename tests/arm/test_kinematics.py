@@ -13,20 +13,20 @@ ANGLE = st.floats(np.radians(-59), np.radians(59))  # inside the trunk's range, 
 
 @settings(max_examples=40, deadline=None)
 @given(ANGLE, st.floats(np.radians(8), np.radians(129)))
-def test_posture_undoes_hand(shoulder, elbow):
+def test_inverse_kinematics_inverts_forward_kinematics(shoulder, elbow):
     q = np.array([shoulder, elbow])
     np.testing.assert_allclose(inverse_kinematics(hand(q)[:2]), q, atol=1e-8)
 
 
 @settings(max_examples=40, deadline=None)
 @given(st.floats(0.05, 0.25), st.floats(-0.43, -0.33), ANGLE)
-def test_the_turned_arm_meets_its_target(x, y, psi):
+def test_turn_towards_inverts_to_world(x, y, psi):
     target = to_world(hand(inverse_kinematics([x, y])), psi)
     turn, p = turn_towards(target)
     np.testing.assert_allclose([turn, *p], [psi, x, y], atol=1e-8)
 
 
-def test_a_turn_is_to_the_left():
+def test_positive_turns_are_to_the_left():
     ahead = np.array([0.3, -0.4, -0.17])
     assert to_world(ahead, 0.5)[2] < ahead[2]
 
@@ -41,17 +41,17 @@ def test_a_turn_is_to_the_left():
         ((np.nan, -0.4, 0.0), "not finite"),
     ],
 )
-def test_targets_that_cannot_be_met(target, complaint):
+def test_unreachable_targets_are_refused(target, complaint):
     with pytest.raises(ValueError, match=complaint):
         turn_towards(target)
 
 
-def test_one_bad_position_of_many_is_named():
+def test_error_names_the_unreachable_position_of_a_batch():
     with pytest.raises(ValueError, match=r"position \[0\.6 0\.1\] m"):
         inverse_kinematics([[0.15, -0.4], [0.6, 0.1]])
 
 
-def test_many_targets_are_met_as_each_alone_and_one_bad_one_is_named():
+def test_turn_towards_of_a_batch_equals_one_by_one():
     places = np.array([[0.25, -0.4, 0.1], [0.2, -0.38, 0.05], [-0.3, -0.4, 0.0]])
     turns, points = turn_towards(places[:2])
     for place, turn, point in zip(places, turns, points, strict=False):

@@ -39,25 +39,25 @@ def ours(opensim):
     return np.array(lengths), np.array(arms), np.array([p.site("hand").xpos for p in poses])
 
 
-def test_the_reference_covers_the_range(opensim):
+def test_opensim_reference_covers_the_joint_range(opensim):
     assert len(opensim["q"]) == 21 * 14
     np.testing.assert_allclose(np.degrees(opensim["q"].min(axis=0)), [-70, 0], atol=1e-9)
     np.testing.assert_allclose(np.degrees(opensim["q"].max(axis=0)), [30, 130])
 
 
-def test_the_wrist_is_opensims(opensim, ours):
+def test_wrist_position_equals_opensim(opensim, ours):
     assert np.abs(ours[2] - opensim["wrist"]).max() < 1e-9
 
 
 @pytest.mark.parametrize("muscle", MUSCLES)
-def test_muscle_paths_are_opensims(opensim, ours, muscle):
+def test_muscle_paths_equal_opensim(opensim, ours, muscle):
     k = MUSCLES.index(muscle)
     length, arm = (0.6, 1.0) if muscle == "BIClong" else (0.05, 0.3)
     assert np.abs(ours[0] - opensim["lengths"])[:, k].max() < length * MILLIMETRE
     assert np.abs(ours[1] - opensim["arms"])[..., k].max() < arm * MILLIMETRE
 
 
-def test_the_bare_arm_falls_as_opensims(opensim):
+def test_fall_without_muscles_equals_opensim(opensim):
     bare = mujoco.MjModel.from_xml_string(XML)
     bare.dof_damping[:] = 0
     bare.opt.timestep, bare.opt.integrator = 1e-4, mujoco.mjtIntegrator.mjINT_RK4
@@ -68,7 +68,7 @@ def test_the_bare_arm_falls_as_opensims(opensim):
         assert np.abs(data.qpos - end).max() < 1e-6
 
 
-def test_no_muscle_path_jumps():
+def test_muscle_paths_are_continuous():
     for joint, other in product(range(2), (0.0, 1.0, 2.0)):
         q = np.full((3000, 2), other)
         q[:, joint] = np.linspace(*LIMITS[joint], len(q))
@@ -80,7 +80,7 @@ def test_no_muscle_path_jumps():
         assert np.abs(slope - between).max() < 1e-5  # a length that jumped would leave its slope
 
 
-def test_closed_form_is_exact():
+def test_closed_form_dynamics_equal_mujoco():
     rng = np.random.default_rng(0)
     q = rng.uniform(*LIMITS.T, (200, 2))
     velocity, acceleration = rng.normal(scale=3, size=(2, 200, 2))
@@ -97,7 +97,7 @@ def test_closed_form_is_exact():
     np.testing.assert_allclose(back, acceleration, atol=1e-10)
 
 
-def test_geometry_draws_what_is_measured():
+def test_geometry_agrees_with_hand_and_lengths():
     q = np.radians([-20.0, 80.0])
     bodies, muscles = geometry(q)
     rotation, elbow = bodies["forearm"]

@@ -13,7 +13,7 @@ UNIT = st.floats(0, 1)
 ANY = st.floats(-1e6, 1e6)
 
 
-def test_the_curves_hold_the_papers_values():
+def test_muscle_curves_at_published_values():
     np.testing.assert_allclose(muscle.force_length(0.95), 1)
     np.testing.assert_allclose(
         muscle.force_velocity(np.array([-1, 0, 0.5])), [0.068, 1.011, 1.6], atol=1e-3
@@ -37,13 +37,13 @@ def test_excitation_for_inverts_activation_rate(u, a):
 
 
 @given(ANY)
-def test_force_velocity_is_guarded_beyond_its_range(v):
+def test_force_velocity_is_bounded(v):
     low, high = muscle.force_velocity(np.array(muscle.VELOCITY_RANGE))
     assert low - 1e-12 <= muscle.force_velocity(v) <= max(high, 1.6) + 1e-12
 
 
 @given(ANY)
-def test_passive_force_does_not_push_below_its_range(length):
+def test_passive_force_is_bounded_and_positive(length):
     assert 0 <= muscle.passive_force(length) < 1.3 * np.pi / 2 + 1e-12
     assert length > 0.22 or muscle.passive_force(length) == 0
 
@@ -58,7 +58,7 @@ def test_motor_noise_grows_with_the_command():
 
 
 @given(UNIT, st.floats(0.2, 2), st.floats(-2, 2))
-def test_mujocos_muscle_is_mujocos(a, length, v):
+def test_mujoco_force_law_equals_mujoco(a, length, v):
     constants = np.array([0, 1, 1, 0, 0.5, 1.6, 1.5, 1.3, 1.2])  # its defaults, with F0 = l0 = 1
     gain = mujoco.mju_muscleGain(length, muscle.MAX_VELOCITY * v, (0, 1), 0, constants)
     bias = mujoco.mju_muscleBias(length, (0, 1), 0, constants)
@@ -67,14 +67,14 @@ def test_mujocos_muscle_is_mujocos(a, length, v):
 
 
 @given(UNIT, UNIT)
-def test_mujocos_lag_is_mujocos(u, a):
+def test_mujoco_activation_law_equals_mujoco(u, a):
     taus = np.array([muscle.TAU_ACTIVATION, muscle.TAU_DEACTIVATION, 0])
     rate = LAWS["MuJoCo"].activation_rate(u, a)
     np.testing.assert_allclose(rate, mujoco.mju_muscleDynamics(u, a, taus), rtol=1e-12, atol=1e-12)
 
 
 @given(st.floats(0.05, 1), st.floats(0.5, 1.5), st.floats(-1, 1.5))
-def test_thelens_force_solves_his_equation(a, length, v):
+def test_thelen_force_satisfies_his_equation(a, length, v):
     """Eq. 6 of Thelen (2003) gives the speed of an active fibre from its force; ours, the force."""
     thelen = LAWS["Thelen 2003"].force
     passive = thelen(0.0, length, v, 1.0)

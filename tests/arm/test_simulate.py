@@ -26,7 +26,7 @@ def random_excitations(count, steps, rng):
     return np.repeat(rng.uniform(0, 1, (count, steps // 100, 6)) ** 2, 100, axis=1)
 
 
-def test_the_compiled_engine_moves_as_mujoco_does():
+def test_engines_agree():
     rng = np.random.default_rng(0)
     excitations = random_excitations(100, 800, rng)
     starts = rng.uniform(np.radians([-50, 20]), np.radians([20, 100]), (100, 2))
@@ -35,7 +35,7 @@ def test_the_compiled_engine_moves_as_mujoco_does():
     np.testing.assert_array_equal(fast.activation, reference.activation)
 
 
-def test_the_engines_agree_with_a_load_in_a_force_field():
+def test_engines_agree_with_a_load_in_a_force_field():
     excitations = random_excitations(5, 800, np.random.default_rng(3))
     perturbation = Perturbation(load=0.5, field=((-1, 2), (-2, -1)))
     fast, reference, bare = (
@@ -50,7 +50,7 @@ def test_the_engines_agree_with_a_load_in_a_force_field():
     assert np.abs(fast.q - bare.q).max() > 0.01
 
 
-def test_a_force_on_the_hand_acts_through_the_joints():
+def test_hand_forces_act_through_the_jacobian():
     """A push, and a drag that grows with the hand's velocity, held against a numeric Jacobian."""
     rng = np.random.default_rng(4)
     u, push = random_excitations(3, 300, rng), rng.normal(scale=10, size=(3, 300, 2))
@@ -68,7 +68,7 @@ def test_a_force_on_the_hand_acts_through_the_joints():
         np.testing.assert_allclose(change, acceleration_from(q, velocity, torque), rtol=1e-5)
 
 
-def test_the_arm_with_opensims_muscles_moves_as_opensims():
+def test_movement_with_thelen_muscles_is_near_opensim():
     """Its tendons are stiff, not rigid, and its long biceps runs elsewhere by half a millimetre."""
     levels, expected = (arrays("opensim")[name] for name in ("levels", "rigid"))
     start = np.radians([0, 60])
@@ -80,7 +80,7 @@ def test_the_arm_with_opensims_muscles_moves_as_opensims():
     assert np.abs(paper - expected).max() > 0.05
 
 
-def test_smaller_steps_bring_both_engines_to_the_same_end():
+def test_smaller_steps_converge_in_both_engines():
     levels = np.repeat([[0.05, 0.1]], 3)
     coarse, fine, finer = (
         simulate(constant_excitation(levels, 0.3, s), START, engine="mujoco", step=s).q[-1]
@@ -92,7 +92,7 @@ def test_smaller_steps_bring_both_engines_to_the_same_end():
     np.testing.assert_allclose(fast, fine, atol=1e-6)
 
 
-def test_a_batch_is_its_movements_one_by_one():
+def test_simulating_a_batch_equals_one_by_one():
     excitations = random_excitations(6, 200, np.random.default_rng(1))
     batch = simulate(excitations.reshape(2, 3, 200, 6), START)
     assert batch.hand.shape == (2, 3, 201, 3)
@@ -101,7 +101,7 @@ def test_a_batch_is_its_movements_one_by_one():
     np.testing.assert_allclose(batch.endpoint[1, 1], alone.hand[-1, :2], atol=1e-12)
 
 
-def test_the_stops_hold_the_arm_together():
+def test_joint_stops_limit_the_angles():
     everything = np.eye(6).repeat(1500, axis=0).reshape(6, 1500, 6)
     motion = simulate(everything, START, np.zeros(6))
     assert np.all(motion.q > LIMITS[:, 0] - 0.35)
@@ -119,12 +119,12 @@ def test_the_stops_hold_the_arm_together():
         (QUIET[0], "shape"),
     ],
 )
-def test_bad_excitations(excitations, complaint):
+def test_wrong_excitations_are_refused(excitations, complaint):
     with pytest.raises(ValueError, match=complaint):
         simulate(excitations, START)
 
 
-def test_steady_excitations_last_as_long_as_asked():
+def test_constant_excitation_has_the_duration():
     levels = np.arange(12).reshape(2, 6) / 12
     excitations = constant_excitation(levels, 0.05)
     assert excitations.shape == (2, 50, 6)
@@ -132,7 +132,7 @@ def test_steady_excitations_last_as_long_as_asked():
 
 
 @pytest.mark.parametrize("duration", [-0.5, 0, 1e-4, np.nan, np.inf])
-def test_bad_durations(duration):
+def test_wrong_durations_are_refused(duration):
     with pytest.raises(ValueError, match="at least"):
         constant_excitation(np.zeros(6), duration)
 
@@ -152,14 +152,14 @@ def test_bad_durations(duration):
         ({"perturbation": Perturbation(field=((0, np.nan), (0, 0)))}, "field"),
     ],
 )
-def test_wrong_inputs_are_named_by_both_engines(engine, named, complaint):
+def test_both_engines_refuse_wrong_inputs(engine, named, complaint):
     with pytest.raises(ValueError, match=complaint):
         simulate(QUIET, **{"start": START, "engine": engine} | named)
 
 
 @pytest.mark.parametrize("engine", ENGINES)
 @pytest.mark.parametrize("strength", [60.0, 1e4])
-def test_a_movement_that_blows_up_is_an_error_in_both_engines(engine, strength):
+def test_both_engines_refuse_movements_that_blow_up(engine, strength):
     world = Perturbation(field=strength * np.eye(2))
     with pytest.raises(ValueError, match=r"movement 0 blows up: at step .*weaken"):
         simulate(np.full((300, 6), 0.2), START, engine=engine, perturbation=world)

@@ -27,7 +27,7 @@ def skill(template_set):
     ("perturbation", "corrects", "left"),
     [("a load of 0.5 kg", "pull", 0.5), ("a viscous field", "aim", 0.7), ("a prism", "aim", 0.2)],
 )
-def test_a_changed_world_is_learned(perturbation, corrects, left, template_set, skill):
+def test_adaptation_learns_and_washes_out(perturbation, corrects, left, template_set, skill):
     curve = adapt(
         Adaptation(skill, template_set, corrects),
         template_set,
@@ -42,7 +42,7 @@ def test_a_changed_world_is_learned(perturbation, corrects, left, template_set, 
     assert washed_out < 0.5 * after_effect
 
 
-def test_the_weight_is_lifted_by_more_of_everything(template_set, skill):
+def test_adaptation_to_a_load_raises_the_sum_of_weights(template_set, skill):
     learner, perturbation = (
         Adaptation(skill, template_set, "pull"),
         PERTURBATIONS["a load of 0.5 kg"],
@@ -52,7 +52,7 @@ def test_the_weight_is_lifted_by_more_of_everything(template_set, skill):
     assert learner.correct(reaches).weights.sum(axis=-1).mean() > 1.2
 
 
-def test_a_beginner_is_only_skilled(template_set, skill):
+def test_adaptation_starts_at_the_trained_correction(template_set, skill):
     reaches = plan(draw_targets(template_set, 20, np.random.default_rng(4)), template_set)
     expected = skill.correct(reaches).weights
     for corrects in ("aim", "pull"):
@@ -60,7 +60,7 @@ def test_a_beginner_is_only_skilled(template_set, skill):
         np.testing.assert_allclose(beginner.correct(reaches).weights, expected, atol=1e-12)
 
 
-def test_a_lone_lesson_takes_its_share_away(template_set):
+def test_a_single_error_is_learned_by_its_share(template_set):
     learner = Adaptation(AimCorrection(template_set), template_set, regularisation=1.0)
     reach = plan(np.array([[0.1, -0.4]]), template_set)
     error = reach.target - learner.update(reach, partial(execute, prism=0.1)).endpoint
@@ -68,7 +68,7 @@ def test_a_lone_lesson_takes_its_share_away(template_set):
     np.testing.assert_allclose(learned, error / 2)
 
 
-def test_a_pull_shifts_as_equation_4_says():
+def test_weight_correction_satisfies_equation_4():
     points = np.array([[(0.0, -0.4), (0.1, -0.4), (0.1, -0.3), (0.0, -0.3)]])
     shift = np.array([[0.01, 0.03]])
     change = weight_correction(points, shift)
@@ -76,13 +76,13 @@ def test_a_pull_shifts_as_equation_4_says():
     assert change.sum() > 0
 
 
-def test_curves_hold_new_targets_only(template_set, skill):
+def test_adaptation_curves_have_new_targets(template_set, skill):
     learner, rng = Adaptation(skill, template_set), np.random.default_rng(5)
     curve = adapt(learner, template_set, rng, PERTURBATIONS["a prism"], (1, 1, 1), 4)
     assert curve.target.shape == curve.endpoint.shape == (3, 4, 2)
     assert len(np.unique(curve.target.reshape(-1, 2), axis=0)) == 12
 
 
-def test_nothing_else_can_be_corrected(template_set, skill):
+def test_unknown_corrections_are_refused(template_set, skill):
     with pytest.raises(ValueError, match="'push'"):
         Adaptation(skill, template_set, "push")

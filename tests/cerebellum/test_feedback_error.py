@@ -21,25 +21,25 @@ def bends():
     return measure.curl_field_deviations(learner, template_set, model, rng, (1, 20, 8))
 
 
-def test_a_curl_field_is_learned_within_a_hundred_movements(bends):
+def test_curl_field_is_learned_within_a_hundred_movements(bends):
     size = np.abs(bends[0]).mean(axis=1)
     assert size[1] > 10 * size[0]
     assert size[20] <= 0.4 * size[1]
 
 
-def test_what_was_learned_holds_for_other_targets(bends):
+def test_learning_generalises_to_other_targets(bends):
     before, after = np.abs(bends[1]).mean(axis=1)
     assert after <= 0.4 * before
 
 
-def test_the_after_effect_is_a_mirror_image_and_washes_out(bends):
+def test_after_effect_has_the_opposite_sign_and_washes_out(bends):
     aside = bends[0].mean(axis=1)
     assert aside[1] < 0 < aside[21]
     assert aside[21] > 0.25 * -aside[1]
     assert abs(aside[-1]) < 0.5 * aside[21]
 
 
-def test_a_beginner_changes_nothing():
+def test_untrained_learner_changes_nothing():
     template_set = load()
     targets = draw_targets(template_set, 3, np.random.default_rng(1))
     meant = reference_trajectory(measure.exact_plans(targets, template_set))
@@ -47,7 +47,7 @@ def test_a_beginner_changes_nothing():
     np.testing.assert_allclose(corrected.excitations, meant.excitations, atol=1e-12)
 
 
-def test_what_shipped_meets_the_bar():
+def test_shipped_results_meet_the_bars():
     """Six seeds: deviation in the field, after-effect, washout; jumps and tremor."""
     shipped = measure.load_results()
     aside, size = (shipped["field"][name] for name in ("to the left", "size"))

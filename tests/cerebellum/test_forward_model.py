@@ -17,7 +17,7 @@ def at_rest_and_on_the_way(motion, every=50):
     ]
 
 
-def test_it_learns_the_arm_by_feeling_it_move():
+def test_forward_model_improves_with_movements():
     template_set, rng = load(), np.random.default_rng(0)
     others = execute(exact_plans(draw_targets(template_set, 20, rng), template_set)).motion
     states = at_rest_and_on_the_way(others)
@@ -30,7 +30,7 @@ def test_it_learns_the_arm_by_feeling_it_move():
     assert off[1] < 0.5 * off[0]
 
 
-def test_lessons_are_what_was_felt():
+def test_forward_model_fits_what_it_was_trained_on():
     template_set = load()
     motion = execute(
         exact_plans(draw_targets(template_set, 5, np.random.default_rng(2)), template_set)
@@ -41,7 +41,7 @@ def test_lessons_are_what_was_felt():
     assert np.abs(learned - felt).max() < 0.1 * np.abs(felt).max()
 
 
-def test_a_copy_may_be_wrong_about_its_strength():
+def test_arm_copy_scales_with_muscle_strength():
     q, velocity, activation = np.array([[0.0, 1.0]]), np.zeros((1, 2)), np.full((1, 6), 0.3)
     weak, true, strong = (arm_copy(s)(q, velocity, activation) for s in (0.5, 1, 1.5))
     np.testing.assert_allclose(strong - true, true - weak)

@@ -40,7 +40,7 @@ def test_equations_6_and_7_by_hand():
         np.testing.assert_allclose(w, k * cosine)
 
 
-def test_algorithm_1_takes_a_third_of_the_error_away(reaches):
+def test_algorithm_1_reduces_the_error_by_a_third(reaches):
     trials = algorithm_1(reaches)
     np.testing.assert_allclose(
         trials.error[0], np.linalg.norm(execute(reaches).endpoint - reaches.target, axis=1)
@@ -59,21 +59,21 @@ def test_the_other_sign_of_the_error_does_not_help(reaches):
     assert wrong.error[1:].min(axis=0).mean() > wrong.error[0].mean()
 
 
-def test_the_population_vector_done_right_meets_its_bars(reaches):
+def test_broyden_calibration_meets_its_bars(reaches):
     left = share_left(broyden_calibration(reaches, trials=4))
     assert left[1] < 0.27
     assert left[2] < 0.05
     assert left[4] < 0.001
 
 
-def test_learning_from_each_trial_beats_repeating(reaches):
+def test_broyden_updates_beat_a_fixed_jacobian(reaches):
     learning, repeating = (
         share_left(broyden_calibration(reaches, 3, broyden=b)) for b in (True, False)
     )
     assert learning[3] < 0.5 * repeating[3]
 
 
-def test_a_hand_on_the_target_or_on_a_template_is_no_trouble():
+def test_corrections_are_finite_on_a_target_and_on_a_template():
     template_set = load()
     reach = plan([0.15, -0.4], template_set)
     np.testing.assert_allclose(algorithm_1_change(reach, reach.target, 5), 0)
@@ -82,7 +82,7 @@ def test_a_hand_on_the_target_or_on_a_template_is_no_trouble():
     np.testing.assert_allclose(broyden_calibration(exact).weights, [exact.weights] * 3, atol=1e-6)
 
 
-def test_guards_keep_a_loaded_hand_from_straying(reaches):
+def test_guards_limit_the_error_with_a_load(reaches):
     loaded = partial(execute, perturbation=Perturbation(load=0.25))
     trials = [broyden_calibration(reaches, 4, guarded=g, execute=loaded) for g in (True, False)]
     guarded, bold = (each.error for each in trials)
@@ -108,19 +108,19 @@ def test_ten_thousand_corrections_are_finite_and_none_diverges():
     assert few.excitations.max() <= 1
 
 
-def test_weights_that_are_no_numbers_are_refused():
+def test_nan_weights_are_refused():
     reach = plan([0.15, -0.4], load())
     with pytest.raises(ValueError, match="nan"):
         _ = execute(reach.with_weights(reach.weights * np.nan)).endpoint
 
 
-def test_no_correction_throws_the_arm_about(reaches):
+def test_corrections_are_bounded(reaches):
     trials = broyden_calibration(reaches, trials=3)
     assert np.all(np.isfinite(trials.weights))
     assert np.abs(np.diff(trials.weights[:2], axis=0)).max() <= 0.5
 
 
-def test_a_readers_own_rule_is_told_what_it_must_return(reaches):
+def test_calibrate_refuses_rules_that_return_no_trials(reaches):
     assert calibrate(broyden_calibration, reaches).error.shape == (3, 60)
 
     def mine(plan):

@@ -37,7 +37,7 @@ def lessons(template_set, count, seed=21):
     return [plan(targets[i : i + 25], template_set) for i in range(0, count, 25)]
 
 
-def test_nothing_learned_changes_nothing(template_set, held_out):
+def test_untrained_corrections_change_nothing(template_set, held_out):
     for hindsight in (True, False):
         untaught = WeightCorrection(hindsight).correct(held_out)
         np.testing.assert_array_equal(untaught.weights, held_out.weights)
@@ -48,7 +48,7 @@ def test_nothing_learned_changes_nothing(template_set, held_out):
     )
 
 
-def test_the_linear_model_learns_what_it_practised(template_set):
+def test_weight_correction_reduces_in_sample_error(template_set):
     (practised,) = lessons(template_set, 25)
     before, model, after = error(practised), WeightCorrection(), []
     for _ in range(3):
@@ -74,14 +74,14 @@ def test_algorithm_2_step_by_step(template_set, held_out):
     np.testing.assert_allclose(found, change, atol=1e-6)
 
 
-def test_the_other_reading_learns_for_the_target(template_set):
+def test_other_reading_trains_on_the_target(template_set):
     (practised,), model = lessons(template_set, 25), WeightCorrection(hindsight=False)
     ((inputs, change),) = model.update(practised).training_pairs
     np.testing.assert_array_equal(inputs, equation_8(practised))
     np.testing.assert_allclose(practised.weights + change, algorithm_1(practised).best)
 
 
-def test_algorithm_2_as_printed_beats_the_other_reading(template_set, held_out):
+def test_algorithm_2_held_out_error_ratio(template_set, held_out):
     (practised,), left = lessons(template_set, 25), []
     for hindsight in (True, False):
         left.append(error(WeightCorrection(hindsight).update(practised).correct(held_out)))
@@ -89,7 +89,7 @@ def test_algorithm_2_as_printed_beats_the_other_reading(template_set, held_out):
     assert left[0] < 0.9 * left[1]
 
 
-def test_granule_cells_generalise(template_set, held_out):
+def test_aim_correction_held_out_error(template_set, held_out):
     before = error(held_out)
     learners = [
         AimCorrection(template_set).update(*lessons(template_set, 25, seed))
@@ -101,13 +101,13 @@ def test_granule_cells_generalise(template_set, held_out):
     assert error(learners[0].correct(held_out)) < 0.10 * before
 
 
-def test_one_reach_is_corrected_as_in_a_batch(template_set, held_out):
+def test_correcting_one_reach_equals_the_batch(template_set, held_out):
     cerebellum = AimCorrection(template_set).update(*lessons(template_set, 25))
     alone = cerebellum.correct(plan(held_out.target[3], template_set))
     np.testing.assert_allclose(alone.weights, cerebellum.correct(held_out).weights[3], atol=1e-12)
 
 
-def test_granule_cells_do_not_mind_the_order_of_lessons():
+def test_granule_cells_ignore_the_order_of_batches():
     rng = np.random.default_rng(0)
     X, y = rng.uniform(size=(60, 2)), rng.normal(size=60)
     first = np.array([[0, 0], [1, 1]]), np.zeros(2)
@@ -118,7 +118,7 @@ def test_granule_cells_do_not_mind_the_order_of_lessons():
     np.testing.assert_allclose(ahead.predict(X), back.predict(X), atol=1e-8)
 
 
-def test_granule_cells_learn_a_function():
+def test_granule_cells_approximate_a_function():
     rng = np.random.default_rng(0)
     X = rng.uniform(size=(400, 2))
     y = np.sin(6 * X[:, 0]) * X[:, 1]
@@ -126,7 +126,7 @@ def test_granule_cells_learn_a_function():
     assert cells.score(X[300:], y[300:]) > 0.99
 
 
-def test_granule_cells_refuse_what_they_cannot_learn():
+def test_granule_cells_refuse_wrong_inputs():
     with pytest.raises(NotFittedError):
         GranuleCells().predict([[0.0, 0.0]])
     with pytest.raises(ValueError, match="NaN"):

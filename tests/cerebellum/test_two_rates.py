@@ -6,7 +6,7 @@ import pytest
 from vmc_lib.cerebellum.two_rates import Rates, adapt
 
 
-def test_both_learn_and_the_slow_one_ends_with_more():
+def test_slow_process_ends_with_more():
     held = adapt(np.ones(200))
     assert held.shape == (200, 2)
     assert 0.7 < held[-1].sum() < 1
@@ -14,7 +14,7 @@ def test_both_learn_and_the_slow_one_ends_with_more():
     assert held[-1, 1] > held[-1, 0]
 
 
-def test_one_step_is_the_equation():
+def test_steps_satisfy_the_equation():
     rates = Rates((0.5, 0.9), (0.3, 0.1))
     held = adapt(np.array([1.0, 1.0, np.nan, 0.0]), rates)
     np.testing.assert_allclose(held[1], [0.3, 0.1])
@@ -22,7 +22,7 @@ def test_one_step_is_the_equation():
     np.testing.assert_allclose(held[3], held[2] * [0.5, 0.9])
 
 
-def test_learning_again_is_quicker_although_nothing_shows():
+def test_savings():
     """Savings: a few pushes the other way hide what is known; the slow memory keeps it."""
     first = np.ones(150)
     held = adapt(np.concatenate([first, -np.ones(20), first])).sum(axis=1)
@@ -32,12 +32,12 @@ def test_learning_again_is_quicker_although_nothing_shows():
     assert again[hidden + 10] - again[hidden] > 1.1 * (again[10] - again[0])
 
 
-def test_a_fast_memory_forgotten_brings_the_first_one_back():
+def test_spontaneous_recovery():
     """Spontaneous recovery: with errors held at zero, what was learned first returns."""
     held = adapt(np.concatenate([np.ones(150), -np.ones(10), np.full(20, np.nan)])).sum(axis=1)
     assert held[165:].max() > held[160] + 0.1
 
 
-def test_rates_that_never_settle_are_refused():
+def test_unstable_rates_are_refused():
     with pytest.raises(ValueError, match="never settle"):
         adapt(np.ones(3), Rates((1.2, 0.99), (0.1, 0.02)))

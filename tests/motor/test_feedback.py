@@ -1,4 +1,4 @@
-"""Watched movements: what senses mend, what their delay spoils, and what a forward model saves."""
+"""Feedback control: what it corrects, what delay costs, and what a forward model saves."""
 
 import numpy as np
 import pytest
@@ -39,14 +39,14 @@ def few(template_set):
     return measure.exact_plans(targets, template_set)
 
 
-def test_blind_it_moves_as_the_plan_alone(few):
+def test_without_feedback_the_plan_is_executed(few):
     motion, alone = simulate_feedback(reference_trajectory(few), BLIND), execute(few).motion
     np.testing.assert_allclose(motion.q[:, :1000], alone.q[:, :1000], atol=1e-6)
     assert motion.q.shape == (3, 2001, 2)
     assert motion.activation.shape == (3, 2001, 6)
 
 
-def test_a_jumping_target_is_reached(template_set, model):
+def test_feedback_reaches_a_target_that_jumps(template_set, model):
     """The bar: 5 cm at 150 ms, seen 120 ms late; within 10 mm in nine of ten reaches."""
     rng = np.random.default_rng(3)
     first, second = measure.draw_target_jumps(template_set, 100, rng)
@@ -56,12 +56,12 @@ def test_a_jumping_target_is_reached(template_set, model):
     np.testing.assert_allclose(np.linalg.norm(second - first, axis=-1), 0.05)
 
 
-def test_too_few_jumps_within_reach_are_an_error(template_set):
+def test_jumps_out_of_reach_are_an_error(template_set):
     with pytest.raises(ValueError, match="of 5 jumps by"):
         measure.draw_target_jumps(template_set, 5, np.random.default_rng(0), by=2.0)
 
 
-def test_without_its_forward_model_the_arm_shakes(template_set, model):
+def test_lesion_of_the_forward_model_gives_tremor(template_set, model):
     """The bar: the lesion's tremor is at least five times the healthy arm's."""
     targets = draw_targets(template_set, 40, np.random.default_rng(4))
     meant = reference_trajectory(measure.exact_plans(targets, template_set))
@@ -77,7 +77,7 @@ def test_without_its_forward_model_the_arm_shakes(template_set, model):
     assert beyond[0] > 5 * beyond[1]
 
 
-def test_quick_senses_need_no_model(few):
+def test_feedback_without_delay_needs_no_forward_model(few):
     meant, quick = reference_trajectory(few), SIGHT._replace(delay=0.0)
     alone, with_model = (simulate_feedback(meant, quick, known).q for known in (None, arm_copy()))
     np.testing.assert_array_equal(alone, with_model)
@@ -85,7 +85,7 @@ def test_quick_senses_need_no_model(few):
     assert np.linalg.norm(ends - few.target, axis=-1).max() < 0.005
 
 
-def test_a_push_is_mended_by_the_reflex_and_more_by_sight(few):
+def test_reflex_and_sight_correct_a_push(few):
     meant, world = reference_trajectory(few), push((0.0, 20.0), at=0.8)
     reflex, none = SIGHT._replace(gain=0.0), BLIND
     far = {}
@@ -99,14 +99,14 @@ def test_a_push_is_mended_by_the_reflex_and_more_by_sight(few):
     assert far["all"] < far["reflex"] < far["none"]
 
 
-def test_each_of_a_batch_may_get_a_push_of_its_own():
+def test_pushes_differ_within_a_batch():
     still = np.zeros((2, 2))
     both = push([[1.0, 0.0], [0.0, 2.0]], at=np.array([[0.1], [0.2]]))
     np.testing.assert_array_equal(both(0.12, still), [[1, 0], [0, 0]])
     np.testing.assert_array_equal(both(0.22, still), [[0, 0], [0, 2]])
 
 
-def test_a_foreseen_state_is_where_the_arm_will_be(few):
+def test_predicted_state_is_near_the_true_state(few):
     motion, late, ticks = simulate_feedback(reference_trajectory(few), BLIND), 300, 12
     now = late + ticks * feedback.TICK
     since = np.swapaxes(motion.activation[:, late : now : feedback.TICK], 0, 1)
@@ -117,7 +117,7 @@ def test_a_foreseen_state_is_where_the_arm_will_be(few):
     assert feedback.predict_state(None, *seen, since) == seen
 
 
-def test_muscles_accelerate_the_arm_as_asked():
+def test_excitations_give_the_wanted_acceleration():
     rng = np.random.default_rng(6)
     q, velocity = np.tile(START, (20, 1)), np.zeros((20, 2))
     wish, before = rng.uniform(-3, 3, (20, 2)), np.full((20, 6), 0.2)
@@ -128,13 +128,13 @@ def test_muscles_accelerate_the_arm_as_asked():
     np.testing.assert_allclose(added, wish, atol=0.05)
 
 
-def test_a_curl_field_pushes_aside_and_not_along():
+def test_curl_field_is_perpendicular_to_velocity():
     velocity = np.array([[1.0, 0.0], [0.0, 2.0]])
     force = curl(10.0)(0.0, velocity)
     np.testing.assert_allclose(force, [[0, -10], [20, 0]])
 
 
-def test_motor_noise_comes_from_the_rng_alone(few):
+def test_motor_noise_is_reproducible(few):
     first, again, other = (
         simulate_feedback(reference_trajectory(few, 1.0), noise=0.2, rng=np.random.default_rng(s)).q
         for s in (7, 7, 8)
@@ -152,7 +152,7 @@ def test_motor_noise_comes_from_the_rng_alone(few):
         FeedbackGains(spinal=0.0),
     ],
 )
-def test_a_delay_that_cannot_be_is_refused(few, senses):
+def test_wrong_delays_are_refused(few, senses):
     with pytest.raises(ValueError, match="delay of"):
         simulate_feedback(reference_trajectory(few, 1.0), senses)
 
@@ -162,7 +162,7 @@ def test_noise_without_an_rng_is_refused(few):
         simulate_feedback(reference_trajectory(few, 1.0), noise=0.1)
 
 
-def test_an_intention_is_as_long_as_a_reach_and_a_batch(few, template_set):
+def test_reference_trajectory_needs_a_batch_and_a_whole_reach(few, template_set):
     with pytest.raises(ValueError, match=r"0\.5 s is too short"):
         reference_trajectory(few, 0.5)
     with pytest.raises(ValueError, match="no batch"):

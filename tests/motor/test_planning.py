@@ -46,14 +46,14 @@ def test_exact_weights_satisfy_equation_4(target):
 
 
 @pytest.mark.parametrize("rule", [habitual_weights, exact_weights])
-def test_a_target_on_a_template_is_that_template(rule, template_set):
+def test_target_on_a_template_uses_that_template_alone(rule, template_set):
     points = template_set.points[surrounded(template_set.points, template_set.points)]
     reaches = plan(points, template_set, rule)
     np.testing.assert_allclose(reaches.weights.max(axis=-1), 1, atol=1e-12)
     np.testing.assert_allclose(execute(reaches).endpoint, points, atol=1e-9)
 
 
-def test_the_neighbours_are_the_corners_of_the_targets_cell(template_set):
+def test_surrounding_templates_are_the_corners_of_the_cell(template_set):
     targets = draw_targets(template_set, 100, np.random.default_rng(0))
     corners = template_set.points[surrounding(targets, template_set.points)]
     side = np.sign(corners - targets[:, None])
@@ -62,7 +62,7 @@ def test_the_neighbours_are_the_corners_of_the_targets_cell(template_set):
     assert np.all(np.linalg.norm(corners - targets[:, None], axis=-1).min(axis=-1) == nearer)
 
 
-def test_a_plan_is_a_weighted_sum_of_excitations(template_set):
+def test_plan_excitations_are_a_clipped_weighted_sum(template_set):
     reach = plan([0.15, -0.4], template_set)
     expected = sum(
         w * template_set.excitations[i] for w, i in zip(reach.weights, reach.rows, strict=True)
@@ -73,7 +73,7 @@ def test_a_plan_is_a_weighted_sum_of_excitations(template_set):
     assert wild.excitations.max() <= 1
 
 
-def test_a_large_batch_is_moved_in_parts_alike(template_set):
+def test_executing_a_large_batch_in_parts_changes_nothing(template_set):
     targets = draw_targets(template_set, 30, np.random.default_rng(1))
     batch = plan(targets, template_set)
     many = execute(batch.with_weights(np.broadcast_to(batch.weights, (20, 30, 4)))).endpoint
@@ -82,14 +82,14 @@ def test_a_large_batch_is_moved_in_parts_alike(template_set):
     )
 
 
-def test_targets_are_drawn_only_where_templates_surround_them(template_set):
+def test_draw_targets_refuses_templates_that_cover_too_little(template_set):
     leaning = np.array([[0, 0], [0.1, 0.05], [0.05, 0.1], [0.15, 0.15]])
     few = TemplateSet(leaning, template_set.excitations[:4])
     with pytest.raises(ValueError, match="too few for 50 targets; take templates that cover"):
         draw_targets(few, 50, np.random.default_rng(0))
 
 
-def test_habit_misses_by_a_few_percent_of_the_reach(template_set):
+def test_habitual_error_is_a_few_percent_of_the_reach(template_set):
     targets = draw_targets(template_set, 200, np.random.default_rng(2))
     reach = plan(targets, template_set)
     missed = np.linalg.norm(execute(reach).endpoint - targets, axis=1)
@@ -116,7 +116,7 @@ def test_templates_on_a_line_are_refused():
 
 
 @pytest.mark.parametrize("count", [3, 4, 6, 9])
-def test_more_templates_or_fewer_can_be_combined(count, template_set):
+def test_plans_with_other_numbers_of_templates(count, template_set):
     targets = draw_targets(template_set, 50, np.random.default_rng(3))
     chosen = nearest(targets, template_set.points, count)
     distance = np.linalg.norm(template_set.points - targets[:, None], axis=-1)
@@ -136,7 +136,7 @@ def test_a_movement_is_simulated_once(template_set, monkeypatch):
     np.testing.assert_array_equal(movement.endpoint, first)
 
 
-def test_a_prism_turns_what_is_seen_not_what_is_done(template_set):
+def test_prism_changes_the_seen_endpoint_alone(template_set):
     straight, behind_glass = (execute(plan([0.15, -0.4], template_set), prism=p) for p in (0, 0.1))
     np.testing.assert_array_equal(behind_glass.motion.endpoint, straight.motion.endpoint)
     seen = behind_glass.endpoint
@@ -166,6 +166,6 @@ def test_ten_thousand_random_targets_are_planned_or_refused(rule, template_set):
         ((0.15, -0.4, 0.05), "plane positions"),
     ],
 )
-def test_bad_targets(target, complaint, template_set):
+def test_wrong_targets_are_refused(target, complaint, template_set):
     with pytest.raises(ValueError, match=complaint):
         plan(target, template_set)

@@ -11,7 +11,7 @@ from vmc_lib.motor.planning import surrounded
 
 
 @pytest.mark.parametrize("spacing", templates.SPACINGS)
-def test_every_template_ends_at_rest_on_its_point(spacing):
+def test_templates_end_at_rest_on_their_points(spacing):
     template_set = templates.load(spacing)
     motion = templates.reach(template_set.excitations)
     assert (
@@ -22,28 +22,28 @@ def test_every_template_ends_at_rest_on_its_point(spacing):
     np.testing.assert_array_equal(template_set.points, motion.endpoint)
 
 
-def test_the_reference_engine_agrees():
+def test_mujoco_reaches_the_same_points():
     template_set = templates.load(0.08)
     motion = templates.simulate(template_set.excitations[:4], templates.START, engine="mujoco")
     np.testing.assert_allclose(motion.endpoint, template_set.points[:4], atol=1e-6)
 
 
 @pytest.mark.parametrize("level", photos.LEVELS)
-def test_every_template_set_surrounds_every_shuttlecock(level):
+def test_template_sets_surround_every_shuttlecock(level):
     shots = [shot for split in photos.SPLITS for shot in photos.load(level, split)]
     places = np.array([turn_towards(shot.target)[1] for shot in shots])
     for spacing in templates.SPACINGS:
         assert surrounded(places, templates.load(spacing).points).all()
 
 
-def test_what_ships_can_be_made_again():
+def test_shipped_templates_are_reproducible():
     goal = reach_templates.reachable_grid(0.08)[5]
     remade = inverse_dynamics.spline() @ reach_templates.find_reach(goal)
     np.testing.assert_allclose(templates.reach(remade).endpoint, goal, atol=1e-6)
     np.testing.assert_allclose(remade, templates.load(0.08).excitations[5], atol=1e-3)
 
 
-def test_demand_is_met_by_the_holding_activation():
+def test_static_activation_holds_the_posture():
     q = inverse_kinematics([0.12, -0.4])
     held = templates.simulate(np.tile(inverse_dynamics.static_activation(q), (300, 1)), q)
     np.testing.assert_allclose(held.q[-1], q, atol=0.02)

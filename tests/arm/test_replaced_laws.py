@@ -1,4 +1,4 @@
-"""Change a line, see it move: whoever changes a constant or a law of the muscle is followed."""
+"""Replacing a constant or a law of the muscle changes every engine and all that uses it."""
 
 import numpy as np
 import pytest
@@ -41,7 +41,7 @@ def moved(engine):
         ("force_length", lambda length: 0.2 + 0 * length),
     ],
 )
-def test_every_engine_follows_the_module(monkeypatch, name, other):
+def test_replaced_constants_and_laws_change_every_engine(monkeypatch, name, other):
     before = moved("compiled").q
     monkeypatch.setattr(muscle, name, other)
     after, reference = moved("compiled"), moved("mujoco")
@@ -52,13 +52,13 @@ def test_every_engine_follows_the_module(monkeypatch, name, other):
     np.testing.assert_array_equal(moved("compiled").q, before)
 
 
-def test_a_law_for_numbers_alone_is_compiled(monkeypatch):
+def test_a_scalar_law_is_compiled(monkeypatch):
     before = moved("compiled").activation
     monkeypatch.setattr(muscle, "activation_rate", scalar)
     assert np.abs(moved("compiled").activation - before).max() > 0.1
 
 
-def test_a_law_that_numba_cannot_take_is_followed_with_a_warning(monkeypatch):
+def test_a_law_numba_cannot_compile_runs_as_python_with_a_warning(monkeypatch):
     known = {}  # what a compiled loop cannot read
     monkeypatch.setattr(muscle, "activation_rate", lambda u, a: known.get("gain", 9.0) * (u - a))
     few = WILD[:1, :20]
@@ -75,7 +75,7 @@ def test_a_law_that_gives_no_number_is_an_error(monkeypatch, engine):
         moved(engine)
 
 
-def test_the_compiled_loop_does_what_its_source_does(monkeypatch):
+def test_compiled_step_equals_plain_python(monkeypatch):
     fast = moved("compiled")
     monkeypatch.setattr(engines, "_step", engines._step.__wrapped__)
     plain = moved("compiled")
@@ -83,7 +83,7 @@ def test_the_compiled_loop_does_what_its_source_does(monkeypatch):
         np.testing.assert_allclose(ours, theirs, atol=1e-12)
 
 
-def test_what_plans_and_watches_follows_too(monkeypatch):
+def test_replaced_laws_change_inverse_dynamics_and_feedback(monkeypatch):
     still = np.zeros((1, 2))
     meant = feedback.ReferenceTrajectory(np.tile(START, (1, 101, 1)), WILD[:1, :100])
     before = muscle_gain(START + still, still)[1], feedback.simulate_feedback(meant, feedback.BLIND)
