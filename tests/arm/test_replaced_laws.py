@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from vmc_lib.arm import engines, muscle, simulate
+from vmc_lib.arm import engines, model, muscle, simulate
 from vmc_lib.motor import feedback
 from vmc_lib.motor.inverse_dynamics import muscle_gain
 
@@ -50,6 +50,13 @@ def test_replaced_constants_and_laws_change_every_engine(monkeypatch, name, othe
     np.testing.assert_allclose(after.activation, reference.activation, atol=1e-12)
     monkeypatch.undo()
     np.testing.assert_array_equal(moved("compiled").q, before)
+
+
+def test_arm_constants_cannot_be_changed_in_place():
+    """Compiled loops freeze them: whoever wants other ones sets another array."""
+    for array in (model.F0, model.L0, model.SLACK, model.LIMITS, model.DAMPING):
+        with pytest.raises(ValueError, match="read-only"):
+            array *= 2
 
 
 def test_a_scalar_law_is_compiled(monkeypatch):

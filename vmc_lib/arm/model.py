@@ -12,12 +12,14 @@ from typing import NamedTuple
 import mujoco
 import numpy as np
 
+from vmc_lib.data import read_only
+
 XML = (files("vmc_lib.arm") / "arm26.xml").read_text(encoding="utf-8")
 MODEL = mujoco.MjModel.from_xml_string(XML)
 MUSCLES = tuple(MODEL.tendon(k).name for k in range(MODEL.ntendon))
-F0, L0, SLACK = (MODEL.numeric(name).data.copy() for name in ("F0", "L0", "slack"))
-LIMITS = MODEL.jnt_range.copy()  # (2, 2): lowest and highest angle of each joint
-DAMPING = MODEL.dof_damping.copy()  # N m s: what skin and joints resist
+F0, L0, SLACK = (read_only(MODEL.numeric(name).data.copy()) for name in ("F0", "L0", "slack"))
+LIMITS = read_only(MODEL.jnt_range.copy())  # (2, 2): lowest and highest angle of each joint
+DAMPING = read_only(MODEL.dof_damping.copy())  # N m s: what skin and joints resist
 STEP = MODEL.opt.timestep  # s
 
 
