@@ -88,7 +88,7 @@ def ridge_of_one_cell(
 
 
 @numeric("mm", "The lesson takes 1 / (1 + caution).", tolerance=0.05)
-def lesson_with_caution(regularisation=(0.1, 0.25, 0.3, 0.5, 1.0), miss=steps(5, 40, 1)):
+def lesson_with_caution(caution=(0.1, 0.25, 0.3, 0.5, 1.0), miss=steps(5, 40, 1)):
     """A reach misses by {miss} mm. A lone lesson with a caution of {caution} takes a share of the
     error away. How large is the next miss at the same target?"""
     return miss - minimum_norm_update(np.ones((1, 1)), np.array([[float(miss)]]), caution)[0, 0]
