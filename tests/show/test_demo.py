@@ -294,22 +294,11 @@ def test_impossible_controls_are_refused_in_every_life(controls, says, render_mo
         show(**controls)
 
 
-def test_impossible_sliders_are_refused():
-    with pytest.raises(ValueError, match="'size' has values"):
-        Slider([7], "size")
-    with pytest.raises(ValueError, match="'size' cannot start at 3"):
-        Slider([1, 2], "size", start=3)
-
-
 @pytest.mark.parametrize("render_mode", ["book", "test"])
 def test_a_control_without_effect_is_refused(render_mode, monkeypatch):
     monkeypatch.setenv("VMC_RENDER_MODE", render_mode)
     with pytest.raises(ValueError, match="'idle hand' never changes the picture"):
         show(lambda k, idle_hand: names(k=k), k=Slider([1, 2], "k"), idle_hand=[False, True])
-
-
-def test_a_start_may_be_off_by_rounding():
-    assert Slider(np.linspace(0, 1, 11), "x", start=0.3).first == 3
 
 
 def test_unknown_life_is_refused(monkeypatch):
