@@ -11,7 +11,7 @@ const vmcPanel = (() => {
   const signed = (number, digits) => number.toFixed(digits).replace("-", "−");
   const degrees = (angle) => `${signed((angle * 180) / Math.PI, 1)}°`;
 
-  const made = (html) => {
+  const element = (html) => {
     const box = document.createElement("template");
     box.innerHTML = html.trim();
     return box.content.firstElementChild;
@@ -28,7 +28,7 @@ const vmcPanel = (() => {
 
   /* Play, a slider of time, and how fast: shown where there is a movement. */
   const clock = (views) => {
-    const box = made(`<div class="vmc-control vmc-clock">
+    const box = element(`<div class="vmc-control vmc-clock">
       <button type="button" class="vmc-play" aria-pressed="false">Play the movement</button>
       <label>time <input type="range" min="0" step="0.01" value="0"></label>
       <output>0.00 s</output><select aria-label="speed">${Object.entries(SPEEDS)
@@ -82,7 +82,7 @@ const vmcPanel = (() => {
 
   /* The joints' angles, and how far the hand is from the target. */
   const numbers = (view) => {
-    const box = made(`<dl class="vmc-numbers simple"></dl>`);
+    const box = element(`<dl class="vmc-numbers simple"></dl>`);
     view.listeners.push((pose) => {
       if (!pose) return;
       const rows = [["shoulder", degrees(pose.q[0])], ["elbow", degrees(pose.q[1])]];
@@ -104,9 +104,9 @@ const vmcPanel = (() => {
   /* The muscles: which is which, how active each is now, and over the movement. */
   const muscles = (view) => {
     const name = `vmc-muscle-${++panels}`;
-    const box = made(`<div class="vmc-muscles" role="radiogroup" aria-label="muscles"><p>activation, from 0 <i></i> to 1</p></div>`);
+    const box = element(`<div class="vmc-muscles" role="radiogroup" aria-label="muscles"><p>activation, from 0 <i></i> to 1</p></div>`);
     view.anatomy.muscles.forEach((muscle, k) => {
-      const chip = made(`<label><input type="radio" name="${name}" value="${k}">
+      const chip = element(`<label><input type="radio" name="${name}" value="${k}">
         <i></i><span>${muscle.name}</span>
         <svg viewBox="0 0 50 16" preserveAspectRatio="none" aria-hidden="true"><polyline/><line y2="16"/></svg>
         <b></b></label>`);
@@ -144,7 +144,7 @@ const vmcPanel = (() => {
 
   /* A slider that turns views, for hands on a keyboard; a mouse or a finger drags the scene itself. */
   const turner = (views) => {
-    const label = made(`<label class="vmc-control vmc-turn">turn the view
+    const label = element(`<label class="vmc-control vmc-turn">turn the view
       <input type="range" min="-180" max="180" step="5" value="0"></label>`);
     const slider = label.querySelector("input");
     label.addEventListener("input", (event) => {
@@ -158,11 +158,11 @@ const vmcPanel = (() => {
   /* All that a demo's scenes need, once they have an arm. */
   const panel = (views) => {
     const [view] = views;
-    const box = made(`<div class="vmc-panel"></div>`);
+    const box = element(`<div class="vmc-panel"></div>`);
     const fill = () => {
       if (!view.anatomy || box.childElementCount) return;
       box.append(clock(views), numbers(view), muscles(view));
-      if (view.told.target) box.append(made(`<p class="vmc-note">${WRIST}</p>`));
+      if (view.told.target) box.append(element(`<p class="vmc-note">${WRIST}</p>`));
       view.at(view.wanted);
     };
     view.listeners.push(fill);

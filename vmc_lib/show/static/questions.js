@@ -20,23 +20,23 @@ const vmcMemory = {
 /* What stands still below a prediction, and would give it away, waits until the reader has chosen or
    asked what came out. */
 addEventListener("DOMContentLoaded", () =>
-  document.querySelectorAll(".cell .vmc-predict").forEach((asked) => {
-    let cell = asked.closest(".cell").nextElementSibling;
+  document.querySelectorAll(".cell .vmc-predict").forEach((question) => {
+    let cell = question.closest(".cell").nextElementSibling;
     while (cell?.matches(".cell:not(:has(> .cell_output))")) cell = cell.nextElementSibling;
     if (!cell?.matches(".cell") || cell.querySelector(".vmc-controls, fieldset, input, button.vmc-play")) return;
-    const shown = cell.querySelector(".cell_output");
-    const wait = () => shown.classList.toggle("vmc-waits", !asked.querySelector(":checked, [open]"));
-    for (const type of ["change", "toggle"]) asked.addEventListener(type, wait, true);
+    const output = cell.querySelector(".cell_output");
+    const wait = () => output.classList.toggle("vmc-waits", !question.querySelector(":checked, [open]"));
+    for (const type of ["change", "toggle"]) question.addEventListener(type, wait, true);
     wait();
   }));
 
 /* Checks what the reader types into a page that has no kernel (vmc_lib.show.check, by its rule). */
 const vmcReadings = (text) => {
   const number = /^([-+]?\d*[.,]?\d+)\s*(?:\/\s*(\d*[.,]?\d+))?\s*(%|\p{L}*|°)$/u;
-  const found = text.trim().replace("−", "-").match(number);
-  if (!found) return [];
-  const [over, under] = [found[1], found[2] ?? "1"].map((part) => Number(part.replace(",", ".")));
-  return found[3] === "%" ? [over / under, over / under / 100] : [over / under];
+  const match = text.trim().replace("−", "-").match(number);
+  if (!match) return [];
+  const [over, under] = [match[1], match[2] ?? "1"].map((part) => Number(part.replace(",", ".")));
+  return match[3] === "%" ? [over / under, over / under / 100] : [over / under];
 };
 
 addEventListener("submit", (event) => {
