@@ -275,6 +275,24 @@ def test_links_open_as_something_to_read(visit):
         expect(said.first).to_be_in_viewport(timeout=600_000)  # its source is there too, and hidden
 
 
+def test_a_quiz_is_answered_without_a_kernel(visit):
+    page = visit("07_muscle")
+    question = "resists. What resists"
+    page.evaluate(
+        "(question) => { "
+        + NOTEBOOK
+        + """ notebook.activeCellIndex = notebook.widgets.findIndex((cell) =>
+            cell.model.sharedModel.getSource().includes(question));
+          notebook.scrollToItem(notebook.activeCellIndex, "center"); }""",
+        question,
+    )
+    quiz = page.locator(".jp-MarkdownCell", has_text=question)
+    spring = quiz.locator("details", has_text="The passive spring")
+    assert not spring.get_by_text("✓").is_visible()
+    spring.locator("summary").click()
+    assert spring.get_by_text("✓").is_visible()
+
+
 def test_a_plot_moves_fails_aloud_and_leaves_a_still(run_all):
     page = run_all("07_muscle")
     slider = page.locator(".vmc-demo[data-ready] input[type=range]").first
