@@ -4,9 +4,8 @@ A link to the glossary becomes a term, its sections become definitions, a link t
 citation. A cell whose metadata name an
 `exercise` becomes that exercise, the cells after it that carry the tag `solution` become its
 solution, and a quotation that begins with a line in bold becomes an admonition. A quiz, whose
-folded answers begin with ✓ or ✗, gets the page's own style. A line that is nothing but a link to a
-section of another file becomes that section. What only a notebook needs to say carries the tag
-`remove-cell`.
+folded answers begin with ✓ or ✗, gets the page's own style. What only a notebook needs to say
+carries the tag `remove-cell`.
 """
 
 import json
@@ -23,8 +22,6 @@ SOURCE = r"\[[^\]]+\]\(references\.bib#(\w+)\)"
 SOURCES = re.compile(rf"\({SOURCE}(?:, {SOURCE})*\)")
 EXERCISE = re.compile(r"\*\*Exercise(?:: (.+))?\*\*\n\n")
 FOLD = re.compile(r"\A<details><summary>Show the solution</summary>\n\n(.*)\n\n</details>\Z", re.S)
-SECTION = re.compile(r'^\[[^\]]+\]\((\.\./[^ )]+) "([^"]+)"\)$', re.M)
-INCLUDED = '```{include} \\1\n:start-after: "## \\2"\n:end-before: "## "\n```'
 BOX = re.compile(r"^> \*\*(.+)\*\*\n((?:>.*\n?)+)", re.M)
 
 QUIZ = re.compile(r"\*\*Quiz\.\*\* (.+)\n\n(<details>[\s\S]+</details>)")
@@ -94,7 +91,7 @@ def _text(text, metadata):
     if quiz := QUIZ.fullmatch(text):
         text = _quiz(*quiz.groups())
     text = SOURCES.sub(_cite, FOLD.sub(r"\1", text))
-    text = SECTION.sub(INCLUDED, BOX.sub(_box, text))
+    text = BOX.sub(_box, text)
     if "exercise" not in metadata:
         return text
     title = EXERCISE.match(text)
