@@ -25,7 +25,7 @@ _, HEAD, BODY = PAPER.split("---\n", 2)
 REFERENCES = parse_file(ROOT / "book/references.bib").entries
 CHECKLIST = re.findall(
     r"^\| ([^|]+) \| (has|a person) \| (.+) \|$",
-    (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8"),
+    (ROOT / "jose/checklist.md").read_text(encoding="utf-8"),
     re.M,
 )
 
