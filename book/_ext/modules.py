@@ -23,7 +23,11 @@ def translate(app, page, source):
 def _sections(name):
     place = ROOT / name.replace(".", "/")
     own = place / "__init__.py" if place.is_dir() else place.with_suffix(".py")
-    members = "\n   :members:" if re.search(r"^(def|class) ", own.read_text("utf-8"), re.M) else ""
+    members = (
+        "\n   :members:"
+        if re.search(r"^(def|class) ", own.read_text(encoding="utf-8"), re.M)
+        else ""
+    )
     inside = [f"{name}.{file.stem}" for file in sorted(place.glob("[!_]*.py"))]
     section = f"## `{name}`\n\n```{{eval-rst}}\n.. automodule:: {name}{members}\n```\n"
     return "\n".join([section, *map(_sections, inside)])
