@@ -1,4 +1,4 @@
-"""The paper's experiments on movement, whole: plan, calibrate off-line, learn, test on new targets.
+"""The paper's motor experiments: planning, off-line and online calibration, held-out targets.
 
 Tables IV to VI are `planned`, `offline` and a row of `in_sample`; Fig. 12 is the mean of each row.
 The paper reports movements that were practised; `held_out` is what was learned for others.
@@ -119,7 +119,7 @@ def adapt(learner, template_set, rng, perturbation, blocks=(2, 8, 6), movements=
 
 
 def train_aim_correction(template_set, rng, movements=150):
-    """An `AimCorrection` that has practised."""
+    """An `AimCorrection` trained on so many movements."""
     return AimCorrection(template_set).update(
         plan(draw_targets(template_set, movements, rng), template_set)
     )

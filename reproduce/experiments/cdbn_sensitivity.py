@@ -1,4 +1,4 @@
-"""What the seed and the filters' width change: the whole network trained again and again."""
+"""Sensitivity of the CDBN to seed and filter width: the whole network, trained anew for each."""
 
 from functools import cache
 

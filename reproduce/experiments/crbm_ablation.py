@@ -1,4 +1,4 @@
-"""What three tricks of learning are worth: the filters of a first layer, with one trick left out.
+"""Ablation of CRBM training: a first layer's filters without whitening, sparsity or clamping.
 
 Pictures are whitened, units are pulled to be on rarely (by `pressure`), and the outer pixels of a
 patch are clamped while the machine dreams.

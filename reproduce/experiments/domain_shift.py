@@ -1,4 +1,4 @@
-"""From one world to another, and from few labels to many: how well crops are named.
+"""Domain shift and label efficiency: how well crops are named in another world, by few labels.
 
 Every number is a share named right: the mean of the share of shuttlecocks called so and the share
 of other things, cups and windows of the scene, not called so. Chance is one half.
@@ -83,12 +83,12 @@ def load_results():
 
 
 def concatenate(sets):
-    """Pairs of arrays as one pair."""
+    """Concatenate pairs of arrays."""
     return tuple(np.concatenate(part) for part in zip(*sets, strict=True))
 
 
 def labelled_crops(level, split, folder=photos.FOLDER):
-    """Crops (n, 200, 200), labels (n,): of all shuttlecocks and cups, and a window a photo."""
+    """Crops (n, 200, 200) and labels (n,) of all shuttlecocks and cups, and a window a photo."""
     rng, found = np.random.default_rng((LEVELS.index(level), photos.SPLITS.index(split))), []
     for photo in photos.load(level, split, folder):
         for kind, (image, boxes) in boxes_by_kind(photo, np.empty((0, 4)), rng).items():
@@ -98,7 +98,7 @@ def labelled_crops(level, split, folder=photos.FOLDER):
 
 
 def downsample(pictures, width):
-    """Grey pictures (n, height, height), scaled down to (n, width, width) by means of areas."""
+    """Downsample grey pictures (n, height, height) to (n, width, width) by area means."""
     size = pictures.shape[1]
     edges = np.arange(width) * size // width, -(-np.arange(1, width + 1) * size // width)
     areas = [slice(*ends) for ends in zip(*edges, strict=True)]
@@ -107,7 +107,7 @@ def downsample(pictures, width):
 
 
 def train_cdbn(crops, patches):
-    """A CDBN of the paper's size that has learnt from crops as they are: no label chose any."""
+    """Train a CDBN of the paper's size without labels, on all crops."""
     from vmc_lib.what.learning import SECOND, train  # here, for torch weighs on who only reads
 
     pictures, every = whiten(downsample(crops, NARROW)), np.ones(len(crops), bool)
@@ -116,12 +116,12 @@ def train_cdbn(crops, patches):
 
 
 def cdbn_features(network, crops):
-    """What a network's read-out sees of crops: (n, d)."""
+    """CDBN features of crops, (n, d)."""
     return read_outs(network, downsample(crops, NARROW))[READ_OUTS[-1]]
 
 
 def evaluate_over_draws(learn_by, train, validation, exams, count, draws):
-    """What labels of `count` crops teach, draw by draw: (draws, 1 + exams), in-sample first.
+    """Balanced accuracies learnt from `count` labels, draw by draw: (draws, 1 + exams).
 
     learn_by: gives the choices that there are, (choices, 2 + exams), asked in-sample, on validation
     crops and on the `exams`; the choice that does best on validation over all draws is kept. Every
@@ -148,7 +148,7 @@ def draw_rows(labels, count, rng):
 
 
 def evaluate_linear_readout(taught, validation, exams, rng):
-    """Features that stay, and a linear read-out: a choice for each of the PENALTIES."""
+    """A linear read-out of fixed features: scores for each of the PENALTIES."""
     centre, size = taught[0].mean(0), taught[0].std(0) + 1e-3
     sets = [((x - centre) / size, y) for x, y in (taught, validation, *exams)]
     found = []
@@ -177,5 +177,5 @@ def evaluate_end_to_end(taught, validation, exams, rng, steps=STEPS):
 
 
 def balanced_accuracy(called, labels):
-    """The mean of the share of shuttlecocks called so, and of other things not called so."""
+    """Balanced accuracy: the mean of the recalls of shuttlecocks and of other things."""
     return (called[labels].mean() + (~called[~labels]).mean()) / 2

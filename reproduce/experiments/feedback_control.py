@@ -1,4 +1,4 @@
-"""Movements that are watched: with a forward model and without, and in a field that bends them.
+"""Feedback control of reaches: with and without a forward model, target jumps, curl fields.
 
 What is measured of a hand's path, and the experiments whose results ship.
 """

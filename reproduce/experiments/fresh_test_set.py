@@ -1,4 +1,4 @@
-"""A larger exam: two hundred fresh test photos a level, for what forty are too few to tell.
+"""A fresh test set: two hundred new photos a level, for what forty are too few to tell.
 
 No answer is of a photo that had a part in a choice: what the first hundred said of Table I led to
 the sizes, the cost and the threshold of its context, so its rows are of the second hundred alone.

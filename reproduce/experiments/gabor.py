@@ -1,4 +1,4 @@
-"""How much a filter looks like a Gabor function, the textbook model of a simple cell in V1."""
+"""Gabor fits: how well a filter matches a Gabor function, the model of a simple cell in V1."""
 
 import itertools
 from functools import cache

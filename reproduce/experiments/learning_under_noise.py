@@ -1,4 +1,4 @@
-"""What calibration and learning make of an arm that wavers (`motor_noise`)."""
+"""Calibration and learning on an arm with signal-dependent noise (`motor_noise`)."""
 
 from functools import cache, partial
 

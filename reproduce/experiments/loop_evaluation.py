@@ -1,4 +1,4 @@
-"""The loop on trial: photos from pixels to reach, held against what is true of each."""
+"""Evaluation of the closed loop, from pixels to reach: scores, failures, lesions."""
 
 from contextlib import suppress
 
@@ -98,7 +98,7 @@ def summary(scores):
 
 
 def target_box(sight, lesion):
-    """The box (4,) a reach goes for under one of `LESIONS`, or None.
+    """The target box (4,) under one of `LESIONS`, or None.
 
     Without the ventral pathway nothing has a name: it is the box of the highest score.
     """

@@ -1,4 +1,4 @@
-"""A weakened muscle: who finds other muscles for its work?
+"""Muscle weakness: which controllers compensate for it?
 
 Each muscle in turn gets only `LEFT` of its commands, as if the nerve carried no more. Habit learns
 from its errors, in the aim or in the pull (`Adaptation`); it never learns which muscle is weak. The

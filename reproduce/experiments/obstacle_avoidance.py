@@ -1,4 +1,4 @@
-"""Around an obstacle: two mixed reaches in one, the first of them to a via-point beside it.
+"""Obstacle avoidance: two mixed reaches in one, the first of them to a via-point.
 
 The obstacle is a ball that only the hand must not touch. Positions are in the arm's plane, in m.
 """

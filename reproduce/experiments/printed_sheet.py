@@ -1,4 +1,4 @@
-"""Places found with a printed sheet on the table instead of a known camera, on rendered photos."""
+"""Localisation with a printed marker sheet instead of a known camera, on rendered photos."""
 
 import numpy as np
 from joblib import Parallel, delayed

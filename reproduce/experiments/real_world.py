@@ -1,4 +1,4 @@
-"""What models make of photographs, and of another renderer's scenes, photo by photo, as shares."""
+"""Evaluation on photographs and on another renderer's scenes: detection, naming, false alarms."""
 
 from joblib import Parallel, delayed
 

@@ -1,4 +1,4 @@
-"""Table III: the CDBN's read-outs and other features, under one classifier and the same splits.
+"""Table III, recognition: CDBN read-outs and rival features under one classifier.
 
 The classifiers, and what they say of every photo, are stored, as `make` finds them.
 """

@@ -1,4 +1,4 @@
-"""What each idea of training buys: one stream, taught to name photographs without one of them.
+"""Ablation of the ventral stream's training: named right without one of its parts.
 
 It has fewer maps than what ships, so that it can be trained many times, and learns for a shorter
 time. No mistakes are mined.
@@ -81,7 +81,7 @@ def evaluation_set(shown):
 
 
 def accuracy_after_training(teach, maps, exam, seed, steps):
-    """What a stream of so many `maps`, taught by the pool `teach`, names right of an exam."""
+    """Balanced accuracy on an exam of a stream with these `maps`, trained on the samples `teach`."""
     from reproduce.training import (
         ventral_stream as training,  # here, for torch weighs on who only reads
     )

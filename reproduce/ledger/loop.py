@@ -1,4 +1,4 @@
-"""The ledger's rows on the whole chain, and how the chain fares on the test photos."""
+"""The ledger's rows on the closed loop, and its results on the test photos."""
 
 from functools import cache
 

@@ -1,4 +1,4 @@
-"""The ledger's rows on what things are: Table III, Figs. 2, 7 and 8, claims of the text."""
+"""The ledger's rows on recognition: Table III, Figs. 2, 7 and 8, claims of the text."""
 
 from functools import cache
 

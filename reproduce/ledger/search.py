@@ -1,4 +1,4 @@
-"""The ledger's rows on where to look: Figs. 5 and 6, the RoIs, exhaustive search."""
+"""The ledger's rows on candidates: Figs. 5 and 6, the RoIs, exhaustive search."""
 
 from functools import cache
 from time import perf_counter

@@ -1,4 +1,4 @@
-"""Peers of the granule cells: other ways to learn where to aim, all practising the same movements.
+"""Adaptive controllers beside the granule cells: regressions, delta rule, other teachers.
 
 Every one of them plans with the same exact weights and senses the same `mossy_fibres`. Who keeps
 lessons keeps the templates' too; the delta rule starts from weights of zero, which say the same.
@@ -7,7 +7,7 @@ learn from the error at the target instead, by the delta rule: feedback-error le
 it is (Kawato & Gomi 1992), a distal teacher through a model of what an aim leads to (Jordan &
 Rumelhart 1992).
 
-What each must be told was chosen on the calm arm with the seeds 100 to 102, among 2 to 12
+Hyperparameters were chosen on the calm arm with the seeds 100 to 102, among 2 to 12
 neighbours, 10 or 30 hidden units with a penalty of 1e-4 to 1, and for the delta rule widths of .02
 to .08 m and rates of .02 to .4 (.03 and .05 m for the two that learn at the target). The larger
 ridge was chosen with these seeds too, among 3e-4 to .3, on the noisy arm.
@@ -29,12 +29,12 @@ from sklearn.preprocessing import StandardScaler
 
 from vmc_lib.cerebellum.online import AimCorrection, GranuleCells, mossy_fibres
 
-RIDGE = 0.1  # instead of 3e-4: how reluctantly weights move where lessons are noisy
-SMALL = 0.001  # m: over so much a forward model is asked for its slope
+RIDGE = 0.1  # L2 penalty where training pairs are noisy, instead of 3e-4
+SMALL = 0.001  # m: step of the forward model's finite differences
 
 
 class RefitRegressor(RegressorMixin, BaseEstimator):
-    """Any regression, fitted anew to all lessons so far."""
+    """A regression that is refitted to all training pairs so far (memory-based)."""
 
     def __init__(self, regression):
         self.regression = regression
@@ -59,7 +59,7 @@ class RefitRegressor(RegressorMixin, BaseEstimator):
 
 
 class DeltaRuleCells(GranuleCells):
-    """The same granule cells, learnt by the delta rule, lesson by lesson.
+    """The same granule cells with Purkinje weights learnt by the delta rule (LMS).
 
     A Purkinje weight changes by its own line's activity times the error, a `rate` of it, and needs
     to know nothing of other weights: no matrix is inverted (Albus 1971).
@@ -85,7 +85,7 @@ class DeltaRuleCells(GranuleCells):
 
 
 class FeedbackError(AimCorrection):
-    """Aim further by the error that was seen, at the target that was missed."""
+    """Feedback-error learning: shift the aim by the error, at the target that was missed."""
 
     def training_pairs(self, plan, aim, endpoint):
         """At the target, the aim's shift and the error: aim + (target − reached) − target."""
@@ -93,7 +93,7 @@ class FeedbackError(AimCorrection):
 
 
 class DistalTeacher(AimCorrection):
-    """Learn what an aim leads to, and ask this model how to change the aim against the error."""
+    """Distal teacher: learn a forward model of the aim, and descend the error through it."""
 
     def __init__(self, template_set, cells):
         super().__init__(template_set, cells)

@@ -1,4 +1,4 @@
-"""What the CDBN is measured against: features designed by hand, or none at all.
+"""Baseline features beside the CDBN's: raw pixels, HOG and bags of SIFT words.
 
 Each function takes grey crops (n, 200, 200) in 0..1 and returns features (n, d).
 """

@@ -1,4 +1,4 @@
-"""Minimum variance, another rival of habit: the steadiest commands that bring the hand there.
+"""Minimum-variance control, a rival of habit: the commands with the least endpoint scatter.
 
 Where noise grows with the command, commands differ in how far they let the hand scatter; Harris and
 Wolpert (1998) took the least scatter for the brain's aim. Task, arm and search are those of
@@ -48,7 +48,7 @@ def variance(x):
 
 
 def variance_gradient(x):
-    """How the variance changes with each knot, (n,).
+    """Gradient of the variance by the knots, (n,).
 
     Each noise of `_unit_noises` moves the places of the hand by its effect. All that move one
     place are first added up, each times its effect there: then a nudged knot needs two reaches a
@@ -77,7 +77,7 @@ def make(targets=TARGETS[NEW], level=LEVEL, **how):
 
 @cache
 def optimal_excitations():
-    """The steadiest excitations (5, T, 6) of the `NEW` targets."""
+    """The excitations (5, T, 6) of least variance to the `NEW` targets."""
     return optimal_control.excitations_from_knots(arrays("steady")["knots"].astype(float))
 
 

@@ -1,4 +1,4 @@
-"""An arm that wavers: signal-dependent motor noise that lasts.
+"""Signal-dependent motor noise that is smooth in time: an arm that wavers.
 
 The motor units of a muscle, its pool, are driven together, and what unsteadies a pull most is a
 slow waver of that common drive (Dideriksen et al. 2012). So every pool has one smooth curve of
@@ -21,18 +21,18 @@ KNOTS = 12  # spline coefficients of a pool's noise: it wavers about as slowly a
 
 @cache
 def noise_basis():
-    """The smooth curves (T, KNOTS) of which noise is made: random sums of them vary by one."""
+    """Spline basis (T, KNOTS) of the noise, scaled so that random sums have unit variance."""
     return spline(KNOTS) / np.linalg.norm(spline(KNOTS), axis=1, keepdims=True)
 
 
 def noise_factor(shape, share, rng):
-    """By what noise multiplies commands of a shape (…, T, 6): 1 + share · (a smooth curve)."""
+    """Multiplicative noise for commands of a shape (…, T, 6): 1 + share · (a smooth curve)."""
     random = rng.standard_normal((*shape[:-2], KNOTS, 6))
     return 1 + share * noise_basis() @ random
 
 
 def with_noise(excitations, share, rng):
-    """Excitations (…, T, 6), each pool's times its `noise_factor`, held to [0, 1]."""
+    """Excitations (…, T, 6) with signal-dependent noise, clipped to [0, 1]."""
     return np.clip(excitations * noise_factor(np.shape(excitations), share, rng), 0, 1)
 
 

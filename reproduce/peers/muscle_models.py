@@ -1,4 +1,4 @@
-"""Two other muscles, to hold beside the paper's: OpenSim's (Thelen 2003) and MuJoCo's.
+"""Muscle models beside the paper's: OpenSim's (Thelen 2003) and MuJoCo's.
 
 Both take what `muscle.activation_rate` and `muscle.force` take, so each can stand in for the
 paper's wherever a `Muscle` is asked for. Constants are those of OpenSim's arm26, and MuJoCo's own

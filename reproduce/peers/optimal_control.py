@@ -1,4 +1,4 @@
-"""Optimal control, habit's rival: of all commands that bring the hand there, the cheapest.
+"""Optimal control, habit's rival: the commands of least effort that bring the hand there.
 
 Effort is the mean square of the excitations (Diedrichsen et al., 2010). The task is a template's:
 be at the target, still, when a movement ends, and again when the hold ends. Sequential quadratic

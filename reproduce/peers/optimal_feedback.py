@@ -57,7 +57,7 @@ def linearise(state, commands):
 
 
 def observe(state):
-    """Where the hand is and how fast, in the units that weigh the same: (…, 4)."""
+    """Observation: the hand's place and velocity, in units that weigh the same, (…, 4)."""
     q, velocity, _ = np.split(state, [2, 4], axis=-1)
     ahead = hand(q + STEP * velocity)[..., :2]
     place = hand(q)[..., :2]
@@ -96,7 +96,7 @@ class FeedbackLaw(NamedTuple):
 
 
 def feedback_law(excitations):
-    """The best corrections of commands (n, T, 6)."""
+    """The optimal feedback law (LQR) along commands (n, T, 6)."""
     commands, reference = in_ticks(excitations), states(excitations)
     return FeedbackLaw(commands, reference, *gains(reference, commands))
 

@@ -1,4 +1,4 @@
-"""Simpler ways to list candidate boxes, to measure selective search against."""
+"""Sliding windows and edge density: baselines for selective search."""
 
 import cv2
 import numpy as np

@@ -1,1 +1,1 @@
-"""The pipeline: every step that remakes what ships, what it depends on, and how steps are run."""
+"""The pipeline: every step that remakes what ships, what it depends on, and how steps run."""

@@ -1,4 +1,4 @@
-"""Steps run in order by doit, which leaves out what is up to date; a line of progress each."""
+"""Run steps by doit, which leaves out what is up to date, with a line of progress each."""
 
 from time import perf_counter
 

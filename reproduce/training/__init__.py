@@ -1,1 +1,1 @@
-"""What trains: every array that the model reads is learnt here, from photos and movements."""
+"""Training: how every array that the model reads is learnt, from photos and movements."""

@@ -1,4 +1,4 @@
-"""Many looks of a thing: what its crop could have shown, had light, lens or hand differed.
+"""Data augmentation of crops: flips, colour, exposure, blur, noise, JPEG, occlusion.
 
 A network that has met one kind of picture learns that kind. So each time a box is learnt from, it
 looks different: turned, mirrored, in another light, behind another filter, blurred, noisy,
@@ -19,7 +19,7 @@ TINT = 0.2  # of a colour's strength, as a logarithm
 
 @dataclass(frozen=True)
 class Augmentation:
-    """How much looks vary; at 0 a thing stays as it is."""
+    """Strengths of the augmentation; at 0 a crop stays as it is."""
 
     stray: float = 0.08  # of the edges of other boxes than a shuttlecock's, in sides
     quarters: bool = True  # any quarter turn, mirrored or not
@@ -35,7 +35,7 @@ ALL = Augmentation()
 
 
 def augment(image, box, holds, rng, augmentation=ALL):
-    """What a box (4,) of an image, or one near it, shows in one of its augmentation.
+    """An augmented crop of a box (4,) of an image, or of a box near it.
 
     holds: whether it holds a shuttlecock, from which the box then strays. Returns the picture
     (WIDTH, WIDTH, 3) in 0..1; how well the box fits, an IoU, or 0; and the corrections (4,) that
@@ -53,7 +53,7 @@ def augment(image, box, holds, rng, augmentation=ALL):
 
 
 def simulate_camera(x, rng, augmentation=ALL):
-    """A picture (n, n, 3) as another camera takes it in another light, WIDTH pixels wide."""
+    """A picture (n, n, 3) relit, occluded, blurred, noisy and compressed, WIDTH pixels wide."""
     x = relight(x, augmentation, rng)
     if rng.random() < augmentation.hide:
         x = occlude(x, rng)
@@ -68,7 +68,7 @@ def simulate_camera(x, rng, augmentation=ALL):
 
 
 def crop_in_colour(image, box, width):
-    """The inside of a box in colour, (width, width, 3) in 0..1; beyond the image, edges repeat."""
+    """Crop of a box in colour, (width, width, 3) in 0..1; beyond the image, edges repeat."""
     (x0, y0), (x1, y1) = np.round(np.reshape(box, (2, 2))).astype(int)
     columns = np.arange(x0, max(x1, x0 + 4)).clip(0, image.shape[1] - 1)
     rows = np.arange(y0, max(y1, y0 + 4)).clip(0, image.shape[0] - 1)
@@ -78,14 +78,14 @@ def crop_in_colour(image, box, width):
 
 
 def quarter_turn(x, lack, rng):
-    """A picture turned by any quarter, mirrored or not, and its corrections (4,) with it."""
+    """A random quarter turn and flip of a picture, and of its box deltas (4,)."""
     for _ in range(rng.integers(4)):
         x, lack = np.rot90(x), lack[[1, 0, 3, 2]] * [1, -1, 1, 1]
     return (x[:, ::-1], lack * [-1, 1, 1, 1]) if rng.random() < 0.5 else (x, lack)
 
 
 def relight(x, augmentation, rng):
-    """A picture with a shade across it, exposed otherwise."""
+    """A picture under a random gradient of light and another exposure (gamma)."""
     ramp = np.linspace(-0.5, 0.5, len(x), dtype=np.float32)
     right, down = augmentation.light * rng.uniform(-1, 1, 2)
     shade = np.exp(right * ramp + down * ramp[:, None])
@@ -94,7 +94,7 @@ def relight(x, augmentation, rng):
 
 
 def occlude(x, rng):
-    """A picture with up to a third of it behind a band of stripes, most often at a side."""
+    """Random occlusion: up to a third of a picture behind a band of stripes, mostly at a side."""
     n, x = len(x), x.copy()
     depth = int(n * rng.uniform(0.05, 0.35))
     start = 0 if rng.random() < 0.7 else int(rng.uniform(0, n - depth))
@@ -104,7 +104,7 @@ def occlude(x, rng):
 
 
 def compress_jpeg(x, quality):
-    """A picture (n, n, 3) in 0..1 as a JPEG of that quality keeps it."""
+    """JPEG compression of a picture (n, n, 3) in 0..1 at a quality."""
     _, code = cv2.imencode(
         ".jpg", np.uint8(255 * x.clip(0, 1)), [cv2.IMWRITE_JPEG_QUALITY, quality]
     )

@@ -1,4 +1,4 @@
-"""How the object detector learns: from photos, their true boxes and their candidates.
+"""Training object detectors: SVM, box regression and IoU prediction, from labelled candidates.
 
 Candidates that overlap an object by 0.8 are examples, those that overlap none by more than 0.5 are
 counter-examples. A shuttlecock and a cup are the same here: general objects. The numbers of box
@@ -78,7 +78,7 @@ def training_images(shots, recipe):
 
 
 def labelled_candidates(shots, recipe=PUBLISHED):
-    """What the classifier is to tell apart: features x (n, d), labels y (n,).
+    """Clearly labelled candidates: features x (n, d), labels y (n,).
 
     The clear cases among the photos' candidates: IoU of 0.8 and more, 0.5 and less.
     """
@@ -92,7 +92,7 @@ def labelled_candidates(shots, recipe=PUBLISHED):
 
 
 def svm_training_set(images, recipe, rng):
-    """What the classifier learns from: every example, jittered ones too, ROIS counter-examples.
+    """SVM training set: positives, jittered positives and ROIS sampled negatives.
 
     Of `TrainingImage`s. Returns features x (n, d), labels y (n,).
     """
@@ -162,7 +162,7 @@ def fit_detector(shots, recipe=PUBLISHED, rng=None):
 
 
 def with_recipe(detector, name):
-    """The same training, used for the recipe `name`, which does less."""
+    """The same detector under the recipe `name`, which uses fewer of its parts."""
     recipe = EVERY_RECIPE[name]
     predictor = detector.iou_predictor if recipe.predicts_iou else None
     return replace(detector, recipe=recipe, iou_predictor=predictor)
@@ -186,7 +186,7 @@ def best_threshold(scores, right, wanted):
 
 
 def with_best_threshold(detector, shots):
-    """The same detector, with the threshold that is best on photos it did not learn from.
+    """The same detector with the score threshold of best F1 on validation photos.
 
     The published recipe has none to choose: it stays at 0.
     """

@@ -1,4 +1,4 @@
-"""The paper's hierarchy, learnt end to end: all its weights at once, by back-propagation."""
+"""End-to-end training of the paper's hierarchy: all weights at once, by back-propagation."""
 
 import numpy as np
 import torch

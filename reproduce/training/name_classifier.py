@@ -1,4 +1,4 @@
-"""How names are learnt: from crops of objects, jittered and mirrored, and of the bare scene."""
+"""Training the name classifier: logistic regression on jittered crops of objects and scene."""
 
 import numpy as np
 from sklearn.calibration import CalibratedClassifierCV

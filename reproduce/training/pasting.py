@@ -1,4 +1,4 @@
-"""Shuttlecocks cut out of renders, laid on photographs: many things, on many grounds, with boxes.
+"""Cut-and-paste augmentation: rendered shuttlecocks composited on photographs, with boxes.
 
 A renderer's shuttlecock on a renderer's table teaches renders. On a photograph, what is around it
 is real, and nothing but the shuttlecock tells it apart from there.
@@ -27,7 +27,7 @@ class PastedPhoto:
 
 
 def paste_cutouts(shots, split, count, rng):
-    """So many `PastedPhoto`: on those of the real photos `shots` that show no shuttlecock, in turn.
+    """Paste cut-outs on the real photos `shots` that show no shuttlecock, in turn: `PastedPhoto`s.
 
     The last HELD_OUT cut-outs validate ("validation"), the others teach ("train").
     """

@@ -1,4 +1,4 @@
-"""How the templates were made: reaches to a grid of places, each settled until it ends there.
+"""Reach templates: excitations for a grid of places, refined by Gauss–Newton steps.
 
 A minimum-jerk path (Flash and Hogan, 1985) gives torques by inverse dynamics; torques are shared
 among the six muscles, smoothly and with the least squares of activation; Eq. 9 solved backwards

@@ -1,4 +1,4 @@
-"""What names are learnt from: boxes of renders and of photographs, drawn in ever new looks."""
+"""Training samples of the ventral stream: boxes of renders and photographs, by source and kind."""
 
 from dataclasses import dataclass
 
@@ -19,7 +19,7 @@ APART = 0.3  # IoU under which a window shows no shuttlecock
 
 @dataclass(frozen=True, eq=False)
 class TrainingSamples:
-    """Boxes to draw from: a source -> a kind -> a list of (image, boxes (n, 4)).
+    """Boxes to sample from: source -> kind -> list of (image, boxes (n, 4)).
 
     A source is one of `SOURCES`: renders, photographs, photographs on which renders were laid. A
     kind is one of `SHARES`; what one source has none of comes from the others.
@@ -51,7 +51,7 @@ def training_samples(by_level):
 
 
 def collect_samples(rng, folder=photos.FOLDER, everyday=None, pasted=PASTED):
-    """What the training photos of each level show: level -> what `photo_samples` gives.
+    """Collect the samples of all training photos: level -> what `photo_samples` gives.
 
     Among the real ones are those of everyday things, or so many of them. On real ones without a
     shuttlecock one is laid, as often as `pasted` says: the level "pasted".
@@ -63,7 +63,7 @@ def collect_samples(rng, folder=photos.FOLDER, everyday=None, pasted=PASTED):
 
 
 def photo_samples(shots, rng):
-    """What each of some photos shows, `boxes_by_kind`.
+    """The `boxes_by_kind` of each photo, from candidates (renders) or detections (photographs).
 
     In photographs, the windows that teach best are those that look like objects to the detector.
     """
@@ -81,7 +81,7 @@ def detected_boxes(finder, shot):
 
 
 def boxes_by_kind(photo, proposed, rng):
-    """Of a photo and the boxes `proposed` (n, 4): kind -> (image, boxes) of each kind it has."""
+    """Boxes of a photo by kind, background from `proposed` (n, 4): kind -> (image, boxes)."""
     shuttlecocks = photos.all_of(photo, "shuttlecock")
     others = [photos.all_of(photo, name) for name in photo.boxes if name != "shuttlecock"]
     windows = np.vstack([proposed, random_windows(rng)])
@@ -91,6 +91,6 @@ def boxes_by_kind(photo, proposed, rng):
 
 
 def random_windows(rng, count=60):
-    """Up to `count` windows (n, 4) of any place and size, at least 30 pixels wide and high."""
+    """Up to `count` random windows (n, 4), at least 30 pixels wide and high."""
     ends = np.sort(rng.random((count, 2, 2)), axis=1) * [photos.WIDTH, photos.HEIGHT]
     return ends[(np.diff(ends, axis=1) >= 30).all((1, 2))].reshape(-1, 4)

@@ -1,4 +1,4 @@
-"""What training has learnt and the model reads: the arrays in `vmc_lib/data`.
+"""The models that ship: the arrays in `vmc_lib/data`, learnt from the training photos.
 
 `candidates`, `detectors`, `localisers`, `cdbn`, `recogniser` and `templates` return the arrays of
 the file of their name, and `reproduce.pipeline.steps` writes them; `photographs` is of

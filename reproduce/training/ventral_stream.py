@@ -1,4 +1,4 @@
-"""How the ventral stream learns: from boxes near things, in ever new looks, by back-propagation.
+"""Training the ventral stream by back-propagation, with augmentation and hard-negative mining.
 
 One network learns two things at once: whether a box shows a shuttlecock, and how far its edges are
 from the true ones. A box that strays far is a lesson in both.
@@ -39,7 +39,7 @@ SCALE, EDGES = 0.2, 2  # of the corrections that are read out; how much they cou
 
 
 def augmented_batch(pool, count, rng):
-    """So many boxes in new looks: crops (n, 3, WIDTH, WIDTH), fits (n,), lacks (n, 4), float32."""
+    """A batch of augmented crops (n, 3, WIDTH, WIDTH), IoUs (n,), box deltas (n, 4), float32."""
     parts = zip(
         *(augment(*pool.draw(rng), rng, pool.augmentation) for _ in range(count)), strict=True
     )
@@ -51,7 +51,7 @@ def augmented_batch(pool, count, rng):
 
 
 def build_network(seed, maps=MAPS):
-    """A network that knows nothing: the stages of a `VentralStream`, and its read-out."""
+    """An untrained network: the stages of a `VentralStream`, and its read-out."""
     layers, channels, places = [], 3, (WIDTH // 2 ** len(maps)) ** 2
     with torch_seed(seed):
         for count in maps:
@@ -64,14 +64,14 @@ def build_network(seed, maps=MAPS):
 
 @contextmanager
 def torch_seed(seed):
-    """Within, torch's own random numbers are those of a seed; outside they are as they were."""
+    """Seed torch's global generator in this block; restore it after."""
     with torch.random.fork_rng():
         torch.random.default_generator.manual_seed(seed)
         yield
 
 
 def loss(outputs, fit, lack):
-    """How wrong the network is about names, and about the edges of boxes near a shuttlecock."""
+    """Training loss: cross-entropy of the name, smooth L1 of the deltas of boxes near one."""
     clear, near = (fit > YES) | (fit < NO), fit > NEAR
     name = F.binary_cross_entropy_with_logits(outputs[clear, 0], (fit[clear] > YES).float())
     off = F.smooth_l1_loss(SCALE * outputs[near, 1:], lack[near], beta=0.05)
@@ -92,7 +92,7 @@ class Batches(Dataset):
 
 
 def train(network, batches, rate):
-    """Let every weight of a network learn at once, in place, from `Batches`.
+    """Train a network in place, on `Batches`.
 
     By torch's AdamW, whose rate rises and falls once (OneCycleLR). While it learns, each map is
     brought to one scale (batch normalisation).
@@ -110,7 +110,7 @@ def train(network, batches, rate):
 
 
 def fold_batch_norm(network):
-    """The `VentralStream` of a network: what brought maps to one scale is in its filters now."""
+    """Fold batch normalisation into the filters: a network as a `VentralStream`."""
     filters, biases = [], []
     for conv, norm in zip(network[:-3:4], network[1:-3:4], strict=True):
         gain = norm.weight / torch.sqrt(norm.running_var + norm.eps)
@@ -125,7 +125,7 @@ def fold_batch_norm(network):
 
 
 def hard_negatives(stream, photo):
-    """What a photo shows, of its windows those that a stream most takes for shuttlecocks.
+    """Hard negatives: a photo's boxes by kind, with the windows of highest false log-odds.
 
     As `samples.boxes_by_kind` gives it. They are sought among its windows as they are, and as the
     stream tightens them.
@@ -171,7 +171,7 @@ def validation_photos(folder=photos.FOLDER, laid=LAID):
 
 
 def fit_rescoring(stream, shots):
-    """Of boxes that the object detector finds in photos: the chance that one is a shuttlecock's.
+    """Fit the probability that a detected box is a shuttlecock's, from both pathways' scores.
 
     Logistic regression on what `weighed` gives, as a `NameClassifier`; right is an IoU above
     0.5. Renders teach with the photographs, for these alone are too few.

@@ -1,4 +1,4 @@
-"""The bones of the whole arm, from MyoArm's own meshes, made small: what the page draws it with.
+"""Bone meshes of the whole arm, from MyoArm's own, simplified for the page.
 
 Each lies in its body's frame, as `arm63.xml` has it; the ribs, which do not move, in the world's.
 Needs what `reproduce.whole_arm.derive` needs.

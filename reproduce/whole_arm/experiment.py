@@ -1,4 +1,4 @@
-"""Does mixing (Eq. 3–5) survive redundancy? The whole arm's reaches, planned, corrected, practised.
+"""Experiments with the whole arm: does mixing (Eq. 3–5) survive redundancy?
 
 Eight memories surround a place in space, one in each octant; whatever plans and corrects is
 `vmc_lib`'s, the same as for the arm of six muscles.

@@ -1,4 +1,4 @@
-"""How the whole arm came by its habits: where to stop, what to ask of muscles, what they remember.
+"""Templates of the whole arm: inverse kinematics, static optimisation, muscle synergies.
 
 A posture is the one nearest to a comfortable posture among all that reach the goal. A minimum-jerk
 path there gives torques by inverse dynamics; static optimisation shares them among the muscles with
@@ -40,7 +40,7 @@ def reach_posture(goal, easy=EASY):
 
 @dataclass(frozen=True, eq=False)
 class SynergyMap:
-    """Which muscles share a command: `groups` (63, n), one 1 in each row."""
+    """Muscle synergies: which muscles share a command, `groups` (63, n), one 1 in each row."""
 
     groups: np.ndarray
 
@@ -96,7 +96,7 @@ def muscle_synergies(count=plant.MODEL.nu):
 
 
 def record_templates(synergies, goals, easy=EASY):
-    """Past experience: a `TemplateSet` of reaches that end near the goals (N, 3).
+    """Record templates: a `TemplateSet` of reaches that end near the goals (N, 3).
 
     Each is tried once, and then aimed beyond its goal by as much as it missed. `easy` is the easy
     posture (7,), or one for each goal (N, 7).

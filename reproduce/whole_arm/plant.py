@@ -91,7 +91,7 @@ def fingertip(joints):
 
 
 def required_torque(posture, velocity, acceleration):
-    """What a moment of a movement, each (7,), asks: torque (7,) and the muscles' gain (7, 63).
+    """Inverse dynamics at posture, velocity, acceleration (7,): torque (7,), muscles' gain (7, 63).
 
     Whatever activation (63,) satisfies torque = gain @ activation gives this acceleration.
     """
