@@ -42,8 +42,8 @@ def train_variations(variations, folder, exam, patches=PATCHES):
 def train_variation(variation, folder, exam, patches=PATCHES):
     """For (n_w, seed), the first layer's filters (10, n_w, n_w), and how well the network names.
 
-    That is, counts (levels, read-outs, SPLITS, 4), as from `tally`. It learns from photos in
-    `folder`, so many patches of them; the test photos are those in the folder `exam`.
+    That is, `confusion_counts` (levels, read-outs, SPLITS, 4). It learns from photos in `folder`,
+    so many patches of them; the test photos are those in the folder `exam`.
     """
     from vmc_lib.what.learning import train  # here, for torch weighs on who only reads the results
 

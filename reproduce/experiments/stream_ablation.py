@@ -24,7 +24,7 @@ PLAIN = Augmentation(
     stray=0, quarters=False, colour=0, light=0, blur=0, noise=0, compress=0, hide=0
 )
 MAPS = 8, 16, 32, 32  # of the four stages
-WITHOUT = {  # how a `Pool` changes when an idea is left out, and how many maps the stages have
+WITHOUT = {  # how samples change when an idea is left out, and how many maps the stages have
     "all of them": (lambda pool: pool, MAPS),
     "two stages, not four": (lambda pool: pool, MAPS[:2]),
     "without new looks": (lambda pool: replace(pool, augmentation=PLAIN), MAPS),
@@ -40,7 +40,7 @@ WINDOWS = 12  # about how many of a photograph are asked
 
 
 def without(pool, *sources, kinds=SHARES):
-    """A `Pool` without some kinds of what some sources have."""
+    """Training samples with some kinds of some sources removed."""
     gone = {name: pool.sources[name] | dict.fromkeys(kinds, ()) for name in sources}
     return replace(pool, sources=pool.sources | gone)
 

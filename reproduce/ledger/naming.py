@@ -59,7 +59,7 @@ def _table_3():
 
 
 def _trainings(level, read_out):
-    """Test counts (trainings, 4) of the network trained again, as from `tally`."""
+    """Test counts (trainings, 4) of the network trained again, as from `confusion_counts`."""
     i, j = photos.LEVELS.index(level), READ_OUTS.index(read_out)
     found = cdbn_sensitivity.load_results()
     return np.array([found[k][1][i, j, cdbn_sensitivity.SPLITS.index("test")] for k in NETWORKS])

@@ -102,7 +102,7 @@ def recogniser(folder=photos.FOLDER):
 
 
 def readout_training_set(shots, rng, network):
-    """The read-outs of photos' `examples`, bare scene among them, and their labels."""
+    """The read-outs of photos' `labelled_crops`, and their labels."""
     crops, labels = labelled_crops(shots, rng, background=BARE)
     return read_outs(network, crops), labels
 

@@ -153,7 +153,7 @@ def test_no_cure_gets_worse_with_practice():
 
 
 def test_what_shipped_can_be_measured_again(template_set):
-    seed = SEEDS[0]  # `tables` draws 200 and then 25 targets before it calibrates the latter
+    seed = SEEDS[0]  # `error_ratios` draws 200 and then 25 targets before it calibrates the latter
     rng = np.random.default_rng(seed)
     draw_targets(template_set, 200, rng)
     tried = algorithm_1(plan(draw_targets(template_set, 25, rng), template_set)).error
