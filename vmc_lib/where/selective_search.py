@@ -5,7 +5,6 @@ object (Uijlings et al. 2013; the paper's Block 1-1, bottom-up part).
 """
 
 from dataclasses import dataclass
-from functools import partial
 from heapq import heapify, heappop, heappush
 from itertools import chain
 
@@ -18,30 +17,11 @@ from vmc_lib.where.appearance import (
     MEASURES,
     colour_codes,
     describe,
-    likeness,
+    merge_regions,
+    similarity,
     texture_codes,
-    union,
 )
 from vmc_lib.where.segmentation import segmentations
-
-# What makes two regions alike. A further name may be given a function of an Appearance and of the
-# regions i and j (n,) of n pairs, that says how alike they are, (n,); these four it has itself.
-SIMILARITIES = dict.fromkeys(MEASURES)
-
-
-def alike(appearance, pairs, similarities):
-    """How alike pairs (n, 2) of regions are, (n,): the sum of the named similarities."""
-    total = appearance.likeness(pairs, _counting(similarities))
-    others = (SIMILARITIES[name] for name in similarities if name not in MEASURES)
-    return sum((other(appearance, *pairs.T) for other in others), total)
-
-
-def _counting(similarities):
-    """For each of MEASURES, whether it is among the named similarities."""
-    return tuple(name in similarities for name in MEASURES)
-
-
-# ---------------------------------------------------------------- growing back
 
 
 @dataclass(frozen=True)
@@ -69,60 +49,52 @@ def touching(labels):
     return np.stack(np.divmod(np.unique(pairs.min(0) * n + pairs.max(0)), n), axis=1)
 
 
-def grow(labels, appearance, similarities):
+def grow(labels, appearance, measures):
     """Merge the two most similar neighbours, again and again, until one region is left.
 
-    The Appearance describes the segments in `labels`; its empty rows are filled. Likeness is the
-    sum of the named `similarities` (with none, the lowest numbers merge first). A merged region's
-    row follows from its two parts' rows, so no step reads a pixel, and a heap has the best pair at
+    The Appearance describes the segments in `labels`; its empty rows are filled. `measures` are the
+    names that count of MEASURES (with none, the lowest numbers merge first). A merged region's row
+    follows from its two parts' rows, so no step reads a pixel, and a heap has the best pair at
     hand: n segments cost about n log n.
     """
-    pairs = touching(labels)
-    given = appearance.rows, appearance.pixels, pairs, alike(appearance, pairs, similarities)
-    if set(similarities) <= set(MEASURES):
-        merges = _merge_all(*given, _counting(similarities), None)
-    else:  # a reader's own measure is no machine code, and neither is the loop that asks it
-        like = partial(alike, appearance, similarities=similarities)
-        merges = _merge_all.__wrapped__(*given, None, like)
+    used = tuple(name in measures for name in MEASURES)
+    merges = _merge_all(appearance, touching(labels), used)
     return Hierarchy(labels, merges, appearance.boxes.copy())
 
 
 @compiled
-def _merge_all(rows, pixels, pairs, first_alike, counting, like):
-    """Which two regions each step merges, (n - 1, 2); fills the empty rows of an Appearance.
-
-    The first `pairs` (m, 2) are `first_alike`, (m,). How alike later ones are says `like`, or, if
-    that is None, the sum of those MEASURES that are `counting`.
-    """
-    total = len(rows[0])
-    into, met = np.arange(total), np.zeros(total, np.int64)  # by what merged; by what last met
-    neighbours = [[i for i in range(0)] for _ in range(total)]  # empty, but of whole numbers
+def _merge_all(regions, pairs, measures):
+    """Which two regions each step merges, (n - 1, 2); fills the empty rows of an Appearance."""
+    total = len(regions.size)
+    parent, last_seen = np.arange(total), np.zeros(total, np.int64)
+    neighbours = [[i for i in range(0)] for _ in range(total)]  # empty lists of integers
     for i, j in pairs:
         neighbours[i].append(j)
         neighbours[j].append(i)
-    queue = [(-first_alike[p], pairs[p, 0], pairs[p, 1]) for p in range(len(pairs))]
+    first = similarity(regions, pairs, measures)
+    queue = [(-first[p], pairs[p, 0], pairs[p, 1]) for p in range(len(pairs))]
     heapify(queue)
     merges = np.empty((total // 2, 2), np.int64)
     for new in range(total - len(merges), total):
         _, i, j = heappop(queue)
-        while into[i] != i or into[j] != j:  # one of the two has been merged away since
+        while parent[i] != i or parent[j] != j:  # one of the two has been merged away since
             _, i, j = heappop(queue)
         merges[new - total] = i, j
-        union(*rows, i, j, new)
-        into[i] = into[j] = new
+        merge_regions(regions, i, j, new)
+        parent[i] = parent[j] = new
         for k in neighbours[i] + neighbours[j]:
-            while into[k] != k:
-                into[k] = into[into[k]]  # half as far for who asks next
-                k = into[k]
-            if k != new and met[k] != new:
-                met[k] = new
+            while parent[k] != k:
+                parent[k] = parent[parent[k]]  # path halving
+                k = parent[k]
+            if k != new and last_seen[k] != new:
+                last_seen[k] = new
                 neighbours[new].append(k)
         around = np.full((len(neighbours[new]), 2), new)
         for p, k in enumerate(neighbours[new]):
             around[p, 0] = k
-        found = likeness(*rows, pixels, around, counting) if like is None else like(around)
+        scores = similarity(regions, around, measures)
         for p, k in enumerate(neighbours[new]):
-            heappush(queue, (-found[p], k, new))
+            heappush(queue, (-scores[p], k, new))
     return merges
 
 
@@ -136,7 +108,7 @@ ALL, COLOURLESS = MEASURES, MEASURES[1:]
 class Strategy:
     """Which hierarchies to grow: one for every colour space, scale and set of similarities.
 
-    ValueError for a name that is none of COLOUR_SPACES, or of SIMILARITIES.
+    ValueError for a name that is none of COLOUR_SPACES, or of MEASURES.
     """
 
     colours: tuple = ("HSV",)
@@ -144,7 +116,7 @@ class Strategy:
     similarities: tuple = (ALL,)
 
     def __post_init__(self):
-        named = (self.colours, COLOUR_SPACES), (chain(*self.similarities), SIMILARITIES)
+        named = (self.colours, COLOUR_SPACES), (chain(*self.similarities), MEASURES)
         for names, known in named:
             for name in names:
                 if name not in known:
