@@ -127,7 +127,7 @@ def detect_photos(level, split, detector="published", folder=photos.FOLDER):
         yield detector.detect(photo.image, candidates(photo, detector.recipe.strategy))
 
 
-def table_2(level, split="test", overlap=FOUND):
+def table_2(level, split="test", overlap=MIN_IOU):
     """Table II: precision and recall of the final boxes of each recipe, right at IoU `overlap`."""
     some, rows = photos.load(level, split), {}
     for name in RECIPES:
@@ -136,7 +136,7 @@ def table_2(level, split="test", overlap=FOUND):
     return rows
 
 
-def precision_recall(shots, boxes, overlap=FOUND):
+def precision_recall(shots, boxes, overlap=MIN_IOU):
     """Precision and recall of a list of boxes a photo: a box is right at IoU `overlap` or more.
 
     Precision is the share of boxes that are right, recall that of objects with a right box.

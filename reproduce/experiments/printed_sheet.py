@@ -25,7 +25,7 @@ def make(folder=photos.FOLDER, models=MODELS, count=None):
 
 def photo_errors(photo, models):
     """The row of one photo."""
-    camera, bare = sheet.look(photo.image)
+    camera, bare = marker_sheet.remove_sheet(photo.image)
     true = photo.boxes["shuttlecock"]
     [model, *_] = models.values()  # all have the same localiser
     row = {

@@ -98,7 +98,7 @@ def examine(model, photo, sized=False):
         "chance": round(float(chance[0]), 4),
         "candidate": _best(found.candidates, [truth]),
         "kept": _best(found.boxes, [truth]),
-        "fit": _best(chosen, photos.all_of(photo, "shuttlecock")),
+        "fit": _best(chosen, photos.boxes_of(photo, "shuttlecock")),
     }
 
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
-from vmc_lib.boxes import corrected, corrections, iou, jittered, widened
+from vmc_lib.boxes import decode_deltas, encode_deltas, iou, jitter_boxes, pad_boxes
 from vmc_lib.what.stream import MARGIN, WIDTH
 
 STRAYS = 0.05, 0.12, 0.2  # in sides: how far a box lies from the shuttlecock's, by turns

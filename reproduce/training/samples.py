@@ -67,7 +67,7 @@ def photo_samples(shots, rng):
 
     In photographs, the windows that teach best are those that look like objects to the detector.
     """
-    finder = loop.lenient_detector(loop.PHOTOGRAPHS_AS)
+    finder = loop.high_recall_detector(loop.PHOTOGRAPHS_AS)
     found = Parallel()(
         delayed(candidates)(shot) if shot.camera else delayed(detected_boxes)(finder, shot)
         for shot in shots

@@ -19,7 +19,7 @@ from vmc_lib.motor.templates import SPACINGS, key
 from vmc_lib.what.cdbn import CDBN, PATCHES, crops_of
 from vmc_lib.what.crops import whiten
 from vmc_lib.what.learning import train
-from vmc_lib.what.recogniser import ALL_LEVELS, READ_OUTS, read_outs
+from vmc_lib.what.recogniser import POOLED_LEVEL, READ_OUTS, read_outs
 from vmc_lib.where.localiser import Localiser
 from vmc_lib.where.recipes import EVERY_RECIPE, RECIPES, TRAINED_AS
 from vmc_lib.where.selective_search import propose

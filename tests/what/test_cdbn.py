@@ -31,7 +31,7 @@ def test_layers_have_the_papers_sizes(cdbn, white):
         assert layers[name].max() <= 1
 
 
-def test_to_see_and_to_learn_are_the_same_equations(cdbn, white):
+def test_numpy_and_torch_compute_equal_layers(cdbn, white):
     """NumPy's layers beside torch's own convolution and softmax, and beside those of a Learner."""
     F = torch.nn.functional
     learner = CDBN.load(Learner).layers(torch.from_numpy(white))
@@ -52,9 +52,9 @@ def test_to_see_and_to_learn_are_the_same_equations(cdbn, white):
         np.testing.assert_allclose(alone, ours[name], rtol=0, atol=1e-6)
 
 
-def test_projection_is_what_a_second_layer_unit_paints(cdbn):
+def test_projected_filters_match_one_active_second_layer_unit(cdbn):
     """Moving a picture along a projected filter drives its unit up, as a straight line."""
-    projected = cdbn.projected()
+    projected = cdbn.projected_filters()
     assert projected.shape == (10, 23, 23)
     for k in (0, 7):
         W = torch.tensor(cdbn.second.W[k : k + 1])
@@ -91,13 +91,13 @@ def test_training_is_repeatable_and_saves_whole(white, tmp_path):
     assert not torch.equal(p2[0], other.layers(white)["P2"])
 
 
-def test_without_a_positive_picture_the_second_layer_has_nothing_to_learn(white):
+def test_training_needs_a_positive_picture(white):
     with pytest.raises(ValueError, match="at least one"):
         train(white, np.zeros(4, bool), patches=100)
 
 
 @pytest.mark.skipif(not torch.cuda.is_available(), reason="no GPU here")
-def test_one_argument_moves_training_to_the_gpu(white):
+def test_training_runs_on_the_gpu(white):
     there = train(white, np.ones(4, bool), patches=200, device="cuda")
     assert there.first.W.is_cuda
     assert there.second.W.is_cuda

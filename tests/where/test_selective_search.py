@@ -31,7 +31,7 @@ def grown():
 def test_every_merge_unites_two_neighbours(grown):
     for step, pair in enumerate(grown.merges.tolist()):
         before, after = grown.after(step), grown.after(step + 1)
-        assert sorted(pair) in ss.touching(before).tolist()
+        assert sorted(pair) in ss.adjacent_regions(before).tolist()
         new = len(grown.merges) + 1 + step
         assert ((after == new) == np.isin(before, pair)).all()
         assert (after == before)[after != new].all()
@@ -83,7 +83,7 @@ def test_similarity_matches_the_published_measures(seed):
         appearance.colour_codes(channels),
         appearance.texture_codes(channels),
     )
-    pairs = ss.touching(labels)
+    pairs = ss.adjacent_regions(labels)
     for name, measure in MEASURED.items():
         used = tuple(name == one for one in appearance.MEASURES)
         value = appearance.similarity(look, pairs, used)
@@ -119,7 +119,7 @@ def test_compiled_loops_match_their_source(monkeypatch):
 def test_without_measures_the_lowest_numbers_merge_first():
     strategies = [ss.Strategy(k=(30,), similarities=(m,)) for m in ((), ("size",))]
     blind, by_size = (next(ss.hierarchies(PHOTO, s)) for s in strategies)
-    assert blind.merges[0].tolist() == ss.touching(blind.labels)[0].tolist()
+    assert blind.merges[0].tolist() == ss.adjacent_regions(blind.labels)[0].tolist()
     assert (blind.merges[0] != by_size.merges[0]).any()
 
 
@@ -179,7 +179,7 @@ def test_the_order_depends_on_the_generator_alone():
 
 def test_large_regions_tend_to_come_first():
     trees = list(ss.hierarchies(PHOTO, ss.STRATEGIES["fast"]))
-    draws = [ss.ranked(trees, np.random.default_rng(seed)) for seed in range(20)]
+    draws = [ss.rank_boxes(trees, np.random.default_rng(seed)) for seed in range(20)]
     assert (draws[0] == ss.propose(PHOTO, "fast")).all()
     early, late = (np.mean([area(d[part]).mean() for d in draws]) for part in np.s_[:10, -10:])
     assert early > 3 * late

@@ -1,4 +1,4 @@
-"""Learning: a CRBM that dreams and is corrected, and two of them, one upon the other.
+"""Training CRBMs by contrastive divergence, and a CDBN greedily, layer by layer.
 
 What is in `crbm` and `cdbn` computes with NumPy's arrays. Learning takes torch's tensors, which can
 be differentiated and moved to a GPU, through the same equations.
@@ -25,11 +25,11 @@ SECOND = {"epochs": 2, "width": 25, "sparsity": 0.1, "rate": 0.2, "decay": 0.000
 class Learner(CRBM):
     """A CRBM of torch tensors, all on the device of `W`: it can dream, and learn."""
 
-    lib, laid_on = torch, staticmethod(torch.conv2d)
+    xp, correlate_valid = torch, staticmethod(torch.conv2d)
 
     @classmethod
     def random(cls, K, channels, n_w, rng, c=2, device="cpu"):
-        """A machine that knows nothing yet: small random filters drawn from a torch.Generator."""
+        """An untrained machine: small random filters drawn from a torch.Generator."""
         W = 0.01 * torch.randn(K, channels, n_w, n_w, generator=rng)
         return cls(W.to(device), torch.zeros(K, device=device), torch.zeros(channels).to(device), c)
 
@@ -142,22 +142,22 @@ class Learner(CRBM):
 
 
 class Patches:
-    """Windows cut at random from maps (n, channels, height, width), cut anew whenever asked for.
+    """Random windows of maps (n, channels, height, width), cut out when they are indexed.
 
-    50,000 patches of 25 × 25 × 10 would fill 1.25 GB; their places fill one.
+    50,000 patches of 25 × 25 × 10 would take 1.25 GB; their positions take 1.2 MB.
     """
 
     def __init__(self, maps, width, count, rng):
         self.windows = maps.unfold(2, width, 1).unfold(3, width, 1)
         n, _, rows, columns = self.windows.shape[:4]
         draws = torch.rand(3, count, generator=rng)
-        self.places = (draws * torch.tensor([[n], [rows], [columns]])).long().to(maps.device)
+        self.positions = (draws * torch.tensor([[n], [rows], [columns]])).long().to(maps.device)
 
     def __len__(self):
-        return self.places.shape[1]
+        return self.positions.shape[1]
 
     def __getitem__(self, rows):
-        picture, y, x = self.places[:, rows]
+        picture, y, x = self.positions[:, rows]
         return self.windows[picture, :, y, x]
 
 
@@ -181,7 +181,8 @@ def train(pictures, positive, seed=0, n_w=N_W, patches=PATCHES, device="cpu", se
 
     No target is learnt, but a label chooses: the first layer learns from all pictures, the second,
     as in the paper, only from the positive ones (`positive` (n,) bool), the shuttlecocks. `device`
-    says where: "cpu" or "cuda"; `second` how the second layer learns. ValueError for no positive.
+    says where: "cpu" or "cuda"; `second` how the second layer learns. ValueError
+    for no positive one.
     """
     if not np.any(positive):
         raise ValueError("the second layer learns from the positive pictures: give at least one")

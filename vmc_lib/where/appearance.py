@@ -91,8 +91,7 @@ def colour_codes(channels):
 def texture_codes(channels):
     """Quantised directional derivatives: 4 orientations × 2 signs × 10 bins per channel.
 
-    Returns the codes (4c, pixels), and how many bins there are: ten of rising slopes, ten of falling
-    ones.
+    Returns the codes (4c, pixels), and how many bins there are.
     """
     angles = np.arange(4) * np.pi / 4
     smooth = [cv2.GaussianBlur(channel, (0, 0), 1) for channel in np.moveaxis(channels, 2, 0)]
@@ -132,7 +131,7 @@ def histograms(counts):
 
 
 def describe(labels, colours, textures):
-    """The Appearance of a segmentation, with room for every merge: 2n - 1 rows for n segments."""
+    """The Appearance of n labelled segments, with room for every merge: 2n - 1 rows."""
     places = find_objects(labels + 1)
     colour, texture = (
         _count(labels.ravel(), codes, len(places), bins) for codes, bins in (colours, textures)

@@ -1,7 +1,7 @@
-"""Selective search: a photo falls into segments, which grow back together, similar ones first.
+"""Selective search: object candidates by hierarchical grouping of segments.
 
-Every region met on the way up, from a patch of cork to the whole table, is a candidate for an
-object (Uijlings et al. 2013; the paper's Block 1-1, bottom-up part).
+The most similar neighbours merge, again and again; every region on the way, from a patch of cork to
+the whole table, is a candidate (Uijlings et al. 2013; the paper's Block 1-1, bottom-up part).
 """
 
 from dataclasses import dataclass
@@ -26,11 +26,11 @@ from vmc_lib.where.segmentation import segmentations
 
 @dataclass(frozen=True)
 class Hierarchy:
-    """How one segmentation grew back into one region."""
+    """Hierarchical grouping of one segmentation into one region."""
 
     labels: np.ndarray  # (height, width) the n segments, 0 to n - 1
     merges: np.ndarray  # (n - 1, 2) the two regions merged at each step; step t makes region n + t
-    boxes: np.ndarray  # (2n - 1, 4) around every region, in the order of their making
+    boxes: np.ndarray  # (2n - 1, 4) around every region, in the order in which they are made
 
     def after(self, steps):
         """Labels (height, width) after so many merges; a region keeps its number until merged."""
@@ -41,7 +41,7 @@ class Hierarchy:
         return into[self.labels]
 
 
-def touching(labels):
+def adjacent_regions(labels):
     """Pairs (m, 2) of regions that share a border, each pair once, the lower number first."""
     n = labels.max() + 1
     sides = (labels[:, :-1], labels[:, 1:]), (labels[:-1], labels[1:])
@@ -50,7 +50,7 @@ def touching(labels):
 
 
 def grow(labels, appearance, measures):
-    """Merge the two most similar neighbours, again and again, until one region is left.
+    """Hierarchical grouping: merge the two most similar neighbours until one region is left.
 
     The Appearance describes the segments in `labels`; its empty rows are filled. `measures` are the
     names that count of MEASURES (with none, the lowest numbers merge first). A merged region's row
@@ -58,7 +58,7 @@ def grow(labels, appearance, measures):
     hand: n segments cost about n log n.
     """
     used = tuple(name in measures for name in MEASURES)
-    merges = _merge_all(appearance, touching(labels), used)
+    merges = _merge_all(appearance, adjacent_regions(labels), used)
     return Hierarchy(labels, merges, appearance.boxes.copy())
 
 
@@ -98,7 +98,7 @@ def _merge_all(regions, pairs, measures):
     return merges
 
 
-# ---------------------------------------------------------------- many hierarchies, one list
+# ---------------------------------------------------------------- several hierarchies, one list
 
 
 ALL, COLOURLESS = MEASURES, MEASURES[1:]
@@ -106,7 +106,7 @@ ALL, COLOURLESS = MEASURES, MEASURES[1:]
 
 @dataclass(frozen=True)
 class Strategy:
-    """Which hierarchies to grow: one for every colour space, scale and set of similarities.
+    """Which hierarchies to grow: one for every colour space, scale and set of MEASURES.
 
     ValueError for a name that is none of COLOUR_SPACES, or of MEASURES.
     """
@@ -149,8 +149,8 @@ def hierarchies(image, strategy):
                 yield grow(labels, appearance, similarities)
 
 
-def ranked(trees, rng, smallest=20):
-    """The boxes (n, 4) of many hierarchies in one list, the likeliest first, none twice.
+def rank_boxes(trees, rng, smallest=20):
+    """Pool and rank the boxes (n, 4) of several hierarchies, none twice.
 
     Each hierarchy ranks its regions from the last made (the largest) down; a rank is then
     multiplied by a number drawn from `rng`, so that neither large boxes nor one hierarchy come
@@ -169,14 +169,34 @@ def ranked(trees, rng, smallest=20):
 
 
 def propose(image, strategy="single", rng=None, smallest=20):
-    """Candidate boxes (n, 4) for objects in an image, `ranked`.
+    """Object candidates of an image by selective search.
 
-    `strategy` is one of STRATEGIES, by name, or a Strategy; without an `rng` the draw of the ranks
-    repeats from call to call. A blank image gives one box, one with a side under `smallest` none.
-    ValueError for an unknown strategy, and as for `as_float`.
+    Parameters
+    ----------
+    image : array as `photos.as_float` takes it, of any size
+    strategy : name of one of STRATEGIES, or a Strategy
+    rng : numpy.random.Generator of the ranks; without, every call ranks alike
+    smallest : shortest side of a box, pixels
+
+    Returns
+    -------
+    (n, 4) array of (x0, y0, x1, y1), pixels, as `rank_boxes` orders them; a blank image gives one
+    box, one with a side under `smallest` none
+
+    Raises
+    ------
+    ValueError
+        For an unknown strategy, and for an array that is no image.
+
+    References
+    ----------
+    Uijlings et al. (2013), Selective search for object recognition.
+
+    >>> propose(np.zeros((40, 60, 3))).tolist()
+    [[0.0, 0.0, 60.0, 40.0]]
     """
     if not isinstance(strategy, Strategy):
         if strategy not in STRATEGIES:
             raise ValueError(f"strategy {strategy!r} is none of {', '.join(STRATEGIES)}")
         strategy = STRATEGIES[strategy]
-    return ranked(hierarchies(image, strategy), rng or np.random.default_rng(0), smallest)
+    return rank_boxes(hierarchies(image, strategy), rng or np.random.default_rng(0), smallest)

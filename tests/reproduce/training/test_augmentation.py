@@ -11,8 +11,8 @@ from reproduce.training.augmentation import (
     quarter_turn,
 )
 from vmc_lib import photos
-from vmc_lib.boxes import corrected
-from vmc_lib.what.stream import WIDTH, adapted, shown
+from vmc_lib.boxes import decode_deltas
+from vmc_lib.what.stream import WIDTH, preprocess, standardise
 
 STILL = Augmentation(**dict.fromkeys(vars(ALL), 0))
 SHOT = photos.load("real", "train")[0]
@@ -57,7 +57,9 @@ def test_a_picture_is_turned_with_what_its_box_lacks(seed):
     """The mark that the corrected box surrounds is still surrounded after the turn."""
     lack = np.array([0.2, -0.1, -0.5, -0.9])
     x = np.zeros((100, 100, 3))
-    x0, y0, x1, y1 = corrected(np.array([[0, 0, 100, 100.0]]), lack[None])[0].round().astype(int)
+    x0, y0, x1, y1 = (
+        decode_deltas(np.array([[0, 0, 100, 100.0]]), lack[None])[0].round().astype(int)
+    )
     x[y0:y1, x0:x1] = 1
     seen, lack = quarter_turn(x, lack, np.random.default_rng(seed))
     x0, y0, x1, y1 = corrected(np.array([[0, 0, 100, 100.0]]), lack[None])[0]
