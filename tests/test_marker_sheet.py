@@ -21,15 +21,9 @@ def drawn(eye, scale=4, size=1):
     `size` is how many times as wide and high the photo is as the eye's.
     """
     corners = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
-    seen = eye.project(
-        sheet.CORNER + corners * sheet.PAGE / 1000 @ sheet.AXES[:2]
-    )
-    print_ = cv2.resize(
-        sheet.page_image(), None, fx=8, fy=8, interpolation=cv2.INTER_NEAREST
-    )
-    to = cv2.getPerspectiveTransform(
-        np.float32(corners * sheet.PAGE * 8), np.float32(scale * seen)
-    )
+    seen = eye.project(sheet.CORNER + corners * sheet.PAGE / 1000 @ sheet.AXES[:2])
+    print_ = cv2.resize(sheet.page_image(), None, fx=8, fy=8, interpolation=cv2.INTER_NEAREST)
+    to = cv2.getPerspectiveTransform(np.float32(corners * sheet.PAGE * 8), np.float32(scale * seen))
     big = cv2.warpPerspective(print_, to, (scale * WIDTH, scale * HEIGHT), borderValue=120)
     whole = size * WIDTH, size * HEIGHT
     return np.dstack([cv2.resize(big, whole, interpolation=cv2.INTER_AREA)] * 3)
@@ -75,9 +69,7 @@ def test_the_sheet_is_painted_over_and_nothing_else():
     full = np.full((400, 600, 3), 255, np.uint8)
     page = sheet.page_image()[20:280, 10:200]
     full[:] = cv2.resize(page, (600, 400))[..., None]
-    assert (
-        sheet.remove_sheet(full)[1].std(axis=(0, 1)).max() == 0
-    )  # nothing but the sheet in view
+    assert sheet.remove_sheet(full)[1].std(axis=(0, 1)).max() == 0  # nothing but the sheet in view
 
 
 def test_target_is_located_in_photos_of_unknown_cameras():
@@ -104,10 +96,7 @@ def test_the_pdf_shows_the_sheet():
     printed = paper.render(scale=72 / 25.4, grayscale=True).to_numpy().squeeze()
     rows = np.s_[30:265]  # the markers; words stand above and below
     assert (
-        np.abs(
-            cv2.resize(printed, sheet.PAGE.tolist())[rows] - sheet.page_image()[rows]
-        ).mean()
-        < 6
+        np.abs(cv2.resize(printed, sheet.PAGE.tolist())[rows] - sheet.page_image()[rows]).mean() < 6
     )
 
 

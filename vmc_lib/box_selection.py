@@ -36,9 +36,9 @@ class BoxSelector:
         """The selector that ships with the book."""
         return cls(VentralStream.load(), NameClassifier.load("photographs", "judge"))
 
-    def probability(self, image, boxes):
+    def box_probability(self, image, boxes):
         """The stream's probability (n,) that each of the boxes (n, 4) shows a shuttlecock."""
-        return self.stream.probability(image, boxes)
+        return self.stream.box_probability(image, boxes)
 
     def select(self, image, detections):
         """`Detections` to choose from, the most probable first, and their probabilities (n,)."""

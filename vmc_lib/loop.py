@@ -126,9 +126,9 @@ def see(model, image, camera=None):
     -------
     Sight
 
-    >>> photo = photos.load("rig", "validation")[0]
-    >>> len(see(VisuomotorModel.load("rig"), photo.image, photo.camera).shuttlecocks)
-    1
+    >>> photo = photos.load("rig", "validation")[3]
+    >>> see(VisuomotorModel.load("rig"), photo.image, photo.camera).summary
+    '1 shuttlecock (100% sure)'
     """
     detections, ratio = model.detector.detect(image), 1
     if camera is not None:

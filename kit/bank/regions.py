@@ -4,7 +4,7 @@ import numpy as np
 
 from kit.question import choice, count, numeric, steps, successes
 from reproduce.training.detectors import best_threshold
-from vmc_lib.boxes import corrections, iou, nms, vote
+from vmc_lib.boxes import encode_deltas, iou, nms, vote
 from vmc_lib.statistics import wilson
 
 SIZE = 100  # pixels: the side of the boxes below

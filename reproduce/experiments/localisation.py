@@ -23,7 +23,7 @@ from reproduce.training.detectors import (
     with_best_threshold,
 )
 from vmc_lib import photos
-from vmc_lib.boxes import FOUND, iou
+from vmc_lib.boxes import MIN_IOU, iou
 from vmc_lib.statistics import student
 from vmc_lib.where.detector import ObjectDetector
 from vmc_lib.where.recipes import RECIPES
@@ -145,7 +145,7 @@ def precision_recall(shots, boxes, overlap=MIN_IOU):
     return float(right.sum() / max(right.size, 1)), float(reached.mean())
 
 
-def true_positives(shots, boxes, overlap=FOUND):
+def true_positives(shots, boxes, overlap=MIN_IOU):
     """Of a list of boxes a photo, which boxes are right, and which objects have a right box.
 
     Truth values for all boxes of all photos in turn, and for all objects.

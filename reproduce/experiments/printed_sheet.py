@@ -4,7 +4,7 @@ import numpy as np
 from joblib import Parallel, delayed
 
 from reproduce.experiments.real_world import MODELS, SIZED
-from vmc_lib import NoReach, photos, sheet
+from vmc_lib import NoReach, marker_sheet, photos
 from vmc_lib.loop import VisuomotorModel, locate, see
 
 FROM_SHEET = ", camera from the sheet"

@@ -42,11 +42,11 @@ def augment(image, box, holds, rng, augmentation=ALL):
     would mend it.
     """
     box, fit, lack = box[None], 0.0, np.zeros(4)
-    near = jittered(box, augmentation.stray, rng)
+    near = jitter_boxes(box, augmentation.stray, rng)
     if holds:
-        near = corrected(box, rng.normal(0, rng.choice(STRAYS), (1, 4)))
-        fit, lack = iou(near, box)[0, 0], corrections(near, box)[0]
-    x = crop_in_colour(image, widened(near, MARGIN), 2 * WIDTH)
+        near = decode_deltas(box, rng.normal(0, rng.choice(STRAYS), (1, 4)))
+        fit, lack = iou(near, box)[0, 0], encode_deltas(near, box)[0]
+    x = crop_in_colour(image, pad_boxes(near, MARGIN), 2 * WIDTH)
     x, lack = quarter_turn(x, lack, rng) if augmentation.quarters else (x, lack)
     x = x * np.exp(rng.normal(0, TINT * augmentation.colour, 3)).astype(np.float32)
     return simulate_camera(np.ascontiguousarray(x), rng, augmentation), fit, lack

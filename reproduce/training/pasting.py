@@ -19,7 +19,7 @@ LARGE = 0.2, 1.2  # of the photo's height: how wide a cut-out is laid there, wha
 
 @dataclass(frozen=True, eq=False)
 class PastedPhoto:
-    """A photograph on which a shuttlecock was laid, as a `RealPhoto`."""
+    """A photograph on which a shuttlecock was laid, as a `Photo`."""
 
     image: np.ndarray
     boxes: dict

@@ -82,8 +82,8 @@ def detected_boxes(finder, shot):
 
 def boxes_by_kind(photo, proposed, rng):
     """Of a photo and the boxes `proposed` (n, 4): kind -> (image, boxes) of each kind it has."""
-    shuttlecocks = photos.all_of(photo, "shuttlecock")
-    others = [photos.all_of(photo, name) for name in photo.boxes if name != "shuttlecock"]
+    shuttlecocks = photos.boxes_of(photo, "shuttlecock")
+    others = [photos.boxes_of(photo, name) for name in photo.boxes if name != "shuttlecock"]
     windows = np.vstack([proposed, random_windows(rng)])
     apart = iou(windows, shuttlecocks).max(1, initial=0) < APART
     kinds = shuttlecocks, np.vstack([np.empty((0, 4)), *others]), windows[apart]

@@ -93,7 +93,7 @@ def recogniser(folder=photos.FOLDER):
         ]
         for level in photos.LEVELS
     }
-    sets[ALL_LEVELS] = [merge_sets(split) for split in zip(*sets.values(), strict=True)]
+    sets[POOLED_LEVEL] = [merge_sets(split) for split in zip(*sets.values(), strict=True)]
     for level, ((x, y), (x_validation, y_validation)) in sets.items():
         for name in READ_OUTS:
             found = fit_name_classifier(x[name], y, x_validation[name], y_validation)

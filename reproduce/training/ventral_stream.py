@@ -142,7 +142,7 @@ def hard_negatives(stream, photo):
 
 
 def photographs(folder=photos.FOLDER, steps=STEPS, maps=MAPS, everyday=None, pasted=PASTED):
-    """What `data/photographs.npz` holds: a `VentralStream`, and the judge of both pathways.
+    """The arrays of `data/photographs.npz`: a `VentralStream`, and the `BoxSelector`'s classifier.
 
     It learns, its mistakes are mined, and it learns on. `everyday` and `pasted` as for
     `samples.collect_samples`.
@@ -173,14 +173,14 @@ def validation_photos(folder=photos.FOLDER, laid=LAID):
 def fit_rescoring(stream, shots):
     """Of boxes that the object detector finds in photos: the chance that one is a shuttlecock's.
 
-    Logistic regression on what `weighed` gives, as a `NameClassifier`; right is an IoU above
+    Logistic regression on what `rescore_boxes` gives, as a `NameClassifier`; right is an IoU above
     0.5. Renders teach with the photographs, for these alone are too few.
     """
     detector, x, y = loop.high_recall_detector(photos.REAL_LEVEL), [], []
     for shot in shots:
         found = detector.detect(shot.image)
-        boxes, features = weighed(found, stream, shot.image)
+        boxes, features = rescore_boxes(found, stream, shot.image)
         x.append(features)
-        y.append(iou(boxes, photos.all_of(shot, "shuttlecock")).max(1, initial=0) > 0.5)
+        y.append(iou(boxes, photos.boxes_of(shot, "shuttlecock")).max(1, initial=0) > 0.5)
     logistic = LogisticRegression(C=np.inf).fit(np.vstack(x), np.hstack(y))  # three numbers
     return NameClassifier(logistic.coef_[0], float(logistic.intercept_[0]))
