@@ -14,7 +14,6 @@ mi.set_variant("llvm_ad_rgb")
 from render import scene, shuttlecocks  # noqa: E402
 from render.materials import rgb  # noqa: E402
 from render.picture import develop, solid  # noqa: E402
-from vmc_lib import cutouts  # noqa: E402
 
 COUNT, SAMPLES = 480, 64
 DYES = "#d3f000 #d3f000 #e8f53a #f4f4ee #f4f4ee #a8e04a #ff8a2a #f28fb0".split()

@@ -108,10 +108,13 @@ def downsample(pictures, width):
 
 def train_cdbn(crops, patches):
     """A CDBN of the paper's size that has learnt from crops as they are: no label chose any."""
-    from vmc_lib.what.learning import SECOND, train  # here, for torch weighs on who only reads
+    from reproduce.training.cdbn import (  # here, for torch weighs on who only reads
+        SECOND,
+        train_cdbn,
+    )
 
     pictures, every = whiten(downsample(crops, NARROW)), np.ones(len(crops), bool)
-    network = train(pictures, every, patches=patches, second=SECOND | ON_NARROW)
+    network = train_cdbn(pictures, every, patches=patches, second=SECOND | ON_NARROW)
     return CDBN.from_arrays(network.arrays())
 
 
