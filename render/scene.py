@@ -177,7 +177,7 @@ def draw_with_sheet(rng):
             focal=focal,
             roll=rng.uniform(-0.1, 0.1),
         )
-        corners = camera.project(sheet.places().reshape(-1, 3))
+        corners = camera.project(marker_sheet.marker_corners().reshape(-1, 3))
         inside = np.all((corners > 0) & (corners < [WIDTH, HEIGHT]), axis=1)
         pair = (scene.things[name] for name in CLASSES)
         if inside.mean() >= 0.5 and all(whole(thing, camera) for thing in pair):
