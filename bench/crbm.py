@@ -7,9 +7,10 @@ import torch
 from sklearn.neural_network import BernoulliRBM
 
 from bench.report import publish, seconds, sgemm
+from reproduce.training.cdbn import FIRST, SECOND
 from vmc_lib import photos
 from vmc_lib.what.cdbn import N_W, PATCHES, K, crops_of
-from vmc_lib.what.learning import FIRST, SECOND, Learner
+from vmc_lib.what.learning import Learner
 from vmc_lib.what.recogniser import Recogniser
 
 SAMPLE = 200  # patches timed, again and again; an epoch has PATCHES

@@ -26,7 +26,7 @@ def stages(model, photo):
     reach = loop.reach(model, place, calibration=None)
     return {
         "candidates and regions": lambda: model.detector.detect(photo.image),
-        "names": lambda: model.recogniser.chance(photo.image, regions.boxes),
+        "names": lambda: model.recogniser.box_probability(photo.image, regions.boxes),
         "place": lambda: loop.locate(model, photo.image, sight.box, photo.camera),
         "turn and plan": lambda: plan(loop.turn_towards(place)[1], model.template_set).excitations,
         # anew each time: a plan remembers its own

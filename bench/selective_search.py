@@ -21,7 +21,7 @@ import numpy as np
 from bench.report import publish
 from vmc_lib import photos
 from vmc_lib.boxes import iou
-from vmc_lib.where.selective_search import STRATEGIES, hierarchies, ranked
+from vmc_lib.where.selective_search import STRATEGIES, hierarchies, rank_boxes
 
 cv2.setNumThreads(1)
 SMALLEST, DRAWS = 20, 10
@@ -31,7 +31,7 @@ SIZES = [(150, 100), (300, 200), (600, 400), (1200, 800), (2100, 1400), (3000, 2
 def ours(image, strategy):
     """Boxes (n, 4), in the order of every draw."""
     trees = list(hierarchies(image, STRATEGIES[strategy]))
-    return [ranked(trees, np.random.default_rng(draw), SMALLEST) for draw in range(DRAWS)]
+    return [rank_boxes(trees, np.random.default_rng(draw), SMALLEST) for draw in range(DRAWS)]
 
 
 def opencv(image, strategy):

@@ -11,10 +11,9 @@ import numpy as np
 
 mi.set_variant("llvm_ad_rgb")
 
-from render import scene, shuttlecocks  # noqa: E402
+from render import cutout_atlas, scene, shuttlecocks  # noqa: E402
 from render.materials import rgb  # noqa: E402
 from render.picture import develop, solid  # noqa: E402
-from vmc_lib import cutouts  # noqa: E402
 
 COUNT, SAMPLES = 480, 64
 DYES = "#d3f000 #d3f000 #e8f53a #f4f4ee #f4f4ee #a8e04a #ff8a2a #f28fb0".split()
@@ -31,7 +30,7 @@ def random_shuttlecock(rng):
 
 def take(mesh, rng):
     """A Mesh as a cut-out (WIDTH, WIDTH, 4) uint8: colour and opacity."""
-    frame, size = mi.ScalarTransform4f, cutouts.WIDTH
+    frame, size = mi.ScalarTransform4f, cutout_atlas.WIDTH
     eye = np.array([0, 0, rng.uniform(0.15, 0.9)])
     wide = 1.05 * 2 * np.abs(mesh.vertices[:, :2] / (eye[2] - mesh.vertices[:, 2:])).max()
     lamp = scene.light_from(
@@ -77,7 +76,7 @@ def main():
     for number in range(parser.parse_args().count):
         rng = np.random.default_rng((5, number))
         images.append(take(random_shuttlecock(rng), rng))
-    cutouts.store(images)
+    cutout_atlas.store(images)
 
 
 if __name__ == "__main__":

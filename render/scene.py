@@ -7,7 +7,7 @@ import numpy as np
 
 from render import materials, meshes, objects, shuttlecocks
 from render.materials import rgb
-from vmc_lib import sheet
+from vmc_lib import marker_sheet
 from vmc_lib.arm.kinematics import to_world
 from vmc_lib.camera import TABLE, Camera
 from vmc_lib.photos import CLASSES, HEIGHT, WIDTH
@@ -177,7 +177,7 @@ def draw_with_sheet(rng):
             focal=focal,
             roll=rng.uniform(-0.1, 0.1),
         )
-        corners = camera.project(sheet.places().reshape(-1, 3))
+        corners = camera.project(marker_sheet.marker_corners().reshape(-1, 3))
         inside = np.all((corners > 0) & (corners < [WIDTH, HEIGHT]), axis=1)
         pair = (scene.things[name] for name in CLASSES)
         if inside.mean() >= 0.5 and all(whole(thing, camera) for thing in pair):
@@ -186,10 +186,10 @@ def draw_with_sheet(rng):
 
 def with_sheet(table):
     """A table's texture with the sheet on it: texels and the sheet's pixels are millimetres."""
-    x, _, z = np.round(1000 * (sheet.CORNER - MIDDLE)).astype(int)
+    x, _, z = np.round(1000 * (marker_sheet.CORNER - MIDDLE)).astype(int)
     column, row = len(table) // 2 + x, len(table) // 2 - z
-    wide, high = sheet.PAGE
+    wide, high = marker_sheet.PAGE
     covered = table.copy()
-    ink = sheet.page().T[::-1, ::-1, None] / 255
+    ink = marker_sheet.page_image().T[::-1, ::-1, None] / 255
     covered[row - wide : row, column - high : column] = 0.04 + 0.76 * ink  # toner, paper
     return covered

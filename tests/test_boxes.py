@@ -7,13 +7,13 @@ from hypothesis import strategies as st
 from vmc_lib.boxes import (
     area,
     as_boxes,
-    corrected,
-    corrections,
+    decode_deltas,
+    encode_deltas,
     iou,
-    jittered,
+    jitter_boxes,
     nms,
+    pad_boxes,
     vote,
-    widened,
 )
 
 coordinate = st.integers(-50, 700)
@@ -38,13 +38,13 @@ def test_iou_is_a_symmetric_share(a, b):
 
 
 @given(box)
-def test_a_box_agrees_with_itself_unless_it_is_empty(one):
+def test_iou_of_a_box_with_itself_is_1_unless_it_is_empty(one):
     has_area = one[2] > one[0] and one[3] > one[1]
     assert iou(one, one) == float(has_area)
 
 
 @given(crowd, st.floats(0, 1))
-def test_nms_keeps_no_overlaps_and_explains_every_loss(boxes, overlap):
+def test_nms_keeps_no_overlaps_and_every_loss_has_a_better_neighbour(boxes, overlap):
     scores = np.random.default_rng(len(boxes)).permutation(len(boxes)).astype(float)
     kept = nms(boxes, scores, overlap)
     assert (np.diff(scores[kept]) < 0).all()
@@ -78,16 +78,16 @@ def test_iou_agrees_with_opencv(a, b):
     assert iou(a, b).item() == pytest.approx(shared / (area(boxes).sum() - shared), abs=1e-4)
 
 
-def test_boxes_without_area_are_kept_each():
+def test_nms_keeps_boxes_without_area():
     """They overlap nothing, not even themselves, so that nothing silences them."""
     assert nms([(3, 3, 3, 3)] * 2 + [(0, 0, 9, 0)], [1, 3, 2]).tolist() == [1, 2, 0]
 
 
-def test_ties_go_to_the_earlier_box():
+def test_nms_prefers_the_earlier_of_equal_scores():
     assert nms([(0, 0, 9, 9)] * 3, [1, 2, 2]).tolist() == [1]
 
 
-def test_nothing_in_nothing_out():
+def test_no_boxes_give_no_boxes():
     assert nms([], []).shape == (0,)
     assert iou([], [(0, 0, 1, 1)]).shape == (0, 1)
 
@@ -95,18 +95,18 @@ def test_nothing_in_nothing_out():
 @pytest.mark.parametrize(
     "bad", [(3, 0, 1, 5), (0, 0, np.nan, 1), (0, 0, np.inf, 1), (1, 2, 3), [[[0, 0, 1, 1]]]]
 )
-def test_boxes_that_are_no_boxes(bad):
+def test_iou_refuses_wrong_boxes(bad):
     with pytest.raises(ValueError, match="box"):
         iou(bad, [(0, 0, 1, 1)])
 
 
 @pytest.mark.parametrize("scores", [[1.0], [1.0, 2.0, 3.0], [np.nan, 1.0]])
-def test_one_finite_score_a_box(scores):
+def test_nms_needs_one_finite_score_a_box(scores):
     with pytest.raises(ValueError, match="scores"):
         nms([(0, 0, 1, 1), (0, 0, 2, 2)], scores)
 
 
-def test_votes_pull_towards_the_crowd():
+def test_vote_moves_a_box_towards_its_neighbours():
     crowd = np.array([[0, 0, 10, 10], [0, 0, 12, 10], [50, 50, 60, 60]], float)
     voted = vote(np.array([0]), crowd, np.array([2.0, 2.0, 3.0]))
     assert voted == pytest.approx(np.array([[0, 0, 11, 10]]))
@@ -139,17 +139,17 @@ solid = st.builds(
 
 
 @given(solid, solid)
-def test_a_corrected_box_is_the_true_box(box, true):
-    assert corrected(box, corrections(box, true)) == pytest.approx(true, abs=1e-6)
+def test_decode_deltas_inverts_encode_deltas(box, true):
+    assert decode_deltas(box, encode_deltas(box, true)) == pytest.approx(true, abs=1e-6)
 
 
-def test_a_margin_is_a_share_of_the_sides():
-    assert widened([(10, 10, 30, 50)], 0.25).tolist() == [[5, 0, 35, 60]]
+def test_pad_boxes_by_a_share_of_the_sides():
+    assert pad_boxes([(10, 10, 30, 50)], 0.25).tolist() == [[5, 0, 35, 60]]
 
 
-def test_shaken_boxes_stray_in_proportion():
+def test_jitter_is_in_proportion_to_the_sides():
     boxes = np.tile([0.0, 0, 100, 10], (4000, 1))
-    strays = jittered(boxes, 0.08, np.random.default_rng(0)) - boxes
+    strays = jitter_boxes(boxes, 0.08, np.random.default_rng(0)) - boxes
     assert strays.std(0) == pytest.approx([8, 0.8, 8, 0.8], rel=0.05)
-    one = jittered(boxes[0], 0.08, np.random.default_rng(0))
+    one = jitter_boxes(boxes[0], 0.08, np.random.default_rng(0))
     assert (one == (boxes + strays)[0]).all()

@@ -20,8 +20,7 @@ from vmc_lib.show import grading
 from vmc_lib.show.grading import EMPTY, Exercise, feedback, grade, solution
 from vmc_lib.show.questions import RIGHT, WRONG
 from vmc_lib.what.crbm import CRBM
-from vmc_lib.where import selective_search
-from vmc_lib.where.appearance import Appearance
+from vmc_lib.where.appearance import Appearance, similarity
 
 BOOK = Path(__file__).parents[1] / "book"
 CHAPTERS = sorted(BOOK.glob("[0-9]*.ipynb"))
@@ -111,7 +110,7 @@ def test_a_chapter_grades_two_functions_or_more(path):
 def fill(box_i, box_j, size_i, size_j, pixels):
     sizes, boxes = np.array([size_i, size_j]), np.array([box_i, box_j])
     regions = Appearance(sizes, boxes, np.zeros((2, 1)), np.zeros((2, 1)), pixels)
-    return selective_search.alike(regions, np.array([[0, 1]]), ("fill",)).item()
+    return similarity(regions, np.array([[0, 1]]), (False, False, False, True)).item()
 
 
 def machine(W, b=0.0, a=0.0, c=2):
@@ -169,11 +168,16 @@ def some(request):
     return one.right, one.draw(np.random.default_rng(7))
 
 
-def test_engulfed_serves_where_its_solution_puts_it(monkeypatch):
-    monkeypatch.setitem(selective_search.SIMILARITIES, "engulfed", EVERY["ENGULFED"].right)
-    image = photos.load("rig", "train")[0].image
-    ours = selective_search.Strategy(similarities=(("engulfed",),))
-    assert len(selective_search.propose(image, ours)) > 10
+def test_engulfed_serves_where_its_solution_puts_it():
+    """The solution's own lines, after the chapter's cells that they need."""
+    cells = {cell.id: cell.source for cell in nbformat.read(BOOK / "02_candidates.ipynb", 4).cells}
+    [lines] = re.findall(r"```python\n(.*?)```", cells["9dad8286"], re.S)
+    names = {"engulfed": EVERY["ENGULFED"].right}
+    for code in (*(cells[i] for i in ("e5241372", "cf8d25e7", "merge-start", "merge-core")), lines):
+        exec(code, names)  # noqa: S102
+    boxes = names["regions"].boxes
+    assert (boxes[:, 2:] > boxes[:, :2]).all()  # every row is filled: one region is left
+    assert boxes[-1].tolist() == [0, 0, photos.WIDTH, photos.HEIGHT]
 
 
 @pytest.mark.parametrize("some", ["POSTURE"], indirect=True)

@@ -9,12 +9,19 @@ from scipy.special import logit
 from vmc_lib import loop, photos
 from vmc_lib.arm.kinematics import to_world
 from vmc_lib.arm.simulate import simulate
-from vmc_lib.boxes import corrected
+from vmc_lib.box_selection import (
+    MIN_PROBABILITY,
+    N_FIRST_PASS,
+    N_SECOND_PASS,
+    SIZE_LIKELIHOOD_RATIO,
+    BoxSelector,
+    rescore_boxes,
+)
+from vmc_lib.boxes import decode_deltas
 from vmc_lib.motor import templates
 from vmc_lib.motor.execution import execute
-from vmc_lib.what.judge import GLANCES, RIGHT_SIZE, SURE, WEIGHED, weighed
-from vmc_lib.what.recogniser import NameClassifier
-from vmc_lib.what.stream import MIRRORS
+from vmc_lib.what.recogniser import NameClassifier, Recogniser
+from vmc_lib.what.stream import FLIPS
 from vmc_lib.where.detector import Detections
 
 
@@ -44,7 +51,7 @@ def test_a_photo_becomes_a_reach_that_calibration_improves(model, photo, sight):
     assert np.linalg.norm(reach.hand(reach.calibrated)[-1] - target) < 0.05
 
 
-def test_the_hand_is_told_in_the_frame_of_the_trunk_straight(model, photo):
+def test_the_hand_path_is_in_the_frame_of_the_straight_trunk(model, photo):
     reach = loop.reach(model, photo.target, calibration=None)
     assert reach.calibrated is reach.planned
     np.testing.assert_array_equal(
@@ -52,7 +59,7 @@ def test_the_hand_is_told_in_the_frame_of_the_trunk_straight(model, photo):
     )
 
 
-def test_nothing_recognised_is_said(model, photo, sight):
+def test_no_box_has_no_place(model, photo, sight):
     nothing = loop.Sight(sight.detections, np.zeros_like(sight.probability))
     assert nothing.box is None
     with pytest.raises(ValueError, match="no shuttlecock was recognised"):
@@ -68,110 +75,117 @@ def test_a_box_without_a_camera_has_no_place(model):
 BOXES = np.array([[0, 0, 50, 50], [100, 0, 150, 50], [200, 0, 250, 50.0]])
 
 
-JUDGE = NameClassifier(np.array([10.0, 1.0]), -5.0)
+WEIGHTS = NameClassifier(np.array([10.0, 1.0]), -5.0)
 
 
-def named_at(places, named, lacks=0.0):
-    """A stream's `look`: to each box the name of the nearest place; all have the same lacks."""
+def stream_of(places, probability, delta=0.0):
+    """A stream that gives each box the probability of the nearest place, and all one delta."""
 
-    def look(image, boxes, ways=None):
+    def predict(image, boxes, flips=None):
         nearest = np.abs(boxes[:, None] - places).sum(2).argmin(1) if len(boxes) else []
-        return logit(np.take(named, nearest)), np.full((len(boxes), 4), lacks)
+        return logit(np.take(probability, nearest)), np.full((len(boxes), 4), delta)
 
-    return look
+    return SimpleNamespace(predict=predict)
 
 
-def looked(scores, named, judge=JUDGE, camera=None):
-    """What a model sees that finds BOXES with these scores, and gives them these names."""
+class Fixed(Recogniser):
+    """A recogniser that gives the boxes of any image these probabilities."""
+
+    def __init__(self, probability):
+        object.__setattr__(self, "fixed", np.array(probability))
+
+    def box_probability(self, image, boxes):
+        return self.fixed[: len(boxes)]
+
+
+def sight_of(scores, probability, camera=None, selects=True):
+    """The Sight of a model that detects BOXES with these scores and recognises them so."""
     scores = np.array(scores)
     boxes = BOXES[: len(scores)]
     found = Detections(boxes, scores, boxes, boxes, scores)
     detector = SimpleNamespace(detect=lambda image: found)
-    recogniser = SimpleNamespace(
-        chance=lambda image, boxes: np.array(named)[: len(boxes)], look=named_at(boxes, named)
-    )
-    image = np.random.default_rng(0).integers(0, 255, (400, 600, 3), dtype=np.uint8)
-    return loop.see(loop.VisuomotorModel(detector, recogniser, None, None, judge), image, camera)
+    selector = BoxSelector(stream_of(boxes, probability), WEIGHTS)
+    recogniser = selector if selects else Fixed(probability)
+    image = np.zeros((400, 600, 3), np.uint8)
+    return loop.see(loop.VisuomotorModel(detector, recogniser, None, None), image, camera)
 
 
-def test_where_and_what_are_weighed_together():
-    sight = looked([0.9, 0.5, 0.4], [0.001, 0.97, 0.98])
+def test_detector_score_and_log_odds_are_combined():
+    sight = sight_of([0.9, 0.5, 0.4], [0.001, 0.97, 0.98])
     np.testing.assert_array_equal(sight.shuttlecocks, BOXES[[1, 2]])
     np.testing.assert_array_equal(sight.box, BOXES[1])
     assert sight.detections.scores.tolist() == [0.5, 0.4, 0.9]
-    assert sight.told.startswith("2 shuttlecocks")
-    alone = looked([0.9, 0.5, 0.4], [0.001, 0.97, 0.98], judge=None)
+    assert sight.summary.startswith("2 shuttlecocks")
+    alone = sight_of([0.9, 0.5, 0.4], [0.001, 0.97, 0.98], selects=False)
     np.testing.assert_array_equal(alone.shuttlecocks, BOXES[[1, 2]])
 
 
-@pytest.mark.parametrize("judge", [JUDGE, None])
-def test_where_size_counts_the_wrong_sizes_are_left_out_and_the_right_ones_likelier(judge):
+@pytest.mark.parametrize("selects", [True, False])
+def test_a_camera_filters_boxes_by_size_and_scales_the_odds(selects):
     camera = SimpleNamespace(sizes=lambda boxes: np.array([0.07, 0.2, 0.08])[: len(boxes)])
-    before, after = (looked([0.3] * 3, [0.4] * 3, judge, of) for of in (None, camera))
+    before, after = (sight_of([0.3] * 3, [0.4] * 3, of, selects) for of in (None, camera))
     np.testing.assert_array_equal(after.detections.boxes, BOXES[[0, 2]])
     odds = [one.probability[0] / (1 - one.probability[0]) for one in (before, after)]
-    assert odds[1] == pytest.approx(RIGHT_SIZE * odds[0])
-    nothing = looked([0.3], [0.9], judge, SimpleNamespace(sizes=lambda boxes: np.full(1, 0.3)))
-    assert nothing.box is None
+    assert odds[1] == pytest.approx(SIZE_LIKELIHOOD_RATIO * odds[0])
+    too_large = SimpleNamespace(sizes=lambda boxes: np.full(1, 0.3))
+    assert sight_of([0.3], [0.9], too_large, selects).box is None
 
 
-def test_of_many_boxes_those_that_fit_best_are_looked_at_and_the_likeliest_again():
+def test_the_best_boxes_are_rescored_in_two_passes():
     corners = 60.0 * np.column_stack([np.arange(60) % 10, np.arange(60) // 10])
     many, scores = np.hstack([corners, corners + 50]), np.linspace(0.9, 0.1, 60)
     found = Detections(many, scores, many, many, scores)
-    asked = []
+    stream, calls = stream_of(many, np.linspace(0.1, 0.5, 60), delta=0.02), []
 
-    def look(image, boxes, *ways):
-        asked.append((boxes, *ways))
-        return named_at(many, np.linspace(0.1, 0.5, 60), lacks=0.02)(image, boxes)
+    def predict(image, boxes, *flips):
+        calls.append((boxes, *flips))
+        return stream.predict(image, boxes)
 
-    model = loop.VisuomotorModel(
-        SimpleNamespace(detect=lambda image: found), SimpleNamespace(look=look), None, None, JUDGE
-    )
-    sight = loop.see(model, np.zeros((400, 600, 3), np.uint8))
-    (first,), (again, ways) = asked
-    assert ways == MIRRORS
-    np.testing.assert_array_equal(first, many[:GLANCES])
-    best = np.arange(GLANCES)[::-1][:WEIGHED]
-    step = np.full((WEIGHED, 4), 0.02)
-    np.testing.assert_allclose(again, corrected(many[best], step))
-    assert (np.diff(sight.probability) <= 0).all()
-    rows = [list(scores).index(score) for score in sight.detections.scores]
+    selector = BoxSelector(SimpleNamespace(predict=predict), WEIGHTS)
+    selected, probability = selector.select(None, found)
+    (first,), (again, flips) = calls
+    assert flips == FLIPS
+    np.testing.assert_array_equal(first, many[:N_FIRST_PASS])
+    best = np.arange(N_FIRST_PASS)[::-1][:N_SECOND_PASS]
+    step = np.full((N_SECOND_PASS, 4), 0.02)
+    np.testing.assert_allclose(again, decode_deltas(many[best], step))
+    assert (np.diff(probability) <= 0).all()
+    rows = [list(scores).index(score) for score in selected.scores]
     assert sorted(rows) == sorted(best)
-    np.testing.assert_allclose(sight.detections.boxes, corrected(corrected(many[rows], step), step))
+    refined = decode_deltas(decode_deltas(many[rows], step), step)
+    np.testing.assert_allclose(selected.boxes, refined)
 
 
-def test_of_boxes_that_come_to_lie_on_each_other_one_is_kept():
+def test_of_overlapping_boxes_the_most_probable_is_kept():
     boxes = np.array([[0, 0, 50, 50], [2, 0, 52, 50], [200, 0, 250, 50.0]])
     found = Detections(boxes, np.ones(3), boxes, boxes, np.ones(3))
-    stream = SimpleNamespace(look=named_at(boxes, [0.7, 0.9, 0.8]))
-    kept, told = weighed(found, stream, None)
+    kept, evidence = rescore_boxes(found, stream_of(boxes, [0.7, 0.9, 0.8]), None)
     np.testing.assert_array_equal(kept, boxes[[1, 2]])
-    np.testing.assert_allclose(told, np.column_stack([[1, 1], logit([0.9, 0.8])]))
+    np.testing.assert_allclose(evidence, np.column_stack([[1, 1], logit([0.9, 0.8])]))
 
 
-def test_a_judge_speaks_up_from_the_chance_that_validation_set():
-    [fair] = looked([0.5], [0.45]).probability
-    assert SURE < fair < 0.5
-    assert looked([0.5], [0.45]).told.startswith("1 shuttlecock")
-    assert looked([0.5], [0.45], judge=None).box is None
+def test_a_selector_has_a_lower_threshold_than_a_recogniser():
+    [fair] = sight_of([0.5], [0.45]).probability
+    assert MIN_PROBABILITY < fair < 0.5
+    assert sight_of([0.5], [0.45]).summary.startswith("1 shuttlecock")
+    assert sight_of([0.5], [0.45], selects=False).box is None
 
 
-def test_who_is_unsure_abstains_and_says_what_was_seen():
-    unsure = looked([0.3, 0.2], [0.6, 0.5])
+def test_without_a_probable_box_the_summary_counts_things():
+    unsure = sight_of([0.3, 0.2], [0.6, 0.5])
     assert unsure.box is None
-    assert unsure.told.startswith("no shuttlecock, but 2 things")
-    assert looked([0.3], [0.6]).told.startswith("no shuttlecock, but 1 thing;")
-    blind = looked(np.empty(0), np.empty(0))
-    assert blind.told == "nothing that looks like an object"
+    assert unsure.summary.startswith("no shuttlecock, but 2 things")
+    assert sight_of([0.3], [0.6]).summary.startswith("no shuttlecock, but 1 thing;")
+    nothing = sight_of(np.empty(0), np.empty(0))
+    assert nothing.summary == "nothing that looks like an object"
 
 
-def test_a_place_out_of_reach_is_said(model):
+def test_a_target_out_of_reach_is_an_error(model):
     with pytest.raises(ValueError, match="reach"):
         loop.reach(model, np.array([2.0, -0.4, 0.1]))
 
 
-def test_a_reach_is_simulated_once_a_command(model, photo, monkeypatch):
+def test_each_command_is_simulated_once(model, photo, monkeypatch):
     """One planned movement and 21 tried off-line; the best of them need not be made again."""
     made = []
 
@@ -187,7 +201,7 @@ def test_a_reach_is_simulated_once_a_command(model, photo, monkeypatch):
     np.testing.assert_allclose(best.q, reach.calibrated.q, atol=1e-5)
 
 
-def test_what_is_shared_cannot_be_written_to(model):
+def test_shared_arrays_are_read_only(model):
     for array in (model.template_set.points, model.template_set.excitations):
         with pytest.raises(ValueError, match="read-only"):
             array[0] = 0

@@ -5,7 +5,7 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 
 from vmc_lib.camera import TABLE
-from vmc_lib.sheet import CORNER, PAGE, page
+from vmc_lib.marker_sheet import CORNER, PAGE, page_image
 
 wide, high = PAGE
 ahead, _, left = 100 * CORNER
@@ -20,7 +20,7 @@ WORDS = {  # from the page's upper edge, in mm
 
 figure = plt.figure(figsize=(wide / 25.4, high / 25.4))
 axes = figure.add_axes((0, 0, 1, 1))
-axes.imshow(page(), "gray", extent=(0, wide, high, 0), interpolation="none")
+axes.imshow(page_image(), "gray", extent=(0, wide, high, 0), interpolation="none")
 axes.axis("off")
 axes.plot([wide / 2 - 50, wide / 2 + 50], [274, 274], "|-", color="black", lw=0.5)
 for y, words in WORDS.items():

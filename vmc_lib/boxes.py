@@ -1,12 +1,12 @@
-"""Boxes: how far two of them agree, which of many to keep, how to correct one to another."""
+"""Bounding boxes: intersection over union, non-maximum suppression, voting, regression deltas."""
 
 import numpy as np
 
-FOUND = 0.8  # IoU at which a box counts as the object's (Section IV A)
+MIN_IOU = 0.8  # IoU at which a box counts as the object's (Section IV A)
 
 
 def as_boxes(boxes):
-    """Boxes as a float64 array (n, 4) of (x0, y0, x1, y1), x1 and y1 exclusive.
+    """Convert boxes to a float64 array (n, 4) of (x0, y0, x1, y1), x1 and y1 exclusive.
 
     One box, or an empty list, becomes an array of one row or none. A box may have no area, and
     may lie outside the image. ValueError when a box is inside out or not finite.
@@ -35,9 +35,18 @@ def centres_and_sides(boxes):
 
 
 def iou(a, b):
-    """Intersection over union of every box in a (n, 4) with every box in b (m, 4): (n, m).
+    """Intersection over union (Jaccard index) of boxes, pair by pair.
 
-    Two boxes without area share nothing: 0, even when they coincide.
+    Parameters
+    ----------
+    a, b : (n, 4) and (m, 4) arrays of (x0, y0, x1, y1), pixels
+
+    Returns
+    -------
+    (n, m) array in 0..1; 0 for two boxes without area, even when they coincide
+
+    >>> iou([0, 0, 2, 2], [[0, 0, 2, 2], [0, 0, 2, 1]]).tolist()
+    [[1.0, 0.5]]
     """
     a, b = as_boxes(a)[:, None], as_boxes(b)[None]
     sides = np.minimum(a[..., 2:], b[..., 2:]) - np.maximum(a[..., :2], b[..., :2])
@@ -48,11 +57,32 @@ def iou(a, b):
 
 
 def nms(boxes, scores, overlap=0.3):
-    """Greedy non-maximum suppression: indices of the boxes kept, by falling score.
+    """Greedy non-maximum suppression.
 
-    The best box stays and suppresses every box that overlaps it by more than `overlap` (an IoU);
-    then the best of the rest, and so on. Of equal scores the earlier box goes first.
-    ValueError when there is not one finite score a box. (Neubeck & Van Gool 2006, greedy form.)
+    The best box stays and suppresses every box that overlaps it by more than `overlap`; then the
+    best of the rest, and so on. Of equal scores the earlier box goes first.
+
+    Parameters
+    ----------
+    boxes : (n, 4) array of (x0, y0, x1, y1), pixels
+    scores : (n,) array
+    overlap : largest IoU that two kept boxes may have
+
+    Returns
+    -------
+    (k,) int array: indices of the boxes kept, by falling score
+
+    Raises
+    ------
+    ValueError
+        If there is not one finite score for each box.
+
+    References
+    ----------
+    Neubeck & Van Gool (2006), Efficient non-maximum suppression (greedy form).
+
+    >>> nms([[0, 0, 9, 9], [0, 0, 9, 8], [20, 0, 29, 9]], [0.6, 0.9, 0.8]).tolist()
+    [1, 2]
     """
     boxes, scores = as_boxes(boxes), np.asarray(scores, float)
     if scores.shape != (len(boxes),) or not np.isfinite(scores).all():
@@ -66,7 +96,7 @@ def nms(boxes, scores, overlap=0.3):
 
 
 def vote(kept, boxes, scores, temperature=0.1):
-    """The boxes `kept` (indices), each the weighted mean of those that vote for it and itself.
+    """Box voting: each of the boxes `kept` (indices) becomes a weighted mean of boxes near it.
 
     A box votes for each kept one that it overlaps by half or more and does not outscore. A vote
     weighs exp(-lag / temperature), its score being `lag` below the kept box's (after Gidaris &
@@ -82,28 +112,28 @@ def vote(kept, boxes, scores, temperature=0.1):
 # ---------------------------------------------------------------- boxes from boxes
 
 
-def widened(boxes, margin):
-    """Boxes (n, 4) with a margin around them, given as a share of their sides."""
+def pad_boxes(boxes, margin):
+    """Pad boxes (n, 4) by a margin on each side, given as a share of their sides."""
     boxes = as_boxes(boxes)
     pad = margin * (boxes[:, 2:] - boxes[:, :2])
     return np.hstack([boxes[:, :2] - pad, boxes[:, 2:] + pad])
 
 
-def jittered(boxes, amount, rng):
-    """Boxes (..., 4) each edge of which strays by about `amount` of the box's sides."""
+def jitter_boxes(boxes, amount, rng):
+    """Jitter the edges of boxes (..., 4) by Gaussian noise, `amount` in shares of their sides."""
     _, sides = centres_and_sides(boxes)
     return boxes + rng.normal(0, amount, boxes.shape) * np.tile(sides, 2)
 
 
-def corrections(boxes, truth):
-    """How to move (in sides) and stretch (as logarithms) each box to its true box: (n, 4)."""
+def encode_deltas(boxes, truth):
+    """Box-regression targets (dx/w, dy/h, log dw, log dh) from boxes to truth, (n, 4) (R-CNN)."""
     (centres, sides), (true_centres, true_sides) = map(centres_and_sides, (boxes, truth))
     return np.hstack([(true_centres - centres) / sides, np.log(true_sides / sides)])
 
 
-def corrected(boxes, corrections):
-    """Boxes (n, 4) moved and stretched by corrections (n, 4)."""
+def decode_deltas(boxes, deltas):
+    """Move and stretch boxes (n, 4) by deltas (n, 4) as `encode_deltas` defines them."""
     centres, sides = centres_and_sides(boxes)
-    centres = centres + corrections[:, :2] * sides
-    half = sides * np.exp(corrections[:, 2:]) / 2
+    centres = centres + deltas[:, :2] * sides
+    half = sides * np.exp(deltas[:, 2:]) / 2
     return np.hstack([centres - half, centres + half])

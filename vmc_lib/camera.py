@@ -1,4 +1,4 @@
-"""The eye: where a place in the room appears in the picture, and which ray a pixel looks along.
+"""Pinhole camera: projection, and back-projection of pixels onto a horizontal plane.
 
 A pixel (column i, row j) covers the square [i, i + 1) × [j, j + 1): boxes and projections share
 these coordinates, so a whole photo is the box (0, 0, 600, 400).
@@ -27,7 +27,7 @@ class Camera:
     position: np.ndarray
 
     def project(self, points):
-        """Pixels (n, 2) at which the points (n, 3) of the shoulder frame appear.
+        """Project points (n, 3) of the shoulder frame to pixels (n, 2).
 
         Raises ValueError for a point that is not in front of the camera.
         """
@@ -37,36 +37,36 @@ class Camera:
         return self.focal * x[:, :2] / x[:, 2:] + self.centre
 
     def rays(self, pixels):
-        """Directions (n, 3), in the shoulder frame, of the rays through the pixels (n, 2)."""
+        """Ray directions (n, 3), in the shoulder frame, through pixels (n, 2); their depth is 1."""
         x = (np.atleast_2d(pixels) - self.centre) / self.focal
         return np.column_stack([x, np.ones(len(x))]) @ self.rotation
 
     def back_project(self, pixels, height=TABLE):
-        """Points (n, 3) where the rays through the pixels (n, 2) meet the plane y = height.
+        """Back-project pixels (n, 2) to the points (n, 3) on their rays with y = height.
 
         Raises `NoReach` where a ray runs level with the plane or away from it.
         """
-        rays, distance = self._met(pixels, height)
-        if not np.all(np.isfinite(distance) & (distance > 0)):
+        rays, depth = self._intersect(pixels, height)
+        if not np.all(np.isfinite(depth) & (depth > 0)):
             raise NoReach(
                 f"a ray from the camera at {np.round(self.position, 3)} never meets the plane "
                 f"y = {height}: give pixels below the horizon"
             )
-        return self.position + distance[:, None] * rays
+        return self.position + depth[:, None] * rays
 
-    def _met(self, pixels, height):
-        """Rays (n, 3), one unit deep, through pixels (n, 2), and how deep each meets a height."""
+    def _intersect(self, pixels, height):
+        """Rays (n, 3) through pixels (n, 2), and the depths (n,) at which they have y = height."""
         rays = self.rays(pixels)
         with np.errstate(divide="ignore", invalid="ignore"):
             return rays, (height - self.position[1]) / rays[:, 1]
 
     def sizes(self, boxes):
-        """How large what fills the boxes (n, 4) is, if it stands on the table: (n,), in m.
+        """Physical size of the objects in boxes (n, 4), if they stand on the table: (n,), m.
 
-        The root of the area that it covers as the camera faces it; inf for what stands beyond the
-        horizon.
+        The root of the area that each covers in a plane that faces the camera; inf for what stands
+        beyond the horizon.
         """
         x0, y0, x1, y1 = np.transpose(boxes)
-        _, depth = self._met(np.column_stack([(x0 + x1) / 2, y1]), TABLE)  # of its foot
+        _, depth = self._intersect(np.column_stack([(x0 + x1) / 2, y1]), TABLE)  # of its foot
         pixels = np.sqrt((x1 - x0) * (y1 - y0))
         return np.where(depth > 0, pixels * depth / self.focal, np.inf)

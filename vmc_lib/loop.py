@@ -1,7 +1,8 @@
-"""The whole loop: a photo in, a reach out. It calls the parts in the order of the signal.
+"""Closed visuomotor loop: a photo in, a reach out.
 
-where: proposals → detections; what: names; then a place on the table, the trunk's turn, a plan, the
-movement, its off-line calibration, and the movement again. No mathematics of its own.
+It calls the parts in the order of the signal: where (proposals, detections), what (names), then a
+place on the table, the trunk's turn, a plan, the movement, its off-line calibration, and the
+movement again.
 """
 
 from dataclasses import dataclass, replace
@@ -11,55 +12,51 @@ import numpy as np
 from vmc_lib import NoReach, photos
 from vmc_lib.arm.kinematics import to_world, turn_towards
 from vmc_lib.arm.simulate import Motion
+from vmc_lib.box_selection import SIZE_LIKELIHOOD_RATIO, BoxSelector, filter_by_size, scale_odds
 from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration, calibrate
 from vmc_lib.motor import templates
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import Plan, plan
-from vmc_lib.what.judge import RIGHT_SIZE, SURE, likelier, sized, weighed
-from vmc_lib.what.recogniser import NameClassifier, Recogniser
-from vmc_lib.what.stream import VentralStream
+from vmc_lib.what.recogniser import Recogniser
 from vmc_lib.where.detector import Detections, ObjectDetector
 from vmc_lib.where.localiser import Localiser
 
-# Set on validation photos: how much lower than the detector's its threshold is, and how much boxes
-# may overlap that a stream is still to tighten
-NAMING_MARGIN, OVERLAP = 1.0, 0.6
+# Set on validation photos
+THRESHOLD_MARGIN = 1.0  # how much lower the detector's threshold is than alone
+OVERLAP = 0.6  # IoU that non-maximum suppression allows boxes that a stream is still to refine
 PHOTOGRAPHS_AS = "varied"  # the level whose places serve for photographs too
 RULES = {"published": algorithm_1, "own": broyden_calibration}  # of off-line calibration
 
 
 @dataclass(frozen=True)
 class VisuomotorModel:
-    """What photos and past reaches have taught: where objects are, their names, how to move."""
+    """All that is learnt: where objects are, what they are, where they stand, how to reach."""
 
     detector: ObjectDetector
-    recogniser: Recogniser | VentralStream
+    recogniser: Recogniser | BoxSelector  # of what is detected, both `select` boxes
     localiser: Localiser
     template_set: templates.TemplateSet
-    judge: NameClassifier | None = None  # of what `weighed` gives; without, the recogniser decides
 
     @classmethod
     def load(cls, level):
         """The shipped model of a level of photos.
 
-        What was learnt from that level's training photos, its thresholds and probabilities set on
-        its validation photos; but the CDBN has learnt from the training photos of all levels. A box
-        may score NAMING_MARGIN less than the detector alone asks, for the recogniser is still to
-        choose among the boxes. That of the level "real" has learnt from renders and photographs,
-        places things as PHOTOGRAPHS_AS does, and weighs what both pathways say.
+        It was trained on that level's training photos (the CDBN on those of all levels), its
+        thresholds and probabilities set on its validation photos. That of the level "real" was
+        trained on renders and photographs, locates as PHOTOGRAPHS_AS does, and chooses among boxes
+        by what both pathways say.
         """
         real = level == photos.REAL_LEVEL
         return cls(
-            lenient_detector(level),
-            VentralStream.load() if real else Recogniser.load(level),
+            high_recall_detector(level),
+            BoxSelector.load() if real else Recogniser.load(level),
             Localiser.load(PHOTOGRAPHS_AS if real else level),
             templates.load(),
-            NameClassifier.load("photographs", "judge") if real else None,
         )
 
 
-def lenient_detector(level):
-    """The shipped detector of a level, NAMING_MARGIN more lenient than alone.
+def high_recall_detector(level):
+    """The shipped detector of a level with a lower threshold: the recogniser is still to choose.
 
     In photographs it also keeps boxes that overlap by up to OVERLAP.
     """
@@ -68,21 +65,21 @@ def lenient_detector(level):
         detector = replace(detector, recipe=replace(detector.recipe, overlap=OVERLAP))
     else:
         detector = ObjectDetector.load(level)
-    return replace(detector, threshold=detector.threshold - NAMING_MARGIN)
+    return replace(detector, threshold=detector.threshold - THRESHOLD_MARGIN)
 
 
 @dataclass(frozen=True, eq=False)
 class Sight:
-    """What both visual pathways made of an image."""
+    """The result of both visual pathways on an image."""
 
     detections: Detections
     probability: np.ndarray  # (k,): that each kept box holds a shuttlecock
-    sure: float = 0.5  # the probability above which it is said so
+    min_probability: float = 0.5  # above which a box counts as one
 
     @property
     def shuttlecocks(self):
-        """The boxes (n, 4) that are said to hold one, the best first."""
-        return self.detections.boxes[self.probability > self.sure]
+        """The boxes (n, 4) that count as shuttlecocks, the best first."""
+        return self.detections.boxes[self.probability > self.min_probability]
 
     @property
     def box(self):
@@ -90,9 +87,9 @@ class Sight:
         return self.shuttlecocks[0] if len(self.shuttlecocks) else None
 
     @property
-    def told(self):
-        """What was seen, in words."""
-        sure = [f"{chance:.0%}" for chance in self.probability if chance > self.sure]
+    def summary(self):
+        """One-line description of the result."""
+        sure = [f"{p:.0%}" for p in self.probability if p > self.min_probability]
         if sure:
             return f"{len(sure)} shuttlecock{'s' * (len(sure) > 1)} ({', '.join(sure)} sure)"
         if not len(self.probability):
@@ -117,27 +114,48 @@ class Reach:
 
 
 def see(model, image, camera=None):
-    """`Sight` of an image (400, 600, 3): where are objects, and which is a shuttlecock?
+    """Detect the objects in an image and recognise the shuttlecocks among them.
 
-    A `Camera` tells how large things are: then boxes of another size than a shuttlecock's are left
-    out, and the odds of the others grow by RIGHT_SIZE (Bayes' rule).
+    Parameters
+    ----------
+    model : VisuomotorModel
+    image : (400, 600, 3) uint8 array
+    camera : Camera, if it is known: then boxes of another physical size than a shuttlecock's are
+        left out, and the odds of the others grow by SIZE_LIKELIHOOD_RATIO (Bayes' rule)
+
+    Returns
+    -------
+    Sight
+
+    >>> photo = photos.load("rig", "validation")[3]
+    >>> see(VisuomotorModel.load("rig"), photo.image, photo.camera).summary
+    '1 shuttlecock (100% sure)'
     """
-    found, times = model.detector.detect(image), 1
+    detections, ratio = model.detector.detect(image), 1
     if camera is not None:
-        found, times = sized(found, camera), RIGHT_SIZE
-    if model.judge is None:
-        return Sight(found, likelier(model.recogniser.chance(image, found.boxes), times))
-    boxes, told = weighed(found, model.recogniser, image)
-    chance = likelier(model.judge.probability(told), times)
-    best = np.argsort(-chance, kind="stable")
-    judged = replace(found, boxes=boxes[best], scores=told[best, 0])
-    return Sight(judged, chance[best], SURE)
+        detections, ratio = filter_by_size(detections, camera), SIZE_LIKELIHOOD_RATIO
+    detections, probability = model.recogniser.select(image, detections)
+    return Sight(detections, scale_odds(probability, ratio), model.recogniser.min_probability)
 
 
 def locate(model, image, box, camera):
-    """The place (3,) of a shuttlecock seen in `box` (4,), in m.
+    """Locate the shuttlecock in a box: its place in the shoulder frame.
 
-    `NoReach` when there is no box, and when the camera is unknown (None).
+    Parameters
+    ----------
+    model : VisuomotorModel
+    image : (400, 600, 3) uint8 array
+    box : (4,) array of (x0, y0, x1, y1) in pixels, or None
+    camera : Camera, or None
+
+    Returns
+    -------
+    (3,) array, m
+
+    Raises
+    ------
+    NoReach
+        Without a box or a camera, or if the line of sight does not meet the table.
     """
     if box is None:
         raise NoReach("no shuttlecock was recognised: there is no place to reach for")
@@ -147,19 +165,35 @@ def locate(model, image, box, camera):
 
 
 def reach(model, target, calibration=algorithm_1):
-    """`Reach` for a place (3,): plan, move, calibrate (unless that is None), move again.
+    """Reach for a target: turn the trunk, plan, move, calibrate off-line, move again.
 
-    `NoReach` when the place is out of reach or outside what past experience covers.
+    Parameters
+    ----------
+    model : VisuomotorModel
+    target : (3,) array, m, in the shoulder frame
+    calibration : one of RULES, or None to move once
+
+    Returns
+    -------
+    Reach
+
+    Raises
+    ------
+    NoReach
+        If the target is out of reach or outside what past experience covers.
+
+    >>> photo = photos.load("rig", "validation")[0]
+    >>> found = reach(VisuomotorModel.load("rig"), photo.target)
+    >>> bool(np.linalg.norm(found.hand(found.calibrated)[-1] - photo.target) < 0.05)
+    True
     """
     turn, point = turn_towards(target)
     habit = plan(point, model.template_set)
-    if calibration is None:
-        planned = execute(habit).motion
-        return Reach(target, turn, habit, planned, planned)
-    trials = calibrate(calibration, habit)
-    return Reach(target, turn, habit, trials.movements[0].motion, trials.best_motion)
+    planned = execute(habit).motion
+    first = Reach(target, turn, habit, planned, planned)
+    return recalibrate(first, calibration) if calibration else first
 
 
-def recalibrated(reach, calibration):
+def recalibrate(reach, calibration):
     """The same `Reach`, its second movement calibrated by a rule of `RULES`."""
     return replace(reach, calibrated=calibrate(calibration, reach.plan).best_motion)

@@ -1,9 +1,9 @@
-"""The photo set: what the model's eye sees, with the truth beside each photo.
+"""The photo set: 600 × 400 photos, each with the truth in a sidecar file.
 
-Every photo is 600×400 with a sidecar. The paper's own CASIA-RTA-VM set is private, so the photos of
-three levels are rendered (`render`); their sidecars hold the exact boxes of the shuttlecock and the
-cup, the camera in the shoulder frame, and the shuttlecock's true place. Those of the level "real"
-are photographs: boxes drawn by hand, cameras and places unknown.
+The paper's own CASIA-RTA-VM set is private, so the photos of three levels are rendered (`render`);
+their sidecars hold the exact boxes of the shuttlecock and the cup, the camera in the shoulder
+frame, and the shuttlecock's true place. Those of the level "real" are photographs: boxes drawn by
+hand, cameras and places unknown.
 """
 
 import json
@@ -21,9 +21,8 @@ from vmc_lib.compiled import compiled
 
 LEVELS = ("rig", "free", "varied")  # rendered, so that cameras and places are known
 REAL_LEVEL = "real"  # photographs
-SHEET_LEVEL = (
-    "sheet"  # rendered too, with the printed sheet of `vmc_lib.sheet`; to test, not to learn
-)
+# Rendered too, with the printed sheet of `vmc_lib.marker_sheet`: for tests, not for training
+SHEET_LEVEL = "sheet"
 EVERY_LEVEL = (*LEVELS, REAL_LEVEL)
 SPLITS = ("train", "validation", "test")
 CLASSES = ("shuttlecock", "cup")
@@ -31,50 +30,62 @@ WIDTH, HEIGHT = 600, 400
 FOLDER, EVERYDAY = data.FOLDER / "photos", data.FOLDER / "real"
 
 
-class _Picture:
-    """What has a `file`, and its `image` (400, 600, 3), uint8, read when it is asked for."""
+@dataclass(frozen=True, eq=False)
+class Photo:
+    """A photo and the truth about it; what only a renderer knows is None in photographs.
+
+    boxes: name of a thing → (4,), around its visible pixels; more: (n, 4), further things of the
+    same kind; unclear: (n, 4), what may be a cup or not, and counts as neither; credit: whose it
+    is, and its licence. From a renderer: target: (3,), m, the middle of the shuttlecock's axis
+    (cork tip to centre of the skirt's rim) in the shoulder frame; turn: the trunk's turn (rad) for
+    which the place was drawn; pose: "lying" or "standing"; seed: what remakes it.
+    """
+
+    name: str
+    file: Path
+    boxes: dict
+    more: np.ndarray
+    unclear: np.ndarray
+    credit: str
+    level: str = ""
+    split: str = ""
+    camera: Camera | None = None
+    target: np.ndarray | None = None
+    turn: float | None = None
+    pose: str | None = None
+    seed: tuple = ()
 
     @property
     def image(self):
+        """(400, 600, 3) uint8, read-only, read from the file at the first use."""
         return _image(self.file)
 
 
 @lru_cache(64)  # a level can have hundreds
 def _image(file):
-    image = read_image(file)
-    image.flags.writeable = False  # shared by all who ask
-    return image
-
-
-@dataclass(frozen=True, eq=False)
-class Photo(_Picture):
-    """A photo and the truth about it.
-
-    image: (400, 600, 3) uint8; boxes: class → (4,), around the visible pixels; camera: the eye;
-    target: (3,), the middle of the shuttlecock's axis (cork tip to centre of the skirt's rim) in
-    the shoulder frame; turn: the trunk's turn (rad) for which the place was drawn; pose: "lying" or
-    "standing"; seed: what remakes it.
-    """
-
-    name: str
-    level: str
-    split: str
-    file: Path
-    boxes: dict
-    camera: Camera
-    target: np.ndarray
-    turn: float
-    pose: str
-    seed: tuple
-    more = np.empty((0, 4))  # there is one of each kind
+    return data.read_only(read_image(file))
 
 
 def load(level, split, folder=FOLDER):
-    """The photos of one level and split, in order of their names; images are read when asked for.
+    """Load the photos of one level and split.
 
-    `Photo`s, or `RealPhoto`s of the level "real". `folder` holds them; those that ship, unless told
-    otherwise.
-    Raises ValueError for an unknown level or split, and for a photo that is missing or damaged.
+    Parameters
+    ----------
+    level : one of EVERY_LEVEL, or SHEET_LEVEL
+    split : one of SPLITS
+    folder : path that holds the levels; by default of those that ship
+
+    Returns
+    -------
+    list of Photo, in order of their names
+
+    Raises
+    ------
+    ValueError
+        For an unknown level or split, and for a photo that is missing or damaged.
+
+    >>> load("rig", "train")[0].image.shape
+    (400, 600, 3)
     """
     known = *EVERY_LEVEL, SHEET_LEVEL
     if level not in known:
@@ -85,86 +96,58 @@ def load(level, split, folder=FOLDER):
     sidecars = sorted(place.glob("*.json"))
     if not sidecars:
         raise ValueError(f"no photos under {place}: python -m render makes them")
-    return [_read_real(file) if level == REAL_LEVEL else _read(file) for file in sidecars]
-
-
-def _described(sidecar):
-    """A photo's sidecar, the file of its image and its boxes."""
-    truth = json.loads(data.read(sidecar))
-    file = sidecar.with_suffix(".jpg")
-    data.read(file)  # as it shipped?
-    return truth, file, {name: np.array(box, float) for name, box in truth["boxes"].items()}
-
-
-@cache
-def _read(sidecar):
-    truth, file, boxes = _described(sidecar)
-    split = sidecar.parent
-    camera = {key: np.array(value)[()] for key, value in truth["camera"].items()}
-    return Photo(
-        name=f"{split.parent.name}/{split.name}/{sidecar.stem}",
-        level=split.parent.name,
-        split=split.name,
-        file=file,
-        boxes=boxes,
-        camera=Camera(**camera),
-        target=np.array(truth["target"]),
-        turn=truth["turn"],
-        pose=truth["pose"],
-        seed=tuple(truth["seed"]),
-    )
-
-
-@dataclass(frozen=True, eq=False)
-class RealPhoto(_Picture):
-    """A photo that no renderer made, to see what holds beyond our own renders.
-
-    image: (400, 600, 3) uint8; boxes: thing → (4,), around the visible pixels, drawn by hand, and
-    empty where there is neither shuttlecock nor cup; more: (n, 4), further things of the same kind;
-    unclear: (n, 4), what may be a cup or not, and counts as neither; credit: whose it is, and its
-    licence. Its camera is unknown.
-    """
-
-    name: str
-    file: Path
-    boxes: dict
-    more: np.ndarray
-    unclear: np.ndarray
-    credit: str
-    camera = None
-
-
-@cache
-def _read_real(sidecar):
-    """A photo of the level "real", or of everyday things, which stand in no level."""
-    truth, file, boxes = _described(sidecar)
-    split = sidecar.parent
-    name = sidecar.stem if split == EVERYDAY else f"{split.parent.name}/{split.name}/{sidecar.stem}"
-    more, unclear = (as_boxes(truth.get(key, [])) for key in ("also", "ignore"))
-    credit = "; ".join(truth[key] for key in ("credit", "licence") if key in truth)
-    return RealPhoto(name, file, boxes, more, unclear, credit)
+    return list(map(_read_sidecar, sidecars))
 
 
 @cache
 def everyday():
     """The real photos of everyday things, without shuttlecocks, in order of their names."""
-    return tuple(_read_real(sidecar) for sidecar in sorted(EVERYDAY.glob("*.json")))
+    return tuple(map(_read_sidecar, sorted(EVERYDAY.glob("*.json"))))
 
 
-def all_of(photo, name):
-    """The boxes (n, 4) of every thing of that name in a `Photo` or a `RealPhoto`."""
+@cache
+def _read_sidecar(sidecar):
+    """The `Photo` that a sidecar describes; everyday things stand in no level."""
+    truth, file = json.loads(data.read(sidecar)), sidecar.with_suffix(".jpg")
+    data.read(file)  # raises if the image is not the one that ships
+    more, unclear = (as_boxes(truth.get(key, [])) for key in ("also", "ignore"))
+    place = () if sidecar.parent == EVERYDAY else sidecar.parent.parts[-2:]
+    rendered = {}
+    if "camera" in truth:
+        camera = {key: np.array(value)[()] for key, value in truth["camera"].items()}
+        rendered = {"camera": Camera(**camera), "target": np.array(truth["target"])}
+        rendered |= {"turn": truth["turn"], "pose": truth["pose"], "seed": tuple(truth["seed"])}
+    return Photo(
+        "/".join((*place, sidecar.stem)),
+        file,
+        {name: np.array(box, float) for name, box in truth["boxes"].items()},
+        more,
+        unclear,
+        "; ".join(truth[key] for key in ("credit", "licence") if key in truth),
+        *place,
+        **rendered,
+    )
+
+
+def boxes_of(photo, name):
+    """The boxes (n, 4) of every thing of that name in a photo."""
     return np.vstack([photo.boxes[name], *photo.more]) if name in photo.boxes else np.empty((0, 4))
 
 
 def read_image(source):
-    """Any photo, as the eye's (400, 600, 3) uint8 RGB.
+    """Read an image as (400, 600, 3) uint8 RGB, letterboxed on grey.
 
-    source: a path, or an array (h, w), (h, w, 1), (h, w, 3) or (h, w, 4) of uint8 or of floats
-    within [0, 1]. Grey is repeated in three channels, what is transparent stands on white, floats
-    are scaled to 0..255. Another size is scaled to fit inside 600×400 and centred on grey, its
-    proportions kept.
+    Parameters
+    ----------
+    source : path, or array as `as_rgb` takes it
 
-    Raises ValueError for a file that is missing, truncated or no image, and for other arrays.
+    Raises
+    ------
+    ValueError
+        For a file that is missing, truncated or no image, and for other arrays.
+
+    >>> read_image(np.zeros((800, 800))).shape
+    (400, 600, 3)
     """
     if not isinstance(source, str | Path | np.ndarray):
         raise ValueError(f"a {type(source).__name__} is no photo: give a path or an array")
@@ -173,7 +156,7 @@ def read_image(source):
 
 
 def as_rgb(array):
-    """An array (h, w), (h, w, 1), (h, w, 3) or (h, w, 4) as uint8 RGB (h, w, 3), a copy.
+    """Convert an array (h, w), (h, w, 1), (h, w, 3) or (h, w, 4) to uint8 RGB (h, w, 3), a copy.
 
     Takes uint8, or floats within [0, 1], scaled to 0..255. Grey is repeated in three channels, what
     is transparent stands on white. ValueError for anything else.
@@ -197,16 +180,16 @@ def as_rgb(array):
 
 
 def as_float(image):
-    """What `as_rgb` makes of an image, as float32 in 0..1."""
+    """Convert an image, as `as_rgb` takes it, to float32 RGB (h, w, 3) in 0..1."""
     rgb = as_rgb(image).astype(np.float32)
     rgb /= 255
     return rgb
 
 
 def crops(image, boxes, size):
-    """What boxes (n, 4) show of a uint8 image (height, width, c): cells (n, size, size, c) in 0..1.
+    """Crop boxes (n, 4) of a uint8 image (height, width, c): (n, size, size, c) in 0..1.
 
-    A cell is the mean of four samples spread evenly over it. Beyond the image its edge pixels
+    A pixel is the mean of four samples spread evenly over it. Beyond the image its edge pixels
     repeat; a box without area shows the one pixel, or row of pixels, it lies on. ValueError for
     another kind of image.
     """

@@ -122,7 +122,9 @@ def named_boxes(sight):
     """For `photo_view`: each kept box with its chance of a shuttlecock, by rising chance."""
     found = sorted(zip(sight.probability, sight.detections.boxes.tolist(), strict=True))
     return [
-        (box, f"shuttlecock {p:.0%}", "green") if p > sight.sure else (box, f"{p:.0%}", "blue")
+        (box, f"shuttlecock {p:.0%}", "green")
+        if p > sight.min_probability
+        else (box, f"{p:.0%}", "blue")
         for p, box in found
     ]
 

@@ -11,7 +11,7 @@ from IPython.display import HTML, display
 from PIL import Image
 
 from book.figures.panels import panels
-from vmc_lib.boxes import FOUND, iou
+from vmc_lib.boxes import MIN_IOU, iou
 from vmc_lib.photos import as_rgb
 from vmc_lib.show.controls import slider
 from vmc_lib.show.demo import figure
@@ -43,7 +43,7 @@ def overlap(image, thing, corner):
     """
     box = np.concatenate([corner, corner + thing[2:] - thing[:2]])
     shared = round(iou(box, thing).item(), 2)
-    colour = "green" if shared >= FOUND else "orange" if shared > 0.5 else "red"
+    colour = "green" if shared >= MIN_IOU else "orange" if shared > 0.5 else "red"
     said = (*in_corner(f"IoU {shared:.2f}")[:2], colour)  # at the box a hand would hide it
     return photo_view(image, [(thing, "", "grey"), (box, "", colour), said])
 
@@ -63,7 +63,7 @@ def nearest(truth, boxes, colour="green"):
     return marks
 
 
-def right_and_wrong(image, boxes, truth, good=FOUND):
+def right_and_wrong(image, boxes, truth, good=MIN_IOU):
     """The image with its boxes (n, 4): green where they hold an object, red where they do not."""
     right = iou(boxes, list(truth.values())).max(1, initial=0) >= good
     return photo_view(

@@ -4,7 +4,7 @@ import numpy as np
 
 from kit.question import choice, count, numeric, steps, successes
 from reproduce.training.detectors import best_threshold
-from vmc_lib.boxes import corrections, iou, nms, vote
+from vmc_lib.boxes import encode_deltas, iou, nms, vote
 from vmc_lib.statistics import wilson
 
 SIZE = 100  # pixels: the side of the boxes below
@@ -77,7 +77,7 @@ def correction_of_a_box(
     should box regression learn {part[0]}?"""
     truth = boxes_at(shift)
     truth[:, 2] += (stretch - 1) * SIZE
-    return corrections(boxes_at(0), truth)[0, part[1]], {"end": truth[0, 2]}
+    return encode_deltas(boxes_at(0), truth)[0, part[1]], {"end": truth[0, 2]}
 
 
 @numeric(hint="Of what it called, the share that is right.")

@@ -45,12 +45,14 @@ def train_variation(variation, folder, exam, patches=PATCHES):
     That is, `confusion_counts` (levels, read-outs, SPLITS, 4). It learns from photos in `folder`,
     so many patches of them; the test photos are those in the folder `exam`.
     """
-    from vmc_lib.what.learning import train  # here, for torch weighs on who only reads the results
+    from reproduce.training.cdbn import (
+        train_cdbn,  # here, for torch weighs on who only reads the results
+    )
 
     n_w, seed = variation
     shots = [shot for level in photos.LEVELS for shot in photos.load(level, "train", folder)]
     crops, positive = crops_of(shots)
-    cdbn = CDBN.from_arrays(train(whiten(crops), positive, seed, n_w, patches).arrays())
+    cdbn = CDBN.from_arrays(train_cdbn(whiten(crops), positive, seed, n_w, patches).arrays())
     counts = np.zeros((len(photos.LEVELS), len(READ_OUTS), len(SPLITS), 4), int)
     for i, (level, (jittered, y)) in enumerate(training_crops(folder).items()):
         x = read_outs(cdbn, jittered)

@@ -108,10 +108,11 @@ def downsample(pictures, width):
 
 def train_cdbn(crops, patches):
     """Train a CDBN of the paper's size without labels, on all crops."""
-    from vmc_lib.what.learning import SECOND, train  # here, for torch weighs on who only reads
+    # here, for torch weighs on who only reads
+    from reproduce.training.cdbn import SECOND, train_cdbn
 
     pictures, every = whiten(downsample(crops, NARROW)), np.ones(len(crops), bool)
-    network = train(pictures, every, patches=patches, second=SECOND | ON_NARROW)
+    network = train_cdbn(pictures, every, patches=patches, second=SECOND | ON_NARROW)
     return CDBN.from_arrays(network.arrays())
 
 

@@ -23,7 +23,7 @@ from reproduce.training.detectors import (
     with_best_threshold,
 )
 from vmc_lib import photos
-from vmc_lib.boxes import FOUND, iou
+from vmc_lib.boxes import MIN_IOU, iou
 from vmc_lib.statistics import student
 from vmc_lib.where.detector import ObjectDetector
 from vmc_lib.where.recipes import RECIPES
@@ -127,7 +127,7 @@ def detect_photos(level, split, detector="published", folder=photos.FOLDER):
         yield detector.detect(photo.image, candidates(photo, detector.recipe.strategy))
 
 
-def table_2(level, split="test", overlap=FOUND):
+def table_2(level, split="test", overlap=MIN_IOU):
     """Table II: precision and recall of the final boxes of each recipe, right at IoU `overlap`."""
     some, rows = photos.load(level, split), {}
     for name in RECIPES:
@@ -136,7 +136,7 @@ def table_2(level, split="test", overlap=FOUND):
     return rows
 
 
-def precision_recall(shots, boxes, overlap=FOUND):
+def precision_recall(shots, boxes, overlap=MIN_IOU):
     """Precision and recall of a list of boxes a photo: a box is right at IoU `overlap` or more.
 
     Precision is the share of boxes that are right, recall that of objects with a right box.
@@ -145,7 +145,7 @@ def precision_recall(shots, boxes, overlap=FOUND):
     return float(right.sum() / max(right.size, 1)), float(reached.mean())
 
 
-def true_positives(shots, boxes, overlap=FOUND):
+def true_positives(shots, boxes, overlap=MIN_IOU):
     """Of a list of boxes a photo, which boxes are right, and which objects have a right box.
 
     Truth values for all boxes of all photos in turn, and for all objects.

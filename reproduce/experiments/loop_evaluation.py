@@ -6,9 +6,9 @@ import numpy as np
 from joblib import Parallel, delayed
 
 from vmc_lib import NoReach, photos
-from vmc_lib.boxes import FOUND, iou
+from vmc_lib.boxes import MIN_IOU, iou
 from vmc_lib.cerebellum.offline import algorithm_1
-from vmc_lib.loop import RULES, VisuomotorModel, locate, reach, recalibrated, see
+from vmc_lib.loop import RULES, VisuomotorModel, locate, reach, recalibrate, see
 
 ARRIVED, CLOSE_BY = 0.010, 0.005  # m: a hand so near the shuttlecock has arrived, or done well
 FAILURE_STAGES = ("proposals", "regions", "names", "place", "movement")  # where a reach goes wrong
@@ -33,8 +33,8 @@ def score(photo, sight, place, reaches):
     }
     chosen = np.empty((0, 4)) if sight.box is None else sight.box[None]
     return {
-        "proposed": _overlap(sight.detections.candidates, photo, "shuttlecock") >= FOUND,
-        "found": _overlap(sight.detections.boxes, photo, "shuttlecock") >= FOUND,
+        "proposed": _overlap(sight.detections.candidates, photo, "shuttlecock") >= MIN_IOU,
+        "found": _overlap(sight.detections.boxes, photo, "shuttlecock") >= MIN_IOU,
         "named": _overlap(chosen, photo, "shuttlecock") > 0.5,
         "cup": _overlap(chosen, photo, "cup") > 0.5,
         **errors,
@@ -81,7 +81,7 @@ def _evaluate_photo(model, photo):
     with suppress(NoReach):  # nothing named, or out of reach: no movement, and counted as such
         place = locate(model, photo.image, sight.box, photo.camera)
         first = reach(model, place, calibration=None)
-        reaches = {name: recalibrated(first, rule) for name, rule in RULES.items()}
+        reaches = {name: recalibrate(first, rule) for name, rule in RULES.items()}
     return score(photo, sight, place, reaches)
 
 

@@ -4,7 +4,7 @@ import numpy as np
 from joblib import Parallel, delayed
 
 from reproduce.experiments.real_world import MODELS, SIZED
-from vmc_lib import NoReach, photos, sheet
+from vmc_lib import NoReach, marker_sheet, photos
 from vmc_lib.loop import VisuomotorModel, locate, see
 
 FROM_SHEET = ", camera from the sheet"
@@ -25,7 +25,7 @@ def make(folder=photos.FOLDER, models=MODELS, count=None):
 
 def photo_errors(photo, models):
     """The row of one photo."""
-    camera, bare = sheet.look(photo.image)
+    camera, bare = marker_sheet.remove_sheet(photo.image)
     true = photo.boxes["shuttlecock"]
     [model, *_] = models.values()  # all have the same localiser
     row = {

@@ -2,7 +2,7 @@
 
 from joblib import Parallel, delayed
 
-from reproduce.experiments.loop_evaluation import FOUND
+from reproduce.experiments.loop_evaluation import MIN_IOU
 from reproduce.results import records
 from vmc_lib import photos
 from vmc_lib.boxes import iou
@@ -17,11 +17,11 @@ QUESTIONS = {  # about which photos, and what has to be so
         lambda result: result["chance"] > 0.5,
     ),
     "cups called a shuttlecock": ("cup", lambda result: result["chance"] > 0.5),
-    "a good candidate": ("shuttlecock", lambda result: result["candidate"] >= FOUND),
+    "a good candidate": ("shuttlecock", lambda result: result["candidate"] >= MIN_IOU),
     "a box on the shuttlecock": ("shuttlecock", lambda result: result["kept"] > 0.5),
-    "a good box": ("shuttlecock", lambda result: result["kept"] >= FOUND),
+    "a good box": ("shuttlecock", lambda result: result["kept"] >= MIN_IOU),
     "the chosen box is the shuttlecock's": ("shuttlecock", lambda result: result["fit"] > 0.5),
-    "and fits well": ("shuttlecock", lambda result: result["fit"] >= FOUND),
+    "and fits well": ("shuttlecock", lambda result: result["fit"] >= MIN_IOU),
     "photos of a cup with a false alarm": ("cup", lambda result: result["chosen"] is not None),
     "photos of neither with one": ("neither", lambda result: result["chosen"] is not None),
 }
@@ -93,12 +93,12 @@ def examine(model, photo, sized=False):
     if holds == "neither":
         return record
     truth = photo.boxes[holds]
-    chance = model.recogniser.chance(photo.image, truth[None])
+    chance = model.recogniser.box_probability(photo.image, truth[None])
     return record | {
         "chance": round(float(chance[0]), 4),
         "candidate": _best(found.candidates, [truth]),
         "kept": _best(found.boxes, [truth]),
-        "fit": _best(chosen, photos.all_of(photo, "shuttlecock")),
+        "fit": _best(chosen, photos.boxes_of(photo, "shuttlecock")),
     }
 
 

@@ -89,6 +89,6 @@ def accuracy_after_training(teach, maps, exam, seed, steps):
     network = training.build_network(seed, maps)
     training.train(network, training.Batches(teach, seed, steps, BATCH), RATE)
     stream = training.fold_batch_norm(network)
-    called = [stream.chance(image, boxes) > 0.5 for image, boxes, _ in exam]
+    called = [stream.box_probability(image, boxes) > 0.5 for image, boxes, _ in exam]
     labels = [np.full(len(boxes), label) for _, boxes, label in exam]
     return balanced_accuracy(np.concatenate(called), np.concatenate(labels))

@@ -98,7 +98,7 @@ def gabor_correlations(kind):
     network = cdbn.CDBN.load()
     first = network.first.W[:, 0]
     noise = np.random.default_rng(0).normal(size=first.shape)
-    some = {"W1": first, "W2": network.projected(), "noise": noise}[kind]
+    some = {"W1": first, "W2": network.projected_filters(), "noise": noise}[kind]
     return np.array([gabor.best_gabor(W)[1] for W in some])
 
 
@@ -112,7 +112,7 @@ def _figure_7():
         trivial_quantity(
             "the same in the second layer, in the image",
             paper.PROJECTED_WIDTH,
-            network.projected().shape[-1],
+            network.projected_filters().shape[-1],
         ),
     ]
 

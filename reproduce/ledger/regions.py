@@ -9,7 +9,7 @@ from reproduce.ledger.search import rois
 from reproduce.results import arrays
 from reproduce.training.detectors import candidates
 from vmc_lib import photos
-from vmc_lib.boxes import FOUND, area, iou
+from vmc_lib.boxes import MIN_IOU, area, iou
 
 KERNELS = {"linear": "linear", "RBF": "rbf", "polynomial": "poly", "Gaussian": "sigmoid"}
 MEASURES = ("precision", "recall")
@@ -87,7 +87,7 @@ def _table_2():
     quantities = _finder("published")
     for reading, overlaps in readings.items():
         for k, measure in enumerate(MEASURES):
-            right = np.concatenate([(o >= FOUND).any(axis=1 - k) for o in overlaps])
+            right = np.concatenate([(o >= MIN_IOU).any(axis=1 - k) for o in overlaps])
             quantities.append(
                 share(
                     f"published, {reading}: {measure}",
@@ -98,7 +98,7 @@ def _table_2():
                     rounding=paper.SHARE,
                 )
             )
-    found = np.concatenate(ceiling) >= FOUND
+    found = np.concatenate(ceiling) >= MIN_IOU
     limit = "recall that the candidates allow"
     return [
         *quantities,

@@ -11,7 +11,7 @@ from reproduce.ledger.entry import Quantity, Row, mean, share, trivial_quantity
 from reproduce.peers import window_proposals
 from reproduce.training.detectors import candidates
 from vmc_lib import photos
-from vmc_lib.boxes import FOUND, iou
+from vmc_lib.boxes import MIN_IOU, iou
 from vmc_lib.where.features import raw_pixels
 from vmc_lib.where.selective_search import propose
 
@@ -22,7 +22,7 @@ def rois(split):
     best = [
         iou(candidates(p), list(p.boxes.values())).max(axis=1) for p in photos.load("rig", split)
     ]
-    return np.array([[(b >= FOUND).sum() for b in best], [(b <= 0.5).sum() for b in best]])
+    return np.array([[(b >= MIN_IOU).sum() for b in best], [(b <= 0.5).sum() for b in best]])
 
 
 def _rois():
@@ -107,7 +107,7 @@ def _objects_found(some, found):
         iou(boxes, [photo.boxes[name] for name in photos.CLASSES]).max(axis=0)
         for photo, boxes in zip(some, found, strict=True)
     ]
-    return np.hstack(best) >= FOUND
+    return np.hstack(best) >= MIN_IOU
 
 
 def _classes():

@@ -3,7 +3,7 @@
 import cv2
 import numpy as np
 
-from vmc_lib.boxes import area, widened
+from vmc_lib.boxes import area, pad_boxes
 from vmc_lib.photos import as_float
 
 
@@ -51,7 +51,7 @@ def edge_density(image, windows, rim=0.15):
     height, width = grey.shape
     inner, outer = (
         np.clip(boxes.round().astype(int), 0, [width, height, width, height])
-        for boxes in (windows, widened(windows, rim))
+        for boxes in (windows, pad_boxes(windows, rim))
     )
     rim_area = np.maximum(area(outer) - area(inner), 1)
     return inside(inner) / np.maximum(area(inner), 1) - (inside(outer) - inside(inner)) / rim_area

@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 from joblib import parallel_config
 
-from render import bone_meshes
+from render import bone_meshes, cutout_atlas
 from reproduce import ledger, results
 from reproduce.experiments import (
     calibration,
@@ -37,7 +37,7 @@ from reproduce.pipeline import checksums
 from reproduce.training import shipped_models, ventral_stream
 from reproduce.whole_arm import bones as bones63
 from reproduce.whole_arm import experiment, habits, plant
-from vmc_lib import cutouts, data
+from vmc_lib import data
 
 ROOT, MODEL, RESULTS = Path(__file__).parents[2], data.FOLDER, results.FOLDER
 FRESH = ROOT / "_build/fresh_photos"  # of tests to come: they do not ship
@@ -131,7 +131,7 @@ STEPS = (
     Step(RENDER, MODEL / "photos", minutes=25, needs="mitsuba and LLVM 19"),
     Step(
         f"{sys.executable} -m render.cutouts",
-        cutouts.FILE,
+        cutout_atlas.FILE,
         minutes=6,
         needs="mitsuba and LLVM 19",
     ),

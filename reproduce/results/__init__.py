@@ -20,7 +20,7 @@ def records(name, folder=FOLDER):
     try:
         return json.loads(data.read(path))
     except json.JSONDecodeError as error:
-        raise data.damaged(path, error) from None
+        raise data.DamagedFile(path, error) from None
 
 
 def write(name, content, folder=FOLDER):

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
-from vmc_lib.boxes import corrected, corrections, iou, jittered, widened
+from vmc_lib.boxes import decode_deltas, encode_deltas, iou, jitter_boxes, pad_boxes
 from vmc_lib.what.stream import MARGIN, WIDTH
 
 STRAYS = 0.05, 0.12, 0.2  # in sides: how far a box lies from the shuttlecock's, by turns
@@ -42,11 +42,11 @@ def augment(image, box, holds, rng, augmentation=ALL):
     would mend it.
     """
     box, fit, lack = box[None], 0.0, np.zeros(4)
-    near = jittered(box, augmentation.stray, rng)
+    near = jitter_boxes(box, augmentation.stray, rng)
     if holds:
-        near = corrected(box, rng.normal(0, rng.choice(STRAYS), (1, 4)))
-        fit, lack = iou(near, box)[0, 0], corrections(near, box)[0]
-    x = crop_in_colour(image, widened(near, MARGIN), 2 * WIDTH)
+        near = decode_deltas(box, rng.normal(0, rng.choice(STRAYS), (1, 4)))
+        fit, lack = iou(near, box)[0, 0], encode_deltas(near, box)[0]
+    x = crop_in_colour(image, pad_boxes(near, MARGIN), 2 * WIDTH)
     x, lack = quarter_turn(x, lack, rng) if augmentation.quarters else (x, lack)
     x = x * np.exp(rng.normal(0, TINT * augmentation.colour, 3)).astype(np.float32)
     return simulate_camera(np.ascontiguousarray(x), rng, augmentation), fit, lack

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from vmc_lib.boxes import FOUND, corrected, corrections, iou
+from vmc_lib.boxes import MIN_IOU, decode_deltas, encode_deltas, iou
 from vmc_lib.data import arrays
 from vmc_lib.where.box_regression import RBFRidge, regress
 from vmc_lib.where.detector import ObjectDetector
@@ -58,10 +58,10 @@ class TrainingImage:
         )
         return TrainingImage(self.pixels[:, ::-1], *boxes)
 
-    def jittered(self, times, spread, rng):
+    def jitter_boxes(self, times, spread, rng):
         """Each true box so many times, and boxes moved and stretched from it by about `spread`."""
         truth = np.repeat(self.truth, times, axis=0)
-        return truth, corrected(truth, rng.normal(scale=spread, size=truth.shape))
+        return truth, decode_deltas(truth, rng.normal(scale=spread, size=truth.shape))
 
 
 def training_images(shots, recipe):
@@ -85,9 +85,9 @@ def labelled_candidates(shots, recipe=PUBLISHED):
     x, y = [], []
     for image in training_images(shots, replace(recipe, mirror=False)):
         overlap = image.overlap
-        clear = (overlap >= FOUND) | (overlap <= 0.5)
+        clear = (overlap >= MIN_IOU) | (overlap <= 0.5)
         x.append(recipe.describe(image.pixels, image.candidates[clear]))
-        y.append(overlap[clear] >= FOUND)
+        y.append(overlap[clear] >= MIN_IOU)
     return np.concatenate(x), np.concatenate(y)
 
 
@@ -99,9 +99,9 @@ def svm_training_set(images, recipe, rng):
     x, y = [], []
     for image in images:
         overlap = image.overlap
-        good, bad = image.candidates[overlap >= FOUND], image.candidates[overlap <= 0.5]
+        good, bad = image.candidates[overlap >= MIN_IOU], image.candidates[overlap <= 0.5]
         bad = rng.permutation(bad)[: -(-ROIS // len(images))]
-        _, jittered = image.jittered(recipe.jittered, JITTER, rng)
+        _, jittered = image.jitter_boxes(recipe.jittered, JITTER, rng)
         x.append(recipe.describe(image.pixels, np.vstack([good, jittered, bad])))
         y.append(np.arange(len(x[-1])) < len(good) + len(jittered))
     return np.concatenate(x), np.concatenate(y)
@@ -117,9 +117,9 @@ def fit_box_regression(images, recipe, rng):
     for spread in recipe.regressions:
         x, goal = [], []
         for image in images:
-            truth, boxes = image.jittered(times, spread, rng)
+            truth, boxes = image.jitter_boxes(times, spread, rng)
             x.append(recipe.describe(image.pixels, boxes))
-            goal.append(corrections(boxes, truth))
+            goal.append(encode_deltas(boxes, truth))
         x, goal = np.concatenate(x), np.concatenate(goal)
         rounds.append(RBFRidge.fit(x, goal, REGRESSION_CENTRES, rng))
     return tuple(rounds)
@@ -135,7 +135,7 @@ def fit_iou_predictor(images, recipe, svm, regressions, rng):
     total = sum(len(image.truth) for image in images)
     times, x, y = 2 * recipe.boxes // total // len(JITTERS) + 1, [], []
     for image in images:
-        near = [image.jittered(times, spread, rng)[1] for spread in JITTERS]
+        near = [image.jitter_boxes(times, spread, rng)[1] for spread in JITTERS]
         some = rng.permutation(image.candidates)[: MINED // len(images)]
         off = some[iou(some, image.truth).max(1, initial=0) < BACKGROUND]
         passed = svm.score(recipe.describe(image.pixels, off)) > recipe.gate
@@ -196,7 +196,7 @@ def with_best_threshold(detector, shots):
     for image in training_images(shots, replace(detector.recipe, mirror=False)):
         found = lenient.detect(image.pixels, image.candidates)
         scores.append(found.scores)
-        right.append(iou(found.boxes, image.truth).max(1, initial=0) >= FOUND)
+        right.append(iou(found.boxes, image.truth).max(1, initial=0) >= MIN_IOU)
         wanted += len(image.truth)
     best = best_threshold(np.concatenate(scores), np.concatenate(right), wanted)
     return replace(detector, threshold=best)

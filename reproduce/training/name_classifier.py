@@ -6,7 +6,7 @@ from sklearn.frozen import FrozenEstimator
 from sklearn.linear_model import LogisticRegression
 
 from vmc_lib import photos
-from vmc_lib.boxes import iou, jittered
+from vmc_lib.boxes import iou, jitter_boxes
 from vmc_lib.what.crops import crop
 from vmc_lib.what.recogniser import NameClassifier
 
@@ -33,7 +33,7 @@ def labelled_crops(shots, rng, copies=COPIES, background=0):
     crops, labels = [], []
     for shot in shots:
         boxes = [(box, name == "shuttlecock") for name, box in shot.boxes.items()] * copies
-        boxes = [(jittered(box, JITTER, rng), label) for box, label in boxes]
+        boxes = [(jitter_boxes(box, JITTER, rng), label) for box, label in boxes]
         boxes += [(background_box(shot, rng), False) for _ in range(background)]
         for box, label in boxes:
             picture = crop(shot.image, box)

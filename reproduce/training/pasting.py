@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
+from render.cutout_atlas import WIDTH, load
 from vmc_lib import photos
-from vmc_lib.cutouts import WIDTH, load
 
 HELD_OUT = 80  # cut-outs: those that validate
 SEEN = 0.4  # of light that a cut-out keeps off what is behind: from there it has an edge
@@ -19,7 +19,7 @@ LARGE = 0.2, 1.2  # of the photo's height: how wide a cut-out is laid there, wha
 
 @dataclass(frozen=True, eq=False)
 class PastedPhoto:
-    """A photograph on which a shuttlecock was laid, as a `RealPhoto`."""
+    """A photograph on which a shuttlecock was laid, as a `Photo`."""
 
     image: np.ndarray
     boxes: dict

@@ -67,7 +67,7 @@ def photo_samples(shots, rng):
 
     In photographs, the windows that teach best are those that look like objects to the detector.
     """
-    finder = loop.lenient_detector(loop.PHOTOGRAPHS_AS)
+    finder = loop.high_recall_detector(loop.PHOTOGRAPHS_AS)
     found = Parallel()(
         delayed(candidates)(shot) if shot.camera else delayed(detected_boxes)(finder, shot)
         for shot in shots
@@ -82,8 +82,8 @@ def detected_boxes(finder, shot):
 
 def boxes_by_kind(photo, proposed, rng):
     """Boxes of a photo by kind, background from `proposed` (n, 4): kind -> (image, boxes)."""
-    shuttlecocks = photos.all_of(photo, "shuttlecock")
-    others = [photos.all_of(photo, name) for name in photo.boxes if name != "shuttlecock"]
+    shuttlecocks = photos.boxes_of(photo, "shuttlecock")
+    others = [photos.boxes_of(photo, name) for name in photo.boxes if name != "shuttlecock"]
     windows = np.vstack([proposed, random_windows(rng)])
     apart = iou(windows, shuttlecocks).max(1, initial=0) < APART
     kinds = shuttlecocks, np.vstack([np.empty((0, 4)), *others]), windows[apart]

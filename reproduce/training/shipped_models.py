@@ -12,14 +12,14 @@ import numpy as np
 from joblib import Parallel, delayed
 
 from reproduce.training import reach_templates
+from reproduce.training.cdbn import train_cdbn
 from reproduce.training.detectors import fit_detector, with_best_threshold, with_recipe
 from reproduce.training.name_classifier import fit_name_classifier, labelled_crops
 from vmc_lib import photos
 from vmc_lib.motor.templates import SPACINGS, key
 from vmc_lib.what.cdbn import CDBN, PATCHES, crops_of
 from vmc_lib.what.crops import whiten
-from vmc_lib.what.learning import train
-from vmc_lib.what.recogniser import ALL_LEVELS, READ_OUTS, read_outs
+from vmc_lib.what.recogniser import POOLED_LEVEL, READ_OUTS, read_outs
 from vmc_lib.where.localiser import Localiser
 from vmc_lib.where.recipes import EVERY_RECIPE, RECIPES, TRAINED_AS
 from vmc_lib.where.selective_search import propose
@@ -80,7 +80,7 @@ def cdbn(folder=photos.FOLDER, patches=PATCHES):
     """The CDBN trained on the crops of all levels."""
     shots = [shot for level in photos.LEVELS for shot in photos.load(level, "train", folder)]
     crops, positive = crops_of(shots)
-    return train(whiten(crops), positive, patches=patches).arrays()
+    return train_cdbn(whiten(crops), positive, patches=patches).arrays()
 
 
 def recogniser(folder=photos.FOLDER):
@@ -93,7 +93,7 @@ def recogniser(folder=photos.FOLDER):
         ]
         for level in photos.LEVELS
     }
-    sets[ALL_LEVELS] = [merge_sets(split) for split in zip(*sets.values(), strict=True)]
+    sets[POOLED_LEVEL] = [merge_sets(split) for split in zip(*sets.values(), strict=True)]
     for level, ((x, y), (x_validation, y_validation)) in sets.items():
         for name in READ_OUTS:
             found = fit_name_classifier(x[name], y, x_validation[name], y_validation)

@@ -19,10 +19,10 @@ from reproduce.training import pasting
 from reproduce.training.augmentation import augment
 from reproduce.training.samples import APART, PASTED, collect_samples, training_samples
 from vmc_lib import loop, photos
+from vmc_lib.box_selection import rescore_boxes
 from vmc_lib.boxes import iou
-from vmc_lib.what.judge import weighed
 from vmc_lib.what.recogniser import NameClassifier
-from vmc_lib.what.stream import WIDTH, VentralStream, adapted
+from vmc_lib.what.stream import WIDTH, VentralStream, standardise
 
 torch.set_num_threads(1)
 
@@ -44,7 +44,7 @@ def augmented_batch(pool, count, rng):
         *(augment(*pool.draw(rng), rng, pool.augmentation) for _ in range(count)), strict=True
     )
     x, fit, lack = (np.array(part, np.float32) for part in parts)
-    return adapted(np.moveaxis(x, 3, 1)), fit, lack
+    return standardise(np.moveaxis(x, 3, 1)), fit, lack
 
 
 # ---------------------------------------------------------------- learning
@@ -131,10 +131,10 @@ def hard_negatives(stream, photo):
     stream tightens them.
     """
     image, windows = photo["scene"]
-    some = np.vstack([windows, stream.tightened(image, windows)])
+    some = np.vstack([windows, stream.refine_boxes(image, windows)])
     if "shuttlecock" in photo:
         some = some[iou(some, photo["shuttlecock"][1]).max(1) < APART]
-    hardest = np.argsort(-stream.look(image, some)[0])[:HARD]
+    hardest = np.argsort(-stream.predict(image, some)[0])[:HARD]
     return photo | {"scene": (image, some[hardest])}
 
 
@@ -142,7 +142,7 @@ def hard_negatives(stream, photo):
 
 
 def photographs(folder=photos.FOLDER, steps=STEPS, maps=MAPS, everyday=None, pasted=PASTED):
-    """What `data/photographs.npz` holds: a `VentralStream`, and the judge of both pathways.
+    """The arrays of `data/photographs.npz`: a `VentralStream`, and the `BoxSelector`'s classifier.
 
     It learns, its mistakes are mined, and it learns on. `everyday` and `pasted` as for
     `samples.collect_samples`.
@@ -173,14 +173,14 @@ def validation_photos(folder=photos.FOLDER, laid=LAID):
 def fit_rescoring(stream, shots):
     """Fit the probability that a detected box is a shuttlecock's, from both pathways' scores.
 
-    Logistic regression on what `weighed` gives, as a `NameClassifier`; right is an IoU above
+    Logistic regression on what `rescore_boxes` gives, as a `NameClassifier`; right is an IoU above
     0.5. Renders teach with the photographs, for these alone are too few.
     """
-    detector, x, y = loop.lenient_detector(photos.REAL_LEVEL), [], []
+    detector, x, y = loop.high_recall_detector(photos.REAL_LEVEL), [], []
     for shot in shots:
         found = detector.detect(shot.image)
-        boxes, features = weighed(found, stream, shot.image)
+        boxes, features = rescore_boxes(found, stream, shot.image)
         x.append(features)
-        y.append(iou(boxes, photos.all_of(shot, "shuttlecock")).max(1, initial=0) > 0.5)
+        y.append(iou(boxes, photos.boxes_of(shot, "shuttlecock")).max(1, initial=0) > 0.5)
     logistic = LogisticRegression(C=np.inf).fit(np.vstack(x), np.hstack(y))  # three numbers
     return NameClassifier(logistic.coef_[0], float(logistic.intercept_[0]))

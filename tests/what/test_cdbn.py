@@ -6,7 +6,7 @@ from reproduce.experiments.gabor import best_gabor, gabor_pair
 from vmc_lib import photos
 from vmc_lib.what.cdbn import CDBN, crops_of
 from vmc_lib.what.crops import whiten
-from vmc_lib.what.learning import Learner, train
+from vmc_lib.what.learning import Learner
 
 
 @pytest.fixture(scope="module")
@@ -31,7 +31,7 @@ def test_layers_have_the_papers_sizes(cdbn, white):
         assert layers[name].max() <= 1
 
 
-def test_to_see_and_to_learn_are_the_same_equations(cdbn, white):
+def test_numpy_and_torch_compute_equal_layers(cdbn, white):
     """NumPy's layers beside torch's own convolution and softmax, and beside those of a Learner."""
     F = torch.nn.functional
     learner = CDBN.load(Learner).layers(torch.from_numpy(white))
@@ -52,9 +52,9 @@ def test_to_see_and_to_learn_are_the_same_equations(cdbn, white):
         np.testing.assert_allclose(alone, ours[name], rtol=0, atol=1e-6)
 
 
-def test_projection_is_what_a_second_layer_unit_paints(cdbn):
+def test_projected_filters_match_one_active_second_layer_unit(cdbn):
     """Moving a picture along a projected filter drives its unit up, as a straight line."""
-    projected = cdbn.projected()
+    projected = cdbn.projected_filters()
     assert projected.shape == (10, 23, 23)
     for k in (0, 7):
         W = torch.tensor(cdbn.second.W[k : k + 1])
@@ -75,39 +75,3 @@ def test_best_gabor_finds_a_gabor_again():
     found, correlation = best_gabor((cosine + 0.5 * sine).reshape(8, 8) + 3)
     assert correlation > 0.999
     assert found.ravel() == pytest.approx(cosine + 0.5 * sine, abs=0.02)
-
-
-def test_training_is_repeatable_and_saves_whole(white, tmp_path):
-    positive = np.array([True, False, True, False])
-    one, two = (train(white, positive, 1, patches=200) for _ in range(2))
-    np.savez(tmp_path / "one.npz", **one.arrays())
-    with np.load(tmp_path / "one.npz") as file:
-        kept = CDBN.from_arrays(file, Learner)
-    white = torch.from_numpy(white)
-    p2 = [net.layers(white)["P2"] for net in (one, two, kept)]
-    assert torch.equal(p2[0], p2[1])
-    assert torch.equal(p2[0], p2[2])
-    other = train(white, positive, 2, patches=200)
-    assert not torch.equal(p2[0], other.layers(white)["P2"])
-
-
-def test_without_a_positive_picture_the_second_layer_has_nothing_to_learn(white):
-    with pytest.raises(ValueError, match="at least one"):
-        train(white, np.zeros(4, bool), patches=100)
-
-
-@pytest.mark.skipif(not torch.cuda.is_available(), reason="no GPU here")
-def test_one_argument_moves_training_to_the_gpu(white):
-    there = train(white, np.ones(4, bool), patches=200, device="cuda")
-    assert there.first.W.is_cuda
-    assert there.second.W.is_cuda
-    here = CDBN.from_arrays(there.arrays())
-    on_gpu = there.layers(torch.from_numpy(white).cuda())["P2"].cpu().numpy()
-    assert on_gpu == pytest.approx(here.layers(white)["P2"], abs=1e-3)
-
-
-@pytest.mark.parametrize("n_w", [7, 10, 11])
-def test_other_filter_widths_are_trimmed_to_whole_blocks(white, n_w):
-    net = train(white, np.ones(4, bool), n_w=n_w, patches=100)
-    for layer in ("H1", "H2"):
-        assert net.layers(torch.from_numpy(white))[layer].shape[-1] % 2 == 0

@@ -11,16 +11,16 @@ from reproduce.training.name_classifier import (
     labelled_crops,
 )
 from vmc_lib import photos
-from vmc_lib.boxes import iou, jittered
+from vmc_lib.boxes import iou, jitter_boxes
 from vmc_lib.what.cdbn import CDBN, crops_of
 from vmc_lib.what.crops import crop, whiten
 from vmc_lib.what.learning import Learner
-from vmc_lib.what.recogniser import ALL_LEVELS, READ_OUTS, Recogniser, seen
+from vmc_lib.what.recogniser import POOLED_LEVEL, READ_OUTS, Recogniser, readout_features
 
 
 @pytest.mark.parametrize("name", READ_OUTS)
-@pytest.mark.parametrize("level", ["rig", ALL_LEVELS])
-def test_it_knows_a_shuttlecock_from_a_cup(level, name):
+@pytest.mark.parametrize("level", ["rig", POOLED_LEVEL])
+def test_shuttlecocks_are_told_from_cups(level, name):
     crops, shuttlecock = crops_of(photos.load("rig", "validation")[:8])
     chance = Recogniser.load(level, name).probability(crops)
     assert chance.shape == (16,)
@@ -28,11 +28,11 @@ def test_it_knows_a_shuttlecock_from_a_cup(level, name):
     assert ((chance > 0.5) == shuttlecock).mean() >= 14 / 16
 
 
-def test_a_name_is_the_same_to_numpy_and_to_torch():
+def test_numpy_and_torch_give_equal_probabilities():
     crops, _ = crops_of(photos.load("varied", "validation")[:4])
     recogniser = Recogniser.load("varied")
-    told = seen(CDBN.load(Learner), torch.from_numpy(whiten(crops)))[recogniser.name]
-    theirs = recogniser.classifier.probability(told.numpy())
+    features = readout_features(CDBN.load(Learner), torch.from_numpy(whiten(crops)))
+    theirs = recogniser.classifier.probability(features[recogniser.name].numpy())
     assert recogniser.probability(crops) == pytest.approx(theirs, abs=1e-5)
 
 
@@ -42,7 +42,7 @@ def test_the_table_is_no_shuttlecock():
     assert (Recogniser.load().probability(crops) < 0.5).mean() >= 14 / 16
 
 
-def test_nothing_and_nonsense():
+def test_no_crops_and_unknown_names():
     assert Recogniser.load().probability([]).shape == (0,)
     with pytest.raises(ValueError, match="contrast"):
         Recogniser.load().probability(np.ones((1, 200, 200)))
@@ -52,18 +52,20 @@ def test_nothing_and_nonsense():
 
 
 def test_each_level_has_a_recogniser_of_its_own():
-    weights = [Recogniser.load(level).classifier.weights for level in (*photos.LEVELS, ALL_LEVELS)]
+    weights = [
+        Recogniser.load(level).classifier.weights for level in (*photos.LEVELS, POOLED_LEVEL)
+    ]
     assert all(not np.allclose(a, b) for a, b in combinations(weights, 2))
 
 
-def test_what_is_in_a_box_is_named():
+def test_box_probability_is_that_of_the_crop():
     shot, recogniser = photos.load("rig", "validation")[0], Recogniser.load("rig")
     boxes = np.array(list(shot.boxes.values()))
     crops = np.array([crop(shot.image, box) for box in boxes])
     np.testing.assert_array_equal(
-        recogniser.chance(shot.image, boxes), recogniser.probability(crops)
+        recogniser.box_probability(shot.image, boxes), recogniser.probability(crops)
     )
-    assert recogniser.chance(shot.image, []).shape == (0,)
+    assert recogniser.box_probability(shot.image, []).shape == (0,)
 
 
 def blobs(n, rng, apart):
@@ -101,6 +103,6 @@ def test_examples():
         objects = np.array(list(shot.boxes.values()))
         assert iou([background_box(shot, rng)], objects).max() < 0.3
         near = [
-            iou([jittered(box, JITTER, rng)], [box])[0, 0] for box in objects for _ in range(20)
+            iou([jitter_boxes(box, JITTER, rng)], [box])[0, 0] for box in objects for _ in range(20)
         ]
         assert 0.6 < np.mean(near) < 0.95

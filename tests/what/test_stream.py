@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 
 from vmc_lib import photos
-from vmc_lib.boxes import corrected, iou
-from vmc_lib.what.stream import MARGIN, MIRRORS, STAGES, WIDTH, VentralStream, shown
+from vmc_lib.boxes import decode_deltas, iou
+from vmc_lib.what.stream import FLIPS, MARGIN, STAGES, WIDTH, VentralStream, preprocess
 
 STREAM = VentralStream.load()
 SHOTS = [shot for shot in photos.load("real", "train") if "shuttlecock" in shot.boxes]
 
 
-def test_a_stage_is_a_convolution_the_strongest_of_four_and_a_threshold():
+def test_a_stage_is_convolution_max_pooling_and_rectification():
     rng = np.random.default_rng(0)
     x = rng.normal(size=(2, 3, WIDTH, WIDTH)).astype(np.float32)
     first = STREAM.stages(x)[STAGES[0]]
@@ -27,38 +27,38 @@ def test_a_stage_is_a_convolution_the_strongest_of_four_and_a_threshold():
         assert first[1, k, y, column] == pytest.approx(max(0, *drives), abs=1e-4)
 
 
-def test_each_stage_halves_the_places():
-    maps = STREAM.stages(shown(SHOTS[0].image, SHOTS[0].boxes["shuttlecock"]))
+def test_each_stage_halves_the_maps():
+    maps = STREAM.stages(preprocess(SHOTS[0].image, SHOTS[0].boxes["shuttlecock"]))
     assert list(maps) == list(STAGES)
     assert [x.shape[-1] for x in maps.values()] == [24, 12, 6, 3]
     assert all((x >= 0).all() for x in maps.values())
 
 
-def test_a_box_is_shown_with_a_margin_and_in_any_light():
+def test_preprocess_adds_a_margin_and_standardises():
     image = np.zeros((400, 600, 3), np.uint8)
     image[100:200, 100:200] = 255, 0, 0
-    [seen] = shown(image, [100, 100, 200, 200])
+    [seen] = preprocess(image, [100, 100, 200, 200])
     edge = round(WIDTH * MARGIN / (1 + 2 * MARGIN))
     assert seen[0, edge + 1 : -edge - 1, edge + 1 : -edge - 1].min() > 1
     assert seen[0, : edge - 1].max() < 0
-    [darker] = shown(image // 2, [100, 100, 200, 200])
+    [darker] = preprocess(image // 2, [100, 100, 200, 200])
     np.testing.assert_allclose(darker, seen, atol=0.1)
 
 
-def test_it_knows_shuttlecocks_and_mends_boxes():
+def test_it_recognises_shuttlecocks_and_refines_boxes():
     chances, before, after = [], [], []
     for shot in SHOTS[::3]:
         true = shot.boxes["shuttlecock"][None]
-        chances.append(STREAM.chance(shot.image, true)[0])
-        astray = corrected(true, np.array([[0.1, -0.1, 0.15, -0.1]]))
+        chances.append(STREAM.box_probability(shot.image, true)[0])
+        astray = decode_deltas(true, np.array([[0.1, -0.1, 0.15, -0.1]]))
         before.append(iou(astray, true)[0, 0])
-        after.append(iou(STREAM.tightened(shot.image, astray), true)[0, 0])
+        after.append(iou(STREAM.refine_boxes(shot.image, astray), true)[0, 0])
     assert np.mean(np.array(chances) > 0.5) > 0.8
     assert np.mean(after) > np.mean(before) + 0.05
 
 
-@pytest.mark.parametrize(("along", "down"), MIRRORS[1:])
-def test_who_looks_in_all_mirrors_sees_the_same_in_a_mirror(along, down):
+@pytest.mark.parametrize(("along", "down"), FLIPS[1:])
+def test_averages_over_flips_do_not_change_when_the_image_is_flipped(along, down):
     image, box = SHOTS[0].image, np.round(SHOTS[0].boxes["shuttlecock"])
     (height, width), (x, y, right, bottom) = image.shape[:2], box
     mirrored = np.array([x, y, right, bottom])
@@ -66,21 +66,21 @@ def test_who_looks_in_all_mirrors_sees_the_same_in_a_mirror(along, down):
         mirrored[[0, 2]] = width - right, width - x
     if down < 0:
         mirrored[[1, 3]] = height - bottom, height - y
-    odds, lacks = STREAM.look(image, box[None], MIRRORS)
-    same, turned = STREAM.look(image[::down, ::along], mirrored[None], MIRRORS)
+    odds, lacks = STREAM.predict(image, box[None], FLIPS)
+    same, turned = STREAM.predict(image[::down, ::along], mirrored[None], FLIPS)
     np.testing.assert_allclose(same, odds, atol=0.01)
     np.testing.assert_allclose(turned, lacks * [along, down, 1, 1], atol=1e-3)
-    alone = STREAM.look(image[::down, ::along], mirrored[None])[0]
-    assert abs(alone - STREAM.look(image, box[None])[0]) > 0.01
+    alone = STREAM.predict(image[::down, ::along], mirrored[None])[0]
+    assert abs(alone - STREAM.predict(image, box[None])[0]) > 0.01
 
 
-def test_of_no_box_it_says_nothing():
-    odds, lacks = STREAM.look(SHOTS[0].image, np.empty((0, 4)))
+def test_no_boxes_give_empty_predictions():
+    odds, lacks = STREAM.predict(SHOTS[0].image, np.empty((0, 4)))
     assert odds.shape == (0,)
     assert lacks.shape == (0, 4)
 
 
-def test_it_is_small_and_saves_what_it_loads():
+def test_the_file_is_small_and_holds_the_arrays():
     assert (photos.data.FOLDER / "photographs.npz").stat().st_size < 4e6
     shipped = photos.data.arrays("photographs")
     for name, part in STREAM.arrays().items():

@@ -8,7 +8,7 @@ import pytest
 from reproduce.training import detectors
 from reproduce.training.detectors import training_images
 from vmc_lib import photos
-from vmc_lib.boxes import corrected, iou
+from vmc_lib.boxes import decode_deltas, iou
 from vmc_lib.where import box_regression
 from vmc_lib.where.detector import ObjectDetector
 from vmc_lib.where.recipes import IMPROVED
@@ -22,7 +22,7 @@ def detector():
 def astray(photo, by):
     """A photo's true boxes, and boxes off by so many sides."""
     truth = np.array(list(photo.boxes.values()))
-    return truth, corrected(truth, np.tile(by, (len(truth), 1)))
+    return truth, decode_deltas(truth, np.tile(by, (len(truth), 1)))
 
 
 def test_box_regression_brings_a_box_nearer(detector):
@@ -37,7 +37,7 @@ def test_box_regression_brings_a_box_nearer(detector):
     assert np.mean(rest) > 0.05
 
 
-def test_the_iou_predictor_tells_a_fit_from_a_near_miss(detector):
+def test_predicted_iou_is_higher_for_a_fit_than_for_a_near_miss(detector):
     """Boxes off by a sixth score below the true ones, mostly."""
     better = []
     for photo in photos.load("rig", "validation")[:10]:
@@ -50,7 +50,7 @@ def test_the_iou_predictor_tells_a_fit_from_a_near_miss(detector):
     assert np.mean(better) > 0.9
 
 
-def test_a_bare_photo_teaches_the_iou_predictor_misfits(detector):
+def test_a_photo_without_objects_trains_the_iou_predictor(detector):
     """Candidates beside no object at all are counter-examples, like others far from one."""
     quick = replace(IMPROVED, mirror=False, boxes=300)
     seen = training_images(photos.load("rig", "train")[:3], quick)

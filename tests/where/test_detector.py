@@ -14,7 +14,7 @@ def photo():
     return photos.load("rig", "validation")[0]
 
 
-def test_a_detector_narrows_down_step_by_step(photo):
+def test_each_step_leaves_fewer_boxes(photo):
     detector = ObjectDetector.load("rig", "published")
     found = detector.detect(photo.image)
     counts = list(found.counts.values())
@@ -34,7 +34,7 @@ def test_candidates_may_be_a_list(photo):
 
 
 @pytest.mark.parametrize("name", RECIPES)
-def test_nothing_there_nothing_found(name):
+def test_nothing_is_detected_in_blank_images(name):
     detector = ObjectDetector.load("rig", name)
     blank = np.full((400, 600, 3), 128, np.uint8)
     for boxes in (None, np.empty((0, 4)), []):
@@ -61,12 +61,12 @@ def test_candidates_of_no_area_or_beyond_the_image(photo, boxes, name):
 
 
 @pytest.mark.parametrize("image", [np.zeros((40, 60)), np.zeros((40, 60, 3)), np.uint8([[1, 2]])])
-def test_an_image_of_another_kind(image):
+def test_images_of_other_types_are_refused(image):
     with pytest.raises(ValueError, match="read_image"):
         ObjectDetector.load("rig").score(image, [(0, 0, 30, 30)])
 
 
-def test_unknown_detectors():
+def test_unknown_detectors_are_refused():
     recipes = "published, context, gradients, box regression, IoU prediction, improved$"
     for level, name, remedy in (
         ("rig", "best", recipes),

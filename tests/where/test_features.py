@@ -7,13 +7,13 @@ from vmc_lib.where.features import gradients, pixels_in_context, raw_pixels
 NOISE = np.random.default_rng(0).integers(0, 256, (40, 60, 3), dtype=np.uint8)
 
 
-def test_a_crop_of_its_own_size_is_the_pixels():
+def test_a_crop_at_full_size_equals_the_pixels():
     assert crops(NOISE, [(3, 5, 19, 21)], 16) * 255 == pytest.approx(
         NOISE[None, 5:21, 3:19], abs=1e-4
     )
 
 
-def test_a_cell_is_the_mean_of_what_it_shrinks():
+def test_a_shrunk_pixel_is_the_mean_of_its_source():
     fine = NOISE[:32, :32].reshape(16, 2, 16, 2, 3).mean((1, 3))
     assert crops(NOISE, [(0, 0, 32, 32)], 16)[0] * 255 == pytest.approx(fine, abs=1e-4)
 
@@ -62,17 +62,17 @@ def test_context_is_a_margin_and_the_size():
     assert rows[:, -2:] == pytest.approx(np.log2([[15 / 60, 20 / 40], [1 / 60, 1 / 40]]))
 
 
-def test_gradients_do_not_mind_the_light():
+def test_gradients_do_not_depend_on_brightness():
     dim = (NOISE // 2).astype(np.uint8)
     boxes = [(10, 10, 40, 30)]
     assert gradients(dim, boxes) == pytest.approx(gradients(2 * dim, boxes), abs=0.03)
 
 
-def test_flat_is_no_gradient():
+def test_a_flat_image_has_no_gradient():
     assert (gradients(np.full((40, 60, 3), 99, np.uint8), [(10, 10, 40, 30)]) == 0).all()
 
 
-def test_compiled_features_are_those_of_whole_arrays_to_the_bit():
+def test_compiled_features_equal_those_of_whole_arrays():
     boxes = np.array([(10, 10, 40, 30), (-5, -5, 70, 50), (3.5, 7.2, 3.5, 9)])
     pixels = crops(NOISE, boxes, 30)
     where = (np.arange(60) + 0.5) / 60

@@ -16,7 +16,7 @@ def errors(place, shots):
     return [np.linalg.norm(place(p, p.boxes["shuttlecock"]) - p.target) for p in shots]
 
 
-def test_held_out_places_are_within_a_centimetre_and_better_than_plain_geometry(localiser):
+def test_held_out_error_is_below_a_centimetre_and_below_plain_geometry(localiser):
     height = np.mean([p.target[1] for p in photos.load("rig", "train")])
 
     def plain(photo, box):
@@ -29,19 +29,19 @@ def test_held_out_places_are_within_a_centimetre_and_better_than_plain_geometry(
     assert np.mean(errors(learnt, shots)) < 0.01 < np.mean(errors(plain, shots))
 
 
-def test_the_same_seed_learns_the_same(localiser):
+def test_fit_is_repeatable(localiser):
     again = Localiser.fit(photos.load("rig", "train"), np.random.default_rng(0))
     photo = photos.load("rig", "validation")[0]
     seen = photo.image, photo.boxes["shuttlecock"], photo.camera
     np.testing.assert_array_equal(again.locate(*seen), localiser.locate(*seen))
 
 
-def test_an_unknown_level():
+def test_an_unknown_level_is_refused():
     with pytest.raises(ValueError, match=r"'attic': choose from .'rig', 'free', 'varied'.$"):
         Localiser.load("attic")
 
 
-def test_a_line_of_sight_above_the_horizon_is_said(localiser):
+def test_a_line_of_sight_above_the_horizon_is_an_error(localiser):
     photo = photos.load("free", "train")[0]
     with pytest.raises(ValueError, match="never meets the plane"):
         localiser.locate(photo.image, [200, -9000, 300, -8900], photo.camera)

@@ -8,7 +8,7 @@ from vmc_lib import photos
 from vmc_lib.photos import as_float
 from vmc_lib.where import segmentation
 from vmc_lib.where.appearance import COLOUR_SPACES
-from vmc_lib.where.segmentation import edges_of, lightest_first, segment, segmentations
+from vmc_lib.where.segmentation import segment, segmentations
 
 
 def blobs(seed, shape=(40, 60)):
@@ -17,8 +17,8 @@ def blobs(seed, shape=(40, 60)):
     return (gaussian_filter(noise, (2, 2, 0)) * 8 % 1).astype(np.float32)
 
 
-def felzenszwalb_huttenlocher(image, scale, min_size):
-    """The 2004 algorithm, word for word and slow."""
+def published_segmentation(image, scale, min_size):
+    """The 2004 algorithm, word for word, slowly."""
     pixel = np.arange(image[..., 0].size).reshape(image.shape[:2])
     edges = []
     for a, b in [
@@ -54,64 +54,48 @@ def same_partition(a, b):
     return pairs == len(np.unique(a)) == len(np.unique(b))
 
 
-def walked(image, scale, min_size):
+def segment_unblurred(image, scale, min_size):
     height, width = image.shape[:2]
-    patches = segmentation.single_pixels(height * width, scale / 255)
-    edges, away = edges_of(image, 0, height), segmentation.to_neighbours(width)
-    labels = segmentation.cut_along(edges, away, scale / 255, min_size, patches)
+    edges = segmentation.sort_by_weight(segmentation.pixel_edges(image))
+    offsets = segmentation.pixel_offsets(width)
+    labels = segmentation.merge_segments(edges, offsets, height * width, scale / 255, min_size)
     return labels.reshape(height, width)
 
 
 @pytest.mark.parametrize(("scale", "min_size"), [(20, 1), (100, 20), (300, 60)])
-def test_the_segmentation_is_the_published_algorithm(scale, min_size):
+def test_segments_match_the_published_algorithm(scale, min_size):
     image = blobs(3)
-    ours = walked(image, scale, min_size)
+    ours = segment_unblurred(image, scale, min_size)
     assert ours.max() > 0
-    assert same_partition(ours, felzenszwalb_huttenlocher(image, scale, min_size))
+    assert same_partition(ours, published_segmentation(image, scale, min_size))
     assert (ours == felzenszwalb(image, scale=scale, sigma=0, min_size=min_size)).all()
 
 
 @pytest.mark.parametrize("shape", [(1, 1, 3), (1, 9, 1), (9, 1, 2), (12, 17, 3)])
-def test_the_compiled_loops_do_what_their_source_does(shape, monkeypatch):
+def test_compiled_loops_match_their_source(shape, monkeypatch):
     image = np.random.default_rng(0).integers(0, 4, shape).astype(np.float32) / 4  # many ties
-    monkeypatch.setattr(segmentation, "STRIP", 40)
-    compiled, in_strips = walked(image, 90, 4), segment(image, 4)
-    for loop in ("_edges", "dealt", "join", "labels_of"):
+    compiled = segment_unblurred(image, 90, 4)
+    for loop in ("pixel_edges", "sort_by_weight", "merge_segments"):
         monkeypatch.setattr(segmentation, loop, getattr(segmentation, loop).__wrapped__)
     assert compiled.shape == shape[:2]
-    assert (compiled == walked(image, 90, 4)).all()
-    assert (in_strips == segment(image, 4)).all()
+    assert (compiled == segment_unblurred(image, 90, 4)).all()
 
 
-@pytest.mark.parametrize("strip", [1, 100, 900])
-def test_a_picture_falls_apart_the_same_in_strips_of_any_height(strip, monkeypatch):
-    """Ties and textures, patches across many strips, and a scale beside another."""
-    grid = np.random.default_rng(1).integers(0, 4, (40, 60, 3)).astype(np.float32) / 4
-    photo = as_float(photos.load("real", "validation")[0].image)
-    for image in (grid, blobs(4), photo[::4, ::4]):
-        whole = list(segmentations(image, (20, 90)))
-        monkeypatch.setattr(segmentation, "STRIP", strip)
-        for one, other in zip(whole, segmentations(image, (20, 90)), strict=True):
-            assert one.max() > 0
-            assert (one == other).all()
-        monkeypatch.undo()
-
-
-def test_edges_are_sorted_by_their_weights_and_equal_ones_keep_their_order():
+def test_edges_are_sorted_stably_by_weight():
     image = np.random.default_rng(0).integers(0, 4, (12, 17, 3)).astype(np.float32) / 4
-    edges = edges_of(image, 0, 12)
+    edges = segmentation.pixel_edges(image)
     assert len(edges) == 12 * 16 + 11 * 17 + 2 * 11 * 16
     assert (np.diff(edges % 2**32) > 0).all()
     weights = (edges >> 32).astype(np.uint32).view(np.float32)
     below = np.linalg.norm(image[1:] - image[:-1], axis=2)
     assert weights[edges % 4 == 1] == pytest.approx(below.ravel())
     expected = edges[weights.argsort(kind="stable")]
-    assert (lightest_first(edges.copy())[0] == expected).all()
+    assert (segmentation.sort_by_weight(edges.copy()) == expected).all()
 
 
 @pytest.mark.parametrize("colour", ["HSV", "Lab"])
 @pytest.mark.parametrize("shot", ["rig", "varied", "real"])
-def test_photos_are_cut_as_scikit_image_cuts_them(shot, colour):
+def test_segments_of_photos_match_scikit_image(shot, colour):
     """To the pixel; where edges of equal weight decide (few), it depends on its machine's sort."""
     some = photos.everyday() if shot == "real" else photos.load(shot, "validation")
     channels = COLOUR_SPACES[colour](as_float(some[1].image))
@@ -120,12 +104,12 @@ def test_photos_are_cut_as_scikit_image_cuts_them(shot, colour):
     assert (segment(channels) == theirs).all()
 
 
-def test_scales_share_their_edges_and_nothing_else():
+def test_segmentations_at_several_scales_are_independent():
     image = blobs(1)
     for labels, k in zip(segmentations(image, [200, 20, 60]), [200, 20, 60], strict=True):
         assert (labels == segment(image, k)).all()
 
 
-def test_larger_scale_larger_segments():
+def test_a_larger_scale_gives_fewer_segments():
     counts = [segment(blobs(2, (100, 150)), k).max() + 1 for k in (20, 60, 200)]
     assert counts[0] > counts[1] > counts[2] > 1

@@ -5,22 +5,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
-from scipy.ndimage import gaussian_filter
 from skimage.data import coffee
 
+from tests.where.test_segmentation import blobs
 from vmc_lib.boxes import area
-from vmc_lib.photos import as_float
-from vmc_lib.where import appearance, segmentation
+from vmc_lib.where import appearance
 from vmc_lib.where import selective_search as ss
 from vmc_lib.where.segmentation import segment
 
 PHOTO = coffee()[100:300:2, 100:400:2]
-
-
-def blobs(seed, shape=(40, 60)):
-    """A smooth random image whose neighbouring pixels never differ by the same amount twice."""
-    noise = np.random.default_rng(seed).random((*shape, 3))
-    return gaussian_filter(noise, (2, 2, 0)) * 8 % 1
 
 
 @pytest.fixture(scope="module")
@@ -28,10 +21,10 @@ def grown():
     return next(ss.hierarchies(PHOTO, ss.Strategy(k=(30,))))
 
 
-def test_every_merge_joins_two_neighbours_into_their_union(grown):
+def test_every_merge_unites_two_neighbours(grown):
     for step, pair in enumerate(grown.merges.tolist()):
         before, after = grown.after(step), grown.after(step + 1)
-        assert sorted(pair) in ss.touching(before).tolist()
+        assert sorted(pair) in ss.adjacent_regions(before).tolist()
         new = len(grown.merges) + 1 + step
         assert ((after == new) == np.isin(before, pair)).all()
         assert (after == before)[after != new].all()
@@ -46,68 +39,11 @@ def test_boxes_hold_their_regions(grown):
             assert tuple(grown.boxes[region]) == box
 
 
-def test_described_from_parts_as_from_pixels():
-    """A merged region's row equals the one its own pixels would give."""
-    channels = as_float(PHOTO)
-    codes = appearance.colour_codes(channels), appearance.texture_codes(channels)
-    labels = segment(channels, 30)
-    look = appearance.describe(labels, *codes)
-    tree = ss.grow(labels, look, ss.ALL)
-    top = look.colour[-1], look.texture[-1], look.size[-1]
-    whole = appearance.describe(np.zeros_like(labels), *codes)
-    assert len(tree.merges) > 10
-    for merged, direct in zip(top, (whole.colour[0], whole.texture[0], whole.size[0]), strict=True):
-        assert merged == pytest.approx(direct, abs=1e-5)
+COMPILED = "_count", "_slope_codes", "similarity", "merge_regions", "_merge_all"
 
 
-def union(r, i, j):
-    """The areas of the boxes around both of two regions."""
-    low = np.minimum(r.boxes[i, :2], r.boxes[j, :2])
-    return (np.maximum(r.boxes[i, 2:], r.boxes[j, 2:]) - low).prod(-1)
-
-
-MEASURED = {  # Uijlings et al. (2013), section 3.2, in whole arrays
-    "colour": lambda r, i, j: np.minimum(r.colour[i], r.colour[j]).sum(-1),
-    "texture": lambda r, i, j: np.minimum(r.texture[i], r.texture[j]).sum(-1),
-    "size": lambda r, i, j: 1 - (r.size[i] + r.size[j]) / r.pixels,
-    "fill": lambda r, i, j: 1 - (union(r, i, j) - r.size[i] - r.size[j]) / r.pixels,
-}
-
-
-@given(st.integers(0, 99))
-@settings(max_examples=10, deadline=None)
-def test_similarities_are_shares_and_symmetric_and_what_is_published(seed):
-    channels = blobs(seed).astype(np.float32)
-    look = appearance.describe(
-        labels := segment(channels, 30),
-        appearance.colour_codes(channels),
-        appearance.texture_codes(channels),
-    )
-    pairs = ss.touching(labels)
-    for name, measure in MEASURED.items():
-        value = ss.alike(look, pairs, (name,))
-        assert (value == ss.alike(look, np.flip(pairs, 1), (name,))).all()
-        assert ((value >= -1e-6) & (value <= 1 + 1e-6)).all()
-        assert value == pytest.approx(measure(look, *pairs.T), abs=1e-6)
-    together = sum(measure(look, *pairs.T) for measure in MEASURED.values())
-    assert ss.alike(look, pairs, ss.ALL) == pytest.approx(together, abs=1e-6)
-
-
-@pytest.mark.parametrize("strip", [1, 300, 2000])
-@pytest.mark.parametrize("of", [appearance.colour_codes, appearance.texture_codes])
-def test_codes_are_the_same_in_strips_of_any_height(of, strip, monkeypatch):
-    channels = blobs(6).astype(np.float32)
-    whole, count = of(channels)
-    monkeypatch.setattr(segmentation, "STRIP", strip)
-    assert whole.max() >= count / 2
-    assert (of(channels)[0] == whole).all()
-
-
-COMPILED = "_count", "_rises", "likeness", "union", "_merge_all"
-
-
-def test_the_compiled_loops_do_what_their_source_does(monkeypatch):
-    channels = blobs(5)[:25, :25].astype(np.float32)
+def test_compiled_loops_match_their_source(monkeypatch):
+    channels = blobs(5)[:25, :25]
     labels = segment(channels, 20)
 
     def run():
@@ -125,14 +61,11 @@ def test_the_compiled_loops_do_what_their_source_does(monkeypatch):
     assert plain.texture == pytest.approx(compiled.texture)
 
 
-def test_a_readers_own_similarity_counts(monkeypatch):
-    """One that likes only the lowest numbers merges as none at all does."""
-    strategies = [ss.Strategy(k=(30,), similarities=(s,)) for s in ((), ("size",))]
-    plain, by_size = (next(ss.hierarchies(PHOTO, s)).merges for s in strategies)
-    monkeypatch.setitem(ss.SIMILARITIES, "low", lambda r, i, j: -1e3 * (np.minimum(i, j) + j / 1e3))
-    low = ss.Strategy(k=(30,), similarities=(("size", "low"),))
-    assert (next(ss.hierarchies(PHOTO, low)).merges[0] == plain[0]).all()
-    assert (plain[0] != by_size[0]).any()
+def test_without_measures_the_lowest_numbers_merge_first():
+    strategies = [ss.Strategy(k=(30,), similarities=(m,)) for m in ((), ("size",))]
+    blind, by_size = (next(ss.hierarchies(PHOTO, s)) for s in strategies)
+    assert blind.merges[0].tolist() == ss.adjacent_regions(blind.labels)[0].tolist()
+    assert (blind.merges[0] != by_size.merges[0]).any()
 
 
 def test_the_most_similar_pair_merges_first():
@@ -147,19 +80,7 @@ def test_the_most_similar_pair_merges_first():
     assert ss.grow(labels, look, ("colour",)).merges.tolist() == [[0, 1], [2, 3]]
 
 
-@pytest.mark.parametrize("name", appearance.COLOUR_SPACES)
-def test_colour_spaces_fill_the_unit_range(name):
-    """Each channel, on all eight corners of the colour cube."""
-    chart = np.array(list(product((0, 255), repeat=3)), np.uint8)[None]
-    channels = appearance.COLOUR_SPACES[name](as_float(chart))
-    assert channels.ndim == 3
-    assert channels.dtype == np.float32
-    assert channels.min() >= 0
-    assert channels.max() <= 1
-    assert (np.ptp(channels, axis=(0, 1)) > 0.6).all()
-
-
-def test_a_strategy_names_what_there_is():
+def test_a_strategy_refuses_unknown_names():
     with pytest.raises(ValueError, match="'CMYK' is none of RGB, HSV, Lab, rgI, H, I"):
         ss.Strategy(("HSV", "CMYK"))
     with pytest.raises(ValueError, match="'taste' is none of colour, texture, size, fill"):
@@ -175,13 +96,13 @@ def test_proposals_are_whole_distinct_boxes_inside_the_image():
     assert ((boxes[:, 2:] - boxes[:, :2]) >= 20).all()
 
 
-def test_a_wider_strategy_keeps_what_a_narrower_one_found():
+def test_a_wider_strategy_contains_a_narrower_one():
     both = ss.Strategy(("HSV", "Lab"))
     single, wide = ({tuple(b) for b in ss.propose(PHOTO, s)} for s in ("single", both))
     assert single < wide
 
 
-def test_the_order_is_the_generators():
+def test_the_order_depends_on_the_generator_alone():
     order = [ss.propose(PHOTO, rng=np.random.default_rng(seed)) for seed in (1, 1, 2)]
     assert (order[0] == order[1]).all()
     assert (order[0] != order[2]).any()
@@ -189,15 +110,15 @@ def test_the_order_is_the_generators():
     assert (ss.propose(PHOTO) == ss.propose(PHOTO)).all()
 
 
-def test_lists_are_ranked_by_a_draw_that_favours_large_regions():
+def test_large_regions_tend_to_come_first():
     trees = list(ss.hierarchies(PHOTO, ss.STRATEGIES["fast"]))
-    draws = [ss.ranked(trees, np.random.default_rng(seed)) for seed in range(20)]
+    draws = [ss.rank_boxes(trees, np.random.default_rng(seed)) for seed in range(20)]
     assert (draws[0] == ss.propose(PHOTO, "fast")).all()
     early, late = (np.mean([area(d[part]).mean() for d in draws]) for part in np.s_[:10, -10:])
     assert early > 3 * late
 
 
-def test_grey_float_and_transparent_images_are_read_alike():
+def test_grey_float_and_transparent_images_give_equal_boxes():
     grey = PHOTO[..., 0]
     expected = ss.propose(np.dstack([grey] * 3))
     for image in (grey, grey / 255, np.dstack([grey] * 3 + [np.full_like(grey, 255)])):
@@ -223,7 +144,8 @@ def images():
 
 @given(images(), st.integers(1, 12))
 @settings(max_examples=60, deadline=None)
-def test_any_image_gives_distinct_boxes_inside_it_and_the_whole_among_them(image, smallest):
+def test_any_image_gives_distinct_boxes_inside_it(image, smallest):
+    """The whole image is among them, unless it is too small."""
     height, width = image.shape[:2]
     boxes = ss.propose(image, "fast", smallest=smallest)
     assert (boxes[:, :2] >= 0).all()
@@ -234,7 +156,7 @@ def test_any_image_gives_distinct_boxes_inside_it_and_the_whole_among_them(image
     assert whole == (min(height, width) >= smallest)
 
 
-def test_a_huge_image_is_searched_like_any_other():
+def test_a_huge_image_gives_boxes_everywhere():
     wide = np.tile(PHOTO, (1, 40, 1))
     boxes = ss.propose(wide)
     assert wide.shape == (100, 6000, 3)
@@ -255,11 +177,11 @@ def test_a_huge_image_is_searched_like_any_other():
         (np.zeros(30, np.uint8), "not"),
     ],
 )
-def test_images_that_are_no_images(image, message):
+def test_wrong_arrays_are_refused(image, message):
     with pytest.raises(ValueError, match=message):
         ss.propose(image)
 
 
-def test_unknown_strategy():
+def test_an_unknown_strategy_is_refused():
     with pytest.raises(ValueError, match="single, fast, quality, finer"):
         ss.propose(PHOTO, "fastest")

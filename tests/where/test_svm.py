@@ -6,7 +6,7 @@ from vmc_lib.where.svm import KERNELS, KernelSVM
 
 
 @pytest.mark.parametrize("kernel", KERNELS)
-def test_a_machine_scores_as_libsvm_does(kernel, rng):
+def test_scores_match_libsvm(kernel, rng):
     x = rng.normal(size=(60, 5))
     y = x[:, 0] + x[:, 1] ** 2 > 0.5
     ours = KernelSVM.fit(x, y, kernel, 1.0)
@@ -16,7 +16,7 @@ def test_a_machine_scores_as_libsvm_does(kernel, rng):
     assert ours.score(x[:0]).shape == (0,)
 
 
-def test_a_machine_needs_both_labels_and_a_known_kernel():
+def test_fit_needs_both_labels_and_a_known_kernel():
     with pytest.raises(ValueError, match="counter-examples"):
         KernelSVM.fit(np.eye(3), [True] * 3)
     with pytest.raises(ValueError, match="linear, poly, rbf, sigmoid"):

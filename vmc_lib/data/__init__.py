@@ -1,4 +1,4 @@
-"""What ships beside the code: photos, and what training has learnt, as arrays.
+"""Data that ships beside the code: photos, and trained models as arrays.
 
 `python -m reproduce --list` names the step that remakes each.
 """
@@ -17,11 +17,18 @@ FOLDER = Path(__file__).parent
 CHECKSUMS = FOLDER / "checksums.json"
 
 
+class DamagedFile(ValueError):
+    """A file that ships and cannot be used: which it is, why, and what mends it."""
+
+    def __init__(self, path, why):
+        super().__init__(f"{path} is damaged: {why}. {_remedy(path)}")
+
+
 @cache
 def arrays(name, folder=FOLDER):
     """The arrays of the data file `name`.npz, by name; read once, shared, and so read-only.
 
-    FileNotFoundError when nothing of that name ships, ValueError when the file is damaged.
+    FileNotFoundError when nothing of that name ships, `DamagedFile` when the file is damaged.
     """
     path = Path(folder) / f"{name}.npz"
     try:
@@ -30,11 +37,11 @@ def arrays(name, folder=FOLDER):
     except (BadZipFile, EOFError, OSError, ZlibError) as error:
         if isinstance(error, FileNotFoundError):
             raise
-        raise damaged(path, error) from None
+        raise DamagedFile(path, error) from None
 
 
 def read_only(array):
-    """The same array, which refuses to be written to: what is cached is shared by all."""
+    """Make an array read-only, in place: what is cached is shared by all."""
     array.flags.writeable = False
     return array
 
@@ -42,24 +49,19 @@ def read_only(array):
 def read(path):
     """The bytes of a file that ships.
 
-    FileNotFoundError where it is missing, ValueError where it is another than the one that shipped.
+    FileNotFoundError where it is missing, `DamagedFile` where it is not the one that shipped.
     """
     path = Path(path)
     if not path.is_file():
         raise FileNotFoundError(f"{path} is missing. {_remedy(path)}")
     content, shipped = path.read_bytes(), _checksums().get(path)
     if shipped and shipped != checksum(content):
-        raise damaged(path, "it is cut, changed or swapped")
+        raise DamagedFile(path, "it is cut, changed or swapped")
     return content
 
 
-def damaged(path, why):
-    """The error for a file that ships and cannot be used: which it is, why, and what mends it."""
-    return ValueError(f"{path} is damaged: {why}. {_remedy(path)}")
-
-
 def checksum(content):
-    """A short name for what a file holds, its bytes."""
+    """The first 16 digits of the SHA-256 of bytes."""
     return hashlib.sha256(content).hexdigest()[:16]
 
 

@@ -1,1 +1,1 @@
-"""The "what" pathway (ventral): crops, CRBMs, the deep belief network, the name."""
+"""Object recognition: the "what" pathway (ventral)."""

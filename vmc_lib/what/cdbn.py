@@ -1,4 +1,4 @@
-"""The convolutional deep belief network (CDBN): one CRBM learns the picture, a second the first."""
+"""Convolutional deep belief network (CDBN): a CRBM on the picture, a second on its pooled maps."""
 
 from dataclasses import dataclass
 
@@ -28,20 +28,20 @@ class CDBN:
         the P2 maps (Eq. 2).
         """
         h1, p1 = self.first.posterior(self.first.trim(v))
-        h2, p2 = self.second.posterior(self.between(p1))
+        h2, p2 = self.second.posterior(self.standardised_p1(p1))
         return {"V": v, "H1": h1, "P1": p1, "H2": h2, "P2": p2, "MP2": p2.mean(1, keepdims=True)}
 
-    def between(self, p1):
-        """What the second CRBM sees of the first one's pooled maps."""
+    def standardised_p1(self, p1):
+        """The first CRBM's pooled maps as input of the second: standardised and trimmed."""
         return self.second.trim((p1 - self.mean) / self.spread)
 
     def pooled(self, v):
         """P1 and P2 of `layers` alone."""
         p1 = self.first.pooled(self.first.trim(v))
-        return p1, self.second.pooled(self.between(p1))
+        return p1, self.second.pooled(self.standardised_p1(p1))
 
-    def projected(self):
-        """The second layer's filters seen in the picture: (K, 23, 23) for two filters of width 8.
+    def projected_filters(self):
+        """The second layer's filters projected into the picture: (K, 23, 23) for width 8.
 
         Each of its weights paints, in the blocks of c × c hidden units that it sees through
         pooling, the filters of the first layer.

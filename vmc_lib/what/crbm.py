@@ -1,4 +1,4 @@
-"""One convolutional restricted Boltzmann machine (CRBM): its energy and its inference.
+"""Convolutional restricted Boltzmann machine (CRBM): energy and inference.
 
 A visible layer of real-valued units (the picture) and K maps of binary hidden units that see it
 through one shared filter each. Hidden units live in blocks of c × c in which at most one may be on:
@@ -14,11 +14,12 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
 
-def laid_on(v, W, padding=0):
-    """Filters W (K, channels, n_w, n_w) laid on maps v wherever they fit, multiplied and added.
+def correlate_valid(v, W, padding=0):
+    """Valid cross-correlation of maps v with filters W (deep learning's "convolution").
 
-    (n, K, height - n_w + 1, width - n_w + 1), after so many zeros of `padding` around v. Every row
-    of a filter is laid on every row of the maps at once; then the rows below each other are added.
+    v: (n, channels, height, width); W: (K, channels, n_w, n_w); `padding`: zeros around v first.
+    Returns (n, K, height - n_w + 1, width - n_w + 1). One matrix product correlates every row of a
+    filter with every row of the maps; then the rows of a filter are added.
     """
     if padding:
         v = np.pad(v, [(0, 0), (0, 0), (padding, padding), (padding, padding)])
@@ -35,7 +36,7 @@ def laid_on(v, W, padding=0):
 class CRBM:
     """Filters W (K, channels, n_w, n_w), hidden biases b (K,), visible biases a (channels,)."""
 
-    lib, laid_on = np, staticmethod(laid_on)  # who computes
+    xp, correlate_valid = np, staticmethod(correlate_valid)  # torch's in `learning.Learner`
 
     def __init__(self, W, b, a, c=2):
         if W.ndim != 4 or len(b) != len(W) or len(a) != W.shape[1]:
@@ -45,11 +46,11 @@ class CRBM:
             )
         self.W, self.b, self.a, self.c = W, b, a, c
 
-    def drive(self, v):
-        """What each hidden unit receives, (W̃ᵏ * v)ᵢⱼ + bₖ.
+    def preactivation(self, v):
+        """Preactivation of each hidden unit, (W̃ᵏ * v)ᵢⱼ + bₖ.
 
-        Convolution turns its filter by 180°, and W̃ is turned already: what is left is to lay W
-        itself on the picture, multiply and add. ValueError for a picture whose hidden width is no
+        Convolution turns its filter by 180°, and W̃ is turned already: so it is the
+        cross-correlation with W itself. ValueError for a picture whose hidden width is no
         multiple of c (see `trim`), or of other channels.
         """
         if v.ndim != 4 or v.shape[1] != len(self.a):
@@ -58,7 +59,7 @@ class CRBM:
             n_h = n_v - self.W.shape[-1] + 1
             if n_h < 1 or n_h % self.c:
                 raise ValueError(f"hidden width {n_h} is not in blocks of {self.c}: trim v first")
-        return self.laid_on(v, self.W) + self.b[:, None, None]
+        return self.correlate_valid(v, self.W) + self.b[:, None, None]
 
     def trim(self, v):
         """Drop the last rows and columns of v, those that fill no block of hidden units."""
@@ -66,37 +67,37 @@ class CRBM:
 
     def energy(self, v, h):
         """E(v, h) of Eq. 1: (n,). Low energy means that the two go well together."""
-        agreement = (h * self.drive(v)).sum((1, 2, 3))
+        agreement = (h * self.preactivation(v)).sum((1, 2, 3))
         return -agreement - (self.a[:, None, None] * v - v**2 / 2).sum((1, 2, 3))
 
     def posterior(self, v):
         """Probabilities that hidden and pooled units are on, given v: (h, p).
 
-        In a block, the units and the off state share one softmax of their drives.
+        In a block, the units and the off state share one softmax of their preactivations.
         """
-        drive, places = self.drive(v), product(range(self.c), repeat=2)
-        units = self.lib.stack([drive[..., y :: self.c, x :: self.c] for y, x in places])
-        most = self.lib.amax(units, 0).clip(0)  # taken off, so that nothing overflows
-        units, off = self.lib.exp(units - most), self.lib.exp(-most)
-        every = off + units.sum(0)
-        n, K, rows, columns = every.shape
-        h = (units / every).reshape(self.c, self.c, n, K, rows, columns)
-        h = self.lib.moveaxis(h, (0, 1), (3, 5)).reshape(n, K, rows * self.c, columns * self.c)
-        return h, 1 - off / every
+        z, places = self.preactivation(v), product(range(self.c), repeat=2)
+        units = self.xp.stack([z[..., y :: self.c, x :: self.c] for y, x in places])
+        largest = self.xp.amax(units, 0).clip(0)  # subtracted, so that nothing overflows
+        units, off = self.xp.exp(units - largest), self.xp.exp(-largest)
+        total = off + units.sum(0)
+        n, K, rows, columns = total.shape
+        h = (units / total).reshape(self.c, self.c, n, K, rows, columns)
+        h = self.xp.moveaxis(h, (0, 1), (3, 5)).reshape(n, K, rows * self.c, columns * self.c)
+        return h, 1 - off / total
 
     def pooled(self, v):
-        """The probabilities p alone: a fraction of the time, where h is not asked for."""
-        on = self.lib.exp(self.drive(v).clip(max=80))  # more would overflow; p is 1 long before
+        """The probabilities p of `posterior` alone, in a fraction of the time."""
+        on = self.xp.exp(self.preactivation(v).clip(max=80))  # p is 1 long before it overflows
         rows = sum(on[..., y :: self.c, :] for y in range(self.c))
         return 1 - 1 / (1 + sum(rows[..., x :: self.c] for x in range(self.c)))
 
     def visible_mean(self, h):
         """The mean of v given h, Σₖ hᵏ * Wᵏ + a: each unit that is on paints its filter.
 
-        This time the convolution does turn W, and `laid_on` has to be handed it turned.
+        This convolution does turn W: it is the cross-correlation with W turned by 180°.
         """
-        turned = self.lib.flip(self.W, (2, 3)).swapaxes(0, 1)
-        painted = self.laid_on(h, turned, padding=self.W.shape[-1] - 1)
+        turned = self.xp.flip(self.W, (2, 3)).swapaxes(0, 1)
+        painted = self.correlate_valid(h, turned, padding=self.W.shape[-1] - 1)
         return painted + self.a[:, None, None]
 
     def arrays(self):

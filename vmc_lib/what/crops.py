@@ -1,4 +1,4 @@
-"""What the ventral pathway is given: the crop inside a box, whitened as the retina does."""
+"""Grey crops of boxes, whitened as the retina does: the input of the ventral pathway."""
 
 from functools import cache
 
@@ -10,9 +10,9 @@ WIDTH = 200  # pixels of a crop, as in the paper
 
 
 def crop(image, box):
-    """The inside of a box (x0, y0, x1, y1) as a grey picture (200, 200) in 0..1.
+    """Crop a box (x0, y0, x1, y1) of an image, in grey, resized to (200, 200), in 0..1.
 
-    The picture is stretched to a square, whatever the shape of the box, as in the paper. ValueError
+    The crop is stretched to a square, whatever the shape of the box, as in the paper. ValueError
     for a box that is not at least 2 × 2 pixels inside the image.
     """
     height, width = image.shape[:2]
@@ -25,7 +25,7 @@ def crop(image, box):
 
 
 def whiten(pictures, cutoff=0.4):
-    """Grey pictures (n, height, width) as input for a CRBM: float32 (n, 1, height, width).
+    """Whiten grey pictures (n, height, width) for a CRBM: float32 (n, 1, height, width).
 
     In photos, neighbouring pixels are alike and coarse contrast outweighs fine contrast: amplitude
     falls as 1/f. Multiplying it by f evens it out, and exp(-(f / cutoff)⁴), with f in cycles a
@@ -41,13 +41,13 @@ def whiten(pictures, cutoff=0.4):
     # A mirrored border, so that opposite edges do not meet in the transform
     border = max(1, min(x.shape[1:]) // 10)
     x = np.pad(x, [(0, 0), (border, border), (border, border)], mode="reflect")
-    x = fft.irfft2(fft.rfft2(x) * _evened(*x.shape[1:], cutoff), x.shape[1:])
+    x = fft.irfft2(fft.rfft2(x) * _whitening_filter(*x.shape[1:], cutoff), x.shape[1:])
     x = x[:, None, border:-border, border:-border]
     return (x - x.mean((2, 3), keepdims=True)) / x.std((2, 3), keepdims=True, ddof=1)
 
 
 @cache
-def _evened(height, width, cutoff):
-    """By how much `whiten` multiplies each frequency of pictures of a size."""
+def _whitening_filter(height, width, cutoff):
+    """Gain of the whitening filter at each frequency of pictures of a size."""
     f = np.hypot(np.fft.fftfreq(height)[:, None], np.fft.rfftfreq(width))
     return np.float32(f * np.exp(-((f / cutoff) ** 4)))

@@ -1,4 +1,4 @@
-"""Learning: a CRBM that dreams and is corrected, and two of them, one upon the other.
+"""Training CRBMs by contrastive divergence.
 
 What is in `crbm` and `cdbn` computes with NumPy's arrays. Learning takes torch's tensors, which can
 be differentiated and moved to a GPU, through the same equations.
@@ -7,29 +7,24 @@ be differentiated and moved to a GPU, through the same equations.
 from itertools import islice
 from math import isfinite
 
-import numpy as np
 import torch
 from torch.nn import functional as F
 
-from vmc_lib.what.cdbn import CDBN, N_W, PATCHES, C, K
 from vmc_lib.what.crbm import CRBM
 
 # Its threads meet at thousands of barriers a second, and each waits spinning: with one other busy
 # process beside them a layer that learns in 12 s took over 330 s; with one thread, 14 s.
 torch.set_num_threads(1)
 
-FIRST = {"epochs": 4, "width": 21, "sparsity": 0.002, "rate": 0.2, "decay": 0.0003}
-SECOND = {"epochs": 2, "width": 25, "sparsity": 0.1, "rate": 0.2, "decay": 0.0003}
-
 
 class Learner(CRBM):
-    """A CRBM of torch tensors, all on the device of `W`: it can dream, and learn."""
+    """A trainable CRBM: its arrays are torch tensors, all on the device of `W`."""
 
-    lib, laid_on = torch, staticmethod(torch.conv2d)
+    xp, correlate_valid = torch, staticmethod(torch.conv2d)
 
     @classmethod
     def random(cls, K, channels, n_w, rng, c=2, device="cpu"):
-        """A machine that knows nothing yet: small random filters drawn from a torch.Generator."""
+        """An untrained machine: small random filters drawn from a torch.Generator."""
         W = 0.01 * torch.randn(K, channels, n_w, n_w, generator=rng)
         return cls(W.to(device), torch.zeros(K, device=device), torch.zeros(channels).to(device), c)
 
@@ -72,29 +67,29 @@ class Learner(CRBM):
         return ..., *(slice(edge, n - edge) for n in v.shape[2:])
 
     def statistics(self, v, on):
-        """How v and its hidden units, on with chances `on`, go together: mean -∂E/∂(W, b, a)."""
+        """Sufficient statistics, the mean -∂E/∂(W, b, a) given v and probabilities `on` of h."""
         pairs = F.conv2d(v.transpose(0, 1), on.transpose(0, 1)).transpose(0, 1)
         return pairs / len(v), on.sum((2, 3)).mean(0), v.sum((2, 3)).mean(0)
 
     def gradient(self, v, steps, rng, **how):
         """Contrastive divergence CD-k: an estimate of the gradient of the mean log-likelihood.
 
-        The exact gradient is what goes together in the data minus what goes together in the
-        machine's own dreams. CD-k takes for a dream what is left of the data after k rounds of
-        `gibbs` (Hinton 2002). Returns the gradients for W, b and a, the probabilities of the
-        hidden units given the data, and the dream.
+        The exact gradient is the `statistics` of the data minus those of the model's own samples.
+        CD-k takes for a sample what k rounds of `gibbs` make of the data (Hinton 2002). Returns the
+        gradients for W, b and a, the probabilities of the hidden units given the data, and the
+        sample.
         """
         chain = self.gibbs(v, rng, **how)
         _, on = next(chain)
-        dream, on_in_dream = next(islice(chain, steps - 1, None))
-        pairs = zip(self.statistics(v, on), self.statistics(dream, on_in_dream), strict=True)
-        return [data - model for data, model in pairs], on, dream
+        sample, on_in_sample = next(islice(chain, steps - 1, None))
+        pairs = zip(self.statistics(v, on), self.statistics(sample, on_in_sample), strict=True)
+        return [data - model for data, model in pairs], on, sample
 
     def fit(
         self, patches, epochs, seed, steps=1, rate=0.05, batch=100, sparsity=0.02,
         pressure=5.0, decay=0.001, clamp=True, after=None,
     ):  # fmt: skip
-        """Learn from `patches` (any (n, channels, n_v, n_v) that takes index lists), in place.
+        """Train on `patches` (any (n, channels, n_v, n_v) that takes index lists), in place.
 
         Returns for each of `epochs`, a range, the mean squared reconstruction error of the pixels
         that are not clamped; after each, `after(epoch, error)` is called. Every epoch draws its own
@@ -113,13 +108,13 @@ class Learner(CRBM):
             speed, errors = torch.zeros_like(self.W), []
             for rows in order:
                 v = patches[rows]
-                (dW, db, da), on, dream = self.gradient(v, steps, rng, noise=False, clamp=clamp)
+                (dW, db, da), on, sample = self.gradient(v, steps, rng, noise=False, clamp=clamp)
                 area = on[0, 0].numel()
                 speed = momentum * speed + dW / area - decay * self.W
                 self.W = self.W + step * speed
                 self.b = self.b + step * (db / area + pressure * (sparsity - on.mean((0, 2, 3))))
                 self.a = self.a + step * da / area
-                errors.append((v - dream)[self._free(v, clamp)].square().mean())
+                errors.append((v - sample)[self._free(v, clamp)].square().mean())
             error = float(torch.stack(errors).mean())
             if not isfinite(error):
                 raise ValueError(
@@ -142,52 +137,20 @@ class Learner(CRBM):
 
 
 class Patches:
-    """Windows cut at random from maps (n, channels, height, width), cut anew whenever asked for.
+    """Random windows of maps (n, channels, height, width), cut out when they are indexed.
 
-    50,000 patches of 25 × 25 × 10 would fill 1.25 GB; their places fill one.
+    50,000 patches of 25 × 25 × 10 would take 1.25 GB; their positions take 1.2 MB.
     """
 
     def __init__(self, maps, width, count, rng):
         self.windows = maps.unfold(2, width, 1).unfold(3, width, 1)
         n, _, rows, columns = self.windows.shape[:4]
         draws = torch.rand(3, count, generator=rng)
-        self.places = (draws * torch.tensor([[n], [rows], [columns]])).long().to(maps.device)
+        self.positions = (draws * torch.tensor([[n], [rows], [columns]])).long().to(maps.device)
 
     def __len__(self):
-        return self.places.shape[1]
+        return self.positions.shape[1]
 
     def __getitem__(self, rows):
-        picture, y, x = self.places[:, rows]
+        picture, y, x = self.positions[:, rows]
         return self.windows[picture, :, y, x]
-
-
-def learn(maps, seed, n_w, patches, *, epochs, width, **how):
-    """One Learner trained on patches of maps (n, channels, height, width), on their device.
-
-    The patches are so wide for filters of the usual width, and wider for wider ones, so that as
-    much of their middle is free to be dreamt anew.
-    """
-    rng = torch.Generator().manual_seed(seed)
-    width += 2 * (n_w - N_W)
-    width -= (width - n_w + 1) % C  # whole blocks only
-    sample = Patches(maps, width, patches, rng)
-    crbm = Learner.random(K, maps.shape[1], n_w, rng, C, maps.device)
-    crbm.fit(sample, range(epochs), seed, **how)
-    return crbm
-
-
-def train(pictures, positive, seed=0, n_w=N_W, patches=PATCHES, device="cpu", second=SECOND):
-    """A CDBN of Learners, taught by whitened pictures (n, 1, 200, 200).
-
-    No target is learnt, but a label chooses: the first layer learns from all pictures, the second,
-    as in the paper, only from the positive ones (`positive` (n,) bool), the shuttlecocks. `device`
-    says where: "cpu" or "cuda"; `second` how the second layer learns. ValueError for no positive.
-    """
-    if not np.any(positive):
-        raise ValueError("the second layer learns from the positive pictures: give at least one")
-    pictures = torch.as_tensor(pictures, device=device)
-    first = learn(pictures, seed, n_w, patches, **FIRST)
-    _, p1 = first.posterior(first.trim(pictures[torch.as_tensor(positive)]))
-    mean, spread = float(p1.mean()), float(p1.std())
-    taught = learn((p1 - mean) / spread, seed, n_w, patches, **second)
-    return CDBN(first, taught, mean, spread)

@@ -1,4 +1,4 @@
-"""Is it a shuttlecock? A linear classifier on what the CDBN sees, with a calibrated probability."""
+"""Recogniser: logistic regression on CDBN features, is it a shuttlecock?"""
 
 from dataclasses import dataclass
 
@@ -11,11 +11,11 @@ from vmc_lib.what.cdbn import CDBN
 from vmc_lib.what.crops import crop, whiten
 
 READ_OUTS = "MP2", "P2", "P1 + P2"
-ALL_LEVELS = "everywhere"  # all rendered levels together: for a photo of none of them
+POOLED_LEVEL = "everywhere"  # all rendered levels together: for a photo of none of them
 
 
-def seen(cdbn, v):
-    """Features (n, d) of whitened crops v (n, 1, 200, 200), by the name of the read-out.
+def readout_features(cdbn, v):
+    """Read-out features (n, d) of whitened crops v (n, 1, 200, 200), by the name of the read-out.
 
     "MP2" is the paper's, the mean map of Eq. 2: where is anything? "P2" keeps the ten maps apart,
     and of each only its means in the four quarters of the crop: how much of what? "P1 + P2" adds
@@ -29,14 +29,15 @@ def seen(cdbn, v):
         return squares.mean(5).mean(3).reshape(n, -1)
 
     p1, p2 = cdbn.pooled(v)
-    few = 3 * means(p1, 4), means(p2, 2)  # those of P1 are on more rarely: weighed up
-    both = cdbn.first.lib.concatenate(few, 1)
+    few = 3 * means(p1, 4), means(p2, 2)  # those of P1 are on more rarely
+    both = cdbn.first.xp.concatenate(few, 1)
     return {"MP2": p2.mean(1).reshape(len(v), -1), "P2": few[1], "P1 + P2": both}
 
 
 def read_outs(cdbn, crops):
-    """Features (n, d) of grey crops (n, 200, 200), by the name of the read-out: see `seen`."""
-    parts = [seen(cdbn, whiten(crop[None])) for crop in crops]  # one at a time: less memory
+    """The `readout_features` (n, d) of grey crops (n, 200, 200), by the name of the read-out."""
+    one_by_one = (whiten(crop[None]) for crop in crops)  # less memory
+    parts = [readout_features(cdbn, v) for v in one_by_one]
     return {name: np.concatenate([part[name] for part in parts]) for name in READ_OUTS}
 
 
@@ -45,7 +46,7 @@ def read_outs(cdbn, crops):
 
 @dataclass(frozen=True, eq=False)
 class NameClassifier:
-    """The probability of being a shuttlecock, from features: a weight each, (d,), and a bias."""
+    """Logistic regression: the probability of being a shuttlecock, from weights (d,) and a bias."""
 
     weights: np.ndarray
     bias: float
@@ -69,7 +70,7 @@ class NameClassifier:
         return x @ self.weights + self.bias
 
     def probability(self, x):
-        """For features (n, d): (n,)."""
+        """The probability (n,) for features (n, d)."""
         return expit(self.log_odds(x))
 
 
@@ -83,25 +84,30 @@ class Recogniser:
     cdbn: CDBN
     name: str
     classifier: NameClassifier
+    min_probability = 0.5  # above which a box is chosen
 
     @classmethod
-    def load(cls, level=ALL_LEVELS, name="P1 + P2"):
+    def load(cls, level=POOLED_LEVEL, name="P1 + P2"):
         """The recogniser that has learnt names from the training photos of a level.
 
         Its CDBN has learnt from those of all levels. Its read-out "MP2" is the paper's, the default
         the best. ValueError for an unknown one; for photographs there is a `VentralStream`.
         """
-        for given, known in ((level, (*photos.LEVELS, ALL_LEVELS)), (name, READ_OUTS)):
+        for given, known in ((level, (*photos.LEVELS, POOLED_LEVEL)), (name, READ_OUTS)):
             if given not in known:
                 raise ValueError(f"there is no {given!r}: choose from {', '.join(known)}")
         return cls(CDBN.load(), name, NameClassifier.load("recogniser", f"{level}/{name}"))
 
     def probability(self, crops):
-        """The chance (n,) that each grey crop (n, 200, 200) shows a shuttlecock."""
+        """Probability (n,) that each grey crop (n, 200, 200) shows a shuttlecock."""
         if len(crops) == 0:
             return np.zeros(0)
         return self.classifier.probability(read_outs(self.cdbn, crops)[self.name])
 
-    def chance(self, image, boxes):
-        """The chance (n,) that each of the boxes (n, 4) of an image shows a shuttlecock."""
+    def box_probability(self, image, boxes):
+        """Probability (n,) that each of the boxes (n, 4) of an image shows a shuttlecock."""
         return self.probability(np.array([crop(image, box) for box in boxes]))
+
+    def select(self, image, detections):
+        """The `Detections` as they are, and the probabilities (n,) of their boxes."""
+        return detections, self.box_probability(image, detections.boxes)

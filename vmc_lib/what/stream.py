@@ -1,4 +1,4 @@
-"""A deeper ventral stream: four stages of small filters, learnt end to end, for photographs.
+"""Convolutional network of four stages, trained end to end on photographs: a deeper ventral stream.
 
 The paper's hierarchy has two stages, with filters eight pixels wide. Here every unit sees 3 × 3
 places of the stage before; of 2 × 2 neighbours only the strongest goes on (max pooling), and it is
@@ -11,15 +11,15 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import expit
 
-from vmc_lib.boxes import as_boxes, corrected, widened
+from vmc_lib.boxes import as_boxes, decode_deltas, pad_boxes
 from vmc_lib.data import arrays
 from vmc_lib.photos import crops
-from vmc_lib.what.crbm import laid_on
+from vmc_lib.what.crbm import correlate_valid
 
 STAGES = "V1", "V2", "V4", "IT"  # what stands there in the brain
 WIDTH, MARGIN = 48, 0.25  # of a crop, in pixels; what it shows around the box, in sides
-# How a crop is read, along x and along y: as it is, in a mirror beside it, below it, and in both
-MIRRORS = (1, 1), (-1, 1), (1, -1), (-1, -1)
+# Test-time augmentation, along x and along y: as it is, flipped left-right, up-down, and both
+FLIPS = (1, 1), (-1, 1), (1, -1), (-1, -1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,41 +28,49 @@ class VentralStream:
 
     filters: tuple
     biases: tuple
-    readout: np.ndarray  # (5, d): log-odds of being a shuttlecock, and four corrections of the box
+    readout: np.ndarray  # (5, d): log-odds of being a shuttlecock, and four deltas of the box
     offsets: np.ndarray  # (5,)
 
     def stages(self, x):
-        """What each of STAGES makes of what is `shown`, (n, 3, 48, 48): maps (n, K, size, size)."""
+        """Activation maps (n, K, size, size) of each of STAGES, for inputs x (n, 3, 48, 48)."""
         maps = {}
         for name, W, b in zip(STAGES, self.filters, self.biases, strict=False):
-            drive = laid_on(x, W, padding=1)
-            rows = np.maximum(drive[:, :, ::2], drive[:, :, 1::2])
+            z = correlate_valid(x, W, padding=1)
+            rows = np.maximum(z[:, :, ::2], z[:, :, 1::2])
             strongest = np.maximum(rows[..., ::2], rows[..., 1::2])
             maps[name] = x = (strongest + b[:, None, None]).clip(0)
         return maps
 
-    def look(self, image, boxes, ways=MIRRORS[:1]):
-        """Log-odds (n,) that boxes (n, 4) of an image hold a shuttlecock, and how to correct them.
+    def predict(self, image, boxes, flips=FLIPS[:1]):
+        """Log-odds and box deltas, averaged over flips (test-time augmentation).
 
-        Each crop is read in all `ways`, such as MIRRORS, and what is told is the mean. The
-        corrections (n, 4) are those of `boxes.corrected`.
+        Parameters
+        ----------
+        image : (height, width, 3) uint8 array
+        boxes : (n, 4) array of (x0, y0, x1, y1), pixels
+        flips : which of FLIPS each crop is read in
+
+        Returns
+        -------
+        log_odds : (n,), that a box holds a shuttlecock
+        deltas : (n, 4), from each box to the shuttlecock's, as `boxes.decode_deltas` takes them
         """
         if not len(boxes):
             return np.zeros(0), np.zeros((0, 4))
-        x, told = shown(image, boxes), 0
-        for along, down in ways:
+        x, mean = preprocess(image, boxes), 0
+        for along, down in flips:
             *_, last = self.stages(x[:, :, ::down, ::along]).values()
-            seen = last.reshape(len(last), -1) @ self.readout.T + self.offsets
-            told = told + seen * np.array([1, along, down, 1, 1]) / len(ways)
-        return told[:, 0], told[:, 1:]
+            outputs = last.reshape(len(last), -1) @ self.readout.T + self.offsets
+            mean = mean + outputs * np.array([1, along, down, 1, 1]) / len(flips)
+        return mean[:, 0], mean[:, 1:]
 
-    def chance(self, image, boxes):
-        """The chance (n,) that each of the boxes (n, 4) of an image shows a shuttlecock."""
-        return expit(self.look(image, boxes)[0])
+    def box_probability(self, image, boxes):
+        """Probability (n,) that each of the boxes (n, 4) of an image shows a shuttlecock."""
+        return expit(self.predict(image, boxes)[0])
 
-    def tightened(self, image, boxes):
-        """The boxes (n, 4), each corrected by what it shows."""
-        return corrected(as_boxes(boxes), self.look(image, boxes)[1])
+    def refine_boxes(self, image, boxes):
+        """The boxes (n, 4), moved and stretched to what they show (box refinement)."""
+        return decode_deltas(as_boxes(boxes), self.predict(image, boxes)[1])
 
     def arrays(self):
         """The stream as a dict of arrays, to be saved with `np.savez`."""
@@ -79,16 +87,19 @@ class VentralStream:
         return cls(W, b, learnt["readout"], learnt["offsets"])
 
 
-def shown(image, boxes):
-    """What a stream is given of boxes (n, 4) of a uint8 image: (n, 3, WIDTH, WIDTH), float32.
+def preprocess(image, boxes):
+    """Crops of boxes in colour, standardised one by one: the network's input.
 
-    Each in colour with a margin around it, less its mean and over its standard deviation, as an eye
-    adapts to the light.
+    boxes: (n, 4) of a uint8 image; each is cut out with a MARGIN. Returns (n, 3, WIDTH, WIDTH)
+    float32.
     """
-    return adapted(np.moveaxis(crops(image, widened(boxes, MARGIN), WIDTH), 3, 1))
+    return standardise(np.moveaxis(crops(image, pad_boxes(boxes, MARGIN), WIDTH), 3, 1))
 
 
-def adapted(x):
-    """Crops (n, 3, height, width) less their mean and over their standard deviation."""
+def standardise(x):
+    """Standardise crops (n, 3, height, width): each less its mean, over its standard deviation.
+
+    So does an eye adapt to the light.
+    """
     x = x - x.mean((1, 2, 3), keepdims=True)
     return x / (x.std((1, 2, 3), keepdims=True) + 0.01)

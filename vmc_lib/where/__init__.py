@@ -1,1 +1,1 @@
-"""The "where" pathway (dorsal): candidates, features, the object detector, places."""
+"""Object detection and localisation: the "where" pathway (dorsal)."""

@@ -1,7 +1,7 @@
-"""Box regression and IoU prediction: how to correct a box, and how well it fits in the end.
+"""Box regression and IoU prediction by ridge regression on radial basis functions.
 
-Both are ridge regressions on a few radial basis functions, learnt from true boxes that were
-jittered on purpose. The numbers were chosen on 120 validation photos a level, of which 20 ship.
+Both learn from true boxes that were jittered on purpose. The numbers were chosen on 120 validation
+photos a level, of which 20 ship.
 """
 
 from dataclasses import dataclass, replace
@@ -9,9 +9,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from sklearn.linear_model import Ridge
 
-from vmc_lib.boxes import corrected
+from vmc_lib.boxes import decode_deltas
 
-DIRECTIONS = 100  # of the features, in which likeness to a centre is measured
+DIRECTIONS = 100  # principal directions of the features that the basis functions are in
 PENALTY = 0.1  # of the ridge regression
 
 
@@ -24,7 +24,7 @@ class RBFRidge:
     """
 
     mean: np.ndarray  # (d,)
-    axes: np.ndarray  # (d, k) the main directions of the features
+    axes: np.ndarray  # (d, k) the principal directions of the features
     centres: np.ndarray  # (r, k)
     gamma: float
     weights: np.ndarray = 0  # (d + r,), or (d + r, m) for m numbers
@@ -32,33 +32,29 @@ class RBFRidge:
 
     @classmethod
     def fit(cls, x, y, count, rng):
-        """Learn from features x (n, d) and their numbers y (n,) or (n, m).
-
-        So many of the examples, drawn at random, become the centres.
-        """
+        """Fit to features x (n, d), targets y (n,) or (n, m); `count` random rows are centres."""
         mean = x.mean(0)
         axes = np.linalg.eigh(np.cov(x.T))[1][:, -DIRECTIONS:]
         places = (x - mean) @ axes
         centres = places[rng.permutation(len(x))[:count]]
-        blank = cls(mean, axes, centres, 1 / places.var(0).sum())
-        ridge = Ridge(PENALTY).fit(blank.basis(x), y)
-        return replace(blank, weights=ridge.coef_.T, bias=ridge.intercept_)
+        untrained = cls(mean, axes, centres, 1 / places.var(0).sum())
+        ridge = Ridge(PENALTY).fit(untrained.basis(x), y)
+        return replace(untrained, weights=ridge.coef_.T, bias=ridge.intercept_)
 
     def basis(self, x):
-        """What the weights weigh, for features x (n, d): (n, d + r)."""
+        """Design matrix: centred features x (n, d) and RBF activations, (n, d + r)."""
         x = x - self.mean
-        place = x @ self.axes
-        apart = (place**2).sum(1)[:, None] + (self.centres**2).sum(1) - 2 * place @ self.centres.T
-        likeness = np.exp(-self.gamma * apart)
-        return np.hstack([x, likeness])
+        z = x @ self.axes
+        squares = (z**2).sum(1)[:, None] + (self.centres**2).sum(1) - 2 * z @ self.centres.T
+        return np.hstack([x, np.exp(-self.gamma * squares)])
 
     def predict(self, x):
-        """The numbers (n,) or (n, m) for features x (n, d)."""
+        """Predicted targets (n,) or (n, m) of features x (n, d)."""
         return self.basis(x) @ self.weights + self.bias
 
 
 def regress(recipe, regressions, pixels, boxes):
-    """The boxes (n, 4), each corrected by what it shows, once for every one of `regressions`."""
+    """Refine boxes (n, 4) by predicted deltas, once for each of `regressions`."""
     for regression in regressions:
-        boxes = corrected(boxes, regression.predict(recipe.describe(pixels, boxes)))
+        boxes = decode_deltas(boxes, regression.predict(recipe.describe(pixels, boxes)))
     return boxes

@@ -1,4 +1,4 @@
-"""The object detector: a classifier scores candidates, non-maximum suppression keeps the best.
+"""Object detector: a classifier scores candidates, non-maximum suppression keeps the best.
 
 The paper's Block 1-1, top-down part: a support vector machine tells examples from counter-examples
 by their raw pixels, and non-maximum suppression leaves a few boxes. The recipe `PUBLISHED` is that;
@@ -21,11 +21,11 @@ from vmc_lib.where.svm import PARTS, KernelSVM
 
 @dataclass(frozen=True, eq=False)
 class Detections:
-    """What the search of one image came to, step by step (the paper's Fig. 6)."""
+    """Boxes of one image after each step of the detector (the paper's Fig. 6)."""
 
     candidates: np.ndarray  # (n, 4) of selective search
     candidate_scores: np.ndarray  # (n,)
-    passed: np.ndarray  # (m, 4) boxes above the threshold, after their corrections if any
+    passed: np.ndarray  # (m, 4) boxes above the threshold, after box regression if any
     boxes: np.ndarray  # (k, 4) left by non-maximum suppression, the best first
     scores: np.ndarray  # (k,)
 
@@ -42,9 +42,9 @@ class ObjectDetector:
 
     recipe: Recipe
     svm: KernelSVM
-    regressions: tuple = ()  # of RBFRidge: how to correct a box, round by round
-    iou_predictor: RBFRidge | None = None  # of how well a box fits
-    threshold: float = 0.0  # what the boxes must score in the end
+    regressions: tuple = ()  # of RBFRidge: box regression, round by round
+    iou_predictor: RBFRidge | None = None  # of a box with its object
+    threshold: float = 0.0  # the final score above which boxes are kept
 
     @classmethod
     def load(cls, level, name="improved"):
@@ -80,18 +80,33 @@ class ObjectDetector:
         return parts
 
     def score(self, image, boxes):
-        """The classifier's score (n,) of boxes (n, 4) in an image."""
+        """Classifier scores (n,) of boxes (n, 4) in an image."""
         return self.svm.score(self.recipe.describe(image, boxes))
 
     def regress(self, image, boxes, rounds=None):
-        """The boxes (n, 4), each corrected by what it shows, `rounds` times (by default all)."""
+        """Refine boxes (n, 4) by box regression, `rounds` times (by default all)."""
         return regress(self.recipe, self.regressions[:rounds], image, boxes)
 
     def detect(self, image, boxes=None):
-        """The `Detections` of a uint8 image; `boxes` are its candidates, if known already.
+        """Detect objects.
 
-        With nothing to find, `boxes` and `scores` are empty. ValueError as for `propose`, and
-        `as_boxes`.
+        Parameters
+        ----------
+        image : (height, width, 3) uint8 array
+        boxes : (n, 4) candidates in pixels, if they are known; else `propose` finds them
+
+        Returns
+        -------
+        Detections, empty where nothing is found
+
+        Raises
+        ------
+        ValueError
+            As `propose` and `as_boxes` do.
+
+        >>> blank = np.zeros((400, 600, 3), np.uint8)
+        >>> ObjectDetector.load("rig").detect(blank).counts
+        {'candidates': 1, 'passed': 0, 'kept': 0}
         """
         recipe = self.recipe
         boxes = propose(image, recipe.strategy) if boxes is None else as_boxes(boxes)

@@ -1,17 +1,17 @@
-"""What a box shows, as numbers: the raw pixels of the paper, alone or in context, and gradients."""
+"""Features of boxes: raw pixels (the paper's), with context, and histograms of gradients (HOG)."""
 
 import numpy as np
 
-from vmc_lib.boxes import as_boxes, widened
+from vmc_lib.boxes import as_boxes, pad_boxes
 from vmc_lib.compiled import compiled
 from vmc_lib.photos import crops
 
-DIRECTIONS = 8  # that gradients are counted in, all around
+DIRECTIONS = 8  # orientations of gradients, over 360°
 
 
 def raw_pixels(image, boxes, margin=0.0):
-    """The paper's features: 16 × 16 RGB pixels of each box (and a margin), (n, 768)."""
-    return crops(image, widened(boxes, margin), 16).reshape(-1, 768)
+    """Raw-pixel features, the paper's: 16 × 16 RGB pixels of each box (and a margin), (n, 768)."""
+    return crops(image, pad_boxes(boxes, margin), 16).reshape(-1, 768)
 
 
 def pixels_in_context(image, boxes):
@@ -29,11 +29,12 @@ def pixels_in_context(image, boxes):
 def gradients(image, boxes, cells=10, margin=0.25):
     """Histograms of oriented gradients in 10 × 10 cells over each box and a margin, (n, 800).
 
-    The margin, a share of the box's sides, shows whether the object ends where the box does. Each
-    of the 3 × 3 pixels of a cell counts the steepest of its three colours, for the two nearest of
-    eight directions all around. After Dalal & Triggs (2005), with one normalisation a box.
+    Each of the 3 × 3 pixels of a cell votes with the gradient of its strongest channel,
+    interpolated between the two nearest of 8 orientations. The margin, a share of the box's sides,
+    shows whether the object ends where the box does. After Dalal & Triggs (2005), with one
+    normalisation for each box.
     """
-    dx, dy = _steepest(crops(image, widened(boxes, margin), 3 * cells))
+    dx, dy = _strongest_gradient(crops(image, pad_boxes(boxes, margin), 3 * cells))
     strength, turns = np.hypot(dx, dy), np.arctan2(dy, dx) / (2 * np.pi)
     angle = (turns - np.floor(turns)) * DIRECTIONS
     low = np.floor(angle)
@@ -45,10 +46,10 @@ def gradients(image, boxes, cells=10, margin=0.25):
 
 
 @compiled
-def _steepest(pixels):
-    """The slopes along x and y of pixels (n, size, size, c), of that colour in which they are most.
+def _strongest_gradient(pixels):
+    """Gradients along x and y of pixels (n, size, size, c), in the channel where they are largest.
 
-    From neighbour to neighbour; at the edge, where one is missing, from the pixel itself.
+    Central differences; one-sided at the edge.
     """
     n, size, _, channels = pixels.shape
     slopes = np.empty((2, n, size, size), np.float32)
@@ -73,7 +74,7 @@ def _steepest(pixels):
 
 @compiled
 def _count(weights, codes, cells):
-    """The sum of weights (n, 3 cells, 3 cells) of each direction's code, in a box's cells."""
+    """Histograms (n, cells² DIRECTIONS) of codes (n, 3 cells, 3 cells) with weights like them."""
     counts = np.zeros((len(weights), cells, cells, DIRECTIONS))
     for box in range(len(weights)):
         for y in range(3 * cells):

@@ -1,10 +1,9 @@
-"""From a box in the picture to a place in the room.
+"""Localiser: from a box in the image to a place in the shoulder frame.
 
 A line of sight goes through the middle of a box, but the middle of the shuttlecock need not lie on
-it (seen from above, its far end appears smaller), nor is it known where along the line to stop: a
-standing shuttlecock is taller than a lying one. What the box shows tells: `Localiser` learns both
-corrections from training photos, as `box_regression` learns to correct boxes. The paper is silent
-on this step.
+it (from above, its far end appears smaller), nor is its height known: a standing shuttlecock is
+taller than a lying one. Both are predicted from the features of the box, by regression on training
+photos. The paper is silent on this step.
 """
 
 from dataclasses import dataclass
@@ -14,12 +13,12 @@ import numpy as np
 from sklearn.kernel_ridge import KernelRidge
 from sklearn.metrics.pairwise import rbf_kernel
 
-from vmc_lib.boxes import as_boxes, centres_and_sides, jittered
+from vmc_lib.boxes import as_boxes, centres_and_sides, jitter_boxes
 from vmc_lib.data import arrays, read_only
 from vmc_lib.photos import LEVELS
 from vmc_lib.where.features import gradients, raw_pixels
 
-COPIES, JITTER = 12, 0.05  # boxes learnt from per photo, and how far their sides stray
+COPIES, JITTER = 12, 0.05  # boxes per training photo, and the noise of their edges, in sides
 GAMMA, PENALTY = 0.01, 0.01  # of the kernel regression; chosen on the validation photos
 PARTS = ("shown", "shape", "weights", "mean", "spread")  # as they are stored
 SIDE = 0.05  # m: makes a height comparable with a share of a box
@@ -27,7 +26,7 @@ SIDE = 0.05  # m: makes a height comparable with a share of a box
 
 @dataclass(frozen=True, eq=False)
 class Localiser:
-    """Where the middle of a shuttlecock is, given a box around it: a kernel ridge regression.
+    """Kernel ridge regression from a shuttlecock's box to its middle.
 
     predict(x) = mean + spread · K(support, x) @ weights, K a radial basis function.
     """
@@ -39,16 +38,16 @@ class Localiser:
 
     @classmethod
     def fit(cls, shots, rng):
-        """Learn from photos whose shuttlecocks' places are known; `rng` jitters their boxes."""
-        seen, wanted = [], []
+        """Fit to photos whose shuttlecocks' places are known; `rng` jitters their boxes."""
+        inputs, targets = [], []
         for photo in shots:
             box = photo.boxes["shuttlecock"]
-            boxes = np.vstack([box, jittered(np.tile(box, (COPIES, 1)), JITTER, rng)])
+            boxes = np.vstack([box, jitter_boxes(np.tile(box, (COPIES, 1)), JITTER, rng)])
             centres, sides = centres_and_sides(boxes)
-            away = (photo.camera.project(photo.target) - centres) / sides
-            seen.append(_describe(photo.image, boxes))
-            wanted.append(np.column_stack([away, np.full(len(boxes), photo.target[1] / SIDE)]))
-        x, y = np.vstack(seen), np.vstack(wanted)
+            offset = (photo.camera.project(photo.target) - centres) / sides
+            inputs.append(_describe(photo.image, boxes))
+            targets.append(np.column_stack([offset, np.full(len(boxes), photo.target[1] / SIDE)]))
+        x, y = np.vstack(inputs), np.vstack(targets)
         x[:, :-2] = np.round(255 * x[:, :-2]) / 255  # as they ship: a byte each
         mean, spread = y.mean(axis=0), y.std(axis=0)
         ridge = KernelRidge(kernel="rbf", gamma=GAMMA, alpha=PENALTY).fit(x, (y - mean) / spread)
@@ -65,24 +64,24 @@ class Localiser:
         return cls(read_only(np.hstack([shown / 255, shape])), *rest)
 
     def parts(self):
-        """The arrays that `load` reads, by name; what the boxes show takes a byte a number."""
+        """The arrays that `load` reads, by name; features are stored as bytes."""
         shown, shape = np.uint8(np.round(255 * self.support[:, :-2])), self.support[:, -2:]
         return dict(zip(PARTS, (shown, shape, self.weights, self.mean, self.spread), strict=True))
 
     def locate(self, image, box, camera):
         """The place (3,) in the shoulder frame (m) of a shuttlecock in `box` (4,) of an image.
 
-        `NoReach` when the line of sight misses the height it should have.
+        `NoReach` when the line of sight does not meet the predicted height.
         """
         boxes = as_boxes(box)
         centres, sides = centres_and_sides(boxes)
-        likeness = rbf_kernel(_describe(image, boxes), self.support, GAMMA)
-        right, down, height = self.mean + self.spread * (likeness @ self.weights)[0]
+        kernel = rbf_kernel(_describe(image, boxes), self.support, GAMMA)
+        right, down, height = self.mean + self.spread * (kernel @ self.weights)[0]
         return camera.back_project(centres + [right, down] * sides, height * SIDE)[0]
 
 
 def _describe(image, boxes):
-    """What boxes (n, 4) show, coarse and fine, and their shapes: (n, d)."""
+    """Features (n, d) of boxes (n, 4): gradients, coarse and fine, raw pixels, and log sides."""
     _, sides = centres_and_sides(boxes)
     outlines = [
         gradients(image, boxes, cells, margin=margin)

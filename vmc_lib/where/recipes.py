@@ -1,4 +1,4 @@
-"""How to detect objects: the paper's recipe, and five that each add an idea to the one before.
+"""Detector recipes: the paper's, and five that each add an idea to the one before.
 
 A last one is for photographs.
 """
@@ -12,19 +12,19 @@ FEATURES = {"pixels": raw_pixels, "context": pixels_in_context, "gradients": gra
 
 @dataclass(frozen=True)
 class Recipe:
-    """How to detect objects; the defaults are the paper's."""
+    """Settings of an object detector; the defaults are the paper's."""
 
     strategy: str = "single"  # of selective search
     features: str = "pixels"  # one of FEATURES
     kernel: str = "linear"
-    cost: float = 0.1  # of an example on the wrong side
+    cost: float = 0.1  # C of the SVM
     gate: float = 0.0  # candidates that score above it pass
-    jittered: int = 0  # more examples of each object: its true box, jittered a little
-    mirror: bool = False  # learn from the photos' mirror images too
-    regressions: tuple = ()  # rounds of box regression; how far off, in sides, each expects a box
-    boxes: int = 12_800  # jittered ones that each round learns from, and the IoU predictor twice
-    predicts_iou: bool = False  # what the regressed boxes score: their fit, as it is predicted
-    vote: bool = False  # suppressed boxes vote for the sides of the box that suppressed them
+    jittered: int = 0  # more positives for each object: its true box, jittered
+    mirror: bool = False  # train on flipped photos too
+    regressions: tuple = ()  # rounds of box regression: the jitter, in sides, each is trained for
+    boxes: int = 12_800  # that each round is trained on, and the IoU predictor on twice as many
+    predicts_iou: bool = False  # regressed boxes score their predicted IoU
+    vote: bool = False  # box voting after non-maximum suppression
     overlap: float = 0.3  # that non-maximum suppression allows
 
     def describe(self, image, boxes):

@@ -1,11 +1,10 @@
-"""Selective search: a photo falls into segments, which grow back together, similar ones first.
+"""Selective search: object candidates by hierarchical grouping of segments.
 
-Every region met on the way up, from a patch of cork to the whole table, is a candidate for an
-object (Uijlings et al. 2013; the paper's Block 1-1, bottom-up part).
+The most similar neighbours merge, again and again; every region on the way, from a patch of cork to
+the whole table, is a candidate (Uijlings et al. 2013; the paper's Block 1-1, bottom-up part).
 """
 
 from dataclasses import dataclass
-from functools import partial
 from heapq import heapify, heappop, heappush
 from itertools import chain
 
@@ -18,39 +17,20 @@ from vmc_lib.where.appearance import (
     MEASURES,
     colour_codes,
     describe,
-    likeness,
+    merge_regions,
+    similarity,
     texture_codes,
-    union,
 )
 from vmc_lib.where.segmentation import segmentations
-
-# What makes two regions alike. A further name may be given a function of an Appearance and of the
-# regions i and j (n,) of n pairs, that says how alike they are, (n,); these four it has itself.
-SIMILARITIES = dict.fromkeys(MEASURES)
-
-
-def alike(appearance, pairs, similarities):
-    """How alike pairs (n, 2) of regions are, (n,): the sum of the named similarities."""
-    total = appearance.likeness(pairs, _counting(similarities))
-    others = (SIMILARITIES[name] for name in similarities if name not in MEASURES)
-    return sum((other(appearance, *pairs.T) for other in others), total)
-
-
-def _counting(similarities):
-    """For each of MEASURES, whether it is among the named similarities."""
-    return tuple(name in similarities for name in MEASURES)
-
-
-# ---------------------------------------------------------------- growing back
 
 
 @dataclass(frozen=True)
 class Hierarchy:
-    """How one segmentation grew back into one region."""
+    """Hierarchical grouping of one segmentation into one region."""
 
     labels: np.ndarray  # (height, width) the n segments, 0 to n - 1
     merges: np.ndarray  # (n - 1, 2) the two regions merged at each step; step t makes region n + t
-    boxes: np.ndarray  # (2n - 1, 4) around every region, in the order of their making
+    boxes: np.ndarray  # (2n - 1, 4) around every region, in the order in which they are made
 
     def after(self, steps):
         """Labels (height, width) after so many merges; a region keeps its number until merged."""
@@ -61,7 +41,7 @@ class Hierarchy:
         return into[self.labels]
 
 
-def touching(labels):
+def adjacent_regions(labels):
     """Pairs (m, 2) of regions that share a border, each pair once, the lower number first."""
     n = labels.max() + 1
     sides = (labels[:, :-1], labels[:, 1:]), (labels[:-1], labels[1:])
@@ -69,64 +49,56 @@ def touching(labels):
     return np.stack(np.divmod(np.unique(pairs.min(0) * n + pairs.max(0)), n), axis=1)
 
 
-def grow(labels, appearance, similarities):
-    """Merge the two most similar neighbours, again and again, until one region is left.
+def grow(labels, appearance, measures):
+    """Hierarchical grouping: merge the two most similar neighbours until one region is left.
 
-    The Appearance describes the segments in `labels`; its empty rows are filled. Likeness is the
-    sum of the named `similarities` (with none, the lowest numbers merge first). A merged region's
-    row follows from its two parts' rows, so no step reads a pixel, and a heap has the best pair at
+    The Appearance describes the segments in `labels`; its empty rows are filled. `measures` are the
+    names that count of MEASURES (with none, the lowest numbers merge first). A merged region's row
+    follows from its two parts' rows, so no step reads a pixel, and a heap has the best pair at
     hand: n segments cost about n log n.
     """
-    pairs = touching(labels)
-    given = appearance.rows, appearance.pixels, pairs, alike(appearance, pairs, similarities)
-    if set(similarities) <= set(MEASURES):
-        merges = _merge_all(*given, _counting(similarities), None)
-    else:  # a reader's own measure is no machine code, and neither is the loop that asks it
-        like = partial(alike, appearance, similarities=similarities)
-        merges = _merge_all.__wrapped__(*given, None, like)
+    used = tuple(name in measures for name in MEASURES)
+    merges = _merge_all(appearance, adjacent_regions(labels), used)
     return Hierarchy(labels, merges, appearance.boxes.copy())
 
 
 @compiled
-def _merge_all(rows, pixels, pairs, first_alike, counting, like):
-    """Which two regions each step merges, (n - 1, 2); fills the empty rows of an Appearance.
-
-    The first `pairs` (m, 2) are `first_alike`, (m,). How alike later ones are says `like`, or, if
-    that is None, the sum of those MEASURES that are `counting`.
-    """
-    total = len(rows[0])
-    into, met = np.arange(total), np.zeros(total, np.int64)  # by what merged; by what last met
-    neighbours = [[i for i in range(0)] for _ in range(total)]  # empty, but of whole numbers
+def _merge_all(regions, pairs, measures):
+    """Which two regions each step merges, (n - 1, 2); fills the empty rows of an Appearance."""
+    total = len(regions.size)
+    parent, last_seen = np.arange(total), np.zeros(total, np.int64)
+    neighbours = [[i for i in range(0)] for _ in range(total)]  # empty lists of integers
     for i, j in pairs:
         neighbours[i].append(j)
         neighbours[j].append(i)
-    queue = [(-first_alike[p], pairs[p, 0], pairs[p, 1]) for p in range(len(pairs))]
+    first = similarity(regions, pairs, measures)
+    queue = [(-first[p], pairs[p, 0], pairs[p, 1]) for p in range(len(pairs))]
     heapify(queue)
     merges = np.empty((total // 2, 2), np.int64)
     for new in range(total - len(merges), total):
         _, i, j = heappop(queue)
-        while into[i] != i or into[j] != j:  # one of the two has been merged away since
+        while parent[i] != i or parent[j] != j:  # one of the two has been merged away since
             _, i, j = heappop(queue)
         merges[new - total] = i, j
-        union(*rows, i, j, new)
-        into[i] = into[j] = new
+        merge_regions(regions, i, j, new)
+        parent[i] = parent[j] = new
         for k in neighbours[i] + neighbours[j]:
-            while into[k] != k:
-                into[k] = into[into[k]]  # half as far for who asks next
-                k = into[k]
-            if k != new and met[k] != new:
-                met[k] = new
+            while parent[k] != k:
+                parent[k] = parent[parent[k]]  # path halving
+                k = parent[k]
+            if k != new and last_seen[k] != new:
+                last_seen[k] = new
                 neighbours[new].append(k)
         around = np.full((len(neighbours[new]), 2), new)
         for p, k in enumerate(neighbours[new]):
             around[p, 0] = k
-        found = likeness(*rows, pixels, around, counting) if like is None else like(around)
+        scores = similarity(regions, around, measures)
         for p, k in enumerate(neighbours[new]):
-            heappush(queue, (-found[p], k, new))
+            heappush(queue, (-scores[p], k, new))
     return merges
 
 
-# ---------------------------------------------------------------- many hierarchies, one list
+# ---------------------------------------------------------------- several hierarchies, one list
 
 
 ALL, COLOURLESS = MEASURES, MEASURES[1:]
@@ -134,9 +106,9 @@ ALL, COLOURLESS = MEASURES, MEASURES[1:]
 
 @dataclass(frozen=True)
 class Strategy:
-    """Which hierarchies to grow: one for every colour space, scale and set of similarities.
+    """Which hierarchies to grow: one for every colour space, scale and set of MEASURES.
 
-    ValueError for a name that is none of COLOUR_SPACES, or of SIMILARITIES.
+    ValueError for a name that is none of COLOUR_SPACES, or of MEASURES.
     """
 
     colours: tuple = ("HSV",)
@@ -144,7 +116,7 @@ class Strategy:
     similarities: tuple = (ALL,)
 
     def __post_init__(self):
-        named = (self.colours, COLOUR_SPACES), (chain(*self.similarities), SIMILARITIES)
+        named = (self.colours, COLOUR_SPACES), (chain(*self.similarities), MEASURES)
         for names, known in named:
             for name in names:
                 if name not in known:
@@ -177,8 +149,8 @@ def hierarchies(image, strategy):
                 yield grow(labels, appearance, similarities)
 
 
-def ranked(trees, rng, smallest=20):
-    """The boxes (n, 4) of many hierarchies in one list, the likeliest first, none twice.
+def rank_boxes(trees, rng, smallest=20):
+    """Pool and rank the boxes (n, 4) of several hierarchies, none twice.
 
     Each hierarchy ranks its regions from the last made (the largest) down; a rank is then
     multiplied by a number drawn from `rng`, so that neither large boxes nor one hierarchy come
@@ -197,14 +169,34 @@ def ranked(trees, rng, smallest=20):
 
 
 def propose(image, strategy="single", rng=None, smallest=20):
-    """Candidate boxes (n, 4) for objects in an image, `ranked`.
+    """Object candidates of an image by selective search.
 
-    `strategy` is one of STRATEGIES, by name, or a Strategy; without an `rng` the draw of the ranks
-    repeats from call to call. A blank image gives one box, one with a side under `smallest` none.
-    ValueError for an unknown strategy, and as for `as_float`.
+    Parameters
+    ----------
+    image : array as `photos.as_float` takes it, of any size
+    strategy : name of one of STRATEGIES, or a Strategy
+    rng : numpy.random.Generator of the ranks; without, every call ranks alike
+    smallest : shortest side of a box, pixels
+
+    Returns
+    -------
+    (n, 4) array of (x0, y0, x1, y1), pixels, as `rank_boxes` orders them; a blank image gives one
+    box, one with a side under `smallest` none
+
+    Raises
+    ------
+    ValueError
+        For an unknown strategy, and for an array that is no image.
+
+    References
+    ----------
+    Uijlings et al. (2013), Selective search for object recognition.
+
+    >>> propose(np.zeros((40, 60, 3))).tolist()
+    [[0.0, 0.0, 60.0, 40.0]]
     """
     if not isinstance(strategy, Strategy):
         if strategy not in STRATEGIES:
             raise ValueError(f"strategy {strategy!r} is none of {', '.join(STRATEGIES)}")
         strategy = STRATEGIES[strategy]
-    return ranked(hierarchies(image, strategy), rng or np.random.default_rng(0), smallest)
+    return rank_boxes(hierarchies(image, strategy), rng or np.random.default_rng(0), smallest)

@@ -1,4 +1,4 @@
-"""A support vector machine that tells objects from table."""
+"""Kernel support vector machine: a binary classifier."""
 
 from dataclasses import dataclass
 
@@ -22,7 +22,7 @@ class KernelSVM:
 
     @classmethod
     def fit(cls, x, y, kernel="linear", cost=0.1):
-        """A support vector machine for features x (n, d) and labels y (n,), true or false.
+        """Fit to features x (n, d) and labels y (n,), true or false; `cost` is the SVM's C.
 
         ValueError for an unknown kernel, and where one of the two labels has no example.
         """
@@ -38,9 +38,9 @@ class KernelSVM:
         return cls(kernel, gamma, support, weights, svc.intercept_[0])
 
     def score(self, x):
-        """How far each row of x (n, d) lies on the examples' side, in margins: (n,)."""
+        """Signed decision value (n,) of each row of x (n, d)."""
         if not len(x):
             return np.empty(0)
         shape = {"gamma": self.gamma, "degree": 3, "coef0": 0.0}
-        alike = pairwise_kernels(x, self.support, self.kernel, filter_params=True, **shape)
-        return alike @ self.weights + self.bias
+        kernel = pairwise_kernels(x, self.support, self.kernel, filter_params=True, **shape)
+        return kernel @ self.weights + self.bias

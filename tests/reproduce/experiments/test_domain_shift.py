@@ -31,7 +31,7 @@ def test_a_photo_gives_its_things_and_a_window():
     assert labels.sum() == 40
     _, real = domain_shift.labelled_crops("real", "test")
     shots = photos.load("real", "test")
-    assert real.sum() == sum(len(photos.all_of(shot, "shuttlecock")) for shot in shots)
+    assert real.sum() == sum(len(photos.boxes_of(shot, "shuttlecock")) for shot in shots)
 
 
 def test_pictures_are_scaled_down_by_areas():

@@ -1,9 +1,10 @@
+from dataclasses import replace
+
 import pytest
 
 from reproduce import results
 from reproduce.experiments import real_world
 from vmc_lib import loop, photos
-from vmc_lib.photos import RealPhoto
 
 
 @pytest.mark.parametrize("split", real_world.SPLITS)
@@ -34,7 +35,7 @@ def test_what_is_stored_is_what_the_model_makes_of_a_photo(model):
 def test_the_box_that_is_chosen_counts_for_any_of_the_shuttlecocks():
     shot = photos.load("real", "train")[0]  # two shuttlecocks
     swapped = {"shuttlecock": shot.more[0]}
-    other = RealPhoto(shot.name, shot.file, swapped, shot.boxes["shuttlecock"][None], [], "")
+    other = replace(shot, boxes=swapped, more=shot.boxes["shuttlecock"][None])
     model = loop.VisuomotorModel.load("varied")
     one, two = (real_world.examine(model, photo) for photo in (shot, other))
     assert one["fit"] == two["fit"]

@@ -11,8 +11,8 @@ from reproduce.training.augmentation import (
     quarter_turn,
 )
 from vmc_lib import photos
-from vmc_lib.boxes import corrected
-from vmc_lib.what.stream import WIDTH, adapted, shown
+from vmc_lib.boxes import decode_deltas
+from vmc_lib.what.stream import WIDTH, preprocess, standardise
 
 STILL = Augmentation(**dict.fromkeys(vars(ALL), 0))
 SHOT = photos.load("real", "train")[0]
@@ -21,8 +21,8 @@ BOX = SHOT.boxes["shuttlecock"]
 
 def test_a_thing_left_as_it_is_looks_as_the_stream_is_shown_it():
     seen, fit, lack = augment(SHOT.image, BOX, False, np.random.default_rng(0), STILL)
-    [given] = shown(SHOT.image, BOX)
-    [taught] = adapted(np.moveaxis(seen, 2, 0)[None])
+    [given] = preprocess(SHOT.image, BOX)
+    [taught] = standardise(np.moveaxis(seen, 2, 0)[None])
     assert np.corrcoef(taught.ravel(), given.ravel())[0, 1] > 0.98
     assert fit == 0
     assert not lack.any()
@@ -57,10 +57,12 @@ def test_a_picture_is_turned_with_what_its_box_lacks(seed):
     """The mark that the corrected box surrounds is still surrounded after the turn."""
     lack = np.array([0.2, -0.1, -0.5, -0.9])
     x = np.zeros((100, 100, 3))
-    x0, y0, x1, y1 = corrected(np.array([[0, 0, 100, 100.0]]), lack[None])[0].round().astype(int)
+    x0, y0, x1, y1 = (
+        decode_deltas(np.array([[0, 0, 100, 100.0]]), lack[None])[0].round().astype(int)
+    )
     x[y0:y1, x0:x1] = 1
     seen, lack = quarter_turn(x, lack, np.random.default_rng(seed))
-    x0, y0, x1, y1 = corrected(np.array([[0, 0, 100, 100.0]]), lack[None])[0]
+    x0, y0, x1, y1 = decode_deltas(np.array([[0, 0, 100, 100.0]]), lack[None])[0]
     rows, columns = np.flatnonzero(seen.any((1, 2))), np.flatnonzero(seen.any((0, 2)))
     found = [columns[0], rows[0], columns[-1] + 1, rows[-1] + 1]
     np.testing.assert_allclose([x0, y0, x1, y1], found, atol=1)

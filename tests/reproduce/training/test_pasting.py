@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
+from render import cutout_atlas
 from reproduce.training.pasting import HELD_OUT, paste_cutout, paste_cutouts
-from vmc_lib import cutouts, photos
+from vmc_lib import photos
 from vmc_lib.boxes import area
 
 GROUND = next(shot for shot in photos.load("real", "train") if not shot.boxes)
@@ -12,18 +13,18 @@ GROUND = next(shot for shot in photos.load("real", "train") if not shot.boxes)
 
 def test_what_is_stored_is_read(tmp_path):
     rng = np.random.default_rng(0)
-    some = np.zeros((cutouts.COLUMNS, cutouts.WIDTH, cutouts.WIDTH, 4), np.uint8)
-    some[:, 32:96, 32:96, :3] = rng.integers(0, 255, (cutouts.COLUMNS, 1, 1, 3))
+    some = np.zeros((cutout_atlas.COLUMNS, cutout_atlas.WIDTH, cutout_atlas.WIDTH, 4), np.uint8)
+    some[:, 32:96, 32:96, :3] = rng.integers(0, 255, (cutout_atlas.COLUMNS, 1, 1, 3))
     some[:, 32:96, 32:96, 3] = 255
-    cutouts.store(some, tmp_path / "some.webp")
-    read = cutouts.load(tmp_path / "some.webp")
+    cutout_atlas.store(some, tmp_path / "some.webp")
+    read = cutout_atlas.load(tmp_path / "some.webp")
     assert read.shape == some.shape
     assert np.abs(read[:, 40:88, 40:88].astype(int) - some[:, 40:88, 40:88]).mean() < 4
 
 
 def test_what_ships_are_whole_shuttlecocks_on_nothing():
-    some = cutouts.load()
-    assert some.shape == (480, cutouts.WIDTH, cutouts.WIDTH, 4)
+    some = cutout_atlas.load()
+    assert some.shape == (480, cutout_atlas.WIDTH, cutout_atlas.WIDTH, 4)
     edges = [some[:, k, :, 3].max() for k in (0, -1)] + [some[:, :, k, 3].max() for k in (0, -1)]
     assert max(edges) < 60
     covered = (some[..., 3] > 128).mean((1, 2))
@@ -36,7 +37,7 @@ def test_a_shuttlecock_lies_in_its_box(seed):
     class Grey:
         image = np.full((400, 600, 3), 120, np.uint8)
 
-    black = np.zeros((cutouts.WIDTH, cutouts.WIDTH, 4), np.uint8)
+    black = np.zeros((cutout_atlas.WIDTH, cutout_atlas.WIDTH, 4), np.uint8)
     black[30:100, 50:80] = 0, 0, 0, 255  # and opaque
     laid = paste_cutout(Grey, black, np.random.default_rng(seed))
     x0, y0, x1, y1 = laid.boxes["shuttlecock"].astype(int)

@@ -57,7 +57,7 @@ def test_everyday_photos_are_learnt_from_and_shuttlecocks_laid_on_others(monkeyp
         def detect(self, image):
             return type("Found", (), {"boxes": np.empty((0, 4))})
 
-    monkeypatch.setattr(samples.loop, "lenient_detector", lambda level: Blind())
+    monkeypatch.setattr(samples.loop, "high_recall_detector", lambda level: Blind())
     shown = samples.collect_samples(rng, everyday=2, pasted=3)
     assert list(shown) == [*photos.EVERY_LEVEL, "pasted"]
     for level in photos.EVERY_LEVEL:

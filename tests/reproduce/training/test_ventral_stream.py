@@ -75,10 +75,10 @@ def test_the_hardest_windows_are_mined_and_none_holds_a_shuttlecock():
     class Fond:
         """Takes for a shuttlecock what lies to the left, and tightens nothing."""
 
-        def look(self, image, boxes):
+        def predict(self, image, boxes):
             return -boxes[:, 0], np.zeros((len(boxes), 4))
 
-        def tightened(self, image, boxes):
+        def refine_boxes(self, image, boxes):
             return boxes + 1
 
     rng = np.random.default_rng(0)

@@ -1,8 +1,8 @@
-"""A printed sheet on the table tells where an unknown camera is: its markers have known places.
+"""Camera calibration from a printed sheet of ArUco markers on the table.
 
-A hand-held camera's focal length and pose follow from where they appear (OpenCV's calibration, with
-the focal length as the one inner unknown). The sheet lies to the right of what is reached for, and
-defines the shoulder frame.
+The focal length and pose of a hand-held camera follow from where the markers appear (OpenCV's
+calibration, with the focal length as the one unknown intrinsic). The sheet lies to the right of
+the shuttlecock, and defines the shoulder frame.
 """
 
 import cv2
@@ -17,19 +17,19 @@ MARGIN = np.array([21, 34])  # mm, from the page's upper left corner to the firs
 CORNER = np.array([0.337, TABLE, 0.12])  # the page's upper left corner, in the shoulder frame (m)
 AXES = np.array([[0, 0, 1.0], [-1, 0, 0], [0, -1, 0]])  # right, down the page, into the table
 FIRST = CORNER + MARGIN / 1000 @ AXES[:2]  # of the first marker
-FEWEST = 3  # markers that must be seen
+FEWEST = 3  # markers that must be detected
 BOARD = cv2.aruco.GridBoard(
     GRID, MARKER / 1000, GAP / 1000, cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_4X4_50)
 )
 
 
-def places():
-    """Where the markers' corners lie in the shoulder frame: (markers, 4, 3), in m."""
+def marker_corners():
+    """The markers' corners in the shoulder frame: (markers, 4, 3), m."""
     return FIRST + np.array(BOARD.getObjPoints()) @ AXES
 
 
-def page():
-    """The sheet as it is printed, one pixel a millimetre: (297, 210) uint8, black on white."""
+def page_image():
+    """The sheet as an image, one pixel a millimetre: (297, 210) uint8, black on white."""
     picture = np.full(PAGE[::-1], 255, np.uint8)
     right, down = MARGIN
     wide, high = np.array(GRID) * (MARKER + GAP) - GAP
@@ -37,48 +37,50 @@ def page():
     return picture
 
 
-def look(photo):
-    """The eye's `Camera`, or None, and what it sees of a photo (height, width, 3) but the sheet.
+def remove_sheet(photo):
+    """The `Camera` of a photo (height, width, 3), or None, and the photo without the sheet.
 
-    That is painted over in the colour around it, so that none of its markers passes for an object.
+    The sheet is painted over in the colour around it, so that no marker passes for an object.
     """
-    eye, image = camera(photo), read_image(photo)
-    if eye is None:
+    camera, image = estimate_camera(photo), read_image(photo)
+    if camera is None:
         return None, image
     corners = CORNER + np.array([[0, 0], [1, 0], [1, 1], [0, 1]]) * PAGE / 1000 @ AXES[:2]
-    outline = np.int32(np.round(eye.project(corners)))
+    outline = np.int32(np.round(camera.project(corners)))
     covered = cv2.fillConvexPoly(np.zeros(image.shape[:2], np.uint8), outline, 1)
     covered = cv2.dilate(covered, np.ones((9, 9)))
     around = image[cv2.dilate(covered, np.ones((15, 15))) > covered]
     bare = image.copy()
     bare[covered > 0] = np.median(around if len(around) else image.reshape(-1, 3), axis=0)
-    return eye, bare
+    return camera, bare
 
 
-def camera(photo):
-    """The `Camera` of a photo (height, width, 3), uint8, in which the sheet lies on the table.
+def estimate_camera(photo):
+    """Estimate the `Camera` of a photo (height, width, 3), uint8, that shows the sheet.
 
-    Markers are sought in the whole photo; the camera's pixels are those of the eye, 600 × 400. Its
-    one unknown beside its pose is the focal length: the principal point is the photo's middle, and
-    the lens has no distortion. None where fewer than FEWEST markers are seen.
+    Markers are detected in the whole photo; the camera's pixels are those of `read_image`, 600 ×
+    400. The unknowns are its pose and focal length: the principal point is the photo's middle, and
+    the lens has no distortion. None where fewer than FEWEST markers are detected.
     """
-    fine = cv2.aruco.DetectorParameters()
-    fine.cornerRefinementMethod = cv2.aruco.CORNER_REFINE_SUBPIX
-    corners, names, _ = cv2.aruco.ArucoDetector(BOARD.getDictionary(), fine).detectMarkers(photo)
-    known = [] if names is None else np.flatnonzero(np.isin(names, BOARD.getIds()))
+    parameters = cv2.aruco.DetectorParameters()
+    parameters.cornerRefinementMethod = cv2.aruco.CORNER_REFINE_SUBPIX
+    corners, ids, _ = cv2.aruco.ArucoDetector(BOARD.getDictionary(), parameters).detectMarkers(
+        photo
+    )
+    known = [] if ids is None else np.flatnonzero(np.isin(ids, BOARD.getIds()))
     if len(known) < FEWEST:
         return None
-    points, pixels = BOARD.matchImagePoints([corners[k] for k in known], names[known])
+    points, pixels = BOARD.matchImagePoints([corners[k] for k in known], ids[known])
     height, width = photo.shape[:2]
     guess = np.array([[width, 0, width / 2], [0, width, height / 2], [0, 0, 1.0]])
     only_focal = cv2.CALIB_USE_INTRINSIC_GUESS | cv2.CALIB_FIX_PRINCIPAL_POINT
     only_focal |= cv2.CALIB_FIX_ASPECT_RATIO | cv2.CALIB_ZERO_TANGENT_DIST
     only_focal |= cv2.CALIB_FIX_K1 | cv2.CALIB_FIX_K2 | cv2.CALIB_FIX_K3
     size = (width, height)  # OpenCV counts from the middle of a pixel
-    _, found, _, [turn], [shift] = cv2.calibrateCamera(
+    _, intrinsics, _, [rotation], [shift] = cv2.calibrateCamera(
         [points], [pixels + np.float32(0.5)], size, guess, None, flags=only_focal
     )
-    turn = cv2.Rodrigues(turn)[0]
-    focal = found[0, 0] * min(WIDTH / width, HEIGHT / height)
+    rotation = cv2.Rodrigues(rotation)[0]
+    focal = intrinsics[0, 0] * min(WIDTH / width, HEIGHT / height)
     middle = np.array([WIDTH, HEIGHT]) / 2
-    return Camera(focal, middle, turn @ AXES, FIRST - shift[:, 0] @ turn @ AXES)
+    return Camera(focal, middle, rotation @ AXES, FIRST - shift[:, 0] @ rotation @ AXES)
