@@ -81,3 +81,20 @@ def test_disk_cache_is_not_used_for_changed_source(tmp_path):
         done = subprocess.run(command, cwd=tmp_path, env=told, check=True, capture_output=True)
         said.append((float(done.stdout), len(list(tmp_path.rglob("*.nbc")))))
     assert said == [(5.0, 1), (5.0, 1), (11.0, 2)]
+
+
+def test_disk_cache_survives_a_law_whose_module_is_gone(tmp_path):
+    loop = (
+        "import sys\nfrom importlib import import_module\nfrom vmc_lib.compiled import compiled\n"
+    )
+    loop += (
+        "law = import_module(sys.argv[1]).law\n@compiled\ndef total(x):\n    return law(x) + 1.0\n"
+    )
+    (tmp_path / "loop.py").write_text(loop + "print(total(2.0))\n", encoding="utf-8")
+    env = os.environ | {"PYTHONPATH": str(ROOT), "PYTHONDONTWRITEBYTECODE": "1"}
+    for name in ("old_law", "new_law"):
+        (tmp_path / f"{name}.py").write_text("def law(x):\n    return x * 2\n", encoding="utf-8")
+        command = [sys.executable, "loop.py", name]
+        done = subprocess.run(command, cwd=tmp_path, env=env, check=True, capture_output=True)
+        assert float(done.stdout) == 5.0
+        (tmp_path / f"{name}.py").unlink()

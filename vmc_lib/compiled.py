@@ -50,12 +50,13 @@ def _machine(loop, frozen):
         return loop
 
     def ready(function):
-        """The same function, which finds compiled ones in its module."""
+        """The same function, which finds compiled ones, in a module that the cache can import."""
         code, space = function.__code__, function.__globals__
         called = {n: unwrap(space[n]) for n in code.co_names if type(space.get(n)) is FunctionType}
         callees = {n: njit(ready(f)) for n, f in called.items() if f is not function}
         parts = function.__name__, function.__defaults__, function.__closure__
-        return FunctionType(code, space | callees, *parts)
+        home = {"__name__": loop.__globals__.get("__name__")}
+        return FunctionType(code, space | callees | home, *parts)
 
     plain = ready(loop)
     content = _content(loop), [(name, _content(x)) for _, name, x in frozen]
