@@ -17,7 +17,7 @@ FILES = sorted(p for top in PACKAGES for p in (ROOT / top).rglob("*.py") if p no
 FLOORS = (
     ("vmc_lib", "reproduce.paper"),
     ("vmc_lib.where", "vmc_lib.what", "vmc_lib.arm"),
-    ("vmc_lib.motor",),
+    ("vmc_lib.motor", "vmc_lib.box_selection"),
     ("vmc_lib.cerebellum",),
     ("vmc_lib.loop",),
     ("vmc_lib.show",),

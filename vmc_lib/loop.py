@@ -189,9 +189,11 @@ def reach(model, target, calibration=algorithm_1):
     """
     turn, point = turn_towards(target)
     habit = plan(point, model.template_set)
-    planned = execute(habit).motion
-    first = Reach(target, turn, habit, planned, planned)
-    return recalibrate(first, calibration) if calibration else first
+    if calibration is None:
+        planned = execute(habit).motion
+        return Reach(target, turn, habit, planned, planned)
+    trials = calibrate(calibration, habit)
+    return Reach(target, turn, habit, trials.movements[0].motion, trials.best_motion)
 
 
 def recalibrate(reach, calibration):

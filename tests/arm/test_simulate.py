@@ -159,10 +159,13 @@ def test_both_engines_refuse_wrong_inputs(engine, named, complaint):
 
 @pytest.mark.parametrize("engine", ENGINES)
 @pytest.mark.parametrize("strength", [60.0, 1e4])
-def test_both_engines_refuse_movements_that_blow_up(engine, strength):
+def test_both_engines_refuse_movements_that_blow_up(engine, strength, tmp_path, monkeypatch):
+    """Without a word in the reader's folder."""
+    monkeypatch.chdir(tmp_path)
     world = Perturbation(field=strength * np.eye(2))
     with pytest.raises(ValueError, match=r"movement 0 blows up: at step .*weaken"):
         simulate(np.full((300, 6), 0.2), START, engine=engine, perturbation=world)
+    assert not [*tmp_path.iterdir()]
 
 
 def test_a_wrong_argument_does_not_slow_down_later_calls():

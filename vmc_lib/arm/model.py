@@ -14,6 +14,10 @@ import numpy as np
 
 from vmc_lib.data import read_only
 
+LOG = mujoco.MjLogConfig.get()
+LOG.logto_file = False  # no file in the reader's folder: a warning is on the console
+LOG.set()
+
 XML = (files("vmc_lib.arm") / "arm26.xml").read_text(encoding="utf-8")
 MODEL = mujoco.MjModel.from_xml_string(XML)
 MUSCLES = tuple(MODEL.tendon(k).name for k in range(MODEL.ntendon))
