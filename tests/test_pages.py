@@ -305,21 +305,73 @@ def test_a_chapter_begins_with_a_demo(opened):
     assert top <= 1.5 * 800
 
 
-def test_folded_cells_in_a_row_are_one_fold(opened):
-    """Only the first line of a row is seen; it opens them all, and folds them all again."""
-    page, seen = opened.page, "(cells) => cells.map((cell) => cell.checkVisibility())"
-    row = page.locator(
-        ".cell.tag_hide-input:not(:has(> .cell_output)):visible + .cell.tag_hide-input > details"
-    )
-    if not row.count():
-        pytest.skip("no row of folded cells")
-    assert not any(row.evaluate_all(seen))
-    first = row.first.locator("xpath=../preceding-sibling::div[1]/details/summary")
-    assert first.evaluate("(line) => line.checkVisibility()")
-    first.click()
-    page.wait_for_function("(cell) => cell.checkVisibility()", arg=row.first.element_handle())
-    first.click()
-    page.wait_for_function("(cell) => !cell.checkVisibility()", arg=row.first.element_handle())
+RUNS = ".tag_hide-input:not(.tag_hide-input + .tag_hide-input)"  # their first cells
+MARK = "details.hide > summary"
+
+
+def test_a_run_of_folded_cells_has_one_mark(opened):
+    """The keyboard opens all the run's cells by it, and folds them again."""
+    page, runs = opened.page, opened.page.locator(RUNS)
+    if not runs.count():
+        pytest.skip("no folded cells")
+    unfold(page)
+    seen = page.locator(MARK).filter(visible=True)
+    assert seen.count() == runs.count() == page.locator(f"{RUNS} > {MARK}").count()
+    run = page.locator(f"{RUNS}:has(+ .tag_hide-input)")
+    first = (run if run.count() else runs).first
+    mark = first.locator(f"> {MARK}")
+    cells = [first, *first.locator("xpath=following-sibling::div").all()]
+    folded = [cell.locator("> details.hide").count() > 0 for cell in cells]
+    cells = cells[: (*folded, False).index(False)]
+    for is_open in (True, False):
+        mark.press("Enter")
+        for cell in cells:
+            code = cell.locator("> details > .cell_input")
+            code.wait_for(state="visible" if is_open else "hidden")
+
+
+# Runs in the page. The marks that are smaller than a target must be, or that lie on words or code.
+CROWDED = """(least) => {
+  const apart = "summary, script, mjx-container, .vmc-spoken, [class*=scrollable-table]";
+  const shown = { opacityProperty: true, visibilityProperty: true }; // a closed solution is not
+  const range = document.createRange();
+  const words = document.createTreeWalker(document.querySelector("article"), NodeFilter.SHOW_TEXT);
+  const lines = [];
+  while (words.nextNode()) {
+    const { currentNode: word, currentNode: { parentElement: within } } = words;
+    if (within.closest(apart) || !within.checkVisibility(shown) || !word.data.trim()) continue;
+    range.selectNodeContents(word);
+    lines.push(...range.getClientRects());
+  }
+  return [...document.querySelectorAll("details.hide > summary")].filter((mark) => {
+    const { left, right, top, bottom, width, height } = mark.getBoundingClientRect();
+    const lies = (line) => line.width && line.left < right - 1 && line.right > left + 1
+      && line.top < bottom - 1 && line.bottom > top + 1;
+    return width && (Math.min(width, height) < least || lines.some(lies));
+  }).map((mark) => mark.closest(".cell").outerHTML.slice(0, 300));
+}"""
+
+
+def test_marks_of_folded_code_have_room(opened):
+    """In the margin of a wide page, 24 pixels; between the lines of a phone's, 44."""
+    for width, least in ((360, 44), (768, 44), (800, 24), (1280, 24)):
+        opened.page.set_viewport_size({"width": width, "height": 800})
+        opened.page.evaluate(TWO_FRAMES)
+        assert opened.page.evaluate(CROWDED, least) == []
+
+
+def test_a_box_shows_all_code_and_is_remembered(offline):
+    [path] = [path for path in CHAPTERS if path.stem == "09_planning"]
+    page = open_page(offline, path.as_uri()).page
+    closed = page.locator("details.hide:not([open])")
+    assert closed.count()
+    page.get_by_label("Show all code").check()
+    assert not closed.count()
+    page.reload()
+    assert not closed.count()
+    page.get_by_label("Show all code").uncheck()
+    assert closed.count() == page.locator("details.hide").count()
+    page.close()
 
 
 def unfold(page):

@@ -9,38 +9,34 @@
   addEventListener("resize", reach);
 })();
 
-/* A page shows the model's own code; what imports, draws and tabulates is folded. One switch in the
-   header unfolds it all, and is remembered where the browser remembers. */
+/* A page shows the model's own code; what imports, draws and tabulates is folded. A box in the header
+   shows it all, and is remembered where the browser remembers. */
 addEventListener("DOMContentLoaded", () => {
   const folded = document.querySelectorAll("details.hide.above-input");
   const header = document.querySelector(".article-header-buttons");
   if (!folded.length || !header) return;
-  const button = document.createElement("button");
-  button.className = "btn vmc-code";
-  const show = (all) => {
-    button.textContent = `Code: ${all ? "all" : "model"}`;
-    button.setAttribute("aria-pressed", all);
-    folded.forEach((cell) => (cell.open = all));
-  };
-  button.title = "Show the model's code alone, or all code of the page";
-  button.addEventListener("click", () => {
-    const all = button.getAttribute("aria-pressed") !== "true";
-    show(all);
-    vmcMemory.set("vmcCode", all ? "all" : "model");
+  const label = document.createElement("label");
+  label.className = "vmc-code";
+  label.title = "Otherwise the page shows the code of the model alone, not the code that draws and tabulates";
+  label.innerHTML = '<input type="checkbox"> Show all code';
+  const [box] = label.children;
+  const show = () => folded.forEach((cell) => (cell.open = box.checked));
+  box.checked = vmcMemory.get("vmcCode") === "all";
+  box.addEventListener("change", () => {
+    show();
+    vmcMemory.set("vmcCode", box.checked ? "all" : "model");
   });
-  show(vmcMemory.get("vmcCode") === "all");
-  header.prepend(button);
+  show();
+  folded.forEach((cell) => (cell.firstElementChild.title = "The code behind this"));
+  header.prepend(label);
 });
 
-/* Several folded cells in a row, up to one that shows something, are one fold: its line is the first one's. */
-(() => {
-  document.documentElement.classList.add("vmc-scripted");
-  document.addEventListener("toggle", ({ target }) => {
-    const cell = target.matches("details.hide") && target.closest(".cell.tag_hide-input:not(:has(> .cell_output))");
-    const next = cell?.nextElementSibling;
-    if (next?.matches(".tag_hide-input")) next.querySelector("details.hide").open = target.open;
-  }, true);
-})();
+/* A run of folded cells is one fold: the mark of the first opens them all. */
+document.addEventListener("toggle", ({ target }) => {
+  const next = target.closest(".tag_hide-input")?.nextElementSibling;
+  if (target.matches("details.hide") && next?.matches(".tag_hide-input"))
+    next.querySelector("details.hide").open = target.open;
+}, true);
 
 /* How sure a result is stands folded below its heading, until asked for or linked to; paper shows it. */
 addEventListener("DOMContentLoaded", () =>
