@@ -15,7 +15,8 @@ BOOK = Path(ledger.__file__).parents[2] / "book"
 CHAPTERS = sorted(BOOK.glob("[0-9]*.ipynb"))
 CLAIMS = {"planned_error_ratio", "calibrated_error_ratio", "MEAN_ERROR"}
 CLAIMS |= {"TABLE_1", "TABLE_2", "TABLE_3"}
-SHARED = {"value", "measured", "trainings", "table_2", "spread", "verdicts"}
+SHARED = {"ledger.value", "load_results", "load_probabilities", "table_2"}  # as chapters call them
+SHARED |= {f"localisation.{name}" for name in ("table_1", "table_2", "table_2_interval")}
 PAPER_ALONE = {  # cells that show what the paper prints, and no number of ours beside it
     "d68265bb",  # the counts behind Table I's percentages
     "printed-sums",  # what Tables IV to VI add up to
@@ -37,11 +38,7 @@ class Names:
         nodes = list(ast.walk(tree))
         names = [n for n in nodes if isinstance(n, ast.Name)]
         attributes = {n.attr for n in nodes if isinstance(n, ast.Attribute)}
-        self.calls = {
-            getattr(n.func, "attr", getattr(n.func, "id", None)): n
-            for n in nodes
-            if isinstance(n, ast.Call)
-        }
+        self.calls = {ast.unparse(n.func) for n in nodes if isinstance(n, ast.Call)}
         self.uses = attributes | {n.id for n in names}
         self.gives = {n.id for n in names if isinstance(n.ctx, ast.Store)}
         self.gives |= {n.name for n in nodes if isinstance(n, ast.FunctionDef)}
@@ -58,7 +55,7 @@ def rests_on(chapter, cell):
     """Whether a cell, or one that gives it a name, calls what the ledger calls."""
     known, waiting, seen = cells(chapter), [cell], set()
     while waiting:
-        if SHARED & set(known[one := waiting.pop()].calls):
+        if SHARED & known[one := waiting.pop()].calls:
             return True
         seen.add(one)
         waiting += [k for k, c in known.items() if c.gives & known[one].uses and k not in seen]
