@@ -16,7 +16,9 @@ from textwrap import indent
 
 GLOSSARY = Path(__file__).parents[1] / "glossary.md"
 HEAD = re.compile(r"^## (.+)\n", re.M)
-TERMS = {head.replace(" ", "-"): head for head in HEAD.findall(GLOSSARY.read_text("utf-8"))}
+TERMS = {
+    head.replace(" ", "-"): head for head in HEAD.findall(GLOSSARY.read_text(encoding="utf-8"))
+}
 TERM = re.compile(r"\[([^\]]+)\]\((?:glossary\.md)?#([^)]+)\)")
 SOURCE = r"\[[^\]]+\]\(references\.bib#(\w+)\)"
 SOURCES = re.compile(rf"\({SOURCE}(?:, {SOURCE})*\)")
