@@ -146,7 +146,7 @@ LIBRARY = {
     "ACTIVATION_RATES": lambda u, a, rise, fall: muscle.activation_rate(u, a),
     "NEAR_WEIGHTS": habitual_weights,
     "FAIR_VOTE": lambda rates, preferred: np.linalg.pinv(preferred) @ rates,
-    "SHORTENED": lambda changes, longest: offline._capped(changes),
+    "SHORTENED": lambda changes, longest: offline._clip_norm(changes),
     "ONE_JOINT": least_pulls,
     "ON_THE_TABLE": lambda eye, direction, height: (
         Camera(1, np.zeros(2), np.outer([0, 0, 1], direction), eye)

@@ -8,7 +8,7 @@ import pytest
 from render import scene
 from reproduce import results
 from reproduce.experiments import printed_sheet
-from vmc_lib import photos, sheet
+from vmc_lib import marker_sheet, photos
 from vmc_lib.camera import TABLE
 from vmc_lib.photos import HEIGHT, WIDTH
 
@@ -21,9 +21,15 @@ def drawn(eye, scale=4, size=1):
     `size` is how many times as wide and high the photo is as the eye's.
     """
     corners = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
-    seen = eye.project(sheet.CORNER + corners * sheet.PAGE / 1000 @ sheet.AXES[:2])
-    print_ = cv2.resize(sheet.page_image(), None, fx=8, fy=8, interpolation=cv2.INTER_NEAREST)
-    to = cv2.getPerspectiveTransform(np.float32(corners * sheet.PAGE * 8), np.float32(scale * seen))
+    seen = eye.project(
+        marker_sheet.CORNER + corners * marker_sheet.PAGE / 1000 @ marker_sheet.AXES[:2]
+    )
+    print_ = cv2.resize(
+        marker_sheet.page_image(), None, fx=8, fy=8, interpolation=cv2.INTER_NEAREST
+    )
+    to = cv2.getPerspectiveTransform(
+        np.float32(corners * marker_sheet.PAGE * 8), np.float32(scale * seen)
+    )
     big = cv2.warpPerspective(print_, to, (scale * WIDTH, scale * HEIGHT), borderValue=120)
     whole = size * WIDTH, size * HEIGHT
     return np.dstack([cv2.resize(big, whole, interpolation=cv2.INTER_AREA)] * 3)
@@ -32,7 +38,7 @@ def drawn(eye, scale=4, size=1):
 @pytest.mark.parametrize("focal", [420.0, 600.0, 800.0])
 def test_camera_is_estimated(focal):
     eye = scene.look(np.array([0.2, TABLE, 0.15]), 0.8 * focal / 800, 0.9, 0.3, focal, 0.05)
-    found = sheet.estimate_camera(drawn(eye))
+    found = marker_sheet.estimate_camera(drawn(eye))
     assert found.focal == pytest.approx(focal, rel=0.03)
     assert np.abs(found.position - eye.position).max() < 0.02
     assert np.abs(found.rotation - eye.rotation).max() < 0.02
@@ -42,7 +48,7 @@ def test_camera_is_estimated(focal):
 
 def test_camera_is_none_without_the_sheet():
     image = photos.load("rig", "train")[0].image
-    eye, bare = sheet.remove_sheet(image)
+    eye, bare = marker_sheet.remove_sheet(image)
     assert eye is None
     assert (bare == image).all()
 
@@ -53,23 +59,25 @@ def test_markers_are_detected_in_the_whole_photo(distance):
     eye = scene.look(np.array([0.2, TABLE, 0.15]), distance, 0.9, 0.3, 600.0, 0.05)
     there, off = np.array([[0.2, TABLE, -0.05]]), []
     for size in (1, 2):
-        found, bare = sheet.remove_sheet(drawn(eye, size=size))
+        found, bare = marker_sheet.remove_sheet(drawn(eye, size=size))
         assert bare.shape == (HEIGHT, WIDTH, 3)
-        assert sheet.estimate_camera(bare) is None
+        assert marker_sheet.estimate_camera(bare) is None
         off.append(np.linalg.norm(found.back_project(eye.project(there)) - there))
     assert off[1] < off[0] / 2
 
 
 def test_the_sheet_is_painted_over_and_nothing_else():
     shot = SHOTS[20]
-    _, bare = sheet.remove_sheet(shot.image)
-    assert sheet.estimate_camera(bare) is None
+    _, bare = marker_sheet.remove_sheet(shot.image)
+    assert marker_sheet.estimate_camera(bare) is None
     x0, y0, x1, y1 = np.int32(shot.boxes["shuttlecock"])
     assert (bare[y0:y1, x0:x1] == shot.image[y0:y1, x0:x1]).all()
     full = np.full((400, 600, 3), 255, np.uint8)
-    page = sheet.page_image()[20:280, 10:200]
+    page = marker_sheet.page_image()[20:280, 10:200]
     full[:] = cv2.resize(page, (600, 400))[..., None]
-    assert sheet.remove_sheet(full)[1].std(axis=(0, 1)).max() == 0  # nothing but the sheet in view
+    assert (
+        marker_sheet.remove_sheet(full)[1].std(axis=(0, 1)).max() == 0
+    )  # nothing but the sheet in view
 
 
 def test_target_is_located_in_photos_of_unknown_cameras():
@@ -92,18 +100,21 @@ def test_shipped_results_are_repeatable():
 def test_the_pdf_shows_the_sheet():
     file = photos.FOLDER.parents[2] / "book/_static/sheet.pdf"
     paper = pypdfium2.PdfDocument(file)[0]
-    assert np.array(paper.get_size()) * 25.4 / 72 == pytest.approx(sheet.PAGE, abs=0.2)
+    assert np.array(paper.get_size()) * 25.4 / 72 == pytest.approx(marker_sheet.PAGE, abs=0.2)
     printed = paper.render(scale=72 / 25.4, grayscale=True).to_numpy().squeeze()
     rows = np.s_[30:265]  # the markers; words stand above and below
     assert (
-        np.abs(cv2.resize(printed, sheet.PAGE.tolist())[rows] - sheet.page_image()[rows]).mean() < 6
+        np.abs(
+            cv2.resize(printed, marker_sheet.PAGE.tolist())[rows] - marker_sheet.page_image()[rows]
+        ).mean()
+        < 6
     )
 
 
 def test_rendered_sheet_has_one_texel_a_millimetre():
     table = scene.with_sheet(np.full((2048, 2048, 3), 0.3))
     changed = np.argwhere(table[..., 0] != 0.3)
-    assert np.ptp(changed, axis=0).tolist() == (sheet.PAGE - 1).tolist()
+    assert np.ptp(changed, axis=0).tolist() == (marker_sheet.PAGE - 1).tolist()
     drawn = scene.draw_with_sheet(np.random.default_rng((3, 2, 0)))
     assert drawn.camera.focal == pytest.approx(SHOTS[0].camera.focal)
     assert drawn.target == pytest.approx(SHOTS[0].target)

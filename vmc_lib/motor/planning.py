@@ -63,7 +63,7 @@ def habitual_weights(target, points, power=1):
 
     References
     ----------
-    Shepard, D. (1968). A two-dimensional interpolation function for irregularly-spaced data.
+    The paper, Eq. 5 (inverse distance weighting).
 
     Examples
     --------
