@@ -36,7 +36,7 @@ def correlate_valid(v, W, padding=0):
 class CRBM:
     """Filters W (K, channels, n_w, n_w), hidden biases b (K,), visible biases a (channels,)."""
 
-    xp, correlate_valid = np, staticmethod(correlate_valid)  # torch's in `learning.Learner`
+    xp, _correlate = np, staticmethod(correlate_valid)  # torch's in `learning.Learner`
 
     def __init__(self, W, b, a, c=2):
         if W.ndim != 4 or len(b) != len(W) or len(a) != W.shape[1]:
@@ -59,7 +59,7 @@ class CRBM:
             n_h = n_v - self.W.shape[-1] + 1
             if n_h < 1 or n_h % self.c:
                 raise ValueError(f"hidden width {n_h} is not in blocks of {self.c}: trim v first")
-        return self.correlate_valid(v, self.W) + self.b[:, None, None]
+        return self._correlate(v, self.W) + self.b[:, None, None]
 
     def trim(self, v):
         """Drop the last rows and columns of v, those that fill no block of hidden units."""
@@ -97,7 +97,7 @@ class CRBM:
         This convolution does turn W: it is the cross-correlation with W turned by 180°.
         """
         turned = self.xp.flip(self.W, (2, 3)).swapaxes(0, 1)
-        painted = self.correlate_valid(h, turned, padding=self.W.shape[-1] - 1)
+        painted = self._correlate(h, turned, padding=self.W.shape[-1] - 1)
         return painted + self.a[:, None, None]
 
     def arrays(self):

@@ -20,7 +20,7 @@ torch.set_num_threads(1)
 class Learner(CRBM):
     """A trainable CRBM: its arrays are torch tensors, all on the device of `W`."""
 
-    xp, correlate_valid = torch, staticmethod(torch.conv2d)
+    xp, _correlate = torch, staticmethod(torch.conv2d)
 
     @classmethod
     def random(cls, K, channels, n_w, rng, c=2, device="cpu"):
