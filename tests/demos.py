@@ -10,7 +10,7 @@ def remember():
     """Let `explore` remember the demos that it shows from now on."""
     explore = show.explore
 
-    def remembered(draw, caption, alt, in_page=None, **controls):
+    def remembered(draw, caption, alt=None, in_page=None, **controls):
         explore(draw, caption, alt, in_page, **controls)
         last = {name: demo.as_control(name, spec).values[-1] for name, spec in controls.items()}
 

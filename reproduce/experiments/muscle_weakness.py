@@ -130,6 +130,24 @@ def compare_rules(muscle):
     return found
 
 
+def habit_misses():
+    """Habit's mean misses in mm, draws (6,): by weak muscle and what it corrects.
+
+    Held-out before; in-sample and held-out after.
+    """
+    columns = "before, held-out", "after, in-sample", "after, held-out"
+    return {
+        key: [load_results()[f"{', '.join(key)}, {name}"] for name in columns]
+        for key in product(MUSCLES, CORRECTIONS)
+    }
+
+
+def corrected_miss(rule):
+    """The mean miss in mm over all weak muscles, each known, or habit's aim corrected for it."""
+    name = "habit, aim" if rule == "habit" else rule
+    return np.mean([compare_rules(muscle)[name]["after"]["miss"].mean() for muscle in MUSCLES])
+
+
 def _weak_reach(share, excitations, perturbation):
     return reach(excitations * share, perturbation)
 

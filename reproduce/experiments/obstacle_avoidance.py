@@ -4,18 +4,67 @@ The obstacle is a ball that only the hand must not touch. Positions are in the a
 """
 
 from functools import cache
+from itertools import product
+from typing import NamedTuple
 
 import numpy as np
 
-from reproduce.experiments.feedback_control import exact_plans
+from reproduce.experiments.feedback_control import NOISE, exact_plans, fit_forward_model
 from vmc_lib.arm.dynamics import hand
-from vmc_lib.motor.feedback import TICK, ReferenceTrajectory, reference_trajectory, switch
+from vmc_lib.motor.feedback import (
+    BLIND,
+    SIGHT,
+    TICK,
+    ReferenceTrajectory,
+    reference_trajectory,
+    simulate_feedback,
+    switch,
+)
 from vmc_lib.motor.planning import draw_targets, surrounded
 
 RADIUS, APART = 0.02, 0.03  # of the ball; how near to its middle a way may be meant
 LONG = 0.12  # the straight way, at least: on a short one there is no room for a ball
 TURN = 0.3  # s: when the second reach begins to take the first one's place
 GRID = 0.02  # between the places that may become via-points
+
+
+class Detours(NamedTuple):
+    """Reaches past obstacles, simulated: places (n, 2), and the hand's paths by (route, senses)."""
+
+    targets: np.ndarray
+    balls: np.ndarray
+    vias: np.ndarray
+    paths: dict  # each (n, ticks, 2)
+
+    def touching(self, route, senses):
+        """Which hands touch their ball, (n,)."""
+        return clearance(self.paths[route, senses], self.balls) < RADIUS
+
+    def miss(self, route, senses):
+        """How far hands end from their targets, (n,)."""
+        return np.linalg.norm(self.paths[route, senses][:, -1] - self.targets, axis=-1)
+
+
+def simulate_detours(template_set, rng, count=60):
+    """`Detours`: straight and by a via-point, by a blind arm and by one that sees and foresees.
+
+    All four meet the same noise.
+    """
+    model = fit_forward_model(template_set, rng)
+    targets, balls = obstacles(template_set, count, rng)
+    plans = [plan_around(*pair, template_set) for pair in zip(targets, balls, strict=True)]
+    vias, references = zip(*plans, strict=True)
+    routes = {
+        "straight": reference_trajectory(exact_plans(targets, template_set)),
+        "by a via-point": ReferenceTrajectory(*map(np.concatenate, zip(*references, strict=True))),
+    }
+    senses = {"blind": (BLIND, None), "sight and foresight": (SIGHT, model)}
+    paths = {}
+    for route, sense in product(routes, senses):
+        noise = {"noise": NOISE, "rng": np.random.default_rng(1)}
+        motion = simulate_feedback(routes[route], *senses[sense], **noise)
+        paths[route, sense] = motion.hand[:, ::TICK, :2]
+    return Detours(targets, balls, np.array(vias), paths)
 
 
 def obstacles(template_set, count, rng):

@@ -4,12 +4,7 @@ import numpy as np
 import pytest
 
 from reproduce.experiments import feedback_control, obstacle_avoidance
-from vmc_lib.motor.feedback import (
-    SIGHT,
-    ReferenceTrajectory,
-    reference_trajectory,
-    simulate_feedback,
-)
+from vmc_lib.motor.feedback import ReferenceTrajectory, reference_trajectory
 from vmc_lib.motor.templates import load
 
 
@@ -37,14 +32,12 @@ def test_the_ball_lies_in_the_way_and_the_second_way_goes_round(drawn):
     np.testing.assert_allclose(ways[:, -1], targets, atol=1e-6)
 
 
-def test_the_watched_arm_goes_that_way_and_arrives(drawn):
-    targets, balls, way = drawn
-    model = feedback_control.fit_forward_model(load(), np.random.default_rng(0))
-    path = simulate_feedback(
-        way, SIGHT, model, noise=feedback_control.NOISE, rng=np.random.default_rng(1)
-    ).hand[..., :2]
-    assert obstacle_avoidance.clearance(path, balls).min() > obstacle_avoidance.RADIUS
-    assert np.linalg.norm(path[:, -1] - targets, axis=-1).max() < 0.01
+def test_an_arm_that_sees_and_foresees_goes_round_and_arrives():
+    detours = obstacle_avoidance.simulate_detours(load(), np.random.default_rng(0), 5)
+    arm = "sight and foresight"
+    assert detours.touching("straight", arm).all()
+    assert not detours.touching("by a via-point", arm).any()
+    assert detours.miss("by a via-point", arm).max() < 0.01
 
 
 def test_a_ball_that_leaves_no_way_is_named(monkeypatch):

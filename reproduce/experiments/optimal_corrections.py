@@ -1,0 +1,50 @@
+"""Optimal feedback control tested on noise and on weak muscles, beside the same commands alone.
+
+The commands are those of `minimum_variance.excitations_by_rule`; the corrections on the way are
+those of `optimal_feedback`.
+"""
+
+from functools import cache
+
+import numpy as np
+
+from reproduce.experiments.muscle_weakness import TARGETS, muscle_strength
+from reproduce.peers import minimum_variance, motor_noise, optimal_feedback
+from reproduce.peers.optimal_feedback import TICK
+from vmc_lib.arm.model import MUSCLES
+from vmc_lib.motor.templates import reach
+
+
+def disturbances(rng):
+    """Factors of the commands: noise (repeats, 5, T, 6), and each muscle weak (6, 5, T, 6)."""
+    shape = minimum_variance.optimal_excitations().shape
+    repeated = minimum_variance.REPEATS, *shape
+    noise = motor_noise.noise_factor(repeated, minimum_variance.noise_share(), rng)
+    weak = np.array([muscle_strength(name) for name in MUSCLES])
+    return noise, np.broadcast_to(weak[:, None, None], (len(MUSCLES), *shape))
+
+
+def scatter_and_miss(noise, weak, rule, late=None):
+    """How far the hand scatters on its way, (101,), and misses with each muscle weak, (6,), in mm.
+
+    Means over the five targets; noise and weakness are `disturbances`. Of a rule's commands alone,
+    or with the best corrections, where deviations are known `late`, in ms.
+    """
+    scatter = optimal_feedback.scatter(hand_paths(noise, rule, late))
+    ends = hand_paths(weak, rule, late)[..., -1, :]
+    miss = np.linalg.norm(ends - TARGETS, axis=-1)
+    return 1000 * scatter.mean(axis=0), 1000 * miss.mean(axis=-1)
+
+
+def hand_paths(factors, rule, late=None):
+    """The hand's paths (…, 5, 101, 2) in m, under a rule's commands times factors (…, 5, T, 6)."""
+    if late is not None:
+        return optimal_feedback.move(_feedback_law(rule), factors, late // TICK)[0]
+    commands = minimum_variance.excitations_by_rule()[rule]
+    motions = (reach(np.clip(commands * factor, 0, 1)) for factor in factors)
+    return np.array([motion.hand[:, ::TICK, :2] for motion in motions])
+
+
+@cache
+def _feedback_law(rule):
+    return optimal_feedback.feedback_law(minimum_variance.excitations_by_rule()[rule])

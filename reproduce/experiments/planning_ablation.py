@@ -1,0 +1,68 @@
+"""Ablation of the reach: its templates, weights and correction, swapped one at a time.
+
+Errors are distances of the hand from its targets where a movement ends, in mm.
+"""
+
+from functools import cache
+from itertools import product
+
+import numpy as np
+
+from reproduce.experiments.calibration import SEEDS
+from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration
+from vmc_lib.motor.execution import execute
+from vmc_lib.motor.planning import draw_targets, exact_weights, habitual_weights, plan
+from vmc_lib.motor.templates import load
+
+WEIGHTS = {"nearness (Eq. 5)": habitual_weights, "exact (Eq. 4)": exact_weights}
+SPACINGS = 8, 6, 4  # cm between templates
+RULES = {"Algorithm 1": algorithm_1, "Broyden": broyden_calibration}
+
+
+def reach_errors(targets):
+    """Errors (n,) of reaches for targets (n, 2), by (weights, correction, spacing in cm)."""
+    errors = {}
+    for (weights, rule), cm in product(WEIGHTS.items(), SPACINGS):
+        habit = plan(targets, load(cm / 100), rule)
+        errors |= {(weights, how, cm): e for how, e in correction_errors(habit).items()}
+    return errors
+
+
+def correction_errors(habit):
+    """Errors (n,) of a plan by the rule that corrects it, each time of its best trial."""
+    error = 1000 * broyden_calibration(habit, trials=2).error
+    return {
+        "none": error[0],
+        "Algorithm 1": 1000 * algorithm_1(habit).error.min(axis=0),
+        "Broyden, 1 trial": error[:2].min(axis=0),
+        "Broyden, 2 trials": error.min(axis=0),
+    }
+
+
+def repeated_errors(habit, repeats=4):
+    """Errors (n,) of a noisy plan: as planned, of each rule's best trial, and of that trial again.
+
+    The last is a mean over repeats. A plan meets its noise once: to give its commands again, make
+    it again.
+    """
+    run = cache(execute)
+    trials = {name: rule(habit, execute=run) for name, rule in RULES.items()}
+    errors = {"planned": 1000 * run(habit).error}
+    for name, rule_trials in trials.items():
+        again = [execute(habit.with_weights(rule_trials.best)).error for _ in range(repeats)]
+        errors[f"{name}, best trial"] = 1000 * rule_trials.error.min(axis=0)
+        errors[f"{name}, again"] = 1000 * np.mean(again, axis=0)
+    return errors
+
+
+def exact_weight_ratios(seeds=SEEDS, count=200):
+    """The mean error by exact weights over that by habitual weights, a ratio for each seed."""
+    ratios = []
+    for seed in seeds:
+        targets = draw_targets(load(), count, np.random.default_rng(seed))
+        exact, habitual = (
+            execute(plan(targets, load(), rule)).error.mean()
+            for rule in (exact_weights, habitual_weights)
+        )
+        ratios.append(exact / habitual)
+    return ratios
