@@ -5,6 +5,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from vmc_lib.camera import TABLE
+from vmc_lib.show import photo_view
 from vmc_lib.show.palette import COLOURS
 
 
@@ -35,3 +36,30 @@ def side_view(shot, found):
     ax.set_title(f"{1000 * np.linalg.norm(found - shot.target):.0f} mm apart")
     ax.legend(loc="upper right")
     return fig
+
+
+def believed_place(shot, height):
+    """Where the middle of the shuttlecock's box is (3,), m, at a height (mm) over the table."""
+    box = shot.boxes["shuttlecock"]
+    return shot.camera.back_project((box[:2] + box[2:]) / 2, TABLE + height / 1000)[0]
+
+
+def height_views(shot, height):
+    """The photo with its box, and from the side where a believed height (mm) puts it."""
+    boxed = photo_view(shot.image, [(shot.boxes["shuttlecock"], "", "green")])
+    return boxed, side_view(shot, believed_place(shot, height))
+
+
+def longer_sides(shots):
+    """The longer side of the shuttlecock's box in each photo, (n,), pixels."""
+    boxes = np.array([shot.boxes["shuttlecock"] for shot in shots])
+    return (boxes[:, 2:] - boxes[:, :2]).max(axis=1)
+
+
+def cutout_sheet(cutouts, columns=12):
+    """Cut-outs (n, w, w, 4), 0 to 255, on grey and on one image, half as large: uint8."""
+    grey = np.array([0.36, 0.38, 0.42])
+    colour, opaque = np.split(cutouts / 255, [3], axis=-1)
+    tiles = opaque * colour + (1 - opaque) * grey
+    rows = tiles.reshape(-1, columns, *tiles.shape[1:]).swapaxes(1, 2)
+    return np.uint8(255 * rows.reshape(-1, columns * tiles.shape[2], 3))[::2, ::2]
