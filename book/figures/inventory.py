@@ -1,0 +1,54 @@
+"""What the book holds, counted: its chapters, and the tests of each part of the library."""
+
+import re
+import subprocess
+import sys
+from collections import Counter
+
+import nbformat
+
+PYTEST = [sys.executable, *"-m pytest -q --collect-only -p no:cacheprovider".split()]
+
+
+def cases_by_folder(root):
+    """How many cases pytest collects in each folder of `root`/tests, a Counter; "" is tests itself.
+
+    Those that open built pages are left out: there may be none yet.
+    """
+    collected = subprocess.run(  # noqa: S603 - our own tests
+        [*PYTEST, "tests", "--ignore=tests/test_pages.py"],
+        cwd=root,
+        capture_output=True,
+        encoding="utf-8",
+        check=True,
+    ).stdout
+    return Counter(re.findall(r"^tests/(?:(\w+)/.*)?test_\w+\.py::", collected, flags=re.M))
+
+
+def names_of_tests(file):
+    """The names of a file's tests, as words."""
+    source = file.read_text(encoding="utf-8")
+    return [name.replace("_", " ") for name in re.findall(r"^def test_(\w+)\(", source, flags=re.M)]
+
+
+def chapter_counts(paths):
+    """How much of each kind chapters hold: cells, demos, exercises, answers, questions."""
+    cells = [cell for path in paths for cell in nbformat.read(path, as_version=4).cells]
+    code = "\n".join(cell.source for cell in cells if cell.cell_type == "code")
+    return {
+        "numbered chapters": len(paths),
+        "cells that compute": sum(cell.cell_type == "code" for cell in cells),
+        "demos": code.count("explore("),
+        "questions to answer before them": code.count("predict("),
+        "exercises": sum("exercise" in cell.metadata for cell in cells),
+        "checked answers": len(re.findall(r"\bcheck\(", code)),
+        "graded functions": len(re.findall(r"\bgrade\(", code)),
+        "quiz questions": sum(cell.source.startswith("**Quiz.**") for cell in cells),
+    }
+
+
+def title_and_minutes(path):
+    """A page's title, and the reading minutes that it states; 0 where it states none."""
+    sources = [cell.source for cell in nbformat.read(path, as_version=4).cells[:2]]
+    stated = re.search(r"(\d+)\s+minutes", "".join(sources))
+    return sources[0].splitlines()[0].removeprefix("# "), int(stated[1]) if stated else 0
