@@ -302,12 +302,13 @@ def test_a_plot_moves_fails_aloud_and_leaves_a_still(run_all):
     execute(page, "muscle.TAU_DEACTIVATION = 0.2")  # change a line, see it move
     move(page, slider)
     assert demo.locator(".vmc-pictures").inner_html() != here
-    execute(page, "def panels(*_, **__): raise OSError('no paper left')")
+    execute(page, "def no_paper(*_, **__): raise OSError('no paper left')")
+    execute(page, "panels, figures.panels = figures.panels, no_paper")
     move(page, slider)
     said = demo.locator(".vmc-error").text_content()
     assert "OSError: no paper left" in said
     assert "It was asked for {" in said
-    execute(page, "from book.figures.panels import panels")
+    execute(page, "figures.panels = panels")
     push(slider)
     page.wait_for_function(
         "(demo) => !demo.querySelector('.vmc-error').textContent", arg=demo.element_handle()

@@ -1,57 +1,86 @@
-"""The filaments in a muscle's fibre, drawn: what its length and its speed do to the heads."""
+"""Plots of a muscle: how it follows its excitation, its force curves, and what the bench shows."""
 
 import numpy as np
 
-WIDE, HIGH = 440, 96  # of the drawing
-REST = 230  # a piece of fibre, from disc to disc, at the optimal length
-THICK, THIN = 0.56, 0.44  # myosin and actin, in optimal lengths: a sketch, not a measurement
-ROWS = (26, 48, 70)  # where myosin lies, actin above it and below
+from book.figures.panels import panels
+from book.figures.sarcomere import sarcomere
+from reproduce.experiments import muscle_bench
+from reproduce.experiments.muscle_bench import active_force, normalised_force
+from vmc_lib.show.palette import COLOURS
 
 
-def sarcomere(length, speed=0.0):
-    """A piece of fibre as SVG: discs, actin (blue), myosin (red), springs; arrows for the speed.
+def response(excitation, activation, with_means=False):
+    """An excitation (T,), one value a ms, and the activation (T,) that follows it."""
+    means = [f", mean {x.mean():.2f}" * with_means for x in (excitation, activation)]
+    fig, ax = panels(size=(6.5, 2.6))
+    time = np.arange(len(excitation))
+    ax.fill_between(time, excitation, color=COLOURS["line"], label="told" + means[0])
+    ax.plot(time, activation, color=COLOURS["red"], label="active" + means[1])
+    ax.set(xlabel="time (ms)", ylim=(0, 1.25), yticks=[0, 0.5, 1])
+    ax.legend(loc="upper right", ncols=2)
+    return fig
 
-    `length` is in optimal lengths, `speed` in such lengths a second, lengthening positive.
+
+def force_curves(law, length, speed):
+    """The filaments of a fully active muscle, its pull against length, and against speed.
+
+    `law` is a `Muscle`, `length` in l₀, `speed` in l₀/s: against speed, up to this one.
     """
-    middle, half, thick = WIDE / 2, length * REST / 2, THICK * REST / 2
-    overlap = min(max(THIN * REST - (half - thick), 0), thick)
-    parts = []
-    for side in (-1, 1):
-        disc, end, tip = (middle + side * x for x in (half, thick, half - THIN * REST))
-        parts.append(_line(disc, 12, disc, 84, "ink", 4))
-        for y in ROWS:
-            parts += [_line(disc, y + d, tip, y + d, "blue", 3) for d in (-6, 6)]
-            parts.append(_spring(end, disc, y))
-            heads = end - side * np.arange(8, overlap, 12)
-            parts += [_heads(x, y, 3 * side * np.clip(speed, -1, 1)) for x in heads]
-        if speed:
-            parts.append(_arrow(disc, side * np.sign(speed) * (8 + 5 * abs(speed))))
-    parts += [_line(middle - thick, y, middle + thick, y, "red", 5) for y in ROWS]
-    size = f'viewBox="0 0 {WIDE} {HIGH}" width="{WIDE}" height="{HIGH}"'
-    return f'<svg class="vmc-strip" {size}>{"".join(parts)}</svg>'
+    lengths, speeds = np.linspace(0.3, 1.8, 61), np.linspace(-8, 4, 61)
+    fig, left, right = panels(2)
+    left.plot(lengths, active_force(law, lengths, 0), color=COLOURS["red"], gid="heads")
+    left.plot(lengths, normalised_force(law, 0, lengths, 0), color=COLOURS["blue"], gid="springs")
+    dots = active_force(law, length, 0), normalised_force(law, 0, length, 0)
+    left.plot([length] * 2, dots, "o", color=COLOURS["ink"], gid="now")
+    left.set(xlabel="length (l₀)", ylim=(0, 2), title="held still (F₀)")
+    so_far, now = speeds[speeds <= speed], normalised_force(law, 1, length, speed)
+    pull = normalised_force(law, 1, length, so_far)
+    right.plot(so_far, pull, color=COLOURS["purple"], gid="pull")
+    right.plot(speed, now, "o", color=COLOURS["ink"], gid="guide")
+    right.set(xlabel="speed (l₀/s), lengthening +", xlim=(-8, 5), ylim=(0, 2))
+    right.set_title(f"pulls with {now:.2f} F₀")
+    return sarcomere(length, speed), fig
 
 
-def _line(x0, y0, x1, y1, colour, width):
-    ends = f'x1="{x0:.1f}" y1="{y0:.1f}" x2="{x1:.1f}" y2="{y1:.1f}"'
-    return f'<line {ends} stroke="var(--vmc-{colour})" stroke-width="{width}"/>'
+def force_velocity(speed, f2):
+    """The force-velocity curve f₂ (n,) over a fibre's speed (n,) in l₀/s."""
+    fig, ax = panels(size=(6.5, 2.6))
+    ax.plot(speed, f2, color=COLOURS["purple"])
+    ax.set(xlabel="fibre's speed (l₀/s)", ylim=(-0.1, 1.8))
+    ax.set_title("← shortening  f₂  lengthening →")
+    return fig
 
 
-def _heads(x, y, lean):
-    """Two heads that grip the actin above and below, dragged along with it."""
-    return "".join(_line(x, y, x + lean, y + d, "red", 1.8) for d in (-6, 6))
+def isometric(law, pulses, length):
+    """The force of a muscle held still at a length in l₀, under so many pulses a second."""
+    force = muscle_bench.isometric(law, pulses, length)
+    passive = law.force(0.0, length, 0.0, muscle_bench.STRENGTH)
+    fig, ax = panels(size=(6.5, 2.6))
+    ax.axhline(passive, color=COLOURS["blue"], label="passive")
+    ax.plot(force, color=COLOURS["red"], label="total")
+    ax.set(xlabel="time (ms)", ylabel="force (N)", ylim=(0, 1600))
+    ax.set_title(f"(highest − lowest) / mean = {muscle_bench.ripple(force):.0%}", loc="left")
+    ax.legend(loc="upper right", ncols=2)
+    return fig
 
 
-def _spring(x0, x1, y):
-    """The passive spring between the myosin's end and the disc."""
-    xs = np.linspace(x0, x1, 13)
-    ys = y + 3 * np.array([0, *(6 * [1, -1]), 0])[: len(xs)]
-    points = " ".join(f"{x:.1f},{at:.1f}" for x, at in zip(xs, ys, strict=True))
-    return f'<polyline points="{points}" fill="none" stroke="var(--vmc-grey)" stroke-width="1.2"/>'
+def isotonic(loads, load, lengths, speeds):
+    """Fibre lengths (ms, n) under loads (n,) in kg, up to one of them, and Hill's curve.
 
-
-def _arrow(x, long):
-    barb = 5 * np.sign(long)
-    return (
-        f'<path d="M{x:.1f},91h{long:.1f}m{-barb},-4l{barb},4l{-barb},4" fill="none" '
-        'stroke="var(--vmc-ink)" stroke-width="1.6"/>'
-    )
+    The curve is how fast the fibre shortens 50 ms after the release: `speeds` (ms, n) in l₀/s.
+    """
+    k, shortening = list(loads).index(load), -speeds[50]
+    fig, left, right = panels(2)
+    for mass, length in zip(loads[: k + 1], lengths.T, strict=False):
+        left.plot(length, color=COLOURS["line"], linewidth=1, gid=f"{mass} kg")
+    left.plot(lengths[:, k], color=COLOURS["red"], gid="guide")
+    low = min(0, lengths.min() - 0.1)
+    left.set(xlabel="time (ms)", title="fibre length (l₀)", ylim=(low, 2))
+    right.plot(loads[: k + 1], shortening[: k + 1], ".-", color=COLOURS["purple"], gid="speed")
+    right.plot(load, shortening[k], "o", color=COLOURS["red"], gid="guide")
+    room = 0.1 * np.ptp(shortening)
+    edges = shortening.min() - room, shortening.max() + room
+    right.set(xlabel="load (kg)", xlim=(-3, 84), ylim=edges)
+    way = "shortens" if shortening[k] > 0 else "lengthens"
+    right.set_title(f"{way} by {abs(shortening[k]):.2f} l₀/s after 50 ms")
+    return fig

@@ -1,0 +1,70 @@
+"""A muscle on the bench: its force when held still (isometric), its speed under a load (isotonic).
+
+Laws are `Muscle`s. Lengths are in optimal fibre lengths l₀, speeds in l₀/s, lengthening positive.
+The muscle is the brachialis.
+"""
+
+import numpy as np
+
+from vmc_lib.arm import muscle
+from vmc_lib.arm.engines import activations
+from vmc_lib.arm.model import F0, L0, MUSCLES
+
+BRA = MUSCLES.index("BRA")
+FIBRE, STRENGTH = L0[BRA], F0[BRA]  # l₀ in m, F₀ in N
+GRAVITY = 9.81  # m/s²
+TIME = np.arange(600)  # ms
+EXCITATIONS = {  # (600,) from 0 to 1; how many ms a pulse lasts, or a swing of the tremor
+    "pulse": lambda ms: 1.0 * ((TIME >= 100) & (TIME < 100 + ms)),
+    "pulse on half": lambda ms: np.where((TIME >= 100) & (TIME < 100 + ms), 1, 0.5),
+    "tremor": lambda ms: 0.5 + 0.5 * np.sin(2 * np.pi * TIME / ms),
+}
+
+
+def normalised_force(law, activation, length, speed):
+    """The force as a share of F₀."""
+    return law.force(activation, length, np.asarray(speed) / muscle.MAX_VELOCITY, 1.0)
+
+
+def active_force(law, length, speed):
+    """What full activation adds to the passive force, as a share of F₀."""
+    return normalised_force(law, 1.0, length, speed) - normalised_force(law, 0.0, length, speed)
+
+
+def fastest_shortening(law):
+    """The speed (l₀/s, positive) at which a fully active muscle of length l₀ has no force left."""
+    speed = np.linspace(-12, 0, 12001)
+    return -speed[active_force(law, 1, speed) > 1e-9][0]
+
+
+def follow(excitation, law=muscle.PAPER):
+    """The activation (T,) that follows an excitation (T,), one value a ms."""
+    return activations(excitation[None, :, None], excitation[None, :1], law)[0, 1:, 0]
+
+
+def isometric(law, pulses, length=1.0):
+    """The force (600,) in N, one value a ms, under so many pulses of 3 ms a second."""
+    excitation = 1.0 * (-TIME % (1000 / pulses) < 3) * (TIME > 0)
+    activation = follow(excitation, law)
+    return STRENGTH * normalised_force(law, activation, length, 0)
+
+
+def ripple(force):
+    """(highest − lowest) / mean of a force (T,), over its last 350 ms."""
+    late = force[-350:]
+    return np.ptp(late) / late.mean()
+
+
+def isotonic(law, loads, per_speed=1 / muscle.MAX_VELOCITY, duration=300, step=1e-4):
+    """Lengths and speeds (ms, n) of the half-active muscle from when loads (n,) in kg are released.
+
+    `per_speed` turns a speed into the v of Eq. 11; `duration` is in ms, `step` in s.
+    """
+    loads = np.asarray(loads, float)
+    length, speed, path = np.ones_like(loads), np.zeros_like(loads), []
+    for _ in range(round(duration / 1000 / step)):
+        path.append((length, speed))
+        force = law.force(0.5, length, per_speed * speed, STRENGTH)
+        speed = speed + step * (GRAVITY - force / loads) / FIBRE
+        length = length + step * speed
+    return np.swapaxes(path[::10], 0, 1)
