@@ -1,0 +1,104 @@
+"""Habitual planning: a reach beside its target, the parts of the miss, two frames, and effort."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+from book.figures.panels import panels
+from book.figures.reaching import arrows, ends, norm_mm, plane
+from reproduce.experiments.planning_error import TARGETS, mixed_and_reached
+from reproduce.peers import optimal_control
+from vmc_lib.arm.dynamics import hand
+from vmc_lib.arm.kinematics import inverse_kinematics
+from vmc_lib.arm.model import MUSCLES
+from vmc_lib.motor import templates
+from vmc_lib.show.arm import arm_scene
+from vmc_lib.show.palette import COLOURS
+
+
+def planned_in_words(target, ended):
+    """A plan for a target (2,) that took the hand to `ended` (2,)."""
+    at = ", ".join(f"{x:.3f}".replace("-", "−") for x in target)
+    return (
+        f"A target at {at} m and the four templates that plan it; the hand ends "
+        f"{norm_mm(ended - target):.1f} mm away. Beside it, one muscle's excitation as a weighted "
+        "sum."
+    )
+
+
+def planned_reach(movement):
+    """The arm as it executes a plan: the target is a green ball, the hand ends at the red one."""
+    motion = movement.motion
+    balls = [
+        (hand(inverse_kinematics(movement.plan.target)), "green"),
+        (motion.hand[-1], "red"),
+    ]
+    return arm_scene(motion.q, motion.activation, balls=balls)
+
+
+def parts_of_miss(rule, spacing, number):
+    """The parts of each miss that the weights and the arm have, as arrows; `spacing` in cm."""
+    mixed, reached = mixed_and_reached(rule, spacing / 100, number)
+    by_arm, by_weights, in_all = _means(rule, spacing, number)
+    fig, ax = plt.subplots(figsize=(6.5, 4.8))
+    plane(ax, templates.load(spacing / 100).points, within=((-0.02, 0.2), (-0.51, -0.29)))
+    arrows(ax, mixed, reached, "orange", f"the arm: {by_arm:.1f} mm")
+    arrows(ax, TARGETS, mixed, "blue", f"the weights: {by_weights:.1f} mm")
+    ax.plot(*TARGETS.T, "o", ms=4, mfc="none", color=COLOURS["green"], gid="targets")
+    fig.legend(loc="outside upper right")
+    ax.set_xticks([0, 0.1, 0.2])
+    ax.set_title(f"mean miss {in_all:.1f} mm")
+    return fig
+
+
+def parts_in_words(rule, spacing, number):
+    """The mean miss and its parts."""
+    by_arm, by_weights, in_all = _means(rule, spacing, number)
+    return f"Mean miss {in_all:.1f} mm: the weights {by_weights:.1f} mm, the arm {by_arm:.1f} mm."
+
+
+def _means(rule, spacing, number):
+    mixed, reached = mixed_and_reached(rule, spacing / 100, number)
+    return [norm_mm(x).mean() for x in (reached - mixed, mixed - TARGETS, reached - TARGETS)]
+
+
+def in_frame(origin, weights, points, target):
+    """A target (2,) seen from a frame's origin (2,), and the place that weights (4,) describe.
+
+    They mix the points (4, 2) by Eq. 4 in this frame; all is drawn as measured from the shoulder.
+    """
+    place = origin + weights @ (points - origin)
+    fig, ax = plt.subplots(figsize=(4.6, 4.6))
+    plane(ax, templates.load().points, within=((-0.08, 0.42), (-0.62, 0.34)))
+    arrows(ax, [origin, origin], origin + np.array([[0.07, 0], [0, 0.07]]), "purple")
+    arrows(ax, origin, target, "purple")
+    x, y = target - origin
+    ax.annotate(f"({x:.2f}, {y:.2f}) m", origin, (8, -13), textcoords="offset points")
+    ends(ax, target, place)
+    at = "mixed to ({:.3f}, {:.3f}) m".format(*place)
+    away = f"{norm_mm(place - target):.0f} mm from the target"
+    ax.set_title(f"{at}, {away}".replace("-", "−"), fontsize=10)
+    return fig
+
+
+def habit_beside_optimum(target, motions, costs):
+    """The hand's way and each muscle's effort on the way to one of the optima's targets (2,).
+
+    `motions` and `costs`, (25, 6), are those of all targets, by name.
+    """
+    k = np.abs(optimal_control.TARGETS - target).sum(axis=1).argmin()
+    fig, left, right = panels(2, (8.2, 3.4))
+    plane(left, templates.load().points, ((-0.02, 0.26), (-0.55, -0.29)))
+    across = np.arange(len(MUSCLES))
+    for place, (name, motion) in enumerate(motions.items()):
+        colour = COLOURS[("blue", "orange")[place]]
+        left.plot(*motion.hand[k, :, :2].T, color=colour, gid=name)
+        bars = 1000 * costs[name][k]
+        right.bar(across + 0.4 * place, bars, 0.4, color=colour, label=name)
+    ends(left, target, motion.endpoint[k])
+    right.set_xticks(across + 0.2, MUSCLES, rotation=30)
+    habit, optimum = (cost[k].mean() for cost in costs.values())
+    right.set_title(f"habit spends {habit / optimum:.1f} times as much")
+    most = 1000 * max(cost.max() for cost in costs.values())
+    right.set(ylabel="effort (10⁻³)", ylim=(0, 1.05 * most))
+    right.legend()
+    return fig

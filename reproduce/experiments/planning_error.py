@@ -1,0 +1,32 @@
+"""Why a habitual plan misses: what its weights (Eq. 5) contribute, and what the arm does."""
+
+from functools import cache
+
+import numpy as np
+
+from vmc_lib.motor import templates
+from vmc_lib.motor.execution import execute
+from vmc_lib.motor.planning import habitual_weights, nearest, plan
+
+TARGETS = np.stack(
+    np.meshgrid(np.arange(0.01, 0.18, 0.02), np.arange(-0.44, -0.31, 0.02)), axis=-1
+).reshape(-1, 2)
+
+
+@cache
+def mixed_and_reached(rule=habitual_weights, spacing=0.06, number=4):
+    """Where the weights alone would send the hand (N, 2) for `TARGETS`, and where it ends, in m.
+
+    Of templates `spacing` m apart it mixes a `number`: four are one in each quadrant, any other
+    number the nearest.
+    """
+    past = templates.load(spacing)
+    rows = None if number == 4 else nearest(TARGETS, past.points, number)
+    plans = plan(TARGETS, past, rule, rows)
+    return (plans.weights[:, None] @ plans.points)[:, 0], execute(plans).endpoint
+
+
+def mean_miss(rule=habitual_weights, spacing=0.06, number=4):
+    """How far the hand ends from a target on average, in mm."""
+    _, reached = mixed_and_reached(rule, spacing, number)
+    return 1000 * np.linalg.norm(reached - TARGETS, axis=-1).mean()
