@@ -2,6 +2,7 @@
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.ticker import LogLocator
 
 from vmc_lib.arm.model import MUSCLES
 from vmc_lib.show.figures import margins
@@ -59,6 +60,8 @@ def strip_plot(rows, measure, middle=np.median, xlim=None, text="{:.1f}"):
         ax.plot(middle(values), row, "|", ms=26, mew=3, color=COLOURS["ink"], gid="guide")
     ax.set_yticks(range(len(names)), names)
     ax.set(xscale="log", xlim=xlim, xlabel=measure, ylim=(len(names) - 0.5, -0.5))
+    ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
     ax.xaxis.set_major_formatter("{x:g}")
+    ax.minorticks_off()
     margins(fig, left=0.15 + max(map(text_width, names)), top=0.12)
     return fig
