@@ -5,6 +5,7 @@ from contextlib import suppress
 import numpy as np
 from joblib import Parallel, delayed
 
+from reproduce import results
 from vmc_lib import NoReach, photos
 from vmc_lib.boxes import MIN_IOU, iou
 from vmc_lib.cerebellum.offline import algorithm_1
@@ -135,6 +136,16 @@ def evaluate_lesions(level, folder=photos.FOLDER):
 def make(levels=photos.LEVELS, folder=photos.FOLDER):
     """What `results/lesions.json` holds: `evaluate_lesions` of every level."""
     return {level: evaluate_lesions(level, folder) for level in levels}
+
+
+def load_outcomes(lesion):
+    """What the target box of each test photo holds (n,), and how far the hand ends in mm (n,).
+
+    Of all levels in turn, from `results/lesions.json`; NaN where there was no reach.
+    """
+    levels = [results.records("lesions")[level][lesion] for level in photos.LEVELS]
+    held, missed = (np.concatenate([one[key] for one in levels]) for key in ("object", "missed"))
+    return held, missed.astype(float)
 
 
 def _photo_lesions(model, photo):

@@ -42,6 +42,17 @@ def count_answers(found):
     return counts
 
 
+def count_choices(found):
+    """Of the photos with a shuttlecock: how many got a wrong box, none, and none though one fit.
+
+    A box fits where a kept one lies on the shuttlecock; `found` as for `count_answers`.
+    """
+    results = [result for result in found.values() if result["holds"] == "shuttlecock"]
+    silent = [result for result in results if result["chosen"] is None]
+    wrong = sum(result["chosen"] is not None and result["fit"] <= 0.5 for result in results)
+    return wrong, len(silent), sum(result["kept"] > 0.5 for result in silent)
+
+
 def share_text(count, of):
     """A share as text, with its 95 % interval (Wilson)."""
     low, high = wilson(count, of)

@@ -53,3 +53,12 @@ def test_another_renderers_scenes_all_show_a_shuttlecock(model):
     counts = real_world.count_answers(found)
     assert {of for _, of in counts.values()} == {160}
     assert {real_world.QUESTIONS[question][0] for question in counts} == {"shuttlecock"}
+
+
+def test_choices_are_wrong_or_missing():
+    box = [0, 0, 1, 1]
+    results = [("shuttlecock", box, 0.9, 0.9), ("shuttlecock", box, 0.5, 0.9)]
+    results += [("shuttlecock", None, 0, 0.6), ("shuttlecock", None, 0, 0.5), ("cup", box, 0, 0.9)]
+    keys = ("holds", "chosen", "fit", "kept")
+    found = {k: dict(zip(keys, result, strict=True)) for k, result in enumerate(results)}
+    assert real_world.count_choices(found) == (1, 2, 1)

@@ -1,0 +1,180 @@
+"""Pictures and tables of the chapter on seeing and reaching: stages, failures, choices, lesions."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+from book.figures.loop import draw_movement, draw_stage, named_boxes
+from book.figures.panels import panels
+from book.figures.reaching import norm_mm
+from reproduce.experiments.loop_evaluation import FAILURE_STAGES, LESIONS, load_outcomes
+from reproduce.experiments.real_world import count_answers, share_text
+from vmc_lib import NoReach, loop, marker_sheet, photos
+from vmc_lib.arm.kinematics import to_world
+from vmc_lib.show import COLOURS, note, photo_view, table
+
+FAILURES = {"": "arrived"} | {stage: stage for stage in FAILURE_STAGES}
+FAILURE_COLOURS = ("green", "red", "orange", "purple", "blue", "grey")
+CROWDED = (110, 60)  # pixels: labels nearer than that would hide each other
+
+
+def miss_mm(photo, reach, motion):
+    """How far a motion of a reach ends from the true shuttlecock, in mm."""
+    return norm_mm(reach.hand(motion)[-1] - photo.target)
+
+
+def stage_errors(photo, reach, online):
+    """Distances from the true shuttlecock in mm, by stage; none where there is no reach.
+
+    Of the place that is reached for, and of the hand at the end of each movement.
+    """
+    if reach is None:
+        return {}
+    moves = {"plan": reach.planned, "off-line": reach.calibrated, "online": online}
+    ends = {stage: miss_mm(photo, reach, motion) for stage, motion in moves.items()}
+    return {"place": norm_mm(reach.target - photo.target)} | ends
+
+
+def describe_stage(errors, stage):
+    """A stage in words, by what `stage_errors` returned."""
+    if not errors:
+        return "No shuttlecock was recognised; the arm rests."
+    if stage not in errors:
+        return f"{stage}: nothing is reached for yet; the arm rests."
+    what = "the place" if stage == "place" else "the hand"
+    return f"{stage}: {what} is {errors[stage]:.1f} mm from the true shuttlecock."
+
+
+def stage_view(photo, sight, reach, online, stage):
+    """A stage of `LOOP_STAGES`: photo, arm, and the distance from the true shuttlecock."""
+    words = describe_stage(stage_errors(photo, reach, online), stage)
+    return *draw_stage(photo, sight, reach, online, stage), note(words)
+
+
+def lesion_view(photo, box, reach):
+    """The box and the calibrated reach under a lesion, and how far the hand ends from the truth."""
+    motion = reach.calibrated
+    words = f"ends {miss_mm(photo, reach, motion):.0f} mm from the true shuttlecock"
+    return *draw_movement(photo, box, reach, motion), note(words)
+
+
+def phone_view(model, photo):
+    """What a model sees in a photo with the marker sheet, and where the hand ends (HTML)."""
+    camera, bare = marker_sheet.remove_sheet(photo)
+    sight, ends = loop.see(model, bare, camera), []
+    try:
+        reach = loop.reach(model, loop.locate(model, bare, sight.box, camera))
+        hand = reach.hand(reach.calibrated)[-1]
+        ends = [(camera.project(hand)[0], "hand", "red")]
+        words = _describe_reach(camera, reach, hand)
+    except NoReach as why:
+        words = f"No reach: {why}."
+    boxes = [box for box in named_boxes(sight) if box[2] == "green"]
+    view = photo_view(photos.read_image(photo), boxes, ends)
+    return f"<div>{view}{note(f'{sight.summary}. {words}')}</div>"
+
+
+def _describe_reach(camera, reach, hand):
+    """Where a camera is, and the reach for what it shows, in words."""
+    high = 100 * (camera.position[1] - marker_sheet.CORNER[1])
+    ahead, _, right = 100 * reach.target
+    return (
+        f"The camera is {high:.0f} cm above the table. The shuttlecock is {ahead:.0f} cm ahead of "
+        f"the shoulder, {abs(right):.0f} cm to its {'right' if right > 0 else 'left'}. The trunk "
+        f"turns by {np.degrees(reach.turn):.0f}°, and the hand ends "
+        f"{norm_mm(hand - reach.target):.1f} mm from that place."
+    )
+
+
+def shares_within(errors, limit):
+    """Cumulative shares of errors, name -> (n,) in mm, up to a limit: a figure of steps."""
+    fig, ax = plt.subplots()
+    for name, values in errors.items():
+        share = np.arange(1, len(values) + 1) / len(values)
+        ax.step(np.sort(values), share, where="post", label=name)
+    ax.set(xlim=(0, limit), ylim=(0, 1), xlabel="place off by at most (mm)")
+    ax.set_ylabel("share of the photos")
+    ax.legend(loc="lower right")
+    return fig
+
+
+def shoulder_offset_mm(place, turn):
+    """How far the shoulder's forward line lies beside a place (3,) once the trunk has turned."""
+    shoulder, ahead = to_world([[0, 0, 0], [1, 0, 0]], turn)
+    (x, z), (along_x, along_z) = (place - shoulder)[[0, 2]], (ahead - shoulder)[[0, 2]]
+    return 1000 * abs(x * along_z - z * along_x)
+
+
+def sizes_view(photo, boxes):
+    """A photo with boxes (n, 4), the size (cm) of the first two, and how many boxes there are."""
+    sizes = 100 * photo.camera.sizes(boxes)
+    labels = [f"{size:.0f} cm" * (k < 2) for k, size in enumerate(sizes)]
+    marks = [(box, label, "orange") for box, label in zip(boxes, labels, strict=True)]
+    return f"<div>{photo_view(photo.image, marks[::-1])}{note(f'{len(boxes)} boxes')}</div>"
+
+
+def failure_bars(failures):
+    """Shares of the stages at which reaches failed, level -> (n,) names: stacked bars, a figure."""
+    fig, ax = panels(size=(5.5, 3.4))
+    fig.subplots_adjust(bottom=0.32)  # room for the legend
+    shares = {
+        stage: np.array([stages.count(stage) / len(stages) for stages in failures.values()])
+        for stage in FAILURES
+    }
+    left = np.zeros(len(failures))
+    for (stage, share), colour in zip(shares.items(), FAILURE_COLOURS, strict=True):
+        ax.barh(list(failures), share, left=left, label=FAILURES[stage], color=COLOURS[colour])
+        left += share
+    ax.set(xlim=(0, 1), xlabel="share of the test photos")
+    varied = list(failures).index("varied")
+    arrived, moving = (shares[stage][varied] for stage in ("", FAILURE_STAGES[-1]))
+    ax.set_title(f"varied: {1 - moving - arrived:.0%} fail by seeing, {moving:.0%} by moving")
+    fig.legend(ncols=3, loc="lower center")
+    return fig
+
+
+def failure_view(photo, sight):
+    """A photo with its kept boxes (orange), the most likely labelled, and the truth (green)."""
+    truth = (photo.boxes["shuttlecock"], "", "green")
+    return photo_view(photo.image, [*_labelled_boxes(sight), truth])
+
+
+def _labelled_boxes(sight):
+    """Boxes with their chance, by falling chance; of boxes that lie together, one is labelled."""
+    chances, boxes = sight.probability, sight.detections.boxes
+    corners = []
+    for k in np.argsort(-chances):
+        corner = boxes[k][:2]
+        crowded = any(np.all(abs(corner - other) < CROWDED) for other in corners)
+        corners.append(corner)
+        yield boxes[k], "" if crowded else f"{chances[k]:.0%}", "orange"
+
+
+def choices_view(photo, chosen):
+    """A photo with its true boxes, and the box or None that each model chose: model -> (4,)."""
+    colours = dict(zip(chosen, ("red", "blue"), strict=True))
+    boxes = [(box, "", "green") for box in photos.boxes_of(photo, "shuttlecock")]
+    boxes += [(box, "", colours[model]) for model, box in chosen.items() if box]
+    words = ", ".join(f"{colour} by {model}" for model, colour in colours.items())
+    return photo_view(photo.image, boxes), note(f"Green: the truth. Chosen {words}.")
+
+
+def answer_table(head, results):
+    """Each question about photos, and the share that each model answers right: a Markdown table."""
+    counts = [count_answers(found) for found in results.values()]
+    rows = [[question, *(share_text(*one[question]) for one in counts)] for question in counts[0]]
+    return table([head, *results], rows)
+
+
+def lesion_table():
+    """What the target boxes hold under each lesion, and how the reaches end: a Markdown table."""
+    objects, rows = ("shuttlecock", "cup", "neither", "nothing"), []
+    for lesion in LESIONS:
+        held, missed = load_outcomes(lesion)
+        counts = ["–"] * len(objects)  # a place, and no box
+        if lesion != "dorsal":
+            counts = [np.sum(held == name) for name in objects]
+        middle, near = np.nanmedian(missed), np.mean(missed <= 10)
+        reaches = np.isfinite(missed).sum()
+        rows.append([lesion, *counts, reaches, f"{middle:.0f}", f"{near:.0%}"])
+    heads = ["lesion", "for the shuttlecock", "the cup", "neither", "nothing"]
+    return table([*heads, "reaches", "median miss (mm)", "within 1 cm"], rows)
