@@ -48,6 +48,12 @@ def overlap(image, thing, corner):
     return photo_view(image, [(thing, "", "grey"), (box, "", colour), said])
 
 
+def describe_overlap(thing, corner):
+    """The same in words."""
+    box = np.concatenate([corner, corner + thing[2:] - thing[:2]])
+    return f"A box at {corner[0]:.0f}, {corner[1]:.0f}: IoU {iou(box, thing).item():.2f}."
+
+
 def overlap_in_page(image, thing):
     """The same for the page to work out (see `explore`)."""
     given = {"object": thing.tolist(), "edge": EDGE, "paint": ON_PHOTO}

@@ -23,7 +23,7 @@ from reproduce.training.detectors import (
     with_best_threshold,
 )
 from vmc_lib import photos
-from vmc_lib.boxes import MIN_IOU, iou
+from vmc_lib.boxes import MIN_IOU, iou, nms
 from vmc_lib.statistics import student
 from vmc_lib.where.detector import ObjectDetector
 from vmc_lib.where.recipes import RECIPES
@@ -125,6 +125,13 @@ def detect_photos(level, split, detector="published", folder=photos.FOLDER):
         detector = ObjectDetector.load(level, detector)
     for photo in photos.load(level, split, folder):
         yield detector.detect(photo.image, candidates(photo, detector.recipe.strategy))
+
+
+def keep_boxes(detections, threshold, overlap):
+    """The candidates (n, 4) with a score above a threshold that suppression keeps."""
+    good = detections.candidate_scores > threshold
+    boxes = detections.candidates[good]
+    return boxes[nms(boxes, detections.candidate_scores[good], overlap)]
 
 
 def table_2(level, split="test", overlap=MIN_IOU):

@@ -1,0 +1,119 @@
+"""Pictures and tables of the chapter on regions: crops, margins, weights, boxes and scores."""
+
+import numpy as np
+
+from book.figures.panels import panels
+from book.figures.where import bars, in_corner, right_and_wrong
+from reproduce.experiments import fresh_test_set, real_world
+from vmc_lib.boxes import iou
+from vmc_lib.show import COLOURS, dot_plot, photo_view, table
+from vmc_lib.statistics import wilson
+from vmc_lib.where.svm import KernelSVM
+
+CHANNELS = ("red", "green", "blue", "mean")
+MEASURES = ("precision", "recall")
+PRINTED_NAMES = {"linear": "linear", "rbf": "RBF", "poly": "polynomial"}  # in the paper's Table I
+FRESH_ROWS = (*fresh_test_set.KERNELS, *fresh_test_set.DETECTORS)
+QUALITIES = ("a good candidate", "a box on the shuttlecock", "a good box")
+
+
+def crop_sheet(crops, columns=8):
+    """Crops (n, 768) as small pictures in rows of so many: an image."""
+    tiles = np.pad(crops.reshape(-1, 16, 16, 3), [(0, 0), (1, 1), (1, 1), (0, 0)])
+    grid = tiles.reshape(-1, columns, 18, 18, 3).swapaxes(1, 2)
+    return grid.reshape(-1, 18 * columns, 3)
+
+
+def margin_plot(cost):
+    """Two clouds, the border that a linear SVM draws between them, and its margin: a figure."""
+    rng = np.random.default_rng(3)
+    side = np.repeat([True, False], 20)
+    clouds = rng.normal(size=(40, 2)) + np.where(side[:, None], 1.3, -1.3)
+    grid = np.stack(np.meshgrid(*[np.linspace(-4, 4, 81)] * 2), -1)
+    f = KernelSVM.fit(clouds, side, cost=cost).score(grid.reshape(-1, 2)).reshape(81, 81)
+    fig, ax = panels(size=(4, 3.3))
+    ax.contour(*grid.T, f.T, [-1, 0, 1], colors=COLOURS["grey"], linestyles=["--", "-", "--"])
+    ax.plot(*clouds[side].T, "o", label="something")
+    ax.plot(*clouds[~side].T, "s", label="table")
+    ax.set(xticks=[], yticks=[], aspect="equal")
+    return fig
+
+
+def weight_map(weights, channel):
+    """A channel of weights (16, 16, 3), or their mean: a heat map with a colour bar, a figure."""
+    channels = np.dstack([weights, weights.mean(2)])
+    limit = abs(weights).max()
+    fig, ax = panels(size=(4, 3.3))
+    shown = channels[..., CHANNELS.index(channel)]
+    fig.colorbar(ax.imshow(shown, cmap="PuOr", vmin=-limit, vmax=limit))
+    ax.set_axis_off()
+    return fig
+
+
+def kept_view(photo, kept, rates):
+    """A photo with its kept boxes (n, 4), right or wrong, beside precision and recall as bars."""
+    shares = dict(zip(MEASURES, rates, strict=True))
+    return right_and_wrong(photo.image, kept, photo.boxes), bars(shares)
+
+
+def counted_boxes(image, boxes):
+    """An image with boxes (n, 4), and how many they are."""
+    marks = [(box, "", "orange") for box in boxes]
+    return photo_view(image, [in_corner(f"{len(boxes)} boxes"), *marks])
+
+
+def regress(detector, image, thing, corner, rounds):
+    """A box from `corner`, 0.9 times as large as a thing's (4,), corrected; and its IoU with it."""
+    box = np.concatenate([corner, corner + 0.9 * (thing[2:] - thing[:2])])
+    box = detector.regress(image, box[None], rounds)
+    return box[0], iou(box, thing).item()
+
+
+def regressed_view(detector, image, thing, corner, rounds):
+    """An image with a thing's box, a corrected one (see `regress`), and their IoU."""
+    box, shared = regress(detector, image, thing, np.array(corner), rounds)
+    colour = "green" if round(shared, 2) >= 0.8 else "orange"
+    words = (*in_corner(f"IoU {shared:.2f}")[:2], colour)
+    return photo_view(image, [(thing, "", "grey"), (box, "", colour), words])
+
+
+def kernel_plot(test, in_sample, measure, printed):
+    """Table I as a dot plot: kernel -> (trainings, 2) on either photos; `printed` by the paper."""
+    part = MEASURES.index(measure)
+    series = {"test": test, "in-sample": in_sample}
+    series = {
+        split: {kernel: draws[:, part] for kernel, draws in rows.items()}
+        for split, rows in series.items()
+    }
+    ticks = {kernel: printed[name][part] for kernel, name in PRINTED_NAMES.items() if printed}
+    return dot_plot(series, measure, ticks, (0, 1.02))
+
+
+def recipe_plot(rows, overlap):
+    """Table II as a dot plot: recipe -> (precision, recall) at an overlap."""
+    series = {
+        measure: {recipe: rates[part] for recipe, rates in rows.items()}
+        for part, measure in enumerate(MEASURES)
+    }
+    return dot_plot(series, f"at an overlap of {overlap}", None, (0, 1.02))
+
+
+def fresh_plot(level, measure):
+    """Shares on the fresh test set, and what forty photos would know of them: a dot plot."""
+    counts, part = fresh_test_set.load_counts(), MEASURES.index(measure)
+    rows = {row: fresh_test_set.rates(*counts[row][level])[part] for row in FRESH_ROWS}
+    few = {row: (share, *wilson(80 * share, 80)) for row, (share, *_) in rows.items()}
+    series = {"fresh photos": rows, "40 photos": few}
+    return dot_plot(series, f"{measure}, {level}", None, (0, 1.02))
+
+
+def photograph_table():
+    """How often each detector's boxes fit a shuttlecock in photographs: a Markdown table."""
+    rows = []
+    for model in real_world.MODELS:
+        for split in real_world.SPLITS:
+            counts = real_world.count_answers(real_world.load_results(model, split))
+            tuned = (model, split) == ("real", "validation")
+            name = f"{model}, {split}{' (partly in-sample)' * tuned}"
+            rows.append([name, *(real_world.share_text(*counts[q]) for q in QUALITIES)])
+    return table(["detector, photos with a shuttlecock", *QUALITIES], rows)
