@@ -43,6 +43,11 @@ def norm_mm(vectors):
     return 1000 * np.linalg.norm(vectors, axis=-1)
 
 
+def mean_mm(endpoints, targets):
+    """Mean distance (…,) in mm of endpoints (…, n, 2) from targets (n, 2), in m."""
+    return norm_mm(endpoints - targets).mean(axis=-1)
+
+
 def threads(ax, tails, tips, **style):
     """Straight lines from tails (…, 2) to tips (n, 2); `style` as for a LineCollection."""
     ax.add_collection(LineCollection(np.stack(np.broadcast_arrays(tails, tips), axis=1), **style))

@@ -54,6 +54,13 @@ def voted(target=None, neurons=4, evenly=True):
     return fig
 
 
+def votes_in_words(target, neurons, evenly):
+    """The same for those who cannot see it."""
+    reach = ", ".join(f"{x:.2f}".replace("-", "−") for x in target)
+    off = f"{lean(target, neurons, evenly):.0f}° off"
+    return f"Votes of {neurons} neurons for a reach to {reach}; their sum is {off}."
+
+
 def voted_in_page():
     """The same for the page to work out (see `explore`)."""
     return "votes", voted, {}

@@ -1,0 +1,204 @@
+"""Figures of the chapter on off-line calibration: a miss, its correction, trial after trial."""
+
+from functools import partial
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+from book.figures.panels import curves, panels
+from book.figures.reaching import corrections, ends, mean_mm, reaches
+from vmc_lib.arm.dynamics import hand
+from vmc_lib.arm.kinematics import inverse_kinematics
+from vmc_lib.arm.simulate import Perturbation
+from vmc_lib.cerebellum.offline import GAINS, algorithm_1, broyden_calibration
+from vmc_lib.motor.execution import execute
+from vmc_lib.motor.planning import least_change
+from vmc_lib.motor.templates import START
+from vmc_lib.show import table
+from vmc_lib.show.arm import arm_scene
+from vmc_lib.show.palette import COLOURS
+
+SIDE_BY_SIDE = 2, (8.2, 3.6)  # the plane, and curves
+FOUR = 0.06 * np.array([[1, -7], [2, -7], [2, -6], [1, -6]])  # templates round a target, m
+FIFTH = range(0, 21, 5)  # every fifth n
+GRIDS = {"n = 0 only": (0,), "every fifth n": FIFTH, "every n": GAINS}
+ORIGINS = {  # where Eq. 7 may measure from, m
+    "shoulder": (0, 0),
+    "eye": (0.10, 0.25),
+    "resting hand": hand(START)[:2],
+    "ground": (0, -0.8),
+}
+SIGNS = {"hand to target": 1, "target to hand": -1}
+
+
+def change_above(above):
+    """The least change (4,) of the weights of `FOUR` where the hand is `above` m too high."""
+    return least_change(FOUR.T, np.array([0, -above]))
+
+
+def miss_above(above):
+    """That change, where the target lies in the middle of `FOUR`."""
+    target = FOUR.mean(axis=0)
+    hand_at = target + np.array([0, above])
+    fig, ax = plt.subplots(figsize=(4.6, 4.6))
+    corrections(ax, target, hand_at, FOUR, change_above(above))
+    ends(ax, target, hand_at)
+    return fig
+
+
+def correction(plan, trials, n):
+    """Fig. 4 for Algorithm 1's `trials` of one plan: the change with n, and the error against n."""
+    before, *errors = 1000 * trials.error
+    fig, left, right = panels(*SIDE_BY_SIDE)
+    change = trials.weights[1 + n] - plan.weights
+    corrections(left, plan.target, trials.endpoint[0], plan.points, change)
+    ends(left, plan.target, trials.endpoint[1 + n])
+    right.plot(GAINS, errors, gid="with each n")
+    right.axhline(before, color=COLOURS["grey"], ls="--")
+    right.plot(n, errors[n], "o", color=COLOURS["red"], gid="this n")
+    right.set(xlabel="n", ylim=(0, None), title=f"error {errors[n]:.1f} mm")
+    return fig
+
+
+def error_ratio(trials):
+    """Mean error of the best trials of each reach, over the planned one."""
+    return trials.error.min(axis=0).mean() / trials.error[0].mean()
+
+
+def before_and_after(printed, ours):
+    """A table of errors before and after a calibration, (2, n): the paper's, and ours in mm."""
+    rows = [
+        (k, f"{a:.4f} → {b:.4f} ({b / a:.2f})", f"{c:.1f} → {d:.1f} mm ({d / c:.2f})")
+        for k, (a, b, c, d) in enumerate(zip(*printed, *ours, strict=True), start=1)
+    ]
+    return table(["example", "the paper (ratio)", "ours (ratio)"], rows)
+
+
+def readings(plan):
+    """Algorithm 1's `Trials` of a plan by each reading of Eq. 6–7: (origin, sign) -> trials."""
+    return {
+        (origin, sign): algorithm_1(plan, FIFTH, place, direction)
+        for origin, place in ORIGINS.items()
+        for sign, direction in SIGNS.items()
+    }
+
+
+def best_of_each(plan, readings, origin, error_points):
+    """Hands after each target's best n; and the mean error where all use one n of `FIFTH`."""
+    fig, left, right = panels(*SIDE_BY_SIDE)
+    trials = readings[origin, error_points]
+    winner = trials.error.argmin(axis=0), np.arange(len(plan.target))
+    title = f"after / planned = {error_ratio(trials):.2f}"
+    in_plane(left, plan, trials.endpoint[winner], title)
+    planned, *tried = trials.error.mean(axis=1)
+    right.plot(FIFTH, tried / planned, "o-")
+    right.axhline(1, color=COLOURS["grey"], ls="--")
+    right.set(xlabel="n, the same for all", ylabel="mean error / planned", ylim=(0, 3))
+    return fig
+
+
+def repeat_algorithm_1(plan, keep, rounds=4):
+    """Endpoints (rounds + 1, n, 2) by Algorithm 1 upon Algorithm 1, for each of `GRIDS`.
+
+    With `keep` the weights before a round are among its tries.
+    """
+    first, everyone = 0 if keep else 1, np.arange(len(plan.target))
+    endpoints = {}
+    for name, gains in GRIDS.items():
+        start, ends_at = plan, [execute(plan).endpoint]
+        for _ in range(rounds):
+            trials = algorithm_1(start, gains)
+            winner = first + trials.error[first:].argmin(axis=0), everyone
+            start = start.with_weights(trials.weights[winner])
+            ends_at.append(trials.endpoint[winner])
+        endpoints[name] = np.array(ends_at)
+    return endpoints
+
+
+def after_trial(plan, rules, trial, rule):
+    """Hands after a trial of one rule; the mean errors of all against the extra reaches made.
+
+    `rules` maps a name to endpoints (trials, n, 2), and how many reaches a trial takes.
+    """
+    fig, left, right = panels(*SIDE_BY_SIDE)
+    for name, (endpoints, cost) in rules.items():
+        errors = mean_mm(endpoints, plan.target)[: trial + 1]
+        right.plot(cost * np.arange(trial + 1), errors, ".-", label=name)
+    endpoints, cost = rules[rule][0][trial], rules[rule][1] * trial
+    now = mean_mm(endpoints, plan.target)
+    curves(right, (), {}, now=(cost, now))
+    in_plane(left, plan, endpoints, f"extra reaches: {cost}, mean error {now:.2g} mm")
+    right.set(xlabel="extra reaches", xlim=(-1, 21), yscale="log")
+    right.set_yticks([10, 1, 0.1, 0.01], ["10", "1", "0.1", "0.01"])
+    right.legend(title="mean error (mm)")
+    return fig
+
+
+def reaches_until(mm, plan, rules):
+    """Extra reaches by each rule (see `after_trial`) until its mean error is below so many mm.
+
+    Infinite where it never is.
+    """
+    errors = {name: mean_mm(endpoints, plan.target) for name, (endpoints, _) in rules.items()}
+    return {
+        name: rules[name][1] * min(np.flatnonzero(error < mm), default=np.inf)
+        for name, error in errors.items()
+    }
+
+
+def after_rounds(plan, rounds_by, rounds, n, keep):
+    """Hands after so many rounds with one grid of n; the mean errors of all against the rounds.
+
+    `rounds_by[keep]` is what `repeat_algorithm_1` returned.
+    """
+    fig, left, right = panels(*SIDE_BY_SIDE)
+    errors = {name: mean_mm(ends, plan.target) for name, ends in rounds_by[keep].items()}
+    now = errors[n][rounds]
+    in_plane(left, plan, rounds_by[keep][n][rounds], f"mean error {now:.1f} mm")
+    curves(right, range(5), errors, now=(rounds, now))
+    right.set(xlabel="rounds", ylabel="mean error (mm)", ylim=(0, 25))
+    return fig
+
+
+def errors_with_load(plan, load):
+    """Errors in mm, (9, n), of Broyden calibration with a load in kg: guarded -> errors."""
+    move = partial(execute, perturbation=Perturbation(load))
+    return {
+        guarded: 1000 * broyden_calibration(plan, 8, guarded=guarded, execute=move).error
+        for guarded in (True, False)
+    }
+
+
+def best_so_far(errors):
+    """Mean over the targets of the least error up to each trial, (trials,), for (trials, n)."""
+    return np.minimum.accumulate(errors).mean(axis=1)
+
+
+def with_guards(errors):
+    """Mean errors in mm, (trials, n) over the targets: of each trial, and of the best so far."""
+    best = best_so_far(errors)
+    fig, ax = panels(size=(5.5, 3.2))
+    fig.subplots_adjust(left=0.17)  # room for 0.0001
+    ax.plot(errors.mean(axis=1), ".:", color=COLOURS["grey"], label="this trial")
+    ax.plot(best, ".-", color=COLOURS["red"], label="the best so far")
+    ax.set(xlabel="trial", ylabel="mean error (mm)", yscale="log", ylim=(1e-4, 1000))
+    ax.yaxis.set_major_formatter("{x:g}")
+    ax.set_title(f"before: {in_mm(best[0])}; best of eight: {in_mm(best[-1])}")
+    ax.legend()
+    return fig
+
+
+def in_mm(error):
+    """An error in mm as text, with two digits; below what the simulation can tell, as that."""
+    return f"{error:.2g} mm" if error >= 1e-4 else "below 0.0001 mm"
+
+
+def in_plane(ax, plan, endpoints, title):
+    """The reaches of a plan, (n, 2), among its templates."""
+    reaches(ax, plan.template_set.points, plan.target, endpoints, title)
+
+
+def reach_scene(motion, target):
+    """The arm making a reach, the `Motion` of one movement: target (2,) green, end red."""
+    balls = [(hand(inverse_kinematics(target)), "green"), (motion.hand[-1], "red")]
+    return arm_scene(motion.q, motion.activation, balls=balls)
