@@ -1,0 +1,226 @@
+"""Figures of the chapter on online calibration: learning curves, granule cells, changed worlds."""
+
+import numpy as np
+from matplotlib.collections import PolyCollection
+
+from book.figures.offline import SIDE_BY_SIDE, in_plane, reach_scene
+from book.figures.panels import curves, panels
+from book.figures.reaching import mean_mm, reaches
+from reproduce.experiments.calibration import SCENARIOS, ratio_name
+from reproduce.experiments.controller_comparison import MOVEMENTS
+from reproduce.experiments.online_calibration import BLOCKS, CURES, STEPS, remaining
+from vmc_lib.cerebellum.online import GranuleCells
+from vmc_lib.motor.execution import rotate_about_eye
+from vmc_lib.show import note, table
+from vmc_lib.show.palette import COLOURS
+
+PERIODS = {  # blocks of an adaptation
+    "at first": [2],
+    "after 8 to 24 movements": [3, 4, 5],
+    "after 40 to 56": [7, 8, 9],
+    "change taken away": [10],
+    "40 later": [15],
+}
+
+
+def progress(plans, history, steps, now, movements):
+    """Hands at the step `now`; and what is left of the planned error, up to this step.
+
+    `plans` and `history` by name, as `learn` takes and returns them.
+    """
+    fig, left, right = panels(*SIDE_BY_SIDE)
+    k, shares = steps.index(now), remaining(history, plans)
+    share = shares[movements][k]
+    title = f"{share:.2f} of the planned error"
+    in_plane(left, plans[movements], history[movements][k], title)
+    curves(right, steps, {name: y[: k + 1] for name, y in shares.items()}, now=(now, share))
+    right.set(ylabel="error / planned error", ylim=(0, 1.05))
+    right.set_xlim(-0.04 * steps[-1], 1.04 * steps[-1])
+    right.legend(loc="upper right")
+    return fig
+
+
+def after_experiment(plans, linear, published, experiment, movements, step_5, templates_are):
+    """`progress` of Algorithm 2, by scenario; dashed, the ratio that the paper printed.
+
+    `linear` holds a history for each reading of its step 5 and each scenario.
+    """
+    history = linear[step_5][templates_are]
+    fig = progress(plans[templates_are], history, range(6), experiment, movements)
+    fig.axes[1].axhline(published, ls="--", color=COLOURS["grey"])
+    fig.axes[1].set_xlabel("experiments of 25 movements")
+    return fig
+
+
+def after_movements(plans, granule, linear, movements, templates_are, measured_on):
+    """`progress` of granule cells, by scenario; dotted, that of Algorithm 2 (`linear`)."""
+    some = plans[templates_are]
+    fig = progress(some, granule[templates_are], STEPS, movements, measured_on)
+    line = remaining(linear[templates_are], some)[measured_on]
+    look = dict(color=COLOURS["grey"], gid="Algorithm 2")
+    fig.axes[1].plot(STEPS[: len(line)], line, ":", **look)
+    fig.axes[1].set_xlabel("movements (dotted: Algorithm 2)")
+    return fig
+
+
+def by_reading(draws, experiments):
+    """What either reading of step 5 leaves of the error, six draws: reading -> row -> (6,)."""
+    rules = {"as printed": "online", "right for the target": "online, the other reading"}
+    return {
+        reading: {
+            f"{scenario}, {on}": draws[scenario][f"{rule}, {ratio_name(experiments, on)}"]
+            for scenario in SCENARIOS
+            for on in ("in-sample", "held-out")
+        }
+        for reading, rule in rules.items()
+    }
+
+
+def predict_line(places, aside, x, order, width, lessons):
+    """What 40 granule cells say at x (n,) of a line, after so many lessons in an `order` (n,).
+
+    A lesson is a place (n, 1) where the hand ended, in m, and how far `aside` (n,) to aim, in mm.
+    """
+    some = order[:lessons]
+    cells = GranuleCells(width, cells=40).fit(places[some], aside[some])
+    return cells.predict(x[:, None])
+
+
+def off_by(places, aside, x, order, width, lessons):
+    """How far that is from what the arm needs, in mm, on average over the line."""
+    needed = np.interp(x, places[:, 0], aside)
+    return np.abs(predict_line(places, aside, x, order, width, lessons) - needed).mean()
+
+
+def bells(places, aside, x, order, width, lessons):
+    """What the arm needs along a line, and what granule cells have learned of it."""
+    data = places, aside, x, order, width, lessons
+    fig, ax = panels(size=(6.5, 3.4))
+    _grey_bells(ax, width, x)
+    lines = (
+        (places[:, 0], aside, "-", "grey", "what the arm needs"),
+        (x, predict_line(*data), "-", "red", "the Purkinje cell's sum"),
+        (places[order[:lessons], 0], aside[order[:lessons]], "o", "blue", "lessons"),
+    )
+    for at, mm, style, colour, label in lines:
+        ax.plot(at, mm, style, color=COLOURS[colour], label=label)
+    ax.set(xlabel="where the hand ends, forward (m)", ylabel="aim aside (mm)", ylim=(-3, 16))
+    ax.set_title(f"off by {off_by(*data):.2f} mm on average")
+    fig.subplots_adjust(bottom=0.26)  # room for the legend
+    fig.legend(loc="lower center", ncols=3)
+    return fig
+
+
+def _grey_bells(ax, width, x):
+    """What some of the cells respond to."""
+    at = np.linspace(x[0], x[-1], 150)
+    away = at - np.linspace(0, 0.24, 13)[:, None]
+    heights = 3 * np.exp(-(away**2) / (2 * width**2)) - 3
+    heights[:, [0, -1]] = -3  # each ends at its foot
+    outlines = np.stack(np.broadcast_arrays(at, heights), axis=-1)
+    grey = PolyCollection(outlines, color=COLOURS["grey"], alpha=0.12, lw=0)
+    ax.add_collection(grey, autolim=False)
+
+
+def choose_width(plans, endpoints, width, movements):
+    """Hands with cells of one width; the mean error of each set of movements against the width."""
+    fig, left, right = panels(*SIDE_BY_SIDE)
+    errors = errors_by_width(plans, endpoints)
+    now, widths = errors[movements][width], list(errors[movements])
+    in_plane(left, plans[movements], endpoints[movements][width], f"mean error {now:.2f} mm")
+    wider = widths[widths.index(width) :]
+    curves(right, wider, {k: [mm[w] for w in wider] for k, mm in errors.items()}, now=(width, now))
+    right.set(xscale="log", xlabel="granule cells' width (m)", title="mean error (mm)")
+    highest = max(max(mm.values()) for mm in errors.values())
+    right.set(xlim=(0.8 * widths[0], 1.25 * widths[-1]), ylim=(0, 1.1 * highest))
+    right.set_xticks(widths, widths, minor=False)
+    right.legend(loc="upper right")
+    return fig
+
+
+def errors_by_width(plans, endpoints):
+    """Mean error in mm, name -> width -> number, for plans and endpoints of the same names."""
+    return {
+        name: {width: mean_mm(ends, plans[name].target) for width, ends in by_width.items()}
+        for name, by_width in endpoints.items()
+    }
+
+
+def attempt_scene(attempts, attempt, online, offline):
+    """One of the `lesions`, and by how much it misses."""
+    movement = attempts[online, offline][int(attempt[0]) - 1]
+    words = note(f"misses by {1000 * movement.error:.1f} mm")
+    return reach_scene(movement.motion, movement.plan.target), words
+
+
+def misses_by_lesion(attempts):
+    """Misses in mm of both attempts of many reaches: attempt -> lesion -> (n,); see `lesions`."""
+    names = {
+        (online, offline): f"online {'kept' if online else 'lost'}, "
+        f"off-line {'kept' if offline else 'lost'}"
+        for online, offline in attempts
+    }
+    return {
+        f"{ordinal} attempt": {names[kept]: 1000 * both[k].error for kept, both in attempts.items()}
+        for k, ordinal in enumerate(("1st", "2nd"))
+    }
+
+
+def adaptation(templates, adapting, block, change, cure):
+    """Hands in a block of a `Curve`; the mean error of each block, dotted where nothing learns."""
+    fig, left, right = panels(*SIDE_BY_SIDE)
+    curve, untaught = adapting[change, cure], adapting[change, CURES[-1]]
+    errors = 1000 * curve.error
+    reaches(left, templates, curve.target[block], curve.endpoint[block])
+    first, last = BLOCKS[0] - 0.5, sum(BLOCKS[:2]) - 0.5
+    right.axvspan(first, last, color=COLOURS["grey"], alpha=0.15, lw=0)
+    right.plot(1000 * untaught.error, ":", color=COLOURS["grey"], gid=CURES[-1])
+    curves(right, range(len(errors)), {f"correct the {cure}": errors}, now=(block, errors[block]))
+    right.set(xlabel="block of 8 movements", ylabel="mean error (mm)")
+    right.set(xticks=range(0, 16, 5), ylim=(0, 110))
+    right.set_title(f"block {block}: mean error {errors[block]:.0f} mm")
+    return fig
+
+
+def adapted_scene(movements, change, state):
+    """A reach in a changed world or after it; its target is where a prism does not show it."""
+    movement = movements[change, state]
+    [motion], [target] = movement.motion, movement.plan.target
+    return reach_scene(motion, rotate_about_eye(target, -movement.prism))
+
+
+def periods_table(draws, names):
+    """A table of mean errors in mm in `PERIODS`, six draws; `names` maps worlds to their names."""
+    rows = [
+        [name, cure, *(draws[f"{world}, {cure}"][:, k].mean(axis=1) for k in PERIODS.values())]
+        for world, name in names.items()
+        for cure in CURES[:-1]
+    ]
+    return table(["change", "corrected", *PERIODS], rows)
+
+
+def after_effects_table(ends, target):
+    """A table of mean misses in mm; `ends` maps a world and a cure to `after_effects`."""
+    rows = []
+    for key, (first, left, after) in ends.items():
+        misses = [mean_mm(each, target) for each in (first, left, after)]
+        rows.append([*key, *(f"{mm:.0f} mm" for mm in (*misses, mean_mm(left, first)))])
+    heads = ["change", "corrected", "first miss", "left", "taken away", "correction moves it by"]
+    return table(heads, rows)
+
+
+def peers_table(peers):
+    """A table of what `controller_comparison` shipped, each learner a row: means of six draws."""
+    measured_on = "in-sample", "held-out", "held-out, noisy arm"
+    [own, *_] = peers.values()
+    rows = [
+        [
+            name,
+            *(" → ".join(f"{draws[on][:, k].mean():.2f}" for k in (0, -1)) for on in measured_on),
+            draws["seconds"].mean() / own["seconds"].mean(),
+            int(draws["numbers"][0]),
+        ]
+        for name, draws in peers.items()
+    ]
+    left = f"left after {MOVEMENTS[0]} → {MOVEMENTS[-1]}"
+    return table([left, *measured_on, "time / ours", "numbers remembered"], rows)
