@@ -208,7 +208,7 @@ def form(legend, buttons, controls, tells):
         f'<button type="button" name="{name}" disabled>{text}</button>'
         for name, text in buttons.items()
     )
-    told = "".join(
+    readings = "".join(
         f'<div><dt>{label}</dt><dd data-tell="{name}">–</dd></div>' for name, label in tells.items()
     )
     size = f"{MUJOCO.stat().st_size / 1e6:.1f} MB"
@@ -218,7 +218,7 @@ def form(legend, buttons, controls, tells):
         f'<div><button type="button" name="main">Start the arm</button>{closed}</div>'
         f'<p role="status">{physics} is loaded when you start.</p>'
         f'<fieldset disabled><legend class="vmc-spoken">{legend}</legend>{controls}</fieldset>'
-        f"<dl>{told}</dl></form>"
+        f"<dl>{readings}</dl></form>"
     )
 
 

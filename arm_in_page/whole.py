@@ -24,5 +24,5 @@ def live_whole_arm(arm, draw, zone, target, caption, alt):
     name = next(names)
     rule = '<input type="hidden" name="rule" value="broydenCalibration">'
     controls = target_sliders(name, zone, target) + plans() + rule
-    told = form("Target and plan", {"calibrate": "Correct"}, controls, TELLS)
-    show(name, "reach", draw, told, arm | {"calibration": CALIBRATION}, caption, alt)
+    controls_form = form("Target and plan", {"calibrate": "Correct"}, controls, TELLS)
+    show(name, "reach", draw, controls_form, arm | {"calibration": CALIBRATION}, caption, alt)

@@ -76,10 +76,10 @@ def execute_what_changed(app, env, names):
                 bundle = CacheBundleIn(notebook, page, data={"execution_seconds": seconds})
                 cache.cache_notebook_bundle(bundle, check_validity=False, overwrite=True)
     if failed:
-        told = "\n".join(["These chapters failed:", *failed, REMEDY])
+        message = "\n".join(["These chapters failed:", *failed, REMEDY])
         failures = Path(app.outdir).parent / ".failed"  # which make shows last
-        failures.write_text(f"{told}\n", encoding="utf-8")
-        raise ExtensionError(told)
+        failures.write_text(f"{message}\n", encoding="utf-8")
+        raise ExtensionError(message)
 
 
 REMEDY = "Open them with `make lab`, run them to that cell, and mend it or what it imports."
@@ -95,11 +95,11 @@ def known(cache, page):
 def execute(page, timeout):
     """The executed notebook, its seconds, and where and how it failed, or None."""
     notebook = nbformat.read(page, as_version=4)
-    told = {
+    options = {
         "extra_arguments": ["--IPKernelApp.log_level=ERROR"],  # or it warns that loopback is plain
         "force_raise_errors": True,  # also where a reader's error does not stop Run All
     }
-    result = single_nb_execution(notebook, page.parent, timeout, allow_errors=False, **told)
+    result = single_nb_execution(notebook, page.parent, timeout, allow_errors=False, **options)
     return notebook, result.time, result.err and where(notebook, result.err)
 
 

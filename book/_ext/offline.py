@@ -25,11 +25,11 @@ def setup(app):
 def launch(app, config):
     """Give a chapter buttons that open it elsewhere, if the repository has a public address.
 
-    It is the one in _config.yml, else the one that a build on GitHub is told.
+    It is the one in _config.yml, else the one that a build on GitHub gets.
     """
-    options, told = config.html_theme_options, os.environ
-    if not options.get("repository_url") and "GITHUB_REPOSITORY" in told:
-        options["repository_url"] = "{GITHUB_SERVER_URL}/{GITHUB_REPOSITORY}".format_map(told)
+    options, env = config.html_theme_options, os.environ
+    if not options.get("repository_url") and "GITHUB_REPOSITORY" in env:
+        options["repository_url"] = "{GITHUB_SERVER_URL}/{GITHUB_REPOSITORY}".format_map(env)
     if not options.get("repository_url"):
         options.pop("launch_buttons", None)
 

@@ -50,7 +50,7 @@ def definitions(text):
     """The glossary's text, its sections as Sphinx's own definitions."""
     first, *rest = HEAD.split(TERM.sub(_term, text))
     pairs = zip(rest[::2], rest[1::2], strict=True)
-    defined = "\n\n".join(f"{head}\n{indent(told.strip(), '  ')}" for head, told in pairs)
+    defined = "\n\n".join(f"{head}\n{indent(text.strip(), '  ')}" for head, text in pairs)
     return f"{first}```{{glossary}}\n{defined}\n```\n"
 
 

@@ -86,7 +86,7 @@ const vmcPanel = (() => {
     view.listeners.push((pose) => {
       if (!pose) return;
       const rows = [["shoulder", degrees(pose.q[0])], ["elbow", degrees(pose.q[1])]];
-      const { target } = view.told;
+      const { target } = view.settings;
       if (target) {
         const off = vmcAnatomy.distance(view.anatomy.wrist(pose.q, pose.turn), target);
         rows.push(["hand to target", `${(1000 * off).toFixed(1)} mm`]);
@@ -123,7 +123,7 @@ const vmcPanel = (() => {
     view.listeners.push((pose) => {
       if (!pose) return;
       const chips = [...box.querySelectorAll("label")];
-      const { motion } = view.told;
+      const { motion } = view.settings;
       if (drawn !== motion) chips.forEach((chip, k) => trace(chip, motion.activation.map((a) => a[k])));
       drawn = motion;
       chips.forEach((chip, k) => {
@@ -162,7 +162,7 @@ const vmcPanel = (() => {
     const fill = () => {
       if (!view.anatomy || box.childElementCount) return;
       box.append(clock(views), numbers(view), muscles(view));
-      if (view.told.target) box.append(element(`<p class="vmc-note">${WRIST}</p>`));
+      if (view.settings.target) box.append(element(`<p class="vmc-note">${WRIST}</p>`));
       view.at(view.wanted);
     };
     view.listeners.push(fill);

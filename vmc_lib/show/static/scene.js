@@ -29,7 +29,7 @@ const vmcScene = (() => {
     constructor(div) {
       this.div = div;
       this.messages = [];
-      this.told = {}; // what the scene says beside meshcat's commands, by name
+      this.settings = {}; // what the scene says beside meshcat's commands, by name
       this.turned = this.raised = 0; // degrees
       this.wanted = Infinity; // s: a movement is first shown at its end
       this.listeners = [];
@@ -108,11 +108,11 @@ const vmcScene = (() => {
     show(messages) {
       this.messages = messages;
       const next = new Map(messages.map((message) => message.split("|")));
-      const told = [...next].filter(([key]) => !key.includes(" "));
-      this.told = Object.fromEntries(told.map(([key, data]) => [key, JSON.parse(data)]));
-      if (this.told.anatomy) this.anatomy = new vmcAnatomy.Anatomy(this.told.anatomy);
+      const pairs = [...next].filter(([key]) => !key.includes(" "));
+      this.settings = Object.fromEntries(pairs.map(([key, data]) => [key, JSON.parse(data)]));
+      if (this.settings.anatomy) this.anatomy = new vmcAnatomy.Anatomy(this.settings.anatomy);
       if (this.viewer) this.send(next);
-      const { motion } = this.told;
+      const { motion } = this.settings;
       if (motion) this.body?.draw(motion.q.map((q, i) => this.anatomy.wrist(q, motion.turn[i])));
       this.at(this.wanted);
       if (this.viewer) this.look();
@@ -126,7 +126,7 @@ const vmcScene = (() => {
           this.viewer.handle_command_bytearray(Uint8Array.from(atob(data), (c) => c.charCodeAt(0)));
           this.sent.set(key, data);
         }
-      if (this.told.anatomy && !this.body)
+      if (this.settings.anatomy && !this.body)
         this.body = new vmcBody.Body(this.viewer, this.anatomy, bones);
     }
 
@@ -141,21 +141,21 @@ const vmcScene = (() => {
 
     /* How long the scene's movement takes, in s. */
     get duration() {
-      return this.told.motion ? (this.told.motion.q.length - 1) * this.told.anatomy.every : 0;
+      return this.settings.motion ? (this.settings.motion.q.length - 1) * this.settings.anatomy.every : 0;
     }
 
     /* Show the scene as it is at a time of its movement, between two moments a mixture. */
     at(time) {
       this.wanted = time;
       this.time = Math.min(time, this.duration);
-      const { motion, anatomy } = this.told;
+      const { motion, anatomy } = this.settings;
       if (motion) this.pose(vmcAnatomy.moment(motion, this.time / anatomy.every));
     }
 
-    /* Put the arm into a pose { q, activation, turn, grasp }; who listens is told. */
+    /* Put the arm into a pose { q, activation, turn, grasp }; listeners are called. */
     pose(pose) {
       this.posed = pose;
-      this.body?.pose(pose, this.time / this.told.anatomy?.every);
+      this.body?.pose(pose, this.time / this.settings.anatomy?.every);
       this.listeners.forEach((listen) => listen(pose));
     }
 
@@ -167,7 +167,7 @@ const vmcScene = (() => {
     }
 
     look() {
-      const [eye, at] = this.told.camera ?? [[0, 0, 1], [0, 0, 0]];
+      const [eye, at] = this.settings.camera ?? [[0, 0, 1], [0, 0, 0]];
       const { camera, controls } = this.viewer;
       const [x, y, z] = eye.map((e, i) => e - at[i]);
       const level = Math.hypot(x, z);
