@@ -166,15 +166,15 @@ def misses_by_lesion(attempts):
     }
 
 
-def adaptation(templates, adapting, block, change, cure):
+def adaptation(templates, adaptations, block, change, cure):
     """Hands in a block of a `Curve`; the mean error of each block, dotted where nothing learns."""
     fig, left, right = panels(*SIDE_BY_SIDE)
-    curve, untaught = adapting[change, cure], adapting[change, CURES[-1]]
+    curve, baseline = adaptations[change, cure], adaptations[change, CURES[-1]]
     errors = 1000 * curve.error
     reaches(left, templates, curve.target[block], curve.endpoint[block])
     first, last = BLOCKS[0] - 0.5, sum(BLOCKS[:2]) - 0.5
     right.axvspan(first, last, color=COLOURS["grey"], alpha=0.15, lw=0)
-    right.plot(1000 * untaught.error, ":", color=COLOURS["grey"], gid=CURES[-1])
+    right.plot(1000 * baseline.error, ":", color=COLOURS["grey"], gid=CURES[-1])
     curves(right, range(len(errors)), {f"correct the {cure}": errors}, now=(block, errors[block]))
     right.set(xlabel="block of 8 movements", ylabel="mean error (mm)")
     right.set(xticks=range(0, 16, 5), ylim=(0, 110))
