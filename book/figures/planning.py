@@ -38,7 +38,8 @@ def planned_reach(movement):
 def parts_of_miss(rule, spacing, number):
     """The parts of each miss that the weights and the arm have, as arrows; `spacing` in cm."""
     mixed, reached = mixed_and_reached(rule, spacing / 100, number)
-    by_arm, by_weights, in_all = _means(rule, spacing, number)
+    parts = reached - mixed, mixed - TARGETS, reached - TARGETS
+    by_arm, by_weights, in_all = (norm_mm(part).mean() for part in parts)
     fig, ax = plt.subplots(figsize=(6.5, 4.8))
     plane(ax, templates.load(spacing / 100).points, within=((-0.02, 0.2), (-0.51, -0.29)))
     arrows(ax, mixed, reached, "orange", f"the arm: {by_arm:.1f} mm")
@@ -48,17 +49,6 @@ def parts_of_miss(rule, spacing, number):
     ax.set_xticks([0, 0.1, 0.2])
     ax.set_title(f"mean miss {in_all:.1f} mm")
     return fig
-
-
-def parts_in_words(rule, spacing, number):
-    """The mean miss and its parts."""
-    by_arm, by_weights, in_all = _means(rule, spacing, number)
-    return f"Mean miss {in_all:.1f} mm: the weights {by_weights:.1f} mm, the arm {by_arm:.1f} mm."
-
-
-def _means(rule, spacing, number):
-    mixed, reached = mixed_and_reached(rule, spacing / 100, number)
-    return [norm_mm(x).mean() for x in (reached - mixed, mixed - TARGETS, reached - TARGETS)]
 
 
 def in_frame(origin, weights, points, target):

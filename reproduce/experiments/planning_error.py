@@ -1,7 +1,5 @@
 """Why a habitual plan misses: what its weights (Eq. 5) contribute, and what the arm does."""
 
-from functools import cache
-
 import numpy as np
 
 from vmc_lib.motor import templates
@@ -13,7 +11,6 @@ TARGETS = np.stack(
 ).reshape(-1, 2)
 
 
-@cache
 def mixed_and_reached(rule=habitual_weights, spacing=0.06, number=4):
     """Where the weights alone would send the hand (N, 2) for `TARGETS`, and where it ends, in m.
 
