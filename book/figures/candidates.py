@@ -1,0 +1,164 @@
+"""Pictures of the chapter on candidates: saliency, segments, merging, recall and cost."""
+
+from itertools import compress, product
+
+import cv2
+import numpy as np
+
+from book.figures.panels import panels
+from book.figures.where import best_so_far, in_corner, mosaic, nearest, rising
+from reproduce.peers.window_proposals import edge_density, sliding_windows
+from reproduce.training.detectors import candidates
+from vmc_lib import photos
+from vmc_lib.boxes import iou
+from vmc_lib.show import COLOURS, photo_view
+from vmc_lib.where.selective_search import ALL, Strategy, hierarchies, propose
+
+SPACES = ("HSV", "Lab", "rgI", "I")
+MOST = 1000  # boxes tried, a photo
+PROPOSALS = ("selective search", "windows", "windows by edges")
+
+
+def contrasts(image):
+    """How much each place differs from its surround in lightness and two colours (h, w, 3)."""
+    lab = cv2.cvtColor(photos.as_float(image), cv2.COLOR_RGB2Lab)
+    near, far = (cv2.GaussianBlur(lab, (0, 0), s) for s in (8, 60))
+    return (near - far) ** 2
+
+
+def saliency(features, gains):
+    """The saliency (h, w), from 0 to 1, of feature maps (h, w, 3) with a gain each (3,)."""
+    total = features @ np.float32(gains)
+    return np.sqrt(total / total.max())
+
+
+def most_salient(heat):
+    """The most salient place (x, y) of a saliency map (h, w)."""
+    return np.unravel_index(heat.argmax(), heat.shape)[::-1]
+
+
+def salient_object(boxes, heat):
+    """On which of named boxes the most salient place lies, in words."""
+    x, y = most_salient(heat)
+    for name, (x0, y0, x1, y1) in boxes.items():
+        if x0 <= x <= x1 and y0 <= y <= y1:
+            return f"On the {name}"
+    return "Elsewhere"
+
+
+def saliency_view(image, heat):
+    """An image lit by its saliency, and its most salient place."""
+    lit = np.uint8(image * (0.15 + 0.85 * heat[..., None]))
+    return photo_view(lit, points=[(most_salient(heat), "", "orange")])
+
+
+def segments_view(image, labels):
+    """An image's segments in their mean colours, and how many they are."""
+    return photo_view(mosaic(image, labels), [in_corner(f"{labels.max() + 1} segments")])
+
+
+def merging_view(photo, tree, overlaps, percent):
+    """The regions after so many of a hierarchy's merges, and the best overlap so far."""
+    segments = len(tree.merges) + 1
+    merges = round(percent / 100 * (segments - 1))
+    boxes = tree.boxes[: segments + merges]
+    newest = [(boxes[-1], "", "orange")] if merges else []
+    blend = mosaic(photo.image, tree.after(merges))
+    view = photo_view(blend, newest + nearest(photo.boxes, boxes))
+    return view, rising(overlaps, segments + merges)
+
+
+def mean_best_overlap(photo, boxes):
+    """The mean, over a photo's objects, of the best IoU that one of boxes (n, 4) reaches."""
+    return iou(list(photo.boxes.values()), boxes).max(1).mean()
+
+
+def grow_with_each(image):
+    """The hierarchy of each colour space and choice of measures: (space, measures) -> tree."""
+    switches = product([True, False], repeat=len(ALL))
+    subsets = [tuple(compress(ALL, on)) for on in switches]
+    trees = hierarchies(image, Strategy(SPACES, (100,), tuple(subsets)))
+    return dict(zip(product(SPACES, subsets), trees, strict=True))
+
+
+def overlaps_by_measure(shots):
+    """`mean_best_overlap` in each photo with each measure of similarity: name -> (photos,)."""
+    ways = {name: (name,) for name in ALL} | {"all four": tuple(ALL), "none": ()}
+    strategy = Strategy(similarities=tuple(ways.values()))
+    rows = [
+        [mean_best_overlap(photo, tree.boxes) for tree in hierarchies(photo.image, strategy)]
+        for photo in shots
+    ]
+    return dict(zip(ways, np.transpose(rows), strict=True))
+
+
+def best_boxes_view(photo, boxes):
+    """A photo with the best of boxes (n, 4) for each object, and their mean IoU."""
+    words = in_corner(f"mean {mean_best_overlap(photo, boxes):.2f}")
+    return photo_view(photo.image, [words, *nearest(photo.boxes, boxes)])
+
+
+def overlap_curve(photo, boxes):
+    """For each object, the best IoU among the first 1, 2, … of `MOST` boxes (objects, MOST)."""
+    best = np.array(list(best_so_far(photo.boxes, boxes[:MOST]).values()))
+    return np.pad(best, [(0, 0), (0, MOST - best.shape[1])], mode="edge")
+
+
+def proposal_curves(shots, rng):
+    """`overlap_curve` of all objects of photos, for each of the `PROPOSALS`: name -> (n, MOST)."""
+    curves = []
+    for photo in shots:
+        windows = sliding_windows(photo.image.shape[:2], rng)
+        by_edges = windows[np.argsort(-edge_density(photo.image, windows))]
+        lists = candidates(photo), windows, by_edges
+        curves.append([overlap_curve(photo, boxes) for boxes in lists])
+    joined = map(np.concatenate, zip(*curves, strict=True))
+    return dict(zip(PROPOSALS, joined, strict=True))
+
+
+def final_recall(shots, strategy, overlap):
+    """The share of photos' objects that a list of candidates, to its end, finds at an overlap."""
+    curves = [overlap_curve(photo, candidates(photo, strategy)) for photo in shots]
+    return (np.concatenate(curves)[:, -1] >= overlap).mean()
+
+
+def recall_plot(curves, overlap):
+    """Recall at an overlap against boxes tried, of what `proposal_curves` returned: a figure."""
+    fig, ax = panels(size=(6, 3.4))
+    for (name, best), colour in zip(curves.items(), COLOURS.values(), strict=False):
+        share = (best >= overlap).mean(0)
+        tried = np.arange(1, len(share) + 1)
+        ax.semilogx(tried, share, label=f"{name} {share[-1]:.2f}", color=colour)
+    ax.set(xlabel="boxes tried, a photo", ylabel="recall", ylim=(0, 1.02))
+    ax.legend()
+    return fig
+
+
+def growth_plot(growth, count):
+    """Processor time against pixels, name -> (n, 2), for the first photos: a log-log figure."""
+    fig, ax = panels(size=(6, 3.4))
+    for (name, points), colour in zip(growth.items(), COLOURS.values(), strict=False):
+        x, y = points.T
+        ax.loglog(x, x / x[2] * y[2], ":", color=colour)
+        ax.loglog(x[:count], y[:count], "o-", label=name, color=colour)
+    ours = next(iter(growth.values()))[:, 1]
+    ax.set_title(f"ours: {ours[count - 1] / ours[2]:.1f} times as long as 600 × 400")
+    ax.set(xlabel="pixels", ylabel="processor time of single (s)")
+    ax.legend()
+    return fig
+
+
+def first_dozen(image, truth):
+    """The first dozen candidates (12, 4), and which of the true boxes one of them fits by 0.5."""
+    boxes = propose(image)[:12]
+    return boxes, iou(truth, boxes).max(1) >= 0.5
+
+
+def first_dozen_view(image, truth=None):
+    """An image with its first dozen candidates; true boxes (n, 4), where known, by fit."""
+    if truth is None:
+        return photo_view(image, [(box, "", "blue") for box in propose(image)[:12]])
+    boxes, fits = first_dozen(image, truth)
+    marks = [(box, "", "blue") for box in boxes] + [in_corner(f"{fits.sum()} of {len(truth)}")]
+    marks += [(box, "", "green" if fit else "red") for box, fit in zip(truth, fits, strict=True)]
+    return photo_view(image, marks)
