@@ -4,7 +4,7 @@ import numpy as np
 
 from book.figures.panels import panels
 from book.figures.where import bars, in_corner, right_and_wrong
-from reproduce.experiments import fresh_test_set, real_world
+from reproduce.experiments import fresh_test_set, localisation, real_world
 from vmc_lib.boxes import iou
 from vmc_lib.show import COLOURS, dot_plot, photo_view, table
 from vmc_lib.statistics import wilson
@@ -105,6 +105,18 @@ def fresh_plot(level, measure):
     few = {row: (share, *wilson(80 * share, 80)) for row, (share, *_) in rows.items()}
     series = {"fresh photos": rows, "40 photos": few}
     return dot_plot(series, f"{measure}, {level}", None, (0, 1.02))
+
+
+def retrained_table(levels):
+    """Table II over several trainings, means and half 95 % intervals: a Markdown table."""
+    rows = []
+    for recipe in localisation.RETRAINED:
+        rates = [
+            zip(*localisation.table_2_interval(level, recipe), strict=True) for level in levels
+        ]
+        cells = (" / ".join(f"{mean:.2f} ± {half:.2f}" for mean, half in rate) for rate in rates)
+        rows.append([recipe, *cells])
+    return table(["features", *levels], rows)
 
 
 def photograph_table():
