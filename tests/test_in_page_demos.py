@@ -71,10 +71,10 @@ def page(offline, tmp_path_factory):
             evenly=Switch((False, True), "evenly spread"),
         )
         explore(
-            lambda target: aiming.aimed(SHOT, target),
+            lambda target: aiming.aim_view(SHOT, target),
             "c",
-            lambda target: aiming.told(SHOT, target),
-            in_page=aiming.aimed_in_page(SHOT),
+            lambda target: aiming.describe_aim(SHOT, target),
+            in_page=aiming.aim_in_page(SHOT),
             target=Pad(ACROSS_SHOT, DOWN_SHOT, start=(300, 200)),
         )
     (folder / "page.html").write_text(HEAD + "\n".join(shown), encoding="utf-8")
@@ -183,14 +183,14 @@ def test_neurons_vote_as_in_python(page, place):
 def test_a_dragged_target_is_where_the_camera_says(page, place):
     pixel = np.array([ACROSS_SHOT[place[0]], DOWN_SHOT[place[1]]])
     (photo, table), said = move(page, 3, *place)
-    spot = aiming.placed(SHOT, pixel)
-    assert said == f"{aiming.told(SHOT, pixel)}."
-    assert words(table)[-1] == aiming.told(SHOT, pixel)
+    spot = aiming.target_place(SHOT, pixel)
+    assert said == f"{aiming.describe_aim(SHOT, pixel)}."
+    assert words(table)[-1] == aiming.describe_aim(SHOT, pixel)
     rings = numbers(photo, "circle")
-    assert rings == numbers(aiming.aimed(SHOT, pixel)[0], "circle")
+    assert rings == numbers(aiming.aim_view(SHOT, pixel)[0], "circle")
     x, z = spot[[0, 2]]
     assert np.abs(numbers(table, "circle")[-1][:2] - on(table, [z, x])).max() < 0.1
-    turn, lines = aiming.turned(spot), re.findall(r'<polyline points="([^"]*)"', table)
+    turn, lines = aiming.trunk_turn(spot), re.findall(r'<polyline points="([^"]*)"', table)
     assert (len(lines) == 3) == (turn is not None)
     if turn is not None:
         tip = np.float64(lines[-1].split()[-1].split(","))
@@ -221,7 +221,7 @@ def test_the_camera_is_python_s(page):
     rng = np.random.default_rng(2)
     pixels = rng.uniform([0, 0], [600, 400], (20, 2))
     points = SHOT.camera.back_project(pixels, -0.4)
-    given = aiming.aimed_in_page(SHOT)[2]
+    given = aiming.aim_in_page(SHOT)[2]
     seen, back = page.evaluate(
         """([camera, pixels, points]) => [
           pixels.map((pixel) => vmcInPage.backProject(camera, pixel, -0.4)),

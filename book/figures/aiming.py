@@ -16,7 +16,7 @@ AHEAD = [[0, 0, 0.06], [0.5, 0, 0.06]]  # along the plane in which the hand move
 AWAY = np.linspace(0.2, 0.45, 201)  # m from the trunk's axis: no hand reaches the table beyond
 
 
-def aimed(photo, pixel=None):
+def aim_view(photo, pixel=None):
     """A photo with a target at `pixel` (2,), and from above the place that it means; or neither.
 
     The place lies as high as the photo's own shuttlecock. Where the hand can be there is shaded.
@@ -25,8 +25,8 @@ def aimed(photo, pixel=None):
     eye = photo.camera.position
     parts = [([eye], "^", "blue", "eye"), ([AXIS], "s", "purple", "trunk's axis")]
     if pixel is not None:
-        place = placed(photo, pixel)
-        turn = turned(place)
+        place = target_place(photo, pixel)
+        turn = trunk_turn(place)
         colour = "green" if turn is not None else "red"
         parts += [([eye, place], "-", "blue", ""), ([place], "o", colour, "")]
         if turn is not None:
@@ -35,7 +35,7 @@ def aimed(photo, pixel=None):
     view = photo_view(photo.image, points=[] if pixel is None else [(pixel, "", colour)])
     x, _, z = np.transpose([*photo.camera.back_project(corners, photo.target[1]), eye, AXIS])
     limits = [(low - 0.05, high + 0.05) for low, high in ((z.min(), z.max()), (x.min(), x.max()))]
-    fig = above(parts, " " if pixel is None else told(photo, pixel), *limits)
+    fig = above(parts, " " if pixel is None else describe_aim(photo, pixel), *limits)
     fig.axes[0].fill(*shore(photo.target[1]), color=COLOURS["green"], alpha=0.12, lw=0)
     return view, fig
 
@@ -57,16 +57,16 @@ def within_reach(height):
 
     The turn is for a place straight ahead of the axis.
     """
-    turns = [(away, turned((TRUNK[0] + away, height, TRUNK[1]))) for away in AWAY]
+    turns = [(away, trunk_turn((TRUNK[0] + away, height, TRUNK[1]))) for away in AWAY]
     return [(away, round(turn, 5)) for away, turn in turns if turn is not None]
 
 
-def placed(photo, pixel):
+def target_place(photo, pixel):
     """Where the line of sight through a pixel meets the height of the photo's shuttlecock (3,)."""
     return photo.camera.back_project(pixel, photo.target[1])[0]
 
 
-def turned(place):
+def trunk_turn(place):
     """The trunk's turn (rad) that brings the hand's plane to a place (3,); None out of reach."""
     try:
         return turn_towards(place)[0]
@@ -74,17 +74,17 @@ def turned(place):
         return None
 
 
-def told(photo, pixel):
+def describe_aim(photo, pixel):
     """The place that a pixel means, and the trunk's turn, in words."""
-    place = placed(photo, pixel)
-    turn = turned(place)
+    place = target_place(photo, pixel)
+    turn = trunk_turn(place)
     ahead, _, right = 100 * place
     side = "right" if right > 0 else "left"
     trunk = "out of reach" if turn is None else f"the trunk turns by {np.degrees(turn):.0f}°"
     return f"{ahead:.0f} cm ahead, {abs(right):.0f} cm to the {side}: {trunk}".replace("-", "−")
 
 
-def aimed_in_page(photo):
+def aim_in_page(photo):
     """The same for the page to work out (see `explore`)."""
     camera, height = photo.camera, photo.target[1]
     given = {
@@ -93,7 +93,7 @@ def aimed_in_page(photo):
         "trunk": {"axis": TRUNK.tolist(), "range": TRUNK_RANGE.tolist()},
         "marks": {"height": height, "ahead": AHEAD, "edge": EDGE, "paint": ON_PHOTO},
     }
-    return "aim", lambda: aimed(photo), given
+    return "aim", lambda: aim_view(photo), given
 
 
 def pad(photo):

@@ -3,12 +3,17 @@
 import numpy as np
 
 from book.figures.panels import panels
+from book.figures.reaching import ends, shares
 from vmc_lib.arm.kinematics import TRUNK, to_world
 from vmc_lib.arm.model import geometry
+from vmc_lib.loop import RULES
 from vmc_lib.motor.templates import START
+from vmc_lib.show import dot_plot
 from vmc_lib.show.arm import EVERY, arm_scene
+from vmc_lib.show.arm_plane import plane
 from vmc_lib.show.figures import photo_view
 from vmc_lib.show.palette import COLOURS, EDGE, ON_PHOTO
+from vmc_lib.statistics import wilson
 
 SEEING = ("a photo", "candidates", "regions", "after suppression", "names")
 LOOP_STEPS = (*SEEING, "first reach", "calibrated reach")
@@ -18,9 +23,13 @@ LOOP_STAGES = (*SEEING, "place", "plan", "off-line", "online")
 
 
 def draw_step(photo, sight, reach, step):
-    """The photo with what is known by a step of `LOOP_STEPS`; the arm at rest, or its movement."""
-    if step in SEEING:
-        return photo_view(photo.image, _boxes(sight, step)), arm_scene(START, photo=photo)
+    """The photo with what is known by a step of `LOOP_STEPS`; the arm at rest, or its movement.
+
+    Where nothing was recognised, `reach` is None: the arm stays at rest.
+    """
+    if step in SEEING or reach is None:
+        boxes = _boxes(sight, step if step in SEEING else "names")
+        return photo_view(photo.image, boxes), arm_scene(START, photo=photo)
     motion = reach.planned if step.startswith("first") else reach.calibrated
     return draw_movement(photo, sight.box, reach, motion)
 
@@ -53,11 +62,10 @@ def _moving(places, colour):
 def draw_stage(photo, sight, reach, online, stage):
     """A stage of `LOOP_STAGES`: what the eye has made of the photo, and where the arm is by then.
 
-    `online` is the `Motion` of the plan as the cerebellum corrected it before moving. Where nothing
-    was recognised, `reach` is None: the arm stays at rest.
+    `online` is the `Motion` of the plan as the cerebellum corrected it before moving.
     """
     if stage in SEEING or reach is None:
-        return draw_step(photo, sight, reach, stage if stage in SEEING else "names")
+        return draw_step(photo, sight, reach, stage)
     if stage == "place":
         place = photo.camera.project(reach.target)[0]
         view = photo_view(photo.image, [(sight.box, "seen", "green")], [(place, "", "green")])
@@ -90,6 +98,39 @@ def from_above(photo, reach, turned):
     return above(parts, aside, (-0.45, 0.4), (-0.2, 0.6))
 
 
+def mixture_plot(plan, endpoint):
+    """The templates of a plan with their weights, its target, and where the hand ended: a figure.
+
+    All near the target, in the arm's plane.
+    """
+    fig, ax = panels(1, (4.1, 3.6))
+    near = np.ptp(plan.points, axis=0).max() * np.array([-0.9, 0.9])
+    plane(ax, plan.points, within=plan.target[:, None] + near)
+    shares(ax, plan.target, plan.points, plan.weights)
+    ends(ax, plan.target, endpoint)
+    return fig
+
+
+def chain_plots(summaries, count):
+    """How often each step of the loop succeeds in `count` photos, and its distances: dot plots.
+
+    Of the ledger's summaries, level -> name -> number.
+    """
+    steps = "found", "named", *(f"arrived, {rule}" for rule in RULES)
+    right = {
+        level: {step: (one[step], *wilson(one[step] * count, count)) for step in steps}
+        for level, one in summaries.items()
+    }
+    away = {
+        level: {name: 1000 * one[name] for name in ("target", "planned", *RULES)}
+        for level, one in summaries.items()
+    }
+    return (
+        dot_plot(right, f"share of {count} photos", None, (0, 1.02)),
+        dot_plot(away, "median distance (mm)", None, (0, 13)),
+    )
+
+
 def above(parts, title, xlim, ylim):
     """Things seen from above (a figure): each part is (places (n, 3), style, colour, label)."""
     fig, ax = panels(size=(5.2, 4.8))
@@ -108,37 +149,39 @@ def _away(reach, motion):
 
 
 def _boxes(sight, step):
-    found = sight.detections
+    detections = sight.detections
     return {
         "a photo": [],
-        "candidates": [(box, "", "grey") for box in found.candidates],
-        "regions": [(box, "", "orange") for box in found.passed],
-        "after suppression": [(box, "", "blue") for box in found.boxes],
+        "candidates": [(box, "", "grey") for box in detections.candidates],
+        "regions": [(box, "", "orange") for box in detections.passed],
+        "after suppression": [(box, "", "blue") for box in detections.boxes],
         "names": named_boxes(sight),
     }[step]
 
 
 def named_boxes(sight):
     """For `photo_view`: each kept box with its chance of a shuttlecock, by rising chance."""
-    found = sorted(zip(sight.probability, sight.detections.boxes.tolist(), strict=True))
+    rising = sorted(zip(sight.probability, sight.detections.boxes.tolist(), strict=True))
     return [
         (box, f"shuttlecock {p:.0%}", "green")
         if p > sight.min_probability
         else (box, f"{p:.0%}", "blue")
-        for p, box in found
+        for p, box in rising
     ]
 
 
 def step_in_words(photo, sight, reach, step):
     """The same moment for those who cannot see it."""
+    if step not in SEEING and reach is None:
+        return f"The {step}: nothing was recognised; the arm rests."
     if step not in SEEING:
         motion = reach.planned if step.startswith("first") else reach.calibrated
         return f"The {step}: at its end the hand is {_away(reach, motion)}."
-    found = sight.detections
+    candidates, passed, boxes = sight.detections.counts.values()
     return {
         "a photo": "A photo of a table with a shuttlecock and a cup; the arm rests.",
-        "candidates": f"{len(found.candidates)} candidate boxes cover the photo; the arm rests.",
-        "regions": f"{len(found.passed)} boxes are left, many for each thing; the arm rests.",
-        "after suppression": f"{len(found.boxes)} boxes are left; the arm rests.",
+        "candidates": f"{candidates} candidate boxes cover the photo; the arm rests.",
+        "regions": f"{passed} boxes are left, many for each thing; the arm rests.",
+        "after suppression": f"{boxes} boxes are left; the arm rests.",
         "names": "Each box carries its probability of holding a shuttlecock; the arm rests.",
     }[step]

@@ -160,9 +160,51 @@ def choices_view(photo, chosen):
 
 def answer_table(head, results):
     """Each question about photos, and the share that each model answers right: a Markdown table."""
-    counts = [count_answers(found) for found in results.values()]
+    counts = [count_answers(answers) for answers in results.values()]
     rows = [[question, *(share_text(*one[question]) for one in counts)] for question in counts[0]]
     return table([head, *results], rows)
+
+
+def error_table(errors):
+    """The errors that `stage_errors` returned, photo -> stage -> mm: a Markdown table."""
+    stages = ("place", "plan", "off-line", "online")
+    rows = [[name, *(f"{one.get(s, np.nan):.1f}" for s in stages)] for name, one in errors.items()]
+    return table(["photo", *(f"{stage} (mm)" for stage in stages)], rows)
+
+
+def sheet_table(shots):
+    """How to lay a marker sheet and a shuttlecock, as in photos of both: a Markdown table."""
+    aside = [100 * (marker_sheet.CORNER[2] - photo.target[2]) for photo in shots]
+    ahead, up, left = 100 * marker_sheet.CORNER - [marker_sheet.PAGE[1] / 10, 0, 0]
+    measures = {
+        "black square of a marker": f"{marker_sheet.MARKER} mm",
+        "markers in the photo": f"{marker_sheet.FEWEST} or more",
+        "shuttlecock, left of the sheet": f"{min(aside):.0f}–{max(aside):.0f} cm",
+        "shoulder, left of the sheet": f"{left:.0f} cm",
+        "shoulder, nearer to you than the sheet": f"{ahead:.0f} cm",
+        "shoulder, above the table": f"{-up:.0f} cm",
+    }
+    return table(["measure", "here"], measures.items())
+
+
+def place_table(errors):
+    """Medians of errors, way -> (n,) in mm, infinite without a place: a Markdown table."""
+    rows = [
+        [way, f"{np.median(mm):.1f}", f"{np.mean(mm <= 15):.0%}", np.isinf(mm).sum()]
+        for way, mm in errors.items()
+    ]
+    return table(["box, camera", "median (mm)", "within 15 mm", "without a place"], rows)
+
+
+def generalist_table(own, generalist):
+    """Shares of each level's own model and of one for all, level -> summary: a Markdown table."""
+    heads = {"named": "box right", "arrived, own": "hand within 1 cm", "close, own": "within 5 mm"}
+    rows = [
+        [f"{level}, model of {name}", *(f"{summary[key]:.0%}" for key in heads)]
+        for level in photos.LEVELS
+        for name, summary in ((level, own[level]), (photos.REAL_LEVEL, generalist[level]))
+    ]
+    return table(["test renders", *heads.values()], rows)
 
 
 def lesion_table():
