@@ -5,13 +5,13 @@ import numpy as np
 from vmc_lib.show.grading import Exercise
 
 
-def seen_late(signal, steps):
+def delay_signal(signal, steps):
     then = np.arange(len(signal)) - steps
     return signal[np.maximum(then, 0)]
 
 
-SEEN_LATE = Exercise(
-    seen_late,
+DELAY_SIGNAL = Exercise(
+    delay_signal,
     lambda rng: (rng.normal(size=(8, 2)).round(1), int(rng.integers(1, 5))),
     {
         "The end of the movement comes in at its beginning: an index below zero counts from "
@@ -23,7 +23,7 @@ SEEN_LATE = Exercise(
             [np.zeros((steps, 2)), signal[:-steps]]
         ),
         "You look ahead: at step $t$ the report is of step $t - $ `steps`.": (
-            lambda signal, steps: seen_late(signal[::-1], steps)[::-1]
+            lambda signal, steps: delay_signal(signal[::-1], steps)[::-1]
         ),
         "Your result is shorter than the movement. There is a report at every step: at first, of "
         "the first place.": lambda signal, steps: signal[:-steps],
@@ -31,9 +31,9 @@ SEEN_LATE = Exercise(
 )
 
 
-def smith(seen, model, steps):
+def smith(report, model, steps):
     then = np.maximum(np.arange(len(model)) - steps, 0)
-    return model + (seen - model[then])
+    return model + (report - model[then])
 
 
 SMITH = Exercise(
@@ -41,14 +41,14 @@ SMITH = Exercise(
     lambda rng: (rng.normal(size=8).round(1), rng.normal(size=8).round(1), int(rng.integers(1, 4))),
     {
         "That trusts the model alone, however wrong it is. Correct it by what the eye reports.": (
-            lambda seen, model, steps: model
+            lambda report, model, steps: model
         ),
         "You compared the report with what the model says *now*. The report is old: compare it "
-        "with what the model said then.": lambda seen, model, steps: seen,
-        "Mind the sign: add what was seen, less what the model said then.": (
-            lambda seen, model, steps: 2 * model - smith(seen, model, steps)
+        "with what the model said then.": lambda report, model, steps: report,
+        "Mind the sign: add the report, less what the model said then.": (
+            lambda report, model, steps: 2 * model - smith(report, model, steps)
         ),
         "A mean of report and model is late by half. Let the model tell what has happened since "
-        "the report, and add it.": lambda seen, model, steps: (seen + model) / 2,
+        "the report, and add it.": lambda report, model, steps: (report + model) / 2,
     },
 )

@@ -18,6 +18,7 @@ from vmc_lib.motor.feedback import (
     BLIND,
     SIGHT,
     curl,
+    push,
     reference_trajectory,
     simulate_feedback,
     switch,
@@ -65,6 +66,50 @@ def reference_after_jump(template_set, first, second):
         reference_trajectory(exact_plans(p, template_set), 2.0) for p in (first, second)
     )
     return switch(before, after, JUMPS_AT + SIGHT.delay)
+
+
+def watch(reference, gains=SIGHT, model=None, disturbance=None):
+    """Reaches with feedback, and with motor noise that is the same for every arm: a `Motion`."""
+    rng = np.random.default_rng(1)
+    return simulate_feedback(reference, gains, model, disturbance, NOISE, rng)
+
+
+def pushed_paths(reference, gains, model, pushes):
+    """By push, (N, s), the hand's path (T + 1, 2) in m: reaches of one reference, pushed back."""
+    force, at = np.array(pushes).T[..., None]
+    motion = watch(reference, gains, model, push(force * [-1, 0], at))
+    return dict(zip(pushes, motion.hand[..., :2], strict=True))
+
+
+def delayed_paths(target, template_set, gains, delay, model=None):
+    """Hand paths (n, T + 1, 2) to one target (2,): feedback with gains (n,) and a delay in s."""
+    senses = SIGHT._replace(gain=np.array(gains)[:, None], delay=delay)
+    return watch(repeat_reach(target, len(gains), template_set), senses, model).hand[..., :2]
+
+
+def repeat_reach(target, count, template_set):
+    """The reference of so many reaches to one target (2,), which stays."""
+    return reference_trajectory(exact_plans(np.tile(target, (count, 1)), template_set))
+
+
+def push_error(path, reference, at):
+    """How far paths (T + 1, 2) are apart after a push at `at` s: at most, and in the end, mm."""
+    off = 1000 * _norm(path - reference)
+    return off[round(at / STEP) :].max(), off[-500:].mean()
+
+
+def rest_error(path, target):
+    """How far a path (T + 1, 2) rests from its target, and how far it swings there, mm."""
+    last = 1000 * (path[-500:] - target)
+    return _norm(last).mean(), np.ptp(last, axis=0).max()
+
+
+def compare_models(models, goals, template_set):
+    """By name of a forward model, the mean tremor in mm² and overshoot in mm to goals (B, 2)."""
+    reference = reference_trajectory(exact_plans(goals, template_set))
+    paths = {k: watch(reference, SIGHT, model).hand[..., :2] for k, model in models.items()}
+    tremors = {k: tremor(path)[0].mean() for k, path in paths.items()}
+    return tremors, {k: 1000 * overshoot(path, goals).mean() for k, path in paths.items()}
 
 
 def tremor(path, since=1.0, band=TREMOR):
@@ -151,14 +196,16 @@ def curl_field_deviations(learner, template_set, model, rng, blocks=(2, 20, 10),
     for block in range(sum(blocks)):
         on = before <= block < before + during
         if block in (before, before + during):
-            held_out.append(_bend(learner, others, curl(FIELD), model, rng)[0])
-        bend, motion = _bend(learner, practised, curl(FIELD) if on else None, model, rng)
+            held_out.append(reach_in_field(learner, others, curl(FIELD), model, rng)[0])
+        field = curl(FIELD) if on else None
+        bend, motion = reach_in_field(learner, practised, field, model, rng)
         learner.update(practised, motion)
         bends.append(bend)
     return np.array(bends), np.array(held_out)
 
 
-def _bend(learner, reference, disturbance, model, rng):
+def reach_in_field(learner, reference, disturbance, model, rng):
+    """Noisy reaches with what was learned: their deviation (B,) in m, and their `Motion`."""
     motion = simulate_feedback(learner.correct(reference), SIGHT, model, disturbance, NOISE, rng)
     return path_deviation(motion.hand[..., :2], hand(reference.q)[..., :2]), motion
 

@@ -1,0 +1,118 @@
+"""Movements that are watched: hands on their way, a curl field's learning curve, two memories.
+
+Hands move in the plane, in metres, with a sample every millisecond.
+"""
+
+import numpy as np
+
+from book.figures.panels import curves, panels
+from book.figures.reaching import norm_mm
+from reproduce.experiments import feedback_control as measure
+from vmc_lib.motor.feedback import SIGHT
+from vmc_lib.show import dot_plot
+from vmc_lib.show.arm_plane import plane
+from vmc_lib.show.palette import COLOURS
+
+SIZE, WITHIN = (8.2, 3.4), ((-0.08, 0.3), (-0.53, -0.2))  # inches; m
+RING = {"ms": 9, "mfc": "none", "mew": 1.8, "color": COLOURS["green"]}
+EVERY = 10  # ms
+GUIDE = {"color": COLOURS["grey"], "gid": "guide"}
+SHADE = {"color": COLOURS["grey"], "alpha": 0.15, "lw": 0}
+
+
+def path_and_distance(templates, path, goal, titles=("", ""), reference=None, top=200):
+    """A hand's path (T, 2) and its goal (2,), and over time its distance from there.
+
+    Or from the `reference` (T, 2), where the hand should be. A figure and its two plots.
+    """
+    fig, left, right = panels(2, SIZE)
+    if reference is not None:
+        left.plot(*reference[::EVERY].T, ":", lw=1.5, **GUIDE)
+    plane(left, templates, WITHIN)
+    left.plot(*path[::EVERY].T, color=COLOURS["blue"], gid="path")
+    left.plot(*path[::EVERY][-1], "o", ms=5, color=COLOURS["red"], gid="hand")
+    left.plot(*goal, "o", **RING, gid="target")
+    distance = norm_mm(path - (goal if reference is None else reference))[::EVERY]
+    right.plot(EVERY / 1000 * np.arange(len(distance)), distance, color=COLOURS["blue"])
+    label = "to the target (mm)" if reference is None else "off its way (mm)"
+    right.set(xlabel="time (s)", ylabel=label, ylim=(0, top))
+    for ax, title in zip((left, right), titles, strict=True):
+        ax.set_title(title)
+    return fig, left, right
+
+
+def target_jump(templates, motion, first, second, k, time):
+    """The k-th of n reaches until a `time` in s; their targets jump from first (2,) to (n, 2)."""
+    paths = motion.hand[..., :2]
+    fig, left, right = path_and_distance(templates, paths[k, : round(1000 * time) + 1], second[k])
+    left.plot(*first, "o", **RING, alpha=0.35, gid="target before")
+    right.axvspan(measure.JUMPS_AT, measure.JUMPS_AT + SIGHT.delay, **SHADE)
+    distances = norm_mm(paths[:, ::EVERY] - second[:, None])
+    seconds = EVERY / 1000 * np.arange(distances.shape[1])
+    right.plot(seconds, distances[k], lw=1, zorder=1.9, **GUIDE)
+    if time == seconds[-1]:
+        ends = distances[:, -50:].mean(axis=1)
+        right.set_title(f"last half second: {ends[k]:.0f} mm; all four jumps: {ends.mean():.0f} mm")
+    return fig
+
+
+def late_loop(templates, path, goal):
+    """A hand's path (T, 2) to its goal (2,): how far off it rests, and how far it swings."""
+    off, swing = measure.rest_error(path, goal)
+    titles = f"last half second: {off:.0f} mm off", f"swings by {swing:.0f} mm"
+    return path_and_distance(templates, path, goal, titles)[0]
+
+
+def push(templates, path, goal, reference, at):
+    """A hand's path (T, 2), pushed at `at` s, beside its reference (T, 2)."""
+    most, end = measure.push_error(path, reference, at)
+    titles = f"in the end {end:.0f} mm off", f"at most {most:.0f} mm off"
+    fig, _, right = path_and_distance(templates, path, goal, titles, reference, top=160)
+    right.axvspan(at, at + 0.05, color=COLOURS["red"], alpha=0.25, lw=0)
+    right.axvspan(at + 0.05, at + SIGHT.delay, color=COLOURS["grey"], alpha=0.2, lw=0)
+    return fig
+
+
+def tremor_and_overshoot(tremors, overshoots, limit):
+    """Two dot plots, name -> mm² and name -> mm, with a line at a `limit` in mm."""
+    fig = dot_plot({"": tremors}, "tremor, 3 to 8 Hz (mm²)")
+    low, high = min(tremors.values()), max(tremors.values())
+    fig.axes[0].set(xscale="log", xlim=(low / 2, 2 * high))
+    far = dot_plot({"": overshoots}, "overshoot (mm)")
+    far.axes[0].axvline(limit, color=COLOURS["grey"], ls="--", lw=1)
+    return fig, far
+
+
+def curl_field(templates, paths, reference, deviations, block, blocks):
+    """Hands' paths (n, T, 2) in a block beside the reference, and the learning curve (blocks,), mm.
+
+    `blocks` counts those before, in and after the field.
+    """
+    fig, left, right = panels(2, SIZE)
+    plane(left, templates, WITHIN)
+    for path, line in zip(paths, reference, strict=True):
+        left.plot(*line[::20].T, ":", lw=1, **GUIDE)
+        left.plot(*path[::20].T, color=COLOURS["blue"])
+    on = blocks[0] - 0.5, blocks[0] + blocks[1] - 0.5
+    right.axvspan(*on, **SHADE)
+    curves(right, range(len(deviations)), {"": deviations[: block + 1]}, (block, deviations[block]))
+    bound = 1.2 * np.abs(deviations).max()
+    right.set(xlabel="block of 5 reaches", ylabel="to the left (mm)")
+    right.set(xlim=(-1, len(deviations)), ylim=(-bound, bound))
+    return fig
+
+
+def two_rates(states, block=100):
+    """What the fast and the slow memory hold, (n, 2), and together.
+
+    Lines stand after the first block of reaches, and before the last.
+    """
+    fig, ax = panels(size=(6.5, 3.2))
+    for change in (block, len(states) - block):
+        ax.axvline(change, color=COLOURS["grey"], lw=1, ls=":")
+    for name, line in zip(("fast", "slow"), states.T, strict=True):
+        ax.plot(line, lw=1.2, label=name)
+    ax.plot(states.sum(axis=1), color=COLOURS["ink"], label="together")
+    ax.set(xlabel="reach", ylabel="answered share", ylim=(-0.8, 1.05))
+    ax.legend(loc="lower right")
+    return fig
