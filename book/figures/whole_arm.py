@@ -41,6 +41,18 @@ def placed(joints):
     return data
 
 
+def corrected_reach(trials, targets, k, correction, time):
+    """The k-th reach of some `Trials` to targets (n, 3), after corrections, at a `time` in s."""
+    motion = plant.Motion(*(x[k] for x in trials.movements[correction].motion))
+    return views(motion, max(round(time / plant.TICK) - 1, 0), targets[k])
+
+
+def strongest(activation, count=4):
+    """The most active muscles of (63,), by name, the strongest first, as text."""
+    most = np.argsort(-activation)[:count]
+    return ", ".join(f"{plant.MUSCLES[m]} {activation[m]:.0%}" for m in most)
+
+
 def views(motion, moment, target):
     """A movement at one of its moments, the finger's way so far, and the target (a green ring).
 
@@ -54,14 +66,15 @@ def views(motion, moment, target):
     fig, *axes = panels(2, size=(8.2, 3.9))
     for ax, (title, (x, y, label)) in zip(axes, VIEWS.items(), strict=True):
         paths = [way[:, [x, y]] for way in ways]
-        ax.plot(bones[:, x], bones[:, y], **BONE)
+        ax.plot(bones[:, x], bones[:, y], **BONE, gid="bones")
         ax.add_collection(
             LineCollection(paths, colors=COLOURS["red"], alpha=shade, lw=0.7 + 2 * active)
         )
         for near in ({}, corner(ax, target[[x, y]], upside_down=y == 2)):
-            ax.plot(tips[:, x], tips[:, y], color=COLOURS["blue"], lw=1.4, **near)
-            ax.plot(tips[-1, x], tips[-1, y], "o", ms=4, color=COLOURS["blue"], **near)
-            ax.plot(target[x], target[y], "o", **RING, **near)
+            blue = {"color": COLOURS["blue"], **near}
+            ax.plot(tips[:, x], tips[:, y], lw=1.4, gid="the finger's way", **blue)
+            ax.plot(tips[-1, x], tips[-1, y], "o", ms=4, gid="the finger", **blue)
+            ax.plot(target[x], target[y], "o", **RING, gid="target", **near)
         view_from(ax, y, label, f"{title}: {away:.0f} mm away")
     return fig
 
