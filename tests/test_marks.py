@@ -21,10 +21,7 @@ def live(monkeypatch):
 @pytest.fixture
 def chapter():
     """A chapter of nine exercises: in each, its own variable has to become 2."""
-    cells = [
-        new_markdown_cell("# A chapter"),
-        new_code_cell("from vmc_lib.show import check"),
-    ]
+    cells = [new_markdown_cell("# A chapter"), new_code_cell("from vmc_lib.show import check")]
     for name in EXERCISES:
         cells += [
             new_markdown_cell("**Exercise**\n\nHow much is 1 + 1?", metadata={"exercise": name}),

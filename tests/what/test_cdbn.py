@@ -39,8 +39,7 @@ def test_numpy_and_torch_compute_equal_layers(cdbn, white):
     for name, maps in ours.items():
         np.testing.assert_allclose(maps, learner[name], atol=5e-5)  # float32, steep
     drive = F.conv2d(
-        torch.from_numpy(white)[..., :199, :199],
-        *map(torch.tensor, (cdbn.first.W, cdbn.first.b)),
+        torch.from_numpy(white)[..., :199, :199], *map(torch.tensor, (cdbn.first.W, cdbn.first.b))
     )
     units = F.pixel_unshuffle(drive, 2).unflatten(1, (10, 4))
     on = torch.softmax(F.pad(units, (0, 0, 0, 0, 0, 1)), 2)

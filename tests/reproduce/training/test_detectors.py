@@ -69,10 +69,7 @@ def test_a_mirrored_image_is_as_hard(photo):
 @pytest.mark.parametrize("name", ["published", "context"])
 def test_training_again_gives_the_detector_that_ships(name):
     few = photos.load("rig", "train")
-    trained, shipped = (
-        fit_detector(few, RECIPES[name]),
-        ObjectDetector.load("rig", name),
-    )
+    trained, shipped = (fit_detector(few, RECIPES[name]), ObjectDetector.load("rig", name))
     assert trained.svm.support == pytest.approx(shipped.svm.support, abs=1e-3)
     assert trained.svm.bias == pytest.approx(shipped.svm.bias, abs=1e-3)
 
