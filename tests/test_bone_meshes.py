@@ -29,9 +29,9 @@ def test_polygons_become_triangles_and_near_vertices_one(tmp_path):
     (tmp_path / "a.vtp").write_text(VTP, encoding="utf-8")
     points, faces = bone_meshes.read(tmp_path / "a.vtp")
     assert faces.tolist() == [[0, 1, 2], [0, 2, 3], [1, 2, 4]]
-    fewer, left = bone_meshes.cluster_vertices(points, faces, 0.002)
+    fewer, triangles = bone_meshes.cluster_vertices(points, faces, 0.002)
     assert len(fewer) == 4
-    assert len(left) == 2  # the sliver between two vertices that became one is gone
+    assert len(triangles) == 2  # the sliver between two vertices that became one is gone
     assert np.allclose(fewer.max(axis=0), [0.0101, 0.01005, 0])
 
 
@@ -56,20 +56,20 @@ def test_a_step_writes_it_from_a_folder(tmp_path, monkeypatch):
     names = [name for _, of in bone_meshes.PARTS.values() for name in of.split()]
     names += [f"arm_r_{name}" for of in bone_meshes.FINGERS.values() for name in of.split()]
     for k, name in enumerate(names):
-        moved = [
+        corners = [
             f"{0.01 * (k % 5):g} {0.02 * k:g} {0.01 * (k % 3):g}",
             "1 0 0",
             "1 1 0",
             "0 1 0",
             "2 2 0",
         ]
-        text = re.sub(r"0 0 0  .*\n", "  ".join(moved) + "\n", VTP)
+        text = re.sub(r"0 0 0  .*\n", "  ".join(corners) + "\n", VTP)
         (tmp_path / f"{name}.vtp").write_text(text, encoding="utf-8")
     monkeypatch.setattr(bone_meshes, "FILE", tmp_path / "vendor/bones.js")
     bone_meshes.write(tmp_path)
     data = re.search('"(.*)"', bone_meshes.FILE.read_text(encoding="utf-8"))[1]
-    made = json.loads(gzip.decompress(base64.b64decode(data)))
-    assert set(made["parts"]) == {
+    written = json.loads(gzip.decompress(base64.b64decode(data)))
+    assert set(written["parts"]) == {
         *bone_meshes.PARTS,
         *(f"{f} {k}" for f in bone_meshes.FINGERS for k in range(3)),
     }

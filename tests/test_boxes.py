@@ -46,12 +46,12 @@ def test_iou_of_a_box_with_itself_is_1_unless_it_is_empty(one):
 @given(crowd, st.floats(0, 1))
 def test_nms_keeps_no_overlaps_and_every_loss_has_a_better_neighbour(boxes, overlap):
     scores = np.random.default_rng(len(boxes)).permutation(len(boxes)).astype(float)
-    kept = nms(boxes, scores, overlap)
-    assert (np.diff(scores[kept]) < 0).all()
-    between = iou(boxes[kept], boxes[kept])
-    assert (between[np.triu_indices(len(kept), 1)] <= overlap).all()
-    for lost in set(range(len(boxes))) - set(kept):
-        better = kept[scores[kept] > scores[lost]]
+    rows = nms(boxes, scores, overlap)
+    assert (np.diff(scores[rows]) < 0).all()
+    between = iou(boxes[rows], boxes[rows])
+    assert (between[np.triu_indices(len(rows), 1)] <= overlap).all()
+    for lost in set(range(len(boxes))) - set(rows):
+        better = rows[scores[rows] > scores[lost]]
         assert (iou(boxes[better], boxes[lost]) > overlap).any()
 
 
@@ -118,10 +118,10 @@ def test_no_vote_outweighs_the_box_it_is_for():
     """The middle box, silenced by the first, scored higher than the last, and has no vote on it."""
     row = np.array([[0, 0, 10, 10], [3, 0, 13, 10], [6, 0, 16, 10]], float)
     scores = np.array([3.0, 2.9, 1.0])
-    kept = nms(row, scores)
-    assert kept.tolist() == [0, 2]
-    assert iou(row[1], row[kept]).min() > 0.5
-    first, last = vote(kept, row, scores, temperature=0.2)
+    rows = nms(row, scores)
+    assert rows.tolist() == [0, 2]
+    assert iou(row[1], row[rows]).min() > 0.5
+    first, last = vote(rows, row, scores, temperature=0.2)
     assert first[0] > 1
     assert (last == row[2]).all()
 

@@ -17,8 +17,8 @@ def test_back_projection_inverts_projection():
     for shot in photos.load("free", "train"):
         points = shot.target + rng.uniform(-0.1, 0.1, (20, 3))
         points[:, 1] = -0.4
-        found = shot.camera.back_project(shot.camera.project(points), height=-0.4)
-        np.testing.assert_allclose(found, points, atol=1e-12)
+        again = shot.camera.back_project(shot.camera.project(points), height=-0.4)
+        np.testing.assert_allclose(again, points, atol=1e-12)
 
 
 def test_a_camera_that_looks_straight_down():

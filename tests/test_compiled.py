@@ -16,14 +16,14 @@ ROOT = Path(__file__).parents[1]
 SOURCE = "def total(values):\n    s = 0.0\n    for v in values:\n        s += v\n    return s\n"
 
 
-def made(source, **read):
+def define(source, **read):
     """What a source defines, whose functions read these values from outside."""
     exec(source, read)  # noqa: S102
     return SimpleNamespace(**read), read
 
 
 def test_functions_without_a_file_are_compiled_without_a_cache():
-    total = compiled(made(SOURCE)[0].total)  # no folder can hold what was compiled
+    total = compiled(define(SOURCE)[0].total)  # no folder can hold what was compiled
     assert total((1.0, 2.5)) == total.__wrapped__((1.0, 2.5)) == 3.5
 
 
@@ -43,7 +43,7 @@ def test_numba_is_imported_at_the_first_call():
     ],
 )
 def test_changed_constants_and_functions_are_compiled_again(expression, first, second):
-    functions, space = made(
+    functions, space = define(
         f"def inner(x):\n    return {expression}\ndef outer(x):\n    return inner(x)\n", c=first
     )
     outer = compiled(functions.outer)
@@ -54,7 +54,7 @@ def test_changed_constants_and_functions_are_compiled_again(expression, first, s
 
 
 def test_unsupported_arguments_affect_their_call_alone():
-    total = compiled(made(SOURCE)[0].total)
+    total = compiled(define(SOURCE)[0].total)
     for _ in range(2):
         with pytest.warns(UserWarning, match="total runs as plain Python"):
             assert total(iter((1.0, 2.5))) == 3.5
@@ -64,7 +64,7 @@ def test_unsupported_arguments_affect_their_call_alone():
 
 def test_without_numba_loops_run_as_plain_python(monkeypatch):
     monkeypatch.setitem(sys.modules, "numba", None)
-    total = compiled(made(SOURCE)[0].total)
+    total = compiled(define(SOURCE)[0].total)
     with pytest.warns(UserWarning, match="without numba"):
         assert total((1.0, 2.5)) == 3.5
 
@@ -73,14 +73,16 @@ def test_disk_cache_is_not_used_for_changed_source(tmp_path):
     loop = "from law import law\nfrom vmc_lib.compiled import compiled\n"
     loop += "@compiled\ndef total(x):\n    return law(x) + 1.0\nprint(total(2.0))\n"
     (tmp_path / "loop.py").write_text(loop, encoding="utf-8")
-    told = os.environ | {"PYTHONPATH": str(ROOT), "PYTHONDONTWRITEBYTECODE": "1"}
-    said = []
+    environment = os.environ | {"PYTHONPATH": str(ROOT), "PYTHONDONTWRITEBYTECODE": "1"}
+    results = []
     for law in ("x * 2", "x * 2", "x * 5"):
         (tmp_path / "law.py").write_text(f"def law(x):\n    return {law}\n", encoding="utf-8")
         command = [sys.executable, "loop.py"]
-        done = subprocess.run(command, cwd=tmp_path, env=told, check=True, capture_output=True)
-        said.append((float(done.stdout), len(list(tmp_path.rglob("*.nbc")))))
-    assert said == [(5.0, 1), (5.0, 1), (11.0, 2)]
+        done = subprocess.run(
+            command, cwd=tmp_path, env=environment, check=True, capture_output=True
+        )
+        results.append((float(done.stdout), len(list(tmp_path.rglob("*.nbc")))))
+    assert results == [(5.0, 1), (5.0, 1), (11.0, 2)]
 
 
 def test_disk_cache_survives_a_law_whose_module_is_gone(tmp_path):

@@ -27,14 +27,14 @@ def test_a_photo_of_the_readers_is_seen():
 
 
 def test_the_button_is_there_only_where_a_kernel_answers(monkeypatch):
-    shown, figures = [], []
-    monkeypatch.setattr(where, "display", shown.append)
+    widgets, figures = [], []
+    monkeypatch.setattr(where, "display", widgets.append)
     monkeypatch.setattr(where, "figure", lambda *parts: figures.append(parts))
     image = np.zeros((400, 600, 3), np.uint8)
     for render_mode in ("book", "test", "live"):
         monkeypatch.setenv("VMC_RENDER_MODE", render_mode)
         where.photo_upload(lambda image: "<p>drawn</p>", image, "caption", "alt")
     assert figures == [("<p>drawn</p>", "caption", "alt")] * 3
-    [button] = shown
+    [button] = widgets
     assert 'type="file"' in button.page
     assert list(button.scripts) == ["canvas.js", "upload.js"]

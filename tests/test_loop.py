@@ -102,8 +102,8 @@ def sight_of(scores, probability, camera=None, selects=True):
     """The Sight of a model that detects BOXES with these scores and recognises them so."""
     scores = np.array(scores)
     boxes = BOXES[: len(scores)]
-    found = Detections(boxes, scores, boxes, boxes, scores)
-    detector = SimpleNamespace(detect=lambda image: found)
+    detections = Detections(boxes, scores, boxes, boxes, scores)
+    detector = SimpleNamespace(detect=lambda image: detections)
     selector = BoxSelector(stream_of(boxes, probability), WEIGHTS)
     recogniser = selector if selects else Fixed(probability)
     image = np.zeros((400, 600, 3), np.uint8)
@@ -134,7 +134,7 @@ def test_a_camera_filters_boxes_by_size_and_scales_the_odds(selects):
 def test_the_best_boxes_are_rescored_in_two_passes():
     corners = 60.0 * np.column_stack([np.arange(60) % 10, np.arange(60) // 10])
     many, scores = np.hstack([corners, corners + 50]), np.linspace(0.9, 0.1, 60)
-    found = Detections(many, scores, many, many, scores)
+    detections = Detections(many, scores, many, many, scores)
     stream, calls = stream_of(many, np.linspace(0.1, 0.5, 60), delta=0.02), []
 
     def predict(image, boxes, *flips):
@@ -142,7 +142,7 @@ def test_the_best_boxes_are_rescored_in_two_passes():
         return stream.predict(image, boxes)
 
     selector = BoxSelector(SimpleNamespace(predict=predict), WEIGHTS)
-    selected, probability = selector.select(None, found)
+    selected, probability = selector.select(None, detections)
     (first,), (again, flips) = calls
     assert flips == FLIPS
     np.testing.assert_array_equal(first, many[:N_FIRST_PASS])
@@ -158,9 +158,9 @@ def test_the_best_boxes_are_rescored_in_two_passes():
 
 def test_of_overlapping_boxes_the_most_probable_is_kept():
     boxes = np.array([[0, 0, 50, 50], [2, 0, 52, 50], [200, 0, 250, 50.0]])
-    found = Detections(boxes, np.ones(3), boxes, boxes, np.ones(3))
-    kept, evidence = rescore_boxes(found, stream_of(boxes, [0.7, 0.9, 0.8]), None)
-    np.testing.assert_array_equal(kept, boxes[[1, 2]])
+    detections = Detections(boxes, np.ones(3), boxes, boxes, np.ones(3))
+    selected, evidence = rescore_boxes(detections, stream_of(boxes, [0.7, 0.9, 0.8]), None)
+    np.testing.assert_array_equal(selected, boxes[[1, 2]])
     np.testing.assert_allclose(evidence, np.column_stack([[1, 1], logit([0.9, 0.8])]))
 
 
@@ -187,15 +187,15 @@ def test_a_target_out_of_reach_is_an_error(model):
 
 def test_each_command_is_simulated_once(model, photo, monkeypatch):
     """One planned movement and 21 tried off-line; the best of them need not be made again."""
-    made = []
+    counts = []
 
     def counted(excitations, *rest, **named):
-        made.append(np.prod(excitations.shape[:-2], dtype=int))
+        counts.append(np.prod(excitations.shape[:-2], dtype=int))
         return simulate(excitations, *rest, **named)
 
     monkeypatch.setattr(templates, "simulate", counted)
     reach = loop.reach(model, photo.target)
-    assert sum(made) == 22
+    assert sum(counts) == 22
     np.testing.assert_array_equal(execute(reach.plan).motion.q, reach.planned.q)
     [best] = execute(reach.plan.with_weights(loop.RULES["published"](reach.plan).best[None])).motion
     np.testing.assert_allclose(best.q, reach.calibrated.q, atol=1e-5)

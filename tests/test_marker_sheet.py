@@ -15,35 +15,35 @@ from vmc_lib.photos import HEIGHT, WIDTH
 SHOTS = photos.load(photos.SHEET_LEVEL, "test")
 
 
-def drawn(eye, scale=4, size=1):
+def draw_sheet(eye, scale=4, size=1):
     """The sheet on a grey table, as a camera sees it: by the homography of its page.
 
     `size` is how many times as wide and high the photo is as the eye's.
     """
     corners = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
-    seen = eye.project(
+    projection = eye.project(
         marker_sheet.CORNER + corners * marker_sheet.PAGE / 1000 @ marker_sheet.AXES[:2]
     )
     print_ = cv2.resize(
         marker_sheet.page_image(), None, fx=8, fy=8, interpolation=cv2.INTER_NEAREST
     )
     to = cv2.getPerspectiveTransform(
-        np.float32(corners * marker_sheet.PAGE * 8), np.float32(scale * seen)
+        np.float32(corners * marker_sheet.PAGE * 8), np.float32(scale * projection)
     )
     big = cv2.warpPerspective(print_, to, (scale * WIDTH, scale * HEIGHT), borderValue=120)
-    whole = size * WIDTH, size * HEIGHT
-    return np.dstack([cv2.resize(big, whole, interpolation=cv2.INTER_AREA)] * 3)
+    shape = size * WIDTH, size * HEIGHT
+    return np.dstack([cv2.resize(big, shape, interpolation=cv2.INTER_AREA)] * 3)
 
 
 @pytest.mark.parametrize("focal", [420.0, 600.0, 800.0])
 def test_camera_is_estimated(focal):
     eye = scene.look(np.array([0.2, TABLE, 0.15]), 0.8 * focal / 800, 0.9, 0.3, focal, 0.05)
-    found = marker_sheet.estimate_camera(drawn(eye))
-    assert found.focal == pytest.approx(focal, rel=0.03)
-    assert np.abs(found.position - eye.position).max() < 0.02
-    assert np.abs(found.rotation - eye.rotation).max() < 0.02
+    camera = marker_sheet.estimate_camera(draw_sheet(eye))
+    assert camera.focal == pytest.approx(focal, rel=0.03)
+    assert np.abs(camera.position - eye.position).max() < 0.02
+    assert np.abs(camera.rotation - eye.rotation).max() < 0.02
     there = np.array([[0.2, TABLE, -0.05]])
-    assert found.back_project(eye.project(there)) == pytest.approx(there, abs=0.003)
+    assert camera.back_project(eye.project(there)) == pytest.approx(there, abs=0.003)
 
 
 def test_camera_is_none_without_the_sheet():
@@ -59,10 +59,10 @@ def test_markers_are_detected_in_the_whole_photo(distance):
     eye = scene.look(np.array([0.2, TABLE, 0.15]), distance, 0.9, 0.3, 600.0, 0.05)
     there, off = np.array([[0.2, TABLE, -0.05]]), []
     for size in (1, 2):
-        found, bare = marker_sheet.remove_sheet(drawn(eye, size=size))
+        camera, bare = marker_sheet.remove_sheet(draw_sheet(eye, size=size))
         assert bare.shape == (HEIGHT, WIDTH, 3)
         assert marker_sheet.estimate_camera(bare) is None
-        off.append(np.linalg.norm(found.back_project(eye.project(there)) - there))
+        off.append(np.linalg.norm(camera.back_project(eye.project(there)) - there))
     assert off[1] < off[0] / 2
 
 
@@ -115,6 +115,6 @@ def test_rendered_sheet_has_one_texel_a_millimetre():
     table = scene.with_sheet(np.full((2048, 2048, 3), 0.3))
     changed = np.argwhere(table[..., 0] != 0.3)
     assert np.ptp(changed, axis=0).tolist() == (marker_sheet.PAGE - 1).tolist()
-    drawn = scene.draw_with_sheet(np.random.default_rng((3, 2, 0)))
-    assert drawn.camera.focal == pytest.approx(SHOTS[0].camera.focal)
-    assert drawn.target == pytest.approx(SHOTS[0].target)
+    view = scene.draw_with_sheet(np.random.default_rng((3, 2, 0)))
+    assert view.camera.focal == pytest.approx(SHOTS[0].camera.focal)
+    assert view.target == pytest.approx(SHOTS[0].target)

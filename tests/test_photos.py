@@ -37,9 +37,9 @@ def test_every_photo_agrees_with_its_sidecar(level, split):
         assert np.linalg.det(rotation) == pytest.approx(1)
 
         box = shot.boxes["shuttlecock"]
-        seen = shot.camera.project(shot.target)[0]
+        centre = shot.camera.project(shot.target)[0]
         middle, size = (box[:2] + box[2:]) / 2, box[2:] - box[:2]
-        assert np.all(np.abs(seen - middle) < 0.2 * size)
+        assert np.all(np.abs(centre - middle) < 0.2 * size)
         assert shot.pose in ("lying", "standing")
         assert 0.015 < shot.target[1] - TABLE < 0.05
 
@@ -60,8 +60,8 @@ def test_boxes_match_the_pixels_of_their_things():
         for x0, y0, x1, y1 in shot.boxes.values():
             window = np.s_[int(y0) : int(y1), int(x0) : int(x1)]
             rows, columns = np.nonzero(thing[window])
-            seen = [columns.min(), rows.min(), columns.max() + 1, rows.max() + 1]
-            np.testing.assert_allclose(seen, [0, 0, x1 - x0, y1 - y0], atol=4)
+            corners = [columns.min(), rows.min(), columns.max() + 1, rows.max() + 1]
+            np.testing.assert_allclose(corners, [0, 0, x1 - x0, y1 - y0], atol=4)
         for x0, y0, x1, y1 in shot.boxes.values():
             thing[int(y0) - 2 : int(y1) + 2, int(x0) - 2 : int(x1) + 2] = False
         assert thing.mean() < 1e-4
@@ -104,11 +104,11 @@ def test_the_real_level_is_split_by_place_and_credited():
     credits = (FOLDER.parents[2] / "CREDITS.md").read_text(encoding="utf-8")
     places = {}
     for file in FOLDER.glob("real/*/*.json"):
-        told = json.loads(file.read_bytes())
-        assert places.setdefault(told["place"], file.parent.name) == file.parent.name
-        assert told["licence"] in credits
-        assert photos.load("real", file.parent.name)[0].credit.endswith(told["licence"])
-        link = re.search(r"universe.roboflow.com/[\w/-]*\w", told["credit"])
+        sidecar = json.loads(file.read_bytes())
+        assert places.setdefault(sidecar["place"], file.parent.name) == file.parent.name
+        assert sidecar["licence"] in credits
+        assert photos.load("real", file.parent.name)[0].credit.endswith(sidecar["licence"])
+        link = re.search(r"universe.roboflow.com/[\w/-]*\w", sidecar["credit"])
         assert link[0].removesuffix("/dataset/29") in credits
 
 
@@ -218,8 +218,8 @@ def test_reading_refuses_damaged_files(picture, tmp_path, monkeypatch):
         photos.read_image(tmp_path / "text.jpg")
     for name in ("cut.jpg", "cut.png"):
         Image.fromarray(picture).save(tmp_path / name)
-        whole = (tmp_path / name).read_bytes()
-        (tmp_path / name).write_bytes(whole[: len(whole) // 2])
+        contents = (tmp_path / name).read_bytes()
+        (tmp_path / name).write_bytes(contents[: len(contents) // 2])
         with pytest.raises(ValueError, match="cannot be read"):
             photos.read_image(tmp_path / name)
     Image.fromarray(np.zeros((40, 60), np.uint16)).save(tmp_path / "deep.png")

@@ -10,13 +10,13 @@ from vmc_lib import photos
 
 @pytest.mark.parametrize("furnish", [scene.setting, furniture.setting])
 def test_a_scene_has_shuttlecock_and_cup_in_view_and_nothing_touches(furnish):
-    drawn = scene.draw("varied", np.random.default_rng(1), furnish)
-    things = list(drawn.things.values())
-    assert list(drawn.things)[:2] == list(photos.CLASSES)
-    assert all(scene.whole(thing, drawn.camera) for thing in things[:2])
+    view = scene.draw("varied", np.random.default_rng(1), furnish)
+    things = list(view.things.values())
+    assert list(view.things)[:2] == list(photos.CLASSES)
+    assert all(scene.whole(thing, view.camera) for thing in things[:2])
     for thing in things:
         assert scene.apart(thing, [other for other in things if other is not thing])
-    assert drawn.table.shape == (2048, 2048, 3)
+    assert view.table.shape == (2048, 2048, 3)
 
 
 def test_a_hidden_shuttlecock_is_drawn_again_and_photos_load_as_written(tmp_path):

@@ -72,10 +72,10 @@ def test_muscle_paths_are_continuous():
     for joint, other in product(range(2), (0.0, 1.0, 2.0)):
         q = np.full((3000, 2), other)
         q[:, joint] = np.linspace(*LIMITS[joint], len(q))
-        turned = q[1, joint] - q[0, joint]
+        angle = q[1, joint] - q[0, joint]
         lengths, arms = dynamics.paths(q)
-        assert np.abs(np.diff(arms, axis=0)).max() < 0.15 * turned  # m: steep is no jump
-        slope = -np.diff(lengths, axis=0) / turned
+        assert np.abs(np.diff(arms, axis=0)).max() < 0.15 * angle  # m: steep is no jump
+        slope = -np.diff(lengths, axis=0) / angle
         between = (arms[:-1, joint] + arms[1:, joint]) / 2
         assert np.abs(slope - between).max() < 1e-5  # a length that jumped would leave its slope
 

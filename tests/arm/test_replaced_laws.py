@@ -25,7 +25,7 @@ def scalar(excitation, activation, fall=0.05):  # as chapter 7 writes it, for nu
     return (excitation - activation) / 0.02
 
 
-def moved(engine):
+def run(engine):
     return simulate.simulate(WILD, START, engine=engine)
 
 
@@ -42,14 +42,14 @@ def moved(engine):
     ],
 )
 def test_replaced_constants_and_laws_change_every_engine(monkeypatch, name, other):
-    before = moved("compiled").q
+    before = run("compiled").q
     monkeypatch.setattr(muscle, name, other)
-    after, reference = moved("compiled"), moved("mujoco")
+    after, reference = run("compiled"), run("mujoco")
     assert np.abs(after.q - before).max() > 1e-3
     assert np.abs(after.q - reference.q).max() < 1e-6
     np.testing.assert_allclose(after.activation, reference.activation, atol=1e-12)
     monkeypatch.undo()
-    np.testing.assert_array_equal(moved("compiled").q, before)
+    np.testing.assert_array_equal(run("compiled").q, before)
 
 
 def test_arm_constants_cannot_be_changed_in_place():
@@ -60,14 +60,14 @@ def test_arm_constants_cannot_be_changed_in_place():
 
 
 def test_a_scalar_law_is_compiled(monkeypatch):
-    before = moved("compiled").activation
+    before = run("compiled").activation
     monkeypatch.setattr(muscle, "activation_rate", scalar)
-    assert np.abs(moved("compiled").activation - before).max() > 0.1
+    assert np.abs(run("compiled").activation - before).max() > 0.1
 
 
 def test_a_law_numba_cannot_compile_runs_as_python_with_a_warning(monkeypatch):
-    known = {}  # what a compiled loop cannot read
-    monkeypatch.setattr(muscle, "activation_rate", lambda u, a: known.get("gain", 9.0) * (u - a))
+    gains = {}  # what a compiled loop cannot read
+    monkeypatch.setattr(muscle, "activation_rate", lambda u, a: gains.get("gain", 9.0) * (u - a))
     few = WILD[:1, :20]
     with pytest.warns(UserWarning, match="runs as plain Python"):
         odd = simulate.simulate(few, START)
@@ -79,25 +79,31 @@ def test_a_law_numba_cannot_compile_runs_as_python_with_a_warning(monkeypatch):
 def test_a_law_that_gives_no_number_is_an_error(monkeypatch, engine):
     monkeypatch.setattr(muscle, "passive_force", lambda length: np.nan * length)
     with pytest.raises(ValueError, match="blows up: at step 1 a joint is at nan rad"):
-        moved(engine)
+        run(engine)
 
 
 def test_compiled_step_equals_plain_python(monkeypatch):
-    fast = moved("compiled")
+    fast = run("compiled")
     monkeypatch.setattr(engines, "_step", engines._step.__wrapped__)
-    plain = moved("compiled")
+    plain = run("compiled")
     for ours, theirs in zip(vars(fast).values(), vars(plain).values(), strict=True):
         np.testing.assert_allclose(ours, theirs, atol=1e-12)
 
 
 def test_replaced_laws_change_inverse_dynamics_and_feedback(monkeypatch):
     still = np.zeros((1, 2))
-    meant = feedback.ReferenceTrajectory(np.tile(START, (1, 101, 1)), WILD[:1, :100])
-    before = muscle_gain(START + still, still)[1], feedback.simulate_feedback(meant, feedback.BLIND)
+    path = feedback.ReferenceTrajectory(np.tile(START, (1, 101, 1)), WILD[:1, :100])
+    before = (
+        muscle_gain(START + still, still)[1],
+        feedback.simulate_feedback(path, feedback.BLIND),
+    )
     monkeypatch.setattr(muscle, "force", feeble)
     monkeypatch.setattr(muscle, "activation_rate", slow)
-    after = muscle_gain(START + still, still)[1], feedback.simulate_feedback(meant, feedback.BLIND)
+    after = (
+        muscle_gain(START + still, still)[1],
+        feedback.simulate_feedback(path, feedback.BLIND),
+    )
     assert np.abs(after[0] - before[0]).max() > 0.1
-    expected = simulate.simulate(meant.excitations, START)
+    expected = simulate.simulate(path.excitations, START)
     np.testing.assert_allclose(after[1].q, expected.q, atol=1e-9)
     assert np.abs(after[1].q - before[1].q).max() > 1e-3

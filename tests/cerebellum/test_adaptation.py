@@ -27,7 +27,7 @@ def skill(template_set):
     ("perturbation", "corrects", "left"),
     [("a load of 0.5 kg", "pull", 0.5), ("a viscous field", "aim", 0.7), ("a prism", "aim", 0.2)],
 )
-def test_adaptation_learns_and_washes_out(perturbation, corrects, left, template_set, skill):
+def test_adaptation_learns_and_washes_out(perturbation, corrects, share, template_set, skill):
     curve = adapt(
         Adaptation(skill, template_set, corrects),
         template_set,
@@ -37,7 +37,7 @@ def test_adaptation_learns_and_washes_out(perturbation, corrects, left, template
     before, first, last = curve.error[1], curve.error[2], curve.error[7:10].mean()
     after_effect, washed_out = curve.error[10], curve.error[-1]
     assert first > 5 * before
-    assert last < left * first
+    assert last < share * first
     assert after_effect > 5 * before
     assert washed_out < 0.5 * after_effect
 

@@ -42,9 +42,9 @@ def test_after_effect_has_the_opposite_sign_and_washes_out(bends):
 def test_untrained_learner_changes_nothing():
     template_set = load()
     targets = draw_targets(template_set, 3, np.random.default_rng(1))
-    meant = reference_trajectory(measure.exact_plans(targets, template_set))
-    corrected = FeedbackErrorLearning(template_set).correct(meant)
-    np.testing.assert_allclose(corrected.excitations, meant.excitations, atol=1e-12)
+    reference = reference_trajectory(measure.exact_plans(targets, template_set))
+    corrected = FeedbackErrorLearning(template_set).correct(reference)
+    np.testing.assert_allclose(corrected.excitations, reference.excitations, atol=1e-12)
 
 
 def test_shipped_results_meet_the_bars():

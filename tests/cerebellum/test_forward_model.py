@@ -36,9 +36,9 @@ def test_forward_model_fits_what_it_was_trained_on():
         exact_plans(draw_targets(template_set, 5, np.random.default_rng(2)), template_set)
     ).motion
     model, lessons = ForwardModel(), at_rest_and_on_the_way(motion, 20)
-    felt = arm_copy()(*lessons)
+    truth = arm_copy()(*lessons)
     learned = model.update(motion)(*lessons)
-    assert np.abs(learned - felt).max() < 0.1 * np.abs(felt).max()
+    assert np.abs(learned - truth).max() < 0.1 * np.abs(truth).max()
 
 
 def test_arm_copy_scales_with_muscle_strength():

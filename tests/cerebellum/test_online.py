@@ -49,44 +49,44 @@ def test_untrained_corrections_change_nothing(template_set, held_out):
 
 
 def test_weight_correction_reduces_in_sample_error(template_set):
-    (practised,) = lessons(template_set, 25)
-    before, model, after = error(practised), WeightCorrection(), []
+    (batch,) = lessons(template_set, 25)
+    before, model, after = error(batch), WeightCorrection(), []
     for _ in range(3):
-        after.append(error(model.update(practised).correct(practised)))
+        after.append(error(model.update(batch).correct(batch)))
     assert after[0] < 0.7 * before
     assert after[2] < after[0]
 
 
 def test_algorithm_2_step_by_step(template_set, held_out):
     """Its five steps for one reach at a time, in the paper's letters."""
-    (practised,), g = lessons(template_set, 25), WeightCorrection()
-    taught, right = [], []
-    for p_t, p in zip(practised.target, practised.points, strict=True):
+    (batch,), g = lessons(template_set, 25), WeightCorrection()
+    inputs, right = [], []
+    for p_t, p in zip(batch.target, batch.points, strict=True):
         trials = algorithm_1(plan(p_t, template_set))
         w_off = trials.weights[trials.error.argmin()]
         p_a = execute(plan(p_t, template_set).with_weights(w_off)).endpoint
         w_there = habitual_weights(p_a, p)
-        taught.append(np.concatenate([p_a, w_there, p.ravel()]))
+        inputs.append(np.concatenate([p_a, w_there, p.ravel()]))
         right.append(w_off - w_there)
-    line = LinearRegression().fit(taught, right)
+    line = LinearRegression().fit(inputs, right)
     change = line.predict(equation_8(held_out))
-    found = g.update(practised).correct(held_out).weights - held_out.weights
-    np.testing.assert_allclose(found, change, atol=1e-6)
+    correction = g.update(batch).correct(held_out).weights - held_out.weights
+    np.testing.assert_allclose(correction, change, atol=1e-6)
 
 
 def test_other_reading_trains_on_the_target(template_set):
-    (practised,), model = lessons(template_set, 25), WeightCorrection(hindsight=False)
-    ((inputs, change),) = model.update(practised).training_pairs
-    np.testing.assert_array_equal(inputs, equation_8(practised))
-    np.testing.assert_allclose(practised.weights + change, algorithm_1(practised).best)
+    (batch,), model = lessons(template_set, 25), WeightCorrection(hindsight=False)
+    ((inputs, change),) = model.update(batch).training_pairs
+    np.testing.assert_array_equal(inputs, equation_8(batch))
+    np.testing.assert_allclose(batch.weights + change, algorithm_1(batch).best)
 
 
 def test_algorithm_2_held_out_error_ratio(template_set, held_out):
-    (practised,), left = lessons(template_set, 25), []
+    (batch,), errors = lessons(template_set, 25), []
     for hindsight in (True, False):
-        left.append(error(WeightCorrection(hindsight).update(practised).correct(held_out)))
-    assert left[0] < 0.61 * error(held_out)  # the paper's own ratio, on what it practised
-    assert left[0] < 0.9 * left[1]
+        errors.append(error(WeightCorrection(hindsight).update(batch).correct(held_out)))
+    assert errors[0] < 0.61 * error(held_out)  # the paper's own ratio, on what it practised
+    assert errors[0] < 0.9 * errors[1]
 
 
 def test_aim_correction_held_out_error(template_set, held_out):

@@ -50,8 +50,8 @@ def test_feedback_reaches_a_target_that_jumps(template_set, model):
     """The bar: 5 cm at 150 ms, seen 120 ms late; within 10 mm in nine of ten reaches."""
     rng = np.random.default_rng(3)
     first, second = measure.draw_target_jumps(template_set, 100, rng)
-    meant = measure.reference_after_jump(template_set, first, second)
-    ends = simulate_feedback(meant, SIGHT, model, noise=measure.NOISE, rng=rng).endpoint
+    reference = measure.reference_after_jump(template_set, first, second)
+    ends = simulate_feedback(reference, SIGHT, model, noise=measure.NOISE, rng=rng).endpoint
     assert (np.linalg.norm(ends - second, axis=-1) < 0.010).mean() >= 0.9
     np.testing.assert_allclose(np.linalg.norm(second - first, axis=-1), 0.05)
 
@@ -64,12 +64,12 @@ def test_jumps_out_of_reach_are_an_error(template_set):
 def test_lesion_of_the_forward_model_gives_tremor(template_set, model):
     """The bar: the lesion's tremor is at least five times the healthy arm's."""
     targets = draw_targets(template_set, 40, np.random.default_rng(4))
-    meant = reference_trajectory(measure.exact_plans(targets, template_set))
+    reference = reference_trajectory(measure.exact_plans(targets, template_set))
     healthy, lesion = (
         simulate_feedback(
-            meant, SIGHT, known, noise=measure.NOISE, rng=np.random.default_rng(5)
+            reference, SIGHT, internal, noise=measure.NOISE, rng=np.random.default_rng(5)
         ).hand[..., :2]
-        for known in (model, None)
+        for internal in (model, None)
     )
     powers = [measure.tremor(path)[0].mean() for path in (lesion, healthy)]
     assert powers[0] > 5 * powers[1]
@@ -78,20 +78,20 @@ def test_lesion_of_the_forward_model_gives_tremor(template_set, model):
 
 
 def test_feedback_without_delay_needs_no_forward_model(few):
-    meant, quick = reference_trajectory(few), SIGHT._replace(delay=0.0)
-    alone, with_model = (simulate_feedback(meant, quick, known).q for known in (None, arm_copy()))
+    reference, quick = reference_trajectory(few), SIGHT._replace(delay=0.0)
+    alone, with_model = (simulate_feedback(reference, quick, m).q for m in (None, arm_copy()))
     np.testing.assert_array_equal(alone, with_model)
     ends = hand(alone[:, -1])[:, :2]
     assert np.linalg.norm(ends - few.target, axis=-1).max() < 0.005
 
 
 def test_reflex_and_sight_correct_a_push(few):
-    meant, world = reference_trajectory(few), push((0.0, 20.0), at=0.8)
+    reference, world = reference_trajectory(few), push((0.0, 20.0), at=0.8)
     reflex, none = SIGHT._replace(gain=0.0), BLIND
     far = {}
     for name, senses in {"none": none, "reflex": reflex, "all": SIGHT}.items():
         pushed, left_alone = (
-            simulate_feedback(meant, senses, arm_copy(), w).hand for w in (world, None)
+            simulate_feedback(reference, senses, arm_copy(), w).hand for w in (world, None)
         )
         away = np.linalg.norm(pushed - left_alone, axis=-1).mean(axis=0)
         assert away[800] < 1e-9 < away[860], name
@@ -110,11 +110,11 @@ def test_predicted_state_is_near_the_true_state(few):
     motion, late, ticks = simulate_feedback(reference_trajectory(few), BLIND), 300, 12
     now = late + ticks * feedback.TICK
     since = np.swapaxes(motion.activation[:, late : now : feedback.TICK], 0, 1)
-    seen = motion.q[:, late], motion.velocity[:, late]
-    q, velocity = feedback.predict_state(arm_copy(), *seen, since)
-    assert np.abs(q - motion.q[:, now]).max() < 0.05 * np.abs(seen[0] - motion.q[:, now]).max()
+    state = motion.q[:, late], motion.velocity[:, late]
+    q, velocity = feedback.predict_state(arm_copy(), *state, since)
+    assert np.abs(q - motion.q[:, now]).max() < 0.05 * np.abs(state[0] - motion.q[:, now]).max()
     assert np.abs(velocity - motion.velocity[:, now]).max() < 0.1
-    assert feedback.predict_state(None, *seen, since) == seen
+    assert feedback.predict_state(None, *state, since) == state
 
 
 def test_excitations_give_the_wanted_acceleration():

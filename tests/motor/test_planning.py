@@ -92,9 +92,9 @@ def test_draw_targets_refuses_templates_that_cover_too_little(template_set):
 def test_habitual_error_is_a_few_percent_of_the_reach(template_set):
     targets = draw_targets(template_set, 200, np.random.default_rng(2))
     reach = plan(targets, template_set)
-    missed = np.linalg.norm(execute(reach).endpoint - targets, axis=1)
-    assert execute(reach).error == pytest.approx(missed, abs=1e-12)
-    assert 0.01 < np.mean(missed / np.linalg.norm(targets, axis=1)) < 0.05
+    error = np.linalg.norm(execute(reach).endpoint - targets, axis=1)
+    assert execute(reach).error == pytest.approx(error, abs=1e-12)
+    assert 0.01 < np.mean(error / np.linalg.norm(targets, axis=1)) < 0.05
 
 
 @settings(max_examples=30)
@@ -120,8 +120,8 @@ def test_plans_with_other_numbers_of_templates(count, template_set):
     targets = draw_targets(template_set, 50, np.random.default_rng(3))
     chosen = nearest(targets, template_set.points, count)
     distance = np.linalg.norm(template_set.points - targets[:, None], axis=-1)
-    used = np.take_along_axis(distance, chosen, axis=-1)
-    np.testing.assert_allclose(used, np.sort(distance, axis=-1)[:, :count])
+    distances = np.take_along_axis(distance, chosen, axis=-1)
+    np.testing.assert_allclose(distances, np.sort(distance, axis=-1)[:, :count])
     mixed = plan(targets, template_set, rows=chosen)
     np.testing.assert_allclose(mixed.weights.sum(axis=-1), 1)
     with pytest.raises(ValueError, match="cannot choose"):
@@ -139,9 +139,9 @@ def test_a_movement_is_simulated_once(template_set, monkeypatch):
 def test_prism_changes_the_seen_endpoint_alone(template_set):
     straight, behind_glass = (execute(plan([0.15, -0.4], template_set), prism=p) for p in (0, 0.1))
     np.testing.assert_array_equal(behind_glass.motion.endpoint, straight.motion.endpoint)
-    seen = behind_glass.endpoint
-    np.testing.assert_allclose(rotate_about_eye(seen, -0.1), straight.endpoint)
-    assert seen[1] > straight.endpoint[1]  # upwards
+    endpoint = behind_glass.endpoint
+    np.testing.assert_allclose(rotate_about_eye(endpoint, -0.1), straight.endpoint)
+    assert endpoint[1] > straight.endpoint[1]  # upwards
 
 
 @pytest.mark.parametrize("rule", [habitual_weights, exact_weights])

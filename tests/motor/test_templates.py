@@ -38,15 +38,15 @@ def test_template_sets_surround_every_shuttlecock(level):
 
 def test_shipped_templates_are_reproducible():
     goal = reach_templates.reachable_grid(0.08)[5]
-    remade = inverse_dynamics.spline() @ reach_templates.find_reach(goal)
-    np.testing.assert_allclose(templates.reach(remade).endpoint, goal, atol=1e-6)
-    np.testing.assert_allclose(remade, templates.load(0.08).excitations[5], atol=1e-3)
+    again = inverse_dynamics.spline() @ reach_templates.find_reach(goal)
+    np.testing.assert_allclose(templates.reach(again).endpoint, goal, atol=1e-6)
+    np.testing.assert_allclose(again, templates.load(0.08).excitations[5], atol=1e-3)
 
 
 def test_static_activation_holds_the_posture():
     q = inverse_kinematics([0.12, -0.4])
-    held = templates.simulate(np.tile(inverse_dynamics.static_activation(q), (300, 1)), q)
-    np.testing.assert_allclose(held.q[-1], q, atol=0.02)
+    motion = templates.simulate(np.tile(inverse_dynamics.static_activation(q), (300, 1)), q)
+    np.testing.assert_allclose(motion.q[-1], q, atol=0.02)
 
 
 def test_an_unknown_spacing_is_refused():

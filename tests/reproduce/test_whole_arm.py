@@ -77,12 +77,12 @@ def test_bones_lie_where_the_bodies_have_them():
         "world": lambda x: (x - place) @ axes - [3, 0, 0],
         "clavicle_r": lambda x: x - [0, 0, 2],
     }
-    made = bones.bone_meshes(full)
-    assert set(made) == set(shifts)
+    meshes = bones.bone_meshes(full)
+    assert set(meshes) == set(shifts)
     for name, back in shifts.items():
-        points = back(np.reshape(made[name]["points"], (-1, 3)) / 1e4)
+        points = back(np.reshape(meshes[name]["points"], (-1, 3)) / 1e4)
         assert {tuple(np.abs(x)) for x in points.round(3)} == corners
-        assert len(made[name]["faces"]) == 12
+        assert len(meshes[name]["faces"]) == 12
 
 
 def test_bones_that_ship_are_small_and_whole():
@@ -133,16 +133,16 @@ def test_what_no_muscle_can_do_is_done_as_far_as_full_activation_goes(nerves):
 
 @pytest.mark.parametrize("ticks", [1, 30])
 def test_excitations_give_the_activations_that_are_wanted(ticks):
-    wanted = np.linspace([0.2, 0.6], [0.4, 0.5], ticks + 1)
-    active = wanted[0].copy()
-    for told in habits.invert_activation(wanted):
+    activations = np.linspace([0.2, 0.6], [0.4, 0.5], ticks + 1)
+    active = activations[0].copy()
+    for excitations in habits.invert_activation(activations):
         for _ in range(plant.HOLD):
             rate = [
                 mujoco.mju_muscleDynamics(u, a, np.array([0.01, 0.04, 0]))
-                for u, a in zip(told, active, strict=True)
+                for u, a in zip(excitations, active, strict=True)
             ]
             active += plant.MODEL.opt.timestep * np.array(rate)
-    np.testing.assert_allclose(active, wanted[-1], atol=0.02)
+    np.testing.assert_allclose(active, activations[-1], atol=0.02)
 
 
 @pytest.mark.parametrize("count", [1, 6, 14, 34, 63])
@@ -170,15 +170,15 @@ def test_the_same_functions_plan_and_correct_it():
     """Three targets of a fresh draw: the plan is near, two corrections nearer."""
     past = habits.load_templates()
     targets = experiment.draw_targets(past, count=3, rng=np.random.default_rng(77))
-    tried = broyden_calibration(experiment.plan_reaches(targets, past)).error.mean(axis=1)
-    assert tried[0] < 0.1 * np.linalg.norm(targets, axis=1).mean()
-    assert tried[2] < 0.5 * tried[0]
+    errors = broyden_calibration(experiment.plan_reaches(targets, past)).error.mean(axis=1)
+    assert errors[0] < 0.1 * np.linalg.norm(targets, axis=1).mean()
+    assert errors[2] < 0.5 * errors[0]
 
 
 def test_what_ships_meets_its_bars():
-    found = experiment.load_results()
-    assert found["real time"] >= 5
-    dense = found[f"{len(habits.load_templates().points)} memories"]
+    results = experiment.load_results()
+    assert results["real time"] >= 5
+    dense = results[f"{len(habits.load_templates().points)} memories"]
     assert dense["planned / reach"].size * experiment.COUNT >= 100
     assert dense["planned / reach"].mean() <= 0.10
     assert dense["2 corrections"].mean() <= 0.25
@@ -186,9 +186,9 @@ def test_what_ships_meets_its_bars():
 
 def test_what_ships_is_what_is_measured():
     """The cheapest of its experiments again, one draw."""
-    found = experiment.online_errors(habits.load_templates(), 0)
-    for name, left in found.items():
-        assert left == pytest.approx(experiment.load_results()["online"][name][0], rel=1e-3)
+    errors = experiment.online_errors(habits.load_templates(), 0)
+    for name, error in errors.items():
+        assert error == pytest.approx(experiment.load_results()["online"][name][0], rel=1e-3)
 
 
 def test_a_miss_is_told_beside_the_reach_and_beside_the_way():
@@ -196,8 +196,8 @@ def test_a_miss_is_told_beside_the_reach_and_beside_the_way():
     targets = experiment.draw_targets(
         habits.load_templates(), count=2, rng=np.random.default_rng(5)
     )
-    found = experiment.planned_errors(habits.load_templates(), targets)
+    errors = experiment.planned_errors(habits.load_templates(), targets)
     way = np.linalg.norm(targets - plant.tip_and_jacobian(habits.START)[0], axis=1).mean()
     longer = np.linalg.norm(targets, axis=1).mean() / way
-    assert found["planned / way"] == pytest.approx(longer * found["planned / reach"])
+    assert errors["planned / way"] == pytest.approx(longer * errors["planned / reach"])
     assert longer > 2

@@ -26,8 +26,8 @@ def test_an_estimate_of_draws_is_their_mean_with_students_interval():
 
 
 def test_an_estimate_is_written_with_two_digits_of_its_intervals_width():
-    said = [str(estimate(e)) for e in ((0.341, 0.268, 0.414), (34.2, 33.01, 35.4), (-3, -9, 90))]
-    assert said == ["0.34 (0.27 to 0.41)", "34.2 (33.0 to 35.4)", "−3 (−9 to 90)"]
+    words = [str(estimate(e)) for e in ((0.341, 0.268, 0.414), (34.2, 33.01, 35.4), (-3, -9, 90))]
+    assert words == ["0.34 (0.27 to 0.41)", "34.2 (33.0 to 35.4)", "−3 (−9 to 90)"]
     assert f"{estimate((0.341, 0.268, 0.414)):.0%}" == "34% (27% to 41%)"
     assert str(estimate(0.3412)) == "0.341"
 
@@ -53,18 +53,18 @@ def test_a_dot_plot_shows_values_intervals_and_what_was_published():
 
 
 def test_a_comparison_has_one_table_and_its_own_description(monkeypatch):
-    shown = []
+    items = []
     monkeypatch.setenv("VMC_RENDER_MODE", "book")
-    monkeypatch.setattr(demo, "display", shown.append)
+    monkeypatch.setattr(demo, "display", items.append)
     compare({"ours": {"a": DRAWS, "b": 0.7}}, "recall", "A *caption*.", {"a": 0.6}, (0, 1))
-    page = shown[0].data
+    page = items[0].data
     assert page.count("<table>") == page.count("<details") == 1
     assert "0.40 (0.15 to 0.65)" in page
-    said = "recall: ours: a 0.40 (0.15 to 0.65), b 0.7; published: a 0.6."
-    assert f'aria-label="{said}"' in page
+    words = "recall: ours: a 0.40 (0.15 to 0.65), b 0.7; published: a 0.6."
+    assert f'aria-label="{words}"' in page
 
 
-def drawn(*lines, **labels):
+def plot(*lines, **labels):
     fig, ax = plt.subplots()
     for line in lines:
         ax.plot(*line)
@@ -73,26 +73,26 @@ def drawn(*lines, **labels):
 
 
 def test_a_line_is_described_by_its_ends_and_what_lies_beyond_them():
-    fig = drawn(([0, 1, 2], [1, 3, 2]), xlabel="time (s)", ylabel="force (N)", title="held")
-    said = "force (N) against time (s): from 1 at 0 to 2 at 2, highest 3 at 1."
-    assert alt_text(fig) == f"held: {said}"
+    fig = plot(([0, 1, 2], [1, 3, 2]), xlabel="time (s)", ylabel="force (N)", title="held")
+    words = "force (N) against time (s): from 1 at 0 to 2 at 2, highest 3 at 1."
+    assert alt_text(fig) == f"held: {words}"
 
 
 def test_dots_and_ways_are_described_by_their_range():
-    ways = drawn(([0, 1, 0], [1, 3, -1]), xlabel="forward (m)", ylabel="up (m)")
-    said = "up (m) against forward (m): 3 points from −1 to 3, forward (m) 0 to 1."
-    assert alt_text(ways) == said
+    ways = plot(([0, 1, 0], [1, 3, -1]), xlabel="forward (m)", ylabel="up (m)")
+    words = "up (m) against forward (m): 3 points from −1 to 3, forward (m) 0 to 1."
+    assert alt_text(ways) == words
     assert (
-        alt_text(drawn(([0, 1, 2], [1, 3, -1], "o")))
+        alt_text(plot(([0, 1, 2], [1, 3, -1], "o")))
         == "a plot against x: 3 points from −1 to 3, x 0 to 2."
     )
 
 
 def test_of_many_series_and_rows_some_are_described_and_the_others_counted():
     rows = {f"row {i}": i / 10 for i in range(13)}
-    said = "recall: from row 0 0 to row 12 1.2."
-    assert alt_text(dot_plot({"": rows}, "recall")) == said
-    assert alt_text(drawn(*[([0, 1], [0, i]) for i in range(7)])).endswith("; and 3 more.")
+    words = "recall: from row 0 0 to row 12 1.2."
+    assert alt_text(dot_plot({"": rows}, "recall")) == words
+    assert alt_text(plot(*[([0, 1], [0, i]) for i in range(7)])).endswith("; and 3 more.")
 
 
 def test_words_in_markup_are_its_description_and_what_has_none_needs_one():

@@ -17,9 +17,9 @@ def closed():
     plt.close("all")
 
 
-def tables(drawn):
+def tables(figure):
     """The captions of the tables, and for each its rows, the heads first."""
-    [markup] = data_tables(drawn)
+    [markup] = data_tables(figure)
     parts = markup.split("<table>")[1:]
     captions = [re.findall(r"<caption>(.*)</caption>", part) for part in parts]
     rows = [re.findall(r"<tr>.*</tr>", part) for part in parts]
@@ -104,8 +104,8 @@ def test_dots_and_bars_are_told_one_by_one():
 def test_a_long_line_on_a_logarithmic_axis_is_told_evenly_along_that_axis():
     fig, ax = plt.subplots()
     ax.semilogx(np.arange(1, 257), np.arange(1, 257))
-    told = [row[0] for row in tables(fig)[1][0][1:]]
-    assert told == ["1", "2", "4", "8", "16", "32", "64", "128", "256"]
+    keys = [row[0] for row in tables(fig)[1][0][1:]]
+    assert keys == ["1", "2", "4", "8", "16", "32", "64", "128", "256"]
 
 
 def test_guide_lines_are_left_out_and_a_gid_is_a_name_without_a_legend():

@@ -87,12 +87,12 @@ def test_a_pad_reads_a_photo_in_pixels_unless_it_is_told_otherwise():
 
 
 def test_plots_share_no_names_unless_they_are_states_of_one():
-    def drawn():
+    def plot():
         fig, ax = plt.subplots()
         ax.plot([1, 2], "o")
         return fig
 
-    one, same, other = (pictures(drawn(), name)[0] for name in ("demo-1", "demo-1", "demo-2"))
+    one, same, other = (pictures(plot(), name)[0] for name in ("demo-1", "demo-1", "demo-2"))
     assert one == same
     ids = [set(re.findall(r' id="([^"]+)"', svg)) for svg in (one, other)]
     assert ids[0]
@@ -100,7 +100,7 @@ def test_plots_share_no_names_unless_they_are_states_of_one():
 
 
 def test_only_two_panels_of_one_plot_each_are_stackable():
-    def drawn(*grid, title=False, bar=False):
+    def plot(*grid, title=False, bar=False):
         fig, axes = plt.subplots(*grid)
         if title:
             fig.suptitle("over both")
@@ -108,26 +108,26 @@ def test_only_two_panels_of_one_plot_each_are_stackable():
             fig.colorbar(axes.imshow([[0, 1]]))
         return pictures(fig, "p")[0]
 
-    assert drawn(1, 2).count("<svg") == 2
-    assert 'href="#p-0-panels"' in drawn(1, 2)
-    assert drawn(2, 2).count("<svg") == 2
-    assert [drawn(1, 1).count("<svg"), drawn(1, 3).count("<svg")] == [1, 1]
-    assert drawn(1, 2, title=True).count("<svg") == 1
-    assert drawn(1, 1, bar=True).count("<svg") == 1
+    assert plot(1, 2).count("<svg") == 2
+    assert 'href="#p-0-panels"' in plot(1, 2)
+    assert plot(2, 2).count("<svg") == 2
+    assert [plot(1, 1).count("<svg"), plot(1, 3).count("<svg")] == [1, 1]
+    assert plot(1, 2, title=True).count("<svg") == 1
+    assert plot(1, 1, bar=True).count("<svg") == 1
 
 
 def test_what_is_folded_is_still_markdown(monkeypatch):
-    shown = []
-    monkeypatch.setattr(figures, "display", lambda text: shown.append(text.data))
+    texts = []
+    monkeypatch.setattr(figures, "display", lambda text: texts.append(text.data))
     details("The numbers", "| a |")
-    assert shown == ["<details><summary>The numbers</summary>\n\n| a |\n\n</details>"]
+    assert texts == ["<details><summary>The numbers</summary>\n\n| a |\n\n</details>"]
 
 
 def test_a_number_below_zero_has_a_minus_sign(monkeypatch):
-    shown = []
-    monkeypatch.setattr(figures, "display", lambda item: shown.append(item.data))
+    texts = []
+    monkeypatch.setattr(figures, "display", lambda item: texts.append(item.data))
     figures.markdown("From -1.5 (-.2) to **-3**; $x = -1$, `f -1`, 2003-4, two-thirds")
-    assert shown == ["From −1.5 (−.2) to **−3**; $x = -1$, `f -1`, 2003-4, two-thirds"]
+    assert texts == ["From −1.5 (−.2) to **−3**; $x = -1$, `f -1`, 2003-4, two-thirds"]
 
 
 def test_numbers_are_written_as_in_a_text_and_not_as_in_code():

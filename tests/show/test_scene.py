@@ -34,11 +34,11 @@ def test_equal_scenes_are_equal_messages():
 def test_messages_are_meshcats_own():
     sent = decode(ball([1, 2, 3]))
     assert sent["set_transform /meshcat/ball "]["matrix"][12:15] == [1, 2, 3]
-    made = sent["set_object /meshcat/ball "]["object"]
-    assert made["geometries"][0]["radius"] == 0.5
-    assert made["object"]["geometry"] == made["geometries"][0]["uuid"]
-    assert made["object"]["material"] == made["materials"][0]["uuid"]
-    assert made["geometries"][0]["uuid"] != made["materials"][0]["uuid"]
+    data = sent["set_object /meshcat/ball "]["object"]
+    assert data["geometries"][0]["radius"] == 0.5
+    assert data["object"]["geometry"] == data["geometries"][0]["uuid"]
+    assert data["object"]["material"] == data["materials"][0]["uuid"]
+    assert data["geometries"][0]["uuid"] != data["materials"][0]["uuid"]
 
 
 def test_the_last_word_counts_and_copies_are_free():
@@ -52,7 +52,7 @@ def test_the_last_word_counts_and_copies_are_free():
     assert json.loads(copy.messages()[0].split("|")[1]) == [[1, 0, 0], [0, 0, 0]]
 
 
-def told(scene, name):
+def message(scene, name):
     """What the scene tells the viewer under that name."""
     [data] = [m.removeprefix(f"{name}|") for m in scene.messages() if m.startswith(f"{name}|")]
     return json.loads(data)
@@ -66,7 +66,7 @@ def test_the_arm_changes_only_what_moves():
 
 def test_a_movement_is_carried_at_50_hz_and_ends_as_it_ends():
     q, active = np.random.default_rng(0).random((2, 101, 6))
-    motion = told(arm_scene(q[:, :2], active, turn=np.linspace(0, 1, 101), grasp=True), "motion")
+    motion = message(arm_scene(q[:, :2], active, turn=np.linspace(0, 1, 101), grasp=True), "motion")
     assert np.allclose(motion["q"], q[::20, :2], atol=1e-4)
     assert np.allclose(motion["activation"], active[::20], atol=1e-4)
     assert motion["turn"] == pytest.approx([0, 0.2, 0.4, 0.6, 0.8, 1])
@@ -82,13 +82,13 @@ def test_what_is_reached_for_lies_as_far_beyond_it_as_the_hand_beyond_the_wrist(
     beyond = sent["set_transform /meshcat/goal "]["matrix"][12:15]
     assert np.linalg.norm(beyond) == pytest.approx(np.linalg.norm(BEYOND))
     assert beyond[1] == pytest.approx(BEYOND[1])
-    assert told(scene, "target") == list(place)
+    assert message(scene, "target") == list(place)
 
 
 @pytest.mark.parametrize("pose", ["standing", "lying"])
 def test_shuttlecock_and_cup_lie_as_in_the_photo(pose):
-    seen = [p for level in photos.LEVELS for p in photos.load(level, "test") if p.pose == pose]
-    for photo in seen[:10]:
+    shots = [p for level in photos.LEVELS for p in photos.load(level, "test") if p.pose == pose]
+    for photo in shots[:10]:
         matrix = props.resting(photo)
         middle = matrix @ [0, props.LENGTH / 2, 0, 1]
         assert np.allclose(middle[:3], photo.target)

@@ -71,6 +71,6 @@ def test_first_layer_filters_are_gabor_like(cdbn):
 
 def test_best_gabor_finds_a_gabor_again():
     cosine, sine = gabor_pair(8, 0.7, 5, 1.7, 3, 0.4, -0.8)
-    found, correlation = best_gabor((cosine + 0.5 * sine).reshape(8, 8) + 3)
+    fit, correlation = best_gabor((cosine + 0.5 * sine).reshape(8, 8) + 3)
     assert correlation > 0.999
-    assert found.ravel() == pytest.approx(cosine + 0.5 * sine, abs=0.02)
+    assert fit.ravel() == pytest.approx(cosine + 0.5 * sine, abs=0.02)

@@ -36,9 +36,9 @@ def energy_by_the_book(machine, v, h):
     W, b, a = (x.numpy() for x in (machine.W, machine.b, machine.a))
     total = 0.0
     for k in range(len(b)):
-        turned = [np.rot90(W[k, channel], 2) for channel in range(len(a))]
-        seen = sum(convolve2d(x, w, mode="valid") for x, w in zip(v, turned, strict=True))
-        total -= (h[k] * seen).sum() + b[k] * h[k].sum()
+        kernels = [np.rot90(W[k, channel], 2) for channel in range(len(a))]
+        drive = sum(convolve2d(x, w, mode="valid") for x, w in zip(v, kernels, strict=True))
+        total -= (h[k] * drive).sum() + b[k] * h[k].sum()
     return total - (a[:, None, None] * v).sum() + (v**2).sum() / 2
 
 
@@ -174,8 +174,8 @@ def test_longer_chains_come_closer_to_the_exact_gradient():
     exact = torch.cat([x.flatten() for x in exact_gradient(machine, v)])
     gaps = []
     for steps in (1, 4, 40):
-        found, *_ = machine.gradient(v.repeat(5_000, 1, 1, 1), steps, rng(steps))
-        gaps.append((torch.cat([x.flatten() for x in found]) - exact).norm().item())
+        estimate, *_ = machine.gradient(v.repeat(5_000, 1, 1, 1), steps, rng(steps))
+        gaps.append((torch.cat([x.flatten() for x in estimate]) - exact).norm().item())
     assert gaps[0] > gaps[1] > gaps[2]
     assert gaps[2] < 0.05 * exact.norm()
 

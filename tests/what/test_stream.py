@@ -37,12 +37,12 @@ def test_each_stage_halves_the_maps():
 def test_preprocess_adds_a_margin_and_standardises():
     image = np.zeros((400, 600, 3), np.uint8)
     image[100:200, 100:200] = 255, 0, 0
-    [seen] = preprocess(image, [100, 100, 200, 200])
+    [crop] = preprocess(image, [100, 100, 200, 200])
     edge = round(WIDTH * MARGIN / (1 + 2 * MARGIN))
-    assert seen[0, edge + 1 : -edge - 1, edge + 1 : -edge - 1].min() > 1
-    assert seen[0, : edge - 1].max() < 0
+    assert crop[0, edge + 1 : -edge - 1, edge + 1 : -edge - 1].min() > 1
+    assert crop[0, : edge - 1].max() < 0
     [darker] = preprocess(image // 2, [100, 100, 200, 200])
-    np.testing.assert_allclose(darker, seen, atol=0.1)
+    np.testing.assert_allclose(darker, crop, atol=0.1)
 
 
 def test_it_recognises_shuttlecocks_and_refines_boxes():
@@ -67,9 +67,9 @@ def test_averages_over_flips_do_not_change_when_the_image_is_flipped(along, down
     if down < 0:
         mirrored[[1, 3]] = height - bottom, height - y
     odds, lacks = STREAM.predict(image, box[None], FLIPS)
-    same, turned = STREAM.predict(image[::down, ::along], mirrored[None], FLIPS)
+    same, flipped = STREAM.predict(image[::down, ::along], mirrored[None], FLIPS)
     np.testing.assert_allclose(same, odds, atol=0.01)
-    np.testing.assert_allclose(turned, lacks * [along, down, 1, 1], atol=1e-3)
+    np.testing.assert_allclose(flipped, lacks * [along, down, 1, 1], atol=1e-3)
     alone = STREAM.predict(image[::down, ::along], mirrored[None])[0]
     assert abs(alone - STREAM.predict(image, box[None])[0]) > 0.01
 

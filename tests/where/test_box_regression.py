@@ -53,12 +53,14 @@ def test_predicted_iou_is_higher_for_a_fit_than_for_a_near_miss(detector):
 def test_a_photo_without_objects_trains_the_iou_predictor(detector):
     """Candidates beside no object at all are counter-examples, like others far from one."""
     quick = replace(IMPROVED, mirror=False, boxes=300)
-    seen = training_images(photos.load("rig", "train")[:3], quick)
-    bare = replace(seen[0], truth=np.empty((0, 4)))
+    images = training_images(photos.load("rig", "train")[:3], quick)
+    bare = replace(images[0], truth=np.empty((0, 4)))
     iou_predictor = detectors.fit_iou_predictor(
-        [*seen, bare], quick, detector.svm, detector.regressions, np.random.default_rng(0)
+        [*images, bare], quick, detector.svm, detector.regressions, np.random.default_rng(0)
     )
     assert iou_predictor.axes.shape == (800, box_regression.DIRECTIONS)
-    shown = (IMPROVED.describe(seen[0].pixels, boxes) for boxes in (bare.candidates, seen[0].truth))
-    bared, objects = (iou_predictor.predict(x).mean() for x in shown)
+    features = (
+        IMPROVED.describe(images[0].pixels, boxes) for boxes in (bare.candidates, images[0].truth)
+    )
+    bared, objects = (iou_predictor.predict(x).mean() for x in features)
     assert bared < 0.2 < objects

@@ -16,14 +16,14 @@ def photo():
 
 def test_each_step_leaves_fewer_boxes(photo):
     detector = ObjectDetector.load("rig", "published")
-    found = detector.detect(photo.image)
-    counts = list(found.counts.values())
+    detections = detector.detect(photo.image)
+    counts = list(detections.counts.values())
     assert counts[0] > counts[1] >= counts[2] > 0
-    assert (detector.score(photo.image, found.passed) > 0).all()
-    assert (np.diff(found.scores) <= 0).all()
-    between = iou(found.boxes, found.boxes)
-    assert between[np.triu_indices(len(found.boxes), 1)].max(initial=0) <= 0.3
-    assert detector.score(photo.image, found.boxes) == pytest.approx(found.scores)
+    assert (detector.score(photo.image, detections.passed) > 0).all()
+    assert (np.diff(detections.scores) <= 0).all()
+    between = iou(detections.boxes, detections.boxes)
+    assert between[np.triu_indices(len(detections.boxes), 1)].max(initial=0) <= 0.3
+    assert detector.score(photo.image, detections.boxes) == pytest.approx(detections.scores)
 
 
 def test_candidates_may_be_a_list(photo):
@@ -38,9 +38,9 @@ def test_nothing_is_detected_in_blank_images(name):
     detector = ObjectDetector.load("rig", name)
     blank = np.full((400, 600, 3), 128, np.uint8)
     for boxes in (None, np.empty((0, 4)), []):
-        found = detector.detect(blank, boxes)
-        assert found.boxes.shape == (0, 4)
-        assert found.scores.shape == (0,)
+        detections = detector.detect(blank, boxes)
+        assert detections.boxes.shape == (0, 4)
+        assert detections.scores.shape == (0,)
 
 
 anywhere = st.builds(
@@ -54,10 +54,10 @@ anywhere = st.builds(
 @given(st.lists(anywhere, max_size=8).map(as_boxes), st.sampled_from(["published", "improved"]))
 def test_candidates_of_no_area_or_beyond_the_image(photo, boxes, name):
     """Whatever the candidates, what is kept are boxes: finite, none inside out."""
-    found = ObjectDetector.load("rig", name).detect(photo.image, boxes)
-    assert len(found.candidate_scores) == len(boxes)
-    assert as_boxes(found.boxes).shape == (len(found.scores), 4)
-    assert np.isfinite(found.scores).all()
+    detections = ObjectDetector.load("rig", name).detect(photo.image, boxes)
+    assert len(detections.candidate_scores) == len(boxes)
+    assert as_boxes(detections.boxes).shape == (len(detections.scores), 4)
+    assert np.isfinite(detections.scores).all()
 
 
 @pytest.mark.parametrize("image", [np.zeros((40, 60)), np.zeros((40, 60, 3)), np.uint8([[1, 2]])])

@@ -44,8 +44,8 @@ def test_gradients_point_across_the_edge():
     """Brighter to the right, in blue alone: angle 0, the first of eight bins; down: the third."""
     image = np.zeros((60, 60, 3), np.uint8)
     image[..., 2] = np.arange(60) * 4
-    for turned, bin_ in ((image, 0), (image.swapaxes(0, 1), 2), (image[:, ::-1], 4)):
-        counts = gradients(turned, [(15, 15, 45, 45)]).reshape(-1, 8).sum(0)
+    for ramp, bin_ in ((image, 0), (image.swapaxes(0, 1), 2), (image[:, ::-1], 4)):
+        counts = gradients(ramp, [(15, 15, 45, 45)]).reshape(-1, 8).sum(0)
         assert counts.argmax() == bin_
         assert counts[bin_] > 0.9 * counts.sum()
 

@@ -22,18 +22,18 @@ def test_held_out_error_is_below_a_centimetre_and_below_plain_geometry(localiser
     def plain(photo, box):
         return photo.camera.back_project((box[:2] + box[2:]) / 2, height)[0]
 
-    def learnt(photo, box):
+    def fitted(photo, box):
         return localiser.locate(photo.image, box, photo.camera)
 
     shots = photos.load("rig", "validation")
-    assert np.mean(errors(learnt, shots)) < 0.01 < np.mean(errors(plain, shots))
+    assert np.mean(errors(fitted, shots)) < 0.01 < np.mean(errors(plain, shots))
 
 
 def test_fit_is_repeatable(localiser):
     again = Localiser.fit(photos.load("rig", "train"), np.random.default_rng(0))
     photo = photos.load("rig", "validation")[0]
-    seen = photo.image, photo.boxes["shuttlecock"], photo.camera
-    np.testing.assert_array_equal(again.locate(*seen), localiser.locate(*seen))
+    view = photo.image, photo.boxes["shuttlecock"], photo.camera
+    np.testing.assert_array_equal(again.locate(*view), localiser.locate(*view))
 
 
 def test_an_unknown_level_is_refused():

@@ -86,8 +86,8 @@ def test_fresh_movements_are_new(template_set):
 
 def test_quick_is_algorithm_1_with_fewer_tries(template_set):
     reaches = plan(draw_targets(template_set, 10, np.random.default_rng(7)), template_set)
-    tried = coarse_algorithm_1(reaches)
-    np.testing.assert_allclose(tried.error, algorithm_1(reaches).error[[0, 1, 6, 11, 16, 21]])
+    trials = coarse_algorithm_1(reaches)
+    np.testing.assert_allclose(trials.error, algorithm_1(reaches).error[[0, 1, 6, 11, 16, 21]])
 
 
 def test_around_keeps_four_templates(template_set):
@@ -116,18 +116,18 @@ def test_what_shipped_meets_the_bars_on_movements_never_practised():
 
 @pytest.mark.parametrize("scenario", SCENARIOS)
 def test_algorithm_2_as_printed_reaches_the_published_ratio_on_movements_never_practised(scenario):
-    left = {name: values.mean() for name, values in load_results()[scenario].items()}
-    assert left["online, 1 experiment, held-out"] <= paper.calibrated_error_ratio("online")
-    other = left["online, the other reading, 1 experiment, held-out"]
-    assert left["online, 1 experiment, held-out"] < 0.85 * other
+    ratios = {name: values.mean() for name, values in load_results()[scenario].items()}
+    assert ratios["online, 1 experiment, held-out"] <= paper.calibrated_error_ratio("online")
+    other = ratios["online, the other reading, 1 experiment, held-out"]
+    assert ratios["online, 1 experiment, held-out"] < 0.85 * other
 
 
 def test_each_step_from_the_paper_to_ours_helps_where_neighbours_change():
     names = "", ", + exact weights", ", + granule cells"
     shipped = load_results()[SCENARIOS[0]]
-    left = [shipped[f"online{name}, 1 experiment, held-out"].mean() for name in names]
-    assert left == sorted(left, reverse=True)
-    assert shipped["own online, 25 movements, held-out"].mean() < left[-1]
+    ratios = [shipped[f"online{name}, 1 experiment, held-out"].mean() for name in names]
+    assert ratios == sorted(ratios, reverse=True)
+    assert shipped["own online, 25 movements, held-out"].mean() < ratios[-1]
 
 
 def test_steps_are_measured_on_the_same_movements():
@@ -156,6 +156,6 @@ def test_what_shipped_can_be_measured_again(template_set):
     seed = SEEDS[0]  # `error_ratios` draws 200 and then 25 targets before it calibrates the latter
     rng = np.random.default_rng(seed)
     draw_targets(template_set, 200, rng)
-    tried = algorithm_1(plan(draw_targets(template_set, 25, rng), template_set)).error
+    error = algorithm_1(plan(draw_targets(template_set, 25, rng), template_set)).error
     shipped = load_results()[SCENARIOS[0]]["off-line, published"][seed]
-    np.testing.assert_allclose(tried.min(axis=0).mean() / tried[0].mean(), shipped, atol=1e-4)
+    np.testing.assert_allclose(error.min(axis=0).mean() / error[0].mean(), shipped, atol=1e-4)

@@ -8,11 +8,11 @@ from vmc_lib.what.recogniser import READ_OUTS
 
 
 def test_every_variation_was_examined_on_every_photo():
-    found = cdbn_sensitivity.load_results()
-    assert len({seed for n_w, seed in found if n_w == N_W}) >= 3
-    assert len({n_w for n_w, _ in found}) >= 3
+    results = cdbn_sensitivity.load_results()
+    assert len({seed for n_w, seed in results if n_w == N_W}) >= 3
+    assert len({n_w for n_w, _ in results}) >= 3
     boxes = [2 * len(photos.load("rig", split)) for split in cdbn_sensitivity.SPLITS]
-    for (n_w, _), (filters, counts) in found.items():
+    for (n_w, _), (filters, counts) in results.items():
         assert filters.shape == (10, n_w, n_w)
         assert counts.shape == (len(photos.LEVELS), len(READ_OUTS), len(cdbn_sensitivity.SPLITS), 4)
         assert (counts.sum(3) == boxes).all()

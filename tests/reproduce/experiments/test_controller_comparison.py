@@ -30,9 +30,9 @@ def test_a_peer_remembers_its_lessons_and_ours_its_arrays():
 @pytest.mark.parametrize("name", ["linear rule", "feedback error"])
 def test_what_ships_is_what_is_measured(name):
     """One seed, fewer movements: the same numbers again, on the calm arm and on the noisy one."""
-    kept = load_results()
-    assert list(kept) == list(LEARNERS)
-    assert all(rows["held-out"].shape == (6, len(MOVEMENTS)) for rows in kept.values())
-    found = compare(*LEARNERS[name], seed=0, movements=MOVEMENTS[:2])
+    stored = load_results()
+    assert list(stored) == list(LEARNERS)
+    assert all(rows["held-out"].shape == (6, len(MOVEMENTS)) for rows in stored.values())
+    again = compare(*LEARNERS[name], seed=0, movements=MOVEMENTS[:2])
     for key in ("in-sample", "held-out", "held-out, noisy arm"):
-        np.testing.assert_allclose(found[key], kept[name][key][0, :2], atol=2e-4)
+        np.testing.assert_allclose(again[key], stored[name][key][0, :2], atol=2e-4)

@@ -9,10 +9,10 @@ from vmc_lib import photos
 
 
 def test_what_is_told_is_there():
-    found, asked = domain_shift.load_results(), 1 + len(domain_shift.LEVELS)
-    assert found["shift"].shape == (len(domain_shift.LEVELS), 2, domain_shift.DRAWS, asked)
-    assert found["few"].shape == (len(domain_shift.LABELS), 3, domain_shift.DRAWS, asked)
-    assert all(0 <= x.min() <= x.max() <= 1 for x in found.values())
+    results, columns = domain_shift.load_results(), 1 + len(domain_shift.LEVELS)
+    assert results["shift"].shape == (len(domain_shift.LEVELS), 2, domain_shift.DRAWS, columns)
+    assert results["few"].shape == (len(domain_shift.LABELS), 3, domain_shift.DRAWS, columns)
+    assert all(0 <= x.min() <= x.max() <= 1 for x in results.values())
 
 
 def test_what_is_told_of_the_rig_comes_out_again():
@@ -21,8 +21,8 @@ def test_what_is_told_of_the_rig_comes_out_again():
     again = domain_shift.evaluate_over_draws(
         domain_shift.evaluate_linear_readout, train, validation, [test], domain_shift.EQUAL, 6
     )
-    told = domain_shift.load_results()["shift"][0, 0, :, :2]
-    assert again == pytest.approx(told, abs=0.02)
+    stored = domain_shift.load_results()["shift"][0, 0, :, :2]
+    assert again == pytest.approx(stored, abs=0.02)
 
 
 def test_a_photo_gives_its_things_and_a_window():
@@ -58,26 +58,26 @@ def test_labels_are_drawn_until_both_kinds_are_there(rng):
 def test_the_choice_is_made_on_validation_crops_alone():
     """Of two choices the second does better there, and worse elsewhere."""
 
-    def two(taught, validation, exams, rng):
+    def two(train, validation, exams, rng):
         return [[1.0, 0.6, 0.9], [0.8, 0.7, 0.5]]
 
     labels = np.arange(9) < 4
-    found = domain_shift.evaluate_over_draws(two, (labels, labels), None, None, 5, draws=3)
-    assert found.tolist() == [[0.8, 0.5]] * 3
+    scores = domain_shift.evaluate_over_draws(two, (labels, labels), None, None, 5, draws=3)
+    assert scores.tolist() == [[0.8, 0.5]] * 3
 
 
 def test_a_read_out_tells_apart_what_can_be(rng):
     labels = np.arange(40) % 2 == 0
-    told = labels[:, None] + 0.01 * rng.standard_normal((40, 3))
-    found = domain_shift.evaluate_linear_readout(
-        (told, labels), (told, labels), [(told, ~labels)], rng
+    features = labels[:, None] + 0.01 * rng.standard_normal((40, 3))
+    scores = domain_shift.evaluate_linear_readout(
+        (features, labels), (features, labels), [(features, ~labels)], rng
     )
-    assert np.shape(found) == (len(domain_shift.PENALTIES), 3)
-    assert found[-1] == [1, 1, 0]
+    assert np.shape(scores) == (len(domain_shift.PENALTIES), 3)
+    assert scores[-1] == [1, 1, 0]
 
 
 def test_end_to_end_has_a_choice_for_each_rate_and_penalty(rng):
     crops, labels = rng.random((6, 200, 200), np.float32), np.arange(6) < 3
     few = crops, labels
-    found = domain_shift.evaluate_end_to_end(few, few, [few], rng, steps=2)
-    assert np.shape(found) == (len(domain_shift.RATES) * len(domain_shift.PENALTIES), 3)
+    scores = domain_shift.evaluate_end_to_end(few, few, [few], rng, steps=2)
+    assert np.shape(scores) == (len(domain_shift.RATES) * len(domain_shift.PENALTIES), 3)

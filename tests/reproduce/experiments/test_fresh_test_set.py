@@ -28,13 +28,13 @@ def test_every_question_was_put_to_two_hundred_photos_of_each_level():
 def test_the_exam_asks_what_the_tables_ask():
     """Put to the photos that ship, its questions get the tables' answers: of the first training."""
     shots = photos.load("rig", "test")
-    found = fresh_test_set.kernel_counts("rig", shots, trainings=1)
-    found |= fresh_test_set.detector_counts("rig", shots)
+    counts = fresh_test_set.kernel_counts("rig", shots, trainings=1)
+    counts |= fresh_test_set.detector_counts("rig", shots)
     kernels = localisation.table_1("rig", "test", "context")
     tables = {kernel: rows[0] for kernel, rows in kernels.items()}
     tables |= localisation.table_2("rig", "test")
-    for question, counts in found.items():
-        shares = [share for share, *_ in fresh_test_set.rates(*counts)]
+    for question, numbers in counts.items():
+        shares = [share for share, *_ in fresh_test_set.rates(*numbers)]
         assert shares == pytest.approx(tables[question], abs=0.02)
 
 

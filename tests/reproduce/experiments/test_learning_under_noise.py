@@ -12,12 +12,12 @@ from reproduce.experiments.learning_under_noise import (
 
 def test_what_ships_is_what_is_measured():
     """One seed, fewer movements: the same numbers again."""
-    kept = load_results()
-    assert list(kept) == [f"{mm} mm" for mm in LEVELS]
+    stored = load_results()
+    assert list(stored) == [f"{mm} mm" for mm in LEVELS]
     name = "granule cells"
-    found = compare_learners(5, 0, {name: LEARNERS[name]}, sizes=(25, 50))
-    for key, values in found.items():
-        shipped = kept["5 mm"][key][0]
+    again = compare_learners(5, 0, {name: LEARNERS[name]}, sizes=(25, 50))
+    for key, values in again.items():
+        shipped = stored["5 mm"][key][0]
         np.testing.assert_allclose(values, shipped[:2] if shipped.ndim else shipped, atol=2e-4)
 
 

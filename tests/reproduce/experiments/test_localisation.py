@@ -16,8 +16,8 @@ def test_what_ships_as_found_is_found(level, name):
     """In all but a few photos: another processor may round a pixel differently."""
     some, same = photos.load(level, "test")[:5], 0
     for photo, regions in zip(some, localisation.detect_photos(level, "test", name), strict=False):
-        kept = arrays("localisation")[f"{photo.name}/{name}"]
-        same += len(kept) == len(regions.boxes) and np.allclose(kept, regions.boxes, atol=1)
+        stored = arrays("localisation")[f"{photo.name}/{name}"]
+        same += len(stored) == len(regions.boxes) and np.allclose(stored, regions.boxes, atol=1)
     assert same >= 4
 
 

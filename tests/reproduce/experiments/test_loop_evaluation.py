@@ -20,13 +20,13 @@ def sight(photo):
 
 
 def test_scores_count_what_went_wrong(photo, sight):
-    missed = loop_evaluation.score(photo, sight, None, {})
-    assert missed["found"]
-    assert missed["named"]
-    assert not missed["cup"]
-    assert np.isnan([missed[key] for key in ("target", "planned", *loop.RULES)]).all()
-    arrived = missed | dict.fromkeys(("target", "planned", *loop.RULES), 0.004)
-    both = {key: np.array([missed[key], arrived[key]]) for key in missed}
+    failure = loop_evaluation.score(photo, sight, None, {})
+    assert failure["found"]
+    assert failure["named"]
+    assert not failure["cup"]
+    assert np.isnan([failure[key] for key in ("target", "planned", *loop.RULES)]).all()
+    success = failure | dict.fromkeys(("target", "planned", *loop.RULES), 0.004)
+    both = {key: np.array([failure[key], success[key]]) for key in failure}
     summary = loop_evaluation.summary(both)
     assert summary["arrived, own"] == summary["arrived, published"] == summary["close, own"] == 0.5
     assert summary["planned"] == 0.004
@@ -111,6 +111,6 @@ def test_the_model_of_photographs_is_tried_on_renders_too(tmp_path):
 def test_lesions_that_shipped_can_be_measured_again():
     model, shipped = loop.VisuomotorModel.load("rig"), results.records("lesions")["rig"]
     once = loop_evaluation._photo_lesions(model, photos.load("rig", "test")[0])
-    for how, left in once.items():
-        assert left["object"] == shipped[how]["object"][0]
-        assert left["missed"] == pytest.approx(shipped[how]["missed"][0], abs=0.2)
+    for how, lesion in once.items():
+        assert lesion["object"] == shipped[how]["object"][0]
+        assert lesion["missed"] == pytest.approx(shipped[how]["missed"][0], abs=0.2)

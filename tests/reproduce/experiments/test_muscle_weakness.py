@@ -13,9 +13,9 @@ from vmc_lib.motor.templates import load, reach
 
 def test_a_weak_muscle_gets_its_share_alone():
     habit = plan(muscle_weakness.TARGETS, muscle_weakness.weak_arm("BRA"))
-    told = habit.excitations.copy()
-    told[..., MUSCLES.index("BRA")] *= muscle_weakness.LEFT
-    np.testing.assert_array_equal(execute(habit).endpoint, reach(told).endpoint)
+    commands = habit.excitations.copy()
+    commands[..., MUSCLES.index("BRA")] *= muscle_weakness.LEFT
+    np.testing.assert_array_equal(execute(habit).endpoint, reach(commands).endpoint)
     np.testing.assert_array_equal(habit.points, plan(muscle_weakness.TARGETS, load()).points)
 
 
@@ -26,37 +26,37 @@ def test_an_unknown_muscle_is_refused():
 
 @pytest.mark.parametrize("muscle", MUSCLES)
 def test_rivals_that_know_arrive_and_habit_comes_nearer(muscle):
-    found = muscle_weakness.compare_rules(muscle)
+    rules = muscle_weakness.compare_rules(muscle)
     for rival in muscle_weakness.RIVALS:
-        assert found[rival]["after"]["miss"] < 1.5, rival
-        assert found[rival]["before"]["miss"] > found[rival]["after"]["miss"] - 0.5, rival
-    nearer = [found[f"habit, {way}"]["after"]["miss"].mean() for way in muscle_weakness.CORRECTIONS]
-    assert min(nearer) < found["habit, aim"]["before"]["miss"].mean()
+        assert rules[rival]["after"]["miss"] < 1.5, rival
+        assert rules[rival]["before"]["miss"] > rules[rival]["after"]["miss"] - 0.5, rival
+    nearer = [rules[f"habit, {way}"]["after"]["miss"].mean() for way in muscle_weakness.CORRECTIONS]
+    assert min(nearer) < rules["habit, aim"]["before"]["miss"].mean()
 
 
 def test_what_ships_can_be_searched_again():
     again = muscle_weakness.search_optima(muscle_weakness.TARGETS[:1], ["BRA"])[0, 0]
     shipped = muscle_weakness.load_results()["least effort"][MUSCLES.index("BRA"), 0]
-    told = (optimal_control.excitations_from_knots(x.astype(float)) for x in (again, shipped))
-    spent = [optimal_control.effort(x / muscle_weakness.muscle_strength("BRA")) for x in told]
-    assert spent[0] == pytest.approx(spent[1], rel=0.01)
+    commands = (optimal_control.excitations_from_knots(x.astype(float)) for x in (again, shipped))
+    efforts = [optimal_control.effort(x / muscle_weakness.muscle_strength("BRA")) for x in commands]
+    assert efforts[0] == pytest.approx(efforts[1], rel=0.01)
 
 
 def test_the_least_effort_asks_for_no_more_than_a_whole_command():
     for muscle, knots in zip(MUSCLES, muscle_weakness.load_results()["least effort"], strict=True):
-        told = optimal_control.excitations_from_knots(
+        commands = optimal_control.excitations_from_knots(
             knots.astype(float)
         ) / muscle_weakness.muscle_strength(muscle)
-        assert told.max() <= 1.0001
+        assert commands.max() <= 1.0001
 
 
 @pytest.mark.parametrize("flexor", ["BIClong", "BICshort", "BRA"])
 def test_with_a_weak_flexor_habit_drives_every_muscle_harder(flexor):
     """As people did; the cheapest commands spare some."""
-    found = muscle_weakness.compare_rules(flexor)
+    rules = muscle_weakness.compare_rules(flexor)
     harder = {
         who: both["after"]["drive"].mean(axis=0) / both["before"]["drive"].mean(axis=0)
-        for who, both in found.items()
+        for who, both in rules.items()
     }
     assert harder["habit, pull"].min() > 1
     assert harder["habit, aim"].min() < 1

@@ -9,19 +9,19 @@ from vmc_lib.motor.templates import load
 
 
 @pytest.fixture(scope="module")
-def drawn():
+def plans():
     targets, balls = obstacle_avoidance.obstacles(load(), 5, np.random.default_rng(3))
-    found = [
+    pairs = [
         obstacle_avoidance.plan_around(*pair, load()) for pair in zip(targets, balls, strict=True)
     ]
     way = ReferenceTrajectory(
-        *(np.concatenate(parts) for parts in zip(*(w for _, w in found), strict=True))
+        *(np.concatenate(parts) for parts in zip(*(w for _, w in pairs), strict=True))
     )
     return targets, balls, way
 
 
-def test_the_ball_lies_in_the_way_and_the_second_way_goes_round(drawn):
-    targets, balls, way = drawn
+def test_the_ball_lies_in_the_way_and_the_second_way_goes_round(plans):
+    targets, balls, way = plans
     straight = obstacle_avoidance.reference_paths(
         reference_trajectory(feedback_control.exact_plans(targets, load()))
     )

@@ -39,9 +39,9 @@ def test_the_eight_memories_lie_round_the_target(flat, memories):
 def test_practice_brings_the_hand_nearer(flat):
     places = np.array([[0.12, -0.40, 0.06], [0.17, -0.39, 0.06], [0.15, -0.42, 0.06]])
     targets = to_world(places, np.radians([12.0, 28, 44]))
-    practised = planning_3d.plan_and_correct(targets, flat)
-    planned, *_, last = practised.error
-    np.testing.assert_allclose(practised.weights.sum(axis=-1), 1)
+    trials = planning_3d.plan_and_correct(targets, flat)
+    planned, *_, last = trials.error
+    np.testing.assert_allclose(trials.weights.sum(axis=-1), 1)
     assert np.all(last < 0.5 * planned)
     assert last.mean() < 0.1 * planned.mean()
 

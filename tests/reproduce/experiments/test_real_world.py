@@ -10,14 +10,14 @@ from vmc_lib import loop, photos
 @pytest.mark.parametrize("split", real_world.SPLITS)
 @pytest.mark.parametrize("model", real_world.MODELS)
 def test_what_is_stored_is_of_every_photo(model, split):
-    found = real_world.load_results(model, split)
+    answers = real_world.load_results(model, split)
     shots = photos.load("real", split)
-    assert list(found) == [photo.name for photo in shots]
-    for photo, seen in zip(shots, found.values(), strict=True):
-        assert seen["holds"] == next(iter(photo.boxes), "neither")
-    for question, (count, of) in real_world.count_answers(found).items():
+    assert list(answers) == [photo.name for photo in shots]
+    for photo, answer in zip(shots, answers.values(), strict=True):
+        assert answer["holds"] == next(iter(photo.boxes), "neither")
+    for question, (count, of) in real_world.count_answers(answers).items():
         kind = real_world.QUESTIONS[question][0]
-        assert 0 <= count <= of == [seen["holds"] for seen in found.values()].count(kind)
+        assert 0 <= count <= of == [answer["holds"] for answer in answers.values()].count(kind)
 
 
 @pytest.mark.parametrize("model", real_world.MODELS)
@@ -48,9 +48,9 @@ def test_a_share_is_told_with_its_interval():
 
 @pytest.mark.parametrize("model", real_world.MODELS)
 def test_another_renderers_scenes_all_show_a_shuttlecock(model):
-    found = results.records("elsewhere")[model]
-    assert len(found) == 160
-    counts = real_world.count_answers(found)
+    answers = results.records("elsewhere")[model]
+    assert len(answers) == 160
+    counts = real_world.count_answers(answers)
     assert {of for _, of in counts.values()} == {160}
     assert {real_world.QUESTIONS[question][0] for question in counts} == {"shuttlecock"}
 

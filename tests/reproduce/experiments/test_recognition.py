@@ -23,12 +23,12 @@ def test_counts_by_hand():
 
 
 def test_what_ships_is_what_the_shipped_weights_say():
-    learnt, linear = load_classifiers()
-    found, truth = probabilities("rig", photos.load("rig", "validation"), learnt, linear)
-    kept, kept_truth = load_probabilities("rig", "validation")
-    assert (truth == kept_truth).all()
+    cdbn, linear = load_classifiers()
+    chances, truth = probabilities("rig", photos.load("rig", "validation"), cdbn, linear)
+    stored, stored_truth = load_probabilities("rig", "validation")
+    assert (truth == stored_truth).all()
     for method in METHODS:
-        assert found[method] == pytest.approx(kept[method], abs=1e-3)
+        assert chances[method] == pytest.approx(stored[method], abs=1e-3)
 
 
 def test_every_method_was_put_to_both_things_in_a_hundred_fresh_photos_a_level():

@@ -20,9 +20,9 @@ POOL = samples.training_samples({"real": [REAL], "rig": [RENDER], "pasted": [REA
 
 
 def test_what_is_told_is_there():
-    found = stream_ablation.load_results()
-    assert list(found) == list(stream_ablation.WITHOUT)
-    for shares in found.values():
+    results = stream_ablation.load_results()
+    assert list(results) == list(stream_ablation.WITHOUT)
+    for shares in results.values():
         assert shares.shape == (stream_ablation.DRAWS,)
         assert 0 <= shares.min() <= shares.max() <= 1
 
@@ -34,7 +34,7 @@ def test_each_way_leaves_one_idea_out():
 
     def has(name):
         sources = ways[name].sources
-        return {(s, kind) for s in sources for kind, shown in sources[s].items() if shown}
+        return {(s, kind) for s in sources for kind, boxes in sources[s].items() if boxes}
 
     everything = has("all of them")
     assert has("two stages, not four") == everything
@@ -47,9 +47,9 @@ def test_each_way_leaves_one_idea_out():
         True,
         True,
     ]
-    laid = {(s, kind) for s, kind in everything if s == "pasted"}
+    pasted = {(s, kind) for s, kind in everything if s == "pasted"}
     windows = {(s, kind) for s, kind in everything if s != "rendered" and kind == "scene"}
-    assert has("without shuttlecocks laid on photographs") == everything - laid
+    assert has("without shuttlecocks laid on photographs") == everything - pasted
     assert has("without windows of photographs") == everything - windows
     assert {s for s, _ in has("without photographs")} == {"rendered"}
 

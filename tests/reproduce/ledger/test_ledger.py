@@ -20,12 +20,12 @@ def same(number):
 
 
 def test_every_table_and_figure_of_the_paper_has_one_row():
-    wanted = [f"Table {n}" for n in ("I", "II", "III", "IV", "V", "VI")]
-    wanted += [f"Fig. {n}" for n in range(1, 13)]
+    paper = [f"Table {n}" for n in ("I", "II", "III", "IV", "V", "VI")]
+    paper += [f"Fig. {n}" for n in range(1, 13)]
     rows = [row.where for row in ledger.ROWS]
     assert list(STORED) == rows
     assert len(set(rows)) == len(rows)
-    assert sorted(where for where in rows if where.startswith(("Table", "Fig."))) == sorted(wanted)
+    assert sorted(where for where in rows if where.startswith(("Table", "Fig."))) == sorted(paper)
 
 
 def test_sixty_numbers_and_more_can_fail():
@@ -53,8 +53,8 @@ def test_a_reason_stands_where_and_only_where_we_differ(row):
 
 def scores(level):
     """What ships of the loop's test photos: arrays (40,) of true or false, or of metres."""
-    kept = ledger.load()["loop"][level]["scores"]
-    return {k: np.array(v, bool if isinstance(v[0], bool) else float) for k, v in kept.items()}
+    stored = ledger.load()["loop"][level]["scores"]
+    return {k: np.array(v, bool if isinstance(v[0], bool) else float) for k, v in stored.items()}
 
 
 @pytest.mark.parametrize("level", LEVELS)
@@ -71,8 +71,8 @@ def test_the_loop_on_test_photos_is_what_a_run_gives(level, tmp_path):
 
 @pytest.mark.parametrize("level", LEVELS)
 def test_what_is_told_of_the_loop_follows_from_its_scores(level):
-    told = ledger.load()["loop"][level]
-    assert loop.outcomes(scores(level)) == {k: told[k] for k in ("summary", "failures")}
+    stored = ledger.load()["loop"][level]
+    assert loop.outcomes(scores(level)) == {k: stored[k] for k in ("summary", "failures")}
 
 
 @pytest.mark.parametrize(

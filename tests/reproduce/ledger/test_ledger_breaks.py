@@ -23,16 +23,16 @@ FEW = range(3)  # draws, to be quick
 @pytest.fixture(autouse=True)
 def afresh():
     """What a row has measured is kept for the next: not across a break."""
-    kept = (
+    caches = (
         planning.planned_error_ratios,
         planning.errors_3d,
         calibration.nearer_shares,
         naming.gabor_correlations,
     )
-    for function in kept:
+    for function in caches:
         function.cache_clear()
     yield
-    for function in kept:
+    for function in caches:
         function.cache_clear()
 
 
@@ -42,9 +42,9 @@ def the_cup_is_named(patch):
 
 
 def labels_are_permuted(patch):
-    found = naming.cdbn_sensitivity.load_results()
-    turned = {k: (filters, counts[..., [1, 0, 3, 2]]) for k, (filters, counts) in found.items()}
-    wrong = {k: turned[k] if k in naming.NETWORKS else found[k] for k in found}
+    results = naming.cdbn_sensitivity.load_results()
+    permuted = {k: (filters, counts[..., [1, 0, 3, 2]]) for k, (filters, counts) in results.items()}
+    wrong = {k: permuted[k] if k in naming.NETWORKS else results[k] for k in results}
     patch.setattr(naming.cdbn_sensitivity, "load_results", lambda: wrong)
 
 
@@ -108,19 +108,19 @@ def weights_are_shuffled(patch):
 
 def nothing_is_learned(patch):
     """Such a learner leaves the whole error."""
-    found = calibration.load_results()
-    left = {k: {name: np.ones_like(x) for name, x in rows.items()} for k, rows in found.items()}
-    patch.setattr(calibration, "load_results", lambda: left)
+    results = calibration.load_results()
+    ones = {k: {name: np.ones_like(x) for name, x in rows.items()} for k, rows in results.items()}
+    patch.setattr(calibration, "load_results", lambda: ones)
 
 
 def nothing_is_learned_online(patch):
     """Off-line calibration still does its share; what is learned for the next time is nothing."""
-    found = calibration.load_results()
-    left = {
+    results = calibration.load_results()
+    ones = {
         k: {name: np.ones_like(x) if name.startswith("online") else x for name, x in rows.items()}
-        for k, rows in found.items()
+        for k, rows in results.items()
     }
-    patch.setattr(calibration, "load_results", lambda: left)
+    patch.setattr(calibration, "load_results", lambda: ones)
 
 
 def the_error_points_away(patch):

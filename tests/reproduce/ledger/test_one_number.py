@@ -53,12 +53,12 @@ class Names:
 
 def rests_on(chapter, cell):
     """Whether a cell, or one that gives it a name, calls what the ledger calls."""
-    known, waiting, seen = cells(chapter), [cell], set()
+    code, waiting, visited = cells(chapter), [cell], set()
     while waiting:
-        if SHARED & known[one := waiting.pop()].calls:
+        if SHARED & code[one := waiting.pop()].calls:
             return True
-        seen.add(one)
-        waiting += [k for k, c in known.items() if c.gives & known[one].uses and k not in seen]
+        visited.add(one)
+        waiting += [k for k, c in code.items() if c.gives & code[one].uses and k not in visited]
     return False
 
 
@@ -72,8 +72,8 @@ def test_beside_a_claim_stands_the_ledgers_number(chapter):
 @pytest.mark.parametrize("chapter", CHAPTERS, ids=lambda chapter: chapter.stem)
 def test_what_a_chapter_asks_the_ledger_for_is_there(chapter):
     for cell in cells(chapter).values():
-        for asked in cell.values:
-            ledger.value(*asked)
+        for names in cell.values:
+            ledger.value(*names)
 
 
 def test_the_shared_functions_give_the_ledgers_numbers():
@@ -83,8 +83,8 @@ def test_the_shared_functions_give_the_ledgers_numbers():
         ("Table V", f"error after over planned, {here}"): "off-line, published",
         ("Ours, Table V", "error over planned, own off-line, 2 trials"): "own off-line, 2 trials",
     }
-    for asked, entry in pairs.items():
-        assert ledger.value(*asked).obtained == pytest.approx(load_results()[here][entry].mean())
+    for names, entry in pairs.items():
+        assert ledger.value(*names).obtained == pytest.approx(load_results()[here][entry].mean())
     for kernel, key in (("linear", "linear"), ("RBF", "rbf")):
         ours = localisation.table_1("rig", "test")[key].mean(axis=0)
         for k, measure in enumerate(("precision", "recall")):

@@ -44,13 +44,13 @@ def test_the_delta_rule_moves_only_by_the_error_and_the_lines_own_activity():
 
 def test_hindsight_and_feedback_error_say_the_same_of_two_places(some):
     """How far beyond to aim is the same number; they differ in where it is held for right."""
-    aim, reached = some.target + 0.01, some.target - [0.02, 0.0]
-    (at_end, then), (at_target, asked) = (
-        kind(load(), DeltaRuleCells()).training_pairs(some, aim, reached)
+    aim, endpoint = some.target + 0.01, some.target - [0.02, 0.0]
+    (at_end, hindsight), (at_target, aim_change) = (
+        kind(load(), DeltaRuleCells()).training_pairs(some, aim, endpoint)
         for kind in (AimCorrection, FeedbackError)
     )
-    np.testing.assert_allclose(then, asked)
-    np.testing.assert_allclose(at_end[:, :2], reached)
+    np.testing.assert_allclose(hindsight, aim_change)
+    np.testing.assert_allclose(at_end[:, :2], endpoint)
     np.testing.assert_allclose(at_target, mossy_fibres(some))
 
 
@@ -59,7 +59,7 @@ def test_a_distal_teacher_sends_the_error_back_through_its_models_slopes(some):
     turn = np.array([[1.0, 0.0], [0.5, 0.0]])
     pupil = DistalTeacher(load(), DeltaRuleCells())
     pupil.model = SimpleNamespace(partial_fit=lambda x, y: None, predict=lambda x: x[:, :2] @ turn)
-    reached = some.target - [0.02, 0.01]
-    inputs, change = pupil.training_pairs(some, some.target, reached)
-    np.testing.assert_allclose(change, np.tile([0.04, 0.02], (len(reached), 1)), atol=1e-9)
+    endpoint = some.target - [0.02, 0.01]
+    inputs, change = pupil.training_pairs(some, some.target, endpoint)
+    np.testing.assert_allclose(change, np.tile([0.04, 0.02], (len(endpoint), 1)), atol=1e-9)
     np.testing.assert_allclose(inputs, mossy_fibres(some))

@@ -11,11 +11,9 @@ from vmc_lib.motor.inverse_dynamics import minimum_jerk_profile
 
 def test_every_optimum_is_at_its_target_and_stays():
     motion = templates.reach(minimum_variance.optimal_excitations())
-    reached = motion.hand[:, [700, 1000], :2]
+    hand = motion.hand[:, [700, 1000], :2]
     assert (
-        np.linalg.norm(
-            reached - optimal_control.TARGETS[minimum_variance.NEW][:, None], axis=-1
-        ).max()
+        np.linalg.norm(hand - optimal_control.TARGETS[minimum_variance.NEW][:, None], axis=-1).max()
         < 2e-3
     )
     assert np.abs(motion.velocity[..., -1, :]).max() < 0.05
@@ -28,10 +26,10 @@ def test_no_template_lies_on_the_targets():
 
 
 def test_it_is_the_steadiest_of_all():
-    found = minimum_variance.compare_rules(np.random.default_rng(1), repeats=40)
-    scatter = {name: rows["scatter"].mean() for name, rows in found.items()}
+    rules = minimum_variance.compare_rules(np.random.default_rng(1), repeats=40)
+    scatter = {name: rows["scatter"].mean() for name, rows in rules.items()}
     assert min(scatter, key=scatter.get) == "least variance"
-    assert all(len(values) == 5 for rows in found.values() for values in rows.values())
+    assert all(len(values) == 5 for rows in rules.values() for values in rows.values())
 
 
 def test_it_is_steadier_than_the_cheapest_at_every_target():
@@ -45,12 +43,12 @@ def test_it_is_steadier_than_the_cheapest_at_every_target():
 def test_the_variance_is_that_of_many_reaches():
     """To first order, and at the moments that count."""
     x = optimal_control.arrays("optimal")["knots"][12].astype(float)
-    told = np.tile(optimal_control.excitations_from_knots(x), (400, 1, 1))
-    many = templates.reach(with_noise(told, 0.04, np.random.default_rng(0))).hand[
+    commands = np.tile(optimal_control.excitations_from_knots(x), (400, 1, 1))
+    many = templates.reach(with_noise(commands, 0.04, np.random.default_rng(0))).hand[
         :, minimum_variance.HOLD, :2
     ]
-    found = 100 * many.std(axis=0, ddof=1)
-    assert np.sqrt(np.square(found).mean()) / 0.04 == pytest.approx(
+    deviation = 100 * many.std(axis=0, ddof=1)
+    assert np.sqrt(np.square(deviation).mean()) / 0.04 == pytest.approx(
         np.sqrt(minimum_variance.variance(x)), rel=0.1
     )
 

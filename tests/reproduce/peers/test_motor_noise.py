@@ -9,8 +9,8 @@ from vmc_lib.motor.templates import load, reach
 
 
 def test_the_noise_is_the_pools_own_smooth_and_a_share_of_the_command():
-    told = np.full((300, 1000, 6), 0.5) * [1, 1, 1, 1, 0.5, 0]
-    noise = motor_noise.with_noise(told, 0.1, np.random.default_rng(0)) - told
+    commands = np.full((300, 1000, 6), 0.5) * [1, 1, 1, 1, 0.5, 0]
+    noise = motor_noise.with_noise(commands, 0.1, np.random.default_rng(0)) - commands
     np.testing.assert_allclose(noise.std(axis=(0, 1))[:5], [0.05] * 4 + [0.025], rtol=0.05)
     assert not noise[..., 5].any()
     together = np.corrcoef(noise.reshape(-1, 6)[::50, :5].T)
@@ -23,9 +23,9 @@ def test_its_strength_is_told_by_where_the_hand_ends():
     """Other targets than those by which it was set, and other noise; one share of it ships."""
     mm = minimum_variance.LEVEL
     targets = draw_targets(load(), 200, np.random.default_rng(1))
-    told = np.tile(plan(targets, load(), exact_weights).excitations, (5, 1, 1, 1))
+    commands = np.tile(plan(targets, load(), exact_weights).excitations, (5, 1, 1, 1))
     share = motor_noise.noise_share_for(mm)
-    ends = reach(motor_noise.with_noise(told, share, np.random.default_rng(2))).endpoint
+    ends = reach(motor_noise.with_noise(commands, share, np.random.default_rng(2))).endpoint
     assert 1000 * motor_noise.endpoint_deviation(ends) == pytest.approx(mm, rel=0.15)
     assert share == pytest.approx(minimum_variance.noise_share(), rel=1e-6)
 

@@ -10,16 +10,16 @@ from vmc_lib.motor.planning import exact_weights, plan
 
 def test_every_optimum_is_at_its_target_and_stays():
     motion = templates.reach(optimal_control.optimal_excitations())
-    reached = motion.hand[:, [700, 1000], :2]
-    assert np.linalg.norm(reached - optimal_control.TARGETS[:, None], axis=-1).max() < 1e-3
+    hand = motion.hand[:, [700, 1000], :2]
+    assert np.linalg.norm(hand - optimal_control.TARGETS[:, None], axis=-1).max() < 1e-3
     assert np.abs(motion.velocity[..., -1, :]).max() < 0.02
 
 
 def test_every_optimum_costs_less_than_habit():
-    spent = optimal_control.effort(optimal_control.optimal_excitations())
+    efforts = optimal_control.effort(optimal_control.optimal_excitations())
     for rule in (None, exact_weights):
         habit = plan(optimal_control.TARGETS, templates.load(), *([rule] if rule else []))
-        share = spent / optimal_control.effort(habit.excitations)
+        share = efforts / optimal_control.effort(habit.excitations)
         assert share.max() < 1.05  # habit saves a little where it misses: it need not be there
         assert np.median(share) < 0.5
 
@@ -28,18 +28,18 @@ def test_optima_mixed_cost_little_more_than_the_optimum():
     """The price of habit is its templates', not the mixing's."""
     cheap = optimal_control.mix_optima()
     np.testing.assert_allclose(cheap.weights, 0.25, atol=1e-3)  # half-way between all four
-    spent = optimal_control.effort(optimal_control.optimal_excitations())[optimal_control.INNER]
+    efforts = optimal_control.effort(optimal_control.optimal_excitations())[optimal_control.INNER]
     habit = plan(cheap.target, templates.load())
     mixed, shipped = (
-        np.mean(optimal_control.effort(p.excitations) / spent) for p in (cheap, habit)
+        np.mean(optimal_control.effort(p.excitations) / efforts) for p in (cheap, habit)
     )
     assert mixed < 1.5 < 3 < shipped
 
 
 def test_what_ships_can_be_solved_again():
-    solved = optimal_control.effort(optimal_control.solve(optimal_control.TARGETS[12]))
+    effort = optimal_control.effort(optimal_control.solve(optimal_control.TARGETS[12]))
     np.testing.assert_allclose(
-        solved, optimal_control.effort(optimal_control.optimal_excitations()[12]), rtol=0.01
+        effort, optimal_control.effort(optimal_control.optimal_excitations()[12]), rtol=0.01
     )
 
 

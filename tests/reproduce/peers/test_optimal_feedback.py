@@ -35,10 +35,10 @@ def test_slopes_are_what_a_nudge_does():
     state = np.concatenate([state[:4], np.full(6, 0.2)])  # away from where Eq. 9 has its kink
     by, more = 1e-4 * rng.normal(size=10), 1e-4 * rng.normal(size=6)
     A, B = feedback.linearise(state, commands)
-    moved = feedback.next_states(state + by, commands + more) - feedback.next_states(
+    difference = feedback.next_states(state + by, commands + more) - feedback.next_states(
         state - by, commands - more
     )
-    np.testing.assert_allclose(moved / 2, A @ by + B @ more, rtol=1e-3, atol=1e-9)
+    np.testing.assert_allclose(difference / 2, A @ by + B @ more, rtol=1e-3, atol=1e-9)
 
 
 @pytest.mark.parametrize("scale", [0.7, 1.3])

@@ -17,7 +17,7 @@ BY_NAME = {step.name: step for step in STEPS}
 
 
 @pytest.fixture(scope="module")
-def made(tmp_path_factory):
+def toy(tmp_path_factory):
     """The folder in which every step has made its file at toy size."""
     folder = tmp_path_factory.mktemp("toy")
     assert smoke_run.run_all(folder) == 0
@@ -28,18 +28,18 @@ def keys(folder, name):
     return set(data.arrays(name, folder))
 
 
-def test_every_step_that_a_function_makes_has_a_toy(made):
+def test_every_step_that_a_function_makes_has_a_toy(toy):
     functions = {name for name, step in BY_NAME.items() if not isinstance(step.make, str)}
-    assert {file.stem for file in made.glob("*.*") if file.name[0] != "."} == functions | {"photos"}
+    assert {file.stem for file in toy.glob("*.*") if file.name[0] != "."} == functions | {"photos"}
 
 
 @pytest.mark.parametrize(
     "name",
     ["detectors", "localisers", "cdbn", "recogniser", "recognition", "photographs", "tricks"],
 )
-def test_a_toy_file_holds_what_ships(made, name):
+def test_a_toy_file_holds_what_ships(toy, name):
     """Array by array, of the same kind and with as many axes; but one round of box regression."""
-    shipped, small = data.arrays(name, BY_NAME[name].file.parent), data.arrays(name, made)
+    shipped, small = data.arrays(name, BY_NAME[name].file.parent), data.arrays(name, toy)
     assert {key for key in shipped if not re.search(r"regression [1-3]", key)} == set(small)
     for key, value in small.items():
         kinds = {value.dtype.kind, shipped[key].dtype.kind}
@@ -48,30 +48,30 @@ def test_a_toy_file_holds_what_ships(made, name):
 
 
 @pytest.mark.parametrize("name", ["candidates", "localisation"])
-def test_a_toy_file_holds_part_of_what_ships(made, name):
-    assert keys(made, name) < keys(BY_NAME[name].file.parent, name)
+def test_a_toy_file_holds_part_of_what_ships(toy, name):
+    assert keys(toy, name) < keys(BY_NAME[name].file.parent, name)
 
 
-def test_toy_candidates_are_those_that_ship(made):
+def test_toy_candidates_are_those_that_ship(toy):
     shipped = data.arrays("candidates")
-    for name, boxes in data.arrays("candidates", made).items():
+    for name, boxes in data.arrays("candidates", toy).items():
         np.testing.assert_allclose(boxes, shipped[name], atol=1, err_msg=name)
 
 
-def test_toy_experiments_give_shares_and_counts(made):
-    table = data.arrays("localisation", made)["rig/context/table 1/0"]
+def test_toy_experiments_give_shares_and_counts(toy):
+    table = data.arrays("localisation", toy)["rig/context/table 1/0"]
     assert table.shape == (len(photos.SPLITS), len(TABLE_1_KERNELS), 2)
     assert table.min() >= 0
     assert table.max() <= 1
-    counts = data.arrays("variations", made)["(6, 0)/counts"]
+    counts = data.arrays("variations", toy)["(6, 0)/counts"]
     boxes = [2 * len(smoke_run.NAMED[split]) for split in ("validation", "test")]
     assert (counts.sum(3) == boxes).all()
     assert counts.shape[1] == len(READ_OUTS)
-    moved = results.records("movements", made)
-    assert all(np.isfinite(x).all() for part in moved.values() for x in part.values())
-    asked = {str(question) for question, _ in results.records("fresh_test_set", made)}
-    assert {"linear", "improved", "['MP2', 0]"} < asked
-    (row,) = results.records("ledger", made)["rows"]
+    scenarios = results.records("movements", toy)
+    assert all(np.isfinite(x).all() for part in scenarios.values() for x in part.values())
+    questions = {str(question) for question, _ in results.records("fresh_test_set", toy)}
+    assert {"linear", "improved", "['MP2', 0]"} < questions
+    (row,) = results.records("ledger", toy)["rows"]
     assert row["verdict"] in VERDICTS
 
 
@@ -115,10 +115,10 @@ def test_a_step_runs_until_it_is_up_to_date(tmp_path, monkeypatch, capsys):
     assert progress.run_tasks(tasks(), ["squares"], tmp_path) == 0
     assert data.arrays("squares", tmp_path)["squares"].tolist() == [0, 1, 4]
     assert progress.run_tasks(tasks(), ["squares"], tmp_path) == 0
-    begun, left = capsys.readouterr().out.splitlines()
-    assert begun.startswith("squares … ")
-    assert begun.endswith(" s")
-    assert left == "squares: up to date"
+    first, second = capsys.readouterr().out.splitlines()
+    assert first.startswith("squares … ")
+    assert first.endswith(" s")
+    assert second == "squares: up to date"
 
 
 def test_the_list_names_every_step_its_file_and_its_minutes(capsys):
@@ -143,11 +143,11 @@ def test_by_default_nothing_runs_that_needs_more_than_this_machine(monkeypatch):
 
 
 def test_smoke_uses_a_folder_of_its_own(monkeypatch):
-    seen = []
-    monkeypatch.setattr(smoke_run, "run_all", lambda folder: seen.append(folder) or 0)
+    folders = []
+    monkeypatch.setattr(smoke_run, "run_all", lambda folder: folders.append(folder) or 0)
     assert __main__.main(["--smoke"]) == 0
-    assert seen[0] not in (ROOT, data.FOLDER, results.FOLDER)
-    assert not seen[0].exists()
+    assert folders[0] not in (ROOT, data.FOLDER, results.FOLDER)
+    assert not folders[0].exists()
 
 
 def test_an_unknown_step_is_refused(capsys):

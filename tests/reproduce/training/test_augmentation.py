@@ -20,22 +20,22 @@ BOX = SHOT.boxes["shuttlecock"]
 
 
 def test_a_thing_left_as_it_is_looks_as_the_stream_is_shown_it():
-    seen, fit, lack = augment(SHOT.image, BOX, False, np.random.default_rng(0), STILL)
-    [given] = preprocess(SHOT.image, BOX)
-    [taught] = standardise(np.moveaxis(seen, 2, 0)[None])
-    assert np.corrcoef(taught.ravel(), given.ravel())[0, 1] > 0.98
+    crop, fit, lack = augment(SHOT.image, BOX, False, np.random.default_rng(0), STILL)
+    [expected] = preprocess(SHOT.image, BOX)
+    [standard] = standardise(np.moveaxis(crop, 2, 0)[None])
+    assert np.corrcoef(standard.ravel(), expected.ravel())[0, 1] > 0.98
     assert fit == 0
     assert not lack.any()
 
 
 def test_looks_differ_and_keep_to_their_range():
     rng = np.random.default_rng(0)
-    seen = np.array([augment(SHOT.image, BOX, True, rng)[0] for _ in range(20)])
-    assert seen.shape == (20, WIDTH, WIDTH, 3)
-    assert seen.dtype == np.float32
-    assert seen.min() >= 0
-    assert seen.max() <= 1
-    assert seen.std(0).mean() > 0.05
+    crops = np.array([augment(SHOT.image, BOX, True, rng)[0] for _ in range(20)])
+    assert crops.shape == (20, WIDTH, WIDTH, 3)
+    assert crops.dtype == np.float32
+    assert crops.min() >= 0
+    assert crops.max() <= 1
+    assert crops.std(0).mean() > 0.05
 
 
 def test_a_box_that_strays_fits_less_and_its_lack_mends_it():
@@ -48,8 +48,8 @@ def test_a_box_that_strays_fits_less_and_its_lack_mends_it():
 
 def test_beyond_the_image_its_edge_repeats():
     image = np.arange(60, dtype=np.uint8).reshape(4, 5, 3)
-    seen = crop_in_colour(image, (-5, -4, 0, 0), 8)
-    np.testing.assert_allclose(seen, np.broadcast_to(image[0, 0] / 255, (8, 8, 3)), atol=1e-6)
+    crop = crop_in_colour(image, (-5, -4, 0, 0), 8)
+    np.testing.assert_allclose(crop, np.broadcast_to(image[0, 0] / 255, (8, 8, 3)), atol=1e-6)
 
 
 @pytest.mark.parametrize("seed", range(8))
@@ -61,11 +61,11 @@ def test_a_picture_is_turned_with_what_its_box_lacks(seed):
         decode_deltas(np.array([[0, 0, 100, 100.0]]), lack[None])[0].round().astype(int)
     )
     x[y0:y1, x0:x1] = 1
-    seen, lack = quarter_turn(x, lack, np.random.default_rng(seed))
+    crop, lack = quarter_turn(x, lack, np.random.default_rng(seed))
     x0, y0, x1, y1 = decode_deltas(np.array([[0, 0, 100, 100.0]]), lack[None])[0]
-    rows, columns = np.flatnonzero(seen.any((1, 2))), np.flatnonzero(seen.any((0, 2)))
-    found = [columns[0], rows[0], columns[-1] + 1, rows[-1] + 1]
-    np.testing.assert_allclose([x0, y0, x1, y1], found, atol=1)
+    rows, columns = np.flatnonzero(crop.any((1, 2))), np.flatnonzero(crop.any((0, 2)))
+    corners = [columns[0], rows[0], columns[-1] + 1, rows[-1] + 1]
+    np.testing.assert_allclose([x0, y0, x1, y1], corners, atol=1)
 
 
 def test_at_most_a_third_is_hidden_and_the_picture_itself_stays():

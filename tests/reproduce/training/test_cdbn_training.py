@@ -20,9 +20,9 @@ def test_training_is_repeatable_and_saves_whole(white, tmp_path):
     one, two = (train_cdbn(white, positive, 1, patches=200) for _ in range(2))
     np.savez(tmp_path / "one.npz", **one.arrays())
     with np.load(tmp_path / "one.npz") as file:
-        kept = CDBN.from_arrays(file, Learner)
+        loaded = CDBN.from_arrays(file, Learner)
     white = torch.from_numpy(white)
-    p2 = [net.layers(white)["P2"] for net in (one, two, kept)]
+    p2 = [net.layers(white)["P2"] for net in (one, two, loaded)]
     assert torch.equal(p2[0], p2[1])
     assert torch.equal(p2[0], p2[2])
     other = train_cdbn(white, positive, 2, patches=200)

@@ -30,11 +30,11 @@ def photo():
 @pytest.mark.parametrize("strategy", ["single", "finer"])
 def test_candidates_that_ship_are_those_of_the_search(photo, strategy):
     """Most of them: another processor may round a pixel differently."""
-    known, found = candidates(photo, strategy), propose(photo.image, strategy)
+    stored, boxes = candidates(photo, strategy), propose(photo.image, strategy)
     assert arrays("candidates")[f"{photo.name}/{strategy}"].dtype == np.int16
-    shipped, again = ({tuple(box) for box in boxes} for boxes in (known, found))
+    shipped, again = ({tuple(box) for box in boxes} for boxes in (stored, boxes))
     assert len(shipped & again) > 0.9 * len(shipped | again)
-    assert (candidates(replace(photo, name="mine"), strategy) == found).all()
+    assert (candidates(replace(photo, name="mine"), strategy) == boxes).all()
 
 
 def test_examples_are_clear_cases(photo):
@@ -48,22 +48,22 @@ def test_examples_are_clear_cases(photo):
 def test_what_is_learnt_from(photo):
     """Every example, so many shaken boxes an object, and no more counter-examples than asked."""
     recipe = replace(PUBLISHED, jittered=5, mirror=True)
-    seen = training_images([photo] * 30, recipe)
-    x, y = svm_training_set(seen, recipe, np.random.default_rng(0))
-    good = (seen[0].overlap >= 0.8).sum()
+    images = training_images([photo] * 30, recipe)
+    x, y = svm_training_set(images, recipe, np.random.default_rng(0))
+    good = (images[0].overlap >= 0.8).sum()
     assert x.shape == (len(y), 768)
     assert y.sum() == 60 * (good + 10)
-    assert (~y).sum() == 60 * min(79, (seen[0].overlap <= 0.5).sum())
+    assert (~y).sum() == 60 * min(79, (images[0].overlap <= 0.5).sum())
 
 
 def test_a_mirrored_image_is_as_hard(photo):
-    seen = training_images([photo], replace(PUBLISHED, mirror=True))
-    assert len(seen) == 2
-    assert (seen[0].overlap == seen[1].overlap).all()
-    assert (seen[1].pixels[:, 0] == photo.image[:, -1]).all()
-    again = seen[1].mirrored()
-    assert (again.truth == seen[0].truth).all()
-    assert (again.candidates == seen[0].candidates).all()
+    images = training_images([photo], replace(PUBLISHED, mirror=True))
+    assert len(images) == 2
+    assert (images[0].overlap == images[1].overlap).all()
+    assert (images[1].pixels[:, 0] == photo.image[:, -1]).all()
+    again = images[1].mirrored()
+    assert (again.truth == images[0].truth).all()
+    assert (again.candidates == images[0].candidates).all()
 
 
 @pytest.mark.parametrize("name", ["published", "context"])

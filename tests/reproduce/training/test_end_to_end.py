@@ -26,18 +26,18 @@ def test_back_propagation_learns_what_labels_tell():
     )
     assert isinstance(cdbn.first.W, np.ndarray)
     crops, labels = stripes(40, rng)
-    learnt, not_yet = (read_outs(c, crops)["P1 + P2"] for c in (cdbn, untaught()))
+    trained, untrained = (read_outs(c, crops)["P1 + P2"] for c in (cdbn, random()))
 
     def apart(x):
         return np.abs(x[labels].mean(0) - x[~labels].mean(0)).max()
 
-    assert apart(learnt) > 2 * apart(not_yet)
+    assert apart(trained) > 2 * apart(untrained)
 
 
-def untaught():
+def random():
     return CDBN.from_arrays(random_network((4, 4), torch.Generator().manual_seed(0)).arrays())
 
 
 def test_a_blank_network_is_on_half_the_time():
-    layers = untaught().layers(whiten(stripes(20, np.random.default_rng(0))[0]))
+    layers = random().layers(whiten(stripes(20, np.random.default_rng(0))[0]))
     assert layers["P1"].mean() == pytest.approx(0.5, abs=0.1)

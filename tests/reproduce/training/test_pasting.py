@@ -39,15 +39,15 @@ def test_a_shuttlecock_lies_in_its_box(seed):
 
     black = np.zeros((cutout_atlas.WIDTH, cutout_atlas.WIDTH, 4), np.uint8)
     black[30:100, 50:80] = 0, 0, 0, 255  # and opaque
-    laid = paste_cutout(Grey, black, np.random.default_rng(seed))
-    x0, y0, x1, y1 = laid.boxes["shuttlecock"].astype(int)
+    photo = paste_cutout(Grey, black, np.random.default_rng(seed))
+    x0, y0, x1, y1 = photo.boxes["shuttlecock"].astype(int)
     assert 0 <= x0 < x1 <= photos.WIDTH
     assert 0 <= y0 < y1 <= photos.HEIGHT
-    dark = laid.image.max(2) < 12
+    dark = photo.image.max(2) < 12
     rows, columns = np.flatnonzero(dark.any(1)), np.flatnonzero(dark.any(0))
     inner = [columns[0], rows[0], columns[-1] + 1, rows[-1] + 1]
     soft = 3 + 0.04 * max(x1 - x0, y1 - y0)  # a thing out of focus is grey at its edge
-    assert np.abs(laid.boxes["shuttlecock"] - inner).max() < soft
+    assert np.abs(photo.boxes["shuttlecock"] - inner).max() < soft
 
 
 def test_those_that_validate_teach_nothing_and_shuttlecocks_lie_on_others_photos():
@@ -56,14 +56,14 @@ def test_those_that_validate_teach_nothing_and_shuttlecocks_lie_on_others_photos
     assert len(some) == 6
     assert all(one.image.shape == GROUND.image.shape for one in some)
     assert all(area(one.boxes["shuttlecock"]) > 400 for one in some)
-    drawn = []
+    ranges = []
     for split in ("train", "validation"):
 
         class Told:
             def integers(self, high):
-                drawn.append(high)
+                ranges.append(high)
                 raise StopIteration
 
         with pytest.raises(StopIteration):
             paste_cutouts(shots, split, 1, Told())
-    assert drawn == [480 - HELD_OUT, HELD_OUT]
+    assert ranges == [480 - HELD_OUT, HELD_OUT]

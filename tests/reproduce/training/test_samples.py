@@ -7,7 +7,7 @@ from vmc_lib.boxes import iou
 
 
 @pytest.fixture(scope="module")
-def shown():
+def pools():
     rng, real = np.random.default_rng(0), photos.load("real", "train")[::12]
     shots = {"rig": photos.load("rig", "train")[:3], "real": [*real, photos.everyday()[0]]}
     return {
@@ -16,15 +16,15 @@ def shown():
     }
 
 
-def test_a_photo_shows_its_shuttlecocks_other_things_and_scene(shown, rng):
+def test_a_photo_shows_its_shuttlecocks_other_things_and_scene(pools, rng):
     two = photos.load("real", "train")[0]
-    found = samples.boxes_by_kind(two, np.array([two.more[0]]), rng)
-    assert set(found) == {"shuttlecock", "scene"}
-    image, boxes = found["shuttlecock"]
+    kinds = samples.boxes_by_kind(two, np.array([two.more[0]]), rng)
+    assert set(kinds) == {"shuttlecock", "scene"}
+    image, boxes = kinds["shuttlecock"]
     assert image is two.image
     np.testing.assert_array_equal(boxes, [two.boxes["shuttlecock"], two.more[0]])
-    assert iou(found["scene"][1], boxes).max() < samples.APART
-    assert set(shown["rig"][0]) == set(samples.SHARES)
+    assert iou(kinds["scene"][1], boxes).max() < samples.APART
+    assert set(pools["rig"][0]) == set(samples.SHARES)
 
 
 def test_windows_lie_in_the_photo_and_are_not_slivers(rng):
@@ -34,22 +34,22 @@ def test_windows_lie_in_the_photo_and_are_not_slivers(rng):
     assert ((windows[:, 2:] - windows[:, :2]) >= 30).all()
 
 
-def test_kinds_are_drawn_as_often_as_they_should_be(shown, rng):
+def test_kinds_are_drawn_as_often_as_they_should_be(pools, rng):
     pool = samples.training_samples(
-        shown | {"pasted": [{"shuttlecock": shown["real"][0]["shuttlecock"]}]}
+        pools | {"pasted": [{"shuttlecock": pools["real"][0]["shuttlecock"]}]}
     )
-    drawn = [pool.draw(rng) for _ in range(2000)]
-    assert abs(np.mean([label for *_, label in drawn]) - samples.SHARES["shuttlecock"]) < 0.05
+    draws = [pool.draw(rng) for _ in range(2000)]
+    assert abs(np.mean([label for *_, label in draws]) - samples.SHARES["shuttlecock"]) < 0.05
     renders = {shot.image[0].tobytes() for shot in photos.load("rig", "train")[:3]}
-    rendered = np.mean([image[0].tobytes() in renders for image, _, label in drawn if label])
+    rendered = np.mean([image[0].tobytes() in renders for image, _, label in draws if label])
     assert abs(rendered - samples.SOURCES["rendered"]) < 0.06
 
 
-def test_what_photographs_lack_comes_from_renders(shown, rng):
-    alone = samples.training_samples({"rig": shown["rig"]})
-    drawn = [alone.draw(rng) for _ in range(30)]
-    assert 0 < sum(label for *_, label in drawn) < 30
-    assert all(box.shape == (4,) for _, box, _ in drawn)
+def test_what_photographs_lack_comes_from_renders(pools, rng):
+    alone = samples.training_samples({"rig": pools["rig"]})
+    draws = [alone.draw(rng) for _ in range(30)]
+    assert 0 < sum(label for *_, label in draws) < 30
+    assert all(box.shape == (4,) for _, box, _ in draws)
 
 
 def test_everyday_photos_are_learnt_from_and_shuttlecocks_laid_on_others(monkeypatch, rng):
@@ -58,9 +58,9 @@ def test_everyday_photos_are_learnt_from_and_shuttlecocks_laid_on_others(monkeyp
             return type("Found", (), {"boxes": np.empty((0, 4))})
 
     monkeypatch.setattr(samples.loop, "high_recall_detector", lambda level: Blind())
-    shown = samples.collect_samples(rng, everyday=2, pasted=3)
-    assert list(shown) == [*photos.EVERY_LEVEL, "pasted"]
+    pools = samples.collect_samples(rng, everyday=2, pasted=3)
+    assert list(pools) == [*photos.EVERY_LEVEL, "pasted"]
     for level in photos.EVERY_LEVEL:
-        assert len(shown[level]) == len(photos.load(level, "train")) + 2 * (level == "real")
-    assert len(shown["pasted"]) == 3
-    assert all("shuttlecock" in photo for photo in shown["pasted"])
+        assert len(pools[level]) == len(photos.load(level, "train")) + 2 * (level == "real")
+    assert len(pools["pasted"]) == 3
+    assert all("shuttlecock" in photo for photo in pools["pasted"])

@@ -35,24 +35,24 @@ def test_folded_the_network_says_the_same():
     x = torch.randn(8, 3, WIDTH, WIDTH, generator=torch.Generator().manual_seed(0))
     for _ in range(3):
         network(x)  # its normalisation has met something
-    stream, told = training.fold_batch_norm(network), network.eval()(x).detach().numpy()
+    stream, expected = training.fold_batch_norm(network), network.eval()(x).detach().numpy()
     last = list(stream.stages(x.numpy()).values())[-1].reshape(8, -1)
-    said = last @ stream.readout.T + stream.offsets
-    np.testing.assert_allclose(said[:, 0], told[:, 0], atol=1e-4)
-    np.testing.assert_allclose(said[:, 1:], training.SCALE * told[:, 1:], atol=1e-4)
+    output = last @ stream.readout.T + stream.offsets
+    np.testing.assert_allclose(output[:, 0], expected[:, 0], atol=1e-4)
+    np.testing.assert_allclose(output[:, 1:], training.SCALE * expected[:, 1:], atol=1e-4)
 
 
 def test_names_count_where_they_are_clear_and_edges_near_a_shuttlecock():
-    told = torch.zeros(3, 5)
+    output = torch.zeros(3, 5)
     fit, lack = torch.tensor([0.9, 0.5, 0.0]), torch.zeros(3, 4)
-    plain = training.loss(told, fit, lack)
-    told[1, 0], told[2, 1:] = 9, 9  # an unclear name, and the edges of no shuttlecock
-    assert training.loss(told, fit, lack) == plain
-    told[0, 0] = 5
-    named = training.loss(told, fit, lack)
+    plain = training.loss(output, fit, lack)
+    output[1, 0], output[2, 1:] = 9, 9  # an unclear name, and the edges of no shuttlecock
+    assert training.loss(output, fit, lack) == plain
+    output[0, 0] = 5
+    named = training.loss(output, fit, lack)
     assert named < plain
-    told[0, 1] = 3
-    assert training.loss(told, fit, lack) > named
+    output[0, 1] = 3
+    assert training.loss(output, fit, lack) > named
 
 
 def test_it_learns_what_it_is_taught():
@@ -83,13 +83,13 @@ def test_the_hardest_windows_are_mined_and_none_holds_a_shuttlecock():
 
     rng = np.random.default_rng(0)
     photo = samples.boxes_by_kind(SHOT, samples.random_windows(rng), rng)
-    found = training.hard_negatives(Fond(), photo)
-    image, boxes = found["scene"]
+    negatives = training.hard_negatives(Fond(), photo)
+    image, boxes = negatives["scene"]
     assert image is photo["scene"][0]
     assert len(boxes) == training.HARD
     assert iou(boxes, photo["shuttlecock"][1]).max() < samples.APART
     assert boxes[:, 0].max() <= np.median(photo["scene"][1][:, 0])
-    assert found["shuttlecock"] is photo["shuttlecock"]
+    assert negatives["shuttlecock"] is photo["shuttlecock"]
 
 
 def test_what_is_held_out_holds_all_levels_and_cut_outs_that_taught_nothing():
