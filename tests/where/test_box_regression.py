@@ -59,8 +59,6 @@ def test_a_photo_without_objects_trains_the_iou_predictor(detector):
         [*images, bare], quick, detector.svm, detector.regressions, np.random.default_rng(0)
     )
     assert iou_predictor.axes.shape == (800, box_regression.DIRECTIONS)
-    features = (
-        IMPROVED.describe(images[0].pixels, boxes) for boxes in (bare.candidates, images[0].truth)
-    )
-    bared, objects = (iou_predictor.predict(x).mean() for x in features)
+    rows = (IMPROVED.describe(images[0].pixels, b) for b in (bare.candidates, images[0].truth))
+    bared, objects = (iou_predictor.predict(x).mean() for x in rows)
     assert bared < 0.2 < objects
