@@ -11,6 +11,9 @@ from hypothesis import settings
 from nbclient import NotebookClient
 from nbformat.v4 import new_code_cell
 
+from vmc_lib import photos
+from vmc_lib.motor import templates
+
 settings.register_profile("untimed", deadline=None)  # a busy machine is slow, and no failure
 settings.load_profile("untimed")
 os.environ["VMC_RENDER_MODE"] = "test"  # the chapters' kernels inherit it
@@ -33,8 +36,8 @@ AXE = Path(__file__).parent / "vendor/axe.js"
 # What passed is long: it stays in the page
 AXE_RUN = """async ([within, theme, options]) => {
   document.documentElement.dataset.theme = theme;
-  const told = { preload: false, resultTypes: ["violations"], ...options };
-  return (await axe.run(within, told)).violations; }"""
+  const given = { preload: false, resultTypes: ["violations"], ...options };
+  return (await axe.run(within, given)).violations; }"""
 ASKED = {  # from one theme to the other only colours change
     "light": {"rules": {"target-size": {"enabled": True}}},  # of WCAG 2.2
     "dark": {"runOnly": ["color-contrast", "link-in-text-block"]},
@@ -46,6 +49,34 @@ PATIENCE = 180_000  # ms
 def rng():
     """Random numbers of a test's own: the same whatever ran before it."""
     return np.random.default_rng(0)
+
+
+@pytest.fixture(scope="session")
+def template_set():
+    """The templates that ship, 6 cm apart."""
+    return templates.load()
+
+
+@pytest.fixture(scope="session")
+def photo():
+    """A photo of the rig that no model learned from."""
+    return photos.load("rig", "validation")[0]
+
+
+@pytest.fixture
+def outputs(monkeypatch):
+    """A function: the list of what a module displays from now on, as markup where it is that."""
+
+    def outputs(module):
+        items = []
+
+        def display(*more):
+            items.extend(getattr(item, "data", item) for item in more)
+
+        monkeypatch.setattr(module, "display", display)
+        return items
+
+    return outputs
 
 
 @pytest.fixture(scope="session")

@@ -2,10 +2,7 @@
 
 import ast
 import re
-import subprocess
 import symtable
-import sys
-from pathlib import Path
 
 import nbformat
 import pytest
@@ -16,15 +13,21 @@ from pybtex.database import parse_file
 from pybtex.richtext import Text
 
 from book._ext.plain import FOLD, TERMS
-
-ROOT = Path(__file__).parents[1]
-NOTEBOOKS = sorted((ROOT / "book").glob("*.ipynb"))
-NUMBERED = [path for path in NOTEBOOKS if path.stem[:2].isdigit()]
+from tests.project import CHAPTERS, NOTEBOOKS, ROOT, code, each_chapter, python
 
 
 @pytest.fixture(params=NOTEBOOKS, ids=lambda path: path.stem)
 def notebook(request):
     return nbformat.read(request.param, as_version=4)
+
+
+def sources(notebook, kind="code"):
+    """The text of each cell of a kind."""
+    return [cell.source for cell in notebook.cells if cell.cell_type == kind]
+
+
+def tagged(cell, *tags):
+    return {*tags} & {*cell.metadata.get("tags", [])}
 
 
 def test_no_cell_rebinds_what_an_earlier_function_reads(notebook):
@@ -55,22 +58,21 @@ def read_by_functions(scope, called_later=False):
 
 def test_every_page_is_in_the_table_of_contents():
     toc = yaml.safe_load((ROOT / "_toc.yml").read_bytes())
-    listed = {toc["root"]} | {page["file"] for part in toc["parts"] for page in part["chapters"]}
+    entries = {toc["root"]} | {page["file"] for part in toc["parts"] for page in part["chapters"]}
     pages = {*NOTEBOOKS, *(ROOT / "book").glob("*.md")}
-    assert listed == {f"book/{path.stem}" for path in pages}
+    assert entries == {f"book/{path.stem}" for path in pages}
 
 
 def test_the_front_page_leads_to_every_chapter_in_order():
     front = nbformat.read(ROOT / "book/index.ipynb", as_version=4).cells[-1].source
-    way = re.findall(r"^\d+\. \[[^]]+\]\((\w+)\.ipynb\)$", front, re.M)
-    assert way == [path.stem for path in NUMBERED]
+    links = re.findall(r"^\d+\. \[[^]]+\]\((\w+)\.ipynb\)$", front, re.M)
+    assert links == [path.stem for path in CHAPTERS]
 
 
 def test_sources_are_named_in_prose(notebook):
     """The page makes its own links of them there; in what a cell prints they would lead nowhere."""
-    code = [cell.source for cell in notebook.cells if cell.cell_type == "code"]
-    assert not [source for source in code if "references.bib" in source or "glossary.md" in source]
-    prose = "\n".join(cell.source for cell in notebook.cells if cell.cell_type == "markdown")
+    assert not re.search(r"references\.bib|glossary\.md", "\n".join(sources(notebook)))
+    prose = "\n".join(sources(notebook, "markdown"))
     source = r"\[[^\]]+\]\(references\.bib#\w+\)"
     assert "references.bib" not in re.sub(rf"\({source}(?:, {source})*\)", "", prose)
 
@@ -80,10 +82,6 @@ def test_is_stored_without_outputs(notebook):
     code = [cell for cell in notebook.cells if cell.cell_type == "code"]
     assert code
     assert not any(cell.outputs or cell.execution_count for cell in code)
-
-
-def tagged(cell, *tags):
-    return {*tags} & {*cell.metadata.get("tags", [])}
 
 
 def test_cells_are_short_enough_to_read(notebook):
@@ -99,34 +97,24 @@ def is_core(cell):
 
 
 def test_starts_with_one_title(notebook):
-    first = notebook.cells[0]
-    assert first.cell_type == "markdown"
-    assert first.source.startswith("# ")
-    titles = [
-        line
-        for cell in notebook.cells
-        if cell.cell_type == "markdown"
-        for line in cell.source.splitlines()
-        if line.startswith("# ")
-    ]
-    assert len(titles) == 1
+    assert notebook.cells[0].cell_type == "markdown"
+    assert notebook.cells[0].source.startswith("# ")
+    assert len(re.findall(r"^# ", "\n".join(sources(notebook, "markdown")), re.M)) == 1
 
 
-@pytest.mark.parametrize("path", NUMBERED, ids=lambda path: path.stem)
+@each_chapter
 def test_a_chapter_teaches(path):
     """Aims and minutes; questions before demos; a checked exercise, its solution; quiz; recap."""
     notebook = nbformat.read(path, as_version=4)
-    prose = [cell.source for cell in notebook.cells if cell.cell_type == "markdown"]
-    text = "\n".join(prose)
-    code = "\n".join(cell.source for cell in notebook.cells if cell.cell_type == "code")
-    assert "be able to" in prose[0]
-    assert re.search(r"\d+\s+minutes", prose[0])
-    assert "explore(" in code
-    assert "predict(" in code
+    text, source = "\n".join(sources(notebook, "markdown")), code(path)
+    assert "be able to" in notebook.cells[0].source
+    assert re.search(r"\d+\s+minutes", notebook.cells[0].source)
+    assert "explore(" in source
+    assert "predict(" in source
     assert "Predict first" not in text  # a box that nothing closes
     assert re.search(r"^\*\*Exercise(: .+)?\*\*$", text, re.M)
     assert any(tagged(cell, "solution") for cell in notebook.cells)
-    assert len(re.findall(r"\b(check|grade|solution)\(", code)) >= 2  # to answer, and solved
+    assert len(re.findall(r"\b(check|grade|solution)\(", source)) >= 2  # to answer, and solved
     assert 2 <= len(re.findall(r"^\*\*Quiz\.\*\* ", text, re.M)) <= 3
     assert re.search(r"^## (Recap|What to take along)", text, re.M)
     assert "](glossary.md" in text
@@ -142,51 +130,41 @@ def test_predictions_hide_their_outcome(notebook):
 
 def test_a_prediction_is_closed_by_the_run(notebook):
     """What came out is worked out by the notebook: no text, and no name that holds a mere text."""
-    code = "\n".join(cell.source for cell in notebook.cells if cell.cell_type == "code")
-    nodes = list(ast.walk(ast.parse(code)))
-    typed = {
-        target.id
-        for node in nodes
-        if isinstance(node, ast.Assign) and isinstance(node.value, ast.Constant)
-        for target in node.targets
-        if isinstance(target, ast.Name)
-    }
-    calls = [node for node in nodes if isinstance(node, ast.Call)]
-    for call in calls:
-        if isinstance(call.func, ast.Name) and call.func.id == "predict":
-            outcome = call.args[2]
-            names = {node.id for node in ast.walk(outcome) if isinstance(node, ast.Name)}
-            assert names - typed, ast.unparse(call)
+    nodes = list(ast.walk(ast.parse("\n".join(sources(notebook)))))
+    assigned = [node for node in nodes if isinstance(node, ast.Assign)]
+    literals = [node for node in assigned if isinstance(node.value, ast.Constant)]
+    typed = {name for node in literals for target in node.targets for name in names_in(target)}
+    for call in (node for node in nodes if isinstance(node, ast.Call)):
+        if ast.unparse(call.func) == "predict":
+            assert names_in(call.args[2]) - typed, ast.unparse(call)
+
+
+def names_in(tree):
+    return {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
 
 
 def test_reads_well_where_neither_roles_nor_directives_are_known(notebook):
     """A notebook elsewhere would show them raw: chapters are plain (book/_ext/plain.py)."""
-    text = "\n".join(cell.source for cell in notebook.cells if cell.cell_type == "markdown")
+    text = "\n".join(sources(notebook, "markdown"))
     assert not re.findall(r"(?<!`)\{[a-z-]+\}`[^`]+`", text)
     assert not re.findall(r"^ *(?:`{3,}|:{3,})\{.*", text, re.M)
     cited = re.findall(r"[(, ]\[([^\]]+)\]\(references\.bib#(\w+)\)[),]", text)
     assert len(cited) == text.count("references.bib")
     entries = parse_file(ROOT / "book/references.bib").entries
-    assert [said for said, _ in cited] == [author_year(entries[key]) for _, key in cited]
+    assert [name for name, _ in cited] == [author_year(entries[key]) for _, key in cited]
 
 
 def author_year(entry):
     """How a source is called in a sentence: by its first two authors, and its year."""
-    names = [
-        str(Text.from_latex(" ".join(p.prelast_names + p.last_names)))
-        for p in entry.persons["author"]
-    ]
+    authors = [" ".join(p.prelast_names + p.last_names) for p in entry.persons["author"]]
+    names = [str(Text.from_latex(author)) for author in authors]
     several = len(names) > 2 or "others" in names
-    return (
-        f"{names[0]} et al. {entry.fields['year']}"
-        if several
-        else f"{' and '.join(names)} {entry.fields['year']}"
-    )
+    return f"{names[0] + ' et al.' if several else ' and '.join(names)} {entry.fields['year']}"
 
 
 def test_code_that_only_draws_is_folded_in_a_notebook_too(notebook):
     for cell in notebook.cells:
-        if {"hide-input", "remove-input"} & set(cell.metadata.get("tags", [])):
+        if tagged(cell, "hide-input", "remove-input"):
             assert cell.metadata.jupyter.source_hidden
 
 
@@ -204,10 +182,10 @@ def test_answers_fold_by_themselves(notebook):
             assert not re.search(r"\b(check|grade|markdown|figure|explore|print)\(", cell.source)
 
 
-@pytest.mark.parametrize("path", NUMBERED, ids=lambda path: path.stem)
+@each_chapter
 def test_a_notebook_says_how_to_run_it(path):
     """At its top, in the words of all the others; the page has no need of it."""
-    first, *others = (nbformat.read(path, as_version=4).cells[1] for path in (NUMBERED[0], path))
+    first, *others = (nbformat.read(path, as_version=4).cells[1] for path in (CHAPTERS[0], path))
     assert "Run All Cells" in first.source
     assert tagged(first, "remove-cell")
     assert others == [first]
@@ -215,18 +193,18 @@ def test_a_notebook_says_how_to_run_it(path):
 
 def test_a_readers_error_does_not_stop_run_all(notebook):
     """From an exercise to its solution all may raise that is the reader's, or reads it."""
-    asked = False
+    unsolved = False
     for cell in notebook.cells:
-        asked = ("exercise" in cell.metadata or asked) and not tagged(cell, "solution")
+        unsolved = ("exercise" in cell.metadata or unsolved) and not tagged(cell, "solution")
         if cell.cell_type == "code":
-            may = asked and not tagged(cell, "hide-input")
+            may = unsolved and not tagged(cell, "hide-input")
             assert bool(tagged(cell, "raises-exception")) == may, cell.id
 
 
 def test_opening_a_notebook_does_not_change_it(notebook):
     """JupyterLab writes what the kernel says of itself; ours keep Python's own number to themselves
     (.binder/ipython_kernel_config.py)."""
-    language = {key: said for key, said in IPythonKernel.language_info.items() if key != "version"}
+    language = {k: v for k, v in IPythonKernel.language_info.items() if k != "version"}
     spec = get_kernel_dict() | {"name": "python3"}
     kernel = {key: spec[key] for key in ("display_name", "language", "name")}
     assert notebook.metadata == {"kernelspec": kernel, "language_info": language}
@@ -240,21 +218,11 @@ def test_links_to_the_glossary_lead_to_a_term(notebook):
 
 def test_code_is_as_wide_as_the_page():
     """No line of a chapter's code is cut off at the page's edge: 79 columns."""
-    wide = [
-        (path.stem, cell.id, line)
-        for path in NUMBERED
-        for cell in nbformat.read(path, as_version=4).cells
-        if cell.cell_type == "code"
-        for line in cell.source.splitlines()
-        if len(line) > 79
-    ]
-    assert not wide
-    style = [sys.executable, "-m", "ruff", "format", "--check", "--line-length", "79"]
-    done = subprocess.run([*style, *NUMBERED], capture_output=True, encoding="utf-8", check=False)
-    assert done.returncode == 0, done.stdout
+    assert [path.stem for path in CHAPTERS if max(map(len, code(path).splitlines())) > 79] == []
+    python("-m", "ruff", "format", "--check", "--line-length", "79", *CHAPTERS)
 
 
-@pytest.mark.parametrize("path", NUMBERED, ids=lambda path: path.stem)
+@each_chapter
 def test_what_a_reader_meets_is_the_mechanism(path):
     """One or two open cells, each held to the library; no more than 5 % of other open code."""
     cells = nbformat.read(path, as_version=4).cells
@@ -272,7 +240,7 @@ def test_no_session_asks_for_much_more_reading_than_another():
     cells = nbformat.read(ROOT / "book/teaching.ipynb", as_version=4).cells
     [plan] = [cell.source for cell in cells if cell.id == "teach-plan"]
     sessions = ast.literal_eval(plan.partition("SESSIONS = ")[2])
-    heads = {path.stem: nbformat.read(path, as_version=4).cells[0].source for path in NUMBERED}
+    heads = {path.stem: nbformat.read(path, as_version=4).cells[0].source for path in CHAPTERS}
     minutes = {name: int(re.search(r"(\d+)\s+minutes", head)[1]) for name, head in heads.items()}
     assert [page for pages in sessions.values() for page in pages] == [*minutes, "ledger"]
     totals = [sum(minutes.get(page, 0) for page in pages) for pages in sessions.values()]

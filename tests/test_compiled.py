@@ -1,18 +1,15 @@
 """Compiled where it can be kept, and where it cannot."""
 
-import os
-import subprocess
 import sys
 import warnings
-from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from tests.project import ROOT, python
 from vmc_lib.compiled import compiled
 
-ROOT = Path(__file__).parents[1]
 SOURCE = "def total(values):\n    s = 0.0\n    for v in values:\n        s += v\n    return s\n"
 
 
@@ -29,7 +26,7 @@ def test_functions_without_a_file_are_compiled_without_a_cache():
 
 def test_numba_is_imported_at_the_first_call():
     code = "import sys, vmc_lib.loop; assert 'numba' not in sys.modules"
-    subprocess.run([sys.executable, "-c", code], check=True)
+    python("-c", code)
 
 
 @pytest.mark.parametrize(
@@ -69,34 +66,44 @@ def test_without_numba_loops_run_as_plain_python(monkeypatch):
         assert total((1.0, 2.5)) == 3.5
 
 
-def test_disk_cache_is_not_used_for_changed_source(tmp_path):
-    loop = "from law import law\nfrom vmc_lib.compiled import compiled\n"
-    loop += "@compiled\ndef total(x):\n    return law(x) + 1.0\nprint(total(2.0))\n"
-    (tmp_path / "loop.py").write_text(loop, encoding="utf-8")
-    environment = os.environ | {"PYTHONPATH": str(ROOT), "PYTHONDONTWRITEBYTECODE": "1"}
-    results = []
-    for law in ("x * 2", "x * 2", "x * 5"):
-        (tmp_path / "law.py").write_text(f"def law(x):\n    return {law}\n", encoding="utf-8")
-        command = [sys.executable, "loop.py"]
-        done = subprocess.run(
-            command, cwd=tmp_path, env=environment, check=True, capture_output=True
-        )
-        results.append((float(done.stdout), len(list(tmp_path.rglob("*.nbc")))))
-    assert results == [(5.0, 1), (5.0, 1), (11.0, 2)]
+LOOP = """
+import sys
+from importlib import import_module
+
+from vmc_lib.compiled import compiled
+
+law = import_module(sys.argv[1]).law
 
 
-def test_disk_cache_survives_a_law_whose_module_is_gone(tmp_path):
-    loop = (
-        "import sys\nfrom importlib import import_module\nfrom vmc_lib.compiled import compiled\n"
-    )
-    loop += (
-        "law = import_module(sys.argv[1]).law\n@compiled\ndef total(x):\n    return law(x) + 1.0\n"
-    )
-    (tmp_path / "loop.py").write_text(loop + "print(total(2.0))\n", encoding="utf-8")
-    env = os.environ | {"PYTHONPATH": str(ROOT), "PYTHONDONTWRITEBYTECODE": "1"}
-    for name in ("old_law", "new_law"):
-        (tmp_path / f"{name}.py").write_text("def law(x):\n    return x * 2\n", encoding="utf-8")
-        command = [sys.executable, "loop.py", name]
-        done = subprocess.run(command, cwd=tmp_path, env=env, check=True, capture_output=True)
-        assert float(done.stdout) == 5.0
-        (tmp_path / f"{name}.py").unlink()
+@compiled
+def total(x):
+    return law(x) + 1.0
+
+
+print(total(2.0))
+"""
+
+
+@pytest.fixture
+def run_loop(tmp_path):
+    """A function: what the loop gives with a law, and how many files the cache then holds."""
+    (tmp_path / "loop.py").write_text(LOOP, encoding="utf-8")
+
+    def run_loop(name, expression):
+        law = tmp_path / f"{name}.py"
+        law.write_text(f"def law(x):\n    return {expression}\n", encoding="utf-8")
+        environment = {"PYTHONPATH": str(ROOT), "PYTHONDONTWRITEBYTECODE": "1"}
+        total = python("loop.py", name, cwd=tmp_path, **environment)
+        law.unlink()
+        return float(total), len(list(tmp_path.rglob("*.nbc")))
+
+    return run_loop
+
+
+def test_disk_cache_is_not_used_for_changed_source(run_loop):
+    totals = [run_loop("law", expression) for expression in ("x * 2", "x * 2", "x * 5")]
+    assert totals == [(5.0, 1), (5.0, 1), (11.0, 2)]
+
+
+def test_disk_cache_survives_a_law_whose_module_is_gone(run_loop):
+    assert [run_loop(name, "x * 2")[0] for name in ("old_law", "new_law")] == [5.0, 5.0]

@@ -3,7 +3,6 @@
 import inspect
 import re
 from importlib import import_module
-from pathlib import Path
 
 import nbformat
 import numpy as np
@@ -11,19 +10,17 @@ import pytest
 from scipy.optimize import nnls
 from sklearn.metrics import precision_score, recall_score
 
+from tests.project import CHAPTERS, code, each_chapter
 from vmc_lib import photos
 from vmc_lib.arm import muscle
 from vmc_lib.camera import Camera
 from vmc_lib.cerebellum import offline
 from vmc_lib.motor.planning import habitual_weights
-from vmc_lib.show import grading
+from vmc_lib.show import figures, grading
 from vmc_lib.show.grading import EMPTY, Exercise, feedback, grade, solution
 from vmc_lib.show.questions import RIGHT, WRONG
 from vmc_lib.what.crbm import CRBM
 from vmc_lib.where.appearance import Appearance, similarity
-
-BOOK = Path(__file__).parents[1] / "book"
-CHAPTERS = sorted(BOOK.glob("[0-9]*.ipynb"))
 
 
 def exercises(chapter):
@@ -67,11 +64,11 @@ def test_what_fails_is_told_in_a_sentence(exercise):
 
 @pytest.mark.parametrize("result", [np.zeros((7, 7)), [1, [2, 3]], "words", np.nan])
 def test_what_cannot_be_right_is_set_beside_what_is(exercise, result):
-    said = feedback(lambda *_: result, exercise)
-    assert said.startswith(f"{WRONG} Where ")
-    assert all(f"`{name} = " in said for name in inspect.signature(exercise.right).parameters)
-    assert "is right; yours gives" in said
-    assert len(said) < 900
+    text = feedback(lambda *_: result, exercise)
+    assert text.startswith(f"{WRONG} Where ")
+    assert all(f"`{name} = " in text for name in inspect.signature(exercise.right).parameters)
+    assert "is right; yours gives" in text
+    assert len(text) < 900
 
 
 def test_inputs_that_a_function_changes_do_not_spoil_the_next(exercise):
@@ -85,22 +82,16 @@ def test_inputs_that_a_function_changes_do_not_spoil_the_next(exercise):
     assert feedback(exercise.right, exercise) == RIGHT
 
 
-@pytest.mark.parametrize("path", CHAPTERS, ids=lambda path: path.stem)
+@each_chapter
 def test_a_chapter_grades_two_functions_or_more(path):
     """Each has an empty function of the solution's name and inputs, a grade, and the solution."""
-    found = exercises(path)
-    assert len(found) >= 2
-    code = "\n".join(
-        cell.source for cell in nbformat.read(path, as_version=4).cells if cell.cell_type == "code"
-    )
-    for name, one in found.items():
-        asked = one.right.__name__
+    assert len(exercises(path)) >= 2
+    for name, one in exercises(path).items():
         inputs = ", ".join(inspect.signature(one.right).parameters)
-        assert re.search(
-            rf"^def {asked}\({inputs}\):\n(?: .*\n|\n)*?    \.\.\.  # your", code, re.M
-        )
-        assert f"grade({asked}, {name})" in code
-        assert f"solution({name})" in code
+        empty = rf"^def {one.right.__name__}\({inputs}\):\n(?: .*\n|\n)*?    \.\.\.  # your"
+        assert re.search(empty, code(path), re.M)
+        assert f"grade({one.right.__name__}, {name})" in code(path)
+        assert f"solution({name})" in code(path)
         assert 3 <= len(inspect.getsource(one.right).splitlines()) <= 12
 
 
@@ -123,11 +114,11 @@ def posterior_drawn(drives, die):
 
 
 def widths(width, filter_width, block, layers):
-    layer, found = machine(np.zeros((filter_width, filter_width)), c=block), []
+    layer, sizes = machine(np.zeros((filter_width, filter_width)), c=block), []
     for _ in range(layers):
         width = layer.posterior(layer.trim(np.zeros((1, 1, width, width))))[1].shape[-1]
-        found.append(width)
-    return found
+        sizes.append(width)
+    return sizes
 
 
 def least_pulls(torque, gain):
@@ -170,11 +161,13 @@ def some(request):
 
 def test_engulfed_serves_where_its_solution_puts_it():
     """The solution's own lines, after the chapter's cells that they need."""
-    cells = {cell.id: cell.source for cell in nbformat.read(BOOK / "02_candidates.ipynb", 4).cells}
+    chapter = nbformat.read(CHAPTERS[1], as_version=4)
+    cells = {cell.id: cell.source for cell in chapter.cells}
     [lines] = re.findall(r"```python\n(.*?)```", cells["9dad8286"], re.S)
     names = {"engulfed": EVERY["ENGULFED"].right}
-    for code in (*(cells[i] for i in ("e5241372", "cf8d25e7", "merge-start", "merge-core")), lines):
-        exec(code, names)  # noqa: S102
+    for id_ in ("e5241372", "cf8d25e7", "merge-start", "merge-core"):
+        exec(cells[id_], names)  # noqa: S102
+    exec(lines, names)  # noqa: S102
     boxes = names["regions"].boxes
     assert (boxes[:, 2:] > boxes[:, :2]).all()  # every row is filled: one region is left
     assert boxes[-1].tolist() == [0, 0, photos.WIDTH, photos.HEIGHT]
@@ -228,39 +221,31 @@ def test_a_self_motion_leaves_the_finger_and_all_else_is_at_right_angles(some):
 # ---------------------------------------------------------------- what is shown
 
 
-@pytest.fixture
-def shown(monkeypatch):
-    """What `grade` displays, in order, as HTML."""
-    outputs = []
-    monkeypatch.setattr(grading, "display", lambda html: outputs.append(html.data))
-    return outputs
-
-
-def test_a_grade_is_a_line_and_in_a_test_a_failure(shown, monkeypatch):
-    one = EVERY["MIXED"]
+def test_a_grade_is_a_line_and_in_a_test_a_failure(outputs, monkeypatch):
+    page, one = outputs(grading), EVERY["MIXED"]
     grade(one.right, one)
     grade(lambda *_: None, one)
     with pytest.raises(AssertionError, match="grade: ✗ Not yet"):
         grade(lambda *_: 0, one)
     monkeypatch.setenv("VMC_RENDER_MODE", "live")
     grade(lambda *_: "<b>`", one)
-    assert [line.count('<p class="vmc-check"') for line in shown] == [1, 1, 1]
-    assert "✓ Right." in shown[0]
-    assert "returns nothing" in shown[1]
-    assert "&lt;b&gt;" in shown[2]
+    assert [line.count('<p class="vmc-check"') for line in page] == [1, 1, 1]
+    assert "✓ Right." in page[0]
+    assert "returns nothing" in page[1]
+    assert "&lt;b&gt;" in page[2]
 
 
-def test_the_page_says_where_a_function_can_be_graded(shown, monkeypatch):
+def test_the_page_says_where_a_function_can_be_graded(outputs, monkeypatch):
+    page = outputs(grading)
     monkeypatch.setenv("VMC_RENDER_MODE", "book")
     grade(lambda *_: None, EVERY["MIXED"])
-    assert "a running notebook</a>" in shown[0]
+    assert "a running notebook</a>" in page[0]
 
 
 @pytest.mark.parametrize(("mode", "folds"), [("live", 1), ("book", 0)])
-def test_a_solution_is_folded_once(monkeypatch, mode, folds):
+def test_a_solution_is_folded_once(outputs, monkeypatch, mode, folds):
     monkeypatch.setenv("VMC_RENDER_MODE", mode)
-    texts = []
-    monkeypatch.setattr("vmc_lib.show.figures.display", lambda shown: texts.append(shown.data))
+    texts = outputs(figures)
     solution(EVERY["MIXED"])
     assert texts[0].count("<details>") == folds
     assert "```python\ndef mixed(distances, commands):\n" in texts[0]

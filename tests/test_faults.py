@@ -6,19 +6,16 @@ import re
 import shutil
 import subprocess
 import sys
-from pathlib import Path
 
-import nbformat
 import numpy as np
 import pytest
 
 from reproduce import results
 from reproduce.pipeline import checksums, steps
+from tests.project import ROOT, code_cells, each_chapter, run
 from vmc_lib import data, photos
 from vmc_lib.show import check, questions
 
-ROOT = Path(__file__).parents[1]
-CHAPTERS = sorted((ROOT / "book").glob("[0-9]*.ipynb"))
 REMEDY = "git checkout -- .*python -m reproduce --list"
 
 
@@ -104,11 +101,11 @@ def test_a_read_only_checkout_is_enough(tmp_path):
         command = ["setpriv", "--bounding-set=-all", "--inh-caps=-all", *command]
         if not shutil.which("setpriv"):
             pytest.skip("NOT TESTED as root: setpriv is missing")
-    environment = os.environ | {"PYTHONPATH": str(copy)}
-    done = subprocess.run(command, cwd=copy, env=environment, capture_output=True, encoding="utf-8")
-    for path in (copy, *copy.rglob("*")):
-        path.chmod(path.stat().st_mode | 0o200)
-    assert done.returncode == 0, done.stderr
+    try:
+        run(*command, cwd=copy)
+    finally:
+        for path in (copy, *copy.rglob("*")):
+            path.chmod(path.stat().st_mode | 0o200)
 
 
 @pytest.mark.parametrize("name", ["a.npz", "a.json"])
@@ -148,10 +145,9 @@ def test_an_interrupted_installation_resumes(tmp_path):
         assert (tmp_path / ".venv/.ready").exists() == (ends == 0)
 
 
-@pytest.mark.parametrize("path", CHAPTERS, ids=lambda path: path.stem)
+@each_chapter
 def test_a_demo_without_its_cells_names_what_is_missing(path):
-    cells = nbformat.read(path, as_version=4).cells
-    demos = [c.source for c in cells if c.cell_type == "code" and "explore(" in c.source]
+    demos = [cell.source for cell in code_cells(path) if "explore(" in cell.source]
     with pytest.raises(NameError):
         exec(demos[-1], {})  # noqa: S102
 
@@ -174,10 +170,9 @@ def test_a_demo_without_its_cells_names_what_is_missing(path):
         ("SAME", "same", "✓ Right."),
     ],
 )
-def test_any_answer_gets_a_verdict(answer, expected, verdict, monkeypatch):
+def test_any_answer_gets_a_verdict(answer, expected, verdict, outputs, monkeypatch):
     monkeypatch.setenv("VMC_RENDER_MODE", "live")
-    page = []
-    monkeypatch.setattr(questions, "display", lambda html: page.append(html.data))
+    page = outputs(questions)
     check(answer, expected)
-    words = re.sub(r"&#x27;", "'", re.sub(r"<style>.*?</style>|<[^>]*>", "", page[0], flags=re.S))
+    words = re.sub(r"<style>.*?</style>|<[^>]*>", "", page[0], flags=re.S).replace("&#x27;", "'")
     assert words.startswith(verdict)

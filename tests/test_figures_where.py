@@ -26,9 +26,8 @@ def test_a_photo_of_the_readers_is_seen():
     assert image[0, 0].tolist() == [255, 0, 0]
 
 
-def test_the_button_is_there_only_where_a_kernel_answers(monkeypatch):
-    widgets, figures = [], []
-    monkeypatch.setattr(where, "display", widgets.append)
+def test_the_button_is_there_only_where_a_kernel_answers(outputs, monkeypatch):
+    widgets, figures = outputs(where), []
     monkeypatch.setattr(where, "figure", lambda *parts: figures.append(parts))
     image = np.zeros((400, 600, 3), np.uint8)
     for render_mode in ("book", "test", "live"):

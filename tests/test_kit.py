@@ -60,9 +60,8 @@ def test_a_name_bound_by_a_solution_alone_is_used_by_no_other_cell(chapter):
 # ---------------------------------------------------------------- the key
 
 
-def test_the_key_has_every_answer_and_why(monkeypatch):
-    page = []
-    monkeypatch.setattr(questions, "display", lambda html: page.append(html.data))
+def test_the_key_has_every_answer_and_why(outputs):
+    page = outputs(questions)
     predict("Is $a < b$?", ["yes", "*no*"], "yes", "It *must*.")
     page.append(
         '<fieldset class="vmc-quiz"><legend>\n<p>Which?</p>\n</legend>\n'

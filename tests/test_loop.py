@@ -31,11 +31,6 @@ def model():
 
 
 @pytest.fixture(scope="module")
-def photo():
-    return photos.load("rig", "validation")[0]
-
-
-@pytest.fixture(scope="module")
 def sight(model, photo):
     return loop.see(model, photo.image)
 

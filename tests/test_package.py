@@ -1,13 +1,12 @@
 """The library as a package: it declares what it imports, and its wheel is enough for a chapter."""
 
 import ast
-import os
 import re
 import shutil
-import subprocess
 import sys
 import sysconfig
 import tomllib
+from functools import partial
 from importlib import metadata
 from pathlib import Path
 
@@ -16,7 +15,8 @@ import pytest
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name as canonical
 
-ROOT = Path(__file__).parents[1]
+from tests.project import ROOT, code, python, run
+
 PYPROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 PROJECT = PYPROJECT["project"]
 OPTIONAL = PROJECT["optional-dependencies"] | PYPROJECT["dependency-groups"]
@@ -36,19 +36,9 @@ def declared(*extras):
 EVERYTHING = declared("book", "test", "cluster")
 
 
-def sources(pattern):
-    """The code of the files: a module whole, of a notebook its cells."""
-    for path in ROOT.glob(pattern):
-        if path.suffix == ".py":
-            yield path.read_text(encoding="utf-8")
-        else:
-            cells = nbformat.read(path, as_version=4).cells
-            yield from (cell.source for cell in cells if cell.cell_type == "code")
-
-
-def imported(code):
+def imported(source):
     """Names of the packages that some code imports, but for Python's and ours."""
-    for node in ast.walk(ast.parse(code)):
+    for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.Import):
             modules = [alias.name for alias in node.names]
         else:
@@ -68,8 +58,8 @@ def imported(code):
 )
 def test_imports_are_declared(patterns, extras):
     makers, names_declared = metadata.packages_distributions(), declared(*extras)
-    codes = [code for pattern in patterns.split() for code in sources(pattern)]
-    names = {name for code in codes for name in imported(code)}
+    files = [path for pattern in patterns.split() for path in ROOT.glob(pattern)]
+    names = {name for path in files for name in imported(code(path))}
     assert names
     assert not {
         n for n in names if not {*map(canonical, makers.get(n, [n]))} & names_declared.keys()
@@ -134,12 +124,12 @@ def reader(tmp_path_factory):
     unwanted = shutil.ignore_patterns(".*", "_build", "build", "__pycache__", "*.egg-info")
     shutil.copytree(ROOT, folder / "source", ignore=unwanted)
     wheel = "wheel --quiet --no-deps --no-build-isolation --wheel-dir".split()
-    subprocess.run([sys.executable, "-m", "pip", *wheel, folder, folder / "source"], check=True)
+    python("-m", "pip", *wheel, folder, folder / "source")
     shutil.rmtree(folder / "source")
-    subprocess.run([sys.executable, "-m", "venv", "--without-pip", folder / "venv"], check=True)
+    python("-m", "venv", "--without-pip", folder / "venv")
     (site,) = (folder / "venv").glob("**/site-packages")
     install = ["install", "--quiet", "--no-deps", "--target", site, *folder.glob("*.whl")]
-    subprocess.run([sys.executable, "-m", "pip", *install], check=True)
+    python("-m", "pip", *install)
     installed = sysconfig.get_path("purelib")  # its own .pth files rest
     (site / "others.pth").write_text(installed, encoding="utf-8")
     return folder / "venv/bin/python"
@@ -148,28 +138,13 @@ def reader(tmp_path_factory):
 @pytest.fixture
 def alone(reader, tmp_path):
     """A function that runs the reader's Python in an empty folder, and returns what it printed."""
-    environment = {
-        k: v for k, v in os.environ.items() if k not in ("PYTHONPATH", "VMC_RENDER_MODE")
-    }
-
-    def alone(*arguments):
-        done = subprocess.run(
-            [reader, *arguments],
-            cwd=tmp_path,
-            env=environment,
-            capture_output=True,
-            encoding="utf-8",
-        )
-        assert done.returncode == 0, done.stderr
-        return done.stdout
-
-    return alone
+    return partial(run, reader, cwd=tmp_path, PYTHONPATH="", VMC_RENDER_MODE="")
 
 
 def test_the_wheel_holds_the_packages(alone):
     names = "vmc_lib arm_in_page reproduce render book.figures book.exercises"
-    code = f"import {names.replace(' ', ', ')}; print(vmc_lib.__file__, *book.figures.__path__)"
-    for path in alone("-c", code).split():
+    script = f"import {names.replace(' ', ', ')}; print(vmc_lib.__file__, *book.figures.__path__)"
+    for path in alone("-c", script).split():
         assert "site-packages" in path
         assert not Path(path).is_relative_to(ROOT)
 

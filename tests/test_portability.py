@@ -2,10 +2,8 @@
 
 import ast
 import json
-import os
 import re
 import shutil
-import subprocess
 import sys
 import sysconfig
 from pathlib import Path
@@ -16,7 +14,8 @@ import nbformat
 import pytest
 from jupyterlab.labapp import LabApp
 
-ROOT = Path(__file__).parents[1]
+from tests.project import NOTEBOOKS, ROOT, code, python, run
+
 SCHEMAS = Path(sysconfig.get_path("data")) / "share/jupyter/lab/schemas"
 AWKWARD = "a b&c#d+ü"  # a folder of a name that is lawful everywhere
 OURS = "vmc_lib|arm_in_page|reproduce|render|book|bench|kit|tools|tests"
@@ -31,14 +30,6 @@ levels = {level for level in levels for split in photos.SPLITS
 print(photos.FOLDER, *sorted(levels), sep="\\n")"""
 
 
-def run(*command, cwd, **environment):
-    """What a program of ours prints, in a folder that stands for the project's."""
-    told = os.environ | {"PYTHONPATH": str(cwd), "PYTHONIOENCODING": "utf-8"} | environment
-    done = subprocess.run(command, cwd=cwd, env=told, capture_output=True, encoding="utf-8")
-    assert done.returncode == 0, done.stderr
-    return done.stdout
-
-
 # ---------------------------------------------------------------- line ends, and names
 
 
@@ -48,32 +39,32 @@ def clone(tmp_path_factory):
     if not (ROOT / ".git").exists() or not shutil.which("git"):
         pytest.skip("NOT TESTED: this is no Git repository")
     folder = tmp_path_factory.mktemp("home") / AWKWARD
-    told = ["-c", "core.autocrlf=true", "-c", "core.eol=crlf"]
-    run("git", "clone", "--quiet", "--shared", *told, ROOT, folder, cwd=ROOT)
+    windows = ["-c", "core.autocrlf=true", "-c", "core.eol=crlf"]
+    run("git", "clone", "--quiet", "--shared", *windows, ROOT, folder, cwd=ROOT)
     return folder
 
 
 def test_a_clone_that_turns_line_ends_loads_every_level(clone):
-    folder, *levels = run(sys.executable, "-c", LOAD, cwd=clone).splitlines()
+    folder, *levels = python("-c", LOAD, cwd=clone).splitlines()
     assert Path(folder).is_relative_to(clone)
     assert levels == ["free", "real", "rig", "sheet", "varied"]
 
 
 def test_a_clone_that_turns_line_ends_holds_what_the_manifest_says(clone):
-    run(sys.executable, "tools/vendor.py", "--check", cwd=clone)
+    python("tools/vendor.py", "--check", cwd=clone)
 
 
 def test_the_programs_run_in_a_folder_of_an_awkward_name(clone):
-    assert "templates.npz" in run(sys.executable, "-m", "reproduce", "--list", cwd=clone)
+    assert "templates.npz" in python("-m", "reproduce", "--list", cwd=clone)
 
 
 def test_every_file_can_lie_on_a_disk_of_windows():
-    listed = run("git", "ls-files", "-z", cwd=ROOT).split("\0") if (ROOT / ".git").exists() else []
-    if not listed:
+    files = run("git", "ls-files", "-z").split("\0") if (ROOT / ".git").exists() else []
+    if not files:
         pytest.skip("NOT TESTED: this is no Git repository")
     refused = r'[<>:"\\|?*]|[. ](/|$)|(^|/)(con|aux|nul|prn|com\d|lpt\d)(\.|/|$)'
-    assert [name for name in listed if re.search(refused, name, re.I) or len(name) > 120] == []
-    assert len({name.casefold() for name in listed}) == len(listed)
+    assert [name for name in files if re.search(refused, name, re.I) or len(name) > 120] == []
+    assert len({name.casefold() for name in files}) == len(files)
 
 
 def test_make_says_where_the_book_is_in_an_address_that_a_browser_takes(tmp_path):
@@ -91,48 +82,38 @@ def test_make_says_where_the_book_is_in_an_address_that_a_browser_takes(tmp_path
 # ---------------------------------------------------------------- encodings
 
 
-def lacking(keyword, code, names="read_text write_text run"):
+def lacking(keyword, source, names="read_text write_text run"):
     """Calls that read or write text without an argument; ruff's PLW1514 sees but plain paths."""
-    for node in ast.walk(ast.parse(code)):
+    for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.Call) and getattr(node.func, "attr", None) in names.split():
-            told = {each.arg: ast.unparse(each.value) for each in node.keywords}
-            if keyword not in told and (node.func.attr != "run" or told.get("text") == "True"):
+            options = {each.arg: ast.unparse(each.value) for each in node.keywords}
+            if keyword not in options and (node.func.attr != "run" or "text" in options):
                 yield ast.unparse(node)
-
-
-@pytest.mark.parametrize(
-    "call", ["path.read_text()", "(a / b).write_text(text)", "subprocess.run(name, text=True)"]
-)
-def test_a_text_of_unnamed_encoding_is_noticed(call):
-    assert list(lacking("encoding", call)) == [call]
 
 
 def test_every_text_names_its_encoding():
     files = [file for part in OURS.split("|") for file in (ROOT / part).rglob("*.py")]
-    codes = [file.read_text(encoding="utf-8") for file in files]
-    for notebook in (ROOT / "book").glob("*.ipynb"):
-        cells = nbformat.read(notebook, as_version=4).cells
-        codes += [cell.source for cell in cells if cell.cell_type == "code"]
-    assert len(codes) > 500
-    assert [call for code in codes for call in lacking("encoding", code)] == []
+    assert len(files) > 200
+    calls = [call for path in (*files, *NOTEBOOKS) for call in lacking("encoding", code(path))]
+    assert calls == []
 
 
 @pytest.mark.parametrize("room", ["render", "reproduce", "tools"])
 def test_what_ships_has_the_same_line_ends_wherever_it_is_made(room):
-    codes = [file.read_text(encoding="utf-8") for file in (ROOT / room).rglob("*.py")]
-    assert any("write_text(" in code for code in codes)
-    assert [c for code in codes for c in lacking("newline", code, "write_text")] == []
+    codes = [code(path) for path in (ROOT / room).rglob("*.py")]
+    assert any("write_text(" in text for text in codes)
+    assert [call for text in codes for call in lacking("newline", text, "write_text")] == []
 
 
 def test_a_live_chapter_runs_where_text_is_ascii_unless_named(tmp_path):
     chapter = nbformat.read(ROOT / "book/08_arm.ipynb", as_version=4)
-    told = f"filterwarnings('error', category=EncodingWarning, module=r'({OURS})\\b')"
-    told = f"import locale, warnings; warnings.{told}; locale.getencoding()"
-    chapter.cells.insert(0, nbformat.v4.new_code_cell(told))
+    strict = f"filterwarnings('error', category=EncodingWarning, module=r'({OURS})\\b')"
+    strict = f"import locale, warnings; warnings.{strict}; locale.getencoding()"
+    chapter.cells.insert(0, nbformat.v4.new_code_cell(strict))
     nbformat.write(chapter, tmp_path / "chapter.ipynb")
     convert = "-m nbconvert --execute --to=notebook --inplace chapter.ipynb".split()
     live = ASCII | {"VMC_RENDER_MODE": "", "PYTHONPATH": str(ROOT)}
-    run(sys.executable, *convert, cwd=tmp_path, **live)
+    python(*convert, cwd=tmp_path, **live)
     first = nbformat.read(tmp_path / "chapter.ipynb", as_version=4).cells[0]
     assert "ANSI" in first.outputs[0].data["text/plain"]  # ASCII's official name begins so
 
@@ -142,21 +123,21 @@ def test_a_live_chapter_runs_where_text_is_ascii_unless_named(tmp_path):
 
 def test_jupyterlab_finds_the_layout_of_make_lab_by_its_name(tmp_path):
     makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
-    asked = re.search("default_url=/lab/workspaces/(.*)", makefile)[1]
+    name = re.search("default_url=/lab/workspaces/(.*)", makefile)[1]
     shutil.copy(
         ROOT / ".binder/workspace.json", tmp_path / re.search("LAYOUT .*/(.*)", makefile)[1]
     )
-    export = ["-m", "jupyterlab", "workspaces", "export", asked]
-    found = json.loads(run(sys.executable, *export, cwd=ROOT, JUPYTERLAB_WORKSPACES_DIR=tmp_path))
-    assert "notebook:book/01_loop.ipynb" in found["data"]
+    export = ["-m", "jupyterlab", "workspaces", "export", name]
+    layout = json.loads(python(*export, JUPYTERLAB_WORKSPACES_DIR=tmp_path))
+    assert "notebook:book/01_loop.ipynb" in layout["data"]
 
 
 def test_what_the_settings_name_is_known_to_jupyterlab():
-    for plugin, told in json.loads((ROOT / ".binder/overrides.json").read_bytes()).items():
+    for plugin, settings in json.loads((ROOT / ".binder/overrides.json").read_bytes()).items():
         package, name = plugin.split(":")
-        known = json.loads((SCHEMAS / package / f"{name}.json").read_bytes())["properties"]
-        assert told.keys() <= known.keys()
+        properties = json.loads((SCHEMAS / package / f"{name}.json").read_bytes())["properties"]
+        assert settings.keys() <= properties.keys()
     classes = {each.__name__: each for each in LabApp.serverapp_class.classes}
-    told = json.loads((ROOT / ".binder/jupyter_server_config.json").read_bytes())
-    for name, traits in told.items():
+    options = json.loads((ROOT / ".binder/jupyter_server_config.json").read_bytes())
+    for name, traits in options.items():
         assert traits.keys() <= {*classes[name].class_trait_names()}

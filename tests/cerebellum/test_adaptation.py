@@ -10,12 +10,6 @@ from vmc_lib.cerebellum.adaptation import SILENT, Adaptation, weight_correction
 from vmc_lib.cerebellum.online import AimCorrection
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import draw_targets, plan
-from vmc_lib.motor.templates import load
-
-
-@pytest.fixture(scope="module")
-def template_set():
-    return load()
 
 
 @pytest.fixture(scope="module")

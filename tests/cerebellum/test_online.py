@@ -15,12 +15,6 @@ from vmc_lib.cerebellum.online import (
 )
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import draw_targets, habitual_weights, plan
-from vmc_lib.motor.templates import load
-
-
-@pytest.fixture(scope="module")
-def template_set():
-    return load()
 
 
 @pytest.fixture(scope="module")

@@ -19,12 +19,7 @@ from vmc_lib.motor.feedback import (
     simulate_feedback,
 )
 from vmc_lib.motor.planning import draw_targets, plan
-from vmc_lib.motor.templates import START, load
-
-
-@pytest.fixture(scope="module")
-def template_set():
-    return load()
+from vmc_lib.motor.templates import START
 
 
 @pytest.fixture(scope="module")

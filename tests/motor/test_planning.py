@@ -17,15 +17,10 @@ from vmc_lib.motor.planning import (
     surrounded,
     surrounding,
 )
-from vmc_lib.motor.templates import TemplateSet, load
+from vmc_lib.motor.templates import TemplateSet
 
 SQUARE = np.array([(0.1, -0.3), (0.0, -0.3), (0.0, -0.4), (0.1, -0.4)])
 INSIDE = st.tuples(st.floats(0, 0.1), st.floats(-0.4, -0.3)).map(np.array)
-
-
-@pytest.fixture(scope="module")
-def template_set():
-    return load()
 
 
 @given(INSIDE)

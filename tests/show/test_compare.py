@@ -52,12 +52,11 @@ def test_a_dot_plot_shows_values_intervals_and_what_was_published():
     assert not dot_plot({"": {"a": 1}}, "x").legends
 
 
-def test_a_comparison_has_one_table_and_its_own_description(monkeypatch):
-    items = []
+def test_a_comparison_has_one_table_and_its_own_description(outputs, monkeypatch):
     monkeypatch.setenv("VMC_RENDER_MODE", "book")
-    monkeypatch.setattr(demo, "display", items.append)
+    items = outputs(demo)
     compare({"ours": {"a": DRAWS, "b": 0.7}}, "recall", "A *caption*.", {"a": 0.6}, (0, 1))
-    page = items[0].data
+    [page] = items
     assert page.count("<table>") == page.count("<details") == 1
     assert "0.40 (0.15 to 0.65)" in page
     words = "recall: ours: a 0.40 (0.15 to 0.65), b 0.7; published: a 0.6."

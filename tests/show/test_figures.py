@@ -116,16 +116,14 @@ def test_only_two_panels_of_one_plot_each_are_stackable():
     assert plot(1, 1, bar=True).count("<svg") == 1
 
 
-def test_what_is_folded_is_still_markdown(monkeypatch):
-    texts = []
-    monkeypatch.setattr(figures, "display", lambda text: texts.append(text.data))
+def test_what_is_folded_is_still_markdown(outputs):
+    texts = outputs(figures)
     details("The numbers", "| a |")
     assert texts == ["<details><summary>The numbers</summary>\n\n| a |\n\n</details>"]
 
 
-def test_a_number_below_zero_has_a_minus_sign(monkeypatch):
-    texts = []
-    monkeypatch.setattr(figures, "display", lambda item: texts.append(item.data))
+def test_a_number_below_zero_has_a_minus_sign(outputs):
+    texts = outputs(figures)
     figures.markdown("From -1.5 (-.2) to **-3**; $x = -1$, `f -1`, 2003-4, two-thirds")
     assert texts == ["From −1.5 (−.2) to **−3**; $x = -1$, `f -1`, 2003-4, two-thirds"]
 

@@ -3,15 +3,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from vmc_lib import photos
 from vmc_lib.boxes import as_boxes, iou
 from vmc_lib.where.detector import ObjectDetector
 from vmc_lib.where.recipes import RECIPES
-
-
-@pytest.fixture(scope="module")
-def photo():
-    return photos.load("rig", "validation")[0]
 
 
 def test_each_step_leaves_fewer_boxes(photo):

@@ -21,11 +21,6 @@ from vmc_lib.motor.templates import load
 
 
 @pytest.fixture(scope="module")
-def template_set():
-    return load()
-
-
-@pytest.fixture(scope="module")
 def linear(template_set):
     rng = np.random.default_rng(0)
     return run_experiments(

@@ -10,11 +10,6 @@ from vmc_lib import NoReach, loop, photos
 
 
 @pytest.fixture(scope="module")
-def photo():
-    return photos.load("rig", "validation")[0]
-
-
-@pytest.fixture(scope="module")
 def sight(photo):
     return loop.see(loop.VisuomotorModel.load("rig"), photo.image)
 

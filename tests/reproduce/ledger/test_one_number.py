@@ -2,17 +2,14 @@
 
 import ast
 from functools import cache
-from pathlib import Path
 
-import nbformat
 import pytest
 
 from reproduce import ledger
 from reproduce.experiments import localisation
 from reproduce.experiments.calibration import SCENARIOS, load_results
+from tests.project import code_cells, each_chapter
 
-BOOK = Path(ledger.__file__).parents[2] / "book"
-CHAPTERS = sorted(BOOK.glob("[0-9]*.ipynb"))
 CLAIMS = {"planned_error_ratio", "calibrated_error_ratio", "MEAN_ERROR"}
 CLAIMS |= {"TABLE_1", "TABLE_2", "TABLE_3"}
 SHARED = {"ledger.value", "load_results", "load_probabilities", "table_2"}  # as chapters call them
@@ -27,8 +24,7 @@ PAPER_ALONE = {  # cells that show what the paper prints, and no number of ours 
 @cache
 def cells(chapter):
     """The code cells of a chapter, by id: what each names, calls and defines."""
-    book = nbformat.read(chapter, as_version=4)
-    return {c.id: Names(ast.parse(c.source)) for c in book.cells if c.cell_type == "code"}
+    return {cell.id: Names(ast.parse(cell.source)) for cell in code_cells(chapter)}
 
 
 class Names:
@@ -62,16 +58,16 @@ def rests_on(chapter, cell):
     return False
 
 
-@pytest.mark.parametrize("chapter", CHAPTERS, ids=lambda chapter: chapter.stem)
-def test_beside_a_claim_stands_the_ledgers_number(chapter):
-    for name, cell in cells(chapter).items():
+@each_chapter
+def test_beside_a_claim_stands_the_ledgers_number(path):
+    for name, cell in cells(path).items():
         if CLAIMS & cell.uses and name not in PAPER_ALONE:
-            assert rests_on(chapter, name), f"{chapter.stem}, {name}: ask `ledger.value`"
+            assert rests_on(path, name), f"{path.stem}, {name}: ask `ledger.value`"
 
 
-@pytest.mark.parametrize("chapter", CHAPTERS, ids=lambda chapter: chapter.stem)
-def test_what_a_chapter_asks_the_ledger_for_is_there(chapter):
-    for cell in cells(chapter).values():
+@each_chapter
+def test_what_a_chapter_asks_the_ledger_for_is_there(path):
+    for cell in cells(path).values():
         for names in cell.values:
             ledger.value(*names)
 

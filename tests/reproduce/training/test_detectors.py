@@ -22,11 +22,6 @@ from vmc_lib.where.recipes import IMPROVED, PUBLISHED, RECIPES
 from vmc_lib.where.selective_search import propose
 
 
-@pytest.fixture(scope="module")
-def photo():
-    return photos.load("rig", "validation")[0]
-
-
 @pytest.mark.parametrize("strategy", ["single", "finer"])
 def test_candidates_that_ship_are_those_of_the_search(photo, strategy):
     """Most of them: another processor may round a pixel differently."""
