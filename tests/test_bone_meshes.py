@@ -42,7 +42,7 @@ def test_a_joint_lies_where_two_bones_meet():
     )
 
 
-def test_what_ships_is_small_and_whole(shipped):
+def test_shipped_bones_are_small_and_valid(shipped):
     assert len(gzip.compress(bone_meshes.FILE.read_bytes())) < 250_000
     for name, part in shipped["parts"].items():
         assert len(part["points"]) // 3 == max(part["faces"]) + 1, name

@@ -44,7 +44,7 @@ def test_iou_of_a_box_with_itself_is_1_unless_it_is_empty(one):
 
 
 @given(crowd, st.floats(0, 1))
-def test_nms_keeps_no_overlaps_and_every_loss_has_a_better_neighbour(boxes, overlap):
+def test_nms_drops_a_box_only_for_a_better_neighbour(boxes, overlap):
     scores = np.random.default_rng(len(boxes)).permutation(len(boxes)).astype(float)
     rows = nms(boxes, scores, overlap)
     assert (np.diff(scores[rows]) < 0).all()

@@ -6,7 +6,7 @@ from tools import browser
 
 
 @pytest.mark.parametrize("refusal", [0, 1])
-def test_the_sandbox_is_left_only_where_the_browser_refuses_it(tmp_path, refusal):
+def test_sandbox_is_off_only_where_the_browser_refuses_it(tmp_path, refusal):
     program = tmp_path / "chromium"
     program.write_text(f"#!/bin/sh\nexit {refusal}\n", encoding="utf-8")
     program.chmod(0o755)

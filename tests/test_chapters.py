@@ -143,7 +143,7 @@ def names_in(tree):
     return {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
 
 
-def test_reads_well_where_neither_roles_nor_directives_are_known(notebook):
+def test_markdown_needs_no_roles_or_directives(notebook):
     """A notebook elsewhere would show them raw: chapters are plain (book/_ext/plain.py)."""
     text = "\n".join(sources(notebook, "markdown"))
     assert not re.findall(r"(?<!`)\{[a-z-]+\}`[^`]+`", text)
@@ -223,7 +223,7 @@ def test_code_is_as_wide_as_the_page():
 
 
 @each_chapter
-def test_what_a_reader_meets_is_the_mechanism(path):
+def test_open_code_is_the_mechanism(path):
     """One or two open cells, each held to the library; no more than 5 % of other open code."""
     cells = nbformat.read(path, as_version=4).cells
     code = [cell for cell in cells if cell.cell_type == "code" and not cell.metadata.get("tags")]

@@ -51,7 +51,7 @@ def test_an_empty_function_is_not_answered_yet(exercise):
     assert feedback(lambda *_: None, exercise) == EMPTY
 
 
-def test_what_fails_is_told_in_a_sentence(exercise):
+def test_exception_in_an_answer_is_reported(exercise):
     def fails(*_):
         raise IndexError("no such row")
 
@@ -63,7 +63,7 @@ def test_what_fails_is_told_in_a_sentence(exercise):
 
 
 @pytest.mark.parametrize("result", [np.zeros((7, 7)), [1, [2, 3]], "words", np.nan])
-def test_what_cannot_be_right_is_set_beside_what_is(exercise, result):
+def test_wrong_result_is_shown_beside_the_right_one(exercise, result):
     text = feedback(lambda *_: result, exercise)
     assert text.startswith(f"{WRONG} Where ")
     assert all(f"`{name} = " in text for name in inspect.signature(exercise.right).parameters)
@@ -159,7 +159,7 @@ def some(request):
     return one.right, one.draw(np.random.default_rng(7))
 
 
-def test_engulfed_serves_where_its_solution_puts_it():
+def test_engulfed_completes_the_chapters_loop():
     """The solution's own lines, after the chapter's cells that they need."""
     chapter = nbformat.read(CHAPTERS[1], as_version=4)
     cells = {cell.id: cell.source for cell in chapter.cells}
@@ -182,7 +182,7 @@ def test_a_posture_puts_the_hand_there(some):
 
 
 @pytest.mark.parametrize("some", ["ACTIVATION_TO_HOLD"], indirect=True)
-def test_what_is_held_weighs_what_the_muscle_pulls(some):
+def test_activation_to_hold_balances_the_weight(some):
     hold, (mass, length, strongest) = some
     a = hold(mass, length, strongest)
     pull, within = muscle.force(a, length, 0, strongest), (a > 0) & (a < 1)
@@ -191,7 +191,7 @@ def test_what_is_held_weighs_what_the_muscle_pulls(some):
 
 
 @pytest.mark.parametrize("some", ["CD_STEP"], indirect=True)
-def test_the_data_become_likelier_downhill(some):
+def test_cd_step_lowers_the_energy_of_the_data(some):
     """What goes together is how the energy falls as a weight grows."""
     together, (v, h, *dream) = some
     tiny = 1e-6 * np.eye(9).reshape(9, 3, 3)
@@ -210,7 +210,7 @@ def test_weights_in_a_cube_satisfy_eq_4(some):
 
 
 @pytest.mark.parametrize("some", ["SELF_MOTION"], indirect=True)
-def test_a_self_motion_leaves_the_finger_and_all_else_is_at_right_angles(some):
+def test_self_motion_lies_in_the_null_space(some):
     move, (turning, jacobian) = some
     part = move(turning, jacobian)
     assert np.linalg.norm(part) > 0.1

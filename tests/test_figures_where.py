@@ -19,14 +19,14 @@ def test_the_best_so_far_never_falls():
     assert axes.get_legend_handles_labels()[1] == ["cup 0.50"]
 
 
-def test_a_photo_of_the_readers_is_seen():
+def test_photo_upload_is_decoded():
     red = cv2.imencode(".png", np.full((800, 1200, 3), [0, 0, 255], np.uint8))[1].tobytes()
     image = where.received(f"data:image/png;base64,{b64encode(red).decode()}")
     assert image.shape == (800, 1200, 3)
     assert image[0, 0].tolist() == [255, 0, 0]
 
 
-def test_the_button_is_there_only_where_a_kernel_answers(outputs, monkeypatch):
+def test_upload_button_needs_a_kernel(outputs, monkeypatch):
     widgets, figures = outputs(where), []
     monkeypatch.setattr(where, "figure", lambda *parts: figures.append(parts))
     image = np.zeros((400, 600, 3), np.uint8)

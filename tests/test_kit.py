@@ -46,7 +46,7 @@ def test_a_student_gets_every_exercise_and_no_solution(chapter):
     assert exercises
 
 
-def test_a_name_bound_by_a_solution_alone_is_used_by_no_other_cell(chapter):
+def test_other_cells_use_no_name_of_a_solution(chapter):
     bound, used = {True: set(), False: set()}, set()
     for cell in chapter.cells:
         solving = solves(cell)

@@ -67,7 +67,7 @@ def test_boxes_match_the_pixels_of_their_things():
         assert thing.mean() < 1e-4
 
 
-def test_the_rig_has_one_camera_and_the_other_levels_have_many():
+def test_camera_differs_outside_the_rig():
     places = {
         level: {tuple(shot.camera.position) for shot in photos.load(level, "train")}
         for level in LEVELS

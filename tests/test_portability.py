@@ -44,13 +44,13 @@ def clone(tmp_path_factory):
     return folder
 
 
-def test_a_clone_that_turns_line_ends_loads_every_level(clone):
+def test_clone_with_crlf_loads_every_level(clone):
     folder, *levels = python("-c", LOAD, cwd=clone).splitlines()
     assert Path(folder).is_relative_to(clone)
     assert levels == ["free", "real", "rig", "sheet", "varied"]
 
 
-def test_a_clone_that_turns_line_ends_holds_what_the_manifest_says(clone):
+def test_clone_with_crlf_matches_the_vendor_manifest(clone):
     python("tools/vendor.py", "--check", cwd=clone)
 
 
@@ -67,7 +67,7 @@ def test_every_file_can_lie_on_a_disk_of_windows():
     assert len({name.casefold() for name in files}) == len(files)
 
 
-def test_make_says_where_the_book_is_in_an_address_that_a_browser_takes(tmp_path):
+def test_make_prints_the_address_of_the_book(tmp_path):
     home = tmp_path / AWKWARD
     (home / ".venv/bin").mkdir(parents=True)
     (home / ".venv/bin/python").symlink_to(sys.executable)
@@ -99,7 +99,7 @@ def test_every_text_names_its_encoding():
 
 
 @pytest.mark.parametrize("room", ["render", "reproduce", "tools"])
-def test_what_ships_has_the_same_line_ends_wherever_it_is_made(room):
+def test_generated_files_have_fixed_line_ends(room):
     codes = [code(path) for path in (ROOT / room).rglob("*.py")]
     assert any("write_text(" in text for text in codes)
     assert [call for text in codes for call in lacking("newline", text, "write_text")] == []
@@ -132,7 +132,7 @@ def test_jupyterlab_finds_the_layout_of_make_lab_by_its_name(tmp_path):
     assert "notebook:book/01_loop.ipynb" in layout["data"]
 
 
-def test_what_the_settings_name_is_known_to_jupyterlab():
+def test_jupyterlab_knows_our_settings():
     for plugin, settings in json.loads((ROOT / ".binder/overrides.json").read_bytes()).items():
         package, name = plugin.split(":")
         properties = json.loads((SCHEMAS / package / f"{name}.json").read_bytes())["properties"]

@@ -9,7 +9,7 @@ from vmc_lib import photos
 
 
 @pytest.mark.parametrize("furnish", [scene.setting, furniture.setting])
-def test_a_scene_has_shuttlecock_and_cup_in_view_and_nothing_touches(furnish):
+def test_scene_objects_are_in_view_and_apart(furnish):
     view = scene.draw("varied", np.random.default_rng(1), furnish)
     things = list(view.things.values())
     assert list(view.things)[:2] == list(photos.CLASSES)
@@ -19,7 +19,7 @@ def test_a_scene_has_shuttlecock_and_cup_in_view_and_nothing_touches(furnish):
     assert view.table.shape == (2048, 2048, 3)
 
 
-def test_a_hidden_shuttlecock_is_drawn_again_and_photos_load_as_written(tmp_path):
+def test_occluded_scenes_are_redrawn_and_photos_load_as_stored(tmp_path):
     full, half, scenes = np.zeros((400, 600), bool), np.zeros((400, 600), bool), []
     full[10:30, 40:80], half[10:30, 40:60] = True, True
 

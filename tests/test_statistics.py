@@ -14,7 +14,7 @@ def test_student_agrees_with_scipy():
     np.testing.assert_allclose([mean - half, mean + half], [low, high])
 
 
-def test_values_that_are_all_the_same_are_sure():
+def test_interval_of_equal_values_is_zero():
     assert student([2.0, 2.0, 2.0]) == (2.0, 0.0)
 
 

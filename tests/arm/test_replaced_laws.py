@@ -65,7 +65,7 @@ def test_a_scalar_law_is_compiled(monkeypatch):
     assert np.abs(run("compiled").activation - before).max() > 0.1
 
 
-def test_a_law_numba_cannot_compile_runs_as_python_with_a_warning(monkeypatch):
+def test_law_that_numba_cannot_compile_warns(monkeypatch):
     gains = {}  # what a compiled loop cannot read
     monkeypatch.setattr(muscle, "activation_rate", lambda u, a: gains.get("gain", 9.0) * (u - a))
     few = WILD[:1, :20]

@@ -95,7 +95,7 @@ def test_guards_limit_the_error_with_a_load(reaches):
     assert careful[0].max() <= 0.5 + 1e-12
 
 
-def test_ten_thousand_corrections_are_finite_and_none_diverges():
+def test_ten_thousand_corrections_are_bounded():
     template_set, rng = load(), np.random.default_rng(12)
     many = plan(draw_targets(template_set, 10_000, rng), template_set)
     p_a = many.target + rng.normal(0, 0.03, many.target.shape)

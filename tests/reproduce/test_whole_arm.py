@@ -46,7 +46,7 @@ def nerves():
     return habits.muscle_synergies()
 
 
-def test_what_is_derived_moves_as_what_it_came_from():
+def test_derived_model_moves_like_its_source():
     """The same lengths and, but for gravity's direction, the same forces, in any posture."""
     full = mujoco.MjModel.from_xml_string(SMALL)
     small = mujoco.MjModel.from_xml_string(derive.arm_mjcf(full))
@@ -92,7 +92,7 @@ def test_bones_that_ship_are_small_and_whole():
         assert len(part["points"]) == 3 * (max(part["faces"]) + 1), name
 
 
-def test_what_ships_has_the_muscles_and_joints_that_it_should():
+def test_model_has_63_muscles_and_7_free_joints():
     assert len(plant.MUSCLES) == len(set(plant.MUSCLES)) == 63
     assert plant.JOINT_COUPLING.shape == (18, 7)
     np.testing.assert_array_equal(plant.JOINT_COUPLING[plant.FREE], np.eye(7))
@@ -104,13 +104,13 @@ def test_a_posture_puts_the_finger_on_its_goal():
         np.testing.assert_allclose(at, goal, atol=2e-3)
 
 
-def test_the_slopes_of_the_finger_are_its_slopes():
+def test_jacobian_equals_finite_differences():
     at, slopes = plant.tip_and_jacobian(habits.START)
     nudged = [plant.tip_and_jacobian(habits.START + step)[0] for step in 1e-6 * np.eye(7)]
     np.testing.assert_allclose((np.array(nudged) - at).T / 1e-6, slopes, atol=1e-5)
 
 
-def test_the_commands_of_rest_hold_the_arm_and_the_shoulder_follows(nerves):
+def test_rest_commands_hold_the_arm(nerves):
     motion = nerves.move(np.tile(nerves.rest, (plant.TICKS, 1)))
     assert np.linalg.norm(motion.endpoint - plant.tip_and_jacobian(habits.START)[0]) < 0.005
     joints = motion.joints[-1]
@@ -119,13 +119,13 @@ def test_the_commands_of_rest_hold_the_arm_and_the_shoulder_follows(nerves):
     )
 
 
-def test_static_optimisation_gives_the_torque_with_pulls_alone(nerves):
+def test_static_optimisation_gives_the_required_torque(nerves):
     torque, gain = plant.required_torque(habits.START, STILL, STILL)
     assert nerves.rest.min() >= 0
     np.testing.assert_allclose(gain @ nerves.rest, torque, atol=0.01)
 
 
-def test_what_no_muscle_can_do_is_done_as_far_as_full_activation_goes(nerves):
+def test_activation_is_bounded_when_torque_is_out_of_reach(nerves):
     pull = nerves._share(habits.START, STILL, np.full(7, 300.0))
     assert pull.max() == pytest.approx(1)
     assert pull.min() > -1e-9
@@ -158,7 +158,7 @@ def test_many_reaches_move_as_each_alone(nerves):
     np.testing.assert_allclose(both.reshape(4, 3), past.points[:4], atol=1e-9)
 
 
-def test_octants_are_told_apart():
+def test_octants_are_distinguished():
     corners = np.stack(np.meshgrid(*[[-1.0, 1.0]] * 3), axis=-1).reshape(-1, 3)
     rows, inside = experiment.octants(np.zeros((2, 3)), np.vstack([2 * corners, corners]))
     assert inside.all()
@@ -175,7 +175,7 @@ def test_the_same_functions_plan_and_correct_it():
     assert errors[2] < 0.5 * errors[0]
 
 
-def test_what_ships_meets_its_bars():
+def test_shipped_results_meet_the_bars():
     results = experiment.load_results()
     assert results["real time"] >= 5
     dense = results[f"{len(habits.load_templates().points)} memories"]
@@ -184,14 +184,14 @@ def test_what_ships_meets_its_bars():
     assert dense["2 corrections"].mean() <= 0.25
 
 
-def test_what_ships_is_what_is_measured():
+def test_shipped_results_are_reproducible():
     """The cheapest of its experiments again, one draw."""
     errors = experiment.online_errors(habits.load_templates(), 0)
     for name, error in errors.items():
         assert error == pytest.approx(experiment.load_results()["online"][name][0], rel=1e-3)
 
 
-def test_a_miss_is_told_beside_the_reach_and_beside_the_way():
+def test_error_is_a_share_of_reach_and_of_way():
     """Both shares are of the same miss, and the finger starts nearer to its targets."""
     targets = experiment.draw_targets(
         habits.load_templates(), count=2, rng=np.random.default_rng(5)

@@ -18,14 +18,14 @@ def closed():
     plt.close("all")
 
 
-def test_an_estimate_of_draws_is_their_mean_with_students_interval():
+def test_estimate_of_draws_has_students_interval():
     mean, half = student(DRAWS)
     assert estimate(DRAWS) == estimate(np.array(DRAWS)) == (mean, mean - half, mean + half)
     assert estimate((0.4, 0.2, 0.7)) == (0.4, 0.2, 0.7)
     assert estimate(0.4) == estimate([0.4]) == (0.4, 0.4, 0.4)
 
 
-def test_an_estimate_is_written_with_two_digits_of_its_intervals_width():
+def test_estimate_has_two_digits_of_its_interval():
     words = [str(estimate(e)) for e in ((0.341, 0.268, 0.414), (34.2, 33.01, 35.4), (-3, -9, 90))]
     assert words == ["0.34 (0.27 to 0.41)", "34.2 (33.0 to 35.4)", "−3 (−9 to 90)"]
     assert f"{estimate((0.341, 0.268, 0.414)):.0%}" == "34% (27% to 41%)"
@@ -38,7 +38,7 @@ def test_a_cell_of_a_table_may_be_an_estimate():
     ]  # fmt: skip
 
 
-def test_a_dot_plot_shows_values_intervals_and_what_was_published():
+def test_dot_plot_shows_values_intervals_and_published_ticks():
     series = {"test": {"linear": (0.9, 0.8, 1.0), "RBF": 0.7}, "train": {"RBF": 0.95}}
     fig = dot_plot(series, "recall", {"RBF": 0.99})
     [ax] = fig.axes
@@ -71,13 +71,13 @@ def plot(*lines, **labels):
     return fig
 
 
-def test_a_line_is_described_by_its_ends_and_what_lies_beyond_them():
+def test_alt_text_of_a_line_gives_its_ends_and_extremes():
     fig = plot(([0, 1, 2], [1, 3, 2]), xlabel="time (s)", ylabel="force (N)", title="held")
     words = "force (N) against time (s): from 1 at 0 to 2 at 2, highest 3 at 1."
     assert alt_text(fig) == f"held: {words}"
 
 
-def test_dots_and_ways_are_described_by_their_range():
+def test_alt_text_of_dots_gives_their_range():
     ways = plot(([0, 1, 0], [1, 3, -1]), xlabel="forward (m)", ylabel="up (m)")
     words = "up (m) against forward (m): 3 points from −1 to 3, forward (m) 0 to 1."
     assert alt_text(ways) == words
@@ -87,14 +87,14 @@ def test_dots_and_ways_are_described_by_their_range():
     )
 
 
-def test_of_many_series_and_rows_some_are_described_and_the_others_counted():
+def test_alt_text_of_many_series_is_short():
     rows = {f"row {i}": i / 10 for i in range(13)}
     words = "recall: from row 0 0 to row 12 1.2."
     assert alt_text(dot_plot({"": rows}, "recall")) == words
     assert alt_text(plot(*[([0, 1], [0, i]) for i in range(7)])).endswith("; and 3 more.")
 
 
-def test_words_in_markup_are_its_description_and_what_has_none_needs_one():
+def test_alt_text_of_markup_is_its_words():
     photo = photo_view(np.zeros((9, 9, 3), np.uint8), [((1, 2, 3, 4), "cup <1>", "blue")])
     assert alt_text((photo, "<p>It is <b>3</b>.</p>")) == "A photo with labels: cup <1>. It is 3."
     assert alt_text((Scene(), "<p>It misses.</p>")) == "It misses."

@@ -51,7 +51,7 @@ def test_series_with_other_keys_have_a_row_for_each_point():
 
 
 @pytest.mark.parametrize("names", [["linear", "RBF"], ["1 movement", "200"], ["200", "100"]])
-def test_a_dot_plot_is_a_table_of_its_rows_with_their_intervals(names):
+def test_table_of_a_dot_plot_has_intervals(names):
     first, second = names
     series = {"test": {first: (0.9, 0.8, 1.0), second: 0.7}, "train": {second: [1, 2, 3]}}
     captions, [rows] = tables(dot_plot(series, "recall", {second: 0.99}))
@@ -64,7 +64,7 @@ def test_a_dot_plot_is_a_table_of_its_rows_with_their_intervals(names):
     assert tables(dot_plot({"": {"a": 1}}, "x"))[1] == [[["case", "x"], ["a", "1"]]]
 
 
-def test_intervals_upwards_and_bars_with_names_are_told():
+def test_table_of_error_bars_and_named_bars():
     fig, (left, right) = plt.subplots(1, 2)
     left.errorbar([1, 2], [3, 4], [0.5, 0.1], label="a")
     right.barh(["all", "none"], [9, 8])
@@ -94,21 +94,21 @@ def test_what_is_no_figure_has_no_table():
     assert data_tables((np.eye(3), "<p></p>")) == []
 
 
-def test_dots_and_bars_are_told_one_by_one():
+def test_table_has_every_dot_and_bar():
     fig, ax = plt.subplots()
     ax.plot(range(20), range(20), "o")
     ax.bar(range(15), range(15))
     assert len(tables(fig)[1][0]) == 1 + 20 + 15
 
 
-def test_a_long_line_on_a_logarithmic_axis_is_told_evenly_along_that_axis():
+def test_long_line_is_sampled_evenly_on_a_log_axis():
     fig, ax = plt.subplots()
     ax.semilogx(np.arange(1, 257), np.arange(1, 257))
     keys = [row[0] for row in tables(fig)[1][0][1:]]
     assert keys == ["1", "2", "4", "8", "16", "32", "64", "128", "256"]
 
 
-def test_guide_lines_are_left_out_and_a_gid_is_a_name_without_a_legend():
+def test_guide_lines_are_left_out_and_gids_name_series():
     fig, ax = plt.subplots()
     ax.plot([0, 1], [1e-17, 1], gid="targets")
     ax.plot([0, 1], [5, 5], gid="guide")

@@ -80,7 +80,7 @@ def test_photo_view_draws_boxes_and_points():
     assert "target" in svg
 
 
-def test_a_pad_reads_a_photo_in_pixels_unless_it_is_told_otherwise():
+def test_photo_axes_are_pixels_by_default():
     image = np.zeros((400, 600, 3), np.uint8)
     assert 'data-axes="0 600 400 0 0 1 1 0"' in photo_view(image)
     assert 'data-axes="0.5 5.5 2.5 0.5 0 1 1 0"' in photo_view(image, axes=(0.5, 5.5, 2.5, 0.5))
@@ -116,7 +116,7 @@ def test_only_two_panels_of_one_plot_each_are_stackable():
     assert plot(1, 1, bar=True).count("<svg") == 1
 
 
-def test_what_is_folded_is_still_markdown(outputs):
+def test_details_keep_markdown(outputs):
     texts = outputs(figures)
     details("The numbers", "| a |")
     assert texts == ["<details><summary>The numbers</summary>\n\n| a |\n\n</details>"]

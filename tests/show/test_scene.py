@@ -41,7 +41,7 @@ def test_messages_are_meshcats_own():
     assert data["geometries"][0]["uuid"] != data["materials"][0]["uuid"]
 
 
-def test_the_last_word_counts_and_copies_are_free():
+def test_copied_scene_keeps_the_last_transform():
     base = ball([1, 2, 3])
     copy = Scene(base)
     copy["ball"].set_transform(translation_matrix([4, 5, 6]))
@@ -64,7 +64,7 @@ def test_the_arm_changes_only_what_moves():
     assert still.keys() == moved.keys()
 
 
-def test_a_movement_is_carried_at_50_hz_and_ends_as_it_ends():
+def test_movement_is_sampled_at_50_hz():
     q, active = np.random.default_rng(0).random((2, 101, 6))
     motion = message(arm_scene(q[:, :2], active, turn=np.linspace(0, 1, 101), grasp=True), "motion")
     assert np.allclose(motion["q"], q[::20, :2], atol=1e-4)
@@ -73,7 +73,7 @@ def test_a_movement_is_carried_at_50_hz_and_ends_as_it_ends():
     assert motion["grasp"][-1] == 1 > motion["grasp"][0]
 
 
-def test_what_is_reached_for_lies_as_far_beyond_it_as_the_hand_beyond_the_wrist():
+def test_target_is_offset_by_the_length_of_the_hand():
     turn, place = 0.5, (0.2, -0.39, 0.1)
     scene = arm_scene((-0.3, 1.0), turn=turn, balls=[(place, "green"), (place, "red")])
     sent = decode(scene)

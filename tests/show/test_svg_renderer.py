@@ -28,7 +28,7 @@ def test_the_renderer_writes_what_matplotlib_does(layout):
     plt.close("all")
 
 
-def test_the_renderer_leaves_a_font_without_measures_to_matplotlib(monkeypatch):
+def test_font_without_metrics_is_left_to_matplotlib(monkeypatch):
     class Font:
         def get_sfnt_table(self, _):
             return None

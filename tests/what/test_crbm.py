@@ -97,7 +97,7 @@ def test_extreme_preactivations_do_not_overflow():
             assert machine.pooled(v) == machine.posterior(v)[1] == chance
 
 
-def test_samples_follow_the_posterior_with_one_unit_on_in_a_block(world):
+def test_samples_follow_the_posterior(world):
     machine, v, *_ = world
     on, _ = machine.posterior(v)
     h = machine.sample(on.expand(20_000, -1, -1, -1), rng())

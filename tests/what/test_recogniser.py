@@ -20,7 +20,7 @@ from vmc_lib.what.recogniser import POOLED_LEVEL, READ_OUTS, Recogniser, readout
 
 @pytest.mark.parametrize("name", READ_OUTS)
 @pytest.mark.parametrize("level", ["rig", POOLED_LEVEL])
-def test_shuttlecocks_are_told_from_cups(level, name):
+def test_recogniser_separates_shuttlecocks_from_cups(level, name):
     crops, shuttlecock = crops_of(photos.load("rig", "validation")[:8])
     chance = Recogniser.load(level, name).probability(crops)
     assert chance.shape == (16,)

@@ -58,7 +58,7 @@ def test_it_recognises_shuttlecocks_and_refines_boxes():
 
 
 @pytest.mark.parametrize(("along", "down"), FLIPS[1:])
-def test_averages_over_flips_do_not_change_when_the_image_is_flipped(along, down):
+def test_flip_average_is_equivariant(along, down):
     image, box = SHOTS[0].image, np.round(SHOTS[0].boxes["shuttlecock"])
     (height, width), (x, y, right, bottom) = image.shape[:2], box
     mirrored = np.array([x, y, right, bottom])

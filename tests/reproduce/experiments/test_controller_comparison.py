@@ -17,7 +17,7 @@ from vmc_lib.motor.planning import draw_targets, plan
 from vmc_lib.motor.templates import load
 
 
-def test_a_peer_remembers_its_lessons_and_ours_its_arrays():
+def test_memory_size_of_learners():
     some = plan(draw_targets(load(), 20, np.random.default_rng(7)), load())
     x, y = mossy_fibres(some), some.target
     linear, ours = BY_HINDSIGHT["linear rule"]().fit(x, y), GranuleCells(cells=30).fit(x, y)
@@ -28,7 +28,7 @@ def test_a_peer_remembers_its_lessons_and_ours_its_arrays():
 
 
 @pytest.mark.parametrize("name", ["linear rule", "feedback error"])
-def test_what_ships_is_what_is_measured(name):
+def test_shipped_results_are_reproducible(name):
     """One seed, fewer movements: the same numbers again, on the calm arm and on the noisy one."""
     stored = load_results()
     assert list(stored) == list(LEARNERS)

@@ -8,14 +8,14 @@ from reproduce.peers.baseline_features import histograms_of_gradients
 from vmc_lib import photos
 
 
-def test_what_is_told_is_there():
+def test_shipped_results_have_their_shapes():
     results, columns = domain_shift.load_results(), 1 + len(domain_shift.LEVELS)
     assert results["shift"].shape == (len(domain_shift.LEVELS), 2, domain_shift.DRAWS, columns)
     assert results["few"].shape == (len(domain_shift.LABELS), 3, domain_shift.DRAWS, columns)
     assert all(0 <= x.min() <= x.max() <= 1 for x in results.values())
 
 
-def test_what_is_told_of_the_rig_comes_out_again():
+def test_shipped_results_are_reproducible():
     sets = [domain_shift.labelled_crops("rig", split) for split in photos.SPLITS]
     train, validation, test = [(histograms_of_gradients(x), y) for x, y in sets]
     again = domain_shift.evaluate_over_draws(
@@ -66,7 +66,7 @@ def test_the_choice_is_made_on_validation_crops_alone():
     assert scores.tolist() == [[0.8, 0.5]] * 3
 
 
-def test_a_read_out_tells_apart_what_can_be(rng):
+def test_linear_readout_separates_separable_classes(rng):
     labels = np.arange(40) % 2 == 0
     features = labels[:, None] + 0.01 * rng.standard_normal((40, 3))
     scores = domain_shift.evaluate_linear_readout(

@@ -8,7 +8,7 @@ from vmc_lib import photos
 from vmc_lib.what.recogniser import READ_OUTS
 
 
-def test_every_question_was_put_to_two_hundred_photos_of_each_level():
+def test_counts_cover_two_hundred_photos_a_level():
     assert set(fresh_test_set.load_counts()) == {
         *fresh_test_set.KERNELS,
         *fresh_test_set.DETECTORS,
@@ -25,7 +25,7 @@ def test_every_question_was_put_to_two_hundred_photos_of_each_level():
                 assert right + missed == sum(fresh_test_set.load_counts()["rbf"][level][::2]) > 200
 
 
-def test_the_exam_asks_what_the_tables_ask():
+def test_fresh_counts_of_shipped_photos_equal_the_tables():
     """Put to the photos that ship, its questions get the tables' answers: of the first training."""
     shots = photos.load("rig", "test")
     counts = fresh_test_set.kernel_counts("rig", shots, trainings=1)
@@ -56,6 +56,6 @@ def test_a_table_has_a_row_for_each_question():
     assert f"{recall:.3f}" in first.split("|")[2]
 
 
-def test_photos_that_ship_are_no_exam():
+def test_shipped_photos_are_refused_as_fresh():
     with pytest.raises(ValueError, match="rig/test/000"):
         fresh_test_set.make(photos.FOLDER)

@@ -10,7 +10,7 @@ from reproduce.experiments.learning_under_noise import (
 )
 
 
-def test_what_ships_is_what_is_measured():
+def test_shipped_results_are_reproducible():
     """One seed, fewer movements: the same numbers again."""
     stored = load_results()
     assert list(stored) == [f"{mm} mm" for mm in LEVELS]

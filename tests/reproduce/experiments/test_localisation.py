@@ -12,7 +12,7 @@ from vmc_lib.where.recipes import RECIPES
 
 @pytest.mark.parametrize("level", photos.LEVELS)
 @pytest.mark.parametrize("name", RECIPES)
-def test_what_ships_as_found_is_found(level, name):
+def test_shipped_boxes_are_detected_again(level, name):
     """In all but a few photos: another processor may round a pixel differently."""
     some, same = photos.load(level, "test")[:5], 0
     for photo, regions in zip(some, localisation.detect_photos(level, "test", name), strict=False):
@@ -62,7 +62,7 @@ def test_costs_are_chosen_on_validation_photos_from_one_grid():
 
 
 @pytest.mark.parametrize("name", localisation.RETRAINED)
-def test_the_finder_that_ships_is_one_of_its_kind(name):
+def test_shipped_detector_is_the_first_of_its_seeds(name):
     """Its Table II row is the first of the seeds' rows: the same training and tuning."""
     rows = arrays("localisation")[f"rig/{name}/seeds"]
     assert rows.shape == (localisation.TRAININGS, 2)

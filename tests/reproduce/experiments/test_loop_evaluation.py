@@ -28,7 +28,7 @@ def test_scores_count_what_went_wrong(photo, sight):
     assert list(loop_evaluation.first_failure(both)) == ["place", ""]
 
 
-def test_a_right_place_that_cannot_be_reached_for_is_no_wrong_place(photo, sight):
+def test_unreachable_target_is_a_movement_failure(photo, sight):
     scores = loop_evaluation.score(photo, sight, photo.target, {})
     assert scores["target"] == 0
     assert np.isnan(scores["own"])
@@ -36,7 +36,7 @@ def test_a_right_place_that_cannot_be_reached_for_is_no_wrong_place(photo, sight
     assert list(loop_evaluation.first_failure(several)) == ["movement"]
 
 
-def test_the_cup_is_told_from_the_shuttlecock(photo, sight):
+def test_reaching_for_the_cup_is_counted(photo, sight):
     cup = photo.boxes["cup"]
     detections = type(sight.detections)(**{**vars(sight.detections), "boxes": cup[None]})
     fooled = loop_evaluation.score(photo, loop.Sight(detections, np.array([0.9])), None, {})
@@ -62,7 +62,7 @@ def test_a_lucky_reach_is_no_failure():
     ) == [""]
 
 
-def test_what_a_lesion_leaves(photo, sight):
+def test_reach_after_each_lesion(photo, sight):
     """Without names the best-scored box, without a place the old one, without calibration habit."""
     model = loop.VisuomotorModel.load("rig")
     reaches = {}
@@ -86,14 +86,14 @@ def test_what_a_lesion_leaves(photo, sight):
         loop_evaluation.reach_with_lesion(model, photo, None, "none")
 
 
-def test_what_a_box_holds(photo):
+def test_object_in_box(photo):
     for name, box in photo.boxes.items():
         assert loop_evaluation.object_in_box(photo, box) == name
     assert loop_evaluation.object_in_box(photo, np.array([0.0, 0, 5, 5])) == "neither"
     assert loop_evaluation.object_in_box(photo, None) == "nothing"
 
 
-def test_the_model_of_photographs_is_tried_on_renders_too(tmp_path):
+def test_generalist_is_evaluated_on_renders(tmp_path):
     smoke_run.copy_photos(tmp_path, {"test": (0, 1)})
     few = loop_evaluation.make_generalist(["varied"], tmp_path)["varied"]
     stored = results.records("generalist")
@@ -103,7 +103,7 @@ def test_the_model_of_photographs_is_tried_on_renders_too(tmp_path):
     assert few["own"] < few["planned"]
 
 
-def test_lesions_that_shipped_can_be_measured_again():
+def test_shipped_lesions_are_reproducible():
     model, shipped = loop.VisuomotorModel.load("rig"), results.records("lesions")["rig"]
     once = loop_evaluation._photo_lesions(model, photos.load("rig", "test")[0])
     for how, lesion in once.items():

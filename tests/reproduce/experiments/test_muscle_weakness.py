@@ -25,7 +25,8 @@ def test_an_unknown_muscle_is_refused():
 
 
 @pytest.mark.parametrize("muscle", MUSCLES)
-def test_rivals_that_know_arrive_and_habit_comes_nearer(muscle):
+def test_known_weakness_is_corrected(muscle):
+    """Rivals that know it arrive; habit comes nearer."""
     rules = muscle_weakness.compare_rules(muscle)
     for rival in muscle_weakness.RIVALS:
         assert rules[rival]["after"]["miss"] < 1.5, rival
@@ -34,7 +35,7 @@ def test_rivals_that_know_arrive_and_habit_comes_nearer(muscle):
     assert min(nearer) < rules["habit, aim"]["before"]["miss"].mean()
 
 
-def test_what_ships_can_be_searched_again():
+def test_shipped_optima_are_reproducible():
     again = muscle_weakness.search_optima(muscle_weakness.TARGETS[:1], ["BRA"])[0, 0]
     shipped = muscle_weakness.load_results()["least effort"][MUSCLES.index("BRA"), 0]
     commands = (optimal_control.excitations_from_knots(x.astype(float)) for x in (again, shipped))
@@ -42,7 +43,7 @@ def test_what_ships_can_be_searched_again():
     assert efforts[0] == pytest.approx(efforts[1], rel=0.01)
 
 
-def test_the_least_effort_asks_for_no_more_than_a_whole_command():
+def test_least_effort_commands_are_at_most_one():
     for muscle, knots in zip(MUSCLES, muscle_weakness.load_results()["least effort"], strict=True):
         commands = optimal_control.excitations_from_knots(
             knots.astype(float)

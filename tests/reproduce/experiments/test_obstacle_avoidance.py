@@ -20,7 +20,8 @@ def plans():
     return targets, balls, way
 
 
-def test_the_ball_lies_in_the_way_and_the_second_way_goes_round(plans):
+def test_second_path_avoids_the_ball(plans):
+    """The first, straight one meets it."""
     targets, balls, way = plans
     straight = obstacle_avoidance.reference_paths(
         reference_trajectory(feedback_control.exact_plans(targets, load()))

@@ -53,7 +53,7 @@ def test_a_place_beyond_experience_is_refused(flat):
         planning_3d.surrounding(to_world([0.15, -0.40, 0.06], np.radians(-30)), flat)
 
 
-def test_what_is_measured_is_a_share_and_corrections_leave_less_and_less():
+def test_each_correction_reduces_the_error():
     numbers = planning_3d.experiment(0, count=8, trials=2)
     assert 0 < numbers["planned / reach"] < 0.1
     assert 0 < numbers["in the plane"] < 0.1

@@ -9,7 +9,7 @@ from vmc_lib import loop, photos
 
 @pytest.mark.parametrize("split", real_world.SPLITS)
 @pytest.mark.parametrize("model", real_world.MODELS)
-def test_what_is_stored_is_of_every_photo(model, split):
+def test_stored_answers_cover_every_photo(model, split):
     answers = real_world.load_results(model, split)
     shots = photos.load("real", split)
     assert list(answers) == [photo.name for photo in shots]
@@ -21,7 +21,7 @@ def test_what_is_stored_is_of_every_photo(model, split):
 
 
 @pytest.mark.parametrize("model", real_world.MODELS)
-def test_what_is_stored_is_what_the_model_makes_of_a_photo(model):
+def test_stored_answers_are_reproducible(model):
     stored = real_world.load_results(model, "validation")
     first, *_, last = photos.load("real", "validation")  # with a shuttlecock, and with neither
     for photo in (first, last):
@@ -32,7 +32,7 @@ def test_what_is_stored_is_what_the_model_makes_of_a_photo(model):
         assert now == pytest.approx({key: then[key] for key in now}, abs=0.02)
 
 
-def test_the_box_that_is_chosen_counts_for_any_of_the_shuttlecocks():
+def test_chosen_box_may_match_any_shuttlecock():
     shot = photos.load("real", "train")[0]  # two shuttlecocks
     swapped = {"shuttlecock": shot.more[0]}
     other = replace(shot, boxes=swapped, more=shot.boxes["shuttlecock"][None])
@@ -42,7 +42,7 @@ def test_the_box_that_is_chosen_counts_for_any_of_the_shuttlecocks():
     assert one["kept"] != two["kept"]
 
 
-def test_a_share_is_told_with_its_interval():
+def test_share_text_has_an_interval():
     assert real_world.share_text(1, 17) == "1 of 17 (1% to 27%)"
 
 

@@ -22,7 +22,7 @@ def test_counts_by_hand():
     assert np.isnan(precision_recall((0, 0, 3, 1))[0])
 
 
-def test_what_ships_is_what_the_shipped_weights_say():
+def test_shipped_probabilities_are_reproducible():
     cdbn, linear = load_classifiers()
     chances, truth = probabilities("rig", photos.load("rig", "validation"), cdbn, linear)
     stored, stored_truth = load_probabilities("rig", "validation")
@@ -31,7 +31,7 @@ def test_what_ships_is_what_the_shipped_weights_say():
         assert chances[method] == pytest.approx(stored[method], abs=1e-3)
 
 
-def test_every_method_was_put_to_both_things_in_a_hundred_fresh_photos_a_level():
+def test_fresh_names_cover_a_hundred_photos_a_level():
     assert {len(right) for right in correct_by_method("fresh").values()} == {
         2 * 100 * len(photos.LEVELS)
     }
@@ -47,7 +47,7 @@ def test_s1_answers_to_direction_not_contrast():
     )
 
 
-def test_c2_is_one_where_the_prototype_came_from_and_forgives_a_shift():
+def test_c2_of_a_prototypes_own_crop_is_one():
     crops = np.float32(np.random.default_rng(0).random((2, 200, 200)))
     prototypes = draw_prototypes(crops[:1], 5, np.random.default_rng(0))
     assert prototypes.shape == (5, 4, 4, 4)

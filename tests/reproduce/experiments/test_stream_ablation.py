@@ -19,7 +19,7 @@ RENDER = samples.boxes_by_kind(
 POOL = samples.training_samples({"real": [REAL], "rig": [RENDER], "pasted": [REAL]})
 
 
-def test_what_is_told_is_there():
+def test_shipped_results_have_their_shapes():
     results = stream_ablation.load_results()
     assert list(results) == list(stream_ablation.WITHOUT)
     for shares in results.values():
@@ -27,7 +27,7 @@ def test_what_is_told_is_there():
         assert 0 <= shares.min() <= shares.max() <= 1
 
 
-def test_each_way_leaves_one_idea_out():
+def test_each_ablation_leaves_one_idea_out():
     ways = {name: change(POOL) for name, (change, _) in stream_ablation.WITHOUT.items()}
     maps = [maps for _, maps in stream_ablation.WITHOUT.values()]
     assert [len(some) for some in maps] == [4, 2, 4, 4, 4, 4]
@@ -54,7 +54,7 @@ def test_each_way_leaves_one_idea_out():
     assert {s for s, _ in has("without photographs")} == {"rendered"}
 
 
-def test_without_new_looks_a_thing_always_looks_the_same():
+def test_without_augmentation_crops_are_constant():
     box = SHOT.boxes["shuttlecock"]
     one, other = (
         augment(SHOT.image, box, False, np.random.default_rng(seed), stream_ablation.PLAIN)[0]
@@ -63,7 +63,7 @@ def test_without_new_looks_a_thing_always_looks_the_same():
     np.testing.assert_array_equal(one, other)
 
 
-def test_a_photograph_is_asked_about_its_things_and_some_windows():
+def test_evaluation_set_holds_objects_and_windows():
     exam = stream_ablation.evaluation_set([REAL])
     labels = [label for _, boxes, label in exam for _ in boxes]
     assert sum(labels) == 2

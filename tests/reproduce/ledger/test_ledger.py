@@ -47,7 +47,7 @@ def test_row_is_what_a_run_gives(row):
 
 
 @pytest.mark.parametrize("row", ledger.ROWS, ids=lambda row: row.where)
-def test_a_reason_stands_where_and_only_where_we_differ(row):
+def test_rows_that_differ_give_a_reason(row):
     assert bool(row.differs) == (STORED[row.where]["verdict"] == DIFFERS)
 
 
@@ -70,7 +70,7 @@ def test_the_loop_on_test_photos_is_what_a_run_gives(level, tmp_path):
 
 
 @pytest.mark.parametrize("level", LEVELS)
-def test_what_is_told_of_the_loop_follows_from_its_scores(level):
+def test_loop_outcomes_follow_from_the_scores(level):
     stored = ledger.load()["loop"][level]
     assert loop.outcomes(scores(level)) == {k: stored[k] for k in ("summary", "failures")}
 
@@ -113,7 +113,7 @@ def test_all_of_an_interval_is_beyond_a_limit(obtained, better, p, verdict):
     assert Quantity("q", 1, obtained, **ends, better=better, bound=True).verdict == verdict
 
 
-def test_a_row_follows_from_what_can_fail():
+def test_verdict_of_a_row():
     trivial, good = entry.trivial_quantity("q", 1, 1), Quantity("q", 1, 1)
     better, worse = Quantity("q", 1, 2, better=1), Quantity("q", 1, 0)
     assert entry.verdict([trivial]) == BY_CONSTRUCTION

@@ -189,6 +189,6 @@ BREAKS = {
 
 
 @pytest.mark.parametrize("where", HOLDS)
-def test_what_holds_fails_when_it_is_broken(where, monkeypatch):
+def test_verdict_changes_when_its_basis_is_broken(where, monkeypatch):
     BREAKS[where](monkeypatch)
     assert measure(ROWS[where])["verdict"] == DIFFERS

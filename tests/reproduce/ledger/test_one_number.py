@@ -59,14 +59,14 @@ def rests_on(chapter, cell):
 
 
 @each_chapter
-def test_beside_a_claim_stands_the_ledgers_number(path):
+def test_claims_are_shown_beside_the_ledgers_number(path):
     for name, cell in cells(path).items():
         if CLAIMS & cell.uses and name not in PAPER_ALONE:
             assert rests_on(path, name), f"{path.stem}, {name}: ask `ledger.value`"
 
 
 @each_chapter
-def test_what_a_chapter_asks_the_ledger_for_is_there(path):
+def test_ledger_has_the_values_that_chapters_show(path):
     for cell in cells(path).values():
         for names in cell.values:
             ledger.value(*names)

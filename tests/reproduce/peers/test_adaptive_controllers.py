@@ -30,7 +30,8 @@ def test_every_peer_learns_something(name, some):
     assert after < 0.9 * before
 
 
-def test_the_delta_rule_moves_only_by_the_error_and_the_lines_own_activity():
+def test_delta_rule_update():
+    """A weight changes by rate × activity × error; many updates fit the data."""
     x, y = np.random.default_rng(0).uniform(size=(2, 3, 2))
     cells = DeltaRuleCells(width=0.3, cells=50, rate=0.1).fit(x, np.zeros_like(y))
     cells.partial_fit(x[:1], y[:1])
@@ -42,7 +43,7 @@ def test_the_delta_rule_moves_only_by_the_error_and_the_lines_own_activity():
     np.testing.assert_allclose(again.predict(x), y, atol=1e-3)
 
 
-def test_hindsight_and_feedback_error_say_the_same_of_two_places(some):
+def test_hindsight_and_feedback_error_differ_in_inputs_alone(some):
     """How far beyond to aim is the same number; they differ in where it is held for right."""
     aim, endpoint = some.target + 0.01, some.target - [0.02, 0.0]
     (at_end, hindsight), (at_target, aim_change) = (
@@ -54,7 +55,7 @@ def test_hindsight_and_feedback_error_say_the_same_of_two_places(some):
     np.testing.assert_allclose(at_target, mossy_fibres(some))
 
 
-def test_a_distal_teacher_sends_the_error_back_through_its_models_slopes(some):
+def test_distal_teacher_uses_the_models_jacobian(some):
     """The model's arm goes twice as far as it aims to the side, and turns up into side as well."""
     turn = np.array([[1.0, 0.0], [0.5, 0.0]])
     pupil = DistalTeacher(load(), DeltaRuleCells())

@@ -25,14 +25,14 @@ def test_no_template_lies_on_the_targets():
     np.testing.assert_array_equal(optimal_control.INNER[apart], minimum_variance.NEW)
 
 
-def test_it_is_the_steadiest_of_all():
+def test_least_variance_has_the_least_scatter():
     rules = minimum_variance.compare_rules(np.random.default_rng(1), repeats=40)
     scatter = {name: rows["scatter"].mean() for name, rows in rules.items()}
     assert min(scatter, key=scatter.get) == "least variance"
     assert all(len(values) == 5 for rows in rules.values() for values in rows.values())
 
 
-def test_it_is_steadier_than_the_cheapest_at_every_target():
+def test_least_variance_beats_least_effort_at_every_target():
     cheapest, steadiest = (optimal_control.arrays(name)["knots"] for name in ("optimal", "steady"))
     for cheap, steady_one in zip(cheapest[minimum_variance.NEW], steadiest, strict=True):
         assert minimum_variance.variance(steady_one.astype(float)) < minimum_variance.variance(
@@ -40,7 +40,7 @@ def test_it_is_steadier_than_the_cheapest_at_every_target():
         )
 
 
-def test_the_variance_is_that_of_many_reaches():
+def test_linearised_variance_equals_that_of_many_reaches():
     """To first order, and at the moments that count."""
     x = optimal_control.arrays("optimal")["knots"][12].astype(float)
     commands = np.tile(optimal_control.excitations_from_knots(x), (400, 1, 1))
@@ -53,7 +53,7 @@ def test_the_variance_is_that_of_many_reaches():
     )
 
 
-def test_slopes_are_what_a_nudge_does():
+def test_gradients_equal_finite_differences():
     rng = np.random.default_rng(0)
     x = optimal_control.arrays("optimal")["knots"][12].astype(float) + 0.02
     step = 1e-3 * rng.normal(size=x.size)
@@ -61,7 +61,7 @@ def test_slopes_are_what_a_nudge_does():
     assert 2 * minimum_variance.variance_gradient(x) @ step == pytest.approx(change, rel=0.05)
 
 
-def test_the_least_jerk_is_one():
+def test_jerk_of_a_minimum_jerk_path_is_one():
     way = minimum_jerk_profile(np.arange(1001) / 700)[:, None] * [0.1, 0.2]
     assert minimum_variance.jerk(way) == pytest.approx(1)
     assert minimum_variance.jerk(way[None] + 0.001 * np.sin(np.arange(1001) / 20)[:, None]) > 1.5

@@ -8,7 +8,7 @@ from vmc_lib.motor.planning import draw_targets, exact_weights, plan
 from vmc_lib.motor.templates import load, reach
 
 
-def test_the_noise_is_the_pools_own_smooth_and_a_share_of_the_command():
+def test_motor_noise_is_multiplicative_smooth_and_independent():
     commands = np.full((300, 1000, 6), 0.5) * [1, 1, 1, 1, 0.5, 0]
     noise = motor_noise.with_noise(commands, 0.1, np.random.default_rng(0)) - commands
     np.testing.assert_allclose(noise.std(axis=(0, 1))[:5], [0.05] * 4 + [0.025], rtol=0.05)
@@ -19,7 +19,7 @@ def test_the_noise_is_the_pools_own_smooth_and_a_share_of_the_command():
     assert abs(np.corrcoef(noise[:, 300, 0], noise[:, 800, 0])[0, 1]) < 0.2
 
 
-def test_its_strength_is_told_by_where_the_hand_ends():
+def test_noise_share_gives_the_endpoint_deviation():
     """Other targets than those by which it was set, and other noise; one share of it ships."""
     mm = minimum_variance.LEVEL
     targets = draw_targets(load(), 200, np.random.default_rng(1))
@@ -30,6 +30,6 @@ def test_its_strength_is_told_by_where_the_hand_ends():
     assert share == pytest.approx(minimum_variance.noise_share(), rel=1e-6)
 
 
-def test_a_noise_that_nobody_could_have_is_refused():
+def test_impossible_noise_is_refused():
     with pytest.raises(ValueError, match="500 mm"):
         motor_noise.noise_share_for(500)

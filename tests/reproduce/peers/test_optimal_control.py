@@ -24,7 +24,7 @@ def test_every_optimum_costs_less_than_habit():
         assert np.median(share) < 0.5
 
 
-def test_optima_mixed_cost_little_more_than_the_optimum():
+def test_mixed_optima_cost_little_more():
     """The price of habit is its templates', not the mixing's."""
     cheap = optimal_control.mix_optima()
     np.testing.assert_allclose(cheap.weights, 0.25, atol=1e-3)  # half-way between all four
@@ -36,14 +36,14 @@ def test_optima_mixed_cost_little_more_than_the_optimum():
     assert mixed < 1.5 < 3 < shipped
 
 
-def test_what_ships_can_be_solved_again():
+def test_shipped_optima_are_reproducible():
     effort = optimal_control.effort(optimal_control.solve(optimal_control.TARGETS[12]))
     np.testing.assert_allclose(
         effort, optimal_control.effort(optimal_control.optimal_excitations()[12]), rtol=0.01
     )
 
 
-def test_slopes_are_what_a_nudge_does():
+def test_gradients_equal_finite_differences():
     x = np.random.default_rng(0).uniform(0.02, 0.2, 6 * optimal_control.KNOTS)
     step = 1e-5 * np.random.default_rng(1).normal(size=x.size)
     change = optimal_control._ends(x + step) - optimal_control._ends(x - step)

@@ -23,13 +23,13 @@ def noise():
     return motor_noise.noise_factor(shape, minimum_variance.noise_share(), np.random.default_rng(2))
 
 
-def test_undisturbed_it_is_the_plan():
+def test_without_noise_the_plan_is_executed():
     path, commands = feedback.move(law(), np.ones_like(TOLD))
     np.testing.assert_allclose(path, reach(TOLD).hand[:, :: feedback.TICK, :2], atol=1e-9)
     np.testing.assert_allclose(commands, TOLD, atol=1e-9)
 
 
-def test_slopes_are_what_a_nudge_does():
+def test_gradients_equal_finite_differences():
     rng = np.random.default_rng(0)
     state, commands = law().reference[0, 40], np.full((feedback.TICK, 6), 0.3)
     state = np.concatenate([state[:4], np.full(6, 0.2)])  # away from where Eq. 9 has its kink
@@ -62,7 +62,7 @@ def test_no_larger_or_smaller_gain_costs_less(scale):
     assert cost(law().gains[0]) < cost(scale * law().gains[0])
 
 
-def test_it_corrects_what_matters_to_the_task():
+def test_feedback_reduces_endpoint_scatter_most():
     """Steadier at the end than the same commands unwatched; half-way it leaves most as it is."""
     blind = np.array(
         [reach(np.clip(TOLD * w, 0, 1)).hand[:, :: feedback.TICK, :2] for w in noise()]

@@ -8,7 +8,7 @@ def windows(seed=0):
     return sliding_windows((400, 600), np.random.default_rng(seed))
 
 
-def test_windows_stay_inside_and_come_in_an_order_of_the_generator():
+def test_windows_lie_inside_in_random_order():
     boxes = windows()
     assert len(np.unique(boxes, axis=0)) == len(boxes) > 1000
     assert (boxes >= 0).all()

@@ -28,7 +28,7 @@ def keys(folder, name):
     return set(data.arrays(name, folder))
 
 
-def test_every_step_that_a_function_makes_has_a_toy(toy):
+def test_every_step_has_a_toy(toy):
     functions = {name for name, step in BY_NAME.items() if not isinstance(step.make, str)}
     assert {file.stem for file in toy.glob("*.*") if file.name[0] != "."} == functions | {"photos"}
 
@@ -75,7 +75,7 @@ def test_toy_experiments_give_shares_and_counts(toy):
     assert row["verdict"] in VERDICTS
 
 
-def test_nothing_that_ships_depends_on_itself():
+def test_steps_have_no_circular_inputs():
     """Every input is there, and doit finds an order: a step's inputs are made before it."""
     order = list(BY_NAME)
     for step in STEPS:
@@ -129,7 +129,7 @@ def test_the_list_names_every_step_its_file_and_its_minutes(capsys):
     assert "LLVM" in lines[0]
 
 
-def test_by_default_nothing_runs_that_needs_more_than_this_machine(monkeypatch):
+def test_default_run_skips_steps_with_special_needs(monkeypatch):
     ran = []
     monkeypatch.setattr(
         __main__, "run_tasks", lambda tasks, names, *rest: ran.append((names, rest)) or 0

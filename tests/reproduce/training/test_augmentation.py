@@ -19,7 +19,7 @@ SHOT = photos.load("real", "train")[0]
 BOX = SHOT.boxes["shuttlecock"]
 
 
-def test_a_thing_left_as_it_is_looks_as_the_stream_is_shown_it():
+def test_unaugmented_crop_equals_the_streams_input():
     crop, fit, lack = augment(SHOT.image, BOX, False, np.random.default_rng(0), STILL)
     [expected] = preprocess(SHOT.image, BOX)
     [standard] = standardise(np.moveaxis(crop, 2, 0)[None])
@@ -28,7 +28,7 @@ def test_a_thing_left_as_it_is_looks_as_the_stream_is_shown_it():
     assert not lack.any()
 
 
-def test_looks_differ_and_keep_to_their_range():
+def test_augmented_crops_differ_within_the_unit_range():
     rng = np.random.default_rng(0)
     crops = np.array([augment(SHOT.image, BOX, True, rng)[0] for _ in range(20)])
     assert crops.shape == (20, WIDTH, WIDTH, 3)
@@ -38,7 +38,7 @@ def test_looks_differ_and_keep_to_their_range():
     assert crops.std(0).mean() > 0.05
 
 
-def test_a_box_that_strays_fits_less_and_its_lack_mends_it():
+def test_jitter_lowers_iou_and_deltas_undo_it():
     rng = np.random.default_rng(0)
     fits, lacks = zip(*(augment(SHOT.image, BOX, True, rng)[1:] for _ in range(40)), strict=True)
     assert 0.1 < min(fits) < max(fits) < 1
@@ -53,7 +53,7 @@ def test_beyond_the_image_its_edge_repeats():
 
 
 @pytest.mark.parametrize("seed", range(8))
-def test_a_picture_is_turned_with_what_its_box_lacks(seed):
+def test_quarter_turn_rotates_the_deltas(seed):
     """The mark that the corrected box surrounds is still surrounded after the turn."""
     lack = np.array([0.2, -0.1, -0.5, -0.9])
     x = np.zeros((100, 100, 3))
@@ -68,7 +68,7 @@ def test_a_picture_is_turned_with_what_its_box_lacks(seed):
     np.testing.assert_allclose([x0, y0, x1, y1], corners, atol=1)
 
 
-def test_at_most_a_third_is_hidden_and_the_picture_itself_stays():
+def test_occlusion_hides_at_most_a_third_of_a_copy():
     rng, x = np.random.default_rng(0), np.full((40, 40, 3), -1.0)
     for _ in range(20):
         assert 0 < (occlude(x, rng) != -1).mean() <= 0.35

@@ -40,7 +40,7 @@ def test_examples_are_clear_cases(photo):
     assert (~y).sum() == (overlap <= 0.5).sum() > 50
 
 
-def test_what_is_learnt_from(photo):
+def test_training_set_sizes(photo):
     """Every example, so many shaken boxes an object, and no more counter-examples than asked."""
     recipe = replace(PUBLISHED, jittered=5, mirror=True)
     images = training_images([photo] * 30, recipe)
@@ -51,7 +51,7 @@ def test_what_is_learnt_from(photo):
     assert (~y).sum() == 60 * min(79, (images[0].overlap <= 0.5).sum())
 
 
-def test_a_mirrored_image_is_as_hard(photo):
+def test_mirrored_image_has_equal_overlaps(photo):
     images = training_images([photo], replace(PUBLISHED, mirror=True))
     assert len(images) == 2
     assert (images[0].overlap == images[1].overlap).all()
@@ -69,7 +69,7 @@ def test_training_again_gives_the_detector_that_ships(name):
     assert trained.svm.bias == pytest.approx(shipped.svm.bias, abs=1e-3)
 
 
-def test_the_same_seed_learns_the_same():
+def test_fit_is_repeatable():
     small = replace(IMPROVED, strategy="single", boxes=200)
     few = photos.load("rig", "train")[:4]
     once, again, other = (

@@ -19,7 +19,7 @@ def stripes(n, rng):
     return np.float32((crops + rng.normal(0, 0.2, crops.shape)) / 4 + 0.5), labels
 
 
-def test_back_propagation_learns_what_labels_tell():
+def test_back_propagation_separates_the_labels():
     rng = np.random.default_rng(0)
     cdbn = train_end_to_end(
         partial(stripes, rng=rng), np.random.default_rng(0), 48, (4, 4), 60, 64, 0.005
@@ -38,6 +38,6 @@ def random():
     return CDBN.from_arrays(random_network((4, 4), torch.Generator().manual_seed(0)).arrays())
 
 
-def test_a_blank_network_is_on_half_the_time():
+def test_random_network_is_on_half_the_time():
     layers = random().layers(whiten(stripes(20, np.random.default_rng(0))[0]))
     assert layers["P1"].mean() == pytest.approx(0.5, abs=0.1)

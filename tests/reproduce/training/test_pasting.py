@@ -11,7 +11,7 @@ from vmc_lib.boxes import area
 GROUND = next(shot for shot in photos.load("real", "train") if not shot.boxes)
 
 
-def test_what_is_stored_is_read(tmp_path):
+def test_stored_cutouts_load_again(tmp_path):
     rng = np.random.default_rng(0)
     some = np.zeros((cutout_atlas.COLUMNS, cutout_atlas.WIDTH, cutout_atlas.WIDTH, 4), np.uint8)
     some[:, 32:96, 32:96, :3] = rng.integers(0, 255, (cutout_atlas.COLUMNS, 1, 1, 3))
@@ -22,7 +22,7 @@ def test_what_is_stored_is_read(tmp_path):
     assert np.abs(read[:, 40:88, 40:88].astype(int) - some[:, 40:88, 40:88]).mean() < 4
 
 
-def test_what_ships_are_whole_shuttlecocks_on_nothing():
+def test_shipped_cutouts_are_whole():
     some = cutout_atlas.load()
     assert some.shape == (480, cutout_atlas.WIDTH, cutout_atlas.WIDTH, 4)
     edges = [some[:, k, :, 3].max() for k in (0, -1)] + [some[:, :, k, 3].max() for k in (0, -1)]
@@ -50,7 +50,7 @@ def test_a_shuttlecock_lies_in_its_box(seed):
     assert np.abs(photo.boxes["shuttlecock"] - inner).max() < soft
 
 
-def test_those_that_validate_teach_nothing_and_shuttlecocks_lie_on_others_photos():
+def test_validation_cutouts_are_not_used_for_training():
     shots = photos.load("real", "train")
     some = paste_cutouts(shots, "train", 6, np.random.default_rng(0))
     assert len(some) == 6

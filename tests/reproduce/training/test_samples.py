@@ -16,7 +16,7 @@ def pools():
     }
 
 
-def test_a_photo_shows_its_shuttlecocks_other_things_and_scene(pools, rng):
+def test_boxes_of_a_photo_by_kind(pools, rng):
     two = photos.load("real", "train")[0]
     kinds = samples.boxes_by_kind(two, np.array([two.more[0]]), rng)
     assert set(kinds) == {"shuttlecock", "scene"}
@@ -34,7 +34,7 @@ def test_windows_lie_in_the_photo_and_are_not_slivers(rng):
     assert ((windows[:, 2:] - windows[:, :2]) >= 30).all()
 
 
-def test_kinds_are_drawn_as_often_as_they_should_be(pools, rng):
+def test_kinds_are_drawn_by_their_shares(pools, rng):
     pool = samples.training_samples(
         pools | {"pasted": [{"shuttlecock": pools["real"][0]["shuttlecock"]}]}
     )
@@ -45,14 +45,14 @@ def test_kinds_are_drawn_as_often_as_they_should_be(pools, rng):
     assert abs(rendered - samples.SOURCES["rendered"]) < 0.06
 
 
-def test_what_photographs_lack_comes_from_renders(pools, rng):
+def test_renders_fill_in_for_photographs(pools, rng):
     alone = samples.training_samples({"rig": pools["rig"]})
     draws = [alone.draw(rng) for _ in range(30)]
     assert 0 < sum(label for *_, label in draws) < 30
     assert all(box.shape == (4,) for _, box, _ in draws)
 
 
-def test_everyday_photos_are_learnt_from_and_shuttlecocks_laid_on_others(monkeypatch, rng):
+def test_samples_include_everyday_and_pasted_photos(monkeypatch, rng):
     class Blind:
         def detect(self, image):
             return type("Found", (), {"boxes": np.empty((0, 4))})

@@ -20,7 +20,7 @@ def pool():
     )
 
 
-def test_a_batch_is_drawn_again_as_it_was():
+def test_batches_are_reproducible():
     one, other = (training.Batches(pool(), 3, steps=2, batch=4) for _ in range(2))
     assert len(one) == 2
     for x, y in zip(one[1], other[1], strict=True):
@@ -30,7 +30,7 @@ def test_a_batch_is_drawn_again_as_it_was():
     assert not np.array_equal(one[0][0], one[1][0])
 
 
-def test_folded_the_network_says_the_same():
+def test_folded_batch_norm_gives_equal_outputs():
     network = training.build_network(0, MAPS)
     x = torch.randn(8, 3, WIDTH, WIDTH, generator=torch.Generator().manual_seed(0))
     for _ in range(3):
@@ -42,7 +42,7 @@ def test_folded_the_network_says_the_same():
     np.testing.assert_allclose(output[:, 1:], training.SCALE * expected[:, 1:], atol=1e-4)
 
 
-def test_names_count_where_they_are_clear_and_edges_near_a_shuttlecock():
+def test_loss_ignores_unclear_names_and_boxes_of_no_shuttlecock():
     output = torch.zeros(3, 5)
     fit, lack = torch.tensor([0.9, 0.5, 0.0]), torch.zeros(3, 4)
     plain = training.loss(output, fit, lack)
@@ -55,7 +55,7 @@ def test_names_count_where_they_are_clear_and_edges_near_a_shuttlecock():
     assert training.loss(output, fit, lack) > named
 
 
-def test_it_learns_what_it_is_taught():
+def test_training_reduces_the_loss():
     batches = training.Batches(pool(), 0, steps=25, batch=16)
     network = training.build_network(0, MAPS)
 
@@ -71,7 +71,7 @@ def test_it_learns_what_it_is_taught():
     assert wrong() < 0.8 * before
 
 
-def test_the_hardest_windows_are_mined_and_none_holds_a_shuttlecock():
+def test_hard_negatives_hold_no_shuttlecock():
     class Fond:
         """Takes for a shuttlecock what lies to the left, and tightens nothing."""
 
@@ -92,7 +92,7 @@ def test_the_hardest_windows_are_mined_and_none_holds_a_shuttlecock():
     assert negatives["shuttlecock"] is photo["shuttlecock"]
 
 
-def test_what_is_held_out_holds_all_levels_and_cut_outs_that_taught_nothing():
+def test_validation_photos_are_no_training_photos():
     shots = training.validation_photos()
     assert [shot.name for shot in shots].count("pasted") == training.LAID
     assert not any("train" in shot.name for shot in shots)
