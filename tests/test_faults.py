@@ -153,26 +153,19 @@ def test_a_demo_without_its_cells_names_what_is_missing(path):
 
 
 @pytest.mark.parametrize(
-    ("answer", "expected", "verdict"),
+    ("answer", "verdict"),
     [
-        (None, 11.5, "Not answered yet."),
-        ("abc", 11.5, "✗ Not yet. You have 'abc'."),
-        (float("nan"), 11.5, "✗ Not yet. You have nan."),
-        ([11.5, [1, 2]], 11.5, "✗ Not yet. You have [11.5, [1, 2]]."),
-        ([None, [1, 2]], 11.5, "Not answered yet."),
-        ([[None, 1], [3]], 11.5, "Not answered yet."),
-        ([np.zeros(2), np.zeros((2, 3))], 11.5, "✗ Not yet."),
-        (np.array([11.5]), 11.5, "✗ Not yet."),
-        ("1/9", 1 / 9, "✓ Right."),
-        ("11,5", 11.5, "✓ Right."),
-        ("80%", 0.8, "✓ Right."),
-        ("11.5 mm", 11.5, "✓ Right."),
-        ("SAME", "same", "✓ Right."),
+        ("abc", "✗ Not yet. You have 'abc'."),
+        ([11.5, [1, 2]], "✗ Not yet. You have [11.5, [1, 2]]."),
+        ([None, [1, 2]], "Not answered yet."),
+        ([[None, 1], [3]], "Not answered yet."),
+        ([np.zeros(2), np.zeros((2, 3))], "✗ Not yet."),
     ],
 )
-def test_any_answer_gets_a_verdict(answer, expected, verdict, outputs, monkeypatch):
+def test_any_answer_gets_a_verdict(answer, verdict, outputs, monkeypatch):
+    """More, right and wrong, in tests/show/test_questions.py."""
     monkeypatch.setenv("VMC_RENDER_MODE", "live")
     page = outputs(questions)
-    check(answer, expected)
+    check(answer, 11.5)
     words = re.sub(r"<style>.*?</style>|<[^>]*>", "", page[0], flags=re.S).replace("&#x27;", "'")
     assert words.startswith(verdict)

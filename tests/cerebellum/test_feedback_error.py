@@ -7,17 +7,13 @@ from reproduce.experiments import feedback_control as measure
 from vmc_lib.cerebellum.feedback_error import FeedbackErrorLearning
 from vmc_lib.motor.feedback import reference_trajectory
 from vmc_lib.motor.planning import draw_targets
-from vmc_lib.motor.templates import load
 
 
 @pytest.fixture(scope="module")
-def bends():
+def bends(template_set):
     """Deviations (blocks, targets) in m, 100 movements in the field; and those of other targets."""
-    rng, template_set = np.random.default_rng(0), load()
-    model, learner = (
-        measure.fit_forward_model(template_set, rng),
-        FeedbackErrorLearning(template_set),
-    )
+    rng, learner = np.random.default_rng(0), FeedbackErrorLearning(template_set)
+    model = measure.fit_forward_model(template_set, rng)
     return measure.curl_field_deviations(learner, template_set, model, rng, (1, 20, 8))
 
 
@@ -39,8 +35,7 @@ def test_after_effect_has_the_opposite_sign_and_washes_out(bends):
     assert abs(aside[-1]) < 0.5 * aside[21]
 
 
-def test_untrained_learner_changes_nothing():
-    template_set = load()
+def test_untrained_learner_changes_nothing(template_set):
     targets = draw_targets(template_set, 3, np.random.default_rng(1))
     reference = reference_trajectory(measure.exact_plans(targets, template_set))
     corrected = FeedbackErrorLearning(template_set).correct(reference)

@@ -7,7 +7,6 @@ from reproduce.experiments.feedback_control import exact_plans, fit_forward_mode
 from vmc_lib.cerebellum.forward_model import ForwardModel, arm_copy
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import draw_targets
-from vmc_lib.motor.templates import load
 
 
 def at_rest_and_on_the_way(motion, every=50):
@@ -17,8 +16,8 @@ def at_rest_and_on_the_way(motion, every=50):
     ]
 
 
-def test_forward_model_improves_with_movements():
-    template_set, rng = load(), np.random.default_rng(0)
+def test_forward_model_improves_with_movements(template_set):
+    rng = np.random.default_rng(0)
     others = execute(exact_plans(draw_targets(template_set, 20, rng), template_set)).motion
     states = at_rest_and_on_the_way(others)
     truth = arm_copy()(*states)
@@ -30,8 +29,7 @@ def test_forward_model_improves_with_movements():
     assert off[1] < 0.5 * off[0]
 
 
-def test_forward_model_fits_what_it_was_trained_on():
-    template_set = load()
+def test_forward_model_fits_what_it_was_trained_on(template_set):
     motion = execute(
         exact_plans(draw_targets(template_set, 5, np.random.default_rng(2)), template_set)
     ).motion

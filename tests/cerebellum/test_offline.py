@@ -14,12 +14,10 @@ from vmc_lib.cerebellum.offline import (
 )
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import draw_targets, plan
-from vmc_lib.motor.templates import load
 
 
 @pytest.fixture(scope="module")
-def reaches():
-    template_set = load()
+def reaches(template_set):
     return plan(draw_targets(template_set, 60, np.random.default_rng(10)), template_set)
 
 
@@ -27,8 +25,7 @@ def share_left(trials):
     return trials.error.mean(axis=1) / trials.error[0].mean()
 
 
-def test_equations_6_and_7_by_hand():
-    template_set = load()
+def test_equations_6_and_7_by_hand(template_set):
     reach = plan([0.15, -0.4], template_set)
     hand, n = np.array([0.14, -0.41]), 3
     for w, p in zip(algorithm_1_change(reach, hand, n), reach.points, strict=True):
@@ -73,8 +70,7 @@ def test_broyden_updates_beat_a_fixed_jacobian(reaches):
     assert learning[3] < 0.5 * repeating[3]
 
 
-def test_corrections_are_finite_on_a_target_and_on_a_template():
-    template_set = load()
+def test_corrections_are_finite_on_a_target_and_on_a_template(template_set):
     reach = plan([0.15, -0.4], template_set)
     np.testing.assert_allclose(algorithm_1_change(reach, reach.target, 5), 0)
     assert np.all(np.isfinite(algorithm_1_change(reach, reach.points[0], 5)))
@@ -95,8 +91,8 @@ def test_guards_limit_the_error_with_a_load(reaches):
     assert careful[0].max() <= 0.5 + 1e-12
 
 
-def test_ten_thousand_corrections_are_bounded():
-    template_set, rng = load(), np.random.default_rng(12)
+def test_ten_thousand_corrections_are_bounded(template_set):
+    rng = np.random.default_rng(12)
     many = plan(draw_targets(template_set, 10_000, rng), template_set)
     p_a = many.target + rng.normal(0, 0.03, many.target.shape)
     for n in (0, 20):
@@ -108,16 +104,10 @@ def test_ten_thousand_corrections_are_bounded():
     assert few.excitations.max() <= 1
 
 
-def test_nan_weights_are_refused():
-    reach = plan([0.15, -0.4], load())
+def test_nan_weights_are_refused(template_set):
+    reach = plan([0.15, -0.4], template_set)
     with pytest.raises(ValueError, match="nan"):
         _ = execute(reach.with_weights(reach.weights * np.nan)).endpoint
-
-
-def test_corrections_are_bounded(reaches):
-    trials = broyden_calibration(reaches, trials=3)
-    assert np.all(np.isfinite(trials.weights))
-    assert np.abs(np.diff(trials.weights[:2], axis=0)).max() <= 0.5
 
 
 def test_calibrate_refuses_rules_that_return_no_trials(reaches):

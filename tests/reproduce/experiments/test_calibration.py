@@ -22,16 +22,8 @@ from vmc_lib.motor.templates import load
 
 @pytest.fixture(scope="module")
 def linear(template_set):
-    rng = np.random.default_rng(0)
-    return run_experiments(
-        WeightCorrection(),
-        template_set,
-        rng,
-        movements=15,
-        held_out=20,
-        experiments=3,
-        rule=coarse_algorithm_1,
-    )
+    rng, size = np.random.default_rng(0), {"movements": 15, "held_out": 20, "experiments": 3}
+    return run_experiments(WeightCorrection(), template_set, rng, **size, rule=coarse_algorithm_1)
 
 
 def test_rows_and_shapes(linear):
@@ -51,30 +43,19 @@ def test_calibration_helps_what_was_practised(linear):
     assert linear.in_sample[-1].mean() < 0.7 * linear.planned.mean()
 
 
+def learn_aim(template_set, seed, *size, fresh):
+    rng = np.random.default_rng(seed)
+    return run_experiments(AimCorrection(template_set), template_set, rng, *size, fresh=fresh)
+
+
 def test_the_same_seed_gives_the_same_experiment(template_set):
-    one, two = (
-        run_experiments(
-            AimCorrection(template_set), template_set, np.random.default_rng(5), 5, 5, 2, fresh=True
-        )
-        for _ in range(2)
-    )
+    one, two = (learn_aim(template_set, 5, 5, 5, 2, fresh=True) for _ in range(2))
     for a, b in zip(one, two, strict=True):
         np.testing.assert_array_equal(a, b)
 
 
 def test_fresh_movements_are_new(template_set):
-    same, new = (
-        run_experiments(
-            AimCorrection(template_set),
-            template_set,
-            np.random.default_rng(6),
-            10,
-            40,
-            2,
-            fresh=fresh,
-        )
-        for fresh in (False, True)
-    )
+    same, new = (learn_aim(template_set, 6, 10, 40, 2, fresh=f) for f in (False, True))
     np.testing.assert_array_equal(same.held_out[:2], new.held_out[:2])  # one experiment is one
     assert not np.array_equal(same.held_out[2], new.held_out[2])
 
@@ -100,12 +81,10 @@ def test_shipped_held_out_errors_meet_the_bars():
         for scenario in SCENARIOS
     )
     assert mean["off-line, published"] < 0.70
-    assert mean["own off-line, 1 trials"] < 0.27
-    assert mean["own off-line, 2 trials"] < 0.05
-    assert mean["own off-line, 4 trials"] < 0.001
-    assert mean["own online, 25 movements, held-out"] < 0.22
-    assert mean["own online, 150 movements, held-out"] < 0.10
-    assert mean["own online, 250 movements, held-out"] < 0.07
+    for trials, bar in ((1, 0.27), (2, 0.05), (4, 0.001)):
+        assert mean[f"own off-line, {trials} trials"] < bar
+    for movements, bar in ((25, 0.22), (150, 0.10), (250, 0.07)):
+        assert mean[f"own online, {movements} movements, held-out"] < bar
     assert round(fixed["own online, 25 movements, held-out"], 2) <= 0.03  # to the two digits asked
 
 
