@@ -118,7 +118,7 @@ def serious():
     With `all_of_it`, what it finds less than serious too.
     """
 
-    def found(page, within, all_of_it=False):
+    def violations(page, within, all_of_it=False):
         # Colours that are still on their way to a theme are nobody's contrast
         page.add_style_tag(content="* { transition: none !important }")
         page.evaluate("() => scrollTo(0, 0)")  # lest the sticky header covers a target
@@ -132,4 +132,4 @@ def serious():
             for node in violation["nodes"]
         ]
 
-    return found
+    return violations

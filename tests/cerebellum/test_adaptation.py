@@ -58,8 +58,8 @@ def test_a_single_error_is_learned_by_its_share(template_set):
     learner = Adaptation(AimCorrection(template_set), template_set, regularisation=1.0)
     reach = plan(np.array([[0.1, -0.4]]), template_set)
     error = reach.target - learner.update(reach, partial(execute, prism=0.1)).endpoint
-    learned = learner.cells.excite(reach.target) @ learner.purkinje
-    np.testing.assert_allclose(learned, error / 2)
+    correction = learner.cells.excite(reach.target) @ learner.purkinje
+    np.testing.assert_allclose(correction, error / 2)
 
 
 def test_weight_correction_satisfies_equation_4():

@@ -35,8 +35,8 @@ def test_forward_model_fits_what_it_was_trained_on(template_set):
     ).motion
     model, lessons = ForwardModel(), at_rest_and_on_the_way(motion, 20)
     truth = arm_copy()(*lessons)
-    learned = model.update(motion)(*lessons)
-    assert np.abs(learned - truth).max() < 0.1 * np.abs(truth).max()
+    prediction = model.update(motion)(*lessons)
+    assert np.abs(prediction - truth).max() < 0.1 * np.abs(truth).max()
 
 
 def test_arm_copy_scales_with_muscle_strength():

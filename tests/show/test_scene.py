@@ -59,9 +59,9 @@ def message(scene, name):
 
 
 def test_the_arm_changes_only_what_moves():
-    still, moved = (dict(m.split("|") for m in arm_scene((-0.3, q)).messages()) for q in (1, 1.2))
-    assert {key for key in still if still[key] != moved[key]} == {"motion"}
-    assert still.keys() == moved.keys()
+    before, after = (dict(m.split("|") for m in arm_scene((-0.3, q)).messages()) for q in (1, 1.2))
+    assert {key for key in before if before[key] != after[key]} == {"motion"}
+    assert before.keys() == after.keys()
 
 
 def test_movement_is_sampled_at_50_hz():

@@ -56,9 +56,9 @@ def test_similarity_matches_the_published_measures(seed):
     )
     pairs = ss.adjacent_regions(labels)
     for name, measure in MEASURED.items():
-        used = tuple(name == one for one in appearance.MEASURES)
-        value = appearance.similarity(look, pairs, used)
-        assert (value == appearance.similarity(look, np.flip(pairs, 1), used)).all()
+        flags = tuple(name == one for one in appearance.MEASURES)
+        value = appearance.similarity(look, pairs, flags)
+        assert (value == appearance.similarity(look, np.flip(pairs, 1), flags)).all()
         assert ((value >= -1e-6) & (value <= 1 + 1e-6)).all()
         assert value == pytest.approx(measure(look, *pairs.T), abs=1e-6)
     together = sum(measure(look, *pairs.T) for measure in MEASURED.values())
