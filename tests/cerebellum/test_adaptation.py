@@ -18,7 +18,7 @@ def skill(template_set):
 
 
 @pytest.mark.parametrize(
-    ("perturbation", "corrects", "left"),
+    ("perturbation", "corrects", "share"),
     [("a load of 0.5 kg", "pull", 0.5), ("a viscous field", "aim", 0.7), ("a prism", "aim", 0.2)],
 )
 def test_adaptation_learns_and_washes_out(perturbation, corrects, share, template_set, skill):
