@@ -38,6 +38,15 @@ def exercise(request):
 
 
 def test_our_solution_passes(exercise):
+    """Also where another function has changed its inputs before."""
+
+    def spoils(*inputs):
+        for one in inputs:
+            if isinstance(one, np.ndarray):
+                one[:] = 0
+        return 0
+
+    feedback(spoils, exercise)
     assert feedback(exercise.right, exercise) == RIGHT
 
 
@@ -55,31 +64,19 @@ def test_exception_in_an_answer_is_reported(exercise):
     def fails(*_):
         raise IndexError("no such row")
 
-    called = f"`{exercise.right.__name__}{inspect.signature(exercise.right)}`"
-    assert feedback(fails, exercise) == (
-        f"{WRONG} Called as {called}, it stops: `IndexError('no such row')`."
-    )
-    assert "it stops: `TypeError" in feedback(3, exercise)
+    text = feedback(fails, exercise)
+    assert text.startswith(WRONG)
+    assert f"`{exercise.right.__name__}{inspect.signature(exercise.right)}`" in text
+    assert "`IndexError('no such row')`" in text
+    assert "`TypeError" in feedback(3, exercise)
 
 
 @pytest.mark.parametrize("result", [np.zeros((7, 7)), [1, [2, 3]], "words", np.nan])
 def test_wrong_result_is_shown_beside_the_right_one(exercise, result):
     text = feedback(lambda *_: result, exercise)
-    assert text.startswith(f"{WRONG} Where ")
+    assert text.startswith(WRONG)
     assert all(f"`{name} = " in text for name in inspect.signature(exercise.right).parameters)
-    assert "is right; yours gives" in text
     assert len(text) < 900
-
-
-def test_inputs_that_a_function_changes_do_not_spoil_the_next(exercise):
-    def spoils(*inputs):
-        for one in inputs:
-            if isinstance(one, np.ndarray):
-                one[:] = 0
-        return 0
-
-    feedback(spoils, exercise)
-    assert feedback(exercise.right, exercise) == RIGHT
 
 
 @each_chapter
@@ -152,11 +149,9 @@ def test_the_library_passes(name):
     assert feedback(LIBRARY[name], EVERY[name]) == RIGHT
 
 
-@pytest.fixture
-def some(request):
+def case(name):
     """Our solution, and the inputs of a case."""
-    one = EVERY[request.param]
-    return one.right, one.draw(np.random.default_rng(7))
+    return EVERY[name].right, EVERY[name].draw(np.random.default_rng(7))
 
 
 def test_engulfed_completes_the_chapters_loop():
@@ -173,27 +168,24 @@ def test_engulfed_completes_the_chapters_loop():
     assert boxes[-1].tolist() == [0, 0, photos.WIDTH, photos.HEIGHT]
 
 
-@pytest.mark.parametrize("some", ["POSTURE"], indirect=True)
-def test_a_posture_puts_the_hand_there(some):
-    posture, (hand, upper, fore) = some
+def test_a_posture_puts_the_hand_there():
+    posture, (hand, upper, fore) = case("POSTURE")
     shoulder, elbow = posture(hand, upper, fore)
     forward, up = np.transpose([[np.sin(q), -np.cos(q)] for q in (shoulder, shoulder + elbow)])
     assert np.allclose([forward @ [upper, fore], up @ [upper, fore]], hand)
 
 
-@pytest.mark.parametrize("some", ["ACTIVATION_TO_HOLD"], indirect=True)
-def test_activation_to_hold_balances_the_weight(some):
-    hold, (mass, length, strongest) = some
+def test_activation_to_hold_balances_the_weight():
+    hold, (mass, length, strongest) = case("ACTIVATION_TO_HOLD")
     a = hold(mass, length, strongest)
     pull, within = muscle.force(a, length, 0, strongest), (a > 0) & (a < 1)
     assert within.any()
     assert np.allclose(pull[within], 9.81 * mass[within])
 
 
-@pytest.mark.parametrize("some", ["CD_STEP"], indirect=True)
-def test_cd_step_lowers_the_energy_of_the_data(some):
+def test_cd_step_lowers_the_energy_of_the_data():
     """What goes together is how the energy falls as a weight grows."""
-    together, (v, h, *dream) = some
+    together, (v, h, *dream) = case("CD_STEP")
     tiny = 1e-6 * np.eye(9).reshape(9, 3, 3)
     energy = EVERY["ENERGY_OF"].right
     slope = [-(energy(v, h, W, 0, 0) - energy(v, h, 0 * W, 0, 0)) / 1e-6 for W in tiny]
@@ -201,17 +193,15 @@ def test_cd_step_lowers_the_energy_of_the_data(some):
     assert np.allclose(together(v, h, *silent), np.reshape(slope, (3, 3)))
 
 
-@pytest.mark.parametrize("some", ["CUBE_WEIGHTS"], indirect=True)
-def test_weights_in_a_cube_satisfy_eq_4(some):
-    weigh, (place, corners) = some
+def test_weights_in_a_cube_satisfy_eq_4():
+    weigh, (place, corners) = case("CUBE_WEIGHTS")
     weights = weigh(place, corners)
     assert np.allclose(weights @ corners, place)
     assert weights.sum() == pytest.approx(1)
 
 
-@pytest.mark.parametrize("some", ["SELF_MOTION"], indirect=True)
-def test_self_motion_lies_in_the_null_space(some):
-    move, (turning, jacobian) = some
+def test_self_motion_lies_in_the_null_space():
+    move, (turning, jacobian) = case("SELF_MOTION")
     part = move(turning, jacobian)
     assert np.linalg.norm(part) > 0.1
     assert np.allclose(jacobian @ part, 0)
