@@ -22,12 +22,8 @@ def skill(template_set):
     [("a load of 0.5 kg", "pull", 0.5), ("a viscous field", "aim", 0.7), ("a prism", "aim", 0.2)],
 )
 def test_adaptation_learns_and_washes_out(perturbation, corrects, share, template_set, skill):
-    curve = adapt(
-        Adaptation(skill, template_set, corrects),
-        template_set,
-        np.random.default_rng(1),
-        PERTURBATIONS[perturbation],
-    )
+    learner, rng = Adaptation(skill, template_set, corrects), np.random.default_rng(1)
+    curve = adapt(learner, template_set, rng, PERTURBATIONS[perturbation])
     before, first, last = curve.error[1], curve.error[2], curve.error[7:10].mean()
     after_effect, washed_out = curve.error[10], curve.error[-1]
     assert first > 5 * before
@@ -37,11 +33,8 @@ def test_adaptation_learns_and_washes_out(perturbation, corrects, share, templat
 
 
 def test_adaptation_to_a_load_raises_the_sum_of_weights(template_set, skill):
-    learner, perturbation = (
-        Adaptation(skill, template_set, "pull"),
-        PERTURBATIONS["a load of 0.5 kg"],
-    )
-    adapt(learner, template_set, np.random.default_rng(2), perturbation, blocks=(0, 8, 0))
+    learner, load = Adaptation(skill, template_set, "pull"), PERTURBATIONS["a load of 0.5 kg"]
+    adapt(learner, template_set, np.random.default_rng(2), load, blocks=(0, 8, 0))
     reaches = plan(draw_targets(template_set, 20, np.random.default_rng(3)), template_set)
     assert learner.correct(reaches).weights.sum(axis=-1).mean() > 1.2
 

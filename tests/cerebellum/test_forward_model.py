@@ -30,9 +30,8 @@ def test_forward_model_improves_with_movements(template_set):
 
 
 def test_forward_model_fits_what_it_was_trained_on(template_set):
-    motion = execute(
-        exact_plans(draw_targets(template_set, 5, np.random.default_rng(2)), template_set)
-    ).motion
+    targets = draw_targets(template_set, 5, np.random.default_rng(2))
+    motion = execute(exact_plans(targets, template_set)).motion
     model, lessons = ForwardModel(), at_rest_and_on_the_way(motion, 20)
     truth = arm_copy()(*lessons)
     prediction = model.update(motion)(*lessons)

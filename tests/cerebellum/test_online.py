@@ -23,7 +23,7 @@ def held_out(template_set):
 
 
 def error(reach):
-    return np.linalg.norm(execute(reach).endpoint - reach.target, axis=-1).mean()
+    return execute(reach).error.mean()
 
 
 def lessons(template_set, count, seed=21):
@@ -84,11 +84,8 @@ def test_algorithm_2_held_out_error_ratio(template_set, held_out):
 
 
 def test_aim_correction_held_out_error(template_set, held_out):
-    before = error(held_out)
-    learners = [
-        AimCorrection(template_set).update(*lessons(template_set, 25, seed))
-        for seed in range(30, 35)
-    ]
+    before, batches = error(held_out), [lessons(template_set, 25, s) for s in range(30, 35)]
+    learners = [AimCorrection(template_set).update(*batch) for batch in batches]
     assert np.mean([error(learner.correct(held_out)) for learner in learners]) < 0.22 * before
     for lesson in lessons(template_set, 125, seed=35):
         learners[0].update(lesson)

@@ -117,10 +117,9 @@ def test_excitations_give_the_wanted_acceleration():
     q, velocity = np.tile(START, (20, 1)), np.zeros((20, 2))
     wish, before = rng.uniform(-3, 3, (20, 2)), np.full((20, 6), 0.2)
     model = arm_copy()
-    added = model(q, velocity, excitations_for_acceleration(q, velocity, wish, before)) - model(
-        q, velocity, before
-    )
-    np.testing.assert_allclose(added, wish, atol=0.05)
+    after = excitations_for_acceleration(q, velocity, wish, before)
+    change = model(q, velocity, after) - model(q, velocity, before)
+    np.testing.assert_allclose(change, wish, atol=0.05)
 
 
 def test_curl_field_is_perpendicular_to_velocity():
@@ -139,17 +138,11 @@ def test_motor_noise_is_reproducible(few):
 
 
 @pytest.mark.parametrize(
-    "senses",
-    [
-        FeedbackGains(delay=-0.01),
-        FeedbackGains(delay=0.125),
-        FeedbackGains(spinal=2e-4),
-        FeedbackGains(spinal=0.0),
-    ],
+    "delays", [{"delay": -0.01}, {"delay": 0.125}, {"spinal": 2e-4}, {"spinal": 0.0}]
 )
-def test_wrong_delays_are_refused(few, senses):
+def test_wrong_delays_are_refused(few, delays):
     with pytest.raises(ValueError, match="delay of"):
-        simulate_feedback(reference_trajectory(few, 1.0), senses)
+        simulate_feedback(reference_trajectory(few, 1.0), FeedbackGains(**delays))
 
 
 def test_noise_without_an_rng_is_refused(few):

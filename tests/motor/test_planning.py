@@ -72,9 +72,7 @@ def test_executing_a_large_batch_in_parts_changes_nothing(template_set):
     targets = draw_targets(template_set, 30, np.random.default_rng(1))
     batch = plan(targets, template_set)
     many = execute(batch.with_weights(np.broadcast_to(batch.weights, (20, 30, 4)))).endpoint
-    np.testing.assert_allclose(
-        many[-1], execute(plan(targets, template_set)).motion.endpoint, atol=1e-12
-    )
+    np.testing.assert_allclose(many[-1], execute(batch).motion.endpoint, atol=1e-12)
 
 
 def test_draw_targets_refuses_templates_that_cover_too_little(template_set):

@@ -14,10 +14,8 @@ from vmc_lib.motor.planning import surrounded
 def test_templates_end_at_rest_on_their_points(spacing):
     template_set = templates.load(spacing)
     motion = templates.reach(template_set.excitations)
-    assert (
-        np.linalg.norm(motion.endpoint - reach_templates.reachable_grid(spacing), axis=-1).max()
-        < 2e-4
-    )
+    grid = reach_templates.reachable_grid(spacing)
+    assert np.linalg.norm(motion.endpoint - grid, axis=-1).max() < 2e-4
     assert np.abs(motion.velocity[..., -1, :]).max() < 0.02
     np.testing.assert_array_equal(template_set.points, motion.endpoint)
 

@@ -12,10 +12,8 @@ from vmc_lib.motor.inverse_dynamics import minimum_jerk_profile
 def test_every_optimum_is_at_its_target_and_stays():
     motion = templates.reach(minimum_variance.optimal_excitations())
     hand = motion.hand[:, [700, 1000], :2]
-    assert (
-        np.linalg.norm(hand - optimal_control.TARGETS[minimum_variance.NEW][:, None], axis=-1).max()
-        < 2e-3
-    )
+    targets = optimal_control.TARGETS[minimum_variance.NEW]
+    assert np.linalg.norm(hand - targets[:, None], axis=-1).max() < 2e-3
     assert np.abs(motion.velocity[..., -1, :]).max() < 0.05
 
 
@@ -34,10 +32,9 @@ def test_least_variance_has_the_least_scatter():
 
 def test_least_variance_beats_least_effort_at_every_target():
     cheapest, steadiest = (optimal_control.arrays(name)["knots"] for name in ("optimal", "steady"))
-    for cheap, steady_one in zip(cheapest[minimum_variance.NEW], steadiest, strict=True):
-        assert minimum_variance.variance(steady_one.astype(float)) < minimum_variance.variance(
-            cheap.astype(float)
-        )
+    for knots in zip(steadiest, cheapest[minimum_variance.NEW], strict=True):
+        low, high = (minimum_variance.variance(x.astype(float)) for x in knots)
+        assert low < high
 
 
 def test_linearised_variance_equals_that_of_many_reaches():

@@ -38,9 +38,8 @@ def test_mixed_optima_cost_little_more():
 
 def test_shipped_optima_are_reproducible():
     effort = optimal_control.effort(optimal_control.solve(optimal_control.TARGETS[12]))
-    np.testing.assert_allclose(
-        effort, optimal_control.effort(optimal_control.optimal_excitations()[12]), rtol=0.01
-    )
+    shipped = optimal_control.effort(optimal_control.optimal_excitations()[12])
+    np.testing.assert_allclose(effort, shipped, rtol=0.01)
 
 
 def test_gradients_equal_finite_differences():
