@@ -22,7 +22,7 @@ os.environ["PYTHONPATH"] = str(Path(__file__).parents[1])  # from tests import d
 
 
 class ChapterClient(NotebookClient):
-    """Nbmake's client for chapters: no cell may raise, and every demo is asked again at the end."""
+    """Nbmake's client for chapters: no cell may raise, and every demo is drawn again at the end."""
 
     def __init__(self, notebook, **options):
         before, after = "from tests import demos\ndemos.remember()", "demos.ask_again()"

@@ -24,6 +24,6 @@ def remember():
 
 
 def ask_again():
-    """Ask every demo for its last state; AssertionError where it is another than at first."""
+    """Draw the last state of every demo; AssertionError where it is another than at first."""
     changed = [caption for caption, state, before in DECLARED if state() != before]
     assert not changed, f"these demos show something else now: {changed}"

@@ -42,7 +42,7 @@ def test_every_variant_is_another_question_with_an_answer(questions):
             assert 0 <= question.tolerance < max(1.01, abs(question.answer) / 5)
 
 
-def test_zero_is_an_answer_only_where_it_is_meant(questions):
+def test_only_marked_questions_have_the_answer_zero(questions):
     for (_, name), variants in questions.items():
         for question in variants:
             if not question.choices and abs(question.answer) <= question.tolerance:

@@ -16,5 +16,5 @@ def test_sandbox_is_off_only_where_the_browser_refuses_it(tmp_path, refusal):
 
 
 @pytest.mark.browser
-def test_the_browser_starts_as_it_is_told(chromium):
+def test_browser_starts_with_our_options(chromium):
     assert chromium.is_connected()

@@ -235,7 +235,7 @@ def test_open_code_is_the_mechanism(path):
     assert rest <= 0.05 * sum(lines.values())
 
 
-def test_no_session_asks_for_much_more_reading_than_another():
+def test_sessions_have_similar_reading_times():
     """The minutes of the sessions on the page on teaching, added up from the chapters' own."""
     cells = nbformat.read(ROOT / "book/teaching.ipynb", as_version=4).cells
     [plan] = [cell.source for cell in cells if cell.id == "teach-plan"]

@@ -109,7 +109,7 @@ def test_a_read_only_checkout_is_enough(tmp_path):
 
 
 @pytest.mark.parametrize("name", ["a.npz", "a.json"])
-def test_a_full_disk_leaves_what_was_there(tmp_path, name):
+def test_full_disk_leaves_the_old_file(tmp_path, name):
     file = tmp_path / name
     steps.write(file, lambda: {"rows": [1, 2]})
     before = file.read_bytes()
@@ -146,7 +146,7 @@ def test_an_interrupted_installation_resumes(tmp_path):
 
 
 @each_chapter
-def test_a_demo_without_its_cells_names_what_is_missing(path):
+def test_demo_without_its_cells_raises_name_error(path):
     demos = [cell.source for cell in code_cells(path) if "explore(" in cell.source]
     with pytest.raises(NameError):
         exec(demos[-1], {})  # noqa: S102

@@ -35,7 +35,7 @@ print(photos.FOLDER, *sorted(levels), sep="\\n")"""
 
 @pytest.fixture(scope="module")
 def clone(tmp_path_factory):
-    """A clone as Git makes it on Windows, where it turns line ends unless told otherwise."""
+    """A clone as Git makes it on Windows, where it turns line ends by default."""
     if not (ROOT / ".git").exists() or not shutil.which("git"):
         pytest.skip("NOT TESTED: this is no Git repository")
     folder = tmp_path_factory.mktemp("home") / AWKWARD

@@ -13,7 +13,7 @@ from tools import vendor
 ROOT = Path(__file__).parents[1]
 
 
-def test_vendored_files_are_what_the_manifest_says():
+def test_vendored_files_match_the_manifest():
     assert vendor.problems() == []
 
 

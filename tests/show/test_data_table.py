@@ -90,7 +90,7 @@ def test_every_head_has_a_name():
     assert tables(fig)[1][0][0] == ["x", "value"]
 
 
-def test_what_is_no_figure_has_no_table():
+def test_only_figures_have_tables():
     assert data_tables((np.eye(3), "<p></p>")) == []
 
 

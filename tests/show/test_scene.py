@@ -58,7 +58,7 @@ def message(scene, name):
     return json.loads(data)
 
 
-def test_the_arm_changes_only_what_moves():
+def test_moving_the_arm_changes_only_the_motion():
     before, after = (dict(m.split("|") for m in arm_scene((-0.3, q)).messages()) for q in (1, 1.2))
     assert {key for key in before if before[key] != after[key]} == {"motion"}
     assert before.keys() == after.keys()

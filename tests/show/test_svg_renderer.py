@@ -10,7 +10,7 @@ from vmc_lib.show.palette import STYLE
 
 
 @pytest.mark.parametrize("layout", ["constrained", "none"])
-def test_the_renderer_writes_what_matplotlib_does(layout):
+def test_renderer_equals_matplotlibs(layout):
     def plot():
         fig, axes = plt.subplots(1, 3, layout=layout)
         axes[0].semilogy([1, 20, 300], label="two\nlines, and $\\theta_1$")

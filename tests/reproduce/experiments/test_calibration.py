@@ -38,7 +38,7 @@ def test_before_any_lesson_the_linear_model_is_the_plan(linear):
     np.testing.assert_array_equal(linear.held_out[0], linear.held_out_planned)
 
 
-def test_calibration_helps_what_was_practised(linear):
+def test_calibration_reduces_in_sample_error(linear):
     assert np.all(linear.offline <= linear.planned)
     assert linear.in_sample[-1].mean() < 0.7 * linear.planned.mean()
 

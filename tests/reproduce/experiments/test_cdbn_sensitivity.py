@@ -7,7 +7,7 @@ from vmc_lib.what.cdbn import CDBN, N_W
 from vmc_lib.what.recogniser import READ_OUTS
 
 
-def test_every_variation_was_examined_on_every_photo():
+def test_every_variation_covers_every_photo():
     results = cdbn_sensitivity.load_results()
     assert len({seed for n_w, seed in results if n_w == N_W}) >= 3
     assert len({n_w for n_w, _ in results}) >= 3

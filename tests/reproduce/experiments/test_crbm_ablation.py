@@ -9,7 +9,7 @@ from vmc_lib.what.cdbn import N_W, K, crops_of
 
 
 @pytest.mark.parametrize("name", crbm_ablation.CHANGES)
-def test_the_first_epoch_is_learnt_again(name):
+def test_first_epoch_is_reproducible(name):
     shipped = crbm_ablation.load_results()[name]
     assert shipped.shape == (crbm_ablation.EPOCHS + 1, K, N_W, N_W)
     crops, _ = crops_of(photos.load("rig", "train"))
@@ -18,7 +18,7 @@ def test_the_first_epoch_is_learnt_again(name):
     )
 
 
-def test_without_whitening_filters_become_one_even_tone():
+def test_without_whitening_filters_are_uniform():
     last = {name: filters[-1] for name, filters in crbm_ablation.load_results().items()}
     even = {k: np.abs(W.mean((1, 2))).sum() / np.abs(W).mean((1, 2)).sum() for k, W in last.items()}
     assert list(last) == list(crbm_ablation.CHANGES)

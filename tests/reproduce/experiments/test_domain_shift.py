@@ -55,7 +55,7 @@ def test_labels_are_drawn_until_both_kinds_are_there(rng):
     assert len(domain_shift.draw_rows(labels, 640, rng)) == 50
 
 
-def test_the_choice_is_made_on_validation_crops_alone():
+def test_settings_are_chosen_on_validation_crops():
     """Of two choices the second does better there, and worse elsewhere."""
 
     def two(train, validation, exams, rng):

@@ -91,13 +91,13 @@ def noisy(n, rng):
     return scores, rng.random(n) < 1 / (1 + np.exp(-4 * scores))
 
 
-def test_with_many_examples_a_steady_threshold_is_the_best():
+def test_smoothed_threshold_equals_the_best_for_many_examples():
     scores, right = noisy(5000, np.random.default_rng(0))
     best = best_threshold(scores, right, right.sum())
     assert localisation.smoothed_threshold(scores, right) == pytest.approx(best, abs=0.15)
 
 
-def test_with_few_examples_a_steady_threshold_strays_less():
+def test_smoothed_threshold_varies_less():
     rng = np.random.default_rng(0)
     draws = [noisy(100, rng) for _ in range(50)]
     best = np.std([best_threshold(scores, right, right.sum()) for scores, right in draws])

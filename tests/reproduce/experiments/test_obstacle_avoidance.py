@@ -41,7 +41,7 @@ def test_an_arm_that_sees_and_foresees_goes_round_and_arrives():
     assert detours.miss("by a via-point", arm).max() < 0.01
 
 
-def test_a_ball_that_leaves_no_way_is_named(monkeypatch):
+def test_unavoidable_ball_is_refused(monkeypatch):
     monkeypatch.setattr(obstacle_avoidance, "APART", 1.0)
     with pytest.raises(ValueError, match="move the ball"):
         obstacle_avoidance.plan_around(np.array([0.07, -0.42]), np.array([0.1, -0.4]), load())

@@ -41,7 +41,7 @@ def test_the_mass_matrix_is_symmetric_and_positive():
     assert (np.linalg.eigvalsh(mass) > 0).all()
 
 
-def test_a_template_ends_where_it_was_meant_to(past):
+def test_templates_end_on_their_goals(past):
     np.testing.assert_allclose(past.points, plant.GOALS, atol=1e-6)
 
 

@@ -35,7 +35,7 @@ def test_sixty_numbers_and_more_can_fail():
 
 
 @pytest.mark.parametrize("row", ledger.ROWS, ids=lambda row: row.where)
-def test_row_is_what_a_run_gives(row):
+def test_ledger_row_is_reproducible(row):
     measured, stored = measure(row), STORED[row.where]
     assert [q["name"] for q in measured["quantities"]] == [q["name"] for q in stored["quantities"]]
     for now, then in zip(measured["quantities"], stored["quantities"], strict=True):
@@ -58,7 +58,7 @@ def scores(level):
 
 
 @pytest.mark.parametrize("level", LEVELS)
-def test_the_loop_on_test_photos_is_what_a_run_gives(level, tmp_path):
+def test_loop_scores_are_reproducible(level, tmp_path):
     """On every fourth, to be quick, photo by photo; one may round otherwise elsewhere."""
     some = range(0, 40, 4)
     smoke_run.copy_photos(tmp_path, {"test": some})
@@ -133,7 +133,7 @@ def test_the_wider_interval_of_trainings_over_photos_counts():
     assert (unlike.low, unlike.high) == (middle - half, middle + half)
 
 
-def test_a_chapter_asks_for_a_number_by_its_name():
+def test_ledger_values_are_found_by_name():
     row = ledger.load()["rows"][0]
     stored = row["quantities"][0]
     assert ledger.value(row["where"], stored["name"]).obtained == stored["obtained"]

@@ -37,7 +37,7 @@ def test_every_step_has_a_toy(toy):
     "name",
     ["detectors", "localisers", "cdbn", "recogniser", "recognition", "photographs", "tricks"],
 )
-def test_a_toy_file_holds_what_ships(toy, name):
+def test_toy_file_has_the_arrays_of_the_shipped_one(toy, name):
     """Array by array, of the same kind and with as many axes; but one round of box regression."""
     shipped, small = data.arrays(name, BY_NAME[name].file.parent), data.arrays(name, toy)
     assert {key for key in shipped if not re.search(r"regression [1-3]", key)} == set(small)
@@ -48,11 +48,11 @@ def test_a_toy_file_holds_what_ships(toy, name):
 
 
 @pytest.mark.parametrize("name", ["candidates", "localisation"])
-def test_a_toy_file_holds_part_of_what_ships(toy, name):
+def test_toy_file_has_some_arrays_of_the_shipped_one(toy, name):
     assert keys(toy, name) < keys(BY_NAME[name].file.parent, name)
 
 
-def test_toy_candidates_are_those_that_ship(toy):
+def test_toy_candidates_equal_the_shipped_ones(toy):
     shipped = data.arrays("candidates")
     for name, boxes in data.arrays("candidates", toy).items():
         np.testing.assert_allclose(boxes, shipped[name], atol=1, err_msg=name)

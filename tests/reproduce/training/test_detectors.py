@@ -23,7 +23,7 @@ from vmc_lib.where.selective_search import propose
 
 
 @pytest.mark.parametrize("strategy", ["single", "finer"])
-def test_candidates_that_ship_are_those_of_the_search(photo, strategy):
+def test_shipped_candidates_are_proposed_again(photo, strategy):
     """Most of them: another processor may round a pixel differently."""
     stored, boxes = candidates(photo, strategy), propose(photo.image, strategy)
     assert arrays("candidates")[f"{photo.name}/{strategy}"].dtype == np.int16
