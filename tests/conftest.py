@@ -25,7 +25,7 @@ class ChapterClient(NotebookClient):
     """Nbmake's client for chapters: no cell may raise, and every demo is drawn again at the end."""
 
     def __init__(self, notebook, **options):
-        before, after = "from tests import demos\ndemos.remember()", "demos.ask_again()"
+        before, after = "from tests import demos\ndemos.record()", "demos.draw_again()"
         notebook.cells = [new_code_cell(before), *notebook.cells, new_code_cell(after)]
         super().__init__(notebook, force_raise_errors=True, **options)
 

@@ -1,4 +1,4 @@
-"""Demos asked again at a chapter's end, where a later cell may have changed what they read."""
+"""Demos drawn again at a chapter's end, where a later cell may have changed what they read."""
 
 from vmc_lib import show
 from vmc_lib.show import demo
@@ -6,11 +6,11 @@ from vmc_lib.show import demo
 DECLARED = []  # (caption, a function, its result) of each demo that moves
 
 
-def remember():
-    """Let `explore` remember the demos that it shows from now on."""
+def record():
+    """Let `explore` record the demos that it shows from now on."""
     explore = show.explore
 
-    def remembered(draw, caption, alt=None, in_page=None, **controls):
+    def explore_and_record(draw, caption, alt=None, in_page=None, **controls):
         explore(draw, caption, alt, in_page, **controls)
         last = {name: demo.as_control(name, spec).values[-1] for name, spec in controls.items()}
 
@@ -20,10 +20,10 @@ def remember():
 
         DECLARED.append((caption, state, state()))
 
-    show.explore = remembered
+    show.explore = explore_and_record
 
 
-def ask_again():
+def draw_again():
     """Draw the last state of every demo; AssertionError where it is another than at first."""
     changed = [caption for caption, state, before in DECLARED if state() != before]
     assert not changed, f"these demos show something else now: {changed}"

@@ -1,4 +1,4 @@
-"""Compiled where it can be kept, and where it cannot."""
+"""Numba-compiled loops: their cache, changed constants, and plain Python where Numba is missing."""
 
 import sys
 import warnings

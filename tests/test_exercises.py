@@ -1,4 +1,4 @@
-"""Exercises that grade code: ours passes, a known mistake gets its hint, all else is told."""
+"""Exercises that grade code: our solution passes, a known mistake gets its own hint."""
 
 import inspect
 import re

@@ -1,4 +1,4 @@
-"""Two engines, one movement."""
+"""Simulation of the arm: two engines agree, and refuse wrong inputs."""
 
 import warnings
 

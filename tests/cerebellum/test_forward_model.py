@@ -1,4 +1,4 @@
-"""A forward model: learned from reaches alone, it knows what comes of commands."""
+"""A forward model, learned from reaches alone, predicts what commands do."""
 
 import numpy as np
 import pytest

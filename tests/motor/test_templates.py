@@ -1,4 +1,4 @@
-"""Past experience ended where it should, at rest, and can be made again."""
+"""Movement templates end at rest on their grid, and can be found again."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""The deeper ventral stream: what its stages pass on, and what it says of boxes."""
+"""The ventral stream (a convolutional network): its stages, predictions and box refinement."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""From a box to a place: learnt from training photos, better than plain geometry on others."""
+"""Localisation of the target from a box, fitted on training photos, beside plain geometry."""
 
 import numpy as np
 import pytest

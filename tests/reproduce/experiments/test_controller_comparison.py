@@ -1,4 +1,4 @@
-"""The peers of the granule cells compared: what they remember, and that what ships is measured."""
+"""Comparison of adaptive controllers: memory sizes, and reproducible results."""
 
 from types import SimpleNamespace
 

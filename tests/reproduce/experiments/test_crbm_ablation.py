@@ -1,4 +1,4 @@
-"""The three tricks of learning: what ships is what is learnt, and each leaves its mark."""
+"""Ablation of the three tricks of CRBM training: shipped filters are reproducible."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Names away from home, and from few labels: what is told of them, and the small parts."""
+"""Recognition under domain shift and from few labels: shipped results, and the small parts."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""The Gabor test is as fair to a wide filter as to a narrow one."""
+"""The Gabor fit is as fair to a wide filter as to a narrow one."""
 
 import numpy as np
 import pytest

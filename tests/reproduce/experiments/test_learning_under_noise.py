@@ -1,4 +1,4 @@
-"""Learning on an arm that wavers: what ships is what is measured."""
+"""Learning under motor noise: shipped results are reproducible."""
 
 import numpy as np
 

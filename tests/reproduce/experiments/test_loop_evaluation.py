@@ -1,4 +1,4 @@
-"""The loop on trial: what went wrong is counted where it went wrong first."""
+"""Evaluation of the loop: scores, the first stage that fails, lesions."""
 
 import numpy as np
 import pytest

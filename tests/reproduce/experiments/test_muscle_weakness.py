@@ -1,4 +1,4 @@
-"""A weakened muscle: rivals find their way again; habit, correcting its pull, drives all harder."""
+"""A weak muscle: adaptation of habit and of rival rules, and the drive of all muscles."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""A way round an obstacle: free as meant, and free as the watched arm moves."""
+"""Obstacle avoidance: the planned path, and that of the arm under feedback, are free."""
 
 import numpy as np
 import pytest
@@ -33,7 +33,7 @@ def test_second_path_avoids_the_ball(plans):
     np.testing.assert_allclose(ways[:, -1], targets, atol=1e-6)
 
 
-def test_an_arm_that_sees_and_foresees_goes_round_and_arrives():
+def test_arm_under_feedback_avoids_the_ball_and_arrives():
     detours = obstacle_avoidance.simulate_detours(load(), np.random.default_rng(0), 5)
     arm = "sight and foresight"
     assert detours.touching("straight", arm).all()

@@ -1,4 +1,4 @@
-"""Planning in space: a memory is repeated exactly, and practice brings the hand nearer."""
+"""Planning in three dimensions: a template is repeated, corrections reduce the error."""
 
 import numpy as np
 import pytest

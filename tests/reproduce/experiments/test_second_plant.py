@@ -1,4 +1,4 @@
-"""The second robot: its physics by what must hold, and its learning by the same functions."""
+"""A second plant, a robot: its dynamics, and its learning by the same functions."""
 
 import numpy as np
 import pytest

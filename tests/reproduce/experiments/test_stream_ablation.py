@@ -1,4 +1,4 @@
-"""What each idea of training buys: what is told of it, and what leaving one out leaves."""
+"""Ablation of the training of the ventral stream."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""The ledger says what a run says: every row measured again and compared with the file."""
+"""The ledger: each row measured again and compared with the file."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Minimum variance: there, at rest, steadier than its rivals; slopes are what a nudge does."""
+"""Minimum-variance control: endpoints, scatter beside rival rules, gradients."""
 
 import numpy as np
 import pytest

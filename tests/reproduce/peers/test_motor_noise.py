@@ -1,4 +1,4 @@
-"""The arm that wavers: how its noise is, and how strong."""
+"""Signal-dependent motor noise: its distribution and its strength."""
 
 import numpy as np
 import pytest

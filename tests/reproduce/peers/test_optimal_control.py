@@ -1,4 +1,4 @@
-"""Optimal control: at the target, at rest, and cheaper than anything else we know."""
+"""Optimal control: at the target, at rest, and with less effort than habit."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Optimal feedback: the plan itself while nothing disturbs it; the best gains; late care."""
+"""Optimal feedback control: undisturbed the plan itself; the gains; corrections near the end."""
 
 from functools import cache
 

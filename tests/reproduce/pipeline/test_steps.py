@@ -1,4 +1,4 @@
-"""One command remakes everything: each step at toy size, and what doit is told of the real ones."""
+"""The pipeline that remakes every file: each step at toy size, and its dependencies."""
 
 import re
 

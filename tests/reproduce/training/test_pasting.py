@@ -1,4 +1,4 @@
-"""Shuttlecocks laid on photographs: they lie in their boxes, and nothing else changes."""
+"""Data augmentation by pasted cut-outs: they lie in their boxes, and nothing else changes."""
 
 import numpy as np
 import pytest

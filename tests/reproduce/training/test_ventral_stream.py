@@ -1,4 +1,4 @@
-"""How the stream learns: what teaches it, and that what ships is what was learnt."""
+"""Training of the ventral stream: batches, loss, batch-norm folding, hard negatives."""
 
 import numpy as np
 import torch
