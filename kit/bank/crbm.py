@@ -74,7 +74,7 @@ def drive_of_a_unit(patch=small_matrix, filter_=small_matrix, bias=steps(-2, 2, 
     """A filter with the rows {filter_} is laid on a patch with the rows {patch}; the hidden bias is
     {bias}. What drive does the unit get?"""
     patch, filter_ = (torch.tensor(matrix)[None, None] for matrix in (patch, filter_))
-    return Learner(filter_, torch.tensor([bias]), torch.zeros(1), 1).drive(patch).item()
+    return Learner(filter_, torch.tensor([bias]), torch.zeros(1), 1).preactivation(patch).item()
 
 
 @numeric(hint="-h (w v + b) + v²/2", tolerance=0.005)

@@ -60,5 +60,5 @@ def test_choices_are_wrong_or_missing():
     results = [("shuttlecock", box, 0.9, 0.9), ("shuttlecock", box, 0.5, 0.9)]
     results += [("shuttlecock", None, 0, 0.6), ("shuttlecock", None, 0, 0.5), ("cup", box, 0, 0.9)]
     keys = ("holds", "chosen", "fit", "kept")
-    found = {k: dict(zip(keys, result, strict=True)) for k, result in enumerate(results)}
-    assert real_world.count_choices(found) == (1, 2, 1)
+    answers = {k: dict(zip(keys, result, strict=True)) for k, result in enumerate(results)}
+    assert real_world.count_choices(answers) == (1, 2, 1)
