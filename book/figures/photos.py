@@ -10,10 +10,16 @@ from vmc_lib.show.palette import COLOURS
 
 
 def contact_sheet(shots, columns=8, size=(120, 80)):
-    """Many photos on one, small: an image array; a last row that is not full is left out."""
+    """Many photos on one, small: an image array (see `image_grid`)."""
     small = [cv2.resize(shot.image, size, interpolation=cv2.INTER_AREA) for shot in shots]
-    rows = range(0, len(small) - columns + 1, columns)
-    return np.vstack([np.hstack(small[row : row + columns]) for row in rows])
+    return image_grid(small, columns)
+
+
+def image_grid(images, columns, zoom=1):
+    """Images of one size in rows; a last row that is not full is left out."""
+    rows = range(0, len(images) - columns + 1, columns)
+    grid = np.vstack([np.hstack(images[row : row + columns]) for row in rows])
+    return grid.repeat(zoom, axis=0).repeat(zoom, axis=1)
 
 
 def side_view(shot, found):

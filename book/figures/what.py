@@ -5,7 +5,6 @@ import numpy as np
 
 from vmc_lib.show.figures import photo_view
 from vmc_lib.show.palette import COLOURS
-from vmc_lib.statistics import wilson
 
 
 def grey(v, reach=3.0, zoom=1):
@@ -85,18 +84,6 @@ def block(on, pooled):
     return fig
 
 
-def sorted_out(chances, shuttlecock, threshold, title):
-    """Each crop's probability (n,) as a dot, shuttlecocks above cups, and the threshold."""
-    fig, ax = plt.subplots(figsize=(6.4, 2.4))
-    for height, here, colour in ((1, shuttlecock, "blue"), (0, ~shuttlecock, "orange")):
-        spread = height + np.linspace(-0.3, 0.3, here.sum())
-        ax.plot(chances[here], spread, "o", ms=4, color=COLOURS[colour])
-    ax.axvline(threshold, color=COLOURS["ink"])
-    ax.set(xlim=(-0.02, 1.02), xlabel="probability of a shuttlecock", title=title)
-    ax.set(yticks=[0, 1], yticklabels=["cups", "shuttlecocks"])
-    return fig
-
-
 def over_time(answers, kind, title):
     """A unit's answers (n, steps) to n things on the move, in blue where `kind`, else in orange."""
     fig, ax = plt.subplots(figsize=(5.6, 2.6))
@@ -114,21 +101,4 @@ def likeness(shares, title):
     bars = ax.bar(list(shares), list(shares.values()), color=COLOURS["blue"])
     ax.bar_label(bars, fmt="%.2f")
     ax.set(ylim=(min(0, *shares.values()) - 0.05, 1.15), ylabel="correlation", title=title)
-    return fig
-
-
-def reliability(chance, truth, bins=5):
-    """In each bin of the probabilities given (n,), the share that came true, with its interval."""
-    fig, ax = plt.subplots(figsize=(4.2, 3.4))
-    ax.plot([0, 1], [0, 1], color=COLOURS["grey"], lw=1)
-    place = np.minimum((chance * bins).astype(int), bins - 1)
-    for here in (place == i for i in np.unique(place)):
-        said, share = chance[here].mean(), truth[here].mean()
-        low, high = wilson(truth[here].sum(), here.sum())
-        ax.plot([said, said], [low, high], color=COLOURS["blue"])
-        ax.plot(said, share, "o", color=COLOURS["blue"])
-        ax.annotate(f"{here.sum()}", (said, share), (7, -4), textcoords="offset points")
-    ax.set(xlabel="probability given", ylabel="share that came true")
-    ax.set(xlim=(-0.05, 1.12), ylim=(-0.05, 1.08))
-    ax.set(title=f"mean squared error {np.square(chance - truth).mean():.3f}")
     return fig

@@ -23,6 +23,29 @@ def load_results():
     return {k: (kept[f"{k}/filters"], kept[f"{k}/counts"]) for k in VARIATIONS}
 
 
+def accuracy(results, split="test"):
+    """Named right, all levels together: (n_w, seed) -> read-out -> share."""
+    shares = {}
+    for variation, (_, counts) in results.items():
+        of = counts[:, :, SPLITS.index(split)].sum(0)
+        right = (of[:, 0] + of[:, 3]) / of.sum(1)
+        shares[variation] = dict(zip(READ_OUTS, right.tolist(), strict=True))
+    return shares
+
+
+def gain_from_width(shares):
+    """What the best wider network gains over those of width N_W, and the range of these.
+
+    Of an `accuracy`, by the best read-out: the first of means over seeds, the second over seeds.
+    """
+    by_width = {}
+    for (n_w, _), row in shares.items():
+        by_width.setdefault(n_w, []).append(list(row.values()))
+    best = {n_w: np.mean(rows, axis=0).max() for n_w, rows in by_width.items()}
+    wider = max(share for n_w, share in best.items() if n_w > N_W)
+    return wider - best[N_W], np.ptp(np.max(by_width[N_W], axis=1))
+
+
 def make(variations=VARIATIONS, folder=photos.FOLDER, patches=PATCHES):
     """What `results/variations.npz` holds: the arrays that `load_results` reads."""
     learnt = {}

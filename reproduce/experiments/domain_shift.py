@@ -20,6 +20,7 @@ from vmc_lib.what.recogniser import READ_OUTS, read_outs
 
 NARROW = 48  # pixels of a crop: wider ones would take hours to learn from end to end
 LEVELS, LABELS, EQUAL, DRAWS = photos.EVERY_LEVEL, (10, 40, 160, 640), 80, 6
+EXAMS = "in-sample", *LEVELS
 WAYS = "HOG", "without labels", "end to end"  # the last two of the CDBN
 PATCHES, STEPS, BATCH = 20_000, 600, 16
 PENALTIES, RATES = 10.0 ** np.arange(-4, 1), (0.002, 0.01)  # chosen on validation crops

@@ -13,11 +13,13 @@ from reproduce.peers.baseline_features import bag_of_sift, histograms_of_gradien
 from reproduce.results import arrays
 from reproduce.training.name_classifier import fit_name_classifier, labelled_crops
 from vmc_lib import photos
-from vmc_lib.statistics import wilson
+from vmc_lib.statistics import holm, mcnemar, wilson
 from vmc_lib.what.cdbn import CDBN, crops_of
-from vmc_lib.what.recogniser import NameClassifier, read_outs
+from vmc_lib.what.crops import crop
+from vmc_lib.what.recogniser import POOLED_LEVEL, READ_OUTS, NameClassifier, Recogniser, read_outs
 
 WORDS = 100
+IDLE = 0.001  # standard deviation below which an answer hardly varies
 MEASURES = ("named right", "precision", "recall")
 
 METHODS = (
@@ -108,6 +110,59 @@ def correct_by_method(split):
         m: np.hstack([(probability[m] > 0.5) == truth for probability, truth in found])
         for m in METHODS
     }
+
+
+def mcnemar_tests(right, methods):
+    """McNemar's tests of some methods against every other, of `correct_by_method`.
+
+    Rows (one, other, only one right, only other right, p, p corrected by Holm).
+    """
+    pairs = [(a, b) for i, a in enumerate(methods) for b in right if b not in methods[: i + 1]]
+    duels = [mcnemar(right[one], right[other]) for one, other in pairs]
+    corrected = holm([p for *_, p in duels]).tolist()
+    return [(*pair, *duel, p) for pair, duel, p in zip(pairs, duels, corrected, strict=True)]
+
+
+def accuracy_across_levels(learnt, classifiers):
+    """Named right on one level by CDBN read-outs taught on another, of `load_classifiers`.
+
+    Level taught -> read-out -> level tested -> (share, low, high), Wilson's 95 %.
+    """
+    rows = {level: {name: {} for name in READ_OUTS} for level in photos.LEVELS}
+    for tested in photos.LEVELS:
+        crops, truth = crops_of(photos.load(tested, "test"))
+        x = read_outs(learnt["cdbn"], crops)
+        for taught, name in product(photos.LEVELS, READ_OUTS):
+            chances = classifiers[taught, f"CDBN, {name}"].probability(x[name])
+            right = int(((chances > 0.5) == truth).sum())
+            rows[taught][name][tested] = right / len(truth), *wilson(right, len(truth))
+    return rows
+
+
+def everyday_probabilities(shots):
+    """Probabilities of all objects: (level taught, read-out) -> a photo's name -> (n,)."""
+    boxes = {name: (shot.image, shot.boxes.values()) for name, shot in shots.items()}
+    crops = {name: [crop(image, box) for box in some] for name, (image, some) in boxes.items()}
+    features = {name: read_outs(CDBN.load(), inside) for name, inside in crops.items()}
+    return {
+        (level, read_out): {
+            name: Recogniser.load(level, read_out).classifier.probability(x[read_out])
+            for name, x in features.items()
+        }
+        for level, read_out in product((*photos.LEVELS, POOLED_LEVEL), READ_OUTS)
+    }
+
+
+def prototypes_that_vary(learnt, n=10):
+    """Which of the first `n` HMAX prototypes answer to crops of the rig differently (n,).
+
+    And the strength (n,) of each: the sum of its squares.
+    """
+    from reproduce.peers.hmax import hmax  # as `features` does
+
+    crops, _ = crops_of(photos.load("rig", "train")[:10])
+    some = learnt["prototypes"][:n]
+    return hmax(crops, some).std(0) >= IDLE, (some**2).sum((1, 2, 3))
 
 
 def make(folder=photos.FOLDER, prototypes=250):

@@ -39,7 +39,8 @@ def _sentence(panel):
     subject = ": ".join(dict.fromkeys(filter(None, [panel.title, measure])))
     if not panel.named:
         subject = f"{subject or 'a plot'} against {panel.key}"
-    return f"{subject}: {'; '.join(clauses)}." if clauses else ""
+    subject = f"{subject}: " if subject else ""
+    return f"{subject}{'; '.join(clauses)}." if clauses else ""
 
 
 def _words(panel, one, brief):

@@ -1,4 +1,5 @@
 import numpy as np
+import pytest
 
 from reproduce.experiments import cdbn_sensitivity
 from reproduce.experiments.gabor import best_gabor
@@ -30,3 +31,21 @@ def test_the_network_that_ships_is_the_first_variation():
 def test_every_width_finds_edges():
     for variation, (filters, _) in cdbn_sensitivity.load_results().items():
         assert np.median([best_gabor(w)[1] for w in filters]) > 0.75, variation
+
+
+def test_gain_from_width_by_hand():
+    shares = {
+        (N_W, 0): {"MP2": 0.8, "P2": 0.5},
+        (N_W, 1): {"MP2": 0.9, "P2": 0.5},
+        (N_W - 2, 0): {"MP2": 1.0, "P2": 1.0},  # narrower
+        (N_W + 2, 0): {"MP2": 0.6, "P2": 0.95},
+    }
+    assert cdbn_sensitivity.gain_from_width(shares) == pytest.approx((0.95 - 0.85, 0.1))
+
+
+def test_accuracy_counts_all_levels_together():
+    counts = np.zeros((3, 3, 2, 4), int)
+    counts[:, :, 1] = [3, 1, 2, 4]
+    assert cdbn_sensitivity.accuracy({(N_W, 0): (None, counts)})[N_W, 0] == dict.fromkeys(
+        READ_OUTS, 0.7
+    )

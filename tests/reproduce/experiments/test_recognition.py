@@ -8,6 +8,7 @@ from reproduce.experiments.recognition import (
     correct_by_method,
     load_classifiers,
     load_probabilities,
+    mcnemar_tests,
     precision_recall,
     probabilities,
 )
@@ -20,6 +21,15 @@ def test_counts_by_hand():
     assert counts == (2, 1, 1, 1)
     assert precision_recall(counts) == pytest.approx((2 / 3, 2 / 3))
     assert np.isnan(precision_recall((0, 0, 3, 1))[0])
+
+
+def test_methods_are_compared_in_pairs_and_corrected_for_their_number():
+    right = {"a": np.ones(9, bool), "b": np.arange(9) < 1, "c": np.arange(9) < 8}
+    rows = mcnemar_tests(right, ["a", "c"])
+    assert [row[:4] for row in rows] == [("a", "b", 8, 0), ("a", "c", 1, 0), ("c", "b", 7, 0)]
+    chances, corrected = zip(*(row[4:] for row in rows), strict=True)
+    assert chances == pytest.approx((2 / 2**8, 1, 2 / 2**7))
+    assert corrected == pytest.approx((3 * 2 / 2**8, 1, 2 * 2 / 2**7))
 
 
 def test_shipped_probabilities_are_reproducible():

@@ -1,0 +1,110 @@
+"""Figures of names: boxes with their probabilities, crops sorted by them, and calibration."""
+
+from itertools import product
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+from book.figures.what import tiles
+from reproduce.experiments.recognition import confusion_counts, precision_recall
+from vmc_lib.boxes import decode_deltas, iou
+from vmc_lib.photos import HEIGHT, WIDTH
+from vmc_lib.show import Estimate, dot_plot, estimate, photo_view
+from vmc_lib.show.palette import COLOURS
+from vmc_lib.statistics import wilson
+
+
+def shares(draws, *names):
+    """Estimates of shares from draws (…, draws, n), by the names along all axes but the draws'.
+
+    No interval ends above 1.
+    """
+    first, *rest = names
+    if rest:
+        return {name: shares(part, *rest) for name, part in zip(first, draws, strict=True)}
+    rows = zip(first, map(estimate, np.transpose(draws)), strict=True)
+    return {name: Estimate(mean, low, min(high, 1)) for name, (mean, low, high) in rows}
+
+
+def boxes_beside(photo, recogniser, shifts, scales):
+    """Boxes beside each object: (object, shift in widths, scale) -> box (4,), probability."""
+    places = list(product(photo.boxes, shifts, scales))
+    true = np.array([photo.boxes[thing] for thing, *_ in places])
+    deltas = [(shift, 0, np.log(scale), np.log(scale)) for _, shift, scale in places]
+    boxes = decode_deltas(true, np.array(deltas)).clip(0, [WIDTH, HEIGHT, WIDTH, HEIGHT])
+    chances = recogniser.box_probability(photo.image, boxes)
+    return dict(zip(places, zip(boxes, chances, strict=True), strict=True))
+
+
+def named_box(image, box, chance):
+    """A photo and a box, green where it is more likely than not a shuttlecock."""
+    colour = "green" if chance > 0.5 else "red"
+    return photo_view(image, [(box, f"shuttlecock: {100 * chance:.0f} %", colour)])
+
+
+def named_objects(photo, chances):
+    """A photo without shuttlecocks and the probability (n,) of each object: false alarms red."""
+    rows = zip(photo.boxes.items(), chances, strict=True)
+    return photo_view(
+        photo.image,
+        [(box, f"{name} {p:.0%}", "red" if p > 0.5 else "blue") for (name, box), p in rows],
+    )
+
+
+def refined_boxes(stream, photo, deltas, looks=3):
+    """A box off a shuttlecock by deltas (4,), after so many looks of the stream: (1 + looks, 4).
+
+    And how well each fits, IoU (1 + looks,).
+    """
+    true = photo.boxes["shuttlecock"][None]
+    boxes = [decode_deltas(true, np.array([deltas]))]
+    for _ in range(looks):
+        boxes.append(stream.refine_boxes(photo.image, boxes[-1]))
+    boxes = np.concatenate(boxes)
+    return boxes, iou(boxes, true)[:, 0]
+
+
+def refined_box(stream, photo, boxes, fits, look):
+    """A photo, its shuttlecock's true box green, and one of `refined_boxes`."""
+    chance = stream.box_probability(photo.image, boxes[look][None])[0]
+    true = photo.boxes["shuttlecock"], "", "green"
+    label = f"IoU {fits[look]:.2f}, {chance:.0%}"
+    return photo_view(photo.image, [true, (boxes[look], label, "orange")])
+
+
+def first_layer(filters, rows):
+    """Filters (n, width, width) about as large on the page for any width, and a plot of scores."""
+    plot = dot_plot(rows, "named right, held-out", None, (0.9, 1.005))
+    return tiles(filters, zoom=round(56 / filters.shape[-1])), plot
+
+
+def sorted_crops(chances, shuttlecock, threshold):
+    """Each crop's probability (n,) as a dot, shuttlecocks above cups, and the threshold."""
+    precision, recall = precision_recall(confusion_counts(chances, shuttlecock, threshold))
+    fig, ax = plt.subplots(figsize=(6.4, 2.4))
+    for height, here, colour in ((1, shuttlecock, "blue"), (0, ~shuttlecock, "orange")):
+        spread = height + np.linspace(-0.3, 0.3, here.sum())
+        ax.plot(chances[here], spread, "o", ms=4, color=COLOURS[colour])
+    ax.axvline(threshold, color=COLOURS["ink"])
+    ax.set(xlim=(-0.02, 1.02), xlabel="probability of a shuttlecock")
+    ax.set(title=f"precision {precision:.3f}, recall {recall:.3f}")
+    ax.set(yticks=[0, 1], yticklabels=["cups", "shuttlecocks"])
+    return fig
+
+
+def reliability(chances, truth, bins=5):
+    """In each bin of the probabilities given (n,), the share that came true, with its interval."""
+    fig, ax = plt.subplots(figsize=(4.2, 3.4))
+    ax.plot([0, 1], [0, 1], color=COLOURS["grey"], lw=1, gid="guide")
+    place = np.minimum((chances * bins).astype(int), bins - 1)
+    groups = [place == i for i in np.unique(place)]
+    given = np.array([chances[here].mean() for here in groups])
+    share = np.array([truth[here].mean() for here in groups])
+    ends = np.array([wilson(truth[here].sum(), here.sum()) for here in groups])
+    ax.errorbar(given, share, abs(ends.T - share), fmt="o", color=COLOURS["blue"])
+    for here, *point in zip(groups, given, share, strict=True):
+        ax.annotate(f"{here.sum()}", point, (7, -4), textcoords="offset points")
+    ax.set(xlabel="probability given", ylabel="share that came true")
+    ax.set(xlim=(-0.05, 1.12), ylim=(-0.05, 1.08))
+    ax.set(title=f"mean squared error {np.square(chances - truth).mean():.3f}")
+    return fig
