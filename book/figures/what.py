@@ -44,18 +44,6 @@ def lettered(picture, words, size=None):
     return photo_view(np.uint8(255 * canvas), [((6, high + 30, 6, high + 30), words, "ink")])
 
 
-def units(stack, column, row, zoom):
-    """Ten filters in two rows of five, one of them marked; its axes count columns and rows.
-
-    A `Pad` over columns 1 to 5 and rows 1 to 2 makes them answer to a click.
-    """
-    image = np.uint8(255 * tiles(stack, 5, zoom))
-    height, width = image.shape
-    high, wide = height / 2, width / 5
-    box = (column - 1) * wide, (row - 1) * high, column * wide, row * high
-    return photo_view(image, [(box, "", "orange")], axes=(0.5, 5.5, 2.5, 0.5))
-
-
 def explanations_of(v, energies, chances, names):
     """A small picture v (height, width), and the energy and chance of each explanation of it."""
     shape = {"width_ratios": [1, 1.2, 1.2], "layout": "none"}
@@ -81,24 +69,4 @@ def block(on, pooled):
     fig, ax = plt.subplots(figsize=(6.2, 2.6))
     ax.bar_label(ax.bar(names, [*on, 1 - pooled], color=colours), fmt="%.2f")
     ax.set(ylim=(0, 1.12), ylabel="probability", title=f"pooled unit on: {pooled:.3f}")
-    return fig
-
-
-def over_time(answers, kind, title):
-    """A unit's answers (n, steps) to n things on the move, in blue where `kind`, else in orange."""
-    fig, ax = plt.subplots(figsize=(5.6, 2.6))
-    for here, colour in ((kind, "blue"), (~kind, "orange")):
-        ax.plot(range(1, answers.shape[1] + 1), answers[here].T, lw=1, color=COLOURS[colour])
-    ax.axhline(0, color=COLOURS["ink"])
-    ax.set(xlabel="view", ylabel="answer", ylim=(-3.2, 3.2), title=title)
-    ax.set_xticks(range(1, answers.shape[1] + 1))
-    return fig
-
-
-def likeness(shares, title):
-    """How alike each layer's maps still are (layer -> correlation), as bars."""
-    fig, ax = plt.subplots(figsize=(5.6, 2.4))
-    bars = ax.bar(list(shares), list(shares.values()), color=COLOURS["blue"])
-    ax.bar_label(bars, fmt="%.2f")
-    ax.set(ylim=(min(0, *shares.values()) - 0.05, 1.15), ylabel="correlation", title=title)
     return fig
