@@ -44,3 +44,14 @@ def make(folder=photos.FOLDER, **size):
 def load_results():
     """What `make` found: filters over epochs, by what is left out."""
     return {name: np.float32(filters) for name, filters in arrays("tricks").items()}
+
+
+def even_tone(filters):
+    """Of filters (n, width, width), the median share of strength that is one even tone."""
+    return float(np.median(filters.mean((1, 2)) ** 2 / (filters**2).mean((1, 2))))
+
+
+def corner_share(filters):
+    """The median share of strength in four corners of 2 × 2: a quarter of 8 × 8 if even."""
+    ends, power = [0, 1, -2, -1], filters**2
+    return float(np.median(power[:, ends][:, :, ends].sum((1, 2)) / power.sum((1, 2))))

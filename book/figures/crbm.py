@@ -1,0 +1,104 @@
+"""Figures of a CRBM: whitened crops, explanations, a block's chances, dreams and learning."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+import torch
+
+from book.figures.what import grey, lettered, tiles
+from reproduce.experiments.crbm_ablation import corner_share, even_tone
+from vmc_lib.show import dot_plot, photo_view
+from vmc_lib.show.palette import COLOURS
+from vmc_lib.what.learning import Learner
+
+MIDDLE = slice(80, 120)  # of a crop
+FREE = slice(7, 14)  # of a patch of 21 pixels: what a clamp of n_w - 1 = 7 leaves free
+
+
+def bitmap(rows):
+    """A picture (1, 1, height, width) as a tensor: rows of "." for 0 and "#" for 1."""
+    return torch.tensor([[[[float(c == "#") for c in row] for row in rows.split()]]])
+
+
+def whitened(crop, white):
+    """A crop (200, 200), and beside it what whitening leaves, with the mean of its middle."""
+    square = MIDDLE.start, MIDDLE.start, MIDDLE.stop, MIDDLE.stop
+    mean = f"{white[MIDDLE, MIDDLE].mean():+.2f}"
+    return crop, photo_view(np.uint8(255 * grey(white)), [(square, mean, "orange")])
+
+
+def explanations_of(v, energies, names):
+    """A small picture v (height, width), and the energy and chance of each explanation of it."""
+    shape = {"width_ratios": [1, 1.2, 1.2], "layout": "none"}
+    fig, (left, middle, right) = plt.subplots(1, 3, figsize=(6.8, 2.3), **shape)
+    fig.subplots_adjust(left=0.01, right=0.98, bottom=0.13, top=0.88, wspace=0.72)
+    left.pcolormesh(v, vmin=-2, vmax=2, edgecolor=COLOURS["grey"], cmap="gray")
+    left.set(title="v", xticks=[], yticks=[], aspect="equal")
+    bars = middle.barh(names, energies, color=COLOURS["orange"])
+    middle.bar_label(bars, fmt="{:z.1f}", padding=2)  # no minus zero
+    middle.set(title="energy E(v, h)", xlim=(0, 45))
+    bars = right.barh(names, torch.softmax(-energies, 0), color=COLOURS["blue"])
+    right.bar_label(bars, fmt="%.2f", padding=2)
+    right.set(title="p(h | v)", xlim=(0, 1.25), yticks=[])
+    for ax in (left, middle, right):
+        ax.invert_yaxis()
+    return fig
+
+
+def block_chances(drives):
+    """The chances of a block's units (4,), and of its pooled unit, given their drives (4,)."""
+    one = Learner(torch.ones(1, 1, 1, 1), torch.zeros(1), torch.zeros(1), c=2)
+    h, p = one.posterior(torch.tensor(drives).float().reshape(1, 1, 2, 2))
+    return h.flatten().tolist(), p.item()
+
+
+def block(*drives):
+    """The chances of a pooling block's units and of its off state, as bars, given their drives."""
+    on, pooled = block_chances(drives)
+    names = [*(f"unit {i + 1}" for i in range(len(on))), "all off"]
+    colours = [COLOURS["blue"]] * len(on) + [COLOURS["grey"]]
+    fig, ax = plt.subplots(figsize=(6.2, 2.6))
+    ax.bar_label(ax.bar(names, [*on, 1 - pooled], color=colours), fmt="%.2f")
+    ax.set(ylim=(0, 1.12), ylabel="probability", title=f"pooled unit on: {pooled:.3f}")
+    return fig
+
+
+def correlation(patch, dream):
+    """The correlation of the FREE pixels of a patch and its dream (1, 1, 21, 21)."""
+    both = [x[0, 0, FREE, FREE].flatten() for x in (patch, dream)]
+    return float(torch.corrcoef(torch.stack(both))[0, 1])
+
+
+def dream(patch, dream, reach):
+    """A patch, its dream, and the first less the second, in one scale of greys up to `reach`."""
+    square = 10 * np.array([FREE.start, FREE.start, FREE.stop, FREE.stop])
+    words = "", f"{correlation(patch, dream):.2f}", ""
+    greys = [grey(x[0, 0], reach, 10) for x in (patch, dream, patch - dream)]
+    return tuple(
+        photo_view(np.uint8(255 * np.array(picture)), [(square, label, "orange")])
+        for picture, label in zip(greys, words, strict=True)
+    )
+
+
+def modulation(hidden, pooled):
+    """F1/F0 of hidden and of pooled units by contrast, and the border of simple and complex."""
+    series = {"hidden units": hidden, "pooled units": pooled}
+    fig = dot_plot(series, "complex < 1 < simple: F1/F0", xlim=(0, None))
+    fig.axes[0].axvline(1, color="grey")
+    return fig
+
+
+def gradients(ks, distances, cosines):
+    """How far CD-k is from the true gradient, and the cosine with it, over the rounds k."""
+    fig, ax = plt.subplots(figsize=(5.5, 2.6))
+    ax.plot(distances, "o-", label="distance from the true gradient")
+    ax.plot(cosines, "s-", label="cosine with it (1: same direction)")
+    ax.set_xticks(range(len(ks)), ks)
+    ax.set(xlabel="rounds k", ylim=(0, 1.05))
+    ax.legend()
+    return fig
+
+
+def filters(stack):
+    """Filters (n, width, width), with their shares of an even tone and in the corners."""
+    words = f"even tone {even_tone(stack):.0%}, corners {corner_share(stack):.0%}"
+    return lettered(tiles(stack, zoom=8), words)
