@@ -39,16 +39,16 @@ const vmcSegmentationDemo = (box) => {
       Object.assign(context, { strokeStyle: colour, lineWidth: wide });
       context.strokeRect(x0, y0, x1 - x0, y1 - y0);
     }
-    const all = (width * (width + 1) * height * (height + 1)) / 4, count = (n) => n.toLocaleString("en-GB");
+    const all = (width * (width + 1) * height * (height + 1)) / 4, text = (n) => n.toLocaleString("en-GB");
     k.nextElementSibling.textContent = scale();
-    merged.nextElementSibling.textContent = `${count(left)} left`;
+    merged.nextElementSibling.textContent = `${text(left)} left`;
     if (canvas.hidden) {
       canvas.hidden = false;
       const fade = matchMedia("(prefers-reduced-motion: reduce)").matches ? 0 : 1500;
       canvas.animate({ opacity: [0, 1] }, fade).onfinish = draw;
     }
     if (canvas.getAnimations().length) return; // the words wait for the picture
-    strip.textContent = `${count(regions)} regions so far, a box around each; ${width} × ${height} pixels hold ${count(all)} boxes.`;
+    strip.textContent = `${text(regions)} regions so far, a box around each; ${width} × ${height} pixels hold ${text(all)} boxes.`;
   };
 
   /* To cut takes a moment: say so, and begin when that can be seen. Only the last who asked is answered. */
