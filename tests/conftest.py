@@ -1,6 +1,7 @@
 """What all tests share: demos live their test life, and page tests find a browser."""
 
 import os
+import shutil
 from functools import partial
 from pathlib import Path
 
@@ -11,6 +12,7 @@ from hypothesis import settings
 from nbclient import NotebookClient
 from nbformat.v4 import new_code_cell
 
+from tests import pages
 from vmc_lib import photos
 from vmc_lib.motor import templates
 
@@ -109,6 +111,45 @@ def offline(chromium):
     context = chromium.new_context(offline=True, viewport={"width": 1200, "height": 900})
     yield context
     context.close()
+
+
+@pytest.fixture
+def window(chromium):
+    """A function that opens a browser window of its own kind, offline, after a script if given."""
+    windows = []
+
+    def window(script="", **kind):
+        windows.append(chromium.new_context(offline=True, **kind))
+        windows[-1].add_init_script(script)
+        return windows[-1]
+
+    yield window
+    for each in windows:
+        each.close()
+
+
+@pytest.fixture(scope="session")
+def site(tmp_path_factory):
+    """A folder with the book's styles and scripts."""
+    folder = tmp_path_factory.mktemp("site")
+    for static in pages.STATIC:
+        shutil.copytree(static, folder, dirs_exist_ok=True)
+    return folder
+
+
+@pytest.fixture
+def open_page(offline, site):
+    """A function that opens some HTML as a page with the book's scripts, which may not complain."""
+    opened = []
+
+    def open_page(html, window=offline):
+        opened.append(pages.open_html(window, site, html))
+        return opened[-1]
+
+    yield open_page
+    for page in opened:
+        page.close()
+        assert page.errors == page.failed == []
 
 
 @pytest.fixture(scope="session")

@@ -1,0 +1,111 @@
+"""Pages that tests open: the book's own scripts around what demos show, and a reader's hand."""
+
+import itertools
+from pathlib import Path
+
+import pytest
+import yaml
+
+ROOT = Path(__file__).parents[1]
+BUILT = ROOT / "_build/html"
+CONFIG = yaml.safe_load((ROOT / "_config.yml").read_bytes())["sphinx"]["config"]
+STYLES = CONFIG["html_css_files"]
+SCRIPTS = [name for name, _ in CONFIG["html_js_files"]]  # the book's, in its order
+STATIC = [ROOT / folder for folder in ("vmc_lib/show/static", "arm_in_page/static", "book/_static")]
+HEAD = "".join(
+    (
+        '<!doctype html><html lang="en"><meta charset="utf-8"><title>A page</title>'
+        '<meta name="viewport" content="width=device-width">',
+        *(f'<link rel="stylesheet" href="{name}">' for name in STYLES),
+        *(f'<script defer src="{name}"></script>' for name in SCRIPTS),
+        '<body style="background: var(--vmc-paper); color: var(--vmc-ink)"><main>',
+    )
+)
+NO_WEBGL = """const { getContext } = HTMLCanvasElement.prototype;
+HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+  return kind.startsWith("webgl") ? null : getContext.call(this, kind, ...rest);
+};"""
+TWO_FRAMES = "() => new Promise((on) => requestAnimationFrame(() => requestAnimationFrame(on)))"
+counter = itertools.count(1)
+
+
+def displayed(patch, module, handle=None):
+    """List what a module displays from now on, in order; `display` returns `handle`."""
+    shown = []
+    patch.setattr(module, "display", lambda *items, **_: shown.extend(items) or handle)
+    return shown
+
+
+def book_html(module, declare):
+    """HTML that a module displays in the book while `declare()` runs."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("VMC_RENDER_MODE", "book")
+        shown = displayed(patch, module)
+        declare()
+    return "\n".join(item.data for item in shown)
+
+
+def observe(page):
+    """Keep what a page asks for, what does not come, and what it complains about."""
+    page.asked, page.failed, page.errors = [], [], []
+    page.on("request", lambda request: page.asked.append(request.url))
+    page.on("requestfailed", lambda request: page.failed.append(request.url))
+    page.on("pageerror", lambda error: page.errors.append(f"{error} {error.stack}"))
+    page.on(
+        "console",
+        lambda said: (
+            said.type == "error" and page.errors.append(f"{said.text} {said.location['url']}")
+        ),
+    )
+    return page
+
+
+def settle(page):
+    """Wait until equations are set and demos can answer."""
+    page.wait_for_load_state("load")
+    page.evaluate("() => window.MathJax?.startup?.promise")
+    page.wait_for_function(
+        "() => ![...document.querySelectorAll('.vmc-demo:has(> script)')]"
+        ".some((demo) => !('ready' in demo.dataset))"
+    )
+
+
+def open_url(window, url):
+    """Open a page, observed and settled."""
+    page = observe(window.new_page())
+    page.goto(url)
+    settle(page)
+    return page
+
+
+def open_html(window, site, html):
+    """Open some HTML, observed and settled, in the folder that has the book's scripts."""
+    path = site / f"page{next(counter)}.html"
+    path.write_text(HEAD + html, encoding="utf-8")
+    return open_url(window, path.as_uri())
+
+
+def middle(thing):
+    """Where the middle of something in a page is, in px from the window's corner."""
+    box = thing.bounding_box()
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+
+def drag(page, place, right, down):
+    """Press the mouse at a place (x, y), move it, in px, and let it go."""
+    x, y = place
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + right, y + down, steps=4)
+    page.mouse.up()
+
+
+def too_wide(page, within="main"):
+    """Markup of what is wider than the window, but for what may scroll."""
+    return page.evaluate(
+        """(within) => [...document.querySelectorAll(`${within} *:not(pre *, table *, svg *)`)]
+          .filter((e) => e.getBoundingClientRect().right > innerWidth + 1
+            && !e.closest("pre, table, div.math, .vmc-spoken, .vmc-picture"))
+          .map((e) => e.outerHTML.slice(0, 120))""",
+        within,
+    )

@@ -1,0 +1,219 @@
+"""Plots and their controls as the page's scripts move them; a demo's state in the address."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+
+from tests.pages import drag, middle
+from vmc_lib.show import Choice, Pad, Slider, explore, figure, photo_view
+
+pytestmark = pytest.mark.browser
+
+
+def tall(height):
+    return figure(f"<p style='height: {height}em'>Tall.</p>", "Tall.", "tall")
+
+
+def test_a_pad_follows_the_pointer_and_the_keyboard(open_demo):
+    def draw(at):
+        fig, ax = plt.subplots()
+        ax.plot(*at, "o")
+        ax.set(xlim=(-1, 11), ylim=(-1, 6))
+        return fig
+
+    page = open_demo(draw, alt=lambda at: f"at {at}", at=Pad(range(11), range(6), ("x", "y")))
+    dot = page.locator("svg use[clip-path], svg g[clip-path] use")
+    x, y = start = middle(dot)
+    svg = page.locator("svg").first.bounding_box()
+    drag(page, start, svg["width"] / 2, -svg["height"] / 2)
+    assert page.inner_text("output") != "0"
+    to_x, to_y = middle(dot)
+    assert abs(to_x - x - svg["width"] / 2) < svg["width"] / 22
+    assert abs(to_y - y + svg["height"] / 2) < svg["height"] / 12
+    alt = page.get_attribute(".vmc-pictures", "aria-label")
+    page.focus("input >> nth=1")
+    page.keyboard.press("ArrowDown")
+    assert page.get_attribute(".vmc-pictures", "aria-label") != alt
+    assert page.inner_text(".vmc-spoken") == page.get_attribute(".vmc-pictures", "aria-label")
+
+
+def test_a_pad_is_dragged_by_its_handle_with_a_finger(open_demos, window):
+    def draw(at):
+        return photo_view(np.zeros((200, 300, 3), np.uint8), points=[(at, "", "green")])
+
+    pad = Pad(range(0, 301, 20), range(0, 201, 25), start=(100, 100))
+    phone = window(has_touch=True, viewport={"width": 360, "height": 640})
+    page = open_demos(lambda: [explore(draw, "c", lambda at: f"{at}", at=pad), tall(90)], phone)
+    touch = phone.new_cdp_session(page)
+
+    def finger(*path):
+        for kind, (x, y) in zip(["touchStart", "touchMove", "touchMove"], path, strict=True):
+            points = [{"x": x, "y": y}]
+            touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+        touch.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+
+    def stands(where):
+        """Wait until the handle's middle is at a place (x, y); a script gives it."""
+        page.wait_for_function(
+            f"""() => {{
+              const middle = (each) => {{
+                const box = document.querySelector(each).getBoundingClientRect();
+                return [box.x + box.width / 2, box.y + box.height / 2];
+              }};
+              const [x, y] = middle(".vmc-handle"), [right, down] = {where};
+              return Math.hypot(x - right, y - down) < 1.5;
+            }}"""
+        )
+
+    stands('middle("circle")')  # on the mark, once the page is laid out
+    x, y = middle(page.locator(".vmc-handle"))
+    size = page.locator(".vmc-handle").bounding_box()
+    assert min(size["width"], size["height"]) >= 24
+    wide = page.locator("svg[data-axes]").bounding_box()["width"]
+    finger((x + 8, y + 8), (x + 30, y + 40), (x + 8 + wide / 5, y + 8 + wide / 6))
+    for i, value in enumerate(["160", "150"]):  # 60 and 50 of 300 farther, wherever it was taken
+        page.locator(f"output >> nth={i} >> text={value}").wait_for()
+    stands(f"[{x + wide / 5}, {y + wide / 6}]")
+    assert page.evaluate("scrollY") == 0
+    there = page.locator("output", has_text="100").first
+    for _ in range(5):  # on a busy machine a tap may last so long that it is a press, and no click
+        page.touchscreen.tap(x, y)
+        if there.count():
+            break
+    there.wait_for()
+
+
+def test_play_goes_to_the_end_and_stops(open_demo):
+    page = open_demo(np.eye, N=Slider(range(2, 6), "size", play=True))
+    page.click(".vmc-play")
+    assert page.get_attribute(".vmc-play", "aria-pressed") == "true"
+    page.wait_for_selector(".vmc-play[aria-pressed=false]")
+    assert page.inner_text("output") == "5"
+
+
+def test_on_a_phone_panels_stand_one_above_the_other(open_demo):
+    def draw(x):
+        fig, (left, right) = plt.subplots(1, 2, figsize=(8.2, 3.4))
+        left.plot([0, x], label="left")
+        right.plot([x, 0], color="red")
+        right.set(ylabel="right")
+        return fig
+
+    page = open_demo(draw, x=Slider([1, 2], "x"))
+    shown = page.locator(".vmc-panels > div")
+    assert [shown.nth(i).is_visible() for i in (0, 1)] == [True, False]
+    page.set_viewport_size({"width": 360, "height": 700})
+    boxes = [shown.nth(i).bounding_box() for i in (0, 1)]
+    assert boxes[0]["y"] + boxes[0]["height"] <= boxes[1]["y"]
+    assert all(0 <= box["x"] and box["x"] + box["width"] <= 360 for box in boxes)
+    assert page.eval_on_selector(".vmc-picture", "p => p.scrollWidth <= p.clientWidth")
+    before = shown.nth(1).screenshot()
+    page.fill("input", "1")
+    assert shown.nth(1).screenshot() != before  # the same drawing, moved by the same slider
+
+
+def test_a_slider_and_its_button_stay_in_place_while_the_picture_grows(open_demos):
+    widths = ["i", "WWWW", "mmmm mmmm", "%"]
+
+    def draw(size):
+        return f'<p style="height: {4 + 3 * widths.index(size)}em">{size}</p>'
+
+    size = Slider(widths, "size", play=True)
+    page = open_demos(lambda: [tall(40), explore(draw, "c", "words", size=size), tall(90)])
+    page.focus("[type=range]")
+    page.locator("[type=range]").scroll_into_view_if_needed()
+    places = []
+    for key in ("Home", "ArrowRight", "ArrowRight", "ArrowRight"):
+        page.keyboard.press(key)
+        places.append([page.locator(s).bounding_box() for s in ("[type=range]", ".vmc-play")])
+    for place in places[1:]:
+        assert [box["x"] for box in place] == [box["x"] for box in places[0]]
+        assert place[0]["y"] == pytest.approx(places[0][0]["y"], abs=1)
+    assert page.evaluate("scrollY") > 0
+
+
+def test_a_plots_numbers_are_a_table_that_follows_its_controls(open_demo):
+    def draw(slope):
+        fig, ax = plt.subplots()
+        ax.plot([0, 1, 2], [0, slope, 2 * slope], label="pull")
+        ax.set(xlabel="time (s)", ylabel="force (N)")
+        return fig
+
+    page = open_demo(draw, slope=Slider([1, 3], "s"))
+    page.click(".vmc-demo summary")
+    page.focus("[type=range]")
+    page.keyboard.press("End")
+    rows = [row.split() for row in page.locator(".vmc-data tr").all_inner_texts()]
+    assert rows == [["time", "(s)", "force", "(N)"], ["0", "0"], ["1", "3"], ["2", "6"]]
+    assert page.locator("details").get_attribute("open") is not None
+
+
+# ---- A demo's state is in the address ----
+
+
+def every_kind(**values):
+    return f"<svg>\n<text>{list(values.values())}</text>\n</svg>"
+
+
+@pytest.fixture
+def addressed(open_demos):
+    kinds = dict(
+        x=Slider(range(5), "x", play=True),
+        way=["left", "right"],
+        name=Choice("abcdefg", "name"),
+        on=[False, True],
+    )
+    page = open_demos(
+        lambda: [tall(90), explore(every_kind, "c", lambda **values: f"{values}", **kinds)]
+    )
+    page.id = page.get_attribute(".vmc-demo >> nth=1", "id")
+    return page
+
+
+def shown_now(page):
+    return page.locator(".vmc-demo").nth(1).locator("text").text_content()
+
+
+def test_a_link_opens_a_demo_as_it_was(addressed):
+    link = addressed.locator(".vmc-link")
+    assert link.get_attribute("href") == f"#{addressed.id}?x=0&way=0&name=0&on=0"
+    addressed.focus("[type=range]")
+    addressed.keyboard.press("End")
+    addressed.get_by_label("right").check()
+    addressed.select_option("select", "2")
+    addressed.get_by_role("checkbox").check()
+    state = f"#{addressed.id}?x=4&way=1&name=2&on=1"
+    addressed.wait_for_function("state => location.hash === state", arg=state)
+    assert link.get_attribute("href") == state
+    assert shown_now(addressed) == "[4, 'right', 'c', True]"
+    other = addressed.context.new_page()
+    other.goto(addressed.url)
+    other.wait_for_selector(".vmc-demo[data-ready] >> nth=0")
+    other.wait_for_function("() => scrollY > 0")
+    assert shown_now(other) == "[4, 'right', 'c', True]"
+    assert other.locator("output").inner_text() == "4"
+    other.close()
+
+
+def test_an_address_is_followed_and_its_impossible_values_are_ignored(addressed):
+    for state, seen in (
+        ("x=2&way=1", "[2, 'right', 'a', False]"),
+        ("on=1&x=99&name=99&way=7&who=3", "[4, 'right', 'a', True]"),
+        ("", "[4, 'right', 'a', True]"),
+    ):
+        addressed.evaluate(f"location.hash = '#{addressed.id}?{state}'")
+        addressed.wait_for_function(
+            "seen => document.querySelectorAll('.vmc-demo text')[0].textContent === seen", arg=seen
+        )
+    addressed.evaluate("location.hash = '#%'")
+    assert shown_now(addressed) == "[4, 'right', 'a', True]"
+
+
+def test_play_leaves_the_address_alone_and_stops_for_any_control(addressed):
+    addressed.click(".vmc-play")
+    addressed.get_by_label("right").check()
+    assert addressed.get_attribute(".vmc-play", "aria-pressed") == "false"
+    addressed.wait_for_function("() => location.hash.includes('way=1')")
+    addressed.click(".vmc-play")
+    addressed.wait_for_selector(".vmc-play[aria-pressed=false]")
+    assert "x=4" not in addressed.evaluate("location.hash")

@@ -1,0 +1,213 @@
+"""Scenes as the page's scripts move them."""
+
+import numpy as np
+import pypdfium2
+import pytest
+from meshcat import geometry as g
+from meshcat.transformations import translation_matrix
+
+from tests.pages import NO_WEBGL, drag, middle
+from vmc_lib.arm.dynamics import hand
+from vmc_lib.show import Scene, Slider, explore, figure, photo_view
+from vmc_lib.show.arm import arm_scene
+
+pytestmark = pytest.mark.browser
+CAPTURE = "div => vmcScene(div).viewer.capture_image()"
+
+
+def ball(x):
+    scene = Scene()
+    scene["ball"].set_object(g.Sphere(0.2), g.MeshLambertMaterial(color=0xFF0000))
+    scene["ball"].set_transform(translation_matrix([x, 0.0, 0.0]))
+    if x > 0.3:
+        scene["box"].set_object(g.Box([0.2, 0.2, 0.2]), g.MeshLambertMaterial(color=0x0000FF))
+    return scene
+
+
+def test_a_scene_depends_on_its_state_alone(open_demo):
+    xs = [0.0, 0.2, 0.4, 0.6]
+    page = open_demo(ball, alt=lambda x: f"ball at {x}", x=Slider(xs, "x", start=0.2))
+    page.wait_for_selector(".vmc-scene canvas")
+    scene, seen = page.query_selector(".vmc-scene"), []
+    for place in "0123210":
+        page.fill("input", place)
+        seen.append(scene.evaluate(CAPTURE))
+    assert seen[:3] == seen[:-4:-1]
+    assert len(set(seen)) == 4
+    page.fill(".vmc-controls > label input", "90")  # walk around
+    assert scene.evaluate(CAPTURE) != seen[-1]
+    assert page.get_attribute(".vmc-pictures", "aria-label") == "ball at 0.0"
+
+
+def test_at_most_six_scenes_live_and_the_others_are_images(open_demos):
+    page = open_demos(lambda: [figure(ball(0.1), "c", f"scene {i}") for i in range(9)])
+    for _ in range(2):  # down, and up again
+        for scene in page.query_selector_all(".vmc-scene"):
+            scene.scroll_into_view_if_needed()
+            scene.wait_for_selector("canvas")
+            assert len(page.query_selector_all(".vmc-scene canvas")) <= 6
+    assert len(page.query_selector_all(".vmc-scene img")) == 3
+    page.evaluate("dispatchEvent(new Event('beforeprint'))")
+    images = page.eval_on_selector_all(".vmc-scene img", "all => all.map(i => i.src)")
+    assert len(images) == 9
+    assert len(set(images)) == 1
+    assert len(images[0]) > 3000
+    page.evaluate("dispatchEvent(new Event('afterprint'))")
+    page.wait_for_selector(".vmc-scene canvas")
+
+
+def test_a_scene_is_no_wider_than_its_place(open_demos):
+    photo = np.zeros((400, 600, 3), np.uint8)
+    page = open_demos(lambda: figure((photo_view(photo), ball(0.1)), "c", "a photo and a ball"))
+    page.wait_for_selector(".vmc-scene canvas")
+    page.eval_on_selector(".vmc-pictures", "(box) => (box.style.width = '1105px')")
+    page.wait_for_function("() => document.querySelector('canvas').style.width === '545px'")
+    wide = "(box) => [box.scrollWidth, Math.ceil(box.getBoundingClientRect().width)]"
+    drawn, room = page.eval_on_selector(".vmc-pictures", wide)
+    assert drawn <= room
+
+
+# ---- On paper ----
+
+
+def printed(page):
+    """A page on paper: its words, and whether something red and something blue is on it."""
+    pdf = pypdfium2.PdfDocument(page.pdf(print_background=True))
+    sheets = [np.int16(sheet.render().to_numpy()).reshape(-1, 3) for sheet in pdf]
+    blue, _, red = np.concatenate(sheets).T
+    text = "\n".join(sheet.get_textpage().get_text_range() for sheet in pdf)
+    return text, (red > blue + 60).any(), (blue > red + 60).any()
+
+
+def test_paper_shows_the_state_that_the_reader_chose(open_demos):
+    def declare():
+        figure('<p style="height: 60em">Tall.</p>', "The scene below is not in sight.", "words")
+        labels, place = ["now", "then"], Slider([0.1, 0.4], "place", play=True)
+        explore(
+            lambda x, label: (ball(x), f"<p>{label} at {x}</p>"),
+            "A ball.",
+            "alt",
+            x=place,
+            label=labels,
+        )
+
+    page = open_demos(declare)
+    page.wait_for_function("() => window.MeshCat")
+    page.fill("input", "1")
+    page.evaluate("() => { document.documentElement.dataset.theme = 'dark' }")
+    text, red, blue = printed(page)
+    assert all(word in text for word in ("now at 0.4", "place", "A ball."))
+    assert not any(word in text for word in ("then", "0.1", "Play", "turn the view"))
+    assert red
+    assert blue
+    assert page.get_attribute("html", "data-theme") == "dark"
+
+
+def test_paper_shows_the_last_state_of_an_untouched_demo(open_demo):
+    place = Slider([0.1, 0.2, 0.4], "place", play=True)
+    page = open_demo(lambda x: (ball(x), f"<p>now at {x}</p>"), x=place)
+    page.wait_for_selector(".vmc-scene canvas")
+    text, _, blue = printed(page)
+    assert "now at 0.4" in text
+    assert blue  # the box, which stands there at 0.4 only
+    assert page.inner_text("output") == "0.1"
+    assert page.inner_text(".vmc-picture p") == "now at 0.1"
+
+
+# ---- A movement of the arm ----
+
+
+def movement(elbow):
+    """The elbow bends, the shoulder stays; a target where the hand ends."""
+    angles = np.linspace([0.0, 1.0], [0.0, elbow], 201)
+    course = '<svg viewBox="0 0 9 9"><g data-course="0,0 1,2 4,6"><circle r="1"/></g></svg>'
+    balls = [(hand(angles[-1]), "green")]
+    return course, arm_scene(angles, np.linspace(6 * [0], 6 * [1], 201), balls=balls)
+
+
+MOVEMENT = {"alt": lambda elbow: f"to {elbow}", "elbow": Slider([1.2, 1.5], "to")}
+
+
+@pytest.fixture
+def moving(open_demo):
+    page = open_demo(movement, **MOVEMENT)
+    page.wait_for_selector(".vmc-scene canvas")
+    return page
+
+
+def numbers(page):
+    return dict(line.split("\n") for line in page.locator(".vmc-numbers > div").all_inner_texts())
+
+
+def test_one_clock_moves_the_arm_the_numbers_and_the_picture_beside(moving):
+    scene, seen = moving.query_selector(".vmc-scene"), []
+    for time, elbow, activation, place in (("0", 57.3, 0, "0 0"), ("0.1", 63.0, 0.5, "1 2")):
+        moving.fill(".vmc-clock input", time)
+        assert numbers(moving)["elbow"] == f"{elbow}°"
+        assert moving.locator(".vmc-muscles b").last.inner_text() == f"{activation:.2f}"
+        assert moving.get_attribute("[data-course]", "transform") == f"translate({place})"
+        seen.append(scene.evaluate(CAPTURE))
+    assert seen[0] != seen[1]
+    moving.fill(".vmc-clock input", "0.15")  # between two moments
+    assert numbers(moving)["elbow"] == "65.9°"
+    moving.fill(".vmc-controls [data-stride]", "1")  # another movement, the same time
+    assert numbers(moving)["elbow"] == "78.8°"
+    moving.fill(".vmc-clock input", "0.2")
+    assert numbers(moving)["hand to target"] == "0.0 mm"
+
+
+def test_a_movement_plays_to_its_end_and_stops_when_the_clock_is_set(moving):
+    time, play = ".vmc-clock output", ".vmc-clock button"
+    assert moving.inner_text(time) == "0.20 s"
+    moving.select_option(".vmc-clock select", label="quarter speed")
+    moving.click(play)
+    moving.wait_for_selector(f"{play}[aria-pressed=false]")
+    assert moving.inner_text(time) == "0.20 s"
+    moving.click(play)
+    moving.fill(".vmc-clock input", "0.04")
+    assert moving.get_attribute(play, "aria-pressed") == "false"
+    assert moving.inner_text(time) == "0.04 s"
+
+
+def test_a_movement_that_comes_after_a_posture_is_shown_at_its_end(open_demo):
+    draw = lambda moves: movement(1.2)[1] if moves else arm_scene([0, 1])  # noqa: E731 (one line)
+    page = open_demo(draw, moves=[False, True])
+    assert page.locator(".vmc-clock").is_hidden()
+    page.get_by_role("checkbox").check()
+    assert page.inner_text(".vmc-clock output") == "0.20 s"
+    assert page.inner_text(".vmc-clock button") == "Play the movement"
+
+
+def test_the_pointer_and_a_slider_turn_the_view_and_never_to_below(moving):
+    drag(moving, middle(moving.locator(".vmc-canvas")), -100, -300)
+    assert 40 <= float(moving.input_value(".vmc-turn input")) <= 60
+    height = "div => vmcScene(div).viewer.camera.position.y - vmcScene(div).told.camera[1][1]"
+    assert moving.eval_on_selector(".vmc-scene", height) > 0
+
+
+def test_a_muscle_is_named_under_the_pointer_and_chosen_by_its_name(moving):
+    first = """div => {
+      const view = vmcScene(div);
+      const { top, left, width, height } = div.getBoundingClientRect();
+      for (let x = -1; x < 1; x += 0.02) for (let y = -1; y < 1; y += 0.02) {
+        const k = view.body.muscles.found([x, y]);
+        if (k !== null) return [left + (x + 1) / 2 * width, top + (1 - y) / 2 * height,
+                                view.anatomy.muscles[k].name];
+      } }"""
+    x, y, name = moving.eval_on_selector(".vmc-scene", first)
+    moving.mouse.move(x, y)
+    assert moving.inner_text(".vmc-tip") == name
+    moving.mouse.click(x, y)
+    chosen = moving.locator(".vmc-muscles label", has=moving.locator(":checked"))
+    assert chosen.inner_text().startswith(name)
+    scene = moving.query_selector(".vmc-scene")
+    before = scene.evaluate(CAPTURE)
+    moving.locator(".vmc-muscles input:checked").press("ArrowDown")
+    assert scene.evaluate(CAPTURE) != before
+
+
+def test_without_webgl_words_stand_for_the_scene_and_the_numbers_follow(open_demo, window):
+    page = open_demo(movement, window(NO_WEBGL), **MOVEMENT)
+    assert page.inner_text(".vmc-scene") == "to 1.2"
+    page.fill(".vmc-clock input", "0")
+    assert numbers(page)["elbow"] == "57.3°"
