@@ -1,13 +1,19 @@
 """Pages that tests open: the book's own scripts around what demos show, and a reader's hand."""
 
 import itertools
+import re
+from functools import cache
 from pathlib import Path
+from urllib.parse import unquote, urlsplit
 
 import pytest
 import yaml
 
 ROOT = Path(__file__).parents[1]
 BUILT = ROOT / "_build/html"
+CHAPTERS = sorted((BUILT / "book").glob("*.html"))
+INSIDE = (f"{BUILT.as_uri()}/", "data:", "blob:")
+PROBES = (ROOT / "tests/probes.js").read_text(encoding="utf-8")
 CONFIG = yaml.safe_load((ROOT / "_config.yml").read_bytes())["sphinx"]["config"]
 STYLES = CONFIG["html_css_files"]
 SCRIPTS = [name for name, _ in CONFIG["html_js_files"]]  # the book's, in its order
@@ -85,6 +91,12 @@ def open_html(window, site, html):
     return open_url(window, path.as_uri())
 
 
+def unfold(page):
+    """Open the parts of a chapter that are folded below their headings."""
+    for fold in page.query_selector_all(".vmc-folded button[aria-expanded=false]"):
+        fold.click()
+
+
 def middle(thing):
     """Where the middle of something in a page is, in px from the window's corner."""
     box = thing.bounding_box()
@@ -100,12 +112,28 @@ def drag(page, place, right, down):
     page.mouse.up()
 
 
-def too_wide(page, within="main"):
-    """Markup of what is wider than the window, but for what may scroll."""
-    return page.evaluate(
-        """(within) => [...document.querySelectorAll(`${within} *:not(pre *, table *, svg *)`)]
-          .filter((e) => e.getBoundingClientRect().right > innerWidth + 1
-            && !e.closest("pre, table, div.math, .vmc-spoken, .vmc-picture"))
-          .map((e) => e.outerHTML.slice(0, 120))""",
-        within,
-    )
+def probe(page, name, asked=None):
+    """What is wrong with a page, as a function of `probes.js` finds it."""
+    return page.evaluate(f"(asked) => {{ {PROBES}; return {name}(asked); }}", asked)
+
+
+@cache
+def anchors(path):
+    return set(re.findall(r'\b(?:id|name)="([^"]+)"', path.read_text(encoding="utf-8")))
+
+
+def broken(links):
+    """Of `links` those into the book whose file or anchor is not there."""
+    for href in set(links):
+        link = urlsplit(href)
+        target = Path(unquote(link.path))
+        if link.scheme == "file" and not target.is_file():
+            yield href
+        elif link.scheme == "file" and link.fragment and target.suffix == ".html":
+            if unquote(link.fragment).split("?")[0] not in anchors(target):  # a demo's state
+                yield href
+
+
+def broken_links(page):
+    """Links of an open page that are `broken`."""
+    return [*broken(page.eval_on_selector_all("a[href]", "links => links.map(a => a.href)"))]

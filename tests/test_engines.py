@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from tests.engines import NOT_TESTED, Fallen, Firefox, WebKit
-from tests.test_pages import CHAPTERS
+from tests.pages import CHAPTERS
 
 pytestmark = pytest.mark.browser
 DEMOS = [path for path in CHAPTERS if path.stem[0].isdigit()]

@@ -1,4 +1,16 @@
-"""A live widget in a page of its own: this process answers it, as a kernel would."""
+"""Demos to ask, and a live widget in a page: this process answers it, as a kernel would."""
+
+from vmc_lib.show import explore
+
+
+def named(**values):
+    """A picture that names the position of every control."""
+    return f"<svg>\n<text>{list(values.values())}</text>\n</svg>"
+
+
+def show(draw=named, alt="words", **controls):
+    explore(draw, caption="A *caption*: $x < y$.", alt=alt, **controls)
+
 
 RENDER = """async ([script, traits, kernel, busy]) => {
   const url = URL.createObjectURL(new Blob([script], { type: "text/javascript" }));

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 from tests.pages import drag, middle
+from tests.show.kernel import named
 from vmc_lib.show import Choice, Pad, Slider, explore, figure, photo_view
 
 pytestmark = pytest.mark.browser
@@ -151,10 +152,6 @@ def test_a_plots_numbers_are_a_table_that_follows_its_controls(open_demo):
 # ---- A demo's state is in the address ----
 
 
-def every_kind(**values):
-    return f"<svg>\n<text>{list(values.values())}</text>\n</svg>"
-
-
 @pytest.fixture
 def addressed(open_demos):
     kinds = dict(
@@ -164,7 +161,7 @@ def addressed(open_demos):
         on=[False, True],
     )
     page = open_demos(
-        lambda: [tall(90), explore(every_kind, "c", lambda **values: f"{values}", **kinds)]
+        lambda: [tall(90), explore(named, "c", lambda **values: f"{values}", **kinds)]
     )
     page.id = page.get_attribute(".vmc-demo >> nth=1", "id")
     return page

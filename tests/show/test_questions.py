@@ -1,16 +1,9 @@
 """Predictions and checks: what they show, what they refuse, and how the page answers."""
 
-import shutil
-
 import numpy as np
 import pytest
 
 from vmc_lib.show import check, predict, questions
-from vmc_lib.show.scene import STATIC
-
-HEAD = """<!doctype html><html lang="en"><meta charset="utf-8"><title>Questions</title>
-<link rel="stylesheet" href="demo.css"><script defer src="questions.js"></script>
-<style>body { color: var(--vmc-ink); background: var(--vmc-paper); }</style>"""
 
 
 @pytest.fixture
@@ -21,28 +14,23 @@ def shown(monkeypatch):
     return outputs
 
 
-@pytest.fixture
-def book(monkeypatch):
-    monkeypatch.setenv("VMC_RENDER_MODE", "book")
-
-
-def foresee(outcome="two"):
+def ask_for_prediction(outcome="two"):
     predict("How much is $1 + 1$?", ["one", "two", "*three*"], outcome, "One and *one*.")
 
 
-def test_a_prediction_folds_what_came_out(shown):
-    foresee()
+def test_a_prediction_folds_the_outcome(shown):
+    ask_for_prediction()
     [page] = shown
     assert page.count('type="radio"') == 3
     choices, verdict = page.split("<details")
     assert "<em>three</em>" in choices
     assert "One and" not in choices
     assert "<strong>two.</strong> One and <em>one</em>." in verdict
-    foresee()
+    ask_for_prediction()
     assert shown == [page, page]  # so that the page knows it again
 
 
-def test_of_numbers_the_nearest_is_right(shown):
+def test_the_choice_nearest_to_a_number_is_right(shown):
     predict("How many?", {"about 1": 1, "about 10": 10, "about 100": 100}, 41.7, "So it is.")
     assert "<strong>about 10.</strong>" in shown[0]
 
@@ -58,7 +46,7 @@ def test_of_numbers_the_nearest_is_right(shown):
         ({"a": 1, "b": 2}, np.nan, "so"),
     ],
 )
-def test_a_prediction_that_cannot_be_closed_is_refused(choices, outcome, why):
+def test_impossible_predictions_are_refused(choices, outcome, why):
     with pytest.raises(ValueError, match="'Well\\?' needs two to four choices"):
         predict("Well?", choices, outcome, why)
 
@@ -83,7 +71,9 @@ def test_a_prediction_that_cannot_be_closed_is_refused(choices, outcome, why):
         (True, True, 0),
     ],
 )
-def test_a_right_answer_is_right_in_every_life(answer, expected, tolerance, shown, monkeypatch):
+def test_right_answers_are_accepted_in_every_render_mode(
+    answer, expected, tolerance, shown, monkeypatch
+):
     for render_mode in ("live", "book", "test"):
         monkeypatch.setenv("VMC_RENDER_MODE", render_mode)
         check(answer, expected, tolerance)
@@ -107,7 +97,7 @@ WRONG = [
 
 
 @pytest.mark.parametrize(("answer", "expected", "tolerance"), WRONG)
-def test_a_wrong_answer_is_shown_the_hint_and_fails_a_test(
+def test_wrong_answers_show_the_hint_and_fail_a_test(
     answer, expected, tolerance, shown, monkeypatch
 ):
     with pytest.raises(AssertionError, match="check: "):
@@ -121,33 +111,23 @@ def test_a_wrong_answer_is_shown_the_hint_and_fails_a_test(
 
 @pytest.mark.parametrize("answer", [None, (None, None), (1, None), [None, "a"]])
 @pytest.mark.parametrize("render_mode", ["live", "test"])
-def test_none_is_not_answered_yet(answer, render_mode, shown, monkeypatch):
+def test_none_counts_as_not_answered(answer, render_mode, shown, monkeypatch):
     monkeypatch.setenv("VMC_RENDER_MODE", render_mode)
     check(answer, 3)
     assert "Not answered yet." in shown[0]
     assert "<input" not in shown[0]
 
 
-def test_the_page_asks_for_numbers_and_words_but_not_for_what_code_returns(shown, book):
+def test_the_page_has_a_field_for_numbers_and_words_but_not_for_arrays(shown, book):
     for expected in (3, "same", (1, 2), np.float64(0.5), [0.1, 0.2], np.eye(2)):
         check(None, expected)
     assert ["<input" in page for page in shown] == [True, True, True, True, False, False]
 
 
 @pytest.fixture
-def open_questions(offline, tmp_path, shown, book):
+def open_questions(open_page, shown, book):
     """A function that opens a page of what was shown."""
-    shutil.copytree(STATIC, tmp_path, dirs_exist_ok=True)
-
-    def open_questions():
-        (tmp_path / "page.html").write_text(
-            f"{HEAD}<main><h1>Q</h1>{''.join(shown)}</main>", encoding="utf-8"
-        )
-        page = offline.new_page()
-        page.goto((tmp_path / "page.html").as_uri())
-        return page
-
-    return open_questions
+    return lambda: open_page(f"<h1>Q</h1>{''.join(shown)}")
 
 
 MARKS = """() => [...document.querySelectorAll("label")]
@@ -155,8 +135,8 @@ MARKS = """() => [...document.querySelectorAll("label")]
 
 
 @pytest.mark.browser
-def test_a_prediction_is_kept_and_shown_beside_what_came_out(open_questions):
-    foresee()
+def test_a_prediction_is_kept_and_marked_beside_the_outcome(open_questions):
+    ask_for_prediction()
     page = open_questions()
     page.keyboard.press("Tab")
     page.keyboard.press("ArrowDown")
@@ -174,13 +154,12 @@ def test_a_prediction_is_kept_and_shown_beside_what_came_out(open_questions):
     page.emulate_media(media="print")
     assert page.is_visible("text=three")
     assert not page.is_visible("text=One and")
-    page.close()
 
 
 @pytest.mark.browser
 @pytest.mark.parametrize("by", ["input >> nth=0", "summary"])
-def test_what_stands_still_below_a_prediction_waits_for_it(open_questions, shown, by):
-    foresee()
+def test_a_still_output_below_a_prediction_is_hidden_until_it_is_made(open_questions, shown, by):
+    ask_for_prediction()
     below = ["<p>four</p>", "<form class='vmc-controls'></form>a demo"]
     cells = [f"<div class='cell'><div class='cell_output'>{x}</div></div>" for x in shown + below]
     code = "<div class='cell'>code</div>"
@@ -190,22 +169,17 @@ def test_what_stands_still_below_a_prediction_waits_for_it(open_questions, shown
     assert page.is_visible("text=a demo")
     page.click(by)
     page.wait_for_selector("text=four", state="visible")
-    page.close()
 
 
 @pytest.mark.browser
 def test_a_prediction_works_where_storage_is_forbidden(open_questions):
-    foresee()
+    ask_for_prediction()
     page = open_questions()
-    errors = []
-    page.on("pageerror", lambda error: errors.append(str(error)))
     page.add_init_script("Object.defineProperty(window, 'localStorage', { get() { throw 'no' } })")
     page.reload()
     page.check("input >> nth=1")
     page.click("summary")
     assert page.evaluate(MARKS) == ["none", "✓", "none"]
-    assert errors == []
-    page.close()
 
 
 @pytest.mark.browser
@@ -231,15 +205,13 @@ def test_the_page_checks_what_is_typed(open_questions, expected, tries):
         said = page.inner_text("[role=status]")
         assert verdict in said
         assert ("Think." in said) == (verdict == "Not yet")
-    page.close()
 
 
 @pytest.mark.browser
 def test_questions_are_accessible(open_questions, serious):
-    foresee()
+    ask_for_prediction()
     check(None, 3)
     check(3, 3)
     page = open_questions()
     page.eval_on_selector_all("details", "all => all.forEach((d) => (d.open = true))")
     assert serious(page, "html", all_of_it=True) == []
-    page.close()

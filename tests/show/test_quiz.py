@@ -1,6 +1,5 @@
 """A quiz is plain Markdown; the page gives it its style and says which answer is right."""
 
-import shutil
 from html import escape
 
 import pytest
@@ -8,7 +7,6 @@ from markdown_it import MarkdownIt
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 
 from book._ext.plain import with_directives
-from vmc_lib.show.live import STATIC
 
 ANSWER = "<details><summary>{}</summary>\n\n{}\n\n</details>"
 MARKDOWN = MarkdownIt().use(dollarmath_plugin, renderer=lambda tex, _: rf"\({escape(tex)}\)")
@@ -43,20 +41,8 @@ def test_a_quiz_that_cannot_be_answered_is_refused(answers):
 
 
 @pytest.fixture
-def page(offline, tmp_path):
-    """A page with a quiz."""
-    shutil.copytree(STATIC, tmp_path, dirs_exist_ok=True)
-    head = (
-        '<!doctype html><html lang="en"><meta charset="utf-8"><title>Quiz</title>'
-        '<link rel="stylesheet" href="demo.css">'
-        "<style>body { color: var(--vmc-ink); background: var(--vmc-paper); }</style>"
-    )
-    text = f"{head}<main><h1>Q</h1>{quiz(TWO, THREE)}</main>"
-    (tmp_path / "page.html").write_text(text, encoding="utf-8")
-    page = offline.new_page()
-    page.goto((tmp_path / "page.html").as_uri())
-    yield page
-    page.close()
+def page(open_page):
+    return open_page(f"<h1>Q</h1>{quiz(TWO, THREE)}")
 
 
 @pytest.mark.browser

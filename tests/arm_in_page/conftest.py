@@ -1,0 +1,111 @@
+"""The arms in the page, as the book shows them, and what a reader does with them."""
+
+import re
+
+import numpy as np
+import pytest
+
+from arm_in_page import live, live_arm, live_whole_arm
+from book.figures import whole_arm_live
+from reproduce.whole_arm import experiment, habits
+from tests import pages
+
+# `arm` and `templateSet` for a script that asks them something, made once a page and arm
+ASK = """async ([which, asked]) => {
+  const given = JSON.parse(document.querySelectorAll(".vmc-live script")[which].textContent);
+  const arm = await ((self.testArms ??= {})[which] ??= vmcArm.load(given));
+  const templateSet = await vmcTemplates.load(given.templateSet);
+  const reach = (plan) => (weights) => {
+    const moments = arm.move(templateSet.excitations({ ...plan, weights }));
+    return arm.hand(moments.at(-1).q).slice(0, asked.length);
+  };
+  %s
+}"""
+WHOLE_ARM_TARGET = np.array([0.475, 0.105, -0.09])
+
+
+@pytest.fixture(scope="session")
+def past():
+    """The whole arm's templates."""
+    return habits.load_templates()
+
+
+@pytest.fixture(scope="session")
+def planar_html():
+    def declare():
+        live_arm("bench", "Move it.", "An arm of two joints and six muscles.")
+        live_arm("reach", "Let it reach.", "An arm before a plane of templates.")
+
+    return pages.book_html(live, declare)
+
+
+@pytest.fixture(scope="session")
+def whole_html(past):
+    return pages.book_html(
+        live,
+        lambda: live_whole_arm(
+            whole_arm_live.arm(past, habits.muscle_synergies().rest),
+            lambda: whole_arm_live.pictures(past, WHOLE_ARM_TARGET),
+            experiment.INSIDE,
+            WHOLE_ARM_TARGET,
+            "Set a target.",
+            "A whole arm before two views of it.",
+        ),
+    )
+
+
+@pytest.fixture(scope="module")
+def ask(offline, site, planar_html, whole_html):
+    """A function that runs a script beside a loaded arm and returns its answer."""
+    page = pages.open_html(offline, site, planar_html + whole_html)
+    yield lambda script, asked=(), arm=0: page.evaluate(ASK % script, [arm, asked])
+    page.close()
+    assert page.errors == []
+
+
+@pytest.fixture
+def open_planar(open_page, planar_html):
+    """A function that opens both planar arms in a window, with `bench` and `reach`."""
+
+    def open_planar(*window):
+        page = open_page(planar_html, *window)
+        page.bench, page.reach = page.locator(".vmc-live").all()
+        return page
+
+    return open_planar
+
+
+@pytest.fixture
+def open_whole(open_page, whole_html):
+    """A function that opens the whole arm, `arm`, in a window."""
+
+    def open_whole(*window):
+        page = open_page(whole_html, *window)
+        page.arm = page.locator(".vmc-live")
+        return page
+
+    return open_whole
+
+
+def start(arm):
+    arm.locator("[name=main]").click()
+    arm.locator("form > fieldset:not([disabled])").wait_for()
+
+
+def readout(arm, name):
+    return arm.locator(f"[data-tell={name}]").inner_text()
+
+
+def number(text):
+    return float(re.match(r"−?[\d.]+", text)[0].replace("−", "-"))
+
+
+def status(arm, beginning):
+    """What the arm's status says once it begins like that."""
+    arm.locator("[role=status]", has_text=re.compile(f"^{beginning}")).wait_for(timeout=90_000)
+    return arm.locator("[role=status]").inner_text()
+
+
+def set_target(arm, target):
+    for name, place in zip(("forward", "up", "right"), target, strict=False):
+        arm.get_by_label(f"target, {name}").fill(str(place))

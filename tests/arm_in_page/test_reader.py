@@ -1,0 +1,181 @@
+"""A reader moves the arms in the page."""
+
+import numpy as np
+import pytest
+
+from arm_in_page import live
+from reproduce.whole_arm import experiment
+from tests.arm_in_page.conftest import number, readout, set_target, start, status
+from tests.pages import NO_WEBGL, drag, middle, probe
+from vmc_lib.arm.model import MUSCLES
+from vmc_lib.arm.simulate import simulate
+from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration
+from vmc_lib.motor import templates
+from vmc_lib.motor.planning import plan
+
+pytestmark = pytest.mark.browser
+PHONE = {"viewport": {"width": 360, "height": 700}}
+
+
+def test_mujoco_is_loaded_by_the_start_and_from_the_books_own_files(open_planar, site, ask):
+    page = open_planar()
+    page.wait_for_function("() => window.MeshCat")
+    assert not any("mujoco" in url for url in page.asked)
+    start(page.bench)
+    assert any("vendor/mujoco.js" in url for url in page.asked)
+    inside = (site.as_uri(), "data:", "blob:")
+    assert [url for url in page.asked if not url.startswith(inside)] == []
+    assert ask("return arm.mujoco.mj_versionString();") == live.VERSIONS["page"]
+    assert status(page.bench, "").startswith(f"MuJoCo {live.VERSIONS['page']} (")
+
+
+def test_an_arm_with_another_law_than_pythons_says_so(open_planar, window):
+    page = open_planar(
+        window(
+            """const parse = JSON.parse;
+            JSON.parse = (text) => {
+              const given = parse(text);
+              if (given.muscle) given.muscle.answers[0][4] *= 2;
+              return given; };"""
+        )
+    )
+    page.bench.locator("[name=main]").click()
+    assert "keeps the book's" in status(page.bench, "The arm is running")
+
+
+def test_the_bench_answers_the_keyboard(open_planar):
+    page = open_planar()
+    bench, keys = page.bench, page.keyboard
+    bench.locator("[name=main]").focus()
+    keys.press("Enter")
+    status(bench, "The arm is running")
+    page.wait_for_function(
+        "() => !document.querySelector('[data-tell=time]').textContent.startsWith('0.00')"
+    )
+    keys.press("Enter")
+    assert "Shoulder" in status(bench, "Paused")
+    bench.locator("[name=reset]").focus()
+    keys.press("Enter")
+    status(bench, "Back at the start")
+    assert (readout(bench, "time"), readout(bench, "elbow")) == ("0.00 s", "95.0°")
+    bench.get_by_role("slider", name="BIClong").focus()
+    keys.press("End")
+    assert bench.locator("output").nth(MUSCLES.index("BIClong")).inner_text() == "1.00"
+    bench.locator("[name=step]").focus()
+    for _ in range(10):
+        keys.press("Enter")
+    assert readout(bench, "time") == "0.10 s"
+    rest = [round(u, 2) for u in live.given()["rest"]]
+    excitation = np.array(rest)
+    excitation[MUSCLES.index("BIClong")] = 1
+    moved = simulate(np.tile(excitation, (100, 1)), templates.START, rest, engine="mujoco")
+    assert number(readout(bench, "elbow")) == pytest.approx(np.degrees(moved.q[-1, 1]), abs=0.051)
+    for name, value in zip(("forward", "up", "right"), 1000 * moved.hand[-1], strict=True):
+        assert number(readout(bench, name)) == pytest.approx(value, abs=0.51)
+
+
+def test_the_arm_reaches_misses_and_calibrates(open_planar):
+    reach, target = open_planar().reach, np.array([0.045, -0.35])
+    start(reach)
+    set_target(reach, target)
+    trials = algorithm_1(plan(target, templates.load()))
+    best = trials.error.argmin()
+    planned, calibrated = (f"{1000 * trials.error[n]:.1f} mm" for n in (0, best))
+    reach.locator("[name=main]").click()
+    assert planned in status(reach, "The planned reach")
+    reach.locator("[name=calibrate]").click()
+    said = status(reach, "After 21 tries")
+    assert f"n = {best - 1}" in said
+    assert calibrated in said
+    assert readout(reach, "calibrated") == calibrated
+    reach.get_by_label("ours").check()
+    assert readout(reach, "calibrated") == "–"  # another rule, another try
+    reach.locator("[name=calibrate]").click()
+    status(reach, f"After {live.TRIALS} tries")
+    ours = broyden_calibration(plan(target, templates.load()), live.TRIALS)
+    assert readout(reach, "calibrated") == f"{1000 * ours.error.min():.1f} mm"
+
+
+def test_the_whole_arm_reaches_and_calibrates(open_whole, window, past):
+    arm, target = open_whole(window(reduced_motion="reduce")).arm, np.array([0.52, 0.07, -0.065])
+    start(arm)
+    set_target(arm, target)
+    arm.locator("[name=main]").click()
+    status(arm, "The planned reach")
+    trials = broyden_calibration(experiment.plan_reaches(target, past), live.TRIALS)
+    assert number(readout(arm, "planned")) == pytest.approx(1000 * trials.error[0], abs=0.3)
+    final = trials.movements[0].motion.activation[-1]
+    assert readout(arm, "active") == str((final > 0.05).sum())
+    shown = [float(text) for text in arm.locator(".vmc-muscles b").all_inner_texts()]
+    assert np.allclose(shown, final, atol=0.0051)
+    arm.locator("[name=calibrate]").click()
+    status(arm, f"After {live.TRIALS} tries")
+    assert number(readout(arm, "calibrated")) == pytest.approx(1000 * trials.error.min(), abs=0.3)
+
+
+def test_a_target_is_dragged(open_planar):
+    page = open_planar()
+    start(page.reach)
+    ring = page.reach.locator("svg circle[stroke='var(--vmc-green)']")
+    x, y = middle(ring)
+    drag(page, (x, y), -80, -60)
+    assert np.subtract(middle(ring), (x, y)) == pytest.approx([-80, -60], abs=6)  # by 5 mm
+    assert number(page.reach.locator("output").first.inner_text()) < 0.12
+    status(page.reach, "A target is set")
+    set_target(page.reach, (0, -0.49))
+    assert "not surrounded" in status(page.reach, "Nothing planned")
+
+
+def test_a_target_in_space_is_dragged_in_either_view(open_whole):
+    page = open_whole()
+    start(page.arm)
+    handles, values = page.arm.locator(".vmc-handle"), page.arm.locator("fieldset output")
+    for view, axis in ((0, 1), (1, 2)):  # the one shows up, the other right
+        before = values.all_inner_texts()
+        handles.nth(view).scroll_into_view_if_needed()
+        drag(page, middle(handles.nth(view)), 12, 12)
+        moved = [was != now for was, now in zip(before, values.all_inner_texts(), strict=True)]
+        assert moved == [place in (0, axis) for place in range(3)]
+
+
+def test_with_reduced_motion_only_the_end_is_shown(open_planar, window):
+    page = open_planar(window(reduced_motion="reduce"))
+    start(page.reach)
+    frames = """() => vmcScene(document.querySelectorAll(".vmc-scene")[1])
+      .viewer.renderer.info.render.frame"""
+    before = page.evaluate(frames)
+    page.reach.locator("[name=main]").click()
+    status(page.reach, "The planned reach")
+    assert page.evaluate(frames) - before < 5
+
+
+def test_without_webgl_the_arm_moves_in_the_side_view(open_planar, window):
+    bench = open_planar(window(NO_WEBGL)).bench
+    start(bench)
+    assert "no 3-D picture" in status(bench, "The arm is running")
+    assert bench.locator(".vmc-scene").inner_text().startswith("An arm of two joints")
+    assert bench.locator("svg[data-axes] polyline").count() == 2
+
+
+def test_without_webgl_the_whole_arm_moves_in_its_views(open_whole, window):
+    arm = open_whole(window(NO_WEBGL, reduced_motion="reduce")).arm
+    start(arm)
+    arm.locator("[name=main]").click()
+    assert "no 3-D picture" in status(arm, "The planned reach")
+    assert arm.locator(".vmc-scene").inner_text().startswith("A whole arm")
+
+
+def test_without_webassembly_it_says_so(open_planar, window):
+    bench = open_planar(window("delete self.WebAssembly")).bench
+    bench.locator("[name=main]").click()
+    status(bench, "This browser cannot run the arm")
+    assert bench.get_by_role("slider", name="BRA").is_disabled()
+
+
+def test_arms_are_accessible_and_fit_a_phone(open_page, planar_html, whole_html, window, serious):
+    page = open_page(planar_html + whole_html, window(**PHONE))
+    assert serious(page, "main") == []
+    for arm in page.locator(".vmc-live").all():
+        start(arm)
+    assert serious(page, "main") == []
+    assert probe(page, "tooWide", "main") == []
