@@ -15,17 +15,14 @@ import time
 import urllib.error
 import urllib.request
 from glob import glob
-from pathlib import Path
 
-BUILT = Path(__file__).parents[1] / "_build/html"
+from tests.pages import BUILT
+
 NOT_TESTED = "NOT TESTED in {}: apt install firefox-esr webkit2gtk-driver xvfb"
 NOWHERE = "127.0.0.1:9"  # the proxy through which they would reach a network
 # Async, as a script may wait; what it throws becomes an error here
 WAITING = """const done = arguments[arguments.length - 1];
-(async () => {%s})().then((value) => done({ value }),
-  (error) => done({ error: `${error}` }));"""
-
-
+(async () => {%s})().then((value) => done({ value }), (error) => done({ error: `${error}` }));"""
 # What fails from the page's first line on, kept where a script of the driver's can read it
 LISTEN = """<script>
 const vmcFailed = (what) => (document.documentElement.dataset.failed =
@@ -36,7 +33,7 @@ addEventListener("unhandledrejection", (event) => vmcFailed(event.reason));
 </script>"""
 
 
-class Fallen(Exception):
+class Crashed(Exception):
     """The process that shows pages has died; WebKit ends its driver's session with it."""
 
 
@@ -61,9 +58,9 @@ class Engine:
 
     def run(self, text):
         """What a script returns that may wait; AssertionError with what it throws."""
-        said = self._script(WAITING % text)
-        assert "error" not in said, said
-        return said.get("value")
+        answer = self._script(WAITING % text)
+        assert "error" not in answer, answer
+        return answer.get("value")
 
     def errors(self):
         return self.run("return document.documentElement.dataset.failed ?? '';")
@@ -87,10 +84,10 @@ class Firefox(Engine):
     def __init__(self, folder):
         self.folder = folder
         host, port = NOWHERE.split(":")
-        told = {"marionette.port": 0, "network.proxy.type": 1}
-        for kind in ("http", "ssl"):
-            told |= {f"network.proxy.{kind}": host, f"network.proxy.{kind}_port": int(port)}
-        lines = [f"user_pref({json.dumps(k)}, {json.dumps(v)});\n" for k, v in told.items()]
+        settings = {"marionette.port": 0, "network.proxy.type": 1}
+        for kind in ("network.proxy.http", "network.proxy.ssl"):
+            settings |= {kind: host, f"{kind}_port": int(port)}
+        lines = [f"user_pref({json.dumps(k)}, {json.dumps(v)});\n" for k, v in settings.items()]
         (folder / "user.js").write_text("".join(lines), encoding="utf-8")
         options = "--headless --no-remote --marionette --profile"
         self.process = start([self.program(), *options.split(), folder], folder / "log")
@@ -102,8 +99,8 @@ class Firefox(Engine):
         self._ask("WebDriver:NewSession")
         self._ask("WebDriver:SetTimeouts", script=600_000, pageLoad=600_000)
 
-    def _ask(self, name, **said):
-        message = json.dumps([0, 1, name, said]).encode()
+    def _ask(self, name, **parameters):
+        message = json.dumps([0, 1, name, parameters]).encode()
         self.line.sendall(b"%d:%s" % (len(message), message))
         _, _, error, answer = self._reply()
         assert not error, error
@@ -143,26 +140,26 @@ class WebKit(Engine):
         self.process = start(driver, folder / "log")
         wait(self._listens, self.process)
         options = ["--automation", f"--proxy=http://{NOWHERE}"]
-        told = {"webkitgtk:browserOptions": {"binary": self.program(), "args": options}}
+        wanted = {"webkitgtk:browserOptions": {"binary": self.program(), "args": options}}
         self.session = ""
-        self.session = "/" + self._ask("", capabilities={"alwaysMatch": told})["sessionId"]
+        self.session = "/" + self._ask("", capabilities={"alwaysMatch": wanted})["sessionId"]
         self._ask("/timeouts", script=600_000, pageLoad=600_000)
 
     def _listens(self):
         with socket.socket() as knock:
             return knock.connect_ex(("127.0.0.1", self.port)) == 0
 
-    def _ask(self, about, **said):
-        address = f"http://127.0.0.1:{self.port}/session{self.session}{about}"
-        told = {"Content-Type": "application/json"}
-        request = urllib.request.Request(address, json.dumps(said).encode(), told)
+    def _ask(self, command, **parameters):
+        address = f"http://127.0.0.1:{self.port}/session{self.session}{command}"
+        kind = {"Content-Type": "application/json"}
+        request = urllib.request.Request(address, json.dumps(parameters).encode(), kind)
         try:
             with urllib.request.urlopen(request) as reply:  # noqa: S310
                 return json.load(reply)["value"]
         except urllib.error.HTTPError as error:
             why = error.read().decode()
-            kind = Fallen if "invalid session id" in why else AssertionError
-            raise kind(f"{about}: {why}") from error
+            failure = Crashed if "invalid session id" in why else AssertionError
+            raise failure(f"{command}: {why}") from error
 
     def _navigate(self, url):
         self._ask("/url", url=url)
@@ -173,10 +170,8 @@ class WebKit(Engine):
 
 def start(command, log):
     """A process in a group of its own."""
-    with open(log, "w", encoding="utf-8") as said:
-        return subprocess.Popen(
-            command, stdout=said, stderr=said, start_new_session=True, env=os.environ
-        )
+    with open(log, "w", encoding="utf-8") as file:
+        return subprocess.Popen(command, stdout=file, stderr=file, start_new_session=True)
 
 
 def wait(ready, process):

@@ -141,3 +141,26 @@ async function missingPictures() {
   await Promise.all(all.map((picture) => picture.decode().catch(() => null)));
   return all.filter((picture) => !picture.complete || !picture.naturalWidth).map(({ src }) => src);
 }
+
+/* Demos whose first slider moves no picture, scenes aside; waits until every demo is ready. */
+async function idleSliders() {
+  await window.MathJax?.startup?.promise;
+  const all = [...document.querySelectorAll(".vmc-demo:has(> script)")];
+  while (all.some((demo) => !("ready" in demo.dataset))) await new Promise(requestAnimationFrame);
+  return all.filter((demo) => {
+    const slider = demo.querySelector("input[data-texts]");
+    if (!slider || demo.querySelector(".vmc-scene")) return false;
+    const pictures = demo.querySelector(".vmc-pictures"), before = pictures.innerHTML;
+    return ![...Array(+slider.max + 1).keys()].some((place) => {
+      slider.value = place;
+      fire(slider);
+      return pictures.innerHTML !== before;
+    });
+  }).map((demo) => demo.id);
+}
+
+/* Equations that were not typeset. */
+function unsetEquations() {
+  return [...document.querySelectorAll(".math")]
+    .filter((one) => !one.querySelector("mjx-container")).map((one) => one.textContent);
+}

@@ -7,31 +7,13 @@ from pathlib import Path
 
 import pytest
 
-from tests.engines import NOT_TESTED, Fallen, Firefox, WebKit
-from tests.pages import CHAPTERS
+from tests.engines import NOT_TESTED, Crashed, Firefox, WebKit
+from tests.pages import CHAPTERS, PROBES
 
 pytestmark = pytest.mark.browser
 DEMOS = [path for path in CHAPTERS if path.stem[0].isdigit()]
 
-# Moves the first control of every demo that it can move; returns those that showed nothing new.
-IDLE = """
-  await window.MathJax?.startup?.promise;
-  const demos = [...document.querySelectorAll(".vmc-demo:has(> script)")];
-  while (demos.some((demo) => !("ready" in demo.dataset))) await new Promise(requestAnimationFrame);
-  return demos.filter((demo) => {
-    const slider = demo.querySelector("input[data-texts]");
-    if (!slider || demo.querySelector(".vmc-scene")) return false;
-    const pictures = demo.querySelector(".vmc-pictures"), before = pictures.innerHTML;
-    const moved = [...Array(+slider.max + 1).keys()].some((place) => {
-      slider.value = place;
-      slider.dispatchEvent(new Event("input", { bubbles: true }));
-      return pictures.innerHTML !== before;
-    });
-    return !moved;
-  }).map((demo) => demo.id);"""
-UNSET = """
-  return [...document.querySelectorAll(".math")]
-    .filter((one) => !one.querySelector("mjx-container")).map((one) => one.textContent);"""
+IDLE, UNSET = (f"{PROBES}; return {name}();" for name in ("idleSliders", "unsetEquations"))
 
 
 @pytest.fixture(scope="module", params=[Firefox, WebKit], ids=["Firefox", "WebKit"])
@@ -46,42 +28,42 @@ def engine(request, tmp_path_factory):
 @pytest.mark.parametrize("path", DEMOS, ids=lambda path: path.stem)
 def test_a_chapter_opens_offline_and_its_demos_move(engine, path):
     try:
-        moves(engine, path)
-    except Fallen:  # seen once in many runs; a page that fells the engine does so twice
+        assert_moves(engine, path)
+    except Crashed:  # once in many runs; a page that crashes the engine does so twice
         engine.restart()
-        moves(engine, path)
+        assert_moves(engine, path)
 
 
-def moves(engine, path):
+def assert_moves(engine, path):
     engine.open(path)
     assert engine.run(IDLE) == []
     assert engine.run(UNSET) == []
     assert engine.errors() == ""
 
 
-def fell(engine):
+def has_crashed(engine):
     try:
         return engine.run("return false;")
-    except Fallen:
+    except Crashed:
         return True
     except AssertionError:  # its driver does not know yet why there is no answer
         return False
 
 
 @pytest.mark.parametrize("engine", [WebKit], ids=["WebKit"], indirect=True)
-def test_an_engine_that_fell_is_noticed_and_starts_anew(engine):
+def test_an_engine_that_crashed_is_noticed_and_restarts(engine):
     engine.open(DEMOS[0])
     for name in Path("/proc").glob("[0-9]*/comm"):
         with suppress(OSError):  # others come and go
             pid = int(name.parent.name)
             if os.getpgid(pid) == engine.process.pid and b"WebKitWebProces" in name.read_bytes():
                 os.kill(pid, 9)
-    assert any(fell(engine) for _ in range(100))
+    assert any(has_crashed(engine) for _ in range(100))
     engine.restart()
-    moves(engine, DEMOS[0])
+    assert_moves(engine, DEMOS[0])
 
 
-def test_what_fails_is_heard(engine, tmp_path):
+def test_errors_and_missing_files_are_reported(engine, tmp_path):
     page = tmp_path / "book/page.html"
     page.parent.mkdir()
     page.write_text(

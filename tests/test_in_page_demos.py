@@ -1,15 +1,12 @@
 """What the page works out for any position of the reader's hand is what Python works out."""
 
 import re
-import shutil
-from pathlib import Path
 
 import numpy as np
 import pytest
-import yaml
 
-from arm_in_page import live
 from book.figures import aiming, reaching, votes, where
+from tests.pages import book_html, drag, middle, open_html
 from vmc_lib import photos
 from vmc_lib.arm.kinematics import to_world
 from vmc_lib.arm.model import MUSCLES
@@ -21,11 +18,6 @@ from vmc_lib.show import Pad, Slider, Switch, demo, explore
 from vmc_lib.show.markup import data_uri
 
 pytestmark = pytest.mark.browser
-ROOT = Path(__file__).parents[1]
-CONFIG = yaml.safe_load((ROOT / "_config.yml").read_bytes())["sphinx"]["config"]
-HEAD = '<!doctype html><meta charset="utf-8"><link rel="stylesheet" href="demo.css">' + "".join(
-    f'<script defer src="{name}"></script>' for name, _ in CONFIG["html_js_files"]
-)
 CUP = np.array([120.0, 90.0, 200.0, 180.0])
 XS, YS = np.arange(80, 161, 4), np.arange(46, 135, 4)
 PAST, MUSCLE = templates.load(spacing=0.06), MUSCLES.index("BIClong")
@@ -37,55 +29,47 @@ ACROSS_SHOT, DOWN_SHOT = np.arange(0, 601, 10), np.arange(0, 401, 10)
 AROUND, NEURONS = np.linspace(-0.95, 0.95, 20), (4, 12, 60)
 
 
-@pytest.fixture(scope="module")
-def page(offline, tmp_path_factory):
-    """The demos of the book that the page works out, on a page with the book's scripts."""
-    folder, shown = tmp_path_factory.mktemp("drags"), []
-    for static in (live.SHOW, live.STATIC, ROOT / "book/_static"):
-        shutil.copytree(static, folder, dirs_exist_ok=True)
+def declare():
     image = photos.load("rig", "validation")[0].image
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("VMC_RENDER_MODE", "book")
-        patch.setattr(demo, "display", lambda *items: shown.extend(item.data for item in items))
-        explore(
-            lambda corner: where.overlap(image, CUP, np.array(corner)),
-            "c",
-            lambda corner: f"{corner}",
-            in_page=where.overlap_in_page(image, CUP),
-            corner=Pad(XS, YS, start=(120, 90)),
-        )
-        explore(
-            lambda place: reaching.planned(PAST, MUSCLE, place, ENDED[SPOTS.index(place)]),
-            "c",
-            lambda place: f"{place}",
-            in_page=reaching.planned_in_page(PAST, MUSCLE, ENDED),
-            place=Pad(ACROSS, UP),
-        )
-        explore(
-            votes.voted,
-            "c",
-            lambda target, neurons, evenly: f"{target}, {neurons}, {evenly}",
-            in_page=votes.voted_in_page(),
-            target=Pad(AROUND, AROUND),
-            neurons=Slider(NEURONS, "neurons"),
-            evenly=Switch((False, True), "evenly spread"),
-        )
-        explore(
-            lambda target: aiming.aim_view(SHOT, target),
-            "c",
-            lambda target: aiming.describe_aim(SHOT, target),
-            in_page=aiming.aim_in_page(SHOT),
-            target=Pad(ACROSS_SHOT, DOWN_SHOT, start=(300, 200)),
-        )
-    (folder / "page.html").write_text(HEAD + "\n".join(shown), encoding="utf-8")
-    page = offline.new_page()
-    errors = []
-    page.on("pageerror", lambda error: errors.append(str(error)))
-    page.goto((folder / "page.html").as_uri())
-    page.wait_for_function("() => document.querySelectorAll('[data-ready]').length === 4")
+    explore(
+        lambda corner: where.overlap(image, CUP, np.array(corner)),
+        "c",
+        lambda corner: f"{corner}",
+        in_page=where.overlap_in_page(image, CUP),
+        corner=Pad(XS, YS, start=(120, 90)),
+    )
+    explore(
+        lambda place: reaching.planned(PAST, MUSCLE, place, ENDED[SPOTS.index(place)]),
+        "c",
+        lambda place: f"{place}",
+        in_page=reaching.planned_in_page(PAST, MUSCLE, ENDED),
+        place=Pad(ACROSS, UP),
+    )
+    explore(
+        votes.voted,
+        "c",
+        lambda target, neurons, evenly: f"{target}, {neurons}, {evenly}",
+        in_page=votes.voted_in_page(),
+        target=Pad(AROUND, AROUND),
+        neurons=Slider(NEURONS, "neurons"),
+        evenly=Switch((False, True), "evenly spread"),
+    )
+    explore(
+        lambda target: aiming.aim_view(SHOT, target),
+        "c",
+        lambda target: aiming.describe_aim(SHOT, target),
+        in_page=aiming.aim_in_page(SHOT),
+        target=Pad(ACROSS_SHOT, DOWN_SHOT, start=(300, 200)),
+    )
+
+
+@pytest.fixture(scope="module")
+def page(offline, site):
+    """The demos of the book that the page works out, on a page with the book's scripts."""
+    page = open_html(offline, site, book_html(demo, declare))
     yield page
     page.close()
-    assert errors == []
+    assert page.errors == page.failed == []
 
 
 def move(page, number, *places):
@@ -124,7 +108,7 @@ def words(markup):
 
 
 @pytest.mark.parametrize("place", [(10, 11), (0, 0), (20, 22), (12, 11), (9, 14), (3, 20)])
-def test_two_boxes_share_what_python_says(page, place):
+def test_the_overlap_of_two_boxes_is_drawn_as_in_python(page, place):
     corner = np.array([XS[place[0]], YS[place[1]]])
     [seen], said = move(page, 0, *place)
     drawn = where.overlap(photos.load("rig", "validation")[0].image, CUP, corner)
@@ -205,19 +189,15 @@ def test_a_place_is_dragged_in_either_picture(page):
     twins = box.locator("input").all()
     for handle, way in ((0, (40, -20)), (1, (-15, 25))):
         before = [int(twin.input_value()) for twin in twins]
-        grip = box.locator(".vmc-handle").nth(handle).bounding_box()
-        x, y = grip["x"] + grip["width"] / 2, grip["y"] + grip["height"] / 2
-        page.mouse.move(x, y)
-        page.mouse.down()
-        page.mouse.move(x + way[0], y + way[1], steps=3)
-        page.mouse.up()
+        grip = box.locator(".vmc-handle").nth(handle)
+        place = middle(grip)
+        drag(page, place, *way)
         assert [int(twin.input_value()) for twin in twins] != before
-        grip = box.locator(".vmc-handle").nth(handle).bounding_box()
-        now = np.array([grip["x"] + grip["width"] / 2, grip["y"] + grip["height"] / 2])
-        assert np.abs(now - [x + way[0], y + way[1]]).max() < 8  # to the nearest place of the grid
+        off = np.subtract(middle(grip), place) - way
+        assert np.abs(off).max() < 8  # to the nearest place of the grid
 
 
-def test_the_camera_is_python_s(page):
+def test_the_camera_is_that_of_python(page):
     rng = np.random.default_rng(2)
     pixels = rng.uniform([0, 0], [600, 400], (20, 2))
     points = SHOT.camera.back_project(pixels, -0.4)
