@@ -31,60 +31,41 @@ def past():
 
 
 @pytest.fixture(scope="session")
-def planar_html():
+def arms_html(past):
     def declare():
         live_arm("bench", "Move it.", "An arm of two joints and six muscles.")
         live_arm("reach", "Let it reach.", "An arm before a plane of templates.")
-
-    return pages.book_html(live, declare)
-
-
-@pytest.fixture(scope="session")
-def whole_html(past):
-    return pages.book_html(
-        live,
-        lambda: live_whole_arm(
+        live_whole_arm(
             whole_arm_live.arm(past, habits.muscle_synergies().rest),
             lambda: whole_arm_live.pictures(past, WHOLE_ARM_TARGET),
             experiment.INSIDE,
             WHOLE_ARM_TARGET,
             "Set a target.",
             "A whole arm before two views of it.",
-        ),
-    )
+        )
+
+    return pages.book_html(live, declare)
 
 
 @pytest.fixture(scope="module")
-def ask(offline, site, planar_html, whole_html):
+def ask(offline, site, arms_html):
     """A function that runs a script beside a loaded arm and returns its answer."""
-    page = pages.open_html(offline, site, planar_html + whole_html)
+    page = pages.open_html(offline, site, arms_html)
     yield lambda script, asked=(), arm=0: page.evaluate(ASK % script, [arm, asked])
     page.close()
     assert page.errors == []
 
 
 @pytest.fixture
-def open_planar(open_page, planar_html):
-    """A function that opens both planar arms in a window, with `bench` and `reach`."""
+def open_arms(open_page, arms_html):
+    """A function that opens a page with the arms `bench`, `reach` and `whole`."""
 
-    def open_planar(*window):
-        page = open_page(planar_html, *window)
-        page.bench, page.reach = page.locator(".vmc-live").all()
+    def open_arms(*window):
+        page = open_page(arms_html, *window)
+        page.bench, page.reach, page.whole = page.locator(".vmc-live").all()
         return page
 
-    return open_planar
-
-
-@pytest.fixture
-def open_whole(open_page, whole_html):
-    """A function that opens the whole arm, `arm`, in a window."""
-
-    def open_whole(*window):
-        page = open_page(whole_html, *window)
-        page.arm = page.locator(".vmc-live")
-        return page
-
-    return open_whole
+    return open_arms
 
 
 def start(arm):

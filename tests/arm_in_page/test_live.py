@@ -56,22 +56,14 @@ def live_page(offline, monkeypatch):
 
 
 @pytest.mark.browser
-def test_a_live_kernels_widget_moves(live_page):
-    page, show = live_page
-    arm = show()
-    start(arm)
-    status(arm, "The arm is running")
-    page.wait_for_selector(".vmc-scene canvas")
-
-
-@pytest.mark.browser
-def test_no_kernel_that_has_gone_is_asked_for_the_physics(live_page):
+def test_a_live_arm_moves_and_asks_no_kernel_that_has_gone(live_page):
     page, show = live_page
     mine = show("mine")
     show("other")  # of a chapter that was run later
     page.evaluate("() => { otherModel.closed = true }")
     start(mine)
     status(mine, "The arm is running")
+    page.wait_for_selector(".vmc-scene canvas")
 
 
 @pytest.mark.browser

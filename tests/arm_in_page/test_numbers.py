@@ -171,32 +171,33 @@ CALIBRATE = """const plan = vmcPlanning.plan(asked, templateSet);
   return [...vmcCalibration.%s(plan, reach(plan), given.calibration)];"""
 
 
-@pytest.mark.browser
-@pytest.mark.parametrize("name", ["algorithm1", "broydenCalibration"])
-def test_calibration(ask, name):
-    planned = plan(TARGETS, templates.load())
-    rules = {"algorithm1": algorithm_1, "broydenCalibration": broyden}
-    expected = rules[name](planned)
-    for k, target in enumerate(TARGETS):
-        trials = ask(CALIBRATE % name, target.tolist())
-        for key, array in (
-            ("weights", expected.weights), ("reached", expected.endpoint), ("error", expected.error)
-        ):  # fmt: skip
-            answer = np.array([trial[key] for trial in trials])
-            assert np.abs(answer - array[:, k]).max() < 1e-6, key
-
-
 def broyden(planned):
     return broyden_calibration(planned, live.TRIALS)
 
 
 @pytest.mark.browser
-def test_calibration_of_the_whole_arm(ask, past):
-    expected = broyden(experiment.plan_reaches(TARGETS_3D, past))
-    for k, target in enumerate(TARGETS_3D):
-        trials = ask(CALIBRATE % "broydenCalibration", target.tolist(), WHOLE)
-        reached = np.array([trial["reached"] for trial in trials])
-        assert np.abs(reached - expected.endpoint[:, k]).max() < CLOSE
+@pytest.mark.parametrize(
+    ("name", "rule", "arm"),
+    [
+        ("algorithm1", algorithm_1, 0),
+        ("broydenCalibration", broyden, 0),
+        ("broydenCalibration", broyden, WHOLE),
+    ],
+)
+def test_calibration(ask, past, name, rule, arm):
+    script = f"""const plan = vmcPlanning.plan(asked, templateSet);
+      return [...vmcCalibration.{name}(plan, reach(plan), given.calibration)];"""
+    planar = plan(TARGETS, templates.load())
+    planned = experiment.plan_reaches(TARGETS_3D, past) if arm == WHOLE else planar
+    expected = rule(planned)
+    arrays = {"reached": expected.endpoint}
+    if arm != WHOLE:
+        arrays |= {"weights": expected.weights, "error": expected.error}
+    for k, target in enumerate(planned.target):
+        trials = ask(script, target.tolist(), arm)
+        for key, array in arrays.items():
+            answer = np.array([trial[key] for trial in trials])
+            assert np.abs(answer - array[:, k]).max() < (CLOSE if arm == WHOLE else 1e-6), key
 
 
 @pytest.mark.browser

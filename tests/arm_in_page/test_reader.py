@@ -14,11 +14,10 @@ from vmc_lib.motor import templates
 from vmc_lib.motor.planning import plan
 
 pytestmark = pytest.mark.browser
-PHONE = {"viewport": {"width": 360, "height": 700}}
 
 
-def test_mujoco_is_loaded_by_the_start_and_from_the_books_own_files(open_planar, site, ask):
-    page = open_planar()
+def test_mujoco_is_loaded_by_the_start_and_from_the_books_own_files(open_arms, site, ask):
+    page = open_arms()
     page.wait_for_function("() => window.MeshCat")
     assert not any("mujoco" in url for url in page.asked)
     said = page.bench.locator("[role=status]").inner_text()
@@ -30,8 +29,8 @@ def test_mujoco_is_loaded_by_the_start_and_from_the_books_own_files(open_planar,
     assert ask("return arm.mujoco.mj_versionString();") == live.VERSIONS["page"]
 
 
-def test_an_arm_with_another_law_than_pythons_says_so(open_planar, window):
-    page = open_planar(
+def test_an_arm_with_another_law_than_pythons_says_so(open_arms, window):
+    page = open_arms(
         window(
             """const parse = JSON.parse;
             JSON.parse = (text) => {
@@ -44,8 +43,8 @@ def test_an_arm_with_another_law_than_pythons_says_so(open_planar, window):
     assert "keeps the book's" in status(page.bench, "The arm is running")
 
 
-def test_the_bench_answers_the_keyboard(open_planar):
-    page = open_planar()
+def test_the_bench_answers_the_keyboard(open_arms):
+    page = open_arms()
     bench, keys = page.bench, page.keyboard
     bench.locator("[name=main]").focus()
     keys.press("Enter")
@@ -75,8 +74,8 @@ def test_the_bench_answers_the_keyboard(open_planar):
         assert number(readout(bench, name)) == pytest.approx(value, abs=0.51)
 
 
-def test_the_arm_reaches_misses_and_calibrates(open_planar):
-    reach, target = open_planar().reach, np.array([0.045, -0.35])
+def test_the_arm_reaches_misses_and_calibrates(open_arms):
+    reach, target = open_arms().reach, np.array([0.045, -0.35])
     start(reach)
     set_target(reach, target)
     trials = algorithm_1(plan(target, templates.load()))
@@ -97,8 +96,8 @@ def test_the_arm_reaches_misses_and_calibrates(open_planar):
     assert readout(reach, "calibrated") == f"{1000 * ours.error.min():.1f} mm"
 
 
-def test_the_whole_arm_reaches_and_calibrates(open_whole, window, past):
-    arm, target = open_whole(window(reduced_motion="reduce")).arm, np.array([0.52, 0.07, -0.065])
+def test_the_whole_arm_reaches_and_calibrates(open_arms, window, past):
+    arm, target = open_arms(window(reduced_motion="reduce")).whole, np.array([0.52, 0.07, -0.065])
     start(arm)
     set_target(arm, target)
     arm.locator("[name=main]").click()
@@ -114,8 +113,8 @@ def test_the_whole_arm_reaches_and_calibrates(open_whole, window, past):
     assert number(readout(arm, "calibrated")) == pytest.approx(1000 * trials.error.min(), abs=0.3)
 
 
-def test_a_target_is_dragged(open_planar):
-    page = open_planar()
+def test_a_target_is_dragged(open_arms):
+    page = open_arms()
     start(page.reach)
     ring = page.reach.locator("svg circle[stroke='var(--vmc-green)']")
     x, y = middle(ring)
@@ -127,10 +126,10 @@ def test_a_target_is_dragged(open_planar):
     assert "not surrounded" in status(page.reach, "Nothing planned")
 
 
-def test_a_target_in_space_is_dragged_in_either_view(open_whole):
-    page = open_whole()
-    start(page.arm)
-    handles, values = page.arm.locator(".vmc-handle"), page.arm.locator("fieldset output")
+def test_a_target_in_space_is_dragged_in_either_view(open_arms):
+    page = open_arms()
+    start(page.whole)
+    handles, values = page.whole.locator(".vmc-handle"), page.whole.locator("fieldset output")
     for view, axis in ((0, 1), (1, 2)):  # the one shows up, the other right
         before = values.all_inner_texts()
         handles.nth(view).scroll_into_view_if_needed()
@@ -139,8 +138,8 @@ def test_a_target_in_space_is_dragged_in_either_view(open_whole):
         assert moved == [place in (0, axis) for place in range(3)]
 
 
-def test_with_reduced_motion_only_the_end_is_shown(open_planar, window):
-    page = open_planar(window(reduced_motion="reduce"))
+def test_with_reduced_motion_only_the_end_is_shown(open_arms, window):
+    page = open_arms(window(reduced_motion="reduce"))
     start(page.reach)
     frames = """() => vmcScene(document.querySelectorAll(".vmc-scene")[1])
       .viewer.renderer.info.render.frame"""
@@ -150,34 +149,32 @@ def test_with_reduced_motion_only_the_end_is_shown(open_planar, window):
     assert page.evaluate(frames) - before < 5
 
 
-def test_without_webgl_the_arm_moves_in_the_side_view(open_planar, window):
-    bench = open_planar(window(NO_WEBGL)).bench
-    start(bench)
-    assert "no 3-D picture" in status(bench, "The arm is running")
-    assert bench.locator(".vmc-scene").inner_text().startswith("An arm of two joints")
-    assert bench.locator("svg[data-axes] polyline").count() == 2
+def test_without_webgl_arms_move_in_plots(open_arms, window):
+    page = open_arms(window(NO_WEBGL, reduced_motion="reduce"))
+    for arm, words, said in (
+        (page.bench, "An arm of two joints", "The arm is running"),
+        (page.whole, "A whole arm", "The planned reach"),
+    ):
+        start(arm)
+        if arm is page.whole:
+            arm.locator("[name=main]").click()
+        assert "no 3-D picture" in status(arm, said)
+        assert arm.locator(".vmc-scene").inner_text().startswith(words)
+    assert page.bench.locator("svg[data-axes] polyline").count() == 2
 
 
-def test_without_webgl_the_whole_arm_moves_in_its_views(open_whole, window):
-    arm = open_whole(window(NO_WEBGL, reduced_motion="reduce")).arm
-    start(arm)
-    arm.locator("[name=main]").click()
-    assert "no 3-D picture" in status(arm, "The planned reach")
-    assert arm.locator(".vmc-scene").inner_text().startswith("A whole arm")
-
-
-def test_without_webassembly_it_says_so(open_planar, window):
-    page = open_planar(window("delete self.WebAssembly"))
+def test_without_webassembly_it_says_so(open_arms, window):
+    page = open_arms(window("delete self.WebAssembly"))
     page.bench.locator("[name=main]").click()
     status(page.bench, "This browser cannot run the arm")
     assert page.bench.get_by_role("slider", name="BRA").is_disabled()
     page.errors[:] = [error for error in page.errors if "mujoco.js" not in error]  # MuJoCo's
 
 
-def test_arms_are_accessible_and_fit_a_phone(open_page, planar_html, whole_html, window, serious):
-    page = open_page(planar_html + whole_html, window(**PHONE))
+def test_arms_are_accessible_and_fit_a_phone(open_arms, window, serious):
+    page = open_arms(window(viewport={"width": 360, "height": 700}))
     assert serious(page, "main") == []
-    for arm in page.locator(".vmc-live").all():
+    for arm in (page.bench, page.reach, page.whole):
         start(arm)
     assert serious(page, "main") == []
     assert probe(page, "tooWide", "main") == []

@@ -209,5 +209,7 @@ def test_a_muscle_is_named_under_the_pointer_and_chosen_by_its_name(moving):
 def test_without_webgl_words_stand_for_the_scene_and_the_numbers_follow(open_demo, window):
     page = open_demo(movement, window(NO_WEBGL), **MOVEMENT)
     assert page.inner_text(".vmc-scene") == "to 1.2"
+    after = "(demo) => getComputedStyle(demo, '::after').content"
+    assert "newer browser" not in page.eval_on_selector(".vmc-demo", after)
     page.fill(".vmc-clock input", "0")
     assert numbers(page)["elbow"] == "57.3°"
