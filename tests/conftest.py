@@ -34,13 +34,12 @@ class ChapterClient(NotebookClient):
 
 nbmake.nb_run.NotebookClient = ChapterClient
 
-AXE = Path(__file__).parent / "vendor/axe.js"
 # What passed is long: it stays in the page
 AXE_RUN = """async ([within, theme, options]) => {
   document.documentElement.dataset.theme = theme;
-  const given = { preload: false, resultTypes: ["violations"], ...options };
-  return (await axe.run(within, given)).violations; }"""
-ASKED = {  # from one theme to the other only colours change
+  const settings = { preload: false, resultTypes: ["violations"], ...options };
+  return (await axe.run(within, settings)).violations; }"""
+RULES = {  # from one theme to the other only colours change
     "light": {"rules": {"target-size": {"enabled": True}}},  # of WCAG 2.2
     "dark": {"runOnly": ["color-contrast", "link-in-text-block"]},
 }
@@ -164,10 +163,10 @@ def serious():
         page.add_style_tag(content="* { transition: none !important }")
         page.evaluate("() => scrollTo(0, 0)")  # lest the sticky header covers a target
         if not page.evaluate("() => 'axe' in window"):
-            page.evaluate(AXE.read_text(encoding="utf-8"))
+            page.evaluate(pages.AXE)
         return [
             (theme, violation["id"], node["html"][:200])
-            for theme, options in ASKED.items()
+            for theme, options in RULES.items()
             for violation in page.evaluate(AXE_RUN, [within, theme, options])
             if all_of_it or violation["impact"] in ("serious", "critical")
             for node in violation["nodes"]

@@ -11,8 +11,7 @@ from contextlib import contextmanager, suppress
 import nbformat
 import numpy as np
 
-from tests.conftest import AXE
-from tests.pages import ROOT
+from tests.pages import AXE, ROOT
 
 LONG_CHAPTER = [  # a demo, and a cell that runs until the reader says so
     """import time
@@ -159,7 +158,7 @@ def move(page, control):
 def assert_readable(page):
     """Every text of ours has a contrast of at least 4.5, in the light theme and in the dark."""
     if not page.evaluate("() => 'axe' in window"):
-        page.evaluate(AXE.read_text(encoding="utf-8"))
+        page.evaluate(AXE)
     for theme in ("Light", "Dark"):
         command(page, "apputils:change-theme", theme=f"JupyterLab {theme}")
         page.wait_for_function(

@@ -13,6 +13,7 @@ ROOT = Path(__file__).parents[1]
 BUILT = ROOT / "_build/html"
 CHAPTERS = sorted((BUILT / "book").glob("*.html"))
 INSIDE = (f"{BUILT.as_uri()}/", "data:", "blob:")
+AXE = (ROOT / "tests/vendor/axe.js").read_text(encoding="utf-8")
 PROBES = (ROOT / "tests/probes.js").read_text(encoding="utf-8")
 CONFIG = yaml.safe_load((ROOT / "_config.yml").read_bytes())["sphinx"]["config"]
 STYLES = CONFIG["html_css_files"]

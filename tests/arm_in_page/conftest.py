@@ -1,14 +1,12 @@
-"""The arms in the page, as the book shows them, and what a reader does with them."""
+"""The arms in the page, as the book shows them."""
 
-import re
-
-import numpy as np
 import pytest
 
 from arm_in_page import live, live_arm, live_whole_arm
 from book.figures import whole_arm_live
 from reproduce.whole_arm import experiment, habits
 from tests import pages
+from tests.arm_in_page.controls import WHOLE_ARM_TARGET
 
 # `arm` and `templateSet` for a script that asks them something, made once a page and arm
 ASK = """async ([which, asked]) => {
@@ -21,7 +19,6 @@ ASK = """async ([which, asked]) => {
   };
   %s
 }"""
-WHOLE_ARM_TARGET = np.array([0.475, 0.105, -0.09])
 
 
 @pytest.fixture(scope="session")
@@ -66,27 +63,3 @@ def open_arms(open_page, arms_html):
         return page
 
     return open_arms
-
-
-def start(arm):
-    arm.locator("[name=main]").click()
-    arm.locator("form > fieldset:not([disabled])").wait_for()
-
-
-def readout(arm, name):
-    return arm.locator(f"[data-tell={name}]").inner_text()
-
-
-def number(text):
-    return float(re.match(r"−?[\d.]+", text)[0].replace("−", "-"))
-
-
-def status(arm, beginning):
-    """What the arm's status says once it begins like that."""
-    arm.locator("[role=status]", has_text=re.compile(f"^{beginning}")).wait_for(timeout=90_000)
-    return arm.locator("[role=status]").inner_text()
-
-
-def set_target(arm, target):
-    for name, place in zip(("forward", "up", "right"), target, strict=False):
-        arm.get_by_label(f"target, {name}").fill(str(place))

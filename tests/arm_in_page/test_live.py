@@ -6,7 +6,7 @@ import mujoco
 import pytest
 
 from arm_in_page import live, live_arm
-from tests.arm_in_page.conftest import start, status
+from tests.arm_in_page.controls import start, status
 from tests.pages import ROOT, SCRIPTS, STYLES, displayed
 from tests.show.kernel import render
 

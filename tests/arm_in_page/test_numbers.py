@@ -11,7 +11,7 @@ from arm_in_page import live
 from book.figures import whole_arm_live
 from book.figures.whole_arm import lines, placed
 from reproduce.whole_arm import experiment
-from tests.arm_in_page.conftest import WHOLE_ARM_TARGET
+from tests.arm_in_page.controls import WHOLE_ARM_TARGET
 from vmc_lib.arm import muscle
 from vmc_lib.arm.dynamics import paths
 from vmc_lib.arm.kinematics import inverse_kinematics, to_world

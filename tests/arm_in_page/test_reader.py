@@ -5,7 +5,7 @@ import pytest
 
 from arm_in_page import live
 from reproduce.whole_arm import experiment
-from tests.arm_in_page.conftest import number, readout, set_target, start, status
+from tests.arm_in_page.controls import number, readout, set_target, start, status
 from tests.pages import NO_WEBGL, drag, middle, probe
 from vmc_lib.arm.model import MUSCLES
 from vmc_lib.arm.simulate import simulate
