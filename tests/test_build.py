@@ -25,7 +25,8 @@ def book(tmp_path):
         shutil.copytree(
             ROOT / folder, tmp_path / folder, dirs_exist_ok=True, ignore=lambda *_: ["vendor"]
         )
-    (tmp_path / "book/references.bib").touch()
+    for file in ("references.bib", "glossary.md"):
+        (tmp_path / "book" / file).touch()
     (tmp_path / "vmc_lib/one.py").write_text("line = 1\n", encoding="utf-8")
     write(tmp_path, CODE)
     return tmp_path
