@@ -7,6 +7,7 @@ from collections import Counter
 
 import nbformat
 
+OF_PAGES = ("tests/test_pages.py", "tests/test_site.py")
 PYTEST = [sys.executable, *"-m pytest -q --collect-only -p no:cacheprovider".split()]
 
 
@@ -16,7 +17,7 @@ def cases_by_folder(root):
     Those that open built pages are left out: there may be none yet.
     """
     collected = subprocess.run(  # noqa: S603 - our own tests
-        [*PYTEST, "tests", "--ignore=tests/test_pages.py"],
+        [*PYTEST, "tests", *(f"--ignore={file}" for file in OF_PAGES)],
         cwd=root,
         capture_output=True,
         encoding="utf-8",
@@ -25,9 +26,9 @@ def cases_by_folder(root):
     return Counter(re.findall(r"^tests/(?:(\w+)/.*)?test_\w+\.py::", collected, flags=re.M))
 
 
-def names_of_tests(file):
-    """The names of a file's tests, as words."""
-    source = file.read_text(encoding="utf-8")
+def names_of_page_tests(root):
+    """The names of the tests that open built pages, as words."""
+    source = "".join((root / file).read_text(encoding="utf-8") for file in OF_PAGES)
     return [name.replace("_", " ") for name in re.findall(r"^def test_(\w+)\(", source, flags=re.M)]
 
 
