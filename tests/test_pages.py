@@ -95,6 +95,11 @@ def test_a_chapter_begins_with_a_demo(page):
 
 RUNS = ".tag_hide-input:not(.tag_hide-input + .tag_hide-input)"  # their first cells
 MARK = "details.hide > summary"
+RUN_LENGTH = """(cell) => {
+  let length = 0;
+  for (; cell?.matches(".tag_hide-input"); cell = cell.nextElementSibling) length++;
+  return length;
+}"""
 
 
 def test_a_run_of_folded_cells_has_one_mark(page):
@@ -108,10 +113,10 @@ def test_a_run_of_folded_cells_has_one_mark(page):
     run = page.locator(f"{RUNS}:has(+ .tag_hide-input)")
     first = (run if run.count() else runs).first
     cells = [first, *first.locator("xpath=following-sibling::div").all()]
-    folded = [cell.locator("> details.hide").count() > 0 for cell in cells]
+    length = first.evaluate(RUN_LENGTH)
     for state in ("visible", "hidden"):
         first.locator(f"> {MARK}").press("Enter")
-        for cell in cells[: (*folded, False).index(False)]:
+        for cell in cells[:length]:
             cell.locator("> details > .cell_input").wait_for(state=state)
 
 
