@@ -45,6 +45,8 @@ def iou(a, b):
     -------
     (n, m) array in 0..1; 0 for two boxes without area, even when they coincide
 
+    Examples
+    --------
     >>> iou([0, 0, 2, 2], [[0, 0, 2, 2], [0, 0, 2, 1]]).tolist()
     [[1.0, 0.5]]
     """
@@ -81,6 +83,8 @@ def nms(boxes, scores, overlap=0.3):
     ----------
     Neubeck & Van Gool (2006), Efficient non-maximum suppression (greedy form).
 
+    Examples
+    --------
     >>> nms([[0, 0, 9, 9], [0, 0, 9, 8], [20, 0, 29, 9]], [0.6, 0.9, 0.8]).tolist()
     [1, 2]
     """

@@ -127,6 +127,8 @@ def see(model, image, camera=None):
     -------
     Sight
 
+    Examples
+    --------
     >>> photo = photos.load("rig", "validation")[3]
     >>> see(VisuomotorModel.load("rig"), photo.image, photo.camera).summary
     '1 shuttlecock (100% sure)'
@@ -154,7 +156,7 @@ def locate(model, image, box, camera):
 
     Raises
     ------
-    NoReach
+    vmc_lib.NoReach
         Without a box or a camera, or if the line of sight does not meet the table.
     """
     if box is None:
@@ -179,9 +181,11 @@ def reach(model, target, calibration=algorithm_1):
 
     Raises
     ------
-    NoReach
+    vmc_lib.NoReach
         If the target is out of reach or outside what past experience covers.
 
+    Examples
+    --------
     >>> photo = photos.load("rig", "validation")[0]
     >>> found = reach(VisuomotorModel.load("rig"), photo.target)
     >>> bool(np.linalg.norm(found.hand(found.calibrated)[-1] - photo.target) < 0.05)

@@ -84,6 +84,8 @@ def load(level, split, folder=FOLDER):
     ValueError
         For an unknown level or split, and for a photo that is missing or damaged.
 
+    Examples
+    --------
     >>> load("rig", "train")[0].image.shape
     (400, 600, 3)
     """
@@ -146,6 +148,8 @@ def read_image(source):
     ValueError
         For a file that is missing, truncated or no image, and for other arrays.
 
+    Examples
+    --------
     >>> read_image(np.zeros((800, 800))).shape
     (400, 600, 3)
     """

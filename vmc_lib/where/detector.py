@@ -104,6 +104,8 @@ class ObjectDetector:
         ValueError
             As `propose` and `as_boxes` do.
 
+        Examples
+        --------
         >>> blank = np.zeros((400, 600, 3), np.uint8)
         >>> ObjectDetector.load("rig").detect(blank).counts
         {'candidates': 1, 'passed': 0, 'kept': 0}

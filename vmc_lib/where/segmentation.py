@@ -33,6 +33,8 @@ def segment(channels, k=100, sigma=0.8):
     ----------
     Felzenszwalb & Huttenlocher (2004), Efficient graph-based image segmentation.
 
+    Examples
+    --------
     >>> black_and_white = np.repeat(np.float32([[[0], [1]]]), 20, axis=1).repeat(40, axis=0)
     >>> np.unique(segment(black_and_white)).tolist()
     [0, 1]

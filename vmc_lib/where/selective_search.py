@@ -192,6 +192,8 @@ def propose(image, strategy="single", rng=None, smallest=20):
     ----------
     Uijlings et al. (2013), Selective search for object recognition.
 
+    Examples
+    --------
     >>> propose(np.zeros((40, 60, 3))).tolist()
     [[0.0, 0.0, 60.0, 40.0]]
     """
