@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tests.project import ROOT, python
-from vmc_lib.compiled import compiled
+from vmc_lib.compiled import _content, compiled
 
 SOURCE = "def total(values):\n    s = 0.0\n    for v in values:\n        s += v\n    return s\n"
 
@@ -24,6 +24,20 @@ def test_functions_without_a_file_are_compiled_without_a_cache():
     assert total((1.0, 2.5)) == total.__wrapped__((1.0, 2.5)) == 3.5
 
 
+@pytest.mark.parametrize(
+    ("one", "other"),
+    [
+        (np.float32(1), np.float32(2)),
+        (frozenset({1, 2}), frozenset({1, 3})),
+        ((np.array([1.0]),), (np.array([1.0 + 1e-12]),)),
+        (lambda x, *, by=1: x, lambda x, *, by=2: x),
+    ],
+)
+def test_values_that_differ_have_different_contents(one, other):
+    """Or the machine code of the one would be taken for the other's."""
+    assert repr(_content(one)) != repr(_content(other))
+
+
 def test_numba_is_imported_at_the_first_call():
     code = "import sys, vmc_lib.loop; assert 'numba' not in sys.modules"
     python("-c", code)
@@ -35,6 +49,7 @@ def test_numba_is_imported_at_the_first_call():
         ("x * c", 2.0, 3.0),
         ("x * c[1]", np.array([1.0, 2.0]), np.array([1.0, 3.0])),
         ("x * c[0][1]", ((1, 2.0),), ((1, 3.0),)),
+        ("x * c", np.float32(2), np.float32(3)),
         ("c(x)", lambda x: 2 * x, lambda x: 3 * x),
         ("x * c(x)", lambda x, by=2.0: by, lambda x, by=3.0: by),
     ],

@@ -27,6 +27,7 @@ def test_every_photo_agrees_with_its_sidecar(level, split):
         assert shot.image.shape == (HEIGHT, WIDTH, 3)
         assert shot.image.std() > 10
         assert not shot.image.flags.writeable
+        assert not any(box.flags.writeable for box in shot.boxes.values())
         assert set(shot.boxes) == set(photos.CLASSES)
         for x0, y0, x1, y1 in shot.boxes.values():
             assert 0 < x0 < x0 + 15 < x1 < min(WIDTH, x0 + 250)

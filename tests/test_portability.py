@@ -73,7 +73,13 @@ def test_make_prints_the_address_of_the_book(tmp_path):
     (home / ".venv/bin/python").symlink_to(sys.executable)
     shutil.copy(ROOT / "Makefile", home)
     built = run(
-        "make", "--old-file=_build/.built", "book", cwd=home, DISPLAY="", WAYLAND_DISPLAY=""
+        "make",
+        "--no-print-directory",
+        "--old-file=_build/.built",
+        "book",
+        cwd=home,
+        DISPLAY="",
+        WAYLAND_DISPLAY="",
     )
     address = urlsplit(built.split()[-1])
     assert Path(url2pathname(address.path)) == home / "_build/html/index.html"

@@ -16,7 +16,7 @@ from vmc_lib.what.stream import FLIPS, VentralStream
 N_FIRST_PASS = 48  # boxes, those of the best scores, that the stream looks at
 N_SECOND_PASS = 8  # of them, those that it looks at again, refined
 MIN_PROBABILITY = 0.4  # of being a shuttlecock's, above which a box is chosen
-SIZES = (0.05, 0.092)  # m: the smallest and the largest of a shuttlecock in its box
+SIZES = (0.05, 0.092)  # m: smallest and largest physical size of a shuttlecock in its box
 SIZE_LIKELIHOOD_RATIO = 5  # how much more often a shuttlecock's box is of these sizes than another
 
 
@@ -41,7 +41,7 @@ class BoxSelector:
         return self.stream.box_probability(image, boxes)
 
     def select(self, image, detections):
-        """`Detections` to choose from, the most probable first, and their probabilities (n,)."""
+        """The refined `Detections`, the most probable first, and their probabilities (n,)."""
         boxes, evidence = rescore_boxes(detections, self.stream, image)
         probability = self.classifier.probability(evidence)
         order = np.argsort(-probability, kind="stable")

@@ -12,21 +12,24 @@ import numpy as np
 def compiled(loop):
     """`numba.njit` of a function and of the plain functions that it calls.
 
-    Numba freezes the constants and functions that they find in their modules. Whoever sets one
-    anew, as chapters invite readers to, has the loop compiled again at its next call. The machine
-    code is kept for the next process, where its folder can be written. Without numba, or with what
-    numba cannot compile, a call runs as plain Python, slowly, with a warning. `__wrapped__` is that
-    plain Python.
+    Numba freezes the module-level constants and functions that a function reads. If one is rebound,
+    as chapters invite readers to (not: changed in place), it is compiled again at its next call.
+    The machine code is kept for the next process, where its folder can be written. Without numba,
+    or with what numba cannot compile, a call runs as plain Python, slowly, with a warning.
+    `__wrapped__` is that plain Python. Arguments are positional; functions that call each other in
+    a circle cannot be compiled.
     """
     machine, frozen = None, []
 
     @wraps(loop)
     def call(*values):
         nonlocal machine, frozen
-        if machine is None or any(space.get(name) is not x for space, name, x in frozen):
-            frozen = list(_reads(loop))
-            machine = _machine(loop, frozen)
-        return machine(*values)
+        run = machine
+        if run is None or any(space.get(name) is not x for space, name, x in frozen):
+            reads = list(_reads(loop))
+            machine = run = _machine(loop, reads)  # before `frozen`: another thread may call
+            frozen = reads
+        return run(*values)
 
     return call
 
@@ -81,9 +84,14 @@ def _content(value):
     if isinstance(value, FunctionType):
         function = unwrap(value)
         cells = [cell.cell_contents for cell in function.__closure__ or ()]
-        return _content(function.__code__), function.__defaults__, [*map(_content, cells)]
+        defaults = function.__defaults__, tuple((function.__kwdefaults__ or {}).items())
+        return [_content(x) for x in (function.__code__, *defaults, *cells)]
     if isinstance(value, CodeType):
         return value.co_code, value.co_names, [*map(_content, value.co_consts)]
-    if isinstance(value, np.ndarray):
+    if isinstance(value, np.ndarray | np.generic):
         return value.shape, value.dtype.str, value.tobytes()
-    return value if isinstance(value, int | float | str | tuple) else type(value).__name__
+    if isinstance(value, tuple):
+        return [*map(_content, value)]
+    if isinstance(value, frozenset):
+        return sorted(map(repr, value))
+    return value if isinstance(value, int | float | str | bytes) else type(value).__name__

@@ -82,7 +82,9 @@ def load(level, split, folder=FOLDER):
     Raises
     ------
     ValueError
-        For an unknown level or split, and for a photo that is missing or damaged.
+        For an unknown level or split, an empty folder, and a damaged photo.
+    FileNotFoundError
+        Where a sidecar has no image.
 
     Examples
     --------
@@ -112,17 +114,17 @@ def _read_sidecar(sidecar):
     """The `Photo` that a sidecar describes; everyday things stand in no level."""
     truth, file = json.loads(data.read(sidecar)), sidecar.with_suffix(".jpg")
     data.read(file)  # raises if the image is not the one that ships
-    more, unclear = (as_boxes(truth.get(key, [])) for key in ("also", "ignore"))
+    more, unclear = (data.read_only(as_boxes(truth.get(key, []))) for key in ("also", "ignore"))
     place = () if sidecar.parent == EVERYDAY else sidecar.parent.parts[-2:]
     rendered = {}
     if "camera" in truth:
         camera = {key: np.array(value)[()] for key, value in truth["camera"].items()}
-        rendered = {"camera": Camera(**camera), "target": np.array(truth["target"])}
+        rendered = {"camera": Camera(**camera), "target": data.read_only(np.array(truth["target"]))}
         rendered |= {"turn": truth["turn"], "pose": truth["pose"], "seed": tuple(truth["seed"])}
     return Photo(
         "/".join((*place, sidecar.stem)),
         file,
-        {name: np.array(box, float) for name, box in truth["boxes"].items()},
+        {name: data.read_only(np.array(box, float)) for name, box in truth["boxes"].items()},
         more,
         unclear,
         "; ".join(truth[key] for key in ("credit", "licence") if key in truth),

@@ -174,8 +174,11 @@ def adaptation(templates, adaptations, block, change, cure):
     reaches(left, templates, curve.target[block], curve.endpoint[block])
     first, last = BLOCKS[0] - 0.5, sum(BLOCKS[:2]) - 0.5
     right.axvspan(first, last, color=COLOURS["grey"], alpha=0.15, lw=0)
-    right.plot(1000 * baseline.error, ":", color=COLOURS["grey"], gid=CURES[-1])
-    curves(right, range(len(errors)), {f"correct the {cure}": errors}, now=(block, errors[block]))
+    name = cure
+    if cure != CURES[-1]:
+        name = f"correct the {cure}"
+        right.plot(1000 * baseline.error, ":", color=COLOURS["grey"], gid=CURES[-1])
+    curves(right, range(len(errors)), {name: errors}, now=(block, errors[block]))
     right.set(xlabel="block of 8 movements", ylabel="mean error (mm)")
     right.set(xticks=range(0, 16, 5), ylim=(0, 110))
     right.set_title(f"block {block}: mean error {errors[block]:.0f} mm")

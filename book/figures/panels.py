@@ -37,10 +37,10 @@ def muscle_lines(ax, x, values):
         ax.plot(x, line, style, color=COLOURS[colour], label=name)
 
 
-def curves(ax, x, lines, now=None, **style):
+def curves(ax, x, lines, now=None):
     """Curves, name -> (n,) over x (n,), with their points; a red dot where the reader is `now`."""
     for name, y in lines.items():
-        ax.plot(x[: len(y)], y, ".-", label=name, **style)
+        ax.plot(x[: len(y)], y, ".-", label=name)
     if now:
         ax.plot(*now, "o", ms=9, color=COLOURS["red"], clip_on=False, gid="now")
     if len(lines) > 1:

@@ -31,7 +31,7 @@ STEPS, BATCH, RATE = (9000, 4500), 64, (0.003, 0.0015)  # before and after minin
 HARD = 24  # windows of a photo that teach after mining: those most like a shuttlecock
 LAID = 200  # validation photographs on which a shuttlecock is laid
 NEAR, YES, NO = 0.3, 0.55, 0.4  # IoU from which edges are taught; of boxes called one, and not
-DROPPED = 0.3  # share of the last maps that the read-out does not see, while it learns
+DROPPED = 0.3  # share of the last stage's activations hidden from the read-out while it learns
 SCALE, EDGES = 0.2, 2  # of the corrections that are read out; how much they count
 
 

@@ -108,6 +108,15 @@ def test_long_line_is_sampled_evenly_on_a_log_axis():
     assert keys == ["1", "2", "4", "8", "16", "32", "64", "128", "256"]
 
 
+def test_what_an_axis_cannot_show_is_left_out():
+    fig, (left, right) = plt.subplots(1, 2)
+    left.semilogx(np.arange(257), np.arange(257))
+    right.errorbar([0, 1, 2], [1, np.nan, 3], yerr=0.5, xerr=0.1)
+    first, second = tables(fig)[1]
+    assert first[1][0] == "1"
+    assert [row[1] for row in second[1:]] == ["1.0 (0.5 to 1.5)", "3.0 (2.5 to 3.5)"]
+
+
 def test_guide_lines_are_left_out_and_gids_name_series():
     fig, ax = plt.subplots()
     ax.plot([0, 1], [1e-17, 1], gid="targets")

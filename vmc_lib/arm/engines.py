@@ -54,7 +54,7 @@ def stop_torque(q, velocity, limits=LIMITS.T):
 def acceleration(q, velocity, activation, strength=1.0):
     """Eq. 10–12: the accelerations (…, 2) of arms at q (…, 2), by muscles and stops.
 
-    The muscles are `strength` times as strong as they are.
+    Every muscle's torque is multiplied by `strength`.
     """
     torque = strength * muscle_torque(activation, *dynamics.paths(q), velocity)
     return dynamics.acceleration_from(q, velocity, torque + stop_torque(q, velocity))

@@ -22,9 +22,11 @@ def dot_plot(series, measure, published=None, xlim=None):
 
     `series` maps a label to its rows, and a row's name to draws (n,), to (value, low, high) or to a
     number (see `estimate`); `measure` names what is measured. `published` maps rows to what the
-    paper printed, shown as ticks. Levels or measures are small multiples: a tuple of such figures.
+    paper printed, shown as ticks. For several levels or measures, call it for each and show the
+    tuple of figures.
     """
-    names = list(dict.fromkeys(name for rows in series.values() for name in rows))
+    every = *series.values(), published or {}
+    names = list(dict.fromkeys(name for rows in every for name in rows))
     room = 0.15 + max(map(text_width, names))  # for the longest name
     size = max(4.2, room + 2.4), 0.95 + len(names) * (0.16 + 0.14 * len(series))
     fig, ax = plt.subplots(figsize=size, layout="none")

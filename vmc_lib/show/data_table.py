@@ -102,13 +102,14 @@ def _series(ax, turned):
     for line in ax.lines:
         points = np.broadcast_arrays(*(np.ravel(v) for v in line.get_data(orig=False)))
         keys, values = (_rounded(points[i], (ax.xaxis, ax.yaxis)[i]) for i in (turned, 1 - turned))
-        known = np.isfinite(keys) & np.isfinite(values)
+        known = np.isfinite(keys) & np.isfinite(values) & ((keys > 0) | (not logarithmic))
         guide = line.get_transform() != ax.transData or line.get_gid() == "guide"
         if guide or not line.get_visible() or not known.any():
             continue
         ends, owner = np.stack([values, values], axis=1), owners.get(line, line)
         if owner is not line and (owner.has_xerr if turned else owner.has_yerr):
-            ends = np.array(owner.lines[2][0].get_segments())[..., 1 - turned]
+            bars = owner.lines[2][0 if turned else -1]  # x before y, where there are both
+            ends = np.array([path.vertices for path in bars.get_paths()])[..., 1 - turned]
         kind, most = ("dots", DOTS) if line.get_linestyle() == "None" else ("line", POINTS)
         kind = f"{_COLOUR_NAMES.get(line.get_color(), '')} {kind}".strip()
         some = _spread(keys[known], most, logarithmic)

@@ -12,7 +12,7 @@ from threading import RLock
 
 import anywidget
 import matplotlib.pyplot as plt
-import matplotlib_inline.backend_inline  # here: within `rc_context` what it switches on would end  # noqa: F401
+import matplotlib_inline.backend_inline  # noqa: F401  (in `rc_context` its settings would end)
 import meshcat
 import traitlets
 from IPython import get_ipython
@@ -30,7 +30,7 @@ class Live(anywidget.AnyWidget):
 
     `scripts` are the paths of the JavaScript that `start` needs; they travel with the widget, and
     run once in a window. `vendored` are the paths, by name, of what a script asks for only when it
-    needs it. `answers` maps a question to the function that answers it, of what JSON takes; what
+    needs it. `answers` maps a question to the function that answers it, JSON in, JSON out; what
     that raises is shown where the picture would be. `first` is the first answer to "state": lines
     of text for every part of the page, or None for a part that stands there already.
     """
@@ -75,7 +75,7 @@ def drawing():
         before = set(plt.get_fignums())
         try:
             yield
-        except Exception:
+        except BaseException:
             for number in set(plt.get_fignums()) - before:
                 plt.close(number)
             raise

@@ -23,11 +23,11 @@ def segment(channels, k=100, sigma=0.8):
     ----------
     channels : (height, width, c) float32 array in 0..1
     k : scale; a larger one gives larger segments, and none is smaller than k pixels
-    sigma : standard deviation of the Gaussian blur that comes first, pixels
+    sigma : standard deviation of the Gaussian blur that comes first, in pixels, above 0
 
     Returns
     -------
-    (height, width) int array: labels, counted from the top left
+    (height, width) int array: labels 0, 1, …, in the order of each segment's first pixel
 
     References
     ----------
@@ -47,7 +47,7 @@ def segmentations(channels, scales, sigma=0.8):
     smooth = cv2.GaussianBlur(channels, (0, 0), sigma).reshape(channels.shape)
     height, width = smooth.shape[:2]
     edges, offsets = sort_by_weight(pixel_edges(smooth)), pixel_offsets(width)
-    for k in scales:
+    for k in scales:  # the published k is for grey values in 0..255
         labels = merge_segments(edges, offsets, height * width, k / 255, k)
         yield labels.reshape(height, width)
 

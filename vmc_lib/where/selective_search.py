@@ -67,7 +67,7 @@ def _merge_all(regions, pairs, measures):
     """Which two regions each step merges, (n - 1, 2); fills the empty rows of an Appearance."""
     total = len(regions.size)
     parent, last_seen = np.arange(total), np.zeros(total, np.int64)
-    neighbours = [[i for i in range(0)] for _ in range(total)]  # empty lists of integers
+    neighbours = [[i for i in range(0)] for _ in range(total)]  # so that numba knows their type
     for i, j in pairs:
         neighbours[i].append(j)
         neighbours[j].append(i)

@@ -51,7 +51,7 @@ def labels_are_permuted(patch):
 def pixels_are_shuffled(patch):
     W = cdbn.CDBN.load().first.W
     mixed = np.random.default_rng(1).permuted(W.reshape(10, -1), axis=1).reshape(W.shape)
-    network = SimpleNamespace(first=SimpleNamespace(W=mixed), projected=lambda: mixed[:, 0])
+    network = SimpleNamespace(first=SimpleNamespace(W=mixed), projected_filters=lambda: mixed[:, 0])
     patch.setattr(naming.cdbn.CDBN, "load", lambda: network)
 
 
