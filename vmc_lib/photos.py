@@ -21,8 +21,7 @@ from vmc_lib.compiled import compiled
 
 LEVELS = ("rig", "free", "varied")  # rendered, so that cameras and places are known
 REAL_LEVEL = "real"  # photographs
-# Rendered too, with the printed sheet of `vmc_lib.marker_sheet`: for tests, not for training
-SHEET_LEVEL = "sheet"
+SHEET_LEVEL = "sheet"  # rendered, with the printed sheet of `marker_sheet`: for tests alone
 EVERY_LEVEL = (*LEVELS, REAL_LEVEL)
 SPLITS = ("train", "validation", "test")
 CLASSES = ("shuttlecock", "cup")
@@ -81,10 +80,8 @@ def load(level, split, folder=FOLDER):
 
     Raises
     ------
-    ValueError
-        For an unknown level or split, an empty folder, and a damaged photo.
-    FileNotFoundError
-        Where a sidecar has no image.
+    ValueError, FileNotFoundError
+        For an unknown level or split, an empty folder, and a damaged or a missing photo.
 
     Examples
     --------
@@ -187,9 +184,7 @@ def as_rgb(array):
 
 def as_float(image):
     """Convert an image, as `as_rgb` takes it, to float32 RGB (h, w, 3) in 0..1."""
-    rgb = as_rgb(image).astype(np.float32)
-    rgb /= 255
-    return rgb
+    return as_rgb(image).astype(np.float32) / 255
 
 
 def crops(image, boxes, size):
