@@ -14,8 +14,13 @@ from bench.selective_search import DRAWS, SMALLEST, opencv, outdoors, renders
 from vmc_lib import photos
 from vmc_lib.boxes import iou
 from vmc_lib.where.appearance import COLOUR_SPACES, colour_codes, describe, texture_codes
-from vmc_lib.where.segmentation import cut_along, edges_of, single_pixels, to_neighbours
-from vmc_lib.where.selective_search import ALL, grow, ranked
+from vmc_lib.where.segmentation import (
+    merge_segments,
+    pixel_edges,
+    pixel_offsets,
+    sort_by_weight,
+)
+from vmc_lib.where.selective_search import ALL, grow, rank_boxes
 
 PATCH = 100  # pixels: the smallest, of ours and of OpenCV's
 SCALE, FOUR, HUE = {"k": 200}, {"neighbours": 4}, {"narrow_hue": True}
@@ -36,10 +41,9 @@ def cut(image, k=100, neighbours=8, narrow_hue=False):
         channels[..., 0] *= 180 / 255
     smooth = cv2.GaussianBlur(channels, (0, 0), 0.8)
     height, width = image.shape[:2]
-    edges = edges_of(smooth, 0, height)
-    edges = edges[edges % 4 < neighbours // 2]
-    patches = single_pixels(height * width, k / 255)
-    labels = cut_along(edges, to_neighbours(width), k / 255, PATCH, patches)
+    edges = pixel_edges(smooth)
+    edges = sort_by_weight(edges[edges % 4 < neighbours // 2])
+    labels = merge_segments(edges, pixel_offsets(width), height * width, k / 255, PATCH)
     labels = labels.reshape(height, width)
     codes = colour_codes(channels), texture_codes(channels)
     return grow(labels, describe(labels, *codes), ALL)
@@ -48,7 +52,7 @@ def cut(image, k=100, neighbours=8, narrow_hue=False):
 def recall_difference(image, truth, opencv_boxes, **settings):
     """How many boxes there are, and for each object our recall at IoU 0.8 less OpenCV's, (n,)."""
     tree = cut(image, **settings)
-    orders = [ranked([tree], np.random.default_rng(draw), SMALLEST) for draw in range(DRAWS)]
+    orders = [rank_boxes([tree], np.random.default_rng(draw), SMALLEST) for draw in range(DRAWS)]
     equal = min(len(orders[0]), len(opencv_boxes))
     ours, peers = (
         [iou(truth, order[:equal]).max(1, initial=0) >= 0.8 for order in lists]

@@ -82,7 +82,7 @@ def sort_by_weight(edges):
     """Edges (m,) sorted by weight, equal ones in the order given; overwrites its input.
 
     A radix sort: the bits of non-negative floats sort like the floats, eleven of them at a time.
-    Without NumPy's AVX-512 code, `np.sort` takes three times as long.
+    Where we measured, `np.sort` took three times as long.
     """
     buffer, digits = np.empty_like(edges), np.uint64(2047)
     for shift in (np.uint64(32), np.uint64(43), np.uint64(54)):
