@@ -12,6 +12,8 @@ from vmc_lib.motor.planning import plan
 from vmc_lib.show.arm_plane import plane
 from vmc_lib.show.palette import COLOURS
 
+RING = {"mfc": "none", "mew": 1.8, "color": COLOURS["green"]}  # a target's mark
+
 
 def shares(ax, target, points, weights):
     """Threads from the target (2,) to the templates used (N, 2), as thick as their weights (N,)."""
@@ -26,8 +28,7 @@ def ends(ax, targets, reached):
     """Targets (…, 2) as green rings; where the hand ended (…, 2) as red dots, each on a line."""
     targets, reached = np.reshape(targets, (-1, 2)), np.reshape(reached, (-1, 2))
     threads(ax, targets, reached, color=COLOURS["red"], lw=1)
-    ring = dict(ms=8, mfc="none", mew=1.8, color=COLOURS["green"])
-    ax.plot(*targets.T, "o", **ring, gid="targets")
+    ax.plot(*targets.T, "o", ms=8, **RING, gid="targets")
     ax.plot(*reached.T, "o", ms=4, color=COLOURS["red"], gid="the hand")
 
 

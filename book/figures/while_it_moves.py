@@ -6,7 +6,7 @@ Hands move in the plane, in metres, with a sample every millisecond.
 import numpy as np
 
 from book.figures.panels import curves, panels
-from book.figures.reaching import norm_mm
+from book.figures.reaching import RING, norm_mm
 from reproduce.experiments import feedback_control as measure
 from vmc_lib.motor.feedback import SIGHT
 from vmc_lib.show import dot_plot
@@ -14,7 +14,6 @@ from vmc_lib.show.arm_plane import plane
 from vmc_lib.show.palette import COLOURS
 
 SIZE, WITHIN = (8.2, 3.4), ((-0.08, 0.3), (-0.53, -0.2))  # inches; m
-RING = {"ms": 9, "mfc": "none", "mew": 1.8, "color": COLOURS["green"]}
 EVERY = 10  # ms
 GUIDE = {"color": COLOURS["grey"], "gid": "guide"}
 SHADE = {"color": COLOURS["grey"], "alpha": 0.15, "lw": 0}
@@ -31,7 +30,7 @@ def path_and_distance(templates, path, goal, titles=("", ""), reference=None, to
     plane(left, templates, WITHIN)
     left.plot(*path[::EVERY].T, color=COLOURS["blue"], gid="path")
     left.plot(*path[::EVERY][-1], "o", ms=5, color=COLOURS["red"], gid="hand")
-    left.plot(*goal, "o", **RING, gid="target")
+    left.plot(*goal, "o", ms=9, **RING, gid="target")
     distance = norm_mm(path - (goal if reference is None else reference))[::EVERY]
     right.plot(EVERY / 1000 * np.arange(len(distance)), distance, color=COLOURS["blue"])
     label = "to the target (mm)" if reference is None else "off its way (mm)"
@@ -45,7 +44,7 @@ def target_jump(templates, motion, first, second, k, time):
     """The k-th of n reaches until a `time` in s; their targets jump from first (2,) to (n, 2)."""
     paths = motion.hand[..., :2]
     fig, left, right = path_and_distance(templates, paths[k, : round(1000 * time) + 1], second[k])
-    left.plot(*first, "o", **RING, alpha=0.35, gid="target before")
+    left.plot(*first, "o", ms=9, **RING, alpha=0.35, gid="target before")
     right.axvspan(measure.JUMPS_AT, measure.JUMPS_AT + SIGHT.delay, **SHADE)
     distances = norm_mm(paths[:, ::EVERY] - second[:, None])
     seconds = EVERY / 1000 * np.arange(distances.shape[1])

@@ -10,6 +10,7 @@ from matplotlib.patches import Rectangle
 from matplotlib.transforms import Affine2D
 
 from book.figures.panels import panels
+from book.figures.reaching import RING
 from reproduce.whole_arm import plant
 from vmc_lib.show import COLOURS
 
@@ -18,7 +19,6 @@ VIEWS = {"from the side": (0, 1, "up (m)"), "from above": (0, 2, "to the right (
 CORNER = np.array([0.02, 0.02]), np.array([0.3, 0.352])  # of a plot: a square, its place and size
 NEAR = 0.05  # m: how far around the target one sees in the corner
 BONE = {"color": COLOURS["grey"], "alpha": 0.4, "lw": 7, "solid_capstyle": "round"}
-RING = {"ms": 9, "mfc": "none", "mew": 1.8, "color": COLOURS["green"]}
 
 
 def lines(joints):
@@ -74,7 +74,7 @@ def views(motion, moment, target):
             blue = {"color": COLOURS["blue"], **near}
             ax.plot(tips[:, x], tips[:, y], lw=1.4, gid="the finger's way", **blue)
             ax.plot(tips[-1, x], tips[-1, y], "o", ms=4, gid="the finger", **blue)
-            ax.plot(target[x], target[y], "o", **RING, gid="target", **near)
+            ax.plot(target[x], target[y], "o", ms=9, **RING, gid="target", **near)
         view_from(ax, y, label, f"{title}: {away:.0f} mm away")
     return fig
 

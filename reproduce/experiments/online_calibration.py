@@ -108,15 +108,16 @@ def adapt_to_worlds(trained, template_set, worlds, seeds=(3, 4)):
     """
     learners, curves = {}, {}
     before, during, after = BLOCKS
-    for (world, change), cure in product(worlds.items(), CORRECTIONS):
-        learner = Adaptation(trained, template_set, cure)
-        first, second = map(np.random.default_rng, seeds)
-        learning = adapt(learner, template_set, first, change, (before, during, 0))
-        learners[world, cure] = copy(learner)  # before it fades
-        fading = adapt(learner, template_set, second, change, (after, 0, 0))
-        curve = Curve(*map(np.concatenate, zip(learning, fading, strict=True)))
-        curves[world, cure] = curve
-        curves[world, CURES[-1]] = _without_learning(trained, template_set, change, curve.target)
+    for world, change in worlds.items():
+        for cure in CORRECTIONS:
+            learner = Adaptation(trained, template_set, cure)
+            first, second = map(np.random.default_rng, seeds)
+            learning = adapt(learner, template_set, first, change, (before, during, 0))
+            learners[world, cure] = copy(learner)  # before it fades
+            fading = adapt(learner, template_set, second, change, (after, 0, 0))
+            curves[world, cure] = Curve(*map(np.concatenate, zip(learning, fading, strict=True)))
+        target = curves[world, cure].target  # of the same seeds, the same for every correction
+        curves[world, CURES[-1]] = _without_learning(trained, template_set, change, target)
     return learners, curves
 
 
