@@ -25,6 +25,7 @@ CORNER = np.array([0.24, -0.37])  # every grid is laid out from this point
 ZONE = np.array([[-0.01, -0.50], [0.25, -0.28]])  # lowest and highest (x, y): in front, table high
 
 
+PINNED = slice(0, 2), slice(-5, None)  # knots: a reach begins and ends with what holds the posture
 EFFORT, ROUGHNESS = 0.02, 0.5  # what activation, and its bending, cost beside a missed N m
 
 
@@ -39,7 +40,8 @@ def excitation_knots(path):
     activation = spline() @ bounded_least_squares(matrix, wanted).reshape(KNOTS, 6)
     excitation = excitation_for(activation, np.gradient(activation, STEP, axis=0))
     knots = np.stack([bounded_least_squares(spline(), muscle) for muscle in excitation.T], axis=-1)
-    knots[:2] = static_activation(path[0])
+    for pinned, posture in zip(PINNED, path[[0, -1]], strict=True):
+        knots[pinned] = static_activation(posture)
     return knots
 
 
@@ -52,9 +54,9 @@ def reachable_grid(spacing):
 
 
 def find_reach(goal):
-    """Spline knots (KNOTS, 6) of a reach that comes to rest at the plane position `goal` (2,)."""
+    """Spline knots (KNOTS, 6) of a reach that comes to rest at a place (2,), and is held there."""
     knots = excitation_knots(minimum_jerk(START, inverse_kinematics(goal)))
-    for _ in range(3):
+    for _ in range(4):
         knots = _gauss_newton_step(knots, goal)
     return knots
 
@@ -64,10 +66,11 @@ def _gauss_newton_step(knots, goal):
     nudge = 1e-4
     nudged = knots + nudge * np.eye(knots.size).reshape(-1, *knots.shape)
     motion = reach(np.clip(spline() @ np.concatenate([knots[None], nudged]), 0, 1))
-    ends = np.concatenate([motion.q[:, -1], 0.05 * motion.velocity[:, -1]], axis=-1)
+    ends = np.concatenate([x[:, SAMPLES] for x in (motion.q, 0.05 * motion.velocity)], axis=-1)
     slope = (ends[1:] - ends[0]).T / nudge
     room = knots * (1 - knots)  # knots at 0 or 1 stay there …
-    room[:2] = 0  # … and so does the resting start
+    for pinned in PINNED:
+        room[pinned] = 0  # … and so do those that hold a posture
     correction = np.linalg.pinv(slope * room.ravel()) @ (
         np.append(inverse_kinematics(goal), [0, 0]) - ends[0]
     )

@@ -5,7 +5,7 @@
 paper's. Both have the same muscles, the same joint stops and the same semi-implicit Euler steps.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -37,7 +37,8 @@ class Motion:
     def __iter__(self):
         """Every movement of a batch, or the one there is, as a `Motion` of its own."""
         parts = (x.reshape(-1, *x.shape[-2:]) for x in (self.q, self.velocity, self.activation))
-        return (Motion(*one) for one in zip(*parts, strict=True))
+        for q, velocity, activation in zip(*parts, strict=True):
+            yield replace(self, q=q, velocity=velocity, activation=activation)
 
     @property
     def hand(self):

@@ -7,13 +7,14 @@ import numpy as np
 
 from vmc_lib.arm.simulate import UNPERTURBED, Perturbation
 from vmc_lib.motor.planning import Plan
+from vmc_lib.motor.templates import HOLD
 
 BATCH = 512  # movements simulated at once
 EYE = np.array([0.10, 0.25])  # above and a little in front of the shoulder
 
 
 def execute(plan, perturbation=UNPERTURBED, prism=0.0):
-    """Let the arm move as planned.
+    """Let the arm move as planned, and hold.
 
     Parameters
     ----------
@@ -27,7 +28,7 @@ def execute(plan, perturbation=UNPERTURBED, prism=0.0):
     Returns
     -------
     Movement
-        With `.motion`, `.endpoint` and `.error`, each simulated when it is first read.
+        With `.motion`, `.endpoint`, `.error`, `.speed` and `.stray`, simulated when first read.
 
     Examples
     --------
@@ -50,14 +51,18 @@ class Movement:
 
     @cached_property
     def motion(self):
-        """The trajectories, a `Motion`."""
+        """The trajectories, a `Motion` with its `hold`."""
         return self.plan.template_set.reach(self.plan.excitations, self.perturbation)
 
     @cached_property
+    def hold(self):
+        """The hand's path over the hold as it is seen, (…, n, 2), m; in space (…, n, 3)."""
+        return rotate_about_eye(self._hold, self.prism) if self.prism else self._hold
+
+    @property
     def endpoint(self):
-        """Where the hand is seen to end, (…, 2), m; in space (…, 3), where there is no prism."""
-        end = self._endpoint
-        return rotate_about_eye(end, self.prism) if self.prism else end
+        """Where the hand is seen on average over the hold, (…, 2), m; in space (…, 3)."""
+        return self.hold.mean(axis=-2)
 
     @property
     def error(self):
@@ -65,17 +70,27 @@ class Movement:
         return np.linalg.norm(self.endpoint - self.plan.target, axis=-1)
 
     @property
-    def _endpoint(self):
+    def speed(self):
+        """How fast the hand still moves over the hold, on average, (…), m/s."""
+        return np.linalg.norm(np.diff(self.hold, axis=-2), axis=-1).sum(axis=-1) / HOLD
+
+    @property
+    def stray(self):
+        """How far the hand strays from its mean place over the hold, at most, (…), m."""
+        away = self.hold - self.hold.mean(axis=-2, keepdims=True)
+        return np.linalg.norm(away, axis=-1).max(axis=-1)
+
+    @property
+    def _hold(self):
         weights, rows = (x.reshape(-1, x.shape[-1]) for x in (self.plan.weights, self.plan.rows))
         if len(weights) <= BATCH:
-            return self.motion.endpoint
+            return self.motion.hold
         parts = [  # of a larger batch the trajectories are not kept, to spare memory
             replace(self, plan=replace(self.plan, rows=rows[part], weights=weights[part])).motion
             for part in (slice(i, i + BATCH) for i in range(0, len(weights), BATCH))
         ]
-        return np.concatenate([part.endpoint for part in parts]).reshape(
-            *self.plan.weights.shape[:-1], -1
-        )
+        hold = np.concatenate([part.hold for part in parts])
+        return hold.reshape(*self.plan.weights.shape[:-1], *hold.shape[1:])
 
 
 def rotate_about_eye(points, angle):

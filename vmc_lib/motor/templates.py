@@ -1,16 +1,18 @@
 """Past experience: reaches that ended where they should, remembered as muscle excitations u_i(t).
 
-Every reach starts at rest in the same posture and lasts a second. What ships is the spline knots
-of the excitations.
+Every reach starts at rest in the same posture. Its command lasts a second; then comes the hold, for
+which the last command is kept on. What ships is the spline knots of the excitations.
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 
-from vmc_lib.arm.simulate import UNPERTURBED, simulate
+from vmc_lib.arm.dynamics import hand
+from vmc_lib.arm.model import STEP
+from vmc_lib.arm.simulate import UNPERTURBED, Motion, simulate
 from vmc_lib.data import arrays, read_only
 from vmc_lib.motor.inverse_dynamics import spline, static_activation
 
@@ -18,11 +20,39 @@ START = np.radians([-20.0, 95.0])  # every reach begins here: elbow bent, the ha
 SPACINGS = (0.04, 0.06, 0.08)  # m: how densely past experience covers the plane …
 SPACING = 0.06  # … unless another is asked for
 REACH = 0.525  # m from the shoulder: a nearly straight arm
+HOLD = 0.5  # s: how long the last command is kept on, by every arm …
+EVERY = 10  # ms: … and how often the hand is looked at meanwhile
 
 
-def reach(excitations, perturbation=UNPERTURBED):
-    """The `Motion` that excitations (…, T, 6) give the arm from rest in `START`."""
-    return simulate(excitations, START, _rest(), perturbation=perturbation)
+@dataclass(frozen=True, eq=False)
+class HeldMotion(Motion):
+    """A reach, and the hold after it."""
+
+    held: int  # steps
+
+    @property
+    def wrist(self):
+        """The wrist's path from the command's end on, (…, n, 3) in the shoulder frame, m."""
+        return hand(self.q[..., -1 - self.held :: EVERY, :])
+
+    @property
+    def hold(self):
+        """The same in the arm's plane, (…, n, 2), m."""
+        return self.wrist[..., :2]
+
+    @property
+    def endpoint(self):
+        """Where the wrist is on average over the hold, (…, 2), m."""
+        return self.hold.mean(axis=-2)
+
+
+def reach(excitations, perturbation=UNPERTURBED, hold=HOLD):
+    """The `HeldMotion` from rest in `START`: excitations (…, T, 6), then `hold` s of the last."""
+    held = round(hold / STEP)
+    last = np.repeat(excitations[..., -1:, :], held, axis=-2)
+    commands = np.concatenate([excitations, last], axis=-2)
+    motion = simulate(commands, START, _rest(), perturbation=perturbation)
+    return HeldMotion(**vars(motion), held=held)
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,16 +65,21 @@ class TemplateSet:
     points: np.ndarray  # (N, 2): where in the arm's plane each reach ended, m
     excitations: np.ndarray  # (N, T, 6), in [0, 1], 1 kHz
     limits: tuple = (0.0, 1.0)  # of a command: no nerve can do otherwise
-    reach: Callable = reach  # commands (…, T, m), perturbation -> a motion with `endpoint` (…, 2)
+    reach: Callable = reach  # commands (…, T, m), perturbation -> a motion with `hold` (…, n, 2)
 
 
 @cache
-def load(spacing=SPACING):
-    """The shipped `TemplateSet` whose reached points lie `spacing` metres apart."""
+def load(spacing=SPACING, hold=HOLD):
+    """The shipped `TemplateSet` whose reached points lie `spacing` metres apart.
+
+    A movement ends with a `hold` of so many seconds, over which its end point is the mean. With 0
+    it ends with the command, as we read the paper.
+    """
     if spacing not in SPACINGS:
         raise ValueError(f"no templates lie {spacing} m apart; choose one of {SPACINGS}")
     excitations = spline() @ arrays("templates")[key(spacing)].astype(float)
-    return TemplateSet(read_only(reach(excitations).endpoint), read_only(excitations))
+    move = partial(reach, hold=hold)
+    return TemplateSet(read_only(move(excitations).endpoint), read_only(excitations), reach=move)
 
 
 @cache
