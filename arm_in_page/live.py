@@ -115,6 +115,8 @@ def given():
         "slack": SLACK.tolist(),
         "limits": LIMITS.tolist(),
         "step": STEP,
+        "held": round(templates.HOLD / STEP),
+        "every": templates.EVERY,
         "stop": {"stiffness": STOP_STIFFNESS, "damping": STOP_DAMPING},
         "muscle": {
             "tauActivation": muscle.TAU_ACTIVATION,
@@ -184,7 +186,7 @@ def _reach(name, target):
     controls = target_sliders(name, zone, target) + plans()
     controls += radios("rule", "calibration", rules, "algorithm1", {})
     tells = {"planned": "planned miss", "tries": "tries", "calibrated": "calibrated miss"}
-    tells |= {"weights": "weights"} | _POSE
+    tells |= {"speed": "speed in the hold", "weights": "weights"} | _POSE
     return form("Target and rules", {"calibrate": "Calibrate"}, controls, tells)
 
 

@@ -56,6 +56,17 @@ const vmcArm = (() => {
       return motion;
     }
 
+    /* A reach, and the hold after it: the last command is kept on (vmc_lib/motor/templates.py). */
+    reach(excitations) {
+      return this.move([...excitations, ...Array(this.given.held).fill(excitations.at(-1))]);
+    }
+
+    /* Where the hand is during the hold of a reach; its mean is the end point. */
+    hold(reach) {
+      const moments = reach.slice(-1 - this.given.held).filter((_, t) => t % this.given.every === 0);
+      return moments.map(({ q }) => this.hand(q));
+    }
+
     /* From the shoulder to the hand: where the joints are in posture q, and what reaches. */
     joints(q) {
       const { model, seen } = this;

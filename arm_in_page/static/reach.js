@@ -3,6 +3,7 @@ const vmcReach = (() => {
   "use strict";
 
   const { Live, OFTEN, frame, millimetres, signed } = vmcLive;
+  const { mean, minus, sum } = vmcVectors;
 
   class Reach extends Live {
     async ready() {
@@ -30,7 +31,7 @@ const vmcReach = (() => {
       const target = this.sliders.map((slider) => +slider.value);
       Object.assign(this, { target, rule: rule.value, plan: null });
       Object.assign(this, { goal: null, planned: null, calibrated: null });
-      this.tell({ planned: "–", calibrated: "–", weights: "–", tries: "–" });
+      this.tell({ planned: "–", calibrated: "–", weights: "–", tries: "–", speed: "–" });
       try {
         this.plan = vmcPlanning.plan(this.target, this.templateSet, vmcPlanning[weights.value]);
         this.goal = this.arm.place(this.target);
@@ -61,11 +62,11 @@ const vmcReach = (() => {
     }
 
     motion(weights) {
-      return this.arm.move(this.templateSet.excitations({ ...this.plan, weights }));
+      return this.arm.reach(this.templateSet.excitations({ ...this.plan, weights }));
     }
 
-    ended(weights) {
-      return this.arm.hand(this.motion(weights).at(-1).q).slice(0, this.target.length);
+    endPoint(weights) {
+      return mean(this.arm.hold(this.motion(weights))).slice(0, this.target.length);
     }
 
     /* Play a movement in its own time; `trial` is then known as `name`. */
@@ -81,11 +82,15 @@ const vmcReach = (() => {
         t = Math.max(0, Math.round(((await frame()) - start) / step));
         if (turn !== this.turn) return false;
       }
-      this[name] = { ...trial, hand: path.at(-1) };
+      const hold = this.arm.hold(motion);
+      const way = sum(hold.slice(1).map((place, t) => Math.hypot(...minus(place, hold[t]))));
+      const speed = `${millimetres(way / (this.given.held * this.given.step))}/s`;
+      this[name] = { ...trial, hand: mean(hold), speed };
       this.mark(path);
       this.show(motion.at(-1));
       this.tell({
         [name]: millimetres(trial.error, 1),
+        speed,
         weights: trial.weights.map((w) => signed(w, 2)).join(", "),
       });
       return true;
@@ -97,10 +102,13 @@ const vmcReach = (() => {
       if (!this.plan) return;
       Object.assign(this, { planned: null, calibrated: null });
       this.tell({ calibrated: "–", tries: "–" });
-      const reach = (weights) => this.ended(weights);
+      const reach = (weights) => this.endPoint(weights);
       const [first] = vmcCalibration.algorithm1(this.plan, reach, { gains: [] });
       if (!(await this.play("planned", first, turn))) return;
-      this.say(`The planned reach stopped ${millimetres(first.error, 1)} from the target.`);
+      this.say(
+        `The planned reach misses by ${millimetres(first.error, 1)}, on average over the hold; ` +
+        `there the hand still moves at ${this.planned.speed}.`
+      );
     }
 
     /* Try off-line, as fast as the page can; then move once more, with the best weights. */
@@ -111,7 +119,7 @@ const vmcReach = (() => {
       this.say("Trying off-line …");
       const trials = [];
       const rule = vmcCalibration[this.rule];
-      for (const trial of rule(this.plan, (w) => this.ended(w), this.given.calibration)) {
+      for (const trial of rule(this.plan, (w) => this.endPoint(w), this.given.calibration)) {
         trials.push(trial);
         this.tell({ tries: `${trials.length - 1}` });
         await frame();
@@ -121,8 +129,8 @@ const vmcReach = (() => {
       if (!(await this.play("calibrated", best, turn))) return;
       const which = best.n === undefined ? "" : ` (n = ${best.n})`;
       this.say(
-        `After ${trials.length - 1} tries the best${which} stops ` +
-        `${millimetres(best.error, 1)} from the target; ` +
+        `After ${trials.length - 1} tries the best${which} misses by ` +
+        `${millimetres(best.error, 1)}, moving at ${this.calibrated.speed}; ` +
         `the planned reach missed by ${millimetres(this.planned.error, 1)}.`
       );
     }

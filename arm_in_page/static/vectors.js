@@ -7,7 +7,8 @@ const vmcVectors = (() => {
   const dot = (a, b) => sum(a.map((x, i) => x * b[i]));
   const minus = (a, b) => a.map((x, i) => x - b[i]);
   const plus = (a, b) => a.map((x, i) => x + b[i]);
+  const mean = (vectors) => times(1 / vectors.length, vectors.reduce(plus));
   const times = (factor, a) => a.map((x) => factor * x);
 
-  return { clip, dot, minus, plus, sum, times };
+  return { clip, dot, mean, minus, plus, sum, times };
 })();

@@ -34,6 +34,8 @@ def arm(past, rest):
         "start": START.tolist(),
         "rest": rest.tolist(),
         "step": plant.TICK,
+        "held": 0,
+        "every": 1,
         "hold": plant.HOLD,
         "templateSet": experience(past.points, past.excitations, plant.TICKS),
         "muscles": _bellies(),

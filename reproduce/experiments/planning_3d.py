@@ -13,10 +13,11 @@ import numpy as np
 from vmc_lib import NoReach
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.arm.kinematics import inverse_kinematics, to_world, turn_towards
-from vmc_lib.arm.simulate import UNPERTURBED, Motion
+from vmc_lib.arm.simulate import UNPERTURBED
 from vmc_lib.cerebellum.offline import broyden_calibration
 from vmc_lib.motor import planning, templates
 from vmc_lib.motor.execution import execute
+from vmc_lib.motor.templates import HeldMotion
 
 TURNS = np.radians([-10.0, 5.0, 20.0, 35.0, 50.0, 65.0])
 
@@ -24,13 +25,18 @@ TURNS = np.radians([-10.0, 5.0, 20.0, 35.0, 50.0, 65.0])
 class TrunkMovement(NamedTuple):
     """A movement of the arm on a trunk that has turned by `turn` (…), rad."""
 
-    motion: Motion
+    motion: HeldMotion
     turn: np.ndarray
 
     @property
+    def hold(self):
+        """The hand's path over the hold, (…, n, 3), m."""
+        return to_world(self.motion.wrist, self.turn[..., None])
+
+    @property
     def endpoint(self):
-        """Where the hand ends, (…, 3)."""
-        return to_world(self.motion.hand[..., -1, :], self.turn)
+        """Where the hand is on average over the hold, (…, 3), m."""
+        return self.hold.mean(axis=-2)
 
 
 def move(commands, perturbation=UNPERTURBED):
@@ -46,7 +52,7 @@ def with_trunk_turns(template_set):
     count, turns = len(TURNS), np.tile(TURNS, len(template_set.points))
     excitations = np.repeat(template_set.excitations, count, axis=0)
     held = np.broadcast_to(turns[:, None, None], (*excitations.shape[:2], 1))
-    ends = np.repeat(templates.reach(template_set.excitations).hand[:, -1], count, axis=0)
+    ends = np.repeat(templates.reach(template_set.excitations).wrist.mean(axis=1), count, axis=0)
     limits = np.append(np.zeros(6), -np.inf), np.append(np.ones(6), np.inf)  # the trunk's: none
     commands = np.concatenate([excitations, held], axis=-1)
     return templates.TemplateSet(to_world(ends, turns), commands, limits, move)

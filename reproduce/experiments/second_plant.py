@@ -14,7 +14,7 @@ from vmc_lib.cerebellum.online import AimCorrection
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.inverse_dynamics import minimum_jerk
 from vmc_lib.motor.planning import draw_targets, plan
-from vmc_lib.motor.templates import TemplateSet
+from vmc_lib.motor.templates import HOLD, TemplateSet
 
 L1, L2, M1, M2 = 0.35, 0.30, 3.0, 2.0  # m and kg: the rods' lengths and masses
 VISCOSITY = 1.0  # N m s / rad, of both joints
@@ -47,13 +47,20 @@ def mass_and_drag(q, velocity):
 
 
 def reach(torques, _perturbation=None):
-    """Where torques (…, T, 2), in N m, take the arm from rest in `START`, as `endpoint`, in m."""
+    """The tip's path over the hold, `hold` (…, n, 2), and its mean, `endpoint`, in m.
+
+    Torques (…, T, 2), in N m, move the arm from rest in `START`; the last are then held.
+    """
     q, velocity = (np.broadcast_to(x, (*torques.shape[:-2], 2)) for x in (START, np.zeros(2)))
-    for torque in np.moveaxis(torques, -2, 0):
+    held, path = round(HOLD / STEP), []
+    for step in range(torques.shape[-2] + held):
+        torque = torques[..., min(step, torques.shape[-2] - 1), :]
         mass, drag = mass_and_drag(q, velocity)
         velocity = velocity + STEP * np.linalg.solve(mass, (torque - drag)[..., None])[..., 0]
         q = q + STEP * velocity
-    return SimpleNamespace(endpoint=tip(q))
+        path.append(q)
+    hold = tip(np.stack(path[-held - 1 :], axis=-2))
+    return SimpleNamespace(hold=hold, endpoint=hold.mean(axis=-2))
 
 
 def torque_templates(goals=GOALS):

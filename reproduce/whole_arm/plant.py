@@ -49,6 +49,11 @@ class Motion(NamedTuple):
     activation: np.ndarray  # (…, TICKS, 63)
 
     @property
+    def hold(self):
+        """Where the tip of the index finger ended, as a path of one moment, (…, 1, 3), m."""
+        return self.endpoint[..., None, :]
+
+    @property
     def endpoint(self):
         """Where the tip of the index finger ended, (…, 3), m."""
         return fingertip(self.joints[..., -1, :])

@@ -14,8 +14,8 @@ ASK = """async ([which, asked]) => {
   const arm = await ((self.testArms ??= {})[which] ??= vmcArm.load(given));
   const templateSet = await vmcTemplates.load(given.templateSet);
   const reach = (plan) => (weights) => {
-    const moments = arm.move(templateSet.excitations({ ...plan, weights }));
-    return arm.hand(moments.at(-1).q).slice(0, asked.length);
+    const moments = arm.reach(templateSet.excitations({ ...plan, weights }));
+    return vmcVectors.mean(arm.hold(moments)).slice(0, asked.length);
   };
   %s
 }"""

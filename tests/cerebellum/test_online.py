@@ -1,5 +1,7 @@
 """Online calibration: what was learned must hold for targets never practised."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 from sklearn.exceptions import NotFittedError
@@ -15,6 +17,7 @@ from vmc_lib.cerebellum.online import (
 )
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import draw_targets, habitual_weights, plan
+from vmc_lib.motor.templates import load
 
 
 @pytest.fixture(scope="module")
@@ -75,12 +78,20 @@ def test_other_reading_trains_on_the_target(template_set):
     np.testing.assert_allclose(batch.weights + change, algorithm_1(batch).best)
 
 
-def test_algorithm_2_held_out_error_ratio(template_set, held_out):
-    (batch,), errors = lessons(template_set, 25), []
-    for hindsight in (True, False):
-        errors.append(error(WeightCorrection(hindsight).update(batch).correct(held_out)))
-    assert errors[0] < 0.61 * error(held_out)  # the paper's own ratio, on what it practised
-    assert errors[0] < 0.9 * errors[1]
+def test_algorithm_2_held_out_error_ratio():
+    """Where a movement ends with its command, as we read the paper: a mean over three lessons."""
+    past, rule = load(hold=0.0), partial(algorithm_1, gains=range(0, 21, 5))
+    others = plan(draw_targets(past, 100, np.random.default_rng(20)), past)
+    errors = [
+        [
+            error(WeightCorrection(h).update(*lessons(past, 25, seed), rule).correct(others))
+            for h in (True, False)
+        ]
+        for seed in (21, 22, 23)
+    ]
+    printed, other = np.mean(errors, axis=0)
+    assert printed < 0.61 * error(others)  # the paper's own ratio, on what it practised
+    assert printed < 0.9 * other
 
 
 def test_aim_correction_held_out_error(template_set, held_out):
