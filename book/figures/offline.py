@@ -199,6 +199,6 @@ def in_plane(ax, plan, endpoints, title):
 
 
 def reach_scene(motion, target):
-    """The arm making a reach, the `Motion` of one movement: target (2,) green, end red."""
-    balls = [(hand(inverse_kinematics(target)), "green"), (motion.hand[-1], "red")]
+    """The arm making a reach, the motion of one movement: target (2,) green, end point red."""
+    balls = [(hand(inverse_kinematics(target)), "green"), (motion.wrist.mean(axis=0), "red")]
     return arm_scene(motion.q, motion.activation, balls=balls)

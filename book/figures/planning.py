@@ -27,11 +27,8 @@ def planned_in_words(target, ended):
 
 def planned_reach(movement):
     """The arm as it executes a plan: the target is a green ball, the hand ends at the red one."""
-    motion = movement.motion
-    balls = [
-        (hand(inverse_kinematics(movement.plan.target)), "green"),
-        (motion.hand[-1], "red"),
-    ]
+    motion, places = movement.motion, (movement.plan.target, movement.endpoint)
+    balls = list(zip(map(hand, map(inverse_kinematics, places)), ("green", "red"), strict=True))
     return arm_scene(motion.q, motion.activation, balls=balls)
 
 

@@ -147,13 +147,18 @@ def broyden_calibration(plan: Plan, trials=2, broyden=True, guarded=True, execut
         tried.append(execute(plan.with_weights(weights + change)))
         end = tried[-1].endpoint
         if broyden:
-            surprise = end - endpoint - (jacobian @ change[..., None])[..., 0]
-            square = np.maximum((change**2).sum(axis=-1), 1e-24)[..., None, None]
-            jacobian = jacobian + surprise[..., :, None] * change[..., None, :] / square
+            jacobian = broyden_update(jacobian, change, end - endpoint)
         better = (_norm(plan.target - end) < _norm(plan.target - endpoint))[..., None]
         weights = np.where(better | (not guarded), weights + change, weights)
         endpoint = np.where(better | (not guarded), end, endpoint)
     return _trials(planned, *tried)
+
+
+def broyden_update(jacobian, change, shift):
+    """The nearest Jacobian (…, D, N) by which a change (…, N) would have had the shift (…, D)."""
+    surprise = shift - (jacobian @ change[..., None])[..., 0]
+    square = np.maximum((change**2).sum(axis=-1), 1e-24)[..., None, None]
+    return jacobian + surprise[..., :, None] * change[..., None, :] / square
 
 
 def _trials(*movements):
