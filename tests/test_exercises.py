@@ -8,7 +8,7 @@ import nbformat
 import numpy as np
 import pytest
 from scipy.optimize import nnls
-from sklearn.metrics import precision_score, recall_score
+from sklearn.metrics import mean_squared_error, precision_score, recall_score
 
 from tests.project import CHAPTERS, code, each_chapter
 from vmc_lib import photos
@@ -134,6 +134,9 @@ LIBRARY = {
     "ACTIVATION_RATES": lambda u, a, rise, fall: muscle.activation_rate(u, a),
     "NEAR_WEIGHTS": habitual_weights,
     "FAIR_VOTE": lambda rates, preferred: np.linalg.pinv(preferred) @ rates,
+    "MISFIT": lambda points, targets, weights: np.sqrt(
+        mean_squared_error(weights, habitual_weights(targets, points).T)
+    ),
     "SHORTENED": lambda changes, longest: offline._clip_norm(changes),
     "ONE_JOINT": least_pulls,
     "ON_THE_TABLE": lambda eye, direction, height: (

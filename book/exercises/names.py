@@ -84,3 +84,50 @@ BROKEN_PROMISE = Exercise(
         "compare means, bin by bin.": lambda chances, truth, bins: abs(chances - truth).mean(),
     },
 )
+
+
+def possible_counts(percents, most):
+    counts = []
+    for n in range(1, most + 1):
+        precisions = 100 * n / (n + np.arange(n + 1))
+        off = abs(np.subtract.outer(percents, precisions)).min(axis=1)
+        if (off < 0.05 + 1e-9).all():
+            counts.append(n)
+    return counts
+
+
+def _printed(rng):
+    found, alarms = rng.integers(20, 60), rng.choice([1, 2, 3], 2, replace=False)
+    return (100 * found / (found + alarms)).round(1), 100
+
+
+def _counts(percents, most, shares, half=0.05 + 1e-9, enough=np.all):
+    """As `possible_counts`, of other shares(n), another rounding, or where one is enough."""
+    off = [abs(np.subtract.outer(percents, 100 * shares(n))).min(1) for n in range(1, most + 1)]
+    return [n for n, both in enumerate(off, start=1) if enough(both < half)]
+
+
+def _precisions(n):
+    return n / (n + np.arange(n + 1))
+
+
+POSSIBLE_COUNTS = Exercise(
+    possible_counts,
+    _printed,
+    {
+        "You kept what explains one of the percentages. The same number of shuttlecocks must "
+        "explain both.": lambda percents, most: _counts(percents, most, _precisions, enough=np.any),
+        "A printed percentage is rounded: it need not be met exactly.": lambda percents, most: (
+            _counts(percents, most, _precisions, half=1e-9)
+        ),
+        "You cut the digits off; a printed percentage is rounded to the nearest tenth.": (
+            lambda percents, most: _counts(
+                percents, most, lambda n: np.floor(1000 * _precisions(n)) / 1000, half=1e-9
+            )
+        ),
+        "That is a share of the shuttlecocks, as recall is. Precision divides by all that were "
+        "*called* one, false alarms among them.": lambda percents, most: _counts(
+            percents, most, lambda n: np.arange(n + 1) / n
+        ),
+    },
+)

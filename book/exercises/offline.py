@@ -74,3 +74,48 @@ SHORTENED = Exercise(
         ),
     },
 )
+
+
+def misfit(points, targets, weights):
+    nearness = 1 / np.linalg.norm(points[:, None] - targets, axis=-1)
+    by_eq_5 = nearness / nearness.sum(axis=0)
+    return np.sqrt(((by_eq_5 - weights) ** 2).mean())
+
+
+def _near(points, targets):
+    return 1 / np.linalg.norm(points[:, None] - targets, axis=-1)
+
+
+def _off(nearness, weights):
+    return np.sqrt(((nearness / nearness.sum(axis=0) - weights) ** 2).mean())
+
+
+def _printed_weights(rng):
+    weights = rng.uniform(0.1, 0.5, (4, 5))
+    return rng.uniform(0, 1, (4, 2)), rng.uniform(0, 1, (5, 2)), weights.round(4)
+
+
+MISFIT = Exercise(
+    misfit,
+    _printed_weights,
+    {
+        "The weights of a reach must sum to one: divide each column by its sum.": (
+            lambda points, targets, weights: np.sqrt(
+                ((_near(points, targets) - weights) ** 2).mean()
+            )
+        ),
+        "Each column is a reach. You made the rows sum to one: sum along `axis=0`.": (
+            lambda points, targets, weights: _off(_near(points, targets).T, weights.T)
+        ),
+        "By Eq. 5 the *nearer* a template, the larger its weight: take one over the distance.": (
+            lambda points, targets, weights: _off(1 / _near(points, targets), weights)
+        ),
+        "That is the mean of the squares. Take its root, and it is a weight again.": (
+            lambda points, targets, weights: misfit(points, targets, weights) ** 2
+        ),
+        "That is the mean size of the differences. Square them first, and take the root at the "
+        "end.": lambda points, targets, weights: abs(
+            _near(points, targets) / _near(points, targets).sum(axis=0) - weights
+        ).mean(),
+    },
+)

@@ -6,6 +6,7 @@ from book.figures.panels import panels
 from book.figures.reaching import ends, shares
 from vmc_lib.arm.kinematics import TRUNK, to_world
 from vmc_lib.arm.model import geometry
+from vmc_lib.boxes import iou
 from vmc_lib.loop import RULES
 from vmc_lib.motor.templates import START
 from vmc_lib.show import dot_plot
@@ -168,6 +169,12 @@ def named_boxes(sight):
         else (box, f"{p:.0%}", "blue")
         for p, box in rising
     ]
+
+
+def likeliest_elsewhere(photo, sight):
+    """The highest chance of a shuttlecock among kept boxes that do not touch it; 0 without any."""
+    apart = iou(sight.detections.boxes, photo.boxes["shuttlecock"])[:, 0] == 0
+    return sight.probability[apart].max(initial=0)
 
 
 def step_in_words(photo, sight, reach, step):
