@@ -13,6 +13,11 @@ def test_the_papers_muscle_has_no_force_left_where_f2_is_zero():
     assert muscle_bench.fastest_shortening(muscle.PAPER) == pytest.approx(speed, abs=1e-3)
 
 
+@pytest.mark.parametrize(("law", "speed"), [("Thelen 2003", 10), ("MuJoCo", 1.5)])
+def test_the_other_laws_have_no_force_left_at_their_own_greatest_speed(law, speed):
+    assert muscle_bench.fastest_shortening(LAWS[law]) == pytest.approx(speed, abs=0.01)
+
+
 @pytest.mark.parametrize("law", LAWS)
 def test_a_load_as_heavy_as_the_pull_stays_where_it_is_released(law):
     pull = LAWS[law].force(0.5, 1.0, 0.0, muscle_bench.STRENGTH)
