@@ -43,7 +43,7 @@ def test_a_photo_becomes_a_reach_that_calibration_improves(model, photo, sight):
         for motion in (reach.planned, reach.calibrated)
     )
     assert calibrated < planned < 0.05
-    assert np.linalg.norm(reach.hand(reach.calibrated)[-1] - target) < 0.05
+    assert np.linalg.norm(reach.end_point(reach.calibrated) - target) < 0.05
 
 
 def test_the_hand_path_is_in_the_frame_of_the_straight_trunk(model, photo):

@@ -11,7 +11,6 @@ import numpy as np
 
 from vmc_lib import NoReach, photos
 from vmc_lib.arm.kinematics import to_world, turn_towards
-from vmc_lib.arm.simulate import Motion
 from vmc_lib.box_selection import SIZE_LIKELIHOOD_RATIO, BoxSelector, filter_by_size, scale_odds
 from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration, calibrate
 from vmc_lib.motor import templates
@@ -105,12 +104,16 @@ class Reach:
     target: np.ndarray  # (3,): where the shuttlecock seems to be, m
     turn: float  # of the trunk, rad
     plan: Plan
-    planned: Motion
-    calibrated: Motion
+    planned: templates.HeldMotion
+    calibrated: templates.HeldMotion
 
     def hand(self, motion):
         """The wrist's path (T + 1, 3) on the turned trunk, in the frame of the trunk straight."""
         return to_world(motion.hand, self.turn)
+
+    def end_point(self, motion):
+        """Where the wrist is on average over the hold, (3,), in the same frame."""
+        return to_world(motion.wrist, self.turn).mean(axis=0)
 
 
 def see(model, image, camera=None):
@@ -188,7 +191,7 @@ def reach(model, target, calibration=algorithm_1):
     --------
     >>> photo = photos.load("rig", "validation")[0]
     >>> found = reach(VisuomotorModel.load("rig"), photo.target)
-    >>> bool(np.linalg.norm(found.hand(found.calibrated)[-1] - photo.target) < 0.05)
+    >>> bool(np.linalg.norm(found.end_point(found.calibrated) - photo.target) < 0.05)
     True
     """
     turn, point = turn_towards(target)

@@ -48,7 +48,7 @@ def draw_movement(photo, box, reach, motion):
         turn=turn,
         photo=photo,
         balls=[(reach.target, "green")],
-        grasp=np.linalg.norm(hand[-1] - photo.target) < GRASPED,
+        grasp=np.linalg.norm(reach.end_point(motion) - photo.target) < GRASPED,
     )
 
 
@@ -146,7 +146,7 @@ def above(parts, title, xlim, ylim):
 
 
 def _away(reach, motion):
-    return f"{1000 * np.linalg.norm(reach.hand(motion)[-1] - reach.target):.1f} mm away"
+    return f"{1000 * np.linalg.norm(reach.end_point(motion) - reach.target):.1f} mm away"
 
 
 def _boxes(sight, step):

@@ -6,11 +6,12 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from book.figures.panels import curves, panels
-from book.figures.reaching import corrections, ends, mean_mm, reaches
+from book.figures.reaching import corrections, ends, mean_mm, norm_mm, reaches
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.arm.kinematics import inverse_kinematics
 from vmc_lib.arm.simulate import Perturbation
 from vmc_lib.cerebellum.offline import GAINS, algorithm_1, broyden_calibration
+from vmc_lib.motor import templates
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import least_change
 from vmc_lib.motor.templates import START
@@ -178,10 +179,10 @@ def with_guards(errors):
     """Mean errors in mm, (trials, n) over the targets: of each trial, and of the best so far."""
     best = best_so_far(errors)
     fig, ax = panels(size=(5.5, 3.2))
-    fig.subplots_adjust(left=0.17)  # room for 0.0001
+    fig.subplots_adjust(left=0.17)  # room for 0.001
     ax.plot(errors.mean(axis=1), ".:", color=COLOURS["grey"], label="this trial")
     ax.plot(best, ".-", color=COLOURS["red"], label="the best so far")
-    ax.set(xlabel="trial", ylabel="mean error (mm)", yscale="log", ylim=(1e-4, 1000))
+    ax.set(xlabel="trial", ylabel="mean error (mm)", yscale="log", ylim=(1e-3, 1000))
     ax.yaxis.set_major_formatter("{x:g}")
     ax.set_title(f"before: {in_mm(best[0])}; best of eight: {in_mm(best[-1])}")
     ax.legend()
@@ -189,8 +190,50 @@ def with_guards(errors):
 
 
 def in_mm(error):
-    """An error in mm as text, with two digits; below what the simulation can tell, as that."""
-    return f"{error:.2g} mm" if error >= 1e-4 else "below 0.0001 mm"
+    """An error in mm as text, with two digits; below what matters beside the drift, as that."""
+    return f"{error:.2g} mm" if error >= 0.01 else "below 0.01 mm"
+
+
+def distances(plans, seconds=1.5):
+    """How far the hand is from each target after the command, (n, T), mm, every 10 ms."""
+    paths = templates.reach(plans.excitations, hold=seconds).hold
+    return norm_mm(paths - plans.target[:, None])
+
+
+def after_the_command(away, reach):
+    """Those distances by name, of one reach (its number as text) or the mean; the hold in grey."""
+    fig, ax = panels(size=(6.0, 3.2))
+    time = 1 + np.arange(next(iter(away.values())).shape[1]) * templates.EVERY / 1000
+    ax.axvspan(1, 1 + templates.HOLD, color=COLOURS["grey"], alpha=0.15, gid="the hold")
+    for name, each in away.items():
+        mm = each[int(reach) - 1] if reach.isdigit() else each.mean(axis=0)
+        ax.plot(time, mm, label=name)
+    ax.set(xlabel="time (s)", ylabel="from the target (mm)", ylim=(0, 30))
+    ax.legend()
+    return fig
+
+
+HOLD_HEADS = [
+    "plan",
+    "miss where the command ends (mm)",
+    "miss of the end point (mm)",
+    "mean distance in the hold (mm)",
+    "speed (mm/s)",
+]
+
+
+def hold_row(name, plan, weights):
+    """A row for `HOLD_HEADS` of a plan with other weights (n, N)."""
+    hold = execute(plan.with_weights(weights)).hold
+    return name, f"{norm_mm(hold[:, 0] - plan.target).mean():.2f}", *hold_numbers(hold, plan.target)
+
+
+def hold_numbers(hold, target):
+    """Mean over reaches of the last three of `HOLD_HEADS`, for paths (n, T, 2) and targets."""
+    miss = norm_mm(hold.mean(axis=1) - target).mean()
+    distance = norm_mm(hold - target[:, None]).mean()
+    speed = norm_mm(np.diff(hold, axis=1)).sum(axis=1).mean() / templates.HOLD
+    return [f"{miss:.2f}", f"{distance:.2f}", f"{speed:.1f}"]
 
 
 def in_plane(ax, plan, endpoints, title):

@@ -63,12 +63,16 @@ def after_movements(plans, granule, linear, movements, templates_are, measured_o
     return fig
 
 
-def by_reading(draws, experiments):
-    """What either reading of step 5 leaves of the error, six draws: reading -> row -> (6,)."""
+def by_reading(draws, experiments, end=None):
+    """What either reading of step 5 leaves of the error: reading -> row -> (draws,).
+
+    Of movements whose end point is over the hold, or by another `end`.
+    """
+    key = f", {end}" if end else ""
     rules = {"as printed": "online", "right for the target": "online, the other reading"}
     return {
         reading: {
-            f"{scenario}, {on}": draws[scenario][f"{rule}, {ratio_name(experiments, on)}"]
+            f"{scenario}, {on}": draws[scenario + key][f"{rule}, {ratio_name(experiments, on)}"]
             for scenario in SCENARIOS
             for on in ("in-sample", "held-out")
         }

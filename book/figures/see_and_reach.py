@@ -19,7 +19,7 @@ CROWDED = (110, 60)  # pixels: labels nearer than that would hide each other
 
 def miss_mm(photo, reach, motion):
     """How far a motion of a reach ends from the true shuttlecock, in mm."""
-    return norm_mm(reach.hand(motion)[-1] - photo.target)
+    return norm_mm(reach.end_point(motion) - photo.target)
 
 
 def stage_errors(photo, reach, online):
@@ -63,7 +63,7 @@ def phone_view(model, photo):
     sight, ends = loop.see(model, bare, camera), []
     try:
         reach = loop.reach(model, loop.locate(model, bare, sight.box, camera))
-        hand = reach.hand(reach.calibrated)[-1]
+        hand = reach.end_point(reach.calibrated)
         ends = [(camera.project(hand)[0], "hand", "red")]
         words = _describe_reach(camera, reach, hand)
     except NoReach as why:

@@ -27,7 +27,7 @@ def score(photo, sight, place, reaches):
     """
     ends = {} if place is None else {"target": place}
     for rule, made in reaches.items():
-        ends |= {"planned": made.hand(made.planned)[-1], rule: made.hand(made.calibrated)[-1]}
+        ends |= {"planned": made.end_point(made.planned), rule: made.end_point(made.calibrated)}
     errors = {
         name: np.linalg.norm(ends[name] - photo.target) if name in ends else np.nan
         for name in ("target", "planned", *RULES)
@@ -155,7 +155,7 @@ def _photo_lesions(model, photo):
         left[how] = {"object": object_in_box(photo, box), "missed": None}
         with suppress(NoReach):
             made = reach_with_lesion(model, photo, box, how)
-            missed = np.linalg.norm(made.hand(made.calibrated)[-1] - photo.target)
+            missed = np.linalg.norm(made.end_point(made.calibrated) - photo.target)
             left[how]["missed"] = round(1000 * float(missed), 1)
     return left
 

@@ -69,9 +69,9 @@ def algorithm_2_history(plans, hindsight, experiments=5):
 def granule_cell_history(plans, rng):
     """An `AimCorrection` that has practised, new movements in each lesson; and its history."""
     template_set = plans["practised"].template_set
-    new = [plan(draw_targets(template_set, 25, rng), template_set) for _ in STEPS]
+    new = [plan(draw_targets(template_set, 25, rng), template_set) for _ in STEPS[2:]]
     learner = AimCorrection(template_set)
-    return learner, learn(learner, plans, [plans["practised"], *new[1:]])
+    return learner, learn(learner, plans, [plans["practised"], *new])
 
 
 def endpoints_by_width(widths, plans):
