@@ -5,8 +5,8 @@ import pytest
 
 from reproduce import paper
 from reproduce.experiments.calibration import (
-    AS_PRINTED,
     ABLATION,
+    AS_PRINTED,
     SCENARIOS,
     SEEDS,
     coarse_algorithm_1,
