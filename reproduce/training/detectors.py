@@ -13,7 +13,7 @@ from vmc_lib.boxes import MIN_IOU, decode_deltas, encode_deltas, iou
 from vmc_lib.data import arrays
 from vmc_lib.where.box_regression import RBFRidge, regress
 from vmc_lib.where.detector import ObjectDetector
-from vmc_lib.where.recipes import EVERY_RECIPE, PUBLISHED
+from vmc_lib.where.recipes import EVERY_RECIPE, PUBLISHED, SINGLE
 from vmc_lib.where.selective_search import propose
 from vmc_lib.where.svm import KernelSVM
 
@@ -30,7 +30,7 @@ HARD_NEGATIVES, EASY_NEGATIVES = 25, 10  # further candidates a photo: mined one
 MINED = 51_200  # candidates of all photos among which the hard ones are sought
 
 
-def candidates(photo, strategy="single"):
+def candidates(photo, strategy=PUBLISHED.strategy):
     """`propose(photo.image, strategy)`, looked up where the photo ships with its candidates."""
     boxes = arrays("candidates").get(f"{photo.name}/{strategy}")
     return propose(photo.image, strategy) if boxes is None else boxes.astype(float)
@@ -188,9 +188,9 @@ def best_threshold(scores, right, wanted):
 def with_best_threshold(detector, shots):
     """The same detector with the score threshold of best F1 on validation photos.
 
-    The published recipe has none to choose: it stays at 0.
+    The published recipe and its variant have none to choose: it stays at 0.
     """
-    if detector.recipe == PUBLISHED:
+    if detector.recipe in (PUBLISHED, SINGLE):
         return detector
     lenient, scores, right, wanted = replace(detector, threshold=-np.inf), [], [], 0
     for image in training_images(shots, replace(detector.recipe, mirror=False)):

@@ -69,7 +69,9 @@ def photo_samples(shots, rng):
     """
     finder = loop.high_recall_detector(loop.PHOTOGRAPHS_AS)
     found = Parallel()(
-        delayed(candidates)(shot) if shot.camera else delayed(detected_boxes)(finder, shot)
+        delayed(candidates)(shot, "single")
+        if shot.camera
+        else delayed(detected_boxes)(finder, shot)
         for shot in shots
     )
     return [boxes_by_kind(shot, boxes, rng) for shot, boxes in zip(shots, found, strict=True)]

@@ -32,14 +32,14 @@ def candidates(folder=photos.FOLDER, splits=photos.SPLITS):
     """The candidates (n, 4) of every photo in `folder`, by its name and the strategy."""
     kinds = product(photos.LEVELS, splits)
     shots = [photo for kind in kinds for photo in photos.load(*kind, folder)]
-    jobs = list(product(shots, ("single", "finer")))
+    jobs = list(product(shots, ("diverse", "single", "finer")))
     found = Parallel()(delayed(propose)(photo.image, strategy) for photo, strategy in jobs)
     names = (f"{photo.name}/{strategy}" for photo, strategy in jobs)
     return {name: boxes.astype(np.int16) for name, boxes in zip(names, found, strict=True)}
 
 
 def detectors(folder=photos.FOLDER, recipes=EVERY_RECIPE):
-    """Every recipe trained on every level; all but the published one tuned."""
+    """Every recipe trained on every level."""
     names = [name for name in RECIPES if name not in TRAINED_AS]
     which = [*product(photos.LEVELS, names), (photos.REAL_LEVEL, "photographed")]
     jobs = [delayed(detector)(*one, recipes[one[1]], folder) for one in which]

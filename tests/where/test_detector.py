@@ -61,7 +61,7 @@ def test_images_of_other_types_are_refused(image):
 
 
 def test_unknown_detectors_are_refused():
-    recipes = "published, context, gradients, box regression, IoU prediction, improved$"
+    recipes = "published, single, context, gradients, box regression, IoU prediction, improved$"
     for level, name, remedy in (
         ("rig", "best", recipes),
         ("real", "published", "from photographed$"),

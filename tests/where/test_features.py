@@ -3,6 +3,7 @@ import pytest
 
 from vmc_lib.photos import crops
 from vmc_lib.where.features import gradients, pixels_in_context, raw_pixels
+from vmc_lib.where.recipes import FEATURES
 
 NOISE = np.random.default_rng(0).integers(0, 256, (40, 60, 3), dtype=np.uint8)
 
@@ -29,7 +30,14 @@ def test_a_box_without_area_shows_one_pixel():
 
 
 @pytest.mark.parametrize(
-    ("features", "length"), [(raw_pixels, 768), (pixels_in_context, 770), (gradients, 800)]
+    ("features", "length"),
+    [
+        (raw_pixels, 768),
+        (FEATURES["8 pixels"], 192),
+        (FEATURES["32 pixels"], 3072),
+        (pixels_in_context, 770),
+        (gradients, 800),
+    ],
 )
 def test_one_row_a_box(features, length, rng):
     boxes = rng.integers(0, 30, (5, 2))
@@ -50,15 +58,17 @@ def test_gradients_point_across_the_edge():
         assert counts[bin_] > 0.9 * counts.sum()
 
 
-def test_a_margin_shows_what_is_around():
-    inner, outer = (10, 10, 30, 30), (5, 5, 35, 35)
-    assert (raw_pixels(NOISE, [inner], 0.25) == raw_pixels(NOISE, [outer])).all()
+def test_raw_pixels_lie_between_minus_one_and_one():
+    image = np.zeros((8, 8, 3), np.uint8)
+    image[..., 1] = 255
+    assert (raw_pixels(image, [(0, 0, 8, 8)], 4).reshape(16, 3) == [-1, 1, -1]).all()
 
 
 def test_context_is_a_margin_and_the_size():
     boxes = [(10, 10, 25, 30), (7, 9, 7, 9)]
     rows = pixels_in_context(NOISE, boxes)
-    assert (rows[:, :-2] == raw_pixels(NOISE, boxes, 0.25)).all()
+    wider = [(6.25, 5, 28.75, 35), (7, 9, 7, 9)]
+    assert rows[:, :-2] == pytest.approx(raw_pixels(NOISE, wider) / 2 + 0.5, abs=1e-6)
     assert rows[:, -2:] == pytest.approx(np.log2([[15 / 60, 20 / 40], [1 / 60, 1 / 40]]))
 
 

@@ -174,5 +174,5 @@ def test_wrong_arrays_are_refused(image, message):
 
 
 def test_an_unknown_strategy_is_refused():
-    with pytest.raises(ValueError, match="single, fast, quality, finer"):
+    with pytest.raises(ValueError, match="single, fast, quality, diverse, finer"):
         ss.propose(PHOTO, "fastest")

@@ -1,9 +1,9 @@
 """Object detector: a classifier scores candidates, non-maximum suppression keeps the best.
 
 The paper's Block 1-1, top-down part: a support vector machine tells examples from counter-examples
-by their raw pixels, and non-maximum suppression leaves a few boxes. The recipe `PUBLISHED` is that;
-each further one of `RECIPES` adds an idea: context, gradients, box regression, a prediction of the
-final IoU, votes.
+by their raw pixels, and non-maximum suppression leaves a few boxes. The recipe `PUBLISHED` is that,
+and `SINGLE` with one hierarchy of candidates; each further one of `RECIPES` adds an idea: context,
+gradients, box regression, a prediction of the final IoU, votes.
 """
 
 from dataclasses import dataclass, fields

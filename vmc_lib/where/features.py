@@ -9,21 +9,26 @@ from vmc_lib.photos import crops
 DIRECTIONS = 8  # orientations of gradients, over 360°
 
 
-def raw_pixels(image, boxes, margin=0.0):
-    """Raw-pixel features, the paper's: 16 × 16 RGB pixels of each box (and a margin), (n, 768)."""
-    return crops(image, pad_boxes(boxes, margin), 16).reshape(-1, 768)
+def raw_pixels(image, boxes, size=16):
+    """Raw-pixel features: size × size RGB pixels of each box, from -1 to 1, (n, 3 size²).
+
+    The paper takes raw RGB pixels and prints no size: 16 is ours. It prints no scale either;
+    LibSVM's manual asks for one, from 0 to 1 or, as in its example, from -1 to 1.
+    """
+    return 2 * crops(image, boxes, size).reshape(-1, 3 * size**2) - 1
 
 
 def pixels_in_context(image, boxes):
-    """Raw pixels of each box and a quarter of it around, and the box's width and height, (n, 770).
+    """16 × 16 pixels of each box and a quarter of it around, and its width and height, (n, 770).
 
-    A crop of 16 × 16 forgets how large its box was. The sides are in octaves, 0 for those of the
-    image; one of no length counts as a pixel.
+    A crop forgets how large its box was. The sides are in octaves, 0 for those of the image; one of
+    no length counts as a pixel. Colours are from 0 to 1.
     """
     boxes = as_boxes(boxes)
     sides = np.maximum(boxes[:, 2:] - boxes[:, :2], 1)
     octaves = np.log2(sides / image.shape[1::-1])
-    return np.hstack([raw_pixels(image, boxes, 0.25), octaves], dtype=np.float32)
+    pixels = crops(image, pad_boxes(boxes, 0.25), 16).reshape(-1, 768)
+    return np.hstack([pixels, octaves], dtype=np.float32)
 
 
 def gradients(image, boxes, cells=10, margin=0.25):

@@ -1,20 +1,27 @@
-"""Detector recipes: the paper's, and five that each add an idea to the one before.
+"""Detector recipes: the paper's; with a single hierarchy; five that each add an idea to the last.
 
-A last one is for photographs.
+A further one is for photographs.
 """
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 from vmc_lib.where.features import gradients, pixels_in_context, raw_pixels
 
-FEATURES = {"pixels": raw_pixels, "context": pixels_in_context, "gradients": gradients}
+FEATURES = {
+    "pixels": raw_pixels,
+    "8 pixels": partial(raw_pixels, size=8),
+    "32 pixels": partial(raw_pixels, size=32),
+    "context": pixels_in_context,
+    "gradients": gradients,
+}
 
 
 @dataclass(frozen=True)
 class Recipe:
     """Settings of an object detector; the defaults are the paper's."""
 
-    strategy: str = "single"  # of selective search
+    strategy: str = "diverse"  # of selective search
     features: str = "pixels"  # one of FEATURES
     kernel: str = "linear"
     cost: float = 0.1  # C of the SVM
@@ -33,7 +40,8 @@ class Recipe:
 
 
 PUBLISHED = Recipe()
-CONTEXT = replace(PUBLISHED, features="context", jittered=5, mirror=True, gate=-1)
+SINGLE = replace(PUBLISHED, strategy="single", cost=0.025)  # 0.1, were pixels from 0 to 1
+CONTEXT = replace(SINGLE, features="context", cost=0.1, jittered=5, mirror=True, gate=-1)
 GRADIENTS = replace(CONTEXT, features="gradients")
 REGRESSED = replace(GRADIENTS, strategy="finer", regressions=(0.15, 0.1, 0.07, 0.05))
 PREDICTED = replace(REGRESSED, predicts_iou=True)
@@ -41,6 +49,7 @@ IMPROVED = replace(PREDICTED, vote=True)
 PHOTOGRAPHED = replace(IMPROVED, strategy="fast")  # real things differ more: more candidates
 RECIPES = {
     "published": PUBLISHED,
+    "single": SINGLE,
     "context": CONTEXT,
     "gradients": GRADIENTS,
     "box regression": REGRESSED,

@@ -21,16 +21,17 @@ class KernelSVM:
     bias: float
 
     @classmethod
-    def fit(cls, x, y, kernel="linear", cost=0.1):
+    def fit(cls, x, y, kernel="linear", cost=0.1, scale=1.0):
         """Fit to features x (n, d) and labels y (n,), true or false; `cost` is the SVM's C.
 
+        The kernel's γ is `scale` over d times the variance of x.
         ValueError for an unknown kernel, and where one of the two labels has no example.
         """
         if kernel not in KERNELS:
             raise ValueError(f"kernel {kernel!r} is none of {', '.join(KERNELS)}")
         if len(np.unique(y)) < 2:
             raise ValueError("a classifier needs examples and counter-examples: give more photos")
-        gamma = 1 / (x.shape[1] * x.var())
+        gamma = scale / (x.shape[1] * x.var())
         svc = SVC(C=cost, kernel=kernel, gamma=gamma, cache_size=500).fit(x, y)
         support, weights = svc.support_vectors_, svc.dual_coef_[0]
         if kernel == "linear":  # then the sum is one term: a weight for each feature

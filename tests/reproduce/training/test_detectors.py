@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from reproduce import paper
 from reproduce.training.detectors import (
     best_threshold,
     candidates,
@@ -22,7 +23,7 @@ from vmc_lib.where.recipes import IMPROVED, PUBLISHED, RECIPES
 from vmc_lib.where.selective_search import propose
 
 
-@pytest.mark.parametrize("strategy", ["single", "finer"])
+@pytest.mark.parametrize("strategy", ["diverse", "single", "finer"])
 def test_shipped_candidates_are_proposed_again(photo, strategy):
     """Most of them: another processor may round a pixel differently."""
     stored, boxes = candidates(photo, strategy), propose(photo.image, strategy)
@@ -30,6 +31,11 @@ def test_shipped_candidates_are_proposed_again(photo, strategy):
     shipped, again = ({tuple(box) for box in boxes} for boxes in (stored, boxes))
     assert len(shipped & again) > 0.9 * len(shipped | again)
     assert (candidates(replace(photo, name="mine"), strategy) == boxes).all()
+
+
+def test_diverse_grouping_is_fitted_to_the_papers_number_of_boxes():
+    counts = [len(candidates(photo, "diverse")) for photo in photos.load("rig", "train")]
+    assert np.mean(counts) == pytest.approx(paper.BOXES_PER_PHOTO, abs=1)
 
 
 def test_examples_are_clear_cases(photo):
@@ -61,7 +67,7 @@ def test_mirrored_image_has_equal_overlaps(photo):
     assert (again.candidates == images[0].candidates).all()
 
 
-@pytest.mark.parametrize("name", ["published", "context"])
+@pytest.mark.parametrize("name", ["published", "single", "context"])
 def test_training_again_gives_the_detector_that_ships(name):
     few = photos.load("rig", "train")
     trained, shipped = (fit_detector(few, RECIPES[name]), ObjectDetector.load("rig", name))
