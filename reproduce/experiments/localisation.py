@@ -5,6 +5,7 @@ every photo is stored, as `make` finds it, so that a table costs no search.
 """
 
 from collections import ChainMap
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
@@ -26,14 +27,18 @@ from vmc_lib import photos
 from vmc_lib.boxes import MIN_IOU, iou, nms
 from vmc_lib.statistics import student
 from vmc_lib.where.detector import ObjectDetector
-from vmc_lib.where.recipes import RECIPES
+from vmc_lib.where.recipes import PUBLISHED, RECIPES
 from vmc_lib.where.svm import KernelSVM
 
-GRID = (0.01, 0.1, 1.0, 10.0, 100.0)  # costs (C) from which each kernel gets its own …
-CONTEXT_COSTS = {"linear": 0.1, "rbf": 10, "poly": 10, "sigmoid": 0.1}  # … but with context
-TABLE_1_KERNELS = tuple(CONTEXT_COSTS)
+COSTS = (0.01, 0.1, 1.0, 10.0, 100.0, 1000.0)  # the grid of C …
+SCALES = (0.03, 0.1, 0.3, 1.0)  # … and of γ, in units of `KernelSVM.fit`
+# "linear" has no γ; that of "poly" does what C does
+FREE_SCALES = {"linear": (1.0,), "rbf": SCALES, "poly": (1.0,), "sigmoid": SCALES}
+CONTEXT_COSTS = {"linear": 0.1, "rbf": 10, "poly": 10, "sigmoid": 0.1}
+TABLE_1_KERNELS = tuple(FREE_SCALES)
 TABLE_1_RECIPES = ("published", "context")
-RETRAINED = ("published", "improved")  # trained anew from TRAININGS seeds
+RETRAINED = ("published", "single", "improved")  # trained anew from TRAININGS seeds
+SIZES = {8: "8 pixels", 16: "pixels", 32: "32 pixels"}  # sides of the crops, as features are named
 TRAININGS = 6
 
 
@@ -49,52 +54,58 @@ def table_1(level, split="test", name="published"):
     return dict(zip(TABLE_1_KERNELS, by_kernel, strict=True))
 
 
-def kernel_costs(name="published"):
-    """The cost C of each kernel of Table I: with the published recipe as `choose_costs` chose."""
+def kernel_settings(name="published"):
+    """C and the scale of γ of each kernel of Table I, as `KernelSVM.fit` takes them.
+
+    Those of the published recipe are as `best_setting` chose; those of "context" were chosen with
+    the rest of it.
+    """
     if name == "context":
-        return CONTEXT_COSTS
-    return dict(zip(TABLE_1_KERNELS, arrays("localisation")["published/costs"], strict=True))
+        return {kernel: (cost, 1.0) for kernel, cost in CONTEXT_COSTS.items()}
+    return dict(zip(TABLE_1_KERNELS, arrays("localisation")["published/settings"], strict=True))
 
 
-def choose_costs(folder=photos.FOLDER, trainings=TRAININGS):
-    """For each kernel, the cost of `GRID` with the best F1 on the rig's validation photos, (4,).
+def f1_by_setting(kernel, features="pixels", folder=photos.FOLDER):
+    """F1 on the rig's validation photos of a kernel at each of COSTS and its FREE_SCALES, (6, s).
 
-    Of equal ones it is the least.
+    With the published recipe, or with other features in it.
     """
-    best = f1_by_cost(folder, trainings).argmax(axis=1)
-    return np.array(GRID)[best]
-
-
-def f1_by_cost(folder=photos.FOLDER, trainings=TRAININGS):
-    """F1 on the rig's validation photos of each kernel at each cost of `GRID`, (4, 5).
-
-    Means over the trainings, with the published recipe.
-    """
-    recipe = RECIPES["published"]
-    images = training_images(photos.load("rig", "train", folder), recipe)
+    recipe, rng = replace(PUBLISHED, features=features), np.random.default_rng(0)
+    learnt = svm_training_set(
+        training_images(photos.load("rig", "train", folder), recipe), recipe, rng
+    )
     x, truth = labelled_candidates(photos.load("rig", "validation", folder), recipe)
-    draws = [svm_training_set(images, recipe, np.random.default_rng(k)) for k in range(trainings)]
 
-    def f1(kernel, cost):
-        called = [KernelSVM.fit(*learnt, kernel, cost).score(x) > 0 for learnt in draws]
-        return np.mean([f1_score(truth, says) for says in called])
+    def f1(*setting):
+        return f1_score(truth, KernelSVM.fit(*learnt, kernel, *setting).score(x) > 0)
 
-    return np.array([[f1(kernel, cost) for cost in GRID] for kernel in TABLE_1_KERNELS])
+    return np.array([[f1(cost, scale) for scale in FREE_SCALES[kernel]] for cost in COSTS])
+
+
+def best_setting(kernel, f1):
+    """C and the scale of γ of the best of `f1_by_setting`; of equal ones the least C."""
+    cost, scale = np.unravel_index(f1.argmax(), f1.shape)
+    return COSTS[cost], FREE_SCALES[kernel][scale]
+
+
+def f1_by_size():
+    """The best F1 on the rig's validation photos of the linear kernel, by the crops' side."""
+    return dict(zip(SIZES, arrays("localisation")["published/sizes"], strict=True))
 
 
 def train_classifiers(level, name, kernels, seed, folder=photos.FOLDER, chosen=None):
     """For each kernel of Table I, a KernelSVM trained with the recipe `name`, and its threshold.
 
     Beyond the published recipe, whose threshold is 0, the validation photos set the threshold.
-    Both kinds of photos lie in `folder`. Costs other than `kernel_costs` may be `chosen`.
+    Both kinds of photos lie in `folder`. Settings other than `kernel_settings` may be `chosen`.
     """
-    chosen = chosen or kernel_costs(name)
+    chosen = chosen or kernel_settings(name)
     recipe, rng = RECIPES[name], np.random.default_rng(seed)
     images = training_images(photos.load(level, "train", folder), recipe)
     learnt = svm_training_set(images, recipe, rng)
     x, truth = labelled_candidates(photos.load(level, "validation", folder), recipe)
     for kernel in kernels:
-        svm = KernelSVM.fit(*learnt, kernel, chosen[kernel])
+        svm = KernelSVM.fit(*learnt, kernel, *chosen[kernel])
         yield svm, 0 if name == "published" else smoothed_threshold(svm.score(x), truth)
 
 
@@ -180,20 +191,31 @@ def figure_6(level, split="test"):
 
 def make(folder=photos.FOLDER, recipes=RECIPES, trainings=TRAININGS):
     """What `results/localisation.npz` holds, of the photos in `folder`."""
-    levels, costs = photos.LEVELS[::-1], choose_costs(folder, trainings)  # the longest first
-    chosen = {"published": dict(zip(TABLE_1_KERNELS, costs, strict=True)), "context": CONTEXT_COSTS}
+    choices, levels = chosen_settings(folder), photos.LEVELS[::-1]  # the longest first
+    chosen = dict(zip(TABLE_1_KERNELS, choices["published/settings"], strict=True))
     jobs = [
         *(
             delayed(retrain_detectors)(level, name, recipes[name], trainings, folder)
             for level, name in product(levels, RETRAINED[::-1])
         ),
         *(
-            delayed(table_1_arrays)(*job, folder, chosen[job[1]])
+            delayed(table_1_arrays)(*job, folder, chosen if job[1] == "published" else None)
             for job in product(levels, TABLE_1_RECIPES, range(trainings))
         ),
         *(delayed(final_boxes)(*job, folder) for job in product(levels, photos.SPLITS, RECIPES)),
     ]
-    return dict(ChainMap({"published/costs": costs}, *Parallel()(jobs)))
+    return dict(ChainMap(choices, *Parallel()(jobs)))
+
+
+def chosen_settings(folder=photos.FOLDER):
+    """The setting of each kernel (4, 2), and the best F1 (3,) of the linear one at SIZES."""
+    jobs = [(kernel, "pixels") for kernel in TABLE_1_KERNELS]
+    jobs += [("linear", features) for features in SIZES.values()]
+    f1 = Parallel()(delayed(f1_by_setting)(*job, folder) for job in jobs)
+    return {
+        "published/settings": np.array(list(map(best_setting, TABLE_1_KERNELS, f1))),
+        "published/sizes": np.array([rows.max() for rows in f1[len(TABLE_1_KERNELS) :]]),
+    }
 
 
 def final_boxes(level, split, name, folder):

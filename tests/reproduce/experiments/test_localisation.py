@@ -43,22 +43,34 @@ def test_table_1_ships_as_it_is_measured(name):
 
 
 def test_table_1_counts_the_examples_of_the_split():
-    """With the cost of the detector that ships, its own precision and recall."""
-    chosen = localisation.kernel_costs() | {"linear": RECIPES["published"].cost}
-    rows = localisation.measure_table_1("rig", "published", 0, ["linear"], chosen=chosen)
+    """Its linear kernel is the detector's that ships: one cost, the same precision and recall."""
+    assert localisation.kernel_settings()["linear"].tolist() == [RECIPES["published"].cost, 1]
+    rows = localisation.measure_table_1("rig", "published", 0, ["linear"])
     x, truth = labelled_candidates(photos.load("rig", "validation"))
     says = ObjectDetector.load("rig", "published").svm.score(x) > 0
     expected = (truth[says].mean(), says[truth].mean())
     assert rows[photos.SPLITS.index("validation"), 0] == pytest.approx(expected, abs=0.02)
 
 
-def test_costs_are_chosen_on_validation_photos_from_one_grid():
-    """With one training instead of all, to be quick: each chosen cost is as good as any."""
-    chosen, grid = localisation.kernel_costs(), localisation.GRID
-    assert list(chosen) == list(localisation.TABLE_1_KERNELS)
-    assert set(chosen.values()) <= {*grid}
-    for cost, f1 in zip(chosen.values(), localisation.f1_by_cost(trainings=1), strict=True):
-        assert f1[grid.index(cost)] >= f1.max() - 0.01
+def test_settings_are_chosen_on_validation_photos_from_one_grid(monkeypatch):
+    """In a small part of the grid, to be quick."""
+    few = dict.fromkeys(("rbf", "sigmoid"), (0.03, 1.0))
+    part = {"linear": (0.01, 0.1), "rbf": (0.1, 10.0), "poly": (0.1, 1.0), "sigmoid": (10.0, 1e3)}
+    for kernel, (cost, scale) in localisation.kernel_settings().items():
+        assert cost in localisation.COSTS
+        assert scale in localisation.FREE_SCALES[kernel]
+        with monkeypatch.context() as patch:
+            patch.setattr(localisation, "COSTS", part[kernel])
+            patch.setattr(localisation, "FREE_SCALES", localisation.FREE_SCALES | few)
+            best = localisation.best_setting(kernel, localisation.f1_by_setting(kernel))
+        assert best == (cost, scale)
+
+
+def test_sixteen_pixels_are_as_good_as_other_sizes():
+    """The best of the linear kernel on validation photos, and 8 pixels as they are measured."""
+    f1 = localisation.f1_by_size()
+    assert max(f1, key=f1.get) == 16
+    assert localisation.f1_by_setting("linear", "8 pixels").max() == pytest.approx(f1[8], abs=0.02)
 
 
 @pytest.mark.parametrize("name", localisation.RETRAINED)
