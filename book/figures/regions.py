@@ -12,16 +12,25 @@ from vmc_lib.where.svm import KernelSVM
 
 CHANNELS = ("red", "green", "blue", "mean")
 MEASURES = ("precision", "recall")
-PRINTED_NAMES = {"linear": "linear", "rbf": "RBF", "poly": "polynomial"}  # in the paper's Table I
+PRINTED_NAMES = {  # in the paper's Table I; that its "Gaussian" is the sigmoid is our reading
+    "linear": "linear",
+    "rbf": "RBF",
+    "poly": "polynomial",
+    "sigmoid": "Gaussian",
+}
 FRESH_ROWS = (*fresh_test_set.KERNELS, *fresh_test_set.DETECTORS)
 QUALITIES = ("a good candidate", "a box on the shuttlecock", "a good box")
 
 
 def crop_sheet(crops, columns=8):
-    """Crops (n, 768) as small pictures in rows of so many: an image."""
-    tiles = np.pad(crops.reshape(-1, 16, 16, 3), [(0, 0), (1, 1), (1, 1), (0, 0)])
-    grid = tiles.reshape(-1, columns, 18, 18, 3).swapaxes(1, 2)
-    return grid.reshape(-1, 18 * columns, 3)
+    """Crops (n, 3 size²) of `raw_pixels`, size up to 32, in rows of so many: an image.
+
+    Each is drawn 32 pixels wide.
+    """
+    size = round((crops.shape[1] / 3) ** 0.5)
+    tiles = crops.reshape(-1, columns, size, size, 3).repeat(32 // size, 2).repeat(32 // size, 3)
+    grid = np.pad(tiles / 2 + 0.5, [(0, 0), (0, 0), (2, 2), (2, 2), (0, 0)]).swapaxes(1, 2)
+    return grid.reshape(-1, 36 * columns, 3)
 
 
 def margin_plot(cost):
