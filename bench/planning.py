@@ -10,7 +10,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from bench.report import publish, seconds
-from reproduce.experiments.calibration import train_aim_correction
+from reproduce.experiments.changed_worlds import train_aim_correction
 from reproduce.peers import optimal_control
 from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration
 from vmc_lib.motor import templates

@@ -204,7 +204,7 @@ def after_the_command(away, reach):
     """Those distances by name, of one reach (its number as text) or the mean; the hold in grey."""
     fig, ax = panels(size=(6.0, 3.2))
     time = 1 + np.arange(next(iter(away.values())).shape[1]) * templates.EVERY / 1000
-    ax.axvspan(1, 1 + templates.HOLD, color=COLOURS["grey"], alpha=0.15, gid="the hold")
+    ax.axvspan(1, 1 + templates.HOLD, color=COLOURS["grey"], alpha=0.15, lw=0)
     for name, each in away.items():
         mm = each[int(reach) - 1] if reach.isdigit() else each.mean(axis=0)
         ax.plot(time, mm, label=name)

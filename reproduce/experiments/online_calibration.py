@@ -9,13 +9,8 @@ from itertools import product
 
 import numpy as np
 
-from reproduce.experiments.calibration import (
-    SCENARIOS,
-    Curve,
-    adapt,
-    coarse_algorithm_1,
-    nearest_templates,
-)
+from reproduce.experiments.calibration import SCENARIOS, coarse_algorithm_1, nearest_templates
+from reproduce.experiments.changed_worlds import Curve, adapt
 from vmc_lib.cerebellum.adaptation import CORRECTIONS, Adaptation
 from vmc_lib.cerebellum.offline import broyden_calibration
 from vmc_lib.cerebellum.online import AimCorrection, GranuleCells, WeightCorrection

@@ -16,6 +16,7 @@ from reproduce import ledger
 from reproduce.experiments import (
     calibration,
     cdbn_sensitivity,
+    changed_worlds,
     controller_comparison,
     crbm_ablation,
     domain_shift,
@@ -64,7 +65,7 @@ def toy_steps(folder):
     experiments = {
         "tables": partial(calibration.error_ratios, scenario=calibration.SCENARIOS[1], **size),
         "perturbations": partial(
-            calibration.block_errors, before=20, blocks=(1, 1, 1), movements=2
+            changed_worlds.block_errors, before=20, blocks=(1, 1, 1), movements=2
         ),
     }
     watched = {

@@ -5,7 +5,7 @@ from functools import partial
 import numpy as np
 import pytest
 
-from reproduce.experiments.calibration import PERTURBATIONS, adapt, train_aim_correction
+from reproduce.experiments.changed_worlds import PERTURBATIONS, adapt, train_aim_correction
 from vmc_lib.cerebellum.adaptation import SILENT, Adaptation, weight_correction
 from vmc_lib.cerebellum.online import AimCorrection
 from vmc_lib.motor.execution import execute

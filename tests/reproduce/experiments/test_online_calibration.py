@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from reproduce.experiments import online_calibration
-from reproduce.experiments.calibration import PERTURBATIONS, SCENARIOS, no_calibration
+from reproduce.experiments.calibration import SCENARIOS, no_calibration
+from reproduce.experiments.changed_worlds import PERTURBATIONS
 from reproduce.experiments.online_calibration import BLOCKS, learn, remaining
 from vmc_lib.cerebellum.online import WeightCorrection
 from vmc_lib.motor import templates

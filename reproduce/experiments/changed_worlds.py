@@ -1,0 +1,77 @@
+"""Adaptation in a world that changes: a load, a viscous field, a prism, each for some blocks."""
+
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+
+from vmc_lib.arm.simulate import Perturbation
+from vmc_lib.cerebellum.adaptation import CORRECTIONS, Adaptation
+from vmc_lib.cerebellum.online import AimCorrection
+from vmc_lib.motor.execution import execute, rotate_about_eye
+from vmc_lib.motor.planning import draw_targets, plan, surrounded
+from vmc_lib.motor.templates import load
+
+PRISM = np.radians(6.0)
+PERTURBATIONS = {  # what may change, as `execute` takes it
+    "a load of 0.5 kg": {"perturbation": Perturbation(load=0.5)},
+    "a viscous field": {"perturbation": Perturbation(field=((-1.0, 0.0), (0.0, -1.0)))},
+    "a prism": {"prism": PRISM},
+}
+
+
+class Curve(NamedTuple):
+    """An adaptation, block by block; every movement is made before it is learned from."""
+
+    target: np.ndarray  # (blocks, movements, 2), m, as seen
+    endpoint: np.ndarray  # (blocks, movements, 2), m, as seen
+
+    @property
+    def error(self):
+        """Mean distance from the target in each block, (blocks,), m."""
+        return np.linalg.norm(self.endpoint - self.target, axis=-1).mean(axis=-1)
+
+
+def adapt(learner, template_set, rng, perturbation, blocks=(2, 8, 6), movements=8):
+    """The `Curve` of an `Adaptation` in a world (of `PERTURBATIONS`) that comes and goes.
+
+    `blocks` counts those before, in and after the changed world. All targets are new, and lie
+    where the arm has experience with the prism and without it.
+    """
+    before, during, _ = blocks
+    targets = draw_targets(template_set, 4 * sum(blocks) * movements, rng)
+    inside = targets[surrounded(rotate_about_eye(targets, -PRISM), template_set.points)]
+    targets = inside[: sum(blocks) * movements].reshape(-1, movements, 2)
+    endpoint = [
+        learner.update(
+            plan(t, template_set),
+            partial(execute, **(perturbation if before <= b < before + during else {})),
+        ).endpoint
+        for b, t in enumerate(targets)
+    ]
+    return Curve(targets, np.array(endpoint))
+
+
+def train_aim_correction(template_set, rng, movements=150):
+    """An `AimCorrection` trained on so many movements."""
+    return AimCorrection(template_set).update(
+        plan(draw_targets(template_set, movements, rng), template_set)
+    )
+
+
+def block_errors(seed, before=150, **size):
+    """Mean error in mm of each block, by world and by what is corrected, for one seed.
+
+    So many movements are practised `before`; `size` is passed to `adapt`: `blocks`, `movements`.
+    """
+    return {
+        f"{name}, {corrects}": 1000 * _adapt_in_world(seed, world, corrects, before, size).error
+        for name, world in PERTURBATIONS.items()
+        for corrects in CORRECTIONS
+    }
+
+
+def _adapt_in_world(seed, world, corrects, before, size):
+    rng, template_set = np.random.default_rng(seed), load()
+    learner = Adaptation(train_aim_correction(template_set, rng, before), template_set, corrects)
+    return adapt(learner, template_set, rng, world, **size)
