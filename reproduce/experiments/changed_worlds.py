@@ -20,6 +20,10 @@ PERTURBATIONS = {  # what may change, as `execute` takes it
 }
 
 
+NOTHING = "nothing learns"
+CURES = (*CORRECTIONS, NOTHING)
+
+
 class Curve(NamedTuple):
     """An adaptation, block by block; every movement is made before it is learned from."""
 
@@ -67,11 +71,12 @@ def block_errors(seed, before=150, **size):
     return {
         f"{name}, {corrects}": 1000 * _adapt_in_world(seed, world, corrects, before, size).error
         for name, world in PERTURBATIONS.items()
-        for corrects in CORRECTIONS
+        for corrects in CURES
     }
 
 
 def _adapt_in_world(seed, world, corrects, before, size):
     rng, template_set = np.random.default_rng(seed), load()
-    learner = Adaptation(train_aim_correction(template_set, rng, before), template_set, corrects)
-    return adapt(learner, template_set, rng, world, **size)
+    trained = train_aim_correction(template_set, rng, before)
+    how = ("aim", np.inf) if corrects == NOTHING else (corrects,)
+    return adapt(Adaptation(trained, template_set, *how), template_set, rng, world, **size)
