@@ -1,6 +1,6 @@
 """Feedback control of reaches: with and without a forward model, target jumps, curl fields.
 
-What is measured of a hand's path, and the experiments whose results ship.
+The experiments whose results ship.
 """
 
 from functools import partial
@@ -9,13 +9,22 @@ import numpy as np
 
 from reproduce.experiments import calibration
 from reproduce.experiments.calibration import NOISE, SEEDS
+from reproduce.experiments.path_measures import (
+    SWING,
+    end_error,
+    end_speed,
+    overshoot,
+    path_deviation,
+    path_length_ratio,
+    tremor,
+)
 from vmc_lib.arm.dynamics import hand
-from vmc_lib.arm.model import STEP
 from vmc_lib.arm.muscle import noisy
 from vmc_lib.cerebellum.feedback_error import FeedbackErrorLearning
 from vmc_lib.cerebellum.forward_model import ForwardModel
 from vmc_lib.motor.feedback import (
-    BLIND,
+    OPEN_LOOP,
+    REFLEX,
     SIGHT,
     curl,
     push,
@@ -23,14 +32,20 @@ from vmc_lib.motor.feedback import (
     simulate_feedback,
     switch,
 )
-from vmc_lib.motor.inverse_dynamics import MOVING
 from vmc_lib.motor.planning import draw_targets, exact_weights, plan, surrounded
-from vmc_lib.motor.templates import load, reach
+from vmc_lib.motor.templates import START, load, reach
 
 JUMP, JUMPS_AT = 0.05, 0.15  # m and s: how far a target jumps, and when
-SWING, TREMOR = (0.5, 3.0), (3.0, 8.0)  # Hz
-FIELD = 15.0  # N for each m/s
-ARMS = {"the plan alone": (BLIND, False), "forward model": (SIGHT, True), "lesion": (SIGHT, False)}
+FIELD, BLOCKS = 15.0, (2, 10, 6)  # N for each m/s; blocks of reaches before, in and after the field
+FARTHEST = 0.085  # m: of eight equal reaches from `START` that end above the table
+
+GAINS = (2, 4, 8, 15, 30, 60, 120, 240, 480)
+BY_GAIN = {
+    "reflex alone": {k: REFLEX._replace(stretch=k, rate=0.1 * k) for k in (0.25, 0.5, 1.0, 2.0)},
+    **{arm: {g: SIGHT._replace(gain=g) for g in GAINS} for arm in ("late sight", "forward model")},
+}
+BEST = {"reflex alone": 0.5, "late sight": 2, "forward model": 240}  # by `gain_sweep`
+ARMS = {"the plan alone": OPEN_LOOP} | {arm: BY_GAIN[arm][gain] for arm, gain in BEST.items()}
 
 
 def exact_plans(targets, template_set):
@@ -92,18 +107,6 @@ def repeat_reach(target, count, template_set):
     return reference_trajectory(exact_plans(np.tile(target, (count, 1)), template_set))
 
 
-def push_error(path, reference, at):
-    """How far paths (T + 1, 2) are apart after a push at `at` s: at most, and in the end, mm."""
-    off = 1000 * _norm(path - reference)
-    return off[round(at / STEP) :].max(), off[-500:].mean()
-
-
-def rest_error(path, target):
-    """How far a path (T + 1, 2) rests from its target, and how far it swings there, mm."""
-    last = 1000 * (path[-500:] - target)
-    return _norm(last).mean(), np.ptp(last, axis=0).max()
-
-
 def compare_models(models, goals, template_set):
     """By name of a forward model, the mean tremor in mm² and overshoot in mm to goals (B, 2)."""
     reference = reference_trajectory(exact_plans(goals, template_set))
@@ -112,62 +115,25 @@ def compare_models(models, goals, template_set):
     return tremors, {k: 1000 * overshoot(path, goals).mean() for k, path in paths.items()}
 
 
-def tremor(path, since=1.0, band=TREMOR):
-    """Power in mm² in a band (low, high) in Hz, and the strongest frequency in Hz, of hand paths.
+def reach_measures(seed, arms=ARMS, count=100, seconds=3.0):
+    """By arm and measure, the means over so many reaches to a target that stays, or jumps.
 
-    `path` is (B, T + 1, 2) in m; what comes before `since` s is left out. Both answers are (B,).
+    Arms whose name begins with "forward model" have one.
     """
-    late = 1000 * path[:, round(since / STEP) :]
-    window = np.hanning(late.shape[1])[:, None]
-    waves = np.fft.rfft((late - late.mean(axis=1, keepdims=True)) * window, axis=1)
-    power = 2 * (np.abs(waves) ** 2).sum(axis=-1) / ((window**2).sum() * late.shape[1])
-    frequency = np.fft.rfftfreq(late.shape[1], STEP)
-    low, high = band
-    within = (frequency >= low) & (frequency < high)
-    return power[:, within].sum(axis=1), frequency[1:][power[:, 1:].argmax(axis=1)]
-
-
-def overshoot(path, target):
-    """How far hands (B, T + 1, 2) go beyond their targets (B, 2), along the way there, (B,), m."""
-    way = target - path[:, 0]
-    along = ((path - target[:, None]) * (way / _norm(way)[:, None])[:, None]).sum(axis=-1)
-    return along.max(axis=1).clip(0)
-
-
-def path_length_ratio(path):
-    """The length of each path in its first second, over the distance between its ends, (B,)."""
-    first = path[:, : round(1 / STEP) + 1]
-    length = np.linalg.norm(np.diff(first, axis=1), axis=-1).sum(axis=1)
-    return length / np.linalg.norm(first[:, -1] - first[:, 0], axis=-1)
-
-
-def path_deviation(path, meant):
-    """Where paths (B, T + 1, 2) are farthest from the meant ones across their way, (B,), m.
-
-    Across the straight line from the first meant place to the last, while the hand should move;
-    positive to the left.
-    """
-    way = meant[:, -1] - meant[:, 0]
-    left = np.stack([-way[:, 1], way[:, 0]], axis=-1) / _norm(way)[:, None]
-    aside = ((path - meant)[:, :MOVING] * left[:, None]).sum(axis=-1)
-    farthest = np.abs(aside).argmax(axis=1)[:, None]
-    return np.take_along_axis(aside, farthest, axis=1)[:, 0]
-
-
-def reach_measures(seed, count=100, seconds=3.0):
-    """By arm and measure, the means over so many reaches to a target that stays, or jumps."""
     rng, template_set = np.random.default_rng(seed), load()
     model = fit_forward_model(template_set, rng)
     first, second = draw_target_jumps(template_set, count, rng)
     steady = reference_trajectory(exact_plans(first, template_set), seconds)
     jump = reference_after_jump(template_set, first, second)
     measured = {}
-    for arm, (gains, predicts) in ARMS.items():
-        known = model if predicts else None
-        path = simulate_feedback(steady, gains, known, noise=NOISE, rng=rng).hand[..., :2]
-        ends = simulate_feedback(jump, gains, known, noise=NOISE, rng=rng).endpoint
+    for arm, gains in arms.items():
+        known = model if arm.startswith("forward model") else None
+        path, jumped = (
+            simulate_feedback(reference, gains, known, noise=NOISE, rng=rng).hand[..., :2]
+            for reference in (steady, jump)
+        )
         power, frequency = tremor(path)
-        missed = 1000 * _norm(ends - second)
+        missed = end_error(jumped, second)
         measures = {
             "swing (mm²)": tremor(path, band=SWING)[0].mean(),
             "tremor (mm²)": power.mean(),
@@ -175,22 +141,45 @@ def reach_measures(seed, count=100, seconds=3.0):
             "overshoot (mm)": 1000 * overshoot(path, first).mean(),
             "path over distance": path_length_ratio(path).mean(),
             "miss after a jump (mm)": missed.mean(),
+            "speed after a jump (mm/s)": end_speed(jumped).mean(),
             "jumps within 10 mm": (missed < 10).mean(),
         }
         measured |= {f"{arm}, {name}": float(value) for name, value in measures.items()}
     return measured
 
 
-def curl_field_deviations(learner, template_set, model, rng, blocks=(2, 20, 10), targets=5):
-    """How far a curl field bends reaches as they are learned: deviations (blocks, targets), in m.
+def gain_sweep(seed, by_gain=BY_GAIN, count=40, **size):
+    """`reach_measures` of every arm at each of its gains, with other reaches, by "arm, gain"."""
+    arms = {f"{arm}, {gain}": v for arm, gains in by_gain.items() for gain, v in gains.items()}
+    return reach_measures((seed, 1), arms, count, **size)
 
-    The same targets come in every block; `blocks` counts those before, in and after the field.
-    The second answer, (before or after learning, others), is the same for targets never practised.
+
+def sweep_means(measured):
+    """By arm, the mean of what `gain_sweep` measured at each of sight's `GAINS`."""
+    swept = load_results()["gains"]
+    sights = {arm: [f"{arm}, {g}" for g in GAINS] for arm in ("late sight", "forward model")}
+    sights["reflex alone"] = [f"reflex alone, {BEST['reflex alone']}"] * len(GAINS)
+    return {k: [swept[f"{arm}, {measured}"].mean() for arm in arms] for k, arms in sights.items()}
+
+
+def centre_out(template_set, turned=0.0):
+    """The reference of eight reaches from `START`, equally long, 25 degrees apart.
+
+    From straight back on, downwards and to the front; `turned` by so many degrees. Past experience
+    knows no way up from there.
     """
-    practised, others = (
-        reference_trajectory(exact_plans(draw_targets(template_set, n, rng), template_set), 1.0)
-        for n in (targets, 20)
-    )
+    angle = np.radians(180 + turned + 25 * np.arange(8))
+    ends = hand(START)[:2] + FARTHEST * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    return reference_trajectory(exact_plans(ends, template_set), 1.0)
+
+
+def curl_field_deviations(learner, template_set, model, rng, blocks=BLOCKS):
+    """How far a curl field bends `centre_out` reaches as they are learned: (blocks, 8), in m.
+
+    The same reaches come in every block; `blocks` counts those before, in and after the field.
+    The second answer, (before or after learning, 8), is the same for ways halfway between them.
+    """
+    practised, others = (centre_out(template_set, turned) for turned in (0.0, -12.5))
     before, during, _ = blocks
     bends, held_out = [], []
     for block in range(sum(blocks)):
@@ -213,7 +202,7 @@ def reach_in_field(learner, reference, disturbance, model, rng):
 def curl_field_errors(seed, **size):
     """For one seed, the mean deviation in mm of each block, to the left, and its mean size.
 
-    And the mean size for targets never practised, before and after; `size` as for
+    And the mean size for ways never practised, before and after; `size` as for
     `curl_field_deviations`.
     """
     rng, template_set = np.random.default_rng(seed), load()
@@ -226,7 +215,7 @@ def curl_field_errors(seed, **size):
     }
 
 
-EXPERIMENTS = {"reaches": reach_measures, "field": curl_field_errors}
+EXPERIMENTS = {"gains": gain_sweep, "reaches": reach_measures, "field": curl_field_errors}
 
 
 def make(experiments=EXPERIMENTS, seeds=SEEDS):
@@ -235,4 +224,3 @@ def make(experiments=EXPERIMENTS, seeds=SEEDS):
 
 
 load_results = partial(calibration.load_results, "feedback")
-_norm = partial(np.linalg.norm, axis=-1)

@@ -12,7 +12,7 @@ import numpy as np
 from reproduce.experiments.feedback_control import NOISE, exact_plans, fit_forward_model
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.motor.feedback import (
-    BLIND,
+    OPEN_LOOP,
     SIGHT,
     TICK,
     ReferenceTrajectory,
@@ -46,7 +46,7 @@ class Detours(NamedTuple):
 
 
 def simulate_detours(template_set, rng, count=60):
-    """`Detours`: straight and by a via-point, by a blind arm and by one that sees and foresees.
+    """`Detours`: straight and by a via-point, by the plan alone and with sight and a forward model.
 
     All four meet the same noise.
     """
@@ -58,7 +58,7 @@ def simulate_detours(template_set, rng, count=60):
         "straight": reference_trajectory(exact_plans(targets, template_set)),
         "by a via-point": ReferenceTrajectory(*map(np.concatenate, zip(*references, strict=True))),
     }
-    senses = {"blind": (BLIND, None), "sight and foresight": (SIGHT, model)}
+    senses = {"the plan alone": (OPEN_LOOP, None), "forward model": (SIGHT, model)}
     paths = {}
     for route, sense in product(routes, senses):
         noise = {"noise": NOISE, "rng": np.random.default_rng(1)}

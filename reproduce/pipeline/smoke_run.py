@@ -68,9 +68,11 @@ def toy_steps(folder):
             changed_worlds.block_errors, before=20, blocks=(1, 1, 1), movements=2
         ),
     }
+    one = {"reflex alone": {0.5: feedback_control.REFLEX}}
     watched = {
+        "gains": partial(feedback_control.gain_sweep, by_gain=one, count=2, seconds=2.0),
         "reaches": partial(feedback_control.reach_measures, count=2, seconds=2.0),
-        "field": partial(feedback_control.curl_field_errors, blocks=(1, 1, 1), targets=2),
+        "field": partial(feedback_control.curl_field_errors, blocks=(1, 1, 1)),
     }
     return {
         "photos": scenes,

@@ -95,11 +95,14 @@ def test_replaced_laws_change_inverse_dynamics_and_feedback(monkeypatch):
     path = feedback.ReferenceTrajectory(np.tile(START, (1, 101, 1)), WILD[:1, :100])
     before = (
         muscle_gain(START + still, still)[1],
-        feedback.simulate_feedback(path, feedback.BLIND),
+        feedback.simulate_feedback(path, feedback.OPEN_LOOP),
     )
     monkeypatch.setattr(muscle, "force", feeble)
     monkeypatch.setattr(muscle, "activation_rate", slow)
-    after = (muscle_gain(START + still, still)[1], feedback.simulate_feedback(path, feedback.BLIND))
+    after = (
+        muscle_gain(START + still, still)[1],
+        feedback.simulate_feedback(path, feedback.OPEN_LOOP),
+    )
     assert np.abs(after[0] - before[0]).max() > 0.1
     expected = simulate.simulate(path.excitations, START)
     np.testing.assert_allclose(after[1].q, expected.q, atol=1e-9)

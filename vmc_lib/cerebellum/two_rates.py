@@ -1,7 +1,6 @@
 """Adaptation from reach to reach as two memories: one learns fast and forgets, one does neither.
 
-The state-space model of Smith et al. (2006). Its rates here are ours, not fitted
-to people.
+The state-space model of Smith et al. (2006, PLoS Biology 4:e179). The rates are close to theirs.
 """
 
 from typing import NamedTuple

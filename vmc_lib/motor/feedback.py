@@ -31,13 +31,14 @@ class FeedbackGains(NamedTuple):
     gain: float = 30.0  # 1/s²: acceleration asked for, for each rad that the arm is off …
     damping: float = 0.25  # s: … and this times as much for each rad/s
     delay: float = 0.12  # s: from the eye to the muscle
-    stretch: float = 1.0  # excitation for each optimal fibre length that a muscle is too long …
-    rate: float = 0.1  # … and for each 2.5 lengths a second that it lengthens too fast
+    stretch: float = 0.5  # excitation for each optimal fibre length that a muscle is too long …
+    rate: float = 0.05  # … and for each 2.5 lengths a second that it lengthens too fast
     spinal: float = 0.03  # s: the stretch reflex's delay
 
 
 SIGHT = FeedbackGains()
-BLIND = FeedbackGains(gain=0.0, stretch=0.0, rate=0.0)  # the plan alone, as in the chapters before
+REFLEX = SIGHT._replace(gain=0.0)  # the stretch reflex alone
+OPEN_LOOP = REFLEX._replace(stretch=0.0, rate=0.0)  # the plan alone, as in the chapters before
 
 
 class ReferenceTrajectory(NamedTuple):
