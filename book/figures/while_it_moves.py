@@ -8,9 +8,11 @@ import numpy as np
 from book.figures.panels import curves, panels
 from book.figures.reaching import RING, norm_mm
 from reproduce.experiments import feedback_control as measure
+from reproduce.experiments.path_measures import end_error, end_speed, end_swing, push_error
 from vmc_lib.motor.feedback import SIGHT
 from vmc_lib.show import dot_plot
 from vmc_lib.show.arm_plane import plane
+from vmc_lib.show.markup import number
 from vmc_lib.show.palette import COLOURS
 
 SIZE, WITHIN = (8.2, 3.4), ((-0.08, 0.3), (-0.53, -0.2))  # inches; m
@@ -50,21 +52,22 @@ def target_jump(templates, motion, first, second, k, time):
     seconds = EVERY / 1000 * np.arange(distances.shape[1])
     right.plot(seconds, distances[k], lw=1, zorder=1.9, **GUIDE)
     if time == seconds[-1]:
-        ends = distances[:, -50:].mean(axis=1)
-        right.set_title(f"last half second: {ends[k]:.0f} mm; all four jumps: {ends.mean():.0f} mm")
+        off, speed = end_error(paths, second), end_speed(paths)
+        left.set_title(f"from 1.5 to 2 s: {off[k]:.0f} mm off, at {speed[k]:.0f} mm/s")
+        right.set_title(f"all four jumps: {off.mean():.0f} mm off, at {speed.mean():.0f} mm/s")
     return fig
 
 
 def late_loop(templates, path, goal):
-    """A hand's path (T, 2) to its goal (2,): how far off it rests, and how far it swings."""
-    off, swing = measure.rest_error(path, goal)
-    titles = f"last half second: {off:.0f} mm off", f"swings by {swing:.0f} mm"
+    """A hand's path (T, 2) to its goal (2,): how far off it ends, and how far it swings."""
+    off, swing, speed = end_error(path, goal), end_swing(path), end_speed(path)
+    titles = f"from 1.5 to 2 s: {off:.0f} mm off", f"swings by {swing:.0f} mm, at {speed:.0f} mm/s"
     return path_and_distance(templates, path, goal, titles)[0]
 
 
 def push(templates, path, goal, reference, at):
     """A hand's path (T, 2), pushed at `at` s, beside its reference (T, 2)."""
-    most, end = measure.push_error(path, reference, at)
+    most, end = push_error(path, reference, at)
     titles = f"in the end {end:.0f} mm off", f"at most {most:.0f} mm off"
     fig, _, right = path_and_distance(templates, path, goal, titles, reference, top=160)
     right.axvspan(at, at + 0.05, color=COLOURS["red"], alpha=0.25, lw=0)
@@ -82,6 +85,21 @@ def tremor_and_overshoot(tremors, overshoots, limit):
     return fig, far
 
 
+def gain_curves(gains, by_gain, gain):
+    """A plot for each measure of `by_gain`, measure -> arm -> (n,), over n gains; one is marked."""
+    fig, *axes = panels(len(by_gain), SIZE)
+    k = gains.index(gain)
+    for ax, (measured, lines) in zip(axes, by_gain.items(), strict=True):
+        curves(ax, gains, {f"{arm}: {number(line[k])}": line for arm, line in lines.items()})
+        ax.axvline(gain, color=COLOURS["red"], lw=1.5, gid="now")
+        ax.set(xscale="log", yscale="log", xlabel="gain (1/s²)", ylabel=measured)
+        ax.set_xticks(gains, gains)
+        ax.minorticks_off()
+        ax.set_ylim(top=100 * max(map(max, lines.values())))  # room for the legend
+        ax.legend(loc="upper left")
+    return fig
+
+
 def curl_field(templates, paths, reference, deviations, block, blocks):
     """Hands' paths (n, T, 2) in a block beside the reference, and the learning curve (blocks,), mm.
 
@@ -96,7 +114,7 @@ def curl_field(templates, paths, reference, deviations, block, blocks):
     right.axvspan(*on, **SHADE)
     curves(right, range(len(deviations)), {"": deviations[: block + 1]}, (block, deviations[block]))
     bound = 1.2 * np.abs(deviations).max()
-    right.set(xlabel="block of 5 reaches", ylabel="to the left (mm)")
+    right.set(xlabel="block of 8 reaches", ylabel="to the left (mm)")
     right.set(xlim=(-1, len(deviations)), ylim=(-bound, bound))
     return fig
 
