@@ -81,30 +81,31 @@ def by_reading(draws, experiments, end=None):
     }
 
 
-def predict_line(places, aside, x, order, width, lessons):
-    """What 40 granule cells say at x (n,) of a line, after so many lessons in an `order` (n,).
+def fit_line(places, aside, x, order, width, lessons):
+    """40 `GranuleCells` after so many lessons of a line, in an `order` (n,).
 
     A lesson is a place (n, 1) where the hand ended, in m, and how far `aside` (n,) to aim, in mm.
     """
     some = order[:lessons]
-    cells = GranuleCells(width, cells=40).fit(places[some], aside[some])
-    return cells.predict(x[:, None])
+    return GranuleCells(width, cells=40).fit(places[some], aside[some])
 
 
 def off_by(places, aside, x, order, width, lessons):
     """How far that is from what the arm needs, in mm, on average over the line."""
     needed = np.interp(x, places[:, 0], aside)
-    return np.abs(predict_line(places, aside, x, order, width, lessons) - needed).mean()
+    learned = fit_line(places, aside, x, order, width, lessons).predict(x[:, None])
+    return np.abs(learned - needed).mean()
 
 
 def bells(places, aside, x, order, width, lessons):
     """What the arm needs along a line, and what granule cells have learned of it."""
     data = places, aside, x, order, width, lessons
     fig, ax = panels(size=(6.5, 3.4))
-    _grey_bells(ax, width, x)
+    cells = fit_line(*data)
+    _grey_bells(ax, cells, x)
     lines = (
         (places[:, 0], aside, "-", "grey", "what the arm needs"),
-        (x, predict_line(*data), "-", "red", "the Purkinje cell's sum"),
+        (x, cells.predict(x[:, None]), "-", "red", "the Purkinje cell's sum"),
         (places[order[:lessons], 0], aside[order[:lessons]], "o", "blue", "lessons"),
     )
     for at, mm, style, colour, label in lines:
@@ -116,11 +117,10 @@ def bells(places, aside, x, order, width, lessons):
     return fig
 
 
-def _grey_bells(ax, width, x):
-    """What some of the cells respond to."""
+def _grey_bells(ax, cells, x):
+    """What every third of the cells responds to."""
     at = np.linspace(x[0], x[-1], 150)
-    away = at - np.linspace(0, 0.24, 13)[:, None]
-    heights = 3 * np.exp(-(away**2) / (2 * width**2)) - 3
+    heights = 3 * cells.excite(at[:, None]).T[::3] - 3
     heights[:, [0, -1]] = -3  # each ends at its foot
     outlines = np.stack(np.broadcast_arrays(at, heights), axis=-1)
     grey = PolyCollection(outlines, color=COLOURS["grey"], alpha=0.12, lw=0)
