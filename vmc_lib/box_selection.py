@@ -7,7 +7,6 @@ validation photos.
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.special import expit, logit
 
 from vmc_lib.boxes import decode_deltas, nms
 from vmc_lib.what.recogniser import NameClassifier
@@ -76,4 +75,4 @@ def filter_by_size(detections, camera):
 
 def scale_odds(probability, ratio):
     """Multiply the odds of probabilities (n,) by a likelihood ratio (Bayes' rule)."""
-    return expit(logit(probability) + np.log(ratio))
+    return probability * ratio / (probability * ratio + 1 - probability)

@@ -1,8 +1,6 @@
 """How sure a number is that was measured a few times, and how sure a difference."""
 
 import numpy as np
-from scipy.special import stdtrit
-from scipy.stats import binomtest, sem
 
 
 def student(values):
@@ -11,10 +9,15 @@ def student(values):
     Student's t: it speaks of what changed from value to value, a seed or a training, and of nothing
     else. ValueError for fewer than two values.
     """
+    from scipy.special import (
+        stdtrit,
+    )  # here, like all of SciPy: who shows no interval need not wait
+
     n = len(values)
     if n < 2:
         raise ValueError(f"{n} values have no spread: give two or more")
-    return np.mean(values, axis=0), stdtrit(n - 1, 0.975) * sem(values)
+    error = np.std(values, axis=0, ddof=1) / np.sqrt(n)
+    return np.mean(values, axis=0), stdtrit(n - 1, 0.975) * error
 
 
 def wilson(right, n):
@@ -22,6 +25,8 @@ def wilson(right, n):
 
     Counts that are means over trainings are rounded first.
     """
+    from scipy.stats import binomtest
+
     interval = binomtest(round(right), round(n)).proportion_ci(method="wilson")
     return interval.low, interval.high
 
@@ -31,6 +36,8 @@ def mcnemar(one, other):
 
     If neither is better, each wins about half of the cases on which they differ (McNemar 1947).
     """
+    from scipy.stats import binomtest
+
     wins, losses = int((one & ~other).sum()), int((other & ~one).sum())
     return wins, losses, binomtest(wins, wins + losses).pvalue if wins + losses else 1.0
 

@@ -18,10 +18,6 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from scipy.spatial.distance import cdist
-from sklearn.base import BaseEstimator, RegressorMixin
-from sklearn.linear_model import LinearRegression
-from sklearn.utils.validation import check_is_fitted, validate_data
 
 from vmc_lib.cerebellum.offline import algorithm_1, calibrate
 from vmc_lib.motor.execution import execute
@@ -37,6 +33,13 @@ from vmc_lib.motor.templates import TemplateSet
 
 # With Eq. 5's power of 1 the weights have a kink at every template; chosen on validation targets
 smooth_weights = partial(exact_weights, power=1.25)
+
+
+def linear_regression():
+    """The paper's g: scikit-learn's, imported when one is needed."""
+    from sklearn.linear_model import LinearRegression
+
+    return LinearRegression()
 
 
 def equation_8(plan: Plan):
@@ -84,7 +87,7 @@ class WeightCorrection:
 
     hindsight: bool = True
     weigh: Callable = habitual_weights
-    g: Any = field(default_factory=LinearRegression)
+    g: Any = field(default_factory=linear_regression)
     inputs: Callable = equation_8
     training_pairs: list = field(default_factory=list)
 
@@ -186,8 +189,11 @@ def _rows(values):
     return values.reshape(-1, values.shape[-1])
 
 
-class GranuleCells(RegressorMixin, BaseEstimator):
+class GranuleCells:
     """Ridge regression on a random radial-basis expansion, updated batch by batch.
+
+    Its methods are those of scikit-learn's regressions. They raise ValueError for numbers that are
+    not finite, and for another number of features than was learned from.
 
     `cells` granule cells with receptive fields of the given `width` (in the units of X) lie at
     random about the first inputs; `ridge` is the L2 penalty on the Purkinje weights.
@@ -198,7 +204,7 @@ class GranuleCells(RegressorMixin, BaseEstimator):
 
     def fit(self, X, y):
         """Forget everything, place the cells about X (n, d), learn y (n,) or (n, k)."""
-        X, y = validate_data(self, X, y, multi_output=True)
+        X, y = _finite(X), _finite(y)
         rng = np.random.default_rng(self.random_state)
         low, high = X.min(axis=0) - self.width, X.max(axis=0) + self.width
         self.centres_ = rng.uniform(low, high, (self.cells, X.shape[1]))
@@ -210,8 +216,7 @@ class GranuleCells(RegressorMixin, BaseEstimator):
         """Learn these as well; in which order batches come does not matter."""
         if not hasattr(self, "centres_"):
             return self.fit(X, y)
-        X, y = validate_data(self, X, y, multi_output=True, reset=False)
-        active = self.excite(X)
+        active, y = self.excite(X), _finite(y)
         self.gram_ += active.T @ active
         self.climbing_ += active.T @ y
         regularised_gram = self.gram_ + self.ridge * np.eye(self.cells)
@@ -220,9 +225,22 @@ class GranuleCells(RegressorMixin, BaseEstimator):
 
     def predict(self, X):
         """The correction (n,) or (n, k) for each X (n, d)."""
-        check_is_fitted(self)
-        return self.excite(validate_data(self, X, reset=False)) @ self.purkinje_
+        return self.excite(X) @ self.purkinje_
 
     def excite(self, X):
         """How active each granule cell is, (n, cells) in [0, 1], for each X (n, d)."""
-        return np.exp(-cdist(X, self.centres_, "sqeuclidean") / (2 * self.width**2))
+        X = _finite(X)
+        if not hasattr(self, "centres_"):
+            raise ValueError("the cells have learned nothing yet: fit them first")
+        if X.shape[1] != self.centres_.shape[1]:
+            raise ValueError(f"X has {X.shape[1]} features: give {self.centres_.shape[1]}")
+        away = zip(X.T, self.centres_.T, strict=True)  # one axis after the other: little memory
+        squares = sum(np.subtract.outer(x, centre) ** 2 for x, centre in away)
+        return np.exp(-squares / (2 * self.width**2))
+
+
+def _finite(values):
+    values = np.asarray(values, float)
+    if not np.isfinite(values).all():
+        raise ValueError("NaN or infinity among the numbers to learn from: leave those out")
+    return values

@@ -7,8 +7,6 @@ few spline coefficients keep.
 from functools import cache
 
 import numpy as np
-from scipy.interpolate import BSpline
-from scipy.optimize import lsq_linear
 
 from vmc_lib.arm import dynamics
 from vmc_lib.arm.engines import fibres
@@ -23,6 +21,8 @@ KNOTS = 28  # spline coefficients of each muscle's excitation
 @cache
 def spline(knots=KNOTS):
     """Cubic B-splines (SAMPLES, knots); a row sums to 1, so knots in [0, 1] stay in [0, 1]."""
+    from scipy.interpolate import BSpline
+
     edges = np.concatenate([[0] * 3, np.linspace(0, 1, knots - 2), [1] * 3])
     return read_only(BSpline.design_matrix(np.linspace(0, 1, SAMPLES), edges, 3).toarray())
 
@@ -93,4 +93,6 @@ def static_activation(q):
 
 def bounded_least_squares(matrix, wanted):
     """The x (n,) in [0, 1] for which matrix @ x is nearest to `wanted`, in least squares."""
+    from scipy.optimize import lsq_linear
+
     return lsq_linear(matrix, wanted, (0, 1), method="bvls").x

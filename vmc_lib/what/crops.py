@@ -2,9 +2,7 @@
 
 from functools import cache
 
-import cv2
 import numpy as np
-from scipy import fft
 
 WIDTH = 200  # pixels of a crop, as in the paper
 
@@ -15,6 +13,8 @@ def crop(image, box):
     The crop is stretched to a square, whatever the shape of the box, as in the paper. ValueError
     for a box that is not at least 2 × 2 pixels inside the image.
     """
+    import cv2
+
     height, width = image.shape[:2]
     x0, y0, x1, y1 = np.clip(np.round(box), 0, [width, height] * 2).astype(int)
     if x1 - x0 < 2 or y1 - y0 < 2:
@@ -33,6 +33,8 @@ def whiten(pictures, cutoff=0.4):
     the same. Each picture then gets mean 0 and standard deviation 1. ValueError for pictures of
     other shapes, with NaN, or without any contrast.
     """
+    from scipy import fft
+
     x = np.asarray(pictures, np.float32)
     if x.ndim != 3 or 0 in x.shape:
         raise ValueError(f"pictures are (n, height, width), not {x.shape}")

@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import expit
 
 from vmc_lib import photos
 from vmc_lib.data import arrays
@@ -44,6 +43,11 @@ def read_outs(cdbn, crops):
 # ---------------------------------------------------------------- the classifier
 
 
+def logistic(log_odds):
+    """The logistic function: the probability that has such log-odds; nothing overflows."""
+    return np.exp(-np.logaddexp(0, -log_odds))
+
+
 @dataclass(frozen=True, eq=False)
 class NameClassifier:
     """Logistic regression: the probability of being a shuttlecock, from weights (d,) and a bias."""
@@ -71,7 +75,7 @@ class NameClassifier:
 
     def probability(self, x):
         """The probability (n,) for features (n, d)."""
-        return expit(self.log_odds(x))
+        return logistic(self.log_odds(x))
 
 
 # ---------------------------------------------------------------- the recogniser

@@ -9,12 +9,12 @@ read-out answers two questions about a box: is it a shuttlecock, and where are i
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import expit
 
 from vmc_lib.boxes import as_boxes, decode_deltas, pad_boxes
 from vmc_lib.data import arrays
 from vmc_lib.photos import crops
 from vmc_lib.what.crbm import correlate_valid
+from vmc_lib.what.recogniser import logistic
 
 STAGES = "V1", "V2", "V4", "IT"  # what stands there in the brain
 WIDTH, MARGIN = 48, 0.25  # of a crop, in pixels; what it shows around the box, in sides
@@ -66,7 +66,7 @@ class VentralStream:
 
     def box_probability(self, image, boxes):
         """Probability (n,) that each of the boxes (n, 4) of an image shows a shuttlecock."""
-        return expit(self.predict(image, boxes)[0])
+        return logistic(self.predict(image, boxes)[0])
 
     def refine_boxes(self, image, boxes):
         """The boxes (n, 4), moved and stretched to what they show (box refinement)."""

@@ -5,9 +5,7 @@ A merged region inherits all of them from its two parts (Uijlings et al. 2013).
 
 from typing import NamedTuple
 
-import cv2
 import numpy as np
-from scipy.ndimage import find_objects
 
 from vmc_lib.compiled import compiled
 
@@ -15,15 +13,21 @@ LAB_LOWEST, LAB_RANGE = np.float32([[0, -128, -128], [100, 255, 255]])  # L, a a
 
 
 def _hsv(rgb):
-    channels = cv2.cvtColor(rgb, cv2.COLOR_RGB2HSV)
-    channels[..., 0] /= 360
-    return channels
+    import cv2
+
+    return cv2.cvtColor(rgb, cv2.COLOR_RGB2HSV) / np.float32([360, 1, 1])
+
+
+def _lab(rgb):
+    import cv2
+
+    return (cv2.cvtColor(rgb, cv2.COLOR_RGB2Lab) - LAB_LOWEST) / LAB_RANGE
 
 
 COLOUR_SPACES = {  # float RGB in 0..1 -> channels in about 0..1
     "RGB": lambda rgb: rgb,
     "HSV": _hsv,
-    "Lab": lambda rgb: (cv2.cvtColor(rgb, cv2.COLOR_RGB2Lab) - LAB_LOWEST) / LAB_RANGE,
+    "Lab": _lab,
     "rgI": lambda rgb: np.dstack([rgb[..., :2] / (rgb.sum(2, keepdims=True) + 1e-6), rgb.mean(2)]),
     "H": lambda rgb: COLOUR_SPACES["HSV"](rgb)[..., :1],
     "I": lambda rgb: rgb.mean(2, keepdims=True),
@@ -93,6 +97,8 @@ def texture_codes(channels):
 
     Returns the codes (4c, pixels), and how many bins there are.
     """
+    import cv2
+
     angles = np.arange(4) * np.pi / 4
     smooth = [cv2.GaussianBlur(channel, (0, 0), 1) for channel in np.moveaxis(channels, 2, 0)]
     codes = [_slope_codes(cv2.Sobel(x, -1, 1, 0), cv2.Sobel(x, -1, 0, 1), angles) for x in smooth]
@@ -132,6 +138,8 @@ def histograms(counts):
 
 def describe(labels, colours, textures):
     """The Appearance of n labelled segments, with room for every merge: 2n - 1 rows."""
+    from scipy.ndimage import find_objects
+
     places = find_objects(labels + 1)
     colour, texture = (
         _count(labels.ravel(), codes, len(places), bins) for codes, bins in (colours, textures)

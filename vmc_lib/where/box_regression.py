@@ -7,9 +7,9 @@ photos a level, of which 20 ship.
 from dataclasses import dataclass, replace
 
 import numpy as np
-from sklearn.linear_model import Ridge
 
 from vmc_lib.boxes import decode_deltas
+from vmc_lib.where.kernels import rbf
 
 DIRECTIONS = 100  # principal directions of the features that the basis functions are in
 PENALTY = 0.1  # of the ridge regression
@@ -33,6 +33,8 @@ class RBFRidge:
     @classmethod
     def fit(cls, x, y, count, rng):
         """Fit to features x (n, d), targets y (n,) or (n, m); `count` random rows are centres."""
+        from sklearn.linear_model import Ridge
+
         mean = x.mean(0)
         axes = np.linalg.eigh(np.cov(x.T))[1][:, -DIRECTIONS:]
         places = (x - mean) @ axes
@@ -45,8 +47,7 @@ class RBFRidge:
         """Design matrix: centred features x (n, d) and RBF activations, (n, d + r)."""
         x = x - self.mean
         z = x @ self.axes
-        squares = (z**2).sum(1)[:, None] + (self.centres**2).sum(1) - 2 * z @ self.centres.T
-        return np.hstack([x, np.exp(-self.gamma * squares)])
+        return np.hstack([x, rbf(z, self.centres, self.gamma)])
 
     def predict(self, x):
         """Predicted targets (n,) or (n, m) of features x (n, d)."""

@@ -10,13 +10,12 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
-from sklearn.kernel_ridge import KernelRidge
-from sklearn.metrics.pairwise import rbf_kernel
 
 from vmc_lib.boxes import as_boxes, centres_and_sides, jitter_boxes
 from vmc_lib.data import arrays, read_only
 from vmc_lib.photos import LEVELS
 from vmc_lib.where.features import gradients, raw_pixels
+from vmc_lib.where.kernels import rbf
 
 COPIES, JITTER = 12, 0.05  # boxes per training photo, and the noise of their edges, in sides
 GAMMA, PENALTY = 0.01, 0.01  # of the kernel regression; chosen on the validation photos
@@ -39,6 +38,8 @@ class Localiser:
     @classmethod
     def fit(cls, shots, rng):
         """Fit to photos whose shuttlecocks' places are known; `rng` jitters their boxes."""
+        from sklearn.kernel_ridge import KernelRidge
+
         inputs, targets = [], []
         for photo in shots:
             box = photo.boxes["shuttlecock"]
@@ -75,7 +76,7 @@ class Localiser:
         """
         boxes = as_boxes(box)
         centres, sides = centres_and_sides(boxes)
-        kernel = rbf_kernel(_describe(image, boxes), self.support, GAMMA)
+        kernel = rbf(_describe(image, boxes), self.support, GAMMA)
         right, down, height = self.mean + self.spread * (kernel @ self.weights)[0]
         return camera.back_project(centres + [right, down] * sides, height * SIDE)[0]
 

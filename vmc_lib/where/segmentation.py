@@ -8,7 +8,6 @@ An edge is packed into one uint64: the bits of its float32 weight, then its inde
 direction. So edges sort by weight, and equal ones by position, on every machine alike.
 """
 
-import cv2
 import numpy as np
 
 from vmc_lib.compiled import compiled
@@ -44,6 +43,8 @@ def segment(channels, k=100, sigma=0.8):
 
 def segmentations(channels, scales, sigma=0.8):
     """The labels of `segment` at each scale k in turn; the edges are sorted once for all."""
+    import cv2
+
     smooth = cv2.GaussianBlur(channels, (0, 0), sigma).reshape(channels.shape)
     height, width = smooth.shape[:2]
     edges, offsets = sort_by_weight(pixel_edges(smooth)), pixel_offsets(width)

@@ -3,10 +3,9 @@
 from dataclasses import dataclass
 
 import numpy as np
-from sklearn.metrics.pairwise import pairwise_kernels
-from sklearn.svm import SVC
 
-KERNELS = ("linear", "poly", "rbf", "sigmoid")
+from vmc_lib.where.kernels import KERNELS
+
 PARTS = ("gamma", "support", "weights", "bias")  # of an SVM, as they are stored
 
 
@@ -27,6 +26,8 @@ class KernelSVM:
         The kernel's γ is `scale` over d times the variance of x.
         ValueError for an unknown kernel, and where one of the two labels has no example.
         """
+        from sklearn.svm import SVC
+
         if kernel not in KERNELS:
             raise ValueError(f"kernel {kernel!r} is none of {', '.join(KERNELS)}")
         if len(np.unique(y)) < 2:
@@ -42,6 +43,4 @@ class KernelSVM:
         """Signed decision value (n,) of each row of x (n, d)."""
         if not len(x):
             return np.empty(0)
-        shape = {"gamma": self.gamma, "degree": 3, "coef0": 0.0}
-        kernel = pairwise_kernels(x, self.support, self.kernel, filter_params=True, **shape)
-        return kernel @ self.weights + self.bias
+        return KERNELS[self.kernel](x, self.support, self.gamma) @ self.weights + self.bias
