@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from tests.test_bank import TEMPLATES
-from vmc_lib.arm.model import F0, MUSCLES, forward, muscle_paths
+from vmc_lib.arm.arm26 import forward, muscle_paths
+from vmc_lib.arm.model import F0, MUSCLES
 
 BRA = MUSCLES.index("BRA")
 Z2 = 1.959964**2  # of Wilson's 95 % interval

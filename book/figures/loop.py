@@ -4,8 +4,8 @@ import numpy as np
 
 from book.figures.panels import panels
 from book.figures.reaching import ends, shares
+from vmc_lib.arm.arm26 import geometry
 from vmc_lib.arm.kinematics import TRUNK, to_world
-from vmc_lib.arm.model import geometry
 from vmc_lib.boxes import iou
 from vmc_lib.loop import RULES
 from vmc_lib.motor.templates import START

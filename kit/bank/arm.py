@@ -3,7 +3,8 @@
 import numpy as np
 
 from kit.question import choice, numeric, steps, tenths
-from vmc_lib.arm.model import MUSCLES, forward, mass_matrix, muscle_paths
+from vmc_lib.arm.arm26 import forward, mass_matrix, muscle_paths
+from vmc_lib.arm.model import MUSCLES
 
 GRAVITY = 9.81  # m/s²
 SHOULDER, ELBOW = steps(-40, 100, 10), steps(10, 120, 10)  # degrees within the joints' limits

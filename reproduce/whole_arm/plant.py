@@ -12,6 +12,8 @@ import mujoco
 import numpy as np
 from mujoco import rollout
 
+from vmc_lib.arm import arm26  # noqa: F401  (it keeps the warnings of MuJoCo on the console)
+
 FILE = Path(__file__).with_name("arm63.xml")
 MODEL = mujoco.MjModel.from_xml_path(str(FILE))
 MUSCLES = [MODEL.actuator(k).name for k in range(MODEL.nu)]

@@ -8,18 +8,8 @@ import pytest
 
 from reproduce.results import arrays
 from vmc_lib.arm import dynamics
-from vmc_lib.arm.model import (
-    DAMPING,
-    LIMITS,
-    MODEL,
-    MUSCLES,
-    STEP,
-    XML,
-    forward,
-    geometry,
-    mass_matrix,
-    muscle_paths,
-)
+from vmc_lib.arm.arm26 import MODEL, forward, geometry, mass_matrix, muscle_paths
+from vmc_lib.arm.model import DAMPING, F0, L0, LIMITS, MUSCLES, SLACK, STEP, XML
 
 MILLIMETRE = 1e-3
 
@@ -37,6 +27,15 @@ def ours(opensim):
     poses = [forward(q) for q in opensim["q"]]
     lengths, arms = zip(*[muscle_paths(pose) for pose in poses], strict=True)
     return np.array(lengths), np.array(arms), np.array([p.site("hand").xpos for p in poses])
+
+
+def test_parameters_are_those_that_mujoco_reads():
+    assert [MODEL.tendon(k).name for k in range(MODEL.ntendon)] == list(MUSCLES)
+    for name, values in (("F0", F0), ("L0", L0), ("slack", SLACK)):
+        np.testing.assert_array_equal(MODEL.numeric(name).data, values)
+    np.testing.assert_array_equal(MODEL.jnt_range, LIMITS)
+    np.testing.assert_array_equal(MODEL.dof_damping, DAMPING)
+    assert MODEL.opt.timestep == STEP
 
 
 def test_opensim_reference_covers_the_joint_range(opensim):

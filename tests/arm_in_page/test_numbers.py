@@ -13,9 +13,10 @@ from book.figures.whole_arm import lines, placed
 from reproduce.whole_arm import experiment
 from tests.arm_in_page.controls import WHOLE_ARM_TARGET
 from vmc_lib.arm import muscle
+from vmc_lib.arm.arm26 import geometry
 from vmc_lib.arm.dynamics import paths
 from vmc_lib.arm.kinematics import inverse_kinematics, to_world
-from vmc_lib.arm.model import F0, MUSCLES, geometry
+from vmc_lib.arm.model import F0, MUSCLES
 from vmc_lib.arm.simulate import simulate
 from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration
 from vmc_lib.motor import templates

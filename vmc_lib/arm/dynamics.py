@@ -10,10 +10,9 @@ MuJoCo's wrapping takes ten times as long as all the rest of a step.
 from functools import cache
 from itertools import product
 
-import mujoco
 import numpy as np
 
-from vmc_lib.arm.model import DAMPING, LIMITS, STEP, forward, loaded, mass_matrix, muscle_paths
+from vmc_lib.arm.model import DAMPING, LIMITS, STEP
 
 ROWS = 10_001  # of the muscle tables: steps of half a milliradian
 MARGIN = 0.4  # rad: the tables reach a little beyond the joints' stops
@@ -50,22 +49,12 @@ def coefficients(load=0.0):
 
     With a `load` in kg at the wrist.
     """
+    from vmc_lib.arm.arm26 import dynamics_at  # here: what follows needs no MuJoCo
+
     angles = np.linspace(0, 2 * np.pi, 6, endpoint=False)
     snapshots = np.array(list(product(angles, angles)))
-    data = mujoco.MjData(loaded(load))
-    seen = np.array([_snapshot(q, data) for q in snapshots])
-    solved = np.linalg.lstsq(_trig_basis_of(snapshots), seen)[0]
+    solved = np.linalg.lstsq(_trig_basis_of(snapshots), dynamics_at(snapshots, load))[0]
     return solved[:, :7].copy(), solved[:, 7:].copy()
-
-
-def _snapshot(q, data):
-    gravity = forward(q, data=data).qfrc_bias.copy()
-    inertia = mass_matrix(data)
-    # A turning shoulder throws the forearm outwards, and a bending elbow the upper arm.
-    swing = forward(q, (1, 0), data).qfrc_bias[1] - gravity[1]
-    bend = forward(q, (0, 1), data).qfrc_bias[0] - gravity[0]
-    terms = [inertia[0, 0], inertia[0, 1], inertia[1, 1], swing, bend, *gravity]
-    return [*terms, *data.site("hand").xpos]
 
 
 def hand(q):
@@ -146,6 +135,8 @@ def table_row(angle, joint):
 @cache
 def tables():
     """Lengths and moment arms over the angle of either joint, and their slopes (2, ROWS, 24)."""
+    from vmc_lib.arm.arm26 import forward, muscle_paths
+
     data = forward((0, 0))
     straight = muscle_paths(data)[0].copy()
     turned = np.empty((2, ROWS, 12))

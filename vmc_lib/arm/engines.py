@@ -6,13 +6,11 @@ have the same muscles, joint stops and semi-implicit Euler steps.
 
 from copy import copy
 
-import mujoco
 import numpy as np
-from mujoco.batch import Batch
 
 from vmc_lib.arm import dynamics
 from vmc_lib.arm.dynamics import accelerations, table_row, trig_basis, trig_basis_gradient
-from vmc_lib.arm.model import F0, L0, LIMITS, SLACK, STEP, loaded, muscle_paths
+from vmc_lib.arm.model import F0, L0, LIMITS, SLACK, STEP
 from vmc_lib.arm.muscle import PAPER, euler_activation, fibre, musculotendon_force
 from vmc_lib.compiled import compiled
 
@@ -138,6 +136,11 @@ def _step(
 
 def _mujoco_engine(excitations, start, first, perturbation, step, muscle):
     """The engine "mujoco", as `_compiled_engine`."""
+    import mujoco
+    from mujoco.batch import Batch
+
+    from vmc_lib.arm.arm26 import loaded, muscle_paths
+
     activation = activations(excitations, first, muscle, step)
     model = copy(loaded(perturbation.load))
     model.opt.timestep = step

@@ -1,90 +1,29 @@
-"""The arm as a MuJoCo model: OpenSim's arm26, two joints and six muscles (`arm26.xml`).
+"""The arm's parameters, as its MuJoCo model has them: OpenSim's arm26 (`arm26.xml`).
 
 Postures q are (shoulder, elbow) in radians; (0, 0) hangs straight down, positive lifts the hand
 forward and bends the elbow. Positions are metres in the shoulder frame: origin at the shoulder
 joint, x forward, y up, z to the right.
 """
 
-from functools import cache
 from importlib.resources import files
-from typing import NamedTuple
+from xml.etree import ElementTree
 
-import mujoco
 import numpy as np
 
 from vmc_lib.data import read_only
 
-LOG = mujoco.MjLogConfig.get()
-LOG.logto_file = False  # no file in the reader's folder: a warning is on the console
-LOG.set()
-
 XML = (files("vmc_lib.arm") / "arm26.xml").read_text(encoding="utf-8")
-MODEL = mujoco.MjModel.from_xml_string(XML)
-MUSCLES = tuple(MODEL.tendon(k).name for k in range(MODEL.ntendon))
-F0, L0, SLACK = (read_only(MODEL.numeric(name).data.copy()) for name in ("F0", "L0", "slack"))
-LIMITS = read_only(MODEL.jnt_range.copy())  # (2, 2): lowest and highest angle of each joint
-DAMPING = read_only(MODEL.dof_damping.copy())  # N m s: what skin and joints resist
-STEP = MODEL.opt.timestep  # s
+_MODEL = ElementTree.fromstring(XML)  # noqa: S314 (MuJoCo would take a tenth of a second)
 
 
-class Geometry(NamedTuple):
-    """Where everything is in one posture, for drawing; all in the shoulder frame."""
-
-    bodies: dict  # name -> (rotation (3, 3), position (3,)): x_world = rotation @ x + position
-    muscles: dict  # name -> path (n, 3) from origin to insertion, tangent points of wraps included
-
-    @property
-    def joints(self):
-        """Shoulder, elbow and wrist, (3, 3)."""
-        rotation, elbow = self.bodies["forearm"]
-        _, shoulder = self.bodies["humerus"]
-        return np.array([shoulder, elbow, elbow + rotation @ MODEL.site("hand").pos])
+def _numbers(path, attribute):
+    """The numbers in an attribute of every element at a path of the model."""
+    rows = [element.get(attribute).split() for element in _MODEL.findall(path)]
+    return read_only(np.squeeze(np.array(rows, float)))
 
 
-@cache
-def loaded(load):
-    """The model with a weight of `load` kg, a point, held at the wrist; `MODEL` itself for 0."""
-    if not 0 <= load <= 10:
-        raise ValueError(f"a load of {load} kg cannot be held; choose 0 to 10")
-    if load == 0:
-        return MODEL
-    spec = mujoco.MjSpec.from_string(XML)
-    weight = {"mass": load, "inertia": [1e-9] * 3, "explicitinertial": True}
-    spec.body("forearm").add_body(name="held", pos=MODEL.site("hand").pos, **weight)
-    return spec.compile()
-
-
-def forward(q, velocity=(0.0, 0.0), data=None):
-    """MuJoCo's data (new, or `data` overwritten) with one posture and joint velocity computed."""
-    data = data or mujoco.MjData(MODEL)
-    data.qpos, data.qvel = q, velocity
-    mujoco.mj_forward(data.model, data)
-    return data
-
-
-def muscle_paths(data):
-    """Musculotendon lengths (…, 6) and moment arms (…, 2, 6) in m of MuJoCo's current posture.
-
-    `data` is MuJoCo's own, or a `mujoco.batch.Batch` of many. A moment arm is minus the change of
-    length with the angle: positive turns the joint positively.
-    """
-    slopes = np.reshape(data.ten_J, (*data.ten_length.shape, MODEL.nv))
-    return data.ten_length, -np.swapaxes(slopes, -1, -2)
-
-
-def geometry(q):
-    """`Geometry` of one posture (2,): the pose of each body and the path of each muscle."""
-    data = forward(q)
-    names = [MODEL.body(k).name for k in range(1, MODEL.nbody)]
-    bodies = {n: (data.body(n).xmat.reshape(3, 3).copy(), data.body(n).xpos.copy()) for n in names}
-    points = data.wrap_xpos.reshape(-1, 3)
-    ends = zip(data.ten_wrapadr, data.ten_wrapadr + data.ten_wrapnum, strict=True)
-    paths = [points[first:last].copy() for first, last in ends]
-    return Geometry(bodies, dict(zip(MUSCLES, paths, strict=True)))
-
-
-def mass_matrix(data):
-    """The joints' inertia (2, 2) in kg m² at MuJoCo's current posture."""
-    matrix = np.empty((MODEL.nv, MODEL.nv))
-    mujoco.mj_fullM(data.model, data, matrix)
-    return matrix
+MUSCLES = tuple(tendon.get("name") for tendon in _MODEL.findall("tendon/spatial"))
+F0, L0, SLACK = (_numbers(f"custom/numeric[@name='{n}']", "data") for n in ("F0", "L0", "slack"))
+LIMITS = _numbers("worldbody//joint", "range")  # (2, 2): lowest and highest angle of each joint
+DAMPING = read_only(np.repeat(_numbers("default/joint", "damping"), 2))  # N m s: skin and joints
+STEP = float(_MODEL.find("option").get("timestep"))  # s

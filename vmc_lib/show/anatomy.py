@@ -9,8 +9,9 @@ from functools import cache
 import mujoco
 import numpy as np
 
+from vmc_lib.arm.arm26 import MODEL, forward
 from vmc_lib.arm.kinematics import TRUNK
-from vmc_lib.arm.model import F0, L0, LIMITS, MODEL, MUSCLES, SLACK, forward
+from vmc_lib.arm.model import F0, L0, LIMITS, MUSCLES, SLACK
 
 STRENGTH = 9e5  # N/m²: a drawn belly's cross-section is F0 / STRENGTH (ours, for the eye)
 BEFORE = (0.3, 0.2, 0.3, 0.62, 0.5, 0.3)  # share of each tendon before the belly (ours, by eye)
