@@ -9,10 +9,10 @@ import gzip
 import itertools
 import json
 from functools import partial
+from importlib.metadata import version
 from pathlib import Path
 
 import matplotlib.pyplot as plt
-import mujoco
 import numpy as np
 from IPython.display import HTML, display
 
@@ -41,7 +41,7 @@ TRIALS = 2  # of our own calibration: off-line, the page has no more to learn
 CALIBRATION = {"gains": GAINS, "trials": TRIALS, "largestStep": LARGEST_STEP}
 STATIC = Path(__file__).parent / "static"
 MUJOCO = STATIC / "vendor/mujoco.js"
-VERSIONS = {"Python": mujoco.__version__, "page": "3.14.0"}  # of MuJoCo
+VERSIONS = {"Python": version("mujoco"), "page": "3.14.0"}  # of MuJoCo
 MODEL_SCRIPTS = ("vectors", "engine", "muscle", "arm", "arm26")
 MODEL_SCRIPTS += ("templates", "planning", "calibration")
 PAGE_SCRIPTS = ("whole", "drawing", "live", "bench", "reach", "start")

@@ -5,7 +5,8 @@ calibration, with the focal length as the one unknown intrinsic). The sheet lies
 the shuttlecock, and defines the shoulder frame.
 """
 
-import cv2
+from functools import cache
+
 import numpy as np
 
 from vmc_lib.camera import TABLE, Camera
@@ -18,22 +19,28 @@ CORNER = np.array([0.337, TABLE, 0.12])  # the page's upper left corner, in the 
 AXES = np.array([[0, 0, 1.0], [-1, 0, 0], [0, -1, 0]])  # right, down the page, into the table
 FIRST = CORNER + MARGIN / 1000 @ AXES[:2]  # of the first marker
 FEWEST = 3  # markers that must be detected
-BOARD = cv2.aruco.GridBoard(
-    GRID, MARKER / 1000, GAP / 1000, cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_4X4_50)
-)
+
+
+@cache
+def board():
+    """The markers as OpenCV has them."""
+    import cv2
+
+    kind = cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_4X4_50)
+    return cv2.aruco.GridBoard(GRID, MARKER / 1000, GAP / 1000, kind)
 
 
 def marker_corners():
     """The markers' corners in the shoulder frame: (markers, 4, 3), m."""
-    return FIRST + np.array(BOARD.getObjPoints()) @ AXES
+    return FIRST + np.array(board().getObjPoints()) @ AXES
 
 
 def page_image():
     """The sheet as an image, one pixel a millimetre: (297, 210) uint8, black on white."""
     picture = np.full(PAGE[::-1], 255, np.uint8)
     right, down = MARGIN
-    wide, high = np.array(GRID) * (MARKER + GAP) - GAP
-    picture[down : down + high, right : right + wide] = BOARD.generateImage((int(wide), int(high)))
+    wide, high = (np.array(GRID) * (MARKER + GAP) - GAP).tolist()
+    picture[down : down + high, right : right + wide] = board().generateImage((wide, high))
     return picture
 
 
@@ -42,6 +49,8 @@ def remove_sheet(photo):
 
     The sheet is painted over in the colour around it, so that no marker passes for an object.
     """
+    import cv2
+
     camera, image = estimate_camera(photo), read_image(photo)
     if camera is None:
         return None, image
@@ -62,15 +71,17 @@ def estimate_camera(photo):
     400. The unknowns are its pose and focal length: the principal point is the photo's middle, and
     the lens has no distortion. None where fewer than FEWEST markers are detected.
     """
+    import cv2
+
     parameters = cv2.aruco.DetectorParameters()
     parameters.cornerRefinementMethod = cv2.aruco.CORNER_REFINE_SUBPIX
-    corners, ids, _ = cv2.aruco.ArucoDetector(BOARD.getDictionary(), parameters).detectMarkers(
+    corners, ids, _ = cv2.aruco.ArucoDetector(board().getDictionary(), parameters).detectMarkers(
         photo
     )
-    known = [] if ids is None else np.flatnonzero(np.isin(ids, BOARD.getIds()))
+    known = [] if ids is None else np.flatnonzero(np.isin(ids, board().getIds()))
     if len(known) < FEWEST:
         return None
-    points, pixels = BOARD.matchImagePoints([corners[k] for k in known], ids[known])
+    points, pixels = board().matchImagePoints([corners[k] for k in known], ids[known])
     height, width = photo.shape[:2]
     guess = np.array([[width, 0, width / 2], [0, width, height / 2], [0, 0, 1.0]])
     only_focal = cv2.CALIB_USE_INTRINSIC_GUESS | cv2.CALIB_FIX_PRINCIPAL_POINT

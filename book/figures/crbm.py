@@ -2,13 +2,12 @@
 
 import matplotlib.pyplot as plt
 import numpy as np
-import torch
 
 from book.figures.what import grey, lettered, tiles
 from reproduce.experiments.crbm_ablation import corner_share, even_tone
 from vmc_lib.show import dot_plot, photo_view
 from vmc_lib.show.palette import COLOURS
-from vmc_lib.what.learning import Learner
+from vmc_lib.what.crbm import CRBM
 
 MIDDLE = slice(80, 120)  # of a crop
 FREE = slice(7, 14)  # of a patch of 21 pixels: what a clamp of n_w - 1 = 7 leaves free
@@ -16,6 +15,8 @@ FREE = slice(7, 14)  # of a patch of 21 pixels: what a clamp of n_w - 1 = 7 leav
 
 def bitmap(rows):
     """A picture (1, 1, height, width) as a tensor: rows of "." for 0 and "#" for 1."""
+    import torch
+
     return torch.tensor([[[[float(c == "#") for c in row] for row in rows.split()]]])
 
 
@@ -36,7 +37,7 @@ def explanations_of(v, energies, names):
     bars = middle.barh(names, energies, color=COLOURS["orange"])
     middle.bar_label(bars, fmt="{:z.1f}", padding=2)  # no minus zero
     middle.set(title="energy E(v, h)", xlim=(0, 45))
-    bars = right.barh(names, torch.softmax(-energies, 0), color=COLOURS["blue"])
+    bars = right.barh(names, (-energies).softmax(0), color=COLOURS["blue"])
     right.bar_label(bars, fmt="%.2f", padding=2)
     right.set(title="p(h | v)", xlim=(0, 1.25), yticks=[])
     for ax in (left, middle, right):
@@ -46,9 +47,9 @@ def explanations_of(v, energies, names):
 
 def block_chances(drives):
     """The chances of a block's units (4,), and of its pooled unit, given their drives (4,)."""
-    one = Learner(torch.ones(1, 1, 1, 1), torch.zeros(1), torch.zeros(1), c=2)
-    h, p = one.posterior(torch.tensor(drives).float().reshape(1, 1, 2, 2))
-    return h.flatten().tolist(), p.item()
+    one = CRBM(np.ones((1, 1, 1, 1)), np.zeros(1), np.zeros(1), c=2)
+    h, p = one.posterior(np.reshape(drives, (1, 1, 2, 2)))
+    return h.ravel().tolist(), p.item()
 
 
 def block(*drives):
@@ -64,8 +65,7 @@ def block(*drives):
 
 def correlation(patch, dream):
     """The correlation of the FREE pixels of a patch and its dream (1, 1, 21, 21)."""
-    both = [x[0, 0, FREE, FREE].flatten() for x in (patch, dream)]
-    return float(torch.corrcoef(torch.stack(both))[0, 1])
+    return float(np.corrcoef(*(np.ravel(x[0, 0, FREE, FREE]) for x in (patch, dream)))[0, 1])
 
 
 def dream(patch, dream, reach):

@@ -4,7 +4,6 @@ import numpy as np
 
 from book.figures.panels import panels
 from book.figures.reaching import ends, shares
-from vmc_lib.arm.arm26 import geometry
 from vmc_lib.arm.kinematics import TRUNK, to_world
 from vmc_lib.boxes import iou
 from vmc_lib.loop import RULES
@@ -81,6 +80,8 @@ def from_above(photo, reach, turned):
 
     Each frame has its colour: the eye's is blue, the trunk's purple, the arm's dark.
     """
+    from vmc_lib.arm.arm26 import geometry
+
     q, turn = (reach.planned.q[-1], reach.turn) if turned else (START, 0.0)
     shoulder, ahead = to_world([[0, 0, 0.06], [0.5, 0, 0.06]], turn)
     axis = np.insert(TRUNK, 1, 0)

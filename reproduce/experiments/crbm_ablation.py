@@ -5,13 +5,11 @@ patch are clamped while the machine dreams.
 """
 
 import numpy as np
-import torch
 
 from reproduce.results import arrays
 from vmc_lib import photos
 from vmc_lib.what.cdbn import N_W, K, crops_of
 from vmc_lib.what.crops import whiten
-from vmc_lib.what.learning import Learner, Patches
 
 EPOCHS, PATCHES, WIDTH = 6, 2500, 21
 RECIPE = {"rate": 0.4, "sparsity": 0.002, "decay": 0.0003, "batch": 25}
@@ -25,6 +23,10 @@ CHANGES = {
 
 def filters_over_epochs(crops, name, epochs=EPOCHS, patches=PATCHES):
     """Filters (epochs + 1, K, N_W, N_W), at first and after each epoch, of one of `CHANGES`."""
+    import torch
+
+    from vmc_lib.what.learning import Learner, Patches
+
     pictures = crops[:, None] - crops.mean() if name == "no whitening" else whiten(crops)
     maps, rng = torch.from_numpy(pictures / pictures.std()), torch.Generator().manual_seed(0)
     sample = Patches(maps, WIDTH, patches, rng)

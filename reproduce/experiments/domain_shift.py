@@ -8,7 +8,6 @@ from functools import partial
 
 import numpy as np
 from joblib import Parallel, delayed
-from sklearn.linear_model import LogisticRegression
 
 from reproduce.peers.baseline_features import histograms_of_gradients
 from reproduce.results import arrays
@@ -151,6 +150,8 @@ def draw_rows(labels, count, rng):
 
 def evaluate_linear_readout(taught, validation, exams, rng):
     """A linear read-out of fixed features: scores for each of the PENALTIES."""
+    from sklearn.linear_model import LogisticRegression
+
     centre, size = taught[0].mean(0), taught[0].std(0) + 1e-3
     sets = [((x - centre) / size, y) for x, y in (taught, validation, *exams)]
     found = []

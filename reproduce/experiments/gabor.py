@@ -4,7 +4,6 @@ import itertools
 from functools import cache
 
 import numpy as np
-from scipy.optimize import minimize
 
 # angle (rad), wavelength, breadth across and along the stripes, centre x and y: pixels of a filter
 # that is EIGHT wide; for a wider one, all lengths grow with it
@@ -52,6 +51,8 @@ def best_gabor(W):
 
     Every angle, wavelength, breadth and place on a coarse grid is tried, the best two refined.
     """
+    from scipy.optimize import minimize
+
     W = np.asarray(W, float)
     n_w = len(W)
     bounds = scale_shapes(BOUNDS, n_w)

@@ -10,8 +10,6 @@ from itertools import product
 
 import numpy as np
 from joblib import Parallel, delayed
-from sklearn.linear_model import LogisticRegression
-from sklearn.metrics import f1_score
 
 from reproduce.results import arrays
 from reproduce.training.detectors import (
@@ -70,6 +68,8 @@ def f1_by_setting(kernel, features="pixels", folder=photos.FOLDER):
 
     With the published recipe, or with other features in it.
     """
+    from sklearn.metrics import f1_score
+
     recipe, rng = replace(PUBLISHED, features=features), np.random.default_rng(0)
     learnt = svm_training_set(
         training_images(photos.load("rig", "train", folder), recipe), recipe, rng
@@ -115,6 +115,8 @@ def smoothed_threshold(scores, right):
     What is right, (n,) true or false, is first smoothed into the chance that a score is: a logistic
     curve (Platt 1999).
     """
+    from sklearn.linear_model import LogisticRegression
+
     curve = LogisticRegression(C=1e3).fit(scores[:, None], right)
     chances = curve.predict_proba(scores[:, None])[:, 1]
     return best_threshold(scores, chances, chances.sum())

@@ -6,7 +6,6 @@ The classifiers, and what they say of every photo, are stored, as `make` finds t
 from itertools import product
 
 import numpy as np
-from sklearn.cluster import KMeans
 
 from reproduce import paper
 from reproduce.peers.baseline_features import bag_of_sift, histograms_of_gradients, raw_pixels, sift
@@ -192,6 +191,8 @@ def make(folder=photos.FOLDER, prototypes=250):
 
 def learn_unsupervised(folder, prototypes, rng):
     """HMAX's prototypes and SIFT's words, from training crops of all levels, labels unused."""
+    from sklearn.cluster import KMeans
+
     from reproduce.peers.hmax import draw_prototypes
 
     shots = [shot for level in photos.LEVELS for shot in photos.load(level, "train", folder)]

@@ -3,7 +3,6 @@
 from functools import cache
 
 import numpy as np
-from scipy.stats import quantile_test, ttest_ind
 
 from reproduce import paper
 from reproduce.experiments import cdbn_sensitivity, gabor, recognition
@@ -119,12 +118,16 @@ def _figure_7():
 
 def _mean_difference(name, some, others, better):
     """The difference of two means, with Welch's interval; it should be beyond 0."""
+    from scipy.stats import ttest_ind
+
     found = ttest_ind(some, others, equal_var=False).confidence_interval()
     ends = {"low": found.low, "high": found.high}
     return Quantity(name, 0, some.mean() - others.mean(), **ends, better=better, bound=True)
 
 
 def _v1():
+    from scipy.stats import quantile_test
+
     widths = [gabor.bandwidths(filter_)[1] for filter_ in cdbn.CDBN.load().first.W[:, 0]]
     found = quantile_test(widths).confidence_interval()
     name = "median bandwidth of direction (°), the paper's claim being the macaque's"

@@ -10,7 +10,6 @@ that is repeated.
 from functools import cache
 
 import numpy as np
-from scipy.optimize import brentq
 
 from vmc_lib.motor.inverse_dynamics import spline
 from vmc_lib.motor.planning import draw_targets, exact_weights, plan
@@ -47,6 +46,8 @@ def noise_share_for(mm):
 
     ValueError when no share up to one gives so much.
     """
+    from scipy.optimize import brentq
+
     targets = draw_targets(load(), 200, np.random.default_rng(100))
     excitations = plan(targets, load(), exact_weights).excitations
 

@@ -11,7 +11,6 @@ from itertools import product
 
 import numpy as np
 from joblib import Parallel, delayed
-from scipy.optimize import minimize
 
 from reproduce.results import arrays
 from vmc_lib.arm.kinematics import inverse_kinematics
@@ -59,6 +58,8 @@ def minimise_cost(target, cost, slope, ftol=1e-4, most=FULL_STRENGTH):
     moves it once, each of its `njev` slopes once for every knot and once more (beside what the cost
     takes).
     """
+    from scipy.optimize import minimize
+
     start = plan(target, load()).excitations
     first = np.stack(
         [bounded_least_squares(spline(KNOTS), muscle) for muscle in start.T], axis=-1

@@ -1,9 +1,6 @@
 """Training the name classifier: logistic regression on jittered crops of objects and scene."""
 
 import numpy as np
-from sklearn.calibration import CalibratedClassifierCV
-from sklearn.frozen import FrozenEstimator
-from sklearn.linear_model import LogisticRegression
 
 from vmc_lib import photos
 from vmc_lib.boxes import iou, jitter_boxes
@@ -49,6 +46,10 @@ def fit_name_classifier(x, y, x_validation, y_validation):
     set is kept, and its probabilities are calibrated there with Platt's sigmoid (1999). ValueError
     for an empty set, NaN, or labels of one class only.
     """
+    from sklearn.calibration import CalibratedClassifierCV
+    from sklearn.frozen import FrozenEstimator
+    from sklearn.linear_model import LogisticRegression
+
     for use, features, labels in (("train", x, y), ("validate", x_validation, y_validation)):
         if len(features) == 0 or len(np.unique(labels)) < 2 or not np.isfinite(features).all():
             raise ValueError(f"to {use}, give finite features of both classes")

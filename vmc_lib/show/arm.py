@@ -12,8 +12,6 @@ import numpy as np
 
 from vmc_lib import NoReach
 from vmc_lib.arm.kinematics import to_world, turn_towards
-from vmc_lib.show import props
-from vmc_lib.show.anatomy import anatomy
 from vmc_lib.show.scene import Scene
 
 EVERY = 20  # ms between the moments of a movement that a scene carries: the viewer fills in
@@ -30,6 +28,8 @@ def arm_scene(q, activation=6 * (0,), turn=0.0, photo=None, balls=(), grasp=Fals
     is neither, there is no table: a hanging arm would reach through it. With `grasp` the hand
     closes: at once, or at the end of the movement.
     """
+    from vmc_lib.show import props  # here, with meshcat
+
     scene = Scene(_furniture(bool(photo or len(balls))))
     q = np.atleast_2d(np.asarray(q, float))[::EVERY]
     moments = np.arange(len(q)) * EVERY / 1000
@@ -61,6 +61,9 @@ def _turn_for(place):
 @cache
 def _furniture(table):
     """What arm scenes share: the arm's anatomy, and perhaps a table."""
+    from vmc_lib.show import props
+    from vmc_lib.show.anatomy import anatomy
+
     scene = Scene()
     at, far = ((0.13, -0.24, 0), 1.05) if table else ((0.2, -0.18, 0), 1.3)  # what may be in sight
     scene.look(np.add(at, far * np.array([0.46, 0.25, 0.78])), at)

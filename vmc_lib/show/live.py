@@ -7,19 +7,19 @@ still runs: so there may be two threads that draw.
 import traceback
 from contextlib import contextmanager
 from functools import partial
+from importlib.util import find_spec
 from pathlib import Path
 from threading import RLock
 
 import anywidget
 import matplotlib.pyplot as plt
 import matplotlib_inline.backend_inline  # noqa: F401  (in `rc_context` its settings would end)
-import meshcat
 import traitlets
 from IPython import get_ipython
 
 STATIC = Path(__file__).parent / "static"
 VENDORED = {
-    "meshcat.js": Path(meshcat.__file__).parent / "viewer/dist/main.min.js",
+    "meshcat.js": Path(find_spec("meshcat").origin).parent / "viewer/dist/main.min.js",
     "bones.js": STATIC / "vendor/bones.js",
 }
 _pyplot = RLock()

@@ -4,7 +4,6 @@ import base64
 import re
 from functools import cache, lru_cache
 
-import cv2
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.ticker import AutoLocator, FixedLocator, MaxNLocator
@@ -134,6 +133,8 @@ def data_uri(image):
 @lru_cache(maxsize=64)  # the states of a demo often share a photo
 def _encode(pixels, shape):
     """PNG for small or flat pictures, WebP for photographs: whichever is shorter."""
+    import cv2
+
     image = np.frombuffer(pixels, np.uint8).reshape(shape)
     bgr = image if image.ndim == 2 else image[..., ::-1]
     png = cv2.imencode(".png", bgr)[1].tobytes()

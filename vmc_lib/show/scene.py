@@ -13,7 +13,6 @@ import json
 import re
 from collections import defaultdict
 
-import meshcat
 import umsgpack
 
 from vmc_lib.show.live import STATIC
@@ -48,6 +47,8 @@ class Scene:
 
     def __getitem__(self, path):
         """The meshcat visualizer at `path`: `scene["hand"].set_object(...)`."""
+        import meshcat  # here, for it brings a server along
+
         return meshcat.Visualizer(window=self)[path]
 
     def send(self, command):
