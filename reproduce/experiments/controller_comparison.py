@@ -8,7 +8,6 @@ import numpy as np
 
 from reproduce.experiments import calibration
 from reproduce.experiments.calibration import NOISE, SEEDS
-from reproduce.peers.adaptive_controllers import LEARNERS
 from vmc_lib.arm.muscle import noisy
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import draw_targets, plan
@@ -19,6 +18,8 @@ MOVEMENTS = (25, 50, 100, 250)
 
 def make(seeds=SEEDS, **size):
     """What `results/cerebella.json` holds: each learner's `compare`, with every seed."""
+    from reproduce.peers.adaptive_controllers import LEARNERS  # here, with scikit-learn
+
     compared = {name: partial(compare, *learner, **size) for name, learner in LEARNERS.items()}
     return calibration.make(compared, seeds)
 

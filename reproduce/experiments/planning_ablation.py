@@ -4,7 +4,6 @@ Errors are distances of the hand from its targets where a movement ends, in mm.
 """
 
 from functools import cache
-from itertools import product
 
 import numpy as np
 
@@ -17,26 +16,17 @@ from vmc_lib.motor.templates import load
 WEIGHTS = {"nearness (Eq. 5)": habitual_weights, "exact (Eq. 4)": exact_weights}
 SPACINGS = 8, 6, 4  # cm between templates
 RULES = {"Algorithm 1": algorithm_1, "Broyden": broyden_calibration}
+CORRECTIONS = {
+    "none": lambda habit: execute(habit).error,
+    "Algorithm 1": lambda habit: algorithm_1(habit).error.min(axis=0),
+    "Broyden, 1 trial": lambda habit: broyden_calibration(habit, trials=1).error.min(axis=0),
+    "Broyden, 2 trials": lambda habit: broyden_calibration(habit, trials=2).error.min(axis=0),
+}
 
 
-def reach_errors(targets):
-    """Errors (n,) of reaches for targets (n, 2), by (weights, correction, spacing in cm)."""
-    errors = {}
-    for (weights, rule), cm in product(WEIGHTS.items(), SPACINGS):
-        habit = plan(targets, load(cm / 100), rule)
-        errors |= {(weights, how, cm): e for how, e in correction_errors(habit).items()}
-    return errors
-
-
-def correction_errors(habit):
-    """Errors (n,) of a plan by the rule that corrects it, each time of its best trial."""
-    error = 1000 * broyden_calibration(habit, trials=2).error
-    return {
-        "none": error[0],
-        "Algorithm 1": 1000 * algorithm_1(habit).error.min(axis=0),
-        "Broyden, 1 trial": error[:2].min(axis=0),
-        "Broyden, 2 trials": error.min(axis=0),
-    }
+def reach_errors(targets, weights, correction, spacing):
+    """Errors (n,) of reaches for targets (n, 2), of the best trial; the spacing is in cm."""
+    return 1000 * CORRECTIONS[correction](plan(targets, load(spacing / 100), WEIGHTS[weights]))
 
 
 def repeated_errors(habit, repeats=4):
