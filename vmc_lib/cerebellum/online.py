@@ -35,13 +35,6 @@ from vmc_lib.motor.templates import TemplateSet
 smooth_weights = partial(exact_weights, power=1.25)
 
 
-def linear_regression():
-    """The paper's g: scikit-learn's, imported when one is needed."""
-    from sklearn.linear_model import LinearRegression
-
-    return LinearRegression()
-
-
 def equation_8(plan: Plan):
     """The inputs of the paper's g, for a plan: p_t, every w_i and every p_i, (…, 2 + 3 N).
 
@@ -56,6 +49,20 @@ def equation_8(plan: Plan):
 def mossy_fibres(plan: Plan):
     """The inputs of the granule cells: a plan's target, also among its templates, (…, 4 or 6)."""
     return np.concatenate([plan.target, plan.target - plan.points.mean(axis=-2)], axis=-1)
+
+
+class LinearRegression:
+    """Least squares with an intercept, the paper's g; scikit-learn's, without its import."""
+
+    def fit(self, X, y):
+        """Learn y (n, k) at X (n, d), forgetting all else."""
+        self.mean_, self.intercept_ = X.mean(axis=0), y.mean(axis=0)
+        self.slopes_ = np.linalg.lstsq(X - self.mean_, y - self.intercept_, rcond=1e-6)[0]
+        return self
+
+    def predict(self, X):
+        """The answers (n, k) at X (n, d)."""
+        return self.intercept_ + (X - self.mean_) @ self.slopes_
 
 
 @dataclass(eq=False)
@@ -73,7 +80,7 @@ class WeightCorrection:
     weigh : callable
         The rule of planning, as `plan` takes it; the paper's is Eq. 5.
     g : estimator
-        scikit-learn's, from `inputs` to Δw; the paper's is linear.
+        With scikit-learn's methods, from `inputs` to Δw; the paper's is linear.
     inputs : callable
         What g gets to know of a plan.
 
@@ -87,7 +94,7 @@ class WeightCorrection:
 
     hindsight: bool = True
     weigh: Callable = habitual_weights
-    g: Any = field(default_factory=linear_regression)
+    g: Any = field(default_factory=LinearRegression)
     inputs: Callable = equation_8
     training_pairs: list = field(default_factory=list)
 
@@ -140,7 +147,7 @@ class AimCorrection:
         self.cells = cells or GranuleCells()
         fours = _neighbours(template_set.points) if neighbours is None else neighbours
         known = plan(template_set.points[fours], template_set, rows=fours[:, None])
-        self.cells.fit(*_training_pairs(known, np.zeros_like(known.target)))
+        self.cells.fit(_rows(mossy_fibres(known)), np.zeros_like(_rows(known.target)))
 
     def correct(self, plan: Plan):
         """The plan aimed where it should be for the hand to end on the target."""
@@ -168,7 +175,7 @@ class AimCorrection:
 
         By hindsight: each aim was right for the place where its movement ended.
         """
-        return _training_pairs(replace(plan, target=endpoint), aim - endpoint)
+        return mossy_fibres(replace(plan, target=endpoint)), aim - endpoint
 
     def _at(self, plan, aim):
         return plan.with_weights(smooth_weights(aim, plan.points))
@@ -179,10 +186,6 @@ def _neighbours(points):
     edges = points.min(axis=0), points.max(axis=0)
     spots = np.stack(np.meshgrid(*np.linspace(*edges, 40).T), axis=-1).reshape(-1, 2)
     return np.unique(surrounding(spots[surrounded(spots, points)], points), axis=0)
-
-
-def _training_pairs(plan, corrections):
-    return _rows(mossy_fibres(plan)), _rows(corrections)
 
 
 def _rows(values):
