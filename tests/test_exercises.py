@@ -129,7 +129,7 @@ LIBRARY = {
     "UNIT_ON": posterior_drawn,
     "POOLED_WIDTHS": widths,
     "PRECISION_AND_RECALL": lambda chances, truth, threshold: [
-        score(truth, chances >= threshold) for score in (precision_score, recall_score)
+        score(truth, chances > threshold) for score in (precision_score, recall_score)
     ],
     "ACTIVATION_RATES": lambda u, a, rise, fall: muscle.activation_rate(u, a),
     "NEAR_WEIGHTS": habitual_weights,

@@ -6,14 +6,14 @@ from vmc_lib.show.grading import Exercise
 
 
 def precision_and_recall(chances, truth, threshold):
-    called = chances >= threshold
+    called = chances > threshold
     right = (called & truth).sum()
     return right / called.sum(), right / truth.sum()
 
 
 def _named_crops(rng):
     truth = rng.permutation(np.arange(12) < rng.integers(3, 9))
-    return (rng.integers(0, 8, 12) + 2 * truth) / 10, truth, 0.6
+    return (rng.integers(0, 8, 12) + 2 * truth) / 10, truth, 0.5
 
 
 PRECISION_AND_RECALL = Exercise(
@@ -23,17 +23,17 @@ PRECISION_AND_RECALL = Exercise(
         "The two are exchanged: return precision first.": lambda chances, truth, threshold: (
             precision_and_recall(chances, truth, threshold)[::-1]
         ),
-        "A crop whose chance is exactly the threshold is called a shuttlecock, too.": (
-            lambda chances, truth, threshold: precision_and_recall(chances, truth, threshold + 1e-9)
+        "A crop whose chance is exactly the threshold is not called a shuttlecock.": (
+            lambda chances, truth, threshold: precision_and_recall(chances, truth, threshold - 1e-9)
         ),
         "You divided both by the number of all crops. Precision is a share of those *called* so, "
         "recall of those that *are*.": lambda chances, truth, threshold: (
-            ((chances >= threshold) & truth).mean(),
-            ((chances >= threshold) & truth).mean(),
+            ((chances > threshold) & truth).mean(),
+            ((chances > threshold) & truth).mean(),
         ),
         "The first is the share of crops named right, cups among them. Precision looks only at "
         "those that are called a shuttlecock.": lambda chances, truth, threshold: (
-            ((chances >= threshold) == truth).mean(),
+            ((chances > threshold) == truth).mean(),
             precision_and_recall(chances, truth, threshold)[1],
         ),
     },
