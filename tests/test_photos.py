@@ -3,6 +3,7 @@
 import hashlib
 import json
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -98,6 +99,16 @@ def test_the_real_level_shows_shuttlecocks_cups_and_neither():
                 assert 0 <= x0 < x0 + 20 <= x1 <= WIDTH
                 assert 0 <= y0 < y0 + 20 <= y1 <= HEIGHT
     assert any(len(shot.more) for shot in photos.load("real", "train"))
+
+
+def test_further_boxes_belong_to_a_photos_one_kind():
+    (shot,) = [one for one in photos.load("real", "train") if one.name.endswith("001")]
+    boxes = photos.boxes_of(shot, "shuttlecock")
+    np.testing.assert_array_equal(boxes, [shot.boxes["shuttlecock"], *shot.more])
+    assert photos.boxes_of(shot, "cup").shape == (0, 4)
+    both = replace(shot, boxes=shot.boxes | {"cup": boxes[0]})
+    with pytest.raises(ValueError, match="shuttlecock, cup"):
+        photos.boxes_of(both, "cup")
 
 
 def test_the_real_level_is_split_by_place_and_credited():

@@ -131,8 +131,10 @@ def _read_sidecar(sidecar):
 
 
 def boxes_of(photo, name):
-    """The boxes (n, 4) of every thing of that name in a photo."""
-    return np.vstack([photo.boxes[name], *photo.more]) if name in photo.boxes else np.empty((0, 4))
+    """The boxes (n, 4) of every thing of that name; ValueError where `more` may be another's."""
+    if len(photo.more) and len(photo.boxes) > 1:
+        raise ValueError(f"{photo.name}: which of {', '.join(photo.boxes)} are the further things?")
+    return as_boxes([photo.boxes[name], *photo.more] if name in photo.boxes else [])
 
 
 def read_image(source):
@@ -170,9 +172,7 @@ def as_rgb(array):
         raise ValueError(f"an array of shape {array.shape} is not an image: give (h, w, 3)")
     if np.issubdtype(image.dtype, np.floating):
         if not (np.all(image >= 0) and np.all(image <= 1)):
-            raise ValueError(
-                "a float image needs finite values in 0..1; divide 8-bit values by 255"
-            )
+            raise ValueError("a float image needs finite values in 0..1: divide 8 bits by 255")
         image = np.round(image * 255).astype(np.uint8)
     if image.dtype != np.uint8:
         raise ValueError(f"an image of {image.dtype} has no known range: give uint8")
