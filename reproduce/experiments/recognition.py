@@ -66,7 +66,10 @@ def precision_recall(counts):
 
 
 def table_3(level):
-    """Table III on a level: measure -> split -> method -> (share, low, high), Wilson's 95 %."""
+    """Table III on a level: measure -> split -> method -> (share, low, high), Wilson's 95 %.
+
+    NaN where nothing is called a shuttlecock, and a precision has no denominator.
+    """
     rows = {measure: {"held-out": {}, "in-sample": {}} for measure in MEASURES}
     for label, split in (("held-out", "test"), ("in-sample", "train")):
         probability, truth = load_probabilities(level, split)
@@ -74,7 +77,7 @@ def table_3(level):
             right, wrong, missed, rest = confusion_counts(probability[method], truth)
             counts = (right + rest, len(truth)), (right, right + wrong), (right, right + missed)
             for measure, (k, n) in zip(MEASURES, counts, strict=True):
-                rows[measure][label][method] = k / n, *wilson(k, n)
+                rows[measure][label][method] = (k / n, *wilson(k, n)) if n else 3 * (np.nan,)
     return rows
 
 
@@ -142,13 +145,12 @@ def everyday_probabilities(shots):
     """Probabilities of all objects: (level taught, read-out) -> a photo's name -> (n,)."""
     boxes = {name: (shot.image, shot.boxes.values()) for name, shot in shots.items()}
     crops = {name: [crop(image, box) for box in some] for name, (image, some) in boxes.items()}
-    features = {name: read_outs(CDBN.load(), inside) for name, inside in crops.items()}
+    cdbn, pairs = CDBN.load(), product((*photos.LEVELS, POOLED_LEVEL), READ_OUTS)
+    features = {name: read_outs(cdbn, inside) for name, inside in crops.items()}
+    classifiers = {pair: Recogniser.load(*pair).classifier for pair in pairs}
     return {
-        (level, read_out): {
-            name: Recogniser.load(level, read_out).classifier.probability(x[read_out])
-            for name, x in features.items()
-        }
-        for level, read_out in product((*photos.LEVELS, POOLED_LEVEL), READ_OUTS)
+        (level, read_out): {name: one.probability(x[read_out]) for name, x in features.items()}
+        for (level, read_out), one in classifiers.items()
     }
 
 

@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 import torch
 
+from reproduce.experiments import recognition
 from reproduce.experiments.recognition import (
     METHODS,
     confusion_counts,
@@ -11,6 +12,7 @@ from reproduce.experiments.recognition import (
     mcnemar_tests,
     precision_recall,
     probabilities,
+    table_3,
 )
 from reproduce.peers.hmax import c1, draw_prototypes, hmax, s1
 from vmc_lib import photos
@@ -30,6 +32,14 @@ def test_methods_are_compared_in_pairs_and_corrected_for_their_number():
     chances, corrected = zip(*(row[4:] for row in rows), strict=True)
     assert chances == pytest.approx((2 / 2**8, 1, 2 / 2**7))
     assert corrected == pytest.approx((3 * 2 / 2**8, 1, 2 * 2 / 2**7))
+
+
+def test_a_precision_without_calls_is_not_a_number(monkeypatch):
+    nothing = {method: np.zeros(2) for method in METHODS}, np.array([True, False])
+    monkeypatch.setattr(recognition, "load_probabilities", lambda level, split: nothing)
+    shares = {measure: rows["held-out"][METHODS[0]][0] for measure, rows in table_3("rig").items()}
+    assert np.isnan(shares.pop("precision"))
+    assert shares == {"named right": 0.5, "recall": 0}
 
 
 def test_shipped_probabilities_are_reproducible():
