@@ -50,6 +50,16 @@ def test_engines_agree_with_a_load_in_a_force_field():
     assert np.abs(fast.q - bare.q).max() > 0.01
 
 
+def test_a_drag_acts_without_a_push():
+    u = random_excitations(1, 300, np.random.default_rng(5))
+    drag, paths = 5 * np.eye(2), []
+    for push in (NO_PUSH, np.zeros((1, 300, 2))):
+        paths.append(allocate_trajectory(u, START, 0, u[:, 0]))
+        step_trajectory(u, paths[-1], range(300), push=push, drag=drag)
+    np.testing.assert_array_equal(*(q for q, *_ in paths))
+    assert np.abs(paths[0][0] - simulate(u, START, u[:, 0]).q).max() > 0.01
+
+
 def test_hand_forces_act_through_the_jacobian():
     """A push, and a drag that grows with the hand's velocity, held against a numeric Jacobian."""
     rng = np.random.default_rng(4)

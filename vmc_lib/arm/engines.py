@@ -83,6 +83,8 @@ def step_trajectory(
     The arm holds a `load` in kg, in a `field` on its joints. The hand is pushed by `push`,
     (B, T, 2) in N, and by `drag`, (2, 2), times its velocity.
     """
+    if np.any(drag) and not len(push):
+        push = np.zeros((*excitations.shape[:2], 2))
     arm = dynamics.tables(), *dynamics.coefficients(load)
     forces = (np.require(x, float, "CW") for x in (field, push, drag))
     _step(excitations, *path, steps[0], steps[-1] + 1, *arm, *forces, step)
