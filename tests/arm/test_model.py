@@ -92,7 +92,7 @@ def test_closed_form_dynamics_equal_mujoco():
         np.testing.assert_allclose(dynamics.hand(q[k]), pose.site("hand").xpos, atol=1e-14)
         np.testing.assert_allclose(lengths[k], muscle_paths(pose)[0], atol=1e-8)
         np.testing.assert_allclose(arms[k], muscle_paths(pose)[1], atol=1e-6)
-    back = dynamics.acceleration_from(q, velocity, torque)
+    back = dynamics.forward_dynamics(q, velocity, torque)
     np.testing.assert_allclose(back, acceleration, atol=1e-10)
 
 

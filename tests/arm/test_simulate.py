@@ -7,9 +7,10 @@ import pytest
 
 from reproduce.peers.muscle_models import LAWS
 from reproduce.results import arrays
-from vmc_lib.arm.dynamics import acceleration_from, hand, paths
+from vmc_lib.arm.dynamics import forward_dynamics, hand, paths
 from vmc_lib.arm.engines import (
     ENGINES,
+    NO_PUSH,
     allocate_trajectory,
     muscle_torque,
     step_trajectory,
@@ -75,7 +76,7 @@ def test_hand_forces_act_through_the_jacobian():
         torque = (slopes @ force[..., None])[..., 0] + stop_torque(q, velocity)
         torque += muscle_torque(activation, *paths(q), velocity)
         change = (path[1][:, t + 1] - velocity) / STEP
-        np.testing.assert_allclose(change, acceleration_from(q, velocity, torque), rtol=1e-5)
+        np.testing.assert_allclose(change, forward_dynamics(q, velocity, torque), rtol=1e-5)
 
 
 def test_movement_with_thelen_muscles_is_near_opensim():

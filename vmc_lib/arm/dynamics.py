@@ -85,16 +85,16 @@ def torque_for(q, velocity, acceleration):
     return np.array([m11 * a1 + m12 * a2 + b1, m12 * a1 + m22 * a2 + b2]).T
 
 
-def acceleration_from(q, velocity, torque):
+def forward_dynamics(q, velocity, torque):
     """Forward dynamics, Eq. 12: the accelerations (…, 2) that joint torques cause."""
-    return np.array(accelerations(_terms(q), *velocity.T, *torque.T, STEP)).T
+    return np.array(equation_12(_terms(q), *velocity.T, *torque.T, STEP)).T
 
 
 def _terms(q):
     return (_trig_basis_of(q) @ coefficients()[0]).T
 
 
-def accelerations(terms, w1, w2, t1, t2, step):
+def equation_12(terms, w1, w2, t1, t2, step):
     """Eq. 12 of one arm, or of many: both accelerations from velocities and torques of the joints.
 
     `terms` are the seven that `coefficients` makes of the basis.

@@ -9,7 +9,7 @@ from copy import copy
 import numpy as np
 
 from vmc_lib.arm import dynamics
-from vmc_lib.arm.dynamics import accelerations, table_row, trig_basis, trig_basis_gradient
+from vmc_lib.arm.dynamics import equation_12, table_row, trig_basis, trig_basis_gradient
 from vmc_lib.arm.model import F0, L0, LIMITS, SLACK, STEP
 from vmc_lib.arm.muscle import PAPER, euler_activation, fibre, musculotendon_force
 from vmc_lib.compiled import compiled
@@ -49,13 +49,13 @@ def stop_torque(q, velocity, limits=LIMITS.T):
     return -STOP_STIFFNESS * (beyond + STOP_DAMPING * np.abs(beyond) * velocity)
 
 
-def acceleration(q, velocity, activation, strength=1.0):
+def muscle_acceleration(q, velocity, activation, strength=1.0):
     """Eq. 10–12: the accelerations (…, 2) of arms at q (…, 2), by muscles and stops.
 
     Every muscle's torque is multiplied by `strength`.
     """
     torque = strength * muscle_torque(activation, *dynamics.paths(q), velocity)
-    return dynamics.acceleration_from(q, velocity, torque + stop_torque(q, velocity))
+    return dynamics.forward_dynamics(q, velocity, torque + stop_torque(q, velocity))
 
 
 def _compiled_engine(excitations, start, first, perturbation, step, muscle):
@@ -85,17 +85,16 @@ def step_trajectory(
     """
     if np.any(drag) and not len(push):
         push = np.zeros((*excitations.shape[:2], 2))
-    arm = dynamics.tables(), *dynamics.coefficients(load)
+    arm = dynamics.tables(), dynamics.coefficients(load)
     forces = (np.require(x, float, "CW") for x in (field, push, drag))
     _step(excitations, *path, steps[0], steps[-1] + 1, *arm, *forces, step)
 
 
 @compiled
-def _step(
-    u, q, velocity, activation, first, end, tables, terms_of, hand_of, field, push, drag, step
-):
+def _step(u, q, velocity, activation, first, end, tables, coefficients, field, push, drag, step):
     """Eq. 9–12 of one arm after the other, step by step from the first sample, which is given."""
-    entry, torque, terms, slope = np.empty((2, 12)), np.empty(2), np.empty(7), np.empty((2, 2))
+    entry, torque, terms, jacobian = np.empty((2, 12)), np.empty(2), np.empty(7), np.empty((2, 2))
+    term_coefficients, hand_coefficients = coefficients
     for arm in range(len(q)):
         for t in range(first, end):
             w1, w2 = velocity[arm, t, 0], velocity[arm, t, 1]
@@ -115,22 +114,22 @@ def _step(
                 torque[0] += r1 * pull
                 torque[1] += r2 * pull
             if len(push):
-                slope[:] = 0  # the hand's Jacobian: how fast each joint takes it along x and y
+                jacobian[:] = 0  # how fast each joint takes the hand along x and y
                 for joint, rises in enumerate(trig_basis_gradient(q[arm, t, 0], q[arm, t, 1])):
                     for n, rise in enumerate(rises):
                         for axis in range(2):
-                            slope[joint, axis] += rise * hand_of[n, axis]
-                vx = slope[0, 0] * w1 + slope[1, 0] * w2
-                vy = slope[0, 1] * w1 + slope[1, 1] * w2
+                            jacobian[joint, axis] += rise * hand_coefficients[n, axis]
+                vx = jacobian[0, 0] * w1 + jacobian[1, 0] * w2
+                vy = jacobian[0, 1] * w1 + jacobian[1, 1] * w2
                 for axis in range(2):
                     pushed = push[arm, t, axis] + drag[axis, 0] * vx + drag[axis, 1] * vy
                     for joint in range(2):
-                        torque[joint] += slope[joint, axis] * pushed
+                        torque[joint] += jacobian[joint, axis] * pushed
             terms[:] = 0
             for n, wave in enumerate(trig_basis(q[arm, t, 0], q[arm, t, 1])):
                 for k in range(7):
-                    terms[k] += wave * terms_of[n, k]
-            changes = accelerations(terms, w1, w2, torque[0], torque[1], step)
+                    terms[k] += wave * term_coefficients[n, k]
+            changes = equation_12(terms, w1, w2, torque[0], torque[1], step)
             for joint in range(2):
                 velocity[arm, t + 1, joint] = velocity[arm, t, joint] + step * changes[joint]
                 q[arm, t + 1, joint] = q[arm, t, joint] + step * velocity[arm, t + 1, joint]

@@ -10,7 +10,7 @@ from functools import partial
 import numpy as np
 
 from vmc_lib.arm.dynamics import paths
-from vmc_lib.arm.engines import acceleration, muscle_torque
+from vmc_lib.arm.engines import muscle_acceleration, muscle_torque
 from vmc_lib.arm.model import STEP
 from vmc_lib.cerebellum.online import GranuleCells
 
@@ -25,7 +25,7 @@ def arm_copy(strength=1.0):
     if np.any(np.asarray(strength) < 0):
         raise ValueError(f"muscles {strength} times as strong? give 0 or more")
 
-    return partial(acceleration, strength=strength)
+    return partial(muscle_acceleration, strength=strength)
 
 
 class ForwardModel:
