@@ -5,7 +5,7 @@ from functools import partial
 import matplotlib.pyplot as plt
 import numpy as np
 
-from book.figures.panels import curves, panels
+from book.figures.panels import curves, mark_now, panels
 from book.figures.reaching import corrections, ends, mean_mm, norm_mm, reaches
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.arm.kinematics import inverse_kinematics
@@ -127,7 +127,7 @@ def after_trial(plan, rules, trial, rule):
         right.plot(cost * np.arange(trial + 1), errors, ".-", label=name)
     endpoints, cost = rules[rule][0][trial], rules[rule][1] * trial
     now = mean_mm(endpoints, plan.target)
-    curves(right, (), {}, now=(cost, now))
+    mark_now(right, cost, now)
     in_plane(left, plan, endpoints, f"extra reaches: {cost}, mean error {now:.2g} mm")
     right.set(xlabel="extra reaches", xlim=(-1, 21), yscale="log")
     right.set_yticks([10, 1, 0.1, 0.01], ["10", "1", "0.1", "0.01"])

@@ -37,14 +37,18 @@ def muscle_lines(ax, x, values):
         ax.plot(x, line, style, color=COLOURS[colour], label=name)
 
 
-def curves(ax, x, lines, now=None):
-    """Curves, name -> (n,) over x (n,), with their points; a red dot where the reader is `now`."""
+def curves(ax, x, lines, now):
+    """Curves, name -> (n,) over x (n,), with their points; and `mark_now` at `now`."""
     for name, y in lines.items():
         ax.plot(x[: len(y)], y, ".-", label=name)
-    if now:
-        ax.plot(*now, "o", ms=9, color=COLOURS["red"], clip_on=False, gid="now")
+    mark_now(ax, *now)
     if len(lines) > 1:
         ax.legend()
+
+
+def mark_now(ax, x, y):
+    """A red dot where the reader is."""
+    ax.plot(x, y, "o", ms=9, color=COLOURS["red"], clip_on=False, gid="now")
 
 
 def strip_plot(rows, measure, middle=np.median, xlim=None, text="{:.1f}"):
