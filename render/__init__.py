@@ -1,4 +1,4 @@
-"""How the photos were made: a shuttlecock, a cup and what else lies about, rendered physically.
+"""Rendering of the photos: a shuttlecock, a cup and what else lies about, rendered physically.
 
 `meshes` makes triangles, `shuttlecocks` and `objects` things of them, `materials` table tops;
 `scene` draws what stands where before which camera and light, `picture` traces the light, and

@@ -1,4 +1,4 @@
-"""The bones that the page draws: OpenSim's own meshes for arm26, made small.
+"""Bone meshes of the page: OpenSim's own meshes for arm26, made small.
 
 GEOMETRY=path/to/folder python -m render.bone_meshes, where the folder holds arm26's .vtp files,
 writes `FILE`. Vertices that share a cell of a grid become one, their mean; places are whole tenths

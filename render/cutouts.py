@@ -1,4 +1,4 @@
-"""Shuttlecocks alone, cut out: `python -m render.cutouts` (needs mitsuba).
+"""Cut-outs of shuttlecocks: `python -m render.cutouts` (needs mitsuba).
 
 Feathered and nylon ones, new and worn, of several colours, turned any way, near and far, in any
 light, on nothing. `reproduce.training.pasting` lays them on photographs.

@@ -1,4 +1,4 @@
-"""Light, traced: a scene's photo, and the exact pixels of each visible thing."""
+"""Path tracing: a scene's photo, and the exact pixels of each visible thing."""
 
 import cv2
 import mitsuba as mi

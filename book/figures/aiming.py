@@ -1,4 +1,4 @@
-"""A target that the reader drags, in a photo or over the table: one place in two pictures."""
+"""Figures of aiming: a target that the reader drags, in a photo or seen from above."""
 
 from functools import cache
 

@@ -1,4 +1,4 @@
-"""The arm of two joints and six muscles: what its muscles can do, and how it compares."""
+"""Figures of the arm: what its muscles can do, and how it compares."""
 
 import numpy as np
 

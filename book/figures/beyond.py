@@ -1,4 +1,4 @@
-"""Pictures of the chapter beyond the paper."""
+"""Figures of the chapter beyond the paper."""
 
 import matplotlib.pyplot as plt
 import numpy as np

@@ -1,4 +1,4 @@
-"""Pictures of the chapter on candidates: saliency, segments, merging, recall and cost."""
+"""Figures of the chapter on candidates: saliency, segments, merging, recall and cost."""
 
 from itertools import compress, product
 

@@ -1,4 +1,4 @@
-"""The wiring of the cerebellum, drawn: granule cells, a Purkinje cell, a climbing fibre."""
+"""Circuit diagram of the cerebellum: granule cells, a Purkinje cell, a climbing fibre."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Plots of a muscle: how it follows its excitation, its force curves, and what the bench shows."""
+"""Figures of a muscle: how it follows its excitation, its forces, and what a bench shows."""
 
 import numpy as np
 

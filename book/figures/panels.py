@@ -1,4 +1,4 @@
-"""Rows of plots, and each muscle its line in them."""
+"""Subplots in a row, and the curves and marks that several chapters draw in them."""
 
 import matplotlib.pyplot as plt
 import numpy as np

@@ -1,4 +1,4 @@
-"""Pictures of the page about the photos."""
+"""Figures of the page about the photos."""
 
 import cv2
 import matplotlib.pyplot as plt

@@ -1,4 +1,4 @@
-"""Habitual planning: a reach beside its target, the parts of the miss, two frames, and effort."""
+"""Figures of habitual planning: a reach, the parts of its miss, two frames, and effort."""
 
 import matplotlib.pyplot as plt
 import numpy as np

@@ -1,4 +1,4 @@
-"""Reaches in the arm's plane, for the chapters on planning and calibration.
+"""Figures of reaches in the arm's plane, for the chapters on planning and calibration.
 
 Every function draws on matplotlib axes. Positions are in the plane, in metres.
 """

@@ -1,4 +1,4 @@
-"""Pictures and tables of the chapter on regions: crops, margins, weights, boxes and scores."""
+"""Figures and tables of the chapter on regions: crops, margins, weights, boxes and scores."""
 
 import numpy as np
 

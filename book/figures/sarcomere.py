@@ -1,4 +1,4 @@
-"""The filaments in a muscle's fibre, drawn: what its length and its speed do to the heads."""
+"""Drawing of a sarcomere: what its length and its speed do to the heads."""
 
 import numpy as np
 

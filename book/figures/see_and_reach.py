@@ -1,4 +1,4 @@
-"""Pictures and tables of the chapter on seeing and reaching: stages, failures, choices, lesions."""
+"""Figures and tables of the chapter on seeing and reaching: stages, failures, choices, lesions."""
 
 import matplotlib.pyplot as plt
 import numpy as np

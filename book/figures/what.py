@@ -1,4 +1,4 @@
-"""Pictures of filters and feature maps, for the chapters on the ventral pathway."""
+"""Figures of filters and feature maps, for the chapters on the ventral pathway."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Pictures of segments and boxes, for the chapters on the dorsal pathway."""
+"""Figures of segments and boxes, for the chapters on the dorsal pathway."""
 
 import re
 from base64 import b64decode

@@ -1,4 +1,4 @@
-"""Movements that are watched: hands on their way, a curl field's learning curve, two memories.
+"""Figures of feedback control: hands on their way, a curl field's learning curve, two memories.
 
 Hands move in the plane, in metres, with a sample every millisecond.
 """

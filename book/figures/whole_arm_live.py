@@ -1,4 +1,4 @@
-"""What the page needs to run the whole arm: the model, its memories, and where it is shown."""
+"""Whole arm in the page: its model, its templates, and the scene and plots that show it."""
 
 import json
 

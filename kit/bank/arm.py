@@ -1,4 +1,4 @@
-"""The arm: levers, torques, positions and the motion that follows (Eq. 12)."""
+"""Questions on the arm: levers, torques, positions and the motion that follows (Eq. 12)."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Beyond the paper: ablations, noise, space, and what grows with what."""
+"""Questions beyond the paper: ablations, noise, space, and what grows with what."""
 
 import numpy as np
 

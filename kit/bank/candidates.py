@@ -1,4 +1,4 @@
-"""Candidates: boxes, overlaps, and regions that grow together."""
+"""Questions on candidates: boxes, overlaps, and regions that grow together."""
 
 import numpy as np
 

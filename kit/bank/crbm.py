@@ -1,4 +1,4 @@
-"""One CRBM: the sizes of its maps, its blocks, its energy, its learning."""
+"""Questions on one CRBM: the sizes of its maps, its blocks, its energy, its learning."""
 
 import numpy as np
 import torch

@@ -1,4 +1,4 @@
-"""The hierarchy: widths, windows and numbers, layer by layer."""
+"""Questions on the hierarchy: widths, windows and numbers, layer by layer."""
 
 import numpy as np
 import torch

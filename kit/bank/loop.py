@@ -1,4 +1,4 @@
-"""The whole loop: from a pixel to a place, and what a wrong guess costs."""
+"""Questions on the whole loop: from a pixel to a place, and what a wrong guess costs."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""A muscle: its lag (Eq. 9) and its force (Eq. 10 and 11)."""
+"""Questions on a muscle: its lag (Eq. 9) and its force (Eq. 10 and 11)."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Names: from features to a probability, and how far to believe a table."""
+"""Questions on names: from features to a probability, and how far to believe a table."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Off-line calibration: angles, gains and corrections (Eq. 6, 7), and Broyden's rule."""
+"""Questions on off-line calibration: gains and corrections (Eq. 6, 7), and Broyden's rule."""
 
 from types import SimpleNamespace
 

@@ -1,4 +1,4 @@
-"""Online calibration: the paper's linear rule (Eq. 8), granule cells, and a world that changes."""
+"""Questions on online calibration: Eq. 8, granule cells, and a world that changes."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Habitual planning: weights by nearness, and how far the mixture is from the target (Eq. 3–5)."""
+"""Questions on habitual planning: nearness, and how far a mixture misses (Eq. 3–5)."""
 
 from types import SimpleNamespace
 

@@ -1,4 +1,4 @@
-"""Regions: what is kept of many boxes, and how detections are counted."""
+"""Questions on regions: what is kept of many boxes, and how detections are counted."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""See and reach: a chain of steps, where it breaks, and how sure a count is."""
+"""Questions on seeing and reaching: a chain of steps, where it breaks, and how sure a count is."""
 
 import numpy as np
 

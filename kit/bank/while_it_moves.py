@@ -1,4 +1,4 @@
-"""While it moves: delays, feedback, forces on the way, and two memories."""
+"""Questions on feedback control: delays, reflexes, forces on the way, and two memories."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""A whole arm: redundancy, shared torques, and mixtures in space."""
+"""Questions on a whole arm: redundancy, shared torques, and mixtures in space."""
 
 import numpy as np
 from scipy.optimize import nnls
