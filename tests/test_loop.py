@@ -192,7 +192,9 @@ def test_each_command_is_simulated_once(model, photo, monkeypatch):
     reach = loop.reach(model, photo.target)
     assert sum(counts) == 22
     np.testing.assert_array_equal(execute(reach.plan).motion.q, reach.planned.q)
-    [best] = execute(reach.plan.with_weights(loop.RULES["published"](reach.plan).best[None])).motion
+    [best] = execute(
+        reach.plan.with_weights(loop.RULES["published"](reach.plan).best_weights[None])
+    ).motion
     np.testing.assert_allclose(best.q, reach.calibrated.q, atol=1e-5)
 
 

@@ -35,7 +35,7 @@ SCENARIOS = ("changing neighbours", "four fixed templates")
 
 # Algorithm 1 with every fifth n: a quarter of the reaches, and hardly a difference
 coarse_algorithm_1 = partial(algorithm_1, gains=range(0, 21, 5))
-no_calibration = partial(broyden_calibration, trials=0)  # no trial at all: a movement as it is
+no_calibration = partial(broyden_calibration, n_trials=0)  # no trial at all: a movement as it is
 
 
 class Errors(NamedTuple):

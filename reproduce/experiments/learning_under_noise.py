@@ -59,7 +59,7 @@ def compare_calibration(noise, seed, count):
     }
     for name, rule in {"Algorithm 1": algorithm_1, "Broyden": broyden_calibration}.items():
         trials = rule(habit, execute=once)
-        again = execute(habit.with_weights(np.tile(trials.best, (20, 1, 1)))).endpoint
+        again = execute(habit.with_weights(np.tile(trials.best_weights, (20, 1, 1)))).endpoint
         left[f"{name}, best trial"] = trials.error.min(axis=0).mean() / miss
         left[f"{name}, again"] = _norm(again - habit.target).mean() / miss
     return left

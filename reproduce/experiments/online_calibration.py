@@ -90,7 +90,7 @@ def lesions(habit, trained):
     for online, offline in product((True, False), repeat=2):
         first = second = trained.correct(habit) if online else habit
         if offline:
-            second = first.with_weights(broyden_calibration(first, 1).best)
+            second = first.with_weights(broyden_calibration(first, 1).best_weights)
         attempts[online, offline] = execute(first), execute(second)
     return attempts
 

@@ -19,8 +19,8 @@ RULES = {"Algorithm 1": algorithm_1, "Broyden": broyden_calibration}
 CORRECTIONS = {
     "none": lambda habit: execute(habit).error,
     "Algorithm 1": lambda habit: algorithm_1(habit).error.min(axis=0),
-    "Broyden, 1 trial": lambda habit: broyden_calibration(habit, trials=1).error.min(axis=0),
-    "Broyden, 2 trials": lambda habit: broyden_calibration(habit, trials=2).error.min(axis=0),
+    "Broyden, 1 trial": lambda habit: broyden_calibration(habit, n_trials=1).error.min(axis=0),
+    "Broyden, 2 trials": lambda habit: broyden_calibration(habit, n_trials=2).error.min(axis=0),
 }
 
 
@@ -39,7 +39,9 @@ def repeated_errors(habit, repeats=4):
     trials = {name: rule(habit, execute=run) for name, rule in RULES.items()}
     errors = {"planned": 1000 * run(habit).error}
     for name, rule_trials in trials.items():
-        again = [execute(habit.with_weights(rule_trials.best)).error for _ in range(repeats)]
+        again = [
+            execute(habit.with_weights(rule_trials.best_weights)).error for _ in range(repeats)
+        ]
         errors[f"{name}, best trial"] = 1000 * rule_trials.error.min(axis=0)
         errors[f"{name}, again"] = 1000 * np.mean(again, axis=0)
     return errors

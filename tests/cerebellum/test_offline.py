@@ -41,7 +41,7 @@ def test_algorithm_1_reduces_the_error_by_a_third(reaches):
     trials = algorithm_1(reaches)
     np.testing.assert_allclose(trials.error[0], execute(reaches).error)
     assert trials.error.min(axis=0).mean() < 0.7 * trials.error[0].mean()
-    best = execute(reaches.with_weights(trials.best)).error
+    best = execute(reaches.with_weights(trials.best_weights)).error
     np.testing.assert_allclose(best, trials.error.min(axis=0), atol=1e-12)
 
 
@@ -51,7 +51,7 @@ def test_the_other_sign_of_the_error_does_not_help(reaches):
 
 
 def test_broyden_calibration_meets_its_bars(reaches):
-    left = share_left(broyden_calibration(reaches, trials=4))
+    left = share_left(broyden_calibration(reaches, n_trials=4))
     assert left[1] < 0.27
     assert left[2] < 0.05
     assert left[4] < 0.001

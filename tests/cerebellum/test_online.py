@@ -74,7 +74,7 @@ def test_other_reading_trains_on_the_target(template_set):
     (batch,), model = lessons(template_set, 25), WeightCorrection(hindsight=False)
     ((inputs, change),) = model.update(batch).training_pairs
     np.testing.assert_array_equal(inputs, equation_8(batch))
-    np.testing.assert_allclose(batch.weights + change, algorithm_1(batch).best)
+    np.testing.assert_allclose(batch.weights + change, algorithm_1(batch).best_weights)
 
 
 def test_algorithm_2_held_out_error_ratio():

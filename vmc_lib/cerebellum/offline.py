@@ -25,7 +25,7 @@ class Trials(NamedTuple):
     movements: tuple  # as they were made: `Movement`s, whose leading axis may count trials
 
     @property
-    def best(self):
+    def best_weights(self):
         """Weights (…, N) of the trial that came nearest."""
         winner = self.error.argmin(axis=0)
         return np.take_along_axis(self.weights, winner[None, ..., None], axis=0)[0]
@@ -96,7 +96,7 @@ def algorithm_1_change(plan, endpoint, n, origin=(0.0, 0.0), sign=1):
     return (_norm(error) / d_a)[..., None] * (1 + n * (d_t[..., None] - d_i) / d_i) * cosine
 
 
-def broyden_calibration(plan: Plan, trials=2, broyden=True, guarded=True, execute=execute):
+def broyden_calibration(plan: Plan, n_trials=2, broyden=True, guarded=True, execute=execute):
     """Calibrate a plan off-line by Broyden's method: solve Eq. 4 for the error, trial by trial.
 
     Each trial makes the smallest Δw that shifts the hand by the whole error, if moving a weight
@@ -107,7 +107,7 @@ def broyden_calibration(plan: Plan, trials=2, broyden=True, guarded=True, execut
     ----------
     plan : Plan
         Of one reach or a batch.
-    trials : int
+    n_trials : int
         How many movements to make after the first.
     broyden : bool
         Correct the Jacobian after each trial.
@@ -141,7 +141,7 @@ def broyden_calibration(plan: Plan, trials=2, broyden=True, guarded=True, execut
     """
     jacobian, planned = np.swapaxes(plan.points, -1, -2), execute(plan)
     weights, endpoint, tried = plan.weights, planned.endpoint, []
-    for _ in range(trials):
+    for _ in range(n_trials):
         change = least_change(jacobian, plan.target - endpoint)
         change = _clip_norm(change) if guarded else change
         tried.append(execute(plan.with_weights(weights + change)))

@@ -108,7 +108,7 @@ class WeightCorrection:
     def update(self, plan: Plan, rule=algorithm_1, execute=execute):
         """Algorithm 2, its steps for every plan of a batch; `rule` is the off-line calibration."""
         online = self.correct(plan)  # 1, 2: "calibrated weights w_i^on = w_i + Δw_i^on"
-        modified = online.with_weights(calibrate(rule, online).best)  # 3, 4: "w_i' = …"
+        modified = online.with_weights(calibrate(rule, online).best_weights)  # 3, 4: "w_i' = …"
         place = execute(modified).endpoint if self.hindsight else plan.target  # 4: "actual p_a'"
         right = self._planned(replace(plan, target=place))
         self.training_pairs.append((self.inputs(right), modified.weights - right.weights))
