@@ -38,7 +38,7 @@ SVM_COST = Exercise(
 )
 
 
-def weakened(overlaps, scores):
+def soft_nms(overlaps, scores):
     scores, waiting = scores.copy(), np.ones(len(scores), bool)
     while waiting.any():
         best = np.where(waiting, scores, -1).argmax()
@@ -53,12 +53,12 @@ def _boxes_and_scores(rng):
     return iou(boxes, boxes), rng.random(5).round(2)
 
 
-WEAKENED = Exercise(
-    weakened,
+SOFT_NMS = Exercise(
+    soft_nms,
     _boxes_and_scores,
     {
         "The more two boxes overlap, the more is to be taken away: multiply by one minus the "
-        "overlap.": lambda overlaps, scores: weakened(1 - overlaps, scores),
+        "overlap.": lambda overlaps, scores: soft_nms(1 - overlaps, scores),
         "You went by the old scores. A box that was weakened has its turn later: look for the "
         "best anew each time.": lambda overlaps, scores: (
             scores * np.where(scores > scores[:, None], 1 - overlaps, 1).prod(axis=1)
