@@ -5,6 +5,7 @@ place on the table, the trunk's turn, a plan, the movement, its off-line calibra
 movement again.
 """
 
+from contextlib import suppress
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -206,3 +207,11 @@ def reach(model, target, calibration=algorithm_1):
 def recalibrate(reach, calibration):
     """The same `Reach`, its second movement calibrated by a rule of `RULES`."""
     return replace(reach, calibrated=calibrate(calibration, reach.plan).best_motion)
+
+
+def see_and_reach(model, image, camera):
+    """The `Sight` of an image and the `Reach` for what is seen; None where there is `NoReach`."""
+    sight, made = see(model, image), None
+    with suppress(NoReach):
+        made = reach(model, locate(model, image, sight.box, camera))
+    return sight, made
