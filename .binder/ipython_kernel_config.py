@@ -1,5 +1,6 @@
 """In a live kernel an edited file of the library counts from the next cell that runs.
 
+What every chapter shows with is imported while the kernel starts, before the reader runs anything.
 JupyterLab writes what a kernel says of itself into the notebook: ours leave out the one thing that
 changes from reader to reader, or each notebook would be changed as soon as it is opened.
 """
@@ -10,4 +11,4 @@ IPythonKernel.language_info.pop("version", None)
 
 c = get_config()  # noqa: F821
 c.InteractiveShellApp.extensions = ["autoreload"]
-c.InteractiveShellApp.exec_lines = ["%autoreload 2"]
+c.InteractiveShellApp.exec_lines = ["%autoreload 2", "import vmc_lib.show"]
