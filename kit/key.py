@@ -11,7 +11,7 @@ from itertools import groupby
 
 from book._ext.plain import EXERCISE, FOLD
 from kit.student import solves
-from vmc_lib.show.grading import source
+from vmc_lib.show.questions import source
 
 QUESTION = re.compile(
     r'<fieldset class="vmc-(predict|quiz)".*?<legend>(.*?)</legend>(.*?)</fieldset>', re.S

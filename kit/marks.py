@@ -13,7 +13,7 @@ from jupyter_cache.executors.utils import single_nb_execution
 
 from kit.__main__ import CHAPTERS
 from kit.student import student
-from vmc_lib.show.questions import NOT_YET, RIGHT
+from vmc_lib.grading import NOT_YET, RIGHT
 
 TIMEOUT = 600  # s a cell
 

@@ -15,10 +15,10 @@ from vmc_lib import photos
 from vmc_lib.arm import muscle
 from vmc_lib.camera import Camera
 from vmc_lib.cerebellum import offline
+from vmc_lib.grading import EMPTY, RIGHT, WRONG, Exercise, feedback
 from vmc_lib.motor.planning import habitual_weights
-from vmc_lib.show import figures, grading
-from vmc_lib.show.grading import EMPTY, Exercise, feedback, grade, solution
-from vmc_lib.show.questions import RIGHT, WRONG
+from vmc_lib.show import figures, questions
+from vmc_lib.show.questions import grade, solution
 from vmc_lib.what.crbm import CRBM
 from vmc_lib.where.appearance import Appearance, similarity
 
@@ -215,7 +215,7 @@ def test_self_motion_lies_in_the_null_space():
 
 
 def test_a_grade_is_a_line_and_in_a_test_a_failure(outputs, monkeypatch):
-    page, one = outputs(grading), EVERY["MIXED"]
+    page, one = outputs(questions), EVERY["MIXED"]
     grade(one.right, one)
     grade(lambda *_: None, one)
     with pytest.raises(AssertionError, match="grade: ✗ Not yet"):
@@ -229,7 +229,7 @@ def test_a_grade_is_a_line_and_in_a_test_a_failure(outputs, monkeypatch):
 
 
 def test_the_page_says_where_a_function_can_be_graded(outputs, monkeypatch):
-    page = outputs(grading)
+    page = outputs(questions)
     monkeypatch.setenv("VMC_RENDER_MODE", "book")
     grade(lambda *_: None, EVERY["MIXED"])
     assert "a running notebook</a>" in page[0]

@@ -20,7 +20,8 @@ from tests.project import ROOT, code, python, run
 PYPROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 PROJECT = PYPROJECT["project"]
 OPTIONAL = PROJECT["optional-dependencies"] | PYPROJECT["dependency-groups"]
-OURS = {"vmc_lib", "arm_in_page", "reproduce", "render", "bench", "book", "kit", "tests", "tools"}
+OURS = {"vmc_lib", "arm_in_page", "python_in_page", "reproduce", "render", "bench", "book"}
+OURS |= {"kit", "tests", "tools"}
 PINS = re.findall(
     r"^([\w.\[\]-]+)==([\w.]+)", (ROOT / "requirements.txt").read_text(encoding="utf-8"), flags=re.M
 )
@@ -49,7 +50,7 @@ def imported(source):
 @pytest.mark.parametrize(
     ("patterns", "extras"),
     [
-        ("vmc_lib/**/*.py arm_in_page/**/*.py book/figures/*.py", ()),
+        ("vmc_lib/**/*.py *_in_page/**/*.py book/figures/*.py", ()),
         ("reproduce/**/*.py", ("derive",)),
         ("book/*.ipynb", ()),
         ("render/*.py", ("render",)),

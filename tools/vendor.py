@@ -24,10 +24,13 @@ MANIFEST = ROOT / "book/_static/vendor/manifest.json"
 def fetch(origin):
     """The bytes of `origin`: "npm:name@version:path" or "python:name@version:path".
 
-    A path may be "module.js+module.wasm": then the two are made one script.
+    A path may be "module.js+module.wasm": then the two are made one script. What no registry has
+    is "here:name@version:path", from the project's root.
     """
     registry, package, path = origin.split(":")
     name, version = package.rsplit("@", 1)
+    if registry == "here":
+        return (ROOT / path).read_bytes()
     if registry == "python":
         installed = metadata.version(name)
         if installed != version:

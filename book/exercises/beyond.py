@@ -4,7 +4,7 @@ from itertools import product
 
 import numpy as np
 
-from vmc_lib.show.grading import Exercise
+from vmc_lib.grading import Exercise
 
 
 def honest(first, again):

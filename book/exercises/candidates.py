@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from vmc_lib.show.grading import Exercise
+from vmc_lib.grading import Exercise
 
 
 def _boxes(rng, count):

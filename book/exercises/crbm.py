@@ -1,13 +1,14 @@
 """Exercises of the chapter on one CRBM."""
 
 import numpy as np
-from scipy.signal import convolve2d, correlate2d
+from numpy.lib.stride_tricks import sliding_window_view
 
-from vmc_lib.show.grading import Exercise
+from vmc_lib.grading import Exercise
 
 
 def energy_of(v, h, W, b, a):
-    fit = correlate2d(v, W, mode="valid")  # W is not turned
+    windows = sliding_window_view(v, W.shape)
+    fit = (windows * W).sum(axis=(2, 3))  # W is not turned
     return -(h * (fit + b)).sum() - a * v.sum() + (v**2).sum() / 2
 
 
@@ -72,9 +73,10 @@ UNIT_ON = Exercise(
 
 
 def cd_step(v, h, dream_v, dream_h):
-    data = correlate2d(v, h, mode="valid")
-    dream = correlate2d(dream_v, dream_h, mode="valid")
-    return data - dream
+    def together(v, h):
+        return (sliding_window_view(v, h.shape) * h).sum(axis=(2, 3))
+
+    return together(v, h) - together(dream_v, dream_h)
 
 
 def _data_and_dream(rng):
@@ -93,11 +95,9 @@ CD_STEP = Exercise(
             lambda v, h, dream_v, dream_h: -cd_step(v, h, dream_v, dream_h)
         ),
         "That is what the data say alone. The filter would grow for ever: take away what goes "
-        "together in the dream.": lambda v, h, dream_v, dream_h: correlate2d(v, h, mode="valid"),
+        "together in the dream.": lambda v, h, dream_v, dream_h: cd_step(v, h, v, 0 * h),
         "Your change is turned by 180°: slide $h$ over $v$ as it is.": (
-            lambda v, h, dream_v, dream_h: (
-                convolve2d(v, h, mode="valid") - convolve2d(dream_v, dream_h, mode="valid")
-            )
+            lambda v, h, dream_v, dream_h: cd_step(v, h[::-1, ::-1], dream_v, dream_h[::-1, ::-1])
         ),
         "The dream has an explanation of its own: use `dream_h` with it.": (
             lambda v, h, dream_v, dream_h: cd_step(v, h, dream_v, h)

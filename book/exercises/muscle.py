@@ -5,7 +5,7 @@ import numpy as np
 from vmc_lib.arm.muscle import force_length as f1
 from vmc_lib.arm.muscle import force_velocity as f2
 from vmc_lib.arm.muscle import passive_force as f3
-from vmc_lib.show.grading import Exercise
+from vmc_lib.grading import Exercise
 
 
 def activation_rates(u, a, rise, fall):

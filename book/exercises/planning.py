@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from vmc_lib.show.grading import Exercise
+from vmc_lib.grading import Exercise
 
 
 def near_weights(target, points):

@@ -3,7 +3,7 @@
 import numpy as np
 
 from vmc_lib.boxes import iou
-from vmc_lib.show.grading import Exercise
+from vmc_lib.grading import Exercise
 
 
 def svm_cost(w, b, x, y, C):

@@ -9,9 +9,8 @@ from vmc_lib.show.controls import Choice, Pad, Slider, Switch
 from vmc_lib.show.demo import explore, figure
 from vmc_lib.show.estimate import Estimate, estimate
 from vmc_lib.show.figures import details, markdown, note, photo_view, table
-from vmc_lib.show.grading import grade, solution
 from vmc_lib.show.palette import COLOURS
-from vmc_lib.show.questions import check, predict
+from vmc_lib.show.questions import check, grade, predict, solution
 from vmc_lib.show.scene import Scene
 
 __all__ = [

@@ -1,28 +1,25 @@
-"""Questions to the reader: `predict` before a demo, `check` to test an answer.
+"""Questions to the reader: `predict` before a demo, `check` an answer, `grade` a function.
 
-Both are plain HTML that works in a live notebook, in the built page and on paper. The page also
-remembers a prediction; and as it has no kernel to run the reader's line, `check` offers a field
-to type the answer into.
+All are plain HTML that works in a live notebook, in the built page and on paper. The page also
+remembers what was chosen or typed. As it has no kernel to run the reader's line, `check` offers a
+field to type the answer into; a function is graded there by the page's own Python (`grade.js`).
 """
 
 import html
+import inspect
 import json
-import re
 import zlib
 
 import numpy as np
 from IPython.display import HTML, display
 
-from vmc_lib.show.figures import inline
+from vmc_lib.grading import EMPTY, NOT_YET, RIGHT, WRONG, agree, feedback
+from vmc_lib.show.figures import details, inline, markdown
 from vmc_lib.show.markup import styled
 from vmc_lib.show.render_mode import render_mode
 
 # JupyterLab would take Enter as its own, and the answer would stay closed.
 _OWN_KEYS = 'onkeydown="event.stopPropagation()"'
-# A number, perhaps over another, and perhaps a unit or a per cent sign
-_NUMBER = re.compile(r"([-+]?\d*[.,]?\d+)\s*(?:/\s*(\d*[.,]?\d+))?\s*(%|[^\W\d]*|°)")
-_AROUND = " \t\"'“”‘’"  # a word may come in quotes
-NOT_YET, RIGHT, WRONG = "Not answered yet.", "✓ Right.", "✗ Not yet."
 
 
 def predict(question, choices, outcome, why):
@@ -86,36 +83,6 @@ def _unanswered(answer):
     return answer is None or (several and any(map(_unanswered, parts)))
 
 
-def agree(answer, expected, tolerance):
-    """Whether a reader's `answer` is `expected`, as `check` has it; NaN is NaN."""
-    if isinstance(expected, str):
-        return isinstance(answer, str) and answer.strip(_AROUND).lower() == expected.lower()
-    if isinstance(answer, str):
-        return np.ndim(expected) == 0 and any(
-            abs(value - expected) <= tolerance for value in readings(answer)
-        )
-    try:
-        answer, expected = np.asarray(answer, float), np.asarray(expected, float)
-    except (TypeError, ValueError):  # words among numbers, or rows of unequal length
-        return False
-    return answer.shape == expected.shape and np.allclose(
-        answer, expected, rtol=0, atol=tolerance, equal_nan=True
-    )
-
-
-def readings(text):
-    """The numbers that a typed answer may mean: "1/9", "11,5", "11.5 mm"; of "80 %", 80 and 0.8.
-
-    Empty where it is no number. questions.js reads what is typed into a page by the same rule.
-    """
-    match = _NUMBER.fullmatch(text.strip().replace("−", "-"))
-    if not match:
-        return []
-    over, under = (float(part.replace(",", ".")) for part in (match[1], match[2] or "1"))
-    value = over / under if under else np.nan
-    return [value, value / 100] if match[3] == "%" else [value]
-
-
 def verdict(text):
     """A line that says how an answer is, HTML."""
     return styled(f'<p class="vmc-check" role="status">{text}</p>')
@@ -132,3 +99,39 @@ def _field(expected, tolerance, hint):
         f'<label>Your answer{several}: <input type="text" size="12"></label> '
         f'<button>Check</button> <span role="status">{NOT_YET}</span></form>'
     )
+
+
+def grade(function, exercise):
+    """Show whether the reader's `function` does what an `Exercise` asks; if not, a hint.
+
+    In a test (`VMC_RENDER_MODE=test`) a wrong one raises AssertionError.
+    """
+    message = feedback(function, exercise)
+    if message.startswith(WRONG) and render_mode() == "test":
+        raise AssertionError(f"grade: {message}")
+    unread = message == EMPTY and render_mode() == "book"
+    display(HTML(_buttons(exercise.right) if unread else verdict(inline(message))))
+
+
+def _buttons(right):
+    """What the page's Python checks the cell above with; grade.js shows it, and opens the cell."""
+    return (
+        f'<form class="vmc-check" data-function="{right.__module__}.{right.__name__}" hidden>'
+        '<button>Check</button> <button type="button" name="stop" disabled>Stop</button> '
+        '<button type="button" name="reset" disabled>Reset</button> '
+        '<div role="status"></div></form>'
+    )
+
+
+def solution(exercise):
+    """Show our lines for an `Exercise`: in a notebook folded, as the page does it itself."""
+    lines = f"```python\n{source(exercise)}```"
+    if render_mode() == "book":
+        markdown(lines)
+    else:
+        details("Show our lines", lines)
+
+
+def source(exercise):
+    """The lines of the right function."""
+    return inspect.getsource(exercise.right)

@@ -41,7 +41,7 @@ const vmcReadings = (text) => {
 
 addEventListener("submit", (event) => {
   const form = event.target;
-  if (!form.matches("form.vmc-check")) return;
+  if (!form.matches("form[data-check]")) return;
   event.preventDefault();
   const { expected, tolerance } = JSON.parse(form.dataset.check);
   const text = form.querySelector("input").value.trim();

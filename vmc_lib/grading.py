@@ -1,23 +1,22 @@
-"""Exercises in which the reader writes a function: `grade` runs it, `solution` shows ours.
+"""Answers to exercises: a value, or a function that the reader writes, beside the right one.
 
 A mistake that readers are known to make is kept as a wrong function, with the hint that it earns:
 whose function gets the numbers that it gets is given that hint, whatever the lines look like.
 """
 
 import inspect
+import re
 from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
-from IPython.display import HTML, display
 
-from vmc_lib.show.figures import details, inline, markdown
-from vmc_lib.show.questions import NOT_YET, RIGHT, WRONG, agree, verdict
-from vmc_lib.show.render_mode import render_mode
-
+# A number, perhaps over another, and perhaps a unit or a per cent sign
+_NUMBER = re.compile(r"([-+]?\d*[.,]?\d+)\s*(?:/\s*(\d*[.,]?\d+))?\s*(%|[^\W\d]*|°)")
+_AROUND = " \t\"'“”‘’"  # a word may come in quotes
+NOT_YET, RIGHT, WRONG = "Not answered yet.", "✓ Right.", "✗ Not yet."
 CASES = 20
 EMPTY = f"{NOT_YET} The function returns nothing."
-NEEDS_KERNEL = "To have it checked, write it in [a running notebook](index.html)."
 
 
 class Exercise(NamedTuple):
@@ -29,30 +28,34 @@ class Exercise(NamedTuple):
     tolerance: float = 1e-6  # of each number, in its own unit
 
 
-def grade(function, exercise):
-    """Show whether the reader's `function` does what an `Exercise` asks; if not, a hint.
+def agree(answer, expected, tolerance):
+    """Whether a reader's `answer` is `expected`, within `tolerance`; NaN is NaN."""
+    if isinstance(expected, str):
+        return isinstance(answer, str) and answer.strip(_AROUND).lower() == expected.lower()
+    if isinstance(answer, str):
+        return np.ndim(expected) == 0 and any(
+            abs(value - expected) <= tolerance for value in readings(answer)
+        )
+    try:
+        answer, expected = np.asarray(answer, float), np.asarray(expected, float)
+    except (TypeError, ValueError):  # words among numbers, or rows of unequal length
+        return False
+    return answer.shape == expected.shape and np.allclose(
+        answer, expected, rtol=0, atol=tolerance, equal_nan=True
+    )
 
-    In a test (`VMC_RENDER_MODE=test`) a wrong one raises AssertionError.
+
+def readings(text):
+    """The numbers that a typed answer may mean: "1/9", "11,5", "11.5 mm"; of "80 %", 80 and 0.8.
+
+    Empty where it is no number. questions.js reads what is typed into a page by the same rule.
     """
-    message = feedback(function, exercise)
-    if message.startswith(WRONG) and render_mode() == "test":
-        raise AssertionError(f"grade: {message}")
-    unread = message == EMPTY and render_mode() == "book"
-    display(HTML(verdict(inline(NEEDS_KERNEL if unread else message))))
-
-
-def solution(exercise):
-    """Show our lines for an `Exercise`: in a notebook folded, as the page does it itself."""
-    lines = f"```python\n{source(exercise)}```"
-    if render_mode() == "book":
-        markdown(lines)
-    else:
-        details("Show our lines", lines)
-
-
-def source(exercise):
-    """The lines of the right function."""
-    return inspect.getsource(exercise.right)
+    match = _NUMBER.fullmatch(text.strip().replace("−", "-"))
+    if not match:
+        return []
+    over, under = (float(part.replace(",", ".")) for part in (match[1], match[2] or "1"))
+    value = over / under if under else np.nan
+    return [value, value / 100] if match[3] == "%" else [value]
 
 
 def feedback(function, exercise):

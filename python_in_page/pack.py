@@ -1,0 +1,90 @@
+"""One script of all that Python in the page is made of: Pyodide, NumPy, and the library itself.
+
+From file:// a page can load nothing but classic scripts; in this one each file is text, gzip in
+base64. The build writes it, and a page loads it when the reader first has something checked.
+"""
+
+import base64
+import gzip
+import io
+import json
+import re
+import zipfile
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+VENDOR = Path(__file__).parent / "vendor"
+SCRIPT = "vendor/python.js"  # where the built page finds it
+# What runs in the page, beside Python's own modules and NumPy; all exercises run there
+MODULES = (
+    "python_in_page",
+    "python_in_page.grader",
+    "reproduce.paper",
+    "reproduce.peers.muscle_models",
+    "vmc_lib",
+    "vmc_lib.arm",
+    "vmc_lib.arm.muscle",
+    "vmc_lib.boxes",
+    "vmc_lib.camera",
+    "vmc_lib.cerebellum",
+    "vmc_lib.cerebellum.two_rates",
+    "vmc_lib.data",
+    "vmc_lib.grading",
+    "vmc_lib.what",
+    "vmc_lib.what.crbm",
+    *(f"book.exercises.{file.stem}" for file in sorted((ROOT / "book/exercises").glob("*.py"))),
+)
+NEEDLESS = re.compile(r"\.(pyi|h|c|a|ini|pxd)$|/tests/|^numpy/(f2py|distutils)/")  # of NumPy
+NOTICE = """/* Pyodide 0.27.7, MPL-2.0, unchanged; source: https://github.com/pyodide/pyodide. CPython 3.12
+   within it, PSF-2.0: https://github.com/python/cpython. NumPy 2.0.2, BSD-3-Clause, without its
+   tests and headers: https://github.com/numpy/numpy. The library of the book, BSD-3-Clause. */
+"""
+
+
+def script():
+    """The script's text: it defines `vmcPythonFiles`, {name: the file, gzip in base64}."""
+    packed = {name: base64.b64encode(_gzip(data)).decode() for name, data in files().items()}
+    return f"{NOTICE}self.vmcPythonFiles = {json.dumps(packed)};\n"
+
+
+def files():
+    """What Pyodide asks for, and the library: {name: bytes}."""
+    names = ("pyodide.js", "pyodide.asm.js", "pyodide.asm.wasm", "python_stdlib.zip")
+    lock = json.loads((VENDOR / "pyodide-lock.json").read_bytes())
+    numpy = lock["packages"]["numpy"]
+    lock["packages"] = {"numpy": numpy}
+    return {
+        **{name: (VENDOR / name).read_bytes() for name in names},
+        "python_stdlib.zip": _stored(_members("python_stdlib.zip")),
+        "pyodide-lock.json": json.dumps(lock).encode(),
+        numpy["file_name"]: _stored(
+            (name, data) for name, data in _members(numpy["file_name"]) if not NEEDLESS.search(name)
+        ),
+        "library.zip": _stored((path.as_posix(), (ROOT / path).read_bytes()) for path in paths()),
+    }
+
+
+def paths():
+    """The files of `MODULES`, from the project's root."""
+    for name in MODULES:
+        path = Path(name.replace(".", "/"))
+        yield path / "__init__.py" if (ROOT / path).is_dir() else path.with_suffix(".py")
+
+
+def _members(archive):
+    with zipfile.ZipFile(VENDOR / archive) as opened:
+        for info in opened.infolist():
+            yield info.filename, opened.read(info)
+
+
+def _stored(members):
+    """A zip of (name, bytes), not compressed, so that gzip finds what its files share."""
+    archive = io.BytesIO()
+    with zipfile.ZipFile(archive, "w") as opened:
+        for name, data in members:
+            opened.writestr(zipfile.ZipInfo(name), data)
+    return archive.getvalue()
+
+
+def _gzip(data):
+    return gzip.compress(data, mtime=0)

@@ -1,0 +1,103 @@
+/* Exercises in which the reader writes a function: the empty one becomes a field to write in, and the
+   page's Python grades it. What was typed, and what was said of it, is there again when the page is. */
+const vmcGrade = (() => {
+  "use strict";
+
+  const escaped = (text) => text.replace(/[&<>"]/g, (sign) => `&#${sign.charCodeAt()};`);
+  const MARKS = /`([^`]+)`|\$([^$]+)\$|\*\*([^*]+)\*\*|\*([^*]+)\*/g;
+
+  /* A line of Markdown as HTML, as vmc_lib.show.figures.inline has it. */
+  const inline = (text) =>
+    escaped(text).replace(MARKS, (_, code, tex, strong, words) =>
+      code ? `<code>${code}</code>` : tex ? `\\(${tex.trim()}\\)`
+        : strong ? `<strong>${strong}</strong>` : `<em>${words}</em>`);
+
+  const lines = (cell) => (cell.querySelector("textarea")?.value ?? cell.querySelector("pre").textContent);
+
+  /* The chapter's code before a cell: [lines, whether they are folded]; no solution is part of it. */
+  const above = (cell) =>
+    [...document.querySelectorAll(".cell:has(> .cell_input, > details > .cell_input)")]
+      .filter((one) => !one.closest(".solution") && one.compareDocumentPosition(cell) & 4) // one before cell
+      .map((one) => [lines(one), one.matches(".tag_hide-input")]);
+
+  /* Type for the reader, so that it can be undone. */
+  const type = (area, text) => {
+    area.focus();
+    if (!document.execCommand("insertText", false, text)) area.setRangeText(text, area.selectionStart, area.selectionEnd, "end");
+  };
+
+  /* Enter indents the next line as Python needs it; Control and Enter check. Tab goes on, as always. */
+  const key = (event, form) => {
+    const area = event.target;
+    const before = area.value.slice(0, area.selectionStart).split("\n").pop();
+    if (event.key !== "Enter" || event.isComposing) return;
+    event.preventDefault();
+    if (event.ctrlKey || event.metaKey) form.requestSubmit();
+    else type(area, `\n${before.match(/^ */)[0]}${/:\s*(#.*)?$/.test(before) ? "    " : ""}`);
+  };
+
+  const edit = (form) => {
+    const cell = form.closest(".cell").previousElementSibling;
+    const input = cell.querySelector(".cell_input");
+    const { stop, reset } = form.elements;
+    const status = form.querySelector("[role=status]");
+    const empty = lines(cell).trimEnd();
+    const memory = `${location.pathname} ${form.dataset.function}`;
+
+    const area = document.createElement("textarea");
+    Object.assign(area, { value: empty, spellcheck: false, wrap: "off", autocomplete: "off", className: "vmc-lines" });
+    area.setAttribute("autocapitalize", "off");
+    area.setAttribute("aria-label", `Your lines: ${form.dataset.function.split(".").pop()}`);
+    input.replaceChildren(area);
+    form.hidden = false;
+
+    const fit = () => {
+      area.rows = area.value.split("\n").length + 1;
+      reset.disabled = area.value === empty;
+    };
+    const show = ([message, printed]) => {
+      status.innerHTML = `<p>${inline(message)}</p>${printed ? `<pre>${escaped(printed)}</pre>` : ""}`;
+      window.MathJax?.typesetPromise?.([status]);
+    };
+    const keep = (said) => vmcMemory.set(memory, JSON.stringify({ typed: area.value, said }));
+    let said; // of what is typed, or of what was typed before
+
+    const check = async () => {
+      stop.disabled = false;
+      try {
+        said = await vmcPython.check([above(cell), area.value, form.dataset.function], (text) => show([text]));
+      } catch (error) {
+        said = [`✗ ${error.message}`];
+      }
+      stop.disabled = true;
+      show(said);
+      keep(said);
+    };
+    form.addEventListener("submit", (event) => {
+      event.preventDefault();
+      if (stop.disabled) check();
+    });
+    stop.addEventListener("click", () => vmcPython.stop());
+    reset.addEventListener("click", () => {
+      area.select();
+      type(area, empty);
+      show((said = [""]));
+      keep(said);
+    });
+    area.addEventListener("keydown", (event) => key(event, form));
+    area.addEventListener("input", () => {
+      fit();
+      keep(said);
+    });
+
+    const kept = JSON.parse(vmcMemory.get(memory));
+    if (kept) {
+      area.value = kept.typed;
+      if (kept.said) show((said = kept.said));
+    }
+    fit();
+  };
+
+  addEventListener("DOMContentLoaded", () => document.querySelectorAll("form[data-function]").forEach(edit));
+  return { inline, above };
+})();
