@@ -35,9 +35,9 @@ MODULES = (
     *(f"book.exercises.{file.stem}" for file in sorted((ROOT / "book/exercises").glob("*.py"))),
 )
 NEEDLESS = re.compile(r"\.(pyi|h|c|a|ini|pxd)$|/tests/|^numpy/(f2py|distutils)/")  # of NumPy
-NOTICE = """/* Pyodide 0.27.7, MPL-2.0, unchanged; source: https://github.com/pyodide/pyodide. CPython 3.12
-   within it, PSF-2.0: https://github.com/python/cpython. NumPy 2.0.2, BSD-3-Clause, without its
-   tests and headers: https://github.com/numpy/numpy. The library of the book, BSD-3-Clause. */
+NOTICE = """/* Pyodide 0.27.7, MPL-2.0, unchanged; source: https://github.com/pyodide/pyodide.
+   CPython 3.12 within it, PSF-2.0: https://github.com/python/cpython. NumPy 2.0.2, BSD-3-Clause,
+   without its tests and headers: https://github.com/numpy/numpy. The book's own library. */
 """
 
 

@@ -2,7 +2,6 @@
 
 import inspect
 import re
-from importlib import import_module
 
 import nbformat
 import numpy as np
@@ -10,26 +9,18 @@ import pytest
 from scipy.optimize import nnls
 from sklearn.metrics import mean_squared_error, precision_score, recall_score
 
+from tests.exercises import EVERY, exercises
 from tests.project import CHAPTERS, code, each_chapter
 from vmc_lib import photos
 from vmc_lib.arm import muscle
 from vmc_lib.camera import Camera
 from vmc_lib.cerebellum import offline
-from vmc_lib.grading import EMPTY, RIGHT, WRONG, Exercise, feedback
+from vmc_lib.grading import EMPTY, RIGHT, WRONG, feedback
 from vmc_lib.motor.planning import habitual_weights
 from vmc_lib.show import figures, questions
 from vmc_lib.show.questions import grade, solution
 from vmc_lib.what.crbm import CRBM
 from vmc_lib.where.appearance import Appearance, similarity
-
-
-def exercises(chapter):
-    """The graded exercises of a chapter, by name."""
-    module = import_module(f"book.exercises.{chapter.stem[3:]}")
-    return {name: one for name, one in vars(module).items() if isinstance(one, Exercise)}
-
-
-EVERY = {name: one for chapter in CHAPTERS for name, one in exercises(chapter).items()}
 
 
 @pytest.fixture(params=EVERY, ids=str.lower)
@@ -85,6 +76,7 @@ def test_a_chapter_grades_two_functions_or_more(path):
     assert len(exercises(path)) >= 2
     for name, one in exercises(path).items():
         inputs = ", ".join(inspect.signature(one.right).parameters)
+        assert name == one.right.__name__.upper()  # by which the page finds it
         empty = rf"^def {one.right.__name__}\({inputs}\):\n(?: .*\n|\n)*?    \.\.\.  # your"
         assert re.search(empty, code(path), re.M)
         assert f"grade({one.right.__name__}, {name})" in code(path)
@@ -228,11 +220,11 @@ def test_a_grade_is_a_line_and_in_a_test_a_failure(outputs, monkeypatch):
     assert "&lt;b&gt;" in page[2]
 
 
-def test_the_page_says_where_a_function_can_be_graded(outputs, monkeypatch):
+def test_the_page_has_buttons_for_an_empty_function(outputs, monkeypatch):
     page = outputs(questions)
     monkeypatch.setenv("VMC_RENDER_MODE", "book")
     grade(lambda *_: None, EVERY["MIXED"])
-    assert "a running notebook</a>" in page[0]
+    assert 'data-function="book.exercises.loop.mixed"' in page[0]
 
 
 @pytest.mark.parametrize(("mode", "folds"), [("live", 1), ("book", 0)])

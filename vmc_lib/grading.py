@@ -7,6 +7,7 @@ whose function gets the numbers that it gets is given that hint, whatever the li
 import inspect
 import re
 from collections.abc import Callable
+from types import SimpleNamespace
 from typing import NamedTuple
 
 import numpy as np
@@ -100,6 +101,8 @@ def _short(value):
         return "a function"
     if isinstance(value, tuple):
         return f"({', '.join(map(_short, value))})"
+    if isinstance(value, SimpleNamespace):
+        return ", ".join(f"{name}: {_short(one)}" for name, one in vars(value).items())
     if isinstance(value, float):
         return f"{value:.4g}"
     with np.printoptions(precision=4, suppress=True):

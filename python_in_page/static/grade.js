@@ -9,7 +9,7 @@ const vmcGrade = (() => {
   /* A line of Markdown as HTML, as vmc_lib.show.figures.inline has it. */
   const inline = (text) =>
     escaped(text).replace(MARKS, (_, code, tex, strong, words) =>
-      code ? `<code>${code}</code>` : tex ? `\\(${tex.trim()}\\)`
+      code ? `<code>${code}</code>` : tex ? `<span class="math inline">\\(${tex.trim()}\\)</span>`
         : strong ? `<strong>${strong}</strong>` : `<em>${words}</em>`);
 
   const lines = (cell) => (cell.querySelector("textarea")?.value ?? cell.querySelector("pre").textContent);

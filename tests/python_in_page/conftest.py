@@ -1,0 +1,73 @@
+"""The page's Python, packed, in a folder that has the book's scripts."""
+
+import pytest
+
+from python_in_page import pack
+from tests import pages
+from tests.exercises import EVERY
+from vmc_lib.show import questions
+
+ABOVE = """import numpy as np
+import cv2
+
+
+def twice(x):
+    return 2 * x
+
+
+assert False"""
+STUB = '''def {name}(u, a, rise, fall):
+    """Per second."""
+    ...  # your lines
+'''
+CELL = '<div class="cell"><div class="cell_input"><pre>{}</pre></div></div>'
+
+
+@pytest.fixture(scope="session")
+def packed():
+    return pack.script()
+
+
+@pytest.fixture(scope="session")
+def site(site, packed):
+    """The folder with the book's styles and scripts, the page's Python among them."""
+    (site / pack.SCRIPT).parent.mkdir(exist_ok=True)
+    (site / pack.SCRIPT).write_text(packed, encoding="utf-8")
+    return site
+
+
+@pytest.fixture(scope="session")
+def exercise_html():
+    """A chapter's code, and an exercise with its empty function, as the book has them."""
+    name = EVERY["ACTIVATION_RATES"].right.__name__
+    form = pages.book_html(
+        questions, lambda: questions.grade(lambda *_: None, EVERY["ACTIVATION_RATES"])
+    )
+    cells = (CELL.format(lines) for lines in (ABOVE, STUB.format(name=name)))
+    return (
+        f'<h1>E</h1>{"".join(cells)}<div class="cell"><div class="cell_output">{form}</div></div>'
+    )
+
+
+@pytest.fixture
+def open_exercise(open_page, exercise_html):
+    """A function that opens the exercise: its field, its buttons, and what it says."""
+
+    def open_exercise(*window):
+        page = open_page(exercise_html, *window)
+        page.lines, page.said = page.locator("textarea"), page.locator("form [role=status]")
+        page.button = lambda name: page.get_by_role("button", name=name)
+        return page
+
+    return open_exercise
+
+
+@pytest.fixture(scope="module")
+def ask(offline, site):
+    """A function that asks the page's Python about typed lines: what is said, what is printed."""
+    page = pages.open_html(offline, site, "<h1>E</h1>")
+    yield lambda *question: page.evaluate(
+        "(question) => vmcPython.check(question, () => {})", question
+    )
+    page.close()
+    assert page.errors == []

@@ -1,0 +1,61 @@
+"""The page's Python and the notebook's say the same, of every exercise."""
+
+import pytest
+from bs4 import BeautifulSoup
+
+from python_in_page import pack
+from tests.exercises import EVERY
+from tests.pages import open_html
+from vmc_lib.grading import EMPTY, RIGHT, WRONG, feedback
+from vmc_lib.show.figures import inline
+
+pytestmark = pytest.mark.browser
+each_exercise = pytest.mark.parametrize("name", EVERY, ids=str.lower)
+ODD = {  # functions that are wrong everywhere, in one line
+    "lambda *_: None": EMPTY,
+    "lambda *_: 0.123": WRONG,
+    "lambda *_: 'words'": WRONG,
+    "lambda *_: [1, [2, 3]]": WRONG,
+    "lambda *_: 1 / 0": WRONG,
+    "3": WRONG,
+}
+
+
+def asked(name):
+    """Lines that import an exercise, and its place, for the page's Python."""
+    module = EVERY[name].right.__module__
+    return f"from {module} import {name} as exercise\n{name.lower()} = ", f"{module}.{name.lower()}"
+
+
+@each_exercise
+def test_every_mistake_is_told_as_in_the_notebook(ask, name):
+    lines, place = asked(name)
+    assert ask([], f"{lines}exercise.right", place) == [RIGHT, ""]
+    for number, hint in enumerate(EVERY[name].mistakes):
+        mistake = f"{lines}list(exercise.mistakes.values())[{number}]"
+        assert ask([], mistake, place) == [f"{WRONG} {hint}", ""]
+
+
+@each_exercise
+def test_an_odd_function_is_told_as_in_the_notebook(ask, name):
+    lines, place = asked(name)
+    for function, begins in ODD.items():
+        said, _ = ask([], f"{lines}{function}", place)
+        assert said.startswith(begins)
+        assert said == feedback(eval(function), EVERY[name])  # noqa: S307
+
+
+def test_every_module_of_the_list_runs_in_the_page(ask):
+    modules = "\n".join(f"import {name}" for name in pack.MODULES)
+    lines, place = asked("MIXED")
+    assert ask([], f"{modules}\n{lines}lambda *_: None", place) == [EMPTY, ""]
+
+
+def test_what_is_said_is_set_as_in_the_notebook(offline, site):
+    texts = [hint for exercise in EVERY.values() for hint in exercise.mistakes]
+    texts += [feedback(lambda *_: "<b> & *not* $x$", EVERY["MIXED"]), RIGHT, EMPTY]
+    page = open_html(offline, site, "<h1>E</h1>")
+    script = "(texts) => texts.map(vmcGrade.inline)"
+    plain = [str(BeautifulSoup(html, "html.parser")) for html in page.evaluate(script, texts)]
+    assert plain == [str(BeautifulSoup(inline(text), "html.parser")) for text in texts]
+    page.close()

@@ -1,0 +1,85 @@
+"""Every exercise of the built book, in its own chapter: right lines, a known mistake, no end."""
+
+import inspect
+import json
+
+import pytest
+
+from tests.engines import NOT_TESTED, Firefox, WebKit
+from tests.exercises import exercises
+from tests.pages import BUILT, INSIDE, open_url
+from tests.project import CHAPTERS
+from vmc_lib.grading import EMPTY, RIGHT, WRONG
+
+pytestmark = pytest.mark.browser
+THREE = {"04_crbm": "ENERGY_OF", "07_muscle": "ACTIVATION_TO_HOLD", "09_planning": "NEAR_WEIGHTS"}
+CHECK = """const form = document.querySelector('form[data-function$=".%s"]');
+const area = form.closest(".cell").previousElementSibling.querySelector("textarea");
+if (lines) area.value = lines;
+form.requestSubmit();
+const { stop } = form.elements;
+while (!stop.disabled) await new Promise((resolve) => setTimeout(resolve, 50));
+return form.querySelector("[role=status]").textContent;"""
+ENDLESS = "while True:\n    pass"
+
+
+def built(chapter):
+    return BUILT / "book" / f"{chapter.stem}.html"
+
+
+def mistaken(name, one):
+    """Lines that make the first known mistake."""
+    exercise = f"from {one.right.__module__} import {name}"
+    return f"{exercise}\n{name.lower()} = next(iter({name}.mistakes.values()))"
+
+
+def first_words(markdown):
+    """What stands before maths, code and other marks."""
+    return markdown.split("$")[0].split("`")[0].split("*")[0].strip()
+
+
+@pytest.mark.parametrize("chapter", CHAPTERS, ids=lambda chapter: chapter.stem)
+def test_every_exercise_is_checked_in_its_chapter(offline, chapter):
+    page = open_url(offline, built(chapter).as_uri())
+
+    def check(name, lines):
+        return page.evaluate(f"async (lines) => {{ {CHECK % name.lower()} }}", lines)
+
+    found = exercises(chapter)
+    assert page.locator("form[data-function]").count() == len(found)
+    for name, one in found.items():
+        assert check(name, "") == EMPTY
+        assert check(name, inspect.getsource(one.right)) == RIGHT
+        hint = f"{WRONG} {next(iter(one.mistakes))}"
+        assert check(name, mistaken(name, one)).startswith(first_words(hint))
+        assert "cannot read line 2" in check(name, f"def {name.lower()}():\n    returm")
+    page.evaluate("() => { vmcPython.limit.seconds = 1 }")
+    assert "Does a loop never end?" in check(name, ENDLESS)
+    assert [url for url in page.asked if not url.startswith(INSIDE)] == []
+    assert page.errors == page.failed == []
+    page.evaluate("() => localStorage.clear()")
+    page.close()
+
+
+@pytest.mark.parametrize("kind", [Firefox, WebKit])
+def test_the_other_engines_check_three(kind, tmp_path):
+    if not kind.program():
+        pytest.skip(NOT_TESTED.format(kind.__name__))
+    engine = kind(tmp_path)
+    try:
+        for stem, name in THREE.items():
+            [chapter] = [chapter for chapter in CHAPTERS if chapter.stem == stem]
+            one = exercises(chapter)[name]
+            engine.open(built(chapter))
+
+            def check(lines, name=name):
+                return engine.run(f"const lines = {json.dumps(lines)}; {CHECK % name.lower()}")
+
+            assert check(inspect.getsource(one.right)) == RIGHT
+            hint = f"{WRONG} {next(iter(one.mistakes))}"
+            assert check(mistaken(name, one)).startswith(first_words(hint))
+            engine.run("vmcPython.limit.seconds = 1;")
+            assert "Does a loop never end?" in check(ENDLESS)
+            assert engine.errors() == ""
+    finally:
+        engine.close()

@@ -1,0 +1,114 @@
+"""A reader writes a function in the page, and has it checked."""
+
+import inspect
+
+import pytest
+from playwright.sync_api import expect
+
+from tests.exercises import EVERY
+
+pytestmark = pytest.mark.browser
+RIGHT_LINES = inspect.getsource(EVERY["ACTIVATION_RATES"].right)
+HEAD = "def activation_rates(u, a, rise, fall):\n"
+SLOW = f"{HEAD}    return (u - a) / fall"
+ENDLESS = "while True:\n    pass"
+NO_STORAGE = "Object.defineProperty(window, 'localStorage', { get() { throw 'no' } })"
+
+
+def check(page, lines, told):
+    page.lines.fill(lines)
+    page.button("Check").click()
+    page.said.get_by_text(told).wait_for()
+
+
+def test_python_is_loaded_by_the_first_check_and_from_the_books_own_files(open_exercise, site):
+    page = open_exercise()
+    page.lines.click()
+    page.wait_for_load_state("networkidle")
+    assert not any("vendor/python" in url or "blob:" in url for url in page.asked)
+    check(page, RIGHT_LINES, "✓ Right.")
+    assert any("vendor/python.js" in url for url in page.asked)
+    inside = (site.as_uri(), "data:", "blob:")
+    assert [url for url in page.asked if not url.startswith(inside)] == []
+    check(page, SLOW, "Too slow on the way up")
+    assert page.said.locator("p").inner_html().count("\\(") == 2  # equations, for MathJax
+    check(page, f"{HEAD}    print('is', twice(2))\n    return u", "is right; yours gives")
+    assert "is 4" in page.said.locator("pre").inner_text()
+    check(page, f"{HEAD}    returm 1", "cannot read line 2")
+    check(page, "import sys\nsys.exit()", "Python stopped: SystemExit")
+    check(page, RIGHT_LINES, "✓ Right.")
+
+
+def test_an_endless_loop_ends_by_itself_or_by_the_button(open_exercise):
+    page = open_exercise()
+    page.evaluate("() => { vmcPython.limit.seconds = 1 }")
+    check(page, ENDLESS, "Stopped after 1 s.")
+    page.evaluate("() => { vmcPython.limit.seconds = 1000 }")
+    page.button("Check").click()
+    page.said.get_by_text("Checking").wait_for()
+    page.button("Stop").click()
+    page.said.get_by_text("Stopped.").wait_for()
+    page.button("Check").click()
+    page.button("Stop").click()  # while it starts
+    page.said.get_by_text("Stopped.").wait_for()
+    assert page.button("Stop").is_disabled()
+    check(page, RIGHT_LINES, "✓ Right.")
+
+
+def test_lines_and_verdict_are_kept_until_reset(open_exercise):
+    page = open_exercise()
+    empty = page.lines.input_value()
+    assert "your lines" in empty
+    assert page.button("Reset").is_disabled()
+    check(page, SLOW, "Too slow")
+    page.lines.press_sequentially("  # mine")
+    page.reload()
+    assert page.lines.input_value() == f"{SLOW}  # mine"
+    assert "Too slow" in page.said.inner_text()
+    page.button("Reset").click()
+    assert page.lines.input_value() == empty
+    assert page.said.inner_text() == ""
+    page.keyboard.press("Control+z")
+    assert page.lines.input_value() == f"{SLOW}  # mine"
+    page.button("Reset").click()
+    page.reload()
+    assert page.lines.input_value() == empty
+    assert page.said.inner_text() == ""
+
+
+def test_it_works_where_storage_is_forbidden(open_exercise, window):
+    page = open_exercise(window(NO_STORAGE))
+    check(page, RIGHT_LINES, "✓ Right.")
+
+
+def test_the_keyboard_indents_checks_and_goes_on(open_exercise):
+    page = open_exercise()
+    keys, empty = page.keyboard, page.lines.input_value()
+    keys.press("Tab")
+    expect(page.lines).to_be_focused()
+    keys.press("Control+a")
+    for text in ("def f(x):", "if x:  # so", "return 1"):
+        keys.type(text)
+        keys.press("Enter")
+    assert page.lines.input_value() == "def f(x):\n    if x:  # so\n        return 1\n        "
+    keys.press("Control+z")
+    assert page.lines.input_value() == empty
+    keys.press("Tab")
+    expect(page.button("Check")).to_be_focused()
+    keys.press("Shift+Tab")
+    keys.press("Control+Enter")
+    page.said.get_by_text("returns nothing").wait_for()
+
+
+def test_a_phone_has_letters_of_16_px_and_nothing_beyond_its_edge(open_exercise, window):
+    page = open_exercise(window(viewport={"width": 360, "height": 700}))
+    size = page.lines.evaluate("(area) => getComputedStyle(area).fontSize")
+    assert size == "16px"
+    assert page.evaluate("() => document.documentElement.scrollWidth") <= 360
+
+
+def test_it_is_accessible(open_exercise, serious):
+    page = open_exercise()
+    assert page.get_by_label("Your lines: activation_rates").count() == 1
+    check(page, f"{HEAD}    print(1)\n    return u", "is right; yours gives")
+    assert serious(page, "html", all_of_it=True) == []

@@ -1,0 +1,65 @@
+"""What is said of the lines that a reader types."""
+
+import inspect
+
+import pytest
+
+from python_in_page.grader import check, definitions
+from tests.exercises import EVERY
+from vmc_lib.grading import EMPTY, RIGHT, feedback
+
+RATES = EVERY["ACTIVATION_RATES"]
+NAME = "book.exercises.muscle.activation_rates"
+IMPORT = [["import numpy as np\nimport nowhere", True]]
+HEAD = "def activation_rates(u, a, rise, fall):\n"
+
+
+def test_a_right_function_is_right():
+    assert check(IMPORT, inspect.getsource(RATES.right), NAME) == (RIGHT, "")
+
+
+@pytest.mark.parametrize(
+    "last", ["return (u - a) / fall", "return 1", "return nothing", "return 1 / 0"]
+)
+def test_a_wrong_one_gets_what_the_notebook_says(last):
+    names = {}
+    exec(f"{HEAD}    {last}", names)  # noqa: S102
+    said, _ = check([], f"{HEAD}    {last}", NAME)
+    assert said == feedback(names["activation_rates"], RATES)
+
+
+@pytest.mark.parametrize(
+    ("typed", "told"),
+    [
+        (f"{HEAD}    returm 1", "cannot read line 2: invalid syntax"),
+        (f"{HEAD}return 1", "cannot read line 2: expected an indented block"),
+        ("x = 1\ny = unknown", "Line 2 stops: `NameError"),
+        ("def f():\n    return 1 / 0\n\nf()", "Line 2 stops: `ZeroDivisionError"),
+        ("f = 1", "define no function `activation_rates`"),
+    ],
+)
+def test_lines_that_define_no_function_are_told_why(typed, told):
+    """Also where the chapter above has one of that name."""
+    said, _ = check([[f"{HEAD}    return 0", False]], typed, NAME)
+    assert told in said
+
+
+def test_what_is_printed_is_shown_not_for_ever():
+    said, printed = check([["print('above')", False]], f"{HEAD}    print('here' * 999)", NAME)
+    assert said == EMPTY
+    assert printed.startswith("hereh")
+    assert len(printed) == 2000
+
+
+def test_the_code_above_has_run_as_far_as_it_can():
+    names = definitions(
+        [
+            ["import math\nfrom nowhere import x\nfolded = 1", True],
+            ["half = 0.5\nlost = x\n\ndef area(r):\n    return math.pi * r**2", False],
+            ["not Python", False],
+            ["assert half == 1\nafter = half", False],
+        ]
+    )
+    assert names["area"](1) == pytest.approx(3.1415926)
+    assert names["after"] == 0.5
+    assert not {"x", "folded", "lost"} & names.keys()
