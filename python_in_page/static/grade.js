@@ -85,6 +85,7 @@ const vmcGrade = (() => {
       keep(said);
     });
     area.addEventListener("keydown", (event) => key(event, form));
+    area.addEventListener("input", vmcPython.start, { once: true }); // it may be there when asked
     area.addEventListener("input", () => {
       fit();
       keep(said);

@@ -52,7 +52,7 @@ def test_every_exercise_is_checked_in_its_chapter(offline, chapter):
         assert check(name, inspect.getsource(one.right)) == RIGHT
         hint = f"{WRONG} {next(iter(one.mistakes))}"
         assert check(name, mistaken(name, one)).startswith(first_words(hint))
-        assert "cannot read line 2" in check(name, f"def {name.lower()}():\n    returm")
+        assert "cannot read line 2" in check(name, f"def {name.lower()}():\n    return =")
     page.evaluate("() => { vmcPython.limit.seconds = 1 }")
     assert "Does a loop never end?" in check(name, ENDLESS)
     assert [url for url in page.asked if not url.startswith(INSIDE)] == []

@@ -21,7 +21,7 @@ def check(page, lines, told):
     page.said.get_by_text(told).wait_for()
 
 
-def test_python_is_loaded_by_the_first_check_and_from_the_books_own_files(open_exercise, site):
+def test_python_is_loaded_for_who_writes_and_from_the_books_own_files(open_exercise, site):
     page = open_exercise()
     page.lines.click()
     page.wait_for_load_state("networkidle")
