@@ -34,7 +34,10 @@ MODULES = (
     "vmc_lib.what.crbm",
     *(f"book.exercises.{file.stem}" for file in sorted((ROOT / "book/exercises").glob("*.py"))),
 )
-NEEDLESS = re.compile(r"\.(pyi|h|c|a|ini|pxd)$|/tests/|^numpy/(f2py|distutils)/")  # of NumPy
+NEEDLESS = re.compile(  # in a page: NumPy's headers and tests, and what no browser can do
+    r"\.(pyi|h|c|a|ini|pxd)$|/tests/|^numpy/(f2py|distutils)/"
+    r"|^(multiprocessing|wsgiref|xmlrpc)/"
+)
 NOTICE = """/* Pyodide 0.27.7, MPL-2.0, unchanged; source: https://github.com/pyodide/pyodide.
    CPython 3.12 within it, PSF-2.0: https://github.com/python/cpython. NumPy 2.0.2, BSD-3-Clause,
    without its tests and headers: https://github.com/numpy/numpy. The book's own library. */
@@ -49,17 +52,15 @@ def script():
 
 def files():
     """What Pyodide asks for, and the library: {name: bytes}."""
-    names = ("pyodide.js", "pyodide.asm.js", "pyodide.asm.wasm", "python_stdlib.zip")
+    names = ("pyodide.js", "pyodide.asm.js", "pyodide.asm.wasm")
     lock = json.loads((VENDOR / "pyodide-lock.json").read_bytes())
     numpy = lock["packages"]["numpy"]
     lock["packages"] = {"numpy": numpy}
     return {
         **{name: (VENDOR / name).read_bytes() for name in names},
-        "python_stdlib.zip": _stored(_members("python_stdlib.zip")),
         "pyodide-lock.json": json.dumps(lock).encode(),
-        numpy["file_name"]: _stored(
-            (name, data) for name, data in _members(numpy["file_name"]) if not NEEDLESS.search(name)
-        ),
+        "python_stdlib.zip": _stored(_compiled("python_stdlib.zip")),
+        numpy["file_name"]: _stored(_compiled(numpy["file_name"])),
         "library.zip": _stored((path.as_posix(), (ROOT / path).read_bytes()) for path in paths()),
     }
 
@@ -69,6 +70,17 @@ def paths():
     for name in MODULES:
         path = Path(name.replace(".", "/"))
         yield path / "__init__.py" if (ROOT / path).is_dir() else path.with_suffix(".py")
+
+
+def _compiled(archive):
+    """What is needed of a vendored archive, (name, bytes), compiled where `compile.js` did that."""
+    done = dict(_members("compiled.zip"))
+    for name, data in _members(archive):
+        compiled = f"{name}c"
+        if compiled in done:
+            yield compiled, done[compiled]
+        elif not NEEDLESS.search(name):
+            yield name, data
 
 
 def _members(archive):

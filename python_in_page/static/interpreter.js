@@ -3,7 +3,7 @@
 const vmcPython = (() => {
   "use strict";
 
-  const SIZE = "10.7 MB";
+  const SIZE = "11.9 MB";
   const limit = { seconds: 10 }; // for one answer
 
   /* The worker's own code: first it is sent { files }, then questions for `python_in_page.grader`. */
