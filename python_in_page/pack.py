@@ -65,6 +65,11 @@ def files():
     }
 
 
+def inputs():
+    """Every file that the script is made of."""
+    return [Path(__file__), *VENDOR.iterdir(), *(ROOT / path for path in paths())]
+
+
 def paths():
     """The files of `MODULES`, from the project's root."""
     for name in MODULES:

@@ -10,6 +10,9 @@ from pathlib import Path
 import nbformat
 import pytest
 
+from python_in_page import pack
+from tests import pages
+
 ROOT = Path(__file__).parents[1]
 CODE = "open('count', 'a').write('x')\nimport sys\nprint('printed', 6 * 7)"
 
@@ -20,7 +23,8 @@ def book(tmp_path):
     shutil.copy(ROOT / "_config.yml", tmp_path)
     (tmp_path / "_toc.yml").write_text("format: jb-book\nroot: book/chapter\n", encoding="utf-8")
     shutil.copytree(ROOT / "book/_ext", tmp_path / "book/_ext")
-    for folder in ("book/_static", "vmc_lib/show/static", "arm_in_page/static"):
+    for static in pages.STATIC:
+        folder = static.relative_to(ROOT)
         (tmp_path / folder).mkdir(parents=True)
         shutil.copytree(
             ROOT / folder, tmp_path / folder, dirs_exist_ok=True, ignore=lambda *_: ["vendor"]
@@ -64,6 +68,7 @@ def test_a_chapter_is_executed_when_it_or_the_library_changed(book):
         page = build(book)
         assert times_executed(book) == 1
         assert "printed 42" in page
+    assert (book / "_build/html/_static" / pack.SCRIPT).stat().st_size > 1e6  # the page's Python
     # It can be saved, and without a repository nothing leads out
     assert "../_sources/book/chapter.ipynb" in links(page)
     assert not [link for link in links(page) if link.startswith("http")]

@@ -11,7 +11,9 @@ def setup(app):
 
 
 def write(app, exception):
-    if app.builder.format == "html" and not exception:
-        script = Path(app.outdir) / "_static" / pack.SCRIPT
+    script = Path(app.outdir) / "_static" / pack.SCRIPT
+    made = script.stat().st_mtime if script.exists() else 0
+    changed = max(path.stat().st_mtime for path in pack.inputs())
+    if app.builder.format == "html" and not exception and made < changed:
         script.parent.mkdir(parents=True, exist_ok=True)
         script.write_text(pack.script(), encoding="utf-8", newline="\n")
