@@ -34,7 +34,7 @@ def test_python_is_loaded_for_who_writes_and_from_the_books_own_files(open_exerc
     assert page.said.locator("p").inner_html().count("\\(") == 2  # equations, for MathJax
     check(page, f"{HEAD}    print('is', twice(2))\n    return u", "is right; yours gives")
     assert "is 4" in page.said.locator("pre").inner_text()
-    check(page, f"{HEAD}    returm 1", "cannot read line 2")
+    check(page, f"{HEAD}    return =", "cannot read line 2")
     check(page, "import sys\nsys.exit()", "Python stopped: SystemExit")
     check(page, RIGHT_LINES, "✓ Right.")
 

@@ -31,7 +31,7 @@ def test_a_wrong_one_gets_what_the_notebook_says(last):
 @pytest.mark.parametrize(
     ("typed", "told"),
     [
-        (f"{HEAD}    returm 1", "cannot read line 2: invalid syntax"),
+        (f"{HEAD}    return =", "cannot read line 2: invalid syntax"),
         (f"{HEAD}return 1", "cannot read line 2: expected an indented block"),
         ("x = 1\ny = unknown", "Line 2 stops: `NameError"),
         ("def f():\n    return 1 / 0\n\nf()", "Line 2 stops: `ZeroDivisionError"),
