@@ -1,7 +1,7 @@
 """One script of all that Python in the page is made of: Pyodide, NumPy, and the library itself.
 
 From file:// a page can load nothing but classic scripts; in this one each file is text, gzip in
-base64. The build writes it, and a page loads it when the reader first has something checked.
+base64. The build writes it, and a page loads it when its reader first writes in an exercise.
 """
 
 import base64

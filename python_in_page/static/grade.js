@@ -27,7 +27,7 @@ const vmcGrade = (() => {
   };
 
   /* Enter indents the next line as Python needs it; Control and Enter check. Tab goes on, as always. */
-  const key = (event, form) => {
+  const onKey = (event, form) => {
     const area = event.target;
     const before = area.value.slice(0, area.selectionStart).split("\n").pop();
     if (event.key !== "Enter" || event.isComposing) return;
@@ -59,8 +59,8 @@ const vmcGrade = (() => {
       status.innerHTML = `<p>${inline(message)}</p>${printed ? `<pre>${escaped(printed)}</pre>` : ""}`;
       window.MathJax?.typesetPromise?.([status]);
     };
-    const keep = (said) => vmcMemory.set(memory, JSON.stringify({ typed: area.value, said }));
     let said; // of what is typed, or of what was typed before
+    const keep = () => vmcMemory.set(memory, JSON.stringify({ typed: area.value, said }));
 
     const check = async () => {
       stop.disabled = false;
@@ -71,7 +71,7 @@ const vmcGrade = (() => {
       }
       stop.disabled = true;
       show(said);
-      keep(said);
+      keep();
     };
     form.addEventListener("submit", (event) => {
       event.preventDefault();
@@ -82,13 +82,13 @@ const vmcGrade = (() => {
       area.select();
       type(area, empty);
       show((said = [""]));
-      keep(said);
+      keep();
     });
-    area.addEventListener("keydown", (event) => key(event, form));
+    area.addEventListener("keydown", (event) => onKey(event, form));
     area.addEventListener("input", vmcPython.start, { once: true }); // it may be there when asked
     area.addEventListener("input", () => {
       fit();
-      keep(said);
+      keep();
     });
 
     const kept = JSON.parse(vmcMemory.get(memory));

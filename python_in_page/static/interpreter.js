@@ -1,9 +1,9 @@
-/* Python, compiled to WebAssembly: a worker that runs it, out of the book's own files, from a
-   reader's first wish on. */
+/* Python, compiled to WebAssembly, in a worker: loaded from the book's own files when a reader first
+   writes or has something checked. */
 const vmcPython = (() => {
   "use strict";
 
-  const SIZE = "11.9 MB";
+  const SIZE = "12 MB";
   const limit = { seconds: 10 }; // for one answer
 
   /* The worker's own code: first it is sent { files }, then questions for `python_in_page.grader`. */

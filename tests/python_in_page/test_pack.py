@@ -58,4 +58,4 @@ def test_the_page_tells_the_scripts_size(packed):
     size = len(packed.encode())
     assert size <= 12e6
     told = (ROOT / "python_in_page/static/interpreter.js").read_text(encoding="utf-8")
-    assert re.search('SIZE = "(.*) MB"', told)[1] == f"{size / 1e6:.1f}"
+    assert re.search('SIZE = "(.*) MB"', told)[1] == f"{size / 1e6:.0f}"
