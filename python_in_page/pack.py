@@ -15,28 +15,20 @@ from pathlib import Path
 ROOT = Path(__file__).parents[1]
 VENDOR = Path(__file__).parent / "vendor"
 SCRIPT = "vendor/python.js"  # where the built page finds it
-# What runs in the page, beside Python's own modules and NumPy; all exercises run there
-MODULES = (
-    "python_in_page",
-    "python_in_page.grader",
-    "reproduce.paper",
-    "reproduce.peers.muscle_models",
-    "vmc_lib",
-    "vmc_lib.arm",
-    "vmc_lib.arm.muscle",
-    "vmc_lib.boxes",
-    "vmc_lib.camera",
-    "vmc_lib.cerebellum",
-    "vmc_lib.cerebellum.two_rates",
-    "vmc_lib.data",
-    "vmc_lib.grading",
-    "vmc_lib.what",
-    "vmc_lib.what.crbm",
-    *(f"book.exercises.{file.stem}" for file in sorted((ROOT / "book/exercises").glob("*.py"))),
-)
+# What runs in the page, by package, beside Python's own modules and NumPy
+PACKAGES = {
+    "python_in_page": "grader",
+    "book.exercises": " ".join(path.stem for path in sorted(ROOT.glob("book/exercises/*.py"))),
+    "reproduce": "paper peers.muscle_models",
+    "vmc_lib": "boxes camera grading",
+    "vmc_lib.arm": "muscle",
+    "vmc_lib.cerebellum": "two_rates",
+    "vmc_lib.what": "crbm",
+}
+MODULES = [f"{package}.{name}" for package, names in PACKAGES.items() for name in names.split()]
 NEEDLESS = re.compile(  # in a page: NumPy's headers and tests, and what no browser can do
     r"\.(pyi|h|c|a|ini|pxd)$|/tests/|^numpy/(f2py|distutils)/"
-    r"|^(multiprocessing|wsgiref|xmlrpc)/"
+    r"|^(multiprocessing|wsgiref|xmlrpc)/|^(ftplib|imaplib|mailbox|nntplib|poplib|smtplib)\.py$"
 )
 NOTICE = """/* Pyodide 0.27.7, MPL-2.0, unchanged; source: https://github.com/pyodide/pyodide.
    CPython 3.12 within it, PSF-2.0: https://github.com/python/cpython. NumPy 2.0.2, BSD-3-Clause,
@@ -71,10 +63,10 @@ def inputs():
 
 
 def paths():
-    """The files of `MODULES`, from the project's root."""
-    for name in MODULES:
-        path = Path(name.replace(".", "/"))
-        yield path / "__init__.py" if (ROOT / path).is_dir() else path.with_suffix(".py")
+    """The files of `MODULES` and of the packages around them, from the project's root."""
+    modules = {Path(f"{name.replace('.', '/')}.py") for name in MODULES}
+    packages = {parent / "__init__.py" for path in modules for parent in path.parents}
+    return sorted(modules | {path for path in packages if (ROOT / path).exists()})
 
 
 def _compiled(archive):
