@@ -25,6 +25,14 @@ def test_everything_vendored_is_credited():
         assert entry["version"] in entry["origin"], entry["name"]
 
 
+def test_what_no_registry_has_is_here():
+    entries = json.loads(vendor.MANIFEST.read_bytes())
+    here = [entry for entry in entries if entry["origin"].startswith("here:")]
+    assert len(here) == 2
+    for entry in here:
+        assert vendor.fetch(entry["origin"]) == (ROOT / entry["file"]).read_bytes()
+
+
 def test_page_and_kernel_use_one_viewer():
     installed = Path(meshcat.__file__).parent / "viewer/dist/main.min.js"
     assert installed.read_bytes() == (ROOT / "book/_static/vendor/meshcat.js").read_bytes()

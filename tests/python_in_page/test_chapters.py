@@ -7,7 +7,7 @@ import pytest
 
 from tests.engines import NOT_TESTED, Firefox, WebKit
 from tests.exercises import exercises
-from tests.pages import BUILT, INSIDE, open_url
+from tests.pages import BUILT, INSIDE, open_url, probe
 from tests.project import CHAPTERS
 from vmc_lib.grading import EMPTY, RIGHT, WRONG
 
@@ -50,9 +50,11 @@ def test_every_exercise_is_checked_in_its_chapter(offline, chapter):
     for name, one in found.items():
         assert check(name, "") == EMPTY
         assert check(name, inspect.getsource(one.right)) == RIGHT
+        assert "cannot read line 2" in check(name, f"def {name.lower()}():\n    return =")
         hint = f"{WRONG} {next(iter(one.mistakes))}"
         assert check(name, mistaken(name, one)).startswith(first_words(hint))
-        assert "cannot read line 2" in check(name, f"def {name.lower()}():\n    return =")
+    page.evaluate("() => window.MathJax?.typesetPromise()")
+    assert probe(page, "rawTex") == []
     page.evaluate("() => { vmcPython.limit.seconds = 1 }")
     assert "Does a loop never end?" in check(name, ENDLESS)
     assert [url for url in page.asked if not url.startswith(INSIDE)] == []
