@@ -26,6 +26,8 @@ PACKAGES = {
     "vmc_lib.what": "crbm",
 }
 MODULES = [f"{package}.{name}" for package, names in PACKAGES.items() for name in names.split()]
+UNCHANGED = ("pyodide.js", "pyodide.asm.js", "pyodide.asm.wasm")
+UNCHANGED += ("LICENSE-MPL-2.0", "LICENSE-PSF-2.0")
 NEEDLESS = re.compile(  # in a page: NumPy's headers and tests, and what no browser can do
     r"\.(pyi|h|c|a|ini|pxd)$|/tests/|^numpy/(f2py|distutils)/"
     r"|^(multiprocessing|wsgiref|xmlrpc)/|^(ftplib|imaplib|mailbox|nntplib|poplib|smtplib)\.py$"
@@ -43,13 +45,12 @@ def script():
 
 
 def files():
-    """What Pyodide asks for, and the library: {name: bytes}."""
-    names = ("pyodide.js", "pyodide.asm.js", "pyodide.asm.wasm")
+    """What Pyodide asks for, the library, and the licences: {name: bytes}."""
     lock = json.loads((VENDOR / "pyodide-lock.json").read_bytes())
     numpy = lock["packages"]["numpy"]
     lock["packages"] = {"numpy": numpy}
     return {
-        **{name: (VENDOR / name).read_bytes() for name in names},
+        **{name: (VENDOR / name).read_bytes() for name in UNCHANGED},
         "pyodide-lock.json": json.dumps(lock).encode(),
         "python_stdlib.zip": _stored(_compiled("python_stdlib.zip")),
         numpy["file_name"]: _stored(_compiled(numpy["file_name"])),

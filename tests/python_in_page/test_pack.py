@@ -28,7 +28,7 @@ def test_numpy_is_the_file_that_pyodide_names():
 def test_the_script_holds_what_is_vendored_and_the_library(packed):
     files = json.loads(packed[packed.index("{") : packed.rindex("}") + 1])
     files = {name: gzip.decompress(base64.b64decode(text)) for name, text in files.items()}
-    for name in ("pyodide.js", "pyodide.asm.js", "pyodide.asm.wasm"):
+    for name in pack.UNCHANGED:
         assert files[name] == (pack.VENDOR / name).read_bytes()
     library = opened(files["library.zip"])
     assert library == {p.as_posix(): (ROOT / p).read_bytes() for p in pack.paths()}
