@@ -15,17 +15,21 @@ from pathlib import Path
 ROOT = Path(__file__).parents[1]
 VENDOR = Path(__file__).parent / "vendor"
 SCRIPT = "vendor/python.js"  # where the built page finds it
-# What runs in the page, by package, beside Python's own modules and NumPy
+# What can be imported in the page, by package, beside Python's own modules and NumPy. What these
+# import where it is used (MuJoCo, SciPy, OpenCV, torch) is not there.
 PACKAGES = {
     "python_in_page": "grader",
     "book.exercises": " ".join(path.stem for path in sorted(ROOT.glob("book/exercises/*.py"))),
-    "reproduce": "paper peers.muscle_models",
-    "vmc_lib": "boxes camera grading",
-    "vmc_lib.arm": "muscle",
-    "vmc_lib.cerebellum": "two_rates",
+    "reproduce": "paper experiments.muscle_bench peers.muscle_models",
+    "vmc_lib": "boxes camera compiled grading statistics",
+    "vmc_lib.arm": "dynamics engines kinematics model muscle simulate",
+    "vmc_lib.cerebellum": "adaptation feedback_error forward_model offline online two_rates",
+    "vmc_lib.motor": "execution feedback inverse_dynamics planning templates",
     "vmc_lib.what": "crbm",
+    "vmc_lib.where": "appearance kernels segmentation",
 }
 MODULES = [f"{package}.{name}" for package, names in PACKAGES.items() for name in names.split()]
+DATA = {Path("vmc_lib/arm/arm26.xml"), Path("vmc_lib/data/__init__.py")}  # and what reads data
 UNCHANGED = ("pyodide.js", "pyodide.asm.js", "pyodide.asm.wasm")
 UNCHANGED += ("LICENSE-MPL-2.0", "LICENSE-PSF-2.0")
 NEEDLESS = re.compile(  # in a page: NumPy's headers and tests, and what no browser can do
@@ -64,10 +68,10 @@ def inputs():
 
 
 def paths():
-    """The files of `MODULES` and of the packages around them, from the project's root."""
+    """The files of `MODULES`, of the packages around them, and `DATA`, from the project's root."""
     modules = {Path(f"{name.replace('.', '/')}.py") for name in MODULES}
     packages = {parent / "__init__.py" for path in modules for parent in path.parents}
-    return sorted(modules | {path for path in packages if (ROOT / path).exists()})
+    return sorted(modules | DATA | {path for path in packages if (ROOT / path).exists()})
 
 
 def _compiled(archive):
