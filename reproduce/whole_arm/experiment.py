@@ -43,18 +43,35 @@ def plan_reaches(targets, past, **rule):
     return plan(targets, past, rows=octants(targets, past.points)[0], **rule)
 
 
-def planned_errors(past, targets):
-    """The mean miss over the mean reach, by name; what corrections leave of it.
+def mean_way(targets):
+    """How far the finger moves to targets (n, 3) on average, m."""
+    return np.linalg.norm(targets - plant.tip_and_jacobian(habits.START)[0], axis=-1).mean()
 
-    A reach is as long as its target (n, 3) is far from the shoulder; the way is what is moved.
+
+def planned_errors(past, targets):
+    """The mean miss over the mean way, by name; what corrections leave of it; speed, stray then.
+
+    The way is what is moved; a reach is as long as its target (n, 3) is far from the shoulder.
     """
-    reach = np.linalg.norm(targets, axis=-1).mean()
-    way = np.linalg.norm(targets - plant.tip_and_jacobian(habits.START)[0], axis=-1).mean()
-    none, *left = broyden_calibration(plan_reaches(targets, past)).error.mean(axis=1)
+    trials = broyden_calibration(plan_reaches(targets, past))
     exact = execute(plan_reaches(targets, past, rule=exact_weights)).error.mean()
-    over = {"planned / reach": none / reach, "planned / way": none / way}
-    shares = {f"{k} corrections": miss / none for k, miss in enumerate(left, start=1)}
-    return {**over, "Eq. 4 / reach": exact / reach, **shares}
+    none, *left = trials.error.mean(axis=1)
+    first, *_, last = trials.movements
+    return {
+        "planned / way": none / mean_way(targets),
+        "planned / reach": none / np.linalg.norm(targets, axis=-1).mean(),
+        "Eq. 4 / way": exact / mean_way(targets),
+        **{f"{k} corrections": miss / none for k, miss in enumerate(left, start=1)},
+        **{"planned speed": first.speed.mean(), "planned stray": first.stray.mean()},
+        **{"corrected speed": last.speed.mean(), "corrected stray": last.stray.mean()},
+    }
+
+
+def drift(past, seconds=3):
+    """How long the memories' last commands hold: how far the finger is after `seconds`, each, m."""
+    more = round(seconds / plant.TICK) - plant.HOLD - plant.TICKS
+    commands = np.pad(past.excitations, ((0, 0), (0, more), (0, 0)), "edge")
+    return np.linalg.norm(past.reach(commands).hold[:, -1] - past.points, axis=-1)
 
 
 def online_errors(past, seed, count=COUNT, width=WIDTH):
@@ -75,7 +92,7 @@ def online_errors(past, seed, count=COUNT, width=WIDTH):
 def optimised_errors(past, synergies, seed, count=COUNT):
     """One draw: every reach computed afresh, as the memories were made, beside mixing them.
 
-    The optimiser's miss over the reach, at once and aimed again; seconds that a plan takes.
+    The optimiser's miss over the way, at once and aimed again; seconds that a plan takes.
     """
     targets = draw_targets(past, count=count, rng=np.random.default_rng(seed))
     began = process_time()
@@ -91,9 +108,8 @@ def optimised_errors(past, synergies, seed, count=COUNT):
         "once": synergies.move(commands).endpoint,
         "again": habits.record_templates(synergies, targets).points,
     }
-    reach = np.linalg.norm(targets, axis=-1).mean()
     off = {k: np.linalg.norm(end - targets, axis=-1).mean() for k, end in ends.items()}
-    return seconds | {f"{name} / reach": miss / reach for name, miss in off.items()}
+    return seconds | {f"{name} / way": miss / mean_way(targets) for name, miss in off.items()}
 
 
 def covered_share(past, count=1000):
@@ -106,7 +122,7 @@ def seconds_per_second(synergies, count=5):
     """How many seconds of the arm's life one second of a processor simulates."""
     began = process_time()
     synergies.move(np.tile(synergies.rest, (count, plant.TICKS, 1)))
-    return count * plant.TICK * plant.TICKS / (process_time() - began)
+    return count * plant.TICK * (plant.TICKS + plant.HOLD) / (process_time() - began)
 
 
 def random_postures(goals, rng):
@@ -130,6 +146,7 @@ def make(sides=(3, 4), shared=(6, 14, 34), past=None, seeds=SEEDS, **size):
     draws = [compare_memories(known, own, few, seed, **size) for seed in seeds]
     for name, row in join_draws(draws).items():
         found.setdefault(name, {}).update(join_draws(row))
+    found["after 3 s"] = drift(past).tolist()
     found["real time"] = seconds_per_second(own)
     found["online"] = join_draws([online_errors(past, seed, **size) for seed in seeds])
     found["afresh"] = join_draws([optimised_errors(past, own, seed, **size) for seed in seeds])

@@ -2,7 +2,8 @@
 
 A posture is the one nearest to a comfortable posture among all that reach the goal. A minimum-jerk
 path there gives torques by inverse dynamics; static optimisation shares them among the muscles with
-the least squares of activation; excitations are what makes those activations.
+the least squares of activation; excitations are what makes those activations. In the end, they are
+what holds the arm where it has come to.
 """
 
 from dataclasses import dataclass
@@ -23,6 +24,7 @@ EASY = np.radians([70.0, 40.0, 0.0, 80.0, 0.0, 0.0, 0.0])  # what a posture woul
 ZONE = np.array([[0.40, -0.25, -0.25], [0.58, 0.15, 0.20]])  # lowest and highest (x, y, z), m
 SIDE = 5  # memories along each edge of the zone, of those that ship
 EFFORT = 0.05  # what full activation of a muscle costs beside a missed N m
+ARRIVED = 45  # commands, 0.9 s: from then on a memory only holds
 
 
 def reach_posture(goal, easy=EASY):
@@ -47,7 +49,7 @@ class SynergyMap:
     @cached_property
     def rest(self):
         """The commands (n,) that hold the arm where every reach starts."""
-        return self._share(START, 0 * START, 0 * START)
+        return self.share(START, 0 * START, 0 * START)
 
     def move(self, commands, _perturbation=None):
         """The `plant.Motion` that commands (…, T, n) give the arm from rest in `START`."""
@@ -59,10 +61,16 @@ class SynergyMap:
         velocity = np.gradient(path, plant.TICK, axis=0)
         acceleration = np.gradient(velocity, plant.TICK, axis=0)
         return invert_activation(
-            [self._share(*now) for now in zip(path, velocity, acceleration, strict=True)]
+            [self.share(*now) for now in zip(path, velocity, acceleration, strict=True)]
         )
 
-    def _share(self, *moment):
+    def hold(self, commands):
+        """The same commands (N, T, n), but for the last: these hold the arm where it is by then."""
+        there = self.move(commands).joints[:, ARRIVED, plant.FREE]
+        last = [[self.share(q, 0 * q, 0 * q)] * (plant.TICKS - ARRIVED) for q in there]
+        return np.concatenate([commands[:, :ARRIVED], last], axis=1)
+
+    def share(self, *moment):
         """Static optimisation: the activations (n,) with the least sum of squares that do it."""
         torque, gain = plant.required_torque(*moment)
         matrix = np.vstack([gain @ self.groups, EFFORT * np.diag(self.groups.sum(axis=0) ** 0.5)])
@@ -105,6 +113,7 @@ def record_templates(synergies, goals, easy=EASY):
     for _ in ("tried", "corrected"):
         ways = zip(goals + missed, np.broadcast_to(easy, (len(goals), len(EASY))), strict=True)
         commands = np.array([synergies.commands(reach_posture(*way)) for way in ways])
+        commands = synergies.hold(commands)
         reached = synergies.move(commands).endpoint
         missed = goals - reached
     return TemplateSet(reached, commands, reach=synergies.move)

@@ -5,6 +5,7 @@ Positions are in the book's axes from the right shoulder, in m: x forward, y up,
 `arm63.xml` is made by `reproduce.whole_arm.derive`; muscles obey MuJoCo's own law, as in MyoArm.
 """
 
+from copy import copy
 from pathlib import Path
 from typing import NamedTuple
 
@@ -23,8 +24,9 @@ JOINTS = (
 )
 FREE = [MODEL.joint(name).qposadr[0] for name in JOINTS]
 LIMITS = MODEL.jnt_range[FREE]  # (7, 2), rad
-HOLD = 10  # steps of 2 ms: a command changes fifty times a second
-TICK, TICKS = HOLD * MODEL.opt.timestep, 60  # s; commands of a movement, its hold included
+STEPS = 10  # of 2 ms: a command changes fifty times a second
+TICK = STEPS * MODEL.opt.timestep  # s
+TICKS, HOLD = 60, 25  # commands of a reach, and how long the last of them then holds on
 STATE = mujoco.mjtState.mjSTATE_FULLPHYSICS
 _TIP = MODEL.site("fingertip").id
 # Room to compute in: to make it takes longer than to use it. Who reads from it has written first
@@ -44,11 +46,16 @@ JOINT_COUPLING = _joint_coupling()
 
 
 class Motion(NamedTuple):
-    """A movement, or a batch of them, sampled with its commands."""
+    """A movement, or a batch of them, sampled after each command."""
 
-    joints: np.ndarray  # (…, TICKS, 18), rad
-    velocity: np.ndarray  # (…, TICKS, 18), rad/s
-    activation: np.ndarray  # (…, TICKS, 63)
+    joints: np.ndarray  # (…, T, 18), rad
+    velocity: np.ndarray  # (…, T, 18), rad/s
+    activation: np.ndarray  # (…, T, 63)
+
+    @property
+    def hold(self):
+        """The path of the tip of the index finger over the hold, (…, HOLD + 1, 3), m."""
+        return fingertip(self.joints[..., -HOLD - 1 :, :])
 
     @property
     def hold(self):
@@ -57,24 +64,27 @@ class Motion(NamedTuple):
 
     @property
     def endpoint(self):
-        """Where the tip of the index finger ended, (…, 3), m."""
-        return fingertip(self.joints[..., -1, :])
+        """Where the finger is on average over the hold, (…, 3), m."""
+        return self.hold.mean(axis=-2)
 
 
-def move(excitations, posture, activation):
-    """The `Motion` that excitations (…, T, 63) give the arm from rest in a posture (7,), rad."""
-    _DATA.time, _DATA.qpos[:], _DATA.qvel[:], _DATA.act[:] = (
-        0,
-        JOINT_COUPLING @ posture,
-        0,
-        activation,
-    )
+def move(excitations, posture, activation, dampers=1.0):
+    """The `Motion` that excitations (…, T, 63) give the arm from rest in a posture (7,), rad.
+
+    The last of them holds on for the hold. `dampers` is the share that is left of the joints'.
+    """
+    model = copy(MODEL)
+    model.dof_damping *= dampers
+    _DATA.time, _DATA.qpos[:], _DATA.qvel[:] = 0, JOINT_COUPLING @ posture, 0
+    _DATA.act[:] = activation
     first = np.empty(mujoco.mj_stateSize(MODEL, STATE))
     mujoco.mj_getState(MODEL, _DATA, first, STATE)
-    controls = np.reshape(excitations, (-1, *np.shape(excitations)[-2:])).repeat(HOLD, axis=1)
-    states, _ = rollout.rollout(MODEL, _DATA, np.tile(first, (len(controls), 1)), controls)
-    parts = np.split(states[:, HOLD - 1 :: HOLD, 1:], [MODEL.nq, 2 * MODEL.nq], axis=-1)
-    return Motion(*(x.reshape(*np.shape(excitations)[:-1], -1) for x in parts))
+    *batch, ticks, _ = np.shape(excitations)
+    now = np.minimum(np.arange(STEPS * (ticks + HOLD)) // STEPS, ticks - 1)
+    controls = np.reshape(excitations, (-1, ticks, MODEL.nu))[:, now]
+    states, _ = rollout.rollout(model, _DATA, np.tile(first, (len(controls), 1)), controls)
+    parts = np.split(states[:, STEPS - 1 :: STEPS, 1:], [MODEL.nq, 2 * MODEL.nq], axis=-1)
+    return Motion(*(x.reshape(*batch, ticks + HOLD, -1) for x in parts))
 
 
 def tip_and_jacobian(posture):
@@ -115,6 +125,20 @@ def required_torque(posture, velocity, acceleration):
         mass @ JOINT_COUPLING @ acceleration + data.qfrc_bias - data.qfrc_passive - arms.T @ slack
     )
     return JOINT_COUPLING.T @ needed, JOINT_COUPLING.T @ (arms * (full - slack)[:, None]).T
+
+
+def stiffness(posture, nudge=1e-4):
+    """Joint stiffness at a posture (7,), N m/rad: of slack muscles (7, 7), of active (7, 7, 63).
+
+    A nudged arm is brought back by slack + active @ activation, which is symmetric; along an
+    eigenvector whose eigenvalue is negative, it is carried on.
+    """
+    still, ways = np.zeros(len(FREE)), nudge * np.vstack([np.eye(len(FREE)), -np.eye(len(FREE))])
+    torque, gain = (
+        np.subtract(*np.split(np.array(x), 2)) / (2 * nudge)
+        for x in zip(*(required_torque(posture + way, still, still) for way in ways), strict=True)
+    )
+    return torque, -gain
 
 
 def _muscle_forces(activation):
