@@ -11,7 +11,7 @@ from matplotlib.transforms import Affine2D
 
 from book.figures.panels import panels
 from book.figures.reaching import RING
-from reproduce.whole_arm import plant
+from reproduce.whole_arm import experiment, plant
 from vmc_lib.show import COLOURS
 
 BONES = ("humerus_r", "ulna_r", "lunate_r")  # shoulder, elbow and wrist are where these begin
@@ -45,6 +45,16 @@ def corrected_reach(trials, targets, k, correction, time):
     """The k-th reach of some `Trials` to targets (n, 3), after corrections, at a `time` in s."""
     motion = plant.Motion(*(x[k] for x in trials.movements[correction].motion))
     return views(motion, max(round(time / plant.TICK) - 1, 0), targets[k])
+
+
+def nudged(activation, dampers):
+    """How far the finger is from its place after small nudges, while activations (63,) hold on."""
+    away = 1000 * experiment.nudge(activation, dampers)[:, ::4]
+    fig, ax = panels(size=(5.6, 2.7))
+    ax.plot(4 * plant.TICK * np.arange(away.shape[1]), away.T, color=COLOURS["blue"])
+    ax.set(xlabel="time (s)", ylabel="finger off its place (mm)", ylim=(0, 150))
+    ax.set(title=f"after 3 s on average {away[:, -1].mean():.0f} mm")
+    return fig
 
 
 def strongest(activation, count=4):

@@ -20,6 +20,7 @@ INSIDE = ZONE + np.array([[0.04], [-0.04]])  # m: targets keep so far from its e
 SEEDS, COUNT = range(6), 17  # draws of targets, and targets of each
 LESSONS = 6  # movements practised, for each target held out
 WIDTH = 0.1  # m: how wide granule cells are; chosen on validation targets
+NUDGE = 0.03  # rad: how far each joint is turned aside
 SPARE = 0.5  # rad: how far apart memories' easy postures are that share no habit
 
 
@@ -65,6 +66,18 @@ def planned_errors(past, targets):
         **{"planned speed": first.speed.mean(), "planned stray": first.stray.mean()},
         **{"corrected speed": last.speed.mean(), "corrected stray": last.stray.mean()},
     }
+
+
+def nudge(activation, dampers=1.0, count=4, seconds=3):
+    """How far the finger is from its place, (count, T), m, after its joints were turned aside.
+
+    The arm starts at rest near `START`, one nudge for each movement; activations (63,) hold on.
+    """
+    ways = np.random.default_rng(0).choice([-NUDGE, NUDGE], (count, len(plant.FREE)))
+    commands = np.tile(activation, (round(seconds / plant.TICK) - plant.HOLD, 1))
+    moved = [plant.move(commands, habits.START + way, activation, dampers).joints for way in ways]
+    place = plant.tip_and_jacobian(habits.START)[0]
+    return np.linalg.norm(plant.fingertip(moved) - place, axis=-1)
 
 
 def drift(past, seconds=3):

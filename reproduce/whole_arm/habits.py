@@ -103,6 +103,28 @@ def muscle_synergies(count=plant.MODEL.nu):
     return SynergyMap((kind[:, None] == np.unique(kind)).astype(float))
 
 
+def stiff_activation(posture, stiff=0.3):
+    """Co-contraction: activations (63,) that hold a posture (7,), nowhere less stiff than `stiff`.
+
+    Static optimisation, in which each direction that gives way more easily, N m/rad, makes a demand
+    of its own, until there is none (cutting planes).
+    """
+    torque, gain = plant.required_torque(posture, 0 * posture, 0 * posture)
+    slack, active = plant.stiffness(posture)
+    rows, wanted = np.vstack([gain, EFFORT * np.eye(gain.shape[1])]), np.append(torque, 0 * gain[0])
+    demands, lacks = np.empty((0, gain.shape[1])), np.empty(0)
+    while True:
+        beyond = -np.eye(len(lacks))  # it may be stiffer
+        matrix = np.block([[rows, np.zeros((len(rows), len(lacks)))], [demands, beyond]])
+        pull = nnls(matrix, np.append(wanted, lacks))[0][: len(wanted) - len(torque)]
+        stiffness, ways = np.linalg.eigh(slack + active @ pull)
+        weak = ways.T[stiffness < stiff - 0.01]
+        if not len(weak):
+            return pull
+        demands = np.vstack([demands, np.einsum("wi,ijn,wj->wn", weak, active, weak)])
+        lacks = np.append(lacks, stiff - np.einsum("wi,ij,wj->w", weak, slack, weak))
+
+
 def record_templates(synergies, goals, easy=EASY):
     """Record templates: a `TemplateSet` of reaches that end near the goals (N, 3).
 
