@@ -6,6 +6,7 @@ TELLS = {
     "planned": "planned miss",
     "tries": "corrections",
     "calibrated": "corrected miss",
+    "speed": "speed in the hold",
     "active": "muscles above 5 %",
     "weights": "weights",
 }
@@ -15,7 +16,8 @@ def live_whole_arm(arm, draw, zone, target, caption, alt):
     """Show a whole arm with its physics in the page, behind a button that starts it.
 
     `arm` is what the page has of it, as JSON takes it: the model's `xml`, its `start` and the
-    activations of `rest`, the seconds of a `step` and how often physics is stepped in it (`hold`),
+    activations of `rest`, the seconds of a `step` and how often physics is stepped in it (`steps`),
+    how many of these the hold lasts (`held`) and how many lie between two looks at it (`every`),
     the bodies at its `joints` and the site of its `tip`; the `templateSet` (see `experience`);
     `muscles`, `bones` and how all lies at first, `still`. `draw()` returns its scene and plots,
     each of which shows two of three axes (`views`). The reader sets a target within `zone` (2, 3),

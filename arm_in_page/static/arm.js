@@ -37,11 +37,11 @@ const vmcArm = (() => {
       return this.state.act;
     }
 
-    /* So long as a command holds, `given.step` seconds, the muscles hear `excitation`. */
+    /* So long as a command lasts, `given.step` seconds, the muscles hear `excitation`. */
     step(excitation) {
       const { mujoco, model, data } = this;
       this.state.ctrl.set(excitation);
-      for (let i = 0; i < this.given.hold; i++) mujoco.mj_step(model, data);
+      for (let i = 0; i < this.given.steps; i++) mujoco.mj_step(model, data);
     }
 
     /* A movement from rest, as excitations (a list) ask: its moments, before and after each. */

@@ -14,6 +14,7 @@ import numpy as np
 from mujoco import rollout
 
 from vmc_lib.arm import arm26  # noqa: F401  (it keeps the warnings of MuJoCo on the console)
+from vmc_lib.motor import templates
 
 FILE = Path(__file__).with_name("arm63.xml")
 MODEL = mujoco.MjModel.from_xml_path(str(FILE))
@@ -26,7 +27,7 @@ FREE = [MODEL.joint(name).qposadr[0] for name in JOINTS]
 LIMITS = MODEL.jnt_range[FREE]  # (7, 2), rad
 STEPS = 10  # of 2 ms: a command changes fifty times a second
 TICK = STEPS * MODEL.opt.timestep  # s
-TICKS, HOLD = 60, 25  # commands of a reach, and how long the last of them then holds on
+TICKS, HOLD = 60, round(templates.HOLD / TICK)  # commands of a reach; how often the last is kept on
 STATE = mujoco.mjtState.mjSTATE_FULLPHYSICS
 _TIP = MODEL.site("fingertip").id
 # Room to compute in: to make it takes longer than to use it. Who reads from it has written first
@@ -58,11 +59,6 @@ class Motion(NamedTuple):
         return fingertip(self.joints[..., -HOLD - 1 :, :])
 
     @property
-    def hold(self):
-        """Where the tip of the index finger ended, as a path of one moment, (…, 1, 3), m."""
-        return self.endpoint[..., None, :]
-
-    @property
     def endpoint(self):
         """Where the finger is on average over the hold, (…, 3), m."""
         return self.hold.mean(axis=-2)
@@ -71,7 +67,7 @@ class Motion(NamedTuple):
 def move(excitations, posture, activation, dampers=1.0):
     """The `Motion` that excitations (…, T, 63) give the arm from rest in a posture (7,), rad.
 
-    The last of them holds on for the hold. `dampers` is the share that is left of the joints'.
+    The last of them is kept on for the hold. `dampers` is the share that is left of the joints'.
     """
     model = copy(MODEL)
     model.dof_damping *= dampers

@@ -79,7 +79,7 @@ def test_movements(ask):
 @pytest.mark.browser
 def test_movements_of_the_whole_arm(ask, past):
     reach = experiment.plan_reaches(WHOLE_ARM_TARGET, past)
-    moved = ask("return arm.move(asked);", reach.excitations.tolist(), WHOLE)[1:]
+    moved = ask("return arm.reach(asked);", reach.excitations.tolist(), WHOLE)[1:]
     motion = execute(reach).motion
     assert np.abs(np.array([moment["q"] for moment in moved]) - motion.joints).max() < CLOSE
     assert np.allclose([moment["activation"] for moment in moved], motion.activation, atol=1e-9)
