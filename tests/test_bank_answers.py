@@ -178,6 +178,7 @@ EXAMPLES = {  # name: numbers, and the answer (of a choice, its index) that one 
     "none_below_zero": ((5, 10, 5, "bends"), 0.5),
     "mixture_of_two_holds": ((2, 4, 0.25), 3.5),
     "memories_in_space": ((2, 3, 4), 24),
+    "fall_from_a_posture": ((0.2, 0.4, 2), e),
     "nearness_in_space": ((np.array([1, 2, 2]),), 0.5),
     "weight_by_equation_4": ((3,), 0.3),
     "slow_to_fall": ((0.2, 0.5), 0),

@@ -50,6 +50,16 @@ def none_below_zero(
     return nnls(np.array([[bends, -opens]]), [torque])[0][int(muscle == "opens")]
 
 
+@numeric("times", "It grows by itself: e to the power of stiffness × time over damping.")
+def fall_from_a_posture(
+    stiffness=steps(0.1, 0.5, 0.1), damping=steps(0.4, 1.2, 0.2), seconds=(1, 1.5, 2)
+):
+    """A joint with a stiffness of −{stiffness} N m/rad is nudged a little. It is damped with
+    {damping} N m s/rad; neglect its inertia. How many times as far off is it after {seconds} s?
+    """
+    return np.exp(stiffness * seconds / damping)
+
+
 @numeric("N m", "Forces add.")
 def mixture_of_two_holds(
     first=steps(1, 5, 0.5), second=steps(1, 5, 0.5), share=steps(0.1, 0.9, 0.1)
