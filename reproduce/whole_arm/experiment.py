@@ -4,6 +4,7 @@ Eight memories surround a place in space, one in each octant; whatever plans and
 `vmc_lib`'s, the same as for the arm of six muscles.
 """
 
+from dataclasses import replace
 from time import process_time
 
 import numpy as np
@@ -21,6 +22,7 @@ SEEDS, COUNT = range(6), 17  # draws of targets, and targets of each
 LESSONS = 6  # movements practised, for each target held out
 WIDTH = 0.1  # m: how wide granule cells are; chosen on validation targets
 NUDGE = 0.03  # rad: how far each joint is turned aside
+PROBE = 0.1  # of one weight, to see what it does
 SPARE = 0.5  # rad: how far apart memories' easy postures are that share no habit
 
 
@@ -65,6 +67,49 @@ def planned_errors(past, targets):
         **{f"{k} corrections": miss / none for k, miss in enumerate(left, start=1)},
         **{"planned speed": first.speed.mean(), "planned stray": first.stray.mean()},
         **{"corrected speed": last.speed.mean(), "corrected stray": last.stray.mean()},
+    }
+
+
+class StopMotion(plant.Motion):
+    """A movement of which six numbers count: the finger's place over the hold, and its drift."""
+
+    @property
+    def hold(self):
+        """The finger's path over the hold, and with each place the whole drift, (…, n, 6), m."""
+        path = super().hold
+        drift = path[..., -1:, :] - path[..., :1, :]
+        return np.concatenate([path, np.broadcast_to(drift, path.shape)], axis=-1)
+
+
+def stop_calibration(reach, trials=4):
+    """Calibrate one reach so that the finger ends on its target *and* stops: `Trials`, (trials, 6).
+
+    Eight weights can meet six demands. What each weight does to them is tried first, in eight
+    movements; then Broyden's method goes on from there.
+    """
+    own, count = reach.template_set, reach.weights.size
+    past = replace(own, excitations=own.excitations[reach.rows], points=own.points[reach.rows])
+    past = replace(past, reach=lambda *asked: StopMotion(*own.reach(*asked)))
+    target = np.append(reach.target, np.zeros(3))
+    planned = replace(reach, template_set=past, target=target, rows=np.arange(count))
+    ways = PROBE * (np.eye(count) - 1 / count)
+    ends = execute(planned.with_weights(reach.weights + ways)).endpoint
+    slopes = (ends - execute(planned).endpoint) / PROBE
+    known = replace(past, points=slopes)
+    return broyden_calibration(replace(planned, template_set=known), trials)
+
+
+def stop_errors(past, seed, count=5):
+    """One draw: mean miss, m, and speed over the hold, m/s, after four corrections of each kind."""
+    drawn = draw_targets(past, count=count, rng=np.random.default_rng((seed, 2)))
+    reaches = plan_reaches(drawn, past)
+    alone = broyden_calibration(reaches, trials=4).movements[-1]
+    both = [stop_calibration(reaches[k]).movements[-1] for k in range(count)]
+    misses = [end.endpoint[:3] - target for end, target in zip(both, drawn, strict=True)]
+    return {
+        **{"place, miss": alone.error.mean(), "place, speed": alone.speed.mean()},
+        "place and drift, miss": np.linalg.norm(misses, axis=-1).mean(),
+        "place and drift, speed": np.mean([end.speed for end in both]),
     }
 
 
@@ -162,6 +207,7 @@ def make(sides=(3, 4), shared=(6, 14, 34), past=None, seeds=SEEDS, **size):
     found["after 3 s"] = drift(past).tolist()
     found["real time"] = seconds_per_second(own)
     found["online"] = join_draws([online_errors(past, seed, **size) for seed in seeds])
+    found["stop"] = join_draws([stop_errors(past, seed, **size) for seed in seeds])
     found["afresh"] = join_draws([optimised_errors(past, own, seed, **size) for seed in seeds])
     return found
 

@@ -227,6 +227,18 @@ def test_the_same_functions_plan_and_correct_it():
     assert errors[2] < 0.5 * errors[0]
 
 
+def test_place_and_drift_are_corrected_together():
+    """Eight weights meet six demands: the finger ends nearer, and slower."""
+    past = habits.load_templates()
+    target = experiment.draw_targets(past, count=2, rng=np.random.default_rng(8))[1]
+    trials = experiment.stop_calibration(experiment.plan_reaches(target, past), trials=3)
+    first, *_, last = trials.movements
+    assert np.linalg.norm(last.endpoint[:3] - target) < 0.2 * np.linalg.norm(
+        first.endpoint[:3] - target
+    )
+    assert last.speed < 0.4 * first.speed
+
+
 def test_shipped_results_meet_the_bars():
     results = experiment.load_results()
     assert results["real time"] >= 5
@@ -236,6 +248,8 @@ def test_shipped_results_meet_the_bars():
     assert dense["planned / way"].mean() <= 0.25
     assert dense["2 corrections"].mean() <= 0.3
     assert np.median(results["after 3 s"]) < 0.005
+    both, place = (results["stop"][f"{name}, speed"] for name in ("place and drift", "place"))
+    assert both.mean() < 0.5 * place.mean()
 
 
 def test_shipped_results_are_reproducible():
