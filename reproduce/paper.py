@@ -24,6 +24,8 @@ TABLE_1 = {  # kernel of the RoI classifier -> (precision, recall), before suppr
 }
 TABLE_2 = (1.0, 0.9494)  # precision, recall of selective search + classifier + suppression
 
+OBJECTS = 79  # test objects, not printed: 75/79 = 94.94 %, 79/80 = 98.8 % and 79/81 = 97.5 %
+
 # Block 1-2 and Section IV B: recognition
 TABLE_3 = {"CDBN": (0.988, 1.0), "HMAX": (0.975, 1.0)}  # precision, recall
 MAPS = 10  # K

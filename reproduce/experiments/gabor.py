@@ -1,15 +1,32 @@
-"""Gabor fits: how well a filter matches a Gabor function, the model of a simple cell in V1."""
+"""Gabor fits: how well a filter matches a Gabor function, the model of a simple cell in V1.
+
+And what a Gabor function must be held against: the best round blob, and the filter's own pixels in
+another order.
+"""
 
 import itertools
+from collections.abc import Callable
+from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
 
-# angle (rad), wavelength, breadth across and along the stripes, centre x and y: pixels of a filter
-# that is EIGHT wide; for a wider one, all lengths grow with it
-BOUNDS = np.array([(-np.inf, 3, 1, 1, -2.5, -2.5), (np.inf, 12, 4, 5, 2.5, 2.5)])
-EIGHT = 8
+EIGHT = 8  # pixels: the width of a filter for which shapes are given; with it, all lengths grow
 PATIENCE = {"maxiter": 400}
+
+
+@dataclass(frozen=True, eq=False)
+class Family:
+    """Pairs of functions whose mixtures are to match a filter, by their shapes (m, parameters)."""
+
+    pair: Callable  # n_w, *shape -> (2, n_w²)
+    bounds: tuple  # the least and the greatest shape
+    coarse: tuple  # the values of each parameter on a coarse grid
+    is_length: tuple  # of each parameter
+
+    def scale_shapes(self, shapes, n_w):
+        """Shapes (m, parameters) for filters EIGHT pixels wide, as shapes for `n_w` wide ones."""
+        return np.asarray(shapes, float) * np.where(self.is_length, n_w / EIGHT, 1)
 
 
 def gabor_pair(n_w, angle, wavelength, across, along, x0, y0):
@@ -30,43 +47,83 @@ def fit_pair(W, pair):
     return mixture, np.linalg.norm(mixture) / np.linalg.norm(target)
 
 
-def scale_shapes(shapes, n_w):
-    """Shapes (m, 6) for filters EIGHT pixels wide, as shapes for filters `n_w` wide."""
-    return np.asarray(shapes, float) * [1, *[n_w / EIGHT] * 5]
+def blob_pair(n_w, width, ratio, x0, y0):
+    """Two round Gaussians (2, n_w²) at the same place, the second `ratio` times as wide; mean 0.
+
+    Their mixtures are the blob and the difference of Gaussians.
+    """
+    x, y = np.arange(n_w) - (n_w - 1) / 2 - x0, np.arange(n_w)[:, None] - (n_w - 1) / 2 - y0
+    square = (x**2 + y**2).ravel()
+    pair = np.exp(-square / (2 * np.array([[width], [ratio * width]]) ** 2))
+    return pair - pair.mean(1, keepdims=True)
+
+
+GABORS = Family(  # angle (rad), wavelength, breadth across and along the stripes, centre x and y
+    gabor_pair,
+    ((-np.inf, 3, 1, 1, -2.5, -2.5), (np.inf, 12, 4, 5, 2.5, 2.5)),
+    (np.arange(12) * np.pi / 12, (4, 6, 9), (1.5, 2.5), (2, 4), (-1, 1), (-1, 1)),
+    (False, True, True, True, True, True),
+)
+BLOBS = Family(  # width, ratio of the widths, centre x and y
+    blob_pair,
+    ((0.5, 1.2, -3.5, -3.5), (5, 4, 3.5, 3.5)),
+    ((0.8, 1.5, 3), (1.5, 3), (-3, -1.5, 0, 1.5, 3), (-3, -1.5, 0, 1.5, 3)),
+    (True, False, True, True),
+)
 
 
 @cache
-def coarse_grid(n_w):
-    """Shapes on a coarse grid (m, 6), and an orthonormal basis of each one's pair (m, 2, n_w²)."""
-    angles = np.arange(12) * np.pi / 12
-    shapes = scale_shapes(
-        list(itertools.product(angles, (4, 6, 9), (1.5, 2.5), (2, 4), (-1, 1), (-1, 1))), n_w
-    )
-    pairs = [np.linalg.qr(gabor_pair(n_w, *shape).T)[0].T for shape in shapes]
+def coarse_grid(family, n_w):
+    """Shapes on a coarse grid (m, …), and an orthonormal basis of each one's pair (m, 2, n_w²)."""
+    shapes = family.scale_shapes(list(itertools.product(*family.coarse)), n_w)
+    pairs = [np.linalg.qr(family.pair(n_w, *shape).T)[0].T for shape in shapes]
     return shapes, np.array(pairs)
 
 
-def best_gabor(W):
-    """The Gabor function closest to a filter W (n_w, n_w), and their correlation (0 to 1).
+def best_fit(W, family):
+    """The mixture of a `Family` closest to a filter W (n_w, n_w), and their correlation (0 to 1).
 
-    Every angle, wavelength, breadth and place on a coarse grid is tried, the best two refined.
+    Every shape on a coarse grid is tried, the best two refined.
     """
     from scipy.optimize import minimize
 
     W = np.asarray(W, float)
     n_w = len(W)
-    bounds = scale_shapes(BOUNDS, n_w)
+    bounds = family.scale_shapes(family.bounds, n_w)
 
-    def miss(shape):
-        return -fit_pair(W, gabor_pair(n_w, *np.clip(shape, *bounds)))[1]
+    def pair(shape):
+        return family.pair(n_w, *np.clip(shape, *bounds))
 
-    shapes, pairs = coarse_grid(n_w)
+    shapes, pairs = coarse_grid(family, n_w)
     fits = np.square(pairs @ (W - W.mean()).ravel()).sum(1)
     starts = shapes[fits.argsort()[-2:]]
-    ends = [minimize(miss, start, method="Nelder-Mead", options=PATIENCE) for start in starts]
-    shape = min(ends, key=lambda end: end.fun).x
-    mixture, correlation = fit_pair(W, gabor_pair(n_w, *np.clip(shape, *bounds)))
+    ends = [
+        minimize(lambda x: -fit_pair(W, pair(x))[1], start, method="Nelder-Mead", options=PATIENCE)
+        for start in starts
+    ]
+    mixture, correlation = fit_pair(W, pair(min(ends, key=lambda end: end.fun).x))
     return mixture.reshape(n_w, n_w), float(correlation)
+
+
+def best_gabor(W):
+    """`best_fit` of the Gabor functions: those of every angle, wavelength, breadth and place."""
+    return best_fit(W, GABORS)
+
+
+def grating_answers(W, step=0.05):
+    """Answers (frequencies, 180) of a filter W (n_w, n_w) to gratings, each at its best phase.
+
+    Frequencies are `step` octaves apart, directions 1°.
+    """
+    return abs(_gratings(len(W), step) @ np.ravel(W))
+
+
+@cache
+def _gratings(n_w, step):
+    octaves, angles = np.arange(-4.5, -1, step), np.radians(np.arange(180))
+    y, x = np.mgrid[:n_w, :n_w].reshape(2, -1)
+    across = np.multiply.outer(np.cos(angles), x) + np.multiply.outer(np.sin(angles), y)
+    return np.exp(2j * np.pi * np.multiply.outer(2**octaves, across))
 
 
 def bandwidths(W, step=0.05):
@@ -74,11 +131,18 @@ def bandwidths(W, step=0.05):
 
     Both are full widths at half height of its answers to gratings, each at its best phase.
     """
-    octaves, angles = np.arange(-4.5, -1, step), np.radians(np.arange(180))
-    y, x = np.mgrid[: len(W), : len(W)]
-    across = np.multiply.outer(np.cos(angles), x) + np.multiply.outer(np.sin(angles), y)
-    gratings = np.exp(2j * np.pi * np.multiply.outer(2**octaves, across))
-    answers = abs((gratings * W).sum((-2, -1)))  # (frequencies, directions)
+    answers = grating_answers(W, step)
     best, direction = np.unravel_index(answers.argmax(), answers.shape)
     enough = answers >= answers.max() / 2
     return enough[:, direction].sum() * step, enough[best].sum()
+
+
+def direction_vector(W):
+    """How a filter W is tuned to direction, as a complex number, at its best frequency.
+
+    Its length is the selectivity (1 − circular variance: 0 for a round filter, 1 for one that
+    answers to a single direction), its angle twice the preferred direction.
+    """
+    answers = grating_answers(W)
+    best = answers[answers.max(1).argmax()]
+    return best @ np.exp(2j * np.radians(np.arange(180))) / best.sum()

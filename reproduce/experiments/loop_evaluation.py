@@ -1,6 +1,7 @@
 """Evaluation of the closed loop, from pixels to reach: scores, failures, lesions."""
 
 from contextlib import suppress
+from dataclasses import replace
 
 import numpy as np
 from joblib import Parallel, delayed
@@ -10,6 +11,8 @@ from vmc_lib import NoReach, photos
 from vmc_lib.boxes import MIN_IOU, iou
 from vmc_lib.cerebellum.offline import algorithm_1
 from vmc_lib.loop import RULES, VisuomotorModel, locate, reach, recalibrate, see
+from vmc_lib.what.recogniser import Recogniser
+from vmc_lib.where.detector import ObjectDetector
 
 ARRIVED, CLOSE_BY = 0.010, 0.005  # m: a hand so near the shuttlecock has arrived, or done well
 FAILURE_STAGES = ("proposals", "regions", "names", "place", "movement")  # where a reach goes wrong
@@ -60,16 +63,25 @@ def first_failure(scores, rule="own"):
 
 
 def evaluate(level, taught=None, folder=photos.FOLDER):
+    """`evaluate_model` of the shipped model that was taught on a level, by default the photos'."""
+    return evaluate_model(VisuomotorModel.load(taught or level), level, folder)
+
+
+def evaluate_model(model, level, folder=photos.FOLDER):
     """`score` of every test photo of a level in `folder`, as a dictionary of arrays (n,).
 
-    By the model that was taught on the level `taught`; by default the level's own. The photos go
-    through joblib: `with parallel_config(n_jobs=…)` sends them to several cores, and with its
-    "dask" backend to a cluster.
+    The photos go through joblib: `with parallel_config(n_jobs=…)` sends them to several cores, and
+    with its "dask" backend to a cluster.
     """
-    model = VisuomotorModel.load(taught or level)
     shots = photos.load(level, "test", folder)
     scores = Parallel()(delayed(_evaluate_photo)(model, photo) for photo in shots)
     return {key: np.array([s[key] for s in scores]) for key in scores[0]}
+
+
+def published_model(level):
+    """The shipped model of a level with the paper's own detector and read-out."""
+    detector, recogniser = ObjectDetector.load(level, "published"), Recogniser.load(level, "MP2")
+    return replace(VisuomotorModel.load(level), detector=detector, recogniser=recogniser)
 
 
 def make_generalist(levels=photos.LEVELS, folder=photos.FOLDER):

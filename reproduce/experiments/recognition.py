@@ -125,6 +125,14 @@ def mcnemar_tests(right, methods):
     return [(*pair, *duel, p) for pair, duel, p in zip(pairs, duels, corrected, strict=True)]
 
 
+def fresh_duels():
+    """`mcnemar_tests` of the paper's read-out and the best one on the fresh crops of all levels.
+
+    One family of tests: a difference has one p, wherever it is shown.
+    """
+    return mcnemar_tests(correct_by_method("fresh"), ("CDBN, MP2", "CDBN, P1 + P2"))
+
+
 def accuracy_across_levels(learnt, classifiers):
     """Named right on one level by CDBN read-outs taught on another, of `load_classifiers`.
 

@@ -4,11 +4,14 @@ from collections.abc import Callable
 from dataclasses import KW_ONLY, asdict, dataclass
 
 import numpy as np
+from scipy.stats import betabinom
 
 from vmc_lib.statistics import student, wilson
 
-BY_CONSTRUCTION, REPRODUCED, BEATEN, DIFFERS = VERDICTS = (
+NOT_COMPARED, BY_CONSTRUCTION, FITTED, REPRODUCED, BEATEN, DIFFERS = VERDICTS = (
+    "not compared",
     "by construction",
+    "fitted",
     "reproduced",
     "beaten",
     "differs",
@@ -19,62 +22,99 @@ BY_CONSTRUCTION, REPRODUCED, BEATEN, DIFFERS = VERDICTS = (
 class Quantity:
     """One number of a row: claimed by the paper, obtained by us; its verdict follows.
 
-    What is claimed is a number, or where `bound` a limit that all of the interval must be beyond.
-    `obtained` is held-out wherever something was learned, and `in_sample` stands beside it then.
+    What is claimed is a number, or where `bound` a limit that all of the interval must be beyond,
+    or None where the paper prints nothing to compare. `obtained` is held-out wherever something was
+    learned, and `in_sample` stands beside it then.
     """
 
     name: str
-    claimed: float
+    claimed: float | None
     obtained: float
     _: KW_ONLY
     low: float | None = None  # the ends of the 95 % interval of what was obtained …
     high: float | None = None
+    least: float | None = None  # … of one more draw as large as the paper's (prediction) …
+    most: float | None = None
     p: float | None = None  # … or the chance of such a difference, corrected for their number
     rounding: float = 0.0  # half a unit of the claim's last digit
     better: int = 0  # +1 where more is better, -1 where less is, 0 where neither
     bound: bool = False
     in_sample: float | None = None
+    fitted: bool = False  # a setting or a reading was chosen to come near what is claimed
     trivial: bool = False  # it cannot fail, short of a bug
     clock: bool = False  # read from a clock: no two runs give the same
 
     @property
     def verdict(self) -> str:
-        """One of VERDICTS; "beaten" is a number outside the interval, on its worse side."""
-        low, high = (self.obtained if end is None else float(end) for end in (self.low, self.high))
+        """One of VERDICTS; "beaten" is a number outside every interval, on its worse side."""
+        if self.claimed is None:
+            return NOT_COMPARED
+        ends = [self.obtained, self.low, self.high]
+        ends += [] if self.bound else [self.least, self.most]
+        known = [float(end) for end in ends if end is not None]
         if self.bound:
-            beyond = low > self.claimed if self.better > 0 else high < self.claimed
+            beyond = min(known) > self.claimed if self.better > 0 else max(known) < self.claimed
             agrees = beyond and (self.p is None or self.p < 0.05)
         else:
             slack = self.rounding + 1e-9
-            agrees = low - slack <= self.claimed <= high + slack
-        if agrees:
-            return BY_CONSTRUCTION if self.trivial else REPRODUCED
-        ahead = self.better * (self.obtained - self.claimed) > 0
-        return BEATEN if ahead and not self.bound else DIFFERS
+            agrees = min(known) - slack <= self.claimed <= max(known) + slack
+        ahead = not self.bound and self.better * (self.obtained - self.claimed) > 0
+        if not (agrees or ahead):
+            return DIFFERS
+        if self.fitted:
+            return FITTED
+        return BEATEN if not agrees else BY_CONSTRUCTION if self.trivial else REPRODUCED
 
 
 def mean(name, claimed, values, **rest):
-    """A `Quantity` that is the mean of draws (n,), with Student's interval."""
+    """A `Quantity` that is the mean of `values` (n,), with Student's interval."""
     middle, half = student(values)
     return Quantity(name, claimed, middle, low=middle - half, high=middle + half, **rest)
 
 
-def share(name, claimed, right, n, **rest):
-    """A `Quantity` that is a share, `right` of `n`, with Wilson's interval."""
+def mean_of_draws(name, claimed, values, limits=(0, np.inf), **rest):
+    """A `Quantity` that is the mean of draws (n,), each of a number as the paper's one is.
+
+    Beside Student's interval, that of one more draw, t s √(1 + 1/n). No interval leaves the
+    `limits`: a ratio of errors is never negative.
+    """
+    middle, half = student(values)
+    one = half * np.sqrt(len(values) + 1)
+    ends = middle + np.array([-half, half, -one, one])
+    low, high, least, most = np.clip(ends, *limits).tolist()
+    ends = {"low": low, "high": high, "least": least, "most": most}
+    return Quantity(name, claimed, middle, **ends, **rest)
+
+
+def share(name, claimed, right, n, of=None, **rest):
+    """A `Quantity` that is a share, `right` of `n`, with Wilson's interval.
+
+    Where the paper counted `of` so many: also the least that one more count of that size gives, for
+    only what is below that is beaten.
+    """
     low, high = wilson(right, n)
-    return Quantity(name, claimed, right / n, low=low, high=high, **rest)
+    least = _least_share(right, n, of)
+    return Quantity(name, claimed, right / n, low=low, high=high, least=least, **rest)
 
 
-def mean_of_trainings(name, claimed, shares, n, **rest):
+def mean_of_trainings(name, claimed, shares, n, of=None, **rest):
     """A `Quantity` that is the mean of the shares of `n` that several trainings gave.
 
     Its interval is the wider of two: Student's, for another training, and Wilson's, for others of
-    what was counted (if anything was).
+    what was counted (if anything was). `of` as for a `share`.
     """
     middle, half = student(shares)
     low, high = wilson(middle * n, n) if n else (middle, middle)
-    low, high = min(low, middle - half), max(high, middle + half)
-    return Quantity(name, claimed, middle, low=low, high=high, **rest)
+    low, high = max(0.0, min(low, middle - half)), min(1.0, max(high, middle + half))
+    least = _least_share(middle * n, n, of)
+    return Quantity(name, claimed, middle, low=low, high=high, least=least, **rest)
+
+
+def _least_share(right, n, of):
+    """The 2.5 % point of one more share, of so many (posterior predictive, Jeffreys' prior)."""
+    if of is None:
+        return None
+    return betabinom.ppf(0.025, of, right + 0.5, n - right + 0.5) / of
 
 
 def trivial_quantity(name, claimed, obtained, **rest):
@@ -98,13 +138,13 @@ class Row:
 
 
 def verdict(quantities):
-    """A row's verdict follows from those of its quantities that can fail.
+    """A row's verdict: the first of these that one of its quantities has.
 
-    If none can, it is "by construction"; if one differs, it "differs"; else, if one is beaten, it
-    is "beaten"; else it is "reproduced". What is trivial differs only by a bug, but then it does.
+    "differs", "beaten", "reproduced", "fitted", "by construction". So what was fitted, or cannot
+    fail, decides only where nothing else does. A row without numbers is "not compared".
     """
     found = {q.verdict for q in quantities}
-    return next(v for v in (DIFFERS, BEATEN, REPRODUCED, BY_CONSTRUCTION) if v in found)
+    return next((v for v in reversed(VERDICTS) if v in found), NOT_COMPARED)
 
 
 def measure(row):

@@ -6,26 +6,29 @@ import numpy as np
 
 from reproduce import paper, results
 from reproduce.experiments import loop_evaluation as trials
-from reproduce.ledger.entry import Quantity, Row, mean, share, trivial_quantity
+from reproduce.ledger.entry import Quantity, Row, mean, share
 from vmc_lib.loop import RULES
 
 
 def _figure_1():
-    scores = level_scores("rig")
-    named = scores["found"] & scores["named"]
-    recall = paper.TABLE_2[1] * paper.TABLE_3["CDBN"][1]
-    nearer = 1000 * (scores["planned"] - scores["published"])
+    return _chain(published_scores(), "published")
+
+
+def _own_figure_1():
+    return _chain(level_scores("rig"), "own")
+
+
+def _chain(scores, rule):
+    """From photo to movement on the rig, calibrated by a rule of RULES."""
+    named, moved = scores["found"] & scores["named"], np.isfinite(scores["planned"])
+    recall, count = paper.TABLE_2[1] * paper.TABLE_3["CDBN"][1], len(named)
+    nearer = 1000 * (scores["planned"] - scores[rule])[moved]
+    name = "photos whose shuttlecock is found and named"
+    exact = {"better": 1, "rounding": paper.SHARE}
     return [
-        share(
-            "photos whose shuttlecock is found and named",
-            recall,
-            named.sum(),
-            len(named),
-            better=1,
-            rounding=paper.SHARE,
-        ),
+        share(name, recall, named.sum(), count, paper.OBJECTS, **exact),
         mean("how much nearer calibration brings the hand (mm)", 0, nearer, better=1, bound=True),
-        trivial_quantity("photos that end in a movement", 1, np.isfinite(scores["planned"]).mean()),
+        share("photos that end in a movement", 1, moved.sum(), count),
     ]
 
 
@@ -33,6 +36,12 @@ def _speed():
     rows = {row["stage"]: row["ms"] for row in results.records("bench/loop")["rows"]}
     ratio = rows["candidates and regions"] / rows["names"]
     return [Quantity("time for where over time for what", 1, ratio, better=-1, bound=True)]
+
+
+@cache
+def published_scores():
+    """The scores of the paper's own chain on the rig's test photos, run once."""
+    return trials.evaluate_model(trials.published_model("rig"), "rig")
 
 
 @cache
@@ -54,14 +63,27 @@ def outcomes(scores):
     return {"summary": trials.summary(scores), "failures": failures}
 
 
+NO_NUMBER = (
+    "The paper gives no number for the whole: its recall in Table II times that in Table III "
+    "stands in for one."
+)
 ROWS = (
     Row(
         "Fig. 1",
         "The steps make one chain, from photo to movement.",
         "01_loop",
         _figure_1,
-        note="The paper gives no number for the whole: its recall in Table II times that in Table "
-        "III stands in for one.",
+        differs="The paper's own search, classifier and read-out find and name the shuttlecock in "
+        "the share of {q[photos whose shuttlecock is found and named].obtained:.2f} of the photos. "
+        "Where they do, calibration brings the hand nearer. See *Ours, Fig. 1*.",
+        note=NO_NUMBER,
+    ),
+    Row(
+        "Ours, Fig. 1",
+        "The same chain with our detector, read-out and off-line calibration.",
+        "01_loop",
+        _own_figure_1,
+        note=NO_NUMBER,
     ),
     Row(
         "II A, speed",
