@@ -11,7 +11,7 @@ from reproduce.training.name_classifier import fit_name_classifier, labelled_cro
 from vmc_lib import photos
 from vmc_lib.what.cdbn import crops_of
 
-SIZE = 10  # prototypes of a draw, as in the paper
+SIZE, DRAWS = 10, 25  # prototypes of a draw, as in the paper; all draws
 
 
 def draws_of(features):
@@ -19,14 +19,14 @@ def draws_of(features):
     return np.moveaxis(features.reshape(len(features), -1, SIZE), 1, 0)
 
 
-def make(folder=photos.FOLDER, prototypes=None):
+def make(folder=photos.FOLDER, draws=DRAWS):
     """What `results/hmax_draws.npz` holds: classifiers, and what each says of the true boxes.
 
     "w" (draws, SIZE), "b" (draws,); by split, the probabilities (draws, n) of being a shuttlecock.
     """
     from reproduce.peers.hmax import hmax  # here, for torch weighs on who only reads the results
 
-    prototypes = arrays("recognition")["prototypes"] if prototypes is None else prototypes
+    prototypes = arrays("recognition")["prototypes"][: draws * SIZE]
     crops, y = labelled_crops(photos.load("rig", "train", folder), np.random.default_rng(0))
     exams = {split: crops_of(photos.load("rig", split, folder)) for split in photos.SPLITS}
     found = {split: draws_of(hmax(crops, prototypes)) for split, (crops, _) in exams.items()}

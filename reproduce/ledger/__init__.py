@@ -7,12 +7,22 @@ that file, and a test measures the rows again and compares. Nothing in it is typ
 from dataclasses import fields
 
 from reproduce import results
-from reproduce.ledger import calibration, filters, loop, naming, planning, regions, search
+from reproduce.ledger import (
+    arm,
+    calibration,
+    filters,
+    loop,
+    naming,
+    online,
+    planning,
+    regions,
+    search,
+)
 from reproduce.ledger.entry import VERDICTS, Quantity, measure
 from vmc_lib.photos import LEVELS
 from vmc_lib.show import table
 
-PARTS = (loop, search, regions, naming, filters, planning, calibration)
+PARTS = (loop, search, regions, naming, filters, arm, planning, calibration, online)
 ARROWS = {1: " ↑", -1: " ↓", 0: ""}
 ROWS = tuple(row for part in PARTS for row in part.ROWS)
 

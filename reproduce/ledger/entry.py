@@ -16,6 +16,7 @@ NOT_COMPARED, BY_CONSTRUCTION, FITTED, REPRODUCED, BEATEN, DIFFERS = VERDICTS = 
     "beaten",
     "differs",
 )
+BELOW, ABOVE = ({"better": sign, "bound": True} for sign in (-1, 1))  # a limit's claim
 
 
 @dataclass(frozen=True)
@@ -150,13 +151,13 @@ def verdict(quantities):
 def measure(row):
     """One row as plain data: its words, its verdict, its quantities and theirs."""
     quantities = row.measure()
-    by_name = {q.name: q for q in quantities}
+    by_name, found = {q.name: q for q in quantities}, verdict(quantities)
     return {
         "where": row.where,
         "claim": row.claim,
         "chapter": row.chapter,
-        "verdict": verdict(quantities),
-        "because": row.differs.format(q=by_name),
+        "verdict": found,
+        "because": row.differs.format(q=by_name) if found == DIFFERS else "",
         "note": row.note.format(q=by_name),
         "quantities": [_plain(asdict(q) | {"verdict": q.verdict}) for q in quantities],
     }

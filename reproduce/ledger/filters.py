@@ -223,7 +223,7 @@ ROWS = (
         f"layers, each taught by {second_layers.PATCHES} patches.",
     ),
     Row(
-        "III, Block 2-1",
+        "III, Block 1-2",
         "The two layers are edge detectors and key components, as in Qiao et al. (2016).",
         "05_hierarchy",
         list,
