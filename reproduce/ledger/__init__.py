@@ -65,27 +65,28 @@ def summary(entries):
     """All rows in one Markdown table, each with its verdict and the number that decides it."""
     lines = []
     for entry in entries:
-        key = deciding_quantity(entry)
         place = f"[{entry['where']}]({entry['chapter']}.ipynb)"
-        ours, theirs = result_text(key), claim_text(key)
-        lines.append([place, entry["claim"], f"*{entry['verdict']}*", key["name"], ours, theirs])
+        q = deciding_quantity(entry)
+        numbers = [q["name"], result_text(q), claim_text(q)] if q else 3 * [None]
+        lines.append([place, entry["claim"], f"*{entry['verdict']}*", *numbers])
     return table(["place", "claim", "verdict", "number", "ours", "paper"], lines)
 
 
 def deciding_quantity(entry):
-    """The first quantity of an entry whose verdict is that of the entry."""
-    return next(q for q in entry["quantities"] if q["verdict"] == entry["verdict"])
+    """The first quantity of an entry whose verdict is that of the entry; None where it has none."""
+    return next((q for q in entry["quantities"] if q["verdict"] == entry["verdict"]), None)
 
 
 def details(entry):
     """An entry's reasons and all of its numbers, folded, as Markdown."""
     text = " ".join(filter(None, (entry["because"], entry["note"])))
-    heads = ["number", "paper", "ours (95 %)", "in sample", "verdict"]
+    heads = ["number", "paper", "ours (95 %)", "one more draw", "in sample", "verdict"]
     rows = [
         [
             q["name"] + ARROWS[q["better"]],
             claim_text(q),
             result_text(q),
+            draw_text(q),
             q["in_sample"],
             q["verdict"],
         ]
@@ -96,7 +97,9 @@ def details(entry):
 
 
 def claim_text(q):
-    """What is claimed, as text: a number, or a limit."""
+    """What is claimed, as text: a number, a limit, or nothing."""
+    if q["claimed"] is None:
+        return ""
     sign = {1: "> ", -1: "< "}[q["better"]] if q["bound"] else ""
     return f"{sign}{q['claimed']:.3g}"
 
@@ -107,3 +110,11 @@ def result_text(q):
     if q["low"] is not None:
         text += f" ({q['low']:.3g} to {q['high']:.3g})"
     return text if q["p"] is None else f"{text} (p = {q['p']:.2g})"
+
+
+def draw_text(q):
+    """Where one more draw as large as the paper's falls, as text; nothing where it is not known."""
+    if q["least"] is None:
+        return ""
+    above = "" if q["most"] is None else f" to {q['most']:.3g}"
+    return f"{'' if above else '≥ '}{q['least']:.3g}{above}"

@@ -23,7 +23,7 @@ SHUFFLES = 3  # orders of a filter's pixels
 
 
 def _figure_2():
-    layers = _layers()
+    layers = layer_maps()
     width = {name: maps.shape[-1] for name, maps in layers.items()}
     return [
         trivial_quantity("maps K of each CRBM", paper.MAPS, layers["P1"].shape[1]),
@@ -96,7 +96,7 @@ def _figure_8():
     hidden, pool = paper.CROP_WIDTH - paper.FILTER_WIDTH + 1, paper.POOL
     p1 = hidden // pool
     p2 = (p1 - paper.FILTER_WIDTH + 1) // pool
-    layers, (crops, shuttlecock) = _layers(), cdbn.crops_of(photos.load("rig", "validation"))
+    layers, (crops, shuttlecock) = layer_maps(), cdbn.crops_of(photos.load("rig", "validation"))
     tuned = texture_tuning.tuning(cdbn.CDBN.load().first, whiten(crops[shuttlecock]))
     return [
         *(
@@ -117,7 +117,8 @@ def _figure_8():
 
 
 @cache
-def _layers():
+def layer_maps():
+    """The maps of one crop, by layer."""
     crops, _ = cdbn.crops_of(photos.load("rig", "validation")[:1])
     return cdbn.CDBN.load().layers(whiten(crops[:1]))
 
