@@ -61,9 +61,9 @@ def _afresh():
 
 
 def names_the_cup(patch):
-    """The recogniser's probability is that of the other thing; six photos."""
+    """The recogniser's probability is that of the other thing; sixteen photos."""
     real, load = loop.trials.see, photos.load
-    patch.setattr(photos, "load", lambda *kind: load(*kind)[:6])
+    patch.setattr(photos, "load", lambda *kind: load(*kind)[:16])
     patch.setattr(
         loop.trials,
         "see",
