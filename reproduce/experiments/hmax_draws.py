@@ -6,6 +6,7 @@ differs; the photos are the same.
 
 import numpy as np
 
+from reproduce.experiments.recognition import load_probabilities
 from reproduce.results import arrays
 from reproduce.training.name_classifier import fit_name_classifier, labelled_crops
 from vmc_lib import photos
@@ -45,3 +46,9 @@ def make(folder=photos.FOLDER, draws=DRAWS):
 def load_called(split):
     """Which true boxes of a split each draw calls shuttlecocks, (draws, n)."""
     return arrays("hmax_draws")[split] > 0.5
+
+
+def error_counts(split):
+    """How many true boxes of a split each draw names wrong, (draws,)."""
+    _, truth = load_probabilities("rig", split)
+    return (load_called(split) != truth).sum(axis=1)

@@ -16,6 +16,7 @@ NOT_COMPARED, BY_CONSTRUCTION, FITTED, REPRODUCED, BEATEN, DIFFERS = VERDICTS = 
     "beaten",
     "differs",
 )
+HELD = "over the hold"  # names what is not read where the command ends
 BELOW, ABOVE = ({"better": sign, "bound": True} for sign in (-1, 1))  # a limit's claim
 
 

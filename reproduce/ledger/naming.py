@@ -94,7 +94,7 @@ def _features():
         )
     probability, truth = recognition.load_probabilities("rig", "test")
     ours = ((probability["CDBN, MP2"] > 0.5) != truth).sum()
-    theirs = (hmax_draws.load_called("test") != truth).sum(axis=1)
+    theirs = hmax_draws.error_counts("test")
     name = "the same on the rig, the mean of all draws of HMAX"
     return [*quantities, mean(name, 0, ours - theirs, better=-1, bound=True)]
 

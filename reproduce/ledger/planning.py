@@ -20,6 +20,7 @@ from reproduce.experiments.calibration import (
 from reproduce.ledger.entry import (
     ABOVE,
     BELOW,
+    HELD,
     Quantity,
     Row,
     mean,
@@ -32,7 +33,8 @@ from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import draw_targets, exact_weights, habitual_weights, nearest, plan
 
 PLANNED = {"better": -1, "rounding": paper.planned_rounding()}
-READINGS = {f", {AS_PRINTED}": 0.0, "": templates.HOLD}  # how long the hold is, s
+READINGS = {"": 0.0, f", {HELD}": templates.HOLD}  # how long the hold is, s
+PRINTED = f"{SCENARIOS[0]}, {AS_PRINTED}"
 COUNT = 25  # movements of a draw, as in the paper
 
 
@@ -69,17 +71,17 @@ def _table_4():
         fitted_spacing(),
     )
     return [
-        *(
-            mean_of_draws(
-                f"{name}, templates {100 * apart:.0f} cm apart, {AS_PRINTED}",
-                claimed if apart == fitted else None,
-                planned_error_ratios(apart),
-                fitted=True,
-                **PLANNED,
-            )
-            for apart in sorted(templates.SPACINGS, key=lambda apart: apart != fitted)
+        mean_of_draws(
+            f"{name}, templates {100 * fitted:.0f} cm apart",
+            claimed,
+            planned_error_ratios(fitted),
+            fitted=True,
+            **PLANNED,
         ),
-        mean_of_draws(name, None, load_results()[SCENARIOS[0]]["planned / reach"]),
+        *(
+            mean_of_draws(f"{name}{reading}", None, load_results()[scenario]["planned / reach"])
+            for reading, scenario in zip(READINGS, (PRINTED, SCENARIOS[0]), strict=True)
+        ),
     ]
 
 
@@ -162,7 +164,7 @@ def _exact():
     flat, found = planned_error_ratios(rule=exact_weights), errors_3d()
     return [
         mean_of_draws(
-            f"planned error over reach, exact weights, {AS_PRINTED}",
+            "planned error over reach, exact weights",
             paper.planned_error_ratio(),
             planned_error_ratios(spacing, exact_weights),
             **PLANNED,
@@ -213,7 +215,9 @@ ROWS = (
         "09_planning",
         _non_linear,
         differs="Most of the miss is arithmetic: weights that satisfy Eq. 4 exactly remove the "
-        "share of {q[share of the miss that exact weights remove].obtained:.2f} of it, and only "
+        "share of {q[share of the miss that exact weights remove, "
+        + HELD
+        + "].obtained:.2f} of it, and only "
         "the rest is the arm's.",
         note="The limit is a half. Templates 6 cm apart; the interval is over targets.",
     ),

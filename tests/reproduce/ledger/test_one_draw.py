@@ -1,0 +1,59 @@
+"""What ships for the ledger is what the code gives: one draw of each, made again."""
+
+import numpy as np
+import pytest
+
+from reproduce.experiments import (
+    calibration,
+    class_independence,
+    hmax_draws,
+    localisation,
+    second_layers,
+)
+from reproduce.peers.hmax import hmax
+from reproduce.results import arrays
+from vmc_lib import photos
+from vmc_lib.what.cdbn import crops_of
+from vmc_lib.what.recogniser import NameClassifier
+
+
+def test_one_draw_of_movements_is_reproducible():
+    """The paper's own reading of where a movement ends; Table VI's first experiment."""
+    name = f"{calibration.SCENARIOS[0]}, {calibration.AS_PRINTED}"
+    now = calibration.EXPERIMENTS[name](0, experiments=1)
+    shipped = {k: values[0] for k, values in calibration.load_results()[name].items()}
+    assert {k: round(v, 4) for k, v in now.items()} == pytest.approx(
+        {k: shipped[k] for k in now}, abs=2e-4
+    )
+
+
+def test_one_training_of_table_1_is_reproducible():
+    now = localisation.measure_table_1("rig", "published", 0, ["linear"])
+    for k, split in enumerate(photos.SPLITS):
+        shipped = localisation.table_1("rig", split, "published")["linear"][0]
+        np.testing.assert_allclose(now[k, 0], shipped, atol=0.01)
+
+
+def test_one_pair_of_second_layers_is_reproducible():
+    np.testing.assert_allclose(
+        second_layers.preferences(0), second_layers.load_preferences()[0], atol=0.005
+    )
+
+
+def test_draws_of_prototypes_say_of_crops_what_is_shipped():
+    kept, some = arrays("hmax_draws"), [0, 1, 40]
+    crops, _ = crops_of(photos.load("rig", "test")[:21])
+    draws = hmax_draws.draws_of(hmax(crops[some], arrays("recognition")["prototypes"]))
+    linear = [NameClassifier(w, b) for w, b in zip(kept["w"], kept["b"], strict=True)]
+    now = np.array([one.probability(x) for one, x in zip(linear, draws, strict=True)])
+    np.testing.assert_allclose(now, kept["test"][:, some], atol=1e-3)
+
+
+@pytest.mark.parametrize("level", class_independence.WAYS)
+def test_what_is_boxed_well_is_reproducible(level):
+    some = slice(0, 40, 8)
+    shots = photos.load(level, "test")[some]
+    for way, boxed in class_independence.load_boxed(level).items():
+        if way != "quality":  # ten times as slow
+            now = class_independence.objects_boxed(way, shots)
+            assert (now != boxed[some]).sum() <= 1, way
