@@ -8,7 +8,7 @@ from scipy.stats import quantile_test, ttest_ind
 
 from reproduce import paper
 from reproduce.experiments import cdbn_sensitivity, gabor, second_layers, texture_tuning
-from reproduce.ledger.entry import Quantity, Row, mean, trivial_quantity
+from reproduce.ledger.entry import ABOVE, BELOW, Quantity, Row, mean, trivial_quantity
 from vmc_lib import photos
 from vmc_lib.what import cdbn
 from vmc_lib.what.crbm import CRBM
@@ -55,7 +55,7 @@ def _figure_7():
     selective = np.abs(_directions(filters))
     mixed = np.mean([np.abs(_directions(shuffled(filters, rng))) for _ in range(SHUFFLES)], axis=0)
     spread = max(np.abs(np.exp(1j * np.angle(_directions(layer))).mean()) for layer in layers)
-    above = {"better": 1, "bound": True, "fitted": True}
+    above = ABOVE | {"fitted": True}
     return [
         mean("fit of a Gabor, less that of the best round blob", 0, beyond, **above),
         mean(
@@ -115,8 +115,7 @@ def _figure_8():
                 f"{layer}: cosine with the direction under a unit, less under others",
                 0,
                 values,
-                better=1,
-                bound=True,
+                **ABOVE,
             )
             for layer, values in zip(("H1", "P1"), tuned, strict=True)
         ),
@@ -141,27 +140,25 @@ def _deeper():
     simpler = ttest_ind(fits["W2"], fits["W1"], equal_var=False).confidence_interval()
     ends = {"low": simpler.low, "high": simpler.high}
     taught = second_layers.load_preferences()
-    above = {"better": 1, "bound": True}
     return [
         Quantity(
             "fit of a Gabor, second layer less first",
             0,
             fits["W2"].mean() - fits["W1"].mean(),
             **ends,
-            better=-1,
-            bound=True,
+            **BELOW,
         ),
         mean(
             "fit of a Gabor, second layer less its weights shuffled",
             0,
             fits["W2"] - fits["W2 shuffled"],
-            **above,
+            **ABOVE,
         ),
         mean(
             "P² to shuttlecocks over cups: taught by shuttlecocks, less taught by cups",
             0,
             taught[:, 0] - taught[:, 1],
-            **above,
+            **ABOVE,
         ),
         *(
             mean(

@@ -4,12 +4,12 @@ import numpy as np
 
 from reproduce import paper
 from reproduce.experiments import cdbn_sensitivity, fresh_test_set, hmax_draws, recognition
-from reproduce.ledger.entry import Quantity, Row, mean, mean_of_draws, mean_of_trainings
+from reproduce.ledger.entry import BELOW, Quantity, Row, mean, mean_of_draws, mean_of_trainings
+from reproduce.ledger.filters import NETWORKS
 from vmc_lib.what.cdbn import N_W
 
 MEASURES = ("precision", "recall")
 RIVALS = ("HMAX, 10 prototypes", "HOG", "SIFT, bag of words")
-NETWORKS = [variation for variation in cdbn_sensitivity.VARIATIONS if variation[0] == N_W]
 
 
 def _table_3():
@@ -87,8 +87,7 @@ def _features():
                 0,
                 lost - won,
                 p=p,
-                better=-1,
-                bound=True,
+                **BELOW,
                 in_sample=int(learnt[method].sum() - learnt["CDBN, MP2"].sum()),
             )
         )
@@ -96,7 +95,7 @@ def _features():
     ours = ((probability["CDBN, MP2"] > 0.5) != truth).sum()
     theirs = hmax_draws.error_counts("test")
     name = "the same on the rig, the mean of all draws of HMAX"
-    return [*quantities, mean(name, 0, ours - theirs, better=-1, bound=True)]
+    return [*quantities, mean(name, 0, ours - theirs, **BELOW)]
 
 
 ROWS = (

@@ -6,9 +6,10 @@ from functools import cache
 import pytest
 
 from reproduce import ledger
-from reproduce.experiments import localisation
-from reproduce.experiments.calibration import SCENARIOS, load_results
-from tests.project import code_cells, each_chapter
+from reproduce.experiments import localisation, planning_error, recognition
+from reproduce.experiments.calibration import AS_PRINTED, SCENARIOS, load_results
+from tests.project import ROOT, code_cells, each_chapter
+from vmc_lib.motor.planning import exact_weights, habitual_weights
 
 CLAIMS = {"planned_error_ratio", "calibrated_error_ratio", "MEAN_ERROR"}
 CLAIMS |= {"TABLE_1", "TABLE_2", "TABLE_3"}
@@ -75,13 +76,18 @@ def test_ledger_has_the_values_that_chapters_show(path):
 
 def test_the_shared_functions_give_the_ledgers_numbers():
     here = SCENARIOS[0]
+    printed = f"{here}, {AS_PRINTED}"
     pairs = {
-        ("Table IV", "planned error over reach"): "planned / reach",
-        ("Table V", f"error after over planned, {here}"): "off-line, published",
-        ("Ours, Table V", "error over planned, own off-line, 2 trials"): "own off-line, 2 trials",
+        ("Table IV", "planned error over reach"): (printed, "planned / reach"),
+        ("Table IV", "planned error over reach, over the hold"): (here, "planned / reach"),
+        ("Table V", f"error after over planned, {here}"): (printed, "off-line, published"),
+        ("Ours, Table V", "error over planned, own off-line, 2 trials"): (
+            here,
+            "own off-line, 2 trials",
+        ),
     }
-    for names, entry in pairs.items():
-        assert ledger.value(*names).obtained == pytest.approx(load_results()[here][entry].mean())
+    for names, (part, entry) in pairs.items():
+        assert ledger.value(*names).obtained == pytest.approx(load_results()[part][entry].mean())
     for kernel, key in (("linear", "linear"), ("RBF", "rbf")):
         ours = localisation.table_1("rig", "test")[key].mean(axis=0)
         for k, measure in enumerate(("precision", "recall")):
@@ -92,3 +98,19 @@ def test_the_shared_functions_give_the_ledgers_numbers():
         middle, _ = localisation.table_2_interval("rig", name)
         obtained = ledger.value(row, f"{name}, IoU: recall").obtained
         assert obtained == pytest.approx(middle[1])
+
+
+def test_chapter_6_and_the_ledger_ask_one_family_of_duels():
+    corrected = {(one, other): p for one, other, *_, p in recognition.fresh_duels()}
+    for method in ("HOG", "SIFT, bag of words"):
+        q = ledger.value("IV B, features", f"errors of MP2 less those of {method}")
+        assert q.p == pytest.approx(corrected["CDBN, MP2", method])
+    calls = {call for cell in cells(ROOT / "book/06_names.ipynb").values() for call in cell.calls}
+    assert "recognition.fresh_duels" in calls
+    assert "recognition.mcnemar_tests" not in calls
+
+
+def test_chapter_9_and_the_ledger_agree_on_what_is_arithmetic():
+    near, exact = map(planning_error.mean_miss, (habitual_weights, exact_weights))
+    q = ledger.value("III, Block 3", "share of the miss that exact weights remove, over the hold")
+    assert q.obtained == pytest.approx(1 - exact / near, rel=0.01)
