@@ -93,7 +93,8 @@ def details(entry):
         for q in entry["quantities"]
     ]
     title = f"<summary>{entry['where']}: <i>{entry['verdict']}</i></summary>"
-    return f"<details>{title}\n\n{text}\n\n{table(heads, rows)}\n\n</details>\n"
+    numbers = f"\n\n{table(heads, rows)}" if rows else ""
+    return f"<details>{title}\n\n{text}{numbers}\n\n</details>\n"
 
 
 def claim_text(q):
