@@ -4,7 +4,6 @@ from collections.abc import Callable
 from dataclasses import KW_ONLY, asdict, dataclass
 
 import numpy as np
-from scipy.stats import betabinom
 
 from vmc_lib.statistics import student, wilson
 
@@ -114,6 +113,8 @@ def mean_of_trainings(name, claimed, shares, n, of=None, **rest):
 
 def _least_share(right, n, of):
     """The 2.5 % point of one more share, of so many (posterior predictive, Jeffreys' prior)."""
+    from scipy.stats import betabinom
+
     if of is None:
         return None
     return betabinom.ppf(0.025, of, right + 0.5, n - right + 0.5) / of

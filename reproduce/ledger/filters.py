@@ -4,7 +4,6 @@ from dataclasses import replace
 from functools import cache
 
 import numpy as np
-from scipy.stats import quantile_test, ttest_ind
 
 from reproduce import paper
 from reproduce.experiments import cdbn_sensitivity, gabor, second_layers, texture_tuning
@@ -87,6 +86,8 @@ def _directions(filters):
 
 
 def _v1():
+    from scipy.stats import quantile_test
+
     octaves, widths = np.transpose([gabor.bandwidths(W) for W in cdbn.CDBN.load().first.W[:, 0]])
     found = quantile_test(widths).confidence_interval()
     name = "median bandwidth of direction (°), the paper's claim being the macaque's"
@@ -134,6 +135,8 @@ def layer_maps():
 
 
 def _deeper():
+    from scipy.stats import ttest_ind
+
     crops, shuttlecock = cdbn.crops_of(photos.load("rig", "validation"))
     layers = cdbn.CDBN.load().layers(whiten(crops))
     fits = {kind: gabor_correlations(kind) for kind in ("W1", "W2", "W2 shuffled")}

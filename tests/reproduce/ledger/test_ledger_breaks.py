@@ -239,12 +239,14 @@ def turns_the_error(patch):
 def calibrates_the_wrong_way(patch):
     """Both off-line rules step away from the target."""
     corrects_the_wrong_way(patch)
+    patch.setattr(experiments, "ABLATION", {})
     patch.setattr(experiments, "algorithm_1", partial(offline.algorithm_1, sign=-1))
     patch.setattr(calibration, "load_results", lambda: Again.of("off-line", experiments=1))
 
 
 def learns_nothing(patch):
     """Off-line calibration still does its share; what is learned for the next time is nothing."""
+    patch.setattr(experiments, "ABLATION", {})
     for rule in (experiments.WeightCorrection, experiments.AimCorrection):
         patch.setattr(rule, "update", lambda self, *lesson, **how: self)
     for module in (calibration, online):
@@ -252,7 +254,8 @@ def learns_nothing(patch):
 
 
 def mixes_alike_for_every_target(patch):
-    """Of the templates around each takes the same, wherever it aims."""
+    """What our rule makes of an aim takes as much of each template, wherever that lies."""
+    learns_nothing(patch)
     patch.setattr(
         experiments.AimCorrection,
         "correct",
