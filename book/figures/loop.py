@@ -2,13 +2,14 @@
 
 import numpy as np
 
+from book.figures.lens import lens
 from book.figures.panels import panels
-from book.figures.reaching import ends, shares
+from book.figures.reaching import ends, norm_mm, shares
 from vmc_lib.arm.kinematics import TRUNK, to_world
 from vmc_lib.boxes import iou
 from vmc_lib.loop import RULES
 from vmc_lib.motor.templates import START
-from vmc_lib.show import dot_plot
+from vmc_lib.show import dot_plot, note
 from vmc_lib.show.arm import EVERY, arm_scene
 from vmc_lib.show.arm_plane import plane
 from vmc_lib.show.figures import photo_view
@@ -23,9 +24,9 @@ LOOP_STAGES = (*SEEING, "place", "plan", "off-line", "online")
 
 
 def draw_step(photo, sight, reach, step):
-    """The photo with what is known by a step of `LOOP_STEPS`; the arm at rest, or its movement.
+    """The photo with what is known by a step of `LOOP_STEPS`; the arm before, or its movement.
 
-    Where nothing was recognised, `reach` is None: the arm stays at rest.
+    Where nothing was recognised, `reach` is None: the arm stays as it was.
     """
     if step in SEEING or reach is None:
         boxes = _boxes(sight, step if step in SEEING else "names")
@@ -34,20 +35,29 @@ def draw_step(photo, sight, reach, step):
     return draw_movement(photo, sight.box, reach, motion)
 
 
+def step_view(photo, sight, reach, step):
+    """A step of `LOOP_STEPS`: photo, arm, and the step in words."""
+    words = note(step_in_words(photo, sight, reach, step))
+    return *draw_step(photo, sight, reach, step), words
+
+
 def draw_movement(photo, box, reach, motion):
-    """The chosen box, the place reached for and the hand on its way in the photo; and the arm."""
+    """The chosen box, the place reached for, the hand on its way and a `lens`; and the arm."""
     hand = reach.hand(motion)
     turn = reach.turn * np.minimum(1, np.arange(len(hand)) / TURNED)
     [place] = photo.camera.project(reach.target[None])
     view = photo_view(photo.image, [(box, "seen", "green")], [(place, "", "green")])
-    view = view.replace("</svg>", _moving(photo.camera.project(hand[::EVERY]), "orange") + "</svg>")
+    moving = _moving(photo.camera.project(hand[::EVERY]), "orange")
+    view = view.replace("</svg>", moving + lens(photo, box, reach, motion) + "</svg>")
+    end = reach.end_point(motion)
     return view, arm_scene(
         motion.q,
         motion.activation,
         turn=turn,
         photo=photo,
         balls=[(reach.target, "green")],
-        grasp=np.linalg.norm(reach.end_point(motion) - photo.target) < GRASPED,
+        grasp=np.linalg.norm(end - photo.target) < GRASPED,
+        end=(end, motion.speed),
     )
 
 
@@ -69,6 +79,7 @@ def draw_stage(photo, sight, reach, online, stage):
     if stage == "place":
         place = photo.camera.project(reach.target)[0]
         view = photo_view(photo.image, [(sight.box, "seen", "green")], [(place, "", "green")])
+        view = view.replace("</svg>", lens(photo, sight.box, reach) + "</svg>")
         balls = [(reach.target, "green")]
         return view, arm_scene(START, turn=reach.turn, photo=photo, balls=balls)
     motion = {"plan": reach.planned, "off-line": reach.calibrated, "online": online}[stage]
@@ -146,8 +157,13 @@ def above(parts, title, xlim, ylim):
     return fig
 
 
-def _away(reach, motion):
-    return f"{1000 * np.linalg.norm(reach.end_point(motion) - reach.target):.1f} mm away"
+def describe_end(photo, reach, motion):
+    """Where a motion ends, in words: both distances, and how fast the hand still moves."""
+    seen, true = (norm_mm(reach.end_point(motion) - p) for p in (reach.target, photo.target))
+    return (
+        f"the hand ends {seen:.1f} mm from the place seen, {true:.1f} mm from the true one, and "
+        f"there it moves at {1000 * motion.speed:.0f} mm/s"
+    )
 
 
 def _boxes(sight, step):
@@ -179,17 +195,17 @@ def likeliest_elsewhere(photo, sight):
 
 
 def step_in_words(photo, sight, reach, step):
-    """The same moment for those who cannot see it."""
+    """A step of `LOOP_STEPS` in words, with its numbers."""
     if step not in SEEING and reach is None:
-        return f"The {step}: nothing was recognised; the arm rests."
+        return f"The {step}: nothing was recognised; the arm waits."
     if step not in SEEING:
         motion = reach.planned if step.startswith("first") else reach.calibrated
-        return f"The {step}: at its end the hand is {_away(reach, motion)}."
+        return f"The {step}: {describe_end(photo, reach, motion)}."
     candidates, passed, boxes = sight.detections.counts.values()
     return {
-        "a photo": "A photo of a table with a shuttlecock and a cup; the arm rests.",
-        "candidates": f"{candidates} candidate boxes cover the photo; the arm rests.",
-        "regions": f"{passed} boxes are left, many for each thing; the arm rests.",
-        "after suppression": f"{boxes} boxes are left; the arm rests.",
-        "names": "Each box carries its probability of holding a shuttlecock; the arm rests.",
+        "a photo": "A photo of a table with a shuttlecock and a cup; the arm waits.",
+        "candidates": f"{candidates} candidate boxes cover the photo; the arm waits.",
+        "regions": f"{passed} boxes are left, many for each thing; the arm waits.",
+        "after suppression": f"{boxes} boxes are left; the arm waits.",
+        "names": "Each box carries its probability of holding a shuttlecock; the arm waits.",
     }[step]

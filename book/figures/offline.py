@@ -8,7 +8,6 @@ import numpy as np
 from book.figures.panels import curves, mark_now, panels
 from book.figures.reaching import corrections, ends, mean_mm, norm_mm, reaches
 from vmc_lib.arm.dynamics import hand
-from vmc_lib.arm.kinematics import inverse_kinematics
 from vmc_lib.arm.simulate import Perturbation
 from vmc_lib.cerebellum.offline import GAINS, algorithm_1, broyden_calibration
 from vmc_lib.motor import templates
@@ -16,7 +15,6 @@ from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import least_change
 from vmc_lib.motor.templates import START
 from vmc_lib.show import table
-from vmc_lib.show.arm import arm_scene
 from vmc_lib.show.palette import COLOURS
 
 SIDE_BY_SIDE = 2, (8.2, 3.6)  # the plane, and curves
@@ -232,16 +230,10 @@ def hold_numbers(hold, target):
     """Mean over reaches of the last three of `HOLD_HEADS`, for paths (n, T, 2) and targets."""
     miss = norm_mm(hold.mean(axis=1) - target).mean()
     distance = norm_mm(hold - target[:, None]).mean()
-    speed = norm_mm(np.diff(hold, axis=1)).sum(axis=1).mean() / templates.HOLD
+    speed = 1000 * templates.mean_speed(hold).mean()
     return [f"{miss:.2f}", f"{distance:.2f}", f"{speed:.1f}"]
 
 
 def in_plane(ax, plan, endpoints, title):
     """The reaches of a plan, (n, 2), among its templates."""
     reaches(ax, plan.template_set.points, plan.target, endpoints, title)
-
-
-def reach_scene(motion, target):
-    """The arm making a reach, the motion of one movement: target (2,) green, end point red."""
-    balls = [(hand(inverse_kinematics(target)), "green"), (motion.wrist.mean(axis=0), "red")]
-    return arm_scene(motion.q, motion.activation, balls=balls)

@@ -7,11 +7,8 @@ from book.figures.panels import panels
 from book.figures.reaching import arrows, ends, norm_mm, plane
 from reproduce.experiments.planning_error import TARGETS, mixed_and_reached
 from reproduce.peers import optimal_control
-from vmc_lib.arm.dynamics import hand
-from vmc_lib.arm.kinematics import inverse_kinematics
 from vmc_lib.arm.model import MUSCLES
 from vmc_lib.motor import templates
-from vmc_lib.show.arm import arm_scene
 from vmc_lib.show.palette import COLOURS
 
 
@@ -23,13 +20,6 @@ def planned_in_words(target, ended):
         f"{norm_mm(ended - target):.1f} mm away. Beside it, one muscle's excitation as a weighted "
         "sum."
     )
-
-
-def planned_reach(movement):
-    """The arm as it executes a plan: the target is a green ball, the hand ends at the red one."""
-    motion, places = movement.motion, (movement.plan.target, movement.endpoint)
-    balls = list(zip(map(hand, map(inverse_kinematics, places)), ("green", "red"), strict=True))
-    return arm_scene(motion.q, motion.activation, balls=balls)
 
 
 def parts_of_miss(rule, spacing, number):

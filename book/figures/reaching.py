@@ -1,14 +1,17 @@
-"""Figures of reaches in the arm's plane, for the chapters on planning and calibration.
+"""Figures of reaches in the arm's plane, and their scene: for planning and calibration.
 
-Every function draws on matplotlib axes. Positions are in the plane, in metres.
+Most functions draw on matplotlib axes. Positions are in the plane, in metres.
 """
 
 import numpy as np
 from matplotlib.collections import LineCollection
 
 from book.figures.panels import panels
+from vmc_lib.arm.dynamics import hand
+from vmc_lib.arm.kinematics import inverse_kinematics
 from vmc_lib.arm.model import MUSCLES
 from vmc_lib.motor.planning import plan
+from vmc_lib.show.arm import arm_scene
 from vmc_lib.show.arm_plane import plane
 from vmc_lib.show.palette import COLOURS
 
@@ -119,3 +122,10 @@ def planned_in_page(past, muscle, ended):
     given = {"points": past.points, "commands": commands.round(4), "ends": ended.round(5)}
     given = {name: values.tolist() for name, values in given.items()} | {"every": every / 1000}
     return "plan", lambda: planned(past, muscle), given
+
+
+def reach_scene(motion, target):
+    """The arm in one movement's motion to a target (2,), a green ball; its end point is red."""
+    balls = [(hand(inverse_kinematics(target)), "green")]
+    end = motion.wrist.mean(axis=0), motion.speed
+    return arm_scene(motion.q, motion.activation, balls=balls, end=end)

@@ -3,7 +3,7 @@
 import matplotlib.pyplot as plt
 import numpy as np
 
-from book.figures.loop import draw_movement, draw_stage, named_boxes
+from book.figures.loop import describe_end, draw_movement, draw_stage, named_boxes
 from book.figures.panels import panels
 from book.figures.reaching import norm_mm
 from reproduce.experiments.loop_evaluation import FAILURE_STAGES, LESIONS, load_outcomes
@@ -11,9 +11,11 @@ from reproduce.experiments.real_world import count_answers, share_text
 from vmc_lib import NoReach, loop, marker_sheet, photos
 from vmc_lib.arm.kinematics import to_world
 from vmc_lib.show import COLOURS, note, photo_view, table
+from vmc_lib.statistics import wilson
 
 FAILURES = {"": "arrived"} | {stage: stage for stage in FAILURE_STAGES}
 FAILURE_COLOURS = ("green", "red", "orange", "purple", "blue", "grey")
+STAGES = ("place", "plan", "off-line", "online")  # that have a distance
 CROWDED = (110, 60)  # pixels: labels nearer than that would hide each other
 
 
@@ -25,36 +27,43 @@ def miss_mm(photo, reach, motion):
 def stage_errors(photo, reach, online):
     """Distances from the true shuttlecock in mm, by stage; none where there is no reach.
 
-    Of the place that is reached for, and of the hand at the end of each movement.
+    Of the place that is reached for, and of the end point of each movement.
     """
     if reach is None:
         return {}
-    moves = {"plan": reach.planned, "off-line": reach.calibrated, "online": online}
-    ends = {stage: miss_mm(photo, reach, motion) for stage, motion in moves.items()}
+    ends = {s: miss_mm(photo, reach, motion) for s, motion in moves(reach, online).items()}
     return {"place": norm_mm(reach.target - photo.target)} | ends
 
 
-def describe_stage(errors, stage):
-    """A stage in words, by what `stage_errors` returned."""
-    if not errors:
-        return "No shuttlecock was recognised; the arm rests."
-    if stage not in errors:
-        return f"{stage}: nothing is reached for yet; the arm rests."
-    what = "the place" if stage == "place" else "the hand"
-    return f"{stage}: {what} is {errors[stage]:.1f} mm from the true shuttlecock."
+def moves(reach, online):
+    """The motions of a reach by the stage that makes them; `online` is corrected before it."""
+    if reach is None:
+        return {}
+    return {"plan": reach.planned, "off-line": reach.calibrated, "online": online}
+
+
+def describe_stage(photo, reach, online, stage):
+    """A stage in words: how far from what the place or the hand is, and how fast the hand moves."""
+    if reach is None:
+        return "No shuttlecock was recognised; the arm waits."
+    if stage == "place":
+        return f"place: {norm_mm(reach.target - photo.target):.1f} mm from the true shuttlecock."
+    if (motion := moves(reach, online).get(stage)) is None:
+        return f"{stage}: nothing is reached for yet; the arm waits."
+    return f"{stage}: {describe_end(photo, reach, motion)}."
 
 
 def stage_view(photo, sight, reach, online, stage):
-    """A stage of `LOOP_STAGES`: photo, arm, and the distance from the true shuttlecock."""
-    words = describe_stage(stage_errors(photo, reach, online), stage)
+    """A stage of `LOOP_STAGES`: photo, arm, and the same in words."""
+    words = describe_stage(photo, reach, online, stage)
     return *draw_stage(photo, sight, reach, online, stage), note(words)
 
 
 def lesion_view(photo, box, reach):
-    """The box and the calibrated reach under a lesion, and how far the hand ends from the truth."""
+    """The box and the calibrated reach under a lesion, and in words how the hand ends."""
     motion = reach.calibrated
-    words = f"ends {miss_mm(photo, reach, motion):.0f} mm from the true shuttlecock"
-    return *draw_movement(photo, box, reach, motion), note(words)
+    words = describe_end(photo, reach, motion).capitalize()
+    return *draw_movement(photo, box, reach, motion), note(f"{words}.")
 
 
 def phone_view(model, photo):
@@ -65,7 +74,7 @@ def phone_view(model, photo):
         reach = loop.reach(model, loop.locate(model, bare, sight.box, camera))
         hand = reach.end_point(reach.calibrated)
         ends = [(camera.project(hand)[0], "hand", "red")]
-        words = _describe_reach(camera, reach, hand)
+        words = _describe_reach(camera, reach)
     except NoReach as why:
         words = f"No reach: {why}."
     boxes = [box for box in named_boxes(sight) if box[2] == "green"]
@@ -73,15 +82,17 @@ def phone_view(model, photo):
     return f"<div>{view}{note(f'{sight.summary}. {words}')}</div>"
 
 
-def _describe_reach(camera, reach, hand):
+def _describe_reach(camera, reach):
     """Where a camera is, and the reach for what it shows, in words."""
+    motion = reach.calibrated
     high = 100 * (camera.position[1] - marker_sheet.CORNER[1])
     ahead, _, right = 100 * reach.target
     return (
         f"The camera is {high:.0f} cm above the table. The shuttlecock is {ahead:.0f} cm ahead of "
         f"the shoulder, {abs(right):.0f} cm to its {'right' if right > 0 else 'left'}. The trunk "
-        f"turns by {np.degrees(reach.turn):.0f}°, and the hand ends "
-        f"{norm_mm(hand - reach.target):.1f} mm from that place."
+        f"turns by {np.degrees(reach.turn):.0f}°. The hand ends "
+        f"{norm_mm(reach.end_point(motion) - reach.target):.1f} mm from that place; there it moves "
+        f"at {1000 * motion.speed:.0f} mm/s."
     )
 
 
@@ -113,23 +124,30 @@ def sizes_view(photo, boxes):
 
 
 def failure_bars(failures):
-    """Shares of the stages at which reaches failed, level -> (n,) names: stacked bars, a figure."""
-    fig, ax = panels(size=(5.5, 3.4))
-    fig.subplots_adjust(bottom=0.32)  # room for the legend
-    shares = {
-        stage: np.array([stages.count(stage) / len(stages) for stages in failures.values()])
-        for stage in FAILURES
-    }
+    """Shares of the stages at which reaches failed, level -> (n,) names: stacked bars, a figure.
+
+    Each level tells how many of its failures are the moving's, with a 95 % interval.
+    """
+    fig, ax = panels(size=(6, 3.6))
+    fig.subplots_adjust(left=0.3, bottom=0.32)  # room for words and for the legend
+    levels = [_name_failures(level, stages) for level, stages in failures.items()]
     left = np.zeros(len(failures))
-    for (stage, share), colour in zip(shares.items(), FAILURE_COLOURS, strict=True):
-        ax.barh(list(failures), share, left=left, label=FAILURES[stage], color=COLOURS[colour])
+    for stage, colour in zip(FAILURES, FAILURE_COLOURS, strict=True):
+        share = np.array([stages.count(stage) / len(stages) for stages in failures.values()])
+        ax.barh(levels, share, left=left, label=FAILURES[stage], color=COLOURS[colour])
         left += share
     ax.set(xlim=(0, 1), xlabel="share of the test photos")
-    varied = list(failures).index("varied")
-    arrived, moving = (shares[stage][varied] for stage in ("", FAILURE_STAGES[-1]))
-    ax.set_title(f"varied: {1 - moving - arrived:.0%} fail by seeing, {moving:.0%} by moving")
     fig.legend(ncols=3, loc="lower center")
     return fig
+
+
+def _name_failures(level, stages):
+    failed = [stage for stage in stages if stage]
+    moving = failed.count(FAILURE_STAGES[-1])
+    if not failed:
+        return level
+    low, high = wilson(moving, len(failed))
+    return f"{level}: {moving} of {len(failed)}\nfail by moving\n({low:.0%} to {high:.0%})"
 
 
 def failure_view(photo, sight):
@@ -165,11 +183,19 @@ def answer_table(head, results):
     return table([head, *results], rows)
 
 
-def error_table(errors):
-    """The errors that `stage_errors` returned, photo -> stage -> mm: a Markdown table."""
-    stages = ("place", "plan", "off-line", "online")
-    rows = [[name, *(f"{one.get(s, np.nan):.1f}" for s in stages)] for name, one in errors.items()]
-    return table(["photo", *(f"{stage} (mm)" for stage in stages)], rows)
+def error_table(reaches):
+    """How far each stage is from the true shuttlecock, and the hand's speed: a Markdown table.
+
+    Of reaches, name -> (photo, reach, online).
+    """
+    rows = []
+    for name, (photo, *made) in reaches.items():
+        errors = stage_errors(photo, *made)
+        speeds = {stage: f" ({1000 * m.speed:.0f})" for stage, m in moves(*made).items()}
+        cells = (f"{errors.get(s, np.nan):.1f}{speeds.get(s, '')}" for s in STAGES)
+        rows.append([name, *cells])
+    place, *ends = STAGES
+    return table(["photo", f"{place} (mm)", *(f"{end} (mm, at mm/s)" for end in ends)], rows)
 
 
 def sheet_table(shots):
@@ -211,12 +237,13 @@ def lesion_table():
     """What the target boxes hold under each lesion, and how the reaches end: a Markdown table."""
     objects, rows = ("shuttlecock", "cup", "neither", "nothing"), []
     for lesion in LESIONS:
-        held, missed = load_outcomes(lesion)
+        held, missed, speed = load_outcomes(lesion)
         counts = ["–"] * len(objects)  # a place, and no box
         if lesion != "dorsal":
             counts = [np.sum(held == name) for name in objects]
-        middle, near = np.nanmedian(missed), np.mean(missed <= 10)
-        reaches = np.isfinite(missed).sum()
-        rows.append([lesion, *counts, reaches, f"{middle:.0f}", f"{near:.0%}"])
-    heads = ["lesion", "for the shuttlecock", "the cup", "neither", "nothing"]
-    return table([*heads, "reaches", "median miss (mm)", "within 1 cm"], rows)
+        medians = [f"{np.nanmedian(values):.0f}" for values in (missed, speed)]
+        rows.append(
+            [lesion, *counts, np.isfinite(missed).sum(), *medians, f"{np.mean(missed <= 10):.0%}"]
+        )
+    heads = ["lesion", "for the shuttlecock", "the cup", "neither", "nothing", "reaches"]
+    return table([*heads, "median miss (mm)", "median speed (mm/s)", "within 1 cm"], rows)

@@ -17,6 +17,7 @@ from vmc_lib.where.detector import ObjectDetector
 ARRIVED, CLOSE_BY = 0.010, 0.005  # m: a hand so near the shuttlecock has arrived, or done well
 FAILURE_STAGES = ("proposals", "regions", "names", "place", "movement")  # where a reach goes wrong
 LESIONS = ("none", "ventral", "dorsal", "cerebellum")
+OUTCOMES = ("object", "missed", "speed")  # of a photo under a lesion
 
 
 def score(photo, sight, place, reaches):
@@ -132,17 +133,16 @@ def reach_with_lesion(model, photo, box, lesion):
 
 
 def evaluate_lesions(level, folder=photos.FOLDER):
-    """Every test photo of a level under each of `LESIONS`: two lists for each lesion.
+    """Every test photo of a level under each of `LESIONS`: three lists for each lesion.
 
     "object" is what the box holds that is gone for: "shuttlecock", "cup", "neither" or, with no
-    box, "nothing"; "missed" is how far the hand ends from the true shuttlecock in mm, None where
-    there was no reach.
+    box, "nothing"; "missed" is how far the hand ends from the true shuttlecock in mm, and "speed"
+    how fast it still moves there in mm/s, None where there was no reach.
     """
     model = VisuomotorModel.load(level)
     shots = photos.load(level, "test", folder)
     left = Parallel()(delayed(_photo_lesions)(model, photo) for photo in shots)
-    keys = ("object", "missed")
-    return {how: {key: [one[how][key] for one in left] for key in keys} for how in LESIONS}
+    return {how: {key: [one[how][key] for one in left] for key in OUTCOMES} for how in LESIONS}
 
 
 def make(levels=photos.LEVELS, folder=photos.FOLDER):
@@ -151,24 +151,25 @@ def make(levels=photos.LEVELS, folder=photos.FOLDER):
 
 
 def load_outcomes(lesion):
-    """What the target box of each test photo holds (n,), and how far the hand ends in mm (n,).
+    """What each test photo's target box holds, how far the hand ends (mm), and its speed (mm/s).
 
-    Of all levels in turn, from `results/lesions.json`; NaN where there was no reach.
+    Of all levels in turn (n,), from `results/lesions.json`; NaN where there was no reach.
     """
     levels = [results.records("lesions")[level][lesion] for level in photos.LEVELS]
-    held, missed = (np.concatenate([one[key] for one in levels]) for key in ("object", "missed"))
-    return held, missed.astype(float)
+    held, *numbers = (np.concatenate([one[key] for one in levels]) for key in OUTCOMES)
+    return held, *(values.astype(float) for values in numbers)
 
 
 def _photo_lesions(model, photo):
     sight, left = see(model, photo.image), {}
     for how in LESIONS:
         box = target_box(sight, how)
-        left[how] = {"object": object_in_box(photo, box), "missed": None}
+        left[how] = dict.fromkeys(OUTCOMES) | {"object": object_in_box(photo, box)}
         with suppress(NoReach):
             made = reach_with_lesion(model, photo, box, how)
             missed = np.linalg.norm(made.end_point(made.calibrated) - photo.target)
             left[how]["missed"] = round(1000 * float(missed), 1)
+            left[how]["speed"] = round(1000 * float(made.calibrated.speed), 1)
     return left
 
 

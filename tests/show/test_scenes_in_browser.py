@@ -121,8 +121,8 @@ def movement(elbow):
     """The elbow bends, the shoulder stays; a target where the hand ends."""
     angles = np.linspace([0.0, 1.0], [0.0, elbow], 201)
     course = '<svg viewBox="0 0 9 9"><g data-course="0,0 1,2 4,6"><circle r="1"/></g></svg>'
-    balls = [(hand(angles[-1]), "green")]
-    return course, arm_scene(angles, np.linspace(6 * [0], 6 * [1], 201), balls=balls)
+    balls, end = [(hand(angles[-1]), "green")], (hand(angles[-1]) + [0, 0.004, 0], 0.0123)
+    return course, arm_scene(angles, np.linspace(6 * [0], 6 * [1], 201), balls=balls, end=end)
 
 
 MOVEMENT = {"alt": lambda elbow: f"to {elbow}", "elbow": Slider([1.2, 1.5], "to")}
@@ -153,7 +153,9 @@ def test_one_clock_moves_the_arm_the_numbers_and_the_picture_beside(moving):
     moving.fill(".vmc-controls [data-stride]", "1")  # another movement, the same time
     assert numbers(moving)["elbow"] == "78.8°"
     moving.fill(".vmc-clock input", "0.2")
-    assert numbers(moving)["hand to target"] == "0.0 mm"
+    assert numbers(moving)["hand to target now"] == "0.0 mm"
+    assert numbers(moving)["end point to target"] == "4.0 mm"
+    assert numbers(moving)["speed in the hold"] == "12 mm/s"
 
 
 def test_a_movement_plays_to_its_end_and_stops_when_the_clock_is_set(moving):

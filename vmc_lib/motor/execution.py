@@ -7,7 +7,7 @@ import numpy as np
 
 from vmc_lib.arm.simulate import UNPERTURBED, Perturbation
 from vmc_lib.motor.planning import Plan
-from vmc_lib.motor.templates import HOLD
+from vmc_lib.motor.templates import mean_speed
 
 BATCH = 512  # movements simulated at once
 EYE = np.array([0.10, 0.25])  # above and a little in front of the shoulder
@@ -72,7 +72,7 @@ class Movement:
     @property
     def speed(self):
         """How fast the hand still moves over the hold, on average, (…), m/s."""
-        return np.linalg.norm(np.diff(self.hold, axis=-2), axis=-1).sum(axis=-1) / HOLD
+        return mean_speed(self.hold)
 
     @property
     def stray(self):

@@ -45,6 +45,16 @@ class HeldMotion(Motion):
         """Where the wrist is on average over the hold, (…, 2), m."""
         return self.hold.mean(axis=-2)
 
+    @property
+    def speed(self):
+        """How fast the wrist still moves over the hold, on average, (…), m/s."""
+        return mean_speed(self.hold)
+
+
+def mean_speed(hold):
+    """The mean speed (…), m/s, of what takes the path (…, n, D), m, over the hold."""
+    return np.linalg.norm(np.diff(hold, axis=-2), axis=-1).sum(axis=-1) / HOLD
+
 
 def reach(excitations, perturbation=UNPERTURBED, hold=HOLD):
     """The `HeldMotion` from rest in `START`: excitations (…, T, 6), then `hold` s of the last."""

@@ -19,14 +19,15 @@ BEYOND = np.array([0.085, -0.01, -0.025])  # m from the wrist to what the hand h
 CLOSING = 0.25  # s before a movement's end in which a grasping hand closes
 
 
-def arm_scene(q, activation=6 * (0,), turn=0.0, photo=None, balls=(), grasp=False):
+def arm_scene(q, activation=6 * (0,), turn=0.0, photo=None, balls=(), grasp=False, end=None):
     """The arm in posture q (2,), in radians, on a trunk turned by `turn`; or in a movement.
 
     A movement has q (T, 2) and `activation` (T, 6), a sample every millisecond, and `turn` one or
     (T,). Muscles redden with `activation` (6,). `photo` puts its shuttlecock and its cup on the
     table; `balls` are (position (3,), colour name) pairs, the green one is the target. Where there
     is neither, there is no table: a hanging arm would reach through it. With `grasp` the hand
-    closes: at once, or at the end of the movement.
+    closes: at once, or at the end of the movement. `end` is the movement's end point (3,) and how
+    fast the hand still is there, in m/s: a red diamond, on a line from the target.
     """
     from vmc_lib.show import props  # here, with meshcat
 
@@ -48,6 +49,12 @@ def arm_scene(q, activation=6 * (0,), turn=0.0, photo=None, balls=(), grasp=Fals
         props.ball(scene[f"goal/ball{i}"], position, colour)
         if colour == "green":
             scene.tell("target", np.round(position, 5).tolist())
+            if end:
+                place, speed = end
+                props.diamond(scene["goal/end"], place, "red")
+                props.line(scene["goal/miss"], (position, place), "red")
+                off = float(np.linalg.norm(np.subtract(place, position)))
+                scene.tell("end", {"off": round(off, 5), "speed": round(float(speed), 5)})
     return scene
 
 

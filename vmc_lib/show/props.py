@@ -32,13 +32,31 @@ def table(part):
 
 def ball(part, position, colour):
     """A small ball in a named colour; nothing hides it, nor its halo, which hides little itself."""
-    colour = int(COLOURS[colour][1:], 16)
     for name, radius, opacity in (("core", 0.006, 0.9), ("halo", 0.02, 0.2)):
-        part[name].set_object(
-            g.Sphere(radius), g.MeshBasicMaterial(color=colour, opacity=opacity, depthTest=False)
-        )
-        part[f"{name}/<object>"].set_property("castShadow", False)
+        _mark(part[name], g.Sphere(radius), colour, opacity)
     part.set_transform(place(position))
+
+
+def diamond(part, position, colour):
+    """A small octahedron in a named colour, which nothing hides."""
+    _mark(part, lathe([(0, -0.009), (0.009, 0), (0, 0.009)], sides=4), colour)
+    part.set_transform(place(position))
+
+
+def line(part, ends, colour):
+    """A thin line between two ends (2, 3) in a named colour, which nothing hides."""
+    points = g.PointsGeometry(np.transpose(ends).astype(np.float32))
+    part.set_object(g.Line(points, g.LineBasicMaterial(color=_number(colour), depthTest=False)))
+
+
+def _mark(part, shape, colour, opacity=0.9):
+    paint = g.MeshBasicMaterial(color=_number(colour), opacity=opacity, depthTest=False)
+    part.set_object(shape, paint)
+    part["<object>"].set_property("castShadow", False)
+
+
+def _number(colour):
+    return int(COLOURS[colour][1:], 16)
 
 
 def shuttlecock(part, photo):

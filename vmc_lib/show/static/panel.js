@@ -80,17 +80,19 @@ const vmcPanel = (() => {
     return box;
   };
 
-  /* The joints' angles, and how far the hand is from the target. */
+  /* The joints' angles, how far the hand is from the target now, and how the movement ends. */
   const numbers = (view) => {
     const box = element(`<dl class="vmc-numbers simple"></dl>`);
     view.listeners.push((pose) => {
       if (!pose) return;
       const rows = [["shoulder", degrees(pose.q[0])], ["elbow", degrees(pose.q[1])]];
-      const { target } = view.settings;
+      const { target, end } = view.settings;
       if (target) {
         const off = vmcAnatomy.distance(view.anatomy.wrist(pose.q, pose.turn), target);
-        rows.push(["hand to target", `${(1000 * off).toFixed(1)} mm`]);
+        rows.push(["hand to target now", `${(1000 * off).toFixed(1)} mm`]);
       }
+      if (end) rows.push(["end point to target", `${(1000 * end.off).toFixed(1)} mm`],
+        ["speed in the hold", `${(1000 * end.speed).toFixed(0)} mm/s`]);
       box.innerHTML = rows.map(([name, text]) => `<div><dt>${name}</dt><dd>${text}</dd></div>`).join("");
     });
     return box;

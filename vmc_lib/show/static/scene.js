@@ -1,5 +1,5 @@
 /* Shows recorded meshcat scenes. A scene is a list of "type path property|base64" messages, and of a
-   few that meshcat has no command for, "name|JSON": camera, anatomy, motion, target. Given the next
+   few that meshcat has no command for, "name|JSON": camera, anatomy, motion, target, end. Given the next
    scene, a view sends its viewer only what differs. In the page the viewer is fetched from the book's
    own files when a scene comes into sight; a live kernel sends it. */
 const vmcScene = (() => {
