@@ -121,8 +121,9 @@ def movement(elbow):
     """The elbow bends, the shoulder stays; a target where the hand ends."""
     angles = np.linspace([0.0, 1.0], [0.0, elbow], 201)
     course = '<svg viewBox="0 0 9 9"><g data-course="0,0 1,2 4,6"><circle r="1"/></g></svg>'
-    balls, end = [(hand(angles[-1]), "green")], (hand(angles[-1]) + [0, 0.004, 0], 0.0123)
-    return course, arm_scene(angles, np.linspace(6 * [0], 6 * [1], 201), balls=balls, end=end)
+    place, beside = hand(angles[-1]), np.array([0, 0.004, 0])
+    marks = {"balls": [(place, "green")], "end": (place + beside, 0.0123)}
+    return course, arm_scene(angles, np.linspace(6 * [0], 6 * [1], 201), **marks)
 
 
 MOVEMENT = {"alt": lambda elbow: f"to {elbow}", "elbow": Slider([1.2, 1.5], "to")}
