@@ -18,7 +18,7 @@ START = habits.START @ plant.JOINT_COUPLING.T  # (18,)
 
 
 def arm(past, rest):
-    """The arm and its memories, at rest with activations (63,), as `live_whole_arm` takes it."""
+    """The arm in its start posture, with activations (63,), and its memories (`live_whole_arm`)."""
     surfaces = json.loads(bones.FILE.read_bytes())
     _, ways = lines(START)
     still = {
