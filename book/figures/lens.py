@@ -23,7 +23,7 @@ def lens(photo, box, reach, motion=None):
 
     motions = [] if motion is None else [reach.planned, motion]
     [true, *ends] = flat([photo.target, *map(reach.end_point, motions)])
-    scale = min(MOST, LONG / np.abs([true, *ends]).max())
+    scale = LONG / max(LONG / MOST, np.abs([true, *ends]).max())
     x, y = _corner(box)
     parts = [f'<circle r="{RADIUS}" fill="#10151c" fill-opacity=".85" stroke="none"/>']
     if motions:

@@ -85,6 +85,13 @@ def test_target_is_offset_by_the_length_of_the_hand():
     assert message(scene, "target") == list(place)
 
 
+def test_a_scene_tells_where_a_movement_ends_and_how_fast_the_hand_is_there():
+    target, place = (0.2, -0.39, 0.1), (0.2, -0.38, 0.1)
+    scene = arm_scene((-0.3, 1.0), balls=[(target, "green")], end=(place, 0.0123))
+    assert message(scene, "end") == {"off": 0.01, "speed": 0.0123}
+    assert np.allclose(decode(scene)["set_transform /meshcat/goal/end "]["matrix"][12:15], place)
+
+
 def projects_into(photo, point, name):
     pixel, box = photo.camera.project(point)[0], photo.boxes[name]
     return (box[:2] < pixel).all() and (pixel < box[2:]).all()
