@@ -5,7 +5,7 @@ import numpy as np
 from vmc_lib.arm.kinematics import to_world
 from vmc_lib.show.palette import ON_PHOTO
 
-RADIUS, MOST = 84, 4.0  # pixels; pixels a mm, at most: less where a mark would lie outside
+RADIUS, MOST = 104, 5.0  # pixels; pixels a mm, at most: less where a mark would lie outside
 LONG = 0.7 * RADIUS  # pixels from the middle, where marks still lie inside
 
 
@@ -30,12 +30,12 @@ def lens(photo, box, reach, motion=None):
         way = scale * flat(to_world(motion.wrist[::5], reach.turn))
         first, last = scale * np.array(ends)
         if motion is not reach.planned:
-            parts += [_line([[0, 0], first], "grey", dashed=True), _circle(first, 5, "grey")]
-        parts += [_line(way, "orange"), _line([[0, 0], last], "red"), _circle(last, 5, "red", True)]
-    parts += [_line(scale * true + np.outer([-6, 6], way), "ink") for way in ([1, 1], [1, -1])]
-    parts += [_circle([0, 0], 9, "green"), _bar(scale)]
+            parts += [_line([[0, 0], first], "grey", dashed=True), _circle(first, 7, "grey")]
+        parts += [_line(way, "orange"), _line([[0, 0], last], "red"), _circle(last, 6, "red", True)]
+    parts += [_line(scale * true + np.outer([-8, 8], way), "ink") for way in ([1, 1], [1, -1])]
+    parts += [_circle([0, 0], 10, "green"), _bar(scale)]
     inside = "\n".join(parts)
-    return f'<g transform="translate({x} {y})" stroke-width="2">{inside}</g>\n'
+    return f'<g transform="translate({x} {y})" stroke-width="3">{inside}</g>\n'
 
 
 def _corner(box):
@@ -49,7 +49,7 @@ def _corner(box):
 def _bar(scale):
     """A bar of 1 cm, or of 5 cm where that would be short, with its length."""
     mm = 10 if 10 * scale > 15 else 50
-    y, half = RADIUS - 14, mm * scale / 2
+    y, half = RADIUS - 16, mm * scale / 2
     text = f'<text y="{y - 8}" text-anchor="middle" stroke="none" fill="{ON_PHOTO["ink"]}">'
     return f"{_line([[-half, y], [half, y]], 'ink')}{text}{mm // 10} cm</text>"
 

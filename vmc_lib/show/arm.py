@@ -54,7 +54,7 @@ def arm_scene(q, activation=6 * (0,), turn=0.0, photo=None, balls=(), grasp=Fals
                 props.diamond(scene["goal/end"], place, "red")
                 props.line(scene["goal/miss"], (position, place), "red")
                 off = float(np.linalg.norm(np.subtract(place, position)))
-                scene.tell("end", {"off": round(off, 5), "speed": round(float(speed), 5)})
+                scene.tell("end", {"off": round(off, 7), "speed": round(float(speed), 7)})
     return scene
 
 

@@ -39,7 +39,7 @@ def ball(part, position, colour):
 
 def diamond(part, position, colour):
     """A small octahedron in a named colour, which nothing hides."""
-    _mark(part, lathe([(0, -0.009), (0.009, 0), (0, 0.009)], sides=4), colour)
+    _mark(part, lathe([(0, -0.011), (0.011, 0), (0, 0.011)], sides=4), colour)
     part.set_transform(place(position))
 
 
