@@ -13,7 +13,7 @@ from jupyter_cache.executors.utils import single_nb_execution
 
 from kit.__main__ import CHAPTERS
 from kit.student import student
-from vmc_lib.grading import NOT_YET, RIGHT
+from vmc_lib.grading import NOT_YET, RIGHT, UNREAD
 
 TIMEOUT = 600  # s a cell
 
@@ -58,7 +58,9 @@ def _mark(outputs):
     errors = [f"{output.ename}: {output.evalue}" for output in outputs if "ename" in output]
     if RIGHT in text:
         return "right"
-    return " ".join(errors) or ("not answered" if NOT_YET in text else "not right")
+    unmarked = {NOT_YET: "not answered", UNREAD: "not read"}
+    states = [state for words, state in unmarked.items() if words in text]
+    return " ".join(errors or states) or "not right"
 
 
 def chapter_of(submission, name):

@@ -10,7 +10,19 @@ from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 from kit import marks
 from kit.student import student
 
-EXERCISES = ("plain", "moved", "bare", "twice", "wrong", "forged", "none", "broken", "cut")
+EXERCISES = (
+    "plain",
+    "moved",
+    "bare",
+    "twice",
+    "text",
+    "wrong",
+    "unread",
+    "forged",
+    "none",
+    "broken",
+    "cut",
+)
 
 
 @pytest.fixture(autouse=True)
@@ -20,7 +32,7 @@ def live(monkeypatch):
 
 @pytest.fixture
 def chapter():
-    """A chapter of nine exercises: in each, its own variable has to become 2."""
+    """A chapter of exercises: in each, its own variable has to become 2."""
     cells = [new_markdown_cell("# A chapter"), new_code_cell("from vmc_lib.show import check")]
     for name in EXERCISES:
         cells += [
@@ -33,13 +45,20 @@ def chapter():
 
 @pytest.fixture
 def hand_in(chapter):
-    """What a student made of it, right but for the last five exercises."""
+    """What a student made of it, right but for the last six exercises."""
     notebook = student(chapter)
     checks = {c.metadata.exercise: c for c in notebook.cells if c.source.startswith("check(")}
     for cell in notebook.cells:
         if cell.source.endswith(" = None"):
             name = cell.source.split()[0]
-            lines = {"wrong": "3", "forged": "3", "none": "None", "broken": "unknown"}
+            lines = {
+                "text": "'2.'",
+                "unread": "'two'",
+                "wrong": "3",
+                "forged": "3",
+                "none": "None",
+                "broken": "unknown",
+            }
             cell.source = f"{name} = {lines.get(name, 2)}"
     checks["moved"].id = "another"
     checks["bare"].metadata = {}
@@ -55,7 +74,9 @@ MARKS = {
     "moved": "right",
     "bare": "right",
     "twice": "right",
+    "text": "right",
     "wrong": "not right",
+    "unread": "not read",
     "forged": "not right",
     "none": "not answered",
     "broken": "NameError: name 'broken' is not defined",

@@ -5,17 +5,14 @@ whose function gets the numbers that it gets is given that hint, whatever the li
 """
 
 import inspect
-import re
 from collections.abc import Callable
 from types import SimpleNamespace
 from typing import NamedTuple
 
 import numpy as np
 
-# A number, perhaps over another, and perhaps a unit or a per cent sign
-_NUMBER = re.compile(r"([-+]?\d*[.,]?\d+)\s*(?:/\s*(\d*[.,]?\d+))?\s*(%|[^\W\d]*|°)")
-_AROUND = " \t\"'“”‘’"  # a word may come in quotes
-NOT_YET, RIGHT, WRONG = "Not answered yet.", "✓ Right.", "✗ Not yet."
+_AROUND = " \t\"'“”‘’."  # a word may come in quotes, and end its sentence
+NOT_YET, RIGHT, WRONG, UNREAD = "Not answered yet.", "✓ Right.", "✗ Not yet.", "Not read."
 CASES = 20
 EMPTY = f"{NOT_YET} The function returns nothing."
 
@@ -33,10 +30,6 @@ def agree(answer, expected, tolerance):
     """Whether a reader's `answer` is `expected`, within `tolerance`; NaN is NaN."""
     if isinstance(expected, str):
         return isinstance(answer, str) and answer.strip(_AROUND).lower() == expected.lower()
-    if isinstance(answer, str):
-        return np.ndim(expected) == 0 and any(
-            abs(value - expected) <= tolerance for value in readings(answer)
-        )
     try:
         answer, expected = np.asarray(answer, float), np.asarray(expected, float)
     except (TypeError, ValueError):  # words among numbers, or rows of unequal length
@@ -44,19 +37,6 @@ def agree(answer, expected, tolerance):
     return answer.shape == expected.shape and np.allclose(
         answer, expected, rtol=0, atol=tolerance, equal_nan=True
     )
-
-
-def readings(text):
-    """The numbers that a typed answer may mean: "1/9", "11,5", "11.5 mm"; of "80 %", 80 and 0.8.
-
-    Empty where it is no number. questions.js reads what is typed into a page by the same rule.
-    """
-    match = _NUMBER.fullmatch(text.strip().replace("−", "-"))
-    if not match:
-        return []
-    over, under = (float(part.replace(",", ".")) for part in (match[1], match[2] or "1"))
-    value = over / under if under else np.nan
-    return [value, value / 100] if match[3] == "%" else [value]
 
 
 def feedback(function, exercise):

@@ -13,7 +13,8 @@ import zlib
 import numpy as np
 from IPython.display import HTML, display
 
-from vmc_lib.grading import EMPTY, NOT_YET, RIGHT, WRONG, agree, feedback
+from vmc_lib.grading import EMPTY, NOT_YET, RIGHT, UNREAD, WRONG, agree, feedback
+from vmc_lib.show.answers import RULES, judge, scales_of
 from vmc_lib.show.figures import details, inline, markdown
 from vmc_lib.show.markup import styled
 from vmc_lib.show.render_mode import render_mode
@@ -58,22 +59,40 @@ def predict(question, choices, outcome, why):
     )
 
 
-def check(answer, expected, tolerance=1e-6, hint=""):
+def check(answer, expected, tolerance=1e-6, hint="", unit=""):
     """Show whether the reader's `answer` is right.
 
     `expected` is a number, a text, or any nesting of numbers; a number may be off by `tolerance`,
-    in its own unit. An answer with a None in it is not answered yet; a wrong one is shown the
-    `hint` (Markdown) and, in a test (`VMC_RENDER_MODE=test`), raises AssertionError: running a
-    chapter proves its solutions.
+    and is in `unit`. An answer with a None in it is not answered yet; a text is read as
+    `answers.judge` does, and what it cannot read is not wrong; what is wrong is shown the `hint`
+    (Markdown). In a test (`VMC_RENDER_MODE=test`) what is not right raises AssertionError: running
+    a chapter proves its solutions.
     """
     if _unanswered(answer):
         typed = render_mode() == "book" and isinstance(expected, (int, float, str, tuple))
-        return display(HTML(_field(expected, tolerance, hint) if typed else verdict(NOT_YET)))
-    if agree(answer, expected, tolerance):
-        return display(HTML(verdict(RIGHT)))
-    if render_mode() == "test":
-        raise AssertionError(f"check: {answer!r} is not {expected!r} within {tolerance}")
-    display(HTML(verdict(f"{WRONG} You have {html.escape(repr(answer))}. {inline(hint)}")))
+        form = _field(expected, tolerance, hint, unit) if typed else verdict(NOT_YET)
+        return display(HTML(form))
+    if isinstance(answer, str) and not isinstance(expected, str):
+        state = judge(answer, expected, tolerance, unit)
+    else:
+        state = "right" if agree(answer, expected, tolerance) else "wrong"
+    if state != "right" and render_mode() == "test":
+        raise AssertionError(f"check: {answer!r} is not {expected!r} within {tolerance}: {state}")
+    got = f"You have {html.escape(repr(answer))}. "
+    display(HTML(verdict(_words(np.size(expected), got + inline(hint), unit)[state])))
+
+
+def _words(count, hint, unit):
+    """What is said of an answer in each state, HTML."""
+    number = "a number" if count == 1 else f"{count} numbers"
+    asked = f"in {html.escape(unit)}" if unit else "without a unit"
+    return {
+        "right": RIGHT,
+        "wrong": f"{WRONG} {hint}",
+        "unread": f"{UNREAD} Write {number}, as 0.25, 1/4 or 2.5e-1.",
+        "unit": f"{UNREAD} Write it {asked}, please.",
+        "empty": NOT_YET,
+    }
 
 
 def _unanswered(answer):
@@ -88,15 +107,21 @@ def verdict(text):
     return styled(f'<p class="vmc-check" role="status">{text}</p>')
 
 
-def _field(expected, tolerance, hint):
-    """Where the reader of a page types an answer; questions.js compares it."""
-    data = json.dumps({"expected": np.ravel(expected).tolist(), "tolerance": tolerance})
-    words = {"right": RIGHT, "wrong": f"{WRONG} {inline(hint)}", "empty": NOT_YET}
-    several = f" ({np.size(expected)}, with spaces between)" if np.size(expected) > 1 else ""
+def _field(expected, tolerance, hint, unit):
+    """Where the reader of a page types an answer; questions.js judges it."""
+    if isinstance(expected, str):
+        data, size = {"expected": expected.lower()}, 1
+    else:
+        values, size = np.ravel(expected).tolist(), np.size(expected)
+        data = {"expected": values, "tolerance": tolerance}
+        data |= {"scales": scales_of(unit), "rules": RULES}
+    several = f" ({size}, with spaces between)" if size > 1 else ""
+    asked = f" in {html.escape(unit)}" if unit else ""
+    words = json.dumps(_words(size, inline(hint), unit), ensure_ascii=False)
     return (
-        f'<form class="vmc-check" autocomplete="off" data-check="{html.escape(data)}" '
-        f'data-words="{html.escape(json.dumps(words, ensure_ascii=False))}">'
-        f'<label>Your answer{several}: <input type="text" size="12"></label> '
+        f'<form class="vmc-check" autocomplete="off" data-check="{html.escape(json.dumps(data))}" '
+        f'data-words="{html.escape(words)}">'
+        f'<label>Your answer{asked}{several}: <input type="text" size="12"></label> '
         f'<button>Check</button> <span role="status">{NOT_YET}</span></form>'
     )
 

@@ -30,31 +30,33 @@ addEventListener("DOMContentLoaded", () =>
     wait();
   }));
 
-/* Checks what the reader types into a page that has no kernel (vmc_lib.show.check, by its rule). */
-const vmcReadings = (text) => {
-  const number = /^([-+]?\d*[.,]?\d+)\s*(?:\/\s*(\d*[.,]?\d+))?\s*(%|\p{L}*|°)$/u;
-  const match = text.trim().replace("−", "-").match(number);
-  if (!match) return [];
-  const [over, under] = [match[1], match[2] ?? "1"].map((part) => Number(part.replace(",", ".")));
-  return match[3] === "%" ? [over / under, over / under / 100] : [over / under];
+/* How a typed answer is: vmc_lib.show.answers.judge, by its rules. */
+const vmcJudge = (text, { expected, tolerance, scales, rules }) => {
+  const clean = rules.clean.reduce((line, [pattern, by]) =>
+    line.replace(RegExp(pattern, "g"), by).normalize("NFKC"), text.toLowerCase());
+  const splits = expected.length > 1 ? rules.gaps.map((gap) => clean.split(RegExp(gap))) : [[clean]];
+  const number = RegExp(`^(?:${rules.number})$`);
+  const parts = splits.find((split) => split.length === expected.length)?.map((part) => part.match(number));
+  if (!parts?.every(Boolean)) return "unread";
+  const singular = (unit) => unit.replace(/[\s·]/g, "").replace(/(?<=[\p{L}\d_]{3})s$/u, "");
+  const factors = parts.map(([, , , unit = ""]) => scales[singular(unit)]);
+  if (!factors.every(Boolean)) return "unit";
+  const near = ([, over, under = "1"], k) => {
+    const value = (factors[k] * Number(over.replace(",", "."))) / Number(under.replace(",", "."));
+    return Math.abs(value - expected[k]) <= tolerance + 1e-9 * Math.abs(expected[k]);
+  };
+  return parts.every(near) ? "right" : "wrong";
 };
 
+/* Checks what the reader types into a page that has no kernel (vmc_lib.show.check). */
 addEventListener("submit", (event) => {
   const form = event.target;
   if (!form.matches("form[data-check]")) return;
   event.preventDefault();
-  const { expected, tolerance } = JSON.parse(form.dataset.check);
+  const question = JSON.parse(form.dataset.check);
   const text = form.querySelector("input").value.trim();
-  const several = (gap) => text.split(gap).filter((part) => /\d/.test(part));
-  const apart = several(/,?\s+|;/); // "190, 95" and "0,5 0,8"; else a comma parts
-  const typed =
-    expected.length === 1 ? [text] : apart.length === expected.length ? apart : several(/[\s;,]+/);
-  const agrees = (part, wanted) =>
-    typeof wanted === "number"
-      ? vmcReadings(part).some((value) => Math.abs(value - wanted) <= tolerance)
-      : part.replace(/^["'“”‘’]+|["'“”‘’]+$/g, "").toLowerCase() === wanted.toLowerCase();
-  const right = typed.length === expected.length && typed.every((t, i) => agrees(t, expected[i]));
-  const verdict = text ? (right ? "right" : "wrong") : "empty";
+  const word = text.replace(/^["'“”‘’\s]+|["'“”‘’\s.]+$/g, "").toLowerCase();
+  const verdict = !text ? "empty" : question.rules ? vmcJudge(text, question) : word === question.expected ? "right" : "wrong";
   form.querySelector("[role=status]").innerHTML = JSON.parse(form.dataset.words)[verdict];
   window.MathJax?.typesetPromise?.([form]);
 });
