@@ -1,5 +1,7 @@
 """Chapters are executed side by side, and only those that changed or whose library did.
 
+One that raises or writes to stderr has failed: it is executed again, and never published.
+
 The outputs wait in a cache whose folder is named after everything that a chapter can import: when
 one line of that changes, the folder is another one, and empty.
 """
@@ -16,6 +18,7 @@ from joblib import cpu_count
 from jupyter_cache import get_cache
 from jupyter_cache.base import CacheBundleIn
 from jupyter_cache.executors.utils import single_nb_execution
+from sphinx.application import ENV_PICKLE_FILENAME
 from sphinx.errors import ExtensionError
 from sphinx.util import logging
 
@@ -30,6 +33,7 @@ def setup(app):
     gc.disable()  # it looked through all pages' nodes again and again: a fifth of a build
     app.connect("config-inited", name_cache)
     app.connect("env-before-read-docs", execute_what_changed)
+    app.connect("build-finished", read_again_what_warned)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
 
 
@@ -100,14 +104,22 @@ def execute(page, timeout):
         "force_raise_errors": True,  # also where a reader's error does not stop Run All
     }
     result = single_nb_execution(notebook, page.parent, timeout, allow_errors=False, **options)
-    return notebook, result.time, result.err and where(notebook, result.err)
+    return notebook, result.time, failure(notebook, result.err)
 
 
-def where(notebook, error):
-    """The cell that failed, by its first line, and what it said."""
+def failure(notebook, error):
+    """The cell that failed, by its first line, and what it said; None where none did."""
     for cell in notebook.cells:
         for output in cell.get("outputs", []):
+            at = f"cell {cell.id} (`{cell.source.splitlines()[0]}`)"
             if output.output_type == "error":
-                first = cell.source.splitlines()[0]
-                return f"cell {cell.id} (`{first}`): {output.ename}: {output.evalue}"
-    return f"{type(error).__name__}: {error}"
+                return f"{at}: {output.ename}: {output.evalue}"
+            if output.get("name") == "stderr":
+                return f"{at} wrote to stderr: {output.text.strip()}"
+    return error and f"{type(error).__name__}: {error}"
+
+
+def read_again_what_warned(app, exception):
+    """Forget the pages of a build that warned: the next one, of the same state, warns as well."""
+    if app._warncount:
+        (Path(app.doctreedir) / ENV_PICKLE_FILENAME).unlink(missing_ok=True)
