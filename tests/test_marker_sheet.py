@@ -9,30 +9,38 @@ from render import scene
 from reproduce import results
 from reproduce.experiments import printed_sheet
 from vmc_lib import marker_sheet, photos
-from vmc_lib.camera import TABLE
+from vmc_lib.camera import TABLE, Camera
 from vmc_lib.photos import HEIGHT, WIDTH
 
 SHOTS = photos.load(photos.SHEET_LEVEL, "test")
 
 
 def draw_sheet(eye, scale=4, size=1):
-    """The sheet on a grey table, as a camera sees it: by the homography of its page.
+    """The sheet on a grey table, as a camera sees it: where the ray of each pixel meets its page.
 
     `size` is how many times as wide and high the photo is as the eye's.
     """
-    corners = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
-    projection = eye.project(
-        marker_sheet.CORNER + corners * marker_sheet.PAGE / 1000 @ marker_sheet.AXES[:2]
-    )
     print_ = cv2.resize(
         marker_sheet.page_image(), None, fx=8, fy=8, interpolation=cv2.INTER_NEAREST
     )
-    to = cv2.getPerspectiveTransform(
-        np.float32(corners * marker_sheet.PAGE * 8), np.float32(scale * projection)
-    )
-    big = cv2.warpPerspective(print_, to, (scale * WIDTH, scale * HEIGHT), borderValue=120)
+    shape = scale * HEIGHT, scale * WIDTH
+    rays = eye.rays((np.indices(shape)[::-1].reshape(2, -1).T + 0.5) / scale)
+    depth = (TABLE - eye.position[1]) / rays[:, 1]
+    page = (eye.position + depth[:, None] * rays - marker_sheet.CORNER) @ marker_sheet.AXES[:2].T
+    page[depth < 0] = -1  # above the horizon
+    right, down = np.float32(8000 * page.T.reshape(2, *shape) - 0.5)
+    big = cv2.remap(print_, right, down, cv2.INTER_LINEAR, borderValue=120)
     shape = size * WIDTH, size * HEIGHT
     return np.dstack([cv2.resize(big, shape, interpolation=cv2.INTER_AREA)] * 3)
+
+
+def looking(position, at, focal):
+    """A level camera at a position (m) that looks at a place (m)."""
+    forward = np.subtract(at, position) / np.linalg.norm(np.subtract(at, position))
+    right = np.cross(forward, [0, 1, 0])
+    right /= np.linalg.norm(right)
+    rotation = np.array([right, np.cross(forward, right), forward])
+    return Camera(focal, np.array([WIDTH, HEIGHT]) / 2, rotation, np.array(position))
 
 
 @pytest.mark.parametrize("focal", [420.0, 600.0, 800.0])
@@ -44,6 +52,25 @@ def test_camera_is_estimated(focal):
     assert np.abs(camera.rotation - eye.rotation).max() < 0.02
     there = np.array([[0.2, TABLE, -0.05]])
     assert camera.back_project(eye.project(there)) == pytest.approx(there, abs=0.003)
+
+
+LOW = {  # a camera, and what it looks at: how far ahead and above the table (m)
+    "forward": ((0.15, 0.12), (0.30, 0.0)),
+    "over its edge": ((0.06, 0.10), (0.25, 0.0)),
+    "steeply": ((0.12, 0.05), (0.20, 0.0)),
+}
+
+
+@pytest.mark.parametrize("places", LOW.values(), ids=LOW)
+def test_a_sheet_that_reaches_behind_the_camera_is_painted_over(places):
+    (ahead, high), (to, low) = places
+    eye = looking((ahead, TABLE + high, 0.2), (to, TABLE + low, 0.22), 480.0)
+    shown = draw_sheet(eye)
+    camera, bare = marker_sheet.remove_sheet(shown)
+    assert camera.focal == pytest.approx(480, rel=0.03)
+    assert camera.position == pytest.approx(eye.position, abs=0.005)
+    assert marker_sheet.estimate_camera(bare) is None
+    assert (np.abs(bare.astype(int) - 120) < 60).all()  # no black or white is left
 
 
 def test_camera_is_none_without_the_sheet():

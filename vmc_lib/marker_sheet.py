@@ -19,6 +19,7 @@ CORNER = np.array([0.337, TABLE, 0.12])  # the page's upper left corner, in the 
 AXES = np.array([[0, 0, 1.0], [-1, 0, 0], [0, -1, 0]])  # right, down the page, into the table
 FIRST = CORNER + MARGIN / 1000 @ AXES[:2]  # of the first marker
 FEWEST = 3  # markers that must be detected
+NEAR = 0.02  # m before the camera: what is nearer is not painted over
 
 
 @cache
@@ -55,13 +56,26 @@ def remove_sheet(photo):
     if camera is None:
         return None, image
     corners = CORNER + np.array([[0, 0], [1, 0], [1, 1], [0, 1]]) * PAGE / 1000 @ AXES[:2]
-    outline = np.int32(np.round(camera.project(corners)))
+    outline = np.int32(np.round(camera.project(_clip(corners, camera))))
     covered = cv2.fillConvexPoly(np.zeros(image.shape[:2], np.uint8), outline, 1)
     covered = cv2.dilate(covered, np.ones((9, 9)))
     around = image[cv2.dilate(covered, np.ones((15, 15))) > covered]
     bare = image.copy()
     bare[covered > 0] = np.median(around if len(around) else image.reshape(-1, 3), axis=0)
     return camera, bare
+
+
+def _clip(polygon, camera):
+    """The part (m, 3) of a polygon (n, 3) before a camera's near plane (Sutherland-Hodgman)."""
+    depth = (polygon - camera.position) @ camera.rotation[2] - NEAR
+    part = []
+    for k, point in enumerate(polygon):
+        if depth[k - 1] * depth[k] < 0:
+            share = depth[k] / (depth[k] - depth[k - 1])
+            part.append(point + share * (polygon[k - 1] - point))
+        if depth[k] >= 0:
+            part.append(point)
+    return np.array(part)
 
 
 def estimate_camera(photo):
