@@ -8,7 +8,8 @@ import pytest
 from PIL import Image
 
 from book.figures import where
-from tests.pages import book_html, displayed
+from tests.pages import book_html, displayed, observe
+from tests.show.kernel import render
 from vmc_lib import photos
 from vmc_lib.where.selective_search import Strategy, hierarchies
 
@@ -110,6 +111,62 @@ def test_the_demo_is_accessible(page, serious):
     assert serious(page, "main") == []
     page.set_viewport_size({"width": 360, "height": 700})
     assert page.evaluate("() => document.documentElement.scrollWidth") <= 360
+
+
+FALSE = """Object.assign(CanvasRenderingContext2D.prototype, { getImageData: (x, y, ...size) => {
+  const picture = new ImageData(...size);
+  picture.data.fill(255);
+  CHANGE;
+  return picture;
+} })"""
+HIDDEN = {  # as Firefox has done it, and as Tor Browser did
+    "noise": FALSE.replace("CHANGE", "picture.data.forEach((_, k, data) => (data[k] = 97 * k))"),
+    "white": FALSE.replace("CHANGE", ""),
+}
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("script", HIDDEN.values(), ids=HIDDEN)
+def test_a_browser_that_falsifies_pixels_says_so(open_page, html, window, script, tmp_path):
+    page = open_page(html, window(script))
+    page.get_by_role("button", name="Play").click()
+    page.get_by_text("hides a picture's pixels").wait_for()
+    assert page.locator("img").is_visible()
+    assert page.locator("canvas").is_hidden()
+    Image.new("RGB", (60, 40), "teal").save(tmp_path / "own.png")
+    before = page.locator("img").get_attribute("src")
+    page.locator("[type=file]").set_input_files(tmp_path / "own.png")
+    page.get_by_text("own.png stays").wait_for()
+    assert page.get_by_role("button", name="Play").is_visible()
+    assert page.locator("img").get_attribute("src") == before
+
+
+@pytest.mark.browser
+def test_noise_too_weak_to_change_a_picture_is_no_reason_to_stop(open_page, html, window):
+    weak = """const get = CanvasRenderingContext2D.prototype.getImageData;
+      CanvasRenderingContext2D.prototype.getImageData = function (...area) {
+        const picture = get.apply(this, area);
+        for (let k = 0; k < picture.data.length; k += 4) picture.data[k] ^= 1;
+        return picture;
+      };"""
+    page = open_page(html, window(weak))
+    page.get_by_role("slider").first.press("ArrowRight")
+    page.get_by_text("so far").wait_for()
+
+
+@pytest.mark.browser
+def test_no_false_pixels_travel_to_a_kernel(monkeypatch, window, tmp_path):
+    widgets, asked = displayed(monkeypatch, where), []
+    monkeypatch.setattr(where, "figure", lambda *_: None)
+    monkeypatch.setenv("VMC_RENDER_MODE", "live")
+    where.photo_upload(asked.append, SHOTS[0].image, "caption", "alt")
+    page = observe(window(HIDDEN["noise"]).new_page())
+    render(page, widgets[-1], monkeypatch)
+    Image.new("RGB", (60, 40), "teal").save(tmp_path / "own.png")
+    page.locator("[type=file]").set_input_files(tmp_path / "own.png")
+    page.get_by_text("hides a picture's pixels").wait_for()
+    assert len(asked) == 1  # our own photo
+    assert page.errors == []
 
 
 def test_in_a_kernel_it_is_the_same_page(monkeypatch):

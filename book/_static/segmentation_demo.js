@@ -10,9 +10,14 @@ const vmcSegmentationDemo = (box) => {
 
   const look = (picture) => {
     context = vmcDrawScaled(picture, Math.sqrt(AREA / (picture.width * picture.height)), canvas);
+    if (!context) {
+      stop();
+      strip.textContent = vmcPixelsHidden;
+      return false;
+    }
     photo = context.getImageData(0, 0, canvas.width, canvas.height);
     search = tree = null;
-    canvas.hidden = true;
+    return (canvas.hidden = true);
   };
 
   /* The segments and all regions above them, with their mean colours as four bytes. */
@@ -54,7 +59,7 @@ const vmcSegmentationDemo = (box) => {
   /* To cut takes a moment: say so, and begin when that can be seen. Only the last who asked is answered. */
   const drawn = () => new Promise((done) => {
     const mine = ++asked;
-    if (!photo) look(still);
+    if (!photo && !look(still)) return;
     if (tree?.scale !== scale()) strip.textContent = "Cutting …";
     requestAnimationFrame(() => setTimeout(() => mine === asked && done(draw())));
   });
@@ -83,7 +88,7 @@ const vmcSegmentationDemo = (box) => {
       : `This browser cannot read ${chosen.name}: save it, or a phone's HEIC, as a JPEG or PNG.`;
     if (!picture) return;
     merged.value = 0;
-    look(picture);
+    if (!look(picture)) return;
     still.src = canvas.toDataURL("image/jpeg", 0.9);
     run();
   };

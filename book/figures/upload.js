@@ -8,7 +8,7 @@ const vmcUpload = (box, _, ask) => {
     const bitmap = await createImageBitmap(file);
     const scale = Math.min(1, LARGEST / Math.max(bitmap.width, bitmap.height));
     const canvas = document.createElement("canvas");
-    vmcDrawScaled(bitmap, scale, canvas);
+    if (!vmcDrawScaled(bitmap, scale, canvas)) throw vmcPixelsHidden;
     return canvas.toDataURL("image/jpeg", 0.92);
   };
 
@@ -18,9 +18,9 @@ const vmcUpload = (box, _, ask) => {
     if (!file) return;
     view.innerHTML = "";
     say.textContent = `Looking at ${file.name} …`;
-    const photo = await small(file).catch(() => null);
-    const drawn = photo ? await ask("photo", photo)
-      : { error: "this browser cannot read it. Save it, or a phone's HEIC, as a JPEG or PNG." };
+    const unread = "this browser cannot read it. Save it, or a phone's HEIC, as a JPEG or PNG.";
+    const why = (error) => ({ error: error === vmcPixelsHidden ? error : unread });
+    const drawn = await small(file).then((photo) => ask("photo", photo), why);
     say.textContent = `${file.name}: ${drawn.error ?? "seen."}`;
     if (!drawn.error) view.innerHTML = drawn;
   });
