@@ -80,8 +80,7 @@ $(BUILT): $(READY) $(INPUTS)
 	@mv _build/.begun $@  # of the time of its beginning: what was saved since is newer
 
 $(READY): requirements.txt constraints.txt pyproject.toml
-	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info[:2] < (3, 11))' || \
-	  { echo "Python 3.11 or newer is needed: make PYTHON=python3.11"; exit 1; }
+	@$(PYTHON) tools/supported.py
 	@$(PYTHON) -m venv .venv || { echo "Python's venv is missing: sudo apt install python3-venv"; exit 1; }
 	$(call install,$(BIN))
 	@touch $@
