@@ -106,6 +106,14 @@ def test_nms_needs_one_finite_score_a_box(scores):
         nms([(0, 0, 1, 1), (0, 0, 2, 2)], scores)
 
 
+def test_nms_names_the_value_that_it_cannot_take():
+    with pytest.raises(ValueError, match="not \\[nan\\]"):
+        nms([(0, 0, 1, 1)], [np.nan])
+    for overlap in (np.nan, -0.1, 30):
+        with pytest.raises(ValueError, match=f"overlap = {overlap}"):
+            nms([(0, 0, 1, 1)], [1], overlap)
+
+
 def test_vote_moves_a_box_towards_its_neighbours():
     crowd = np.array([[0, 0, 10, 10], [0, 0, 12, 10], [50, 50, 60, 60]], float)
     voted = vote(np.array([0]), crowd, np.array([2.0, 2.0, 3.0]))

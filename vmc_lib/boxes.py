@@ -77,7 +77,7 @@ def nms(boxes, scores, overlap=0.3):
     Raises
     ------
     ValueError
-        If there is not one finite score for each box.
+        If there is not one finite score for each box, or no such overlap.
 
     References
     ----------
@@ -90,7 +90,10 @@ def nms(boxes, scores, overlap=0.3):
     """
     boxes, scores = as_boxes(boxes), np.asarray(scores, float)
     if scores.shape != (len(boxes),) or not np.isfinite(scores).all():
-        raise ValueError(f"{len(boxes)} boxes need as many finite scores, not {scores.shape}")
+        got = f"shape {scores.shape}" if scores.shape != (len(boxes),) else scores
+        raise ValueError(f"{len(boxes)} boxes need as many finite scores, not {got}")
+    if not 0 <= overlap <= 1:
+        raise ValueError(f"overlap = {overlap}: an IoU is within 0..1")
     waiting, kept = np.argsort(-scores, kind="stable"), []
     while len(waiting):
         best, rest = waiting[0], waiting[1:]

@@ -17,6 +17,7 @@ from PIL import Image, ImageOps, UnidentifiedImageError
 from vmc_lib import data
 from vmc_lib.boxes import as_boxes
 from vmc_lib.camera import Camera
+from vmc_lib.colour_profile import to_srgb
 from vmc_lib.compiled import compiled
 
 LEVELS = ("rig", "free", "varied")  # rendered, so that cameras and places are known
@@ -222,21 +223,22 @@ def _means_of_four(image, y, x):
 
 
 def _open(path):
-    path = Path(path).expanduser()
+    if "://" in str(path):
+        raise ValueError(f"{path} is an address: save the photo, and give the path of its file")
     try:
+        path = Path(path).expanduser()
         with Image.open(path) as file:
             if file.mode[0] in "IF":
                 raise ValueError(f"{path} holds more than 8 bits a channel: save it with 8")
             file.draft("RGB", (2 * WIDTH, 2 * HEIGHT))  # of a huge JPEG, not every pixel is read
-            upright = ImageOps.exif_transpose(file)
+            upright = to_srgb(ImageOps.exif_transpose(file))
             return as_rgb(upright.convert("RGBA" if upright.has_transparency_data else "RGB"))
     except FileNotFoundError:
         raise ValueError(f"no photo at {path.absolute()}: is the name right?") from None
     except UnidentifiedImageError:
-        raise ValueError(
-            f"{path} is not an image that can be read: save it, or a phone's HEIC, as a JPEG or PNG"
-        ) from None
-    except (OSError, SyntaxError, Image.DecompressionBombError) as error:
+        remedy = "save it, or a phone's HEIC, as a JPEG or PNG"
+        raise ValueError(f"{path} is not an image that can be read: {remedy}") from None
+    except (OSError, RuntimeError, SyntaxError, Image.DecompressionBombError) as error:
         raise ValueError(f"{path} cannot be read ({error}): is the copy complete?") from None
 
 

@@ -53,7 +53,7 @@ const vmcSegmentationDemo = (box) => {
       canvas.animate({ opacity: [0, 1] }, fade).onfinish = draw;
     }
     if (canvas.getAnimations().length) return; // the words wait for the picture
-    strip.textContent = `${text(regions)} regions so far, a box around each; ${width} × ${height} pixels hold ${text(all)} boxes.`;
+    strip.textContent = `${text(regions)} region${regions > 1 ? "s" : ""} so far, a box around each; ${width} × ${height} pixels hold ${text(all)} boxes.`;
   };
 
   /* To cut takes a moment: say so, and begin when that can be seen. Only the last who asked is answered. */

@@ -87,6 +87,23 @@ def test_a_strategy_refuses_unknown_names():
         ss.Strategy(similarities=(ss.ALL, ("size", "taste")))
 
 
+@pytest.mark.parametrize("k", [(0,), (-5,), (np.nan,), (100, np.inf), 100])
+def test_a_strategy_refuses_scales_that_are_none(k):
+    with pytest.raises(ValueError, match="finite numbers above 0"):
+        ss.Strategy(k=k)
+
+
+@pytest.mark.parametrize("none", ["colours", "k", "similarities"])
+def test_a_strategy_needs_one_of_each(none):
+    with pytest.raises(ValueError, match="grows no hierarchy"):
+        ss.Strategy(**{none: ()})
+
+
+def test_a_seed_stands_for_its_generator(photo):
+    once, again = (ss.propose(photo.image, rng=rng) for rng in (5, np.random.default_rng(5)))
+    assert (once == again).all()
+
+
 def test_a_wider_strategy_contains_a_narrower_one():
     both = ss.Strategy(("HSV", "Lab"))
     single, wide = ({tuple(b) for b in ss.propose(PHOTO, s)} for s in ("single", both))

@@ -108,7 +108,8 @@ ALL, COLOURLESS = MEASURES, MEASURES[1:]
 class Strategy:
     """Which hierarchies to grow: one for every colour space, scale and set of MEASURES.
 
-    ValueError for a name that is none of COLOUR_SPACES, or of MEASURES.
+    ValueError for a name that is none of COLOUR_SPACES, or of MEASURES, for a scale that is no
+    finite number above 0, and where any of the three is empty.
     """
 
     colours: tuple = ("HSV",)
@@ -121,6 +122,11 @@ class Strategy:
             for name in names:
                 if name not in known:
                     raise ValueError(f"{name!r} is none of {', '.join(known)}")
+        scales = np.asarray(self.k, float)
+        if scales.ndim != 1 or not (np.isfinite(scales) & (scales > 0)).all():
+            raise ValueError(f"k = {self.k}: give a tuple of finite numbers above 0")
+        if not (len(self.colours) and len(scales) and len(self.similarities)):
+            raise ValueError(f"{self} grows no hierarchy: give one of each or more")
 
 
 # Uijlings et al. (2013), Table 6. Their fast has k of 50 and 100: ours makes shorter lists, as good
@@ -178,7 +184,7 @@ def propose(image, strategy="single", rng=None, smallest=20):
     ----------
     image : array as `photos.as_float` takes it, of any size
     strategy : name of one of STRATEGIES, or a Strategy
-    rng : numpy.random.Generator of the ranks; without, every call ranks alike
+    rng : numpy.random.Generator of the ranks, or its seed; without, every call ranks alike
     smallest : shortest side of a box, pixels
 
     Returns
@@ -204,4 +210,5 @@ def propose(image, strategy="single", rng=None, smallest=20):
         if strategy not in STRATEGIES:
             raise ValueError(f"strategy {strategy!r} is none of {', '.join(STRATEGIES)}")
         strategy = STRATEGIES[strategy]
-    return rank_boxes(hierarchies(image, strategy), rng or np.random.default_rng(0), smallest)
+    rng = np.random.default_rng(0 if rng is None else rng)
+    return rank_boxes(hierarchies(image, strategy), rng, smallest)
