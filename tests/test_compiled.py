@@ -122,3 +122,32 @@ def test_disk_cache_is_not_used_for_changed_source(run_loop):
 
 def test_disk_cache_survives_a_law_whose_module_is_gone(run_loop):
     assert [run_loop(name, "x * 2")[0] for name in ("old_law", "new_law")] == [5.0, 5.0]
+
+
+def empty(file):
+    file.write_bytes(b"")
+
+
+def cut(file):
+    file.write_bytes(file.read_bytes()[:-20])
+
+
+def foreign(file):
+    file.write_bytes(b"words" * 1000)
+
+
+def unwritable(file):
+    file.unlink()
+    file.mkdir()
+
+
+@pytest.mark.parametrize("kind", ["nbi", "nbc"])
+@pytest.mark.parametrize("harm", [empty, cut, foreign, unwritable])
+def test_a_damaged_disk_cache_is_made_anew(run_loop, tmp_path, harm, kind):
+    run_loop("law", "x * 2")
+    [file] = tmp_path.rglob(f"*.{kind}")
+    harm(file)
+    assert run_loop("law", "x * 2")[0] == 5.0
+    assert file.is_dir() == (harm is unwritable)
+    if harm is not unwritable:
+        assert file.stat().st_size > 500

@@ -3,6 +3,7 @@
 from functools import wraps
 from hashlib import sha256
 from inspect import unwrap
+from logging import getLogger
 from types import CodeType, FunctionType
 from warnings import warn
 
@@ -14,8 +15,9 @@ def compiled(loop):
 
     Numba freezes the module-level constants and functions that a function reads. If one is rebound,
     as chapters invite readers to (not: changed in place), it is compiled again at its next call.
-    The machine code is kept for the next process, where its folder can be written. Without numba,
-    or with what numba cannot compile, a call runs as plain Python, slowly, with a warning.
+    The machine code is kept for the next process, where its folder can be written; what the disk
+    has spoilt is made anew, as the log says. Without numba, or with what numba cannot compile, a
+    call runs as plain Python, slowly, with a warning.
     `__wrapped__` is that plain Python. Arguments are positional; functions that call each other in
     a circle cannot be compiled.
     """
@@ -66,6 +68,7 @@ def _machine(loop, frozen):
     plain.__qualname__ += "-" + sha256(repr(content).encode()).hexdigest()[:12]  # the file's name
     try:
         machine = njit(plain, cache=True, nogil=True)
+        _guard(machine._cache)
     except RuntimeError:  # no folder for the cache
         machine = njit(plain, nogil=True)
 
@@ -77,6 +80,27 @@ def _machine(loop, frozen):
             return loop(*values)
 
     return run
+
+
+def _guard(cache):
+    """Let numba's cache survive files that are cut, empty or foreign, and a disk that is full."""
+
+    def guarded(use):
+        def guard(*values):
+            try:
+                return use(*values)
+            except Exception as error:  # from pickle anything
+                getLogger(__name__).info("%s is made anew: %r", cache.cache_path, error)
+                try:
+                    cache.flush()
+                except OSError:  # it cannot be written
+                    cache.disable()
+
+        return guard
+
+    cache.load_overload, cache.save_overload = map(
+        guarded, (cache.load_overload, cache.save_overload)
+    )
 
 
 def _content(value):
