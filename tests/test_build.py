@@ -36,8 +36,8 @@ def book(tmp_path):
     return tmp_path
 
 
-def write(book, code):
-    cells = [nbformat.v4.new_markdown_cell("# A chapter", id="title")]
+def write(book, code, text=""):
+    cells = [nbformat.v4.new_markdown_cell(f"# A chapter\n\n{text}", id="title")]
     cells += [nbformat.v4.new_code_cell(code, id="code")]
     kernel = {"kernelspec": {"name": "python3", "display_name": "Python 3"}}
     notebook = nbformat.v4.new_notebook(cells=cells, metadata=kernel)
@@ -45,9 +45,16 @@ def write(book, code):
 
 
 def build(book, **repository):
-    """Build the book, as of a repository or of none: the page, or the failed process."""
+    """Build the book strictly, as of a repository or of none: the page, or the failed process."""
     environment = {k: v for k, v in os.environ.items() if not k.startswith("GITHUB_")} | repository
-    command = [Path(sys.executable).with_name("jupyter-book"), "build", "-n", "."]
+    command = [
+        Path(sys.executable).with_name("jupyter-book"),
+        "build",
+        "-W",
+        "-n",
+        "--keep-going",
+        ".",
+    ]
     done = subprocess.run(
         command, cwd=book, env=environment, capture_output=True, encoding="utf-8", check=False
     )
@@ -85,6 +92,16 @@ def test_a_chapter_is_executed_when_it_or_the_library_changed(book):
     ]
 
 
+def test_settings_are_no_scripts_inside_a_page(book):
+    write(book, CODE, "$$1 + 1$$\n\n:::{note}\n:class: dropdown\nWords.\n:::")
+    inside = re.findall(r"<script[^>]*>([^<]+)</script>", build(book))
+    assert inside
+    assert all(re.search(r"DOCUMENTATION_OPTIONS|dataset\.mode", code) for code in inside)
+    settings = (book / "_build/html/_static/settings.js").read_text(encoding="utf-8")
+    for name in ("window.MathJax", "bm", "toggleHintShow", "togglebuttonSelector"):
+        assert name in settings
+
+
 def test_a_failure_names_chapter_cell_and_remedy(book):
     write(book, "1 / 0")
     done = build(book)
@@ -93,3 +110,53 @@ def test_a_failure_names_chapter_cell_and_remedy(book):
     assert "chapter.ipynb, cell code (`1 / 0`): ZeroDivisionError: division by zero" in report
     assert report in done.stdout + done.stderr
     assert "make lab" in report
+
+
+WARNS = {
+    "stderr": "import sys; print('words', file=sys.stderr)",
+    "a warning": "import warnings; warnings.warn('words')",
+    "a log": "import logging; logging.warning('words')",
+}
+
+
+@pytest.mark.parametrize("code", WARNS.values(), ids=WARNS)
+def test_what_a_chapter_writes_to_stderr_fails_every_build(book, code):
+    write(book, code)
+    for _ in range(2):
+        done = build(book)
+        assert done.returncode != 0
+        assert "wrote to stderr" in done.stderr
+        assert "words" in (book / "_build/.failed").read_text(encoding="utf-8")
+    assert not (book / "_build/html/book/chapter.html").exists()
+
+
+@pytest.mark.parametrize("text", ["[nowhere](nowhere.md)", "```{nothing}\n```"])
+def test_a_page_that_warns_fails_every_build_until_it_is_mended(book, text):
+    sound = (book / "book/chapter.ipynb").read_text(encoding="utf-8")
+    write(book, CODE, text)
+    for _ in range(2):
+        assert "finished with problems" in build(book).stdout
+    (book / "book/chapter.ipynb").write_text(sound, encoding="utf-8")
+    assert "printed 42" in build(book)
+
+
+CACHE = "_build/.executed/*/"
+HARM = {  # of which files, and what becomes of them
+    "outputs cut": (CACHE + "executed/*/base.ipynb", lambda old: old[:-100]),
+    "outputs empty": (CACHE + "executed/*/base.ipynb", lambda old: b""),
+    "list empty": (CACHE + "global.db", lambda old: b""),
+    "list foreign": (CACHE + "global.db", lambda old: b"no database, but words" * 300),
+    "list cut": (CACHE + "global.db", lambda old: old[:5000]),
+    "pages cut": ("_build/.doctrees/environment.pickle", lambda old: old[:-100]),
+}
+
+
+def test_a_damaged_cache_is_made_anew(book):
+    (book / "_build/.executed").mkdir(parents=True)
+    (book / "_build/.executed/desktop.ini").touch()  # as a synchronised folder leaves it
+    build(book)
+    for name, (pattern, harm) in HARM.items():
+        [file] = book.glob(pattern)
+        file.write_bytes(harm(file.read_bytes()))
+        assert "printed 42" in build(book), name
+    assert times_executed(book) == 6  # for the pages no chapter runs again

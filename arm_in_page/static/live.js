@@ -10,6 +10,13 @@ const vmcLive = (() => {
   const frame = () => new Promise(requestAnimationFrame);
   const millimetres = (metres, digits = 0) => `${signed(1000 * metres, digits)} mm`;
 
+  /* Who keeps the arm from running: the host's policy, its files, or the browser. */
+  const whyNot = (words) =>
+    /content security|\bcsp\b|unsafe-eval/i.test(words)
+      ? "The page's host forbids the physics: its policy must allow script-src 'unsafe-eval'." // MuJoCo's own glue
+      : /^no \w+:/.test(words) ? `The page's host did not send a file of the book: there is ${words}.`
+        : `This browser cannot run the arm: ${words}`;
+
   class Live {
     constructor(box) {
       this.box = box;
@@ -40,8 +47,7 @@ const vmcLive = (() => {
         await this.ready();
       } catch (error) {
         this.loading = false;
-        return this.say(error.name === "KernelGone" ? error.message
-          : `This browser cannot run the arm: ${error.message ?? error}`);
+        return this.say(error.name === "KernelGone" ? error.message : whyNot(`${error.message ?? error}`));
       }
       for (const element of this.form.elements) element.disabled = false;
     }

@@ -52,13 +52,13 @@ def name_cache(app, config):
     caches = Path(app.outdir).parent / ".executed"
     here = caches / digest(Path(app.srcdir))
     for other in set(caches.glob("*")) - {here}:
-        shutil.rmtree(other)
+        shutil.rmtree(other, ignore_errors=True)
     config.nb_execution_cache_path = str(here)
 
 
 def execute_what_changed(app, env, names):
     """Execute the chapters that the cache does not have, on the cores there are."""
-    cache = get_cache(app.config.nb_execution_cache_path)
+    cache = open_cache(app.config.nb_execution_cache_path)
     pages = (Path(env.doc2path(name)) for name in env.found_docs)
     missing = [page for page in sorted(pages) if page.suffix == ".ipynb" and not known(cache, page)]
     if not missing:
@@ -89,11 +89,29 @@ def execute_what_changed(app, env, names):
 REMEDY = "Open them with `make lab`, run them to that cell, and mend it or what it imports."
 
 
-def known(cache, page):
+def open_cache(folder):
+    """The cache in a folder; anew where its list of chapters is cut, or another program's."""
     try:
-        return cache.match_cache_notebook(nbformat.read(page, as_version=4))
+        (cache := get_cache(folder)).list_cache_records()
+    except Exception as error:  # whatever a reader's disk has made of it
+        say(f"{folder} is made anew: it cannot be read ({type(error).__name__})")
+        shutil.rmtree(folder)
+        cache = get_cache(folder)
+    return cache
+
+
+def known(cache, page):
+    """Whether the cache has a page's outputs, whole."""
+    try:
+        record = cache.match_cache_notebook(nbformat.read(page, as_version=4))
     except KeyError:
-        return None
+        return False
+    try:
+        cache.get_cache_bundle(record.pk)
+    except Exception as error:  # as above
+        say(f"{page.stem} is executed anew: its outputs are damaged ({type(error).__name__})")
+        return False
+    return True
 
 
 def execute(page, timeout):

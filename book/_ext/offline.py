@@ -2,6 +2,7 @@
 
 import os
 import re
+from pathlib import Path
 
 EVERYWHERE = ("book.js", "questions.js")
 NEEDS = {  # what a page must hold to need an asset; none needs thebe, which asks the network
@@ -37,15 +38,22 @@ def launch(app, config):
 def mend(app, pagename, templatename, context, doctree):
     """Mend the page.
 
-    No script or style sheet that it has no use for (MathJax alone is 2.3 MB), and no element around
-    a word of code without a colour of its own; no list role on what is no list, no role that is out
-    of use, and no label that hides a summary's own words; the number of an equation outside the
-    `split` that Sphinx puts around its lines.
+    No settings inside it, which a strict host forbids, but in a file; no script or style sheet that
+    it has no use for (MathJax alone is 2.3 MB), and no element around a word of code without a
+    colour of its own; no list role on what is no list, no role that is out of use, and no label
+    that hides a summary's own words; the number of an equation outside the `split` that Sphinx puts
+    around its lines.
     """
     body = context.get("body", "")
     demos = "|".join(name for name, _ in app.config.html_js_files if name not in EVERYWHERE)
     needs = NEEDS | {rf"/({demos})\b": 'class="vmc-'}
     needless = "|".join(asset for asset, mark in needs.items() if not re.search(mark, body))
+    files = context["script_files"]
+    settings = dict.fromkeys(filter(None, (file.attributes.get("body") for file in files)))
+    settings = [line for line in settings if "DOCUMENTATION_OPTIONS" not in line]  # Sphinx's own
+    context["script_files"] = [one for one in files if one.attributes.get("body") not in settings]
+    (static := Path(app.outdir, "_static")).mkdir(exist_ok=True)
+    (static / "settings.js").write_text("\n".join(settings), encoding="utf-8")
     for kind in ("script_files", "css_files"):
         context[kind] = [
             file
