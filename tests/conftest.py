@@ -2,6 +2,7 @@
 
 import os
 import shutil
+from collections import Counter
 from functools import partial
 from pathlib import Path
 
@@ -33,6 +34,15 @@ class ChapterClient(NotebookClient):
 
 
 nbmake.nb_run.NotebookClient = ChapterClient
+
+
+def pytest_unconfigure(config):
+    """Say loudly, in the last lines, what was not tested."""
+    reporter = config.pluginmanager.get_plugin("terminalreporter")
+    skipped = reporter.stats.get("skipped", ()) if reporter else ()
+    for why, count in Counter(report.longrepr[2] for report in skipped).items():
+        reporter.line(f"NOT TESTED: {count} of the tests. {why}", red=True, bold=True)
+
 
 # What passed is long: it stays in the page
 AXE_RUN = """async ([within, theme, options]) => {
