@@ -3,12 +3,13 @@
 import base64
 import gzip
 import json
+import re
 from pathlib import Path
 
 import meshcat
 import pytest
 
-from tools import vendor
+from tools import bill, vendor
 
 ROOT = Path(__file__).parents[1]
 
@@ -56,11 +57,14 @@ def elsewhere(monkeypatch, tmp_path):
     manifest = file.parent / "manifest.json"
     entries = [
         {"file": f"book/_static/vendor/{name}", "origin": f"npm:{name}", "sha256": "0"}
+        | {"name": name, "version": "1", "licence": "MIT"}
         for name in ("a.js", "b.js")
     ]
     manifest.write_text(json.dumps(entries), encoding="utf-8")
     monkeypatch.setattr(vendor, "ROOT", tmp_path)
     monkeypatch.setattr(vendor, "MANIFEST", manifest)
+    monkeypatch.setattr(vendor, "CREDITS", tmp_path / "CREDITS.md")
+    vendor.CREDITS.write_text(f"Before.\n{vendor.HEAD}| old |\n\nAfter.\n", encoding="utf-8")
     return file.parent
 
 
@@ -70,6 +74,14 @@ def test_changed_missing_and_stray_files_are_named(elsewhere):
     assert "a.js is not what" in problems
     assert "b.js is missing" in problems
     assert "stray.js is not in" in problems
+    assert "CREDITS.md has another table" in problems
+
+
+def test_the_table_takes_the_place_of_the_old_one(elsewhere):
+    vendor.write_table()
+    text = vendor.CREDITS.read_text(encoding="utf-8")
+    assert text == f"Before.\n{vendor.table()}\nAfter.\n"
+    assert vendor.table().count("\n") == 4
 
 
 def test_a_download_with_another_checksum_is_refused(monkeypatch, elsewhere):
@@ -80,7 +92,20 @@ def test_a_download_with_another_checksum_is_refused(monkeypatch, elsewhere):
     assert (elsewhere / "a.js").read_text(encoding="utf-8") == "changed"
     assert vendor.MANIFEST.read_bytes() == before
     vendor.refresh(update=True)
+    vendor.write_table()
     assert (elsewhere / "a.js").read_bytes() == b"another"
     assert vendor.problems() == []
     vendor.refresh()
     assert vendor.problems() == []
+
+
+def test_the_bill_holds_every_vendored_file_and_every_pin():
+    components = bill.bill()["components"]
+    hashes = {one["content"] for part in components for one in part["hashes"]}
+    assert {entry["sha256"] for entry in json.loads(vendor.MANIFEST.read_bytes())} <= hashes
+    versions = {part["name"]: part for part in components if part["purl"].startswith("pkg:pypi")}
+    for line in (ROOT / "requirements.txt").read_text(encoding="utf-8").splitlines():
+        if match := re.match(r"([\w.-]+)(?:\[.*\])?==([^\s;]+)", line):
+            assert versions[match[1]]["version"] == match[2]
+            assert versions[match[1]]["hashes"] or match[1] == "torch"
+    assert all(re.fullmatch(r"pkg:\w+/[^\s@]+@[^\s@]+", part["purl"]) for part in components)

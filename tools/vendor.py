@@ -2,7 +2,8 @@
 
 python -m tools.vendor             fetch them again (npm, and the installed meshcat package)
 python -m tools.vendor --update    the same, where the manifest names new versions
-python -m tools.vendor --check     compare the files here with the manifest
+python -m tools.vendor --check     compare the files here, and CREDITS.md's table, with the manifest
+python -m tools.vendor --table     write that table, as the first two do
 """
 
 import base64
@@ -19,6 +20,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 MANIFEST = ROOT / "book/_static/vendor/manifest.json"
+CREDITS = ROOT / "CREDITS.md"
+HEAD = "| What | Version | Licence | File | Source | SHA-256 |\n|---|---|---|---|---|---|\n"
 
 
 def fetch(origin):
@@ -68,7 +71,29 @@ def problems():
     stray = {file for folder in folders for file in folder.iterdir()} - listed - {MANIFEST}
     for file in sorted(stray):
         wrong.append(f"{file.relative_to(ROOT)} is not in the manifest")
+    if table() not in CREDITS.read_text(encoding="utf-8"):
+        wrong.append(
+            "CREDITS.md has another table than the manifest: python -m tools.vendor --table"
+        )
     return wrong
+
+
+def table():
+    """The manifest as a Markdown table."""
+    rows = (
+        "| {name} | {version} | {licence} | `{file}` | `{origin}` | `{sha256}` |\n".format_map(
+            entry
+        )
+        for entry in json.loads(MANIFEST.read_bytes())
+    )
+    return HEAD + "".join(rows)
+
+
+def write_table():
+    """Put the table into CREDITS.md, in place of the one that stands there."""
+    before, _, after = CREDITS.read_text(encoding="utf-8").partition(HEAD)
+    after = re.sub(r"\A(\|.*\n)*", "", after)
+    CREDITS.write_text(before + table() + after, encoding="utf-8", newline="\n")
 
 
 def refresh(update=False):
@@ -94,6 +119,8 @@ def refresh(update=False):
 
 
 if __name__ == "__main__":
-    if "--check" not in sys.argv:
+    if not {"--check", "--table"} & {*sys.argv}:
         refresh(update="--update" in sys.argv)
+    if "--check" not in sys.argv:
+        write_table()
     sys.exit("\n".join(problems()) or 0)
