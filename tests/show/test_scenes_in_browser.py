@@ -211,8 +211,39 @@ def test_a_muscle_is_named_under_the_pointer_and_chosen_by_its_name(moving):
 
 def test_without_webgl_words_stand_for_the_scene_and_the_numbers_follow(open_demo, window):
     page = open_demo(movement, window(NO_WEBGL), **MOVEMENT)
-    assert page.inner_text(".vmc-scene") == "to 1.2"
+    page.get_by_text("draws no 3-D picture").wait_for()
+    assert page.locator(".vmc-scene p").first.inner_text() == "to 1.2"
+    assert page.locator(".vmc-scene").bounding_box()["height"] < 120
     after = "(demo) => getComputedStyle(demo, '::after').content"
     assert "newer browser" not in page.eval_on_selector(".vmc-demo", after)
     page.fill(".vmc-clock input", "0")
     assert numbers(page)["elbow"] == "57.3°"
+
+
+ONE_CONTEXT = NO_WEBGL.replace('startsWith("webgl") ?', 'includes("webgl") && self.vmcAsked++ ?')
+
+
+def test_a_scene_whose_viewer_fails_says_why(open_demo, window):
+    """The browser has WebGL, and yet no context for the viewer."""
+    page = open_demo(movement, window(f"self.vmcAsked = 0; {ONE_CONTEXT}"), **MOVEMENT)
+    page.get_by_text("draws no 3-D picture").wait_for()
+    assert page.locator(".vmc-scene p").first.inner_text() == "to 1.2"
+    page.errors[:] = [error for error in page.errors if "WebGL" not in error]  # the viewer's
+
+
+def test_a_scene_without_its_files_says_so(open_demo, window):
+    reader = window()
+    reader.route("**/bones.js", lambda route: route.abort())
+    page = open_demo(movement, reader, **MOVEMENT)
+    page.get_by_text("files of the 3-D picture did not come").wait_for()
+    assert page.locator(".vmc-scene p").first.inner_text() == "to 1.2"
+    for kept in (page.failed, page.errors):
+        kept[:] = [one for one in kept if "bones.js" not in one]
+
+
+def test_a_picture_that_the_browser_takes_away_comes_back(moving):
+    lose = "div => vmcScene(div).viewer.renderer.getContext().getExtension('WEBGL_lose_context')"
+    moving.eval_on_selector(".vmc-scene", f"{lose}.loseContext()")
+    moving.get_by_text("taken the 3-D picture away").wait_for()
+    moving.eval_on_selector(".vmc-scene", "div => vmcScene(div).awake()")
+    moving.wait_for_selector(".vmc-scene canvas")

@@ -28,6 +28,7 @@ const vmcScene = (() => {
   class View {
     constructor(div) {
       this.div = div;
+      this.words = [...div.children]; // they stand here until the picture does
       this.messages = [];
       this.settings = {}; // what the scene says beside meshcat's commands, by name
       this.turned = this.raised = 0; // degrees
@@ -41,17 +42,31 @@ const vmcScene = (() => {
       new ResizeObserver(() => this.viewer && (this.viewer.set_3d_pane_size(), this.look())).observe(div);
     }
 
-    /* Come to life, unless the browser cannot: then the words in the div stay. */
+    /* Come to life, unless the browser cannot: then the words in the div stay, and say why. */
     async awake() {
       await load();
       live.delete(this);
-      if (!this.viewer && !(bones && hasWebGL())) return;
-      if (!this.viewer) this.start();
+      if (!bones) return this.flat("The files of the 3-D picture did not come: load the page again.");
+      try {
+        if (!this.viewer && !hasWebGL()) throw new Error("no WebGL");
+        if (!this.viewer) this.start();
+      } catch {
+        return this.flat("This browser draws no 3-D picture: it has no WebGL, or it is switched off.");
+      }
       live.add(this);
       if (live.size > MOST_LIVE) [...live][0].stop();
     }
 
+    flat(why) {
+      const note = Object.assign(document.createElement("p"), { className: "vmc-note", textContent: why });
+      this.viewer = this.body = null;
+      live.delete(this);
+      this.div.classList.add("vmc-flat");
+      this.div.replaceChildren(...this.words, note);
+    }
+
     start() {
+      this.div.classList.remove("vmc-flat");
       const canvas = document.createElement("div");
       canvas.className = "vmc-canvas";
       this.div.replaceChildren(canvas);
@@ -76,6 +91,8 @@ const vmcScene = (() => {
       if (posed) this.pose(posed);
       this.onstart?.();
       vmcScenePointer(this, canvas);
+      viewer.renderer.domElement.addEventListener("webglcontextlost", () => this.viewer === viewer
+        && this.flat("The browser has taken the 3-D picture away: scroll on and back, or load the page again."));
       const draw = () => {
         if (this.viewer !== viewer) return;
         if (viewer.needs_render) viewer.render();
