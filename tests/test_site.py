@@ -191,63 +191,6 @@ def test_words_that_a_search_marks_are_readable(offline, serious):
     page.close()
 
 
-# ---- Strict hosts and browsers ----
-
-POLICY = (
-    "default-src 'self'; script-src 'self'{}; style-src 'self' 'unsafe-inline'; "
-    "img-src 'self' data: blob:; font-src 'self' data:; connect-src 'self' data:"
-)
-
-
-@pytest.fixture
-def under_policy(window):
-    """A function that opens a chapter of a host with a strict policy, as README states it."""
-
-    def open_chapter(name, allowed):
-        def serve(route):
-            path = BUILT / unquote(urlsplit(route.request.url).path).lstrip("/")
-            headers = {"Content-Security-Policy": POLICY.format(allowed)}
-            route.fulfill(path=path, headers=headers)
-
-        reader = window(reduced_motion="reduce")
-        reader.route("http://book/**", serve)
-        return open_url(reader, f"http://book/book/{name}.html")
-
-    return open_chapter
-
-
-@pytest.mark.parametrize(
-    ("allowed", "said"),
-    [
-        (" 'unsafe-eval'", "The arm is running"),
-        (" 'wasm-unsafe-eval'", "The page's host forbids the physics"),
-        ("", "The page's host forbids the physics"),
-    ],
-)
-def test_a_host_may_forbid_inline_scripts(under_policy, allowed, said):
-    page = under_policy("08_arm", allowed)
-    assert page.locator("mjx-container").count() > 5
-    assert page.locator(".vmc-demo[data-ready]").count() > 2
-    page.locator(".vmc-scene").first.scroll_into_view_if_needed()
-    page.wait_for_selector(".vmc-scene canvas")
-    page.locator("[name=main]").first.click()
-    page.get_by_text(said).first.wait_for()
-    assert all("Content Security Policy" in error for error in page.errors)
-
-
-def test_colours_change_where_storage_is_forbidden(window):
-    no = "Object.defineProperty(self, '{}', {{ configurable: true, get() {{ throw Error() }} }});"
-    script = "".join(map(no.format, ("localStorage", "sessionStorage")))
-    page = open_url(window(script), CHAPTER["07_muscle"].as_uri())
-    button = page.locator(".theme-switch-button").first
-    seen = []
-    for _ in range(3):
-        button.click()
-        seen.append(page.evaluate("() => document.documentElement.dataset.theme"))
-    assert {"light", "dark"} <= set(seen)
-    assert page.errors == []
-
-
 SCRIPTS = re.compile(r'<script[^>]* src="([^"]+)"')
 SCRIPTED = {  # of pages with the same scripts the heaviest
     frozenset(SCRIPTS.findall(path.read_text(encoding="utf-8"))): path

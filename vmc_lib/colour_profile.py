@@ -8,14 +8,13 @@ MODES = ("RGB", "RGBA", "L", "CMYK")
 
 
 def to_srgb(image):
-    """A Pillow image in sRGB; as it is without a profile, or with one that cannot be read."""
-    profile = image.info.get("icc_profile")
-    if not profile or image.mode not in MODES:
-        return image
-    mode = "RGBA" if image.mode == "RGBA" else "RGB"
-    try:
-        source = ImageCms.ImageCmsProfile(BytesIO(profile))
-        target = ImageCms.createProfile("sRGB")
-        return ImageCms.profileToProfile(image, source, target, outputMode=mode)
-    except (ImageCms.PyCMSError, OSError):  # damaged, or of another kind of picture
-        return image
+    """A Pillow image as RGB, or RGBA, in sRGB: as it is where no profile can be read."""
+    profile, mode = image.info.get("icc_profile"), "RGBA" if image.has_transparency_data else "RGB"
+    if profile and image.mode in MODES:
+        try:
+            source = ImageCms.ImageCmsProfile(BytesIO(profile))
+            target = ImageCms.createProfile("sRGB")
+            return ImageCms.profileToProfile(image, source, target, outputMode=mode)
+        except (ImageCms.PyCMSError, OSError):  # damaged, or of another kind of picture
+            pass
+    return image.convert(mode)

@@ -2,8 +2,7 @@
 
 The paper's own CASIA-RTA-VM set is private, so the photos of three levels are rendered (`render`);
 their sidecars hold the exact boxes of the shuttlecock and the cup, the camera in the shoulder
-frame, and the shuttlecock's true place. Those of the level "real" are photographs: boxes drawn by
-hand, cameras and places unknown.
+frame, and the shuttlecock's true place. Those of the level "real" are photographs, boxed by hand.
 """
 
 import json
@@ -231,8 +230,7 @@ def _open(path):
             if file.mode[0] in "IF":
                 raise ValueError(f"{path} holds more than 8 bits a channel: save it with 8")
             file.draft("RGB", (2 * WIDTH, 2 * HEIGHT))  # of a huge JPEG, not every pixel is read
-            upright = to_srgb(ImageOps.exif_transpose(file))
-            return as_rgb(upright.convert("RGBA" if upright.has_transparency_data else "RGB"))
+            return as_rgb(to_srgb(ImageOps.exif_transpose(file)))
     except FileNotFoundError:
         raise ValueError(f"no photo at {path.absolute()}: is the name right?") from None
     except UnidentifiedImageError:
