@@ -8,10 +8,11 @@ import numpy as np
 
 from reproduce.experiments import calibration
 from reproduce.experiments.calibration import NOISE, SEEDS
+from reproduce.peers.motor_noise import noisy_reach
 from vmc_lib.arm.muscle import noisy
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import draw_targets, plan
-from vmc_lib.motor.templates import load, reach
+from vmc_lib.motor.templates import load
 
 MOVEMENTS = (25, 50, 100, 250)
 
@@ -85,8 +86,5 @@ def templates_with_noise(noise, stream):
     """The templates, and an arm whose excitations vary: `noise(excitations, rng=…)`, or None."""
     if noise is None:
         return load()
-    return replace(load(), reach=partial(_noisy_reach, noise, np.random.default_rng(stream)))
-
-
-def _noisy_reach(noise, rng, excitations, perturbation):
-    return reach(noise(excitations, rng=rng), perturbation)
+    noise = partial(noise, rng=np.random.default_rng(stream))
+    return replace(load(), reach=partial(noisy_reach, noise))

@@ -27,9 +27,7 @@ from vmc_lib.motor.templates import load, reach
 LEFT = 0.5
 WHEN = "before", "after"  # it is corrected
 TOGETHER = 5  # reaches that are made before the next are corrected
-TARGETS = optimal_control.TARGETS[
-    minimum_variance.NEW
-]  # where every rival is compared; nobody practises these
+TARGETS = optimal_control.TARGETS[optimal_control.INNER]  # nobody practises these
 RIVALS = "least effort", "least variance"
 
 
@@ -71,7 +69,7 @@ def learn_weak_arm(seed, count=100, before=150, muscles=MUSCLES):
 
 
 def command_measures(excitations, muscle):
-    """Numbers by name of commands (5, T, 6) to `TARGETS`, where this `muscle` is weak.
+    """Numbers by name of commands (6, T, 6) to `TARGETS`, where this `muscle` is weak.
 
     The mean miss in mm, the mean effort, and how hard each muscle is driven, (6,): the root of its
     command's mean square.

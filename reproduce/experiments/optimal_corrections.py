@@ -12,12 +12,15 @@ from reproduce.experiments.muscle_weakness import TARGETS, muscle_strength
 from reproduce.peers import minimum_variance, motor_noise, optimal_feedback
 from reproduce.peers.optimal_feedback import TICK
 from vmc_lib.arm.model import MUSCLES
-from vmc_lib.motor.templates import reach
+from vmc_lib.motor.inverse_dynamics import SAMPLES
+from vmc_lib.motor.templates import keep_last, reach
+
+HOLD = slice(SAMPLES // TICK, None)  # ticks
 
 
 def disturbances(rng):
-    """Factors of the commands: noise (repeats, 5, T, 6), and each muscle weak (6, 5, T, 6)."""
-    shape = minimum_variance.optimal_excitations().shape
+    """Factors of the commands: noise (repeats, 6, T, 6), and each muscle weak (6, 6, T, 6)."""
+    shape = keep_last(minimum_variance.optimal_excitations()).shape
     repeated = minimum_variance.REPEATS, *shape
     noise = motor_noise.noise_factor(repeated, minimum_variance.noise_share(), rng)
     weak = np.array([muscle_strength(name) for name in MUSCLES])
@@ -25,23 +28,23 @@ def disturbances(rng):
 
 
 def scatter_and_miss(noise, weak, rule, late=None):
-    """How far the hand scatters on its way, (101,), and misses with each muscle weak, (6,), in mm.
+    """How far the hand scatters on its way, (151,), and misses with each muscle weak, (6,), in mm.
 
-    Means over the five targets; noise and weakness are `disturbances`. Of a rule's commands alone,
+    Means over the targets; noise and weakness are `disturbances`. Of a rule's commands alone,
     or with the best corrections, where deviations are known `late`, in ms.
     """
     scatter = optimal_feedback.scatter(hand_paths(noise, rule, late))
-    ends = hand_paths(weak, rule, late)[..., -1, :]
+    ends = hand_paths(weak, rule, late)[..., HOLD, :].mean(axis=-2)
     miss = np.linalg.norm(ends - TARGETS, axis=-1)
     return 1000 * scatter.mean(axis=0), 1000 * miss.mean(axis=-1)
 
 
 def hand_paths(factors, rule, late=None):
-    """The hand's paths (…, 5, 101, 2) in m, under a rule's commands times factors (…, 5, T, 6)."""
+    """The hand's paths (…, 6, 151, 2) in m, under a rule's commands times factors (…, 6, T, 6)."""
     if late is not None:
         return optimal_feedback.move(_feedback_law(rule), factors, late // TICK)[0]
-    commands = minimum_variance.excitations_by_rule()[rule]
-    motions = (reach(np.clip(commands * factor, 0, 1)) for factor in factors)
+    commands = keep_last(minimum_variance.excitations_by_rule()[rule])
+    motions = (reach(np.clip(commands * factor, 0, 1), hold=0.0) for factor in factors)
     return np.array([motion.hand[:, ::TICK, :2] for motion in motions])
 
 

@@ -3,8 +3,8 @@
 Where noise grows with the command, commands differ in how far they let the hand scatter; Harris and
 Wolpert (1998) took the least scatter for the brain's aim. Task, arm and search are those of
 `optimal_control`. The scatter is counted at three moments of the hold, to first order of the noise
-of `motor_noise.with_noise`. What ships are the optima of those inner targets of `optimal_control`
-on which no template lies.
+of `motor_noise.with_noise`. What ships are the optima of the `INNER` targets, on which no template
+lies.
 """
 
 from functools import cache, partial
@@ -15,36 +15,30 @@ from reproduce.peers import motor_noise, optimal_control
 from reproduce.peers.optimal_control import INNER, TARGETS
 from reproduce.peers.optimal_feedback import scatter
 from reproduce.results import arrays
+from vmc_lib.camera import TABLE
 from vmc_lib.motor.inverse_dynamics import MOVING, SAMPLES, minimum_jerk
 from vmc_lib.motor.planning import plan
-from vmc_lib.motor.templates import load, reach
+from vmc_lib.motor.templates import HOLD, keep_last, load, reach
 
-AMONG = [1, 3, 4, 5, 7]  # of the nine `INNER` targets, those on which no template lies
-NEW = INNER[AMONG]
-HOLD = slice(MOVING, None, 150)  # ms: when scatter counts
+MOMENTS = [SAMPLES, 1250, 1500]  # ms: when scatter counts
 NUDGE = 1e-3  # of a knot: larger than `optimal_control`'s, for what is compared are differences
 WAVER = 0.03  # the share of noise by which its effect is found: about what reaches meet
 LEVEL, REPEATS = 5, 100  # mm that habit scatters by; reaches by which scatter is measured
 EVERY = 10  # ms between the samples of a path whose jerk is asked for
 
 
-def search(target, ftol=3e-3):
-    """The knots `x` of least variance, as a `scipy.optimize.OptimizeResult`.
-
-    It ends where a step changes the variance by less than `ftol`, in cm².
-    """
-    return optimal_control.minimise_cost(target, variance, variance_gradient, ftol=ftol)
+def search(target):
+    """The knots `x` of least variance, as a `scipy.optimize.OptimizeResult`."""
+    return optimal_control.minimise_cost(target, variance, variance_gradient)
 
 
 def variance(x):
     """How far the hand scatters when every pool's noise is as large as its command: its variance.
 
-    In cm², the mean over both axes and the moments of `HOLD`.
+    In dm², the mean over both axes and the `MOMENTS`.
     """
-    return (
-        np.square(_noise_effects(optimal_control.excitations_from_knots(x), _unit_noises())).sum()
-        / _position_count()
-    )
+    effects = _noise_effects(optimal_control.excitations_from_knots(x), _unit_noises())
+    return np.square(effects).sum() / effects.shape[-1]
 
 
 def variance_gradient(x):
@@ -62,22 +56,22 @@ def variance_gradient(x):
     nudge = np.where(x > 0.5, -NUDGE, NUDGE)
     nudged = optimal_control.excitations_from_knots(np.vstack([x, x + np.diag(nudge)]))
     moved = np.einsum("nkk,k->n", _noise_effects(nudged, worth / size[:, None, None]), size)
-    return 2 * (moved[1:] - moved[0]) / nudge / _position_count()
+    return 2 * (moved[1:] - moved[0]) / nudge / len(worth)
 
 
-def make(targets=TARGETS[NEW], level=LEVEL, **how):
+def make(targets=TARGETS[INNER], level=LEVEL):
     """What `results/steady.npz` holds.
 
     The knots (n, 6 KNOTS) of targets (n, 2), by `search`; the share of noise by which the hand
     scatters by `level` mm.
     """
-    knots = optimal_control.make(targets, partial(search, **how))
+    knots = optimal_control.make(targets, search)
     return knots | {"share": np.array(motor_noise.noise_share_for(level))}
 
 
 @cache
 def optimal_excitations():
-    """The excitations (5, T, 6) of least variance to the `NEW` targets."""
+    """The excitations (6, T, 6) of least variance to the inner targets."""
     return optimal_control.excitations_from_knots(arrays("steady")["knots"].astype(float))
 
 
@@ -87,33 +81,50 @@ def noise_share():
 
 
 def excitations_by_rule():
-    """The excitations (5, T, 6) of the `NEW` targets, by the rule that makes them."""
+    """The excitations (6, T, 6) of the inner targets, by the rule that makes them."""
     return {
-        "habit": plan(TARGETS[NEW], load()).excitations,
-        "least effort": optimal_control.optimal_excitations()[NEW],
+        "habit": plan(TARGETS[INNER], load()).excitations,
+        "least effort": optimal_control.optimal_excitations()[INNER],
         "least variance": optimal_excitations(),
-        "habit of least effort": optimal_control.mix_optima().excitations[AMONG],
+        "habit of least effort": optimal_control.mix_optima().excitations,
     }
 
 
 def compare_rules(rng, repeats=REPEATS):
-    """By rule and measure, one number for each of the `NEW` targets.
+    """By rule and measure, one number for each of the inner targets.
 
-    How far the hand scatters when the reach is repeated on an arm that wavers by `LEVEL` mm (mm, a
-    standard deviation), how far it misses without noise (mm), the effort, and the `jerk`.
+    How far the hand scatters over the hold when the reach is repeated on an arm that wavers by
+    `LEVEL` mm (mm, a standard deviation), the effort, and `path_measures`.
     """
-    found = {}
+    noise, found = partial(motor_noise.with_noise, share=noise_share(), rng=rng), {}
     for name, excitations in excitations_by_rule().items():
-        wavered = (motor_noise.with_noise(excitations, noise_share(), rng) for _ in range(repeats))
-        many = np.array([reach(one).endpoint for one in wavered])  # one at a time: less memory
-        calm = reach(excitations)
+        many = (motor_noise.noisy_reach(noise, excitations).hold for _ in range(repeats))
+        variance = np.square(scatter(np.array(list(many)))).mean(axis=-1)
         found[name] = {
-            "scatter": 1000 * scatter(many),
-            "miss": 1000 * np.linalg.norm(calm.endpoint - TARGETS[NEW], axis=-1),
+            "scatter": 1000 * np.sqrt(variance),
             "effort": optimal_control.effort(excitations),
-            "jerk": jerk(calm.hand[..., :2]),
+            **path_measures(reach(excitations), TARGETS[INNER]),
         }
     return found
+
+
+def path_measures(motion, targets):
+    """Numbers by name, (n,) each, of undisturbed reaches for targets (n, 2): a `HeldMotion`.
+
+    How far the hand misses, and is from its target at most during the hold (mm); how fast it moves
+    there on average (mm/s); the way it goes, over the straight distance; how far above the table it
+    stays (mm); and the `jerk`.
+    """
+    way, hold = motion.hand[..., :2], motion.hold
+    off = hold - targets[:, None]
+    return {
+        "miss": 1000 * _norm(off.mean(axis=-2)),
+        "farthest": 1000 * _norm(off).max(axis=-1),
+        "speed": 1000 * _norm(np.diff(hold, axis=-2)).sum(axis=-1) / HOLD,
+        "path": _norm(np.diff(way, axis=-2)).sum(axis=-1) / _norm(targets - way[:, 0]),
+        "height": 1000 * (way[..., 1].min(axis=-1) - TABLE),
+        "jerk": jerk(way),
+    }
 
 
 def jerk(path):
@@ -130,27 +141,20 @@ def jerk(path):
 
 
 def _noise_effects(excitations, noises):
-    """How far noises (n, T, 6) move the places of the hand, in cm: (…, n, places)."""
-    ends = (
-        _hold_positions(np.clip(excitations[..., None, :, :] * (1 + side * WAVER * noises), 0, 1))
-        for side in (1, -1)
-    )
-    return np.subtract(*ends) / (2 * WAVER)
-
-
-def _hold_positions(excitations):
-    """Where the hand is at the moments of `HOLD`, in cm, (…, places)."""
-    return 100 * reach(excitations).hand[..., HOLD, :2].reshape(
-        *excitations.shape[:-2], _position_count()
-    )
-
-
-def _position_count():
-    return 2 * len(range(SAMPLES + 1)[HOLD])
+    """How far noises (n, T, 6) move the places of the hand, in dm: (…, n, places)."""
+    commands = keep_last(excitations)[..., None, :, :]
+    both = (np.clip(commands * (1 + side * WAVER * noises), 0, 1) for side in (1, -1))
+    ends = (reach(noisy, hold=0.0).hand[..., MOMENTS, :2] for noisy in both)
+    effects = 10 * np.subtract(*ends) / (2 * WAVER)
+    return effects.reshape(*effects.shape[:-2], -1)
 
 
 @cache
 def _unit_noises():
-    """Every curve of `motor_noise.noise_basis`, in one pool alone: (6 KNOTS, T, 6)."""
-    each = np.einsum("tn,km->nktm", motor_noise.noise_basis(), np.eye(6))
-    return each.reshape(-1, SAMPLES, 6)
+    """Every curve of `motor_noise.noise_basis`, in one pool alone: (noises, T, 6)."""
+    basis = motor_noise.noise_basis(MOMENTS[-1])
+    each = np.einsum("tn,km->nktm", basis, np.eye(6))
+    return each.reshape(-1, len(basis), 6)
+
+
+_norm = partial(np.linalg.norm, axis=-1)

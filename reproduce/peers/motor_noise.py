@@ -3,36 +3,49 @@
 The motor units of a muscle, its pool, are driven together, and what unsteadies a pull most is a
 slow waver of that common drive (Dideriksen et al. 2012). So every pool has one smooth curve of
 noise, and its command is multiplied by it: the stronger the command, the noisier (Harris & Wolpert
-1998). How strong the noise is, is told by where the hand ends: by the standard deviation of a reach
-that is repeated.
+1998), during the hold as well. How strong the noise is, is told by where the hand ends: by the
+standard deviation of a reach that is repeated.
 """
 
-from functools import cache
+from dataclasses import replace
+from functools import cache, partial
 
 import numpy as np
 
+from vmc_lib.arm.model import STEP
+from vmc_lib.arm.simulate import UNPERTURBED
 from vmc_lib.motor.inverse_dynamics import spline
 from vmc_lib.motor.planning import draw_targets, exact_weights, plan
-from vmc_lib.motor.templates import load, reach
+from vmc_lib.motor.templates import HOLD, keep_last, load, reach
 
-KNOTS = 12  # spline coefficients of a pool's noise: it wavers about as slowly as commands change
+KNOTS = 12  # spline coefficients a second: noise wavers about as slowly as commands change
 
 
 @cache
-def noise_basis():
-    """Spline basis (T, KNOTS) of the noise, scaled so that random sums have unit variance."""
-    return spline(KNOTS) / np.linalg.norm(spline(KNOTS), axis=1, keepdims=True)
+def noise_basis(samples):
+    """Spline basis (samples, knots) of noise, scaled so that random sums have unit variance."""
+    curves = spline(round(KNOTS * samples * STEP), samples)
+    return curves / np.linalg.norm(curves, axis=1, keepdims=True)
 
 
 def noise_factor(shape, share, rng):
     """Multiplicative noise for commands of a shape (…, T, 6): 1 + share · (a smooth curve)."""
-    random = rng.standard_normal((*shape[:-2], KNOTS, 6))
-    return 1 + share * noise_basis() @ random
+    curves = noise_basis(shape[-2])
+    return 1 + share * curves @ rng.standard_normal((*shape[:-2], curves.shape[1], 6))
 
 
 def with_noise(excitations, share, rng):
     """Excitations (…, T, 6) with signal-dependent noise, clipped to [0, 1]."""
     return np.clip(excitations * noise_factor(np.shape(excitations), share, rng), 0, 1)
+
+
+def noisy_reach(noise, excitations, perturbation=UNPERTURBED):
+    """The `HeldMotion` of excitations (…, T, 6) and their hold, with `noise(excitations)` on both.
+
+    Without more noise than this the hold would keep on one moment's noise.
+    """
+    motion = reach(noise(keep_last(excitations)), perturbation, hold=0.0)
+    return replace(motion, held=round(HOLD / STEP))
 
 
 def endpoint_deviation(ends):
@@ -55,8 +68,8 @@ def noise_share_for(mm):
     def missing(share):
         if not share:
             return -mm
-        rng = np.random.default_rng(101)  # one repeat at a time: less memory
-        ends = [reach(with_noise(excitations, share, rng)).endpoint for _ in range(10)]
+        noise = partial(with_noise, share=share, rng=np.random.default_rng(101))
+        ends = [noisy_reach(noise, excitations).endpoint for _ in range(10)]  # to spare memory
         return 1000 * endpoint_deviation(np.array(ends)) - mm
 
     if not (mm == 0 or (mm > 0 and missing(1.0) > 0)):

@@ -1,9 +1,9 @@
 """Optimal control, habit's rival: the commands of least effort that bring the hand there.
 
 Effort is the mean square of the excitations (Diedrichsen et al., 2010). The task is a template's:
-be at the target, still, when a movement ends, and again when the hold ends. Sequential quadratic
-programming minimises one subject to the other, with the compiled arm. What ships are
-the optima of `TARGETS`.
+be at the target as soon as a template is, at rest, stay until the hold ends, and never pass below
+the table. Sequential quadratic programming minimises one subject to the other, with the compiled
+arm. What ships are the optima of `TARGETS`.
 """
 
 from functools import cache
@@ -14,15 +14,18 @@ from joblib import Parallel, delayed
 
 from reproduce.results import arrays
 from vmc_lib.arm.kinematics import inverse_kinematics
+from vmc_lib.camera import TABLE
 from vmc_lib.motor.inverse_dynamics import MOVING, SAMPLES, bounded_least_squares, spline
 from vmc_lib.motor.planning import plan
 from vmc_lib.motor.templates import TemplateSet, load, reach
 
 KNOTS = 12  # spline coefficients of each muscle's excitation: fewer than a template's, to be quick
-TARGETS = np.array(
-    list(product((0.03, 0.06, 0.09, 0.12, 0.15), (-0.46, -0.43, -0.40, -0.37, -0.34)))
-)
-INNER = np.flatnonzero(np.all(abs(TARGETS - [0.09, -0.40]) < 0.04, axis=1))  # others all round
+TARGETS = np.array(list(product((0.03, 0.06, 0.09, 0.12, 0.15), (-0.42, -0.39, -0.36, -0.33))))
+INNER = np.flatnonzero(np.all(abs(TARGETS - [0.09, -0.375]) < 0.04, axis=1))  # others all round
+STAY = [MOVING, 800, 900, SAMPLES, 1250, 1500]  # ms: when the hand is to be at its target
+HEIGHTS = slice(0, MOVING, 25)  # ms: when it is to be above the table …
+CLEARANCE = 0.001  # m: … by so much, for it is not looked at in between
+ARRIVE, AVOID = slice(2 * len(STAY) + 2), slice(2 * len(STAY) + 2, None)  # rows of `_task`
 NUDGE = 1e-4
 FULL_STRENGTH = np.ones(6)  # of each muscle's strength: all of it
 
@@ -50,7 +53,7 @@ def search(target, strength=FULL_STRENGTH):
     return minimise_cost(target, lambda x: x @ price @ x / 2, lambda x: price @ x, most=strength)
 
 
-def minimise_cost(target, cost, slope, ftol=1e-4, most=FULL_STRENGTH):
+def minimise_cost(target, cost, slope, ftol=1e-3, most=FULL_STRENGTH):
     """The knots `x` that bring the hand there at least `cost`, as an `OptimizeResult`.
 
     No muscle gets more than `most` (6,).
@@ -65,13 +68,21 @@ def minimise_cost(target, cost, slope, ftol=1e-4, most=FULL_STRENGTH):
         [bounded_least_squares(spline(KNOTS), muscle) for muscle in start.T], axis=-1
     ).ravel()
     most = np.tile(most, KNOTS)
-    goal = np.concatenate([np.tile(inverse_kinematics(target), 2), np.zeros(4)])
+    value, slopes = (cache(lambda x, f=f: f(np.array(x), target)) for f in (_task, _task_gradients))
+    constraints = [
+        {
+            "type": kind,
+            "fun": lambda x, rows=rows: value(tuple(x))[rows],
+            "jac": lambda x, rows=rows: slopes(tuple(x))[rows],
+        }
+        for kind, rows in (("eq", ARRIVE), ("ineq", AVOID))
+    ]
     found = minimize(
         cost,
         np.minimum(first, most),
         jac=slope,
         bounds=[(0, limit) for limit in most],
-        constraints={"type": "eq", "fun": lambda x: _ends(x) - goal, "jac": _end_gradients},
+        constraints=constraints,
         method="SLSQP",
         options={"ftol": ftol, "maxiter": 60},
     )
@@ -88,17 +99,17 @@ def make(targets=TARGETS, search=search):
 
 @cache
 def optimal_excitations():
-    """The optimal excitations (25, T, 6) of `TARGETS`."""
+    """The optimal excitations (20, T, 6) of `TARGETS`."""
     return excitations_from_knots(arrays("optimal")["knots"].astype(float))
 
 
 def mix_optima():
-    """Habit with optima for templates: a `Plan` of the nine `INNER` targets.
+    """Habit with optima for templates: a `Plan` of the six `INNER` targets.
 
     Each mixes the four optima that lie 3 cm to its sides, above and below: a square of 6 cm.
     """
     memories = TemplateSet(reach(optimal_excitations()).endpoint, optimal_excitations())
-    corners = INNER[:, None] + [-6, -4, 4, 6]  # `TARGETS` has rows of five
+    corners = INNER[:, None] + [-5, -3, 3, 5]  # `TARGETS` has rows of four
     return plan(TARGETS[INNER], memories, rows=corners)
 
 
@@ -107,15 +118,19 @@ def excitations_from_knots(x):
     return np.clip(spline(KNOTS) @ x.reshape(*x.shape[:-1], KNOTS, 6), 0, 1)
 
 
-def _ends(x):
-    """Angles and velocities (…, 8) when the movement ends and when the hold ends."""
+def _task(x, target):
+    """What must be zero, and then what must not be negative, of the task, (…, m).
+
+    Angles off those of the target and velocities; heights above the table, in m.
+    """
     motion = reach(excitations_from_knots(x))
-    q, velocity = (path[..., [MOVING, SAMPLES], :] for path in (motion.q, 0.05 * motion.velocity))
-    return np.concatenate([q, velocity], axis=-2).reshape(*x.shape[:-1], 8)
+    off = motion.q[..., STAY, :] - inverse_kinematics(target)
+    parts = off.reshape(*x.shape[:-1], -1), 0.05 * motion.velocity[..., SAMPLES, :]
+    return np.concatenate([*parts, motion.hand[..., HEIGHTS, 1] - TABLE - CLEARANCE], axis=-1)
 
 
-def _end_gradients(x):
-    """How `_ends` changes with each knot, (8, n): all knots nudged, in one batch of movements."""
+def _task_gradients(x, target):
+    """How `_task` changes with each knot, (m, n): all knots nudged, in one batch of movements."""
     nudge = np.where(x > 0.5, -NUDGE, NUDGE)
-    nudged = _ends(np.vstack([x, x + np.diag(nudge)]))
+    nudged = _task(np.vstack([x, x + np.diag(nudge)]), target)
     return (nudged[1:] - nudged[0]).T / nudge

@@ -17,7 +17,7 @@ from vmc_lib.arm.engines import allocate_trajectory, step_trajectory
 from vmc_lib.arm.model import STEP
 from vmc_lib.motor.feedback import TICK
 from vmc_lib.motor.inverse_dynamics import MOVING
-from vmc_lib.motor.templates import reach
+from vmc_lib.motor.templates import keep_last, reach
 
 PLACE, SPEED, CHANGE = 0.005, 0.05, 0.1  # m, m/s, of a command: these three weigh the same
 NUDGE = 1e-5
@@ -38,7 +38,7 @@ def in_ticks(excitations):
 
 
 def states(excitations):
-    """The states (…, ticks + 1, 10) that excitations (…, T, 6) lead the arm through."""
+    """The states (…, ticks + 1, 10) that excitations (…, T, 6), and their hold, lead through."""
     motion = reach(excitations)
     whole = np.concatenate([motion.q, motion.velocity, motion.activation], axis=-1)
     return whole[..., ::TICK, :]
@@ -96,8 +96,8 @@ class FeedbackLaw(NamedTuple):
 
 
 def feedback_law(excitations):
-    """The optimal feedback law (LQR) along commands (n, T, 6)."""
-    commands, reference = in_ticks(excitations), states(excitations)
+    """The optimal feedback law (LQR) along commands (n, T, 6), and through the hold."""
+    commands, reference = in_ticks(keep_last(excitations)), states(excitations)
     return FeedbackLaw(commands, reference, *gains(reference, commands))
 
 

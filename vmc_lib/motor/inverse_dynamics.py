@@ -19,12 +19,12 @@ KNOTS = 28  # spline coefficients of each muscle's excitation
 
 
 @cache
-def spline(knots=KNOTS):
-    """Cubic B-splines (SAMPLES, knots); a row sums to 1, so knots in [0, 1] stay in [0, 1]."""
+def spline(knots=KNOTS, samples=SAMPLES):
+    """Cubic B-splines (samples, knots); a row sums to 1, so knots in [0, 1] stay in [0, 1]."""
     from scipy.interpolate import BSpline
 
     edges = np.concatenate([[0] * 3, np.linspace(0, 1, knots - 2), [1] * 3])
-    return read_only(BSpline.design_matrix(np.linspace(0, 1, SAMPLES), edges, 3).toarray())
+    return read_only(BSpline.design_matrix(np.linspace(0, 1, samples), edges, 3).toarray())
 
 
 def minimum_jerk_profile(share):

@@ -58,11 +58,14 @@ def mean_speed(hold):
 
 def reach(excitations, perturbation=UNPERTURBED, hold=HOLD):
     """The `HeldMotion` from rest in `START`: excitations (…, T, 6), then `hold` s of the last."""
-    held = round(hold / STEP)
-    last = np.repeat(excitations[..., -1:, :], held, axis=-2)
-    commands = np.concatenate([excitations, last], axis=-2)
-    motion = simulate(commands, START, _rest(), perturbation=perturbation)
-    return HeldMotion(**vars(motion), held=held)
+    motion = simulate(keep_last(excitations, hold), START, _rest(), perturbation=perturbation)
+    return HeldMotion(**vars(motion), held=round(hold / STEP))
+
+
+def keep_last(excitations, hold=HOLD):
+    """Excitations (…, T, 6), and then `hold` s of the last of them."""
+    last = np.repeat(excitations[..., -1:, :], round(hold / STEP), axis=-2)
+    return np.concatenate([excitations, last], axis=-2)
 
 
 @dataclass(frozen=True, eq=False)
