@@ -50,14 +50,14 @@ def learning_curves(ratios, learners, counts):
 def scatter_and_miss(uncorrected, weak_miss, corrected, corrected_weak_miss):
     """How far reaches scatter on their way, and miss with each muscle weak; both in mm.
 
-    Scatter (101,), `uncorrected` by rule; misses (6,), of the commands alone and corrected.
+    Scatter (151,), `uncorrected` by rule; misses (6,), of the commands alone and corrected.
     """
-    time = np.arange(101) / 100  # s
+    time = np.arange(len(corrected)) / 100  # s
     fig, left, right = panels(2, (8.2, 3.4))
     for (rule, scatter), hue in zip(uncorrected.items(), ("grey", "orange", "green"), strict=True):
         left.plot(time, scatter, color=COLOURS[hue], label=rule)
     left.plot(time, corrected, color=COLOURS["blue"], label="corrected")
-    left.axvspan(0.7, 1, color=COLOURS["grey"], alpha=0.15, lw=0)
+    left.axvspan(0.7, 1.5, color=COLOURS["grey"], alpha=0.15, lw=0)
     left.set(xlabel="time (s)", ylabel="scatter (mm)", ylim=(0, 5.2))
     left.set_title(f"in the end {corrected[-1]:.1f} mm")
     left.legend()

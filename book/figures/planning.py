@@ -60,7 +60,7 @@ def in_frame(origin, weights, points, target):
 def habit_beside_optimum(target, motions, costs):
     """The hand's way and each muscle's effort on the way to one of the optima's targets (2,).
 
-    `motions` and `costs`, (25, 6), are those of all targets, by name.
+    `motions` and `costs`, (20, 6), are those of all targets, by name.
     """
     k = np.abs(optimal_control.TARGETS - target).sum(axis=1).argmin()
     fig, left, right = panels(2, (8.2, 3.4))

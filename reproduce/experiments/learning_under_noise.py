@@ -36,10 +36,11 @@ def compare_learners(mm, seed, learners=LEARNERS, sizes=MOVEMENTS, held_out=200)
 
     In-sample and held-out after so many movements (`train_controller`), and after off-line
     calibration: of the best trial, and of the same command given again. "Nothing but noise" is how
-    far reaches end from their own mean, "habit" the miss in mm that all are shares of.
+    far reaches end from their own mean, "habit" the miss in mm that all are shares of; "noise" the
+    coefficient of variation of a command.
     """
-    noise = partial(with_noise, share=noise_share_for(mm))
-    left = {}
+    share = noise_share_for(mm)
+    noise, left = partial(with_noise, share=share), {"noise": share}
     for name, learner in learners.items():
         shares = train_controller(*learner, seed, sizes, held_out, noise)[-1]
         left |= {f"{name}, in-sample": shares[:, 0], f"{name}, held-out": shares[:, 1]}

@@ -27,9 +27,12 @@ LEVEL, REPEATS = 5, 100  # mm that habit scatters by; reaches by which scatter i
 EVERY = 10  # ms between the samples of a path whose jerk is asked for
 
 
-def search(target):
-    """The knots `x` of least variance, as a `scipy.optimize.OptimizeResult`."""
-    return optimal_control.minimise_cost(target, variance, variance_gradient)
+def search(target, ftol=1e-3):
+    """The knots `x` of least variance, as a `scipy.optimize.OptimizeResult`.
+
+    It ends where a step changes the variance by less than `ftol`, in dm².
+    """
+    return optimal_control.minimise_cost(target, variance, variance_gradient, ftol)
 
 
 def variance(x):
@@ -59,13 +62,13 @@ def variance_gradient(x):
     return 2 * (moved[1:] - moved[0]) / nudge / len(worth)
 
 
-def make(targets=TARGETS[INNER], level=LEVEL):
+def make(targets=TARGETS[INNER], level=LEVEL, **how):
     """What `results/steady.npz` holds.
 
     The knots (n, 6 KNOTS) of targets (n, 2), by `search`; the share of noise by which the hand
     scatters by `level` mm.
     """
-    knots = optimal_control.make(targets, search)
+    knots = optimal_control.make(targets, partial(search, **how))
     return knots | {"share": np.array(motor_noise.noise_share_for(level))}
 
 
@@ -94,7 +97,7 @@ def compare_rules(rng, repeats=REPEATS):
     """By rule and measure, one number for each of the inner targets.
 
     How far the hand scatters over the hold when the reach is repeated on an arm that wavers by
-    `LEVEL` mm (mm, a standard deviation), the effort, and `path_measures`.
+    `LEVEL` mm (mm, a standard deviation), the effort (10⁻³), and `path_measures`.
     """
     noise, found = partial(motor_noise.with_noise, share=noise_share(), rng=rng), {}
     for name, excitations in excitations_by_rule().items():
@@ -102,7 +105,7 @@ def compare_rules(rng, repeats=REPEATS):
         variance = np.square(scatter(np.array(list(many)))).mean(axis=-1)
         found[name] = {
             "scatter": 1000 * np.sqrt(variance),
-            "effort": optimal_control.effort(excitations),
+            "effort": 1000 * optimal_control.effort(excitations),
             **path_measures(reach(excitations), TARGETS[INNER]),
         }
     return found

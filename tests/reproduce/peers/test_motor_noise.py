@@ -1,5 +1,7 @@
 """Signal-dependent motor noise: its distribution and its strength."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 
@@ -25,9 +27,20 @@ def test_noise_share_gives_the_endpoint_deviation():
     targets = draw_targets(load(), 200, np.random.default_rng(1))
     commands = np.tile(plan(targets, load(), exact_weights).excitations, (5, 1, 1, 1))
     share = motor_noise.noise_share_for(mm)
-    ends = reach(motor_noise.with_noise(commands, share, np.random.default_rng(2))).endpoint
+    noise = partial(motor_noise.with_noise, share=share, rng=np.random.default_rng(2))
+    ends = motor_noise.noisy_reach(noise, commands).endpoint
     assert 1000 * motor_noise.endpoint_deviation(ends) == pytest.approx(mm, rel=0.15)
     assert share == pytest.approx(minimum_variance.noise_share(), rel=1e-6)
+
+
+def test_noise_lasts_through_the_hold():
+    """Were the last moment's noise kept on, the hand would drift with it."""
+    seen = []
+    commands = plan([0.09, -0.39], load()).excitations
+    motion = motor_noise.noisy_reach(lambda u: seen.append(u) or u, commands)
+    assert seen[0].shape == (1500, 6)
+    np.testing.assert_array_equal(motion.q, reach(commands).q)
+    np.testing.assert_array_equal(motion.hold, reach(commands).hold)
 
 
 def test_impossible_noise_is_refused():

@@ -1,18 +1,39 @@
-"""Optimal control: at the target, at rest, and with less effort than habit."""
+"""Optimal control: stays at the target, above the table, with less effort than habit."""
 
 import numpy as np
 import pytest
 
-from reproduce.peers import optimal_control
+from reproduce.experiments import muscle_weakness
+from reproduce.peers import minimum_variance, optimal_control
+from vmc_lib.arm.model import MUSCLES
+from vmc_lib.camera import TABLE
 from vmc_lib.motor import templates
+from vmc_lib.motor.inverse_dynamics import MOVING
 from vmc_lib.motor.planning import exact_weights, plan
 
+INNER = optimal_control.TARGETS[optimal_control.INNER]
+WEAKENED = muscle_weakness.load_results()["least effort"].astype(float)
+OPTIMA = {
+    "least effort": (optimal_control.optimal_excitations(), optimal_control.TARGETS),
+    "least variance": (minimum_variance.optimal_excitations(), INNER),
+    **{
+        f"least effort, {muscle} weak": (optimal_control.excitations_from_knots(knots), INNER)
+        for muscle, knots in zip(MUSCLES, WEAKENED, strict=True)
+    },
+}
 
-def test_every_optimum_is_at_its_target_and_stays():
-    motion = templates.reach(optimal_control.optimal_excitations())
-    hand = motion.hand[:, [700, 1000], :2]
-    assert np.linalg.norm(hand - optimal_control.TARGETS[:, None], axis=-1).max() < 1e-3
-    assert np.abs(motion.velocity[..., -1, :]).max() < 0.02
+
+@pytest.mark.parametrize("name", OPTIMA)
+def test_every_optimum_stays_at_its_target_and_above_the_table(name):
+    """At every ms from when a template is there to the end of the hold; there it hardly moves."""
+    excitations, targets = OPTIMA[name]
+    motion = templates.reach(excitations)
+    away = np.linalg.norm(motion.hand[:, MOVING:, :2] - targets[:, None], axis=-1)
+    assert away.shape[1] == 801
+    assert away.max() < 0.005
+    assert np.linalg.norm(motion.endpoint - targets, axis=-1).max() < 0.001
+    assert minimum_variance.path_measures(motion, targets)["speed"].max() < 2
+    assert motion.hand[..., 1].min() > TABLE
 
 
 def test_every_optimum_costs_less_than_habit():
@@ -20,8 +41,8 @@ def test_every_optimum_costs_less_than_habit():
     for rule in (None, exact_weights):
         habit = plan(optimal_control.TARGETS, templates.load(), *([rule] if rule else []))
         share = efforts / optimal_control.effort(habit.excitations)
-        assert share.max() < 1.05  # habit saves a little where it misses: it need not be there
-        assert np.median(share) < 0.5
+        assert share.max() < 1
+        assert np.median(share) < 0.6
 
 
 def test_mixed_optima_cost_little_more():
@@ -33,7 +54,7 @@ def test_mixed_optima_cost_little_more():
     mixed, shipped = (
         np.mean(optimal_control.effort(p.excitations) / efforts) for p in (cheap, habit)
     )
-    assert mixed < 1.5 < 3 < shipped
+    assert mixed < 1.5 < 1.8 < shipped
 
 
 def test_shipped_optima_are_reproducible():
@@ -45,8 +66,9 @@ def test_shipped_optima_are_reproducible():
 def test_gradients_equal_finite_differences():
     x = np.random.default_rng(0).uniform(0.02, 0.2, 6 * optimal_control.KNOTS)
     step = 1e-5 * np.random.default_rng(1).normal(size=x.size)
-    change = optimal_control._ends(x + step) - optimal_control._ends(x - step)
-    np.testing.assert_allclose(2 * optimal_control._end_gradients(x) @ step, change, atol=2e-6)
+    more, less = (optimal_control._task(x + way * step, INNER[0]) for way in (1, -1))
+    slopes = optimal_control._task_gradients(x, INNER[0])
+    np.testing.assert_allclose(2 * slopes @ step, more - less, atol=2e-6)
 
 
 def test_effort_is_the_mean_square():

@@ -7,9 +7,10 @@ import pytest
 
 from reproduce.peers import minimum_variance, motor_noise, optimal_control
 from reproduce.peers import optimal_feedback as feedback
-from vmc_lib.motor.templates import reach
+from vmc_lib.motor.templates import keep_last, reach
 
-TOLD = optimal_control.optimal_excitations()[minimum_variance.NEW]
+TOLD = optimal_control.optimal_excitations()[optimal_control.INNER]
+HELD = keep_last(TOLD)
 
 
 @cache
@@ -19,14 +20,14 @@ def law():
 
 @cache
 def noise():
-    shape = (30, *TOLD.shape)
+    shape = (30, *HELD.shape)
     return motor_noise.noise_factor(shape, minimum_variance.noise_share(), np.random.default_rng(2))
 
 
 def test_without_noise_the_plan_is_executed():
-    path, commands = feedback.move(law(), np.ones_like(TOLD))
+    path, commands = feedback.move(law(), np.ones_like(HELD))
     np.testing.assert_allclose(path, reach(TOLD).hand[:, :: feedback.TICK, :2], atol=1e-9)
-    np.testing.assert_allclose(commands, TOLD, atol=1e-9)
+    np.testing.assert_allclose(commands, HELD, atol=1e-9)
 
 
 def test_gradients_equal_finite_differences():
@@ -65,7 +66,7 @@ def test_no_larger_or_smaller_gain_costs_less(scale):
 def test_feedback_reduces_endpoint_scatter_most():
     """Steadier at the end than the same commands unwatched; half-way it leaves most as it is."""
     blind = np.array(
-        [reach(np.clip(TOLD * w, 0, 1)).hand[:, :: feedback.TICK, :2] for w in noise()]
+        [reach(np.clip(HELD * w, 0, 1), hold=0.0).hand[:, :: feedback.TICK, :2] for w in noise()]
     )
     now, late = (feedback.move(law(), noise(), late)[0] for late in (0, 12))  # ticks: 12, as sight
     alone, watched, foreseen = (feedback.scatter(x).mean(axis=0) for x in (blind, now, late))
