@@ -15,6 +15,7 @@ from reproduce.peers import motor_noise, optimal_control
 from reproduce.peers.optimal_control import INNER, TARGETS
 from reproduce.peers.optimal_feedback import scatter
 from reproduce.results import arrays
+from vmc_lib.arm.dynamics import hand
 from vmc_lib.camera import TABLE
 from vmc_lib.motor.inverse_dynamics import MOVING, SAMPLES, minimum_jerk
 from vmc_lib.motor.planning import plan
@@ -147,7 +148,7 @@ def _noise_effects(excitations, noises):
     """How far noises (n, T, 6) move the places of the hand, in dm: (…, n, places)."""
     commands = keep_last(excitations)[..., None, :, :]
     both = (np.clip(commands * (1 + side * WAVER * noises), 0, 1) for side in (1, -1))
-    ends = (reach(noisy, hold=0.0).hand[..., MOMENTS, :2] for noisy in both)
+    ends = (hand(reach(noisy, hold=0.0).q[..., MOMENTS, :])[..., :2] for noisy in both)
     effects = 10 * np.subtract(*ends) / (2 * WAVER)
     return effects.reshape(*effects.shape[:-2], -1)
 

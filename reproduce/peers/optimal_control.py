@@ -13,6 +13,7 @@ import numpy as np
 from joblib import Parallel, delayed
 
 from reproduce.results import arrays
+from vmc_lib.arm.dynamics import hand
 from vmc_lib.arm.kinematics import inverse_kinematics
 from vmc_lib.camera import TABLE
 from vmc_lib.motor.inverse_dynamics import MOVING, SAMPLES, bounded_least_squares, spline
@@ -126,7 +127,8 @@ def _task(x, target):
     motion = reach(excitations_from_knots(x))
     off = motion.q[..., STAY, :] - inverse_kinematics(target)
     parts = off.reshape(*x.shape[:-1], -1), 0.05 * motion.velocity[..., SAMPLES, :]
-    return np.concatenate([*parts, motion.hand[..., HEIGHTS, 1] - TABLE - CLEARANCE], axis=-1)
+    heights = hand(motion.q[..., HEIGHTS, :])[..., 1] - TABLE - CLEARANCE
+    return np.concatenate([*parts, heights], axis=-1)
 
 
 def _task_gradients(x, target):
