@@ -59,6 +59,14 @@ addEventListener("DOMContentLoaded", () =>
     asked();
   }));
 
+/* What a link leads to is unfolded. */
+const unfold = () => {
+  const place = document.getElementById(decodeURIComponent(location.hash.slice(1)));
+  if (place?.matches("details")) place.open = true;
+};
+addEventListener("DOMContentLoaded", unfold);
+document.addEventListener("click", ({ target }) => target.closest('a[href^="#"]') && setTimeout(unfold));
+
 /* Parts of the theme that a screen reader would meet without a name, or by another than is seen. */
 addEventListener("load", () => {
   const side = document.querySelector(".bd-sidebar-primary");

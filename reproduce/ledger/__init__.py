@@ -4,6 +4,7 @@
 that file, and a test measures the rows again and compares. Nothing in it is typed by hand.
 """
 
+import re
 from dataclasses import fields
 
 from reproduce import results
@@ -22,9 +23,15 @@ from reproduce.ledger.entry import VERDICTS, Quantity, measure
 from vmc_lib.photos import LEVELS
 from vmc_lib.show import table
 
-PARTS = (loop, search, regions, naming, filters, arm, planning, calibration, online)
+PARTS = {  # of the paper
+    "Loop": loop.ROWS,
+    "Where": search.ROWS + regions.ROWS,
+    "What": naming.ROWS + filters.ROWS,
+    "Moving": arm.ROWS + planning.ROWS,
+    "Cerebellum": calibration.ROWS + online.ROWS,
+}
 ARROWS = {1: " ↑", -1: " ↓", 0: ""}
-ROWS = tuple(row for part in PARTS for row in part.ROWS)
+ROWS = tuple(row for rows in PARTS.values() for row in rows)
 
 
 def make(rows=ROWS, levels=LEVELS):
@@ -61,20 +68,9 @@ def verdict_counts(entries):
     return table(["verdict", "rows", "numbers"], [*lines, ["together", len(rows), len(numbers)]])
 
 
-def summary(entries):
-    """All rows in one Markdown table, each with its verdict and the number that decides it."""
-    lines = []
-    for entry in entries:
-        place = f"[{entry['where']}]({entry['chapter']}.ipynb)"
-        q = deciding_quantity(entry)
-        numbers = [q["name"], result_text(q), claim_text(q)] if q else 3 * [None]
-        lines.append([place, entry["claim"], f"*{entry['verdict']}*", *numbers])
-    return table(["place", "claim", "verdict", "number", "ours", "paper"], lines)
-
-
-def deciding_quantity(entry):
-    """The first quantity of an entry whose verdict is that of the entry; None where it has none."""
-    return next((q for q in entry["quantities"] if q["verdict"] == entry["verdict"]), None)
+def anchor(where):
+    """The address of a row's details on the ledger's page."""
+    return "row-" + re.sub(r"[^a-z0-9]+", "-", where.lower()).strip("-")
 
 
 def details(entry):
@@ -92,9 +88,11 @@ def details(entry):
         ]
         for q in entry["quantities"]
     ]
-    title = f"<summary>{entry['where']}: <i>{entry['verdict']}</i></summary>"
+    place = f'<details id="{anchor(entry["where"])}"><summary>{entry["where"]}'
+    title = f"{place}: {entry['claim']} <i>{entry['verdict']}</i></summary>"
+    text += f" [The chapter]({entry['chapter']}.ipynb)."
     numbers = f"\n\n{table(heads, rows)}" if rows else ""
-    return f"<details>{title}\n\n{text}{numbers}\n\n</details>\n"
+    return f"{title}\n\n{text}{numbers}\n\n</details>\n"
 
 
 def claim_text(q):

@@ -133,8 +133,10 @@ def side_by_side(parts, alt):
         f'<div class="vmc-data" tabindex="0">{table}</div></details>'
         for table in tables
     )
+    role = "group" if "<a " in inner else "img"  # an image's links are none to a screen reader
     return (
-        f'<div class="vmc-pictures" role="img" aria-label="{html.escape(alt)}">{inner}</div>{below}'
+        f'<div class="vmc-pictures" role="{role}" aria-label="{html.escape(alt)}">{inner}</div>'
+        f"{below}"
     )
 
 
