@@ -15,7 +15,7 @@ COMPARED = {
         "planning-and-calibrating",
         "planning",
         "× faster than optimal control",
-        "(?!one movement|optimal)(.*)",
+        "(?!optimal)(habitual plan|.* one target.*)",
     ),
     "In the page: Python's MuJoCo": ("the-arm-in-the-page", "in_page", "× Python's MuJoCo", "(.*)"),
 }

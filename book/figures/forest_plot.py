@@ -12,7 +12,7 @@ import numpy as np
 LANE, MARGIN, WIDTH = 7, 4, 200  # px: a number's height, what is above and below, a line's width
 DOT, CROSS = "m-3 0a3 3 0 1 0 6 0a3 3 0 1 0-6 0", "m-3-3l6 6m0-6l-6 6"
 SHAPES = {  # of each kind of mark, about its place; `demo.css` has their colours
-    "by construction": "m-3-3h6v6h-6z",
+    "by construction": "m-2-2h4v4h-4z",
     "fitted": "m0-4l4 4l-4 4l-4-4z",
     "reproduced": DOT,
     "beaten": "m0-4l4 7h-8z",
@@ -41,7 +41,7 @@ class Axis(NamedTuple):
 RATIO = Axis(6, 140, (0, 2), 1, (0, 1, 2))
 SIGN = Axis(162, 196, (-1, 1), 0, (0,))
 KEY = Axis(0, 0, (0, 1), 0, ())
-TIMES = Axis(8, 186, (0.1, 1e4), 1, (0.1, 1, 10, 100, 1000, 10_000), np.log)
+TIMES = Axis(8, 186, (0.1, 1e4), 1, (0.1, 1, 10, 100, 1000), np.log)
 
 
 class Mark(NamedTuple):
@@ -106,7 +106,7 @@ def forest_plot(groups):
     html = [f'<p class="vmc-key">{" ".join(key)}</p>', '<div class="vmc-forest">']
     for head, lines in groups.items():
         ticks = [
-            f'<text x="{axis.place(tick)}" y="14">{tick:,}</text>'
+            f'<text x="{axis.place(tick)}" y="14">{tick:g}</text>'
             for axis in axes(lines)
             for tick in axis.ticks
         ]
