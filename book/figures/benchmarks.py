@@ -10,7 +10,12 @@ from vmc_lib.show import table
 # and which of its rows are ours
 COMPARED = {
     "Arm: OpenSim": ("simulating-the-arm", "simulators", "× OpenSim as exact", "ours, (.*)"),
-    "Features: scikit-learn": ("learning-features", "crbm", "times as fast as scikit-learn", "(.*)"),
+    "Features: scikit-learn": (
+        "learning-features",
+        "crbm",
+        "times as fast as scikit-learn",
+        "(.*)",
+    ),
     "Plans: optimal control": (
         "planning-and-calibrating",
         "planning",

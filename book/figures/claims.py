@@ -24,7 +24,11 @@ def _line(entry, verdict):
     found = [q["verdict"] for q in entry["quantities"]] or [entry["verdict"]]
     if verdict not in (ALL, *found):
         return None
-    marks = [_mark(q) for q in entry["quantities"] if q["claimed"] is not None and verdict in (ALL, q["verdict"])]
+    marks = [
+        _mark(q)
+        for q in entry["quantities"]
+        if q["claimed"] is not None and verdict in (ALL, q["verdict"])
+    ]
     tooltip = f"{entry['claim']} {entry['verdict'].capitalize()}."
     return Line(entry["where"], ledger.anchor(entry["where"]), tooltip, marks)
 

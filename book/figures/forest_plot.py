@@ -61,10 +61,16 @@ class Mark(NamedTuple):
         """The side claimed, the wider interval, and the mark on its interval, at height y."""
         axis, kind = self.axis, self.kind.replace(" ", "-")
         end = axis.ends[self.side > 0]
-        lines = {"side": self.side and (axis.against, end), "wider": self.wider, kind: self.interval}
+        lines = {
+            "side": self.side and (axis.against, end),
+            "wider": self.wider,
+            kind: self.interval,
+        }
         paths = {k: "M{} {y}H{}".format(*map(axis.place, e), y=y) for k, e in lines.items() if e}
         beyond = f"M{axis.right + 5} {y - 3}l3 3l-3 3" if self.value > axis.ends[1] else ""
-        paths[kind] = f"{paths.get(kind, '')}M{axis.place(self.value)} {y}{SHAPES[self.kind]}{beyond}"
+        paths[kind] = (
+            f"{paths.get(kind, '')}M{axis.place(self.value)} {y}{SHAPES[self.kind]}{beyond}"
+        )
         return "".join(f'<path class="{k}" d="{d}"/>' for k, d in paths.items())
 
 

@@ -150,7 +150,10 @@ def _face(alt, parts, controls, name):
     for switches, row in itertools.groupby(pairs, lambda pair: isinstance(pair[0][1], Switch)):
         faces = "".join(one.html(f"{name}-{key}", stride) for (key, one), stride in row)
         form += SWITCHES.format(faces) if switches else faces
-    face = [side_by_side(parts, alt), f'<form class="vmc-controls" autocomplete="off">{form}</form>']
+    face = [
+        side_by_side(parts, alt),
+        f'<form class="vmc-controls" autocomplete="off">{form}</form>',
+    ]
     if "<a " in face[0]:
         face.reverse()  # what chooses among links comes before them
     return "".join([*face, '<p class="vmc-spoken" aria-live="polite"></p>'])

@@ -5,6 +5,7 @@ import re
 import numpy as np
 import pytest
 
+from book.figures.claims import ALL, claims
 from reproduce import ledger
 from reproduce.experiments.loop_evaluation import evaluate
 from reproduce.ledger import entry, loop
@@ -15,6 +16,7 @@ from reproduce.ledger.entry import (
     FITTED,
     NOT_COMPARED,
     REPRODUCED,
+    VERDICTS,
     Quantity,
     measure,
 )
@@ -222,9 +224,36 @@ def test_ledger_values_are_found_by_name():
 
 def test_the_page_shows_every_row_and_every_number():
     entries = ledger.load()["rows"]
-    page, lines = ledger.summary(entries), ledger.verdict_counts(entries).splitlines()
-    assert len(page.splitlines()) == 2 + len(entries)
+    page, lines = claims(ALL, ALL), ledger.verdict_counts(entries).splitlines()
+    assert list(page) == list(ledger.PARTS)
+    drawn = {line.address: (line.name, len(line.marks)) for part in page.values() for line in part}
     assert lines[-1].replace(" ", "") == f"|together|{len(entries)}|{len(NUMBERS)}|"
+    assert len(drawn) == len(entries)
     for one in entries:
-        assert f"[{one['where']}]({one['chapter']}.ipynb)" in page
-        assert all(q["name"] in ledger.details(one) for q in one["quantities"])
+        compared = [q for q in one["quantities"] if q["verdict"] != NOT_COMPARED]
+        assert drawn[ledger.anchor(one["where"])] == (one["where"], len(compared))
+        text = ledger.details(one)
+        assert f'id="{ledger.anchor(one["where"])}"' in text
+        assert f"({one['chapter']}.ipynb)" in text
+        assert all(q["name"] in text for q in one["quantities"])
+
+
+def test_the_picture_is_filtered_by_verdict_and_part():
+    found = {
+        v: [m for ls in claims(v, ALL).values() for line in ls for m in line.marks]
+        for v in VERDICTS
+    }
+    for v, marks in found.items():
+        numbers = [q for q in NUMBERS if q["verdict"] == v != NOT_COMPARED]
+        assert [mark.kind for mark in marks] == [v] * len(numbers)
+    assert list(claims(DIFFERS, "What")) == ["What"]
+
+
+def test_a_mark_is_ours_over_the_papers_or_on_a_scale_of_its_own():
+    marks = [mark for lines in claims(ALL, ALL).values() for line in lines for mark in line.marks]
+    for mark, q in zip(marks, [q for q in NUMBERS if q["claimed"] is not None], strict=True):
+        assert mark.value * q["claimed"] == pytest.approx(q["obtained"] if q["claimed"] else 0)
+        ends = [*mark.interval, *mark.wider, mark.value]
+        assert min(ends) <= mark.value <= max(ends)
+        assert q["claimed"] or max(map(abs, ends)) in (0, pytest.approx(1))
+        assert q["claimed"] or mark.value * q["obtained"] >= 0
