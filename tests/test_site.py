@@ -139,6 +139,14 @@ def test_what_cannot_move_shows_its_first_picture_and_its_words(window, missing)
 # ---- Pages made by Sphinx, search, and the web ----
 
 
+def test_a_line_of_the_ledger_opens_its_row(offline):
+    page = open_url(offline, CHAPTER["ledger"].as_uri())
+    page.click('.vmc-forest a[href="#row-table-ii"]')
+    assert page.is_visible("#row-table-ii table")
+    page.press('.vmc-forest a[href="#row-fig-6"]', "Enter")
+    assert page.is_visible("#row-fig-6 table")
+
+
 @each(KINDS)
 def test_pages_made_by_sphinx(offline, path):
     page = open_url(offline, path.as_uri())

@@ -40,7 +40,6 @@ class Axis(NamedTuple):
 
 RATIO = Axis(6, 140, (0, 2), 1, (0, 1, 2))
 SIGN = Axis(162, 196, (-1, 1), 0, (0,))
-KEY = Axis(0, 0, (0, 1), 0, ())
 TIMES = Axis(8, 186, (0.1, 1e4), 1, (0.1, 1, 10, 100, 1000), np.log)
 
 
@@ -60,17 +59,15 @@ class Mark(NamedTuple):
     def svg(self, y):
         """The side claimed, the wider interval, and the mark on its interval, at height y."""
         axis, kind = self.axis, self.kind.replace(" ", "-")
-        end = axis.ends[self.side > 0]
         lines = {
-            "side": self.side and (axis.against, end),
+            "side": (axis.against, axis.ends[self.side > 0]) if self.side else (),
             "wider": self.wider,
             kind: self.interval,
         }
         paths = {k: "M{} {y}H{}".format(*map(axis.place, e), y=y) for k, e in lines.items() if e}
-        beyond = f"M{axis.right + 5} {y - 3}l3 3l-3 3" if self.value > axis.ends[1] else ""
-        paths[kind] = (
-            f"{paths.get(kind, '')}M{axis.place(self.value)} {y}{SHAPES[self.kind]}{beyond}"
-        )
+        mark = f"M{axis.place(self.value)} {y}{SHAPES[self.kind]}"
+        mark += f"M{axis.right + 5} {y - 3}l3 3l-3 3" * (self.value > axis.ends[1])  # beyond
+        paths[kind] = paths.get(kind, "") + mark
         return "".join(f'<path class="{k}" d="{d}"/>' for k, d in paths.items())
 
 
@@ -105,10 +102,10 @@ def drawing(box, inner):
 
 def forest_plot(groups):
     """The plot as HTML, of `groups`: head -> `Line`s; its key says how many marks of each kind."""
-    key = [
-        f"<span>{drawing((-5, -5, 10, 10), Mark(kind, KEY, 0).svg(0))} {text}</span>"
-        for kind, text in counts(groups).items()
-    ]
+    key = [] if groups else [in_words(groups)]
+    for kind, text in counts(groups).items():
+        path = f'<path class="{kind.replace(" ", "-")}" d="M0 0{SHAPES[kind]}"/>'
+        key.append(f"<span>{drawing((-5, -5, 10, 10), path)} {text}</span>")
     html = [f'<p class="vmc-key">{" ".join(key)}</p>', '<div class="vmc-forest">']
     for head, lines in groups.items():
         ticks = [
@@ -129,5 +126,7 @@ def counts(groups):
 
 def in_words(groups):
     """The plot for those who do not see it: its heads, and how many marks of each kind."""
-    lines = sum(map(len, groups.values()))
-    return f"{lines} lines, {', '.join(groups)}: {', '.join(counts(groups).values())}."
+    if not groups:
+        return "There is no such line."
+    found = ", ".join(counts(groups).values()) or "nothing to compare"
+    return f"{sum(map(len, groups.values()))} lines, {', '.join(groups)}: {found}."
