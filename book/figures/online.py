@@ -3,9 +3,9 @@
 import numpy as np
 from matplotlib.collections import PolyCollection
 
-from book.figures.offline import SIDE_BY_SIDE, in_plane, reach_scene
+from book.figures.offline import SIDE_BY_SIDE, in_plane
 from book.figures.panels import curves, panels
-from book.figures.reaching import mean_mm, reaches
+from book.figures.reaching import mean_mm, reach_scene, reaches
 from reproduce.experiments.calibration import SCENARIOS, ratio_name
 from reproduce.experiments.changed_worlds import CURES
 from reproduce.experiments.controller_comparison import MOVEMENTS
