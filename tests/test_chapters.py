@@ -13,6 +13,7 @@ from pybtex.database import parse_file
 from pybtex.richtext import Text
 
 from book._ext.plain import FOLD, TERMS
+from book.figures.inventory import title_and_minutes
 from tests.project import CHAPTERS, NOTEBOOKS, ROOT, code, each_chapter, python
 
 
@@ -102,14 +103,18 @@ def test_starts_with_one_title(notebook):
     assert len(re.findall(r"^# ", "\n".join(sources(notebook, "markdown")), re.M)) == 1
 
 
+DEMO = re.compile(r"^(explore|where\.segmentation_demo|live_arm)\(", re.M)
+
+
 @each_chapter
 def test_a_chapter_teaches(path):
-    """Aims and minutes; questions before demos; a checked exercise, its solution; quiz; recap."""
+    """A demo, aims and minutes; questions; a checked exercise, its solution; quiz; recap."""
     notebook = nbformat.read(path, as_version=4)
     text, source = "\n".join(sources(notebook, "markdown")), code(path)
-    assert "be able to" in notebook.cells[0].source
-    assert re.search(r"\d+\s+minutes", notebook.cells[0].source)
-    assert "explore(" in source
+    aims = next(i for i, cell in enumerate(notebook.cells) if "be able to" in cell.source)
+    assert re.search(r"\d+\s+minutes", notebook.cells[aims].source)
+    first = next(i for i, cell in enumerate(notebook.cells) if DEMO.search(cell.source))
+    assert first < aims < first + 3  # something to move, perhaps a question about it
     assert "predict(" in source
     assert "Predict first" not in text  # a box that nothing closes
     assert re.search(r"^\*\*Exercise(: .+)?\*\*$", text, re.M)
@@ -240,8 +245,8 @@ def test_sessions_have_similar_reading_times():
     cells = nbformat.read(ROOT / "book/teaching.ipynb", as_version=4).cells
     [plan] = [cell.source for cell in cells if cell.id == "teach-plan"]
     sessions = ast.literal_eval(plan.partition("SESSIONS = ")[2])
-    heads = {path.stem: nbformat.read(path, as_version=4).cells[0].source for path in CHAPTERS}
-    minutes = {name: int(re.search(r"(\d+)\s+minutes", head)[1]) for name, head in heads.items()}
+    minutes = {path.stem: title_and_minutes(path)[1] for path in CHAPTERS}
+    assert all(minutes.values())
     assert [page for pages in sessions.values() for page in pages] == [*minutes, "ledger"]
     totals = [sum(minutes.get(page, 0) for page in pages) for pages in sessions.values()]
     assert max(totals) <= 1.5 * min(totals)

@@ -2,6 +2,7 @@
 
 import re
 
+import numpy as np
 import pytest
 from bs4 import BeautifulSoup
 
@@ -84,13 +85,53 @@ def test_sliders_stand_in_a_grid_and_still(page):
     assert probe(page, "restlessSliders") == []
 
 
-def test_a_chapter_begins_with_a_demo(page):
-    """Its first demo begins within one and a half screens of 1280 × 800."""
+SCREENS = (1280, 800), (390, 844)  # a laptop's, a phone's
+FIRST = ".vmc-demo:has(.vmc-controls, input[type=range]), .vmc-live"
+MOVABLE = ":is(.vmc-handle, input, select):visible"
+
+
+@pytest.mark.parametrize(("width", "height"), SCREENS)
+def test_the_first_screen_plays(page, width, height):
+    """Before anything is scrolled, something that can be moved stands there whole."""
     if not page.path.stem[:2].isdigit():
         pytest.skip("not a chapter")
-    resize(page, 1280)
-    first = page.locator(".vmc-demo:has(.vmc-controls), .vmc-live").first
-    assert first.evaluate("(demo) => demo.getBoundingClientRect().top + scrollY") <= 1.5 * 800
+    resize(page, width, height)
+    page.evaluate("() => scrollTo(0, 0)")
+    box = page.locator(FIRST).first.locator(MOVABLE).first.bounding_box()
+    assert box["y"] + box["height"] <= height
+
+
+@pytest.mark.parametrize(("width", "height"), SCREENS)
+def test_nothing_jumps_while_a_slider_is_dragged(page, width, height):
+    """From one end to the other: each control of its demo keeps its place in the window."""
+    resize(page, width, height)
+    unfold(page)
+    jumps = [slider.get_attribute("id") for slider in page.locator(SLIDERS).all() if jump(slider)]
+    assert jumps == []
+
+
+SLIDERS = ".vmc-demo input[type=range]:visible"
+PLACES = """(slider) => {
+  const all = slider.closest(".vmc-demo").querySelectorAll("input, select, button");
+  slider.beside ??= [...all].filter((one) => one.checkVisibility());
+  return slider.beside.map((one) => one.getBoundingClientRect())
+    .map(({ left, right, top }) => [left, right, top]);
+}"""
+
+
+def jump(slider):
+    """How far, in px, the controls beside a slider move while the mouse drags it."""
+    slider.evaluate("(slider) => slider.scrollIntoView({ block: 'center', behavior: 'instant' })")
+    mouse, box, before = slider.page.mouse, slider.bounding_box(), slider.evaluate(PLACES)
+    middle, farthest = box["y"] + box["height"] / 2, 0
+    for part in np.linspace(0.02, 0.98, 9):
+        mouse.move(box["x"] + part * box["width"], middle)
+        mouse.down()
+        slider.page.evaluate(TWO_FRAMES)
+        after = slider.evaluate(PLACES)
+        farthest = max(farthest, np.abs(np.subtract(before, after)).max())
+    mouse.up()
+    return farthest > 1
 
 
 RUNS = ".tag_hide-input:not(.tag_hide-input + .tag_hide-input)"  # their first cells

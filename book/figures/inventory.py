@@ -49,7 +49,8 @@ def chapter_counts(paths):
 
 
 def title_and_minutes(path):
-    """A page's title, and the reading minutes that it states; 0 where it states none."""
-    sources = [cell.source for cell in nbformat.read(path, as_version=4).cells[:2]]
-    stated = re.search(r"(\d+)\s+minutes", "".join(sources))
-    return sources[0].splitlines()[0].removeprefix("# "), int(stated[1]) if stated else 0
+    """A page's title, and the reading minutes that its aims state; 0 where it states none."""
+    title, *cells = nbformat.read(path, as_version=4).cells
+    aims = next((cell.source for cell in (title, *cells) if "be able to" in cell.source), "")
+    stated = re.search(r"(\d+)\s+minutes", aims)
+    return title.source.splitlines()[0].removeprefix("# "), int(stated[1]) if stated else 0

@@ -170,7 +170,12 @@ const vmcDemo = (() => {
     demo.addEventListener("input", show);
     show();
     const scenes = [...pictures.querySelectorAll(".vmc-scene")].map((div) => vmcScene(div));
-    if (scenes.length) demo.querySelector(".vmc-controls").append(...vmcPanel(scenes));
+    if (scenes.length) {
+      const panel = document.createElement("div");
+      panel.className = "vmc-controls vmc-of-scene";
+      panel.append(...vmcPanel(scenes));
+      demo.querySelector(".vmc-controls").after(panel);
+    }
     demo.dataset.ready = "";
     return () => scenes.forEach((scene) => scene.end());
   };
