@@ -99,5 +99,5 @@ def aim_in_page(photo):
 def pad(photo):
     """Where a photo's target may be dragged, from its shuttlecock on."""
     [at] = photo.camera.project(photo.target)
-    start = 5 * np.round(at / 5)
-    return Pad(range(20, 581, 5), range(20, 381, 5), ("across", "down"), tuple(start), "pixels")
+    start = 2 * np.round(at / 2)
+    return Pad(range(20, 581, 2), range(20, 381, 2), ("across", "down"), tuple(start), "pixels")

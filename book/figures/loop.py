@@ -146,7 +146,7 @@ def chain_plots(summaries, count):
 
 def above(parts, title, xlim, ylim):
     """Things seen from above (a figure): each part is (places (n, 3), style, colour, label)."""
-    fig, ax = panels(size=(5.2, 4.8))
+    fig, ax = panels(size=(4.2, 4))
     for places, style, colour, label in parts:
         x, _, z = np.transpose(places)
         ax.plot(z, x, style, color=COLOURS[colour], ms=9)
