@@ -10,6 +10,7 @@ carries the tag `remove-cell`.
 
 import json
 import re
+from html import escape
 from itertools import groupby
 from pathlib import Path
 from textwrap import indent
@@ -20,6 +21,8 @@ TERMS = {
     head.replace(" ", "-"): head for head in HEAD.findall(GLOSSARY.read_text(encoding="utf-8"))
 }
 TERM = re.compile(r"\[([^\]]+)\]\((?:glossary\.md)?#([^)]+)\)")
+TERM_LINK = re.compile(r'<a (class="reference internal" href="(?:[^"]*glossary\.html)?#term-([^"]+)")')
+SENTENCE = re.compile(r".+?\.(?= |$)")
 SOURCE = r"\[[^\]]+\]\(references\.bib#(\w+)\)"
 SOURCES = re.compile(rf"\({SOURCE}(?:, {SOURCE})*\)")
 EXERCISE = re.compile(r"\*\*Exercise(?:: (.+))?\*\*\n\n")
@@ -33,6 +36,7 @@ VERDICTS = {"✓": ("right", "✓ Right."), "✗": ("wrong", "✗ No.")}
 
 def setup(app):
     app.connect("source-read", translate)
+    app.connect("html-page-context", give_cards)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
 
 
@@ -52,6 +56,25 @@ def definitions(text):
     pairs = zip(rest[::2], rest[1::2], strict=True)
     defined = "\n\n".join(f"{head}\n{indent(text.strip(), '  ')}" for head, text in pairs)
     return f"{first}```{{glossary}}\n{defined}\n```\n"
+
+
+def give_cards(app, pagename, templatename, context, doctree):
+    """Give each link to a term a card, which the style sheet shows: the glossary's first sentence."""
+    texts = HEAD.split(GLOSSARY.read_text(encoding="utf-8"))[1:]
+    cards = {h.replace(" ", "-"): card(t) for h, t in zip(texts[::2], texts[1::2], strict=True)}
+
+    def link(found):
+        said = cards.get(found[2])
+        return f'<a data-card="{escape(said)}" {found[1]}' if said else found[0]
+
+    context["body"] = TERM_LINK.sub(link, context.get("body", ""))
+
+
+def card(text):
+    """The first sentence of a term's text, without marks; "" where it needs mathematics."""
+    words = TERM.sub(r"\1", " ".join(text.split())).replace("*", "")
+    sentence = SENTENCE.match(words)[0]
+    return "" if "$" in sentence else sentence
 
 
 def with_directives(cells):

@@ -223,6 +223,8 @@ def test_the_page_checks_what_is_typed(open_questions, expected, tries):
         said = page.inner_text("[role=status]")
         assert verdict in said
         assert ("Think." in said) == (verdict == "Not yet")
+    page.reload()
+    assert page.input_value("input") == typed
 
 
 @pytest.mark.browser

@@ -4,13 +4,15 @@ const vmcMemory = {
   set: (key, text) => { try { localStorage.setItem(key, text); } catch {} },
 };
 
-/* A prediction is there again when the page is. */
+/* A prediction and what was typed are there again when the page is. */
 {
-  const key = (input) => `${location.pathname} ${input.name}`;
-  const inputs = ".vmc-predict input";
+  const inputs = ".vmc-predict input, form.vmc-check input";
+  const key = ({ name, form }) => `${location.pathname} ${name || [...document.forms].indexOf(form)}`;
   addEventListener("DOMContentLoaded", () =>
     document.querySelectorAll(inputs).forEach((input) => {
-      if (vmcMemory.get(key(input)) === input.value) input.checked = true;
+      const kept = vmcMemory.get(key(input));
+      if (input.type === "radio") input.checked ||= input.value === kept;
+      else input.value = kept ?? "";
     }));
   addEventListener("change", ({ target }) => {
     if (target.matches(inputs)) vmcMemory.set(key(target), target.value);
