@@ -46,6 +46,19 @@ def test_links_lead_somewhere(page):
     assert broken_links(page) == []
 
 
+def test_a_term_shows_its_card_to_the_keyboard(page):
+    """The glossary's first sentence, as the link is reached by Tab."""
+    unfold(page)
+    terms = page.locator("article a[data-card]").filter(visible=True)
+    if not terms.count():
+        pytest.skip("no terms")
+    terms.first.focus()
+    page.keyboard.press("Shift+Tab")
+    page.keyboard.press("Tab")
+    shown = terms.first.evaluate("(term) => getComputedStyle(term, '::after').content")
+    assert shown.strip('"') == terms.first.get_attribute("data-card")
+
+
 def test_equations_that_are_named_are_linked(page):
     assert probe(page, "unlinkedEquations") == []
 

@@ -21,7 +21,7 @@ TERMS = {
     head.replace(" ", "-"): head for head in HEAD.findall(GLOSSARY.read_text(encoding="utf-8"))
 }
 TERM = re.compile(r"\[([^\]]+)\]\((?:glossary\.md)?#([^)]+)\)")
-TERM_LINK = re.compile(r'<a (class="reference internal" href="(?:[^"]*glossary\.html)?#term-([^"]+)")')
+TERM_LINK = re.compile(r'<a (class="reference internal" href="[^"#]*#term-([^"]+)")')
 SENTENCE = re.compile(r".+?\.(?= |$)")
 SOURCE = r"\[[^\]]+\]\(references\.bib#(\w+)\)"
 SOURCES = re.compile(rf"\({SOURCE}(?:, {SOURCE})*\)")
@@ -59,7 +59,7 @@ def definitions(text):
 
 
 def give_cards(app, pagename, templatename, context, doctree):
-    """Give each link to a term a card, which the style sheet shows: the glossary's first sentence."""
+    """Give each link to a term a card for the style sheet: the glossary's first sentence."""
     texts = HEAD.split(GLOSSARY.read_text(encoding="utf-8"))[1:]
     cards = {h.replace(" ", "-"): card(t) for h, t in zip(texts[::2], texts[1::2], strict=True)}
 
