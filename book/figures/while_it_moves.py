@@ -90,7 +90,8 @@ def gain_curves(gains, by_gain, gain):
     fig, *axes = panels(len(by_gain), SIZE)
     k = gains.index(gain)
     for ax, (measured, lines) in zip(axes, by_gain.items(), strict=True):
-        curves(ax, gains, {f"{arm}: {number(line[k])}": line for arm, line in lines.items()})
+        for arm, line in lines.items():
+            ax.plot(gains, line, ".-", label=f"{arm}: {number(line[k])}")
         ax.axvline(gain, color=COLOURS["red"], lw=1.5, gid="now")
         ax.set(xscale="log", yscale="log", xlabel="gain (1/s²)", ylabel=measured)
         ax.set_xticks(gains, gains)
