@@ -63,7 +63,8 @@ const vmcDemo = (() => {
 
     const draw = ([alt, ...parts]) => {
       const row = demo.querySelector(".vmc-controls"), held = demo.matches(":hover, :focus-within");
-      const before = held && row.getBoundingClientRect().top;
+      const edges = () => [row.getBoundingClientRect().top, pictures.getBoundingClientRect().bottom];
+      const [top, bottom] = held ? edges() : [];
       parts.forEach((lines, i) => {
         if (!lines) return; // it stands there already
         const picture = places[i];
@@ -77,8 +78,11 @@ const vmcDemo = (() => {
       if (spoken && pictures.getAttribute("aria-label") !== words) spoken.textContent = words;
       pictures.setAttribute("aria-label", words);
       follow();
-      /* A picture of another height moves the page, and not what the reader's hand is on. */
-      if (held) scrollBy({ top: row.getBoundingClientRect().top - before, behavior: "instant" });
+      /* A picture of another height moves the page, and not what the reader's hand is on (which
+         may stick to the window's edge, so that it tells nothing of how much has grown). */
+      if (!held) return;
+      const [toTop, toBottom] = edges();
+      if (toTop !== top) scrollBy({ top: toBottom - bottom, behavior: "instant" });
     };
 
     const show = () => {
