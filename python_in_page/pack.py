@@ -30,11 +30,12 @@ PACKAGES = {
 }
 MODULES = [f"{package}.{name}" for package, names in PACKAGES.items() for name in names.split()]
 DATA = {Path("vmc_lib/arm/arm26.xml"), Path("vmc_lib/data/__init__.py")}  # and what reads data
+DATA |= {Path(f"vmc_lib/data/{name}.npz") for name in ("arm26", "templates")}
 UNCHANGED = ("pyodide.js", "pyodide.asm.js", "pyodide.asm.wasm")
 UNCHANGED += ("LICENSE-MPL-2.0", "LICENSE-PSF-2.0")
 NEEDLESS = re.compile(  # in a page: NumPy's headers and tests, and what no browser can do
     r"\.(pyi|h|c|a|ini|pxd)$|/tests/|^numpy/(f2py|distutils)/"
-    r"|^(multiprocessing|wsgiref|xmlrpc)/|^(ftplib|imaplib|mailbox|nntplib|poplib|smtplib)\.py$"
+    r"|^(multiprocessing|wsgiref|xmlrpc)/|^(doctest|ftplib|imaplib|mailbox|nntplib|pdb|pickletools|poplib|smtplib)\.py$"
 )
 NOTICE = """/* Pyodide 0.27.7, MPL-2.0, unchanged; source: https://github.com/pyodide/pyodide.
    CPython 3.12 within it, PSF-2.0: https://github.com/python/cpython. NumPy 2.0.2, BSD-3-Clause,

@@ -2,12 +2,15 @@
 
 from functools import wraps
 from hashlib import sha256
+from importlib.util import find_spec
 from inspect import unwrap
 from logging import getLogger
 from types import CodeType, FunctionType
 from warnings import warn
 
 import numpy as np
+
+AVAILABLE = find_spec("numba") is not None  # not in the page
 
 
 def compiled(loop):

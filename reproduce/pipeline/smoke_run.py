@@ -37,7 +37,7 @@ from reproduce.experiments import (
 from reproduce.peers import minimum_variance, optimal_control
 from reproduce.pipeline.progress import run_tasks
 from reproduce.pipeline.steps import STEPS, write
-from reproduce.training import shipped_models, ventral_stream
+from reproduce.training import arm_tables, shipped_models, ventral_stream
 from reproduce.whole_arm import experiment, habits
 from vmc_lib import photos
 from vmc_lib.where.recipes import EVERY_RECIPE, RECIPES
@@ -84,6 +84,7 @@ def toy_steps(folder):
         "localisers": partial(shipped_models.localisers, few),
         "cdbn": partial(shipped_models.cdbn, few, PATCHES),
         "recogniser": partial(shipped_models.recogniser, named),
+        "arm26": arm_tables.make,
         "templates": partial(shipped_models.templates, [0.16]),
         "localisation": partial(
             localisation.make, few, RECIPES | {"improved": improved}, trainings=1

@@ -37,7 +37,7 @@ from reproduce.experiments import (
 )
 from reproduce.peers import minimum_variance, optimal_control
 from reproduce.pipeline import checksums
-from reproduce.training import shipped_models, ventral_stream
+from reproduce.training import arm_tables, shipped_models, ventral_stream
 from reproduce.whole_arm import bones as bones63
 from reproduce.whole_arm import experiment, habits, plant
 from vmc_lib import data
@@ -125,7 +125,7 @@ BONES = f"{sys.executable} -m render.bone_meshes"
 SUMMED = f"{sys.executable} -m reproduce.pipeline.checksums"
 DERIVED, BONES63 = (f"{sys.executable} -m reproduce.whole_arm.{x}" for x in ("derive", "bones"))
 ARM, WHOLE_ARM, REAL, SHIPPED = (
-    "vmc_lib/arm",
+    "arm26 vmc_lib/arm",
     "vmc_lib/arm reproduce/whole_arm",
     "vmc_lib/data/real",
     "vmc_lib/data vmc_lib/arm",
@@ -143,6 +143,7 @@ STEPS = (
     Step(shipped_models.localisers, MODEL / "localisers.npz", "photos", 1),
     Step(shipped_models.cdbn, MODEL / "cdbn.npz", "photos", 2),
     Step(shipped_models.recogniser, MODEL / "recogniser.npz", "photos cdbn", 2),
+    Step(arm_tables.make, MODEL / "arm26.npz", "vmc_lib/arm", 0.1),
     Step(shipped_models.templates, MODEL / "templates.npz", ARM, 1),
     Step(localisation.make, RESULTS / "localisation.npz", "photos candidates detectors", 25),
     Step(recognition.make, RESULTS / "recognition.npz", "photos cdbn", 3),

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from reproduce.results import arrays
+from reproduce.training import arm_tables
 from vmc_lib.arm import dynamics
 from vmc_lib.arm.arm26 import MODEL, forward, geometry, mass_matrix, muscle_paths
 from vmc_lib.arm.model import DAMPING, F0, L0, LIMITS, MUSCLES, SLACK, STEP, XML
@@ -94,6 +95,14 @@ def test_closed_form_dynamics_equal_mujoco():
         np.testing.assert_allclose(arms[k], muscle_paths(pose)[1], atol=1e-6)
     back = dynamics.forward_dynamics(q, velocity, torque)
     np.testing.assert_allclose(back, acceleration, atol=1e-10)
+
+
+def test_closed_forms_that_ship_equal_mujoco():
+    table = np.swapaxes(arm_tables.path_table(), 1, 2)
+    np.testing.assert_allclose(dynamics.tables()[..., :12], table, rtol=0, atol=dynamics.UNIT)
+    for load in (0, 0.7, 10):
+        shipped = np.hstack(dynamics.coefficients(load))
+        np.testing.assert_allclose(shipped, arm_tables.coefficients(load), rtol=0, atol=2e-9)
 
 
 def test_geometry_agrees_with_hand_and_lengths():

@@ -61,6 +61,18 @@ def test_a_drag_acts_without_a_push():
     assert np.abs(paths[0][0] - simulate(u, START, u[:, 0]).q).max() > 0.01
 
 
+def test_all_arms_at_once_equal_the_loop(monkeypatch):
+    rng = np.random.default_rng(0)
+    u, push = random_excitations(3, 100, rng), rng.normal(size=(3, 100, 2))
+    apart, together = (allocate_trajectory(u, np.radians([0, 90]), 0, u[:, 0]) for _ in range(2))
+    world = 1.5, [[0, 0.2], [-0.2, 0]], push, [[0, 5], [-5, 0]]
+    step_trajectory(u, apart, range(100), *world)
+    monkeypatch.setattr("vmc_lib.arm.engines.AVAILABLE", False)  # no numba, as in the page
+    step_trajectory(u, together, range(100), *world)
+    for one, other in zip(apart, together, strict=True):
+        np.testing.assert_allclose(one, other, atol=1e-12)
+
+
 def test_hand_forces_act_through_the_jacobian():
     """A push, and a drag that grows with the hand's velocity, held against a numeric Jacobian."""
     rng = np.random.default_rng(4)

@@ -2,10 +2,12 @@
 
 import numpy as np
 import pytest
+from scipy.interpolate import BSpline
 
 from reproduce.training import reach_templates
 from vmc_lib import photos
 from vmc_lib.arm.kinematics import inverse_kinematics, turn_towards
+from vmc_lib.data import arrays
 from vmc_lib.motor import inverse_dynamics, templates
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import plan, surrounded
@@ -45,6 +47,16 @@ def test_shipped_templates_are_reproducible():
     again = inverse_dynamics.spline() @ reach_templates.find_reach(goal)
     np.testing.assert_allclose(templates.reach(again, hold=0).endpoint, goal, atol=1e-6)
     np.testing.assert_allclose(again, templates.load(0.08).excitations[5], atol=1e-3)
+    rest = inverse_dynamics.static_activation(templates.START)
+    np.testing.assert_allclose(arrays("templates")["rest"], rest, atol=1e-6)
+
+
+def test_splines_equal_scipys():
+    knots = inverse_dynamics.KNOTS
+    edges = np.concatenate([[0] * 3, np.linspace(0, 1, knots - 2), [1] * 3])
+    x = np.linspace(0, 1, inverse_dynamics.SAMPLES)
+    expected = BSpline.design_matrix(x, edges, 3).toarray()
+    np.testing.assert_allclose(inverse_dynamics.spline(), expected, atol=1e-14)
 
 
 def test_static_activation_holds_the_posture():

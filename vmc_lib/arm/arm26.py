@@ -6,7 +6,7 @@ from typing import NamedTuple
 import mujoco
 import numpy as np
 
-from vmc_lib.arm.model import MUSCLES, XML
+from vmc_lib.arm.model import MUSCLES, XML, check_load
 
 LOG = mujoco.MjLogConfig.get()
 LOG.logto_file = False  # no file in the reader's folder: a warning is on the console
@@ -32,8 +32,7 @@ class Geometry(NamedTuple):
 @cache
 def loaded(load):
     """The model with a weight of `load` kg, a point, held at the wrist; `MODEL` itself for 0."""
-    if not 0 <= load <= 10:
-        raise ValueError(f"a load of {load} kg cannot be held; choose 0 to 10")
+    check_load(load)
     if load == 0:
         return MODEL
     spec = mujoco.MjSpec.from_string(XML)

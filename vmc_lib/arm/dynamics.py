@@ -4,20 +4,23 @@ Inertia, gravity and the hand's position are trigonometric polynomials in the tw
 eleven basis functions: a few dozen snapshots of the MuJoCo model determine their coefficients
 exactly. And no muscle wraps over both joints at once, so every musculotendon length is a function
 of the shoulder angle plus a function of the elbow angle. They are tables, interpolated linearly:
-MuJoCo's wrapping takes ten times as long as all the rest of a step.
+MuJoCo's wrapping takes ten times as long as all the rest of a step. Both ship as arrays, made by
+`reproduce.training.arm_tables`: the arm moves where there is no MuJoCo.
 """
 
 from functools import cache
-from itertools import product
 
 import numpy as np
 
-from vmc_lib.arm.model import DAMPING, LIMITS, STEP
+from vmc_lib.arm.model import DAMPING, LIMITS, STEP, check_load
+from vmc_lib.data import arrays
 
 ROWS = 10_001  # of the muscle tables: steps of half a milliradian
 MARGIN = 0.4  # rad: the tables reach a little beyond the joints' stops
 LOW, HIGH = LIMITS[:, 0] - MARGIN, LIMITS[:, 1] + MARGIN
 ROWS_PER_RADIAN = (ROWS - 1) / (HIGH - LOW)
+UNIT = 1e-11  # m: the muscle tables ship in whole numbers of it …
+DIFFERENCES = 3  # … of which each row's third differences are small, and compress
 SHOULDER, ELBOW = DAMPING.tolist()
 
 
@@ -49,11 +52,9 @@ def coefficients(load=0.0):
 
     With a `load` in kg at the wrist.
     """
-    from vmc_lib.arm.arm26 import dynamics_at  # here: what follows needs no MuJoCo
-
-    angles = np.linspace(0, 2 * np.pi, 6, endpoint=False)
-    snapshots = np.array(list(product(angles, angles)))
-    solved = np.linalg.lstsq(_trig_basis_of(snapshots), dynamics_at(snapshots, load))[0]
+    check_load(load)
+    unloaded, per_kg = arrays("arm26")["dynamics"]
+    solved = unloaded + load * per_kg
     return solved[:, :7].copy(), solved[:, 7:].copy()
 
 
@@ -135,16 +136,9 @@ def table_row(angle, joint):
 @cache
 def tables():
     """Lengths and moment arms over the angle of either joint, and their slopes (2, ROWS, 24)."""
-    from vmc_lib.arm.arm26 import forward, muscle_paths
-
-    data = forward((0, 0))
-    straight = muscle_paths(data)[0].copy()
-    turned = np.empty((2, ROWS, 12))
-    for joint, posture in enumerate(np.eye(2)):
-        angles = np.linspace(LOW[joint], HIGH[joint], ROWS)
-        for row, angle in zip(turned[joint], angles, strict=True):
-            row[:6], arms = muscle_paths(forward(angle * posture, data=data))
-            row[6:] = arms[joint]
-    turned[1, :, :6] -= straight
+    table = arrays("arm26")["paths"]
+    for _ in range(DIFFERENCES):
+        table = np.cumsum(table, axis=-1)
+    turned = UNIT * np.swapaxes(table, 1, 2)
     slopes = np.diff(turned, axis=1, append=turned[:, -1:])
     return np.concatenate([turned, slopes], axis=-1)

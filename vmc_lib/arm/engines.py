@@ -12,7 +12,7 @@ from vmc_lib.arm import dynamics
 from vmc_lib.arm.dynamics import equation_12, table_row, trig_basis, trig_basis_gradient
 from vmc_lib.arm.model import F0, L0, LIMITS, SLACK, STEP
 from vmc_lib.arm.muscle import PAPER, euler_activation, fibre, musculotendon_force
-from vmc_lib.compiled import compiled
+from vmc_lib.compiled import AVAILABLE, compiled
 
 STOP_STIFFNESS = 200.0  # N m / rad: ours, not arm26's; bone and ligament beyond the joints' limits
 STOP_DAMPING = 0.5  # s / rad
@@ -87,7 +87,8 @@ def step_trajectory(
         push = np.zeros((*excitations.shape[:2], 2))
     arm = dynamics.tables(), dynamics.coefficients(load)
     forces = (np.require(x, float, "CW") for x in (field, push, drag))
-    _step(excitations, *path, steps[0], steps[-1] + 1, *arm, *forces, step)
+    run = _step if AVAILABLE else _step_together
+    run(excitations, *path, steps[0], steps[-1] + 1, *arm, *forces, step)
 
 
 @compiled
@@ -133,6 +134,25 @@ def _step(u, q, velocity, activation, first, end, tables, coefficients, field, p
             for joint in range(2):
                 velocity[arm, t + 1, joint] = velocity[arm, t, joint] + step * changes[joint]
                 q[arm, t + 1, joint] = q[arm, t, joint] + step * velocity[arm, t + 1, joint]
+
+
+def _step_together(
+    u, q, velocity, activation, first, end, tables, coefficients, field, push, drag, step
+):
+    """`_step` of all arms at once, in NumPy: for Python without numba, as in the page."""
+    for t in range(first, end):
+        now, w, a = q[:, t], velocity[:, t], activation[:, t]
+        torque = muscle_torque(a, *dynamics.paths(now), w) + stop_torque(now, w) + w @ field.T
+        if len(push):
+            rises = np.array(trig_basis_gradient(*now.T))
+            jacobian = np.einsum("jnb,nx->bjx", rises, coefficients[1][:, :2])
+            pushed = push[:, t] + np.einsum("bjx,bj->bx", jacobian, w) @ drag.T
+            torque += np.einsum("bjx,bx->bj", jacobian, pushed)
+        terms = coefficients[0].T @ trig_basis(*now.T)
+        change = equation_12(terms, *w.T, *torque.T, step)
+        activation[:, t + 1] = euler_activation(u[:, t], a, step)
+        velocity[:, t + 1] = w + step * np.transpose(change)
+        q[:, t + 1] = now + step * velocity[:, t + 1]
 
 
 def _mujoco_engine(excitations, start, first, perturbation, step, muscle):

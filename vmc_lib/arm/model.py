@@ -27,3 +27,9 @@ F0, L0, SLACK = (_numbers(f"custom/numeric[@name='{n}']", "data") for n in ("F0"
 LIMITS = _numbers("worldbody//joint", "range")  # (2, 2): lowest and highest angle of each joint
 DAMPING = read_only(np.repeat(_numbers("default/joint", "damping"), 2))  # N m s: skin and joints
 STEP = float(_MODEL.find("option").get("timestep"))  # s
+
+
+def check_load(load):
+    """Raise ValueError where a `load` in kg cannot be held."""
+    if not 0 <= load <= 10:
+        raise ValueError(f"a load of {load} kg cannot be held; choose 0 to 10")

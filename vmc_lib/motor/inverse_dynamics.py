@@ -20,11 +20,19 @@ KNOTS = 28  # spline coefficients of each muscle's excitation
 
 @cache
 def spline(knots=KNOTS, samples=SAMPLES):
-    """Cubic B-splines (samples, knots); a row sums to 1, so knots in [0, 1] stay in [0, 1]."""
-    from scipy.interpolate import BSpline
+    """Cubic B-splines (samples, knots); a row sums to 1, so knots in [0, 1] stay in [0, 1].
 
+    By the recursion of Cox and de Boor: SciPy's are the same, but cannot run in the page.
+    """
     edges = np.concatenate([[0] * 3, np.linspace(0, 1, knots - 2), [1] * 3])
-    return read_only(BSpline.design_matrix(np.linspace(0, 1, samples), edges, 3).toarray())
+    x = np.linspace(0, 1, samples)[:, None]
+    last = edges[:-1] == edges[knots - 1]  # the interval that holds its upper end, too
+    basis = (edges[:-1] <= x) & ((x < edges[1:]) | (last & (x == 1)))
+    for degree in (1, 2, 3):
+        span = edges[degree:] - edges[:-degree]
+        rise = (x - edges[:-degree]) / np.where(span, span, 1)
+        basis = rise[:, :-1] * basis[:, :-1] + (1 - rise[:, 1:]) * basis[:, 1:]
+    return read_only(basis)
 
 
 def minimum_jerk_profile(share):

@@ -1,7 +1,8 @@
 """Past experience: reaches that ended where they should, remembered as muscle excitations u_i(t).
 
 Every reach starts at rest in the same posture. Its command lasts a second; then comes the hold, for
-which the last command is kept on. What ships is the spline knots of the excitations.
+which the last command is kept on. What ships is the spline knots of the excitations, and the
+activations at rest.
 """
 
 from collections.abc import Callable
@@ -14,7 +15,7 @@ from vmc_lib.arm.dynamics import hand
 from vmc_lib.arm.model import STEP
 from vmc_lib.arm.simulate import UNPERTURBED, Motion, simulate
 from vmc_lib.data import arrays, read_only
-from vmc_lib.motor.inverse_dynamics import spline, static_activation
+from vmc_lib.motor.inverse_dynamics import spline
 
 START = np.radians([-20.0, 95.0])  # every reach begins here: elbow bent, the hand over the table
 SPACINGS = (0.04, 0.06, 0.07, 0.08)  # m: how densely past experience covers the plane …
@@ -58,7 +59,8 @@ def mean_speed(hold):
 
 def reach(excitations, perturbation=UNPERTURBED, hold=HOLD):
     """The `HeldMotion` from rest in `START`: excitations (…, T, 6), then `hold` s of the last."""
-    motion = simulate(keep_last(excitations, hold), START, _rest(), perturbation=perturbation)
+    rest = arrays("templates")["rest"]  # activations that hold the arm in START
+    motion = simulate(keep_last(excitations, hold), START, rest, perturbation=perturbation)
     return HeldMotion(**vars(motion), held=round(hold / STEP))
 
 
@@ -93,11 +95,6 @@ def load(spacing=SPACING, hold=HOLD):
     excitations = spline() @ arrays("templates")[key(spacing)].astype(float)
     move = partial(reach, hold=hold)
     return TemplateSet(read_only(move(excitations).endpoint), read_only(excitations), reach=move)
-
-
-@cache
-def _rest():
-    return static_activation(START)
 
 
 def key(spacing):
