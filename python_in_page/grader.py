@@ -1,57 +1,117 @@
-"""What the page's Python does with a function that the reader has typed: define it, grade it."""
+"""What the page's Python does with lines that the reader has typed: run them, grade a function."""
 
 import ast
 from contextlib import redirect_stdout, suppress
+from dis import get_instructions
 from importlib import import_module
 from io import StringIO
+from types import CodeType
 
 from vmc_lib.grading import WRONG, feedback
 
+READ = "LOAD_NAME", "LOAD_GLOBAL"
 LONGEST = 2000  # characters of what was printed that are shown
 
 
 def check(above, typed, name):
     """What the notebook's `grade` would say of the lines `typed`, Markdown, and what they printed.
 
-    `above` is the chapter's code before them, a list of (lines, whether they are folded); `name`
-    is the right function's, with its module.
+    `above` is the chapter's code before them, a text for each cell; `name` is the right
+    function's, with its module.
     """
     module, _, function = name.rpartition(".")
-    exercise, names = vars(import_module(module))[function.upper()], definitions(above)
-    with redirect_stdout(StringIO()) as printed:
-        said = _define(typed, function, names) or feedback(names[function], exercise)
-    return said, printed.getvalue()[:LONGEST]
+    exercise, names = vars(import_module(module))[function.upper()], definitions(above, typed)
+    names.pop(function, None)
+    said, printed = _run(typed, names)
+    if not said and function not in names:
+        said = f"{WRONG} Your lines define no function `{function}`."
+    if not said:
+        with redirect_stdout(StringIO()) as more:
+            said = feedback(names[function], exercise)
+        printed += more.getvalue()
+    return said, printed[:LONGEST]
 
 
-def definitions(above):
-    """The names that a chapter's code defines: of its open cells, and what the folded ones import.
+def run(above, typed):
+    """How a chapter's cell ran with the reader's lines, Markdown, and what it printed."""
+    said, printed = _run(typed, definitions(above, typed))
+    holds = ", and its `assert` holds" if "assert " in typed else ""
+    return said or f"✓ It runs{holds}.", printed[:LONGEST]
 
-    Each statement runs by itself: where one needs what the page has not, its names are missing.
+
+def definitions(above, typed):
+    """The names that the lines `typed` need of a chapter's code: no other statement of it runs.
+
+    Each runs by itself: where one needs what the page has not, its names are missing.
     """
+    kept, needed = [], {x for one in _statements(typed) for x in _names(_compiled(one), *READ)}
+    for statement in reversed([one for lines in above for one in _statements(lines)]):
+        code = _compiled(statement)
+        if not needed & set(code.co_names):  # soon said: most are not needed
+            continue
+        read, assigned = set(_names(code, *READ)), set(_names(code, "STORE_NAME"))
+        if needed & (assigned | _changed(statement)):
+            always = not isinstance(statement, ast.If | ast.For | ast.While | ast.With | ast.Try)
+            needed = (needed - assigned if always else needed) | read
+            kept.append(code)
     names = {"__name__": "__main__"}
-    for lines, folded in above:
-        with suppress(SyntaxError):  # in an earlier exercise
-            for statement in ast.parse(lines).body:
-                if not folded or isinstance(statement, ast.Import | ast.ImportFrom):
-                    with suppress(Exception):
-                        _run(ast.Module([statement], []), names)
+    for code in reversed(kept):
+        with suppress(Exception), redirect_stdout(StringIO()):
+            exec(code, names)  # noqa: S102
     return names
 
 
-def _define(typed, function, names):
-    """Run the reader's lines; what is wrong with them before anything is called, or None."""
-    names.pop(function, None)
-    try:
-        _run(typed, names)
-    except SyntaxError as error:
-        return f"{WRONG} Python cannot read line {error.lineno}: {error.msg}."
-    except Exception as error:
-        return f"{WRONG} Line {_line(error)} stops: `{error!r}`."
-    return None if function in names else f"{WRONG} Your lines define no function `{function}`."
+def _statements(lines):
+    """The statements of a cell; of an import each name, for others may be missing."""
+    with suppress(SyntaxError):  # of an earlier exercise, or being typed
+        for one in ast.parse(lines).body:
+            if isinstance(one, ast.ImportFrom):
+                yield from (ast.ImportFrom(one.module, [name], one.level) for name in one.names)
+            else:
+                yield one
 
 
-def _run(code, names):
-    exec(compile(code, "page", "exec"), names)  # noqa: S102
+def _compiled(statement):
+    tree = ast.fix_missing_locations(ast.Module([statement], []))
+    return compile(tree, "above", "exec")
+
+
+def _names(code, *operations):
+    """The names that compiled code and its functions read or assign by these operations."""
+    codes = [code]
+    while codes:
+        code = codes.pop()
+        yield from (x.argval for x in get_instructions(code) if x.opname in operations)
+        codes += [x for x in code.co_consts if isinstance(x, CodeType)]
+
+
+def _changed(statement):
+    """The names of what a statement changes a part of."""
+    parts = (x for x in ast.walk(statement) if isinstance(x, ast.Subscript | ast.Attribute))
+    wholes = (ast.walk(x.value) for x in parts if isinstance(x.ctx, ast.Store))
+    return {x.id for whole in wholes for x in whole if isinstance(x, ast.Name)}
+
+
+def _run(typed, names):
+    """Run the reader's lines: what is wrong with them, or None, and what they print and return."""
+    said = None
+    with redirect_stdout(StringIO()) as printed:
+        try:
+            tree = ast.parse(typed)
+            last = [tree.body.pop()] if tree.body and isinstance(tree.body[-1], ast.Expr) else []
+            exec(compile(tree, "page", "exec"), names)  # noqa: S102
+            for expression in last:
+                value = eval(compile(ast.Expression(expression.value), "page", "eval"), names)  # noqa: S307
+                if value is not None:
+                    print(repr(value))
+        except SyntaxError as error:
+            said = f"{WRONG} Python cannot read line {error.lineno}: {error.msg}."
+        except AssertionError as error:
+            line = _line(error)
+            said = f"{WRONG} Line {line} no longer holds: `{typed.splitlines()[line - 1].strip()}`."
+        except Exception as error:
+            said = f"{WRONG} Line {_line(error)} stops: `{error!r}`."
+    return said, printed.getvalue()
 
 
 def _line(error):

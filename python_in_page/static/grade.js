@@ -1,5 +1,6 @@
 /* Exercises in which the reader writes a function: the empty one becomes a field to write in, and the
-   page's Python grades it. What was typed, and what was said of it, is there again when the page is. */
+   page's Python grades it. So does a mechanism's cell, where it can run in the page, by its *Edit*: its
+   lines run. What was typed, and what was said of it, is there again when the page is. */
 const vmcGrade = (() => {
   "use strict";
 
@@ -14,11 +15,11 @@ const vmcGrade = (() => {
 
   const lines = (cell) => (cell.querySelector("textarea")?.value ?? cell.querySelector("pre").textContent);
 
-  /* The chapter's code before a cell: [lines, whether they are folded]; no solution is part of it. */
+  /* The chapter's code before a cell, by cell; no solution is part of it. */
   const above = (cell) =>
     [...document.querySelectorAll(".cell:has(> .cell_input, > details > .cell_input)")]
       .filter((one) => !one.closest(".solution") && one.compareDocumentPosition(cell) & 4) // one before cell
-      .map((one) => [lines(one), one.matches(".tag_hide-input")]);
+      .map(lines);
 
   /* Type for the reader, so that it can be undone. */
   const type = (area, text) => {
@@ -36,18 +37,19 @@ const vmcGrade = (() => {
     else type(area, `\n${before.match(/^ */)[0]}${/:\s*(#.*)?$/.test(before) ? "    " : ""}`);
   };
 
-  const edit = (form) => {
-    const cell = form.closest(".cell").previousElementSibling;
+  const memoryOf = (name) => `${location.pathname} ${name}`;
+
+  const edit = (form, cell, name) => {
     const input = cell.querySelector(".cell_input");
     const { stop, reset } = form.elements;
     const status = form.querySelector("[role=status]");
     const empty = lines(cell).trimEnd();
-    const memory = `${location.pathname} ${form.dataset.function}`;
+    const memory = memoryOf(name);
 
     const area = document.createElement("textarea");
     Object.assign(area, { value: empty, spellcheck: false, wrap: "off", autocomplete: "off", className: "vmc-lines" });
     area.setAttribute("autocapitalize", "off");
-    area.setAttribute("aria-label", `Your lines: ${form.dataset.function.split(".").pop()}`);
+    area.setAttribute("aria-label", `Your lines: ${name.split(".").pop()}`);
     input.replaceChildren(area);
     form.hidden = false;
 
@@ -99,6 +101,30 @@ const vmcGrade = (() => {
     fit();
   };
 
-  addEventListener("DOMContentLoaded", () => document.querySelectorAll("form[data-function]").forEach(edit));
+  /* A cell's *Edit*: it opens the cell, which is open at once where the reader has changed it before. */
+  const offer = (cell) => {
+    const name = lines(cell).match(/^def (\w+)/m)[1];
+    const form = document.createElement("form");
+    form.className = "vmc-check";
+    form.dataset.cell = name;
+    form.innerHTML = `<button type="button" aria-label="Edit ${name}">Edit</button>`;
+    cell.append(form);
+    const open = () => {
+      form.innerHTML = '<button>Run</button> <button type="button" name="stop" disabled>Stop</button> ' +
+        '<button type="button" name="reset" disabled>Reset</button> <div role="status"></div>';
+      edit(form, cell, name);
+    };
+    form.firstChild.addEventListener("click", () => {
+      open();
+      cell.querySelector("textarea").focus();
+    });
+    if (vmcMemory.get(memoryOf(name))) open();
+  };
+
+  addEventListener("DOMContentLoaded", () => {
+    for (const form of document.querySelectorAll("form[data-function]"))
+      edit(form, form.closest(".cell").previousElementSibling, form.dataset.function);
+    document.querySelectorAll(".cell.tag_runs-in-page").forEach(offer);
+  });
   return { inline, above };
 })();

@@ -22,7 +22,8 @@ const vmcPython = (() => {
       const python = await loadPyodide({ indexURL: "http://page.invalid/", packages: ["numpy"], ...quiet });
       python.unpackArchive(await (await fetch("library.zip")).arrayBuffer(), "zip");
       const grader = python.pyimport("python_in_page.grader");
-      check = ([above, typed, name]) => grader.check(python.toPy(above), typed, name).toJs();
+      check = ([above, typed, name]) =>
+        (name ? grader.check(python.toPy(above), typed, name) : grader.run(python.toPy(above), typed)).toJs();
     };
     onmessage = async ({ data }) => {
       try {

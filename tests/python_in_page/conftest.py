@@ -20,6 +20,7 @@ STUB = '''def {name}(u, a, rise, fall):
     """Per second."""
     ...  # your lines
 '''
+MECHANISM = "def cube(x):\n    return x**3\n\n\nassert cube(twice(2)) == 64"
 CELL = '<div class="cell"><div class="cell_input"><pre>{}</pre></div></div>'
 
 
@@ -40,13 +41,13 @@ def site(site, packed):
 def exercise_html():
     """A chapter's code, and an exercise with its empty function, as the book has them."""
     name = EVERY["ACTIVATION_RATES"].right.__name__
+    last = CELL.format(MECHANISM).replace('"cell"', '"cell tag_runs-in-page"')
     form = pages.book_html(
         questions, lambda: questions.grade(lambda *_: None, EVERY["ACTIVATION_RATES"])
     )
-    cells = (CELL.format(lines) for lines in (ABOVE, STUB.format(name=name)))
-    return (
-        f'<h1>E</h1>{"".join(cells)}<div class="cell"><div class="cell_output">{form}</div></div>'
-    )
+    first, stub = (CELL.format(lines) for lines in (ABOVE, STUB.format(name=name)))
+    output = f'<div class="cell"><div class="cell_output">{form}</div></div>'
+    return f"<h1>E</h1>{first}{stub}{output}{last}"
 
 
 @pytest.fixture

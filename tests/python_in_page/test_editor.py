@@ -6,6 +6,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.exercises import EVERY
+from tests.python_in_page.conftest import MECHANISM
 
 pytestmark = pytest.mark.browser
 RIGHT_LINES = inspect.getsource(EVERY["ACTIVATION_RATES"].right)
@@ -112,3 +113,28 @@ def test_it_is_accessible(open_exercise, serious):
     assert page.get_by_label("Your lines: activation_rates").count() == 1
     check(page, f"{HEAD}    print(1)\n    return u", "is right; yours gives")
     assert serious(page, "html", all_of_it=True) == []
+
+
+def test_a_mechanisms_cell_is_edited_run_kept_and_reset(open_exercise, window, serious):
+    page = open_exercise(window(viewport={"width": 360, "height": 700}))
+    edit = page.get_by_role("button", name="Edit cube")
+    edit.focus()
+    page.keyboard.press("Enter")
+    lines, said = page.get_by_label("Your lines: cube"), page.locator("[data-cell] [role=status]")
+    expect(lines).to_be_focused()
+    assert lines.input_value() == MECHANISM
+    page.button("Run").click()
+    said.get_by_text("✓ It runs, and its assert holds.").wait_for()
+    changed = MECHANISM.replace("x**3", "x**2").replace("assert", "print(cube(3))\nassert")
+    lines.fill(changed)
+    lines.press("Control+Enter")
+    said.get_by_text("Line 6 no longer holds: assert cube(twice(2)) == 64.").wait_for()
+    assert said.locator("pre").inner_text().strip() == "9"
+    assert serious(page, "html", all_of_it=True) == []
+    assert page.evaluate("() => document.documentElement.scrollWidth") <= 360
+    page.reload()
+    assert lines.input_value() == changed
+    assert "no longer holds" in said.inner_text()
+    page.locator("[data-cell] [name=reset]").click()
+    assert lines.input_value() == MECHANISM
+    assert said.inner_text() == ""

@@ -4,13 +4,13 @@ import inspect
 
 import pytest
 
-from python_in_page.grader import check, definitions
+from python_in_page.grader import check, definitions, run
 from tests.exercises import EVERY
-from vmc_lib.grading import EMPTY, RIGHT, feedback
+from vmc_lib.grading import EMPTY, RIGHT, WRONG, feedback
 
 RATES = EVERY["ACTIVATION_RATES"]
 NAME = "book.exercises.muscle.activation_rates"
-IMPORT = [["import numpy as np\nimport nowhere", True]]
+IMPORT = ["import numpy as np\nimport nowhere"]
 HEAD = "def activation_rates(u, a, rise, fall):\n"
 
 
@@ -40,26 +40,39 @@ def test_a_wrong_one_gets_what_the_notebook_says(last):
 )
 def test_lines_that_define_no_function_are_told_why(typed, told):
     """Also where the chapter above has one of that name."""
-    said, _ = check([[f"{HEAD}    return 0", False]], typed, NAME)
+    said, _ = check([f"{HEAD}    return 0"], typed, NAME)
     assert told in said
 
 
 def test_what_is_printed_is_shown_not_for_ever():
-    said, printed = check([["print('above')", False]], f"{HEAD}    print('here' * 999)", NAME)
+    said, printed = check(["print('above')"], f"{HEAD}    print('here' * 999)", NAME)
     assert said == EMPTY
     assert printed.startswith("hereh")
     assert len(printed) == 2000
 
 
-def test_the_code_above_has_run_as_far_as_it_can():
-    names = definitions(
-        [
-            ["import math\nfrom nowhere import x\nfolded = 1", True],
-            ["half = 0.5\nlost = x\n\ndef area(r):\n    return math.pi * r**2", False],
-            ["not Python", False],
-            ["assert half == 1\nafter = half", False],
-        ]
-    )
+def test_the_code_above_has_run_where_it_is_needed():
+    above = [
+        "import math\nfrom nowhere import x",
+        "half = 0.5\nlost = x\n\ndef area(r):\n    return math.pi * r**2",
+        "not Python",
+        "half = 2\nhalf = 0.5\nfew = [1, 2]\nfor k in range(2):\n    few[k] += half\nmath.e / 0",
+        "unasked = 1",
+    ]
+    names = definitions(above, "def mine():\n    return area(1) + lost + few[0]")
     assert names["area"](1) == pytest.approx(3.1415926)
-    assert names["after"] == 0.5
-    assert not {"x", "folded", "lost"} & names.keys()
+    assert names["few"] == [1.5, 2.5]
+    assert not {"x", "lost", "unasked"} & names.keys()
+
+
+@pytest.mark.parametrize(
+    ("typed", "told"),
+    [
+        ("print(1)\n2 + 2", ("✓ It runs.", "1\n4\n")),
+        ("assert area(1) < 4\nNone", ("✓ It runs, and its `assert` holds.", "")),
+        ("x = 1\nassert x == 2", (f"{WRONG} Line 2 no longer holds: `assert x == 2`.", "")),
+        ("print(1)\nf(", (f"{WRONG} Python cannot read line 2: '(' was never closed.", "")),
+    ],
+)
+def test_a_cell_runs_as_in_a_notebook(typed, told):
+    assert run(["def area(r):\n    return 3 * r**2"], typed) == told
