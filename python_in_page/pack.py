@@ -30,7 +30,7 @@ PACKAGES = {
 }
 MODULES = [f"{package}.{name}" for package, names in PACKAGES.items() for name in names.split()]
 DATA = {Path("vmc_lib/arm/arm26.xml"), Path("vmc_lib/data/__init__.py")}  # and what reads data
-DATA |= {Path(f"vmc_lib/data/{name}.npz") for name in ("arm26", "templates")}
+DATA |= {Path(f"vmc_lib/data/{name}.npz") for name in ("arm26", "rest", "templates")}
 UNCHANGED = ("pyodide.js", "pyodide.asm.js", "pyodide.asm.wasm")
 UNCHANGED += ("LICENSE-MPL-2.0", "LICENSE-PSF-2.0")
 NEEDLESS = re.compile(  # in a page: NumPy's headers and tests, and what no browser can do

@@ -85,6 +85,7 @@ def toy_steps(folder):
         "cdbn": partial(shipped_models.cdbn, few, PATCHES),
         "recogniser": partial(shipped_models.recogniser, named),
         "arm26": arm_tables.make,
+        "rest": arm_tables.make_rest,
         "templates": partial(shipped_models.templates, [0.16]),
         "localisation": partial(
             localisation.make, few, RECIPES | {"improved": improved}, trainings=1

@@ -6,6 +6,8 @@ import numpy as np
 
 from vmc_lib.arm.arm26 import dynamics_at, forward, muscle_paths
 from vmc_lib.arm.dynamics import DIFFERENCES, HIGH, LOW, ROWS, UNIT, trig_basis
+from vmc_lib.motor.inverse_dynamics import static_activation
+from vmc_lib.motor.templates import START
 
 HEAVY = 10.0  # kg: inertia, gravity and throw grow in proportion to a load at the wrist
 
@@ -41,3 +43,8 @@ def path_table():
             column[6:] = arms[joint]
     turned[1, :6] -= straight[:, None]
     return turned
+
+
+def make_rest():
+    """The array of `rest.npz`: "activation" (6,), which holds the arm where every reach begins."""
+    return {"activation": static_activation(START)}

@@ -16,8 +16,7 @@ from reproduce.training.cdbn import train_cdbn
 from reproduce.training.detectors import fit_detector, with_best_threshold, with_recipe
 from reproduce.training.name_classifier import fit_name_classifier, labelled_crops
 from vmc_lib import photos
-from vmc_lib.motor.inverse_dynamics import static_activation
-from vmc_lib.motor.templates import SPACINGS, START, key
+from vmc_lib.motor.templates import SPACINGS, key
 from vmc_lib.what.cdbn import CDBN, PATCHES, crops_of
 from vmc_lib.what.crops import whiten
 from vmc_lib.what.recogniser import POOLED_LEVEL, READ_OUTS, read_outs
@@ -115,8 +114,8 @@ def merge_sets(sets):
 
 
 def templates(spacings=SPACINGS):
-    """The spline knots (N, KNOTS, 6) of every set's templates, and the rest before (6,)."""
-    knots = {
+    """The spline knots (N, KNOTS, 6) of every template of every set."""
+    return {
         key(spacing): np.array(
             Parallel()(
                 delayed(reach_templates.find_reach)(g)
@@ -126,4 +125,3 @@ def templates(spacings=SPACINGS):
         )
         for spacing in spacings
     }
-    return {"rest": static_activation(START), **knots}

@@ -48,7 +48,7 @@ def test_shipped_templates_are_reproducible():
     np.testing.assert_allclose(templates.reach(again, hold=0).endpoint, goal, atol=1e-6)
     np.testing.assert_allclose(again, templates.load(0.08).excitations[5], atol=1e-3)
     rest = inverse_dynamics.static_activation(templates.START)
-    np.testing.assert_allclose(arrays("templates")["rest"], rest, atol=1e-6)
+    np.testing.assert_allclose(arrays("rest")["activation"], rest, atol=1e-6)
 
 
 def test_splines_equal_scipys():

@@ -2,7 +2,7 @@
 
 Every reach starts at rest in the same posture. Its command lasts a second; then comes the hold, for
 which the last command is kept on. What ships is the spline knots of the excitations, and the
-activations at rest.
+activation at rest.
 """
 
 from collections.abc import Callable
@@ -59,7 +59,7 @@ def mean_speed(hold):
 
 def reach(excitations, perturbation=UNPERTURBED, hold=HOLD):
     """The `HeldMotion` from rest in `START`: excitations (…, T, 6), then `hold` s of the last."""
-    rest = arrays("templates")["rest"]  # activations that hold the arm in START
+    rest = arrays("rest")["activation"]  # that holds the arm in START
     motion = simulate(keep_last(excitations, hold), START, rest, perturbation=perturbation)
     return HeldMotion(**vars(motion), held=round(hold / STEP))
 
