@@ -57,8 +57,7 @@ def excitation_wanted(a=steps(0.1, 0.7, 0.1), rate=steps(-2, 10, 1, zero=5)):
 
 @numeric(hint="exp(-40 (l - 0.95)⁴ + (l - 0.95)²)", tolerance=0.002)
 def force_of_length(length=steps(0.4, 1.6, 0.05)):
-    """What is f1, the share of the greatest force that an active fibre has at {length} of its
-    optimal length (Eq. 11)?"""
+    """What is f1 (Eq. 11), the active force in units of F0, at {length} of the optimal length?"""
     return muscle.force_length(length)
 
 

@@ -66,8 +66,8 @@ def samples_of_a_delay(delay=steps(60, 240, 20), tick=(5, 10, 20)):
 
 
 @numeric("Hz", "One over the period.")
-def period_of_a_tremor(delay=steps(80, 240, 20), times=(2, 4)):
-    """An arm trembles with a period of {times} delays; its sight is {delay} ms late. What is the
+def period_of_a_tremor(delay=steps(80, 240, 20), times=(4, 5, 6)):
+    """A loop swings with a period of {times} delays; its sight is {delay} ms late. What is the
     tremor's frequency?"""
     return 1000 / (times * delay)
 
