@@ -155,7 +155,7 @@ def test_demo_without_its_cells_raises_name_error(path):
 @pytest.mark.parametrize(
     ("answer", "verdict"),
     [
-        ("abc", "✗ Not yet. You have 'abc'."),
+        ("abc", "Not read. Write a number"),
         ([11.5, [1, 2]], "✗ Not yet. You have [11.5, [1, 2]]."),
         ([None, [1, 2]], "Not answered yet."),
         ([[None, 1], [3]], "Not answered yet."),
