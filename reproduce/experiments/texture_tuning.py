@@ -4,6 +4,14 @@ import numpy as np
 from scipy.ndimage import uniform_filter
 
 from reproduce.experiments.gabor import direction_vector
+from vmc_lib.what.crbm import CRBM
+
+ORDERS = 8  # of a filter's numbers
+
+
+def shuffled(filters, rng):
+    """The same filters (K, …), the numbers of each in another order."""
+    return rng.permuted(filters.reshape(len(filters), -1), axis=1).reshape(filters.shape)
 
 
 def local_direction(picture, width):
@@ -36,6 +44,17 @@ def tuning(crbm, pictures):
             [_excess(on[n], at, prefers) for on, at in zip(maps, (there, pooled), strict=True)]
         )
     return np.array(found).T
+
+
+def over_shuffled(crbm, pictures):
+    """The mean `tuning` less that with shuffled filters, of hidden and pooled units: (2, ORDERS).
+
+    Filters in any order are tuned a little, for each has some direction.
+    """
+    rng = np.random.default_rng(0)
+    others = (CRBM(shuffled(crbm.W, rng), crbm.b, crbm.a, crbm.c) for _ in range(ORDERS))
+    theirs = np.array([tuning(other, pictures).mean(axis=1) for other in others])
+    return tuning(crbm, pictures).mean(axis=1)[:, None] - theirs.T
 
 
 def _excess(on, there, prefers):

@@ -22,7 +22,7 @@ def _chain(scores, rule):
     """From photo to movement on the rig, calibrated by a rule of RULES."""
     named, moved = scores["found"] & scores["named"], np.isfinite(scores["planned"])
     recall, count = paper.TABLE_2[1] * paper.TABLE_3["CDBN"][1], len(named)
-    nearer = 1000 * (scores["planned"] - scores[rule])[moved]
+    nearer = 1000 * (scores["planned"] - scores[rule])[named & moved]
     name = "photos whose shuttlecock is found and named"
     exact = {"better": 1, "rounding": paper.SHARE}
     return [
@@ -35,7 +35,7 @@ def _chain(scores, rule):
 def _speed():
     rows = {row["stage"]: row["ms"] for row in results.records("bench/loop")["rows"]}
     ratio = rows["candidates and regions"] / rows["names"]
-    return [Quantity("time for where over time for what", 1, ratio, better=-1, bound=True)]
+    return [Quantity("time for where over time for what", None, ratio)]
 
 
 @cache
@@ -90,7 +90,7 @@ ROWS = (
         "The dorsal stream responds in real time.",
         "performance",
         _speed,
-        differs="Our model is serial: a region must be found before it can be named, and finding "
+        note="Our model is serial: a region must be found before it can be named, and finding "
         "takes {q[time for where over time for what].obtained:.1f} times as long as naming. In the "
         "brain the two pathways work side by side.",
     ),

@@ -22,12 +22,14 @@ ONLINE = {"better": -1, "rounding": paper.ratio_rounding("online", "planned")}
 
 def _table_6():
     claimed, name = paper.calibrated_error_ratio("online"), "error after over planned, {}"
-    other = "online, the other reading"
+    other, practised = "online, the other reading", printed()[f"online, {ratio_name(1, IN_SAMPLE)}"]
+    as_much = (practised >= claimed).sum(), len(practised)
     return [
         _learned(name.format(SCENARIOS[0]), claimed, printed(), **ONLINE),
         _learned(name.format(SCENARIOS[1]), None, printed(SCENARIOS[1])),
         _learned(name.format("the other reading"), None, printed(), other),
         *(_learned(name.format(f"{s}, {HELD}"), None, load_results()[s]) for s in SCENARIOS),
+        share("practised: draws that leave as much as the paper's", None, *as_much),
     ]
 
 
@@ -66,14 +68,12 @@ def _tenth(name, claimed, found, **rest):
 
 
 def _as_good():
-    claimed = paper.MEAN_ERROR["online"] / paper.MEAN_ERROR["off-line"]
-    rules = {"better": -1, "rounding": paper.ratio_rounding("online", "off-line")}
     found, name = printed(), "online over off-line"
     held_out, in_sample = (
         found[f"online, {ratio_name(1, kind)}"] / found["off-line, published"]
         for kind in (HELD_OUT, IN_SAMPLE)
     )
-    return [mean_of_draws(name, claimed, held_out, in_sample=in_sample.mean(), **rules)]
+    return [mean_of_draws(name, None, held_out, in_sample=in_sample.mean())]
 
 
 ROWS = (
@@ -84,7 +84,9 @@ ROWS = (
         _table_6,
         note=FIXED
         + "Movements never practised decide. The paper reports those that it practised: our "
-        "numbers of that kind are in sample. Algorithm 2 is taken as printed: w' is learned for "
+        "numbers of that kind are in sample. Like for like, on practised movements, "
+        "{q[practised: draws that leave as much as the paper's].obtained:.0%} of our draws leave "
+        "as much as the paper's. Algorithm 2 is taken as printed: w' is learned for "
         "the place p_a' that it reached. Learned for the target instead (the other reading), it "
         "leaves {q[error after over planned, the other reading]"
         ".obtained:.2f}.",
@@ -106,13 +108,18 @@ ROWS = (
         differs="For movements never practised the draws do not tell the ratio from 1: the first "
         "experiment teaches most.",
         note="The mean over all draws, of movements never practised; the paper's claim is on those "
-        "that are practised again (in sample).",
+        "that are practised again (in sample). Over the hold, six draws do not tell the ratio of "
+        "changing neighbours from 1.",
     ),
     Row(
         "IV D, online",
         "Online calibration errs about as little as off-line.",
         "11_online",
         _as_good,
+        note="The paper practised the movements that it reports, and its ratio is "
+        f"{paper.MEAN_ERROR['online'] / paper.MEAN_ERROR['off-line']:.2f}. Like for like, ours is "
+        "{q[online over off-line].in_sample:.2f}; of movements never practised, "
+        "{q[online over off-line].obtained:.2f}.",
     ),
     Row(
         "Ours, Table VI",

@@ -16,7 +16,6 @@ from vmc_lib.where.features import raw_pixels
 from vmc_lib.where.recipes import PUBLISHED
 from vmc_lib.where.selective_search import propose
 
-WAY = "fast"  # the strategy that is held against exhaustive search
 UNSURE = 2  # boxes a photo: the paper says 130 in average and 10,560 in all, of 80 photos
 
 
@@ -68,16 +67,16 @@ def _fewer():
 
 
 def _search():
-    """Selective search beside windows of every size, everywhere; `WAY` has many groupings."""
-    some, (ours,) = photos.load("rig", "test"), class_independence.load_boxed("rig").values()
+    """Selective search beside windows of every size, everywhere; *fast* has more groupings."""
+    some, (many,) = photos.load("rig", "test"), class_independence.load_boxed("rig").values()
     everywhere = window_proposals.exhaustive((photos.HEIGHT, photos.WIDTH))
     found = [candidates(photo) for photo in some]
-    few, theirs = (_objects_found(some, every) for every in (found, [everywhere] * len(some)))
+    ours, theirs = (_objects_found(some, every) for every in (found, [everywhere] * len(some)))
     fewer = np.mean([len(boxes) for boxes in found]) / len(everywhere)
     boxed = "objects boxed well (IoU 0.8), of those that exhaustive search boxes"
     return [
         share(boxed, 1, (ours & theirs).sum(), theirs.sum(), better=1),
-        share(f"{boxed}, published recipe", None, (few & theirs).sum(), theirs.sum()),
+        share(f"{boxed}, fast", None, (many & theirs).sum(), theirs.sum()),
         Quantity(
             "seconds until all boxes are described, over those of exhaustive search",
             1,
@@ -95,7 +94,7 @@ def _search():
 def _seconds(image, everywhere, part=5000):
     """Time to search an image and describe what is found, over that for windows everywhere."""
     start = perf_counter()
-    raw_pixels(image, propose(image, WAY))
+    raw_pixels(image, propose(image, PUBLISHED.strategy))
     searched = perf_counter()
     raw_pixels(image, everywhere[:: len(everywhere) // part])
     described = (perf_counter() - searched) * len(everywhere) / part
@@ -108,13 +107,15 @@ def _objects_found(some, found):
 
 
 def _classes():
-    """Shuttlecocks less cups, on varied tables, by ever more ways of grouping; the most decide."""
-    boxed = class_independence.load_boxed("varied")
-    *few, most = boxed
-    gaps = {way: np.subtract(*boxed[way].T.astype(float)) for way in (most, *few)}
+    """Shuttlecocks less cups, on varied tables, by ever more ways of grouping; ours decides."""
+    claims, boxed = {PUBLISHED.strategy: 0}, class_independence.load_boxed("varied")
     return [
-        mean(f"shuttlecocks boxed well, less cups, {way}", 0 if way == most else None, gap)
-        for way, gap in gaps.items()
+        mean(
+            f"shuttlecocks boxed well, less cups, {way}",
+            claims.get(way),
+            np.subtract(*each.T.astype(float)),
+        )
+        for way, each in boxed.items()
     ]
 
 
@@ -149,14 +150,20 @@ ROWS = (
         "Selective search is faster than exhaustive search, and captures all scales.",
         "02_candidates",
         _search,
-        note="By *fast*, eight hierarchies; the published recipe has fewer.",
+        differs="It is faster, but misses some: of the objects that exhaustive search boxes well, "
+        "the recipe that we read from the paper's words boxes the share of "
+        "{q[objects boxed well (IoU 0.8), of those that exhaustive search boxes].obtained:.2f}. "
+        "Eight hierarchies (*fast*) box "
+        "{q[objects boxed well (IoU 0.8), of those that exhaustive search boxes, fast]"
+        ".obtained:.2f}.",
     ),
     Row(
         "IV A, classes",
         "Diverse grouping makes selective search independent of the object's class.",
         "02_candidates",
         _classes,
-        note="On varied tables. The most diverse strategy, *quality*, decides: the paper speaks of "
-        "diverse grouping. With one hierarchy a shuttlecock is boxed less often than a cup.",
+        differs="By the recipe that we read from the paper's words the shuttlecock is boxed less "
+        "often; with eighty hierarchies (*quality*) no longer.",
+        note="On varied tables.",
     ),
 )

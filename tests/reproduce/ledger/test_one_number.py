@@ -6,10 +6,9 @@ from functools import cache
 import pytest
 
 from reproduce import ledger
-from reproduce.experiments import localisation, planning_error, recognition
+from reproduce.experiments import localisation, recognition
 from reproduce.experiments.calibration import AS_PRINTED, SCENARIOS, load_results
 from tests.project import ROOT, code_cells, each_chapter
-from vmc_lib.motor.planning import exact_weights, habitual_weights
 
 CLAIMS = {"planned_error_ratio", "calibrated_error_ratio", "MEAN_ERROR"}
 CLAIMS |= {"TABLE_1", "TABLE_2", "TABLE_3"}
@@ -108,9 +107,3 @@ def test_chapter_6_and_the_ledger_ask_one_family_of_duels():
     calls = {call for cell in cells(ROOT / "book/06_names.ipynb").values() for call in cell.calls}
     assert "recognition.fresh_duels" in calls
     assert "recognition.mcnemar_tests" not in calls
-
-
-def test_chapter_9_and_the_ledger_agree_on_what_is_arithmetic():
-    near, exact = map(planning_error.mean_miss, (habitual_weights, exact_weights))
-    q = ledger.value("III, Block 3", "share of the miss that exact weights remove, over the hold")
-    assert q.obtained == pytest.approx(1 - exact / near, rel=0.01)
