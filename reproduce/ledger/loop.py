@@ -22,12 +22,12 @@ def _chain(scores, rule):
     """From photo to movement on the rig, calibrated by a rule of RULES."""
     named, moved = scores["found"] & scores["named"], np.isfinite(scores["planned"])
     recall, count = paper.TABLE_2[1] * paper.TABLE_3["CDBN"][1], len(named)
-    nearer = 1000 * (scores["planned"] - scores[rule])[named & moved]
+    nearer = 1000 * (scores["planned"] - scores[rule])[moved]
     name = "photos whose shuttlecock is found and named"
     exact = {"better": 1, "rounding": paper.SHARE}
     return [
         share(name, recall, named.sum(), count, paper.OBJECTS, **exact),
-        mean("how much nearer calibration brings the hand (mm)", 0, nearer, better=1, bound=True),
+        mean("how much nearer all that move are brought (mm)", 0, nearer, better=1, bound=True),
         share("photos that end in a movement", 1, moved.sum(), count),
     ]
 
@@ -75,7 +75,7 @@ ROWS = (
         _figure_1,
         differs="The paper's own search, classifier and read-out find and name the shuttlecock in "
         "the share of {q[photos whose shuttlecock is found and named].obtained:.2f} of the photos. "
-        "Where they do, calibration brings the hand nearer. See *Ours, Fig. 1*.",
+        "In all that end in a movement, calibration brings the hand nearer. See *Ours, Fig. 1*.",
         note=NO_NUMBER,
     ),
     Row(
