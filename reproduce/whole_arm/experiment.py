@@ -103,7 +103,7 @@ def stop_errors(past, seed, count=5):
     """One draw: mean miss, m, and speed over the hold, m/s, after four corrections of each kind."""
     drawn = draw_targets(past, count=count, rng=np.random.default_rng((seed, 2)))
     reaches = plan_reaches(drawn, past)
-    alone = broyden_calibration(reaches, trials=4).movements[-1]
+    alone = broyden_calibration(reaches, n_trials=4).movements[-1]
     both = [stop_calibration(reaches[k]).movements[-1] for k in range(count)]
     misses = [end.endpoint[:3] - target for end, target in zip(both, drawn, strict=True)]
     return {
