@@ -23,7 +23,7 @@ def fresh(template_set, rng):
 
 
 def test_four_trials_bring_the_hand_to_within_a_millimetre_but_not_to_rest(fresh):
-    corrected = execute(fresh.with_weights(broyden_calibration(fresh, trials=4).best))
+    corrected = execute(fresh.with_weights(broyden_calibration(fresh, 4).best_weights))
     assert corrected.error.mean() < LIMIT < execute(fresh).error.mean(), fresh.target
     assert corrected.speed.mean() > STILL
 
