@@ -13,8 +13,8 @@ import numpy as np
 
 from vmc_lib.boxes import as_boxes, centres_and_sides, jitter_boxes
 from vmc_lib.data import arrays, read_only
-from vmc_lib.photos import LEVELS
-from vmc_lib.where.features import gradients, raw_pixels
+from vmc_lib.photos import LEVELS, crops
+from vmc_lib.where.features import gradients
 from vmc_lib.where.kernels import rbf
 
 COPIES, JITTER = 12, 0.05  # boxes per training photo, and the noise of their edges, in sides
@@ -88,4 +88,5 @@ def _describe(image, boxes):
         gradients(image, boxes, cells, margin=margin)
         for cells, margin in ((8, 0.0), (10, 0.25), (14, 0.1))
     ]
-    return np.hstack([*outlines, 0.3 * raw_pixels(image, boxes), np.log(sides)])
+    pixels = crops(image, boxes, 16).reshape(len(boxes), -1)
+    return np.hstack([*outlines, 0.3 * pixels, np.log(sides)])
