@@ -7,9 +7,9 @@ from book.figures.offline import SIDE_BY_SIDE, in_plane
 from book.figures.panels import curves, panels
 from book.figures.reaching import mean_mm, reach_scene, reaches
 from reproduce.experiments.calibration import SCENARIOS, ratio_name
-from reproduce.experiments.changed_worlds import CURES
+from reproduce.experiments.changed_worlds import BLOCKS, CURES
 from reproduce.experiments.controller_comparison import MOVEMENTS
-from reproduce.experiments.online_calibration import BLOCKS, STEPS, remaining
+from reproduce.experiments.online_calibration import STEPS, remaining
 from vmc_lib.cerebellum.online import GranuleCells
 from vmc_lib.motor.execution import rotate_about_eye
 from vmc_lib.show import note, table

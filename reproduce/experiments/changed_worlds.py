@@ -1,5 +1,6 @@
 """Adaptation in a world that changes: a load, a viscous field, a prism, each for some blocks."""
 
+from copy import deepcopy
 from functools import partial
 from typing import NamedTuple
 
@@ -22,6 +23,7 @@ PERTURBATIONS = {  # what may change, as `execute` takes it
 
 NOTHING = "nothing learns"
 CURES = (*CORRECTIONS, NOTHING)
+BLOCKS = (2, 8, 6)  # of an adaptation: before the world changes, changed, and after
 
 
 class Curve(NamedTuple):
@@ -36,7 +38,7 @@ class Curve(NamedTuple):
         return np.linalg.norm(self.endpoint - self.target, axis=-1).mean(axis=-1)
 
 
-def adapt(learner, template_set, rng, perturbation, blocks=(2, 8, 6), movements=8):
+def adapt(learner, template_set, rng, perturbation, blocks=BLOCKS, movements=8):
     """The `Curve` of an `Adaptation` in a world (of `PERTURBATIONS`) that comes and goes.
 
     `blocks` counts those before, in and after the changed world. All targets are new, and lie
@@ -63,20 +65,26 @@ def train_aim_correction(template_set, rng, movements=150):
     )
 
 
-def block_errors(seed, before=150, **size):
+def without_learning(trained, template_set, perturbation, target, blocks=BLOCKS):
+    """The `Curve` of such blocks of targets (blocks, movements, 2) where nothing learns."""
+    corrected = trained.correct(plan(target, template_set))
+    changed = np.repeat([False, True, False], blocks)[:, None, None]
+    ends = execute(corrected, **perturbation).endpoint, execute(corrected).endpoint
+    return Curve(target, np.where(changed, *ends))
+
+
+def block_errors(seed, before=150, blocks=BLOCKS, **size):
     """Mean error in mm of each block, by world and by what is corrected, for one seed.
 
-    So many movements are practised `before`; `size` is passed to `adapt`: `blocks`, `movements`.
+    So many movements are practised `before`; `blocks` and `size` are passed to `adapt`.
     """
-    return {
-        f"{name}, {corrects}": 1000 * _adapt_in_world(seed, world, corrects, before, size).error
-        for name, world in PERTURBATIONS.items()
-        for corrects in CURES
-    }
-
-
-def _adapt_in_world(seed, world, corrects, before, size):
     rng, template_set = np.random.default_rng(seed), load()
-    trained = train_aim_correction(template_set, rng, before)
-    how = ("aim", np.inf) if corrects == NOTHING else (corrects,)
-    return adapt(Adaptation(trained, template_set, *how), template_set, rng, world, **size)
+    trained, errors = train_aim_correction(template_set, rng, before), {}
+    for name, world in PERTURBATIONS.items():
+        for corrects in CORRECTIONS:
+            learner = Adaptation(trained, template_set, corrects)
+            curve = adapt(learner, template_set, deepcopy(rng), world, blocks, **size)
+            errors[f"{name}, {corrects}"] = 1000 * curve.error
+        alone = without_learning(trained, template_set, world, curve.target, blocks)
+        errors[f"{name}, {NOTHING}"] = 1000 * alone.error
+    return errors

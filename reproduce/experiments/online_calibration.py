@@ -10,7 +10,7 @@ from itertools import product
 import numpy as np
 
 from reproduce.experiments.calibration import SCENARIOS, coarse_algorithm_1, nearest_templates
-from reproduce.experiments.changed_worlds import NOTHING, Curve, adapt
+from reproduce.experiments.changed_worlds import BLOCKS, NOTHING, Curve, adapt, without_learning
 from vmc_lib.cerebellum.adaptation import CORRECTIONS, Adaptation
 from vmc_lib.cerebellum.offline import broyden_calibration
 from vmc_lib.cerebellum.online import AimCorrection, GranuleCells, WeightCorrection
@@ -19,7 +19,6 @@ from vmc_lib.motor.planning import draw_targets, plan
 
 READINGS = {"right for the place reached (as printed)": True, "right for the target": False}
 STEPS = range(0, 151, 25)  # movements practised by granule cells
-BLOCKS = (2, 8, 6)  # of an adaptation: before the world changes, changed, and after
 
 
 def draw_plans(template_set, scenario, rng):
@@ -111,16 +110,8 @@ def adapt_to_worlds(trained, template_set, worlds, seeds=(3, 4)):
             fading = adapt(learner, template_set, second, change, (after, 0, 0))
             curves[world, cure] = Curve(*map(np.concatenate, zip(learning, fading, strict=True)))
         target = curves[world, cure].target  # of the same seeds, the same for every correction
-        curves[world, NOTHING] = _without_learning(trained, template_set, change, target)
+        curves[world, NOTHING] = without_learning(trained, template_set, change, target)
     return learners, curves
-
-
-def _without_learning(trained, template_set, change, target):
-    """The `Curve` of the same blocks of targets where nothing learns."""
-    corrected = trained.correct(plan(target, template_set))
-    changed = np.repeat([False, True, False], BLOCKS)[:, None, None]
-    ends = execute(corrected, **change).endpoint, execute(corrected).endpoint
-    return Curve(target, np.where(changed, *ends))
 
 
 def after_effects(trained, adapted, plans, change):

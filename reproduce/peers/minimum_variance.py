@@ -19,7 +19,7 @@ from vmc_lib.arm.dynamics import hand
 from vmc_lib.camera import TABLE
 from vmc_lib.motor.inverse_dynamics import MOVING, SAMPLES, minimum_jerk
 from vmc_lib.motor.planning import plan
-from vmc_lib.motor.templates import HOLD, keep_last, load, reach
+from vmc_lib.motor.templates import keep_last, load, reach
 
 MOMENTS = [SAMPLES, 1250, 1500]  # ms: when scatter counts
 NUDGE = 1e-3  # of a knot: larger than `optimal_control`'s, for what is compared are differences
@@ -98,7 +98,7 @@ def compare_rules(rng, repeats=REPEATS):
     """By rule and measure, one number for each of the inner targets.
 
     How far the hand scatters over the hold when the reach is repeated on an arm that wavers by
-    `LEVEL` mm (mm, a standard deviation), the effort (10⁻³), and `path_measures`.
+    `LEVEL` mm (mm, a standard deviation), the effort (10⁻³), and `reach_measures`.
     """
     noise, found = partial(motor_noise.with_noise, share=noise_share(), rng=rng), {}
     for name, excitations in excitations_by_rule().items():
@@ -107,12 +107,12 @@ def compare_rules(rng, repeats=REPEATS):
         found[name] = {
             "scatter": 1000 * np.sqrt(variance),
             "effort": 1000 * optimal_control.effort(excitations),
-            **path_measures(reach(excitations), TARGETS[INNER]),
+            **reach_measures(reach(excitations), TARGETS[INNER]),
         }
     return found
 
 
-def path_measures(motion, targets):
+def reach_measures(motion, targets):
     """Numbers by name, (n,) each, of undisturbed reaches for targets (n, 2): a `HeldMotion`.
 
     How far the hand misses, and is from its target at most during the hold (mm); how fast it moves
@@ -124,7 +124,7 @@ def path_measures(motion, targets):
     return {
         "miss": 1000 * _norm(off.mean(axis=-2)),
         "farthest": 1000 * _norm(off).max(axis=-1),
-        "speed": 1000 * _norm(np.diff(hold, axis=-2)).sum(axis=-1) / HOLD,
+        "speed": 1000 * motion.speed,
         "path": _norm(np.diff(way, axis=-2)).sum(axis=-1) / _norm(targets - way[:, 0]),
         "height": 1000 * (way[..., 1].min(axis=-1) - TABLE),
         "jerk": jerk(way),

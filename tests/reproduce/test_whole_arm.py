@@ -8,6 +8,7 @@ import pytest
 
 from reproduce.whole_arm import bones, derive, experiment, habits, plant
 from vmc_lib.cerebellum.offline import broyden_calibration
+from vmc_lib.motor.templates import mean_speed
 
 STILL = np.zeros(7)
 
@@ -176,10 +177,7 @@ def test_memories_hold_better_than_their_way_alone(nerves):
     """The last command holds where the arm is, not where it should be."""
     goals = habits.goal_grid()[[37, 62, 87]]
     way = np.array([nerves.commands(habits.reach_posture(goal)) for goal in goals])
-    strays = [
-        np.linalg.norm(np.diff(nerves.move(u).hold, axis=1), axis=-1).sum(axis=1)
-        for u in (way, nerves.hold(way))
-    ]
+    strays = [mean_speed(nerves.move(u).hold) for u in (way, nerves.hold(way))]
     assert strays[1].sum() < 0.8 * strays[0].sum()
 
 

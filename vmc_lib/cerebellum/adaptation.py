@@ -36,7 +36,7 @@ class Adaptation:
     corrects : {"aim", "pull"}
         What to change about a plan.
     regularisation : float
-        A single error is reduced by a share 1 / (1 + regularisation): infinite, nothing is learned.
+        A single error is reduced by a share 1 / (1 + regularisation).
 
     Examples
     --------
@@ -98,8 +98,6 @@ def minimum_norm_update(active, missing, regularisation):
     `active` (n, cells) says which granule cells took part; a single sample is learned by a share
     1 / (1 + regularisation).
     """
-    if np.isinf(regularisation):
-        return np.zeros((active.shape[1], missing.shape[1]))
     overlap = active @ active.T
     overlap += regularisation * np.diag(np.diag(overlap))
     return active.T @ np.linalg.solve(overlap, missing)
