@@ -111,8 +111,9 @@ const vmcInPage = (() => {
       return flat([c * u + s * v + axis[0], 0, c * v - s * u + axis[1]]);
     };
     const [far, , right] = times(100, place);
-    const trunk = reached ? `the trunk turns by ${((turn * 180) / Math.PI).toFixed(0)}°` : "out of reach";
-    const words = `${far.toFixed(0)} cm ahead, ${Math.abs(right).toFixed(0)} cm to the ${right > 0 ? "right" : "left"}: ${trunk}`
+    const trunk = reached ? `the trunk turns ${((turn * 180) / Math.PI).toFixed(0)}°` : "out of reach";
+    const [way, side] = [far > 0 ? "ahead" : "behind", right > 0 ? "right" : "left"];
+    const words = `${Math.abs(far).toFixed(0)} cm ${way}, ${Math.abs(right).toFixed(0)} cm ${side}: ${trunk}`
       .replaceAll("-", "−");
     const ring = `<circle cx="${pixel[0].toFixed(1)}" cy="${pixel[1].toFixed(1)}" r="6"`;
     const line = (colour, ...points) => above.mark("line", colour, points, 1.8);

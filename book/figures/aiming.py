@@ -79,9 +79,9 @@ def describe_aim(photo, pixel):
     place = target_place(photo, pixel)
     turn = trunk_turn(place)
     ahead, _, right = 100 * place
-    side = "right" if right > 0 else "left"
-    trunk = "out of reach" if turn is None else f"the trunk turns by {np.degrees(turn):.0f}°"
-    return f"{ahead:.0f} cm ahead, {abs(right):.0f} cm to the {side}: {trunk}".replace("-", "−")
+    way, side = "ahead" if ahead > 0 else "behind", "right" if right > 0 else "left"
+    trunk = "out of reach" if turn is None else f"the trunk turns {np.degrees(turn):.0f}°"
+    return f"{abs(ahead):.0f} cm {way}, {abs(right):.0f} cm {side}: {trunk}".replace("-", "−")
 
 
 def aim_in_page(photo):
