@@ -43,6 +43,9 @@ def serve(home, *files):
     kernel = {"kernelspec": {"name": "python3", "display_name": "Python 3"}}
     cells = [*map(nbformat.v4.new_code_cell, LONG_CHAPTER)]
     nbformat.write(nbformat.v4.new_notebook(cells=cells, metadata=kernel), book / "long.ipynb")
+    profile = home / "IPYTHONDIR" / "profile_default"
+    profile.mkdir(parents=True)
+    shutil.copy(ROOT / ".binder" / "ipython_kernel_config.py", profile)
     folders = ("JUPYTER_CONFIG_DIR", "JUPYTER_DATA_DIR", "JUPYTERLAB_WORKSPACES_DIR", "IPYTHONDIR")
     environment = os.environ | {name: str(home / name) for name in folders}
     environment |= {"JUPYTERLAB_SETTINGS_DIR": str(home / "settings"), "VMC_RENDER_MODE": ""}
