@@ -8,16 +8,13 @@ import pytest
 from book.figures.claims import ALL, claims
 from reproduce import ledger
 from reproduce.experiments.loop_evaluation import evaluate
-from reproduce.ledger import entry, loop
+from reproduce.ledger import loop
 from reproduce.ledger.entry import (
-    BEATEN,
     BY_CONSTRUCTION,
     DIFFERS,
     FITTED,
     NOT_COMPARED,
-    REPRODUCED,
     VERDICTS,
-    Quantity,
     measure,
 )
 from reproduce.pipeline import smoke_run
@@ -112,104 +109,6 @@ def test_loop_scores_are_reproducible(level, tmp_path):
 def test_loop_outcomes_follow_from_the_scores(level):
     stored = ledger.load()["loop"][level]
     assert loop.outcomes(scores(level)) == {k: stored[k] for k in ("summary", "failures")}
-
-
-@pytest.mark.parametrize(
-    ("claimed", "obtained", "better", "verdict"),
-    [
-        (0.9, 0.95, 0, REPRODUCED),
-        (0.9, 1.05, 0, DIFFERS),
-        (0.9, 0.95, 1, REPRODUCED),
-        (0.9, 1.05, 1, BEATEN),
-        (0.9, 0.50, 1, DIFFERS),
-        (0.9, 0.50, -1, BEATEN),
-        (0.9, 1.05, -1, DIFFERS),
-    ],
-)
-def test_a_number_is_held_against_its_interval(claimed, obtained, better, verdict):
-    ends = {"low": obtained - 0.1, "high": obtained + 0.1}
-    assert Quantity("q", claimed, obtained, **ends, better=better).verdict == verdict
-
-
-@pytest.mark.parametrize(
-    ("claimed", "fitted", "verdict"),
-    [
-        (0.55, False, REPRODUCED),  # in the interval of the mean
-        (0.6, False, REPRODUCED),  # one more draw may give it
-        (0.75, False, BEATEN),
-        (0.25, False, DIFFERS),
-        (0.55, True, FITTED),
-        (0.75, True, FITTED),  # what was fitted to a number does not beat it
-        (0.25, True, DIFFERS),
-        (None, False, NOT_COMPARED),
-    ],
-)
-def test_beaten_is_what_no_single_draw_gives(claimed, fitted, verdict):
-    draws = 0.5 + 0.06 * np.array([-1, -1, 0, 0, 1, 1])
-    q = entry.mean_of_draws("q", claimed, draws, better=-1, fitted=fitted)
-    half = 2.5706 * draws.std(ddof=1)
-    assert (q.low, q.high) == pytest.approx((0.5 - half / 6**0.5, 0.5 + half / 6**0.5), rel=1e-4)
-    one = half * (1 + 1 / 6) ** 0.5
-    assert (q.least, q.most) == pytest.approx((0.5 - one, 0.5 + one), rel=1e-4)
-    assert q.verdict == verdict
-
-
-def test_no_interval_of_a_share_or_a_ratio_leaves_its_limits():
-    q = entry.mean_of_draws("q", 1, [1, 1, 1, 0.9, 1, 1], (0, 1))
-    assert (q.high, q.most) == (1, 1)
-    assert entry.mean_of_draws("q", 1, [0.01, 0.3, 0.01]).least == 0
-    assert entry.mean_of_trainings("q", 1, [1, 0.9, 1], 10).high == 1
-
-
-def test_a_share_is_beaten_only_where_a_count_of_the_papers_size_tells():
-    many, few = (entry.share("q", 75 / 79, 397, 400, of, better=1) for of in (79, 9))
-    assert (many.verdict, few.verdict) == (BEATEN, REPRODUCED)
-    assert entry.share("q", 1, 149, 150, better=1).verdict == DIFFERS  # one exception refutes each
-
-
-def test_rounding_widens_the_interval():
-    assert Quantity("q", 0.595, 0.5954).verdict == DIFFERS
-    assert Quantity("q", 0.595, 0.5954, rounding=0.0005).verdict == REPRODUCED
-
-
-@pytest.mark.parametrize(
-    ("obtained", "better", "p", "verdict"),
-    [
-        (0.8, -1, None, REPRODUCED),
-        (0.95, -1, None, DIFFERS),  # the limit lies in the interval
-        (0.8, 1, None, DIFFERS),
-        (1.2, 1, None, REPRODUCED),
-        (1.2, 1, 0.2, DIFFERS),
-        (1.2, 1, 0.01, REPRODUCED),
-    ],
-)
-def test_all_of_an_interval_is_beyond_a_limit(obtained, better, p, verdict):
-    ends = {"low": obtained - 0.1, "high": obtained + 0.1, "p": p}
-    assert Quantity("q", 1, obtained, **ends, better=better, bound=True).verdict == verdict
-
-
-def test_verdict_of_a_row():
-    trivial, good = entry.trivial_quantity("q", 1, 1), Quantity("q", 1, 1)
-    better, worse = Quantity("q", 1, 2, better=1), Quantity("q", 1, 0)
-    fitted, untold = Quantity("q", 1, 1, fitted=True), Quantity("q", None, 1)
-    assert entry.verdict([]) == entry.verdict([untold]) == NOT_COMPARED
-    assert entry.verdict([trivial, untold]) == BY_CONSTRUCTION
-    assert entry.verdict([trivial, fitted]) == FITTED
-    assert entry.verdict([trivial, fitted, good]) == REPRODUCED
-    assert entry.verdict([trivial, good, better]) == BEATEN
-    assert entry.verdict([trivial, better, worse]) == DIFFERS
-    assert entry.verdict([entry.trivial_quantity("q", 1, 2), good]) == DIFFERS, "a bug"
-
-
-def test_the_wider_interval_of_trainings_over_photos_counts():
-    alike, unlike = (
-        entry.mean_of_trainings("q", 0.5, shares, n)
-        for shares, n in (([0.5, 0.5, 0.5], 40), ([0.1, 0.5, 0.9], 10**6))
-    )
-    assert (alike.low, alike.high) == entry.wilson(20, 40)
-    middle, half = entry.student([0.1, 0.5, 0.9])
-    assert (unlike.low, unlike.high) == (max(middle - half, 0), min(middle + half, 1))
-    assert middle - half < 0
 
 
 def test_ledger_values_are_found_by_name():

@@ -1,0 +1,179 @@
+"""What is made wrong under the ledger's rows of moving: the code, the truth or a stored reading.
+
+Where a row reads what ships, the shipped numbers are made again first, from few draws.
+"""
+
+from dataclasses import replace
+from functools import cache, partial
+from types import SimpleNamespace
+
+import numpy as np
+
+from reproduce.experiments import calibration as experiments
+from reproduce.experiments import second_plant
+from reproduce.ledger import arm, calibration, online, planning
+from vmc_lib import photos
+from vmc_lib.cerebellum import offline
+from vmc_lib.motor import planning as motor_planning
+
+FEW = range(3)  # draws, to be quick
+SMALL = {"held_out": 20}
+
+
+def looks_at_the_cup(patch):
+    real, wrong = photos.load, {"shuttlecock": "cup", "cup": "shuttlecock"}
+
+    def swapped(level, split):
+        return [
+            replace(shot, boxes={wrong[k]: box for k, box in shot.boxes.items()})
+            for shot in real(level, split)
+        ]
+
+    patch.setattr(arm.photos, "load", swapped)
+
+
+def silences_a_muscle(patch):
+    awake = np.ones(6)
+    awake[1] = 0
+
+    def load(*kind, real=planning.templates.load, **how):
+        past = real(*kind, **how)
+        return replace(past, reach=lambda u, p: past.reach(u * awake, p))
+
+    patch.setattr(planning.templates, "load", load)
+    patch.setattr(planning, "SEEDS", FEW)
+
+
+def moves_linearly(patch):
+    """The hand ends where the weights say."""
+
+    def execute(plans):
+        ends = (plans.weights[:, None] @ plans.points)[:, 0]
+        return SimpleNamespace(error=np.linalg.norm(ends - plans.target, axis=-1))
+
+    patch.setattr(planning, "execute", execute)
+    patch.setattr(planning, "SEEDS", FEW)
+
+
+def plans_slowly(patch):
+    """The clock was read once, and its reading ships: here it reads otherwise."""
+    row = {"task": "habitual plan", "× faster than optimal control": 0.5}
+    patch.setattr(arm.results, "records", lambda name: {"rows": [row]})
+
+
+def minimises_nothing(patch):
+    """The optimum is where the search began: the habitual plan."""
+    habit = arm.plan(arm.optimal_control.TARGETS, arm.templates.load()).excitations
+    patch.setattr(arm.optimal_control, "optimal_excitations", lambda: habit)
+
+
+def shuffles_the_weights(patch):
+    def shuffled(target, points):
+        weights = motor_planning.habitual_weights(target, points)
+        return np.random.default_rng(0).permuted(weights, axis=-1)
+
+    patch.setattr(planning, "exact_weights", shuffled)
+    patch.setattr(motor_planning, "exact_weights", shuffled)
+    patch.setattr(planning, "SEEDS", FEW)
+    draws_few(patch, planning)
+
+
+def corrects_the_wrong_way(patch):
+    real = offline.least_change
+    patch.setattr(offline, "least_change", lambda *where: -real(*where))
+
+
+def corrects_space_the_wrong_way(patch):
+    corrects_the_wrong_way(patch)
+    draws_few(patch, planning)
+
+
+def mixes_up_torques(patch):
+    past = second_plant.torque_templates()
+    points = np.random.default_rng(0).permutation(past.points)
+    patch.setattr(second_plant, "torque_templates", lambda: replace(past, points=points))
+    draws_few(patch, calibration)
+
+
+def draws_few(patch, module):
+    patch.setattr(module, "repeat_over_seeds", partial(module.repeat_over_seeds, seeds=FEW))
+
+
+def forgets_half_of_the_votes(patch):
+    real = calibration.leaning
+    patch.setattr(calibration, "leaning", lambda moved, preferred: real(moved, preferred[:7]))
+
+
+def turns_the_error(patch):
+    patch.setattr(calibration, "algorithm_1", partial(calibration.algorithm_1, sign=-1))
+    draws_few(patch, calibration)
+
+
+def calibrates_the_wrong_way(patch):
+    """Both off-line rules step away from the target."""
+    corrects_the_wrong_way(patch)
+    patch.setattr(experiments, "ABLATION", {})
+    patch.setattr(experiments, "algorithm_1", partial(offline.algorithm_1, sign=-1))
+    patch.setattr(calibration, "load_results", lambda: Again.of("off-line", experiments=1))
+
+
+def learns_nothing(patch):
+    """Off-line calibration still does its share; what is learned for the next time is nothing."""
+    patch.setattr(experiments, "ABLATION", {})
+    for rule in (experiments.WeightCorrection, experiments.AimCorrection):
+        patch.setattr(rule, "update", lambda self, *lesson, **how: self)
+    for module in (calibration, online):
+        patch.setattr(module, "load_results", lambda: Again.of("online", experiments=10))
+
+
+def mixes_alike_for_every_target(patch):
+    """What our rule makes of an aim takes as much of each template, wherever that lies."""
+    learns_nothing(patch)
+    patch.setattr(
+        experiments.AimCorrection,
+        "correct",
+        lambda self, plans: plans.with_weights(np.full_like(plans.weights, 0.25)),
+    )
+    patch.setattr(calibration, "load_results", lambda: Again.of("aim", experiments=10))
+
+
+class Again(dict):
+    """What `movements.json` would hold, by the code as it is now: small, made where it is read."""
+
+    def __init__(self, **size):
+        super().__init__()
+        self.size = SMALL | size
+
+    @classmethod
+    @cache
+    def of(cls, broken, **size):
+        """Made once for all rows that rest on the same broken code."""
+        return cls(**size)
+
+    def __missing__(self, name):
+        run = partial(experiments.EXPERIMENTS[name], **self.size)
+        self[name] = experiments.repeat_over_seeds(run)
+        return self[name]
+
+
+MOVING = {
+    "Fig. 3": [looks_at_the_cup],
+    "IV C, computation": [plans_slowly],
+    "III, Block 2, effort": [minimises_nothing],
+    "Table IV": [silences_a_muscle],
+    "Fig. 9": [silences_a_muscle],
+    "III, Block 2": [silences_a_muscle],
+    "III, Block 3": [moves_linearly],
+    "Ours, space": [corrects_space_the_wrong_way],
+    "Ours, Eq. 5": [shuffles_the_weights],
+    "Table V": [calibrates_the_wrong_way],
+    "Fig. 4": [turns_the_error],
+    "III, population": [forgets_half_of_the_votes],
+    "Fig. 10": [turns_the_error],
+    "V, robots": [mixes_up_torques],
+    "Ours, Table V": [calibrates_the_wrong_way],
+    "Table VI": [learns_nothing],
+    "Fig. 11": [turns_the_error],
+    "Fig. 12": [learns_nothing],
+    "Ours, Table VI": [mixes_alike_for_every_target],
+}

@@ -1,0 +1,125 @@
+"""What is made wrong under the ledger's rows of seeing: the code, the truth or a stored reading."""
+
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from reproduce.experiments import crbm_ablation, second_layers
+from reproduce.ledger import filters, loop, naming
+from reproduce.training import cdbn as training
+from vmc_lib import photos
+from vmc_lib.what import cdbn
+from vmc_lib.what.crbm import CRBM
+from vmc_lib.where import detector
+from vmc_lib.where.svm import KernelSVM
+
+FEW = range(3)  # draws, to be quick
+
+
+def names_the_cup(patch):
+    """The recogniser's probability is that of the other thing; sixteen photos."""
+    real, load = loop.trials.see, photos.load
+    patch.setattr(photos, "load", lambda *kind: load(*kind)[:16])
+    patch.setattr(
+        loop.trials,
+        "see",
+        lambda *seen: (lambda s: replace(s, probability=1 - s.probability))(real(*seen)),
+    )
+
+
+def finds_half_the_photos(patch):
+    load = photos.load
+    patch.setattr(photos, "load", lambda *kind: load(*kind)[::2])
+
+
+def lets_every_candidate_pass(patch):
+    patch.setattr(KernelSVM, "score", lambda self, x: np.ones(len(x)))
+    patch.setattr(detector, "nms", lambda boxes, *rest: np.arange(len(boxes)))
+
+
+def calls_the_wrong_class(patch):
+    real = naming.recognition.confusion_counts
+    patch.setattr(
+        naming.recognition, "confusion_counts", lambda p, truth: real(1 - np.asarray(p), truth)
+    )
+
+
+def pools_nothing(patch):
+    def posterior(self, v, real=CRBM.posterior):
+        h, _ = real(self, v)
+        return h, h
+
+    patch.setattr(CRBM, "posterior", posterior)
+
+
+def learns_by_a_broken_recipe(patch, name):
+    patch.setattr(
+        filters, "first_layers", lambda: crbm_ablation.load_results()[name][-1:].astype(float)
+    )
+
+
+def learns_round_blobs(patch):
+    rng, (y, x) = np.random.default_rng(0), np.mgrid[:8, :8]
+    shapes = rng.uniform((2.5, 2.5, 1), (4.5, 4.5, 2), (10, 3))
+    blobs = [np.exp(-((x - a) ** 2 + (y - b) ** 2) / 2 / c**2) for a, b, c in shapes]
+    noisy = blobs + rng.normal(scale=0.03, size=(10, 8, 8))
+    patch.setattr(filters, "first_layers", lambda: noisy[None])
+
+
+def learns_one_direction(patch):
+    one = filters.first_layers()[:, :1]
+    patch.setattr(filters, "first_layers", lambda: np.repeat(one, 10, axis=1))
+
+
+def has_a_layer(patch, layer, made):
+    network = cdbn.CDBN.load()
+    real = getattr(network, layer)
+    W = made(real.W, np.random.default_rng(1)).astype(np.float32)
+    wrong = replace(network, **{layer: CRBM(W, real.b, real.a, real.c)})
+    patch.setattr(filters.cdbn.CDBN, "load", lambda: wrong)
+
+
+def at_random(W, rng):
+    return rng.normal(scale=W.std(), size=W.shape)
+
+
+def mixes_the_lessons(patch):
+    """Both second layers learn from the same crops, of the first who teaches."""
+    real, maps = training.train_crbm, {}
+
+    def train(p1, *rest, **how):
+        return real(maps.setdefault("first", p1), *rest, **how)
+
+    patch.setattr(training, "train_crbm", train)
+    again = [second_layers.preferences(seed, patches=200, every=20) for seed in FEW]
+    patch.setattr(second_layers, "load_preferences", lambda: np.array(again))
+
+
+SEEING = {
+    "Ours, Fig. 1": [names_the_cup],
+    "Fig. 5": [finds_half_the_photos],
+    "Fig. 6": [lets_every_candidate_pass],
+    "III, Block 1-1": [lets_every_candidate_pass],
+    "Table III": [calls_the_wrong_class],
+    "Fig. 2": [pools_nothing],
+    "Fig. 7": [
+        *(
+            partial(learns_by_a_broken_recipe, name=name)
+            for name in crbm_ablation.CHANGES
+            if name != "all three"
+        ),
+        learns_round_blobs,
+        learns_one_direction,
+    ],
+    "Fig. 8": [
+        partial(has_a_layer, layer="first", made=made) for made in (filters.shuffled, at_random)
+    ],
+    "IV B, W²": [
+        mixes_the_lessons,
+        *(
+            partial(has_a_layer, layer="second", made=made)
+            for made in (filters.shuffled, at_random)
+        ),
+    ],
+}
