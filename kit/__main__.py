@@ -22,7 +22,8 @@ HEAD = """<!doctype html><html lang="en"><meta charset="utf-8"><title>The key</t
 <style>:root { color-scheme: light dark; }
 body { max-width: 45rem; margin: 2rem auto; padding: 0 1rem; font-family: sans-serif;
 line-height: 1.5; } pre { overflow: auto; }</style>
-<script defer src="mathjax.js"></script>
+<link rel="stylesheet" href="katex.css"><script defer src="katex.js"></script>
+<script defer src="book.js"></script>
 """
 
 
@@ -49,7 +50,8 @@ def build(folder, pages):
         keys.append(key(notebook, (pages / f"{chapter.stem}.html").read_text(encoding="utf-8")))
     (folder / "key.md").write_text("\n".join(keys), encoding="utf-8")
     (folder / "key.html").write_text(HEAD + _page("\n".join(keys)), encoding="utf-8")
-    shutil.copy(ROOT / "book/_static/vendor/mathjax.js", folder)
+    for name in ("vendor/katex.js", "vendor/katex.css", "book.js"):
+        shutil.copy(ROOT / "book/_static" / name, folder)
     shutil.copy(ROOT / "kit/projects.md", folder)
     questions = bank()
     (folder / "questions.gift").write_text(gift(questions), encoding="utf-8")
@@ -58,7 +60,7 @@ def build(folder, pages):
 
 
 def _page(text):
-    """Markdown as HTML, its maths as MathJax reads it."""
+    """Markdown as HTML, its maths as KaTeX reads it."""
 
     def maths(tex, options):
         left, right = ("[", "]") if options["display_mode"] else ("(", ")")

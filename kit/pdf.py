@@ -80,7 +80,6 @@ def print_book(chromium, html, names, path):
 def _still(page, html, name):
     page.goto((html / f"{name}.html").as_uri())
     page.wait_for_function(READY)
-    page.evaluate("() => window.MathJax?.startup?.promise")
     return page.evaluate((ROOT / "kit/still.js").read_text(encoding="utf-8"), f"{html.as_uri()}/")
 
 

@@ -4,7 +4,6 @@ A section becomes a slide of its heading, first paragraph and equations, and one
 answer, to move, or to read as code. The text between goes to the speaker's notes, with the answers.
 """
 
-import json
 import re
 import shutil
 from dataclasses import dataclass, field
@@ -30,7 +29,6 @@ PAGE = """<!doctype html>
 <script>
 document.documentElement.dataset.theme =
   matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
-window.MathJax = {mathjax};
 addEventListener("DOMContentLoaded", () => Reveal.initialize({options}));
 </script>
 <div class="reveal"><div class="slides">
@@ -164,7 +162,6 @@ def _page(title, slides, seconds):
     return PAGE.format(
         title=escape(title),
         head="\n".join(head),
-        mathjax=json.dumps(CONFIG["mathjax3_config"]),
         options="{ disableLayout: true, hash: true, overview: false, slideNumber: 'c/t', "
         f"totalTime: {seconds}, transition: 'none', plugins: [RevealNotes] }}",
         slides="\n".join(f"<section>{''.join(map(str, stack))}</section>" for stack in slides),

@@ -69,9 +69,8 @@ def observe(page):
 
 
 def settle(page):
-    """Wait until equations are set and demos can answer."""
+    """Wait until demos can answer."""
     page.wait_for_load_state("load")
-    page.evaluate("() => window.MathJax?.startup?.promise")
     page.wait_for_function(
         "() => ![...document.querySelectorAll('.vmc-demo:has(> script)')]"
         ".some((demo) => !('ready' in demo.dataset))"

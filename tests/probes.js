@@ -144,7 +144,6 @@ async function missingPictures() {
 
 /* Demos whose first slider moves no picture, scenes aside; waits until every demo is ready. */
 async function idleSliders() {
-  await window.MathJax?.startup?.promise;
   const all = [...document.querySelectorAll(".vmc-demo:has(> script)")];
   while (all.some((demo) => !("ready" in demo.dataset))) await new Promise(requestAnimationFrame);
   return all.filter((demo) => {

@@ -174,7 +174,7 @@ def kit(tmp_path_factory):
 
 
 def test_the_whole_kit_is_built_from_chapters_and_pages(kit):
-    pages = {"key.md", "key.html", "mathjax.js", "projects.md"}
+    pages = {"key.md", "key.html", "katex.js", "katex.css", "book.js", "projects.md"}
     names = {file.name for file in kit.iterdir()}
     assert names == pages | {"students", "slides", "questions.gift", "questions-qti.zip"}
     students = {file.name for file in (kit / "students").glob("*.ipynb")}

@@ -43,8 +43,8 @@ def test_is_light(path):
     text = path.read_text(encoding="utf-8")
     linked = {(path.parent / unquote(link)).resolve() for link in LINKED.findall(text)}
     weight = sum(file.stat().st_size for file in {path, *linked} if file.is_file())
-    assert weight <= (5e6 if 'class="vmc-demo"' in text else 3e6)
-    assert ("mathjax.js" in text) == bool(re.search(r'class="math|\\\(', text))
+    assert weight <= (4e6 if 'class="vmc-demo"' in text else 3e6)
+    assert ("katex.js" in text) == bool(re.search(r'class="math|\\\(', text))
 
 
 # ---- Arms ----

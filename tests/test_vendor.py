@@ -48,6 +48,16 @@ def test_a_module_and_its_wasm_become_one_classic_script():
     assert gzip.decompress(base64.b64decode(packed)) == b"\0asm"
 
 
+def test_a_style_sheet_takes_its_fonts_with_it(tmp_path):
+    (tmp_path / "a.woff2").write_bytes(b"font")
+    sheet = tmp_path / "a.css"
+    sheet.write_text("@font-face{src:url(a.woff2) format(x),url(a.ttf);b:c}", encoding="utf-8")
+    packed = base64.b64encode(b"font").decode()
+    assert vendor.with_fonts(sheet).decode() == (
+        f'@font-face{{src:url(data:font/woff2;base64,{packed}) format("woff2");b:c}}'
+    )
+
+
 @pytest.fixture
 def elsewhere(monkeypatch, tmp_path):
     """A folder whose manifest names two files, a.js and b.js; a.js lies there, changed."""

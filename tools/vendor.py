@@ -27,8 +27,9 @@ HEAD = "| What | Version | Licence | File | Source | SHA-256 |\n|---|---|---|---
 def fetch(origin):
     """The bytes of `origin`: "npm:name@version:path" or "python:name@version:path".
 
-    A path may be "module.js+module.wasm": then the two are made one script. What no registry has
-    is "here:name@version:path", from the project's root.
+    A path may be "module.js+module.wasm" or "one.js+two.js": then the two are made one script. A
+    style sheet takes its fonts with it. What no registry has is "here:name@version:path", from the
+    project's root.
     """
     registry, package, path = origin.split(":")
     name, version = package.rsplit("@", 1)
@@ -42,8 +43,24 @@ def fetch(origin):
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run(["npm", "pack", "--silent", package], cwd=folder, check=True)
         with tarfile.open(next(Path(folder).glob("*.tgz"))) as archive:
-            parts = [archive.extractfile(f"package/{p}").read() for p in path.split("+")]
-    return with_wasm(*parts) if len(parts) == 2 else parts[0]
+            archive.extractall(folder, filter="data")
+        files = [Path(folder, "package", part) for part in path.split("+")]
+        if path.endswith(".css"):
+            return with_fonts(*files)
+        parts = [file.read_bytes() for file in files]
+    module_and_wasm = len(parts) == 2 and path.endswith(".wasm")
+    return with_wasm(*parts) if module_and_wasm else b"\n".join(parts)
+
+
+def with_fonts(sheet):
+    """A style sheet (a file) and the fonts beside it as one: Firefox loads none from file://."""
+
+    def packed(source):
+        font = base64.b64encode((sheet.parent / source[1]).read_bytes()).decode()
+        return f'src:url(data:font/woff2;base64,{font}) format("woff2")'
+
+    text = re.sub(r"src:url\(([^)]*\.woff2)\)[^;}]*", packed, sheet.read_text(encoding="utf-8"))
+    return text.encode()
 
 
 def with_wasm(module, wasm):

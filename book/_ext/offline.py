@@ -7,7 +7,7 @@ from pathlib import Path
 EVERYWHERE = ("book.js", "questions.js")
 NEEDS = {  # what a page must hold to need an asset; none needs thebe, which asks the network
     "thebe": r"(?!)",
-    "mathjax": r'class="math|\\\(',
+    "katex": r'class="math|\\\(',
     "design": r'class="[^"]*\bsd-',
 }
 # Names, punctuation and spaces: coloured as all code is
@@ -39,7 +39,7 @@ def mend(app, pagename, templatename, context, doctree):
     """Mend the page.
 
     No settings inside it, which a strict host forbids, but in a file; no script or style sheet that
-    it has no use for (MathJax alone is 2.3 MB), and no element around a word of code without a
+    it has no use for (KaTeX and its fonts are .6 MB), and no element around a word of code without a
     colour of its own; no list role on what is no list, no role that is out of use, and no label
     that hides a summary's own words; the number of an equation outside the `split` that Sphinx puts
     around its lines.

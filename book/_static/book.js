@@ -1,11 +1,17 @@
-/* An equation wider than the page scrolls; then the keyboard must be able to reach it. */
+/* Equations are set by KaTeX, where a page has any. One wider than the page scrolls; then the keyboard
+   must be able to reach it. */
 (() => {
+  window.vmcEquations = (element) => window.renderMathInElement?.(element, {
+    delimiters: [{ left: "\\(", right: "\\)", display: false }, { left: "\\[", right: "\\]", display: true }],
+    macros: { "\\bm": "\\boldsymbol{#1}" },
+  });
   const reach = () =>
     document.querySelectorAll("div.math").forEach((equation) =>
       equation.scrollWidth > equation.clientWidth
         ? equation.setAttribute("tabindex", "0")
         : equation.removeAttribute("tabindex"));
-  addEventListener("load", () => window.MathJax?.startup?.promise.then(reach));
+  addEventListener("DOMContentLoaded", () => vmcEquations(document.body));
+  addEventListener("load", reach);
   addEventListener("resize", reach);
 })();
 

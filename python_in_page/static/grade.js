@@ -59,7 +59,7 @@ const vmcGrade = (() => {
     };
     const show = ([message, printed]) => {
       status.innerHTML = `<p>${inline(message)}</p>${printed ? `<pre>${escaped(printed)}</pre>` : ""}`;
-      window.MathJax?.typesetPromise?.([status]);
+      window.vmcEquations?.(status);
     };
     let said; // of what is typed, or of what was typed before
     const keep = () => vmcMemory.set(memory, JSON.stringify({ typed: area.value, said }));

@@ -32,7 +32,7 @@ def test_python_is_loaded_for_who_writes_and_from_the_books_own_files(open_exerc
     inside = (site.as_uri(), "data:", "blob:")
     assert [url for url in page.asked if not url.startswith(inside)] == []
     check(page, SLOW, "Too slow on the way up")
-    assert page.said.locator("p").inner_html().count("\\(") == 2  # equations, for MathJax
+    assert page.said.locator("p").inner_html().count("\\(") == 2  # equations, for KaTeX
     check(page, f"{HEAD}    print('is', twice(2))\n    return u", "is right; yours gives")
     assert "is 4" in page.said.locator("pre").inner_text()
     check(page, f"{HEAD}    return =", "cannot read line 2")

@@ -53,7 +53,6 @@ def test_every_exercise_is_checked_in_its_chapter(offline, chapter):
         assert "cannot read line 2" in check(name, f"def {name.lower()}():\n    return =")
         hint = f"{WRONG} {next(iter(one.mistakes))}"
         assert check(name, mistaken(name, one)).startswith(first_words(hint))
-    page.evaluate("() => window.MathJax?.typesetPromise()")
     assert probe(page, "rawTex") == []
     page.evaluate("() => { vmcPython.limit.seconds = 1 }")
     assert "Does a loop never end?" in check(name, ENDLESS)

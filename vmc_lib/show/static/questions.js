@@ -60,5 +60,5 @@ addEventListener("submit", (event) => {
   const word = text.replace(/^["'“”‘’\s]+|["'“”‘’\s.]+$/g, "").toLowerCase();
   const verdict = !text ? "empty" : question.rules ? vmcJudge(text, question) : word === question.expected ? "right" : "wrong";
   form.querySelector("[role=status]").innerHTML = JSON.parse(form.dataset.words)[verdict];
-  window.MathJax?.typesetPromise?.([form]);
+  window.vmcEquations?.(form);
 });
