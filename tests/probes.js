@@ -48,12 +48,12 @@ async function idleControls() {
 /* Text outside code, with TeX that was not typeset. */
 function rawTex() {
   const walker = document.createTreeWalker(document.querySelector("main"), NodeFilter.SHOW_TEXT);
-  const wrong = document.querySelectorAll("mjx-merror, [data-mjx-error]");
+  const wrong = document.querySelectorAll(".katex-error");
   const raw = [...wrong].map((e) => e.outerHTML);
   const tex = /\\\(|\\\[|\$\$|\\(frac|sum|begin|mathbf|boldsymbol)|\$[^$\s][^$]*\$/;
   while (walker.nextNode()) {
     const { data, parentElement } = walker.currentNode;
-    if (parentElement.closest("pre, code, script, style, mjx-container")) continue;
+    if (parentElement.closest("pre, code, script, style, annotation")) continue;
     if (tex.test(data)) raw.push(data);
   }
   return raw;
