@@ -95,7 +95,7 @@ function restlessSliders() {
 
 /* Marks of folded code that are smaller than `least`, or that lie on words or code. */
 function crowdedMarks(least) {
-  const apart = "summary, script, mjx-container, .vmc-spoken, [class*=scrollable-table]";
+  const apart = "summary, script, .katex, .vmc-spoken, [class*=scrollable-table]";
   const shown = { opacityProperty: true, visibilityProperty: true }; // a closed solution is not
   const range = document.createRange();
   const words = document.createTreeWalker(document.querySelector("article"), NodeFilter.SHOW_TEXT);
@@ -161,5 +161,5 @@ async function idleSliders() {
 /* Equations that were not typeset. */
 function unsetEquations() {
   return [...document.querySelectorAll(".math")]
-    .filter((one) => !one.querySelector("mjx-container")).map((one) => one.textContent);
+    .filter((one) => !one.querySelector(".katex")).map((one) => one.textContent);
 }

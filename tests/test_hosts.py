@@ -40,7 +40,7 @@ def under_policy(window):
 )
 def test_a_host_may_forbid_inline_scripts(under_policy, allowed, said):
     page = under_policy("08_arm", allowed)
-    assert page.locator("mjx-container").count() > 5
+    assert page.locator(".katex").count() > 5
     assert page.locator(".vmc-demo[data-ready]").count() > 2
     page.locator(".vmc-scene").first.scroll_into_view_if_needed()
     page.wait_for_selector(".vmc-scene canvas")
