@@ -21,15 +21,15 @@ NEAR = 0.05  # m: how far around the target one sees in the corner
 BONE = {"color": COLOURS["grey"], "alpha": 0.4, "lw": 7, "solid_capstyle": "round"}
 
 ROLES = {
-    "SUBSC": "holds the ball of the upper arm in its socket",
-    "SUPSP": "holds the ball of the upper arm in its socket",
-    "INFSP": "holds the ball of the upper arm in its socket",
-    "DELT1": "lifts the arm forward",
-    "PECM1": "draws the arm forward and inward",
-    "PECM2": "draws the arm forward and inward",
-    "BRD": "bends the elbow",
-    "BRA": "bends the elbow",
-    "BIClong": "bends the elbow",
+    "SUBSC": "holding the ball of the upper arm in its socket",
+    "SUPSP": "holding the ball of the upper arm in its socket",
+    "INFSP": "holding the ball of the upper arm in its socket",
+    "DELT1": "lifting the arm forward",
+    "PECM1": "drawing the arm forward and inward",
+    "PECM2": "drawing the arm forward and inward",
+    "BRD": "bending the elbow",
+    "BRA": "bending the elbow",
+    "BIClong": "bending the elbow",
 }
 
 
