@@ -222,20 +222,18 @@ def place_table(errors):
     return table(["box, camera", "median (mm)", "within 15 mm", "without a place"], rows)
 
 
-def generalist_table(own, generalist, photos_a_level):
+def generalist_table(own, generalist, count):
     """Shares of each level's own model and of one for all, level -> summary: a Markdown table.
 
-    With the 95 % interval of boxes, of so many photos a level.
+    Of `count` photos a level, with 95 % intervals.
     """
-    heads = {"arrived, own": "hand within 1 cm", "close, own": "within 5 mm"}
-    rows = []
-    for level in photos.LEVELS:
-        for name, one in ((level, own[level]), (photos.REAL_LEVEL, generalist[level])):
-            low, high = wilson(one["named"] * photos_a_level, photos_a_level)
-            shares = (f"{one[key]:.0%}" for key in heads)
-            box = f"{one['named']:.0%} ({low:.0%} to {high:.0%})"
-            rows.append([f"{level}, model of {name}", box, *shares])
-    return table(["test renders", "box right", *heads.values()], rows)
+    heads = {"named": "box right", "arrived, own": "hand within 1 cm", "close, own": "within 5 mm"}
+    rows = [
+        [f"{level}, model of {name}", *(share_text(round(one[k] * count), count) for k in heads)]
+        for level in photos.LEVELS
+        for name, one in ((level, own[level]), (photos.REAL_LEVEL, generalist[level]))
+    ]
+    return table(["test renders", *heads.values()], rows)
 
 
 def lesion_table():
