@@ -223,10 +223,7 @@ def place_table(errors):
 
 
 def generalist_table(own, generalist, count):
-    """Shares of each level's own model and of one for all, level -> summary: a Markdown table.
-
-    Of `count` photos a level, with 95 % intervals.
-    """
+    """Of each level's own model and of one for all, shares of `count` photos: a Markdown table."""
     heads = {"named": "box right", "arrived, own": "hand within 1 cm", "close, own": "within 5 mm"}
     rows = [
         [f"{level}, model of {name}", *(share_text(round(one[k] * count), count) for k in heads)]
