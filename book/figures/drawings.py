@@ -153,7 +153,7 @@ def smith_predictor():
         arrow("M486 143V197", "blue"),
         meeting(486, 210, (502, 190, "−"), (508, 204, "+")),
         arrow("M403 125V197", "blue"),
-        words(342, 172, "model’s hand, now", "blue"),
+        words(330, 172, "model’s hand, now", "blue"),
         f'<path d="M475 210H418" stroke="{css("red")}" stroke-dasharray="5 4"/>',
         words(446, 246, "0, if the model is exact", "red"),
         meeting(403, 210, (419, 190, "+")),
