@@ -172,7 +172,7 @@ def _reach_view(target):
         (hand(inverse_kinematics(target)), "green"),
         *((hand(templates.START), c) for c in _ENDS),
     ]
-    figure, ax = plt.subplots(figsize=(4.0, 3.4))
+    figure, ax = plt.subplots(figsize=(5.2, 4.4))
     plane(ax, templates.load().points)
     return arm_scene(templates.START, balls=balls), figure
 
