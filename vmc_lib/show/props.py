@@ -108,9 +108,10 @@ def cup(part, photo):
 
 def _table_pixels(photo):
     """The photo's pixels (n, 3) of the table round its shuttlecock, but for what stands there."""
-    x, _, z = photo.target
-    around = np.stack(np.meshgrid(np.linspace(-0.2, 0.2, 41), TABLE, np.linspace(-0.2, 0.2, 41)), -1)
-    column, row = np.rint(photo.camera.project(around.reshape(-1, 3) + [x, 0, z])).astype(int).T
+    aside = np.linspace(-0.2, 0.2, 41)  # m
+    x, z = np.meshgrid(photo.target[0] + aside, photo.target[2] + aside)
+    around = np.column_stack([x.ravel(), np.full(x.size, TABLE), z.ravel()])
+    column, row = np.rint(photo.camera.project(around)).astype(int).T
     high, wide = photo.image.shape[:2]
     free = (0 <= column) & (column < wide) & (0 <= row) & (row < high)
     for x0, y0, x1, y1 in photo.boxes.values():
