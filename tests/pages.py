@@ -94,7 +94,7 @@ def open_html(window, site, html):
 
 def unfold(page):
     """Open the parts of a chapter that are folded below their headings."""
-    for fold in page.query_selector_all(".vmc-folded button[aria-expanded=false]"):
+    for fold in page.query_selector_all(".vmc-optional > * > button[aria-expanded=false]"):
         fold.click()
 
 

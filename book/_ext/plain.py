@@ -1,10 +1,10 @@
 """A chapter's plain Markdown, which reads well in any notebook, in Sphinx's own words.
 
 A link to the glossary becomes a term, its sections become definitions, a link to the sources a
-citation. A cell whose metadata name an
-`exercise` becomes that exercise, the cells after it that carry the tag `solution` become its
-solution, and a quotation that begins with a line in bold becomes an admonition. A quiz, whose
-folded answers begin with ✓ or ✗, gets the page's own style. What only a notebook needs to say
+citation. A cell that carries the tag `optional` begins a section that the page folds. A cell whose
+metadata name an `exercise` becomes that exercise, the cells after it that carry the tag `solution`
+become its solution, and a quotation that begins with a line in bold becomes an admonition. A quiz,
+whose folded answers begin with ✓ or ✗, gets the page's own style. What only a notebook needs to say
 carries the tag `remove-cell`.
 """
 
@@ -93,6 +93,8 @@ def with_directives(cells):
             label = cell["metadata"].get("exercise", label)
             if cell["cell_type"] == "markdown":
                 cell["source"] = _text("".join(cell["source"]), cell["metadata"])
+            if "optional" in _tags(cell):
+                cell["source"] = "{.vmc-optional}\n" + cell["source"]
             yield cell
         if solving:
             yield _cell(f"{label}-end", "{solution-end}")

@@ -44,23 +44,28 @@ document.addEventListener("toggle", ({ target }) => {
     next.querySelector("details.hide").open = target.open;
 }, true);
 
-/* How sure a result is stands folded below its heading, until asked for or linked to; paper shows it. */
+/* An optional section stands folded below its heading until it is asked for, found or linked to; paper shows it. */
 addEventListener("DOMContentLoaded", () =>
-  document.querySelectorAll("section[id^='how-sure-are-we']").forEach((section) => {
+  document.querySelectorAll("section.vmc-optional").forEach((section) => {
     const heading = section.querySelector("h2, h3");
-    const button = document.createElement("button");
+    const [button, inside] = ["button", "div"].map((name) => document.createElement(name));
     const open = (yes) => {
-      section.classList.toggle("vmc-folded", !yes);
+      if (yes) inside.removeAttribute("hidden");
+      else inside.setAttribute("hidden", "until-found");
       button.setAttribute("aria-expanded", yes);
     };
     button.append(...[...heading.childNodes].filter((node) => !node.matches?.("a.headerlink")));
     heading.prepend(button);
-    button.addEventListener("click", () => open(section.matches(".vmc-folded")));
+    while (heading.nextSibling) inside.append(heading.nextSibling);
+    heading.after(inside);
+    button.addEventListener("click", () => open(inside.hasAttribute("hidden")));
+    inside.addEventListener("beforematch", () => open(true));
     const asked = () => {
       const place = document.getElementById(decodeURIComponent(location.hash.slice(1)).split("?")[0]);
       if (place && section.contains(place)) { open(true); place.scrollIntoView(); }
     };
     addEventListener("hashchange", asked);
+    addEventListener("load", () => inside.querySelector("span.highlighted") && open(true)); // by the book's search
     open(false);
     asked();
   }));

@@ -7,25 +7,28 @@ import numpy as np
 from vmc_lib.grading import Exercise
 
 
-def honest(first, again):
-    best = first.argmin(axis=0)
-    return again[best, np.arange(len(best))]
+def tenfold(sizes, errors):
+    powers = np.log10(sizes[-1] / sizes[0])
+    return (errors[0] / errors[-1]) ** (1 / powers)
 
 
-HONEST = Exercise(
-    honest,
-    lambda rng: (rng.random((4, 5)).round(2), rng.random((4, 5)).round(2)),
+TENFOLD = Exercise(
+    tenfold,
+    lambda rng: (
+        rng.integers(1, 4) * np.array([4.0, 16, 64, 256]),
+        np.sort(rng.uniform(0.5, 9, 4).round(1))[::-1],
+    ),
     {
-        "That is the error of the lucky trial itself. Choose by `first`, and report what `again` "
-        "says.": lambda first, again: first.min(axis=0),
-        "You chose by `again`, and the luck is back. Choose by other errors than you report.": (
-            lambda first, again: again.min(axis=0)
+        "That is by how much the whole sweep divides the error. A tenfold is only a part of it, "
+        "or more than it.": lambda sizes, errors: errors[0] / errors[-1],
+        "You divided by the number of tenfolds. Factors multiply: take a root.": (
+            lambda sizes, errors: errors[0] / errors[-1] / np.log10(sizes[-1] / sizes[0])
         ),
-        "You kept one trial for all targets. Each target has its own best.": (
-            lambda first, again: again[first.mean(axis=1).argmin()]
+        "You took the natural logarithm. A tenfold is 1 in the logarithm to base ten.": (
+            lambda sizes, errors: (errors[0] / errors[-1]) ** (1 / np.log(sizes[-1] / sizes[0]))
         ),
-        "You took the mean of all trials. Only the one that was kept is repeated.": (
-            lambda first, again: again.mean(axis=0)
+        "You turned it round: the error after, over the error before.": (
+            lambda sizes, errors: 1 / tenfold(sizes, errors)
         ),
     },
 )

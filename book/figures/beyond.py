@@ -6,12 +6,10 @@ import numpy as np
 from book.figures.panels import panels
 from book.figures.reaching import norm_mm
 from reproduce.experiments.obstacle_avoidance import RADIUS
-from vmc_lib.arm.model import MUSCLES
-from vmc_lib.show import dot_plot, note
+from vmc_lib.show import note
 from vmc_lib.show.arm import arm_scene
 from vmc_lib.show.arm_plane import plane
 from vmc_lib.show.palette import COLOURS
-from vmc_lib.statistics import student
 
 TRIED = ((-0.05, 0.3), (-0.53, -0.25))  # the plane round the obstacles, m
 
@@ -27,58 +25,6 @@ def miss_histogram(miss):
     ax.xaxis.set_major_formatter("{x:g}")
     ax.legend(loc="upper left")
     return fig
-
-
-def learning_curves(ratios, learners, counts):
-    """What learners leave of habit's miss after `counts` (k,) of movements, and what noise leaves.
-
-    `ratios` (seeds, k) by the learner's name and "held-out"; means with 95 % intervals.
-    """
-    fig, ax = panels(size=(6.5, 3.4))
-    for k, name in enumerate(learners):
-        beside = np.array(counts) * 1.04 ** (k - 1)
-        ax.errorbar(beside, *student(ratios[f"{name}, held-out"]), fmt="o-", ms=4, label=name)
-    floor = ratios["nothing but noise"].mean()
-    ax.axhline(floor, color=COLOURS["grey"], ls=":", label="the noise alone")
-    ax.set(xlabel="movements", ylabel="left of habit's miss")
-    ax.set(xscale="log", ylim=(0, 1.7))
-    ax.set_xticks(counts, counts)
-    ax.legend(ncols=2, loc="upper right")
-    return fig
-
-
-def scatter_and_miss(uncorrected, weak_miss, corrected, corrected_weak_miss):
-    """How far reaches scatter on their way, and miss with each muscle weak; both in mm.
-
-    Scatter (151,), `uncorrected` by rule; misses (6,), of the commands alone and corrected.
-    """
-    time = np.arange(len(corrected)) / 100  # s
-    fig, left, right = panels(2, (8.2, 3.4))
-    for (rule, scatter), hue in zip(uncorrected.items(), ("grey", "orange", "green"), strict=True):
-        left.plot(time, scatter, color=COLOURS[hue], label=rule)
-    left.plot(time, corrected, color=COLOURS["blue"], label="corrected")
-    left.axvspan(0.7, 1.5, color=COLOURS["grey"], alpha=0.15, lw=0)
-    left.set(xlabel="time (s)", ylabel="scatter (mm)", ylim=(0, 3.5))
-    left.set_title(f"in the hold {corrected[100:].mean():.1f} mm")
-    left.legend()
-    right.plot(weak_miss, MUSCLES, "o", color=COLOURS["orange"])
-    right.plot(corrected_weak_miss, MUSCLES, "o", color=COLOURS["blue"])
-    right.set(xlabel="miss when this one is weak (mm)", xlim=(-1, None))
-    right.invert_yaxis()
-    return fig
-
-
-def miss_and_drive(rules, who):
-    """By every rule the miss, and by one of them how hard each muscle is driven: two dot plots."""
-    misses = {when: {rule: row[when]["miss"] for rule, row in rules.items()} for when in rules[who]}
-    drives = {
-        when: dict(zip(MUSCLES, 100 * row["drive"].T, strict=True))
-        for when, row in rules[who].items()
-    }
-    return (
-        dot_plot(misses, "miss (mm)", xlim=(0, None)),
-        dot_plot(drives, f"driven by {who} (%)", xlim=(0, None)),
-    )
 
 
 def error_divided(rows):

@@ -118,3 +118,45 @@ def stack(sizes, n_w):
         x += max(side + 50, 124)
     step = f"match by {n_w} × {n_w}, pool by 2 × 2, and again; then the mean of the maps"
     return drawing(f"{x:.0f}", 212, *parts, words(f"{x / 2:.0f}", 206, step, "grey"))
+
+
+def smith_predictor():
+    """Smith's predictor: a model beside the arm, and the same model as late as the eye."""
+
+    def box(x, y, width, text, colour):
+        frame = f'<rect x="{x}" y="{y}" width="{width}" height="36" stroke="{css(colour)}"/>'
+        return frame + words(x + width / 2, y + 23, text, colour)
+
+    def meeting(x, y, *signs):
+        return f'<circle cx="{x}" cy="{y}" r="11"/>' + "".join(words(*sign) for sign in signs)
+
+    return drawing(
+        620,
+        260,
+        arrow("M20 50H57"),
+        words(34, 38, "aim"),
+        meeting(70, 50, (52, 78, "−")),
+        arrow("M81 50H126"),
+        box(130, 32, 90, "feedback", "ink"),
+        arrow("M220 50H286"),
+        box(290, 32, 80, "arm", "ink"),
+        arrow("M370 50H436"),
+        words(402, 40, "hand"),
+        box(440, 32, 110, "eye: late", "orange"),
+        arrow("M550 50H590V210H499", "orange"),
+        words(545, 230, "report", "orange"),
+        arrow("M252 50V125H286", "blue"),
+        words(252, 26, "command"),
+        box(290, 107, 80, "model", "blue"),
+        arrow("M370 125H436", "blue"),
+        box(440, 107, 110, "as late", "blue"),
+        arrow("M486 143V197", "blue"),
+        meeting(486, 210, (502, 190, "−"), (508, 204, "+")),
+        arrow("M403 125V197", "blue"),
+        words(330, 172, "model’s hand, now", "blue"),
+        f'<path d="M475 210H418" stroke="{css("red")}" stroke-dasharray="5 4"/>',
+        words(446, 246, "0, if the model is exact", "red"),
+        meeting(403, 210, (419, 190, "+")),
+        arrow("M392 210H70V64"),
+        words(222, 230, "what the feedback takes for the hand"),
+    )

@@ -8,6 +8,8 @@ from collections import Counter
 import nbformat
 
 OF_PAGES = ("tests/test_pages.py", "tests/test_site.py")
+DEMO = re.compile(r"^(?:explore|where\.segmentation_demo|live_arm)\(", re.M)
+EXERCISE = {"raises-exception", "solution"}  # tags of the cells below an exercise's text
 PYTEST = [sys.executable, *"-m pytest -q --collect-only -p no:cacheprovider".split()]
 
 
@@ -54,3 +56,30 @@ def title_and_minutes(path):
     aims = next((cell.source for cell in (title, *cells) if "be able to" in cell.source), "")
     stated = re.search(r"(\d+)\s+minutes", aims)
     return title.source.splitlines()[0].removeprefix("# "), int(stated[1]) if stated else 0
+
+
+def core(cells):
+    """The cells outside optional sections, whose heading's cell carries the tag `optional`."""
+    optional = 0  # the level of the heading that began one
+    for cell in cells:
+        heading = cell.cell_type == "markdown" and re.match(r"(##+) ", cell.source)
+        if heading and (not optional or len(heading[1]) <= optional):
+            optional = "optional" in cell.metadata.get("tags", []) and len(heading[1])
+        if not optional:
+            yield cell
+
+
+def core_minutes(path):
+    """How long a chapter's core takes to read and play, estimated: 40 words a minute, 5 a demo.
+
+    Exercises, quizzes and what is folded apart. Fitted to one cold reading of six chapters.
+    """
+    prose, demos, solving = "", 0, False
+    for cell in core(nbformat.read(path, as_version=4).cells):
+        tags = cell.metadata.get("tags", [])
+        solving = "exercise" in cell.metadata or (solving and {*tags} & EXERCISE)
+        if cell.cell_type == "code":
+            demos += len(DEMO.findall(cell.source))
+        elif not solving and "remove-cell" not in tags:
+            prose += re.sub(r"<details>.*?</details>|\]\(.*?\)", " ", cell.source, flags=re.S)
+    return len(re.findall(r"\w+", prose)) / 40 + 5 * demos

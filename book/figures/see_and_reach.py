@@ -1,6 +1,5 @@
 """Figures and tables of the chapter on seeing and reaching: stages, failures, choices, lesions."""
 
-import matplotlib.pyplot as plt
 import numpy as np
 
 from book.figures.loop import describe_end, draw_movement, draw_stage, named_boxes
@@ -98,7 +97,7 @@ def _describe_reach(camera, reach):
 
 def shares_within(errors, limit):
     """Cumulative shares of errors, name -> (n,) in mm, up to a limit: a figure of steps."""
-    fig, ax = plt.subplots()
+    fig, ax = panels(size=(5, 3.4))
     for name, values in errors.items():
         share = np.arange(1, len(values) + 1) / len(values)
         ax.step(np.sort(values), share, where="post", label=name)
@@ -128,8 +127,8 @@ def failure_bars(failures):
 
     Each level tells how many of its failures are the moving's, with a 95 % interval.
     """
-    fig, ax = panels(size=(6, 3.6))
-    fig.subplots_adjust(left=0.3, bottom=0.32)  # room for words and for the legend
+    fig, ax = panels(size=(5, 3.6))
+    fig.subplots_adjust(left=0.36, bottom=0.32)  # room for words and for the legend
     levels = [_name_failures(level, stages) for level, stages in failures.items()]
     left = np.zeros(len(failures))
     for stage, colour in zip(FAILURES, FAILURE_COLOURS, strict=True):
@@ -222,13 +221,13 @@ def place_table(errors):
     return table(["box, camera", "median (mm)", "within 15 mm", "without a place"], rows)
 
 
-def generalist_table(own, generalist):
-    """Shares of each level's own model and of one for all, level -> summary: a Markdown table."""
+def generalist_table(own, generalist, count):
+    """Of each level's own model and of one for all, shares of `count` photos: a Markdown table."""
     heads = {"named": "box right", "arrived, own": "hand within 1 cm", "close, own": "within 5 mm"}
     rows = [
-        [f"{level}, model of {name}", *(f"{summary[key]:.0%}" for key in heads)]
+        [f"{level}, model of {name}", *(share_text(round(one[k] * count), count) for k in heads)]
         for level in photos.LEVELS
-        for name, summary in ((level, own[level]), (photos.REAL_LEVEL, generalist[level]))
+        for name, one in ((level, own[level]), (photos.REAL_LEVEL, generalist[level]))
     ]
     return table(["test renders", *heads.values()], rows)
 

@@ -20,6 +20,18 @@ CORNER = np.array([0.02, 0.02]), np.array([0.3, 0.352])  # of a plot: a square, 
 NEAR = 0.05  # m: how far around the target one sees in the corner
 BONE = {"color": COLOURS["grey"], "alpha": 0.4, "lw": 7, "solid_capstyle": "round"}
 
+ROLES = {
+    "SUBSC": "holding the ball of the upper arm in its socket",
+    "SUPSP": "holding the ball of the upper arm in its socket",
+    "INFSP": "holding the ball of the upper arm in its socket",
+    "DELT1": "lifting the arm forward",
+    "PECM1": "drawing the arm forward and inward",
+    "PECM2": "drawing the arm forward and inward",
+    "BRD": "bending the elbow",
+    "BRA": "bending the elbow",
+    "BIClong": "bending the elbow",
+}
+
 
 def lines(joints):
     """The bones' ends (4, 3), and of every muscle the points (n, 3) that it runs through, in m."""
@@ -58,9 +70,21 @@ def nudged(activation, dampers):
 
 
 def strongest(activation, count=4):
-    """The most active muscles of (63,), by name, the strongest first, as text."""
-    most = np.argsort(-activation)[:count]
-    return ", ".join(f"{plant.MUSCLES[m]} {activation[m]:.0%}" for m in most)
+    """The most active muscles of (63,), name -> activation, the strongest first."""
+    return {plant.MUSCLES[m]: activation[m] for m in np.argsort(-activation)[:count]}
+
+
+def shares_text(active):
+    """Muscles' activations, name -> share, in words."""
+    return ", ".join(f"{name} {share:.0%}" for name, share in active.items())
+
+
+def roles_text(names):
+    """What muscles do, those of one role together; KeyError for one that `ROLES` lacks."""
+    named = {}
+    for name in names:
+        named.setdefault(ROLES[name], []).append(name)
+    return "; ".join(f"{' and '.join(muscles)}: {role}" for role, muscles in named.items())
 
 
 def views(motion, moment, target):

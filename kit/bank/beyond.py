@@ -1,9 +1,8 @@
-"""Questions beyond the paper: ablations, noise, space, and what grows with what."""
+"""Questions beyond the paper: ablations, space, and what grows with what."""
 
 import numpy as np
 
 from kit.question import count, numeric, steps
-from vmc_lib.arm.muscle import force
 from vmc_lib.statistics import student
 
 SHARE, SECONDS = steps(0.2, 0.9, 0.05), steps(0.2, 2, 0.1)
@@ -57,21 +56,6 @@ def trials_that_are_needed(
     trials is the miss under {wanted} mm for the first time?"""
     trials = np.arange(1, 20)
     return trials[before * share**trials < wanted][0]
-
-
-@numeric("N", "Eq. 10 is linear in the activation: the stronger the command, the noisier.")
-def noise_of_a_pull(sigma=(0.05, 0.1, 0.2), strongest=(400, 600, 900), a=steps(0.1, 0.9, 0.1)):
-    """A muscle is held still at its optimal length; its active part pulls with {pull:.1f} N. Its
-    activation strays by {sigma:.0%} of itself. By how much does the force (Eq. 10)?"""
-    pull = force(a, 1.0, 0.0, strongest) - force(0.0, 1.0, 0.0, strongest)
-    return sigma * pull, {"pull": pull}
-
-
-@numeric(hint="1 less the probability that it happens in none.")
-def luck_of_the_best(n=(2, 5, 10, 20), p=(0.05, 0.1, 0.2)):
-    """By noise alone, a trial looks better than it is with probability {p}. With what probability
-    does this happen in at least one of {n} independent trials?"""
-    return 1 - (1 - p) ** n
 
 
 @numeric("s", "The factor to that power.")

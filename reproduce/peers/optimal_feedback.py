@@ -20,6 +20,7 @@ from vmc_lib.motor.inverse_dynamics import MOVING
 from vmc_lib.motor.templates import keep_last, reach
 
 PLACE, SPEED, CHANGE = 0.005, 0.05, 0.1  # m, m/s, of a command: these three weigh the same
+COMMAND_PRICE = np.eye(6) / CHANGE**2
 NUDGE = 1e-5
 
 
@@ -64,22 +65,33 @@ def observe(state):
     return np.concatenate([place / PLACE, (ahead - place) / STEP / SPEED], axis=-1)
 
 
+def observation_slopes(state):
+    """Jacobians of `observe` at states (…, 10), (…, 4, 10)."""
+    nudges = NUDGE * np.eye(10)
+    C = observe(state[..., None, :] + nudges) - observe(state[..., None, :] - nudges)
+    return np.swapaxes(C, -1, -2) / (2 * NUDGE)
+
+
+def deviation_price(state):
+    """What small deviations cost along states (…, ticks + 1, 10): matrices, 0 before the hold."""
+    C = observation_slopes(state)
+    price = np.swapaxes(C, -1, -2) @ C
+    price[..., : MOVING // TICK, :, :] = 0
+    return price
+
+
 def gains(state, commands):
     """The best gains (…, ticks, 6, 10) along states (…, ticks + 1, 10), and the arm's slopes.
 
     A correction is minus the gain times the deviation. Only the hold is paid for, and corrections.
     """
     A, B = linearise(state[..., :-1, :], commands)
-    nudges = NUDGE * np.eye(10)
-    C = observe(state[..., None, :] + nudges) - observe(state[..., None, :] - nudges)
-    C = np.swapaxes(C, -1, -2) / (2 * NUDGE)
-    price = np.swapaxes(C, -1, -2) @ C  # of a deviation (…, ticks + 1, 10, 10)
-    price[..., : MOVING // TICK, :, :] = 0
+    price = deviation_price(state)
     ahead, found = price[..., -1, :, :], []
     for t in reversed(range(commands.shape[-3])):
         a, b = A[..., t, :, :], B[..., t, :, :]
         back = np.swapaxes(b, -1, -2) @ ahead
-        gain = np.linalg.solve(np.eye(6) / CHANGE**2 + back @ b, back @ a)
+        gain = np.linalg.solve(COMMAND_PRICE + back @ b, back @ a)
         ahead = price[..., t, :, :] + np.swapaxes(a, -1, -2) @ ahead @ (a - b @ gain)
         found.append(gain)
     return np.stack(found[::-1], axis=-3), A, B

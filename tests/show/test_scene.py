@@ -2,6 +2,8 @@
 
 import base64
 import json
+from dataclasses import asdict
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -90,6 +92,23 @@ def test_a_scene_tells_where_a_movement_ends_and_how_fast_the_hand_is_there():
     scene = arm_scene((-0.3, 1.0), balls=[(target, "green")], end=(place, 0.0123))
     assert message(scene, "end") == {"off": 0.01, "speed": 0.0123}
     assert np.allclose(decode(scene)["set_transform /meshcat/goal/end "]["matrix"][12:15], place)
+
+
+def test_cup_and_table_have_the_colours_of_the_photo():
+    photo = photos.load("rig", "test")[1]
+    image = np.full_like(photo.image, (10, 120, 30))
+    x0, y0, x1, y1 = photo.boxes["cup"].astype(int)
+    image[y0:y1, x0:x1] = 20, 40, 200
+    image[::3] = 255  # what is lit is not what it is like
+    painted = SimpleNamespace(**asdict(photo) | {"image": image, "camera": photo.camera})
+    sent = decode(arm_scene((-0.3, 1.0), photo=painted))
+    for name, colour in {
+        "goal/cup": 0x1428C8,
+        "table/top": 0x0A781E,
+        "table/leg0": 0x0A781E,
+    }.items():
+        [material] = sent[f"set_object /meshcat/{name} "]["object"]["materials"]
+        assert material["color"] == colour, name
 
 
 def projects_into(photo, point, name):

@@ -43,6 +43,7 @@ def arm_scene(q, activation=6 * (0,), turn=0.0, photo=None, balls=(), grasp=Fals
     beyond = to_world(BEYOND, final) - to_world(np.zeros(3), final)
     scene["goal"].set_transform(props.place(beyond))
     if photo:
+        props.table(scene["table"], photo)
         props.shuttlecock(scene["goal/shuttlecock"], photo)
         props.cup(scene["goal/cup"], photo)
     for i, (position, colour) in enumerate(balls):

@@ -20,13 +20,14 @@ VANE = [  # a feather: how far along the axis, and half its width there
 ]
 
 
-def table(part):
-    """A table with its top at `TABLE`."""
+def table(part, photo=None):
+    """A table with its top at `TABLE`: of wood, or in the colour that it has in a photo."""
     top, thick = (0.56, 0.9), 0.026
-    part["top"].set_object(g.Box([top[0], thick, top[1]]), paint(WOOD))
+    colour = WOOD if photo is None else _median_colour(_table_pixels(photo))
+    part["top"].set_object(g.Box([top[0], thick, top[1]]), paint(colour))
     part["top"].set_transform(place((0.36, TABLE - thick / 2, -0.05)))
     for i, (x, z) in enumerate([(0.12, -0.46), (0.6, -0.46), (0.12, 0.36), (0.6, 0.36)]):
-        part[f"leg{i}"].set_object(g.Box([0.045, 0.6, 0.045]), paint(WOOD))
+        part[f"leg{i}"].set_object(g.Box([0.045, 0.6, 0.045]), paint(colour))
         part[f"leg{i}"].set_transform(place((x, TABLE - thick - 0.3, z)))
 
 
@@ -97,13 +98,31 @@ def cup(part, photo):
     x0, y0, x1, y1 = photo.boxes["cup"].astype(int)
     centre = photo.camera.back_project([[(x0 + x1) / 2, (y0 + y1) / 2]], TABLE + 0.045)[0]
     patch = photo.image[(y0 + 2 * y1) // 3 : y1 - 8, (2 * x0 + x1) // 3 : (x0 + 2 * x1) // 3]
-    lit = np.percentile(patch.reshape(-1, 3), 85, axis=0).astype(int)  # not its own shade
     outside, inside = (
         [(0, 0), (0.037, 0), (0.04, 0.09)],
         [(0.036, 0.09), (0.034, 0.005), (0, 0.005)],
     )
-    part.set_object(lathe([*outside, *inside]), paint(int(lit @ [1 << 16, 1 << 8, 1])))
+    part.set_object(lathe([*outside, *inside]), paint(_median_colour(patch)))
     part.set_transform(place((centre[0], TABLE, centre[2])))
+
+
+def _table_pixels(photo):
+    """The photo's pixels (n, 3) of the table round its shuttlecock, but for what stands there."""
+    aside = np.linspace(-0.2, 0.2, 41)  # m
+    x, z = np.meshgrid(photo.target[0] + aside, photo.target[2] + aside)
+    around = np.column_stack([x.ravel(), np.full(x.size, TABLE), z.ravel()])
+    column, row = np.rint(photo.camera.project(around)).astype(int).T
+    high, wide = photo.image.shape[:2]
+    free = (0 <= column) & (column < wide) & (0 <= row) & (row < high)
+    for x0, y0, x1, y1 in photo.boxes.values():
+        free &= ~((x0 <= column) & (column <= x1) & (y0 <= row) & (row <= y1))
+    return photo.image[row[free], column[free]]
+
+
+def _median_colour(pixels):
+    """The median of pixels (…, 3) as 0xRRGGBB."""
+    red, green, blue = np.median(pixels.reshape(-1, 3), axis=0).astype(int)
+    return int(red << 16 | green << 8 | blue)
 
 
 def lathe(profile, sides=32):
