@@ -1,4 +1,7 @@
-"""Adaptation in a world that changes: a load, a viscous field, a prism, each for some blocks."""
+"""Adaptation in a world that changes: a load, a viscous field, a prism, each for some blocks.
+
+And error clamp: a seen error that no movement changes.
+"""
 
 from copy import deepcopy
 from functools import partial
@@ -9,7 +12,7 @@ import numpy as np
 from vmc_lib.arm.simulate import Perturbation
 from vmc_lib.cerebellum.adaptation import CORRECTIONS, Adaptation
 from vmc_lib.cerebellum.online import AimCorrection
-from vmc_lib.motor.execution import execute, rotate_about_eye
+from vmc_lib.motor.execution import EYE, execute, rotate_about_eye
 from vmc_lib.motor.planning import draw_targets, plan, surrounded
 from vmc_lib.motor.templates import load
 
@@ -71,6 +74,37 @@ def without_learning(trained, template_set, perturbation, target, blocks=BLOCKS)
     changed = np.repeat([False, True, False], blocks)[:, None, None]
     ends = execute(corrected, **perturbation).endpoint, execute(corrected).endpoint
     return Curve(target, np.where(changed, *ends))
+
+
+class Clamped(NamedTuple):
+    """What is seen of movements under an error clamp, wherever they end."""
+
+    endpoint: np.ndarray  # (n, 2), m
+
+
+def error_clamp(trained, template_set, rng, angle, blocks=BLOCKS, movements=8):
+    """Drift under error clamp: how far the hand ends from its target in each block, (blocks,), rad.
+
+    Seen from the eye, mean angle, upwards where it is positive. In the second of the `blocks` the
+    hand is seen `angle` rad above its target whatever it does (Morehead et al., 2017).
+    """
+    before, during, _ = blocks
+    learner, drift = Adaptation(trained, template_set), []
+    targets = draw_targets(template_set, sum(blocks) * movements, rng)
+    for block, target in enumerate(targets.reshape(-1, movements, 2)):
+        plans = plan(target, template_set)
+        movement = execute(learner.correct(plans))
+        drift.append(np.mean(_direction(movement.endpoint) - _direction(target)))
+        clamped = before <= block < before + during
+        seen = Clamped(rotate_about_eye(target, angle)) if clamped else movement
+        learner.update(plans, lambda _, seen=seen: seen)
+    return np.array(drift)
+
+
+def _direction(points):
+    """The direction of plane positions (…, 2) as the eye sees them, (…), rad."""
+    away = points - EYE
+    return np.arctan2(away[..., 1], away[..., 0])
 
 
 def block_errors(seed, before=150, blocks=BLOCKS, **size):

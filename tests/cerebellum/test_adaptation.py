@@ -5,7 +5,12 @@ from functools import partial
 import numpy as np
 import pytest
 
-from reproduce.experiments.changed_worlds import PERTURBATIONS, adapt, train_aim_correction
+from reproduce.experiments.changed_worlds import (
+    PERTURBATIONS,
+    adapt,
+    error_clamp,
+    train_aim_correction,
+)
 from vmc_lib.cerebellum.adaptation import SILENT, Adaptation, weight_correction
 from vmc_lib.cerebellum.online import AimCorrection
 from vmc_lib.motor.execution import execute
@@ -68,6 +73,18 @@ def test_adaptation_curves_have_new_targets(template_set, skill):
     curve = adapt(learner, template_set, rng, PERTURBATIONS["a prism"], (1, 1, 1), 4)
     assert curve.target.shape == curve.endpoint.shape == (3, 4, 2)
     assert len(np.unique(curve.target.reshape(-1, 2), axis=0)) == 12
+
+
+def test_a_clamped_error_makes_the_hand_drift_by_a_share_of_it(template_set, skill):
+    """Away from what is seen, twice as fast for twice the clamp; and it fades afterwards."""
+    small, large = (
+        error_clamp(skill, template_set, np.random.default_rng(6), clamp, (1, 2, 3))
+        for clamp in (0.02, 0.04)
+    )
+    assert np.abs(small[:2]).max() < 0.002  # the first clamped block is made before its lesson
+    assert small[2] < -0.01
+    assert large[2] / small[2] == pytest.approx(2, abs=0.3)
+    assert abs(small[-1]) < 0.2 * abs(small[3])
 
 
 def test_unknown_corrections_are_refused(template_set, skill):
