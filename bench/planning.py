@@ -19,7 +19,8 @@ from vmc_lib.motor.planning import draw_targets, plan
 
 template_set = templates.load()
 targets = draw_targets(template_set, 25, np.random.default_rng(0))
-target, habit = targets[0], plan(targets[0], template_set)
+target = optimal_control.TARGETS[10]  # above the table, as an optimum must be
+habit = plan(target, template_set)
 cerebellum = train_aim_correction(template_set, np.random.default_rng(1), 25)
 
 WORK = {  # what -> (call, how often, simulated movements)
