@@ -190,6 +190,23 @@ def adaptation(templates, adaptations, block, change, cure):
     return fig
 
 
+def clamped(drifts, clamp):
+    """Drift by block under every error clamp of `drifts`, degrees -> (blocks,); one in blue.
+
+    Dashed: where the hand would be if it made up for the `clamp`.
+    """
+    fig, ax = panels(size=(6.5, 3))
+    for drift in drifts.values():
+        ax.plot(drift, color=COLOURS["grey"], alpha=0.5, gid="other clamps")
+    ax.axvspan(BLOCKS[0] - 0.5, sum(BLOCKS[:2]) - 0.5, color=COLOURS["grey"], alpha=0.15, lw=0)
+    ax.axhline(-clamp, ls="--", color=COLOURS["grey"])
+    last, drift = sum(BLOCKS[:2]) - 1, drifts[clamp]
+    curves(ax, range(len(drift)), {f"{clamp}°": drift}, now=(last, drift[last]))
+    ax.set(xlabel="block of 8 movements", ylabel="drift, seen from the eye (°)", ylim=(-13, 1))
+    ax.set_title(f"shown {clamp}° above the target, the hand ends {-drift[last]:.1f}° below")
+    return fig
+
+
 def adapted_scene(movements, change, state):
     """A reach in a changed world or after it; its target is where a prism does not show it."""
     movement = movements[change, state]

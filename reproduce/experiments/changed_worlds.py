@@ -83,21 +83,19 @@ class Clamped(NamedTuple):
 
 
 def error_clamp(trained, template_set, rng, angle, blocks=BLOCKS, movements=8):
-    """Drift under error clamp: how far the hand ends from its target in each block, (blocks,), rad.
+    """Drift under error clamp: how far the hand turns from its targets in each block, (blocks,).
 
-    Seen from the eye, mean angle, upwards where it is positive. In the second of the `blocks` the
-    hand is seen `angle` rad above its target whatever it does (Morehead et al., 2017).
+    Mean angle, rad, as the eye sees it, upwards where it is positive; all blocks have the same
+    targets. In the second of the `blocks` the hand is seen `angle` rad above its target whatever it
+    does (Morehead et al., 2017).
     """
-    before, during, _ = blocks
+    plans = plan(draw_targets(template_set, movements, rng), template_set)
+    clamped = Clamped(rotate_about_eye(plans.target, angle))
     learner, drift = Adaptation(trained, template_set), []
-    targets = draw_targets(template_set, sum(blocks) * movements, rng)
-    for block, target in enumerate(targets.reshape(-1, movements, 2)):
-        plans = plan(target, template_set)
+    for is_clamped in np.repeat([False, True, False], blocks):
         movement = execute(learner.correct(plans))
-        drift.append(np.mean(_direction(movement.endpoint) - _direction(target)))
-        clamped = before <= block < before + during
-        seen = Clamped(rotate_about_eye(target, angle)) if clamped else movement
-        learner.update(plans, lambda _, seen=seen: seen)
+        drift.append(np.mean(_direction(movement.endpoint) - _direction(plans.target)))
+        learner.update(plans, lambda _, seen=clamped if is_clamped else movement: seen)
     return np.array(drift)
 
 
