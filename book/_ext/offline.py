@@ -39,8 +39,8 @@ def mend(app, pagename, templatename, context, doctree):
     """Mend the page.
 
     No settings inside it, which a strict host forbids, but in a file; no script or style sheet that
-    it has no use for (KaTeX and its fonts are .6 MB), and no element around a word of code without a
-    colour of its own; no list role on what is no list, no role that is out of use, and no label
+    it has no use for (KaTeX and its fonts are .6 MB), and no element around a word of code without
+    a colour of its own; no list role on what is no list, no role that is out of use, and no label
     that hides a summary's own words; the number of an equation outside the `split` that Sphinx puts
     around its lines.
     """
