@@ -1,4 +1,4 @@
-"""Drawings: two streams on an outline of the brain, a CRBM's block, the CDBN's stack. All SVG."""
+"""Drawings: two streams, a box corrected, a line of sight, a CRBM's block, a stack. All SVG."""
 
 from vmc_lib.show.palette import css
 
@@ -74,6 +74,58 @@ def two_streams():
         words(168, 226, "IT", "orange"),
         words(120, 274, "what: the ventral stream", "orange"),
         words(386, 234, "cerebellum"),
+    )
+
+
+def box_regression():
+    """A box that lies astray, the four numbers that its content gives, and the box they make."""
+    cup = f'<path d="M60 62v52q0 26 32 26t32-26v-52zM124 76h16v34h-16" fill="{css("line")}"/>'
+    there = cup.replace("M60 62", "M430 62").replace("M124 76", "M494 76")
+
+    def box(x, y, width, height, colour):
+        return (
+            f'<rect x="{x}" y="{y}" width="{width}" height="{height}" '
+            f'stroke="{css(colour)}" stroke-width="2.5"/>'
+        )
+
+    return drawing(
+        560,
+        190,
+        cup,
+        box(86, 76, 72, 78, "orange"),
+        arrow("M166 104H184"),
+        words(284, 66, "what it shows:"),
+        words(284, 88, "gradients in 10 × 10 cells"),
+        words(284, 122, "so: move left and up,"),
+        words(284, 142, "stretch across and down"),
+        arrow("M386 104H416"),
+        there,
+        box(456, 76, 72, 78, "orange"),
+        box(424, 56, 92, 90, "green"),
+        arrow("M492 115L474 104", "green"),
+        words(120, 180, "before", "orange"),
+        words(470, 180, "after one round", "green"),
+    )
+
+
+def line_of_sight():
+    """From the side: an eye, its line of sight, and two heights at which a thing may lie on it."""
+    return drawing(
+        520,
+        230,
+        f'<path d="M20 190H500" stroke="{css("grey")}" stroke-width="4"/>',
+        f'<circle cx="60" cy="40" r="12" fill="{css("paper")}"/><circle cx="66" cy="44" r="4"/>',
+        arrow("M72 48L412 188", "blue", 2),
+        f'<path d="M297 138H418M357 163H418" stroke="{css("grey")}" stroke-dasharray="4 4"/>',
+        f'<circle cx="291" cy="138" r="6" fill="{css("orange")}" stroke="none"/>',
+        f'<circle cx="351" cy="163" r="6" fill="{css("green")}" stroke="none"/>',
+        words(60, 20, "eye"),
+        words(210, 84, "line of sight", "blue"),
+        words(464, 143, "if it stands"),
+        words(456, 168, "if it lies"),
+        arrow("M291 204H349", "red"),
+        words(320, 222, "off by so much", "red"),
+        words(120, 184, "table"),
     )
 
 

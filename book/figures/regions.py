@@ -1,6 +1,7 @@
 """Figures and tables of the chapter on regions: crops, margins, weights, boxes and scores."""
 
 import numpy as np
+from sklearn.svm import SVC
 
 from book.figures.panels import panels
 from book.figures.where import bars, in_corner, right_and_wrong
@@ -8,7 +9,6 @@ from reproduce.experiments import fresh_test_set, localisation, real_world
 from vmc_lib.boxes import iou
 from vmc_lib.show import COLOURS, dot_plot, photo_view, table
 from vmc_lib.statistics import wilson
-from vmc_lib.where.svm import KernelSVM
 
 CHANNELS = ("red", "green", "blue", "mean")
 MEASURES = ("precision", "recall")
@@ -33,18 +33,30 @@ def crop_sheet(crops, columns=8):
     return grid.reshape(-1, 36 * columns, 3)
 
 
-def margin_plot(cost):
-    """Two clouds, the border that a linear SVM draws between them, and its margin: a figure."""
+def margin(cost, kernel):
+    """Two clouds (40, 2) and an SVM that parts them; which are something: points, labels, SVM."""
     rng = np.random.default_rng(3)
     side = np.repeat([True, False], 20)
     clouds = rng.normal(size=(40, 2)) + np.where(side[:, None], 1.3, -1.3)
+    return clouds, side, SVC(C=cost, kernel=kernel).fit(clouds, side)
+
+
+def margin_plot(cost, kernel):
+    """An SVM between two clouds: its border, its margin and how much each example counts.
+
+    A ring's area is its example's α, as a share of the cost C, which no α exceeds: a figure.
+    """
+    clouds, side, svm = margin(cost, kernel)
     grid = np.stack(np.meshgrid(*[np.linspace(-4, 4, 81)] * 2), -1)
-    f = KernelSVM.fit(clouds, side, cost=cost).score(grid.reshape(-1, 2)).reshape(81, 81)
-    fig, ax = panels(size=(4, 3.3))
+    f = svm.decision_function(grid.reshape(-1, 2)).reshape(81, 81)
+    fig, ax = panels(size=(4.6, 3.6))
     ax.contour(*grid.T, f.T, [-1, 0, 1], colors=COLOURS["grey"], linestyles=["--", "-", "--"])
     ax.plot(*clouds[side].T, "o", label="something")
     ax.plot(*clouds[~side].T, "s", label="table")
-    ax.set(xticks=[], yticks=[], aspect="equal")
+    rings = 40 + 160 * abs(svm.dual_coef_[0]) / cost
+    ax.scatter(*svm.support_vectors_.T, rings, "none", edgecolors=COLOURS["red"], gid="alpha")
+    ax.set(xticks=[], yticks=[], aspect="equal", xlabel="blueness", ylabel="roundness")
+    ax.legend(loc="lower right")
     return fig
 
 
