@@ -42,11 +42,60 @@ def follow(excitation, law=muscle.PAPER):
     return activations(excitation[None, :, None], excitation[None, :1], law)[0, 1:, 0]
 
 
-def isometric(law, pulses, length=1.0):
-    """The force (600,) in N, one value a ms, under so many pulses of 3 ms a second."""
-    excitation = 1.0 * (-TIME % (1000 / pulses) < 3) * (TIME > 0)
-    activation = follow(excitation, law)
-    return STRENGTH * normalised_force(law, activation, length, 0)
+def isometric(law, pulses, length=1.0, tendon=0.0):
+    """The force (600, …) in N, one value a ms, under so many pulses of 3 ms a second.
+
+    `pulses` and the fibre's `length` broadcast; a `tendon` of length 0 (in l₀) is rigid.
+    """
+    pulses, length = np.broadcast_arrays(pulses, np.asarray(length, float))
+    activation = np.transpose([follow(_pulse_train(rate), law) for rate in pulses.flat])
+    activation = activation.reshape(-1, *pulses.shape)
+    if not tendon:
+        return STRENGTH * normalised_force(law, activation, length, 0)
+    return STRENGTH * _pull_on_tendon(law, activation, length, tendon)
+
+
+def _pulse_train(rate):
+    return 1.0 * (-TIME % (1000 / rate) < 3) * (TIME > 0)
+
+
+def time_to_peak(law, tendon=0.0):
+    """How many ms after a pulse of 3 ms began the force peaks, at the best length."""
+    return isometric(law, 3, 1.0, tendon).argmax() - _pulse_train(3).argmax() + 1
+
+
+def tendon_force(strain):
+    """The pull of a stretched tendon, a share of F₀: 1 at a strain of 5 %.
+
+    De Groote et al. (2016), Ann. Biomed. Eng. 44:2922, with SymPy's constants.
+    """
+    return 0.2 * np.exp(33.93669377311689 * (strain + 0.005)) - 0.25
+
+
+def tendon_strain(force):
+    """The strain at which a tendon pulls so hard, a share of F₀: `tendon_force` solved for it."""
+    return np.log((force + 0.25) / 0.2) / 33.93669377311689 - 0.005
+
+
+def _pull_on_tendon(law, activation, length, tendon, damping=0.1, steps=2):
+    """The force (T, …), a share of F₀, of fibres in series with a tendon, the whole held still.
+
+    At each of so many steps a ms the fibre moves as fast as makes its force, and a damper's beside
+    it (F₀ per l₀/s), equal to the tendon's: the damped equilibrium of Millard et al. (2013),
+    J. Biomech. Eng. 135:021005. It begins at rest at `length`.
+    """
+    whole = length + tendon * tendon_strain(normalised_force(law, 0.0, length, 0))
+    pulls = []
+    for active in np.repeat(activation, steps, axis=0):
+        pull = tendon_force((whole - length) / tendon)
+        low, high = np.full_like(length, -12.0), np.full_like(length, 12.0)
+        for _ in range(16):  # the force grows with the speed: halve the interval
+            speed = (low + high) / 2
+            weak = normalised_force(law, active, length, speed) + damping * speed < pull
+            low, high = np.where(weak, speed, low), np.where(weak, high, speed)
+        pulls.append(pull)
+        length = length + low * 1e-3 / steps
+    return np.array(pulls[::steps])
 
 
 def ripple(force):

@@ -31,3 +31,33 @@ def test_pulses_that_follow_each_other_closer_ripple_less():
         muscle_bench.ripple(muscle_bench.isometric(muscle.PAPER, n)) for n in (6, 25, 50, 100)
     ]
     assert ripples == sorted(ripples, reverse=True)
+
+
+def test_a_tendon_stretches_by_a_twentieth_under_the_greatest_force():
+    assert muscle_bench.tendon_force(0.049) == pytest.approx(1, abs=0.01)
+    strains = np.linspace(-0.001, 0.06, 9)
+    forces = muscle_bench.tendon_force(strains)
+    np.testing.assert_allclose(muscle_bench.tendon_strain(forces), strains, atol=1e-12)
+
+
+@pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
+def test_a_tendon_makes_a_twitch_later_and_lower(law):
+    times = [muscle_bench.time_to_peak(law, tendon) for tendon in (0, 0.6, 2.4)]
+    assert times[0] == 3  # with a rigid tendon, as the pulse ends
+    assert times[0] < times[1] < times[2]
+    peaks = [muscle_bench.isometric(law, 3, 1.0, tendon).max() for tendon in (0, 0.6, 2.4)]
+    assert peaks == sorted(peaks, reverse=True)
+
+
+def test_on_a_tendon_the_pull_settles_where_fibre_and_tendon_agree():
+    """Half active, the fibre shortens by what the tendon gives, whatever the steps."""
+    active = np.full(2000, 0.5)
+    coarse, fine = (
+        muscle_bench._pull_on_tendon(muscle.PAPER, active, np.array(1.0), 2.4, steps=steps)
+        for steps in (2, 8)
+    )
+    np.testing.assert_allclose(coarse, fine, atol=5e-3)
+    begun, ended = (muscle_bench.tendon_strain(pull) for pull in coarse[[0, -1]])
+    length = 1 - 2.4 * (ended - begun)
+    still = muscle_bench.normalised_force(muscle.PAPER, 0.5, length, 0)
+    assert coarse[-1] == pytest.approx(still, abs=1e-3)
