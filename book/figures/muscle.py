@@ -51,12 +51,10 @@ def force_velocity(speed, f2):
     return fig
 
 
-def isometric(law, pulses, length):
-    """The force of a muscle held still at a length in l₀, under so many pulses a second."""
-    force = muscle_bench.isometric(law, pulses, length)
-    passive = law.force(0.0, length, 0.0, muscle_bench.STRENGTH)
+def isometric(force):
+    """The force (600,) in N of a muscle held still under pulses, and its pull before them."""
     fig, ax = panels(size=(6.5, 2.6))
-    ax.axhline(passive, color=COLOURS["blue"], label="passive")
+    ax.axhline(force[0], color=COLOURS["blue"], label="passive")
     ax.plot(force, color=COLOURS["red"], label="total")
     ax.set(xlabel="time (ms)", ylabel="force (N)", ylim=(0, 1600))
     ax.set_title(f"(highest − lowest) / mean = {muscle_bench.ripple(force):.0%}", loc="left")
