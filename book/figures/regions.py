@@ -1,7 +1,6 @@
 """Figures and tables of the chapter on regions: crops, margins, weights, boxes and scores."""
 
 import numpy as np
-from sklearn.svm import SVC
 
 from book.figures.panels import panels
 from book.figures.where import bars, in_corner, right_and_wrong
@@ -35,6 +34,8 @@ def crop_sheet(crops, columns=8):
 
 def margin(cost, kernel):
     """Two clouds (40, 2) and an SVM that parts them; which are something: points, labels, SVM."""
+    from sklearn.svm import SVC  # slow to load
+
     rng = np.random.default_rng(3)
     side = np.repeat([True, False], 20)
     clouds = rng.normal(size=(40, 2)) + np.where(side[:, None], 1.3, -1.3)
