@@ -13,7 +13,7 @@ from pybtex.database import parse_file
 from pybtex.richtext import Text
 
 from book._ext.plain import FOLD, TERMS
-from book.figures.inventory import DEMO, core, core_minutes, title_and_minutes
+from book.figures.inventory import DEMO, title_and_minutes
 from tests.project import CHAPTERS, NOTEBOOKS, ROOT, code, each_chapter, python
 
 
@@ -216,24 +216,6 @@ def test_opening_a_notebook_does_not_change_it(notebook):
     spec = get_kernel_dict() | {"name": "python3"}
     kernel = {key: spec[key] for key in ("display_name", "language", "name")}
     assert notebook.metadata == {"kernelspec": kernel, "language_info": language}
-
-
-def test_an_optional_section_begins_and_ends_with_a_heading(notebook):
-    """At the head of a cell, so that the notebook's cells tell what the page folds."""
-    open_cells = {cell.id for cell in core(notebook.cells)}
-    for cell in notebook.cells:
-        if tagged(cell, "optional"):
-            assert re.match(r"###? \S", cell.source), cell.id
-        if cell.cell_type == "markdown" and cell.id not in open_cells:
-            assert not re.search(r"(?<!\A)^## ", cell.source, re.M), cell.id
-
-
-@each_chapter
-def test_the_minutes_are_those_of_the_core(path):
-    """An hour at most, and near to what its words and demos take."""
-    stated = title_and_minutes(path)[1]
-    assert stated <= 60
-    assert stated == pytest.approx(core_minutes(path), rel=0.25)
 
 
 def test_links_to_the_glossary_lead_to_a_term(notebook):

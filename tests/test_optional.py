@@ -1,8 +1,13 @@
 """Optional sections of a chapter: folded in the page until a reader asks for them."""
 
+import re
+
+import nbformat
 import pytest
 
 from book._ext.plain import with_directives
+from book.figures.inventory import core, core_minutes, title_and_minutes
+from tests.project import each_chapter
 
 SECTION = """
 <a href="#inside">there</a>
@@ -14,6 +19,26 @@ def test_a_tag_on_its_heading_makes_a_section_optional():
     cell = {"cell_type": "markdown", "metadata": {"tags": ["optional"]}, "source": "## Sure?"}
     [translated] = with_directives([cell])
     assert translated["source"] == "{.vmc-optional}\n## Sure?"
+
+
+@each_chapter
+def test_an_optional_section_begins_and_ends_with_a_heading(path):
+    """At the head of a cell, so that the notebook's cells tell what the page folds."""
+    cells = nbformat.read(path, as_version=4).cells
+    open_cells = {cell.id for cell in core(cells)}
+    for cell in cells:
+        if "optional" in cell.metadata.get("tags", []):
+            assert re.match(r"###? \S", cell.source), cell.id
+        if cell.cell_type == "markdown" and cell.id not in open_cells:
+            assert not re.search(r"(?<!\A)^## ", cell.source, re.M), cell.id
+
+
+@each_chapter
+def test_the_minutes_are_those_of_the_core(path):
+    """An hour at most, and near to what its words and demos take."""
+    stated = title_and_minutes(path)[1]
+    assert stated <= 60
+    assert stated == pytest.approx(core_minutes(path), rel=0.25)
 
 
 @pytest.mark.browser
