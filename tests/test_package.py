@@ -20,8 +20,8 @@ from tests.project import ROOT, code, python, run
 PYPROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 PROJECT = PYPROJECT["project"]
 OPTIONAL = PROJECT["optional-dependencies"] | PYPROJECT["dependency-groups"]
-OURS = {"vmc_lib", "arm_in_page", "python_in_page", "reproduce", "render", "bench", "book"}
-OURS |= {"kit", "tests", "tools"}
+OURS = {"vmc_lib", "arm_in_page", "eye_in_page", "python_in_page", "reproduce", "render"}
+OURS |= {"bench", "book", "kit", "tests", "tools"}
 PINS = re.findall(
     r"^([\w.\[\]-]+)==([\w.]+)", (ROOT / "requirements.txt").read_text(encoding="utf-8"), flags=re.M
 )
