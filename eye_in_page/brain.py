@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from vmc_lib import box_selection, data, photos
+from vmc_lib import box_selection, camera, data, photos
 from vmc_lib.loop import high_recall_detector
 from vmc_lib.what.stream import FLIPS, STAGES
 from vmc_lib.where.appearance import COLOUR_SPACES, MEASURES
@@ -39,21 +39,23 @@ def detector():
     """The `ObjectDetector` of `VisuomotorModel.load("real")`."""
     learnt, recipe = data.arrays("detectors"), high_recall_detector(photos.REAL_LEVEL).recipe
 
-    def parts(prefix):
-        return {
-            name.removeprefix(prefix): array
-            for name, array in learnt.items()
-            if name.startswith(prefix) and "/" not in name.removeprefix(prefix)
-        }
-
     own = f"{photos.REAL_LEVEL}/photographed/"
+
+    def parts(prefix):
+        names = [name.removeprefix(prefix) for name in learnt if name.startswith(prefix)]
+        return {name: learnt[prefix + name] for name in names if "/" not in name}
+
+    def ridge(called):
+        part = parts(f"{own}{called}/")
+        return part | {"axes": part["axes"].T}  # rows, as the page multiplies them
+
     strategy = asdict(STRATEGIES[recipe.strategy])
     strategy["similarities"] = [
         [measure in one for measure in MEASURES] for one in strategy["similarities"]
     ]
     return parts(own) | {
-        "regressions": [parts(f"{own}regression {i}/") for i in range(len(recipe.regressions))],
-        "iouPredictor": parts(f"{own}iou predictor/"),
+        "regressions": [ridge(f"regression {i}") for i in range(len(recipe.regressions))],
+        "iouPredictor": ridge("iou predictor"),
         "strategy": strategy,
         "threshold": high_recall_detector(photos.REAL_LEVEL).threshold,
         "gate": recipe.gate,
@@ -83,6 +85,7 @@ def selector():
         "minProbability": box_selection.MIN_PROBABILITY,
         "sizes": box_selection.SIZES,
         "ratio": box_selection.SIZE_LIKELIHOOD_RATIO,
+        "table": camera.TABLE,
     }
 
 

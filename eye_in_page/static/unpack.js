@@ -19,7 +19,7 @@
     const revive = (_, it) => {
       if (!it?.kind) return it;
       const array = new KINDS[it.kind](buffer, it.at, it.length);
-      return it.kind === "float16" ? Float32Array.from(array, half) : array;
+      return it.kind === "float16" ? Float64Array.from(array, half) : array;
     };
     const brain = JSON.parse(tree, revive);
     delete vmcEye.packed; // megabytes of text
