@@ -8,23 +8,10 @@ from `brain`.
 from pathlib import Path
 
 STATIC = Path(__file__).parent / "static"
-SCRIPTS = [  # in the order in which they need one another
-    STATIC / f"{name}.js"
-    for name in (
-        "pieces",
-        "boxes",
-        "camera",
-        "unpack",
-        "colours",
-        "filters",
-        "segmentation",
-        "appearance",
-        "selective_search",
-        "features",
-        "product",
-        "detector",
-        "stream",
-        "box_selection",
-        "see",
+SEARCH_SCRIPTS, SIGHT_SCRIPTS = (  # in the order in which they need one another
+    [STATIC / f"{name}.js" for name in names.split()]
+    for names in (
+        "pieces colours filters segmentation appearance selective_search",
+        "boxes camera unpack features product detector stream box_selection see",
     )
-]
+)
