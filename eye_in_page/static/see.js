@@ -22,8 +22,8 @@ Object.assign(vmcEye, (() => {
 
     /* One line that describes the result. */
     get summary() {
-      const { probability } = this, sure = probability.slice(0, this.shuttlecocks.length).map((p) => `${percent(p)} sure`);
-      if (sure.length) return `${sure.length} shuttlecock${sure.length > 1 ? "s" : ""} (${sure.join(", ")})`;
+      const { probability } = this, sure = probability.slice(0, this.shuttlecocks.length).map(percent);
+      if (sure.length) return `${sure.length} shuttlecock${sure.length > 1 ? "s" : ""} (${sure.join(", ")} sure)`;
       if (!probability.length) return "nothing that looks like an object";
       const things = `${probability.length} thing${probability.length > 1 ? "s" : ""}`;
       return `no shuttlecock, but ${things}; likeliest ${percent(Math.max(...probability))}`;
