@@ -37,9 +37,8 @@ def brain():
 
 def detector():
     """The `ObjectDetector` of `VisuomotorModel.load("real")`."""
-    learnt, recipe = data.arrays("detectors"), high_recall_detector(photos.REAL_LEVEL).recipe
-
-    own = f"{photos.REAL_LEVEL}/photographed/"
+    learnt, shipped = data.arrays("detectors"), high_recall_detector(photos.REAL_LEVEL)
+    own, recipe = f"{photos.REAL_LEVEL}/photographed/", shipped.recipe
 
     def parts(prefix):
         names = [name.removeprefix(prefix) for name in learnt if name.startswith(prefix)]
@@ -50,15 +49,13 @@ def detector():
         return part | {"axes": part["axes"].T}  # rows, as the page multiplies them
 
     strategy = asdict(STRATEGIES[recipe.strategy])
-    strategy["similarities"] = [
-        [measure in one for measure in MEASURES] for one in strategy["similarities"]
-    ]
+    strategy["similarities"] = [[x in used for x in MEASURES] for used in strategy["similarities"]]
     return parts(own) | {
+        "strategy": strategy,
+        "gate": recipe.gate,
         "regressions": [ridge(f"regression {i}") for i in range(len(recipe.regressions))],
         "iouPredictor": ridge("iou predictor"),
-        "strategy": strategy,
-        "threshold": high_recall_detector(photos.REAL_LEVEL).threshold,
-        "gate": recipe.gate,
+        "threshold": shipped.threshold,
         "overlap": recipe.overlap,
     }
 

@@ -6,8 +6,9 @@ Object.assign(vmcEye, (() => {
 
   /* The detections whose boxes, seen by a camera, are of a shuttlecock's physical size. */
   const filterBySize = ({ boxes, scores }, camera, { sizes: [smallest, largest], table }) => {
-    const right = boxes.map((box) => vmcEye.physicalSize(camera, box, table)).map((size) => size > smallest && size < largest);
-    return { boxes: boxes.filter((_, i) => right[i]), scores: scores.filter((_, i) => right[i]) };
+    const size = boxes.map((box) => vmcEye.physicalSize(camera, box, table));
+    const right = (_, i) => size[i] > smallest && size[i] < largest;
+    return { boxes: boxes.filter(right), scores: scores.filter(right) };
   };
 
   /* The stream's answers to some boxes, one a piece, and the boxes refined by them. */
