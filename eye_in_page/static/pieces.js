@@ -3,7 +3,7 @@
 const vmcEye = (() => {
   "use strict";
 
-  const LONGEST = 40; // ms of work after which the page may draw
+  const LONGEST = 30; // ms of work after which the page may draw
 
   /* The result of all pieces at once. */
   const finish = (work) => {

@@ -9,7 +9,7 @@ from vmc_lib.loop import VisuomotorModel, see
 from vmc_lib.marker_sheet import remove_sheet
 
 SHEETS = photos.load("sheet", "test")[::7]
-REAL = [*photos.load("real", "test")[::5], *photos.everyday()[:1]]
+REAL = [*photos.load("real", "test")[::6], photos.everyday()[0]]
 SEE = """const stages = {};
   const report = (stage, { boxes }) => (stages[stage] = boxes);
   const { probability, box, summary } = await vmcEye.see(brain, photo, { camera: asked, report });
