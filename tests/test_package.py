@@ -143,7 +143,7 @@ def alone(reader, tmp_path):
 
 
 def test_the_wheel_holds_the_packages(alone):
-    names = "vmc_lib arm_in_page reproduce render book.figures book.exercises"
+    names = "vmc_lib arm_in_page eye_in_page reproduce render book.figures book.exercises"
     script = f"import {names.replace(' ', ', ')}; print(vmc_lib.__file__, *book.figures.__path__)"
     for path in alone("-c", script).split():
         assert "site-packages" in path
