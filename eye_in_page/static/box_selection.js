@@ -25,11 +25,11 @@ Object.assign(vmcEye, (() => {
   const logistic = (logOdds) => 1 / (1 + Math.exp(-logOdds));
 
   /* The refined boxes, the most probable first, and the probability that each holds a shuttlecock; `ratio` multiplies
-     its odds. What the first look says of the boxes is `told`. */
-  const select = function* ({ selector, stream }, photo, { boxes, scores }, ratio, told) {
+     its odds. It reports what the first look says of the boxes. */
+  const select = function* ({ selector, stream }, photo, { boxes, scores }, ratio, report) {
     const { weights: [byScore, byName], bias: [bias], firstPass, secondPass } = selector;
     const first = yield* lookAt(stream, photo, boxes.slice(0, firstPass), AS_IT_IS);
-    told({ boxes: first.refined, probability: first.logOdds.map(logistic) });
+    report({ boxes: first.refined, probability: first.logOdds.map(logistic) });
     const best = vmcEye.falling(first.logOdds).slice(0, secondPass);
     const { refined, logOdds } = yield* lookAt(stream, photo, best.map((i) => first.refined[i]), stream.flips);
     const kept = vmcEye.nms(refined, logOdds);

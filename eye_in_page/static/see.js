@@ -38,9 +38,9 @@ Object.assign(vmcEye, (() => {
     if (camera) detections = vmcEye.filterBySize(detections, camera, selector);
     const ratio = camera ? selector.ratio : 1;
     const selected = yield* vmcEye.select(brain, photo, detections, ratio, (names) => report("names", names));
-    const seen = new Sight(selected, selector.minProbability);
-    report("sight", seen);
-    return seen;
+    const result = new Sight(selected, selector.minProbability);
+    report("sight", result);
+    return result;
   };
 
   /* A promise of the Sight of a photo { data, width, height }, four bytes a pixel, 600 × 400. `report(stage, data)`

@@ -32,7 +32,7 @@ Object.assign(vmcEye, (() => {
     const nearer = (a, b) => (b.like - a.like || a.i - b.i || a.j - b.j) <= 0 ? a : b;
     let waiting = pairs.map(([i, j]) => meet(i, j));
     while (waiting.length) {
-      const { i, j } = waiting.reduce(nearer), made = all.push(vmcEye.mergeRegions(all[i], all[j])) - 1;
+      const { i, j } = waiting.reduce(nearer), union = all.push(vmcEye.mergeRegions(all[i], all[j])) - 1;
       merges.push([i, j]);
       const others = new Set(), rest = [];
       for (const pair of waiting) {
@@ -41,14 +41,14 @@ Object.assign(vmcEye, (() => {
         else if (!first || !second) others.add(first ? pair.j : pair.i);
       }
       waiting = rest;
-      for (const other of others) waiting.push(meet(other, made));
+      for (const other of others) waiting.push(meet(other, union));
     }
     return { merges, boxes: all.map(({ box }) => box) };
   };
 
   /* Object candidates: the boxes of several hierarchies, none twice and no side under `smallest` pixels. After each
-     hierarchy all boxes so far are `told`. */
-  const propose = function* (photo, { colours, k, similarities }, labGrid, told = () => {}, smallest = 20) {
+     hierarchy it reports all boxes so far. */
+  const propose = function* (photo, { colours, k, similarities }, labGrid, report = () => {}, smallest = 20) {
     const boxes = new Map();
     for (const space of colours) {
       const prepared = yield* prepare(photo, space, labGrid);
@@ -58,7 +58,7 @@ Object.assign(vmcEye, (() => {
           yield;
           for (const box of grow(segments, measures).boxes)
             if (box[2] - box[0] >= smallest && box[3] - box[1] >= smallest) boxes.set(box.join(), box);
-          told([...boxes.values()]);
+          report([...boxes.values()]);
         }
       }
     }

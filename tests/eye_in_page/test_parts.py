@@ -86,10 +86,10 @@ def test_boxes_are_suppressed_vote_and_are_moved(ask, rng):
 def test_physical_size(ask):
     eye = photos.load("sheet", "test")[0].camera
     given = {name: np.asarray(value).tolist() for name, value in vars(eye).items()}
-    seen = [[10, 10, 60, 90], [300, 200, 420, 330], [0, -9000, 10, -8000]]
+    regions = [[10, 10, 60, 90], [300, 200, 420, 330], [0, -9000, 10, -8000]]
     script = "return asked[1].map((box) => String(vmcEye.physicalSize(asked[0], box, asked[2])));"
-    there = np.float64(ask(script, [given, seen, camera.TABLE]))
-    assert np.allclose(there, eye.sizes(seen), rtol=1e-9)
+    there = np.float64(ask(script, [given, regions, camera.TABLE]))
+    assert np.allclose(there, eye.sizes(regions), rtol=1e-9)
     assert np.isinf(there).any()
 
 
@@ -106,14 +106,14 @@ def test_colours_are_those_of_opencv(ask, rng, space):
 
 
 def test_crops_and_gradients(ask, rng):
-    image, seen = SHOT.image, random_boxes(rng, 40)
-    seen[0] = seen[0, [0, 1, 0, 1]]  # of no area
+    image, regions = SHOT.image, random_boxes(rng, 40)
+    regions[0] = regions[0, [0, 1, 0, 1]]  # of no area
     script = """return asked.map((box) =>
       [vmcEye.crop(photo, box, 16), vmcEye.gradients(photo, box)].map((row) => Array.from(row)));"""
-    crops, slopes = zip(*ask(script, seen.tolist(), image), strict=True)
-    here = photos.crops(image, seen, 16)
+    crops, slopes = zip(*ask(script, regions.tolist(), image), strict=True)
+    here = photos.crops(image, regions, 16)
     assert (np.float32(crops).reshape(here.shape) == here).all()
-    assert np.abs(slopes - gradients(image, seen)).max() < 2e-4
+    assert np.abs(slopes - gradients(image, regions)).max() < 2e-4
 
 
 def test_the_detectors_answers_to_features(ask, rng):
@@ -146,21 +146,23 @@ def test_the_detectors_boxes(ask):
 
 @pytest.mark.parametrize("flips", [FLIPS[:1], FLIPS])
 def test_the_streams_answers(ask, rng, flips):
-    image, seen = SHOT.image, random_boxes(rng, 6)
+    image, regions = SHOT.image, random_boxes(rng, 6)
     script = """const [boxes, flips] = asked;
       return boxes.map((box) => vmcEye.look(brain.stream, photo, box, flips));"""
-    there = ask(script, [seen.tolist(), flips], image)
-    log_odds, deltas = STREAM.predict(image, seen, flips)
+    there = ask(script, [regions.tolist(), flips], image)
+    log_odds, deltas = STREAM.predict(image, regions, flips)
     assert np.allclose([answer["logOdds"] for answer in there], log_odds, atol=1e-4)
     assert np.allclose([answer["deltas"] for answer in there], deltas, atol=1e-5)
 
 
 @pytest.mark.parametrize("probability", [[], [0.3], [0.31, 0.2], [0.9], [0.997, 0.6, 0.2]])
 def test_a_sight_is_described_in_the_same_words(ask, probability):
-    seen = np.arange(4.0 * len(probability)).reshape(-1, 4)
+    regions = np.arange(4.0 * len(probability)).reshape(-1, 4)
     script = """const [boxes, probability] = asked;
       const sight = new vmcEye.Sight({ boxes, probability }, 0.4);
       return [sight.summary, sight.box];"""
-    here = Sight(Detections(seen, seen, seen, seen, seen), np.array(probability), 0.4)
+    here = Sight(
+        Detections(regions, regions, regions, regions, regions), np.array(probability), 0.4
+    )
     box = None if here.box is None else here.box.tolist()
-    assert ask(script, [seen.tolist(), probability]) == [here.summary, box]
+    assert ask(script, [regions.tolist(), probability]) == [here.summary, box]

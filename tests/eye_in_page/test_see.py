@@ -36,3 +36,10 @@ def test_the_verdict_is_that_of_python(ask, model, shot):
     candidates = {tuple(box) for box in there["stages"]["candidates"]}
     assert candidates == {tuple(box) for box in here.detections.candidates}
     assert list(there["stages"]) == ["candidates", "kept", "names", "sight"]
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("shape", [(40, 60, 3), (1, 1, 3)])
+def test_nothing_is_seen_where_there_is_nothing(ask, model, shape):
+    image = np.full(shape, 128, np.uint8)
+    assert ask(SEE, image=image)["summary"] == see(model, image).summary
