@@ -17,7 +17,7 @@ BUILT  := _build/.built
 BUILD  := $(BIN)/jupyter-book build -W -n --keep-going .
 PAGE   := _build/html/index.html
 LAYOUT := .venv/share/jupyter/lab/workspaces/book-9271.jupyterlab-workspace
-INPUTS := _config.yml _toc.yml $(shell find book vmc_lib arm_in_page python_in_page reproduce -type f -not -path '*/.*' -not -path '*/__pycache__/*')
+INPUTS := _config.yml _toc.yml $(shell find book vmc_lib arm_in_page eye_in_page python_in_page reproduce -type f -not -path '*/.*' -not -path '*/__pycache__/*')
 
 PEERED := selective_search cuts simulators crbm planning loop scaling
 

@@ -18,7 +18,7 @@ PROBES = (ROOT / "tests/probes.js").read_text(encoding="utf-8")
 CONFIG = yaml.safe_load((ROOT / "_config.yml").read_bytes())["sphinx"]["config"]
 STYLES = CONFIG["html_css_files"]
 SCRIPTS = [name for name, _ in CONFIG["html_js_files"]]  # the book's, in its order
-ROOMS = ("vmc_lib/show", "arm_in_page", "python_in_page")
+ROOMS = ("vmc_lib/show", "arm_in_page", "eye_in_page", "python_in_page")
 STATIC = [*(ROOT / room / "static" for room in ROOMS), ROOT / "book/_static"]
 HEAD = "".join(
     (

@@ -10,6 +10,7 @@ from pathlib import Path
 import nbformat
 import pytest
 
+from eye_in_page import brain
 from python_in_page import pack
 from tests import pages
 
@@ -75,7 +76,8 @@ def test_a_chapter_is_executed_when_it_or_the_library_changed(book):
         page = build(book)
         assert times_executed(book) == 1
         assert "printed 42" in page
-    assert (book / "_build/html/_static" / pack.SCRIPT).stat().st_size > 1e6  # the page's Python
+    for packed in (pack, brain):  # the page's Python, and what its eye has learnt
+        assert (book / "_build/html/_static" / packed.SCRIPT).stat().st_size > 1e6
     # It can be saved, and without a repository nothing leads out
     assert "../_sources/book/chapter.ipynb" in links(page)
     assert not [link for link in links(page) if link.startswith("http")]

@@ -8,7 +8,7 @@ import pytest
 
 from tests.project import ROOT, code, python
 
-PACKAGES = ("vmc_lib", "arm_in_page", "python_in_page", "reproduce")
+PACKAGES = ("vmc_lib", "arm_in_page", "eye_in_page", "python_in_page", "reproduce")
 EMPTY = [ROOT / f"vmc_lib/{name}/__init__.py" for name in ("where", "arm", "motor", "cerebellum")]
 FILES = sorted(p for top in PACKAGES for p in (ROOT / top).rglob("*.py") if p not in EMPTY)
 # From the bottom: a package may import those below it, and not those beside or above it
@@ -19,7 +19,7 @@ FLOORS = (
     ("vmc_lib.cerebellum",),
     ("vmc_lib.loop",),
     ("vmc_lib.show",),
-    ("render", "arm_in_page", "python_in_page"),
+    ("render", "arm_in_page", "eye_in_page", "python_in_page"),
     ("reproduce.results",),
     ("reproduce.training", "reproduce.peers"),
     ("reproduce.experiments", "reproduce.whole_arm"),

@@ -20,8 +20,8 @@ from tests.project import ROOT, code, python, run
 PYPROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 PROJECT = PYPROJECT["project"]
 OPTIONAL = PROJECT["optional-dependencies"] | PYPROJECT["dependency-groups"]
-OURS = {"vmc_lib", "arm_in_page", "python_in_page", "reproduce", "render", "bench", "book"}
-OURS |= {"kit", "tests", "tools"}
+OURS = {"vmc_lib", "arm_in_page", "eye_in_page", "python_in_page", "reproduce", "render"}
+OURS |= {"bench", "book", "kit", "tests", "tools"}
 PINS = re.findall(
     r"^([\w.\[\]-]+)==([\w.]+)", (ROOT / "requirements.txt").read_text(encoding="utf-8"), flags=re.M
 )
@@ -143,7 +143,7 @@ def alone(reader, tmp_path):
 
 
 def test_the_wheel_holds_the_packages(alone):
-    names = "vmc_lib arm_in_page reproduce render book.figures book.exercises"
+    names = "vmc_lib arm_in_page eye_in_page reproduce render book.figures book.exercises"
     script = f"import {names.replace(' ', ', ')}; print(vmc_lib.__file__, *book.figures.__path__)"
     for path in alone("-c", script).split():
         assert "site-packages" in path

@@ -8,16 +8,19 @@ import pytest
 from PIL import Image
 
 from book.figures import where
+from eye_in_page import SEARCH_SCRIPTS
 from tests.pages import book_html, displayed, observe
 from tests.show.kernel import render
 from vmc_lib import photos
 from vmc_lib.where.selective_search import Strategy, hierarchies
 
 GROWN = """([pixels, k]) => {
-  const tree = vmcSearch(Uint8Array.from(atob(pixels), (c) => c.charCodeAt(0)), 600, 400)(k);
+  const data = Uint8Array.from(atob(pixels), (c) => c.charCodeAt(0));
+  const prepared = vmcEye.finish(vmcEye.prepare({ data, width: 600, height: 400 }, "HSV"));
+  const segments = vmcEye.finish(vmcEye.segment(prepared, k));
   let text = "";
-  for (const byte of new Uint8Array(tree.labels.buffer)) text += String.fromCharCode(byte);
-  return { ...tree, labels: btoa(text) };
+  for (const byte of new Uint8Array(segments.labels.buffer)) text += String.fromCharCode(byte);
+  return { ...vmcEye.grow(segments, [true, true, true, true]), labels: btoa(text) };
 }"""
 SHOTS = (
     *chain(*(photos.load(level, "train")[:2] for level in photos.LEVELS)),
@@ -173,7 +176,8 @@ def test_in_a_kernel_it_is_the_same_page(monkeypatch):
     shown = displayed(monkeypatch, where)
     monkeypatch.setenv("VMC_RENDER_MODE", "live")
     where.segmentation_demo(SHOTS[0].image, "Play.", "A cup.")
-    assert list(shown[1].scripts) == ["canvas.js", "selective_search.js", "segmentation_demo.js"]
+    search = [path.name for path in SEARCH_SCRIPTS]
+    assert list(shown[1].scripts) == ["canvas.js", *search, "segmentation_demo.js"]
     assert 'class="vmc-segmentation"' in shown[1].page
     monkeypatch.setenv("VMC_RENDER_MODE", "test")
     where.segmentation_demo(SHOTS[0].image, "Play.", "A cup.")

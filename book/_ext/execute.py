@@ -23,7 +23,7 @@ from sphinx.errors import ExtensionError
 from sphinx.util import logging
 
 READ_BY_CHAPTERS = (
-    *("vmc_lib", "arm_in_page", "reproduce", "render", "tests"),
+    *("vmc_lib", "arm_in_page", "eye_in_page", "reproduce", "render", "tests"),
     *("book/figures", "book/exercises"),
 )
 say = logging.getLogger(__name__).info

@@ -9,6 +9,7 @@ NEEDS = {  # what a page must hold to need an asset; none needs thebe, which ask
     "thebe": r"(?!)",
     "katex": r'class="math|\\\(',
     "design": r'class="[^"]*\bsd-',
+    r"/(unpack|features|product|detector|stream|box_selection|see)\.js": 'class="vmc-eye',
 }
 # Names, punctuation and spaces: coloured as all code is
 COLOURLESS = re.compile(r'<span class="(?:n|nn|p|w)">([^<]*)</span>')

@@ -4,14 +4,8 @@
 const vmcInPage = (() => {
   "use strict";
 
+  const { backProject, iou, project } = vmcEye;
   const { dot, minus, plus, sum, times } = vmcVectors;
-
-  /* Intersection over union of two boxes [x0, y0, x1, y1] (vmc_lib/boxes.py). */
-  const iou = (a, b) => {
-    const area = ([x0, y0, x1, y1]) => Math.max(0, x1 - x0) * Math.max(0, y1 - y0);
-    const shared = area([Math.max(a[0], b[0]), Math.max(a[1], b[1]), Math.min(a[2], b[2]), Math.min(a[3], b[3])]);
-    return shared / (area(a) + area(b) - shared);
-  };
 
   /* Two boxes on a photo: the object's, and one as large whose corner the reader drags. */
   const overlap = ({ object, edge, paint }, [x, y]) => {
@@ -76,18 +70,6 @@ const vmcInPage = (() => {
     ];
   };
 
-  /* Where the ray through a pixel meets a height, and at which pixel a point of the room appears
-     (vmc_lib/camera.py). */
-  const backProject = ({ focal, centre, rotation, position }, pixel, height) => {
-    const [x, y] = times(1 / focal, minus(pixel, centre));
-    const ray = rotation[0].map((_, k) => dot([x, y, 1], rotation.map((axis) => axis[k])));
-    return plus(position, times((height - position[1]) / ray[1], ray));
-  };
-  const project = ({ focal, centre, rotation, position }, point) => {
-    const [x, y, z] = rotation.map((axis) => dot(axis, minus(point, position)));
-    return plus(centre, times(focal / Math.max(z, 1e-6), [x, y]));
-  };
-
   /* The trunk's turn that brings the hand's plane to a place, from the turns at some distances from its
      axis; nothing where the hand cannot be (vmc_lib/arm/kinematics.py). */
   const turnTowards = ({ turns, trunk: { axis, range } }, [x, , z]) => {
@@ -134,5 +116,5 @@ const vmcInPage = (() => {
     },
   ];
 
-  return { aim, backProject, iou, overlap, plan, project, turnTowards, votes };
+  return { aim, overlap, plan, turnTowards, votes };
 })();

@@ -6,7 +6,7 @@ const vmcSegmentationDemo = (box) => {
   const [still, canvas, k, merged, play, choose, file, strip, say] = // as they stand in the page
     box.querySelectorAll("img, canvas, input, button, .vmc-strip, [role=status]");
   const scale = () => Math.round(2 ** k.value);
-  let context, photo, search, tree, asked = 0;
+  let context, photo, prepared, tree, asked = 0;
 
   const look = (picture) => {
     context = vmcDrawScaled(picture, Math.sqrt(AREA / (picture.width * picture.height)), canvas);
@@ -16,14 +16,15 @@ const vmcSegmentationDemo = (box) => {
       return false;
     }
     photo = context.getImageData(0, 0, canvas.width, canvas.height);
-    search = tree = null;
+    prepared = tree = null;
     return (canvas.hidden = true);
   };
 
   /* The segments and all regions above them, with their mean colours as four bytes. */
   const grow = () => {
-    search ??= vmcSearch(photo.data, photo.width, photo.height);
-    const { labels, merges, boxes } = search(scale()), count = merges.length + 1;
+    prepared ??= vmcEye.finish(vmcEye.prepare(photo, "HSV"));
+    const segments = vmcEye.finish(vmcEye.segment(prepared, scale())), { labels } = segments;
+    const { merges, boxes } = vmcEye.grow(segments, [true, true, true, true]), count = merges.length + 1;
     const sums = Array.from({ length: count }, () => [0, 0, 0, 0]);
     photo.data.forEach((byte, i) => (sums[labels[i >> 2]][i & 3] += byte));
     for (const [i, j] of merges) sums.push(sums[i].map((sum, c) => sum + sums[j][c]));

@@ -11,6 +11,7 @@ from IPython.display import HTML, display
 from PIL import Image
 
 from book.figures.panels import panels
+from eye_in_page import SEARCH_SCRIPTS
 from vmc_lib.boxes import MIN_IOU, iou
 from vmc_lib.photos import as_rgb
 from vmc_lib.show.controls import slider
@@ -138,7 +139,7 @@ def segmentation_demo(image, caption, alt):
     if render_mode() == "book":
         display(HTML(framed(page, caption)))
     elif render_mode() == "live":
-        scripts = [CANVAS, STATIC / "selective_search.js", STATIC / "segmentation_demo.js"]
+        scripts = [CANVAS, *SEARCH_SCRIPTS, STATIC / "segmentation_demo.js"]
         display(still(alt, [photo], "segmentation"))
         display(Live(framed(page, "", "segmentation"), "vmcSegmentationDemo", scripts))
         display(Markup(framed("", caption), caption))

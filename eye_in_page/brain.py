@@ -1,0 +1,118 @@
+"""One script of all that the page's eye has learnt: the shipped arrays and settings, packed.
+
+The build writes it, and a page loads it when its reader first gives a photo: `vmcEye.unpack` makes
+of it what `brain` returns, arrays as typed arrays.
+"""
+
+import base64
+import gzip
+import json
+from dataclasses import asdict
+from pathlib import Path
+
+import numpy as np
+
+from vmc_lib import box_selection, camera, data, photos
+from vmc_lib.loop import high_recall_detector
+from vmc_lib.what.stream import FLIPS, STAGES
+from vmc_lib.where.appearance import COLOUR_SPACES, MEASURES
+from vmc_lib.where.selective_search import STRATEGIES
+
+SCRIPT = "vendor/brain.js"  # where the built page finds it
+FILES = [data.FOLDER / f"{name}.npz" for name in ("detectors", "photographs", "localisers")]
+GRID = 33  # colours a side of the grid between which OpenCV interpolates Lab
+OPENCV_ONE = 1 << 14  # how it stores 1 there
+OPENCV_RANGE = np.array([1, 255 / 256, 255 / 256])  # its L, a and b there, in shares of ours
+
+
+def brain():
+    """What the eye has learnt from photographs: nested dicts and lists of arrays and numbers."""
+    return {
+        "detector": detector(),
+        "stream": stream(),
+        "selector": selector(),
+        "lab": lab_grid(),
+    }
+
+
+def detector():
+    """The `ObjectDetector` of `VisuomotorModel.load("real")`."""
+    learnt, shipped = data.arrays("detectors"), high_recall_detector(photos.REAL_LEVEL)
+    own, recipe = f"{photos.REAL_LEVEL}/photographed/", shipped.recipe
+
+    def parts(prefix):
+        names = [name.removeprefix(prefix) for name in learnt if name.startswith(prefix)]
+        return {name: learnt[prefix + name] for name in names if "/" not in name}
+
+    def ridge(called):
+        part = parts(f"{own}{called}/")
+        return part | {"axes": part["axes"].T}  # rows, as the page multiplies them
+
+    strategy = asdict(STRATEGIES[recipe.strategy])
+    strategy["similarities"] = [[x in used for x in MEASURES] for used in strategy["similarities"]]
+    return parts(own) | {
+        "strategy": strategy,
+        "gate": recipe.gate,
+        "regressions": [ridge(f"regression {i}") for i in range(len(recipe.regressions))],
+        "iouPredictor": ridge("iou predictor"),
+        "threshold": shipped.threshold,
+        "overlap": recipe.overlap,
+    }
+
+
+def stream():
+    """The `VentralStream` that ships."""
+    learnt = data.arrays("photographs")
+    return {
+        "stages": [{part: learnt[f"{name}/{part}"] for part in "Wb"} for name in STAGES],
+        "readout": learnt["readout"],
+        "offsets": learnt["offsets"],
+        "flips": FLIPS,
+    }
+
+
+def selector():
+    """The `BoxSelector` that ships: how both pathways are weighed."""
+    learnt = data.arrays("photographs")
+    return {
+        "weights": learnt["judge/w"],
+        "bias": learnt["judge/b"],
+        "firstPass": box_selection.N_FIRST_PASS,
+        "secondPass": box_selection.N_SECOND_PASS,
+        "minProbability": box_selection.MIN_PROBABILITY,
+        "sizes": box_selection.SIZES,
+        "ratio": box_selection.SIZE_LIKELIHOOD_RATIO,
+        "table": camera.TABLE,
+    }
+
+
+def lab_grid():
+    """OpenCV's grid of Lab colours (33, 33, 33, 3), int16, as differences along its third axis."""
+    steps = np.linspace(0, 1, GRID, dtype=np.float32)
+    rgb = np.stack(np.meshgrid(steps, steps, steps, indexing="ij"), -1)
+    lab = COLOUR_SPACES["Lab"](rgb.reshape(GRID, -1, 3)).reshape(rgb.shape)
+    whole = np.round(lab * OPENCV_RANGE * OPENCV_ONE).astype(np.int16)
+    return np.diff(whole, axis=2, prepend=np.int16(0))
+
+
+# ---------------------------------------------------------------- packed
+
+
+def script():
+    """The script's text: it defines `vmcEye.packed`, arrays one behind another, gzip in base64."""
+    stored = bytearray()
+
+    def store(array):
+        array = np.asarray(array)
+        at = len(stored)
+        stored.extend(array.tobytes() + bytes(-array.nbytes % 8))
+        return {"kind": array.dtype.name, "at": at, "length": array.size}
+
+    tree = json.dumps(brain(), default=store)
+    packed = base64.b64encode(gzip.compress(bytes(stored), mtime=0)).decode()
+    return f"vmcEye.packed = {json.dumps({'tree': tree, 'arrays': packed})};\n"
+
+
+def inputs():
+    """Every file that the script is made of."""
+    return [Path(__file__), *FILES]

@@ -1,0 +1,41 @@
+"""The eye in a page, as tests ask it."""
+
+from base64 import b64encode
+
+import numpy as np
+import pytest
+
+from eye_in_page import brain
+from tests import pages
+
+ASK = """async ([asked, pixels, width, height]) => {
+  const data = Uint8ClampedArray.from(atob(pixels), (c) => c.charCodeAt(0));
+  const photo = { data, width, height };
+  const brain = await vmcEye.unpack();
+  %s
+}"""
+NOTHING = np.zeros((1, 1, 3), np.uint8)
+
+
+@pytest.fixture(scope="session")
+def eye_page(chromium, site):
+    """A page, offline, with the book's scripts and what the eye has learnt."""
+    (site / "vendor").mkdir(exist_ok=True)
+    (site / brain.SCRIPT).write_text(brain.script(), encoding="utf-8")
+    context = chromium.new_context(offline=True)
+    page = pages.open_html(context, site, "")
+    yield page
+    context.close()
+    assert page.errors == page.failed == []
+
+
+@pytest.fixture
+def ask(eye_page):
+    """A function: what a script returns that has `brain`, `asked` and an image as `photo`."""
+
+    def ask(script, asked=None, image=NOTHING):
+        height, width = image.shape[:2]
+        pixels = np.dstack([image, np.full((height, width), 255, np.uint8)]).tobytes()
+        return eye_page.evaluate(ASK % script, [asked, b64encode(pixels).decode(), width, height])
+
+    return ask

@@ -1,0 +1,168 @@
+"""Each script of the page's eye computes what the module does whose twin it is."""
+
+import numpy as np
+import pytest
+
+from eye_in_page import SEARCH_SCRIPTS, SIGHT_SCRIPTS, brain
+from tests.project import ROOT
+from vmc_lib import boxes, camera, photos
+from vmc_lib.loop import Sight, high_recall_detector
+from vmc_lib.what.stream import FLIPS, VentralStream
+from vmc_lib.where.appearance import COLOUR_SPACES
+from vmc_lib.where.detector import Detections
+from vmc_lib.where.features import gradients
+from vmc_lib.where.selective_search import propose
+
+pytestmark = pytest.mark.browser
+SHOT = photos.load("real", "test")[4]
+DETECTOR, STREAM = high_recall_detector("real"), VentralStream.load()
+
+
+def random_boxes(rng, count):
+    corners = rng.uniform(-20, [620, 420], (count, 2, 2))
+    return np.concatenate([corners.min(1), corners.max(1)], axis=1)
+
+
+def leaves(tree, name=""):
+    """The arrays and numbers of nested dicts and lists, as lists, by their path."""
+    items = tree.items() if isinstance(tree, dict) else enumerate(tree)
+    for key, value in items:
+        if isinstance(value, dict | list | tuple):
+            yield from leaves(value, f"{name}/{key}")
+        else:
+            yield f"{name}/{key}", value
+
+
+def test_the_brain_arrives_whole(ask):
+    script = """const sums = {}, weigh = (sum, x, i) => sum + x * (1 + (i % 97));
+    const walk = (tree, name) => {
+      for (const [key, value] of Object.entries(tree))
+        if (ArrayBuffer.isView(value))
+          sums[`${name}/${key}`] = [value.length, value.reduce(weigh, 0)];
+        else if (typeof value === "object") walk(value, `${name}/${key}`);
+        else sums[`${name}/${key}`] = value;
+    };
+    walk(brain, "");
+    return sums;"""
+    here = dict(leaves(brain.brain()))
+    here["/lab"] = np.cumsum(here["/lab"], axis=2)
+    for name, array in here.items():
+        if isinstance(array, np.ndarray):
+            values = array.ravel().astype(float)
+            here[name] = [array.size, values @ (1 + np.arange(array.size) % 97)]
+    there = ask(script)
+    assert there.keys() == here.keys()
+    for name, value in here.items():
+        assert there[name] == (value if isinstance(value, str) else pytest.approx(value, 1e-9)), (
+            name
+        )
+
+
+def test_what_a_reader_loads_is_light():
+    assert len(brain.script()) < 4.5e6
+    assert sum(path.stat().st_size for path in [*SEARCH_SCRIPTS, *SIGHT_SCRIPTS]) < 40e3
+    for path in (ROOT / "eye_in_page/static").glob("*.js"):
+        assert len(path.read_text(encoding="utf-8").splitlines()) <= 250
+
+
+def test_boxes_are_suppressed_vote_and_are_moved(ask, rng):
+    spread = rng.uniform([0, 0, 80, 80], [60, 60, 140, 140], (40, 4))
+    scores, deltas = rng.normal(size=40).round(1), rng.normal(0, 0.3, (40, 4))
+    script = """const [boxes, scores, deltas] = asked, kept = vmcEye.nms(boxes, scores, 0.5);
+      return {
+        kept,
+        vote: vmcEye.vote(kept, boxes, scores),
+        padded: boxes.map((box) => vmcEye.padBox(box, 0.2)),
+        moved: boxes.map((box, i) => vmcEye.decodeDeltas(box, deltas[i])) };"""
+    there = ask(script, [array.tolist() for array in (spread, scores, deltas)])
+    kept = boxes.nms(spread, scores, 0.5)
+    assert there["kept"] == kept.tolist()
+    assert 1 < len(kept) < 40
+    assert np.allclose(there["vote"], boxes.vote(kept, spread, scores), atol=1e-10)
+    assert np.allclose(there["padded"], boxes.pad_boxes(spread, 0.2), atol=1e-10)
+    assert np.allclose(there["moved"], boxes.decode_deltas(spread, deltas), atol=1e-10)
+
+
+def test_physical_size(ask):
+    eye = photos.load("sheet", "test")[0].camera
+    given = {name: np.asarray(value).tolist() for name, value in vars(eye).items()}
+    regions = [[10, 10, 60, 90], [300, 200, 420, 330], [0, -9000, 10, -8000]]
+    script = "return asked[1].map((box) => String(vmcEye.physicalSize(asked[0], box, asked[2])));"
+    there = np.float64(ask(script, [given, regions, camera.TABLE]))
+    assert np.allclose(there, eye.sizes(regions), rtol=1e-9)
+    assert np.isinf(there).any()
+
+
+@pytest.mark.parametrize("space", ["HSV", "Lab"])
+def test_colours_are_those_of_opencv(ask, rng, space):
+    image = rng.integers(0, 256, (100, 320, 3), dtype=np.uint8)
+    image[0, :2] = [[0, 0, 0], [255, 255, 255]]
+    script = (
+        "return vmcEye.colourSpaces[asked](photo, brain.lab).map((plane) => Array.from(plane));"
+    )
+    there = np.float32(ask(script, space, image))
+    here = COLOUR_SPACES[space](photos.as_float(image))
+    assert (there.T.reshape(here.shape) == here).all()
+
+
+def test_crops_and_gradients(ask, rng):
+    image, regions = SHOT.image, random_boxes(rng, 40)
+    regions[0] = regions[0, [0, 1, 0, 1]]  # of no area
+    script = """return asked.map((box) =>
+      [vmcEye.crop(photo, box, 16), vmcEye.gradients(photo, box)].map((row) => Array.from(row)));"""
+    crops, slopes = zip(*ask(script, regions.tolist(), image), strict=True)
+    here = photos.crops(image, regions, 16)
+    assert (np.float32(crops).reshape(here.shape) == here).all()
+    assert np.abs(slopes - gradients(image, regions)).max() < 2e-4
+
+
+def test_the_detectors_answers_to_features(ask, rng):
+    x = gradients(SHOT.image, random_boxes(rng, 20))
+    script = """const { detector } = brain;
+      const ridges = [...detector.regressions, detector.iouPredictor];
+      return asked.map((x) => [
+        vmcEye.svmScore(detector, x),
+        ...ridges.flatMap((ridge) => Array.from(vmcEye.predict(ridge, Float64Array.from(x)))),
+      ]);"""
+    columns = [DETECTOR.svm.score(x)]
+    columns += [regression.predict(x) for regression in DETECTOR.regressions]
+    columns += [DETECTOR.iou_predictor.predict(x)]
+    assert np.allclose(ask(script, x.tolist()), np.column_stack(columns), atol=1e-6)
+
+
+def test_the_detectors_boxes(ask):
+    candidates = propose(SHOT.image, DETECTOR.recipe.strategy)
+    script = "return vmcEye.finish(vmcEye.detect(brain.detector, photo, asked));"
+    there, here = (
+        ask(script, candidates.tolist(), SHOT.image),
+        DETECTOR.detect(SHOT.image, candidates),
+    )
+    assert len(there["boxes"]) == pytest.approx(len(here.boxes), abs=1)
+    best = min(8, len(here.boxes))
+    assert best > 2
+    assert (boxes.iou(here.boxes[:best], there["boxes"]).max(1) > 0.9).all()
+    assert np.allclose(there["scores"][:best], here.scores[:best], atol=0.02)
+
+
+@pytest.mark.parametrize("flips", [FLIPS[:1], FLIPS])
+def test_the_streams_answers(ask, rng, flips):
+    image, regions = SHOT.image, random_boxes(rng, 6)
+    script = """const [boxes, flips] = asked;
+      return boxes.map((box) => vmcEye.look(brain.stream, photo, box, flips));"""
+    there = ask(script, [regions.tolist(), flips], image)
+    log_odds, deltas = STREAM.predict(image, regions, flips)
+    assert np.allclose([answer["logOdds"] for answer in there], log_odds, atol=1e-4)
+    assert np.allclose([answer["deltas"] for answer in there], deltas, atol=1e-5)
+
+
+@pytest.mark.parametrize("probability", [[], [0.3], [0.31, 0.2], [0.9], [0.997, 0.6, 0.2]])
+def test_a_sight_is_described_in_the_same_words(ask, probability):
+    regions = np.arange(4.0 * len(probability)).reshape(-1, 4)
+    script = """const [boxes, probability] = asked;
+      const sight = new vmcEye.Sight({ boxes, probability }, 0.4);
+      return [sight.summary, sight.box];"""
+    here = Sight(
+        Detections(regions, regions, regions, regions, regions), np.array(probability), 0.4
+    )
+    box = None if here.box is None else here.box.tolist()
+    assert ask(script, [regions.tolist(), probability]) == [here.summary, box]
