@@ -14,6 +14,7 @@ from pybtex.richtext import Text
 
 from book._ext.plain import FOLD, TERMS
 from book.figures.inventory import DEMO, title_and_minutes
+from book.figures.plans import PLANS, minutes, sections
 from tests.project import CHAPTERS, NOTEBOOKS, ROOT, code, each_chapter, python
 
 
@@ -243,13 +244,23 @@ def test_open_code_is_the_mechanism(path):
     assert rest <= 0.05 * sum(lines.values())
 
 
-def test_sessions_have_similar_reading_times():
-    """The minutes of the sessions on the page on teaching, added up from the chapters' own."""
-    cells = nbformat.read(ROOT / "book/teaching.ipynb", as_version=4).cells
-    [plan] = [cell.source for cell in cells if cell.id == "teach-plan"]
-    sessions = ast.literal_eval(plan.partition("SESSIONS = ")[2])
-    minutes = {path.stem: title_and_minutes(path)[1] for path in CHAPTERS}
-    assert all(minutes.values())
-    assert [page for pages in sessions.values() for page in pages] == [*minutes, "ledger"]
-    totals = [sum(minutes.get(page, 0) for page in pages) for pages in sessions.values()]
-    assert max(totals) <= 1.5 * min(totals)
+def test_a_plan_takes_each_chapter_once_and_in_order():
+    """Chapter 12, with its feedback and after-effects, is read in every plan."""
+    names = [path.stem for path in CHAPTERS]
+    for count, plan in PLANS.items():
+        taken = [chapter for session in plan for chapter in session.chapters]
+        assert len(plan) == count
+        assert taken == names[: len(taken)]
+        assert any("12_while_it_moves" in session.read for session in plan)
+    assert taken == names
+
+
+@each_chapter
+def test_the_core_sections_add_up_to_the_minutes_of_the_core(path):
+    parts = [part for part in sections(path.stem) if part.core]
+    assert sum(part.read + part.demos for part in parts) == pytest.approx(core_minutes(path), 0.02)
+
+
+def test_the_core_of_a_session_is_read_in_an_hour():
+    sessions = (tuple(session.read) for plan in PLANS.values() for session in plan)
+    assert [(read, minutes(read)) for read in sessions if not 0 < minutes(read) <= 60] == []

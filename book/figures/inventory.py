@@ -70,16 +70,21 @@ def core(cells):
 
 
 def core_minutes(path):
-    """How long a chapter's core takes to read and play, estimated: 40 words a minute, 5 a demo.
+    """How long a chapter's core takes to read and play, estimated."""
+    return sum(reading_and_demos(core(nbformat.read(path, as_version=4).cells)))
+
+
+def reading_and_demos(cells):
+    """Minutes to read cells and to play with their demos: 40 words a minute, 5 a demo.
 
     Exercises, quizzes and what is folded apart. Fitted to one cold reading of six chapters.
     """
     prose, demos, solving = "", 0, False
-    for cell in core(nbformat.read(path, as_version=4).cells):
+    for cell in cells:
         tags = cell.metadata.get("tags", [])
         solving = "exercise" in cell.metadata or (solving and {*tags} & EXERCISE)
         if cell.cell_type == "code":
             demos += len(DEMO.findall(cell.source))
         elif not solving and "remove-cell" not in tags:
             prose += re.sub(r"<details>.*?</details>|\]\(.*?\)", " ", cell.source, flags=re.S)
-    return len(re.findall(r"\w+", prose)) / 40 + 5 * demos
+    return len(re.findall(r"\w+", prose)) / 40, 5 * demos

@@ -1,0 +1,111 @@
+"""Plans of a course in six, eight and twelve sessions, from the chapters' cells and their tags.
+
+A section whose heading's cell carries the tag `optional` is optional, the others are core. Reading
+comes before a session, the demos are played in it, and the exercises come after.
+"""
+
+import re
+from itertools import chain
+from pathlib import Path
+from typing import NamedTuple
+
+import nbformat
+
+from book.figures.inventory import core, reading_and_demos
+
+BOOK = Path(__file__).parents[1]
+HEAD = re.compile(r"^##+ (.+)$", re.M)
+EXERCISE = 10  # minutes
+NAMES = sorted(path.stem for path in BOOK.glob("[0-9]*.ipynb"))
+MORE = [name for name in NAMES if name > "15"]  # for those who want more
+
+
+class Session(NamedTuple):
+    """Chapters to be read before a session, and those that are only shown in it, from slides."""
+
+    read: list
+    shown: list = ()
+
+    @property
+    def chapters(self):
+        """All of them, in the book's order."""
+        return sorted([*self.read, *self.shown])
+
+
+def _session(numbers, shown=""):
+    """The session of chapters, by their numbers."""
+    chosen = ([n for n in NAMES if n[:2] in which.split()] for which in (numbers, shown))
+    return Session(*chosen)
+
+
+TITLES = (
+    "The whole, and where",
+    "From edges to a name",
+    "Muscles and an arm",
+    "A plan, and its correction",
+    "The cerebellum",
+    "See and reach; beyond",
+)
+PLANS = {  # by the number of sessions
+    6: (
+        _session("01", "02 03"),
+        _session("04", "05 06"),
+        _session("07 08"),
+        _session("09", "10"),
+        _session("12", "11"),
+        _session("13", "14"),
+    ),
+    8: (
+        _session("01", "02"),
+        _session("03"),
+        _session("04", "05 06"),
+        _session("07 08"),
+        _session("09", "10"),
+        _session("11"),
+        _session("12"),
+        _session("13", "14"),
+    ),
+    12: (
+        _session("01", "02"),
+        _session("03"),
+        _session("04"),
+        _session("05 06"),
+        _session("07 08"),
+        *map(_session, ("09", "10", "11", "12", "13", "14")),
+        Session(MORE[-1:], MORE[:-1]),
+    ),
+}
+
+
+class Section(NamedTuple):
+    """A section of a chapter, and its minutes: to read, for its demos, for its exercises."""
+
+    title: str
+    core: bool
+    read: float
+    demos: float
+    exercises: float
+
+
+def sections(chapter):
+    """The `Section`s of a chapter such as "07_muscle", from its title to its recap."""
+    cells = nbformat.read(BOOK / f"{chapter}.ipynb", as_version=4).cells
+    open_cells = {cell.id for cell in core(cells)}
+    parts = [[cells[0]]]
+    for cell in cells[1:]:
+        if cell.cell_type == "markdown" and HEAD.search(cell.source):
+            parts.append([])
+        parts[-1].append(cell)
+    return [_section(part, part[0].id in open_cells) for part in parts]
+
+
+def _section(cells, is_core):
+    title, *_ = HEAD.findall(cells[0].source) or [cells[0].source.splitlines()[0].strip("# ")]
+    exercises = sum("exercise" in cell.metadata for cell in cells)
+    return Section(title.strip(), is_core, *reading_and_demos(cells), EXERCISE * exercises)
+
+
+def minutes(chapters, kind="read", core=True):
+    """Minutes of a session's chapters, to "read", or for "demos" or "exercises"; of the core."""
+    several = chain.from_iterable(map(sections, chapters))
+    return sum(getattr(section, kind) for section in several if section.core or not core)

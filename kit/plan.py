@@ -1,0 +1,47 @@
+"""The page of plans: a course of six, eight or twelve sessions, section by section."""
+
+from book.figures.inventory import title_and_minutes
+from book.figures.plans import BOOK, NAMES, PLANS, minutes, sections
+
+INTRODUCTION = """# Plans: six, eight or twelve sessions of ninety minutes
+
+All three are made from the chapters' words, demos and exercises, and from the tag *optional* of a
+section. *Read* is the core of some chapters, before the session, at 40 words a minute. The others
+are shown in class, from the slides, and whoever likes can read them. *Demos* is the time that all
+demos of the core take, 5 minutes each: the slides hold a choice of them. *Exercises* come after the
+session.
+"""
+HEAD = """| session | read | min | show | demos (min) | exercises (min) |
+|-|-|-|-|-|-|"""
+
+
+def plans():
+    """The page as Markdown."""
+    return "\n".join([INTRODUCTION, *map(_plan, PLANS), "## The sections\n", *_sections()])
+
+
+def _plan(count):
+    rows = [
+        f"| {number} | {_titles(session.read)} | {minutes(session.read):.0f} | "
+        f"{_titles(session.shown)} | {minutes(session.chapters, 'demos'):.0f} | "
+        f"{minutes(session.read, 'exercises'):.0f} |"
+        for number, session in enumerate(PLANS[count], start=1)
+    ]
+    taken = {chapter for session in PLANS[count] for chapter in session.chapters}
+    left = _titles(name for name in NAMES if name not in taken)
+    without = f"\nNot in it: {left}.\n" if left else ""
+    return "\n".join([f"## {count} sessions\n", HEAD, *rows, without])
+
+
+def _titles(chapters):
+    return "; ".join(title_and_minutes(BOOK / f"{chapter}.ipynb")[0] for chapter in chapters)
+
+
+def _sections():
+    """Each chapter's sections: the core, what is optional, and the minutes to read of each."""
+    for chapter in NAMES:
+        yield f"### {_titles([chapter])}\n"
+        for part in sections(chapter):
+            title = part.title if part.core else f"*{part.title}* (optional)"
+            yield f"- {title}: {part.read:.0f} min"
+        yield ""
