@@ -1,0 +1,174 @@
+"""The slides of a chapter, from its built page: one sentence each, the rest in the notes.
+
+A chapter gives its idea, its equations, its mechanism as code, predictions with the demos that
+answer them, questions of its quiz, and its recap; nothing of its exercises.
+"""
+
+import re
+from dataclasses import dataclass, field
+from html import escape
+from itertools import takewhile
+from operator import itemgetter
+
+from bs4 import Tag
+
+WRAPPERS = {"cell", "cell_output", "output", "text_html"}  # of a cell's output
+FULL_STOP = re.compile(r"(?<!Eq)(?<!Eqs)(?<!Fig)[.?!](?=\s|$)")
+
+
+@dataclass
+class Slide:
+    """A slide: its body, which all see, and the speaker's notes; both as elements of a page."""
+
+    body: list
+    notes: list = field(default_factory=list)
+
+    def __str__(self):
+        notes = "".join(map(str, self.notes))
+        body = "\n".join(map(str, self.body))
+        return (
+            f'<section><div class="fit">{body}</div><aside class="notes">{notes}</aside></section>'
+        )
+
+
+def chapter_slides(article, most):
+    """A chapter's slides, at most so many, in the page's order; its optional sections give none."""
+    title, idea, *aims = article.find_all(["h1", "p"], recursive=False)
+    *_, last = article.find_all("section", recursive=False)
+    _remove_exercises(article)
+    heading, *text = last.find_all(["h2", "p", "ul"], recursive=False)
+    first, recap = Slide([title, idea], aims), Slide([heading, _sentence(text[0])], text)
+    quiz = [Slide([box], _answers(box)) for box in article.select(".vmc-quiz")]
+    questions = _spread(quiz, most // 6)
+    parts = [*_blocks(article)]
+    single = [*_equations(parts)][:1]
+    single += [*_code(parts)][: most > 8]
+    pairs = [*_pairs(parts)]
+    asked = [(place, pair) for place, pair in pairs if len(pair) > 1]
+    room = (most - 2 - len(questions) - len(single)) // 2
+    chosen = _spread(asked if len(asked) >= room else pairs, room)
+    middle = [
+        slide for _, several in sorted(single + chosen, key=itemgetter(0)) for slide in several
+    ]
+    return [first, *middle, *questions, recap]
+
+
+def _spread(items, count):
+    """So many of the items, evenly from the first on."""
+    count = min(count, len(items))
+    return [items[k * len(items) // count] for k in range(count)]
+
+
+def _remove_exercises(article):
+    """Remove the exercises, each from its text to the end of its solution."""
+    for exercise in article.select(".exercise"):
+        solution = exercise.find_next_sibling(class_="solution")
+        while solution and exercise.next_sibling is not solution:
+            exercise.next_sibling.extract()
+        for part in filter(None, (solution, exercise)):
+            part.extract()
+
+
+def _blocks(section):
+    """The elements of a section and of those in it, each with the heading above it."""
+    heading, *rest = _parts(section)
+    for part in rest:
+        if part.name != "section":
+            yield heading, part
+        elif not _is(part, "vmc-optional"):
+            yield from _blocks(part)
+
+
+def _parts(block):
+    """The elements of a section: outputs out of their cells, without what is folded."""
+    for part in block.find_all(recursive=False):
+        if WRAPPERS & {*part.get("class", [])}:
+            yield from _parts(part)
+        elif part.name not in ("details", "span"):  # folded; where a link leads
+            yield part
+
+
+def _is(part, kind):
+    return kind in part.get("class", ())
+
+
+def _equations(parts):
+    """A slide of each section's equations, with the sentence before them, as (place, [slide])."""
+    for place, (heading, part) in enumerate(parts):
+        above, before = parts[place - 1]
+        if _is(part, "math") and above is heading and not _is(before, "math"):
+            run = takewhile(lambda block: _is(block[1], "math"), parts[place:])
+            text = _texts(parts, heading)
+            yield place, [Slide([heading, _sentence(before), *(math for _, math in run)], text)]
+
+
+def _code(parts):
+    """A slide of each open cell, the longest first, as (place, [slide])."""
+    cells = [k for k, (_, part) in enumerate(parts) if _is(part, "cell_input")]
+    for place in sorted(cells, key=lambda k: -parts[k][1].get_text().count("\n")):
+        heading, cell = parts[place]
+        text = _texts(parts, heading)
+        yield place, [Slide([heading, *map(_sentence, text[:1]), cell], text)]
+
+
+def _pairs(parts):
+    """Each demo, after the prediction that it answers if it has one, as (place, slides)."""
+    box = under = None
+    for place, (heading, part) in enumerate(parts):
+        box, under = box if heading is under else None, heading
+        if part.select_one(".vmc-predict"):
+            box = part
+        elif _is(part, "vmc-demo"):
+            name = _plain_heading(heading)
+            ask = [Slide([name, box], [ALONE, *_answers(box)])] if box else []
+            notes = _guide(part, box) + _texts(parts, heading)
+            yield place, [*ask, Slide([name, part], notes)]
+            box = None
+
+
+ALONE = (
+    "<p><strong>Ask.</strong> Everybody writes an answer, alone; then neighbours compare; then "
+    "hands up. Do not comment.</p>"
+)
+
+
+def _plain_heading(heading):
+    """A chapter's title as a section's, above the demo that opens it."""
+    return f"<h2>{heading.decode_contents()}</h2>" if heading.name == "h1" else heading
+
+
+def _guide(demo, box):
+    """What to ask before a demo is moved, what to look for in it, and where to stop: paragraphs."""
+    control = demo.select_one(".vmc-controls :is(legend, label)")
+    name = control.get_text().strip() if control else "it"
+    asked = (
+        box.legend.decode_contents() if box else f"Before <em>{name}</em> moves: what will change?"
+    )
+    caption = demo.figcaption.decode_contents() if demo.figcaption else f"What changes with {name}."
+    stop = box.select_one("details p").decode_contents() if box else "When the class can say why."
+    told = {"Ask": asked, "Look for": caption, "Stop at": stop}
+    return [f"<p><strong>{word}.</strong> {text}</p>" for word, text in told.items()]
+
+
+def _texts(parts, heading):
+    """The paragraphs and lists under a heading."""
+    return [part for above, part in parts if above is heading and part.name in ("p", "ul", "ol")]
+
+
+def _sentence(paragraph):
+    """The first sentence of a paragraph or a list: to the first full stop outside its markup."""
+    html = ""
+    for part in (paragraph.select_one("li > p") or paragraph).contents:
+        end = None if isinstance(part, Tag) else FULL_STOP.search(part)
+        html += str(part) if isinstance(part, Tag) else escape(part[: end and end.end()])
+        if end:
+            break
+    return f"<p>{html}</p>"
+
+
+def _answers(part):
+    """The answers of a prediction or a quiz, as paragraphs."""
+    return [
+        f"<p>{folded.summary.decode_contents()}: {folded.p.decode_contents()}</p>"
+        for folded in part.select("fieldset details, details.vmc-right, details.vmc-wrong")
+    ]
