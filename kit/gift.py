@@ -1,6 +1,7 @@
-"""Questions in GIFT, which Moodle imports: a category a question, its variants inside."""
+"""Questions in GIFT, for Moodle: a category a question, named after chapter and level."""
 
 import re
+from itertools import zip_longest
 
 
 def gift(bank):
@@ -11,7 +12,7 @@ def gift(bank):
     return "\n\n".join(
         "\n\n".join(
             [
-                f"$CATEGORY: $course$/{chapter}/{name}",
+                f"$CATEGORY: $course$/{chapter}/{variants[0].level}/{name}",
                 *map(_item, item_names(name, variants), variants),
             ]
         )
@@ -26,7 +27,8 @@ def item_names(name, variants):
 
 def _item(name, question):
     hint = f"\n####{_escape(question.hint)}" if question.hint else ""
-    prompt = f"::{_escape(name)}::[plain]{_escape(question.prompt)}"
+    kind = "html" if question.html else "plain"
+    prompt = f"::{_escape(name)}::[{kind}]{_escape(question.prompt)}"
     return f"{prompt} {{{_answers(question)}{hint}\n}}"
 
 
@@ -34,7 +36,8 @@ def _answers(question):
     if question.choices:
         return "".join(
             f"\n{'=' if text == question.answer else '~'}{_escape(text)}"
-            for text in question.choices
+            f"{told and '#'}{_escape(told)}"
+            for text, told in zip_longest(question.choices, question.told, fillvalue="")
         )
     return f"#{question.decimal(question.answer)}:{question.decimal(question.tolerance)}"
 

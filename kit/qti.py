@@ -75,7 +75,7 @@ def _group(chapter, name, variants):
 
 def _item(name, question):
     kind = "multiple_choice_question" if question.choices else "numerical_question"
-    fields = {"question_type": kind, "points_possible": "1.0"}
+    fields = {"question_type": kind, "points_possible": "1.0", "level": question.level}
     meta = (
         _element(
             "qtimetadatafield",
@@ -86,35 +86,48 @@ def _item(name, question):
     )
     response, right = (_choices if question.choices else _number)(question)
     score = {"varname": "SCORE", "vartype": "Decimal", "minvalue": "0", "maxvalue": "100"}
+    full = _element("setvar", text="100", action="Set", varname="SCORE")
+    told = {f"choice{k}": text for k, text in enumerate(question.told)}
+    chosen = [_told(_element("varequal", text=k, respident="response1"), f"{k}_fb") for k in told]
+    feedback = {f"{k}_fb": text for k, text in told.items()}
+    if question.hint:
+        chosen.insert(0, _told(_element("other"), "general_fb"))
+        feedback["general_fb"] = question.hint
     return _element(
         "item",
         _element("itemmetadata", _element("qtimetadata", *meta)),
-        _element("presentation", _material(question.prompt), response),
+        _element("presentation", _material(question.prompt, question), response),
         _element(
             "resprocessing",
             _element("outcomes", _element("decvar", **score)),
-            _element(
-                "respcondition",
-                _element("conditionvar", right),
-                _element("setvar", text="100", action="Set", varname="SCORE"),
-                **{"continue": "No"},
-            ),
+            *chosen,
+            _element("respcondition", _element("conditionvar", right), full, **{"continue": "No"}),
         ),
-        _element(
-            "itemfeedback", _element("flow_mat", _material(question.hint)), ident="general_fb"
+        *(
+            _element("itemfeedback", _element("flow_mat", _material(text, question)), ident=ident)
+            for ident, text in feedback.items()
         ),
         ident=name.replace(" ", "."),
         title=name,
     )
 
 
-def _material(text):
-    return _element("material", _element("mattext", text=text, texttype="text/plain"))
+def _told(condition, ident):
+    """What is shown after an answer, whatever its score."""
+    shown = _element("displayfeedback", feedbacktype="Response", linkrefid=ident)
+    return _element(
+        "respcondition", _element("conditionvar", condition), shown, **{"continue": "Yes"}
+    )
+
+
+def _material(text, question):
+    kind = "text/html" if question.html else "text/plain"
+    return _element("material", _element("mattext", text=text, texttype=kind))
 
 
 def _choices(question):
     labels = [
-        _element("response_label", _material(text), ident=f"choice{k}")
+        _element("response_label", _material(text, question), ident=f"choice{k}")
         for k, text in enumerate(question.choices)
     ]
     response = _element(

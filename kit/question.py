@@ -23,7 +23,7 @@ DRAWS = 20  # for each variant, at most
 
 
 class Question(NamedTuple):
-    """A question in plain text, and its right answer."""
+    """A question in plain text, or in HTML, and its right answer."""
 
     text: str
     answer: float | str  # a number, or the right one of the choices
@@ -31,11 +31,24 @@ class Question(NamedTuple):
     unit: str = ""
     hint: str = ""  # shown after the answer
     choices: tuple = ()  # texts; none where a number is wanted
+    told: tuple = ()  # what each choice is told, if each is told something of its own
+    level: str = "apply"  # or "understand", or "predict": what is asked of a student
+    html: bool = False
 
     @property
     def prompt(self):
         """The text, with the unit of the answer."""
         return f"{self.text} (in {self.unit})" if self.unit else self.text
+
+    def placed(self, place):
+        """The question with its right choice at a place, counted around; the others in order."""
+        old, count = self.choices.index(self.answer), len(self.choices)
+        order = [k for k in range(count) if k != old]
+        order.insert(place % count, old)
+        choices, told = (
+            tuple(texts[k] for k in order if texts) for texts in (self.choices, self.told)
+        )
+        return self._replace(choices=choices, told=told)
 
     def decimal(self, number):
         """A number as plain decimals, to a hundredth of the tolerance: platforms read no 1e-15."""
@@ -77,7 +90,8 @@ class Template:
             choices = tuple(choice.format_map(names) for choice in self.choices)
             if answer not in range(len(choices)) or len({*choices}) < len(choices):
                 raise ValueError(f"{text!r}: choice {answer} is not the one right one of {choices}")
-            return Question(text, choices[int(answer)], hint=self.hint, choices=choices)
+            right = choices[int(answer)]
+            return Question(text, right, hint=self.hint, choices=choices, level="understand")
         if not np.isfinite(answer):
             raise ValueError(f"the answer to {text!r} is {answer}: draw other numbers")
         answer = float(answer)
@@ -89,7 +103,9 @@ class Template:
         questions = {}
         for draw in range(DRAWS * count):
             question = self.question(np.random.default_rng([crc32(self.name.encode()), draw]))
-            if question.choices or self.zero or abs(question.answer) > question.tolerance:
+            if question.choices:
+                question = question.placed(crc32(self.name.encode()) + len(questions))
+            if question.choices or self.zero or abs(question.answer) > 10 * question.tolerance:
                 questions.setdefault(question.text, question)
             if len(questions) == count:
                 return list(questions.values())

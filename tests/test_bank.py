@@ -9,7 +9,7 @@ import pytest
 
 from kit.__main__ import CHAPTERS, bank
 from kit.bank import templates
-from kit.question import VARIANTS, choice, numeric, steps
+from kit.question import VARIANTS, Question, choice, numeric, steps
 
 TEMPLATES = {
     template.name: template for chapter in CHAPTERS for template in templates(chapter.stem)
@@ -34,12 +34,22 @@ def test_every_variant_is_another_question_with_an_answer(questions):
     assert len({question.text for question in every}) == len(every)
     for question in every:
         assert re.search(r"\d", question.text)
-        assert not re.search(r"nan|np\.|array\(|[{}]", question.text)
+        assert not re.search(r"nan|np\.|array\(|[{}]|\(s\)", question.text)
+        assert not re.search(
+            r"(?<![\w.])1 (joint|dimension|block|layer|lesson|link)s\b", question.text
+        )
         if question.choices:
             assert question.choices.count(question.answer) == 1
         else:
             assert isfinite(question.answer)
-            assert 0 <= question.tolerance < max(1.01, abs(question.answer) / 5)
+            assert 0 <= question.tolerance <= abs(question.answer) / 10 or question.answer == 0
+
+
+def test_the_right_choice_has_no_place_of_its_own(questions):
+    for variants in questions.values():
+        if variants[0].choices:
+            places = {question.choices.index(question.answer) for question in variants}
+            assert len(places) == min(len(variants), len(variants[0].choices))
 
 
 def test_only_marked_questions_have_the_answer_zero(questions):
@@ -61,7 +71,7 @@ def test_a_text_takes_numbers_words_and_constants():
         return speed * seconds[0], {"what": "times"}
 
     question = distance.question(np.random.default_rng(0))
-    assert question == ("For [10] s at 3 m/s, 5 times: how far?", 30, 0.1, "m", "Multiply.", ())
+    assert question == Question("For [10] s at 3 m/s, 5 times: how far?", 30, 0.1, "m", "Multiply.")
 
 
 def test_a_bad_template_is_refused(rng):

@@ -16,13 +16,10 @@ def share_that_is_left(before=steps(4, 12, 0.5), after=steps(0.2, 3.5, 0.1)):
 
 
 @numeric(hint="The standard error is the deviation (n - 1) over √n; times t.", tolerance=0.001)
-def mean_of_six_seeds(
-    values=lambda rng: np.round(rng.normal(0.4, 0.05, 6), 2),
-    part=(("mean", 0), ("half-width of its 95 % interval", 1)),
-):
-    """Six seeds leave these shares of the miss: {values}. What is the {part[0]} (Student's t for
-    five degrees of freedom: 2.571)?"""
-    return student(values)[part[1]]
+def interval_of_six_seeds(values=lambda rng: np.round(rng.normal(0.4, 0.05, 6), 2)):
+    """Six seeds leave these shares of the miss: {values}. What is the half-width of the mean's 95 %
+    interval (Student's t for five degrees of freedom: 2.571)?"""
+    return student(values)[1]
 
 
 @numeric(hint="Multiply. An ablation asks whether that is so.", tolerance=0.003)

@@ -67,15 +67,10 @@ def average_best_overlap(pair=near_boxes):
 
 
 @count("", "Each merge takes two regions away and adds one.")
-def regions_of_a_hierarchy(n=steps(60, 400, 5), merges=steps(10, 50, 5), k=(0, 1, 2)):
+def regions_of_a_hierarchy(n=steps(60, 400, 5)):
     """A picture falls into {n} segments, and pairs of them merge, one pair at a time. How many
-    {what}?"""
-    what = (
-        "regions have there been in all, from the first segments to the whole picture",
-        "merges does it take until one region is left",
-        f"regions are left after {merges} merges",
-    )
-    return (2 * n - 1, n - 1, n - merges)[k], {"what": what[k]}
+    regions have there been in all, from the first segments to the whole picture?"""
+    return 2 * n - 1
 
 
 @choice("yes", "no", hint="It tolerates what is lighter than the edge inside it + k / size.")

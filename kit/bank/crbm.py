@@ -38,8 +38,9 @@ def pooled_width(width=WIDTH, n_w=N_W, c=(3, 4, 5)):
 
 @count("numbers", "K × channels × n_w² + K + channels")
 def numbers_to_learn(maps=steps(4, 40, 2), channels=(1, 3, 10), n_w=N_W):
-    """A CRBM has {maps} filters of {n_w} × {n_w} on {channels} channel(s), a bias for every hidden
-    map and one for every channel. How many numbers does it learn?"""
+    """A CRBM has {maps} filters of {n_w} × {n_w} on pictures whose number of channels is
+    {channels}, a bias for every hidden map and one for every channel. How many numbers does it
+    learn?"""
     crbm = Learner.random(maps, channels, n_w, torch.Generator().manual_seed(0))
     return crbm.W.numel() + crbm.b.numel() + crbm.a.numel()
 
@@ -59,8 +60,8 @@ def pooled_unit(drives=tenths(-2, 2, 4)):
 
 
 @count("states", "c² + 1 for each block, multiplied.")
-def states_of_a_map(blocks=steps(1, 4, 1), c=(2, 3, 4)):
-    """A hidden map has {blocks} block(s) of {c} × {c} units, in each of which at most one may be
+def states_of_a_map(blocks=steps(2, 4, 1), c=(2, 3, 4)):
+    """A hidden map has {blocks} blocks of {c} × {c} units, in each of which at most one may be
     on. How many states may the map be in?"""
     return (c**2 + 1) ** blocks
 

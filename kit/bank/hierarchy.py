@@ -23,14 +23,10 @@ def width_of_a_layer(width=steps(60, 160, 10), n_w=steps(4, 11, 1), layer=("P1",
 
 
 @count("pixels", "Neighbouring windows are one pixel apart.")
-def window_of_a_unit(
-    n_w=steps(4, 14, 1),
-    c=(2, 3, 4),
-    unit=(("P1", ", all units of its block together"), ("one H1", "")),
-):
-    """Filters are {n_w} pixels wide, blocks {c} units. How wide is the patch that the filter(s) of
-    {unit[0]} unit lie on{unit[1]}?"""
-    return n_w + (c - 1) * (unit[0] == "P1")
+def window_of_a_unit(n_w=steps(4, 14, 1), c=(2, 3, 4)):
+    """Filters are {n_w} pixels wide, blocks {c} units. How wide is the patch that a P1 unit sees,
+    under the filters of all units of its block?"""
+    return n_w + c - 1
 
 
 @count("pixels", "Its pooled units lie c pixels apart, and each sees n_w + c - 1.")
@@ -90,7 +86,7 @@ def standardised(
 
 
 @count("pixels", "Each pooling multiplies the step by c.")
-def steps_between_windows(c=(2, 3, 4), layers=(1, 2, 3)):
-    """Each of {layers} layer(s) pools blocks of {c} × {c}. How many pixels of the picture lie
+def steps_between_windows(c=(2, 3, 4), layers=(2, 3)):
+    """Each of {layers} layers pools blocks of {c} × {c}. How many pixels of the picture lie
     between the windows of two neighbouring pooled units of the last layer?"""
     return c**layers

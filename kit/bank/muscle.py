@@ -28,7 +28,7 @@ def rate_of_falling(u=steps(0, 0.4, 0.05), more=steps(0.1, 0.5, 0.05)):
 
 
 @numeric(hint="Add the rate times the step, in seconds.", tolerance=0.002)
-def one_step_of_euler(u=steps(0, 1, 0.1), a=steps(0.1, 0.9, 0.1), ms=(1, 2)):
+def one_step_of_euler(u=steps(0.6, 1, 0.1), a=steps(0.1, 0.5, 0.1), ms=(1, 2)):
     """Activation is {a}, excitation {u}. What is the activation {ms} ms later, by one step of
     Euler's method {LAG}?"""
     return a + ms / 1000 * muscle.activation_rate(u, a)

@@ -50,8 +50,8 @@ def do_intervals_meet(right=two_counts):
 
 
 @numeric("%", "Right calls over all calls.", tolerance=0.05)
-def share_that_was_printed(n=steps(40, 90, 5), wrong=steps(1, 4, 1)):
-    """All {n} shuttlecocks are named, and {wrong} cup(s) are named shuttlecock too. What precision
+def share_that_was_printed(n=steps(40, 90, 5), wrong=steps(2, 6, 1)):
+    """All {n} shuttlecocks are named, and {wrong} cups are named shuttlecock too. What precision
     is printed, in per cent?"""
     return 100 * n / (n + wrong)
 

@@ -75,21 +75,21 @@ def five_errors(rng):
 @choice(
     "the plan itself",
     *(f"n = {n}" for n in range(4)),
-    hint="The trial that came nearest; in the book that may be the plan itself.",
+    hint="The trial that came nearest; that may be the plan itself.",
 )
 def best_of_the_trials(errors=five_errors):
     """A plan misses by {errors[0]:g} mm; with n = 0 to 3 the miss is {errors[1]:g}, {errors[2]:g},
-    {errors[3]:g}, {errors[4]:g} mm. What does the book's Algorithm 1 keep?"""
+    {errors[3]:g}, {errors[4]:g} mm. Algorithm 1 keeps the
+    best of what it has tried, the plan included. Which is that?"""
     return errors.argmin()
 
 
 @numeric(hint="Each weight is believed to move the hand so much more: the change is smaller.")
-def belief_that_is_too_wide(wide=(1.25, 1.5, 2, 2.5, 4), part=("made", "left")):
+def belief_that_is_too_wide(wide=(1.25, 1.5, 2, 2.5, 4)):
     """The templates are believed to lie {wide} times as far apart as they do. The arm is linear.
-    What share of the way to the target is {part} after one correction of Eq. 4?"""
+    What share of the way to the target is made after one correction of Eq. 4?"""
     points = np.array([[1.0, -1, -1, 1], [1, 1, -1, -1]])
-    share = (points @ least_change(wide * points, np.array([1.0, 0])))[0]
-    return share if part == "made" else 1 - share
+    return (points @ least_change(wide * points, np.array([1.0, 0])))[0]
 
 
 def large_change(rng):

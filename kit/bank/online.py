@@ -34,27 +34,22 @@ def corrected_weight(
     weight=steps(0.1, 0.5, 0.05),
     offline=steps(-0.1, 0.1, 0.01),
     learned=steps(-0.15, 0.15, 0.01),
-    use=(
-        ("is planned with before the movement (w_on)", 0),
-        ("enters the lesson afterwards (w')", 1),
-    ),
 ):
     """A template has the weight {weight}; g says Δw_on = {learned}, and off-line calibration then
-    adds Δw_off = {offline}. Which weight {use[0]} in Algorithm 2?"""
-    return weight + learned + use[1] * offline
+    adds Δw_off = {offline}. Which weight enters the lesson afterwards
+    (w' of Algorithm 2)?"""
+    return weight + learned + offline
 
 
 @numeric(
     "cm",
-    "As printed, by hindsight: for where w' took the hand. Otherwise: for the target.",
+    "They are right for the place to which they took the hand.",
     tolerance=0.01,
 )
-def lesson_of_a_miss(
-    x=steps(10, 24, 1), miss=steps(2, 9, 1), reading=("as printed", "in the other reading")
-):
-    """The target is at x = {x} cm. With the modified weights w' the hand ended {miss} mm beyond it.
-    For which x, {reading} of Algorithm 2, is w' learnt as right?"""
-    return x + (miss / 10 if reading == "as printed" else 0)
+def lesson_of_a_miss(x=steps(10, 24, 1), miss=steps(2, 9, 1)):
+    """The target is at x = {x} cm. With corrected weights the hand ended {miss} mm beyond it. One
+    learns by hindsight: for which x are these weights a perfect example?"""
+    return x + miss / 10
 
 
 @numeric(hint="exp(-d² / (2 width²))", tolerance=0.003)
@@ -80,9 +75,9 @@ def ridge_of_one_cell(
     wanted=steps(-8, 8, 1, zero=5),
     active=steps(0.2, 1, 0.1),
     ridge=(0.01, 0.1, 0.5, 1),
-    lessons=steps(1, 8, 1),
+    lessons=steps(2, 8, 1),
 ):
-    """One granule cell is {active} active in each of {lessons} lesson(s), and each wants {wanted}
+    """One granule cell is {active} active in each of {lessons} lessons, and each wants {wanted}
     mm. With the ridge {ridge}, what does its Purkinje weight become?"""
     return lessons * active * wanted / (lessons * active**2 + ridge)
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from kit.question import choice, numeric, steps
 from vmc_lib.motor.inverse_dynamics import minimum_jerk_profile
-from vmc_lib.motor.planning import exact_weights, habitual_weights, least_change, surrounding
+from vmc_lib.motor.planning import habitual_weights, least_change, surrounding
 
 
 def four_templates(rng):
@@ -50,13 +50,6 @@ def miss_of_equation_four(four=four_templates):
     Eq. 5, how far from the target is Σ w_i p_i, which Eq. 4 wants there?"""
     weights = habitual_weights(four.target, four.points)
     return 10 * np.linalg.norm(weights @ four.points - four.target)
-
-
-@numeric(hint="exact_weights(target, points)[0], with arrays of floats.", tolerance=0.002)
-def exact_weight(four=four_templates):
-    """In a notebook: the target is {four.at}, the templates' points are {four.names}. Which weight
-    does exact_weights give the first one, so that Eq. 4 holds?"""
-    return exact_weights(four.target, four.points)[0]
 
 
 @numeric(hint="By symmetry +x, +x, -x, -x; then side · 2x = shift.")

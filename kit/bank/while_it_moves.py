@@ -28,11 +28,11 @@ def moved_unseen(speed=steps(0.2, 1.5, 0.1), delay=steps(60, 250, 10)):
 def wanted_acceleration(
     gain=steps(10, 60, 5),
     damping=(0.1, 0.2, 0.25, 0.4),
-    off=steps(-0.2, 0.2, 0.02),
-    slow=steps(-1, 1, 0.1),
+    off=steps(0.02, 0.2, 0.02),
+    slow=steps(0.1, 1, 0.1),
 ):
     """Feedback has the gain {gain} 1/s² and the damping {damping} s. A joint is {off} rad short of
-    where it should be and {slow} rad/s slower than it should be (negative: beyond, faster). Which
+    where it should be and {slow} rad/s slower than it should be. Which
     acceleration does it ask for?"""
     return feedback_acceleration(FeedbackGains(gain=gain, damping=damping), off, slow, 0.0, 0.0)
 
@@ -67,8 +67,8 @@ def samples_of_a_delay(delay=steps(60, 240, 20), tick=(5, 10, 20)):
 
 @numeric("Hz", "One over the period.")
 def period_of_a_tremor(delay=steps(80, 240, 20), times=(4, 5, 6)):
-    """A loop swings with a period of {times} delays; its sight is {delay} ms late. What is the
-    tremor's frequency?"""
+    """Suppose that a loop swings with a period of {times} delays; its sight is {delay} ms late.
+    What is the tremor's frequency?"""
     return 1000 / (times * delay)
 
 

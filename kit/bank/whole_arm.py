@@ -11,17 +11,17 @@ STRENGTH, ACTIVATION, COUNT = steps(10, 30, 2), steps(0.2, 0.8, 0.1), (2, 3, 4, 
 
 
 @count("dimensions", "Joints less what the place fixes.")
-def freedom_to_spare(spare=(2, 3, 4, 6, 7, 9), space=(1, 2, 3)):
-    """An arm has {joints} joints that turn freely. Its tip must be at one place in a space of
-    {space} dimensions. How many dimensions has the set of its postures?"""
-    return spare, {"joints": spare + space}
+def freedom_to_spare(spare=(2, 3, 4, 6, 7, 9), space=(("a plane", 2), ("space", 3))):
+    """An arm has {joints} joints that turn freely. Its tip must be at one place in
+    {space[0]}. How many dimensions has the set of its postures?"""
+    return spare, {"joints": spare + space[1]}
 
 
 @count(
     "muscles",
     "One more than the joints: together they must be able to pull in every direction.",
 )
-def muscles_that_are_needed(joints=(1, 2, 3, 4, 5, 6, 7)):
+def muscles_that_are_needed(joints=(2, 3, 4, 5, 6, 7)):
     """Muscles only pull. How many are needed at least to turn {joints} joints, each both ways, with
     any combination of torques?"""
     return joints + 1
@@ -37,17 +37,15 @@ def shared_torque(torque=steps(2, 10, 0.5), first=STRENGTH, second=STRENGTH):
     return torque * first / (first**2 + second**2)
 
 
-@numeric(hint="What opens the joint would only have to be outdone.", tolerance=0.002, zero=True)
-def none_below_zero(
-    torque=steps(1, 8, 0.5),
-    bends=STRENGTH,
-    opens=steps(5, 30, 5),
-    muscle=("bends", "opens"),
-):
+@numeric(
+    hint="What opens the joint would only have to be outdone.",
+    tolerance=0.002,
+)
+def none_below_zero(torque=steps(1, 8, 0.5), bends=STRENGTH, opens=steps(5, 30, 5)):
     """One muscle bends a joint with {bends} N m when fully active, another opens it with {opens} N
     m. {torque} N m of bending are needed, and no activation may be below zero. In static
-    optimisation, how active is the one that {muscle}?"""
-    return nnls(np.array([[bends, -opens]]), [torque])[0][int(muscle == "opens")]
+    optimisation, how active is the one that bends?"""
+    return nnls(np.array([[bends, -opens]]), [torque])[0][0]
 
 
 @numeric("times", "It grows by itself: e to the power of stiffness × time over damping.")
