@@ -1,27 +1,34 @@
 """Builds the kit into _build/kit: `make kit`."""
 
+import json
 import shutil
 from html import escape
 from pathlib import Path
 
 import nbformat
+import numpy as np
 from markdown_it import MarkdownIt
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 
+from kit.asked import asked
 from kit.bank import templates
 from kit.gift import gift
 from kit.key import key
+from kit.plan import plans
 from kit.qti import package
 from kit.slides import build as slides
-from kit.student import student
+from kit.student import alive, student
+from vmc_lib.cerebellum import two_rates
 
 ROOT = Path(__file__).parents[1]
 CHAPTERS = sorted((ROOT / "book").glob("[0-9]*.ipynb"))
-HEAD = """<!doctype html><html lang="en"><meta charset="utf-8"><title>The key</title>
+HEAD = """<!doctype html><html lang="en"><meta charset="utf-8"><title>{title}</title>
 <meta name="viewport" content="width=device-width">
-<style>:root { color-scheme: light dark; }
-body { max-width: 45rem; margin: 2rem auto; padding: 0 1rem; font-family: sans-serif;
-line-height: 1.5; } pre { overflow: auto; }</style>
+<style>:root {{ color-scheme: light dark; }}
+body {{ max-width: 45rem; margin: 2rem auto; padding: 0 1rem; font-family: sans-serif;
+line-height: 1.5; }} pre {{ overflow: auto; }}
+table {{ border-collapse: collapse; }}
+:is(th, td) {{ padding: .2em .6em; text-align: left; border-bottom: 1px solid #8888; }}</style>
 <link rel="stylesheet" href="katex.css"><script defer src="katex.js"></script>
 <script defer src="book.js"></script>
 """
@@ -41,32 +48,53 @@ def build(folder, pages):
     shutil.rmtree(folder, ignore_errors=True)
     students = folder / "students"
     students.mkdir(parents=True)
-    for page in (*(ROOT / "book").glob("*.md"), ROOT / "book/references.bib"):
-        shutil.copy(page, students)
-    keys = []
+    pages_of_words = [*(ROOT / "book").glob("*.md")]
+    files = {path.name for path in (*pages_of_words, *CHAPTERS)} | {"references.bib"}
+    for page in pages_of_words:
+        text = alive(page.read_text(encoding="utf-8"), files)
+        (students / page.name).write_text(text, encoding="utf-8")
+    shutil.copy(ROOT / "book/references.bib", students)
+    keys, questions = [], {}
     for chapter in CHAPTERS:
         notebook = nbformat.read(chapter, as_version=4)
-        nbformat.write(student(notebook), students / chapter.name)
-        keys.append(key(notebook, (pages / f"{chapter.stem}.html").read_text(encoding="utf-8")))
-    (folder / "key.md").write_text("\n".join(keys), encoding="utf-8")
-    (folder / "key.html").write_text(HEAD + _page("\n".join(keys)), encoding="utf-8")
+        nbformat.write(student(notebook, files), students / chapter.name)
+        page = (pages / f"{chapter.stem}.html").read_text(encoding="utf-8")
+        keys.append(key(notebook, page))
+        questions |= {(chapter.stem, name): several for name, several in asked(page).items()}
+    for name, text in {"key": "\n".join(keys), "plan": plans()}.items():
+        (folder / f"{name}.md").write_text(text, encoding="utf-8")
+        (folder / f"{name}.html").write_text(_page(name, text), encoding="utf-8")
     for name in ("vendor/katex.js", "vendor/katex.css", "book.js"):
         shutil.copy(ROOT / "book/_static" / name, folder)
     shutil.copy(ROOT / "kit/projects.md", folder)
-    questions = bank()
+    questions |= bank()
     (folder / "questions.gift").write_text(gift(questions), encoding="utf-8")
     (folder / "questions-qti.zip").write_bytes(package(questions))
     slides(folder / "slides", pages)
+    (folder / "throws.html").write_text(throws_page(), encoding="utf-8")
 
 
-def _page(text):
-    """Markdown as HTML, its maths as KaTeX reads it."""
+def throws_page():
+    """The page on which a class throws with a turned pointer, with the model's curve in it."""
+    page = (ROOT / "kit/pages/throws.html").read_text(encoding="utf-8")
+    return page.replace("/*MODEL*/[]", json.dumps(throws().round(4).tolist()))
+
+
+def throws():
+    """What two memories leave of a shift, as a share of it, in 10, 30 and 15 throws (55,)."""
+    turned = np.repeat([0.0, 1.0, 0.0], [10, 30, 15])
+    return turned - two_rates.adapt(turned).sum(axis=1)
+
+
+def _page(name, text):
+    """A page of Markdown as HTML, its maths as KaTeX reads it."""
 
     def maths(tex, options):
         left, right = ("[", "]") if options["display_mode"] else ("(", ")")
         return f"\\{left}{escape(tex)}\\{right}"
 
-    return MarkdownIt().use(dollarmath_plugin, renderer=maths).render(text)
+    reader = MarkdownIt().enable("table").use(dollarmath_plugin, renderer=maths)
+    return HEAD.format(title=f"The {name}") + reader.render(text)
 
 
 if __name__ == "__main__":

@@ -1,8 +1,10 @@
-"""A chapter as students get it: no solution in it, and one graded cell an exercise."""
+"""A chapter as students get it: no solution and no check in it, one graded cell an exercise."""
 
 import re
 
 import nbformat
+
+LINK = re.compile(r"(?<!!)\[([^\]]+)\]\((?!\w+:)([^)#\s]+)(#[^)\s]*)?\)")
 
 
 def solves(cell):
@@ -10,26 +12,56 @@ def solves(cell):
     return "solution" in cell.metadata.get("tags", ())
 
 
-def student(notebook):
-    """The chapter without solutions and outputs; what is graded carries the tag "graded".
+def checks(notebook):
+    """The source of the cell that checks each exercise, {label: source}, None for words."""
+    found, label = {}, None
+    for cell in notebook.cells:
+        label = cell.metadata.get("exercise", label)
+        if "exercise" in cell.metadata:
+            found[label] = None
+        elif label and cell.cell_type == "code" and not solves(cell):
+            if re.search(r"\b(check|grade)\(", cell.source):
+                found[label], label = cell.source, None
+    return found
 
-    Of an exercise that is checked, that is the cell of its `check` or `grade`; of another, a cell
-    for words. Its metadata say of which `exercise`, by label.
+
+def place(label):
+    """The source of the cell where an exercise will be checked."""
+    return f"# Exercise {label} is checked here. Leave this cell as it is."
+
+
+def student(notebook, files=None):
+    """The chapter without solutions, checks and outputs; what is graded carries the tag "graded".
+
+    Of an exercise that is checked, that is the cell where it will be; of another, a cell for words.
+    Its metadata say of which `exercise`, by label. Links to files that are not in `files` are text.
     """
-    cells, label = [], None
+    sources, cells, label, told = checks(notebook), [], None, False
     for cell in notebook.cells:
         if solves(cell):
-            if label:  # no check has come
+            if label and not sources[label]:
                 cells.append(_graded(_words(label), label))
-            label = None
+            label, told = None, False
             continue
+        told = told and "exercise" not in cell.metadata
+        if told and cell.cell_type == "code":
+            continue  # between a check and its solution: it shows the answer
         label = cell.metadata.get("exercise", label)
         if cell.cell_type == "code":
             cell = nbformat.from_dict(cell | {"outputs": [], "execution_count": None})
-            if label and re.search(r"\b(check|grade)\(", cell.source):
-                cell, label = _graded(cell, label), None
+            if label and cell.source == sources[label]:
+                cell = _graded(nbformat.from_dict(cell | {"source": place(label)}), label)
+                cell.metadata.jupyter = {}  # shown
+                label, told = None, True
+        else:
+            cell = nbformat.from_dict(cell | {"source": alive(cell.source, files)})
         cells.append(cell)
     return nbformat.from_dict(notebook | {"cells": cells})
+
+
+def alive(text, files=None):
+    """Markdown whose links lead to `files` (names), or to all if None; other links become text."""
+    return LINK.sub(lambda m: m[0] if files is None or m[2] in files else m[1], text)
 
 
 def _words(label):

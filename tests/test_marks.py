@@ -1,16 +1,21 @@
 """Marks: right work is marked right whatever an editor did to its file; no file ends the run."""
 
+import csv
+import io
 import json
 import sys
+from pathlib import Path
 
 import nbformat
 import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 
+from book.exercises.loop import MIXED
 from kit import marks
 from kit.student import student
 
 EXERCISES = (
+    "known",
     "plain",
     "moved",
     "bare",
@@ -25,6 +30,10 @@ EXERCISES = (
 )
 
 
+GRADE = "from book.exercises.loop import MIXED\n\ngrade(known, MIXED)"
+[HINT, *_] = MIXED.mistakes
+
+
 @pytest.fixture(autouse=True)
 def live(monkeypatch):
     monkeypatch.setenv("VMC_RENDER_MODE", "live")
@@ -33,13 +42,22 @@ def live(monkeypatch):
 @pytest.fixture
 def chapter():
     """A chapter of exercises: in each, its own variable has to become 2."""
-    cells = [new_markdown_cell("# A chapter"), new_code_cell("from vmc_lib.show import check")]
+    cells = [
+        new_markdown_cell("# A chapter"),
+        new_code_cell("from vmc_lib.show import check, grade"),
+    ]
     for name in EXERCISES:
         cells += [
             new_markdown_cell("**Exercise**\n\nHow much is 1 + 1?", metadata={"exercise": name}),
             new_code_cell(f"{name} = None"),
-            new_code_cell(f"check({name}, 2)"),
+            new_code_cell(GRADE if name == "known" else f"check({name}, 2)"),
         ]
+    cells += [
+        new_code_cell("solution(MIXED)", metadata={"tags": ["solution"]}),
+        new_markdown_cell("**Exercise**\n\nWhy?", metadata={"exercise": "why"}),
+        new_markdown_cell("Because.", metadata={"tags": ["solution"]}),
+    ]
+    cells.insert(5, cells.pop(-3))  # below the exercise that it solves
     return new_notebook(cells=cells)
 
 
@@ -47,11 +65,16 @@ def chapter():
 def hand_in(chapter):
     """What a student made of it, right but for the last six exercises."""
     notebook = student(chapter)
-    checks = {c.metadata.exercise: c for c in notebook.cells if c.source.startswith("check(")}
+    checks = {
+        cell.metadata.exercise: cell
+        for cell in notebook.cells
+        if cell.cell_type == "code" and "exercise" in cell.metadata
+    }
     for cell in notebook.cells:
         if cell.source.endswith(" = None"):
             name = cell.source.split()[0]
             lines = {
+                "known": "lambda *parts: [*MIXED.mistakes.values()][0](*parts)",
                 "text": "'2.'",
                 "unread": "'two'",
                 "wrong": "3",
@@ -70,6 +93,7 @@ def hand_in(chapter):
 
 
 MARKS = {
+    "known": f"a known mistake: {HINT}",
     "plain": "right",
     "moved": "right",
     "bare": "right",
@@ -81,6 +105,7 @@ MARKS = {
     "none": "not answered",
     "broken": "NameError: name 'broken' is not defined",
     "cut": "no cell checks it",
+    "why": "in words: for you to read",
 }
 
 
@@ -91,7 +116,9 @@ def test_an_answer_is_marked_by_our_own_check(chapter, hand_in, tmp_path):
 def test_endless_loop_is_interrupted(chapter, tmp_path):
     notebook = student(chapter)
     notebook.cells.insert(2, new_code_cell("while True:\n    pass"))
-    results = marks.marks(chapter, notebook, tmp_path, timeout=5)
+    results = marks.marks(chapter, notebook, tmp_path, limit=5)
+    assert results.pop("why") == MARKS["why"]
+    assert results.pop("known") == "not right"  # None is no function
     assert set(results.values()) == {"not answered"}
 
 
@@ -103,7 +130,7 @@ def book(chapter, tmp_path, monkeypatch):
 
 
 @pytest.mark.usefixtures("book")
-def test_every_file_gets_its_line(hand_in, tmp_path, monkeypatch, capsys):
+def test_every_file_gets_its_rows(hand_in, tmp_path, monkeypatch, capsys):
     """Renamed, without ids, metadata or our kernel; without a heading; cut; of no chapter."""
     folder = tmp_path / "handed in"
     folder.mkdir()
@@ -119,14 +146,27 @@ def test_every_file_gets_its_line(hand_in, tmp_path, monkeypatch, capsys):
     nbformat.write(new_notebook(), folder / "notes.ipynb")
     monkeypatch.setattr(sys, "argv", ["kit.marks", str(folder)])
     marks.main()
-    lines = {}
-    for line in capsys.readouterr().out.splitlines():
-        name, _, text = line.removeprefix(f"{folder}/").partition(": ")
-        lines[name] = text
+    table = list(csv.DictReader(io.StringIO(capsys.readouterr().out)))
+    assert tuple(table[0]) == marks.COLUMNS
+    rows = {}
+    for row in table:
+        rows.setdefault(Path(row["file"]).name, []).append(row)
     bare_marks = MARKS | {"forged": "no cell checks it"}  # it has lost its metadata and source
-    assert lines.pop("a student.ipynb") == "; ".join(f"{k}: {v}" for k, v in bare_marks.items())
-    unmarked = "; ".join(f"{name}: no cell checks it" for name in EXERCISES)
-    assert lines.pop("7 a student.ipynb") == unmarked
-    assert lines.keys() == {"cut.ipynb", "empty.ipynb", "notes.ipynb"}
-    assert all(line.startswith("cannot be marked (") for line in lines.values())
-    assert "no chapter has its first heading" in lines["notes.ipynb"]
+    *found, total = rows.pop("a student.ipynb")
+    assert {row["exercise"]: row["mark"] for row in found} == bare_marks
+    points = {row["exercise"]: row["points"] for row in found}
+    assert (points["plain"], points["known"], points["wrong"], points["why"]) == (
+        "2.0",
+        "1.0",
+        "0.0",
+        "",
+    )
+    right = sum(mark == "right" for mark in bare_marks.values())
+    assert float(total["points"]) == 2 * right + 1
+    assert float(total["of"]) == 2 * len(EXERCISES)
+    *unmarked, total = rows.pop("7 a student.ipynb")
+    assert {row["mark"] for row in unmarked} == {"no cell checks it", MARKS["why"]}
+    assert float(total["points"]) == 0
+    assert rows.keys() == {"cut.ipynb", "empty.ipynb", "notes.ipynb"}
+    assert all(row["mark"].startswith("cannot be marked (") for [row] in rows.values())
+    assert "no chapter has its first heading" in rows["notes.ipynb"][0]["mark"]
