@@ -72,6 +72,7 @@ def build(folder, pages):
     (folder / "questions-qti.zip").write_bytes(package(questions))
     slides(folder / "slides", pages)
     (folder / "throws.html").write_text(throws_page(), encoding="utf-8")
+    shutil.copy(ROOT / "kit/pages/class.html", folder)
 
 
 def throws_page():

@@ -1,12 +1,15 @@
-"""The kit's pages for a class: throws with a turned pointer, offline, with nothing but a browser."""
+"""Pages for a class without a server: throws with a turned pointer, and what all have answered."""
 
 import csv
 import io
+import json
 
 import numpy as np
 import pytest
 
-from kit.__main__ import throws, throws_page
+from kit.__main__ import ROOT, throws, throws_page
+from tests.pages import book_html
+from vmc_lib.show import check, predict, questions
 
 pytestmark = pytest.mark.browser
 
@@ -48,7 +51,7 @@ def throw(page, degrees, steps=6):
 
 
 def test_throws_are_turned_saved_and_drawn_beside_the_model(page, tmp_path):
-    """One who always throws straight misses by 30 degrees while turned; the class's mean is drawn."""
+    """One who always throws straight misses by 30 degrees while turned; all are drawn."""
     room = page(throws_page())
     throw(room, 10)
     room.fill("#who", "ann")
@@ -67,7 +70,7 @@ def test_throws_are_turned_saved_and_drawn_beside_the_model(page, tmp_path):
     (tmp_path / "bob.csv").write_text(f"who,throw,turned,miss,ms\n{goggles}", encoding="utf-8")
     (tmp_path / "bad.csv").write_text("1,2", encoding="utf-8")
     room.set_input_files("#files", [tmp_path / f"{name}.csv" for name in ("ann", "bob", "bad")])
-    assert "bad.csv: its first line is not" in room.inner_text("#told")
+    room.wait_for_selector("#told:has-text('bad.csv: its first line is not')")
     assert "the mean of 2 files" in room.inner_text("#legend")
     points = room.locator("#plot polyline").evaluate_all(
         "all => all.map((p) => p.getAttribute('points'))"
@@ -92,3 +95,99 @@ def test_sheet_for_goggles_has_a_line_for_each_throw(page):
     rows = list(csv.DictReader(io.StringIO(saved(page(throws_page()), "#sheet"))))
     assert [row["throw"] for row in rows] == [str(k) for k in range(1, 56)]
     assert [row["turned"] for row in rows] == ["0"] * 10 + [""] * 30 + ["0"] * 15
+
+
+# ---------------------------------------------------------------- what a class answered
+
+
+CLASS = (ROOT / "kit/pages/class.html").read_text(encoding="utf-8")
+QUIZ = """<fieldset class="vmc-quiz"><legend>Which?</legend>
+<details class="vmc-wrong"><summary>This</summary><p>✗ No.</p></details>
+<details class="vmc-right"><summary>That</summary><p>✓ Right.</p></details></fieldset>"""
+GRADED = """<form class="vmc-check"></form>"""
+
+
+@pytest.fixture
+def chapter(open_page):
+    """A chapter's page that asks: a prediction, a number, a quiz, a function."""
+
+    def ask():
+        predict("How far?", ["one", "two"], "two", "It is.")
+        check(None, 3, hint="Think.")
+
+    shown = book_html(questions, ask).replace("</fieldset></div>", "</fieldset></div><hr>")
+    prediction, number = shown.split("<hr>")
+    exercise = '<div class="exercise" id="ex-one"><p class="admonition-title">Exercise 1</p></div>'
+    cell = '<div class="cell">{}</div>'.format
+    below = cell(number) + cell(GRADED)
+    return open_page(f"<article><h1>A</h1>{prediction}{exercise}{below}{QUIZ}</article>")
+
+
+def test_a_page_keeps_what_was_answered_shows_it_and_saves_it(chapter):
+    record = chapter.locator(".vmc-record")
+    assert not record.is_visible()
+    for choice in ("one", "two"):
+        chapter.check(f"input[value={choice}]")
+    for typed in ("4", "?", "3"):
+        chapter.fill("form[data-check] input", typed)
+        chapter.keyboard.press("Enter")
+    chapter.click("summary:text('This')")
+    chapter.locator("form:not([data-check])").evaluate(
+        "(form, detail) => form.dispatchEvent("
+        "new CustomEvent('vmc-graded', { bubbles: true, detail }))",
+        "✗ Not yet. The sign is wrong.",
+    )
+    chapter.reload()
+    assert "7" not in record.locator("summary").inner_text()
+    assert "6" in record.locator("summary").inner_text()
+    record.locator("summary").click()
+    assert record.locator("li").count() == 6
+    record.get_by_label("Name or number").fill("ann 1")
+    kept = json.loads(saved(chapter, ".vmc-record button"))
+    assert (kept["format"], kept["who"]) == ("answers 1", "ann 1")
+    told = [(a["kind"], a["answer"], a["right"], a["told"]) for a in kept["answers"]]
+    assert told == [
+        ("prediction", "one", False, ""),
+        ("prediction", "two", True, ""),
+        ("exercise", "4", False, "Think."),
+        ("exercise", "3", True, ""),
+        ("quiz", "This", False, ""),
+        ("exercise", "", False, "The sign is wrong."),
+    ]
+    assert {a["id"] for a in kept["answers"] if a["kind"] == "exercise"} == {"ex-one"}
+    record.get_by_text("Forget all of it").click()
+    chapter.reload()
+    assert not record.is_visible()
+
+
+def answer(text, right, told=""):
+    kind = {"page": "07_muscle", "kind": "exercise", "id": "ex-one", "question": "One"}
+    return kind | {"answer": text, "right": right, "told": told}
+
+
+def test_the_teachers_page_joins_two_hundred_files(page, tmp_path):
+    """150 students meet one mistake, 50 of them keep it; one file is none; one student has two."""
+    wrong, right = answer("", False, "The sign is wrong."), answer("", True)
+    files = []
+    for k in range(200):
+        answers = [right] if k >= 150 else [wrong] if k < 50 else [wrong, right]
+        files.append(tmp_path / f"answers-{k}.json")
+        text = json.dumps({"format": "answers 1", "who": f"{k}", "answers": answers})
+        files[-1].write_text(text, encoding="utf-8")
+    second = {"format": "answers 1", "who": "0", "answers": [answer("=2", False)]}
+    (tmp_path / "zero.json").write_text(json.dumps(second), encoding="utf-8")
+    (tmp_path / "bad.json").write_text("[]", encoding="utf-8")
+    room = page(CLASS)
+    room.set_input_files("#files", [*files, tmp_path / "zero.json", tmp_path / "bad.json"])
+    room.wait_for_selector("#rows tr")
+    assert "200 students." in room.inner_text("#told")
+    assert "bad.json" in room.inner_text("#told")
+    rows = list(csv.reader(io.StringIO(saved(room, "#save"))))[1:]
+    question = ["07_muscle", "exercise: One"]
+    numbers = ["200", "50", "150"]
+    assert rows == [
+        [*question, "The sign is wrong.", "150", "150", "49", *numbers],
+        [*question, "'=2", "1", "0", "1", *numbers],
+    ]
+    room.select_option("#page", "07_muscle")
+    assert room.locator("#rows tr").count() == 2

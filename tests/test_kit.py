@@ -262,6 +262,7 @@ def test_the_whole_kit_is_built_from_chapters_and_pages(kit):
         "plan.md",
         "plan.html",
         "throws.html",
+        "class.html",
         "katex.js",
         "katex.css",
         "book.js",

@@ -72,6 +72,7 @@ const vmcGrade = (() => {
         said = [`✗ ${error.message}`];
       }
       stop.disabled = true;
+      form.dispatchEvent(new CustomEvent("vmc-graded", { bubbles: true, detail: said[0] }));
       show(said);
       keep();
     };

@@ -1,0 +1,79 @@
+/* What a reader answered, attempt by attempt: kept in this browser alone, shown at a chapter's end, and
+   saved as a file by whoever wants to hand it in. */
+(() => {
+  const KEY = "vmcRecord", MOST = 2000;
+  const page = location.pathname.split("/").pop().replace(/\.html$/, "");
+  const all = () => JSON.parse(vmcMemory.get(KEY) ?? "[]");
+
+  /* The words of an element, its formulas as they were written. */
+  const words = (node) => {
+    const copy = node.cloneNode(true);
+    for (const formula of copy.querySelectorAll(".katex"))
+      formula.replaceWith(formula.querySelector("annotation")?.textContent ?? "");
+    return copy.textContent.replace(/\s+/g, " ").trim();
+  };
+
+  const add = (kind, id, question, answer, right, told = "") => {
+    const entry = { page, kind, id, question: question.slice(0, 200), answer, right, told };
+    vmcMemory.set(KEY, JSON.stringify([...all(), entry].slice(-MOST)));
+    show();
+  };
+
+  /* The exercise that an answer is for, by its id and title. */
+  const exercise = (form) => {
+    let block = form.closest(".cell");
+    while (block && !block.matches(".exercise")) block = block.previousElementSibling;
+    return block ? [block.id, words(block.querySelector(".admonition-title"))] : ["", ""];
+  };
+  const verdict = (kind, form, text, answer) => {
+    const right = text.startsWith("✓");
+    if (right || text.startsWith("✗")) add(kind, ...exercise(form), answer, right, right ? "" : text.replace(/^✗ (Not yet\.)?\s*/, ""));
+  };
+
+  addEventListener("change", ({ target }) => {
+    if (!target.matches(".vmc-predict input")) return;
+    const question = words(target.closest("fieldset").querySelector("legend"));
+    add("prediction", target.name, question, target.value, target.closest("label").matches(".vmc-right"));
+  });
+  addEventListener("toggle", ({ target }) => {
+    if (!target.matches?.(".vmc-quiz > details[open]")) return;
+    const quiz = target.parentElement, number = [...document.querySelectorAll(".vmc-quiz")].indexOf(quiz) + 1;
+    add("quiz", `quiz-${number}`, words(quiz.querySelector("legend")), words(target.querySelector("summary")), target.matches(".vmc-right"));
+  }, true);
+  addEventListener("submit", ({ target }) => { // after questions.js has judged it
+    if (target.matches("form[data-check]"))
+      verdict("exercise", target, words(target.querySelector("[role=status]")), target.querySelector("input").value.trim());
+  });
+  addEventListener("vmc-graded", ({ target, detail }) => verdict("exercise", target, detail, ""));
+
+  const place = document.createElement("details");
+  place.className = "vmc-record";
+  place.innerHTML = "<summary></summary><p>It stays in this browser. If you save it as a file, the file holds these lines, the name that you " +
+    "write here, and nothing else.</p><p><label>Name or number, if your course asks for one: <input size=\"12\" autocomplete=\"off\"></label> " +
+    "<button type=\"button\">Save as a file</button> <button type=\"button\">Forget all of it</button></p><ol></ol>";
+  const [save, forget] = place.querySelectorAll("button");
+
+  const show = () => {
+    const kept = all();
+    place.hidden = !kept.length;
+    place.querySelector("summary").textContent = `What this browser has kept of your answers: ${kept.length}`;
+    place.querySelector("ol").replaceChildren(...kept.map(({ page, kind, question, answer, right, told }) =>
+      Object.assign(document.createElement("li"), { textContent: `${page}, ${kind}: ${question} ${answer} ${right ? "✓" : "✗"} ${told}` })));
+  };
+  save.addEventListener("click", () => {
+    const who = place.querySelector("input").value.trim();
+    const url = URL.createObjectURL(new Blob([JSON.stringify({ format: "answers 1", who, answers: all() }, null, 1)], { type: "application/json" }));
+    Object.assign(document.createElement("a"), { href: url, download: `answers-${who.replace(/[^\w-]+/g, "_") || "mine"}.json` }).click();
+    setTimeout(() => URL.revokeObjectURL(url), 1000);
+  });
+  forget.addEventListener("click", () => {
+    vmcMemory.set(KEY, "[]");
+    show();
+  });
+
+  addEventListener("DOMContentLoaded", () => {
+    if (!document.querySelector(".vmc-predict, .vmc-quiz, form[data-check], form[data-function]")) return;
+    document.querySelector("article")?.append(place);
+    show();
+  });
+})();
