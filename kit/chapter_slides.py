@@ -140,11 +140,12 @@ def _plain_heading(heading):
 def _guide(demo, box):
     """What to ask before a demo is moved, what to look for in it, and where to stop: paragraphs."""
     control = demo.select_one(".vmc-controls :is(legend, label)")
-    name = control.get_text().strip() if control else "it"
-    asked = (
-        box.legend.decode_contents() if box else f"Before <em>{name}</em> moves: what will change?"
-    )
-    caption = demo.figcaption.decode_contents() if demo.figcaption else f"What changes with {name}."
+    asked = "What do you see?"
+    if box:
+        asked = box.legend.decode_contents()
+    elif control:
+        asked = f"Before <em>{control.get_text().strip()}</em> moves: what will change?"
+    caption = demo.figcaption.decode_contents() if demo.figcaption else "What changes."
     stop = box.select_one("details p").decode_contents() if box else "When the class can say why."
     told = {"Ask": asked, "Look for": caption, "Stop at": stop}
     return [f"<p><strong>{word}.</strong> {text}</p>" for word, text in told.items()]

@@ -74,6 +74,18 @@ def photo():
     return photos.load("rig", "validation")[0]
 
 
+@pytest.fixture(scope="session")
+def kit(tmp_path_factory):
+    """The folder of the teacher's kit, made from the built book."""
+    from kit.__main__ import ROOT, build
+
+    built = ROOT / "_build/html/book"
+    assert (built / "teaching.html").exists(), "no built book in _build/html: run `make book` first"
+    folder = tmp_path_factory.mktemp("kit") / "kit"
+    build(folder, built)
+    return folder
+
+
 @pytest.fixture
 def outputs(monkeypatch):
     """A function: the list of what a module displays from now on, as markup where it is that."""

@@ -13,8 +13,7 @@ from pybtex.database import parse_file
 from pybtex.richtext import Text
 
 from book._ext.plain import FOLD, TERMS
-from book.figures.inventory import DEMO, title_and_minutes
-from book.figures.plans import PLANS, minutes, sections
+from book.figures.inventory import DEMO
 from tests.project import CHAPTERS, NOTEBOOKS, ROOT, code, each_chapter, python
 
 
@@ -242,25 +241,3 @@ def test_open_code_is_the_mechanism(path):
     assert all(8 <= lines[name] <= 25 for name in core)
     rest = sum(lines[name] for name in lines.keys() - {*core})
     assert rest <= 0.05 * sum(lines.values())
-
-
-def test_a_plan_takes_each_chapter_once_and_in_order():
-    """Chapter 12, with its feedback and after-effects, is read in every plan."""
-    names = [path.stem for path in CHAPTERS]
-    for count, plan in PLANS.items():
-        taken = [chapter for session in plan for chapter in session.chapters]
-        assert len(plan) == count
-        assert taken == names[: len(taken)]
-        assert any("12_while_it_moves" in session.read for session in plan)
-    assert taken == names
-
-
-@each_chapter
-def test_the_core_sections_add_up_to_the_minutes_of_the_core(path):
-    parts = [part for part in sections(path.stem) if part.core]
-    assert sum(part.read + part.demos for part in parts) == pytest.approx(core_minutes(path), 0.02)
-
-
-def test_the_core_of_a_session_is_read_in_an_hour():
-    sessions = (tuple(session.read) for plan in PLANS.values() for session in plan)
-    assert [(read, minutes(read)) for read in sessions if not 0 < minutes(read) <= 60] == []

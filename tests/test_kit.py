@@ -1,26 +1,16 @@
 """The teacher's kit: what students get, what the key says, what platforms import, and slides."""
 
 import ast
-import io
 import re
-from collections import Counter
 from inspect import getsource
-from xml.etree import ElementTree
-from zipfile import ZipFile
 
 import nbformat
 import pytest
-from bs4 import BeautifulSoup
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 
 from book.exercises.loop import MIXED
-from kit.__main__ import CHAPTERS, ROOT, bank, build
-from kit.asked import asked
-from kit.chapter_slides import chapter_slides
-from kit.gift import gift
+from kit.__main__ import CHAPTERS, ROOT
 from kit.key import key
-from kit.qti import SPACE, package
-from kit.slides import MOST
 from kit.student import LINK, checks, student
 from vmc_lib.show import predict, questions
 
@@ -119,140 +109,7 @@ def test_the_key_has_every_answer_and_why(outputs, monkeypatch):
     ]
 
 
-# ---------------------------------------------------------------- what platforms import
-
-
-@pytest.fixture(scope="module")
-def variants():
-    """The bank, and what the chapters ask."""
-    pages = {
-        path.stem: (BUILT / f"{path.stem}.html").read_text(encoding="utf-8") for path in CHAPTERS
-    }
-    return bank() | {
-        (chapter, name): several
-        for chapter, page in pages.items()
-        for name, several in asked(page).items()
-    }
-
-
-def test_the_chapters_own_questions_are_most_of_the_bank_and_say_why(variants):
-    levels = Counter(several[0].level for several in variants.values())
-    assert levels["apply"] <= levels["predict"] + levels["understand"]
-    for (chapter, name), [question, *_] in variants.items():
-        if re.match("prediction|quiz", name):
-            assert question.answer in question.choices
-            assert question.hint or all(question.told), (chapter, name)
-            assert not re.search(r"<(?!/?(em|strong|code)>)\w", question.text)
-
-
-TEXT = r"(?:[^~=#{}:\\]|\\[~=#{}:\\])+"
-NUMBER = r"-?\d+(?:\.\d+)?"  # the grammar has no exponents
-ITEM = re.compile(
-    rf"::{TEXT}::\[(?:plain|html)\]{TEXT}\{{"
-    rf"(?:#{NUMBER}:{NUMBER}|(?:\n[=~]{TEXT}(?:#{TEXT})?)+)(?:\n####{TEXT})?\n\}}"
-)
-
-
-def test_gift_follows_its_grammar(variants):
-    items = []
-    for block in gift(variants).split("\n\n"):
-        if not re.fullmatch(r"\$CATEGORY: \$course\$/\w+/\w+/\w+", block):
-            assert ITEM.fullmatch(block), block
-            items.append(block)
-    assert len(items) == sum(map(len, variants.values()))
-    for block in items:
-        assert len(re.findall(r"(?<!\\)=", block)) == (0 if "{#" in block else 1)
-
-
-def test_a_number_is_exported_to_a_fraction_of_its_tolerance(variants):
-    for question in (question for several in variants.values() for question in several):
-        if not question.choices:
-            error = abs(float(question.decimal(question.answer)) - question.answer)
-            assert error <= question.tolerance / 100
-
-
-# Of QTI 1.2: what an element may hold, in this order (the parts that the bank uses)
-MODEL = {
-    "questestinterop": "assessment",
-    "assessment": "section+",
-    "section": "selection_ordering?(section|item)+",
-    "selection_ordering": "selection",
-    "selection": "selection_number selection_extension",
-    "item": "itemmetadata presentation resprocessing itemfeedback*",
-    "itemmetadata": "qtimetadata",
-    "qtimetadata": "qtimetadatafield+",
-    "qtimetadatafield": "fieldlabel fieldentry",
-    "presentation": "material(response_lid|response_str)",
-    "response_lid": "render_choice",
-    "response_str": "render_fib",
-    "render_choice": "response_label+",
-    "render_fib": "response_label",
-    "response_label": "material?",
-    "resprocessing": "outcomes respcondition+",
-    "outcomes": "decvar",
-    "respcondition": "conditionvar setvar?displayfeedback?",
-    "conditionvar": "(varequal|or|other)",
-    "or": "varequal and",
-    "and": "vargte varlte",
-    "itemfeedback": "flow_mat",
-    "flow_mat": "material",
-    "material": "mattext",
-    "selection_extension": "points_per_item",
-}
-
-
-def assert_model(element):
-    """Each element holds what QTI allows it, and no two items have one ident."""
-    name = element.tag.removeprefix(f"{{{SPACE}}}")
-    held = "".join(f"<{child.tag.removeprefix(f'{{{SPACE}}}')}>" for child in element)
-    assert re.fullmatch(re.sub(r"(\w+) ?", r"(?:<\1>)", MODEL.get(name, "")), held), (name, held)
-    idents = [child.get("ident") for child in element if child.get("ident")]
-    assert len({*idents}) == len(idents)
-    for child in element:
-        assert_model(child)
-
-
-def test_qti_is_well_formed_and_each_item_accepts_its_answer(variants):
-    zipped = ZipFile(io.BytesIO(package(variants)))
-    assert package(variants) == package(variants)
-    manifest = ElementTree.fromstring(zipped.read("imsmanifest.xml"))  # noqa: S314 (our own)
-    files = [file.get("href") for file in manifest.findall(".//{*}file")]
-    assert sorted(files) == sorted(f"{path.stem}.xml" for path in CHAPTERS)
-    items = {}
-    for path in files:
-        tree = ElementTree.fromstring(zipped.read(path))  # noqa: S314
-        assert tree.tag == f"{{{SPACE}}}questestinterop"
-        assert_model(tree)
-        items |= {item.get("title"): item for item in tree.findall(".//{*}item")}
-    assert len(items) == sum(map(len, variants.values()))
-    for (chapter, name), several in variants.items():
-        for k, question in enumerate(several, start=1):
-            item = items[f"{chapter} {name} {k}"]
-            scored = item.find(".//{*}setvar/..")
-            right = scored.find(".//{*}varequal").text
-            shown = {told.get("linkrefid") for told in item.findall(".//{*}displayfeedback")}
-            kept = {told.get("ident") for told in item.findall("{*}itemfeedback")}
-            assert shown == kept
-            assert shown
-            if question.choices:
-                labels = {x.get("ident"): x for x in item.findall(".//{*}response_label")}
-                assert labels[right].find(".//{*}mattext").text == question.answer
-            else:
-                bounds = [float(item.find(f".//{{*}}{tag}").text) for tag in ("vargte", "varlte")]
-                assert bounds[0] <= float(right) <= bounds[1]
-                error = max(question.tolerance / 100, 1e-12)
-                assert float(right) == pytest.approx(question.answer, abs=error)
-
-
-# ---------------------------------------------------------------- the whole, and its slides
-
-
-@pytest.fixture(scope="module")
-def kit(tmp_path_factory):
-    assert (BUILT / "teaching.html").exists(), "no built book in _build/html: run `make book` first"
-    folder = tmp_path_factory.mktemp("kit") / "kit"
-    build(folder, BUILT)
-    return folder
+# ---------------------------------------------------------------- the whole
 
 
 def test_the_whole_kit_is_built_from_chapters_and_pages(kit):
@@ -296,99 +153,3 @@ def test_a_students_links_lead_to_files_that_are_there(kit):
     links = [(name, match[2]) for name, text in texts for match in LINK.finditer(text)]
     assert len(links) > 100
     assert [link for link in links if not (folder / link[1]).exists()] == []
-
-
-PAGE = """<section><h1>Arm</h1><p>Idea.</p><p>Aims.</p>
-  <section id="pull"><h2>Pull</h2><p>See Eq. 1 first. Then more.</p><div class="math">x</div>
-    <div class="exercise">Do.</div><div class="cell">Yours.</div><div class="solution">So.</div>
-    <div class="cell"><details>folded</details><div class="cell_output"><div class="output">
-      <div class="admonition"><fieldset class="vmc-predict"><legend>How far?</legend>
-      <details class="vmc-right"><summary>What came out</summary><p>Far.</p></details></fieldset>
-      </div></div></div></div>
-    <figure class="vmc-demo"><form class="vmc-controls"><label>speed</label></form>
-      <figcaption>Blue: a path.</figcaption></figure><p>Third.</p></section>
-  <section class="vmc-optional" id="more"><h2>More</h2><figure class="vmc-demo"></figure></section>
-  <section id="recap"><h2>Recap</h2><p>It was far. And more.</p></section></section>"""
-
-
-def test_a_chapter_becomes_slides_and_notes():
-    """A sentence on a slide, the rest in the notes; nothing of exercises, nothing optional."""
-    article = BeautifulSoup(PAGE, "html.parser").section
-    slides = [BeautifulSoup(str(s), "html.parser") for s in chapter_slides(article, 8)]
-    bodies = [slide.select_one(".fit").get_text(" ", strip=True) for slide in slides]
-    assert bodies == [
-        "Arm Idea.",
-        "Pull See Eq. 1 first. x",
-        "Pull How far? What came out Far.",
-        "Pull speed Blue: a path.",
-        "Recap It was far.",
-    ]
-    notes = slides[3].select_one(".notes").get_text(" ", strip=True)
-    guide = "Ask. How far? Look for. Blue: a path. Stop at. Far."
-    assert notes == f"{guide} See Eq. 1 first. Then more. Third."
-
-
-def test_a_session_has_few_slides_and_each_demo_its_notes(kit):
-    decks = sorted((kit / "slides").glob("*.html"))
-    assert [deck.stem for deck in decks] == ["more", *(f"session-{n}" for n in range(1, 7))]
-    titles = 0
-    for deck in decks:
-        page = BeautifulSoup(deck.read_text(encoding="utf-8"), "html.parser")
-        slides = page.select(".slides > section")
-        titles += len(page.select(".fit > h1")) - 1
-        assert 10 <= len(slides) <= MOST
-        for slide in slides:
-            words = [p.get_text() for p in slide.select(".fit > p")]
-            assert sum(len(text.split()) for text in words) <= 60, words
-            if slide.select(".fit .vmc-demo"):
-                text = slide.select_one(".notes").get_text()
-                assert all(word in text for word in ("Ask.", "Look for.", "Stop at."))
-        assert any(slide.select(".notes cite") for slide in slides)
-    assert titles == len(CHAPTERS)
-
-
-FIT = """() => {
-  const slide = Reveal.getCurrentSlide(), { style } = slide.querySelector(":scope > .fit");
-  return slide.scrollHeight <= slide.clientHeight + 1 &&
-    slide.scrollWidth <= slide.clientWidth + 1 && style.zoom >= 0.6;
-}"""
-
-
-@pytest.mark.browser
-@pytest.mark.parametrize("name", ["more", *(f"session-{n}" for n in range(1, 7))])
-def test_every_slide_fits_a_small_projector(kit, chromium, name):
-    page = chromium.new_context(offline=True, viewport={"width": 1280, "height": 720}).new_page()
-    page.goto((kit / f"slides/{name}.html").as_uri())
-    page.wait_for_function("() => window.Reveal?.isReady()")
-    for number in range(page.evaluate("Reveal.getTotalSlides()")):
-        page.evaluate(f"Reveal.slide({number})")
-        page.wait_for_timeout(200)  # its demo is drawn
-        page.wait_for_function(FIT, timeout=10_000)
-    page.context.close()
-
-
-@pytest.mark.browser
-@pytest.mark.parametrize("number", range(1, 7))
-def test_slides_open_offline_and_their_demos_move(kit, offline, number):
-    page, failures = offline.new_page(), []
-    for event in ("pageerror", "requestfailed"):
-        page.on(event, lambda failure: failures.append(str(failure)))
-    page.on("console", lambda m: m.type == "error" and failures.append(m.text))
-    page.goto((kit / f"slides/session-{number}.html").as_uri())
-    page.wait_for_function("() => window.Reveal?.isReady()")
-    plain = ".vmc-demo:has(> .vmc-pictures):not(:has(.vmc-scene)):has(input[type=range])"
-    demo = page.locator(plain).first
-    demo.evaluate("""demo => {
-      const { h, v } = Reveal.getIndices(demo.closest("section"));
-      Reveal.slide(h, v);
-    }""")
-    page.wait_for_function("demo => 'ready' in demo.dataset", arg=demo.element_handle())
-    slider, pictures = demo.locator("input[type=range]").first, demo.locator(".vmc-pictures")
-    slider.press("Home")
-    first = pictures.inner_html()
-    slider.press("End")
-    assert pictures.is_visible()
-    assert pictures.inner_html() != first
-    assert page.evaluate("() => Reveal.getCurrentSlide().querySelector('.vmc-demo') !== null")
-    assert failures == []
-    page.close()

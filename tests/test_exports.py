@@ -1,0 +1,138 @@
+"""What platforms import: the bank in GIFT and in QTI."""
+
+import io
+import re
+from collections import Counter
+from xml.etree import ElementTree
+from zipfile import ZipFile
+
+import pytest
+
+from kit.__main__ import CHAPTERS, ROOT, bank
+from kit.asked import asked
+from kit.gift import gift
+from kit.qti import SPACE, package
+
+BUILT = ROOT / "_build/html/book"
+
+
+@pytest.fixture(scope="module")
+def variants():
+    """The bank, and what the chapters ask."""
+    pages = {
+        path.stem: (BUILT / f"{path.stem}.html").read_text(encoding="utf-8") for path in CHAPTERS
+    }
+    return bank() | {
+        (chapter, name): several
+        for chapter, page in pages.items()
+        for name, several in asked(page).items()
+    }
+
+
+def test_the_chapters_own_questions_are_most_of_the_bank_and_say_why(variants):
+    levels = Counter(several[0].level for several in variants.values())
+    assert levels["apply"] <= levels["predict"] + levels["understand"]
+    for (chapter, name), [question, *_] in variants.items():
+        if re.match("prediction|quiz", name):
+            assert question.answer in question.choices
+            assert question.hint or all(question.told), (chapter, name)
+            assert not re.search(r"<(?!/?(em|strong|code)>)\w", question.text)
+
+
+TEXT = r"(?:[^~=#{}:\\]|\\[~=#{}:\\])+"
+NUMBER = r"-?\d+(?:\.\d+)?"  # the grammar has no exponents
+ITEM = re.compile(
+    rf"::{TEXT}::\[(?:plain|html)\]{TEXT}\{{"
+    rf"(?:#{NUMBER}:{NUMBER}|(?:\n[=~]{TEXT}(?:#{TEXT})?)+)(?:\n####{TEXT})?\n\}}"
+)
+
+
+def test_gift_follows_its_grammar(variants):
+    items = []
+    for block in gift(variants).split("\n\n"):
+        if not re.fullmatch(r"\$CATEGORY: \$course\$/\w+/\w+/\w+", block):
+            assert ITEM.fullmatch(block), block
+            items.append(block)
+    assert len(items) == sum(map(len, variants.values()))
+    for block in items:
+        assert len(re.findall(r"(?<!\\)=", block)) == (0 if "{#" in block else 1)
+
+
+def test_a_number_is_exported_to_a_fraction_of_its_tolerance(variants):
+    for question in (question for several in variants.values() for question in several):
+        if not question.choices:
+            error = abs(float(question.decimal(question.answer)) - question.answer)
+            assert error <= question.tolerance / 100
+
+
+# Of QTI 1.2: what an element may hold, in this order (the parts that the bank uses)
+MODEL = {
+    "questestinterop": "assessment",
+    "assessment": "section+",
+    "section": "selection_ordering?(section|item)+",
+    "selection_ordering": "selection",
+    "selection": "selection_number selection_extension",
+    "item": "itemmetadata presentation resprocessing itemfeedback*",
+    "itemmetadata": "qtimetadata",
+    "qtimetadata": "qtimetadatafield+",
+    "qtimetadatafield": "fieldlabel fieldentry",
+    "presentation": "material(response_lid|response_str)",
+    "response_lid": "render_choice",
+    "response_str": "render_fib",
+    "render_choice": "response_label+",
+    "render_fib": "response_label",
+    "response_label": "material?",
+    "resprocessing": "outcomes respcondition+",
+    "outcomes": "decvar",
+    "respcondition": "conditionvar setvar?displayfeedback?",
+    "conditionvar": "(varequal|or|other)",
+    "or": "varequal and",
+    "and": "vargte varlte",
+    "itemfeedback": "flow_mat",
+    "flow_mat": "material",
+    "material": "mattext",
+    "selection_extension": "points_per_item",
+}
+
+
+def assert_model(element):
+    """Each element holds what QTI allows it, and no two items have one ident."""
+    name = element.tag.removeprefix(f"{{{SPACE}}}")
+    held = "".join(f"<{child.tag.removeprefix(f'{{{SPACE}}}')}>" for child in element)
+    assert re.fullmatch(re.sub(r"(\w+) ?", r"(?:<\1>)", MODEL.get(name, "")), held), (name, held)
+    idents = [child.get("ident") for child in element if child.get("ident")]
+    assert len({*idents}) == len(idents)
+    for child in element:
+        assert_model(child)
+
+
+def test_qti_is_well_formed_and_each_item_accepts_its_answer(variants):
+    zipped = ZipFile(io.BytesIO(package(variants)))
+    assert package(variants) == package(variants)
+    manifest = ElementTree.fromstring(zipped.read("imsmanifest.xml"))  # noqa: S314 (our own)
+    files = [file.get("href") for file in manifest.findall(".//{*}file")]
+    assert sorted(files) == sorted(f"{path.stem}.xml" for path in CHAPTERS)
+    items = {}
+    for path in files:
+        tree = ElementTree.fromstring(zipped.read(path))  # noqa: S314
+        assert tree.tag == f"{{{SPACE}}}questestinterop"
+        assert_model(tree)
+        items |= {item.get("title"): item for item in tree.findall(".//{*}item")}
+    assert len(items) == sum(map(len, variants.values()))
+    for (chapter, name), several in variants.items():
+        for k, question in enumerate(several, start=1):
+            item = items[f"{chapter} {name} {k}"]
+            scored = item.find(".//{*}setvar/..")
+            right = scored.find(".//{*}varequal").text
+            shown = {told.get("linkrefid") for told in item.findall(".//{*}displayfeedback")}
+            kept = {told.get("ident") for told in item.findall("{*}itemfeedback")}
+            assert shown == kept
+            assert shown
+            if question.choices:
+                labels = {x.get("ident"): x for x in item.findall(".//{*}response_label")}
+                assert labels[right].find(".//{*}mattext").text == question.answer
+            else:
+                bounds = [float(item.find(f".//{{*}}{tag}").text) for tag in ("vargte", "varlte")]
+                assert bounds[0] <= float(right) <= bounds[1]
+                error = max(question.tolerance / 100, 1e-12)
+                assert float(right) == pytest.approx(question.answer, abs=error)

@@ -1,0 +1,106 @@
+"""Slides: one sentence each, what to say in the notes; few, offline, and none too tall."""
+
+import pytest
+from bs4 import BeautifulSoup
+
+from kit.__main__ import CHAPTERS, ROOT
+from kit.chapter_slides import chapter_slides
+from kit.slides import MOST
+
+BUILT = ROOT / "_build/html/book"
+
+
+PAGE = """<section><h1>Arm</h1><p>Idea.</p><p>Aims.</p>
+  <section id="pull"><h2>Pull</h2><p>See Eq. 1 first. Then more.</p><div class="math">x</div>
+    <div class="exercise">Do.</div><div class="cell">Yours.</div><div class="solution">So.</div>
+    <div class="cell"><details>folded</details><div class="cell_output"><div class="output">
+      <div class="admonition"><fieldset class="vmc-predict"><legend>How far?</legend>
+      <details class="vmc-right"><summary>What came out</summary><p>Far.</p></details></fieldset>
+      </div></div></div></div>
+    <figure class="vmc-demo"><form class="vmc-controls"><label>speed</label></form>
+      <figcaption>Blue: a path.</figcaption></figure><p>Third.</p></section>
+  <section class="vmc-optional" id="more"><h2>More</h2><figure class="vmc-demo"></figure></section>
+  <section id="recap"><h2>Recap</h2><p>It was far. And more.</p></section></section>"""
+
+
+def test_a_chapter_becomes_slides_and_notes():
+    """A sentence on a slide, the rest in the notes; nothing of exercises, nothing optional."""
+    article = BeautifulSoup(PAGE, "html.parser").section
+    slides = [BeautifulSoup(str(s), "html.parser") for s in chapter_slides(article, 8)]
+    bodies = [slide.select_one(".fit").get_text(" ", strip=True) for slide in slides]
+    assert bodies == [
+        "Arm Idea.",
+        "Pull See Eq. 1 first. x",
+        "Pull How far? What came out Far.",
+        "Pull speed Blue: a path.",
+        "Recap It was far.",
+    ]
+    notes = slides[3].select_one(".notes").get_text(" ", strip=True)
+    guide = "Ask. How far? Look for. Blue: a path. Stop at. Far."
+    assert notes == f"{guide} See Eq. 1 first. Then more. Third."
+
+
+def test_a_session_has_few_slides_and_each_demo_its_notes(kit):
+    decks = sorted((kit / "slides").glob("*.html"))
+    assert [deck.stem for deck in decks] == ["more", *(f"session-{n}" for n in range(1, 7))]
+    titles = 0
+    for deck in decks:
+        page = BeautifulSoup(deck.read_text(encoding="utf-8"), "html.parser")
+        slides = page.select(".slides > section")
+        titles += len(page.select(".fit > h1")) - 1
+        assert 10 <= len(slides) <= MOST
+        for slide in slides:
+            words = [p.get_text() for p in slide.select(".fit > p")]
+            assert sum(len(text.split()) for text in words) <= 60, words
+            if slide.select(".fit .vmc-demo"):
+                text = slide.select_one(".notes").get_text()
+                assert all(word in text for word in ("Ask.", "Look for.", "Stop at."))
+        assert any(slide.select(".notes cite") for slide in slides)
+    assert titles == len(CHAPTERS)
+
+
+FIT = """() => {
+  const slide = Reveal.getCurrentSlide(), { style } = slide.querySelector(":scope > .fit");
+  return slide.scrollHeight <= slide.clientHeight + 1 &&
+    slide.scrollWidth <= slide.clientWidth + 1 && style.zoom >= 0.6;
+}"""
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("name", ["more", *(f"session-{n}" for n in range(1, 7))])
+def test_every_slide_fits_a_small_projector(kit, chromium, name):
+    page = chromium.new_context(offline=True, viewport={"width": 1280, "height": 720}).new_page()
+    page.goto((kit / f"slides/{name}.html").as_uri())
+    page.wait_for_function("() => window.Reveal?.isReady()")
+    for number in range(page.evaluate("Reveal.getTotalSlides()")):
+        page.evaluate(f"Reveal.slide({number})")
+        page.wait_for_timeout(200)  # its demo is drawn
+        page.wait_for_function(FIT, timeout=10_000)
+    page.context.close()
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("number", range(1, 7))
+def test_slides_open_offline_and_their_demos_move(kit, offline, number):
+    page, failures = offline.new_page(), []
+    for event in ("pageerror", "requestfailed"):
+        page.on(event, lambda failure: failures.append(str(failure)))
+    page.on("console", lambda m: m.type == "error" and failures.append(m.text))
+    page.goto((kit / f"slides/session-{number}.html").as_uri())
+    page.wait_for_function("() => window.Reveal?.isReady()")
+    plain = ".vmc-demo:has(> .vmc-pictures):not(:has(.vmc-scene)):has(input[type=range])"
+    demo = page.locator(plain).first
+    demo.evaluate("""demo => {
+      const { h, v } = Reveal.getIndices(demo.closest("section"));
+      Reveal.slide(h, v);
+    }""")
+    page.wait_for_function("demo => 'ready' in demo.dataset", arg=demo.element_handle())
+    slider, pictures = demo.locator("input[type=range]").first, demo.locator(".vmc-pictures")
+    slider.press("Home")
+    first = pictures.inner_html()
+    slider.press("End")
+    assert pictures.is_visible()
+    assert pictures.inner_html() != first
+    assert page.evaluate("() => Reveal.getCurrentSlide().querySelector('.vmc-demo') !== null")
+    assert failures == []
+    page.close()
