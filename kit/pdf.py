@@ -1,7 +1,7 @@
 """The whole book as one PDF, _build/book.pdf: `make pdf`.
 
 Each built page is opened in a browser and stands still (still.js); joined to one page, all are
-printed.
+printed. What the pages fold, the answers and the solutions, is the appendix: the kit's key.
 """
 
 from pathlib import Path
@@ -11,6 +11,7 @@ import yaml
 from bs4 import BeautifulSoup
 from playwright.sync_api import sync_playwright
 
+from kit.__main__ import build
 from tools import browser
 
 ROOT = Path(__file__).parents[1]
@@ -44,12 +45,18 @@ def names():
     return [toc["root"], *files(toc)]
 
 
-def print_book(chromium, html, names, path):
-    """Print the pages `names` of the built book in the folder `html` as one PDF, to `path`."""
+def print_book(chromium, html, names, path, key=None):
+    """Print the pages `names` of the built book in the folder `html` as one PDF, to `path`.
+
+    The page `key`, if there is one, is the appendix.
+    """
     context = chromium.new_context(offline=True, viewport={"width": 900, "height": 1200})
     context.set_default_timeout(PATIENCE)
     page = context.new_page()
     articles = [_still(page, html, name) for name in names]
+    if key:
+        page.goto(key.as_uri())
+        articles.append(f"<article><h1>Answers</h1>{page.inner_html('body')}</article>")
     head = BeautifulSoup((html / f"{names[0]}.html").read_text(encoding="utf-8"), "html.parser")
     styles = "".join(
         f'<link rel="stylesheet" href="{(html / names[0]).parent.as_uri()}/{link["href"]}">'
@@ -96,5 +103,7 @@ def _join(articles):
 if __name__ == "__main__":
     with sync_playwright() as playwright:
         chromium = playwright.chromium.launch(**browser.options(browser.find()))
-        print_book(chromium, ROOT / "_build/html", names(), ROOT / "_build/book.pdf")
+        build(ROOT / "_build/kit", ROOT / "_build/html/book")
+        key = ROOT / "_build/kit/key.html"
+        print_book(chromium, ROOT / "_build/html", names(), ROOT / "_build/book.pdf", key)
     print(f"The book is at {ROOT / '_build/book.pdf'}")
