@@ -66,7 +66,8 @@ def build(folder, pages):
         (folder / f"{name}.html").write_text(_page(name, text), encoding="utf-8")
     for name in ("vendor/katex.js", "vendor/katex.css", "book.js"):
         shutil.copy(ROOT / "book/_static" / name, folder)
-    shutil.copy(ROOT / "kit/projects.md", folder)
+    for name in ("projects.md", "report.ipynb", "assistants.md"):
+        shutil.copy(ROOT / "kit" / name, folder)
     questions |= bank()
     (folder / "questions.gift").write_text(gift(questions), encoding="utf-8")
     (folder / "questions-qti.zip").write_bytes(package(questions))

@@ -6,6 +6,7 @@ from inspect import getsource
 
 import nbformat
 import pytest
+from nbclient import NotebookClient
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 
 from book.exercises.loop import MIXED
@@ -124,6 +125,8 @@ def test_the_whole_kit_is_built_from_chapters_and_pages(kit):
         "katex.css",
         "book.js",
         "projects.md",
+        "report.ipynb",
+        "assistants.md",
     }
     names = {file.name for file in kit.iterdir()}
     assert names == pages | {"students", "slides", "questions.gift", "questions-qti.zip"}
@@ -153,3 +156,17 @@ def test_a_students_links_lead_to_files_that_are_there(kit):
     links = [(name, match[2]) for name, text in texts for match in LINK.finditer(text)]
     assert len(links) > 100
     assert [link for link in links if not (folder / link[1]).exists()] == []
+
+
+def test_the_worked_report_runs_and_its_reason_holds():
+    """The best gain falls with the delay, and later sight swings slower: the run says so."""
+    notebook = nbformat.read(ROOT / "kit/report.ipynb", as_version=4)
+    NotebookClient(notebook, timeout=600, resources={"metadata": {"path": str(ROOT)}}).execute()
+    told = [
+        output.data.get("text/markdown", "")
+        for cell in notebook.cells
+        for output in cell.get("outputs", [])
+        if "data" in output
+    ]
+    assert any("That it falls is right." in text for text in told)
+    assert any("slower, as we said" in text for text in told)
