@@ -45,10 +45,9 @@ def build(folder, pages):
     """Write one deck a session into `folder`, from the built `pages`, and the files they need."""
     static = folder / "_static"
     static.mkdir(parents=True)
-    for name in (*SCRIPTS, *STYLES, "vendor"):
-        here = pages.parent / "_static" / name
-        copy = shutil.copytree if here.is_dir() else shutil.copy
-        copy(here, static / name)
+    shutil.copytree(pages.parent / "_static/vendor", static / "vendor")
+    for name in (*SCRIPTS, *STYLES):
+        shutil.copy(pages.parent / "_static" / name, static / name)
     for file in (*VENDOR, *OWN):
         shutil.copy(file, static)
     for number, (title, slides, seconds) in enumerate(sessions(pages), start=1):
