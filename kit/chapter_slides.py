@@ -36,6 +36,8 @@ def chapter_slides(article, most):
     title, idea, *aims = article.find_all(["h1", "p"], recursive=False)
     *_, last = article.find_all("section", recursive=False)
     _remove_exercises(article)
+    sources = dict.fromkeys(cite.get_text() for cite in article.select("cite.source"))
+    aims += [f'<p><cite class="source">{escape(text)}</cite></p>' for text in sources]
     heading, *text = last.find_all(["h2", "p", "ul"], recursive=False)
     first, recap = Slide([title, idea], aims), Slide([heading, _sentence(text[0])], text)
     quiz = [Slide([box], _answers(box)) for box in article.select(".vmc-quiz")]

@@ -55,7 +55,7 @@ def test_a_session_has_few_slides_and_each_demo_its_notes(kit):
             if slide.select(".fit .vmc-demo"):
                 text = slide.select_one(".notes").get_text()
                 assert all(word in text for word in ("Ask.", "Look for.", "Stop at."))
-        assert any(slide.select(".notes cite") for slide in slides)
+        assert len(page.select(".notes cite")) >= 3
     assert titles == len(CHAPTERS)
 
 
