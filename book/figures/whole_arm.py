@@ -21,9 +21,10 @@ NEAR = 0.05  # m: how far around the target one sees in the corner
 BONE = {"color": COLOURS["grey"], "alpha": 0.4, "lw": 7, "solid_capstyle": "round"}
 
 ROLES = {
-    "SUBSC": "holding the ball of the upper arm in its socket",
-    "SUPSP": "holding the ball of the upper arm in its socket",
-    "INFSP": "holding the ball of the upper arm in its socket",
+    "SUBSC": "turning the upper arm inward, and drawing it back where DELT1 draws it forward (in a "
+    "body it also holds the ball in its socket, which here cannot slip)",
+    "SUPSP": "drawing the arm back, and turning it inward a little",
+    "INFSP": "turning the upper arm outward",
     "DELT1": "lifting the arm forward",
     "PECM1": "drawing the arm forward and inward",
     "PECM2": "drawing the arm forward and inward",
