@@ -11,7 +11,7 @@ from IPython.display import HTML, display
 from arm_in_page import live
 from book.figures.aiming import shore
 from book.figures.where import CANVAS
-from eye_in_page import PLACE_SCRIPTS, SEARCH_SCRIPTS, SIGHT_SCRIPTS, brain
+from eye_in_page import PLACE_SCRIPTS, SEARCH_SCRIPTS, SIGHT_SCRIPTS, STATIC, brain
 from vmc_lib import marker_sheet
 from vmc_lib.arm.kinematics import TRUNK
 from vmc_lib.camera import TABLE
@@ -57,7 +57,9 @@ def your_photo(example, caption):
         scripts = [*VIEWER, *live.SCRIPTS, CANVAS, *eye]
         display(still("A photo, an arm, a table from above.", [scene], NAME))
         display(Live(page, "vmcYourPhoto", scripts, vendored=vendored))
-        display(Markup(framed("", caption), caption))
+        sheets = live.STATIC / "live.css", STATIC / "your_photo.css"
+        style = "".join(f"<style>{css.read_text(encoding='utf-8')}</style>" for css in sheets)
+        display(Markup(style + framed("", caption), caption))
 
 
 def sheet():

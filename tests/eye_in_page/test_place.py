@@ -10,6 +10,7 @@ from book.figures.your_photo import sheet
 from eye_in_page.localiser import CompactLocaliser, shift_mm
 from tests.test_marker_sheet import LOW, draw_sheet, looking
 from vmc_lib import marker_sheet, photos
+from vmc_lib.loop import VisuomotorModel, see
 
 SHOTS = photos.load(photos.SHEET_LEVEL, "test")
 SHEET = sheet()
@@ -103,6 +104,19 @@ def test_a_place_is_that_of_the_compact_localiser(ask):
         there = ask(script, {"box": box.tolist(), "camera": camera}, shot.image)
         here = CompactLocaliser.load().locate(shot.image, box, shot.camera)
         assert there == pytest.approx(here, abs=1e-6)
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("shot", SHOTS[3::12], ids=lambda shot: shot.name)
+def test_from_its_pixels_a_photo_leads_to_the_place_that_python_finds(ask, shot):
+    script = """const { camera } = vmcEye.finish(vmcEye.readSheet(photo, asked, [600, 400]));
+      const bare = vmcEye.paintOver(photo, vmcEye.sheetOutline(camera, asked));
+      const { box } = await vmcEye.see(brain, bare, { camera });
+      return vmcEye.locate(brain.localiser, bare, box, camera);"""
+    camera, bare = marker_sheet.remove_sheet(shot.image)
+    box = see(VisuomotorModel.load("real"), bare, camera).box
+    here = CompactLocaliser.load().locate(bare, box, camera)
+    assert np.linalg.norm(ask(script, SHEET, shot.image) - here) < 2.5e-3
 
 
 def test_the_compact_localiser_is_near_the_whole_one():

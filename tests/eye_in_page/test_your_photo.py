@@ -10,6 +10,7 @@ from book._ext.offline import POLICY
 from book.figures import your_photo
 from tests import pages
 from tests.arm_in_page.controls import number, readout, status
+from tests.show.kernel import render
 from vmc_lib import photos
 from vmc_lib.loop import VisuomotorModel, locate, reach, see
 from vmc_lib.marker_sheet import remove_sheet
@@ -145,12 +146,14 @@ def test_it_is_brief_accessible_and_fits_a_phone(open_page, html, serious):
     assert serious(page, "main") == []
 
 
-def test_in_a_kernel_it_is_the_same_page(monkeypatch):
-    shown = []
-    monkeypatch.setattr(your_photo, "display", lambda *items: shown.extend(items))
-    for mode, count in (("live", 3), ("test", 3)):
+def test_in_a_kernel_it_is_the_same_page(monkeypatch, window):
+    shown = pages.displayed(monkeypatch, your_photo)
+    for mode in ("live", "test"):
         monkeypatch.setenv("VMC_RENDER_MODE", mode)
         your_photo.your_photo(OURS, "Blue: the sheet.")
-        assert len(shown) == count
-    assert list(shown[1].scripts)[-1] == "your_photo.js"
-    assert {"brain.js", "mujoco.js"} <= {*shown[1].vendored}
+        assert len(shown) == 3
+    page = pages.observe(window().new_page())
+    render(page, shown[1], monkeypatch)
+    page.locator("[name=example]").click()
+    assert "misses by" in status(page, "After")
+    assert page.errors == []
