@@ -97,7 +97,7 @@ def _page(example, scene, plot):
     return f"""<div class="vmc-eye" id="{NAME}"><form class="vmc-live-form" autocomplete="off">
 <div><button type="button" name="own">Your photo …</button>
 <button type="button" name="example">Example</button>
-<button type="button" name="main" disabled>Reach again</button>
+<button type="button" name="main" disabled>Again</button>
 <input type="file" name="file" accept="image/*" aria-label="Your photo" hidden></div>
 <p role="status">Your photo stays on this device. Eye and arm ({size:.0f} MB, part of this book) are
 loaded when you start.</p><fieldset disabled hidden></fieldset>

@@ -86,16 +86,22 @@ const vmcYourPhoto = (() => {
       await vmcEye.see(this.brain, this.bare, { camera, report });
     }
 
-    /* Nothing is known of a new photo. */
+    /* Nothing is known of a new photo, */
     forget() {
       Object.assign(this, { camera: null, sight: null, boxes: [], bearing: 0 });
-      Object.assign(this, { place: null, plan: null, planned: null, calibrated: null });
+      this.tell({ camera: "–", candidates: "–", kept: "–" });
       this.box.querySelector(".vmc-boxes").hidden = true;
-      this.tell(Object.fromEntries([...this.box.querySelectorAll("[data-tell]")].map((place) => [place.dataset.tell, "–"])));
+      this.forgetReach();
       this.rest();
     }
 
-    // ------------------------------------------------ stages of seeing
+    /* or of a reach for another box. */
+    forgetReach() {
+      Object.assign(this, { place: null, plan: null, planned: null, calibrated: null });
+      this.tell({ place: "–", planned: "–", calibrated: "–" });
+      this.photo.reach.innerHTML = "";
+      this.form.elements.main.disabled = true;
+    }
 
     showSheet({ markers, camera }) {
       const { sheet, table } = this.given, seen = counted(markers.length, "marker");
@@ -137,17 +143,12 @@ const vmcYourPhoto = (() => {
       this.say(`${capital(sight.summary)}.${choice.hidden ? "" : " Point at a box, and the arm reaches for that."}`);
     }
 
-    // ------------------------------------------------ from a box to a reach
-
     /* Reach for what is in a box. */
     async choose(number) {
       this.turn = {};
-      Object.assign(this, { place: null, plan: null, planned: null, calibrated: null });
+      this.forgetReach();
       this.photo.drawBoxes(this.marks, number);
-      this.photo.reach.innerHTML = "";
       this.box.querySelectorAll("button[data-box]").forEach((button, i) => button.setAttribute("aria-pressed", i === number));
-      this.tell({ place: "–", planned: "–", calibrated: "–" });
-      this.form.elements.main.disabled = true;
       const { sheet, kinematics } = this.given;
       if (!this.camera)
         return this.say(`The camera is unknown, so a box has no place: ${sheet.fewest} markers or more must be seen. ` +
@@ -193,8 +194,6 @@ const vmcYourPhoto = (() => {
       await super.main();
       if (this.planned) await this.calibrate();
     }
-
-    // ------------------------------------------------ how it is drawn
 
     world(point) {
       return toWorld(this.given.kinematics, point, this.bearing);
