@@ -41,14 +41,17 @@ Object.assign(vmcEye, (() => {
     }).map((corner) => vmcEye.project(camera, corner));
   };
 
-  /* Of each row of a picture, the first and last pixel on or within a convex polygon. */
+  /* Of each row of a picture, the first and last pixel on or within a convex polygon, whose lines are drawn from
+     their left ends as OpenCV draws them (Bresenham 1965). */
   const filled = (polygon, height) => {
     const rows = Array.from({ length: height }, () => [Infinity, -Infinity]);
     const corners = polygon.map((corner) => corner.map(Math.round));
-    corners.forEach((from, k) => {
-      const way = minus(corners[(k + 1) % corners.length], from), steps = Math.max(1, ...way.map(Math.abs));
+    corners.forEach((corner, k) => {
+      const [from, to] = [corner, corners[(k + 1) % corners.length]].sort((a, b) => a[0] - b[0]);
+      const way = minus(to, from), steps = Math.max(1, ...way.map(Math.abs));
       for (let step = 0; step <= steps; step++) {
-        const [x, y] = plus(from, times(step / steps, way)).map(Math.round), row = rows[y];
+        const moved = way.map((side) => Math.sign(side) * Math.ceil((step / steps) * Math.abs(side) - 0.5));
+        const [x, y] = plus(from, moved), row = rows[y];
         if (row) rows[y] = [Math.min(row[0], x), Math.max(row[1], x)];
       }
     });
