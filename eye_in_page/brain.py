@@ -117,4 +117,4 @@ def script():
 
 def inputs():
     """Every file that the script is made of."""
-    return [Path(__file__), *FILES]
+    return [*Path(__file__).parent.glob("*.py"), *FILES]
