@@ -17,9 +17,9 @@ import numpy as np
 from IPython.display import HTML, display
 
 from vmc_lib.arm import muscle
-from vmc_lib.arm.dynamics import hand
+from vmc_lib.arm.dynamics import coefficients, hand
 from vmc_lib.arm.engines import STOP_DAMPING, STOP_STIFFNESS
-from vmc_lib.arm.kinematics import inverse_kinematics
+from vmc_lib.arm.kinematics import BENT, TRUNK, TRUNK_RANGE, inverse_kinematics
 from vmc_lib.arm.model import F0, L0, LIMITS, MUSCLES, SLACK, STEP, XML
 from vmc_lib.cerebellum.offline import GAINS, LARGEST_STEP
 from vmc_lib.motor import templates
@@ -39,10 +39,15 @@ from vmc_lib.show.scene import SCRIPTS as VIEWER
 MODES = ("bench", "reach")
 TRIALS = 2  # of our own calibration: off-line, the page has no more to learn
 CALIBRATION = {"gains": GAINS, "trials": TRIALS, "largestStep": LARGEST_STEP}
+KINEMATICS = {
+    "hand": coefficients()[1].T.tolist(),
+    "bent": BENT.tolist(),
+    "trunk": {"axis": TRUNK.tolist(), "range": TRUNK_RANGE.tolist()},
+}
 STATIC = Path(__file__).parent / "static"
 MUJOCO = STATIC / "vendor/mujoco.js"
 VERSIONS = {"Python": version("mujoco"), "page": "3.14.0"}  # of MuJoCo
-MODEL_SCRIPTS = ("vectors", "engine", "muscle", "arm", "arm26")
+MODEL_SCRIPTS = ("vectors", "kinematics", "engine", "muscle", "arm", "arm26")
 MODEL_SCRIPTS += ("templates", "planning", "calibration")
 PAGE_SCRIPTS = ("whole", "drawing", "live", "bench", "reach", "start")
 SCRIPTS = (  # in the order in which they need one another
@@ -114,6 +119,7 @@ def given():
         "L0": L0.tolist(),
         "slack": SLACK.tolist(),
         "limits": LIMITS.tolist(),
+        "kinematics": KINEMATICS,
         "step": STEP,
         "held": round(templates.HOLD / STEP),
         "every": templates.EVERY,

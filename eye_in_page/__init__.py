@@ -8,10 +8,11 @@ from `brain`.
 from pathlib import Path
 
 STATIC = Path(__file__).parent / "static"
-SEARCH_SCRIPTS, SIGHT_SCRIPTS = (  # in the order in which they need one another
+SEARCH_SCRIPTS, SIGHT_SCRIPTS, PLACE_SCRIPTS = (  # in the order in which they need one another
     [STATIC / f"{name}.js" for name in names.split()]
     for names in (
         "pieces colours filters segmentation appearance selective_search",
         "boxes camera unpack features product detector stream box_selection see",
+        "markers camera_calibration marker_sheet localiser photo_marks your_photo",
     )
 )

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
+from eye_in_page.localiser import localiser
 from vmc_lib import box_selection, camera, data, photos
 from vmc_lib.loop import high_recall_detector
 from vmc_lib.what.stream import FLIPS, STAGES
@@ -32,6 +33,7 @@ def brain():
         "stream": stream(),
         "selector": selector(),
         "lab": lab_grid(),
+        "localiser": localiser(),
     }
 
 
@@ -115,4 +117,4 @@ def script():
 
 def inputs():
     """Every file that the script is made of."""
-    return [Path(__file__), *FILES]
+    return [*Path(__file__).parent.glob("*.py"), *FILES]

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from tests.engines import NOT_TESTED, Crashed, Firefox, WebKit
-from tests.pages import CHAPTERS, PROBES
+from tests.pages import BUILT, CHAPTERS, PROBES
 
 pytestmark = pytest.mark.browser
 DEMOS = [path for path in CHAPTERS if path.stem[0].isdigit()]
@@ -38,6 +38,16 @@ def assert_moves(engine, path):
     engine.open(path)
     assert engine.run(IDLE) == []
     assert engine.run(UNSET) == []
+    assert engine.errors() == ""
+
+
+def test_a_photo_leads_to_a_reach(engine):
+    engine.open(BUILT / "book/your_photo.html")
+    said = engine.run("""const say = document.querySelector(".vmc-eye [role=status]");
+      document.querySelector(".vmc-eye [name=example]").click();
+      while (!say.textContent.startsWith("After")) await new Promise(requestAnimationFrame);
+      return say.textContent;""")
+    assert "misses by" in said
     assert engine.errors() == ""
 
 

@@ -36,6 +36,11 @@ def marker_corners():
     return FIRST + np.array(board().getObjPoints()) @ AXES
 
 
+def page_corners():
+    """The page's corners in the shoulder frame, clockwise from the upper left one: (4, 3), m."""
+    return CORNER + np.array([[0, 0], [1, 0], [1, 1], [0, 1]]) * PAGE / 1000 @ AXES[:2]
+
+
 def page_image():
     """The sheet as an image, one pixel a millimetre: (297, 210) uint8, black on white."""
     picture = np.full(PAGE[::-1], 255, np.uint8)
@@ -55,8 +60,7 @@ def remove_sheet(photo):
     camera, image = estimate_camera(photo), read_image(photo)
     if camera is None:
         return None, image
-    corners = CORNER + np.array([[0, 0], [1, 0], [1, 1], [0, 1]]) * PAGE / 1000 @ AXES[:2]
-    outline = np.int32(np.round(camera.project(_clip(corners, camera))))
+    outline = np.int32(np.round(camera.project(_clip(page_corners(), camera))))
     covered = cv2.fillConvexPoly(np.zeros(image.shape[:2], np.uint8), outline, 1)
     covered = cv2.dilate(covered, np.ones((9, 9)))
     around = image[cv2.dilate(covered, np.ones((15, 15))) > covered]

@@ -4,7 +4,7 @@
 const vmcArm26 = (() => {
   "use strict";
 
-  const { clip, minus, plus, times } = vmcVectors;
+  const { clip } = vmcVectors;
   const { Arm } = vmcArm;
   const { Muscle } = vmcMuscle;
 
@@ -49,22 +49,8 @@ const vmcArm26 = (() => {
 
     /* Where in space a target (x, y) of its plane lies. */
     place(target) {
-      return this.hand(this.inverseKinematics(target));
-    }
-
-    /* The posture that puts the wrist at a place (x, y) of the plane: Newton's method. */
-    inverseKinematics(target) {
-      const q = [...this.given.start];
-      for (let i = 0; i < 20; i++) {
-        const nudged = [[0, 0], [1e-6, 0], [0, 1e-6]];
-        const [here, first, second] = nudged.map((by) => this.hand(plus(q, by)));
-        const [a, b] = [minus(first, here), minus(second, here)].map((v) => times(1e6, v));
-        const miss = minus(target, here);
-        const determinant = a[0] * b[1] - b[0] * a[1];
-        q[0] += clip((miss[0] * b[1] - miss[1] * b[0]) / determinant, -0.2, 0.2);
-        q[1] += clip((miss[1] * a[0] - miss[0] * a[1]) / determinant, -0.2, 0.2);
-      }
-      return q;
+      const { kinematics } = this.given;
+      return vmcKinematics.hand(kinematics, vmcKinematics.inverseKinematics(kinematics, target));
     }
   }
 

@@ -5,11 +5,15 @@ import re
 from pathlib import Path
 
 EVERYWHERE = ("book.js", "questions.js")
+SIGHT = "unpack|features|product|detector|stream|box_selection|see"  # and a place
+SIGHT += "|markers|camera_calibration|marker_sheet|localiser|photo_marks|your_photo"
+SEALED = "book/your_photo"  # a page that sends nothing: its own policy forbids that
+POLICY = "default-src 'self' 'unsafe-inline' 'unsafe-eval' file: data: blob:; connect-src 'none'"
 NEEDS = {  # what a page must hold to need an asset; none needs thebe, which asks the network
     "thebe": r"(?!)",
     "katex": r'class="math|\\\(',
     "design": r'class="[^"]*\bsd-',
-    r"/(unpack|features|product|detector|stream|box_selection|see)\.js": 'class="vmc-eye',
+    rf"/({SIGHT})\.js": 'class="vmc-eye',
 }
 # Names, punctuation and spaces: coloured as all code is
 COLOURLESS = re.compile(r'<span class="(?:n|nn|p|w)">([^<]*)</span>')
@@ -68,6 +72,9 @@ def mend(app, pagename, templatename, context, doctree):
     body = re.sub(r"(\\tag\{[^}]*\})(\s*\\end\{split\})", r"\2\1", body)
     body = body.replace('<div role="list" class="citation-list">', "<div>")
     body = body.replace(' role="doc-biblioentry"', "")
+    if pagename == SEALED:
+        policy = f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">'
+        context["metatags"] = context.get("metatags", "") + policy
     context["body"] = body.replace('<summary aria-label="Toggle hidden content">', "<summary>")
 
 

@@ -70,28 +70,23 @@ const vmcInPage = (() => {
     ];
   };
 
-  /* The trunk's turn that brings the hand's plane to a place, from the turns at some distances from its
-     axis; nothing where the hand cannot be (vmc_lib/arm/kinematics.py). */
-  const turnTowards = ({ turns, trunk: { axis, range } }, [x, , z]) => {
-    const [ahead, right] = minus([x, z], axis);
-    const i = turns.findIndex(([away]) => away >= Math.hypot(ahead, right));
-    if (i < 1) return null;
-    const [[near, less], [far, more]] = turns.slice(i - 1, i + 1);
-    const turn = less + ((Math.hypot(ahead, right) - near) / (far - near)) * (more - less) - Math.atan2(right, ahead);
-    return turn < range[0] || turn > range[1] ? null : turn;
+  /* The trunk's turn that brings the hand's plane to a place; nothing where the hand cannot be. */
+  const trunkTurn = (arm, place) => {
+    try {
+      return vmcKinematics.turnTowards(arm, place).turn;
+    } catch {
+      return null;
+    }
   };
 
   /* A target in a photo, and from above the place that it means (book/figures/aiming.py). */
   const aim = (given, pixel, [photo, above]) => {
-    const { camera, trunk: { axis }, marks: { height, ahead, edge, paint } } = given;
+    const { arm, camera, marks: { height, ahead, edge, paint } } = given, { axis } = arm.trunk;
     const place = backProject(camera, pixel, height);
-    const turn = turnTowards(given, place);
+    const turn = trunkTurn(arm, place);
     const reached = turn !== null;
     const flat = ([x, , z]) => [z, x];
-    const turned = ([x, , z]) => {
-      const [u, v] = minus([x, z], axis), [c, s] = [Math.cos(turn), Math.sin(turn)];
-      return flat([c * u + s * v + axis[0], 0, c * v - s * u + axis[1]]);
-    };
+    const turned = (point) => flat(vmcKinematics.toWorld(arm, point, turn));
     const [far, , right] = times(100, place);
     const trunk = reached ? `the trunk turns ${((turn * 180) / Math.PI).toFixed(0)}°` : "out of reach";
     const [way, side] = [far > 0 ? "ahead" : "behind", right > 0 ? "right" : "left"];
@@ -116,5 +111,5 @@ const vmcInPage = (() => {
     },
   ];
 
-  return { aim, overlap, plan, turnTowards, votes };
+  return { aim, overlap, plan, votes };
 })();

@@ -4,6 +4,7 @@ from functools import cache
 
 import numpy as np
 
+from arm_in_page.live import KINEMATICS
 from book.figures.loop import above
 from vmc_lib import NoReach
 from vmc_lib.arm.kinematics import TRUNK, TRUNK_RANGE, to_world, turn_towards
@@ -89,8 +90,7 @@ def aim_in_page(photo):
     camera, height = photo.camera, photo.target[1]
     given = {
         "camera": {name: np.asarray(value).tolist() for name, value in vars(camera).items()},
-        "turns": within_reach(height),
-        "trunk": {"axis": TRUNK.tolist(), "range": TRUNK_RANGE.tolist()},
+        "arm": KINEMATICS,
         "marks": {"height": height, "ahead": AHEAD, "edge": EDGE, "paint": ON_PHOTO},
     }
     return "aim", lambda: aim_view(photo), given

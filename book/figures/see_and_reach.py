@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from book.figures.loop import describe_end, draw_movement, draw_stage, named_boxes
+from book.figures.loop import describe_end, draw_movement, draw_stage
 from book.figures.panels import panels
 from book.figures.reaching import norm_mm
 from reproduce.experiments.loop_evaluation import FAILURE_STAGES, LESIONS, load_outcomes
 from reproduce.experiments.real_world import count_answers, share_text
-from vmc_lib import NoReach, loop, marker_sheet, photos
+from vmc_lib import marker_sheet, photos
 from vmc_lib.arm.kinematics import to_world
 from vmc_lib.show import COLOURS, note, photo_view, table
 from vmc_lib.statistics import wilson
@@ -63,36 +63,6 @@ def lesion_view(photo, box, reach):
     motion = reach.calibrated
     words = describe_end(photo, reach, motion).capitalize()
     return *draw_movement(photo, box, reach, motion), note(f"{words}.")
-
-
-def phone_view(model, photo):
-    """What a model sees in a photo with the marker sheet, and where the hand ends (HTML)."""
-    camera, bare = marker_sheet.remove_sheet(photo)
-    sight, ends = loop.see(model, bare, camera), []
-    try:
-        reach = loop.reach(model, loop.locate(model, bare, sight.box, camera))
-        hand = reach.end_point(reach.calibrated)
-        ends = [(camera.project(hand)[0], "hand", "red")]
-        words = _describe_reach(camera, reach)
-    except NoReach as why:
-        words = f"No reach: {why}."
-    boxes = [box for box in named_boxes(sight) if box[2] == "green"]
-    view = photo_view(photos.read_image(photo), boxes, ends)
-    return f"<div>{view}{note(f'{sight.summary}. {words}')}</div>"
-
-
-def _describe_reach(camera, reach):
-    """Where a camera is, and the reach for what it shows, in words."""
-    motion = reach.calibrated
-    high = 100 * (camera.position[1] - marker_sheet.CORNER[1])
-    ahead, _, right = 100 * reach.target
-    return (
-        f"The camera is {high:.0f} cm above the table. The shuttlecock is {ahead:.0f} cm ahead of "
-        f"the shoulder, {abs(right):.0f} cm to its {'right' if right > 0 else 'left'}. The trunk "
-        f"turns by {np.degrees(reach.turn):.0f}°. The hand ends "
-        f"{norm_mm(reach.end_point(motion) - reach.target):.1f} mm from that place; there it moves "
-        f"at {1000 * motion.speed:.0f} mm/s."
-    )
 
 
 def shares_within(errors, limit):

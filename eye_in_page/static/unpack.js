@@ -2,7 +2,7 @@
 (() => {
   "use strict";
 
-  const KINDS = { float64: Float64Array, float32: Float32Array, float16: Uint16Array, int16: Int16Array, uint8: Uint8Array };
+  const KINDS = { float64: Float64Array, float32: Float32Array, float16: Uint16Array, int16: Int16Array, int8: Int8Array, uint8: Uint8Array };
   const POWERS = Array.from({ length: 32 }, (_, i) => 2 ** (Math.max(i, 1) - 25));
 
   /* What the 16 bits of a half-precision number stand for. */

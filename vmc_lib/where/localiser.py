@@ -69,6 +69,10 @@ class Localiser:
         shown, shape = np.uint8(np.round(255 * self.support[:, :-2])), self.support[:, -2:]
         return dict(zip(PARTS, (shown, shape, self.weights, self.mean, self.spread), strict=True))
 
+    def kernel(self, x):
+        """How alike features x (m, d) and those learnt from are, (m, n)."""
+        return rbf(x, self.support, GAMMA)
+
     def locate(self, image, box, camera):
         """The place (3,) in the shoulder frame (m) of a shuttlecock in `box` (4,) of an image.
 
@@ -76,8 +80,8 @@ class Localiser:
         """
         boxes = as_boxes(box)
         centres, sides = centres_and_sides(boxes)
-        kernel = rbf(_describe(image, boxes), self.support, GAMMA)
-        right, down, height = self.mean + self.spread * (kernel @ self.weights)[0]
+        alike = self.kernel(_describe(image, boxes))
+        right, down, height = self.mean + self.spread * (alike @ self.weights)[0]
         return camera.back_project(centres + [right, down] * sides, height * SIDE)[0]
 
 

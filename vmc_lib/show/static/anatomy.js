@@ -104,5 +104,5 @@ const vmcAnatomy = (() => {
     return Object.fromEntries(mixed);
   };
 
-  return { Anatomy, RINGS, distance, mix, moment };
+  return { Anatomy, RINGS, distance, mix, moment, multiply, rotation };
 })();

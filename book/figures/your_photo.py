@@ -1,0 +1,131 @@
+"""The reader's own photo, to a reach, in the page: how it looks and what it has from Python."""
+
+import json
+from base64 import b64encode
+from types import SimpleNamespace
+
+import matplotlib.pyplot as plt
+import numpy as np
+from IPython.display import HTML, display
+
+from arm_in_page import live
+from book.figures.aiming import shore
+from book.figures.where import CANVAS
+from eye_in_page import PLACE_SCRIPTS, SEARCH_SCRIPTS, SIGHT_SCRIPTS, STATIC, brain
+from vmc_lib import marker_sheet
+from vmc_lib.arm.kinematics import TRUNK
+from vmc_lib.camera import TABLE
+from vmc_lib.motor.templates import START
+from vmc_lib.photos import HEIGHT, WIDTH
+from vmc_lib.show.arm import arm_scene
+from vmc_lib.show.figures import framed, pictures
+from vmc_lib.show.live import VENDORED, Live
+from vmc_lib.show.outputs import Markup, still
+from vmc_lib.show.palette import COLOURS, EDGE, ON_PHOTO, STYLE
+from vmc_lib.show.render_mode import render_mode
+from vmc_lib.show.scene import SCRIPTS as VIEWER
+
+NAME = "your-photo"
+HIGH = 0.025  # m above the table: about the middle of a shuttlecock
+FINDINGS = {
+    "camera": "camera",
+    "candidates": "candidates",
+    "kept": "kept",
+    "place": "place",
+    "planned": "planned miss",
+    "calibrated": "calibrated miss",
+}
+
+
+def your_photo(example, caption):
+    """Show what an example `Photo` with the sheet, or the reader's own, leads to in the page.
+
+    Each stage is drawn on the photo as soon as it is known, up to the calibrated reach. The photo
+    is sent nowhere. `caption` is Markdown.
+    """
+    if render_mode() == "test":
+        return
+    with plt.rc_context(STYLE):
+        scene, plot = pictures((_scene(), _above()), NAME)
+    page = _page(example, scene, plot)
+    if render_mode() == "book":
+        display(HTML(framed(page, caption)))
+    else:
+        learnt = SimpleNamespace(read_text=lambda **_: brain.script())
+        vendored = VENDORED | {live.MUJOCO.name: live.MUJOCO, "brain.js": learnt}
+        eye = (*SEARCH_SCRIPTS, *SIGHT_SCRIPTS, *PLACE_SCRIPTS)
+        scripts = [*VIEWER, *live.SCRIPTS, CANVAS, *eye]
+        display(still("A photo, an arm, a table from above.", [scene], NAME))
+        display(Live(page, "vmcYourPhoto", scripts, vendored=vendored))
+        sheets = live.STATIC / "live.css", STATIC / "your_photo.css"
+        style = "".join(f"<style>{css.read_text(encoding='utf-8')}</style>" for css in sheets)
+        display(Markup(style + framed("", caption), caption))
+
+
+def sheet():
+    """What the page has of the printed sheet, as JSON takes it."""
+    board = marker_sheet.board()
+    ids, patterns = board.getIds().ravel().tolist(), board.getDictionary()
+    cells = [patterns.generateImageMarker(i, 6)[1:-1, 1:-1] > 0 for i in ids]
+    return {
+        "codes": [white.astype(int).ravel().tolist() for white in cells],
+        "markers": np.array(board.getObjPoints())[..., :2].tolist(),
+        "axes": marker_sheet.AXES.tolist(),
+        "first": marker_sheet.FIRST.tolist(),
+        "page": marker_sheet.page_corners().tolist(),
+        "fewest": marker_sheet.FEWEST,
+        "near": marker_sheet.NEAR,
+    }
+
+
+def _page(example, scene, plot):
+    given = live.given() | {
+        "views": [[2, 0]],
+        "sheet": sheet(),
+        "table": TABLE,
+        "edge": EDGE,
+        "paint": ON_PHOTO,
+        "scene": scene.messages(),
+    }
+    data = json.dumps(given, allow_nan=False).replace("<", r"\u003c")
+    photo = b64encode(example.file.read_bytes()).decode()  # its very pixels
+    size = (live.MUJOCO.stat().st_size + len(brain.script())) / 1e6
+    findings = "".join(
+        f'<div><dt>{label}</dt><dd data-tell="{name}">–</dd></div>'
+        for name, label in FINDINGS.items()
+    )
+    return f"""<div class="vmc-eye" id="{NAME}"><form class="vmc-live-form" autocomplete="off">
+<div><button type="button" name="own">Your photo …</button>
+<button type="button" name="example">Example</button>
+<button type="button" name="main" disabled>Again</button>
+<input type="file" name="file" accept="image/*" aria-label="Your photo" hidden></div>
+<p role="status">Your photo stays on this device. Eye and arm ({size:.0f} MB, part of this book) are
+loaded when you start.</p><fieldset disabled hidden></fieldset>
+<div class="vmc-pictures"><div class="vmc-picture"><svg viewBox="0 0 {WIDTH} {HEIGHT}"
+width="{WIDTH}" height="{HEIGHT}" fill="none" stroke-width="3" font-size="20" role="img"
+aria-label="A table with a shuttlecock and a sheet of markers."><image width="{WIDTH}"
+height="{HEIGHT}" href="data:image/jpeg;base64,{photo}"/><g></g><g></g><g></g></svg></div>
+<div class="vmc-picture">{scene.html("An arm above a table.")}</div>
+<div class="vmc-picture">{plot}</div></div>
+<p class="vmc-boxes" hidden></p><dl>{findings}</dl></form>
+<script type="application/json">{data}</script></div>"""
+
+
+def _scene():
+    """The arm at rest above a table; balls, for now under it, for the place and two end points."""
+    away = (0.0, -9.0, 0.0)
+    return arm_scene(START, balls=[(away, colour) for colour in ("green", "red", "purple")])
+
+
+def _above():
+    """From above: the sheet, the trunk's axis, and, shaded, where the hand can be."""
+    fig, ax = plt.subplots(figsize=(2.5, 2.5))
+    ax.fill(*shore(TABLE + HIGH), color=COLOURS["green"], alpha=0.15, lw=0)
+    x, _, z = marker_sheet.page_corners().T
+    ax.fill(z, x, color=COLOURS["grey"], alpha=0.25, lw=0)
+    ax.plot(*TRUNK[::-1], "s", color=COLOURS["purple"])
+    ax.annotate("sheet", (z.mean(), x.mean()), ha="center")
+    ax.annotate("trunk", TRUNK[::-1] - 0.03, ha="right", va="top")
+    ax.set(xlim=(-0.35, 0.4), ylim=(-0.25, 0.5), aspect="equal", title="from above")
+    ax.set_axis_off()
+    return fig

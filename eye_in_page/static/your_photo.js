@@ -1,0 +1,249 @@
+/* The reader's own photo, to a reach, in the page: each stage is drawn on the photo as soon as it is known, and
+   where the eye is wrong the reader may point at another box (book/figures/your_photo.py). */
+const vmcYourPhoto = (() => {
+  "use strict";
+
+  const { frame } = vmcLive;
+  const { minus } = vmcVectors;
+  const { toWorld, turnTowards } = vmcKinematics;
+
+  const EYE = [600, 400], LARGEST = 1200; // pixels: what the eye sees, and the longer side of what the sheet is read in
+  const TURNING = 700; // ms, of the trunk
+  const MANY = 8; // boxes to choose from
+
+  class Superseded extends Error {} // the reader has chosen another photo
+  const percent = (chance) => `${(100 * chance).toFixed(0)} %`;
+  const counted = (count, thing, plural = "s") => `${count} ${thing}${count === 1 ? "" : plural}`;
+  const capital = (words) => words[0].toUpperCase() + words.slice(1);
+
+  class YourPhoto extends vmcReach.Reach {
+    constructor(box) {
+      super(box);
+      const svg = box.querySelector("svg:has(image)"), ours = svg.querySelector("image").getAttribute("href");
+      this.photo = new vmcPhotoMarks.PhotoMarks(svg, this.given);
+      const { own, example, file } = this.form.elements;
+      own.addEventListener("click", () => file.click());
+      example.addEventListener("click", () => this.takeExample(ours));
+      file.addEventListener("change", () => this.take(file.files[0]).then(() => (file.value = "")));
+      this.form.addEventListener("submit", (event) => event.preventDefault());
+      box.addEventListener("dragover", (event) => event.preventDefault());
+      box.addEventListener("drop", (event) => {
+        event.preventDefault();
+        this.take(event.dataTransfer.files[0]);
+      });
+      addEventListener("paste", ({ clipboardData: { files } }) => files.length && this.take(files[0]));
+      box.addEventListener("click", ({ target }) => {
+        const chosen = target.closest("[data-box]");
+        if (chosen) this.choose(+chosen.dataset.box);
+      });
+    }
+
+    async takeExample(address) {
+      const picture = Object.assign(new Image(), { src: address });
+      await picture.decode();
+      return this.look(picture);
+    }
+
+    async take(file) {
+      if (!file) return this.say("That was no file: save the photo first, then choose it here.");
+      const picture = await createImageBitmap(file).catch(() => null);
+      if (!picture) return this.say(`This browser cannot read ${file.name}: save it, or a phone's HEIC, as a JPEG or PNG.`);
+      return this.look(picture);
+    }
+
+    /* All stages, from a picture to the calibrated reach. */
+    async look(picture) {
+      const turn = (this.turn = {});
+      try {
+        await this.see(picture, (stage, found) => {
+          if (turn !== this.turn) throw new Superseded();
+          this[`show${capital(stage)}`](found);
+        });
+        if (turn === this.turn && this.sight.box) await this.choose(0);
+      } catch (error) {
+        if (!(error instanceof Superseded)) this.say(`The eye stopped: ${error.message ?? error}.`);
+      }
+    }
+
+    /* What the eye makes of a picture; `report` is told of each stage. */
+    async see(picture, report) {
+      const canvas = document.createElement("canvas");
+      const context = vmcDrawScaled(picture, Math.min(1, LARGEST / Math.max(picture.width, picture.height)), canvas);
+      if (!context) throw new Error(vmcPixelsHidden);
+      this.forget();
+      this.photo.show(canvas.toDataURL("image/jpeg", 0.9));
+      this.say("Looking for the sheet …");
+      await frame();
+      const large = context.getImageData(0, 0, canvas.width, canvas.height), { sheet } = this.given;
+      const read = await vmcEye.inPieces(vmcEye.readSheet(large, sheet, EYE));
+      report("sheet", read);
+      const eye = vmcLetterbox(canvas, ...EYE), { camera } = read;
+      this.bare = camera ? vmcEye.paintOver(eye, vmcEye.sheetOutline(camera, sheet)) : eye;
+      this.say("Opening the eye …");
+      await frame();
+      this.brain = await vmcEye.unpack();
+      this.say("Looking for things …");
+      await vmcEye.see(this.brain, this.bare, { camera, report });
+    }
+
+    /* Nothing is known of a new photo, */
+    forget() {
+      Object.assign(this, { camera: null, sight: null, boxes: [], bearing: 0 });
+      this.tell({ camera: "–", candidates: "–", kept: "–" });
+      this.box.querySelector(".vmc-boxes").hidden = true;
+      this.forgetReach();
+      this.rest();
+    }
+
+    /* or of a reach for another box. */
+    forgetReach() {
+      Object.assign(this, { place: null, plan: null, planned: null, calibrated: null });
+      this.tell({ place: "–", planned: "–", calibrated: "–" });
+      this.photo.reach.innerHTML = "";
+      this.form.elements.main.disabled = true;
+    }
+
+    showSheet({ markers, camera }) {
+      const { sheet, table } = this.given, seen = counted(markers.length, "marker");
+      this.camera = camera;
+      if (!camera) return this.tell({ camera: `unknown: ${seen} seen, ${sheet.fewest} needed` });
+      this.photo.drawSheet(vmcEye.sheetOutline(camera, sheet));
+      this.tell({ camera: `${(100 * (camera.position[1] - table)).toFixed(0)} cm above the table (${seen})` });
+      this.rest();
+    }
+
+    showCandidates({ boxes }) {
+      this.photo.drawCandidates(boxes);
+      this.tell({ candidates: counted(boxes.length, "box", "es") });
+    }
+
+    showKept({ boxes }) {
+      this.boxes = boxes;
+      this.photo.drawBoxes(boxes.map((box) => ({ box, colour: "orange" })));
+      this.tell({ kept: counted(boxes.length, "box", "es") });
+    }
+
+    showNames({ boxes, probability }) {
+      this.photo.drawBoxes(boxes.map((box, i) => ({ box, colour: probability[i] > 0.5 ? "green" : "blue" })));
+    }
+
+    /* The boxes that were looked at twice; where there are none, the reader chooses among those kept. */
+    showSight(sight) {
+      const { boxes, shuttlecocks, probability } = sight, choice = this.box.querySelector(".vmc-boxes");
+      this.sight = sight;
+      this.boxes = (boxes.length ? boxes : this.boxes).slice(0, MANY);
+      this.marks = this.boxes.map((box, i) => ({
+        box, colour: i < shuttlecocks.length ? "green" : "blue", words: boxes.length ? percent(probability[i]) : `${i + 1}`,
+      }));
+      this.photo.drawBoxes(this.marks);
+      const button = ({ words, colour }, i) =>
+        `<button type="button" data-box="${i}" aria-pressed="false" class="vmc-${colour}">${words}</button>`;
+      choice.innerHTML = `Shuttlecock? ${this.marks.map(button).join("")}`;
+      choice.hidden = !this.boxes.length;
+      this.say(`${capital(sight.summary)}.${choice.hidden ? "" : " Point at a box, and the arm reaches for that."}`);
+    }
+
+    /* Reach for what is in a box. */
+    async choose(number) {
+      this.turn = {};
+      this.forgetReach();
+      this.photo.drawBoxes(this.marks, number);
+      this.box.querySelectorAll("button[data-box]").forEach((button, i) => button.setAttribute("aria-pressed", i === number));
+      const { sheet, kinematics } = this.given;
+      if (!this.camera)
+        return this.say(`The camera is unknown, so a box has no place: ${sheet.fewest} markers or more must be seen. ` +
+          "Lay the sheet flat, all of it in the photo and in even light.");
+      this.place = vmcEye.locate(this.brain.localiser, this.bare, this.boxes[number], this.camera);
+      this.tell({ place: where(this.place) });
+      try {
+        const { turn, place } = turnTowards(kinematics, this.place);
+        this.tell({ place: `${where(this.place)}; the trunk turns ${vmcPanel.signed((turn * 180) / Math.PI, 0)}°` });
+        await this.reach(place, turn);
+      } catch (error) {
+        if (!(error instanceof RangeError)) throw error;
+        this.rest();
+        this.say(`Out of reach: ${error.message}. The hand can be where it is shaded.`);
+      }
+    }
+
+    /* Turn the trunk, plan, move, miss, calibrate, move again. */
+    async reach(target, bearing) {
+      const { turn } = this, from = this.bearing;
+      this.rest();
+      await (this.physics ??= this.load());
+      if (!this.arm) return (this.physics = null); // and it has said why
+      if (turn !== this.turn) return;
+      Object.assign(this, { target, plan: vmcPlanning.plan(target, this.templateSet) });
+      const start = await frame();
+      for (let share = this.calm.matches ? 1 : 0; ; share = Math.min(1, ((await frame()) - start) / TURNING)) {
+        if (turn !== this.turn) return;
+        this.bearing = from + share * (bearing - from);
+        this.rest();
+        if (share === 1) break;
+      }
+      this.form.elements.main.disabled = false;
+      await this.main();
+    }
+
+    async ready() {
+      this.templateSet = await vmcTemplates.load(this.given.templateSet);
+      this.rule = "broydenCalibration";
+    }
+
+    async main() {
+      await super.main();
+      if (this.planned) await this.calibrate();
+    }
+
+    world(point) {
+      return toWorld(this.given.kinematics, point, this.bearing);
+    }
+
+    /* The arm as every reach begins, and what is known of the target. */
+    rest() {
+      const { start, rest } = this.given;
+      this.mark([]);
+      this.show({ q: start, activation: rest });
+    }
+
+    /* The line of sight, the place and the hand's way: from above, in the scene, and on the photo. */
+    mark(path) {
+      const { camera, place, planned, calibrated } = this, way = path.map((point) => this.world(point));
+      const ends = [[planned, "red"], [calibrated, "purple"]].map(([trial, colour]) => [trial && this.world(trial.hand), colour]);
+      const reached = ends.filter(([end]) => end);
+      this.drawing.balls = [place, ...ends.map(([end]) => end)];
+      this.drawing.marks = [
+        ...(camera ? [["dot", "blue", camera.position, 4]] : []),
+        ...(place ? [["line", "blue", [camera.position, place], 1.5], ["ring", "green", place, 6]] : []),
+        ["line", "orange", way, 2],
+        ...reached.map(([end, colour]) => ["dot", colour, end, 4]),
+      ];
+      if (!place) return;
+      const pixel = (point) => vmcEye.project(camera, point);
+      this.photo.drawReach(pixel(place), way.map(pixel), reached.map(([end, colour]) => [pixel(end), colour]));
+    }
+
+    show(moment, brief = false) {
+      const joints = this.arm ? this.arm.look(moment.q).joints.map((joint) => this.world(joint)) : [];
+      const { view } = this.drawing, beyond = view.anatomy && minus(this.world(view.anatomy.beyond), this.world([0, 0, 0]));
+      view.viewer?.set_transform(["meshcat", "goal"], [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, ...beyond, 1]);
+      this.drawing.show({ ...moment, turn: this.bearing, joints }, brief);
+    }
+  }
+
+  /* A place in words. */
+  const where = ([ahead, , right]) => {
+    const [far, aside] = [ahead, right].map((x) => `${(100 * Math.abs(x)).toFixed(0)} cm`);
+    return `${far} ${ahead > 0 ? "ahead" : "behind"}, ${aside} ${right > 0 ? "right" : "left"}`;
+  };
+
+  const start = (box) => {
+    const photo = new YourPhoto(box);
+    return () => {
+      photo.turn = null; // what runs, ends
+      photo.drawing.view.end();
+    };
+  };
+  if (!self.vmcKernel) document.querySelectorAll(".vmc-eye").forEach(start); // a kernel starts its own
+  return start;
+})();

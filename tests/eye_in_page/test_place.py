@@ -1,0 +1,125 @@
+"""The sheet, the camera and the place in the page are those of Python."""
+
+from base64 import b64decode
+
+import cv2
+import numpy as np
+import pytest
+
+from book.figures.your_photo import sheet
+from eye_in_page.localiser import CompactLocaliser, shift_mm
+from tests.test_marker_sheet import LOW, draw_sheet, looking
+from vmc_lib import marker_sheet, photos
+from vmc_lib.loop import VisuomotorModel, see
+
+SHOTS = photos.load(photos.SHEET_LEVEL, "test")
+SHEET = sheet()
+READ = """const { sheet, size } = asked;
+  const { markers, camera } = vmcEye.finish(vmcEye.readSheet(photo, sheet, size));
+  const bare = camera && vmcEye.paintOver(photo, vmcEye.sheetOutline(camera, sheet)).data;
+  const text = (bytes) => Array.from(bytes, (byte) => String.fromCharCode(byte)).join("");
+  return { ids: markers.map(({ id }) => id), camera, bare: bare && btoa(text(bare)) };"""
+
+
+def read(ask, image):
+    return ask(READ, {"sheet": SHEET, "size": [photos.WIDTH, photos.HEIGHT]}, image)
+
+
+def painted(there):
+    """The photo without the sheet, (400, 600, 3) whole numbers."""
+    data = np.frombuffer(b64decode(there["bare"]), np.uint8)
+    return data.reshape(400, 600, 4)[..., :3].astype(int)
+
+
+def detected(image):
+    """The ids and corners of the markers that OpenCV detects."""
+    parameters = cv2.aruco.DetectorParameters()
+    parameters.cornerRefinementMethod = cv2.aruco.CORNER_REFINE_SUBPIX
+    patterns = marker_sheet.board().getDictionary()
+    corners, ids, _ = cv2.aruco.ArucoDetector(patterns, parameters).detectMarkers(image)
+    return [] if ids is None else ids.ravel().tolist(), [each[0].tolist() for each in corners]
+
+
+def place_under(camera, photo):
+    """Where a camera, as the page gives it, sees the middle of a photo's shuttlecock (3,)."""
+    camera = marker_sheet.Camera(
+        *(np.array(camera[name]) for name in ("focal", "centre", "rotation", "position"))
+    )
+    [pixel] = photo.camera.project(photo.target)
+    return camera.back_project(pixel, photo.target[1])[0]
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("shot", SHOTS[::4], ids=lambda shot: shot.name)
+def test_a_camera_from_the_same_corners_is_that_of_opencv(ask, shot):
+    script = "return vmcEye.calibrateCamera(asked.ids, asked.corners, 600, 400, asked.sheet);"
+    ids, corners = detected(shot.image)
+    here = marker_sheet.estimate_camera(shot.image)
+    there = ask(script, {"ids": ids, "corners": corners, "sheet": SHEET})
+    assert there["focal"] == pytest.approx(here.focal, rel=1e-5)
+    assert np.abs(place_under(there, shot) - place_under(vars(here), shot)).max() < 1e-6  # m
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("shot", SHOTS[1::4], ids=lambda shot: shot.name)
+def test_a_photo_with_the_sheet_gives_the_place_that_python_finds(ask, shot):
+    there, (ids, _) = read(ask, shot.image), detected(shot.image)
+    assert {*ids} <= {*there["ids"]}
+    camera, bare = marker_sheet.remove_sheet(shot.image)
+    assert (there["camera"] is None) == (camera is None)
+    if camera is None:
+        return
+    off = place_under(there["camera"], shot) - place_under(vars(camera), shot)
+    assert np.linalg.norm(off) < 2e-3
+    assert np.mean(np.abs(painted(there) - bare).max(axis=2) > 2) < 0.02
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("places", LOW.values(), ids=LOW)
+def test_a_sheet_that_reaches_behind_the_camera_is_painted_over(ask, places):
+    (ahead, high), (to, low) = places
+    table = marker_sheet.TABLE
+    shown = draw_sheet(looking((ahead, table + high, 0.2), (to, table + low, 0.22), 480.0))
+    there = read(ask, shown)
+    assert there["camera"]["focal"] == pytest.approx(480, rel=0.03)
+    assert (np.abs(painted(there) - 120) < 60).all()  # no black or white is left
+
+
+@pytest.mark.browser
+def test_markers_are_found_in_bad_light_and_none_where_there_are_none(ask):
+    for change in (0.25, 1.6):
+        image = np.uint8(np.clip(SHOTS[20].image * change, 0, 255))
+        assert len(read(ask, image)["ids"]) >= len(detected(image)[0]) >= 8
+    for shot in (*photos.load("real", "test")[:8], *photos.everyday()[:4]):
+        assert read(ask, shot.image) == {"ids": [], "camera": None, "bare": None}
+
+
+@pytest.mark.browser
+def test_a_place_is_that_of_the_compact_localiser(ask):
+    script = """const { box, camera } = asked;
+      return vmcEye.locate(brain.localiser, photo, box, camera);"""
+    for shot in SHOTS[::8]:
+        box = shot.boxes["shuttlecock"]
+        camera = {name: np.asarray(value).tolist() for name, value in vars(shot.camera).items()}
+        there = ask(script, {"box": box.tolist(), "camera": camera}, shot.image)
+        here = CompactLocaliser.load().locate(shot.image, box, shot.camera)
+        assert there == pytest.approx(here, abs=1e-6)
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("shot", SHOTS[3::12], ids=lambda shot: shot.name)
+def test_from_its_pixels_a_photo_leads_to_the_place_that_python_finds(ask, shot):
+    script = """const { camera } = vmcEye.finish(vmcEye.readSheet(photo, asked, [600, 400]));
+      const bare = vmcEye.paintOver(photo, vmcEye.sheetOutline(camera, asked));
+      const { box } = await vmcEye.see(brain, bare, { camera });
+      return vmcEye.locate(brain.localiser, bare, box, camera);"""
+    camera, bare = marker_sheet.remove_sheet(shot.image)
+    box = see(VisuomotorModel.load("real"), bare, camera).box
+    here = CompactLocaliser.load().locate(bare, box, camera)
+    assert np.linalg.norm(ask(script, SHEET, shot.image) - here) < 2.5e-3
+
+
+def test_the_compact_localiser_is_near_the_whole_one():
+    shift = shift_mm(SHOTS)
+    assert np.median(shift) < 2.5
+    assert shift.max() < 6

@@ -1,0 +1,159 @@
+"""The reader's own photo in the page: to a corrected reach, or else in words what is missing."""
+
+import re
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from book._ext.offline import POLICY
+from book.figures import your_photo
+from tests import pages
+from tests.arm_in_page.controls import number, readout, status
+from tests.show.kernel import render
+from vmc_lib import photos
+from vmc_lib.loop import VisuomotorModel, locate, reach, see
+from vmc_lib.marker_sheet import remove_sheet
+
+pytestmark = pytest.mark.browser
+SHOTS = photos.load(photos.SHEET_LEVEL, "test")
+OURS = SHOTS[20]
+UNREADABLE = "This browser cannot read .*: save it, or a phone's HEIC, as a JPEG or PNG."
+UNKNOWN = "The camera is unknown, so a box has no place: 3 markers or more must be seen."
+NOTHING = "No shuttlecock, but|Nothing that looks like an object"
+END = "After|Out of reach|The camera is unknown|No shuttlecock|Nothing that looks|This browser"
+
+
+@pytest.fixture(scope="module")
+def html():
+    return pages.book_html(your_photo, lambda: your_photo.your_photo(OURS, "Blue: the sheet."))
+
+
+@pytest.fixture(scope="module")
+def page(eye_page, offline, site, html):
+    policy = f'<meta http-equiv="Content-Security-Policy" content="{POLICY}"><title>'
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(pages, "HEAD", pages.HEAD.replace("<title>", policy))
+        page = pages.open_html(offline, site, html)
+    page.locator(".vmc-eye[data-ready]").wait_for()
+    yield page
+    page.close()
+    assert page.errors == page.failed == []
+
+
+def give(page, file):
+    """Choose a file, and wait for what it leads to: the status in words."""
+    page.locator("[role=status]").evaluate("(it) => (it.textContent = '')")
+    page.locator("[type=file]").set_input_files(file)
+    return status(page, END)
+
+
+def test_our_photo_leads_to_a_corrected_reach(page):
+    page.asked.clear()
+    page.get_by_role("button", name="Example").click()
+    assert "misses by" in status(page, "After")
+    model = VisuomotorModel.load("real")
+    camera, bare = remove_sheet(OURS.image)
+    target = locate(model, bare, see(model, bare, camera).box, camera)
+    made = reach(model, target)
+    high = 100 * (camera.position[1] - your_photo.TABLE)  # soft: it trades with the focal length
+    assert number(readout(page, "camera")) == pytest.approx(high, rel=0.05)
+    assert "12 markers" in readout(page, "camera")
+    ahead, aside = map(float, re.findall(r"(\d+) cm", readout(page, "place")))
+    assert [ahead, aside] == pytest.approx(np.abs(100 * target[[0, 2]]), abs=1.3)
+    planned = 1000 * np.linalg.norm(made.end_point(made.planned) - made.target)
+    assert number(readout(page, "planned")) == pytest.approx(planned, abs=2)
+    assert number(readout(page, "calibrated")) < 1 < number(readout(page, "planned"))
+    assert [url for url in page.asked if not url.startswith(("file:", "data:", "blob:"))] == []
+
+
+def test_the_page_may_send_nothing(page):
+    """Its policy refuses what a script would send, by a request or in a picture's address."""
+    for sends in ("fetch(url).catch(() => {})", "Object.assign(new Image(), { src: url })"):
+        script = """() => new Promise((settle) => {
+          const url = "https://example.org/?photo", done = ({ blockedURI }) => settle(blockedURI);
+          addEventListener("securitypolicyviolation", done, { once: true });
+          %s;
+        })"""
+        assert page.evaluate(script % sends) == "https://example.org/?photo"
+    assert all("Content Security Policy" in error for error in page.errors)
+    page.errors.clear()
+    page.failed.clear()
+
+
+def test_the_reader_points_at_another_box(page):
+    """The arm then reaches for that; what is out of reach is said, with what to do."""
+    page.get_by_role("button", name="Example").click()
+    status(page, "After")
+    before = readout(page, "place")
+    boxes = page.locator(".vmc-boxes button")
+    assert boxes.first.get_attribute("aria-pressed") == "true"
+    for n in range(1, boxes.count()):
+        page.locator("[role=status]").evaluate("(it) => (it.textContent = '')")
+        boxes.nth(n).press("Enter")
+        said = status(page, "After|Out of reach")
+        assert readout(page, "place") != before
+        assert ("can be where it is shaded" in said) == said.startswith("Out of reach")
+
+
+def test_a_photo_without_the_sheet_is_seen_and_has_no_place(page):
+    shot = next(shot for shot in photos.load("real", "test") if shot.boxes)
+    assert give(page, shot.file).startswith(UNKNOWN)
+    assert "0 markers seen, 3 needed" in readout(page, "camera")
+    assert page.locator(".vmc-boxes button.vmc-green").count() >= 1
+    assert readout(page, "place") == "–"
+
+
+def test_where_nothing_is_a_shuttlecock_the_reader_may_choose(page):
+    said = give(page, photos.everyday()[0].file)
+    assert re.match(NOTHING, said)
+    choices = page.locator(".vmc-boxes button:visible")
+    assert ("Point at a box" in said) == (choices.count() > 0)
+
+
+def save(folder, name, mode="RGB", size=(60, 40), **options):
+    Image.new(mode, size).save(folder / name, **options)
+    return folder / name
+
+
+def test_no_file_is_met_with_silence(page, tmp_path):
+    words = tmp_path / "words.jpg"
+    words.write_text("no picture", encoding="utf-8")
+    heic = tmp_path / "phone.heic"
+    heic.write_bytes(b"\0\0\0\x18ftypheic\0\0\0\0mif1heic")
+    for file in (words, heic):
+        assert re.fullmatch(UNREADABLE, give(page, file))
+    turned = Image.Exif()
+    turned[0x0112] = 6
+    for file in (
+        save(tmp_path, "dot.png", size=(1, 1)),
+        save(tmp_path, "line.png", size=(3000, 1)),
+        save(tmp_path, "grey.jpg", "L"),
+        save(tmp_path, "four.jpg", "CMYK"),
+        save(tmp_path, "deep.png", "I;16"),
+        save(tmp_path, "turned.jpg", size=(400, 600), exif=turned),
+    ):
+        assert re.match(NOTHING, give(page, file))
+    assert page.locator(".vmc-picture image").get_attribute("href").startswith("data:image/jpeg")
+
+
+def test_it_is_brief_accessible_and_fits_a_phone(open_page, html, serious):
+    page = open_page(html)
+    page.locator(".vmc-eye[data-ready]").wait_for()
+    page.set_viewport_size({"width": 360, "height": 740})
+    assert page.evaluate("() => document.documentElement.scrollWidth") <= 360
+    assert len(page.locator("main").inner_text().split()) < 120
+    assert serious(page, "main") == []
+
+
+def test_in_a_kernel_it_is_the_same_page(monkeypatch, window):
+    shown = pages.displayed(monkeypatch, your_photo)
+    for mode in ("live", "test"):
+        monkeypatch.setenv("VMC_RENDER_MODE", mode)
+        your_photo.your_photo(OURS, "Blue: the sheet.")
+        assert len(shown) == 3
+    page = pages.observe(window().new_page())
+    render(page, shown[1], monkeypatch)
+    page.locator("[name=example]").click()
+    assert "misses by" in status(page, "After")
+    assert page.errors == []
