@@ -3,7 +3,7 @@
 const vmcLaws = (() => {
   "use strict";
 
-  const STEP = 0.05; // of a slider, from one stop to the next
+  const STEP = 0.1; // of a slider, from one stop to the next
   const LAW = "law."; // before a cell's name, in an address
 
   const ran = (cell) => cell.querySelector("textarea")?.ran ?? vmcGrade.book(cell);
@@ -39,7 +39,7 @@ const vmcLaws = (() => {
     let laws = [], failed = false, wanted = null, busy = false, book;
 
     const show = ({ parts, texts, error }, place, draw) => {
-      if (error) return fail(`Your ${code(laws)} stops: <code>${vmcGrade.inline(error)}</code>`, place, draw);
+      if (error) return fail(`${laws.length ? `Your \`${laws.join(", ")}\`` : "Python"} stops: ${error}.`, place, draw);
       draw(parts);
       for (const [name, text] of Object.entries(texts)) {
         const input = demo.querySelector(`[id="${demo.id}-${name}"]`);
@@ -51,7 +51,7 @@ const vmcLaws = (() => {
     const fail = (why, place, draw) => {
       failed = true;
       book(place, draw);
-      say(`${why} This is the book’s.`);
+      say(`${vmcGrade.inline(why)} This is the book’s.`);
     };
 
     /* The last place that was asked for; those that the hand only passes are left out. */
@@ -93,7 +93,7 @@ const vmcLaws = (() => {
       try {
         if (edited().length) laws = await vmcPython.ask(["grader", "changed", ...given()], () => {});
       } catch (error) {
-        say(error.message);
+        say(vmcGrade.inline(error.message));
       }
       back.hidden = !laws.length;
       demo.vmc.show();

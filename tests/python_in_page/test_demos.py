@@ -30,7 +30,7 @@ def chapter_demos(stem):
     above = []
     for cell in nbformat.read(chapter, 4).cells:
         tags = set(cell.metadata.get("tags", []))
-        if cell.cell_type == "code" and "solution" not in tags:
+        if cell.cell_type == "code" and not tags & {"solution", "remove-input"}:
             if "draws-in-page" in tags:
                 yield list(above), cell.source
             above.append(cell.source)
