@@ -100,7 +100,7 @@ def test_what_no_page_has_can_be_imported_and_does_nothing(monkeypatch):
         monkeypatch.setitem(sys.modules, name, None)
         monkeypatch.delitem(sys.modules, name)
     absent.stand_in()
-    Widget = import_module("nowhere").Widget  # noqa: N806
+    Widget = import_module("nowhere").Widget
 
     class Mine(Widget):
         pass
