@@ -29,10 +29,10 @@ from vmc_lib.show.arm import arm_scene
 from vmc_lib.show.arm_plane import plane, plane_view
 from vmc_lib.show.controls import radios, slider
 from vmc_lib.show.figures import framed, pictures, side_by_side
-from vmc_lib.show.live import STATIC as SHOW
 from vmc_lib.show.live import VENDORED, Live
 from vmc_lib.show.outputs import Markup, still
 from vmc_lib.show.palette import STYLE
+from vmc_lib.show.render_mode import STATIC as SHOW
 from vmc_lib.show.render_mode import render_mode
 from vmc_lib.show.scene import SCRIPTS as VIEWER
 

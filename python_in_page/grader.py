@@ -6,8 +6,12 @@ from dis import get_instructions
 from importlib import import_module
 from io import StringIO
 from types import CodeType
+from typing import NamedTuple
 
+from python_in_page import absent
 from vmc_lib.grading import WRONG, feedback
+
+absent.stand_in()  # before a chapter's code asks for them
 
 READ = "LOAD_NAME", "LOAD_GLOBAL"
 LONGEST = 2000  # characters of what was printed that are shown
@@ -39,26 +43,57 @@ def run(above, typed):
     return said or f"✓ It runs{holds}.", printed[:LONGEST]
 
 
-def definitions(above, typed):
+def definitions(above, typed, errors=None):
     """The names that the lines `typed` need of a chapter's code: no other statement of it runs.
 
-    Each runs by itself: where one needs what the page has not, its names are missing.
+    Each runs by itself: where one needs what the page has not, its names are missing, and what it
+    raised is added to `errors`.
     """
-    kept, needed = [], {x for one in _statements(typed) for x in _names(_compiled(one), *READ)}
+    names = {"__name__": "__main__"}
+    for statement in needed(above, typed):
+        try:
+            with redirect_stdout(StringIO()):
+                exec(statement.code, names)  # noqa: S102
+        except Exception as error:
+            if errors is not None and not isinstance(error, ImportError):
+                errors.append(error)
+    return names
+
+
+class Statement(NamedTuple):
+    """A statement of a chapter: its `code`, and its `source` as Python reads it."""
+
+    code: CodeType
+    source: str
+
+
+def needed(above, typed):
+    """The statements of the code `above`, cell by cell, that the lines `typed` need, in order."""
+    names, kept = set(), []
+    for statement in reversed([*_statements(typed)]):
+        names = _before(statement, _compiled(statement), names)
     for statement in reversed([one for lines in above for one in _statements(lines)]):
         code = _compiled(statement)
-        if not needed & set(code.co_names):  # soon said: most are not needed
+        if not names & set(code.co_names):  # soon said: most are not needed
             continue
-        read, assigned = set(_names(code, *READ)), set(_names(code, "STORE_NAME"))
-        if needed & (assigned | _changed(statement)):
-            always = not isinstance(statement, ast.If | ast.For | ast.While | ast.With | ast.Try)
-            needed = (needed - assigned if always else needed) | read
-            kept.append(code)
-    names = {"__name__": "__main__"}
-    for code in reversed(kept):
-        with suppress(Exception), redirect_stdout(StringIO()):
-            exec(code, names)  # noqa: S102
-    return names
+        if names & (set(_names(code, "STORE_NAME")) | _changed(statement)):
+            names = _before(statement, code, names)
+            kept.append(Statement(code, ast.unparse(statement)))
+    return kept[::-1]
+
+
+def _before(statement, code, names):
+    """The names that must be there before a statement, so that these are after it."""
+    always = not isinstance(statement, ast.If | ast.For | ast.While | ast.With | ast.Try)
+    given = set(_names(code, "STORE_NAME")) if always else set()
+    return names - given | set(_names(code, *READ))
+
+
+def changed(above, book, cell):
+    """The names that a demo's cell needs, and that the reader's code gives otherwise."""
+    kept = {statement.source for statement in needed(book, cell)}
+    ours = [statement for statement in needed(above, cell) if statement.source not in kept]
+    return sorted({name for statement in ours for name in _names(statement.code, "STORE_NAME")})
 
 
 def _statements(lines):

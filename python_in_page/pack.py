@@ -1,7 +1,8 @@
-"""One script of all that Python in the page is made of: Pyodide, NumPy, and the library itself.
+"""Two scripts of all that Python in the page is made of: what runs lines, and what draws demos.
 
-From file:// a page can load nothing but classic scripts; in this one each file is text, gzip in
-base64. The build writes it, and a page loads it when its reader first writes in an exercise.
+The first holds Pyodide, NumPy and the library; the second matplotlib, and the library's figures.
+From file:// a page can load nothing but classic scripts; in these each file is text, gzip in
+base64. The build writes them, and a page loads each when its reader first asks for it.
 """
 
 import base64
@@ -14,13 +15,14 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 VENDOR = Path(__file__).parent / "vendor"
-SCRIPT = "vendor/python.js"  # where the built page finds it
+SCRIPT, PLOTS = "vendor/python.js", "vendor/plots.js"  # where the built page finds them
 # What can be imported in the page, by package, beside Python's own modules and NumPy. What these
 # import where it is used (MuJoCo, SciPy, OpenCV, torch) is not there.
 PACKAGES = {
-    "python_in_page": "grader",
+    "python_in_page": "absent grader",
     "book.exercises": " ".join(path.stem for path in sorted(ROOT.glob("book/exercises/*.py"))),
-    "reproduce": "paper experiments.muscle_bench peers.muscle_models",
+    "reproduce": "paper peers.muscle_models experiments.changed_worlds experiments.muscle_bench",
+    "reproduce.experiments": "calibration feedback_control path_measures",
     "vmc_lib": "boxes camera compiled grading statistics",
     "vmc_lib.arm": "dynamics engines kinematics model muscle simulate",
     "vmc_lib.cerebellum": "adaptation feedback_error forward_model offline online two_rates",
@@ -30,26 +32,50 @@ PACKAGES = {
 }
 MODULES = [f"{package}.{name}" for package, names in PACKAGES.items() for name in names.split()]
 DATA = {Path("vmc_lib/arm/arm26.xml"), Path("vmc_lib/data/__init__.py")}  # and what reads data
+DATA |= {Path("reproduce/results/__init__.py")}
 DATA |= {Path(f"vmc_lib/data/{name}.npz") for name in ("arm26", "rest", "templates")}
+# Beside these a demo's `draw` may import anything of the library that the page has the means for
+DRAWN = ("book/figures", "reproduce", "vmc_lib")
+DRAWN_DATA = {Path("vmc_lib/show/static/kernel.js")}
 UNCHANGED = ("pyodide.js", "pyodide.asm.js", "pyodide.asm.wasm")
 UNCHANGED += ("LICENSE-MPL-2.0", "LICENSE-PSF-2.0")
-NEEDLESS = re.compile(  # in a page: NumPy's headers and tests, and what no browser can do
+NEEDLESS = re.compile(  # in a page: headers, tests, other fonts, and what no browser can do
     r"\.(pyi|h|c|a|ini|pxd)$|/tests/|^numpy/(f2py|distutils)/"
+    r"|^matplotlib/mpl-data/(sample_data|images|plot_directive|fonts/(afm|pdfcorefonts))/"
+    r"|/fonts/ttf/(?!DejaVuSans(-Bold|-Oblique)?\.ttf|LICENSE)|^mpl_toolkits/"
+    r"|^matplotlib/backends/(?!__init__|backend_(agg|mixed|svg)|_backend_agg|registry)"
+    r"|^PIL/_(imagingft|imagingcms|webp)"
     r"|^(multiprocessing|wsgiref|xmlrpc)/|^(doctest|ftplib|imaplib|mailbox|nntplib|pdb|pickletools|poplib|smtplib)\.py$"
 )
-NOTICE = """/* Pyodide 0.27.7, MPL-2.0, unchanged; source: https://github.com/pyodide/pyodide.
+NOTICES = {
+    SCRIPT: """/* Pyodide 0.27.7, MPL-2.0, unchanged; source: https://github.com/pyodide/pyodide.
    CPython 3.12 within it, PSF-2.0: https://github.com/python/cpython. NumPy 2.0.2, BSD-3-Clause,
    without its tests and headers: https://github.com/numpy/numpy. The book's own library. */
-"""
+""",
+    PLOTS: """/* matplotlib 3.8.4 and what it needs, as the Pyodide project built them, without
+   their tests and most fonts; each licence is within. The book's own library. */
+""",
+}
 
 
-def script():
-    """The script's text: it defines `vmcPythonFiles`, {name: the file, gzip in base64}."""
-    packed = {name: base64.b64encode(_gzip(data)).decode() for name, data in files().items()}
-    return f"{NOTICE}self.vmcPythonFiles = {json.dumps(packed)};\n"
+def script(name=SCRIPT):
+    """A script's text: it adds to `vmcPythonFiles`, {name: the file, gzip in base64}."""
+    files = {SCRIPT: running, PLOTS: drawing}[name]()
+    packed = {name: base64.b64encode(_gzip(data)).decode() for name, data in files.items()}
+    merged = f"Object.assign(self.vmcPythonFiles ?? {{}}, {json.dumps(packed)})"
+    return f"{NOTICES[name]}self.vmcPythonFiles = {merged};\n"
 
 
-def files():
+def drawing():
+    """What draws a demo: {name: bytes}."""
+    wheels = (path.name for path in sorted(VENDOR.glob("*.whl")) if "numpy" not in path.name)
+    return {
+        "plots.zip": _stored(one for name in wheels for one in _compiled(name)),
+        "figures.zip": _stored(_read(drawn_paths())),
+    }
+
+
+def running():
     """What Pyodide asks for, the library, and the licences: {name: bytes}."""
     lock = json.loads((VENDOR / "pyodide-lock.json").read_bytes())
     numpy = lock["packages"]["numpy"]
@@ -59,13 +85,14 @@ def files():
         "pyodide-lock.json": json.dumps(lock).encode(),
         "python_stdlib.zip": _stored(_compiled("python_stdlib.zip")),
         numpy["file_name"]: _stored(_compiled(numpy["file_name"])),
-        "library.zip": _stored((path.as_posix(), (ROOT / path).read_bytes()) for path in paths()),
+        "library.zip": _stored(_read(paths())),
     }
 
 
 def inputs():
-    """Every file that the script is made of."""
-    return [Path(__file__), *VENDOR.iterdir(), *(ROOT / path for path in paths())]
+    """Every file that the scripts are made of."""
+    own = (ROOT / path for path in (*paths(), *drawn_paths()))
+    return [Path(__file__), *VENDOR.iterdir(), *own]
 
 
 def paths():
@@ -75,9 +102,21 @@ def paths():
     return sorted(modules | DATA | {path for path in packages if (ROOT / path).exists()})
 
 
+def drawn_paths():
+    """What a demo's `draw` may import beside these, and the results that it may read."""
+    sources = {path.relative_to(ROOT) for top in DRAWN for path in ROOT.glob(f"{top}/**/*.py")}
+    results = {path.relative_to(ROOT) for path in ROOT.glob("reproduce/results/*.*")}
+    own = {Path("python_in_page/demos.py")}
+    return sorted((sources | results | own | DRAWN_DATA) - set(paths()))
+
+
+def _read(paths):
+    return ((path.as_posix(), (ROOT / path).read_bytes()) for path in paths)
+
+
 def _compiled(archive):
     """What is needed of a vendored archive, (name, bytes), compiled where `compile.js` did that."""
-    done = dict(_members("compiled.zip"))
+    done = dict(_members("compiled.zip")) | dict(_members("compiled-plots.zip"))
     for name, data in _members(archive):
         compiled = f"{name}c"
         if compiled in done:

@@ -17,9 +17,10 @@ def setup(app):
 def write(app, exception):
     if app.builder.format != "html" or exception:
         return
-    for packed in (pack, brain):
-        script = Path(app.outdir) / "_static" / packed.SCRIPT
+    scripts = (brain, brain.SCRIPT), (pack, pack.SCRIPT), (pack, pack.PLOTS, pack.PLOTS)
+    for packed, name, *given in scripts:
+        script = Path(app.outdir) / "_static" / name
         made = script.stat().st_mtime if script.exists() else 0
         if made < max(path.stat().st_mtime for path in packed.inputs()):
             script.parent.mkdir(parents=True, exist_ok=True)
-            script.write_text(packed.script(), encoding="utf-8", newline="\n")
+            script.write_text(packed.script(*given), encoding="utf-8", newline="\n")

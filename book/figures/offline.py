@@ -73,19 +73,9 @@ def before_and_after(printed, ours):
     return table(["example", "the paper (ratio)", "ours (ratio)"], rows)
 
 
-def readings(plan):
-    """Algorithm 1's `Trials` of a plan by each reading of Eq. 6–7: (origin, sign) -> trials."""
-    return {
-        (origin, sign): algorithm_1(plan, FIFTH, place, direction)
-        for origin, place in ORIGINS.items()
-        for sign, direction in SIGNS.items()
-    }
-
-
-def best_of_each(plan, readings, origin, error_points):
+def best_of_each(plan, trials):
     """Hands after each target's best n; and the mean error where all use one n of `FIFTH`."""
     fig, left, right = panels(*SIDE_BY_SIDE)
-    trials = readings[origin, error_points]
     winner = trials.error.argmin(axis=0), np.arange(len(plan.target))
     title = f"after / planned = {error_ratio(trials):.2f}"
     in_plane(left, plan, trials.endpoint[winner], title)

@@ -13,13 +13,14 @@ const vmcGrade = (() => {
       code ? `<code>${code}</code>` : tex ? `<span class="math inline">\\(${tex.trim()}\\)</span>`
         : strong ? `<strong>${strong}</strong>` : `<em>${words}</em>`);
 
-  const lines = (cell) => (cell.querySelector("textarea")?.value ?? cell.querySelector("pre").textContent);
+  const field = (cell) => cell.querySelector("textarea");
+  const book = (cell) => field(cell)?.defaultValue ?? cell.querySelector("pre").textContent;
+  const lines = (cell) => field(cell)?.value ?? book(cell);
 
-  /* The chapter's code before a cell, by cell; no solution is part of it. */
+  /* The cells of the chapter's code before one of them; no solution is among them. */
   const above = (cell) =>
     [...document.querySelectorAll(".cell:has(> .cell_input, > details > .cell_input)")]
-      .filter((one) => !one.closest(".solution") && one.compareDocumentPosition(cell) & 4) // one before cell
-      .map(lines);
+      .filter((one) => !one.closest(".solution") && one.compareDocumentPosition(cell) & 4); // one before cell
 
   /* Type for the reader, so that it can be undone. */
   const type = (area, text) => {
@@ -47,7 +48,7 @@ const vmcGrade = (() => {
     const memory = memoryOf(name);
 
     const area = document.createElement("textarea");
-    Object.assign(area, { value: empty, spellcheck: false, wrap: "off", autocomplete: "off", className: "vmc-lines" });
+    Object.assign(area, { defaultValue: empty, spellcheck: false, wrap: "off", autocomplete: "off", className: "vmc-lines" });
     area.setAttribute("autocapitalize", "off");
     area.setAttribute("aria-label", `Your lines: ${name.split(".").pop()}`);
     input.replaceChildren(area);
@@ -64,10 +65,17 @@ const vmcGrade = (() => {
     let said; // of what is typed, or of what was typed before
     const keep = () => vmcMemory.set(memory, JSON.stringify({ typed: area.value, said }));
 
+    const run = () => { // the demos below may follow: see laws.js
+      area.ran = area.value;
+      cell.dispatchEvent(new Event("vmc-run", { bubbles: true }));
+    };
     const check = async () => {
       stop.disabled = false;
       try {
-        said = await vmcPython.check([above(cell), area.value, form.dataset.function], (text) => show([text]));
+        const given = [above(cell).map(lines), area.value], graded = form.dataset.function;
+        const question = graded ? ["check", ...given, graded] : ["run", ...given];
+        said = await vmcPython.ask(["grader", ...question], (text) => show([text]));
+        run();
       } catch (error) {
         said = [`✗ ${error.message}`];
       }
@@ -86,6 +94,7 @@ const vmcGrade = (() => {
       type(area, empty);
       show((said = [""]));
       keep();
+      run();
     });
     area.addEventListener("keydown", (event) => onKey(event, form));
     area.addEventListener("input", vmcPython.start, { once: true }); // it may be there when asked
@@ -115,6 +124,11 @@ const vmcGrade = (() => {
         '<button type="button" name="reset" disabled>Reset</button> <div role="status"></div>';
       edit(form, cell, name);
     };
+    cell.addEventListener("vmc-bring", ({ detail }) => {
+      if (!field(cell)) open();
+      field(cell).select();
+      type(field(cell), detail);
+    });
     form.firstChild.addEventListener("click", () => {
       open();
       cell.querySelector("textarea").focus();
@@ -127,5 +141,5 @@ const vmcGrade = (() => {
       edit(form, form.closest(".cell").previousElementSibling, form.dataset.function);
     document.querySelectorAll(".cell.tag_runs-in-page").forEach(offer);
   });
-  return { inline, above };
+  return { inline, above, book };
 })();

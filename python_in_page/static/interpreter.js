@@ -1,33 +1,44 @@
 /* Python, compiled to WebAssembly, in a worker: loaded from the book's own files when a reader first
-   writes or has something checked. */
+   writes or has something checked; what draws plots, when a demo is first to be drawn. */
 const vmcPython = (() => {
   "use strict";
 
-  const SIZE = "12 MB";
+  const SIZES = { "python.js": "12 MB", "plots.js": "8 MB" };
+  const HOLDS = { "python.js": "library.zip", "plots.js": "plots.zip" }; // a file of each
   const limit = { seconds: 10 }; // for one answer
 
-  /* The worker's own code: first it is sent { files }, then questions for `python_in_page.grader`. */
+  /* The worker's own code: first it is sent { files }, and more of them when it is to draw; and
+     questions: a module of `python_in_page`, a function of it, and what that is given. */
   const work = () => {
-    let check;
+    let python, files;
     const fetchNow = self.fetch;
-    const start = async (files) => {
-      self.fetch = async (address) => { // whatever Pyodide asks for lies in `files`
-        const name = String(address.url ?? address).split("/").pop();
-        const { body } = await fetchNow(`data:application/gzip;base64,${files[name]}`);
-        const type = name.endsWith(".wasm") ? "application/wasm" : "application/octet-stream";
-        return new Response(body.pipeThrough(new DecompressionStream("gzip")), { headers: { "content-type": type } });
-      };
+    self.fetch = async (address) => { // whatever Pyodide asks for lies in `files`
+      const name = String(address.url ?? address).split("/").pop();
+      const { body } = await fetchNow(`data:application/gzip;base64,${files[name]}`);
+      const type = name.endsWith(".wasm") ? "application/wasm" : "application/octet-stream";
+      return new Response(body.pipeThrough(new DecompressionStream("gzip")), { headers: { "content-type": type } });
+    };
+    const unpack = async (name) => python.unpackArchive(await (await fetch(name)).arrayBuffer(), "zip");
+    const start = async () => {
       for (const name of ["pyodide.js", "pyodide.asm.js"]) (0, eval)(await (await fetch(name)).text());
       const quiet = { stdin: () => null, stdout: () => {}, stderr: () => {} };
-      const python = await loadPyodide({ indexURL: "http://page.invalid/", packages: ["numpy"], ...quiet });
-      python.unpackArchive(await (await fetch("library.zip")).arrayBuffer(), "zip");
-      const grader = python.pyimport("python_in_page.grader");
-      check = ([above, typed, name]) =>
-        (name ? grader.check(python.toPy(above), typed, name) : grader.run(python.toPy(above), typed)).toJs();
+      python = await loadPyodide({ indexURL: "http://page.invalid/", packages: ["numpy"], ...quiet });
+      await unpack("library.zip");
+      python.pyimport("python_in_page.grader");
+    };
+    const load = async (more) => {
+      files = more;
+      if (!python) return start();
+      await Promise.all(["plots.zip", "figures.zip"].map(unpack));
+      python.pyimport("python_in_page.demos");
+    };
+    const answer = ([module, name, ...given]) => {
+      const asked = python.pyimport(`python_in_page.${module}`)[name];
+      return asked(...given.map((one) => python.toPy(one))).toJs({ dict_converter: Object.fromEntries });
     };
     onmessage = async ({ data }) => {
       try {
-        postMessage({ value: data.files ? await start(data.files) : check(data) });
+        postMessage({ value: data.files ? await load(data.files) : answer(data) });
       } catch (error) {
         postMessage({ error: `Python stopped: ${`${error.message ?? error}`.trim().split("\n").pop()}` });
       }
@@ -53,14 +64,16 @@ const vmcPython = (() => {
       worker.postMessage(question);
       return Promise.race([ended, new Promise(answered)]);
     };
-    const load = async () => {
-      if (!self.vmcPythonFiles) await vmcVendored("python.js");
+    const load = async (script) => {
+      if (!here(script)) await vmcVendored(script);
       return ask({ files: vmcPythonFiles });
     };
-    const ready = Promise.race([ended, load()]);
-    ready.catch(stop); // so that the next one tries again
+    const loaded = {};
+    const ready = (script) => (loaded[script] ??= Promise.race([ended, load(script)]));
+    ready("python.js").catch(stop); // so that the next one tries again
     return { ask, end, ready };
   };
+  const here = (script) => self.vmcPythonFiles?.[HOLDS[script]];
 
   let running;
   const start = () => (running ??= launch());
@@ -72,10 +85,12 @@ const vmcPython = (() => {
   /* The answer to a question; `say` is told what it waits for. Where it takes too long or is stopped
      there is none, and Python starts anew. */
   const answer = async (question, say) => {
-    const { ready, ask } = start();
-    say(self.vmcPythonFiles ? "Starting Python …" : `Loading Python (${SIZE}, part of this book) …`);
-    await ready;
-    say("Checking …");
+    const { ready, ask } = start(), draws = question[0] === "demos";
+    for (const script of ["python.js", ...(draws ? ["plots.js"] : [])]) {
+      say(here(script) ? "Starting Python …" : `Loading Python (${SIZES[script]}, part of this book) …`);
+      await ready(script);
+    }
+    say(draws ? "" : "Checking …");
     const late = setTimeout(stop, 1000 * limit.seconds, `Stopped after ${limit.seconds} s. Does a loop never end?`);
     try {
       return await ask(question);
@@ -89,9 +104,9 @@ const vmcPython = (() => {
   };
 
   let last = Promise.resolve();
-  const check = (question, say) => {
+  const ask = (question, say) => {
     const next = () => answer(question, say);
     return (last = last.then(next, next));
   };
-  return { check, stop, start, limit };
+  return { ask, stop, start, limit };
 })();

@@ -96,9 +96,9 @@ def pushed_paths(reference, gains, model, pushes):
     return dict(zip(pushes, motion.hand[..., :2], strict=True))
 
 
-def delayed_paths(target, template_set, gains, delay, model=None):
+def delayed_paths(target, template_set, gains, delay, model=None, sight=SIGHT):
     """Hand paths (n, T + 1, 2) to one target (2,): feedback with gains (n,) and a delay in s."""
-    senses = SIGHT._replace(gain=np.array(gains)[:, None], delay=delay)
+    senses = sight._replace(gain=np.array(gains)[:, None], delay=delay)
     return watch(repeat_reach(target, len(gains), template_set), senses, model).hand[..., :2]
 
 

@@ -21,19 +21,21 @@ STUB = '''def {name}(u, a, rise, fall):
     ...  # your lines
 '''
 MECHANISM = "def cube(x):\n    return x**3\n\n\nassert cube(twice(2)) == 64"
+ASK = "(question) => vmcPython.ask(question, () => {})"
 CELL = '<div class="cell"><div class="cell_input"><pre>{}</pre></div></div>'
 
 
 @pytest.fixture(scope="session")
 def packed():
-    return pack.script()
+    return {name: pack.script(name) for name in (pack.SCRIPT, pack.PLOTS)}
 
 
 @pytest.fixture(scope="session")
 def site(site, packed):
     """The folder with the book's styles and scripts, the page's Python among them."""
     (site / pack.SCRIPT).parent.mkdir(exist_ok=True)
-    (site / pack.SCRIPT).write_text(packed, encoding="utf-8")
+    for name, script in packed.items():
+        (site / name).write_text(script, encoding="utf-8")
     return site
 
 
@@ -68,7 +70,7 @@ def ask(offline, site):
     """A function that asks the page's Python about typed lines: what is said, what is printed."""
     page = pages.open_html(offline, site, "<h1>E</h1>")
     yield lambda *question: page.evaluate(
-        "(question) => vmcPython.check(question, () => {})", question
+        ASK, ["grader", "check" if len(question) == 3 else "run", *question]
     )
     page.close()
     assert page.errors == []

@@ -1,10 +1,14 @@
 """What is said of the lines that a reader types."""
 
 import inspect
+import json
+import sys
+from importlib import import_module
 
 import pytest
 
-from python_in_page.grader import check, definitions, run
+from python_in_page import absent
+from python_in_page.grader import changed, check, definitions, run
 from tests.exercises import EVERY
 from vmc_lib.grading import EMPTY, RIGHT, WRONG, feedback
 
@@ -65,6 +69,18 @@ def test_the_code_above_has_run_where_it_is_needed():
     assert not {"x", "lost", "unasked"} & names.keys()
 
 
+def test_a_name_that_the_lines_give_themselves_is_not_asked_for():
+    assert definitions(["def f():\n    return 1"], "def f():\n    pass\nf()").keys() == {"__name__"}
+
+
+def test_what_the_reader_has_changed_is_found_where_it_is_needed():
+    book = ["def f(x):\n    return x\n\n\ndef g(x):\n    return 1", "h = f(2)"]
+    mine = [book[0].replace("return x", "return 2 * x"), book[1]]
+    assert changed(mine, book, "print(h)") == ["f"]
+    assert changed(mine, book, "print(g(1))") == []
+    assert changed(book, [f"{book[0]}  # as it was", book[1]], "print(h)") == []
+
+
 @pytest.mark.parametrize(
     ("typed", "told"),
     [
@@ -76,3 +92,20 @@ def test_the_code_above_has_run_where_it_is_needed():
 )
 def test_a_cell_runs_as_in_a_notebook(typed, told):
     assert run(["def area(r):\n    return 3 * r**2"], typed) == told
+
+
+def test_what_no_page_has_can_be_imported_and_does_nothing(monkeypatch):
+    monkeypatch.setattr(absent, "NAMES", "nowhere nowhere.else json")
+    for name in ("nowhere", "nowhere.else"):
+        monkeypatch.setitem(sys.modules, name, None)
+        monkeypatch.delitem(sys.modules, name)
+    absent.stand_in()
+    Widget = import_module("nowhere").Widget
+
+    class Mine(Widget):
+        pass
+
+    assert not Mine().tag(sync=True)
+    assert not Widget
+    assert not hasattr(Widget, "__path__")
+    assert json.loads("1") == 1

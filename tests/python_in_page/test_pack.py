@@ -9,6 +9,8 @@ import json
 import re
 import zipfile
 
+import pytest
+
 from python_in_page import pack
 from tests.project import ROOT
 
@@ -18,24 +20,51 @@ def opened(data):
         return {name: archive.read(name) for name in archive.namelist() if name[-1] != "/"}
 
 
-def test_numpy_is_the_file_that_pyodide_names():
-    lock = json.loads((pack.VENDOR / "pyodide-lock.json").read_bytes())
-    numpy = lock["packages"]["numpy"]
-    wheel = (pack.VENDOR / numpy["file_name"]).read_bytes()
-    assert hashlib.sha256(wheel).hexdigest() == numpy["sha256"]
+WHEELS = {path.name: path.read_bytes() for path in pack.VENDOR.glob("*.whl")}
+
+
+def unpacked(script):
+    """The files that a script holds: {name: bytes}."""
+    packed = json.loads(script[script.index(', {"') + 2 : script.rindex(")")])
+    return {name: gzip.decompress(base64.b64decode(text)) for name, text in packed.items()}
+
+
+def compiled():
+    names = ("compiled.zip", "compiled-plots.zip")
+    both = [opened((pack.VENDOR / name).read_bytes()) for name in names]
+    return both[0] | both[1]
+
+
+def test_wheels_are_the_files_that_pyodide_names():
+    lock = json.loads((pack.VENDOR / "pyodide-lock.json").read_bytes())["packages"].values()
+    names = {hashlib.sha256(wheel).hexdigest(): name for name, wheel in WHEELS.items()}
+    assert {x["sha256"]: x["file_name"] for x in lock if x["file_name"] in WHEELS} == names
+
+
+def test_the_script_of_plots_holds_what_is_vendored_with_its_licences_and_the_library(packed):
+    files = unpacked(packed[pack.PLOTS])
+    figures, plots = opened(files["figures.zip"]), opened(files["plots.zip"])
+    assert figures == {p.as_posix(): (ROOT / p).read_bytes() for p in pack.drawn_paths()}
+    whole = {
+        k: v
+        for name, wheel in WHEELS.items()
+        if "numpy" not in name
+        for k, v in opened(wheel).items()
+    }
+    assert plots.items() <= (whole | compiled()).items()
+    left_out = {one for one in whole if not {one, f"{one}c"} & plots.keys()}
+    assert not [one for one in left_out if "LICENSE" in one]
 
 
 def test_the_script_holds_what_is_vendored_and_the_library(packed):
-    files = json.loads(packed[packed.index("{") : packed.rindex("}") + 1])
-    files = {name: gzip.decompress(base64.b64decode(text)) for name, text in files.items()}
+    files = unpacked(packed[pack.SCRIPT])
     for name in pack.UNCHANGED:
         assert files[name] == (pack.VENDOR / name).read_bytes()
     library = opened(files["library.zip"])
     assert library == {p.as_posix(): (ROOT / p).read_bytes() for p in pack.paths()}
-    compiled = opened((pack.VENDOR / "compiled.zip").read_bytes())
     for name in ("python_stdlib.zip", next(name for name in files if name.endswith(".whl"))):
         inside, whole = opened(files[name]), opened((pack.VENDOR / name).read_bytes())
-        assert inside.items() <= (whole | compiled).items()
+        assert inside.items() <= (whole | compiled()).items()
         left_out = {one for one in whole if not {one, f"{one}c"} & inside.keys()}
         assert not [one for one in left_out if "LICENSE" in one or one.endswith(".so")]
 
@@ -47,15 +76,16 @@ def test_what_is_compiled_was_made_of_the_vendored_sources():
     """The header of each compiled module bears its source's hash."""
     names = ("python_stdlib.zip", *(path.name for path in pack.VENDOR.glob("*.whl")))
     whole = {k: v for name in names for k, v in opened((pack.VENDOR / name).read_bytes()).items()}
-    compiled = opened((pack.VENDOR / "compiled.zip").read_bytes())
-    assert len(compiled) > 200
-    for name, data in compiled.items():
+    assert len(compiled()) > 300
+    for name, data in compiled().items():
         summed = _imp.source_hash(int.from_bytes(MAGIC, "little"), whole[name.removesuffix("c")])
         assert data[:16] == MAGIC + b"\1\0\0\0" + summed
 
 
-def test_the_page_tells_the_scripts_size(packed):
-    size = len(packed.encode())
-    assert size <= 12e6
+@pytest.mark.parametrize(("script", "most"), [(pack.SCRIPT, 12e6), (pack.PLOTS, 14e6)])
+def test_the_page_tells_a_scripts_size(packed, script, most):
+    size = len(packed[script].encode())
+    assert size <= most
     told = (ROOT / "python_in_page/static/interpreter.js").read_text(encoding="utf-8")
-    assert re.search('SIZE = "(.*) MB"', told)[1] == f"{size / 1e6:.0f}"
+    name = script.split("/")[1]
+    assert re.search(f'"{name}": "(.*?) MB"', told)[1] == f"{size / 1e6:.0f}"

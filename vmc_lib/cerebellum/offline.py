@@ -48,7 +48,19 @@ def calibrate(rule, plan: Plan):
     return trials
 
 
-def algorithm_1(plan: Plan, gains=GAINS, origin=(0.0, 0.0), sign=1, execute=execute):
+def algorithm_1_change(plan, endpoint, n, origin=(0.0, 0.0), sign=1):
+    """Eq. 6–7: Δw_i = k_i cos θ_i (…, N), with k_i growing with n for templates nearer than p_t."""
+    error = sign * (plan.target - endpoint)
+    towards = plan.points - endpoint[..., None, :]
+    lengths = _norm(error)[..., None] * _norm(towards)
+    cosine = (towards @ error[..., None])[..., 0] / np.where(lengths > 0, lengths, 1)
+    d_t, d_a, d_i = (_norm(x - np.asarray(origin)) for x in (plan.target, endpoint, plan.points))
+    return (_norm(error) / d_a)[..., None] * (1 + n * (d_t[..., None] - d_i) / d_i) * cosine
+
+
+def algorithm_1(
+    plan: Plan, gains=GAINS, origin=(0.0, 0.0), sign=1, execute=execute, change=algorithm_1_change
+):
     """Calibrate a plan off-line by Algorithm 1: try every n, each with the correction of Eq. 6–7.
 
     The paper leaves `origin` and `sign` open: both were chosen for the ratio of errors that it
@@ -67,6 +79,8 @@ def algorithm_1(plan: Plan, gains=GAINS, origin=(0.0, 0.0), sign=1, execute=exec
         Which way the error points; 1: from the hand to the target.
     execute : callable
         Moves the arm: a plan to its `Movement`.
+    change : callable
+        Eq. 6–7, or another law of the same arguments.
 
     Returns
     -------
@@ -82,18 +96,8 @@ def algorithm_1(plan: Plan, gains=GAINS, origin=(0.0, 0.0), sign=1, execute=exec
     (22, True)
     """
     planned = execute(plan)
-    changes = [algorithm_1_change(plan, planned.endpoint, n, origin, sign) for n in gains]
+    changes = [change(plan, planned.endpoint, n, origin, sign) for n in gains]
     return _trials(planned, execute(plan.with_weights(plan.weights + np.stack(changes))))
-
-
-def algorithm_1_change(plan, endpoint, n, origin=(0.0, 0.0), sign=1):
-    """Eq. 6–7: Δw_i = k_i cos θ_i (…, N), with k_i growing with n for templates nearer than p_t."""
-    error = sign * (plan.target - endpoint)
-    towards = plan.points - endpoint[..., None, :]
-    lengths = _norm(error)[..., None] * _norm(towards)
-    cosine = (towards @ error[..., None])[..., 0] / np.where(lengths > 0, lengths, 1)
-    d_t, d_a, d_i = (_norm(x - np.asarray(origin)) for x in (plan.target, endpoint, plan.points))
-    return (_norm(error) / d_a)[..., None] * (1 + n * (d_t[..., None] - d_i) / d_i) * cosine
 
 
 def broyden_calibration(plan: Plan, n_trials=2, broyden=True, guarded=True, execute=execute):

@@ -9,6 +9,7 @@ commands sent since, where the arm must be by now: a Smith predictor.
 All movements of a batch begin at rest in `START`.
 """
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -25,6 +26,11 @@ from vmc_lib.motor.templates import START
 TICK = 10  # steps: sight corrects, and the model predicts, a hundred times a second
 
 
+def proportional_derivative(reference_q, reference_velocity, q, velocity, gain, damping):
+    """Proportional-derivative feedback toward the reference, (…, 2), rad/s²."""
+    return gain * (reference_q - q + damping * (reference_velocity - velocity))
+
+
 class FeedbackGains(NamedTuple):
     """How strongly, and how late, the arm corrects itself."""
 
@@ -34,6 +40,7 @@ class FeedbackGains(NamedTuple):
     stretch: float = 0.5  # excitation for each optimal fibre length that a muscle is too long …
     rate: float = 0.05  # … and for each 2.5 lengths a second that it lengthens too fast
     spinal: float = 0.03  # s: the stretch reflex's delay
+    law: Callable = proportional_derivative  # of sight
 
 
 SIGHT = FeedbackGains()
@@ -156,8 +163,8 @@ def predict_state(model, q, velocity, activations):
 
 
 def feedback_acceleration(gains, reference_q, reference_velocity, q, velocity):
-    """Proportional-derivative feedback toward the reference, (…, 2), rad/s²."""
-    return gains.gain * (reference_q - q + gains.damping * (reference_velocity - velocity))
+    """The acceleration (…, 2) that sight asks for, by its law, rad/s²."""
+    return gains.law(reference_q, reference_velocity, q, velocity, gains.gain, gains.damping)
 
 
 def excitations_for_acceleration(q, velocity, acceleration, excitations):

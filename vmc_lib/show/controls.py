@@ -54,8 +54,12 @@ class Control:
     @property
     def texts(self):
         """The values as the reader sees them, with their unit."""
+        return [self.text(value) for value in self.values]
+
+    def text(self, value):
+        """A value with its unit."""
         unit = self.unit if self.unit in ("", "°") else f" {self.unit}"
-        return [f"{_text(value)}{unit}" for value in self.values]
+        return f"{_text(value)}{unit}"
 
 
 @dataclass(frozen=True)
@@ -63,16 +67,35 @@ class Slider(Control):
     """A slider over `values`; `play=True` adds a button that walks through them.
 
     With `play="unasked"` it does so by itself, once, when the demo comes into view: unless the
-    reader has asked the browser for less motion.
+    reader has asked the browser for less motion. Where Python runs in the page, values `between`
+    these can be chosen, too.
     """
 
     play: bool | str = False
+    between: bool = True
+
+    def value_at(self, place):
+        """The value at a place along `values`, which may lie between two; whole where these are."""
+        low = min(int(place), len(self.values) - 2)
+        one, other = self.values[low : low + 2]
+        if place in (low, low + 1):
+            return other if place > low else one
+        value = one + (place - low) * (other - one)
+        return round(value) if all(isinstance(v, int) for v in self.values) else value
+
+    @property
+    def continuous(self):
+        """Whether it has values between its own."""
+        whole = all(isinstance(v, int) for v in self.values)
+        numbers = all(map(_is_number, self.values))
+        return self.between and numbers and not (whole and np.ptp(self.values) < len(self.values))
 
     def html(self, name, stride):
         text, texts = self.texts[self.first], json.dumps(self.texts, ensure_ascii=False)
         along = {"min": 0, "max": len(self.values) - 1, "value": self.first}
         state = {"data-stride": stride, "data-texts": texts, "aria-valuetext": text}
         unasked = " data-unasked" * (self.play == "unasked")
+        state |= {"data-between": ""} if self.continuous else {}
         play = f'<button type="button" class="vmc-play" aria-pressed="false"{unasked}>Play</button>'
         widest = max(len(text) + 0.6 * sum(c in "mwMW%" for c in text) for text in self.texts)
         return slider(name, self.label, text, along | state, play if self.play else "", widest)
@@ -112,7 +135,8 @@ class Pad(Control):
     """
 
     def __init__(self, xs, ys, labels=("x", "y"), start=(None, None), unit=""):
-        pair = [Slider(v, *rest, unit) for v, *rest in zip((xs, ys), labels, start, strict=True)]
+        parts = zip((xs, ys), labels, start, strict=True)
+        pair = [Slider(v, *rest, unit, between=False) for v, *rest in parts]
         object.__setattr__(self, "pair", pair)
         super().__init__(tuple(itertools.product(xs, ys)), " and ".join(labels), unit=unit)
 

@@ -23,10 +23,10 @@ from vmc_lib.show.alt_text import alt_text
 from vmc_lib.show.controls import Switch, as_control
 from vmc_lib.show.data_table import data_tables
 from vmc_lib.show.figures import framed, pictures, side_by_side
-from vmc_lib.show.live import STATIC, Live, drawing
+from vmc_lib.show.live import Live, drawing
 from vmc_lib.show.outputs import Markup, still
 from vmc_lib.show.palette import STYLE
-from vmc_lib.show.render_mode import render_mode
+from vmc_lib.show.render_mode import STATIC, render_mode
 from vmc_lib.show.scene import SCRIPTS as VIEWER
 from vmc_lib.show.scene import Scene
 
@@ -68,12 +68,7 @@ def explore(draw, caption, alt=None, in_page=None, **controls):
         """The description and the pictures at a position of the grid."""
         values = dict(zip(controls, grid[place], strict=True))
         try:
-            with drawing(), plt.rc_context(STYLE):
-                picture = draw(**values)
-                tables = [] if in_page else data_tables(picture)  # before the figures are closed
-                words = alt(**values) if callable(alt) else alt or alt_text(picture)
-                parts = [*pictures(picture, name), *tables]
-            return words, parts
+            return shown(draw, values, name, alt, not in_page)
         except Exception as error:
             error.add_note(f"It was asked for {values}.")
             raise
@@ -98,6 +93,15 @@ def explore(draw, caption, alt=None, in_page=None, **controls):
         display(HTML(_page(*state(_first(controls)), data, caption, controls, name)))
 
 
+def shown(draw, values, name, alt=None, tables=True):
+    """What a demo shows for these values of its controls: words, and parts (see `pictures`)."""
+    with drawing(), plt.rc_context(STYLE):
+        picture = draw(**values)
+        numbers = data_tables(picture) if tables else []  # before the figures are closed
+        words = alt(**values) if callable(alt) else alt or alt_text(picture)
+        return words, [*pictures(picture, name), *numbers]
+
+
 def figure(picture, caption, alt=None):
     """Show a picture that does not move, or what a function without arguments draws."""
     explore(picture if callable(picture) else lambda: picture, caption, alt)
@@ -114,7 +118,7 @@ def _along(controls, most):
 
 def _idle(state, places, controls):
     """The controls that change no picture: states that differ in one of them alone look alike."""
-    looks = [repr(_lines(state(place)[1])) for place in places]
+    looks = [repr(lines(state(place)[1])) for place in places]
     idle = []
     for control, stride in zip(controls.values(), _strides(controls), strict=True):
         others = [(p // stride // len(control.values), p % stride) for p in places]
@@ -129,7 +133,7 @@ def _same_kinds(parts, others):
         raise ValueError("the draw function must return the same kinds of pictures everywhere")
 
 
-def _lines(parts):
+def lines(parts):
     """The lines of each part: a scene's messages, or a picture's markup."""
     return [part.messages() if isinstance(part, Scene) else part.split("\n") for part in parts]
 
@@ -181,14 +185,14 @@ def _stored(states):
     def indices(lines):
         return [table.setdefault(line, len(table)) for line in lines]
 
-    rows = [[indices(lines) for lines in ([alt], *_lines(parts))] for alt, parts in states]
+    rows = [[indices(part) for part in ([alt], *lines(parts))] for alt, parts in states]
     return {"lines": list(table), "states": rows}
 
 
 def _worked_out(work, ground, given, controls, name):
     """What the page needs to work every state out: see `explore`."""
     with plt.rc_context(STYLE):
-        grounds = _lines(pictures(ground(), name))
+        grounds = lines(pictures(ground(), name))
     axes = [axis for control in controls.values() for axis in getattr(control, "pair", [control])]
     grid = [np.asarray(axis.values).tolist() for axis in axes]
     return {"work": work, "grounds": grounds, "given": given, "grid": grid}
@@ -212,7 +216,7 @@ def _live(state, caption, controls, name):
         alt, changed = state(place)
         _same_kinds(changed, parts)
         current = alt, changed
-        return [[alt], *_lines(changed)]
+        return [[alt], *lines(changed)]
 
     def keep(views):
         """Let the still show what the reader sees; of scenes in sight the browser sends a view."""

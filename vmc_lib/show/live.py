@@ -17,11 +17,11 @@ import matplotlib_inline.backend_inline  # noqa: F401  (in `rc_context` its sett
 import traitlets
 from IPython import get_ipython
 
-STATIC = Path(__file__).parent / "static"
-VENDORED = {
-    "meshcat.js": Path(find_spec("meshcat").origin).parent / "viewer/dist/main.min.js",
-    "bones.js": STATIC / "vendor/bones.js",
-}
+from vmc_lib.show.render_mode import STATIC
+
+VENDORED = {"bones.js": STATIC / "vendor/bones.js"}
+if MESHCAT := find_spec("meshcat"):  # not in the page
+    VENDORED["meshcat.js"] = Path(MESHCAT.origin).parent / "viewer/dist/main.min.js"
 _pyplot = RLock()
 
 

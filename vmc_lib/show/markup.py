@@ -8,9 +8,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.ticker import AutoLocator, FixedLocator, MaxNLocator
 
-from vmc_lib.show.live import STATIC
 from vmc_lib.show.palette import COLOURS, STYLE, css
-from vmc_lib.show.render_mode import render_mode
+from vmc_lib.show.render_mode import STATIC, render_mode
 from vmc_lib.show.svg_renderer import figure_svg
 
 _NAMED = {code: css(name) for name, code in COLOURS.items()}

@@ -1,7 +1,9 @@
 """How demos are rendered: in a live kernel, for the built book, or in a test."""
 
 import os
+from pathlib import Path
 
+STATIC = Path(__file__).parent / "static"  # what pages and kernels show demos with
 MODES = ("live", "book", "test")
 
 

@@ -15,7 +15,7 @@ from collections import defaultdict
 
 import umsgpack
 
-from vmc_lib.show.live import STATIC
+from vmc_lib.show.render_mode import STATIC
 
 SCRIPTS = [  # what shows a scene, in order
     STATIC / f"{name}.js"

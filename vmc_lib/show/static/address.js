@@ -18,6 +18,7 @@ const vmcAddress = (demo) => {
     for (const input of inputs)
       if (input.type === "checkbox") places.set(name(input), +input.checked);
       else if (input.type !== "radio" || input.checked) places.set(name(input), input.value);
+    for (const [key, law] of demo.vmcLaws?.() ?? []) places.set(key, law);
     return `#${demo.id}?${places}`;
   };
 

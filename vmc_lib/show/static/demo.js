@@ -57,7 +57,7 @@ const vmcDemo = (() => {
 
     /* How far along its values a control stands; of radio buttons only the checked one counts. */
     const at = ({ type, checked, value }) =>
-      type === "checkbox" ? +checked : type === "radio" && !checked ? 0 : +value;
+      type === "checkbox" ? +checked : type === "radio" && !checked ? 0 : Math.round(value);
 
     let follow = () => {}; // what else a new picture moves
 
@@ -88,12 +88,13 @@ const vmcDemo = (() => {
     const show = () => {
       for (const input of inputs)
         if (input.dataset.texts) {
-          const text = JSON.parse(input.dataset.texts)[input.value];
+          const text = JSON.parse(input.dataset.texts)[Math.round(input.value)];
           input.setAttribute("aria-valuetext", text);
           input.nextElementSibling.textContent = text;
         }
-      ask(inputs.reduce((sum, i) => sum + at(i) * i.dataset.stride, 0), draw);
+      demo.vmc.ask(inputs.reduce((sum, i) => sum + at(i) * i.dataset.stride, 0), draw);
     };
+    demo.vmc = { ask, show }; // the page's Python may answer instead
 
     /* A step is looked at for a while; if it brings a movement, for as long as that takes. */
     const look = (input) => {
@@ -116,7 +117,7 @@ const vmcDemo = (() => {
         const mine = (playing = {});
         button.setAttribute("aria-pressed", "true");
         button.textContent = "Pause";
-        for (let step = input.value === input.max ? 0 : +input.value; step <= input.max; step++) {
+        for (let step = input.value === input.max ? 0 : Math.round(input.value); step <= input.max; step++) {
           input.value = step;
           show();
           await look(input);

@@ -1,0 +1,38 @@
+"""Stand-ins for modules that a page has no use for: they can be imported, and do nothing."""
+
+import sys
+from importlib.util import find_spec
+
+NAMES = """anywidget IPython IPython.display joblib markdown_it matplotlib_inline
+matplotlib_inline.backend_inline mdit_py_plugins mdit_py_plugins.dollarmath traitlets umsgpack"""
+
+
+class _Kind(type):
+    def __getattr__(cls, name):
+        if name.startswith("__"):
+            raise AttributeError(name)
+        return cls
+
+    def __bool__(cls):  # so matplotlib sees that there is no IPython
+        return False
+
+
+class Absent(metaclass=_Kind):
+    """Anything of such a module: its parts are the same again, and it does nothing."""
+
+    def __init__(self, *given, **named):
+        pass
+
+    def __getattr__(self, name):
+        return lambda *given, **named: self
+
+    def __bool__(self):
+        return False
+
+
+def stand_in():
+    """Let each of `NAMES` be imported whose package is not installed."""
+    packages = {name.split(".")[0] for name in NAMES.split()} - sys.modules.keys()
+    missing = {package for package in packages if not find_spec(package)}
+    names = [name for name in NAMES.split() if name.split(".")[0] in missing]
+    sys.modules.update(dict.fromkeys(names, Absent))

@@ -1,0 +1,77 @@
+"""A chapter's demos, drawn in the page: between their stops too, and by laws of the reader's."""
+
+from contextlib import redirect_stdout
+from functools import lru_cache
+from io import StringIO
+
+import matplotlib as mpl
+
+from python_in_page.grader import changed, definitions
+from vmc_lib import show
+from vmc_lib.show.controls import Pad, Slider, as_control
+from vmc_lib.show.demo import lines, shown
+
+mpl.use("svg")
+
+
+def draw(above, book, cell, name, places):
+    """What a demo shows where its controls stand, by the chapter's code as the reader has it.
+
+    `above` is that code, a text for each cell before the demo's own, and `book` the same as the
+    book has it; `places` are where the sliders and choices stand, by name. The answer holds `laws`,
+    the reader's names that the demo needs; and the lines of its words and `parts`, and its
+    sliders' `texts`, or the `error` that a law of the reader's made.
+    """
+    laws = changed(above, book, cell)
+    try:
+        with redirect_stdout(StringIO()):
+            demo, controls = prepared(tuple(above), cell)
+            words, parts = shown(values=values_at(controls, places), name=name, **demo)
+    except Exception as error:
+        return {"laws": laws, "error": repr(error)}
+    return {"laws": laws, "parts": [[words], *lines(parts)], "texts": _texts(controls, places)}
+
+
+@lru_cache(8)
+def prepared(above, cell):
+    """What `explore` is asked for in a cell: the demo as `shown` takes it, and its controls."""
+    asked, errors, kept = [], [], show.explore
+
+    def explore(draw, caption, alt=None, in_page=None, **controls):
+        controls = {key: as_control(key, one) for key, one in controls.items()}
+        asked.append(({"draw": draw, "alt": alt, "tables": not in_page}, controls))
+
+    show.explore = explore
+    try:
+        names = definitions(above, cell, errors)
+        exec(compile(cell, "demo", "exec"), names)  # noqa: S102
+    except NameError as error:  # what went wrong above says more
+        raise (errors or [error])[-1] from error
+    finally:
+        show.explore = kept
+    return asked[0]
+
+
+def values_at(controls, places):
+    """The controls' values at these places."""
+    return {key: _value(key, one, places) for key, one in controls.items()}
+
+
+def _value(key, control, places):
+    if isinstance(control, Pad):
+        return tuple(_value(f"{key}-{axis}", one, places) for axis, one in _pair(control))
+    place = places[key]
+    return control.value_at(place) if isinstance(control, Slider) else control.values[int(place)]
+
+
+def _pair(pad):
+    return zip("xy", pad.pair, strict=True)
+
+
+def _texts(controls, places):
+    """What stands beside each slider, by its name."""
+    sliders = {k: one for k, one in controls.items() if isinstance(one, Slider)}
+    for key, pad in controls.items():
+        if isinstance(pad, Pad):
+            sliders |= {f"{key}-{axis}": one for axis, one in _pair(pad)}
+    return {key: one.text(one.value_at(places[key])) for key, one in sliders.items()}

@@ -1,0 +1,142 @@
+/* Demos that the page's Python draws: by a law that the reader has changed above them, and between a
+   slider's stops. Where it cannot, or is not asked, the nearest picture of the book stands. */
+const vmcLaws = (() => {
+  "use strict";
+
+  const STEP = 0.1; // of a slider, from one stop to the next
+  const LAW = "law."; // before a cell's name, in an address
+
+  const ran = (cell) => cell.querySelector("textarea")?.ran ?? vmcGrade.book(cell);
+  const code = (names) => names.map((name) => `<code>${name}</code>`).join(", ");
+
+  /* Where a demo's controls stand, by name: see `python_in_page.demos.draw`. */
+  const places = (demo) => {
+    const found = {};
+    for (const { type, checked, name, id, value } of demo.querySelectorAll("[data-stride]"))
+      if (type !== "radio" || checked)
+        found[(name || id).slice(demo.id.length + 1)] = type === "checkbox" ? +checked : +value;
+    return found;
+  };
+
+  const follow = (demo) => {
+    const cell = demo.closest(".cell"), above = vmcGrade.above(cell);
+    const line = document.createElement("p");
+    line.className = "vmc-law";
+    line.innerHTML = '<span role="status"></span> <button type="button" name="run" hidden>Run it</button> ' +
+      '<button type="button" name="back" hidden>Back to the book’s</button> ' +
+      '<button type="button" name="between" title="Loads Python, 20 MB of this book">Any value</button>';
+    const [status, run, back, between] = line.children;
+    const sliders = [...demo.querySelectorAll("[data-between]")];
+    between.hidden = !sliders.length;
+    demo.querySelector(".vmc-controls").after(line);
+
+    const say = (html) => {
+      if (status.innerHTML !== html) status.innerHTML = html;
+    };
+    const edited = () => above.filter((one) => ran(one) !== vmcGrade.book(one));
+    const given = () => [above.map(ran), above.map(vmcGrade.book), vmcGrade.book(cell)];
+
+    let laws = [], failed = false, wanted = null, busy = false, book;
+
+    const show = ({ parts, texts, error }, place, draw) => {
+      if (error) return fail(`${laws.length ? `Your \`${laws.join(", ")}\`` : "Python"} stops: ${error}.`, place, draw);
+      draw(parts);
+      for (const [name, text] of Object.entries(texts)) {
+        const input = demo.querySelector(`[id="${demo.id}-${name}"]`);
+        input.setAttribute("aria-valuetext", text);
+        input.nextElementSibling.textContent = text;
+      }
+      say(laws.length ? `This demo runs <strong>your</strong> ${code(laws)}.` : "");
+    };
+    const fail = (why, place, draw) => {
+      failed = true;
+      book(place, draw);
+      say(`${vmcGrade.inline(why)} This is the book’s.`);
+    };
+
+    /* The last place that was asked for; those that the hand only passes are left out. */
+    const drawn = async () => {
+      busy = true;
+      demo.setAttribute("aria-busy", "true");
+      while (wanted) {
+        const [place, draw] = wanted;
+        wanted = null;
+        try {
+          const found = await vmcPython.ask(["demos", "draw", ...given(), demo.id, places(demo)], say);
+          if (!wanted) show(found, place, draw);
+        } catch (error) {
+          fail(error.message, place, draw);
+        }
+      }
+      busy = false;
+      demo.removeAttribute("aria-busy");
+    };
+
+    const ask = (place, draw, now = false) => {
+      const off = sliders.some(({ value }) => value % 1);
+      if (!laws.length || failed) book(place, draw);
+      if (failed || !(laws.length || off || now)) return;
+      wanted = [place, draw];
+      if (!busy) drawn();
+    };
+
+    const take = () => {
+      if (demo.vmc.ask !== ask) [book, demo.vmc.ask] = [demo.vmc.ask, ask];
+    };
+
+    /* What the reader's cells have become. */
+    const update = async () => {
+      take();
+      [laws, failed, wanted] = [[], false, null];
+      run.hidden = true;
+      say("");
+      try {
+        if (edited().length) laws = await vmcPython.ask(["grader", "changed", ...given()], () => {});
+      } catch (error) {
+        say(vmcGrade.inline(error.message));
+      }
+      back.hidden = !laws.length;
+      demo.vmc.show();
+    };
+
+    demo.vmcLaws = () => edited().map((one) => [LAW + one.querySelector("form[data-cell]").dataset.cell, ran(one)]);
+    document.addEventListener("vmc-run", ({ target }) => above.includes(target) && update());
+    back.addEventListener("click", () => {
+      for (const one of edited()) one.querySelector("textarea").ran = undefined;
+      document.querySelectorAll(".tag_runs-in-page").forEach((one) => one.dispatchEvent(new Event("vmc-run", { bubbles: true })));
+    });
+    between.addEventListener("click", () => demos.forEach((one) => one.vmcBetween()));
+    demo.vmcBetween = () => {
+      take();
+      sliders.forEach((input) => (input.step = STEP));
+      between.hidden = true;
+      demo.vmc.ask(0, () => {}, true); // it is made ready
+    };
+    demo.vmcBring = (cells) => {
+      say(`This link brings another ${code(cells.map(({ dataset }) => dataset.cell))}. Read it in its cell first.`);
+      run.hidden = false;
+      run.onclick = () => cells.forEach((form) => form.requestSubmit());
+    };
+  };
+
+  /* The laws that an address brings are put into their cells, and run when the reader asks for it. */
+  const bring = () => {
+    const [id, query] = location.hash.slice(1).split("?");
+    const laws = [...new URLSearchParams(query)].filter(([key]) => key.startsWith(LAW));
+    const found = [...document.querySelectorAll("form[data-cell]")];
+    const forms = laws.map(([key, text]) => {
+      const form = found.find(({ dataset }) => dataset.cell === key.slice(LAW.length));
+      form?.closest(".cell").dispatchEvent(new CustomEvent("vmc-bring", { detail: text }));
+      return form;
+    });
+    if (forms.length) document.getElementById(id)?.vmcBring?.(forms.filter(Boolean));
+  };
+
+  let demos = [];
+  addEventListener("DOMContentLoaded", () => {
+    demos = [...document.querySelectorAll(".tag_draws-in-page .vmc-demo:has(> script)")];
+    demos.forEach(follow);
+    bring();
+  });
+  addEventListener("hashchange", bring);
+})();

@@ -1,0 +1,131 @@
+"""The page's Python draws a chapter's demos as the notebook does, with a changed law as well."""
+
+import inspect
+import json
+
+import matplotlib.pyplot as plt
+import nbformat
+import numpy as np
+import pytest
+
+from python_in_page import demos
+from python_in_page.grader import changed
+from tests.pages import open_html
+from tests.project import CHAPTERS
+from tests.python_in_page.conftest import ASK
+from vmc_lib.show import Choice
+from vmc_lib.show.data_table import panels
+
+LAWS = {  # by chapter: a change of what the book has; it moves two demos at least
+    "07_muscle": ("np.exp(-40 *", "0.5 * np.exp(-40 *"),
+    "12_while_it_moves": ("return gain * (q_ref", "return 0.5 * gain * (q_ref"),
+    "10_offline": ("return k * cosine", "return 0.5 * k * cosine"),
+    "09_planning": ("(1 / d) / (1 / d).sum(", "(1 / d**2) / (1 / d**2).sum("),
+}
+
+
+def chapter_demos(stem):
+    """Every demo of a chapter that is drawn in the page: (the code above, its cell)."""
+    [chapter] = [chapter for chapter in CHAPTERS if chapter.stem == stem]
+    above = []
+    for cell in nbformat.read(chapter, 4).cells:
+        tags = set(cell.metadata.get("tags", []))
+        if cell.cell_type == "code" and not tags & {"solution", "remove-input"}:
+            if "draws-in-page" in tags:
+                yield list(above), cell.source
+            above.append(cell.source)
+
+
+DEMOS = {chapter.stem: list(chapter_demos(chapter.stem)) for chapter in CHAPTERS}
+DEMOS = {stem: found for stem, found in DEMOS.items() if found}
+
+
+def starts(controls):
+    """The places where a demo's controls begin."""
+    first = {}
+    for key, one in controls.items():
+        if isinstance(one, demos.Pad):
+            first |= {
+                f"{key}-{axis}": part.first for axis, part in zip("xy", one.pair, strict=True)
+            }
+        else:
+            first[key] = one.first
+    return first
+
+
+def between(controls):
+    """Where each slider that can stands half way from one value to the next."""
+    first = starts(controls)
+    for key, one in controls.items():
+        if getattr(one, "continuous", False):
+            yield first | {key: min(first[key], len(one.values) - 2) + 0.5}
+
+
+def moved(mine, above, cell):
+    """The first place along a demo's choices where the law `mine` shows something else, if any."""
+    controls = demos.prepared(tuple(above), cell)[1]
+    first = starts(controls)
+    choices = {k: len(one.values) for k, one in controls.items() if isinstance(one, Choice)}
+    places = [first, *(first | {k: n} for k, count in choices.items() for n in range(count))]
+    return next((p for p in places if digest(mine, cell, p) != digest(above, cell, p)), None)
+
+
+def digest(above, cell, places):
+    """A few numbers that stand for all that a demo's plots show, and how many these are."""
+    demo, controls = demos.prepared(tuple(above), cell)
+    picture = demo["draw"](**demos.values_at(controls, places))
+    plt.close("all")
+    series = [one for panel in panels(picture) for one in panel.series]
+    every = [np.concatenate([s.keys, s.values, s.ends.ravel()]) for s in series]
+    every = np.nan_to_num(np.concatenate([[0.0], *every]))
+    return [len(every), float(every.sum()), float(every @ np.cos(np.arange(len(every))))]
+
+
+ASKED = f"""import json
+import matplotlib.pyplot as plt
+import numpy as np
+from python_in_page import demos
+from vmc_lib.show.data_table import panels
+{inspect.getsource(digest)}
+print(json.dumps([digest(*one) for one in json.loads(given)]))"""
+
+
+@pytest.fixture(scope="module")
+def page(offline, site):
+    page = open_html(offline, site, "<h1>D</h1>")
+    page.evaluate("() => { vmcPython.limit.seconds = 100 }")
+    yield page
+    page.close()
+    assert page.errors == []
+
+
+def with_law(stem, above):
+    """A chapter's code with its changed law."""
+    old, new = LAWS.get(stem, ("", ""))
+    return [lines.replace(old, new) if old else lines for lines in above]
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("stem", DEMOS)
+def test_the_pages_numbers_are_the_notebooks(page, stem):
+    for above, cell in DEMOS[stem]:
+        controls = demos.prepared(tuple(above), cell)[1]
+        asked = [(above, cell, place) for place in (starts(controls), *between(controls))]
+        mine = with_law(stem, above)
+        if changed(mine, above, cell) and (place := moved(mine, above, cell)):
+            asked.append((mine, cell, place))
+        for code, _, place in asked:
+            answer = page.evaluate(ASK, ["demos", "draw", code, above, cell, "d", place])
+            assert "error" not in answer, (answer, cell)
+        said, printed = page.evaluate(
+            ASK, ["grader", "run", [], f"given = {json.dumps(asked)!r}\n{ASKED}"]
+        )
+        assert said.startswith("✓ It runs"), said
+        ours = [digest(*one) for one in asked]
+        np.testing.assert_allclose(json.loads(printed), ours, rtol=1e-6, atol=1e-6)
+
+
+@pytest.mark.parametrize("stem", LAWS)
+def test_a_law_moves_two_demos(stem):
+    found = [(with_law(stem, above), above, cell) for above, cell in DEMOS[stem]]
+    assert sum(bool(changed(*one)) and moved(*one) is not None for one in found) >= 2

@@ -1,0 +1,127 @@
+"""A law that the reader changes moves the demos below it, and sliders stand between their stops."""
+
+import pytest
+from playwright.sync_api import expect
+
+from tests import pages
+from tests.python_in_page.conftest import CELL
+from vmc_lib.show import demo
+
+pytestmark = pytest.mark.browser
+LAW = "def law(x):\n    return 2 * x"
+DEMO = """import matplotlib.pyplot as plt
+from vmc_lib.show import Slider, explore
+
+
+def draw(x):
+    fig, ax = plt.subplots()
+    ax.plot([0, law(x)])
+    ax.set_title(f"at {x:g}: {law(x):g}")
+    return fig
+
+
+explore(draw, "A line.", x=Slider([0, 1, 3], "x", 1))"""
+TITLE = ".vmc-picture svg"
+
+
+@pytest.fixture(autouse=True)
+def patient():
+    """Python takes a while to start."""
+    expect.set_options(timeout=60_000)
+    yield
+    expect.set_options(timeout=5_000)
+
+
+@pytest.fixture(scope="module")
+def law_html():
+    """A chapter of a law and two demos: one follows it, one does not."""
+    other = DEMO.replace("law(x)", "x")
+
+    def declare():
+        for lines in (DEMO, other):
+            exec(f"{LAW}\n{lines}", {})  # noqa: S102
+
+    with pytest.MonkeyPatch.context() as patch:
+        shown = pages.displayed(patch, demo)
+        patch.setenv("VMC_RENDER_MODE", "book")
+        declare()
+    law = CELL.format(LAW).replace('"cell"', '"cell tag_runs-in-page"')
+    cells = [
+        f'<div class="cell tag_draws-in-page"><div class="cell_input"><pre>{lines}</pre></div>'
+        f'<div class="cell_output">{item.data}</div></div>'
+        for lines, item in zip((DEMO, other), shown, strict=True)
+    ]
+    return f"<h1>L</h1>{law}{''.join(cells)}"
+
+
+@pytest.fixture
+def open_law(open_page, law_html):
+    """A function that opens the chapter, with what the tests look at."""
+
+    def open_law(*window):
+        page = open_page(law_html, *window)
+        page.evaluate("() => { vmcPython.limit.seconds = 100 }")  # others may be at work, too
+        page.mine, page.other = page.locator(".vmc-demo").all()
+        page.slider = page.mine.locator("input")
+        page.line = page.mine.locator(".vmc-law [role=status]")
+        return page
+
+    return open_law
+
+
+def change(page, lines):
+    page.get_by_role("button", name="Edit law").click()
+    page.get_by_label("Your lines: law").fill(lines)
+    page.get_by_role("button", name="Run", exact=True).click()
+
+
+def test_a_law_moves_its_demos_and_goes_back(open_law, serious):
+    page = open_law()
+    change(page, LAW.replace("2 *", "5 *"))
+    expect(page.line).to_have_text("This demo runs your law.")
+    expect(page.mine.locator(TITLE)).to_contain_text("at 1: 5")
+    expect(page.other.locator(TITLE)).to_contain_text("at 1: 1")
+    expect(page.other.locator(".vmc-law [role=status]")).to_have_text("")
+    page.slider.fill("2")
+    expect(page.mine.locator(TITLE)).to_contain_text("at 3: 15")
+    expect(page.mine).not_to_have_attribute("aria-busy", "true")
+    assert serious(page, "html", all_of_it=True) == []
+    link = page.mine.locator(".vmc-link").get_attribute("href")
+    page.mine.get_by_role("button", name="Back to the book").click()
+    expect(page.mine.locator(TITLE)).to_contain_text("at 3: 6")
+    expect(page.line).to_have_text("")
+    page.evaluate("(link) => { location.hash = ''; location.hash = link }", link)
+    expect(page.line).to_contain_text("This link brings another law.")
+    expect(page.mine.locator(TITLE)).to_contain_text("at 3: 6")
+    page.mine.get_by_role("button", name="Run it").click()
+    expect(page.mine.locator(TITLE)).to_contain_text("at 3: 15")
+
+
+def test_sliders_stand_between_their_stops(open_law, window):
+    page = open_law(window(viewport={"width": 360, "height": 700}))
+    page.mine.get_by_role("button", name="Any value").click()
+    page.slider.fill("1.5")
+    expect(page.mine.locator(TITLE)).to_contain_text("at 2: 4")
+    expect(page.mine.locator("output")).to_have_text("2")
+    page.slider.fill("2")
+    expect(page.mine.locator(TITLE)).to_contain_text("at 3: 6")
+    expect(page.other.get_by_role("button", name="Any value")).to_be_hidden()
+    assert page.evaluate("() => document.documentElement.scrollWidth") <= 360
+
+
+@pytest.mark.parametrize(
+    ("lines", "told"),
+    [
+        ("def law(x):\n    return 1 / 0", "Your law stops: ZeroDivisionError"),
+        ("def law(x):\n    return", "Your law stops: TypeError"),
+        ("def law(x):\n    while True:\n        pass", "Stopped after 10 s."),
+    ],
+)
+def test_a_law_that_fails_gives_the_demo_back_to_the_book(open_law, lines, told):
+    page = open_law()
+    page.evaluate("() => vmcPython.ask(['demos', 'draw', [], [], '', '', {}], () => {})")
+    page.evaluate("() => { vmcPython.limit.seconds = 10 }")
+    change(page, lines)
+    expect(page.line).to_contain_text(told)
+    expect(page.line).to_contain_text("This is the book’s.")
+    expect(page.mine.locator(TITLE)).to_contain_text("at 1: 2")
