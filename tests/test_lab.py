@@ -162,7 +162,9 @@ def test_notebook_7_runs_a_chapter_and_whoever_gets_it_untrusted_sees_stills(
         assert still.evaluate(width) > 100
         trusted = "return notebook.widgets.some((cell) => cell.model.trusted && cell.outputArea);"
         assert not lab.run(page, trusted)
-        assert not page.locator(".vmc-right p").first.is_visible()  # a prediction's outcome
+        outcome = page.locator("details", has_text="What came out").locator("p").first
+        outcome.wait_for(state="attached")
+        assert not outcome.is_visible()
 
 
 def test_scenes_and_the_arm_move_and_free_their_memory(run_all):

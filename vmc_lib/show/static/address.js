@@ -1,5 +1,5 @@
 /* What stands after the # of the page's address, even if it came encoded, or cut. */
-const vmcHash = () => {
+window.vmcHash = () => {
   const text = location.hash.slice(1).replaceAll("&amp;", "&"); // as some mail programs write it
   try { return decodeURIComponent(text); } catch { return text; } // cut in the middle of a sign
 };
