@@ -57,6 +57,7 @@ def serve(home, *files):
     options = f"--no-browser --allow-root --ip=127.0.0.1 --port={port}"
     options += " --ServerApp.port_retries=0 --IdentityProvider.token=secret"
     options += f" --LabApp.expose_app_in_browser=True --ServerApp.root_dir={book}"
+    options += " --JupyterNotebookApp.expose_app_in_browser=True"
     options += f" --LabApp.app_settings_dir={ROOT / '.binder'}"  # as make lab does
     command = [sys.executable, "-m", "jupyterlab", *options.split()]
     with open(home / "log", "w", encoding="utf-8") as log:

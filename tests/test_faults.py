@@ -13,8 +13,12 @@ import pytest
 from reproduce import results
 from reproduce.pipeline import checksums, steps
 from tests.project import ROOT, code_cells, each_chapter, run
-from vmc_lib import data, photos
+from vmc_lib import data, marker_sheet, photos
+from vmc_lib.arm.kinematics import inverse_kinematics
+from vmc_lib.motor.execution import execute
+from vmc_lib.motor.templates import load
 from vmc_lib.show import check, questions
+from vmc_lib.where.segmentation import segment
 
 REMEDY = "git checkout -- .*python -m reproduce --list"
 
@@ -143,6 +147,33 @@ def test_an_interrupted_installation_resumes(tmp_path):
         done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True)
         assert (done.returncode == 0) == (ends == 0)
         assert (tmp_path / ".venv/.ready").exists() == (ends == 0)
+
+
+GREY = np.full((20, 30, 3), 0.5, np.float32)
+
+
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        (lambda: segment(GREY, k=0), "k = .*0.*above 0"),
+        (lambda: segment(GREY, sigma=-1), "sigma = -1.*above 0"),
+        (lambda: segment(GREY * np.nan), "finite"),
+        (lambda: segment(GREY[..., 0]), r"\(height, width, c\)"),
+        (lambda: marker_sheet.estimate_camera(GREY * 255), "divide 8 bits by 255"),
+        (lambda: inverse_kinematics((0.1, 0.2, 0.3)), r"\(…, 2\), in m"),
+        (lambda: execute(None, prism=30.0), "prism of 30.0 rad: give radians"),
+        (lambda: execute(None, prism=np.nan), "prism of nan"),
+        (lambda: load(hold=-1), "hold of -1 s: give seconds"),
+        (lambda: load(hold=np.nan), "hold of nan"),
+    ],
+)
+def test_wrong_input_is_named_with_its_remedy(call, words):
+    with pytest.raises(ValueError, match=words):
+        call()
+
+
+def test_a_float_photo_of_the_sheet_is_taken():
+    assert marker_sheet.estimate_camera(GREY) is None
 
 
 @each_chapter

@@ -1,6 +1,6 @@
-"""Chapters from a host with a strict content policy, and in a browser that stores nothing."""
+"""Chapters from hosts that forbid, rewrite or frame, and in a browser that stores nothing."""
 
-from urllib.parse import unquote, urlsplit
+from urllib.parse import quote, unquote, urlsplit
 
 import pytest
 
@@ -47,6 +47,36 @@ def test_a_host_may_forbid_inline_scripts(under_policy, allowed, said):
     page.locator("[name=main]").first.click()
     page.get_by_text(said).first.wait_for()
     assert all("Content Security Policy" in error for error in page.errors)
+
+
+COURSE = "/~ann/a b+c/"
+ADDRESS = f"http://book{quote(COURSE)}book/08_arm"
+FRAME = f'<iframe sandbox="allow-scripts" width="900" height="700" src="{ADDRESS}"></iframe>'
+
+
+@pytest.mark.parametrize("address", [ADDRESS, "http://site/", "file:"])
+def test_a_chapter_plays_wherever_it_lies(window, address, tmp_path):
+    """In a sub-folder, without its ending; in a frame that may store nothing; in an odd folder."""
+    (folder := tmp_path / "a b&c#d+ü%41").mkdir()
+    (folder / "html").symlink_to(BUILT)
+    address = address.replace("file:", (folder / "html/book/08_arm.html").as_uri())
+
+    def serve(route):
+        path = BUILT / unquote(urlsplit(route.request.url).path).removeprefix(COURSE)
+        route.fulfill(path=path if path.suffix else path.with_suffix(".html"))
+
+    reader = window(reduced_motion="reduce")
+    reader.route("http://book/**", serve)
+    reader.route("http://site/", lambda route: route.fulfill(body=FRAME, content_type="text/html"))
+    page = open_url(reader, address)
+    chapter = page.frame_locator("iframe") if "site" in address else page
+    chapter.locator("[name=main]").first.click()
+    chapter.get_by_text("The arm is running").first.wait_for()
+    demo = chapter.locator(".vmc-demo[data-ready]:has([data-stride][type=range])").first
+    before = demo.locator("output").first.inner_text()
+    demo.locator("[data-stride][type=range]").first.press("End")
+    assert demo.locator("output").first.inner_text() != before
+    assert page.errors == page.failed == []
 
 
 def test_colours_change_where_storage_is_forbidden(window):

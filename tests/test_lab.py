@@ -3,6 +3,7 @@
 import re
 from urllib.parse import unquote
 
+import nbformat
 import numpy as np
 import pytest
 from PIL import Image
@@ -39,11 +40,11 @@ def visit(window, server):
     """A function that opens a chapter and returns the page."""
     pages = []
 
-    def visit(chapter):
+    def visit(chapter, app="lab/tree"):
         page = observe(window.new_page())
         pages.append(page)
         page.on("dialog", lambda dialog: dialog.accept())
-        page.goto(f"{server[0]}/lab/tree/{chapter}.ipynb?token=secret&reset")
+        page.goto(f"{server[0]}/{app}/{chapter}.ipynb?token=secret&reset")
         lab.wait_until_open(page)
         page.evaluate("() => jupyterapp.shell.collapseLeft()")
         return page
@@ -58,8 +59,8 @@ def visit(window, server):
 def run_all(visit):
     """A function that opens a chapter, whose prose shows no markup, and runs all of it."""
 
-    def run_all(chapter):
-        page = visit(chapter)
+    def run_all(chapter, app="lab/tree"):
+        page = visit(chapter, app)
         words = lab.prose(page)
         assert len(words) > 10
         assert not re.findall(r"\{[a-z-]+\}|```|:::|\]\(|\$|:[a-z]+: ", "\n".join(words))
@@ -141,6 +142,29 @@ def test_a_plot_follows_the_kernel_shows_its_errors_and_leaves_a_still(run_all):
     still.get_by_text("Run > Run All Cells to make it move").wait_for()
     assert line in unquote(still.inner_html())
     assert not page.get_by_text("model not found").first.is_visible()
+
+
+def test_notebook_7_runs_a_chapter_and_whoever_gets_it_untrusted_sees_stills(
+    run_all, visit, server
+):
+    page = run_all("07_muscle", "notebooks")
+    lab.move(page, page.locator(".vmc-demo[data-ready] input[type=range]").first)
+    lab.run(page, "await panel.context.save();")
+    chapter = nbformat.read(server[1] / "07_muscle.ipynb", as_version=4)
+    chapter.cells[0].source += "\n\nFrom another machine."  # whose signature nobody here knows
+    nbformat.write(chapter, server[1] / "elsewhere.ipynb")
+    for app in ("notebooks", "lab/tree"):
+        page = visit("elsewhere", app)
+        lab.choose_cell(page, "explore(")
+        still = page.locator(".vmc-still").first
+        still.get_by_text("Run > Run All Cells to make it move").wait_for()
+        width = "(still) => still.querySelector('img').naturalWidth"
+        assert still.evaluate(width) > 100
+        trusted = "return notebook.widgets.some((cell) => cell.model.trusted && cell.outputArea);"
+        assert not lab.run(page, trusted)
+        outcome = page.locator("details", has_text="What came out").locator("p").first
+        outcome.wait_for(state="attached")
+        assert not outcome.is_visible()
 
 
 def test_scenes_and_the_arm_move_and_free_their_memory(run_all):

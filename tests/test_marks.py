@@ -131,15 +131,15 @@ def book(chapter, tmp_path, monkeypatch):
 
 @pytest.mark.usefixtures("book")
 def test_every_file_gets_its_rows(hand_in, tmp_path, monkeypatch, capsys):
-    """Renamed, without ids, metadata or our kernel; without a heading; cut; of no chapter."""
-    folder = tmp_path / "handed in"
+    """Renamed, from Windows, without ids, metadata or kernel; without a heading; cut; of no chapter."""
+    folder = tmp_path / "handed in, ü&b#c"
     folder.mkdir()
     bare = json.loads(nbformat.writes(hand_in)) | {"nbformat_minor": 4}
     bare["metadata"] = {"kernelspec": {"name": "none", "display_name": "None", "language": "R"}}
     for cell in bare["cells"]:
         del cell["id"]
         cell["metadata"] = {}
-    (folder / "a student.ipynb").write_text(json.dumps(bare), encoding="utf-8")
+    (folder / "a student.ipynb").write_text(json.dumps(bare), encoding="utf-8-sig")
     (folder / "cut.ipynb").write_text(json.dumps(bare)[:-300], encoding="utf-8")
     (folder / "empty.ipynb").touch()
     nbformat.write(new_notebook(cells=[new_code_cell("1 / 0")]), folder / "7 a student.ipynb")

@@ -62,3 +62,6 @@ def test_an_optional_section_opens_when_asked_for_or_linked_to(open_page):
     page.emulate_media(media="screen")
     page.locator("a[href='#inside']").first.click()
     assert is_open()
+    page.goto(f"{page.url.split('#')[0]}#100%")  # no address, cut in the middle of a sign
+    page.reload()
+    assert not is_open()

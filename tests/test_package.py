@@ -150,6 +150,17 @@ def test_the_wheel_holds_the_packages(alone):
         assert not Path(path).is_relative_to(ROOT)
 
 
+def test_a_readers_file_hides_no_package_that_readme_does_not_name(tmp_path):
+    parts = PYPROJECT["tool"]["setuptools"]["packages"]["find"]["include"]
+    names = {part.split(".")[0].rstrip("*") for part in parts}
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    [sentence] = re.findall(r"It brings the packages (.*?)\.\s", readme, re.S)
+    assert {*re.findall(r"`(\w+)`", sentence)} == names
+    (tmp_path / "book.py").touch()
+    script = "try: import book.figures\nexcept ImportError as error: print(error)"
+    assert "'book' is not a package" in python("-c", script, cwd=tmp_path)
+
+
 @pytest.mark.parametrize("chapter", ["08_arm", "photos"])
 def test_a_chapter_runs_with_the_wheel_alone(alone, tmp_path, chapter):
     notebook = nbformat.read(ROOT / f"book/{chapter}.ipynb", as_version=4)

@@ -10,7 +10,7 @@ from functools import cache
 import numpy as np
 
 from vmc_lib.camera import TABLE, Camera
-from vmc_lib.photos import HEIGHT, WIDTH, read_image
+from vmc_lib.photos import HEIGHT, WIDTH, as_rgb, read_image
 
 PAGE = np.array([210, 297])  # mm, to the right and down: A4
 MARKER, GAP, GRID = 48, 12, (3, 4)  # mm, mm, columns and rows of markers
@@ -83,7 +83,7 @@ def _clip(polygon, camera):
 
 
 def estimate_camera(photo):
-    """Estimate the `Camera` of a photo (height, width, 3), uint8, that shows the sheet.
+    """Estimate the `Camera` of a photo, as `photos.as_rgb` takes it, that shows the sheet.
 
     Markers are detected in the whole photo; the camera's pixels are those of `read_image`, 600 ×
     400. The unknowns are its pose and focal length: the principal point is the photo's middle, and
@@ -91,6 +91,7 @@ def estimate_camera(photo):
     """
     import cv2
 
+    photo = as_rgb(photo)
     parameters = cv2.aruco.DetectorParameters()
     parameters.cornerRefinementMethod = cv2.aruco.CORNER_REFINE_SUBPIX
     corners, ids, _ = cv2.aruco.ArucoDetector(board().getDictionary(), parameters).detectMarkers(

@@ -61,7 +61,7 @@ addEventListener("DOMContentLoaded", () =>
     button.addEventListener("click", () => open(inside.hasAttribute("hidden")));
     inside.addEventListener("beforematch", () => open(true));
     const asked = () => {
-      const place = document.getElementById(decodeURIComponent(location.hash.slice(1)).split("?")[0]);
+      const place = document.getElementById(window.vmcHash?.().split("?")[0]);
       if (place && section.contains(place)) { open(true); place.scrollIntoView(); }
     };
     addEventListener("hashchange", asked);
@@ -72,7 +72,7 @@ addEventListener("DOMContentLoaded", () =>
 
 /* What a link leads to is unfolded. */
 const unfold = () => {
-  const place = document.getElementById(decodeURIComponent(location.hash.slice(1)));
+  const place = document.getElementById(window.vmcHash?.()); // the key has no demos
   if (place?.matches("details")) place.open = true;
 };
 addEventListener("DOMContentLoaded", unfold);

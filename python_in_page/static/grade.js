@@ -103,8 +103,9 @@ const vmcGrade = (() => {
       keep();
     });
 
-    const kept = JSON.parse(vmcMemory.get(memory));
-    if (kept) {
+    let kept = null;
+    try { kept = JSON.parse(vmcMemory.get(memory)); } catch {} // cut, or another program's
+    if (kept?.typed !== undefined) {
       area.value = kept.typed;
       if (kept.said) show((said = kept.said));
     }

@@ -1,5 +1,7 @@
 """Run steps by doit, which leaves out what is up to date, with a line of progress each."""
 
+import json
+from pathlib import Path
 from time import perf_counter
 
 from doit.cmd_base import ModuleTaskLoader
@@ -27,8 +29,15 @@ class Progress(ConsoleReporter):
 def run_tasks(tasks, names, folder, *options):
     """Run those of doit's `tasks` that are named, and return the exit status: 0 is good.
 
-    What they read and made is remembered in `folder`, to know what is up to date.
+    What they read and made is remembered in `folder`, to know what is up to date; a memory that is
+    damaged is made anew.
     """
-    config = {"dep_file": f"{folder}/.doit.json", "backend": "json", "reporter": Progress}
+    memory = Path(folder, ".doit.json")
+    try:
+        dict(json.loads(memory.read_bytes()) if memory.exists() else {})
+    except (ValueError, TypeError):
+        print(f"{memory} is damaged, and made anew: no step counts as up to date")
+        memory.unlink()
+    config = {"dep_file": str(memory), "backend": "json", "reporter": Progress}
     namespace = {"DOIT_CONFIG": config, "task_steps": lambda: (task for task in tasks)}
     return DoitMain(ModuleTaskLoader(namespace)).run(["run", *options, *names])

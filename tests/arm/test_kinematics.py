@@ -38,7 +38,8 @@ def test_positive_turns_are_to_the_left():
         ((0.1, 0.9, 0.1), r"\[0\.1 0\.9 0\.1\] m lies beyond the arm's reach"),
         ((0.0, -0.4, -0.17), "beyond the arm's reach"),
         ((-0.3, -0.4, 0.0), "needs a turn"),
-        ((np.nan, -0.4, 0.0), "not finite"),
+        ((np.nan, -0.4, 0.0), "must be finite"),
+        ((0.3, -0.4), r"of shape \(…, 3\)"),
     ],
 )
 def test_unreachable_targets_are_refused(target, complaint):

@@ -75,6 +75,12 @@ def test_lines_and_verdict_are_kept_until_reset(open_exercise):
     page.reload()
     assert page.lines.input_value() == empty
     assert page.said.inner_text() == ""
+    for harm in ("", '{"typed', "7"):  # by another program of the same address
+        page.evaluate(
+            "(harm) => Object.keys(localStorage).forEach((k) => (localStorage[k] = harm))", harm
+        )
+        page.reload()
+        assert page.lines.input_value() == empty
 
 
 def test_it_works_where_storage_is_forbidden(open_exercise, window):

@@ -40,7 +40,7 @@ def inverse_kinematics(p):
     >>> hand(q)[:2].round(6).tolist()
     [0.15, -0.4]
     """
-    p = np.asarray(p, dtype=float)
+    p = _positions(p, 2)
     return _solve(lambda q: hand(q)[..., :2], p, p, p)
 
 
@@ -70,7 +70,7 @@ def turn_towards(target):
     >>> to_world(hand(inverse_kinematics(p)), psi).round(6).tolist()
     [0.25, -0.4, 0.1]
     """
-    target = np.asarray(target, dtype=float)
+    target = _positions(target, 3)
     x, z = np.moveaxis(target[..., [0, 2]] - TRUNK, -1, 0)
     distance, height = np.hypot(x, z), target[..., 1]  # from the trunk's axis
     wanted = np.stack([distance, height], axis=-1)
@@ -100,6 +100,13 @@ def to_world(points, psi):
     return points
 
 
+def _positions(points, axes):
+    points = np.asarray(points, dtype=float)
+    if points.shape[-1:] != (axes,) or not np.all(np.isfinite(points)):
+        raise ValueError(f"position {points} must be finite, of shape (…, {axes}), in m")
+    return points
+
+
 def _solve(measure, wanted, guess, target):
     """Postures q with measure(q) = wanted, by Newton's method from near plane position `guess`.
 
@@ -108,8 +115,6 @@ def _solve(measure, wanted, guess, target):
     For the guess the joints' axes count as parallel: then the wrist's distance from the shoulder
     depends on the elbow alone, and the shoulder turns the wrist to its bearing.
     """
-    if not np.all(np.isfinite(target)):
-        raise ValueError(f"position {target} m is not finite; give numbers")
     elbow = np.linspace(*BENT[1], 100)[::-1]
     distance = np.linalg.norm(hand(np.stack([0 * elbow, elbow], -1))[:, :2], axis=-1)
     bend = np.interp(np.linalg.norm(guess, axis=-1), distance, elbow)

@@ -38,6 +38,8 @@ def execute(plan, perturbation=UNPERTURBED, prism=0.0):
     >>> movement.endpoint.shape, bool(movement.error < 0.02)
     ((2,), True)
     """
+    if not abs(prism) < np.pi / 2:
+        raise ValueError(f"a prism of {prism} rad: give radians, less than a quarter turn")
     return Movement(plan, perturbation, prism)
 
 

@@ -92,6 +92,8 @@ def load(spacing=SPACING, hold=HOLD):
     """
     if spacing not in SPACINGS:
         raise ValueError(f"no templates lie {spacing} m apart; choose one of {SPACINGS}")
+    if not 0 <= hold < np.inf:
+        raise ValueError(f"a hold of {hold} s: give seconds, 0 or more")
     excitations = spline() @ arrays("templates")[key(spacing)].astype(float)
     move = partial(reach, hold=hold)
     return TemplateSet(read_only(move(excitations).endpoint), read_only(excitations), reach=move)

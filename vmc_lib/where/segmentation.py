@@ -45,6 +45,10 @@ def segmentations(channels, scales, sigma=0.8):
     """The labels of `segment` at each scale k in turn; the edges are sorted once for all."""
     import cv2
 
+    if channels.ndim != 3 or 0 in channels.shape or not np.all(np.isfinite(channels)):
+        raise ValueError(f"channels {channels.shape} must be finite, (height, width, c), not empty")
+    if not (0 < sigma < np.inf and all(0 < k < np.inf for k in scales)):
+        raise ValueError(f"scales k = {scales}, sigma = {sigma}: give finite numbers above 0")
     smooth = cv2.GaussianBlur(channels, (0, 0), sigma).reshape(channels.shape)
     height, width = smooth.shape[:2]
     edges, offsets = sort_by_weight(pixel_edges(smooth)), pixel_offsets(width)

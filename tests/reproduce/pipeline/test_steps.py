@@ -119,6 +119,10 @@ def test_a_step_runs_until_it_is_up_to_date(tmp_path, monkeypatch, capsys):
     assert first.startswith("squares … ")
     assert first.endswith(" s")
     assert second == "squares: up to date"
+    for harm in (b"", b'{"squ', b"null", b"\xff"):  # a disk was full, a synchronised folder's own
+        (tmp_path / ".doit.json").write_bytes(harm)
+        assert progress.run_tasks(tasks(), ["squares"], tmp_path) == 0
+        assert "is damaged, and made anew" in capsys.readouterr().out
 
 
 def test_the_list_names_every_step_its_file_and_its_minutes(capsys):

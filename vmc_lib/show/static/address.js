@@ -1,3 +1,9 @@
+/* What stands after the # of the page's address, even if it came encoded, or cut. */
+window.vmcHash = () => {
+  const text = location.hash.slice(1).replaceAll("&amp;", "&"); // as some mail programs write it
+  try { return decodeURIComponent(text); } catch { return text; } // cut in the middle of a sign
+};
+
 /* A demo's state in the page's address: `#demo-3?photo=1&step=4` says where each control stands. It is
    read when the page opens and when the address changes, and written when the reader moves a control;
    the sign at the caption's end is a link to it. */
@@ -24,7 +30,7 @@ const vmcAddress = (demo) => {
 
   /* Put the controls where the address says; whether it speaks of this demo. */
   const read = () => {
-    const [id, places] = location.hash.slice(1).split("?");
+    const [id, places] = vmcHash().split("?");
     if (id !== demo.id || places === undefined) return false;
     for (const [key, place] of new URLSearchParams(places))
       for (const input of inputs.filter((input) => name(input) === key))
