@@ -100,7 +100,7 @@ def test_settings_are_no_scripts_inside_a_page(book):
     assert inside
     assert all(re.search(r"DOCUMENTATION_OPTIONS|dataset\.mode", code) for code in inside)
     settings = (book / "_build/html/_static/settings.js").read_text(encoding="utf-8")
-    for name in ("window.MathJax", "bm", "toggleHintShow", "togglebuttonSelector"):
+    for name in ("toggleHintShow", "togglebuttonSelector"):
         assert name in settings
 
 

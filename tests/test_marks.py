@@ -131,7 +131,7 @@ def book(chapter, tmp_path, monkeypatch):
 
 @pytest.mark.usefixtures("book")
 def test_every_file_gets_its_rows(hand_in, tmp_path, monkeypatch, capsys):
-    """Renamed, from Windows, without ids, metadata or kernel; without a heading; cut; of no chapter."""
+    """Renamed, from Windows, without ids, metadata or kernel; without a heading; cut; of none."""
     folder = tmp_path / "handed in, ü&b#c"
     folder.mkdir()
     bare = json.loads(nbformat.writes(hand_in)) | {"nbformat_minor": 4}
