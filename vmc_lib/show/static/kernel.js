@@ -1,6 +1,8 @@
 /* The browser's end of widgets that a kernel answers (vmc_lib.show.live). */
 const GONE = "The kernel has gone: Run > Run All Cells.";
-const RUNNING = "The chapter is still running: the controls move as soon as it can answer.";
+// where a browser was too slow for anywidget's two seconds, no answer ever comes
+const RUNNING = "The chapter is still running: the controls move as soon as it can answer. " +
+  "If it has ended, run this cell once more.";
 const { loaded, lenders, vendored } = (globalThis.vmcScripts ??= {
   loaded: new Set(), // names of the scripts that have run, once for the whole window
   lenders: new Set(), // kernels that send a vendored script to whoever needs it
