@@ -3,7 +3,7 @@
 (() => {
   const KEY = "vmcRecord", MOST = 2000;
   const page = location.pathname.split("/").pop().replace(/\.html$/, "");
-  const all = () => JSON.parse(vmcMemory.get(KEY) ?? "[]");
+  const all = () => [vmcMemory.parsed(KEY) ?? []].flat().filter((one) => one?.kind); // others may write there
 
   /* The words of an element, its formulas as they were written. */
   const words = (node) => {

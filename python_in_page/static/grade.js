@@ -103,8 +103,7 @@ const vmcGrade = (() => {
       keep();
     });
 
-    let kept = null;
-    try { kept = JSON.parse(vmcMemory.get(memory)); } catch {} // cut, or another program's
+    const kept = vmcMemory.parsed(memory);
     if (kept?.typed !== undefined) {
       area.value = kept.typed;
       if (kept.said) show((said = kept.said));

@@ -1,6 +1,7 @@
 /* What a reader chose is remembered where the browser remembers: it may be told not to. */
 const vmcMemory = {
   get: (key) => { try { return localStorage.getItem(key); } catch { return null; } },
+  parsed: (key) => { try { return JSON.parse(localStorage.getItem(key)); } catch { return null; } }, // it may be cut
   set: (key, text) => { try { localStorage.setItem(key, text); } catch {} },
 };
 
