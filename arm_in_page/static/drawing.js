@@ -25,7 +25,8 @@ const vmcDrawing = (() => {
     show(marks, target) {
       const { at, times, measure, put } = this;
       const enlarged = (point) => at.map((middle, axis) => middle + times * (point[axis] - target[axis]));
-      put.innerHTML = target ? draw(marks, measure, enlarged) : "";
+      const shapes = marks.filter(([kind]) => kind !== "words");
+      put.innerHTML = target ? draw(shapes, measure, enlarged) : "";
     }
   }
 
