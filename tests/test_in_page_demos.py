@@ -1,11 +1,14 @@
 """What the page works out for any position of the reader's hand is what Python works out."""
 
 import re
+from functools import partial
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
-from book.figures import aiming, reaching, votes, where
+from book.figures import aiming, crbm, granule, names, reaching, trade, votes, where
+from reproduce.experiments import localisation, recognition
 from tests.pages import book_html, drag, middle, open_html
 from vmc_lib import photos
 from vmc_lib.arm.kinematics import to_world
@@ -19,24 +22,37 @@ from vmc_lib.show.markup import data_uri
 
 pytestmark = pytest.mark.browser
 CUP = np.array([120.0, 90.0, 200.0, 180.0])
-XS, YS = np.arange(80, 161, 4), np.arange(46, 135, 4)
+XS, YS, WIDE, HIGH = (
+    np.arange(120, 201, 4),
+    np.arange(91, 180, 4),
+    np.arange(40, 121, 4),
+    np.arange(40, 121, 4),
+)
 PAST, MUSCLE = templates.load(spacing=0.06), MUSCLES.index("BIClong")
 ACROSS, UP = np.arange(0.015, 0.17, 0.015), np.arange(-0.475, -0.33, 0.015)
 SPOTS = [(x, y) for x in ACROSS.tolist() for y in UP.tolist()]
 ENDED = execute(plan(SPOTS, PAST)).endpoint
 SHOT = photos.load("free", "test")[0]
 ACROSS_SHOT, DOWN_SHOT = np.arange(0, 601, 10), np.arange(0, 401, 10)
+THRESHOLDS, ALLOWED = np.linspace(-2, 2, 41).round(2), np.linspace(0.1, 0.9, 41).round(2)
+DETECTED = {level: [*localisation.detect_photos(level, "validation")] for level in ("rig", "free")}
+LEVEL = {k: trade.scored_level(photos.load(k, "validation"), v) for k, v in DETECTED.items()}
+WIDTHS, X = np.geomspace(0.003, 0.15, 41), np.linspace(0.005, 0.235, 60)
+LINE = X[:, None] + 0.01 * np.sin(20 * X[:, None]), 8 + 6 * np.sin(30 * X), X, np.arange(60)[::-1]
+DRIVES, CUTS = np.linspace(-3, 3, 61).round(1), np.linspace(0.01, 0.99, 99).round(2)
+CHANCES = {level: recognition.load_probabilities(level, "test") for level in ("rig", "varied")}
 AROUND, NEURONS = np.linspace(-0.95, 0.95, 20), (4, 12, 60)
 
 
 def declare():
     image = photos.load("rig", "validation")[0].image
     explore(
-        lambda corner: where.overlap(image, CUP, np.array(corner)),
+        lambda middle, size: where.overlap(image, CUP, middle, size),
         "c",
-        lambda corner: f"{corner}",
+        lambda middle, size: f"{middle} {size}",
         in_page=where.overlap_in_page(image, CUP),
-        corner=Pad(XS, YS, start=(120, 90)),
+        middle=Pad(XS, YS, start=(160, 135)),
+        size=Pad(WIDE, HIGH, start=(80, 80)),
     )
     explore(
         lambda place: reaching.planned(PAST, MUSCLE, place, ENDED[SPOTS.index(place)]),
@@ -60,6 +76,39 @@ def declare():
         lambda target: aiming.describe_aim(SHOT, target),
         in_page=aiming.aim_in_page(SHOT),
         target=Pad(ACROSS_SHOT, DOWN_SHOT, start=(300, 200)),
+    )
+    explore(
+        lambda level, threshold, overlap: trade.trade(LEVEL[level], threshold, overlap),
+        "c",
+        lambda level, threshold, overlap: trade.trade_in_words(LEVEL[level], threshold, overlap),
+        in_page=trade.trade_in_page(LEVEL),
+        level=[*LEVEL],
+        threshold=Slider(THRESHOLDS, "threshold"),
+        overlap=Slider(ALLOWED, "overlap"),
+    )
+    explore(
+        partial(granule.bells, *LINE),
+        "c",
+        in_page=granule.bells_in_page(*LINE),
+        width=Slider(WIDTHS, "width"),
+        lessons=Slider(range(2, 41), "lessons"),
+        place=Slider(LINE[2], "place"),
+    )
+    explore(
+        lambda **drives: crbm.block(*drives.values()),
+        "c",
+        in_page=crbm.block_in_page(),
+        **{f"I{i}": Slider(DRIVES, f"drive {i}") for i in range(4)},
+    )
+    explore(
+        lambda level, method, threshold: names.sorted_crops(
+            CHANCES[level][0][method], CHANCES[level][1], threshold
+        ),
+        "c",
+        in_page=names.sorted_crops_in_page(CHANCES, ["HOG", "CDBN, MP2"]),
+        level=[*CHANCES],
+        method=["HOG", "CDBN, MP2"],
+        threshold=Slider(CUTS, "threshold"),
     )
 
 
@@ -100,24 +149,40 @@ def on(markup, points):
 
 def polylines(markup):
     lines = re.findall(r'<polyline points="([^"]*)"', markup)
-    return np.float64([[pair.split(",") for pair in line.split()] for line in lines])
+    return [np.float64([pair.split(",") for pair in line.split()]) for line in lines]
 
 
 def words(markup):
     return re.findall(r"<text[^>]*>([^<]*)</text>", markup)
 
 
-@pytest.mark.parametrize("place", [(10, 11), (0, 0), (20, 22), (12, 11), (9, 14), (3, 20)])
+@pytest.mark.parametrize("place", np.random.default_rng(1).integers(0, 20, (20, 4)).tolist())
 def test_the_overlap_of_two_boxes_is_drawn_as_in_python(page, place):
-    corner = np.array([XS[place[0]], YS[place[1]]])
+    x, y, wide, high = place
+    middle, size = (XS[x], YS[y]), (WIDE[wide], HIGH[high])
     [seen], said = move(page, 0, *place)
-    drawn = where.overlap(photos.load("rig", "validation")[0].image, CUP, corner)
+    drawn = where.overlap(photos.load("rig", "validation")[0].image, CUP, middle, size)
     assert numbers(seen, "rect") == numbers(drawn, "rect")
     assert words(seen) == [text for text in words(drawn) if text]
     colours = re.compile(r'<rect[^>]*stroke="(#\w+)"')
     assert colours.findall(seen) == colours.findall(drawn)
-    box = np.concatenate([corner, corner + CUP[2:] - CUP[:2]])
-    assert said == f"A box at {corner[0]}, {corner[1]}: IoU {iou(box, CUP).item():.2f}."
+    assert said == where.describe_overlap(CUP, middle, size)
+
+
+def test_a_box_is_moved_by_its_middle_and_stretched_by_its_corner(page):
+    box = page.locator(".vmc-demo").nth(0)
+    move(page, 0, 10, 11, 10, 10)
+    box.scroll_into_view_if_needed()
+    twins, handles = box.locator("input").all(), box.locator(".vmc-handle").all()
+    for handle, moved in zip(
+        handles, ([True, True, False, False], [False, False, True, True]), strict=True
+    ):
+        before, places = [twin.input_value() for twin in twins], [middle(h) for h in handles]
+        drag(page, middle(handle), 20, 15)
+        now = [twin.input_value() for twin in twins]
+        assert [a != b for a, b in zip(before, now, strict=True)] == moved
+        far = [np.subtract(middle(h), p) for h, p in zip(handles, places, strict=True)]
+        assert np.abs(far[-1] - [20, 15]).max() < 4  # the corner comes along, to the grid
 
 
 def test_overlap_of_any_two_boxes(page):
@@ -142,7 +207,7 @@ def test_a_plan_is_drawn_as_python_plans_it(page, place):
     marks = [mark[:2] for mark in numbers(in_plane, "circle")]
     expected = on(in_plane, [*one.points, one.target, ENDED[spot]])
     assert np.abs(np.array(marks) - expected).max() < 0.1
-    curves = polylines(over_time)
+    curves = np.array(polylines(over_time))
     parts = one.weights[:, None] * PAST.excitations[one.rows, ::20, MUSCLE]
     time = np.arange(parts.shape[1]) * 0.02
     wanted = [on(over_time, np.stack([time, part], -1)) for part in [*parts, parts.sum(0)]]
@@ -157,7 +222,7 @@ def test_neurons_vote_as_in_python(page, place):
     off = f"{votes.lean(target, neurons, evenly):.0f}° off"
     assert words(seen)[-3:] == ["the reach", "the sum", off]
     assert said.endswith(f"their sum is {off}.")
-    tips = polylines(seen)[:, 1]
+    tips = np.array([line[1] for line in polylines(seen)])
     cast = votes.votes(target, votes.preferred(neurons, evenly))
     wanted = [*cast, target, votes.vote(target, neurons, evenly)]
     assert np.abs(tips - on(seen, wanted)).max() < 0.1
@@ -212,6 +277,87 @@ def test_the_camera_is_that_of_python(page):
     assert np.allclose(back, pixels, atol=1e-6)
 
 
+@pytest.mark.parametrize("place", np.random.default_rng(6).integers(0, 41, (20, 2)).tolist())
+def test_a_threshold_trades_precision_for_recall_as_in_python(page, place):
+    level, (threshold, overlap) = ["rig", "free"][sum(place) % 2], place
+    box = page.locator(".vmc-demo").nth(4)
+    box.get_by_label(level).check()
+    for name, at in zip(("threshold", "overlap"), place, strict=True):
+        box.get_by_role("slider", name=name).fill(str(at))
+    photo, plot = [picture.inner_html() for picture in box.locator(".vmc-picture").all()]
+    threshold, overlap = THRESHOLDS[threshold], ALLOWED[overlap]
+    kept = [localisation.keep_boxes(one, threshold, overlap) for one in DETECTED[level]]
+    precision, recall = localisation.precision_recall(LEVEL[level].photos, kept)
+    rates = re.findall(r"[\d.]+", words(plot)[-1])
+    assert np.abs(np.float64(rates) - [precision, recall]).max() <= 0.005 + 1e-9
+    drawn, figure = trade.trade(LEVEL[level], threshold, overlap)
+    plt.close(figure)
+    assert sorted(numbers(photo, "rect")) == sorted(numbers(drawn, "rect"))
+    assert len(numbers(photo, "rect")) == 2 * len(kept[trade.SHOWN])
+    assert words(plot)[-1] in trade.trade_in_words(LEVEL[level], threshold, overlap)
+    curve = trade.trace(LEVEL[level], overlap)[2]
+    assert np.abs(polylines(plot)[0] - on(plot, curve)).max() < 0.2
+    assert (
+        np.abs(np.array(numbers(plot, "circle")[-1][:2]) - on(plot, [recall, precision])).max()
+        < 0.2
+    )
+
+
+@pytest.mark.parametrize("place", np.random.default_rng(7).integers(0, 39, (20, 3)).tolist())
+def test_granule_cells_answer_as_in_python(page, place):
+    [seen], said = move(page, 5, *place)
+    width, lessons, at = WIDTHS[place[0]], place[1] + 2, X[place[2]]
+    cells = granule.fit_line(*LINE, width, lessons)
+    needed = np.interp(X, LINE[0][:, 0], LINE[1])
+    sums, active = cells.predict(X[:, None]), cells.excite([[at]])[0]
+    off = abs(sums[place[2]] - needed[place[2]])
+    mean = granule.off_by(*LINE, width, lessons)
+    assert words(seen)[-1] == f"off by {mean:.2f} mm on average, here by {off:.2f}"
+    assert said.endswith(f"{words(seen)[-1]}.")
+    *grey, need, drawn, error = polylines(seen)
+    assert np.abs(need - on(seen, np.c_[X, needed])).max() < 0.1
+    assert np.abs(drawn - on(seen, np.c_[X, sums.clip(-3, 16)])).max() < 0.1
+    bells = [on(seen, np.c_[X, 3 * height - 3]) for height in cells.excite(X[:, None]).T[::3]]
+    assert np.abs(np.subtract(grey, bells)).max() < 0.1
+    dots = np.array(numbers(seen, "circle"))[:, :3]
+    assert np.abs(dots[:40, 2] - 3 * active).max() < 0.006
+    middles = on(seen, np.c_[cells.centres_[:, 0], np.full(40, -1.5)])
+    assert np.abs(dots[:40, :2] - middles).max() < 0.1
+    assert len(dots) == 40 + lessons
+    assert len(error) == 2
+
+
+@pytest.mark.parametrize("place", np.random.default_rng(8).integers(0, 61, (20, 4)).tolist())
+def test_a_block_chooses_one_of_its_units_as_in_python(page, place):
+    [seen], _ = move(page, 6, *place)
+    on_chances, pooled = crbm.block_chances(DRIVES[place])
+    chances = [*on_chances, 1 - pooled]
+    told = np.float64([text for text in words(seen)[-6:-1]])
+    assert np.abs(told - chances).max() <= 0.005 + 1e-6
+    assert float(words(seen)[-1].split()[-1]) == pytest.approx(pooled, abs=0.0005 + 1e-6)
+    corners = re.findall(r'<polygon points="([^"]*)"', seen)
+    tops = [float(bar.split()[1].split(",")[1]) for bar in corners]
+    assert np.abs(tops - on(seen, np.c_[np.arange(5), chances])[:, 1]).max() < 0.1
+
+
+@pytest.mark.parametrize("place", np.random.default_rng(9).integers(0, 99, 20).tolist())
+def test_a_line_between_crops_is_drawn_as_in_python(page, place):
+    box = page.locator(".vmc-demo").nth(7)
+    level, method = ["rig", "varied"][place % 2], ["HOG", "CDBN, MP2"][place // 2 % 2]
+    for name in (level, method):
+        box.get_by_label(name).check()
+    box.get_by_role("slider").fill(str(place))
+    seen = box.locator(".vmc-picture").inner_html()
+    chances, truth = CHANCES[level][0][method], CHANCES[level][1]
+    counts = recognition.confusion_counts(chances, truth, CUTS[place])
+    told = np.float64(re.findall(r"[\d.]+", words(seen)[-1]))
+    assert np.abs(told - recognition.precision_recall(counts)).max() <= 0.0005 + 1e-6
+    dots = np.array(numbers(seen, "circle"))[:, :2]
+    assert np.abs(dots - on(seen, np.c_[chances, names._spread(truth)])).max() < 0.1
+    [upright] = polylines(seen)
+    assert np.abs(upright[:, 0] - on(seen, [CUTS[place], 0])[0]).max() < 0.1
+
+
 def test_a_photo_lies_below(page):
-    [seen], _ = move(page, 0, 1, 1)
+    [seen], _ = move(page, 0, 1, 1, 1, 1)
     assert data_uri(photos.load("rig", "validation")[0].image) in seen

@@ -13,7 +13,6 @@ const vmcBench = (() => {
       const look = ([entry]) => (this.inSight = entry.isIntersecting);
       new IntersectionObserver(look).observe(this.box);
       this.reset();
-      this.main();
     }
 
     hear() {

@@ -2,6 +2,34 @@
 const vmcDrawing = (() => {
   "use strict";
 
+  /* Markup of marks on a plot, each point where `flat` says. */
+  const draw = (marks, measure, flat) =>
+    marks.map(([kind, colour, points, ...look]) =>
+      measure.mark(kind, colour, kind === "line" ? points.map(flat) : flat(points), ...look)).join("");
+
+  /* A magnifier beside a plot: a disc `at` a place of its axes, in which what is around the target is
+     so many `times` as large. Below it a bar of 1 cm. */
+  class Lens {
+    constructor(box, { at, radius, times }, { svg, measure }) {
+      const [x, y] = at;
+      const [[left, middle], [right]] = [[x - radius, y], [x + radius, y]].map(measure.place);
+      const circle = `<circle cx="${(left + right) / 2}" cy="${middle}" r="${(right - left) / 2}"`;
+      const bar = [x - 0.005 * times, x + 0.005 * times].map((end) => [end, y - 1.15 * radius]);
+      svg.insertAdjacentHTML("beforeend", `<clipPath id="${box.id}-lens">${circle}/></clipPath>
+        ${circle} fill="none" stroke="var(--vmc-grey)"/>
+        ${measure.mark("line", "ink", bar, 2)}${measure.mark("words", "ink", [x, y - 1.15 * radius], "1 cm", -14)}
+        <g clip-path="url(#${box.id}-lens)"></g>`);
+      Object.assign(this, { at, times, measure, put: svg.lastElementChild });
+    }
+
+    show(marks, target) {
+      const { at, times, measure, put } = this;
+      const enlarged = (point) => at.map((middle, axis) => middle + times * (point[axis] - target[axis]));
+      const shapes = marks.filter(([kind]) => kind !== "words");
+      put.innerHTML = target ? draw(shapes, measure, enlarged) : "";
+    }
+  }
+
   class Drawing {
     /* On each plot two axes are seen, as `given.views` says. */
     constructor(box, given) {
@@ -19,8 +47,9 @@ const vmcDrawing = (() => {
           x="${left * width}" width="${(right - left) * width}"
           y="${top * height}" height="${(bottom - top) * height}"/></clipPath>
           <g clip-path="url(#${box.id}-frame-${nth})"></g>`);
-        return { svg, measure, axes: given.views[nth] };
+        return { svg, measure, axes: given.views[nth], put: svg.lastElementChild };
       });
+      if (given.lens) this.lens = new Lens(box, given.lens, this.plots[0]);
     }
 
     /* Show the arm, { q, activation, joints }; if `brief`, in 3-D alone. */
@@ -29,12 +58,9 @@ const vmcDrawing = (() => {
       this.place();
       if (brief) return;
       const marks = [["line", "ink", seen.joints, 5], ...this.marks];
-      for (const { svg, measure, axes } of this.plots) {
-        const flat = (point) => axes.map((axis) => point[axis]);
-        const drawn = marks.map(([kind, colour, points, size]) =>
-          measure.mark(kind, colour, kind === "line" ? points.map(flat) : flat(points), size));
-        svg.lastElementChild.innerHTML = drawn.join("");
-      }
+      for (const { measure, axes, put } of this.plots)
+        put.innerHTML = draw(marks, measure, (point) => axes.map((axis) => point[axis]));
+      this.lens?.show(marks, this.focus);
     }
 
     /* The viewer is there: draw in it what no recorded scene holds. */

@@ -24,20 +24,22 @@ const vmcLive = (() => {
       this.drawing = new Drawing(box, this.given);
       this.calm = matchMedia("(prefers-reduced-motion: reduce)");
       this.form = box.querySelector("form");
-      this.controls = this.form.querySelector("fieldset"); // closed until the arm is started
+      this.controls = this.form.querySelector("fieldset"); // closed until it is open
       const { view } = this.drawing;
       this.form.append(vmcPanel.muscles(view), vmcPanel.turner([view]));
       view.pose(view.posed);
       const keep = (event) => event.stopPropagation(); // a notebook would take it
       this.form.addEventListener("keydown", keep);
-      const begin = () => (this.arm ? this.main() : this.load());
-      this.form.elements.main.addEventListener("click", begin);
+      this.form.elements.main.addEventListener("click", () => this.begin());
       box.dataset.ready = "";
     }
 
+    /* Whether the arm is there; it is loaded when it is first asked for. */
+    awake() {
+      return (this.loading ??= this.load());
+    }
+
     async load() {
-      if (this.loading) return;
-      this.loading = true;
       this.say("Loading the physics …");
       await frame();
       try {
@@ -46,15 +48,24 @@ const vmcLive = (() => {
         this.arm = arm;
         await this.ready();
       } catch (error) {
-        this.loading = false;
-        return this.say(error.name === "KernelGone" ? error.message : whyNot(`${error.message ?? error}`));
+        this.loading = this.arm = null;
+        this.say(error.name === "KernelGone" ? error.message : whyNot(`${error.message ?? error}`));
+        return false;
       }
+      this.open();
+      return true;
+    }
+
+    async begin() {
+      if (await this.awake()) await this.main();
+    }
+
+    open() {
       for (const element of this.form.elements) element.disabled = false;
     }
 
     /* Show one moment of a movement, { q, activation }; if `brief`, in the scene alone. */
-    show(moment, brief = false) {
-      const seen = this.arm.look(moment.q);
+    show(moment, brief = false, seen = this.arm.look(moment.q)) {
       this.drawing.show({ ...moment, ...seen }, brief);
       const [forward, up, right] = seen.joints.at(-1);
       if (!brief) this.tell({

@@ -4,37 +4,55 @@ const vmcReach = (() => {
 
   const { Live, OFTEN, frame, millimetres, signed } = vmcLive;
   const { mean, minus, sum } = vmcVectors;
+  const pace = ({ speed }) => `${millimetres(speed)}/s`;
 
   class Reach extends Live {
-    async ready() {
-      this.templateSet = await vmcTemplates.load(this.given.templateSet);
+    constructor(box) {
+      super(box);
+      const { first } = this.given;
       this.form.elements.calibrate.addEventListener("click", () => this.calibrate());
-      this.controls.addEventListener("input", () => this.aim());
-      this.sliders = [...this.controls.querySelectorAll("input[type=range]")];
+      this.controls.addEventListener("input", ({ target }) => this.aim(target));
+      this.controls.addEventListener("change", () => this.begin());
+      this.sliders = [...this.controls.querySelectorAll("[type=range]:not([name^=weight-])")];
+      const pictures = box.querySelector(".vmc-pictures");
       this.handles = this.drawing.plots.map(({ axes }, nth) => {
-        const put = vmcHandle(this.box.querySelector(".vmc-pictures"), (place) => {
+        const put = vmcHandle(pictures, (place) => {
           axes.forEach((axis, i) => (this.sliders[axis].value = place[i]));
           this.aim();
-        }, nth);
+        }, nth, () => this.begin());
         return (place) => put(axes.map((axis) => place[axis]));
       });
       this.label("Reach");
+      this.open();
+      this.stored = first;
       this.aim();
+      if (!first) return;
+      this.arrive("planned", first, first);
+      this.sayMiss();
     }
 
-    /* Take the target from the sliders and plan anew; what was under way ends. */
-    aim() {
+    async ready() {
+      this.templateSet = await vmcTemplates.load(this.given.templateSet);
+      this.aim(this.moved);
+    }
+
+    propose() {
+      const rule = vmcPlanning[this.form.elements.weights.value];
+      return vmcPlanning.plan(this.target, this.given.templateSet, rule);
+    }
+
+    /* Take the target from the sliders and plan anew, as one of them has `moved`; what was under way ends. */
+    aim(moved) {
       this.turn = {}; // whose turn it is: whoever waited for a frame looks whether it is still his
-      const { rule, weights } = this.form.elements;
       for (const slider of this.sliders)
         slider.nextElementSibling.textContent = `${signed(+slider.value, 3)} m`;
       const target = this.sliders.map((slider) => +slider.value);
-      Object.assign(this, { target, rule: rule.value, plan: null });
+      Object.assign(this, { moved, target, rule: this.form.elements.rule.value, plan: null });
       Object.assign(this, { goal: null, planned: null, calibrated: null });
       this.tell({ planned: "–", calibrated: "–", weights: "–", tries: "–", speed: "–" });
       try {
-        this.plan = vmcPlanning.plan(this.target, this.templateSet, vmcPlanning[weights.value]);
-        this.goal = this.arm.place(this.target);
+        this.plan = this.propose(moved);
+        this.goal = this.arm?.place(target);
         this.say("A target is set: let the arm reach for it.");
       } catch (error) {
         this.say(`Nothing planned: ${error.message}`);
@@ -42,7 +60,8 @@ const vmcReach = (() => {
       this.mark([]);
       for (const put of this.handles) put(this.target);
       const { start, rest } = this.given;
-      this.show({ q: start, activation: rest });
+      if (this.arm) this.show({ q: start, activation: rest });
+      else if (this.stored) this.show(this.stored, false, this.stored);
     }
 
     /* All on the plot and in the scene but the arm: target, templates, ends, the hand's path. */
@@ -51,13 +70,17 @@ const vmcReach = (() => {
       const shown = (calibrated ?? planned)?.weights ?? plan?.weights;
       const width = (i) => 8 * Math.abs(shown[i]);
       const threads = plan?.points.map((p, i) => ["line", "blue", [target, p], width(i)]);
+      const above = (p) => (p[1] >= target[1] ? 7 : -14); // away from its thread
+      const told = target.length > 2 ? [] : plan?.points.map((p, i) => ["words", "ink", p, signed(shown[i], 2), above(p)]);
       const ends = [[planned, "red"], [calibrated, "purple"]].filter(([trial]) => trial);
       this.drawing.marks = [
         ...(threads ?? []),
         ["line", "orange", path, 2],
         ["ring", "green", target, 7],
+        ...(told ?? []),
         ...ends.map(([trial, colour]) => ["dot", colour, trial.reached, 4]),
       ];
+      this.drawing.focus = target;
       this.drawing.balls = [this.goal, planned?.hand, calibrated?.hand];
     }
 
@@ -69,7 +92,7 @@ const vmcReach = (() => {
       return mean(this.arm.hold(this.motion(weights))).slice(0, this.target.length);
     }
 
-    /* Play a movement in its own time; `trial` is then known as `name`. */
+    /* Play a movement in its own time. */
     async play(name, trial, turn) {
       const motion = this.motion(trial.weights);
       const step = 1000 * this.given.step; // ms
@@ -84,16 +107,28 @@ const vmcReach = (() => {
       }
       const hold = this.arm.hold(motion);
       const way = sum(hold.slice(1).map((place, t) => Math.hypot(...minus(place, hold[t]))));
-      const speed = `${millimetres(way / (this.given.held * this.given.step))}/s`;
-      this[name] = { ...trial, hand: mean(hold), speed };
-      this.mark(path);
-      this.show(motion.at(-1));
+      const speed = way / (this.given.held * this.given.step);
+      this.arrive(name, { ...trial, hand: mean(hold), speed }, { path, ...motion.at(-1) });
+      return true;
+    }
+
+    /* A movement has come to its end, in a posture and by a path; its `trial` is now known as `name`. */
+    arrive(name, trial, end) {
+      this[name] = trial;
+      this.mark(end.path);
+      this.show(end, false, end.joints && end);
       this.tell({
         [name]: millimetres(trial.error, 1),
-        speed,
+        speed: pace(trial),
         weights: trial.weights.map((w) => signed(w, 2)).join(", "),
       });
-      return true;
+    }
+
+    sayMiss() {
+      this.say(
+        `The planned reach misses by ${millimetres(this.planned.error, 1)}, on average over the hold; ` +
+        `there the hand still moves at ${pace(this.planned)}. Drag the target, and let go.`
+      );
     }
 
     /* The habitual reach. */
@@ -105,15 +140,12 @@ const vmcReach = (() => {
       const reach = (weights) => this.endPoint(weights);
       const [first] = vmcCalibration.algorithm1(this.plan, reach, { gains: [] });
       if (!(await this.play("planned", first, turn))) return;
-      this.say(
-        `The planned reach misses by ${millimetres(first.error, 1)}, on average over the hold; ` +
-        `there the hand still moves at ${this.planned.speed}.`
-      );
+      this.sayMiss();
     }
 
     /* Try off-line, as fast as the page can; then move once more, with the best weights. */
     async calibrate() {
-      if (!this.planned) await this.main();
+      if (!this.planned || !this.arm) await this.begin();
       if (!this.planned) return;
       const turn = (this.turn = {});
       this.say("Trying off-line …");
@@ -130,7 +162,7 @@ const vmcReach = (() => {
       const which = best.n === undefined ? "" : ` (n = ${best.n})`;
       this.say(
         `After ${trials.length - 1} tries the best${which} misses by ` +
-        `${millimetres(best.error, 1)}, moving at ${this.calibrated.speed}; ` +
+        `${millimetres(best.error, 1)}, moving at ${pace(this.calibrated)}; ` +
         `the planned reach missed by ${millimetres(this.planned.error, 1)}.`
       );
     }

@@ -10,5 +10,15 @@ const vmcVectors = (() => {
   const mean = (vectors) => times(1 / vectors.length, vectors.reduce(plus));
   const times = (factor, a) => a.map((x) => factor * x);
 
-  return { clip, dot, mean, minus, plus, sum, times };
+  /* The solution of a linear system, its matrix symmetric and positive, by elimination. */
+  const solve = (matrix, right) => {
+    const rows = matrix.map((row, i) => [...row, right[i]]);
+    rows.forEach((pivot, i) => rows.slice(i + 1).forEach((row) => {
+      const share = row[i] / pivot[i];
+      for (let k = i; k < row.length; k++) row[k] -= share * pivot[k];
+    }));
+    return rows.reduceRight((x, row, i) => [(row.at(-1) - dot(row.slice(i + 1, -1), x)) / row[i], ...x], []);
+  };
+
+  return { clip, dot, mean, minus, plus, solve, sum, times };
 })();

@@ -4,23 +4,64 @@
 const vmcInPage = (() => {
   "use strict";
 
-  const { backProject, iou, project } = vmcEye;
-  const { dot, minus, plus, sum, times } = vmcVectors;
+  const { backProject, iou, nms, project } = vmcEye;
+  const { clip, dot, minus, plus, solve, sum, times } = vmcVectors;
 
-  /* Two boxes on a photo: the object's, and one as large whose corner the reader drags. */
-  const overlap = ({ object, edge, paint }, [x, y]) => {
-    const box = [x, y, x + object[2] - object[0], y + object[3] - object[1]];
+  /* A box on a photo. */
+  const frame = ([x0, y0, x1, y1], stroke, edge) => {
+    const at = `x="${x0}" y="${y0}" width="${x1 - x0}" height="${y1 - y0}"`;
+    return `<rect ${at} ${edge}/><rect ${at} stroke="${stroke}"/>`;
+  };
+
+  /* Two boxes on a photo: the object's, and one whose middle and whose size the reader drags. */
+  const overlap = ({ object, edge, paint }, [x, y, wide, high]) => {
+    const box = [x - wide / 2, y - high / 2, x + wide / 2, y + high / 2];
     const shared = iou(box, object).toFixed(2);
     const colour = shared >= 0.8 ? paint.green : shared > 0.5 ? paint.orange : paint.red;
-    const frame = ([x0, y0, x1, y1], stroke) => {
-      const at = `x="${x0}" y="${y0}" width="${x1 - x0}" height="${y1 - y0}"`;
-      return `<rect ${at} ${edge}/><rect ${at} stroke="${stroke}"/>`;
-    };
     const label = `<text x="8" y="21" fill="${colour}" ${edge} paint-order="stroke">IoU ${shared}</text>`;
-    const corner = frame([8, 0, 8, 0], colour); // what it labels: book/figures/where.py, in_corner
+    const corner = frame([8, 0, 8, 0], colour, edge); // what it labels: book/figures/where.py, in_corner
     return [
-      `A box at ${x.toFixed(0)}, ${y.toFixed(0)}: IoU ${shared}.`,
-      frame(object, paint.grey) + frame(box, colour) + corner + label,
+      `A box around ${x.toFixed(0)}, ${y.toFixed(0)}, ${wide.toFixed(0)} × ${high.toFixed(0)}: IoU ${shared}.`,
+      frame(object, paint.grey, edge) + frame(box, colour, edge) + corner + label,
+    ];
+  };
+  overlap.views = () => [
+    { toView: (middle) => middle, fromView: (seen) => seen },
+    {
+      pad: 1,
+      toView: (size, [middle]) => plus(middle, times(0.5, size)),
+      fromView: (corner, [middle]) => times(2, minus(corner, middle)),
+    },
+  ];
+
+  /* What non-maximum suppression keeps of the boxes [...box, score, the objects it holds] of some photos,
+     the best first. */
+  const suppress = (shots, allowed) =>
+    shots.flatMap((boxes, shot) =>
+      nms(boxes, boxes.map((box) => box[4]), allowed).map((i) =>
+        ({ box: boxes[i], shot, score: boxes[i][4], holds: boxes[i].slice(5) })),
+    ).sort((a, b) => b.score - a.score);
+
+  /* A photo with the boxes above a threshold, and precision against recall (book/figures/trade.py). */
+  const trade = ({ levels, shown, edge, paint }, [name, threshold, allowed], [, plot]) => {
+    const level = levels[name], found = new Set();
+    if (level.allowed !== allowed) Object.assign(level, { allowed, kept: suppress(level.shots, allowed) });
+    let right = 0;
+    const curve = level.kept.map(({ shot, holds }, n) => {
+      right += holds.length > 0;
+      for (const thing of holds) found.add(`${shot} ${thing}`);
+      return [found.size / level.objects, right / (n + 1)];
+    });
+    const above = level.kept.filter(({ score }) => score > threshold);
+    const [recall, precision] = curve[above.length - 1] ?? [0, 0];
+    const rates = `precision ${(precision + 1e-9).toFixed(2)}, recall ${(recall + 1e-9).toFixed(2)}`; // halves up
+    const here = above.filter(({ shot }) => shot === shown)
+      .map(({ box, holds }) => frame(box.slice(0, 4), paint[holds.length ? "green" : "red"], edge));
+    return [
+      `${above.length} boxes are kept: ${rates}.`,
+      `<image width="100%" height="100%" href="${level.image}"/>${here.join("")}`,
+      plot.mark("line", "blue", curve, 1.8) + plot.mark("dot", "red", [recall, precision], 4) +
+        plot.mark("words", "ink", plot.head, rates, 6),
     ];
   };
 
@@ -70,6 +111,65 @@ const vmcInPage = (() => {
     ];
   };
 
+  /* A block of probabilistic max-pooling: at most one of its units is on (book/figures/crbm.py). */
+  const block = (_, drives, [plot]) => {
+    const total = 1 + sum(drives.map(Math.exp));
+    const chances = [...drives.map((drive) => Math.exp(drive) / total), 1 / total];
+    const words = `pooled unit on: ${(1 - 1 / total).toFixed(3)}`;
+    return [
+      `Chances: ${chances.map((chance) => chance.toFixed(2)).join(", ")}; ${words}.`,
+      chances.map((chance, i) =>
+        plot.mark("area", i < 4 ? "blue" : "grey", [[i - 0.4, 0], [i - 0.4, chance], [i + 0.4, chance], [i + 0.4, 0]]) +
+        plot.mark("words", "ink", [i, chance], chance.toFixed(2), 3)).join("") +
+        plot.mark("words", "ink", plot.head, words, 6),
+    ];
+  };
+
+  /* Crops by their probability, in two rows, and the line right of which they are called shuttlecocks
+     (book/figures/names.py). */
+  const line = (given, [level, method, threshold], [plot]) => {
+    const { chances, spread, truth } = given[level], mine = chances[method];
+    const called = mine.map((chance) => chance > threshold);
+    const right = called.filter((yes, i) => yes && truth[i]).length;
+    const share = (all) => (right / all.filter(Boolean).length + 1e-9).toFixed(3).replace("NaN", "–");
+    const words = `precision ${share(called)}, recall ${share(truth)}`;
+    return [
+      `Threshold ${threshold}: ${words}.`,
+      mine.map((chance, i) => plot.mark("dot", truth[i] ? "blue" : "orange", [chance, spread[i]], 2)).join("") +
+        plot.mark("line", "ink", [[threshold, -0.45], [threshold, 1.45]], 1.8) + plot.mark("words", "ink", plot.head, words, 6),
+    ];
+  };
+
+  /* Granule cells along a line of targets, the Purkinje cell that sums them after some lessons, and how all
+     answer at one place (book/figures/granule.py). */
+  const bells = ({ lessons, uniform, ridge, line: [x, needed], edges, shown }, [width, count, place], [plot]) => {
+    const some = lessons.slice(0, count), ends = some.map(([at]) => at);
+    const [low, high] = [Math.min(...ends) - width, Math.max(...ends) + width];
+    const centres = uniform.map((u) => low + (high - low) * u);
+    const bell = (at, centre) => Math.exp(-((at - centre) ** 2) / (2 * width ** 2));
+    const excite = (at) => centres.map((centre) => bell(at, centre));
+    const active = ends.map(excite);
+    const gram = active.map((row, i) => active.map((other, j) => dot(row, other) + (i === j) * ridge));
+    const shares = solve(gram, some.map(([, aside]) => aside));
+    const purkinje = active.map((row, k) => times(shares[k], row)).reduce(plus);
+    const said = x.map((at) => dot(excite(at), purkinje));
+    const off = minus(said, needed).map(Math.abs), now = x.indexOf(place);
+    const inside = (y) => clip(y, ...edges);
+    const curve = (colour, ys, size) => plot.mark("line", colour, x.map((at, i) => [at, ys[i]]), size);
+    const words = `off by ${(sum(off) / x.length).toFixed(2)} mm on average, here by ${off[now].toFixed(2)}`;
+    const [floor] = edges;
+    return [
+      `After ${count} lessons, cells ${width} m wide: ${words}.`,
+      centres.filter((_, j) => j % shown === 0)
+        .map((centre) => curve("line", x.map((at) => floor - floor * bell(at, centre)), 1)).join("") +
+        centres.map((at) => plot.mark("dot", "orange", [at, floor / 2], (3 * bell(place, at)).toFixed(2))).join("") +
+        curve("grey", needed, 1.8) + curve("red", said.map(inside), 1.8) +
+        some.map((lesson) => plot.mark("dot", "blue", lesson, 3)).join("") +
+        plot.mark("line", "purple", [[place, inside(said[now])], [place, needed[now]]], 3) +
+        plot.mark("words", "ink", plot.head, words, 6),
+    ];
+  };
+
   /* The trunk's turn that brings the hand's plane to a place; nothing where the hand cannot be. */
   const trunkTurn = (arm, place) => {
     try {
@@ -106,10 +206,11 @@ const vmcInPage = (() => {
   aim.views = ({ camera, marks: { height } }) => [
     { toView: (pixel) => pixel, fromView: (pixel) => pixel },
     {
+      picture: 1,
       toView: (pixel) => backProject(camera, pixel, height).filter((_, k) => k !== 1).reverse(),
       fromView: ([right, ahead]) => project(camera, [ahead, height, right]),
     },
   ];
 
-  return { aim, overlap, plan, votes };
+  return { aim, bells, block, line, overlap, plan, trade, votes };
 })();

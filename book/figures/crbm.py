@@ -55,12 +55,23 @@ def block_chances(drives):
 def block(*drives):
     """The chances of a pooling block's units and of its off state, as bars, given their drives."""
     on, pooled = block_chances(drives)
-    names = [*(f"unit {i + 1}" for i in range(len(on))), "all off"]
     colours = [COLOURS["blue"]] * len(on) + [COLOURS["grey"]]
-    fig, ax = plt.subplots(figsize=(6.2, 2.6))
-    ax.bar_label(ax.bar(names, [*on, 1 - pooled], color=colours), fmt="%.2f")
-    ax.set(ylim=(0, 1.12), ylabel="probability", title=f"pooled unit on: {pooled:.3f}")
+    fig, ax = _bars()
+    ax.bar_label(ax.bar(range(5), [*on, 1 - pooled], color=colours), fmt="%.2f")
+    ax.set_title(f"pooled unit on: {pooled:.3f}")
     return fig
+
+
+def block_in_page():
+    """The same for the page to work out (see `explore`)."""
+    return "block", lambda: _bars()[0], None
+
+
+def _bars():
+    fig, ax = plt.subplots(figsize=(6.2, 2.6))
+    ax.set(xlim=(-0.6, 4.6), ylim=(0, 1.12), ylabel="probability", title=" ")
+    ax.set_xticks(range(5), [*(f"unit {i}" for i in (1, 2, 3, 4)), "all off"])
+    return fig, ax
 
 
 def correlation(patch, dream):

@@ -4,14 +4,13 @@ import numpy as np
 
 from book.figures.lens import lens
 from book.figures.panels import panels
-from book.figures.reaching import ends, norm_mm, shares
+from book.figures.reaching import norm_mm
 from vmc_lib.arm.kinematics import TRUNK, to_world
 from vmc_lib.boxes import iou
 from vmc_lib.loop import RULES
 from vmc_lib.motor.templates import START
 from vmc_lib.show import dot_plot, note
 from vmc_lib.show.arm import EVERY, arm_scene
-from vmc_lib.show.arm_plane import plane
 from vmc_lib.show.figures import photo_view
 from vmc_lib.show.palette import COLOURS, EDGE, ON_PHOTO
 from vmc_lib.statistics import wilson
@@ -109,19 +108,6 @@ def from_above(photo, reach, turned):
     )
     aside = f"the trunk {'has turned' if turned else 'will turn'} by {np.degrees(reach.turn):.0f}°"
     return above(parts, aside, (-0.45, 0.4), (-0.2, 0.6))
-
-
-def mixture_plot(plan, endpoint):
-    """The templates of a plan with their weights, its target, and where the hand ended: a figure.
-
-    All near the target, in the arm's plane.
-    """
-    fig, ax = panels(1, (4.1, 3.6))
-    near = np.ptp(plan.points, axis=0).max() * np.array([-0.9, 0.9])
-    plane(ax, plan.points, within=plan.target[:, None] + near)
-    shares(ax, plan.target, plan.points, plan.weights)
-    ends(ax, plan.target, endpoint)
-    return fig
 
 
 def chain_plots(summaries, count):

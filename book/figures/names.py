@@ -81,15 +81,39 @@ def first_layer(filters, rows):
 def sorted_crops(chances, shuttlecock, threshold):
     """Each crop's probability (n,) as a dot, shuttlecocks above cups, and the threshold."""
     precision, recall = precision_recall(confusion_counts(chances, shuttlecock, threshold))
-    fig, ax = plt.subplots(figsize=(6.4, 2.4))
-    for height, here, colour in ((1, shuttlecock, "blue"), (0, ~shuttlecock, "orange")):
-        spread = height + np.linspace(-0.3, 0.3, here.sum())
-        ax.plot(chances[here], spread, "o", ms=4, color=COLOURS[colour])
+    fig, ax = _rows()
+    for here, colour in ((shuttlecock, "blue"), (~shuttlecock, "orange")):
+        ax.plot(chances[here], _spread(shuttlecock)[here], "o", ms=4, color=COLOURS[colour])
     ax.axvline(threshold, color=COLOURS["ink"])
-    ax.set(xlim=(-0.02, 1.02), xlabel="probability of a shuttlecock")
-    ax.set(title=f"precision {precision:.3f}, recall {recall:.3f}")
-    ax.set(yticks=[0, 1], yticklabels=["cups", "shuttlecocks"])
+    ax.set_title(f"precision {precision:.3f}, recall {recall:.3f}".replace("nan", "–"))
     return fig
+
+
+def _rows():
+    fig, ax = plt.subplots(figsize=(6.4, 2.4))
+    ax.set(xlim=(-0.02, 1.02), xlabel="probability of a shuttlecock", ylim=(-0.45, 1.45))
+    ax.set(yticks=[0, 1], yticklabels=["cups", "shuttlecocks"], title=" ")
+    return fig, ax
+
+
+def _spread(shuttlecock):
+    """How high each crop's dot lies (n,): shuttlecocks about 1, cups about 0."""
+    place = np.where(shuttlecock, shuttlecock.cumsum(), (~shuttlecock).cumsum()) - 1
+    last = np.where(shuttlecock, shuttlecock.sum(), (~shuttlecock).sum()) - 1
+    return shuttlecock - 0.3 + 0.6 * place / last
+
+
+def sorted_crops_in_page(held_out, methods):
+    """The same for the page to work out (see `explore`), of level -> chances by method, truth."""
+    given = {
+        level: {
+            "chances": {method: chances[method].tolist() for method in methods},
+            "spread": _spread(truth).tolist(),
+            "truth": truth.tolist(),
+        }
+        for level, (chances, truth) in held_out.items()
+    }
+    return "line", lambda: _rows()[0], given
 
 
 def reliability(chances, truth, bins=5):

@@ -1,8 +1,5 @@
 """Figures of the chapter on online calibration: learning curves, granule cells, changed worlds."""
 
-import numpy as np
-from matplotlib.collections import PolyCollection
-
 from book.figures.offline import SIDE_BY_SIDE, in_plane
 from book.figures.panels import curves, panels
 from book.figures.reaching import mean_mm, reach_scene, reaches
@@ -10,7 +7,6 @@ from reproduce.experiments.calibration import SCENARIOS, ratio_name
 from reproduce.experiments.changed_worlds import BLOCKS, CURES
 from reproduce.experiments.controller_comparison import MOVEMENTS
 from reproduce.experiments.online_calibration import STEPS, remaining
-from vmc_lib.cerebellum.online import GranuleCells
 from vmc_lib.motor.execution import rotate_about_eye
 from vmc_lib.show import note, table
 from vmc_lib.show.palette import COLOURS
@@ -79,52 +75,6 @@ def by_reading(draws, experiments, end=None):
         }
         for reading, rule in rules.items()
     }
-
-
-def fit_line(places, aside, x, order, width, lessons):
-    """40 `GranuleCells` after so many lessons of a line, in an `order` (n,).
-
-    A lesson is a place (n, 1) where the hand ended, in m, and how far `aside` (n,) to aim, in mm.
-    """
-    some = order[:lessons]
-    return GranuleCells(width, cells=40).fit(places[some], aside[some])
-
-
-def off_by(places, aside, x, order, width, lessons):
-    """How far that is from what the arm needs, in mm, on average over the line."""
-    needed = np.interp(x, places[:, 0], aside)
-    learned = fit_line(places, aside, x, order, width, lessons).predict(x[:, None])
-    return np.abs(learned - needed).mean()
-
-
-def bells(places, aside, x, order, width, lessons):
-    """What the arm needs along a line, and what granule cells have learned of it."""
-    data = places, aside, x, order, width, lessons
-    fig, ax = panels(size=(6.5, 3.4))
-    cells = fit_line(*data)
-    _grey_bells(ax, cells, x)
-    lines = (
-        (places[:, 0], aside, "-", "grey", "what the arm needs"),
-        (x, cells.predict(x[:, None]), "-", "red", "the Purkinje cell's sum"),
-        (places[order[:lessons], 0], aside[order[:lessons]], "o", "blue", "lessons"),
-    )
-    for at, mm, style, colour, label in lines:
-        ax.plot(at, mm, style, color=COLOURS[colour], label=label)
-    ax.set(xlabel="where the hand ends, forward (m)", ylabel="aim aside (mm)", ylim=(-3, 16))
-    ax.set_title(f"off by {off_by(*data):.2f} mm on average")
-    fig.subplots_adjust(bottom=0.26)  # room for the legend
-    fig.legend(loc="lower center", ncols=3)
-    return fig
-
-
-def _grey_bells(ax, cells, x):
-    """What every third of the cells responds to."""
-    at = np.linspace(x[0], x[-1], 150)
-    heights = 3 * cells.excite(at[:, None]).T[::3] - 3
-    heights[:, [0, -1]] = -3  # each ends at its foot
-    outlines = np.stack(np.broadcast_arrays(at, heights), axis=-1)
-    grey = PolyCollection(outlines, color=COLOURS["grey"], alpha=0.12, lw=0)
-    ax.add_collection(grey, autolim=False)
 
 
 def choose_width(plans, endpoints, width, movements):

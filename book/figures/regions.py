@@ -3,7 +3,7 @@
 import numpy as np
 
 from book.figures.panels import panels
-from book.figures.where import bars, in_corner, right_and_wrong
+from book.figures.where import in_corner
 from reproduce.experiments import fresh_test_set, localisation, real_world
 from vmc_lib.boxes import iou
 from vmc_lib.show import COLOURS, dot_plot, photo_view, table
@@ -70,12 +70,6 @@ def weight_map(weights, channel):
     fig.colorbar(ax.imshow(shown, cmap="PuOr", vmin=-limit, vmax=limit))
     ax.set_axis_off()
     return fig
-
-
-def kept_view(photo, kept, rates):
-    """A photo with its kept boxes (n, 4), right or wrong, beside precision and recall as bars."""
-    shares = dict(zip(MEASURES, rates, strict=True))
-    return right_and_wrong(photo.image, kept, photo.boxes), bars(shares)
 
 
 def counted_boxes(image, boxes):

@@ -20,7 +20,7 @@ from vmc_lib.show.figures import framed, photo_view
 from vmc_lib.show.live import Live
 from vmc_lib.show.markup import data_uri
 from vmc_lib.show.outputs import Markup, still
-from vmc_lib.show.palette import COLOURS, EDGE, ON_PHOTO, css
+from vmc_lib.show.palette import COLOURS, EDGE, ON_PHOTO
 from vmc_lib.show.render_mode import render_mode
 
 
@@ -37,22 +37,28 @@ def in_corner(words):
     return (8, 0, 8, 0), words, "ink"
 
 
-def overlap(image, thing, corner):
-    """A photo with a thing's box, and one as large from `corner` (x, y): how much do they share?
+def _box(middle, size):
+    return np.concatenate(
+        [np.subtract(middle, 0.5 * np.array(size)), np.add(middle, 0.5 * np.array(size))]
+    )
+
+
+def overlap(image, thing, middle, size):
+    """A photo with a thing's box, and one of a size around a middle (x, y): how much do they share?
 
     Green at an IoU of 0.8 or more, red at 0.5 or less.
     """
-    box = np.concatenate([corner, corner + thing[2:] - thing[:2]])
+    box = _box(middle, size)
     shared = round(iou(box, thing).item(), 2)
     colour = "green" if shared >= MIN_IOU else "orange" if shared > 0.5 else "red"
     said = (*in_corner(f"IoU {shared:.2f}")[:2], colour)  # at the box a hand would hide it
     return photo_view(image, [(thing, "", "grey"), (box, "", colour), said])
 
 
-def describe_overlap(thing, corner):
+def describe_overlap(thing, middle, size):
     """The same in words."""
-    box = np.concatenate([corner, corner + thing[2:] - thing[:2]])
-    return f"A box at {corner[0]:.0f}, {corner[1]:.0f}: IoU {iou(box, thing).item():.2f}."
+    (x, y), (wide, high), shared = middle, size, iou(_box(middle, size), thing).item()
+    return f"A box around {x:.0f}, {y:.0f}, {wide:.0f} × {high:.0f}: IoU {shared:.2f}."
 
 
 def overlap_in_page(image, thing):
@@ -76,20 +82,6 @@ def right_and_wrong(image, boxes, truth, good=MIN_IOU):
     return photo_view(
         image, [(b, "", "green" if r else "red") for b, r in zip(boxes, right, strict=True)]
     )
-
-
-def bars(shares):
-    """Named shares of one as horizontal bars, in SVG."""
-    rows = []
-    for place, (name, share) in enumerate(shares.items()):
-        y = 28 * place + 4
-        rows += [
-            f'<rect x="95" y="{y}" width="220" height="18" fill="{css("line")}"/>',
-            f'<rect x="95" y="{y}" width="{220 * share:.0f}" height="18" fill="{css("blue")}"/>',
-            f'<text x="0" y="{y + 14}">{name}</text><text x="325" y="{y + 14}">{share:.2f}</text>',
-        ]
-    size = f'viewBox="0 0 370 {28 * len(shares)}" width="370" height="{28 * len(shares)}"'
-    return "\n".join([f'<svg {size} font-size="14" fill="{css("ink")}">', *rows, "</svg>"])
 
 
 def best_so_far(truth, boxes):

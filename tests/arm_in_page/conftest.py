@@ -40,6 +40,7 @@ def arms_html(past):
             "Set a target.",
             "A whole arm before two views of it.",
         )
+        live_arm("weights", "Move the weights.", "An arm before four weights.")
 
     return pages.book_html(live, declare)
 
@@ -55,11 +56,11 @@ def ask(offline, site, arms_html):
 
 @pytest.fixture
 def open_arms(open_page, arms_html):
-    """A function that opens a page with the arms `bench`, `reach` and `whole`."""
+    """A function that opens a page with the arms `bench`, `reach`, `whole` and `by_hand`."""
 
     def open_arms(*window):
         page = open_page(arms_html, *window)
-        page.bench, page.reach, page.whole = page.locator(".vmc-live").all()
+        page.bench, page.reach, page.whole, page.by_hand = page.locator(".vmc-live").all()
         return page
 
     return open_arms

@@ -5,7 +5,7 @@ import json
 import mujoco
 import pytest
 
-from arm_in_page import live, live_arm
+from arm_in_page import controls, live, live_arm
 from tests.arm_in_page.controls import start, status
 from tests.pages import ROOT, SCRIPTS, STYLES, displayed
 from tests.show.kernel import render
@@ -26,7 +26,7 @@ def test_scripts_are_short():
 def test_the_versions_of_mujoco_are_those_of_the_files():
     manifest = json.loads((ROOT / "book/_static/vendor/manifest.json").read_bytes())
     (entry,) = [entry for entry in manifest if ROOT / entry["file"] == live.MUJOCO]
-    assert live.VERSIONS == {"Python": mujoco.__version__, "page": entry["version"]}
+    assert controls.VERSIONS == {"Python": mujoco.__version__, "page": entry["version"]}
 
 
 def test_an_unknown_mode_and_a_target_beyond_reach_are_refused():

@@ -3,6 +3,7 @@
 import base64
 import gzip
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -22,7 +23,7 @@ from vmc_lib.arm.simulate import simulate
 from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration
 from vmc_lib.motor import templates
 from vmc_lib.motor.execution import execute
-from vmc_lib.motor.planning import exact_weights, habitual_weights, plan, surrounded
+from vmc_lib.motor.planning import draw_targets, exact_weights, habitual_weights, plan, surrounded
 
 WHOLE = 2  # its place among the arms of the page
 POSTURES = np.random.default_rng(3).uniform([-0.8, 0.1], [0.6, 2.0], (40, 2))
@@ -198,8 +199,18 @@ def test_plans(ask, past, arm, name, rule):
         assert np.allclose(answer["u"], expected.excitations, **close)
 
 
-CALIBRATE = """const plan = vmcPlanning.plan(asked, templateSet);
-  return [...vmcCalibration.%s(plan, reach(plan), given.calibration)];"""
+@pytest.mark.browser
+def test_a_reach_with_weights_set_by_hand(ask):
+    rng, own = np.random.default_rng(5), templates.load()
+    targets, by_hand = draw_targets(own, 20, rng), rng.uniform(-0.1, 0.6, (20, 4))
+    planned = plan(targets, own)
+    ends = execute(replace(planned, weights=by_hand)).endpoint
+    script = (
+        "return asked.map(([at, weights]) => reach(vmcPlanning.plan(at, templateSet))(weights));"
+    )
+    asked = [[*pair] for pair in zip(targets.tolist(), by_hand.tolist(), strict=True)]
+    seen = np.array(ask(script, asked))
+    assert np.abs(seen[:, :2] - ends).max() < 1e-6
 
 
 def broyden(planned):

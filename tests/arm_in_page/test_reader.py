@@ -1,9 +1,11 @@
 """A reader moves the arms in the page."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from arm_in_page import live
+from arm_in_page import controls, live
 from reproduce.whole_arm import experiment
 from tests.arm_in_page.controls import number, readout, set_target, start, status
 from tests.pages import NO_WEBGL, drag, middle, probe
@@ -11,6 +13,7 @@ from vmc_lib.arm.model import MUSCLES
 from vmc_lib.arm.simulate import simulate
 from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration
 from vmc_lib.motor import templates
+from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import plan
 
 pytestmark = pytest.mark.browser
@@ -21,12 +24,12 @@ def test_mujoco_is_loaded_by_the_start_and_from_the_books_own_files(open_arms, s
     page.wait_for_function("() => window.MeshCat")
     assert not any("mujoco" in url for url in page.asked)
     said = page.bench.locator("[role=status]").inner_text()
-    assert said.startswith(f"MuJoCo {live.VERSIONS['page']} (")
+    assert said.startswith(f"MuJoCo {controls.VERSIONS['page']} (")
     start(page.bench)
     assert any("vendor/mujoco.js" in url for url in page.asked)
     inside = (site.as_uri(), "data:", "blob:")
     assert [url for url in page.asked if not url.startswith(inside)] == []
-    assert ask("return arm.mujoco.mj_versionString();") == live.VERSIONS["page"]
+    assert ask("return arm.mujoco.mj_versionString();") == controls.VERSIONS["page"]
 
 
 def test_an_arm_with_another_law_than_pythons_says_so(open_arms, window):
@@ -116,12 +119,13 @@ def test_the_whole_arm_reaches_and_calibrates(open_arms, window, past):
 def test_a_target_is_dragged(open_arms):
     page = open_arms()
     start(page.reach)
-    ring = page.reach.locator("svg circle[stroke='var(--vmc-green)']")
+    status(page.reach, "The planned reach")
+    ring = page.reach.locator("svg circle[stroke='var(--vmc-green)']").first
     x, y = middle(ring)
-    drag(page, (x, y), -80, -60)
-    assert np.subtract(middle(ring), (x, y)) == pytest.approx([-80, -60], abs=6)  # by 5 mm
-    assert number(page.reach.locator("output").first.inner_text()) < 0.12
-    status(page.reach, "A target is set")
+    drag(page, (x, y), -50, 30)
+    status(page.reach, "The planned reach")  # it needs no other word
+    assert np.subtract(middle(ring), (x, y)) == pytest.approx([-50, 30], abs=2)  # by 1 mm
+    assert number(page.reach.locator("output").first.inner_text()) < 0.06
     set_target(page.reach, (0, -0.49))
     assert "not surrounded" in status(page.reach, "Nothing planned")
 
@@ -136,6 +140,45 @@ def test_a_target_in_space_is_dragged_in_either_view(open_arms):
         drag(page, middle(handles.nth(view)), 12, 12)
         moved = [was != now for was, now in zip(before, values.all_inner_texts(), strict=True)]
         assert moved == [place in (0, axis) for place in range(3)]
+
+
+def test_a_first_reach_is_there_and_its_miss_is_enlarged(open_arms, ask):
+    page = open_arms()
+    arm, movement = page.reach, execute(plan([0.09, -0.37], templates.load()))
+    miss = f"{1000 * movement.error:.1f} mm"
+    assert miss in status(arm, "The planned reach")
+    assert readout(arm, "planned") == miss
+    assert not any("mujoco" in url for url in page.asked)
+    reds, greens = (
+        [middle(dot) for dot in arm.locator(f"svg circle[{paint}='var(--vmc-{colour})']").all()]
+        for paint, colour in (("fill", "red"), ("stroke", "green"))
+    )
+    plain, enlarged = (np.subtract(red, green) for red, green in zip(reds, greens, strict=True))
+    assert np.abs(enlarged - live.LENS["times"] * plain).max() < 1  # px
+    stored = ask(
+        """const { weights, reached, error, q, joints } = given.first;
+      const plan = vmcPlanning.plan([0.09, -0.37], templateSet);
+      return [[weights, plan.weights], [reached, reach(plan)(plan.weights)],
+        [joints, arm.joints(q)], [[error], [Math.hypot(reached[0] - 0.09, reached[1] + 0.37)]]];""",
+        [0, 0],
+        1,
+    )
+    for mine, theirs in stored:
+        assert np.allclose(mine, theirs, atol=1e-6)
+
+
+def test_weights_are_set_by_hand(open_arms, window):
+    arm = open_arms(window(reduced_motion="reduce")).by_hand
+    habit = plan([0.09, -0.37], templates.load())
+    for tries, weight in enumerate(("0.3", "0.45"), start=1):
+        arm.get_by_label("weight, upper right").fill(weight)
+        weights = [number(text) for text in arm.locator("fieldset output").all_inner_texts()[2:]]
+        said = status(arm, f"It misses by .* of {tries}")
+        miss = execute(replace(habit, weights=np.array(weights))).error
+        assert f"It misses by {1000 * miss:.1f} mm" in said
+    assert arm.locator("svg g circle[stroke='var(--vmc-grey)']").count() == 4  # 2, twice
+    set_target(arm, (0.1, -0.38))
+    assert "planned" in status(arm, "The planned reach")
 
 
 def test_with_reduced_motion_only_the_end_is_shown(open_arms, window):

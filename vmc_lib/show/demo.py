@@ -62,11 +62,13 @@ def explore(draw, caption, alt=None, in_page=None, **controls):
         )
     # in JupyterLab several notebooks share a page, and kernels start anew
     name = f"demo-{uuid4().hex[:8] if render_mode() == 'live' else next(_demos)}"
-    grid = list(itertools.product(*(control.values for control in controls.values())))
 
     def state(place):
         """The description and the pictures at a position of the grid."""
-        values = dict(zip(controls, grid[place], strict=True))
+        values = {
+            key: control.values[place // stride % len(control.values)]
+            for (key, control), stride in zip(controls.items(), _strides(controls), strict=True)
+        }
         try:
             return shown(draw, values, name, alt, not in_page)
         except Exception as error:

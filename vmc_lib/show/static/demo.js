@@ -152,25 +152,26 @@ const vmcDemo = (() => {
         Promise.resolve(ask.ready).then(() => watch.observe(demo));
       }
     }
-    /* A pad: a handle on the first plot, or on each that has a view of it, moves its two sliders to the
-       nearest place. */
-    const pad = demo.querySelector(".vmc-pad");
-    if (pad) {
-      const [grid, twins] = [JSON.parse(pad.dataset.grid), [...pad.querySelectorAll("input")]];
-      const move = (place) => {
+    /* A pad: a handle on the first plot, or on each that has a view of a pad, moves its two sliders to the
+       nearest place. A view may depend on where the other pads stand. */
+    const pads = [...demo.querySelectorAll(".vmc-pad")].map((pad) =>
+      ({ grid: JSON.parse(pad.dataset.grid), twins: [...pad.querySelectorAll("input")] }));
+    const stand = () => pads.map(({ grid, twins }) => twins.map((twin, i) => grid[i][twin.value]));
+    const same = (place) => place;
+    const views = ask.views ?? pads.slice(0, 1).map(() => ({ toView: same, fromView: same }));
+    const puts = views.map(({ pad = 0, picture = 0, toView, fromView }) => {
+      const { grid, twins } = pads[pad];
+      const put = vmcHandle(pictures, (seen) => {
+        const place = fromView(seen, stand());
         grid.forEach((values, i) => {
           const far = values.map((value) => Math.abs(value - place[i]));
           twins[i].value = far.indexOf(Math.min(...far));
         });
         twins[0].dispatchEvent(new Event("input", { bubbles: true }));
-      };
-      const same = (place) => place;
-      const puts = (ask.views ?? [{ toView: same, fromView: same }]).map(({ toView, fromView }, i) => {
-        const put = vmcHandle(pictures, (place) => move(fromView(place)), i);
-        return (place) => put(toView(place));
-      });
-      follow = () => puts.forEach((put) => put(twins.map((twin, i) => grid[i][twin.value])));
-    }
+      }, picture);
+      return () => put(toView(stand()[pad], stand()));
+    });
+    follow = () => puts.forEach((put) => put());
 
     demo.addEventListener("input", show);
     show();

@@ -1,15 +1,24 @@
 /* A handle on a plot or a photo, for a mouse or a finger: it stands at a place of the picture's axes,
-   and is dragged over them. A mouse may press anywhere, a finger may tap; fingers that move beside the
-   handle scroll the page. `moved(place)` hears where it is wanted; the function returned puts it at a
-   place. The picture is the first, or another by its number, of those that have axes. */
-const vmcHandle = (pictures, moved, number) => {
+   and is dragged over them. A mouse may press anywhere, a finger may tap, and the nearest handle comes;
+   fingers that move beside it scroll the page. `moved(place)` hears where it is wanted, `dropped()` that it was let go; the
+   function returned puts it at a place. The picture is the first, or another by its number, of those
+   that have axes. */
+const vmcHandle = (pictures, moved, number, dropped) => {
   "use strict";
 
   const handle = document.createElement("span");
   handle.className = "vmc-handle";
+  handle.dataset.picture = number ?? 0;
   pictures.append(handle);
   const plot = () => pictures.querySelectorAll("svg[data-axes]")[number ?? 0];
-  const on = ({ target }) => target.closest("svg[data-axes]") === plot();
+  const far = (other, { clientX, clientY }) => {
+    const { left, top, width, height } = other.getBoundingClientRect();
+    return Math.hypot(clientX - left - width / 2, clientY - top - height / 2);
+  };
+  const on = (event) =>
+    event.target.closest("svg[data-axes]") === plot() &&
+    [...pictures.querySelectorAll(`.vmc-handle[data-picture="${number ?? 0}"]`)].every((other) =>
+      far(handle, event) <= far(other, event));
   let place, held = null; // how far beside the handle's middle it was taken
 
   const put = () => {
@@ -32,9 +41,13 @@ const vmcHandle = (pictures, moved, number) => {
     if (!own) go(event);
   });
   pictures.addEventListener("pointermove", (event) => held && go(event, held));
-  for (const type of ["pointerup", "pointercancel"]) pictures.addEventListener(type, () => (held = null));
+  for (const type of ["pointerup", "pointercancel"])
+    pictures.addEventListener(type, () => {
+      if (held) dropped?.();
+      held = null;
+    });
   pictures.addEventListener("click", (event) => {
-    if (event.pointerType === "touch" && on(event)) go(event);
+    if (event.pointerType === "touch" && on(event)) (go(event), dropped?.());
   });
   pictures.addEventListener("scroll", () => put(), true); // a wide plot scrolls on a phone
   new ResizeObserver(() => place && put()).observe(pictures);

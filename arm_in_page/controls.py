@@ -1,0 +1,86 @@
+"""What the reader moves an arm in the page by, as markup: buttons, sliders, rules to choose."""
+
+from importlib.metadata import version
+from pathlib import Path
+
+import numpy as np
+
+from vmc_lib.arm.model import MUSCLES
+from vmc_lib.motor import templates
+from vmc_lib.motor.inverse_dynamics import static_activation
+from vmc_lib.show.controls import radios, slider
+
+STATIC = Path(__file__).parent / "static"
+MUJOCO = STATIC / "vendor/mujoco.js"
+VERSIONS = {"Python": version("mujoco"), "page": "3.14.0"}  # of MuJoCo
+HAND = {way: f"hand, {way}" for way in ("forward", "up", "right")}
+_POSE = {"shoulder": "shoulder", "elbow": "elbow", **HAND}
+
+
+def bench_form(name):
+    """Six sliders."""
+    rest = zip(MUSCLES, static_activation(templates.START).round(2), strict=True)
+    sliders = "".join(_slider(name, muscle, muscle, (0, 1, 0.01), u) for muscle, u in rest)
+    buttons = {"step": "Step 10 ms", "reset": "Reset"}
+    return form("Excitation of each muscle", buttons, sliders, {"time": "time"} | _POSE)
+
+
+def reach_form(name, target, by_hand):
+    """A target to be set, and rules to choose from; or weights, in place of a rule to plan by."""
+    zone = [end(templates.load().points, axis=0).round(3) for end in (np.min, np.max)]
+    rules = {"algorithm1": "published (Eq. 6–7)", "broydenCalibration": "ours"}
+    controls = target_sliders(name, zone, target)
+    controls += _weights(name) if by_hand else plans()
+    controls += radios("rule", "calibration", rules, "algorithm1", {})
+    tells = {"planned": "planned miss", "tries": "tries", "calibrated": "calibrated miss"}
+    tells |= {"speed": "speed in the hold"}
+    return form("Target and rules", {"calibrate": "Calibrate"}, controls, tells)
+
+
+def _weights(name):
+    """A slider for the weight of the nearest template in each quadrant, and habit to begin with."""
+    sliders = (
+        _slider(name, f"weight-{k}", f"weight, {where}", (-0.25, 1, 0.005), 0.25)
+        for k, where in enumerate(("upper right", "upper left", "lower left", "lower right"))
+    )
+    return "".join(sliders) + '<input type="hidden" name="weights" value="habitualWeights">'
+
+
+def plans():
+    """The two rules by which a reach may be planned, to choose from."""
+    rules = {"habitualWeights": "habit (Eq. 5)", "exactWeights": "exact (Eq. 4)"}
+    return radios("weights", "plan", rules, "habitualWeights", {})
+
+
+def target_sliders(name, zone, target):
+    """A slider for each axis of a target, in m, between the corners of its `zone` (2, axes)."""
+    return "".join(
+        _slider(name, key, f"target, {key}", (low, high, 0.001), at)
+        for key, low, high, at in zip(HAND, *zone, target, strict=False)
+    )
+
+
+def form(legend, buttons, controls, tells):
+    """What the reader moves, closed until the arm is started, and what the arm tells."""
+    closed = "".join(
+        f'<button type="button" name="{name}" disabled>{text}</button>'
+        for name, text in buttons.items()
+    )
+    readings = "".join(
+        f'<div><dt>{label}</dt><dd data-tell="{name}">–</dd></div>' for name, label in tells.items()
+    )
+    size = f"{MUJOCO.stat().st_size / 1e6:.1f} MB"
+    physics = f"MuJoCo {VERSIONS['page']} ({size}, part of this book)"
+    return (
+        '<form class="vmc-live-form" autocomplete="off">'
+        f'<div><button type="button" name="main">Start the arm</button>{closed}</div>'
+        f'<p role="status">{physics} is loaded when you start.</p>'
+        f'<fieldset disabled><legend class="vmc-spoken">{legend}</legend>{controls}</fieldset>'
+        f"<dl>{readings}</dl></form>"
+    )
+
+
+def _slider(page, name, label, span, start):
+    low, high, step = span
+    own = {"name": name, "min": low, "max": high, "step": step, "value": f"{start:.3g}"}
+    return slider(f"{page}-{name}", label, own["value"].replace("-", "−"), own)
