@@ -10,8 +10,8 @@ import numpy as np
 from markdown_it import MarkdownIt
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 
-from kit.asked import asked
 from kit.bank import templates
+from kit.chapter_questions import chapter_questions
 from kit.gift import gift
 from kit.key import key
 from kit.plan import plans
@@ -60,7 +60,9 @@ def build(folder, pages):
         nbformat.write(student(notebook, files), students / chapter.name)
         page = (pages / f"{chapter.stem}.html").read_text(encoding="utf-8")
         keys.append(key(notebook, page))
-        questions |= {(chapter.stem, name): several for name, several in asked(page).items()}
+        questions |= {
+            (chapter.stem, name): several for name, several in chapter_questions(page).items()
+        }
     for name, text in {"key": "\n".join(keys), "plan": plans()}.items():
         (folder / f"{name}.md").write_text(text, encoding="utf-8")
         (folder / f"{name}.html").write_text(_page(name, text), encoding="utf-8")

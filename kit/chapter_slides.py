@@ -46,9 +46,9 @@ def chapter_slides(article, most):
     single = [*_equations(parts)][:1]
     single += [*_code(parts)][: most > 8]
     pairs = [*_pairs(parts)]
-    asked = [(place, pair) for place, pair in pairs if len(pair) > 1]
+    with_question = [(place, pair) for place, pair in pairs if len(pair) > 1]
     room = (most - 2 - len(questions) - len(single)) // 2
-    chosen = _spread(asked if len(asked) >= room else pairs, room)
+    chosen = _spread(with_question if len(with_question) >= room else pairs, room)
     middle = [
         slide for _, several in sorted(single + chosen, key=itemgetter(0)) for slide in several
     ]
@@ -142,15 +142,15 @@ def _plain_heading(heading):
 def _guide(demo, box):
     """What to ask before a demo is moved, what to look for in it, and where to stop: paragraphs."""
     control = demo.select_one(".vmc-controls :is(legend, label)")
-    asked = "What do you see?"
+    question = "What do you see?"
     if box:
-        asked = box.legend.decode_contents()
+        question = box.legend.decode_contents()
     elif control:
-        asked = f"Before <em>{control.get_text().strip()}</em> moves: what will change?"
+        question = f"Before <em>{control.get_text().strip()}</em> moves: what will change?"
     caption = demo.figcaption.decode_contents() if demo.figcaption else "What changes."
     stop = box.select_one("details p").decode_contents() if box else "When the class can say why."
-    told = {"Ask": asked, "Look for": caption, "Stop at": stop}
-    return [f"<p><strong>{word}.</strong> {text}</p>" for word, text in told.items()]
+    prompts = {"Ask": question, "Look for": caption, "Stop at": stop}
+    return [f"<p><strong>{word}.</strong> {text}</p>" for word, text in prompts.items()]
 
 
 def _texts(parts, heading):

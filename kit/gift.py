@@ -36,8 +36,8 @@ def _answers(question):
     if question.choices:
         return "".join(
             f"\n{'=' if text == question.answer else '~'}{_escape(text)}"
-            f"{told and '#'}{_escape(told)}"
-            for text, told in zip_longest(question.choices, question.told, fillvalue="")
+            f"{feedback and '#'}{_escape(feedback)}"
+            for text, feedback in zip_longest(question.choices, question.feedback, fillvalue="")
         )
     return f"#{question.decimal(question.answer)}:{question.decimal(question.tolerance)}"
 

@@ -85,10 +85,10 @@ def _mark(outputs, known):
     errors = [f"{output.ename}: {output.evalue}" for output in outputs if "ename" in output]
     if RIGHT in text:
         return RIGHT_MARK
-    told = [f"{KNOWN}{hint}" for hint in known if inline(hint) in text]
+    hints = [f"{KNOWN}{hint}" for hint in known if inline(hint) in text]
     unmarked = {NOT_YET: "not answered", UNREAD: "not read"}
     states = [state for words, state in unmarked.items() if words in text]
-    return " ".join(errors or told[:1] or states) or "not right"
+    return " ".join(errors or hints[:1] or states) or "not right"
 
 
 def points(mark):

@@ -87,11 +87,11 @@ def _item(name, question):
     response, right = (_choices if question.choices else _number)(question)
     score = {"varname": "SCORE", "vartype": "Decimal", "minvalue": "0", "maxvalue": "100"}
     full = _element("setvar", text="100", action="Set", varname="SCORE")
-    told = {f"choice{k}": text for k, text in enumerate(question.told)}
-    chosen = [_told(_element("varequal", text=k, respident="response1"), f"{k}_fb") for k in told]
-    feedback = {f"{k}_fb": text for k, text in told.items()}
+    texts = {f"choice{k}": text for k, text in enumerate(question.feedback)}
+    chosen = [_shows(_element("varequal", text=k, respident="response1"), f"{k}_fb") for k in texts]
+    feedback = {f"{k}_fb": text for k, text in texts.items()}
     if question.hint:
-        chosen.insert(0, _told(_element("other"), "general_fb"))
+        chosen.insert(0, _shows(_element("other"), "general_fb"))
         feedback["general_fb"] = question.hint
     return _element(
         "item",
@@ -112,7 +112,7 @@ def _item(name, question):
     )
 
 
-def _told(condition, ident):
+def _shows(condition, ident):
     """What is shown after an answer, whatever its score."""
     shown = _element("displayfeedback", feedbacktype="Response", linkrefid=ident)
     return _element(

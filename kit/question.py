@@ -31,7 +31,7 @@ class Question(NamedTuple):
     unit: str = ""
     hint: str = ""  # shown after the answer
     choices: tuple = ()  # texts; none where a number is wanted
-    told: tuple = ()  # what each choice is told, if each is told something of its own
+    feedback: tuple = ()  # of each choice, if each has its own
     level: str = "apply"  # or "understand", or "predict": what is asked of a student
     html: bool = False
 
@@ -45,10 +45,10 @@ class Question(NamedTuple):
         old, count = self.choices.index(self.answer), len(self.choices)
         order = [k for k in range(count) if k != old]
         order.insert(place % count, old)
-        choices, told = (
-            tuple(texts[k] for k in order if texts) for texts in (self.choices, self.told)
+        choices, feedback = (
+            tuple(texts[k] for k in order if texts) for texts in (self.choices, self.feedback)
         )
-        return self._replace(choices=choices, told=told)
+        return self._replace(choices=choices, feedback=feedback)
 
     def decimal(self, number):
         """A number as plain decimals, to a hundredth of the tolerance: platforms read no 1e-15."""

@@ -36,15 +36,15 @@ def student(notebook, files=None):
     Of an exercise that is checked, that is the cell where it will be; of another, a cell for words.
     Its metadata say of which `exercise`, by label. Links to files that are not in `files` are text.
     """
-    sources, cells, label, told = checks(notebook), [], None, False
+    sources, cells, label, graded = checks(notebook), [], None, False
     for cell in notebook.cells:
         if solves(cell):
             if label and not sources[label]:
                 cells.append(_graded(_words(label), label))
-            label, told = None, False
+            label, graded = None, False
             continue
-        told = told and "exercise" not in cell.metadata
-        if told and cell.cell_type == "code":
+        graded = graded and "exercise" not in cell.metadata
+        if graded and cell.cell_type == "code":
             continue  # between a check and its solution: it shows the answer
         label = cell.metadata.get("exercise", label)
         if cell.cell_type == "code":
@@ -52,7 +52,7 @@ def student(notebook, files=None):
             if label and cell.source == sources[label]:
                 cell = _graded(nbformat.from_dict(cell | {"source": place(label)}), label)
                 cell.metadata.jupyter = {}  # shown
-                label, told = None, True
+                label, graded = None, True
         else:
             cell = nbformat.from_dict(cell | {"source": alive(cell.source, files)})
         cells.append(cell)

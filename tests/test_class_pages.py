@@ -70,7 +70,7 @@ def test_throws_are_turned_saved_and_drawn_beside_the_model(page, tmp_path):
     (tmp_path / "bob.csv").write_text(f"who,throw,turned,miss,ms\n{goggles}", encoding="utf-8")
     (tmp_path / "bad.csv").write_text("1,2", encoding="utf-8")
     room.set_input_files("#files", [tmp_path / f"{name}.csv" for name in ("ann", "bob", "bad")])
-    room.wait_for_selector("#told:has-text('bad.csv: its first line is not')")
+    room.wait_for_selector("#status:has-text('bad.csv: its first line is not')")
     assert "the mean of 2 files" in room.inner_text("#legend")
     points = room.locator("#plot polyline").evaluate_all(
         "all => all.map((p) => p.getAttribute('points'))"
@@ -145,8 +145,8 @@ def test_a_page_keeps_what_was_answered_shows_it_and_saves_it(chapter):
     record.get_by_label("Name or number").fill("ann 1")
     kept = json.loads(saved(chapter, ".vmc-record button"))
     assert (kept["format"], kept["who"]) == ("answers 1", "ann 1")
-    told = [(a["kind"], a["answer"], a["right"], a["told"]) for a in kept["answers"]]
-    assert told == [
+    entries = [(a["kind"], a["answer"], a["right"], a["feedback"]) for a in kept["answers"]]
+    assert entries == [
         ("prediction", "one", False, ""),
         ("prediction", "two", True, ""),
         ("exercise", "4", False, "Think."),
@@ -160,9 +160,9 @@ def test_a_page_keeps_what_was_answered_shows_it_and_saves_it(chapter):
     assert not record.is_visible()
 
 
-def answer(text, right, told=""):
+def answer(text, right, feedback=""):
     kind = {"page": "07_muscle", "kind": "exercise", "id": "ex-one", "question": "One"}
-    return kind | {"answer": text, "right": right, "told": told}
+    return kind | {"answer": text, "right": right, "feedback": feedback}
 
 
 def test_the_teachers_page_joins_two_hundred_files(page, tmp_path):
@@ -180,8 +180,8 @@ def test_the_teachers_page_joins_two_hundred_files(page, tmp_path):
     room = page(CLASS)
     room.set_input_files("#files", [*files, tmp_path / "zero.json", tmp_path / "bad.json"])
     room.wait_for_selector("#rows tr")
-    assert "200 students." in room.inner_text("#told")
-    assert "bad.json" in room.inner_text("#told")
+    assert "200 students." in room.inner_text("#status")
+    assert "bad.json" in room.inner_text("#status")
     rows = list(csv.reader(io.StringIO(saved(room, "#save"))))[1:]
     question = ["07_muscle", "exercise: One"]
     numbers = ["200", "50", "150"]

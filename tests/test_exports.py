@@ -9,7 +9,7 @@ from zipfile import ZipFile
 import pytest
 
 from kit.__main__ import CHAPTERS, ROOT, bank
-from kit.asked import asked
+from kit.chapter_questions import chapter_questions
 from kit.gift import gift
 from kit.qti import SPACE, package
 
@@ -25,7 +25,7 @@ def variants():
     return bank() | {
         (chapter, name): several
         for chapter, page in pages.items()
-        for name, several in asked(page).items()
+        for name, several in chapter_questions(page).items()
     }
 
 
@@ -35,7 +35,7 @@ def test_the_chapters_own_questions_are_most_of_the_bank_and_say_why(variants):
     for (chapter, name), [question, *_] in variants.items():
         if re.match("prediction|quiz", name):
             assert question.answer in question.choices
-            assert question.hint or all(question.told), (chapter, name)
+            assert question.hint or all(question.feedback), (chapter, name)
             assert not re.search(r"<(?!/?(em|strong|code)>)\w", question.text)
 
 
@@ -124,8 +124,8 @@ def test_qti_is_well_formed_and_each_item_accepts_its_answer(variants):
             item = items[f"{chapter} {name} {k}"]
             scored = item.find(".//{*}setvar/..")
             right = scored.find(".//{*}varequal").text
-            shown = {told.get("linkrefid") for told in item.findall(".//{*}displayfeedback")}
-            kept = {told.get("ident") for told in item.findall("{*}itemfeedback")}
+            shown = {one.get("linkrefid") for one in item.findall(".//{*}displayfeedback")}
+            kept = {one.get("ident") for one in item.findall("{*}itemfeedback")}
             assert shown == kept
             assert shown
             if question.choices:

@@ -332,8 +332,8 @@ def test_a_block_chooses_one_of_its_units_as_in_python(page, place):
     [seen], _ = move(page, 6, *place)
     on_chances, pooled = crbm.block_chances(DRIVES[place])
     chances = [*on_chances, 1 - pooled]
-    told = np.float64([text for text in words(seen)[-6:-1]])
-    assert np.abs(told - chances).max() <= 0.005 + 1e-6
+    shown = np.float64([text for text in words(seen)[-6:-1]])
+    assert np.abs(shown - chances).max() <= 0.005 + 1e-6
     assert float(words(seen)[-1].split()[-1]) == pytest.approx(pooled, abs=0.0005 + 1e-6)
     corners = re.findall(r'<polygon points="([^"]*)"', seen)
     tops = [float(bar.split()[1].split(",")[1]) for bar in corners]
@@ -350,8 +350,8 @@ def test_a_line_between_crops_is_drawn_as_in_python(page, place):
     seen = box.locator(".vmc-picture").inner_html()
     chances, truth = CHANCES[level][0][method], CHANCES[level][1]
     counts = recognition.confusion_counts(chances, truth, CUTS[place])
-    told = np.float64(re.findall(r"[\d.]+", words(seen)[-1]))
-    assert np.abs(told - recognition.precision_recall(counts)).max() <= 0.0005 + 1e-6
+    shown = np.float64(re.findall(r"[\d.]+", words(seen)[-1]))
+    assert np.abs(shown - recognition.precision_recall(counts)).max() <= 0.0005 + 1e-6
     dots = np.array(numbers(seen, "circle"))[:, :2]
     assert np.abs(dots - on(seen, np.c_[chances, names._spread(truth)])).max() < 0.1
     [upright] = polylines(seen)

@@ -162,11 +162,11 @@ def test_the_worked_report_runs_and_its_reason_holds():
     """The best gain falls with the delay, and later sight swings slower: the run says so."""
     notebook = nbformat.read(ROOT / "kit/report.ipynb", as_version=4)
     NotebookClient(notebook, timeout=600, resources={"metadata": {"path": str(ROOT)}}).execute()
-    told = [
+    texts = [
         output.data.get("text/markdown", "")
         for cell in notebook.cells
         for output in cell.get("outputs", [])
         if "data" in output
     ]
-    assert any("That it falls is right." in text for text in told)
-    assert any("slower, as we said" in text for text in told)
+    assert any("That it falls is right." in text for text in texts)
+    assert any("slower, as we said" in text for text in texts)

@@ -71,13 +71,13 @@ const vmcReach = (() => {
       const width = (i) => 8 * Math.abs(shown[i]);
       const threads = plan?.points.map((p, i) => ["line", "blue", [target, p], width(i)]);
       const above = (p) => (p[1] >= target[1] ? 7 : -14); // away from its thread
-      const told = target.length > 2 ? [] : plan?.points.map((p, i) => ["words", "ink", p, signed(shown[i], 2), above(p)]);
+      const weights = target.length > 2 ? [] : plan?.points.map((p, i) => ["words", "ink", p, signed(shown[i], 2), above(p)]);
       const ends = [[planned, "red"], [calibrated, "purple"]].filter(([trial]) => trial);
       this.drawing.marks = [
         ...(threads ?? []),
         ["line", "orange", path, 2],
         ["ring", "green", target, 7],
-        ...(told ?? []),
+        ...(weights ?? []),
         ...ends.map(([trial, colour]) => ["dot", colour, trial.reached, 4]),
       ];
       this.drawing.focus = target;

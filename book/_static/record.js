@@ -13,8 +13,8 @@
     return copy.textContent.replace(/\s+/g, " ").trim();
   };
 
-  const add = (kind, id, question, answer, right, told = "") => {
-    const entry = { page, kind, id, question: question.slice(0, 200), answer, right, told };
+  const add = (kind, id, question, answer, right, feedback = "") => {
+    const entry = { page, kind, id, question: question.slice(0, 200), answer, right, feedback };
     vmcMemory.set(KEY, JSON.stringify([...all(), entry].slice(-MOST)));
     show();
   };
@@ -57,8 +57,8 @@
     const kept = all();
     place.hidden = !kept.length;
     place.querySelector("summary").textContent = `What this browser has kept of your answers: ${kept.length}`;
-    place.querySelector("ol").replaceChildren(...kept.map(({ page, kind, question, answer, right, told }) =>
-      Object.assign(document.createElement("li"), { textContent: `${page}, ${kind}: ${question} ${answer} ${right ? "✓" : "✗"} ${told}` })));
+    place.querySelector("ol").replaceChildren(...kept.map(({ page, kind, question, answer, right, feedback }) =>
+      Object.assign(document.createElement("li"), { textContent: `${page}, ${kind}: ${question} ${answer} ${right ? "✓" : "✗"} ${feedback}` })));
   };
   save.addEventListener("click", () => {
     const who = place.querySelector("input").value.trim();

@@ -36,8 +36,8 @@ def test_a_cell_has_edit_if_it_runs_in_the_page(ask, lines, above, tagged):
     if tagged:
         wrong = f"{lines}\nassert 1 > 2"
         line = len(wrong.splitlines())
-        told = f"{WRONG} Line {line} no longer holds: `assert 1 > 2`."
-        assert ask(above, wrong) == [told, ""]
+        words = f"{WRONG} Line {line} no longer holds: `assert 1 > 2`."
+        assert ask(above, wrong) == [words, ""]
 
 
 def test_some_cells_have_edit():

@@ -16,10 +16,10 @@ ENDLESS = "while True:\n    pass"
 NO_STORAGE = "Object.defineProperty(window, 'localStorage', { get() { throw 'no' } })"
 
 
-def check(page, lines, told):
+def check(page, lines, words):
     page.lines.fill(lines)
     page.button("Check").click()
-    page.said.get_by_text(told).wait_for()
+    page.said.get_by_text(words).wait_for()
 
 
 def test_python_is_loaded_for_who_writes_and_from_the_books_own_files(open_exercise, site):

@@ -33,7 +33,7 @@ def test_a_wrong_one_gets_what_the_notebook_says(last):
 
 
 @pytest.mark.parametrize(
-    ("typed", "told"),
+    ("typed", "words"),
     [
         (f"{HEAD}    return =", "cannot read line 2: invalid syntax"),
         (f"{HEAD}return 1", "cannot read line 2: expected an indented block"),
@@ -42,10 +42,10 @@ def test_a_wrong_one_gets_what_the_notebook_says(last):
         ("f = 1", "define no function `activation_rates`"),
     ],
 )
-def test_lines_that_define_no_function_are_told_why(typed, told):
+def test_lines_that_define_no_function_get_the_reason(typed, words):
     """Also where the chapter above has one of that name."""
     said, _ = check([f"{HEAD}    return 0"], typed, NAME)
-    assert told in said
+    assert words in said
 
 
 def test_what_is_printed_is_shown_not_for_ever():
@@ -82,7 +82,7 @@ def test_what_the_reader_has_changed_is_found_where_it_is_needed():
 
 
 @pytest.mark.parametrize(
-    ("typed", "told"),
+    ("typed", "words"),
     [
         ("print(1)\n2 + 2", ("✓ It runs.", "1\n4\n")),
         ("assert area(1) < 4\nNone", ("✓ It runs, and its `assert` holds.", "")),
@@ -90,8 +90,8 @@ def test_what_the_reader_has_changed_is_found_where_it_is_needed():
         ("print(1)\nf(", (f"{WRONG} Python cannot read line 2: '(' was never closed.", "")),
     ],
 )
-def test_a_cell_runs_as_in_a_notebook(typed, told):
-    assert run(["def area(r):\n    return 3 * r**2"], typed) == told
+def test_a_cell_runs_as_in_a_notebook(typed, words):
+    assert run(["def area(r):\n    return 3 * r**2"], typed) == words
 
 
 def test_what_no_page_has_can_be_imported_and_does_nothing(monkeypatch):

@@ -110,18 +110,18 @@ def test_sliders_stand_between_their_stops(open_law, window):
 
 
 @pytest.mark.parametrize(
-    ("lines", "told"),
+    ("lines", "words"),
     [
         ("def law(x):\n    return 1 / 0", "Your law stops: ZeroDivisionError"),
         ("def law(x):\n    return", "Your law stops: TypeError"),
         ("def law(x):\n    while True:\n        pass", "Stopped after 10 s."),
     ],
 )
-def test_a_law_that_fails_gives_the_demo_back_to_the_book(open_law, lines, told):
+def test_a_law_that_fails_gives_the_demo_back_to_the_book(open_law, lines, words):
     page = open_law()
     page.evaluate("() => vmcPython.ask(['demos', 'draw', [], [], '', '', {}], () => {})")
     page.evaluate("() => { vmcPython.limit.seconds = 10 }")
     change(page, lines)
-    expect(page.line).to_contain_text(told)
+    expect(page.line).to_contain_text(words)
     expect(page.line).to_contain_text("This is the book’s.")
     expect(page.mine.locator(TITLE)).to_contain_text("at 1: 2")

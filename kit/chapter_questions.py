@@ -1,4 +1,4 @@
-"""What the chapters ask, for the bank: predictions and quizzes, and what each choice is told.
+"""What the chapters ask, for the bank: predictions and quizzes, with the feedback of each choice.
 
 Read from a chapter's built page, as its run closes the predictions. A question that speaks of what
 stands beside it on the page is left out.
@@ -16,7 +16,7 @@ BESIDE = re.compile(
 )
 
 
-def asked(page):
+def chapter_questions(page):
     """The questions of a page, {name: [Question]}: HTML, with formulas as KaTeX reads them."""
     questions = {}
     for kind, legend, inside in QUESTION.findall(page):
@@ -31,14 +31,14 @@ def _question(kind, legend, inside):
     if kind == "predict":
         [(_, _, outcome, why)] = answers
         choices = tuple(map(_html, CHOICE.findall(inside)))
-        right, told = _html(outcome).removesuffix("."), ()
+        right, feedback = _html(outcome).removesuffix("."), ()
         hint, level = f"{_html(outcome)} {_html(why)}", "predict"
     else:
         choices = tuple(_html(answer) for _, answer, _, _ in answers)
         right = next(_html(answer) for state, answer, *_ in answers if state == "right")
-        told = tuple(_html(why) for *_, why in answers)
+        feedback = tuple(_html(why) for *_, why in answers)
         hint, level = "", "understand"
-    return Question(_html(legend), right, 0.0, "", hint, choices, told, level, html=True)
+    return Question(_html(legend), right, 0.0, "", hint, choices, feedback, level, html=True)
 
 
 def _html(text):
