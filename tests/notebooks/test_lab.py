@@ -1,78 +1,15 @@
 """The chapters in JupyterLab, as a reader runs them: a real server, a real browser."""
 
-import re
 from urllib.parse import unquote
 
-import nbformat
 import numpy as np
 import pytest
 from PIL import Image
 from playwright.sync_api import expect
 
 from tests import lab
-from tests.pages import observe
 
 pytestmark = pytest.mark.browser
-FILES = ("02_candidates.ipynb", "07_muscle.ipynb", "08_arm.ipynb", "glossary.md")
-ERROR = re.compile("vmc|blob:|anywidget|MeshCat|mujoco")  # what else complains is JupyterLab's
-
-
-@pytest.fixture(scope="module")
-def server(tmp_path_factory):
-    """The address and the folder of a JupyterLab with chapters of photos, plots and scenes."""
-    home = tmp_path_factory.mktemp("lab")
-    with lab.serve(home, *FILES) as address:
-        yield address, home / "book"
-
-
-@pytest.fixture(scope="module")
-def window(chromium):
-    """A browser window that reaches this machine alone, and keeps JupyterLab once it is loaded."""
-    nowhere = {"server": "http://127.0.0.1:9", "bypass": "127.0.0.1"}
-    context = chromium.new_context(viewport={"width": 1200, "height": 900}, proxy=nowhere)
-    context.set_default_timeout(600_000)  # ends a hang, never a busy machine's work
-    yield context
-    context.close()
-
-
-@pytest.fixture
-def visit(window, server):
-    """A function that opens a chapter and returns the page."""
-    pages = []
-
-    def visit(chapter, app="lab/tree"):
-        page = observe(window.new_page())
-        pages.append(page)
-        page.on("dialog", lambda dialog: dialog.accept())
-        page.goto(f"{server[0]}/{app}/{chapter}.ipynb?token=secret&reset")
-        lab.wait_until_open(page)
-        page.evaluate("() => jupyterapp.shell.collapseLeft()")
-        return page
-
-    yield visit
-    for page in pages:
-        page.close()
-        assert [error for error in page.errors if ERROR.search(error)] == []
-
-
-@pytest.fixture
-def run_all(visit):
-    """A function that opens a chapter, whose prose shows no markup, and runs all of it."""
-
-    def run_all(chapter, app="lab/tree"):
-        page = visit(chapter, app)
-        words = lab.prose(page)
-        assert len(words) > 10
-        assert not re.findall(r"\{[a-z-]+\}|```|:::|\]\(|\$|:[a-z]+: ", "\n".join(words))
-        page.evaluate("() => jupyterapp.commands.execute('notebook:run-all-cells')")
-        assert lab.outputs(page, "error") == []
-        page.wait_for_function(
-            "() => document.querySelectorAll('.vmc-demo[data-ready]').length > 1"
-            " && !document.querySelector('.vmc-demo[data-closed]')"
-        )
-        return page
-
-    return run_all
 
 
 def test_links_open_as_something_to_read(visit):
@@ -142,50 +79,6 @@ def test_a_plot_follows_the_kernel_shows_its_errors_and_leaves_a_still(run_all):
     still.get_by_text("Run > Run All Cells to make it move").wait_for()
     assert line in unquote(still.inner_html())
     assert not page.get_by_text("model not found").first.is_visible()
-
-
-def test_notebook_7_runs_a_chapter_and_whoever_gets_it_untrusted_sees_stills(
-    run_all, visit, server
-):
-    page = run_all("07_muscle", "notebooks")
-    lab.move(page, page.locator(".vmc-demo[data-ready] input[type=range]").first)
-    lab.run(page, "await panel.context.save();")
-    chapter = nbformat.read(server[1] / "07_muscle.ipynb", as_version=4)
-    chapter.cells[0].source += "\n\nFrom another machine."  # whose signature nobody here knows
-    nbformat.write(chapter, server[1] / "elsewhere.ipynb")
-    for app in ("notebooks", "lab/tree"):
-        page = visit("elsewhere", app)
-        lab.choose_cell(page, "explore(")
-        still = page.locator(".vmc-still").first
-        still.get_by_text("Run > Run All Cells to make it move").wait_for()
-        width = "(still) => still.querySelector('img').naturalWidth"
-        assert still.evaluate(width) > 100
-        trusted = "return notebook.widgets.some((cell) => cell.model.trusted && cell.outputArea);"
-        assert not lab.run(page, trusted)
-        outcome = page.locator("details", has_text="What came out").locator("p").first
-        outcome.wait_for(state="attached")
-        assert not outcome.is_visible()
-
-
-def test_a_demo_that_hears_no_answer_says_what_to_do(visit):
-    """Anywidget waits two seconds for a model; of a later one it drops all messages."""
-    page = visit("07_muscle")
-    page.evaluate("""() => {
-      self.timeout = AbortSignal.timeout;
-      AbortSignal.timeout = () => {
-        const late = new AbortController();
-        setTimeout(() => late.abort());
-        return late.signal;
-      }; }""")
-    page.evaluate("() => jupyterapp.commands.execute('notebook:run-all-cells')")
-    page.get_by_text("If it has ended, run this cell once more.").first.wait_for()
-    page.evaluate("() => { AbortSignal.timeout = self.timeout; }")
-    lab.choose_cell(page, "explore(")
-    page.evaluate("() => jupyterapp.commands.execute('notebook:run-cell')")
-    page.wait_for_selector(".vmc-demo[data-ready]:not([data-closed])")
-    late = [error for error in page.errors if "Failed to initialize model" in error]
-    assert late
-    page.errors[:] = [error for error in page.errors if error not in late]
 
 
 def test_scenes_and_the_arm_move_and_free_their_memory(run_all):

@@ -1,0 +1,52 @@
+"""A chapter in Notebook 7, in the hands of somebody else, and in a window that is late."""
+
+import nbformat
+import pytest
+
+from tests import lab
+
+pytestmark = pytest.mark.browser
+
+
+def test_notebook_7_runs_a_chapter_and_whoever_gets_it_untrusted_sees_stills(
+    run_all, visit, server
+):
+    page = run_all("07_muscle", "notebooks")
+    lab.move(page, page.locator(".vmc-demo[data-ready] input[type=range]").first)
+    lab.run(page, "await panel.context.save();")
+    chapter = nbformat.read(server[1] / "07_muscle.ipynb", as_version=4)
+    chapter.cells[0].source += "\n\nFrom another machine."  # whose signature nobody here knows
+    nbformat.write(chapter, server[1] / "elsewhere.ipynb")
+    for app in ("notebooks", "lab/tree"):
+        page = visit("elsewhere", app)
+        lab.choose_cell(page, "explore(")
+        still = page.locator(".vmc-still").first
+        still.get_by_text("Run > Run All Cells to make it move").wait_for()
+        width = "(still) => still.querySelector('img').naturalWidth"
+        assert still.evaluate(width) > 100
+        trusted = "return notebook.widgets.some((cell) => cell.model.trusted && cell.outputArea);"
+        assert not lab.run(page, trusted)
+        outcome = page.locator("details", has_text="What came out").locator("p").first
+        outcome.wait_for(state="attached")
+        assert not outcome.is_visible()
+
+
+def test_a_demo_that_hears_no_answer_says_what_to_do(visit):
+    """Anywidget waits two seconds for a model; of a later one it drops all messages."""
+    page = visit("07_muscle")
+    page.evaluate("""() => {
+      self.timeout = AbortSignal.timeout;
+      AbortSignal.timeout = () => {
+        const late = new AbortController();
+        setTimeout(() => late.abort());
+        return late.signal;
+      }; }""")
+    page.evaluate("() => jupyterapp.commands.execute('notebook:run-all-cells')")
+    page.get_by_text("If it has ended, run this cell once more.").first.wait_for()
+    page.evaluate("() => { AbortSignal.timeout = self.timeout; }")
+    lab.choose_cell(page, "explore(")
+    page.evaluate("() => jupyterapp.commands.execute('notebook:run-cell')")
+    page.wait_for_selector(".vmc-demo[data-ready]:not([data-closed])")
+    late = [error for error in page.errors if "Failed to initialize model" in error]
+    assert late
+    page.errors[:] = [error for error in page.errors if error not in late]
