@@ -67,9 +67,6 @@ def test_a_scene_is_no_wider_than_its_place(open_demos):
     assert drawn <= room
 
 
-# ---- On paper ----
-
-
 def printed(page):
     """A page on paper: its words, and whether something red and something blue is on it."""
     pdf = pypdfium2.PdfDocument(page.pdf(print_background=True))

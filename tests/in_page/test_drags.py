@@ -1,14 +1,12 @@
-"""What the page works out for any position of the reader's hand is what Python works out."""
+"""What the page works out for any place of the reader's hand is what Python works out."""
 
 import re
-from functools import partial
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
-from book.figures import aiming, crbm, granule, names, reaching, trade, votes, where
-from reproduce.experiments import localisation, recognition
+from book.figures import aiming, reaching, votes, where
+from tests.in_page.markup import move, numbers, on, polylines, words
 from tests.pages import book_html, drag, middle, open_html
 from vmc_lib import photos
 from vmc_lib.arm.kinematics import to_world
@@ -34,13 +32,6 @@ SPOTS = [(x, y) for x in ACROSS.tolist() for y in UP.tolist()]
 ENDED = execute(plan(SPOTS, PAST)).endpoint
 SHOT = photos.load("free", "test")[0]
 ACROSS_SHOT, DOWN_SHOT = np.arange(0, 601, 10), np.arange(0, 401, 10)
-THRESHOLDS, ALLOWED = np.linspace(-2, 2, 41).round(2), np.linspace(0.1, 0.9, 41).round(2)
-DETECTED = {level: [*localisation.detect_photos(level, "validation")] for level in ("rig", "free")}
-LEVEL = {k: trade.scored_level(photos.load(k, "validation"), v) for k, v in DETECTED.items()}
-WIDTHS, X = np.geomspace(0.003, 0.15, 41), np.linspace(0.005, 0.235, 60)
-LINE = X[:, None] + 0.01 * np.sin(20 * X[:, None]), 8 + 6 * np.sin(30 * X), X, np.arange(60)[::-1]
-DRIVES, CUTS = np.linspace(-3, 3, 61).round(1), np.linspace(0.01, 0.99, 99).round(2)
-CHANCES = {level: recognition.load_probabilities(level, "test") for level in ("rig", "varied")}
 AROUND, NEURONS = np.linspace(-0.95, 0.95, 20), (4, 12, 60)
 
 
@@ -77,39 +68,6 @@ def declare():
         in_page=aiming.aim_in_page(SHOT),
         target=Pad(ACROSS_SHOT, DOWN_SHOT, start=(300, 200)),
     )
-    explore(
-        lambda level, threshold, overlap: trade.trade(LEVEL[level], threshold, overlap),
-        "c",
-        lambda level, threshold, overlap: trade.trade_in_words(LEVEL[level], threshold, overlap),
-        in_page=trade.trade_in_page(LEVEL),
-        level=[*LEVEL],
-        threshold=Slider(THRESHOLDS, "threshold"),
-        overlap=Slider(ALLOWED, "overlap"),
-    )
-    explore(
-        partial(granule.bells, *LINE),
-        "c",
-        in_page=granule.bells_in_page(*LINE),
-        width=Slider(WIDTHS, "width"),
-        lessons=Slider(range(2, 41), "lessons"),
-        place=Slider(LINE[2], "place"),
-    )
-    explore(
-        lambda **drives: crbm.block(*drives.values()),
-        "c",
-        in_page=crbm.block_in_page(),
-        **{f"I{i}": Slider(DRIVES, f"drive {i}") for i in range(4)},
-    )
-    explore(
-        lambda level, method, threshold: names.sorted_crops(
-            CHANCES[level][0][method], CHANCES[level][1], threshold
-        ),
-        "c",
-        in_page=names.sorted_crops_in_page(CHANCES, ["HOG", "CDBN, MP2"]),
-        level=[*CHANCES],
-        method=["HOG", "CDBN, MP2"],
-        threshold=Slider(CUTS, "threshold"),
-    )
 
 
 @pytest.fixture(scope="module")
@@ -119,41 +77,6 @@ def page(offline, site):
     yield page
     page.close()
     assert page.errors == page.failed == []
-
-
-def move(page, number, *places):
-    """Move a demo's controls; what it then shows: its pictures as markup, its words."""
-    box = page.locator(".vmc-demo").nth(number)
-    for control, place in zip(box.locator("[data-stride]").all(), places, strict=True):
-        switch = control.get_attribute("type") == "checkbox"
-        control.set_checked(bool(place)) if switch else control.fill(str(place))
-    pictures = [picture.inner_html() for picture in box.locator(".vmc-picture").all()]
-    return pictures, box.locator(".vmc-pictures").get_attribute("aria-label")
-
-
-def numbers(markup, tag):
-    """The numbers in a mark's attributes, mark by mark."""
-    marks = re.findall(rf"<{tag} [^>]*>", markup)
-    return [[float(n) for n in re.findall(r'="(-?[\d.]+)', mark)] for mark in marks]
-
-
-def on(markup, points):
-    """Where points (..., 2) of the first axes lie in the picture."""
-    x0, x1, y0, y1, left, right, bottom, top = np.float64(
-        re.search(r'data-axes="([^"]*)"', markup)[1].split()
-    )
-    size = np.float64(re.search(r'viewBox="0 0 ([\d. ]+)"', markup)[1].split())
-    shares = (np.array(points) - [x0, y0]) / [x1 - x0, y1 - y0]
-    return size * ([left, bottom] + shares * [right - left, top - bottom])
-
-
-def polylines(markup):
-    lines = re.findall(r'<polyline points="([^"]*)"', markup)
-    return [np.float64([pair.split(",") for pair in line.split()]) for line in lines]
-
-
-def words(markup):
-    return re.findall(r"<text[^>]*>([^<]*)</text>", markup)
 
 
 @pytest.mark.parametrize("place", np.random.default_rng(1).integers(0, 20, (20, 4)).tolist())
@@ -275,87 +198,6 @@ def test_the_camera_is_that_of_python(page):
     )
     assert np.allclose(seen, points, atol=1e-9)
     assert np.allclose(back, pixels, atol=1e-6)
-
-
-@pytest.mark.parametrize("place", np.random.default_rng(6).integers(0, 41, (20, 2)).tolist())
-def test_a_threshold_trades_precision_for_recall_as_in_python(page, place):
-    level, (threshold, overlap) = ["rig", "free"][sum(place) % 2], place
-    box = page.locator(".vmc-demo").nth(4)
-    box.get_by_label(level).check()
-    for name, at in zip(("threshold", "overlap"), place, strict=True):
-        box.get_by_role("slider", name=name).fill(str(at))
-    photo, plot = [picture.inner_html() for picture in box.locator(".vmc-picture").all()]
-    threshold, overlap = THRESHOLDS[threshold], ALLOWED[overlap]
-    kept = [localisation.keep_boxes(one, threshold, overlap) for one in DETECTED[level]]
-    precision, recall = localisation.precision_recall(LEVEL[level].photos, kept)
-    rates = re.findall(r"[\d.]+", words(plot)[-1])
-    assert np.abs(np.float64(rates) - [precision, recall]).max() <= 0.005 + 1e-9
-    drawn, figure = trade.trade(LEVEL[level], threshold, overlap)
-    plt.close(figure)
-    assert sorted(numbers(photo, "rect")) == sorted(numbers(drawn, "rect"))
-    assert len(numbers(photo, "rect")) == 2 * len(kept[trade.SHOWN])
-    assert words(plot)[-1] in trade.trade_in_words(LEVEL[level], threshold, overlap)
-    curve = trade.trace(LEVEL[level], overlap)[2]
-    assert np.abs(polylines(plot)[0] - on(plot, curve)).max() < 0.2
-    assert (
-        np.abs(np.array(numbers(plot, "circle")[-1][:2]) - on(plot, [recall, precision])).max()
-        < 0.2
-    )
-
-
-@pytest.mark.parametrize("place", np.random.default_rng(7).integers(0, 39, (20, 3)).tolist())
-def test_granule_cells_answer_as_in_python(page, place):
-    [seen], said = move(page, 5, *place)
-    width, lessons, at = WIDTHS[place[0]], place[1] + 2, X[place[2]]
-    cells = granule.fit_line(*LINE, width, lessons)
-    needed = np.interp(X, LINE[0][:, 0], LINE[1])
-    sums, active = cells.predict(X[:, None]), cells.excite([[at]])[0]
-    off = abs(sums[place[2]] - needed[place[2]])
-    mean = granule.off_by(*LINE, width, lessons)
-    assert words(seen)[-1] == f"off by {mean:.2f} mm on average, here by {off:.2f}"
-    assert said.endswith(f"{words(seen)[-1]}.")
-    *grey, need, drawn, error = polylines(seen)
-    assert np.abs(need - on(seen, np.c_[X, needed])).max() < 0.1
-    assert np.abs(drawn - on(seen, np.c_[X, sums.clip(-3, 16)])).max() < 0.1
-    bells = [on(seen, np.c_[X, 3 * height - 3]) for height in cells.excite(X[:, None]).T[::3]]
-    assert np.abs(np.subtract(grey, bells)).max() < 0.1
-    dots = np.array(numbers(seen, "circle"))[:, :3]
-    assert np.abs(dots[:40, 2] - 3 * active).max() < 0.006
-    middles = on(seen, np.c_[cells.centres_[:, 0], np.full(40, -1.5)])
-    assert np.abs(dots[:40, :2] - middles).max() < 0.1
-    assert len(dots) == 40 + lessons
-    assert len(error) == 2
-
-
-@pytest.mark.parametrize("place", np.random.default_rng(8).integers(0, 61, (20, 4)).tolist())
-def test_a_block_chooses_one_of_its_units_as_in_python(page, place):
-    [seen], _ = move(page, 6, *place)
-    on_chances, pooled = crbm.block_chances(DRIVES[place])
-    chances = [*on_chances, 1 - pooled]
-    shown = np.float64([text for text in words(seen)[-6:-1]])
-    assert np.abs(shown - chances).max() <= 0.005 + 1e-6
-    assert float(words(seen)[-1].split()[-1]) == pytest.approx(pooled, abs=0.0005 + 1e-6)
-    corners = re.findall(r'<polygon points="([^"]*)"', seen)
-    tops = [float(bar.split()[1].split(",")[1]) for bar in corners]
-    assert np.abs(tops - on(seen, np.c_[np.arange(5), chances])[:, 1]).max() < 0.1
-
-
-@pytest.mark.parametrize("place", np.random.default_rng(9).integers(0, 99, 20).tolist())
-def test_a_line_between_crops_is_drawn_as_in_python(page, place):
-    box = page.locator(".vmc-demo").nth(7)
-    level, method = ["rig", "varied"][place % 2], ["HOG", "CDBN, MP2"][place // 2 % 2]
-    for name in (level, method):
-        box.get_by_label(name).check()
-    box.get_by_role("slider").fill(str(place))
-    seen = box.locator(".vmc-picture").inner_html()
-    chances, truth = CHANCES[level][0][method], CHANCES[level][1]
-    counts = recognition.confusion_counts(chances, truth, CUTS[place])
-    shown = np.float64(re.findall(r"[\d.]+", words(seen)[-1]))
-    assert np.abs(shown - recognition.precision_recall(counts)).max() <= 0.0005 + 1e-6
-    dots = np.array(numbers(seen, "circle"))[:, :2]
-    assert np.abs(dots - on(seen, np.c_[chances, names._spread(truth)])).max() < 0.1
-    [upright] = polylines(seen)
-    assert np.abs(upright[:, 0] - on(seen, [CUTS[place], 0])[0]).max() < 0.1
 
 
 def test_a_photo_lies_below(page):
