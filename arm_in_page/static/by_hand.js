@@ -5,7 +5,7 @@ const vmcByHand = (() => {
   const { millimetres, signed } = vmcLive;
   const { plus, times } = vmcVectors;
 
-  class ByHand extends vmcReach.Reach {
+  class ByHand extends vmcReach.Aimed {
     get hands() {
       return [...this.controls.querySelectorAll("[name^=weight-]")];
     }

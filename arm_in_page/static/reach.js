@@ -6,7 +6,94 @@ const vmcReach = (() => {
   const { mean, minus, sum } = vmcVectors;
   const pace = ({ speed }) => `${millimetres(speed)}/s`;
 
+  /* A reach that is planned: played, missed, calibrated. */
   class Reach extends Live {
+    motion(weights) {
+      return this.arm.reach(this.templateSet.excitations({ ...this.plan, weights }));
+    }
+
+    endPoint(weights) {
+      return mean(this.arm.hold(this.motion(weights))).slice(0, this.target.length);
+    }
+
+    /* Play a movement in its own time. */
+    async play(name, trial, turn) {
+      const motion = this.motion(trial.weights);
+      const step = 1000 * this.given.step; // ms
+      const every = Math.ceil(10 / step); // of its moments the path has one
+      const path = motion.filter((_, t) => t % every === 0).map(({ q }) => this.arm.hand(q));
+      const start = await frame();
+      for (let n = 0, t = this.calm.matches ? motion.length : 0; t < motion.length - 1; n++) {
+        this.mark(path.slice(0, 1 + t / every));
+        this.show(motion[t], n % OFTEN > 0);
+        t = Math.max(0, Math.round(((await frame()) - start) / step));
+        if (turn !== this.turn) return false;
+      }
+      const hold = this.arm.hold(motion);
+      const way = sum(hold.slice(1).map((place, t) => Math.hypot(...minus(place, hold[t]))));
+      const speed = way / (this.given.held * this.given.step);
+      this.arrive(name, { ...trial, hand: mean(hold), speed }, { path, ...motion.at(-1) });
+      return true;
+    }
+
+    /* A movement has come to its end, in a posture and by a path; its `trial` is now known as `name`. */
+    arrive(name, trial, end) {
+      this[name] = trial;
+      this.mark(end.path);
+      this.show(end, false, end.joints && end);
+      this.tell({
+        [name]: millimetres(trial.error, 1),
+        speed: pace(trial),
+        weights: trial.weights.map((w) => signed(w, 2)).join(", "),
+      });
+    }
+
+    sayMiss(next = "") {
+      this.say(
+        `The planned reach misses by ${millimetres(this.planned.error, 1)}, on average over the hold; ` +
+        `there the hand still moves at ${pace(this.planned)}.${next}`
+      );
+    }
+
+    /* The habitual reach. */
+    async main() {
+      const turn = (this.turn = {});
+      if (!this.plan) return;
+      Object.assign(this, { planned: null, calibrated: null });
+      this.tell({ calibrated: "–", tries: "–" });
+      const reach = (weights) => this.endPoint(weights);
+      const [first] = vmcCalibration.algorithm1(this.plan, reach, { gains: [] });
+      if (!(await this.play("planned", first, turn))) return;
+      this.sayMiss();
+    }
+
+    /* Try off-line, as fast as the page can; then move once more, with the best weights. */
+    async calibrate() {
+      if (!this.planned || !this.arm) await this.begin();
+      if (!this.planned) return;
+      const turn = (this.turn = {});
+      this.say("Trying off-line …");
+      const trials = [];
+      const rule = vmcCalibration[this.rule];
+      for (const trial of rule(this.plan, (w) => this.endPoint(w), this.given.calibration)) {
+        trials.push(trial);
+        this.tell({ tries: `${trials.length - 1}` });
+        await frame();
+        if (turn !== this.turn) return;
+      }
+      const best = trials.reduce((a, b) => (b.error < a.error ? b : a));
+      if (!(await this.play("calibrated", best, turn))) return;
+      const which = best.n === undefined ? "" : ` (n = ${best.n})`;
+      this.say(
+        `After ${trials.length - 1} tries the best${which} misses by ` +
+        `${millimetres(best.error, 1)}, moving at ${pace(this.calibrated)}; ` +
+        `the planned reach missed by ${millimetres(this.planned.error, 1)}.`
+      );
+    }
+  }
+
+  /* The same, to a target that the reader sets on the sliders or the plot. */
+  class Aimed extends Reach {
     constructor(box) {
       super(box);
       const { first } = this.given;
@@ -84,89 +171,10 @@ const vmcReach = (() => {
       this.drawing.balls = [this.goal, planned?.hand, calibrated?.hand];
     }
 
-    motion(weights) {
-      return this.arm.reach(this.templateSet.excitations({ ...this.plan, weights }));
-    }
-
-    endPoint(weights) {
-      return mean(this.arm.hold(this.motion(weights))).slice(0, this.target.length);
-    }
-
-    /* Play a movement in its own time. */
-    async play(name, trial, turn) {
-      const motion = this.motion(trial.weights);
-      const step = 1000 * this.given.step; // ms
-      const every = Math.ceil(10 / step); // of its moments the path has one
-      const path = motion.filter((_, t) => t % every === 0).map(({ q }) => this.arm.hand(q));
-      const start = await frame();
-      for (let n = 0, t = this.calm.matches ? motion.length : 0; t < motion.length - 1; n++) {
-        this.mark(path.slice(0, 1 + t / every));
-        this.show(motion[t], n % OFTEN > 0);
-        t = Math.max(0, Math.round(((await frame()) - start) / step));
-        if (turn !== this.turn) return false;
-      }
-      const hold = this.arm.hold(motion);
-      const way = sum(hold.slice(1).map((place, t) => Math.hypot(...minus(place, hold[t]))));
-      const speed = way / (this.given.held * this.given.step);
-      this.arrive(name, { ...trial, hand: mean(hold), speed }, { path, ...motion.at(-1) });
-      return true;
-    }
-
-    /* A movement has come to its end, in a posture and by a path; its `trial` is now known as `name`. */
-    arrive(name, trial, end) {
-      this[name] = trial;
-      this.mark(end.path);
-      this.show(end, false, end.joints && end);
-      this.tell({
-        [name]: millimetres(trial.error, 1),
-        speed: pace(trial),
-        weights: trial.weights.map((w) => signed(w, 2)).join(", "),
-      });
-    }
-
     sayMiss() {
-      this.say(
-        `The planned reach misses by ${millimetres(this.planned.error, 1)}, on average over the hold; ` +
-        `there the hand still moves at ${pace(this.planned)}. Drag the target, and let go.`
-      );
-    }
-
-    /* The habitual reach. */
-    async main() {
-      const turn = (this.turn = {});
-      if (!this.plan) return;
-      Object.assign(this, { planned: null, calibrated: null });
-      this.tell({ calibrated: "–", tries: "–" });
-      const reach = (weights) => this.endPoint(weights);
-      const [first] = vmcCalibration.algorithm1(this.plan, reach, { gains: [] });
-      if (!(await this.play("planned", first, turn))) return;
-      this.sayMiss();
-    }
-
-    /* Try off-line, as fast as the page can; then move once more, with the best weights. */
-    async calibrate() {
-      if (!this.planned || !this.arm) await this.begin();
-      if (!this.planned) return;
-      const turn = (this.turn = {});
-      this.say("Trying off-line …");
-      const trials = [];
-      const rule = vmcCalibration[this.rule];
-      for (const trial of rule(this.plan, (w) => this.endPoint(w), this.given.calibration)) {
-        trials.push(trial);
-        this.tell({ tries: `${trials.length - 1}` });
-        await frame();
-        if (turn !== this.turn) return;
-      }
-      const best = trials.reduce((a, b) => (b.error < a.error ? b : a));
-      if (!(await this.play("calibrated", best, turn))) return;
-      const which = best.n === undefined ? "" : ` (n = ${best.n})`;
-      this.say(
-        `After ${trials.length - 1} tries the best${which} misses by ` +
-        `${millimetres(best.error, 1)}, moving at ${pace(this.calibrated)}; ` +
-        `the planned reach missed by ${millimetres(this.planned.error, 1)}.`
-      );
+      super.sayMiss(" Drag the target, and let go.");
     }
   }
 
-  return { Reach };
+  return { Aimed, Reach };
 })();

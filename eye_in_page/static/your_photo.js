@@ -170,9 +170,7 @@ const vmcYourPhoto = (() => {
     async reach(target, bearing) {
       const { turn } = this, from = this.bearing;
       this.rest();
-      await (this.physics ??= this.load());
-      if (!this.arm) return (this.physics = null); // and it has said why
-      if (turn !== this.turn) return;
+      if (!(await this.awake()) || turn !== this.turn) return; // it has said why
       Object.assign(this, { target, plan: vmcPlanning.plan(target, this.templateSet) });
       const start = await frame();
       for (let share = this.calm.matches ? 1 : 0; ; share = Math.min(1, ((await frame()) - start) / TURNING)) {
