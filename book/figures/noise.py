@@ -85,5 +85,5 @@ def miss_and_drive(rules, who):
     }
     return (
         dot_plot(misses, "miss (mm)", xlim=(-2, None)),
-        dot_plot(drives, f"driven by {who} (%)", xlim=(-2, None)),
+        dot_plot(drives, f"driven by {who} (%)", xlim=(-0.5, None)),
     )
