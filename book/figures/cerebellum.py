@@ -3,8 +3,8 @@
 import numpy as np
 
 WIDE, HIGH = 560, 300
-GRANULES = np.linspace(60, 330, 10)  # x of each granule cell
-FIBRES = np.linspace(95, 130, len(GRANULES))  # y of the line that each sends to the right
+GRANULES = np.linspace(60, 310, 10)  # x of each granule cell
+FIBRES = np.linspace(85, 130, len(GRANULES))  # y of the line that each sends to the right
 ACTIVE = (3, 4, 5)  # the few that this target excites
 TREE = 440  # x of the Purkinje cell
 
@@ -17,16 +17,17 @@ def circuit():
         parts.append(_path(f"M{x:.0f},268V222", "blue", 1.4))
         parts.append(_path(f"M{x:.0f},205V{y:.1f}H535", colour, wide))
         parts.append(_dot(x, 213, 9, colour))
-        parts.append(_dot(TREE - 20 + 4 * k, y, 3.4 if k in ACTIVE else 2, "red"))
-    boughs = "".join(f"M{TREE},170L{TREE + d},90" for d in range(-30, 40, 12))
+        parts.append(_dot(TREE - 24 + 4.6 * k, y, 4.5 if k in ACTIVE else 3, "red"))
+    boughs = "".join(f"M{TREE},170L{TREE + d},80" for d in range(-30, 40, 12))
     parts += [_path(boughs, "purple", 1.6), _dot(TREE, 180, 15, "purple")]
     parts += [_path(f"M{TREE},195V270", "purple", 3)]
     parts += [_path(f"M515,280C515,200 {TREE + 30},210 {TREE + 6},110", "red", 2)]
     words = (
         (20, 292, "mossy fibres: where the target is", "blue"),
-        (60, 245, "granule cells: few of many answer", "ink"),
-        (150, 82, "their lines, with weights v (red dots)", "ink"),
-        (TREE - 118, 186, "Purkinje cell", "purple"),
+        (328, 218, "granule cells:", "ink"),
+        (328, 234, "few answer", "ink"),
+        (150, 70, "their lines, with weights v (red dots)", "ink"),
+        (TREE - 104, 186, "Purkinje cell", "purple"),
         (TREE - 72, 262, "sum(x)", "purple"),
         (462, 296, "climbing fibre: the error", "red"),
     )

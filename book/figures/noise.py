@@ -64,6 +64,7 @@ def scatter_and_miss(uncorrected, weak_miss, corrected, corrected_weak_miss):
     for (rule, scatter), hue in zip(uncorrected.items(), ("grey", "orange", "green"), strict=True):
         left.plot(time, scatter, color=COLOURS[hue], label=rule)
     left.plot(time, corrected, color=COLOURS["blue"], label="corrected")
+    left.axvline(0.35, color=COLOURS["grey"], lw=1)
     left.axvspan(0.7, 1.5, color=COLOURS["grey"], alpha=0.15, lw=0)
     left.set(xlabel="time (s)", ylabel="scatter (mm)", ylim=(0, 3.5))
     left.set_title(f"in the hold {corrected[100:].mean():.1f} mm")
@@ -83,6 +84,6 @@ def miss_and_drive(rules, who):
         for when, row in rules[who].items()
     }
     return (
-        dot_plot(misses, "miss (mm)", xlim=(0, None)),
-        dot_plot(drives, f"driven by {who} (%)", xlim=(0, None)),
+        dot_plot(misses, "miss (mm)", xlim=(-2, None)),
+        dot_plot(drives, f"driven by {who} (%)", xlim=(-0.5, None)),
     )

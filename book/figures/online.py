@@ -169,7 +169,7 @@ def periods_table(draws, names):
     rows = [
         [name, cure, *(draws[f"{world}, {cure}"][:, k].mean(axis=1) for k in PERIODS.values())]
         for world, name in names.items()
-        for cure in CURES[:-1]
+        for cure in CURES
     ]
     return table(["change", "corrected", *PERIODS], rows)
 
