@@ -190,12 +190,12 @@ const vmcInPage = (() => {
     const [far, , right] = times(100, place);
     const trunk = reached ? `the trunk turns ${((turn * 180) / Math.PI).toFixed(0)}°` : "out of reach";
     const [way, side] = [far > 0 ? "ahead" : "behind", right > 0 ? "right" : "left"];
-    const words = `${Math.abs(far).toFixed(0)} cm ${way}, ${Math.abs(right).toFixed(0)} cm ${side}: ${trunk}`
-      .replaceAll("-", "−");
+    const away = 100 * Math.hypot(place[0] - axis[0], place[2] - axis[1]);
+    const words = `${away.toFixed(0)} cm from the axis: ${trunk}`.replaceAll("-", "−");
     const ring = `<circle cx="${pixel[0].toFixed(1)}" cy="${pixel[1].toFixed(1)}" r="6"`;
     const line = (colour, ...points) => above.mark("line", colour, points, 1.8);
     return [
-      `${words}.`,
+      `${Math.abs(far).toFixed(0)} cm ${way}, ${Math.abs(right).toFixed(0)} cm ${side}; ${words}.`,
       `${ring} ${edge}/>${ring} stroke="${paint[reached ? "green" : "red"]}"/>`,
       line("blue", flat(camera.position), flat(place)) +
         (reached ? line("purple", [...axis].reverse(), turned([0, 0, 0])) + line("grey", ...ahead.map(turned)) : "") +

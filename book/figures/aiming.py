@@ -36,7 +36,7 @@ def aim_view(photo, pixel=None):
     view = photo_view(photo.image, points=[] if pixel is None else [(pixel, "", colour)])
     x, _, z = np.transpose([*photo.camera.back_project(corners, photo.target[1]), eye, AXIS])
     limits = [(low - 0.05, high + 0.05) for low, high in ((z.min(), z.max()), (x.min(), x.max()))]
-    fig = above(parts, " " if pixel is None else describe_aim(photo, pixel), *limits)
+    fig = above(parts, " " if pixel is None else distance_and_turn(photo, pixel), *limits)
     fig.axes[0].fill(*shore(photo.target[1]), color=COLOURS["green"], alpha=0.12, lw=0)
     return view, fig
 
@@ -77,12 +77,19 @@ def trunk_turn(place):
 
 def describe_aim(photo, pixel):
     """The place that a pixel means, and the trunk's turn, in words."""
+    ahead, _, right = 100 * target_place(photo, pixel)
+    way, side = "ahead" if ahead > 0 else "behind", "right" if right > 0 else "left"
+    where = f"{abs(ahead):.0f} cm {way}, {abs(right):.0f} cm {side}"
+    return f"{where}; {distance_and_turn(photo, pixel)}"
+
+
+def distance_and_turn(photo, pixel):
+    """How far from the trunk's axis a pixel's place lies, and the trunk's turn, in words."""
     place = target_place(photo, pixel)
     turn = trunk_turn(place)
-    ahead, _, right = 100 * place
-    way, side = "ahead" if ahead > 0 else "behind", "right" if right > 0 else "left"
     trunk = "out of reach" if turn is None else f"the trunk turns {np.degrees(turn):.0f}°"
-    return f"{abs(ahead):.0f} cm {way}, {abs(right):.0f} cm {side}: {trunk}".replace("-", "−")
+    away = 100 * np.hypot(*(place[[0, 2]] - TRUNK))
+    return f"{away:.0f} cm from the axis: {trunk}".replace("-", "−")
 
 
 def aim_in_page(photo):

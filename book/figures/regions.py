@@ -7,6 +7,7 @@ from book.figures.where import in_corner
 from reproduce.experiments import fresh_test_set, localisation, real_world
 from vmc_lib.boxes import iou
 from vmc_lib.show import COLOURS, dot_plot, photo_view, table
+from vmc_lib.show.figures import margins
 from vmc_lib.statistics import wilson
 
 CHANNELS = ("red", "green", "blue", "mean")
@@ -55,9 +56,11 @@ def margin_plot(cost, kernel):
     ax.plot(*clouds[side].T, "o", label="something")
     ax.plot(*clouds[~side].T, "s", label="table")
     rings = 40 + 160 * abs(svm.dual_coef_[0]) / cost
-    ax.scatter(*svm.support_vectors_.T, rings, "none", edgecolors=COLOURS["red"], gid="alpha")
+    style = dict(edgecolors=COLOURS["red"], gid="alpha", label=f"{len(rings)} rings")
+    ax.scatter(*svm.support_vectors_.T, rings, "none", **style)
     ax.set(xticks=[], yticks=[], aspect="equal", xlabel="blueness", ylabel="roundness")
-    ax.legend(loc="lower right")
+    fig.legend(loc="upper center", ncols=3)
+    margins(fig, top=0.45)
     return fig
 
 
@@ -72,12 +75,6 @@ def weight_map(weights, channel):
     return fig
 
 
-def counted_boxes(image, boxes):
-    """An image with boxes (n, 4), and how many they are."""
-    marks = [(box, "", "orange") for box in boxes]
-    return photo_view(image, [in_corner(f"{len(boxes)} boxes"), *marks])
-
-
 def regress(detector, image, thing, corner, rounds):
     """A box from `corner`, 0.9 times as large as a thing's (4,), corrected; and its IoU with it."""
     box = np.concatenate([corner, corner + 0.9 * (thing[2:] - thing[:2])])
@@ -86,10 +83,13 @@ def regress(detector, image, thing, corner, rounds):
 
 
 def regressed_view(detector, image, thing, corner, rounds):
-    """An image with a thing's box, a corrected one (see `regress`), and their IoU."""
+    """An image with a thing's box, a corrected one (see `regress`), their IoU, and its start."""
     box, shared = regress(detector, image, thing, np.array(corner), rounds)
+    right, down = ((np.array(corner) - thing[:2]) / (thing[2:] - thing[:2])).round(1)
+    began = f"began {abs(right):g} {'left' if right < 0 else 'right'}"
+    began += f", {abs(down):g} {'up' if down < 0 else 'down'}"
     colour = "green" if round(shared, 2) >= 0.8 else "orange"
-    words = (*in_corner(f"IoU {shared:.2f}")[:2], colour)
+    words = (*in_corner(f"IoU {shared:.2f}; {began}")[:2], colour)
     return photo_view(image, [(thing, "", "grey"), (box, "", colour), words])
 
 

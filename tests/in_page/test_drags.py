@@ -157,7 +157,7 @@ def test_a_dragged_target_is_where_the_camera_says(page, place):
     (photo, table), said = move(page, 3, *place)
     spot = aiming.target_place(SHOT, pixel)
     assert said == f"{aiming.describe_aim(SHOT, pixel)}."
-    assert words(table)[-1] == aiming.describe_aim(SHOT, pixel)
+    assert words(table)[-1] == aiming.distance_and_turn(SHOT, pixel)
     rings = numbers(photo, "circle")
     assert rings == numbers(aiming.aim_view(SHOT, pixel)[0], "circle")
     x, z = spot[[0, 2]]
