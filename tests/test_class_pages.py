@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from kit.__main__ import ROOT, throws, throws_page
-from tests.pages import book_html
+from tests.pages import book_html, observe
 from vmc_lib.show import check, predict, questions
 
 pytestmark = pytest.mark.browser
@@ -21,12 +21,12 @@ def page(tmp_path, window):
 
     def page(html):
         (tmp_path / "page.html").write_text(html, encoding="utf-8")
-        opened.append(window(viewport={"width": 1000, "height": 900}).new_page())
-        opened[-1].on("pageerror", lambda error: pytest.fail(str(error)))
+        opened.append(observe(window(viewport={"width": 1000, "height": 900}).new_page()))
         opened[-1].goto((tmp_path / "page.html").as_uri())
         return opened[-1]
 
-    return page
+    yield page
+    assert [error for one in opened for error in one.errors] == []
 
 
 def saved(page, button):
