@@ -130,7 +130,7 @@ function cutWords() {
 function tooWide(within) {
   return [...document.querySelectorAll(`${within} *:not(pre *, table *, svg *)`)]
     .filter((e) => e.getBoundingClientRect().right > innerWidth + 1
-      && !e.closest("pre, table, div.math, .vmc-spoken, .vmc-picture"))
+      && !e.closest("pre, table, div.math, .katex-mathml, .vmc-spoken, .vmc-picture"))
     .map((e) => e.outerHTML.slice(0, 120));
 }
 
