@@ -16,7 +16,7 @@ def record():
 
         def state():
             words = alt(**last) if callable(alt) else alt
-            return words, demo._lines(demo.pictures(draw(**last), "again"))
+            return words, demo.lines(demo.pictures(draw(**last), "again"))
 
         DECLARED.append((caption, state, state()))
 
