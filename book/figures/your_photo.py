@@ -112,7 +112,7 @@ height="{HEIGHT}" href="data:image/jpeg;base64,{photo}"/><g></g><g></g><g></g></
 
 
 def _scene():
-    """The arm as a reach begins, above a table; balls for the place and two ends, for now under it."""
+    """The arm as a reach begins, above a table; balls for the place and two ends, now under it."""
     away = (0.0, -9.0, 0.0)
     return arm_scene(START, balls=[(away, colour) for colour in ("green", "red", "purple")])
 
