@@ -57,8 +57,12 @@
     const kept = all();
     place.hidden = !kept.length;
     place.querySelector("summary").textContent = `What this browser has kept of your answers: ${kept.length}`;
-    place.querySelector("ol").replaceChildren(...kept.map(({ page, kind, question, answer, right, feedback }) =>
-      Object.assign(document.createElement("li"), { textContent: `${page}, ${kind}: ${question} ${answer} ${right ? "✓" : "✗"} ${feedback}` })));
+    const list = place.querySelector("ol");
+    list.replaceChildren(...kept.map(({ page, kind, question, answer, right, feedback }) => {
+      const text = `${page}, ${kind}: ${question} ${answer} ${right ? "✓" : "✗"} ${feedback}`;
+      return Object.assign(document.createElement("li"), { textContent: text.replace(/\$([^$]+)\$/g, "\\($1\\)") });
+    }));
+    window.vmcEquations?.(list);
   };
   save.addEventListener("click", () => {
     const who = place.querySelector("input").value.trim();

@@ -81,6 +81,7 @@ def test_lines_and_verdict_are_kept_until_reset(open_exercise):
         )
         page.reload()
         assert page.lines.input_value() == empty
+    page.failed.clear()  # a reload ends what was still loading
 
 
 def test_it_works_where_storage_is_forbidden(open_exercise, window):
