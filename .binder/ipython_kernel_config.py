@@ -1,6 +1,7 @@
 """In a live kernel an edited file of the library counts from the next cell that runs.
 
-What every chapter shows with is imported while the kernel starts, before the reader runs anything.
+What every chapter shows with is imported while the kernel starts, before the reader runs anything,
+and the arm moves once, so that its machine code is loaded.
 JupyterLab writes what a kernel says of itself into the notebook: ours leave out the one thing that
 changes from reader to reader, or each notebook would be changed as soon as it is opened.
 """
@@ -11,4 +12,8 @@ IPythonKernel.language_info.pop("version", None)
 
 c = get_config()  # noqa: F821
 c.InteractiveShellApp.extensions = ["autoreload"]
-c.InteractiveShellApp.exec_lines = ["%autoreload 2", "import vmc_lib.show"]
+c.InteractiveShellApp.exec_lines = [
+    "%autoreload 2",
+    "import vmc_lib.show, vmc_lib.motor.templates",
+    "vmc_lib.motor.templates.load()",
+]
