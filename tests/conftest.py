@@ -184,6 +184,7 @@ def serious():
         # Colours that are still on their way to a theme are nobody's contrast
         page.add_style_tag(content="* { transition: none !important }")
         page.evaluate("() => scrollTo(0, 0)")  # lest the sticky header covers a target
+        page.mouse.move(0, 0)  # nor does it point at a link
         if not page.evaluate("() => 'axe' in window"):
             page.evaluate(pages.AXE)
         return [
