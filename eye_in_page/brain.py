@@ -8,6 +8,7 @@ import base64
 import gzip
 import json
 from dataclasses import asdict
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -100,6 +101,7 @@ def lab_grid():
 # ---------------------------------------------------------------- packed
 
 
+@cache
 def script():
     """The script's text: it defines `vmcEye.packed`, arrays one behind another, gzip in base64."""
     stored = bytearray()
@@ -117,4 +119,5 @@ def script():
 
 def inputs():
     """Every file that the script is made of."""
-    return [*Path(__file__).parent.glob("*.py"), *FILES]
+    library = Path(photos.__file__).parent  # whose constants go in, too
+    return [*Path(__file__).parent.glob("*.py"), *library.rglob("*.py"), *FILES]

@@ -38,9 +38,8 @@ def in_corner(words):
 
 
 def _box(middle, size):
-    return np.concatenate(
-        [np.subtract(middle, 0.5 * np.array(size)), np.add(middle, 0.5 * np.array(size))]
-    )
+    half = np.divide(size, 2)
+    return np.concatenate([middle - half, middle + half])
 
 
 def overlap(image, thing, middle, size):

@@ -64,17 +64,20 @@ def time_to_peak(law, tendon=0.0):
     return isometric(law, 3, 1.0, tendon).argmax() - _pulse_train(3).argmax() + 1
 
 
+TENDON_STIFFNESS = 33.93669377311689
+
+
 def tendon_force(strain):
     """The pull of a stretched tendon, a share of F₀: 1 at a strain of 5 %.
 
     De Groote et al. (2016), Ann. Biomed. Eng. 44:2922, with SymPy's constants.
     """
-    return 0.2 * np.exp(33.93669377311689 * (strain + 0.005)) - 0.25
+    return 0.2 * np.exp(TENDON_STIFFNESS * (strain + 0.005)) - 0.25
 
 
 def tendon_strain(force):
     """The strain at which a tendon pulls so hard, a share of F₀: `tendon_force` solved for it."""
-    return np.log((force + 0.25) / 0.2) / 33.93669377311689 - 0.005
+    return np.log((force + 0.25) / 0.2) / TENDON_STIFFNESS - 0.005
 
 
 def _pull_on_tendon(law, activation, length, tendon, damping=0.1, steps=2):

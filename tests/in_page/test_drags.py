@@ -7,7 +7,7 @@ import pytest
 
 from book.figures import aiming, reaching, votes, where
 from tests.in_page.markup import move, numbers, on, polylines, words
-from tests.pages import book_html, drag, middle, open_html
+from tests.pages import drag, middle
 from vmc_lib import photos
 from vmc_lib.arm.kinematics import to_world
 from vmc_lib.arm.model import MUSCLES
@@ -15,7 +15,7 @@ from vmc_lib.boxes import iou
 from vmc_lib.motor import templates
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import plan
-from vmc_lib.show import Pad, Slider, Switch, demo, explore
+from vmc_lib.show import Pad, Slider, Switch, explore
 from vmc_lib.show.markup import data_uri
 
 pytestmark = pytest.mark.browser
@@ -68,15 +68,6 @@ def declare():
         in_page=aiming.aim_in_page(SHOT),
         target=Pad(ACROSS_SHOT, DOWN_SHOT, start=(300, 200)),
     )
-
-
-@pytest.fixture(scope="module")
-def page(offline, site):
-    """The demos of the book that the page works out, on a page with the book's scripts."""
-    page = open_html(offline, site, book_html(demo, declare))
-    yield page
-    page.close()
-    assert page.errors == page.failed == []
 
 
 @pytest.mark.parametrize("place", np.random.default_rng(1).integers(0, 20, (20, 4)).tolist())

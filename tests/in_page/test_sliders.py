@@ -10,9 +10,8 @@ import pytest
 from book.figures import crbm, granule, names, trade
 from reproduce.experiments import localisation, recognition
 from tests.in_page.markup import move, numbers, on, polylines, words
-from tests.pages import book_html, open_html
 from vmc_lib import photos
-from vmc_lib.show import Slider, demo, explore
+from vmc_lib.show import Slider, explore
 
 pytestmark = pytest.mark.browser
 THRESHOLDS, ALLOWED = np.linspace(-2, 2, 41).round(2), np.linspace(0.1, 0.9, 41).round(2)
@@ -58,15 +57,6 @@ def declare():
         method=["HOG", "CDBN, MP2"],
         threshold=Slider(CUTS, "threshold"),
     )
-
-
-@pytest.fixture(scope="module")
-def page(offline, site):
-    """The demos of the book that the page works out, on a page with the book's scripts."""
-    page = open_html(offline, site, book_html(demo, declare))
-    yield page
-    page.close()
-    assert page.errors == page.failed == []
 
 
 @pytest.mark.parametrize("place", np.random.default_rng(6).integers(0, 41, (20, 2)).tolist())
