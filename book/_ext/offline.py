@@ -52,7 +52,8 @@ def mend(app, pagename, templatename, context, doctree):
     body = context.get("body", "")
     demos = "|".join(name for name, _ in app.config.html_js_files if name not in EVERYWHERE)
     needs = NEEDS | {rf"/({demos})\b": 'class="vmc-'}
-    needless = "|".join(asset for asset, mark in needs.items() if not re.search(mark, body))
+    page = re.sub("<pre>.*?</pre>", "", body, flags=re.S)  # what is code asks for nothing
+    needless = "|".join(asset for asset, mark in needs.items() if not re.search(mark, page))
     files = context["script_files"]
     settings = dict.fromkeys(filter(None, (file.attributes.get("body") for file in files)))
     settings = [line for line in settings if "DOCUMENTATION_OPTIONS" not in line]  # Sphinx's own
