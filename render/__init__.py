@@ -3,6 +3,6 @@
 `meshes` makes triangles, `shuttlecocks` and `objects` things of them, `materials` table tops;
 `scene` draws what stands where before which camera and light, `picture` traces the light, and
 `sidecar` writes the truth beside the photo. Needs the optional dependency `mitsuba`
-(`pip install vmc_lib[render]`) and LLVM; remake with `python -m render`. `elsewhere` paints other
+(`pip install -e ".[render]"`) and LLVM; remake with `python -m render`. `elsewhere` paints other
 scenes, with the things of `furniture`, by VTK; `cutouts` renders shuttlecocks alone.
 """

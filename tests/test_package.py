@@ -1,4 +1,4 @@
-"""The library as a package: it declares what it imports, and its wheel is enough for a chapter."""
+"""The library as a package: what it declares, what its wheel holds, and a chapter elsewhere."""
 
 import ast
 import re
@@ -9,6 +9,7 @@ import tomllib
 from functools import partial
 from importlib import metadata
 from pathlib import Path
+from zipfile import ZipFile
 
 import nbformat
 import pytest
@@ -120,51 +121,69 @@ def test_a_reader_installs_no_tools():
 
 @pytest.fixture(scope="session")
 def reader(tmp_path_factory):
-    """A Python that has the wheel and what it needs, but neither the repository nor its paths."""
+    """A folder: a copy of the project, its wheel, and a Python that has this and what it needs."""
     folder = tmp_path_factory.mktemp("reader")
     unwanted = shutil.ignore_patterns(".*", "_build", "build", "__pycache__", "*.egg-info")
     shutil.copytree(ROOT, folder / "source", ignore=unwanted)
     wheel = "wheel --quiet --no-deps --no-build-isolation --wheel-dir".split()
     python("-m", "pip", *wheel, folder, folder / "source")
-    shutil.rmtree(folder / "source")
     python("-m", "venv", "--without-pip", folder / "venv")
     (site,) = (folder / "venv").glob("**/site-packages")
     install = ["install", "--quiet", "--no-deps", "--target", site, *folder.glob("*.whl")]
     python("-m", "pip", *install)
     installed = sysconfig.get_path("purelib")  # its own .pth files rest
     (site / "others.pth").write_text(installed, encoding="utf-8")
-    return folder / "venv/bin/python"
+    return folder
 
 
 @pytest.fixture
 def alone(reader, tmp_path):
     """A function that runs the reader's Python in an empty folder, and returns what it printed."""
-    return partial(run, reader, cwd=tmp_path, PYTHONPATH="", VMC_RENDER_MODE="")
+    options = {"cwd": tmp_path, "PYTHONPATH": "", "VMC_RENDER_MODE": ""}
+    return partial(run, reader / "venv/bin/python", **options)
 
 
-def test_the_wheel_holds_the_packages(alone):
-    names = "vmc_lib arm_in_page eye_in_page reproduce render book.figures book.exercises"
-    script = f"import {names.replace(' ', ', ')}; print(vmc_lib.__file__, *book.figures.__path__)"
-    for path in alone("-c", script).split():
-        assert "site-packages" in path
-        assert not Path(path).is_relative_to(ROOT)
+def test_the_wheel_puts_all_of_the_library_and_nothing_else_into_site_packages(reader):
+    (wheel,) = reader.glob("*.whl")
+    names = {name for name in ZipFile(wheel).namelist() if ".dist-info/" not in name}
+    files = {path for path in (ROOT / "vmc_lib").rglob("*") if path.is_file()}
+    ours = {path.relative_to(ROOT).as_posix() for path in files if "__pycache__" not in path.parts}
+    assert names == ours
 
 
-def test_a_readers_file_hides_no_package_that_readme_does_not_name(tmp_path):
-    parts = PYPROJECT["tool"]["setuptools"]["packages"]["find"]["include"]
-    names = {part.split(".")[0].rstrip("*") for part in parts}
-    readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    [sentence] = re.findall(r"It brings the packages (.*?)\.\s", readme, re.S)
-    assert {*re.findall(r"`(\w+)`", sentence)} == names
+def test_the_library_works_alone(alone):
+    script = """
+from importlib import import_module
+from pkgutil import walk_packages
+import vmc_lib
+for module in walk_packages(vmc_lib.__path__, "vmc_lib."):
+    import_module(module.name)
+from vmc_lib import loop, photos
+loop.VisuomotorModel.load("rig")
+print(vmc_lib.__file__, photos.load("rig", "test")[0].image.shape, sep="\\n")"""
+    file, shape = alone("-c", script).splitlines()
+    assert "site-packages" in file
+    assert not Path(file).is_relative_to(ROOT)
+    assert shape.endswith(", 3)")
+
+
+def test_a_readers_file_may_hide_a_folder_as_readme_says(tmp_path):
     (tmp_path / "book.py").touch()
     script = "try: import book.figures\nexcept ImportError as error: print(error)"
-    assert "'book' is not a package" in python("-c", script, cwd=tmp_path)
+    error = python("-c", script, cwd=tmp_path)
+    assert "'book' is not a package" in error
+    assert "'book' is not a package" in (ROOT / "README.md").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("chapter", ["08_arm", "photos"])
-def test_a_chapter_runs_with_the_wheel_alone(alone, tmp_path, chapter):
+def test_a_chapter_runs_elsewhere_after_the_lines_of_readme(reader, alone, tmp_path, chapter):
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    lines = r"!git clone .*> (\w+)\n(%cd \1)\n%pip install --quiet \.\n"  # the last: `reader` has
+    [(folder, enter)] = re.findall(lines, readme)
+    (tmp_path / folder).symlink_to(reader / "source")
     notebook = nbformat.read(ROOT / f"book/{chapter}.ipynb", as_version=4)
-    notebook.cells.append(nbformat.v4.new_code_cell("import vmc_lib\nvmc_lib.__file__"))
+    notebook.cells.insert(0, nbformat.v4.new_code_cell(enter))
+    notebook.cells.append(nbformat.v4.new_code_cell("import book.figures\n[*book.__path__]"))
     nbformat.write(notebook, tmp_path / "chapter.ipynb")
     alone("-m", "nbconvert", "--execute", "--to=notebook", "--inplace", "chapter.ipynb")
     executed = nbformat.read(tmp_path / "chapter.ipynb", as_version=4)
