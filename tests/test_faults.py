@@ -16,6 +16,7 @@ from tests.project import ROOT, code_cells, each_chapter, run
 from vmc_lib import data, marker_sheet, photos
 from vmc_lib.arm.kinematics import inverse_kinematics
 from vmc_lib.motor.execution import execute
+from vmc_lib.motor.inverse_dynamics import static_activation
 from vmc_lib.motor.templates import load
 from vmc_lib.show import check, questions
 from vmc_lib.where.segmentation import segment
@@ -163,6 +164,7 @@ GREY = np.full((20, 30, 3), 0.5, np.float32)
         (lambda: inverse_kinematics((0.1, 0.2, 0.3)), r"\(…, 2\), in m"),
         (lambda: execute(None, prism=30.0), "prism of 30.0 rad: give radians"),
         (lambda: execute(None, prism=np.nan), "prism of nan"),
+        (lambda: static_activation((30, 60)), r"posture \[30. 60.\] rad is beyond .* np.radians"),
         (lambda: load(hold=-1), "hold of -1 s: give seconds"),
         (lambda: load(hold=np.nan), "hold of nan"),
     ],

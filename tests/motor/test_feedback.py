@@ -13,6 +13,7 @@ from vmc_lib.motor.feedback import (
     OPEN_LOOP,
     REFLEX,
     SIGHT,
+    Disturbance,
     FeedbackGains,
     curl,
     excitations_for_acceleration,
@@ -168,6 +169,21 @@ def test_motor_noise_is_reproducible(few):
 def test_wrong_delays_are_refused(few, delays):
     with pytest.raises(ValueError, match="delay of"):
         simulate_feedback(reference_trajectory(few, 1.0), FeedbackGains(**delays))
+
+
+@pytest.mark.parametrize(
+    ("named", "words"),
+    [
+        ({"gains": FeedbackGains(gain=np.nan)}, "gain=nan.*finite"),
+        ({"noise": np.inf}, "noise of inf"),
+        ({"disturbance": push((np.nan, 0), 0.1)}, r"push of \[nan  0.\] N"),
+        ({"disturbance": Disturbance(drag=3.0)}, r"drag 3.0 must be a finite \(2, 2\)"),
+        ({"disturbance": push((1e5, 0), 0.1)}, "movement 0 blows up: at step 1[0-9]{2} "),
+    ],
+)
+def test_what_makes_no_movement_is_refused(few, named, words):
+    with pytest.raises(ValueError, match=words):
+        simulate_feedback(reference_trajectory(few, 1.0), rng=np.random.default_rng(0), **named)
 
 
 def test_noise_without_an_rng_is_refused(few):

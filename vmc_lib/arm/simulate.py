@@ -109,7 +109,7 @@ def simulate(
         raise ValueError(f"a step of {step} s: Euler's method needs one in (0, 0.01] s")
     leading = u.shape[:-2]
     q = _per_movement("start", start, leading, 2)
-    _check_posture(q)
+    check_posture(q)
     a = _per_movement("activation", u[..., 0, :] if activation is None else activation, leading, 6)
     _check_range("activation", a)
     _check_field(perturbation.field)
@@ -144,11 +144,12 @@ def _check_range(name, value):
         raise ValueError(f"{name}: values in [{low:.3g}, {high:.3g}]; clip them to [0, 1]")
 
 
-def _check_posture(q):
+def check_posture(q, name="start"):
+    """ValueError where a posture (…, 2) lies beyond the joints' limits by more than MARGIN."""
     far = np.any((q < LIMITS[:, 0] - MARGIN) | (q > LIMITS[:, 1] + MARGIN), axis=-1)
     if np.any(far):
         raise ValueError(
-            f"start {q[far][0]} rad is beyond the joints' limits, {LIMITS.round(2).tolist()} rad; "
+            f"{name} {q[far][0]} rad is beyond the joints' limits, {LIMITS.round(2).tolist()} rad; "
             "give radians: np.radians(degrees)"
         )
 
@@ -158,12 +159,15 @@ def _check_field(field):
         raise ValueError(f"field {field} must be a finite (2, 2) matrix in N m s / rad")
 
 
-def check_sane(q):
-    """ValueError where joint angles (B, T, 2) are not finite, or far beyond the joints' limits."""
+def check_sane(q, first=0):
+    """ValueError where joint angles (B, T, 2) are not finite, or far beyond the joints' limits.
+
+    `first` is the step of the first of them, for what the error says.
+    """
     if q.min() > -FARTHEST and q.max() < FARTHEST:
         return
     movement, sample, joint = np.argwhere(~(np.abs(q) < FARTHEST))[0]
     raise ValueError(
-        f"movement {movement} blows up: at step {sample} a joint is at {q[movement, sample, joint]}"
-        " rad; weaken what pushes the arm, or shorten the step"
+        f"movement {movement} blows up: at step {first + sample} a joint is at "
+        f"{q[movement, sample, joint]} rad; weaken what pushes the arm, or shorten the step"
     )

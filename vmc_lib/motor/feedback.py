@@ -111,7 +111,7 @@ def simulate_feedback(reference, gains=SIGHT, model=None, disturbance=None, nois
     ------
     ValueError
         When there is noise but no `rng`; a delay is not a whole number of ticks, for the reflex one
-        or more; or a movement blows up.
+        or more; a gain, the noise or the disturbance is not finite; or a movement blows up.
 
     References
     ----------
@@ -127,14 +127,20 @@ def simulate_feedback(reference, gains=SIGHT, model=None, disturbance=None, nois
     """
     if noise and rng is None:
         raise ValueError(f"noise of {noise} needs an rng; give np.random.default_rng(seed)")
+    if not all(np.isfinite(each).all() for each in (*gains[:-1], noise)):
+        raise ValueError(f"{gains} with noise of {noise}: give finite numbers")
     late, spinal = _steps(gains.delay), _steps(gains.spinal, least=TICK)
     target, target_velocity, planned = reference.q, reference.velocity, reference.excitations
     lengths, rates = fibres(*paths(target), target_velocity)
     u, path = np.empty(planned.shape), allocate_trajectory(planned, target[:, 0], 0, planned[:, 0])
     q, velocity, activation = path
     disturbance = disturbance or Disturbance()
+    if np.shape(disturbance.drag) != (2, 2) or not np.isfinite(disturbance.drag).all():
+        raise ValueError(f"drag {disturbance.drag} must be a finite (2, 2) matrix in N s / m")
     times = STEP * np.arange(planned.shape[1])[:, None, None]
     pushes = disturbance(times, np.zeros((len(times), len(planned), 2)))  # on a hand at rest
+    if not np.isfinite(pushes).all():
+        raise ValueError(f"a push of {disturbance.force} N at {disturbance.at} s must be finite")
     push = np.ascontiguousarray(np.swapaxes(pushes, 0, 1))
     for k in range(0, len(times), TICK):
         seen, tick = max(k - late, 0), np.arange(k, min(k + TICK, len(times)))
@@ -147,7 +153,7 @@ def simulate_feedback(reference, gains=SIGHT, model=None, disturbance=None, nois
         now = np.clip(np.swapaxes(planned[:, tick] + sight[:, None] + reflex, 0, 1), 0, 1)
         u[:, tick] = np.swapaxes(noisy(now, noise, rng) if noise else now, 0, 1)
         step_trajectory(u, path, tick, push=push, drag=disturbance.drag)
-    check_sane(q)
+        check_sane(q[:, tick + 1], first=tick[0] + 1)  # or the next tick is of what blew up
     return Motion(*path)
 
 

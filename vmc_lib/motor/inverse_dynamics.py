@@ -12,6 +12,7 @@ from vmc_lib.arm import dynamics
 from vmc_lib.arm.engines import fibres
 from vmc_lib.arm.model import F0, STEP
 from vmc_lib.arm.muscle import PAPER
+from vmc_lib.arm.simulate import check_posture
 from vmc_lib.data import read_only
 
 MOVING, SAMPLES = 700, 1000  # ms: a movement; the movement and the hold that follows
@@ -92,7 +93,11 @@ def required_torque(path):
 
 
 def static_activation(q):
-    """The activations (6,) that hold the posture q (2,), small ones preferred (a ridge)."""
+    """The activations (6,) that hold the posture q (2,), small ones preferred (a ridge).
+
+    ValueError for a posture far beyond the joints' limits.
+    """
+    check_posture(np.asarray(q, float), "posture")
     torque, gain = required_torque(np.tile(q, (2, 1)))
     return bounded_least_squares(
         np.vstack([gain[0], 0.01 * np.eye(6)]), np.append(torque[0], np.zeros(6))
