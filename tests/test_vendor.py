@@ -12,6 +12,7 @@ import pytest
 from tools import bill, vendor
 
 ROOT = Path(__file__).parents[1]
+WORKFLOWS = ROOT / ".github/workflows"
 
 
 def test_vendored_files_match_the_manifest():
@@ -118,4 +119,22 @@ def test_the_bill_holds_every_vendored_file_and_every_pin():
         if match := re.match(r"([\w.-]+)(?:\[.*\])?==([^\s;]+)", line):
             assert versions[match[1]]["version"] == match[2]
             assert versions[match[1]]["hashes"] or match[1] == "torch"
-    assert all(re.fullmatch(r"pkg:\w+/[^\s@]+@[^\s@]+", part["purl"]) for part in components)
+    purl = r"pkg:(npm|pypi|generic)/[^\s@]+@[^\s@]+"
+    assert all(re.fullmatch(purl, part["purl"]) for part in components)
+
+
+def test_workflows_pin_their_actions_and_a_release_holds_the_bill():
+    texts = [file.read_text(encoding="utf-8") for file in WORKFLOWS.glob("*.yml")]
+    uses = [line for text in texts for line in re.findall(r"uses: *(.*)", text)]
+    assert len(uses) > 5
+    pinned = r"[\w/-]+@[0-9a-f]{40} # v[\d.]+"
+    assert [line for line in uses if not re.fullmatch(pinned, line)] == []
+    assert "-m tools.bill > dist/" in (WORKFLOWS / "release.yml").read_text(encoding="utf-8")
+
+
+def test_the_monthly_workflow_tries_what_the_lock_holds_back():
+    newer = (WORKFLOWS / "newer.yml").read_text(encoding="utf-8")
+    assert re.search(r"cron: .* 1 \* \*", newer)
+    (install,) = re.findall(r"pip install (.*?) &&", newer)
+    assert install == '-e ".[test]"'  # neither requirements.txt nor constraints.txt
+    assert "touch .venv/.ready" in newer  # or `make test` would install the locked ones

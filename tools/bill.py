@@ -47,7 +47,7 @@ def _component(name, version, purl, sums):
 def _purl(origin):
     """The package URL of a vendored file's origin."""
     registry, package, path = origin.split(":", 2)
-    kind = "pypi" if registry == "python" else registry
+    kind = {"python": "pypi", "here": "generic"}.get(registry, registry)
     return f"pkg:{kind}/{package.replace('@', '%40', package.startswith('@'))}#{path}"
 
 
