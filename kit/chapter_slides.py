@@ -15,6 +15,7 @@ from typing import NamedTuple
 from bs4 import Tag
 
 WRAPPERS = {"cell", "cell_output", "output", "text_html"}  # of a cell's output
+WIRING = "What the brain does"  # a section: what it draws, and asks nothing about
 FULL_STOP = re.compile(r"(?<!Eq)(?<!Eqs)(?<!Fig)[.?!](?=\s|$)")
 
 
@@ -56,14 +57,14 @@ def chapter_slides(article, most):
     asked = [f"<p>{question}</p>" for question in last.select("p > strong")[-1:]]
     recap = Slide([heading, sentence(text[0]), *asked], text)
     parts = [*_blocks(article)]
-    single = [*_wiring(parts), *[*_equations(parts)][:1]] if most > 6 else []
-    pairs = [*_pairs(parts)]
-    room = (most - 2 - len(single)) // 2  # a title and a question of the quiz apart
+    several = [*_pairs(parts)]
+    wiring = [one for one in several if len(one[1]) == 1 and WIRING in parts[one[0]][0].get_text()]
+    single = [*wiring, *[*_equations(parts)][:1]] if most > 6 else []
+    pairs = [pair for pair in several if pair not in wiring]
     with_question = [(place, pair) for place, pair in pairs if len(pair) > 1]
+    room = (most - 2 - len(single)) // 2  # a title and a question of the quiz apart
     chosen = _spread(with_question if len(with_question) >= room else pairs, room)
-    middle = [
-        slide for _, several in sorted(single + chosen, key=itemgetter(0)) for slide in several
-    ]
+    middle = [slide for _, pair in sorted(single + chosen, key=itemgetter(0)) for slide in pair]
     quiz = [Slide([box], _answers(box)) for box in article.select(".vmc-quiz")]
     return Chapter([first, *middle], _spread(quiz, most - 1 - len(middle)), [recap])
 
@@ -124,15 +125,6 @@ def _equations(parts):
             told = before if above is heading else parts[place + len(run)][1]
             *_, told = [told, *told.select("li > p")]
             yield place, [Slide([heading, sentence(told), *run], _texts(parts, heading))]
-
-
-def _wiring(parts):
-    """A slide of what is drawn, and nobody is asked about, under "What the brain does"."""
-    for place, slides in _pairs(parts):
-        heading, _ = parts[place]
-        if len(slides) == 1 and heading.get_text().startswith("What the brain does"):
-            slides[0].weight = 1
-            yield place, slides
 
 
 def _pairs(parts):

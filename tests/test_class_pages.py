@@ -78,7 +78,9 @@ def test_throws_are_turned_saved_and_drawn_beside_the_model(page, tmp_path):
     goggles = "".join(f"bob;{k};{turned},0;{miss},0;\n" for k, turned, miss in shifted)  # in cm
     (tmp_path / "bob.csv").write_text(f"who;throw;turned;miss;ms\n{goggles}", encoding="utf-8")
     (tmp_path / "bad.csv").write_text("1,2", encoding="utf-8")
-    room.set_input_files("#files", [tmp_path / f"{name}.csv" for name in ("ann", "bob", "slider", "bad")])
+    room.set_input_files(
+        "#files", [tmp_path / f"{name}.csv" for name in ("ann", "bob", "slider", "bad")]
+    )
     room.wait_for_selector("#status:has-text('bad.csv: its first line is not')")
     assert "slider.csv: all in it was thrown with the slider" in room.inner_text("#status")
     assert "the mean of 2 files" in room.inner_text("#legend")
