@@ -1,6 +1,7 @@
 """Builds the kit into _build/kit: `make kit`."""
 
 import json
+import re
 import shutil
 from html import escape
 from pathlib import Path
@@ -59,23 +60,34 @@ def build(folder, pages):
         notebook = nbformat.read(chapter, as_version=4)
         nbformat.write(student(notebook, files), students / chapter.name)
         page = (pages / f"{chapter.stem}.html").read_text(encoding="utf-8")
-        keys.append(key(notebook, page))
+        keys.append(alive(key(notebook, page), ()))
         questions |= {
             (chapter.stem, name): several for name, several in chapter_questions(page).items()
         }
-    for name, text in {"key": "\n".join(keys), "plan": plans()}.items():
-        (folder / f"{name}.md").write_text(text, encoding="utf-8")
+    texts = {"key": "\n".join(keys), "plan": plans(), "index": index()}
+    for name in ("projects", "assistants"):
+        texts[name] = (ROOT / f"kit/{name}.md").read_text(encoding="utf-8")
+    for name, text in texts.items():
         (folder / f"{name}.html").write_text(_page(name, text), encoding="utf-8")
+    for name in ("key", "plan"):
+        (folder / f"{name}.md").write_text(texts[name], encoding="utf-8")
     for name in ("vendor/katex.js", "vendor/katex.css", "book.js"):
         shutil.copy(ROOT / "book/_static" / name, folder)
-    for name in ("projects.md", "report.ipynb", "assistants.md"):
-        shutil.copy(ROOT / "kit" / name, folder)
+    shutil.copy(ROOT / "kit/report.ipynb", folder)
     questions |= bank()
     (folder / "questions.gift").write_text(gift(questions), encoding="utf-8")
     (folder / "questions-qti.zip").write_bytes(package(questions))
     slides(folder / "slides", pages)
     (folder / "throws.html").write_text(throws_page(), encoding="utf-8")
     shutil.copy(ROOT / "kit/pages/class.html", folder)
+
+
+def index():
+    """The kit's first page, Markdown: what is in it, as the page on teaching says, with links."""
+    cells = nbformat.read(ROOT / "book/teaching.ipynb", as_version=4).cells
+    text = next(cell.source for cell in cells if "`make kit` writes" in cell.source)
+    listed = re.search(r"`make kit` writes.+\n\n((?:- .+\n(?:  .+\n)*)+)", text)[1]
+    return "# The kit\n\n" + re.sub(r"`([\w/.-]+\.(html|ipynb))`", r"[\1](\1)", listed)
 
 
 def throws_page():
@@ -98,7 +110,7 @@ def _page(name, text):
         return f"\\{left}{escape(tex)}\\{right}"
 
     reader = MarkdownIt().enable("table").use(dollarmath_plugin, renderer=maths)
-    return HEAD.format(title=f"The {name}") + reader.render(text)
+    return HEAD.format(title=f"The kit: {name}") + reader.render(text)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,8 @@
 """The slides of a chapter, from its built page: one sentence each, the rest in the notes.
 
-A chapter gives its idea, its equations, its mechanism as code, predictions with the demos that
-answer them, questions of its quiz, and its recap; nothing of its exercises.
+A chapter gives its idea, the brain's wiring where it is drawn, its first equation, predictions with
+the demos that answer them, questions of its quiz, and its recap with the question that it leaves;
+nothing of its exercises, and no demo whose cell carries the tag `off-slides`.
 """
 
 import re
@@ -9,10 +10,12 @@ from dataclasses import dataclass, field
 from html import escape
 from itertools import takewhile
 from operator import itemgetter
+from typing import NamedTuple
 
 from bs4 import Tag
 
 WRAPPERS = {"cell", "cell_output", "output", "text_html"}  # of a cell's output
+WIRING = "What the brain does"  # a section: what it draws, and asks nothing about
 FULL_STOP = re.compile(r"(?<!Eq)(?<!Eqs)(?<!Fig)[.?!](?=\s|$)")
 
 
@@ -22,37 +25,48 @@ class Slide:
 
     body: list
     notes: list = field(default_factory=list)
+    weight: int = 1  # how long it stays, beside the others of its part
+    seconds: float = 0
 
     def __str__(self):
         notes = "".join(map(str, self.notes))
         body = "\n".join(map(str, self.body))
         return (
-            f'<section><div class="fit">{body}</div><aside class="notes">{notes}</aside></section>'
+            f'<section data-timing="{self.seconds:.0f}"><div class="fit">{body}</div>'
+            f'<aside class="notes">{notes}</aside></section>'
         )
 
 
+class Chapter(NamedTuple):
+    """The slides of a chapter, each part a list: what it teaches, its quiz, its recap."""
+
+    text: list
+    quiz: list
+    recap: list
+
+
 def chapter_slides(article, most):
-    """A chapter's slides, at most so many, in the page's order; its optional sections give none."""
+    """A `Chapter` of at most so many slides, in the page's order; optional sections give none."""
     title, idea, *aims = article.find_all(["h1", "p"], recursive=False)
     *_, last = article.find_all("section", recursive=False)
     _remove_exercises(article)
-    sources = dict.fromkeys(cite.get_text() for cite in article.select("cite.source"))
-    aims += [f'<p><cite class="source">{escape(text)}</cite></p>' for text in sources]
+    sources = dict.fromkeys(cite["title"] for cite in article.select("cite[title]"))
+    cited = "; ".join(f"<cite>{escape(text)}</cite>" for text in sources)
+    first = Slide([title, idea], [*aims, f"<details><summary>Sources</summary>{cited}</details>"])
     heading, *text = last.find_all(["h2", "p", "ul"], recursive=False)
-    first, recap = Slide([title, idea], aims), Slide([heading, _sentence(text[0])], text)
-    quiz = [Slide([box], _answers(box)) for box in article.select(".vmc-quiz")]
-    questions = _spread(quiz, most // 6)
+    asked = [f"<p>{question}</p>" for question in last.select("p > strong")[-1:]]
+    recap = Slide([heading, sentence(text[0]), *asked], text)
     parts = [*_blocks(article)]
-    single = [*_equations(parts)][:1]
-    single += [*_code(parts)][: most > 8]
-    pairs = [*_pairs(parts)]
+    several = [*_pairs(parts)]
+    wiring = [one for one in several if len(one[1]) == 1 and WIRING in parts[one[0]][0].get_text()]
+    single = [*wiring, *[*_equations(parts)][:1]] if most > 6 else []
+    pairs = [pair for pair in several if pair not in wiring]
     with_question = [(place, pair) for place, pair in pairs if len(pair) > 1]
-    room = (most - 2 - len(questions) - len(single)) // 2
+    room = (most - 2 - len(single)) // 2  # a title and a question of the quiz apart
     chosen = _spread(with_question if len(with_question) >= room else pairs, room)
-    middle = [
-        slide for _, several in sorted(single + chosen, key=itemgetter(0)) for slide in several
-    ]
-    return [first, *middle, *questions, recap]
+    middle = [slide for _, pair in sorted(single + chosen, key=itemgetter(0)) for slide in pair]
+    quiz = [Slide([box], _answers(box)) for box in article.select(".vmc-quiz")]
+    return Chapter([first, *middle], _spread(quiz, most - 1 - len(middle)), [recap])
 
 
 def _spread(items, count):
@@ -84,6 +98,8 @@ def _blocks(section):
 def _parts(block):
     """The elements of a section: outputs out of their cells, without what is folded."""
     for part in block.find_all(recursive=False):
+        if _is(part, "tag_off-slides"):
+            continue
         if WRAPPERS & {*part.get("class", [])}:
             yield from _parts(part)
         elif part.name not in ("details", "span"):  # folded; where a link leads
@@ -95,36 +111,40 @@ def _is(part, kind):
 
 
 def _equations(parts):
-    """A slide of each section's equations, with the sentence before them, as (place, [slide])."""
+    """A slide of each run of equations, as (place, [slide]).
+
+    With the sentence before it, which in a list is that of the last point; where it comes first in
+    its section, with the sentence after it.
+    """
     for place, (heading, part) in enumerate(parts):
         above, before = parts[place - 1]
-        if _is(part, "math") and above is heading and not _is(before, "math"):
-            run = takewhile(lambda block: _is(block[1], "math"), parts[place:])
-            text = _texts(parts, heading)
-            yield place, [Slide([heading, _sentence(before), *(math for _, math in run)], text)]
-
-
-def _code(parts):
-    """A slide of each open cell, the longest first, as (place, [slide])."""
-    cells = [k for k, (_, part) in enumerate(parts) if _is(part, "cell_input")]
-    for place in sorted(cells, key=lambda k: -parts[k][1].get_text().count("\n")):
-        heading, cell = parts[place]
-        text = _texts(parts, heading)
-        yield place, [Slide([heading, *map(_sentence, text[:1]), cell], text)]
+        if _is(part, "math") and not (above is heading and _is(before, "math")):
+            run = [
+                math for _, math in takewhile(lambda block: _is(block[1], "math"), parts[place:])
+            ]
+            told = before if above is heading else parts[place + len(run)][1]
+            *_, told = [told, *told.select("li > p")]
+            yield place, [Slide([heading, sentence(told), *run], _texts(parts, heading))]
 
 
 def _pairs(parts):
-    """Each demo, after the prediction that it answers if it has one, as (place, slides)."""
+    """Each demo, after the prediction that it answers if it has one, as (place, slides).
+
+    The prediction stands above its demo, or below it where the demo opens the chapter.
+    """
     box = under = None
     for place, (heading, part) in enumerate(parts):
         box, under = box if heading is under else None, heading
         if part.select_one(".vmc-predict"):
             box = part
         elif _is(part, "vmc-demo"):
+            if heading.name == "h1":
+                below = (p for h, p in parts[place:] if h is heading)
+                box = box or next((p for p in below if p.select_one(".vmc-predict")), None)
             name = _plain_heading(heading)
-            ask = [Slide([name, box], [ALONE, *_answers(box)])] if box else []
+            ask = [Slide([name, box], [ALONE, *_answers(box)], 2)] if box else []
             notes = _guide(part, box) + _texts(parts, heading)
-            yield place, [*ask, Slide([name, part], notes)]
+            yield place, [*ask, Slide([name, part], notes, 2)]
             box = None
 
 
@@ -158,7 +178,7 @@ def _texts(parts, heading):
     return [part for above, part in parts if above is heading and part.name in ("p", "ul", "ol")]
 
 
-def _sentence(paragraph):
+def sentence(paragraph):
     """The first sentence of a paragraph or a list: to the first full stop outside its markup."""
     html = ""
     for part in (paragraph.select_one("li > p") or paragraph).contents:

@@ -8,8 +8,8 @@ INTRODUCTION = """# Plans: six, eight or twelve sessions of ninety minutes
 All three are made from the chapters' words, demos and exercises, and from the tag *optional* of a
 section. *Read* is the core of some chapters, before the session, at 40 words a minute. The others
 are shown in class, from the slides, and whoever likes can read them. *Demos* is the time that all
-demos of the core take, 5 minutes each: the slides hold a choice of them. *Exercises* come after the
-session.
+demos of the core take, 5 minutes each: the slides hold a choice of them. *Exercises*, of what is
+read, come after the session.
 """
 HEAD = """| session | read | min | show | demos (min) | exercises (min) |
 |-|-|-|-|-|-|"""
@@ -29,7 +29,7 @@ def _plan(count):
     ]
     taken = {chapter for session in PLANS[count] for chapter in session.chapters}
     left = _titles(name for name in NAMES if name not in taken)
-    without = f"\nNot in it: {left}.\n" if left else ""
+    without = f"\nNot in it: {left}\n" if left else ""
     return "\n".join([f"## {count} sessions\n", HEAD, *rows, without])
 
 

@@ -1,19 +1,21 @@
 """Slides of the sessions, for reveal.js: at most 25 a session, made from the chapters' core.
 
 A slide says one sentence; the speaker's notes hold the rest: what to ask, what to look for, where
-to stop, and the sources.
+to stop, and the sources. Each stays as long as the page on teaching gives to its part of a session.
 """
 
 import re
 import shutil
+from copy import copy
 from html import escape
+from itertools import pairwise
 from pathlib import Path
 
 import yaml
 from bs4 import BeautifulSoup
 
 from book.figures.plans import MORE, PLANS, TITLES
-from kit.chapter_slides import Slide, chapter_slides
+from kit.chapter_slides import Slide, chapter_slides, sentence
 
 ROOT = Path(__file__).parents[1]
 CONFIG = yaml.safe_load((ROOT / "_config.yml").read_bytes())["sphinx"]["config"]
@@ -22,6 +24,7 @@ OWN = [ROOT / "kit/slides.css", ROOT / "kit/slides.js"]
 STYLES = ["pygments.css", *CONFIG["html_css_files"]]
 VENDOR = sorted((ROOT / "kit/vendor").glob("*.*"))
 MOST = 25  # slides a session
+MINUTES = 90  # of a session
 REST = "For those who want more"  # the deck of the chapters that no session has
 PAGE = """<!doctype html>
 <html lang="en">
@@ -50,27 +53,79 @@ def build(folder, pages):
         shutil.copy(pages.parent / "_static" / name, static / name)
     for file in (*VENDOR, *OWN):
         shutil.copy(file, static)
-    for number, (title, slides, seconds) in enumerate(sessions(pages), start=1):
+    for number, (title, slides) in enumerate(sessions(pages), start=1):
         name, title = (
             ("more", title) if title == REST else (f"session-{number}", f"{number}. {title}")
         )
-        (folder / f"{name}.html").write_text(_page(title, slides, seconds), encoding="utf-8")
+        (folder / f"{name}.html").write_text(_page(title, slides), encoding="utf-8")
 
 
 def sessions(pages):
-    """The decks in order, as (title, slides, seconds), with the notes of the page on teaching."""
+    """The decks in order, as (title, slides), with the notes of the page on teaching."""
     teaching = _article(pages / "teaching.html")
     runs = teaching.select_one("#how-a-session-runs ol")
-    seconds = 60 * sum(map(int, re.findall(r"(\d+) minutes", runs.get_text())))
-    plans = [[runs, plan] for plan in teaching.select("#session-by-session > section > ul")]
+    fixed = {word: int(count) for word, count in MINUTES_OF.findall(runs.get_text())}
+    plans = teaching.select("#session-by-session > section")
     titles, decks = [*TITLES, REST], [*(session.chapters for session in PLANS[6]), MORE]
-    for title, names, notes in zip(titles, decks, [*plans, []], strict=True):
+    for title, names, plan in zip(titles, decks, [*plans, None], strict=True):
         articles = [_article(pages / f"{name}.html") for name in names]
+        notes = plan.select("ul") if plan else []
+        items = [item for part in notes for item in part.select("li")]
+        timed = [item for item in items if MINUTES_OF.search(item.em.get_text())]
         contents = "".join(f"<li>{article.h1.get_text()}</li>" for article in articles)
-        slides = [Slide([f"<h1>{escape(title)}</h1><ul>{contents}</ul>"], notes)]
-        for article in articles:
-            slides += chapter_slides(article, (MOST - 1) // len(names))
-        yield title, slides, seconds
+        room = (MOST - 2 - len(timed)) // len(names)
+        own = [_lesson(item, articles) for item in timed]
+        chapters = [chapter_slides(article, room) for article in articles]
+        first = Slide([f"<h1>{escape(title)}</h1><ul>{contents}</ul>"], [runs, *map(copy, notes)])
+        for before, after in pairwise(chapters):
+            after.text[0].notes += ["<p>Before it:</p>", *before.recap[0].notes]
+        deck = {
+            "Begin": [first],
+            "In class": own[:1],
+            "Predict and drag": [slide for chapter in chapters for slide in chapter.text],
+            "One equation": own[1:2],
+            "One cell": own[2:],
+            "Quiz": [slide for chapter in chapters for slide in chapter.quiz],
+            "Next": chapters[-1].recap,
+        }
+        first.notes.insert(0, _clock(deck, fixed))
+        yield title, [slide for part in deck.values() for slide in part]
+
+
+MINUTES_OF = re.compile(r"(\w[\w ]*) \((\d+) minutes\)")
+
+
+def _lesson(item, articles):
+    """The slide of a part that the page on teaching names: its first sentence, and the rest below.
+
+    Where the sentence quotes a cell of the chapters, the cell is shown as well.
+    """
+    name, minutes = MINUTES_OF.search(item.em.get_text()).groups()
+    notes = copy(item)
+    item.em.decompose()
+    line = item.code.get_text() if item.code else None
+    cells = [cell for article in articles for cell in article.select(".cell_input")]
+    cell = [cell for cell in cells if line and line in cell.get_text()][:1]
+    body = [f"<h2>{name}</h2>", sentence(item.p), *cell]
+    return Slide(body, [notes], seconds=60 * int(minutes))
+
+
+def _clock(deck, fixed):
+    """Give each slide its seconds; a list of when each part of the session begins."""
+    for part, slides in deck.items():
+        for slide in slides if part in fixed else []:
+            slide.seconds = slide.seconds or 60 * fixed[part] / len(slides)
+    taken = sum(slide.seconds for slides in deck.values() for slide in slides)
+    rest = deck["Predict and drag"]
+    unit = (60 * MINUTES - taken) / sum(slide.weight for slide in rest)
+    for slide in rest:
+        slide.seconds = unit * slide.weight
+    lines, number, seconds = [], 1, 0
+    for part, slides in deck.items():
+        if slides:
+            lines.append(f"<li>{part}: from minute {seconds / 60:.0f}, slide {number}</li>")
+        number, seconds = number + len(slides), seconds + sum(slide.seconds for slide in slides)
+    return f"<ul>{''.join(lines)}</ul>"
 
 
 def _article(path):
@@ -80,17 +135,20 @@ def _article(path):
     )
     for part in article.select("a.headerlink"):
         part.decompose()
-    for part in article.select(".bibtex-citation"):
-        sources = "; ".join(link["title"] for link in part.select("a[title]"))
-        part.replace_with(
-            BeautifulSoup(f'<cite class="source">[{escape(sources)}]</cite>', "html.parser")
-        )
-    for link in article.select("a") if path.stem != "teaching" else []:
+    for link in article.select(".bibtex-citation a[title]"):
+        link.name, link.string = "cite", _short(link["title"])
+    for link in article.select("a"):
         link.unwrap()
     return article
 
 
-def _page(title, slides, seconds):
+def _short(source):
+    """The first author's last name and the year of a source that is written out."""
+    author, *_ = re.split(r",| and |(?<!\b[A-Z])\. ", source)
+    return " ".join([author.split()[-1], *re.findall(r"[ ,](\d{4})\.(?= |$)", source)[:1]])
+
+
+def _page(title, slides):
     styles = [*(file.name for file in VENDOR if file.suffix == ".css"), *STYLES, "slides.css"]
     scripts = [*(file.name for file in VENDOR if file.suffix == ".js"), "slides.js", *SCRIPTS]
     scripts.insert(0, CONFIG["mathjax_path"])
@@ -100,6 +158,6 @@ def _page(title, slides, seconds):
         title=escape(title),
         head="\n".join(head),
         options="{ disableLayout: true, hash: true, overview: false, slideNumber: 'c/t', "
-        f"totalTime: {seconds}, transition: 'none', plugins: [RevealNotes] }}",
+        f"totalTime: {60 * MINUTES}, transition: 'none', plugins: [RevealNotes] }}",
         slides="\n".join(map(str, slides)),
     )

@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+import re
 
 import numpy as np
 import pytest
@@ -51,9 +52,14 @@ def throw(page, degrees, steps=6):
 
 
 def test_throws_are_turned_saved_and_drawn_beside_the_model(page, tmp_path):
-    """One who always throws straight misses by 30 degrees while turned; all are drawn."""
+    """One who always throws straight misses by 30 degrees while turned; all are drawn.
+
+    The page gives nothing away: neither when the turn comes nor the model's curve.
+    """
     room = page(throws_page())
+    assert room.input_value("#who")
     throw(room, 10)
+    assert room.locator("#plot rect, #plot polyline[stroke-dasharray]").count() == 0
     room.fill("#who", "ann")
     for _ in range(60):  # the page takes no more than 55
         room.click("#throw")
@@ -64,14 +70,22 @@ def test_throws_are_turned_saved_and_drawn_beside_the_model(page, tmp_path):
     np.testing.assert_allclose(misses[0], 10, atol=1)
     np.testing.assert_array_equal(misses[1:], np.repeat([0, 30, 0], [9, 30, 15]))
     assert room.locator("#plot circle").count() == 55
-    (tmp_path / "ann.csv").write_text(text, encoding="utf-8")
+    by_hand = re.sub(r",0$", ",300", text, flags=re.M)  # as if thrown, not with the slider
+    (tmp_path / "ann.csv").write_text(by_hand, encoding="utf-8")
+    slider = "\n".join([text.splitlines()[0], *text.splitlines()[2:]])
+    (tmp_path / "slider.csv").write_text(slider, encoding="utf-8")
     shifted = [[k, 20 * (k in range(11, 41)), 10 * (k in range(11, 41))] for k in range(1, 56)]
-    goggles = "".join(f"bob,{k},{turned},{miss},\n" for k, turned, miss in shifted)  # in cm
-    (tmp_path / "bob.csv").write_text(f"who,throw,turned,miss,ms\n{goggles}", encoding="utf-8")
+    goggles = "".join(f"bob;{k};{turned},0;{miss},0;\n" for k, turned, miss in shifted)  # in cm
+    (tmp_path / "bob.csv").write_text(f"who;throw;turned;miss;ms\n{goggles}", encoding="utf-8")
     (tmp_path / "bad.csv").write_text("1,2", encoding="utf-8")
-    room.set_input_files("#files", [tmp_path / f"{name}.csv" for name in ("ann", "bob", "bad")])
+    room.set_input_files(
+        "#files", [tmp_path / f"{name}.csv" for name in ("ann", "bob", "slider", "bad")]
+    )
     room.wait_for_selector("#status:has-text('bad.csv: its first line is not')")
+    assert "slider.csv: all in it was thrown with the slider" in room.inner_text("#status")
     assert "the mean of 2 files" in room.inner_text("#legend")
+    assert "last five turned: 0.75 ± 3.18" in room.inner_text("#sums")  # Student's, of two
+    room.check("#model")
     points = room.locator("#plot polyline").evaluate_all(
         "all => all.map((p) => p.getAttribute('points'))"
     )
@@ -191,3 +205,17 @@ def test_the_teachers_page_joins_two_hundred_files(page, tmp_path):
     ]
     room.select_option("#page", "07_muscle")
     assert room.locator("#rows tr").count() == 2
+
+
+def test_of_a_quiz_only_the_first_answer_counts(page, tmp_path):
+    """One opens the right answer and then reads the others; another opens a wrong one first."""
+    texts = {"ann": ("That", "This"), "bob": ("This", "That")}
+    for who, order in texts.items():
+        quiz = [answer(text, text == "That") | {"kind": "quiz"} for text in order]
+        file = {"format": "answers 1", "who": who, "answers": quiz}
+        (tmp_path / f"{who}.json").write_text(json.dumps(file), encoding="utf-8")
+    room = page(CLASS)
+    room.set_input_files("#files", [tmp_path / f"{who}.json" for who in texts])
+    room.wait_for_selector("#rows tr")
+    (row,) = list(csv.reader(io.StringIO(saved(room, "#save"))))[1:]
+    assert row[2:] == ["This", "1", "1", "1", "2", "1", "1"]

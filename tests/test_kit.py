@@ -124,9 +124,10 @@ def test_the_whole_kit_is_built_from_chapters_and_pages(kit):
         "katex.js",
         "katex.css",
         "book.js",
-        "projects.md",
+        "index.html",
+        "projects.html",
         "report.ipynb",
-        "assistants.md",
+        "assistants.html",
     }
     names = {file.name for file in kit.iterdir()}
     assert names == pages | {"students", "slides", "questions.gift", "questions-qti.zip"}
@@ -135,6 +136,19 @@ def test_the_whole_kit_is_built_from_chapters_and_pages(kit):
     text = (kit / "key.md").read_text(encoding="utf-8")
     assert text.count("**Solution.**") == text.count("### Exercise")
     assert "<details>" not in text
+
+
+def test_links_of_the_kits_pages_lead_to_files_that_are_there(kit):
+    """Each page of words and each deck; the first page leads to all that are read."""
+    pages = [*kit.glob("*.html"), *kit.glob("slides/*.html")]
+    links = {
+        page: re.findall(r'<a [^>]*href="(?!https?:|#|data:)([^"#]+)', page.read_text("utf-8"))
+        for page in pages
+    }
+    dead = [link for page in pages for link in links[page] if not (page.parent / link).exists()]
+    assert dead == []
+    first = {"plan.html", "key.html", "projects.html", "assistants.html", "throws.html"}
+    assert first | {"class.html", "slides/session-1.html"} <= {*links[kit / "index.html"]}
 
 
 def test_every_exercise_that_is_checked_has_its_answer_in_the_key(kit, chapter):

@@ -1,11 +1,11 @@
-"""Slides: one sentence each, what to say in the notes; few, offline, and none too tall."""
+"""Slides: one sentence each, what to say in the notes; few, by the clock, offline."""
 
 import pytest
 from bs4 import BeautifulSoup
 
 from kit.__main__ import CHAPTERS, ROOT
 from kit.chapter_slides import chapter_slides
-from kit.slides import MOST
+from kit.slides import MINUTES, MOST
 
 BUILT = ROOT / "_build/html/book"
 
@@ -20,24 +20,62 @@ PAGE = """<section><h1>Arm</h1><p>Idea.</p><p>Aims.</p>
     <figure class="vmc-demo"><form class="vmc-controls"><label>speed</label></form>
       <figcaption>Blue: a path.</figcaption></figure><p>Third.</p></section>
   <section class="vmc-optional" id="more"><h2>More</h2><figure class="vmc-demo"></figure></section>
-  <section id="recap"><h2>Recap</h2><p>It was far. And more.</p></section></section>"""
+  <section id="recap"><h2>Recap</h2><p>It was far. And more.</p>
+    <p><strong>What next?</strong></p></section></section>"""
+
+
+def slides_of(html):
+    """A chapter's slides, all parts in order, from its page's HTML."""
+    chapter = chapter_slides(BeautifulSoup(html, "html.parser").section, 8)
+    return [BeautifulSoup(str(s), "html.parser") for part in chapter for s in part]
+
+
+def bodies(html):
+    return [slide.select_one(".fit").get_text(" ", strip=True) for slide in slides_of(html)]
 
 
 def test_a_chapter_becomes_slides_and_notes():
     """A sentence on a slide, the rest in the notes; nothing of exercises, nothing optional."""
-    article = BeautifulSoup(PAGE, "html.parser").section
-    slides = [BeautifulSoup(str(s), "html.parser") for s in chapter_slides(article, 8)]
-    bodies = [slide.select_one(".fit").get_text(" ", strip=True) for slide in slides]
-    assert bodies == [
+    assert bodies(PAGE) == [
         "Arm Idea.",
         "Pull See Eq. 1 first. x",
         "Pull How far? What came out Far.",
         "Pull speed Blue: a path.",
-        "Recap It was far.",
+        "Recap It was far. What next?",
     ]
-    notes = slides[3].select_one(".notes").get_text(" ", strip=True)
+    notes = slides_of(PAGE)[3].select_one(".notes").get_text(" ", strip=True)
     guide = "Ask. How far? Look for. Blue: a path. Stop at. Far."
     assert notes == f"{guide} See Eq. 1 first. Then more. Third."
+
+
+SECTION = """<section><h1>Arm</h1><p>Idea.</p>{}<section><h2>{}</h2>{}</section>
+  <section><h2>Recap</h2><p>It was far.</p></section></section>"""
+ASKED = """<div class="admonition"><fieldset class="vmc-predict"><legend>How far?</legend>
+  <details><summary>So</summary><p>Far.</p></details></fieldset></div>"""
+MATH = '<div class="math">x</div>'
+DEMO = '<figure class="vmc-demo"><figcaption>Blue.</figcaption></figure>'
+HIDDEN = f'<div class="cell tag_off-slides">{DEMO}</div>'
+
+
+@pytest.mark.parametrize(
+    ("opening", "heading", "text", "middle"),
+    [
+        ("", "Pull", f"<p>First. More.</p>{MATH}", ["Pull First. x"]),
+        ("", "Pull", f"{MATH}<p>Here x. More.</p>", ["Pull Here x. x"]),
+        ("", "Pull", f"<ul><li><p>A.</p></li><li><p>B.</p></li></ul>{MATH}", ["Pull B. x"]),
+        (DEMO + ASKED, "Pull", "", ["Arm How far? So Far.", "Arm Blue."]),
+        ("", "Pull", ASKED + HIDDEN, []),
+        ("", "What the brain does", DEMO, ["What the brain does Blue."]),
+    ],
+    ids=["equation", "equation first", "list", "opening", "off", "wiring"],
+)
+def test_what_a_slide_of_a_section_holds(opening, heading, text, middle):
+    """An equation with what tells of it; a chapter's first demo with the question below it."""
+    assert bodies(SECTION.format(opening, heading, text)) == [
+        "Arm Idea.",
+        *middle,
+        "Recap It was far.",
+    ]
 
 
 def test_a_session_has_few_slides_and_each_demo_its_notes(kit):
@@ -52,11 +90,34 @@ def test_a_session_has_few_slides_and_each_demo_its_notes(kit):
         for slide in slides:
             words = [p.get_text() for p in slide.select(".fit > p")]
             assert sum(len(text.split()) for text in words) <= 60, words
+            assert slide.select_one(".notes").get_text(strip=True)
             if slide.select(".fit .vmc-demo"):
                 text = slide.select_one(".notes").get_text()
                 assert all(word in text for word in ("Ask.", "Look for.", "Stop at."))
         assert len(page.select(".notes cite")) >= 3
     assert titles == len(CHAPTERS)
+
+
+@pytest.mark.parametrize("number", range(1, 7))
+def test_a_session_takes_ninety_minutes_with_a_slide_for_each_part(kit, number):
+    """Hands, board and cell have slides of their own; a prediction with its demo, four minutes."""
+    text = (kit / f"slides/session-{number}.html").read_text(encoding="utf-8")
+    slides = BeautifulSoup(text, "html.parser").select(".slides > section")
+    minutes = [int(slide["data-timing"]) / 60 for slide in slides]
+    assert sum(minutes) == pytest.approx(MINUTES, abs=0.5)
+    heads = [slide.select_one(".fit > h2") for slide in slides]
+    names = [head.get_text() if head else "" for head in heads]
+    own = [names.index(name) for name in ("In class", "On the board", "Change a line")]
+    assert own == sorted(own)
+    assert all(minutes[k] >= 10 and slides[k].select_one(".fit > p") for k in own)
+    demos = [k for k, slide in enumerate(slides) if slide.select(".fit .vmc-controls")]
+    asked = [k for k in demos if slides[k - 1].select(".fit .vmc-predict")]
+    assert len(asked) >= 4
+    assert all(minutes[k - 1] + minutes[k] >= 4 for k in asked)
+    clock = slides[0].select_one(".notes").get_text()
+    assert f"In class: from minute 5, slide {own[0] + 1}" in clock
+    assert "Next: from minute 85" in clock
+    assert slides[-1].select_one(".fit strong, .fit p").get_text()
 
 
 FIT = """() => {
