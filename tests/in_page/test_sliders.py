@@ -12,6 +12,7 @@ from reproduce.experiments import localisation, recognition
 from tests.in_page.markup import move, numbers, on, polylines, words
 from vmc_lib import photos
 from vmc_lib.show import Slider, explore
+from vmc_lib.what.crbm import CRBM
 
 pytestmark = pytest.mark.browser
 THRESHOLDS, ALLOWED = np.linspace(-2, 2, 41).round(2), np.linspace(0.1, 0.9, 41).round(2)
@@ -21,6 +22,12 @@ WIDTHS, X = np.geomspace(0.003, 0.15, 41), np.linspace(0.005, 0.235, 60)
 LINE = X[:, None] + 0.01 * np.sin(20 * X[:, None]), 8 + 6 * np.sin(30 * X), X, np.arange(60)[::-1]
 DRIVES, CUTS = np.linspace(-3, 3, 61).round(1), np.linspace(0.01, 0.99, 99).round(2)
 CHANCES = {level: recognition.load_probabilities(level, "test") for level in ("rig", "varied")}
+
+
+def block_chances(drives):
+    one = CRBM(np.ones((1, 1, 1, 1)), np.zeros(1), np.zeros(1))
+    on, pooled = one.posterior(np.reshape(drives, (1, 1, 2, 2)))
+    return [*on.ravel(), 1 - pooled.item()]
 
 
 def declare():
@@ -42,7 +49,7 @@ def declare():
         place=Slider(LINE[2], "place"),
     )
     explore(
-        lambda **drives: crbm.block(*drives.values()),
+        lambda **drives: crbm.block(block_chances([*drives.values()])),
         "c",
         in_page=crbm.block_in_page(),
         **{f"I{i}": Slider(DRIVES, f"drive {i}") for i in range(4)},
@@ -112,8 +119,8 @@ def test_granule_cells_answer_as_in_python(page, place):
 @pytest.mark.parametrize("place", np.random.default_rng(8).integers(0, 61, (20, 4)).tolist())
 def test_a_block_chooses_one_of_its_units_as_in_python(page, place):
     [seen], _ = move(page, 2, *place)
-    on_chances, pooled = crbm.block_chances(DRIVES[place])
-    chances = [*on_chances, 1 - pooled]
+    chances = block_chances(DRIVES[place])
+    pooled = 1 - chances[-1]
     shown = np.float64([text for text in words(seen)[-6:-1]])
     assert np.abs(shown - chances).max() <= 0.005 + 1e-6
     assert float(words(seen)[-1].split()[-1]) == pytest.approx(pooled, abs=0.0005 + 1e-6)
