@@ -11,6 +11,7 @@ from book.figures import crbm, granule, names, trade
 from reproduce.experiments import localisation, recognition
 from tests.in_page.markup import move, numbers, on, polylines, words
 from vmc_lib import photos
+from vmc_lib.cerebellum.online import GranuleCells
 from vmc_lib.show import Slider, explore
 from vmc_lib.what.crbm import CRBM
 
@@ -22,6 +23,17 @@ WIDTHS, X = np.geomspace(0.003, 0.15, 41), np.linspace(0.005, 0.235, 60)
 LINE = X[:, None] + 0.01 * np.sin(20 * X[:, None]), 8 + 6 * np.sin(30 * X), X, np.arange(60)[::-1]
 DRIVES, CUTS = np.linspace(-3, 3, 61).round(1), np.linspace(0.01, 0.99, 99).round(2)
 CHANCES = {level: recognition.load_probabilities(level, "test") for level in ("rig", "varied")}
+
+
+def excite(x, centres, width):
+    return np.exp(-((x - centres.T) ** 2) / (2 * width**2))
+
+
+def purkinje(active, answers, ridge):
+    return np.linalg.solve(active.T @ active + ridge * np.eye(40), active.T @ answers)
+
+
+RULES = excite, purkinje
 
 
 def block_chances(drives):
@@ -41,7 +53,7 @@ def declare():
         overlap=Slider(ALLOWED, "overlap"),
     )
     explore(
-        partial(granule.bells, *LINE),
+        partial(granule.bells, *RULES, *LINE),
         "c",
         in_page=granule.bells_in_page(*LINE),
         width=Slider(WIDTHS, "width"),
@@ -96,11 +108,12 @@ def test_a_threshold_trades_precision_for_recall_as_in_python(page, place):
 def test_granule_cells_answer_as_in_python(page, place):
     [seen], said = move(page, 1, *place)
     width, lessons, at = WIDTHS[place[0]], place[1] + 2, X[place[2]]
-    cells = granule.fit_line(*LINE, width, lessons)
+    some = LINE[3][:lessons]
+    cells = GranuleCells(width, granule.CELLS).fit(LINE[0][some], LINE[1][some])
     needed = np.interp(X, LINE[0][:, 0], LINE[1])
     sums, active = cells.predict(X[:, None]), cells.excite([[at]])[0]
     off = abs(sums[place[2]] - needed[place[2]])
-    mean = granule.off_by(*LINE, width, lessons)
+    mean = granule.off_by(*RULES, *LINE, width, lessons)
     assert words(seen)[-1] == f"off by {mean:.2f} mm on average, here by {off:.2f}"
     assert said.endswith(f"{words(seen)[-1]}.")
     *grey, need, drawn, error = polylines(seen)
