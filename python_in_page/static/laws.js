@@ -99,7 +99,8 @@ const vmcLaws = (() => {
       demo.vmc.show();
     };
 
-    demo.vmcLaws = () => edited().map((one) => [LAW + one.querySelector("form[data-cell]").dataset.cell, ran(one)]);
+    const named = (one) => one.querySelector("form[data-cell]")?.dataset.cell; // an exercise has none
+    demo.vmcLaws = () => edited().filter(named).map((one) => [LAW + named(one), ran(one)]);
     document.addEventListener("vmc-run", ({ target }) => above.includes(target) && update());
     back.addEventListener("click", () => {
       for (const one of edited()) one.querySelector("textarea").ran = undefined;
