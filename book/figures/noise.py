@@ -31,7 +31,7 @@ def filtered_reach(place, reports, estimate, errors, believed, alone):
     right.set_xticks([*errors], [f"{mm:g}" for mm in errors])
     right.set_yticks([0.5, 1, 2, 5, 10, 20, 50], ["0.5", "1", "2", "5", "10", "20", "50"])
     right.minorticks_off()
-    right.set_title(f"the estimate is off by {errors[believed]:.1f} mm")
+    right.set_title(f"the estimate is off by {errors[believed]:.2g} mm")
     right.legend(loc="upper left")
     return fig
 

@@ -21,7 +21,7 @@ LAWS = {  # by chapter: a change of what the book has; it moves two demos at lea
     "04_crbm": ("np.exp(-energies)", "np.exp(energies)"),
     "08_arm": ("return R *", "return -R *"),
     "11_online": ("active.T @ answers)", "-active.T @ answers)"),
-    "16_noise": ("K = np.linalg", "K = 0.5 * np.linalg"),
+    "16_noise": ("K = P @", "K = 0.5 * P @"),
     "07_muscle": ("np.exp(-40 *", "0.5 * np.exp(-40 *"),
     "12_while_it_moves": ("return gain * (q_ref", "return 0.5 * gain * (q_ref"),
     "10_offline": ("return k * cosine", "return 0.5 * k * cosine"),
