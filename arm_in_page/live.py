@@ -58,7 +58,7 @@ names = map("live-{}".format, itertools.count(1))
 _ASKED = tuple(itertools.product((0.1, 0.9), (0.3, 0.7), (0.6, 1.3), (-0.5, 0.3)))
 
 
-def live_arm(mode, caption, alt, target=(0.09, -0.37)):
+def live_arm(mode, caption, alt, target=(0.09, -0.37), law=""):
     """Show the arm with its physics in the page, loaded when the reader first asks for it.
 
     `mode` is "bench" (six excitation sliders move the arm) or "reach" (the reader sets a target;
@@ -66,8 +66,9 @@ def live_arm(mode, caption, alt, target=(0.09, -0.37)):
     same, and the four weights of the plan are set by hand). `target` (2,), in
     the arm's plane and in m, is where the reach's target first stands, and for which a first reach
     is there from the start. `caption` is Markdown and says what to notice, `alt` describes the
-    picture in words. Raises ValueError when the mode is unknown or when no templates surround the
-    target.
+    picture in words. `law` names the chapter's function of Eq. 5, which a reader can change: the
+    book's page then plans by it. Raises ValueError when the mode is unknown or when no templates
+    surround the target.
     """
     if mode not in MODES:
         raise ValueError(f"mode {mode!r} is unknown: choose one of {MODES}")
@@ -80,10 +81,10 @@ def live_arm(mode, caption, alt, target=(0.09, -0.37)):
         movement = execute(plan(target, templates.load()))  # raises when none surround it
         draw, controls = partial(_reach_view, movement), reach_form(name, target, mode == "weights")
         data |= {"first": first(movement), "lens": LENS}
-    show(name, mode, draw, controls, data, caption, alt)
+    show(name, mode, draw, controls, data, caption, alt, law)
 
 
-def show(name, mode, draw, controls, data, caption, alt):
+def show(name, mode, draw, controls, data, caption, alt, law=""):
     """Show an arm named `name`: the scene and plots that `draw()` returns, controls, what it has.
 
     `controls` is the markup of its `form`, `data` what its scripts have from Python.
@@ -92,8 +93,9 @@ def show(name, mode, draw, controls, data, caption, alt):
         drawn = pictures(draw(), name)
     data = json.dumps(data | {"scene": drawn[0].messages()}, allow_nan=False)
     data = data.replace("<", r"\u003c")  # or the model's XML would confuse the page's
+    named = f'id="{name}" data-mode="{mode}"' + f' data-law="{law}"' * bool(law)
     page = (
-        f'<div class="vmc-live" id="{name}" data-mode="{mode}">{side_by_side(drawn, alt)}{controls}'
+        f'<div class="vmc-live" {named}>{side_by_side(drawn, alt)}{controls}'
         f'<script type="application/json">{data}</script></div>'
     )
     if render_mode() == "book":

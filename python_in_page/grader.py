@@ -8,6 +8,8 @@ from io import StringIO
 from types import CodeType
 from typing import NamedTuple
 
+import numpy as np
+
 from python_in_page import absent
 from vmc_lib.grading import WRONG, feedback
 
@@ -58,6 +60,18 @@ def definitions(above, typed, errors=None):
             if errors is not None and not isinstance(error, ImportError):
                 errors.append(error)
     return names
+
+
+def call(above, name, given):
+    """What a function of the chapter's code answers to arrays: {"answer": lists} or {"error"}."""
+    try:
+        with redirect_stdout(StringIO()):
+            answer = np.asarray(definitions(above, name)[name](*map(np.array, given)), float)
+        if not np.isfinite(answer).all():
+            raise ValueError(f"{answer} is not finite")
+    except Exception as error:
+        return {"error": repr(error)}
+    return {"answer": answer.tolist()}
 
 
 class Statement(NamedTuple):

@@ -21,8 +21,9 @@ SCRIPT, PLOTS = "vendor/python.js", "vendor/plots.js"  # where the built page fi
 PACKAGES = {
     "python_in_page": "absent grader",
     "book.exercises": " ".join(path.stem for path in sorted(ROOT.glob("book/exercises/*.py"))),
-    "reproduce": "paper peers.muscle_models experiments.changed_worlds experiments.muscle_bench",
-    "reproduce.experiments": "calibration feedback_control path_measures",
+    "reproduce": "paper experiments.changed_worlds experiments.muscle_bench",
+    "reproduce.experiments": "calibration feedback_control holding path_measures",
+    "reproduce.peers": "muscle_models optimal_control optimal_feedback state_estimation",
     "vmc_lib": "boxes camera compiled grading statistics",
     "vmc_lib.arm": "dynamics engines kinematics model muscle simulate",
     "vmc_lib.cerebellum": "adaptation feedback_error forward_model offline online two_rates",
@@ -32,7 +33,7 @@ PACKAGES = {
 }
 MODULES = [f"{package}.{name}" for package, names in PACKAGES.items() for name in names.split()]
 DATA = {Path("vmc_lib/arm/arm26.xml"), Path("vmc_lib/data/__init__.py")}  # and what reads data
-DATA |= {Path("reproduce/results/__init__.py")}
+DATA |= {Path("reproduce/results/__init__.py"), Path("reproduce/results/optimal.npz")}
 DATA |= {Path(f"vmc_lib/data/{name}.npz") for name in ("arm26", "rest", "templates")}
 # Beside these a demo's `draw` may import anything of the library that the page has the means for
 DRAWN = ("book/figures", "reproduce", "vmc_lib")

@@ -59,6 +59,9 @@ const vmcReach = (() => {
     async main() {
       const turn = (this.turn = {});
       if (!this.plan) return;
+      const own = this.form.elements.weights?.value === "habitualWeights" && (await this.box.vmcLaw?.(this.plan));
+      if (turn !== this.turn) return;
+      if (own) this.plan = { ...this.plan, weights: own }; // by the reader's Eq. 5 (python_in_page)
       Object.assign(this, { planned: null, calibrated: null });
       this.tell({ calibrated: "–", tries: "–" });
       const reach = (weights) => this.endPoint(weights);

@@ -36,14 +36,17 @@ def _held(q):
     return "held" if lack < 0.05 else f"falls: {lack:.1f} N m are missing"
 
 
-def moment_arms_and_torques(joint, other):
-    """Each muscle's moment arm and greatest torque as a joint turns, the other one at `other`°."""
+def moment_arms_and_torques(muscle_torques, joint, other):
+    """Each muscle's moment arm and greatest torque as a joint turns, the other one at `other`°.
+
+    `muscle_torques(q)` are the greatest torques (…, 2, 6).
+    """
     k, turn = list(JOINTS).index(joint), JOINTS[joint]
     q = np.radians(np.full((len(turn), 2), float(other)))
     q[:, k] = np.radians(turn)
     fig, left, right = panels(2, size=(6.5, 3.4))
     muscle_lines(left, turn, 1000 * dynamics.paths(q)[1][:, k])
-    muscle_lines(right, turn, holding.muscle_torques(q)[:, k])
+    muscle_lines(right, turn, muscle_torques(q)[:, k])
     left.set(title="moment arm (mm)", ylim=(-55, 55), xlabel=f"{joint} (degrees)")
     right.set(title="greatest torque (N m)", ylim=(-45, 45), xlabel=f"{joint} (degrees)")
     fig.legend(*left.get_legend_handles_labels(), loc="upper center", ncols=6, fontsize=9)
@@ -51,13 +54,14 @@ def moment_arms_and_torques(joint, other):
     return fig
 
 
-def holding_map(busiest, load):
+def holding_map(muscle_torques, busiest, load):
     """The torques that six muscles can hold in one posture, and where the wrist can be held.
 
-    `busiest(q, load)` is the busiest muscle's least activation (…), for a load in kg.
+    `muscle_torques(q)` are the muscles' greatest torques (…, 2, 6); `busiest(q, load)` is the
+    busiest muscle's least activation (…), for a load in kg.
     """
     fig, left, right = panels(2, size=(8.2, 4.0))
-    torque_polygon(left, LEVEL, load)
+    torque_polygon(left, muscle_torques(LEVEL), holding.required_torques(LEVEL, load))
     left.set_title(f"forearm level: busiest {busiest(LEVEL, load):.0%}")
     x, y, _ = np.moveaxis(dynamics.hand(holding.POSTURES), -1, 0)
     least, steps = busiest(holding.POSTURES, load), [-1, 0.1, 0.25, 0.5, 1]
@@ -72,9 +76,8 @@ def holding_map(busiest, load):
     return fig
 
 
-def torque_polygon(ax, q, load):
-    """The torques that six muscles can hold together, and those needed, in a posture q (2,)."""
-    each = holding.muscle_torques(q)
+def torque_polygon(ax, each, needed):
+    """The torques that six muscles can hold together, those of `each` (2, 6), and the needed."""
     corners = [each[:, each.T @ way > 0].sum(axis=1) for way in holding.DIRECTIONS.T]
     ax.fill(*np.transpose(corners), color=COLOURS["blue"], alpha=0.2)
     arrows(ax, [0, 0], each.T, "ink")
@@ -83,7 +86,7 @@ def torque_polygon(ax, q, load):
         look = {"ha": "right" if left else "left", "fontsize": 8}
         at = -3 if left else 3, -11 if tip[1] < 0 else 3
         ax.annotate(name, tip, at, textcoords="offset points", **look)
-    ax.plot(*holding.required_torques(q, load), "x", color=COLOURS["red"], ms=9, mew=2)
+    ax.plot(*needed, "x", color=COLOURS["red"], ms=9, mew=2)
     ax.set(xlabel="at the shoulder (N m)", ylabel="at the elbow (N m)")
 
 

@@ -7,17 +7,14 @@ from book.figures.what import grey, lettered, tiles
 from reproduce.experiments.crbm_ablation import corner_share, even_tone
 from vmc_lib.show import dot_plot, photo_view
 from vmc_lib.show.palette import COLOURS
-from vmc_lib.what.crbm import CRBM
 
 MIDDLE = slice(80, 120)  # of a crop
 FREE = slice(7, 14)  # of a patch of 21 pixels: what a clamp of n_w - 1 = 7 leaves free
 
 
 def bitmap(rows):
-    """A picture (1, 1, height, width) as a tensor: rows of "." for 0 and "#" for 1."""
-    import torch
-
-    return torch.tensor([[[[float(c == "#") for c in row] for row in rows.split()]]])
+    """A picture (1, 1, height, width): rows of "." for 0 and "#" for 1."""
+    return np.array([[[[float(c == "#") for c in row] for row in rows.split()]]])
 
 
 def whitened(crop, white):
@@ -27,7 +24,7 @@ def whitened(crop, white):
     return crop, photo_view(np.uint8(255 * grey(white)), [(square, mean, "orange")])
 
 
-def explanations_of(v, energies, names):
+def explanations_of(v, energies, chances, names):
     """A small picture v (height, width), and the energy and chance of each explanation of it."""
     shape = {"width_ratios": [1, 1.2, 1.2], "layout": "none"}
     fig, (left, middle, right) = plt.subplots(1, 3, figsize=(6.8, 2.3), **shape)
@@ -37,7 +34,7 @@ def explanations_of(v, energies, names):
     bars = middle.barh(names, energies, color=COLOURS["orange"])
     middle.bar_label(bars, fmt="{:z.1f}", padding=2)  # no minus zero
     middle.set(title="energy E(v, h)", xlim=(0, 45))
-    bars = right.barh(names, (-energies).softmax(0), color=COLOURS["blue"])
+    bars = right.barh(names, chances, color=COLOURS["blue"])
     right.bar_label(bars, fmt="%.2f", padding=2)
     right.set(title="p(h | v)", xlim=(0, 1.25), yticks=[])
     for ax in (left, middle, right):
@@ -45,20 +42,12 @@ def explanations_of(v, energies, names):
     return fig
 
 
-def block_chances(drives):
-    """The chances of a block's units (4,), and of its pooled unit, given their drives (4,)."""
-    one = CRBM(np.ones((1, 1, 1, 1)), np.zeros(1), np.zeros(1), c=2)
-    h, p = one.posterior(np.reshape(drives, (1, 1, 2, 2)))
-    return h.ravel().tolist(), p.item()
-
-
-def block(*drives):
-    """The chances of a pooling block's units and of its off state, as bars, given their drives."""
-    on, pooled = block_chances(drives)
-    colours = [COLOURS["blue"]] * len(on) + [COLOURS["grey"]]
+def block(chances):
+    """The chances of a pooling block's units and of its off state, the last, as bars."""
+    colours = [COLOURS["blue"]] * (len(chances) - 1) + [COLOURS["grey"]]
     fig, ax = _bars()
-    ax.bar_label(ax.bar(range(5), [*on, 1 - pooled], color=colours), fmt="%.2f")
-    ax.set_title(f"pooled unit on: {pooled:.3f}")
+    ax.bar_label(ax.bar(range(5), chances, color=colours), fmt="%.2f")
+    ax.set_title(f"pooled unit on: {1 - chances[-1]:.3f}")
     return fig
 
 

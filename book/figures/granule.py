@@ -17,35 +17,50 @@ LOOKS = {
 }
 
 
-def fit_line(places, aside, x, order, width, lessons):
-    """`GranuleCells` after so many lessons of a line, in an `order` (n,).
+def fit_line(excite, purkinje, places, aside, x, order, width, lessons):
+    """Granule cells after so many lessons of a line, in an `order` (n,).
 
     A lesson is a place (n, 1) where the hand ended, in m, and how far `aside` (n,) to aim, in mm.
+    `excite(places, centres, width)` is how active the cells are, (n, cells), and `purkinje(active,
+    aside, ridge)` their weights (cells,). Returns the cells' centres, and along the line x (m,) how
+    active they are (m, cells) and their weighted sum (m,).
     """
     some = order[:lessons]
-    return GranuleCells(width, CELLS).fit(places[some], aside[some])
+    cells = GranuleCells(width, CELLS).fit(places[some], aside[some])  # for where they lie
+    weights = purkinje(excite(places[some], cells.centres_, width), aside[some], cells.ridge)
+    active = excite(x[:, None], cells.centres_, width)
+    return cells.centres_, active, active @ weights
 
 
-def off_by(places, aside, x, order, width, lessons):
+def off_by(excite, purkinje, places, aside, x, order, width, lessons):
     """How far their sum is from what the arm needs, in mm, on average over the line x (m,)."""
-    needed = np.interp(x, places[:, 0], aside)
-    learned = fit_line(places, aside, x, order, width, lessons).predict(x[:, None])
-    return np.abs(learned - needed).mean()
+    *_, said = fit_line(excite, purkinje, places, aside, x, order, width, lessons)
+    return np.abs(said - np.interp(x, places[:, 0], aside)).mean()
 
 
-def bells(places, aside, x, order, width, lessons, place):
+def off_by_width(*line, lessons):
+    """The same for many widths, the last of what `off_by` takes before the lessons."""
+    *line, widths = line
+    off = [off_by(*line, width, lessons) for width in widths]
+    fig, ax = panels(size=(6.5, 2.6))
+    ax.plot(widths, off, color=COLOURS["red"])
+    ax.set(xscale="log", ylim=(0, 5), xlabel="cells' width (m)", ylabel="off by (mm)")
+    ax.set_title(f"least at {widths[np.argmin(off)]:.3f} m: {min(off):.2f} mm")
+    return fig
+
+
+def bells(excite, purkinje, places, aside, x, order, width, lessons, place):
     """What the arm needs along a line, what the cells have learned, and how they answer at a place.
 
     The place is one of `x`.
     """
-    data = places, aside, x, order, width, lessons
-    cells, needed = fit_line(*data), np.interp(x, places[:, 0], aside)
-    said, active = cells.predict(x[:, None]), cells.excite([[place]])[0]
+    data = excite, purkinje, places, aside, x, order, width, lessons
+    (centres, active, said), needed = fit_line(*data), np.interp(x, places[:, 0], aside)
     now, some = np.argmin(np.abs(x - place)), order[:lessons]
     off = abs(said[now] - needed[now])
     fig, ax = _plot()
-    ax.plot(x, FLOOR - FLOOR * cells.excite(x[:, None])[:, SHOWN], color=COLOURS["line"], lw=1)
-    ax.scatter(cells.centres_, np.full(CELLS, FLOOR / 2), (6 * active) ** 2, COLOURS["orange"])
+    ax.plot(x, FLOOR - FLOOR * active[:, SHOWN], color=COLOURS["line"], lw=1)
+    ax.scatter(centres, np.full(CELLS, FLOOR / 2), (6 * active[now]) ** 2, COLOURS["orange"])
     lines = (x, needed), (x, said.clip(FLOOR, TOP)), (places[some, 0], aside[some])
     for (style, colour), line in zip(LOOKS.values(), lines, strict=False):
         ax.plot(*line, style, color=COLOURS[colour])

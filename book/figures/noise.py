@@ -31,7 +31,25 @@ def filtered_reach(place, reports, estimate, errors, believed, alone):
     right.set_xticks([*errors], [f"{mm:g}" for mm in errors])
     right.set_yticks([0.5, 1, 2, 5, 10, 20, 50], ["0.5", "1", "2", "5", "10", "20", "50"])
     right.minorticks_off()
-    right.set_title(f"the estimate is off by {errors[believed]:.1f} mm")
+    right.set_title(f"the estimate is off by {errors[believed]:.2g} mm")
+    right.legend(loc="upper left")
+    return fig
+
+
+def trust_over_time(believed, eye, off):
+    """The share of a surprise that is believed, and errors in mm, by what makes them (ticks,).
+
+    `eye` is the eye's own error in mm.
+    """
+    fig, left, right = panels(2, (8.2, 3.0))
+    time = np.arange(1, len(believed) + 1) / 100  # s
+    left.plot(time, believed, color=COLOURS["purple"])
+    left.set(xlabel="time (s)", ylabel="share believed", ylim=(0, 1))
+    left.set_title(f"in the end {believed[-1]:.0%}")
+    for (name, error), hue in zip(off.items(), ("grey", "blue"), strict=True):
+        right.plot(time, error, color=COLOURS[hue], label=name)
+    right.axhline(eye, color=COLOURS["grey"], ls="--", label="the eye alone")
+    right.set(xlabel="time (s)", ylabel="off by (mm)", ylim=(0, 1.1 * off["the model alone"].max()))
     right.legend(loc="upper left")
     return fig
 

@@ -120,6 +120,7 @@ const vmcGrade = (() => {
     form.innerHTML = `<button type="button" aria-label="Edit ${name}">Edit</button>`;
     cell.append(form);
     const open = () => {
+      if (cell.querySelector("details")) cell.querySelector("details").open = true; // its code is folded
       form.innerHTML = '<button>Run</button> <button type="button" name="stop" disabled>Stop</button> ' +
         '<button type="button" name="reset" disabled>Reset</button> <div role="status"></div>';
       edit(form, cell, name);

@@ -1,5 +1,6 @@
 /* Demos that the page's Python draws: by a law that the reader has changed above them, and between a
-   slider's stops. Where it cannot, or is not asked, the nearest picture of the book stands. */
+   slider's stops. Where it cannot, or is not asked, the nearest picture of the book stands. And arms
+   that plan by such a law. */
 const vmcLaws = (() => {
   "use strict";
 
@@ -8,6 +9,26 @@ const vmcLaws = (() => {
 
   const ran = (cell) => cell.querySelector("textarea")?.ran ?? vmcGrade.book(cell);
   const code = (names) => names.map((name) => `<code>${name}</code>`).join(", ");
+  const edited = (above) => above.filter((one) => ran(one) !== vmcGrade.book(one));
+  const BACK = '<button type="button" name="back" hidden>Back to the book’s</button>';
+
+  /* A line below controls: what it says, and its buttons. */
+  const line = (controls, buttons) => {
+    const line = document.createElement("p");
+    line.className = "vmc-law";
+    line.innerHTML = `<span role="status"></span> ${buttons}`;
+    controls.after(line);
+    return [...line.children];
+  };
+
+  /* `update` at once where the reader has run a cell above; the book's cells again, by the button `back`. */
+  const watch = (above, back, update) => {
+    document.addEventListener("vmc-run", ({ target }) => above.includes(target) && update());
+    back.addEventListener("click", () => {
+      for (const one of edited(above)) one.querySelector("textarea").ran = undefined;
+      document.querySelectorAll(".tag_runs-in-page").forEach((one) => one.dispatchEvent(new Event("vmc-run", { bubbles: true })));
+    });
+  };
 
   /* Where a demo's controls stand, by name: see `python_in_page.demos.draw`. */
   const places = (demo) => {
@@ -20,20 +41,15 @@ const vmcLaws = (() => {
 
   const follow = (demo) => {
     const cell = demo.closest(".cell"), above = vmcGrade.above(cell);
-    const line = document.createElement("p");
-    line.className = "vmc-law";
-    line.innerHTML = '<span role="status"></span> <button type="button" name="run" hidden>Run it</button> ' +
-      '<button type="button" name="back" hidden>Back to the book’s</button> ' +
-      '<button type="button" name="between" title="Loads Python, 20 MB of this book">Any value</button>';
-    const [status, run, back, between] = line.children;
+    const [status, run, back, between] = line(demo.querySelector(".vmc-controls"),
+      `<button type="button" name="run" hidden>Run it</button> ${BACK} ` +
+      '<button type="button" name="between" title="Loads Python, 20 MB of this book">Any value</button>');
     const sliders = [...demo.querySelectorAll("[data-between]")];
     between.hidden = !sliders.length;
-    demo.querySelector(".vmc-controls").after(line);
 
     const say = (html) => {
       if (status.innerHTML !== html) status.innerHTML = html;
     };
-    const edited = () => above.filter((one) => ran(one) !== vmcGrade.book(one));
     const given = () => [above.map(ran), above.map(vmcGrade.book), vmcGrade.book(cell)];
 
     let laws = [], failed = false, wanted = null, busy = false, book;
@@ -91,7 +107,7 @@ const vmcLaws = (() => {
       run.hidden = true;
       say("");
       try {
-        if (edited().length) laws = await vmcPython.ask(["grader", "changed", ...given()], () => {});
+        if (edited(above).length) laws = await vmcPython.ask(["grader", "changed", ...given()], () => {});
       } catch (error) {
         say(vmcGrade.inline(error.message));
       }
@@ -99,12 +115,9 @@ const vmcLaws = (() => {
       demo.vmc.show();
     };
 
-    demo.vmcLaws = () => edited().map((one) => [LAW + one.querySelector("form[data-cell]").dataset.cell, ran(one)]);
-    document.addEventListener("vmc-run", ({ target }) => above.includes(target) && update());
-    back.addEventListener("click", () => {
-      for (const one of edited()) one.querySelector("textarea").ran = undefined;
-      document.querySelectorAll(".tag_runs-in-page").forEach((one) => one.dispatchEvent(new Event("vmc-run", { bubbles: true })));
-    });
+    const named = (one) => one.querySelector("form[data-cell]")?.dataset.cell; // an exercise has none
+    demo.vmcLaws = () => edited(above).filter(named).map((one) => [LAW + named(one), ran(one)]);
+    watch(above, back, update);
     between.addEventListener("click", () => demos.forEach((one) => one.vmcBetween()));
     demo.vmcBetween = () => {
       take();
@@ -116,6 +129,34 @@ const vmcLaws = (() => {
       say(`This link brings another ${code(cells.map(({ dataset }) => dataset.cell))}. Read it in its cell first.`);
       run.hidden = false;
       run.onclick = () => cells.forEach((form) => form.requestSubmit());
+    };
+  };
+
+  /* An arm whose physics runs in the page (arm_in_page): it plans by the weights of the reader's law. */
+  const lead = (box) => {
+    const { law } = box.dataset, above = vmcGrade.above(box.closest(".cell")), form = box.querySelector("form");
+    const [status, back] = line(form, BACK);
+    const say = (html) => (status.innerHTML = html);
+    let mine = false;
+    watch(above, back, async () => {
+      try {
+        const asked = ["grader", "changed", above.map(ran), above.map(vmcGrade.book), law];
+        mine = edited(above).length > 0 && (await vmcPython.ask(asked, () => {})).length > 0;
+        say(mine ? `This arm plans by <strong>your</strong> ${code([law])}: let it reach.` : "");
+      } catch (error) {
+        mine = false;
+        say(vmcGrade.inline(error.message));
+      }
+      back.hidden = !mine;
+      form.querySelector("fieldset").dispatchEvent(new Event("input", { bubbles: true })); // it plans anew
+    });
+    box.vmcLaw = async ({ target, points }) => {
+      if (!mine) return null;
+      const asked = ["grader", "call", above.map(ran), law, [target, points]];
+      const { answer, error } = await vmcPython.ask(asked, () => {}).catch(({ message }) => ({ error: message }));
+      if (answer?.length === points.length) return answer;
+      say(vmcGrade.inline(`Your \`${law}\` ${error ? `stops: ${error}` : `gives no ${points.length} weights`}. This is the book’s.`));
+      return null;
     };
   };
 
@@ -136,6 +177,7 @@ const vmcLaws = (() => {
   addEventListener("DOMContentLoaded", () => {
     demos = [...document.querySelectorAll(".tag_draws-in-page .vmc-demo:has(> script)")];
     demos.forEach(follow);
+    document.querySelectorAll(".vmc-live[data-law]").forEach(lead);
     bring();
   });
   addEventListener("hashchange", bring);

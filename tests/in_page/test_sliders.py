@@ -11,7 +11,9 @@ from book.figures import crbm, granule, names, trade
 from reproduce.experiments import localisation, recognition
 from tests.in_page.markup import move, numbers, on, polylines, words
 from vmc_lib import photos
+from vmc_lib.cerebellum.online import GranuleCells
 from vmc_lib.show import Slider, explore
+from vmc_lib.what.crbm import CRBM
 
 pytestmark = pytest.mark.browser
 THRESHOLDS, ALLOWED = np.linspace(-2, 2, 41).round(2), np.linspace(0.1, 0.9, 41).round(2)
@@ -21,6 +23,23 @@ WIDTHS, X = np.geomspace(0.003, 0.15, 41), np.linspace(0.005, 0.235, 60)
 LINE = X[:, None] + 0.01 * np.sin(20 * X[:, None]), 8 + 6 * np.sin(30 * X), X, np.arange(60)[::-1]
 DRIVES, CUTS = np.linspace(-3, 3, 61).round(1), np.linspace(0.01, 0.99, 99).round(2)
 CHANCES = {level: recognition.load_probabilities(level, "test") for level in ("rig", "varied")}
+
+
+def excite(x, centres, width):
+    return np.exp(-((x - centres.T) ** 2) / (2 * width**2))
+
+
+def purkinje(active, answers, ridge):
+    return np.linalg.solve(active.T @ active + ridge * np.eye(40), active.T @ answers)
+
+
+RULES = excite, purkinje
+
+
+def block_chances(drives):
+    one = CRBM(np.ones((1, 1, 1, 1)), np.zeros(1), np.zeros(1))
+    on, pooled = one.posterior(np.reshape(drives, (1, 1, 2, 2)))
+    return [*on.ravel(), 1 - pooled.item()]
 
 
 def declare():
@@ -34,7 +53,7 @@ def declare():
         overlap=Slider(ALLOWED, "overlap"),
     )
     explore(
-        partial(granule.bells, *LINE),
+        partial(granule.bells, *RULES, *LINE),
         "c",
         in_page=granule.bells_in_page(*LINE),
         width=Slider(WIDTHS, "width"),
@@ -42,7 +61,7 @@ def declare():
         place=Slider(LINE[2], "place"),
     )
     explore(
-        lambda **drives: crbm.block(*drives.values()),
+        lambda **drives: crbm.block(block_chances([*drives.values()])),
         "c",
         in_page=crbm.block_in_page(),
         **{f"I{i}": Slider(DRIVES, f"drive {i}") for i in range(4)},
@@ -89,11 +108,12 @@ def test_a_threshold_trades_precision_for_recall_as_in_python(page, place):
 def test_granule_cells_answer_as_in_python(page, place):
     [seen], said = move(page, 1, *place)
     width, lessons, at = WIDTHS[place[0]], place[1] + 2, X[place[2]]
-    cells = granule.fit_line(*LINE, width, lessons)
+    some = LINE[3][:lessons]
+    cells = GranuleCells(width, granule.CELLS).fit(LINE[0][some], LINE[1][some])
     needed = np.interp(X, LINE[0][:, 0], LINE[1])
     sums, active = cells.predict(X[:, None]), cells.excite([[at]])[0]
     off = abs(sums[place[2]] - needed[place[2]])
-    mean = granule.off_by(*LINE, width, lessons)
+    mean = granule.off_by(*RULES, *LINE, width, lessons)
     assert words(seen)[-1] == f"off by {mean:.2f} mm on average, here by {off:.2f}"
     assert said.endswith(f"{words(seen)[-1]}.")
     *grey, need, drawn, error = polylines(seen)
@@ -112,8 +132,8 @@ def test_granule_cells_answer_as_in_python(page, place):
 @pytest.mark.parametrize("place", np.random.default_rng(8).integers(0, 61, (20, 4)).tolist())
 def test_a_block_chooses_one_of_its_units_as_in_python(page, place):
     [seen], _ = move(page, 2, *place)
-    on_chances, pooled = crbm.block_chances(DRIVES[place])
-    chances = [*on_chances, 1 - pooled]
+    chances = block_chances(DRIVES[place])
+    pooled = 1 - chances[-1]
     shown = np.float64([text for text in words(seen)[-6:-1]])
     assert np.abs(shown - chances).max() <= 0.005 + 1e-6
     assert float(words(seen)[-1].split()[-1]) == pytest.approx(pooled, abs=0.0005 + 1e-6)

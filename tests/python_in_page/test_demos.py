@@ -2,6 +2,7 @@
 
 import inspect
 import json
+import re
 
 import matplotlib.pyplot as plt
 import nbformat
@@ -17,6 +18,10 @@ from vmc_lib.show import Choice
 from vmc_lib.show.data_table import panels
 
 LAWS = {  # by chapter: a change of what the book has; it moves two demos at least
+    "04_crbm": ("np.exp(-energies)", "np.exp(energies)"),
+    "08_arm": ("return R *", "return -R *"),
+    "11_online": ("active.T @ answers)", "-active.T @ answers)"),
+    "16_noise": ("K = P @", "K = 0.5 * P @"),
     "07_muscle": ("np.exp(-40 *", "0.5 * np.exp(-40 *"),
     "12_while_it_moves": ("return gain * (q_ref", "return 0.5 * gain * (q_ref"),
     "10_offline": ("return k * cosine", "return 0.5 * k * cosine"),
@@ -62,26 +67,34 @@ def between(controls):
 
 
 def moved(mine, above, cell):
-    """The first place along a demo's choices where the law `mine` shows something else, if any."""
+    """The first place where the law `mine` shows something else, if any.
+
+    Of where a demo begins, along its choices, and at the end of a slider.
+    """
     controls = demos.prepared(tuple(above), cell)[1]
     first = starts(controls)
     choices = {k: len(one.values) for k, one in controls.items() if isinstance(one, Choice)}
     places = [first, *(first | {k: n} for k, count in choices.items() for n in range(count))]
+    sliders = {k: one for k, one in controls.items() if isinstance(one, demos.Slider)}
+    places += [first | {k: len(one.values) - 1} for k, one in sliders.items()]
     return next((p for p in places if digest(mine, cell, p) != digest(above, cell, p)), None)
 
 
 def digest(above, cell, places):
-    """A few numbers that stand for all that a demo's plots show, and how many these are."""
+    """A few numbers that stand for all that a demo's plots show and say, and how many these are."""
     demo, controls = demos.prepared(tuple(above), cell)
     picture = demo["draw"](**demos.values_at(controls, places))
+    shown = panels(picture)
     plt.close("all")
-    series = [one for panel in panels(picture) for one in panel.series]
+    series = [one for panel in shown for one in panel.series]
     every = [np.concatenate([s.keys, s.values, s.ends.ravel()]) for s in series]
-    every = np.nan_to_num(np.concatenate([[0.0], *every]))
+    said = [float(x) for one in shown for x in re.findall(r"-?\d+(?:\.\d+)?", one.title)]
+    every = np.nan_to_num(np.concatenate([[0.0], said, *every]))
     return [len(every), float(every.sum()), float(every @ np.cos(np.arange(len(every))))]
 
 
 ASKED = f"""import json
+import re
 import matplotlib.pyplot as plt
 import numpy as np
 from python_in_page import demos

@@ -5,10 +5,11 @@ import json
 import sys
 from importlib import import_module
 
+import numpy as np
 import pytest
 
 from python_in_page import absent
-from python_in_page.grader import changed, check, definitions, run
+from python_in_page.grader import call, changed, check, definitions, run
 from tests.exercises import EVERY
 from vmc_lib.grading import EMPTY, RIGHT, WRONG, feedback
 
@@ -109,3 +110,19 @@ def test_what_no_page_has_can_be_imported_and_does_nothing(monkeypatch):
     assert not Widget
     assert not hasattr(Widget, "__path__")
     assert json.loads("1") == 1
+
+
+@pytest.mark.parametrize(
+    ("last", "answer"),
+    [
+        ("return x + y.sum()", {"answer": [4.0, 5.0]}),
+        ("return x / 0", {"error": "inf inf] is not finite"}),
+        ("return z", {"error": "NameError"}),
+    ],
+)
+def test_a_law_is_called_with_arrays(last, answer):
+    above = ["import numpy as np\nimport nowhere", f"def law(x, y):\n    {last}"]
+    with np.errstate(divide="ignore"):
+        found = call(above, "law", [[1, 2], [3]])
+    [(key, value)] = answer.items()
+    assert found == answer if key == "answer" else value in found["error"]

@@ -4,7 +4,6 @@ import pytest
 from playwright.sync_api import expect
 
 from tests import pages
-from tests.python_in_page.conftest import CELL
 from vmc_lib.show import demo
 
 pytestmark = pytest.mark.browser
@@ -22,6 +21,8 @@ def draw(x):
 
 explore(draw, "A line.", x=Slider([0, 1, 3], "x", 1))"""
 TITLE = ".vmc-picture svg"
+FOLDED = """<div class="cell tag_runs-in-page"><details><summary style="padding: 0.5rem">Code</summary>
+<div class="cell_input"><pre>{}</pre></div></details></div>"""
 
 
 @pytest.fixture(autouse=True)
@@ -33,8 +34,8 @@ def patient():
 
 
 @pytest.fixture(scope="module")
-def law_html():
-    """A chapter of a law and two demos: one follows it, one does not."""
+def law_html(exercise_html):
+    """A chapter of an exercise, a law (folded) and two demos: one follows it, one does not."""
     other = DEMO.replace("law(x)", "x")
 
     def declare():
@@ -45,13 +46,13 @@ def law_html():
         shown = pages.displayed(patch, demo)
         patch.setenv("VMC_RENDER_MODE", "book")
         declare()
-    law = CELL.format(LAW).replace('"cell"', '"cell tag_runs-in-page"')
+    law = FOLDED.format(LAW)
     cells = [
         f'<div class="cell tag_draws-in-page"><div class="cell_input"><pre>{lines}</pre></div>'
         f'<div class="cell_output">{item.data}</div></div>'
         for lines, item in zip((DEMO, other), shown, strict=True)
     ]
-    return f"<h1>L</h1>{law}{''.join(cells)}"
+    return f"{exercise_html}{law}{''.join(cells)}"
 
 
 @pytest.fixture
@@ -95,6 +96,16 @@ def test_a_law_moves_its_demos_and_goes_back(open_law, serious):
     expect(page.mine.locator(TITLE)).to_contain_text("at 3: 6")
     page.mine.get_by_role("button", name="Run it").click()
     expect(page.mine.locator(TITLE)).to_contain_text("at 3: 15")
+
+
+def test_an_exercise_above_is_no_law(open_law):
+    page = open_law()
+    page.get_by_label("Your lines: activation_rates").fill("1 / 0")
+    page.get_by_role("button", name="Check").click()
+    expect(page.locator("form[data-function] [role=status]")).to_contain_text("Line 1 stops")
+    page.slider.fill("2")
+    expect(page.mine.locator(".vmc-link")).to_have_attribute("href", "#demo-1?x=2")
+    expect(page.line).to_have_text("")
 
 
 def test_sliders_stand_between_their_stops(open_law, window):

@@ -6,7 +6,7 @@ from functools import cache, lru_cache
 
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.ticker import AutoLocator, FixedLocator, MaxNLocator
+from matplotlib.ticker import AutoLocator, FixedLocator, MaxNLocator, NullLocator
 
 from vmc_lib.show.palette import COLOURS, STYLE, css
 from vmc_lib.show.render_mode import STATIC, render_mode
@@ -66,7 +66,7 @@ def _set_ticks(fig):
             visible = np.abs(ticks - (low + high) / 2) <= (0.5 + 1e-9) * (high - low)
             axis.set_ticks(np.clip(ticks[visible], low, high))
         if axis.get_scale() == "log" and (high > 10 * low or isinstance(locator, FixedLocator)):
-            axis.minorticks_off()  # they bear no numbers
+            axis.set_minor_locator(NullLocator())  # they bear no numbers
 
 
 def _axes(fig):
