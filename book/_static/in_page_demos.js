@@ -60,7 +60,7 @@ const vmcInPage = (() => {
     return [
       `${above.length} boxes are kept: ${rates}.`,
       `<image width="100%" height="100%" href="${level.image}"/>${here.join("")}`,
-      plot.mark("line", "blue", curve, 1.8) + plot.mark("dot", "red", [recall, precision], 4) +
+      plot.mark("line", "blue", curve, 1.8, 0, "precision") + plot.mark("dot", "red", [recall, precision], 4) +
         plot.mark("words", "ink", plot.head, rates, 6),
     ];
   };
@@ -72,8 +72,8 @@ const vmcInPage = (() => {
     const miss = (1000 * Math.hypot(end[0] - target[0], end[1] - target[1])).toFixed(1);
     const parts = chosen.map((row, i) => times(weights[i], commands[row]));
     const mixed = parts[0].map((_, t) => sum(parts.map((part) => part[t])));
-    const curve = (colour, values, width) =>
-      time.mark("line", colour, values.map((value, t) => [t * every, value]), width);
+    const curve = (colour, values, width, name) =>
+      time.mark("line", colour, values.map((value, t) => [t * every, value]), width, 0, name);
     const thread = (row, i) =>
       plane.mark("line", "blue", [target, points[row]], 10 * weights[i]) + plane.mark("dot", "blue", points[row], 3.5) +
       plane.mark("words", "ink", points[row], weights[i].toFixed(2), points[row][1] >= target[1] ? 7 : -14);
@@ -84,7 +84,7 @@ const vmcInPage = (() => {
       chosen.map(thread).join("") + plane.mark("line", "red", [target, end], 1) +
         plane.mark("ring", "green", target, 4) + plane.mark("dot", "red", end, 2) +
         plane.mark("words", "ink", plane.head, `the hand misses by ${miss} mm`, 6),
-      parts.map((part) => curve("blue", part, 1)).join("") + curve("red", mixed, 1.8),
+      parts.map((part, i) => curve("blue", part, 1, `template ${i + 1}`)).join("") + curve("red", mixed, 1.8, "their sum"),
     ];
   };
 
@@ -155,7 +155,7 @@ const vmcInPage = (() => {
     const said = x.map((at) => dot(excite(at), purkinje));
     const off = minus(said, needed).map(Math.abs), now = x.indexOf(place);
     const inside = (y) => clip(y, ...edges);
-    const curve = (colour, ys, size) => plot.mark("line", colour, x.map((at, i) => [at, ys[i]]), size);
+    const curve = (colour, ys, size, name) => plot.mark("line", colour, x.map((at, i) => [at, ys[i]]), size, 0, name);
     const words = `off by ${(sum(off) / x.length).toFixed(2)} mm on average, here by ${off[now].toFixed(2)}`;
     const [floor] = edges;
     return [
@@ -163,7 +163,7 @@ const vmcInPage = (() => {
       centres.filter((_, j) => j % shown === 0)
         .map((centre) => curve("line", x.map((at) => floor - floor * bell(at, centre)), 1)).join("") +
         centres.map((at) => plot.mark("dot", "orange", [at, floor / 2], (3 * bell(place, at)).toFixed(2))).join("") +
-        curve("grey", needed, 1.8) + curve("red", said.map(inside), 1.8) +
+        curve("grey", needed, 1.8, "what is needed") + curve("red", said.map(inside), 1.8, "the cells' sum") +
         some.map((lesson) => plot.mark("dot", "blue", lesson, 3)).join("") +
         plot.mark("line", "purple", [[place, inside(said[now])], [place, needed[now]]], 3) +
         plot.mark("words", "ink", plot.head, words, 6),

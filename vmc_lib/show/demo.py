@@ -30,7 +30,7 @@ from vmc_lib.show.render_mode import STATIC, render_mode
 from vmc_lib.show.scene import SCRIPTS as VIEWER
 from vmc_lib.show.scene import Scene
 
-PLOT_SCRIPTS = [STATIC / f"{name}.js" for name in ("axes", "handle", "address", "demo")]
+PLOT_SCRIPTS = [STATIC / f"{name}.js" for name in ("axes", "handle", "address", "sound", "demo")]
 SCRIPTS = [*VIEWER, *PLOT_SCRIPTS]
 MOST_POSITIONS = 200
 SWITCHES = '<div class="vmc-control"><div class="vmc-options">{}</div></div>'  # a row of them

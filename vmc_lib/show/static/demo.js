@@ -49,6 +49,7 @@ const vmcDemo = (() => {
 
   /* `ask(place, draw)` gives `draw` the state at a place: its words and its pictures, as lines. */
   const start = (demo, ask) => {
+    vmcSound(demo);
     const pictures = demo.querySelector(".vmc-pictures");
     const places = [...demo.querySelectorAll(".vmc-picture, .vmc-data")];
     const spoken = demo.querySelector(".vmc-spoken");
@@ -193,7 +194,8 @@ const vmcDemo = (() => {
   addEventListener("afterprint", () => (dataset.theme = theme));
 
   const startAll = () =>
-    document.querySelectorAll(".vmc-demo:has(> script)").forEach(async (demo) => {
+    document.querySelectorAll(".vmc-demo").forEach(async (demo) => {
+      if (!demo.matches(":has(> script)")) return vmcSound(demo);
       vmcAddress(demo);
       start(demo, await stored(demo));
     });
