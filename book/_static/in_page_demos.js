@@ -13,16 +13,18 @@ const vmcInPage = (() => {
     return `<rect ${at} ${edge}/><rect ${at} stroke="${stroke}"/>`;
   };
 
+  /* Words in a photo's upper left corner (book/figures/where.py, in_corner). */
+  const inCorner = (words, colour, edge) => frame([8, 0, 8, 0], colour, edge) +
+    `<text x="8" y="21" fill="${colour}" ${edge} paint-order="stroke">${words}</text>`;
+
   /* Two boxes on a photo: the object's, and one whose middle and whose size the reader drags. */
   const overlap = ({ object, edge, paint }, [x, y, wide, high]) => {
     const box = [x - wide / 2, y - high / 2, x + wide / 2, y + high / 2];
     const shared = iou(box, object).toFixed(2);
     const colour = shared >= 0.8 ? paint.green : shared > 0.5 ? paint.orange : paint.red;
-    const label = `<text x="8" y="21" fill="${colour}" ${edge} paint-order="stroke">IoU ${shared}</text>`;
-    const corner = frame([8, 0, 8, 0], colour, edge); // what it labels: book/figures/where.py, in_corner
     return [
       `A box around ${x.toFixed(0)}, ${y.toFixed(0)}, ${wide.toFixed(0)} × ${high.toFixed(0)}: IoU ${shared}.`,
-      frame(object, paint.grey, edge) + frame(box, colour, edge) + corner + label,
+      frame(object, paint.grey, edge) + frame(box, colour, edge) + inCorner(`IoU ${shared}`, colour, edge),
     ];
   };
   overlap.views = () => [
@@ -33,6 +35,22 @@ const vmcInPage = (() => {
       fromView: (corner, [middle]) => times(2, minus(corner, middle)),
     },
   ];
+
+  /* Boxes, the best first, after so many steps of non-maximum suppression (book/figures/suppression.py). */
+  const suppression = ({ boxes, edge, paint }, [step, overlap]) => {
+    const all = { grey: boxes.map((_, i) => i), gone: [], red: [], green: [] }; // by their colours
+    for (let k = 0; k < step; k++) {
+      const [best, ...rest] = all.grey;
+      all.gone.push(...all.red.splice(0));
+      if (best === undefined) break;
+      all.green.push(best);
+      all.red = rest.filter((i) => iou(boxes[best], boxes[i]) > overlap);
+      all.grey = rest.filter((i) => !all.red.includes(i));
+    }
+    const words = `${all.green.length} kept, ${all.gone.length + all.red.length} suppressed, ${all.grey.length} wait`;
+    const frames = ["grey", "red", "green"].map((colour) => all[colour].map((i) => frame(boxes[i], paint[colour], edge)).join(""));
+    return [`A photo with labels: ${words}.`, frames.join("") + inCorner(words, paint.ink, edge)];
+  };
 
   /* What non-maximum suppression keeps of the boxes [...box, score, the objects it holds] of some photos,
      the best first. */
@@ -212,5 +230,5 @@ const vmcInPage = (() => {
     },
   ];
 
-  return { aim, bells, block, line, overlap, plan, trade, votes };
+  return { aim, bells, block, line, overlap, plan, suppression, trade, votes };
 })();
