@@ -11,7 +11,7 @@ def record():
     explore = show.explore
 
     def explore_and_record(draw, caption, alt=None, in_page=None, **controls):
-        explore(draw, caption, alt, in_page, **controls)
+        numbers = explore(draw, caption, alt, in_page, **controls)
         last = {name: demo.as_control(name, spec).values[-1] for name, spec in controls.items()}
 
         def state():
@@ -19,6 +19,7 @@ def record():
             return words, demo.lines(demo.pictures(draw(**last), "again"))
 
         DECLARED.append((caption, state, state()))
+        return numbers
 
     show.explore = explore_and_record
 

@@ -13,16 +13,18 @@ const vmcInPage = (() => {
     return `<rect ${at} ${edge}/><rect ${at} stroke="${stroke}"/>`;
   };
 
+  /* Words in a photo's upper left corner (book/figures/where.py, in_corner). */
+  const inCorner = (words, colour, edge) => frame([8, 0, 8, 0], colour, edge) +
+    `<text x="8" y="21" fill="${colour}" ${edge} paint-order="stroke">${words}</text>`;
+
   /* Two boxes on a photo: the object's, and one whose middle and whose size the reader drags. */
   const overlap = ({ object, edge, paint }, [x, y, wide, high]) => {
     const box = [x - wide / 2, y - high / 2, x + wide / 2, y + high / 2];
     const shared = iou(box, object).toFixed(2);
     const colour = shared >= 0.8 ? paint.green : shared > 0.5 ? paint.orange : paint.red;
-    const label = `<text x="8" y="21" fill="${colour}" ${edge} paint-order="stroke">IoU ${shared}</text>`;
-    const corner = frame([8, 0, 8, 0], colour, edge); // what it labels: book/figures/where.py, in_corner
     return [
       `A box around ${x.toFixed(0)}, ${y.toFixed(0)}, ${wide.toFixed(0)} × ${high.toFixed(0)}: IoU ${shared}.`,
-      frame(object, paint.grey, edge) + frame(box, colour, edge) + corner + label,
+      frame(object, paint.grey, edge) + frame(box, colour, edge) + inCorner(`IoU ${shared}`, colour, edge),
     ];
   };
   overlap.views = () => [
@@ -33,6 +35,22 @@ const vmcInPage = (() => {
       fromView: (corner, [middle]) => times(2, minus(corner, middle)),
     },
   ];
+
+  /* Boxes, the best first, after so many steps of non-maximum suppression (book/figures/suppression.py). */
+  const suppression = ({ boxes, edge, paint }, [step, overlap]) => {
+    const all = { grey: boxes.map((_, i) => i), gone: [], red: [], green: [] }; // by their colours
+    for (let k = 0; k < step; k++) {
+      const [best, ...rest] = all.grey;
+      all.gone.push(...all.red.splice(0));
+      if (best === undefined) break;
+      all.green.push(best);
+      all.red = rest.filter((i) => iou(boxes[best], boxes[i]) > overlap);
+      all.grey = rest.filter((i) => !all.red.includes(i));
+    }
+    const words = `${all.green.length} kept, ${all.gone.length + all.red.length} suppressed, ${all.grey.length} wait`;
+    const frames = ["grey", "red", "green"].map((colour) => all[colour].map((i) => frame(boxes[i], paint[colour], edge)).join(""));
+    return [`A photo with labels: ${words}.`, frames.join("") + inCorner(words, paint.ink, edge)];
+  };
 
   /* What non-maximum suppression keeps of the boxes [...box, score, the objects it holds] of some photos,
      the best first. */
@@ -60,7 +78,7 @@ const vmcInPage = (() => {
     return [
       `${above.length} boxes are kept: ${rates}.`,
       `<image width="100%" height="100%" href="${level.image}"/>${here.join("")}`,
-      plot.mark("line", "blue", curve, 1.8) + plot.mark("dot", "red", [recall, precision], 4) +
+      plot.mark("line", "blue", curve, 1.8, 0, "precision") + plot.mark("dot", "red", [recall, precision], 4) +
         plot.mark("words", "ink", plot.head, rates, 6),
     ];
   };
@@ -72,8 +90,8 @@ const vmcInPage = (() => {
     const miss = (1000 * Math.hypot(end[0] - target[0], end[1] - target[1])).toFixed(1);
     const parts = chosen.map((row, i) => times(weights[i], commands[row]));
     const mixed = parts[0].map((_, t) => sum(parts.map((part) => part[t])));
-    const curve = (colour, values, width) =>
-      time.mark("line", colour, values.map((value, t) => [t * every, value]), width);
+    const curve = (colour, values, width, name) =>
+      time.mark("line", colour, values.map((value, t) => [t * every, value]), width, 0, name);
     const thread = (row, i) =>
       plane.mark("line", "blue", [target, points[row]], 10 * weights[i]) + plane.mark("dot", "blue", points[row], 3.5) +
       plane.mark("words", "ink", points[row], weights[i].toFixed(2), points[row][1] >= target[1] ? 7 : -14);
@@ -84,7 +102,7 @@ const vmcInPage = (() => {
       chosen.map(thread).join("") + plane.mark("line", "red", [target, end], 1) +
         plane.mark("ring", "green", target, 4) + plane.mark("dot", "red", end, 2) +
         plane.mark("words", "ink", plane.head, `the hand misses by ${miss} mm`, 6),
-      parts.map((part) => curve("blue", part, 1)).join("") + curve("red", mixed, 1.8),
+      parts.map((part, i) => curve("blue", part, 1, `template ${i + 1}`)).join("") + curve("red", mixed, 1.8, "their sum"),
     ];
   };
 
@@ -155,7 +173,7 @@ const vmcInPage = (() => {
     const said = x.map((at) => dot(excite(at), purkinje));
     const off = minus(said, needed).map(Math.abs), now = x.indexOf(place);
     const inside = (y) => clip(y, ...edges);
-    const curve = (colour, ys, size) => plot.mark("line", colour, x.map((at, i) => [at, ys[i]]), size);
+    const curve = (colour, ys, size, name) => plot.mark("line", colour, x.map((at, i) => [at, ys[i]]), size, 0, name);
     const words = `off by ${(sum(off) / x.length).toFixed(2)} mm on average, here by ${off[now].toFixed(2)}`;
     const [floor] = edges;
     return [
@@ -163,7 +181,7 @@ const vmcInPage = (() => {
       centres.filter((_, j) => j % shown === 0)
         .map((centre) => curve("line", x.map((at) => floor - floor * bell(at, centre)), 1)).join("") +
         centres.map((at) => plot.mark("dot", "orange", [at, floor / 2], (3 * bell(place, at)).toFixed(2))).join("") +
-        curve("grey", needed, 1.8) + curve("red", said.map(inside), 1.8) +
+        curve("grey", needed, 1.8, "what is needed") + curve("red", said.map(inside), 1.8, "the cells' sum") +
         some.map((lesson) => plot.mark("dot", "blue", lesson, 3)).join("") +
         plot.mark("line", "purple", [[place, inside(said[now])], [place, needed[now]]], 3) +
         plot.mark("words", "ink", plot.head, words, 6),
@@ -212,5 +230,5 @@ const vmcInPage = (() => {
     },
   ];
 
-  return { aim, bells, block, line, overlap, plan, trade, votes };
+  return { aim, bells, block, line, overlap, plan, suppression, trade, votes };
 })();

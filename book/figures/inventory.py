@@ -8,7 +8,7 @@ from collections import Counter
 import nbformat
 
 OF_PAGES = ("tests/test_pages.py", "tests/test_site.py")
-DEMO = re.compile(r"^(?:explore|where\.segmentation_demo|live_arm)\(", re.M)
+DEMO = re.compile(r"^(?:\w+ = )?(?:explore|where\.segmentation_demo|live_arm)\(", re.M)
 EXERCISE = {"raises-exception", "solution"}  # tags of the cells below an exercise's text
 PYTEST = [sys.executable, *"-m pytest -q --collect-only -p no:cacheprovider".split()]
 

@@ -19,6 +19,7 @@ PRINTED_NAMES = {  # in the paper's Table I; that its "Gaussian" is the sigmoid 
     "sigmoid": "Gaussian",
 }
 FRESH_ROWS = (*fresh_test_set.KERNELS, *fresh_test_set.DETECTORS)
+PLANE, YOURS = (-4, 5), (3.3, -1.3)  # of an SVM's two clouds: what is drawn; the reader's point
 QUALITIES = ("a good candidate", "a box on the shuttlecock", "a good box")
 
 
@@ -33,35 +34,67 @@ def crop_sheet(crops, columns=8):
     return grid.reshape(-1, 36 * columns, 3)
 
 
-def margin(cost, kernel):
-    """Two clouds (40, 2) and an SVM that parts them; which are something: points, labels, SVM."""
+def margin(cost, kernel, yours=YOURS):
+    """Two clouds (40, 2), the first point given, and an SVM: points, which are something, SVM."""
     from sklearn.svm import SVC  # slow to load
 
-    rng = np.random.default_rng(3)
-    side = np.repeat([True, False], 20)
-    clouds = rng.normal(size=(40, 2)) + np.where(side[:, None], 1.3, -1.3)
+    clouds, side = _clouds()
+    clouds[0] = yours
     return clouds, side, SVC(C=cost, kernel=kernel).fit(clouds, side)
 
 
-def margin_plot(cost, kernel):
+def _clouds():
+    side = np.repeat([True, False], 20)
+    noise = np.random.default_rng(3).normal(size=(40, 2))
+    return noise + np.where(side[:, None], 1.3, -1.3), side
+
+
+def margin_plot(cost, kernel, yours):
     """An SVM between two clouds: its border, its margin and how much each example counts.
 
     A ring's area is its example's α, as a share of the cost C, which no α exceeds: a figure.
     """
-    clouds, side, svm = margin(cost, kernel)
-    grid = np.stack(np.meshgrid(*[np.linspace(-4, 4, 81)] * 2), -1)
+    clouds, side, svm = margin(cost, kernel, yours)
+    grid = np.stack(np.meshgrid(*[np.linspace(*PLANE, 81)] * 2), -1)
     f = svm.decision_function(grid.reshape(-1, 2)).reshape(81, 81)
-    fig, ax = panels(size=(4.6, 3.6))
+    fig, ax = _plane()
     ax.contour(*grid.T, f.T, [-1, 0, 1], colors=COLOURS["grey"], linestyles=["--", "-", "--"])
-    ax.plot(*clouds[side].T, "o", label="something")
-    ax.plot(*clouds[~side].T, "s", label="table")
+    ax.plot(*clouds[side].T, "o", color=COLOURS["blue"], gid="something")
+    ax.plot(*clouds[~side].T, "s", color=COLOURS["orange"], gid="table")
     rings = 40 + 160 * abs(svm.dual_coef_[0]) / cost
-    style = dict(edgecolors=COLOURS["red"], gid="alpha", label=f"{len(rings)} rings")
-    ax.scatter(*svm.support_vectors_.T, rings, "none", **style)
-    ax.set(xticks=[], yticks=[], aspect="equal", xlabel="blueness", ylabel="roundness")
-    fig.legend(loc="upper center", ncols=3)
-    margins(fig, top=0.45)
+    ax.scatter(*svm.support_vectors_.T, rings, "none", edgecolors=COLOURS["red"], gid="alpha")
+    ax.set_title(_rings(svm, cost))
     return fig
+
+
+def _plane():
+    fig, ax = panels(size=(4.6, 3.6))
+    for mark, colour, name in ("o", "blue", "something"), ("s", "orange", "table"):
+        ax.plot([], [], mark, color=COLOURS[colour], label=name)
+    ax.set(xticks=[], yticks=[], xlim=PLANE, ylim=PLANE, aspect="equal")
+    ax.set(xlabel="blueness", ylabel="roundness")
+    fig.legend(loc="upper center", ncols=2)
+    margins(fig, top=0.6)
+    return fig, ax
+
+
+def _rings(svm, cost):
+    """How many examples count, and how much the reader's own does, in words."""
+    yours = abs(svm.dual_coef_[0][svm.support_ == 0]).sum() / cost
+    return f"{len(svm.support_)} rings; yours: α = {yours:.2f} C"
+
+
+def margin_in_words(cost, kernel, yours):
+    """The same in words."""
+    words = _rings(margin(cost, kernel, yours)[2], cost)
+    return f"Two clouds and a border between them; C is {cost:g}, {kernel}: {words}."
+
+
+def margin_in_page():
+    """The same for the page to work out (see `explore`)."""
+    clouds, side = _clouds()
+    given = {"clouds": clouds.tolist(), "labels": np.where(side, 1, -1).tolist(), "plane": PLANE}
+    return "margin", lambda: _plane()[0], given
 
 
 def weight_map(weights, channel):

@@ -97,21 +97,18 @@ def _series(ax, turned):
 
     A line's `gid` names what a legend need not; guide lines have "guide", and are left out.
     """
-    owners = {c.lines[0]: c for c in ax.containers if isinstance(c, ErrorbarContainer)}
     logarithmic = (ax.yaxis if turned else ax.xaxis).get_scale() == "log"
-    for line in ax.lines:
-        points = np.broadcast_arrays(*(np.ravel(v) for v in line.get_data(orig=False)))
+    for line, owner in _plotted(ax):
+        points = _points(line)
         keys, values = (_rounded(points[i], (ax.xaxis, ax.yaxis)[i]) for i in (turned, 1 - turned))
         known = np.isfinite(keys) & np.isfinite(values) & ((keys > 0) | (not logarithmic))
-        guide = line.get_transform() != ax.transData or line.get_gid() == "guide"
-        if guide or not line.get_visible() or not known.any():
+        if not known.any():
             continue
-        ends, owner = np.stack([values, values], axis=1), owners.get(line, line)
+        ends = np.stack([values, values], axis=1)
         if owner is not line and (owner.has_xerr if turned else owner.has_yerr):
             bars = owner.lines[2][0 if turned else -1]  # x before y, where there are both
             ends = np.array([path.vertices for path in bars.get_paths()])[..., 1 - turned]
-        kind, most = ("dots", DOTS) if line.get_linestyle() == "None" else ("line", POINTS)
-        kind = f"{_COLOUR_NAMES.get(line.get_color(), '')} {kind}".strip()
+        kind, most = _kind(line), DOTS if line.get_linestyle() == "None" else POINTS
         some = _spread(keys[known], most, logarithmic)
         name = _label(owner) or line.get_gid() or ""
         yield Series(name, kind, keys[known], values[known], ends[known], some)
@@ -122,6 +119,36 @@ def _series(ax, turned):
             ends, some = np.stack([values, values], axis=1), np.arange(len(values))
             keys = boxes.mean(axis=1)[:, turned]
             yield Series(_label(bars), "bars", keys, values, ends, some)
+
+
+def _plotted(ax):
+    """The visible lines on an axes' own measures, each with its owner: itself, or error bars."""
+    owners = {c.lines[0]: c for c in ax.containers if isinstance(c, ErrorbarContainer)}
+    for line in ax.lines:
+        guide = line.get_transform() != ax.transData or line.get_gid() == "guide"
+        if line.get_visible() and not guide:
+            yield line, owners.get(line, line)
+
+
+def _points(line):
+    return np.broadcast_arrays(*(np.ravel(v) for v in line.get_data(orig=False)))
+
+
+def _kind(line):
+    kind = "dots" if line.get_linestyle() == "None" else "line"
+    return f"{_COLOUR_NAMES.get(line.get_color(), '')} {kind}".strip()
+
+
+def name_curves(figure):
+    """Name a figure's curves for `static/sound.js`: lines of many points that run to the right."""
+    for line, owner in (each for ax in figure.axes for each in _plotted(ax)):
+        x, name = _points(line)[0], _label(owner) or line.get_gid() or _kind(line)
+        if (
+            line.get_linestyle() != "None"
+            and len(x) > 2
+            and (np.diff(x[np.isfinite(x)]) >= 0).all()
+        ):
+            line.set_gid(f"curve:{name.replace('$', '')}")
 
 
 def _rounded(values, axis):

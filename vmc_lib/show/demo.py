@@ -20,17 +20,18 @@ import numpy as np
 from IPython.display import HTML, display
 
 from vmc_lib.show.alt_text import alt_text
-from vmc_lib.show.controls import Switch, as_control
+from vmc_lib.show.controls import Slider, Switch, as_control
 from vmc_lib.show.data_table import data_tables
 from vmc_lib.show.figures import framed, pictures, side_by_side
 from vmc_lib.show.live import Live, drawing
+from vmc_lib.show.numbers import Numbers
 from vmc_lib.show.outputs import Markup, still
 from vmc_lib.show.palette import STYLE
 from vmc_lib.show.render_mode import STATIC, render_mode
 from vmc_lib.show.scene import SCRIPTS as VIEWER
 from vmc_lib.show.scene import Scene
 
-PLOT_SCRIPTS = [STATIC / f"{name}.js" for name in ("axes", "handle", "address", "demo")]
+PLOT_SCRIPTS = [STATIC / f"{name}.js" for name in ("axes", "handle", "address", "sound", "demo")]
 SCRIPTS = [*VIEWER, *PLOT_SCRIPTS]
 MOST_POSITIONS = 200
 SWITCHES = '<div class="vmc-control"><div class="vmc-options">{}</div></div>'  # a row of them
@@ -44,7 +45,8 @@ def explore(draw, caption, alt=None, in_page=None, **controls):
     `draw(**values)` is a pure function that returns a picture (see `figures`). Each control is a
     `Slider`, a `Pad`, a list of strings (a choice) or `[False, True]` (a switch); a list starts at
     its first. `caption` is Markdown and says what to notice; `alt` describes the picture in words,
-    as text or as a function of the same controls; a plot without it describes itself. Raises
+    as text or as a function of the same controls; a plot without it describes itself. Returns the
+    demo's `Numbers`, for sentences about what it shows. Raises
     ValueError for a demo that could not work: more than 200 positions, a control without effect, a
     start that is no value, an unknown picture.
 
@@ -75,8 +77,9 @@ def explore(draw, caption, alt=None, in_page=None, **controls):
             error.add_note(f"It was asked for {values}.")
             raise
 
+    texts = {key: c.texts[c.first] for key, c in controls.items() if isinstance(c, Slider)}
     if render_mode() == "live":
-        return _live(state, caption, controls, name)
+        return Numbers(name, _live(state, caption, controls, name), texts)
     state = cache(state)
     sample = _along(controls, SAMPLE if in_page else MOST_POSITIONS)
     every = sample if in_page else range(positions)
@@ -93,6 +96,7 @@ def explore(draw, caption, alt=None, in_page=None, **controls):
     if render_mode() == "book":
         data = _worked_out(*in_page, controls, name) if in_page else _stored(states)
         display(HTML(_page(*state(_first(controls)), data, caption, controls, name)))
+    return Numbers(name, state(_first(controls))[0], texts)
 
 
 def shown(draw, values, name, alt=None, tables=True):
@@ -207,10 +211,11 @@ def _pack(data):
 
 
 def _live(state, caption, controls, name):
-    """The same demo in a kernel, and a still of it for when the kernel is gone."""
+    """The same demo in a kernel, and a still of it for when the kernel is gone; its first words."""
     alt, parts = state(_first(controls))
     if not _moves(parts, controls):
-        return display(Markup(framed(side_by_side(parts, alt), caption), alt))
+        display(Markup(framed(side_by_side(parts, alt), caption), alt))
+        return alt
     current = alt, parts  # what the reader sees
 
     def answer(place):
@@ -236,6 +241,7 @@ def _live(state, caption, controls, name):
     display(Live(framed(face, "", name), "vmcDemo", scripts, answers, first=[[alt], *scenes]))
     display(Markup(framed("", caption), caption))
     _freeze_once()
+    return alt
 
 
 @cache

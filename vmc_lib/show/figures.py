@@ -13,7 +13,7 @@ from markdown_it import MarkdownIt
 from matplotlib.figure import Figure
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 
-from vmc_lib.show.data_table import DataTable
+from vmc_lib.show.data_table import DataTable, name_curves
 from vmc_lib.show.estimate import estimate
 from vmc_lib.show.markup import data_uri, image_tag, number, svg
 from vmc_lib.show.palette import EDGE, ON_PHOTO
@@ -41,6 +41,7 @@ def _markup(picture, salt):
     if isinstance(picture, Scene):
         return picture
     if isinstance(picture, Figure):
+        name_curves(picture)
         return svg(picture, salt)
     if isinstance(picture, np.ndarray):
         return image_tag(picture)

@@ -15,6 +15,7 @@ from vmc_lib.show.svg_renderer import figure_svg
 _NAMED = {code: css(name) for name, code in COLOURS.items()}
 _NAMED |= {"#000000": css("ink"), "#ffffff": css("paper")}
 _MINUS = re.compile(r"(?<=[\s(>])-(?=\.?\d)")  # before a number in words: the axes have it so
+_CURVE = re.compile(r'<g id="curve:([^"]*)">\s*<path')
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _STEPS = MaxNLocator(5, steps=[1, 2, 5, 10])
 _SVG_ROOT = 'font-family="DejaVu Sans, Verdana, sans-serif" stroke-linejoin="round"'
@@ -48,6 +49,7 @@ def svg(fig, salt):
     root = f'<svg {_SVG_ROOT} {_axes(fig)} style="--least: {least:.0f}pt" '
     svg = svg[svg.index("<svg ") :].replace("<svg ", root, 1)
     svg = re.sub(r"<metadata>.*?</metadata>|<!--.*?-->|<style.*?</style>", "", svg, flags=re.S)
+    svg = _CURVE.sub(r'<g>\n<path data-curve="\1"', svg)
     used = set(re.findall(r"#([\w.-]+)", svg))
     svg = re.sub(r' id="([^"]*)"', lambda name: name[0] if name[1] in used else "", svg)
     svg = re.sub(r"font-family: [^;\"]+(; )?", "", svg)

@@ -30,12 +30,13 @@ const vmcAxes = (svg) => {
     head: [(x0 + x1) / 2, y1], // where a title stands
 
     /* Markup of a mark in a named colour: a "line" or an "arrow" through points of some width, an "area"
-       within points, a "ring" or a "dot" of some radius, or "words" so far above a point. */
-    mark: (kind, colour, points, size, above) => {
+       within points, a "ring" or a "dot" of some radius, or "words" so far above a point. A line with a
+       name is a curve, which can be heard. */
+    mark: (kind, colour, points, size, above, name) => {
       const paint = `var(--vmc-${colour})`;
       if (kind === "line" || kind === "arrow")
-        return `<polyline points="${[...points.map(put), ...(kind === "arrow" ? head(points) : [])].join(" ")}" fill="none" stroke="${paint}"
-          stroke-width="${size}" stroke-opacity=".7" stroke-linecap="round"/>`;
+        return `<polyline points="${[...points.map(put), ...(kind === "arrow" ? head(points) : [])].join(" ")}"
+          ${name ? `data-curve="${name}"` : ""} fill="none" stroke="${paint}" stroke-width="${size}" stroke-opacity=".7" stroke-linecap="round"/>`;
       if (kind === "area") return `<polygon points="${points.map(put).join(" ")}" fill="${paint}"/>`;
       const [x, y] = put(points);
       if (kind === "words") { // whole, at the picture's edge too

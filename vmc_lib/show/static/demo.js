@@ -49,6 +49,7 @@ const vmcDemo = (() => {
 
   /* `ask(place, draw)` gives `draw` the state at a place: its words and its pictures, as lines. */
   const start = (demo, ask) => {
+    vmcSound(demo);
     const pictures = demo.querySelector(".vmc-pictures");
     const places = [...demo.querySelectorAll(".vmc-picture, .vmc-data")];
     const spoken = demo.querySelector(".vmc-spoken");
@@ -60,6 +61,16 @@ const vmcDemo = (() => {
       type === "checkbox" ? +checked : type === "radio" && !checked ? 0 : Math.round(value);
 
     let follow = () => {}; // what else a new picture moves
+
+    /* The demo's numbers in the page's sentences (vmc_lib/show/numbers.py). */
+    const tell = () => {
+      const words = pictures.getAttribute("aria-label");
+      for (const number of document.querySelectorAll(`.vmc-now[data-demo="${demo.id}"]`)) {
+        const { place } = number.dataset, slider = document.getElementById(`${demo.id}-${place}`);
+        const around = place.replace(/[^\w\s#]/g, "\\$&").replace("#", "(−?\\d+(?:[.,]\\d+)*)");
+        number.textContent = slider?.getAttribute("aria-valuetext") ?? words.match(around)?.[1] ?? "–";
+      }
+    };
 
     const draw = ([alt, ...parts]) => {
       const row = demo.querySelector(".vmc-controls"), held = demo.matches(":hover, :focus-within");
@@ -78,6 +89,7 @@ const vmcDemo = (() => {
       if (spoken && pictures.getAttribute("aria-label") !== words) spoken.textContent = words;
       pictures.setAttribute("aria-label", words);
       follow();
+      queueMicrotask(tell); // sliders may yet say where they stand
       /* A picture of another height moves the page, and not what the reader's hand is on (which
          may stick to the window's edge, so that it tells nothing of how much has grown). */
       if (!held) return;
@@ -193,7 +205,8 @@ const vmcDemo = (() => {
   addEventListener("afterprint", () => (dataset.theme = theme));
 
   const startAll = () =>
-    document.querySelectorAll(".vmc-demo:has(> script)").forEach(async (demo) => {
+    document.querySelectorAll(".vmc-demo").forEach(async (demo) => {
+      if (!demo.matches(":has(> script)")) return vmcSound(demo);
       vmcAddress(demo);
       start(demo, await stored(demo));
     });
