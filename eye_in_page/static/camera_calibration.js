@@ -3,7 +3,7 @@
 Object.assign(vmcEye, (() => {
   "use strict";
 
-  const { clip, dot, mean, minus, plus, times } = vmcVectors;
+  const { clip, dot, mean, minus, plus, solve, times } = vmcVectors;
 
   const ROUNDS = 30, CLOSE = 0.1; // OpenCV's settings of a corner's refinement
 
@@ -35,20 +35,6 @@ Object.assign(vmcEye, (() => {
       if (Math.hypot(...step) <= CLOSE) break;
     }
     return minus(place, start).some((x) => Math.abs(x) > reach) ? start : place;
-  };
-
-  /* The solution x of linear equations A x = b: Gauss, with the largest pivot. */
-  const solve = (A, b) => {
-    const rows = A.map((row, i) => [...row, b[i]]);
-    rows.forEach((_, i) => {
-      const largest = rows.slice(i).reduce((best, row) => (Math.abs(row[i]) > Math.abs(best[i]) ? row : best));
-      const place = rows.indexOf(largest);
-      [rows[i], rows[place]] = [rows[place], rows[i]];
-      for (let j = i + 1; j < rows.length; j++) rows[j] = minus(rows[j], times(rows[j][i] / rows[i][i], rows[i]));
-    });
-    const x = b.map(() => 0);
-    for (let i = x.length - 1; i >= 0; i--) x[i] = (rows[i].at(-1) - dot(rows[i].slice(0, -1), x)) / rows[i][i];
-    return x;
   };
 
   /* Least squares: how much of each column makes up `wanted`; damped as Marquardt does. */

@@ -10,6 +10,11 @@
     const exponent = (bits >> 10) & 31, size = (bits & 1023) + (exponent && 1024);
     return (bits & 0x8000 ? -size : size) * POWERS[exponent];
   };
+  const halves = (bits) => {
+    const numbers = new Float64Array(bits.length);
+    for (let i = 0; i < bits.length; i++) numbers[i] = half(bits[i]);
+    return numbers;
+  };
 
   /* A promise of the brain: objects and lists of numbers and typed arrays. Its script comes from the book's own
      files, when it is first asked for. */
@@ -19,7 +24,7 @@
     const revive = (_, it) => {
       if (!it?.kind) return it;
       const array = new KINDS[it.kind](buffer, it.at, it.length);
-      return it.kind === "float16" ? Float64Array.from(array, half) : array;
+      return it.kind === "float16" ? halves(array) : array;
     };
     const brain = JSON.parse(tree, revive);
     delete vmcEye.packed; // megabytes of text

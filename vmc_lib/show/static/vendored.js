@@ -16,7 +16,8 @@ const vmcVendored = (() => {
 
 /* What base64 holds of something gzipped, as a response: its JSON, its bytes. */
 const vmcUnzip = (base64) => {
-  const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+  const text = atob(base64), bytes = new Uint8Array(text.length);
+  for (let i = 0; i < bytes.length; i++) bytes[i] = text.charCodeAt(i); // `from` takes four times as long
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
   return new Response(stream);
 };
