@@ -36,7 +36,7 @@ DATA = {Path("vmc_lib/arm/arm26.xml"), Path("vmc_lib/data/__init__.py")}  # and 
 DATA |= {Path("reproduce/results/__init__.py"), Path("reproduce/results/optimal.npz")}
 DATA |= {Path(f"vmc_lib/data/{name}.npz") for name in ("arm26", "rest", "templates")}
 # Beside these a demo's `draw` may import anything of the library that the page has the means for
-DRAWN = ("book/figures", "reproduce", "vmc_lib")
+DRAWN = ("arm_in_page", "book/figures", "eye_in_page", "reproduce", "vmc_lib")
 DRAWN_DATA = {Path("vmc_lib/show/static/kernel.js")}
 UNCHANGED = ("pyodide.js", "pyodide.asm.js", "pyodide.asm.wasm")
 UNCHANGED += ("LICENSE-MPL-2.0", "LICENSE-PSF-2.0")
@@ -107,7 +107,7 @@ def drawn_paths():
     """What a demo's `draw` may import beside these, and the results that it may read."""
     sources = {path.relative_to(ROOT) for top in DRAWN for path in ROOT.glob(f"{top}/**/*.py")}
     results = {path.relative_to(ROOT) for path in ROOT.glob("reproduce/results/*.*")}
-    own = {Path("python_in_page/demos.py")}
+    own = {Path(f"python_in_page/{name}.py") for name in ("demos", "measure")}
     return sorted((sources | results | own | DRAWN_DATA) - set(paths()))
 
 

@@ -85,7 +85,7 @@ const vmcPython = (() => {
   /* The answer to a question; `say` is told what it waits for. Where it takes too long or is stopped
      there is none, and Python starts anew. */
   const answer = async (question, say) => {
-    const { ready, ask } = start(), draws = question[0] === "demos";
+    const { ready, ask } = start(), draws = question[0] !== "grader";
     for (const script of ["python.js", ...(draws ? ["plots.js"] : [])]) {
       say(here(script) ? "Starting Python …" : `Loading Python (${SIZES[script]}, part of this book) …`);
       await ready(script);

@@ -88,9 +88,9 @@ const vmcLaws = (() => {
       demo.removeAttribute("aria-busy");
     };
 
-    const ask = (place, draw, now = false) => {
+    const ask = (place, draw, exact, now = false) => {
       const off = sliders.some(({ value }) => value % 1);
-      if (!laws.length || failed) book(place, draw);
+      if (!laws.length || failed) book(place, draw, exact);
       if (failed || !(laws.length || off || now)) return;
       wanted = [place, draw];
       if (!busy) drawn();
@@ -123,7 +123,7 @@ const vmcLaws = (() => {
       take();
       sliders.forEach((input) => (input.step = STEP));
       between.hidden = true;
-      demo.vmc.ask(0, () => {}, true); // it is made ready
+      demo.vmc.ask(0, () => {}, {}, true); // it is made ready
     };
     demo.vmcBring = (cells) => {
       say(`This link brings another ${code(cells.map(({ dataset }) => dataset.cell))}. Read it in its cell first.`);

@@ -20,20 +20,18 @@ from reproduce.experiments.calibration import (
 from reproduce.ledger.entry import (
     ABOVE,
     BELOW,
-    HELD,
     Row,
     mean,
     mean_of_draws,
     trivial_quantity,
 )
+from reproduce.one_draw import HOLDS, planned_error_ratio, worst_example
 from vmc_lib.motor import templates
 from vmc_lib.motor.execution import execute
-from vmc_lib.motor.planning import draw_targets, exact_weights, habitual_weights, nearest, plan
+from vmc_lib.motor.planning import draw_targets, exact_weights, habitual_weights, plan
 
 PLANNED = {"better": -1, "rounding": paper.planned_rounding()}
-READINGS = {"": 0.0, f", {HELD}": templates.HOLD}  # how long the hold is, s
 PRINTED = f"{SCENARIOS[0]}, {AS_PRINTED}"
-COUNT = 25  # movements of a draw, as in the paper
 
 
 @cache
@@ -44,14 +42,7 @@ def planned_error_ratios(spacing=templates.SPACING, rule=habitual_weights, hold=
     other number the nearest.
     """
     past = templates.load(spacing, hold)
-    return np.array([_planned_error_ratio(seed, past, rule, number) for seed in SEEDS])
-
-
-def _planned_error_ratio(seed, past, rule, number):
-    targets = draw_targets(past, COUNT, np.random.default_rng(seed))
-    rows = None if number == 4 else nearest(targets, past.points, number)
-    plans = plan(targets, past, rule, rows)
-    return execute(plans).error.mean() / np.linalg.norm(targets, axis=-1).mean()
+    return np.array([planned_error_ratio(seed, past, rule, number) for seed in SEEDS])
 
 
 def fitted_spacing():
@@ -70,7 +61,7 @@ def _table_4():
         mean_of_draws(fitted_name, claimed, missed, fitted=True, **PLANNED),
         *(
             mean_of_draws(f"{name}{reading}", None, load_results()[scenario]["planned / reach"])
-            for reading, scenario in zip(READINGS, (PRINTED, SCENARIOS[0]), strict=True)
+            for reading, scenario in zip(HOLDS, (PRINTED, SCENARIOS[0]), strict=True)
         ),
     ]
 
@@ -80,7 +71,7 @@ def _figure_9():
     habit = plan(draw_targets(template_set, 20, np.random.default_rng(2)), template_set)
     summed = np.einsum("bi,bitm->btm", habit.weights, template_set.excitations[habit.rows])
     worst = (paper.TABLE_4_ERRORS / np.linalg.norm(paper.TARGETS, axis=-1)).max()
-    furthest = [_worst_example(seed) for seed in SEEDS]
+    furthest = [worst_example(seed) for seed in SEEDS]
     missed, name = planned_error_ratios().mean(), "not on it: miss over reach, above rounding"
     return [
         mean("near: miss over reach, worst of five examples", worst, furthest, **BELOW),
@@ -94,17 +85,10 @@ def _figure_9():
     ]
 
 
-def _worst_example(seed):
-    """The largest miss over its reach, of as many targets as Table IV prints."""
-    past = templates.load(hold=0.0)
-    targets = draw_targets(past, len(paper.TARGETS), np.random.default_rng(seed))
-    return (execute(plan(targets, past)).error / np.linalg.norm(targets, axis=-1)).max()
-
-
 def _nearby():
     """Half of one reach and half of its neighbour's: how far from half-way does it end?"""
     quantities = []
-    for reading, hold in READINGS.items():
+    for reading, hold in HOLDS.items():
         past = templates.load(hold=hold)
         gaps = np.linalg.norm(past.points[:, None] - past.points, axis=-1)
         pairs = np.argwhere(np.triu((gaps > 0) & (gaps < 1.1 * templates.SPACING)))
@@ -130,7 +114,7 @@ def _non_linear():
     last_digit, missed = paper.planned_rounding(), planned_error_ratios(rule=exact_weights)
     name = "miss over reach with exact weights, above rounding"
     quantities = [mean(name, last_digit, missed, **ABOVE)]
-    for reading, hold in READINGS.items():
+    for reading, hold in HOLDS.items():
         left = planned_error_ratios(rule=exact_weights, hold=hold) / planned_error_ratios(hold=hold)
         name = f"share of the miss that exact weights remove{reading}"
         quantities.append(mean(name, None, 1 - left))

@@ -67,8 +67,8 @@ class Slider(Control):
     """A slider over `values`; `play=True` adds a button that walks through them.
 
     With `play="unasked"` it does so by itself, once, when the demo comes into view: unless the
-    reader has asked the browser for less motion. Where Python runs in the page, values `between`
-    these can be chosen, too.
+    reader has asked the browser for less motion. Where the page works them out, or Python runs in
+    it, values `between` these can be chosen, too.
     """
 
     play: bool | str = False
@@ -131,12 +131,13 @@ class Switch(Control):
 class Pad(Control):
     """A place (x, y) on a grid, dragged over the first plot or photo; two sliders are its twin.
 
-    Its values are pairs, in the units of the plot's axes or in the photo's pixels.
+    Its values are pairs, in the units of the plot's axes or in the photo's pixels; `between` as a
+    slider's.
     """
 
-    def __init__(self, xs, ys, labels=("x", "y"), start=(None, None), unit=""):
+    def __init__(self, xs, ys, labels=("x", "y"), start=(None, None), unit="", between=True):
         parts = zip((xs, ys), labels, start, strict=True)
-        pair = [Slider(v, *rest, unit, between=False) for v, *rest in parts]
+        pair = [Slider(v, *rest, unit, between=between) for v, *rest in parts]
         object.__setattr__(self, "pair", pair)
         super().__init__(tuple(itertools.product(xs, ys)), " and ".join(labels), unit=unit)
 

@@ -53,7 +53,8 @@ def explore(draw, caption, alt=None, in_page=None, **controls):
     A demo may have as many positions as it likes if the book's page works them out itself:
     `in_page` is (name, ground, given). The page's `vmcInPage[name]` draws what `draw` does, by what
     it is `given` (as JSON takes it), on plots or photos that `ground()` returned; with `views`, it
-    puts a pad's handle on several of them. Here a sample is evaluated, along each control.
+    puts a pad's handle on several of them. Or `in_page` is a function that returns these three,
+    called for the book alone. Here a sample is evaluated, along each control.
     """
     controls = {name: as_control(name, spec) for name, spec in controls.items()}
     positions = math.prod(len(control.values) for control in controls.values())
@@ -94,7 +95,8 @@ def explore(draw, caption, alt=None, in_page=None, **controls):
     for _, parts in states:
         _same_kinds(parts, states[0][1])
     if render_mode() == "book":
-        data = _worked_out(*in_page, controls, name) if in_page else _stored(states)
+        made = in_page() if callable(in_page) else in_page
+        data = _worked_out(*made, controls, name) if made else _stored(states)
         display(HTML(_page(*state(_first(controls)), data, caption, controls, name)))
     return Numbers(name, state(_first(controls))[0], texts)
 

@@ -20,6 +20,27 @@ const vmcDemo = (() => {
     old.slice(fresh.length).forEach((child) => child.remove());
   };
 
+  /* The value at a place along values, which may lie between two; and the place of a value. */
+  const valueAt = (values, place) => {
+    const low = Math.min(Math.floor(place), values.length - 2), part = place - low;
+    if (part % 1 === 0) return values[place];
+    return +(values[low] + part * (values[low + 1] - values[low])).toPrecision(12);
+  };
+  const placeOf = (values, value) => {
+    const way = Math.sign(values[1] - values[0]);
+    const passed = values.filter((one) => (value - one) * way >= 0).length - 1;
+    const low = Math.max(0, Math.min(passed, values.length - 2));
+    return low + (value - values[low]) / (values[low + 1] - values[low]);
+  };
+
+  /* A slider's text: between two of its own ones, which begin with numbers, a number of four digits. */
+  const textAt = (texts, place) => {
+    if (place % 1 === 0) return texts[place];
+    const numbers = texts.map((text) => parseFloat(text.replace("−", "-")));
+    const [, after] = texts[0].match(/^−?[\d.]+(.*)/);
+    return `${+valueAt(numbers, place).toPrecision(4)}`.replace("-", "−") + after;
+  };
+
   /* The states that are stored in the page, as a function that gives one to `draw`. */
   const stored = async (demo) => {
     const data = await vmcUnzip(demo.querySelector("script").textContent).json();
@@ -36,15 +57,16 @@ const vmcDemo = (() => {
       box.innerHTML = lines.join("\n");
       return vmcAxes(box.content.firstElementChild);
     });
-    const ask = (place, draw) => {
+    const ask = (place, draw, at = {}) => {
       const values = grid.map((along, i) => {
         const stride = grid.slice(i + 1).reduce((product, { length }) => product * length, 1);
-        return along[Math.floor(place / stride) % along.length];
+        return valueAt(along, at[stride] ?? Math.floor(place / stride) % along.length);
       });
       const [words, ...marks] = vmcInPage[work](given, values, axes, place);
       draw([[words], ...grounds.map((lines, i) => [...lines.slice(0, -1), marks[i], "</svg>"])]);
     };
-    return Object.assign(ask, { views: vmcInPage[work].views?.(given) });
+    const { views, between } = vmcInPage[work];
+    return Object.assign(ask, { views: views?.(given), between });
   };
 
   /* `ask(place, draw)` gives `draw` the state at a place: its words and its pictures, as lines. */
@@ -54,6 +76,7 @@ const vmcDemo = (() => {
     const places = [...demo.querySelectorAll(".vmc-picture, .vmc-data")];
     const spoken = demo.querySelector(".vmc-spoken");
     const inputs = [...demo.querySelectorAll("[data-stride]")];
+    const sliders = ask.between ? inputs.filter(({ dataset }) => "between" in dataset) : [];
     const reduced = matchMedia("(prefers-reduced-motion: reduce)");
 
     /* How far along its values a control stands; of radio buttons only the checked one counts. */
@@ -100,13 +123,18 @@ const vmcDemo = (() => {
     const show = () => {
       for (const input of inputs)
         if (input.dataset.texts) {
-          const text = JSON.parse(input.dataset.texts)[Math.round(input.value)];
+          const text = textAt(JSON.parse(input.dataset.texts), sliders.includes(input) ? +input.value : Math.round(input.value));
           input.setAttribute("aria-valuetext", text);
           input.nextElementSibling.textContent = text;
         }
-      demo.vmc.ask(inputs.reduce((sum, i) => sum + at(i) * i.dataset.stride, 0), draw);
+      const exact = Object.fromEntries(sliders.map(({ dataset, value }) => [dataset.stride, +value]));
+      demo.vmc.ask(inputs.reduce((sum, i) => sum + at(i) * i.dataset.stride, 0), draw, exact);
     };
     demo.vmc = { ask, show }; // the page's Python may answer instead
+
+    /* What the page works out anywhere follows the hand anywhere; keys go from stop to stop. */
+    const step = ({ type, target }) => sliders.includes(target) && (target.step = type === "keydown" ? 1 : 0.1);
+    for (const type of ["pointerdown", "keydown"]) demo.addEventListener(type, step, true);
 
     /* A step is looked at for a while; if it brings a movement, for as long as that takes. */
     const look = (input) => {
@@ -164,11 +192,11 @@ const vmcDemo = (() => {
         Promise.resolve(ask.ready).then(() => watch.observe(demo));
       }
     }
-    /* A pad: a handle on the first plot, or on each that has a view of a pad, moves its two sliders to the
-       nearest place. A view may depend on where the other pads stand. */
+    /* A pad: a handle on the first plot, or on each that has a view of a pad, moves its two sliders there,
+       or to the nearest stop. A view may depend on where the other pads stand. */
     const pads = [...demo.querySelectorAll(".vmc-pad")].map((pad) =>
       ({ grid: JSON.parse(pad.dataset.grid), twins: [...pad.querySelectorAll("input")] }));
-    const stand = () => pads.map(({ grid, twins }) => twins.map((twin, i) => grid[i][twin.value]));
+    const stand = () => pads.map(({ grid, twins }) => twins.map((twin, i) => valueAt(grid[i], +twin.value)));
     const same = (place) => place;
     const views = ask.views ?? pads.slice(0, 1).map(() => ({ toView: same, fromView: same }));
     const puts = views.map(({ pad = 0, picture = 0, toView, fromView }) => {
@@ -176,8 +204,8 @@ const vmcDemo = (() => {
       const put = vmcHandle(pictures, (seen) => {
         const place = fromView(seen, stand());
         grid.forEach((values, i) => {
-          const far = values.map((value) => Math.abs(value - place[i]));
-          twins[i].value = far.indexOf(Math.min(...far));
+          if (sliders.includes(twins[i])) twins[i].step = 0.1;
+          twins[i].value = placeOf(values, place[i]);
         });
         twins[0].dispatchEvent(new Event("input", { bubbles: true }));
       }, picture);

@@ -1,0 +1,88 @@
+"""One more draw of the ledger's numbers, where that takes seconds: `DRAWS`, by row.
+
+Each takes a seed and returns numbers by the names that their row gives them; the ledger's own are
+means over such draws.
+"""
+
+import numpy as np
+
+from vmc_lib.cerebellum.offline import broyden_calibration
+from vmc_lib.motor import templates
+from vmc_lib.motor.execution import execute
+from vmc_lib.motor.planning import draw_targets, exact_weights, habitual_weights, nearest, plan
+
+COUNT, MANY = 25, 200  # movements of a draw, as in the paper; and where they are new ones
+HOLDS = {"": 0.0, ", over the hold": templates.HOLD}  # how long the hold is, s
+
+
+def planned_error_ratio(seed, past=None, rule=habitual_weights, number=4, count=COUNT):
+    """The mean miss over the mean reach; of templates `past` the plan mixes a `number`.
+
+    Four are one in each quadrant, any other number the nearest; the paper's reading by default.
+    """
+    past = past or templates.load(hold=0.0)
+    targets = draw_targets(past, count, np.random.default_rng(seed))
+    rows = None if number == 4 else nearest(targets, past.points, number)
+    plans = plan(targets, past, rule, rows)
+    return execute(plans).error.mean() / np.linalg.norm(targets, axis=-1).mean()
+
+
+def worst_example(seed):
+    """The largest miss over its reach, of as many targets as Table IV prints."""
+    past = templates.load(hold=0.0)
+    targets = draw_targets(past, 5, np.random.default_rng(seed))
+    return (execute(plan(targets, past)).error / np.linalg.norm(targets, axis=-1)).max()
+
+
+def _planned(seed):
+    sets = {reading: templates.load(hold=hold) for reading, hold in HOLDS.items()}
+    return {
+        f"planned error over reach{reading}": planned_error_ratio(seed, past, count=MANY)
+        for reading, past in sets.items()
+    }
+
+
+def _few_templates(seed):
+    few, some, many = (
+        planned_error_ratio(seed, templates.load(apart, 0.0)) for apart in (0.08, 0.06, 0.04)
+    )
+    most, least = (planned_error_ratio(seed, number=number) for number in (12, 3))
+    return {
+        "planned error, templates 6 cm apart over 8": some / few,
+        "planned error, templates 4 cm apart over 6": many / some,
+        "planned error, 12 templates combined over 3": most / least,
+    }
+
+
+def _non_linear(seed):
+    numbers = {}
+    for reading, hold in HOLDS.items():
+        past = templates.load(hold=hold)
+        left = planned_error_ratio(seed, past, exact_weights)
+        numbers |= {"miss over reach with exact weights, above rounding": left} if not hold else {}
+        share = 1 - left / planned_error_ratio(seed, past)
+        numbers[f"share of the miss that exact weights remove{reading}"] = share
+    return numbers
+
+
+def _exact(seed):
+    left = planned_error_ratio(seed, rule=exact_weights) / planned_error_ratio(seed)
+    return {"error with exact weights over that with Eq. 5, in the plane": left}
+
+
+def _own_offline(seed):
+    past = templates.load()
+    habit = plan(draw_targets(past, MANY, np.random.default_rng(seed)), past)
+    errors = broyden_calibration(habit, 4).error.mean(axis=1)
+    left = errors / errors[0]
+    return {f"error over planned, own off-line, {k} trials": left[k] for k in (1, 2, 4)}
+
+
+DRAWS = {
+    "Table IV": _planned,
+    "Fig. 9": lambda seed: {"near: miss over reach, worst of five examples": worst_example(seed)},
+    "IV C, templates": _few_templates,
+    "III, Block 3": _non_linear,
+    "Ours, Eq. 5": _exact,
+    "Ours, Table V": _own_offline,
+}
