@@ -21,7 +21,8 @@ def draw(x):
 
 explore(draw, "A line.", x=Slider([0, 1, 3], "x", 1))"""
 TITLE = ".vmc-picture svg"
-FOLDED = """<div class="cell tag_runs-in-page"><details><summary style="padding: 0.5rem">Code</summary>
+FOLDED = """<div class="cell tag_runs-in-page"><details>
+<summary style="padding: 0.5rem">Code</summary>
 <div class="cell_input"><pre>{}</pre></div></details></div>"""
 
 

@@ -46,15 +46,14 @@ def explore(draw, caption, alt=None, in_page=None, **controls):
     `Slider`, a `Pad`, a list of strings (a choice) or `[False, True]` (a switch); a list starts at
     its first. `caption` is Markdown and says what to notice; `alt` describes the picture in words,
     as text or as a function of the same controls; a plot without it describes itself. Returns the
-    demo's `Numbers`, for sentences about what it shows. Raises
-    ValueError for a demo that could not work: more than 200 positions, a control without effect, a
-    start that is no value, an unknown picture.
+    demo's `Numbers`, for sentences about what it shows. Raises ValueError for a demo that could not
+    work: more than 200 positions, a control without effect, an unknown picture.
 
     A demo may have as many positions as it likes if the book's page works them out itself:
-    `in_page` is (name, ground, given). The page's `vmcInPage[name]` draws what `draw` does, by what
-    it is `given` (as JSON takes it), on plots or photos that `ground()` returned; with `views`, it
-    puts a pad's handle on several of them. Or `in_page` is a function that returns these three,
-    called for the book alone. Here a sample is evaluated, along each control.
+    `in_page` is (name, ground, given), or a function that returns these, called for the book alone.
+    The page's `vmcInPage[name]` draws what `draw` does, by what it is `given` (as JSON takes it),
+    on plots or photos that `ground()` returned; with `views`, it puts a pad's handle on several of
+    them. Here a sample is evaluated, along each control.
     """
     controls = {name: as_control(name, spec) for name, spec in controls.items()}
     positions = math.prod(len(control.values) for control in controls.values())
