@@ -94,8 +94,7 @@ def explore(draw, caption, alt=None, in_page=None, **controls):
     for _, parts in states:
         _same_kinds(parts, states[0][1])
     if render_mode() == "book":
-        made = in_page() if callable(in_page) else in_page
-        data = _worked_out(*made, controls, name) if made else _stored(states)
+        data = _worked_out(in_page, controls, name) if in_page else _stored(states)
         display(HTML(_page(*state(_first(controls)), data, caption, controls, name)))
     return Numbers(name, state(_first(controls))[0], texts)
 
@@ -161,10 +160,8 @@ def _face(alt, parts, controls, name):
     for switches, row in itertools.groupby(pairs, lambda pair: isinstance(pair[0][1], Switch)):
         faces = "".join(one.html(f"{name}-{key}", stride) for (key, one), stride in row)
         form += SWITCHES.format(faces) if switches else faces
-    face = [
-        side_by_side(parts, alt),
-        f'<form class="vmc-controls" autocomplete="off">{form}</form>',
-    ]
+    form = f'<form class="vmc-controls" autocomplete="off">{form}</form>'
+    face = [side_by_side(parts, alt), form]
     if "<a " in face[0]:
         face.reverse()  # what chooses among links comes before them
     return "".join([*face, '<p class="vmc-spoken" aria-live="polite"></p>'])
@@ -196,8 +193,9 @@ def _stored(states):
     return {"lines": list(table), "states": rows}
 
 
-def _worked_out(work, ground, given, controls, name):
+def _worked_out(in_page, controls, name):
     """What the page needs to work every state out: see `explore`."""
+    work, ground, given = in_page() if callable(in_page) else in_page
     with plt.rc_context(STYLE):
         grounds = lines(pictures(ground(), name))
     axes = [axis for control in controls.values() for axis in getattr(control, "pair", [control])]
