@@ -23,6 +23,8 @@ PROJECT = PYPROJECT["project"]
 OPTIONAL = PROJECT["optional-dependencies"] | PYPROJECT["dependency-groups"]
 OURS = {"vmc_lib", "arm_in_page", "eye_in_page", "python_in_page", "reproduce", "render"}
 OURS |= {"bench", "book", "kit", "tests", "tools"}
+# Of January 2026: github.com/googlecolab/backend-info, pip-freeze.txt
+COLAB = "ipykernel==6.17.1 ipython==7.34.0 matplotlib==3.10.0 numpy==2.0.2 traitlets==5.7.1"
 PINS = re.findall(
     r"^([\w.\[\]-]+)==([\w.]+)", (ROOT / "requirements.txt").read_text(encoding="utf-8"), flags=re.M
 )
@@ -167,6 +169,13 @@ print(vmc_lib.__file__, photos.load("rig", "test")[0].image.shape, sep="\\n")"""
     assert shape.endswith(", 3)")
 
 
+@pytest.mark.parametrize("release", COLAB.split())
+def test_colab_keeps_what_its_kernel_has_loaded(release):
+    """Or the first cell would ask for a restart: to install is not enough."""
+    name, version = release.split("==")
+    assert version in declared()[name]
+
+
 def test_a_readers_file_may_hide_a_folder_as_readme_says(tmp_path):
     (tmp_path / "book.py").touch()
     script = "try: import book.figures\nexcept ImportError as error: print(error)"
@@ -178,15 +187,16 @@ def test_a_readers_file_may_hide_a_folder_as_readme_says(tmp_path):
 @pytest.mark.parametrize("chapter", ["08_arm", "photos"])
 def test_a_chapter_runs_elsewhere_after_the_lines_of_readme(reader, alone, tmp_path, chapter):
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    lines = r"!git clone .*> (\w+)\n(%cd \1)\n%pip install --quiet \.\n"  # the last: `reader` has
+    lines = r"!git clone .*> (\w+)\n(%cd \1)\n%pip install --quiet -e \.\n"  # for what `reader` has
     [(folder, enter)] = re.findall(lines, readme)
     (tmp_path / folder).symlink_to(reader / "source")
+    used = "import book.figures, vmc_lib\n[*book.__path__, vmc_lib.__file__]"
     notebook = nbformat.read(ROOT / f"book/{chapter}.ipynb", as_version=4)
     notebook.cells.insert(0, nbformat.v4.new_code_cell(enter))
-    notebook.cells.append(nbformat.v4.new_code_cell("import book.figures\n[*book.__path__]"))
+    notebook.cells.append(nbformat.v4.new_code_cell(used))
     nbformat.write(notebook, tmp_path / "chapter.ipynb")
     alone("-m", "nbconvert", "--execute", "--to=notebook", "--inplace", "chapter.ipynb")
     executed = nbformat.read(tmp_path / "chapter.ipynb", as_version=4)
     (output,) = executed.cells[-1].outputs
-    assert "reader" in output.data["text/plain"]
+    assert output.data["text/plain"].count("/source/") == 2
     assert str(ROOT) not in output.data["text/plain"]
