@@ -74,9 +74,9 @@ def sessions(pages):
         timed = [item for item in items if MINUTES_OF.search(item.em.get_text())]
         contents = "".join(f"<li>{article.h1.get_text()}</li>" for article in articles)
         room = (MOST - 2 - len(timed)) // len(names)
-        own = [_lesson(item, articles) for item in timed]
         chapters = [chapter_slides(article, room) for article in articles]
         first = Slide([f"<h1>{escape(title)}</h1><ul>{contents}</ul>"], [runs, *map(copy, notes)])
+        own = [_lesson(item, articles) for item in timed]
         for before, after in pairwise(chapters):
             after.text[0].notes += ["<p>Before it:</p>", *before.recap[0].notes]
         deck = {
