@@ -129,8 +129,9 @@ def test_the_whole_kit_is_built_from_chapters_and_pages(kit):
         "report.ipynb",
         "assistants.html",
     }
+    folders = {"students", "slides", "demos", "arm-in-page"}
     names = {file.name for file in kit.iterdir()}
-    assert names == pages | {"students", "slides", "questions.gift", "questions-qti.zip"}
+    assert names == pages | folders | {"questions.gift", "questions-qti.zip"}
     students = {file.name for file in (kit / "students").glob("*.ipynb")}
     assert students == {path.name for path in CHAPTERS}
     text = (kit / "key.md").read_text(encoding="utf-8")
