@@ -14,6 +14,7 @@ from pathlib import Path
 import yaml
 
 from kit import scorm
+from vmc_lib.show.markup import packed
 
 ROOT = Path(__file__).parents[1]
 CONFIG = yaml.safe_load((ROOT / "_config.yml").read_bytes())
@@ -88,12 +89,15 @@ def read(page):
 def demo_page(chapter, heading, title, figure, static):
     """The figure as a page of its own; `static` is the folder of the built book's scripts."""
     vendored = [name for mark, names in VENDORED.items() if mark in figure for name in names]
-    packed = {name: _packed_file(static / "vendor" / name) for name in vendored}
+    files = {name: _packed_file(static / "vendor" / name) for name in vendored}
     plain = scripts_of(figure, static)
     if given := GIVEN.search(figure):  # an arm starts when this is unpacked
-        packed |= {"given": _pack(given[0]), "start.js": _pack(plain.pop("start.js"))}
+        files |= {
+            "given": packed(given[0].encode()),
+            "start.js": packed(plain.pop("start.js").encode()),
+        }
     figure = re.sub(r"</?a\b[^>]*>", "", GIVEN.sub("", figure))  # what is linked stays in the book
-    scripts = [PACKED.format(name, text) for name, text in packed.items()]
+    scripts = [PACKED.format(name, text) for name, text in files.items()]
     scripts += [f"<script>\n{text}</script>" for text in plain.values()]
     made_by = "; ".join(MADE_BY[name] for name in vendored)
     parts = {
@@ -142,12 +146,7 @@ def _scripts(static):
 
 @cache
 def _packed_file(path):
-    return _pack(path.read_text(encoding="utf-8"))
-
-
-def _pack(text):
-    """A text as gzip in base64, as the page's own `vmcUnzip` reads it."""
-    return base64.b64encode(gzip.compress(text.encode(), mtime=0)).decode()
+    return packed(path.read_bytes())
 
 
 def _words(html):

@@ -10,6 +10,7 @@ import pytest
 
 from kit import demos, scorm
 from tests.pages import BUILT, open_url
+from vmc_lib.show.markup import packed
 
 pytestmark = pytest.mark.browser
 
@@ -26,9 +27,9 @@ def files(folder):
     kinds = {}
     for path in sorted(folder.glob("figure-*.html"), key=lambda path: path.stat().st_size):
         text = path.read_text(encoding="utf-8")
-        packed = re.findall(r'<script type="application/gzip" id="([^"]+)"', text)
+        inside = re.findall(r'<script type="application/gzip" id="([^"]+)"', text)
         mode = re.search('data-mode="[^"]+"', text)
-        kinds[*packed, text.count("<script>"), "vmc-pad" in text, mode and mode[0]] = path
+        kinds[*inside, text.count("<script>"), "vmc-pad" in text, mode and mode[0]] = path
     return list(kinds.values())
 
 
@@ -57,9 +58,9 @@ def test_every_demo_that_moves_is_a_light_file_with_its_source(folder):
 
 def test_a_figure_takes_the_scripts_that_it_needs():
     static = BUILT / "_static"
-    state = demos._pack('{"lines": []}')
+    state = packed(b'{"lines": []}')
     plot = f'<figure class="vmc-demo"><script type="application/gzip">{state}</script></figure>'
-    work = plot.replace(state, demos._pack('{"work":"plan"}'))
+    work = plot.replace(state, packed(b'{"work":"plan"}'))
     plain = set(demos.scripts_of(plot, static))
     assert {"vendored.js", "address.js", "handle.js", "demo.js"} <= plain
     assert not plain & {"scene.js", "in_page_demos.js", "live.js", "grade.js"}

@@ -6,9 +6,7 @@ computed once and travels in the page; in a test (`VMC_RENDER_MODE=test`) one co
 other goes through all its values. In both, every control must matter.
 """
 
-import base64
 import gc
-import gzip
 import itertools
 import json
 import math
@@ -24,6 +22,7 @@ from vmc_lib.show.controls import Slider, Switch, address, as_control
 from vmc_lib.show.data_table import data_tables
 from vmc_lib.show.figures import framed, pictures, side_by_side
 from vmc_lib.show.live import Live, drawing
+from vmc_lib.show.markup import packed
 from vmc_lib.show.numbers import Numbers
 from vmc_lib.show.outputs import Markup, still
 from vmc_lib.show.palette import STYLE
@@ -179,7 +178,8 @@ def _page(alt, parts, data, caption, controls, name, printed):
     """The demo as HTML: its first state to be seen at once, and compressed data for all others."""
     if not _moves(parts, controls):
         return framed(side_by_side(parts, alt), caption, name)
-    data = f'<script type="application/gzip">{_pack(data)}</script>'
+    data = packed(json.dumps(data, separators=(",", ":")).encode())
+    data = f'<script type="application/gzip">{data}</script>'
     return framed(_face(alt, parts, controls, name, printed) + data, caption, name)
 
 
@@ -205,12 +205,6 @@ def _worked_out(in_page, controls, name):
     axes = [axis for control in controls.values() for axis in getattr(control, "pair", [control])]
     grid = [np.asarray(axis.values).tolist() for axis in axes]
     return {"work": work, "grounds": grounds, "given": given, "grid": grid}
-
-
-def _pack(data):
-    """JSON as gzip in base64."""
-    data = json.dumps(data, separators=(",", ":"))
-    return base64.b64encode(gzip.compress(data.encode(), mtime=0)).decode()
 
 
 def _live(state, caption, controls, name):
