@@ -143,7 +143,9 @@ def test_links_of_the_kits_pages_lead_to_files_that_are_there(kit):
     """Each page of words and each deck; the first page leads to all that are read."""
     pages = [*kit.glob("*.html"), *kit.glob("slides/*.html")]
     links = {
-        page: re.findall(r'<a [^>]*href="(?!https?:|#|data:)([^"#]+)', page.read_text("utf-8"))
+        page: re.findall(
+            r'<a [^>]*href="(?!https?:|#|data:)([^"#]+)', page.read_text(encoding="utf-8")
+        )
         for page in pages
     }
     dead = [link for page in pages for link in links[page] if not (page.parent / link).exists()]

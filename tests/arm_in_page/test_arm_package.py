@@ -3,7 +3,6 @@
 import json
 import re
 import shutil
-import subprocess
 
 import numpy as np
 import pytest
@@ -11,6 +10,7 @@ import pytest
 from arm_in_page.live import given
 from kit import arm
 from tests.pages import observe
+from tests.project import run
 from vmc_lib.arm.simulate import simulate
 from vmc_lib.motor import templates
 
@@ -56,15 +56,14 @@ def test_npm_packs_it_and_node_runs_it(package, tmp_path):
     if not (node and npm):
         pytest.skip("there is no Node on this machine")
     copy = shutil.copytree(package, tmp_path / "package")
-    subprocess.run([npm, "pack", "--silent", "--offline"], cwd=copy, check=True)
+    run(npm, "pack", "--silent", "--offline", cwd=copy)
     [tarball] = copy.glob("*.tgz")
     assert tarball.stat().st_size < 3e6
     (installed := tmp_path / "node_modules/arm-in-page").mkdir(parents=True)
     shutil.unpack_archive(tarball, tmp_path / "unpacked", "gztar")
     shutil.copytree(tmp_path / "unpacked/package", installed, dirs_exist_ok=True)
     (tmp_path / "use.js").write_text(USE, encoding="utf-8")
-    ran = subprocess.run([node, "use.js"], cwd=tmp_path, check=True, capture_output=True, text=True)
-    errors, posture = json.loads(ran.stdout)
+    errors, posture = json.loads(run(node, "use.js", cwd=tmp_path))
     assert errors[-1] < errors[0]
     wild = np.tile([0.5, 0, 0, 0.2, 0, 0], (1, 200, 1))
     motion = simulate(wild, templates.START, given()["rest"], engine="mujoco")
