@@ -4,8 +4,6 @@ MuJoCo's WebAssembly build reads the library's own `arm26.xml`; scripts in `stat
 law, planning and calibration, and a test holds them to the Python. Their constants come from here.
 """
 
-import base64
-import gzip
 import itertools
 import json
 from functools import partial
@@ -30,6 +28,7 @@ from vmc_lib.show.arm import arm_scene
 from vmc_lib.show.arm_plane import plane, plane_view
 from vmc_lib.show.figures import framed, pictures, side_by_side
 from vmc_lib.show.live import VENDORED, Live
+from vmc_lib.show.markup import packed
 from vmc_lib.show.outputs import Markup, still
 from vmc_lib.show.palette import STYLE
 from vmc_lib.show.render_mode import STATIC as SHOW
@@ -158,10 +157,9 @@ def first(movement):
 
 def experience(points, knots, steps):
     """Templates as the page takes them: where they end, and the knots (N, …) of their commands."""
-    packed = gzip.compress(np.float32(knots).tobytes(), mtime=0)
     return {
         "points": points.tolist(),
-        "knots": base64.b64encode(packed).decode(),
+        "knots": packed(np.float32(knots).tobytes()),
         "shape": knots.shape,
         "steps": steps,
     }

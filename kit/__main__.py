@@ -11,6 +11,7 @@ import numpy as np
 from markdown_it import MarkdownIt
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 
+from kit import arm, demos
 from kit.bank import templates
 from kit.chapter_questions import chapter_questions
 from kit.gift import gift
@@ -78,6 +79,8 @@ def build(folder, pages):
     (folder / "questions.gift").write_text(gift(questions), encoding="utf-8")
     (folder / "questions-qti.zip").write_bytes(package(questions))
     slides(folder / "slides", pages)
+    demos.build(folder / "demos", pages)
+    arm.build(folder / "arm-in-page")
     (folder / "throws.html").write_text(throws_page(), encoding="utf-8")
     shutil.copy(ROOT / "kit/pages/class.html", folder)
 

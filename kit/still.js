@@ -27,9 +27,15 @@ async (root) => {
 
   for (const demo of article.querySelectorAll("figure.vmc-demo")) {
     if (demo.querySelector(".vmc-live")) continue; // it waits for its reader
-    const shots = [await look(demo)];
+    const shots = [], { printed } = demo.querySelector("form")?.dataset ?? {};
+    for (const state of printed?.split(" ") ?? []) {
+      history.replaceState(null, "", `#${demo.id}?${state}`); // as if a link led there
+      dispatchEvent(new HashChangeEvent("hashchange"));
+      shots.push(await look(demo));
+    }
+    if (!printed) shots.push(await look(demo));
     const slider = demo.querySelector("input[data-stride][type=range]");
-    if (slider) {
+    if (slider && !printed) {
       slider.value = slider.value === slider.max ? 0 : slider.max;
       slider.dispatchEvent(new Event("input", { bubbles: true }));
       shots.push(await look(demo));

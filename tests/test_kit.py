@@ -129,8 +129,9 @@ def test_the_whole_kit_is_built_from_chapters_and_pages(kit):
         "report.ipynb",
         "assistants.html",
     }
+    folders = {"students", "slides", "demos", "arm-in-page"}
     names = {file.name for file in kit.iterdir()}
-    assert names == pages | {"students", "slides", "questions.gift", "questions-qti.zip"}
+    assert names == pages | folders | {"questions.gift", "questions-qti.zip"}
     students = {file.name for file in (kit / "students").glob("*.ipynb")}
     assert students == {path.name for path in CHAPTERS}
     text = (kit / "key.md").read_text(encoding="utf-8")
@@ -142,7 +143,9 @@ def test_links_of_the_kits_pages_lead_to_files_that_are_there(kit):
     """Each page of words and each deck; the first page leads to all that are read."""
     pages = [*kit.glob("*.html"), *kit.glob("slides/*.html")]
     links = {
-        page: re.findall(r'<a [^>]*href="(?!https?:|#|data:)([^"#]+)', page.read_text("utf-8"))
+        page: re.findall(
+            r'<a [^>]*href="(?!https?:|#|data:)([^"#]+)', page.read_text(encoding="utf-8")
+        )
         for page in pages
     }
     dead = [link for page in pages for link in links[page] if not (page.parent / link).exists()]

@@ -15,6 +15,8 @@ from PIL import Image
 from pybtex.database import parse_file
 
 from kit import pdf
+from tests.pages import book_html
+from vmc_lib.show import Slider, demo
 
 ROOT = Path(__file__).parents[1]
 VERSION = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["version"]
@@ -119,6 +121,26 @@ def test_pages_are_printed_as_one_book(chromium, tmp_path):
         assert moments
         assert "0.00" not in moments
         assert sum(map(_links_inside, book)) > 10
+
+
+STILL = (ROOT / "kit/still.js").read_text(encoding="utf-8")
+
+
+@pytest.mark.browser
+def test_paper_shows_a_demo_where_its_author_says(open_page):
+    def show(**more):
+        controls = {"x": Slider([1, 2, 3], "x"), "way": ["left", "right"]}
+        words = "<p>{} {}</p>".format
+        demo.explore(lambda x, way: words(x, way), "c", "a", **controls, **more)
+
+    def declare():
+        show()
+        show(printed=[{"x": 3}, {"way": "right", "x": 2}, {}])
+
+    page = open_page(f"<article>{book_html(demo, declare)}</article>")
+    still = page.evaluate(STILL, "file:///")
+    printed = ["1 left", "3 left", "3 left", "2 right", "1 left"]
+    assert re.findall(r"<p>(\d \w+)</p>", still) == printed
 
 
 @pytest.mark.browser

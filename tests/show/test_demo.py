@@ -145,6 +145,15 @@ def test_the_kinds_of_pictures_may_not_change():
         show(lambda on: Scene() if on else "<p></p>", on=[False, True])
 
 
+def test_what_paper_shows_is_a_place_of_the_controls(shown, book):
+    controls = {"k": Slider([1, 2], "k"), "on": [False, True]}
+    show(printed=[{"k": 2}, {"on": True}], **controls)
+    assert 'data-printed="k=1&amp;on=0 k=0&amp;on=1"' in shown[0].data
+    for wrong in ({"k": 3}, {"j": 1}):
+        with pytest.raises(ValueError, match=r"cannot start at 3|no control is called"):
+            show(printed=[wrong], **controls)
+
+
 def test_labels_are_escaped(shown, book):
     show(k=Slider([1, 2], "a < b & c"), c=["<i>", "&"])
     assert "a &lt; b &amp; c" in shown[0].data

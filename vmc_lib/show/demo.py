@@ -6,9 +6,7 @@ computed once and travels in the page; in a test (`VMC_RENDER_MODE=test`) one co
 other goes through all its values. In both, every control must matter.
 """
 
-import base64
 import gc
-import gzip
 import itertools
 import json
 import math
@@ -20,10 +18,11 @@ import numpy as np
 from IPython.display import HTML, display
 
 from vmc_lib.show.alt_text import alt_text
-from vmc_lib.show.controls import Slider, Switch, as_control
+from vmc_lib.show.controls import Slider, Switch, address, as_control
 from vmc_lib.show.data_table import data_tables
 from vmc_lib.show.figures import framed, pictures, side_by_side
 from vmc_lib.show.live import Live, drawing
+from vmc_lib.show.markup import packed
 from vmc_lib.show.numbers import Numbers
 from vmc_lib.show.outputs import Markup, still
 from vmc_lib.show.palette import STYLE
@@ -39,15 +38,17 @@ SAMPLE = 25  # positions along a control, of a demo that the page works out
 _demos = itertools.count(1)
 
 
-def explore(draw, caption, alt=None, in_page=None, **controls):
+def explore(draw, caption, alt=None, in_page=None, printed=(), **controls):
     """Show what `draw` returns and let the reader move its controls.
 
     `draw(**values)` is a pure function that returns a picture (see `figures`). Each control is a
     `Slider`, a `Pad`, a list of strings (a choice) or `[False, True]` (a switch); a list starts at
     its first. `caption` is Markdown and says what to notice; `alt` describes the picture in words,
-    as text or as a function of the same controls; a plot without it describes itself. Returns the
-    demo's `Numbers`, for sentences about what it shows. Raises ValueError for a demo that could not
-    work: more than 200 positions, a control without effect, an unknown picture.
+    as text or as a function of the same controls; a plot without it describes itself. `printed` is
+    where paper shows it, a list of {control: value} moved from the start; by default there, and
+    with its first slider at its other end. Returns the demo's `Numbers`, for sentences about what
+    it shows. Raises ValueError for a demo that could not work: more than 200 positions, a control
+    without effect, a start that is no value, an unknown picture.
 
     A demo may have as many positions as it likes if the book's page works them out itself:
     `in_page` is (name, ground, given), or a function that returns these, called for the book alone.
@@ -56,6 +57,7 @@ def explore(draw, caption, alt=None, in_page=None, **controls):
     them. Here a sample is evaluated, along each control.
     """
     controls = {name: as_control(name, spec) for name, spec in controls.items()}
+    printed = [address(values, controls) for values in printed]
     positions = math.prod(len(control.values) for control in controls.values())
     if positions > MOST_POSITIONS and not in_page:
         raise ValueError(
@@ -95,7 +97,7 @@ def explore(draw, caption, alt=None, in_page=None, **controls):
         _same_kinds(parts, states[0][1])
     if render_mode() == "book":
         data = _worked_out(in_page, controls, name) if in_page else _stored(states)
-        display(HTML(_page(*state(_first(controls)), data, caption, controls, name)))
+        display(HTML(_page(*state(_first(controls)), data, caption, controls, name, printed)))
     return Numbers(name, state(_first(controls))[0], texts)
 
 
@@ -154,13 +156,14 @@ def _first(controls):
     return sum(control.first * stride for control, stride in pairs)
 
 
-def _face(alt, parts, controls, name):
+def _face(alt, parts, controls, name, printed=()):
     """The pictures, and below them what the script moves them by."""
+    attribute = f' data-printed="{" ".join(printed)}"' if printed else ""
     form, pairs = "", zip(controls.items(), _strides(controls), strict=True)
     for switches, row in itertools.groupby(pairs, lambda pair: isinstance(pair[0][1], Switch)):
         faces = "".join(one.html(f"{name}-{key}", stride) for (key, one), stride in row)
         form += SWITCHES.format(faces) if switches else faces
-    form = f'<form class="vmc-controls" autocomplete="off">{form}</form>'
+    form = f'<form class="vmc-controls" autocomplete="off"{attribute}>{form}</form>'
     face = [side_by_side(parts, alt), form]
     if "<a " in face[0]:
         face.reverse()  # what chooses among links comes before them
@@ -171,12 +174,13 @@ def _moves(parts, controls):
     return controls or any(isinstance(part, Scene) for part in parts)
 
 
-def _page(alt, parts, data, caption, controls, name):
+def _page(alt, parts, data, caption, controls, name, printed):
     """The demo as HTML: its first state to be seen at once, and compressed data for all others."""
     if not _moves(parts, controls):
         return framed(side_by_side(parts, alt), caption, name)
-    data = f'<script type="application/gzip">{_pack(data)}</script>'
-    return framed(_face(alt, parts, controls, name) + data, caption, name)
+    data = packed(json.dumps(data, separators=(",", ":")).encode())
+    data = f'<script type="application/gzip">{data}</script>'
+    return framed(_face(alt, parts, controls, name, printed) + data, caption, name)
 
 
 def _stored(states):
@@ -201,12 +205,6 @@ def _worked_out(in_page, controls, name):
     axes = [axis for control in controls.values() for axis in getattr(control, "pair", [control])]
     grid = [np.asarray(axis.values).tolist() for axis in axes]
     return {"work": work, "grounds": grounds, "given": given, "grid": grid}
-
-
-def _pack(data):
-    """JSON as gzip in base64."""
-    data = json.dumps(data, separators=(",", ":"))
-    return base64.b64encode(gzip.compress(data.encode(), mtime=0)).decode()
 
 
 def _live(state, caption, controls, name):

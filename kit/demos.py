@@ -1,0 +1,153 @@
+"""Demos that travel: each demo of a chapter as one HTML file, and as a SCORM package.
+
+A file holds the figure as its page has it, and of the book's scripts those that the figure needs.
+"""
+
+import base64
+import gzip
+import re
+import shutil
+from functools import cache
+from html import escape, unescape
+from pathlib import Path
+
+import yaml
+
+from kit import scorm
+from vmc_lib.show.markup import packed
+
+ROOT = Path(__file__).parents[1]
+CONFIG = yaml.safe_load((ROOT / "_config.yml").read_bytes())
+SCRIPTS = [name for name, _ in CONFIG["sphinx"]["config"]["html_js_files"]]
+STYLES = ("demo.css", "scene.css", "live.css")
+FIGURE = re.compile(r'<figure class="vmc-demo".*?</figure>', re.S)
+HEADING = re.compile(r'<h[1-3]>(.*?)<a class="headerlink"')
+STARTS = {  # what stands in a figure, and the script that moves it
+    'class="vmc-segmentation"': "segmentation_demo.js",
+    'class="vmc-live"': "start.js",
+    'type="application/gzip"': "demo.js",
+}
+VENDORED = {  # what stands in a figure, and what is fetched for it
+    'class="vmc-scene"': ("meshcat.js", "bones.js"),
+    'class="vmc-live"': ("mujoco.js",),
+    r"\(": ("katex.js",),
+}
+MADE_BY = {
+    "meshcat.js": "MeshCat with three.js (MIT)",
+    "bones.js": "bones of OpenSim's arm26 (CC BY 3.0)",
+    "mujoco.js": "MuJoCo (Apache-2.0)",
+    "katex.js": "KaTeX (MIT)",
+}
+USES = re.compile(r"(?<![\w?)]\.)\bvmc[A-Z]\w*")  # a script's globals that must be there
+MAKES = re.compile(r"\b(vmc[A-Z]\w*)(?:(?:\.\w+)? = |, \(\(\) =>)")  # those it makes, or adds to
+GIVEN = re.compile(r'(?<=<script type="application/json">)[^<]+')  # what an arm has from Python
+PACKED = '<script type="application/gzip" id="{}">{}</script>'
+SOURCE = (
+    "From <cite>{book}</cite>, “{chapter}”. Text and pictures: CC BY 4.0; code: BSD 3-Clause.{rest}"
+)
+LINE = '<iframe src="{name}.html" title="{title}" width="100%" height="700"></iframe>'
+ITEM = (
+    '<li>{title}: <a href="{name}.html">{name}.html</a> ({size:.2f} MB), '
+    '<a href="{name}.zip">{name}.zip</a><br><code>{line}</code></li>'
+)
+
+
+def build(folder, pages):
+    """Write the demos of the chapters, built in the folder `pages`, and a list of them."""
+    folder.mkdir(parents=True)
+    parts = []
+    for path in sorted(pages.glob("[0-9]*.html")):
+        chapter, demos = read(path.read_text(encoding="utf-8"))
+        items = []
+        for name, (heading, figure) in demos.items():
+            title = f"{heading} ({name.replace('figure-', 'Figure ').replace('-', '.')})"
+            page = demo_page(chapter, heading, title, figure, pages.parent / "_static")
+            (folder / f"{name}.html").write_text(page, encoding="utf-8")
+            (folder / f"{name}.zip").write_bytes(scorm.package(name, title, page))
+            line = escape(LINE.format(name=name, title=escape(title)))
+            size = len(page.encode()) / 1e6
+            items += [ITEM.format(title=escape(title), name=name, size=size, line=line)]
+        parts += [f"<h2>{escape(chapter)}</h2>", "<ul>", *items, "</ul>"]
+    page = (ROOT / "kit/pages/demos.html").read_text(encoding="utf-8")
+    (folder / "index.html").write_text(page.replace("{list}", "\n".join(parts)), encoding="utf-8")
+    for name in ("LICENSE", "LICENSE-text", "CREDITS.md"):
+        shutil.copy(ROOT / name, folder)
+
+
+def read(page):
+    """A built page's title, and its demos that move, {name: (heading, figure)}."""
+    headings = [(found.start(), _words(found[1])) for found in HEADING.finditer(page)]
+    demos = {}
+    for found in FIGURE.finditer(page):
+        number = re.search(r"Figure ([\d.]+)</span>", found[0])
+        if number and any(mark in found[0] for mark in STARTS):
+            heading = [words for start, words in headings if start < found.start()][-1]
+            demos[f"figure-{number[1].replace('.', '-')}"] = heading, found[0]
+    return headings[0][1], demos
+
+
+def demo_page(chapter, heading, title, figure, static):
+    """The figure as a page of its own; `static` is the folder of the built book's scripts."""
+    vendored = [name for mark, names in VENDORED.items() if mark in figure for name in names]
+    files = {name: _packed_file(static / "vendor" / name) for name in vendored}
+    plain = scripts_of(figure, static)
+    if given := GIVEN.search(figure):  # an arm starts when this is unpacked
+        files |= {
+            "given": packed(given[0].encode()),
+            "start.js": packed(plain.pop("start.js").encode()),
+        }
+    figure = re.sub(r"</?a\b[^>]*>", "", GIVEN.sub("", figure))  # what is linked stays in the book
+    scripts = [PACKED.format(name, text) for name, text in files.items()]
+    scripts += [f"<script>\n{text}</script>" for text in plain.values()]
+    made_by = "; ".join(MADE_BY[name] for name in vendored)
+    parts = {
+        "title": escape(title),
+        "heading": escape(heading),
+        "figure": figure,
+        "source": SOURCE.format(
+            book=CONFIG["title"],
+            chapter=escape(chapter),
+            rest=f" In this file: {made_by}." if made_by else "",
+        ),
+        "styles": "".join((static / name).read_text(encoding="utf-8") for name in STYLES),
+        "scripts": "\n".join(scripts),
+    }
+    page = (ROOT / "kit/pages/demo.html").read_text(encoding="utf-8")
+    return re.sub(r"\{(\w+)\}", lambda found: parts.get(found[1], found[0]), page)
+
+
+def scripts_of(figure, static):
+    """The book's scripts that a figure needs, {name: text}, in the book's order.
+
+    A script needs those that make the globals it names.
+    """
+    scripts = _scripts(static)
+    without = set() if "vmc-scene" in figure else {"vmcScene", "vmcPanel"}
+    data = re.search(r'<script type="application/gzip">([^<]+)', figure)
+    if not data or not gzip.decompress(base64.b64decode(data[1])).startswith(b'{"work"'):
+        without.add("vmcInPage")
+    needed, asked = set(), [name for mark, name in STARTS.items() if mark in figure]
+    while asked:
+        needed.add(asked[-1])
+        _, _, uses = scripts[asked.pop()]
+        makers = (name for name, (_, makes, _) in scripts.items() if makes & uses - without)
+        asked += [name for name in makers if name not in needed]
+    return {name: text for name, (text, _, _) in scripts.items() if name in needed}
+
+
+@cache
+def _scripts(static):
+    """The book's scripts in its order, {name: (text, globals it makes, globals it needs)}."""
+    texts = {name: (static / name).read_text(encoding="utf-8") for name in SCRIPTS}
+    return {
+        name: (text, {*MAKES.findall(text)}, {*USES.findall(text)}) for name, text in texts.items()
+    }
+
+
+@cache
+def _packed_file(path):
+    return packed(path.read_bytes())
+
+
+def _words(html):
+    return unescape(re.sub("<[^>]*>", "", html)).strip()

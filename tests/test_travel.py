@@ -1,0 +1,207 @@
+"""Demos that travel: one file each, offline, as light as promised; and their SCORM packages."""
+
+import io
+import re
+from statistics import median
+from xml.etree import ElementTree
+from zipfile import ZipFile
+
+import pytest
+
+from kit import demos, scorm
+from tests.pages import BUILT, open_url
+from vmc_lib.show.markup import packed
+
+pytestmark = pytest.mark.browser
+
+
+@pytest.fixture(scope="session")
+def folder(tmp_path_factory):
+    demos.build(made := tmp_path_factory.mktemp("travel") / "demos", BUILT / "book")
+    return made
+
+
+@pytest.fixture(scope="session")
+def files(folder):
+    """The heaviest file of each kind: its scripts, what it has packed, and whether it has a pad."""
+    kinds = {}
+    for path in sorted(folder.glob("figure-*.html"), key=lambda path: path.stat().st_size):
+        text = path.read_text(encoding="utf-8")
+        inside = re.findall(r'<script type="application/gzip" id="([^"]+)"', text)
+        mode = re.search('data-mode="[^"]+"', text)
+        kinds[*inside, text.count("<script>"), "vmc-pad" in text, mode and mode[0]] = path
+    return list(kinds.values())
+
+
+def test_every_demo_that_moves_is_a_light_file_with_its_source(folder):
+    moving = r'class="vmc-(?:live|segmentation)"|<script type="application/gzip">'
+    figures = [
+        figure
+        for page in sorted((BUILT / "book").glob("[0-9]*.html"))
+        for figure in demos.FIGURE.findall(page.read_text(encoding="utf-8"))
+        if re.search(moving, figure)
+    ]
+    files = sorted(folder.glob("figure-*.html"))
+    assert len(files) == len(figures) > 50
+    sizes = [path.stat().st_size for path in files]
+    assert median(sizes) <= 0.5e6
+    assert max(sizes) <= 5e6
+    index = (folder / "index.html").read_text(encoding="utf-8")
+    for path in files:
+        text = path.read_text(encoding="utf-8")
+        assert text.count("<figure") == text.count("<figcaption") == text.count("<h1>") == 1
+        assert re.search(r"<footer>From <cite>.+CC BY 4\.0.+BSD 3-Clause", text)
+        assert 'aria-label="' in text or 'alt="' in text
+        assert f'src="{path.name}"' in index.replace("&quot;", '"')
+        assert (folder / path.name.replace(".html", ".zip")).exists()
+
+
+def test_a_figure_takes_the_scripts_that_it_needs():
+    static = BUILT / "_static"
+    state = packed(b'{"lines": []}')
+    plot = f'<figure class="vmc-demo"><script type="application/gzip">{state}</script></figure>'
+    work = plot.replace(state, packed(b'{"work":"plan"}'))
+    plain = set(demos.scripts_of(plot, static))
+    assert {"vendored.js", "address.js", "handle.js", "demo.js"} <= plain
+    assert not plain & {"scene.js", "in_page_demos.js", "live.js", "grade.js"}
+    assert {"in_page_demos.js", "planning.js", "camera.js"} <= set(demos.scripts_of(work, static))
+    scene = plot.replace("<script", '<div class="vmc-scene"></div><script')
+    scene = demos.scripts_of(scene, static)
+    assert [*scene] == [name for name in demos.SCRIPTS if name in scene]
+    assert {"scene.js", "panel.js", "body.js"} <= set(scene) - plain
+
+
+FIGURE = "document.querySelector('figure')"
+
+
+def test_files_open_offline_and_read_well_in_both_themes(files, offline, serious):
+    assert len(files) > 5
+    for path in files:
+        page = open_url(offline, path.as_uri())
+        if page.locator(".vmc-scene").count():
+            page.wait_for_selector(".vmc-scene canvas")
+        if "\\(" in page.inner_text("main"):
+            page.wait_for_selector("main math")
+        if slider := page.query_selector("input[id][type=range]:not(fieldset[disabled] *)"):
+            seen = page.inner_html("figure")
+            slider.press("Home" if slider.input_value() == slider.get_attribute("max") else "End")
+            page.wait_for_function(f"seen => {FIGURE}.innerHTML !== seen", arg=seen)
+        assert serious(page, "body") == [], path.name
+        assert page.errors == page.failed == [], path.name
+        assert [url for url in page.asked if not url.startswith(("file:", "data:", "blob:"))] == []
+        page.close()
+
+
+def test_colours_follow_the_readers_system(files, window):
+    page = open_url(window(color_scheme="dark"), files[0].as_uri())
+    theme = "document.documentElement.dataset.theme"
+    assert page.evaluate(theme) == "dark"
+    page.emulate_media(color_scheme="light")
+    page.wait_for_function(f"{theme} === 'light'")
+
+
+def test_an_address_opens_a_demo_where_its_link_was_taken(files, offline):
+    plain = [path for path in files if path.stat().st_size < 0.5e6]
+    path = next(path for path in plain if 'type="range"' in path.read_text(encoding="utf-8"))
+    page = open_url(offline, path.as_uri())
+    page.locator("[data-stride][type=range]").first.press("End")
+    link = page.get_attribute(".vmc-link", "href")
+    pictures = page.inner_html(".vmc-pictures")
+    page.close()
+    page = open_url(offline, f"{path.as_uri()}{link}")
+    assert page.inner_html(".vmc-pictures") == pictures
+    page.close()
+
+
+def test_every_arm_starts_in_its_file(files, offline):
+    arms = [path for path in files if path.stat().st_size > 3e6]
+    assert len(arms) > 1
+    for path in arms:
+        page = open_url(offline, path.as_uri())
+        page.locator("[name=main]").click()
+        page.wait_for_selector("[name=main]:text-matches('Pause|Reach')")
+        page.get_by_text(re.compile("is running|misses by")).first.wait_for()
+        assert page.errors == page.failed == []
+        page.close()
+
+
+# ---- SCORM 1.2 ----
+
+CP, ADL = (
+    "{http://www.imsproject.org/xsd/imscp_rootv1p1p2}",
+    "{http://www.adlnet.org/xsd/adlcp_rootv1p2}",
+)
+
+
+def unzip(data):
+    zipped = ZipFile(io.BytesIO(data))
+    return {name: zipped.read(name).decode() for name in zipped.namelist()}
+
+
+def test_a_package_has_the_manifest_that_the_standard_asks_for():
+    files = unzip(scorm.package("figure-1-1", "<A> & B", "<p>Page</html>"))
+    assert scorm.package("a", "A", "") == scorm.package("a", "A", "")
+    assert files["index.html"].startswith("<p>Page<script>")
+    manifest = ElementTree.fromstring(files["imsmanifest.xml"])  # noqa: S314 (our own)
+    assert manifest.tag == f"{CP}manifest"
+    assert re.fullmatch(r"[A-Za-z_][\w.-]*", manifest.get("identifier"))
+    metadata, organizations, resources = manifest
+    assert [(part.tag, part.text) for part in metadata] == [
+        (f"{CP}schema", "ADL SCORM"),
+        (f"{CP}schemaversion", "1.2"),
+    ]
+    [organization] = organizations
+    assert organizations.get("default") == organization.get("identifier")
+    title, item = organization
+    assert [title.text, *(part.text for part in item)] == ["<A> & B"] * 2
+    [resource] = resources
+    assert item.get("identifierref") == resource.get("identifier")
+    assert (resource.get("type"), resource.get(f"{ADL}scormtype")) == ("webcontent", "sco")
+    [file] = resource
+    assert file.get("href") == resource.get("href") == "index.html"
+
+
+PLATFORM = """<!doctype html><script>
+const calls = [], kept = { "cmi.core.lesson_status": "not attempted" };
+var API = {
+  LMSInitialize: (none) => (calls.push(["Initialize", none]), "true"),
+  LMSGetValue: (key) => kept[key],
+  LMSSetValue: (key, value) => (calls.push(["SetValue", key, value]), (kept[key] = value), "true"),
+  LMSCommit: (none) => (calls.push(["Commit", none]), "true"),
+  LMSFinish: (none) => (calls.push(["Finish", none]), "true"),
+};
+</script><iframe src="/index.html" width="900" height="700"></iframe>"""
+
+
+def test_a_platform_hears_of_the_beginning_of_a_move_and_of_the_end(folder, window):
+    index = unzip((folder / "figure-7-2.zip").read_bytes())["index.html"]
+    reader = window()
+    reader.route("http://lms/**", lambda route: route.fulfill(body=index, content_type="text/html"))
+    reader.route(
+        "http://lms/", lambda route: route.fulfill(body=PLATFORM, content_type="text/html")
+    )
+    page = open_url(reader, "http://lms/")
+    demo = page.frame_locator("iframe").locator("[data-ready]")
+    demo.wait_for()
+    status = "cmi.core.lesson_status"
+    begun = [["Initialize", ""], ["SetValue", status, "incomplete"], ["Commit", ""]]
+    assert page.evaluate("calls") == begun
+    demo.locator("input[type=range]").first.press("ArrowRight")
+    demo.locator("input[type=range]").first.press("ArrowRight")
+    moved = [*begun, ["SetValue", status, "completed"], ["Commit", ""]]
+    assert page.evaluate("calls") == moved
+    page.evaluate("document.querySelector('iframe').remove()")
+    assert page.evaluate("calls") == [*moved, ["Finish", ""]]
+    assert page.errors == []
+
+
+def test_a_package_is_silent_without_a_platform(folder, offline, tmp_path):
+    index = unzip((folder / "figure-7-2.zip").read_bytes())["index.html"]
+    (tmp_path / "index.html").write_text(index, encoding="utf-8")
+    (tmp_path / "frame.html").write_text('<iframe src="index.html"></iframe>', encoding="utf-8")
+    page = open_url(
+        offline, (tmp_path / "frame.html").as_uri()
+    )  # of a folder's files none may look into another
+    page.frame_locator("iframe").locator("[data-ready]").wait_for()
+    assert page.errors == []
+    page.close()
