@@ -8,7 +8,7 @@ from vmc_lib.what.cdbn import CDBN
 from vmc_lib.what.crops import crop
 from vmc_lib.what.recogniser import read_outs
 
-VIEWS, SHOTS = 5, 32
+VIEWS, SHOTS, SHUFFLES = 5, 32, 20
 
 
 def drift(photo, box, rng):
@@ -33,10 +33,43 @@ def films(split, rng):
     return np.array(features), np.array([name == "shuttlecock" for _, name, _ in things])
 
 
-def separation(answers, shuttlecock):
-    """The share of answers (n, views) whose sign tells shuttlecocks (n,) from other things.
+def slowest(films):
+    """Directions (d, d) of films (n, views, d), the steadiest first: slow feature analysis."""
+    flat = films.reshape(-1, films.shape[-1])
+    _, size, axes = np.linalg.svd(flat - flat.mean(0), full_matrices=False)
+    even = axes.T / size * np.sqrt(len(flat))  # now all vary alike
+    steps = np.diff(films @ even, axis=1).reshape(-1, len(size))
+    return even @ np.linalg.eigh(steps.T @ steps)[1]
 
-    The better of both readings of the sign counts: chance gives more than a half.
+
+def views_right(answers, shuttlecock):
+    """The share of each thing's views whose sign tells shuttlecocks (n,) from other things, (n,).
+
+    Of answers (n, views); the better of both readings of the sign counts: chance gives more than a
+    half.
     """
-    same = ((answers > 0) == shuttlecock[:, None]).mean()
-    return max(same, 1 - same)
+    same = ((answers > 0) == shuttlecock[:, None]).mean(axis=1)
+    return same if same.mean() >= 0.5 else 1 - same
+
+
+def separation(answers, shuttlecock):
+    """The share of all views (n, views) that `views_right` counts."""
+    return views_right(answers, shuttlecock).mean()
+
+
+def steadiest_right(split="test", shuffles=SHUFFLES, seed=0):
+    """`views_right` of the steadiest unit in films of a split, (n,); and after shuffled lessons.
+
+    It learns from the films of training photos; then, again and again, from the same views in
+    another order, (shuffles, n).
+    """
+    rng = np.random.default_rng(seed)
+    lived, _ = films("train", rng)
+    new, shuttlecock = films(split, rng)
+    flat, shape = lived.reshape(-1, lived.shape[-1]), lived.shape
+    lessons = [lived, *(rng.permutation(flat).reshape(shape) for _ in range(shuffles))]
+    right, *shuffled = (
+        views_right((new - flat.mean(axis=0)) @ slowest(lesson)[:, 0], shuttlecock)
+        for lesson in lessons
+    )
+    return right, np.array(shuffled)

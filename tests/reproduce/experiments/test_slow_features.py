@@ -19,3 +19,13 @@ def test_a_film_passes_over_the_object(rng):
     assert len(film) == slow_features.VIEWS
     np.testing.assert_array_equal(film[len(film) // 2], crop(photo.image, box))
     assert all((view != film[0]).any() for view in film[1:])
+
+
+def test_the_steadiest_direction_is_the_one_that_changes_least(rng):
+    """Of a slow wave and a quick one, mixed: the slow one alone is left, of unit variance."""
+    t = np.arange(200)
+    waves = np.stack([np.sin(t / 20), np.sin(2 * t)], axis=1)
+    films = (waves @ rng.normal(size=(2, 2)))[None]
+    first, second = (films[0] @ slow_features.slowest(films)).T
+    assert abs(np.corrcoef(first, waves[:, 0])[0, 1]) > 0.999
+    assert np.allclose([first.std(), second.std()], 1)

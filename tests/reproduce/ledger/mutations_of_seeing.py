@@ -5,7 +5,7 @@ from functools import partial
 
 import numpy as np
 
-from reproduce.experiments import crbm_ablation, second_layers
+from reproduce.experiments import crbm_ablation, second_layers, slow_features
 from reproduce.ledger import filters, loop, naming
 from reproduce.training import cdbn as training
 from vmc_lib import photos
@@ -96,6 +96,30 @@ def mixes_the_lessons(patch):
     patch.setattr(second_layers, "load_preferences", lambda: np.array(again))
 
 
+def mixes_up_the_films(patch):
+    """A film's views are of any things: nothing is contiguous."""
+    few_films(patch)
+    real = slow_features.films
+
+    def mixed(split, rng):
+        features, kind = real(split, rng)
+        flat = features.reshape(-1, features.shape[-1])
+        new = features if split == "test" else rng.permutation(flat).reshape(features.shape)
+        return new, kind
+
+    patch.setattr(slow_features, "films", mixed)
+
+
+def heeds_what_changes_most(patch):
+    few_films(patch)
+    real = slow_features.slowest
+    patch.setattr(slow_features, "slowest", lambda films: real(films)[:, ::-1])
+
+
+def few_films(patch):
+    patch.setattr(slow_features, "SHOTS", 20)
+
+
 SEEING = {
     "Ours, Fig. 1": [names_the_cup],
     "Fig. 5": [finds_half_the_photos],
@@ -122,4 +146,5 @@ SEEING = {
             for made in (filters.shuffled, at_random)
         ),
     ],
+    "III, Block 1-2, time": [mixes_up_the_films, heeds_what_changes_most],
 }
