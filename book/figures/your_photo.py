@@ -31,6 +31,7 @@ FINDINGS = {
     "camera": "camera",
     "candidates": "candidates",
     "kept": "kept",
+    "followed": "followed",
     "place": "place",
     "planned": "planned miss",
     "calibrated": "calibrated miss",
@@ -56,7 +57,7 @@ def your_photo(example, caption):
         eye = (*SEARCH_SCRIPTS, *SIGHT_SCRIPTS, *PLACE_SCRIPTS)
         scripts = [*VIEWER, *live.SCRIPTS, CANVAS, *eye]
         display(still("A photo, an arm, a table from above.", [scene], NAME))
-        display(Live(page, "vmcYourPhoto", scripts, vendored=vendored))
+        display(Live(page, "vmcLivePhoto", scripts, vendored=vendored))
         sheets = live.STATIC / "live.css", STATIC / "your_photo.css"
         style = "".join(f"<style>{css.read_text(encoding='utf-8')}</style>" for css in sheets)
         display(Markup(style + framed("", caption), caption))
@@ -96,12 +97,14 @@ def _page(example, scene, plot):
     )
     return f"""<div class="vmc-eye" id="{NAME}"><form class="vmc-live-form" autocomplete="off">
 <div><button type="button" name="own">Your photo …</button>
+<button type="button" name="live" hidden>Live</button>
 <button type="button" name="example">Example</button>
 <button type="button" name="main" disabled>Again</button>
 <input type="file" name="file" accept="image/*" aria-label="Your photo" hidden></div>
 <p role="status">Your photo stays on this device. Eye and arm ({size:.0f} MB, part of this book) are
 loaded when you start.</p><fieldset disabled hidden></fieldset>
-<div class="vmc-pictures"><div class="vmc-picture"><svg viewBox="0 0 {WIDTH} {HEIGHT}"
+<div class="vmc-pictures"><div class="vmc-picture"><canvas width="{WIDTH}" height="{HEIGHT}" hidden>
+</canvas><svg viewBox="0 0 {WIDTH} {HEIGHT}"
 width="{WIDTH}" height="{HEIGHT}" fill="none" stroke-width="3" font-size="20" role="img"
 aria-label="A table with a shuttlecock and a sheet of markers."><image width="{WIDTH}"
 height="{HEIGHT}" href="data:image/jpeg;base64,{photo}"/><g></g><g></g><g></g></svg></div>

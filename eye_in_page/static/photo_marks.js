@@ -9,12 +9,20 @@ const vmcPhotoMarks = (() => {
     constructor(svg, { edge, paint }) {
       Object.assign(this, { svg, edge, paint });
       [this.sheet, this.boxes, this.reach] = svg.querySelectorAll("g");
+      this.film = svg.previousElementSibling.getContext("2d");
     }
 
     /* Another photo, at an address, of which nothing is known. */
     show(address) {
+      this.film.canvas.hidden = true;
       this.svg.querySelector("image").setAttribute("href", address);
       for (const layer of [this.sheet, this.boxes, this.reach]) layer.innerHTML = "";
+    }
+
+    /* A frame of a film, in place of the photo. */
+    showFrame(pixels) {
+      this.film.canvas.hidden = false;
+      this.film.putImageData(pixels, 0, 0);
     }
 
     edged(shape, colour, width = 3) {

@@ -89,7 +89,7 @@ const vmcYourPhoto = (() => {
     /* Nothing is known of a new photo, */
     forget() {
       Object.assign(this, { camera: null, sight: null, boxes: [], bearing: 0 });
-      this.tell({ camera: "–", candidates: "–", kept: "–" });
+      this.tell({ camera: "–", candidates: "–", kept: "–", followed: "–" });
       this.box.querySelector(".vmc-boxes").hidden = true;
       this.forgetReach();
       this.rest();
@@ -103,13 +103,17 @@ const vmcYourPhoto = (() => {
       this.form.elements.main.disabled = true;
     }
 
-    showSheet({ markers, camera }) {
+    showSheet(read) {
+      this.drawSheet(read);
+      this.rest();
+    }
+
+    drawSheet({ markers, camera }) {
       const { sheet, table } = this.given, seen = counted(markers.length, "marker");
       this.camera = camera;
       if (!camera) return this.tell({ camera: `unknown: ${seen} seen, ${sheet.fewest} needed` });
       this.photo.drawSheet(vmcEye.sheetOutline(camera, sheet));
       this.tell({ camera: `${(100 * (camera.position[1] - table)).toFixed(0)} cm above the table (${seen})` });
-      this.rest();
     }
 
     showCandidates({ boxes }) {
@@ -149,10 +153,8 @@ const vmcYourPhoto = (() => {
       this.forgetReach();
       this.photo.drawBoxes(this.marks, number);
       this.box.querySelectorAll("button[data-box]").forEach((button, i) => button.setAttribute("aria-pressed", i === number));
-      const { sheet, kinematics } = this.given;
-      if (!this.camera)
-        return this.say(`The camera is unknown, so a box has no place: ${sheet.fewest} markers or more must be seen. ` +
-          "Lay the sheet flat, all of it in the photo and in even light.");
+      const { kinematics } = this.given;
+      if (!this.camera) return this.sayUnknown();
       this.place = vmcEye.locate(this.brain.localiser, this.bare, this.boxes[number], this.camera);
       this.tell({ place: where(this.place) });
       try {
@@ -164,6 +166,11 @@ const vmcYourPhoto = (() => {
         this.rest();
         this.say(`Out of reach: ${error.message}. The hand can be where it is shaded.`);
       }
+    }
+
+    sayUnknown() {
+      this.say(`The camera is unknown, so a box has no place: ${this.given.sheet.fewest} markers or more must be seen. ` +
+        "Lay the sheet flat, all of it in the photo and in even light.");
     }
 
     /* Turn the trunk, plan, move, miss, calibrate, move again. */
@@ -235,13 +242,5 @@ const vmcYourPhoto = (() => {
     return `${far} ${ahead > 0 ? "ahead" : "behind"}, ${aside} ${right > 0 ? "right" : "left"}`;
   };
 
-  const start = (box) => {
-    const photo = new YourPhoto(box);
-    return () => {
-      photo.turn = null; // what runs, ends
-      photo.drawing.view.end();
-    };
-  };
-  if (!self.vmcKernel) document.querySelectorAll(".vmc-eye").forEach(start); // a kernel starts its own
-  return start;
+  return { EYE, YourPhoto, capital, where };
 })();

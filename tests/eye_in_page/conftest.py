@@ -5,8 +5,10 @@ from base64 import b64encode
 import numpy as np
 import pytest
 
+from book.figures import your_photo
 from eye_in_page import brain
 from tests import pages
+from vmc_lib import photos
 
 ASK = """async ([asked, pixels, width, height]) => {
   const data = Uint8ClampedArray.from(atob(pixels), (c) => c.charCodeAt(0));
@@ -27,6 +29,13 @@ def eye_page(chromium, site):
     yield page
     context.close()
     assert page.errors == page.failed == []
+
+
+@pytest.fixture(scope="session")
+def html():
+    """The reader's own photo, in the book."""
+    shot = photos.load(photos.SHEET_LEVEL, "test")[20]
+    return pages.book_html(your_photo, lambda: your_photo.your_photo(shot, "Blue: the sheet."))
 
 
 @pytest.fixture

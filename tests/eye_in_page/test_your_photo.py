@@ -25,11 +25,6 @@ END = "After|Out of reach|The camera is unknown|No shuttlecock|Nothing that look
 
 
 @pytest.fixture(scope="module")
-def html():
-    return pages.book_html(your_photo, lambda: your_photo.your_photo(OURS, "Blue: the sheet."))
-
-
-@pytest.fixture(scope="module")
 def page(eye_page, offline, site, html):
     policy = f'<meta http-equiv="Content-Security-Policy" content="{POLICY}"><title>'
     with pytest.MonkeyPatch.context() as patch:

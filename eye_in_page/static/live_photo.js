@@ -1,0 +1,110 @@
+/* The reader's own camera, live: the stream follows a shuttlecock from frame to frame, and wherever it comes to rest
+   the arm reaches for it (book/figures/your_photo.py). */
+const vmcLivePhoto = (() => {
+  "use strict";
+
+  const { frame } = vmcLive;
+  const { EYE, YourPhoto, capital, where } = vmcYourPhoto;
+
+  const STILL = 700; // ms in one place, after which the arm reaches
+  const NEAR = 0.01, MOVED = 0.02; // m: what is still one place, and what is another
+  const CAMERA = { video: { facingMode: "environment", width: { ideal: 1200 }, height: { ideal: 800 } } };
+  const REFUSED = { NotAllowedError: "that was not allowed", NotFoundError: "there is none" };
+
+  const distance = (a, b) => Math.hypot(...vmcVectors.minus(a, b));
+
+  class LivePhoto extends YourPhoto {
+    constructor(box) {
+      super(box);
+      const { live } = this.form.elements;
+      live.hidden = !navigator.mediaDevices?.getUserMedia; // on a page from an insecure host, say
+      live.addEventListener("click", () => (this.film ? this.stopFilm() : this.startFilm()));
+      document.addEventListener("visibilitychange", () => document.hidden && this.stopFilm());
+    }
+
+    look(picture) {
+      this.stopFilm();
+      return super.look(picture);
+    }
+
+    async startFilm() {
+      const { live } = this.form.elements, video = Object.assign(document.createElement("video"), { muted: true, playsInline: true });
+      live.disabled = true;
+      try {
+        video.srcObject = this.film = await navigator.mediaDevices.getUserMedia(CAMERA);
+        await video.play();
+        this.turn = {}; // what a photo led to, ends
+        this.forget();
+        Object.assign(live, { textContent: "Stop", disabled: false });
+        this.say("Opening the eye …");
+        this.brain = await vmcEye.unpack();
+        await this.followFilm(Object.assign(video, { width: video.videoWidth, height: video.videoHeight }), this.film);
+      } catch (error) {
+        this.stopFilm();
+        live.disabled = false;
+        this.say(`The camera does not serve: ${REFUSED[error.name] ?? error.message}. A photo will do.`);
+      }
+    }
+
+    stopFilm() {
+      this.film?.getTracks().forEach((track) => track.stop());
+      this.film = null;
+      this.form.elements.live.textContent = "Live";
+    }
+
+    /* Frame after frame, until the film stops. */
+    async followFilm(video, film) {
+      const { sheet } = this.given;
+      Object.assign(this, { aimed: null, stay: null });
+      for (let box = null, begun = performance.now(); this.film === film; await frame()) {
+        const eye = vmcLetterbox(video, ...EYE), read = await vmcEye.inPieces(vmcEye.readSheet(eye, sheet, EYE)), { camera } = read;
+        this.bare = camera ? vmcEye.paintOver(eye, vmcEye.sheetOutline(camera, sheet)) : eye;
+        const found = box && camera && (await vmcEye.inPieces(vmcEye.follow(this.brain, this.bare, box, camera)));
+        if (this.film !== film) return;
+        this.photo.showFrame(eye);
+        this.drawSheet(read);
+        if (!camera) this.sayUnknown();
+        else if (found) this.arriveAt((box = found));
+        else box = await this.search(film);
+        this.tell({ followed: `${(-1000 / (begun - (begun = performance.now()))).toFixed(0)} frames/s` });
+      }
+    }
+
+    /* The box of a shuttlecock, wherever it is; or null. */
+    async search(film) {
+      this.say("Looking for a shuttlecock …");
+      const report = (stage, found) => this.film === film && stage !== "sight" && this[`show${capital(stage)}`](found);
+      const { box, summary } = await vmcEye.see(this.brain, this.bare, { camera: this.camera, report });
+      if (this.film === film) this.say(`${capital(summary)}.`);
+      return box;
+    }
+
+    /* A shuttlecock is in a box of this frame: its place is shown while it moves; when it rests, the arm reaches. */
+    arriveAt(box) {
+      const place = vmcEye.locate(this.brain.localiser, this.bare, box, this.camera), now = performance.now();
+      Object.assign(this, { boxes: [box], marks: [{ box, colour: "green" }] });
+      this.photo.drawBoxes(this.marks, 0);
+      if (!(distance(place, this.stay?.place ?? place) < NEAR)) this.stay = null;
+      this.stay ??= { place, since: now };
+      if (this.aimed && distance(place, this.aimed) < MOVED) return;
+      if (this.aimed) this.forgetReach();
+      Object.assign(this, { turn: {}, aimed: null, place });
+      this.tell({ place: where(place) });
+      this.rest();
+      if (now - this.stay.since < STILL) return;
+      this.aimed = place;
+      this.choose(0).catch((error) => this.say(`The arm stopped: ${error.message ?? error}.`));
+    }
+  }
+
+  const start = (box) => {
+    const photo = new LivePhoto(box);
+    return () => {
+      photo.turn = null; // what runs, ends
+      photo.stopFilm();
+      photo.drawing.view.end();
+    };
+  };
+  if (!self.vmcKernel) document.querySelectorAll(".vmc-eye").forEach(start); // a kernel starts its own
+  return start;
+})();

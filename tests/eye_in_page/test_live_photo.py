@@ -1,0 +1,106 @@
+"""The reader's own camera: a shuttlecock is followed, and reached for wherever it comes to rest."""
+
+import re
+from base64 import b64encode
+from io import BytesIO
+
+import cv2
+import numpy as np
+import pytest
+from PIL import Image
+from playwright.sync_api import expect
+
+from tests import pages
+from tests.arm_in_page.controls import readout, status
+from tests.eye_in_page.test_your_photo import OURS, SHOTS
+from tools import browser
+from vmc_lib.boxes import iou, pad_boxes
+
+pytestmark = pytest.mark.browser
+FOLLOW = """return vmcEye.finish(vmcEye.follow(brain, photo, ...asked));"""
+FILM = """navigator.mediaDevices.getUserMedia = async () => {
+  const picture = (self.picture = new Image()), canvas = document.createElement("canvas");
+  Object.assign(canvas, { width: 600, height: 400 });
+  setInterval(() => canvas.getContext("2d").drawImage(picture, 0, 0), 40);
+  return canvas.captureStream();
+};"""
+RESTING = "() => /^After/.test(document.querySelector('[role=status]').textContent)"
+FAKE = "--use-fake-device-for-media-stream --use-fake-ui-for-media-stream".split()
+
+
+def moved(shot, right, down):
+    """A photo whose shuttlecock lies elsewhere, so many pixels away."""
+    [[x0, y0, x1, y1]] = np.int32(np.round(pad_boxes(shot.boxes["shuttlecock"], 0.15)))
+    hole = np.zeros(shot.image.shape[:2], np.uint8)
+    hole[y0:y1, x0:x1] = 255
+    image = cv2.inpaint(shot.image, hole, 5, cv2.INPAINT_TELEA)
+    image[y0 + down : y1 + down, x0 + right : x1 + right] = shot.image[y0:y1, x0:x1]
+    return image
+
+
+def jpeg(image):
+    file = BytesIO()
+    Image.fromarray(image).save(file, "JPEG", quality=95)
+    return file.getvalue()
+
+
+@pytest.mark.parametrize("shot", SHOTS[4::8], ids=lambda shot: shot.name)
+def test_a_box_follows_what_has_moved_in_it_or_beside_it(ask, shot):
+    box = shot.boxes["shuttlecock"]
+    camera = {name: np.asarray(value).tolist() for name, value in vars(shot.camera).items()}
+    for aside in (0.3, 0.7):
+        start = box + aside * np.array([1, 0, 1, 0]) * (box[2] - box[0])
+        assert iou(ask(FOLLOW, [start.tolist(), camera], shot.image), box).item() > 0.6
+    empty = np.full_like(shot.image, 128)
+    assert ask(FOLLOW, [box.tolist(), camera], empty) is None
+
+
+def test_the_arm_reaches_again_for_what_has_been_moved(window, site, html):
+    page = pages.open_html(window(FILM, viewport={"width": 800, "height": 900}), site, html)
+
+    def shows(image):
+        address = f"data:image/jpeg;base64,{b64encode(jpeg(image)).decode()}"
+        page.evaluate("(address) => (picture.src = address)", address)
+
+    page.locator("[name=live]").click()
+    page.wait_for_function("() => self.picture")
+    shows(np.full_like(OURS.image, 128))
+    status(page, "The camera is unknown")
+    shows(OURS.image)
+    status(page, "After")
+    first = readout(page, "place")
+    assert re.fullmatch(r"\d+ frames/s", readout(page, "followed"))
+    for step in range(1, 9):
+        shows(moved(OURS, -6 * step, step))
+    page.wait_for_function(f"() => !({RESTING})()")
+    status(page, "After")
+    assert readout(page, "place") != first
+    page.get_by_role("button", name="Stop").click()
+    page.get_by_role("button", name="Example").click()
+    status(page, "After")
+    assert readout(page, "place") == first
+    assert page.errors == []
+
+
+def test_it_takes_what_the_browsers_camera_shows(chromium, site, html, tmp_path):
+    film = tmp_path / "film.mjpeg"
+    film.write_bytes(jpeg(OURS.image))
+    options = browser.options(browser.find())
+    options["args"] = [*options["args"], *FAKE, f"--use-file-for-fake-video-capture={film}"]
+    films = chromium.browser_type.launch(**options)
+    page = pages.open_html(films.new_context(offline=True), site, html)
+    page.get_by_role("button", name="Live").click()
+    assert "misses by" in status(page, "After")
+    assert page.errors == []
+    films.close()
+
+
+def test_without_a_camera_a_photo_will_do(open_page, html):
+    page = open_page(html)
+    page.get_by_role("button", name="Live").click()
+    assert "A photo will do." in status(page, "The camera does not serve")
+
+
+def test_where_a_page_may_ask_no_camera_there_is_no_button(window, site, html):
+    page = pages.open_html(window("delete Navigator.prototype.mediaDevices;"), site, html)
+    expect(page.locator("[name=live]")).to_be_hidden()
