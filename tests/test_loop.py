@@ -1,12 +1,15 @@
 """The loop: every stage runs for real, and what goes wrong is said."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from scipy.special import logit
 
+from book.figures.loop import describe_end, meets_cup
 from vmc_lib import loop, photos
+from vmc_lib.arm.arm26 import geometry
 from vmc_lib.arm.kinematics import to_world
 from vmc_lib.arm.simulate import simulate
 from vmc_lib.box_selection import (
@@ -18,8 +21,11 @@ from vmc_lib.box_selection import (
     rescore_boxes,
 )
 from vmc_lib.boxes import decode_deltas
+from vmc_lib.camera import TABLE
 from vmc_lib.motor import templates
 from vmc_lib.motor.execution import execute
+from vmc_lib.show import props
+from vmc_lib.show.arm import beyond_wrist
 from vmc_lib.what.recogniser import NameClassifier, Recogniser
 from vmc_lib.what.stream import FLIPS
 from vmc_lib.where.detector import Detections
@@ -52,6 +58,22 @@ def test_the_hand_path_is_in_the_frame_of_the_straight_trunk(model, photo):
     np.testing.assert_array_equal(
         reach.hand(reach.planned), to_world(reach.planned.hand, reach.turn)
     )
+
+
+def test_a_forearm_that_passes_through_the_cup_is_told(model, photo):
+    """The scene shows both a palm's length from where they are; its cup stands where we put it."""
+    reach = loop.reach(model, photo.target)
+    motion, there = reach.calibrated, beyond_wrist(reach.turn)
+    elbow, wrist = to_world(geometry(motion.q[700]).joints[1:], reach.turn)
+    for share, aside, meets in ((0.7, 0.0, True), (0.7, 0.2, False)):
+        foot = elbow + share * (wrist - elbow) - there + [0, 0, aside]
+        foot[1] = TABLE + props.MUG[1] / 2
+        [pixel] = photo.camera.project(foot[None])
+        box = np.concatenate([pixel - 20, pixel + 20])
+        moved = replace(photo, boxes=photo.boxes | {"cup": box})
+        assert np.abs(props.cup_foot(moved) - foot)[[0, 2]].max() < 0.002
+        assert meets_cup(moved, reach, motion) == meets
+        assert ("through the cup" in describe_end(moved, reach, motion)) == meets
 
 
 def test_no_box_has_no_place(model, photo, sight):

@@ -230,6 +230,6 @@ const vmcInPage = (() => {
     },
   ];
 
-  for (const work of [aim, block, line, overlap, trade, votes]) work.between = true; // at any values
+  for (const work of [aim, block, line, overlap, suppression, trade, votes]) work.between = true; // at any values
   return { aim, bells, block, line, overlap, plan, suppression, trade, votes };
 })();

@@ -91,5 +91,5 @@ vmcInPage.margin = (() => {
         plot.mark("words", "ink", plot.head, words, 6),
     ];
   };
-  return Object.assign(margin, { fit });
+  return Object.assign(margin, { fit, between: true });
 })();

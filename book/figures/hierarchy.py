@@ -6,6 +6,7 @@ import numpy as np
 from book.figures.what import grey, lettered, tiles
 from reproduce.experiments.slow_features import separation
 from vmc_lib.show.figures import photo_view
+from vmc_lib.show.markup import data_uri
 from vmc_lib.show.palette import COLOURS
 
 ZOOMS = {"V": 1, "H1": 0.5, "P1": 1, "H2": 1, "P2": 2, "MP2": 4}
@@ -42,6 +43,30 @@ def unit(stack, zoom, column, row, patches, pictures, shuttlecock):
     nine = tiles(patches[k], columns=3, zoom=72 // patches.shape[-1])
     marked = photo_view(image, [(box, "", "orange")], axes=(0.5, 5.5, 2.5, 0.5))
     return marked, lettered(nine, words)
+
+
+def under_shift(crop, layers, shift):
+    """A whitened crop (n, n), shifted (right, down) as a `Pad` says, and two layers' maps of it.
+
+    `layers` is shift -> layer -> (1, K, h, w). What leaves at one side comes in at the other. The
+    maps are P2's strongest and MP2.
+    """
+    size, half, (x, y) = len(crop), len(crop) // 2, np.mod(shift, len(crop))
+    places = [(x - a, y - b) for a in (0, size) for b in (0, size)]
+    axes = f"{-half} {half} {half} {-half} 0 1 1 0"
+    picture = [
+        f'<svg viewBox="0 0 {size} {size}" width="260" data-axes="{axes}"><defs>',
+        f'<image id="shifted-crop" width="{size}" height="{size}" href="',
+        data_uri(np.uint8(255 * grey(crop))),
+        '"/></defs>',
+        *(f'<use href="#shifted-crop" x="{x}" y="{y}"/>' for x, y in places),
+        "</svg>",
+    ]
+    now, before = layers[shift], layers[0, 0]
+    strongest = before["P2"][0].sum((1, 2)).argmax()
+    alike = [np.corrcoef(now[k].ravel(), before[k].ravel())[0, 1] for k in ("P2", "MP2")]
+    maps = tiles([now["P2"][0, strongest], now["MP2"][0, 0]], zoom=4)
+    return "\n".join(picture), lettered(maps, "P2 {:.2f}, MP2 {:.2f} alike".format(*alike))
 
 
 def correlations(by_layer, title):

@@ -10,7 +10,7 @@ from vmc_lib.boxes import iou
 from vmc_lib.loop import RULES
 from vmc_lib.motor.templates import START
 from vmc_lib.show import dot_plot, note
-from vmc_lib.show.arm import EVERY, arm_scene
+from vmc_lib.show.arm import EVERY, arm_scene, beyond_wrist
 from vmc_lib.show.figures import photo_view
 from vmc_lib.show.palette import COLOURS, EDGE, ON_PHOTO
 from vmc_lib.statistics import wilson
@@ -18,7 +18,9 @@ from vmc_lib.statistics import wilson
 SEEING = ("a photo", "candidates", "regions", "after suppression", "names")
 LOOP_STEPS = (*SEEING, "first reach", "calibrated reach")
 TURNED = 500  # ms: by then the trunk has turned
+FOREARM = 0.02  # m, the radius of a forearm that is a rod
 GRASPED = 0.033  # m from the middle of a shuttlecock, as wide as its skirt: a hand closes on it
+THROUGH = " (on its way the forearm passes through the cup: the model feels no things)"
 LOOP_STAGES = (*SEEING, "place", "plan", "off-line", "online")
 
 
@@ -42,8 +44,7 @@ def step_view(photo, sight, reach, step):
 
 def draw_movement(photo, box, reach, motion):
     """The chosen box, the place reached for, the hand on its way and a `lens`; and the arm."""
-    hand = reach.hand(motion)
-    turn = reach.turn * np.minimum(1, np.arange(len(hand)) / TURNED)
+    hand, turn = reach.hand(motion), _turns(reach, motion)
     [place] = photo.camera.project(reach.target[None])
     view = photo_view(photo.image, [(box, "seen", "green")], [(place, "", "green")])
     moving = _moving(photo.camera.project(hand[::EVERY]), "orange")
@@ -58,6 +59,25 @@ def draw_movement(photo, box, reach, motion):
         grasp=np.linalg.norm(end - photo.target) < GRASPED,
         end=(end, motion.speed),
     )
+
+
+def _turns(reach, motion):
+    """How far the trunk has turned (T,), in rad, millisecond by millisecond."""
+    return reach.turn * np.minimum(1, np.arange(len(motion.q)) / TURNED)
+
+
+def meets_cup(photo, reach, motion):
+    """Whether the scene shows the forearm, a rod, within the photo's cup at some moment."""
+    from vmc_lib.arm.arm26 import geometry
+    from vmc_lib.show import props
+
+    moments = zip(motion.q[::EVERY], _turns(reach, motion)[::EVERY], strict=True)
+    rods = np.array([to_world(geometry(q).joints[1:], turn) for q, turn in moments])
+    away = (
+        np.linspace(rods[:, 0], rods[:, 1], 30) - props.cup_foot(photo) - beyond_wrist(reach.turn)
+    )
+    radius, height = np.add(props.MUG, FOREARM)
+    return bool(((np.hypot(away[..., 0], away[..., 2]) < radius) & (away[..., 1] < height)).any())
 
 
 def _moving(places, colour):
@@ -149,6 +169,7 @@ def describe_end(photo, reach, motion):
     return (
         f"the hand ends {seen:.1f} mm from the place seen, {true:.1f} mm from the true one, and "
         f"there it moves at {1000 * motion.speed:.0f} mm/s"
+        f"{THROUGH if meets_cup(photo, reach, motion) else ''}"
     )
 
 

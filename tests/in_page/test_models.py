@@ -12,6 +12,7 @@ from reproduce.experiments import localisation
 from tests.in_page.markup import move, numbers, on, words
 from tests.pages import drag, middle
 from vmc_lib import photos
+from vmc_lib.boxes import nms
 from vmc_lib.show import Pad, Slider, explore
 
 pytestmark = pytest.mark.browser
@@ -57,9 +58,19 @@ def test_boxes_are_suppressed_step_by_step_as_in_python(page, place):
     assert said == f"A photo with labels: {words(seen)[-1]}."
 
 
-def test_the_last_step_leaves_what_suppression_keeps():
-    from vmc_lib.boxes import nms
+def test_the_overlap_allowed_has_any_value(page):
+    box, image = page.locator(".vmc-demo").nth(0), SHOT.image
+    step, overlap = box.get_by_role("slider").all()
+    step.fill("4")
+    for place in np.random.default_rng(3).uniform(0, 80, 20).round(1):
+        overlap.dispatch_event("pointerdown")
+        overlap.fill(str(place))
+        allowed = Slider(ALLOWED, "").value_at(place)
+        drawn = suppression.suppression(image, LIKELY, 4, allowed)
+        assert words(box.locator(".vmc-picture").inner_html())[-1] == words(drawn)[-1]
 
+
+def test_the_last_step_leaves_what_suppression_keeps():
     for overlap in ALLOWED[::10]:
         kept = [best for best, _ in suppression.rounds_of(LIKELY, overlap)]
         assert kept == nms(LIKELY, -np.arange(len(LIKELY)), overlap).tolist()

@@ -40,8 +40,7 @@ def arm_scene(q, activation=6 * (0,), turn=0.0, photo=None, balls=(), grasp=Fals
     motion = {"q": q, "activation": active, "turn": turns, "grasp": closed}
     scene.tell("motion", {name: value.round(4).tolist() for name, value in motion.items()})
     final = turns[-1] or (_turn_for(photo.target) if photo else 0.0)  # before a reach: its own
-    beyond = to_world(BEYOND, final) - to_world(np.zeros(3), final)
-    scene["goal"].set_transform(props.place(beyond))
+    scene["goal"].set_transform(props.place(beyond_wrist(final)))
     if photo:
         props.table(scene["table"], photo)
         props.shuttlecock(scene["goal/shuttlecock"], photo)
@@ -57,6 +56,11 @@ def arm_scene(q, activation=6 * (0,), turn=0.0, photo=None, balls=(), grasp=Fals
                 off = float(np.linalg.norm(np.subtract(place, position)))
                 scene.tell("end", {"off": round(off, 7), "speed": round(float(speed), 7)})
     return scene
+
+
+def beyond_wrist(turn):
+    """From the wrist to what the hand holds (3,), in m, where the trunk has turned."""
+    return to_world(BEYOND, turn) - to_world(np.zeros(3), turn)
 
 
 def _turn_for(place):

@@ -13,6 +13,7 @@ WOOD, CORK, BAND, FEATHERS = 0xC08F5A, 0xE3CFA0, 0x1D4F91, (0xFFFFFF, 0xCDD5DF)
 LENGTH, RIM, BALL = 0.085, 0.033, 0.013  # a shuttlecock: axis, radius of its skirt, of its cork
 # rad, how a lying one's axis rises: the slope of the line that touches the skirt's rim and the ball
 LEAN = np.arctan2(RIM, LENGTH - BALL) - np.arcsin(BALL / np.hypot(LENGTH - BALL, RIM))
+MUG = (0.04, 0.09)  # a cup: radius of its rim, height
 SKIRT = 0.024  # from the cork's tip to where the skirt begins
 VANE = [  # a feather: how far along the axis, and half its width there
     *((SKIRT, 0.001), (0.036, 0.0012), (0.042, 0.0032), (0.06, 0.0052), (0.079, 0.0063)),
@@ -93,17 +94,23 @@ def resting(photo):
     return min(poses, key=off)
 
 
+def cup_foot(photo):
+    """Where the photo's cup stands on the table (3,): its middle is that of its box."""
+    middle = photo.boxes["cup"].reshape(2, 2).astype(int).mean(0)
+    x, _, z = photo.camera.back_project([middle], TABLE + MUG[1] / 2)[0]
+    return np.array([x, TABLE, z])
+
+
 def cup(part, photo):
     """The photo's cup, a mug in the colour that it has there."""
     x0, y0, x1, y1 = photo.boxes["cup"].astype(int)
-    centre = photo.camera.back_project([[(x0 + x1) / 2, (y0 + y1) / 2]], TABLE + 0.045)[0]
     patch = photo.image[(y0 + 2 * y1) // 3 : y1 - 8, (2 * x0 + x1) // 3 : (x0 + 2 * x1) // 3]
     outside, inside = (
-        [(0, 0), (0.037, 0), (0.04, 0.09)],
+        [(0, 0), (0.037, 0), MUG],
         [(0.036, 0.09), (0.034, 0.005), (0, 0.005)],
     )
     part.set_object(lathe([*outside, *inside]), paint(_median_colour(patch)))
-    part.set_transform(place((centre[0], TABLE, centre[2])))
+    part.set_transform(place(cup_foot(photo)))
 
 
 def _table_pixels(photo):
