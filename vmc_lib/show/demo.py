@@ -6,11 +6,8 @@ computed once and travels in the page; in a test (`VMC_RENDER_MODE=test`) one co
 other goes through all its values. In both, every control must matter.
 """
 
-import base64
 import gc
-import gzip
 import itertools
-import json
 import math
 from functools import cache
 from uuid import uuid4
@@ -26,6 +23,7 @@ from vmc_lib.show.figures import framed, pictures, side_by_side
 from vmc_lib.show.live import Live, drawing
 from vmc_lib.show.numbers import Numbers
 from vmc_lib.show.outputs import Markup, still
+from vmc_lib.show.packed import pack_arrays, pack_json
 from vmc_lib.show.palette import STYLE
 from vmc_lib.show.render_mode import STATIC, render_mode
 from vmc_lib.show.scene import SCRIPTS as VIEWER
@@ -39,7 +37,7 @@ SAMPLE = 25  # positions along a control, of a demo that the page works out
 _demos = itertools.count(1)
 
 
-def explore(draw, caption, alt=None, in_page=None, **controls):
+def explore(draw, caption, alt=None, in_page=None, data=None, **controls):
     """Show what `draw` returns and let the reader move its controls.
 
     `draw(**values)` is a pure function that returns a picture (see `figures`). Each control is a
@@ -54,6 +52,9 @@ def explore(draw, caption, alt=None, in_page=None, **controls):
     The page's `vmcInPage[name]` draws what `draw` does, by what it is `given` (as JSON takes it),
     on plots or photos that `ground()` returned; with `views`, it puts a pad's handle on several of
     them. Here a sample is evaluated, along each control.
+
+    `data` are arrays, or dictionaries of them, by the names that the cell has for them: they travel
+    with the book's page, whose Python could not make them, or not soon.
     """
     controls = {name: as_control(name, spec) for name, spec in controls.items()}
     positions = math.prod(len(control.values) for control in controls.values())
@@ -94,8 +95,9 @@ def explore(draw, caption, alt=None, in_page=None, **controls):
     for _, parts in states:
         _same_kinds(parts, states[0][1])
     if render_mode() == "book":
-        data = _worked_out(in_page, controls, name) if in_page else _stored(states)
-        display(HTML(_page(*state(_first(controls)), data, caption, controls, name)))
+        stored = _worked_out(in_page, controls, name) if in_page else _stored(states)
+        stored |= {"data": pack_arrays(data)} if data else {}
+        display(HTML(_page(*state(_first(controls)), stored, caption, controls, name)))
     return Numbers(name, state(_first(controls))[0], texts)
 
 
@@ -175,7 +177,7 @@ def _page(alt, parts, data, caption, controls, name):
     """The demo as HTML: its first state to be seen at once, and compressed data for all others."""
     if not _moves(parts, controls):
         return framed(side_by_side(parts, alt), caption, name)
-    data = f'<script type="application/gzip">{_pack(data)}</script>'
+    data = f'<script type="application/gzip">{pack_json(data)}</script>'
     return framed(_face(alt, parts, controls, name) + data, caption, name)
 
 
@@ -201,12 +203,6 @@ def _worked_out(in_page, controls, name):
     axes = [axis for control in controls.values() for axis in getattr(control, "pair", [control])]
     grid = [np.asarray(axis.values).tolist() for axis in axes]
     return {"work": work, "grounds": grounds, "given": given, "grid": grid}
-
-
-def _pack(data):
-    """JSON as gzip in base64."""
-    data = json.dumps(data, separators=(",", ":"))
-    return base64.b64encode(gzip.compress(data.encode(), mtime=0)).decode()
 
 
 def _live(state, caption, controls, name):
