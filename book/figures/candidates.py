@@ -111,7 +111,7 @@ def proposal_curves(shots, rng):
         windows = sliding_windows(photo.image.shape[:2], rng)
         by_edges = windows[np.argsort(-edge_density(photo.image, windows))]
         lists = candidates(photo), windows, by_edges
-        curves.append([overlap_curve(photo, boxes) for boxes in lists])
+        curves.append([np.float32(overlap_curve(photo, boxes)) for boxes in lists])
     joined = map(np.concatenate, zip(*curves, strict=True))
     return dict(zip(PROPOSALS, joined, strict=True))
 
@@ -126,7 +126,7 @@ def recall_plot(curves, overlap):
     """Recall at an overlap against boxes tried, of what `proposal_curves` returned: a figure."""
     fig, ax = panels(size=(6, 3.4))
     for (name, best), colour in zip(curves.items(), COLOURS.values(), strict=False):
-        share = (best >= overlap).mean(0)
+        share = (best >= np.float32(overlap)).mean(0)
         tried = np.arange(1, len(share) + 1)
         ax.semilogx(tried, share, label=f"{name} {share[-1]:.2f}", color=colour)
     ax.set(xlabel="boxes tried, a photo", ylabel="recall", ylim=(0, 1.02))
