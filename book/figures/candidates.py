@@ -2,7 +2,6 @@
 
 from itertools import compress, product
 
-import cv2
 import numpy as np
 
 from book.figures.panels import panels
@@ -21,6 +20,8 @@ PROPOSALS = ("selective search", "windows", "windows by edges")
 
 def contrasts(image):
     """How much each place differs from its surround in lightness and two colours (h, w, 3)."""
+    import cv2  # not in the page
+
     lab = cv2.cvtColor(photos.as_float(image), cv2.COLOR_RGB2Lab)
     near, far = (cv2.GaussianBlur(lab, (0, 0), s) for s in (8, 60))
     return (near - far) ** 2
