@@ -28,8 +28,8 @@ from vmc_lib.show.arm import arm_scene
 from vmc_lib.show.arm_plane import plane, plane_view
 from vmc_lib.show.figures import framed, pictures, side_by_side
 from vmc_lib.show.live import VENDORED, Live
-from vmc_lib.show.markup import packed
 from vmc_lib.show.outputs import Markup, still
+from vmc_lib.show.packed import pack_bytes
 from vmc_lib.show.palette import STYLE
 from vmc_lib.show.render_mode import STATIC as SHOW
 from vmc_lib.show.render_mode import render_mode
@@ -159,7 +159,7 @@ def experience(points, knots, steps):
     """Templates as the page takes them: where they end, and the knots (N, …) of their commands."""
     return {
         "points": points.tolist(),
-        "knots": packed(np.float32(knots).tobytes()),
+        "knots": pack_bytes(np.float32(knots).tobytes()),
         "shape": knots.shape,
         "steps": steps,
     }

@@ -4,8 +4,6 @@ The build writes it, and a page loads it when its reader first gives a photo: `v
 of it what `brain` returns, arrays as typed arrays.
 """
 
-import base64
-import gzip
 import json
 from dataclasses import asdict
 from functools import cache
@@ -16,6 +14,7 @@ import numpy as np
 from eye_in_page.localiser import localiser
 from vmc_lib import box_selection, camera, data, photos
 from vmc_lib.loop import high_recall_detector
+from vmc_lib.show.packed import pack_bytes
 from vmc_lib.what.stream import FLIPS, STAGES
 from vmc_lib.where.appearance import COLOUR_SPACES, MEASURES
 from vmc_lib.where.selective_search import STRATEGIES
@@ -113,8 +112,8 @@ def script():
         return {"kind": array.dtype.name, "at": at, "length": array.size}
 
     tree = json.dumps(brain(), default=store)
-    packed = base64.b64encode(gzip.compress(bytes(stored), mtime=0)).decode()
-    return f"vmcEye.packed = {json.dumps({'tree': tree, 'arrays': packed})};\n"
+    arrays = pack_bytes(bytes(stored))
+    return f"vmcEye.packed = {json.dumps({'tree': tree, 'arrays': arrays})};\n"
 
 
 def inputs():

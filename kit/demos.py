@@ -14,7 +14,7 @@ from pathlib import Path
 import yaml
 
 from kit import scorm
-from vmc_lib.show.markup import packed
+from vmc_lib.show.packed import pack_bytes
 
 ROOT = Path(__file__).parents[1]
 CONFIG = yaml.safe_load((ROOT / "_config.yml").read_bytes())
@@ -93,8 +93,8 @@ def demo_page(chapter, heading, title, figure, static):
     plain = scripts_of(figure, static)
     if given := GIVEN.search(figure):  # an arm starts when this is unpacked
         files |= {
-            "given": packed(given[0].encode()),
-            "start.js": packed(plain.pop("start.js").encode()),
+            "given": pack_bytes(given[0].encode()),
+            "start.js": pack_bytes(plain.pop("start.js").encode()),
         }
     figure = re.sub(r"</?a\b[^>]*>", "", GIVEN.sub("", figure))  # what is linked stays in the book
     scripts = [PACKED.format(name, text) for name, text in files.items()]
@@ -146,7 +146,7 @@ def _scripts(static):
 
 @cache
 def _packed_file(path):
-    return packed(path.read_bytes())
+    return pack_bytes(path.read_bytes())
 
 
 def _words(html):

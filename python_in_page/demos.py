@@ -10,22 +10,24 @@ from python_in_page.grader import changed, definitions
 from vmc_lib import show
 from vmc_lib.show.controls import Pad, Slider, as_control
 from vmc_lib.show.demo import lines, shown
+from vmc_lib.show.packed import unpack_arrays
 
 mpl.use("svg")
 
 
-def draw(above, book, cell, name, places):
+def draw(above, book, cell, name, places, data=""):
     """What a demo shows where its controls stand, by the chapter's code as the reader has it.
 
     `above` is that code, a text for each cell before the demo's own, and `book` the same as the
-    book has it; `places` are where the sliders and choices stand, by name. The answer holds `laws`,
-    the reader's names that the demo needs; and the lines of its words and `parts`, and its
-    sliders' `texts`, or the `error` that a law of the reader's made.
+    book has it; `places` are where the sliders and choices stand, by name; `data` are the arrays
+    that the page brings, where no law of the reader's is asked for. The answer holds `laws`, the
+    reader's names that the demo needs; and the lines of its words and `parts`, and its sliders'
+    `texts`, or the `error` that a law of the reader's made.
     """
     laws = changed(above, book, cell)
     try:
         with redirect_stdout(StringIO()):
-            demo, controls = prepared(tuple(above), cell)
+            demo, controls, _ = prepared(tuple(above), cell, "" if laws else data)
             words, parts = shown(values=values_at(controls, places), name=name, **demo)
     except Exception as error:
         return {"laws": laws, "error": repr(error)}
@@ -33,17 +35,17 @@ def draw(above, book, cell, name, places):
 
 
 @lru_cache(8)
-def prepared(above, cell):
-    """What `explore` is asked for in a cell: the demo as `shown` takes it, and its controls."""
+def prepared(above, cell, data=""):
+    """What `explore` is asked for in a cell: a demo as `shown` takes it, its controls, its data."""
     asked, errors, kept = [], [], show.explore
 
-    def explore(draw, caption, alt=None, in_page=None, **controls):
+    def explore(draw, caption, alt=None, in_page=None, data=None, **controls):
         controls = {key: as_control(key, one) for key, one in controls.items()}
-        asked.append(({"draw": draw, "alt": alt, "tables": not in_page}, controls))
+        asked.append(({"draw": draw, "alt": alt, "tables": not in_page}, controls, data))
 
     show.explore = explore
     try:
-        names = definitions(above, cell, errors)
+        names = definitions(above, cell, errors, unpack_arrays(data))
         exec(compile(cell, "demo", "exec"), names)  # noqa: S102
     except NameError as error:  # what went wrong above says more
         raise (errors or [error])[-1] from error

@@ -45,14 +45,14 @@ def run(above, typed):
     return said or f"✓ It runs{holds}.", printed[:LONGEST]
 
 
-def definitions(above, typed, errors=None):
+def definitions(above, typed, errors=None, known=None):
     """The names that the lines `typed` need of a chapter's code: no other statement of it runs.
 
     Each runs by itself: where one needs what the page has not, its names are missing, and what it
-    raised is added to `errors`.
+    raised is added to `errors`. What makes names that are `known`, with their values, does not run.
     """
-    names = {"__name__": "__main__"}
-    for statement in needed(above, typed):
+    names = {"__name__": "__main__"} | (known or {})
+    for statement in needed(above, typed, frozenset(known or ())):
         try:
             with redirect_stdout(StringIO()):
                 exec(statement.code, names)  # noqa: S102
@@ -81,17 +81,20 @@ class Statement(NamedTuple):
     source: str
 
 
-def needed(above, typed):
-    """The statements of the code `above`, cell by cell, that the lines `typed` need, in order."""
+def needed(above, typed, known=frozenset()):
+    """The statements of the code `above`, cell by cell, that the lines `typed` need, in order.
+
+    The names that are `known` need none.
+    """
     names, kept = set(), []
     for statement in reversed([*_statements(typed)]):
-        names = _before(statement, _compiled(statement), names)
+        names = _before(statement, _compiled(statement), names) - known
     for statement in reversed([one for lines in above for one in _statements(lines)]):
         code = _compiled(statement)
         if not names & set(code.co_names):  # soon said: most are not needed
             continue
         if names & (set(_names(code, "STORE_NAME")) | _changed(statement)):
-            names = _before(statement, code, names)
+            names = _before(statement, code, names) - known
             kept.append(Statement(code, ast.unparse(statement)))
     return kept[::-1]
 

@@ -5,13 +5,13 @@ From file:// a page can load nothing but classic scripts; in these each file is 
 base64. The build writes them, and a page loads each when its reader first asks for it.
 """
 
-import base64
-import gzip
 import io
 import json
 import re
 import zipfile
 from pathlib import Path
+
+from vmc_lib.show.packed import pack_bytes
 
 ROOT = Path(__file__).parents[1]
 VENDOR = Path(__file__).parent / "vendor"
@@ -62,7 +62,7 @@ NOTICES = {
 def script(name=SCRIPT):
     """A script's text: it adds to `vmcPythonFiles`, {name: the file, gzip in base64}."""
     files = {SCRIPT: running, PLOTS: drawing}[name]()
-    packed = {name: base64.b64encode(_gzip(data)).decode() for name, data in files.items()}
+    packed = {name: pack_bytes(data) for name, data in files.items()}
     merged = f"Object.assign(self.vmcPythonFiles ?? {{}}, {json.dumps(packed)})"
     return f"{NOTICES[name]}self.vmcPythonFiles = {merged};\n"
 
@@ -139,7 +139,3 @@ def _stored(members):
         for name, data in members:
             opened.writestr(zipfile.ZipInfo(name), data)
     return archive.getvalue()
-
-
-def _gzip(data):
-    return gzip.compress(data, mtime=0)

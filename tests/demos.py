@@ -10,8 +10,8 @@ def record():
     """Let `explore` record the demos that it shows from now on."""
     explore = show.explore
 
-    def explore_and_record(draw, caption, alt=None, in_page=None, **controls):
-        numbers = explore(draw, caption, alt, in_page, **controls)
+    def explore_and_record(draw, caption, alt=None, in_page=None, data=None, **controls):
+        numbers = explore(draw, caption, alt, in_page, data, **controls)
         last = {name: demo.as_control(name, spec).values[-1] for name, spec in controls.items()}
 
         def state():

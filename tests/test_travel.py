@@ -10,7 +10,7 @@ import pytest
 
 from kit import demos, scorm
 from tests.pages import BUILT, open_url
-from vmc_lib.show.markup import packed
+from vmc_lib.show.packed import pack_bytes
 
 pytestmark = pytest.mark.browser
 
@@ -58,9 +58,9 @@ def test_every_demo_that_moves_is_a_light_file_with_its_source(folder):
 
 def test_a_figure_takes_the_scripts_that_it_needs():
     static = BUILT / "_static"
-    state = packed(b'{"lines": []}')
+    state = pack_bytes(b'{"lines": []}')
     plot = f'<figure class="vmc-demo"><script type="application/gzip">{state}</script></figure>'
-    work = plot.replace(state, packed(b'{"work":"plan"}'))
+    work = plot.replace(state, pack_bytes(b'{"work":"plan"}'))
     plain = set(demos.scripts_of(plot, static))
     assert {"vendored.js", "address.js", "handle.js", "demo.js"} <= plain
     assert not plain & {"scene.js", "in_page_demos.js", "live.js", "grade.js"}

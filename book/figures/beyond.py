@@ -61,17 +61,16 @@ def reach_in_space(trials, target, trial):
     return scene, note(f"misses by {1000 * trials.error[trial, target]:.1f} mm")
 
 
-def detour(templates, detours, k, key, time):
-    """The hand's path up to a time (s) past ball k of `detours`, by its (route, senses)."""
-    path = detours.paths[key][k, : round(100 * time) + 1]
+def detour(templates, target, ball, via, path, shows_via):
+    """The hand's path (ticks, 2) so far, past a ball to a target, perhaps by a via-point, (2,)."""
     fig, ax = plt.subplots(figsize=(6, 4))
     plane(ax, templates, within=TRIED)
-    ax.add_patch(plt.Circle(detours.balls[k], RADIUS, color=COLOURS["orange"]))
-    if key[0] != "straight":
-        ax.plot(*detours.vias[k], "+", ms=9, color=COLOURS["purple"], gid="via-point")
-    ax.plot(*detours.targets[k], "o", ms=9, mfc="none", color=COLOURS["green"], gid="target")
+    ax.add_patch(plt.Circle(ball, RADIUS, color=COLOURS["orange"]))
+    if shows_via:
+        ax.plot(*via, "+", ms=9, color=COLOURS["purple"], gid="via-point")
+    ax.plot(*target, "o", ms=9, mfc="none", color=COLOURS["green"], gid="target")
     ax.plot(*path.T, color=COLOURS["blue"], gid="path")
     ax.plot(*path[-1], "o", ms=5, color=COLOURS["red"], gid="the hand")
-    nearest = norm_mm(path - detours.balls[k]).min()
+    nearest = norm_mm(path - ball).min()
     ax.set_title(f"the hand came within {nearest:.0f} mm of the ball's middle")
     return fig

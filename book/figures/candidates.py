@@ -2,7 +2,6 @@
 
 from itertools import compress, product
 
-import cv2
 import numpy as np
 
 from book.figures.panels import panels
@@ -21,6 +20,8 @@ PROPOSALS = ("selective search", "windows", "windows by edges")
 
 def contrasts(image):
     """How much each place differs from its surround in lightness and two colours (h, w, 3)."""
+    import cv2  # not in the page
+
     lab = cv2.cvtColor(photos.as_float(image), cv2.COLOR_RGB2Lab)
     near, far = (cv2.GaussianBlur(lab, (0, 0), s) for s in (8, 60))
     return (near - far) ** 2
@@ -111,7 +112,7 @@ def proposal_curves(shots, rng):
         windows = sliding_windows(photo.image.shape[:2], rng)
         by_edges = windows[np.argsort(-edge_density(photo.image, windows))]
         lists = candidates(photo), windows, by_edges
-        curves.append([overlap_curve(photo, boxes) for boxes in lists])
+        curves.append([np.float32(overlap_curve(photo, boxes)) for boxes in lists])
     joined = map(np.concatenate, zip(*curves, strict=True))
     return dict(zip(PROPOSALS, joined, strict=True))
 
@@ -126,7 +127,7 @@ def recall_plot(curves, overlap):
     """Recall at an overlap against boxes tried, of what `proposal_curves` returned: a figure."""
     fig, ax = panels(size=(6, 3.4))
     for (name, best), colour in zip(curves.items(), COLOURS.values(), strict=False):
-        share = (best >= overlap).mean(0)
+        share = (best >= np.float32(overlap)).mean(0)
         tried = np.arange(1, len(share) + 1)
         ax.semilogx(tried, share, label=f"{name} {share[-1]:.2f}", color=colour)
     ax.set(xlabel="boxes tried, a photo", ylabel="recall", ylim=(0, 1.02))

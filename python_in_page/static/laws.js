@@ -78,7 +78,7 @@ const vmcLaws = (() => {
         const [place, draw] = wanted;
         wanted = null;
         try {
-          const found = await vmcPython.ask(["demos", "draw", ...given(), demo.id, places(demo)], say);
+          const found = await vmcPython.ask(["demos", "draw", ...given(), demo.id, places(demo), demo.vmc.data ?? ""], say);
           if (!wanted) show(found, place, draw);
         } catch (error) {
           fail(error.message, place, draw);

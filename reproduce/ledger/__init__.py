@@ -94,15 +94,16 @@ def details(entry):
     title = f"{place}: {entry['claim']} <i>{entry['verdict']}</i></summary>"
     text += f" [The chapter]({entry['chapter']}.ipynb)."
     numbers = f"\n\n{table(heads, rows)}" if rows else ""
-    return f"{title}\n\n{text}{numbers}{measure_again(entry)}\n\n</details>\n"
+    return f"{title}\n\n{text}{numbers}{measure_again(entry['where'])}\n\n</details>\n"
 
 
-def measure_again(entry):
-    """Where an entry's numbers are measured again in the page, as HTML; nothing if that is slow."""
-    if entry["where"] not in one_draw.DRAWS:
+def measure_again(where):
+    """Where a row's numbers are measured again in the page, as HTML; nothing if that is slow."""
+    if where not in one_draw.DRAWS:
         return ""
-    shipped = {q["name"]: result_text(q) for q in entry["quantities"]}
-    given = f'data-where="{entry["where"]}" data-shipped="{escape(json.dumps(shipped))}"'
+    entries = {entry["where"]: entry["quantities"] for entry in load()["rows"]}
+    shipped = escape(json.dumps({q["name"]: result_text(q) for q in entries[where]}))
+    given = f'data-where="{where}" data-shipped="{shipped}"'
     return f'\n\n<form class="vmc-measure" hidden {given}></form>'
 
 

@@ -1,6 +1,5 @@
 """Sliding windows and edge density: baselines for selective search."""
 
-import cv2
 import numpy as np
 
 from vmc_lib.boxes import area, pad_boxes
@@ -40,6 +39,8 @@ def edge_density(image, windows, rim=0.15):
 
     An object has its outline inside its box and little just outside.
     """
+    import cv2  # not in the page
+
     grey = cv2.GaussianBlur(as_float(image).mean(2), (0, 0), 1)
     edges = np.hypot(cv2.Sobel(grey, -1, 1, 0), cv2.Sobel(grey, -1, 0, 1))
     summed = cv2.integral(edges, sdepth=cv2.CV_64F)

@@ -16,6 +16,7 @@ from tests.project import CHAPTERS
 from tests.python_in_page.conftest import ASK
 from vmc_lib.show import Choice
 from vmc_lib.show.data_table import panels
+from vmc_lib.show.packed import pack_arrays
 
 LAWS = {  # by chapter: a change of what the book has; it moves two demos at least
     "04_crbm": ("np.exp(-energies)", "np.exp(energies)"),
@@ -45,25 +46,29 @@ DEMOS = {chapter.stem: list(chapter_demos(chapter.stem)) for chapter in CHAPTERS
 DEMOS = {stem: found for stem, found in DEMOS.items() if found}
 
 
+def sliders(controls):
+    """Its sliders by their names, the twins of its pads among them."""
+    found = {key: one for key, one in controls.items() if isinstance(one, demos.Slider)}
+    for key, pad in controls.items():
+        if isinstance(pad, demos.Pad):
+            found |= {f"{key}-{axis}": one for axis, one in zip("xy", pad.pair, strict=True)}
+    return found
+
+
 def starts(controls):
     """The places where a demo's controls begin."""
-    first = {}
-    for key, one in controls.items():
-        if isinstance(one, demos.Pad):
-            first |= {
-                f"{key}-{axis}": part.first for axis, part in zip("xy", one.pair, strict=True)
-            }
-        else:
-            first[key] = one.first
-    return first
+    first = {key: one.first for key, one in controls.items() if not isinstance(one, demos.Pad)}
+    return first | {key: one.first for key, one in sliders(controls).items()}
 
 
 def between(controls):
-    """Where each slider that can stands half way from one value to the next."""
-    first = starts(controls)
-    for key, one in controls.items():
-        if getattr(one, "continuous", False):
-            yield first | {key: min(first[key], len(one.values) - 2) + 0.5}
+    """Where one slider after the other that can stands at random, and where all do."""
+    rng, first = np.random.default_rng(0), starts(controls)
+    can = {key: one for key, one in sliders(controls).items() if one.continuous}
+    apart = {key: round(rng.uniform(0, len(one.values) - 1), 1) for key, one in can.items()}
+    yield from (first | {key: place} for key, place in apart.items())
+    if len(apart) > 1:
+        yield first | apart
 
 
 def moved(mine, above, cell):
@@ -75,14 +80,13 @@ def moved(mine, above, cell):
     first = starts(controls)
     choices = {k: len(one.values) for k, one in controls.items() if isinstance(one, Choice)}
     places = [first, *(first | {k: n} for k, count in choices.items() for n in range(count))]
-    sliders = {k: one for k, one in controls.items() if isinstance(one, demos.Slider)}
-    places += [first | {k: len(one.values) - 1} for k, one in sliders.items()]
+    places += [first | {k: len(one.values) - 1} for k, one in sliders(controls).items()]
     return next((p for p in places if digest(mine, cell, p) != digest(above, cell, p)), None)
 
 
-def digest(above, cell, places):
+def digest(above, cell, places, data=""):
     """A few numbers that stand for all that a demo's plots show and say, and how many these are."""
-    demo, controls = demos.prepared(tuple(above), cell)
+    demo, controls, _ = demos.prepared(tuple(above), cell, data)
     picture = demo["draw"](**demos.values_at(controls, places))
     shown = panels(picture)
     plt.close("all")
@@ -122,19 +126,20 @@ def with_law(stem, above):
 @pytest.mark.parametrize("stem", DEMOS)
 def test_the_pages_numbers_are_the_notebooks(page, stem):
     for above, cell in DEMOS[stem]:
-        controls = demos.prepared(tuple(above), cell)[1]
-        asked = [(above, cell, place) for place in (starts(controls), *between(controls))]
+        _, controls, data = demos.prepared(tuple(above), cell)
+        data = pack_arrays(data) if data else ""
+        asked = [(above, cell, place, data) for place in (starts(controls), *between(controls))]
         mine = with_law(stem, above)
         if changed(mine, above, cell) and (place := moved(mine, above, cell)):
-            asked.append((mine, cell, place))
-        for code, _, place in asked:
-            answer = page.evaluate(ASK, ["demos", "draw", code, above, cell, "d", place])
+            asked.append((mine, cell, place, ""))
+        for code, _, place, data in asked:
+            answer = page.evaluate(ASK, ["demos", "draw", code, above, cell, "d", place, data])
             assert "error" not in answer, (answer, cell)
         said, printed = page.evaluate(
             ASK, ["grader", "run", [], f"given = {json.dumps(asked)!r}\n{ASKED}"]
         )
         assert said.startswith("✓ It runs"), said
-        ours = [digest(*one) for one in asked]
+        ours = [digest(*one[:3]) for one in asked]
         np.testing.assert_allclose(json.loads(printed), ours, rtol=1e-6, atol=1e-6)
 
 

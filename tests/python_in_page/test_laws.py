@@ -4,6 +4,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests import pages
+from tests.python_in_page.conftest import CELL
 from vmc_lib.show import demo
 
 pytestmark = pytest.mark.browser
@@ -119,6 +120,22 @@ def test_sliders_stand_between_their_stops(open_law, window):
     expect(page.mine.locator(TITLE)).to_contain_text("at 3: 6")
     expect(page.other.get_by_role("button", name="Any value")).to_be_hidden()
     assert page.evaluate("() => document.documentElement.scrollWidth") <= 360
+
+
+def test_arrays_that_the_page_cannot_make_come_with_it(open_page, monkeypatch):
+    made = "import cv2\nimport numpy as np\ntable = cv2.multiply(np.ones(3), 2.0)[:, 0]"
+    lines = DEMO.replace("law(x)", "x + table[0]").replace(
+        "x=Slider", 'data={"table": table}, x=Slider'
+    )
+    shown = pages.displayed(monkeypatch, demo)
+    monkeypatch.setenv("VMC_RENDER_MODE", "book")
+    exec(f"{made}\n{lines}", {})  # noqa: S102
+    cell = f'<div class="cell_input"><pre>{lines}</pre></div>{shown[0].data}'
+    page = open_page(f'{CELL.format(made)}<div class="cell tag_draws-in-page">{cell}</div>')
+    page.evaluate("() => { vmcPython.limit.seconds = 100 }")
+    page.get_by_role("button", name="Any value").click()
+    page.locator(".vmc-demo input").fill("1.5")
+    expect(page.locator(TITLE)).to_contain_text("at 2: 4")
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ import html
 import itertools
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -181,18 +181,6 @@ def radios(name, label, options, chosen, attributes):
         f'<fieldset class="vmc-control"><legend>{html.escape(label)}</legend>'
         f'<div class="vmc-options">{buttons}</div></fieldset>'
     )
-
-
-def address(values, controls):
-    """Where controls stand, as a page's address says it (`address.js`) and as markup.
-
-    Those that `values` ({name: value}) leaves out stand at their start; of pads nothing is said.
-    """
-    if unknown := values.keys() - controls.keys():
-        raise ValueError(f"no control is called {unknown}: there are {list(controls)}")
-    moved = controls | {key: replace(controls[key], start=value) for key, value in values.items()}
-    stand = (f"{key}={one.first}" for key, one in moved.items() if not isinstance(one, Pad))
-    return "&amp;".join(stand)
 
 
 def _markup(attributes):

@@ -8,7 +8,6 @@ other goes through all its values. In both, every control must matter.
 
 import gc
 import itertools
-import json
 import math
 from functools import cache
 from uuid import uuid4
@@ -18,14 +17,22 @@ import numpy as np
 from IPython.display import HTML, display
 
 from vmc_lib.show.alt_text import alt_text
-from vmc_lib.show.controls import Slider, Switch, address, as_control
+from vmc_lib.show.controls import Slider, Switch, as_control
 from vmc_lib.show.data_table import data_tables
 from vmc_lib.show.figures import framed, pictures, side_by_side
 from vmc_lib.show.live import Live, drawing
-from vmc_lib.show.markup import packed
 from vmc_lib.show.numbers import Numbers
 from vmc_lib.show.outputs import Markup, still
+from vmc_lib.show.packed import pack_arrays, pack_json
 from vmc_lib.show.palette import STYLE
+from vmc_lib.show.positions import (
+    address,
+    along,
+    first_position,
+    idle_controls,
+    strides,
+    values_at,
+)
 from vmc_lib.show.render_mode import STATIC, render_mode
 from vmc_lib.show.scene import SCRIPTS as VIEWER
 from vmc_lib.show.scene import Scene
@@ -38,7 +45,7 @@ SAMPLE = 25  # positions along a control, of a demo that the page works out
 _demos = itertools.count(1)
 
 
-def explore(draw, caption, alt=None, in_page=None, printed=(), **controls):
+def explore(draw, caption, alt=None, in_page=None, data=None, printed=(), **controls):
     """Show what `draw` returns and let the reader move its controls.
 
     `draw(**values)` is a pure function that returns a picture (see `figures`). Each control is a
@@ -55,6 +62,9 @@ def explore(draw, caption, alt=None, in_page=None, printed=(), **controls):
     The page's `vmcInPage[name]` draws what `draw` does, by what it is `given` (as JSON takes it),
     on plots or photos that `ground()` returned; with `views`, it puts a pad's handle on several of
     them. Here a sample is evaluated, along each control.
+
+    `data` are arrays, or dictionaries of them, by the names that the cell has for them: they travel
+    with the book's page, whose Python could not make them, or not soon.
     """
     controls = {name: as_control(name, spec) for name, spec in controls.items()}
     printed = [address(values, controls) for values in printed]
@@ -69,10 +79,7 @@ def explore(draw, caption, alt=None, in_page=None, printed=(), **controls):
 
     def state(place):
         """The description and the pictures at a position of the grid."""
-        values = {
-            key: control.values[place // stride % len(control.values)]
-            for (key, control), stride in zip(controls.items(), _strides(controls), strict=True)
-        }
+        values = values_at(place, controls)
         try:
             return shown(draw, values, name, alt, not in_page)
         except Exception as error:
@@ -83,22 +90,21 @@ def explore(draw, caption, alt=None, in_page=None, printed=(), **controls):
     if render_mode() == "live":
         return Numbers(name, _live(state, caption, controls, name), texts)
     state = cache(state)
-    sample = _along(controls, SAMPLE if in_page else MOST_POSITIONS)
+    sample = along(controls, SAMPLE if in_page else MOST_POSITIONS)
     every = sample if in_page else range(positions)
     places = every if render_mode() == "book" else sample
-    idle = _idle(state, places, controls)
-    if idle and places is not every:  # a control may matter only where another has moved
+    if _idle(state, places, controls):  # a control may matter only where another has moved
         places = every
-        idle = _idle(state, places, controls)
-    if idle:
+    if idle := _idle(state, places, controls):
         raise ValueError(f"the control {idle[0].label!r} never changes the picture")
-    states = [state(place) for place in places]
+    start, states = state(first_position(controls)), [state(place) for place in places]
     for _, parts in states:
-        _same_kinds(parts, states[0][1])
+        _same_kinds(parts, start[1])
     if render_mode() == "book":
-        data = _worked_out(in_page, controls, name) if in_page else _stored(states)
-        display(HTML(_page(*state(_first(controls)), data, caption, controls, name, printed)))
-    return Numbers(name, state(_first(controls))[0], texts)
+        stored = _worked_out(in_page, controls, name) if in_page else _stored(states)
+        stored |= {"data": pack_arrays(data)} if data else {}
+        display(HTML(_page(*start, stored, caption, controls, name, printed)))
+    return Numbers(name, start[0], texts)
 
 
 def shown(draw, values, name, alt=None, tables=True):
@@ -115,24 +121,8 @@ def figure(picture, caption, alt=None):
     explore(picture if callable(picture) else lambda: picture, caption, alt)
 
 
-def _along(controls, most):
-    """The places where all controls begin, and where one has moved: at most so many of each."""
-    places = [_first(controls)]
-    for control, stride in zip(controls.values(), _strides(controls), strict=True):
-        steps = range(0, len(control.values), math.ceil(len(control.values) / most))
-        places += [places[0] + (step - control.first) * stride for step in steps]
-    return places
-
-
 def _idle(state, places, controls):
-    """The controls that change no picture: states that differ in one of them alone look alike."""
-    looks = [repr(lines(state(place)[1])) for place in places]
-    idle = []
-    for control, stride in zip(controls.values(), _strides(controls), strict=True):
-        others = [(p // stride // len(control.values), p % stride) for p in places]
-        if len(set(zip(others, looks, strict=True))) == len(set(others)):
-            idle.append(control)
-    return idle
+    return idle_controls([repr(lines(state(place)[1])) for place in places], places, controls)
 
 
 def _same_kinds(parts, others):
@@ -146,20 +136,10 @@ def lines(parts):
     return [part.messages() if isinstance(part, Scene) else part.split("\n") for part in parts]
 
 
-def _strides(controls):
-    """How much each control's place counts in the place of a state: the last moves by one."""
-    return np.cumprod([1, *(len(c.values) for c in reversed(controls.values()))])[-2::-1].tolist()
-
-
-def _first(controls):
-    pairs = zip(controls.values(), _strides(controls), strict=True)
-    return sum(control.first * stride for control, stride in pairs)
-
-
 def _face(alt, parts, controls, name, printed=()):
     """The pictures, and below them what the script moves them by."""
     attribute = f' data-printed="{" ".join(printed)}"' if printed else ""
-    form, pairs = "", zip(controls.items(), _strides(controls), strict=True)
+    form, pairs = "", zip(controls.items(), strides(controls), strict=True)
     for switches, row in itertools.groupby(pairs, lambda pair: isinstance(pair[0][1], Switch)):
         faces = "".join(one.html(f"{name}-{key}", stride) for (key, one), stride in row)
         form += SWITCHES.format(faces) if switches else faces
@@ -178,8 +158,7 @@ def _page(alt, parts, data, caption, controls, name, printed):
     """The demo as HTML: its first state to be seen at once, and compressed data for all others."""
     if not _moves(parts, controls):
         return framed(side_by_side(parts, alt), caption, name)
-    data = packed(json.dumps(data, separators=(",", ":")).encode())
-    data = f'<script type="application/gzip">{data}</script>'
+    data = f'<script type="application/gzip">{pack_json(data)}</script>'
     return framed(_face(alt, parts, controls, name, printed) + data, caption, name)
 
 
@@ -209,7 +188,7 @@ def _worked_out(in_page, controls, name):
 
 def _live(state, caption, controls, name):
     """The same demo in a kernel, and a still of it for when the kernel is gone; its first words."""
-    alt, parts = state(_first(controls))
+    alt, parts = state(first_position(controls))
     if not _moves(parts, controls):
         display(Markup(framed(side_by_side(parts, alt), caption), alt))
         return alt

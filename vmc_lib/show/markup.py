@@ -1,7 +1,6 @@
 """Plots and images as markup that carries everything it needs: SVG with text, `<img>` with data."""
 
 import base64
-import gzip
 import re
 from functools import cache, lru_cache
 
@@ -125,11 +124,6 @@ def image_tag(image):
         f'<img class="vmc-image" alt="" width="{zoom * width}" height="{zoom * height}" '
         f'src="{data_uri(image)}">'
     )
-
-
-def packed(data):
-    """Bytes as gzip in base64, which the page's `vmcUnzip` unpacks."""
-    return base64.b64encode(gzip.compress(data, mtime=0)).decode()
 
 
 def data_uri(image):

@@ -43,10 +43,11 @@ const vmcDemo = (() => {
 
   /* The states that are stored in the page, as a function that gives one to `draw`. */
   const stored = async (demo) => {
-    const data = await vmcUnzip(demo.querySelector("script").textContent).json();
-    if (data.work) return computed(data);
-    const { lines, states } = data;
-    return (place, draw) => draw(states[place].map((places) => places.map((line) => lines[line])));
+    const kept = await vmcUnzip(demo.querySelector("script").textContent).json(), { lines, states, data } = kept;
+    const ask = kept.work
+      ? computed(kept)
+      : (place, draw) => draw(states[place].map((places) => places.map((line) => lines[line])));
+    return Object.assign(ask, { data });
   };
 
   /* The same for states that the page computes: a function of the book, given the values that a place
@@ -130,7 +131,7 @@ const vmcDemo = (() => {
       const exact = Object.fromEntries(sliders.map(({ dataset, value }) => [dataset.stride, +value]));
       demo.vmc.ask(inputs.reduce((sum, i) => sum + at(i) * i.dataset.stride, 0), draw, exact);
     };
-    demo.vmc = { ask, show }; // the page's Python may answer instead
+    demo.vmc = { ask, show, data: ask.data }; // the page's Python may answer instead
 
     /* What the page works out anywhere follows the hand anywhere; keys go from stop to stop. */
     const step = ({ type, target }) => sliders.includes(target) && (target.step = type === "keydown" ? 1 : 0.1);
