@@ -112,7 +112,8 @@ def test_a_session_takes_ninety_minutes_with_a_slide_for_each_part(kit, number):
     assert all(minutes[k] >= 10 and slides[k].select_one(".fit > p") for k in own)
     demos = [k for k, slide in enumerate(slides) if slide.select(".fit .vmc-controls")]
     asked = [k for k in demos if slides[k - 1].select(".fit .vmc-predict")]
-    assert len(asked) >= 4
+    assert len(demos) >= 4
+    assert len(asked) >= 3
     assert all(minutes[k - 1] + minutes[k] >= 4 for k in asked)
     clock = slides[0].select_one(".notes").get_text()
     assert f"In class: from minute 5, slide {own[0] + 1}" in clock
