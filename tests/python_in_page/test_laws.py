@@ -7,7 +7,7 @@ from tests import pages
 from tests.python_in_page.conftest import CELL
 from vmc_lib.show import demo
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("patient")]
 LAW = "def law(x):\n    return 2 * x"
 DEMO = """import matplotlib.pyplot as plt
 from vmc_lib.show import Slider, explore
@@ -25,14 +25,6 @@ TITLE = ".vmc-picture svg"
 FOLDED = """<div class="cell tag_runs-in-page"><details>
 <summary style="padding: 0.5rem">Code</summary>
 <div class="cell_input"><pre>{}</pre></div></details></div>"""
-
-
-@pytest.fixture(autouse=True)
-def patient():
-    """Python takes a while to start."""
-    expect.set_options(timeout=60_000)
-    yield
-    expect.set_options(timeout=5_000)
 
 
 @pytest.fixture(scope="module")
