@@ -8,8 +8,8 @@ from vmc_lib.boxes import iou
 from vmc_lib.loop import VisuomotorModel, see
 from vmc_lib.marker_sheet import remove_sheet
 
-SHEETS = photos.load("sheet", "test")[::7]
-REAL = [*photos.load("real", "test")[::6], photos.everyday()[0]]
+SHEETS = photos.load("sheet", "test")[::4]
+REAL = [*photos.load("real", "test")[::3], photos.everyday()[0]]
 SEE = """const stages = {};
   const report = (stage, { boxes }) => (stages[stage] = boxes);
   const { probability, box, summary } = await vmcEye.see(brain, photo, { camera: asked, report });
