@@ -104,8 +104,10 @@ def markdown_table(*questions):
 def mean_errors(level):
     """Crops of a level named wrong by each read-out of the CDBN, the mean over NETWORK_SEEDS."""
     counts = load_counts()
-    errors = {key: sum(levels[level][1:]) for key, levels in counts.items()}
-    return {name: np.mean([errors[name, seed] for seed in NETWORK_SEEDS]) for name in READ_OUTS}
+    return {
+        name: np.mean([sum(counts[name, seed][level][1:]) for seed in NETWORK_SEEDS])
+        for name in READ_OUTS
+    }
 
 
 def make(exam, folder=photos.FOLDER, trainings=TRAININGS, seeds=NETWORK_SEEDS, patches=PATCHES):
