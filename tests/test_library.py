@@ -17,7 +17,7 @@ FLOORS = (
     ("vmc_lib.where", "vmc_lib.what", "vmc_lib.arm"),
     ("vmc_lib.motor", "vmc_lib.box_selection"),
     ("vmc_lib.cerebellum",),
-    ("vmc_lib.loop",),
+    ("vmc_lib.loop", "reproduce.one_draw"),
     ("vmc_lib.show",),
     ("render", "arm_in_page", "eye_in_page", "python_in_page"),
     ("reproduce.results",),

@@ -4,6 +4,7 @@ import numpy as np
 
 from book.figures.panels import panels
 from book.figures.where import in_corner
+from reproduce import paper
 from reproduce.experiments import fresh_test_set, localisation, real_world
 from vmc_lib.boxes import iou
 from vmc_lib.show import COLOURS, dot_plot, photo_view, table
@@ -126,15 +127,21 @@ def regressed_view(detector, image, thing, corner, rounds):
     return photo_view(image, [(thing, "", "grey"), (box, "", colour), words])
 
 
-def kernel_plot(test, in_sample, measure, printed):
-    """Table I as a dot plot: kernel -> (trainings, 2) on either photos; `printed` by the paper."""
-    part = MEASURES.index(measure)
-    series = {"test": test, "in-sample": in_sample}
+def kernel_plot(level, recipe, measure):
+    """Table I of a level by a recipe, over its trainings: a dot plot.
+
+    The published recipe on the rig is tested on fresh photos, beside what the paper printed.
+    """
+    part, ticks = MEASURES.index(measure), {}
+    test = localisation.table_1(level, "test", recipe)
+    if (level, recipe) == ("rig", "published"):
+        test = fresh_test_set.table_1()
+        ticks = {kernel: paper.TABLE_1[name][part] for kernel, name in PRINTED_NAMES.items()}
+    series = {"test": test, "in-sample": localisation.table_1(level, "train", recipe)}
     series = {
         split: {kernel: draws[:, part] for kernel, draws in rows.items()}
         for split, rows in series.items()
     }
-    ticks = {kernel: printed[name][part] for kernel, name in PRINTED_NAMES.items() if printed}
     return dot_plot(series, measure, ticks, (0, 1.02))
 
 
@@ -151,6 +158,9 @@ def fresh_plot(level, measure):
     """Shares on the fresh test set, and what forty photos would know of them: a dot plot."""
     counts, part = fresh_test_set.load_counts(), MEASURES.index(measure)
     rows = {row: fresh_test_set.rates(*counts[row][level])[part] for row in FRESH_ROWS}
+    if level == "rig":
+        mean = np.mean([counts["IoU", k][level] for k in range(localisation.TRAININGS)], axis=0)
+        rows["published"] = fresh_test_set.rates(*mean)[part]
     few = {row: (share, *wilson(80 * share, 80)) for row, (share, *_) in rows.items()}
     series = {"fresh photos": rows, "40 photos": few}
     return dot_plot(series, f"{measure}, {level}", None, (0, 1.02))

@@ -8,21 +8,45 @@ The answers ship; the photos do not, but the step `fresh_photos` renders them an
 import numpy as np
 
 from reproduce import results
-from reproduce.experiments import recognition
+from reproduce.experiments import hmax_draws, recognition
 from reproduce.experiments.cdbn_sensitivity import SPLITS, VARIATIONS, train_variations
-from reproduce.experiments.localisation import TRAININGS, train_classifiers, true_positives
+from reproduce.experiments.localisation import (
+    TABLE_1_KERNELS,
+    TRAININGS,
+    train_classifiers,
+    true_positives,
+)
 from reproduce.experiments.recognition import confusion_counts
-from reproduce.training.detectors import candidates, labelled_candidates
+from reproduce.training.detectors import candidates, fit_detector, labelled_candidates
 from vmc_lib import photos, show
+from vmc_lib.boxes import MIN_IOU, area, iou
 from vmc_lib.statistics import wilson
 from vmc_lib.what.cdbn import N_W, PATCHES
 from vmc_lib.what.recogniser import READ_OUTS
 from vmc_lib.where.detector import ObjectDetector
-from vmc_lib.where.recipes import RECIPES
+from vmc_lib.where.recipes import PUBLISHED, RECIPES
 
 FRESH = 140  # number of the first photo that had no part in Table I
 KERNELS, DETECTORS = ("linear", "rbf"), ("single", "improved")
 NETWORK_SEEDS = tuple(seed for n_w, seed in VARIATIONS if n_w == N_W)
+CEILING = "candidates"
+
+
+def coverage(boxes, truth):
+    """The share of each true box (m, 4) that each box (n, 4) covers, (n, m)."""
+    sides = np.minimum(boxes[:, None, 2:], truth[:, 2:]) - np.maximum(
+        boxes[:, None, :2], truth[:, :2]
+    )
+    return sides.clip(0).prod(axis=-1) / area(truth)
+
+
+READINGS = {  # how well boxes fit objects, by what "overlapped region" and "properest box" may be
+    "IoU": lambda boxes, truth, every: iou(boxes, truth),
+    "coverage of the truth": lambda boxes, truth, every: coverage(boxes, truth),
+    "the best candidate as truth": lambda boxes, truth, every: iou(
+        boxes, every[iou(every, truth).argmax(axis=0)]
+    ),
+}
 
 
 def load_counts():
@@ -30,7 +54,8 @@ def load_counts():
 
     "linear" and "rbf" are rows of Table I with context, means over as many trainings as there;
     "single" and "improved" of Table II; (read-out, seed) of Table III. (When the exam was held, the
-    published recipe was "single".)
+    published recipe was "single".) Of the published recipe, on the rig: (kernel, seed) of Table I,
+    (reading, seed) of Table II, and as CEILING the objects that have a good candidate.
     """
     kept = results.records("fresh_test_set")
     return {tuple(q) if isinstance(q, list) else q: levels for q, levels in kept}
@@ -44,6 +69,22 @@ def rates(right, wrong, missed):
     """
     totals = right + wrong, right + missed
     return tuple((right / n, *wilson(right, n)) for n in totals)
+
+
+def table_1():
+    """Table I, the published recipe on the rig: kernel -> (trainings, 2), precision and recall."""
+    return {kernel: _by_seed(kernel) for kernel in TABLE_1_KERNELS}
+
+
+def table_2(reading="IoU"):
+    """Table II, likewise, by one of the READINGS: (trainings, 2)."""
+    return _by_seed(reading)
+
+
+def _by_seed(name):
+    counts = load_counts()
+    rows = [rates(*counts[name, seed]["rig"]) for seed in range(TRAININGS)]
+    return np.array([[share for share, *_ in row] for row in rows])
 
 
 def markdown_table(*questions):
@@ -63,8 +104,10 @@ def markdown_table(*questions):
 def mean_errors(level):
     """Crops of a level named wrong by each read-out of the CDBN, the mean over NETWORK_SEEDS."""
     counts = load_counts()
-    errors = {key: sum(levels[level][1:]) for key, levels in counts.items()}
-    return {name: np.mean([errors[name, seed] for seed in NETWORK_SEEDS]) for name in READ_OUTS}
+    return {
+        name: np.mean([sum(counts[name, seed][level][1:]) for seed in NETWORK_SEEDS])
+        for name in READ_OUTS
+    }
 
 
 def make(exam, folder=photos.FOLDER, trainings=TRAININGS, seeds=NETWORK_SEEDS, patches=PATCHES):
@@ -79,7 +122,11 @@ def make(exam, folder=photos.FOLDER, trainings=TRAININGS, seeds=NETWORK_SEEDS, p
         if known & {photo.name for photo in shots}:
             raise ValueError(f"{exam} holds photos that ship, no exam: delete {sorted(known)}")
         fresh = [shot for shot in shots if shot.seed[-1] >= FRESH]
-        answers = kernel_counts(level, fresh, folder, trainings) | detector_counts(level, shots)
+        rows = kernel_counts(level, "context", KERNELS, fresh, folder, trainings)
+        answers = dict(zip(KERNELS, np.mean(rows, axis=0).tolist(), strict=True))
+        answers |= detector_counts(level, shots)
+        if level == "rig":
+            answers |= published_counts(level, fresh, shots, folder, trainings)
         for question, counts in answers.items():
             found.setdefault(question, {})[level] = counts
     trained = train_variations([(N_W, seed) for seed in seeds], folder, exam, patches)
@@ -91,26 +138,58 @@ def make(exam, folder=photos.FOLDER, trainings=TRAININGS, seeds=NETWORK_SEEDS, p
 
 
 def make_names(exam):
-    """What `results/fresh_names.npz` holds: `recognition.probabilities` for the second hundred."""
+    """What `results/fresh_names.npz` holds: `recognition.probabilities` for the second hundred.
+
+    And on the rig those of each draw of HMAX.
+    """
     kept, learnt = {}, recognition.load_classifiers()
     for level in photos.LEVELS:
         shots = [shot for shot in photos.load(level, "test", exam) if shot.seed[-1] >= FRESH]
         found, kept[f"{level}/fresh"] = recognition.probabilities(level, shots, *learnt)
         kept |= {f"{level}/{method}/fresh": chances for method, chances in found.items()}
+        if level == "rig":
+            kept["rig/HMAX draws/fresh"] = hmax_draws.probabilities(shots)
     return kept
 
 
-def kernel_counts(level, shots, folder=photos.FOLDER, trainings=TRAININGS):
-    """The answers of Table I's kernels on photos of a level."""
-    x, truth = labelled_candidates(shots, RECIPES["context"])
-    counts = [
+def kernel_counts(level, name, kernels, shots, folder=photos.FOLDER, trainings=TRAININGS):
+    """The answers of Table I's kernels, with the recipe `name`, on photos of a level.
+
+    (trainings, kernels, 3), as lists.
+    """
+    x, truth = labelled_candidates(shots, RECIPES[name])
+    return [
         [
             confusion_counts(svm.score(x), truth, threshold)[:3]
-            for svm, threshold in train_classifiers(level, "context", KERNELS, seed, folder)
+            for svm, threshold in train_classifiers(level, name, kernels, seed, folder)
         ]
         for seed in range(trainings)
     ]
-    return dict(zip(KERNELS, np.mean(counts, axis=0).tolist(), strict=True))
+
+
+def published_counts(level, fresh, shots, folder=photos.FOLDER, trainings=TRAININGS):
+    """The answers of the published recipe: Table I on `fresh` photos, Table II on `shots`."""
+    rows = kernel_counts(level, "published", TABLE_1_KERNELS, fresh, folder, trainings)
+    found = {
+        (kernel, seed): rows[seed][k]
+        for k, kernel in enumerate(TABLE_1_KERNELS)
+        for seed in range(trainings)
+    }
+    truth = [np.array(list(photo.boxes.values())) for photo in shots]
+    every, lessons = list(map(candidates, shots)), photos.load(level, "train", folder)
+    for seed in range(trainings):
+        detector = fit_detector(lessons, PUBLISHED, np.random.default_rng(seed))
+        kept = [detector.detect(p.image, b).boxes for p, b in zip(shots, every, strict=True)]
+        for reading, fit in READINGS.items():
+            found[reading, seed] = _box_counts(map(fit, kept, truth, every))
+    return found | {CEILING: _box_counts(map(iou, every, truth))}
+
+
+def _box_counts(fits):
+    """Objects reached, wrong boxes and objects missed, by how well boxes fit, photo by photo."""
+    good = [fit >= MIN_IOU for fit in fits]
+    right, reached = (np.concatenate([pairs.any(axis) for pairs in good]) for axis in (1, 0))
+    return tuple(map(int, (reached.sum(), (~right).sum(), (~reached).sum())))
 
 
 def detector_counts(level, shots):

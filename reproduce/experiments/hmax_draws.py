@@ -11,6 +11,7 @@ from reproduce.results import arrays
 from reproduce.training.name_classifier import fit_name_classifier, labelled_crops
 from vmc_lib import photos
 from vmc_lib.what.cdbn import crops_of
+from vmc_lib.what.recogniser import NameClassifier
 
 SIZE, DRAWS = 10, 25  # prototypes of a draw, as in the paper; all draws
 
@@ -43,9 +44,24 @@ def make(folder=photos.FOLDER, draws=DRAWS):
     }
 
 
+def probabilities(shots):
+    """What each draw's classifier, as it ships, says of the true boxes in photos, (draws, n)."""
+    from reproduce.peers.hmax import hmax  # as `make` does
+
+    kept, (crops, _) = arrays("hmax_draws"), crops_of(shots)
+    draws = draws_of(hmax(crops, arrays("recognition")["prototypes"]))
+    linear = zip(kept["w"], kept["b"], draws, strict=True)
+    return np.array([NameClassifier(w, b).probability(x) for w, b, x in linear])
+
+
 def load_called(split):
-    """Which true boxes of a split each draw calls shuttlecocks, (draws, n)."""
-    return arrays("hmax_draws")[split] > 0.5
+    """Which true boxes of a split each draw calls shuttlecocks, (draws, n).
+
+    The split "fresh" is of the rig's photos that were rendered when all was settled.
+    """
+    fresh = split == "fresh"
+    kept = arrays("fresh_names")["rig/HMAX draws/fresh"] if fresh else arrays("hmax_draws")[split]
+    return kept > 0.5
 
 
 def error_counts(split):

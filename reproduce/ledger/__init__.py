@@ -63,11 +63,19 @@ def value(where, name):
 
 
 def verdict_counts(entries):
-    """How many rows and quantities have each verdict, as a Markdown table."""
+    """How many rows and quantities have each verdict, as a Markdown table.
+
+    And of how many quantities the paper claims only that they are more, or less, than something.
+    """
     rows = [entry["verdict"] for entry in entries]
-    numbers = [q["verdict"] for entry in entries for q in entry["quantities"]]
-    lines = [[f"*{v}*", rows.count(v), numbers.count(v)] for v in VERDICTS]
-    return table(["verdict", "rows", "numbers"], [*lines, ["together", len(rows), len(numbers)]])
+    numbers, limits = (
+        [q["verdict"] for entry in entries for q in entry["quantities"] if q["bound"] or not only]
+        for only in (False, True)
+    )
+    lists = rows, numbers, limits
+    lines = [[f"*{v}*", *(found.count(v) for found in lists)] for v in VERDICTS]
+    heads = ["verdict", "rows", "numbers", "of these, only > or <"]
+    return table(heads, [*lines, ["together", *map(len, lists)]])
 
 
 def anchor(where):

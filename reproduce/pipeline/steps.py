@@ -209,7 +209,7 @@ STEPS = (
     Step(
         partial(fresh_test_set.make_names, FRESH),
         RESULTS / "fresh_names.npz",
-        f"recognition {SHIPPED}",
+        f"recognition hmax_draws {SHIPPED}",
         5,
         needs="fresh_photos",
     ),

@@ -7,14 +7,24 @@ from reproduce.experiments import fresh_test_set, localisation
 from vmc_lib import photos
 from vmc_lib.what.recogniser import READ_OUTS
 
+PUBLISHED = {  # what is asked of the published recipe, on the rig alone
+    fresh_test_set.CEILING,
+    *product(
+        (*localisation.TABLE_1_KERNELS, *fresh_test_set.READINGS), range(localisation.TRAININGS)
+    ),
+}
+
 
 def test_counts_cover_two_hundred_photos_a_level():
-    assert set(fresh_test_set.load_counts()) == {
+    counts = fresh_test_set.load_counts()
+    assert set(counts) == PUBLISHED | {
         *fresh_test_set.KERNELS,
         *fresh_test_set.DETECTORS,
         *product(READ_OUTS, fresh_test_set.NETWORK_SEEDS),
     }
-    for question, levels in fresh_test_set.load_counts().items():
+    for question, levels in counts.items():
+        if question in PUBLISHED:
+            continue
         assert list(levels) == list(photos.LEVELS)
         for level, (right, _, missed) in levels.items():
             if question in fresh_test_set.DETECTORS:  # a cup and a shuttlecock a photo
@@ -25,15 +35,32 @@ def test_counts_cover_two_hundred_photos_a_level():
                 assert right + missed == sum(fresh_test_set.load_counts()["rbf"][level][::2]) > 200
 
 
+def test_published_recipe_is_tested_on_the_same_photos_by_every_training():
+    counts = fresh_test_set.load_counts()
+    for name, seed in PUBLISHED - {fresh_test_set.CEILING}:
+        (right, _, missed), of = counts[name, seed]["rig"], counts[name, 0]["rig"]
+        assert list(counts[name, seed]) == ["rig"]
+        assert right + missed == of[0] + of[2]
+        assert (right + missed == 400) == (name in fresh_test_set.READINGS)  # objects; candidates
+    assert sum(counts[fresh_test_set.CEILING]["rig"][::2]) == 400
+
+
 def test_fresh_counts_of_shipped_photos_equal_the_tables():
     """Put to the photos that ship, its questions get the tables' answers: of the first training."""
     shots = photos.load("rig", "test")
-    counts = fresh_test_set.kernel_counts("rig", shots, trainings=1)
+    (rows,) = fresh_test_set.kernel_counts(
+        "rig", "context", fresh_test_set.KERNELS, shots, trainings=1
+    )
+    counts = dict(zip(fresh_test_set.KERNELS, rows, strict=True))
     counts |= fresh_test_set.detector_counts("rig", shots)
+    counts |= fresh_test_set.published_counts("rig", shots, shots, trainings=1)
+    objects = counts.pop(fresh_test_set.CEILING)
+    assert objects[0] + objects[2] == 2 * len(shots)
     kernels = localisation.table_1("rig", "test", "context")
     tables = {kernel: rows[0] for kernel, rows in kernels.items()}
     tables |= localisation.table_2("rig", "test")
-    for question, numbers in counts.items():
+    for question in tables.keys() & counts.keys():
+        numbers = counts[question]
         shares = [share for share, *_ in fresh_test_set.rates(*numbers)]
         assert shares == pytest.approx(tables[question], abs=0.02)
 

@@ -126,7 +126,9 @@ def test_the_page_shows_every_row_and_every_number():
     page, lines = claims(ALL, ALL), ledger.verdict_counts(entries).splitlines()
     assert list(page) == list(ledger.PARTS)
     drawn = {line.address: (line.name, len(line.marks)) for part in page.values() for line in part}
-    assert lines[-1].replace(" ", "") == f"|together|{len(entries)}|{len(NUMBERS)}|"
+    limits = sum(q["bound"] for q in NUMBERS)
+    together = f"|together|{len(entries)}|{len(NUMBERS)}|{limits}|"
+    assert lines[-1].replace(" ", "") == together
     assert len(drawn) == len(entries)
     for one in entries:
         compared = [q for q in one["quantities"] if q["verdict"] != NOT_COMPARED]

@@ -70,7 +70,7 @@ def test_toy_experiments_give_shares_and_counts(toy):
     scenarios = results.records("movements", toy)
     assert all(np.isfinite(x).all() for part in scenarios.values() for x in part.values())
     questions = {str(question) for question, _ in results.records("fresh_test_set", toy)}
-    assert {"linear", "improved", "['MP2', 0]"} < questions
+    assert {"linear", "improved", "['MP2', 0]", "['linear', 0]", "['IoU', 0]"} < questions
     (row,) = results.records("ledger", toy)["rows"]
     assert row["verdict"] in VERDICTS
 
