@@ -61,12 +61,17 @@ def reach_in_space(trials, target, trial):
     return scene, note(f"misses by {1000 * trials.error[trial, target]:.1f} mm")
 
 
-def detour(templates, target, ball, via, path, shows_via):
-    """The hand's path (ticks, 2) so far, past a ball to a target, perhaps by a via-point, (2,)."""
+def detour(templates, places, ways, reach, route, senses, time):
+    """The hand's path up to a time (s), past a ball, by a route and with senses.
+
+    `places` are target, ball and via-point, reach -> (3, 2); `ways` paths, name -> (n, ticks, 2).
+    """
+    target, ball, via = places[reach]
+    path = ways[f"{route}, {senses}"][[*places].index(reach), : round(100 * time) + 1]
     fig, ax = plt.subplots(figsize=(6, 4))
     plane(ax, templates, within=TRIED)
     ax.add_patch(plt.Circle(ball, RADIUS, color=COLOURS["orange"]))
-    if shows_via:
+    if route != "straight":
         ax.plot(*via, "+", ms=9, color=COLOURS["purple"], gid="via-point")
     ax.plot(*target, "o", ms=9, mfc="none", color=COLOURS["green"], gid="target")
     ax.plot(*path.T, color=COLOURS["blue"], gid="path")

@@ -6,7 +6,7 @@ from book.figures.reaching import mean_mm, reach_scene, reaches
 from reproduce.experiments.calibration import SCENARIOS, ratio_name
 from reproduce.experiments.changed_worlds import BLOCKS, CURES
 from reproduce.experiments.controller_comparison import MOVEMENTS
-from reproduce.experiments.online_calibration import STEPS, remaining
+from reproduce.experiments.online_calibration import STEPS, endpoints_by_width, remaining
 from vmc_lib.motor.execution import rotate_about_eye
 from vmc_lib.show import note, table
 from vmc_lib.show.palette import COLOURS
@@ -77,8 +77,15 @@ def by_reading(draws, experiments, end=None):
     }
 
 
-def choose_width(plans, endpoints, width, movements):
-    """Hands with cells of one width; the mean error of each set of movements against the width."""
+def choose_width(plans, widths, endpoints, width, movements):
+    """Hands with cells of one width; the mean error of each set of movements against the width.
+
+    The `endpoints` of each set, (widths, n, 2), are known for some; for others cells practise anew.
+    """
+    endpoints = {k: dict(zip(widths, endpoints[k], strict=True)) for k in plans}
+    if width not in widths:
+        new = endpoints_by_width([width], plans)
+        endpoints = {k: dict(sorted((endpoints[k] | new[k]).items())) for k in plans}
     fig, left, right = panels(*SIDE_BY_SIDE)
     errors = errors_by_width(plans, endpoints)
     now, widths = errors[movements][width], list(errors[movements])

@@ -91,7 +91,8 @@ const vmcPython = (() => {
       await ready(script);
     }
     say(draws ? "" : "Checking …");
-    const late = setTimeout(stop, 1000 * limit.seconds, `Stopped after ${limit.seconds} s. Does a loop never end?`);
+    const seconds = question[0] === "measure" ? 6 * limit.seconds : limit.seconds; // no code of the reader's
+    const late = setTimeout(stop, 1000 * seconds, `Stopped after ${seconds} s. Does a loop never end?`);
     try {
       return await ask(question);
     } catch (error) {

@@ -9,6 +9,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
+from reproduce import one_draw
 from reproduce.experiments import calibration as experiments
 from reproduce.experiments import second_plant
 from reproduce.ledger import arm, calibration, online, planning
@@ -51,7 +52,8 @@ def moves_linearly(patch):
         ends = (plans.weights[:, None] @ plans.points)[:, 0]
         return SimpleNamespace(error=np.linalg.norm(ends - plans.target, axis=-1))
 
-    patch.setattr(planning, "execute", execute)
+    for module in (planning, one_draw):
+        patch.setattr(module, "execute", execute)
     patch.setattr(planning, "SEEDS", FEW)
 
 
