@@ -33,6 +33,16 @@ def files(folder):
     return list(kinds.values())
 
 
+@pytest.fixture(scope="session")
+def slider(files):
+    """A file with a slider whose states are stored."""
+    return next(
+        path
+        for path in files
+        if re.search('type="range"[^>]*data-stride', path.read_text(encoding="utf-8"))
+    )
+
+
 def test_every_demo_that_moves_is_a_light_file_with_its_source(folder):
     moving = r'class="vmc-(?:live|segmentation)"|<script type="application/gzip">'
     figures = [
@@ -100,15 +110,13 @@ def test_colours_follow_the_readers_system(files, window):
     page.wait_for_function(f"{theme} === 'light'")
 
 
-def test_an_address_opens_a_demo_where_its_link_was_taken(files, offline):
-    plain = [path for path in files if path.stat().st_size < 0.5e6]
-    path = next(path for path in plain if 'type="range"' in path.read_text(encoding="utf-8"))
-    page = open_url(offline, path.as_uri())
+def test_an_address_opens_a_demo_where_its_link_was_taken(slider, offline):
+    page = open_url(offline, slider.as_uri())
     page.locator("[data-stride][type=range]").first.press("End")
     link = page.get_attribute(".vmc-link", "href")
     pictures = page.inner_html(".vmc-pictures")
     page.close()
-    page = open_url(offline, f"{path.as_uri()}{link}")
+    page = open_url(offline, f"{slider.as_uri()}{link}")
     assert page.inner_html(".vmc-pictures") == pictures
     page.close()
 
@@ -173,8 +181,8 @@ var API = {
 </script><iframe src="/index.html" width="900" height="700"></iframe>"""
 
 
-def test_a_platform_hears_of_the_beginning_of_a_move_and_of_the_end(folder, window):
-    index = unzip((folder / "figure-7-2.zip").read_bytes())["index.html"]
+def test_a_platform_hears_of_the_beginning_of_a_move_and_of_the_end(slider, window):
+    index = unzip(slider.with_suffix(".zip").read_bytes())["index.html"]
     reader = window()
     reader.route("http://lms/**", lambda route: route.fulfill(body=index, content_type="text/html"))
     reader.route(
@@ -195,8 +203,8 @@ def test_a_platform_hears_of_the_beginning_of_a_move_and_of_the_end(folder, wind
     assert page.errors == []
 
 
-def test_a_package_is_silent_without_a_platform(folder, offline, tmp_path):
-    index = unzip((folder / "figure-7-2.zip").read_bytes())["index.html"]
+def test_a_package_is_silent_without_a_platform(slider, offline, tmp_path):
+    index = unzip(slider.with_suffix(".zip").read_bytes())["index.html"]
     (tmp_path / "index.html").write_text(index, encoding="utf-8")
     (tmp_path / "frame.html").write_text('<iframe src="index.html"></iframe>', encoding="utf-8")
     page = open_url(
