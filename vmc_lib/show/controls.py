@@ -97,7 +97,9 @@ class Slider(Control):
         unasked = " data-unasked" * (self.play == "unasked")
         state |= {"data-between": ""} if self.continuous else {}
         play = f'<button type="button" class="vmc-play" aria-pressed="false"{unasked}>Play</button>'
-        widest = max(len(text) + 0.6 * sum(c in "mwMW%" for c in text) for text in self.texts)
+        steps = np.arange(0, len(self.values) - 0.95, 0.1 if self.continuous else 1).round(1)
+        shown = [self.text(self.value_at(step)) for step in steps]  # between its own, too
+        widest = max(len(text) + 0.6 * sum(c in "mwMW%" for c in text) for text in shown)
         return slider(name, self.label, text, along | state, play if self.play else "", widest)
 
 
