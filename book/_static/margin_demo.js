@@ -76,7 +76,7 @@ vmcInPage.margin = (() => {
     const f = line.map((across) => line.map((up) => score([across, up])));
     const border = (value, look = "") =>
       `<path d="${contour(f, line, value, plot.place)}" fill="none" stroke="var(--vmc-grey)" stroke-width="1.5"${look}/>`;
-    const dashed = ' stroke-dasharray="5 3"';
+    const dashed = ' stroke-dasharray="3 9"'; // a dash in each cell
     const example = (point, k) => {
       if (labels[k] > 0) return plot.mark("dot", "blue", point, 3);
       const [left, top] = plot.place(point).map((middle) => (middle - 3).toFixed(1));
