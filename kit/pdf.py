@@ -4,6 +4,7 @@ Each built page is opened in a browser and stands still (still.js); joined to on
 printed. What the pages fold, the answers and the solutions, is the appendix: the kit's key.
 """
 
+from html import escape
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -18,6 +19,7 @@ ROOT = Path(__file__).parents[1]
 PATIENCE = 600_000  # ms: ends a hang, never a slow machine's work
 READY = """() => document.readyState === "complete" &&
   !document.querySelector(".vmc-demo:has(> script):not([data-ready])")"""
+SHEETS = "[...document.querySelectorAll('link[rel=stylesheet]')].map(({ href }) => href)"
 FOOT = '<p class="pageNumber" style="width: 100%; font-size: 8px; text-align: center"></p>'
 STYLE = """<style>
 article { break-before: page; }
@@ -25,6 +27,7 @@ article { break-before: page; }
 :is(h1, h2, h3) { line-height: 1.6; }
 h1 { font-size: 1.8rem; }
 h2 { font-size: 1.4rem; }
+h3 { font-size: 1.15rem; }
 figure { break-inside: avoid; }
 figure.vmc-demo:has(> .vmc-demo + .vmc-demo) { break-inside: auto; }
 figcaption { break-before: avoid; }
@@ -53,15 +56,15 @@ def print_book(chromium, html, names, path, key=None):
     context = chromium.new_context(offline=True, viewport={"width": 900, "height": 1200})
     context.set_default_timeout(PATIENCE)
     page = context.new_page()
-    articles = [_still(page, html, name) for name in names]
+    articles, sheets = [], {}  # a page has those styles alone that it needs
+    for name in names:
+        articles.append(_still(page, html, name))
+        sheets |= dict.fromkeys(page.evaluate(SHEETS))
     if key:
         page.goto(key.as_uri())
         articles.append(f"<article><h1>Answers</h1>{page.inner_html('body')}</article>")
     head = BeautifulSoup((html / f"{names[0]}.html").read_text(encoding="utf-8"), "html.parser")
-    styles = "".join(
-        f'<link rel="stylesheet" href="{(html / names[0]).parent.as_uri()}/{link["href"]}">'
-        for link in head.select("link[rel=stylesheet]")
-    )
+    styles = "".join(f'<link rel="stylesheet" href="{escape(sheet)}">' for sheet in sheets)
     with TemporaryDirectory() as folder:
         whole = Path(folder) / "book.html"
         whole.write_text(

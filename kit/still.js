@@ -43,7 +43,7 @@ async (root) => {
     demo.replaceChildren(...shots, ...demo.querySelectorAll(":scope > figcaption"));
   }
 
-  const folded = "details:not(fieldset details), .solution, .vmc-live-form, .headerlink";
+  const folded = "details:not(fieldset details), .solution, .vmc-live-form, .vmc-link, .headerlink";
   article.querySelectorAll(`script, button, ${folded}`).forEach((node) => node.remove());
   article.querySelectorAll("img").forEach((image) => (image.src = image.src));
 

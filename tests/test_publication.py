@@ -148,14 +148,20 @@ def test_links_hold_on_paper_wherever_the_book_lies(chromium, tmp_path):
     html = tmp_path / "a b&c#d+ü"
     html.mkdir()
     for name, other in (("one", "two"), ("two", "one")):
-        page = f'<article><h1 id="top">{name}</h1><a href="{other}.html#top">{other}</a></article>'
-        (html / f"{name}.html").write_text(f"<title>A book</title>{page}", encoding="utf-8")
+        page = f'<article><h1 id="top">{name}</h1><a href="{other}.html#top">{other}</a>'
+        page += '<p class="unseen">Unseen</p><a class="vmc-link" href="#x">#</a></article>'
+        head = f'<title>A book</title><link rel="stylesheet" href="{name}.css">'
+        (html / f"{name}.html").write_text(head + page, encoding="utf-8")
+        (html / f"{name}.css").write_text("", encoding="utf-8")
+    (html / "two.css").write_text(".unseen { display: none; }", encoding="utf-8")
     key = html / "key.html"
     key.write_text("<h2>one</h2><p>It is 7.</p>", encoding="utf-8")
     pdf.print_book(chromium, html, ["one", "two"], tmp_path / "book.pdf", key)
     with pypdfium2.PdfDocument(tmp_path / "book.pdf") as book:
         assert sum(map(_links_inside, book)) == 2
-        assert "It is 7." in book[len(book) - 1].get_textpage().get_text_bounded()
+        texts = [page.get_textpage().get_text_bounded() for page in book]
+        assert "It is 7." in texts[-1]
+        assert not re.findall("Unseen|#", " ".join(texts))
 
 
 def _headings(name):
