@@ -22,8 +22,8 @@ def number(text):
 
 def status(arm, beginning):
     """What the arm's status says once it begins like that."""
-    arm.locator("[role=status]", has_text=re.compile(f"^{beginning}")).wait_for(timeout=90_000)
-    return arm.locator("[role=status]").inner_text()
+    arm.locator("p[role=status]", has_text=re.compile(f"^{beginning}")).wait_for(timeout=90_000)
+    return arm.locator("p[role=status]").inner_text()
 
 
 def set_target(arm, target):

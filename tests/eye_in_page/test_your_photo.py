@@ -38,7 +38,7 @@ def page(eye_page, offline, site, html):
 
 def give(page, file):
     """Choose a file, and wait for what it leads to: the status in words."""
-    page.locator("[role=status]").evaluate("(it) => (it.textContent = '')")
+    page.locator("p[role=status]").evaluate("(it) => (it.textContent = '')")
     page.locator("[type=file]").set_input_files(file)
     return status(page, END)
 
@@ -84,7 +84,7 @@ def test_the_reader_points_at_another_box(page):
     boxes = page.locator(".vmc-boxes button")
     assert boxes.first.get_attribute("aria-pressed") == "true"
     for n in range(1, boxes.count()):
-        page.locator("[role=status]").evaluate("(it) => (it.textContent = '')")
+        page.locator("p[role=status]").evaluate("(it) => (it.textContent = '')")
         boxes.nth(n).press("Enter")
         said = status(page, "After|Out of reach")
         assert readout(page, "place") != before
