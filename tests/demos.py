@@ -1,5 +1,7 @@
 """Demos drawn again at a chapter's end, where a later cell may have changed what they read."""
 
+import inspect
+
 from vmc_lib import show
 from vmc_lib.show import demo
 
@@ -9,9 +11,11 @@ DECLARED = []  # (caption, a function, its result) of each demo that moves
 def record():
     """Let `explore` record the demos that it shows from now on."""
     explore = show.explore
+    own = inspect.signature(explore).parameters
 
-    def explore_and_record(draw, caption, alt=None, in_page=None, data=None, **controls):
-        numbers = explore(draw, caption, alt, in_page, data, **controls)
+    def explore_and_record(draw, caption, alt=None, **given):
+        numbers = explore(draw, caption, alt, **given)
+        controls = {name: spec for name, spec in given.items() if name not in own}
         last = {name: demo.as_control(name, spec).values[-1] for name, spec in controls.items()}
 
         def state():

@@ -95,6 +95,7 @@ def test_hand_and_target_stay_in_the_picture(path):
 TO_THE_END = """() => [...document.querySelectorAll(".vmc-demo[data-ready]")].flatMap((demo) => {
   for (const slider of demo.querySelectorAll("input[data-texts]")) slider.value = slider.max;
   demo.dispatchEvent(new Event("input", { bubbles: true }));
+  demo.querySelector(".vmc-listen").remove(); // as on paper
   return [...demo.querySelectorAll("output, svg text, figcaption")].map((e) => e.textContent);
 })"""
 
@@ -107,7 +108,7 @@ def test_prints_what_a_reader_sees(offline):
     printed = "\n".join(sheet.get_textpage().get_text_range() for sheet in sheets)
     words = re.compile(r"[\w.−]{3,}")
     assert not set(words.findall(seen)) - set(words.findall(printed))
-    assert not re.findall(r"\bPlay\b|Click to|turn the view|Next", printed)
+    assert not re.findall(r"\bPlay\b|\bListen\b|Click to|turn the view|Next", printed)
     assert printed.count("Solution to") == page.locator(".solution").count()
     assert "d_1" not in printed
     assert "linear interpolation" not in printed
