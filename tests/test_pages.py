@@ -126,7 +126,7 @@ def test_nothing_jumps_while_a_slider_is_dragged(page, width, height):
 SLIDERS = ".vmc-demo input[type=range]:visible"
 PLACES = """(slider) => {
   const all = slider.closest(".vmc-demo").querySelectorAll("input, select, button");
-  slider.beside ??= [...all].filter((one) => one.checkVisibility());
+  slider.beside ??= [...all].filter((one) => one.checkVisibility({ visibilityProperty: true }));
   return slider.beside.map((one) => one.getBoundingClientRect())
     .map(({ left, right, top }) => [left, right, top]);
 }"""
