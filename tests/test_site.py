@@ -144,9 +144,10 @@ def test_what_cannot_move_shows_its_first_picture_and_its_words(window, missing)
 def test_a_line_of_the_ledger_opens_its_row(offline):
     page = open_url(offline, CHAPTER["ledger"].as_uri())
     page.click('.vmc-forest a[href="#row-table-ii"]')
-    assert page.is_visible("#row-table-ii table")
+    page.wait_for_selector("#row-table-ii table", state="visible")
     page.press('.vmc-forest a[href="#row-fig-6"]', "Enter")
-    assert page.is_visible("#row-fig-6 table")
+    page.wait_for_selector("#row-fig-6 table", state="visible")
+    page.close()
 
 
 @each(KINDS)
