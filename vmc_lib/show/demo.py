@@ -93,9 +93,11 @@ def explore(draw, caption, alt=None, in_page=None, data=None, printed=(), **cont
     sample = along(controls, SAMPLE if in_page else MOST_POSITIONS)
     every = sample if in_page else range(positions)
     places = every if render_mode() == "book" else sample
-    if _idle(state, places, controls):  # a control may matter only where another has moved
+    idle = _idle(state, places, controls)
+    if idle and places is not every:  # a control may matter only where another has moved
         places = every
-    if idle := _idle(state, places, controls):
+        idle = _idle(state, places, controls)
+    if idle:
         raise ValueError(f"the control {idle[0].label!r} never changes the picture")
     start, states = state(first_position(controls)), [state(place) for place in places]
     for _, parts in states:
