@@ -39,7 +39,7 @@ def prepared(above, cell, data=""):
     """What `explore` is asked for in a cell: a demo as `shown` takes it, its controls, its data."""
     asked, errors, kept = [], [], show.explore
 
-    def explore(draw, caption, alt=None, in_page=None, data=None, **controls):
+    def explore(draw, caption, alt=None, in_page=None, data=None, printed=(), **controls):
         controls = {key: as_control(key, one) for key, one in controls.items()}
         asked.append(({"draw": draw, "alt": alt, "tables": not in_page}, controls, data))
 
