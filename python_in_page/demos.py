@@ -2,6 +2,7 @@
 
 from contextlib import redirect_stdout
 from functools import lru_cache
+from inspect import signature
 from io import StringIO
 
 import matplotlib as mpl
@@ -39,9 +40,13 @@ def prepared(above, cell, data=""):
     """What `explore` is asked for in a cell: a demo as `shown` takes it, its controls, its data."""
     asked, errors, kept = [], [], show.explore
 
-    def explore(draw, caption, alt=None, in_page=None, data=None, printed=(), **controls):
-        controls = {key: as_control(key, one) for key, one in controls.items()}
-        asked.append(({"draw": draw, "alt": alt, "tables": not in_page}, controls, data))
+    def explore(*given, **named):
+        call = signature(kept).bind(*given, **named)
+        call.apply_defaults()
+        one = call.arguments
+        controls = {key: as_control(key, spec) for key, spec in one["controls"].items()}
+        demo = {"draw": one["draw"], "alt": one["alt"], "tables": not one["in_page"]}
+        asked.append((demo, controls, one["data"]))
 
     show.explore = explore
     try:

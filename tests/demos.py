@@ -11,18 +11,18 @@ DECLARED = []  # (caption, a function, its result) of each demo that moves
 def record():
     """Let `explore` record the demos that it shows from now on."""
     explore = show.explore
-    own = inspect.signature(explore).parameters
 
-    def explore_and_record(draw, caption, alt=None, **given):
-        numbers = explore(draw, caption, alt, **given)
-        controls = {name: spec for name, spec in given.items() if name not in own}
-        last = {name: demo.as_control(name, spec).values[-1] for name, spec in controls.items()}
+    def explore_and_record(*given, **named):
+        numbers = explore(*given, **named)
+        asked = inspect.signature(explore).bind(*given, **named).arguments
+        draw, alt = asked["draw"], asked.get("alt")
+        last = {key: demo.as_control(key, one).values[-1] for key, one in asked["controls"].items()}
 
         def state():
             words = alt(**last) if callable(alt) else alt
             return words, demo.lines(demo.pictures(draw(**last), "again"))
 
-        DECLARED.append((caption, state, state()))
+        DECLARED.append((asked["caption"], state, state()))
         return numbers
 
     show.explore = explore_and_record
