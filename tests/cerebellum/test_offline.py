@@ -103,6 +103,11 @@ def test_nan_weights_are_refused(template_set):
         _ = execute(reach.with_weights(reach.weights * np.nan)).endpoint
 
 
+def test_algorithm_1_needs_a_gain(reaches):
+    with pytest.raises(ValueError, match="name at least one n"):
+        algorithm_1(reaches, gains=())
+
+
 def test_calibrate_refuses_rules_that_return_no_trials(reaches):
     assert calibrate(broyden_calibration, reaches).error.shape == (3, 60)
 

@@ -121,6 +121,12 @@ def test_plans_with_other_numbers_of_templates(count, template_set):
         nearest(targets, template_set.points, 1 + len(template_set.points))
 
 
+@pytest.mark.parametrize("rows", [[0, 1, 2, 500], [-1, 0, 1, 2], [], [0.5, 1]])
+def test_rows_that_are_no_templates_are_refused(rows, template_set):
+    with pytest.raises(ValueError, match=r"rows .* must be of the \d+ templates, 0 to"):
+        plan([0.15, -0.4], template_set, rows=rows)
+
+
 def test_a_movement_is_simulated_once(template_set, monkeypatch):
     movement = execute(plan([0.15, -0.4], template_set))
     first = movement.endpoint

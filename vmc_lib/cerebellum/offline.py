@@ -87,6 +87,11 @@ def algorithm_1(
     Trials
         The plan's movement, then one for each n.
 
+    Raises
+    ------
+    ValueError
+        Where there is no n to try.
+
     Examples
     --------
     >>> from vmc_lib.motor.planning import plan
@@ -95,6 +100,8 @@ def algorithm_1(
     >>> len(trials.error), bool(trials.error.min() < trials.error[0])
     (22, True)
     """
+    if not len(gains):
+        raise ValueError("gains are empty: name at least one n to try, as in gains=range(21)")
     planned = execute(plan)
     changes = [change(plan, planned.endpoint, n, origin, sign) for n in gains]
     return _trials(planned, execute(plan.with_weights(plan.weights + np.stack(changes))))

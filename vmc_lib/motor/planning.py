@@ -175,7 +175,8 @@ def plan(target, template_set, rule=habitual_weights, rows=None):
     Raises
     ------
     ValueError
-        Where a target is not finite, or of another dimension than the templates' points.
+        Where a target is not finite, or of another dimension than the templates' points; where a
+        row is none of the template set.
     vmc_lib.NoReach
         Where a target is not surrounded by templates.
 
@@ -191,5 +192,8 @@ def plan(target, template_set, rule=habitual_weights, rows=None):
         raise ValueError(f"target {target} must be finite plane positions (…, {axes[0]}) in m")
     if rows is None:
         rows = surrounding(target, template_set.points)
-    rows = np.broadcast_to(rows, (*target.shape[:-1], np.shape(rows)[-1]))
+    rows, known = np.atleast_1d(rows), np.arange(len(template_set.points))
+    if not (rows.size and np.isin(rows, known).all()):
+        raise ValueError(f"rows {rows} must be of the {len(known)} templates, 0 to {known[-1]}")
+    rows = np.broadcast_to(rows, (*target.shape[:-1], rows.shape[-1]))
     return Plan(template_set, target, rows, rule(target, template_set.points[rows]))
