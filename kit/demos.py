@@ -3,8 +3,6 @@
 A file holds the figure as its page has it, and of the book's scripts those that the figure needs.
 """
 
-import base64
-import gzip
 import re
 import shutil
 from functools import cache
@@ -14,7 +12,7 @@ from pathlib import Path
 import yaml
 
 from kit import scorm
-from vmc_lib.show.packed import pack_bytes
+from vmc_lib.show.packed import pack_bytes, unpack_bytes
 
 ROOT = Path(__file__).parents[1]
 CONFIG = yaml.safe_load((ROOT / "_config.yml").read_bytes())
@@ -124,7 +122,7 @@ def scripts_of(figure, static):
     scripts = _scripts(static)
     without = set() if "vmc-scene" in figure else {"vmcScene", "vmcPanel"}
     data = re.search(r'<script type="application/gzip">([^<]+)', figure)
-    if not data or not gzip.decompress(base64.b64decode(data[1])).startswith(b'{"work"'):
+    if not data or not unpack_bytes(data[1]).startswith(b'{"work"'):
         without.add("vmcInPage")
     needed, asked = set(), [name for mark, name in STARTS.items() if mark in figure]
     while asked:

@@ -6,8 +6,6 @@ of a millimetre. Bones that never move against each other are one mesh, and a fi
 joints that bend it.
 """
 
-import base64
-import gzip
 import json
 import os
 import re
@@ -17,6 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from vmc_lib.show.live import STATIC
+from vmc_lib.show.packed import pack_bytes
 
 FILE = STATIC / "vendor/bones.js"
 SHOULDER = np.array([-0.017545, -0.007, 0.17])  # m, in the frame of arm26's own ground
@@ -132,7 +131,7 @@ def pack_mesh(points, faces):
 def write(folder):
     """Write what is `bone_meshes` as a script: a page from disk can load nothing else."""
     text = json.dumps(bone_meshes(folder), separators=(",", ":"))
-    data = base64.b64encode(gzip.compress(text.encode(), mtime=0)).decode()
+    data = pack_bytes(text.encode())
     FILE.parent.mkdir(exist_ok=True)
     FILE.write_text(
         f'/* arm26\'s bones (render/bone_meshes.py). */\nself.vmcBones = "{data}";\n',

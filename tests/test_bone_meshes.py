@@ -1,6 +1,5 @@
 """The bones that the page draws: small enough, whole, and made of what OpenSim has."""
 
-import base64
 import gzip
 import json
 import re
@@ -9,6 +8,7 @@ import numpy as np
 import pytest
 
 from render import bone_meshes
+from vmc_lib.show.packed import unpack_bytes
 
 VTP = """<?xml version="1.0"?><VTKFile><PolyData><Piece>
 <Points><DataArray type="Float32" NumberOfComponents="3" format="ascii">
@@ -22,7 +22,7 @@ VTP = """<?xml version="1.0"?><VTKFile><PolyData><Piece>
 def parts():
     """The meshes in the script that the page loads, by name."""
     data = re.search('"(.*)"', bone_meshes.FILE.read_text(encoding="utf-8"))[1]
-    return json.loads(gzip.decompress(base64.b64decode(data)))["parts"]
+    return json.loads(unpack_bytes(data))["parts"]
 
 
 def test_polygons_become_triangles_and_near_vertices_one(tmp_path):

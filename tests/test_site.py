@@ -1,7 +1,5 @@
 """The built book as a whole: weight, links, search; on paper, over HTTP, without scripts."""
 
-import base64
-import gzip
 import json
 import re
 from urllib.parse import unquote, urljoin, urlsplit
@@ -22,6 +20,7 @@ from tests.pages import (
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.arm.kinematics import to_world
 from vmc_lib.show.arm import BEYOND
+from vmc_lib.show.packed import unpack_bytes
 
 pytestmark = pytest.mark.browser
 CHAPTER = {path.stem: path for path in CHAPTERS}
@@ -57,7 +56,7 @@ def arm_scenes(path):
     """What every arm scene of a page tells its viewer, state by state."""
     text = path.read_text(encoding="utf-8")
     for packed in re.findall(r'<script type="application/gzip">(.*?)</script>', text, re.S):
-        data = json.loads(gzip.decompress(base64.b64decode(packed)))
+        data = json.loads(unpack_bytes(packed))
         for _, *parts in data.get("states", []):
             for part in parts:
                 lines = [data["lines"][place] for place in part]

@@ -1,7 +1,5 @@
 """What the arms in the page compute is what Python computes."""
 
-import base64
-import gzip
 import json
 from dataclasses import replace
 
@@ -23,6 +21,7 @@ from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration
 from vmc_lib.motor import templates
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import draw_targets, exact_weights, habitual_weights, plan, surrounded
+from vmc_lib.show.packed import unpack_bytes
 
 WHOLE = 2  # its place among the arms of the page
 POSTURES = np.random.default_rng(3).uniform([-0.8, 0.1], [0.6, 2.0], (40, 2))
@@ -217,7 +216,7 @@ def test_templates_on_a_line_and_targets_outside_are_refused(ask):
 
 def test_knots_make_the_templates():
     given = live.given()["templateSet"]
-    knots = np.frombuffer(gzip.decompress(base64.b64decode(given["knots"])), np.float32)
+    knots = np.frombuffer(unpack_bytes(given["knots"]), np.float32)
     knots = knots.reshape(given["shape"]).astype(float)
     assert np.abs(live.spline() @ knots - templates.load().excitations).max() < 1e-12
     json.dumps(given, allow_nan=False)

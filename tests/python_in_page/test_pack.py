@@ -1,8 +1,6 @@
 """One script holds the engine, unchanged but for what is left out, and the library."""
 
 import _imp
-import base64
-import gzip
 import hashlib
 import io
 import json
@@ -13,6 +11,7 @@ import pytest
 
 from python_in_page import pack
 from tests.project import ROOT
+from vmc_lib.show.packed import unpack_bytes
 
 
 def opened(data):
@@ -26,7 +25,7 @@ WHEELS = {path.name: path.read_bytes() for path in pack.VENDOR.glob("*.whl")}
 def unpacked(script):
     """The files that a script holds: {name: bytes}."""
     packed = json.loads(script[script.index(', {"') + 2 : script.rindex(")")])
-    return {name: gzip.decompress(base64.b64decode(text)) for name, text in packed.items()}
+    return {name: unpack_bytes(text) for name, text in packed.items()}
 
 
 def compiled():

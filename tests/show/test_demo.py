@@ -1,7 +1,5 @@
 """Demos in the book and in tests: what they show, and what they refuse."""
 
-import base64
-import gzip
 import json
 import re
 
@@ -12,6 +10,7 @@ import pytest
 from tests.pages import displayed
 from tests.show.kernel import named, show
 from vmc_lib.show import COLOURS, Pad, Scene, Slider, demo, figure, photo_view
+from vmc_lib.show.packed import unpack_bytes
 
 
 @pytest.fixture
@@ -23,7 +22,7 @@ def shown(monkeypatch):
 def states(page):
     """The page's own data: for each state its alt text and its pictures."""
     data = re.search(r'<script type="application/gzip">(.*?)</script>', page.data)[1]
-    data = json.loads(gzip.decompress(base64.b64decode(data)))
+    data = json.loads(unpack_bytes(data))
     return [["\n".join(data["lines"][i] for i in part) for part in row] for row in data["states"]]
 
 
@@ -57,7 +56,7 @@ def test_book_page_is_the_same_in_every_build(shown, book, monkeypatch):
 def test_a_photo_that_stays_is_stored_once(shown, book):
     photo = np.random.default_rng(0).integers(0, 255, (50, 60, 3), dtype=np.uint8)
     show(lambda x: photo_view(photo, [((x, 5, x + 9, 20), "cup", "blue")]), x=Slider([1, 30], "x"))
-    data = gzip.decompress(base64.b64decode(re.search(r'gzip">(.*?)<', shown[0].data)[1]))
+    data = unpack_bytes(re.search(r'gzip">(.*?)<', shown[0].data)[1])
     assert data.count(b"data:image/") == 1
     assert all("data:image/" in picture for _, picture in states(shown[0]))
 

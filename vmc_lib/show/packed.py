@@ -13,6 +13,11 @@ def pack_bytes(data):
     return base64.b64encode(gzip.compress(data, mtime=0)).decode()
 
 
+def unpack_bytes(text):
+    """Bytes that `pack_bytes` packed."""
+    return gzip.decompress(base64.b64decode(text))
+
+
 def pack_json(data):
     """JSON as `pack_bytes` packs it."""
     return pack_bytes(json.dumps(data, separators=(",", ":")).encode())
