@@ -11,7 +11,7 @@ from kit.question import Question
 
 BESIDE = re.compile(
     r"\b(photo|map|plot|demo|figure|table)s?\b[^.]{0,20} (below|above)|\b(these|first) photos?\b"
-    r"|\bdemos?\b|\b(dashed|dotted|orange)\b",
+    r"|\bthe (two|three|four|five|six) (above|below)\b|\bdemos?\b|\b(dashed|dotted|orange)\b",
     re.I,
 )
 
