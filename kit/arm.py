@@ -1,6 +1,6 @@
 """The arm in the page as a package that others can use: one script, a README, an example.
 
-`npm pack` in its folder makes of it what npm installs.
+`npm pack` in that folder makes the archive that npm installs.
 """
 
 import json
@@ -17,7 +17,7 @@ const armInPage = (() => {{
   const document = globalThis.document ?? // or Node's
     {{ baseURI: require("url").pathToFileURL(__filename).href }};
 {scripts}
-  const given = {given};
+  const given = {constants};
   return {{
     muscles: given.muscles, start: given.start, rest: given.rest,
     load: () => vmcArm.load(given),
@@ -42,7 +42,7 @@ def build(folder):
     folder.mkdir(parents=True)
     paths = [SHOW / "vendored.js", *(STATIC / f"{name}.js" for name in MODEL_SCRIPTS), MUJOCO]
     scripts = "\n".join(path.read_text(encoding="utf-8") for path in paths)
-    script = SCRIPT.format(scripts=scripts, given=json.dumps(given(), allow_nan=False))
+    script = SCRIPT.format(scripts=scripts, constants=json.dumps(given(), allow_nan=False))
     (folder / "arm.js").write_text(script, encoding="utf-8")
     (folder / "package.json").write_text(json.dumps(NPM, indent=2) + "\n", encoding="utf-8")
     for name in ("arm_in_page/README.md", "arm_in_page/example.html", "LICENSE", "CREDITS.md"):

@@ -56,15 +56,15 @@ def chapter_slides(article, most):
     heading, *text = last.find_all(["h2", "p", "ul"], recursive=False)
     asked = [f"<p>{question}</p>" for question in last.select("p > strong")[-1:]]
     recap = Slide([heading, sentence(text[0]), *asked], text)
-    parts = [*_blocks(article)]
-    several = [*_pairs(parts)]
-    wiring = [one for one in several if len(one[1]) == 1 and WIRING in parts[one[0]][0].get_text()]
-    single = [*wiring, *[*_equations(parts)][:1]] if most > 6 else []
-    pairs = [pair for pair in several if pair not in wiring]
-    with_question = [(place, pair) for place, pair in pairs if len(pair) > 1]
-    room = (most - 2 - len(single)) // 2  # a title and a question of the quiz apart
-    chosen = _spread(with_question if len(with_question) >= room else pairs, room)
-    middle = [slide for _, pair in sorted(single + chosen, key=itemgetter(0)) for slide in pair]
+    blocks = [*_blocks(article)]
+    demos = [*_pairs(blocks)]
+    wiring = [one for one in demos if len(one[1]) == 1 and WIRING in blocks[one[0]][0].get_text()]
+    fixed = [*wiring, *_first_equations(blocks)] if most > 6 else []  # else too few slides for them
+    others = [pair for pair in demos if pair not in wiring]
+    with_question = [(place, pair) for place, pair in others if len(pair) > 1]
+    room = (most - 2 - len(fixed)) // 2  # a title and a question of the quiz apart
+    chosen = _spread(with_question if len(with_question) >= room else others, room)
+    middle = [slide for _, pair in sorted(fixed + chosen, key=itemgetter(0)) for slide in pair]
     quiz = [Slide([box], _answers(box)) for box in article.select(".vmc-quiz")]
     return Chapter([first, *middle], _spread(quiz, most - 1 - len(middle)), [recap])
 
@@ -87,7 +87,7 @@ def _remove_exercises(article):
 
 def _blocks(section):
     """The elements of a section and of those in it, each with the heading above it."""
-    heading, *rest = _parts(section)
+    heading, *rest = _unfolded(section)
     for part in rest:
         if part.name != "section":
             yield heading, part
@@ -95,13 +95,13 @@ def _blocks(section):
             yield from _blocks(part)
 
 
-def _parts(block):
+def _unfolded(section):
     """The elements of a section: outputs out of their cells, without what is folded."""
-    for part in block.find_all(recursive=False):
+    for part in section.find_all(recursive=False):
         if _is(part, "tag_off-slides"):
             continue
         if WRAPPERS & {*part.get("class", [])}:
-            yield from _parts(part)
+            yield from _unfolded(part)
         elif part.name not in ("details", "span"):  # folded; where a link leads
             yield part
 
@@ -110,40 +110,39 @@ def _is(part, kind):
     return kind in part.get("class", ())
 
 
-def _equations(parts):
-    """A slide of each run of equations, as (place, [slide]).
+def _first_equations(blocks):
+    """A slide of the chapter's first equations that stand together, as [(place, [slide])].
 
-    With the sentence before it, which in a list is that of the last point; where it comes first in
-    its section, with the sentence after it.
+    With the sentence before them, which in a list is that of the last point; where they come first
+    in their section, with the sentence after them.
     """
-    for place, (heading, part) in enumerate(parts):
-        above, before = parts[place - 1]
-        if _is(part, "math") and not (above is heading and _is(before, "math")):
-            run = [
-                math for _, math in takewhile(lambda block: _is(block[1], "math"), parts[place:])
-            ]
-            told = before if above is heading else parts[place + len(run)][1]
-            *_, told = [told, *told.select("li > p")]
-            yield place, [Slide([heading, sentence(told), *run], _texts(parts, heading))]
+    for place, (heading, part) in enumerate(blocks):
+        if _is(part, "math"):
+            run = [math for _, math in takewhile(lambda one: _is(one[1], "math"), blocks[place:])]
+            above, before = blocks[place - 1]  # a chapter opens with its title
+            words = before if above is heading else blocks[place + len(run)][1]
+            *_, words = [words, *words.select("li > p")]
+            return [(place, [Slide([heading, sentence(words), *run], _texts(blocks, heading))])]
+    return []
 
 
-def _pairs(parts):
+def _pairs(blocks):
     """Each demo, after the prediction that it answers if it has one, as (place, slides).
 
     The prediction stands above its demo, or below it where the demo opens the chapter.
     """
     box = under = None
-    for place, (heading, part) in enumerate(parts):
+    for place, (heading, part) in enumerate(blocks):
         box, under = box if heading is under else None, heading
         if part.select_one(".vmc-predict"):
             box = part
         elif _is(part, "vmc-demo"):
             if heading.name == "h1":
-                below = (p for h, p in parts[place:] if h is heading)
+                below = (p for h, p in blocks[place:] if h is heading)
                 box = box or next((p for p in below if p.select_one(".vmc-predict")), None)
             name = _plain_heading(heading)
             ask = [Slide([name, box], [ALONE, *_answers(box)], 2)] if box else []
-            notes = _guide(part, box) + _texts(parts, heading)
+            notes = _guide(part, box) + _texts(blocks, heading)
             yield place, [*ask, Slide([name, part], notes, 2)]
             box = None
 

@@ -147,11 +147,11 @@ def tenths(low, high, count):
     return lambda rng: np.round(rng.uniform(low, high, count), 1)
 
 
-def successes(sizes):
-    """A function of an rng: how many of n succeed, at least half of them, and n, one of `sizes`."""
+def successes(sizes, groups=1):
+    """A function of an rng: how many of n succeed, at least half, in each group; n of `sizes`."""
 
     def draw(rng):
         n = sizes[rng.integers(len(sizes))]
-        return n // 2 + int(rng.integers(n - n // 2 + 1)), n
+        return *(n // 2 + int(rng.integers(n - n // 2 + 1)) for _ in range(groups)), n
 
     return draw

@@ -44,7 +44,7 @@ def explanations_of(v, energies, chances, names):
 
 def block(chances):
     """The chances of a pooling block's units and of its off state, the last, as bars."""
-    colours = [COLOURS["blue"]] * (len(chances) - 1) + [COLOURS["grey"]]
+    colours = [COLOURS["blue"]] * 4 + [COLOURS["grey"]]
     fig, ax = _bars()
     ax.bar_label(ax.bar(range(5), chances, color=colours), fmt="%.2f")
     ax.set_title(f"pooled unit on: {1 - chances[-1]:.3f}")
@@ -68,11 +68,11 @@ def correlation(patch, dream):
     return float(np.corrcoef(*(np.ravel(x[0, 0, FREE, FREE]) for x in (patch, dream)))[0, 1])
 
 
-def dream(patch, dream, reach):
-    """A patch, its dream, and the first less the second, in one scale of greys up to `reach`."""
+def dream_beside(patch, dream, limit):
+    """A patch, its dream, and the first less the second; black at -limit, white at limit."""
     square = 10 * np.array([FREE.start, FREE.start, FREE.stop, FREE.stop])
     words = "", f"{correlation(patch, dream):.2f}", ""
-    greys = [grey(x[0, 0], reach, 10) for x in (patch, dream, patch - dream)]
+    greys = [grey(x[0, 0], limit, 10) for x in (patch, dream, patch - dream)]
     return tuple(
         photo_view(np.uint8(255 * np.array(picture)), [(square, label, "orange")])
         for picture, label in zip(greys, words, strict=True)

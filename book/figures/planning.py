@@ -39,9 +39,10 @@ def parts_of_miss(rule, spacing, number):
 
 
 def in_frame(origin, weights, points, target):
-    """A target (2,) seen from a frame's origin (2,), and the place that weights (4,) describe.
+    """A target (2,) as a frame at `origin` (2,) measures it, and the place that weights (4,) mix.
 
-    They mix the points (4, 2) by Eq. 4 in this frame; all is drawn as measured from the shoulder.
+    They mix the points (4, 2) by Eq. 4 in this frame, purple; all is drawn as measured from the
+    shoulder.
     """
     place = origin + weights @ (points - origin)
     fig, ax = plt.subplots(figsize=(4.6, 4.6))
@@ -60,17 +61,18 @@ def in_frame(origin, weights, points, target):
 def habit_beside_optimum(target, motions, costs):
     """The hand's way and each muscle's effort on the way to one of the optima's targets (2,).
 
-    `motions` and `costs`, (20, 6), are those of all targets, by name.
+    `motions` {name: Motion} and `costs` {name: (20, 6)}, by target and muscle, are of habit first,
+    then of the optimum.
     """
     k = np.abs(optimal_control.TARGETS - target).sum(axis=1).argmin()
     fig, left, right = panels(2, (8.2, 3.4))
     plane(left, templates.load().points, ((-0.02, 0.26), (-0.55, -0.29)))
     across = np.arange(len(MUSCLES))
-    for place, (name, motion) in enumerate(motions.items()):
-        colour = COLOURS[("blue", "orange")[place]]
+    for row, (name, motion) in enumerate(motions.items()):
+        colour = COLOURS[("blue", "orange")[row]]
         left.plot(*motion.hand[k, :, :2].T, color=colour, gid=name)
         bars = 1000 * costs[name][k]
-        right.bar(across + 0.4 * place, bars, 0.4, color=colour, label=name)
+        right.bar(across + 0.4 * row, bars, 0.4, color=colour, label=name)
     ends(left, target, motion.endpoint[k])
     right.set_xticks(across + 0.2, MUSCLES, rotation=30)
     habit, optimum = (cost[k].mean() for cost in costs.values())

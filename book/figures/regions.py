@@ -20,7 +20,9 @@ PRINTED_NAMES = {  # in the paper's Table I; that its "Gaussian" is the sigmoid 
     "sigmoid": "Gaussian",
 }
 FRESH_ROWS = (*fresh_test_set.KERNELS, *fresh_test_set.DETECTORS)
-PLANE, YOURS = (-4, 5), (3.3, -1.3)  # of an SVM's two clouds: what is drawn; the reader's point
+PLANE = (-4, 5)  # of an SVM's two clouds: what is drawn of both axes
+YOURS = (3.3, -1.3)  # the example that the reader moves
+OBJECTS = 80  # in 40 photos
 QUALITIES = ("a good candidate", "a box on the shuttlecock", "a good box")
 
 
@@ -53,7 +55,7 @@ def _clouds():
 def margin_plot(cost, kernel, yours):
     """An SVM between two clouds: its border, its margin and how much each example counts.
 
-    A ring's area is its example's α, as a share of the cost C, which no α exceeds: a figure.
+    A ring's area grows with its example's α, as a share of the cost C, its bound: a figure.
     """
     clouds, side, svm = margin(cost, kernel, yours)
     grid = np.stack(np.meshgrid(*[np.linspace(*PLANE, 81)] * 2), -1)
@@ -64,7 +66,7 @@ def margin_plot(cost, kernel, yours):
     ax.plot(*clouds[~side].T, "s", color=COLOURS["orange"], gid="table")
     rings = 40 + 160 * abs(svm.dual_coef_[0]) / cost
     ax.scatter(*svm.support_vectors_.T, rings, "none", edgecolors=COLOURS["red"], gid="alpha")
-    ax.set_title(_rings(svm, cost))
+    ax.set_title(_rings_in_words(svm, cost))
     return fig
 
 
@@ -79,7 +81,7 @@ def _plane():
     return fig, ax
 
 
-def _rings(svm, cost):
+def _rings_in_words(svm, cost):
     """How many examples count, and how much the reader's own does, in words."""
     yours = abs(svm.dual_coef_[0][svm.support_ == 0]).sum() / cost
     return f"{len(svm.support_)} rings; yours: α = {yours:.2f} C"
@@ -87,7 +89,7 @@ def _rings(svm, cost):
 
 def margin_in_words(cost, kernel, yours):
     """The same in words."""
-    words = _rings(margin(cost, kernel, yours)[2], cost)
+    words = _rings_in_words(margin(cost, kernel, yours)[2], cost)
     return f"Two clouds and a border between them; C is {cost:g}, {kernel}: {words}."
 
 
@@ -123,7 +125,7 @@ def regressed_view(detector, image, thing, corner, rounds):
     began = f"began {abs(right):g} {'left' if right < 0 else 'right'}"
     began += f", {abs(down):g} {'up' if down < 0 else 'down'}"
     colour = "green" if round(shared, 2) >= 0.8 else "orange"
-    words = (*in_corner(f"IoU {shared:.2f}; {began}")[:2], colour)
+    words = in_corner(f"IoU {shared:.2f}; {began}", colour)
     return photo_view(image, [(thing, "", "grey"), (box, "", colour), words])
 
 
@@ -161,7 +163,7 @@ def fresh_plot(level, measure):
     if level == "rig":
         mean = np.mean([counts["IoU", k][level] for k in range(localisation.TRAININGS)], axis=0)
         rows["published"] = fresh_test_set.rates(*mean)[part]
-    few = {row: (share, *wilson(80 * share, 80)) for row, (share, *_) in rows.items()}
+    few = {row: (share, *wilson(OBJECTS * share, OBJECTS)) for row, (share, *_) in rows.items()}
     series = {"fresh photos": rows, "40 photos": few}
     return dot_plot(series, f"{measure}, {level}", None, (0, 1.02))
 

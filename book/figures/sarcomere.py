@@ -13,11 +13,11 @@ def sarcomere(length, speed=0.0):
 
     `length` is in optimal lengths, `speed` in such lengths a second, lengthening positive.
     """
-    middle, half, thick = WIDE / 2, length * REST / 2, THICK * REST / 2
-    overlap = min(max(THIN * REST - (half - thick), 0), thick)
+    middle, half, half_thick = WIDE / 2, length * REST / 2, THICK * REST / 2
+    overlap = np.clip(THIN * REST - (half - half_thick), 0, half_thick)
     parts = []
     for side in (-1, 1):
-        disc, end, tip = (middle + side * x for x in (half, thick, half - THIN * REST))
+        disc, end, tip = (middle + side * x for x in (half, half_thick, half - THIN * REST))
         parts.append(_line(disc, 12, disc, 84, "ink", 4))
         for y in ROWS:
             parts += [_line(disc, y + d, tip, y + d, "blue", 3) for d in (-6, 6)]
@@ -26,7 +26,7 @@ def sarcomere(length, speed=0.0):
             parts += [_heads(x, y, 3 * side * np.clip(speed, -1, 1)) for x in heads]
         if speed:
             parts.append(_arrow(disc, side * np.sign(speed) * (8 + 5 * abs(speed))))
-    parts += [_line(middle - thick, y, middle + thick, y, "red", 5) for y in ROWS]
+    parts += [_line(middle - half_thick, y, middle + half_thick, y, "red", 5) for y in ROWS]
     size = f'viewBox="0 0 {WIDE} {HIGH}" width="{WIDE}" height="{HIGH}"'
     return f'<svg class="vmc-strip" {size}>{"".join(parts)}</svg>'
 
@@ -43,8 +43,8 @@ def _heads(x, y, lean):
 
 def _spring(x0, x1, y):
     """The passive spring between the myosin's end and the disc."""
-    xs = np.linspace(x0, x1, 13)
-    ys = y + 3 * np.array([0, *(6 * [1, -1]), 0])[: len(xs)]
+    ys = y + 3 * np.array([0, *(6 * [1, -1]), 0])
+    xs = np.linspace(x0, x1, len(ys))
     points = " ".join(f"{x:.1f},{at:.1f}" for x, at in zip(xs, ys, strict=True))
     return f'<polyline points="{points}" fill="none" stroke="var(--vmc-grey)" stroke-width="1.2"/>'
 

@@ -32,9 +32,9 @@ def mosaic(image, labels):
     return np.uint8(means)[labels]
 
 
-def in_corner(words):
+def in_corner(words, colour="ink"):
     """Words in a photo's upper left corner, as a box without area for `photo_view`."""
-    return (8, 0, 8, 0), words, "ink"
+    return (8, 0, 8, 0), words, colour
 
 
 def _box(middle, size):
@@ -50,7 +50,7 @@ def overlap(image, thing, middle, size):
     box = _box(middle, size)
     shared = round(iou(box, thing).item(), 2)
     colour = "green" if shared >= MIN_IOU else "orange" if shared > 0.5 else "red"
-    said = (*in_corner(f"IoU {shared:.2f}")[:2], colour)  # at the box a hand would hide it
+    said = in_corner(f"IoU {shared:.2f}", colour)  # at the box a hand would hide it
     return photo_view(image, [(thing, "", "grey"), (box, "", colour), said])
 
 

@@ -9,10 +9,11 @@ from vmc_lib.what.learning import Learner
 WIDTH, N_W = steps(60, 240, 1), steps(5, 15, 1)
 
 
-def map_width(layer, width, n_w, c):
-    """The width of the hidden (0) or pooled (1) map of a picture, trimmed to whole blocks."""
+def map_widths(width, n_w, c):
+    """The widths of the hidden and the pooled map of a picture, trimmed to whole blocks."""
     crbm = Learner(torch.zeros(1, 1, n_w, n_w), torch.zeros(1), torch.zeros(1), c)
-    return crbm.posterior(crbm.trim(torch.zeros(1, 1, width, width)))[layer].shape[-1]
+    maps = crbm.posterior(crbm.trim(torch.zeros(1, 1, width, width)))
+    return tuple(each.shape[-1] for each in maps)
 
 
 def block(drives):
@@ -26,14 +27,14 @@ def block(drives):
 def hidden_width(width=WIDTH, n_w=N_W):
     """A filter of {n_w} × {n_w} pixels is laid on a picture of {width} × {width}, wherever it fits.
     How wide is the hidden map?"""
-    return map_width(0, width, n_w, 1)
+    return map_widths(width, n_w, 1)[0]  # blocks of one unit trim nothing
 
 
 @count("units", "The hidden width over the block's, rounded down.")
 def pooled_width(width=WIDTH, n_w=N_W, c=(3, 4, 5)):
     """A picture is {width} pixels wide, filters are {n_w} wide and blocks {c} units. What fills no
     whole block is trimmed. How wide is the pooled map?"""
-    return map_width(1, width, n_w, c)
+    return map_widths(width, n_w, c)[1]
 
 
 @count("numbers", "K × channels × n_w² + K + channels")

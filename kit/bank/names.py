@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from kit.question import choice, count, numeric, steps, tenths
+from kit.question import choice, count, numeric, steps, successes, tenths
 from vmc_lib.statistics import wilson
 from vmc_lib.what.recogniser import NameClassifier
 
@@ -34,23 +34,17 @@ def table_without_errors(n=(20, 40, 60, 80, 100, 160, 200)):
     return wilson(n, n)[0]
 
 
-def two_counts(rng):
-    n = (40, 80, 160)[rng.integers(3)]
-    first, second = (n // 2 + int(rng.integers(n - n // 2)) for _ in range(2))
-    return first, second, n
-
-
-@choice("yes", "no", hint="Work out both intervals first.")
-def do_intervals_meet(right=two_counts):
+@choice("no", "yes", hint="Work out both intervals first.")
+def do_intervals_meet(right=successes((40, 80, 160), 2)):
     """One method is right in {right[0]} of {right[2]} photos, another in {right[1]} of {right[2]}
     other photos. Do their 95 % intervals, after Wilson, have a value in common?"""
     *counts, n = right
     lows, highs = zip(*(wilson(count, n) for count in counts), strict=True)
-    return max(lows) > min(highs)
+    return max(lows) <= min(highs)
 
 
 @numeric("%", "Right calls over all calls.", tolerance=0.05)
-def share_that_was_printed(n=steps(40, 90, 5), wrong=steps(2, 6, 1)):
+def precision_with_cups(n=steps(40, 90, 5), wrong=steps(2, 6, 1)):
     """All {n} shuttlecocks are named, and {wrong} cups are named shuttlecock too. What precision
     is printed, in per cent?"""
     return 100 * n / (n + wrong)

@@ -9,9 +9,9 @@ from vmc_lib.motor.execution import EYE, rotate_about_eye
 
 
 def activity(width, centres, target):
-    """The activity of granule cells at these centres (n,) for a target, all in cm."""
+    """The activities (n,) of granule cells with these centres (n,) for a target; all in cm."""
     cells = GranuleCells(width, len(centres))
-    cells.centres_ = np.asarray(centres, float)[:, None]
+    cells.centres_ = np.asarray(centres, float)[:, None]  # by hand what `fit` would place
     return cells.excite(np.array([[float(target)]]))[0]
 
 

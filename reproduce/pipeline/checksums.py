@@ -1,4 +1,4 @@
-"""The checksums of what ships in `vmc_lib.data`, by which damage is noticed when it is read.
+"""The checksums of the files in `vmc_lib.data`; the library checks them when it reads a file.
 
 `python -m reproduce.pipeline.checksums` writes them anew; the steps do so by themselves.
 """
@@ -21,7 +21,7 @@ def data_checksums():
 
 
 def write():
-    """Write them."""
+    """Write the checksums into `data.CHECKSUMS`."""
     data.CHECKSUMS.write_text(
         json.dumps(data_checksums(), indent=0) + "\n", encoding="utf-8", newline="\n"
     )
