@@ -16,6 +16,8 @@ from nbformat.v4 import new_code_cell
 from tests import pages
 from vmc_lib import photos
 from vmc_lib.motor import templates
+from vmc_lib.what.cdbn import crops_of
+from vmc_lib.what.crops import whiten
 
 settings.register_profile("untimed", deadline=None)  # a busy machine is slow, and no failure
 settings.load_profile("untimed")
@@ -72,6 +74,13 @@ def template_set():
 def photo():
     """A photo of the rig that no model learned from."""
     return photos.load("rig", "validation")[0]
+
+
+@pytest.fixture(scope="session")
+def white():
+    """Whitened crops (4, 1, 200, 200) of the things in two training photos."""
+    crops, _ = crops_of(photos.load("rig", "train")[:2])
+    return whiten(crops)
 
 
 @pytest.fixture(scope="session")

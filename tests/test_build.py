@@ -22,7 +22,6 @@ CODE = "open('count', 'a').write('x')\nimport sys\nprint('printed', 6 * 7)"
 def book(tmp_path):
     """A book of one chapter, which counts its executions, over a library of one line."""
     shutil.copy(ROOT / "_config.yml", tmp_path)
-    (tmp_path / "_toc.yml").write_text("format: jb-book\nroot: book/chapter\n", encoding="utf-8")
     shutil.copytree(ROOT / "book/_ext", tmp_path / "book/_ext")
     for static in pages.STATIC:
         folder = static.relative_to(ROOT)
@@ -37,12 +36,17 @@ def book(tmp_path):
     return tmp_path
 
 
-def write(book, code, text=""):
+def write(book, code, text="", name="chapter"):
+    """Write a chapter, and the table of contents: it first, and the others so far."""
     cells = [nbformat.v4.new_markdown_cell(f"# A chapter\n\n{text}", id="title")]
     cells += [nbformat.v4.new_code_cell(code, id="code")]
     kernel = {"kernelspec": {"name": "python3", "display_name": "Python 3"}}
     notebook = nbformat.v4.new_notebook(cells=cells, metadata=kernel)
-    nbformat.write(notebook, book / "book/chapter.ipynb")
+    nbformat.write(notebook, book / f"book/{name}.ipynb")
+    first, *others = sorted(file.stem for file in (book / "book").glob("*.ipynb"))
+    chapters = "chapters:\n" * bool(others) + "".join(f"- file: book/{one}\n" for one in others)
+    toc = f"format: jb-book\nroot: book/{first}\n{chapters}"
+    (book / "_toc.yml").write_text(toc, encoding="utf-8")
 
 
 def build(book, **repository):
@@ -104,41 +108,39 @@ def test_settings_are_no_scripts_inside_a_page(book):
         assert name in settings
 
 
-def test_a_failure_names_chapter_cell_and_remedy(book):
-    write(book, "1 / 0")
-    done = build(book)
-    assert done.returncode != 0
-    report = (book / "_build/.failed").read_text(encoding="utf-8")
-    assert "chapter.ipynb, cell code (`1 / 0`): ZeroDivisionError: division by zero" in report
-    assert report in done.stdout + done.stderr
-    assert "make lab" in report
-
-
-WARNS = {
-    "stderr": "import sys; print('words', file=sys.stderr)",
-    "a warning": "import warnings; warnings.warn('words')",
-    "a log": "import logging; logging.warning('words')",
+FAILS = {  # a chapter: its code, and what is said of it
+    "divides": ("1 / 0", ": ZeroDivisionError: division by zero"),
+    "logs": ("import logging; logging.warning('words')", " wrote to stderr: WARNING:root:words"),
+    "prints": ("import sys; print('words', file=sys.stderr)", " wrote to stderr: words"),
+    "warns": ("import warnings; warnings.warn('words')", " wrote to stderr: "),
 }
 
 
-@pytest.mark.parametrize("code", WARNS.values(), ids=WARNS)
-def test_what_a_chapter_writes_to_stderr_fails_every_build(book, code):
-    write(book, code)
+def test_every_build_names_the_chapters_that_fail_their_cell_and_a_remedy(book):
+    for name, (code, _) in FAILS.items():
+        write(book, code, name=name)
     for _ in range(2):
         done = build(book)
         assert done.returncode != 0
-        assert "wrote to stderr" in done.stderr
-        assert "words" in (book / "_build/.failed").read_text(encoding="utf-8")
+        report = (book / "_build/.failed").read_text(encoding="utf-8")
+        assert report in done.stdout + done.stderr
+        for name, (code, words) in FAILS.items():
+            assert f"{name}.ipynb, cell code (`{code}`){words}" in report
+        assert "UserWarning: words" in report
+        assert "make lab" in report
     assert not (book / "_build/html/book/chapter.html").exists()
 
 
-@pytest.mark.parametrize("text", ["[nowhere](nowhere.md)", "```{nothing}\n```"])
-def test_a_page_that_warns_fails_every_build_until_it_is_mended(book, text):
-    sound = (book / "book/chapter.ipynb").read_text(encoding="utf-8")
-    write(book, CODE, text)
+def test_pages_that_warn_fail_every_build_until_they_are_mended(book):
+    write(book, CODE, "[nowhere](nowhere.md)")
+    write(book, CODE, "```{nothing}\n```", name="other")
     for _ in range(2):
-        assert "finished with problems" in build(book).stdout
-    (book / "book/chapter.ipynb").write_text(sound, encoding="utf-8")
+        done = build(book)
+        assert "finished with problems" in done.stdout
+        for name in ("chapter", "other"):
+            assert re.search(rf"{name}\.ipynb:\d+: WARNING", done.stdout + done.stderr)
+    for name in ("chapter", "other"):
+        write(book, CODE, name=name)
     assert "printed 42" in build(book)
 
 

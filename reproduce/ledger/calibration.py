@@ -10,12 +10,7 @@ import numpy as np
 
 from reproduce import paper
 from reproduce.experiments import second_plant
-from reproduce.experiments.calibration import (
-    AS_PRINTED,
-    SCENARIOS,
-    load_results,
-    repeat_over_seeds,
-)
+from reproduce.experiments.calibration import AS_PRINTED, SCENARIOS, load_results, repeat_over_seeds
 from reproduce.ledger.entry import (
     BELOW,
     HELD,

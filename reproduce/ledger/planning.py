@@ -17,15 +17,8 @@ from reproduce.experiments.calibration import (
     load_results,
     repeat_over_seeds,
 )
-from reproduce.ledger.entry import (
-    ABOVE,
-    BELOW,
-    Row,
-    mean,
-    mean_of_draws,
-    trivial_quantity,
-)
-from reproduce.one_draw import HOLDS, planned_error_ratio, worst_example
+from reproduce.ledger.entry import ABOVE, BELOW, Row, mean, mean_of_draws, trivial_quantity
+from reproduce.one_draw import DRAWS, HOLDS, planned_error_ratio
 from vmc_lib.motor import templates
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import draw_targets, exact_weights, habitual_weights, plan
@@ -35,14 +28,16 @@ PRINTED = f"{SCENARIOS[0]}, {AS_PRINTED}"
 
 
 @cache
-def planned_error_ratios(spacing=templates.SPACING, rule=habitual_weights, hold=0.0, number=4):
-    """The mean miss over the mean reach, for each of SEEDS draws of COUNT targets: (seeds,).
+def planned_error_ratios(spacing=templates.SPACING, rule=habitual_weights):
+    """The mean miss over the mean reach by templates `spacing` m apart: (seeds,)."""
+    past = templates.load(spacing, hold=0.0)
+    return np.array([planned_error_ratio(seed, past, rule) for seed in SEEDS])
 
-    Of templates `spacing` m apart the plan mixes a `number`: four are one in each quadrant, any
-    other number the nearest.
-    """
-    past = templates.load(spacing, hold)
-    return np.array([planned_error_ratio(seed, past, rule, number) for seed in SEEDS])
+
+@cache
+def draws(where):
+    """The numbers of a row of `DRAWS`, for each of SEEDS: name -> (seeds,)."""
+    return repeat_over_seeds(DRAWS[where])
 
 
 def fitted_spacing():
@@ -71,10 +66,10 @@ def _figure_9():
     habit = plan(draw_targets(template_set, 20, np.random.default_rng(2)), template_set)
     summed = np.einsum("bi,bitm->btm", habit.weights, template_set.excitations[habit.rows])
     worst = (paper.TABLE_4_ERRORS / np.linalg.norm(paper.TARGETS, axis=-1)).max()
-    furthest = [worst_example(seed) for seed in SEEDS]
+    [(near, furthest)] = draws("Fig. 9").items()
     missed, name = planned_error_ratios().mean(), "not on it: miss over reach, above rounding"
     return [
-        mean("near: miss over reach, worst of five examples", worst, furthest, **BELOW),
+        mean(near, worst, furthest, **BELOW),
         trivial_quantity(name, paper.planned_rounding(), missed, **ABOVE),
         trivial_quantity("templates N", paper.TEMPLATES, habit.weights.shape[-1]),
         trivial_quantity(
@@ -100,25 +95,16 @@ def _nearby():
 
 
 def _few_templates():
-    few, some, many = (planned_error_ratios(spacing) for spacing in (0.08, 0.06, 0.04))
-    most, least = (planned_error_ratios(number=number) for number in (12, 3))
-    return [
-        mean("planned error, templates 6 cm apart over 8", 1, some / few, **BELOW),
-        mean("planned error, templates 4 cm apart over 6", 1, many / some, **BELOW),
-        mean("planned error, 12 templates combined over 3", 1, most / least, **BELOW),
-    ]
+    return [mean(name, 1, ratios, **BELOW) for name, ratios in draws("IV C, templates").items()]
 
 
 def _non_linear():
     """What the arm misses by, with Eq. 4 solved exactly, and how much of the miss that removes."""
-    last_digit, missed = paper.planned_rounding(), planned_error_ratios(rule=exact_weights)
-    name = "miss over reach with exact weights, above rounding"
-    quantities = [mean(name, last_digit, missed, **ABOVE)]
-    for reading, hold in HOLDS.items():
-        left = planned_error_ratios(rule=exact_weights, hold=hold) / planned_error_ratios(hold=hold)
-        name = f"share of the miss that exact weights remove{reading}"
-        quantities.append(mean(name, None, 1 - left))
-    return quantities
+    (name, missed), *shares = draws("III, Block 3").items()
+    return [
+        mean(name, paper.planned_rounding(), missed, **ABOVE),
+        *(mean(name, None, share) for name, share in shares),
+    ]
 
 
 @cache
@@ -138,18 +124,20 @@ def _figure_3d():
 
 def _exact():
     """Exact weights on the very templates, and beside the paper on those that reproduce it."""
-    spacing, name = fitted_spacing(), "error with exact weights over that with Eq. 5, {}"
-    flat, found = planned_error_ratios(rule=exact_weights), errors_3d()
+    found, [(in_plane, left)] = errors_3d(), draws("Ours, Eq. 5").items()
     return [
         mean_of_draws(
             "planned error over reach, exact weights",
             paper.planned_error_ratio(),
-            planned_error_ratios(spacing, exact_weights),
+            planned_error_ratios(fitted_spacing(), exact_weights),
             **PLANNED,
         ),
-        mean(name.format("in the plane"), 1, flat / planned_error_ratios(), **BELOW),
+        mean(in_plane, 1, left, **BELOW),
         mean(
-            name.format("in space"), 1, found["exact / reach"] / found["planned / reach"], **BELOW
+            "error with exact weights over that with Eq. 5, in space",
+            1,
+            found["exact / reach"] / found["planned / reach"],
+            **BELOW,
         ),
     ]
 
@@ -211,10 +199,5 @@ ROWS = (
         note="A plan misses by more than in the plane, as Eq. 5 spreads the weight over eight "
         "memories, some of them far from the target. See *Ours, Eq. 5*.",
     ),
-    Row(
-        "Ours, Eq. 5",
-        "Weights that satisfy Eq. 4 exactly miss by less.",
-        "14_beyond",
-        _exact,
-    ),
+    Row("Ours, Eq. 5", "Weights that satisfy Eq. 4 exactly miss by less.", "14_beyond", _exact),
 )

@@ -90,10 +90,7 @@ def _table_2():
         how = paper.TABLE_2, fresh_test_set.table_2(reading), learnt.get(reading, (None, None))
         quantities += _trained(f"published, {reading}", *how, objects, paper.OBJECTS)
     limit = "recall that the candidates allow"
-    return [
-        *quantities,
-        share(limit, paper.TABLE_2[1], right, objects, paper.OBJECTS, **EXACT),
-    ]
+    return [*quantities, share(limit, paper.TABLE_2[1], right, objects, paper.OBJECTS, **EXACT)]
 
 
 ROWS = (

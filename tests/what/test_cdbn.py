@@ -3,21 +3,13 @@ import pytest
 import torch
 
 from reproduce.experiments.gabor import best_gabor
-from vmc_lib import photos
-from vmc_lib.what.cdbn import CDBN, crops_of
-from vmc_lib.what.crops import whiten
+from vmc_lib.what.cdbn import CDBN
 from vmc_lib.what.learning import Learner
 
 
 @pytest.fixture(scope="module")
 def cdbn():
     return CDBN.load()
-
-
-@pytest.fixture(scope="module")
-def white():
-    crops, _ = crops_of(photos.load("rig", "train")[:2])
-    return whiten(crops)
 
 
 def test_layers_have_the_papers_sizes(cdbn, white):

@@ -1,3 +1,5 @@
+from functools import cache
+
 import numpy as np
 import pytest
 from scipy.stats import sem, t
@@ -29,27 +31,30 @@ def test_localisation_by_hand():
     assert localisation.precision_recall([photo], [list(photo.boxes.values())]) == (1, 1)
 
 
-@pytest.mark.parametrize("name", localisation.TABLE_1_RECIPES)
-def test_table_1_ships_as_it_is_measured(name):
-    table = localisation.table_1("rig", "validation", name)
-    assert list(table) == ["linear", "rbf", "poly", "sigmoid"]
-    rows = table["linear"]
-    assert rows.shape == (localisation.TRAININGS, 2)
-    for seed in (0, localisation.TRAININGS - 1):
-        again = localisation.measure_table_1("rig", name, seed, ["linear"])[
-            photos.SPLITS.index("validation")
-        ]
-        assert rows[seed] == pytest.approx(again[0], abs=0.02)
+@cache
+def linear_rows(name, seed):
+    """Precision and recall of the linear kernel on the rig, trained again, by split."""
+    rows = localisation.measure_table_1("rig", name, seed, ["linear"])
+    return dict(zip(photos.SPLITS, rows[:, 0], strict=True))
+
+
+@pytest.mark.parametrize(("name", "off"), [("published", 0.01), ("context", 0.02)])
+def test_table_1_ships_as_it_is_measured(name, off):
+    for split in photos.SPLITS:
+        table = localisation.table_1("rig", split, name)
+        assert list(table) == ["linear", "rbf", "poly", "sigmoid"]
+        assert table["linear"].shape == (localisation.TRAININGS, 2)
+        for seed in (0, localisation.TRAININGS - 1):
+            assert table["linear"][seed] == pytest.approx(linear_rows(name, seed)[split], abs=off)
 
 
 def test_table_1_counts_the_examples_of_the_split():
     """Its linear kernel is the detector's that ships: one cost, the same precision and recall."""
     assert localisation.kernel_settings()["linear"].tolist() == [RECIPES["published"].cost, 1]
-    rows = localisation.measure_table_1("rig", "published", 0, ["linear"])
     x, truth = labelled_candidates(photos.load("rig", "validation"))
     says = ObjectDetector.load("rig", "published").svm.score(x) > 0
     expected = (truth[says].mean(), says[truth].mean())
-    assert rows[photos.SPLITS.index("validation"), 0] == pytest.approx(expected, abs=0.02)
+    assert linear_rows("published", 0)["validation"] == pytest.approx(expected, abs=0.02)
 
 
 def test_settings_are_chosen_on_validation_photos_from_one_grid(monkeypatch):

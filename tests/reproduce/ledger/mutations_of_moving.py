@@ -74,8 +74,8 @@ def shuffles_the_weights(patch):
         weights = motor_planning.habitual_weights(target, points)
         return np.random.default_rng(0).permuted(weights, axis=-1)
 
-    patch.setattr(planning, "exact_weights", shuffled)
-    patch.setattr(motor_planning, "exact_weights", shuffled)
+    for module in (planning, one_draw, motor_planning):
+        patch.setattr(module, "exact_weights", shuffled)
     patch.setattr(planning, "SEEDS", FEW)
     draws_few(patch, planning)
 

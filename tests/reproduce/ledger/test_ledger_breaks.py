@@ -13,6 +13,7 @@ ROWS = {row.where: row for row in ledger.ROWS}
 HOLDS = [e["where"] for e in ledger.load()["rows"] if e["verdict"] not in (DIFFERS, NOT_COMPARED)]
 CACHES = (
     planning.planned_error_ratios,
+    planning.draws,
     planning.errors_3d,
     calibration.nearer,
     filters.gabor_correlations,

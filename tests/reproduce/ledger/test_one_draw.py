@@ -3,13 +3,7 @@
 import numpy as np
 import pytest
 
-from reproduce.experiments import (
-    calibration,
-    class_independence,
-    hmax_draws,
-    localisation,
-    second_layers,
-)
+from reproduce.experiments import calibration, class_independence, hmax_draws, second_layers
 from reproduce.results import arrays
 from vmc_lib import photos
 
@@ -22,13 +16,6 @@ def test_one_draw_of_movements_is_reproducible():
     assert {k: round(v, 4) for k, v in now.items()} == pytest.approx(
         {k: shipped[k] for k in now}, abs=2e-4
     )
-
-
-def test_one_training_of_table_1_is_reproducible():
-    now = localisation.measure_table_1("rig", "published", 0, ["linear"])
-    for k, split in enumerate(photos.SPLITS):
-        shipped = localisation.table_1("rig", split, "published")["linear"][0]
-        np.testing.assert_allclose(now[k, 0], shipped, atol=0.01)
 
 
 def test_one_pair_of_second_layers_is_reproducible():

@@ -3,16 +3,8 @@ import pytest
 import torch
 
 from reproduce.training.cdbn import train_cdbn
-from vmc_lib import photos
-from vmc_lib.what.cdbn import CDBN, crops_of
-from vmc_lib.what.crops import whiten
+from vmc_lib.what.cdbn import CDBN
 from vmc_lib.what.learning import Learner
-
-
-@pytest.fixture(scope="module")
-def white():
-    crops, _ = crops_of(photos.load("rig", "train")[:2])
-    return whiten(crops)
 
 
 def test_training_is_repeatable_and_saves_whole(white, tmp_path):
