@@ -27,7 +27,7 @@ def localiser():
     axes, axis_units = whole_numbers(x.T @ places / variances)
     centres, centre_units = whole_numbers(places)
     return {
-        "axes": axes,
+        "axes": axes.T,  # rows, as the page multiplies them
         "centres": centres,
         "unit": axis_units * centre_units,
         "middle": np.float32(middle),
@@ -60,7 +60,7 @@ class CompactLocaliser(Localiser):
         """As in `Localiser`, but the product in ‖a - b‖² = ‖a‖² + ‖b‖² - 2 a·b is compact."""
         parts = localiser()
         x = x - parts["middle"]
-        along = x @ parts["axes"] * parts["unit"]
+        along = x @ parts["axes"].T * parts["unit"]
         squares = (x**2).sum(axis=1, keepdims=True) + parts["squares"]
         return np.exp(-GAMMA * (squares - 2 * along @ parts["centres"].T))
 

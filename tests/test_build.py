@@ -10,11 +10,24 @@ from pathlib import Path
 import nbformat
 import pytest
 
+from book._ext.packed import bare
 from eye_in_page import brain
 from python_in_page import pack
 from tests import pages
 
 ROOT = Path(__file__).parents[1]
+TRICKY = r"""/* A comment
+   of two lines. */
+(() => {
+  // "quotes' and `ticks
+  const inside = [1, 2].map((n) => `  ${n / 2 /* gone */}
+    // stays ${[`/* in
+  side */`, /["'`/*]/.source].join("//")}`);
+  return [`
+
+  `, ...inside, 'it\'s /* a string'].join(); // gone
+})()
+"""
 CODE = "open('count', 'a').write('x')\nimport sys\nprint('printed', 6 * 7)"
 
 
@@ -75,6 +88,14 @@ def links(page):
     return re.findall(r'href="([^"]+)"', page)
 
 
+@pytest.mark.browser
+def test_a_script_without_comments_does_the_same(offline):
+    page = offline.new_page()
+    assert page.evaluate(bare(TRICKY)) == page.evaluate(TRICKY)
+    assert not re.search("of two|quotes|gone|^ +const", bare(TRICKY), re.M)
+    page.close()
+
+
 def test_a_chapter_is_executed_when_it_or_the_library_changed(book):
     for _ in range(2):
         page = build(book)
@@ -82,6 +103,8 @@ def test_a_chapter_is_executed_when_it_or_the_library_changed(book):
         assert "printed 42" in page
     for packed in (pack, brain):  # the page's Python, and what its eye has learnt
         assert (book / "_build/html/_static" / packed.SCRIPT).stat().st_size > 1e6
+    script = (book / "_build/html/_static/see.js").read_text(encoding="utf-8")
+    assert script.startswith("// Readable in eye_in_page/static/see.js\nObject")
     # It can be saved, and without a repository nothing leads out
     assert "../_sources/book/chapter.ipynb" in links(page)
     assert not [link for link in links(page) if link.startswith("http")]

@@ -2,24 +2,24 @@
 Object.assign(vmcEye, (() => {
   "use strict";
 
-  const AS_IT_IS = [[1, 1]];
-
-  /* The detections whose boxes, seen by a camera, are of a shuttlecock's physical size. */
-  const filterBySize = ({ boxes, scores }, camera, { sizes: [smallest, largest], table }) => {
-    const size = boxes.map((box) => vmcEye.physicalSize(camera, box, table));
-    const right = (_, i) => size[i] > smallest && size[i] < largest;
-    return { boxes: boxes.filter(right), scores: scores.filter(right) };
+  /* Whether a box, seen by a camera, is of a shuttlecock's physical size. */
+  const hasRightSize = (box, camera, { sizes: [smallest, largest], table }) => {
+    const size = vmcEye.physicalSize(camera, box, table);
+    return size > smallest && size < largest;
+  };
+  const filterBySize = ({ boxes, scores }, camera, selector) => {
+    const right = boxes.map((box) => hasRightSize(box, camera, selector)), isRight = (_, i) => right[i];
+    return { boxes: boxes.filter(isRight), scores: scores.filter(isRight) };
   };
 
-  /* The stream's answers to some boxes, one a piece, and the boxes refined by them. */
-  const lookAt = function* (stream, photo, boxes, flips) {
-    const answers = [];
-    for (const box of boxes) {
-      answers.push(vmcEye.look(stream, photo, box, flips));
-      yield;
-    }
-    const refined = boxes.map((box, i) => vmcEye.decodeDeltas(box, answers[i].deltas));
-    return { refined, logOdds: answers.map(({ logOdds }) => logOdds) };
+  /* What the stream says of a box, as it is or flipped: the log-odds of a shuttlecock, and the `box` refined. */
+  const refine = (stream, photo, box, flips = [[1, 1]]) => {
+    const { logOdds, deltas } = vmcEye.look(stream, photo, box, flips);
+    return { logOdds, box: vmcEye.decodeDeltas(box, deltas) };
+  };
+  const refineEach = function* (stream, photo, boxes, flips) {
+    const answers = yield* vmcEye.each(boxes, (box) => refine(stream, photo, box, flips));
+    return { refined: answers.map(({ box }) => box), logOdds: answers.map(({ logOdds }) => logOdds) };
   };
 
   const logistic = (logOdds) => 1 / (1 + Math.exp(-logOdds));
@@ -28,10 +28,10 @@ Object.assign(vmcEye, (() => {
      its odds. It reports what the first look says of the boxes. */
   const select = function* ({ selector, stream }, photo, { boxes, scores }, ratio, report) {
     const { weights: [byScore, byName], bias: [bias], firstPass, secondPass } = selector;
-    const first = yield* lookAt(stream, photo, boxes.slice(0, firstPass), AS_IT_IS);
+    const first = yield* refineEach(stream, photo, boxes.slice(0, firstPass));
     report({ boxes: first.refined, probability: first.logOdds.map(logistic) });
     const best = vmcEye.falling(first.logOdds).slice(0, secondPass);
-    const { refined, logOdds } = yield* lookAt(stream, photo, best.map((i) => first.refined[i]), stream.flips);
+    const { refined, logOdds } = yield* refineEach(stream, photo, best.map((i) => first.refined[i]), stream.flips);
     const kept = vmcEye.nms(refined, logOdds);
     const evidence = kept.map((i) => byScore * scores[best[i]] + byName * logOdds[i] + bias);
     const order = vmcEye.falling(evidence);
@@ -41,5 +41,5 @@ Object.assign(vmcEye, (() => {
     };
   };
 
-  return { filterBySize, select };
+  return { filterBySize, hasRightSize, refine, select };
 })());

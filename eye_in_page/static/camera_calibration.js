@@ -1,5 +1,5 @@
 /* Camera calibration from the corners of markers, as OpenCV does it for vmc_lib/marker_sheet.py: they are refined
-   to a share of a pixel, and a camera is fitted to them. `sheet` is what Python gives (eye_in_page/marker_sheet.py). */
+   to a share of a pixel, and a camera is fitted to them. `sheet` is what Python gives (book/figures/your_photo.py). */
 Object.assign(vmcEye, (() => {
   "use strict";
 

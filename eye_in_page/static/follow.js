@@ -3,39 +3,25 @@
 vmcEye.follow = (() => {
   "use strict";
 
-  const LOOKS = 3, AS_IT_IS = [[1, 1]], ASIDE = [-0.6, 0, 0.6]; // in sides of the box: where else it is looked for
-
-  const look = ({ stream }, photo, box) => {
-    const { logOdds, deltas } = vmcEye.look(stream, photo, box, AS_IT_IS);
-    return { logOdds, box: vmcEye.decodeDeltas(box, deltas) };
-  };
-
-  /* A box corrected again and again, and the log-odds of the last look. */
-  const refine = function* (brain, photo, box) {
-    let seen = { box };
-    for (let n = 0; n < LOOKS; n++) {
-      seen = look(brain, photo, seen.box);
-      yield;
-    }
-    return seen;
-  };
+  const LOOKS = 3, SETTLED = 0.9; // so often a box is corrected, or until its last correction has this IoU
+  const ASIDE = [-0.6, 0, 0.6].flatMap((x, _, all) => all.map((y) => [x, y, 0, 0])); // else it is looked for there
 
   /* The box of what was in a box one frame ago; null where nothing of a shuttlecock's looks and size is near. */
-  return function* (brain, photo, box, camera) {
-    const { sizes: [smallest, largest], table } = brain.selector;
-    const right = (seen) => {
-      const size = vmcEye.physicalSize(camera, seen.box, table);
-      return seen.logOdds > 0 && size > smallest && size < largest;
+  return function* ({ stream, selector }, photo, box, camera) {
+    const look = (box) => vmcEye.refine(stream, photo, box);
+    const settle = function* (box) {
+      for (let n = 1; ; n++) {
+        const seen = look(box);
+        yield;
+        if (n === LOOKS || vmcEye.iou(box, seen.box) > SETTLED) return seen;
+        box = seen.box;
+      }
     };
-    let best = yield* refine(brain, photo, box);
+    const right = (seen) => seen.logOdds > 0 && vmcEye.hasRightSize(seen.box, camera, selector);
+    let best = yield* settle(box);
     if (!right(best)) {
-      const around = [];
-      for (const x of ASIDE)
-        for (const y of ASIDE) {
-          around.push(look(brain, photo, vmcEye.decodeDeltas(box, [x, y, 0, 0])));
-          yield;
-        }
-      best = yield* refine(brain, photo, around.reduce((a, b) => (b.logOdds > a.logOdds ? b : a)).box);
+      const around = yield* vmcEye.each(ASIDE.map((deltas) => vmcEye.decodeDeltas(box, deltas)), look);
+      best = yield* settle(around.reduce((a, b) => (b.logOdds > a.logOdds ? b : a)).box);
     }
     return right(best) ? best.box : null;
   };

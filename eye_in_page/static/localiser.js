@@ -15,20 +15,9 @@ Object.assign(vmcEye, (() => {
 
   /* What the regression predicts of features: right and down in sides of the box, height in units of `side`. */
   const predictPlace = ({ axes, centres, unit, middle, squares, weights, mean, spread, gamma }, features) => {
-    const k = unit.length, along = new Float64Array(k), predicted = [0, 0, 0];
-    let square = 0;
-    features.forEach((x, i) => {
-      const off = x - middle[i];
-      square += off * off;
-      for (let j = 0; j < k; j++) along[j] += off * axes[i * k + j];
-    });
-    for (let j = 0; j < k; j++) along[j] *= unit[j];
-    squares.forEach((own, i) => {
-      let shared = 0;
-      for (let j = 0; j < k; j++) shared += along[j] * centres[i * k + j];
-      const like = Math.exp(-gamma * (square + own - 2 * shared));
-      for (let c = 0; c < 3; c++) predicted[c] += like * weights[3 * i + c];
-    });
+    const x = features.map((feature, i) => feature - middle[i]), square = vmcVectors.dot(x, x);
+    const along = vmcEye.product(axes, x).map((sum, i) => sum * unit[i]);
+    const predicted = vmcEye.addProduct([0, 0, 0], vmcEye.radialBasis(gamma, along, square, centres, squares), weights);
     return predicted.map((x, c) => mean[c] + spread[c] * x);
   };
 

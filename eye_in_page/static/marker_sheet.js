@@ -1,5 +1,5 @@
 /* A photo of the printed sheet: its camera, and the photo without the sheet (vmc_lib/marker_sheet.py). A photo is
-   { data, width, height }, four bytes a pixel; `sheet` is what Python gives (eye_in_page/marker_sheet.py). */
+   { data, width, height }, four bytes a pixel; `sheet` is what Python gives (book/figures/your_photo.py). */
 Object.assign(vmcEye, (() => {
   "use strict";
 
@@ -68,13 +68,12 @@ Object.assign(vmcEye, (() => {
 
   /* The photo, painted over within an outline, and a little beyond, in the colour around it. */
   const paintOver = ({ data, width, height }, polygon) => {
-    const within = ([left, right], x) => x >= left && x <= right;
-    const covered = grown(filled(polygon, height), 4), around = grown(covered, 7), inside = [], ring = [];
-    for (let i = 0; i < width * height; i++) {
-      const x = i % width, y = Math.floor(i / width);
-      if (within(covered[y], x)) inside.push(i);
-      else if (within(around[y], x)) ring.push(i);
-    }
+    const covered = grown(filled(polygon, height), 4), inside = [], ring = [];
+    grown(covered, 7).forEach(([left, right], y) => {
+      const [from, to] = covered[y];
+      for (let x = Math.max(0, left); x <= Math.min(right, width - 1); x++)
+        (x >= from && x <= to ? inside : ring).push(y * width + x);
+    });
     const bare = data.slice(), shown = ring.length ? ring : inside;
     for (const c of [0, 1, 2]) {
       const colour = median(shown.map((i) => data[4 * i + c]));

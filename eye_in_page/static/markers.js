@@ -3,9 +3,9 @@
 Object.assign(vmcEye, (() => {
   "use strict";
 
-  const { mean, sum } = vmcVectors;
+  const { sum } = vmcVectors;
 
-  const CELLS = 6, SMALLEST = 10; // of a marker: black and white cells a side, frame included; pixels a side
+  const CELLS = 6, SMALLEST = 10, FEWEST = 20; // of a marker: cells a side, frame included; pixels a side, in all
   const DARKER = 7, AROUND = [2, 6, 11].map((pixels) => pixels / 600); // grey levels; of the picture's longer side
 
   /* Which pixels are darker than the mean of the square around them, `reach` pixels each way: 0 or 1. */
@@ -28,7 +28,7 @@ Object.assign(vmcEye, (() => {
     return dark;
   };
 
-  /* The pixels of each connected patch, one after the other; `dark` is emptied. */
+  /* The pixels of each connected patch that may be a marker, one after the other; `dark` is emptied. */
   function* patches(dark, width, height) {
     const found = new Int32Array(dark.length);
     let end = 0;
@@ -46,34 +46,36 @@ Object.assign(vmcEye, (() => {
           for (let u = Math.max(0, x - 1); u <= Math.min(width - 1, x + 1); u++)
             if (dark[v * width + u]) take(v * width + u);
       }
-      yield found.subarray(start, end);
+      if (end - start >= FEWEST) yield found.subarray(start, end);
     }
   }
 
-  const apart = ([x, y], [u, v]) => Math.hypot(x - u, y - v);
-  const side = ([x0, y0], [x1, y1], [x, y]) => (x1 - x0) * (y - y0) - (y1 - y0) * (x - x0); // > 0: to the right
-  const farthest = (points, measure) => {
-    let best = points[0], most = -Infinity;
-    for (const point of points) {
-      const far = measure(point);
-      if (far > most) [best, most] = [point, far];
-    }
-    return best;
-  };
+  const apart = ([x, y], u, v) => Math.hypot(x - u, y - v);
+  const side = ([x0, y0], [x1, y1], x, y) => (x1 - x0) * (y - y0) - (y1 - y0) * (x - x0); // > 0: to the right
 
   /* The four corners of a patch, clockwise; null where it is no quadrilateral. */
   const corners = (patch, width) => {
-    if (patch.length < 2 * SMALLEST) return null;
-    const points = Array.from(patch, (pixel) => [pixel % width, Math.floor(pixel / width)]);
-    const middle = mean(points);
-    const a = farthest(points, (p) => apart(p, middle)), c = farthest(points, (p) => apart(p, a));
-    const b = farthest(points, (p) => -side(a, c, p)), d = farthest(points, (p) => side(a, c, p));
+    const xs = patch.map((pixel) => pixel % width), ys = patch.map((pixel) => pixel / width); // whole numbers
+    const farthest = (measure) => {
+      let best = 0, most = -Infinity;
+      for (let i = 0; i < xs.length; i++) {
+        const far = measure(xs[i], ys[i]);
+        if (far > most) [best, most] = [i, far];
+      }
+      return [xs[best], ys[best]];
+    };
+    const middle = [xs, ys].map((places) => sum(places) / patch.length);
+    const a = farthest((x, y) => apart(middle, x, y)), c = farthest((x, y) => apart(a, x, y));
+    const b = farthest((x, y) => -side(a, c, x, y)), d = farthest((x, y) => side(a, c, x, y));
     const quad = [a, b, c, d], next = [b, c, d, a];
-    const sides = quad.map((corner, i) => apart(corner, next[i])), longest = Math.max(...sides);
-    const halves = [-side(a, c, b), side(a, c, d)];
+    const sides = quad.map((corner, i) => apart(corner, ...next[i])), longest = Math.max(...sides);
+    const halves = [-side(a, c, ...b), side(a, c, ...d)];
     if (Math.min(...sides) < SMALLEST || Math.min(...halves) < 0.3 * Math.max(...halves)) return null;
-    const within = (p) => quad.every((corner, i) => side(corner, next[i], p) > -(1 + 0.03 * longest) * sides[i]);
-    return points.every(within) ? quad : null;
+    const within = (corner, i) => {
+      const least = -(1 + 0.03 * longest) * sides[i];
+      return xs.every((x, k) => side(corner, next[i], x, ys[k]) > least);
+    };
+    return quad.every(within) ? quad : null;
   };
 
   /* Where the points of the unit square lie in a quadrilateral (Heckbert 1989). */
@@ -121,6 +123,7 @@ Object.assign(vmcEye, (() => {
       for (const patch of patches(dark, width, height)) {
         const quad = corners(patch, width), marker = quad && identify(grey, width, quad, codes);
         if (marker && !found.has(marker.id)) found.set(marker.id, marker);
+        if (found.size === codes.length) return [...found.values()];
         yield;
       }
     }

@@ -24,5 +24,12 @@ const vmcEye = (() => {
     }
   };
 
-  return { finish, inPieces };
+  /* The results of a function of each of some things, `every` so many a piece. */
+  const each = function* (things, look, every = 1) {
+    const results = [];
+    for (const thing of things) if (results.push(look(thing)) % every === 0) yield;
+    return results;
+  };
+
+  return { each, finish, inPieces };
 })();

@@ -3,6 +3,7 @@ Object.assign(vmcEye, (() => {
   "use strict";
 
   const percent = (p) => `${(100 * p).toFixed(0)}%`;
+  const counted = (count, thing, plural = "s") => `${count} ${thing}${count === 1 ? "" : plural}`;
 
   /* The result of both pathways: boxes, the likeliest first, and their probability of holding a shuttlecock. */
   class Sight {
@@ -23,10 +24,9 @@ Object.assign(vmcEye, (() => {
     /* One line that describes the result. */
     get summary() {
       const { probability } = this, sure = probability.slice(0, this.shuttlecocks.length).map(percent);
-      if (sure.length) return `${sure.length} shuttlecock${sure.length > 1 ? "s" : ""} (${sure.join(", ")} sure)`;
+      if (sure.length) return `${counted(sure.length, "shuttlecock")} (${sure.join(", ")} sure)`;
       if (!probability.length) return "nothing that looks like an object";
-      const things = `${probability.length} thing${probability.length > 1 ? "s" : ""}`;
-      return `no shuttlecock, but ${things}; likeliest ${percent(Math.max(...probability))}`;
+      return `no shuttlecock, but ${counted(probability.length, "thing")}; likeliest ${percent(Math.max(...probability))}`;
     }
   }
 
@@ -49,5 +49,5 @@ Object.assign(vmcEye, (() => {
   const see = (brain, photo, { camera = null, report = () => {} } = {}) =>
     vmcEye.inPieces(sight(brain, photo, camera, report));
 
-  return { Sight, see };
+  return { Sight, counted, see };
 })());

@@ -4,7 +4,7 @@ const vmcYourPhoto = (() => {
   "use strict";
 
   const { frame } = vmcLive;
-  const { minus } = vmcVectors;
+  const { counted } = vmcEye, { minus } = vmcVectors;
   const { toWorld, turnTowards } = vmcKinematics;
 
   const EYE = [600, 400], LARGEST = 1200; // pixels: what the eye sees, and the longer side of what the sheet is read in
@@ -13,7 +13,6 @@ const vmcYourPhoto = (() => {
 
   class Superseded extends Error {} // the reader has chosen another photo
   const percent = (chance) => `${(100 * chance).toFixed(0)} %`;
-  const counted = (count, thing, plural = "s") => `${count} ${thing}${count === 1 ? "" : plural}`;
   const capital = (words) => words[0].toUpperCase() + words.slice(1);
 
   class YourPhoto extends vmcReach.Reach {

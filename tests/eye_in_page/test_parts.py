@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from eye_in_page import SEARCH_SCRIPTS, SIGHT_SCRIPTS, brain
-from tests.project import ROOT
+from book._ext.packed import bare
+from eye_in_page import STATIC, brain
 from vmc_lib import boxes, camera, photos
 from vmc_lib.loop import Sight, high_recall_detector
 from vmc_lib.what.stream import FLIPS, VentralStream
@@ -60,9 +60,9 @@ def test_the_brain_arrives_whole(ask):
 
 def test_what_a_reader_loads_is_light():
     assert len(brain.script()) < 4.5e6
-    assert sum(path.stat().st_size for path in [*SEARCH_SCRIPTS, *SIGHT_SCRIPTS]) < 40e3
-    for path in (ROOT / "eye_in_page/static").glob("*.js"):
-        assert len(path.read_text(encoding="utf-8").splitlines()) <= 250
+    scripts = [path.read_text(encoding="utf-8") for path in STATIC.glob("*.js")]
+    assert sum(len(bare(script).encode()) + 60 for script in scripts) < 60e3  # its first line: 60
+    assert max(script.count("\n") for script in scripts) <= 250
 
 
 def test_boxes_are_suppressed_vote_and_are_moved(ask, rng):
