@@ -70,7 +70,7 @@ def isotonic(loads, load, lengths, speeds):
     k, shortening = list(loads).index(load), -speeds[50]
     fig, left, right = panels(2)
     for mass, length in zip(loads[: k + 1], lengths.T, strict=False):
-        left.plot(length, color=COLOURS["line"], linewidth=1, gid=f"{mass} kg")
+        left.plot(length, color=COLOURS["line"], linewidth=1, gid=f"{mass:g} kg")
     left.plot(lengths[:, k], color=COLOURS["red"], gid="guide")
     low = min(0, lengths.min() - 0.1)
     left.set(xlabel="time (ms)", title="fibre length (l₀)", ylim=(low, 2))

@@ -45,17 +45,20 @@ def miss_above(above):
     return fig
 
 
-def correction(plan, trials, n):
-    """Fig. 4 for Algorithm 1's `trials` of one plan: the change with n, and the error against n."""
-    before, *errors = 1000 * trials.error
+def correction(plan, trials, gains, n):
+    """Fig. 4 for Algorithm 1's `trials` of one plan, one for each of `gains`: the change with n.
+
+    And the error against n.
+    """
+    (before, *errors), k = 1000 * trials.error, gains.index(n)
     fig, left, right = panels(*SIDE_BY_SIDE)
-    change = trials.weights[1 + n] - plan.weights
+    change = trials.weights[1 + k] - plan.weights
     corrections(left, plan.target, trials.endpoint[0], plan.points, change)
-    ends(left, plan.target, trials.endpoint[1 + n])
-    right.plot(GAINS, errors, gid="with each n")
+    ends(left, plan.target, trials.endpoint[1 + k])
+    right.plot(gains, errors, gid="with each n")
     right.axhline(before, color=COLOURS["grey"], ls="--")
-    right.plot(n, errors[n], "o", color=COLOURS["red"], gid="this n")
-    right.set(xlabel="n", ylim=(0, None), title=f"error {errors[n]:.1f} mm")
+    right.plot(n, errors[k], "o", color=COLOURS["red"], gid="this n")
+    right.set(xlabel="n", ylim=(0, None), title=f"error {errors[k]:.1f} mm")
     return fig
 
 
