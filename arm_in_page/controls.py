@@ -25,16 +25,37 @@ def bench_form(name):
     return form("Excitation of each muscle", buttons, sliders, {"time": "time"} | _POSE)
 
 
-def reach_form(name, target, by_hand):
-    """A target to be set, and rules to choose from; or weights, in place of a rule to plan by."""
+def reach_form(name, target, mode):
+    """A target to be set, and rules to choose from; or weights, in place of a rule to plan by.
+
+    And in the mode "templates" these, to be ticked.
+    """
     zone = [end(templates.load().points, axis=0).round(3) for end in (np.min, np.max)]
     rules = {"algorithm1": "published (Eq. 6–7)", "broydenCalibration": "ours"}
     controls = target_sliders(name, zone, target)
-    controls += _weights(name) if by_hand else plans()
+    controls += _weights(name) if mode == "weights" else plans()
     controls += radios("rule", "calibration", rules, "algorithm1", {})
     tells = {"planned": "planned miss", "tries": "tries", "calibrated": "calibrated miss"}
     tells |= {"speed": "speed in the hold"}
-    return form("Target and rules", {"calibrate": "Calibrate"}, controls, tells)
+    buttons = {"calibrate": "Calibrate"}
+    if mode == "templates":
+        controls += _templates()
+        buttons |= {"keep": "Keep as a template", "all": "All templates back"}
+    return form("Target and rules", buttons, controls, tells)
+
+
+def _templates():
+    """A box to tick for each template, folded: its dot on the plot does the same."""
+    places = (np.round(templates.load().points, 2) + 0.0).tolist()  # no −0
+    boxes = "".join(
+        f'<label><input type="checkbox" name="template" checked> {x:.2f}, {y:.2f}</label>'
+        for x, y in places
+    ).replace("-", "−")
+    return (
+        '<details class="vmc-numbers-of"><summary>The templates, one by one</summary>'
+        '<fieldset class="vmc-control"><legend>forward, up (m)</legend>'
+        f'<div class="vmc-options">{boxes}</div></fieldset></details>'
+    )
 
 
 def _weights(name):

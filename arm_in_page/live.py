@@ -35,7 +35,7 @@ from vmc_lib.show.render_mode import STATIC as SHOW
 from vmc_lib.show.render_mode import render_mode
 from vmc_lib.show.scene import SCRIPTS as VIEWER
 
-MODES = ("bench", "reach", "weights")
+MODES = ("bench", "reach", "weights", "templates")
 TRIALS = 2  # of our own calibration: off-line, the page has no more to learn
 CALIBRATION = {"gains": GAINS, "trials": TRIALS, "largestStep": LARGEST_STEP}
 KINEMATICS = {
@@ -45,7 +45,7 @@ KINEMATICS = {
 }
 MODEL_SCRIPTS = ("vectors", "kinematics", "engine", "muscle", "arm", "arm26")
 MODEL_SCRIPTS += ("templates", "planning", "calibration")
-PAGE_SCRIPTS = ("whole", "drawing", "live", "bench", "reach", "by_hand", "start")
+PAGE_SCRIPTS = ("whole", "drawing", "live", "bench", "reach", "by_hand", "experience", "start")
 SCRIPTS = (  # in the order in which they need one another
     *(SHOW / name for name in ("axes.js", "handle.js")),
     *(STATIC / f"{name}.js" for name in MODEL_SCRIPTS + PAGE_SCRIPTS),
@@ -62,11 +62,12 @@ def live_arm(mode, caption, alt, target=(0.09, -0.37), law=""):
 
     `mode` is "bench" (six excitation sliders move the arm) or "reach" (the reader sets a target;
     the page plans, moves, shows the miss, calibrates off-line and moves again) or "weights" (the
-    same, and the four weights of the plan are set by hand). `target` (2,), in
-    the arm's plane and in m, is where the reach's target first stands, and for which a first reach
-    is there from the start. `caption` is Markdown and says what to notice, `alt` describes the
-    picture in words. `law` names the chapter's function of Eq. 5, which a reader can change: the
-    book's page then plans by it. Raises ValueError when the mode is unknown or when no templates
+    same, and the four weights of the plan are set by hand) or "templates" (the same as "reach", and
+    templates are taken away, put back and added). `target` (2,), in the arm's plane and in m, is
+    where the reach's target first stands, and for which a first reach is there from the start.
+    `caption` is Markdown and says what to notice, `alt` describes the picture in words. `law`
+    names the chapter's function of Eq. 5, which a reader can change: the book's page then plans by
+    it. Raises ValueError when the mode is unknown or when no templates
     surround the target.
     """
     if mode not in MODES:
@@ -78,7 +79,7 @@ def live_arm(mode, caption, alt, target=(0.09, -0.37), law=""):
     else:
         target = np.asarray(target, float)
         movement = execute(plan(target, templates.load()))  # raises when none surround it
-        draw, controls = partial(_reach_view, movement), reach_form(name, target, mode == "weights")
+        draw, controls = partial(_reach_view, movement), reach_form(name, target, mode)
         data |= {"first": first(movement), "lens": LENS}
     show(name, mode, draw, controls, data, caption, alt, law)
 

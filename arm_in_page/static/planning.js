@@ -38,10 +38,11 @@ const vmcPlanning = (() => {
   const octant = ([x, y, z]) => (x >= 0) + 2 * (y >= 0) + 4 * (z >= 0); // reproduce/whole_arm/experiment.py
 
   /* The nearest template in each quadrant round the target; in space, in each octant. */
-  const surrounding = (target, points) => {
+  const surrounding = (target, points, without) => {
     const part = target.length > 2 ? octant : quadrant;
     const nearest = Array.from({ length: 2 ** target.length }, () => ({ distance: Infinity }));
     points.forEach((point, row) => {
+      if (without.has(row)) return;
       const away = minus(point, target);
       const [here, distance] = [part(away), Math.hypot(...away)];
       if (distance < nearest[here].distance) nearest[here] = { row, distance };
@@ -51,9 +52,9 @@ const vmcPlanning = (() => {
     return nearest.map(({ row }) => row);
   };
 
-  /* A reach to `target` with the templates that surround it: four, in space eight. */
-  const plan = (target, templateSet, rule = habitualWeights) => {
-    const chosen = surrounding(target, templateSet.points);
+  /* A reach to `target` with the templates that surround it: four, in space eight; `without` some rows. */
+  const plan = (target, templateSet, rule = habitualWeights, without = new Set()) => {
+    const chosen = surrounding(target, templateSet.points, without);
     const points = chosen.map((row) => templateSet.points[row]);
     return { target, chosen, points, weights: rule(target, points) };
   };

@@ -128,7 +128,11 @@ const vmcReach = (() => {
 
     propose() {
       const rule = vmcPlanning[this.form.elements.weights.value];
-      return vmcPlanning.plan(this.target, this.given.templateSet, rule);
+      return vmcPlanning.plan(this.target, this.experience, rule, this.without);
+    }
+
+    get experience() {
+      return this.templateSet ?? this.given.templateSet; // before the physics is there
     }
 
     /* Take the target from the sliders and plan anew, as one of them has `moved`; what was under way ends. */
@@ -174,8 +178,8 @@ const vmcReach = (() => {
       this.drawing.balls = [this.goal, planned?.hand, calibrated?.hand];
     }
 
-    sayMiss() {
-      super.sayMiss(" Drag the target, and let go.");
+    sayMiss(next = "") {
+      super.sayMiss(` Drag the target, and let go${next}.`);
     }
   }
 

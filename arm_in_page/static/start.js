@@ -2,7 +2,9 @@
 const vmcStart = (() => {
   "use strict";
 
-  const modes = { bench: vmcBench.Bench, reach: vmcReach.Aimed, weights: vmcByHand.ByHand };
+  const modes = {
+    bench: vmcBench.Bench, reach: vmcReach.Aimed, weights: vmcByHand.ByHand, templates: vmcExperience.Experience,
+  };
   const start = (box) => new modes[box.dataset.mode](box);
   const startAll = () => document.querySelectorAll(".vmc-live:not([data-ready])").forEach(start);
   if (self.vmcKernel); // which starts its own

@@ -4,25 +4,30 @@ const vmcTemplates = (() => {
 
   const { clip, sum } = vmcVectors;
 
-  /* N remembered reaches: where they ended, and the knots of their excitations' splines, or these
-     excitations themselves. */
+  /* N remembered reaches: where they ended, and their excitations; given as knots of splines, or
+     themselves. */
   class TemplateSet {
     constructor({ points, shape, steps }, values) {
       const [count, rows, muscles] = shape;
       const at = (n, i, k) => values[(n * rows + i) * muscles + k];
       const fill = (length, make) => Array.from({ length }, (_, i) => make(i));
-      this.points = points;
-      this.knots = fill(count, (n) => fill(rows, (i) => fill(muscles, (k) => at(n, i, k))));
-      this.spline = fill(steps, (t) =>
+      const spline = fill(steps, (t) =>
         rows === steps ? { first: t, values: [1] } : basis(t / (steps - 1), rows));
+      this.points = [...points];
+      this.commands = fill(count, (n) => spline.map(({ first, values: share }) =>
+        fill(muscles, (k) => sum(share.map((v, i) => v * at(n, first + i, k))))));
     }
 
-    /* Eq. 3: Σ w_i u_i(t), held to [0, 1]; splines are linear, so their knots may be mixed. */
+    /* One more, that ended at a point. */
+    add(point, excitations) {
+      this.points.push(point);
+      this.commands.push(excitations);
+    }
+
+    /* Eq. 3: Σ w_i u_i(t), held to [0, 1]. */
     excitations({ chosen, weights }) {
-      const mixed = this.knots[0].map((row, i) =>
-        row.map((_, k) => sum(chosen.map((n, j) => weights[j] * this.knots[n][i][k]))));
-      return this.spline.map(({ first, values }) =>
-        mixed[0].map((_, k) => clip(sum(values.map((v, i) => v * mixed[first + i][k])), 0, 1)));
+      return this.commands[0].map((now, t) =>
+        now.map((_, k) => clip(sum(chosen.map((n, j) => weights[j] * this.commands[n][t][k])), 0, 1)));
     }
   }
 

@@ -41,6 +41,7 @@ def arms_html(past):
             "A whole arm before two views of it.",
         )
         live_arm("weights", "Move the weights.", "An arm before four weights.")
+        live_arm("templates", "Take templates away.", "An arm before its templates.")
 
     return pages.book_html(live, declare)
 
@@ -56,11 +57,12 @@ def ask(offline, site, arms_html):
 
 @pytest.fixture
 def open_arms(open_page, arms_html):
-    """A function that opens a page with the arms `bench`, `reach`, `whole` and `by_hand`."""
+    """A function that opens a page with an arm for each mode, `past` for templates, and `whole`."""
 
     def open_arms(*window):
         page = open_page(arms_html, *window)
-        page.bench, page.reach, page.whole, page.by_hand = page.locator(".vmc-live").all()
+        arms = page.locator(".vmc-live").all()
+        page.bench, page.reach, page.whole, page.by_hand, page.past = arms
         return page
 
     return open_arms

@@ -1,0 +1,98 @@
+/* Past experience in the reader's hand: templates are taken away and put back, and a reach becomes one. */
+const vmcExperience = (() => {
+  "use strict";
+
+  const NEAR = 12, FINGER = 22; // px from a dot's middle that still are on it
+
+  class Experience extends vmcReach.Aimed {
+    constructor(box) {
+      super(box);
+      const { keep, all } = this.form.elements;
+      keep.addEventListener("click", () => this.keep());
+      all.addEventListener("click", () => {
+        for (const one of this.boxes) one.checked = true;
+        this.again();
+      });
+      this.controls.addEventListener("click", (event) => this.mayGo(event));
+      const pictures = box.querySelector(".vmc-pictures");
+      for (const type of ["pointerdown", "click"]) // before they reach the target's handle
+        pictures.addEventListener(type, (event) => {
+          const dot = this.dot(event);
+          if (dot) event.stopPropagation();
+          if (dot && type === "click") dot.click();
+        }, true);
+    }
+
+    /* A box to tick for each template, in their order. */
+    get boxes() {
+      return [...this.controls.querySelectorAll("[name=template]")];
+    }
+
+    get without() {
+      return new Set(this.boxes.flatMap(({ checked }, row) => (checked ? [] : row)));
+    }
+
+    /* The box of the template that the reader points at on the plot. */
+    dot({ target, clientX, clientY, pointerType }) {
+      const { svg, measure } = this.drawing.plots[0];
+      if (target.closest("svg") !== svg) return null;
+      const { left, top, width, height } = svg.getBoundingClientRect();
+      const far = this.experience.points.map(measure.drawn).map(([right, down]) =>
+        Math.hypot(clientX - left - right * width, clientY - top - down * height));
+      const least = Math.min(...far);
+      return least < (pointerType === "touch" ? FINGER : NEAR) ? this.boxes[far.indexOf(least)] : null;
+    }
+
+    /* A template without which there is no plan stays. */
+    mayGo(event) {
+      if (event.target.name !== "template" || event.target.checked || !this.plan) return;
+      try {
+        this.propose();
+      } catch (error) {
+        event.preventDefault();
+        const words = `This template stays: without it, ${error.message}.`;
+        if (!this.planned) this.stays = words; // or the reach under way would speak over it
+        this.say(words);
+      }
+    }
+
+    /* The reach that was just made becomes a template: its commands, and where they led. */
+    async keep() {
+      if (!this.planned || !this.arm) await this.begin();
+      const { plan, templateSet, planned, calibrated } = this;
+      if (!planned) return;
+      const { weights, reached } = calibrated ?? planned;
+      templateSet.add(reached, templateSet.excitations({ ...plan, weights }));
+      const label = this.boxes.at(-1).parentElement.cloneNode(true);
+      label.lastChild.textContent = ` ${reached.map((x) => vmcLive.signed(x, 3)).join(", ")}`;
+      this.boxes.at(-1).parentElement.after(label);
+      this.boxes.at(-1).checked = true;
+      this.again();
+    }
+
+    again() {
+      this.aim();
+      this.begin();
+    }
+
+    /* Also rings for what was taken away, and dots for what was added. */
+    mark(path) {
+      super.mark(path);
+      const { points } = this.experience, { without } = this;
+      const gone = points.filter((_, row) => without.has(row));
+      const added = points.slice(this.given.templateSet.points.length);
+      this.drawing.marks.unshift(
+        ...added.map((point) => ["dot", "grey", point, 3]),
+        ...gone.flatMap((point) => [["dot", "paper", point, 4], ["ring", "grey", point, 3]]));
+    }
+
+    sayMiss() {
+      const all = this.boxes.length, { stays } = this;
+      this.stays = null;
+      if (stays) this.say(stays);
+      else super.sayMiss(`; or click a template: ${all - this.without.size} of ${all} are there`);
+    }
+  }
+
+  return { Experience };
+})();
