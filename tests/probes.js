@@ -93,6 +93,34 @@ function restlessSliders() {
   }).map((demo) => demo.id);
 }
 
+/* Sliders that, dragged from end to end, move a control of their demo in the window; a demo whose
+   states are not in the page draws a little later. */
+async function jumpySliders() {
+  const seen = (one) => one.checkVisibility({ visibilityProperty: true });
+  const jumps = async (slider) => {
+    const demo = slider.closest(".vmc-demo"), min = +slider.min, range = slider.max - min;
+    const controls = [...demo.querySelectorAll("input, select, button")].filter(seen);
+    const edges = () => controls.map((one) => one.getBoundingClientRect())
+      .flatMap(({ left, right, top }) => [left, right, top]);
+    slider.scrollIntoView({ block: "center", behavior: "instant" });
+    slider.focus({ preventScroll: true });
+    const before = edges();
+    let farthest = 0;
+    slider.dispatchEvent(new PointerEvent("pointerdown", { bubbles: true }));
+    for (let part = 0.02; part < 1; part += 0.12) {
+      slider.value = min + part * range;
+      fire(slider);
+      for (let frames = demo.vmc ? 0 : 2; frames--; ) await new Promise(requestAnimationFrame);
+      farthest = Math.max(farthest, ...edges().map((edge, i) => Math.abs(edge - before[i])));
+    }
+    return farthest > 1;
+  };
+  const jumpy = [];
+  for (const slider of document.querySelectorAll(".vmc-demo input[type=range]:enabled"))
+    if (seen(slider) && (await jumps(slider))) jumpy.push(slider.id || slider.closest("label").textContent);
+  return jumpy;
+}
+
 /* Marks of folded code that are smaller than `least`, or that lie on words or code. */
 function crowdedMarks(least) {
   const apart = "summary, script, .katex, .vmc-spoken, [class*=scrollable-table]";
