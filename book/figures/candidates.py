@@ -6,11 +6,12 @@ import numpy as np
 
 from book.figures.panels import panels
 from book.figures.where import best_so_far, in_corner, mosaic, nearest, rising
+from reproduce import results
 from reproduce.peers.window_proposals import edge_density, sliding_windows
 from reproduce.training.detectors import candidates
 from vmc_lib import photos
 from vmc_lib.boxes import iou
-from vmc_lib.show import COLOURS, photo_view
+from vmc_lib.show import COLOURS, photo_view, table
 from vmc_lib.where.selective_search import ALL, Strategy, hierarchies, propose
 
 SPACES = ("HSV", "Lab", "rgI", "I")
@@ -45,6 +46,16 @@ def salient_object(boxes, heat):
         if x0 <= x <= x1 and y0 <= y <= y1:
             return f"On the {name}"
     return "Elsewhere"
+
+
+def salient_objects(boxes, images, name, gains):
+    """Saliency of images, by image and gains; and of one, the `salient_object` by gains."""
+    parts = {key: contrasts(image) for key, image in images.items()}
+    heat = {
+        (key, attend): saliency(parts[key], gain)
+        for key, (attend, gain) in product(images, gains.items())
+    }
+    return heat, {attend: salient_object(boxes, heat[name, attend]) for attend in gains}
 
 
 def saliency_view(image, heat):
@@ -115,6 +126,30 @@ def proposal_curves(shots, rng):
         curves.append([np.float32(overlap_curve(photo, boxes)) for boxes in lists])
     joined = map(np.concatenate, zip(*curves, strict=True))
     return dict(zip(PROPOSALS, joined, strict=True))
+
+
+def recall_table(kinds, strategies):
+    """The recall at an overlap of 0.8 that candidates allow, by kind of photo: a Markdown table."""
+    rows = {
+        name: [final_recall(shots, name, 0.8) for shots in kinds.values()] for name in strategies
+    }
+    return table(["grouping", *kinds], rows, ".2f")
+
+
+def windows_ahead(curves, overlaps):
+    """How much more windows in random order find than selective search does: overlap -> share."""
+    ours, random = (
+        np.array([(curves[name][:, -1] >= t).mean() for t in overlaps]) for name in PROPOSALS[:2]
+    )
+    return dict(zip(map("{:g}".format, overlaps), random - ours, strict=True))
+
+
+def growth_of_time():
+    """Processor time by pixels, of ours and of OpenCV: name -> (n, 2)."""
+    growth = {}
+    for row in results.records("bench/selective_search_growth")["rows"]:
+        growth.setdefault(row["by"], []).append((row["pixels"], row["processor s"]))
+    return {name: np.array(points) for name, points in growth.items()}
 
 
 def final_recall(shots, strategy, overlap):

@@ -6,7 +6,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from book.figures.what import tiles
-from reproduce.experiments.recognition import confusion_counts, precision_recall
+from reproduce.experiments.recognition import PUBLISHED, confusion_counts, precision_recall
 from vmc_lib.boxes import decode_deltas, iou
 from vmc_lib.photos import HEIGHT, WIDTH
 from vmc_lib.show import Estimate, dot_plot, estimate, photo_view
@@ -70,6 +70,12 @@ def refined_box(stream, photo, boxes, fits, look):
     true = photo.boxes["shuttlecock"], "", "green"
     label = f"IoU {fits[look]:.2f}, {chance:.0%}"
     return photo_view(photo.image, [true, (boxes[look], label, "orange")])
+
+
+def rivals(by_level, level, measure):
+    """Table III on a level as a dot plot; on the rig's, ticks for what the paper printed."""
+    published = PUBLISHED.get(measure) if level == "rig" else None
+    return dot_plot(by_level[level][measure], measure, published, (0.6, 1.01))
 
 
 def first_layer(filters, rows):

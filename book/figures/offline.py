@@ -7,6 +7,7 @@ import numpy as np
 
 from book.figures.panels import curves, mark_now, panels
 from book.figures.reaching import corrections, ends, mean_mm, norm_mm, reaches
+from reproduce import paper
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.arm.simulate import Perturbation
 from vmc_lib.cerebellum.offline import GAINS, algorithm_1, broyden_calibration
@@ -65,6 +66,15 @@ def correction(plan, trials, gains, n):
 def error_ratio(trials):
     """Mean error of the best trials of each reach, over the planned one."""
     return trials.error.min(axis=0).mean() / trials.error[0].mean()
+
+
+def least_misfits(*choices):
+    """The least misfit (m) that four points can have, for columns of Table IV: by their count."""
+    from reproduce.experiments.printed_weights import best_points  # not in the page
+
+    weights = paper.TABLE_4_WEIGHTS / paper.TABLE_4_WEIGHTS.sum(axis=0)
+    chosen = {len(k): (paper.TARGETS[k], weights[:, k]) for k in map(list, choices)}
+    return {n: best_points(*one, np.random.default_rng(0))[1] for n, one in chosen.items()}
 
 
 def before_and_after(printed, ours):
@@ -185,6 +195,11 @@ def in_mm(error):
     return f"{error:.2g} mm" if error >= 0.01 else "below 0.01 mm"
 
 
+def corrected(plans, trials):
+    """The plans as so many trials of Broyden calibration leave them."""
+    return plans.with_weights(broyden_calibration(plans, trials).best_weights)
+
+
 def distances(plans, seconds=1.5):
     """How far the hand is from each target after the command, (n, T), mm, every 10 ms."""
     paths = templates.reach(plans.excitations, hold=seconds).hold
@@ -213,10 +228,14 @@ HOLD_HEADS = [
 ]
 
 
-def hold_row(name, plan, weights):
-    """A row for `HOLD_HEADS` of a plan with other weights (n, N)."""
-    hold = execute(plan.with_weights(weights)).hold
-    return name, f"{norm_mm(hold[:, 0] - plan.target).mean():.2f}", *hold_numbers(hold, plan.target)
+def hold_table(plan, others):
+    """A plan with the weights of others, by name: a table with `HOLD_HEADS`."""
+    rows = {}
+    for name, other in others.items():
+        hold = execute(plan.with_weights(other.weights)).hold
+        at_end = norm_mm(hold[:, 0] - plan.target).mean()
+        rows[name] = f"{at_end:.2f}", *hold_numbers(hold, plan.target)
+    return table(HOLD_HEADS, rows)
 
 
 def hold_numbers(hold, target):

@@ -7,10 +7,19 @@ from reproduce.experiments.calibration import SCENARIOS, ratio_name
 from reproduce.experiments.changed_worlds import BLOCKS, CURES
 from reproduce.experiments.controller_comparison import MOVEMENTS
 from reproduce.experiments.online_calibration import STEPS, endpoints_by_width, remaining
-from vmc_lib.motor.execution import rotate_about_eye
+from vmc_lib.motor.execution import execute, rotate_about_eye
 from vmc_lib.show import note, table
 from vmc_lib.show.palette import COLOURS
 
+CHANGES = {  # from the paper's rule to ours, one after the other
+    "Algorithm 2 as printed": "online, 1 experiment",
+    "+ exact weights (Eq. 4)": "online, + exact weights, 1 experiment",
+    "+ granule cells": "online, + granule cells, 1 experiment",
+    "+ no off-line trials": "online, + no off-line trials, 1 experiment",
+    "+ an aim, not weights: ours": "own online, 25 movements",
+    "ours, 150 movements": "own online, 150 movements",
+    "ours, 250 movements": "own online, 250 movements",
+}
 PERIODS = {  # blocks of an adaptation
     "at first": [2],
     "after 8 to 24 movements": [3, 4, 5],
@@ -74,6 +83,19 @@ def by_reading(draws, experiments, end=None):
             for on in ("in-sample", "held-out")
         }
         for reading, rule in rules.items()
+    }
+
+
+def readings_table(draws):
+    """The same as a table."""
+    rows = {row: [one[row] for one in draws.values()] for row in draws["as printed"]}
+    return table(["error / planned error", *draws], rows)
+
+
+def ablation(draws):
+    """What is left of the error on movements never practised: scenario -> change -> (draws,)."""
+    return {
+        s: {row: draws[s][f"{name}, held-out"] for row, name in CHANGES.items()} for s in SCENARIOS
     }
 
 
@@ -162,6 +184,17 @@ def clamped(drifts, clamp):
     ax.set(xlabel="block of 8 movements", ylabel="drift, seen from the eye (°)", ylim=(-13, 1))
     ax.set_title(f"shown {clamp}° above the target, the hand ends {-drift[last]:.1f}° below")
     return fig
+
+
+def reaches_in_worlds(trained, learners, plans, worlds):
+    """Reaches in each changed world, (world, state) -> `Movement`: unaware, adapted, taken away."""
+    reaches = {}
+    for world, change in worlds.items():
+        adapted = learners[world, "aim" if world == "a prism" else "pull"].correct(plans)
+        reaches[world, "unaware"] = execute(trained.correct(plans), **change)
+        reaches[world, "adapted"] = execute(adapted, **change)
+        reaches[world, "taken away"] = execute(adapted)
+    return reaches
 
 
 def adapted_scene(movements, change, state):

@@ -180,13 +180,38 @@ def retrained_table(levels):
     return table(["features", *levels], rows)
 
 
-def photograph_table():
-    """How often each detector's boxes fit a shuttlecock in photographs: a Markdown table."""
+def photograph_table(head, questions):
+    """How often each model is right in photographs, by what is asked: a Markdown table."""
     rows = []
     for model in real_world.MODELS:
         for split in real_world.SPLITS:
             counts = real_world.count_answers(real_world.load_results(model, split))
             tuned = (model, split) == ("real", "validation")
             name = f"{model}, {split}{' (partly in-sample)' * tuned}"
-            rows.append([name, *(real_world.share_text(*counts[q]) for q in QUALITIES)])
-    return table(["detector, photos with a shuttlecock", *QUALITIES], rows)
+            rows.append([name, *(real_world.share_text(*counts[q]) for q in questions)])
+    return table([head, *questions], rows)
+
+
+def counts_table():
+    """The numbers of objects and of false alarms behind Table I's percentages: a Markdown table."""
+    wanted, rows = paper.TEST_ROIS["positive"], {}
+    for kernel, (precision, recall) in paper.TABLE_1.items():
+        hits = round(recall * wanted)
+        false = round(hits / precision) - hits
+        rows[kernel] = f"{precision:.2%} / {recall:.2%}", f"{hits} of {wanted}", false
+    return table(["kernel", "precision / recall", "found", "false alarms"], rows)
+
+
+def settings_table():
+    """The costs and scales that were tried, and those chosen for each recipe: Markdown."""
+    tried = localisation.COSTS, localisation.SCALES
+    costs, scales = (", ".join(map("{:g}".format, values)) for values in tried)
+    rows = {
+        name: map("{0[0]:g}, {0[1]:g}".format, localisation.kernel_settings(name).values())
+        for name in localisation.TABLE_1_RECIPES
+    }
+    return (
+        f"Tried: C of {costs}; γ of {scales}, over the number of features times their variance. "
+        "(*linear* has no γ; with *poly* a larger C does the same.)\n\n"
+        + table(["C, γ", *localisation.TABLE_1_KERNELS], rows)
+    )

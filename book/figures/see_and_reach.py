@@ -5,6 +5,7 @@ import numpy as np
 from book.figures.loop import describe_end, draw_movement, draw_stage
 from book.figures.panels import panels
 from book.figures.reaching import norm_mm
+from reproduce import results
 from reproduce.experiments.loop_evaluation import FAILURE_STAGES, LESIONS, load_outcomes
 from reproduce.experiments.real_world import count_answers, share_text
 from vmc_lib import marker_sheet, photos
@@ -180,6 +181,23 @@ def sheet_table(shots):
         "shoulder, above the table": f"{-up:.0f} cm",
     }
     return table(["measure", "here"], measures.items())
+
+
+def place_errors():
+    """How far off each place is in the photos that show a sheet: way -> (n,) in mm, or infinite."""
+    found = results.records("printed_sheet").items()
+    return {way: np.array([np.inf if x is None else x for x in mm]) for way, mm in found}
+
+
+def lesion_examples():
+    """A photo of each kind: without names the hand goes for a cup, or by chance for the right."""
+    goes_for = ("rig", "cup"), ("varied", "cup"), ("free", "shuttlecock"), ("rig", "shuttlecock")
+    shots, lesions = {}, results.records("lesions")
+    for level, held in goes_for:
+        outcomes = zip(*lesions[level]["ventral"].values(), strict=True)
+        k = [what == held and mm is not None for what, mm, _ in outcomes].index(True)
+        shots[f"{level} {k + 1}"] = photos.load(level, "test")[k]
+    return shots
 
 
 def place_table(errors):

@@ -9,8 +9,9 @@ from book.figures.panels import curves, panels
 from book.figures.reaching import RING, norm_mm
 from reproduce.experiments import feedback_control as measure
 from reproduce.experiments.path_measures import end_error, end_speed, end_swing, push_error
+from vmc_lib.cerebellum.forward_model import arm_copy
 from vmc_lib.motor.feedback import SIGHT
-from vmc_lib.show import dot_plot
+from vmc_lib.show import dot_plot, table
 from vmc_lib.show.arm_plane import plane
 from vmc_lib.show.markup import number
 from vmc_lib.show.palette import COLOURS
@@ -134,3 +135,44 @@ def two_rates(states, block=100):
     ax.set(xlabel="reach", ylabel="answered share", ylim=(-0.8, 1.05))
     ax.legend(loc="lower right")
     return fig
+
+
+def models_by_lessons(template_set, counts):
+    """Forward models by what they know: nothing, inertia alone, so many reaches, the equations."""
+    draws = (np.random.default_rng(5) for _ in counts)
+    learnt = [measure.fit_forward_model(template_set, *x) for x in zip(draws, counts, strict=True)]
+    felt = [f"{n} reach{'es' * (n > 1)} felt" for n in counts]
+    inert = {"no model": None, "it goes on as it goes": lambda q, velocity, activation: 0 * q}
+    return inert | dict(zip(felt, learnt, strict=True)) | {"the true equations": arm_copy()}
+
+
+def lesion_table(gains):
+    """All measures at gain 30, with late sight alone and with a forward model: a table."""
+    arms, measures = ("late sight", "forward model"), ("swing (mm²)", "overshoot (mm)")
+    measures += "tremor (mm²)", "path over distance"
+    measures += "miss after a jump (mm)", "speed after a jump (mm/s)"
+    rows = {m: [gains[f"{arm}, 30, {m}"] for arm in arms] for m in measures}
+    return table(["measured", *arms], rows)
+
+
+def field_table(draws, blocks):
+    """How far reaches deviate in a curl field and after it, in six draws: a table."""
+    new, gone = blocks[0], sum(blocks[:2])
+    rows = {
+        "before the field": ("size", 0),
+        "first block in the field": ("size", new),
+        "last block in the field": ("size", gone - 1),
+        "first block without it, to the left": ("to the left", gone),
+        "last block without it, to the left": ("to the left", -1),
+        "ways halfway between: in the field, before": ("held-out", 0),
+        f"after {8 * blocks[1]} reaches of the others": ("held-out", 1),
+    }
+    rows = {name: [draws[part][:, n]] for name, (part, n) in rows.items()}
+    return table(["reaches", "deviation (mm), 95 % interval"], rows)
+
+
+def crossover(gains):
+    """Where a loop's gain falls to one (Hz), and there the lead of its damping and its lag (°)."""
+    w = np.linspace(1, 30, 2901)
+    w = w[np.argmax(gains.gain * np.hypot(1, gains.damping * w) < w**2)]
+    return w / (2 * np.pi), *np.degrees([np.arctan(gains.damping * w), w * gains.delay])

@@ -11,8 +11,8 @@ from matplotlib.transforms import Affine2D
 
 from book.figures.panels import panels
 from book.figures.reaching import RING
-from reproduce.whole_arm import experiment, plant
-from vmc_lib.show import COLOURS
+from reproduce.whole_arm import experiment, habits, plant
+from vmc_lib.show import COLOURS, table
 
 BONES = ("humerus_r", "ulna_r", "lunate_r")  # shoulder, elbow and wrist are where these begin
 VIEWS = {"from the side": (0, 1, "up (m)"), "from above": (0, 2, "to the right (m)")}
@@ -20,6 +20,10 @@ CORNER = np.array([0.02, 0.02]), np.array([0.3, 0.352])  # of a plot: a square, 
 NEAR = 0.05  # m: how far around the target one sees in the corner
 BONE = {"color": COLOURS["grey"], "alpha": 0.4, "lw": 7, "solid_capstyle": "round"}
 
+SETS = {"14 commands": "14 commands", "34 commands": "34 commands"}  # of memories, as figures say
+SETS |= {"27 memories": "63 commands", "any posture": "any posture", "64 memories": "64 memories"}
+JOINTS = "shoulder, 1", "shoulder, 2", "shoulder, 3", "elbow", "forearm"
+JOINTS += "wrist, sideways", "wrist, up and down"
 ROLES = {
     "SUBSC": "turning the upper arm inward, and drawing it back where DELT1 draws it forward (in a "
     "body it also holds the ball in its socket, which here cannot slip)",
@@ -68,6 +72,47 @@ def nudged(activation, dampers):
     ax.set(xlabel="time (s)", ylabel="finger off its place (mm)", ylim=(0, 150))
     ax.set(title=f"after 3 s on average {away[:, -1].mean():.0f} mm")
     return fig
+
+
+def dampers_table(activation):
+    """What resists each joint's turning where reaches start: dampers and muscles, Markdown."""
+
+    def resistance(velocity):
+        need, pull = plant.required_torque(habits.START, velocity, 0 * velocity)
+        return need - pull @ activation
+
+    shares, ways = plant.JOINT_COUPLING, 0.01 * np.eye(7)  # rad/s
+    dampers = np.diag(shares.T * plant.MODEL.dof_damping @ shares)
+    brakes = [(resistance(v) - resistance(-v)) @ v / (2 * v @ v) for v in ways]
+    columns = JOINTS, dampers, brakes - dampers
+    rows = list(zip(*columns, strict=True))
+    return table(["joint", "dampers (N m s/rad)", "muscles (N m s/rad)"], rows, ".2f")
+
+
+def stop_table(draws):
+    """What is left once the place is corrected, and the drift too: mean and range of draws."""
+    rows = []
+    for kind, movements in {"place": 5, "place and drift": 13}.items():
+        found = (1000 * draws[f"{kind}, {measure}"] for measure in ("miss", "speed"))
+        texts = (f"{x.mean():.1f} ({x.min():.1f} to {x.max():.1f})" for x in found)
+        rows.append([kind, *texts, movements])
+    heads = "corrected", "miss (mm)", "speed over the hold (mm/s)", "movements"
+    return table(heads, rows)
+
+
+def measures_table(many, online):
+    """What was measured of planned and corrected reaches, and of granule cells: Markdown."""
+    rows = [
+        ["planned miss / way", many["planned / way"]],
+        ["the same with Eq. 4 exact", many["Eq. 4 / way"]],
+        ["speed over the hold (m/s)", many["planned speed"]],
+        ["the same, two corrections", many["corrected speed"]],
+        ["stray over the hold (m)", many["planned stray"]],
+        ["the same, two corrections", many["corrected stray"]],
+        ["left, granule cells, in sample", online["in-sample"]],
+        ["left, granule cells, held-out", online["held-out"]],
+    ]
+    return table(["measured", "mean (95 % interval)"], rows)
 
 
 def strongest(activation, count=4):

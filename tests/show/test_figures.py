@@ -9,7 +9,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
-from vmc_lib.show import details, figures, photo_view, table
+from vmc_lib.show import details, figures, listed, photo_view, table
 from vmc_lib.show.figures import pictures
 from vmc_lib.show.markup import number
 from vmc_lib.show.palette import COLOURS, ON_PHOTO
@@ -133,3 +133,13 @@ def test_numbers_are_written_as_in_a_text_and_not_as_in_code():
     assert [number(v) for v in values] == ["−0.5", "1230", "3·10⁻⁸", "−2·10⁹", "7", "0"]
     assert number(1234.5, 4) == "1234"
     assert "1200" in table(["metres"], [[1200.0]])
+
+
+def test_a_tables_rows_may_have_names_and_its_numbers_a_format():
+    rows = {"ours": [0.125, (2, 1, 3), 7, "so"]}
+    assert table("abcde", rows, ".1f").endswith("| ours | 0.1 | 2.0 (1.0 to 3.0) | 7 | so |")
+
+
+def test_values_are_listed_with_their_names():
+    assert listed({"a": 0.5, "b": 2}, "{:.1f} mm ({})") == "0.5 mm (a), 2.0 mm (b)"
+    assert listed({"a": 0.5, "b": 2}, "{1} {0:g}", "; ") == "a 0.5; b 2"

@@ -35,6 +35,11 @@ def test_the_choice_nearest_to_a_number_is_right(shown):
     assert "<strong>about 10.</strong>" in shown[0]
 
 
+def test_an_outcome_may_be_the_choices_place(shown):
+    ask_for_prediction(np.bool_(True))
+    assert "<strong>two.</strong>" in shown[0]
+
+
 @pytest.mark.parametrize(
     ("choices", "outcome", "why"),
     [
@@ -42,6 +47,7 @@ def test_the_choice_nearest_to_a_number_is_right(shown):
         (list("abcde"), "a", "so"),
         (["a", "a"], "a", "so"),
         (["a", "b"], "c", "so"),
+        (["a", "b"], 2, "so"),
         (["a", "b"], "a", ""),
         ({"a": 1, "b": 2}, np.nan, "so"),
     ],

@@ -151,24 +151,34 @@ def details(summary, text):
     markdown(f"<details><summary>{summary}</summary>\n\n{text}\n\n</details>")
 
 
-def table(heads, rows):
+def listed(values, form, between=", "):
+    """The values of a mapping in words: each by `form`, its value and its name given to it."""
+    return between.join(form.format(value, name) for name, value in values.items())
+
+
+def table(heads, rows, form=None):
     """A Markdown table of column heads and rows of as many cells: text, numbers, or None.
 
-    Numbers get three digits; draws (n,) and (value, low, high) are written as an `estimate`, with
-    their 95 % interval. ValueError where a row has another number of cells, or a column has no
-    head: a screen reader would call it nothing.
+    `rows` may map a row's name to its other cells. Numbers get three digits; draws (n,) and
+    (value, low, high) are written as an `estimate`, with their 95 % interval; each as `form` says,
+    if it is given. ValueError where a row has another number of cells, or a column has no head: a
+    screen reader would call it nothing.
     """
+    if isinstance(rows, dict):
+        rows = [[name, *cells] for name, cells in rows.items()]
     if not all(heads):
         raise ValueError(f"every column needs a head, and {list(heads)} leaves one empty")
     lines = [heads, ["---"] * len(heads), *rows]
     if wrong := [row for row in rows if len(row) != len(heads)]:
         raise ValueError(f"the row {wrong[0]} does not have {len(heads)} cells, as {heads} has")
-    return "\n".join("| " + " | ".join(map(_cell, line)) + " |" for line in lines)
+    return "\n".join(f"| {' | '.join(_cell(x, form) for x in line)} |" for line in lines)
 
 
-def _cell(value):
+def _cell(value, form):
     if value is None:
         return ""
-    if isinstance(value, float):
-        return number(value)
-    return str(estimate(value) if isinstance(value, tuple | np.ndarray) else value)
+    if isinstance(value, float | np.floating):
+        return format(value, form) if form else number(value)
+    return (
+        format(estimate(value), form or "") if isinstance(value, tuple | np.ndarray) else str(value)
+    )

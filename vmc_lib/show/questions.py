@@ -27,12 +27,15 @@ def predict(question, choices, outcome, why):
     """Let the reader choose what a demo will show; what the run showed stays folded until asked.
 
     `question`, `choices` (two to four texts) and `why` are Markdown; `outcome` is the choice that
-    the run itself worked out. Where `choices` maps each text to a number, `outcome` is a number,
-    and the nearest is right. Raises ValueError for another number of choices, a choice that comes
-    twice, an `outcome` that is none of them, or no `why`.
+    the run itself worked out, or its place among them (a whole number, a bool). Where `choices`
+    maps each text to a number, `outcome` is a number, and the nearest is right. Raises ValueError
+    for another number of choices, a choice that comes twice, an `outcome` that is none of them, or
+    no `why`.
     """
     if isinstance(choices, dict) and np.isfinite(outcome):
         outcome = min(choices, key=lambda choice: abs(choices[choice] - outcome))
+    elif isinstance(outcome, int | np.integer | np.bool_) and 0 <= outcome < len(choices):
+        outcome = list(choices)[int(outcome)]
     if not 2 <= len(set(choices)) == len(choices) <= 4 or outcome not in choices or not why:
         raise ValueError(
             f"the prediction {question!r} needs two to four choices, a why, and its outcome "
