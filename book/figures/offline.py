@@ -47,10 +47,7 @@ def miss_above(above):
 
 
 def correction(plan, trials, gains, n):
-    """Fig. 4 for Algorithm 1's `trials` of one plan, one for each of `gains`: the change with n.
-
-    And the error against n.
-    """
+    """Fig. 4 for a plan's `trials` with each of `gains`: the change with n, and the error by n."""
     (before, *errors), k = 1000 * trials.error, gains.index(n)
     fig, left, right = panels(*SIDE_BY_SIDE)
     change = trials.weights[1 + k] - plan.weights
