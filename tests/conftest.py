@@ -14,6 +14,7 @@ from nbclient import NotebookClient
 from nbformat.v4 import new_code_cell
 
 from tests import pages
+from tests.engines import NOT_TESTED, Firefox, WebKit
 from vmc_lib import photos
 from vmc_lib.motor import templates
 from vmc_lib.what.cdbn import crops_of
@@ -156,6 +157,16 @@ def window(chromium):
     yield window
     for each in windows:
         each.close()
+
+
+@pytest.fixture(scope="module", params=[Firefox, WebKit], ids=["Firefox", "WebKit"])
+def engine(request, tmp_path_factory):
+    """Another browser than Chromium; where there is none the test is skipped."""
+    if not request.param.program():
+        pytest.skip(NOT_TESTED.format(request.param.__name__))
+    engine = request.param(tmp_path_factory.mktemp("engine"))
+    yield engine
+    engine.close()
 
 
 @pytest.fixture(scope="session")

@@ -62,6 +62,12 @@ class Engine:
         assert "error" not in answer, answer
         return answer.get("value")
 
+    def limit(self, seconds):
+        """How long the page's Python may take; Firefox's driver does not see a page's `const`."""
+        self.run(f"""const script = document.createElement("script");
+          script.textContent = "vmcPython.limit.seconds = {seconds}";
+          document.head.append(script);""")
+
     def errors(self):
         return self.run("return document.documentElement.dataset.failed ?? '';")
 

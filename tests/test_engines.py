@@ -7,22 +7,13 @@ from pathlib import Path
 
 import pytest
 
-from tests.engines import NOT_TESTED, Crashed, Firefox, WebKit
+from tests.engines import Crashed, WebKit
 from tests.pages import BUILT, CHAPTERS, PROBES
 
 pytestmark = pytest.mark.browser
 DEMOS = [path for path in CHAPTERS if path.stem[0].isdigit()]
 
 IDLE, UNSET = (f"{PROBES}; return {name}();" for name in ("idleSliders", "unsetEquations"))
-
-
-@pytest.fixture(scope="module", params=[Firefox, WebKit], ids=["Firefox", "WebKit"])
-def engine(request, tmp_path_factory):
-    if not request.param.program():
-        pytest.skip(NOT_TESTED.format(request.param.__name__))
-    engine = request.param(tmp_path_factory.mktemp("engine"))
-    yield engine
-    engine.close()
 
 
 @pytest.mark.parametrize("path", DEMOS, ids=lambda path: path.stem)

@@ -12,8 +12,14 @@ from tests import lab
 pytestmark = pytest.mark.browser
 
 
-def test_links_open_as_something_to_read(visit):
-    page = visit("07_muscle")
+def test_a_quiz_is_answered_without_a_kernel_and_links_open_as_something_to_read(visit):
+    page, question = visit("07_muscle"), "resists. What resists"
+    lab.choose_cell(page, question)
+    quiz = page.locator(".jp-MarkdownCell", has_text=question)
+    spring = quiz.locator("details", has_text="The passive spring")
+    assert not spring.get_by_text("✓").is_visible()
+    spring.locator("summary").click()
+    assert spring.get_by_text("✓").is_visible()
     for href, opened, words in (
         ("08_arm.ipynb", ".jp-NotebookPanel", "six muscles on two joints"),
         ("glossary.md", ".jp-MarkdownViewer", "excitation¶"),  # the term, not the page's top
@@ -26,16 +32,6 @@ def test_links_open_as_something_to_read(visit):
         )
         text = page.locator(f"{opened}:visible").get_by_text(words).filter(visible=True)
         expect(text.first).to_be_in_viewport(timeout=600_000)  # its source is there too, and hidden
-
-
-def test_a_quiz_is_answered_without_a_kernel(visit):
-    page, question = visit("07_muscle"), "resists. What resists"
-    lab.choose_cell(page, question)
-    quiz = page.locator(".jp-MarkdownCell", has_text=question)
-    spring = quiz.locator("details", has_text="The passive spring")
-    assert not spring.get_by_text("✓").is_visible()
-    spring.locator("summary").click()
-    assert spring.get_by_text("✓").is_visible()
 
 
 def test_a_plot_follows_the_kernel_shows_its_errors_and_leaves_a_still(run_all):

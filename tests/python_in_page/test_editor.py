@@ -22,8 +22,9 @@ def check(page, lines, words):
     page.said.get_by_text(words).wait_for()
 
 
-def test_python_is_loaded_for_who_writes_and_from_the_books_own_files(open_exercise, site):
+def test_python_is_loaded_for_who_writes_and_from_the_books_own_files(open_exercise, site, serious):
     page = open_exercise()
+    assert page.get_by_label("Your lines: activation_rates").count() == 1
     page.lines.click()
     page.wait_for_load_state("networkidle")
     assert not any("vendor/python" in url or "blob:" in url for url in page.asked)
@@ -35,6 +36,7 @@ def test_python_is_loaded_for_who_writes_and_from_the_books_own_files(open_exerc
     assert page.said.locator("p").inner_html().count("\\(") == 2  # equations, for KaTeX
     check(page, f"{HEAD}    print('is', twice(2))\n    return u", "is right; yours gives")
     assert "is 4" in page.said.locator("pre").inner_text()
+    assert serious(page, "html", all_of_it=True) == []
     check(page, f"{HEAD}    return =", "cannot read line 2")
     check(page, "import sys\nsys.exit()", "Python stopped: SystemExit")
     check(page, RIGHT_LINES, "✓ Right.")
@@ -43,7 +45,7 @@ def test_python_is_loaded_for_who_writes_and_from_the_books_own_files(open_exerc
 def test_an_endless_loop_ends_by_itself_or_by_the_button(open_exercise):
     page = open_exercise()
     page.evaluate("() => { vmcPython.limit.seconds = 1 }")
-    check(page, ENDLESS, "Stopped after 1 s.")
+    check(page, ENDLESS, "Stopped after 1 s. Does a loop never end?")
     page.evaluate("() => { vmcPython.limit.seconds = 1000 }")
     page.button("Check").click()
     page.said.get_by_text("Checking").wait_for()
@@ -84,13 +86,8 @@ def test_lines_and_verdict_are_kept_until_reset(open_exercise):
     page.failed.clear()  # a reload ends what was still loading
 
 
-def test_it_works_where_storage_is_forbidden(open_exercise, window):
+def test_the_keyboard_indents_checks_and_goes_on_where_storage_is_forbidden(open_exercise, window):
     page = open_exercise(window(NO_STORAGE))
-    check(page, RIGHT_LINES, "✓ Right.")
-
-
-def test_the_keyboard_indents_checks_and_goes_on(open_exercise):
-    page = open_exercise()
     keys, empty = page.keyboard, page.lines.input_value()
     keys.press("Tab")
     expect(page.lines).to_be_focused()
@@ -106,24 +103,14 @@ def test_the_keyboard_indents_checks_and_goes_on(open_exercise):
     keys.press("Shift+Tab")
     keys.press("Control+Enter")
     page.said.get_by_text("returns nothing").wait_for()
+    check(page, RIGHT_LINES, "✓ Right.")
 
 
-def test_a_phone_has_letters_of_16_px_and_nothing_beyond_its_edge(open_exercise, window):
+def test_a_mechanisms_cell_is_edited_run_kept_and_reset_on_a_phone(open_exercise, window, serious):
+    """With letters of 16 px, lest it zooms in, and nothing beyond the window's edge."""
     page = open_exercise(window(viewport={"width": 360, "height": 700}))
-    size = page.lines.evaluate("(area) => getComputedStyle(area).fontSize")
-    assert size == "16px"
+    assert page.lines.evaluate("(area) => getComputedStyle(area).fontSize") == "16px"
     assert page.evaluate("() => document.documentElement.scrollWidth") <= 360
-
-
-def test_it_is_accessible(open_exercise, serious):
-    page = open_exercise()
-    assert page.get_by_label("Your lines: activation_rates").count() == 1
-    check(page, f"{HEAD}    print(1)\n    return u", "is right; yours gives")
-    assert serious(page, "html", all_of_it=True) == []
-
-
-def test_a_mechanisms_cell_is_edited_run_kept_and_reset(open_exercise, window, serious):
-    page = open_exercise(window(viewport={"width": 360, "height": 700}))
     edit = page.get_by_role("button", name="Edit cube")
     edit.focus()
     page.keyboard.press("Enter")
