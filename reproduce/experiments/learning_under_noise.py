@@ -11,9 +11,9 @@ from reproduce.experiments.controller_comparison import (
     templates_with_noise,
     train_controller,
 )
+from reproduce.experiments.planning_ablation import RULES
 from reproduce.peers.adaptive_controllers import RIDGE, DeltaRuleCells
 from reproduce.peers.motor_noise import noise_share_for, with_noise
-from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration
 from vmc_lib.cerebellum.online import AimCorrection, GranuleCells, WeightCorrection
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import draw_targets, plan
@@ -58,7 +58,7 @@ def compare_calibration(noise, seed, count):
         "habit": 1000 * miss,
         "nothing but noise": _norm(many - many.mean(axis=0)).mean() / miss,
     }
-    for name, rule in {"Algorithm 1": algorithm_1, "Broyden": broyden_calibration}.items():
+    for name, rule in RULES.items():
         trials = rule(habit, execute=once)
         again = execute(habit.with_weights(np.tile(trials.best_weights, (20, 1, 1)))).endpoint
         left[f"{name}, best trial"] = trials.error.min(axis=0).mean() / miss

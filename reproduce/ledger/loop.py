@@ -10,14 +10,6 @@ from reproduce.ledger.entry import Quantity, Row, mean, share
 from vmc_lib.loop import RULES
 
 
-def _figure_1():
-    return _chain(published_scores(), "published")
-
-
-def _own_figure_1():
-    return _chain(level_scores("rig"), "own")
-
-
 def _chain(scores, rule):
     """From photo to movement on the rig, calibrated by a rule of RULES."""
     named, moved = scores["found"] & scores["named"], np.isfinite(scores["planned"])
@@ -72,7 +64,7 @@ ROWS = (
         "Fig. 1",
         "The steps make one chain, from photo to movement.",
         "01_loop",
-        _figure_1,
+        lambda: _chain(published_scores(), "published"),
         differs="The paper's own search, classifier and read-out find and name the shuttlecock in "
         "the share of {q[photos whose shuttlecock is found and named].obtained:.2f} of the photos. "
         "In all that end in a movement, calibration brings the hand nearer. See *Ours, Fig. 1*.",
@@ -82,7 +74,7 @@ ROWS = (
         "Ours, Fig. 1",
         "The same chain with our detector, read-out and off-line calibration.",
         "01_loop",
-        _own_figure_1,
+        lambda: _chain(level_scores("rig"), "own"),
         note=NO_NUMBER,
     ),
     Row(

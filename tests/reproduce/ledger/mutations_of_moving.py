@@ -154,7 +154,7 @@ class Again(dict):
 
     def __missing__(self, name):
         run = partial(experiments.EXPERIMENTS[name], **self.size)
-        self[name] = experiments.repeat_over_seeds(run)
+        self[name] = experiments.repeat_over_seeds(run, FEW)
         return self[name]
 
 
