@@ -48,7 +48,8 @@ def detector():
 
     def ridge(called):
         part = parts(f"{own}{called}/")
-        return part | {"axes": part["axes"].T}  # rows, as the page multiplies them
+        squares = (np.float64(part["centres"]) ** 2).sum(axis=1)
+        return part | {"axes": part["axes"].T, "squares": squares}  # rows, as the page needs them
 
     strategy = asdict(STRATEGIES[recipe.strategy])
     strategy["similarities"] = [[x in used for x in MEASURES] for used in strategy["similarities"]]

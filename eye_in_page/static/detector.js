@@ -5,17 +5,11 @@ Object.assign(vmcEye, (() => {
 
   const { each } = vmcEye, EVERY = 8; // boxes a piece
 
-  const squares = (matrix, d) => {
-    const sums = new Float64Array(matrix.length / d);
-    for (let i = 0; i < matrix.length; i++) sums[Math.floor(i / d)] += matrix[i] ** 2;
-    return sums;
-  };
-
   /* Ridge regression on features and on radial basis functions of them (vmc_lib/where/box_regression.py). */
   const predict = (ridge, features) => {
-    const { mean, axes, centres, gamma: [gamma], weights, bias } = ridge;
-    const x = features.map((feature, i) => feature - mean[i]), z = vmcEye.product(axes, x), [square] = squares(z, z.length);
-    const basis = vmcEye.radialBasis(gamma, z, square, centres, (ridge.squares ??= squares(centres, z.length)));
+    const { mean, axes, centres, squares, gamma: [gamma], weights, bias } = ridge;
+    const x = features.map((feature, i) => feature - mean[i]), z = vmcEye.product(axes, x);
+    const basis = vmcEye.radialBasis(gamma, z, vmcVectors.dot(z, z), centres, squares);
     return vmcEye.addProduct(bias, [...x, ...basis], weights);
   };
 
