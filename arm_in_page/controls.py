@@ -31,12 +31,14 @@ def reach_form(name, target, mode):
     And in the mode "templates" these, to be ticked.
     """
     zone = [end(templates.load().points, axis=0).round(3) for end in (np.min, np.max)]
-    rules = {"algorithm1": "published (Eq. 6–7)", "broydenCalibration": "ours"}
+    rules = {"algorithm1": "published (Eq. 6–7)", "broydenCalibration": "Broyden calibration"}
     controls = target_sliders(name, zone, target)
     controls += _weights(name) if mode == "weights" else plans()
     controls += radios("rule", "calibration", rules, "algorithm1", {})
     tells = {"planned": "planned miss", "tries": "tries", "calibrated": "calibrated miss"}
     tells |= {"speed": "speed in the hold"}
+    if mode == "weights":
+        tells |= {"planned": "miss before calibration", "sum": "sum of the weights"}
     buttons = {"calibrate": "Calibrate"}
     if mode == "templates":
         controls += _templates()

@@ -124,7 +124,7 @@ def test_a_chapter_teaches(path):
     assert any(tagged(cell, "solution") for cell in notebook.cells)
     assert len(re.findall(r"\b(check|grade|solution)\(", source)) >= 2  # to answer, and solved
     assert 2 <= len(re.findall(r"^\*\*Quiz\.\*\* ", text, re.M)) <= 3
-    assert re.search(r"^## (Recap|What to take along)", text, re.M)
+    assert re.search(r"^## Recap$", text, re.M)
     assert "](glossary.md" in text
 
 

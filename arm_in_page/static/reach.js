@@ -90,7 +90,7 @@ const vmcReach = (() => {
       this.say(
         `After ${trials.length - 1} tries the best${which} misses by ` +
         `${millimetres(best.error, 1)}, moving at ${pace(this.calibrated)}; ` +
-        `the planned reach missed by ${millimetres(this.planned.error, 1)}.`
+        `it began from ${millimetres(this.planned.error, 1)}.`
       );
     }
   }

@@ -11,6 +11,7 @@ from vmc_lib.photos import LEVELS
 from vmc_lib.show import note, table
 from vmc_lib.show.arm import arm_scene
 from vmc_lib.show.arm_plane import plane
+from vmc_lib.show.figures import margins
 from vmc_lib.show.palette import COLOURS
 
 TRIED = ((-0.05, 0.3), (-0.53, -0.25))  # the plane round the obstacles, m
@@ -75,6 +76,7 @@ def scaling(rows, quantity, measure):
     """
     marked = [0, len(rows) // 2, -1]
     fig, *axes = panels(2)
+    margins(fig, left=0.95)  # for ticks of three digits
     curves = ("error", measure, "blue"), ("seconds", "seconds to learn", "orange")
     for ax, (key, label, hue) in zip(axes, curves, strict=True):
         sizes, values = np.array([(row["size"], row[key]) for row in rows]).T
@@ -82,6 +84,7 @@ def scaling(rows, quantity, measure):
         ax.set(xlabel=quantity, ylabel=label)
         ax.set_xticks(sizes[marked], sizes[marked].astype(int))
         ax.set_yticks(values[marked], [f"{v:.3g}" for v in values[marked]])
+        ax.minorticks_off()  # whose labels would lie over these
     axes[0].set_title(f"a tenfold divides by {error_divided(rows)[0]:.1f}")
     return fig
 

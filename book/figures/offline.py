@@ -189,7 +189,7 @@ def with_guards(errors):
 
 def in_mm(error):
     """An error in mm as text, with two digits; below what matters beside the drift, as that."""
-    return f"{error:.2g} mm" if error >= 0.01 else "below 0.01 mm"
+    return f"{error:.2g} mm" if error >= 0.01 else "at most 0.01 mm"
 
 
 def corrected(plans, trials):
@@ -221,7 +221,7 @@ HOLD_HEADS = [
     "miss where the command ends (mm)",
     "miss of the end point (mm)",
     "mean distance in the hold (mm)",
-    "speed (mm/s)",
+    "speed in the hold (mm/s)",
 ]
 
 

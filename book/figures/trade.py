@@ -84,9 +84,13 @@ def _rates(level, threshold, overlap):
     _, scores, curve = trace(level, overlap)
     count = (scores > threshold).sum()
     recall, precision = curve[count - 1] if count else (0, 0)
-    halves = 1e-9  # are rounded up, here and in the page
-    words = f"precision {precision + halves:.2f}, recall {recall + halves:.2f}"
+    words = f"precision {two_digits(precision)}, recall {two_digits(recall)}"
     return count, (recall, precision), words
+
+
+def two_digits(share):
+    """A share as text; halves are rounded up, as in the page."""
+    return f"{share + 1e-9:.2f}"
 
 
 def _plot():

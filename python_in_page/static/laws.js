@@ -43,7 +43,7 @@ const vmcLaws = (() => {
     const cell = demo.closest(".cell"), above = vmcGrade.above(cell);
     const [status, run, back, between] = line(demo.querySelector(".vmc-controls"),
       `<button type="button" name="run" hidden>Run it</button> ${BACK} ` +
-      '<button type="button" name="between" title="Loads Python, 20 MB of this book">Any value</button>');
+      '<button type="button" name="between">Any value (loads Python, 20 MB)</button>');
     const sliders = [...demo.querySelectorAll("[data-between]")];
     between.hidden = !sliders.length;
 
@@ -62,7 +62,8 @@ const vmcLaws = (() => {
         input.setAttribute("aria-valuetext", text);
         input.nextElementSibling.textContent = text;
       }
-      say(laws.length ? `This demo runs <strong>your</strong> ${code(laws)}.` : "");
+      const free = sliders.length && between.hidden ? "The sliders now take any value." : "";
+      say(laws.length ? `This demo runs <strong>your</strong> ${code(laws)}.` : free);
     };
     const fail = (why, place, draw) => {
       failed = true;

@@ -91,7 +91,7 @@ def test_the_arm_reaches_misses_and_calibrates(open_arms):
     assert f"n = {best - 1}" in said
     assert calibrated in said
     assert readout(reach, "calibrated") == calibrated
-    reach.get_by_label("ours").check()
+    reach.get_by_label("Broyden calibration").check()
     assert readout(reach, "calibrated") == "–"  # another rule, another try
     reach.locator("[name=calibrate]").click()
     status(reach, f"After {live.TRIALS} tries")
@@ -177,6 +177,12 @@ def test_weights_are_set_by_hand(open_arms, window):
         miss = execute(replace(habit, weights=np.array(weights))).error
         assert f"It misses by {1000 * miss:.1f} mm" in said
     assert arm.locator("svg g circle[stroke='var(--vmc-grey)']").count() == 4  # 2, twice
+    assert number(readout(arm, "sum")) == pytest.approx(sum(weights), abs=2e-3)
+    arm.get_by_label("Broyden calibration").check()  # goes on from there
+    assert f"misses by {1000 * miss:.1f} mm" in status(arm, "It misses by .* of 2")
+    arm.locator("[name=calibrate]").click()
+    assert f"it began from {1000 * miss:.1f} mm" in status(arm, f"After {live.TRIALS} tries")
+    assert number(readout(arm, "sum")) == pytest.approx(sum(weights), abs=2e-3)
     set_target(arm, (0.1, -0.38))
     assert "planned" in status(arm, "The planned reach")
 

@@ -100,6 +100,7 @@ def test_sliders_stand_between_their_stops(open_law, window):
     page.slider.fill("1.5")
     expect(page.mine.locator(TITLE)).to_contain_text("at 2: 4")
     expect(page.mine.locator("output")).to_have_text("2")
+    expect(page.line).to_have_text("The sliders now take any value.")
     page.slider.fill("2")
     expect(page.mine.locator(TITLE)).to_contain_text("at 3: 6")
     expect(page.other.get_by_role("button", name="Any value")).to_be_hidden()

@@ -8,7 +8,7 @@ const vmcPanel = (() => {
   const WRIST = "The model ends at the wrist. The hand and its target are drawn one palm's length " +
     "beyond it.";
   const calm = matchMedia("(prefers-reduced-motion: reduce)");
-  const signed = (number, digits) => number.toFixed(digits).replace("-", "−");
+  const signed = (number, digits) => (+number.toFixed(digits) + 0).toFixed(digits).replace("-", "−"); // no −0
   const degrees = (angle) => `${signed((angle * 180) / Math.PI, 1)}°`;
 
   const element = (html) => {
