@@ -45,7 +45,7 @@ const vmcSegmentationDemo = (box) => {
       Object.assign(context, { strokeStyle: colour, lineWidth: wide });
       context.strokeRect(x0, y0, x1 - x0, y1 - y0);
     }
-    const all = (width * (width + 1) * height * (height + 1)) / 4, text = (n) => n.toLocaleString("en-GB");
+    const text = (n) => n.toLocaleString("en-GB");
     k.nextElementSibling.textContent = scale();
     merged.nextElementSibling.textContent = `${text(left)} left`;
     if (canvas.hidden) {
@@ -54,7 +54,7 @@ const vmcSegmentationDemo = (box) => {
       canvas.animate({ opacity: [0, 1] }, fade).onfinish = draw;
     }
     if (canvas.getAnimations().length) return; // the words wait for the picture
-    strip.textContent = `${text(regions)} region${regions > 1 ? "s" : ""} so far, a box around each; ${width} × ${height} pixels hold ${text(all)} boxes.`;
+    strip.textContent = `${text(regions)} region${regions > 1 ? "s" : ""} so far, a box around each, in ${width} × ${height} pixels.`;
   };
 
   /* To cut takes a moment: say so, and begin when that can be seen. Only the last who asked is answered. */
