@@ -5,14 +5,14 @@ from itertools import compress, product
 import numpy as np
 
 from book.figures.panels import panels
-from book.figures.where import best_so_far, in_corner, mosaic, nearest, rising
+from book.figures.where import best_so_far, in_corner, mean_colours, mosaic, nearest, rising
 from reproduce import results
 from reproduce.peers.window_proposals import edge_density, sliding_windows
 from reproduce.training.detectors import candidates
 from vmc_lib import photos
 from vmc_lib.boxes import iou
 from vmc_lib.show import COLOURS, photo_view, table
-from vmc_lib.where.selective_search import ALL, Strategy, hierarchies, propose
+from vmc_lib.where.selective_search import ALL, Hierarchy, Strategy, hierarchies, propose
 
 SPACES = ("HSV", "Lab", "rgI", "I")
 MOST = 1000  # boxes tried, a photo
@@ -69,15 +69,22 @@ def segments_view(image, labels):
     return photo_view(mosaic(image, labels), [in_corner(f"{labels.max() + 1} segments")])
 
 
-def merging_view(photo, tree, overlaps, percent):
+def merging_parts(photo, tree):
+    """What `merging_view` shows of a photo and its hierarchy, in small arrays by name."""
+    labels = tree.labels.astype(np.min_scalar_type(tree.labels.max()))
+    colours = mean_colours(photo.image, labels)
+    rest = {"merges": np.uint16(tree.merges), "boxes": np.int16(tree.boxes)}
+    return {"truth": photo.boxes, "colours": colours, "labels": labels} | rest
+
+
+def merging_view(truth, colours, labels, merges, boxes, percent):
     """The regions after so many of a hierarchy's merges, and the best overlap so far."""
-    segments = len(tree.merges) + 1
-    merges = round(percent / 100 * (segments - 1))
-    boxes = tree.boxes[: segments + merges]
-    newest = [(boxes[-1], "", "orange")] if merges else []
-    blend = mosaic(photo.image, tree.after(merges))
-    view = photo_view(blend, newest + nearest(photo.boxes, boxes))
-    return view, rising(overlaps, segments + merges)
+    made, every = round(percent / 100 * len(merges)), np.float64(boxes)
+    now = len(merges) + 1 + made
+    newest = [(every[now - 1], "", "orange")] if made else []
+    blend = mosaic(colours[labels], Hierarchy(labels, merges, boxes).after(made))
+    view = photo_view(blend, newest + nearest(truth, every[:now]))
+    return view, rising(best_so_far(truth, every), now)
 
 
 def mean_best_overlap(photo, boxes):

@@ -147,13 +147,11 @@ def kernel_plot(level, recipe, measure):
     return dot_plot(series, measure, ticks, (0, 1.02))
 
 
-def recipe_plot(rows, overlap):
-    """Table II as a dot plot: recipe -> (precision, recall) at an overlap."""
-    series = {
-        measure: {recipe: rates[part] for recipe, rates in rows.items()}
-        for part, measure in enumerate(MEASURES)
-    }
-    return dot_plot(series, f"at an overlap of {overlap}", None, (0, 1.02))
+def recipe_plot(best, overlap):
+    """Table II as a dot plot: precision and recall at an overlap, of `best_by_recipe`."""
+    rows = zip(MEASURES, localisation.rates(best, overlap).T, strict=True)
+    series = {measure: dict(zip(localisation.RECIPES, row, strict=True)) for measure, row in rows}
+    return dot_plot(series, f"at an overlap of {overlap:g}", None, (0, 1.02))
 
 
 def fresh_plot(level, measure):

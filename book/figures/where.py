@@ -24,12 +24,16 @@ from vmc_lib.show.palette import COLOURS, EDGE, ON_PHOTO
 from vmc_lib.show.render_mode import render_mode
 
 
-def mosaic(image, labels):
-    """The image (height, width, 3) with every region of `labels` painted in its mean colour."""
+def mean_colours(image, labels):
+    """The mean colour (n, 3) of every region of `labels` in the image (height, width, 3)."""
     flat = labels.ravel()
     size = np.maximum(np.bincount(flat), 1)
-    means = np.stack([np.bincount(flat, channel) / size for channel in image.reshape(-1, 3).T], 1)
-    return np.uint8(means)[labels]
+    return np.stack([np.bincount(flat, channel) / size for channel in image.reshape(-1, 3).T], 1)
+
+
+def mosaic(image, labels):
+    """The image (height, width, 3) with every region of `labels` painted in its mean colour."""
+    return np.uint8(mean_colours(image, labels) + 1e-6)[labels]  # 3 may be 2.9999999999
 
 
 def in_corner(words, colour="ink"):

@@ -6,7 +6,7 @@ every photo is stored, as `make` finds it, so that a table costs no search.
 
 from collections import ChainMap
 from dataclasses import replace
-from itertools import product
+from itertools import chain, product, zip_longest
 
 import numpy as np
 from joblib import Parallel, delayed
@@ -149,11 +149,20 @@ def keep_boxes(detections, threshold, overlap):
 
 def table_2(level, split="test", overlap=MIN_IOU):
     """Table II: precision and recall of the final boxes of each recipe, right at IoU `overlap`."""
-    some, rows = photos.load(level, split), {}
-    for name in RECIPES:
-        kept = [arrays("localisation")[f"{photo.name}/{name}"] for photo in some]
-        rows[name] = precision_recall(some, kept, overlap)
-    return rows
+    return dict(zip(RECIPES, rates(best_by_recipe(level, split), overlap).tolist(), strict=True))
+
+
+def best_by_recipe(level, split):
+    """`best_overlaps` of each recipe's final boxes: (recipes, 2, most), filled up with NaN."""
+    some, final = photos.load(level, split), arrays("localisation")
+    every = (best_overlaps(some, [final[f"{p.name}/{name}"] for p in some]) for name in RECIPES)
+    columns = zip_longest(*chain.from_iterable(every), fillvalue=np.nan)
+    return np.array([*columns]).T.reshape(len(RECIPES), 2, -1)
+
+
+def rates(best, overlap):
+    """Precision and recall (…, 2) at IoU `overlap`, of `best_overlaps` (…, 2, most)."""
+    return (best >= overlap).sum(-1) / np.maximum(np.isfinite(best).sum(-1), 1)
 
 
 def precision_recall(shots, boxes, overlap=MIN_IOU):
@@ -170,8 +179,15 @@ def true_positives(shots, boxes, overlap=MIN_IOU):
 
     Truth values for all boxes of all photos in turn, and for all objects.
     """
-    shared = [iou(b, list(p.boxes.values())) >= overlap for p, b in zip(shots, boxes, strict=True)]
-    return tuple(np.concatenate([pairs.any(axis) for pairs in shared]) for axis in (1, 0))
+    return tuple(best >= overlap for best in best_overlaps(shots, boxes))
+
+
+def best_overlaps(shots, boxes):
+    """The best IoU of each box with an object of its photo, and of each object with a box."""
+    shared = [iou(b, list(p.boxes.values())) for p, b in zip(shots, boxes, strict=True)]
+    return tuple(
+        np.concatenate([pairs.max(axis, initial=0) for pairs in shared]) for axis in (1, 0)
+    )
 
 
 def table_2_interval(level, name):

@@ -32,7 +32,7 @@ SPOTS = [(x, y) for x in ACROSS.tolist() for y in UP.tolist()]
 ENDED = execute(plan(SPOTS, PAST)).endpoint
 SHOT = photos.load("free", "test")[0]
 ACROSS_SHOT, DOWN_SHOT = np.arange(0, 601, 10), np.arange(0, 401, 10)
-AROUND, NEURONS = np.linspace(-0.95, 0.95, 20), (4, 12, 60)
+AROUND, NEURONS = np.linspace(-0.95, 0.95, 20), range(3, 61)
 
 
 def declare():
@@ -58,7 +58,7 @@ def declare():
         lambda target, neurons, evenly: f"{target}, {neurons}, {evenly}",
         in_page=votes.voted_in_page(),
         target=Pad(AROUND, AROUND),
-        neurons=Slider(NEURONS, "neurons", between=False),
+        neurons=Slider(NEURONS, "neurons", 4),
         evenly=Switch((False, True), "evenly spread"),
     )
     explore(
@@ -128,7 +128,7 @@ def test_a_plan_is_drawn_as_python_plans_it(page, place):
     assert np.abs(curves - wanted).max() < 0.2
 
 
-@pytest.mark.parametrize("place", [(0, 0, 0, 0), (19, 3, 1, 0), (15, 15, 0, 1), (9, 10, 2, 1)])
+@pytest.mark.parametrize("place", [(0, 0, 1, 0), (19, 3, 9, 0), (15, 15, 1, 1), (9, 10, 57, 1)])
 def test_neurons_vote_as_in_python(page, place):
     x, y, many, evenly = place
     target, neurons = AROUND[[x, y]], NEURONS[many]

@@ -68,11 +68,11 @@ class Slider(Control):
 
     With `play="unasked"` it does so by itself, once, when the demo comes into view: unless the
     reader has asked the browser for less motion. Where the page works them out, or Python runs in
-    it, values `between` these can be chosen, too.
+    it, values `between` these can be chosen, too; if that is a number, multiples of it.
     """
 
     play: bool | str = False
-    between: bool = True
+    between: bool | float = True
 
     def value_at(self, place):
         """The value at a place along `values`, which may lie between two; whole where these are."""
@@ -81,7 +81,9 @@ class Slider(Control):
         if place in (low, low + 1):
             return other if place > low else one
         value = one + (place - low) * (other - one)
-        return round(value) if all(isinstance(v, int) for v in self.values) else value
+        if all(isinstance(v, int) for v in self.values):
+            return round(value)
+        return value if self.between is True else round(value / self.between) * self.between
 
     @property
     def continuous(self):

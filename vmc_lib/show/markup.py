@@ -1,12 +1,14 @@
 """Plots and images as markup that carries everything it needs: SVG with text, `<img>` with data."""
 
 import base64
+import io
 import re
 from functools import cache, lru_cache
 
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.ticker import AutoLocator, FixedLocator, MaxNLocator, NullLocator
+from PIL import Image
 
 from vmc_lib.show.palette import COLOURS, STYLE, css
 from vmc_lib.show.render_mode import STATIC, render_mode
@@ -134,9 +136,13 @@ def data_uri(image):
 @lru_cache(maxsize=64)  # the states of a demo often share a photo
 def _encode(pixels, shape):
     """PNG for small or flat pictures, WebP for photographs: whichever is shorter."""
-    import cv2
-
     image = np.frombuffer(pixels, np.uint8).reshape(shape)
+    try:
+        import cv2
+    except ImportError:  # in the page
+        png = io.BytesIO()
+        Image.fromarray(image).save(png, "png", compress_level=1)
+        return f"data:image/png;base64,{base64.b64encode(png.getvalue()).decode()}"
     bgr = image if image.ndim == 2 else image[..., ::-1]
     png = cv2.imencode(".png", bgr)[1].tobytes()
     webp = cv2.imencode(".webp", bgr, [cv2.IMWRITE_WEBP_QUALITY, 70])[1].tobytes()
