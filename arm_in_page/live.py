@@ -35,7 +35,16 @@ from vmc_lib.show.render_mode import STATIC as SHOW
 from vmc_lib.show.render_mode import render_mode
 from vmc_lib.show.scene import SCRIPTS as VIEWER
 
-MODES = ("bench", "reach", "weights", "templates")
+REACHES = (
+    "A right arm before a table has reached for a target; beside it the plane that it moves in, "
+    "with remembered reaches as dots"
+)
+MODES = {  # what a reader can do, and the picture in words
+    "bench": "A right arm of six muscles before a table, and its posture seen from the side.",
+    "reach": f"{REACHES}.",
+    "templates": f"{REACHES}.",
+    "weights": f"{REACHES}, four of them weighted.",
+}
 TRIALS = 2  # of our own calibration: off-line, the page has no more to learn
 CALIBRATION = {"gains": GAINS, "trials": TRIALS, "largestStep": LARGEST_STEP}
 KINEMATICS = {
@@ -57,7 +66,7 @@ names = map("live-{}".format, itertools.count(1))
 _ASKED = tuple(itertools.product((0.1, 0.9), (0.3, 0.7), (0.6, 1.3), (-0.5, 0.3)))
 
 
-def live_arm(mode, caption, alt, target=(0.09, -0.37), law=""):
+def live_arm(mode, caption, alt="", target=(0.09, -0.37), law=""):
     """Show the arm with its physics in the page, loaded when the reader first asks for it.
 
     `mode` is "bench" (six excitation sliders move the arm) or "reach" (the reader sets a target;
@@ -65,13 +74,13 @@ def live_arm(mode, caption, alt, target=(0.09, -0.37), law=""):
     same, and the four weights of the plan are set by hand) or "templates" (the same as "reach", and
     templates are taken away, put back and added). `target` (2,), in the arm's plane and in m, is
     where the reach's target first stands, and for which a first reach is there from the start.
-    `caption` is Markdown and says what to notice, `alt` describes the picture in words. `law`
-    names the chapter's function of Eq. 5, which a reader can change: the book's page then plans by
-    it. Raises ValueError when the mode is unknown or when no templates
+    `caption` is Markdown and says what to notice, `alt` describes the picture in words, by default
+    as `MODES` does. `law` names the chapter's function of Eq. 5, which a reader can change: the
+    book's page then plans by it. Raises ValueError when the mode is unknown or when no templates
     surround the target.
     """
     if mode not in MODES:
-        raise ValueError(f"mode {mode!r} is unknown: choose one of {MODES}")
+        raise ValueError(f"mode {mode!r} is unknown: choose one of {[*MODES]}")
     name = next(names)
     data = given()
     if mode == "bench":
@@ -81,7 +90,7 @@ def live_arm(mode, caption, alt, target=(0.09, -0.37), law=""):
         movement = execute(plan(target, templates.load()))  # raises when none surround it
         draw, controls = partial(_reach_view, movement), reach_form(name, target, mode)
         data |= {"first": first(movement), "lens": LENS}
-    show(name, mode, draw, controls, data, caption, alt, law)
+    show(name, mode, draw, controls, data, caption, alt or MODES[mode], law)
 
 
 def show(name, mode, draw, controls, data, caption, alt, law=""):

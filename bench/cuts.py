@@ -14,12 +14,7 @@ from bench.selective_search import DRAWS, SMALLEST, opencv, outdoors, renders
 from vmc_lib import photos
 from vmc_lib.boxes import iou
 from vmc_lib.where.appearance import COLOUR_SPACES, colour_codes, describe, texture_codes
-from vmc_lib.where.segmentation import (
-    merge_segments,
-    pixel_edges,
-    pixel_offsets,
-    sort_by_weight,
-)
+from vmc_lib.where.segmentation import merge_segments, pixel_edges, pixel_offsets, sort_by_weight
 from vmc_lib.where.selective_search import ALL, grow, rank_boxes
 
 PATCH = 100  # pixels: the smallest, of ours and of OpenCV's

@@ -40,11 +40,7 @@ WORK = {  # what -> (call, how often, simulated movements)
         75,
     ),
     "online correction, one target": (lambda: cerebellum.correct(habit), 20, 0),
-    "25 movements, learned online": (
-        lambda: cerebellum.update(plan(targets, template_set)),
-        5,
-        25,
-    ),
+    "25 movements, learned online": (lambda: cerebellum.update(plan(targets, template_set)), 5, 25),
     "optimal control, one target": (lambda: optimal_control.solve(target), 2, None),
 }
 

@@ -184,19 +184,30 @@ def test_a_readers_file_may_hide_a_folder_as_readme_says(tmp_path):
     assert "'book' is not a package" in (ROOT / "README.md").read_text(encoding="utf-8")
 
 
+# Python reads and writes text as ASCII, and warns where it was not told how: Windows at its worst
+ASCII = {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
+ASCII |= {"PYTHONWARNDEFAULTENCODING": "1"}
+STRICT = f"""import locale, warnings
+warnings.filterwarnings("error", category=EncodingWarning, module=r"({"|".join(OURS)})\\b")
+locale.getencoding()"""
+
+
 @pytest.mark.parametrize("chapter", ["08_arm", "photos"])
 def test_a_chapter_runs_elsewhere_after_the_lines_of_readme(reader, alone, tmp_path, chapter):
+    """Live, also where text is ASCII unless its encoding is named."""
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
     lines = r"!git clone .*> (\w+)\n(%cd \1)\n%pip install --quiet -e \.\n"  # for what `reader` has
     [(folder, enter)] = re.findall(lines, readme)
     (tmp_path / folder).symlink_to(reader / "source")
     used = "import book.figures, vmc_lib\n[*book.__path__, vmc_lib.__file__]"
     notebook = nbformat.read(ROOT / f"book/{chapter}.ipynb", as_version=4)
-    notebook.cells.insert(0, nbformat.v4.new_code_cell(enter))
+    notebook.cells.insert(0, nbformat.v4.new_code_cell(f"{enter}\n{STRICT}"))
     notebook.cells.append(nbformat.v4.new_code_cell(used))
     nbformat.write(notebook, tmp_path / "chapter.ipynb")
-    alone("-m", "nbconvert", "--execute", "--to=notebook", "--inplace", "chapter.ipynb")
+    convert = "-m nbconvert --execute --to=notebook --inplace chapter.ipynb"
+    alone(*convert.split(), **ASCII)
     executed = nbformat.read(tmp_path / "chapter.ipynb", as_version=4)
+    assert "ANSI" in executed.cells[0].outputs[-1].data["text/plain"]  # ASCII's official name
     (output,) = executed.cells[-1].outputs
     assert output.data["text/plain"].count("/source/") == 2
     assert str(ROOT) not in output.data["text/plain"]

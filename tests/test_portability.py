@@ -10,7 +10,6 @@ from pathlib import Path
 from urllib.parse import urlsplit
 from urllib.request import url2pathname
 
-import nbformat
 import pytest
 from jupyterlab.labapp import LabApp
 
@@ -18,10 +17,7 @@ from tests.project import NOTEBOOKS, ROOT, code, python, run
 
 SCHEMAS = Path(sysconfig.get_path("data")) / "share/jupyter/lab/schemas"
 AWKWARD = "a b&c#d+ü"  # a folder of a name that is lawful everywhere
-OURS = "|".join(room.name for room in ROOT.glob("[a-z]*") if [*room.rglob("*.py")])
-# Python reads and writes text as ASCII, and warns where it was not told how: Windows at its worst
-ASCII = {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
-ASCII |= {"PYTHONWARNDEFAULTENCODING": "1"}
+OURS = [room.name for room in ROOT.glob("[a-z]*") if [*room.rglob("*.py")]]
 LOAD = """
 from vmc_lib import photos
 levels = {*photos.EVERY_LEVEL, photos.SHEET_LEVEL}
@@ -98,7 +94,7 @@ def lacking(keyword, source, names="read_text write_text run"):
 
 
 def test_every_text_names_its_encoding():
-    files = [file for part in OURS.split("|") for file in (ROOT / part).rglob("*.py")]
+    files = [file for part in OURS for file in (ROOT / part).rglob("*.py")]
     assert len(files) > 200
     calls = [call for path in (*files, *NOTEBOOKS) for call in lacking("encoding", code(path))]
     assert calls == []
@@ -109,19 +105,6 @@ def test_generated_files_have_fixed_line_ends(room):
     codes = [code(path) for path in (ROOT / room).rglob("*.py")]
     assert any("write_text(" in text for text in codes)
     assert [call for text in codes for call in lacking("newline", text, "write_text")] == []
-
-
-def test_a_live_chapter_runs_where_text_is_ascii_unless_named(tmp_path):
-    chapter = nbformat.read(ROOT / "book/08_arm.ipynb", as_version=4)
-    strict = f"filterwarnings('error', category=EncodingWarning, module=r'({OURS})\\b')"
-    strict = f"import locale, warnings; warnings.{strict}; locale.getencoding()"
-    chapter.cells.insert(0, nbformat.v4.new_code_cell(strict))
-    nbformat.write(chapter, tmp_path / "chapter.ipynb")
-    convert = "-m nbconvert --execute --to=notebook --inplace chapter.ipynb".split()
-    live = ASCII | {"VMC_RENDER_MODE": "", "PYTHONPATH": str(ROOT)}
-    python(*convert, cwd=tmp_path, **live)
-    first = nbformat.read(tmp_path / "chapter.ipynb", as_version=4).cells[0]
-    assert "ANSI" in first.outputs[0].data["text/plain"]  # ASCII's official name begins so
 
 
 # ---------------------------------------------------------------- JupyterLab

@@ -3,6 +3,7 @@ const vmcExperience = (() => {
   "use strict";
 
   const NEAR = 12, FINGER = 22; // px from a dot's middle that still are on it
+  const onHandle = ({ target }) => target.matches(".vmc-handle");
 
   class Experience extends vmcReach.Aimed {
     constructor(box) {
@@ -15,12 +16,19 @@ const vmcExperience = (() => {
       });
       this.controls.addEventListener("click", (event) => this.mayGo(event));
       const pictures = box.querySelector(".vmc-pictures");
-      for (const type of ["pointerdown", "click"]) // before they reach the target's handle
-        pictures.addEventListener(type, (event) => {
-          const dot = this.dot(event);
-          if (dot) event.stopPropagation();
-          if (dot && type === "click") dot.click();
-        }, true);
+      let down, up; // where a click truly was: a finger's is moved onto the handle beside it
+      pictures.addEventListener("pointerdown", (event) => { // before the handle hears it
+        down = up = event;
+        if (!onHandle(event) && this.dot(event)) event.stopPropagation();
+      }, true);
+      pictures.addEventListener("pointerup", (event) => (up = event), true);
+      pictures.addEventListener("click", (event) => {
+        const still = Math.hypot(up.clientX - down.clientX, up.clientY - down.clientY) < 4;
+        const dot = still && this.dot(down);
+        if (!dot) return;
+        event.stopPropagation();
+        dot.click();
+      }, true);
     }
 
     /* A box to tick for each template, in their order. */
@@ -32,15 +40,15 @@ const vmcExperience = (() => {
       return new Set(this.boxes.flatMap(({ checked }, row) => (checked ? [] : row)));
     }
 
-    /* The box of the template that the reader points at on the plot. */
-    dot({ target, clientX, clientY, pointerType }) {
-      const { svg, measure } = this.drawing.plots[0];
-      if (target.closest("svg") !== svg) return null;
+    /* The box of the template that the reader points at on the plot, or through the handle on it. */
+    dot(event) {
+      const { target, clientX, clientY, pointerType } = event, { svg, measure } = this.drawing.plots[0];
+      if (target.closest("svg") !== svg && !onHandle(event)) return null;
       const { left, top, width, height } = svg.getBoundingClientRect();
       const far = this.experience.points.map(measure.drawn).map(([right, down]) =>
         Math.hypot(clientX - left - right * width, clientY - top - down * height));
       const least = Math.min(...far);
-      return least < (pointerType === "touch" ? FINGER : NEAR) ? this.boxes[far.indexOf(least)] : null;
+      return least < (pointerType === "touch" && !onHandle(event) ? FINGER : NEAR) ? this.boxes[far.indexOf(least)] : null;
     }
 
     /* A template without which there is no plan stays. */
@@ -90,7 +98,7 @@ const vmcExperience = (() => {
       const all = this.boxes.length, { stays } = this;
       this.stays = null;
       if (stays) this.say(stays);
-      else super.sayMiss(`; or click a template: ${all - this.without.size} of ${all} are there`);
+      else super.sayMiss(` ${all - this.without.size} of ${all} templates are there.`);
     }
   }
 

@@ -178,8 +178,8 @@ const vmcReach = (() => {
       this.drawing.balls = [this.goal, planned?.hand, calibrated?.hand];
     }
 
-    sayMiss(next = "") {
-      super.sayMiss(` Drag the target, and let go${next}.`);
+    sayMiss(next = " Drag the target, and let go.") {
+      super.sayMiss(next);
     }
   }
 

@@ -5,8 +5,10 @@ import numpy as np
 
 from book.figures.panels import panels
 from book.figures.reaching import norm_mm
+from reproduce import results
 from reproduce.experiments.obstacle_avoidance import RADIUS
-from vmc_lib.show import note
+from vmc_lib.photos import LEVELS
+from vmc_lib.show import note, table
 from vmc_lib.show.arm import arm_scene
 from vmc_lib.show.arm_plane import plane
 from vmc_lib.show.palette import COLOURS
@@ -25,6 +27,38 @@ def miss_histogram(miss):
     ax.xaxis.set_major_formatter("{x:g}")
     ax.legend(loc="upper left")
     return fig
+
+
+def changes():
+    """What each change leaves of the planned miss, of the ledger's draws: name -> (draws,)."""
+    from reproduce.experiments import calibration, planning_ablation  # not in the page
+
+    def label(name):
+        return name.replace("own off-line", "off-line, Broyden").replace("1 trials", "1 trial")
+
+    ratios = {"Eq. 4 exactly": planning_ablation.exact_weight_ratios()}
+    ratios |= calibration.load_results()["changing neighbours"]
+    no_shares = "planned / reach", ", mm", ", speed", ", stray"
+    return {label(k): draws for k, draws in ratios.items() if not k.endswith(no_shares)}
+
+
+def boxes_table():
+    """How many boxes are right in forty test photos of each level: a Markdown table."""
+    from reproduce.experiments.localisation import table_2  # not in the page
+
+    by_level = {level: table_2(level) for level in LEVELS}
+    recipes = "published", "improved"
+    rows = {level: [by[name][1] for name in recipes] for level, by in by_level.items()}
+    heads = "boxes right (recall at IoU 0.8), forty test photos", *recipes
+    return table(heads, rows, ".2f")
+
+
+def sweeps():
+    """The benches of growing experience: what grows -> its rows."""
+    by_quantity = {}
+    for row in results.records("bench/scaling")["rows"]:
+        by_quantity.setdefault(row["more"], []).append(row)
+    return by_quantity
 
 
 def error_divided(rows):

@@ -1,5 +1,7 @@
 """Figures of the hierarchy: a layer's maps, its units and what they answer to."""
 
+from itertools import product
+
 import matplotlib.pyplot as plt
 import numpy as np
 
@@ -43,6 +45,17 @@ def unit(stack, zoom, column, row, patches, pictures, shuttlecock):
     nine = tiles(patches[k], columns=3, zoom=72 // patches.shape[-1])
     marked = photo_view(image, [(box, "", "orange")], axes=(0.5, 5.5, 2.5, 0.5))
     return marked, lettered(nine, words)
+
+
+def layers_under_shift(cdbn, crop, right, down):
+    """P2 and MP2 of a crop (1, 1, h, w) that is shifted: (right, down) in pixels -> layers."""
+    from torch import from_numpy  # not in the page
+
+    bird, layers = from_numpy(crop), {}
+    for x, y in product(right, down):
+        rolled = cdbn.layers(bird.roll((y, x), (-2, -1)))
+        layers[x, y] = {name: rolled[name].numpy() for name in ("P2", "MP2")}
+    return layers
 
 
 def under_shift(crop, layers, shift):

@@ -14,7 +14,7 @@ def response(excitation, activation, with_means=False):
     means = [f", mean {x.mean():.2f}" * with_means for x in (excitation, activation)]
     fig, ax = panels(size=(6.5, 2.6))
     time = np.arange(len(excitation))
-    ax.fill_between(time, excitation, color=COLOURS["line"], label="told" + means[0])
+    ax.fill_between(time, excitation, color=COLOURS["line"], label="excitation" + means[0])
     ax.plot(time, activation, color=COLOURS["red"], label="active" + means[1])
     ax.set(xlabel="time (ms)", ylim=(0, 1.25), yticks=[0, 0.5, 1])
     ax.legend(loc="upper right", ncols=2)

@@ -7,9 +7,18 @@ from book.figures.panels import panels
 from book.figures.reaching import arrows, ends, norm_mm, plane
 from reproduce.experiments.planning_error import TARGETS, mixed_and_reached
 from reproduce.peers import optimal_control
+from reproduce.peers.minimum_variance import reach_measures
 from vmc_lib.arm.model import MUSCLES
 from vmc_lib.motor import templates
+from vmc_lib.show import table
 from vmc_lib.show.palette import COLOURS
+
+WATCHED = {  # of `reach_measures`, in words
+    "path": "way / straight way",
+    "farthest": "farthest from the target in the hold (mm)",
+    "speed": "speed in the hold (mm/s)",
+    "height": "lowest above the table (mm)",
+}
 
 
 def planned_in_words(target, ended):
@@ -81,3 +90,22 @@ def habit_beside_optimum(target, motions, costs):
     right.set(ylabel="effort (10⁻³)", ylim=(0, 1.05 * most))
     right.legend()
     return fig
+
+
+def paths_table(motions, targets):
+    """Medians and ranges of how each rule's reaches go, rule -> `HeldMotion`: a Markdown table."""
+    rows = {}
+    for name, motion in motions.items():
+        measures = reach_measures(motion, targets)
+        ends = ((np.median(x), x.min(), x.max()) for x in map(measures.get, WATCHED))
+        rows[name] = ["{:.2g} ({:.2g} to {:.2g})".format(*three) for three in ends]
+    return table(["median (range)", *WATCHED.values()], rows)
+
+
+def costs_table(commands, target):
+    """What commands for one target (name -> (T, 6)) reach and cost: a Markdown table."""
+    u = np.stack([*commands.values()])
+    measures, effort = reach_measures(templates.reach(u), target[None]), optimal_control.effort(u)
+    columns = measures["miss"], measures["farthest"], measures["path"], 1000 * effort
+    heads = "plan", "miss (mm)", "farthest in the hold (mm)", WATCHED["path"], "effort (×10⁻³)"
+    return table(heads, dict(zip(commands, np.transpose(columns), strict=True)), ".2f")

@@ -141,7 +141,7 @@ const vmcYourPhoto = (() => {
       this.photo.drawBoxes(this.marks);
       const button = ({ words, colour }, i) =>
         `<button type="button" data-box="${i}" aria-pressed="false" class="vmc-${colour}">${words}</button>`;
-      choice.innerHTML = `Shuttlecock? ${this.marks.map(button).join("")}`;
+      choice.innerHTML = `How surely a shuttlecock? Press one, and the arm reaches for it: ${this.marks.map(button).join("")}`;
       choice.hidden = !this.boxes.length;
       this.say(`${capital(sight.summary)}.${choice.hidden ? "" : " Point at a box, and the arm reaches for that."}`);
     }
@@ -163,7 +163,7 @@ const vmcYourPhoto = (() => {
       } catch (error) {
         if (!(error instanceof RangeError)) throw error;
         this.rest();
-        this.say(`Out of reach: ${error.message}. The hand can be where it is shaded.`);
+        this.say("Out of reach: the hand can be where it is shaded. Lay it there, or point at another box.");
       }
     }
 

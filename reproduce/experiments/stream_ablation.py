@@ -5,6 +5,7 @@ time. No mistakes are mined.
 """
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -66,9 +67,7 @@ def make(folder=photos.FOLDER, draws=DRAWS, steps=STEPS, everyday=None, pasted=P
     }
 
 
-def load_results():
-    """What `make` found: arrays by what is left out."""
-    return arrays("ablation")
+load_results = partial(arrays, "ablation")
 
 
 def evaluation_set(shown):

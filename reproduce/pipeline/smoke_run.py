@@ -13,32 +13,11 @@ import numpy as np
 
 from render import scene
 from reproduce import ledger
-from reproduce.experiments import (
-    calibration,
-    cdbn_sensitivity,
-    changed_worlds,
-    class_independence,
-    controller_comparison,
-    crbm_ablation,
-    domain_shift,
-    feedback_control,
-    fresh_test_set,
-    hmax_draws,
-    learning_under_noise,
-    localisation,
-    loop_evaluation,
-    muscle_weakness,
-    printed_sheet,
-    real_world,
-    recognition,
-    second_layers,
-    stream_ablation,
-)
-from reproduce.peers import minimum_variance, optimal_control
+from reproduce.experiments import calibration, changed_worlds, feedback_control, muscle_weakness
+from reproduce.peers import optimal_control
 from reproduce.pipeline.progress import run_tasks
 from reproduce.pipeline.steps import STEPS, write
-from reproduce.training import arm_tables, shipped_models, ventral_stream
-from reproduce.whole_arm import experiment, habits
+from reproduce.whole_arm import habits
 from vmc_lib import photos
 from vmc_lib.where.recipes import EVERY_RECIPE, RECIPES
 
@@ -49,6 +28,12 @@ REAL = {"train": (1, 74), "validation": (13, 79), "test": (17, 80)}
 NAMED = {"train": (0,), "validation": (1, 2), "test": (1,)}  # Platt's sigmoid asks for two each
 PATCHES = 200  # of the pictures that a network learns from
 LATER = 200  # what turns the number of a photo that ships into that of a later one
+
+
+def toy(name, *arguments, **size):
+    """A step's name, and what makes its file with arguments that keep it small."""
+    [function] = (step.function for step in STEPS if step.name == name)
+    return name, partial(function, *arguments, **size)
 
 
 def toy_steps(folder):
@@ -77,52 +62,44 @@ def toy_steps(folder):
         "reaches": partial(feedback_control.reach_measures, count=2, seconds=2.0),
         "field": partial(feedback_control.curl_field_errors, blocks=(1, 1, 1)),
     }
-    return {
-        "photos": scenes,
-        "candidates": partial(shipped_models.candidates, few, ["test"]),
-        "detectors": partial(shipped_models.detectors, few, recipes),
-        "localisers": partial(shipped_models.localisers, few),
-        "cdbn": partial(shipped_models.cdbn, few, PATCHES),
-        "recogniser": partial(shipped_models.recogniser, named),
-        "arm26": arm_tables.make,
-        "rest": arm_tables.make_rest,
-        "templates": partial(shipped_models.templates, [0.16]),
-        "localisation": partial(
-            localisation.make, few, RECIPES | {"improved": improved}, trainings=1
-        ),
-        "recognition": partial(recognition.make, named, prototypes=20),
-        "fresh_names": partial(fresh_test_set.make_names, fresh),
-        "hmax_draws": partial(hmax_draws.make, named, draws=2),
-        "second_layers": partial(second_layers.make, few, [0], patches=50, every=1),
-        "class_independence": partial(class_independence.make, few, {"rig": ["single"]}),
-        "variations": partial(cdbn_sensitivity.make, [(6, 0)], named, PATCHES),
-        "tricks": partial(crbm_ablation.make, few, epochs=1, patches=50),
-        "optimal": partial(optimal_control.make, optimal_control.TARGETS[12:13]),
-        "steady": partial(minimum_variance.make, optimal_control.TARGETS[12:13], 0, ftol=1.0),
-        "movements": partial(calibration.make, experiments, seeds=[0]),
-        "cerebella": partial(controller_comparison.make, seeds=[0], movements=(2, 4), held_out=4),
-        "feedback": partial(feedback_control.make, watched, seeds=[0]),
-        "unsteady": partial(learning_under_noise.make, [0], seeds=[0], sizes=(2, 4), held_out=8),
-        "weakened": partial(
-            muscle_weakness.make, [0], muscle_weakness.TARGETS[:1], ["BRA"], count=2, before=20
-        ),
-        "fresh_test_set": partial(
-            fresh_test_set.make, fresh, named, trainings=1, seeds=[0], patches=PATCHES
-        ),
-        "lesions": partial(loop_evaluation.make, ["rig"], few),
-        "generalist": partial(loop_evaluation.make_generalist, ["rig"], few),
-        "photographs": partial(
-            ventral_stream.photographs, few, (2, 1), (2, 2, 2, 2), everyday=1, pasted=2
-        ),
-        "real_world": partial(real_world.make, few, splits=["validation"]),
-        "elsewhere": partial(real_world.make_elsewhere, few),
-        "domains": partial(domain_shift.make, few, [4], equal=4, draws=2, patches=PATCHES, steps=2),
-        "ablation": partial(stream_ablation.make, few, draws=1, steps=2, everyday=1, pasted=2),
-        "printed_sheet": partial(printed_sheet.make, count=1),
-        "whole_arm_habits": partial(habits.make, habits.goal_grid(2)[:2]),
-        "whole_arm": partial(experiment.make, [2], [14], seeds=[0], count=1),
-        "ledger": partial(ledger.make, ledger.ROWS[-1:], levels=()),
-    }
+    toys = (
+        toy("candidates", few, ["test"]),
+        toy("detectors", few, recipes),
+        toy("localisers", few),
+        toy("cdbn", few, PATCHES),
+        toy("recogniser", named),
+        toy("arm26"),
+        toy("rest"),
+        toy("templates", [0.16]),
+        toy("localisation", few, RECIPES | {"improved": improved}, trainings=1),
+        toy("recognition", named, prototypes=20),
+        toy("fresh_names", fresh),
+        toy("hmax_draws", named, draws=2),
+        toy("second_layers", few, [0], patches=50, every=1),
+        toy("class_independence", few, {"rig": ["single"]}),
+        toy("variations", [(6, 0)], named, PATCHES),
+        toy("tricks", few, epochs=1, patches=50),
+        toy("optimal", optimal_control.TARGETS[12:13]),
+        toy("steady", optimal_control.TARGETS[12:13], 0, ftol=1.0),
+        toy("movements", experiments, seeds=[0]),
+        toy("cerebella", seeds=[0], movements=(2, 4), held_out=4),
+        toy("feedback", watched, seeds=[0]),
+        toy("unsteady", [0], seeds=[0], sizes=(2, 4), held_out=8),
+        toy("weakened", [0], muscle_weakness.TARGETS[:1], ["BRA"], count=2, before=20),
+        toy("fresh_test_set", fresh, named, trainings=1, seeds=[0], patches=PATCHES),
+        toy("lesions", ["rig"], few),
+        toy("generalist", ["rig"], few),
+        toy("photographs", few, (2, 1), (2, 2, 2, 2), everyday=1, pasted=2),
+        toy("real_world", few, splits=["validation"]),
+        toy("elsewhere", few),
+        toy("domains", few, [4], equal=4, draws=2, patches=PATCHES, steps=2),
+        toy("ablation", few, draws=1, steps=2, everyday=1, pasted=2),
+        toy("printed_sheet", count=1),
+        toy("whole_arm_habits", habits.goal_grid(2)[:2]),
+        toy("whole_arm", [2], [14], seeds=[0], count=1),
+        toy("ledger", ledger.ROWS[-1:], levels=()),
+    )
+    return {"photos": scenes, **dict(toys)}
 
 
 def run_all(folder):

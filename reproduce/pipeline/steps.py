@@ -63,13 +63,18 @@ class Step:
         """What the step is called, as its file."""
         return self.file.stem
 
+    @property
+    def function(self):
+        """The function that makes it, without what it is given."""
+        return getattr(self.make, "func", self.make)
+
     def inputs(self):
         """Every file that the step depends on: what it reads, and the code that it can run."""
         makes = {step.name: step.file for step in STEPS}
         places = [makes.get(name, ROOT / name) for name in self.reads.split()]
         within = (file for place in places for file in (place, *place.rglob("*")))
         found = {file for file in within if file.suffix in DATA}
-        return found | imported_files(getsourcefile(getattr(self.make, "func", self.make)))
+        return found | imported_files(getsourcefile(self.function))
 
     def run(self):
         """Make the file, on all cores, in a new process: one that has read no older file."""
@@ -120,24 +125,15 @@ def describe_steps():
         yield f"{step.name:15} {where!s:38} about {step.minutes:g} min{needs}"
 
 
-RENDER, OPENSIM = f"{sys.executable} -m render", ".bench/bin/python -m bench.opensim_reference"
-BONES = f"{sys.executable} -m render.bone_meshes"
-SUMMED = f"{sys.executable} -m reproduce.pipeline.checksums"
-DERIVED, BONES63 = (f"{sys.executable} -m reproduce.whole_arm.{x}" for x in ("derive", "bones"))
-ARM, WHOLE_ARM, REAL, SHIPPED = (
-    "arm26 vmc_lib/arm",
-    "vmc_lib/arm reproduce/whole_arm",
-    "vmc_lib/data/real",
-    "vmc_lib/data vmc_lib/arm",
-)
+PYTHON, MITSUBA = f"{sys.executable} -m", "mitsuba and LLVM 19"
+RENDER, OPENSIM = f"{PYTHON} render", ".bench/bin/python -m bench.opensim_reference"
+SUMMED = f"{PYTHON} reproduce.pipeline.checksums"
+ARM, WHOLE_ARM = "arm26 vmc_lib/arm", "vmc_lib/arm reproduce/whole_arm"
+SHIPPED = "vmc_lib/data vmc_lib/arm"
+PHOTOGRAPHS = "photos candidates detectors cutouts vmc_lib/data/real"
 STEPS = (
-    Step(RENDER, MODEL / "photos", minutes=25, needs="mitsuba and LLVM 19"),
-    Step(
-        f"{sys.executable} -m render.cutouts",
-        cutout_atlas.FILE,
-        minutes=6,
-        needs="mitsuba and LLVM 19",
-    ),
+    Step(RENDER, MODEL / "photos", minutes=25, needs=MITSUBA),
+    Step(f"{RENDER}.cutouts", cutout_atlas.FILE, minutes=6, needs=MITSUBA),
     Step(shipped_models.candidates, MODEL / "candidates.npz", "photos", 4),
     Step(shipped_models.detectors, MODEL / "detectors.npz", "photos candidates", 6),
     Step(shipped_models.localisers, MODEL / "localisers.npz", "photos", 1),
@@ -162,19 +158,9 @@ STEPS = (
     Step(muscle_weakness.make, RESULTS / "weakened.npz", f"templates {ARM}", 1),
     Step(loop_evaluation.make, RESULTS / "lesions.json", SHIPPED, 6),
     Step(loop_evaluation.make_generalist, RESULTS / "generalist.json", SHIPPED, 1),
-    Step(
-        ventral_stream.photographs,
-        MODEL / "photographs.npz",
-        f"photos candidates detectors cutouts {REAL}",
-        35,
-    ),
+    Step(ventral_stream.photographs, MODEL / "photographs.npz", PHOTOGRAPHS, 35),
     Step(real_world.make, RESULTS / "real_world.json", SHIPPED, 3),
-    Step(
-        f"{sys.executable} -m render.elsewhere {ELSEWHERE}",
-        ELSEWHERE,
-        minutes=15,
-        needs="vtk",
-    ),
+    Step(f"{RENDER}.elsewhere {ELSEWHERE}", ELSEWHERE, minutes=15, needs="vtk"),
     Step(
         partial(real_world.make_elsewhere, ELSEWHERE),
         RESULTS / "elsewhere.json",
@@ -183,28 +169,14 @@ STEPS = (
         needs="elsewhere_photos",
     ),
     Step(domain_shift.make, RESULTS / "domains.npz", "photos", 8),
-    Step(
-        stream_ablation.make,
-        RESULTS / "ablation.npz",
-        f"photos candidates detectors cutouts {REAL}",
-        15,
-    ),
-    Step(
-        f"{RENDER} --sheet --samples 16",
-        MODEL / "photos/sheet",
-        minutes=5,
-        needs="mitsuba and LLVM 19",
-    ),
-    Step(
-        printed_sheet.make,
-        RESULTS / "printed_sheet.json",
-        f"sheet {SHIPPED}",
-    ),
+    Step(stream_ablation.make, RESULTS / "ablation.npz", PHOTOGRAPHS, 15),
+    Step(f"{RENDER} --sheet --samples 16", MODEL / "photos/sheet", minutes=5, needs=MITSUBA),
+    Step(printed_sheet.make, RESULTS / "printed_sheet.json", f"sheet {SHIPPED}"),
     Step(
         f'{RENDER} --only "*/test" --first 40 --count 200 --folder {FRESH}',
         FRESH,
         minutes=40,
-        needs="mitsuba and LLVM 19",
+        needs=MITSUBA,
     ),
     Step(
         partial(fresh_test_set.make_names, FRESH),
@@ -228,20 +200,14 @@ STEPS = (
         f"reproduce/results/bench {SHIPPED}",
         8,
     ),
+    Step(habits.make, RESULTS / "whole_arm_habits.npz", WHOLE_ARM),
+    Step(experiment.make, RESULTS / "whole_arm.json", f"whole_arm_habits {WHOLE_ARM}", 8),
+    Step(f"{PYTHON} reproduce.whole_arm.derive", plant.FILE, needs="myo-sim"),
+    Step(f"{PYTHON} reproduce.whole_arm.bones", bones63.FILE, needs="myo-sim"),
     Step(
-        habits.make,
-        RESULTS / "whole_arm_habits.npz",
-        WHOLE_ARM,
-        1,
+        f"{RENDER}.bone_meshes",
+        bone_meshes.FILE,
+        needs="arm26's bone meshes, GEOMETRY=path/to/folder",
     ),
-    Step(
-        experiment.make,
-        RESULTS / "whole_arm.json",
-        f"whole_arm_habits {WHOLE_ARM}",
-        8,
-    ),
-    Step(DERIVED, plant.FILE, needs="myo-sim"),
-    Step(BONES63, bones63.FILE, needs="myo-sim"),
-    Step(BONES, bone_meshes.FILE, needs="arm26's bone meshes, GEOMETRY=path/to/folder"),
     Step(OPENSIM, RESULTS / "opensim.npz", needs="OpenSim in .bench, ARM26=path/to/arm26.osim"),
 )

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from tests.arm_in_page.controls import number, readout, set_target, status
+from tests.pages import drag, middle
 from vmc_lib.cerebellum.offline import algorithm_1
 from vmc_lib.motor import templates
 from vmc_lib.motor.execution import execute
@@ -81,7 +82,7 @@ def place(arm, row):
 
 def said(arm, movement, left):
     miss = f"The planned reach misses by {1000 * movement.error:.1f} mm"
-    assert f"{left} of 19 are there" in status(arm, f"{miss}.*{left} of 19")
+    assert f"{left} of 19 templates are there" in status(arm, f"{miss}.*{left} of 19")
     assert readout(arm, "planned") == f"{1000 * movement.error:.1f} mm"
 
 
@@ -103,6 +104,9 @@ def test_a_click_on_a_dot_takes_it_away_and_another_puts_it_back(arm):
     said(arm, execute(fewer), 18)
     arm.get_by_role("button", name="All templates back").click()
     said(arm, execute(plan(TARGET, templates.load())), 19)
+    x, y = middle(arm.locator(".vmc-handle"))
+    drag(arm.page, (x, y), *np.subtract(place(arm, near), (x, y)))  # onto the dot, which stays
+    said(arm, execute(plan(templates.load().points[near].round(3), templates.load())), 19)
 
 
 def test_the_last_template_of_a_quadrant_stays(arm):
@@ -137,6 +141,9 @@ def test_a_finger_needs_no_aim(open_arms, window, serious):
     page.past.locator("svg[data-axes]").scroll_into_view_if_needed()
     x, y = place(page.past, 6)
     page.touchscreen.tap(x + 15, y + 12)
-    assert "18 of 19" in status(page.past, "The planned reach")
+    status(page.past, "The planned reach.* 18 of 19")
     assert not page.past.locator("[name=template]").nth(6).is_checked()
+    page.touchscreen.tap(*place(page.past, 10))  # on it lies the target's handle, in part
+    status(page.past, "The planned reach.* 17 of 19")
+    assert page.past.get_by_label("target, forward").input_value() == "0.09"
     assert serious(page, "main") == []

@@ -123,13 +123,19 @@ def test_no_file_is_met_with_silence(page, tmp_path):
     for file in (
         save(tmp_path, "dot.png", size=(1, 1)),
         save(tmp_path, "line.png", size=(3000, 1)),
+        save(tmp_path, "large.jpg", size=(8000, 6000)),
         save(tmp_path, "grey.jpg", "L"),
         save(tmp_path, "four.jpg", "CMYK"),
         save(tmp_path, "deep.png", "I;16"),
         save(tmp_path, "turned.jpg", size=(400, 600), exif=turned),
     ):
         assert re.match(NOTHING, give(page, file))
-    assert page.locator(".vmc-picture image").get_attribute("href").startswith("data:image/jpeg")
+    size = """async ({ href }) => {
+      const picture = Object.assign(new Image(), { src: href.baseVal });
+      await picture.decode();
+      return [picture.width, picture.height];
+    }"""
+    assert page.locator(".vmc-picture image").evaluate(size) == [600, 400]  # the right way up
 
 
 def test_it_is_brief_accessible_and_fits_a_phone(open_page, html, serious):

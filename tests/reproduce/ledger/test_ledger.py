@@ -9,14 +9,7 @@ from book.figures.claims import ALL, claims
 from reproduce import ledger
 from reproduce.experiments.loop_evaluation import evaluate
 from reproduce.ledger import loop
-from reproduce.ledger.entry import (
-    BY_CONSTRUCTION,
-    DIFFERS,
-    FITTED,
-    NOT_COMPARED,
-    VERDICTS,
-    measure,
-)
+from reproduce.ledger.entry import BY_CONSTRUCTION, DIFFERS, FITTED, NOT_COMPARED, VERDICTS, measure
 from reproduce.pipeline import smoke_run
 from vmc_lib.photos import LEVELS
 
@@ -82,9 +75,9 @@ def _without_numbers(text):
     return re.sub(r"\d+(\.\d+)?", "#", text)
 
 
-@pytest.mark.parametrize("row", ledger.ROWS, ids=lambda row: row.where)
-def test_rows_that_differ_give_a_reason(row):
-    assert bool(STORED[row.where]["because"]) == (STORED[row.where]["verdict"] == DIFFERS)
+def test_rows_that_differ_give_a_reason():
+    for where, entry in STORED.items():
+        assert bool(entry["because"]) == (entry["verdict"] == DIFFERS), where
 
 
 def scores(level):
