@@ -14,7 +14,7 @@ import numpy as np
 from joblib import Parallel, delayed, parallel_config
 
 from bench.report import publish
-from reproduce.experiments.localisation import precision_recall
+from reproduce.experiments.precision_recall import precision_recall
 from reproduce.training import reach_templates
 from reproduce.training.detectors import fit_detector
 from vmc_lib import photos

@@ -6,6 +6,7 @@ from book.figures.panels import panels
 from book.figures.where import in_corner
 from reproduce import paper
 from reproduce.experiments import fresh_test_set, localisation, real_world
+from reproduce.experiments.precision_recall import rates
 from vmc_lib.boxes import iou
 from vmc_lib.show import COLOURS, dot_plot, photo_view, table
 from vmc_lib.show.figures import margins
@@ -149,7 +150,7 @@ def kernel_plot(level, recipe, measure):
 
 def recipe_plot(best, overlap):
     """Table II as a dot plot: precision and recall at an overlap, of `best_by_recipe`."""
-    rows = zip(MEASURES, localisation.rates(best, overlap).T, strict=True)
+    rows = zip(MEASURES, rates(best, overlap).T, strict=True)
     series = {measure: dict(zip(localisation.RECIPES, row, strict=True)) for measure, row in rows}
     return dot_plot(series, f"at an overlap of {overlap:g}", None, (0, 1.02))
 

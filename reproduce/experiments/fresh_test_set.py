@@ -14,8 +14,8 @@ from reproduce.experiments.localisation import (
     TABLE_1_KERNELS,
     TRAININGS,
     train_classifiers,
-    true_positives,
 )
+from reproduce.experiments.precision_recall import true_positives
 from reproduce.experiments.recognition import confusion_counts
 from reproduce.training.detectors import candidates, fit_detector, labelled_candidates
 from vmc_lib import photos, show

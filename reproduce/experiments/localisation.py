@@ -11,6 +11,7 @@ from itertools import chain, product, zip_longest
 import numpy as np
 from joblib import Parallel, delayed
 
+from reproduce.experiments.precision_recall import best_overlaps, precision_recall, rates
 from reproduce.results import arrays
 from reproduce.training.detectors import (
     best_threshold,
@@ -22,7 +23,7 @@ from reproduce.training.detectors import (
     with_best_threshold,
 )
 from vmc_lib import photos
-from vmc_lib.boxes import MIN_IOU, iou, nms
+from vmc_lib.boxes import MIN_IOU, nms
 from vmc_lib.statistics import student
 from vmc_lib.where.detector import ObjectDetector
 from vmc_lib.where.recipes import PUBLISHED, RECIPES
@@ -158,36 +159,6 @@ def best_by_recipe(level, split):
     every = (best_overlaps(some, [final[f"{p.name}/{name}"] for p in some]) for name in RECIPES)
     columns = zip_longest(*chain.from_iterable(every), fillvalue=np.nan)
     return np.array([*columns]).T.reshape(len(RECIPES), 2, -1)
-
-
-def rates(best, overlap):
-    """Precision and recall (…, 2) at IoU `overlap`, of `best_overlaps` (…, 2, most)."""
-    return (best >= overlap).sum(-1) / np.maximum(np.isfinite(best).sum(-1), 1)
-
-
-def precision_recall(shots, boxes, overlap=MIN_IOU):
-    """Precision and recall of a list of boxes a photo: a box is right at IoU `overlap` or more.
-
-    Precision is the share of boxes that are right, recall that of objects with a right box.
-    """
-    right, reached = true_positives(shots, boxes, overlap)
-    return float(right.sum() / max(right.size, 1)), float(reached.mean())
-
-
-def true_positives(shots, boxes, overlap=MIN_IOU):
-    """Of a list of boxes a photo, which boxes are right, and which objects have a right box.
-
-    Truth values for all boxes of all photos in turn, and for all objects.
-    """
-    return tuple(best >= overlap for best in best_overlaps(shots, boxes))
-
-
-def best_overlaps(shots, boxes):
-    """The best IoU of each box with an object of its photo, and of each object with a box."""
-    shared = [iou(b, list(p.boxes.values())) for p, b in zip(shots, boxes, strict=True)]
-    return tuple(
-        np.concatenate([pairs.max(axis, initial=0) for pairs in shared]) for axis in (1, 0)
-    )
 
 
 def table_2_interval(level, name):
