@@ -8,6 +8,8 @@ from reproduce.experiments import muscle_bench
 from reproduce.experiments.muscle_bench import active_force, normalised_force
 from vmc_lib.show.palette import COLOURS
 
+SHORTEST = 0.4  # l₀: long before, myosin has met the discs; Thelen's law goes on
+
 
 def response(excitation, activation, with_means=False):
     """An excitation (T,), one value a ms, and the activation (T,) that follows it."""
@@ -57,7 +59,8 @@ def isometric(force):
     ax.axhline(force[0], color=COLOURS["blue"], label="passive")
     ax.plot(force, color=COLOURS["red"], label="total")
     ax.set(xlabel="time (ms)", ylabel="force (N)", ylim=(0, 1600))
-    ax.set_title(f"(highest − lowest) / mean = {muscle_bench.ripple(force):.0%}", loc="left")
+    ripple = f"{muscle_bench.ripple(force):.0%}"
+    ax.set_title(f"ripple: (highest − lowest) / mean = {ripple}", loc="left")
     ax.legend(loc="upper right", ncols=2)
     return fig
 
@@ -65,15 +68,15 @@ def isometric(force):
 def isotonic(loads, load, lengths, speeds):
     """Fibre lengths (ms, n) under loads (n,) in kg, up to one of them, and Hill's curve.
 
-    The curve is how fast the fibre shortens 50 ms after the release: `speeds` (ms, n) in l₀/s.
+    A fibre is drawn until it is below `SHORTEST`. The curve is how fast it shortens 50 ms after
+    the release: `speeds` (ms, n) in l₀/s.
     """
     k, shortening = list(loads).index(load), -speeds[50]
     fig, left, right = panels(2)
     for mass, length in zip(loads[: k + 1], lengths.T, strict=False):
-        left.plot(length, color=COLOURS["line"], linewidth=1, gid=f"{mass:g} kg")
-    left.plot(lengths[:, k], color=COLOURS["red"], gid="guide")
-    low = min(0, lengths.min() - 0.1)
-    left.set(xlabel="time (ms)", title="fibre length (l₀)", ylim=(low, 2))
+        left.plot(_possible(length), color=COLOURS["line"], linewidth=1, gid=f"{mass:g} kg")
+    left.plot(_possible(lengths[:, k]), color=COLOURS["red"], gid="guide")
+    left.set(xlabel="time (ms)", title="fibre length (l₀)", xlim=(-15, 315), ylim=(0, 2))
     right.plot(loads[: k + 1], shortening[: k + 1], ".-", color=COLOURS["purple"], gid="speed")
     right.plot(load, shortening[k], "o", color=COLOURS["red"], gid="guide")
     room = 0.1 * np.ptp(shortening)
@@ -82,3 +85,8 @@ def isotonic(loads, load, lengths, speeds):
     way = "shortens" if shortening[k] > 0 else "lengthens"
     right.set_title(f"{way} by {abs(shortening[k]):.2f} l₀/s after 50 ms")
     return fig
+
+
+def _possible(length):
+    """A fibre's lengths (ms,) until one is below `SHORTEST`."""
+    return length[: (length < SHORTEST).argmax() or None]

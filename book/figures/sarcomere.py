@@ -4,7 +4,7 @@ import numpy as np
 
 WIDE, HIGH = 440, 96  # of the drawing
 REST = 230  # a piece of fibre, from disc to disc, at the optimal length
-THICK, THIN = 0.56, 0.44  # myosin and actin, in optimal lengths: a sketch, not a measurement
+THICK, THIN = 0.56, 0.48  # myosin and actin, in optimal lengths: a sketch, not a measurement
 ROWS = (26, 48, 70)  # where myosin lies, actin above it and below
 
 

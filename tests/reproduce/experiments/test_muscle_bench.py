@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from book.figures import muscle as figures
 from reproduce.experiments import muscle_bench
 from reproduce.peers.muscle_models import LAWS
 from vmc_lib.arm import muscle
@@ -24,6 +25,14 @@ def test_a_load_as_heavy_as_the_pull_stays_where_it_is_released(law):
     lengths, speeds = muscle_bench.isotonic(LAWS[law], [pull / 9.81, 2.0], duration=50)
     np.testing.assert_allclose(lengths[:, 0], 1)
     assert (speeds[1:, 1] < 0).all()  # a light load is lifted
+
+
+@pytest.mark.parametrize(("law", "ends"), [("Thelen 2003", True), ("MuJoCo", False)])
+def test_a_fibre_is_drawn_until_it_is_too_short_to_be_real(law, ends):
+    left, _ = figures.isotonic((2, 20), 2, *muscle_bench.isotonic(LAWS[law], (2, 20))).axes
+    drawn = left.lines[-1].get_ydata()
+    assert drawn.min() > figures.SHORTEST
+    assert (len(drawn) < 300) == ends
 
 
 def test_pulses_that_follow_each_other_closer_ripple_less():
