@@ -2,7 +2,7 @@
 
 A chapter gives its idea, the brain's wiring where it is drawn, its first equation, predictions with
 the demos that answer them, questions of its quiz, and its recap with the question that it leaves;
-nothing of its exercises, and no demo whose cell carries the tag `off-slides`.
+of its exercises only where they are checked, and no demo whose cell carries the tag `off-slides`.
 """
 
 import re
@@ -16,6 +16,7 @@ from bs4 import Tag
 
 WRAPPERS = {"cell", "cell_output", "output", "text_html"}  # of a cell's output
 WIRING = "What the brain does"  # a section: what it draws, and asks nothing about
+EXERCISES = "<p>Exercises: the chapter's page runs and checks your lines. Nothing to install.</p>"
 FULL_STOP = re.compile(r"(?<!Eq)(?<!Eqs)(?<!Fig)[.?!](?=\s|$)")
 
 
@@ -49,13 +50,14 @@ def chapter_slides(article, most):
     """A `Chapter` of at most so many slides, in the page's order; optional sections give none."""
     title, idea, *aims = article.find_all(["h1", "p"], recursive=False)
     *_, last = article.find_all("section", recursive=False)
+    exercises = [EXERCISES] if article.select("form[data-function]") else []
     _remove_exercises(article)
     sources = dict.fromkeys(cite["title"] for cite in article.select("cite[title]"))
     cited = "; ".join(f"<cite>{escape(text)}</cite>" for text in sources)
     first = Slide([title, idea], [*aims, f"<details><summary>Sources</summary>{cited}</details>"])
     heading, *text = last.find_all(["h2", "p", "ul"], recursive=False)
     asked = [f"<p>{question}</p>" for question in last.select("p > strong")[-1:]]
-    recap = Slide([heading, sentence(text[0]), *asked], text)
+    recap = Slide([heading, sentence(text[0]), *asked, *exercises], text)
     blocks = [*_blocks(article)]
     demos = [*_pairs(blocks)]
     wiring = [one for one in demos if len(one[1]) == 1 and WIRING in blocks[one[0]][0].get_text()]

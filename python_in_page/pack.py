@@ -41,7 +41,8 @@ DRAWN_DATA = {Path("vmc_lib/show/static/kernel.js")}
 UNCHANGED = ("pyodide.js", "pyodide.asm.js", "pyodide.asm.wasm")
 UNCHANGED += ("LICENSE-MPL-2.0", "LICENSE-PSF-2.0")
 NEEDLESS = re.compile(  # in a page: headers, tests, other fonts, and what no browser can do
-    r"\.(pyi|h|c|a|ini|pxd)$|/tests/|^numpy/(f2py|distutils)/"
+    r"\.(pyi|h|c|a|ini|pxd)$|/tests/|^numpy/(f2py|distutils)/|^numpy/linalg/lapack_lite"
+    r"|^numpy/_core/(_simd|_(operand_flag|rational|struct_ufunc|umath)_tests)\."
     r"|^matplotlib/mpl-data/(sample_data|images|plot_directive|fonts/(afm|pdfcorefonts))/"
     r"|/fonts/ttf/(?!DejaVuSans(-Bold|-Oblique)?\.ttf|LICENSE)|^mpl_toolkits/"
     r"|^matplotlib/backends/(?!__init__|backend_(agg|mixed|svg)|_backend_agg|registry)"

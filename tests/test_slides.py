@@ -4,7 +4,7 @@ import pytest
 from bs4 import BeautifulSoup
 
 from kit.__main__ import CHAPTERS, ROOT
-from kit.chapter_slides import chapter_slides
+from kit.chapter_slides import EXERCISES, chapter_slides
 from kit.slides import MINUTES, MOST
 from tests.pages import open_url
 
@@ -13,7 +13,8 @@ BUILT = ROOT / "_build/html/book"
 
 PAGE = """<section><h1>Arm</h1><p>Idea.</p><p>Aims.</p>
   <section id="pull"><h2>Pull</h2><p>See Eq. 1 first. Then more.</p><div class="math">x</div>
-    <div class="exercise">Do.</div><div class="cell">Yours.</div><div class="solution">So.</div>
+    <div class="exercise">Do.</div><div class="cell">Yours.<form data-function="x"></form></div>
+    <div class="solution">So.</div>
     <div class="cell"><details>folded</details><div class="cell_output"><div class="output">
       <div class="admonition"><fieldset class="vmc-predict"><legend>How far?</legend>
       <details class="vmc-right"><summary>What came out</summary><p>Far.</p></details></fieldset>
@@ -36,13 +37,13 @@ def bodies(html):
 
 
 def test_a_chapter_becomes_slides_and_notes():
-    """A sentence on a slide, the rest in the notes; nothing of exercises, nothing optional."""
+    """A sentence on a slide, the rest in the notes; of exercises where, nothing optional."""
     assert bodies(PAGE) == [
         "Arm Idea.",
         "Pull See Eq. 1 first. x",
         "Pull How far? What came out Far.",
         "Pull speed Blue: a path.",
-        "Recap It was far. What next?",
+        f"Recap It was far. What next? {EXERCISES[3:-4]}",
     ]
     notes = slides_of(PAGE)[3].select_one(".notes").get_text(" ", strip=True)
     guide = "Ask. How far? Look for. Blue: a path. Stop at. Far."

@@ -97,7 +97,8 @@ const vmcGrade = (() => {
       run();
     });
     area.addEventListener("keydown", (event) => onKey(event, form));
-    area.addEventListener("input", vmcPython.start, { once: true }); // it may be there when asked
+    for (const sign of ["pointerdown", "input"]) // of one who is about to write: it may be there when asked
+      area.addEventListener(sign, vmcPython.start, { once: true });
     area.addEventListener("input", () => {
       fit();
       keep();

@@ -1,9 +1,9 @@
 /* Python, compiled to WebAssembly, in a worker: loaded from the book's own files when a reader first
-   writes or has something checked; what draws plots, when a demo is first to be drawn. */
+   clicks to write, writes or has something checked; what draws plots, when a demo is first to be drawn. */
 const vmcPython = (() => {
   "use strict";
 
-  const SIZES = { "python.js": "12 MB", "plots.js": "8 MB" };
+  const SIZES = { "python.js": "11 MB", "plots.js": "8 MB" };
   const HOLDS = { "python.js": "library.zip", "plots.js": "plots.zip" }; // a file of each
   const limit = { seconds: 10 }; // for one answer
 

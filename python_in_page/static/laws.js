@@ -43,7 +43,7 @@ const vmcLaws = (() => {
     const cell = demo.closest(".cell"), above = vmcGrade.above(cell);
     const [status, run, back, between] = line(demo.querySelector(".vmc-controls"),
       `<button type="button" name="run" hidden>Run it</button> ${BACK} ` +
-      '<button type="button" name="between">Any value (loads Python, 20 MB)</button>');
+      '<button type="button" name="between">Any value (loads Python, 19 MB)</button>');
     const sliders = [...demo.querySelectorAll("[data-between]")];
     between.hidden = !sliders.length;
 

@@ -25,9 +25,11 @@ def check(page, lines, words):
 def test_python_is_loaded_for_who_writes_and_from_the_books_own_files(open_exercise, site, serious):
     page = open_exercise()
     assert page.get_by_label("Your lines: activation_rates").count() == 1
-    page.lines.click()
+    page.lines.focus()  # as one who goes on by Tab
     page.wait_for_load_state("networkidle")
     assert not any("vendor/python" in url or "blob:" in url for url in page.asked)
+    page.lines.click()
+    page.wait_for_function("() => window.vmcPythonFiles")
     check(page, RIGHT_LINES, "✓ Right.")
     assert any("vendor/python.js" in url for url in page.asked)
     inside = (site.as_uri(), "data:", "blob:")
