@@ -104,7 +104,7 @@ async function jumpySliders() {
       .flatMap(({ left, right, top }) => [left, right, top]);
     slider.scrollIntoView({ block: "center", behavior: "instant" });
     slider.focus({ preventScroll: true });
-    const before = edges();
+    const before = edges(), start = slider.value;
     let farthest = 0;
     slider.dispatchEvent(new PointerEvent("pointerdown", { bubbles: true }));
     for (let part = 0.02; part < 1; part += 0.12) {
@@ -113,6 +113,8 @@ async function jumpySliders() {
       for (let frames = demo.vmc ? 0 : 2; frames--; ) await new Promise(requestAnimationFrame);
       farthest = Math.max(farthest, ...edges().map((edge, i) => Math.abs(edge - before[i])));
     }
+    slider.value = start;
+    fire(slider);
     return farthest > 1;
   };
   const jumpy = [];
