@@ -78,7 +78,7 @@ def push(templates, path, goal, reference, at):
 
 def tremor_and_overshoot(tremors, overshoots, limit):
     """Two dot plots, name -> mm² and name -> mm, with a line at a `limit` in mm."""
-    fig = dot_plot({"": tremors}, "tremor, 3 to 8 Hz (mm²)")
+    fig = dot_plot({"": tremors}, "power, 3 to 8 Hz (mm²)")
     low, high = min(tremors.values()), max(tremors.values())
     fig.axes[0].set(xscale="log", xlim=(low / 2, 2 * high))
     far = dot_plot({"": overshoots}, "overshoot (mm)")
