@@ -104,8 +104,14 @@ async function jumpySliders() {
       .flatMap(({ left, right, top }) => [left, right, top]);
     slider.scrollIntoView({ block: "center", behavior: "instant" });
     slider.focus({ preventScroll: true });
-    const before = edges(), start = slider.value;
-    let farthest = 0;
+    const start = slider.value;
+    let farthest = 0, before = edges();
+    for (let still = 0; still < 10; still++) { // what comes into view may still load
+      await new Promise(requestAnimationFrame);
+      const now = edges();
+      if (`${now}` !== `${before}`) still = 0;
+      before = now;
+    }
     slider.dispatchEvent(new PointerEvent("pointerdown", { bubbles: true }));
     for (let part = 0.02; part < 1; part += 0.12) {
       slider.value = min + part * range;

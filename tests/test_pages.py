@@ -150,6 +150,7 @@ def test_a_run_of_folded_cells_has_one_mark(page):
 
 def test_marks_of_folded_code_have_room(page):
     """In the margin of a wide page, 24 pixels; between the lines of a phone's, 44."""
+    unfold(page)
     for width, least in ((360, 44), (768, 44), (800, 24), (1280, 24)):
         resize(page, width)
         assert probe(page, "crowdedMarks", least) == []

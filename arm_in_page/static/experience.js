@@ -98,7 +98,7 @@ const vmcExperience = (() => {
       const all = this.boxes.length, { stays } = this;
       this.stays = null;
       if (stays) this.say(stays);
-      else super.sayMiss(` ${all - this.without.size} of ${all} templates are there.`);
+      else super.sayMiss(` ${all - this.without.size} of ${all} templates left.`);
     }
   }
 

@@ -82,7 +82,7 @@ def place(arm, row):
 
 def said(arm, movement, left):
     miss = f"The planned reach misses by {1000 * movement.error:.1f} mm"
-    assert f"{left} of 19 templates are there" in status(arm, f"{miss}.*{left} of 19")
+    assert f"{left} of 19 templates left" in status(arm, f"{miss}.*{left} of 19")
     assert readout(arm, "planned") == f"{1000 * movement.error:.1f} mm"
 
 
