@@ -16,7 +16,7 @@ from pathlib import Path
 UNCHECKED = (1).to_bytes(4, "little")  # the source's hash stands in the header for our tests
 done = set()
 
-def bare(source):
+def strip_docstrings(source):
     """A module's tree without the words of its docstrings: they were a tenth of all that is packed."""
     tree = ast.parse(source)
     for node in ast.walk(tree):
@@ -32,7 +32,7 @@ def compiled(sources):
     with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, source in sorted(sources.items()):
             if name.removesuffix(".py").removesuffix("/__init__") in stems:
-                code = dumps(compile(bare(source), name, "exec", dont_inherit=True))
+                code = dumps(compile(strip_docstrings(source), name, "exec", dont_inherit=True))
                 info = zipfile.ZipInfo(name + "c")
                 header = MAGIC_NUMBER + UNCHECKED + source_hash(source)
                 archive.writestr(info, header + code, zipfile.ZIP_DEFLATED, 9)

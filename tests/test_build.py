@@ -10,7 +10,7 @@ from pathlib import Path
 import nbformat
 import pytest
 
-from book._ext.packed import bare
+from book._ext.packed import strip_comments
 from eye_in_page import brain
 from python_in_page import pack
 from tests import pages
@@ -91,8 +91,8 @@ def links(page):
 @pytest.mark.browser
 def test_a_script_without_comments_does_the_same(offline):
     page = offline.new_page()
-    assert page.evaluate(bare(TRICKY)) == page.evaluate(TRICKY)
-    assert not re.search("of two|quotes|gone|^ +const", bare(TRICKY), re.M)
+    assert page.evaluate(strip_comments(TRICKY)) == page.evaluate(TRICKY)
+    assert not re.search("of two|quotes|gone|^ +const", strip_comments(TRICKY), re.M)
     page.close()
 
 

@@ -14,20 +14,22 @@ const vmcTemplates = (() => {
       const spline = fill(steps, (t) =>
         rows === steps ? { first: t, values: [1] } : basis(t / (steps - 1), rows));
       this.points = [...points];
-      this.commands = fill(count, (n) => spline.map(({ first, values: share }) =>
-        fill(muscles, (k) => sum(share.map((v, i) => v * at(n, first + i, k))))));
+      this.commands = []; // of the rows that a plan has asked for, or that were added
+      this.expand = (n) => spline.map(({ first, values: share }) =>
+        fill(muscles, (k) => sum(share.map((v, i) => v * at(n, first + i, k)))));
     }
 
     /* One more, that ended at a point. */
     add(point, excitations) {
+      this.commands[this.points.length] = excitations;
       this.points.push(point);
-      this.commands.push(excitations);
     }
 
     /* Eq. 3: Σ w_i u_i(t), held to [0, 1]. */
     excitations({ chosen, weights }) {
-      return this.commands[0].map((now, t) =>
-        now.map((_, k) => clip(sum(chosen.map((n, j) => weights[j] * this.commands[n][t][k])), 0, 1)));
+      const mixed = chosen.map((n) => (this.commands[n] ??= this.expand(n)));
+      return mixed[0].map((now, t) =>
+        now.map((_, k) => clip(sum(mixed.map((commands, j) => weights[j] * commands[t][k])), 0, 1)));
     }
   }
 

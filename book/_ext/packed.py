@@ -32,12 +32,12 @@ def write(app, exception):
             script.write_text(packed.script(*given), encoding="utf-8", newline="\n")
     for folder in app.config.html_static_path:
         for script in Path(app.confdir, folder).glob("*.js"):
-            light = bare(script.read_text(encoding="utf-8"))
+            light = strip_comments(script.read_text(encoding="utf-8"))
             light = f"// Readable in {folder}/{script.name}\n{light}"
             (static / script.name).write_text(light, encoding="utf-8", newline="\n")
 
 
-def bare(script):
+def strip_comments(script):
     """A script without comments and indentation; what is in its strings and templates stays."""
     tokens = JavascriptLexer(stripnl=False, ensurenl=False).get_tokens(script)
     text = ""

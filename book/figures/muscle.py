@@ -74,8 +74,8 @@ def isotonic(loads, load, lengths, speeds):
     k, shortening = list(loads).index(load), -speeds[50]
     fig, left, right = panels(2)
     for mass, length in zip(loads[: k + 1], lengths.T, strict=False):
-        left.plot(_possible(length), color=COLOURS["line"], linewidth=1, gid=f"{mass:g} kg")
-    left.plot(_possible(lengths[:, k]), color=COLOURS["red"], gid="guide")
+        left.plot(_possible_lengths(length), color=COLOURS["line"], linewidth=1, gid=f"{mass:g} kg")
+    left.plot(_possible_lengths(lengths[:, k]), color=COLOURS["red"], gid="guide")
     left.set(xlabel="time (ms)", title="fibre length (l₀)", xlim=(-15, 315), ylim=(0, 2))
     right.plot(loads[: k + 1], shortening[: k + 1], ".-", color=COLOURS["purple"], gid="speed")
     right.plot(load, shortening[k], "o", color=COLOURS["red"], gid="guide")
@@ -87,6 +87,6 @@ def isotonic(loads, load, lengths, speeds):
     return fig
 
 
-def _possible(length):
+def _possible_lengths(length):
     """A fibre's lengths (ms,) until one is below `SHORTEST`."""
     return length[: (length < SHORTEST).argmax() or None]

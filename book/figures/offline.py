@@ -192,7 +192,7 @@ def in_mm(error):
     return f"{error:.2g} mm" if error >= 0.01 else "at most 0.01 mm"
 
 
-def corrected(plans, trials):
+def correct_plans(plans, trials):
     """The plans as so many trials of Broyden calibration leave them."""
     return plans.with_weights(broyden_calibration(plans, trials).best_weights)
 

@@ -10,8 +10,7 @@ def precision_recall(shots, boxes, overlap=MIN_IOU):
 
     Precision is the share of boxes that are right, recall that of objects with a right box.
     """
-    right, reached = true_positives(shots, boxes, overlap)
-    return float(right.sum() / max(right.size, 1)), float(reached.mean())
+    return tuple(float(rates(best, overlap)) for best in best_overlaps(shots, boxes))
 
 
 def true_positives(shots, boxes, overlap=MIN_IOU):

@@ -9,7 +9,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
-from vmc_lib.show import details, figures, listed, photo_view, table
+from vmc_lib.show import details, figures, itemise, photo_view, table
 from vmc_lib.show.figures import pictures
 from vmc_lib.show.markup import number
 from vmc_lib.show.palette import COLOURS, ON_PHOTO
@@ -141,5 +141,5 @@ def test_a_tables_rows_may_have_names_and_its_numbers_a_format():
 
 
 def test_values_are_listed_with_their_names():
-    assert listed({"a": 0.5, "b": 2}, "{:.1f} mm ({})") == "0.5 mm (a), 2.0 mm (b)"
-    assert listed({"a": 0.5, "b": 2}, "{1} {0:g}", "; ") == "a 0.5; b 2"
+    assert itemise({"a": 0.5, "b": 2}, "{:.1f} mm ({})") == "0.5 mm (a), 2.0 mm (b)"
+    assert itemise({"a": 0.5, "b": 2}, "{1} {0:g}", "; ") == "a 0.5; b 2"

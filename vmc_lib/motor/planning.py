@@ -192,8 +192,9 @@ def plan(target, template_set, rule=habitual_weights, rows=None):
         raise ValueError(f"target {target} must be finite plane positions (…, {axes[0]}) in m")
     if rows is None:
         rows = surrounding(target, template_set.points)
-    rows, known = np.atleast_1d(rows), np.arange(len(template_set.points))
-    if not (rows.size and np.isin(rows, known).all()):
-        raise ValueError(f"rows {rows} must be of the {len(known)} templates, 0 to {known[-1]}")
+    else:
+        rows, known = np.atleast_1d(rows), np.arange(len(template_set.points))
+        if not (rows.size and np.isin(rows, known).all()):
+            raise ValueError(f"rows {rows} must be of the {len(known)} templates, 0 to {known[-1]}")
     rows = np.broadcast_to(rows, (*target.shape[:-1], rows.shape[-1]))
     return Plan(template_set, target, rows, rule(target, template_set.points[rows]))

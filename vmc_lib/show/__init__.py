@@ -8,7 +8,7 @@ from vmc_lib.show.compare import compare, dot_plot
 from vmc_lib.show.controls import Choice, Pad, Slider, Switch
 from vmc_lib.show.demo import explore, figure
 from vmc_lib.show.estimate import Estimate, estimate
-from vmc_lib.show.figures import details, listed, markdown, note, photo_view, table
+from vmc_lib.show.figures import details, itemise, markdown, note, photo_view, table
 from vmc_lib.show.palette import COLOURS
 from vmc_lib.show.questions import check, grade, predict, solution
 from vmc_lib.show.scene import Scene
@@ -29,7 +29,7 @@ __all__ = [
     "explore",
     "figure",
     "grade",
-    "listed",
+    "itemise",
     "markdown",
     "note",
     "photo_view",

@@ -151,7 +151,7 @@ def details(summary, text):
     markdown(f"<details><summary>{summary}</summary>\n\n{text}\n\n</details>")
 
 
-def listed(values, form, between=", "):
+def itemise(values, form, between=", "):
     """The values of a mapping in words: each by `form`, its value and its name given to it."""
     return between.join(form.format(value, name) for name, value in values.items())
 
