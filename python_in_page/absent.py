@@ -2,6 +2,9 @@
 
 import sys
 from importlib.util import find_spec
+from types import SimpleNamespace
+
+import numpy as np
 
 NAMES = """anywidget IPython IPython.display joblib markdown_it matplotlib_inline
 matplotlib_inline.backend_inline mdit_py_plugins mdit_py_plugins.dollarmath traitlets umsgpack"""
@@ -36,3 +39,5 @@ def stand_in():
     missing = {package for package in packages if not find_spec(package)}
     names = [name for name in NAMES.split() if name.split(".")[0] in missing]
     sys.modules.update(dict.fromkeys(names, Absent))
+    if "scipy" not in sys.modules and not find_spec("scipy"):
+        sys.modules["scipy"] = SimpleNamespace(fft=np.fft)  # of it, this alone

@@ -23,12 +23,14 @@ def draw(above, book, cell, name, places, data=""):
     book has it; `places` are where the sliders and choices stand, by name; `data` are the arrays
     that the page brings, where no law of the reader's is asked for. The answer holds `laws`, the
     reader's names that the demo needs; and the lines of its words and `parts`, and its sliders'
-    `texts`, or the `error` that a law of the reader's made.
+    `texts`, or the `error` that a law of the reader's made. Without `places` it is only prepared.
     """
     laws = changed(above, book, cell)
     try:
         with redirect_stdout(StringIO()):
             demo, controls, _ = prepared(tuple(above), cell, "" if laws else data)
+            if places is None:
+                return {"laws": laws, "parts": [], "texts": {}}
             words, parts = shown(values=values_at(controls, places), name=name, **demo)
     except Exception as error:
         return {"laws": laws, "error": repr(error)}

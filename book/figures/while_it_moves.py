@@ -43,9 +43,8 @@ def path_and_distance(templates, path, goal, titles=("", ""), reference=None, to
     return fig, left, right
 
 
-def target_jump(templates, motion, first, second, k, time):
-    """The k-th of n reaches until a `time` in s; their targets jump from first (2,) to (n, 2)."""
-    paths = motion.hand[..., :2]
+def target_jump(templates, paths, first, second, k, time):
+    """The k-th of n paths (n, T, 2) until a `time` in s; targets jump from (2,) to (n, 2)."""
     fig, left, right = path_and_distance(templates, paths[k, : round(1000 * time) + 1], second[k])
     left.plot(*first, "o", ms=9, **RING, alpha=0.35, gid="target before")
     right.axvspan(measure.JUMPS_AT, measure.JUMPS_AT + SIGHT.delay, **SHADE)

@@ -5,6 +5,7 @@ const vmcLaws = (() => {
   "use strict";
 
   const STEP = 0.1; // of a slider, from one stop to the next
+  const FREE = "The sliders now take any value.";
   const LAW = "law."; // before a cell's name, in an address
 
   const ran = (cell) => cell.querySelector("textarea")?.ran ?? vmcGrade.book(cell);
@@ -62,7 +63,7 @@ const vmcLaws = (() => {
         input.setAttribute("aria-valuetext", text);
         input.nextElementSibling.textContent = text;
       }
-      const free = sliders.length && between.hidden ? "The sliders now take any value." : "";
+      const free = sliders.length && between.hidden ? FREE : "";
       say(laws.length ? `This demo runs <strong>your</strong> ${code(laws)}.` : free);
     };
     const fail = (why, place, draw) => {
@@ -76,10 +77,10 @@ const vmcLaws = (() => {
       busy = true;
       demo.setAttribute("aria-busy", "true");
       while (wanted) {
-        const [place, draw] = wanted;
+        const [place, draw, ready] = wanted;
         wanted = null;
         try {
-          const found = await vmcPython.ask(["demos", "draw", ...given(), demo.id, places(demo), demo.vmc.data ?? ""], say);
+          const found = await vmcPython.ask(["demos", "draw", ...given(), demo.id, ready ? null : places(demo), demo.vmc.data ?? ""], say);
           if (!wanted) show(found, place, draw);
         } catch (error) {
           fail(error.message, place, draw);
@@ -89,11 +90,11 @@ const vmcLaws = (() => {
       demo.removeAttribute("aria-busy");
     };
 
-    const ask = (place, draw, exact, now = false) => {
+    const ask = (place, draw, exact, ready = false) => {
       const off = sliders.some(({ value }) => value % 1);
       if (!laws.length || failed) book(place, draw, exact);
-      if (failed || !(laws.length || off || now)) return;
-      wanted = [place, draw];
+      if (failed || !(laws.length || off || ready)) return;
+      wanted = [place, draw, ready];
       if (!busy) drawn();
     };
 
@@ -119,12 +120,12 @@ const vmcLaws = (() => {
     const named = (one) => one.querySelector("form[data-cell]")?.dataset.cell; // an exercise has none
     demo.vmcLaws = () => edited(above).filter(named).map((one) => [LAW + named(one), ran(one)]);
     watch(above, back, update);
-    between.addEventListener("click", () => demos.forEach((one) => one.vmcBetween()));
-    demo.vmcBetween = () => {
+    between.addEventListener("click", () => demos.forEach((one) => one.vmcBetween(one === demo)));
+    demo.vmcBetween = (ready) => {
       take();
       sliders.forEach((input) => (input.step = STEP));
       between.hidden = true;
-      demo.vmc.ask(0, () => {}, {}, true); // it is made ready
+      ready ? demo.vmc.ask(0, () => {}, {}, true) : say(FREE);
     };
     demo.vmcBring = (cells) => {
       say(`This link brings another ${code(cells.map(({ dataset }) => dataset.cell))}. Read it in its cell first.`);

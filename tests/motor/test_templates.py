@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from scipy.interpolate import BSpline
+from scipy.optimize import lsq_linear
 
 from reproduce.training import reach_templates
 from vmc_lib import photos
@@ -57,6 +58,16 @@ def test_splines_equal_scipys():
     x = np.linspace(0, 1, inverse_dynamics.SAMPLES)
     expected = BSpline.design_matrix(x, edges, 3).toarray()
     np.testing.assert_allclose(inverse_dynamics.spline(), expected, atol=1e-14)
+
+
+def test_bounded_least_squares_equal_scipys():
+    rng = np.random.default_rng(0)
+    for _ in range(20):
+        torque, gain = inverse_dynamics.required_torque(np.tile(rng.uniform(-1, 2, 2), (2, 1)))
+        matrix, wanted = np.vstack([gain[0], 0.01 * np.eye(6)]), np.append(torque[0], np.zeros(6))
+        expected = lsq_linear(matrix, wanted, (0, 1), method="bvls").x
+        found = inverse_dynamics.bounded_least_squares(matrix, wanted)
+        np.testing.assert_allclose(found, expected, atol=1e-10)
 
 
 def test_static_activation_holds_the_posture():

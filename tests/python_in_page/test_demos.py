@@ -93,6 +93,8 @@ def digest(above, cell, places, data=""):
         picture = demo["draw"](**demos.values_at(controls, places))
     shown, parts = panels(picture), picture if isinstance(picture, tuple) else [picture]
     words = [one.title for one in shown] + [part for part in parts if isinstance(part, str)]
+    scenes = (part.messages() for part in parts if hasattr(part, "messages"))
+    words += [line for lines in scenes for line in lines if line.startswith("motion|")]
     plt.close("all")
     series = [one for panel in shown for one in panel.series]
     every = [np.concatenate([s.keys, s.values, s.ends.ravel()]) for s in series]

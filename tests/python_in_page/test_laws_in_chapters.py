@@ -8,6 +8,7 @@ import pytest
 from playwright.sync_api import expect
 
 from python_in_page import demos
+from python_in_page.grader import changed
 from tests.pages import BUILT, open_url
 from tests.python_in_page.test_demos import DEMOS, LAWS, starts, with_law
 from vmc_lib.motor import templates
@@ -34,8 +35,8 @@ def test_the_other_engines_follow_a_law(engine):
     engine.limit(100)  # others may be at work, too
     shown = engine.run(given + CHANGE)
     assert engine.errors() == ""
-    assert len(shown) == len(DEMOS[stem])
-    for texts, (above, cell) in zip(shown, DEMOS[stem], strict=True):
+    follow = [one for one in DEMOS[stem] if changed(with_law(stem, one[0]), *one)]
+    for texts, (above, cell) in zip(shown, follow, strict=True):
         above = with_law(stem, above)
         first = starts(demos.prepared(tuple(above), cell)[1])
         _, picture = demos.draw(above, above, cell, "d", first)["parts"][:2]

@@ -39,6 +39,23 @@ def test_a_scene_depends_on_its_state_alone(open_demo):
     assert page.get_attribute(".vmc-pictures", "aria-label") == "ball at 0.0"
 
 
+def test_an_arm_that_the_pages_python_draws_keeps_its_anatomy(open_demo):
+    def draw(elbow):
+        return arm_scene(np.radians([0, elbow]))
+
+    page = open_demo(draw, alt="an arm", elbow=Slider([0, 90], "elbow"))
+    page.wait_for_selector(".vmc-scene canvas")
+    scene = page.query_selector(".vmc-scene")
+    straight = scene.evaluate(CAPTURE)
+    page.fill("input", "1")
+    bent = scene.evaluate(CAPTURE)
+    for elbow, expected in ((0, straight), (90, bent)):
+        told = [line for line in draw(elbow).messages() if not line.startswith("anatomy")]
+        scene.evaluate("(div, told) => vmcScene(div).show(told)", told)
+        assert scene.evaluate(CAPTURE) == expected
+    assert straight != bent
+
+
 def test_at_most_six_scenes_live_and_the_others_are_images(open_demos):
     page = open_demos(lambda: [figure(ball(0.1), "c", f"scene {i}") for i in range(9)])
     for _ in range(2):  # down, and up again

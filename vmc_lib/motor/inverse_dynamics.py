@@ -105,7 +105,25 @@ def static_activation(q):
 
 
 def bounded_least_squares(matrix, wanted):
-    """The x (n,) in [0, 1] for which matrix @ x is nearest to `wanted`, in least squares."""
-    from scipy.optimize import lsq_linear
+    """The x (n,) in [0, 1] for which matrix @ x is nearest to `wanted`, in least squares.
 
-    return lsq_linear(matrix, wanted, (0, 1), method="bvls").x
+    By active sets (Stark & Parker 1995): SciPy's `bvls` is the same, but cannot run in the page.
+    """
+    x = np.linalg.lstsq(matrix, wanted)[0]
+    free, x = (x > 0) & (x < 1), np.clip(x, 0, 1)
+    least = 1e-12 * np.abs(matrix.T @ wanted).max()
+    for _ in range(10 * len(x)):
+        while free.any():  # to the optimum of those that are free, or until one meets its bound
+            step = np.linalg.lstsq(matrix[:, free], wanted - matrix @ x)[0]
+            room = np.where(step > 0, 1 - x[free], x[free]) / np.maximum(np.abs(step), 1e-300)
+            x[free] = np.clip(x[free] + min(1, room.min()) * step, 0, 1)
+            if room.min() >= 1:
+                break
+            met = np.flatnonzero(free)[room.argmin()]
+            x[met], free[met] = round(x[met]), False
+        slope = matrix.T @ (wanted - matrix @ x)
+        gain = np.where(free, 0, np.where(x > 0, -slope, slope))
+        if gain.max() <= least:
+            break
+        free[gain.argmax()] = True
+    return x

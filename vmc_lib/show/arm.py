@@ -6,6 +6,7 @@ from the `anatomy` that comes along. The model ends at the wrist: the hand beyon
 so that it can meet what the wrist reaches for, all that is drawn `BEYOND` the wrist.
 """
 
+from contextlib import suppress
 from functools import cache
 
 import numpy as np
@@ -29,8 +30,6 @@ def arm_scene(q, activation=6 * (0,), turn=0.0, photo=None, balls=(), grasp=Fals
     closes: at once, or at the end of the movement. `end` is the movement's end point (3,) and how
     fast the hand still is there, in m/s: a red diamond, on a line from the target.
     """
-    from vmc_lib.show import props  # here, with meshcat
-
     scene = Scene(_furniture(bool(photo or len(balls))))
     q = np.atleast_2d(np.asarray(q, float))[::EVERY]
     moments = np.arange(len(q)) * EVERY / 1000
@@ -39,6 +38,10 @@ def arm_scene(q, activation=6 * (0,), turn=0.0, photo=None, balls=(), grasp=Fals
     closed = np.clip(1 + (moments - moments[-1]) / CLOSING, 0, 1) * bool(grasp)
     motion = {"q": q, "activation": active, "turn": turns, "grasp": closed}
     scene.tell("motion", {name: value.round(4).tolist() for name, value in motion.items()})
+    if not (photo or len(balls)):
+        return scene
+    from vmc_lib.show import props  # here, with meshcat, which the page has not
+
     final = turns[-1] or (_turn_for(photo.target) if photo else 0.0)  # before a reach: its own
     scene["goal"].set_transform(props.place(beyond_wrist(final)))
     if photo:
@@ -73,14 +76,16 @@ def _turn_for(place):
 @cache
 def _furniture(table):
     """What arm scenes share: the arm's anatomy, and perhaps a table."""
-    from vmc_lib.show import props
-    from vmc_lib.show.anatomy import anatomy
-
     scene = Scene()
     at, far = ((0.13, -0.24, 0), 1.05) if table else ((0.2, -0.18, 0), 1.3)  # what may be in sight
     scene.look(np.add(at, far * np.array([0.46, 0.25, 0.78])), at)
-    scene.tell("anatomy", anatomy() | {"beyond": BEYOND.tolist(), "every": EVERY / 1000})
+    with suppress(ImportError):  # in the page, where MuJoCo is not, and the viewer knows it
+        from vmc_lib.show.anatomy import anatomy
+
+        scene.tell("anatomy", anatomy() | {"beyond": BEYOND.tolist(), "every": EVERY / 1000})
     if table:
+        from vmc_lib.show import props
+
         props.table(scene["table"])
         scene["table"].set_transform(props.place((0, BEYOND[1], 0)))  # under what lies on it
     return scene

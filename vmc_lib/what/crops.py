@@ -24,8 +24,8 @@ def crop(image, box):
     return cv2.resize(grey, (WIDTH, WIDTH), interpolation=how).astype(np.float32) / 255
 
 
-def whiten(pictures, cutoff=0.4):
-    """Whiten grey pictures (n, height, width) for a CRBM: float32 (n, 1, height, width).
+def whiten(pictures, cutoff=0.4, dtype=np.float32):
+    """Whiten grey pictures (n, height, width) for a CRBM: `dtype` (n, 1, height, width).
 
     In photos, neighbouring pixels are alike and coarse contrast outweighs fine contrast: amplitude
     falls as 1/f. Multiplying it by f evens it out, and exp(-(f / cutoff)⁴), with f in cycles a
@@ -33,9 +33,9 @@ def whiten(pictures, cutoff=0.4):
     the same. Each picture then gets mean 0 and standard deviation 1. ValueError for pictures of
     other shapes, with NaN, or without any contrast.
     """
-    from scipy import fft
+    from scipy import fft  # NumPy's in the page
 
-    x = np.asarray(pictures, np.float32)
+    x = np.asarray(pictures, dtype)
     if x.ndim != 3 or 0 in x.shape:
         raise ValueError(f"pictures are (n, height, width), not {x.shape}")
     if not (np.isfinite(x).all() and (x.std((1, 2)) > 1e-4).all()):

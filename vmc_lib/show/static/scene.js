@@ -126,7 +126,8 @@ const vmcScene = (() => {
       this.messages = messages;
       const next = new Map(messages.map((message) => message.split("|")));
       const pairs = [...next].filter(([key]) => !key.includes(" "));
-      this.settings = Object.fromEntries(pairs.map(([key, data]) => [key, JSON.parse(data)]));
+      const { anatomy } = this.settings; // the page's Python does not tell it again
+      this.settings = { anatomy, ...Object.fromEntries(pairs.map(([key, data]) => [key, JSON.parse(data)])) };
       if (this.settings.anatomy) this.anatomy = new vmcAnatomy.Anatomy(this.settings.anatomy);
       if (this.viewer) this.send(next);
       const { motion } = this.settings;
