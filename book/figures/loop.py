@@ -22,24 +22,40 @@ FOREARM = 0.02  # m, the radius of a forearm that is a rod
 GRASPED = 0.033  # m from the middle of a shuttlecock, as wide as its skirt: a hand closes on it
 THROUGH = " (on its way the forearm passes through the cup: the model feels no things)"
 LOOP_STAGES = (*SEEING, "place", "plan", "off-line", "online")
+STAGE_OF = {"first reach": "plan", "calibrated reach": "off-line"}  # of a step
 
 
-def draw_step(photo, sight, reach, step):
-    """The photo with what is known by a step of `LOOP_STEPS`; the arm before, or its movement.
+def moves(reach, online=None):
+    """The motions of a reach by the stage that makes them; none where there is no reach.
 
-    Where nothing was recognised, `reach` is None: the arm stays as it was.
+    `online` is the `Motion` of the plan as the cerebellum corrected it before moving.
+    """
+    if reach is None:
+        return {}
+    return {"plan": reach.planned, "off-line": reach.calibrated, "online": online}
+
+
+def draw_step(step, photo, sight, reach, online=None):
+    """A step or a stage: what the eye has made of the photo, and where the arm is by then.
+
+    Where nothing was recognised, `reach` is None: the arm stays as it was. `online` as in `moves`.
     """
     if step in SEEING or reach is None:
         boxes = _boxes(sight, step if step in SEEING else "names")
         return photo_view(photo.image, boxes), arm_scene(START, photo=photo)
-    motion = reach.planned if step.startswith("first") else reach.calibrated
+    if step == "place":
+        place = photo.camera.project(reach.target)[0]
+        view = photo_view(photo.image, [(sight.box, "seen", "green")], [(place, "", "green")])
+        view = view.replace("</svg>", lens(photo, sight.box, reach) + "</svg>")
+        balls = [(reach.target, "green")]
+        return view, arm_scene(START, turn=reach.turn, photo=photo, balls=balls)
+    motion = moves(reach, online)[STAGE_OF.get(step, step)]
     return draw_movement(photo, sight.box, reach, motion)
 
 
-def step_view(photo, sight, reach, step):
-    """A step of `LOOP_STEPS`: photo, arm, and the step in words."""
-    words = note(step_in_words(photo, sight, reach, step))
-    return *draw_step(photo, sight, reach, step), words
+def step_view(step, *journey):
+    """A step or a stage (see `draw_step`): photo, arm, and the same in words."""
+    return *draw_step(step, *journey), note(describe_step(step, *journey))
 
 
 def draw_movement(photo, box, reach, motion):
@@ -86,23 +102,6 @@ def _moving(places, colour):
     x, y = places[-1].round(1)
     course = " ".join(f"{x:.1f},{y:.1f}" for x, y in places)
     return f'<g data-course="{course}" transform="translate({x} {y})">{ring}</g>\n'
-
-
-def draw_stage(photo, sight, reach, online, stage):
-    """A stage of `LOOP_STAGES`: what the eye has made of the photo, and where the arm is by then.
-
-    `online` is the `Motion` of the plan as the cerebellum corrected it before moving.
-    """
-    if stage in SEEING or reach is None:
-        return draw_step(photo, sight, reach, stage)
-    if stage == "place":
-        place = photo.camera.project(reach.target)[0]
-        view = photo_view(photo.image, [(sight.box, "seen", "green")], [(place, "", "green")])
-        view = view.replace("</svg>", lens(photo, sight.box, reach) + "</svg>")
-        balls = [(reach.target, "green")]
-        return view, arm_scene(START, turn=reach.turn, photo=photo, balls=balls)
-    motion = {"plan": reach.planned, "off-line": reach.calibrated, "online": online}[stage]
-    return draw_movement(photo, sight.box, reach, motion)
 
 
 def from_above(photo, reach, turned):
@@ -201,18 +200,20 @@ def likeliest_elsewhere(photo, sight):
     return sight.probability[apart].max(initial=0)
 
 
-def step_in_words(photo, sight, reach, step):
-    """A step of `LOOP_STEPS` in words, with its numbers."""
-    if step not in SEEING and reach is None:
-        return f"The {step}: nothing was recognised; the arm waits."
-    if step not in SEEING:
-        motion = reach.planned if step.startswith("first") else reach.calibrated
-        return f"The {step}: {describe_end(photo, reach, motion)}."
-    candidates, passed, boxes = sight.detections.counts.values()
-    return {
-        "a photo": "A photo of a table with a shuttlecock and a cup; the arm waits.",
-        "candidates": f"{candidates} candidate boxes cover the photo; the arm waits.",
-        "regions": f"{passed} boxes are left, many for each thing; the arm waits.",
-        "after suppression": f"{boxes} boxes are left; the arm waits.",
-        "names": "Each box carries its probability of holding a shuttlecock; the arm waits.",
-    }[step]
+def describe_step(step, photo, sight, reach, online=None):
+    """A step or a stage in words, with its numbers."""
+    if step in SEEING:
+        candidates, passed, boxes = sight.detections.counts.values()
+        return {
+            "a photo": "A photo of a table with a shuttlecock and a cup; the arm waits.",
+            "candidates": f"{candidates} candidate boxes cover the photo; the arm waits.",
+            "regions": f"{passed} boxes are left, many for each thing; the arm waits.",
+            "after suppression": f"{boxes} boxes are left; the arm waits.",
+            "names": "Each box carries its probability of holding a shuttlecock; the arm waits.",
+        }[step]
+    words = "nothing was recognised; the arm waits"
+    if reach and step == "place":
+        words = f"{norm_mm(reach.target - photo.target):.1f} mm from the true shuttlecock"
+    elif reach:
+        words = describe_end(photo, reach, moves(reach, online)[STAGE_OF.get(step, step)])
+    return f"{step.capitalize()}: {words}."

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from book.figures.loop import describe_end, draw_movement, draw_stage
+from book.figures.loop import describe_end, draw_movement, moves
 from book.figures.panels import panels
 from book.figures.reaching import norm_mm
 from reproduce import results
@@ -33,30 +33,6 @@ def stage_errors(photo, reach, online):
         return {}
     ends = {s: miss_mm(photo, reach, motion) for s, motion in moves(reach, online).items()}
     return {"place": norm_mm(reach.target - photo.target)} | ends
-
-
-def moves(reach, online):
-    """The motions of a reach by the stage that makes them; `online` is corrected before it."""
-    if reach is None:
-        return {}
-    return {"plan": reach.planned, "off-line": reach.calibrated, "online": online}
-
-
-def describe_stage(photo, reach, online, stage):
-    """A stage in words: how far from what the place or the hand is, and how fast the hand moves."""
-    if reach is None:
-        return "No shuttlecock was recognised; the arm waits."
-    if stage == "place":
-        return f"place: {norm_mm(reach.target - photo.target):.1f} mm from the true shuttlecock."
-    if (motion := moves(reach, online).get(stage)) is None:
-        return f"{stage}: nothing is reached for yet; the arm waits."
-    return f"{stage}: {describe_end(photo, reach, motion)}."
-
-
-def stage_view(photo, sight, reach, online, stage):
-    """A stage of `LOOP_STAGES`: photo, arm, and the same in words."""
-    words = describe_stage(photo, reach, online, stage)
-    return *draw_stage(photo, sight, reach, online, stage), note(words)
 
 
 def lesion_view(photo, box, reach):
