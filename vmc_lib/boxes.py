@@ -116,9 +116,6 @@ def vote(kept, boxes, scores, temperature=0.1):
     return weights @ boxes / weights.sum(1, keepdims=True)
 
 
-# ---------------------------------------------------------------- boxes from boxes
-
-
 def pad_boxes(boxes, margin):
     """Pad boxes (n, 4) by a margin on each side, given as a share of their sides."""
     boxes = as_boxes(boxes)

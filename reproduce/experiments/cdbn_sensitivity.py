@@ -48,12 +48,9 @@ def gain_from_width(shares):
 
 def make(variations=VARIATIONS, folder=photos.FOLDER, patches=PATCHES):
     """What `results/variations.npz` holds: the arrays that `load_results` reads."""
-    learnt = {}
-    for variation, (filters, counts) in train_variations(
-        variations, folder, folder, patches
-    ).items():
-        learnt |= {f"{variation}/filters": filters, f"{variation}/counts": counts}
-    return learnt
+    trained = train_variations(variations, folder, folder, patches)
+    parts = {k: zip(("filters", "counts"), learnt, strict=True) for k, learnt in trained.items()}
+    return {f"{variation}/{name}": part for variation in parts for name, part in parts[variation]}
 
 
 def train_variations(variations, folder, exam, patches=PATCHES):
@@ -68,9 +65,7 @@ def train_variation(variation, folder, exam, patches=PATCHES):
     That is, `confusion_counts` (levels, read-outs, SPLITS, 4). It learns from photos in `folder`,
     so many patches of them; the test photos are those in the folder `exam`.
     """
-    from reproduce.training.cdbn import (
-        train_cdbn,  # here, for torch weighs on who only reads the results
-    )
+    from reproduce.training.cdbn import train_cdbn  # with torch, slow to load
 
     n_w, seed = variation
     shots = [shot for level in photos.LEVELS for shot in photos.load(level, "train", folder)]

@@ -22,8 +22,6 @@ PERTURBATIONS = {  # what may change, as `execute` takes it
     "a viscous field": {"perturbation": Perturbation(field=((-1.0, 0.0), (0.0, -1.0)))},
     "a prism": {"prism": PRISM},
 }
-
-
 NOTHING = "nothing learns"
 CURES = (*CORRECTIONS, NOTHING)
 BLOCKS = (2, 8, 6)  # of an adaptation: before the world changes, changed, and after

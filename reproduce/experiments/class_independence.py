@@ -21,22 +21,20 @@ def boxed_well(boxes, photo):
     return iou(boxes, [photo.boxes[name] for name in photos.CLASSES]).max(axis=0) >= MIN_IOU
 
 
-def objects_boxed(strategy, shots):
-    """`boxed_well` by what a strategy proposes, (photos, 2)."""
-    found = Parallel()(delayed(_proposed)(strategy, shot) for shot in shots)
-    return np.array(found)
-
-
-def _proposed(strategy, shot):
-    return boxed_well(propose(shot.image, strategy), shot)
+def objects_boxed(found, shots):
+    """`boxed_well` of each photo's boxes, (photos, 2)."""
+    return np.array(list(map(boxed_well, found, shots)))
 
 
 def make(folder=photos.FOLDER, ways=WAYS):
     """What `results/class_independence.npz` holds: `objects_boxed` by level and strategy."""
-    shots = {level: photos.load(level, "test", folder) for level in ways}
-    return {
-        f"{level}/{way}": objects_boxed(way, shots[level]) for level in ways for way in ways[level]
-    }
+    found = {}
+    for level, strategies in ways.items():
+        shots = photos.load(level, "test", folder)
+        for way in strategies:
+            boxes = Parallel()(delayed(propose)(shot.image, way) for shot in shots)
+            found[f"{level}/{way}"] = objects_boxed(boxes, shots)
+    return found
 
 
 def load_boxed(level):

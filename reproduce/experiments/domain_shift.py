@@ -38,42 +38,21 @@ def make(
     labelled = {
         split: [labelled_crops(level, split, folder) for level in LEVELS] for split in photos.SPLITS
     }
-    network = train_cdbn(concatenate(labelled["train"])[0], patches)
+    network = train_narrow_cdbn(concatenate(labelled["train"])[0], patches)
     eyes = [histograms_of_gradients, partial(cdbn_features, network)]
     looked = [
         {split: [(eye(x), y) for x, y in sets] for split, sets in labelled.items()} for eye in eyes
     ]
-    shift = [
-        [
-            evaluate_over_draws(
-                evaluate_linear_readout,
-                one["train"][i],
-                one["validation"][i],
-                one["test"],
-                equal,
-                draws,
-            )
-            for one in looked
-        ]
-        for i in range(len(LEVELS))
-    ]
-    ways = [(evaluate_linear_readout, one) for one in looked] + [
-        (partial(evaluate_end_to_end, steps=steps), labelled)
-    ]
-    few = [
-        [
-            evaluate_over_draws(
-                learn_by,
-                concatenate(one["train"]),
-                concatenate(one["validation"]),
-                one["test"],
-                n,
-                draws,
-            )
-            for learn_by, one in ways
-        ]
-        for n in labels
-    ]
+    fixed = [(evaluate_linear_readout, sets) for sets in looked]
+    ways = [*fixed, (partial(evaluate_end_to_end, steps=steps), labelled)]
+
+    def accuracies(learn_by, sets, count, taught=slice(None)):
+        pairs = (concatenate(sets[split][taught]) for split in ("train", "validation"))
+        return evaluate_over_draws(learn_by, *pairs, sets["test"], count, draws)
+
+    each = [slice(i, i + 1) for i in range(len(LEVELS))]
+    shift = [[accuracies(*way, equal, level) for way in fixed] for level in each]
+    few = [[accuracies(*way, count) for way in ways] for count in labels]
     return {"shift": np.float32(shift), "few": np.float32(few)}
 
 
@@ -104,10 +83,9 @@ def downsample(pictures, width):
     return np.stack([rows[:, :, area].mean(2) for area in areas], 2)
 
 
-def train_cdbn(crops, patches):
+def train_narrow_cdbn(crops, patches):
     """Train a CDBN of the paper's size without labels, on all crops."""
-    # here, for torch weighs on who only reads
-    from reproduce.training.cdbn import SECOND, train_cdbn
+    from reproduce.training.cdbn import SECOND, train_cdbn  # with torch, slow to load
 
     pictures, every = whiten(downsample(crops, NARROW)), np.ones(len(crops), bool)
     network = train_cdbn(pictures, every, patches=patches, second=SECOND | ON_NARROW)
@@ -161,7 +139,7 @@ def evaluate_linear_readout(taught, validation, exams, rng):
 
 def evaluate_end_to_end(taught, validation, exams, rng, steps=STEPS):
     """Features learned from the labels too: a choice for each rate and penalty."""
-    from reproduce.training.end_to_end import train_end_to_end  # as `train_cdbn` does
+    from reproduce.training.end_to_end import train_end_to_end  # likewise
 
     crops, labels = downsample(taught[0], NARROW), taught[1]
 

@@ -73,17 +73,13 @@ def rates(right, wrong, missed):
 
 def table_1():
     """Table I, the published recipe on the rig: kernel -> (trainings, 2), precision and recall."""
-    return {kernel: _by_seed(kernel) for kernel in TABLE_1_KERNELS}
+    return {kernel: rates_by_seed(kernel) for kernel in TABLE_1_KERNELS}
 
 
-def table_2(reading="IoU"):
-    """Table II, likewise, by one of the READINGS: (trainings, 2)."""
-    return _by_seed(reading)
-
-
-def _by_seed(name):
+def rates_by_seed(question):
+    """Likewise of a kernel, or for Table II of one of the READINGS: (trainings, 2)."""
     counts = load_counts()
-    rows = [rates(*counts[name, seed]["rig"]) for seed in range(TRAININGS)]
+    rows = [rates(*counts[question, seed]["rig"]) for seed in range(TRAININGS)]
     return np.array([[share for share, *_ in row] for row in rows])
 
 

@@ -175,9 +175,6 @@ def figure_6(level, split="test"):
     return {step: float(np.mean([count[step] for count in counts])) for step in counts[0]}
 
 
-# ---------------------------------------------------------------- measured once, and stored
-
-
 def make(folder=photos.FOLDER, recipes=RECIPES, trainings=TRAININGS):
     """What `results/localisation.npz` holds, of the photos in `folder`."""
     choices, levels = chosen_settings(folder), photos.LEVELS[::-1]  # the longest first

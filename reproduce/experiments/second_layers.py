@@ -28,10 +28,7 @@ def preference(answers, shuttlecock):
 
 def preferences(seed, network=None, folder=photos.FOLDER, patches=PATCHES, every=EVERY):
     """Mean `preference` on the rig's validation photos of P² taught by each of TAUGHT_BY, (2,)."""
-    from reproduce.training.cdbn import (  # here, for torch weighs on who only reads the results
-        SECOND,
-        train_crbm,
-    )
+    from reproduce.training.cdbn import SECOND, train_crbm  # with torch, slow to load
     from vmc_lib.what.learning import Learner
 
     network = CDBN.load(Learner) if network is None else network

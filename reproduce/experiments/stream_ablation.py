@@ -81,9 +81,7 @@ def evaluation_set(shown):
 
 def accuracy_after_training(teach, maps, exam, seed, steps):
     """Balanced accuracy on an exam of a stream with these `maps`, trained on `teach`."""
-    from reproduce.training import (
-        ventral_stream as training,  # here, for torch weighs on who only reads
-    )
+    from reproduce.training import ventral_stream as training  # with torch, slow to load
 
     network = training.build_network(seed, maps)
     training.train(network, training.Batches(teach, seed, steps, BATCH), RATE)

@@ -4,6 +4,8 @@ What was learned is decided on movements never practised, and where a movement e
 `calibration`.
 """
 
+from operator import truediv
+
 from reproduce import paper
 from reproduce.experiments.calibration import SCENARIOS, load_results, ratio_name
 from reproduce.ledger.calibration import (
@@ -38,10 +40,13 @@ def _learned(name, claimed, found, rule="online", **rest):
 
     `found` is a scenario of `load_results`.
     """
-    held_out, in_sample = (
-        found[f"{rule}, {ratio_name(1, kind)}"] for kind in (HELD_OUT, IN_SAMPLE)
-    )
+    held_out, in_sample = _left(found, 1, rule)
     return mean_of_draws(name, claimed, held_out, in_sample=in_sample.mean(), **rest)
+
+
+def _left(found, experiments, rule="online"):
+    """What a rule leaves of the error after so many experiments, (seeds,): held-out, in-sample."""
+    return [found[f"{rule}, {ratio_name(experiments, kind)}"] for kind in (HELD_OUT, IN_SAMPLE)]
 
 
 def _figure_11():
@@ -60,19 +65,13 @@ def _figure_12():
 
 
 def _tenth(name, claimed, found, **rest):
-    held_out, in_sample = (
-        found[f"online, {ratio_name(10, kind)}"] / found[f"online, {ratio_name(1, kind)}"]
-        for kind in (HELD_OUT, IN_SAMPLE)
-    )
+    held_out, in_sample = map(truediv, _left(found, 10), _left(found, 1))
     return mean(name, claimed, held_out, in_sample=in_sample.mean(), **rest)
 
 
 def _as_good():
     found, name = printed(), "online over off-line"
-    held_out, in_sample = (
-        found[f"online, {ratio_name(1, kind)}"] / found["off-line, published"]
-        for kind in (HELD_OUT, IN_SAMPLE)
-    )
+    held_out, in_sample = (left / found["off-line, published"] for left in _left(found, 1))
     return [mean_of_draws(name, None, held_out, in_sample=in_sample.mean())]
 
 

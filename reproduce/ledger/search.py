@@ -71,7 +71,8 @@ def _search():
     some, (many,) = photos.load("rig", "test"), class_independence.load_boxed("rig").values()
     everywhere = window_proposals.exhaustive((photos.HEIGHT, photos.WIDTH))
     found = [candidates(photo) for photo in some]
-    ours, theirs = (_objects_found(some, every) for every in (found, [everywhere] * len(some)))
+    both = found, [everywhere] * len(some)
+    ours, theirs = (class_independence.objects_boxed(boxes, some) for boxes in both)
     fewer = np.mean([len(boxes) for boxes in found]) / len(everywhere)
     boxed = "objects boxed well (IoU 0.8), of those that exhaustive search boxes"
     return [
@@ -99,11 +100,6 @@ def _seconds(image, everywhere, part=5000):
     raw_pixels(image, everywhere[:: len(everywhere) // part])
     described = (perf_counter() - searched) * len(everywhere) / part
     return (searched - start) / described
-
-
-def _objects_found(some, found):
-    """Which objects some box overlaps by 0.8, (photos, 2)."""
-    return np.array(list(map(class_independence.boxed_well, found, some)))
 
 
 def _classes():

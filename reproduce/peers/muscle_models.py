@@ -27,9 +27,8 @@ def thelen_force(activation, length, velocity, maximum):
 
     A muscle that is half active is also slower: its greatest speed follows its activation.
     """
-    rate = (
-        velocity * muscle.MAX_VELOCITY / (2.5 + 7.5 * activation)
-    )  # 10 fibre lengths a second at most
+    fastest = 2.5 + 7.5 * activation  # fibre lengths a second
+    rate = velocity * muscle.MAX_VELOCITY / fastest
     shrinking, growing = np.clip(rate, -1, 0), np.maximum(rate, 0) * (2 + 2 / 0.3) / 0.8
     speed = (1 + shrinking) / (1 - shrinking / 0.3) + 0.8 * growing / (1 + growing)
     passive = np.expm1(4 * np.maximum(length - 1, 0) / 0.6) / np.expm1(4)

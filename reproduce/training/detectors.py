@@ -19,8 +19,6 @@ from vmc_lib.where.svm import KernelSVM
 
 ROIS = 4700  # counter-examples to learn from, as in the paper; a random draw where there are more
 JITTER = 0.05  # how far, in sides, the examples are jittered
-
-
 REGRESSION_CENTRES, PREDICTION_CENTRES = 1000, 2000  # jittered boxes that are kept as centres
 
 UNFIT, FIT = 0.5, 0.9  # IoU up to which a box is worth 0, and from which it is worth 1

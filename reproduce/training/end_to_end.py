@@ -22,19 +22,18 @@ def train_end_to_end(draw, rng, width, maps, steps, batch, rate):
     torch_rng = torch.Generator().manual_seed(int(rng.integers(2**31)))
     cdbn = random_network(maps, torch_rng)
     weights = [getattr(crbm, part) for crbm in (cdbn.first, cdbn.second) for part in "Wb"]
-    size = readout_features(cdbn, torch.randn(1, 1, width, width, generator=torch_rng))[
-        READ_OUT
-    ].shape[1]
+
+    def features(v):
+        return readout_features(cdbn, v)[READ_OUT]
+
+    size = features(torch.randn(1, 1, width, width, generator=torch_rng)).shape[1]
     scale = torch.nn.BatchNorm1d(size, affine=False)
     readout, bias = torch.zeros(size, requires_grad=True), torch.zeros(1, requires_grad=True)
     learner = torch.optim.AdamW([*weights, readout, bias], lr=rate, weight_decay=0.01)
     rise_and_fall = torch.optim.lr_scheduler.OneCycleLR(learner, rate, steps, pct_start=0.15)
     for _ in range(steps):
         crops, labels = draw(batch)
-        logit = (
-            scale(readout_features(cdbn, torch.from_numpy(whiten(crops)))[READ_OUT]) @ readout
-            + bias
-        )
+        logit = scale(features(torch.from_numpy(whiten(crops)))) @ readout + bias
         loss = F.binary_cross_entropy_with_logits(logit, torch.tensor(labels, dtype=torch.float))
         learner.zero_grad()
         loss.backward()

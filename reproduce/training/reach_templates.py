@@ -23,8 +23,6 @@ from vmc_lib.motor.templates import REACH, START, reach
 
 CORNER = np.array([0.24, -0.37])  # every grid is laid out from this point
 ZONE = np.array([[-0.01, -0.50], [0.25, -0.28]])  # lowest and highest (x, y): in front, table high
-
-
 PINNED = slice(0, 2), slice(-5, None)  # knots: a reach begins and ends with what holds the posture
 EFFORT, ROUGHNESS = 0.02, 0.5  # what activation, and its bending, cost beside a missed N m
 

@@ -11,10 +11,10 @@ from itertools import product
 import numpy as np
 from joblib import Parallel, delayed
 
-from reproduce.training import reach_templates
 from reproduce.training.cdbn import train_cdbn
 from reproduce.training.detectors import fit_detector, with_best_threshold, with_recipe
 from reproduce.training.name_classifier import fit_name_classifier, labelled_crops
+from reproduce.training.reach_templates import find_reach, reachable_grid
 from vmc_lib import photos
 from vmc_lib.motor.templates import SPACINGS, key
 from vmc_lib.what.cdbn import CDBN, PATCHES, crops_of
@@ -115,13 +115,6 @@ def merge_sets(sets):
 
 def templates(spacings=SPACINGS):
     """The spline knots (N, KNOTS, 6) of every template of every set."""
-    return {
-        key(spacing): np.array(
-            Parallel()(
-                delayed(reach_templates.find_reach)(g)
-                for g in reach_templates.reachable_grid(spacing)
-            ),
-            np.float32,
-        )
-        for spacing in spacings
-    }
+    goals = {key(spacing): reachable_grid(spacing) for spacing in spacings}
+    search = delayed(find_reach)
+    return {k: np.array(Parallel()(map(search, some)), np.float32) for k, some in goals.items()}

@@ -35,9 +35,6 @@ DROPPED = 0.3  # share of the last stage's activations hidden from the read-out 
 SCALE, EDGES = 0.2, 2  # of the corrections that are read out; how much they count
 
 
-# ---------------------------------------------------------------- what is shown
-
-
 def augmented_batch(pool, count, rng):
     """A batch of augmented crops (n, 3, WIDTH, WIDTH), IoUs (n,), box deltas (n, 4), float32."""
     parts = zip(
@@ -45,9 +42,6 @@ def augmented_batch(pool, count, rng):
     )
     x, fit, lack = (np.array(part, np.float32) for part in parts)
     return standardise(np.moveaxis(x, 3, 1)), fit, lack
-
-
-# ---------------------------------------------------------------- learning
 
 
 def build_network(seed, maps=MAPS):
@@ -121,9 +115,6 @@ def fold_batch_norm(network):
     return VentralStream(tuple(filters), tuple(biases), readout.numpy(), offsets.numpy())
 
 
-# ---------------------------------------------------------------- hard counter-examples
-
-
 def hard_negatives(stream, photo):
     """Hard negatives: a photo's boxes by kind, with the windows of highest false log-odds.
 
@@ -136,9 +127,6 @@ def hard_negatives(stream, photo):
         some = some[iou(some, photo["shuttlecock"][1]).max(1) < APART]
     hardest = np.argsort(-stream.predict(image, some)[0])[:HARD]
     return photo | {"scene": (image, some[hardest])}
-
-
-# ---------------------------------------------------------------- what ships
 
 
 def photographs(folder=photos.FOLDER, steps=STEPS, maps=MAPS, everyday=None, pasted=PASTED):

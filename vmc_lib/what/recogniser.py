@@ -40,9 +40,6 @@ def read_outs(cdbn, crops):
     return {name: np.concatenate([part[name] for part in parts]) for name in READ_OUTS}
 
 
-# ---------------------------------------------------------------- the classifier
-
-
 def logistic(log_odds):
     """The logistic function: the probability that has such log-odds; nothing overflows."""
     return np.exp(-np.logaddexp(0, -log_odds))
@@ -76,9 +73,6 @@ class NameClassifier:
     def probability(self, x):
         """The probability (n,) for features (n, d)."""
         return logistic(self.log_odds(x))
-
-
-# ---------------------------------------------------------------- the recogniser
 
 
 @dataclass(frozen=True, eq=False)

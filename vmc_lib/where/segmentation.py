@@ -140,12 +140,12 @@ def edge_pixels(edge, offsets):
     return pixel, pixel + offsets[direction]
 
 
-def find(parent, pixel):
-    """The root of a pixel's segment."""
-    while parent[pixel] != pixel:
-        parent[pixel] = parent[parent[pixel]]  # path halving
-        pixel = parent[pixel]
-    return pixel
+def find(parent, node):
+    """Union-find: the root of a pixel's segment, or of a region."""
+    while parent[node] != node:
+        parent[node] = parent[parent[node]]  # path halving
+        node = parent[node]
+    return node
 
 
 def unite(parent, size, a, b):

@@ -21,7 +21,7 @@ from vmc_lib.where.appearance import (
     similarity,
     texture_codes,
 )
-from vmc_lib.where.segmentation import segmentations
+from vmc_lib.where.segmentation import find, segmentations
 
 
 @dataclass(frozen=True)
@@ -83,9 +83,7 @@ def _merge_all(regions, pairs, measures):
         merge_regions(regions, i, j, new)
         parent[i] = parent[j] = new
         for k in neighbours[i] + neighbours[j]:
-            while parent[k] != k:
-                parent[k] = parent[parent[k]]  # path halving
-                k = parent[k]
+            k = find(parent, k)  # by now
             if k != new and last_seen[k] != new:
                 last_seen[k] = new
                 neighbours[new].append(k)
@@ -96,9 +94,6 @@ def _merge_all(regions, pairs, measures):
         for p, k in enumerate(neighbours[new]):
             heappush(queue, (-scores[p], k, new))
     return merges
-
-
-# ---------------------------------------------------------------- several hierarchies, one list
 
 
 ALL, COLOURLESS = MEASURES, MEASURES[1:]

@@ -6,6 +6,7 @@ import pytest
 from reproduce.experiments import calibration, class_independence, hmax_draws, second_layers
 from reproduce.results import arrays
 from vmc_lib import photos
+from vmc_lib.where.selective_search import propose
 
 
 def test_one_draw_of_movements_is_reproducible():
@@ -35,5 +36,6 @@ def test_what_is_boxed_well_is_reproducible(level):
     shots = photos.load(level, "test")[some]
     for way, boxed in class_independence.load_boxed(level).items():
         if way != "quality":  # ten times as slow
-            now = class_independence.objects_boxed(way, shots)
+            found = [propose(shot.image, way) for shot in shots]
+            now = class_independence.objects_boxed(found, shots)
             assert (now != boxed[some]).sum() <= 1, way
