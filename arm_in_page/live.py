@@ -26,7 +26,7 @@ from vmc_lib.motor.inverse_dynamics import SAMPLES, spline, static_activation
 from vmc_lib.motor.planning import plan
 from vmc_lib.show.arm import arm_scene
 from vmc_lib.show.arm_plane import plane, plane_view
-from vmc_lib.show.figures import framed, pictures, side_by_side
+from vmc_lib.show.figures import frame, pictures, side_by_side
 from vmc_lib.show.live import VENDORED, Live
 from vmc_lib.show.outputs import Markup, still
 from vmc_lib.show.packed import pack_bytes
@@ -108,12 +108,12 @@ def show(name, mode, draw, controls, data, caption, alt, law=""):
         f'<script type="application/json">{data}</script></div>'
     )
     if render_mode() == "book":
-        display(HTML(framed(page, caption)))
+        display(HTML(frame(page, caption)))
     elif render_mode() == "live":
         style = f"<style>{(STATIC / 'live.css').read_text(encoding='utf-8')}</style>"
         vendored = VENDORED | {MUJOCO.name: MUJOCO}
         widget = Live(page, "vmcStart", [*VIEWER, *SCRIPTS], vendored=vendored)
-        display(still(alt, drawn, name), widget, Markup(style + framed("", caption), caption))
+        display(still(alt, drawn, name), widget, Markup(style + frame("", caption), caption))
 
 
 def given():

@@ -10,7 +10,7 @@ import matplotlib as mpl
 from python_in_page.grader import changed, definitions
 from vmc_lib import show
 from vmc_lib.show.controls import Pad, Slider, as_control
-from vmc_lib.show.demo import lines, shown
+from vmc_lib.show.demo import draw_state, lines
 from vmc_lib.show.packed import unpack_arrays
 
 mpl.use("svg")
@@ -31,7 +31,7 @@ def draw(above, book, cell, name, places, data=""):
             demo, controls, _ = prepared(tuple(above), cell, "" if laws else data)
             if places is None:
                 return {"laws": laws, "parts": [], "texts": {}}
-            words, parts = shown(values=values_at(controls, places), name=name, **demo)
+            words, parts = draw_state(values=values_at(controls, places), name=name, **demo)
     except Exception as error:
         return {"laws": laws, "error": repr(error)}
     return {"laws": laws, "parts": [[words], *lines(parts)], "texts": _texts(controls, places)}

@@ -21,7 +21,7 @@ def test_the_best_so_far_never_falls():
 
 def test_photo_upload_is_decoded():
     red = cv2.imencode(".png", np.full((800, 1200, 3), [0, 0, 255], np.uint8))[1].tobytes()
-    image = where.received(f"data:image/png;base64,{b64encode(red).decode()}")
+    image = where.decode_image(f"data:image/png;base64,{b64encode(red).decode()}")
     assert image.shape == (800, 1200, 3)
     assert image[0, 0].tolist() == [255, 0, 0]
 

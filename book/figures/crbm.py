@@ -3,7 +3,7 @@
 import matplotlib.pyplot as plt
 import numpy as np
 
-from book.figures.what import grey, lettered, tiles
+from book.figures.what import grey, tiles, with_words
 from reproduce.experiments.crbm_ablation import corner_share, even_tone
 from vmc_lib.show import dot_plot, photo_view
 from vmc_lib.show.palette import COLOURS
@@ -17,7 +17,7 @@ def bitmap(rows):
     return np.array([[[[float(c == "#") for c in row] for row in rows.split()]]])
 
 
-def whitened(crop, white):
+def whitening_view(crop, white):
     """A crop (200, 200), and beside it what whitening leaves, with the mean of its middle."""
     square = MIDDLE.start, MIDDLE.start, MIDDLE.stop, MIDDLE.stop
     mean = f"{white[MIDDLE, MIDDLE].mean():+.2f}"
@@ -101,4 +101,4 @@ def gradients(ks, distances, cosines):
 def filters(stack):
     """Filters (n, width, width), with their shares of an even tone and in the corners."""
     words = f"even tone {even_tone(stack):.0%}, corners {corner_share(stack):.0%}"
-    return lettered(tiles(stack, zoom=8), words)
+    return with_words(tiles(stack, zoom=8), words)

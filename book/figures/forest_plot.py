@@ -86,7 +86,7 @@ class Line(NamedTuple):
         drawn = f'<path class="against" d="{"".join(against)}"/>' if against else ""
         drawn += "".join(mark.svg(MARGIN + LANE * i + 4) for i, mark in enumerate(self.marks))
         drawn = drawn or f'<text x="73" y="{height - MARGIN}">nothing to compare</text>'
-        inner = f"<span>{escape(self.name)}</span>{drawing((0, 0, WIDTH, height), drawn)}"
+        inner = f"<span>{escape(self.name)}</span>{svg_view((0, 0, WIDTH, height), drawn)}"
         return f'<a href="#{self.address}" title="{escape(self.tooltip)}">{inner}</a>'
 
 
@@ -95,7 +95,7 @@ def axes(lines):
     return dict.fromkeys(mark.axis for line in lines for mark in line.marks)
 
 
-def drawing(box, inner):
+def svg_view(box, inner):
     """SVG that is seen through a box (left, top, width, height)."""
     return f'<svg viewBox="{" ".join(map(str, box))}" aria-hidden="true">{inner}</svg>'
 
@@ -105,7 +105,7 @@ def forest_plot(groups):
     key = [] if groups else [in_words(groups)]
     for kind, text in counts(groups).items():
         path = f'<path class="{kind.replace(" ", "-")}" d="M0 0{SHAPES[kind]}"/>'
-        key.append(f"<span>{drawing((-5, -5, 10, 10), path)} {text}</span>")
+        key.append(f"<span>{svg_view((-5, -5, 10, 10), path)} {text}</span>")
     html = [f'<p class="vmc-key">{" ".join(key)}</p>', '<div class="vmc-forest">']
     for head, lines in groups.items():
         ticks = [
@@ -113,7 +113,7 @@ def forest_plot(groups):
             for axis in axes(lines)
             for tick in axis.ticks
         ]
-        html.append(f"<p>{escape(head)}{drawing((0, 0, WIDTH, 18), ''.join(ticks))}</p>")
+        html.append(f"<p>{escape(head)}{svg_view((0, 0, WIDTH, 18), ''.join(ticks))}</p>")
         html += [line.html() for line in lines]
     return "\n".join([*html, "</div>"])
 

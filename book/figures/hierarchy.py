@@ -5,7 +5,7 @@ from itertools import product
 import matplotlib.pyplot as plt
 import numpy as np
 
-from book.figures.what import grey, lettered, tiles
+from book.figures.what import grey, tiles, with_words
 from reproduce.experiments.slow_features import separation
 from vmc_lib.show.figures import photo_view
 from vmc_lib.show.markup import data_uri
@@ -20,14 +20,14 @@ def layer(maps, name):
     words = f"{name}: {' × '.join(map(str, x.shape))} = {x.size:,} numbers"
     if zoom < 1:  # half as large, to fit the page
         x, zoom = x.reshape(len(x), x.shape[1] // 2, 2, -1, 2).max((2, 4)), 1
-    return lettered(grey(x[0]) if name == "V" else tiles(x, zoom=zoom), words, (204, 504))
+    return with_words(grey(x[0]) if name == "V" else tiles(x, zoom=zoom), words, (204, 504))
 
 
 def beside_gabors(filters, fits):
     """Ten filters, below each its closest Gabor function, of (Gabor, correlation) pairs `fits`."""
     gabors, correlations = zip(*fits, strict=True)
     words = f"median correlation {np.median(correlations):.2f}"
-    return lettered(tiles([*filters, *gabors], columns=10, zoom=6), words)
+    return with_words(tiles([*filters, *gabors], columns=10, zoom=6), words)
 
 
 def unit(stack, zoom, column, row, patches, pictures, shuttlecock):
@@ -44,7 +44,7 @@ def unit(stack, zoom, column, row, patches, pictures, shuttlecock):
     words = f"{shuttlecock[pictures[k]].sum()} of {len(pictures[k])} from shuttlecocks"
     nine = tiles(patches[k], columns=3, zoom=72 // patches.shape[-1])
     marked = photo_view(image, [(box, "", "orange")], axes=(0.5, 5.5, 2.5, 0.5))
-    return marked, lettered(nine, words)
+    return marked, with_words(nine, words)
 
 
 def layers_under_shift(cdbn, crop, right, down):
@@ -79,7 +79,7 @@ def under_shift(crop, layers, shift):
     strongest = before["P2"][0].sum((1, 2)).argmax()
     alike = [np.corrcoef(now[k].ravel(), before[k].ravel())[0, 1] for k in ("P2", "MP2")]
     maps = tiles([now["P2"][0, strongest], now["MP2"][0, 0]], zoom=4)
-    return "\n".join(picture), lettered(maps, "P2 {:.2f}, MP2 {:.2f} alike".format(*alike))
+    return "\n".join(picture), with_words(maps, "P2 {:.2f}, MP2 {:.2f} alike".format(*alike))
 
 
 def correlations(by_layer, title):
@@ -106,5 +106,5 @@ def over_time(answers, shuttlecock):
 def mean_map(p2, before):
     """The maps P2 (1, K, height, width) and their mean MP2, with its change from `before`."""
     change = float(abs(p2.mean(1) - before.mean(1)).max())
-    mean = lettered(tiles(p2.mean(1), zoom=4), f"MP2: changed by {change:.7f}")
-    return lettered(tiles(p2[0]), "P2"), mean
+    mean = with_words(tiles(p2.mean(1), zoom=4), f"MP2: changed by {change:.7f}")
+    return with_words(tiles(p2[0]), "P2"), mean

@@ -6,7 +6,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from book.figures.what import tiles
-from reproduce.experiments.recognition import PUBLISHED, confusion_counts, precision_recall
+from reproduce.experiments.recognition import PUBLISHED, confusion_counts, rates_of_counts
 from vmc_lib.boxes import decode_deltas, iou
 from vmc_lib.photos import HEIGHT, WIDTH
 from vmc_lib.show import Estimate, dot_plot, estimate, photo_view
@@ -86,7 +86,7 @@ def first_layer(filters, rows):
 
 def sorted_crops(chances, shuttlecock, threshold):
     """Each crop's probability (n,) as a dot, shuttlecocks above cups, and the threshold."""
-    precision, recall = precision_recall(confusion_counts(chances, shuttlecock, threshold))
+    precision, recall = rates_of_counts(confusion_counts(chances, shuttlecock, threshold))
     fig, ax = _rows()
     for here, colour in ((shuttlecock, "blue"), (~shuttlecock, "orange")):
         ax.plot(chances[here], _spread(shuttlecock)[here], "o", ms=4, color=COLOURS[colour])

@@ -168,14 +168,14 @@ def errors_with_load(plan, load):
     }
 
 
-def best_so_far(errors):
+def mean_best_so_far(errors):
     """Mean over the targets of the least error up to each trial, (trials,), for (trials, n)."""
     return np.minimum.accumulate(errors).mean(axis=1)
 
 
 def with_guards(errors):
     """Mean errors in mm, (trials, n) over the targets: of each trial, and of the best so far."""
-    best = best_so_far(errors)
+    best = mean_best_so_far(errors)
     fig, ax = panels(size=(5.5, 3.2))
     fig.subplots_adjust(left=0.17)  # room for 0.001
     ax.plot(errors.mean(axis=1), ".:", color=COLOURS["grey"], label="this trial")

@@ -169,7 +169,7 @@ def adaptation(templates, adaptations, block, change, cure):
     return fig
 
 
-def clamped(drifts, clamp):
+def clamp_plot(drifts, clamp):
     """Drift by block under every error clamp of `drifts`, degrees -> (blocks,); one in blue.
 
     Dashed: where the hand would be if it made up for the `clamp`.

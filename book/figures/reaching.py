@@ -18,7 +18,7 @@ from vmc_lib.show.palette import COLOURS
 RING = {"mfc": "none", "mew": 1.8, "color": COLOURS["green"]}  # a target's mark
 
 
-def shares(ax, target, points, weights):
+def weight_threads(ax, target, points, weights):
     """Threads from the target (2,) to the templates used (N, 2), as thick as their weights (N,)."""
     threads(ax, target, points, color=COLOURS["blue"], lw=10 * np.abs(weights))
     ax.plot(*np.transpose(points), "o", ms=7, color=COLOURS["blue"], gid="templates used")
@@ -95,7 +95,7 @@ def weighted_sum(ax, excitations, weights):
     ax.legend(loc="upper left")
 
 
-def planned(past, muscle, target=None, ended=None):
+def plan_figures(past, muscle, target=None, ended=None):
     """Two figures: a plan in the plane, and one muscle's excitation as its sum; or both empty.
 
     The plan mixes templates of `past` for `target` (2,), and took the hand to `ended` (2,).
@@ -106,7 +106,7 @@ def planned(past, muscle, target=None, ended=None):
     if target is not None:
         one = plan(target, past)
         commands, weights = past.excitations[one.rows, :, muscle], one.weights
-        shares(left, target, one.points, weights)
+        weight_threads(left, target, one.points, weights)
         ends(left, target, ended)
         miss = 1000 * np.linalg.norm(np.subtract(ended, target))
         left.set_title(f"the hand misses by {miss:.1f} mm")
@@ -115,13 +115,13 @@ def planned(past, muscle, target=None, ended=None):
     return in_plane, over_time
 
 
-def planned_in_page(past, muscle, ended):
+def plan_in_page(past, muscle, ended):
     """The same for the page to work out (see `explore`); `ended` (N, 2) for all its positions."""
     every = 20  # ms
     commands = past.excitations[:, ::every, muscle]
     given = {"points": past.points, "commands": commands.round(4), "ends": ended.round(5)}
     given = {name: values.tolist() for name, values in given.items()} | {"every": every / 1000}
-    return "plan", lambda: planned(past, muscle), given
+    return "plan", lambda: plan_figures(past, muscle), given
 
 
 def reach_scene(motion, target):

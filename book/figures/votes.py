@@ -11,7 +11,7 @@ from book.figures.reaching import arrows
 from vmc_lib.show.palette import COLOURS
 
 
-def preferred(neurons, evenly):
+def preferred_directions(neurons, evenly):
     """Directions (neurons, 2) round the circle, evenly spread or bunched."""
     share = np.arange(neurons) / neurons
     angle = 2 * np.pi * (share if evenly else share**2)  # squared: bunched
@@ -23,26 +23,26 @@ def votes(target, prefer):
     return (prefer @ np.asarray(target))[:, None] * prefer
 
 
-def vote(target, neurons, evenly):
+def population_vector(target, neurons, evenly):
     """The votes' sum (2,), so scaled that it is the reach itself if they are evenly spread."""
-    return 2 / neurons * votes(target, preferred(neurons, evenly)).sum(axis=0)
+    return 2 / neurons * votes(target, preferred_directions(neurons, evenly)).sum(axis=0)
 
 
 def lean(target, neurons, evenly):
     """How far the sum points from the reach to target (2,), in degrees."""
-    total = vote(target, neurons, evenly)
+    total = population_vector(target, neurons, evenly)
     along = total @ target / (np.linalg.norm(total) * np.linalg.norm(target))
     return np.degrees(np.arccos(min(1, along)))
 
 
-def voted(target=None, neurons=4, evenly=True):
+def votes_plot(target=None, neurons=4, evenly=True):
     """A figure of the votes (grey), the reach (green) and the votes' sum (red); or it is empty."""
     fig, ax = plt.subplots(figsize=(4.6, 3.6))
     ax.set(xlim=(-1.6, 1.6), ylim=(-1.25, 1.25), aspect="equal")
     ax.axis("off")
     if target is not None:
-        total = vote(target, neurons, evenly)
-        arrows(ax, [0, 0], votes(target, preferred(neurons, evenly)), "grey")
+        total = population_vector(target, neurons, evenly)
+        arrows(ax, [0, 0], votes(target, preferred_directions(neurons, evenly)), "grey")
         for tip, colour, words, above in (
             (target, "green", "the reach", 22),
             (total, "red", "the sum", -30),
@@ -61,6 +61,6 @@ def votes_in_words(target, neurons, evenly):
     return f"Votes of {neurons} neurons for a reach to {reach}; their sum is {off}."
 
 
-def voted_in_page():
+def votes_in_page():
     """The same for the page to work out (see `explore`)."""
-    return "votes", voted, {}
+    return "votes", votes_plot, {}

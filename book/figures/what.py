@@ -29,7 +29,7 @@ def tiles(stack, columns=5, zoom=1):
     return grid.reshape(rows * height, columns * width)
 
 
-def lettered(picture, words, size=None):
+def with_words(picture, words, size=None):
     """A grey picture (height, width) in 0..1 and words below it, as SVG.
 
     `size` (height, width) gives it more room than it needs: nothing jumps when another follows.

@@ -16,7 +16,7 @@ from vmc_lib.boxes import MIN_IOU, iou
 from vmc_lib.photos import as_rgb
 from vmc_lib.show.controls import slider
 from vmc_lib.show.demo import figure
-from vmc_lib.show.figures import framed, photo_view
+from vmc_lib.show.figures import frame, photo_view
 from vmc_lib.show.live import Live
 from vmc_lib.show.markup import data_uri
 from vmc_lib.show.outputs import Markup, still
@@ -132,12 +132,12 @@ def segmentation_demo(image, caption, alt):
     parts = {"PHOTO": photo, "LAYER": LAYER, "CENTRED": CENTRED, "SLIDERS": sliders}
     page = re.sub("|".join(parts), lambda name: parts[name[0]], SEGMENTATION)
     if render_mode() == "book":
-        display(HTML(framed(page, caption)))
+        display(HTML(frame(page, caption)))
     elif render_mode() == "live":
         scripts = [CANVAS, *SEARCH_SCRIPTS, STATIC / "segmentation_demo.js"]
         display(still(alt, [photo], "segmentation"))
-        display(Live(framed(page, "", "segmentation"), "vmcSegmentationDemo", scripts))
-        display(Markup(framed("", caption), caption))
+        display(Live(frame(page, "", "segmentation"), "vmcSegmentationDemo", scripts))
+        display(Markup(frame("", caption), caption))
 
 
 UPLOAD = """<div class="vmc-demo"><form class="vmc-control">
@@ -153,10 +153,12 @@ def photo_upload(draw, example, caption, alt):
     figure(draw(example), caption, alt)
     if render_mode() == "live":
         scripts = [CANVAS, Path(__file__).with_name("upload.js")]
-        display(Live(UPLOAD, "vmcUpload", scripts, {"photo": lambda sent: draw(received(sent))}))
+        display(
+            Live(UPLOAD, "vmcUpload", scripts, {"photo": lambda sent: draw(decode_image(sent))})
+        )
 
 
-def received(sent):
+def decode_image(sent):
     """The image (height, width, 3) that a browser sent, a `data:` address."""
     with Image.open(BytesIO(b64decode(sent.partition(",")[2]))) as file:
         return as_rgb(np.array(file))

@@ -40,7 +40,7 @@ ROLES = {
 
 def lines(joints):
     """The bones' ends (4, 3), and of every muscle the points (n, 3) that it runs through, in m."""
-    data = placed(joints)
+    data = arm_data(joints)
     places = data.wrap_xpos.reshape(-1, 3)
     ways = [
         places[first : first + count]
@@ -50,7 +50,7 @@ def lines(joints):
     return np.array([*ends, data.site("fingertip").xpos]), ways
 
 
-def placed(joints):
+def arm_data(joints):
     """MuJoCo's data of the arm with its joints (18,) so."""
     data = mujoco.MjData(plant.MODEL)
     data.qpos[:] = joints
@@ -64,7 +64,7 @@ def corrected_reach(trials, targets, k, correction, time):
     return views(motion, max(round(time / plant.TICK) - 1, 0), targets[k])
 
 
-def nudged(activation, dampers):
+def nudge_plot(activation, dampers):
     """How far the finger is from its place after small nudges, while activations (63,) hold on."""
     away = 1000 * experiment.nudge(activation, dampers)[:, ::4]
     fig, ax = panels(size=(5.6, 2.7))

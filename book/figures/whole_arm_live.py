@@ -6,7 +6,7 @@ import numpy as np
 
 from arm_in_page.live import experience
 from book.figures.panels import panels
-from book.figures.whole_arm import BONES, VIEWS, lines, placed, view_from
+from book.figures.whole_arm import BONES, VIEWS, arm_data, lines, view_from
 from reproduce.whole_arm import bones, habits, plant
 from vmc_lib.show import COLOURS, props
 from vmc_lib.show.scene import Scene
@@ -46,14 +46,14 @@ def arm(past, rest):
 
 def _frames(surfaces):
     """Axes and place (12,) of every body that has bones."""
-    data = placed(START)
+    data = arm_data(START)
     bodies = [data.body(name) for name in surfaces]
     return [[*body.xmat, *body.xpos] for body in bodies]
 
 
 def _bellies():
     """What each muscle's belly is drawn by: name, tendon's slack in m, volume in m³ (`anatomy`)."""
-    model, length = plant.MODEL, placed(START).ten_length
+    model, length = plant.MODEL, arm_data(START).ten_length
     low, high, force = model.actuator_gainprm[:, :3].T
     fibre = np.ptp(model.actuator_lengthrange, axis=1) / (high - low)
     slack = length * np.clip((model.actuator_lengthrange[:, 0] - low * fibre) / length, *SLACK)

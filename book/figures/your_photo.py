@@ -18,7 +18,7 @@ from vmc_lib.camera import TABLE
 from vmc_lib.motor.templates import START
 from vmc_lib.photos import HEIGHT, WIDTH
 from vmc_lib.show.arm import arm_scene
-from vmc_lib.show.figures import framed, pictures
+from vmc_lib.show.figures import frame, pictures
 from vmc_lib.show.live import VENDORED, Live
 from vmc_lib.show.outputs import Markup, still
 from vmc_lib.show.palette import COLOURS, EDGE, ON_PHOTO, STYLE
@@ -50,7 +50,7 @@ def your_photo(example, caption):
         scene, plot = pictures((_scene(), _above()), NAME)
     page = _page(example, scene, plot)
     if render_mode() == "book":
-        display(HTML(framed(page, caption)))
+        display(HTML(frame(page, caption)))
     else:
         learnt = SimpleNamespace(read_text=lambda **_: brain.script())
         vendored = VENDORED | {live.MUJOCO.name: live.MUJOCO, "brain.js": learnt}
@@ -60,7 +60,7 @@ def your_photo(example, caption):
         display(Live(page, "vmcLivePhoto", scripts, vendored=vendored))
         sheets = live.STATIC / "live.css", STATIC / "your_photo.css"
         style = "".join(f"<style>{css.read_text(encoding='utf-8')}</style>" for css in sheets)
-        display(Markup(style + framed("", caption), caption))
+        display(Markup(style + frame("", caption), caption))
 
 
 def sheet():

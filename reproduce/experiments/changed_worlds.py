@@ -13,7 +13,7 @@ from vmc_lib.arm.simulate import Perturbation
 from vmc_lib.cerebellum.adaptation import CORRECTIONS, Adaptation
 from vmc_lib.cerebellum.online import AimCorrection
 from vmc_lib.motor.execution import EYE, execute, rotate_about_eye
-from vmc_lib.motor.planning import draw_targets, plan, surrounded
+from vmc_lib.motor.planning import draw_targets, is_surrounded, plan
 from vmc_lib.motor.templates import load
 
 PRISM = np.radians(6.0)
@@ -47,7 +47,7 @@ def adapt(learner, template_set, rng, perturbation, blocks=BLOCKS, movements=8):
     """
     before, during, _ = blocks
     targets = draw_targets(template_set, 4 * sum(blocks) * movements, rng)
-    inside = targets[surrounded(rotate_about_eye(targets, -PRISM), template_set.points)]
+    inside = targets[is_surrounded(rotate_about_eye(targets, -PRISM), template_set.points)]
     targets = inside[: sum(blocks) * movements].reshape(-1, movements, 2)
     endpoint = [
         learner.update(

@@ -16,14 +16,14 @@ from vmc_lib.where.selective_search import propose
 WAYS = {"rig": ("fast",), "varied": ("single", PUBLISHED.strategy, "fast", "quality")}
 
 
-def boxed_well(boxes, photo):
+def has_good_box(boxes, photo):
     """Whether some box (n, 4) overlaps each of photos.CLASSES by 0.8, (2,)."""
     return iou(boxes, [photo.boxes[name] for name in photos.CLASSES]).max(axis=0) >= MIN_IOU
 
 
 def objects_boxed(found, shots):
-    """`boxed_well` of each photo's boxes, (photos, 2)."""
-    return np.array(list(map(boxed_well, found, shots)))
+    """`has_good_box` of each photo's boxes, (photos, 2)."""
+    return np.array(list(map(has_good_box, found, shots)))
 
 
 def make(folder=photos.FOLDER, ways=WAYS):

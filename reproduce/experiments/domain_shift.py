@@ -36,7 +36,7 @@ def make(
     in-sample, then on the test crops of each level.
     """
     labelled = {
-        split: [labelled_crops(level, split, folder) for level in LEVELS] for split in photos.SPLITS
+        split: [level_crops(level, split, folder) for level in LEVELS] for split in photos.SPLITS
     }
     network = train_narrow_cdbn(concatenate(labelled["train"])[0], patches)
     eyes = [histograms_of_gradients, partial(cdbn_features, network)]
@@ -64,7 +64,7 @@ def concatenate(sets):
     return tuple(np.concatenate(part) for part in zip(*sets, strict=True))
 
 
-def labelled_crops(level, split, folder=photos.FOLDER):
+def level_crops(level, split, folder=photos.FOLDER):
     """Crops (n, 200, 200) and labels (n,) of all shuttlecocks and cups, and a window a photo."""
     rng, found = np.random.default_rng((LEVELS.index(level), photos.SPLITS.index(split))), []
     for photo in photos.load(level, split, folder):

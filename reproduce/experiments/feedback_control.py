@@ -32,7 +32,7 @@ from vmc_lib.motor.feedback import (
     simulate_feedback,
     switch,
 )
-from vmc_lib.motor.planning import draw_targets, exact_weights, plan, surrounded
+from vmc_lib.motor.planning import draw_targets, exact_weights, is_surrounded, plan
 from vmc_lib.motor.templates import START, load, reach
 
 JUMP, JUMPS_AT = 0.05, 0.15  # m and s: how far a target jumps, and when
@@ -67,7 +67,7 @@ def draw_target_jumps(template_set, count, rng, by=JUMP):
     first = draw_targets(template_set, 4 * count, rng)
     angle = rng.uniform(0, 2 * np.pi, len(first))
     second = first + by * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-    inside = surrounded(second, template_set.points)
+    inside = is_surrounded(second, template_set.points)
     if inside.sum() < count:
         raise ValueError(
             f"{inside.sum()} of {count} jumps by {by} m stay within reach; jump less far"

@@ -20,7 +20,7 @@ from vmc_lib.motor.feedback import (
     simulate_feedback,
     switch,
 )
-from vmc_lib.motor.planning import draw_targets, surrounded
+from vmc_lib.motor.planning import draw_targets, is_surrounded
 
 RADIUS, APART = 0.02, 0.03  # of the ball; how near to its middle a way may be meant
 LONG = 0.12  # the straight way, at least: on a short one there is no room for a ball
@@ -105,7 +105,7 @@ def _via_points(template_set):
     low, high = template_set.points.min(axis=0), template_set.points.max(axis=0)
     spots = np.stack(np.meshgrid(*(np.arange(a, b, GRID) for a, b in zip(low, high, strict=True))))
     spots = spots.reshape(2, -1).T
-    spots = spots[surrounded(spots, template_set.points)]
+    spots = spots[is_surrounded(spots, template_set.points)]
     return spots, reference_trajectory(exact_plans(spots, template_set))
 
 

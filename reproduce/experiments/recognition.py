@@ -59,7 +59,7 @@ def confusion_counts(probability, shuttlecock, threshold=0.5):
     return tuple(int(((called == c) & (shuttlecock == s)).sum()) for c, s in pairs)
 
 
-def precision_recall(counts):
+def rates_of_counts(counts):
     """Precision and recall of `confusion_counts`; NaN where a denominator is 0."""
     right, wrong, missed, _ = counts
     return tuple(right / n if n else np.nan for n in (right + wrong, right + missed))

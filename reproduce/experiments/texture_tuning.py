@@ -9,7 +9,7 @@ from vmc_lib.what.crbm import CRBM
 ORDERS = 8  # of a filter's numbers
 
 
-def shuffled(filters, rng):
+def shuffle(filters, rng):
     """The same filters (K, …), the numbers of each in another order."""
     return rng.permuted(filters.reshape(len(filters), -1), axis=1).reshape(filters.shape)
 
@@ -52,7 +52,7 @@ def over_shuffled(crbm, pictures):
     Filters in any order are tuned a little, for each has some direction.
     """
     rng = np.random.default_rng(0)
-    others = (CRBM(shuffled(crbm.W, rng), crbm.b, crbm.a, crbm.c) for _ in range(ORDERS))
+    others = (CRBM(shuffle(crbm.W, rng), crbm.b, crbm.a, crbm.c) for _ in range(ORDERS))
     theirs = np.array([tuning(other, pictures).mean(axis=1) for other in others])
     return tuning(crbm, pictures).mean(axis=1)[:, None] - theirs.T
 

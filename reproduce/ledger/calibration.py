@@ -33,7 +33,7 @@ IN_SAMPLE, HELD_OUT = "in-sample", "held-out"
 FITTED = "The reading is fitted: which way the error points was chosen by the published ratio. "
 
 
-def printed(scenario=SCENARIOS[0]):
+def printed_results(scenario=SCENARIOS[0]):
     """What `load_results` holds of a scenario, read where the command ends."""
     return load_results()[f"{scenario}, {AS_PRINTED}"]
 
@@ -74,10 +74,8 @@ def _table_5():
     name = "error after over planned, {}"
     return [
         *(
-            mean_of_draws(
-                name.format(scenario), number, printed(scenario)[entry], fitted=True, **OFFLINE
-            )
-            for scenario, number in zip(SCENARIOS, (claimed, None), strict=True)
+            mean_of_draws(name.format(s), number, printed_results(s)[entry], fitted=True, **OFFLINE)
+            for s, number in zip(SCENARIOS, (claimed, None), strict=True)
         ),
         *(
             mean_of_draws(name.format(f"from {origin}"), None, left[origin])
@@ -128,7 +126,7 @@ def leaning(movements, preferred):
     return np.degrees(np.arccos(cosine.clip(max=1))).max().round(3)
 
 
-def own(kind, entries, rules):
+def own_rules(kind, entries, rules):
     """What our own rules leave, beside what the paper's did."""
     claimed, found = paper.calibrated_error_ratio(kind), load_results()[SCENARIOS[0]]
     return [
@@ -199,7 +197,7 @@ ROWS = (
         "Ours, Table V",
         "Eq. 4 solved for the error, by the pseudo-inverse.",
         "10_offline",
-        lambda: own("off-line", [f"own off-line, {k} trials" for k in (1, 2, 4)], OFFLINE),
+        lambda: own_rules("off-line", [f"own off-line, {k} trials" for k in (1, 2, 4)], OFFLINE),
         note=OVER_THE_HOLD,
     ),
 )

@@ -7,7 +7,7 @@ import numpy as np
 
 from reproduce import paper
 from reproduce.experiments import cdbn_sensitivity, gabor, second_layers, texture_tuning
-from reproduce.experiments.texture_tuning import shuffled
+from reproduce.experiments.texture_tuning import shuffle
 from reproduce.ledger.entry import (
     ABOVE,
     BELOW,
@@ -55,7 +55,7 @@ def _figure_7():
     inside = power[:, middle, middle].sum((1, 2)) / power.sum((1, 2))
     beyond = [gabor.best_gabor(W)[1] - gabor.best_fit(W, gabor.BLOBS)[1] for W in filters]
     selective = np.abs(_directions(filters))
-    mixed = np.mean([np.abs(_directions(shuffled(filters, rng))) for _ in range(SHUFFLES)], axis=0)
+    mixed = np.mean([np.abs(_directions(shuffle(filters, rng))) for _ in range(SHUFFLES)], axis=0)
     spread = max(np.abs(np.exp(1j * np.angle(_directions(layer))).mean()) for layer in layers)
     above = ABOVE | {"fitted": True}
     return [
@@ -184,7 +184,7 @@ def gabor_correlations(kind):
     network = cdbn.CDBN.load()
     if kind == "W2 shuffled":
         machine = network.second
-        W = shuffled(machine.W, np.random.default_rng(0))
+        W = shuffle(machine.W, np.random.default_rng(0))
         network = replace(network, second=CRBM(W, machine.b, machine.a, machine.c))
     some = network.first.W[:, 0] if kind == "W1" else network.projected_filters()
     return np.array([gabor.best_gabor(W)[1] for W in some])

@@ -29,7 +29,7 @@ def _table_3():
     least, most = np.quantile(learnt["fresh"], (0.025, 0.975), axis=0)
     as_good = (learnt["fresh"] >= paper.TABLE_3["HMAX"]).all(axis=1)
     probability, truth = recognition.load_probabilities("rig", "train")
-    in_sample = recognition.precision_recall(
+    in_sample = recognition.rates_of_counts(
         recognition.confusion_counts(probability["CDBN, MP2"], truth)
     )
     return [
@@ -65,7 +65,7 @@ def _draws(split):
     _, truth = recognition.load_probabilities("rig", split)
     called = hmax_draws.load_called(split)
     counts = [recognition.confusion_counts(row, truth) for row in called]
-    return np.array([recognition.precision_recall(row) for row in counts])
+    return np.array([recognition.rates_of_counts(row) for row in counts])
 
 
 def _width():

@@ -14,8 +14,8 @@ from reproduce.ledger.calibration import (
     IN_SAMPLE,
     OVER_THE_HOLD,
     nearer,
-    own,
-    printed,
+    own_rules,
+    printed_results,
 )
 from reproduce.ledger.entry import BELOW, HELD, Row, mean, mean_of_draws, share
 
@@ -24,12 +24,13 @@ ONLINE = {"better": -1, "rounding": paper.ratio_rounding("online", "planned")}
 
 def _table_6():
     claimed, name = paper.calibrated_error_ratio("online"), "error after over planned, {}"
-    other, practised = "online, the other reading", printed()[f"online, {ratio_name(1, IN_SAMPLE)}"]
+    found, fixed = map(printed_results, SCENARIOS)
+    _, practised = _left(found, 1)
     as_much = (practised >= claimed).sum(), len(practised)
     return [
-        _learned(name.format(SCENARIOS[0]), claimed, printed(), **ONLINE),
-        _learned(name.format(SCENARIOS[1]), None, printed(SCENARIOS[1])),
-        _learned(name.format("the other reading"), None, printed(), other),
+        _learned(name.format(SCENARIOS[0]), claimed, found, **ONLINE),
+        _learned(name.format(SCENARIOS[1]), None, fixed),
+        _learned(name.format("the other reading"), None, found, "online, the other reading"),
         *(_learned(name.format(f"{s}, {HELD}"), None, load_results()[s]) for s in SCENARIOS),
         share("practised: draws that leave as much as the paper's", None, *as_much),
     ]
@@ -58,8 +59,8 @@ def _figure_11():
 def _figure_12():
     name = "error in the tenth experiment over the first, {}"
     return [
-        _tenth(name.format(SCENARIOS[0]), 1, printed(), **BELOW),
-        _tenth(name.format(SCENARIOS[1]), None, printed(SCENARIOS[1])),
+        _tenth(name.format(SCENARIOS[0]), 1, printed_results(SCENARIOS[0]), **BELOW),
+        _tenth(name.format(SCENARIOS[1]), None, printed_results(SCENARIOS[1])),
         *(_tenth(name.format(f"{s}, {HELD}"), None, load_results()[s]) for s in SCENARIOS),
     ]
 
@@ -70,7 +71,7 @@ def _tenth(name, claimed, found, **rest):
 
 
 def _as_good():
-    found, name = printed(), "online over off-line"
+    found, name = printed_results(), "online over off-line"
     held_out, in_sample = (left / found["off-line, published"] for left in _left(found, 1))
     return [mean_of_draws(name, None, held_out, in_sample=in_sample.mean())]
 
@@ -124,7 +125,7 @@ ROWS = (
         "Ours, Table VI",
         "Learning where to aim, for movements never practised.",
         "11_online",
-        lambda: own(
+        lambda: own_rules(
             "online", [f"own online, {k} movements, held-out" for k in (25, 150, 250)], ONLINE
         ),
         note=OVER_THE_HOLD,

@@ -47,7 +47,7 @@ class TrainingImage:
         """How well each candidate fits the object it fits best, (n,)."""
         return iou(self.candidates, self.truth).max(1, initial=0)
 
-    def mirrored(self):
+    def mirror(self):
         """The same image in a mirror."""
         width = self.pixels.shape[1]
         boxes = (
@@ -72,7 +72,7 @@ def training_images(shots, recipe):
         )
         for shot in shots
     ]
-    return plain + [image.mirrored() for image in plain] if recipe.mirror else plain
+    return plain + [image.mirror() for image in plain] if recipe.mirror else plain
 
 
 def labelled_candidates(shots, recipe=PUBLISHED):

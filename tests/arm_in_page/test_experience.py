@@ -10,7 +10,7 @@ from tests.pages import drag, middle
 from vmc_lib.cerebellum.offline import algorithm_1
 from vmc_lib.motor import templates
 from vmc_lib.motor.execution import execute
-from vmc_lib.motor.planning import plan, surrounded, surrounding
+from vmc_lib.motor.planning import is_surrounded, plan, surrounding
 
 pytestmark = pytest.mark.browser
 TARGET = np.array([0.09, -0.37])
@@ -56,7 +56,7 @@ def test_plans_without_some_and_with_one_more_are_pythons(ask):
     while len(asked) < 20:
         target, gone = rng.uniform((0, -0.48), (0.18, -0.32)), rng.choice(len(own.points), 5, False)
         left = np.delete(np.arange(len(past.points)), gone)
-        if surrounded(target, past.points[left]):
+        if is_surrounded(target, past.points[left]):
             asked.append([target.tolist(), gone.tolist()])
             expected.append(plan(target, past, rows=rows(target, left, past)))
     answers = ask(script, [kept.weights.tolist(), asked])

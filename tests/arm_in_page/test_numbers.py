@@ -8,7 +8,7 @@ import pytest
 
 from arm_in_page import live
 from book.figures import whole_arm_live
-from book.figures.whole_arm import lines, placed
+from book.figures.whole_arm import arm_data, lines
 from reproduce.whole_arm import experiment
 from tests.arm_in_page.controls import WHOLE_ARM_TARGET
 from vmc_lib.arm import muscle
@@ -20,7 +20,13 @@ from vmc_lib.arm.simulate import simulate
 from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration
 from vmc_lib.motor import templates
 from vmc_lib.motor.execution import execute
-from vmc_lib.motor.planning import draw_targets, exact_weights, habitual_weights, plan, surrounded
+from vmc_lib.motor.planning import (
+    draw_targets,
+    exact_weights,
+    habitual_weights,
+    is_surrounded,
+    plan,
+)
 from vmc_lib.show.packed import unpack_bytes
 
 WHOLE = 2  # its place among the arms of the page
@@ -105,7 +111,7 @@ def test_joints_and_what_is_drawn_of_the_arm(ask):
 def test_what_is_drawn_of_the_whole_arm(ask, past):
     joints = execute(experiment.plan_reaches(WHOLE_ARM_TARGET, past)).motion.joints[-1]
     for q in (whole_arm_live.START, joints):
-        (ends, ways), data = lines(q), placed(q)
+        (ends, ways), data = lines(q), arm_data(q)
         drawn = ask("return arm.look(asked);", q.tolist(), WHOLE)
         assert np.allclose(drawn["joints"], ends, atol=1e-9)
         bodies = map(data.body, ask("return Object.keys(given.bones);", arm=WHOLE))
@@ -150,7 +156,7 @@ def test_plans(ask, past, arm, name, rule):
         ]
     else:
         own = templates.load()
-        inner = own.points[surrounded(own.points, own.points)]
+        inner = own.points[is_surrounded(own.points, own.points)]
         targets = [*TARGETS, *inner[:2]]  # the last two on a template itself
         plans = [(target, plan(target, own, rule)) for target in targets]
     for target, expected in plans:

@@ -31,7 +31,7 @@ def block_words(*drives):
 def line_words(threshold):
     chances, truth = slid.CHANCES["rig"][0]["HOG"], slid.CHANCES["rig"][1]
     counts = recognition.confusion_counts(chances, truth, threshold)
-    precision, recall = recognition.precision_recall(counts)
+    precision, recall = recognition.rates_of_counts(counts)
     words = f"precision {precision + 1e-9:.3f}, recall {recall + 1e-9:.3f}"
     return words.replace("nan", "–")
 

@@ -49,14 +49,14 @@ def declare():
         lambda place: reaching.planned(PAST, MUSCLE, place, ENDED[SPOTS.index(place)]),
         "c",
         lambda place: f"{place}",
-        in_page=reaching.planned_in_page(PAST, MUSCLE, ENDED),
+        in_page=reaching.plan_in_page(PAST, MUSCLE, ENDED),
         place=Pad(ACROSS, UP),
     )
     explore(
         votes.voted,
         "c",
         lambda target, neurons, evenly: f"{target}, {neurons}, {evenly}",
-        in_page=votes.voted_in_page(),
+        in_page=votes.votes_in_page(),
         target=Pad(AROUND, AROUND),
         neurons=Slider(NEURONS, "neurons", 4),
         evenly=Switch((False, True), "evenly spread"),
@@ -137,8 +137,8 @@ def test_neurons_vote_as_in_python(page, place):
     assert words(seen)[-3:] == ["the reach", "the sum", off]
     assert said.endswith(f"their sum is {off}.")
     tips = np.array([line[1] for line in polylines(seen)])
-    cast = votes.votes(target, votes.preferred(neurons, evenly))
-    wanted = [*cast, target, votes.vote(target, neurons, evenly)]
+    cast = votes.votes(target, votes.preferred_directions(neurons, evenly))
+    wanted = [*cast, target, votes.population_vector(target, neurons, evenly)]
     assert np.abs(tips - on(seen, wanted)).max() < 0.1
 
 

@@ -153,7 +153,7 @@ def test_a_line_between_crops_is_drawn_as_in_python(page, place):
     chances, truth = CHANCES[level][0][method], CHANCES[level][1]
     counts = recognition.confusion_counts(chances, truth, CUTS[place])
     shown = np.float64(re.findall(r"[\d.]+", words(seen)[-1]))
-    assert np.abs(shown - recognition.precision_recall(counts)).max() <= 0.0005 + 1e-6
+    assert np.abs(shown - recognition.rates_of_counts(counts)).max() <= 0.0005 + 1e-6
     dots = np.array(numbers(seen, "circle"))[:, :2]
     assert np.abs(dots - on(seen, np.c_[chances, names._spread(truth)])).max() < 0.1
     [upright] = polylines(seen)

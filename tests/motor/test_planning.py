@@ -11,10 +11,10 @@ from vmc_lib.motor.planning import (
     draw_targets,
     exact_weights,
     habitual_weights,
+    is_surrounded,
     least_change,
     nearest,
     plan,
-    surrounded,
     surrounding,
 )
 from vmc_lib.motor.templates import TemplateSet
@@ -42,7 +42,7 @@ def test_exact_weights_satisfy_equation_4(target):
 
 @pytest.mark.parametrize("rule", [habitual_weights, exact_weights])
 def test_target_on_a_template_uses_that_template_alone(rule, template_set):
-    points = template_set.points[surrounded(template_set.points, template_set.points)]
+    points = template_set.points[is_surrounded(template_set.points, template_set.points)]
     reaches = plan(points, template_set, rule)
     np.testing.assert_allclose(reaches.weights.max(axis=-1), 1, atol=1e-12)
     np.testing.assert_allclose(execute(reaches).endpoint, points, atol=1e-9)
@@ -146,7 +146,7 @@ def test_prism_changes_the_seen_endpoint_alone(template_set):
 @pytest.mark.parametrize("rule", [habitual_weights, exact_weights])
 def test_ten_thousand_random_targets_are_planned_or_refused(rule, template_set):
     targets = np.random.default_rng(4).uniform([-0.1, -0.6], [0.4, -0.2], (10_000, 2))
-    inside = surrounded(targets, template_set.points)
+    inside = is_surrounded(targets, template_set.points)
     assert 1000 < inside.sum() < 9000
     reaches = plan(targets[inside], template_set, rule)
     assert np.abs(reaches.weights).max() < 1.5

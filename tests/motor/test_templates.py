@@ -11,7 +11,7 @@ from vmc_lib.arm.kinematics import inverse_kinematics, turn_towards
 from vmc_lib.data import arrays
 from vmc_lib.motor import inverse_dynamics, templates
 from vmc_lib.motor.execution import execute
-from vmc_lib.motor.planning import plan, surrounded
+from vmc_lib.motor.planning import is_surrounded, plan
 
 HOLD = round(1000 * templates.HOLD)  # ms
 
@@ -40,7 +40,7 @@ def test_template_sets_surround_every_shuttlecock(level):
     shots = [shot for split in photos.SPLITS for shot in photos.load(level, split)]
     places = np.array([turn_towards(shot.target)[1] for shot in shots])
     for spacing in templates.SPACINGS:
-        assert surrounded(places, templates.load(spacing).points).all()
+        assert is_surrounded(places, templates.load(spacing).points).all()
 
 
 def test_shipped_templates_are_reproducible():

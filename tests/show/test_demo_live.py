@@ -116,7 +116,7 @@ def test_a_cell_does_not_end_while_another_thread_draws(live, monkeypatch):
     for _ in range(2):
         live(k=Slider([1, 2], "k"))
     [end_of_cell] = events.callbacks["post_execute"]
-    with widgets.drawing():
+    with widgets.exclusive_pyplot():
         cell = Thread(target=end_of_cell)
         cell.start()
         cell.join(0.1)

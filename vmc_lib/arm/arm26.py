@@ -30,7 +30,7 @@ class Geometry(NamedTuple):
 
 
 @cache
-def loaded(load):
+def model_with_load(load):
     """The model with a weight of `load` kg, a point, held at the wrist; `MODEL` itself for 0."""
     check_load(load)
     if load == 0:
@@ -82,7 +82,7 @@ def dynamics_at(postures, load=0.0):
 
     With a `load` in kg at the wrist.
     """
-    data = mujoco.MjData(loaded(load))
+    data = mujoco.MjData(model_with_load(load))
     return np.array([_snapshot(q, data) for q in postures])
 
 

@@ -160,10 +160,10 @@ def _mujoco_engine(excitations, start, first, perturbation, step, muscle):
     import mujoco
     from mujoco.batch import Batch
 
-    from vmc_lib.arm.arm26 import loaded, muscle_paths
+    from vmc_lib.arm.arm26 import model_with_load, muscle_paths
 
     activation = activations(excitations, first, muscle, step)
-    model = copy(loaded(perturbation.load))
+    model = copy(model_with_load(perturbation.load))
     model.opt.timestep = step
     model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET  # let a blow-up be seen
     arms = Batch(model, len(start), nthread=1, persistent=True)

@@ -16,7 +16,7 @@ import numpy as np
 
 from vmc_lib.cerebellum.online import GranuleCells
 from vmc_lib.motor.execution import execute
-from vmc_lib.motor.planning import Plan, plan, surrounded
+from vmc_lib.motor.planning import Plan, is_surrounded, plan
 from vmc_lib.motor.templates import REACH
 
 SILENT = np.array([0.0, -REACH])  # where the hand ends when every muscle is silent
@@ -83,7 +83,7 @@ class Adaptation:
         if self.corrects == "pull":
             return shift
         shares = SHARES[:, None, None] * shift
-        known = surrounded(plan.target + shares, self.template_set.points)
+        known = is_surrounded(plan.target + shares, self.template_set.points)
         return shares[known.argmax(axis=0), np.arange(len(shift))]
 
     def _aimed(self, habit, place):

@@ -25,8 +25,8 @@ from vmc_lib.motor.planning import (
     Plan,
     exact_weights,
     habitual_weights,
+    is_surrounded,
     plan,
-    surrounded,
     surrounding,
 )
 from vmc_lib.motor.templates import TemplateSet
@@ -185,7 +185,7 @@ def _neighbours(points):
     """The fours of templates (n, 4) that surround some place in the plane."""
     edges = points.min(axis=0), points.max(axis=0)
     spots = np.stack(np.meshgrid(*np.linspace(*edges, 40).T), axis=-1).reshape(-1, 2)
-    return np.unique(surrounding(spots[surrounded(spots, points)], points), axis=0)
+    return np.unique(surrounding(spots[is_surrounded(spots, points)], points), axis=0)
 
 
 def _rows(values):

@@ -108,7 +108,7 @@ def surrounding(target, points):
 
     `NoReach` when a quadrant is empty: the target is outside the plane that experience covers.
     """
-    if not np.all(inside := surrounded(target, points)):
+    if not np.all(inside := is_surrounded(target, points)):
         alone = np.atleast_2d(target)[~np.atleast_1d(inside)][0]
         raise NoReach(f"target {alone} m is not surrounded by templates; move it inside them")
     return _by_quadrant(target, points).argmin(axis=-1)
@@ -125,7 +125,7 @@ def nearest(target, points, count):
     return distance.argsort(axis=-1, kind="stable")[..., :count]
 
 
-def surrounded(target, points):
+def is_surrounded(target, points):
     """Whether targets (…, 2) have a point (of N, 2) in every quadrant round them, (…)."""
     return np.isfinite(_by_quadrant(target, points).min(axis=-1)).all(axis=-1)
 
@@ -145,7 +145,7 @@ def draw_targets(template_set, count, rng):
     """
     low, high = template_set.points.min(axis=0), template_set.points.max(axis=0)
     drawn = rng.uniform(low, high, (4 * count + 20, 2))
-    inside = drawn[surrounded(drawn, template_set.points)]
+    inside = drawn[is_surrounded(drawn, template_set.points)]
     if len(inside) < count:
         raise ValueError(
             f"the templates surround {len(inside)} of {len(drawn)} places drawn, too few for "

@@ -19,8 +19,8 @@ from IPython.display import HTML, display
 from vmc_lib.show.alt_text import alt_text
 from vmc_lib.show.controls import Slider, Switch, as_control
 from vmc_lib.show.data_table import data_tables
-from vmc_lib.show.figures import framed, pictures, side_by_side
-from vmc_lib.show.live import Live, drawing
+from vmc_lib.show.figures import frame, pictures, side_by_side
+from vmc_lib.show.live import Live, exclusive_pyplot
 from vmc_lib.show.numbers import Numbers
 from vmc_lib.show.outputs import Markup, still
 from vmc_lib.show.packed import pack_arrays, pack_json
@@ -81,7 +81,7 @@ def explore(draw, caption, alt=None, in_page=None, data=None, printed=(), **cont
         """The description and the pictures at a position of the grid."""
         values = values_at(place, controls)
         try:
-            return shown(draw, values, name, alt, not in_page)
+            return draw_state(draw, values, name, alt, not in_page)
         except Exception as error:
             error.add_note(f"It was asked for {values}.")
             raise
@@ -109,9 +109,9 @@ def explore(draw, caption, alt=None, in_page=None, data=None, printed=(), **cont
     return Numbers(name, start[0], texts)
 
 
-def shown(draw, values, name, alt=None, tables=True):
+def draw_state(draw, values, name, alt=None, tables=True):
     """What a demo shows for these values of its controls: words, and parts (see `pictures`)."""
-    with drawing(), plt.rc_context(STYLE):
+    with exclusive_pyplot(), plt.rc_context(STYLE):
         picture = draw(**values)
         numbers = data_tables(picture) if tables else []  # before the figures are closed
         words = alt(**values) if callable(alt) else alt or alt_text(picture)
@@ -159,9 +159,9 @@ def _moves(parts, controls):
 def _page(alt, parts, data, caption, controls, name, printed):
     """The demo as HTML: its first state to be seen at once, and compressed data for all others."""
     if not _moves(parts, controls):
-        return framed(side_by_side(parts, alt), caption, name)
+        return frame(side_by_side(parts, alt), caption, name)
     data = f'<script type="application/gzip">{pack_json(data)}</script>'
-    return framed(_face(alt, parts, controls, name, printed) + data, caption, name)
+    return frame(_face(alt, parts, controls, name, printed) + data, caption, name)
 
 
 def _stored(states):
@@ -192,7 +192,7 @@ def _live(state, caption, controls, name):
     """The same demo in a kernel, and a still of it for when the kernel is gone; its first words."""
     alt, parts = state(first_position(controls))
     if not _moves(parts, controls):
-        display(Markup(framed(side_by_side(parts, alt), caption), alt))
+        display(Markup(frame(side_by_side(parts, alt), caption), alt))
         return alt
     current = alt, parts  # what the reader sees
 
@@ -216,8 +216,8 @@ def _live(state, caption, controls, name):
     scripts = SCRIPTS if any(scenes) else PLOT_SCRIPTS
     handle = display(still(alt, parts, name), display_id=True)
     answers = {"state": answer, "still": keep}
-    display(Live(framed(face, "", name), "vmcDemo", scripts, answers, first=[[alt], *scenes]))
-    display(Markup(framed("", caption), caption))
+    display(Live(frame(face, "", name), "vmcDemo", scripts, answers, first=[[alt], *scenes]))
+    display(Markup(frame("", caption), caption))
     _freeze_once()
     return alt
 

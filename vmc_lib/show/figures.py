@@ -112,7 +112,7 @@ def inline(text):
     return _MARKDOWN.renderInline(text)
 
 
-def framed(inside, caption, name=""):
+def frame(inside, caption, name=""):
     """A figure element with its caption (Markdown)."""
     caption = caption and f"<figcaption>{inline(caption)}</figcaption>"
     return f'<figure class="vmc-demo" id="{name}">{inside}{caption}</figure>'

@@ -69,7 +69,7 @@ class Live(anywidget.AnyWidget):
 
 
 @contextmanager
-def drawing():
+def exclusive_pyplot():
     """While one thread draws with pyplot, others wait; of a drawing that fails, nothing is left."""
     with _pyplot:
         before = set(plt.get_fignums())

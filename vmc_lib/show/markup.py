@@ -23,7 +23,7 @@ _STEPS = MaxNLocator(5, steps=[1, 2, 5, 10])
 _SVG_ROOT = 'font-family="DejaVu Sans, Verdana, sans-serif" stroke-linejoin="round"'
 
 
-def styled(markup):
+def with_style_sheet(markup):
     """The markup, in a live kernel with its style sheet: there is no page that has it."""
     return _style_sheet() + markup if render_mode() == "live" else markup
 

@@ -6,7 +6,7 @@ from urllib.parse import quote
 from IPython.display import HTML
 
 from vmc_lib.show.figures import side_by_side
-from vmc_lib.show.markup import styled
+from vmc_lib.show.markup import with_style_sheet
 
 _PANELS = re.compile(r'<div class="vmc-panels".*?(<svg.*?</svg>).*</div>', re.S)
 _NAMESPACE = 'xmlns="http://www.w3.org/2000/svg"'
@@ -17,7 +17,7 @@ class Markup(HTML):
     """Markup with its style sheet; `words` stand for it where only plain text is shown."""
 
     def __init__(self, markup, words):
-        super().__init__(styled(markup))
+        super().__init__(with_style_sheet(markup))
         self.words = words
 
     def __repr__(self):

@@ -16,7 +16,7 @@ from IPython.display import HTML, display
 from vmc_lib.grading import EMPTY, NOT_YET, RIGHT, UNREAD, WRONG, agree, feedback
 from vmc_lib.show.answers import RULES, judge, scales_of
 from vmc_lib.show.figures import details, inline, markdown
-from vmc_lib.show.markup import styled
+from vmc_lib.show.markup import with_style_sheet
 from vmc_lib.show.render_mode import render_mode
 
 # JupyterLab would take Enter as its own, and the answer would stay closed.
@@ -54,7 +54,7 @@ def predict(question, choices, outcome, why):
     title = '<p class="admonition-title">Predict first</p>'
     display(
         HTML(
-            styled(
+            with_style_sheet(
                 f'<div class="admonition tip">{title}<fieldset class="vmc-predict" {_OWN_KEYS}>'
                 f"<legend>{inline(question)}</legend>{buttons}{verdict}</fieldset></div>"
             )
@@ -107,7 +107,7 @@ def _unanswered(answer):
 
 def verdict(text):
     """A line that says how an answer is, HTML."""
-    return styled(f'<p class="vmc-check" role="status">{text}</p>')
+    return with_style_sheet(f'<p class="vmc-check" role="status">{text}</p>')
 
 
 def _field(expected, tolerance, hint, unit):

@@ -16,7 +16,7 @@ def test_shipped_results_have_their_shapes():
 
 
 def test_shipped_results_are_reproducible():
-    sets = [domain_shift.labelled_crops("rig", split) for split in photos.SPLITS]
+    sets = [domain_shift.level_crops("rig", split) for split in photos.SPLITS]
     train, validation, test = [(histograms_of_gradients(x), y) for x, y in sets]
     again = domain_shift.evaluate_over_draws(
         domain_shift.evaluate_linear_readout, train, validation, [test], domain_shift.EQUAL, 6
@@ -26,10 +26,10 @@ def test_shipped_results_are_reproducible():
 
 
 def test_a_photo_gives_its_things_and_a_window():
-    crops, labels = domain_shift.labelled_crops("rig", "test")
+    crops, labels = domain_shift.level_crops("rig", "test")
     assert crops.shape == (120, 200, 200)
     assert labels.sum() == 40
-    _, real = domain_shift.labelled_crops("real", "test")
+    _, real = domain_shift.level_crops("real", "test")
     shots = photos.load("real", "test")
     assert real.sum() == sum(len(photos.boxes_of(shot, "shuttlecock")) for shot in shots)
 

@@ -62,7 +62,7 @@ def test_mirrored_image_has_equal_overlaps(photo):
     assert len(images) == 2
     assert (images[0].overlap == images[1].overlap).all()
     assert (images[1].pixels[:, 0] == photo.image[:, -1]).all()
-    again = images[1].mirrored()
+    again = images[1].mirror()
     assert (again.truth == images[0].truth).all()
     assert (again.candidates == images[0].candidates).all()
 
