@@ -46,14 +46,14 @@ def declare():
         size=Pad(WIDE, HIGH, start=(80, 80)),
     )
     explore(
-        lambda place: reaching.planned(PAST, MUSCLE, place, ENDED[SPOTS.index(place)]),
+        lambda place: reaching.plan_figures(PAST, MUSCLE, place, ENDED[SPOTS.index(place)]),
         "c",
         lambda place: f"{place}",
         in_page=reaching.plan_in_page(PAST, MUSCLE, ENDED),
         place=Pad(ACROSS, UP),
     )
     explore(
-        votes.voted,
+        votes.votes_plot,
         "c",
         lambda target, neurons, evenly: f"{target}, {neurons}, {evenly}",
         in_page=votes.votes_in_page(),

@@ -10,8 +10,8 @@ from reproduce.experiments.recognition import (
     load_classifiers,
     load_probabilities,
     mcnemar_tests,
-    precision_recall,
     probabilities,
+    rates_of_counts,
     table_3,
 )
 from reproduce.peers.hmax import c1, draw_prototypes, hmax, s1
@@ -21,8 +21,8 @@ from vmc_lib import photos
 def test_counts_by_hand():
     counts = confusion_counts([0.9, 0.8, 0.2, 0.6, 0.1], np.array([True, True, True, False, False]))
     assert counts == (2, 1, 1, 1)
-    assert precision_recall(counts) == pytest.approx((2 / 3, 2 / 3))
-    assert np.isnan(precision_recall((0, 0, 3, 1))[0])
+    assert rates_of_counts(counts) == pytest.approx((2 / 3, 2 / 3))
+    assert np.isnan(rates_of_counts((0, 0, 3, 1))[0])
 
 
 def test_methods_are_compared_in_pairs_and_corrected_for_their_number():

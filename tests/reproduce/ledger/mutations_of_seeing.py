@@ -137,14 +137,11 @@ SEEING = {
         learns_one_direction,
     ],
     "Fig. 8": [
-        partial(has_a_layer, layer="first", made=made) for made in (filters.shuffled, at_random)
+        partial(has_a_layer, layer="first", made=made) for made in (filters.shuffle, at_random)
     ],
     "IV B, W²": [
         mixes_the_lessons,
-        *(
-            partial(has_a_layer, layer="second", made=made)
-            for made in (filters.shuffled, at_random)
-        ),
+        *(partial(has_a_layer, layer="second", made=made) for made in (filters.shuffle, at_random)),
     ],
     "III, Block 1-2, time": [mixes_up_the_films, heeds_what_changes_most],
 }
