@@ -6,7 +6,7 @@ from itertools import product
 
 import numpy as np
 
-from book.figures.panels import mark_now, panels
+from book.figures.panels import mark_now, panels, shade
 from book.figures.reaching import norm_mm
 from reproduce.experiments.controller_comparison import templates_with_noise
 from reproduce.experiments.optimal_corrections import HOLD
@@ -123,7 +123,7 @@ def scatter_and_miss(uncorrected, weak_miss, corrected, corrected_weak_miss):
         left.plot(time, scatter, color=COLOURS[hue], label=rule)
     left.plot(time, corrected, color=COLOURS["blue"], label="corrected")
     left.axvline(0.35, color=COLOURS["grey"], lw=1)
-    left.axvspan(0.7, 1.5, color=COLOURS["grey"], alpha=0.15, lw=0)
+    shade(left, 0.7, 1.5)
     left.set(xlabel="time (s)", ylabel="scatter (mm)", ylim=(0, 3.5))
     left.set_title(f"in the hold {corrected[100:].mean():.1f} mm")
     left.legend()

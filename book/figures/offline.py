@@ -5,7 +5,7 @@ from functools import partial
 import matplotlib.pyplot as plt
 import numpy as np
 
-from book.figures.panels import curves, mark_now, panels
+from book.figures.panels import curves, mark_now, panels, shade
 from book.figures.reaching import corrections, ends, mean_mm, norm_mm, reaches
 from reproduce import paper
 from vmc_lib.arm.dynamics import hand
@@ -207,7 +207,7 @@ def after_the_command(away, reach):
     """Those distances by name, of one reach (its number as text) or the mean; the hold in grey."""
     fig, ax = panels(size=(6.0, 3.2))
     time = 1 + np.arange(next(iter(away.values())).shape[1]) * templates.EVERY / 1000
-    ax.axvspan(1, 1 + templates.HOLD, color=COLOURS["grey"], alpha=0.15, lw=0)
+    shade(ax, 1, 1 + templates.HOLD)
     for name, each in away.items():
         mm = each[int(reach) - 1] if reach.isdigit() else each.mean(axis=0)
         ax.plot(time, mm, label=name)

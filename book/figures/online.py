@@ -1,7 +1,7 @@
 """Figures of the chapter on online calibration: learning curves, granule cells, changed worlds."""
 
 from book.figures.offline import SIDE_BY_SIDE, in_plane
-from book.figures.panels import curves, panels
+from book.figures.panels import curves, panels, shade_change
 from book.figures.reaching import mean_mm, reach_scene, reaches
 from reproduce.experiments.calibration import SCENARIOS, ratio_name
 from reproduce.experiments.changed_worlds import BLOCKS, CURES
@@ -156,8 +156,7 @@ def adaptation(templates, adaptations, block, change, cure):
     curve, baseline = adaptations[change, cure], adaptations[change, CURES[-1]]
     errors = 1000 * curve.error
     reaches(left, templates, curve.target[block], curve.endpoint[block])
-    first, last = BLOCKS[0] - 0.5, sum(BLOCKS[:2]) - 0.5
-    right.axvspan(first, last, color=COLOURS["grey"], alpha=0.15, lw=0)
+    shade_change(right, BLOCKS)
     name = cure
     if cure != CURES[-1]:
         name = f"correct the {cure}"
@@ -177,7 +176,7 @@ def clamp_plot(drifts, clamp):
     fig, ax = panels(size=(6.5, 3))
     for drift in drifts.values():
         ax.plot(drift, color=COLOURS["grey"], alpha=0.5, gid="other clamps")
-    ax.axvspan(BLOCKS[0] - 0.5, sum(BLOCKS[:2]) - 0.5, color=COLOURS["grey"], alpha=0.15, lw=0)
+    shade_change(ax, BLOCKS)
     ax.axhline(-clamp, ls="--", color=COLOURS["grey"])
     last, drift = sum(BLOCKS[:2]) - 1, drifts[clamp]
     curves(ax, range(len(drift)), {f"{clamp}°": drift}, now=(last, drift[last]))

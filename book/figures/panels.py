@@ -51,6 +51,17 @@ def mark_now(ax, x, y):
     ax.plot(x, y, "o", ms=9, color=COLOURS["red"], clip_on=False, gid="now")
 
 
+def shade(ax, first, last):
+    """Grey behind the curves, from `first` to `last`."""
+    ax.axvspan(first, last, color=COLOURS["grey"], alpha=0.15, lw=0)
+
+
+def shade_change(ax, blocks):
+    """Grey behind the blocks in a changed world: (before, during, after) it, so many."""
+    before, during, _ = blocks
+    shade(ax, before - 0.5, before + during - 0.5)
+
+
 def strip_plot(rows, measure, middle=np.median, xlim=None, text="{:.1f}"):
     """Every value of each row, name -> (n,), as a dot on a logarithmic axis, and their middle.
 

@@ -105,7 +105,7 @@ def _section(cells, is_core):
     return Section(title.strip(), is_core, *reading_and_demos(cells), EXERCISE * exercises)
 
 
-def minutes(chapters, kind="read", core=True):
-    """Minutes of a session's chapters, to "read", or for "demos" or "exercises"; of the core."""
+def minutes(chapters, kind="read"):
+    """Minutes of the core of a session's chapters: to "read", or for "demos" or "exercises"."""
     several = chain.from_iterable(map(sections, chapters))
-    return sum(getattr(section, kind) for section in several if section.core or not core)
+    return sum(getattr(section, kind) for section in several if section.core)

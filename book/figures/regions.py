@@ -158,10 +158,10 @@ def recipe_plot(best, overlap):
 def fresh_plot(level, measure):
     """Shares on the fresh test set, and what forty photos would know of them: a dot plot."""
     counts, part = fresh_test_set.load_counts(), MEASURES.index(measure)
-    rows = {row: fresh_test_set.rates(*counts[row][level])[part] for row in FRESH_ROWS}
+    rows = {row: fresh_test_set.wilson_rates(*counts[row][level])[part] for row in FRESH_ROWS}
     if level == "rig":
         mean = np.mean([counts["IoU", k][level] for k in range(localisation.TRAININGS)], axis=0)
-        rows["published"] = fresh_test_set.rates(*mean)[part]
+        rows["published"] = fresh_test_set.wilson_rates(*mean)[part]
     few = {row: (share, *wilson(OBJECTS * share, OBJECTS)) for row, (share, *_) in rows.items()}
     series = {"fresh photos": rows, "40 photos": few}
     return dot_plot(series, f"{measure}, {level}", None, (0, 1.02))

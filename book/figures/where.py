@@ -79,9 +79,9 @@ def nearest(truth, boxes, colour="green"):
     return marks
 
 
-def right_and_wrong(image, boxes, truth, good=MIN_IOU):
+def right_and_wrong(image, boxes, truth):
     """The image with its boxes (n, 4): green where they hold an object, red where they do not."""
-    right = iou(boxes, list(truth.values())).max(1, initial=0) >= good
+    right = iou(boxes, list(truth.values())).max(1, initial=0) >= MIN_IOU
     return photo_view(
         image, [(b, "", "green" if r else "red") for b, r in zip(boxes, right, strict=True)]
     )

@@ -5,7 +5,7 @@ Hands move in the plane, in metres, with a sample every millisecond.
 
 import numpy as np
 
-from book.figures.panels import curves, panels
+from book.figures.panels import curves, panels, shade, shade_change
 from book.figures.reaching import RING, norm_mm
 from reproduce.experiments import feedback_control as measure
 from reproduce.experiments.path_measures import end_error, end_speed, end_swing, push_error
@@ -19,7 +19,6 @@ from vmc_lib.show.palette import COLOURS
 SIZE, WITHIN = (8.2, 3.4), ((-0.08, 0.3), (-0.53, -0.2))  # inches; m
 EVERY = 10  # ms
 GUIDE = {"color": COLOURS["grey"], "gid": "guide"}
-SHADE = {"color": COLOURS["grey"], "alpha": 0.15, "lw": 0}
 
 
 def path_and_distance(templates, path, goal, titles=("", ""), reference=None, top=200):
@@ -47,7 +46,7 @@ def target_jump(templates, paths, first, second, k, time):
     """The k-th of n paths (n, T, 2) until a `time` in s; targets jump from (2,) to (n, 2)."""
     fig, left, right = path_and_distance(templates, paths[k, : round(1000 * time) + 1], second[k])
     left.plot(*first, "o", ms=9, **RING, alpha=0.35, gid="target before")
-    right.axvspan(measure.JUMPS_AT, measure.JUMPS_AT + SIGHT.delay, **SHADE)
+    shade(right, measure.JUMPS_AT, measure.JUMPS_AT + SIGHT.delay)
     distances = norm_mm(paths[:, ::EVERY] - second[:, None])
     seconds = EVERY / 1000 * np.arange(distances.shape[1])
     right.plot(seconds, distances[k], lw=1, zorder=1.9, **GUIDE)
@@ -111,8 +110,7 @@ def curl_field(templates, paths, reference, deviations, block, blocks):
     for path, line in zip(paths, reference, strict=True):
         left.plot(*line[::20].T, ":", lw=1, **GUIDE)
         left.plot(*path[::20].T, color=COLOURS["blue"])
-    on = blocks[0] - 0.5, blocks[0] + blocks[1] - 0.5
-    right.axvspan(*on, **SHADE)
+    shade_change(right, blocks)
     curves(right, range(len(deviations)), {"": deviations[: block + 1]}, (block, deviations[block]))
     bound = 1.2 * np.abs(deviations).max()
     right.set(xlabel="block of 8 reaches", ylabel="to the left (mm)")

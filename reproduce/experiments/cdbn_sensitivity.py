@@ -23,11 +23,11 @@ def load_results():
     return {k: (kept[f"{k}/filters"], kept[f"{k}/counts"]) for k in VARIATIONS}
 
 
-def accuracy(results, split="test"):
-    """Named right, all levels together: (n_w, seed) -> read-out -> share."""
+def accuracy(results):
+    """Named right in test photos, all levels together: (n_w, seed) -> read-out -> share."""
     shares = {}
     for variation, (_, counts) in results.items():
-        of = counts[:, :, SPLITS.index(split)].sum(0)
+        of = counts[:, :, SPLITS.index("test")].sum(0)
         right = (of[:, 0] + of[:, 3]) / of.sum(1)
         shares[variation] = dict(zip(READ_OUTS, right.tolist(), strict=True))
     return shares

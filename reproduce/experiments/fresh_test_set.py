@@ -61,7 +61,7 @@ def load_counts():
     return {tuple(q) if isinstance(q, list) else q: levels for q, levels in kept}
 
 
-def rates(right, wrong, missed):
+def wilson_rates(right, wrong, missed):
     """Precision and recall, and the 95 % interval of each (Wilson): ((share, low, high), …).
 
     The intervals take the counts as independent, which those of several boxes on one object are
@@ -79,7 +79,7 @@ def table_1():
 def rates_by_seed(question):
     """Likewise of a kernel, or for Table II of one of the READINGS: (trainings, 2)."""
     counts = load_counts()
-    rows = [rates(*counts[question, seed]["rig"]) for seed in range(TRAININGS)]
+    rows = [wilson_rates(*counts[question, seed]["rig"]) for seed in range(TRAININGS)]
     return np.array([[share for share, *_ in row] for row in rows])
 
 
@@ -89,7 +89,7 @@ def markdown_table(*questions):
     for question in questions:
         cells = [question if isinstance(question, str) else "{}, seed {}".format(*question)]
         for level in photos.LEVELS:
-            parts = rates(*counts[question][level])
+            parts = wilson_rates(*counts[question][level])
             cells.append(
                 " / ".join(f"{share:.3f} ({low:.2f}–{high:.2f})" for share, low, high in parts)
             )

@@ -5,20 +5,20 @@ import numpy as np
 from vmc_lib.boxes import MIN_IOU, iou
 
 
-def precision_recall(shots, boxes, overlap=MIN_IOU):
-    """Precision and recall of a list of boxes a photo: a box is right at IoU `overlap` or more.
+def precision_recall(shots, boxes):
+    """Precision and recall of a list of boxes a photo: a box is right at an IoU of MIN_IOU or more.
 
     Precision is the share of boxes that are right, recall that of objects with a right box.
     """
-    return tuple(float(rates(best, overlap)) for best in best_overlaps(shots, boxes))
+    return tuple(float(rates(best, MIN_IOU)) for best in best_overlaps(shots, boxes))
 
 
-def true_positives(shots, boxes, overlap=MIN_IOU):
+def true_positives(shots, boxes):
     """Of a list of boxes a photo, which boxes are right, and which objects have a right box.
 
     Truth values for all boxes of all photos in turn, and for all objects.
     """
-    return tuple(best >= overlap for best in best_overlaps(shots, boxes))
+    return tuple(best >= MIN_IOU for best in best_overlaps(shots, boxes))
 
 
 def best_overlaps(shots, boxes):

@@ -23,7 +23,7 @@ def _table_3():
     exact = {"better": 1, "rounding": paper.SHARE_3}
     fresh = fresh_test_set.load_counts()
     counts = [fresh["MP2", seed]["rig"] for seed in fresh_test_set.NETWORK_SEEDS]
-    cdbn_rows = np.array([[s for s, *_ in fresh_test_set.rates(*row)] for row in counts])
+    cdbn_rows = np.array([[s for s, *_ in fresh_test_set.wilson_rates(*row)] for row in counts])
     n = np.sum(counts, axis=1).mean()
     learnt = {split: _draws(split) for split in ("fresh", "train")}
     least, most = np.quantile(learnt["fresh"], (0.025, 0.975), axis=0)

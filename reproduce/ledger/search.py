@@ -20,10 +20,10 @@ UNSURE = 2  # boxes a photo: the paper says 130 in average and 10,560 in all, of
 
 
 @cache
-def rois(split, strategy=PUBLISHED.strategy):
+def rois(split):
     """How many positive and negative RoIs each photo of the rig has: (2, photos)."""
     best = [
-        iou(candidates(p, strategy), list(p.boxes.values())).max(axis=1)
+        iou(candidates(p, PUBLISHED.strategy), list(p.boxes.values())).max(axis=1)
         for p in photos.load("rig", split)
     ]
     return np.array([[(b >= MIN_IOU).sum() for b in best], [(b <= 0.5).sum() for b in best]])

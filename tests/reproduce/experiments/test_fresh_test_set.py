@@ -61,12 +61,12 @@ def test_fresh_counts_of_shipped_photos_equal_the_tables():
     tables |= localisation.table_2("rig", "test")
     for question in tables.keys() & counts.keys():
         numbers = counts[question]
-        shares = [share for share, *_ in fresh_test_set.rates(*numbers)]
+        shares = [share for share, *_ in fresh_test_set.wilson_rates(*numbers)]
         assert shares == pytest.approx(tables[question], abs=0.02)
 
 
 def test_shares_by_hand():
-    (precision, low, high), (recall, *_) = fresh_test_set.rates(30, 10, 20)
+    (precision, low, high), (recall, *_) = fresh_test_set.wilson_rates(30, 10, 20)
     assert (precision, recall) == (0.75, 0.6)
     assert low < precision < high
     assert np.isclose(high - low, 0.26, atol=0.01)
@@ -76,7 +76,7 @@ def test_a_table_has_a_row_for_each_question():
     *_, first, last = fresh_test_set.markdown_table("linear", ("MP2", 1)).splitlines()
     assert first.startswith("| linear |")
     assert last.startswith("| MP2, seed 1 |")
-    (precision, *_), (recall, *_) = fresh_test_set.rates(
+    (precision, *_), (recall, *_) = fresh_test_set.wilson_rates(
         *fresh_test_set.load_counts()["linear"]["rig"]
     )
     assert f"{precision:.3f}" in first.split("|")[2]
