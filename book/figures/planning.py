@@ -7,13 +7,13 @@ from book.figures.panels import panels
 from book.figures.reaching import arrows, ends, norm_mm, plane
 from reproduce.experiments.planning_error import TARGETS, mixed_and_reached
 from reproduce.peers import optimal_control
-from reproduce.peers.minimum_variance import reach_measures
+from reproduce.peers.minimum_variance import kinematic_measures
 from vmc_lib.arm.model import MUSCLES
 from vmc_lib.motor import templates
 from vmc_lib.show import table
 from vmc_lib.show.palette import COLOURS
 
-WATCHED = {  # of `reach_measures`, in words
+WATCHED = {  # of `kinematic_measures`, in words
     "path": "way / straight way",
     "farthest": "farthest from the target in the hold (mm)",
     "speed": "speed in the hold (mm/s)",
@@ -96,7 +96,7 @@ def paths_table(motions, targets):
     """Medians and ranges of how each rule's reaches go, rule -> `HeldMotion`: a Markdown table."""
     rows = {}
     for name, motion in motions.items():
-        measures = reach_measures(motion, targets)
+        measures = kinematic_measures(motion, targets)
         ends = ((np.median(x), x.min(), x.max()) for x in map(measures.get, WATCHED))
         rows[name] = ["{:.2g} ({:.2g} to {:.2g})".format(*three) for three in ends]
     return table(["median (range)", *WATCHED.values()], rows)
@@ -105,7 +105,8 @@ def paths_table(motions, targets):
 def costs_table(commands, target):
     """What commands for one target (name -> (T, 6)) reach and cost: a Markdown table."""
     u = np.stack([*commands.values()])
-    measures, effort = reach_measures(templates.reach(u), target[None]), optimal_control.effort(u)
-    columns = measures["miss"], measures["farthest"], measures["path"], 1000 * effort
+    measures = kinematic_measures(templates.reach(u), target[None])
+    effort = 1000 * optimal_control.effort(u)
+    columns = measures["miss"], measures["farthest"], measures["path"], effort
     heads = "plan", "miss (mm)", "farthest in the hold (mm)", WATCHED["path"], "effort (×10⁻³)"
     return table(heads, dict(zip(commands, np.transpose(columns), strict=True)), ".2f")

@@ -98,7 +98,7 @@ def compare_rules(rng, repeats=REPEATS):
     """By rule and measure, one number for each of the inner targets.
 
     How far the hand scatters over the hold when the reach is repeated on an arm that wavers by
-    `LEVEL` mm (mm, a standard deviation), the effort (10⁻³), and `reach_measures`.
+    `LEVEL` mm (mm, a standard deviation), the effort (10⁻³), and `kinematic_measures`.
     """
     noise, found = partial(motor_noise.with_noise, share=noise_share(), rng=rng), {}
     for name, excitations in excitations_by_rule().items():
@@ -107,12 +107,12 @@ def compare_rules(rng, repeats=REPEATS):
         found[name] = {
             "scatter": 1000 * np.sqrt(variance),
             "effort": 1000 * optimal_control.effort(excitations),
-            **reach_measures(reach(excitations), TARGETS[INNER]),
+            **kinematic_measures(reach(excitations), TARGETS[INNER]),
         }
     return found
 
 
-def reach_measures(motion, targets):
+def kinematic_measures(motion, targets):
     """Numbers by name, (n,) each, of undisturbed reaches for targets (n, 2): a `HeldMotion`.
 
     How far the hand misses, and is from its target at most during the hold (mm); how fast it moves

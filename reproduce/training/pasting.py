@@ -45,7 +45,7 @@ def paste_cutout(background, cutout, rng):
     x = transform_cutout(cutout, rng)
     height, width = x.shape[:2]
     top, left = rng.integers(np.subtract(image.shape[:2], (height, width)))
-    colour, alpha = relight(x[..., :3], rng), x[..., 3:]
+    colour, alpha = jitter_colour(x[..., :3], rng), x[..., 3:]
     image *= 1 - shadow(alpha[..., 0], (top, left), rng)[..., None]
     there = image[top : top + height, left : left + width]
     there += alpha * (colour - there)
@@ -71,8 +71,8 @@ def transform_cutout(cutout, rng):
     return part[: photos.HEIGHT - 1, : photos.WIDTH - 1]
 
 
-def relight(colour, rng):
-    """Colours (h, w, 3) in another light: brighter or darker, warmer or colder, uneven."""
+def jitter_colour(colour, rng):
+    """Colour jitter of a picture (h, w, 3): brighter or darker, warmer or colder, uneven."""
     gain = np.exp(rng.normal(0, 0.25) + rng.normal(0, 0.06, 3))
     slope = 1 + rng.uniform(-0.4, 0.4) * np.linspace(-1, 1, len(colour))
     return np.float32(colour * gain * slope[:, None, None])
