@@ -39,7 +39,7 @@ def draw(above, book, cell, name, places, data=""):
 
 @lru_cache(8)
 def prepared(above, cell, data=""):
-    """What `explore` is asked for in a cell: a demo as `shown` takes it, its controls, its data."""
+    """What a cell asks `explore` for: a demo as `draw_state` takes it, its controls, its data."""
     asked, errors, kept = [], [], show.explore
 
     def explore(*given, **named):
