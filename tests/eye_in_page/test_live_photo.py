@@ -88,7 +88,7 @@ def test_it_takes_what_the_browsers_camera_shows(chromium, site, html, tmp_path)
     options = browser.options(browser.find())
     options["args"] = [*options["args"], *FAKE, f"--use-file-for-fake-video-capture={film}"]
     films = chromium.browser_type.launch(**options)
-    page = pages.open_html(films.new_context(offline=True), site, html)
+    page = pages.open_html(pages.patient(films.new_context, offline=True), site, html)
     page.get_by_role("button", name="Live").click()
     assert "misses by" in status(page, "After")
     assert page.errors == []

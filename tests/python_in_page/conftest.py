@@ -1,7 +1,6 @@
 """The page's Python, packed, in a folder that has the book's scripts."""
 
 import pytest
-from playwright.sync_api import expect
 
 from python_in_page import pack
 from tests import pages
@@ -24,14 +23,6 @@ STUB = '''def {name}(u, a, rise, fall):
 MECHANISM = "def cube(x):\n    return x**3\n\n\nassert cube(twice(2)) == 64"
 ASK = "(question) => vmcPython.ask(question, () => {})"
 CELL = '<div class="cell"><div class="cell_input"><pre>{}</pre></div></div>'
-
-
-@pytest.fixture
-def patient():
-    """Python takes a while to start."""
-    expect.set_options(timeout=60_000)
-    yield
-    expect.set_options(timeout=5_000)
 
 
 @pytest.fixture(scope="session")
