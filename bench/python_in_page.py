@@ -7,8 +7,6 @@ import inspect
 from pathlib import Path
 from time import perf_counter
 
-from playwright.sync_api import sync_playwright
-
 from bench.report import publish
 from book.exercises.muscle import activation_rates
 from tools import browser
@@ -35,11 +33,9 @@ def verdicts(chromium, count):
 
 def main():
     """Measure the first verdict in pages just opened, and later ones in one of them."""
-    with sync_playwright() as playwright:
-        chromium = playwright.chromium.launch(**browser.options(browser.find()))
+    with browser.launch() as chromium:
         first = [next(verdicts(chromium, 1)) for _ in range(PAGES)]
         _, *later = verdicts(chromium, 1 + LATER)
-        chromium.close()
     rows = {"first": min(first), "later": min(later)}
     publish("python_in_page", [{"verdict": k, "s": round(s, 2)} for k, s in rows.items()])
 

@@ -114,19 +114,16 @@ def outputs(monkeypatch):
 @pytest.fixture(scope="session")
 def chromium():
     """A headless browser; without one the test is skipped, in continuous integration it fails."""
-    from playwright.sync_api import expect, sync_playwright
+    from playwright.sync_api import expect
 
     from tools import browser
 
-    path = browser.find()
-    if not path:
+    if not browser.find():
         (pytest.fail if os.environ.get("CI") else pytest.skip)(browser.MISSING)
     expect.set_options(timeout=pages.PATIENCE)
-    with sync_playwright() as playwright:
-        chromium = playwright.chromium.launch(**browser.options(path))
+    with browser.launch() as chromium:
         chromium.new_context = partial(pages.patient, chromium.new_context)
         yield chromium
-        chromium.close()
 
 
 @pytest.fixture(scope="module")

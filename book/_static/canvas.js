@@ -21,14 +21,13 @@ const vmcDrawScaled = (picture, scale, canvas) => {
 
 /* The reader's own pictures, chosen or dropped on a box: `take(picture, file)` is given each that this browser can
    read, `say` why it cannot. Returns what takes a file. */
-const vmcOwnPictures = (box, button, input, take, say) => {
+const vmcOwnPictures = (box, input, take, say) => {
   const read = async (file) => {
     if (!file) return say("That was no file: save the photo first, then choose it here.");
     const picture = await createImageBitmap(file).catch(() => null);
     if (picture) return take(picture, file);
     say(`This browser cannot read ${file.name}: save it, or a phone's HEIC, as a JPEG or PNG.`);
   };
-  button.addEventListener("click", () => input.click());
   input.addEventListener("change", () => read(input.files[0]).then(() => (input.value = "")));
   box.addEventListener("dragover", (event) => event.preventDefault());
   box.addEventListener("drop", (event) => {

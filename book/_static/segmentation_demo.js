@@ -82,13 +82,14 @@ const vmcSegmentationDemo = (box) => {
   play.addEventListener("click", () => (play.textContent === "Play" ? run() : stop()));
   for (const slider of [k, merged]) slider.addEventListener("input", () => { stop(); drawn(); });
 
-  vmcOwnPictures(box, choose, file, (picture, { name }) => {
+  vmcOwnPictures(box, file, (picture, { name }) => {
     say.textContent = `${name} stays in this page: it is sent nowhere.`;
     merged.value = 0;
     if (!look(picture)) return;
     still.src = canvas.toDataURL("image/jpeg", 0.9);
     run();
   }, (why) => (say.textContent = why));
+  choose.addEventListener("click", () => file.click());
   box.dataset.ready = "";
   return stop;
 };

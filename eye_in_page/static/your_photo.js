@@ -21,7 +21,8 @@ const vmcYourPhoto = (() => {
       const svg = box.querySelector("svg:has(image)"), ours = svg.querySelector("image").getAttribute("href");
       this.photo = new vmcPhotoMarks.PhotoMarks(svg, this.given);
       const { own, example, file } = this.form.elements;
-      const take = vmcOwnPictures(box, own, file, (picture) => this.look(picture), (why) => this.say(why));
+      const take = vmcOwnPictures(box, file, (picture) => this.look(picture), (why) => this.say(why));
+      own.addEventListener("click", () => file.click());
       example.addEventListener("click", () => this.takeExample(ours));
       this.form.addEventListener("submit", (event) => event.preventDefault());
       addEventListener("paste", ({ clipboardData: { files } }) => files.length && take(files[0]));

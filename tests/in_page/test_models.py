@@ -85,12 +85,12 @@ def test_a_machine_between_two_clouds_is_that_of_python(page, place, kernel):
     clouds, side, svm = regions.margin(cost, kernel, yours)
     svm.set_params(tol=1e-6).fit(clouds, side)
     labels, plane = np.where(side, 1, -1).tolist(), np.random.default_rng(0).uniform(-4, 5, (50, 2))
-    alpha, scores, passes = page.evaluate(
+    alpha, scores, steps = page.evaluate(
         """([points, labels, cost, kernel, plane]) => {
-          let reads = 0; // of each label, about once a step
+          let reads = 0; // of the labels, two for each in a step
           const counted = new Proxy(labels, { get: (all, key) => (reads++, all[key]) });
           const { alpha, score } = vmcInPage.margin.fit(points, counted, cost, kernel);
-          return [alpha, plane.map(score), reads / labels.length];
+          return [alpha, plane.map(score), reads / labels.length / 2];
         }""",
         [clouds.tolist(), labels, cost, kernel, plane.tolist()],
     )
@@ -98,7 +98,7 @@ def test_a_machine_between_two_clouds_is_that_of_python(page, place, kernel):
     expected[svm.support_] = abs(svm.dual_coef_[0])
     assert np.abs(alpha - expected).max() < 1e-3 * cost
     assert np.abs(scores - svm.decision_function(plane)).max() < 1e-3
-    assert passes < 5000  # or the border would lag behind the reader's hand
+    assert steps < 5000  # or the border would lag behind the reader's hand
 
 
 @pytest.mark.parametrize("place", [(10, 0, 0), (10, 45, 45), (40, 80, 20)])
