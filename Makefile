@@ -65,7 +65,7 @@ data: $(READY)
 
 bench: $(READY) .bench/.ready
 	for name in $(PEERED); do .bench/bin/python -m bench.$$name || exit 1; done
-	for name in book in_page python_in_page seat live; do $(BIN)/python -m bench.$$name || exit 1; done
+	for name in book in_page seat live; do $(BIN)/python -m bench.$$name || exit 1; done
 
 .bench/.ready: requirements.txt constraints.txt bench/requirements.txt
 	$(PYTHON) -m venv .bench

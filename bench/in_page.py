@@ -7,7 +7,6 @@ from pathlib import Path
 from time import perf_counter
 
 import numpy as np
-from playwright.sync_api import sync_playwright
 
 from bench.report import publish, seconds
 from reproduce.whole_arm import habits
@@ -40,8 +39,7 @@ def in_page(name, reaches):
 
     An arm that `reaches` is drawn in one reach after the other, any other runs by itself.
     """
-    with sync_playwright() as playwright:
-        chromium = playwright.chromium.launch(**browser.options(browser.find()))
+    with browser.launch() as chromium:
         page = chromium.new_context(offline=True).new_page()
         page.goto((BOOK / f"{name}.html").as_uri())
         arm = page.locator(".vmc-live")
@@ -60,7 +58,6 @@ def in_page(name, reaches):
         if not reaches:
             arm.locator("[name=main]").click()  # pause
         pace = page.evaluate(LIFE, COUNT * STEP)
-        chromium.close()
     return loading, frames, pace
 
 

@@ -3,6 +3,7 @@
 A file holds the figure as its page has it, and of the book's scripts those that the figure needs.
 """
 
+import json
 import re
 import shutil
 from functools import cache
@@ -39,6 +40,7 @@ MADE_BY = {
 USES = re.compile(r"(?<![\w?)]\.)\bvmc[A-Z]\w*")  # a script's globals that must be there
 MAKES = re.compile(r"\b(vmc[A-Z]\w*)(?:(?:\.\w+)? = |, \(\(\) =>)")  # those it makes, or adds to
 GIVEN = re.compile(r'(?<=<script type="application/json">)[^<]+')  # what an arm has from Python
+GIVE = 'document.querySelector(".vmc-live > script").textContent = {};\n'
 PACKED = '<script type="application/gzip" id="{}">{}</script>'
 SOURCE = (
     "From <cite>{book}</cite>, “{chapter}”. Text and pictures: CC BY 4.0; code: BSD 3-Clause.{rest}"
@@ -89,11 +91,9 @@ def demo_page(chapter, heading, title, figure, static):
     vendored = [name for mark, names in VENDORED.items() if mark in figure for name in names]
     files = {name: _packed_file(static / "vendor" / name) for name in vendored}
     plain = scripts_of(figure, static)
-    if given := GIVEN.search(figure):  # an arm starts when this is unpacked
-        files |= {
-            "given": pack_bytes(given[0].encode()),
-            "start.js": pack_bytes(plain.pop("start.js").encode()),
-        }
+    if given := GIVEN.search(figure):  # an arm starts when it has this
+        script = GIVE.format(json.dumps(given[0])) + plain.pop("start.js")
+        files["start.js"] = pack_bytes(script.encode())
     figure = re.sub(r"</?a\b[^>]*>", "", GIVEN.sub("", figure))  # what is linked stays in the book
     scripts = [PACKED.format(name, text) for name, text in files.items()]
     scripts += [f"<script>\n{text}</script>" for text in plain.values()]

@@ -10,7 +10,6 @@ from tempfile import TemporaryDirectory
 
 import yaml
 from bs4 import BeautifulSoup
-from playwright.sync_api import sync_playwright
 
 from kit.__main__ import build
 from tools import browser
@@ -104,8 +103,7 @@ def _join(articles):
 
 
 if __name__ == "__main__":
-    with sync_playwright() as playwright:
-        chromium = playwright.chromium.launch(**browser.options(browser.find()))
+    with browser.launch() as chromium:
         build(ROOT / "_build/kit", ROOT / "_build/html/book")
         key = ROOT / "_build/kit/key.html"
         print_book(chromium, ROOT / "_build/html", names(), ROOT / "_build/book.pdf", key)

@@ -3,11 +3,11 @@
 A question is a group from which Canvas gives each student one variant.
 """
 
-import io
+from functools import partial
 from xml.etree import ElementTree
-from zipfile import ZipFile, ZipInfo
 
 from kit.gift import item_names
+from vmc_lib.show.packed import pack_zip
 
 SPACE = "http://www.imsglobal.org/xsd/ims_qtiasiv1p2"
 PACKAGE = "http://www.imsglobal.org/xsd/imscp_v1p1"
@@ -22,12 +22,9 @@ def package(bank):
     for (chapter, name), variants in bank.items():
         chapters.setdefault(chapter, {})[name] = variants
     files = {f"{chapter}.xml": _quiz(chapter, groups) for chapter, groups in chapters.items()}
-    buffer = io.BytesIO()
-    with ZipFile(buffer, "w") as zipped:
-        for path, tree in {"imsmanifest.xml": _manifest(files), **files}.items():
-            text = ElementTree.tostring(tree, encoding="utf-8", xml_declaration=True)
-            zipped.writestr(ZipInfo(path), text)  # which says 1980: no clock enters
-    return buffer.getvalue()
+    trees = {"imsmanifest.xml": _manifest(files), **files}
+    text = partial(ElementTree.tostring, encoding="utf-8", xml_declaration=True)
+    return pack_zip({path: text(tree) for path, tree in trees.items()})
 
 
 def _element(tag, *children, text=None, **attributes):

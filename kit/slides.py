@@ -11,15 +11,14 @@ from html import escape
 from itertools import pairwise
 from pathlib import Path
 
-import yaml
 from bs4 import BeautifulSoup
 
 from book.figures.plans import MORE, PLANS, TITLES
+from kit import demos
 from kit.chapter_slides import Slide, chapter_slides, sentence
 
 ROOT = Path(__file__).parents[1]
-CONFIG = yaml.safe_load((ROOT / "_config.yml").read_bytes())["sphinx"]["config"]
-SCRIPTS = [name for name, _ in CONFIG["html_js_files"]]
+CONFIG = demos.CONFIG["sphinx"]["config"]
 OWN = [ROOT / "kit/slides.css", ROOT / "kit/slides.js"]
 STYLES = ["pygments.css", *CONFIG["html_css_files"]]
 VENDOR = sorted((ROOT / "kit/vendor").glob("*.*"))
@@ -49,7 +48,7 @@ def build(folder, pages):
     static = folder / "_static"
     static.mkdir(parents=True)
     shutil.copytree(pages.parent / "_static/vendor", static / "vendor")
-    for name in (*SCRIPTS, *STYLES):
+    for name in (*demos.SCRIPTS, *STYLES):
         shutil.copy(pages.parent / "_static" / name, static / name)
     for file in (*VENDOR, *OWN):
         shutil.copy(file, static)
@@ -150,7 +149,7 @@ def _short(source):
 
 def _page(title, slides):
     styles = [*(file.name for file in VENDOR if file.suffix == ".css"), *STYLES, "slides.css"]
-    scripts = [*(file.name for file in VENDOR if file.suffix == ".js"), "slides.js", *SCRIPTS]
+    scripts = [*(file.name for file in VENDOR if file.suffix == ".js"), "slides.js", *demos.SCRIPTS]
     scripts.insert(0, CONFIG["mathjax_path"])
     head = [f'<link rel="stylesheet" href="_static/{name}">' for name in styles]
     head += [f'<script defer src="_static/{name}"></script>' for name in scripts]

@@ -2,16 +2,16 @@
 
 The first holds Pyodide, NumPy and the library; the second matplotlib, and the library's figures.
 From file:// a page can load nothing but classic scripts; in these each file is text, gzip in
-base64. The build writes them, and a page loads each when its reader first asks for it.
+base64; the members of a zip are stored, so that gzip finds what they share. The build writes them,
+and a page loads each when its reader first asks for it.
 """
 
-import io
 import json
 import re
 import zipfile
 from pathlib import Path
 
-from vmc_lib.show.packed import pack_bytes
+from vmc_lib.show.packed import pack_bytes, pack_zip
 
 ROOT = Path(__file__).parents[1]
 VENDOR = Path(__file__).parent / "vendor"
@@ -72,8 +72,8 @@ def drawing():
     """What draws a demo: {name: bytes}."""
     wheels = (path.name for path in sorted(VENDOR.glob("*.whl")) if "numpy" not in path.name)
     return {
-        "plots.zip": _stored(one for name in wheels for one in _compiled(name)),
-        "figures.zip": _stored(_read(drawn_paths())),
+        "plots.zip": pack_zip(dict(one for name in wheels for one in _compiled(name))),
+        "figures.zip": pack_zip(_read(drawn_paths())),
     }
 
 
@@ -85,9 +85,9 @@ def running():
     return {
         **{name: (VENDOR / name).read_bytes() for name in UNCHANGED},
         "pyodide-lock.json": json.dumps(lock).encode(),
-        "python_stdlib.zip": _stored(_compiled("python_stdlib.zip")),
-        numpy["file_name"]: _stored(_compiled(numpy["file_name"])),
-        "library.zip": _stored(_read(paths())),
+        "python_stdlib.zip": pack_zip(dict(_compiled("python_stdlib.zip"))),
+        numpy["file_name"]: pack_zip(dict(_compiled(numpy["file_name"]))),
+        "library.zip": pack_zip(_read(paths())),
     }
 
 
@@ -113,7 +113,7 @@ def drawn_paths():
 
 
 def _read(paths):
-    return ((path.as_posix(), (ROOT / path).read_bytes()) for path in paths)
+    return {path.as_posix(): (ROOT / path).read_bytes() for path in paths}
 
 
 def _compiled(archive):
@@ -131,12 +131,3 @@ def _members(archive):
     with zipfile.ZipFile(VENDOR / archive) as opened:
         for info in opened.infolist():
             yield info.filename, opened.read(info)
-
-
-def _stored(members):
-    """A zip of (name, bytes), not compressed, so that gzip finds what its files share."""
-    archive = io.BytesIO()
-    with zipfile.ZipFile(archive, "w") as opened:
-        for name, data in members:
-            opened.writestr(zipfile.ZipInfo(name), data)
-    return archive.getvalue()

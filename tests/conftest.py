@@ -56,7 +56,6 @@ RULES = {  # from one theme to the other only colours change
     "light": {"rules": {"target-size": {"enabled": True}}},  # of WCAG 2.2
     "dark": {"runOnly": ["color-contrast", "link-in-text-block"]},
 }
-PATIENCE = 180_000  # ms
 
 
 @pytest.fixture
@@ -115,25 +114,16 @@ def outputs(monkeypatch):
 @pytest.fixture(scope="session")
 def chromium():
     """A headless browser; without one the test is skipped, in continuous integration it fails."""
-    from playwright.sync_api import sync_playwright
+    from playwright.sync_api import expect
 
     from tools import browser
 
-    path = browser.find()
-    if not path:
+    if not browser.find():
         (pytest.fail if os.environ.get("CI") else pytest.skip)(browser.MISSING)
-    with sync_playwright() as playwright:
-        chromium = playwright.chromium.launch(**browser.options(path))
-        chromium.new_context = partial(patient, chromium.new_context)
+    expect.set_options(timeout=pages.PATIENCE)
+    with browser.launch() as chromium:
+        chromium.new_context = partial(pages.patient, chromium.new_context)
         yield chromium
-        chromium.close()
-
-
-def patient(new_context, **kind):
-    """A browser window that waits as long as a busy machine may need."""
-    context = new_context(**kind)
-    context.set_default_timeout(PATIENCE)
-    return context
 
 
 @pytest.fixture(scope="module")

@@ -34,6 +34,7 @@ HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
   return kind.startsWith("webgl") ? null : getContext.call(this, kind, ...rest);
 };"""
 TWO_FRAMES = "() => new Promise((on) => requestAnimationFrame(() => requestAnimationFrame(on)))"
+PATIENCE = 180_000  # ms: ends a hang, never a busy machine's work
 counter = itertools.count(1)
 
 
@@ -51,6 +52,13 @@ def book_html(module, declare):
         shown = displayed(patch, module)
         declare()
     return "\n".join(item.data for item in shown)
+
+
+def patient(new_context, **kind):
+    """A browser window that waits as long as a busy machine may need."""
+    context = new_context(**kind)
+    context.set_default_timeout(PATIENCE)
+    return context
 
 
 def observe(page):

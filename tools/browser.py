@@ -8,6 +8,7 @@ import os
 import shutil
 import subprocess
 import sys
+from contextlib import contextmanager
 
 SYSTEM = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 # WebGL in software: the arm is drawn on machines without a graphics card too; the page around it
@@ -43,6 +44,18 @@ def options(path):
     command = [path, "--headless", *FLAGS, "--dump-dom", "about:blank"]
     sandbox = subprocess.run(command, capture_output=True).returncode == 0
     return {"executable_path": path, "args": FLAGS, "chromium_sandbox": sandbox}
+
+
+@contextmanager
+def launch():
+    """Launch the browser by Playwright: it closes where the block ends."""
+    from playwright.sync_api import sync_playwright
+
+    how = options(find())
+    with sync_playwright() as playwright:
+        chromium = playwright.chromium.launch(**how)
+        yield chromium
+        chromium.close()
 
 
 def main():

@@ -7,7 +7,6 @@ import io
 from pathlib import Path
 
 from PIL import Image
-from playwright.sync_api import sync_playwright
 
 from book.figures.loop import LOOP_STEPS, SEEING
 from tools import browser
@@ -49,12 +48,10 @@ def frames(page):
 
 
 if __name__ == "__main__":
-    with sync_playwright() as playwright:
-        chromium = playwright.chromium.launch(**browser.options(browser.find()))
+    with browser.launch() as chromium:
         page = chromium.new_page(viewport={"width": 860, "height": 900})
         page.goto(PAGE.as_uri())
         first, *others = frames(page)
-        chromium.close()
     first[0].save(
         ROOT / "book/_static/cover.webp",
         save_all=True,

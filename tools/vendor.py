@@ -7,7 +7,6 @@ python -m tools.vendor --table     write that table, as the first two do
 """
 
 import base64
-import gzip
 import hashlib
 import json
 import re
@@ -17,6 +16,8 @@ import tarfile
 import tempfile
 from importlib import metadata, resources
 from pathlib import Path
+
+from vmc_lib.show.packed import pack_bytes
 
 ROOT = Path(__file__).parents[1]
 MANIFEST = ROOT / "book/_static/vendor/manifest.json"
@@ -70,8 +71,7 @@ def with_wasm(module, wasm):
     """
     script = module.decode().replace("import.meta.url", "document.baseURI")
     script, name, _ = re.split(r"^export default (\w+);$", script, flags=re.M)
-    packed = base64.b64encode(gzip.compress(wasm, mtime=0)).decode()
-    return f'{script}{name}.wasm = "{packed}";\n'.encode()
+    return f'{script}{name}.wasm = "{pack_bytes(wasm)}";\n'.encode()
 
 
 def problems():

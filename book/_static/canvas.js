@@ -19,15 +19,36 @@ const vmcDrawScaled = (picture, scale, canvas) => {
   return context;
 };
 
-/* A picture in the middle of a grey one of another size: its pixels (vmc_lib/photos.py, read_image). */
-const vmcLetterbox = (picture, ...whole) => {
-  const [width, height] = whole, canvas = Object.assign(document.createElement("canvas"), { width, height });
-  const context = canvas.getContext("2d", { willReadFrequently: true });
-  const sides = [picture.width, picture.height], scale = Math.min(...whole.map((side, k) => side / sides[k]));
-  const size = sides.map((side) => Math.max(1, Math.round(scale * side)));
-  context.fillStyle = "rgb(128 128 128)";
-  context.fillRect(0, 0, width, height);
-  context.imageSmoothingQuality = "high";
-  context.drawImage(picture, ...whole.map((side, k) => (side - size[k]) >> 1), ...size);
-  return context.getImageData(0, 0, width, height);
+/* The reader's own pictures, chosen or dropped on a box: `take(picture, file)` is given each that this browser can
+   read, `say` why it cannot. Returns what takes a file. */
+const vmcOwnPictures = (box, input, take, say) => {
+  const read = async (file) => {
+    if (!file) return say("That was no file: save the photo first, then choose it here.");
+    const picture = await createImageBitmap(file).catch(() => null);
+    if (picture) return take(picture, file);
+    say(`This browser cannot read ${file.name}: save it, or a phone's HEIC, as a JPEG or PNG.`);
+  };
+  input.addEventListener("change", () => read(input.files[0]).then(() => (input.value = "")));
+  box.addEventListener("dragover", (event) => event.preventDefault());
+  box.addEventListener("drop", (event) => {
+    event.preventDefault();
+    read(event.dataTransfer.files[0]);
+  });
+  return read;
 };
+
+/* A picture in the middle of a grey one of another size: its pixels (vmc_lib/photos.py, read_image). All are drawn
+   on one canvas: those of a film's frames would fill the memory before the browser collects them. */
+const vmcLetterbox = (() => {
+  const canvas = document.createElement("canvas"), context = canvas.getContext("2d", { willReadFrequently: true });
+  return (picture, width, height) => {
+    const scale = Math.min(width / picture.width, height / picture.height);
+    const size = [picture.width, picture.height].map((side) => Math.max(1, Math.round(scale * side)));
+    Object.assign(canvas, { width, height });
+    context.fillStyle = "rgb(128 128 128)";
+    context.fillRect(0, 0, width, height);
+    context.imageSmoothingQuality = "high";
+    context.drawImage(picture, (width - size[0]) >> 1, (height - size[1]) >> 1, ...size);
+    return context.getImageData(0, 0, width, height);
+  };
+})();

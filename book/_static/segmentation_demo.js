@@ -82,21 +82,14 @@ const vmcSegmentationDemo = (box) => {
   play.addEventListener("click", () => (play.textContent === "Play" ? run() : stop()));
   for (const slider of [k, merged]) slider.addEventListener("input", () => { stop(); drawn(); });
 
-  const own = async (chosen) => {
-    if (!chosen) return;
-    const picture = await createImageBitmap(chosen).catch(() => null);
-    say.textContent = picture ? `${chosen.name} stays in this page: it is sent nowhere.`
-      : `This browser cannot read ${chosen.name}: save it, or a phone's HEIC, as a JPEG or PNG.`;
-    if (!picture) return;
+  vmcOwnPictures(box, file, (picture, { name }) => {
+    say.textContent = `${name} stays in this page: it is sent nowhere.`;
     merged.value = 0;
     if (!look(picture)) return;
     still.src = canvas.toDataURL("image/jpeg", 0.9);
     run();
-  };
-  file.addEventListener("change", () => own(file.files[0]).then(() => (file.value = "")));
+  }, (why) => (say.textContent = why));
   choose.addEventListener("click", () => file.click());
-  box.addEventListener("dragover", (event) => event.preventDefault());
-  box.addEventListener("drop", (event) => { event.preventDefault(); own(event.dataTransfer.files[0]); });
   box.dataset.ready = "";
   return stop;
 };

@@ -3,25 +3,15 @@ const vmcUpload = (box, _, ask) => {
   "use strict";
 
   const LARGEST = 1200; // pixels, of the longer side: the eye keeps half of them
+  const [say, view, input] = ["[role=status]", ".vmc-picture", "input"].map((name) => box.querySelector(name));
+  const tell = (words) => ([say.textContent, view.innerHTML] = [words, ""]);
 
-  const small = async (file) => {
-    const bitmap = await createImageBitmap(file);
-    const scale = Math.min(1, LARGEST / Math.max(bitmap.width, bitmap.height));
-    const canvas = document.createElement("canvas");
-    if (!vmcDrawScaled(bitmap, scale, canvas)) throw vmcPixelsHidden;
-    return canvas.toDataURL("image/jpeg", 0.92);
-  };
-
-  const [say, view] = ["[role=status]", ".vmc-picture"].map((name) => box.querySelector(name));
-  box.querySelector("input").addEventListener("change", async ({ target }) => {
-    const [file] = target.files;
-    if (!file) return;
-    view.innerHTML = "";
-    say.textContent = `Looking at ${file.name} …`;
-    const unread = "this browser cannot read it. Save it, or a phone's HEIC, as a JPEG or PNG.";
-    const why = (error) => ({ error: error === vmcPixelsHidden ? error : unread });
-    const drawn = await small(file).then((photo) => ask("photo", photo), why);
-    say.textContent = `${file.name}: ${drawn.error ?? "seen."}`;
+  vmcOwnPictures(box, input, async (picture, { name }) => {
+    const scale = Math.min(1, LARGEST / Math.max(picture.width, picture.height)), canvas = document.createElement("canvas");
+    tell(`Looking at ${name} …`);
+    if (!vmcDrawScaled(picture, scale, canvas)) return tell(vmcPixelsHidden);
+    const drawn = await ask("photo", canvas.toDataURL("image/jpeg", 0.92));
+    tell(`${name}: ${drawn.error ?? "seen."}`);
     if (!drawn.error) view.innerHTML = drawn;
-  });
+  }, tell);
 };

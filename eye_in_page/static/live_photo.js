@@ -13,6 +13,20 @@ const vmcLivePhoto = (() => {
 
   const distance = (a, b) => Math.hypot(...vmcVectors.minus(a, b));
 
+  /* A function that promises a picture of what a video shows. Its pixels are copied, where the browser can: of each
+     frame that is drawn Chromium keeps a copy of its own, up to 512 MB. */
+  const snapshots = (video) => {
+    const { width, height } = video, canvas = Object.assign(document.createElement("canvas"), { width, height });
+    const context = canvas.getContext("2d", { willReadFrequently: true }), pixels = context.createImageData(width, height);
+    const copy = async () => {
+      const frame = new VideoFrame(video), rect = { x: 0, y: 0, width, height };
+      await frame.copyTo(pixels.data, { format: "RGBA", rect }).finally(() => frame.close());
+      context.putImageData(pixels, 0, 0);
+      return canvas;
+    };
+    return () => copy().catch(() => video);
+  };
+
   class LivePhoto extends YourPhoto {
     constructor(box) {
       super(box);
@@ -54,10 +68,11 @@ const vmcLivePhoto = (() => {
 
     /* Frame after frame, until the film stops. */
     async followFilm(video, film) {
-      const { sheet } = this.given;
+      const { sheet } = this.given, snapshot = snapshots(video);
       Object.assign(this, { aimed: null, stay: null });
       for (let box = null, begun = performance.now(); this.film === film; await frame()) {
-        const eye = vmcLetterbox(video, ...EYE), read = await vmcEye.inPieces(vmcEye.readSheet(eye, sheet, EYE)), { camera } = read;
+        const eye = vmcLetterbox(await snapshot(), ...EYE);
+        const read = await vmcEye.inPieces(vmcEye.readSheet(eye, sheet, EYE)), { camera } = read;
         this.bare = camera ? vmcEye.paintOver(eye, vmcEye.sheetOutline(camera, sheet)) : eye;
         const found = box && camera && (await vmcEye.inPieces(vmcEye.follow(this.brain, this.bare, box, camera)));
         if (this.film !== film) return;

@@ -21,16 +21,11 @@ const vmcYourPhoto = (() => {
       const svg = box.querySelector("svg:has(image)"), ours = svg.querySelector("image").getAttribute("href");
       this.photo = new vmcPhotoMarks.PhotoMarks(svg, this.given);
       const { own, example, file } = this.form.elements;
+      const take = vmcOwnPictures(box, file, (picture) => this.look(picture), (why) => this.say(why));
       own.addEventListener("click", () => file.click());
       example.addEventListener("click", () => this.takeExample(ours));
-      file.addEventListener("change", () => this.take(file.files[0]).then(() => (file.value = "")));
       this.form.addEventListener("submit", (event) => event.preventDefault());
-      box.addEventListener("dragover", (event) => event.preventDefault());
-      box.addEventListener("drop", (event) => {
-        event.preventDefault();
-        this.take(event.dataTransfer.files[0]);
-      });
-      addEventListener("paste", ({ clipboardData: { files } }) => files.length && this.take(files[0]));
+      addEventListener("paste", ({ clipboardData: { files } }) => files.length && take(files[0]));
       box.addEventListener("click", ({ target }) => {
         const chosen = target.closest("[data-box]");
         if (chosen) this.choose(+chosen.dataset.box);
@@ -40,13 +35,6 @@ const vmcYourPhoto = (() => {
     async takeExample(address) {
       const picture = Object.assign(new Image(), { src: address });
       await picture.decode();
-      return this.look(picture);
-    }
-
-    async take(file) {
-      if (!file) return this.say("That was no file: save the photo first, then choose it here.");
-      const picture = await createImageBitmap(file).catch(() => null);
-      if (!picture) return this.say(`This browser cannot read ${file.name}: save it, or a phone's HEIC, as a JPEG or PNG.`);
       return this.look(picture);
     }
 

@@ -18,7 +18,14 @@ from vmc_lib.boxes import iou, pad_boxes
 
 pytestmark = pytest.mark.browser
 FOLLOW = """return vmcEye.finish(vmcEye.follow(brain, photo, ...asked));"""
-FILM = """navigator.mediaDevices.getUserMedia = async () => {
+DRAWN = """const { prototype } = CanvasRenderingContext2D, { drawImage } = prototype;
+self.drawn = 0; // frames of a video: Chromium keeps a copy of each
+prototype.drawImage = function (picture, ...rest) {
+  self.drawn += picture instanceof HTMLVideoElement;
+  return drawImage.call(this, picture, ...rest);
+};"""
+FILM = """delete self.VideoFrame; // as in other browsers
+navigator.mediaDevices.getUserMedia = async () => {
   const picture = (self.picture = new Image()), canvas = document.createElement("canvas");
   Object.assign(canvas, { width: 600, height: 400 });
   setInterval(() => canvas.getContext("2d").drawImage(picture, 0, 0), 40);
@@ -88,9 +95,12 @@ def test_it_takes_what_the_browsers_camera_shows(chromium, site, html, tmp_path)
     options = browser.options(browser.find())
     options["args"] = [*options["args"], *FAKE, f"--use-file-for-fake-video-capture={film}"]
     films = chromium.browser_type.launch(**options)
-    page = pages.open_html(films.new_context(offline=True), site, html)
+    context = pages.patient(films.new_context, offline=True)
+    context.add_init_script(DRAWN)
+    page = pages.open_html(context, site, html)
     page.get_by_role("button", name="Live").click()
     assert "misses by" in status(page, "After")
+    assert page.evaluate("drawn") == 0
     assert page.errors == []
     films.close()
 

@@ -85,10 +85,12 @@ def test_a_machine_between_two_clouds_is_that_of_python(page, place, kernel):
     clouds, side, svm = regions.margin(cost, kernel, yours)
     svm.set_params(tol=1e-6).fit(clouds, side)
     labels, plane = np.where(side, 1, -1).tolist(), np.random.default_rng(0).uniform(-4, 5, (50, 2))
-    alpha, scores = page.evaluate(
+    alpha, scores, steps = page.evaluate(
         """([points, labels, cost, kernel, plane]) => {
-          const { alpha, score } = vmcInPage.margin.fit(points, labels, cost, kernel);
-          return [alpha, plane.map(score)];
+          let reads = 0; // of the labels, two for each in a step
+          const counted = new Proxy(labels, { get: (all, key) => (reads++, all[key]) });
+          const { alpha, score } = vmcInPage.margin.fit(points, counted, cost, kernel);
+          return [alpha, plane.map(score), reads / labels.length / 2];
         }""",
         [clouds.tolist(), labels, cost, kernel, plane.tolist()],
     )
@@ -96,6 +98,7 @@ def test_a_machine_between_two_clouds_is_that_of_python(page, place, kernel):
     expected[svm.support_] = abs(svm.dual_coef_[0])
     assert np.abs(alpha - expected).max() < 1e-3 * cost
     assert np.abs(scores - svm.decision_function(plane)).max() < 1e-3
+    assert steps < 5000  # or the border would lag behind the reader's hand
 
 
 @pytest.mark.parametrize("place", [(10, 0, 0), (10, 45, 45), (40, 80, 20)])
@@ -128,20 +131,9 @@ def test_the_border_is_drawn_where_the_score_is_zero(page, place):
 
 
 def test_the_readers_point_is_dragged(page):
-    """And is drawn within a frame."""
     box = page.locator(".vmc-demo").nth(1)
     box.scroll_into_view_if_needed()
     handle, before = middle(box.locator(".vmc-handle")), box.locator("path").last.get_attribute("d")
     drag(page, handle, -60, -40)
     assert np.abs(np.subtract(middle(box.locator(".vmc-handle")), handle) - [-60, -40]).max() < 4
     assert box.locator("path").last.get_attribute("d") != before
-    took = box.evaluate("""(demo) => {
-      const took = [], [, x] = demo.querySelectorAll("input[type=range]");
-      for (x.value = 0; x.value < 90; x.value++) {
-        const start = performance.now();
-        demo.vmc.show();
-        took.push(performance.now() - start);
-      }
-      return took.sort((a, b) => a - b)[45];
-    }""")
-    assert took < 50  # ms; 16 where the machine is idle

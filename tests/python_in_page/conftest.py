@@ -1,7 +1,6 @@
 """The page's Python, packed, in a folder that has the book's scripts."""
 
 import pytest
-from playwright.sync_api import expect
 
 from python_in_page import pack
 from tests import pages
@@ -23,15 +22,8 @@ STUB = '''def {name}(u, a, rise, fall):
 '''
 MECHANISM = "def cube(x):\n    return x**3\n\n\nassert cube(twice(2)) == 64"
 ASK = "(question) => vmcPython.ask(question, () => {})"
+PATIENT = "() => { vmcPython.limit.seconds = 1000 }"  # others may be at work, too
 CELL = '<div class="cell"><div class="cell_input"><pre>{}</pre></div></div>'
-
-
-@pytest.fixture
-def patient():
-    """Python takes a while to start."""
-    expect.set_options(timeout=60_000)
-    yield
-    expect.set_options(timeout=5_000)
 
 
 @pytest.fixture(scope="session")
@@ -67,6 +59,7 @@ def open_exercise(open_page, exercise_html):
 
     def open_exercise(*window):
         page = open_page(exercise_html, *window)
+        page.evaluate(PATIENT)
         page.lines, page.said = page.locator("textarea"), page.locator("form [role=status]")
         page.button = lambda name: page.get_by_role("button", name=name)
         return page
@@ -78,7 +71,7 @@ def open_exercise(open_page, exercise_html):
 def ask(offline, site):
     """A function that asks the page's Python about typed lines: what is said, what is printed."""
     page = pages.open_html(offline, site, "<h1>E</h1>")
-    page.evaluate("() => { vmcPython.limit.seconds = 1000 }")  # others may be at work, too
+    page.evaluate(PATIENT)
     yield lambda *question: page.evaluate(
         ASK, ["grader", "check" if len(question) == 3 else "run", *question]
     )

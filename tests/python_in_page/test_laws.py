@@ -9,7 +9,7 @@ from tests import pages
 from tests.python_in_page.conftest import CELL
 from vmc_lib.show import demo
 
-pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("patient")]
+pytestmark = pytest.mark.browser
 LAW = "def law(x):\n    return 2 * x"
 DEMO = """import matplotlib.pyplot as plt
 from vmc_lib.show import Slider, explore

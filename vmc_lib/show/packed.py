@@ -1,9 +1,10 @@
-"""Data as text that a page can hold: bytes and JSON, compressed; arrays, there and back."""
+"""Data packed: bytes, JSON and arrays as text that a page can hold; files as a zip."""
 
 import base64
 import gzip
 import io
 import json
+from zipfile import ZIP_STORED, ZipFile, ZipInfo
 
 import numpy as np
 
@@ -21,6 +22,15 @@ def unpack_bytes(text):
 def pack_json(data):
     """JSON as `pack_bytes` packs it."""
     return pack_bytes(json.dumps(data, separators=(",", ":")).encode())
+
+
+def pack_zip(files, compression=ZIP_STORED):
+    """Files {name: text or bytes} as the bytes of a zip; no clock enters: an entry says 1980."""
+    archive = io.BytesIO()
+    with ZipFile(archive, "w") as opened:
+        for name, data in files.items():
+            opened.writestr(ZipInfo(name), data, compression, compresslevel=1)
+    return archive.getvalue()
 
 
 def pack_arrays(arrays):

@@ -4,6 +4,8 @@
 const vmcDemo = (() => {
   "use strict";
 
+  const calm = matchMedia("(prefers-reduced-motion: reduce)");
+
   /* Make `node` equal to `next`, touching only what differs: images neither reload nor flicker. */
   const morph = (node, next) => {
     if (node.nodeName !== next.nodeName) return node.replaceWith(next);
@@ -70,22 +72,101 @@ const vmcDemo = (() => {
     return Object.assign(ask, { views: views?.(given), between });
   };
 
+  /* A step is looked at for a while; if it brings a movement, for as long as that takes. */
+  const look = (demo, input) => {
+    const clock = demo.querySelector(".vmc-clock:not([hidden])");
+    if (clock) return clock.play();
+    const pause = calm.matches ? 1000 : Math.min(800, 5000 / input.max);
+    return new Promise((done) => setTimeout(done, pause));
+  };
+
+  /* A button that walks through its slider's steps, of which each is to `show`; by itself, once `ready`, where that
+     is asked for. */
+  const addPlay = (demo, button, show, ready) => {
+    const input = button.parentElement.querySelector("input");
+    let playing = null;
+    const stop = () => {
+      playing = null;
+      button.setAttribute("aria-pressed", "false");
+      button.textContent = "Play";
+    };
+    button.addEventListener("click", async () => {
+      if (playing) return stop();
+      const mine = (playing = {});
+      button.setAttribute("aria-pressed", "true");
+      button.textContent = "Pause";
+      for (let step = input.value === input.max ? 0 : Math.round(input.value); step <= input.max; step++) {
+        input.value = step;
+        show();
+        await look(demo, input);
+        if (playing !== mine) return;
+      }
+      stop();
+    });
+    /* The reader's hand comes first, on whatever it lies; a movement's speed may change. */
+    for (const type of ["pointerdown", "input"])
+      demo.addEventListener(type, ({ target }) => {
+        if (target.closest("[data-stride], .vmc-clock :is(input, button), .vmc-handle")) stop();
+      }, true);
+    /* Paper shows where a demo leads, if the reader left it where it begins. */
+    let begun = null;
+    addEventListener("beforeprint", () => {
+      if (input.value !== input.defaultValue) return;
+      [begun, input.value] = [input.value, input.max];
+      show();
+      for (const still of demo.querySelectorAll(".vmc-scene:has(img)")) (vmcScene(still).start(), vmcScene(still).stop()); // anew
+    });
+    addEventListener("afterprint", () => {
+      if (begun === null) return;
+      [input.value, begun] = [begun, null];
+      show();
+    });
+    if ("unasked" in button.dataset && !calm.matches) {
+      const watch = new IntersectionObserver(([{ isIntersecting }]) => {
+        if (!isIntersecting) return;
+        watch.disconnect();
+        if (+input.value === 0) button.click();
+      }, { threshold: 0.6 });
+      Promise.resolve(ready).then(() => watch.observe(demo));
+    }
+  };
+
+  /* A pad: a handle on the first plot, or on each that has a view of a pad, moves its two sliders there, or to the
+     nearest stop. A view may depend on where the other pads stand. Returns what puts all handles in their places. */
+  const addHandles = (demo, pictures, sliders, given) => {
+    const pads = [...demo.querySelectorAll(".vmc-pad")].map((pad) =>
+      ({ grid: JSON.parse(pad.dataset.grid), twins: [...pad.querySelectorAll("input")] }));
+    const stand = () => pads.map(({ grid, twins }) => twins.map((twin, i) => valueAt(grid[i], +twin.value)));
+    const same = (place) => place;
+    const views = given ?? pads.slice(0, 1).map(() => ({ toView: same, fromView: same }));
+    const puts = views.map(({ pad = 0, picture = 0, toView, fromView }) => {
+      const { grid, twins } = pads[pad];
+      const put = vmcHandle(pictures, (seen) => {
+        const place = fromView(seen, stand());
+        grid.forEach((values, i) => {
+          if (sliders.includes(twins[i])) twins[i].step = 0.1;
+          twins[i].value = placeOf(values, place[i]);
+        });
+        twins[0].dispatchEvent(new Event("input", { bubbles: true }));
+      }, picture);
+      return () => put(toView(stand()[pad], stand()));
+    });
+    return () => puts.forEach((put) => put());
+  };
+
   /* `ask(place, draw)` gives `draw` the state at a place: its words and its pictures, as lines. */
   const start = (demo, ask) => {
     vmcSound(demo);
-    const pictures = demo.querySelector(".vmc-pictures");
+    const [pictures, spoken] = [".vmc-pictures", ".vmc-spoken"].map((name) => demo.querySelector(name));
     const places = [...demo.querySelectorAll(".vmc-picture, .vmc-data")];
-    const spoken = demo.querySelector(".vmc-spoken");
     const inputs = [...demo.querySelectorAll("[data-stride]")];
     const sliders = ask.between ? inputs.filter(({ dataset }) => "between" in dataset) : [];
-    const reduced = matchMedia("(prefers-reduced-motion: reduce)");
 
     /* How far along its values a control stands; of radio buttons only the checked one counts. */
     const at = ({ type, checked, value }) =>
       type === "checkbox" ? +checked : type === "radio" && !checked ? 0 : Math.round(value);
 
-    let follow = () => {}; // what else a new picture moves
-
+    const follow = addHandles(demo, pictures, sliders, ask.views); // what else a new picture moves
     /* The demo's numbers in the page's sentences (vmc_lib/show/numbers.py). */
     const tell = () => {
       const words = pictures.getAttribute("aria-label");
@@ -102,8 +183,7 @@ const vmcDemo = (() => {
       const [top, bottom] = held ? edges() : [];
       parts.forEach((lines, i) => {
         if (!lines) return; // it stands there already
-        const picture = places[i];
-        const scene = picture.querySelector(".vmc-scene");
+        const picture = places[i], scene = picture.querySelector(".vmc-scene");
         if (scene) return vmcScene(scene).show(lines);
         const next = picture.cloneNode(false);
         next.innerHTML = lines.join("\n");
@@ -137,83 +217,7 @@ const vmcDemo = (() => {
     const step = ({ type, target }) => sliders.includes(target) && (target.step = type === "keydown" ? 1 : 0.1);
     for (const type of ["pointerdown", "keydown"]) demo.addEventListener(type, step, true);
 
-    /* A step is looked at for a while; if it brings a movement, for as long as that takes. */
-    const look = (input) => {
-      const clock = demo.querySelector(".vmc-clock:not([hidden])");
-      if (clock) return clock.play();
-      const pause = reduced.matches ? 1000 : Math.min(800, 5000 / input.max);
-      return new Promise((done) => setTimeout(done, pause));
-    };
-
-    for (const button of demo.querySelectorAll(".vmc-play")) {
-      const input = button.parentElement.querySelector("input");
-      let playing = null;
-      const stop = () => {
-        playing = null;
-        button.setAttribute("aria-pressed", "false");
-        button.textContent = "Play";
-      };
-      button.addEventListener("click", async () => {
-        if (playing) return stop();
-        const mine = (playing = {});
-        button.setAttribute("aria-pressed", "true");
-        button.textContent = "Pause";
-        for (let step = input.value === input.max ? 0 : Math.round(input.value); step <= input.max; step++) {
-          input.value = step;
-          show();
-          await look(input);
-          if (playing !== mine) return;
-        }
-        stop();
-      });
-      /* The reader's hand comes first, on whatever it lies; a movement's speed may change. */
-      for (const type of ["pointerdown", "input"])
-        demo.addEventListener(type, ({ target }) => {
-          if (target.closest("[data-stride], .vmc-clock :is(input, button), .vmc-handle")) stop();
-        }, true);
-      /* Paper shows where a demo leads, if the reader left it where it begins. */
-      let begun = null;
-      addEventListener("beforeprint", () => {
-        if (input.value !== input.defaultValue) return;
-        [begun, input.value] = [input.value, input.max];
-        show();
-        for (const scene of scenes) if (scene.div.querySelector("img")) (scene.start(), scene.stop()); // anew
-      });
-      addEventListener("afterprint", () => {
-        if (begun === null) return;
-        [input.value, begun] = [begun, null];
-        show();
-      });
-      if ("unasked" in button.dataset && !reduced.matches) {
-        const watch = new IntersectionObserver(([{ isIntersecting }]) => {
-          if (!isIntersecting) return;
-          watch.disconnect();
-          if (+input.value === 0) button.click();
-        }, { threshold: 0.6 });
-        Promise.resolve(ask.ready).then(() => watch.observe(demo));
-      }
-    }
-    /* A pad: a handle on the first plot, or on each that has a view of a pad, moves its two sliders there,
-       or to the nearest stop. A view may depend on where the other pads stand. */
-    const pads = [...demo.querySelectorAll(".vmc-pad")].map((pad) =>
-      ({ grid: JSON.parse(pad.dataset.grid), twins: [...pad.querySelectorAll("input")] }));
-    const stand = () => pads.map(({ grid, twins }) => twins.map((twin, i) => valueAt(grid[i], +twin.value)));
-    const same = (place) => place;
-    const views = ask.views ?? pads.slice(0, 1).map(() => ({ toView: same, fromView: same }));
-    const puts = views.map(({ pad = 0, picture = 0, toView, fromView }) => {
-      const { grid, twins } = pads[pad];
-      const put = vmcHandle(pictures, (seen) => {
-        const place = fromView(seen, stand());
-        grid.forEach((values, i) => {
-          if (sliders.includes(twins[i])) twins[i].step = 0.1;
-          twins[i].value = placeOf(values, place[i]);
-        });
-        twins[0].dispatchEvent(new Event("input", { bubbles: true }));
-      }, picture);
-      return () => put(toView(stand()[pad], stand()));
-    });
-    follow = () => puts.forEach((put) => put());
-
+    for (const button of demo.querySelectorAll(".vmc-play")) addPlay(demo, button, show, ask.ready);
     demo.addEventListener("input", show);
     show();
     const scenes = [...pictures.querySelectorAll(".vmc-scene")].map((div) => vmcScene(div));
