@@ -143,7 +143,7 @@ def models_by_lessons(template_set, counts):
     return inert | dict(zip(felt, learnt, strict=True)) | {"the true equations": arm_copy()}
 
 
-def lesion_table(gains):
+def kinematics_table(gains):
     """All measures at gain 30, with late sight alone and with a forward model: a table."""
     arms, measures = ("late sight", "forward model"), ("swing (mm²)", "overshoot (mm)")
     measures += "tremor (mm²)", "path over distance"

@@ -27,7 +27,7 @@ AUGMENTATIONS = (
 SHOTS, COPIES = 10, 2  # photos to learn from, and crops of each box
 
 
-def augment(photo, box, rng, jitter=0, mirror=False, tilt=0, light=0):
+def augmented_crop(photo, box, rng, jitter=0, mirror=False, tilt=0, light=0):
     """A crop (200, 200) of a box: edges jittered, picture tilted, in other light, mirrored.
 
     `jitter` in sides, `tilt` in degrees, `light` as a logarithm, all standard deviations.
@@ -44,7 +44,7 @@ def augment(photo, box, rng, jitter=0, mirror=False, tilt=0, light=0):
 def labelled_features(cdbn, shots, copies, rng, **how):
     """Features (n, d) and labels (n,) of augmented crops of all objects, `copies` of each."""
     boxes = [(photo, *pair) for photo in shots for pair in photo.boxes.items()] * copies
-    crops = (augment(photo, box, rng, **how) for photo, _, box in boxes)
+    crops = (augmented_crop(photo, box, rng, **how) for photo, _, box in boxes)
     return read_outs(cdbn, crops)["P1 + P2"], np.array([k == "shuttlecock" for _, k, _ in boxes])
 
 

@@ -20,7 +20,7 @@ HOLD = slice(SAMPLES // TICK, None)  # ticks
 
 def disturbances(rng):
     """Factors of the commands: noise (repeats, 6, T, 6), and each muscle weak (6, 6, T, 6)."""
-    shape = keep_last(minimum_variance.optimal_excitations()).shape
+    shape = keep_last(minimum_variance.least_variance_excitations()).shape
     repeated = minimum_variance.REPEATS, *shape
     noise = motor_noise.noise_factor(repeated, minimum_variance.noise_share(), rng)
     weak = np.array([muscle_strength(name) for name in MUSCLES])

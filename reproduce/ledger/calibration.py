@@ -30,7 +30,7 @@ from vmc_lib.motor.planning import draw_targets, plan
 
 OFFLINE = {"better": -1, "rounding": paper.ratio_rounding("off-line", "planned")}
 IN_SAMPLE, HELD_OUT = "in-sample", "held-out"
-FITTED = "The reading is fitted: which way the error points was chosen by the published ratio. "
+FIT_NOTE = "The reading is fitted: which way the error points was chosen by the published ratio. "
 
 
 def printed_results(scenario=SCENARIOS[0]):
@@ -148,7 +148,7 @@ ROWS = (
         "Off-line calibration shrinks the error.",
         "10_offline",
         _table_5,
-        note=FITTED + "So that we come near it is no proof. Over several draws the eye "
+        note=FIT_NOTE + "So that we come near it is no proof. Over several draws the eye "
         "({q[error after over planned, from the eye].obtained:.2f}) and the resting hand "
         "({q[error after over planned, from the resting hand].obtained:.2f}) come nearer to the "
         "paper's ratio than the shoulder. We keep the shoulder, from which all our places are "
@@ -159,7 +159,7 @@ ROWS = (
         "The error is decomposed onto the templates.",
         "10_offline",
         _figure_4,
-        note=FITTED,
+        note=FIT_NOTE,
     ),
     Row(
         "III, population",

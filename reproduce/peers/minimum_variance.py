@@ -74,7 +74,7 @@ def make(targets=TARGETS[INNER], level=LEVEL, **how):
 
 
 @cache
-def optimal_excitations():
+def least_variance_excitations():
     """The excitations (6, T, 6) of least variance to the inner targets."""
     return optimal_control.excitations_from_knots(arrays("steady")["knots"].astype(float))
 
@@ -89,12 +89,12 @@ def excitations_by_rule():
     return {
         "habit": plan(TARGETS[INNER], load()).excitations,
         "least effort": optimal_control.optimal_excitations()[INNER],
-        "least variance": optimal_excitations(),
+        "least variance": least_variance_excitations(),
         "habit of least effort": optimal_control.mix_optima().excitations,
     }
 
 
-def compare_rules(rng, repeats=REPEATS):
+def measures_by_rule(rng, repeats=REPEATS):
     """By rule and measure, one number for each of the inner targets.
 
     How far the hand scatters over the hold when the reach is repeated on an arm that wavers by

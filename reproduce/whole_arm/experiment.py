@@ -34,7 +34,7 @@ def octants(target, points):
     return distance.argmin(axis=-1), np.isfinite(distance.min(axis=-1)).all(axis=-1)
 
 
-def draw_targets(*memories, count, rng):
+def draw_targets_3d(*memories, count, rng):
     """Targets (count, 3) in the zone that all these sets of memories surround."""
     drawn = rng.uniform(*INSIDE, (8 * count + 20, 3))
     inside = [octants(drawn, known.points)[1] for known in memories]
@@ -101,7 +101,7 @@ def stop_calibration(reach, trials=4):
 
 def stop_errors(past, seed, count=5):
     """One draw: mean miss, m, and speed over the hold, m/s, after four corrections of each kind."""
-    drawn = draw_targets(past, count=count, rng=np.random.default_rng((seed, 2)))
+    drawn = draw_targets_3d(past, count=count, rng=np.random.default_rng((seed, 2)))
     reaches = plan_reaches(drawn, past)
     alone = broyden_calibration(reaches, n_trials=4).movements[-1]
     both = [stop_calibration(reaches[k]).movements[-1] for k in range(count)]
@@ -136,7 +136,8 @@ def online_errors(past, seed, count=COUNT, width=WIDTH):
     """One draw: what online calibration leaves of the planned miss, in sample and held out."""
     rng = np.random.default_rng(100 + seed)
     new, practised = (
-        plan_reaches(draw_targets(past, count=n, rng=rng), past) for n in (count, LESSONS * count)
+        plan_reaches(draw_targets_3d(past, count=n, rng=rng), past)
+        for n in (count, LESSONS * count)
     )
     spots = octants(rng.uniform(*ZONE, (4000, 3)), past.points)
     around = np.unique(spots[0][spots[1]], axis=0)
@@ -152,7 +153,7 @@ def optimised_errors(past, synergies, seed, count=COUNT):
 
     The optimiser's miss over the way, at once and aimed again; seconds that a plan takes.
     """
-    targets = draw_targets(past, count=count, rng=np.random.default_rng(seed))
+    targets = draw_targets_3d(past, count=count, rng=np.random.default_rng(seed))
     began = process_time()
     commands = np.array([synergies.commands(habits.reach_posture(goal)) for goal in targets])
     spent = process_time() - began
@@ -219,7 +220,7 @@ def compare_memories(sets, synergies, goals, seed, count=COUNT):
         synergies, goals, random_postures(goals, np.random.default_rng((seed, 1)))
     )
     sets = {**sets, "any posture": apart}
-    targets = draw_targets(*sets.values(), count=count, rng=rng)
+    targets = draw_targets_3d(*sets.values(), count=count, rng=rng)
     away = np.linalg.norm(apart.points - goals, axis=-1).mean()
     rows = {name: planned_errors(known, targets) for name, known in sets.items()}
     rows["any posture"] |= {"covered": covered_share(apart), "from their goals": away}

@@ -17,7 +17,7 @@ def test_no_template_lies_on_the_targets():
 
 
 def test_least_variance_has_the_least_scatter():
-    rules = minimum_variance.compare_rules(np.random.default_rng(1), repeats=40)
+    rules = minimum_variance.measures_by_rule(np.random.default_rng(1), repeats=40)
     scatter = {name: rows["scatter"].mean() for name, rows in rules.items()}
     assert min(scatter, key=scatter.get) == "least variance"
     assert all(len(values) == 6 for rows in rules.values() for values in rows.values())

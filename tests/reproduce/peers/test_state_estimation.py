@@ -14,7 +14,7 @@ SHARE = 0.2
 
 @cache
 def law():
-    return feedback_law(minimum_variance.optimal_excitations()[:1])
+    return feedback_law(minimum_variance.least_variance_excitations()[:1])
 
 
 @cache

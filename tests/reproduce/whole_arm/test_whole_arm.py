@@ -142,7 +142,7 @@ def test_octants_are_distinguished():
 def test_the_same_functions_plan_and_correct_it():
     """Three targets of a fresh draw: the plan is near, two corrections nearer."""
     past = habits.load_templates()
-    targets = experiment.draw_targets(past, count=3, rng=np.random.default_rng(77))
+    targets = experiment.draw_targets_3d(past, count=3, rng=np.random.default_rng(77))
     errors = broyden_calibration(experiment.plan_reaches(targets, past)).error.mean(axis=1)
     assert errors[0] < 0.1 * np.linalg.norm(targets, axis=1).mean()
     assert errors[2] < 0.5 * errors[0]
@@ -151,7 +151,7 @@ def test_the_same_functions_plan_and_correct_it():
 def test_place_and_drift_are_corrected_together():
     """Eight weights meet six demands: the finger ends nearer, and slower."""
     past = habits.load_templates()
-    target = experiment.draw_targets(past, count=2, rng=np.random.default_rng(8))[1]
+    target = experiment.draw_targets_3d(past, count=2, rng=np.random.default_rng(8))[1]
     trials = experiment.stop_calibration(experiment.plan_reaches(target, past), trials=3)
     first, *_, last = trials.movements
     assert np.linalg.norm(last.endpoint[:3] - target) < 0.2 * np.linalg.norm(
@@ -182,7 +182,7 @@ def test_shipped_results_are_reproducible():
 
 def test_error_is_a_share_of_reach_and_of_way():
     """Both shares are of the same miss, and the finger starts nearer to its targets."""
-    targets = experiment.draw_targets(
+    targets = experiment.draw_targets_3d(
         habits.load_templates(), count=2, rng=np.random.default_rng(5)
     )
     errors = experiment.planned_errors(habits.load_templates(), targets)
