@@ -10,7 +10,7 @@ from book.figures.panels import panels
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.arm.kinematics import inverse_kinematics
 from vmc_lib.arm.model import MUSCLES
-from vmc_lib.motor.planning import plan
+from vmc_lib.motor.planning import norm, plan
 from vmc_lib.show.arm import arm_scene
 from vmc_lib.show.arm_plane import plane
 from vmc_lib.show.palette import COLOURS
@@ -44,7 +44,7 @@ def reaches(ax, templates, targets, reached, title=""):
 
 def norm_mm(vectors):
     """How long vectors (…, d) in m are, in mm."""
-    return 1000 * np.linalg.norm(vectors, axis=-1)
+    return 1000 * norm(vectors)
 
 
 def mean_mm(endpoints, targets):

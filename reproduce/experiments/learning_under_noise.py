@@ -16,7 +16,7 @@ from reproduce.peers.adaptive_controllers import RIDGE, DeltaRuleCells
 from reproduce.peers.motor_noise import noise_share_for, with_noise
 from vmc_lib.cerebellum.online import AimCorrection, GranuleCells, WeightCorrection
 from vmc_lib.motor.execution import execute
-from vmc_lib.motor.planning import draw_targets, plan
+from vmc_lib.motor.planning import draw_targets, norm, plan
 from vmc_lib.motor.templates import load
 
 LEVELS = (0, 2, 5, 10)  # mm: the hand's standard deviation
@@ -53,16 +53,16 @@ def compare_calibration(noise, seed, count):
     habit = plan(draw_targets(load(), count, rng), templates_with_noise(noise, (seed, 4)))
     once = cache(execute)  # each plan meets its noise once
     many = execute(habit.with_weights(np.tile(habit.weights, (20, 1, 1)))).endpoint
-    miss = _norm(many - habit.target).mean()
+    miss = norm(many - habit.target).mean()
     left = {
         "habit": 1000 * miss,
-        "nothing but noise": _norm(many - many.mean(axis=0)).mean() / miss,
+        "nothing but noise": norm(many - many.mean(axis=0)).mean() / miss,
     }
     for name, rule in RULES.items():
         trials = rule(habit, execute=once)
         again = execute(habit.with_weights(np.tile(trials.best_weights, (20, 1, 1)))).endpoint
         left[f"{name}, best trial"] = trials.error.min(axis=0).mean() / miss
-        left[f"{name}, again"] = _norm(again - habit.target).mean() / miss
+        left[f"{name}, again"] = norm(again - habit.target).mean() / miss
     return left
 
 
@@ -73,4 +73,3 @@ def make(levels=LEVELS, seeds=SEEDS, **size):
 
 
 load_results = partial(calibration.load_results, "unsteady")
-_norm = partial(np.linalg.norm, axis=-1)

@@ -1,21 +1,19 @@
 """What is measured of a hand's path in the arm's plane: misses, swings, tremor, detours."""
 
-from functools import partial
-
 import numpy as np
 
 from vmc_lib.arm.model import STEP
 from vmc_lib.motor.inverse_dynamics import MOVING
+from vmc_lib.motor.planning import norm
 from vmc_lib.motor.templates import HOLD
 
 SWING, TREMOR = (0.5, 3.0), (3.0, 8.0)  # Hz
 LAST = round(HOLD / STEP)  # samples at the end, over which a hand's distance is averaged
-_norm = partial(np.linalg.norm, axis=-1)
 
 
 def push_error(path, reference, at):
     """How far paths (T + 1, 2) are apart after a push at `at` s: at most, and in the end, mm."""
-    return 1000 * _norm(path - reference)[round(at / STEP) :].max(), end_error(path, reference[-1])
+    return 1000 * norm(path - reference)[round(at / STEP) :].max(), end_error(path, reference[-1])
 
 
 def end_error(path, target):
@@ -23,12 +21,12 @@ def end_error(path, target):
 
     The mean distance: a hand that swings round its target is not on it.
     """
-    return 1000 * _norm(path[..., -LAST:, :] - target[..., None, :]).mean(axis=-1)
+    return 1000 * norm(path[..., -LAST:, :] - target[..., None, :]).mean(axis=-1)
 
 
 def end_speed(path):
     """How fast hands (…, T + 1, 2) move in the last half second, on average, (…,), mm/s."""
-    return 1000 * _norm(np.diff(path[..., -LAST:, :], axis=-2)).mean(axis=-1) / STEP
+    return 1000 * norm(np.diff(path[..., -LAST:, :], axis=-2)).mean(axis=-1) / STEP
 
 
 def end_swing(path):
@@ -54,15 +52,15 @@ def tremor(path, since=1.0, band=TREMOR):
 def overshoot(path, target):
     """How far hands (B, T + 1, 2) go beyond their targets (B, 2), along the way there, (B,), m."""
     way = target - path[:, 0]
-    along = ((path - target[:, None]) * (way / _norm(way)[:, None])[:, None]).sum(axis=-1)
+    along = ((path - target[:, None]) * (way / norm(way)[:, None])[:, None]).sum(axis=-1)
     return along.max(axis=1).clip(0)
 
 
 def path_length_ratio(path):
     """The length of each path in its first second, over the distance between its ends, (B,)."""
     first = path[:, : round(1 / STEP) + 1]
-    length = np.linalg.norm(np.diff(first, axis=1), axis=-1).sum(axis=1)
-    return length / np.linalg.norm(first[:, -1] - first[:, 0], axis=-1)
+    length = norm(np.diff(first, axis=1)).sum(axis=1)
+    return length / norm(first[:, -1] - first[:, 0])
 
 
 def path_deviation(path, meant):
@@ -72,7 +70,7 @@ def path_deviation(path, meant):
     positive to the left.
     """
     way = meant[:, -1] - meant[:, 0]
-    left = np.stack([-way[:, 1], way[:, 0]], axis=-1) / _norm(way)[:, None]
+    left = np.stack([-way[:, 1], way[:, 0]], axis=-1) / norm(way)[:, None]
     aside = ((path - meant)[:, :MOVING] * left[:, None]).sum(axis=-1)
     farthest = np.abs(aside).argmax(axis=1)[:, None]
     return np.take_along_axis(aside, farthest, axis=1)[:, 0]

@@ -18,7 +18,7 @@ from reproduce.results import arrays
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.camera import TABLE
 from vmc_lib.motor.inverse_dynamics import MOVING, SAMPLES, minimum_jerk
-from vmc_lib.motor.planning import plan
+from vmc_lib.motor.planning import norm, plan
 from vmc_lib.motor.templates import keep_last, load, reach
 
 MOMENTS = [SAMPLES, 1250, 1500]  # ms: when scatter counts
@@ -122,10 +122,10 @@ def kinematic_measures(motion, targets):
     way, hold = motion.hand[..., :2], motion.hold
     off = hold - targets[:, None]
     return {
-        "miss": 1000 * _norm(off.mean(axis=-2)),
-        "farthest": 1000 * _norm(off).max(axis=-1),
+        "miss": 1000 * norm(off.mean(axis=-2)),
+        "farthest": 1000 * norm(off).max(axis=-1),
         "speed": 1000 * motion.speed,
-        "path": _norm(np.diff(way, axis=-2)).sum(axis=-1) / _norm(targets - way[:, 0]),
+        "path": norm(np.diff(way, axis=-2)).sum(axis=-1) / norm(targets - way[:, 0]),
         "height": 1000 * (way[..., 1].min(axis=-1) - TABLE),
         "jerk": jerk(way),
     }
@@ -159,6 +159,3 @@ def _unit_noises():
     basis = motor_noise.noise_basis(MOMENTS[-1])
     each = np.einsum("tn,km->nktm", basis, np.eye(6))
     return each.reshape(-1, len(basis), 6)
-
-
-_norm = partial(np.linalg.norm, axis=-1)

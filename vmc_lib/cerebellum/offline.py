@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from vmc_lib.motor.execution import execute
-from vmc_lib.motor.planning import Plan, least_change
+from vmc_lib.motor.planning import Plan, least_change, norm
 
 GAINS = tuple(range(21))  # the paper's n in [0, 20]
 LARGEST_STEP = 0.5  # of Δw's norm: no single correction may throw the arm about
@@ -52,10 +52,10 @@ def algorithm_1_change(plan, endpoint, n, origin=(0.0, 0.0), sign=1):
     """Eq. 6–7: Δw_i = k_i cos θ_i (…, N), with k_i growing with n for templates nearer than p_t."""
     error = sign * (plan.target - endpoint)
     towards = plan.points - endpoint[..., None, :]
-    lengths = _norm(error)[..., None] * _norm(towards)
+    lengths = norm(error)[..., None] * norm(towards)
     cosine = (towards @ error[..., None])[..., 0] / np.where(lengths > 0, lengths, 1)
-    d_t, d_a, d_i = (_norm(x - np.asarray(origin)) for x in (plan.target, endpoint, plan.points))
-    return (_norm(error) / d_a)[..., None] * (1 + n * (d_t[..., None] - d_i) / d_i) * cosine
+    d_t, d_a, d_i = (norm(x - np.asarray(origin)) for x in (plan.target, endpoint, plan.points))
+    return (norm(error) / d_a)[..., None] * (1 + n * (d_t[..., None] - d_i) / d_i) * cosine
 
 
 def algorithm_1(
@@ -159,7 +159,7 @@ def broyden_calibration(plan: Plan, n_trials=2, broyden=True, guarded=True, exec
         end = tried[-1].endpoint
         if broyden:
             jacobian = broyden_update(jacobian, change, end - endpoint)
-        better = (_norm(plan.target - end) < _norm(plan.target - endpoint))[..., None]
+        better = (norm(plan.target - end) < norm(plan.target - endpoint))[..., None]
         weights = np.where(better | (not guarded), weights + change, weights)
         endpoint = np.where(better | (not guarded), end, endpoint)
     return _trials(planned, *tried)
@@ -177,12 +177,8 @@ def _trials(*movements):
     plan = movements[0].plan
     weights = np.concatenate([m.plan.weights.reshape(-1, *plan.weights.shape) for m in movements])
     endpoint = np.concatenate([m.endpoint.reshape(-1, *plan.target.shape) for m in movements])
-    return Trials(weights, endpoint, _norm(plan.target - endpoint), movements)
+    return Trials(weights, endpoint, norm(plan.target - endpoint), movements)
 
 
 def _clip_norm(change):
-    return change * np.minimum(1, LARGEST_STEP / np.maximum(_norm(change), 1e-12))[..., None]
-
-
-def _norm(vectors):
-    return np.linalg.norm(vectors, axis=-1)
+    return change * np.minimum(1, LARGEST_STEP / np.maximum(norm(change), 1e-12))[..., None]

@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from vmc_lib.arm.simulate import UNPERTURBED, Perturbation
-from vmc_lib.motor.planning import Plan
+from vmc_lib.motor.planning import Plan, norm
 from vmc_lib.motor.templates import mean_speed
 
 BATCH = 512  # movements simulated at once
@@ -69,7 +69,7 @@ class Movement:
     @property
     def error(self):
         """How far from the target the hand is seen to end, (…), m."""
-        return np.linalg.norm(self.endpoint - self.plan.target, axis=-1)
+        return norm(self.endpoint - self.plan.target)
 
     @property
     def speed(self):
@@ -80,7 +80,7 @@ class Movement:
     def stray(self):
         """How far the hand strays from its mean place over the hold, at most, (…), m."""
         away = self.hold - self.hold.mean(axis=-2, keepdims=True)
-        return np.linalg.norm(away, axis=-1).max(axis=-1)
+        return norm(away).max(axis=-1)
 
     @property
     def _hold(self):

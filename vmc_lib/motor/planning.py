@@ -71,7 +71,7 @@ def habitual_weights(target, points, power=1):
     >>> habitual_weights(np.array([0.1, -0.4]), points).round(3).tolist()
     [0.75, 0.25]
     """
-    distance = np.linalg.norm(points - target[..., None, :], axis=-1)
+    distance = norm(points - target[..., None, :])
     on = distance < 1e-9
     nearness = np.where(on, 1, distance) ** -power
     nearness = np.where(on.any(axis=-1, keepdims=True), on, nearness)
@@ -121,7 +121,7 @@ def nearest(target, points, count):
     """
     if not 1 <= count <= len(points):
         raise ValueError(f"cannot choose {count} of {len(points)} templates")
-    distance = np.linalg.norm(points - np.asarray(target)[..., None, :], axis=-1)
+    distance = norm(points - np.asarray(target)[..., None, :])
     return distance.argsort(axis=-1, kind="stable")[..., :count]
 
 
@@ -135,7 +135,7 @@ def _by_quadrant(target, points):
     away = points - target[..., None, :]
     quadrant = np.floor(np.arctan2(away[..., 1], away[..., 0]) / (np.pi / 2)) % 4
     here = quadrant[..., None, :] == np.arange(4)[:, None]
-    return np.where(here, np.linalg.norm(away, axis=-1)[..., None, :], np.inf)
+    return np.where(here, norm(away)[..., None, :], np.inf)
 
 
 def draw_targets(template_set, count, rng):
@@ -198,3 +198,8 @@ def plan(target, template_set, rule=habitual_weights, rows=None):
             raise ValueError(f"rows {rows} must be of the {len(known)} templates, 0 to {known[-1]}")
     rows = np.broadcast_to(rows, (*target.shape[:-1], rows.shape[-1]))
     return Plan(template_set, target, rows, rule(target, template_set.points[rows]))
+
+
+def norm(vectors):
+    """The Euclidean norms (…) of vectors (…, d)."""
+    return np.linalg.norm(vectors, axis=-1)
