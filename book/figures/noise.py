@@ -1,50 +1,19 @@
 """Figures of the chapter on noise: learning curves, estimates, what corrections leave."""
 
-from dataclasses import replace
-from functools import partial
 from itertools import product
 
 import numpy as np
 
 from book.figures.panels import mark_now, panels, shade
-from book.figures.reaching import norm_mm
-from reproduce.experiments.controller_comparison import templates_with_noise
-from reproduce.experiments.optimal_corrections import HOLD
-from vmc_lib.arm import muscle
-from vmc_lib.arm.engines import activations
 from vmc_lib.arm.model import MUSCLES
-from vmc_lib.motor.execution import execute
 from vmc_lib.show import dot_plot, table
 from vmc_lib.show.palette import COLOURS
 from vmc_lib.statistics import student
 
-MEASURES = {  # of a movement, in words: see `reproduce.peers.minimum_variance`
-    "scatter": "scatter (mm)",
-    "path": "way / straight way",
-    "jerk": "jerk / the least",
-    "effort": "effort (10⁻³)",
-    "miss": "miss without noise (mm)",
-    "farthest": "farthest from the target in the hold (mm)",
-    "speed": "speed in the hold (mm/s)",
-}
 
-
-def on_noisy_arm(plans, percent):
-    """The same plans on an arm whose commands vary by so many percent, during the hold too."""
-    noise = partial(muscle.noisy, share=percent / 100)
-    return replace(plans, template_set=templates_with_noise(noise, 1))
-
-
-def scatter_table(plans):
-    """How unsteady muscle noise makes an activation, and the ends of a plan repeated: a table."""
-    rows = []
-    for percent in (10, 25, 40, 60):
-        hold, draws = np.full((1, 20_000, 1), 0.1), np.random.default_rng(1)
-        u = muscle.noisy(hold, percent / 100, draws)
-        a = activations(u, u[:, 0])[0, 500:]
-        ends = execute(on_noisy_arm(plans, percent)).endpoint
-        shift = norm_mm(ends.mean(axis=0) - execute(plans).endpoint[0])
-        rows.append([percent, f"{a.std() / a.mean():.1%}", *1000 * ends.std(axis=0, ddof=1), shift])
+def scatter_table(scatter):
+    """`muscle_scatter` by the noise in percent: a table."""
+    rows = [[percent, f"{varies:.1%}", *mm] for percent, (varies, *mm) in scatter.items()]
     heads = "σ (%)", "held at 0.1, activation varies by", "forward (mm)", "up (mm)"
     return table([*heads, "mean moved by (mm)"], rows, ".1f")
 
@@ -154,23 +123,6 @@ def learners_table(draws, levels, learners):
         for mm, who in product([f"{level} mm" for level in levels], learners)
     ]
     return table(["scatter", "who learned", "in sample", "held-out"], rows, ".2f")
-
-
-def account(measures, rules, runs, known):
-    """What speaks for each of the rules: {a measure in words: its mean by rule (rules,)}.
-
-    `measures` are those without disturbances, `runs` each rule's (scatter, misses with one muscle
-    weak) by how it is corrected, and `known` its miss where it knows which muscle is weak.
-    """
-    calm = {k: [measures[r][k].mean() for r in rules] for k in MEASURES if k != "scatter"}
-    held = {how: [scatter[HOLD].mean() for scatter, _ in run] for how, run in runs.items()}
-    weak = {how: [miss.mean() for _, miss in run] for how, run in runs.items()}
-    return (
-        {MEASURES[key]: means for key, means in calm.items()}
-        | {f"scatter (mm), {how}": means for how, means in held.items()}
-        | {f"miss (mm), one weak, {how}": means for how, means in weak.items()}
-        | {"miss (mm), one weak, known (habit: aim learnt)": known}
-    )
 
 
 def efforts_table(rules):

@@ -1,18 +1,14 @@
 """Figures of the chapter on off-line calibration: a miss, its correction, trial after trial."""
 
-from functools import partial
-
 import matplotlib.pyplot as plt
 import numpy as np
 
 from book.figures.panels import curves, mark_now, panels, shade
-from book.figures.reaching import corrections, ends, mean_mm, norm_mm, reaches
-from reproduce import paper
+from book.figures.reaching import corrections, ends, mean_mm, reaches
+from reproduce.experiments.calibration import FIFTH
+from reproduce.experiments.offline_calibration import error_ratio, hold_measures, mean_best_so_far
 from vmc_lib.arm.dynamics import hand
-from vmc_lib.arm.simulate import Perturbation
-from vmc_lib.cerebellum.offline import GAINS, algorithm_1, broyden_calibration
 from vmc_lib.motor import templates
-from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import least_change
 from vmc_lib.motor.templates import START
 from vmc_lib.show import table
@@ -20,8 +16,6 @@ from vmc_lib.show.palette import COLOURS
 
 SIDE_BY_SIDE = 2, (8.2, 3.6)  # the plane, and curves
 FOUR = 0.06 * np.array([[1, -7], [2, -7], [2, -6], [1, -6]])  # templates round a target, m
-FIFTH = range(0, 21, 5)  # every fifth n
-GRIDS = {"n = 0 only": (0,), "every fifth n": FIFTH, "every n": GAINS}
 ORIGINS = {  # where Eq. 7 may measure from, m
     "shoulder": (0, 0),
     "eye": (0.10, 0.25),
@@ -60,20 +54,6 @@ def correction(plan, trials, gains, n):
     return fig
 
 
-def error_ratio(trials):
-    """Mean error of the best trials of each reach, over the planned one."""
-    return trials.error.min(axis=0).mean() / trials.error[0].mean()
-
-
-def least_misfits(*choices):
-    """The least misfit (m) that four points can have, for columns of Table IV: by their count."""
-    from reproduce.experiments.printed_weights import best_points  # not in the page
-
-    weights = paper.TABLE_4_WEIGHTS / paper.TABLE_4_WEIGHTS.sum(axis=0)
-    chosen = {len(k): (paper.TARGETS[k], weights[:, k]) for k in map(list, choices)}
-    return {n: best_points(*one, np.random.default_rng(0))[1] for n, one in chosen.items()}
-
-
 def before_and_after(printed, ours):
     """A table of errors before and after a calibration, (2, n): the paper's, and ours in mm."""
     rows = [
@@ -96,24 +76,6 @@ def best_of_each(plan, trials):
     return fig
 
 
-def repeat_algorithm_1(plan, keep, rounds=4):
-    """Endpoints (rounds + 1, n, 2) by Algorithm 1 upon Algorithm 1, for each of `GRIDS`.
-
-    With `keep` the weights before a round are among its tries.
-    """
-    first, everyone = 0 if keep else 1, np.arange(len(plan.target))
-    endpoints = {}
-    for name, gains in GRIDS.items():
-        start, ends_at = plan, [execute(plan).endpoint]
-        for _ in range(rounds):
-            trials = algorithm_1(start, gains)
-            winner = first + trials.error[first:].argmin(axis=0), everyone
-            start = start.with_weights(trials.weights[winner])
-            ends_at.append(trials.endpoint[winner])
-        endpoints[name] = np.array(ends_at)
-    return endpoints
-
-
 def after_trial(plan, rules, trial, rule):
     """Hands after a trial of one rule; the mean errors of all against the extra reaches made.
 
@@ -133,22 +95,10 @@ def after_trial(plan, rules, trial, rule):
     return fig
 
 
-def reaches_until(mm, plan, rules):
-    """Extra reaches by each rule (see `after_trial`) until its mean error is below so many mm.
-
-    Infinite where it never is.
-    """
-    errors = {name: mean_mm(endpoints, plan.target) for name, (endpoints, _) in rules.items()}
-    return {
-        name: rules[name][1] * min(np.flatnonzero(error < mm), default=np.inf)
-        for name, error in errors.items()
-    }
-
-
 def after_rounds(plan, rounds_by, rounds, n, keep):
     """Hands after so many rounds with one grid of n; the mean errors of all against the rounds.
 
-    `rounds_by[keep]` is what `repeat_algorithm_1` returned.
+    `rounds_by[keep]` is what `offline_calibration.repeat_algorithm_1` returned.
     """
     fig, left, right = panels(*SIDE_BY_SIDE)
     errors = {name: mean_mm(ends, plan.target) for name, ends in rounds_by[keep].items()}
@@ -157,20 +107,6 @@ def after_rounds(plan, rounds_by, rounds, n, keep):
     curves(right, range(5), errors, now=(rounds, now))
     right.set(xlabel="rounds", ylabel="mean error (mm)", ylim=(0, 25))
     return fig
-
-
-def errors_with_load(plan, load):
-    """Errors in mm, (9, n), of Broyden calibration with a load in kg: guarded -> errors."""
-    move = partial(execute, perturbation=Perturbation(load))
-    return {
-        guarded: 1000 * broyden_calibration(plan, 8, guarded=guarded, execute=move).error
-        for guarded in (True, False)
-    }
-
-
-def mean_best_so_far(errors):
-    """Mean over the targets of the least error up to each trial, (trials,), for (trials, n)."""
-    return np.minimum.accumulate(errors).mean(axis=1)
 
 
 def with_guards(errors):
@@ -190,17 +126,6 @@ def with_guards(errors):
 def in_mm(error):
     """An error in mm as text, with two digits; below what matters beside the drift, as that."""
     return f"{error:.2g} mm" if error >= 0.01 else "at most 0.01 mm"
-
-
-def correct_plans(plans, trials):
-    """The plans as so many trials of Broyden calibration leave them."""
-    return plans.with_weights(broyden_calibration(plans, trials).best_weights)
-
-
-def distances(plans, seconds=1.5):
-    """How far the hand is from each target after the command, (n, T), mm, every 10 ms."""
-    paths = templates.reach(plans.excitations, hold=seconds).hold
-    return norm_mm(paths - plans.target[:, None])
 
 
 def after_the_command(away, reach):
@@ -225,22 +150,15 @@ HOLD_HEADS = [
 ]
 
 
-def hold_table(plan, others):
-    """A plan with the weights of others, by name: a table with `HOLD_HEADS`."""
-    rows = {}
-    for name, other in others.items():
-        hold = execute(plan.with_weights(other.weights)).hold
-        at_end = norm_mm(hold[:, 0] - plan.target).mean()
-        rows[name] = f"{at_end:.2f}", *hold_numbers(hold, plan.target)
-    return table(HOLD_HEADS, rows)
+def hold_table(holds, target):
+    """`hold_numbers` of the hand's paths over the hold (n, T, 2), by plan: a table."""
+    return table(HOLD_HEADS, {name: hold_numbers(hold, target) for name, hold in holds.items()})
 
 
 def hold_numbers(hold, target):
-    """Mean over reaches of the last three of `HOLD_HEADS`, for paths (n, T, 2) and targets."""
-    miss = norm_mm(hold.mean(axis=1) - target).mean()
-    distance = norm_mm(hold - target[:, None]).mean()
-    speed = 1000 * templates.mean_speed(hold).mean()
-    return [f"{miss:.2f}", f"{distance:.2f}", f"{speed:.1f}"]
+    """`hold_measures` of paths (n, T, 2) for targets (n, 2) as text, below `HOLD_HEADS`."""
+    *mm, speed = hold_measures(hold, target)
+    return [*(f"{each:.2f}" for each in mm), f"{speed:.1f}"]
 
 
 def in_plane(ax, plan, endpoints, title):

@@ -33,8 +33,9 @@ SEEDS, MANY = range(6), range(20)  # the latter for the paper's own reading: Fig
 NOISE = 0.2  # of every excitation's size, fresh in every step
 SCENARIOS = ("changing neighbours", "four fixed templates")
 
-# Algorithm 1 with every fifth n: a quarter of the reaches, and hardly a difference
-coarse_algorithm_1 = partial(algorithm_1, gains=range(0, 21, 5))
+FIFTH = range(0, 21, 5)  # every fifth n
+# Algorithm 1 with these: a quarter of the reaches, and hardly a difference
+coarse_algorithm_1 = partial(algorithm_1, gains=FIFTH)
 no_calibration = partial(broyden_calibration, n_trials=0)  # no trial at all: a movement as it is
 
 

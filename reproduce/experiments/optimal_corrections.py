@@ -39,6 +39,27 @@ def scatter_and_miss(noise, weak, rule, late=None):
     return 1000 * scatter.mean(axis=0), 1000 * miss.mean(axis=-1)
 
 
+def means_by_rule(measures, rules, runs, known):
+    """Means of all measures: {a measure in words: its mean by rule (rules,)}.
+
+    `measures` are those without disturbances, `runs` each rule's (scatter, misses with one muscle
+    weak) by how it is corrected, and `known` its miss where it knows which muscle is weak.
+    """
+    calm = {
+        words: [measures[r][k].mean() for r in rules]
+        for k, words in minimum_variance.MEASURE_NAMES.items()
+        if k != "scatter"
+    }
+    held = {how: [scatter[HOLD].mean() for scatter, _ in run] for how, run in runs.items()}
+    weak = {how: [miss.mean() for _, miss in run] for how, run in runs.items()}
+    return (
+        calm
+        | {f"scatter (mm), {how}": means for how, means in held.items()}
+        | {f"miss (mm), one weak, {how}": means for how, means in weak.items()}
+        | {"miss (mm), one weak, known (habit: aim learnt)": known}
+    )
+
+
 def hand_paths(factors, rule, late=None):
     """The hand's paths (…, 6, 151, 2) in m, under a rule's commands times factors (…, 6, T, 6)."""
     if late is not None:

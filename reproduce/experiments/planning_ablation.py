@@ -3,14 +3,18 @@
 Errors are distances of the hand from its targets where a movement ends, in mm.
 """
 
-from functools import cache
+from dataclasses import replace
+from functools import cache, partial
 
 import numpy as np
 
 from reproduce.experiments.calibration import SEEDS
+from reproduce.experiments.controller_comparison import templates_with_noise
+from vmc_lib.arm import muscle
+from vmc_lib.arm.engines import activations
 from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration
 from vmc_lib.motor.execution import execute
-from vmc_lib.motor.planning import draw_targets, exact_weights, habitual_weights, plan
+from vmc_lib.motor.planning import draw_targets, exact_weights, habitual_weights, norm, plan
 from vmc_lib.motor.templates import load
 
 WEIGHTS = {"nearness (Eq. 5)": habitual_weights, "exact (Eq. 4)": exact_weights}
@@ -45,6 +49,25 @@ def repeated_errors(habit, repeats=4):
         errors[f"{name}, best trial"] = 1000 * rule_trials.error.min(axis=0)
         errors[f"{name}, again"] = 1000 * np.mean(again, axis=0)
     return errors
+
+
+def on_noisy_arm(plans, percent):
+    """The same plans on an arm whose commands vary by so many percent, during the hold too."""
+    noise = partial(muscle.noisy, share=percent / 100)
+    return replace(plans, template_set=templates_with_noise(noise, 1))
+
+
+def muscle_scatter(plans, percent):
+    """How unsteady muscle noise makes an activation, and the ends of a plan repeated.
+
+    A share; the ends' standard deviations forward and up, and how far their mean moves, in mm.
+    """
+    hold, draws = np.full((1, 20_000, 1), 0.1), np.random.default_rng(1)
+    u = muscle.noisy(hold, percent / 100, draws)
+    a = activations(u, u[:, 0])[0, 500:]
+    ends = execute(on_noisy_arm(plans, percent)).endpoint
+    shift = norm(ends.mean(axis=0) - execute(plans).endpoint[0])
+    return a.std() / a.mean(), *1000 * ends.std(axis=0, ddof=1), 1000 * shift
 
 
 def exact_weight_ratios(seeds=SEEDS, count=200):

@@ -7,6 +7,7 @@ columns that sum to one are fifteen numbers; four points in the plane have only 
 import numpy as np
 from scipy.optimize import least_squares
 
+from reproduce import paper
 from vmc_lib.motor.planning import habitual_weights
 
 
@@ -24,3 +25,10 @@ def best_points(targets, weights, rng, starts=20):
     fits = [least_squares(off, start.ravel()) for start in around]
     best = min(fits, key=lambda fit: fit.cost)
     return best.x.reshape(4, 2), np.sqrt((best.fun**2).mean())
+
+
+def least_misfits(*choices):
+    """The least misfit (m) that four points can have, for columns of Table IV: by their count."""
+    weights = paper.TABLE_4_WEIGHTS / paper.TABLE_4_WEIGHTS.sum(axis=0)
+    chosen = {len(k): (paper.TARGETS[k], weights[:, k]) for k in map(list, choices)}
+    return {n: best_points(*one, np.random.default_rng(0))[1] for n, one in chosen.items()}

@@ -26,6 +26,15 @@ NUDGE = 1e-3  # of a knot: larger than `optimal_control`'s, for what is compared
 WAVER = 0.03  # the share of noise by which its effect is found: about what reaches meet
 LEVEL, REPEATS = 5, 100  # mm that habit scatters by; reaches by which scatter is measured
 EVERY = 10  # ms between the samples of a path whose jerk is asked for
+MEASURE_NAMES = {  # what `measures_by_rule` measures, in words
+    "scatter": "scatter (mm)",
+    "path": "way / straight way",
+    "jerk": "jerk / the least",
+    "effort": "effort (10⁻³)",
+    "miss": "miss without noise (mm)",
+    "farthest": "farthest from the target in the hold (mm)",
+    "speed": "speed in the hold (mm/s)",
+}
 
 
 def search(target, ftol=1e-3):

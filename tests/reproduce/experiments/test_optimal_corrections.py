@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from reproduce.experiments import optimal_corrections as corrections
+from reproduce.peers.minimum_variance import MEASURE_NAMES
 
 
 @pytest.fixture(scope="module")
@@ -24,3 +25,14 @@ def test_without_a_disturbance_corrections_change_nothing(factors):
     undisturbed = np.ones_like(factors[1][:1])
     alone, corrected = (corrections.hand_paths(undisturbed, "habit", ms) for ms in (None, 0))
     np.testing.assert_allclose(corrected, alone, atol=1e-6)
+
+
+def test_means_by_rule_are_those_of_every_measure_and_run():
+    numbers = {name: np.array([1.0, 3.0]) for name in MEASURE_NAMES}
+    measures = {"habit": numbers, "least effort": {k: 2 * x for k, x in numbers.items()}}
+    runs = {"uncorrected": [(np.arange(151), np.array([k, k + 2])) for k in (4, 7)]}
+    means = corrections.means_by_rule(measures, list(measures), runs, [9, 8])
+    assert len(means) == len(MEASURE_NAMES) + 2
+    assert means["effort (10⁻³)"] == [2, 4]
+    assert means["scatter (mm), uncorrected"] == [125, 125]  # over the hold, ticks 100 to 150
+    assert means["miss (mm), one weak, uncorrected"] == [5, 8]

@@ -5,7 +5,7 @@ from itertools import product
 import numpy as np
 
 from reproduce.experiments import planning_ablation as ablation
-from vmc_lib.motor.planning import Plan, draw_targets, plan
+from vmc_lib.motor.planning import draw_targets, plan
 from vmc_lib.motor.templates import load
 
 
@@ -31,14 +31,14 @@ def test_only_noise_makes_a_repeated_command_worse_than_its_best_trial():
     calm = ablation.repeated_errors(habit)
     for rule in ablation.RULES:
         np.testing.assert_allclose(calm[f"{rule}, again"], calm[f"{rule}, best trial"], atol=1e-9)
-
-    class Noisy(Plan):
-        @property
-        def excitations(self):
-            u = super().excitations
-            return np.clip(u * rng.normal(1, 0.4, u.shape), 0, 1)
-
-    rng = np.random.default_rng(2)
-    noisy = ablation.repeated_errors(Noisy(**vars(habit)))
+    noisy = ablation.repeated_errors(ablation.on_noisy_arm(habit, 40))
     for rule in ablation.RULES:
         assert noisy[f"{rule}, again"].mean() > noisy[f"{rule}, best trial"].mean()
+
+
+def test_muscle_noise_scatters_the_hand():
+    once = plan(np.tile([0.15, -0.40], (10, 1)), load())
+    calm, weak, strong = (np.array(ablation.muscle_scatter(once, p)) for p in (0, 10, 40))
+    np.testing.assert_allclose(calm, 0, atol=1e-9)
+    assert (calm[:3] < weak[:3]).all()
+    assert (weak[:3] < strong[:3]).all()

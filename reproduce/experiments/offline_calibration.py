@@ -1,0 +1,89 @@
+"""Off-line calibration as its chapter shows it: round upon round, with a load, and over the hold.
+
+`calibration` has the six draws.
+"""
+
+from functools import partial
+
+import numpy as np
+
+from reproduce.experiments.calibration import FIFTH
+from vmc_lib.arm.simulate import Perturbation
+from vmc_lib.cerebellum.offline import GAINS, algorithm_1, broyden_calibration
+from vmc_lib.motor import templates
+from vmc_lib.motor.execution import execute
+from vmc_lib.motor.planning import norm
+
+GRIDS = {"n = 0 only": (0,), "every fifth n": FIFTH, "every n": GAINS}
+
+
+def error_ratio(trials):
+    """Mean error of the best trials of each reach, over the planned one."""
+    return trials.error.min(axis=0).mean() / trials.error[0].mean()
+
+
+def repeat_algorithm_1(plan, keep, rounds=4):
+    """Endpoints (rounds + 1, n, 2) by Algorithm 1 upon Algorithm 1, for each of `GRIDS`.
+
+    With `keep` the weights before a round are among its tries.
+    """
+    first, everyone = 0 if keep else 1, np.arange(len(plan.target))
+    endpoints = {}
+    for name, gains in GRIDS.items():
+        start, ends_at = plan, [execute(plan).endpoint]
+        for _ in range(rounds):
+            trials = algorithm_1(start, gains)
+            winner = first + trials.error[first:].argmin(axis=0), everyone
+            start = start.with_weights(trials.weights[winner])
+            ends_at.append(trials.endpoint[winner])
+        endpoints[name] = np.array(ends_at)
+    return endpoints
+
+
+def reaches_until(mm, plan, rules):
+    """Extra reaches by each rule until its mean error is below so many mm; infinite if never.
+
+    `rules` maps a name to endpoints (trials, n, 2), and how many reaches a trial takes.
+    """
+    errors = {name: 1000 * norm(ends - plan.target) for name, (ends, _) in rules.items()}
+    return {
+        name: rules[name][1] * min(np.flatnonzero(error.mean(axis=-1) < mm), default=np.inf)
+        for name, error in errors.items()
+    }
+
+
+def errors_with_load(plan, load):
+    """Errors in mm, (9, n), of Broyden calibration with a load in kg: guarded -> errors."""
+    move = partial(execute, perturbation=Perturbation(load))
+    return {
+        guarded: 1000 * broyden_calibration(plan, 8, guarded=guarded, execute=move).error
+        for guarded in (True, False)
+    }
+
+
+def mean_best_so_far(errors):
+    """Mean over the targets of the least error up to each trial, (trials,), for (trials, n)."""
+    return np.minimum.accumulate(errors).mean(axis=1)
+
+
+def correct_plans(plans, trials):
+    """The plans as so many trials of Broyden calibration leave them."""
+    return plans.with_weights(broyden_calibration(plans, trials).best_weights)
+
+
+def hold_distances(plans, seconds=1.5):
+    """How far the hand is from each target after the command, (n, T), mm, every 10 ms."""
+    paths = templates.reach(plans.excitations, hold=seconds).hold
+    return 1000 * norm(paths - plans.target[:, None])
+
+
+def hold_measures(hold, target):
+    """Means over reaches of hands' paths (n, T, 2) over the hold, for targets (n, 2), m.
+
+    The miss where the command ends, and of the end point; the distance from the target (all in
+    mm); the speed (mm/s).
+    """
+    away = hold - target[:, None]
+    misses = away[:, 0], hold.mean(axis=1) - target, away
+    speed = templates.mean_speed(hold).mean()
+    return [1000 * x for x in (*(norm(miss).mean() for miss in misses), speed)]
