@@ -22,7 +22,7 @@ CLOSED |= {"svg"}
 
 def setup(app):
     app.connect("env-updated", find)
-    app.connect("html-page-context", mend, priority=950)
+    app.connect("html-page-context", add_numbers, priority=950)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
 
 
@@ -35,7 +35,7 @@ def find(app, env):
             env.equation_pages[tag] = page
 
 
-def mend(app, pagename, templatename, context, doctree):
+def add_numbers(app, pagename, templatename, context, doctree):
     env, body = app.env, context.get("body", "")
     chapter = env.toc_secnumbers.get(pagename, {}).get("", ())
     body = with_links(body, env.equation_pages, partial(app.builder.get_relative_uri, pagename))

@@ -41,31 +41,47 @@ def launch(app, config):
 
 
 def mend(app, pagename, templatename, context, doctree):
-    """Mend the page.
-
-    No settings inside it, which a strict host forbids, but in a file; no script or style sheet that
-    it has no use for (KaTeX and its fonts are .6 MB), and no element around a word of code without
-    a colour of its own; no list role on what is no list, no role that is out of use, and no label
-    that hides a summary's own words; the number of an equation outside the `split` that Sphinx puts
-    around its lines.
-    """
+    """Mend the page's settings, its assets and its body, and seal the one that sends nothing."""
     body = context.get("body", "")
-    demos = "|".join(name for name, _ in app.config.html_js_files if name not in EVERYWHERE)
-    needs = NEEDS | {rf"/({demos})\b": 'class="vmc-'}
-    page = re.sub("<pre>.*?</pre>", "", body, flags=re.S)  # what is code asks for nothing
-    needless = "|".join(asset for asset, mark in needs.items() if not re.search(mark, page))
+    settings_in_file(app, context)
+    drop_needless_assets(app, context, body)
+    context["body"] = mend_body(body)
+    if pagename == SEALED:
+        policy = f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">'
+        context["metatags"] = context.get("metatags", "") + policy
+
+
+def settings_in_file(app, context):
+    """No settings inside the page, which a strict host forbids, but in a file."""
     files = context["script_files"]
     settings = dict.fromkeys(filter(None, (file.attributes.get("body") for file in files)))
     settings = [line for line in settings if "DOCUMENTATION_OPTIONS" not in line]  # Sphinx's own
     context["script_files"] = [one for one in files if one.attributes.get("body") not in settings]
     (static := Path(app.outdir, "_static")).mkdir(exist_ok=True)
     (static / "settings.js").write_text("\n".join(settings), encoding="utf-8")
+
+
+def drop_needless_assets(app, context, body):
+    """No script or style sheet that the page has no use for: KaTeX and its fonts are .6 MB."""
+    demos = "|".join(name for name, _ in app.config.html_js_files if name not in EVERYWHERE)
+    needs = NEEDS | {rf"/({demos})\b": 'class="vmc-'}
+    page = re.sub("<pre>.*?</pre>", "", body, flags=re.S)  # what is code asks for nothing
+    needless = "|".join(asset for asset, mark in needs.items() if not re.search(mark, page))
     for kind in ("script_files", "css_files"):
         context[kind] = [
             file
             for file in context[kind]
             if not re.search(needless, f"{file.filename} {file.attributes.get('body', '')}", re.I)
         ]
+
+
+def mend_body(body):
+    """The page's body without what is needless or wrong in it.
+
+    No element around a word of code without a colour of its own; no list role on what is no list,
+    no role that is out of use, and no label that hides a summary's own words; the number of an
+    equation outside the `split` that Sphinx puts around its lines.
+    """
     thebe = (
         r'<script type="text/x-thebe-config">.*?</script>(\s*<script>kernelName = .*?</script>)?'
     )
@@ -73,10 +89,7 @@ def mend(app, pagename, templatename, context, doctree):
     body = re.sub(r"(\\tag\{[^}]*\})(\s*\\end\{split\})", r"\2\1", body)
     body = body.replace('<div role="list" class="citation-list">', "<div>")
     body = body.replace(' role="doc-biblioentry"', "")
-    if pagename == SEALED:
-        policy = f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">'
-        context["metatags"] = context.get("metatags", "") + policy
-    context["body"] = body.replace('<summary aria-label="Toggle hidden content">', "<summary>")
+    return body.replace('<summary aria-label="Toggle hidden content">', "<summary>")
 
 
 def code_marks(app, what, name, obj, options, lines):
