@@ -1,8 +1,6 @@
 /* The browser's end of widgets that a kernel answers (vmc_lib.show.live). */
 const GONE = "The kernel has gone: Run > Run All Cells.";
-// where a browser was too slow for anywidget's two seconds, no answer ever comes
-const RUNNING = "The chapter is still running: the controls move as soon as it can answer. " +
-  "If it has ended, run this cell once more.";
+const RUNNING = "The chapter is still running: the controls move as soon as it can answer.";
 const { loaded, lenders, vendored } = (globalThis.vmcScripts ??= {
   loaded: new Set(), // names of the scripts that have run, once for the whole window
   lenders: new Set(), // kernels that send a vendored script to whoever needs it
@@ -17,6 +15,16 @@ const run = (text) => {
   document.head.append(tag);
   tag.remove();
   self.define = define;
+};
+
+/* Anywidget drops all messages of a model that loads later than two seconds, as on a busy machine;
+   so they are heard by the class that anywidget's extends. */
+const hear = (model) => {
+  model.on("change:heard", (whole) => {
+    const plain = Object.getPrototypeOf(Object.getPrototypeOf(whole));
+    whole.comm?.on_msg((message) => plain._handle_comm_msg.call(whole, message));
+  });
+  model.set("heard", true);
 };
 
 /* `ask(question, value)` promises the kernel's answer, or an { error }; so does every question that
@@ -119,6 +127,7 @@ const states = (ask, box, first) => {
 
 export default {
   render({ model, el }) {
+    hear(model);
     const ask = connect(model);
     el.innerHTML = model.get("page");
     el.dataset.lmSuppressShortcuts = true; // keys are the controls' own, not the notebook's
