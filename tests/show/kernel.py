@@ -18,6 +18,7 @@ RENDER = """async ([script, traits, kernel, busy]) => {
   const model = {
     busy,
     get: (name) => traits[name],
+    set: (name) => emit(`change:${name}`, model),
     on: (event, listener) => ((listeners[event] ??= []).push(listener)),
     send: (message) => {
       if (model.closed) throw new Error("Cannot send");
