@@ -6,8 +6,8 @@ from the `anatomy` that comes along. The model ends at the wrist: the hand beyon
 so that it can meet what the wrist reaches for, all that is drawn `BEYOND` the wrist.
 """
 
-from contextlib import suppress
 from functools import cache
+from importlib.util import find_spec
 
 import numpy as np
 
@@ -30,7 +30,8 @@ def arm_scene(q, activation=6 * (0,), turn=0.0, photo=None, balls=(), grasp=Fals
     closes: at once, or at the end of the movement. `end` is the movement's end point (3,) and how
     fast the hand still is there, in m/s: a red diamond, on a line from the target.
     """
-    scene = Scene(_furniture(bool(photo or len(balls))))
+    table = bool(photo or len(balls))
+    scene = Scene(_furniture(table))
     q = np.atleast_2d(np.asarray(q, float))[::EVERY]
     moments = np.arange(len(q)) * EVERY / 1000
     active = np.broadcast_to(np.atleast_2d(activation)[::EVERY], (len(q), 6))
@@ -38,7 +39,7 @@ def arm_scene(q, activation=6 * (0,), turn=0.0, photo=None, balls=(), grasp=Fals
     closed = np.clip(1 + (moments - moments[-1]) / CLOSING, 0, 1) * bool(grasp)
     motion = {"q": q, "activation": active, "turn": turns, "grasp": closed}
     scene.tell("motion", {name: value.round(4).tolist() for name, value in motion.items()})
-    if not (photo or len(balls)):
+    if not table:
         return scene
     from vmc_lib.show import props  # here, with meshcat, which the page has not
 
@@ -79,7 +80,7 @@ def _furniture(table):
     scene = Scene()
     at, far = ((0.13, -0.24, 0), 1.05) if table else ((0.2, -0.18, 0), 1.3)  # what may be in sight
     scene.look(np.add(at, far * np.array([0.46, 0.25, 0.78])), at)
-    with suppress(ImportError):  # in the page, where MuJoCo is not, and the viewer knows it
+    if find_spec("mujoco"):  # not in the page, whose viewer has it from the first scene
         from vmc_lib.show.anatomy import anatomy
 
         scene.tell("anatomy", anatomy() | {"beyond": BEYOND.tolist(), "every": EVERY / 1000})

@@ -126,9 +126,9 @@ const vmcScene = (() => {
       this.messages = messages;
       const next = new Map(messages.map((message) => message.split("|")));
       const pairs = [...next].filter(([key]) => !key.includes(" "));
-      const { anatomy } = this.settings; // the page's Python does not tell it again
-      this.settings = { anatomy, ...Object.fromEntries(pairs.map(([key, data]) => [key, JSON.parse(data)])) };
-      if (this.settings.anatomy) this.anatomy = new vmcAnatomy.Anatomy(this.settings.anatomy);
+      const { anatomy, ...settings } = Object.fromEntries(pairs.map(([key, data]) => [key, JSON.parse(data)]));
+      this.settings = settings;
+      if (anatomy) this.anatomy = new vmcAnatomy.Anatomy(anatomy); // the page's Python does not tell it again
       if (this.viewer) this.send(next);
       const { motion } = this.settings;
       if (motion) this.body?.draw(motion.q.map((q, i) => this.anatomy.wrist(q, motion.turn[i])));
@@ -144,7 +144,7 @@ const vmcScene = (() => {
           this.viewer.handle_command_bytearray(Uint8Array.from(atob(data), (c) => c.charCodeAt(0)));
           this.sent.set(key, data);
         }
-      if (this.settings.anatomy && !this.body)
+      if (this.anatomy && !this.body)
         this.body = new vmcBody.Body(this.viewer, this.anatomy, bones);
     }
 
@@ -159,21 +159,21 @@ const vmcScene = (() => {
 
     /* How long the scene's movement takes, in s. */
     get duration() {
-      return this.settings.motion ? (this.settings.motion.q.length - 1) * this.settings.anatomy.every : 0;
+      return this.settings.motion ? (this.settings.motion.q.length - 1) * this.anatomy.every : 0;
     }
 
     /* Show the scene as it is at a time of its movement, between two moments a mixture. */
     at(time) {
       this.wanted = time;
       this.time = Math.min(time, this.duration);
-      const { motion, anatomy } = this.settings;
-      if (motion) this.pose(vmcAnatomy.moment(motion, this.time / anatomy.every));
+      const { motion } = this.settings;
+      if (motion) this.pose(vmcAnatomy.moment(motion, this.time / this.anatomy.every));
     }
 
     /* Put the arm into a pose { q, activation, turn, grasp }; listeners are called. */
     pose(pose) {
       this.posed = pose;
-      this.body?.pose(pose, this.time / this.settings.anatomy?.every);
+      this.body?.pose(pose, this.time / this.anatomy?.every);
       this.listeners.forEach((listen) => listen(pose));
     }
 
