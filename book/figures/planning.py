@@ -7,18 +7,14 @@ from book.figures.panels import panels
 from book.figures.reaching import arrows, ends, norm_mm, plane
 from reproduce.experiments.planning_error import TARGETS, mixed_and_reached
 from reproduce.peers import optimal_control
-from reproduce.peers.minimum_variance import kinematic_measures
+from reproduce.peers.minimum_variance import MEASURE_NAMES, kinematic_measures
 from vmc_lib.arm.model import MUSCLES
 from vmc_lib.motor import templates
 from vmc_lib.show import table
 from vmc_lib.show.palette import COLOURS
 
-WATCHED = {  # of `kinematic_measures`, in words
-    "path": "way / straight way",
-    "farthest": "farthest from the target in the hold (mm)",
-    "speed": "speed in the hold (mm/s)",
-    "height": "lowest above the table (mm)",
-}
+WATCHED = {name: MEASURE_NAMES[name] for name in ("path", "farthest", "speed")}
+WATCHED["height"] = "lowest above the table (mm)"
 
 
 def planned_in_words(target, ended):
