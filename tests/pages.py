@@ -33,6 +33,7 @@ NO_WEBGL = """const { getContext } = HTMLCanvasElement.prototype;
 HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
   return kind.startsWith("webgl") ? null : getContext.call(this, kind, ...rest);
 };"""
+CAPTURE = "div => vmcScene(div).viewer.capture_image()"
 TWO_FRAMES = "() => new Promise((on) => requestAnimationFrame(() => requestAnimationFrame(on)))"
 PATIENCE = 180_000  # ms: ends a hang, never a busy machine's work
 counter = itertools.count(1)

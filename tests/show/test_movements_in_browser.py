@@ -3,13 +3,12 @@
 import numpy as np
 import pytest
 
-from tests.pages import NO_WEBGL, drag, middle
+from tests.pages import CAPTURE, NO_WEBGL, drag, middle
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.show import Slider
 from vmc_lib.show.arm import arm_scene
 
 pytestmark = pytest.mark.browser
-CAPTURE = "div => vmcScene(div).viewer.capture_image()"
 
 
 def movement(elbow):

@@ -6,11 +6,11 @@ import pytest
 from meshcat import geometry as g
 from meshcat.transformations import translation_matrix
 
+from tests.pages import CAPTURE
 from vmc_lib.show import Scene, Slider, explore, figure, photo_view
 from vmc_lib.show.arm import arm_scene
 
 pytestmark = pytest.mark.browser
-CAPTURE = "div => vmcScene(div).viewer.capture_image()"
 
 
 def ball(x):
