@@ -91,7 +91,8 @@ def test_files_open_offline_read_well_in_both_themes_and_start_their_arms(files,
     for path in files:
         page = open_url(offline, path.as_uri())
         if page.locator(".vmc-scene").count():
-            page.wait_for_selector(".vmc-scene canvas")
+            page.wait_for_selector(".vmc-scene :is(canvas, .vmc-note)")
+            assert page.locator(".vmc-scene .vmc-note").all_inner_texts() == []
         if "\\(" in page.inner_text("main"):
             page.wait_for_selector("main math")
         if slider := page.query_selector("input[id][type=range]:not(fieldset[disabled] *)"):

@@ -12,11 +12,13 @@ from contextlib import contextmanager
 
 SYSTEM = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 # WebGL in software: the arm is drawn on machines without a graphics card too; the page around it
-# is put together without WebGL, which is twice as quick there
+# is put together without WebGL, which is twice as quick there. A graphics process that dies, for
+# want of memory or time, is started again, and the pages opened after it have WebGL as before
 FLAGS = (
     "--disable-quic --no-first-run --disable-background-networking "
     "--disable-component-update --disable-sync "
-    "--use-gl=angle --use-angle=swiftshader --enable-unsafe-swiftshader --disable-gpu-compositing"
+    "--use-gl=angle --use-angle=swiftshader --enable-unsafe-swiftshader --disable-gpu-compositing "
+    "--disable-gpu-watchdog --disable-gpu-process-crash-limit --disable-domain-blocking-for-3d-apis"
 ).split()
 MISSING = (
     "NO BROWSER: the built pages are NOT tested. Install Chromium (apt install chromium), or let "

@@ -10,7 +10,7 @@ const vmcBench = (() => {
       this.controls.addEventListener("input", () => this.hear());
       this.form.elements.step.addEventListener("click", () => this.advance(10));
       this.form.elements.reset.addEventListener("click", () => this.reset());
-      const look = ([entry]) => (this.inSight = entry.isIntersecting);
+      const look = (entries) => (this.inSight = entries.at(-1).isIntersecting); // what it saw last counts
       new IntersectionObserver(look).observe(this.box);
       this.reset();
     }

@@ -138,8 +138,13 @@ def test_a_scene_without_its_files_says_so(open_demo, window):
 
 
 def test_a_picture_that_the_browser_takes_away_comes_back(moving):
-    lose = "div => vmcScene(div).viewer.renderer.getContext().getExtension('WEBGL_lose_context')"
-    moving.eval_on_selector(".vmc-scene", f"{lose}.loseContext()")
-    moving.get_by_text("taken the 3-D picture away").wait_for()
-    moving.eval_on_selector(".vmc-scene", "div => vmcScene(div).awake()")
-    moving.wait_for_selector(".vmc-scene canvas")
+    get = "div => vmcScene(div).viewer.renderer.getContext().getExtension('WEBGL_lose_context')"
+    for back in (
+        "(_, context) => context.restoreContext()",  # by itself, when the browser gives it back
+        "(div) => vmcScene(div).awake()",  # when the reader has scrolled on and back
+    ):
+        context = moving.query_selector(".vmc-scene").evaluate_handle(get)
+        context.evaluate("context => context.loseContext()")
+        moving.get_by_text("taken the 3-D picture away").wait_for()
+        moving.eval_on_selector(".vmc-scene", back, context)
+        moving.wait_for_selector(".vmc-scene canvas")

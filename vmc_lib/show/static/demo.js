@@ -122,8 +122,8 @@ const vmcDemo = (() => {
       show();
     });
     if ("unasked" in button.dataset && !calm.matches) {
-      const watch = new IntersectionObserver(([{ isIntersecting }]) => {
-        if (!isIntersecting) return;
+      const watch = new IntersectionObserver((entries) => {
+        if (!entries.at(-1).isIntersecting) return;
         watch.disconnect();
         if (+input.value === 0) button.click();
       }, { threshold: 0.6 });

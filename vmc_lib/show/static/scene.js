@@ -35,7 +35,7 @@ const vmcScene = (() => {
       this.wanted = Infinity; // s: a movement is first shown at its end
       this.listeners = [];
       views.set(div, this);
-      new IntersectionObserver(([entry]) => entry.isIntersecting && this.awake(), {
+      new IntersectionObserver((entries) => entries.at(-1).isIntersecting && this.awake(), {
         rootMargin: "200px",
       }).observe(div);
       (self.requestIdleCallback ?? setTimeout)(load); // paper shows what was never in sight
@@ -91,8 +91,10 @@ const vmcScene = (() => {
       if (posed) this.pose(posed);
       this.onstart?.();
       vmcScenePointer(this, canvas);
-      viewer.renderer.domElement.addEventListener("webglcontextlost", () => this.viewer === viewer
+      const { domElement } = viewer.renderer;
+      domElement.addEventListener("webglcontextlost", () => this.viewer === viewer
         && this.flat("The browser has taken the 3-D picture away: scroll on and back, or load the page again."));
+      domElement.addEventListener("webglcontextrestored", () => this.viewer ?? this.awake());
       const draw = () => {
         if (this.viewer !== viewer) return;
         if (viewer.needs_render) viewer.render();
