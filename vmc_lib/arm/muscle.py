@@ -4,8 +4,8 @@ Three curves and one lag. The paper leaves units and ranges open; we read it so:
 
 - length `l = (musculotendon length − slack tendon) / optimal fibre length`: the tendon is rigid,
   and the pennation (at most 12 degrees here) is left out;
-- velocity `v = (rate of l) / 2.5`, **lengthening positive**, in units of a maximal shortening
-  velocity of 2.5 fibre lengths a second;
+- velocity `v = (rate of l) / 2.5`, **lengthening positive**, in units of 2.5 optimal fibre lengths
+  a second (which is not the fastest shortening: Eq. 11 still pulls there);
 - Eq. 11 divides by zero at v = 1 and its even powers fall again beyond; at v = 1 − √11 it reaches
   zero and turns negative below. `force_velocity` therefore holds v inside `VELOCITY_RANGE`;
 - the passive force rises again below l = 0.22 (an even power): `passive_force` holds l above it.
@@ -21,7 +21,7 @@ import numpy as np
 
 TAU_ACTIVATION = 0.010  # s: calcium floods in quickly …
 TAU_DEACTIVATION = 0.040  # s: … and is pumped back slowly
-MAX_VELOCITY = 2.5  # optimal fibre lengths per second
+MAX_VELOCITY = 2.5  # optimal fibre lengths per second, the unit of v
 VELOCITY_RANGE = 1 - 11**0.5, 0.9
 
 

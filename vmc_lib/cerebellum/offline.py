@@ -63,9 +63,9 @@ def algorithm_1(
 ):
     """Calibrate a plan off-line by Algorithm 1: try every n, each with the correction of Eq. 6–7.
 
-    The paper leaves `origin` and `sign` open: both were chosen for the ratio of errors that it
-    prints, a reading fitted to the answer. And its best is one of the n; here it may be the plan
-    itself: no correction should make a reach worse.
+    The paper leaves `origin` and `sign` open. The sign was chosen for the ratio of errors that it
+    prints, a reading fitted to the answer; the origin is that of all our places. And its best is
+    one of the n; here it may be the plan itself: no correction should make a reach worse.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Adaptation from reach to reach as two memories: one learns fast and forgets, one does neither.
+"""Adaptation from reach to reach as two memories: one learns and forgets fast, one slowly.
 
 The state-space model of Smith et al. (2006, PLoS Biology 4:e179). The rates are close to theirs.
 """

@@ -4,7 +4,7 @@ The plan's excitations run as before. Two loops add to them. The *stretch reflex
 muscle that is longer, or lengthens faster, than the reference says; it takes 30 ms, through the
 spinal cord. *Sight* compares where the arm is with where it should be and asks for an acceleration;
 it takes four times as long. Late sight shakes the arm, unless a *forward model* predicts, from the
-commands sent since, where the arm must be by now: a Smith predictor.
+commands sent since, where the arm must be by now: a state predictor, akin to Smith's.
 
 All movements of a batch begin at rest in `START`.
 """
@@ -158,7 +158,7 @@ def simulate_feedback(reference, gains=SIGHT, model=None, disturbance=None, nois
 
 
 def predict_state(model, q, velocity, activations):
-    """Predict the present state from delayed feedback by a forward model (Smith predictor).
+    """Predict the present state from delayed feedback by a forward model.
 
     It replays the activations (ticks, B, 6) sent since the arm was at q (B, 2) with this velocity.
     """

@@ -124,7 +124,7 @@ class Strategy:
             raise ValueError(f"{self} grows no hierarchy: give one of each or more")
 
 
-# Uijlings et al. (2013), Table 6. Their fast has k of 50 and 100: ours makes shorter lists, as good
+# Uijlings et al. (2013). Their fast has k of 50 and 100: ours makes shorter lists, as good
 # at equal length on training and further validation photos. "diverse" and "finer" are ours: the
 # first is what the paper's words ask for, its k fitted on training photos to the paper's 130 boxes
 # (with ALL alone and as many boxes, fewer objects of the rig's validation photos have a good one).
@@ -158,7 +158,7 @@ def rank_boxes(trees, rng, smallest=20):
 
     Each hierarchy ranks its regions from the last made (the largest) down; a rank is then
     multiplied by a number drawn from `rng`, so that neither large boxes nor one hierarchy come
-    all first (Uijlings et al. 2013, section 4.4). Boxes narrower or lower than `smallest` pixels
+    all first (Uijlings et al. 2013). Boxes narrower or lower than `smallest` pixels
     are left out.
     """
     boxes, ranks = [], []
