@@ -161,7 +161,7 @@ def first(movement):
         "path": motion.hand[ten].round(4).tolist(),
         "q": motion.q[-1].tolist(),
         "activation": motion.activation[-1].tolist(),
-        "joints": np.array(geometry(motion.q[-1]).joints).tolist(),
+        "joints": geometry(motion.q[-1]).joints.tolist(),
     }
 
 

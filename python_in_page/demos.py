@@ -21,20 +21,20 @@ def draw(above, book, cell, name, places, data=""):
 
     `above` is that code, a text for each cell before the demo's own, and `book` the same as the
     book has it; `places` are where the sliders and choices stand, by name; `data` are the arrays
-    that the page brings, where no law of the reader's is asked for. The answer holds `laws`, the
-    reader's names that the demo needs; and the lines of its words and `parts`, and its sliders'
-    `texts`, or the `error` that a law of the reader's made. Without `places` it is only prepared.
+    that the page brings, where no law of the reader's is asked for. The answer holds the lines of
+    its words and `parts`, and its sliders' `texts`; or the `error` that a law of the reader's made.
+    Without `places` it is only prepared.
     """
-    laws = changed(above, book, cell)
+    data = "" if changed(above, book, cell) else data
     try:
         with redirect_stdout(StringIO()):
-            demo, controls, _ = prepared(tuple(above), cell, "" if laws else data)
+            demo, controls, _ = prepared(tuple(above), cell, data)
             if places is None:
-                return {"laws": laws, "parts": [], "texts": {}}
+                return {"parts": [], "texts": {}}
             words, parts = draw_state(values=values_at(controls, places), name=name, **demo)
     except Exception as error:
-        return {"laws": laws, "error": repr(error)}
-    return {"laws": laws, "parts": [[words], *lines(parts)], "texts": _texts(controls, places)}
+        return {"error": repr(error)}
+    return {"parts": [[words], *lines(parts)], "texts": _texts(controls, places)}
 
 
 @lru_cache(8)

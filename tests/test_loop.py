@@ -176,7 +176,7 @@ def test_the_best_boxes_are_rescored_in_two_passes():
 def test_of_overlapping_boxes_the_most_probable_is_kept():
     boxes = np.array([[0, 0, 50, 50], [2, 0, 52, 50], [200, 0, 250, 50.0]])
     detections = Detections(boxes, np.ones(3), boxes, boxes, np.ones(3))
-    selected, evidence = rescore_boxes(detections, stream_of(boxes, [0.7, 0.9, 0.8]), None)
+    selected, evidence = rescore_boxes(stream_of(boxes, [0.7, 0.9, 0.8]), None, detections)
     np.testing.assert_array_equal(selected, boxes[[1, 2]])
     np.testing.assert_allclose(evidence, np.column_stack([[1, 1], logit([0.9, 0.8])]))
 

@@ -1,8 +1,8 @@
 """A model that sees and reaches: vision, planning, an arm and a cerebellum.
 
-The modules stand in the order in which the signal travels: `photos`, `boxes`, `camera` and `sheet`,
-`where`, `what`, `arm`, `motor`, `cerebellum`, and `loop`, which calls them in that order. `show`
-draws, `data` holds what ships, and `compiled` makes plain loops fast.
+The modules stand in the order in which the signal travels: `photos`, `boxes`, `camera` and
+`marker_sheet`, `where`, `what`, `arm`, `motor`, `cerebellum`, and `loop`, which calls them in that
+order. `show` draws, `data` holds what ships, and `compiled` makes plain loops fast.
 """
 
 

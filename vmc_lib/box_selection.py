@@ -41,14 +41,14 @@ class BoxSelector:
 
     def select(self, image, detections):
         """The refined `Detections`, the most probable first, and their probabilities (n,)."""
-        boxes, evidence = rescore_boxes(detections, self.stream, image)
+        boxes, evidence = rescore_boxes(self.stream, image, detections)
         probability = self.classifier.probability(evidence)
         order = np.argsort(-probability, kind="stable")
         best = replace(detections, boxes=boxes[order], scores=evidence[order, 0])
         return best, probability[order]
 
 
-def rescore_boxes(detections, stream, image):
+def rescore_boxes(stream, image, detections):
     """Rescore and refine the boxes of an image's `Detections` with a `VentralStream`.
 
     It looks at the N_FIRST_PASS of the best scores; then at the N_SECOND_PASS most probable of

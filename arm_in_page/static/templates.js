@@ -8,7 +8,7 @@ const vmcTemplates = (() => {
      themselves. */
   class TemplateSet {
     constructor({ points, shape, steps }, values) {
-      const [count, rows, muscles] = shape;
+      const [, rows, muscles] = shape;
       const at = (n, i, k) => values[(n * rows + i) * muscles + k];
       const fill = (length, make) => Array.from({ length }, (_, i) => make(i));
       const spline = fill(steps, (t) =>

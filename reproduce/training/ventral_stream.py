@@ -166,8 +166,7 @@ def fit_rescoring(stream, shots):
     """
     detector, x, y = loop.high_recall_detector(photos.REAL_LEVEL), [], []
     for shot in shots:
-        found = detector.detect(shot.image)
-        boxes, features = rescore_boxes(found, stream, shot.image)
+        boxes, features = rescore_boxes(stream, shot.image, detector.detect(shot.image))
         x.append(features)
         y.append(iou(boxes, photos.boxes_of(shot, "shuttlecock")).max(1, initial=0) > 0.5)
     logistic = LogisticRegression(C=np.inf).fit(np.vstack(x), np.hstack(y))  # three numbers

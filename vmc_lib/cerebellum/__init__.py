@@ -1,1 +1,1 @@
-"""The cerebellum: calibration off-line and online, and adaptation."""
+"""The cerebellum: calibration off-line and online, adaptation, forward models."""

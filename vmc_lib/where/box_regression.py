@@ -54,8 +54,8 @@ class RBFRidge:
         return self.basis(x) @ self.weights + self.bias
 
 
-def regress(recipe, regressions, pixels, boxes):
-    """Refine boxes (n, 4) by predicted deltas, once for each of `regressions`."""
+def regress(recipe, regressions, image, boxes):
+    """Refine boxes (n, 4) of an image by predicted deltas, once for each of `regressions`."""
     for regression in regressions:
-        boxes = decode_deltas(boxes, regression.predict(recipe.describe(pixels, boxes)))
+        boxes = decode_deltas(boxes, regression.predict(recipe.describe(image, boxes)))
     return boxes
