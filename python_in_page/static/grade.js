@@ -40,77 +40,86 @@ const vmcGrade = (() => {
 
   const memoryOf = (name) => `${location.pathname} ${name}`;
 
-  const edit = (form, cell, name) => {
-    const input = cell.querySelector(".cell_input");
-    const { stop, reset } = form.elements;
-    const status = form.querySelector("[role=status]");
-    const empty = lines(cell).trimEnd();
-    const memory = memoryOf(name);
+  /* A cell in whose place the reader writes, and its form: buttons, and what was said of the lines. */
+  class Editor {
+    constructor(form, cell, name) {
+      const { stop, reset } = form.elements, area = document.createElement("textarea");
+      const status = form.querySelector("[role=status]"), empty = lines(cell).trimEnd();
+      Object.assign(this, { form, cell, area, status, empty, memory: memoryOf(name) });
+      Object.assign(area, { defaultValue: empty, spellcheck: false, wrap: "off", autocomplete: "off", className: "vmc-lines" });
+      area.setAttribute("autocapitalize", "off");
+      area.setAttribute("aria-label", `Your lines: ${name.split(".").pop()}`);
+      cell.querySelector(".cell_input").replaceChildren(area);
+      form.hidden = false;
+      form.addEventListener("submit", (event) => {
+        event.preventDefault();
+        if (stop.disabled) this.check();
+      });
+      stop.addEventListener("click", () => vmcPython.stop());
+      reset.addEventListener("click", () => this.reset());
+      area.addEventListener("keydown", (event) => onKey(event, form));
+      for (const sign of ["pointerdown", "input"]) // of one who is about to write: it may be there when asked
+        area.addEventListener(sign, vmcPython.start, { once: true });
+      area.addEventListener("input", () => {
+        this.fit();
+        this.keep();
+      });
+      this.restore();
+      this.fit();
+    }
 
-    const area = document.createElement("textarea");
-    Object.assign(area, { defaultValue: empty, spellcheck: false, wrap: "off", autocomplete: "off", className: "vmc-lines" });
-    area.setAttribute("autocapitalize", "off");
-    area.setAttribute("aria-label", `Your lines: ${name.split(".").pop()}`);
-    input.replaceChildren(area);
-    form.hidden = false;
+    fit() {
+      this.area.rows = this.area.value.split("\n").length + 1;
+      this.form.elements.reset.disabled = this.area.value === this.empty;
+    }
 
-    const fit = () => {
-      area.rows = area.value.split("\n").length + 1;
-      reset.disabled = area.value === empty;
-    };
-    const show = ([message, printed]) => {
-      status.innerHTML = `<p>${inline(message)}</p>${printed ? `<pre>${escaped(printed)}</pre>` : ""}`;
-      window.vmcEquations?.(status);
-    };
-    let said; // of what is typed, or of what was typed before
-    const keep = () => vmcMemory.set(memory, JSON.stringify({ typed: area.value, said }));
+    show([message, printed]) {
+      this.status.innerHTML = `<p>${inline(message)}</p>${printed ? `<pre>${escaped(printed)}</pre>` : ""}`;
+      window.vmcEquations?.(this.status);
+    }
 
-    const run = () => { // the demos below may follow: see laws.js
-      area.ran = area.value;
-      cell.dispatchEvent(new Event("vmc-run", { bubbles: true }));
-    };
-    const check = async () => {
+    /* `verdict` is of what is typed, or of what was typed before. */
+    keep() {
+      vmcMemory.set(this.memory, JSON.stringify({ typed: this.area.value, said: this.verdict }));
+    }
+
+    restore() {
+      const kept = vmcMemory.parsed(this.memory);
+      if (kept?.typed === undefined) return;
+      this.area.value = kept.typed;
+      if (kept.said) this.show((this.verdict = kept.said));
+    }
+
+    run() { // the demos below may follow: see laws.js
+      this.area.ran = this.area.value;
+      this.cell.dispatchEvent(new Event("vmc-run", { bubbles: true }));
+    }
+
+    async check() {
+      const { form, cell, area } = this, { stop } = form.elements, graded = form.dataset.function;
       stop.disabled = false;
       try {
-        const given = [above(cell).map(lines), area.value], graded = form.dataset.function;
-        const question = graded ? ["check", ...given, graded] : ["run", ...given];
-        said = await vmcPython.ask(["grader", ...question], (text) => show([text]));
-        run();
+        const code = [above(cell).map(lines), area.value];
+        const question = graded ? ["check", ...code, graded] : ["run", ...code];
+        this.verdict = await vmcPython.ask(["grader", ...question], (text) => this.show([text]));
+        this.run();
       } catch (error) {
-        said = [`✗ ${error.message}`];
+        this.verdict = [`✗ ${error.message}`];
       }
       stop.disabled = true;
-      form.dispatchEvent(new CustomEvent("vmc-graded", { bubbles: true, detail: said[0] }));
-      show(said);
-      keep();
-    };
-    form.addEventListener("submit", (event) => {
-      event.preventDefault();
-      if (stop.disabled) check();
-    });
-    stop.addEventListener("click", () => vmcPython.stop());
-    reset.addEventListener("click", () => {
-      area.select();
-      type(area, empty);
-      show((said = [""]));
-      keep();
-      run();
-    });
-    area.addEventListener("keydown", (event) => onKey(event, form));
-    for (const sign of ["pointerdown", "input"]) // of one who is about to write: it may be there when asked
-      area.addEventListener(sign, vmcPython.start, { once: true });
-    area.addEventListener("input", () => {
-      fit();
-      keep();
-    });
-
-    const kept = vmcMemory.parsed(memory);
-    if (kept?.typed !== undefined) {
-      area.value = kept.typed;
-      if (kept.said) show((said = kept.said));
+      form.dispatchEvent(new CustomEvent("vmc-graded", { bubbles: true, detail: this.verdict[0] }));
+      this.show(this.verdict);
+      this.keep();
     }
-    fit();
-  };
+
+    reset() {
+      this.area.select();
+      type(this.area, this.empty);
+      this.show((this.verdict = [""]));
+      this.keep();
+      this.run();
+    }
+  }
 
   /* A cell's *Edit*: it opens the cell, which is open at once where the reader has changed it before. */
   const offer = (cell) => {
@@ -124,7 +133,7 @@ const vmcGrade = (() => {
       if (cell.querySelector("details")) cell.querySelector("details").open = true; // its code is folded
       form.innerHTML = '<button>Run</button> <button type="button" name="stop" disabled>Stop</button> ' +
         '<button type="button" name="reset" disabled>Reset</button> <div role="status"></div>';
-      edit(form, cell, name);
+      new Editor(form, cell, name);
     };
     cell.addEventListener("vmc-bring", ({ detail }) => {
       if (!field(cell)) open();
@@ -140,7 +149,7 @@ const vmcGrade = (() => {
 
   addEventListener("DOMContentLoaded", () => {
     for (const form of document.querySelectorAll("form[data-function]"))
-      edit(form, form.closest(".cell").previousElementSibling, form.dataset.function);
+      new Editor(form, form.closest(".cell").previousElementSibling, form.dataset.function);
     document.querySelectorAll(".cell.tag_runs-in-page").forEach(offer);
   });
   return { inline, above, book };
