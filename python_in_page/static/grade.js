@@ -91,7 +91,7 @@ const vmcGrade = (() => {
     }
 
     run() { // the demos below may follow: see laws.js
-      this.area.ran = this.area.value;
+      this.area.lastRun = this.area.value;
       this.cell.dispatchEvent(new Event("vmc-run", { bubbles: true }));
     }
 

@@ -1,16 +1,16 @@
 /* Demos that the page's Python draws: by a law that the reader has changed above them, and between a
    slider's stops. Where it cannot, or is not asked, the nearest picture of the book stands. And arms
    that plan by such a law. */
-const vmcLaws = (() => {
+(() => {
   "use strict";
 
   const STEP = 0.1; // of a slider, from one stop to the next
   const FREE = "The sliders now take any value.";
   const LAW = "law."; // before a cell's name, in an address
 
-  const ran = (cell) => cell.querySelector("textarea")?.ran ?? vmcGrade.book(cell);
-  const code = (names) => names.map((name) => `<code>${name}</code>`).join(", ");
-  const edited = (above) => above.filter((one) => ran(one) !== vmcGrade.book(one));
+  const lastRun = (cell) => cell.querySelector("textarea")?.lastRun ?? vmcGrade.book(cell);
+  const inCode = (names) => names.map((name) => `<code>${name}</code>`).join(", ");
+  const ownCells = (above) => above.filter((one) => lastRun(one) !== vmcGrade.book(one));
   const BACK = '<button type="button" name="back" hidden>Back to the book’s</button>';
 
   /* A line below controls: what it says, and its buttons. */
@@ -26,37 +26,53 @@ const vmcLaws = (() => {
   const watch = (above, back, update) => {
     document.addEventListener("vmc-run", ({ target }) => above.includes(target) && update());
     back.addEventListener("click", () => {
-      for (const one of edited(above)) one.querySelector("textarea").ran = undefined;
+      for (const one of ownCells(above)) one.querySelector("textarea").lastRun = undefined;
       document.querySelectorAll(".tag_runs-in-page").forEach((one) => one.dispatchEvent(new Event("vmc-run", { bubbles: true })));
     });
   };
 
   /* Where a demo's controls stand, by name: see `python_in_page.demos.draw`. */
   const places = (demo) => {
-    const found = {};
+    const stand = {};
     for (const { type, checked, name, id, value } of demo.querySelectorAll("[data-stride]"))
       if (type !== "radio" || checked)
-        found[(name || id).slice(demo.id.length + 1)] = type === "checkbox" ? +checked : +value;
-    return found;
+        stand[(name || id).slice(demo.id.length + 1)] = type === "checkbox" ? +checked : +value;
+    return stand;
   };
 
-  const follow = (demo) => {
-    const cell = demo.closest(".cell"), above = vmcGrade.above(cell);
-    const [status, run, back, between] = line(demo.querySelector(".vmc-controls"),
-      `<button type="button" name="run" hidden>Run it</button> ${BACK} ` +
-      '<button type="button" name="between">Any value (loads Python, 19 MB)</button>');
-    const sliders = [...demo.querySelectorAll("[data-between]")];
-    between.hidden = !sliders.length;
+  /* A demo that may be drawn by the reader's laws, and by sliders between their stops. */
+  class Follower {
+    laws = []; // of the reader's, those that it needs, by name
+    failed = false;
+    busy = false;
+    wanted = null; // the last place that was asked for; those that the hand only passes are left out
 
-    const say = (html) => {
-      if (status.innerHTML !== html) status.innerHTML = html;
-    };
-    const given = () => [above.map(ran), above.map(vmcGrade.book), vmcGrade.book(cell)];
+    constructor(demo) {
+      const cell = demo.closest(".cell"), above = vmcGrade.above(cell);
+      const [status, run, back, between] = line(demo.querySelector(".vmc-controls"),
+        `<button type="button" name="run" hidden>Run it</button> ${BACK} ` +
+        '<button type="button" name="between">Any value (loads Python, 19 MB)</button>');
+      const sliders = [...demo.querySelectorAll("[data-between]")];
+      Object.assign(this, { demo, cell, above, status, run, back, between, sliders });
+      between.hidden = !sliders.length;
+      between.addEventListener("click", () => followers.forEach((one) => one.free(one === this)));
+      watch(above, back, () => this.update());
+      const name = (one) => one.querySelector("form[data-cell]")?.dataset.cell; // an exercise has none
+      demo.vmcLaws = () => ownCells(above).filter(name).map((one) => [LAW + name(one), lastRun(one)]);
+    }
 
-    let laws = [], failed = false, wanted = null, busy = false, book;
+    say(html) {
+      if (this.status.innerHTML !== html) this.status.innerHTML = html;
+    }
 
-    const show = ({ parts, texts, error }, place, draw) => {
-      if (error) return fail(`${laws.length ? `Your \`${laws.join(", ")}\`` : "Python"} stops: ${error}.`, place, draw);
+    /* The code above, as the reader has it and as the book has it, and the demo's own cell. */
+    get code() {
+      return [this.above.map(lastRun), this.above.map(vmcGrade.book), vmcGrade.book(this.cell)];
+    }
+
+    show({ parts, texts, error }, place, draw) {
+      const { demo, laws, sliders, between } = this;
+      if (error) return this.fail(`${laws.length ? `Your \`${laws.join(", ")}\`` : "Python"} stops: ${error}.`, place, draw);
       draw(parts);
       for (const [name, text] of Object.entries(texts)) {
         const input = demo.querySelector(`[id="${demo.id}-${name}"]`);
@@ -64,75 +80,78 @@ const vmcLaws = (() => {
         input.nextElementSibling.textContent = text;
       }
       const free = sliders.length && between.hidden ? FREE : "";
-      say(laws.length ? `This demo runs <strong>your</strong> ${code(laws)}.` : free);
-    };
-    const fail = (why, place, draw) => {
-      failed = true;
-      book(place, draw);
-      say(`${vmcGrade.inline(why)} This is the book’s.`);
-    };
+      this.say(laws.length ? `This demo runs <strong>your</strong> ${inCode(laws)}.` : free);
+    }
 
-    /* The last place that was asked for; those that the hand only passes are left out. */
-    const drawn = async () => {
-      busy = true;
+    fail(why, place, draw) {
+      this.failed = true;
+      this.book(place, draw);
+      this.say(`${vmcGrade.inline(why)} This is the book’s.`);
+    }
+
+    async drawWanted() {
+      const { demo } = this;
+      this.busy = true;
       demo.setAttribute("aria-busy", "true");
-      while (wanted) {
-        const [place, draw, ready] = wanted;
-        wanted = null;
+      while (this.wanted) {
+        const [place, draw, ready] = this.wanted;
+        this.wanted = null;
         try {
-          const found = await vmcPython.ask(["demos", "draw", ...given(), demo.id, ready ? null : places(demo), demo.vmc.data ?? ""], say);
-          if (!wanted) show(found, place, draw);
+          const question = ["demos", "draw", ...this.code, demo.id, ready ? null : places(demo), demo.vmc.data ?? ""];
+          const answer = await vmcPython.ask(question, (html) => this.say(html));
+          if (!this.wanted) this.show(answer, place, draw);
         } catch (error) {
-          fail(error.message, place, draw);
+          this.fail(error.message, place, draw);
         }
       }
-      busy = false;
+      this.busy = false;
       demo.removeAttribute("aria-busy");
-    };
+    }
 
-    const ask = (place, draw, exact, ready = false) => {
-      const off = sliders.some(({ value }) => value % 1);
-      if (!laws.length || failed) book(place, draw, exact);
+    ask = (place, draw, exact, ready = false) => {
+      const { laws, failed } = this, off = this.sliders.some(({ value }) => value % 1);
+      if (!laws.length || failed) this.book(place, draw, exact);
       if (failed || !(laws.length || off || ready)) return;
-      wanted = [place, draw, ready];
-      if (!busy) drawn();
+      this.wanted = [place, draw, ready];
+      if (!this.busy) this.drawWanted();
     };
 
-    const take = () => {
-      if (demo.vmc.ask !== ask) [book, demo.vmc.ask] = [demo.vmc.ask, ask];
-    };
+    /* From now on the demo asks here, and no longer the book. */
+    take() {
+      const { vmc } = this.demo;
+      if (vmc.ask !== this.ask) [this.book, vmc.ask] = [vmc.ask, this.ask];
+    }
 
     /* What the reader's cells have become. */
-    const update = async () => {
-      take();
-      [laws, failed, wanted] = [[], false, null];
-      run.hidden = true;
-      say("");
+    async update() {
+      this.take();
+      Object.assign(this, { laws: [], failed: false, wanted: null });
+      this.run.hidden = true;
+      this.say("");
       try {
-        if (edited(above).length) laws = await vmcPython.ask(["grader", "changed", ...given()], () => {});
+        if (ownCells(this.above).length) this.laws = await vmcPython.ask(["grader", "changed", ...this.code], () => {});
       } catch (error) {
-        say(vmcGrade.inline(error.message));
+        this.say(vmcGrade.inline(error.message));
       }
-      back.hidden = !laws.length;
-      demo.vmc.show();
-    };
+      this.back.hidden = !this.laws.length;
+      this.demo.vmc.show();
+    }
 
-    const named = (one) => one.querySelector("form[data-cell]")?.dataset.cell; // an exercise has none
-    demo.vmcLaws = () => edited(above).filter(named).map((one) => [LAW + named(one), ran(one)]);
-    watch(above, back, update);
-    between.addEventListener("click", () => demos.forEach((one) => one.vmcBetween(one === demo)));
-    demo.vmcBetween = (ready) => {
-      take();
-      sliders.forEach((input) => (input.step = STEP));
-      between.hidden = true;
-      ready ? demo.vmc.ask(0, () => {}, {}, true) : say(FREE);
-    };
-    demo.vmcBring = (cells) => {
-      say(`This link brings another ${code(cells.map(({ dataset }) => dataset.cell))}. Read it in its cell first.`);
-      run.hidden = false;
-      run.onclick = () => cells.forEach((form) => form.requestSubmit());
-    };
-  };
+    /* Its sliders take any value; if `ready`, Python is made ready for it. */
+    free(ready) {
+      this.take();
+      this.sliders.forEach((input) => (input.step = STEP));
+      this.between.hidden = true;
+      ready ? this.ask(0, () => {}, {}, true) : this.say(FREE);
+    }
+
+    /* A link has put laws into cells, whose forms these are. */
+    offer(forms) {
+      this.say(`This link brings another ${inCode(forms.map(({ dataset }) => dataset.cell))}. Read it in its cell first.`);
+      this.run.hidden = false;
+      this.run.onclick = () => forms.forEach((form) => form.requestSubmit());
+    }
+  }
 
   /* An arm whose physics runs in the page (arm_in_page): it plans by the weights of the reader's law. */
   const lead = (box) => {
@@ -142,9 +161,9 @@ const vmcLaws = (() => {
     let mine = false;
     watch(above, back, async () => {
       try {
-        const asked = ["grader", "changed", above.map(ran), above.map(vmcGrade.book), law];
-        mine = edited(above).length > 0 && (await vmcPython.ask(asked, () => {})).length > 0;
-        say(mine ? `This arm plans by <strong>your</strong> ${code([law])}: let it reach.` : "");
+        const question = ["grader", "changed", above.map(lastRun), above.map(vmcGrade.book), law];
+        mine = ownCells(above).length > 0 && (await vmcPython.ask(question, () => {})).length > 0;
+        say(mine ? `This arm plans by <strong>your</strong> ${inCode([law])}: let it reach.` : "");
       } catch (error) {
         mine = false;
         say(vmcGrade.inline(error.message));
@@ -154,8 +173,8 @@ const vmcLaws = (() => {
     });
     box.vmcLaw = async ({ target, points }) => {
       if (!mine) return null;
-      const asked = ["grader", "call", above.map(ran), law, [target, points]];
-      const { answer, error } = await vmcPython.ask(asked, () => {}).catch(({ message }) => ({ error: message }));
+      const question = ["grader", "call", above.map(lastRun), law, [target, points]];
+      const { answer, error } = await vmcPython.ask(question, () => {}).catch(({ message }) => ({ error: message }));
       if (answer?.length === points.length) return answer;
       say(vmcGrade.inline(`Your \`${law}\` ${error ? `stops: ${error}` : `gives no ${points.length} weights`}. This is the book’s.`));
       return null;
@@ -166,19 +185,19 @@ const vmcLaws = (() => {
   const bring = () => {
     const [id, query] = location.hash.slice(1).split("?");
     const laws = [...new URLSearchParams(query)].filter(([key]) => key.startsWith(LAW));
-    const found = [...document.querySelectorAll("form[data-cell]")];
+    const all = [...document.querySelectorAll("form[data-cell]")];
     const forms = laws.map(([key, text]) => {
-      const form = found.find(({ dataset }) => dataset.cell === key.slice(LAW.length));
+      const form = all.find(({ dataset }) => dataset.cell === key.slice(LAW.length));
       form?.closest(".cell").dispatchEvent(new CustomEvent("vmc-bring", { detail: text }));
       return form;
     });
-    if (forms.length) document.getElementById(id)?.vmcBring?.(forms.filter(Boolean));
+    if (forms.length) followers.find(({ demo }) => demo.id === id)?.offer(forms.filter(Boolean));
   };
 
-  let demos = [];
+  let followers = [];
   addEventListener("DOMContentLoaded", () => {
-    demos = [...document.querySelectorAll(".tag_draws-in-page .vmc-demo:has(> script)")];
-    demos.forEach(follow);
+    const demos = [...document.querySelectorAll(".tag_draws-in-page .vmc-demo:has(> script)")];
+    followers = demos.map((demo) => new Follower(demo));
     document.querySelectorAll(".vmc-live[data-law]").forEach(lead);
     bring();
   });
