@@ -133,7 +133,7 @@ const vmcDemo = (() => {
 
   /* A pad: a handle on the first plot, or on each that has a view of a pad, moves its two sliders there, or to the
      nearest stop. A view may depend on where the other pads stand. Returns what puts all handles in their places. */
-  const addHandles = (demo, pictures, sliders, given) => {
+  const addHandles = (demo, sliders, given) => {
     const pads = [...demo.querySelectorAll(".vmc-pad")].map((pad) =>
       ({ grid: JSON.parse(pad.dataset.grid), twins: [...pad.querySelectorAll("input")] }));
     const stand = () => pads.map(({ grid, twins }) => twins.map((twin, i) => valueAt(grid[i], +twin.value)));
@@ -141,7 +141,7 @@ const vmcDemo = (() => {
     const views = given ?? pads.slice(0, 1).map(() => ({ toView: same, fromView: same }));
     const puts = views.map(({ pad = 0, picture = 0, toView, fromView }) => {
       const { grid, twins } = pads[pad];
-      const put = vmcHandle(pictures, (seen) => {
+      const put = vmcHandle(demo.querySelector(".vmc-pictures"), (seen) => {
         const place = fromView(seen, stand());
         grid.forEach((values, i) => {
           if (sliders.includes(twins[i])) twins[i].step = 0.1;
@@ -154,30 +154,21 @@ const vmcDemo = (() => {
     return () => puts.forEach((put) => put());
   };
 
-  /* `ask(place, draw)` gives `draw` the state at a place: its words and its pictures, as lines. */
-  const start = (demo, ask) => {
-    vmcSound(demo);
+  /* The demo's numbers in the page's sentences (vmc_lib/show/numbers.py). */
+  const tell = (demo) => {
+    const words = demo.querySelector(".vmc-pictures").getAttribute("aria-label");
+    for (const number of document.querySelectorAll(`.vmc-now[data-demo="${demo.id}"]`)) {
+      const { place } = number.dataset, slider = document.getElementById(`${demo.id}-${place}`);
+      const around = place.replace(/[^\w\s#]/g, "\\$&").replace("#", "(−?\\d+(?:[.,]\\d+)*)");
+      number.textContent = slider?.getAttribute("aria-valuetext") ?? words.match(around)?.[1] ?? "–";
+    }
+  };
+
+  /* A function that draws a state: its words and its pictures, each a list of lines; then `follow` is called. */
+  const drawer = (demo, follow) => {
     const [pictures, spoken] = [".vmc-pictures", ".vmc-spoken"].map((name) => demo.querySelector(name));
     const places = [...demo.querySelectorAll(".vmc-picture, .vmc-data")];
-    const inputs = [...demo.querySelectorAll("[data-stride]")];
-    const sliders = ask.between ? inputs.filter(({ dataset }) => "between" in dataset) : [];
-
-    /* How far along its values a control stands; of radio buttons only the checked one counts. */
-    const at = ({ type, checked, value }) =>
-      type === "checkbox" ? +checked : type === "radio" && !checked ? 0 : Math.round(value);
-
-    const follow = addHandles(demo, pictures, sliders, ask.views); // what else a new picture moves
-    /* The demo's numbers in the page's sentences (vmc_lib/show/numbers.py). */
-    const tell = () => {
-      const words = pictures.getAttribute("aria-label");
-      for (const number of document.querySelectorAll(`.vmc-now[data-demo="${demo.id}"]`)) {
-        const { place } = number.dataset, slider = document.getElementById(`${demo.id}-${place}`);
-        const around = place.replace(/[^\w\s#]/g, "\\$&").replace("#", "(−?\\d+(?:[.,]\\d+)*)");
-        number.textContent = slider?.getAttribute("aria-valuetext") ?? words.match(around)?.[1] ?? "–";
-      }
-    };
-
-    const draw = ([alt, ...parts]) => {
+    return ([alt, ...parts]) => {
       const row = demo.querySelector(".vmc-controls"), held = demo.matches(":hover, :focus-within");
       const edges = () => [row.getBoundingClientRect().top, pictures.getBoundingClientRect().bottom];
       const [top, bottom] = held ? edges() : [];
@@ -193,14 +184,25 @@ const vmcDemo = (() => {
       if (spoken && pictures.getAttribute("aria-label") !== words) spoken.textContent = words;
       pictures.setAttribute("aria-label", words);
       follow();
-      queueMicrotask(tell); // sliders may yet say where they stand
+      queueMicrotask(() => tell(demo)); // sliders may yet say where they stand
       /* A picture of another height moves the page, and not what the reader's hand is on (which
          may stick to the window's edge, so that it tells nothing of how much has grown). */
       if (!held) return;
       const [toTop, toBottom] = edges();
       if (toTop !== top) scrollBy({ top: toBottom - bottom, behavior: "instant" });
     };
+  };
 
+  /* How far along its values a control stands; of radio buttons only the checked one counts. */
+  const stands = ({ type, checked, value }) =>
+    type === "checkbox" ? +checked : type === "radio" && !checked ? 0 : Math.round(value);
+
+  /* `ask(place, draw)` gives `draw` the state at a place: its words and its pictures, as lines. */
+  const start = (demo, ask) => {
+    vmcSound(demo);
+    const inputs = [...demo.querySelectorAll("[data-stride]")];
+    const sliders = ask.between ? inputs.filter(({ dataset }) => "between" in dataset) : [];
+    const draw = drawer(demo, addHandles(demo, sliders, ask.views));
     const show = () => {
       for (const input of inputs)
         if (input.dataset.texts) {
@@ -209,18 +211,17 @@ const vmcDemo = (() => {
           input.nextElementSibling.textContent = text;
         }
       const exact = Object.fromEntries(sliders.map(({ dataset, value }) => [dataset.stride, +value]));
-      demo.vmc.ask(inputs.reduce((sum, i) => sum + at(i) * i.dataset.stride, 0), draw, exact);
+      demo.vmc.ask(inputs.reduce((sum, i) => sum + stands(i) * i.dataset.stride, 0), draw, exact);
     };
     demo.vmc = { ask, show, data: ask.data }; // the page's Python may answer instead
 
     /* What the page works out anywhere follows the hand anywhere; keys go from stop to stop. */
     const step = ({ type, target }) => sliders.includes(target) && (target.step = type === "keydown" ? 1 : 0.1);
     for (const type of ["pointerdown", "keydown"]) demo.addEventListener(type, step, true);
-
     for (const button of demo.querySelectorAll(".vmc-play")) addPlay(demo, button, show, ask.ready);
     demo.addEventListener("input", show);
     show();
-    const scenes = [...pictures.querySelectorAll(".vmc-scene")].map((div) => vmcScene(div));
+    const scenes = [...demo.querySelectorAll(".vmc-pictures .vmc-scene")].map((div) => vmcScene(div));
     if (scenes.length) {
       const panel = document.createElement("div");
       panel.className = "vmc-controls vmc-of-scene";
