@@ -26,12 +26,12 @@ def preference(answers, shuttlecock):
     return means[shuttlecock] / means[~shuttlecock]
 
 
-def preferences(seed, network=None, folder=photos.FOLDER, patches=PATCHES, every=EVERY):
+def preferences(seed, folder=photos.FOLDER, patches=PATCHES, every=EVERY):
     """Mean `preference` on the rig's validation photos of P² taught by each of TAUGHT_BY, (2,)."""
     from reproduce.training.cdbn import SECOND, train_crbm  # with torch, slow to load
     from vmc_lib.what.learning import Learner
 
-    network = CDBN.load(Learner) if network is None else network
+    network = CDBN.load(Learner)
     shots = [
         shot for level in photos.LEVELS for shot in photos.load(level, "train", folder)[::every]
     ]

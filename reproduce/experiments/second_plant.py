@@ -63,9 +63,9 @@ def reach(torques, _perturbation=None):
     return SimpleNamespace(hold=hold, endpoint=hold.mean(axis=-2))
 
 
-def torque_templates(goals=GOALS):
-    """Past experience: the torques that bring the tip smoothly to each of the goals (N, 2)."""
-    q = minimum_jerk(START, posture(goals), SAMPLES, MOVING)
+def torque_templates():
+    """Past experience: the torques that bring the tip smoothly to each of GOALS (N, 2)."""
+    q = minimum_jerk(START, posture(GOALS), SAMPLES, MOVING)
     velocity = np.diff(q, axis=1, prepend=q[:, :1]) / STEP
     mass, drag = mass_and_drag(q[:, :-1], velocity[:, :-1])
     torques = (mass @ (np.diff(velocity, axis=1) / STEP)[..., None])[..., 0] + drag

@@ -23,7 +23,8 @@ def execute(plan, perturbation=UNPERTURBED, prism=0.0):
     perturbation : Perturbation
         What the arm meets: a load, a force field.
     prism : float
-        How far glass before the eyes turns what they see, rad, upwards where it is positive.
+        How far glass before the eyes turns what they see, rad, upwards where it is positive;
+        ValueError from a quarter turn on.
 
     Returns
     -------
