@@ -79,8 +79,13 @@ def _pair(pad):
 
 def _texts(controls, places):
     """What stands beside each slider, by its name."""
-    sliders = {k: one for k, one in controls.items() if isinstance(one, Slider)}
+    return {key: one.text(one.value_at(places[key])) for key, one in sliders(controls).items()}
+
+
+def sliders(controls):
+    """The sliders among controls by their names, the twins of pads with them."""
+    found = {key: one for key, one in controls.items() if isinstance(one, Slider)}
     for key, pad in controls.items():
         if isinstance(pad, Pad):
-            sliders |= {f"{key}-{axis}": one for axis, one in _pair(pad)}
-    return {key: one.text(one.value_at(places[key])) for key, one in sliders.items()}
+            found |= {f"{key}-{axis}": one for axis, one in _pair(pad)}
+    return found

@@ -48,25 +48,16 @@ DEMOS = {chapter.stem: list(chapter_demos(chapter.stem)) for chapter in CHAPTERS
 DEMOS = {stem: found for stem, found in DEMOS.items() if found}
 
 
-def sliders(controls):
-    """Its sliders by their names, the twins of its pads among them."""
-    found = {key: one for key, one in controls.items() if isinstance(one, demos.Slider)}
-    for key, pad in controls.items():
-        if isinstance(pad, demos.Pad):
-            found |= {f"{key}-{axis}": one for axis, one in zip("xy", pad.pair, strict=True)}
-    return found
-
-
 def starts(controls):
     """The places where a demo's controls begin."""
     first = {key: one.first for key, one in controls.items() if not isinstance(one, demos.Pad)}
-    return first | {key: one.first for key, one in sliders(controls).items()}
+    return first | {key: one.first for key, one in demos.sliders(controls).items()}
 
 
 def between(controls):
     """Where one slider after the other that can stands at random, and where all do."""
     rng, first = np.random.default_rng(0), starts(controls)
-    can = {key: one for key, one in sliders(controls).items() if one.continuous}
+    can = {key: one for key, one in demos.sliders(controls).items() if one.continuous}
     apart = {key: round(rng.uniform(0, len(one.values) - 1), 1) for key, one in can.items()}
     yield from (first | {key: place} for key, place in apart.items())
     if len(apart) > 1:
@@ -82,7 +73,7 @@ def moved(mine, above, cell):
     first = starts(controls)
     choices = {k: len(one.values) for k, one in controls.items() if isinstance(one, Choice)}
     places = [first, *(first | {k: n} for k, count in choices.items() for n in range(count))]
-    places += [first | {k: len(one.values) - 1} for k, one in sliders(controls).items()]
+    places += [first | {k: len(one.values) - 1} for k, one in demos.sliders(controls).items()]
     return next((p for p in places if digest(mine, cell, p) != digest(above, cell, p)), None)
 
 

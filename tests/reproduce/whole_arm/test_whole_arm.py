@@ -125,7 +125,7 @@ def test_every_muscle_obeys_one_command(count):
     np.testing.assert_array_equal(groups.sum(axis=1), 1)
 
 
-def test_many_reaches_move_as_each_alone(nerves):
+def test_many_reaches_move_as_each_alone():
     past = habits.load_templates()
     both = past.reach(past.excitations[:4].reshape(2, 2, plant.TICKS, -1)).endpoint
     np.testing.assert_allclose(both.reshape(4, 3), past.points[:4], atol=1e-9)
