@@ -31,10 +31,10 @@ def draw(above, book, cell, name, places, data=""):
             demo, controls, _ = prepared(tuple(above), cell, data)
             if places is None:
                 return {"parts": [], "texts": {}}
-            words, parts = draw_state(values=values_at(controls, places), name=name, **demo)
+            words, parts = draw_state(values=values_at(places, controls), name=name, **demo)
     except Exception as error:
         return {"error": repr(error)}
-    return {"parts": [[words], *lines(parts)], "texts": _texts(controls, places)}
+    return {"parts": [[words], *lines(parts)], "texts": _texts(places, controls)}
 
 
 @lru_cache(8)
@@ -61,7 +61,7 @@ def prepared(above, cell, data=""):
     return asked[0]
 
 
-def values_at(controls, places):
+def values_at(places, controls):
     """The controls' values at these places."""
     return {key: _value(key, one, places) for key, one in controls.items()}
 
@@ -77,7 +77,7 @@ def _pair(pad):
     return zip("xy", pad.pair, strict=True)
 
 
-def _texts(controls, places):
+def _texts(places, controls):
     """What stands beside each slider, by its name."""
     return {key: one.text(one.value_at(places[key])) for key, one in sliders(controls).items()}
 

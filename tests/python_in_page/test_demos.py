@@ -81,7 +81,7 @@ def digest(above, cell, places, data=""):
     """A few numbers that stand for all that a demo's plots show and say, and how many these are."""
     demo, controls, _ = demos.prepared(tuple(above), cell, data)
     with patch.object(figures, "data_uri", lambda image: f"{crc32(image.tobytes())}"):
-        picture = demo["draw"](**demos.values_at(controls, places))
+        picture = demo["draw"](**demos.values_at(places, controls))
     shown, parts = panels(picture), picture if isinstance(picture, tuple) else [picture]
     words = [one.title for one in shown] + [part for part in parts if isinstance(part, str)]
     scenes = (part.messages() for part in parts if hasattr(part, "messages"))

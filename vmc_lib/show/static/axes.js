@@ -16,7 +16,7 @@ const vmcAxes = (svg) => {
   };
 
   /* An arrow's head: one side, its tip again, the other side. */
-  const head = (points) => {
+  const arrowhead = (points) => {
     const [[x0, y0], [x, y]] = points.slice(-2).map((point) => put(point).map(Number));
     const side = (turn) => {
       const angle = Math.atan2(y - y0, x - x0) + turn;
@@ -35,7 +35,7 @@ const vmcAxes = (svg) => {
     mark: (kind, colour, points, size, above, name) => {
       const paint = `var(--vmc-${colour})`;
       if (kind === "line" || kind === "arrow")
-        return `<polyline points="${[...points.map(put), ...(kind === "arrow" ? head(points) : [])].join(" ")}"
+        return `<polyline points="${[...points.map(put), ...(kind === "arrow" ? arrowhead(points) : [])].join(" ")}"
           ${name ? `data-curve="${name}"` : ""} fill="none" stroke="${paint}" stroke-width="${size}" stroke-opacity=".7" stroke-linecap="round"/>`;
       if (kind === "area") return `<polygon points="${points.map(put).join(" ")}" fill="${paint}"/>`;
       const [x, y] = put(points);
