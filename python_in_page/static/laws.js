@@ -183,7 +183,7 @@
 
   /* The laws that an address brings are put into their cells, and run when the reader asks for it. */
   const bring = () => {
-    const [id, query] = location.hash.slice(1).split("?");
+    const [id, query] = vmcHash().split("?");
     const laws = [...new URLSearchParams(query)].filter(([key]) => key.startsWith(LAW));
     const all = [...document.querySelectorAll("form[data-cell]")];
     const forms = laws.map(([key, text]) => {

@@ -1,6 +1,7 @@
 /* What stands after the # of the page's address, even if it came encoded, or cut. */
 window.vmcHash = () => {
   const text = location.hash.slice(1).replaceAll("&amp;", "&"); // as some mail programs write it
+  if (/\?.*=/.test(text)) return text; // as it was written: who reads its values decodes them
   try { return decodeURIComponent(text); } catch { return text; } // cut in the middle of a sign
 };
 
