@@ -80,6 +80,16 @@ def test_photo_view_draws_boxes_and_points():
     assert "target" in svg
 
 
+def test_words_of_a_photo_do_not_hide_each_other():
+    """Below the words in the corner stands a box's name, and below its box that of a second."""
+    corner, *boxes = (8, 0, 8, 0), (8, 42, 90, 120), (8, 42, 90, 121)
+    svg = photo_view(
+        np.zeros((400, 600, 3), np.uint8), [(b, "mean", "ink") for b in (corner, *boxes)]
+    )
+    heights = [float(y) for y in re.findall(r'<text x="8.0" y="([^"]+)"', svg)]
+    assert np.diff(sorted(heights)).min() > 20
+
+
 def test_photo_axes_are_pixels_by_default():
     image = np.zeros((400, 600, 3), np.uint8)
     assert 'data-axes="0 600 400 0 0 1 1 0"' in photo_view(image)

@@ -67,10 +67,12 @@ def photo_view(image, boxes=(), points=(), axes=None):
         rect = f'x="{x0:.1f}" y="{y0:.1f}" width="{x1 - x0:.1f}" height="{y1 - y0:.1f}"'
         marks += [f'<rect {rect} {EDGE}/><rect {rect} stroke="{ON_PHOTO[colour]}"/>']
         long = 11 * len(label) + 9 * label.count("%")  # about; a % is wide
-        free = all(abs(y0 - y) > 20 or x0 > end or x > x0 + long for x, y, end in taken)
-        y = y0 - 7 if y0 > 26 and free else min(y1 + 21, height - 7)
-        words += [_label(max(min(x0, width - long), 0), y, label, colour)]
-        taken += [(x0, y0, x0 + long)] * bool(label)
+        x, low = max(min(x0, width - long), 0), min(y1 + 21, height - 7)
+        near = [y for begin, y, end in taken if begin < x + long and x < end]
+        places = [y0 - 7, low, y0 + 21] if y0 > 26 else [low, y0 + 21]
+        y = next((y for y in places if all(abs(y - other) > 20 for other in near)), places[0])
+        words += [_label(x, y, label, colour)]
+        taken += [(x, y, x + long)] * bool(label)
     for (x, y), label, colour in points:
         circle = f'<circle cx="{x:.1f}" cy="{y:.1f}" r="6"'
         marks += [f'{circle} {EDGE}/>{circle} stroke="{ON_PHOTO[colour]}"/>']
