@@ -194,7 +194,7 @@ def _reach_view(movement):
     """The arm at the end of a reach, its target, its remembered reaches, room for a magnifier."""
     target, end = (hand(inverse_kinematics(p)) for p in (movement.plan.target, movement.endpoint))
     balls = [(target, "green"), *((end, colour) for colour in _ENDS)]
-    figure, ax = plt.subplots(figsize=(5.4, 3.1), layout="none")
+    figure, ax = plt.subplots(figsize=(4.9, 2.8), layout="none")
     plane(ax, movement.plan.template_set.points)
     ax.set_position((0.13, 0.16, 0.55, 0.82))
     motion = movement.motion

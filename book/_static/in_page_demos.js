@@ -125,7 +125,7 @@ const vmcInPage = (() => {
     return [
       `Votes of ${neurons} neurons for a reach to ${to}; their sum is ${off}.`,
       cast.map((vote) => arrow("grey", vote, 1)).join("") + named("green", target, "the reach", 22) +
-        named("red", total, "the sum", -30) + plane.mark("words", "ink", [0, 1.15], off, 0),
+        named("red", total, "the sum", -30) + plane.mark("words", "ink", [-1.3, 1.15], off, 0),
     ];
   };
 

@@ -20,13 +20,13 @@ TRIED = ((-0.05, 0.3), (-0.53, -0.25))  # the plane round the obstacles, m
 def miss_histogram(miss):
     """How many reaches miss by how much: `miss` (n,) in mm, on a logarithmic axis, a median."""
     fig, ax = panels(size=(5.5, 3.2))
-    ax.stairs(*np.histogram(miss, np.geomspace(0.01, 40, 37)), fill=True)
+    ax.stairs(*np.histogram(miss, np.geomspace(2.5e-5, 40, 63)), fill=True)
     median = np.median(miss)
-    ax.axvline(median, color="C1", label=f"median {median:.2g} mm")
+    ax.axvline(median, color="C1")
+    ax.set_title(f"median {median:.2g} mm")
     ax.set(xscale="log", xlabel="miss at the end of the reach (mm)")
     ax.set(ylabel="reaches", ylim=(0, 20), yticks=range(0, 21, 5))
     ax.xaxis.set_major_formatter("{x:g}")
-    ax.legend(loc="upper left")
     return fig
 
 

@@ -29,7 +29,7 @@ def explanations_of(v, energies, chances, names):
     shape = {"width_ratios": [1, 1.2, 1.2], "layout": "none"}
     fig, (left, middle, right) = plt.subplots(1, 3, figsize=(6.8, 2.3), **shape)
     fig.subplots_adjust(left=0.01, right=0.98, bottom=0.13, top=0.88, wspace=0.72)
-    left.pcolormesh(v, vmin=-2, vmax=2, edgecolor=COLOURS["grey"], cmap="gray")
+    left.pcolormesh(v, vmin=-2.1, vmax=2.1, edgecolor=COLOURS["grey"], cmap="gray")
     left.set(title="v", xticks=[], yticks=[], aspect="equal")
     bars = middle.barh(names, energies, color=COLOURS["orange"])
     middle.bar_label(bars, fmt="{:z.1f}", padding=2)  # no minus zero

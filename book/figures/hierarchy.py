@@ -8,7 +8,7 @@ import numpy as np
 from book.figures.what import grey, tiles, with_words
 from reproduce.experiments.slow_features import separation
 from vmc_lib.show.figures import photo_view
-from vmc_lib.show.markup import data_uri
+from vmc_lib.show.markup import data_uri, number
 from vmc_lib.show.palette import COLOURS
 
 ZOOMS = {"V": 1, "H1": 0.5, "P1": 1, "H2": 1, "P2": 2, "MP2": 4}
@@ -106,5 +106,5 @@ def over_time(answers, shuttlecock):
 def mean_map(p2, before):
     """The maps P2 (1, K, height, width) and their mean MP2, with its change from `before`."""
     change = float(abs(p2.mean(1) - before.mean(1)).max())
-    mean = with_words(tiles(p2.mean(1), zoom=4), f"MP2: changed by {change:.7f}")
+    mean = with_words(tiles(p2.mean(1), zoom=4), f"MP2: changed by {number(change, 1)}")
     return with_words(tiles(p2[0]), "P2"), mean

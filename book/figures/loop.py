@@ -126,7 +126,7 @@ def from_above(photo, reach, turned):
         ([photo.target], "*", "green", "shuttlecock"),
     )
     aside = f"the trunk {'has turned' if turned else 'will turn'} by {np.degrees(reach.turn):.0f}°"
-    return above(parts, aside, (-0.45, 0.4), (-0.2, 0.6))
+    return above(parts, aside, (-0.65, 0.4), (-0.5, 0.6))
 
 
 def chain_plots(summaries, count):
@@ -145,7 +145,7 @@ def chain_plots(summaries, count):
     }
     return (
         dot_plot(right, f"share of {count} photos", None, (0, 1.02)),
-        dot_plot(away, "median distance (mm)", None, (0, 13)),
+        dot_plot(away, "median distance (mm)", None, (0, None)),
     )
 
 
@@ -156,7 +156,9 @@ def above(parts, title, xlim, ylim):
         x, _, z = np.transpose(places)
         ax.plot(z, x, style, color=COLOURS[colour], ms=9)
         at = z[-1], x[-1]
-        ax.annotate(label, at, (7, 4), textcoords="offset points", color=COLOURS[colour])
+        left = style in "^s"  # there no line runs
+        look = {"ha": "right" if left else "left", "color": COLOURS[colour]}
+        ax.annotate(label, at, (-8, -10) if left else (7, 4), textcoords="offset points", **look)
     ax.set(xlim=xlim, ylim=ylim, aspect="equal", title=title)
     ax.set(xlabel="to the right (m)", ylabel="forward (m)")
     return fig

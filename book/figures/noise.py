@@ -57,7 +57,7 @@ def trust_over_time(believed, eye, off):
     left.set_title(f"in the end {believed[-1]:.0%}")
     for (name, error), hue in zip(off.items(), ("grey", "blue"), strict=True):
         right.plot(time, error, color=COLOURS[hue], label=name)
-    right.axhline(eye, color=COLOURS["grey"], ls="--", label="the eye alone")
+    right.axhline(eye, color=COLOURS["grey"], ls="--", label=f"the eye alone: {eye:g} mm")
     right.set(xlabel="time (s)", ylabel="off by (mm)", ylim=(0, 1.1 * off["the model alone"].max()))
     right.legend(loc="upper left")
     return fig
@@ -91,11 +91,11 @@ def scatter_and_miss(uncorrected, weak_miss, corrected, corrected_weak_miss):
     for (rule, scatter), hue in zip(uncorrected.items(), ("grey", "orange", "green"), strict=True):
         left.plot(time, scatter, color=COLOURS[hue], label=rule)
     left.plot(time, corrected, color=COLOURS["blue"], label="corrected")
-    left.axvline(0.35, color=COLOURS["grey"], lw=1)
+    left.axvline(0.35, ymax=0.77, color=COLOURS["grey"], lw=1)
     shade(left, 0.7, 1.5)
-    left.set(xlabel="time (s)", ylabel="scatter (mm)", ylim=(0, 3.5))
+    left.set(xlabel="time (s)", ylabel="scatter (mm)", ylim=(0, 4.4))
     left.set_title(f"in the hold {corrected[100:].mean():.1f} mm")
-    left.legend()
+    left.legend(ncols=2, loc="upper left")
     right.plot(weak_miss, MUSCLES, "o", color=COLOURS["orange"])
     right.plot(corrected_weak_miss, MUSCLES, "o", color=COLOURS["blue"])
     right.set(xlabel="miss when this one is weak (mm)", xlim=(-1, None))

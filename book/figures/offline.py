@@ -72,7 +72,10 @@ def best_of_each(plan, trials):
     planned, *tried = trials.error.mean(axis=1)
     right.plot(FIFTH, tried / planned, "o-")
     right.axhline(1, color=COLOURS["grey"], ls="--")
-    right.set(xlabel="n, the same for all", ylabel="mean error / planned", ylim=(0, 3))
+    right.set(xlabel="n, the same for all", ylabel="mean error / planned")
+    right.set(yscale="log", ylim=(0.5, 20))
+    right.set_yticks([0.5, 1, 2, 5, 10], ["0.5", "1", "2", "5", "10"])
+    right.minorticks_off()
     return fig
 
 

@@ -31,8 +31,8 @@ def ends(ax, targets, reached):
     """Targets (…, 2) as green rings; where the hand ended (…, 2) as red dots, each on a line."""
     targets, reached = np.reshape(targets, (-1, 2)), np.reshape(reached, (-1, 2))
     threads(ax, targets, reached, color=COLOURS["red"], lw=1)
-    ax.plot(*targets.T, "o", ms=8, **RING, gid="targets")
-    ax.plot(*reached.T, "o", ms=4, color=COLOURS["red"], gid="the hand")
+    ax.plot(*targets.T, "o", ms=8, **RING, gid="targets", zorder=4)  # above arrows
+    ax.plot(*reached.T, "o", ms=4, color=COLOURS["red"], gid="the hand", zorder=4)
 
 
 def reaches(ax, templates, targets, reached, title=""):

@@ -50,7 +50,7 @@ def votes_plot(target=None, neurons=4, evenly=True):
             arrows(ax, [0, 0], tip, colour)
             look = dict(textcoords="offset points", ha="center", color=COLOURS[colour])
             ax.annotate(words, tip, (0, above), **look)
-        ax.text(0, 1.15, f"{lean(target, neurons, evenly):.0f}° off", ha="center")
+        ax.text(-1.3, 1.15, f"{lean(target, neurons, evenly):.0f}° off", ha="center")
     return fig
 
 

@@ -91,7 +91,7 @@ def gain_curves(gains, by_gain, gain):
     for ax, (measured, lines) in zip(axes, by_gain.items(), strict=True):
         for arm, line in lines.items():
             ax.plot(gains, line, ".-", label=f"{arm}: {number(line[k])}")
-        ax.axvline(gain, color=COLOURS["red"], lw=1.5, gid="now")
+        ax.axvline(gain, ymax=0.68, color=COLOURS["red"], lw=1.5, gid="now")  # below the legend
         ax.set(xscale="log", yscale="log", xlabel="gain (1/s²)", ylabel=measured)
         ax.set_xticks(gains, gains)
         ax.minorticks_off()

@@ -66,7 +66,7 @@ def photo_view(image, boxes=(), points=(), axes=None):
     for (x0, y0, x1, y1), label, colour in boxes:
         rect = f'x="{x0:.1f}" y="{y0:.1f}" width="{x1 - x0:.1f}" height="{y1 - y0:.1f}"'
         marks += [f'<rect {rect} {EDGE}/><rect {rect} stroke="{ON_PHOTO[colour]}"/>']
-        long = 11 * len(label) + 9 * label.count("%")  # about; a % is wide
+        long = 12 * len(label) + 9 * sum(map(label.count, "%m"))  # about; these are wide
         x, low = max(min(x0, width - long), 0), min(y1 + 21, height - 7)
         near = [y for begin, y, end in taken if begin < x + long and x < end]
         places = [y0 - 7, low, y0 + 21] if y0 > 26 else [low, y0 + 21]
