@@ -125,7 +125,7 @@ def segmentation_demo(image, caption, alt):
     The reader may put a photo of their own in its place; it is looked at there and sent nowhere.
     """
     photo = f'<img alt="{escape(alt)}" src="{data_uri(image)}" style="{LAYER}">'
-    scale = {"min": 4.64, "max": 9.64, "step": 0.01, "value": 6.64}  # powers of two: 25 to 800
+    scale = {"min": 4.644, "max": 9.644, "step": 0.01, "value": 6.644}  # powers of two: 25 to 800
     merged = {"min": 0, "max": 1, "step": 0.001, "value": 0}
     sliders = slider("segmentation-k", "scale k", "100", scale)
     sliders += slider("segmentation-merged", "merged", "", merged, width=9)
