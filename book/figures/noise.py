@@ -35,7 +35,7 @@ def filtered_reach(place, reports, estimate, errors, believed, alone):
     for (name, error), style in zip(alone.items(), ("--", ":"), strict=True):
         right.axhline(error, color=COLOURS["grey"], ls=style, label=name)
     mark_now(right, believed, errors[believed])
-    right.set(xscale="log", yscale="log", ylim=(0.2, 70))
+    right.set(xscale="log", yscale="log", ylim=(0.2, 300))  # room for the legend
     right.set(xlabel="believed error of the eye (mm)", ylabel="estimate off by (mm)")
     for axis in (right.xaxis, right.yaxis):
         axis.set_ticks([0.5, 1, 2, 5, 10, 20, 50], ["0.5", "1", "2", "5", "10", "20", "50"])
