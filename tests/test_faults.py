@@ -14,11 +14,16 @@ from reproduce import results
 from reproduce.pipeline import checksums, steps
 from tests.project import ROOT, code_cells, each_chapter, run
 from vmc_lib import data, marker_sheet, photos
+from vmc_lib.arm.dynamics import hand
 from vmc_lib.arm.kinematics import inverse_kinematics
+from vmc_lib.cerebellum.forward_model import arm_copy
+from vmc_lib.cerebellum.online import AimCorrection, WeightCorrection
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.inverse_dynamics import static_activation
+from vmc_lib.motor.planning import plan
 from vmc_lib.motor.templates import load
 from vmc_lib.show import check, questions
+from vmc_lib.what.crops import crop
 from vmc_lib.where.segmentation import segment
 
 REMEDY = "git checkout -- .*python -m reproduce --list"
@@ -160,11 +165,18 @@ GREY = np.full((20, 30, 3), 0.5, np.float32)
         (lambda: segment(GREY, sigma=-1), "sigma = -1.*above 0"),
         (lambda: segment(GREY * np.nan), "finite"),
         (lambda: segment(GREY[..., 0]), r"\(height, width, c\)"),
+        (lambda: segment(np.uint8(255 * GREY)), "uint8 are not in 0..1: see photos.as_float"),
+        (lambda: crop(255 * GREY, (0, 0, 9, 9)), "divide 8 bits by 255"),
+        (lambda: hand((0.1, 0.2, 0.3)), r"posture \(0.1, 0.2, 0.3\) must be .* in rad"),
+        (lambda: arm_copy(np.nan), "nan times as strong"),
+        (lambda: WeightCorrection().update(plan((0.15, -0.4), load())), "plan for targets"),
+        (lambda: AimCorrection(load()).update(plan((0.15, -0.4), load())), "plan for targets"),
         (lambda: marker_sheet.estimate_camera(GREY * 255), "divide 8 bits by 255"),
         (lambda: inverse_kinematics((0.1, 0.2, 0.3)), r"\(…, 2\), in m"),
         (lambda: execute(None, prism=30.0), "prism of 30.0 rad: give radians"),
         (lambda: execute(None, prism=np.nan), "prism of nan"),
         (lambda: static_activation((30, 60)), r"posture \[30. 60.\] rad is beyond .* np.radians"),
+        (lambda: static_activation((np.nan, 1)), r"posture \[nan  1.\] rad is beyond"),
         (lambda: load(hold=-1), "hold of -1 s: give seconds"),
         (lambda: load(hold=np.nan), "hold of nan"),
     ],

@@ -25,7 +25,7 @@ INSIDE = st.tuples(st.floats(0, 0.1), st.floats(-0.4, -0.3)).map(np.array)
 
 @given(INSIDE)
 def test_habitual_weights_are_equation_5(target):
-    weights = habitual_weights(target, SQUARE)
+    weights = habitual_weights(target.tolist(), SQUARE)
     distance = np.linalg.norm(SQUARE - target, axis=1)
     if distance.min() > 1e-6:
         np.testing.assert_allclose(weights, (1 / distance) / (1 / distance).sum(), rtol=1e-9)
@@ -50,7 +50,7 @@ def test_target_on_a_template_uses_that_template_alone(rule, template_set):
 
 def test_surrounding_templates_are_the_corners_of_the_cell(template_set):
     targets = draw_targets(template_set, 100, np.random.default_rng(0))
-    corners = template_set.points[surrounding(targets, template_set.points)]
+    corners = template_set.points[surrounding(targets.tolist(), template_set.points)]
     side = np.sign(corners - targets[:, None])
     assert np.all(side == [(1, 1), (-1, 1), (-1, -1), (1, -1)])
     nearer = np.linalg.norm(template_set.points - targets[:, None], axis=-1).min(axis=-1)

@@ -42,7 +42,9 @@ def trig_basis_gradient(shoulder, elbow):
 
 
 def _trig_basis_of(q):
-    """`trig_basis` of postures (…, 2), as an array (…, 11)."""
+    """`trig_basis` of postures (…, 2), as an array (…, 11); ValueError for other shapes."""
+    if np.shape(q)[-1:] != (2,):
+        raise ValueError(f"posture {q} must be (shoulder, elbow), (…, 2), in rad")
     return np.array(trig_basis(*np.transpose(q))).T
 
 

@@ -146,7 +146,7 @@ def _check_range(name, value):
 
 def check_posture(q, name="start"):
     """ValueError where a posture (…, 2) lies beyond the joints' limits by more than MARGIN."""
-    far = np.any((q < LIMITS[:, 0] - MARGIN) | (q > LIMITS[:, 1] + MARGIN), axis=-1)
+    far = ~np.all((q >= LIMITS[:, 0] - MARGIN) & (q <= LIMITS[:, 1] + MARGIN), axis=-1)
     if np.any(far):
         raise ValueError(
             f"{name} {q[far][0]} rad is beyond the joints' limits, {LIMITS.round(2).tolist()} rad; "

@@ -16,7 +16,7 @@ import numpy as np
 
 from vmc_lib.cerebellum.online import GranuleCells
 from vmc_lib.motor.execution import execute
-from vmc_lib.motor.planning import Plan, is_surrounded, plan
+from vmc_lib.motor.planning import Plan, check_batch, is_surrounded, plan
 from vmc_lib.motor.templates import REACH
 
 SILENT = np.array([0.0, -REACH])  # where the hand ends when every muscle is silent
@@ -72,6 +72,7 @@ class Adaptation:
         is what was done and the error more. What could not be done is thus forgotten, or it would
         pile up with every error: *windup*, as engineers call it.
         """
+        check_batch(plan)
         movement, active = execute(self.correct(plan)), self.cells.excite(plan.target)
         missing = self.shift(plan) + plan.target - movement.endpoint - active @ self.purkinje
         self.purkinje = self.purkinje + minimum_norm_update(active, missing, self.regularisation)

@@ -22,7 +22,7 @@ def arm_copy(strength=1.0):
 
     One strength, or one for each movement of a batch (B, 1). ValueError when one is negative.
     """
-    if np.any(np.asarray(strength) < 0):
+    if not np.all(np.asarray(strength) >= 0):
         raise ValueError(f"muscles {strength} times as strong? give 0 or more")
 
     return partial(muscle_acceleration, strength=strength)

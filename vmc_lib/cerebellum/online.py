@@ -23,6 +23,7 @@ from vmc_lib.cerebellum.offline import algorithm_1, calibrate
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import (
     Plan,
+    check_batch,
     exact_weights,
     habitual_weights,
     is_surrounded,
@@ -107,6 +108,7 @@ class WeightCorrection:
 
     def update(self, plan: Plan, rule=algorithm_1, execute=execute):
         """Algorithm 2, its steps for every plan of a batch; `rule` is the off-line calibration."""
+        check_batch(plan)
         online = self.correct(plan)  # 1, 2: "calibrated weights w_i^on = w_i + Δw_i^on"
         modified = online.with_weights(calibrate(rule, online).best_weights)  # 3, 4: "w_i' = …"
         place = execute(modified).endpoint if self.hindsight else plan.target  # 4: "actual p_a'"
@@ -163,6 +165,7 @@ class AimCorrection:
 
         So many are made `together`; the next are aimed with what was learned from those.
         """
+        check_batch(plan)
         for first in range(0, len(plan.target), together):
             some = plan[first : first + together]
             aim = self.aim(some)

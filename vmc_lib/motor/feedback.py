@@ -21,6 +21,7 @@ from vmc_lib.arm.model import STEP
 from vmc_lib.arm.muscle import noisy
 from vmc_lib.arm.simulate import Motion, check_sane
 from vmc_lib.motor.inverse_dynamics import SAMPLES, minimum_jerk, minimum_jerk_profile, muscle_gain
+from vmc_lib.motor.planning import check_batch
 from vmc_lib.motor.templates import START
 
 TICK = 10  # steps: sight corrects, and the model predicts, a hundred times a second
@@ -65,8 +66,7 @@ def reference_trajectory(plan, seconds=2.0):
 
     ValueError when it is shorter than the plan itself, or there is no batch.
     """
-    if plan.target.ndim != 2:
-        raise ValueError(f"a plan for {plan.target} is no batch; plan for targets (B, 2)")
+    check_batch(plan)
     more = round(seconds / STEP) - SAMPLES
     if more < 0:
         raise ValueError(f"{seconds} s is too short for a reach; give 1 s or more")

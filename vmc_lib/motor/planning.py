@@ -71,7 +71,7 @@ def habitual_weights(target, points, power=1):
     >>> habitual_weights(np.array([0.1, -0.4]), points).round(3).tolist()
     [0.75, 0.25]
     """
-    distance = norm(points - target[..., None, :])
+    distance = norm(points - np.asarray(target)[..., None, :])
     on = distance < 1e-9
     nearness = np.where(on, 1, distance) ** -power
     nearness = np.where(on.any(axis=-1, keepdims=True), on, nearness)
@@ -132,7 +132,7 @@ def is_surrounded(target, points):
 
 def _by_quadrant(target, points):
     """Distances (…, 4, N), infinite to points in other quadrants; no distance is in the first."""
-    away = points - target[..., None, :]
+    away = points - np.asarray(target)[..., None, :]
     quadrant = np.floor(np.arctan2(away[..., 1], away[..., 0]) / (np.pi / 2)) % 4
     here = quadrant[..., None, :] == np.arange(4)[:, None]
     return np.where(here, norm(away)[..., None, :], np.inf)
@@ -198,6 +198,12 @@ def plan(target, template_set, rule=habitual_weights, rows=None):
             raise ValueError(f"rows {rows} must be of the {len(known)} templates, 0 to {known[-1]}")
     rows = np.broadcast_to(rows, (*target.shape[:-1], rows.shape[-1]))
     return Plan(template_set, target, rows, rule(target, template_set.points[rows]))
+
+
+def check_batch(plan):
+    """Raise ValueError where a plan is of one reach."""
+    if plan.target.ndim != 2:
+        raise ValueError(f"a plan for {plan.target} is no batch; plan for targets (B, 2)")
 
 
 def norm(vectors):

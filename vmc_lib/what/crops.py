@@ -15,11 +15,13 @@ def crop(image, box):
     """
     import cv2
 
+    from vmc_lib.photos import as_rgb
+
     height, width = image.shape[:2]
     x0, y0, x1, y1 = np.clip(np.round(box), 0, [width, height] * 2).astype(int)
     if x1 - x0 < 2 or y1 - y0 < 2:
         raise ValueError(f"the box {np.round(box, 1)} holds nothing of a {width}×{height} image")
-    grey = cv2.cvtColor(image[y0:y1, x0:x1], cv2.COLOR_RGB2GRAY)
+    grey = cv2.cvtColor(as_rgb(image[y0:y1, x0:x1]), cv2.COLOR_RGB2GRAY)
     how = cv2.INTER_AREA if min(x1 - x0, y1 - y0) > WIDTH else cv2.INTER_CUBIC
     return cv2.resize(grey, (WIDTH, WIDTH), interpolation=how).astype(np.float32) / 255
 

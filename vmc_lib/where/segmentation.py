@@ -47,6 +47,8 @@ def segmentations(channels, scales, sigma=0.8):
 
     if channels.ndim != 3 or 0 in channels.shape or not np.all(np.isfinite(channels)):
         raise ValueError(f"channels {channels.shape} must be finite, (height, width, c), not empty")
+    if channels.dtype.kind != "f":
+        raise ValueError(f"channels of {channels.dtype} are not in 0..1: see photos.as_float")
     if not (0 < sigma < np.inf and all(0 < k < np.inf for k in scales)):
         raise ValueError(f"scales k = {scales}, sigma = {sigma}: give finite numbers above 0")
     smooth = cv2.GaussianBlur(channels, (0, 0), sigma).reshape(channels.shape)
