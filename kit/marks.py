@@ -135,12 +135,15 @@ def rows(path):
 
 def main():
     """Write the table of the notebooks in a folder, CSV."""
+    found = sorted(path for folder in sys.argv[1:] for path in Path(folder).rglob("*.ipynb"))
+    handed_in = [path for path in found if ".ipynb_checkpoints" not in path.parts]
+    if not handed_in:
+        sys.exit(f"no notebooks under {sys.argv[1:]}: use python -m kit.marks FOLDER > marks.csv")
     table = csv.writer(sys.stdout)
     table.writerow(COLUMNS)
-    for path in sorted(Path(sys.argv[1]).rglob("*.ipynb")):
-        if ".ipynb_checkpoints" not in path.parts:
-            table.writerows(rows(path))
-            sys.stdout.flush()
+    for path in handed_in:
+        table.writerows(rows(path))
+        sys.stdout.flush()
 
 
 if __name__ == "__main__":

@@ -170,3 +170,7 @@ def test_every_file_gets_its_rows(hand_in, tmp_path, monkeypatch, capsys):
     assert rows.keys() == {"cut.ipynb", "empty.ipynb", "notes.ipynb"}
     assert all(row["mark"].startswith("cannot be marked (") for [row] in rows.values())
     assert "no chapter has its first heading" in rows["notes.ipynb"][0]["mark"]
+    for none in ([], [str(folder / "none")], [str(folder / "cut.ipynb")]):
+        monkeypatch.setattr(sys, "argv", ["kit.marks", *none])
+        with pytest.raises(SystemExit, match="no notebooks under .* FOLDER"):
+            marks.main()
