@@ -45,14 +45,16 @@ const vmcLivePhoto = (() => {
       const { live } = this.form.elements, video = Object.assign(document.createElement("video"), { muted: true, playsInline: true });
       live.disabled = true;
       try {
-        video.srcObject = this.film = await navigator.mediaDevices.getUserMedia(CAMERA);
+        const film = (video.srcObject = this.film = await navigator.mediaDevices.getUserMedia(CAMERA));
         await video.play();
+        live.disabled = false;
+        if (this.film !== film) return; // the reader has chosen a photo, or left the page
         this.turn = {}; // what a photo led to, ends
         this.forget();
-        Object.assign(live, { textContent: "Stop", disabled: false });
+        live.textContent = "Stop";
         this.say("Opening the eye …");
         this.brain = await vmcEye.unpack();
-        await this.followFilm(Object.assign(video, { width: video.videoWidth, height: video.videoHeight }), this.film);
+        await this.followFilm(Object.assign(video, { width: video.videoWidth, height: video.videoHeight }), film);
       } catch (error) {
         this.stopFilm();
         live.disabled = false;
@@ -71,6 +73,7 @@ const vmcLivePhoto = (() => {
       const { sheet } = this.given, snapshot = snapshots(video);
       Object.assign(this, { aimed: null, stay: null });
       for (let box = null, begun = performance.now(); this.film === film; await frame()) {
+        if (!film.active) throw new Error("it was unplugged, or taken by another program");
         const eye = vmcLetterbox(await snapshot(), ...EYE);
         const read = await vmcEye.inPieces(vmcEye.readSheet(eye, sheet, EYE)), { camera } = read;
         this.bare = camera ? vmcEye.paintOver(eye, vmcEye.sheetOutline(camera, sheet)) : eye;

@@ -21,11 +21,14 @@ Object.assign(vmcEye, (() => {
     return predicted.map((x, c) => mean[c] + spread[c] * x);
   };
 
-  /* The place (3,) of a shuttlecock in a box, m; behind the camera where the line of sight does not meet its height. */
+  /* The place (3,) of a shuttlecock in a box, m. RangeError where the line of sight does not meet its height. */
   const locate = (localiser, photo, box, camera) => {
     const [right, down, height] = predictPlace(localiser, describeBox(photo, box)), [x0, y0, x1, y1] = box;
     const pixel = [(x0 + x1) / 2 + right * (x1 - x0), (y0 + y1) / 2 + down * (y1 - y0)];
-    return vmcEye.backProject(camera, pixel, height * localiser.side);
+    const place = vmcEye.backProject(camera, pixel, height * localiser.side);
+    if (!(vmcVectors.dot(camera.rotation[2], vmcVectors.minus(place, camera.position)) > 0))
+      throw new RangeError(`a ray through ${pixel} never meets the table`);
+    return place;
   };
 
   return { locate };

@@ -142,9 +142,9 @@ const vmcYourPhoto = (() => {
       this.box.querySelectorAll("button[data-box]").forEach((button, i) => button.setAttribute("aria-pressed", i === number));
       const { kinematics } = this.given;
       if (!this.camera) return this.sayUnknown();
-      this.place = vmcEye.locate(this.brain.localiser, this.bare, this.boxes[number], this.camera);
-      this.tell({ place: where(this.place) });
       try {
+        this.place = vmcEye.locate(this.brain.localiser, this.bare, this.boxes[number], this.camera);
+        this.tell({ place: where(this.place) });
         const { turn, place } = turnTowards(kinematics, this.place);
         this.tell({ place: `${where(this.place)}; the trunk turns ${vmcPanel.signed((turn * 180) / Math.PI, 0)}°` });
         await this.reach(place, turn);

@@ -19,11 +19,16 @@ ASK = """async ([asked, pixels, width, height]) => {
 NOTHING = np.zeros((1, 1, 3), np.uint8)
 
 
-@pytest.fixture(scope="session")
-def eye_page(chromium, site):
-    """A page, offline, with the book's scripts and what the eye has learnt."""
+@pytest.fixture(scope="session", autouse=True)
+def learnt(site):
+    """What the eye has learnt is among the book's scripts."""
     (site / "vendor").mkdir(exist_ok=True)
     (site / brain.SCRIPT).write_text(brain.script(), encoding="utf-8")
+
+
+@pytest.fixture(scope="session")
+def eye_page(chromium, site):
+    """A page, offline, with the book's scripts."""
     context = chromium.new_context(offline=True)
     page = pages.open_html(context, site, "")
     yield page

@@ -12,7 +12,7 @@ from playwright.sync_api import expect
 
 from tests import pages
 from tests.arm_in_page.controls import readout, status
-from tests.eye_in_page.test_your_photo import OURS, SHOTS
+from tests.eye_in_page.test_your_photo import NOTHING, OURS, SHOTS
 from tools import browser
 from vmc_lib.boxes import iou, pad_boxes
 
@@ -29,9 +29,14 @@ navigator.mediaDevices.getUserMedia = async () => {
   const picture = (self.picture = new Image()), canvas = document.createElement("canvas");
   Object.assign(canvas, { width: 600, height: 400 });
   setInterval(() => canvas.getContext("2d").drawImage(picture, 0, 0), 40);
-  return canvas.captureStream();
+  return (self.film = canvas.captureStream());
 };"""
+HELD = """() => {
+  const { unpack } = vmcEye, held = new Promise((resolve) => (self.go = resolve));
+  vmcEye.unpack = () => held.then(unpack);
+}"""
 RESTING = "() => /^After/.test(document.querySelector('[role=status]').textContent)"
+BLANK = np.full_like(OURS.image, 128)
 FAKE = "--use-fake-device-for-media-stream --use-fake-ui-for-media-stream".split()
 
 
@@ -51,6 +56,13 @@ def jpeg(image):
     return file.getvalue()
 
 
+def shows(page, image):
+    """Let a page's FILM show an image."""
+    page.wait_for_function("() => self.picture")
+    address = f"data:image/jpeg;base64,{b64encode(jpeg(image)).decode()}"
+    page.evaluate("(address) => (picture.src = address)", address)
+
+
 @pytest.mark.parametrize("shot", SHOTS[4::8], ids=lambda shot: shot.name)
 def test_a_box_follows_what_has_moved_in_it_or_beside_it(ask, shot):
     box = shot.boxes["shuttlecock"]
@@ -58,27 +70,21 @@ def test_a_box_follows_what_has_moved_in_it_or_beside_it(ask, shot):
     for aside in (0.3, 0.7):
         start = box + aside * np.array([1, 0, 1, 0]) * (box[2] - box[0])
         assert iou(ask(FOLLOW, [start.tolist(), camera], shot.image), box).item() > 0.6
-    empty = np.full_like(shot.image, 128)
-    assert ask(FOLLOW, [box.tolist(), camera], empty) is None
+    assert ask(FOLLOW, [box.tolist(), camera], BLANK) is None
 
 
 def test_the_arm_reaches_again_for_what_has_been_moved(window, site, html):
     page = pages.open_html(window(FILM, viewport={"width": 800, "height": 900}), site, html)
 
-    def shows(image):
-        address = f"data:image/jpeg;base64,{b64encode(jpeg(image)).decode()}"
-        page.evaluate("(address) => (picture.src = address)", address)
-
     page.locator("[name=live]").click()
-    page.wait_for_function("() => self.picture")
-    shows(np.full_like(OURS.image, 128))
+    shows(page, BLANK)
     status(page, "The camera is unknown")
-    shows(OURS.image)
+    shows(page, OURS.image)
     status(page, "After")
     first = readout(page, "place")
     assert re.fullmatch(r"\d+ frames/s", readout(page, "followed"))
     for step in range(1, 9):
-        shows(moved(OURS, -6 * step, step))
+        shows(page, moved(OURS, -6 * step, step))
     page.wait_for_function(f"() => !({RESTING})()")
     status(page, "After")
     assert readout(page, "place") != first
@@ -86,6 +92,28 @@ def test_the_arm_reaches_again_for_what_has_been_moved(window, site, html):
     page.get_by_role("button", name="Example").click()
     status(page, "After")
     assert readout(page, "place") == first
+    assert page.errors == []
+
+
+def test_a_film_that_is_left_or_cut_leaves_the_page_to_photos(window, site, html, tmp_path):
+    page = pages.open_html(window(FILM), site, html)
+    page.evaluate(HELD)
+    live, photo = page.locator("[name=live]"), tmp_path / "photo.jpg"
+    live.click()
+    shows(page, BLANK)
+    status(page, "Opening the eye")
+    photo.write_bytes(jpeg(BLANK))
+    page.locator("[type=file]").set_input_files(photo)
+    page.evaluate("go()")
+    status(page, NOTHING)
+    expect(page.locator(".vmc-picture canvas").first).to_be_hidden()
+    expect(live).to_have_text("Live")
+    live.click()
+    shows(page, BLANK)
+    status(page, "The camera is unknown")
+    page.evaluate("film.getTracks().forEach((track) => track.stop())")
+    assert "unplugged" in status(page, "The camera does not serve")
+    expect(live).to_be_enabled()
     assert page.errors == []
 
 

@@ -5,15 +5,17 @@ from base64 import b64decode
 import cv2
 import numpy as np
 import pytest
+from playwright.sync_api import Error
 
 from book.figures.your_photo import sheet
 from eye_in_page.localiser import CompactLocaliser, shift_mm
 from tests.test_marker_sheet import LOW, draw_sheet, looking
-from vmc_lib import marker_sheet, photos
+from vmc_lib import NoReach, marker_sheet, photos
 from vmc_lib.loop import VisuomotorModel, see
 
 SHOTS = photos.load(photos.SHEET_LEVEL, "test")
 SHEET = sheet()
+SKY = [280, 20, 320, 60]  # a box above the horizon of a camera that looks level
 READ = """const { sheet, size } = asked;
   const { markers, camera } = vmcEye.finish(vmcEye.readSheet(photo, sheet, size));
   const bare = camera && vmcEye.paintOver(photo, vmcEye.sheetOutline(camera, sheet)).data;
@@ -104,6 +106,12 @@ def test_a_place_is_that_of_the_compact_localiser(ask):
         there = ask(script, {"box": box.tolist(), "camera": camera}, shot.image)
         here = CompactLocaliser.load().locate(shot.image, box, shot.camera)
         assert there == pytest.approx(here, abs=1e-6)
+    level = looking((0, 0, 0), (1, 0, 0), 480.0)
+    camera = {name: np.asarray(value).tolist() for name, value in vars(level).items()}
+    with pytest.raises(NoReach):
+        CompactLocaliser.load().locate(shot.image, SKY, level)
+    with pytest.raises(Error, match=r"RangeError: a ray .+ never meets the table"):
+        ask(script, {"box": SKY, "camera": camera}, shot.image)
 
 
 @pytest.mark.browser

@@ -137,6 +137,9 @@ def test_no_file_is_met_with_silence(page, tmp_path):
       return [picture.width, picture.height];
     }"""
     assert page.locator(".vmc-picture image").evaluate(size) == [600, 400]  # the right way up
+    page.locator("[type=file]").set_input_files(tmp_path / "large.jpg")  # slow to read, and then
+    give(page, tmp_path / "grey.jpg")  # another
+    assert page.locator(".vmc-picture image").evaluate(size) == [60, 40]
 
 
 def test_in_a_kernel_it_is_the_same_page(monkeypatch, window):
