@@ -172,5 +172,5 @@ def test_every_file_gets_its_rows(hand_in, tmp_path, monkeypatch, capsys):
     assert "no chapter has its first heading" in rows["notes.ipynb"][0]["mark"]
     for none in ([], [str(folder / "none")], [str(folder / "cut.ipynb")]):
         monkeypatch.setattr(sys, "argv", ["kit.marks", *none])
-        with pytest.raises(SystemExit, match="no notebooks under .* FOLDER"):
+        with pytest.raises(SystemExit, match=r"no notebooks under .* FOLDER"):
             marks.main()
