@@ -99,9 +99,16 @@ const vmcLivePhoto = (() => {
 
     /* A shuttlecock is in a box of this frame: its place is shown while it moves; when it rests, the arm reaches. */
     arriveAt(box) {
-      const place = vmcEye.locate(this.brain.localiser, this.bare, box, this.camera), now = performance.now();
+      const now = performance.now();
       Object.assign(this, { boxes: [box], marks: [{ box, colour: "green" }] });
       this.photo.drawBoxes(this.marks, 0);
+      let place;
+      try {
+        place = vmcEye.locate(this.brain.localiser, this.bare, box, this.camera);
+      } catch (error) {
+        if (!(error instanceof RangeError)) throw error;
+        return this.sayOutOfReach();
+      }
       if (!(distance(place, this.stay?.place ?? place) < NEAR)) this.stay = null;
       this.stay ??= { place, since: now };
       if (this.aimed && distance(place, this.aimed) < MOVED) return;

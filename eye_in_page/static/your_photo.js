@@ -151,8 +151,12 @@ const vmcYourPhoto = (() => {
       } catch (error) {
         if (!(error instanceof RangeError)) throw error;
         this.rest();
-        this.say("Out of reach: the hand can be where it is shaded. Lay it there, or point at another box.");
+        this.sayOutOfReach();
       }
+    }
+
+    sayOutOfReach() {
+      this.say("Out of reach: the hand can be where it is shaded. Lay it there, or point at another box.");
     }
 
     sayUnknown() {
