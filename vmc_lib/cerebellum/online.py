@@ -40,8 +40,7 @@ def equation_8(plan: Plan):
     """The inputs of the paper's g, for a plan: p_t, every w_i and every p_i, (…, 2 + 3 N).
 
     Eq. 8 names w_i^off and p_i^off, "the positions of the movement after off-line calibration",
-    which a movement that is still to be made does not have. Here they are the plan's weights and
-    its templates' positions.
+    which a movement still to be made does not have. Here they are the plan's weights and `points`.
     """
     points = plan.points.reshape(*plan.points.shape[:-2], -1)
     return np.concatenate([plan.target, plan.weights, points], axis=-1)
@@ -114,8 +113,7 @@ class WeightCorrection:
         place = execute(modified).endpoint if self.hindsight else plan.target  # 4: "actual p_a'"
         right = self._planned(replace(plan, target=place))
         self.training_pairs.append((self.inputs(right), modified.weights - right.weights))
-        pairs = map(np.concatenate, zip(*self.training_pairs, strict=True))
-        self.g.fit(*pairs)  # 5: "update … to g'"
+        self.g.fit(*map(np.concatenate, zip(*self.training_pairs, strict=True)))  # 5: "… to g'"
         return self
 
     def _planned(self, plan):
@@ -186,8 +184,8 @@ class AimCorrection:
 
 def _neighbours(points):
     """The fours of templates (n, 4) that surround some place in the plane."""
-    edges = points.min(axis=0), points.max(axis=0)
-    spots = np.stack(np.meshgrid(*np.linspace(*edges, 40).T), axis=-1).reshape(-1, 2)
+    axes = np.linspace(points.min(axis=0), points.max(axis=0), 40).T
+    spots = np.stack(np.meshgrid(*axes), axis=-1).reshape(-1, 2)
     return np.unique(surrounding(spots[is_surrounded(spots, points)], points), axis=0)
 
 
