@@ -49,8 +49,11 @@ def segmentations(channels, scales, sigma=0.8):
         raise ValueError(f"channels {channels.shape} must be finite, (height, width, c), not empty")
     if channels.dtype.kind != "f":
         raise ValueError(f"channels of {channels.dtype} are not in 0..1: see photos.as_float")
-    if not (0 < sigma < np.inf and all(0 < k < np.inf for k in scales)):
-        raise ValueError(f"scales k = {scales}, sigma = {sigma}: give finite numbers above 0")
+    if not (0 < sigma < max(channels.shape) and all(0 < k < np.inf for k in scales)):
+        raise ValueError(
+            f"scales k = {scales}, sigma = {sigma}: give finite numbers above 0, and a sigma "
+            f"smaller than an image of {channels.shape[1]}×{channels.shape[0]} pixels"
+        )
     smooth = cv2.GaussianBlur(channels, (0, 0), sigma).reshape(channels.shape)
     height, width = smooth.shape[:2]
     edges, offsets = sort_by_weight(pixel_edges(smooth)), pixel_offsets(width)
