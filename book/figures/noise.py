@@ -58,7 +58,7 @@ def trust_over_time(believed, eye, off):
     for (name, error), hue in zip(off.items(), ("grey", "blue"), strict=True):
         right.plot(time, error, color=COLOURS[hue], label=name)
     right.axhline(eye, color=COLOURS["grey"], ls="--", label=f"the eye alone: {eye:g} mm")
-    right.set(xlabel="time (s)", ylabel="off by (mm)", ylim=(0, 1.1 * off["the model alone"].max()))
+    right.set(xlabel="time (s)", ylabel="off by (mm)", ylim=(0, 1.3 * off["the model alone"].max()))
     right.legend(loc="upper left")
     return fig
 
