@@ -100,8 +100,12 @@ def test_the_arm_reaches_misses_and_calibrates(open_arms):
 
 
 def test_the_whole_arm_reaches_and_calibrates(open_arms, window, past):
-    arm, target = open_arms(window(reduced_motion="reduce")).whole, np.array([0.52, 0.07, -0.065])
+    page = open_arms(window(reduced_motion="reduce"))
+    arm, target = page.whole, np.array([0.52, 0.07, -0.065])
     start(arm)
+    arm.locator(".vmc-scene canvas").wait_for()
+    drawn = "div => vmcScene(div).body instanceof vmcWhole.Body"
+    assert arm.locator(".vmc-scene").evaluate(drawn)
     set_target(arm, target)
     arm.locator("[name=main]").click()
     status(arm, "The planned reach")
@@ -114,6 +118,7 @@ def test_the_whole_arm_reaches_and_calibrates(open_arms, window, past):
     arm.locator("[name=calibrate]").click()
     status(arm, f"After {live.TRIALS} tries")
     assert number(readout(arm, "calibrated")) == pytest.approx(1000 * trials.error.min(), abs=0.3)
+    assert page.errors == []
 
 
 def test_a_target_is_dragged(open_arms):

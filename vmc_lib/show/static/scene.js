@@ -9,6 +9,7 @@ const vmcScene = (() => {
   const live = new Set(); // in the order in which they came into sight
   const views = new Map();
 
+  const NO_WEBGL = "This browser draws no 3-D picture: it has no WebGL, or it is switched off.";
   const WIDE = 1.15; // width to height: in a narrower picture the eye steps back
 
   let loading, bones;
@@ -47,11 +48,12 @@ const vmcScene = (() => {
       await load();
       live.delete(this);
       if (!bones) return this.flat("The files of the 3-D picture did not come: load the page again.");
+      if (!this.viewer && !hasWebGL()) return this.flat(NO_WEBGL);
       try {
-        if (!this.viewer && !hasWebGL()) throw new Error("no WebGL");
         if (!this.viewer) this.start();
-      } catch {
-        return this.flat("This browser draws no 3-D picture: it has no WebGL, or it is switched off.");
+      } catch (error) {
+        console.error(error); // it may also be a fault of ours
+        return this.flat(NO_WEBGL);
       }
       live.add(this);
       if (live.size > MOST_LIVE) [...live][0].stop();
@@ -146,7 +148,7 @@ const vmcScene = (() => {
           this.viewer.handle_command_bytearray(Uint8Array.from(atob(data), (c) => c.charCodeAt(0)));
           this.sent.set(key, data);
         }
-      if (this.anatomy && !this.body)
+      if (this.anatomy instanceof vmcAnatomy.Anatomy && !this.body) // another arm is drawn by whoever shows it
         this.body = new vmcBody.Body(this.viewer, this.anatomy, bones);
     }
 
