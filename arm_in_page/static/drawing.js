@@ -36,9 +36,9 @@ const vmcDrawing = (() => {
       this.balls = []; // where the scene's balls are, or nothing
       this.marks = []; // on the plot: [kind, colour, points in metres, size]
       this.view = vmcScene(box.querySelector(".vmc-scene"));
-      this.view.onstart = () => this.start(given);
+      this.view.onstart = () => this.place(); // or the balls would be as recorded
       this.view.show(given.scene);
-      if (given.still) Object.assign(this.view, { anatomy: given, posed: given.still });
+      if (given.still) this.showWhole(given);
       this.plots = [...box.querySelectorAll("svg[data-axes]")].map((svg, nth) => {
         const measure = vmcAxes(svg);
         const { left, right, bottom, top } = measure;
@@ -63,14 +63,10 @@ const vmcDrawing = (() => {
       this.lens?.show(marks, this.focus);
     }
 
-    /* The viewer is there: draw in it what no recorded scene holds. */
-    start({ still, muscles, bones }) {
-      const { view } = this;
-      if (still) {
-        view.body = new vmcWhole.Body(view.viewer, muscles, bones);
-        view.pose(view.posed);
-      }
-      this.place(); // or the balls would be as recorded
+    /* The scene's arm is a whole one: what no recorded scene holds. */
+    showWhole(given) {
+      const { view } = this, makeBody = () => new vmcWhole.Body(view.viewer, given.muscles, given.bones);
+      Object.assign(view, { anatomy: given, posed: given.still, makeBody });
     }
 
     place() {

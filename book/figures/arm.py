@@ -136,7 +136,7 @@ def paths_beside_opensim(muscle, joint):
     left.plot(turn, ours, color=COLOURS["purple"], gid="ours")
     theirs = 1000 * opensim_arm.RECORDED["lengths"][alone, k]
     left.plot(turn, theirs, ".", color=COLOURS["ink"], markersize=4, gid="OpenSim")
-    left.update_datalim([(0, ours.mean() - 5), (0, ours.mean() + 5)])  # lest nothing is enlarged
+    left.update_datalim([(0, ours.mean() - 5), (0, ours.mean() + 5)])  # rounding alone stays small
     left.set(xlabel=f"{joint} (degrees)", title="length (mm)")
     for row, colour, name in ((0, "red", "length"), (1 + column, "blue", "arm")):
         right.plot(turn, apart[row, alone, k], color=COLOURS[colour], label=name)

@@ -20,7 +20,7 @@ NOTHING = np.zeros((1, 1, 3), np.uint8)
 
 
 @pytest.fixture(scope="session", autouse=True)
-def learnt(site):
+def brain_script(site):
     """What the eye has learnt is among the book's scripts."""
     (site / "vendor").mkdir(exist_ok=True)
     (site / brain.SCRIPT).write_text(brain.script(), encoding="utf-8")

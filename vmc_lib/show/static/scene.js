@@ -148,8 +148,12 @@ const vmcScene = (() => {
           this.viewer.handle_command_bytearray(Uint8Array.from(atob(data), (c) => c.charCodeAt(0)));
           this.sent.set(key, data);
         }
-      if (this.anatomy instanceof vmcAnatomy.Anatomy && !this.body) // another arm is drawn by whoever shows it
-        this.body = new vmcBody.Body(this.viewer, this.anatomy, bones);
+      this.body ??= this.makeBody();
+    }
+
+    /* What moves in the viewer, if anything does; another arm than arm26 has its own. */
+    makeBody() {
+      return this.anatomy && new vmcBody.Body(this.viewer, this.anatomy, bones);
     }
 
     /* Take away everything at and under `path`; what is still wanted is then sent again. */
