@@ -56,8 +56,8 @@ def jpeg(image):
     return file.getvalue()
 
 
-def shows(page, image):
-    """Let a page's FILM show an image."""
+def show_in_film(page, image):
+    """Show an image in a page's FILM."""
     page.wait_for_function("() => self.picture")
     address = f"data:image/jpeg;base64,{b64encode(jpeg(image)).decode()}"
     page.evaluate("(address) => (picture.src = address)", address)
@@ -77,14 +77,14 @@ def test_the_arm_reaches_again_for_what_has_been_moved(window, site, html):
     page = pages.open_html(window(FILM, viewport={"width": 800, "height": 900}), site, html)
 
     page.locator("[name=live]").click()
-    shows(page, BLANK)
+    show_in_film(page, BLANK)
     status(page, "The camera is unknown")
-    shows(page, OURS.image)
+    show_in_film(page, OURS.image)
     status(page, "After")
     first = readout(page, "place")
     assert re.fullmatch(r"\d+ frames/s", readout(page, "followed"))
     for step in range(1, 9):
-        shows(page, moved(OURS, -6 * step, step))
+        show_in_film(page, moved(OURS, -6 * step, step))
     page.wait_for_function(f"() => !({RESTING})()")
     status(page, "After")
     assert readout(page, "place") != first
@@ -100,7 +100,7 @@ def test_a_film_that_is_left_or_cut_leaves_the_page_to_photos(window, site, html
     page.evaluate(HELD)
     live, photo = page.locator("[name=live]"), tmp_path / "photo.jpg"
     live.click()
-    shows(page, BLANK)
+    show_in_film(page, BLANK)
     status(page, "Opening the eye")
     photo.write_bytes(jpeg(BLANK))
     page.locator("[type=file]").set_input_files(photo)
@@ -109,7 +109,7 @@ def test_a_film_that_is_left_or_cut_leaves_the_page_to_photos(window, site, html
     expect(page.locator(".vmc-picture canvas").first).to_be_hidden()
     expect(live).to_have_text("Live")
     live.click()
-    shows(page, BLANK)
+    show_in_film(page, BLANK)
     status(page, "The camera is unknown")
     page.evaluate("film.getTracks().forEach((track) => track.stop())")
     assert "unplugged" in status(page, "The camera does not serve")
