@@ -71,6 +71,25 @@ def test_at_most_six_scenes_live_and_the_others_are_images(open_demos):
     page.wait_for_selector(".vmc-scene canvas")
 
 
+BEFORE_AND_AFTER = """(div) => {
+  const { words } = vmcScene(div), picture = [...div.children];
+  const parts = [...document.querySelectorAll("figure *")].filter((part) => !div.contains(part));
+  const tops = () => parts.map((part) => part.getBoundingClientRect().top);
+  const after = tops();
+  div.replaceChildren(...words);
+  const before = tops();
+  div.replaceChildren(...picture);
+  return [before, after]; }"""
+
+
+def test_a_scene_that_comes_moves_nothing(open_demos):
+    """Its place is as high while words stand there."""
+    page = open_demos(lambda: figure((ball(0.1), "<p>text</p>"), "c", "a ball"))
+    page.wait_for_selector(".vmc-scene canvas")
+    before, after = page.eval_on_selector(".vmc-scene", BEFORE_AND_AFTER)
+    assert before == after
+
+
 def test_a_scene_is_no_wider_than_its_place(open_demos):
     photo = np.zeros((400, 600, 3), np.uint8)
     page = open_demos(lambda: figure((photo_view(photo), ball(0.1)), "c", "a photo and a ball"))
