@@ -199,3 +199,35 @@ function unsetEquations() {
   return [...document.querySelectorAll(".math")]
     .filter((one) => !one.querySelector(".katex")).map((one) => one.textContent);
 }
+
+/* Demos of whose pictures a control covers a part, at any place where they can be scrolled to, every `step` px:
+   as the page comes, and while a slider is held at its end. */
+function coveredPictures(step) {
+  const meet = (one, other) => one.left < other.right - 1 && other.left < one.right - 1
+    && one.top < other.bottom - 1 && other.top < one.bottom - 1;
+  const covered = (demo) => {
+    const [pictures, controls] = [".vmc-picture :is(svg, img, canvas)", ".vmc-controls, button, input, select, summary, output"]
+      .map((parts) => [...demo.querySelectorAll(parts)].filter((part) => part.checkVisibility({ visibilityProperty: true })));
+    const { top, bottom } = demo.getBoundingClientRect(), from = scrollY + top - innerHeight, to = scrollY + bottom;
+    for (let y = Math.max(0, from); y < to; y += step) {
+      scrollTo({ top: y, behavior: "instant" });
+      const [these, those] = [pictures, controls].map((parts) => parts.map((part) => part.getBoundingClientRect()));
+      if (these.some((picture) => those.some((control) => meet(picture, control)))) return true;
+    }
+  };
+  const coveredWhileHeld = (demo) => {
+    const slider = demo.querySelector("input[type=range]:enabled");
+    if (!slider) return false;
+    const { value } = slider;
+    slider.focus({ preventScroll: true });
+    slider.value = slider.max;
+    fire(slider);
+    const found = covered(demo);
+    slider.value = value;
+    fire(slider);
+    slider.blur();
+    return found;
+  };
+  return [...document.querySelectorAll(".vmc-demo")]
+    .filter((demo) => covered(demo) || coveredWhileHeld(demo)).map(({ id }) => id);
+}

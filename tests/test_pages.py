@@ -121,6 +121,40 @@ def test_nothing_jumps_while_a_slider_is_dragged(page, width, height):
     assert probe(page, "jumpySliders") == []
 
 
+SIZES = pytest.mark.parametrize(("width", "height"), [*SCREENS, (1366, 768)])
+[FRONT] = [path.as_uri() for path in CHAPTERS if path.stem == "index"] or [""]
+ARM_MOVES = """() => {
+  const edges = [...document.querySelectorAll(".vmc-picture :is(svg, canvas)")]
+    .map((part) => part.getBoundingClientRect()).flatMap(({ top, bottom }) => [top, bottom]);
+  const moves = document.querySelector(".vmc-clock [aria-pressed=true]");
+  return moves && [scrollY, edges.length, Math.min(...edges), Math.max(...edges)]; }"""
+
+
+@SIZES
+def test_the_film_plays_on_the_first_screen(window, width, height):
+    """The front page's: by itself, photo and arm in the window when the arm begins to move."""
+    page = open_url(window(viewport={"width": width, "height": height}), FRONT)
+    scrolled, edges, top, bottom = page.wait_for_function(ARM_MOVES).json_value()
+    assert (scrolled, edges) == (0, 4)
+    assert 0 <= top < bottom <= height
+    assert page.errors == []
+
+
+def test_the_film_waits_where_less_motion_is_asked_for(window):
+    page = open_url(window(reduced_motion="reduce"), FRONT)
+    page.wait_for_selector(".vmc-scene canvas")
+    page.evaluate(TWO_FRAMES)
+    assert page.get_attribute("[data-unasked]", "aria-pressed") == "false"
+    assert page.get_attribute("[data-stride]", "aria-valuetext") == "a photo"
+
+
+@SIZES
+def test_no_control_lies_over_a_picture(page, width, height):
+    resize(page, width, height)
+    unfold(page)
+    assert probe(page, "coveredPictures", 40) == []
+
+
 RUNS = ".tag_hide-input:not(.tag_hide-input + .tag_hide-input)"  # their first cells
 MARK = "details.hide > summary"
 RUN_LENGTH = """(cell) => {

@@ -47,8 +47,10 @@ def svg(fig, salt):
     with plt.rc_context(STYLE | {"svg.hashsalt": salt}):
         svg = figure_svg(fig)
     plt.close(fig)  # or the notebook would show it a second time
-    least = 0.62 * 72 * fig.get_figwidth()  # on a phone a wide plot scrolls, its words stay legible
-    root = f'<svg {_SVG_ROOT} {_axes(fig)} style="--least: {least:.0f}pt" '
+    width, height = fig.get_size_inches()
+    least = 0.62 * 72 * width  # on a phone a wide plot scrolls, its words stay legible
+    shape = f"--least: {least:.0f}pt; --ratio: {width / height:.3f}"
+    root = f'<svg {_SVG_ROOT} {_axes(fig)} style="{shape}" '
     svg = svg[svg.index("<svg ") :].replace("<svg ", root, 1)
     svg = re.sub(r"<metadata>.*?</metadata>|<!--.*?-->|<style.*?</style>", "", svg, flags=re.S)
     svg = _CURVE.sub(r'<g>\n<path data-curve="\1"', svg)
@@ -101,12 +103,13 @@ def _stackable(svg, fig, name):
     left = [ax for ax in fig.axes if ax.get_position().x0 < min(columns)[1]]
     last = any(np.isclose(ax.get_xticks(), ax.get_xlim()[1]).any() for ax in left)
     past = 0.15 if last else 0.08  # inches: half of a last number, before those of the second
-    split = min(columns)[1] + past / fig.get_figwidth()
+    width, height = fig.get_size_inches()
+    split = min(columns)[1] + past / width
     root, drawing = svg.split(">", 1)
     drawing = drawing.removesuffix("</svg>")
     view = re.search(r'viewBox="[^"]*"', root)[0]
     return (
-        f'<div class="vmc-panels" style="--split: {split:.3f}">\n'
+        f'<div class="vmc-panels" style="--split: {split:.3f}; --ratio: {width / height:.3f}">\n'
         f'<div>{root}><g id="{name}">{drawing}</g></svg></div>\n'
         f'<div><svg {_SVG_ROOT} {view}><use href="#{name}"/></svg></div></div>'
     )

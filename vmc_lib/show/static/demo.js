@@ -127,7 +127,7 @@ const vmcDemo = (() => {
         watch.disconnect();
         if (+input.value === 0) button.click();
       }, { threshold: 0.6 });
-      Promise.resolve(ready).then(() => watch.observe(demo));
+      Promise.resolve(ready).then(() => watch.observe(demo.querySelector(".vmc-pictures")));
     }
   };
 
@@ -170,8 +170,8 @@ const vmcDemo = (() => {
     const places = [...demo.querySelectorAll(".vmc-picture, .vmc-data")];
     return ([alt, ...parts]) => {
       const row = demo.querySelector(".vmc-controls"), held = demo.matches(":hover, :focus-within");
-      const edges = () => [row.getBoundingClientRect().top, pictures.getBoundingClientRect().bottom];
-      const [top, bottom] = held ? edges() : [];
+      const top = () => row.getBoundingClientRect().top;
+      const before = held && top();
       parts.forEach((lines, i) => {
         if (!lines) return; // it stands there already
         const picture = places[i], scene = picture.querySelector(".vmc-scene");
@@ -185,11 +185,8 @@ const vmcDemo = (() => {
       pictures.setAttribute("aria-label", words);
       follow();
       queueMicrotask(() => tell(demo)); // sliders may yet say where they stand
-      /* A picture of another height moves the page, and not what the reader's hand is on (which
-         may stick to the window's edge, so that it tells nothing of how much has grown). */
-      if (!held) return;
-      const [toTop, toBottom] = edges();
-      if (toTop !== top) scrollBy({ top: toBottom - bottom, behavior: "instant" });
+      /* A picture of another height moves the page, and not what the reader's hand is on. */
+      if (held && top() !== before) scrollBy({ top: top() - before, behavior: "instant" });
     };
   };
 
