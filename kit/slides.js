@@ -18,7 +18,26 @@ const fit = () => {
   fits(slide, content, 0.4);
 };
 
+/* What a presenter's clicker sends turns the page (or darkens the room) wherever the focus is; so do the
+   arrows and the space bar, but where the control that has the focus needs them. */
+const TURNS = {
+  PageDown: "next", PageUp: "prev", ArrowRight: "next", ArrowLeft: "prev", " ": "next", ".": "togglePause", b: "togglePause",
+};
+const FIELDS = "select, textarea, input:not([type=range], [type=radio], [type=checkbox])";
+const ARROWS = `${FIELDS}, [type=range], [type=radio]`;
+const NEEDED = { ArrowRight: ARROWS, ArrowLeft: ARROWS, " ": `${FIELDS}, [type=radio], [type=checkbox], button, summary` };
+const needs = ({ target, key }) => !key.startsWith("Page") && target.matches(NEEDED[key] ?? FIELDS);
+
+addEventListener("keydown", (event) => {
+  const turn = TURNS[event.key];
+  if (!turn || needs(event) || event.shiftKey || event.ctrlKey || event.altKey || event.metaKey) return;
+  event.preventDefault(); // no slider moves
+  event.stopImmediatePropagation();
+  Reveal[turn]();
+}, true);
+
 addEventListener("DOMContentLoaded", () => {
+  Reveal.on("ready", () => Reveal.configure({ keyboardCondition: (event) => !needs(event) }));
   const heights = new ResizeObserver(() => {
     const slide = Reveal.getCurrentSlide();
     if (slide.scrollHeight > slide.clientHeight + 1) fit();

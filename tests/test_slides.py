@@ -168,3 +168,58 @@ def assert_first_demo_moves(page):
     assert pictures.is_visible()
     assert pictures.inner_html() != first
     assert page.evaluate("() => Reveal.getCurrentSlide().querySelector('.vmc-demo') !== null")
+
+
+CLICKED = {  # what a speaker clicks, and whether it needs the arrows and the space bar itself
+    "answer": (".vmc-predict input", True, True),
+    "folded summary": (".vmc-predict summary", False, True),
+    "slider": (".vmc-controls [data-stride][type=range]", True, False),
+    "pad": (".vmc-pad input", True, False),
+    "handle": (".vmc-handle", False, False),
+    "play": ("[data-stride] ~ .vmc-play", False, True),
+    "arm": (".vmc-scene", False, False),
+    "start": ("[name=main]", False, True),
+}
+SHOW = """(part) => {
+  const { h } = Reveal.getIndices(part.closest(".slides > section"));
+  Reveal.slide(h);
+  return h; }"""
+STATE = """(part) => [
+  Reveal.getIndices().h, part.value, part.checked, part.closest("details")?.open]"""
+
+
+@pytest.fixture(scope="module")
+def decks(kit, chromium):
+    """The sessions' decks, open before a projector."""
+    projector = chromium.new_context(offline=True, viewport={"width": 1280, "height": 720})
+    decks = [
+        open_url(projector, path.as_uri()) for path in sorted((kit / "slides").glob("session-*"))
+    ]
+    yield decks
+    projector.close()
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("kind", CLICKED)
+def test_a_clicker_turns_the_page_after_whatever_was_clicked(decks, kind):
+    """And moves no control; arrows and space bar do where the control does not need them."""
+    selector, arrows, space = CLICKED[kind]
+    page = next(deck for deck in decks if deck.locator(f".fit {selector}").count())
+    page.bring_to_front()
+    part = page.locator(f".fit {selector}").first
+    here = part.evaluate(SHOW)
+
+    def slide_after(key):
+        part.evaluate(SHOW)
+        part.click()
+        _, *before = part.evaluate(STATE)
+        page.keyboard.press(key)
+        slide, *after = part.evaluate(STATE)
+        assert slide == here or after == before
+        return slide - here
+
+    assert [slide_after(key) for key in ("PageDown", "PageUp")] == [1, -1]
+    turned = [slide_after(key) for key in ("ArrowRight", "ArrowLeft")]
+    assert turned == ([0, 0] if arrows else [1, -1])
+    assert slide_after(" ") == (0 if space else 1)
+    assert page.errors == []
