@@ -113,6 +113,18 @@ def test_on_a_phone_panels_stand_one_above_the_other(open_demo):
     assert shown.nth(1).screenshot() != before  # the same drawing, moved by the same slider
 
 
+UNREADY_AND_READY = """(demo) => {
+  const high = () => demo.getBoundingClientRect().height, ready = high();
+  delete demo.dataset.ready;
+  return [high(), ready]; }"""
+
+
+def test_a_demo_that_becomes_ready_moves_nothing_below_it(open_demo):
+    page = open_demo(np.eye, N=Slider(range(2, 6), "size"))
+    before, after = page.eval_on_selector(".vmc-demo", UNREADY_AND_READY)
+    assert before == after
+
+
 def test_a_slider_and_its_button_stay_in_place_while_the_picture_grows(open_demos):
     widths = ["i", "WWWW", "mmmm mmmm", "%"]
 
