@@ -2,6 +2,7 @@
 
 import inspect
 import re
+from unittest.mock import patch
 
 import nbformat
 import numpy as np
@@ -98,8 +99,9 @@ def machine(W, b=0.0, a=0.0, c=2):
 
 
 def posterior_drawn(drives, die):
-    on, _ = machine(np.ones((1, 1))).posterior(drives.reshape(1, 1, 2, 2))
-    return int((on.cumsum() < die).sum())
+    block = np.pad(drives, (0, 4 - len(drives)), constant_values=-np.inf).reshape(1, 1, 2, 2)
+    on, _ = machine(np.ones((1, 1))).posterior(block)
+    return min((on.cumsum() < die).sum(), len(drives))
 
 
 def widths(width, filter_width, block, layers):
@@ -115,21 +117,28 @@ def least_pulls(torque, gain):
     return nnls(np.vstack([gain, lazy]), np.append(torque, np.zeros(len(gain))))[0]
 
 
+def rates(u, a, rise, fall):
+    with patch.multiple(muscle, TAU_ACTIVATION=rise, TAU_DEACTIVATION=fall):
+        return muscle.activation_rate(u, a)
+
+
 LIBRARY = {
     "SIMILAR_FILL": fill,
-    "ENERGY_OF": lambda v, h, W, b, a: machine(W, b, a).energy(v[None, None], h[None, None]).item(),
+    "ENERGY_OF": lambda v, h, W, b, a: (
+        machine(W, b, a, 1).energy(v[None, None], h[None, None]).item()
+    ),
     "UNIT_ON": posterior_drawn,
     "POOLED_WIDTHS": widths,
     "PRECISION_AND_RECALL": lambda chances, truth, threshold: [
         score(truth, chances > threshold) for score in (precision_score, recall_score)
     ],
-    "ACTIVATION_RATES": lambda u, a, rise, fall: muscle.activation_rate(u, a),
+    "ACTIVATION_RATES": rates,
     "NEAR_WEIGHTS": habitual_weights,
     "FAIR_VOTE": lambda rates, preferred: np.linalg.pinv(preferred) @ rates,
     "MISFIT": lambda points, targets, weights: np.sqrt(
         mean_squared_error(weights, habitual_weights(targets, points).T)
     ),
-    "SHORTENED": lambda changes, longest: offline._clip_norm(changes),
+    "SHORTENED": lambda changes, longest: 2 * longest * offline._clip_norm(changes / longest / 2),
     "ONE_JOINT": least_pulls,
     "ON_THE_TABLE": lambda eye, direction, height: (
         Camera(1, np.zeros(2), np.outer([0, 0, 1], direction), eye)

@@ -19,7 +19,7 @@ def _muscle_and_posture(rng):
     return (
         lambda q: 0.3 + near * np.cos(q[0]) - far * np.sin(q[1] / 2) + 0.01 * q[0] * q[1],
         q,
-        1e-4,
+        0.01,
     )
 
 
@@ -40,8 +40,11 @@ MOMENT_ARMS = Exercise(
         "Half as large as it should be: divide by the angle by which the joint was turned.": (
             lambda length, q, turn: moment_arms(length, q, turn) / 2
         ),
+        "You turned the joint to one side only. From both sides the slope is that of the middle: "
+        "turn forward, and from `q` back.": lambda length, q, turn: np.array(
+            [-(length(q + turn * joint) - length(q)) / turn for joint in np.eye(2)]
+        ),
     },
-    tolerance=1e-4,
 )
 
 
@@ -54,8 +57,10 @@ def posture(hand, upper, fore):
 
 
 def _reachable(rng):
-    bearing, far = rng.uniform(0.2, 1.4), rng.uniform(0.25, 0.5)
-    return far * np.array([np.sin(bearing), -np.cos(bearing)]), 0.29, 0.27
+    """Also above the shoulder."""
+    bearing, far = rng.uniform(0.2, 2.4), rng.uniform(0.25, 0.5)
+    upper, fore = rng.uniform([0.27, 0.24], [0.33, 0.3]).round(2)
+    return far * np.array([np.sin(bearing), -np.cos(bearing)]), upper, fore
 
 
 def _swung(hand, upper, fore, share):
@@ -76,6 +81,9 @@ POSTURE = Exercise(
         ),
         "Your elbow is the angle *inside* the joint, π when the arm is straight. Here a straight "
         "arm has 0.": lambda hand, upper, fore: posture(hand, upper, fore) * [1, -1] + [0, np.pi],
+        "`arctan` takes a hand above the shoulder for one below it. `arctan2(x, -y)` tells both.": (
+            lambda hand, upper, fore: posture(hand, upper, fore) - [np.pi * (hand[1] > 0), 0]
+        ),
         "Your shoulder is measured from straight ahead. Here 0 is straight down: "
         "`arctan2(x, -y)`.": lambda hand, upper, fore: posture(hand, upper, fore) - [np.pi / 2, 0],
     },

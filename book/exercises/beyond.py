@@ -12,12 +12,16 @@ def tenfold(sizes, errors):
     return (errors[0] / errors[-1]) ** (1 / powers)
 
 
+def _sweep(rng):
+    """The last error is not above the first; those between are in no order."""
+    sizes = np.cumprod(rng.integers(2, 9, rng.integers(3, 6))) * 1.0
+    errors = rng.uniform(0.5, 9, len(sizes)).round(1)
+    return sizes, errors if errors[0] > errors[-1] else errors[::-1]
+
+
 TENFOLD = Exercise(
     tenfold,
-    lambda rng: (
-        rng.integers(1, 4) * np.array([4.0, 16, 64, 256]),
-        np.sort(rng.uniform(0.5, 9, 4).round(1))[::-1],
-    ),
+    _sweep,
     {
         "That is by how much the whole sweep divides the error. A tenfold is only a part of it, "
         "or more than it.": lambda sizes, errors: errors[0] / errors[-1],

@@ -20,9 +20,10 @@ def similar_fill(box_i, box_j, size_i, size_j, pixels):
 
 
 def _two_regions(rng):
+    """Regions that share no pixel: each fills half of its box at most."""
     boxes = _boxes(rng, 2)
-    sizes = np.prod(boxes[:, 2:] - boxes[:, :2], axis=1) * rng.uniform(0.3, 0.9, 2)
-    return *boxes, *sizes.astype(int).tolist(), 240_000
+    sizes = np.prod(boxes[:, 2:] - boxes[:, :2], axis=1) * rng.uniform(0.2, 0.5, 2)
+    return *boxes, *sizes.astype(int).tolist(), int(rng.choice([120_000, 240_000]))
 
 
 def _area(low, high):
@@ -57,7 +58,7 @@ def recall_curve(overlaps, enough):
 
 RECALL_CURVE = Exercise(
     recall_curve,
-    lambda rng: (rng.integers(0, 11, (4, 6)) / 10, 0.7),
+    lambda rng: (rng.integers(0, 11, rng.integers(3, 6, 2)) / 10, rng.choice([0.5, 0.7, 0.8])),
     {
         "Your curve falls here and there. What has been found stays found: take the best "
         "overlap so far.": lambda overlaps, enough: (overlaps >= enough).mean(axis=0),
@@ -83,6 +84,11 @@ def engulfed(r, i, j):
     return (high - low).clip(0).prod(axis=1) / np.minimum(*areas)
 
 
+def _pairs(rng):
+    count = rng.integers(2, 5)
+    return SimpleNamespace(boxes=_boxes(rng, 8)), *rng.permutation(8)[: 2 * count].reshape(2, -1)
+
+
 def _shared_over(over, least=0):
     """`engulfed` with another area below the line, or with sides that may be negative."""
 
@@ -98,7 +104,7 @@ def _shared_over(over, least=0):
 
 ENGULFED = Exercise(
     engulfed,
-    lambda rng: (SimpleNamespace(boxes=_boxes(rng, 8)), np.arange(4), np.arange(4, 8)),
+    _pairs,
     {
         "That is the IoU. Divide by the area of the smaller box, not of both together.": (
             _shared_over(lambda a, b, shared: a + b - shared)

@@ -13,11 +13,10 @@ def energy_of(v, h, W, b, a):
 
 
 def _picture_and_explanation(rng):
-    return rng.normal(size=(4, 4)), np.eye(4)[rng.integers(4)].reshape(2, 2), *_filter(rng)
-
-
-def _filter(rng):
-    return rng.normal(size=(3, 3)), rng.normal(), rng.normal()
+    """Of the units, none to all are on."""
+    m, w = rng.integers(2, 4, 2)
+    h = (rng.random((m, m)) < rng.random()) * 1.0
+    return rng.normal(size=[m + w - 1] * 2), h, rng.normal(size=(w, w)), *rng.normal(size=2)
 
 
 ENERGY_OF = Exercise(
@@ -50,7 +49,7 @@ def unit_on(drives, die):
 
 UNIT_ON = Exercise(
     unit_on,
-    lambda rng: (rng.normal(size=4).round(1), round(rng.random(), 3)),
+    lambda rng: (rng.normal(size=rng.integers(2, 5)).round(1), round(rng.random(), 3)),
     {
         "In yours one unit is always on. All of them off is a state too: the 1 below the line.": (
             lambda drives, die: np.searchsorted(
@@ -80,11 +79,9 @@ def cd_step(v, h, dream_v, dream_h):
 
 
 def _data_and_dream(rng):
-    return *_seen(rng), *_seen(rng)
-
-
-def _seen(rng):
-    return rng.normal(size=(5, 5)), rng.random((3, 3))
+    m, w = rng.integers(2, 4, 2)
+    n = m + w - 1
+    return tuple(x for _ in range(2) for x in (rng.normal(size=(n, n)), rng.random((m, m))))
 
 
 CD_STEP = Exercise(

@@ -15,7 +15,12 @@ def pooled_widths(width, filter_width, block, layers):
 
 
 def _machine(rng):
-    return int(rng.integers(200, 400)), int(rng.integers(4, 9)), int(rng.choice([2, 3])), 3
+    return (
+        int(rng.integers(200, 400)),
+        int(rng.integers(4, 9)),
+        int(rng.choice([2, 3])),
+        int(rng.integers(1, 4)),
+    )
 
 
 def _widths(after):
@@ -63,9 +68,14 @@ def pixels_seen(filters, blocks):
     return seen
 
 
+def _layers(rng):
+    count = rng.integers(2, 5)
+    return rng.integers(3, 12, count).tolist(), rng.integers(2, 4, count).tolist()
+
+
 PIXELS_SEEN = Exercise(
     pixels_seen,
-    lambda rng: (rng.integers(3, 12, 3).tolist(), rng.integers(2, 4, 3).tolist()),
+    _layers,
     {
         "Right for one layer. Neighbours in a pooled map lie `block` pixels apart, so that the "
         "next filter reaches farther: keep a step.": lambda filters, blocks: (

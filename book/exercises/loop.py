@@ -12,9 +12,15 @@ def chosen_box(scores, chances):
     return np.where(named, scores, -np.inf).argmax()
 
 
+def _scored_boxes(rng):
+    """Distinct scores; a chance of 0.5 exactly among others, and sometimes none above it."""
+    n, most = rng.integers(3, 7), 10 if rng.random() < 0.8 else 6
+    return rng.permutation(np.linspace(-1, 2, n)), rng.integers(2, most, n) / 10
+
+
 CHOSEN_BOX = Exercise(
     chosen_box,
-    lambda rng: (rng.normal(size=5).round(2), (rng.choice([0.45, 1]) * rng.random(5)).round(2)),
+    _scored_boxes,
     {
         "You took the most likely box. All that are above 0.5 have the right name: of these the "
         "best score counts.": lambda scores, chances: (
@@ -42,7 +48,7 @@ def mixed(distances, commands):
 
 MIXED = Exercise(
     mixed,
-    lambda rng: (rng.uniform(0.01, 0.08, 4), rng.random((4, 2, 6))),
+    lambda rng: (rng.uniform(0.01, 0.08, 4), rng.random((4, rng.integers(1, 4), 6))),
     {
         "The farthest template has the largest weight now. Take one over the distance.": (
             lambda d, u: np.tensordot(d / d.sum(), u, axes=1)

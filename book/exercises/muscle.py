@@ -16,7 +16,7 @@ def activation_rates(u, a, rise, fall):
 
 ACTIVATION_RATES = Exercise(
     activation_rates,
-    lambda rng: (rng.random(6).round(2), rng.random(6).round(2), 0.010, 0.040),
+    lambda rng: (*rng.random((2, 6)).round(2), *rng.choice([[0.01, 0.04], [0.015, 0.05]])),
     {
         "Too slow on the way up: while $u \\ge a$, both time constants count, mixed by $u$.": (
             lambda u, a, rise, fall: (u - a) / fall
@@ -47,10 +47,17 @@ def activation_to_hold(mass, length, strongest):
 
 ACTIVATION_TO_HOLD = Exercise(
     activation_to_hold,
-    lambda rng: (rng.uniform(2, 120, 5).round(), rng.uniform(0.7, 1.6, 5).round(2), 987.0),
+    lambda rng: (
+        rng.uniform(2, 120, 5).round(),
+        rng.uniform(0.7, 1.6, 5).round(2),
+        rng.choice([987.0, 550.0]),
+    ),
     {
         "Weight is a force: multiply the mass by 9.81 m/s².": lambda mass, length, strongest: (
             activation_to_hold(mass / 9.81, length, strongest)
+        ),
+        "Nearly: 9.8 m/s² is not enough here. Take 9.81.": lambda mass, length, strongest: (
+            activation_to_hold(mass * 9.8 / 9.81, length, strongest)
         ),
         "A stretched muscle resists by itself. Take $f_3$ away before you ask for activation.": (
             lambda mass, length, strongest: np.clip(

@@ -13,7 +13,7 @@ def precision_and_recall(chances, truth, threshold):
 
 def _named_crops(rng):
     truth = rng.permutation(np.arange(12) < rng.integers(3, 9))
-    return (rng.integers(0, 8, 12) + 2 * truth) / 10, truth, 0.5
+    return (rng.integers(0, 8, 12) + 2 * truth) / 10, truth, rng.choice([0.3, 0.5])
 
 
 PRECISION_AND_RECALL = Exercise(
@@ -71,9 +71,16 @@ def _by_the_middle(chances, truth, bins):
     return share @ abs((k + 0.5) / bins - came)
 
 
+def _chances_off_the_edges(rng):
+    """On the edge of a bin rounding would decide; some bins are empty."""
+    bins, n = int(rng.integers(3, 7)), rng.integers(4, 16)
+    place = rng.choice(rng.permutation(bins)[: rng.integers(2, 5)], n)
+    return ((place + rng.uniform(0.1, 0.9, n)) / bins).round(3), rng.random(n) < 0.5, bins
+
+
 BROKEN_PROMISE = Exercise(
     broken_promise,
-    lambda rng: (rng.random(30).round(3), rng.random(30) < 0.5, 5),
+    _chances_off_the_edges,
     {
         "Too high in one bin and too low in another cancel now: take each gap's size.": _signed,
         "A bin with few crops counts as much as a full one. Weigh each by its share of the "
@@ -97,8 +104,15 @@ def possible_counts(percents, most):
 
 
 def _printed(rng):
-    found, alarms = rng.integers(20, 60), rng.choice([1, 2, 3], 2, replace=False)
-    return (100 * found / (found + alarms)).round(1), 100
+    """Percentages above 50, some of them exact; drawn anew while one could be rounded both ways."""
+    found, alarms = int(rng.integers(20, 50)), rng.integers(1, 20, 2)
+    if rng.random() < 0.3:
+        found, alarms = 36, rng.choice([4, 9, 12, 14], 2)
+    percents, most = (100 * found / (found + alarms)).round(1), found * int(rng.integers(1, 3))
+    most -= int(rng.integers(2))
+    off = [abs(np.subtract.outer(percents, 100 * _precisions(n))) for n in range(1, most + 1)]
+    on_edge = np.isclose(np.hstack(off), 0.05, rtol=0, atol=1e-9).any()
+    return _printed(rng) if on_edge else (percents, most)
 
 
 def _counts(percents, most, shares, half=0.05 + 1e-9, enough=np.all):

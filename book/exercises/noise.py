@@ -12,7 +12,7 @@ def honest(first, again):
 
 HONEST = Exercise(
     honest,
-    lambda rng: (rng.random((4, 5)).round(2), rng.random((4, 5)).round(2)),
+    lambda rng: tuple(rng.random((2, *rng.integers(2, 5, 2)))),
     {
         "That is the error of the lucky trial itself. Choose by `first`, and report what `again` "
         "says.": lambda first, again: first.min(axis=0),
@@ -34,9 +34,14 @@ def combine(reports, errors):
     return weights @ reports / weights.sum()
 
 
+def _senses(rng):
+    count = rng.integers(2, 5)
+    return rng.normal(size=count).round(1), rng.permutation([0.5, 1, 2, 4])[:count]
+
+
 COMBINE = Exercise(
     combine,
-    lambda rng: (rng.normal(size=3).round(1), rng.choice([0.5, 1, 2, 4], 3, replace=False)),
+    _senses,
     {
         "That is the plain mean: a sense that errs much has as much to say as one that errs "
         "little.": lambda reports, errors: reports.mean(),

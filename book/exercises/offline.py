@@ -11,7 +11,7 @@ def fair_vote(rates, preferred):
 
 
 def _neurons_that_fire(rng):
-    angle = rng.uniform(0, 2 * np.pi, 6)
+    angle = rng.uniform(0, 2 * np.pi, rng.integers(3, 7))
     preferred = np.stack([np.cos(angle), np.sin(angle)], axis=1)
     return preferred @ rng.normal(size=2), preferred
 
@@ -53,7 +53,7 @@ def _length(changes):
 def _changes(rng):
     changes = (rng.normal(size=(3, 4)) * rng.uniform(0.05, 0.6, (3, 1))).round(2)
     changes[rng.integers(3)] *= rng.random() < 0.7
-    return changes, 0.5
+    return changes, rng.choice([0.3, 0.5])
 
 
 SHORTENED = Exercise(
@@ -91,8 +91,8 @@ def _off(nearness, weights):
 
 
 def _printed_weights(rng):
-    weights = rng.uniform(0.1, 0.5, (4, 5))
-    return rng.uniform(0, 1, (4, 2)), rng.uniform(0, 1, (5, 2)), weights.round(4)
+    n = rng.integers(2, 6)
+    return rng.random((4, 2)), rng.random((n, 2)), rng.uniform(0.1, 0.5, (4, n)).round(4)
 
 
 MISFIT = Exercise(

@@ -12,7 +12,8 @@ def after_lessons(v, active, answers, rate):
 
 
 def _lessons(rng):
-    return rng.normal(size=5), rng.random((4, 5)), rng.normal(size=4), 0.3
+    n, m = rng.integers([2, 3], [5, 6])
+    return rng.normal(size=m), rng.random((n, m)), rng.normal(size=n), rng.choice([0.1, 0.3])
 
 
 def _taught(change):
@@ -51,7 +52,8 @@ def sparse(x, centres, width, most):
 
 
 def _place_and_cells(rng):
-    return rng.random(2).round(2), rng.random((8, 2)).round(2), 0.3, 3
+    m, d = rng.integers([4, 2], [8, 4])
+    return rng.random(d), rng.random((m, d)), rng.choice([0.3, 0.5]), int(rng.integers(2, m))
 
 
 SPARSE = Exercise(

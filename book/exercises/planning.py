@@ -13,9 +13,8 @@ def near_weights(target, points):
 
 
 def _target_and_points(rng):
-    points = (rng.normal(size=(4, 2)) / 10).round(2)
-    target = (rng.normal(size=2) / 10).round(3)
-    return points[rng.integers(4)] if rng.random() < 0.4 else target, points
+    points, target = np.split(rng.normal(size=(rng.integers(3, 6), 2)) / 10, [-1])
+    return points[0] if rng.random() < 0.4 else target[0], rng.permutation(points)
 
 
 def _normed(nearness):
@@ -57,8 +56,8 @@ def two_arrows(target, weights, points, reached):
 
 
 def _planned(rng):
-    points = rng.normal(size=(4, 2)) / 10
-    return rng.normal(size=2) / 10, _normed(rng.random(4)), points, rng.normal(size=2) / 10
+    points = rng.normal(size=(n := rng.integers(2, 5), 2)) / 10
+    return rng.normal(size=2) / 10, _normed(rng.random(n)), points, rng.normal(size=2) / 10
 
 
 TWO_ARROWS = Exercise(
@@ -76,7 +75,7 @@ TWO_ARROWS = Exercise(
             [target - w @ points, target - reached]
         ),
         "You took the mean of the points. Eq. 4 weighs them.": lambda target, w, points, reached: (
-            two_arrows(target, np.full(4, 0.25), points, reached)
+            two_arrows(target, _normed(np.ones(len(w))), points, reached)
         ),
     },
 )

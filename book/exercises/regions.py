@@ -12,8 +12,9 @@ def svm_cost(w, b, x, y, C):
 
 
 def _line_and_examples(rng):
-    x, y = rng.normal(size=(6, 2)), rng.choice([-1, 1], 6)
-    return rng.normal(size=2), rng.normal(), x, y, rng.choice([0.1, 1, 10])
+    n, d = rng.integers([3, 2], [7, 4])
+    x, y = rng.normal(size=(n, d)), rng.choice([-1, 1], n)
+    return rng.normal(size=d), rng.normal(), x, y, rng.choice([0.1, 1, 10])
 
 
 SVM_COST = Exercise(
@@ -48,9 +49,9 @@ def soft_nms(overlaps, scores):
 
 
 def _boxes_and_scores(rng):
-    corner = rng.integers(0, 60, (5, 2))
-    boxes = np.hstack([corner, corner + rng.integers(40, 80, (5, 2))])
-    return iou(boxes, boxes), rng.random(5).round(2)
+    corner = rng.integers(0, 60, (n := rng.integers(3, 6), 2))
+    boxes = np.hstack([corner, corner + rng.integers(40, 80, (n, 2))])
+    return iou(boxes, boxes), rng.permutation(np.arange(1, 10))[:n] / 10  # no two alike
 
 
 SOFT_NMS = Exercise(

@@ -12,7 +12,7 @@ def delay_signal(signal, steps):
 
 DELAY_SIGNAL = Exercise(
     delay_signal,
-    lambda rng: (rng.normal(size=(8, 2)).round(1), int(rng.integers(1, 5))),
+    lambda rng: (rng.normal(size=rng.integers([4, 1], [9, 4])).round(1), int(rng.integers(1, 4))),
     {
         "The end of the movement comes in at its beginning: an index below zero counts from "
         "the end. Before the first report, the first value holds.": (
@@ -20,7 +20,7 @@ DELAY_SIGNAL = Exercise(
         ),
         "Before the first report you say zero, as if the hand were at the shoulder. It rests "
         "at its first place.": lambda signal, steps: np.concatenate(
-            [np.zeros((steps, 2)), signal[:-steps]]
+            [0 * signal[:steps], signal[:-steps]]
         ),
         "You look ahead: at step $t$ the report is of step $t - $ `steps`.": (
             lambda signal, steps: delay_signal(signal[::-1], steps)[::-1]
@@ -38,7 +38,7 @@ def smith(report, model, steps):
 
 SMITH = Exercise(
     smith,
-    lambda rng: (rng.normal(size=8).round(1), rng.normal(size=8).round(1), int(rng.integers(1, 4))),
+    lambda rng: (*rng.normal(size=(2, rng.integers(4, 9))).round(1), int(rng.integers(1, 4))),
     {
         "That trusts the model alone, however wrong it is. Correct it by what the eye reports.": (
             lambda report, model, steps: model

@@ -11,7 +11,7 @@ def one_joint(torque, gain):
 
 
 def _muscles(rng):
-    bend, straighten = rng.uniform(4, 20, (2, 3)).round(1)
+    bend, straighten = (rng.uniform(4, 20, count).round(1) for count in rng.integers(2, 4, 2))
     torque = rng.choice([-1, 1]) * rng.uniform(2, 10)
     return torque.round(1), rng.permutation(np.append(bend, -straighten))
 
