@@ -1,5 +1,6 @@
-"""Stand-ins for modules that a page has no use for: they can be imported, and do nothing."""
+"""What a page has not: modules that it has no use for do nothing, others are refused in words."""
 
+import builtins
 import sys
 from importlib.util import find_spec
 from types import SimpleNamespace
@@ -41,3 +42,32 @@ def stand_in():
     sys.modules.update(dict.fromkeys(names, Absent))
     if "scipy" not in sys.modules and not find_spec("scipy"):
         sys.modules["scipy"] = SimpleNamespace(fft=np.fft)  # of it, this alone
+
+
+def _import(name, *context):
+    """`import`, for a reader's lines: what is not there, or does nothing here, is refused."""
+    package = name.partition(".")[0]
+    idle = package in REFUSED or isinstance(sys.modules.get(package), _Kind | SimpleNamespace)
+    try:
+        if not idle:
+            return builtins.__import__(name, *context)
+    except ModuleNotFoundError as error:
+        if error.name != package:
+            raise
+    raise ModuleNotFoundError(f"This page has NumPy alone: {package} needs Python of your own")
+
+
+def _refuse(words):
+    def refuse(*_):
+        raise RuntimeError(words)
+
+    return refuse
+
+
+REFUSED = {"asyncio"}  # a page waits for nothing while lines run
+BUILTINS = vars(builtins) | {
+    "__import__": _import,
+    "input": _refuse("This page cannot ask: write the value into your lines"),
+    "exit": _refuse("Nothing to leave here: a function ends with return"),
+    "quit": _refuse("Nothing to leave here: a function ends with return"),
+}

@@ -1,7 +1,7 @@
 """What the page's Python does with lines that the reader has typed: run them, grade a function."""
 
 import ast
-from contextlib import redirect_stdout, suppress
+from contextlib import redirect_stdout
 from dis import get_instructions
 from importlib import import_module
 from io import StringIO
@@ -11,12 +11,11 @@ from typing import NamedTuple
 import numpy as np
 
 from python_in_page import absent
-from vmc_lib.grading import WRONG, feedback
+from vmc_lib.grading import LONGEST, WRONG, feedback, line_of, reason, unreadable
 
 absent.stand_in()  # before a chapter's code asks for them
 
 READ = "LOAD_NAME", "LOAD_GLOBAL"
-LONGEST = 2000  # characters of what was printed that are shown
 
 
 def check(above, typed, name):
@@ -115,12 +114,11 @@ def changed(above, book, cell):
 
 def _statements(lines):
     """The statements of a cell; of an import each name, for others may be missing."""
-    with suppress(SyntaxError):  # of an earlier exercise, or being typed
-        for one in ast.parse(lines).body:
-            if isinstance(one, ast.ImportFrom):
-                yield from (ast.ImportFrom(one.module, [name], one.level) for name in one.names)
-            else:
-                yield one
+    for one in [] if unreadable(lines) else ast.parse(lines).body:  # some are still being typed
+        if isinstance(one, ast.ImportFrom):
+            yield from (ast.ImportFrom(one.module, [name], one.level) for name in one.names)
+        else:
+            yield one
 
 
 def _compiled(statement):
@@ -146,7 +144,9 @@ def _changed(statement):
 
 def _run(typed, names):
     """Run the reader's lines: what is wrong with them, or None, and what they print and return."""
-    said = None
+    if said := unreadable(typed):
+        return said, ""
+    names["__builtins__"] = absent.BUILTINS
     with redirect_stdout(StringIO()) as printed:
         try:
             tree = ast.parse(typed)
@@ -156,20 +156,9 @@ def _run(typed, names):
                 value = eval(compile(ast.Expression(expression.value), "page", "eval"), names)  # noqa: S307
                 if value is not None:
                     print(repr(value))
-        except SyntaxError as error:
-            said = f"{WRONG} Python cannot read line {error.lineno}: {error.msg}."
         except AssertionError as error:
-            line = _line(error)
+            line = line_of(error, "page")
             said = f"{WRONG} Line {line} no longer holds: `{typed.splitlines()[line - 1].strip()}`."
-        except Exception as error:
-            said = f"{WRONG} Line {_line(error)} stops: `{error!r}`."
+        except (Exception, SystemExit) as error:
+            said = f"{WRONG} Line {line_of(error, 'page')} stops: {reason(error)}."
     return said, printed.getvalue()
-
-
-def _line(error):
-    """The last of the reader's own lines that an error came through."""
-    trace, line = error.__traceback__, None
-    while trace:
-        line = trace.tb_lineno if trace.tb_frame.f_code.co_filename == "page" else line
-        trace = trace.tb_next
-    return line

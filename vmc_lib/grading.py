@@ -1,19 +1,25 @@
 """Answers to exercises: a value, or a function that the reader writes, beside the right one.
 
 A mistake that readers are known to make is kept as a wrong function, with the hint that it earns:
-whose function gets the numbers that it gets is given that hint, whatever the lines look like.
+whose function gets the numbers that it gets is given that hint, whatever the lines look like. What
+is wrong in another way is given a general hint (`vmc_lib.hints`), and the smallest case that fails.
 """
 
 import inspect
 from collections.abc import Callable
+from functools import partial
+from traceback import format_exception_only, walk_tb
 from types import SimpleNamespace
 from typing import NamedTuple
 
 import numpy as np
 
+from vmc_lib.hints import difference, fault, numbers
+
 _AROUND = " \t\"'“”‘’."  # a word may come in quotes, and end its sentence
 NOT_YET, RIGHT, WRONG, UNREAD = "Not answered yet.", "✓ Right.", "✗ Not yet.", "Not read."
 CASES = 20
+LONGEST = 2000  # characters of what lines printed that are shown
 EMPTY = f"{NOT_YET} The function returns nothing."
 
 
@@ -27,13 +33,17 @@ class Exercise(NamedTuple):
 
 
 def agree(answer, expected, tolerance):
-    """Whether a reader's `answer` is `expected`, within `tolerance`; NaN is NaN."""
+    """Whether a reader's `answer` is `expected`, within `tolerance`; NaN is NaN.
+
+    For one number a list or an array of one is taken as well.
+    """
     if isinstance(expected, str):
         return isinstance(answer, str) and answer.strip(_AROUND).lower() == expected.lower()
-    try:
-        answer, expected = np.asarray(answer, float), np.asarray(expected, float)
-    except (TypeError, ValueError):  # words among numbers, or rows of unequal length
+    answer, expected = numbers(answer), np.asarray(expected, float)
+    if answer is None:
         return False
+    if expected.ndim == 0 and answer.size == 1:
+        answer = answer.reshape(())
     return answer.shape == expected.shape and np.allclose(
         answer, expected, rtol=0, atol=tolerance, equal_nan=True
     )
@@ -42,54 +52,98 @@ def agree(answer, expected, tolerance):
 def feedback(function, exercise):
     """What `grade` says of a function, Markdown: `RIGHT`, `EMPTY`, or `WRONG` and a hint."""
     try:
-        got = _results(function, exercise)
-    except Exception as error:  # whatever the reader's lines raise, the reader is told
+        got = [_result(function, exercise, case) for case in range(CASES)]
+    except (Exception, SystemExit) as error:  # whatever the reader's lines raise, they are told
         called = f"{exercise.right.__name__}{inspect.signature(exercise.right)}"
-        return f"{WRONG} Called as {_code(called)}, it stops: {_code(repr(error))}."
+        line = line_of(error, getattr(getattr(function, "__code__", None), "co_filename", None))
+        where = f" in line {line}" if line else ""
+        return f"{WRONG} Called as {_code(called)}, it stops{where}: {reason(error)}."
     if all(result is None for result in got):
         return EMPTY
-    wanted = _results(exercise.right, exercise)
-    right = [agree(*pair, exercise.tolerance) for pair in zip(got, wanted, strict=True)]
+    wanted = [_result(exercise.right, exercise, case) for case in range(CASES)]
+    alike = partial(agree, tolerance=exercise.tolerance)
+    right = [*map(alike, got, wanted)]
     if all(right):
         return RIGHT
     for hint, mistake in exercise.mistakes.items():
-        alike = zip(got, _results(mistake, exercise), strict=True)
-        if all(agree(*pair, exercise.tolerance) for pair in alike):
+        if all(alike(one, _result(mistake, exercise, case)) for case, one in enumerate(got)):
             return f"{WRONG} {hint}"
-    case = right.index(False)
-    return f"{WRONG} {_example(exercise, case, got[case], wanted[case])}"
+    case = min((case for case in range(CASES) if not right[case]), key=partial(_size, exercise))
+    general = fault(got, wanted, alike) or difference(got[case], wanted[case])
+    if not general and any(right):
+        general = f"Right in {sum(right)} of {CASES} cases."
+    example = _example(exercise, case, got[case], wanted[case])
+    return " ".join(filter(None, (WRONG, general, example)))
 
 
-def _results(function, exercise):
-    """What a function returns for each case; the inputs are drawn anew for each function."""
-    cases = (exercise.draw(np.random.default_rng(case)) for case in range(CASES))
+def unreadable(lines):
+    """Why Python cannot read lines, Markdown, or None."""
+    try:
+        compile(lines, "lines", "exec")
+    except SyntaxError as error:
+        return f"{WRONG} Python cannot read line {error.lineno}: {error.msg}."
+    return None
+
+
+def reason(error):
+    """An exception as the last line of a traceback has it, Markdown."""
+    return _code(format_exception_only(error)[-1].strip())
+
+
+def line_of(error, file):
+    """The last line of a file that an exception came through, or None."""
+    frames = walk_tb(error.__traceback__)
+    return ([line for frame, line in frames if frame.f_code.co_filename == file] or [None])[-1]
+
+
+def _inputs(exercise, case):
+    """The arguments of a case, drawn anew for each function, which may change them."""
+    return exercise.draw(np.random.default_rng(case))
+
+
+def _result(function, exercise, case):
     with np.errstate(all="ignore"):  # a division by nought shows in the result
-        return [function(*inputs) for inputs in cases]
+        return function(*_inputs(exercise, case))
+
+
+def _size(exercise, case):
+    """How many numbers a case has, and how long it is in words."""
+    inputs = _inputs(exercise, case)
+    return sum(map(np.size, inputs)), sum(len(_short(value)) for value in inputs)
 
 
 def _example(exercise, case, got, wanted):
     """One case in words: its inputs, what is right, and what came instead."""
     names = inspect.signature(exercise.right).parameters
-    inputs = zip(names, exercise.draw(np.random.default_rng(case)), strict=True)
+    inputs = zip(names, _inputs(exercise, case), strict=True)
     arguments = ", ".join(_code(f"{name} = {_short(value)}") for name, value in inputs)
-    return f"Where {arguments}, {_code(_short(wanted))} is right; yours gives {_code(_short(got))}."
+    for digits in (4, 7, 10, 16):  # as few as tell them apart
+        right, yours = _short(wanted, digits), _short(got, digits)
+        if right != yours:
+            break
+    return f"Where {arguments}, {_code(right)} is right; yours gives {_code(yours)}."
 
 
-def _short(value):
+def _short(value, digits=4):
     """A value in few words."""
     if callable(value):
         return "a function"
-    if isinstance(value, tuple):
-        return f"({', '.join(map(_short, value))})"
+    if isinstance(value, str):
+        return repr(value[:100])
+    if isinstance(value, tuple | list):
+        begins, *_, ends = str(type(value)())
+        return f"{begins}{', '.join(_short(one, digits) for one in value[:25])}{ends}"
     if isinstance(value, SimpleNamespace):
-        return ", ".join(f"{name}: {_short(one)}" for name, one in vars(value).items())
+        return ", ".join(f"{name}: {_short(one, digits)}" for name, one in vars(value).items())
     if isinstance(value, float):
-        return f"{value:.4g}"
-    with np.printoptions(precision=4, suppress=True):
+        return f"{value:.{digits}g}"
+    if getattr(value, "size", 0) > 25:
+        return f"numbers of shape {value.shape}"
+    with np.printoptions(precision=digits, suppress=True):
         text = " ".join(str(value).split())
-    if getattr(value, "ndim", 0) < 2:
-        return text
-    return f"{text}, shape {value.shape}" if value.size <= 25 else f"numbers of shape {value.shape}"
+    if " at 0x" in text:
+        return f"a {type(value).__name__}"
+    return f"{text}, shape {value.shape}" if getattr(value, "ndim", 0) > 1 else text
 
 
 def _code(text):

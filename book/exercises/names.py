@@ -72,10 +72,11 @@ def _by_the_middle(chances, truth, bins):
 
 
 def _chances_off_the_edges(rng):
-    """On the edge of a bin rounding would decide; some bins are empty."""
+    """On the edge of a bin rounding would decide. Some bins are empty, some promise too much."""
     bins, n = int(rng.integers(3, 7)), rng.integers(4, 16)
     place = rng.choice(rng.permutation(bins)[: rng.integers(2, 5)], n)
-    return ((place + rng.uniform(0.1, 0.9, n)) / bins).round(3), rng.random(n) < 0.5, bins
+    truth = rng.random(n) < rng.choice([0.2, 0.8], bins)[place]
+    return ((place + rng.uniform(0.1, 0.9, n)) / bins).round(3), truth, bins
 
 
 BROKEN_PROMISE = Exercise(
@@ -110,8 +111,9 @@ def _printed(rng):
         found, alarms = 36, rng.choice([4, 9, 12, 14], 2)
     percents, most = (100 * found / (found + alarms)).round(1), found * int(rng.integers(1, 3))
     most -= int(rng.integers(2))
-    off = [abs(np.subtract.outer(percents, 100 * _precisions(n))) for n in range(1, most + 1)]
-    on_edge = np.isclose(np.hstack(off), 0.05, rtol=0, atol=1e-9).any()
+    n, alarms = np.ogrid[1 : most + 1, : most + 1]
+    off = abs(np.subtract.outer(percents, 100 * n / (n + alarms)))
+    on_edge = np.isclose(off, 0.05, rtol=0, atol=1e-9).any()
     return _printed(rng) if on_edge else (percents, most)
 
 
