@@ -52,15 +52,16 @@ def fault(answers, rights, agree):
     """The hint of the first of `FAULTS` that gives all `answers`, or None.
 
     `answers` and `rights` are a value for each case; `agree(answer, expected)` tells whether two
-    are the same. A fault that gives the same whatever is right explains nothing.
+    are the same. A fault that gives one number whatever is right explains nothing.
     """
     for hint, spoil in FAULTS:
         try:
             with np.errstate(all="ignore"):
-                spoilt = [spoil(np.asarray(right, float)) for right in rights]
+                spoilt = [np.asarray(spoil(np.asarray(right, float))) for right in rights]
         except (IndexError, ValueError):  # a single number has no order
             continue
-        if all(map(agree, answers, spoilt)) and not all(agree(spoilt[0], one) for one in spoilt):
+        several = len({number for one in spoilt for number in one.ravel()}) > 1
+        if several and all(map(agree, answers, spoilt)):
             return hint
     return None
 

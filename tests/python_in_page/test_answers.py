@@ -1,5 +1,6 @@
 """The page's Python and the notebook's say the same, of every exercise."""
 
+import numpy as np
 import pytest
 from bs4 import BeautifulSoup
 
@@ -42,7 +43,40 @@ def test_an_odd_function_is_told_as_in_the_notebook(ask, name):
     for function, begins in ODD.items():
         said, _ = ask([], f"{lines}{function}", place)
         assert said.startswith(begins)
-        assert said == feedback(eval(function), EVERY[name])  # noqa: S307
+        names = {}
+        exec(f"{lines}{function}", names)  # noqa: S102
+        assert said == feedback(names[name.lower()], EVERY[name])
+
+
+@each_exercise
+def test_general_hints_are_those_of_the_notebook(ask, name):
+    lines, place = asked(name)
+    for wrong in ("-np.asarray({})", "[{}]", "np.asarray({}) + 1e-5"):
+        function = f"lambda *x: {wrong.format('exercise.right(*x)')}"
+        names = {"np": np}
+        exec(f"{lines}{function}", names)  # noqa: S102
+        said, _ = ask(["import numpy as np"], f"{lines}{function}", place)
+        assert said == feedback(names[name.lower()], EVERY[name])
+
+
+@pytest.mark.parametrize(
+    ("typed", "words"),
+    [
+        (
+            "import scipy\nscipy.linalg",
+            "Line 1 stops: `ModuleNotFoundError: This page has NumPy alone",
+        ),
+        ("from scipy.signal import correlate2d", "This page has NumPy alone: scipy needs"),
+        ("import torch", "This page has NumPy alone: torch needs Python of your own"),
+        ("import asyncio", "This page has NumPy alone: asyncio needs Python of your own"),
+        ("x = 1\ninput()", "Line 2 stops: `RuntimeError: This page cannot ask"),
+        ("exit()", "Nothing to leave here"),
+        ("import sys\nsys.exit()", "Line 2 stops: `SystemExit`."),
+    ],
+)
+def test_what_the_page_has_not_is_refused_in_words(ask, typed, words):
+    said, _ = ask([], typed)
+    assert words in said
 
 
 def test_every_module_of_the_list_runs_in_the_page(ask):

@@ -4,6 +4,7 @@ import inspect
 import json
 import sys
 from importlib import import_module
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -47,6 +48,11 @@ def test_lines_that_define_no_function_get_the_reason(typed, words):
     """Also where the chapter above has one of that name."""
     said, _ = check([f"{HEAD}    return 0"], typed, NAME)
     assert words in said
+
+
+def test_an_exception_in_the_function_names_its_line():
+    said, _ = check([], f"{HEAD}    rates = []\n    return rates[7]", NAME)
+    assert "it stops in line 3: `IndexError: list index out of range`." in said
 
 
 def test_what_is_printed_is_shown_not_for_ever():
@@ -110,6 +116,30 @@ def test_what_no_page_has_can_be_imported_and_does_nothing(monkeypatch):
     assert not Widget
     assert not hasattr(Widget, "__path__")
     assert json.loads("1") == 1
+
+
+@pytest.mark.parametrize(
+    ("typed", "words"),
+    [
+        ("import nowhere.deep as deep", "NumPy alone: nowhere needs Python of your own`."),
+        ("from nowhere import x", "NumPy alone: nowhere needs Python of your own`."),
+        ("import json.nowhere", "No module named 'json.nowhere'"),
+        (
+            "import idle\nidle.linalg",
+            "Line 1 stops: `ModuleNotFoundError: This page has NumPy alone",
+        ),
+        (
+            "def f():\n    return input()\n\nf()",
+            "Line 2 stops: `RuntimeError: This page cannot ask",
+        ),
+        ("quit()", "Nothing to leave here"),
+        ("raise SystemExit", "Line 1 stops: `SystemExit`."),
+    ],
+)
+def test_what_the_page_has_not_is_refused_in_words(monkeypatch, typed, words):
+    monkeypatch.setitem(sys.modules, "idle", SimpleNamespace(fft=np.fft))
+    assert words in run(["return 1", "from idle import fft"], typed)[0]
+    assert run(["from idle import fft"], "import json\nfft.ifft([1.0])")[0] == "✓ It runs."
 
 
 @pytest.mark.parametrize(

@@ -75,6 +75,7 @@ def test_impossible_predictions_are_refused(choices, outcome, why):
         ("(190, 190, 95)", (190, 190, 95), 0),
         ("80 %", 0.8, 1e-9),
         (True, True, 0),
+        ([0.8], 0.8, 1e-9),
     ],
 )
 def test_right_answers_are_accepted_in_every_render_mode(
