@@ -69,11 +69,13 @@ def test_unsupported_arguments_affect_their_call_alone():
         assert total((1.0, 2.5)) == 3.5
 
 
-def test_without_numba_loops_run_as_plain_python(monkeypatch):
+def test_without_numba_loops_run_as_plain_python_and_say_so_once(monkeypatch):
     monkeypatch.setitem(sys.modules, "numba", None)
-    total = compiled(define(SOURCE)[0].total)
-    with pytest.warns(UserWarning, match="without numba"):
-        assert total((1.0, 2.5)) == 3.5
+    one, other = (compiled(define(SOURCE)[0].total) for _ in range(2))
+    with warnings.catch_warnings(record=True, action="default") as warned:
+        assert one((1.0, 2.5)) == 3.5
+        assert other((1.0, 2.5)) == 3.5
+    assert ["without numba" in str(each.message) for each in warned] == [True]
 
 
 LOOP = """
@@ -108,6 +110,12 @@ def run_loop(tmp_path):
         return float(total), len(list(tmp_path.rglob("*.nbc")))
 
     return run_loop
+
+
+def test_loops_are_plain_python_for_a_debugger(run_loop, tmp_path, monkeypatch):
+    monkeypatch.setenv("NUMBA_DISABLE_JIT", "1")
+    for expression in ("x * 2", "__import__('sys')._getframe().f_lineno * 2"):  # numba has none
+        assert run_loop("law", expression) == (5.0, 0)
 
 
 def test_disk_cache_is_not_used_for_changed_source(run_loop):

@@ -20,7 +20,8 @@ def compiled(loop):
     as chapters invite readers to (not: changed in place), it is compiled again at its next call.
     The machine code is kept for the next process, where its folder can be written; what the disk
     has spoilt is made anew, as the log says. Without numba, or with what numba cannot compile, a
-    call runs as plain Python, slowly, with a warning.
+    call runs as plain Python, slowly, with a warning; so it does, without one, where
+    NUMBA_DISABLE_JIT asks for it.
     `__wrapped__` is that plain Python. Arguments are positional; functions that call each other in
     a circle cannot be compiled.
     """
@@ -51,10 +52,12 @@ def _reads(function):
 
 def _machine(loop, frozen):
     try:
-        from numba import njit  # here, for it takes 0.3 s and 100 MB
+        from numba import config, njit  # here, for it takes 0.3 s and 100 MB
         from numba.core.errors import NumbaError
     except (ImportError, OSError) as error:
-        warn(f"without numba loops run as plain Python, slowly: {error}", stacklevel=3)
+        warn(f"without numba loops run as plain Python, slowly: {error}", stacklevel=1)  # said once
+        return loop
+    if config.DISABLE_JIT:
         return loop
 
     def ready(function):

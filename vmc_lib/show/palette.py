@@ -54,6 +54,7 @@ STYLE = {
     "lines.linewidth": 1.8,
     "image.cmap": "gray",
     "svg.fonttype": "none",
+    "text.usetex": False,  # whatever a reader's own settings say: here may be no LaTeX
     **{f"{part}.facecolor": "none" for part in ("figure", "axes", "savefig")},
     **{
         part: COLOURS["ink"]
