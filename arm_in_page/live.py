@@ -30,7 +30,7 @@ from vmc_lib.show.figures import frame, pictures, side_by_side
 from vmc_lib.show.live import VENDORED, Live
 from vmc_lib.show.outputs import Markup, still
 from vmc_lib.show.packed import pack_bytes
-from vmc_lib.show.palette import STYLE
+from vmc_lib.show.palette import plot_style
 from vmc_lib.show.render_mode import STATIC as SHOW
 from vmc_lib.show.render_mode import render_mode
 from vmc_lib.show.scene import SCRIPTS as VIEWER
@@ -98,7 +98,7 @@ def show(name, mode, draw, controls, data, caption, alt, law=""):
 
     `controls` is the markup of its `form`, `data` what its scripts have from Python.
     """
-    with plt.rc_context(STYLE):
+    with plot_style():
         drawn = pictures(draw(), name)
     data = json.dumps(data | {"scene": drawn[0].messages()}, allow_nan=False)
     data = data.replace("<", r"\u003c")  # or the model's XML would confuse the page's

@@ -21,7 +21,7 @@ from vmc_lib.show.arm import arm_scene
 from vmc_lib.show.figures import frame, pictures
 from vmc_lib.show.live import VENDORED, Live
 from vmc_lib.show.outputs import Markup, still
-from vmc_lib.show.palette import COLOURS, EDGE, ON_PHOTO, STYLE
+from vmc_lib.show.palette import COLOURS, EDGE, ON_PHOTO, plot_style
 from vmc_lib.show.render_mode import render_mode
 from vmc_lib.show.scene import SCRIPTS as VIEWER
 
@@ -46,7 +46,7 @@ def your_photo(example, caption):
     """
     if render_mode() == "test":
         return
-    with plt.rc_context(STYLE):
+    with plot_style():
         scene, plot = pictures((_scene(), _above()), NAME)
     page = _page(example, scene, plot)
     if render_mode() == "book":

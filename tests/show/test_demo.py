@@ -53,6 +53,18 @@ def test_book_page_is_the_same_in_every_build(shown, book, monkeypatch):
     assert shown[0].data == shown[1].data
 
 
+def test_a_plot_looks_the_same_whatever_the_readers_own_settings():
+    def draw():
+        fig, ax = plt.subplots()
+        ax.plot([0, 1])
+        ax.set_title("$x_1$")
+        return fig
+
+    usual = demo.draw_state(draw, {}, "demo")
+    with plt.rc_context({"text.usetex": True, "lines.marker": "o", "xtick.labelsize": 20}):
+        assert demo.draw_state(draw, {}, "demo") == usual
+
+
 def test_a_photo_that_stays_is_stored_once(shown, book):
     photo = np.random.default_rng(0).integers(0, 255, (50, 60, 3), dtype=np.uint8)
     show(lambda x: photo_view(photo, [((x, 5, x + 9, 20), "cup", "blue")]), x=Slider([1, 30], "x"))

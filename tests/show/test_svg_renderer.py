@@ -6,7 +6,7 @@ import pytest
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 
 from vmc_lib.show import svg_renderer
-from vmc_lib.show.palette import STYLE
+from vmc_lib.show.palette import plot_style
 
 
 @pytest.mark.parametrize("layout", ["constrained", "none"])
@@ -22,7 +22,7 @@ def test_renderer_equals_matplotlibs(layout):
         return fig
 
     usual = io.StringIO()
-    with plt.rc_context(STYLE | {"svg.hashsalt": "same"}):
+    with plot_style(**{"svg.hashsalt": "same"}):
         FigureCanvasSVG(plot()).print_svg(usual, metadata={"Date": None})
         assert svg_renderer.figure_svg(plot()) == usual.getvalue()
     plt.close("all")

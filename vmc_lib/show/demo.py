@@ -12,7 +12,6 @@ import math
 from functools import cache
 from uuid import uuid4
 
-import matplotlib.pyplot as plt
 import numpy as np
 from IPython.display import HTML, display
 
@@ -24,7 +23,7 @@ from vmc_lib.show.live import Live, exclusive_pyplot
 from vmc_lib.show.numbers import Numbers
 from vmc_lib.show.outputs import Markup, still
 from vmc_lib.show.packed import pack_arrays, pack_json
-from vmc_lib.show.palette import STYLE
+from vmc_lib.show.palette import plot_style
 from vmc_lib.show.positions import (
     address,
     along,
@@ -111,7 +110,7 @@ def explore(draw, caption, alt=None, in_page=None, data=None, printed=(), **cont
 
 def draw_state(draw, values, name, alt=None, tables=True):
     """What a demo shows for these values of its controls: words, and parts (see `pictures`)."""
-    with exclusive_pyplot(), plt.rc_context(STYLE):
+    with exclusive_pyplot(), plot_style():
         picture = draw(**values)
         numbers = data_tables(picture) if tables else []  # before the figures are closed
         words = alt(**values) if callable(alt) else alt or alt_text(picture)
@@ -181,7 +180,7 @@ def _stored(states):
 def _worked_out(in_page, controls, name):
     """What the page needs to work every state out: see `explore`."""
     work, ground, given = in_page() if callable(in_page) else in_page
-    with plt.rc_context(STYLE):
+    with plot_style():
         grounds = lines(pictures(ground(), name))
     axes = [axis for control in controls.values() for axis in getattr(control, "pair", [control])]
     grid = [np.asarray(axis.values).tolist() for axis in axes]

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.ticker import AutoLocator, FixedLocator, MaxNLocator, NullLocator
 from PIL import Image
 
-from vmc_lib.show.palette import COLOURS, STYLE, css
+from vmc_lib.show.palette import COLOURS, css, plot_style
 from vmc_lib.show.render_mode import STATIC, render_mode
 from vmc_lib.show.svg_renderer import figure_svg
 
@@ -44,7 +44,7 @@ def _style_sheet():
 def svg(fig, salt):
     """The figure as SVG, its text as text and its colours as CSS variables; closes the figure."""
     _set_ticks(fig)
-    with plt.rc_context(STYLE | {"svg.hashsalt": salt}):
+    with plot_style(**{"svg.hashsalt": salt}):
         svg = figure_svg(fig)
     plt.close(fig)  # or the notebook would show it a second time
     width, height = fig.get_size_inches()

@@ -54,7 +54,6 @@ STYLE = {
     "lines.linewidth": 1.8,
     "image.cmap": "gray",
     "svg.fonttype": "none",
-    "text.usetex": False,  # whatever a reader's own settings say: here may be no LaTeX
     **{f"{part}.facecolor": "none" for part in ("figure", "axes", "savefig")},
     **{
         part: COLOURS["ink"]
@@ -62,3 +61,8 @@ STYLE = {
     },
     "ytick.color": COLOURS["ink"],
 }
+
+
+def plot_style(**more):
+    """A context in which plots have `STYLE`, and `more`, whatever a reader's own settings are."""
+    return plt.style.context(["default", STYLE | more])
