@@ -24,7 +24,7 @@ PACKAGES = {
     "reproduce": "paper experiments.changed_worlds experiments.muscle_bench",
     "reproduce.experiments": "calibration feedback_control holding path_measures",
     "reproduce.peers": "muscle_models optimal_control optimal_feedback state_estimation",
-    "vmc_lib": "boxes camera compiled grading hints statistics",
+    "vmc_lib": "boxes camera compiled grading hints short_repr statistics",
     "vmc_lib.arm": "dynamics engines kinematics model muscle simulate",
     "vmc_lib.cerebellum": "adaptation feedback_error forward_model offline online two_rates",
     "vmc_lib.motor": "execution feedback inverse_dynamics planning templates",

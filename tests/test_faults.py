@@ -16,14 +16,18 @@ from tests.project import ROOT, code_cells, each_chapter, run
 from vmc_lib import data, marker_sheet, photos
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.arm.kinematics import inverse_kinematics
+from vmc_lib.camera import Camera
 from vmc_lib.cerebellum.forward_model import arm_copy
+from vmc_lib.cerebellum.offline import algorithm_1, calibrate
 from vmc_lib.cerebellum.online import AimCorrection, WeightCorrection
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.inverse_dynamics import static_activation
 from vmc_lib.motor.planning import plan
 from vmc_lib.motor.templates import load
 from vmc_lib.show import check, questions
+from vmc_lib.show.arm import arm_scene
 from vmc_lib.what.crops import crop
+from vmc_lib.what.recogniser import Recogniser
 from vmc_lib.where.segmentation import segment
 
 REMEDY = "git checkout -- .*python -m reproduce --list"
@@ -155,6 +159,7 @@ def test_an_interrupted_installation_resumes(tmp_path):
         assert (tmp_path / ".venv/.ready").exists() == (ends == 0)
 
 
+CAMERA = Camera(600.0, np.array([300.0, 200.0]), np.eye(3), np.zeros(3))
 GREY = np.full((20, 30, 3), 0.5, np.float32)
 
 
@@ -178,6 +183,24 @@ GREY = np.full((20, 30, 3), 0.5, np.float32)
         (lambda: execute(None, prism=np.nan), "prism of nan"),
         (lambda: static_activation((30, 60)), r"posture \[30. 60.\] rad is beyond .* np.radians"),
         (lambda: static_activation((np.nan, 1)), r"posture \[nan  1.\] rad is beyond"),
+        (lambda: execute([0.15, -0.4]), r"\[0.15, -0.4\] is no Plan: give what plan"),
+        (
+            lambda: plan((0.15, -0.4), load(), rule="exact"),
+            "'exact' is no function: .* or exact_w",
+        ),
+        (lambda: calibrate("own", plan((0.15, -0.4), load())), "'own' .* or broyden_calibration"),
+        (
+            lambda: calibrate(plan((0.15, -0.4), load()), algorithm_1),
+            r"rule Plan\(.* no function",
+        ),
+        (lambda: CAMERA.back_project([[1, 2, 3]]), r"pixels of shape \(1, 3\): give \(n, 2\)"),
+        (lambda: CAMERA.project([1, 2]), r"points of shape \(2,\): give \(n, 3\)"),
+        (lambda: Recogniser.load().probability(np.zeros((2, 100, 100))), r"give .*\(n, 200, 200\)"),
+        (lambda: arm_scene((0, 130)), r"posture \[  0. 130.\] rad is beyond .* np.radians"),
+        (lambda: arm_scene((0, 1, 2)), r"posture of shape \(1, 3\): give 2 numbers"),
+        (lambda: arm_scene((0, 1), 5 * [0]), r"activation of shape \(1, 5\): give 6 numbers"),
+        (lambda: arm_scene((0, 1), balls=[((0, 1), "red")]), "ball's position .* give 3 numbers"),
+        (lambda: arm_scene((0, 1), balls=[((0, 1, 0), "teal")]), "called 'teal': choose from blue"),
         (lambda: load(hold=-1), "hold of -1 s: give seconds"),
         (lambda: load(hold=np.nan), "hold of nan"),
     ],

@@ -1,5 +1,6 @@
 """The loop: every stage runs for real, and what goes wrong is said."""
 
+import re
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -224,3 +225,22 @@ def test_shared_arrays_are_read_only(model):
     for array in (model.template_set.points, model.template_set.excitations):
         with pytest.raises(ValueError, match="read-only"):
             array[0] = 0
+
+
+def test_a_rule_of_calibration_may_be_given_by_its_name(model, photo):
+    reach = loop.reach(model, photo.target, "published")
+    own = loop.recalibrate(reach, "own")
+    for one, rule in ((reach, loop.RULES["published"]), (own, loop.RULES["own"])):
+        expected = loop.reach(model, photo.target, rule).calibrated
+        np.testing.assert_array_equal(one.calibrated.q, expected.q)
+
+
+def test_what_the_loop_returns_has_a_repr_of_a_line(model, photo, sight):
+    reach = loop.reach(model, photo.target)
+    parts = reach.plan, reach.planned, execute(reach.plan), sight.detections, model.template_set
+    for shown in (model, model.detector, model.localiser, sight, reach, *parts):
+        assert re.fullmatch(r"\w+\(.{9,200}\)", repr(shown))
+    assert sight.summary in repr(sight)
+    assert repr(reach.planned) == (
+        "HeldMotion(q=array(1501, 2), velocity=array(1501, 2), activation=array(1501, 6), held=500)"
+    )

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from vmc_lib.boxes import decode_deltas, nms
+from vmc_lib.short_repr import short_repr
 from vmc_lib.what.recogniser import NameClassifier
 from vmc_lib.what.stream import FLIPS, VentralStream
 
@@ -29,6 +30,8 @@ class BoxSelector:
     stream: VentralStream
     classifier: NameClassifier
     min_probability = MIN_PROBABILITY
+
+    __repr__ = short_repr
 
     @classmethod
     def load(cls):

@@ -29,16 +29,19 @@ class Camera:
     def project(self, points):
         """Project points (n, 3) of the shoulder frame to pixels (n, 2).
 
-        Raises ValueError for a point that is not in front of the camera.
+        Raises ValueError for a point that is not in front of the camera, and for other shapes.
         """
-        x = (np.atleast_2d(points) - self.position) @ self.rotation.T
+        x = (_rows("points", points, 3) - self.position) @ self.rotation.T
         if np.any(x[:, 2] <= 0):
             raise ValueError("a point behind the camera has no picture: give points it faces")
         return self.focal * x[:, :2] / x[:, 2:] + self.centre
 
     def rays(self, pixels):
-        """Ray directions (n, 3), in the shoulder frame, through pixels (n, 2); their depth is 1."""
-        x = (np.atleast_2d(pixels) - self.centre) / self.focal
+        """Ray directions (n, 3), in the shoulder frame, through pixels (n, 2); their depth is 1.
+
+        Raises ValueError for other shapes.
+        """
+        x = (_rows("pixels", pixels, 2) - self.centre) / self.focal
         return np.column_stack([x, np.ones(len(x))]) @ self.rotation
 
     def back_project(self, pixels, height=TABLE):
@@ -70,3 +73,11 @@ class Camera:
         _, depth = self._intersect(np.column_stack([(x0 + x1) / 2, y1]), TABLE)  # of its foot
         pixels = np.sqrt((x1 - x0) * (y1 - y0))
         return np.where(depth > 0, pixels * depth / self.focal, np.inf)
+
+
+def _rows(name, values, size):
+    """Values as an array (n, size)."""
+    rows = np.atleast_2d(values)
+    if rows.ndim != 2 or rows.shape[1] != size:
+        raise ValueError(f"{name} of shape {np.shape(values)}: give (n, {size})")
+    return rows

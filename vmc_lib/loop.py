@@ -17,6 +17,7 @@ from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration, calibra
 from vmc_lib.motor import templates
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import Plan, plan
+from vmc_lib.short_repr import short_repr
 from vmc_lib.what.recogniser import Recogniser
 from vmc_lib.where.detector import Detections, ObjectDetector
 from vmc_lib.where.localiser import Localiser
@@ -36,6 +37,8 @@ class VisuomotorModel:
     recogniser: Recogniser | BoxSelector  # of what is detected, both `select` boxes
     localiser: Localiser
     template_set: templates.TemplateSet
+
+    __repr__ = short_repr
 
     @classmethod
     def load(cls, level):
@@ -76,6 +79,9 @@ class Sight:
     probability: np.ndarray  # (k,): that each kept box holds a shuttlecock
     min_probability: float = 0.5  # above which a box counts as one
 
+    def __repr__(self):
+        return f"Sight({self.summary})"
+
     @property
     def shuttlecocks(self):
         """The boxes (n, 4) that count as shuttlecocks, the best first."""
@@ -107,6 +113,8 @@ class Reach:
     plan: Plan
     planned: templates.HeldMotion
     calibrated: templates.HeldMotion
+
+    __repr__ = short_repr
 
     def hand(self, motion):
         """The wrist's path (T + 1, 3) on the turned trunk, in the frame of the trunk straight."""
@@ -177,7 +185,7 @@ def reach(model, target, calibration=algorithm_1):
     ----------
     model : VisuomotorModel
     target : (3,) array, m, in the shoulder frame
-    calibration : one of RULES, or None to move once
+    calibration : a rule of RULES or its name, or None to move once
 
     Returns
     -------
@@ -200,13 +208,14 @@ def reach(model, target, calibration=algorithm_1):
     if calibration is None:
         planned = execute(habit).motion
         return Reach(target, turn, habit, planned, planned)
-    trials = calibrate(calibration, habit)
+    trials = calibrate(RULES.get(calibration, calibration), habit)
     return Reach(target, turn, habit, trials.movements[0].motion, trials.best_motion)
 
 
 def recalibrate(reach, calibration):
-    """The same `Reach`, its second movement calibrated by a rule of `RULES`."""
-    return replace(reach, calibrated=calibrate(calibration, reach.plan).best_motion)
+    """The same `Reach`, its second movement calibrated by a rule of `RULES`, or by its name."""
+    trials = calibrate(RULES.get(calibration, calibration), reach.plan)
+    return replace(reach, calibrated=trials.best_motion)
 
 
 def see_and_reach(model, image, camera):

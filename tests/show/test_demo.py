@@ -89,14 +89,17 @@ def test_a_control_may_have_an_effect_only_after_another_moved(shown):
 
 
 def test_a_pad_is_a_place_on_a_grid(shown, book):
+    def plot(**values):
+        return named(**values).replace("<svg", '<svg data-axes="0 1 0 1 0 1 0 1"')
+
     pad = Pad([1, 2, 3], [10, 20], labels=("ahead", "up"), start=(3, 10))
-    show(lambda at, on: named(at=at, on=on), at=pad, on=[False, True])
+    show(plot, at=pad, on=[False, True])
     [page] = shown
     assert [svg for _, svg in states(page)][2:5] == [
-        named(at=(1, 20), on=False), named(at=(1, 20), on=True), named(at=(2, 10), on=False)
+        plot(at=(1, 20), on=False), plot(at=(1, 20), on=True), plot(at=(2, 10), on=False)
     ]  # fmt: skip
     assert re.findall(r'data-stride="(\d+)"', page.data) == ["4", "2", "1"]
-    assert named(at=(3, 10), on=False) in page.data
+    assert plot(at=(3, 10), on=False) in page.data
 
 
 def test_figure_has_no_controls(shown, book):
@@ -145,10 +148,29 @@ def test_an_unknown_render_mode_is_refused(monkeypatch):
         show()
 
 
-@pytest.mark.parametrize("drawn", [None, 3, "plain words", [np.eye(2)], np.zeros((2, 2, 4)), {}])
-def test_an_unknown_picture_is_refused(drawn):
+@pytest.mark.parametrize("drawn", [None, 3, "plain words", [np.eye(2)], {}])
+def test_an_unknown_picture_is_refused_before_its_words_are_asked_for(drawn):
     with pytest.raises(ValueError, match="cannot show"):
-        show(lambda k: drawn, k=Slider([1, 2], "k"))
+        show(lambda k: drawn, alt=None, k=Slider([1, 2], "k"))
+
+
+def test_an_array_that_is_no_image_is_refused():
+    with pytest.raises(ValueError, match="cannot show an array of shape"):
+        show(lambda k: np.zeros((2, 2, 4)), k=Slider([1, 2], "k"))
+
+
+@pytest.mark.parametrize("render_mode", ["live", "book", "test"])
+def test_a_pad_without_axes_is_refused(render_mode, monkeypatch):
+    monkeypatch.setenv("VMC_RENDER_MODE", render_mode)
+    with pytest.raises(ValueError, match="'x and y' has no plot or photo to lie on"):
+        show(lambda place: (Scene(), named(place=place)), place=Pad([0, 1], [0, 1]))
+
+
+def test_what_is_no_function_or_no_caption_is_named():
+    with pytest.raises(ValueError, match=r"explore.*, 3, ….: give the function .*, then a caption"):
+        demo.explore(named, 3, k=Slider([1, 2], "k"))
+    with pytest.raises(ValueError, match=r"explore.'A caption.', .*: give the function that"):
+        demo.explore("A caption.", named, k=Slider([1, 2], "k"))
 
 
 def test_the_kinds_of_pictures_may_not_change():

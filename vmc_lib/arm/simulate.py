@@ -14,6 +14,7 @@ from vmc_lib.arm.dynamics import MARGIN, hand
 from vmc_lib.arm.engines import ENGINES, FARTHEST
 from vmc_lib.arm.model import F0, LIMITS, STEP
 from vmc_lib.arm.muscle import PAPER
+from vmc_lib.short_repr import short_repr
 
 
 class Perturbation(NamedTuple):
@@ -33,6 +34,8 @@ class Motion:
     q: np.ndarray  # joint angles (…, T + 1, 2), rad
     velocity: np.ndarray  # joint velocities (…, T + 1, 2), rad/s
     activation: np.ndarray  # muscle activations (…, T + 1, 6)
+
+    __repr__ = short_repr
 
     def __iter__(self):
         """Every movement of a batch, or the one there is, as a `Motion` of its own."""

@@ -10,7 +10,8 @@ from typing import NamedTuple
 import numpy as np
 
 from vmc_lib.motor.execution import execute
-from vmc_lib.motor.planning import Plan, least_change, norm
+from vmc_lib.motor.planning import Plan, check_rule, least_change, norm
+from vmc_lib.short_repr import short_repr
 
 GAINS = tuple(range(21))  # the paper's n in [0, 20]
 LARGEST_STEP = 0.5  # of Δw's norm: no single correction may throw the arm about
@@ -23,6 +24,8 @@ class Trials(NamedTuple):
     endpoint: np.ndarray  # (trials, …, 2), m
     error: np.ndarray  # (trials, …), m: how far from the target
     movements: tuple  # as they were made: `Movement`s, whose leading axis may count trials
+
+    __repr__ = short_repr
 
     @property
     def best_weights(self):
@@ -39,6 +42,7 @@ class Trials(NamedTuple):
 
 def calibrate(rule, plan: Plan):
     """The `Trials` by which a rule calibrates a plan; ValueError where it returns anything else."""
+    check_rule(rule, algorithm_1, broyden_calibration)
     if not isinstance(trials := rule(plan), Trials):
         name = getattr(rule, "__name__", rule)
         raise ValueError(

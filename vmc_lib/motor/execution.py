@@ -8,6 +8,7 @@ import numpy as np
 from vmc_lib.arm.simulate import UNPERTURBED, Perturbation
 from vmc_lib.motor.planning import Plan, norm
 from vmc_lib.motor.templates import mean_speed
+from vmc_lib.short_repr import short_repr
 
 BATCH = 512  # movements simulated at once
 EYE = np.array([0.10, 0.25])  # above and a little in front of the shoulder
@@ -23,13 +24,17 @@ def execute(plan, perturbation=UNPERTURBED, prism=0.0):
     perturbation : Perturbation
         What the arm meets: a load, a force field.
     prism : float
-        How far glass before the eyes turns what they see, rad, upwards where it is positive;
-        ValueError from a quarter turn on.
+        How far glass before the eyes turns what they see, rad, upwards where it is positive.
 
     Returns
     -------
     Movement
         With `.motion`, `.endpoint`, `.error`, `.speed` and `.stray`, simulated when first read.
+
+    Raises
+    ------
+    ValueError
+        For what is no plan; for a prism from a quarter turn on.
 
     Examples
     --------
@@ -41,6 +46,8 @@ def execute(plan, perturbation=UNPERTURBED, prism=0.0):
     """
     if not abs(prism) < np.pi / 2:
         raise ValueError(f"a prism of {prism} rad: give radians, less than a quarter turn")
+    if not isinstance(plan, Plan):
+        raise ValueError(f"{plan!r} is no Plan: give what plan(target, template_set) returns")
     return Movement(plan, perturbation, prism)
 
 
@@ -51,6 +58,8 @@ class Movement:
     plan: Plan
     perturbation: Perturbation = UNPERTURBED
     prism: float = 0.0
+
+    __repr__ = short_repr
 
     @cached_property
     def motion(self):

@@ -9,6 +9,7 @@ import numpy as np
 
 from vmc_lib import NoReach
 from vmc_lib.motor.templates import TemplateSet
+from vmc_lib.short_repr import short_repr
 
 
 @dataclass(frozen=True, eq=False)
@@ -19,6 +20,8 @@ class Plan:
     target: np.ndarray  # (…, 2)
     rows: np.ndarray  # (…, N): of the template set
     weights: np.ndarray  # (…, N)
+
+    __repr__ = short_repr
 
     @property
     def points(self):
@@ -176,7 +179,7 @@ def plan(target, template_set, rule=habitual_weights, rows=None):
     ------
     ValueError
         Where a target is not finite, or of another dimension than the templates' points; where a
-        row is none of the template set.
+        row is none of the template set; where the rule is no function.
     vmc_lib.NoReach
         Where a target is not surrounded by templates.
 
@@ -187,6 +190,7 @@ def plan(target, template_set, rule=habitual_weights, rows=None):
     >>> reach.weights.shape, reach.excitations.shape
     ((4,), (1000, 6))
     """
+    check_rule(rule, habitual_weights, exact_weights)
     target, axes = np.asarray(target, dtype=float), template_set.points.shape[-1:]
     if target.shape[-1:] != axes or not np.all(np.isfinite(target)):
         raise ValueError(f"target {target} must be finite plane positions (…, {axes[0]}) in m")
@@ -198,6 +202,13 @@ def plan(target, template_set, rule=habitual_weights, rows=None):
             raise ValueError(f"rows {rows} must be of the {len(known)} templates, 0 to {known[-1]}")
     rows = np.broadcast_to(rows, (*target.shape[:-1], rows.shape[-1]))
     return Plan(template_set, target, rows, rule(target, template_set.points[rows]))
+
+
+def check_rule(rule, *known):
+    """Raise ValueError where a rule is no function; `known` are those that ship."""
+    if not callable(rule):
+        names = " or ".join(one.__name__ for one in known)
+        raise ValueError(f"the rule {rule!r} is no function: give {names}")
 
 
 def check_batch(plan):

@@ -16,6 +16,7 @@ from vmc_lib.arm.model import STEP
 from vmc_lib.arm.simulate import UNPERTURBED, Motion, simulate
 from vmc_lib.data import arrays, read_only
 from vmc_lib.motor.inverse_dynamics import spline
+from vmc_lib.short_repr import short_repr
 
 START = np.radians([-20.0, 95.0])  # every reach begins here: elbow bent, the hand over the table
 SPACINGS = (0.04, 0.06, 0.07, 0.08)  # m: how densely past experience covers the plane …
@@ -30,6 +31,8 @@ class HeldMotion(Motion):
     """A reach, and the hold after it."""
 
     held: int  # steps
+
+    __repr__ = short_repr
 
     @property
     def wrist(self):
@@ -81,6 +84,8 @@ class TemplateSet:
     excitations: np.ndarray  # (N, T, 6), in [0, 1], 1 kHz
     limits: tuple = (0.0, 1.0)  # of a command: no nerve can do otherwise
     reach: Callable = reach  # commands (…, T, m), perturbation -> a motion with `hold` (…, n, 2)
+
+    __repr__ = short_repr
 
 
 @cache

@@ -13,6 +13,7 @@ import numpy as np
 
 from vmc_lib import NoReach
 from vmc_lib.arm.kinematics import to_world, turn_towards
+from vmc_lib.arm.simulate import check_posture
 from vmc_lib.show.scene import Scene
 
 EVERY = 20  # ms between the moments of a movement that a scene carries: the viewer fills in
@@ -28,13 +29,15 @@ def arm_scene(q, activation=6 * (0,), turn=0.0, photo=None, balls=(), grasp=Fals
     table; `balls` are (position (3,), colour name) pairs, the green one is the target. Where there
     is neither, there is no table: a hanging arm would reach through it. With `grasp` the hand
     closes: at once, or at the end of the movement. `end` is the movement's end point (3,) and how
-    fast the hand still is there, in m/s: a red diamond, on a line from the target.
+    fast the hand still is there, in m/s: a red diamond, on a line from the target. ValueError for
+    other shapes, a posture beyond the joints' limits, or a colour that has no name.
     """
     table = bool(photo or len(balls))
     scene = Scene(_furniture(table))
-    q = np.atleast_2d(np.asarray(q, float))[::EVERY]
+    q = _samples("posture", q, 2)[::EVERY]
+    check_posture(q, "posture")
     moments = np.arange(len(q)) * EVERY / 1000
-    active = np.broadcast_to(np.atleast_2d(activation)[::EVERY], (len(q), 6))
+    active = np.broadcast_to(_samples("activation", activation, 6)[::EVERY], (len(q), 6))
     turns = np.broadcast_to(np.atleast_1d(turn)[::EVERY], len(q))
     closed = np.clip(1 + (moments - moments[-1]) / CLOSING, 0, 1) * bool(grasp)
     motion = {"q": q, "activation": active, "turn": turns, "grasp": closed}
@@ -50,6 +53,7 @@ def arm_scene(q, activation=6 * (0,), turn=0.0, photo=None, balls=(), grasp=Fals
         props.shuttlecock(scene["goal/shuttlecock"], photo)
         props.cup(scene["goal/cup"], photo)
     for i, (position, colour) in enumerate(balls):
+        _samples("a ball's position", position, 3)
         props.ball(scene[f"goal/ball{i}"], position, colour)
         if colour == "green":
             scene.tell("target", np.round(position, 5).tolist())
@@ -60,6 +64,14 @@ def arm_scene(q, activation=6 * (0,), turn=0.0, photo=None, balls=(), grasp=Fals
                 off = float(np.linalg.norm(np.subtract(place, position)))
                 scene.tell("end", {"off": round(off, 7), "speed": round(float(speed), 7)})
     return scene
+
+
+def _samples(name, values, size):
+    """Values (size,), or of a movement (T, size), as an array (T, size)."""
+    samples = np.atleast_2d(np.asarray(values, float))
+    if samples.ndim != 2 or samples.shape[1] != size:
+        raise ValueError(f"{name} of shape {samples.shape}: give {size} numbers")
+    return samples
 
 
 def beyond_wrist(turn):

@@ -40,9 +40,14 @@ class Control:
         if self.start is None:
             return 0
         for place, value in enumerate(self.values):
-            if value == self.start or (_is_number(value) and np.isclose(value, self.start)):
+            numbers = _is_number(value) and _is_number(self.start)
+            if np.isclose(value, self.start) if numbers else value == self.start:
                 return place
-        raise ValueError(f"{self.label!r} cannot start at {self.start!r}: not in {self.values}")
+        texts = self.texts if len(self.values) <= MENU else [*self.texts[:3], "…", self.texts[-1]]
+        raise ValueError(
+            f"{self.label!r} cannot start at {self.start!r}: it has {', '.join(texts)}"
+            + f"; a unit is given as unit={self.start!r}" * isinstance(self.start, str)
+        )
 
     def html(self, name, stride):
         """Its face: markup named `name`; a value's place counts `stride` times.

@@ -16,9 +16,9 @@ import numpy as np
 from IPython.display import HTML, display
 
 from vmc_lib.show.alt_text import alt_text
-from vmc_lib.show.controls import Slider, Switch, as_control
+from vmc_lib.show.controls import Pad, Slider, Switch, as_control
 from vmc_lib.show.data_table import data_tables
-from vmc_lib.show.figures import frame, pictures, side_by_side
+from vmc_lib.show.figures import frame, parts_of, pictures, side_by_side
 from vmc_lib.show.live import Live, exclusive_pyplot
 from vmc_lib.show.numbers import Numbers
 from vmc_lib.show.outputs import Markup, still
@@ -65,6 +65,10 @@ def explore(draw, caption, alt=None, in_page=None, data=None, printed=(), **cont
     `data` are arrays, or dictionaries of them, by the names that the cell has for them: they travel
     with the book's page, whose Python could not make them, or not soon.
     """
+    if not (callable(draw) and isinstance(caption, str)):
+        raise ValueError(
+            f"explore({draw!r}, {caption!r}, …): give the function that draws, then a caption"
+        )
     controls = {name: as_control(name, spec) for name, spec in controls.items()}
     printed = [address(values, controls) for values in printed]
     positions = math.prod(len(control.values) for control in controls.values())
@@ -99,6 +103,7 @@ def explore(draw, caption, alt=None, in_page=None, data=None, printed=(), **cont
     if idle:
         raise ValueError(f"the control {idle[0].label!r} never changes the picture")
     start, states = state(first_position(controls)), [state(place) for place in places]
+    _check_pads(start[1], controls)
     for _, parts in states:
         _same_kinds(parts, start[1])
     if render_mode() == "book":
@@ -111,7 +116,7 @@ def explore(draw, caption, alt=None, in_page=None, data=None, printed=(), **cont
 def draw_state(draw, values, name, alt=None, tables=True):
     """What a demo shows for these values of its controls: words, and parts (see `pictures`)."""
     with exclusive_pyplot(), plot_style():
-        picture = draw(**values)
+        picture = parts_of(draw(**values))
         numbers = data_tables(picture) if tables else []  # before the figures are closed
         words = alt(**values) if callable(alt) else alt or alt_text(picture)
         return words, [*pictures(picture, name), *numbers]
@@ -130,6 +135,16 @@ def _same_kinds(parts, others):
     one, other = ([isinstance(part, Scene) for part in drawn] for drawn in (parts, others))
     if one != other:
         raise ValueError("the draw function must return the same kinds of pictures everywhere")
+
+
+def _check_pads(parts, controls):
+    axes = any(isinstance(part, str) and "data-axes" in part for part in parts)
+    pads = [control.label for control in controls.values() if isinstance(control, Pad)]
+    if pads and not axes:
+        raise ValueError(
+            f"the pad {pads[0]!r} has no plot or photo to lie on: draw one beside the scene, "
+            "and return (figure, scene)"
+        )
 
 
 def lines(parts):
@@ -190,6 +205,7 @@ def _worked_out(in_page, controls, name):
 def _live(state, caption, controls, name):
     """The same demo in a kernel, and a still of it for when the kernel is gone; its first words."""
     alt, parts = state(first_position(controls))
+    _check_pads(parts, controls)
     if not _moves(parts, controls):
         display(Markup(frame(side_by_side(parts, alt), caption), alt))
         return alt

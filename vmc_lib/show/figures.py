@@ -33,24 +33,27 @@ def pictures(picture, name):
     `name` is unique on the page and the same for all states of a demo: it salts the identifiers
     inside a plot, so that pictures share none of them but the states of one picture share all.
     """
+    return [_markup(part, f"{name}-{place}") for place, part in enumerate(parts_of(picture))]
+
+
+def parts_of(picture):
+    """The parts of a picture, a tuple; ValueError where there is one that cannot be shown."""
     parts = picture if isinstance(picture, tuple) else (picture,)
-    return [_markup(part, f"{name}-{place}") for place, part in enumerate(parts)]
+    for part in parts:
+        markup = isinstance(part, str) and part.lstrip().startswith("<")
+        if not (markup or isinstance(part, Scene | Figure | np.ndarray)):
+            raise ValueError(
+                f"cannot show a {type(part).__name__}: return a matplotlib Figure, an image array, "
+                "SVG or HTML text, a Scene, or a tuple of these"
+            )
+    return parts
 
 
-def _markup(picture, salt):
-    if isinstance(picture, Scene):
-        return picture
-    if isinstance(picture, Figure):
-        name_curves(picture)
-        return svg(picture, salt)
-    if isinstance(picture, np.ndarray):
-        return image_tag(picture)
-    if isinstance(picture, str) and picture.lstrip().startswith("<"):
-        return picture
-    raise ValueError(
-        f"cannot show a {type(picture).__name__}: return a matplotlib Figure, an image array, "
-        "SVG or HTML text, a Scene, or a tuple of these"
-    )
+def _markup(part, salt):
+    if isinstance(part, Figure):
+        name_curves(part)
+        return svg(part, salt)
+    return image_tag(part) if isinstance(part, np.ndarray) else part
 
 
 def photo_view(image, boxes=(), points=(), axes=None):

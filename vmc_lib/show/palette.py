@@ -5,27 +5,35 @@ In the page each name is a CSS variable, so that light and dark pages both read 
 
 import matplotlib.pyplot as plt
 
-COLOURS = {
-    "blue": "#1f63b4",
-    "orange": "#b3560a",
-    "green": "#1b7a4a",
-    "red": "#c22f3a",
-    "purple": "#7a4cb8",
-    "grey": "#67707e",
-    "ink": "#1c2430",
-    "line": "#d3d8df",
-    "paper": "#fefefe",
-}
+
+class Palette(dict):
+    """Colours by name; ValueError for a name that none has."""
+
+    def __missing__(self, name):
+        raise ValueError(f"no colour is called {name!r}: choose from {', '.join(self)}")
+
+
+COLOURS = Palette(
+    blue="#1f63b4",
+    orange="#b3560a",
+    green="#1b7a4a",
+    red="#c22f3a",
+    purple="#7a4cb8",
+    grey="#67707e",
+    ink="#1c2430",
+    line="#d3d8df",
+    paper="#fefefe",
+)
 # On a photo the page's theme does not matter: bright strokes with a dark edge read everywhere.
-ON_PHOTO = {
-    "blue": "#6cb6ff",
-    "orange": "#ffa94d",
-    "green": "#69e09a",
-    "red": "#ff7b7b",
-    "purple": "#d0aaff",
-    "grey": "#c8ced6",
-    "ink": "#ffffff",
-}
+ON_PHOTO = Palette(
+    blue="#6cb6ff",
+    orange="#ffa94d",
+    green="#69e09a",
+    red="#ff7b7b",
+    purple="#d0aaff",
+    grey="#c8ced6",
+    ink="#ffffff",
+)
 EDGE = 'stroke="#10151c" stroke-width="6" stroke-linejoin="round"'
 
 

@@ -6,8 +6,9 @@ import numpy as np
 
 from vmc_lib import photos
 from vmc_lib.data import arrays
+from vmc_lib.short_repr import short_repr
 from vmc_lib.what.cdbn import CDBN
-from vmc_lib.what.crops import crop, whiten
+from vmc_lib.what.crops import WIDTH, crop, whiten
 
 READ_OUTS = "MP2", "P2", "P1 + P2"
 POOLED_LEVEL = "everywhere"  # all rendered levels together: for a photo of none of them
@@ -84,6 +85,8 @@ class Recogniser:
     classifier: NameClassifier
     min_probability = 0.5  # above which a box is chosen
 
+    __repr__ = short_repr
+
     @classmethod
     def load(cls, level=POOLED_LEVEL, name="P1 + P2"):
         """The recogniser that has learnt names from the training photos of a level.
@@ -97,9 +100,17 @@ class Recogniser:
         return cls(CDBN.load(), name, NameClassifier.load("recogniser", f"{level}/{name}"))
 
     def probability(self, crops):
-        """Probability (n,) that each grey crop (n, 200, 200) shows a shuttlecock."""
+        """Probability (n,) that each grey crop (n, 200, 200) shows a shuttlecock.
+
+        ValueError for crops of another size.
+        """
         if len(crops) == 0:
             return np.zeros(0)
+        if np.shape(crops)[1:] != (WIDTH, WIDTH):
+            raise ValueError(
+                f"crops of shape {np.shape(crops)}: give grey ones (n, {WIDTH}, {WIDTH}), as "
+                "`crop(image, box)` returns them"
+            )
         return self.classifier.probability(read_outs(self.cdbn, crops)[self.name])
 
     def box_probability(self, image, boxes):

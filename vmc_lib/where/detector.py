@@ -13,6 +13,7 @@ import numpy as np
 from vmc_lib.boxes import as_boxes, nms, vote
 from vmc_lib.data import arrays
 from vmc_lib.photos import EVERY_LEVEL
+from vmc_lib.short_repr import short_repr
 from vmc_lib.where.box_regression import RBFRidge, regress
 from vmc_lib.where.recipes import EVERY_RECIPE, TRAINED_AS, Recipe
 from vmc_lib.where.selective_search import propose
@@ -28,6 +29,8 @@ class Detections:
     passed: np.ndarray  # (m, 4) boxes above the threshold, after box regression if any
     boxes: np.ndarray  # (k, 4) left by non-maximum suppression, the best first
     scores: np.ndarray  # (k,)
+
+    __repr__ = short_repr
 
     @property
     def counts(self):
@@ -45,6 +48,8 @@ class ObjectDetector:
     regressions: tuple = ()  # of RBFRidge: box regression, round by round
     iou_predictor: RBFRidge | None = None  # of a box with its object
     threshold: float = 0.0  # the final score above which boxes are kept
+
+    __repr__ = short_repr
 
     @classmethod
     def load(cls, level, name="improved"):

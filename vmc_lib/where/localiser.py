@@ -14,6 +14,7 @@ import numpy as np
 from vmc_lib.boxes import as_boxes, centres_and_sides, jitter_boxes
 from vmc_lib.data import arrays, read_only
 from vmc_lib.photos import LEVELS, crops
+from vmc_lib.short_repr import short_repr
 from vmc_lib.where.features import gradients
 from vmc_lib.where.kernels import rbf
 
@@ -34,6 +35,8 @@ class Localiser:
     weights: np.ndarray  # (n, 3)
     mean: np.ndarray  # (3,) of what is predicted: right and down in sides, height in SIDE
     spread: np.ndarray  # (3,)
+
+    __repr__ = short_repr
 
     @classmethod
     def fit(cls, shots, rng):
