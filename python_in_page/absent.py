@@ -7,7 +7,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-NAMES = """anywidget IPython IPython.display joblib markdown_it matplotlib_inline
+NAMES = """anywidget IPython IPython.display ipywidgets joblib markdown_it matplotlib_inline
 matplotlib_inline.backend_inline mdit_py_plugins mdit_py_plugins.dollarmath traitlets umsgpack"""
 
 

@@ -140,7 +140,7 @@ def segmentation_demo(image, caption, alt):
         display(Markup(frame("", caption), caption))
 
 
-UPLOAD = """<div class="vmc-demo"><form class="vmc-control">
+UPLOAD = """<div class="vmc-demo" id="upload"><form class="vmc-control">
 <label>Your photo, of any size: <input type="file" accept="image/*"></label>
 <span role="status"></span></form><div class="vmc-picture"></div></div>"""
 
@@ -153,6 +153,7 @@ def photo_upload(draw, example, caption, alt):
     figure(draw(example), caption, alt)
     if render_mode() == "live":
         scripts = [CANVAS, Path(__file__).with_name("upload.js")]
+        display(still("", [], "upload"))
         display(
             Live(UPLOAD, "vmcUpload", scripts, {"photo": lambda sent: draw(decode_image(sent))})
         )

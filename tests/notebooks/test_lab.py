@@ -34,6 +34,27 @@ def test_a_quiz_is_answered_without_a_kernel_and_links_open_as_something_to_read
         expect(text.first).to_be_in_viewport(timeout=600_000)  # its source is there too, and hidden
 
 
+def test_a_demo_keeps_its_keys_and_leaves_shortcuts_to_jupyterlab(run_all):
+    page = run_all("07_muscle")
+    demo = page.locator(".vmc-demo[data-ready]:has(input[type=range])").first
+    assert demo.locator(".vmc-listen").count() == 1
+    slider, name = demo.locator("input[type=range]"), demo.get_attribute("id")
+    cells = "return notebook.widgets.length;"
+    before = slider.input_value(), lab.run(page, cells)
+    for key in ("ArrowLeft", "d", "d"):  # two of which, in the notebook, delete a cell
+        slider.press(key)
+    assert slider.input_value() != before[0]
+    assert lab.run(page, cells) == before[1]
+    unsaved = "jupyterapp.shell.currentWidget.context.model.dirty"
+    page.wait_for_function(f"() => {unsaved}")
+    slider.press("Control+s")
+    page.wait_for_function(f"() => !{unsaved}")
+    slider.press("Escape")
+    page.wait_for_function("() => document.activeElement.matches('.jp-Cell.jp-mod-active')")
+    slider.press("Shift+Enter")  # runs the cell again
+    page.locator(f"#{name}").wait_for(state="detached")
+
+
 def test_a_plot_follows_the_kernel_shows_its_errors_and_leaves_a_still(run_all):
     page = run_all("07_muscle")
     slider = page.locator(".vmc-demo[data-ready] input[type=range]").first
@@ -74,7 +95,9 @@ def test_a_plot_follows_the_kernel_shows_its_errors_and_leaves_a_still(run_all):
     still.scroll_into_view_if_needed()
     still.get_by_text("Run > Run All Cells to make it move").wait_for()
     assert line in unquote(still.inner_html())
-    assert not page.get_by_text("model not found").first.is_visible()
+    lost = page.locator(f".jp-OutputArea-child:has(#{name}-still) + *", has_text="model not found")
+    lost.wait_for(state="attached")
+    assert not lost.is_visible()
 
 
 def test_scenes_and_the_arm_move_and_free_their_memory(run_all):

@@ -18,8 +18,9 @@ RENDER = """async ([script, traits, kernel, busy]) => {
   const model = {
     busy,
     get: (name) => traits[name],
-    set: (name) => emit(`change:${name}`, model),
+    widget_manager: { get_model: async (id) => id === traits.channel && model },
     on: (event, listener) => ((listeners[event] ??= []).push(listener)),
+    off: () => {},
     send: (message) => {
       if (model.closed) throw new Error("Cannot send");
       if (!model.busy) self[kernel](message).then((reply) => emit("msg:custom", reply));
@@ -28,9 +29,9 @@ RENDER = """async ([script, traits, kernel, busy]) => {
   const emit = (event, value) => listeners[event].forEach((listener) => listener(value));
   Object.assign(self, { [`${kernel}Model`]: Object.assign(model, { emit }) });
   const el = document.body.appendChild(document.createElement("div"));
-  (await import(url)).default.render({ model, el });
+  await (await import(url)).default.render({ model, el });
 }"""
-TRAITS = ("page", "start", "scripts", "vendored", "first")
+TRAITS = ("page", "start", "scripts", "vendored", "first", "channel")
 
 
 def render(page, widget, monkeypatch, kernel="kernel", busy=False):
@@ -40,10 +41,10 @@ def render(page, widget, monkeypatch, kernel="kernel", busy=False):
     it may be `closed` or `busy`, and `emit(event, value)` is what Jupyter calls.
     """
     replies = []
-    monkeypatch.setattr(widget, "send", replies.append)
+    monkeypatch.setattr(widget._channel, "send", replies.append)
 
     def answer(message):
-        widget._handle_custom_msg(message, [])
+        widget._channel._handle_custom_msg(message, [])
         return replies.pop()
 
     page.expose_function(kernel, answer)

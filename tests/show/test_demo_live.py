@@ -30,11 +30,11 @@ def live(monkeypatch):
         show(*args, **controls)
         still, widget, caption = shown
         stills.append(still.data)
-        replies = []
-        monkeypatch.setattr(widget, "send", replies.append)
+        replies, channel = [], widget._channel
+        monkeypatch.setattr(channel, "send", replies.append)
 
         def ask(question, value):
-            widget._handle_custom_msg({"id": "1", "question": question, "value": value}, [])
+            channel._handle_custom_msg({"id": "1", "question": question, "value": value}, [])
             return replies[-1]
 
         return SimpleNamespace(ask=ask, widget=widget, stills=stills, caption=caption.data)
@@ -146,6 +146,19 @@ def test_a_still_of_the_last_state_stays_without_a_kernel(live):
     assert 'src="data:image/png;base64,eA=="' in shown.stills[1]
     shown.ask("still", [""])  # a scene that nobody has seen yet: words
     assert len(re.findall("<img", shown.stills[2])) == 1
+
+
+def test_a_stills_numbers_are_folded_as_the_demos_are(live):
+    """A table that stood open once made Notebook 7 lock the demo in a scrolling box."""
+
+    def draw(k):
+        fig, ax = plt.subplots()
+        ax.plot([0, k])
+        return fig
+
+    shown = live(draw, alt=None, k=Slider([1, 2], "k"))
+    for markup in (shown.widget.page, shown.stills[0]):
+        assert markup.count("<table") == len(re.findall("<details[^$]*?<table", markup)) == 1
 
 
 def test_a_still_shares_no_identifier_with_the_live_demo(live):

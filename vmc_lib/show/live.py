@@ -16,6 +16,7 @@ import matplotlib.pyplot as plt
 import matplotlib_inline.backend_inline  # noqa: F401  (in `rc_context` its settings would end)
 import traitlets
 from IPython import get_ipython
+from ipywidgets import Widget
 
 from vmc_lib.show.render_mode import STATIC
 
@@ -33,28 +34,38 @@ class Live(anywidget.AnyWidget):
     needs it. `answers` maps a question to the function that answers it, JSON in, JSON out; what
     that raises is shown where the picture would be. `first` is the first answer to "state": lines
     of text for every part of the page, or None for a part that stands there already.
+
+    Questions come by a `channel`, a model without a view: anywidget's own drops all messages where
+    it loads later than two seconds, as on a busy machine.
     """
 
     _esm = (STATIC / "kernel.js").read_text(encoding="utf-8")
     page, start = traitlets.Unicode().tag(sync=True), traitlets.Unicode().tag(sync=True)
     scripts, vendored = traitlets.Dict().tag(sync=True), traitlets.List().tag(sync=True)
     first = traitlets.List(allow_none=True).tag(sync=True)
+    channel = traitlets.Unicode().tag(sync=True)
 
     def __init__(self, page, start, scripts, answers=None, vendored=VENDORED, first=None):
         scripts = {path.name: path.read_text(encoding="utf-8") for path in scripts}
+        self._channel = Widget()
         super().__init__(
-            page=page, start=start, scripts=scripts, vendored=list(vendored), first=first
+            page=page,
+            start=start,
+            scripts=scripts,
+            vendored=list(vendored),
+            first=first,
+            channel=self._channel.model_id,
         )
         self.answers = {
             "ping": lambda _: True,
             "script": lambda name: vendored[name].read_text(encoding="utf-8"),
         } | (answers or {})
-        self.on_msg(lambda _, message, buffers: self._reply(**message))
+        self._channel.on_msg(lambda _, message, buffers: self._reply(**message))
         # ipykernel 7.4 gives a question to the thread that last wrote to the browser, here the
         # cells', behind all cells to come; without this it takes the one that the browser names
-        self.comm._reply_subshell_for = None
+        self._channel.comm._reply_subshell_for = None
         # nor are IPython's events for it: they show and close the figures of the cell that runs
-        self.comm.handle_msg = self._handle_msg
+        self._channel.comm.handle_msg = self._channel._handle_msg
         _lock_cells_end()
 
     def __repr__(self):
@@ -65,7 +76,7 @@ class Live(anywidget.AnyWidget):
             reply = {"answer": self.answers[question](value)}
         except Exception as error:  # a reader's own code may raise anything
             reply = {"error": "".join(traceback.format_exception_only(error)).strip()}
-        self.send({"id": id} | reply)
+        self._channel.send({"id": id} | reply)
 
 
 @contextmanager

@@ -29,19 +29,24 @@ def still(alt, parts, name):
 
     `parts` are as of `pictures`, `alt` describes them. Plots become images: they share no
     identifiers with the demo's own, and remain where a notebook is not trusted, its SVG removed.
+    The output that follows is hidden until the demo lives in it: JupyterLab's "model not found".
     """
+    child = ".jp-OutputArea-child"
     parts = [_as_images(part) if isinstance(part, str) else part for part in parts]
     return Markup(
-        f"<style>:root:has(#{name}) #{name}-still {{ display: none; }}</style>"
+        f"<style>:root:has(#{name}) #{name}-still, {child}:has(#{name}-still) + "
+        f"{child}:not(:has(#{name})) {{ display: none; }}</style>"
         f'<figure class="vmc-demo vmc-still" id="{name}-still">{side_by_side(parts, alt)}'
-        "<figcaption>Run > Run All Cells to make it move.</figcaption></figure>",
+        "<figcaption>Run > Run All Cells to make it move. If it stays still: "
+        "<code>pip install anywidget</code> where JupyterLab is installed.</figcaption></figure>",
         alt,
     )
 
 
 def _as_images(markup):
-    """The markup with each SVG in it as an `<img>`."""
-    return re.sub(r"<svg.*?</svg>", _as_image, _PANELS.sub(r"\1", markup), flags=re.S)
+    """The markup with each SVG in it as an `<img>`; a table of numbers stays one."""
+    drawn = re.sub(r"<svg.*?</svg>", _as_image, _PANELS.sub(r"\1", markup), flags=re.S)
+    return type(markup)(drawn)
 
 
 def _as_image(svg):

@@ -241,7 +241,8 @@ const vmcDemo = (() => {
       vmcAddress(demo);
       start(demo, await stored(demo));
     });
-  if (document.readyState === "loading") addEventListener("DOMContentLoaded", startAll);
+  if (self.vmcKernel); // which starts its own
+  else if (document.readyState === "loading") addEventListener("DOMContentLoaded", startAll);
   else startAll();
   return start;
 })();

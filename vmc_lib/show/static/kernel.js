@@ -17,19 +17,9 @@ const run = (text) => {
   self.define = define;
 };
 
-/* Anywidget drops all messages of a model that loads later than two seconds, as on a busy machine;
-   so they are heard by the class that anywidget's extends. */
-const hear = (model) => {
-  model.on("change:heard", (whole) => {
-    const plain = Object.getPrototypeOf(Object.getPrototypeOf(whole));
-    whole.comm?.on_msg((message) => plain._handle_comm_msg.call(whole, message));
-  });
-  model.set("heard", true);
-};
-
 /* `ask(question, value)` promises the kernel's answer, or an { error }; so does every question that
    is open when the kernel goes, of which `onleave` hears. */
-const connect = (model) => {
+const connect = (channel, vendored) => {
   const pending = new Map();
   const settle = (id, reply) => {
     pending.get(id)?.(reply);
@@ -40,7 +30,7 @@ const connect = (model) => {
       const id = `${Math.random()}`;
       pending.set(id, resolve);
       try {
-        model.send({ id, question, value });
+        channel.send({ id, question, value });
       } catch {
         ask.leave(); // the connection has been closed
       }
@@ -49,12 +39,13 @@ const connect = (model) => {
   ask.leave = () => {
     ask.left = true;
     lenders.delete(ask);
+    channel.off(null, null, ask);
     for (const id of [...pending.keys()]) settle(id, { error: GONE });
     ask.onleave?.();
   };
-  model.on("msg:custom", ({ id, answer, error }) => settle(id, error === undefined ? answer : { error }));
-  model.on("comm_live_update", ask.leave);
-  ask.vendored = model.get("vendored");
+  channel.on("msg:custom", ({ id, answer, error }) => settle(id, error === undefined ? answer : { error }), ask);
+  channel.on("comm_live_update", ask.leave, ask);
+  ask.vendored = vendored;
   lenders.add(ask);
   return ask;
 };
@@ -125,13 +116,19 @@ const states = (ask, box, first) => {
   return show;
 };
 
+/* Keys are the controls' own, but for shortcuts; Escape leads back to the notebook. */
+const keepKeys = (event) => {
+  const { key, ctrlKey, metaKey, altKey, shiftKey } = event;
+  if (key === "Escape") event.currentTarget.closest(".jp-Notebook")?.focus();
+  else if (!(ctrlKey || metaKey || altKey || (shiftKey && key === "Enter"))) event.stopPropagation();
+};
+
 export default {
-  render({ model, el }) {
-    hear(model);
-    const ask = connect(model);
+  async render({ model, el }) {
+    const channel = await model.widget_manager.get_model(model.get("channel"));
+    const ask = connect(channel, model.get("vendored"));
     el.innerHTML = model.get("page");
-    el.dataset.lmSuppressShortcuts = true; // keys are the controls' own, not the notebook's
-    el.addEventListener("keydown", (event) => event.stopPropagation());
+    el.addEventListener("keydown", keepKeys);
     globalThis.vmcKernel = fetchVendored;
     for (const [name, text] of Object.entries(model.get("scripts")))
       if (!loaded.has(name)) run(text, loaded.add(name));
