@@ -5,14 +5,19 @@ no harm. A mark says where to look, and is good for a pass, not for a grade: who
 fool it, and all solutions are public.
 """
 
+import argparse
+import asyncio
 import csv
+import os
 import re
 import sys
 from pathlib import Path
-from time import monotonic
+from tempfile import TemporaryDirectory
 
 import nbformat
+from joblib import Parallel, delayed
 from nbclient import NotebookClient
+from nbclient.util import run_sync
 
 from kit.__main__ import CHAPTERS
 from kit.key import SOLUTION, exercise_named
@@ -20,18 +25,23 @@ from kit.student import checks, place
 from vmc_lib.grading import NOT_YET, RIGHT, UNREAD
 from vmc_lib.show.figures import inline
 
-LIMIT, LEAST = 600, 10  # s a notebook, and a cell when its time is up
+CELL, NOTEBOOK = 60, 600  # s that each may run
 COLUMNS = "file", "exercise", "points", "of", "mark"
 POINTS = 2  # an exercise; a known mistake has half of them
 RIGHT_MARK, WORDS, KNOWN = "right", "in words: for you to read", "a known mistake: "
+TOO_LONG = "ran longer than a minute"
+LONGEST = 500  # characters of an error
+# Where a cell may begin, also where the separator is a semicolon, as in much of Europe
+FORMULA = re.compile(r"""(^|;)(?=[\s"]*[=+@＝＋－＠-])""")
 
 
-def marks(chapter, submission, folder, limit=LIMIT):
+def marks(chapter, submission, cell_limit=CELL, limit=NOTEBOOK):
     """The mark of each exercise of a chapter's notebook, {label: text}, in a hand-in.
 
-    Runs the hand-in in `folder`, for so many seconds, with our own checks in the places of the
-    student's, which are known by the exercise in their metadata or, where an editor dropped that,
-    by their source. Answers in words are left to the lecturer.
+    Runs the hand-in with our own checks in the places of the student's, which are known by the
+    exercise in their metadata or, where an editor dropped that, by their source. Answers in words
+    are left to the lecturer. A cell is interrupted after `cell_limit` seconds; TimeoutError where
+    the whole takes longer than `limit`.
     """
     sources = checks(chapter)
     code = [cell for cell in submission.cells if cell.cell_type == "code"]
@@ -41,7 +51,7 @@ def marks(chapter, submission, folder, limit=LIMIT):
         for cell, label in zip(code, labels, strict=True)
     ]
     notebook = nbformat.v4.new_notebook(cells=cells)  # with our kernel, whatever the student's was
-    _run(notebook, folder, limit)
+    _run(notebook, cell_limit, limit)
     results = {label: "no cell checks it" if source else WORDS for label, source in sources.items()}
     known = _known_mistakes(chapter)
     for label, cell in zip(labels, cells, strict=True):
@@ -50,16 +60,21 @@ def marks(chapter, submission, folder, limit=LIMIT):
     return results
 
 
-def _run(notebook, folder, limit):
-    """Run all cells within the limit, but for the few seconds that each may have after it."""
-    end = monotonic() + limit
-    NotebookClient(
-        notebook,
-        timeout_func=lambda _cell: max(LEAST, round(end - monotonic())),
-        interrupt_on_timeout=True,
-        allow_errors=True,
-        resources={"metadata": {"path": str(folder)}},
-    ).execute()
+@run_sync
+async def _run(notebook, cell_limit, limit):
+    """Run all cells in an empty folder, from which Python imports nothing."""
+    client = NotebookClient(
+        notebook, timeout=cell_limit, interrupt_on_timeout=True, allow_errors=True
+    )
+    with TemporaryDirectory(ignore_cleanup_errors=True) as folder:
+        try:
+            async with asyncio.timeout(limit) as clock:
+                environment = os.environ | {"PYTHONSAFEPATH": "1"}
+                await client.async_execute(cwd=folder, env=environment)
+        except Exception as error:
+            if clock.expired():  # a cell may refuse to be interrupted
+                raise TimeoutError(f"it ran longer than {limit} s") from error
+            raise
 
 
 def _known_mistakes(chapter):
@@ -82,13 +97,20 @@ def _label(cell, sources):
 def _mark(outputs, known):
     """The mark that a check's outputs give."""
     text = "".join(output.get("data", {}).get("text/html", "") for output in outputs)
-    errors = [f"{output.ename}: {output.evalue}" for output in outputs if "ename" in output]
+    errors = [_error(output) for output in outputs if "ename" in output]
     if RIGHT in text:
         return RIGHT_MARK
     hints = [f"{KNOWN}{hint}" for hint in known if inline(hint) in text]
     unmarked = {NOT_YET: "not answered", UNREAD: "not read"}
     states = [state for words, state in unmarked.items() if words in text]
     return " ".join(errors or hints[:1] or states) or "not right"
+
+
+def _error(output):
+    """What a cell's error says; a KeyboardInterrupt is ours, when its time is up."""
+    if output.ename == "KeyboardInterrupt":
+        return TOO_LONG
+    return f"{output.ename}: {output.evalue}"[:LONGEST]
 
 
 def points(mark):
@@ -99,22 +121,30 @@ def points(mark):
 
 
 def chapter_of(submission, name):
-    """The notebook of the chapter that was handed in, known by its first heading or its number.
+    """The notebook of the chapter that was handed in.
 
-    `name` is the file's. ValueError where neither tells it.
+    It is known by its first heading, by its exercises, or by the number that `name`, the file's,
+    begins with. ValueError where none of these tells it.
     """
     text = "\n".join(cell.source for cell in submission.cells if cell.cell_type == "markdown")
-    heading, number = re.search(r"^# .*", text, re.M), re.match(r"\d+", name)
-    by_title, by_number = {}, {}
+    signs = [heading.strip() for heading in re.findall(r"^# .*", text, re.M)[:1]]
+    signs += [cell.metadata.get("exercise") for cell in submission.cells]
+    signs += map(int, re.findall(r"^\d+", name))
+    chapters = {}
     for path in CHAPTERS:
         chapter = nbformat.read(path, as_version=4)
-        by_title[chapter.cells[0].source.splitlines()[0]] = chapter
-        by_number[int(path.name.split("_")[0])] = chapter
-    if heading and heading[0].strip() in by_title:
-        return by_title[heading[0].strip()]
-    if number and int(number[0]) in by_number:
-        return by_number[int(number[0])]
-    raise ValueError("no chapter has its first heading, or the number that its name begins with")
+        own = (
+            chapter.cells[0].source.splitlines()[0],
+            *checks(chapter),
+            int(path.name.split("_")[0]),
+        )
+        chapters |= dict.fromkeys(own, chapter)
+    for sign in signs:
+        if sign in chapters:
+            return chapters[sign]
+    raise ValueError(
+        "no chapter has its first heading, its exercises, or the number that its name begins with"
+    )
 
 
 def rows(path):
@@ -122,27 +152,44 @@ def rows(path):
     try:
         text = path.read_text(encoding="utf-8-sig")  # PowerShell begins a text with a mark
         submission = nbformat.reads(text, as_version=4)
-        results = marks(chapter_of(submission, path.name), submission, path.parent)
+        results = marks(chapter_of(submission, path.name), submission)
     except Exception as error:  # whatever is wrong with one file, the others are marked
         reason, *_ = str(error).split("\n")
-        yield path, "", "", "", f"cannot be marked ({type(error).__name__}: {reason})"
-        return
-    for label, mark in results.items():
-        yield path, label, points(mark), POINTS, mark
+        return [(path, "", "", "", f"cannot be marked ({type(error).__name__}: {reason})")]
     earned = [points(mark) for mark in results.values() if mark != WORDS]
-    yield path, "all that is checked", sum(earned), POINTS * len(earned), ""
+    return [
+        *((path, label, points(mark), POINTS, mark) for label, mark in results.items()),
+        (path, "all that is checked", sum(earned), POINTS * len(earned), ""),
+    ]
+
+
+def plain(cell):
+    """A cell as one line of text, which no spreadsheet takes for a formula."""
+    line = "".join(c if c.isprintable() else ascii(c)[1:-1] for c in str(cell))
+    return FORMULA.sub(r"\1'", line)
 
 
 def main():
-    """Write the table of the notebooks in a folder, CSV."""
-    found = sorted(path for folder in sys.argv[1:] for path in Path(folder).rglob("*.ipynb"))
-    handed_in = [path for path in found if ".ipynb_checkpoints" not in path.parts]
+    """Write the table of the notebooks in some folders: CSV, UTF-8, with Excel's mark of that."""
+    parser = argparse.ArgumentParser(prog="python -m kit.marks", description=__doc__)
+    parser.add_argument("folders", nargs="+", type=Path, metavar="FOLDER")
+    parser.add_argument("--jobs", type=int, default=1, help="notebooks that run at once")
+    options = parser.parse_args()
+    found = sorted(path for folder in options.folders for path in folder.rglob("*"))
+    files = [path for path in found if path.is_file() and ".ipynb_checkpoints" not in path.parts]
+    handed_in = [path for path in files if path.suffix.lower() == ".ipynb"]
+    for path in files:
+        if path not in handed_in:
+            print(f"not marked, for it is no notebook: {plain(path)}", file=sys.stderr)
     if not handed_in:
-        sys.exit(f"no notebooks under {sys.argv[1:]}: use python -m kit.marks FOLDER > marks.csv")
+        folders = ", ".join(map(str, options.folders))
+        sys.exit(f"no notebooks under {folders}: use python -m kit.marks FOLDER > marks.csv")
+    sys.stdout.reconfigure(encoding="utf-8-sig", newline="")
     table = csv.writer(sys.stdout)
     table.writerow(COLUMNS)
-    for path in handed_in:
-        table.writerows(rows(path))
+    marked = Parallel(options.jobs, return_as="generator")(map(delayed(rows), handed_in))
+    for row in (row for several in marked for row in several):
+        table.writerow(map(plain, row))
         sys.stdout.flush()
 
 

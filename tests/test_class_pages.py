@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from kit.__main__ import ROOT, throws, throws_page
+from tests.formulas import FORMULAS, computes
 from tests.pages import book_html, observe
 from vmc_lib.show import check, predict, questions
 
@@ -205,6 +206,18 @@ def test_the_teachers_page_joins_two_hundred_files(page, tmp_path):
     ]
     room.select_option("#page", "07_muscle")
     assert room.locator("#rows tr").count() == 2
+
+
+def test_no_answer_becomes_a_formula(page, tmp_path):
+    answers = [answer(formula, False) | {"id": formula} for formula in FORMULAS]
+    file = {"format": "answers 1", "who": "ann", "answers": answers}
+    (tmp_path / "ann.json").write_text(json.dumps(file), encoding="utf-8")
+    room = page(CLASS)
+    room.set_input_files("#files", tmp_path / "ann.json")
+    room.wait_for_selector("#rows tr")
+    rows = list(csv.reader(io.StringIO(saved(room, "#save"))))[1:]
+    assert len(rows) == len(FORMULAS)
+    assert [cell for row in rows for cell in row if computes(cell)] == []
 
 
 def test_of_a_quiz_only_the_first_answer_counts(page, tmp_path):

