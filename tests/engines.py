@@ -14,12 +14,14 @@ import sys
 import time
 import urllib.error
 import urllib.request
+from contextlib import ExitStack, contextmanager, suppress
 from glob import glob
 
 from tests.pages import BUILT
 
 NOT_TESTED = "NOT TESTED in {}: apt install firefox-esr webkit2gtk-driver xvfb"
 NOWHERE = "127.0.0.1:9"  # the proxy through which they would reach a network
+DIRECT = urllib.request.build_opener(urllib.request.ProxyHandler({}))  # to a driver, by no proxy
 # Async, as a script may wait; what it throws becomes an error here
 WAITING = """const done = arguments[arguments.length - 1];
 (async () => {%s})().then((value) => done({ value }), (error) => done({ error: `${error}` }));"""
@@ -38,7 +40,16 @@ class Crashed(Exception):
 
 
 class Engine:
-    """A browser in a folder of its own; `_navigate` and `_script` are its driver's."""
+    """A browser in a folder of its own; `_start`, `_navigate` and `_script` are its driver's.
+
+    What `_start` opens it leaves on a stack, to be closed together: where the start fails, at once.
+    """
+
+    def __init__(self, folder):
+        self.folder = folder
+        with ExitStack() as opened:
+            self._start(opened)
+            self.close = opened.pop_all().close
 
     def open(self, path):
         """Open a built page, whose failures are listened to."""
@@ -71,10 +82,6 @@ class Engine:
     def errors(self):
         return self.run("return document.documentElement.dataset.failed ?? '';")
 
-    def close(self):
-        os.killpg(self.process.pid, 15)  # with all that it started
-        self.process.wait()
-
     def restart(self):
         self.close()
         self.__init__(self.folder)
@@ -87,8 +94,8 @@ class Firefox(Engine):
     def program():
         return shutil.which("firefox-esr") or shutil.which("firefox")
 
-    def __init__(self, folder):
-        self.folder = folder
+    def _start(self, opened):
+        folder = self.folder
         host, port = NOWHERE.split(":")
         settings = {"marionette.port": 0, "network.proxy.type": 1}
         for kind in ("network.proxy.http", "network.proxy.ssl"):
@@ -96,11 +103,13 @@ class Firefox(Engine):
         lines = [f"user_pref({json.dumps(k)}, {json.dumps(v)});\n" for k, v in settings.items()]
         (folder / "user.js").write_text("".join(lines), encoding="utf-8")
         options = "--headless --no-remote --marionette --profile"
-        self.process = start([self.program(), *options.split(), folder], folder / "log")
+        command = [self.program(), *options.split(), folder]
+        self.process = opened.enter_context(running(command, folder / "log"))
         chosen = folder / "MarionetteActivePort"
         wait(lambda: chosen.exists() and chosen.read_bytes(), self.process)
-        self.line = socket.create_connection(("127.0.0.1", int(chosen.read_bytes())))
-        self.replies = self.line.makefile("rb")
+        port = int(chosen.read_bytes())
+        self.line = opened.enter_context(socket.create_connection(("127.0.0.1", port)))
+        self.replies = opened.enter_context(self.line.makefile("rb"))
         self._reply()  # its greeting
         self._ask("WebDriver:NewSession")
         self._ask("WebDriver:SetTimeouts", script=600_000, pageLoad=600_000)
@@ -115,11 +124,6 @@ class Firefox(Engine):
     def _reply(self):
         length = b"".join(iter(lambda: self.replies.read(1), b":"))
         return json.loads(self.replies.read(int(length)))
-
-    def close(self):
-        self.replies.close()
-        self.line.close()
-        super().close()
 
     def _navigate(self, url):
         self._ask("WebDriver:Navigate", url=url)
@@ -137,13 +141,12 @@ class WebKit(Engine):
         tools = all(map(shutil.which, ("WebKitWebDriver", "xvfb-run")))
         return browsers[0] if browsers and tools else None
 
-    def __init__(self, folder):
-        self.folder = folder
+    def _start(self, opened):
         with socket.socket() as free:
             free.bind(("127.0.0.1", 0))
             self.port = free.getsockname()[1]
         driver = ["xvfb-run", "--auto-servernum", "WebKitWebDriver", f"--port={self.port}"]
-        self.process = start(driver, folder / "log")
+        self.process = opened.enter_context(running(driver, self.folder / "log"))
         wait(self._listens, self.process)
         options = ["--automation", f"--proxy=http://{NOWHERE}"]
         wanted = {"webkitgtk:browserOptions": {"binary": self.program(), "args": options}}
@@ -160,7 +163,7 @@ class WebKit(Engine):
         kind = {"Content-Type": "application/json"}
         request = urllib.request.Request(address, json.dumps(parameters).encode(), kind)
         try:
-            with urllib.request.urlopen(request) as reply:  # noqa: S310
+            with DIRECT.open(request) as reply:
                 return json.load(reply)["value"]
         except urllib.error.HTTPError as error:
             why = error.read().decode()
@@ -174,10 +177,17 @@ class WebKit(Engine):
         return self._ask("/execute/async", script=text, args=[])
 
 
-def start(command, log):
-    """A process in a group of its own."""
+@contextmanager
+def running(command, log):
+    """A process in a group of its own, which ends with all that it started."""
     with open(log, "w", encoding="utf-8") as file:
-        return subprocess.Popen(command, stdout=file, stderr=file, start_new_session=True)
+        process = subprocess.Popen(command, stdout=file, stderr=file, start_new_session=True)
+    try:
+        yield process
+    finally:
+        with suppress(ProcessLookupError):  # all have ended by themselves
+            os.killpg(process.pid, 15)
+        process.wait()
 
 
 def wait(ready, process):

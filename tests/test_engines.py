@@ -2,12 +2,14 @@
 
 import os
 import re
+import sys
 from contextlib import suppress
 from pathlib import Path
+from select import select
 
 import pytest
 
-from tests.engines import Crashed, WebKit
+from tests.engines import NOWHERE, Crashed, WebKit
 from tests.pages import BUILT, CHAPTERS, PROBES
 
 pytestmark = pytest.mark.browser
@@ -40,6 +42,31 @@ def test_a_photo_leads_to_a_reach(engine):
       return say.textContent;""")
     assert "misses by" in said
     assert engine.errors() == ""
+
+
+DRIVER = f"""#!{sys.executable}
+import http.server, os, subprocess, sys
+class Refusal(http.server.BaseHTTPRequestHandler):
+    def do_POST(self):
+        self.send_error(500, "refused")
+subprocess.Popen(["sleep", "1000"], stdout=open(os.environ["ALIVE"], "w"))  # stays, as Xvfb does
+http.server.HTTPServer(("127.0.0.1", int(sys.argv[-1].split("=")[1])), Refusal).serve_forever()
+"""
+
+
+def test_a_start_that_fails_asks_no_proxy_and_leaves_no_process(tmp_path, monkeypatch):
+    (tmp_path / "xvfb-run").write_text(DRIVER, encoding="utf-8")
+    (tmp_path / "xvfb-run").chmod(0o755)
+    os.mkfifo(tmp_path / "alive")
+    alive = os.open(tmp_path / "alive", os.O_RDONLY | os.O_NONBLOCK)
+    changed = {"PATH": f"{tmp_path}:{os.environ['PATH']}", "ALIVE": f"{tmp_path}/alive"}
+    for name, value in (changed | {"http_proxy": f"http://{NOWHERE}", "no_proxy": ""}).items():
+        monkeypatch.setenv(name, value)
+    with pytest.raises(AssertionError, match="refused"):
+        WebKit(tmp_path)
+    assert select([alive], [], [], 60)[0] == [alive]  # its end: nobody is left to write
+    assert os.read(alive, 1) == b""
+    os.close(alive)
 
 
 def has_crashed(engine):
