@@ -11,24 +11,30 @@ PYTHON ?= python3
 # Threads that wait for each other spin, and stand still as soon as the machine has other work
 export OMP_NUM_THREADS = 1
 export OPENBLAS_NUM_THREADS = 1
+# Where pip.conf says `user = true`, pip would refuse to install into an environment
+export PIP_USER = 0
 BIN    := .venv/bin
 READY  := .venv/.ready
 BUILT  := _build/.built
 BUILD  := $(BIN)/jupyter-book build -W -n --keep-going .
 PAGE   := _build/html/index.html
 LAYOUT := .venv/share/jupyter/lab/workspaces/book-9271.jupyterlab-workspace
-INPUTS := _config.yml _toc.yml $(shell find book vmc_lib arm_in_page eye_in_page python_in_page reproduce -type f -not -path '*/.*' -not -path '*/__pycache__/*')
+ROOMS  := book vmc_lib arm_in_page eye_in_page python_in_page reproduce
+# One file saved since the book was built, if any: no list of prerequisites, where a name may hold no blank or colon
+NEWER  := $(shell find _config.yml _toc.yml $(ROOMS) -type f -newer $(BUILT) -not -path '*/.*' -not -path '*/__pycache__/*' 2>/dev/null | head -n 1)
 
 PEERED := selective_search cuts simulators crbm planning loop scaling
 
 # Locked, each file by its checksum. The library comes second, and torch, whose build (CPU, CUDA) differs
 # from machine to machine: pip takes no file without a checksum beside those that have one.
 define install
-$(1)/pip install --quiet --require-hashes -r constraints.txt
-$(1)/pip install --quiet --no-build-isolation -r requirements.txt -e .
+$(call pip,$(1)) --quiet --require-hashes -r constraints.txt
+$(call pip,$(1)) --quiet --no-build-isolation -r requirements.txt -e .
 endef
+pip = $(if $(UV),uv pip install --python $(1)/python,$(1)/pip install)
+UV := $(shell command -v uv)
 
-.PHONY: book test lab kit pdf data bench lock clean
+.PHONY: book test lab kit pdf data bench lock clean changed
 .DEFAULT_GOAL := book
 
 book: $(BUILT)
@@ -74,7 +80,7 @@ bench: $(READY) .bench/.ready
 	.bench/bin/pip install --quiet -r bench/requirements.txt
 	@touch $@
 
-$(BUILT): $(READY) $(INPUTS)
+$(BUILT): $(READY) $(if $(NEWER),changed)
 	@mkdir -p _build && rm -f _build/.failed && touch _build/.begun
 	$(BUILD) || { cat _build/.failed 2>/dev/null; exit 1; }
 	@mv _build/.begun $@  # of the time of its beginning: what was saved since is newer
@@ -89,7 +95,7 @@ lock:  # for every system and every Python from 3.11 on
 	@$(PYTHON) -m venv _build/uv && _build/uv/bin/pip install --quiet uv==0.13.9
 	_build/uv/bin/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes \
 	  --no-strip-extras --no-annotate --custom-compile-command "make lock" -o constraints.txt requirements.txt
-	sed -i.old '/^\(torch\|triton\|cuda-\|nvidia-\)/,/[^\\]$$/d' constraints.txt && rm constraints.txt.old
+	sed -E -i.old '/^(torch|triton|cuda-|nvidia-)/,/[^\\]$$/d' constraints.txt && rm constraints.txt.old
 
 clean:
 	rm -rf _build

@@ -11,6 +11,7 @@ import numpy as np
 from markdown_it import MarkdownIt
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 
+from book.figures.plans import BOOK, NAMES
 from kit import arm, demos
 from kit.bank import templates
 from kit.chapter_questions import chapter_questions
@@ -23,7 +24,7 @@ from kit.student import alive, student
 from vmc_lib.cerebellum import two_rates
 
 ROOT = Path(__file__).parents[1]
-CHAPTERS = sorted((ROOT / "book").glob("[0-9]*.ipynb"))
+CHAPTERS = [BOOK / f"{name}.ipynb" for name in NAMES]
 HEAD = """<!doctype html><html lang="en"><meta charset="utf-8"><title>{title}</title>
 <meta name="viewport" content="width=device-width">
 <style>:root {{ color-scheme: light dark; }}

@@ -105,6 +105,7 @@ def test_a_chapter_is_executed_when_it_or_the_library_changed(book):
         assert (book / "_build/html/_static" / packed.SCRIPT).stat().st_size > 1e6
     script = (book / "_build/html/_static/see.js").read_text(encoding="utf-8")
     assert script.startswith("// Readable in eye_in_page/static/see.js\nObject")
+    assert (book / "_build/html/.nojekyll").exists()  # or GitHub's pages leave _static out
     # It can be saved, and without a repository nothing leads out
     assert "../_sources/book/chapter.ipynb" in links(page)
     assert not [link for link in links(page) if link.startswith("http")]

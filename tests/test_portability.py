@@ -2,6 +2,7 @@
 
 import ast
 import json
+import os
 import re
 import shutil
 import sys
@@ -13,7 +14,7 @@ from urllib.request import url2pathname
 import pytest
 from jupyterlab.labapp import LabApp
 
-from tests.project import NOTEBOOKS, ROOT, code, python, run
+from tests.project import CHAPTERS, NOTEBOOKS, ROOT, code, python, run
 
 SCHEMAS = Path(sysconfig.get_path("data")) / "share/jupyter/lab/schemas"
 AWKWARD = "a b&c#d+ü"  # a folder of a name that is lawful everywhere
@@ -79,6 +80,82 @@ def test_make_prints_the_address_of_the_book(tmp_path):
     )
     address = urlsplit(built.split()[-1])
     assert Path(url2pathname(address.path)) == home / "_build/html/index.html"
+
+
+# ---------------------------------------------------------------- make, beside a reader's own files
+
+NAMES = [
+    "07_muscle (1).ipynb",
+    "Untitled Folder/a.ipynb",
+    "a: b.md",
+    "$(x)#%\\.py",
+    "two\nlines.md",
+]
+
+
+@pytest.fixture
+def home(tmp_path):
+    """A set-up project, built an hour ago and of the same age, with copies of odd names in it."""
+    shutil.copy(ROOT / "Makefile", tmp_path)
+    asked = {*re.findall(r"\w+\.(?:txt|toml|yml)", (ROOT / "Makefile").read_text(encoding="utf-8"))}
+    layout = ".venv/share/jupyter/lab/workspaces/book-9271.jupyterlab-workspace"
+    made = (".venv/.ready", ".bench/.ready", "_build/.built", "bench/requirements.txt", layout)
+    files = [tmp_path / name for name in (*asked, *made, *(f"book/{name}" for name in NAMES))]
+    for file in files:
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.touch()
+        os.utime(file, (10**9, 10**9))
+    return tmp_path
+
+
+@pytest.mark.parametrize("target", "book test lab kit pdf data bench lock clean".split())
+def test_no_readers_file_stops_make(home, target):
+    run("make", "--dry-run", target, cwd=home)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_file_of_any_name_that_is_saved_builds_the_book_again(home, name):
+    assert "jupyter-book" not in run("make", "--dry-run", "book", cwd=home)
+    (home / "book" / name).touch()
+    assert "jupyter-book build" in run("make", "--dry-run", "book", cwd=home)
+
+
+def test_make_installs_into_the_environment_whatever_pip_is_told(home):
+    (home / "show.mk").write_text("show: ; @echo PIP_USER=$$PIP_USER", encoding="utf-8")
+    assert "PIP_USER=0\n" in run(
+        "make", "-f", "Makefile", "-f", "show.mk", "show", cwd=home, PIP_USER="1"
+    )
+
+
+@pytest.mark.parametrize(
+    ("uv", "install"),
+    [("", ".venv/bin/pip install"), ("uv", "uv pip install --python .venv/bin/python")],
+)
+def test_make_installs_what_is_locked_with_uv_or_without(home, uv, install):
+    (home / "pyproject.toml").touch()
+    printed = run("make", "--dry-run", f"UV={uv}", ".venv/.ready", cwd=home).splitlines()
+    locked, rest = (line for line in printed if line.startswith(install))
+    assert locked.endswith("--require-hashes -r constraints.txt")
+    assert rest.endswith("-r requirements.txt -e .")
+
+
+def test_the_lock_leaves_out_torch_and_what_it_brings(home):
+    *_, edit = run("make", "--dry-run", "lock", cwd=home).splitlines()
+    block = "{}==1 \\\n    --hash=sha256:a \\\n    --hash=sha256:b\n".format
+    names = ["numpy", "nvidia-a", "nvidia-b", "setuptools", "cuda-c", "torch", "triton", "zipp"]
+    (home / "constraints.txt").write_text("".join(map(block, names)), encoding="utf-8")
+    run("sh", "-c", edit, cwd=home)
+    left = (home / "constraints.txt").read_text(encoding="utf-8")
+    assert left == "".join(map(block, ["numpy", "setuptools", "zipp"]))
+    assert "\\|" not in edit  # which POSIX's sed does not know, nor that of macOS
+
+
+def test_a_copied_chapter_is_none_of_the_books(clone):
+    (clone / "book/07_muscle (1).ipynb").touch()
+    script = "from kit.__main__ import CHAPTERS\nprint(*CHAPTERS, sep='\\n')"
+    chapters = [Path(line) for line in python("-c", script, cwd=clone).splitlines()]
+    assert [chapter.parent for chapter in chapters] == len(chapters) * [clone / "book"]
+    assert [chapter.name for chapter in chapters] == [path.name for path in CHAPTERS]
 
 
 # ---------------------------------------------------------------- encodings

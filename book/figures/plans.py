@@ -16,7 +16,8 @@ from book.figures.inventory import core, reading_and_demos
 BOOK = Path(__file__).parents[1]
 HEAD = re.compile(r"^##+ (.+)$", re.M)
 EXERCISE = 10  # minutes
-NAMES = sorted(path.stem for path in BOOK.glob("[0-9]*.ipynb"))
+CONTENTS = (BOOK.parent / "_toc.yml").read_text(encoding="utf-8")
+NAMES = re.findall(r"file: book/(\d\w+)$", CONTENTS, re.M)  # of the chapters; no reader's copy
 MORE = [name for name in NAMES if name > "15"]  # for those who want more
 
 
