@@ -87,6 +87,12 @@ def test_nms_prefers_the_earlier_of_equal_scores():
     assert nms([(0, 0, 9, 9)] * 3, [1, 2, 2]).tolist() == [1]
 
 
+def test_nms_keeps_a_box_exactly_at_the_limit():
+    pair = [(0, 0, 10, 10), (0, 0, 10, 5)]
+    assert nms(pair, [2, 1], overlap=0.5).tolist() == [0, 1]
+    assert nms(pair, [2, 1], overlap=np.nextafter(0.5, 0)).tolist() == [0]
+
+
 def test_no_boxes_give_no_boxes():
     assert nms([], []).shape == (0,)
     assert iou([], [(0, 0, 1, 1)]).shape == (0, 1)
@@ -120,6 +126,12 @@ def test_vote_moves_a_box_towards_its_neighbours():
     assert voted == pytest.approx(np.array([[0, 0, 11, 10]]))
     lagging = vote(np.array([0]), crowd, np.array([2.0, 0.0, 3.0]))
     assert lagging == pytest.approx(crowd[:1], abs=1e-3)
+
+
+def test_a_box_votes_from_half_an_overlap_on():
+    rows = np.array([[0, 0, 10, 10], [0, 0, 10, 5], [0, 0, 10, 4]], float)
+    assert iou(rows[0], rows)[0] == pytest.approx([1, 0.5, 0.4])
+    assert vote(np.array([0]), rows, np.ones(3)) == pytest.approx(np.array([[0, 0, 10, 7.5]]))
 
 
 def test_no_vote_outweighs_the_box_it_is_for():

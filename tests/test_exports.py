@@ -6,6 +6,7 @@ from collections import Counter
 from xml.etree import ElementTree
 from zipfile import ZipFile
 
+import numpy as np
 import pytest
 
 from kit.__main__ import CHAPTERS, ROOT, bank
@@ -63,6 +64,13 @@ def test_a_number_is_exported_to_a_fraction_of_its_tolerance(variants):
         if not question.choices:
             error = abs(float(question.decimal(question.answer)) - question.answer)
             assert error <= question.tolerance / 100
+
+
+def test_gift_accepts_a_number_within_its_tolerance(variants):
+    questions = [question for several in variants.values() for question in several]
+    wanted = [(q.answer, q.tolerance) for q in questions if not q.choices]
+    exported = re.findall(rf"\{{#({NUMBER}):({NUMBER})", gift(variants))
+    assert np.array(exported, float) == pytest.approx(np.array(wanted), rel=0.01)
 
 
 # Of QTI 1.2: what an element may hold, in this order (the parts that the bank uses)
@@ -133,6 +141,7 @@ def test_qti_is_well_formed_and_each_item_accepts_its_answer(variants):
                 assert labels[right].find(".//{*}mattext").text == question.answer
             else:
                 bounds = [float(item.find(f".//{{*}}{tag}").text) for tag in ("vargte", "varlte")]
-                assert bounds[0] <= float(right) <= bounds[1]
                 error = max(question.tolerance / 100, 1e-12)
+                wanted = [question.answer + k * question.tolerance for k in (-1, 1)]
+                assert bounds == pytest.approx(wanted, abs=error)
                 assert float(right) == pytest.approx(question.answer, abs=error)

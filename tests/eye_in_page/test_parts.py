@@ -84,6 +84,19 @@ def test_boxes_are_suppressed_vote_and_are_moved(ask, rng):
     assert np.allclose(there["moved"], boxes.decode_deltas(spread, deltas), atol=1e-10)
 
 
+def test_boxes_exactly_at_a_limit(ask):
+    """An overlap of a half is allowed where a half is, and has a vote; one of 0.4 has none."""
+    rows = np.array([[0, 0, 10, 10], [0, 0, 10, 5], [0, 0, 10, 4]], float)
+    below = float(np.nextafter(0.5, 0))
+    script = """const [rows, overlaps] = asked;
+      return [overlaps.map((overlap) => vmcEye.nms(rows.slice(0, 2), [2, 1], overlap)),
+        vmcEye.vote([0], rows, [1, 1, 1])];"""
+    kept, voted = ask(script, [rows.tolist(), [0.5, below]])
+    assert kept == [boxes.nms(rows[:2], [2, 1], limit).tolist() for limit in (0.5, below)]
+    assert kept == [[0, 1], [0]]
+    assert np.allclose(voted, boxes.vote(np.array([0]), rows, np.ones(3)))
+
+
 def test_physical_size(ask):
     eye = photos.load("sheet", "test")[0].camera
     given = {name: np.asarray(value).tolist() for name, value in vars(eye).items()}

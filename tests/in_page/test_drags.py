@@ -136,10 +136,21 @@ def test_neurons_vote_as_in_python(page, place):
     off = f"{votes.lean(target, neurons, evenly):.0f}° off"
     assert words(seen)[-3:] == ["the reach", "the sum", off]
     assert said.endswith(f"their sum is {off}.")
-    tips = np.array([line[1] for line in polylines(seen)])
+    arrows = polylines(seen)
+    tips = np.array([line[1] for line in arrows])
     cast = votes.votes(target, votes.preferred_directions(neurons, evenly))
     wanted = [*cast, target, votes.population_vector(target, neurons, evenly)]
     assert np.abs(tips - on(seen, wanted)).max() < 0.1
+    for line in arrows:
+        if np.linalg.norm(line[1] - line[0]) > 12:  # pixels; a shorter one is rounded
+            assert half_angles(line) == pytest.approx([0.45, -0.45], abs=0.1)
+
+
+def half_angles(arrow):
+    """The angles at an arrow's tip, from its shaft to both sides of its head."""
+    tail, tip, *head = arrow @ [1, 1j]
+    assert head[1] == tip
+    return np.angle((np.array(head[::2]) - tip) / (tail - tip))
 
 
 @pytest.mark.parametrize("place", [(30, 20), (21, 5), (40, 10), (33, 38), (0, 0), (60, 1)])
