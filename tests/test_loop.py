@@ -185,7 +185,7 @@ def test_of_overlapping_boxes_the_most_probable_is_kept():
 def test_a_selector_has_a_lower_threshold_than_a_recogniser():
     [fair] = sight_of([0.5], [0.45]).probability
     assert MIN_PROBABILITY < fair < 0.5
-    assert sight_of([0.5], [0.45]).summary.startswith("1 shuttlecock")
+    assert sight_of([0.5], [0.45]).summary.startswith("a shuttlecock,")
     assert sight_of([0.5], [0.45], selects=False).box is None
 
 

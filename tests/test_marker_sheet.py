@@ -15,23 +15,37 @@ from vmc_lib.photos import HEIGHT, WIDTH
 SHOTS = photos.load(photos.SHEET_LEVEL, "test")
 
 
-def draw_sheet(eye, scale=4, size=1):
-    """The sheet on a grey table, as a camera sees it: where the ray of each pixel meets its page.
+STRAIGHT = (0, 0, 0, 1)  # how a sheet lies: turned (rad), to the right and down (mm), as large
+
+
+def draw_sheet(eye, scale=4, size=1, sheets=(STRAIGHT,), ground=120):
+    """Sheets on a grey table, or a photo, as a camera sees them: where each pixel's ray meets them.
 
     `size` is how many times as wide and high the photo is as the eye's.
     """
-    print_ = cv2.resize(
-        marker_sheet.page_image(), None, fx=8, fy=8, interpolation=cv2.INTER_NEAREST
-    )
     shape = scale * HEIGHT, scale * WIDTH
     rays = eye.rays((np.indices(shape)[::-1].reshape(2, -1).T + 0.5) / scale)
     depth = (TABLE - eye.position[1]) / rays[:, 1]
-    page = (eye.position + depth[:, None] * rays - marker_sheet.CORNER) @ marker_sheet.AXES[:2].T
-    page[depth < 0] = -1  # above the horizon
-    right, down = np.float32(8000 * page.T.reshape(2, *shape) - 0.5)
-    big = cv2.remap(print_, right, down, cv2.INTER_LINEAR, borderValue=120)
-    shape = size * WIDTH, size * HEIGHT
-    return np.dstack([cv2.resize(big, shape, interpolation=cv2.INTER_AREA)] * 3)
+    table = (eye.position + depth[:, None] * rays - marker_sheet.CORNER) @ marker_sheet.AXES[:2].T
+    big = np.full((HEIGHT, WIDTH, 3), ground, np.uint8)
+    big = cv2.resize(big, shape[::-1], interpolation=cv2.INTER_NEAREST)
+    for sheet in sheets:
+        big = _lay(big, 1000 * table, depth > 0, *sheet)
+    return cv2.resize(big, (size * WIDTH, size * HEIGHT), interpolation=cv2.INTER_AREA)
+
+
+def _lay(photo, table, ahead, turn, right, down, large):
+    """A photo with a sheet that lies on its table; `table` has the place of each pixel, in mm."""
+    print_ = cv2.resize(
+        marker_sheet.page_image(), None, fx=8, fy=8, interpolation=cv2.INTER_NEAREST
+    )
+    back = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
+    middle = marker_sheet.PAGE / 2
+    page = (table - middle - [right, down]) @ back / large + middle
+    on = (ahead & np.all((page > 0) & (page < marker_sheet.PAGE), axis=1)).reshape(photo.shape[:2])
+    x, y = np.float32(8 * page.T.reshape(2, *on.shape) - 0.5)
+    drawn = cv2.remap(print_, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+    return np.where(on[..., None], drawn[..., None], photo)
 
 
 def looking(position, at, focal):
@@ -73,6 +87,37 @@ def test_a_sheet_that_reaches_behind_the_camera_is_painted_over(places):
     assert (np.abs(bare.astype(int) - 120) < 60).all()  # no black or white is left
 
 
+EYE = scene.look(np.array([0.2, TABLE, 0.15]), 0.9, 0.9, 0.3, 600.0, 0.05)
+OTHER = scene.look(np.array([0.2, TABLE, 0.15]), 0.9, 0.9, 0.0, 600.0, 0.05)
+ABOVE = looking((0.19, TABLE + 0.8, 0.2), (0.19, TABLE, 0.201), 600.0)
+REFUSED = {  # photos with markers of which no camera can be estimated
+    "mirrored": lambda: draw_sheet(EYE)[:, ::-1],
+    "doubled": lambda: draw_sheet(EYE, sheets=[STRAIGHT, (0.1, -230, 0, 1)]),
+    "uneven": lambda: np.hstack([draw_sheet(EYE)[:, :370], draw_sheet(OTHER)[:, 370:]]),
+    "focal": lambda: draw_sheet(ABOVE),
+}
+
+
+def displaced(marker=4, by=12):
+    """A drawn sheet of which one marker stands elsewhere, so many pixels to the right."""
+    photo, corners = draw_sheet(EYE), EYE.project(marker_sheet.marker_corners()[marker])
+    x0, y0, x1, y1 = np.int32([*corners.min(0) - 4, *corners.max(0) + 4])
+    photo[y0:y1, x0 + by : x1 + by] = photo[y0:y1, x0:x1].copy()
+    return photo
+
+
+def test_a_marker_that_does_not_fit_the_others_is_left_out():
+    camera = marker_sheet.estimate_camera(displaced())
+    there = np.array([[0.2, TABLE, -0.05]])
+    assert camera.back_project(EYE.project(there)) == pytest.approx(there, abs=0.005)
+
+
+@pytest.mark.parametrize("why", REFUSED)
+def test_markers_that_give_no_camera_are_refused_with_what_to_do(why):
+    with pytest.raises(ValueError, match=marker_sheet.REFUSALS[why]):
+        marker_sheet.remove_sheet(REFUSED[why]())
+
+
 def test_camera_is_none_without_the_sheet():
     image = photos.load("rig", "train")[0].image
     eye, bare = marker_sheet.remove_sheet(image)
@@ -99,12 +144,8 @@ def test_the_sheet_is_painted_over_and_nothing_else():
     assert marker_sheet.estimate_camera(bare) is None
     x0, y0, x1, y1 = np.int32(shot.boxes["shuttlecock"])
     assert (bare[y0:y1, x0:x1] == shot.image[y0:y1, x0:x1]).all()
-    full = np.full((400, 600, 3), 255, np.uint8)
-    page = marker_sheet.page_image()[20:280, 10:200]
-    full[:] = cv2.resize(page, (600, 400))[..., None]
-    assert (
-        marker_sheet.remove_sheet(full)[1].std(axis=(0, 1)).max() == 0
-    )  # nothing but the sheet in view
+    near = looking((0.15, TABLE + 0.12, 0.225), (0.19, TABLE, 0.225), 390.0)  # the sheet alone
+    assert marker_sheet.remove_sheet(draw_sheet(near))[1].std(axis=(0, 1)).max() == 0
 
 
 def test_target_is_located_in_photos_of_unknown_cameras():

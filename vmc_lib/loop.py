@@ -95,13 +95,14 @@ class Sight:
     @property
     def summary(self):
         """One-line description of the result."""
-        sure = [f"{p:.0%}" for p in self.probability if p > self.min_probability]
+        sure = [f"{100 * p:.0f} %" for p in self.probability if p > self.min_probability]
         if sure:
-            return f"{len(sure)} shuttlecock{'s' * (len(sure) > 1)} ({', '.join(sure)} sure)"
+            found = f"{len(sure)} shuttlecocks" if len(sure) > 1 else "a shuttlecock"
+            return f"{found}, {', '.join(sure)} sure"
         if not len(self.probability):
             return "nothing that looks like an object"
-        count, likeliest = len(self.probability), self.probability.max()
-        return f"no shuttlecock, but {count} thing{'s' * (count > 1)}; likeliest {likeliest:.0%}"
+        count, likeliest = len(self.probability), 100 * self.probability.max()
+        return f"no shuttlecock, but {count} thing{'s' * (count > 1)}; likeliest {likeliest:.0f} %"
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,7 +144,7 @@ def see(model, image, camera=None):
     --------
     >>> photo = photos.load("rig", "validation")[3]
     >>> see(VisuomotorModel.load("rig"), photo.image, photo.camera).summary
-    '1 shuttlecock (100% sure)'
+    'a shuttlecock, 100 % sure'
     """
     detections, ratio = model.detector.detect(image), 1
     if camera is not None:

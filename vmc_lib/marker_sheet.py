@@ -19,6 +19,15 @@ CORNER = np.array([0.337, TABLE, 0.12])  # the page's upper left corner, in the 
 AXES = np.array([[0, 0, 1.0], [-1, 0, 0], [0, -1, 0]])  # right, down the page, into the table
 FIRST = CORNER + MARGIN / 1000 @ AXES[:2]  # of the first marker
 FEWEST = 3  # markers that must be detected
+RESIDUAL = 1.5  # pixels of 600 × 400 (RMS) by which a camera may miss the markers' corners
+FOCALS = (120, 4200)  # the shortest and the longest focal length of lenses, in such pixels
+FOCAL_SPREAD = 0.2  # standard error of a focal length, over it, above which it is unknown
+REFUSALS = {  # why markers give no camera, and what to do
+    "mirrored": "the photo is mirrored: take it with the camera on the back",
+    "doubled": "two sheets are seen: cover one",
+    "uneven": "the markers do not lie as on one flat sheet: smooth it, and cover other markers",
+    "focal": "the focal length does not show: take the photo more at a slant",
+}
 NEAR = 0.02  # m before the camera: what is nearer is not painted over
 
 
@@ -54,6 +63,7 @@ def remove_sheet(photo):
     """The `Camera` of a photo (height, width, 3), or None, and the photo without the sheet.
 
     The sheet is painted over in the colour around it, so that no marker passes for an object.
+    Raises ValueError where `estimate_camera` does.
     """
     import cv2
 
@@ -86,31 +96,70 @@ def estimate_camera(photo):
     """Estimate the `Camera` of a photo, as `photos.as_rgb` takes it, that shows the sheet.
 
     Markers are detected in the whole photo; the camera's pixels are those of `read_image`, 600 ×
-    400. The unknowns are its pose and focal length: the principal point is the photo's middle, and
-    the lens has no distortion. None where fewer than FEWEST markers are detected.
+    400. None where fewer than FEWEST markers are detected. Raises ValueError, with what to do,
+    where they give no camera that can be (REFUSALS).
     """
+    photo = as_rgb(photo)
+    ids, corners = detect_markers(photo)
+    if len(ids) < FEWEST:
+        if len(detect_markers(np.ascontiguousarray(photo[:, ::-1]))[0]) >= FEWEST:
+            raise ValueError(REFUSALS["mirrored"])
+        return None
+    if len(np.unique(ids)) < len(ids):
+        raise ValueError(REFUSALS["doubled"])
+    camera, residual, spread = _best_fit(ids, corners, photo.shape[:2])
+    if not (residual <= RESIDUAL and camera.position[1] > TABLE):
+        raise ValueError(REFUSALS["uneven"])
+    if not (FOCALS[0] <= camera.focal <= FOCALS[1] and spread <= FOCAL_SPREAD):
+        raise ValueError(REFUSALS["focal"])
+    return camera
+
+
+def detect_markers(photo):
+    """Detect the sheet's markers in a photo (height, width, 3): ids (n,), corners (n, 4, 2)."""
     import cv2
 
-    photo = as_rgb(photo)
     parameters = cv2.aruco.DetectorParameters()
     parameters.cornerRefinementMethod = cv2.aruco.CORNER_REFINE_SUBPIX
     corners, ids, _ = cv2.aruco.ArucoDetector(board().getDictionary(), parameters).detectMarkers(
         photo
     )
-    known = [] if ids is None else np.flatnonzero(np.isin(ids, board().getIds()))
-    if len(known) < FEWEST:
-        return None
-    points, pixels = board().matchImagePoints([corners[k] for k in known], ids[known])
-    height, width = photo.shape[:2]
+    if ids is None:
+        return np.empty(0, int), np.empty((0, 4, 2), np.float32)
+    known = np.isin(ids := ids.ravel(), board().getIds())
+    return ids[known], np.concatenate(corners)[known]
+
+
+def _best_fit(ids, corners, shape):
+    """Calibrate from all markers; if these disagree, from all but one: it may be half covered."""
+    fit = calibrate_camera(ids, corners, shape)
+    if fit[1] <= RESIDUAL or len(ids) == FEWEST:
+        return fit
+    left = [np.arange(len(ids)) != k for k in range(len(ids))]
+    return min((calibrate_camera(ids[k], corners[k], shape) for k in left), key=lambda fit: fit[1])
+
+
+def calibrate_camera(ids, corners, shape):
+    """Calibrate the camera to which markers `ids` (n,) appear at corners (n, 4, 2) of a photo.
+
+    `shape` is the photo's height and width. The unknowns are the camera's pose and focal length:
+    the principal point is the photo's middle, and the lens has no distortion. Returns the `Camera`
+    and its reprojection error (RMS), both in pixels of 600 × 400, and the standard error of its
+    focal length, over it.
+    """
+    import cv2
+
+    points, pixels = board().matchImagePoints([*corners], ids)
+    height, width = shape
     guess = np.array([[width, 0, width / 2], [0, width, height / 2], [0, 0, 1.0]])
     only_focal = cv2.CALIB_USE_INTRINSIC_GUESS | cv2.CALIB_FIX_PRINCIPAL_POINT
     only_focal |= cv2.CALIB_FIX_ASPECT_RATIO | cv2.CALIB_ZERO_TANGENT_DIST
     only_focal |= cv2.CALIB_FIX_K1 | cv2.CALIB_FIX_K2 | cv2.CALIB_FIX_K3
     size = (width, height)  # OpenCV counts from the middle of a pixel
-    _, intrinsics, _, [rotation], [shift] = cv2.calibrateCamera(
+    residual, intrinsics, _, [turn], [shift], errors, *_ = cv2.calibrateCameraExtended(
         [points], [pixels + np.float32(0.5)], size, guess, None, flags=only_focal
     )
-    rotation = cv2.Rodrigues(rotation)[0]
-    focal = intrinsics[0, 0] * min(WIDTH / width, HEIGHT / height)
-    middle = np.array([WIDTH, HEIGHT]) / 2
-    return Camera(focal, middle, rotation @ AXES, FIRST - shift[:, 0] @ rotation @ AXES)
+    rotation, focal = cv2.Rodrigues(turn)[0] @ AXES, intrinsics[0, 0]
+    scale, middle = min(WIDTH / width, HEIGHT / height), np.array([WIDTH, HEIGHT]) / 2
+    camera = Camera(scale * focal, middle, rotation, FIRST - shift[:, 0] @ rotation)
+    return camera, scale * residual, errors[:2].max() / focal

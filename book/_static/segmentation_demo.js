@@ -64,12 +64,16 @@ const vmcSegmentationDemo = (box) => {
     if (tree?.scale !== scale()) strip.textContent = "Cutting …";
     requestAnimationFrame(() => setTimeout(() => mine === asked && done(draw())));
   });
+  const showPlaying = (playing) => {
+    play.setAttribute("aria-pressed", playing);
+    play.textContent = playing ? "Pause" : "Play";
+  };
   const stop = () => {
     asked++;
-    play.textContent = "Play";
+    showPlaying(false);
   };
   const run = async () => {
-    play.textContent = "Pause";
+    showPlaying(true);
     merged.value %= 1;
     await drawn();
     const begun = performance.now() - PLAY_TIME * merged.value;
@@ -79,7 +83,7 @@ const vmcSegmentationDemo = (box) => {
     }
     stop();
   };
-  play.addEventListener("click", () => (play.textContent === "Play" ? run() : stop()));
+  play.addEventListener("click", () => (play.getAttribute("aria-pressed") === "true" ? stop() : run()));
   for (const slider of [k, merged]) slider.addEventListener("input", () => { stop(); drawn(); });
 
   vmcOwnPictures(box, file, (picture, { name }) => {

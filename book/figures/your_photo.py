@@ -12,11 +12,14 @@ from arm_in_page import live
 from book.figures.aiming import shore
 from book.figures.where import CANVAS
 from eye_in_page import PLACE_SCRIPTS, SEARCH_SCRIPTS, SIGHT_SCRIPTS, STATIC, brain
+from reproduce import results
+from reproduce.experiments.printed_sheet import FROM_SHEET
+from reproduce.experiments.real_world import SIZED
 from vmc_lib import marker_sheet
 from vmc_lib.arm.kinematics import TRUNK
 from vmc_lib.camera import TABLE
 from vmc_lib.motor.templates import START
-from vmc_lib.photos import HEIGHT, WIDTH
+from vmc_lib.photos import HEIGHT, REAL_LEVEL, WIDTH
 from vmc_lib.show.arm import arm_scene
 from vmc_lib.show.figures import frame, pictures
 from vmc_lib.show.live import VENDORED, Live
@@ -75,14 +78,26 @@ def sheet():
         "first": marker_sheet.FIRST.tolist(),
         "page": marker_sheet.page_corners().tolist(),
         "fewest": marker_sheet.FEWEST,
+        "residual": marker_sheet.RESIDUAL,
+        "focals": marker_sheet.FOCALS,
+        "focalSpread": marker_sheet.FOCAL_SPREAD,
+        "refusals": marker_sheet.REFUSALS,
         "near": marker_sheet.NEAR,
     }
+
+
+def place_errors():
+    """How far places from a sheet's camera are off (m): the median, and what 9 in 10 are within."""
+    found = results.records("printed_sheet")[f"box of {REAL_LEVEL}{FROM_SHEET}{SIZED}"]
+    millimetres = [np.inf if mm is None else mm for mm in found]
+    return (np.quantile(millimetres, [0.5, 0.9], method="higher") / 1000).tolist()
 
 
 def _page(example, scene, plot):
     given = live.given() | {
         "views": [[2, 0]],
         "sheet": sheet(),
+        "placeErrors": place_errors(),
         "table": TABLE,
         "edge": EDGE,
         "paint": ON_PHOTO,
@@ -101,6 +116,7 @@ def _page(example, scene, plot):
 <button type="button" name="example">Example</button>
 <button type="button" name="main" disabled>Again</button>
 <input type="file" name="file" accept="image/*" aria-label="Your photo" hidden></div>
+<output data-tell="found"></output>
 <p role="status">Your photo stays on this device. Eye and arm ({size:.0f} MB, part of this book) are
 loaded when you start.</p><fieldset disabled hidden></fieldset>
 <div class="vmc-pictures"><div class="vmc-picture"><canvas width="{WIDTH}" height="{HEIGHT}" hidden>

@@ -71,22 +71,30 @@ Object.assign(vmcEye, (() => {
     return { ...camera, focal: camera.focal * (1 + longer), rotation, position };
   };
 
-  /* The camera whose pictures of `places` (n, 3) lie nearest to `pixels` (Levenberg and Marquardt), and how far
-     off they are, in pixels, as `error`. */
+  /* The standard error of the first of the unknowns that a fit with such slopes leaves such errors. */
+  const standardError = (slopes, error) => {
+    const normal = slopes.map((one) => slopes.map((other) => dot(one, other)));
+    const [variance] = solve(normal, slopes.map((_, k) => +(k === 0)));
+    return Math.sqrt((dot(error, error) / (error.length - slopes.length)) * variance);
+  };
+
+  /* The camera whose pictures of `places` (n, 3) lie nearest to `pixels` (Levenberg and Marquardt); how far
+     off they are, in pixels, as `error`; and the standard error of its focal length, over it, as `spread`. */
   const fit = (camera, places, pixels) => {
     const pivot = mean(places), missed = (one) => places.flatMap((place, i) => minus(pixels[i], vmcEye.project(one, place)));
     const nudge = (k, by) => missed(changed(camera, pivot, Array.from({ length: 7 }, (_, i) => (i === k ? by : 0))));
     const square = (error) => dot(error, error);
+    const slopesOf = () => Array.from({ length: 7 }, (_, k) => times(5e5, minus(nudge(k, -1e-6), nudge(k, 1e-6))));
     let error = missed(camera), damping = 1e-3;
     for (let round = 0; round < 100 && damping < 1e12; round++) {
-      const slopes = Array.from({ length: 7 }, (_, k) => times(5e5, minus(nudge(k, -1e-6), nudge(k, 1e-6))));
-      const next = changed(camera, pivot, leastSquares(slopes, error, damping)), left = missed(next);
+      const next = changed(camera, pivot, leastSquares(slopesOf(), error, damping)), left = missed(next);
       const gain = square(error) - square(left), small = Math.abs(gain) < 1e-12 * square(error);
       damping *= gain > 0 ? 0.1 : 10;
       if (gain > 0) [camera, error] = [next, left];
       if (small) break;
     }
-    return { ...camera, error: Math.sqrt(square(error) / places.length) };
+    const spread = standardError(slopesOf(), error);
+    return { ...camera, error: Math.sqrt(square(error) / places.length), spread };
   };
 
   /* The camera, in the photo's pixels, to which corners (n, 4, 2) of the markers `ids` appear. */

@@ -81,7 +81,7 @@ const vmcLivePhoto = (() => {
         if (this.film !== film) return;
         this.photo.showFrame(eye);
         this.drawSheet(read);
-        if (!camera) this.sayUnknown();
+        if (!camera) this.sayNeed();
         else if (found) this.arriveAt((box = found));
         else box = await this.search(film);
         this.tell({ followed: `${(-1000 / (begun - (begun = performance.now()))).toFixed(0)} frames/s` });
@@ -92,9 +92,9 @@ const vmcLivePhoto = (() => {
     async search(film) {
       this.say("Looking for a shuttlecock …");
       const report = (stage, found) => this.film === film && stage !== "sight" && this[`show${capital(stage)}`](found);
-      const { box, summary } = await vmcEye.see(this.brain, this.bare, { camera: this.camera, report });
-      if (this.film === film) this.say(`${capital(summary)}.`);
-      return box;
+      const sight = await vmcEye.see(this.brain, this.bare, { camera: this.camera, report });
+      if (this.film === film) this.tellFound(sight);
+      return sight.box;
     }
 
     /* A shuttlecock is in a box of this frame: its place is shown while it moves; when it rests, the arm reaches. */
@@ -104,7 +104,7 @@ const vmcLivePhoto = (() => {
       this.photo.drawBoxes(this.marks, 0);
       let place;
       try {
-        place = vmcEye.locate(this.brain.localiser, this.bare, box, this.camera);
+        place = this.locate(0);
       } catch (error) {
         if (!(error instanceof RangeError)) throw error;
         return this.sayOutOfReach();

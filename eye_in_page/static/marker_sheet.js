@@ -15,21 +15,44 @@ Object.assign(vmcEye, (() => {
     return levels;
   };
 
+  /* A marker's code in a mirror. */
+  const mirrored = (code) => code.map((_, i) => code[i - (i % 4) + 3 - (i % 4)]);
+
+  /* The camera of all markers; where these disagree by more than `most`, of all but one: it may be half covered. */
+  function* bestFit(calibrate, all, most, fewest) {
+    const whole = calibrate(all);
+    if (whole.error <= most || all.length === fewest) return whole;
+    const others = yield* vmcEye.each(all, (one) => calibrate(all.filter((k) => k !== one)));
+    return others.reduce((a, b) => (b.error < a.error ? b : a));
+  }
+
   /* The markers { id, corners } that a photo shows, and its camera, of another `size` [width, height]; null where
-     the markers are too few. */
+     the markers are too few, or where they give none that can be: then `why` says so. */
   function* readSheet(photo, sheet, size) {
-    const { width, height } = photo, levels = greyLevels(photo);
-    const markers = yield* vmcEye.findMarkers(levels, width, height, sheet.codes);
-    if (markers.length < sheet.fewest) return { markers, camera: null };
-    const ids = markers.map(({ id }) => id), refined = markers.map(({ corners }) => {
+    const { width, height } = photo, levels = greyLevels(photo), { codes, fewest, refusals } = sheet;
+    const patterns = [...codes, ...codes.map(mirrored)];
+    const seen = yield* vmcEye.findMarkers(levels, width, height, patterns, codes.length);
+    const markers = seen.filter(({ id }) => id < codes.length), ids = markers.map(({ id }) => id);
+    const none = (why) => ({ markers, camera: null, why });
+    if (ids.length < fewest) return none(seen.length - ids.length < fewest ? null : refusals.mirrored);
+    if (new Set(ids).size < ids.length) return none(refusals.doubled);
+    const refined = markers.map(({ corners }) => {
       const side = sum(corners.map((corner, i) => Math.hypot(...minus(corner, corners[(i + 1) % 4])))) / 4;
       const reach = Math.max(1, Math.min(WINDOW, Math.round(SHARE * side)));
       return corners.map((corner) => vmcEye.refineCorner(levels, width, height, corner, reach));
     });
-    const camera = vmcEye.calibrateCamera(ids, refined, width, height, sheet);
-    const scale = Math.min(size[0] / width, size[1] / height);
-    return { markers, camera: { ...camera, focal: scale * camera.focal, centre: times(0.5, size) } };
+    const scale = Math.min(size[0] / width, size[1] / height), most = sheet.residual / scale;
+    const calibrate = (left) =>
+      vmcEye.calibrateCamera(left.map((k) => ids[k]), left.map((k) => refined[k]), width, height, sheet);
+    const camera = yield* bestFit(calibrate, [...ids.keys()], most, fewest), focal = scale * camera.focal;
+    if (!(camera.error <= most && camera.position[1] > sheet.first[1])) return none(refusals.uneven);
+    if (!(sheet.focals[0] <= focal && focal <= sheet.focals[1] && camera.spread <= sheet.focalSpread)) return none(refusals.focal);
+    return { markers, camera: { ...camera, focal, centre: times(0.5, size) }, why: null };
   }
+
+  /* Whether a photo was taken from beyond the sheet, towards the reader's side: forwards, or what is up in it, then
+     points back. */
+  const fromBeyond = ({ rotation: [, down, forwards] }) => forwards[0] - down[0] < 0;
 
   /* The sheet's outline in a camera's picture; what lies behind the camera is cut off (Sutherland & Hodgman). */
   const sheetOutline = (camera, { page, near }) => {
@@ -82,5 +105,5 @@ Object.assign(vmcEye, (() => {
     return { data: bare, width, height };
   };
 
-  return { paintOver, readSheet, sheetOutline };
+  return { fromBeyond, paintOver, readSheet, sheetOutline };
 })());

@@ -114,20 +114,24 @@ Object.assign(vmcEye, (() => {
     return null;
   };
 
-  /* The markers { id, corners } in a picture: what is dark in it depends on how far around one looks. */
-  function* findMarkers(grey, width, height, codes) {
-    const found = new Map();
+  const middle = (quad) => [0, 1].map((k) => sum(quad.map((corner) => corner[k])) / quad.length);
+
+  /* The markers { id, corners } in a picture, until there are `enough`; a marker of which there are two, twice. What
+     is dark in a picture depends on how far around one looks. */
+  function* findMarkers(grey, width, height, codes, enough = codes.length) {
+    const found = [];
     for (const share of AROUND) {
       const dark = darkPixels(grey, width, height, Math.round(share * Math.max(width, height)));
       yield;
       for (const patch of patches(dark, width, height)) {
         const quad = corners(patch, width), marker = quad && identify(grey, width, quad, codes);
-        if (marker && !found.has(marker.id)) found.set(marker.id, marker);
-        if (found.size === codes.length) return [...found.values()];
+        const same = ({ id, corners }) => id === marker.id && apart(middle(corners), ...middle(quad)) < SMALLEST;
+        if (marker && !found.some(same)) found.push(marker);
         yield;
       }
+      if (found.length >= enough) break;
     }
-    return [...found.values()];
+    return found;
   }
 
   return { findMarkers };

@@ -2,7 +2,7 @@
 Object.assign(vmcEye, (() => {
   "use strict";
 
-  const percent = (p) => `${(100 * p).toFixed(0)}%`;
+  const percent = (p) => `${(100 * p).toFixed(0)} %`;
   const counted = (count, thing, plural = "s") => `${count} ${thing}${count === 1 ? "" : plural}`;
 
   /* The result of both pathways: boxes, the likeliest first, and their probability of holding a shuttlecock. */
@@ -24,7 +24,7 @@ Object.assign(vmcEye, (() => {
     /* One line that describes the result. */
     get summary() {
       const { probability } = this, sure = probability.slice(0, this.shuttlecocks.length).map(percent);
-      if (sure.length) return `${counted(sure.length, "shuttlecock")} (${sure.join(", ")} sure)`;
+      if (sure.length) return `${sure.length > 1 ? `${sure.length} shuttlecocks` : "a shuttlecock"}, ${sure.join(", ")} sure`;
       if (!probability.length) return "nothing that looks like an object";
       return `no shuttlecock, but ${counted(probability.length, "thing")}; likeliest ${percent(Math.max(...probability))}`;
     }

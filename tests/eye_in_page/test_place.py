@@ -9,7 +9,7 @@ from playwright.sync_api import Error
 
 from book.figures.your_photo import sheet
 from eye_in_page.localiser import CompactLocaliser, shift_mm
-from tests.test_marker_sheet import LOW, draw_sheet, looking
+from tests.test_marker_sheet import EYE, LOW, REFUSED, STRAIGHT, displaced, draw_sheet, looking
 from vmc_lib import NoReach, marker_sheet, photos
 from vmc_lib.loop import VisuomotorModel, see
 
@@ -17,10 +17,10 @@ SHOTS = photos.load(photos.SHEET_LEVEL, "test")
 SHEET = sheet()
 SKY = [280, 20, 320, 60]  # a box above the horizon of a camera that looks level
 READ = """const { sheet, size } = asked;
-  const { markers, camera } = vmcEye.finish(vmcEye.readSheet(photo, sheet, size));
+  const { markers, camera, why } = vmcEye.finish(vmcEye.readSheet(photo, sheet, size));
   const bare = camera && vmcEye.paintOver(photo, vmcEye.sheetOutline(camera, sheet)).data;
   const text = (bytes) => Array.from(bytes, (byte) => String.fromCharCode(byte)).join("");
-  return { ids: markers.map(({ id }) => id), camera, bare: bare && btoa(text(bare)) };"""
+  return { ids: markers.map(({ id }) => id), camera, why, bare: bare && btoa(text(bare)) };"""
 
 
 def read(ask, image):
@@ -88,12 +88,32 @@ def test_a_sheet_that_reaches_behind_the_camera_is_painted_over(ask, places):
 
 
 @pytest.mark.browser
+@pytest.mark.parametrize("why", REFUSED)
+def test_markers_that_give_no_camera_are_refused_as_in_python(ask, why):
+    there = read(ask, np.ascontiguousarray(REFUSED[why]()))
+    assert (there["camera"], there["why"]) == (None, marker_sheet.REFUSALS[why])
+
+
+@pytest.mark.browser
+def test_a_marker_that_does_not_fit_the_others_is_left_out(ask):
+    there = read(ask, displaced())["camera"]["position"]
+    assert there == pytest.approx(EYE.position, abs=0.04)  # soft: it trades with the focal length
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("turn", [0, np.pi])
+def test_a_sheet_laid_upside_down_is_seen_from_beyond(ask, turn):
+    there = read(ask, draw_sheet(EYE, sheets=[(turn, *STRAIGHT[1:])]))
+    assert ask("return vmcEye.fromBeyond(asked)", there["camera"]) == (turn > 0)
+
+
+@pytest.mark.browser
 def test_markers_are_found_in_bad_light_and_none_where_there_are_none(ask):
     for change in (0.25, 1.6):
         image = np.uint8(np.clip(SHOTS[20].image * change, 0, 255))
         assert len(read(ask, image)["ids"]) >= len(detected(image)[0]) >= 8
     for shot in (*photos.load("real", "test")[:8], *photos.everyday()[:4]):
-        assert read(ask, shot.image) == {"ids": [], "camera": None, "bare": None}
+        assert read(ask, shot.image) == {"ids": [], "camera": None, "why": None, "bare": None}
 
 
 @pytest.mark.browser

@@ -30,7 +30,7 @@ def test_the_verdict_is_that_of_python(ask, model, shot):
     assert (there["box"] is None) == (here.box is None)
     if here.box is not None:
         assert iou(there["box"], here.box).item() >= 0.9
-        assert there["summary"].split(" (")[0] == here.summary.split(" (")[0]
+        assert there["summary"].split(",")[0] == here.summary.split(",")[0]
     if len(here.probability):
         assert there["probability"][0] == pytest.approx(here.probability[0], abs=0.05)
     candidates = {tuple(box) for box in there["stages"]["candidates"]}

@@ -69,11 +69,13 @@ const vmcSound = (() => {
     });
     waits.push(setTimeout(() => stop(), 1000 * all.length * each));
     button.textContent = "Stop";
+    button.setAttribute("aria-pressed", "true");
     stop = () => {
       waits.forEach(clearTimeout);
       show([]);
       audio.close();
       button.textContent = "Listen";
+      button.setAttribute("aria-pressed", "false");
       stop = () => {};
     };
   };
@@ -84,7 +86,7 @@ const vmcSound = (() => {
     said.setAttribute("role", "status");
     (demo.querySelector("figcaption") ?? demo).append("\u00a0", button, "\u00a0", said);
     button.addEventListener("click", () => {
-      const sounds = button.textContent === "Stop";
+      const sounds = button.getAttribute("aria-pressed") === "true";
       stop();
       if (!sounds) listen(demo, button, said);
     });
