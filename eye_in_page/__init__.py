@@ -13,6 +13,7 @@ SEARCH_SCRIPTS, SIGHT_SCRIPTS, PLACE_SCRIPTS = (  # in the order in which they n
     for names in (
         "pieces colours filters segmentation appearance selective_search",
         "boxes camera unpack features product detector stream box_selection see follow",
-        "markers camera_calibration marker_sheet localiser photo_marks your_photo live_photo",
+        "markers camera_calibration marker_sheet localiser "
+        "photo_marks photo_words your_photo live_photo",
     )
 )

@@ -1,5 +1,6 @@
 """The reader's own photo in the page: segments and boxes are the library's, and it stays there."""
 
+import re
 from base64 import b64decode, b64encode
 from itertools import chain
 
@@ -9,7 +10,7 @@ from PIL import Image
 
 from book.figures import where
 from eye_in_page import SEARCH_SCRIPTS
-from tests.pages import book_html, displayed, observe
+from tests.pages import STATIC, book_html, displayed, observe
 from tests.show.kernel import render
 from vmc_lib import photos
 from vmc_lib.where.selective_search import Strategy, hierarchies
@@ -105,6 +106,23 @@ def test_it_plays_to_the_end_and_starts_again(page):
     play.click()
     page.get_by_role("button", name="Pause").click()
     assert float(page.get_by_role("slider").nth(1).input_value()) < 0.99
+
+
+@pytest.mark.browser
+def test_a_translated_button_plays_and_pauses(page):
+    """Browsers put a translation in the place of a button's words."""
+    play = page.locator("button").first
+    for pressed in ("true", "false"):
+        play.evaluate("(it) => (it.innerHTML = '<font><font>Abspielen</font></font>')")
+        play.click()
+        assert play.get_attribute("aria-pressed") == pressed
+
+
+def test_no_script_compares_words_that_a_reader_sees():
+    compares = re.compile(r"(textContent|innerText|innerHTML)(\.trim\(\))? *[!=]==? *[\"'`]")
+    scripts = [path for static in STATIC for path in static.glob("*.js")]
+    assert len(scripts) > 50
+    assert not [path.name for path in scripts if compares.search(path.read_text("utf-8"))]
 
 
 @pytest.mark.browser

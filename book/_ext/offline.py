@@ -6,7 +6,8 @@ from pathlib import Path
 
 EVERYWHERE = ("book.js", "questions.js")
 SIGHT = "unpack|features|product|detector|stream|box_selection|see|follow"  # and a place
-SIGHT += "|markers|camera_calibration|marker_sheet|localiser|photo_marks|your_photo|live_photo"
+SIGHT += "|markers|camera_calibration|marker_sheet|localiser"
+SIGHT += "|photo_marks|photo_words|your_photo|live_photo"
 SEALED = "book/your_photo"  # a page that sends nothing: its own policy forbids that
 POLICY = "default-src 'self' 'unsafe-inline' 'unsafe-eval' file: data: blob:; connect-src 'none'"
 NEEDS = {  # what a page must hold to need an asset; none needs thebe, which asks the network

@@ -4,7 +4,8 @@ const vmcLivePhoto = (() => {
   "use strict";
 
   const { frame } = vmcLive;
-  const { EYE, YourPhoto, capital, where } = vmcYourPhoto;
+  const { EYE, YourPhoto } = vmcYourPhoto;
+  const { capital, where } = vmcPhotoWords;
 
   const STILL = 700; // ms in one place, after which the arm reaches
   const NEAR = 0.01, MOVED = 0.02; // m: what is still one place, and what is another
@@ -81,7 +82,7 @@ const vmcLivePhoto = (() => {
         if (this.film !== film) return;
         this.photo.showFrame(eye);
         this.drawSheet(read);
-        if (!camera) this.sayNeed();
+        if (!camera) this.say(vmcPhotoWords.need(read, sheet));
         else if (found) this.arriveAt((box = found));
         else box = await this.search(film);
         this.tell({ followed: `${(-1000 / (begun - (begun = performance.now()))).toFixed(0)} frames/s` });
@@ -93,7 +94,7 @@ const vmcLivePhoto = (() => {
       this.say("Looking for a shuttlecock …");
       const report = (stage, found) => this.film === film && stage !== "sight" && this[`show${capital(stage)}`](found);
       const sight = await vmcEye.see(this.brain, this.bare, { camera: this.camera, report });
-      if (this.film === film) this.tellFound(sight);
+      if (this.film === film) this.tell({ found: vmcPhotoWords.found(sight, this.camera) });
       return sight.box;
     }
 
@@ -107,7 +108,7 @@ const vmcLivePhoto = (() => {
         place = this.locate(0);
       } catch (error) {
         if (!(error instanceof RangeError)) throw error;
-        return this.sayOutOfReach();
+        return this.say(vmcPhotoWords.OUT_OF_REACH);
       }
       if (!(distance(place, this.stay?.place ?? place) < NEAR)) this.stay = null;
       this.stay ??= { place, since: now };

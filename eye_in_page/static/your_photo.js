@@ -3,18 +3,17 @@
 const vmcYourPhoto = (() => {
   "use strict";
 
-  const { frame, millimetres } = vmcLive;
+  const { frame } = vmcLive;
   const { counted } = vmcEye, { minus } = vmcVectors;
+  const { capital, where } = vmcPhotoWords;
   const { toWorld, turnTowards } = vmcKinematics;
 
   const EYE = [600, 400], LARGEST = 1200; // pixels: what the eye sees, and the longer side of what the sheet is read in
   const TURNING = 700; // ms, of the trunk
   const MANY = 8; // boxes to choose from
-  const SCALE = " Is a shuttlecock there? Then measure the sheet’s line: if it is not 100 mm long, sizes and places are wrong.";
 
   class Superseded extends Error {} // the reader has chosen another photo
   const percent = (chance) => `${(100 * chance).toFixed(0)} %`;
-  const capital = (words) => words[0].toUpperCase() + words.slice(1);
 
   class YourPhoto extends vmcReach.Reach {
     constructor(box) {
@@ -97,11 +96,10 @@ const vmcYourPhoto = (() => {
     }
 
     drawSheet(read) {
-      const { markers, camera, why } = read, { sheet, table } = this.given, seen = counted(markers.length, "marker");
+      const { camera } = read, { sheet } = this.given;
       Object.assign(this, { read, camera });
-      if (!camera) return this.tell({ camera: `unknown: ${seen} seen${why ? "" : `, ${sheet.fewest} needed`}` });
-      this.photo.drawSheet(vmcEye.sheetOutline(camera, sheet));
-      this.tell({ camera: `${(100 * (camera.position[1] - table)).toFixed(0)} cm above the table (${seen})` });
+      if (camera) this.photo.drawSheet(vmcEye.sheetOutline(camera, sheet));
+      this.tell({ camera: vmcPhotoWords.camera(read, sheet) });
     }
 
     showCandidates({ boxes }) {
@@ -130,19 +128,12 @@ const vmcYourPhoto = (() => {
       this.photo.drawBoxes(this.marks);
       const button = ({ words, colour }, i) =>
         `<button type="button" data-box="${i}" aria-pressed="false" class="vmc-${colour}">${words}</button>`;
+      const asks = boxes.length ? "How surely a shuttlecock?" : "Boxes that were kept:";
       const reaches = this.camera ? " Press one, and the arm reaches for it:" : "";
-      choice.innerHTML = `How surely a shuttlecock?${reaches} ${this.marks.map(button).join("")}`;
+      choice.innerHTML = `${asks}${reaches} ${this.marks.map(button).join("")}`;
       choice.hidden = !this.boxes.length;
-      this.tellFound(sight);
-      if (choice.hidden) this.say("Another photo may do: from nearer, in even light.");
-      else if (this.camera) this.say(`Point at a box, and the arm reaches for what is in it.${sight.box ? "" : SCALE}`);
-      else this.sayNeed();
-    }
-
-    /* What was found stays, whatever the arm does then. */
-    tellFound({ summary }) {
-      const beyond = this.camera && vmcEye.fromBeyond(this.camera);
-      this.tell({ found: `${capital(summary)}.${beyond ? " Does the sheet’s arrow point away from you?" : ""}` });
+      this.tell({ found: vmcPhotoWords.found(sight, this.camera) });
+      this.say(vmcPhotoWords.next(sight, this.boxes.length, this.read, this.given.sheet));
     }
 
     /* Of the shuttlecocks the first that the arm can reach; else the first. */
@@ -173,7 +164,7 @@ const vmcYourPhoto = (() => {
       this.photo.drawBoxes(this.marks, number);
       this.box.querySelectorAll("button[data-box]").forEach((button, i) => button.setAttribute("aria-pressed", i === number));
       const { kinematics } = this.given;
-      if (!this.camera) return this.sayNeed();
+      if (!this.camera) return this.say(vmcPhotoWords.need(this.read, this.given.sheet));
       try {
         this.place = this.locate(number);
         this.tell({ place: where(this.place) });
@@ -183,22 +174,8 @@ const vmcYourPhoto = (() => {
       } catch (error) {
         if (!(error instanceof RangeError)) throw error;
         this.rest();
-        this.sayOutOfReach();
+        this.say(vmcPhotoWords.OUT_OF_REACH);
       }
-    }
-
-    sayOutOfReach() {
-      this.say("Out of reach: the hand can be where it is shaded. Lay it there, or point at another box.");
-    }
-
-    /* What the arm needs, where it has no camera. */
-    sayNeed() {
-      const { markers, why } = this.read, { fewest } = this.given.sheet;
-      if (why) return this.say(`${capital(why)}. Then the arm can reach.`);
-      this.say(
-        "To reach, the arm needs the printed sheet: lay it flat on the table, all of it in the photo, in even light. " +
-        `${markers.length} of its markers ${markers.length === 1 ? "is" : "are"} seen, ${fewest} are needed.`
-      );
     }
 
     /* Turn the trunk, plan, move, miss, calibrate, move again. */
@@ -226,16 +203,8 @@ const vmcYourPhoto = (() => {
     async main() {
       await super.main();
       if (this.planned) await this.calibrate();
-      if (this.calibrated) this.sayEnd();
-    }
-
-    /* How far the hand ends from the place that was seen, and how far that may be from the shuttlecock. */
-    sayEnd() {
-      const [half, most] = this.given.placeErrors.map((error) => millimetres(error));
-      this.say(
-        `After trying off-line the hand misses the place seen by ${millimetres(this.calibrated.error, 1)}; it began from ` +
-        `${millimetres(this.planned.error, 1)}. In half of our test photos that place is right to ${half}, in nine of ten to ${most}.`
-      );
+      const { calibrated, planned, given } = this;
+      if (calibrated) this.say(vmcPhotoWords.end(calibrated.error, planned.error, given.placeErrors));
     }
 
     world(point) {
@@ -274,11 +243,5 @@ const vmcYourPhoto = (() => {
     }
   }
 
-  /* A place in words. */
-  const where = ([ahead, , right]) => {
-    const [far, aside] = [ahead, right].map((x) => `${(100 * Math.abs(x)).toFixed(0)} cm`);
-    return `${far} ${ahead > 0 ? "ahead" : "behind"}, ${aside} ${right > 0 ? "right" : "left"}`;
-  };
-
-  return { EYE, YourPhoto, capital, where };
+  return { EYE, YourPhoto };
 })();

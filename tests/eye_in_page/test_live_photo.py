@@ -12,7 +12,7 @@ from playwright.sync_api import expect
 
 from tests import pages
 from tests.arm_in_page.controls import readout, status
-from tests.eye_in_page.test_your_photo import NOTHING, OURS, SHOTS
+from tests.eye_in_page.test_your_photo import AGAIN, NEED, OURS, SHOTS
 from tools import browser
 from vmc_lib.boxes import iou, pad_boxes
 
@@ -35,7 +35,7 @@ HELD = """() => {
   const { unpack } = vmcEye, held = new Promise((resolve) => (self.go = resolve));
   vmcEye.unpack = () => held.then(unpack);
 }"""
-RESTING = "() => /^After/.test(document.querySelector('[role=status]').textContent)"
+RESTING = "() => /^After trying/.test(document.querySelector('[role=status]').textContent)"
 BLANK = np.full_like(OURS.image, 128)
 FAKE = "--use-fake-device-for-media-stream --use-fake-ui-for-media-stream".split()
 
@@ -78,19 +78,19 @@ def test_the_arm_reaches_again_for_what_has_been_moved(window, site, html):
 
     page.locator("[name=live]").click()
     show_in_film(page, BLANK)
-    status(page, "The camera is unknown")
+    status(page, NEED)
     show_in_film(page, OURS.image)
-    status(page, "After")
+    status(page, "After trying")
     first = readout(page, "place")
     assert re.fullmatch(r"\d+ frames/s", readout(page, "followed"))
     for step in range(1, 9):
         show_in_film(page, moved(OURS, -6 * step, step))
     page.wait_for_function(f"() => !({RESTING})()")
-    status(page, "After")
+    status(page, "After trying")
     assert readout(page, "place") != first
     page.get_by_role("button", name="Stop").click()
     page.get_by_role("button", name="Example").click()
-    status(page, "After")
+    status(page, "After trying")
     assert readout(page, "place") == first
     assert page.errors == []
 
@@ -105,12 +105,12 @@ def test_a_film_that_is_left_or_cut_leaves_the_page_to_photos(window, site, html
     photo.write_bytes(jpeg(BLANK))
     page.locator("[type=file]").set_input_files(photo)
     page.evaluate("go()")
-    status(page, NOTHING)
+    status(page, AGAIN)
     expect(page.locator(".vmc-picture canvas").first).to_be_hidden()
     expect(live).to_have_text("Live")
     live.click()
     show_in_film(page, BLANK)
-    status(page, "The camera is unknown")
+    status(page, NEED)
     page.evaluate("film.getTracks().forEach((track) => track.stop())")
     assert "unplugged" in status(page, "The camera does not serve")
     expect(live).to_be_enabled()
@@ -127,7 +127,7 @@ def test_it_takes_what_the_browsers_camera_shows(chromium, site, html, tmp_path)
     context.add_init_script(DRAWN)
     page = pages.open_html(context, site, html)
     page.get_by_role("button", name="Live").click()
-    assert "misses by" in status(page, "After")
+    assert "misses the place seen by" in status(page, "After trying")
     assert page.evaluate("drawn") == 0
     assert page.errors == []
     films.close()

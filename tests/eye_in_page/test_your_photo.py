@@ -11,7 +11,9 @@ from book.figures import your_photo
 from tests import pages
 from tests.arm_in_page.controls import number, readout, status
 from tests.show.kernel import render
+from tests.test_marker_sheet import draw_sheet
 from vmc_lib import photos
+from vmc_lib.boxes import pad_boxes
 from vmc_lib.loop import VisuomotorModel, locate, reach, see
 from vmc_lib.marker_sheet import remove_sheet
 
@@ -19,9 +21,10 @@ pytestmark = pytest.mark.browser
 SHOTS = photos.load(photos.SHEET_LEVEL, "test")
 OURS = SHOTS[20]
 UNREADABLE = "This browser cannot read .*: save it, or a phone's HEIC, as a JPEG or PNG."
-UNKNOWN = "The camera is unknown, so a box has no place: 3 markers or more must be seen."
+NEED = "To reach, the arm needs the printed sheet: "
+AGAIN = "Another photo may do"
 NOTHING = "No shuttlecock, but|Nothing that looks like an object"
-END = "After|Out of reach|The camera is unknown|No shuttlecock|Nothing that looks|This browser"
+END = f"After trying|Out of reach|{NEED}|Two sheets|Point at a box, .*wrong|{AGAIN}|This browser"
 
 
 @pytest.fixture(scope="module")
@@ -43,11 +46,20 @@ def give(page, file):
     return status(page, END)
 
 
+def found(page):
+    """What the page says that was found."""
+    return page.locator("[data-tell=found]").inner_text()
+
+
 def test_our_photo_leads_to_a_corrected_reach(page):
     assert len(page.locator("main").inner_text().split()) < 120
     page.asked.clear()
     page.get_by_role("button", name="Example").click()
-    assert "misses by" in status(page, "After")
+    said = status(page, "After trying")
+    assert found(page) == "A shuttlecock, 100 % sure."
+    assert "misses the place seen by" in said
+    half, most = (1000 * error for error in your_photo.place_errors())
+    assert f"right to {half:.0f} mm, in nine of ten to {most:.0f} mm" in said
     model = VisuomotorModel.load("real")
     camera, bare = remove_sheet(OURS.image)
     target = locate(model, bare, see(model, bare, camera).box, camera)
@@ -80,31 +92,101 @@ def test_the_page_may_send_nothing(page):
 def test_the_reader_points_at_another_box(page):
     """The arm then reaches for that; what is out of reach is said, with what to do."""
     page.get_by_role("button", name="Example").click()
-    status(page, "After")
+    status(page, "After trying")
     before = readout(page, "place")
     boxes = page.locator(".vmc-boxes button")
     assert boxes.first.get_attribute("aria-pressed") == "true"
     for n in range(1, boxes.count()):
         page.locator("p[role=status]").evaluate("(it) => (it.textContent = '')")
         boxes.nth(n).press("Enter")
-        said = status(page, "After|Out of reach")
+        said = status(page, "After trying|Out of reach")
         assert readout(page, "place") != before
         assert ("can be where it is shaded" in said) == said.startswith("Out of reach")
 
 
+def promises(page):
+    """Whether a page says that the arm reaches."""
+    return "the arm reaches" in page.locator(".vmc-eye").inner_text()
+
+
 def test_a_photo_without_the_sheet_is_seen_and_has_no_place(page):
+    """What was found is said first, and stays; then what the arm needs."""
     shot = next(shot for shot in photos.load("real", "test") if shot.boxes)
-    assert give(page, shot.file).startswith(UNKNOWN)
+    assert give(page, shot.file).startswith(NEED)
+    first, choices = found(page), page.locator(".vmc-boxes button")
+    assert re.fullmatch(r"A shuttlecock, \d+ % sure\.", first)
     assert "0 markers seen, 3 needed" in readout(page, "camera")
     assert page.locator(".vmc-boxes button.vmc-green").count() >= 1
+    choices.last.click()
+    assert choices.last.get_attribute("aria-pressed") == "true"
+    assert status(page, NEED)
+    assert found(page) == first
     assert readout(page, "place") == "–"
+    assert not promises(page)
 
 
 def test_where_nothing_is_a_shuttlecock_the_reader_may_choose(page):
     said = give(page, photos.everyday()[0].file)
-    assert re.match(NOTHING, said)
-    choices = page.locator(".vmc-boxes button:visible")
-    assert ("Point at a box" in said) == (choices.count() > 0)
+    assert re.match(NOTHING, found(page))
+    assert said.startswith(NEED if found(page).startswith("No shuttlecock") else AGAIN)
+    assert not promises(page)
+
+
+def write(folder, image):
+    """The file of an image."""
+    Image.fromarray(image).save(folder / "photo.png")
+    return folder / "photo.png"
+
+
+def test_of_two_sheets_one_is_to_be_covered(page, tmp_path):
+    two = draw_sheet(OURS.camera, sheets=[(0.2, -130, 300, 1)], ground=OURS.image)
+    assert give(page, write(tmp_path, two)).startswith("Two sheets are seen: cover one.")
+    assert found(page).startswith("A shuttlecock,")
+    assert "unknown: " in readout(page, "camera")
+    assert not promises(page)
+
+
+def test_a_sheet_laid_upside_down_is_asked_about(page, tmp_path):
+    _, bare = remove_sheet(OURS.image)
+    turned = draw_sheet(OURS.camera, sheets=[(np.pi, 0, 0, 1)], ground=bare)
+    give(page, write(tmp_path, turned))
+    assert found(page).endswith("Does the sheet’s arrow point away from you?")
+
+
+WORDS = """const sheet = { fewest: 3 }, read = { markers: [], camera: asked.camera };
+return vmcPhotoWords.next(asked.sight, asked.count, read, sheet);"""
+
+
+def test_the_arm_is_promised_where_it_can_reach(ask):
+    """Never without a camera; with one, sizes are doubted where nothing is a shuttlecock."""
+    nothing, box = {"boxes": [], "box": None}, [0, 0, 1, 1]
+    things, shuttlecock = {"boxes": [box], "box": None}, {"boxes": [box], "box": box}
+    for sight, count, camera, says in (
+        (nothing, 0, None, "Another photo"),
+        (nothing, 1, None, "Another photo"),
+        (nothing, 0, {}, "Another photo"),
+        (things, 1, None, NEED),
+        (shuttlecock, 1, None, NEED),
+        (shuttlecock, 1, {}, "Point at a box"),
+        (things, 1, {}, "Point at a box.* not 100 mm long, sizes and places are wrong"),
+    ):
+        said = ask(WORDS, {"sight": sight, "count": count, "camera": camera})
+        assert re.match(says, said)
+        assert ("the arm reaches" in said) == bool(count and camera is not None)
+
+
+def test_the_shuttlecock_in_reach_is_taken_first(page, tmp_path):
+    """Here the second, which is paler; a copy of it, which the page likes best, is too far."""
+    x0, y0, x1, y1 = np.int32(np.round(pad_boxes(OURS.boxes["shuttlecock"], 0.15)))[0]
+    two, ours = OURS.image.copy(), OURS.image[y0:y1, x0:x1]
+    two[20 : 20 + y1 - y0, 40 : 40 + x1 - x0] = ours
+    two[y0:y1, x0:x1] = 0.5 * ours + 0.5 * np.median(ours, axis=(0, 1))
+    assert give(page, write(tmp_path, two)).startswith("After trying")
+    assert found(page).startswith("2 shuttlecocks, ")
+    pressed = page.locator(".vmc-boxes button[aria-pressed=true]")
+    assert pressed.get_attribute("data-box") == "1"
+    page.locator(".vmc-boxes button").first.click()
+    assert status(page, "Out of reach")
 
 
 def save(folder, name, mode="RGB", size=(60, 40), **options):
@@ -130,7 +212,9 @@ def test_no_file_is_met_with_silence(page, tmp_path):
         save(tmp_path, "deep.png", "I;16"),
         save(tmp_path, "turned.jpg", size=(400, 600), exif=turned),
     ):
-        assert re.match(NOTHING, give(page, file))
+        assert give(page, file).startswith(AGAIN)
+        assert re.match(NOTHING, found(page))
+        assert not promises(page)
     size = """async ({ href }) => {
       const picture = Object.assign(new Image(), { src: href.baseVal });
       await picture.decode();
@@ -151,5 +235,5 @@ def test_in_a_kernel_it_is_the_same_page(monkeypatch, window):
     page = pages.observe(window().new_page())
     render(page, shown[1], monkeypatch)
     page.locator("[name=example]").click()
-    assert "misses by" in status(page, "After")
+    assert "misses the place seen by" in status(page, "After trying")
     assert page.errors == []

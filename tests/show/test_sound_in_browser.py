@@ -87,6 +87,7 @@ def test_what_sounds_is_named_and_can_be_stopped(page):
     said.get_by_text("wave", exact=True).wait_for()
     assert box.locator(".vmc-heard").get_attribute("data-curve") == "wave"
     assert button.inner_text() == "Stop"
+    button.evaluate("(it) => (it.textContent = 'Anhalten')")  # as a browser's translation does
     button.press("Space")
     assert page.evaluate("ended === audio")
     assert (button.inner_text(), said.inner_text()) == ("Listen", "")
