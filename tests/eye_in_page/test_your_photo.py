@@ -109,6 +109,13 @@ def promises(page):
     return "the arm reaches" in page.locator(".vmc-eye").inner_text()
 
 
+def assert_nothing_found(page, said):
+    """Assert that a photo without sheet and shuttlecock is met with plain words."""
+    assert re.match(NOTHING, found(page))
+    assert said.startswith(NEED if found(page).startswith("No shuttlecock") else AGAIN)
+    assert not promises(page)
+
+
 def test_a_photo_without_the_sheet_is_seen_and_has_no_place(page):
     """What was found is said first, and stays; then what the arm needs."""
     shot = next(shot for shot in photos.load("real", "test") if shot.boxes)
@@ -126,10 +133,7 @@ def test_a_photo_without_the_sheet_is_seen_and_has_no_place(page):
 
 
 def test_where_nothing_is_a_shuttlecock_the_reader_may_choose(page):
-    said = give(page, photos.everyday()[0].file)
-    assert re.match(NOTHING, found(page))
-    assert said.startswith(NEED if found(page).startswith("No shuttlecock") else AGAIN)
-    assert not promises(page)
+    assert_nothing_found(page, give(page, photos.everyday()[0].file))
 
 
 def write(folder, image):
@@ -212,9 +216,7 @@ def test_no_file_is_met_with_silence(page, tmp_path):
         save(tmp_path, "deep.png", "I;16"),
         save(tmp_path, "turned.jpg", size=(400, 600), exif=turned),
     ):
-        assert give(page, file).startswith(AGAIN)
-        assert re.match(NOTHING, found(page))
-        assert not promises(page)
+        assert_nothing_found(page, give(page, file))
     size = """async ({ href }) => {
       const picture = Object.assign(new Image(), { src: href.baseVal });
       await picture.decode();
