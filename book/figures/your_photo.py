@@ -10,9 +10,9 @@ from IPython.display import HTML, display
 
 from arm_in_page import live
 from book.figures.aiming import shore
+from book.figures.see_and_reach import place_errors
 from book.figures.where import CANVAS
 from eye_in_page import PLACE_SCRIPTS, SEARCH_SCRIPTS, SIGHT_SCRIPTS, STATIC, brain
-from reproduce import results
 from reproduce.experiments.printed_sheet import FROM_SHEET
 from reproduce.experiments.real_world import SIZED
 from vmc_lib import marker_sheet
@@ -86,10 +86,9 @@ def sheet():
     }
 
 
-def place_errors():
-    """How far places from a sheet's camera are off (m): the median, and what 9 in 10 are within."""
-    found = results.records("printed_sheet")[f"box of {REAL_LEVEL}{FROM_SHEET}{SIZED}"]
-    millimetres = [np.inf if mm is None else mm for mm in found]
+def place_accuracy():
+    """How far places from a sheet's camera are off (m): half of them at most, nine in ten."""
+    millimetres = place_errors()[f"box of {REAL_LEVEL}{FROM_SHEET}{SIZED}"]
     return (np.quantile(millimetres, [0.5, 0.9], method="higher") / 1000).tolist()
 
 
@@ -97,7 +96,7 @@ def _page(example, scene, plot):
     given = live.given() | {
         "views": [[2, 0]],
         "sheet": sheet(),
-        "placeErrors": place_errors(),
+        "placeAccuracy": place_accuracy(),
         "table": TABLE,
         "edge": EDGE,
         "paint": ON_PHOTO,

@@ -204,7 +204,7 @@ const vmcYourPhoto = (() => {
       await super.main();
       if (this.planned) await this.calibrate();
       const { calibrated, planned, given } = this;
-      if (calibrated) this.say(vmcPhotoWords.end(calibrated.error, planned.error, given.placeErrors));
+      if (calibrated) this.say(vmcPhotoWords.end(calibrated.error, planned.error, given.placeAccuracy));
     }
 
     world(point) {

@@ -62,7 +62,7 @@ def test_what_a_reader_loads_is_light():
     assert len(brain.script()) < 4.5e6
     scripts = [path.read_text(encoding="utf-8") for path in STATIC.glob("*.js")]
     light = [strip_comments(script).encode() for script in scripts]
-    assert sum(len(script) + 60 for script in light) < 60e3  # 60: the first line of each
+    assert sum(len(script) + 60 for script in light) < 65e3  # 60: the first line of each
     assert max(script.count("\n") for script in scripts) <= 250
 
 

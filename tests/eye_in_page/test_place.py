@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from playwright.sync_api import Error
 
-from book.figures.your_photo import sheet
+from book.figures.your_photo import place_accuracy, sheet
 from eye_in_page.localiser import CompactLocaliser, shift_mm
 from tests.test_marker_sheet import EYE, LOW, REFUSED, STRAIGHT, displaced, draw_sheet, looking
 from vmc_lib import NoReach, marker_sheet, photos
@@ -145,6 +145,20 @@ def test_from_its_pixels_a_photo_leads_to_the_place_that_python_finds(ask, shot)
     box = see(VisuomotorModel.load("real"), bare, camera).box
     here = CompactLocaliser.load().locate(bare, box, camera)
     assert np.linalg.norm(ask(script, SHEET, shot.image) - here) < 2.5e-3
+
+
+def test_places_in_the_page_are_as_near_as_it_says():
+    """Of the true boxes, with the camera from the sheet."""
+    errors = []
+    for shot in SHOTS:
+        camera, bare = marker_sheet.remove_sheet(shot.image)
+        if camera is not None:  # one photo shows too few markers
+            place = CompactLocaliser.load().locate(bare, shot.boxes["shuttlecock"], camera)
+            errors.append(np.linalg.norm(place - shot.target))
+    half, most = place_accuracy()
+    assert len(errors) >= len(SHOTS) - 1
+    assert np.median(errors) == pytest.approx(half, abs=1e-3)
+    assert np.quantile(errors, 0.9) == pytest.approx(most, abs=2e-3)
 
 
 def test_the_compact_localiser_is_near_the_whole_one():

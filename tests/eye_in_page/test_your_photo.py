@@ -58,7 +58,7 @@ def test_our_photo_leads_to_a_corrected_reach(page):
     said = status(page, "After trying")
     assert found(page) == "A shuttlecock, 100 % sure."
     assert "misses the place seen by" in said
-    half, most = (1000 * error for error in your_photo.place_errors())
+    half, most = (1000 * error for error in your_photo.place_accuracy())
     assert f"right to {half:.0f} mm, in nine of ten to {most:.0f} mm" in said
     model = VisuomotorModel.load("real")
     camera, bare = remove_sheet(OURS.image)
