@@ -94,7 +94,7 @@ const vmcLivePhoto = (() => {
       this.say("Looking for a shuttlecock …");
       const report = (stage, found) => this.film === film && stage !== "sight" && this[`show${capital(stage)}`](found);
       const sight = await vmcEye.see(this.brain, this.bare, { camera: this.camera, report });
-      if (this.film === film) this.tell({ found: vmcPhotoWords.found(sight, this.camera) });
+      if (this.film === film) this.tell({ found: vmcPhotoWords.found(sight) });
       return sight.box;
     }
 
@@ -108,7 +108,7 @@ const vmcLivePhoto = (() => {
         place = this.locate(0);
       } catch (error) {
         if (!(error instanceof RangeError)) throw error;
-        return this.say(vmcPhotoWords.OUT_OF_REACH);
+        return this.say(vmcPhotoWords.outOfReach(this.camera));
       }
       if (!(distance(place, this.stay?.place ?? place) < NEAR)) this.stay = null;
       this.stay ??= { place, since: now };

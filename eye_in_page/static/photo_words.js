@@ -7,13 +7,17 @@ const vmcPhotoWords = (() => {
   const AGAIN = "Another photo may do: from nearer, in even light.";
   const POINT = "Point at a box, and the arm reaches for what is in it.";
   const SCALE = " Is a shuttlecock there? Then measure the sheet’s line: if it is not 100 mm long, sizes and places are wrong.";
-  const OUT_OF_REACH = "Out of reach: the hand can be where it is shaded. Lay it there, or point at another box.";
 
   const capital = (words) => words[0].toUpperCase() + words.slice(1);
 
-  /* What was found; a sheet that is seen from its far side may lie upside down. */
-  const found = ({ summary }, camera) =>
-    `${capital(summary)}.${camera && vmcEye.fromBeyond(camera) ? " Does the sheet’s arrow point away from you?" : ""}`;
+  /* What was found. */
+  const found = ({ summary }) => `${capital(summary)}.`;
+
+  /* A sheet that is seen from its far side may lie upside down. */
+  const upsideDown = (camera) => (vmcEye.fromBeyond(camera) ? " Does the sheet’s arrow point away from you?" : "");
+
+  const outOfReach = (camera) =>
+    `Out of reach: the hand can be where it is shaded. Lay it there, or point at another box.${upsideDown(camera)}`;
 
   /* The camera of a sheet that was read, above the table. */
   const camera = ({ markers, camera, why }, { fewest, first }) => {
@@ -35,10 +39,10 @@ const vmcPhotoWords = (() => {
   };
 
   /* How far a hand ended from the place that was seen, and how far off such places are: in half, in nine of ten. */
-  const end = (calibrated, planned, [half, most]) =>
+  const end = (calibrated, planned, [half, most], camera) =>
     `After trying off-line the hand misses the place seen by ${millimetres(calibrated, 1)}; it began from ` +
     `${millimetres(planned, 1)}. In half of our test photos that place is right to ${millimetres(half)}, ` +
-    `in nine of ten to ${millimetres(most)}.`;
+    `in nine of ten to ${millimetres(most)}.${upsideDown(camera)}`;
 
   /* A place. */
   const where = ([ahead, , right]) => {
@@ -46,5 +50,5 @@ const vmcPhotoWords = (() => {
     return `${far} ${ahead > 0 ? "ahead" : "behind"}, ${aside} ${right > 0 ? "right" : "left"}`;
   };
 
-  return { OUT_OF_REACH, camera, capital, end, found, need, next, where };
+  return { camera, capital, end, found, need, next, outOfReach, where };
 })();

@@ -132,7 +132,7 @@ const vmcYourPhoto = (() => {
       const reaches = this.camera ? " Press one, and the arm reaches for it:" : "";
       choice.innerHTML = `${asks}${reaches} ${this.marks.map(button).join("")}`;
       choice.hidden = !this.boxes.length;
-      this.tell({ found: vmcPhotoWords.found(sight, this.camera) });
+      this.tell({ found: vmcPhotoWords.found(sight) });
       this.say(vmcPhotoWords.next(sight, this.boxes.length, this.read, this.given.sheet));
     }
 
@@ -174,7 +174,7 @@ const vmcYourPhoto = (() => {
       } catch (error) {
         if (!(error instanceof RangeError)) throw error;
         this.rest();
-        this.say(vmcPhotoWords.OUT_OF_REACH);
+        this.say(vmcPhotoWords.outOfReach(this.camera));
       }
     }
 
@@ -203,8 +203,8 @@ const vmcYourPhoto = (() => {
     async main() {
       await super.main();
       if (this.planned) await this.calibrate();
-      const { calibrated, planned, given } = this;
-      if (calibrated) this.say(vmcPhotoWords.end(calibrated.error, planned.error, given.placeAccuracy));
+      const { calibrated, camera, planned, given } = this;
+      if (calibrated) this.say(vmcPhotoWords.end(calibrated.error, planned.error, given.placeAccuracy, camera));
     }
 
     world(point) {

@@ -153,8 +153,9 @@ def test_of_two_sheets_one_is_to_be_covered(page, tmp_path):
 def test_a_sheet_laid_upside_down_is_asked_about(page, tmp_path):
     _, bare = remove_sheet(OURS.image)
     turned = draw_sheet(OURS.camera, sheets=[(np.pi, 0, 0, 1)], ground=bare)
-    give(page, write(tmp_path, turned))
-    assert found(page).endswith("Does the sheet’s arrow point away from you?")
+    assert give(page, write(tmp_path, turned)).endswith(
+        "Does the sheet’s arrow point away from you?"
+    )
 
 
 WORDS = """const sheet = { fewest: 3 }, read = { markers: [], camera: asked.camera };
