@@ -35,6 +35,18 @@ HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
 };"""
 CAPTURE = "div => vmcScene(div).viewer.capture_image()"
 TWO_FRAMES = "() => new Promise((on) => requestAnimationFrame(() => requestAnimationFrame(on)))"
+STILL_BOXES = """async (things) => {
+  const boxes = () => things.map((thing) => thing.getBoundingClientRect())
+    .map(({ x, y, width, height }) => [x, y, width, height]);
+  let last = boxes();
+  for (let still = 0; still < 10; still++) {
+    await new Promise(requestAnimationFrame);
+    const now = boxes();
+    if (`${now}` !== `${last}`) still = -1;
+    last = now;
+  }
+  return last;
+}"""
 PATIENCE = 180_000  # ms: ends a hang, never a busy machine's work
 counter = itertools.count(1)
 
@@ -101,16 +113,38 @@ def open_html(window, site, html):
     return open_url(window, path.as_uri())
 
 
+def stop_clock(page):
+    """Let time pass in a page's window, its own, by `page.clock.run_for(ms)` alone.
+
+    Then none passes while a test looks.
+    """
+    page.clock.install(time=0)
+    page.clock.pause_at(1)
+
+
 def unfold(page):
     """Open the parts of a chapter that are folded below their headings."""
     for fold in page.query_selector_all(".vmc-optional > * > button[aria-expanded=false]"):
         fold.click()
 
 
+def boxes(things):
+    """The boxes [x, y, width, height] of a locator's elements, px, read together.
+
+    Once they have stood still for ten frames: what is compared must be of one moment.
+    """
+    return things.evaluate_all(STILL_BOXES)
+
+
+def middles(things):
+    """Where the middles of a locator's elements are, px from the window's corner (see `boxes`)."""
+    return [(x + width / 2, y + height / 2) for x, y, width, height in boxes(things)]
+
+
 def middle(thing):
-    """Where the middle of something in a page is, in px from the window's corner."""
-    box = thing.bounding_box()
-    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    """Where the middle of a locator's one element is."""
+    [place] = middles(thing)
+    return place
 
 
 def drag(page, place, right, down):

@@ -10,7 +10,7 @@ import pytest
 
 from kit.__main__ import ROOT, throws, throws_page
 from tests.formulas import FORMULAS, computes
-from tests.pages import book_html, observe
+from tests.pages import book_html, boxes, observe
 from vmc_lib.show import check, predict, questions
 
 pytestmark = pytest.mark.browser
@@ -41,10 +41,9 @@ def saved(page, button):
 def throw(page, degrees, steps=6):
     """Throw with the mouse, so many degrees to the right."""
     page.evaluate("scrollTo(0, 0)")
-    box = page.locator("#field").bounding_box()
-    scale = min(box["width"] / 600, box["height"] / 400)
-    x = box["x"] + box["width"] / 2
-    y = box["y"] + box["height"] / 2 + 140 * scale
+    [[left, top, width, height]] = boxes(page.locator("#field"))
+    scale = min(width / 600, height / 400)
+    x, y = left + width / 2, top + height / 2 + 140 * scale
     page.mouse.move(x, y)
     page.mouse.down()
     way = 260 * scale * np.array([np.sin(np.radians(degrees)), -np.cos(np.radians(degrees))])
@@ -147,6 +146,7 @@ def test_a_page_keeps_what_was_answered_shows_it_and_saves_it(chapter):
         chapter.fill("form[data-check] input", typed)
         chapter.keyboard.press("Enter")
     chapter.click("summary:text('This')")
+    chapter.wait_for_function("() => localStorage.vmcRecord.includes('quiz')")
     chapter.locator("form:not([data-check])").evaluate(
         "(form, detail) => form.dispatchEvent("
         "new CustomEvent('vmc-graded', { bubbles: true, detail }))",

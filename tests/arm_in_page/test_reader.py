@@ -8,7 +8,7 @@ import pytest
 from arm_in_page import controls, live
 from reproduce.whole_arm import experiment
 from tests.arm_in_page.controls import number, readout, set_target, start, status
-from tests.pages import NO_WEBGL, drag, middle, probe
+from tests.pages import NO_WEBGL, drag, middle, middles, probe
 from vmc_lib.arm.model import MUSCLES
 from vmc_lib.arm.simulate import simulate
 from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration
@@ -154,11 +154,8 @@ def test_a_first_reach_is_there_and_its_miss_is_enlarged(open_arms, ask):
     assert miss in status(arm, "The planned reach")
     assert readout(arm, "planned") == miss
     assert not any("mujoco" in url for url in page.asked)
-    reds, greens = (
-        [middle(dot) for dot in arm.locator(f"svg circle[{paint}='var(--vmc-{colour})']").all()]
-        for paint, colour in (("fill", "red"), ("stroke", "green"))
-    )
-    plain, enlarged = (np.subtract(red, green) for red, green in zip(reds, greens, strict=True))
+    ends = "svg circle:is([fill='var(--vmc-red)'], [stroke='var(--vmc-green)'])"
+    plain, enlarged = np.diff(np.reshape(middles(arm.locator(ends)), (2, 2, 2)), axis=1)
     assert np.abs(enlarged - live.LENS["times"] * plain).max() < 1  # px
     stored = ask(
         """const { weights, reached, error, q, joints } = given.first;

@@ -7,7 +7,7 @@ import pytest
 
 from book.figures import aiming, reaching, votes, where
 from tests.in_page.markup import move, numbers, on, polylines, words
-from tests.pages import drag, middle
+from tests.pages import drag, middle, middles
 from vmc_lib import photos
 from vmc_lib.arm.kinematics import to_world
 from vmc_lib.arm.model import MUSCLES
@@ -87,15 +87,13 @@ def test_a_box_is_moved_by_its_middle_and_stretched_by_its_corner(page):
     box = page.locator(".vmc-demo").nth(0)
     move(page, 0, 10, 11, 10, 10)
     box.scroll_into_view_if_needed()
-    twins, handles = box.locator("input").all(), box.locator(".vmc-handle").all()
-    for handle, moved in zip(
-        handles, ([True, True, False, False], [False, False, True, True]), strict=True
-    ):
-        before, places = [twin.input_value() for twin in twins], [middle(h) for h in handles]
-        drag(page, middle(handle), 20, 15)
+    twins, handles = box.locator("input").all(), box.locator(".vmc-handle")
+    for number, moved in enumerate(([True, True, False, False], [False, False, True, True])):
+        before, places = [twin.input_value() for twin in twins], middles(handles)
+        drag(page, places[number], 20, 15)
         now = [twin.input_value() for twin in twins]
         assert [a != b for a, b in zip(before, now, strict=True)] == moved
-        far = [np.subtract(middle(h), p) for h, p in zip(handles, places, strict=True)]
+        far = np.subtract(middles(handles), places)
         assert np.abs(far[-1] - [20, 15]).max() < 4  # the corner comes along, to the grid
 
 

@@ -4,7 +4,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
-from tests.pages import drag, middle
+from tests.pages import boxes, drag, middle, stop_clock
 from tests.show.kernel import named
 from vmc_lib.show import Choice, Pad, Slider, explore, figure, photo_view
 
@@ -25,12 +25,12 @@ def test_a_pad_follows_the_pointer_and_the_keyboard(open_demo):
     page = open_demo(draw, alt=lambda at: f"at {at}", at=Pad(range(11), range(6), ("x", "y")))
     dot = page.locator("svg use[clip-path], svg g[clip-path] use")
     x, y = start = middle(dot)
-    svg = page.locator("svg").first.bounding_box()
-    drag(page, start, svg["width"] / 2, -svg["height"] / 2)
+    [[*_, width, height]] = boxes(page.locator("svg").first)
+    drag(page, start, width / 2, -height / 2)
     assert page.inner_text("output") != "0"
     to_x, to_y = middle(dot)
-    assert abs(to_x - x - svg["width"] / 2) < svg["width"] / 22
-    assert abs(to_y - y + svg["height"] / 2) < svg["height"] / 12
+    assert abs(to_x - x - width / 2) < width / 22
+    assert abs(to_y - y + height / 2) < height / 12
     alt = page.get_attribute(".vmc-pictures", "aria-label")
     page.focus("input >> nth=1")
     page.keyboard.press("ArrowDown")
@@ -67,10 +67,9 @@ def test_a_pad_is_dragged_by_its_handle_with_a_finger(open_demos, window):
         )
 
     stands('middle("circle")')  # on the mark, once the page is laid out
-    x, y = middle(page.locator(".vmc-handle"))
-    size = page.locator(".vmc-handle").bounding_box()
-    assert min(size["width"], size["height"]) >= 24
-    wide = page.locator("svg[data-axes]").bounding_box()["width"]
+    [[*_, wide, _], [left, top, *size]] = boxes(page.locator("svg[data-axes], .vmc-handle"))
+    assert min(size) >= 24
+    x, y = left + size[0] / 2, top + size[1] / 2
     finger((x + 8, y + 8), (x + 30, y + 40), (x + 8 + wide / 5, y + 8 + wide / 6))
     for i, value in enumerate(["160", "150"]):  # 60 and 50 of 300 farther, wherever it was taken
         page.locator(f"output >> nth={i} >> text={value}").wait_for()
@@ -84,11 +83,13 @@ def test_a_pad_is_dragged_by_its_handle_with_a_finger(open_demos, window):
     there.wait_for()
 
 
-def test_play_goes_to_the_end_and_stops(open_demo):
-    page = open_demo(np.eye, N=Slider(range(2, 6), "size", play=True))
+def test_play_goes_to_the_end_and_stops(open_demo, window):
+    page = open_demo(np.eye, window(), N=Slider(range(2, 6), "size", play=True))
+    stop_clock(page)
     page.click(".vmc-play")
     assert page.get_attribute(".vmc-play", "aria-pressed") == "true"
-    page.wait_for_selector(".vmc-play[aria-pressed=false]")
+    page.clock.run_for(60_000)
+    assert page.get_attribute(".vmc-play", "aria-pressed") == "false"
     assert page.inner_text("output") == "5"
 
 
@@ -104,9 +105,9 @@ def test_on_a_phone_panels_stand_one_above_the_other(open_demo):
     shown = page.locator(".vmc-panels > div")
     assert [shown.nth(i).is_visible() for i in (0, 1)] == [True, False]
     page.set_viewport_size({"width": 360, "height": 700})
-    boxes = [shown.nth(i).bounding_box() for i in (0, 1)]
-    assert boxes[0]["y"] + boxes[0]["height"] <= boxes[1]["y"]
-    assert all(0 <= box["x"] and box["x"] + box["width"] <= 360 for box in boxes)
+    (above, *panels) = boxes(shown)
+    assert above[1] + above[3] <= panels[0][1]
+    assert all(0 <= x and x + width <= 360 for x, _, width, _ in (above, *panels))
     assert page.eval_on_selector(".vmc-picture", "p => p.scrollWidth <= p.clientWidth")
     before = shown.nth(1).screenshot()
     page.fill("input", "1")
@@ -138,10 +139,10 @@ def test_a_slider_and_its_button_stay_in_place_while_the_picture_grows(open_demo
     places = []
     for key in ("Home", "ArrowRight", "ArrowRight", "ArrowRight"):
         page.keyboard.press(key)
-        places.append([page.locator(s).bounding_box() for s in ("[type=range]", ".vmc-play")])
-    for place in places[1:]:
-        assert [box["x"] for box in place] == [box["x"] for box in places[0]]
-        assert place[0]["y"] == pytest.approx(places[0][0]["y"], abs=1)
+        places.append([place[:2] for place in boxes(page.locator("[type=range], .vmc-play"))])
+    across, down = np.ptp(places, axis=0).T
+    assert across.max() == 0
+    assert down.max() <= 1
     assert page.evaluate("scrollY") > 0
 
 

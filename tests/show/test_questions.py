@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from tests.pages import boxes
 from vmc_lib.show import check, predict, questions
 
 
@@ -161,8 +162,7 @@ def test_a_prediction_is_kept_and_marked_beside_the_outcome(open_questions):
     page.keyboard.press("ArrowDown")
     page.keyboard.press("ArrowDown")
     assert page.is_checked("input >> nth=2")
-    targets = page.locator("label, summary").all()
-    assert min(target.bounding_box()["height"] for target in targets) >= 24
+    assert min(height for *_, height in boxes(page.locator("label, summary"))) >= 24
     assert not page.is_visible("text=One and")
     assert page.evaluate(MARKS) == ["none"] * 3
     page.reload()

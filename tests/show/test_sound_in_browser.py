@@ -4,6 +4,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
+from tests.pages import stop_clock
 from vmc_lib.show import Slider, explore, figure
 
 pytestmark = pytest.mark.browser
@@ -41,8 +42,8 @@ def declare():
 
 
 @pytest.fixture
-def page(open_demos):
-    page = open_demos(declare)
+def page(open_demos, window):
+    page = open_demos(declare, window())
     page.evaluate(RENDER)
     return page
 
@@ -79,12 +80,14 @@ def test_pitch_follows_the_curves_one_by_one_and_then_in_either_ear(page, step):
 def test_what_sounds_is_named_and_can_be_stopped(page):
     box = page.locator(".vmc-demo").nth(0)
     button, said = box.locator(".vmc-listen"), box.locator(".vmc-listen ~ [role=status]")
+    stop_clock(page)
     assert box.locator("[data-curve]").evaluate_all("all => all.map((c) => c.dataset.curve)") == [
         "wave",
         "a <rise>",
     ]
     button.press("Space")
-    said.get_by_text("wave", exact=True).wait_for()
+    page.clock.run_for(1000)
+    assert said.inner_text() == "wave"
     assert box.locator(".vmc-heard").get_attribute("data-curve") == "wave"
     assert button.inner_text() == "Stop"
     button.evaluate("(it) => (it.textContent = 'Anhalten')")  # as a browser's translation does
@@ -94,13 +97,15 @@ def test_what_sounds_is_named_and_can_be_stopped(page):
     assert box.locator(".vmc-heard").count() == 0
 
     button.click()
-    said.get_by_text("wave", exact=True).wait_for()
+    page.clock.run_for(1000)
+    assert said.inner_text() == "wave"
     box.get_by_role("slider").press("ArrowRight")  # these curves are gone
     assert (button.inner_text(), said.inner_text()) == ("Listen", "")
 
 
 def test_plots_that_stand_still_are_heard_too_and_pictures_without_curves_are_not(page):
     buttons = page.locator(".vmc-listen")
+    stop_clock(page)
     assert [button.is_visible() for button in buttons.all()] == [True, True, False]
     buttons.nth(1).click()
     buttons.nth(0).click()  # one at a time
