@@ -6,12 +6,9 @@ from collections import Counter
 from functools import partial
 from pathlib import Path
 
-import nbmake.nb_run
 import numpy as np
 import pytest
 from hypothesis import settings
-from nbclient import NotebookClient
-from nbformat.v4 import new_code_cell
 
 from tests import pages
 from tests.engines import NOT_TESTED, Firefox, WebKit
@@ -22,21 +19,9 @@ from vmc_lib.what.crops import whiten
 
 settings.register_profile("untimed", deadline=None)  # a busy machine is slow, and no failure
 settings.load_profile("untimed")
-os.environ["VMC_RENDER_MODE"] = "test"  # the chapters' kernels inherit it
+os.environ["VMC_RENDER_MODE"] = "test"
 os.environ.setdefault("MPLBACKEND", "agg")
-os.environ["PYTHONPATH"] = str(Path(__file__).parents[1])  # from tests import demos, in a kernel
-
-
-class ChapterClient(NotebookClient):
-    """Nbmake's client for chapters: no cell may raise, and every demo is drawn again at the end."""
-
-    def __init__(self, notebook, **options):
-        before, after = "from tests import demos\ndemos.record()", "demos.draw_again()"
-        notebook.cells = [new_code_cell(before), *notebook.cells, new_code_cell(after)]
-        super().__init__(notebook, force_raise_errors=True, **options)
-
-
-nbmake.nb_run.NotebookClient = ChapterClient
+os.environ["PYTHONPATH"] = str(Path(__file__).parents[1])  # of the programs that tests start
 
 
 def pytest_unconfigure(config):

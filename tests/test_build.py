@@ -10,6 +10,7 @@ from pathlib import Path
 import nbformat
 import pytest
 
+from book._ext import execute
 from book._ext.packed import strip_comments
 from eye_in_page import brain
 from python_in_page import pack
@@ -28,12 +29,12 @@ TRICKY = r"""/* A comment
   `, ...inside, 'it\'s /* a string'].join(); // gone
 })()
 """
-CODE = "open('count', 'a').write('x')\nimport sys\nprint('printed', 6 * 7)"
+CODE = "open('count', 'a').write('x')\nimport library\nprint('printed', 6 * library.SEVEN)"
 
 
 @pytest.fixture
 def book(tmp_path):
-    """A book of one chapter, which counts its executions, over a library of one line."""
+    """A book of one chapter, which counts its executions and imports a library of one line."""
     shutil.copy(ROOT / "_config.yml", tmp_path)
     shutil.copytree(ROOT / "book/_ext", tmp_path / "book/_ext")
     for static in pages.STATIC:
@@ -44,7 +45,7 @@ def book(tmp_path):
         )
     for file in ("references.bib", "glossary.md"):
         (tmp_path / "book" / file).touch()
-    (tmp_path / "vmc_lib/one.py").write_text("line = 1\n", encoding="utf-8")
+    (tmp_path / "library.py").write_text("SEVEN = 7\n", encoding="utf-8")
     write(tmp_path, CODE)
     return tmp_path
 
@@ -65,6 +66,7 @@ def write(book, code, text="", name="chapter"):
 def build(book, **repository):
     """Build the book strictly, as of a repository or of none: the page, or the failed process."""
     environment = {k: v for k, v in os.environ.items() if not k.startswith("GITHUB_")} | repository
+    environment["PYTHONPATH"] = os.pathsep.join([str(ROOT), str(book)])
     command = [
         Path(sys.executable).with_name("jupyter-book"),
         "build",
@@ -96,11 +98,10 @@ def test_a_script_without_comments_does_the_same(offline):
     page.close()
 
 
-def test_a_chapter_is_executed_when_it_or_the_library_changed(book):
-    for _ in range(2):
-        page = build(book)
-        assert times_executed(book) == 1
-        assert "printed 42" in page
+def test_a_chapter_is_executed_when_what_it_imports_has_changed(book):
+    write(book, CODE, "$$1 + 1$$\n\n:::{note}\n:class: dropdown\nWords.\n:::")
+    page = build(book)
+    assert "printed 42" in page
     for packed in (pack, brain):  # the page's Python, and what its eye has learnt
         assert (book / "_build/html/_static" / packed.SCRIPT).stat().st_size > 1e6
     script = (book / "_build/html/_static/see.js").read_text(encoding="utf-8")
@@ -109,27 +110,31 @@ def test_a_chapter_is_executed_when_it_or_the_library_changed(book):
     # It can be saved, and without a repository nothing leads out
     assert "../_sources/book/chapter.ipynb" in links(page)
     assert not [link for link in links(page) if link.startswith("http")]
-    (book / "vmc_lib/one.py").write_text("line = 2\n", encoding="utf-8")  # one line of the library
-    build(book)
-    assert times_executed(book) == 2
-    write(book, CODE + "  # another word")
-    repository = {"GITHUB_SERVER_URL": "https://github.com", "GITHUB_REPOSITORY": "owner/name"}
-    page = build(book, **repository)
-    assert times_executed(book) == 3
-    assert [link for link in links(page) if link.startswith("http")] == [
-        "https://mybinder.org/v2/gh/owner/name/main?urlpath=lab/tree/book/chapter.ipynb",
-        "https://colab.research.google.com/github/owner/name/blob/main/book/chapter.ipynb",
-    ]
-
-
-def test_settings_are_no_scripts_inside_a_page(book):
-    write(book, CODE, "$$1 + 1$$\n\n:::{note}\n:class: dropdown\nWords.\n:::")
-    inside = re.findall(r"<script[^>]*>([^<]+)</script>", build(book))
+    # No settings are scripts inside a page
+    inside = re.findall(r"<script[^>]*>([^<]+)</script>", page)
     assert inside
     assert all(re.search(r"DOCUMENTATION_OPTIONS|dataset\.mode", code) for code in inside)
     settings = (book / "_build/html/_static/settings.js").read_text(encoding="utf-8")
     for name in ("toggleHintShow", "togglebuttonSelector"):
         assert name in settings
+
+    (book / "kit").mkdir()
+    for other in ("vmc_lib/other.py", "kit/other.py"):  # which it does not import
+        (book / other).write_text("line = 1\n", encoding="utf-8")
+    environment = book / "_build/.doctrees/environment.pickle"
+    environment.write_bytes(environment.read_bytes()[:-100])  # cut: pages are read again
+    assert "printed 42" in build(book)
+    assert times_executed(book) == 1
+
+    (book / "library.py").write_text("SEVEN = 6\n", encoding="utf-8")
+    repository = {"GITHUB_SERVER_URL": "https://github.com", "GITHUB_REPOSITORY": "owner/name"}
+    page = build(book, **repository)
+    assert "printed 36" in page
+    assert times_executed(book) == 2
+    assert [link for link in links(page) if link.startswith("http")] == [
+        "https://mybinder.org/v2/gh/owner/name/main?urlpath=lab/tree/book/chapter.ipynb",
+        "https://colab.research.google.com/github/owner/name/blob/main/book/chapter.ipynb",
+    ]
 
 
 FAILS = {  # a chapter: its code, and what is said of it
@@ -140,18 +145,17 @@ FAILS = {  # a chapter: its code, and what is said of it
 }
 
 
-def test_every_build_names_the_chapters_that_fail_their_cell_and_a_remedy(book):
+def test_a_build_names_the_chapters_that_fail_their_cell_and_a_remedy(book):
     for name, (code, _) in FAILS.items():
         write(book, code, name=name)
-    for _ in range(2):
-        done = build(book)
-        assert done.returncode != 0
-        report = (book / "_build/.failed").read_text(encoding="utf-8")
-        assert report in done.stdout + done.stderr
-        for name, (code, words) in FAILS.items():
-            assert f"{name}.ipynb, cell code (`{code}`){words}" in report
-        assert "UserWarning: words" in report
-        assert "make lab" in report
+    done = build(book)
+    assert done.returncode != 0
+    report = (book / "_build/.failed").read_text(encoding="utf-8")
+    assert report in done.stdout + done.stderr
+    for name, (code, words) in FAILS.items():
+        assert f"{name}.ipynb, cell code (`{code}`){words}" in report
+    assert "UserWarning: words" in report
+    assert "make lab" in report
     assert not (book / "_build/html/book/chapter.html").exists()
 
 
@@ -168,23 +172,83 @@ def test_pages_that_warn_fail_every_build_until_they_are_mended(book):
     assert "printed 42" in build(book)
 
 
-CACHE = "_build/.executed/*/"
-HARM = {  # of which files, and what becomes of them
-    "outputs cut": (CACHE + "executed/*/base.ipynb", lambda old: old[:-100]),
-    "outputs empty": (CACHE + "executed/*/base.ipynb", lambda old: b""),
-    "list empty": (CACHE + "global.db", lambda old: b""),
-    "list foreign": (CACHE + "global.db", lambda old: b"no database, but words" * 300),
-    "list cut": (CACHE + "global.db", lambda old: old[:5000]),
-    "pages cut": ("_build/.doctrees/environment.pickle", lambda old: old[:-100]),
+# ---- Execution, which the build and nbmake share ----
+
+
+@pytest.fixture
+def chapter(book, monkeypatch):
+    monkeypatch.setenv("PYTHONPATH", os.pathsep.join([str(ROOT), str(book)]))
+    return book / "book/chapter.ipynb"
+
+
+def outputs(notebook):
+    return [output.text for cell in notebook.cells for output in cell.get("outputs", ())]
+
+
+def test_whoever_comes_second_reads_and_a_failure_is_executed_again(book, chapter):
+    for _ in range(2):
+        notebook, _, error = execute.executed(chapter, 600)
+        assert (outputs(notebook), error) == (["printed 42\n"], None)
+    assert times_executed(book) == 1
+    write(book, f"{CODE}  # another word\n1 / 0")
+    for times in (2, 3):
+        assert "ZeroDivisionError" in execute.executed(chapter, 600)[2]
+        assert times_executed(book) == times
+
+
+WRONG = {  # cells of which a chapter alone fails, and what it says
+    "check": ("from vmc_lib.show import check\ncheck(1, 2)", "check: 1 is not 2"),
+    "grade": (
+        "from book.exercises.loop import MIXED\n"
+        "from vmc_lib.show import grade\ngrade(lambda *_: 0.123, MIXED)",
+        "grade: ",
+    ),
+    "a demo that a later cell changes": (
+        "from vmc_lib.show import explore\nby = 1\n"
+        "explore(lambda x: f'<p>{by * x}</p>', 'A demo.', 'words', x=[*'ab'])\nby = 2",
+        "these demos show something else now: ['A demo.']",
+    ),
 }
 
 
-def test_a_damaged_cache_is_made_anew(book):
-    (book / "_build/.executed").mkdir(parents=True)
-    (book / "_build/.executed/desktop.ini").touch()  # as a synchronised folder leaves it
-    build(book)
+def test_a_chapter_tested_alone_fails_where_it_is_wrong(book):
+    """`pytest --nbmake book/NAME.ipynb`, with no other argument, as anybody types it."""
+    shutil.copy(ROOT / "conftest.py", book)
+    (book / "pytest.ini").touch()
+    (book / "book/chapter.ipynb").unlink()
+    for name, (code, _) in WRONG.items():
+        write(book, code, name=name)
+    command = [sys.executable, "-m", "pytest", "--nbmake", "book", "-p", "no:cacheprovider"]
+    environment = os.environ | {"PYTHONPATH": str(ROOT), "VMC_RENDER_MODE": ""}
+    done = subprocess.run(
+        command, cwd=book, env=environment, capture_output=True, encoding="utf-8", check=False
+    )
+    assert f"{len(WRONG)} failed" in done.stdout
+    for _, words in WRONG.values():
+        assert words in done.stdout
+
+
+HARM = {  # of which files of the cache, and what becomes of them
+    "outputs cut": ("executed/*/base.ipynb", lambda old: old[:-100]),
+    "outputs empty": ("executed/*/base.ipynb", lambda old: b""),
+    "list empty": ("global.db", lambda old: b""),
+    "list foreign": ("global.db", lambda old: b"no database, but words" * 300),
+    "list cut": ("global.db", lambda old: old[:5000]),
+}
+
+
+def test_a_damaged_cache_is_made_anew(book, chapter):
+    folder, notebook = execute.cache_folder(book), nbformat.read(chapter, 4)
+    folder.mkdir(parents=True)
+    (folder / "desktop.ini").touch()  # as a synchronised folder leaves it
+
+    def is_stored():
+        return execute.stored(execute.open_cache(folder), chapter, "state")
+
+    assert not is_stored()
     for name, (pattern, harm) in HARM.items():
-        [file] = book.glob(pattern)
+        execute.store(execute.open_cache(folder), chapter, notebook, {"digest": "state"})
+        assert is_stored(), name
+        [file] = folder.glob(pattern)
         file.write_bytes(harm(file.read_bytes()))
-        assert "printed 42" in build(book), name
-    assert times_executed(book) == 6  # for the pages no chapter runs again
+        assert not is_stored(), name

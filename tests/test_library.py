@@ -1,11 +1,10 @@
 """The library as a whole: imports point one way, and the reference page lists every module."""
 
-import ast
 import re
-from importlib.util import resolve_name
 
 import pytest
 
+from reproduce.pipeline.imports import imported_names
 from tests.project import ROOT, code, python
 
 PACKAGES = ("vmc_lib", "arm_in_page", "eye_in_page", "python_in_page", "reproduce")
@@ -46,16 +45,6 @@ def test_the_reference_names_every_module_or_its_package():
     assert not {name for name in names if not {name, name.rpartition(".")[0]} & entries}
 
 
-def imports(source, name):
-    """What the module `name` imports, in whatever form it says so: modules, and names of theirs."""
-    for node in ast.walk(ast.parse(source)):
-        if isinstance(node, ast.Import):
-            yield from (alias.name for alias in node.names)
-        elif isinstance(node, ast.ImportFrom):
-            stem = resolve_name("." * node.level + (node.module or ""), name.rpartition(".")[0])
-            yield from (f"{stem}.{alias.name}" for alias in node.names)
-
-
 def package(name):
     """The package of `FLOORS` that a module, or a name of one, belongs to; or None."""
     parts = name.split(".")
@@ -70,7 +59,7 @@ HOUSE = [
 @pytest.mark.parametrize("path", sorted(HOUSE), ids=module)
 def test_imports_point_one_way(path):
     own = package(module(path))
-    below = {package(name) for name in imports(code(path), module(path))}
+    below = {package(n) for n in imported_names(code(path), module(path).rpartition(".")[0])}
     assert not {other for other in below - {own, None} if FLOOR[other] >= FLOOR[own]}
     assert not (own in MOVES and below & SEES)
 

@@ -1,19 +1,20 @@
-"""Chapters are executed side by side, and only those that changed or whose library did.
+"""Chapters are executed side by side, once for the build and for their test, and only where needed.
 
-One that raises or writes to stderr has failed: it is executed again, and never published.
-
-The outputs wait in a cache whose folder is named after everything that a chapter can import: when
-one line of that changes, the folder is another one, and empty.
+Which is where a chapter's own lines have changed, or what it imports or reads (its `digest`). One
+that raises or writes to stderr has failed: it is executed again, and never published.
 """
 
 import gc
 import hashlib
 import shutil
 from concurrent.futures import ProcessPoolExecutor, as_completed
+from contextlib import suppress
+from functools import cache
 from pathlib import Path
 from time import monotonic
 
 import nbformat
+from filelock import FileLock
 from joblib import cpu_count
 from jupyter_cache import get_cache
 from jupyter_cache.base import CacheBundleIn
@@ -22,68 +23,84 @@ from sphinx.application import ENV_PICKLE_FILENAME
 from sphinx.errors import ExtensionError
 from sphinx.util import logging
 
-READ_BY_CHAPTERS = (
-    *("vmc_lib", "arm_in_page", "eye_in_page", "reproduce", "render", "tests"),
-    *("book/figures", "book/exercises"),
-)
+from reproduce.pipeline.imports import imported_files
+
+ROOMS = ("vmc_lib", "reproduce")  # where any chapter may read data
+DATA = {".xml", ".npz", ".json", ".jpg", ".webp"}
+COUNTED = {"tested": ("tests", "book")}  # pages, and the folders whose code they count
 say = logging.getLogger(__name__).info
 
 
 def setup(app):
     gc.disable()  # it looked through all pages' nodes again and again: a fifth of a build
     app.connect("config-inited", name_cache)
-    app.connect("env-before-read-docs", execute_what_changed)
+    app.connect("env-get-outdated", execute_what_changed)
     app.connect("build-finished", read_again_what_warned)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
 
 
-def digest(root):
-    """A name for the state of all files under `root` that a chapter can import or read."""
-    files = (f for top in READ_BY_CHAPTERS for f in sorted((root / top).rglob("*")) if f.is_file())
-    summed = hashlib.sha256()
-    for file in (root / "constraints.txt", *files):
-        if file.exists() and "__pycache__" not in file.parts:
-            summed.update(f"{file.relative_to(root)}\n".encode() + file.read_bytes())
-    return summed.hexdigest()[:16]
-
-
 def name_cache(app, config):
-    """Point MyST-NB to the cache of this state of the library; those of other states go."""
-    caches = Path(app.outdir).parent / ".executed"
-    here = caches / digest(Path(app.srcdir))
-    for other in set(caches.glob("*")) - {here}:
-        shutil.rmtree(other, ignore_errors=True)
-    config.nb_execution_cache_path = str(here)
+    """Point MyST-NB to the cache."""
+    config.nb_execution_cache_path = str(cache_folder(Path(app.srcdir)))
 
 
-def execute_what_changed(app, env, names):
-    """Execute the chapters that the cache does not have, on the cores there are."""
+def cache_folder(root):
+    """Where the outputs of the chapters of the book in `root` wait."""
+    return root / "_build/.executed"
+
+
+def digest(page):
+    """A name for the state of all that a chapter imports or reads, besides its own lines."""
+    root = page.parents[1]
+    cells = nbformat.read(page, as_version=4).cells
+    code = [cell.source for cell in cells if cell.cell_type == "code"]
+    folders = [(root / room, DATA) for room in ROOMS]
+    folders += [(root / room, {".py", ".ipynb"}) for room in COUNTED.get(page.stem, ())]
+    files = {root / "constraints.txt"}.union(*(_files(*folder) for folder in folders))
+    with suppress(SyntaxError):  # of which its execution will say where
+        files |= imported_files("\n".join([BEFORE, *code]), root)
+    states = "".join(f"{file.relative_to(root)} {_content(file)}\n" for file in sorted(files))
+    return hashlib.sha256(states.encode()).hexdigest()[:16]
+
+
+def _files(folder, kinds):
+    return {file for file in folder.rglob("*") if file.suffix in kinds}
+
+
+@cache
+def _content(file):
+    return hashlib.sha256(file.read_bytes()).hexdigest() if file.is_file() else None
+
+
+def execute_what_changed(app, env, added, changed, removed):
+    """Execute the chapters that the cache does not have, on the cores there are.
+
+    Returns the names of the pages that were read with other outputs.
+    """
+    names = {Path(env.doc2path(name)): name for name in env.found_docs}
+    pages = {page: digest(page) for page in sorted(names) if page.suffix == ".ipynb"}
     cache = open_cache(app.config.nb_execution_cache_path)
-    pages = (Path(env.doc2path(name)) for name in env.found_docs)
-    missing = [page for page in sorted(pages) if page.suffix == ".ipynb" and not known(cache, page)]
-    if not missing:
-        return
+    missing = [page for page in pages if not stored(cache, page, pages[page])]
     start, failed = monotonic(), []
-    with ProcessPoolExecutor(min(cpu_count(), len(missing))) as pool:
+    with ProcessPoolExecutor(min(cpu_count(), len(missing) or 1)) as pool:
         jobs = {
-            pool.submit(execute, page, app.config.nb_execution_timeout): page for page in missing
+            pool.submit(executed, page, app.config.nb_execution_timeout): page for page in missing
         }
         for done, job in enumerate(as_completed(jobs), start=1):
-            page, (notebook, seconds, error) = jobs[job], job.result()
+            page, (_, seconds, error) = jobs[job], job.result()
             left = (monotonic() - start) / done * (len(missing) - done)
             say(
                 f"executed {page.stem} in {seconds:.0f} s: {done}/{len(missing)}, {left:.0f} s left"
             )
             if error:
                 failed.append(f"{page.name}, {error}")
-            else:
-                bundle = CacheBundleIn(notebook, page, data={"execution_seconds": seconds})
-                cache.cache_notebook_bundle(bundle, check_validity=False, overwrite=True)
     if failed:
         message = "\n".join(["These chapters failed:", *failed, REMEDY])
         failures = Path(app.outdir).parent / ".failed"  # which make shows last
         failures.write_text(f"{message}\n", encoding="utf-8")
         raise ExtensionError(message)
+    before, env.vmc_digests = getattr(env, "vmc_digests", {}), pages
+    return [names[page] for page in pages if before.get(page) != pages[page]]
 
 
 REMEDY = "Open them with `make lab`, run them to that cell, and mend it or what it imports."
@@ -100,29 +117,69 @@ def open_cache(folder):
     return cache
 
 
-def known(cache, page):
-    """Whether the cache has a page's outputs, whole."""
+def stored(cache, page, state):
+    """A page's notebook with its outputs, whole and of a state (see `digest`), or None."""
     try:
         record = cache.match_cache_notebook(nbformat.read(page, as_version=4))
     except KeyError:
-        return False
+        return None
     try:
-        cache.get_cache_bundle(record.pk)
+        bundle = cache.get_cache_bundle(record.pk)
     except Exception as error:  # as above
         say(f"{page.stem} is executed anew: its outputs are damaged ({type(error).__name__})")
-        return False
-    return True
+        return None
+    return bundle.nb if bundle.record.data.get("digest") == state else None
+
+
+def executed(page, timeout):
+    """A chapter's executed notebook, its seconds, and where and how it failed, or None.
+
+    From the cache, or executed now: the build asks for its pages, and nbmake for its tests.
+    """
+    folder, state = cache_folder(page.parents[1]), digest(page)
+    folder.parent.mkdir(exist_ok=True)
+    lock = FileLock(folder.with_suffix(".lock"))
+    with lock:
+        if notebook := stored(open_cache(folder), page, state):
+            return notebook, 0, None
+    notebook, seconds, error = execute(page, timeout)
+    if not error:
+        data = {"execution_seconds": seconds, "digest": state}
+        with lock:
+            store(open_cache(folder), page, notebook, data)
+    return notebook, seconds, error
+
+
+def store(cache, page, notebook, data):
+    """Keep a page's outputs, and none of its earlier states."""
+    for record in cache.list_cache_records():
+        if record.uri == str(page):
+            with suppress(KeyError):  # its file has gone
+                cache.remove_cache(record.pk)
+    bundle = CacheBundleIn(notebook, str(page), data=data)
+    cache.cache_notebook_bundle(bundle, check_validity=False, overwrite=True)
+
+
+# Every demo is drawn again at the end, where a later cell may have changed what it reads
+BEFORE = "from book._ext import drawn_again; drawn_again.record()"
+AFTER = "drawn_again.draw_again()"
 
 
 def execute(page, timeout):
     """The executed notebook, its seconds, and where and how it failed, or None."""
     notebook = nbformat.read(page, as_version=4)
+    notebook.cells.append(nbformat.v4.new_code_cell(AFTER))
     options = {
-        "extra_arguments": ["--IPKernelApp.log_level=ERROR"],  # or it warns that loopback is plain
+        "extra_arguments": [
+            "--IPKernelApp.log_level=ERROR",  # or it warns that loopback is plain
+            f"--IPKernelApp.exec_lines={[BEFORE]}",
+        ],
         "force_raise_errors": True,  # also where a reader's error does not stop Run All
     }
     result = single_nb_execution(notebook, page.parent, timeout, allow_errors=False, **options)
-    return notebook, result.time, failure(notebook, result.err)
+    error = failure(notebook, result.err)
+    del notebook.cells[-1]
+    return notebook, result.time, error
 
 
 def failure(notebook, error):

@@ -4,9 +4,8 @@ import sys
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
-from functools import cache, partial
+from functools import partial
 from inspect import getsourcefile
-from modulefinder import ModuleFinder
 from multiprocessing import get_context
 from pathlib import Path
 
@@ -37,6 +36,7 @@ from reproduce.experiments import (
 )
 from reproduce.peers import minimum_variance, optimal_control
 from reproduce.pipeline import checksums
+from reproduce.pipeline.imports import imported_files
 from reproduce.training import arm_tables, shipped_models, ventral_stream
 from reproduce.whole_arm import bones as bones63
 from reproduce.whole_arm import experiment, habits, plant
@@ -74,7 +74,8 @@ class Step:
         places = [makes.get(name, ROOT / name) for name in self.reads.split()]
         within = (file for place in places for file in (place, *place.rglob("*")))
         found = {file for file in within if file.suffix in DATA}
-        return found | imported_files(getsourcefile(self.function))
+        own = Path(getsourcefile(self.function))
+        return found | {own} | imported_files(own.read_text(encoding="utf-8"))
 
     def run(self):
         """Make the file, on all cores, in a new process: one that has read no older file."""
@@ -85,14 +86,6 @@ class Step:
 def _make_file(step):
     with parallel_config(n_jobs=-1):
         write(step.file, step.make)
-
-
-@cache
-def imported_files(file):
-    """A file of Python, and all of the project's that it imports, or that these import."""
-    finder = ModuleFinder([str(ROOT)])
-    finder.run_script(file)
-    return {Path(module.__file__) for module in finder.modules.values() if module.__file__}
 
 
 def write(file, make):

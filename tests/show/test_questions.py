@@ -104,11 +104,13 @@ WRONG = [
 
 
 @pytest.mark.parametrize(("answer", "expected", "tolerance"), WRONG)
-def test_wrong_answers_show_the_hint_and_fail_a_test(
+def test_wrong_answers_show_the_hint_and_fail_where_no_reader_is(
     answer, expected, tolerance, shown, monkeypatch
 ):
-    with pytest.raises(AssertionError, match="check: "):
-        check(answer, expected, tolerance)
+    for render_mode in ("book", "test"):
+        monkeypatch.setenv("VMC_RENDER_MODE", render_mode)
+        with pytest.raises(AssertionError, match="check: "):
+            check(answer, expected, tolerance)
     monkeypatch.setenv("VMC_RENDER_MODE", "live")
     check(answer, expected, tolerance, hint="Draw it: $x < y$.")
     [page] = shown

@@ -81,8 +81,8 @@ def check(answer, expected, tolerance=1e-6, hint="", unit=""):
     `expected` is a number, a text, or any nesting of numbers; a number may be off by `tolerance`,
     and is in `unit`. An answer with a None in it is not answered yet; a text is read as
     `answers.judge` does, and what it cannot read is not wrong; what is wrong is shown the `hint`
-    (Markdown). In a test (`VMC_RENDER_MODE=test`) what is not right raises AssertionError: running
-    a chapter proves its solutions.
+    (Markdown). Where no reader is (in the book and in a test) what is not right raises
+    AssertionError: running a chapter proves its solutions.
     """
     if _unanswered(answer):
         typed = render_mode() == "book" and isinstance(expected, (int, float, str, tuple))
@@ -92,7 +92,7 @@ def check(answer, expected, tolerance=1e-6, hint="", unit=""):
         state = judge(answer, expected, tolerance, unit)
     else:
         state = "right" if agree(answer, expected, tolerance) else "wrong"
-    if state != "right" and render_mode() == "test":
+    if state != "right" and render_mode() != "live":
         raise AssertionError(f"check: {answer!r} is not {expected!r} within {tolerance}: {state}")
     got = f"You have {html.escape(repr(answer))}. "
     display(HTML(verdict(_words(np.size(expected), got + inline(hint), unit)[state])))
@@ -146,13 +146,13 @@ def grade(function, exercise):
     """Show whether the reader's `function` does what an `Exercise` asks; if not, a hint.
 
     Lines that Python cannot read have left an older function there: it is not graded. Of what the
-    function prints, on its many cases, the beginning is shown. In a test (`VMC_RENDER_MODE=test`)
-    a wrong one raises AssertionError.
+    function prints, on its many cases, the beginning is shown. Where no reader is (in the
+    book and in a test) a wrong one raises AssertionError.
     """
     with redirect_stdout(StringIO()) as printed:
         message = unreadable(_last_lines(exercise.right.__name__)) or feedback(function, exercise)
     print(printed.getvalue()[:LONGEST], end="")
-    if message.startswith(WRONG) and render_mode() == "test":
+    if message.startswith(WRONG) and render_mode() != "live":
         raise AssertionError(f"grade: {message}")
     unread = message == EMPTY and render_mode() == "book"
     display(HTML(_buttons(exercise.right) if unread else verdict(inline(message))))

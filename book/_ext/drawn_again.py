@@ -29,6 +29,7 @@ def record():
 
 
 def draw_again():
-    """Draw the last state of every demo; AssertionError where it is another than at first."""
+    """Draw the last state of every demo; ValueError where it is another than at first."""
     changed = [caption for caption, state, before in DECLARED if state() != before]
-    assert not changed, f"these demos show something else now: {changed}"
+    if changed:
+        raise ValueError(f"these demos show something else now: {changed}")
