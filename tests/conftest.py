@@ -1,14 +1,18 @@
 """What all tests share: demos live their test life, and page tests find a browser."""
 
 import os
+import re
 import shutil
 from collections import Counter
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
+from filelock import FileLock
 from hypothesis import settings
+from playwright.sync_api import Error
 
 from tests import pages
 from tests.engines import NOT_TESTED, Firefox, WebKit
@@ -24,6 +28,19 @@ os.environ.setdefault("MPLBACKEND", "agg")
 os.environ["PYTHONPATH"] = str(Path(__file__).parents[1])  # of the programs that tests start
 
 
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(item, call):
+    """Keep what the open pages showed when a test failed, in _build/failed."""
+    report = yield
+    if report.when == "call" and report.failed:
+        name = re.sub(r"\W+", "_", item.nodeid)
+        for number, page in enumerate(pages.OPEN):
+            with suppress(Error):  # of a page that has gone
+                page.screenshot(path=FAILED / f"{name}_{number}.png", timeout=10_000)
+                report.sections.append((f"{name}_{number}.png: {page.url}", f"{page.errors}"))
+    return report
+
+
 def pytest_unconfigure(config):
     """Say loudly, in the last lines, what was not tested."""
     reporter = config.pluginmanager.get_plugin("terminalreporter")
@@ -32,6 +49,8 @@ def pytest_unconfigure(config):
         reporter.line(f"NOT TESTED: {count} of the tests. {why}", red=True, bold=True)
 
 
+ENGINES = [Firefox, pytest.param(WebKit, marks=pytest.mark.audit)]
+FAILED = pages.ROOT / "_build/failed"
 # What passed is long: it stays in the page
 AXE_RUN = """async ([within, theme, options]) => {
   document.documentElement.dataset.theme = theme;
@@ -69,15 +88,30 @@ def white():
 
 
 @pytest.fixture(scope="session")
-def kit(tmp_path_factory):
+def once(tmp_path_factory):
+    """A function: a folder that one worker makes, by `make(folder)`, and all workers read."""
+    base = tmp_path_factory.getbasetemp()
+    base = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
+
+    def once(name, make):
+        folder, there = base / name, base / f"{name}.there"
+        with FileLock(base / f"{name}.lock"):
+            if not there.exists():
+                make(folder)
+                there.touch()
+        return folder
+
+    return once
+
+
+@pytest.fixture(scope="session")
+def kit(once):
     """The folder of the teacher's kit, made from the built book."""
     from kit.__main__ import ROOT, build
 
     built = ROOT / "_build/html/book"
     assert (built / "teaching.html").exists(), "no built book in _build/html: run `make book` first"
-    folder = tmp_path_factory.mktemp("kit") / "kit"
-    build(folder, built)
-    return folder
+    return once("kit", lambda folder: build(folder, built))
 
 
 @pytest.fixture
@@ -99,13 +133,10 @@ def outputs(monkeypatch):
 @pytest.fixture(scope="session")
 def chromium():
     """A headless browser; without one the test is skipped, in continuous integration it fails."""
-    from playwright.sync_api import expect
-
     from tools import browser
 
     if not browser.find():
         (pytest.fail if os.environ.get("CI") else pytest.skip)(browser.MISSING)
-    expect.set_options(timeout=pages.PATIENCE)
     with browser.launch() as chromium:
         chromium.new_context = partial(pages.patient, chromium.new_context)
         yield chromium
@@ -134,7 +165,7 @@ def window(chromium):
         each.close()
 
 
-@pytest.fixture(scope="module", params=[Firefox, WebKit], ids=["Firefox", "WebKit"])
+@pytest.fixture(scope="module", params=ENGINES)
 def engine(request, tmp_path_factory):
     """Another browser than Chromium; where there is none the test is skipped."""
     if not request.param.program():

@@ -1,13 +1,16 @@
 """Pages that tests open: the book's own scripts around what demos show, and a reader's hand."""
 
 import itertools
+import os
 import re
 from functools import cache
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
+from weakref import WeakSet
 
 import pytest
 import yaml
+from playwright.sync_api import TimeoutError, expect
 
 ROOT = Path(__file__).parents[1]
 BUILT = ROOT / "_build/html"
@@ -47,7 +50,7 @@ STILL_BOXES = """async (things) => {
   }
   return last;
 }"""
-PATIENCE = 180_000  # ms: ends a hang, never a busy machine's work
+OPEN = WeakSet()  # pages that are observed: what they show is kept when a test fails
 counter = itertools.count(1)
 
 
@@ -67,15 +70,26 @@ def book_html(module, declare):
     return "\n".join(item.data for item in shown)
 
 
+def patience():
+    """How long a test waits for what a reader sees at once, ms: it ends a hang, and no work.
+
+    Half a minute, or VMC_PATIENCE seconds; as many times longer as the machine is busy.
+    """
+    busy = os.getloadavg()[0] / os.cpu_count() if hasattr(os, "getloadavg") else 1
+    return 1000 * float(os.environ.get("VMC_PATIENCE", 30)) * max(1, busy)
+
+
 def patient(new_context, **kind):
     """A browser window that waits as long as a busy machine may need."""
     context = new_context(**kind)
-    context.set_default_timeout(PATIENCE)
+    context.set_default_timeout(patience())
+    expect.set_options(timeout=patience())
     return context
 
 
 def observe(page):
     """Keep what a page asks for, what does not come, and what it complains about."""
+    OPEN.add(page)
     page.asked, page.failed, page.errors = [], [], []
     page.on("request", lambda request: page.asked.append(request.url))
     page.on("requestfailed", lambda request: page.failed.append(request.url))
@@ -89,13 +103,17 @@ def observe(page):
     return page
 
 
+WAITING = "[...document.querySelectorAll('.vmc-demo:has(> script):not([data-ready])')]"
+
+
 def settle(page):
     """Wait until demos can answer."""
     page.wait_for_load_state("load")
-    page.wait_for_function(
-        "() => ![...document.querySelectorAll('.vmc-demo:has(> script)')]"
-        ".some((demo) => !('ready' in demo.dataset))"
-    )
+    try:
+        page.wait_for_function(f"() => !{WAITING}.length")
+    except TimeoutError:
+        waiting = page.evaluate(f"() => {WAITING}.map((demo) => demo.id)")
+        pytest.fail(f"{page.url}: these demos never became ready: {waiting}; {page.errors}")
 
 
 def open_url(window, url):

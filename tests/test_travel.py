@@ -16,9 +16,8 @@ pytestmark = pytest.mark.browser
 
 
 @pytest.fixture(scope="session")
-def folder(tmp_path_factory):
-    demos.build(made := tmp_path_factory.mktemp("travel") / "demos", BUILT / "book")
-    return made
+def folder(once):
+    return once("demos", lambda folder: demos.build(folder, BUILT / "book"))
 
 
 @pytest.fixture(scope="session")
