@@ -1,5 +1,7 @@
 # make book   build the book and say where to open it
-# make test   run every test: library, chapters, pages in a browser
+# make check  check style and the model, and one page of each kind: a minute, while working
+# make test   run the tests: library, chapters, pages in a browser; those of `make check` first
+# make audit  run them all, at night and before a release: all engines, rows broken on purpose, toy data
 # make lab    open the chapters in JupyterLab
 # make kit    build the teacher's kit: notebooks for students, slides, the key, a bank of questions
 # make pdf    print the whole book as one PDF, _build/book.pdf (with a browser)
@@ -23,6 +25,11 @@ ROOMS  := book vmc_lib arm_in_page eye_in_page python_in_page reproduce
 # One file saved since the book was built, if any: no list of prerequisites, where a name may hold no blank or colon
 NEWER  := $(shell find _config.yml _toc.yml $(ROOMS) -type f -newer $(BUILT) -not -path '*/.*' -not -path '*/__pycache__/*' 2>/dev/null | head -n 1)
 
+# What goes wrong most is asked first, and a suite that is red ends soon
+FIRST  := $(addprefix tests/,arm motor cerebellum where what test_loop.py test_camera.py test_boxes.py \
+  test_statistics.py in_page/test_drags.py show/test_plots_in_browser.py arm_in_page/test_numbers.py)
+PYTEST := $(BIN)/pytest -n auto --dist worksteal --maxfail=10 --nbmake-timeout=3600
+
 PEERED := selective_search cuts simulators crbm planning loop scaling
 
 # Locked, each file by its checksum. The library comes second, and torch, whose build (CPU, CUDA) differs
@@ -34,7 +41,7 @@ endef
 pip = $(if $(UV),uv pip install --python $(1)/python,$(1)/pip install)
 UV := $(shell command -v uv)
 
-.PHONY: book test lab kit pdf data bench lock clean changed
+.PHONY: book check test audit lab kit pdf data bench lock clean changed
 .DEFAULT_GOAL := book
 
 book: $(BUILT)
@@ -43,13 +50,21 @@ book: $(BUILT)
 	if [ -n "$$DISPLAY$$WAYLAND_DISPLAY" ] || [ "$$(uname)" = Darwin ]; then \
 	  $(BIN)/python -m webbrowser -t "$$at"; fi
 
-test: $(BUILT)
+check: $(READY)
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(BIN)/codespell
+	$(PYTEST) $(FIRST)
+
+test: check $(BUILT)
 	$(BIN)/python -m tools.browser
 	$(BIN)/python -m tests.engines
-	$(BIN)/pytest -n auto --dist worksteal --nbmake --nbmake-timeout=3600 book tests $(if $(CI),--cov)
+	$(PYTEST) $(FIRST:%=--ignore=%) --nbmake tests book
+
+audit: $(BUILT)
+	$(BIN)/python -m tools.browser
+	$(BIN)/python -m tests.engines
+	$(PYTEST) -m "" --nbmake tests book --cov --cov-fail-under=97
 
 lab: $(READY) $(LAYOUT)
 	@mkdir -p .venv/etc/ipython && cp .binder/ipython_kernel_config.py .venv/etc/ipython

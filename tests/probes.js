@@ -93,9 +93,9 @@ function restlessSliders() {
   }).map((demo) => demo.id);
 }
 
-/* Sliders that, dragged from end to end, move a control of their demo in the window; a demo whose
-   states are not in the page draws a little later. */
-async function jumpySliders() {
+/* Sliders that, dragged to some places (parts of their way), move a control of their demo in the window;
+   a demo whose states are not in the page draws a little later. */
+async function jumpySliders(places) {
   const seen = (one) => one.checkVisibility({ visibilityProperty: true });
   const jumps = async (slider) => {
     const demo = slider.closest(".vmc-demo"), min = +slider.min, range = slider.max - min;
@@ -104,16 +104,10 @@ async function jumpySliders() {
       .flatMap(({ left, right, top }) => [left, right, top]);
     slider.scrollIntoView({ block: "center", behavior: "instant" });
     slider.focus({ preventScroll: true });
-    const start = slider.value;
-    let farthest = 0, before = edges();
-    for (let still = 0; still < 10; still++) { // what comes into view may still load
-      await new Promise(requestAnimationFrame);
-      const now = edges();
-      if (`${now}` !== `${before}`) still = 0;
-      before = now;
-    }
+    const start = slider.value, before = edges();
+    let farthest = 0;
     slider.dispatchEvent(new PointerEvent("pointerdown", { bubbles: true }));
-    for (let part = 0.02; part < 1; part += 0.12) {
+    for (const part of places) {
       slider.value = min + part * range;
       fire(slider);
       for (let frames = demo.vmc ? 0 : 2; frames--; ) await new Promise(requestAnimationFrame);
@@ -123,7 +117,15 @@ async function jumpySliders() {
     fire(slider);
     return farthest > 1;
   };
-  const jumpy = [];
+  const all = document.querySelectorAll(".vmc-demo"), jumpy = [];
+  for (const demo of all) demo.scrollIntoView({ block: "center", behavior: "instant" }); // and what is there loads
+  const tops = () => `${[...all].map((demo) => demo.getBoundingClientRect().top)}`;
+  for (let still = 0, before; still < 10; still++) {
+    await new Promise(requestAnimationFrame);
+    const now = tops();
+    if (now !== before) still = 0;
+    before = now;
+  }
   for (const slider of document.querySelectorAll(".vmc-demo input[type=range]:enabled"))
     if (seen(slider) && (await jumps(slider))) jumpy.push(slider.id || slider.closest("label").textContent);
   return jumpy;

@@ -14,6 +14,13 @@ CHAPTERS = [path for path in NOTEBOOKS if path.stem[:2].isdigit()]
 each_chapter = pytest.mark.parametrize("path", CHAPTERS, ids=lambda path: path.stem)
 
 
+def sample(cases, *kept):
+    """The cases of a test, of which all but some, by name, wait for the audit (`make audit`)."""
+    name = lambda case: getattr(case, "stem", case)  # noqa: E731 - a file's, or itself
+    audit = pytest.mark.audit
+    return [c if name(c) in kept else pytest.param(c, marks=audit, id=f"{name(c)}") for c in cases]
+
+
 def code_cells(path):
     """The cells of a notebook that hold code."""
     return [cell for cell in nbformat.read(path, as_version=4).cells if cell.cell_type == "code"]

@@ -6,6 +6,7 @@ import pytest
 from bs4 import BeautifulSoup
 
 from tests.pages import CHAPTERS, INSIDE, TWO_FRAMES, boxes, broken_links, open_url, probe, unfold
+from tests.project import sample
 
 pytestmark = pytest.mark.browser
 each_chapter = pytest.mark.parametrize("path", CHAPTERS, ids=lambda path: path.stem)
@@ -98,6 +99,7 @@ def test_sliders_stand_in_a_grid_and_still(page):
 
 
 SCREENS = (1280, 800), (390, 844)  # a laptop's, a phone's
+EIGHTHS = pytest.param([0.02 + 0.12 * k for k in range(9)], marks=pytest.mark.audit, id="many")
 FIRST = ".vmc-demo:has(.vmc-controls, input[type=range]), .vmc-live"
 MOVABLE = ":is(.vmc-handle, input, select):visible"
 
@@ -113,12 +115,13 @@ def test_the_first_screen_plays(page, width, height):
     assert y + tall <= height
 
 
+@pytest.mark.parametrize("places", [[0.02, 0.5, 0.98], EIGHTHS])
 @pytest.mark.parametrize(("width", "height"), SCREENS)
-def test_nothing_jumps_while_a_slider_is_dragged(page, width, height):
+def test_nothing_jumps_while_a_slider_is_dragged(page, width, height, places):
     """From one end to the other: each control of its demo keeps its place in the window."""
     resize(page, width, height)
     unfold(page)
-    assert probe(page, "jumpySliders") == []
+    assert probe(page, "jumpySliders", places) == []
 
 
 SIZES = pytest.mark.parametrize(("width", "height"), [*SCREENS, (1366, 768)])
@@ -225,9 +228,9 @@ def test_no_equation_and_no_word_of_a_picture_is_cut(page):
     assert probe(page, "cutWords") == []
 
 
-def test_fits_phones_tablets_and_enlarged_pages(page):
+@pytest.mark.parametrize("width", sample((320, 360, 412, 640, 768, 1024), 320, 768))
+def test_fits_phones_tablets_and_enlarged_pages(page, width):
     """Three phones, two tablets; 320 and 640 are a window of 1280 at 400 % and at 200 %."""
-    for width in (320, 360, 412, 640, 768, 1024):
-        resize(page, width, 700)
-        whole = page.evaluate("() => document.documentElement.scrollWidth")
-        assert (probe(page, "tooWide", "article"), whole) == ([], min(whole, width)), width
+    resize(page, width, 700)
+    whole = page.evaluate("() => document.documentElement.scrollWidth")
+    assert (probe(page, "tooWide", "article"), whole) == ([], min(whole, width))

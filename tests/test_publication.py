@@ -101,6 +101,7 @@ def test_every_page_is_printed_once():
     assert {ROOT / name for name in names} == kept  # JupyterLab's own copies are no pages
 
 
+@pytest.mark.audit
 @pytest.mark.browser
 def test_pages_are_printed_as_one_book(chromium, tmp_path):
     """Numbered, with bookmarks and links inside; each demo in two positions, and nothing folded."""

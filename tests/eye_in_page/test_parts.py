@@ -1,5 +1,7 @@
 """Each script of the page's eye computes what the module does whose twin it is."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -15,7 +17,11 @@ from vmc_lib.where.selective_search import propose
 
 pytestmark = pytest.mark.browser
 SHOT = photos.load("real", "test")[4]
-DETECTOR, STREAM = high_recall_detector("real"), VentralStream.load()
+
+
+@cache
+def detector():
+    return high_recall_detector("real")
 
 
 def random_boxes(rng, count):
@@ -138,18 +144,18 @@ def test_the_detectors_answers_to_features(ask, rng):
         vmcEye.svmScore(detector, x),
         ...ridges.flatMap((ridge) => Array.from(vmcEye.predict(ridge, Float64Array.from(x)))),
       ]);"""
-    columns = [DETECTOR.svm.score(x)]
-    columns += [regression.predict(x) for regression in DETECTOR.regressions]
-    columns += [DETECTOR.iou_predictor.predict(x)]
+    columns = [detector().svm.score(x)]
+    columns += [regression.predict(x) for regression in detector().regressions]
+    columns += [detector().iou_predictor.predict(x)]
     assert np.allclose(ask(script, x.tolist()), np.column_stack(columns), atol=1e-6)
 
 
 def test_the_detectors_boxes(ask):
-    candidates = propose(SHOT.image, DETECTOR.recipe.strategy)
+    candidates = propose(SHOT.image, detector().recipe.strategy)
     script = "return vmcEye.finish(vmcEye.detect(brain.detector, photo, asked));"
     there, here = (
         ask(script, candidates.tolist(), SHOT.image),
-        DETECTOR.detect(SHOT.image, candidates),
+        detector().detect(SHOT.image, candidates),
     )
     assert len(there["boxes"]) == pytest.approx(len(here.boxes), abs=1)
     best = min(8, len(here.boxes))
@@ -164,7 +170,7 @@ def test_the_streams_answers(ask, rng, flips):
     script = """const [boxes, flips] = asked;
       return boxes.map((box) => vmcEye.look(brain.stream, photo, box, flips));"""
     there = ask(script, [regions.tolist(), flips], image)
-    log_odds, deltas = STREAM.predict(image, regions, flips)
+    log_odds, deltas = VentralStream.load().predict(image, regions, flips)
     assert np.allclose([answer["logOdds"] for answer in there], log_odds, atol=1e-4)
     assert np.allclose([answer["deltas"] for answer in there], deltas, atol=1e-5)
 

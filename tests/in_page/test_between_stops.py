@@ -20,7 +20,7 @@ def declare():
 
 
 def trade_words(threshold, overlap):
-    return trade.trade_in_words(slid.LEVEL["rig"], threshold, overlap)
+    return trade.trade_in_words(slid.scored("rig"), threshold, overlap)
 
 
 def block_words(*drives):

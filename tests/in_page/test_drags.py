@@ -1,6 +1,7 @@
 """What the page works out for any place of the reader's hand is what Python works out."""
 
 import re
+from functools import cache
 
 import numpy as np
 import pytest
@@ -29,10 +30,15 @@ XS, YS, WIDE, HIGH = (
 PAST, MUSCLE = templates.load(spacing=0.06), MUSCLES.index("BIClong")
 ACROSS, UP = np.arange(0.015, 0.17, 0.015), np.arange(-0.475, -0.33, 0.015)
 SPOTS = [(x, y) for x in ACROSS.tolist() for y in UP.tolist()]
-ENDED = execute(plan(SPOTS, PAST)).endpoint
 SHOT = photos.load("free", "test")[0]
 ACROSS_SHOT, DOWN_SHOT = np.arange(0, 601, 10), np.arange(0, 401, 10)
 AROUND, NEURONS = np.linspace(-0.95, 0.95, 20), range(3, 61)
+
+
+@cache
+def ends():
+    """Where the hand ends, of a reach to each spot."""
+    return execute(plan(SPOTS, PAST)).endpoint
 
 
 def declare():
@@ -46,10 +52,10 @@ def declare():
         size=Pad(WIDE, HIGH, start=(80, 80)),
     )
     explore(
-        lambda place: reaching.plan_figures(PAST, MUSCLE, place, ENDED[SPOTS.index(place)]),
+        lambda place: reaching.plan_figures(PAST, MUSCLE, place, ends()[SPOTS.index(place)]),
         "c",
         lambda place: f"{place}",
-        in_page=reaching.plan_in_page(PAST, MUSCLE, ENDED),
+        in_page=reaching.plan_in_page(PAST, MUSCLE, ends()),
         place=Pad(ACROSS, UP),
     )
     explore(
@@ -111,13 +117,13 @@ def test_a_plan_is_drawn_as_python_plans_it(page, place):
     spot = place[0] * len(UP) + place[1]
     one = plan(SPOTS[spot], PAST)
     (in_plane, over_time), said = move(page, 1, *place)
-    miss = f"{1000 * np.linalg.norm(ENDED[spot] - one.target):.1f} mm"
+    miss = f"{1000 * np.linalg.norm(ends()[spot] - one.target):.1f} mm"
     labels = words(in_plane)[-5:]
     assert labels == [*(f"{w:.2f}" for w in one.weights), f"the hand misses by {miss}"]
     assert f"the hand ends {miss} away" in said
 
     marks = [mark[:2] for mark in numbers(in_plane, "circle")]
-    expected = on(in_plane, [*one.points, one.target, ENDED[spot]])
+    expected = on(in_plane, [*one.points, one.target, ends()[spot]])
     assert np.abs(np.array(marks) - expected).max() < 0.1
     curves = np.array(polylines(over_time))
     parts = one.weights[:, None] * PAST.excitations[one.rows, ::20, MUSCLE]

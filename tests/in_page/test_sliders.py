@@ -1,7 +1,7 @@
 """What the page works out for any position of a slider is what Python works out."""
 
 import re
-from functools import partial
+from functools import cache, partial
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -17,12 +17,21 @@ from vmc_lib.what.crbm import CRBM
 
 pytestmark = pytest.mark.browser
 THRESHOLDS, ALLOWED = np.linspace(-2, 2, 41).round(2), np.linspace(0.1, 0.9, 41).round(2)
-DETECTED = {level: [*localisation.detect_photos(level, "validation")] for level in ("rig", "free")}
-LEVEL = {k: trade.scored_level(photos.load(k, "validation"), v) for k, v in DETECTED.items()}
 WIDTHS, X = np.geomspace(0.003, 0.15, 41), np.linspace(0.005, 0.235, 60)
 LINE = X[:, None] + 0.01 * np.sin(20 * X[:, None]), 8 + 6 * np.sin(30 * X), X, np.arange(60)[::-1]
+LEVELS = "rig", "free"
 DRIVES, CUTS = np.linspace(-3, 3, 61).round(1), np.linspace(0.01, 0.99, 99).round(2)
 CHANCES = {level: recognition.load_probabilities(level, "test") for level in ("rig", "varied")}
+
+
+@cache
+def detected(level):
+    return [*localisation.detect_photos(level, "validation")]
+
+
+@cache
+def scored(level):
+    return trade.scored_level(photos.load(level, "validation"), detected(level))
 
 
 def excite(x, centres, width):
@@ -44,11 +53,11 @@ def block_chances(drives):
 
 def declare():
     explore(
-        lambda level, threshold, overlap: trade.trade(LEVEL[level], threshold, overlap),
+        lambda level, threshold, overlap: trade.trade(scored(level), threshold, overlap),
         "c",
-        lambda level, threshold, overlap: trade.trade_in_words(LEVEL[level], threshold, overlap),
-        in_page=trade.trade_in_page(LEVEL),
-        level=[*LEVEL],
+        lambda level, threshold, overlap: trade.trade_in_words(scored(level), threshold, overlap),
+        in_page=trade.trade_in_page({level: scored(level) for level in LEVELS}),
+        level=[*LEVELS],
         threshold=Slider(THRESHOLDS, "threshold"),
         overlap=Slider(ALLOWED, "overlap"),
     )
@@ -87,16 +96,16 @@ def test_a_threshold_trades_precision_for_recall_as_in_python(page, place):
         box.get_by_role("slider", name=name).fill(str(at))
     photo, plot = [picture.inner_html() for picture in box.locator(".vmc-picture").all()]
     threshold, overlap = THRESHOLDS[threshold], ALLOWED[overlap]
-    kept = [localisation.keep_boxes(one, threshold, overlap) for one in DETECTED[level]]
-    precision, recall = localisation.precision_recall(LEVEL[level].photos, kept)
+    kept = [localisation.keep_boxes(one, threshold, overlap) for one in detected(level)]
+    precision, recall = localisation.precision_recall(scored(level).photos, kept)
     rates = re.findall(r"[\d.]+", words(plot)[-1])
     assert np.abs(np.float64(rates) - [precision, recall]).max() <= 0.005 + 1e-9
-    drawn, figure = trade.trade(LEVEL[level], threshold, overlap)
+    drawn, figure = trade.trade(scored(level), threshold, overlap)
     plt.close(figure)
     assert sorted(numbers(photo, "rect")) == sorted(numbers(drawn, "rect"))
     assert len(numbers(photo, "rect")) == 2 * len(kept[trade.SHOWN])
-    assert words(plot)[-1] in trade.trade_in_words(LEVEL[level], threshold, overlap)
-    curve = trade.trace(LEVEL[level], overlap)[2]
+    assert words(plot)[-1] in trade.trade_in_words(scored(level), threshold, overlap)
+    curve = trade.trace(scored(level), overlap)[2]
     assert np.abs(polylines(plot)[0] - on(plot, curve)).max() < 0.2
     assert (
         np.abs(np.array(numbers(plot, "circle")[-1][:2]) - on(plot, [recall, precision])).max()

@@ -6,7 +6,7 @@ import pytest
 from tests import lab
 from tests.notebooks.conftest import LATE
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.audit]
 
 
 def test_notebook_7_runs_a_chapter_and_whoever_gets_it_untrusted_sees_stills(

@@ -34,6 +34,7 @@ def test_a_quiz_is_answered_without_a_kernel_and_links_open_as_something_to_read
         expect(text.first).to_be_in_viewport(timeout=600_000)  # its source is there too, and hidden
 
 
+@pytest.mark.audit
 def test_a_demo_keeps_its_keys_and_leaves_shortcuts_to_jupyterlab(run_all):
     page = run_all("07_muscle")
     demo = page.locator(".vmc-demo[data-ready]:has(input[type=range])").first
@@ -55,6 +56,7 @@ def test_a_demo_keeps_its_keys_and_leaves_shortcuts_to_jupyterlab(run_all):
     page.locator(f"#{name}").wait_for(state="detached")
 
 
+@pytest.mark.audit
 def test_a_plot_follows_the_kernel_shows_its_errors_and_leaves_a_still(run_all):
     page = run_all("07_muscle")
     slider = page.locator(".vmc-demo[data-ready] input[type=range]").first
@@ -126,6 +128,7 @@ def test_scenes_and_the_arm_move_and_free_their_memory(run_all):
     lab.assert_readable(page)
 
 
+@pytest.mark.audit
 def test_photos_move_and_the_readers_own_is_seen_whatever_its_size(run_all, tmp_path):
     page = run_all("02_candidates")
     lab.move(page, page.locator(".vmc-demo[data-ready]:has(image) input[type=range]").first)
@@ -143,6 +146,7 @@ def test_photos_move_and_the_readers_own_is_seen_whatever_its_size(run_all, tmp_
     lab.assert_readable(page)
 
 
+@pytest.mark.audit
 def test_a_chapter_that_is_closed_keeps_no_kernel(visit, server):
     page = visit("08_arm")
 
@@ -176,6 +180,7 @@ def move_only_demo(page):
     return demo.locator(".vmc-pictures").get_attribute("aria-label")
 
 
+@pytest.mark.audit
 def test_a_demo_moves_while_the_chapter_still_runs(long_chapter):
     page, go_on = long_chapter
     assert move_only_demo(page) == "up to 3"
@@ -188,6 +193,7 @@ def test_a_demo_moves_while_the_chapter_still_runs(long_chapter):
     assert len(pictures) == 1  # the cell's own
 
 
+@pytest.mark.audit
 def test_a_restart_in_the_middle_leaves_no_dead_demo(long_chapter):
     page, go_on = long_chapter
     page.wait_for_selector(".vmc-demo[data-ready]")

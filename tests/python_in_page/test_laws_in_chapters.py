@@ -28,6 +28,7 @@ while (moved().length < 2) await new Promise((resolve) => setTimeout(resolve, 10
 return moved().map((demo) => [...demo.querySelectorAll("svg text")].map((x) => x.textContent));"""
 
 
+@pytest.mark.audit
 def test_the_other_engines_follow_a_law(engine):
     stem, (old, mine) = "04_crbm", LAWS["04_crbm"]
     given = f"const [law, old, mine] = {json.dumps(['boltzmann', old, mine])}; "

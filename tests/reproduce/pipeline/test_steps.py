@@ -28,11 +28,13 @@ def keys(folder, name):
     return set(data.arrays(name, folder))
 
 
+@pytest.mark.audit
 def test_every_step_has_a_toy(toy):
     functions = {name for name, step in BY_NAME.items() if not isinstance(step.make, str)}
     assert {file.stem for file in toy.glob("*.*") if file.name[0] != "."} == functions | {"photos"}
 
 
+@pytest.mark.audit
 @pytest.mark.parametrize(
     "name",
     ["detectors", "localisers", "cdbn", "recogniser", "recognition", "photographs", "tricks"],
@@ -47,17 +49,20 @@ def test_toy_file_has_the_arrays_of_the_shipped_one(toy, name):
         assert len(kinds) == 1, key
 
 
+@pytest.mark.audit
 @pytest.mark.parametrize("name", ["candidates", "localisation"])
 def test_toy_file_has_some_arrays_of_the_shipped_one(toy, name):
     assert keys(toy, name) < keys(BY_NAME[name].file.parent, name)
 
 
+@pytest.mark.audit
 def test_toy_candidates_equal_the_shipped_ones(toy):
     shipped = data.arrays("candidates")
     for name, boxes in data.arrays("candidates", toy).items():
         np.testing.assert_allclose(boxes, shipped[name], atol=1, err_msg=name)
 
 
+@pytest.mark.audit
 def test_toy_experiments_give_shares_and_counts(toy):
     table = data.arrays("localisation", toy)["rig/context/table 1/0"]
     assert table.shape == (len(photos.SPLITS), len(TABLE_1_KERNELS), 2)
