@@ -3,6 +3,7 @@
 import itertools
 import os
 import re
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
@@ -109,11 +110,10 @@ WAITING = "[...document.querySelectorAll('.vmc-demo:has(> script):not([data-read
 def settle(page):
     """Wait until demos can answer."""
     page.wait_for_load_state("load")
-    try:
+    with suppress(TimeoutError):
         page.wait_for_function(f"() => !{WAITING}.length")
-    except TimeoutError:
-        waiting = page.evaluate(f"() => {WAITING}.map((demo) => demo.id)")
-        pytest.fail(f"{page.url}: these demos never became ready: {waiting}; {page.errors}")
+    waiting = page.evaluate(f"() => {WAITING}.map((demo) => demo.id)")
+    assert not waiting, f"{page.url}: these demos never became ready: {waiting}; {page.errors}"
 
 
 def open_url(window, url):
