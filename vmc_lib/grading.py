@@ -49,6 +49,36 @@ def agree(answer, expected, tolerance):
     )
 
 
+def deviation(ours, library, tolerance=1e-8):
+    """How `ours` deviates from what the `library` gives, in words; "" where `np.allclose` holds.
+
+    Both are what `np.asarray` takes, or tuples or dictionaries of that.
+    """
+    if isinstance(library, dict):
+        ours, library = tuple(ours[key] for key in library), tuple(library.values())
+    if isinstance(library, tuple):
+        pairs = zip(ours, library, strict=True)
+        return next(filter(None, (deviation(*pair, tolerance) for pair in pairs)), "")
+    ours, library = np.asarray(ours, float), np.asarray(library, float)
+    if ours.shape != library.shape:
+        return f"by its shape, {ours.shape} instead of {library.shape}"
+    if not np.isfinite(ours).all():
+        return "by numbers that are not finite"
+    if np.allclose(ours, library, atol=tolerance):
+        return ""
+    return f"by at most {np.abs(ours - library).max():.2g}"
+
+
+def own_law(names, deviates, demos):
+    """What a reader is told whose functions of these `names` deviate from the book's, Markdown.
+
+    `demos` are those that now run them, in words.
+    """
+    whose = " and ".join(map(_code, names)) or "lines"
+    verb = "differs" if len(names) == 1 else "differ"
+    return f"Your {whose} {verb} from the book's, {deviates}: {demos} now run yours."
+
+
 def feedback(function, exercise):
     """What `grade` says of a function, Markdown: `RIGHT`, `EMPTY`, or `WRONG` and a hint."""
     try:

@@ -25,17 +25,17 @@ ORIGINS = {  # where Eq. 7 may measure from, m
 SIGNS = {"hand to target": 1, "target to hand": -1}
 
 
-def change_above(above):
-    """The least change (4,) of the weights of `FOUR` where the hand is `above` m too high."""
-    return least_change(FOUR.T, np.array([0, -above]))
+def change_above(above, rule=least_change):
+    """By a rule, the change (4,) of the weights of `FOUR` where the hand is `above` m too high."""
+    return rule(FOUR.T, np.array([0, -above]))
 
 
-def miss_above(above):
+def miss_above(above, rule=least_change):
     """That change, where the target lies in the middle of `FOUR`."""
     target = FOUR.mean(axis=0)
     hand_at = target + np.array([0, above])
     fig, ax = plt.subplots(figsize=(4.6, 4.6))
-    corrections(ax, target, hand_at, FOUR, change_above(above))
+    corrections(ax, target, hand_at, FOUR, change_above(above, rule))
     ends(ax, target, hand_at)
     return fig
 

@@ -10,7 +10,7 @@ from book.figures.panels import panels
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.arm.kinematics import inverse_kinematics
 from vmc_lib.arm.model import MUSCLES
-from vmc_lib.motor.planning import norm, plan
+from vmc_lib.motor.planning import norm
 from vmc_lib.show.arm import arm_scene
 from vmc_lib.show.arm_plane import plane
 from vmc_lib.show.palette import COLOURS
@@ -95,21 +95,20 @@ def weighted_sum(ax, excitations, weights):
     ax.legend(loc="upper left")
 
 
-def plan_figures(past, muscle, target=None, ended=None):
+def plan_figures(past, muscle, reach=None):
     """Two figures: a plan in the plane, and one muscle's excitation as its sum; or both empty.
 
-    The plan mixes templates of `past` for `target` (2,), and took the hand to `ended` (2,).
+    The plan is that of a `reach`, a `Movement`, and mixes templates of `past`.
     """
     (in_plane, left), (over_time, right) = (panels(1, (4.1, 3.4)) for _ in range(2))
     plane(left, past.points)
     commands, weights = np.empty((1, 0)), np.ones(1)
-    if target is not None:
-        one = plan(target, past)
+    if reach is not None:
+        one = reach.plan
         commands, weights = past.excitations[one.rows, :, muscle], one.weights
-        weight_threads(left, target, one.points, weights)
-        ends(left, target, ended)
-        miss = 1000 * np.linalg.norm(np.subtract(ended, target))
-        left.set_title(f"the hand misses by {miss:.1f} mm")
+        weight_threads(left, one.target, one.points, weights)
+        ends(left, one.target, reach.endpoint)
+        left.set_title(f"the hand misses by {1000 * reach.error:.1f} mm")
     weighted_sum(right, commands, weights)
     right.set(title=f"excitation of {MUSCLES[muscle]}", xlim=(-0.05, 1.05), ylim=(0, 0.3))
     return in_plane, over_time

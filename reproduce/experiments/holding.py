@@ -25,3 +25,13 @@ def required_torques(q, load=0.0):
     lift = (nudged - dynamics.hand(q)[..., None, :])[..., 1] / 1e-6
     slack, _ = muscle_gain(q, 0 * q)
     return dynamics.torque_for(q, 0 * q, 0 * q) - slack + GRAVITY * load * lift
+
+
+def busiest(q, load=0.0):
+    """The busiest muscle's least activation (…) that holds q, above 1 where none does.
+
+    Of all directions of the torque the one in which what is required comes nearest to what all
+    muscles that help give together.
+    """
+    most = np.maximum(np.swapaxes(muscle_torques(q), -1, -2) @ DIRECTIONS, 0).sum(axis=-2)
+    return (required_torques(q, load) @ DIRECTIONS / np.maximum(most, 1e-9)).max(axis=-1)

@@ -52,7 +52,7 @@ def declare():
         size=Pad(WIDE, HIGH, start=(80, 80)),
     )
     explore(
-        lambda place: reaching.plan_figures(PAST, MUSCLE, place, ends()[SPOTS.index(place)]),
+        lambda place: reaching.plan_figures(PAST, MUSCLE, execute(plan(place, PAST))),
         "c",
         lambda place: f"{place}",
         in_page=reaching.plan_in_page(PAST, MUSCLE, ends()),

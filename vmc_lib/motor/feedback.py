@@ -32,6 +32,17 @@ def proportional_derivative(reference_q, reference_velocity, q, velocity, gain, 
     return gain * (reference_q - q + damping * (reference_velocity - velocity))
 
 
+def predict_state(model, q, velocity, activations):
+    """Predict the present state from delayed feedback by a forward model.
+
+    It replays the activations (ticks, B, 6) sent since the arm was at q (B, 2) with this velocity.
+    """
+    for activation in activations:
+        velocity = velocity + TICK * STEP * model(q, velocity, activation)
+        q = q + TICK * STEP * velocity
+    return q, velocity
+
+
 class FeedbackGains(NamedTuple):
     """How strongly, and how late, the arm corrects itself."""
 
@@ -42,6 +53,7 @@ class FeedbackGains(NamedTuple):
     rate: float = 0.05  # … and for each 2.5 lengths a second that it lengthens too fast
     spinal: float = 0.03  # s: the stretch reflex's delay
     law: Callable = proportional_derivative  # of sight
+    predict: Callable = predict_state  # by the forward model
 
 
 SIGHT = FeedbackGains()
@@ -127,7 +139,7 @@ def simulate_feedback(reference, gains=SIGHT, model=None, disturbance=None, nois
     """
     if noise and rng is None:
         raise ValueError(f"noise of {noise} needs an rng; give np.random.default_rng(seed)")
-    if not all(np.isfinite(each).all() for each in (*gains[:-1], noise)):
+    if not all(np.isfinite(each).all() for each in (*gains[:-2], noise)):
         raise ValueError(f"{gains} with noise of {noise}: give finite numbers")
     late, spinal = _steps(gains.delay), _steps(gains.spinal, least=TICK)
     target, target_velocity, planned = reference.q, reference.velocity, reference.excitations
@@ -145,7 +157,8 @@ def simulate_feedback(reference, gains=SIGHT, model=None, disturbance=None, nois
     for k in range(0, len(times), TICK):
         seen, tick = max(k - late, 0), np.arange(k, min(k + TICK, len(times)))
         sent = np.swapaxes(activation[:, seen:k:TICK], 0, 1)
-        here = predict_state(model, q[:, seen], velocity[:, seen], sent)
+        here = q[:, seen], velocity[:, seen]
+        here = gains.predict(model, *here, sent) if model else here
         wanted = feedback_acceleration(gains, target[:, k], target_velocity[:, k], *here)
         sight = excitations_for_acceleration(*here, wanted, planned[:, k]) - planned[:, k]
         felt = np.maximum(tick - spinal, 0)
@@ -155,17 +168,6 @@ def simulate_feedback(reference, gains=SIGHT, model=None, disturbance=None, nois
         step_trajectory(u, path, tick, push=push, drag=disturbance.drag)
         check_sane(q[:, tick + 1], first=tick[0] + 1)  # or the next tick is of what blew up
     return Motion(*path)
-
-
-def predict_state(model, q, velocity, activations):
-    """Predict the present state from delayed feedback by a forward model.
-
-    It replays the activations (ticks, B, 6) sent since the arm was at q (B, 2) with this velocity.
-    """
-    for activation in activations if model else ():
-        velocity = velocity + TICK * STEP * model(q, velocity, activation)
-        q = q + TICK * STEP * velocity
-    return q, velocity
 
 
 def feedback_acceleration(gains, reference_q, reference_velocity, q, velocity):

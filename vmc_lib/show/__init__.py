@@ -12,6 +12,7 @@ from vmc_lib.show.figures import details, itemise, markdown, note, photo_view, t
 from vmc_lib.show.palette import COLOURS
 from vmc_lib.show.questions import check, grade, predict, solution
 from vmc_lib.show.scene import Scene
+from vmc_lib.show.verify import verify
 
 __all__ = [
     "COLOURS",
@@ -36,4 +37,5 @@ __all__ = [
     "predict",
     "solution",
     "table",
+    "verify",
 ]
