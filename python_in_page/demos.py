@@ -19,16 +19,17 @@ mpl.use("svg")
 def draw(above, book, cell, name, places, data=""):
     """What a demo shows where its controls stand, by the chapter's code as the reader has it.
 
-    `above` is that code, a text for each cell before the demo's own, and `book` the same as the
-    book has it; `places` are where the sliders and choices stand, by name; `data` are the arrays
-    that the page brings, where no law of the reader's is asked for. The answer holds the lines of
-    its words and `parts`, and its sliders' `texts`; or the `error` that a law of the reader's made.
-    Without `places` it is only prepared.
+    `above` is that code, a text for each cell before the demo's own and for each law after it, and
+    `book` the same as the book has it; `places` are where the sliders and choices stand, by name;
+    `data` are the arrays that the page brings: what a law of the reader's changes is made anew. The
+    answer holds the lines of its words and `parts`, and its sliders' `texts`; or the `error` that a
+    law of the reader's made. Without `places` it is only prepared.
     """
-    data = "" if changed(above, book, cell) else data
+    own = unpack_arrays(data) if changed(above, book, cell) else {}
+    stale = frozenset(name for name in own if changed(above, book, name))
     try:
         with redirect_stdout(StringIO()):
-            demo, controls, _ = prepared(tuple(above), cell, data)
+            demo, controls, _ = prepared(tuple(above), cell, data, stale)
             if places is None:
                 return {"parts": [], "texts": {}}
             words, parts = draw_state(values=values_at(places, controls), name=name, **demo)
@@ -38,8 +39,11 @@ def draw(above, book, cell, name, places, data=""):
 
 
 @lru_cache(8)
-def prepared(above, cell, data=""):
-    """What a cell asks `explore` for: a demo as `draw_state` takes it, its controls, its data."""
+def prepared(above, cell, data="", stale=frozenset()):
+    """What a cell asks `explore` for: a demo as `draw_state` takes it, its controls, its data.
+
+    Of the page's `data` those whose names are `stale` are made anew.
+    """
     asked, errors, kept = [], [], show.explore
 
     def explore(*given, **named):
@@ -52,7 +56,8 @@ def prepared(above, cell, data=""):
 
     show.explore = explore
     try:
-        names = definitions(above, cell, errors, unpack_arrays(data))
+        known = {name: one for name, one in unpack_arrays(data).items() if name not in stale}
+        names = definitions(above, cell, errors, known)
         exec(compile(cell, "demo", "exec"), names)  # noqa: S102
     except NameError as error:  # what went wrong above says more
         raise (errors or [error])[-1] from error

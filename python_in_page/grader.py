@@ -3,6 +3,7 @@
 import ast
 from contextlib import redirect_stdout
 from dis import get_instructions
+from functools import lru_cache
 from importlib import import_module
 from io import StringIO
 from types import CodeType
@@ -11,7 +12,17 @@ from typing import NamedTuple
 import numpy as np
 
 from python_in_page import absent
-from vmc_lib.grading import LONGEST, WRONG, feedback, line_of, reason, unreadable
+from vmc_lib.grading import (
+    LONGEST,
+    WRONG,
+    deviation,
+    feedback,
+    in_words,
+    line_of,
+    own_law,
+    reason,
+    unreadable,
+)
 
 absent.stand_in()  # before a chapter's code asks for them
 
@@ -37,11 +48,30 @@ def check(above, typed, name):
     return said, printed[:LONGEST]
 
 
-def run(above, typed):
-    """How a chapter's cell ran with the reader's lines, Markdown, and what it printed."""
-    said, printed = _run(typed, definitions(above, typed))
-    holds = ", and its `assert` holds" if "assert " in typed else ""
-    return said or f"✓ It runs{holds}.", printed[:LONGEST]
+def run(above, typed, book="", figures=()):
+    """How a chapter's cell ran with the reader's lines, Markdown, and what it printed.
+
+    `book` are the lines that the book has there. Each of the `figures` is its number, the code
+    before it as the reader has it and as the book has it, and its own cell. Where the lines do not
+    give what the library gives (the notebook's `verify`), the answer names those that run them.
+    """
+    deviations = []
+    verify = {"verify": lambda *given: deviations.append(deviation(*given))}
+    said, printed = _run(typed, definitions(above, typed, known=verify))
+    if not said and any(deviations):
+        laws = _given_otherwise(_statements(typed), _statements(book))
+        follow = [number for number, *code in figures if laws & {*changed(*code)}]
+        said = own_law(sorted(laws), next(filter(None, deviations)), _effect(follow))
+    agrees = ", and gives what the library gives" if deviations else ""
+    return said or f"✓ It runs{agrees}.", printed[:LONGEST]
+
+
+def _effect(figures):
+    """Which figures, by their numbers, run a law of the reader's, in words."""
+    if not figures:
+        return "no figure of this page uses it"
+    kind, verb = ("Figure", "runs") if len(figures) == 1 else ("Figures", "run")
+    return f"{kind} {in_words(figures)} now {verb} yours"
 
 
 def definitions(above, typed, errors=None, known=None):
@@ -74,8 +104,9 @@ def call(above, name, given):
 
 
 class Statement(NamedTuple):
-    """A statement of a chapter: its `code`, and its `source` as Python reads it."""
+    """A statement of a chapter, as it is compiled, and its `source` as Python reads it."""
 
+    tree: ast.stmt
     code: CodeType
     source: str
 
@@ -83,47 +114,67 @@ class Statement(NamedTuple):
 def needed(above, typed, known=frozenset()):
     """The statements of the code `above`, cell by cell, that the lines `typed` need, in order.
 
-    The names that are `known` need none.
+    The names that are `known` need none. What a function reads is read when it is called: of names
+    that are given twice it needs the last.
     """
-    names, kept = set(), []
-    for statement in reversed([*_statements(typed)]):
-        names = _before(statement, _compiled(statement), names) - known
-    for statement in reversed([one for lines in above for one in _statements(lines)]):
-        code = _compiled(statement)
-        if not names & set(code.co_names):  # soon said: most are not needed
-            continue
-        if names & (set(_names(code, "STORE_NAME")) | _changed(statement)):
-            names = _before(statement, code, names) - known
-            kept.append(Statement(code, ast.unparse(statement)))
-    return kept[::-1]
+    lines, code = _statements(typed), [one for cell in above for one in _statements(cell)]
+    late = set()
+    while True:
+        names, kept = set(late), []
+        for statement in reversed(lines):
+            names = _before(statement, names) - known
+        for statement in reversed(code):
+            if not names & set(statement.code.co_names):  # soon said: most are not needed
+                continue
+            if names & (_given(statement) | _changed(statement.tree)):
+                names = _before(statement, names) - known
+                kept.append(statement)
+        functions = [one for each in (*lines, *kept) for one in _functions(each.code)]
+        more = {name for one in functions for name in _names(one, *READ)} - known
+        if more <= late:
+            return kept[::-1]
+        late |= more
 
 
-def _before(statement, code, names):
+def _before(statement, names):
     """The names that must be there before a statement, so that these are after it."""
-    always = not isinstance(statement, ast.If | ast.For | ast.While | ast.With | ast.Try)
-    given = set(_names(code, "STORE_NAME")) if always else set()
-    return names - given | set(_names(code, *READ))
+    always = not isinstance(statement.tree, ast.If | ast.For | ast.While | ast.With | ast.Try)
+    return names - (_given(statement) if always else set()) | {*_names(statement.code, *READ)}
+
+
+def _given(statement):
+    return set(_names(statement.code, "STORE_NAME"))
 
 
 def changed(above, book, cell):
     """The names that a demo's cell needs, and that the reader's code gives otherwise."""
-    kept = {statement.source for statement in needed(book, cell)}
-    ours = [statement for statement in needed(above, cell) if statement.source not in kept]
-    return sorted({name for statement in ours for name in _names(statement.code, "STORE_NAME")})
+    return sorted(_given_otherwise(needed(above, cell), needed(book, cell)))
 
 
+def _given_otherwise(statements, book):
+    """The names that statements give, those of the book left out."""
+    kept = {statement.source for statement in book}
+    ours = [statement for statement in statements if statement.source not in kept]
+    return {name for statement in ours for name in _given(statement)}
+
+
+@lru_cache(1000)
 def _statements(lines):
     """The statements of a cell; of an import each name, for others may be missing."""
+    trees = []
     for one in [] if unreadable(lines) else ast.parse(lines).body:  # some are still being typed
-        if isinstance(one, ast.ImportFrom):
-            yield from (ast.ImportFrom(one.module, [name], one.level) for name in one.names)
-        else:
-            yield one
+        names = one.names if isinstance(one, ast.ImportFrom) else None
+        trees += [ast.ImportFrom(one.module, [n], one.level) for n in names] if names else [one]
+    return [_compiled(tree) for tree in trees]
 
 
-def _compiled(statement):
-    tree = ast.fix_missing_locations(ast.Module([statement], []))
-    return compile(tree, "above", "exec")
+def _compiled(tree):
+    module = ast.fix_missing_locations(ast.Module([tree], []))
+    return Statement(tree, compile(module, "above", "exec"), ast.unparse(tree))
+
+
+def _functions(code):
+    return [one for one in code.co_consts if isinstance(one, CodeType)]
 
 
 def _names(code, *operations):
@@ -132,12 +183,12 @@ def _names(code, *operations):
     while codes:
         code = codes.pop()
         yield from (x.argval for x in get_instructions(code) if x.opname in operations)
-        codes += [x for x in code.co_consts if isinstance(x, CodeType)]
+        codes += _functions(code)
 
 
-def _changed(statement):
+def _changed(tree):
     """The names of what a statement changes a part of."""
-    parts = (x for x in ast.walk(statement) if isinstance(x, ast.Subscript | ast.Attribute))
+    parts = (x for x in ast.walk(tree) if isinstance(x, ast.Subscript | ast.Attribute))
     wholes = (ast.walk(x.value) for x in parts if isinstance(x.ctx, ast.Store))
     return {x.id for whole in wholes for x in whole if isinstance(x, ast.Name)}
 
@@ -150,15 +201,24 @@ def _run(typed, names):
     with redirect_stdout(StringIO()) as printed:
         try:
             tree = ast.parse(typed)
-            last = [tree.body.pop()] if tree.body and isinstance(tree.body[-1], ast.Expr) else []
-            exec(compile(tree, "page", "exec"), names)  # noqa: S102
-            for expression in last:
-                value = eval(compile(ast.Expression(expression.value), "page", "eval"), names)  # noqa: S307
+            answers = tree.body and isinstance(tree.body[-1], ast.Expr)
+            body = tree.body[:-1] if answers else tree.body
+            exec(compile(ast.Module(body, []), "page", "exec"), names)  # noqa: S102
+            if answers:
+                last = ast.Expression(tree.body[-1].value)
+                value = eval(compile(last, "page", "eval"), names)  # noqa: S307
                 if value is not None:
                     print(repr(value))
         except AssertionError as error:
             line = line_of(error, "page")
-            said = f"{WRONG} Line {line} no longer holds: `{typed.splitlines()[line - 1].strip()}`."
+            said = f"{WRONG} Line {line} no longer holds: `{_statement_at(line, tree)}`."
         except (Exception, SystemExit) as error:
             said = f"{WRONG} Line {line_of(error, 'page')} stops: {reason(error)}."
     return said, printed.getvalue()
+
+
+def _statement_at(line, tree):
+    """The whole statement, in one line, of which a line of the code is a part."""
+    statements = (x for x in ast.walk(tree) if isinstance(x, ast.stmt))
+    around = [x for x in statements if x.lineno <= line <= x.end_lineno]
+    return " ".join(ast.unparse(max(around, key=lambda x: x.lineno)).split())

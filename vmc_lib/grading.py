@@ -69,14 +69,20 @@ def deviation(ours, library, tolerance=1e-8):
     return f"by at most {np.abs(ours - library).max():.2g}"
 
 
-def own_law(names, deviates, demos):
+def own_law(names, deviates, effect):
     """What a reader is told whose functions of these `names` deviate from the book's, Markdown.
 
-    `demos` are those that now run them, in words.
+    `deviates` says how (see `deviation`), and `effect` what now runs them.
     """
-    whose = " and ".join(map(_code, names)) or "lines"
+    whose = in_words(map(_code, names)) if names else "lines"
     verb = "differs" if len(names) == 1 else "differ"
-    return f"Your {whose} {verb} from the book's, {deviates}: {demos} now run yours."
+    return f"Your {whose} {verb} from the book's, {deviates}: {effect}."
+
+
+def in_words(texts):
+    """Texts as a sentence lists them: a, b and c."""
+    *most, last = texts
+    return f"{', '.join(most)} and {last}" if most else last
 
 
 def feedback(function, exercise):

@@ -100,7 +100,7 @@ const vmcGrade = (() => {
       stop.disabled = false;
       try {
         const code = [above(cell).map(lines), area.value];
-        const question = graded ? ["check", ...code, graded] : ["run", ...code];
+        const question = graded ? ["check", ...code, graded] : ["run", ...code, this.empty, window.vmcFigures?.(cell, area.value) ?? []];
         this.verdict = await vmcPython.ask(["grader", ...question], (text) => this.show([text]));
         this.run();
       } catch (error) {

@@ -11,6 +11,17 @@
   const lastRun = (cell) => cell.querySelector("textarea")?.lastRun ?? vmcGrade.book(cell);
   const inCode = (names) => names.map((name) => `<code>${name}</code>`).join(", ");
   const ownCells = (above) => above.filter((one) => lastRun(one) !== vmcGrade.book(one));
+  const users = []; // of laws: [a figure's cell, the cells of laws and those above it, what it needs of them]
+
+  /* The cells of the chapter's code before one of them, and the laws after it: it may run these, too. */
+  const codeOf = (cell) => [...vmcGrade.above(cell), ...[...document.querySelectorAll(".tag_runs-in-page")]
+    .filter((law) => cell.compareDocumentPosition(law) & 4)];
+
+  /* The figures that may run a cell's law, `typed` in it: see `python_in_page.grader.run`. */
+  window.vmcFigures = (law, typed) => users.filter(([, above]) => above.includes(law)).map(([cell, above, needs]) =>
+    [cell.querySelector(".vmc-number")?.textContent.replace(/\D*/, "") ?? "", above.map((one) => (one === law ? typed : lastRun(one))),
+      above.map(vmcGrade.book), needs]);
+
   const BACK = '<button type="button" name="back" hidden>Back to the book’s</button>';
 
   /* A line below controls: what it says, and its buttons. */
@@ -26,7 +37,10 @@
   const watch = (above, back, update) => {
     document.addEventListener("vmc-run", ({ target }) => above.includes(target) && update());
     back.addEventListener("click", () => {
-      for (const one of ownCells(above)) one.querySelector("textarea").lastRun = undefined;
+      for (const one of ownCells(above)) {
+        one.querySelector("textarea").lastRun = undefined;
+        one.querySelector("form [role=status]").textContent = "The figures run the book’s lines again; yours count when you run them.";
+      }
       document.querySelectorAll(".tag_runs-in-page").forEach((one) => one.dispatchEvent(new Event("vmc-run", { bubbles: true })));
     });
   };
@@ -48,7 +62,8 @@
     wanted = null; // the last place that was asked for; those that the hand only passes are left out
 
     constructor(demo) {
-      const cell = demo.closest(".cell"), above = vmcGrade.above(cell);
+      const cell = demo.closest(".cell"), above = codeOf(cell);
+      users.push([cell, above, vmcGrade.book(cell)]);
       const [status, run, back, between] = line(demo.querySelector(".vmc-controls"),
         `<button type="button" name="run" hidden>Run it</button> ${BACK} ` +
         '<button type="button" name="between">Any value (loads Python, 19 MB)</button>');
@@ -155,7 +170,8 @@
 
   /* An arm whose physics runs in the page (arm_in_page): it plans by the weights of the reader's law. */
   const lead = (box) => {
-    const { law } = box.dataset, above = vmcGrade.above(box.closest(".cell")), form = box.querySelector("form");
+    const { law } = box.dataset, above = codeOf(box.closest(".cell")), form = box.querySelector("form");
+    users.push([box.closest(".cell"), above, law]);
     const [status, back] = line(form, BACK);
     const say = (html) => (status.innerHTML = html);
     let mine = false;

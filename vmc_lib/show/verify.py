@@ -29,7 +29,7 @@ def verify(ours, library, tolerance=1e-8):
         _VERIFIED.update(functions)
         return
     changed = [name for name, one in functions.items() if _VERIFIED.get(name, one) != one]
-    words = own_law(changed, deviates, "the demos that use it")
+    words = own_law(changed, deviates, "the demos that use it now run yours")
     if render_mode() != "live":
         raise AssertionError(words)
     display(HTML(verdict(inline(words))))
