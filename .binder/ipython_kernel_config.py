@@ -1,4 +1,4 @@
-"""In a live kernel an edited file of the library counts from the next cell that runs.
+"""In a live kernel an edited file of the library counts when the next cell runs or demo is moved.
 
 What every chapter shows with is imported while the kernel starts, before the reader runs anything,
 and the arm moves once, so that its machine code is loaded.

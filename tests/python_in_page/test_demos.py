@@ -7,14 +7,14 @@ from unittest.mock import patch
 from zlib import crc32
 
 import matplotlib.pyplot as plt
-import nbformat
 import numpy as np
 import pytest
 
 from python_in_page import demos
 from python_in_page.grader import changed
+from tests.laws import functions, law_cells
 from tests.pages import open_html
-from tests.project import CHAPTERS
+from tests.project import CHAPTERS, code_cells
 from tests.python_in_page.conftest import ASK
 from vmc_lib.show import Choice, figures
 from vmc_lib.show.data_table import panels
@@ -33,14 +33,15 @@ LAWS = {  # by chapter: a change of what the book has; it moves two demos at lea
 
 
 def chapter_demos(stem):
-    """Every demo of a chapter that is drawn in the page: (the code above, its cell)."""
+    """Every demo of a chapter that is drawn in the page: (the code above, laws below; its cell)."""
     [chapter] = [chapter for chapter in CHAPTERS if chapter.stem == stem]
-    above = []
-    for cell in nbformat.read(chapter, 4).cells:
+    above, cells = [], code_cells(chapter)
+    for n, cell in enumerate(cells):
         tags = set(cell.metadata.get("tags", []))
-        if cell.cell_type == "code" and not tags & {"solution", "remove-input"}:
+        if not tags & {"solution", "remove-input"}:
             if "draws-in-page" in tags:
-                yield list(above), cell.source
+                below = [law.source for law in law_cells(cells[n:])]
+                yield [*above, *below], cell.source
             above.append(cell.source)
 
 
@@ -141,6 +142,22 @@ def test_the_pages_numbers_are_the_notebooks(page, stem):
         assert said.startswith("✓ It runs"), said
         ours = [digest(*one[:3]) for one in asked]
         np.testing.assert_allclose(json.loads(printed), ours, rtol=1e-6, atol=1e-6)
+
+
+@pytest.mark.parametrize("path", CHAPTERS, ids=lambda path: path.stem)
+def test_every_law_is_run_by_a_demo_of_the_page(path):
+    for cell in law_cells(code_cells(path)):
+        for law in functions(cell):
+            head = cell.source.split("\n")[law.lineno - 1]
+            mine = cell.source.replace(head, f"@staticmethod\n{head}")
+            others = [
+                (replaced(above, cell.source, mine), above, own) for above, own in DEMOS[path.stem]
+            ]
+            assert any(law.name in changed(*one) for one in others), law.name
+
+
+def replaced(cells, old, new):
+    return [new if one == old else one for one in cells]
 
 
 @pytest.mark.parametrize("stem", LAWS)

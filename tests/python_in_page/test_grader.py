@@ -92,13 +92,44 @@ def test_what_the_reader_has_changed_is_found_where_it_is_needed():
     ("typed", "words"),
     [
         ("print(1)\n2 + 2", ("✓ It runs.", "1\n4\n")),
-        ("assert area(1) < 4\nNone", ("✓ It runs, and its `assert` holds.", "")),
+        ("assert area(1) < 4\nNone", ("✓ It runs.", "")),
         ("x = 1\nassert x == 2", (f"{WRONG} Line 2 no longer holds: `assert x == 2`.", "")),
+        ("assert not (\n    1,\n)", (f"{WRONG} Line 1 no longer holds: `assert not (1,)`.", "")),
+        ("verify(area(2), 12)", ("✓ It runs, and gives what the library gives.", "")),
         ("print(1)\nf(", (f"{WRONG} Python cannot read line 2: '(' was never closed.", "")),
     ],
 )
 def test_a_cell_runs_as_in_a_notebook(typed, words):
     assert run(["def area(r):\n    return 3 * r**2"], typed) == words
+
+
+LAW = "def law(x):\n    return 2 * x\n\n\nverify(law(1), 2)"
+HEAVY = "def heavier(x):\n    return law(x) + 1"
+
+
+@pytest.mark.parametrize(
+    ("cells", "effect"),
+    [
+        (["print(1)"], "no figure of this page uses it"),
+        (["print(1)", "show(lambda: law(3))"], "Figure 7.2 now runs yours"),
+        (["law(2)", "heavier(2)", "1"], "Figures 7.1 and 7.2 now run yours"),
+        (["law(2)", "law(1)", "heavier(2)"], "Figures 7.1, 7.2 and 7.3 now run yours"),
+    ],
+)
+def test_a_law_changed_on_purpose_is_told_which_figures_run_it(cells, effect):
+    mine = LAW.replace("2 *", "5 *")
+    figures = [(f"7.{n}", [HEAVY, mine], [HEAVY, LAW], one) for n, one in enumerate(cells, start=1)]
+    said, printed = run([HEAVY], mine, LAW, figures)
+    assert said == f"Your `law` differs from the book's, by at most 3: {effect}."
+    assert printed == ""
+
+
+def test_what_a_function_reads_is_the_last_that_is_given():
+    """So a demo above a law runs the library's until the reader's is there, and then that."""
+    above = ["rate = 1", "def draw():\n    return rate", "rate = 2", "unread = 3"]
+    assert definitions(above, "draw()")["rate"] == 2
+    assert definitions(above[:2], "draw()")["rate"] == 1
+    assert "unread" not in definitions(above, "draw()")
 
 
 def test_what_no_page_has_can_be_imported_and_does_nothing(monkeypatch):

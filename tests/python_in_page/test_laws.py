@@ -6,12 +6,14 @@ from urllib.parse import quote
 import pytest
 from playwright.sync_api import expect
 
+from book._ext.numbering import with_figure_numbers
 from tests import pages
 from tests.python_in_page.conftest import CELL
+from vmc_lib import show
 from vmc_lib.show import demo
 
 pytestmark = pytest.mark.browser
-LAW = "def law(x):\n    return 2 * x"
+LAW = "def law(x):\n    return 2 * x\n\n\nverify(law(1), 2)"
 DEMO = """import matplotlib.pyplot as plt
 from vmc_lib.show import Slider, explore
 
@@ -37,7 +39,7 @@ def law_html(exercise_html):
 
     def declare():
         for lines in (DEMO, other):
-            exec(f"{LAW}\n{lines}", {})  # noqa: S102
+            exec(f"{LAW}\n{lines}", {"verify": show.verify})  # noqa: S102
 
     with pytest.MonkeyPatch.context() as patch:
         shown = pages.displayed(patch, demo)
@@ -49,7 +51,7 @@ def law_html(exercise_html):
         f'<div class="cell_output">{item.data}</div></div>'
         for lines, item in zip((DEMO, other), shown, strict=True)
     ]
-    return f"{exercise_html}{law}{''.join(cells)}"
+    return f"{exercise_html}{law}{with_figure_numbers(''.join(cells), (7,))}"
 
 
 @pytest.fixture
@@ -76,6 +78,9 @@ def test_a_law_moves_its_demos_and_goes_back(open_law, serious):
     page = open_law()
     page.get_by_role("button", name="Edit law").click()
     run(page, LAW.replace("2 *", "5 *"))
+    said = page.locator("form[data-cell=law] [role=status]")
+    words = "Your law differs from the book's, by at most 3: Figure 7.1 now runs yours."
+    expect(said).to_have_text(words)
     expect(page.line).to_have_text("This demo runs your law.")
     expect(page.mine.locator(TITLE)).to_contain_text("at 1: 5")
     expect(page.other.locator(TITLE)).to_contain_text("at 1: 1")
@@ -88,6 +93,7 @@ def test_a_law_moves_its_demos_and_goes_back(open_law, serious):
     page.mine.get_by_role("button", name="Back to the book").click()
     expect(page.mine.locator(TITLE)).to_contain_text("at 3: 6")
     expect(page.line).to_have_text("")
+    expect(said).to_contain_text("The figures run the book’s lines again")
     for address in (link, f"#{quote(link[1:])}"):  # as it is, and as some programs encode it again
         page.get_by_label("Your lines: law").fill("")
         page.evaluate("(link) => { location.hash = ''; location.hash = link }", address)

@@ -1,7 +1,11 @@
 """Demos in a live kernel: what they answer to a page, and the still that stays without it."""
 
 import gc
+import importlib
+import os
 import re
+import sys
+import time
 from threading import Thread
 from types import SimpleNamespace
 from urllib.parse import unquote
@@ -10,6 +14,7 @@ from xml.etree import ElementTree
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+from IPython.core.interactiveshell import InteractiveShell
 
 from tests.pages import displayed
 from tests.show.kernel import named, show
@@ -62,6 +67,27 @@ def test_a_live_demo_brings_its_scripts_and_its_first_state(live):
     scene = live(lambda k: (named(k=k), Scene()), k=Slider([1, 2], "k")).widget
     assert list(scene.scripts) == [path.name for path in demo.SCRIPTS]
     assert scene.first == [["words"], None, Scene().messages()]
+
+
+def test_an_edited_module_counts_when_a_demo_is_moved(live, tmp_path, monkeypatch):
+    monkeypatch.syspath_prepend(tmp_path)
+    file = tmp_path / "edited_module.py"
+    file.write_text("def law(k):\n    return 2 * k", encoding="utf-8")
+    edited = importlib.import_module("edited_module")
+    monkeypatch.setitem(sys.modules, "edited_module", edited)
+    shell = InteractiveShell()
+    shell.run_line_magic("load_ext", "autoreload")
+    shell.run_line_magic("autoreload", "2")
+    monkeypatch.setattr(widgets, "get_ipython", lambda: shell)
+    seconds = iter([0, 5, 5.1, 6])
+    monkeypatch.setattr(widgets, "monotonic", lambda: next(seconds))
+    shown = live(lambda k: named(k=edited.law(k)), k=Slider([1, 2], "k"))
+    assert shown.ask("state", 1)["answer"] == [["words"], named(k=4).split("\n")]
+    for factor, stands in ((3, 3), (4, 3), (4, 4)):  # the second is within the same second
+        file.write_text(f"def law(k):\n    return {factor} * k", encoding="utf-8")
+        os.utime(file, times=(later := time.time() + 10 * factor, later))
+        answer = shown.ask("state", 1)["answer"]
+        assert answer == [["words"], named(k=2 * stands).split("\n")]
 
 
 def test_garbage_collection_skips_what_is_loaded_before_a_demo(live):

@@ -6,10 +6,11 @@ still runs: so there may be two threads that draw.
 
 import traceback
 from contextlib import contextmanager
-from functools import partial
+from functools import lru_cache, partial
 from importlib.util import find_spec
 from pathlib import Path
 from threading import RLock
+from time import monotonic
 
 import anywidget
 import matplotlib.pyplot as plt
@@ -73,10 +74,21 @@ class Live(anywidget.AnyWidget):
 
     def _reply(self, id, question, value=None):
         try:
+            if question == "state":
+                reload_edited(int(monotonic()))
             reply = {"answer": self.answers[question](value)}
         except Exception as error:  # a reader's own code may raise anything
             reply = {"error": "".join(traceback.format_exception_only(error)).strip()}
         self._channel.send({"id": id} | reply)
+
+
+@lru_cache(1)
+def reload_edited(second):
+    """Let the extension autoreload take edited files, as before a cell: once in each `second`."""
+    events = getattr(get_ipython(), "events", None)
+    for function in events.callbacks["pre_run_cell"] if events else []:
+        if function.__module__ == "IPython.extensions.autoreload":
+            function(None)
 
 
 @contextmanager
