@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.optimize import linprog
 
 from reproduce.experiments import holding
 from vmc_lib.arm import simulate
@@ -25,3 +26,11 @@ def test_a_load_costs_the_work_of_lifting_it():
     turn = np.array([0.02, -0.01])  # rad
     low, high = (hand(LOW + half)[1] for half in (-turn / 2, turn / 2))
     assert extra @ turn == pytest.approx(2 * holding.GRAVITY * (high - low), rel=1e-3)
+
+
+def test_the_busiest_muscle_does_as_little_as_it_can():
+    """As linear programming has it: the least bound on all activations that give the torques."""
+    gain, needed = holding.muscle_torques(LOW), holding.required_torques(LOW, 1.0)
+    below = np.column_stack([np.eye(6), -np.ones(6)])
+    found = linprog([0] * 6 + [1], below, np.zeros(6), np.column_stack([gain, [0, 0]]), needed)
+    assert holding.busiest(LOW, 1.0) == pytest.approx(found.fun, rel=1e-3)
