@@ -21,6 +21,7 @@ from kit.plan import plans
 from kit.qti import package
 from kit.slides import build as slides
 from kit.student import alive, student
+from tools.policy import seal
 from vmc_lib.cerebellum import two_rates
 
 ROOT = Path(__file__).parents[1]
@@ -83,7 +84,7 @@ def build(folder, pages):
     demos.build(folder / "demos", pages)
     arm.build(folder / "arm-in-page")
     (folder / "throws.html").write_text(throws_page(), encoding="utf-8")
-    shutil.copy(ROOT / "kit/pages/class.html", folder)
+    (folder / "class.html").write_text(class_page(), encoding="utf-8")
 
 
 def index():
@@ -97,7 +98,12 @@ def index():
 def throws_page():
     """The page on which a class throws with a turned pointer, with the model's curve in it."""
     page = (ROOT / "kit/pages/throws.html").read_text(encoding="utf-8")
-    return page.replace("/*MODEL*/[]", json.dumps(throws().round(4).tolist()))
+    return seal(page.replace("/*MODEL*/[]", json.dumps(throws().round(4).tolist())))
+
+
+def class_page():
+    """The page that joins what a class has answered."""
+    return seal((ROOT / "kit/pages/class.html").read_text(encoding="utf-8"))
 
 
 def throws():
@@ -114,7 +120,7 @@ def _page(name, text):
         return f"\\{left}{escape(tex)}\\{right}"
 
     reader = MarkdownIt().enable("table").use(dollarmath_plugin, renderer=maths)
-    return HEAD.format(title=f"The kit: {name}") + reader.render(text)
+    return seal(HEAD.format(title=f"The kit: {name}") + reader.render(text))
 
 
 if __name__ == "__main__":

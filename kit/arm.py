@@ -10,6 +10,7 @@ from importlib.metadata import version
 from arm_in_page.controls import MUJOCO, STATIC
 from arm_in_page.live import MODEL_SCRIPTS, given
 from kit.demos import ROOT
+from tools.policy import seal
 from vmc_lib.show.render_mode import STATIC as SHOW
 
 SCRIPT = """/* The arm of `A book that sees and reaches`, and MuJoCo (Apache-2.0): see README.md. */
@@ -44,6 +45,8 @@ def build(folder):
     scripts = "\n".join(path.read_text(encoding="utf-8") for path in paths)
     script = SCRIPT.format(scripts=scripts, constants=json.dumps(given(), allow_nan=False))
     (folder / "arm.js").write_text(script, encoding="utf-8")
+    example = (ROOT / "arm_in_page/example.html").read_text(encoding="utf-8")
+    (folder / "example.html").write_text(seal(example), encoding="utf-8")
     (folder / "package.json").write_text(json.dumps(NPM, indent=2) + "\n", encoding="utf-8")
-    for name in ("arm_in_page/README.md", "arm_in_page/example.html", "LICENSE", "CREDITS.md"):
+    for name in ("arm_in_page/README.md", "LICENSE", "CREDITS.md"):
         shutil.copy(ROOT / name, folder)

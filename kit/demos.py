@@ -13,6 +13,7 @@ from pathlib import Path
 import yaml
 
 from kit import scorm
+from tools.policy import seal
 from vmc_lib.show.packed import pack_bytes, unpack_bytes
 
 ROOT = Path(__file__).parents[1]
@@ -69,7 +70,8 @@ def build(folder, pages):
             items += [ITEM.format(title=escape(title), name=name, size=size, line=line)]
         parts += [f"<h2>{escape(chapter)}</h2>", "<ul>", *items, "</ul>"]
     page = (ROOT / "kit/pages/demos.html").read_text(encoding="utf-8")
-    (folder / "index.html").write_text(page.replace("{list}", "\n".join(parts)), encoding="utf-8")
+    listed = seal(page.replace("{list}", "\n".join(parts)))
+    (folder / "index.html").write_text(listed, encoding="utf-8")
     for name in ("LICENSE", "LICENSE-text", "CREDITS.md"):
         shutil.copy(ROOT / name, folder)
 
@@ -111,7 +113,7 @@ def demo_page(chapter, heading, title, figure, static):
         "scripts": "\n".join(scripts),
     }
     page = (ROOT / "kit/pages/demo.html").read_text(encoding="utf-8")
-    return re.sub(r"\{(\w+)\}", lambda found: parts.get(found[1], found[0]), page)
+    return seal(re.sub(r"\{(\w+)\}", lambda found: parts.get(found[1], found[0]), page))
 
 
 def scripts_of(figure, static):

@@ -4,6 +4,7 @@ from html import escape
 from pathlib import Path
 from zipfile import ZIP_DEFLATED
 
+from tools.policy import seal
 from vmc_lib.show.packed import pack_zip
 
 SCRIPT = (Path(__file__).parent / "scorm.js").read_text(encoding="utf-8")
@@ -28,6 +29,6 @@ MANIFEST = """<?xml version="1.0" encoding="utf-8"?>
 
 def package(name, title, page):
     """The bytes of a zip that holds the HTML `page`; the same page gives the same bytes."""
-    index = page.replace("</html>", f"<script>\n{SCRIPT}</script>\n</html>")
+    index = seal(page.replace("</html>", f"<script>\n{SCRIPT}</script>\n</html>"))
     manifest = MANIFEST.format(name=name, title=escape(title))
     return pack_zip({"imsmanifest.xml": manifest, "index.html": index}, ZIP_DEFLATED)

@@ -16,6 +16,7 @@ from bs4 import BeautifulSoup
 from book.figures.plans import MORE, PLANS, TITLES
 from kit import demos
 from kit.chapter_slides import Slide, chapter_slides, sentence
+from tools.policy import seal
 
 ROOT = Path(__file__).parents[1]
 CONFIG = demos.CONFIG["sphinx"]["config"]
@@ -153,10 +154,18 @@ def _page(title, slides):
     scripts.insert(0, CONFIG["mathjax_path"])
     head = [f'<link rel="stylesheet" href="_static/{name}">' for name in styles]
     head += [f'<script defer src="_static/{name}"></script>' for name in scripts]
-    return PAGE.format(
+    page = PAGE.format(
         title=escape(title),
         head="\n".join(head),
         options="{ disableLayout: true, hash: true, overview: false, slideNumber: 'c/t', "
         f"totalTime: {60 * MINUTES}, transition: 'none', plugins: [RevealNotes] }}",
         slides="\n".join(map(str, slides)),
     )
+    return seal(page, _speaker_script(), frames="'self'")
+
+
+def _speaker_script():
+    """The script of reveal.js' window for the speaker: the plugin has it in a template literal."""
+    plugin = next(file for file in VENDOR if "notes" in file.name).read_text(encoding="utf-8")
+    script = re.search(r"<script>(.*?)<\\/script>", plugin, re.S)[1]
+    return re.sub(r"\\(.)", r"\1", script)

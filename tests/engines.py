@@ -25,13 +25,16 @@ DIRECT = urllib.request.build_opener(urllib.request.ProxyHandler({}))  # to a dr
 # Async, as a script may wait; what it throws becomes an error here
 WAITING = """const done = arguments[arguments.length - 1];
 (async () => {%s})().then((value) => done({ value }), (error) => done({ error: `${error}` }));"""
-# What fails from the page's first line on, kept where a script of the driver's can read it
+# What fails from the page's first line on, before its policy, kept where a script of the driver's
+# can read it; and a way to the page's own names
 LISTEN = """<script>
 const vmcFailed = (what) => (document.documentElement.dataset.failed =
   (document.documentElement.dataset.failed ?? "") + `${what}\n`);
 addEventListener("error", ({ message, target }) =>
   vmcFailed(message ?? `no ${target.src ?? target.href}`), true);
 addEventListener("unhandledrejection", (event) => vmcFailed(event.reason));
+addEventListener("vmc-limit", () =>
+  (vmcPython.limit.seconds = +document.documentElement.dataset.limit));
 </script>"""
 
 
@@ -75,9 +78,8 @@ class Engine:
 
     def limit(self, seconds):
         """How long the page's Python may take; Firefox's driver does not see a page's `const`."""
-        self.run(f"""const script = document.createElement("script");
-          script.textContent = "vmcPython.limit.seconds = {seconds}";
-          document.head.append(script);""")
+        self.run(f"""document.documentElement.dataset.limit = {seconds};
+          dispatchEvent(new Event("vmc-limit"));""")
 
     def errors(self):
         return self.run("return document.documentElement.dataset.failed ?? '';")

@@ -13,10 +13,13 @@ import pytest
 import yaml
 from playwright.sync_api import TimeoutError, expect
 
+from tools.policy import seal
+
 ROOT = Path(__file__).parents[1]
 BUILT = ROOT / "_build/html"
 CHAPTERS = sorted((BUILT / "book").glob("*.html"))
 INSIDE = (f"{BUILT.as_uri()}/", "data:", "blob:")
+PACKED = re.compile(r'<script type="application/gzip">([^<]+)')
 AXE = (ROOT / "tests/vendor/axe.js").read_text(encoding="utf-8")
 PROBES = (ROOT / "tests/probes.js").read_text(encoding="utf-8")
 CONFIG = yaml.safe_load((ROOT / "_config.yml").read_bytes())["sphinx"]["config"]
@@ -125,9 +128,9 @@ def open_url(window, url):
 
 
 def open_html(window, site, html):
-    """Open some HTML, observed and settled, in the folder that has the book's scripts."""
+    """Open some HTML, observed and settled, under its policy, beside the book's scripts."""
     path = site / f"page{next(counter)}.html"
-    path.write_text(HEAD + html, encoding="utf-8")
+    path.write_text(seal(HEAD + html), encoding="utf-8")
     return open_url(window, path.as_uri())
 
 

@@ -4,13 +4,15 @@ from urllib.parse import quote, unquote, urlsplit
 
 import pytest
 
-from tests.pages import BUILT, open_url
+from tests.pages import BUILT, ROOT, open_url
 from tests.project import sample
+from tools.policy import frame_script, hash_source
 
 pytestmark = pytest.mark.browser
+ASK = "() => vmcPython.ask(['grader', 'run', [], '6 * 7'], () => {})"
 POLICY = (
     "default-src 'self'; script-src 'self'{}; style-src 'self' 'unsafe-inline'; "
-    "img-src 'self' data: blob:; font-src 'self' data:; connect-src 'self' data:; worker-src blob:"
+    "img-src 'self' data: blob:; font-src 'self' data:; connect-src 'none'; worker-src blob:"
 )
 
 
@@ -50,6 +52,20 @@ def test_a_host_may_forbid_inline_scripts(under_policy, allowed, said):
     page.locator("[name=main]").first.click()
     page.get_by_text(said).first.wait_for()
     assert all("Content Security Policy" in error for error in page.errors)
+
+
+def test_a_host_allows_python_by_the_policy_that_readme_states(under_policy):
+    frame = hash_source(frame_script())
+    assert frame in (ROOT / "README.md").read_text(encoding="utf-8")
+    page = under_policy("08_arm", f" 'unsafe-eval' {frame}")
+    page.evaluate("() => { vmcPython.limit.seconds = 1000 }")
+    assert page.evaluate(ASK)[1] == "42\n"
+
+
+def test_a_host_that_forbids_python_is_named(under_policy):
+    page = under_policy("08_arm", " 'unsafe-eval'")
+    page.evaluate("() => { vmcPython.limit.opening = 1 }")
+    assert "host forbids Python" in page.evaluate(f"{ASK}.catch((error) => error.message)")
 
 
 COURSE = "/~ann/a b+c/"

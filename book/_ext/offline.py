@@ -4,12 +4,12 @@ import os
 import re
 from pathlib import Path
 
+from tools.policy import seal
+
 EVERYWHERE = ("book.js", "questions.js")
 SIGHT = "unpack|features|product|detector|stream|box_selection|see|follow"  # and a place
 SIGHT += "|markers|camera_calibration|marker_sheet|localiser"
 SIGHT += "|photo_marks|photo_words|your_photo|live_photo"
-SEALED = "book/your_photo"  # a page that sends nothing: its own policy forbids that
-POLICY = "default-src 'self' 'unsafe-inline' 'unsafe-eval' file: data: blob:; connect-src 'none'"
 NEEDS = {  # what a page must hold to need an asset; none needs thebe, which asks the network
     "thebe": r"(?!)",
     "katex": r'class="math|\\\(',
@@ -26,6 +26,7 @@ def setup(app):
     app.connect("config-inited", launch)
     app.connect("html-page-context", mend, priority=900)
     app.connect("autodoc-process-docstring", code_marks)
+    app.connect("build-finished", seal_pages)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
 
 
@@ -42,14 +43,11 @@ def launch(app, config):
 
 
 def mend(app, pagename, templatename, context, doctree):
-    """Mend the page's settings, its assets and its body, and seal the one that sends nothing."""
+    """Mend the page's settings, its assets and its body."""
     body = context.get("body", "")
     settings_in_file(app, context)
     drop_needless_assets(app, context, body)
     context["body"] = mend_body(body)
-    if pagename == SEALED:
-        policy = f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">'
-        context["metatags"] = context.get("metatags", "") + policy
 
 
 def settings_in_file(app, context):
@@ -91,6 +89,16 @@ def mend_body(body):
     body = body.replace('<div role="list" class="citation-list">', "<div>")
     body = body.replace(' role="doc-biblioentry"', "")
     return body.replace('<summary aria-label="Toggle hidden content">', "<summary>")
+
+
+def seal_pages(app, exception):
+    """Give each page its policy."""
+    if app.builder.format != "html" or exception:
+        return
+    for path in Path(app.outdir).rglob("*.html"):
+        page = path.read_text(encoding="utf-8")
+        if (sealed := seal(page)) != page:
+            path.write_text(sealed, encoding="utf-8", newline="\n")
 
 
 def code_marks(app, what, name, obj, options, lines):

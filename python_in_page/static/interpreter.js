@@ -5,26 +5,33 @@ const vmcPython = (() => {
 
   const SIZES = { "python.js": "11 MB", "plots.js": "8 MB" };
   const HOLDS = { "python.js": "library.zip", "plots.js": "plots.zip" }; // a file of each
-  const limit = { seconds: 10 }; // for one answer
+  const limit = { seconds: 10, opening: 60 }; // for one answer, and for the frame
 
-  /* The worker's own code: first it is sent { files }, and more of them when it is to draw; and
-     questions: a module of `python_in_page`, a function of it, and what that is given. */
+  /* The worker's own code: it is sent the port on which it is asked; there first { files }, and more of
+     them when it is to draw; and questions: a module of `python_in_page`, a function of it, and what
+     that is given. */
   const work = () => {
+    /* What reaches further than the port goes before any line of a reader's runs; the frame's policy forbids it, too. */
+    const REACHES = new RegExp("^(fetch|XMLHttp|WebSocket|WebTransport|EventSource|Broadcast|importScripts|postMessage|navigator$" +
+      "|(Shared)?Worker$|indexedDB|IDB|[cC]ache|Storage|FileSystem|RTC)");
+    const seal = () => {
+      for (let place = self; place; place = Object.getPrototypeOf(place))
+        for (const name of Object.getOwnPropertyNames(place)) if (REACHES.test(name)) delete place[name];
+    };
     let python, files;
-    const fetchNow = self.fetch;
     self.fetch = async (address) => { // whatever Pyodide asks for lies in `files`
       const name = String(address.url ?? address).split("/").pop();
-      const { body } = await fetchNow(`data:application/gzip;base64,${files[name]}`);
       const type = name.endsWith(".wasm") ? "application/wasm" : "application/octet-stream";
-      return new Response(body.pipeThrough(new DecompressionStream("gzip")), { headers: { "content-type": type } });
+      return new Response(unzip(files[name]).body, { headers: { "content-type": type } });
     };
-    const unpack = async (name) => python.unpackArchive(await (await fetch(name)).arrayBuffer(), "zip");
+    const unpack = async (name) => python.unpackArchive(await unzip(files[name]).arrayBuffer(), "zip");
     const start = async () => {
-      for (const name of ["pyodide.js", "pyodide.asm.js"]) (0, eval)(await (await fetch(name)).text());
+      for (const name of ["pyodide.js", "pyodide.asm.js"]) (0, eval)(await unzip(files[name]).text());
       const quiet = { stdin: () => null, stdout: () => {}, stderr: () => {} };
       python = await loadPyodide({ indexURL: "http://page.invalid/", packages: ["numpy"], ...quiet });
       await unpack("library.zip");
       python.pyimport("python_in_page.grader");
+      seal();
     };
     const load = async (more) => {
       files = more;
@@ -36,36 +43,62 @@ const vmcPython = (() => {
       const asked = python.pyimport(`python_in_page.${module}`)[name];
       return asked(...given.map((one) => python.toPy(one))).toJs({ dict_converter: Object.fromEntries });
     };
-    onmessage = async ({ data }) => {
-      try {
-        postMessage({ value: data.files ? await load(data.files) : answer(data) });
-      } catch (error) {
-        postMessage({ error: `Python stopped: ${`${error.message ?? error}`.trim().split("\n").pop()}` });
-      }
+    onmessage = ({ ports: [port] }) => {
+      port.onmessage = async ({ data }) => {
+        try {
+          port.postMessage({ value: data.files ? await load(data.files) : answer(data) });
+        } catch (error) {
+          port.postMessage({ error: `Python stopped: ${`${error.message ?? error}`.trim().split("\n").pop()}` });
+        }
+      };
+      port.postMessage({});
     };
   };
 
-  /* A worker: `ask` promises its answer to one question, unless it comes to its `end`, for a reason. */
+  /* Its frame has no origin, so neither a host's cookies nor what a browser keeps, and a policy that reaches
+     nothing. It is sent a worker's code and port, or nothing: the last worker ends. The page's own policy names
+     the frame's script by its sum (tools/policy.py). */
+  const OPEN = "let worker; onmessage = ({ data, ports }) => { worker?.terminate(); if (data) " +
+    "(worker = new Worker(URL.createObjectURL(new Blob([data])))).postMessage(0, ports); }";
+  const POLICY = "default-src 'none'; script-src 'unsafe-eval'; worker-src blob:";
+  const FORBIDDEN = "The page’s host forbids Python: its policy must be the one that the book’s README states.";
+  const opened = () => new Promise((resolve) => {
+    const frame = document.createElement("iframe");
+    frame.setAttribute("sandbox", "allow-scripts");
+    frame.srcdoc = `<script>${OPEN}<\/script><meta http-equiv="Content-Security-Policy" content="${POLICY}">`;
+    Object.assign(frame, { hidden: true, title: "Python", onload: () => resolve(frame.contentWindow) });
+    document.body.append(frame);
+  });
+  let frame;
+  const send = async (code, ports) => (await (frame ??= opened())).postMessage(code, "*", ports);
+
+  /* A worker: `ask` promises its answer to one question, unless it comes to its `end`, for a reason. What it
+     answers is data, whatever it says: a reader's lines may have spoken for it. */
   const launch = () => {
-    const worker = new Worker(URL.createObjectURL(new Blob([`(${work})()`], { type: "text/javascript" })));
+    const { port1: port, port2 } = new MessageChannel();
     let end;
     const ended = new Promise((_, reject) => {
       end = (reason) => {
-        worker.terminate();
+        clearTimeout(late);
+        port.close();
+        send("");
         reject(new Error(reason));
       };
     });
     ended.catch(() => {}); // nobody may be waiting
-    worker.onerror = (event) => end(`Python stopped: ${event.message}`);
-    const answered = (resolve) => {
-      worker.onmessage = ({ data }) => ("error" in data ? end(data.error) : resolve(data.value));
-    };
+    const answered = () => new Promise((resolve) => {
+      port.onmessage = ({ data }) => (data?.error === undefined ? resolve(data?.value) : end(data.error));
+    });
+    const open = answered(), late = setTimeout(end, 1000 * limit.opening, FORBIDDEN);
+    open.then(() => clearTimeout(late));
+    send(`const unzip = ${vmcUnzip};(${work})()`, [port2]);
     const ask = (question) => {
-      worker.postMessage(question);
-      return Promise.race([ended, new Promise(answered)]);
+      port.postMessage(question);
+      return Promise.race([ended, answered()]);
     };
     const load = async (script) => {
       if (!here(script)) await vmcVendored(script);
+      await open;
       return ask({ files: vmcPythonFiles });
     };
     const loaded = {};

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from book._ext.offline import POLICY
 from book.figures import your_photo
 from tests import pages
 from tests.arm_in_page.controls import number, readout, status
@@ -29,10 +28,7 @@ END = f"After trying|Out of reach|{NEED}|Two sheets|Point at a box, .*wrong|{AGA
 
 @pytest.fixture(scope="module")
 def page(eye_page, offline, site, html):
-    policy = f'<meta http-equiv="Content-Security-Policy" content="{POLICY}"><title>'
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(pages, "HEAD", pages.HEAD.replace("<title>", policy))
-        page = pages.open_html(offline, site, html)
+    page = pages.open_html(offline, site, html)
     page.locator(".vmc-eye[data-ready]").wait_for()
     yield page
     page.close()
