@@ -26,7 +26,7 @@ addEventListener("DOMContentLoaded", () => {
   label.title = "Otherwise the page shows the code of the model alone, not the code that draws and tabulates";
   label.innerHTML = '<input type="checkbox"> Show all code';
   const [box] = label.children;
-  const show = () => folded.forEach((cell) => (cell.open = box.checked));
+  const show = () => folded.forEach((cell) => (cell.open = box.checked || cell.matches(":has(.vmc-lines)"))); // of the reader's
   box.checked = vmcMemory.get("vmcCode") === "all";
   box.addEventListener("change", () => {
     show();

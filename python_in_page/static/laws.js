@@ -9,7 +9,7 @@
   const LAW = "law."; // before a cell's name, in an address
 
   const lastRun = (cell) => cell.querySelector("textarea")?.lastRun ?? vmcGrade.book(cell);
-  const inCode = (names) => names.map((name) => `<code>${name}</code>`).join(", ");
+  const inCode = (names) => names.map((name) => `\`${name}\``).join(", "); // Markdown, as all that is said here
   const ownCells = (above) => above.filter((one) => lastRun(one) !== vmcGrade.book(one));
   const users = []; // of laws: [a figure's cell, the cells of laws and those above it, what it needs of them]
 
@@ -37,11 +37,7 @@
   const watch = (above, back, update) => {
     document.addEventListener("vmc-run", ({ target }) => above.includes(target) && update());
     back.addEventListener("click", () => {
-      for (const one of ownCells(above)) {
-        one.querySelector("textarea").lastRun = undefined;
-        one.querySelector("form [role=status]").textContent = "The figures run the book’s lines again; yours count when you run them.";
-      }
-      document.querySelectorAll(".tag_runs-in-page").forEach((one) => one.dispatchEvent(new Event("vmc-run", { bubbles: true })));
+      for (const one of ownCells(above)) one.dispatchEvent(new Event("vmc-back"));
     });
   };
 
@@ -76,8 +72,8 @@
       demo.vmcLaws = () => ownCells(above).filter(name).map((one) => [LAW + name(one), lastRun(one)]);
     }
 
-    say(html) {
-      if (this.status.innerHTML !== html) this.status.innerHTML = html;
+    say(text) {
+      if (this.said !== text) this.status.innerHTML = vmcGrade.inline((this.said = text));
     }
 
     /* The code above, as the reader has it and as the book has it, and the demo's own cell. */
@@ -88,20 +84,20 @@
     show({ parts, texts, error }, place, draw) {
       const { demo, laws, sliders, between } = this;
       if (error) return this.fail(`${laws.length ? `Your \`${laws.join(", ")}\`` : "Python"} stops: ${error}.`, place, draw);
-      draw(parts);
+      draw(parts, vmcDrawn);
       for (const [name, text] of Object.entries(texts)) {
-        const input = demo.querySelector(`[id="${demo.id}-${name}"]`);
+        const input = demo.querySelector(`#${CSS.escape(`${demo.id}-${name}`)}`);
         input.setAttribute("aria-valuetext", text);
         input.nextElementSibling.textContent = text;
       }
       const free = sliders.length && between.hidden ? FREE : "";
-      this.say(laws.length ? `This demo runs <strong>your</strong> ${inCode(laws)}.` : free);
+      this.say(laws.length ? `This demo runs **your** ${inCode(laws)}.` : free);
     }
 
     fail(why, place, draw) {
       this.failed = true;
       this.book(place, draw);
-      this.say(`${vmcGrade.inline(why)} This is the book’s.`);
+      this.say(`${why} This is the book’s.`);
     }
 
     async drawWanted() {
@@ -113,7 +109,7 @@
         this.wanted = null;
         try {
           const question = ["demos", "draw", ...this.code, demo.id, ready ? null : places(demo), demo.vmc.data ?? ""];
-          const answer = await vmcPython.ask(question, (html) => this.say(html));
+          const answer = await vmcPython.ask(question, (text) => this.say(text));
           if (!this.wanted) this.show(answer, place, draw);
         } catch (error) {
           this.fail(error.message, place, draw);
@@ -146,7 +142,7 @@
       try {
         if (ownCells(this.above).length) this.laws = await vmcPython.ask(["grader", "changed", ...this.code], () => {});
       } catch (error) {
-        this.say(vmcGrade.inline(error.message));
+        this.say(error.message);
       }
       this.back.hidden = !this.laws.length;
       this.demo.vmc.show();
@@ -160,11 +156,17 @@
       ready ? this.ask(0, () => {}, {}, true) : this.say(FREE);
     }
 
-    /* A link has put laws into cells, whose forms these are. */
-    offer(forms) {
-      this.say(`This link brings another ${inCode(forms.map(({ dataset }) => dataset.cell))}. Read it in its cell first.`);
+    /* A link has brought laws, by their cells' names. */
+    offer(laws) {
+      this.say(`This link brings another ${inCode([...laws.keys()])}. Read it in its cell first.`);
       this.run.hidden = false;
-      this.run.onclick = () => forms.forEach((form) => form.requestSubmit());
+      this.run.onclick = () => {
+        this.run.hidden = true;
+        for (const [name, lines] of laws) {
+          cellOf(name).dispatchEvent(new CustomEvent("vmc-take", { detail: lines }));
+          cellOf(name).querySelector("form").requestSubmit();
+        }
+      };
     }
   }
 
@@ -173,16 +175,16 @@
     const { law } = box.dataset, above = codeOf(box.closest(".cell")), form = box.querySelector("form");
     users.push([box.closest(".cell"), above, law]);
     const [status, back] = line(form, BACK);
-    const say = (html) => (status.innerHTML = html);
+    const say = (text) => (status.innerHTML = vmcGrade.inline(text));
     let mine = false;
     watch(above, back, async () => {
       try {
         const question = ["grader", "changed", above.map(lastRun), above.map(vmcGrade.book), law];
         mine = ownCells(above).length > 0 && (await vmcPython.ask(question, () => {})).length > 0;
-        say(mine ? `This arm plans by <strong>your</strong> ${inCode([law])}: let it reach.` : "");
+        say(mine ? `This arm plans by **your** ${inCode([law])}: let it reach.` : "");
       } catch (error) {
         mine = false;
-        say(vmcGrade.inline(error.message));
+        say(error.message);
       }
       back.hidden = !mine;
       form.querySelector("fieldset").dispatchEvent(new Event("input", { bubbles: true })); // it plans anew
@@ -191,23 +193,23 @@
       if (!mine) return null;
       const question = ["grader", "call", above.map(lastRun), law, [target, points]];
       const { answer, error } = await vmcPython.ask(question, () => {}).catch(({ message }) => ({ error: message }));
-      if (answer?.length === points.length) return answer;
-      say(vmcGrade.inline(`Your \`${law}\` ${error ? `stops: ${error}` : `gives no ${points.length} weights`}. This is the book’s.`));
+      if (answer?.length === points.length && answer.every(Number.isFinite)) return answer;
+      say(`Your \`${law}\` ${error ? `stops: ${error}` : `gives no ${points.length} weights`}. This is the book’s.`);
       return null;
     };
   };
 
-  /* The laws that an address brings are put into their cells, and run when the reader asks for it. */
+  const cellOf = (name) => document.querySelector(`form[data-cell="${CSS.escape(name)}"]`)?.closest(".cell");
+
+  /* The laws that an address brings are shown beside their cells, and run when the reader asks for it. */
   const bring = () => {
     const [id, query] = vmcHash().split("?");
-    const laws = [...new URLSearchParams(query)].filter(([key]) => key.startsWith(LAW));
-    const all = [...document.querySelectorAll("form[data-cell]")];
-    const forms = laws.map(([key, text]) => {
-      const form = all.find(({ dataset }) => dataset.cell === key.slice(LAW.length));
-      form?.closest(".cell").dispatchEvent(new CustomEvent("vmc-bring", { detail: text }));
-      return form;
-    });
-    if (forms.length) followers.find(({ demo }) => demo.id === id)?.offer(forms.filter(Boolean));
+    const laws = [...new URLSearchParams(query)].filter(([key, text]) => key.startsWith(LAW) && text).map(([key, text]) => [key.slice(LAW.length), text]);
+    const known = new Map(laws.filter(([name]) => cellOf(name))), unknown = laws.map(([name]) => name).filter((name) => !known.has(name));
+    for (const [name, lines] of known) cellOf(name).dispatchEvent(new CustomEvent("vmc-bring", { detail: lines }));
+    const follower = followers.find(({ demo }) => demo.id === id);
+    if (known.size) follower?.offer(known);
+    else if (unknown.length) follower?.say(`This link brings a law for ${inCode(unknown)}; no cell of this page defines it.`);
   };
 
   let followers = [];

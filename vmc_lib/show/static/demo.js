@@ -164,20 +164,23 @@ const vmcDemo = (() => {
     }
   };
 
-  /* A function that draws a state: its words and its pictures, each a list of lines; then `follow` is called. */
+  /* A function that draws a state: its words and its pictures, each a list of lines, of which not all may be `allowed`;
+     then `follow` is called. */
+  const all = { clean: (part) => part, settle: (messages) => messages };
   const drawer = (demo, follow) => {
     const [pictures, spoken] = [".vmc-pictures", ".vmc-spoken"].map((name) => demo.querySelector(name));
     const places = [...demo.querySelectorAll(".vmc-picture, .vmc-data")];
-    return ([alt, ...parts]) => {
+    return ([alt, ...parts], allowed = all) => {
       const row = demo.querySelector(".vmc-controls"), held = demo.matches(":hover, :focus-within");
       const top = () => row.getBoundingClientRect().top;
       const before = held && top();
       parts.forEach((lines, i) => {
         if (!lines) return; // it stands there already
         const picture = places[i], scene = picture.querySelector(".vmc-scene");
-        if (scene) return vmcScene(scene).show(lines);
-        const next = picture.cloneNode(false);
-        next.innerHTML = lines.join("\n");
+        if (scene) return vmcScene(scene).show(allowed.settle(lines));
+        const next = picture.cloneNode(false), box = document.createElement("template");
+        box.innerHTML = lines.join("\n");
+        next.append(allowed.clean(box.content));
         morph(picture, next);
       });
       const words = alt.join();

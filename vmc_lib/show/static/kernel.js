@@ -133,7 +133,8 @@ export default {
     for (const [name, text] of Object.entries(model.get("scripts")))
       if (!loaded.has(name)) run(text, loaded.add(name));
     const [box, first] = [el.firstElementChild, model.get("first")];
-    const end = new Function(`return ${model.get("start")}`)()(box, first && states(ask, box, first), ask);
+    const [start] = model.get("start").match(/^vmc\w+$/); // a name, and no other code
+    const end = new Function(`return ${start}`)()(box, first && states(ask, box, first), ask);
     return () => {
       ask.leave();
       end?.();

@@ -3,6 +3,8 @@ const vmcMemory = {
   get: (key) => { try { return localStorage.getItem(key); } catch { return null; } },
   parsed: (key) => { try { return JSON.parse(localStorage.getItem(key)); } catch { return null; } }, // it may be cut
   set: (key, text) => { try { localStorage.setItem(key, text); } catch {} },
+  remove: (key) => { try { localStorage.removeItem(key); } catch {} },
+  get keys() { try { return Object.keys(localStorage); } catch { return []; } },
 };
 
 /* A prediction and what was typed are there again when the page is. */

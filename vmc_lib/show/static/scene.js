@@ -9,6 +9,7 @@ const vmcScene = (() => {
   const live = new Set(); // in the order in which they came into sight
   const views = new Map();
 
+  const COMMANDS = new Set(["set_transform", "set_object", "set_property", "set_animation", "delete"]); // others run code, or save files
   const NO_WEBGL = "This browser draws no 3-D picture: it has no WebGL, or it is switched off.";
   const WIDE = 1.15; // width to height: in a narrower picture the eye steps back
 
@@ -77,6 +78,10 @@ const vmcScene = (() => {
       viewer.set_3d_pane_size = function () {
         const { clientWidth: w, clientHeight: h } = canvas;
         if (w && h) Object.getPrototypeOf(viewer).set_3d_pane_size.call(viewer, w, h);
+      };
+      viewer.handle_command = function (command) {
+        const { type, property = "" } = command;
+        if (COMMANDS.has(type) && !/proto|constructor/.test(property)) Object.getPrototypeOf(viewer).handle_command.call(viewer, command);
       };
       for (const part of ["Grid", "Axes"]) viewer.set_property([part], "visible", false);
       viewer.hide_background();

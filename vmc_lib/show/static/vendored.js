@@ -16,7 +16,7 @@ const vmcVendored = (() => {
       document.head.append(tag);
     });
   return (name) => {
-    const packed = document.getElementById(name);
+    const packed = document.querySelector(`script[id="${name}"]`);
     return self.vmcKernel?.(name) ?? (packed ? unpack(packed) : fetch(name));
   };
 })();

@@ -1,0 +1,247 @@
+"""A link's lines and a worker's answers are data: none runs before its reader runs it."""
+
+import json
+from urllib.parse import quote, unquote, urlsplit
+
+import pytest
+from playwright.sync_api import expect
+
+from tests import pages
+from tests.pages import BUILT
+from tests.python_in_page.conftest import PATIENT
+from tests.python_in_page.test_editor import RIGHT_LINES
+from tests.python_in_page.test_laws import DEMO, FOLDED, LAW
+from tools.policy import seal
+from vmc_lib.show import demo
+from vmc_lib.show.packed import unpack_bytes
+
+pytestmark = pytest.mark.browser
+EVIL = f"np = __import__('sys').exit('foreign lines ran')\n{LAW}"
+OWN = f"{LAW}  # an hour's work"
+KEPT = "() => JSON.stringify(localStorage)"
+REACH = """fetch XMLHttpRequest WebSocket WebTransport EventSource BroadcastChannel importScripts
+Worker SharedWorker indexedDB IDBFactory caches CacheStorage navigator postMessage""".split()
+# What a reader's lines may do to the worker's own answers
+FORGE = """import js
+js.eval(r'''const { postMessage } = MessagePort.prototype;
+MessagePort.prototype.postMessage = function () { postMessage.call(this, { value: %s }); };''')"""
+MARKUP = '<img src="x" onerror="window.harm = 1"><script>window.harm = 1</script>'
+FORGED = "Object.assign([{0}, {0}], {{ error: {0} }})".format(json.dumps(MARKUP))  # to any question
+
+
+@pytest.fixture(scope="module")
+def html(exercise_html):
+    """A chapter of a law, an exercise below it, and a demo that follows the law."""
+    with pytest.MonkeyPatch.context() as patch:
+        shown = pages.displayed(patch, demo)
+        patch.setenv("VMC_RENDER_MODE", "book")
+        exec(f"{LAW}\n{DEMO}", {})  # noqa: S102
+    cell = f'<div class="cell_input"><pre>{DEMO}</pre></div>{shown[0].data}'
+    demo_cell = f'<div class="cell tag_draws-in-page">{cell}</div>'
+    return f"{FOLDED.format(LAW)}{exercise_html}{demo_cell}"
+
+
+@pytest.fixture(params=["file", "http"])
+def chapter(request, window, site, html):
+    """A function that opens the chapter, with what stands after a # in its address."""
+    (site / "links.html").write_text(seal(pages.HEAD + html), encoding="utf-8")
+    reader = window()
+    served = []
+
+    def serve(route):
+        served.append(unquote(urlsplit(route.request.url).path)[1:])
+        route.fulfill(path=site / served[-1])
+
+    reader.route("http://book/**", serve)
+    address = "http://book" if request.param == "http" else site.as_uri()
+    opened = []
+
+    def chapter(after=""):
+        """The page, and what the host was asked for, `served`."""
+        page = pages.open_url(reader, f"{address}/links.html{after}")
+        page.evaluate(PATIENT)
+        page.mine = page.get_by_label("Your lines: law")
+        page.line = page.locator(".vmc-law [role=status]")
+        page.beside = page.locator(".vmc-beside:has(p)")
+        page.said = page.locator("form[data-function] [role=status]")
+        page.served = served
+        opened.append(page)
+        return page
+
+    yield chapter
+    assert [error for page in opened for error in page.errors] == []
+
+
+def link(page, lines, name="law"):
+    return f"#{page.locator('.vmc-demo').get_attribute('id')}?law.{name}={quote(lines)}"
+
+
+def check(page):
+    page.get_by_label("Your lines: activation_rates").fill(RIGHT_LINES)
+    page.get_by_role("button", name="Check").click()
+
+
+def run(page, lines=None):
+    if lines is not None:
+        page.mine.fill(lines)
+    page.get_by_role("button", name="Run", exact=True).click()
+    expect(page.locator("form[data-cell=law] [role=status]")).to_contain_text("✓ It runs.")
+
+
+def test_what_a_link_planted_never_runs(chapter):
+    """It is opened and closed; later an exercise below is checked."""
+    first = chapter()
+    brought = link(first, EVIL)
+    kept = first.evaluate(KEPT)
+    page = chapter(brought)
+    expect(page.line).to_contain_text("This link brings another law.")
+    expect(page.beside.locator("pre")).to_have_text(EVIL)
+    assert page.mine.input_value() == LAW
+    page.wait_for_load_state("networkidle")
+    assert not any("vendor/python" in url for url in page.asked)
+    check(page)  # with the link's lines beside it, too
+    expect(page.said).to_contain_text("✓ Right.")
+    page.close()
+    later = chapter()
+    assert later.mine.count() == 0
+    assert "exit" not in later.evaluate(KEPT)
+    check(later)
+    expect(later.said).to_contain_text("✓ Right.")
+    assert kept == "{}"
+
+
+def test_the_readers_own_lines_stay_beside_a_links(chapter):
+    page = chapter()
+    brought = link(page, LAW.replace("2 *", "5 *"))
+    page.get_by_role("button", name="Edit law").click()
+    run(page, OWN)
+    kept = page.evaluate(KEPT)
+    page.close()
+    page = chapter(brought)
+    assert page.mine.input_value() == OWN
+    page.get_by_role("button", name="Take it").click()
+    expect(page.mine).to_have_value(LAW.replace("2 *", "5 *"))
+    assert page.evaluate(KEPT) == kept
+    run(page)
+    page.close()
+    page = chapter()
+    expect(page.beside).to_contain_text("Your own lines:")
+    page.get_by_role("button", name="Take them back").click()
+    expect(page.mine).to_have_value(OWN)
+    expect(page.beside).to_have_count(0)
+    page.evaluate("(link) => { location.hash = link }", brought)
+    page.get_by_role("button", name="Keep mine").click()
+    expect(page.mine).to_have_value(OWN)
+    expect(page.beside).to_have_count(0)
+
+
+def test_a_law_that_no_cell_has_is_named(chapter):
+    page = chapter()
+    page.evaluate("(link) => { location.hash = link }", link(page, "1", "<b>nope</b>"))
+    expect(page.line).to_have_text(
+        "This link brings a law for <b>nope</b>; no cell of this page defines it."
+    )
+    expect(page.get_by_role("button", name="Run it")).to_be_hidden()
+
+
+def test_the_books_own_cell_is_not_kept_and_a_new_edition_is_told(chapter):
+    page = chapter()
+    page.get_by_role("button", name="Edit law").click()
+    run(page)
+    assert page.evaluate(KEPT) == "{}"
+    run(page, OWN)
+    page.evaluate("""() => {
+      const [key] = Object.keys(localStorage), kept = JSON.parse(localStorage[key]);
+      const changed = { typed: `${kept.typed}!`, ran: "np = exit()", book: 1 };
+      localStorage[key] = JSON.stringify({ ...kept, ...changed });
+    }""")
+    page.reload()
+    expect(page.beside).to_contain_text("The book’s cell has changed since you wrote yours.")
+    check(page)  # by the book's until the reader says
+    expect(page.said).to_contain_text("✓ Right.")
+    page.get_by_role("button", name="Take it").click()
+    expect(page.mine).to_have_value(LAW)
+    expect(page.beside.locator("pre")).to_have_text(f"{OWN}!")
+
+
+def test_a_verdict_is_of_the_lines_that_were_checked(chapter):
+    page = chapter()
+    check(page)
+    expect(page.said).to_have_text("✓ Right.")
+    lines = page.get_by_label("Your lines: activation_rates")
+    lines.press_sequentially(" ")
+    before = "(said) => getComputedStyle(said, '::before').content"
+    assert "earlier lines" in page.said.evaluate(before)
+    page.reload()
+    assert "earlier lines" in page.said.evaluate(before)
+    lines.fill(RIGHT_LINES)
+    assert page.said.evaluate(before) == "none"
+
+
+def test_an_answer_with_markup_stays_text(chapter):
+    page = chapter()
+    lines = page.get_by_label("Your lines: activation_rates")
+    lines.fill(FORGE % FORGED)
+    page.get_by_role("button", name="Check").click()
+    expect(page.said).to_contain_text("<script>")
+    page.evaluate("() => { vmcPython.stop(); }")
+    page.get_by_role("button", name="Edit law").click()
+    page.mine.fill(f"{FORGE % FORGED}\n{LAW}")
+    page.get_by_role("button", name="Run", exact=True).click()
+    expect(page.line).to_contain_text("<script>window.harm = 1</script> stops:")
+    assert page.locator("img, .vmc-law script, form script").count() == 0
+    assert page.evaluate("() => window.harm") is None
+
+
+def test_the_workers_python_reaches_nothing(chapter):
+    """Neither by name nor, over HTTP, by an import, which no name holds."""
+    page = chapter()
+    lines = page.get_by_label("Your lines: activation_rates")
+    tries = "js.eval('import(\"http://book/secret.js\").catch(String)')"
+    lines.fill(f"import js\n{tries}\n[name for name in {REACH} if hasattr(js, name)], js.origin")
+    page.get_by_role("button", name="Check").click()
+    expect(page.said.locator("pre")).to_have_text("([], 'null')")
+    assert "secret.js" not in page.served
+    page.errors = [error for error in page.errors if "secret.js" not in error]  # refused, and said
+
+
+DRAWN = [  # what is drawn, and what of it becomes part of the page
+    ('<svg><path d="M0 0" onclick="harm()"></path></svg>', '<svg><path d="M0 0"></path></svg>'),
+    ("<svg><script>harm()</script><style>*{}</style></svg>", "<svg></svg>"),
+    ("<svg><foreignObject><form></form></foreignObject></svg>", "<svg></svg>"),
+    ('<a href="javascript:harm()">x</a><a href="#x">y</a>', '<a>x</a><a href="#x">y</a>'),
+    ('<svg><use href="//evil/x.svg#a"></use></svg>', "<svg><use></use></svg>"),
+    ('<svg><animate attributeName="href" to="javascript:harm()"/></svg>', "<svg></svg>"),
+    ('<img src="https://evil/x.png"><iframe srcdoc="x"></iframe>', "<img>"),
+    ('<p style="position: fixed; fill: red">x</p>', '<p style="fill: red;">x</p>'),
+    ('<p style="fill: url(//evil)">x</p><p fill="u\\rl(x)">y</p>', "<p>x</p><p>y</p>"),
+    ('<p id="mujoco.js">a</p><p id="vmcPythonFiles">b</p>', "<p>a</p><p>b</p>"),
+    ('<div class="vmc-scene" data-law="x"></div>', "<div></div>"),
+]
+CLEAN = """(html) => {
+  const box = document.createElement("template");
+  box.innerHTML = html;
+  const before = box.innerHTML;
+  vmcDrawn.clean(box.content);
+  return [before, box.innerHTML];
+}"""
+
+
+def test_of_what_is_drawn_only_pictures_become_part_of_the_page(open_page):
+    page = open_page("<h1>A</h1>")
+    assert [page.evaluate(CLEAN, html)[1] for html, _ in DRAWN] == [clean for _, clean in DRAWN]
+    page.errors.clear()  # the policy refused the handlers, too
+
+
+def test_all_that_the_books_own_demos_draw_passes(open_page):
+    page, seen = open_page("<h1>A</h1>"), 0
+    for path in sorted((BUILT / "book").glob("[0-9]*.html")):
+        for packed in pages.PACKED.findall(path.read_text(encoding="utf-8")):
+            kept = json.loads(unpack_bytes(packed))
+            for places in kept.get("states", [])[:2]:
+                for lines in [[kept["lines"][n] for n in part] for part in places[1:] if part]:
+                    if lines[0].startswith("<"):
+                        before, after = page.evaluate(CLEAN, "\n".join(lines))
+                        assert after == before, path.stem
+                        seen += 1
+    assert seen > 100
