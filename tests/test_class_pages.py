@@ -8,7 +8,7 @@ import re
 import numpy as np
 import pytest
 
-from kit.__main__ import ROOT, throws, throws_page
+from kit.__main__ import class_page, throws, throws_page
 from tests.formulas import FORMULAS, computes
 from tests.pages import book_html, boxes, observe
 from vmc_lib.show import check, predict, questions
@@ -114,7 +114,6 @@ def test_sheet_for_goggles_has_a_line_for_each_throw(page):
 # ---------------------------------------------------------------- what a class answered
 
 
-CLASS = (ROOT / "kit/pages/class.html").read_text(encoding="utf-8")
 QUIZ = """<fieldset class="vmc-quiz"><legend>Which?</legend>
 <details class="vmc-wrong"><summary>This</summary><p>✗ No.</p></details>
 <details class="vmc-right"><summary>That</summary><p>✓ Right.</p></details></fieldset>"""
@@ -150,7 +149,7 @@ def test_a_page_keeps_what_was_answered_shows_it_and_saves_it(chapter):
     chapter.locator("form:not([data-check])").evaluate(
         "(form, detail) => form.dispatchEvent("
         "new CustomEvent('vmc-graded', { bubbles: true, detail }))",
-        "✗ Not yet. The sign is wrong.",
+        {"said": "✗ Not yet. The sign is wrong.", "lines": "def f():\n    return -1"},
     )
     chapter.reload()
     assert "7" not in record.locator("summary").inner_text()
@@ -167,12 +166,16 @@ def test_a_page_keeps_what_was_answered_shows_it_and_saves_it(chapter):
         ("exercise", "4", False, "Think."),
         ("exercise", "3", True, ""),
         ("quiz", "This", False, ""),
-        ("exercise", "", False, "The sign is wrong."),
+        ("exercise", "def f():\n    return -1", False, "The sign is wrong."),
     ]
     assert {a["id"] for a in kept["answers"] if a["kind"] == "exercise"} == {"ex-one"}
-    record.get_by_text("Forget all of it").click()
-    chapter.reload()
+    record.get_by_role("button", name="Forget").click()
+    with chapter.expect_navigation():
+        record.get_by_role("button", name="Forget every answer and line").click()
     assert not record.is_visible()
+    assert chapter.locator("input:checked").count() == 0  # nor is anything left in a field
+    assert chapter.locator("form[data-check] input").input_value() == ""
+    assert chapter.evaluate("() => Object.keys(localStorage)") == []
 
 
 def answer(text, right, feedback=""):
@@ -192,7 +195,7 @@ def test_the_teachers_page_joins_two_hundred_files(page, tmp_path):
     second = {"format": "answers 1", "who": "0", "answers": [answer("=2", False)]}
     (tmp_path / "zero.json").write_text(json.dumps(second), encoding="utf-8")
     (tmp_path / "bad.json").write_text("[]", encoding="utf-8")
-    room = page(CLASS)
+    room = page(class_page())
     room.set_input_files("#files", [*files, tmp_path / "zero.json", tmp_path / "bad.json"])
     room.wait_for_selector("#rows tr")
     assert "200 students." in room.inner_text("#status")
@@ -227,7 +230,7 @@ def test_of_a_quiz_only_the_first_answer_counts(page, tmp_path):
         quiz = [answer(text, text == "That") | {"kind": "quiz"} for text in order]
         file = {"format": "answers 1", "who": who, "answers": quiz}
         (tmp_path / f"{who}.json").write_text(json.dumps(file), encoding="utf-8")
-    room = page(CLASS)
+    room = page(class_page())
     room.set_input_files("#files", [tmp_path / f"{who}.json" for who in texts])
     room.wait_for_selector("#rows tr")
     (row,) = list(csv.reader(io.StringIO(saved(room, "#save"))))[1:]

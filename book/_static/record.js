@@ -1,7 +1,7 @@
 /* What a reader answered, attempt by attempt: kept in this browser alone, shown at a chapter's end, and
    saved as a file by whoever wants to hand it in. */
 (() => {
-  const KEY = "vmcRecord", MOST = 2000;
+  const KEY = "vmcRecord", MOST = 2000, LONGEST = 4000; // answers, signs of one
   const page = location.pathname.split("/").pop().replace(/\.html$/, "");
   const all = () => [vmcMemory.parsed(KEY) ?? []].flat().filter((one) => one?.kind); // others may write there
 
@@ -14,7 +14,7 @@
   };
 
   const add = (kind, id, question, answer, right, feedback = "") => {
-    const entry = { page, kind, id, question: question.slice(0, 200), answer, right, feedback };
+    const entry = { page, kind, id, question: question.slice(0, 200), answer: answer.slice(0, LONGEST), right, feedback };
     vmcMemory.set(KEY, JSON.stringify([...all(), entry].slice(-MOST)));
     show();
   };
@@ -44,13 +44,16 @@
     if (target.matches("form[data-check]"))
       verdict("exercise", target, words(target.querySelector("[role=status]")), target.querySelector("input").value.trim());
   });
-  addEventListener("vmc-graded", ({ target, detail }) => verdict("exercise", target, detail, ""));
+  addEventListener("vmc-graded", ({ target, detail: { said, lines } }) => {
+    if (!("cell" in target.dataset)) verdict("exercise", target, said, lines); // who runs a mechanism answers nothing
+  });
 
+  const FORGET = "Forget all of it", SURE = "Forget every answer and line, of all chapters?";
   const place = document.createElement("details");
   place.className = "vmc-record";
   place.innerHTML = "<summary></summary><p>It stays in this browser. If you save it as a file, the file holds these lines, the name that you " +
-    "write here, and nothing else.</p><p><label>Name or number, if your course asks for one: <input size=\"12\" autocomplete=\"off\"></label> " +
-    "<button type=\"button\">Save as a file</button> <button type=\"button\">Forget all of it</button></p><ol></ol>";
+    "write here, and nothing else. Who forgets it all empties every page's fields, too: on a computer that others use, do.</p><p><label>Name or number, if your course asks for one: <input size=\"12\" autocomplete=\"off\"></label> " +
+    "<button type=\"button\">Save as a file</button> <button type=\"button\">" + FORGET + "</button></p><ol></ol>";
   const [save, forget] = place.querySelectorAll("button");
 
   const show = () => {
@@ -59,8 +62,11 @@
     place.querySelector("summary").textContent = `What this browser has kept of your answers: ${kept.length}`;
     const list = place.querySelector("ol");
     list.replaceChildren(...kept.map(({ page, kind, question, answer, right, feedback }) => {
-      const text = `${page}, ${kind}: ${question} ${answer} ${right ? "✓" : "✗"} ${feedback}`;
-      return Object.assign(document.createElement("li"), { textContent: text.replace(/\$([^$]+)\$/g, "\\($1\\)") });
+      const code = `${answer}`.includes("\n"), item = document.createElement("li");
+      const text = `${page}, ${kind}: ${question} ${code ? "" : answer} ${right ? "✓" : "✗"} ${feedback}`;
+      item.textContent = text.replace(/\$([^$]+)\$/g, "\\($1\\)");
+      if (code) item.append(Object.assign(document.createElement("pre"), { textContent: answer }));
+      return item;
     }));
     window.vmcEquations?.(list);
   };
@@ -70,10 +76,17 @@
     Object.assign(document.createElement("a"), { href: url, download: `answers-${who.replace(/[^\w-]+/g, "_") || "mine"}.json` }).click();
     setTimeout(() => URL.revokeObjectURL(url), 1000);
   });
+  /* At the second click, all that any page of the book has kept, and what stands in this one's fields. */
   forget.addEventListener("click", () => {
-    vmcMemory.set(KEY, "[]");
-    show();
+    if (forget.textContent !== SURE) return (forget.textContent = SURE);
+    const book = location.pathname.replace(/[^/]*$/, "");
+    vmcMemory.keys.filter((key) => key.startsWith("vmc") || key.startsWith(book)).forEach(vmcMemory.remove);
+    for (const field of document.querySelectorAll("input, textarea"))
+      Object.assign(field, { value: field.defaultValue, checked: field.defaultChecked }); // lest the browser brings it back
+    location.reload();
   });
+
+  forget.addEventListener("blur", () => (forget.textContent = FORGET));
 
   addEventListener("DOMContentLoaded", () => {
     if (!document.querySelector(".vmc-predict, .vmc-quiz, form[data-check], form[data-function]")) return;
