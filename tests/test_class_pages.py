@@ -215,7 +215,7 @@ def test_no_answer_becomes_a_formula(page, tmp_path):
     answers = [answer(formula, False) | {"id": formula} for formula in FORMULAS]
     file = {"format": "answers 1", "who": "ann", "answers": answers}
     (tmp_path / "ann.json").write_text(json.dumps(file), encoding="utf-8")
-    room = page(CLASS)
+    room = page(class_page())
     room.set_input_files("#files", tmp_path / "ann.json")
     room.wait_for_selector("#rows tr")
     rows = list(csv.reader(io.StringIO(saved(room, "#save"))))[1:]
