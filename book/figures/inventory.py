@@ -7,15 +7,15 @@ import nbformat
 
 OF_PAGES = ("tests/test_pages.py", "tests/test_site.py")
 DEMO = re.compile(r"^(?:\w+ = )?(?:explore|where\.segmentation_demo|live_arm)\(", re.M)
-TEST = re.compile(r"^def test_(\w+)\(", re.M)
 EXERCISE = {"raises-exception", "solution"}  # tags of the cells below an exercise's text
+TEST = re.compile(r"^def test_(\w+)\(", re.M)
 
 
 def tests_by_folder(root):
-    """How many tests each folder of `root`/tests holds, a Counter; "" is tests itself."""
+    """How many test functions each folder of `root`/tests holds, a Counter; "" is tests itself."""
     counts = Counter()
     for file in (root / "tests").rglob("test_*.py"):
-        folder, *_ = *file.relative_to(root / "tests").parts[:-1], ""
+        [folder, *_] = [*file.relative_to(root / "tests").parts[:-1], ""]
         counts[folder] += len(TEST.findall(file.read_text(encoding="utf-8")))
     return counts
 

@@ -40,7 +40,7 @@ def test_python_is_loaded_for_who_writes_and_from_the_books_own_files(open_exerc
     assert "is 4" in page.said.locator("pre").inner_text()
     assert serious(page, "html", all_of_it=True) == []
     check(page, f"{HEAD}    return =", "cannot read line 2")
-    check(page, "import sys\nsys.exit()", "Python stopped: SystemExit")
+    check(page, "raise KeyboardInterrupt", "Python stopped: KeyboardInterrupt")
     check(page, RIGHT_LINES, "✓ Right.")
 
 

@@ -16,7 +16,7 @@ from vmc_lib.show import demo
 from vmc_lib.show.packed import unpack_bytes
 
 pytestmark = pytest.mark.browser
-EVIL = f"np = __import__('sys').exit('foreign lines ran')\n{LAW}"
+EVIL = f"np = None  # which the exercise below needs\n{LAW}"
 OWN = f"{LAW}  # an hour's work"
 KEPT = "() => JSON.stringify(localStorage)"
 REACH = """fetch XMLHttpRequest WebSocket WebTransport EventSource BroadcastChannel importScripts
@@ -38,7 +38,8 @@ def html(exercise_html):
         exec(f"{LAW}\n{DEMO}", {})  # noqa: S102
     cell = f'<div class="cell_input"><pre>{DEMO}</pre></div>{shown[0].data}'
     demo_cell = f'<div class="cell tag_draws-in-page">{cell}</div>'
-    return f"{FOLDED.format(LAW)}{exercise_html}{demo_cell}"
+    imports, end, rest = exercise_html.partition("</pre></div></div>")
+    return f"{imports}{end}{FOLDED.format(LAW)}{rest}{demo_cell}"
 
 
 @pytest.fixture(params=["file", "http"])
@@ -104,10 +105,17 @@ def test_what_a_link_planted_never_runs(chapter):
     page.close()
     later = chapter()
     assert later.mine.count() == 0
-    assert "exit" not in later.evaluate(KEPT)
+    assert "np = None" not in later.evaluate(KEPT)
     check(later)
     expect(later.said).to_contain_text("✓ Right.")
     assert kept == "{}"
+    later.evaluate("(link) => { location.hash = link }", brought)
+    later.get_by_role("button", name="Take it").click()
+    check(later)
+    expect(later.said).to_contain_text("✓ Right.")
+    run(later)  # the reader's own, from now on
+    check(later)
+    expect(later.said).to_contain_text("NoneType")
 
 
 def test_the_readers_own_lines_stay_beside_a_links(chapter):
@@ -152,7 +160,7 @@ def test_the_books_own_cell_is_not_kept_and_a_new_edition_is_told(chapter):
     run(page, OWN)
     page.evaluate("""() => {
       const [key] = Object.keys(localStorage), kept = JSON.parse(localStorage[key]);
-      const changed = { typed: `${kept.typed}!`, ran: "np = exit()", book: 1 };
+      const changed = { typed: `${kept.typed}!`, ran: "np = None", book: 1 };
       localStorage[key] = JSON.stringify({ ...kept, ...changed });
     }""")
     page.reload()
