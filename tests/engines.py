@@ -17,7 +17,7 @@ import urllib.request
 from contextlib import ExitStack, contextmanager, suppress
 from glob import glob
 
-from tests.pages import BUILT
+from tests.pages import BUILT, patience
 
 NOT_TESTED = "NOT TESTED in {}: apt install firefox-esr webkit2gtk-driver xvfb"
 NOWHERE = "127.0.0.1:9"  # the proxy through which they would reach a network
@@ -36,6 +36,11 @@ addEventListener("unhandledrejection", (event) => vmcFailed(event.reason));
 addEventListener("vmc-limit", () =>
   (vmcPython.limit.seconds = +document.documentElement.dataset.limit));
 </script>"""
+
+
+def hang():
+    """How long a script or a page may take, ms: it may start Python, and these are slow at that."""
+    return int(5 * patience())
 
 
 class Crashed(Exception):
@@ -114,7 +119,7 @@ class Firefox(Engine):
         self.replies = opened.enter_context(self.line.makefile("rb"))
         self._reply()  # its greeting
         self._ask("WebDriver:NewSession")
-        self._ask("WebDriver:SetTimeouts", script=600_000, pageLoad=600_000)
+        self._ask("WebDriver:SetTimeouts", script=hang(), pageLoad=hang())
 
     def _ask(self, name, **parameters):
         message = json.dumps([0, 1, name, parameters]).encode()
@@ -154,7 +159,7 @@ class WebKit(Engine):
         wanted = {"webkitgtk:browserOptions": {"binary": self.program(), "args": options}}
         self.session = ""
         self.session = "/" + self._ask("", capabilities={"alwaysMatch": wanted})["sessionId"]
-        self._ask("/timeouts", script=600_000, pageLoad=600_000)
+        self._ask("/timeouts", script=hang(), pageLoad=hang())
 
     def _listens(self):
         with socket.socket() as knock:

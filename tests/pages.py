@@ -11,6 +11,7 @@ from weakref import WeakSet
 
 import pytest
 import yaml
+from joblib import cpu_count
 from playwright.sync_api import TimeoutError, expect
 
 from tools.policy import seal
@@ -79,7 +80,7 @@ def patience():
 
     Half a minute, or VMC_PATIENCE seconds; as many times longer as the machine is busy.
     """
-    busy = os.getloadavg()[0] / os.cpu_count() if hasattr(os, "getloadavg") else 1
+    busy = os.getloadavg()[0] / cpu_count() if hasattr(os, "getloadavg") else 1
     return 1000 * float(os.environ.get("VMC_PATIENCE", 30)) * max(1, busy)
 
 
