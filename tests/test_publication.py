@@ -73,7 +73,8 @@ def test_windows_installs_the_same_as_make():
     """README's lines of PowerShell, and the Makefile's: pip gets the same arguments in both."""
     arguments = {
         file: re.findall(
-            r"pip install (?:--quiet )?(.* -r .*)", (ROOT / file).read_text(encoding="utf-8")
+            r"(?:pip install|call pip,\$\(1\)\)) (?:--quiet )?(.* -r .*)",
+            (ROOT / file).read_text(encoding="utf-8"),
         )
         for file in ("README.md", "Makefile")
     }

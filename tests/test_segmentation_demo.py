@@ -121,7 +121,7 @@ def test_no_script_compares_words_that_a_reader_sees():
     compares = re.compile(r"(textContent|innerText|innerHTML)(\.trim\(\))? *[!=]==? *[\"'`]")
     scripts = [path for static in STATIC for path in static.glob("*.js")]
     assert len(scripts) > 50
-    assert not [path.name for path in scripts if compares.search(path.read_text("utf-8"))]
+    assert not [path.name for path in scripts if compares.search(path.read_text(encoding="utf-8"))]
 
 
 @pytest.mark.browser
