@@ -14,7 +14,7 @@ from mdit_py_plugins.dollarmath import dollarmath_plugin
 from book.figures.plans import BOOK, NAMES
 from kit import arm, demos
 from kit.bank import templates
-from kit.chapter_questions import chapter_questions
+from kit.chapter_questions import bank_questions
 from kit.gift import gift
 from kit.key import key
 from kit.plan import plans
@@ -65,7 +65,7 @@ def build(folder, pages):
         page = (pages / f"{chapter.stem}.html").read_text(encoding="utf-8")
         keys.append(alive(key(notebook, page), ()))
         questions |= {
-            (chapter.stem, name): several for name, several in chapter_questions(page).items()
+            (chapter.stem, name): several for name, several in bank_questions(notebook).items()
         }
     texts = {"key": "\n".join(keys), "plan": plans(), "index": index()}
     for name in ("projects", "assistants"):

@@ -1,46 +1,61 @@
-"""What the chapters ask, for the bank: predictions and quizzes, with the feedback of each choice.
+"""What the chapters ask: predictions and quizzes, with why each is answered so.
 
-Read from a chapter's built page, as its run closes the predictions. A question that speaks of what
-stands beside it on the page is left out.
+Read from a chapter's notebook, where the run holds what came out (`vmc_lib.show.prose`).
 """
 
 import re
 
-from kit.key import ANSWER, CHOICE, QUESTION
+from book._ext.plain import ANSWER, CHOICE, PREDICTION, QUIZ
 from kit.question import Question
+from vmc_lib.show.figures import inline
+from vmc_lib.show.prose import COMMENT
 
-BESIDE = re.compile(
-    r"\b(photo|map|plot|demo|figure|table)s?\b[^.]{0,20} (below|above)|\b(these|first) photos?\b"
-    r"|\bthe (two|three|four|five|six) (above|below)\b|\bdemos?\b|\b(dashed|dotted|orange)\b",
-    re.I,
-)
+ON_ITS_PAGE = "needs-figure"  # the tag of a question that speaks of what stands beside it
 
 
-def chapter_questions(page):
-    """The questions of a page, {name: [Question]}: HTML, with formulas as KaTeX reads them."""
+def chapter_questions(cells):
+    """The predictions and quizzes among a notebook's cells, as `Question`s in Markdown."""
+    return [question for cell in cells if (question := _question(COMMENT.sub("", cell.source)))]
+
+
+def _question(text):
+    if prediction := PREDICTION.fullmatch(text):
+        question, choices, outcome, why = prediction.groups()
+        choices = tuple(CHOICE.findall(choices))
+        return Question(question, outcome, hint=why, choices=choices, level="predict")
+    if quiz := QUIZ.fullmatch(text):
+        question, answers = quiz.groups()
+        choices, marks, reasons = zip(*ANSWER.findall(answers), strict=True)
+        right = choices[marks.index("✓")]
+        return Question(question, right, choices=choices, feedback=reasons, level="understand")
+    return None
+
+
+def bank_questions(notebook):
+    """The questions of a chapter that can be asked without its page, {name: [Question]}.
+
+    HTML, with formulas as KaTeX reads them; the right choice stands at another place each time.
+    """
+    cells = (c for c in notebook.cells if ON_ITS_PAGE not in c.metadata.get("tags", ()))
     questions = {}
-    for kind, legend, inside in QUESTION.findall(page):
-        if not BESIDE.search(_html(legend + " ".join(CHOICE.findall(inside)))):
-            name = f"{'prediction' if kind == 'predict' else 'quiz'}_{len(questions) + 1}"
-            questions[name] = [_question(kind, legend, inside).placed(len(questions))]
+    for question in chapter_questions(cells):
+        name = f"{'prediction' if question.level == 'predict' else 'quiz'}_{len(questions) + 1}"
+        questions[name] = [_for_bank(question).placed(len(questions))]
     return questions
 
 
-def _question(kind, legend, inside):
-    answers = ANSWER.findall(inside)
-    if kind == "predict":
-        [(_, _, outcome, why)] = answers
-        choices = tuple(map(_html, CHOICE.findall(inside)))
-        right, feedback = _html(outcome).removesuffix("."), ()
-        hint, level = f"{_html(outcome)} {_html(why)}", "predict"
-    else:
-        choices = tuple(_html(answer) for _, answer, _, _ in answers)
-        right = next(_html(answer) for state, answer, *_ in answers if state == "right")
-        feedback = tuple(_html(why) for *_, why in answers)
-        hint, level = "", "understand"
-    return Question(_html(legend), right, 0.0, "", hint, choices, feedback, level, html=True)
+def _for_bank(question):
+    hint = f"{question.answer}. {question.hint}" if question.hint else ""
+    return question._replace(
+        text=_html(question.text),
+        answer=_html(question.answer),
+        hint=_html(hint),
+        choices=tuple(map(_html, question.choices)),
+        feedback=tuple(map(_html, question.feedback)),
+        html=True,
+    )
 
 
 def _html(text):
-    """A line of HTML with emphasis and code, nothing else."""
-    return " ".join(re.sub(r"<(?!/?(?:em|strong|code)>)[^>]*>", "", text).split())
+    """Markdown as HTML with emphasis and code, nothing else."""
+    return " ".join(re.sub(r"<(?!/?(?:em|strong|code)>)[^>]*>", "", inline(text)).split())

@@ -1,8 +1,7 @@
 """The key: every prediction, quiz and exercise of a chapter with its answer.
 
-Predictions and quizzes are read from the built page, for what comes out is the run's to say, and
-so are the number that an exercise wants and what its solution prints. Exercises and their
-solutions are the notebook's.
+All of it is read from the notebook, but for what only the run can say: the number that an exercise
+wants and what its solution prints are read from the built page.
 """
 
 import json
@@ -14,55 +13,32 @@ from itertools import groupby
 from bs4 import BeautifulSoup
 
 from book._ext.plain import EXERCISE, FOLD
+from kit.chapter_questions import chapter_questions
 from kit.student import solves
 from vmc_lib.grading import WRONG
 from vmc_lib.show.questions import source
 
-QUESTION = re.compile(
-    r'<fieldset class="vmc-(predict|quiz)".*?<legend>(.*?)</legend>(.*?)</fieldset>', re.S
-)
-CALL = re.compile(r"^(?:(?:show\.)?predict\(|\*\*Quiz\.\*\* )", re.M)
-CHOICE = re.compile(r"<label[^>]*><input[^>]*>(.*?)</label>", re.S)
-ANSWER = re.compile(
-    r'<details class="vmc-(right|wrong)"><summary>(.*?)</summary>'
-    r"\s*<p><strong>(.*?)</strong>(.*?)</p>\s*</details>",
-    re.S,
-)
 IMPORT = re.compile(r"^from (book\.exercises\.\w+) import", re.M)
 SOLUTION = re.compile(r"^solution\((\w+)\)$", re.M)
-HEADS = {"predict": "Predict first", "quiz": "Quiz"}
+HEADS = {"predict": "Predict first", "understand": "Quiz"}
 
 
 def key(notebook, page):
-    """The key of a chapter as Markdown, from its notebook and the HTML of its built page.
-
-    ValueError where the page has other questions than the notebook.
-    """
+    """The key of a chapter as Markdown, from its notebook and the HTML of its built page."""
     title = notebook.cells[0].source.splitlines()[0]
-    questions = [_question(*parts) for parts in QUESTION.findall(page)]
-    calls = sum(len(CALL.findall(cell.source)) for cell in notebook.cells)
-    if len(questions) != calls:
-        raise ValueError(
-            f"{title!r} asks {calls} questions, its built page {len(questions)}: make book first"
-        )
+    questions = map(_question, chapter_questions(notebook.cells))
     return "\n\n".join([title, *questions, *_exercises(notebook, answers(page))]) + "\n"
 
 
-def _question(kind, question, inside):
+def _question(question):
     """A prediction or a quiz: the choices, the right one in bold, and why."""
-    answers = [tuple(map(markdown, parts)) for parts in ANSWER.findall(inside)]
-    if kind == "predict":
-        [(_, _, outcome, why)] = answers
-        choices = [(markdown(choice), "") for choice in CHOICE.findall(inside)]
-        right, why = outcome.removesuffix("."), f"\n\n{why}"
-    else:
-        choices = [(answer, f": {why}") for _, answer, _, why in answers]
-        right, why = next(answer for state, answer, *_ in answers if state == "right"), ""
+    reasons = [f": {reason}" for reason in question.feedback] or [""] * len(question.choices)
     lines = "\n".join(
-        f"- **{choice}** ✓{reason}" if choice == right else f"- {choice}{reason}"
-        for choice, reason in choices
+        f"- **{choice}** ✓{reason}" if choice == question.answer else f"- {choice}{reason}"
+        for choice, reason in zip(question.choices, reasons, strict=True)
     )
-    return f"### {HEADS[kind]}: {markdown(question)}\n\n{lines}{why}"
+    why = f"\n\n{question.hint}" if question.hint else ""
+    return f"### {HEADS[question.level]}: {question.text}\n\n{lines}{why}"
 
 
 def markdown(html):

@@ -12,9 +12,10 @@ from ipykernel.kernelspec import get_kernel_dict
 from pybtex.database import parse_file
 from pybtex.richtext import Text
 
-from book._ext.plain import FOLD, TERMS
+from book._ext.plain import FOLD, PREDICTION, TERMS
 from book.figures.inventory import DEMO
 from tests.project import CHAPTERS, NOTEBOOKS, ROOT, code, each_chapter, python
+from vmc_lib.show.prose import COMMENT
 
 
 @pytest.fixture(params=NOTEBOOKS, ids=lambda path: path.stem)
@@ -122,7 +123,7 @@ def test_a_chapter_teaches(path):
     assert re.search(r"\d+\s+minutes", notebook.cells[aims].source)
     first = next(i for i, cell in enumerate(notebook.cells) if DEMO.search(cell.source))
     assert first < aims < first + 3  # something to move, perhaps a question about it
-    assert "predict(" in source
+    assert "**Predict.** " in text
     assert "Predict first" not in text  # a box that nothing closes
     assert re.search(r"^\*\*Exercise(: .+)?\*\*$", text, re.M)
     assert any(tagged(cell, "solution") for cell in notebook.cells)
@@ -132,23 +133,27 @@ def test_a_chapter_teaches(path):
     assert "](glossary.md" in text
 
 
-def test_predictions_hide_their_outcome(notebook):
-    """Neither the page nor a notebook shows the code, which names what comes out."""
-    for cell in notebook.cells:
-        if cell.cell_type == "code" and re.search(r"^predict\(", cell.source, re.M):
-            assert "remove-input" in cell.metadata.tags
-            assert cell.metadata.jupyter.source_hidden
-
-
 def test_a_prediction_is_closed_by_the_run(notebook):
-    """What came out is worked out by the notebook: no text, and no name that holds a mere text."""
+    """What came out is a condition on what the notebook works out: on no name of a mere text."""
     nodes = list(ast.walk(ast.parse("\n".join(sources(notebook)))))
     assigned = [node for node in nodes if isinstance(node, ast.Assign)]
     literals = [node for node in assigned if isinstance(node.value, ast.Constant)]
     typed = {name for node in literals for target in node.targets for name in names_in(target)}
-    for call in (node for node in nodes if isinstance(node, ast.Call)):
-        if ast.unparse(call.func) == "predict":
-            assert names_in(call.args[2]) - typed, ast.unparse(call)
+    for text in sources(notebook, "markdown"):
+        if text.startswith("**Predict"):
+            assert PREDICTION.fullmatch(COMMENT.sub("", text)), text
+            condition = re.search(r"^\*\*.+\.\*\*<!--\{(.+?)\}-->", text, re.M)[1]
+            assert names_in(ast.parse(condition)) - typed - {"nearest"}, text
+
+
+def test_captions_and_predictions_are_prose(notebook):
+    """No words of the main line in a string: a notebook that has not run shows them too."""
+    calls = [
+        node
+        for node in ast.walk(ast.parse("\n".join(sources(notebook))))
+        if isinstance(node, ast.Call)
+    ]
+    assert not [ast.unparse(c) for c in calls if any(k.arg == "caption" for k in c.keywords)]
 
 
 def names_in(tree):

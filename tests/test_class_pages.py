@@ -11,7 +11,7 @@ import pytest
 from kit.__main__ import class_page, throws, throws_page
 from tests.formulas import FORMULAS, computes
 from tests.pages import book_html, boxes, observe
-from vmc_lib.show import check, predict, questions
+from vmc_lib.show import check, questions
 
 pytestmark = pytest.mark.browser
 
@@ -124,12 +124,8 @@ GRADED = """<form class="vmc-check"></form>"""
 def chapter(open_page):
     """A chapter's page that asks: a prediction, a number, a quiz, a function."""
 
-    def ask():
-        predict("How far?", ["one", "two"], "two", "It is.")
-        check(None, 3, hint="Think.")
-
-    shown = book_html(questions, ask).replace("</fieldset></div>", "</fieldset></div><hr>")
-    prediction, number = shown.split("<hr>")
+    prediction = questions.prediction("How far?", ["one", "two"], "two", "It is.")
+    number = book_html(questions, lambda: check(None, 3, hint="Think."))
     exercise = '<div class="exercise" id="ex-one"><p class="admonition-title">Exercise 1</p></div>'
     cell = '<div class="cell">{}</div>'.format
     below = cell(number) + cell(GRADED)

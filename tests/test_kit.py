@@ -13,7 +13,7 @@ from book.exercises.loop import MIXED
 from kit.__main__ import CHAPTERS, ROOT
 from kit.key import key
 from kit.student import LINK, checks, student
-from vmc_lib.show import predict, questions
+from vmc_lib.show import questions
 
 BUILT = ROOT / "_build/html/book"
 
@@ -57,20 +57,37 @@ def test_a_students_cells_use_no_name_of_what_was_taken_out(chapter):
 # ---------------------------------------------------------------- the key
 
 
+PREDICTION = """**Predict.** Is $a < b$?
+
+- yes
+- *no*
+
+<details><summary>What came out</summary>
+
+**yes.**<!--{a < b}--> It *must*: 2<!--{b - a}-->.
+
+</details>"""
+QUIZ = """**Quiz.** Which?
+
+<details><summary>this</summary>
+
+✗ It is.
+
+</details>
+
+<details><summary>that</summary>
+
+✓ It is `not`.
+
+</details>"""
+
+
 def test_the_key_has_every_answer_and_why(outputs, monkeypatch):
     page = outputs(questions)
-    predict("Is $a < b$?", ["yes", "*no*"], "yes", "It *must*.")
-    page.append(
-        '<fieldset class="vmc-quiz"><legend>\n<p>Which?</p>\n</legend>\n'
-        '<details class="vmc-wrong"><summary>this</summary>\n'
-        "<p><strong>✗ No.</strong> It is.</p>\n</details>\n"
-        '<details class="vmc-right"><summary>that</summary>\n'
-        "<p><strong>✓ Right.</strong> It is <code>not</code>.</p>\n</details>\n</fieldset>"
-    )
     monkeypatch.setenv("VMC_RENDER_MODE", "book")
     questions.check(None, 11.5, 0.6, "Draw it.", "mm")
-    page[2] = (
-        f'<div class="exercise" id="one"></div><div>{page[2]}</div><div class="solution">'
+    page = (
+        f'<div class="exercise" id="one"></div><div>{page[0]}</div><div class="solution">'
         '<div class="cell_output"><p>1 mm</p></div></div>'
     )
     solution = {"tags": ["solution"]}
@@ -83,17 +100,14 @@ def test_the_key_has_every_answer_and_why(outputs, monkeypatch):
         new_code_cell("check(1, 1)", metadata=solution),
         new_code_cell("solution(MIXED)", metadata=solution),
         new_markdown_cell("More."),
-        new_code_cell("predict(...)"),
-        new_markdown_cell("**Quiz.** Which? …"),
+        new_markdown_cell(PREDICTION),
+        new_markdown_cell(QUIZ),
     ]
-    notebook = new_notebook(cells=cells)
-    with pytest.raises(ValueError, match="make book first"):
-        key(notebook, page[0])
-    assert key(notebook, "<p>".join(page)).split("\n\n") == [
+    assert key(new_notebook(cells=cells), page).split("\n\n") == [
         "# Title",
         "### Predict first: Is $a < b$?",
         "- **yes** ✓\n- *no*",
-        "It *must*.",
+        "It *must*: 2.",
         "### Quiz: Which?",
         "- this: It is.\n- **that** ✓: It is `not`.",
         "### Exercise `one`",

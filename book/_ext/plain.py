@@ -4,7 +4,8 @@ A link to the glossary becomes a term, its sections become definitions, a link t
 citation. A cell that carries the tag `optional` begins a section that the page folds. A cell whose
 metadata name an `exercise` becomes that exercise, the cells after it that carry the tag `solution`
 become its solution, and a quotation that begins with a line in bold becomes an admonition. A quiz,
-whose folded answers begin with ✓ or ✗, gets the page's own style. What only a notebook needs to say
+whose folded answers begin with ✓ or ✗, gets the page's own style, and so does a prediction. A cell
+`**Figure.** …` becomes the caption of the figure above it. What only a notebook needs to say
 carries the tag `remove-cell`.
 """
 
@@ -14,6 +15,9 @@ from html import escape
 from itertools import groupby
 from pathlib import Path
 from textwrap import indent
+
+from vmc_lib.show import prose
+from vmc_lib.show.questions import prediction
 
 GLOSSARY = Path(__file__).parents[1] / "glossary.md"
 HEAD = re.compile(r"^## (.+)\n", re.M)
@@ -30,12 +34,22 @@ FOLD = re.compile(r"\A<details><summary>Show the solution</summary>\n\n(.*)\n\n<
 BOX = re.compile(r"^> \*\*(.+)\*\*\n((?:>.*\n?)+)", re.M)
 
 QUIZ = re.compile(r"\*\*Quiz\.\*\* (.+)\n\n(<details>[\s\S]+</details>)")
-ANSWER = re.compile(r"<details>(<summary>.+</summary>)\n\n([✓✗]) (?=\S)")
+ANSWER = re.compile(r"<details><summary>(.+)</summary>\n\n([✓✗]) (\S[\s\S]*?)\n\n</details>")
+PREDICTION = re.compile(
+    r"\*\*Predict\.\*\* (.+)\n\n((?:- .+\n)+)\n"
+    r"<details><summary>What came out</summary>\n\n\*\*(.+)\.\*\* (.+)\n\n</details>"
+)
+CHOICE = re.compile(r"^- (.+)", re.M)
+FIGURE = re.compile(r"\*\*Figure\.\*\* ([\s\S]+)")
+CAPTION = re.compile(
+    r"</figure>((?:(?!<figure).)*?)<figcaption>\s*<p>(.*?)</p>\s*</figcaption>", re.S
+)
 VERDICTS = {"✓": ("right", "✓ Right."), "✗": ("wrong", "✗ No.")}
 
 
 def setup(app):
     app.connect("source-read", translate)
+    app.connect("html-page-context", give_captions)
     app.connect("html-page-context", give_cards)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
 
@@ -56,6 +70,12 @@ def definitions(text):
     pairs = zip(rest[::2], rest[1::2], strict=True)
     defined = "\n\n".join(f"{head}\n{indent(text.strip(), '  ')}" for head, text in pairs)
     return f"{first}```{{glossary}}\n{defined}\n```\n"
+
+
+def give_captions(app, pagename, templatename, context, doctree):
+    """Put each caption into the figure above it."""
+    within = r"<figcaption>\2</figcaption></figure>\1"
+    context["body"] = CAPTION.sub(within, context.get("body", ""))
 
 
 def give_cards(app, pagename, templatename, context, doctree):
@@ -114,7 +134,13 @@ def _cell(name, directive):
 
 
 def _text(text, metadata):
+    text = prose.COMMENT.sub("", text)
+    if predicted := PREDICTION.fullmatch(text):
+        question, choices, outcome, why = predicted.groups()
+        return prediction(question, CHOICE.findall(choices), outcome, why)
     text = TERM.sub(_term, text)
+    if caption := FIGURE.fullmatch(text):
+        text = f"<figcaption>\n\n{caption[1]}\n\n</figcaption>"
     if quiz := QUIZ.fullmatch(text):
         text = _quiz(*quiz.groups())
     text = SOURCES.sub(_cite, FOLD.sub(r"\1", text))
@@ -134,7 +160,7 @@ def _quiz(question, answers):
     ValueError for fewer than two answers, one without a verdict and a why, or another number of
     right ones than one.
     """
-    found = [mark for _, mark in ANSWER.findall(answers)]
+    found = [mark for _, mark, _ in ANSWER.findall(answers)]
     if not len(found) == answers.count("<details>") >= 2 or found.count("✓") != 1:
         raise ValueError(
             f"the quiz {question!r} needs two or more answers, one of them right; after its "
@@ -146,7 +172,10 @@ def _quiz(question, answers):
 
 def _answer(answer):
     kind, verdict = VERDICTS[answer[2]]
-    return f'<details class="vmc-{kind}">{answer[1]}\n\n**{verdict}** '
+    return (
+        f'<details class="vmc-{kind}"><summary>{answer[1]}</summary>\n\n'
+        f"**{verdict}** {answer[3]}\n\n</details>"
+    )
 
 
 def _term(link):

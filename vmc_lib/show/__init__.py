@@ -10,7 +10,7 @@ from vmc_lib.show.demo import explore, figure
 from vmc_lib.show.estimate import Estimate, estimate
 from vmc_lib.show.figures import details, itemise, markdown, note, photo_view, table
 from vmc_lib.show.palette import COLOURS
-from vmc_lib.show.questions import check, grade, predict, solution
+from vmc_lib.show.questions import check, grade, solution
 from vmc_lib.show.scene import Scene
 from vmc_lib.show.verify import verify
 
@@ -34,7 +34,6 @@ __all__ = [
     "markdown",
     "note",
     "photo_view",
-    "predict",
     "solution",
     "table",
     "verify",

@@ -12,7 +12,7 @@ from vmc_lib.show.palette import COLOURS
 from vmc_lib.show.svg_renderer import text_width
 
 
-def compare(series, measure, caption, published=None, xlim=None, alt=None):
+def compare(series, measure, published=None, xlim=None, alt=None, caption=""):
     """Show a `dot_plot`; its numbers stand folded below, and its description comes from them."""
     figure(lambda: dot_plot(series, measure, published, xlim), caption, alt)
 

@@ -44,7 +44,7 @@ SAMPLE = 25  # positions along a control, of a demo that the page works out
 _demos = itertools.count(1)
 
 
-def explore(draw, caption, alt=None, in_page=None, data=None, printed=(), **controls):
+def explore(draw, caption="", alt=None, in_page=None, data=None, printed=(), **controls):
     """Show what `draw` returns and let the reader move its controls.
 
     `draw(**values)` is a pure function that returns a picture (see `figures`). Each control is a
@@ -122,7 +122,7 @@ def draw_state(draw, values, name, alt=None, tables=True):
         return words, [*pictures(picture, name), *numbers]
 
 
-def figure(picture, caption, alt=None):
+def figure(picture, caption="", alt=None):
     """Show a picture that does not move, or what a function without arguments draws."""
     explore(picture if callable(picture) else lambda: picture, caption, alt)
 
@@ -232,7 +232,8 @@ def _live(state, caption, controls, name):
     handle = display(still(alt, parts, name), display_id=True)
     answers = {"state": answer, "still": keep}
     display(Live(frame(face, "", name), "vmcDemo", scripts, answers, first=[[alt], *scenes]))
-    display(Markup(frame("", caption), caption))
+    if caption:
+        display(Markup(frame("", caption), caption))
     _freeze_once()
     return alt
 

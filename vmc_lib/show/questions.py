@@ -1,4 +1,4 @@
-"""Questions to the reader: `predict` before a demo, `check` an answer, `grade` a function.
+"""Questions to the reader: a `prediction` before a demo, `check` an answer, `grade` a function.
 
 All are plain HTML that works in a live notebook, in the built page and on paper. The page also
 remembers what was chosen or typed. As it has no kernel to run the reader's line, `check` offers a
@@ -36,19 +36,13 @@ from vmc_lib.show.render_mode import render_mode
 _OWN_KEYS = 'onkeydown="event.stopPropagation()"'
 
 
-def predict(question, choices, outcome, why):
-    """Let the reader choose what a demo will show; what the run showed stays folded until asked.
+def prediction(question, choices, outcome, why):
+    """A question before a demo, as HTML: what came out stays folded until asked.
 
-    `question`, `choices` (two to four texts) and `why` are Markdown; `outcome` is the choice that
-    the run itself worked out, or its place among them (a whole number, a bool). Where `choices`
-    maps each text to a number, `outcome` is a number, and the nearest is right. Raises ValueError
-    for another number of choices, a choice that comes twice, an `outcome` that is none of them, or
-    no `why`.
+    `question`, `choices` (two to four texts), `outcome` (one of these) and `why` are Markdown.
+    Raises ValueError for another number of choices, a choice that comes twice, an `outcome` that
+    is none of them, or no `why`.
     """
-    if isinstance(choices, dict) and np.isfinite(outcome):
-        outcome = min(choices, key=lambda choice: abs(choices[choice] - outcome))
-    elif isinstance(outcome, int | np.integer | np.bool_) and 0 <= outcome < len(choices):
-        outcome = list(choices)[int(outcome)]
     if not 2 <= len(set(choices)) == len(choices) <= 4 or outcome not in choices or not why:
         raise ValueError(
             f"the prediction {question!r} needs two to four choices, a why, and its outcome "
@@ -65,13 +59,9 @@ def predict(question, choices, outcome, why):
         f"<p><strong>{inline(outcome)}.</strong> {inline(why)}</p></details>"
     )
     title = '<p class="admonition-title">Predict first</p>'
-    display(
-        HTML(
-            with_style_sheet(
-                f'<div class="admonition tip">{title}<fieldset class="vmc-predict" {_OWN_KEYS}>'
-                f"<legend>{inline(question)}</legend>{buttons}{verdict}</fieldset></div>"
-            )
-        )
+    return (
+        f'<div class="admonition tip">{title}<fieldset class="vmc-predict" {_OWN_KEYS}>'
+        f"<legend>{inline(question)}</legend>{buttons}{verdict}</fieldset></div>"
     )
 
 

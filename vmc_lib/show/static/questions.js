@@ -25,8 +25,8 @@ const vmcMemory = {
 /* What stands still below a prediction, and would give it away, waits until the reader has chosen or
    asked what came out. */
 addEventListener("DOMContentLoaded", () =>
-  document.querySelectorAll(".cell .vmc-predict").forEach((question) => {
-    let cell = question.closest(".cell").nextElementSibling;
+  document.querySelectorAll(".admonition > .vmc-predict").forEach((question) => {
+    let cell = question.parentElement.nextElementSibling;
     while (cell?.matches(".cell:not(:has(> .cell_output))")) cell = cell.nextElementSibling;
     if (!cell?.matches(".cell") || cell.querySelector(".vmc-controls, fieldset, input, button.vmc-play")) return;
     const output = cell.querySelector(".cell_output");

@@ -1,0 +1,30 @@
+"""Rewrites numbers in prose as the run has them: python -m tools.prose book/03_regions.ipynb."""
+
+import sys
+from pathlib import Path
+
+import nbformat
+from nbclient import NotebookClient
+from nbformat.v4 import new_code_cell
+
+from vmc_lib.show.prose import NUMBER
+
+UPDATE = "import vmc_lib.show.prose as _prose\nprint(_prose.update({!r}, globals()), end='')"
+
+
+def update(path):
+    """Run a notebook, and write it again where the run has other numbers in its prose."""
+    notebook, run = (nbformat.read(path, as_version=4) for _ in range(2))
+    for place, cell in enumerate(run.cells):
+        if cell.cell_type == "markdown" and NUMBER.search(cell.source):
+            run.cells[place] = new_code_cell(UPDATE.format(cell.source), id=cell.id)
+    NotebookClient(run, resources={"metadata": {"path": path.parent}}).execute()
+    for cell, after in zip(notebook.cells, run.cells, strict=True):
+        if cell.cell_type != after.cell_type:
+            cell.source = after.outputs[0].text
+    nbformat.write(notebook, path)
+
+
+if __name__ == "__main__":
+    for name in sys.argv[1:]:
+        update(Path(name))
