@@ -28,7 +28,7 @@ from vmc_lib.show.arm import arm_scene
 from vmc_lib.show.arm_plane import plane, plane_view
 from vmc_lib.show.figures import frame, pictures, side_by_side
 from vmc_lib.show.live import VENDORED, Live
-from vmc_lib.show.outputs import Markup, still
+from vmc_lib.show.outputs import still
 from vmc_lib.show.packed import pack_bytes
 from vmc_lib.show.palette import plot_style
 from vmc_lib.show.render_mode import STATIC as SHOW
@@ -66,7 +66,7 @@ names = map("live-{}".format, itertools.count(1))
 _ASKED = tuple(itertools.product((0.1, 0.9), (0.3, 0.7), (0.6, 1.3), (-0.5, 0.3)))
 
 
-def live_arm(mode, caption, alt="", target=(0.09, -0.37), law=""):
+def live_arm(mode, alt="", target=(0.09, -0.37), law=""):
     """Show the arm with its physics in the page, loaded when the reader first asks for it.
 
     `mode` is "bench" (six excitation sliders move the arm) or "reach" (the reader sets a target;
@@ -74,7 +74,7 @@ def live_arm(mode, caption, alt="", target=(0.09, -0.37), law=""):
     same, and the four weights of the plan are set by hand) or "templates" (the same as "reach", and
     templates are taken away, put back and added). `target` (2,), in the arm's plane and in m, is
     where the reach's target first stands, and for which a first reach is there from the start.
-    `caption` is Markdown and says what to notice, `alt` describes the picture in words, by default
+    `alt` describes the picture in words, by default
     as `MODES` does. `law` names the chapter's function of Eq. 5, which a reader can change: the
     book's page then plans by it. Raises ValueError when the mode is unknown or when no templates
     surround the target.
@@ -90,10 +90,10 @@ def live_arm(mode, caption, alt="", target=(0.09, -0.37), law=""):
         movement = execute(plan(target, templates.load()))  # raises when none surround it
         draw, controls = partial(_reach_view, movement), reach_form(name, target, mode)
         data |= {"first": first(movement), "lens": LENS}
-    show(name, mode, draw, controls, data, caption, alt or MODES[mode], law)
+    show(name, mode, draw, controls, data, alt or MODES[mode], law)
 
 
-def show(name, mode, draw, controls, data, caption, alt, law=""):
+def show(name, mode, draw, controls, data, alt, law=""):
     """Show an arm named `name`: the scene and plots that `draw()` returns, controls, what it has.
 
     `controls` is the markup of its `form`, `data` what its scripts have from Python.
@@ -108,12 +108,12 @@ def show(name, mode, draw, controls, data, caption, alt, law=""):
         f'<script type="application/json">{data}</script></div>'
     )
     if render_mode() == "book":
-        display(HTML(frame(page, caption)))
+        display(HTML(frame(page)))
     elif render_mode() == "live":
         style = f"<style>{(STATIC / 'live.css').read_text(encoding='utf-8')}</style>"
         vendored = VENDORED | {MUJOCO.name: MUJOCO}
         widget = Live(page, "vmcStart", [*VIEWER, *SCRIPTS], vendored=vendored)
-        display(still(alt, drawn, name), widget, Markup(style + frame("", caption), caption))
+        display(still(alt, drawn, name), widget, HTML(style))
 
 
 def given():

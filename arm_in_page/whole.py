@@ -13,7 +13,7 @@ TELLS = {
 }
 
 
-def live_whole_arm(arm, draw, zone, target, caption, alt):
+def live_whole_arm(arm, draw, zone, target, alt):
     """Show a whole arm with its physics in the page, behind a button that starts it.
 
     `arm` is what the page has of it, as JSON takes it: the model's `xml`, its `start` and the
@@ -22,10 +22,10 @@ def live_whole_arm(arm, draw, zone, target, caption, alt):
     the bodies at its `joints` and the site of its `tip`; the `templateSet` (see `experience`);
     `muscles`, `bones` and how all lies at first, `still`. `draw()` returns its scene and plots,
     each of which shows two of three axes (`views`). The reader sets a target within `zone` (2, 3),
-    in m; it first stands at `target` (3,). `caption` is Markdown, `alt` describes it all in words.
+    in m; it first stands at `target` (3,). `alt` describes it all in words.
     """
     name = next(names)
     rule = '<input type="hidden" name="rule" value="broydenCalibration">'
     controls = target_sliders(name, zone, target) + plans() + rule
     controls_form = form("Target and plan", {"calibrate": "Correct"}, controls, TELLS)
-    show(name, "reach", draw, controls_form, arm | {"calibration": CALIBRATION}, caption, alt)
+    show(name, "reach", draw, controls_form, arm | {"calibration": CALIBRATION}, alt)

@@ -15,6 +15,7 @@ from book._ext.packed import strip_comments
 from eye_in_page import brain
 from python_in_page import pack
 from tests import pages
+from tools import prose
 
 ROOT = Path(__file__).parents[1]
 TRICKY = r"""/* A comment
@@ -196,6 +197,22 @@ def test_whoever_comes_second_reads_and_a_failure_is_executed_again(book, chapte
         assert times_executed(book) == times
 
 
+def test_a_number_in_prose_is_the_runs(book, chapter):
+    def has(number):
+        notebook = nbformat.read(chapter, as_version=4)
+        text = f"It is {number}<!--{{6 * library.SEVEN}}-->."
+        notebook.cells[2:] = [nbformat.v4.new_markdown_cell(text, id="prose")]
+        nbformat.write(notebook, chapter)
+        return execute.executed(chapter, 600)[2]
+
+    assert has(42) is None
+    assert has(41).startswith("cell prose (`# It is 41<!--")
+    assert has(41).endswith("ValueError: the text says '41', the run '42'")
+    prose.update(chapter)
+    assert nbformat.read(chapter, as_version=4).cells[2].source.startswith("It is 42<")
+    assert execute.executed(chapter, 600)[2] is None
+
+
 WRONG = {  # cells of which a chapter alone fails, and what it says
     "check": ("from vmc_lib.show import check\ncheck(1, 2)", "check: 1 is not 2"),
     "grade": (
@@ -205,8 +222,8 @@ WRONG = {  # cells of which a chapter alone fails, and what it says
     ),
     "a demo that a later cell changes": (
         "from vmc_lib.show import explore\nby = 1\n"
-        "explore(lambda x: f'<p>{by * x}</p>', 'A demo.', 'words', x=[*'ab'])\nby = 2",
-        "these demos show something else now: ['A demo.']",
+        "explore(lambda x: f'<p>{by * x}</p>', alt='words', x=[*'ab'])\nby = 2",
+        "these demos show something else now: ['demo-1']",
     ),
 }
 

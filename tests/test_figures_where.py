@@ -28,12 +28,12 @@ def test_photo_upload_is_decoded():
 
 def test_upload_button_needs_a_kernel(outputs, monkeypatch):
     widgets, figures = outputs(where), []
-    monkeypatch.setattr(where, "figure", lambda *parts: figures.append(parts))
+    monkeypatch.setattr(where, "figure", lambda drawn, alt: figures.append((drawn, alt)))
     image = np.zeros((400, 600, 3), np.uint8)
     for render_mode in ("book", "test", "live"):
         monkeypatch.setenv("VMC_RENDER_MODE", render_mode)
-        where.photo_upload(lambda image: "<p>drawn</p>", image, "caption", "alt")
-    assert figures == [("<p>drawn</p>", "caption", "alt")] * 3
+        where.photo_upload(lambda image: "<p>drawn</p>", image, "alt")
+    assert figures == [("<p>drawn</p>", "alt")] * 3
     [button] = widgets
     assert 'type="file"' in button.page
     assert list(button.scripts) == ["canvas.js", "upload.js"]

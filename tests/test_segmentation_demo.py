@@ -32,7 +32,7 @@ SHOTS = (
 @pytest.fixture(scope="module")
 def html():
     alt = "A shuttlecock and a cup."
-    return book_html(where, lambda: where.segmentation_demo(SHOTS[0].image, "Play.", alt))
+    return book_html(where, lambda: where.segmentation_demo(SHOTS[0].image, alt))
 
 
 @pytest.fixture
@@ -179,7 +179,7 @@ def test_no_false_pixels_travel_to_a_kernel(monkeypatch, window, tmp_path):
     widgets, asked = displayed(monkeypatch, where), []
     monkeypatch.setattr(where, "figure", lambda *_: None)
     monkeypatch.setenv("VMC_RENDER_MODE", "live")
-    where.photo_upload(asked.append, SHOTS[0].image, "caption", "alt")
+    where.photo_upload(asked.append, SHOTS[0].image, "alt")
     page = observe(window(HIDDEN["noise"]).new_page())
     render(page, widgets[-1], monkeypatch)
     Image.new("RGB", (60, 40), "teal").save(tmp_path / "own.png")
@@ -192,10 +192,10 @@ def test_no_false_pixels_travel_to_a_kernel(monkeypatch, window, tmp_path):
 def test_in_a_kernel_it_is_the_same_page(monkeypatch):
     shown = displayed(monkeypatch, where)
     monkeypatch.setenv("VMC_RENDER_MODE", "live")
-    where.segmentation_demo(SHOTS[0].image, "Play.", "A cup.")
+    where.segmentation_demo(SHOTS[0].image, "A cup.")
     search = [path.name for path in SEARCH_SCRIPTS]
     assert list(shown[1].scripts) == ["canvas.js", *search, "segmentation_demo.js"]
     assert 'class="vmc-segmentation"' in shown[1].page
     monkeypatch.setenv("VMC_RENDER_MODE", "test")
-    where.segmentation_demo(SHOTS[0].image, "Play.", "A cup.")
+    where.segmentation_demo(SHOTS[0].image, "A cup.")
     assert len(shown) == 3

@@ -9,15 +9,28 @@ from nbformat.v4 import new_code_cell
 
 from vmc_lib.show.prose import NUMBER
 
+CHECK = "import vmc_lib.show.prose as _prose\n_prose.check_numbers({!r}, globals())"
 UPDATE = "import vmc_lib.show.prose as _prose\nprint(_prose.update({!r}, globals()), end='')"
+
+
+def with_code(cells, line):
+    """A notebook's cells, each with numbers in its prose replaced by code: a `line` of its text."""
+    return [_code(cell, line) if _has_numbers(cell) else cell for cell in cells]
+
+
+def _has_numbers(cell):
+    return cell.cell_type == "markdown" and NUMBER.search(cell.source)
+
+
+def _code(cell, line):
+    first, *_ = cell.source.splitlines()
+    return new_code_cell(f"# {first}\n{line.format(cell.source)}", id=cell.id)
 
 
 def update(path):
     """Run a notebook, and write it again where the run has other numbers in its prose."""
     notebook, run = (nbformat.read(path, as_version=4) for _ in range(2))
-    for place, cell in enumerate(run.cells):
-        if cell.cell_type == "markdown" and NUMBER.search(cell.source):
-            run.cells[place] = new_code_cell(UPDATE.format(cell.source), id=cell.id)
+    run.cells = with_code(run.cells, UPDATE)
     NotebookClient(run, resources={"metadata": {"path": path.parent}}).execute()
     for cell, after in zip(notebook.cells, run.cells, strict=True):
         if cell.cell_type != after.cell_type:

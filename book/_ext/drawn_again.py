@@ -5,7 +5,7 @@ import inspect
 from vmc_lib import show
 from vmc_lib.show import demo
 
-DECLARED = []  # (caption, a function, its result) of each demo that moves
+DECLARED = []  # (its name, a function, its result) of each demo that moves
 
 
 def record():
@@ -22,7 +22,7 @@ def record():
             words = alt(**last) if callable(alt) else alt
             return words, demo.lines(demo.pictures(draw(**last), "again"))
 
-        DECLARED.append((asked["caption"], state, state()))
+        DECLARED.append((numbers.name, state, state()))
         return numbers
 
     show.explore = explore_and_record
@@ -30,6 +30,6 @@ def record():
 
 def draw_again():
     """Draw the last state of every demo; ValueError where it is another than at first."""
-    changed = [caption for caption, state, before in DECLARED if state() != before]
+    changed = [name for name, state, before in DECLARED if state() != before]
     if changed:
         raise ValueError(f"these demos show something else now: {changed}")

@@ -24,6 +24,7 @@ from sphinx.errors import ExtensionError
 from sphinx.util import logging
 
 from reproduce.pipeline.imports import imported_files
+from tools.prose import CHECK, with_code
 
 ROOMS = ("vmc_lib", "reproduce")  # where any chapter may read data
 DATA = {".xml", ".npz", ".json", ".jpg", ".webp"}
@@ -50,17 +51,17 @@ def cache_folder(root):
 
 
 def digest(page):
-    """A name for the state of all that a chapter imports or reads, besides its own lines."""
+    """A name for the state of a chapter's lines and numbers, and of what it imports or reads."""
     root = page.parents[1]
     cells = nbformat.read(page, as_version=4).cells
-    code = [cell.source for cell in cells if cell.cell_type == "code"]
+    code = [cell.source for cell in with_code(cells, CHECK) if cell.cell_type == "code"]
     folders = [(root / room, DATA) for room in ROOMS]
     folders += [(root / room, {".py", ".ipynb"}) for room in COUNTED.get(page.stem, ())]
     files = {root / "constraints.txt"}.union(*(_files(*folder) for folder in folders))
     with suppress(SyntaxError):  # of which its execution will say where
         files |= imported_files("\n".join([BEFORE, *code]), root)
-    states = "".join(f"{file.relative_to(root)} {_content(file)}\n" for file in sorted(files))
-    return hashlib.sha256(states.encode()).hexdigest()[:16]
+    states = [f"{file.relative_to(root)} {_content(file)}" for file in sorted(files)]
+    return hashlib.sha256("\n".join([*code, *states]).encode()).hexdigest()[:16]
 
 
 def _files(folder, kinds):
@@ -168,7 +169,8 @@ AFTER = "drawn_again.draw_again()"
 def execute(page, timeout):
     """The executed notebook, its seconds, and where and how it failed, or None."""
     notebook = nbformat.read(page, as_version=4)
-    notebook.cells.append(nbformat.v4.new_code_cell(AFTER))
+    cells = notebook.cells
+    notebook.cells = [*with_code(cells, CHECK), nbformat.v4.new_code_cell(AFTER)]
     options = {
         "extra_arguments": [
             "--IPKernelApp.log_level=ERROR",  # or it warns that loopback is plain
@@ -178,7 +180,7 @@ def execute(page, timeout):
     }
     result = single_nb_execution(notebook, page.parent, timeout, allow_errors=False, **options)
     error = failure(notebook, result.err)
-    del notebook.cells[-1]
+    notebook.cells = cells
     return notebook, result.time, error
 
 

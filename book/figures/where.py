@@ -19,7 +19,7 @@ from vmc_lib.show.demo import figure
 from vmc_lib.show.figures import frame, photo_view
 from vmc_lib.show.live import Live
 from vmc_lib.show.markup import data_uri
-from vmc_lib.show.outputs import Markup, still
+from vmc_lib.show.outputs import still
 from vmc_lib.show.palette import COLOURS, EDGE, ON_PHOTO
 from vmc_lib.show.render_mode import render_mode
 
@@ -119,7 +119,7 @@ LAYER = "grid-area: 1 / 1; max-width: 100%; height: auto"
 CENTRED = "text-align: center"
 
 
-def segmentation_demo(image, caption, alt):
+def segmentation_demo(image, alt):
     """Show how an image (height, width, 3) falls into segments, which grow back, in the page.
 
     The reader may put a photo of their own in its place; it is looked at there and sent nowhere.
@@ -132,12 +132,11 @@ def segmentation_demo(image, caption, alt):
     parts = {"PHOTO": photo, "LAYER": LAYER, "CENTRED": CENTRED, "SLIDERS": sliders}
     page = re.sub("|".join(parts), lambda name: parts[name[0]], SEGMENTATION)
     if render_mode() == "book":
-        display(HTML(frame(page, caption)))
+        display(HTML(frame(page)))
     elif render_mode() == "live":
         scripts = [CANVAS, *SEARCH_SCRIPTS, STATIC / "segmentation_demo.js"]
         display(still(alt, [photo], "segmentation"))
-        display(Live(frame(page, "", "segmentation"), "vmcSegmentationDemo", scripts))
-        display(Markup(frame("", caption), caption))
+        display(Live(frame(page, "segmentation"), "vmcSegmentationDemo", scripts))
 
 
 UPLOAD = """<div class="vmc-demo" id="upload"><form class="vmc-control">
@@ -145,12 +144,12 @@ UPLOAD = """<div class="vmc-demo" id="upload"><form class="vmc-control">
 <span role="status"></span></form><div class="vmc-picture"></div></div>"""
 
 
-def photo_upload(draw, example, caption, alt):
+def photo_upload(draw, example, alt):
     """Show `draw(example)`; in a live kernel, a button puts the reader's own photo in its place.
 
     `draw` takes an image of any size and returns markup. The photo stays in the kernel.
     """
-    figure(draw(example), caption, alt)
+    figure(draw(example), alt=alt)
     if render_mode() == "live":
         scripts = [CANVAS, Path(__file__).with_name("upload.js")]
         display(still("", [], "upload"))

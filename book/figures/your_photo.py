@@ -23,7 +23,7 @@ from vmc_lib.photos import HEIGHT, REAL_LEVEL, WIDTH
 from vmc_lib.show.arm import arm_scene
 from vmc_lib.show.figures import frame, pictures
 from vmc_lib.show.live import VENDORED, Live
-from vmc_lib.show.outputs import Markup, still
+from vmc_lib.show.outputs import still
 from vmc_lib.show.palette import COLOURS, EDGE, ON_PHOTO, plot_style
 from vmc_lib.show.render_mode import render_mode
 from vmc_lib.show.scene import SCRIPTS as VIEWER
@@ -41,11 +41,11 @@ FINDINGS = {
 }
 
 
-def your_photo(example, caption):
+def your_photo(example):
     """Show what an example `Photo` with the sheet, or the reader's own, leads to in the page.
 
     Each stage is drawn on the photo as soon as it is known, up to the calibrated reach. The photo
-    is sent nowhere. `caption` is Markdown.
+    is sent nowhere.
     """
     if render_mode() == "test":
         return
@@ -53,7 +53,7 @@ def your_photo(example, caption):
         scene, plot = pictures((_scene(), _above()), NAME)
     page = _page(example, scene, plot)
     if render_mode() == "book":
-        display(HTML(frame(page, caption)))
+        display(HTML(frame(page)))
     else:
         learnt = SimpleNamespace(read_text=lambda **_: brain.script())
         vendored = VENDORED | {live.MUJOCO.name: live.MUJOCO, "brain.js": learnt}
@@ -63,7 +63,7 @@ def your_photo(example, caption):
         display(Live(page, "vmcLivePhoto", scripts, vendored=vendored))
         sheets = live.STATIC / "live.css", STATIC / "your_photo.css"
         style = "".join(f"<style>{css.read_text(encoding='utf-8')}</style>" for css in sheets)
-        display(Markup(style + frame("", caption), caption))
+        display(HTML(style))
 
 
 def sheet():

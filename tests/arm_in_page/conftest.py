@@ -30,18 +30,17 @@ def past():
 @pytest.fixture(scope="session")
 def arms_html(past):
     def declare():
-        live_arm("bench", "Move it.", "An arm of two joints and six muscles.")
-        live_arm("reach", "Let it reach.", "An arm before a plane of templates.")
+        live_arm("bench", "An arm of two joints and six muscles.")
+        live_arm("reach", "An arm before a plane of templates.")
         live_whole_arm(
             whole_arm_live.arm(past, habits.muscle_synergies().rest),
             lambda: whole_arm_live.pictures(past, WHOLE_ARM_TARGET),
             experiment.INSIDE,
             WHOLE_ARM_TARGET,
-            "Set a target.",
             "A whole arm before two views of it.",
         )
-        live_arm("weights", "Move the weights.", "An arm before four weights.")
-        live_arm("templates", "Take templates away.", "An arm before its templates.")
+        live_arm("weights", "An arm before four weights.")
+        live_arm("templates", "An arm before its templates.")
 
     return pages.book_html(live, declare)
 

@@ -31,9 +31,9 @@ def test_the_versions_of_mujoco_are_those_of_the_files():
 
 def test_an_unknown_mode_and_a_target_beyond_reach_are_refused():
     with pytest.raises(ValueError, match="choose one of"):
-        live_arm("dance", "c", "a")
+        live_arm("dance", "a")
     with pytest.raises(ValueError, match="not surrounded"):
-        live_arm("reach", "c", "a", target=(0.5, 0.5))
+        live_arm("reach", "a", target=(0.5, 0.5))
 
 
 @pytest.fixture
@@ -44,10 +44,9 @@ def live_page(offline, monkeypatch):
 
     def show(*kernel):
         shown = displayed(monkeypatch, live)
-        live_arm("bench", "Move it.", "An arm.")
-        still, widget, caption = shown
+        live_arm("bench", "An arm.")
+        still, widget, _ = shown
         assert "Run > Run All Cells" in still.data
-        assert "Move it." in caption.data
         render(page, widget, monkeypatch, *kernel)
         return page.locator(".vmc-live").first
 

@@ -40,7 +40,7 @@ def eye_page(chromium, site):
 def html():
     """The reader's own photo, in the book."""
     shot = photos.load(photos.SHEET_LEVEL, "test")[20]
-    return pages.book_html(your_photo, lambda: your_photo.your_photo(shot, "Blue: the sheet."))
+    return pages.book_html(your_photo, lambda: your_photo.your_photo(shot))
 
 
 @pytest.fixture

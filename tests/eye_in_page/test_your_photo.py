@@ -229,7 +229,7 @@ def test_in_a_kernel_it_is_the_same_page(monkeypatch, window):
     shown = pages.displayed(monkeypatch, your_photo)
     for mode in ("live", "test"):
         monkeypatch.setenv("VMC_RENDER_MODE", mode)
-        your_photo.your_photo(OURS, "Blue: the sheet.")
+        your_photo.your_photo(OURS)
         assert len(shown) == 3
     page = pages.observe(window().new_page())
     render(page, shown[1], monkeypatch)

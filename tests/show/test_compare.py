@@ -55,7 +55,7 @@ def test_dot_plot_shows_values_intervals_and_published_ticks():
 def test_a_comparison_has_one_table_and_its_own_description(outputs, monkeypatch):
     monkeypatch.setenv("VMC_RENDER_MODE", "book")
     items = outputs(demo)
-    compare({"ours": {"a": DRAWS, "b": 0.7}}, "recall", "A *caption*.", {"a": 0.6}, (0, 1))
+    compare({"ours": {"a": DRAWS, "b": 0.7}}, "recall", {"a": 0.6}, (0, 1))
     [page] = items
     assert page.count("<table>") == page.count("<details") == 1
     assert "0.40 (0.15 to 0.65)" in page

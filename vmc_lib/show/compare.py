@@ -12,9 +12,9 @@ from vmc_lib.show.palette import COLOURS
 from vmc_lib.show.svg_renderer import text_width
 
 
-def compare(series, measure, published=None, xlim=None, alt=None, caption=""):
+def compare(series, measure, published=None, xlim=None, alt=None):
     """Show a `dot_plot`; its numbers stand folded below, and its description comes from them."""
-    figure(lambda: dot_plot(series, measure, published, xlim), caption, alt)
+    figure(lambda: dot_plot(series, measure, published, xlim), alt=alt)
 
 
 def dot_plot(series, measure, published=None, xlim=None):

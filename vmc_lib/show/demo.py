@@ -173,9 +173,9 @@ def _moves(parts, controls):
 def _page(alt, parts, data, caption, controls, name, printed):
     """The demo as HTML: its first state to be seen at once, and compressed data for all others."""
     if not _moves(parts, controls):
-        return frame(side_by_side(parts, alt), caption, name)
+        return frame(side_by_side(parts, alt), name, caption)
     data = f'<script type="application/gzip">{pack_json(data)}</script>'
-    return frame(_face(alt, parts, controls, name, printed) + data, caption, name)
+    return frame(_face(alt, parts, controls, name, printed) + data, name, caption)
 
 
 def _stored(states):
@@ -207,7 +207,7 @@ def _live(state, caption, controls, name):
     alt, parts = state(first_position(controls))
     _check_pads(parts, controls)
     if not _moves(parts, controls):
-        display(Markup(frame(side_by_side(parts, alt), caption), alt))
+        display(Markup(frame(side_by_side(parts, alt), caption=caption), alt))
         return alt
     current = alt, parts  # what the reader sees
 
@@ -231,9 +231,9 @@ def _live(state, caption, controls, name):
     scripts = SCRIPTS if any(scenes) else PLOT_SCRIPTS
     handle = display(still(alt, parts, name), display_id=True)
     answers = {"state": answer, "still": keep}
-    display(Live(frame(face, "", name), "vmcDemo", scripts, answers, first=[[alt], *scenes]))
+    display(Live(frame(face, name), "vmcDemo", scripts, answers, first=[[alt], *scenes]))
     if caption:
-        display(Markup(frame("", caption), caption))
+        display(Markup(frame("", caption=caption), caption))
     _freeze_once()
     return alt
 

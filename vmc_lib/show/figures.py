@@ -117,8 +117,8 @@ def inline(text):
     return _MARKDOWN.renderInline(text)
 
 
-def frame(inside, caption, name=""):
-    """A figure element with its caption (Markdown)."""
+def frame(inside, name="", caption=""):
+    """A figure element, and its caption (Markdown) if it has one."""
     caption = caption and f"<figcaption>{inline(caption)}</figcaption>"
     return f'<figure class="vmc-demo" id="{name}">{inside}{caption}</figure>'
 

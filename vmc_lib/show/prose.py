@@ -11,7 +11,7 @@ import numpy as np
 
 NUMBER = re.compile(
     r"(?:<!--\[-->(?P<words>[^<]*)|(?P<word>[^\s>*(]*)\**)"
-    r"<!--\{(?P<value>.+?)(?::(?P<form>[^:{}\])]*))?\}-->"
+    r"<!--\{(?P<value>.+?)(?::(?P<form>[-+.,%\w]*))?\}-->"
 )
 HYPHEN = re.compile(r"(?<![\w)])-(?=\.?\d)")  # which Python writes before a number
 COMMENT = re.compile(r"<!--(?:\[|\{.+?\})-->")
