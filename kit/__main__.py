@@ -11,6 +11,7 @@ import numpy as np
 from markdown_it import MarkdownIt
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 
+from book._ext.policy import seal
 from book.figures.plans import BOOK, NAMES
 from kit import arm, demos
 from kit.bank import templates
@@ -21,7 +22,6 @@ from kit.plan import plans
 from kit.qti import package
 from kit.slides import build as slides
 from kit.student import alive, student
-from tools.policy import seal
 from vmc_lib.cerebellum import two_rates
 
 ROOT = Path(__file__).parents[1]

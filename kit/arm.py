@@ -9,8 +9,8 @@ from importlib.metadata import version
 
 from arm_in_page.controls import MUJOCO, STATIC
 from arm_in_page.live import MODEL_SCRIPTS, given
+from book._ext.policy import seal
 from kit.demos import ROOT
-from tools.policy import seal
 from vmc_lib.show.render_mode import STATIC as SHOW
 
 SCRIPT = """/* The arm of `A book that sees and reaches`, and MuJoCo (Apache-2.0): see README.md. */

@@ -12,8 +12,8 @@ from pathlib import Path
 
 import yaml
 
+from book._ext.policy import seal
 from kit import scorm
-from tools.policy import seal
 from vmc_lib.show.packed import pack_bytes, unpack_bytes
 
 ROOT = Path(__file__).parents[1]

@@ -4,7 +4,7 @@ from html import escape
 from pathlib import Path
 from zipfile import ZIP_DEFLATED
 
-from tools.policy import seal
+from book._ext.policy import seal
 from vmc_lib.show.packed import pack_zip
 
 SCRIPT = (Path(__file__).parent / "scorm.js").read_text(encoding="utf-8")

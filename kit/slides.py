@@ -13,10 +13,10 @@ from pathlib import Path
 
 from bs4 import BeautifulSoup
 
+from book._ext.policy import seal
 from book.figures.plans import MORE, PLANS, TITLES
 from kit import demos
 from kit.chapter_slides import Slide, chapter_slides, sentence
-from tools.policy import seal
 
 ROOT = Path(__file__).parents[1]
 CONFIG = demos.CONFIG["sphinx"]["config"]

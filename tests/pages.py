@@ -14,7 +14,7 @@ import yaml
 from joblib import cpu_count
 from playwright.sync_api import TimeoutError, expect
 
-from tools.policy import seal
+from book._ext.policy import seal
 
 ROOT = Path(__file__).parents[1]
 BUILT = ROOT / "_build/html"

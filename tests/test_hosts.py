@@ -4,9 +4,9 @@ from urllib.parse import quote, unquote, urlsplit
 
 import pytest
 
+from book._ext.policy import frame_script, hash_source
 from tests.pages import BUILT, ROOT, open_url
 from tests.project import sample
-from tools.policy import frame_script, hash_source
 
 pytestmark = pytest.mark.browser
 ASK = "() => vmcPython.ask(['grader', 'run', [], '6 * 7'], () => {})"

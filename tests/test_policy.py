@@ -5,10 +5,10 @@ from zipfile import ZipFile
 
 import pytest
 
+from book._ext.policy import META, hash_source, seal
 from kit import scorm
 from kit.__main__ import class_page, throws_page
 from tests.pages import BUILT, open_html
-from tools.policy import META, hash_source, seal
 
 HEAD = '<!doctype html><meta charset="utf-8"><title>A page</title>'
 ALERT = "<script>document.title = 'run'</script>"

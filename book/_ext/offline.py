@@ -4,7 +4,7 @@ import os
 import re
 from pathlib import Path
 
-from tools.policy import seal
+from book._ext.policy import seal
 
 EVERYWHERE = ("book.js", "questions.js")
 SIGHT = "unpack|features|product|detector|stream|box_selection|see|follow"  # and a place
