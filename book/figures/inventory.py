@@ -7,6 +7,8 @@ import nbformat
 
 OF_PAGES = ("tests/test_pages.py", "tests/test_site.py")
 DEMO = re.compile(r"^(?:\w+ = )?(?:explore|where\.segmentation_demo|live_arm)\(", re.M)
+WITH_DEMO = "**Predict.**", "**Figure.**"
+UNREAD = re.compile(r"<details>.*?</details>|<!--.*?-->|\]\(.*?\)", re.S)
 EXERCISE = {"raises-exception", "solution"}  # tags of the cells below an exercise's text
 TEST = re.compile(r"^def test_(\w+)\(", re.M)
 
@@ -69,7 +71,8 @@ def core_minutes(path):
 def reading_and_demos(cells):
     """Minutes to read cells and to play with their demos: 40 words a minute, 5 a demo.
 
-    Exercises, quizzes and what is folded apart. Fitted to one cold reading of six chapters.
+    A demo's minutes are its prediction's and its caption's, too. Exercises, quizzes and what is
+    folded apart. Fitted to one cold reading of six chapters.
     """
     prose, demos, solving = "", 0, False
     for cell in cells:
@@ -77,6 +80,6 @@ def reading_and_demos(cells):
         solving = "exercise" in cell.metadata or (solving and {*tags} & EXERCISE)
         if cell.cell_type == "code":
             demos += len(DEMO.findall(cell.source))
-        elif not solving and "remove-cell" not in tags:
-            prose += re.sub(r"<details>.*?</details>|\]\(.*?\)", " ", cell.source, flags=re.S)
+        elif not solving and "remove-cell" not in tags and not cell.source.startswith(WITH_DEMO):
+            prose += UNREAD.sub(" ", cell.source)
     return len(re.findall(r"\w+", prose)) / 40, 5 * demos
