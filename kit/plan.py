@@ -6,7 +6,7 @@ from book.figures.plans import BOOK, NAMES, PLANS, minutes, sections
 INTRODUCTION = """# Plans: six, eight or twelve sessions of ninety minutes
 
 All three are made from the chapters' words, demos and exercises, and from the tag *optional* of a
-section. *Read* is the core of some chapters, before the session, at 40 words a minute. The others
+section. *Read* is the core of some chapters, before the session, at 43 words a minute. The others
 are shown in class, from the slides, and whoever likes can read them. *Demos* is the time that all
 demos of the core take, 5 minutes each: the slides hold a choice of them. *Exercises*, of what is
 read, come after the session.

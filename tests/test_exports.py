@@ -6,27 +6,24 @@ from collections import Counter
 from xml.etree import ElementTree
 from zipfile import ZipFile
 
+import nbformat
 import numpy as np
 import pytest
 
-from kit.__main__ import CHAPTERS, ROOT, bank
-from kit.chapter_questions import chapter_questions
+from kit.__main__ import CHAPTERS, bank
+from kit.chapter_questions import bank_questions
 from kit.gift import gift
 from kit.qti import SPACE, package
-
-BUILT = ROOT / "_build/html/book"
 
 
 @pytest.fixture(scope="module")
 def variants():
     """The bank, and what the chapters ask."""
-    pages = {
-        path.stem: (BUILT / f"{path.stem}.html").read_text(encoding="utf-8") for path in CHAPTERS
-    }
+    notebooks = {path.stem: nbformat.read(path, as_version=4) for path in CHAPTERS}
     return bank() | {
         (chapter, name): several
-        for chapter, page in pages.items()
-        for name, several in chapter_questions(page).items()
+        for chapter, notebook in notebooks.items()
+        for name, several in bank_questions(notebook).items()
     }
 
 

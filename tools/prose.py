@@ -5,26 +5,8 @@ from pathlib import Path
 
 import nbformat
 from nbclient import NotebookClient
-from nbformat.v4 import new_code_cell
 
-from vmc_lib.show.prose import NUMBER
-
-CHECK = "import vmc_lib.show.prose as _prose\n_prose.check_numbers({!r}, globals())"
-UPDATE = "import vmc_lib.show.prose as _prose\nprint(_prose.update({!r}, globals()), end='')"
-
-
-def with_code(cells, line):
-    """A notebook's cells, each with numbers in its prose replaced by code: a `line` of its text."""
-    return [_code(cell, line) if _has_numbers(cell) else cell for cell in cells]
-
-
-def _has_numbers(cell):
-    return cell.cell_type == "markdown" and NUMBER.search(cell.source)
-
-
-def _code(cell, line):
-    first, *_ = cell.source.splitlines()
-    return new_code_cell(f"# {first}\n{line.format(cell.source)}", id=cell.id)
+from vmc_lib.show.prose import UPDATE, with_code
 
 
 def update(path):

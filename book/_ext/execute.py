@@ -24,7 +24,7 @@ from sphinx.errors import ExtensionError
 from sphinx.util import logging
 
 from reproduce.pipeline.imports import imported_files
-from tools.prose import CHECK, with_code
+from vmc_lib.show.prose import CHECK, with_code
 
 ROOMS = ("vmc_lib", "reproduce")  # where any chapter may read data
 DATA = {".xml", ".npz", ".json", ".jpg", ".webp"}

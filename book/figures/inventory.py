@@ -69,7 +69,7 @@ def core_minutes(path):
 
 
 def reading_and_demos(cells):
-    """Minutes to read cells and to play with their demos: 40 words a minute, 5 a demo.
+    """Minutes to read cells and to play with their demos: 43 words a minute, 5 a demo.
 
     A demo's minutes are its prediction's and its caption's, too. Exercises, quizzes and what is
     folded apart. Fitted to one cold reading of six chapters.
@@ -82,4 +82,4 @@ def reading_and_demos(cells):
             demos += len(DEMO.findall(cell.source))
         elif not solving and "remove-cell" not in tags and not cell.source.startswith(WITH_DEMO):
             prose += UNREAD.sub(" ", cell.source)
-    return len(re.findall(r"\w+", prose)) / 40, 5 * demos
+    return len(re.findall(r"\w+", prose)) / 43, 5 * demos

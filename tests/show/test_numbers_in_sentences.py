@@ -37,7 +37,7 @@ def test_a_demo_gives_its_first_numbers_and_shows_nothing_more(monkeypatch, mode
     monkeypatch.setenv("VMC_RENDER_MODE", mode)
     monkeypatch.setattr(demo, "display", lambda *_, **__: None)
     numbers = explore(
-        lambda n, at: f"<p>{n} {at}</p>",
+        lambda n, at: f"<p data-axes>{n} {at}</p>",
         "c",
         lambda n, at: f"{n} rows",
         n=Slider([2, 30], "n", 30, "mm"),

@@ -8,6 +8,7 @@ before it, or the words since `<!--[-->`. A bool is not written anywhere: it mus
 import re
 
 import numpy as np
+from nbformat.v4 import new_code_cell
 
 NUMBER = re.compile(
     r"(?:<!--\[-->(?P<words>[^<]*)|(?P<word>[^\s>*(]*)\**)"
@@ -15,6 +16,9 @@ NUMBER = re.compile(
 )
 HYPHEN = re.compile(r"(?<![\w)])-(?=\.?\d)")  # which Python writes before a number
 COMMENT = re.compile(r"<!--(?:\[|\{.+?\})-->")
+
+CHECK = "import vmc_lib.show.prose as _prose\n_prose.check_numbers({!r}, globals())"
+UPDATE = "import vmc_lib.show.prose as _prose\nprint(_prose.update({!r}, globals()), end='')"
 
 
 def evaluate(number, names):
@@ -53,3 +57,17 @@ def check_numbers(text, names):
 def nearest(value, *choices):
     """The choice, among numbers, that is nearest to a value."""
     return min(choices, key=lambda choice: abs(choice - value))
+
+
+def with_code(cells, line):
+    """A notebook's cells, each with numbers in its prose replaced by code: a `line` of its text."""
+    return [_code(cell, line) if _has_numbers(cell) else cell for cell in cells]
+
+
+def _has_numbers(cell):
+    return cell.cell_type == "markdown" and NUMBER.search(cell.source)
+
+
+def _code(cell, line):
+    first, *_ = cell.source.splitlines()
+    return new_code_cell(f"# {first}\n{line.format(cell.source)}", id=cell.id)
