@@ -1,10 +1,15 @@
 """Scenes as the page's scripts move them."""
 
+import io
+from base64 import b64decode, b64encode
+
 import numpy as np
 import pypdfium2
 import pytest
+import umsgpack
 from meshcat import geometry as g
 from meshcat.transformations import translation_matrix
+from PIL import Image
 
 from tests.pages import CAPTURE
 from vmc_lib.show import Scene, Slider, explore, figure, photo_view
@@ -52,6 +57,32 @@ def test_an_arm_that_the_pages_python_draws_keeps_its_anatomy(open_demo):
         scene.evaluate("(div, told) => vmcScene(div).show(told)", told)
         assert scene.evaluate(CAPTURE) == expected
     assert straight != bent
+
+
+LOADS = """(_, url) => new Promise((end) =>
+  new MeshCat.THREE.ImageLoader().load(url, () => end(true), null, () => end(false)))"""
+
+
+def test_a_scene_asks_no_host_for_a_texture(open_demos):
+    """It may be the page's Python that names it; textures that came along are drawn."""
+    pixel = io.BytesIO()
+    Image.new("RGB", (1, 1), "blue").save(pixel, "PNG")
+    textured = g.MeshLambertMaterial(map=g.ImageTexture(g.PngImage(pixel.getvalue())))
+    scene = Scene()
+    scene["ball"].set_object(g.Sphere(0.2), textured)
+    [object_] = [one for one in scene.messages() if one.startswith("set_object")]
+    key, data = object_.split("|")
+    command = umsgpack.unpackb(b64decode(data))
+    [image] = command["object"]["images"]
+    page = open_demos(lambda: figure(scene, "c", "a ball"))
+    page.wait_for_selector(".vmc-scene canvas")
+    view = page.query_selector(".vmc-scene")
+    assert view.evaluate(LOADS, image["url"])
+    image["url"] = "secret.png"
+    told = f"{key}|{b64encode(umsgpack.packb(command)).decode()}"
+    view.evaluate("(div, told) => vmcScene(div).show([told])", told)
+    assert not view.evaluate(LOADS, "secret.png")
+    assert not any("secret" in url for url in page.asked)
 
 
 def test_at_most_six_scenes_live_and_the_others_are_images(open_demos):

@@ -9,13 +9,25 @@ const vmcScene = (() => {
   const live = new Set(); // in the order in which they came into sight
   const views = new Map();
 
-  const COMMANDS = new Set(["set_transform", "set_object", "set_property", "set_animation", "delete"]); // others run code, or save files
+  const COMMANDS = new Set(["set_transform", "set_object", "set_property", "delete"]); // others run code, or save files
   const NO_WEBGL = "This browser draws no 3-D picture: it has no WebGL, or it is switched off.";
   const WIDE = 1.15; // width to height: in a narrower picture the eye steps back
 
+  /* A scene brings its textures along: whatever it names, no host is asked for it, with the reader's session. */
+  const askNoHost = ({ ImageLoader: { prototype } }) => {
+    const { load } = prototype;
+    prototype.load = function (address, ...rest) {
+      const own = /^data:/.test(this.manager.resolveURL(address));
+      return load.call(this, own ? address : "data:,", ...rest);
+    };
+  };
+
   let loading, bones;
   const fetchAll = async () => {
-    if (!self.MeshCat) await vmcVendored("meshcat.js");
+    if (!self.MeshCat) {
+      await vmcVendored("meshcat.js");
+      askNoHost(self.MeshCat.THREE);
+    }
     if (!self.vmcBones) await vmcVendored("bones.js");
     bones = await vmcBody.bones();
   };
