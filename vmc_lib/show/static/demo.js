@@ -245,7 +245,7 @@ const vmcDemo = (() => {
       start(demo, await stored(demo));
     });
   if (self.vmcKernel); // which starts its own
-  else if (document.readyState === "loading") addEventListener("DOMContentLoaded", startAll);
-  else startAll();
+  else if (document.readyState === "complete") startAll();
+  else addEventListener("DOMContentLoaded", startAll); // scripts that are to come draw, too
   return start;
 })();
