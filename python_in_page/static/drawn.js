@@ -11,6 +11,7 @@ const vmcDrawn = (() => {
     "ry scope src stop-color stop-opacity stroke stroke-dasharray stroke-linecap stroke-linejoin stroke-opacity stroke-width " +
     "style tabindex text-anchor transform version vector-effect viewBox width x x1 x2 xlink:href xmlns xmlns:xlink y y1 y2 " +
     "aria-hidden aria-label data-axes data-course data-curve");
+  const CLASSES = set("vmc-forest vmc-image vmc-key vmc-panels vmc-strip"); // the theme has some that cover the page
   const STYLES = /^(--|fill|stroke|stop|opacity|font|text-anchor|image-rendering|vector-effect)/;
   const IDS = /^(?=.*[\d-])[\w-]+$/; // with a digit or a hyphen, and no dot: no name of a script's, or a file's
   const PLACES = /^#[\w-]+$|^\s*data:image\/(png|jpeg|webp);base64,[\w+/=\s]*$/; // in the page, or a photo of its own
@@ -18,9 +19,9 @@ const vmcDrawn = (() => {
   const holds = (name, value) => {
     if (!ATTRIBUTES.has(name)) return false;
     if (name === "id") return IDS.test(value);
-    if (name === "class") return !/vmc-scene/.test(value); // which would be one
+    if (name === "class") return value.split(" ").every((one) => CLASSES.has(one));
     if (/href$|^src$/.test(name)) return PLACES.test(value);
-    return !/url\(\s*["']?(?!#)|\\/i.test(value);
+    return !/url\(\s*["']?(?!#)|image-set|\\/i.test(value);
   };
 
   /* Take out of a part of a document, which stands in no page yet, what is not among these. */

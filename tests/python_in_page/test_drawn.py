@@ -21,6 +21,8 @@ DRAWN = [  # what is drawn, and what of it becomes part of the page
     ('<p style="fill: url(//evil)">x</p><p fill="u\\rl(x)">y</p>', "<p>x</p><p>y</p>"),
     ('<p id="mujoco.js">a</p><p id="vmcPythonFiles">b</p>', "<p>a</p><p>b</p>"),
     ('<div class="vmc-scene" data-law="x"></div>', "<div></div>"),
+    ('<p class="fixed-top w-100 h-100">x</p>', "<p>x</p>"),
+    ("<p style=\"--x: image-set('/x' 1x)\">x</p>", "<p>x</p>"),
 ]
 CLEAN = """(html) => {
   const box = document.createElement("template");
