@@ -3,7 +3,9 @@
 (() => {
   const KEY = "vmcRecord", MOST = 2000, LONGEST = 4000; // answers, signs of one
   const page = location.pathname.split("/").pop().replace(/\.html$/, "");
-  const all = () => [vmcMemory.parsed(KEY) ?? []].flat().filter((one) => one?.kind); // others may write there
+  const TEXTS = ["page", "kind", "id", "question", "answer", "feedback"];
+  const isAnswer = (one) => TEXTS.every((name) => typeof one?.[name] === "string"); // others may write there
+  const all = () => [vmcMemory.parsed(KEY) ?? []].flat().filter(isAnswer);
 
   /* The words of an element, its formulas as they were written. */
   const words = (node) => {

@@ -43,6 +43,7 @@ const vmcGrade = (() => {
 
   const memoryOf = (name) => `${location.pathname} ${name}`;
   const sum = (text) => [...text].reduce((sum, sign) => (31 * sum + sign.codePointAt()) | 0, 0); // tells editions of a cell apart
+  const isText = ({ said = [], ran = "", judged = "", mine = "" }) => [said, ran, judged, mine].flat().every((one) => typeof one === "string");
   const make = (tag, more) => Object.assign(document.createElement(tag), more);
 
   /* A cell in whose place the reader writes, and its form: buttons, and what was said of the lines. */
@@ -97,7 +98,7 @@ const vmcGrade = (() => {
 
     restore() {
       const { area, empty, memory } = this, kept = vmcMemory.parsed(memory);
-      if (typeof kept?.typed !== "string") return;
+      if (typeof kept?.typed !== "string" || !isText(kept)) return; // others may write there
       area.value = kept.typed;
       this.mine = kept.mine;
       if (kept.said) this.show(([this.said, this.judged] = [kept.said, kept.judged])[0]);
@@ -123,8 +124,8 @@ const vmcGrade = (() => {
       else this.offer("Your own lines:", this.mine, "Take them back", "Forget them");
     }
 
-    bring(lines) {
-      this.brought = lines;
+    bring(text) {
+      const lines = (this.brought = text.replace(/\r\n?/g, "\n")); // as a field has them
       if (lines !== this.area.value) this.offer("A link brings these lines:", lines);
     }
 

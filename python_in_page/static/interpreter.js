@@ -56,9 +56,10 @@ const vmcPython = (() => {
   };
 
   /* Its frame has no origin, so neither a host's cookies nor what a browser keeps, and a policy that reaches
-     nothing. It is sent a worker's code and port, or nothing: the last worker ends. The page's own policy names
-     the frame's script by its sum (book/_ext/policy.py). */
-  const OPEN = "let worker; onmessage = ({ data, ports }) => { worker?.terminate(); if (data) " +
+     nothing. Its page, and no other, sends it a worker's code and port, or nothing: the last worker ends. The
+     page's own policy names the frame's script by its sum (book/_ext/policy.py). */
+  const OPEN = "let worker; onmessage = ({ source, data, ports }) => { if (source !== parent) return; " +
+    "worker?.terminate(); if (data) " +
     "(worker = new Worker(URL.createObjectURL(new Blob([data])))).postMessage(0, ports); }";
   const POLICY = "default-src 'none'; script-src 'unsafe-eval'; worker-src blob:";
   const FORBIDDEN = "The page’s host forbids Python: its policy must be the one that the book’s README states.";

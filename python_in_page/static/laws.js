@@ -206,6 +206,7 @@
     const [id, query] = vmcHash().split("?");
     const laws = [...new URLSearchParams(query)].filter(([key, text]) => key.startsWith(LAW) && text).map(([key, text]) => [key.slice(LAW.length), text]);
     const known = new Map(laws.filter(([name]) => cellOf(name))), unknown = laws.map(([name]) => name).filter((name) => !known.has(name));
+    if (known.size) followers.forEach(({ run }) => (run.hidden = true)); // the lines of an earlier link are gone
     for (const [name, lines] of known) cellOf(name).dispatchEvent(new CustomEvent("vmc-bring", { detail: lines }));
     const follower = followers.find(({ demo }) => demo.id === id);
     if (known.size) follower?.offer(known);

@@ -18,6 +18,7 @@ LAW = "def law(x):\n    return 2 * x"
 EVIL = f"np = None  # which the exercise below needs\n{LAW}"
 OWN = f"{LAW}  # an hour's work"
 KEPT = "() => JSON.stringify(localStorage)"
+GO = "(link) => { location.hash = link }"
 REACH = """fetch XMLHttpRequest WebSocket WebTransport EventSource BroadcastChannel importScripts
 Worker SharedWorker indexedDB IDBFactory caches CacheStorage navigator postMessage""".split()
 # What a reader's lines may do to the worker's own answers
@@ -108,7 +109,7 @@ def test_what_a_link_planted_never_runs(chapter):
     check(later)
     expect(later.said).to_contain_text("✓ Right.")
     assert kept == "{}"
-    later.evaluate("(link) => { location.hash = link }", brought)
+    later.evaluate(GO, brought)
     later.get_by_role("button", name="Take it").click()
     check(later)
     expect(later.said).to_contain_text("✓ Right.")
@@ -136,15 +137,72 @@ def test_the_readers_own_lines_stay_beside_a_links(chapter):
     page.get_by_role("button", name="Take them back").click()
     expect(page.mine).to_have_value(OWN)
     expect(page.beside).to_have_count(0)
-    page.evaluate("(link) => { location.hash = link }", brought)
+    page.evaluate(GO, brought)
     page.get_by_role("button", name="Keep mine").click()
     expect(page.mine).to_have_value(OWN)
     expect(page.beside).to_have_count(0)
 
 
+def test_whatever_its_line_ends_what_a_link_brings_is_not_kept(chapter):
+    page = chapter()
+    page.evaluate(GO, link(page, EVIL.replace("\n", "\r\n")))
+    page.get_by_role("button", name="Take it").click()
+    expect(page.mine).to_have_value(EVIL)
+    assert page.evaluate(KEPT) == "{}"
+
+
+def test_another_links_lines_are_not_run_by_an_earlier_links_button(chapter):
+    page = chapter()
+    page.evaluate(GO, link(page, EVIL))
+    expect(page.get_by_role("button", name="Run it")).to_be_visible()
+    page.evaluate(GO, f"#another?law.law={quote(OWN)}")
+    expect(page.beside.locator("pre")).to_have_text(OWN)
+    expect(page.get_by_role("button", name="Run it")).to_be_hidden()
+
+
+@pytest.mark.parametrize("odd", [5, [{"toString": 1}]])
+def test_what_others_wrote_into_the_readers_place_stops_nothing(chapter, odd):
+    page = chapter()
+    page.evaluate(
+        """(odd) => {
+          const kept = JSON.stringify({ typed: "a", ran: odd, said: odd, judged: odd, mine: odd });
+          for (const { dataset: { cell, function: name } } of document.forms)
+            localStorage[`${location.pathname} ${cell ?? name}`] = kept;
+          localStorage.vmcRecord = JSON.stringify([{ kind: "quiz", question: odd }, odd]);
+        }""",
+        odd,
+    )
+    page.reload()
+    check(page)
+    expect(page.said).to_contain_text("✓ Right.")
+    expect(page.mine).to_have_value(LAW)
+
+
+def test_only_its_page_sends_the_frame_code(chapter):
+    """Neither one that shows the book in a frame nor one that opened it."""
+    page = chapter()
+    with page.expect_popup() as popup:
+        page.evaluate("() => { window.other = open(location.href) }")
+    other = popup.value
+    other.wait_for_load_state("load")
+    other.evaluate(PATIENT)
+    with other.expect_event("frameattached"):
+        other.evaluate("() => { vmcPython.start() }")
+    page.evaluate("""() => {
+      const code = "onmessage = ({ ports: [port] }) => port.postMessage(1)";
+      const { port1, port2 } = new MessageChannel();
+      port1.onmessage = () => { window.harm = 1 };
+      other.frames[0].postMessage(code, "*", [port2]);
+    }""")
+    other.get_by_label("Your lines: activation_rates").fill(RIGHT_LINES)
+    other.get_by_role("button", name="Check").click()
+    expect(other.locator("form[data-function] [role=status]")).to_contain_text("✓ Right.")
+    assert page.evaluate("() => window.harm") is None
+
+
 def test_a_law_that_no_cell_has_is_named(chapter):
     page = chapter()
-    page.evaluate("(link) => { location.hash = link }", link(page, "1", "<b>nope</b>"))
+    page.evaluate(GO, link(page, "1", "<b>nope</b>"))
     expect(page.line).to_have_text(
         "This link brings a law for <b>nope</b>; no cell of this page defines it."
     )
