@@ -207,6 +207,28 @@ def test_the_teachers_page_joins_two_hundred_files(page, tmp_path):
     assert room.locator("#rows tr").count() == 2
 
 
+@pytest.mark.parametrize(
+    "answers",
+    [
+        [None],
+        [answer("", False) | {"feedback": {"toString": 1}}],
+        [answer("", False) | {"page": 7}],
+        [answer("1", False)] * 2001,
+    ],
+)
+def test_a_file_that_no_page_saved_leaves_the_others_in_the_table(page, tmp_path, answers):
+    for who, kept in (("ann", [answer("2", False)]), ("bob", answers)):
+        file = {"format": "answers 1", "who": who, "answers": kept}
+        (tmp_path / f"{who}.json").write_text(json.dumps(file), encoding="utf-8")
+    room = page(class_page())
+    room.set_input_files("#files", [tmp_path / "ann.json", tmp_path / "bob.json"])
+    room.wait_for_selector("#rows tr")
+    assert room.inner_text("#status") == (
+        "1 students. Not read: bob.json (it is no file of answers)."
+    )
+    assert room.locator("#rows tr").count() == 1
+
+
 def test_no_answer_becomes_a_formula(page, tmp_path):
     answers = [answer(formula, False) | {"id": formula} for formula in FORMULAS]
     file = {"format": "answers 1", "who": "ann", "answers": answers}
