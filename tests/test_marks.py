@@ -139,6 +139,17 @@ def test_endless_check_is_interrupted_and_said(quick):
     assert results == {"first": "ran longer than a minute", "second": "not right"}
 
 
+def test_what_a_hand_in_prints_is_not_kept(quick):
+    """It may have no end: the marks of a class would end with the memory."""
+    chapter, notebook = quick
+    notebook.cells[1].source = "def check(*_): print('x' * 10**6)"
+    kept = []
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(marks, "_mark", lambda outputs, _: kept.extend(outputs))
+        marks.marks(chapter, notebook)
+    assert kept == []
+
+
 def test_a_cell_that_refuses_to_be_interrupted_ends_the_hand_in(quick):
     chapter, notebook = quick
     notebook.cells[1].source = (
