@@ -164,8 +164,7 @@ const vmcDemo = (() => {
     }
   };
 
-  /* A function that draws a state: its words and its pictures, each a list of lines, of which not all may be `allowed`;
-     then `follow` is called. */
+  /* A function that draws a state (its words and pictures, each a list of lines, cut to what is `allowed`), then calls `follow`. */
   const all = { clean: (part) => part, settle: (messages) => messages };
   const drawer = (demo, follow) => {
     const [pictures, spoken] = [".vmc-pictures", ".vmc-spoken"].map((name) => demo.querySelector(name));
