@@ -140,7 +140,7 @@ def test_make_installs_what_is_locked_with_uv_or_without(home, uv, install):
 
 
 def test_the_lock_leaves_out_torch_and_what_it_brings(home):
-    *_, edit = run("make", "--dry-run", "lock", cwd=home).splitlines()
+    *_, edit = run("make", "--no-print-directory", "--dry-run", "lock", cwd=home).splitlines()
     block = "{}==1 \\\n    --hash=sha256:a \\\n    --hash=sha256:b\n".format
     names = ["numpy", "nvidia-a", "nvidia-b", "setuptools", "cuda-c", "torch", "triton", "zipp"]
     (home / "constraints.txt").write_text("".join(map(block, names)), encoding="utf-8")
