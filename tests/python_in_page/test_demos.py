@@ -110,7 +110,8 @@ print(json.dumps([digest(*one) for one in json.loads(given)]))"""
 
 @pytest.fixture(scope="module")
 def page(offline, site):
-    page = open_html(offline, site, "<h1>D</h1>")
+    python = "<!-- tag_draws-in-page: its policy lets Python run -->"
+    page = open_html(offline, site, f"<h1>D</h1>{python}")
     page.evaluate("() => { vmcPython.limit.seconds = 100 }")
     yield page
     page.close()
