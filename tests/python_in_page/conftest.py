@@ -70,7 +70,8 @@ def open_exercise(open_page, exercise_html):
 @pytest.fixture(scope="module")
 def ask(offline, site):
     """A function that asks the page's Python about typed lines: what is said, what is printed."""
-    page = pages.open_html(offline, site, "<h1>E</h1>")
+    python = "<!-- tag_runs-in-page: its policy lets Python run -->"
+    page = pages.open_html(offline, site, f"<h1>E</h1>{python}")
     page.evaluate(PATIENT)
     yield lambda *question: page.evaluate(
         ASK, ["grader", "check" if len(question) == 3 else "run", *question]
