@@ -85,14 +85,14 @@ data: $(READY)
 	$(BIN)/python -m reproduce
 
 bench: $(READY) .bench/.ready
-	for name in $(PEERED); do .bench/bin/python -m bench.$$name || exit 1; done
-	for name in book in_page seat live; do $(BIN)/python -m bench.$$name || exit 1; done
+	for name in $(PEERED); do .bench/bin/python -m tools.bench.$$name || exit 1; done
+	for name in book in_page seat live; do $(BIN)/python -m tools.bench.$$name || exit 1; done
 
-.bench/.ready: requirements.txt constraints.txt bench/requirements.txt
+.bench/.ready: requirements.txt constraints.txt tools/bench/requirements.txt
 	$(PYTHON) -m venv .bench
 	$(call install,.bench/bin)
 	.bench/bin/pip uninstall --quiet --yes opencv-python-headless
-	.bench/bin/pip install --quiet -r bench/requirements.txt
+	.bench/bin/pip install --quiet -r tools/bench/requirements.txt
 	@touch $@
 
 $(BUILT): $(READY) $(if $(NEWER),changed)

@@ -21,8 +21,9 @@ SCRIPT, PLOTS = "vendor/python.js", "vendor/plots.js"  # where the built page fi
 PACKAGES = {
     "python_in_page": "absent grader",
     "book.exercises": " ".join(path.stem for path in sorted(ROOT.glob("book/exercises/*.py"))),
-    "reproduce": "paper experiments.changed_worlds experiments.muscle_bench",
-    "reproduce.experiments": "calibration feedback_control holding path_measures",
+    "reproduce": "paper",
+    "reproduce.experiments": "calibration feedback_control",
+    "reproduce.measures": "changed_worlds holding muscle_bench path_measures",
     "reproduce.peers": "muscle_models optimal_control optimal_feedback state_estimation",
     "vmc_lib": "boxes camera compiled grading hints short_repr statistics",
     "vmc_lib.arm": "dynamics engines kinematics model muscle simulate",

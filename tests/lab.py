@@ -29,7 +29,7 @@ while not Path("go on").exists():
     time.sleep(0.05)
 plt.plot([0, 1]);""",
 ]
-OURS = ".vmc-demo:not(.vmc-still), .vmc-live, .vmc-predict, .vmc-check"
+OURS = ".vmc-demo:not(.vmc-still), .vmc-live, .vmc-check"
 OURS += ", .jp-OutputArea table, .jp-OutputArea details"  # folded numbers, exercises' verdicts
 
 
@@ -167,7 +167,7 @@ def assert_readable(page):
         command(page, "apputils:change-theme", theme=f"JupyterLab {theme}")
         page.wait_for_function(
             "(light) => document.body.dataset.jpThemeLight === light"
-            " && document.querySelector('.vmc-predict')",
+            " && document.querySelector('.vmc-demo')",
             arg=str(theme == "Light").lower(),
         )
         page.evaluate("() => document.querySelectorAll('details').forEach((d) => (d.open = true))")

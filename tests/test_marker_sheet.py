@@ -5,9 +5,9 @@ import numpy as np
 import pypdfium2
 import pytest
 
-from render import scene
 from reproduce import results
 from reproduce.experiments import printed_sheet
+from reproduce.render import scene
 from vmc_lib import marker_sheet, photos
 from vmc_lib.camera import TABLE, Camera
 from vmc_lib.photos import HEIGHT, WIDTH

@@ -22,12 +22,12 @@ ROOT = Path(__file__).parents[1]
 VERSION = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["version"]
 CITATION = yaml.safe_load((ROOT / "CITATION.cff").read_bytes())
 CODEMETA = json.loads((ROOT / "codemeta.json").read_bytes())
-PAPER = (ROOT / "jose/paper.md").read_text(encoding="utf-8")
+PAPER = (ROOT / "kit/jose/paper.md").read_text(encoding="utf-8")
 _, HEAD, BODY = PAPER.split("---\n", 2)
 REFERENCES = parse_file(ROOT / "book/references.bib").entries
 CHECKLIST = re.findall(
     r"^\| ([^|]+) \| (has|a person) \| (.+) \|$",
-    (ROOT / "jose/checklist.md").read_text(encoding="utf-8"),
+    (ROOT / "kit/jose/checklist.md").read_text(encoding="utf-8"),
     re.M,
 )
 

@@ -96,7 +96,7 @@ def load(level, split, folder=FOLDER):
     place = Path(folder) / level / split
     sidecars = sorted(place.glob("*.json"))
     if not sidecars:
-        raise ValueError(f"no photos under {place}: python -m render makes them")
+        raise ValueError(f"no photos under {place}: python -m reproduce.render makes them")
     return list(map(_read_sidecar, sidecars))
 
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from book.figures.panels import muscle_lines, panels
 from book.figures.reaching import arrows
-from reproduce.experiments import holding, opensim_arm
+from reproduce.measures import holding, opensim_arm
 from vmc_lib.arm import dynamics
 from vmc_lib.arm.model import MUSCLES
 from vmc_lib.motor.inverse_dynamics import static_activation

@@ -32,7 +32,10 @@ def miss_histogram(miss):
 
 def changes():
     """What each change leaves of the planned miss, of the ledger's draws: name -> (draws,)."""
-    from reproduce.experiments import calibration, planning_ablation  # not in the page
+    from reproduce.experiments import (
+        calibration,
+        planning_ablation,  # not in the page
+    )
 
     def label(name):
         return name.replace("own off-line", "off-line, Broyden").replace("1 trials", "1 trial")

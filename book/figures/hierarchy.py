@@ -6,7 +6,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from book.figures.what import grey, tiles, with_words
-from reproduce.experiments.slow_features import separation
+from reproduce.measures.slow_features import separation
 from vmc_lib.show.figures import photo_view
 from vmc_lib.show.markup import data_uri, number
 from vmc_lib.show.palette import COLOURS

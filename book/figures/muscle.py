@@ -4,8 +4,8 @@ import numpy as np
 
 from book.figures.panels import panels
 from book.figures.sarcomere import sarcomere
-from reproduce.experiments import muscle_bench
-from reproduce.experiments.muscle_bench import active_force, normalised_force
+from reproduce.measures import muscle_bench
+from reproduce.measures.muscle_bench import active_force, normalised_force
 from vmc_lib.show.palette import COLOURS
 
 SHORTEST = 0.4  # l₀: long before, myosin has met the discs; Thelen's law goes on

@@ -4,9 +4,9 @@ from book.figures.offline import SIDE_BY_SIDE, in_plane
 from book.figures.panels import curves, panels, shade_change
 from book.figures.reaching import mean_mm, reach_scene, reaches
 from reproduce.experiments.calibration import SCENARIOS, ratio_name
-from reproduce.experiments.changed_worlds import BLOCKS, CURES
 from reproduce.experiments.controller_comparison import MOVEMENTS
 from reproduce.experiments.online_calibration import STEPS, endpoints_by_width, remaining
+from reproduce.measures.changed_worlds import BLOCKS, CURES
 from vmc_lib.motor.execution import execute, rotate_about_eye
 from vmc_lib.show import note, table
 from vmc_lib.show.palette import COLOURS

@@ -5,7 +5,7 @@ import numpy as np
 
 from book.figures.panels import panels
 from book.figures.reaching import arrows, ends, norm_mm, plane
-from reproduce.experiments.planning_error import TARGETS, mixed_and_reached
+from reproduce.measures.planning_error import TARGETS, mixed_and_reached
 from reproduce.peers import optimal_control
 from reproduce.peers.minimum_variance import MEASURE_NAMES, kinematic_measures
 from vmc_lib.arm.model import MUSCLES

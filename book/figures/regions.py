@@ -6,7 +6,7 @@ from book.figures.panels import panels
 from book.figures.where import in_corner
 from reproduce import paper
 from reproduce.experiments import fresh_test_set, localisation, real_world
-from reproduce.experiments.precision_recall import rates
+from reproduce.measures.precision_recall import rates
 from vmc_lib.boxes import iou
 from vmc_lib.show import COLOURS, dot_plot, photo_view, table
 from vmc_lib.show.figures import margins

@@ -8,7 +8,7 @@ import numpy as np
 from book.figures.panels import curves, panels, shade, shade_change
 from book.figures.reaching import RING, norm_mm
 from reproduce.experiments import feedback_control as measure
-from reproduce.experiments.path_measures import end_error, end_speed, end_swing, push_error
+from reproduce.measures.path_measures import end_error, end_speed, end_swing, push_error
 from vmc_lib.cerebellum.forward_model import arm_copy
 from vmc_lib.motor.feedback import SIGHT
 from vmc_lib.show import dot_plot, table

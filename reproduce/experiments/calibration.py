@@ -16,7 +16,7 @@ import numpy as np
 from joblib import Parallel, delayed
 
 from reproduce import results
-from reproduce.experiments.changed_worlds import block_errors
+from reproduce.measures.changed_worlds import block_errors
 from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration
 from vmc_lib.cerebellum.online import (
     AimCorrection,

@@ -9,7 +9,7 @@ import numpy as np
 
 from reproduce.experiments import calibration
 from reproduce.experiments.calibration import NOISE, SEEDS
-from reproduce.experiments.path_measures import (
+from reproduce.measures.path_measures import (
     SWING,
     end_error,
     end_speed,

@@ -15,8 +15,8 @@ from reproduce.experiments.localisation import (
     TRAININGS,
     train_classifiers,
 )
-from reproduce.experiments.precision_recall import true_positives
 from reproduce.experiments.recognition import confusion_counts
+from reproduce.measures.precision_recall import true_positives
 from reproduce.training.detectors import candidates, fit_detector, labelled_candidates
 from vmc_lib import photos, show
 from vmc_lib.boxes import MIN_IOU, area, iou

@@ -11,7 +11,7 @@ from itertools import chain, product, zip_longest
 import numpy as np
 from joblib import Parallel, delayed
 
-from reproduce.experiments.precision_recall import best_overlaps, precision_recall, rates
+from reproduce.measures.precision_recall import best_overlaps, precision_recall, rates
 from reproduce.results import arrays
 from reproduce.training.detectors import (
     best_threshold,

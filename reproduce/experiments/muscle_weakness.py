@@ -15,7 +15,7 @@ import numpy as np
 from joblib import Parallel, delayed
 
 from reproduce.experiments.calibration import SEEDS, repeat_over_seeds
-from reproduce.experiments.changed_worlds import train_aim_correction
+from reproduce.measures.changed_worlds import train_aim_correction
 from reproduce.peers import minimum_variance, optimal_control
 from reproduce.results import arrays
 from vmc_lib.arm.model import MUSCLES

@@ -10,7 +10,7 @@ from itertools import product
 import numpy as np
 
 from reproduce.experiments.calibration import SCENARIOS, coarse_algorithm_1, nearest_templates
-from reproduce.experiments.changed_worlds import BLOCKS, NOTHING, Curve, adapt, without_learning
+from reproduce.measures.changed_worlds import BLOCKS, NOTHING, Curve, adapt, without_learning
 from vmc_lib.cerebellum.adaptation import CORRECTIONS, Adaptation
 from vmc_lib.cerebellum.offline import broyden_calibration
 from vmc_lib.cerebellum.online import AimCorrection, GranuleCells, WeightCorrection

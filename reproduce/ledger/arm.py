@@ -3,8 +3,8 @@
 import numpy as np
 
 from reproduce import paper, results
-from reproduce.experiments import opensim_arm
 from reproduce.ledger.entry import ABOVE, BELOW, Quantity, Row, mean, trivial_quantity
+from reproduce.measures import opensim_arm
 from reproduce.peers import optimal_control
 from vmc_lib import photos
 from vmc_lib.arm.model import L0

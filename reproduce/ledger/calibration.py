@@ -9,7 +9,6 @@ from functools import cache
 import numpy as np
 
 from reproduce import paper
-from reproduce.experiments import second_plant
 from reproduce.experiments.calibration import AS_PRINTED, SCENARIOS, load_results, repeat_over_seeds
 from reproduce.ledger.entry import (
     BELOW,
@@ -21,6 +20,7 @@ from reproduce.ledger.entry import (
     share,
     trivial_quantity,
 )
+from reproduce.measures import second_plant
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.cerebellum.offline import algorithm_1
 from vmc_lib.cerebellum.online import WeightCorrection

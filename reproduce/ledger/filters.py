@@ -6,8 +6,7 @@ from functools import cache
 import numpy as np
 
 from reproduce import paper
-from reproduce.experiments import cdbn_sensitivity, gabor, second_layers, texture_tuning
-from reproduce.experiments.texture_tuning import shuffle
+from reproduce.experiments import cdbn_sensitivity, second_layers
 from reproduce.ledger.entry import (
     ABOVE,
     BELOW,
@@ -17,6 +16,8 @@ from reproduce.ledger.entry import (
     mean_of_draws,
     trivial_quantity,
 )
+from reproduce.measures import gabor, texture_tuning
+from reproduce.measures.texture_tuning import shuffle
 from vmc_lib import photos
 from vmc_lib.what import cdbn
 from vmc_lib.what.crbm import CRBM

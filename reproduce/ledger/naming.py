@@ -3,15 +3,10 @@
 import numpy as np
 
 from reproduce import paper
-from reproduce.experiments import (
-    cdbn_sensitivity,
-    fresh_test_set,
-    hmax_draws,
-    recognition,
-    slow_features,
-)
+from reproduce.experiments import cdbn_sensitivity, fresh_test_set, hmax_draws, recognition
 from reproduce.ledger.entry import ABOVE, BELOW, Quantity, Row, mean, mean_of_trainings, share
 from reproduce.ledger.filters import NETWORKS
+from reproduce.measures import slow_features
 from vmc_lib.what.cdbn import N_W
 
 MEASURES = ("precision", "recall")

@@ -9,7 +9,6 @@ from functools import cache
 import numpy as np
 
 from reproduce import paper
-from reproduce.experiments import planning_3d
 from reproduce.experiments.calibration import (
     AS_PRINTED,
     SCENARIOS,
@@ -18,6 +17,7 @@ from reproduce.experiments.calibration import (
     repeat_over_seeds,
 )
 from reproduce.ledger.entry import ABOVE, BELOW, Row, mean, mean_of_draws, trivial_quantity
+from reproduce.measures import planning_3d
 from reproduce.one_draw import DRAWS, HOLDS, planned_error_ratio
 from vmc_lib.motor import templates
 from vmc_lib.motor.execution import execute

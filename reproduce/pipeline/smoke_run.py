@@ -11,12 +11,13 @@ from shutil import copy
 
 import numpy as np
 
-from render import scene
 from reproduce import ledger
-from reproduce.experiments import calibration, changed_worlds, feedback_control, muscle_weakness
+from reproduce.experiments import calibration, feedback_control, muscle_weakness
+from reproduce.measures import changed_worlds
 from reproduce.peers import optimal_control
 from reproduce.pipeline.progress import run_tasks
 from reproduce.pipeline.steps import STEPS, write
+from reproduce.render import scene
 from reproduce.whole_arm import habits
 from vmc_lib import photos
 from vmc_lib.where.recipes import EVERY_RECIPE, RECIPES

@@ -12,7 +12,6 @@ from pathlib import Path
 import numpy as np
 from joblib import parallel_config
 
-from render import bone_meshes, cutout_atlas
 from reproduce import ledger, results
 from reproduce.experiments import (
     calibration,
@@ -37,6 +36,7 @@ from reproduce.experiments import (
 from reproduce.peers import minimum_variance, optimal_control
 from reproduce.pipeline import checksums
 from reproduce.pipeline.imports import imported_files
+from reproduce.render import bone_meshes, cutout_atlas
 from reproduce.training import arm_tables, shipped_models, ventral_stream
 from reproduce.whole_arm import bones as bones63
 from reproduce.whole_arm import experiment, habits, plant
@@ -119,7 +119,7 @@ def describe_steps():
 
 
 PYTHON, MITSUBA = f"{sys.executable} -m", "mitsuba and LLVM 19"
-RENDER, OPENSIM = f"{PYTHON} render", ".bench/bin/python -m bench.opensim_reference"
+RENDER, OPENSIM = f"{PYTHON} reproduce.render", ".bench/bin/python -m tools.bench.opensim_reference"
 SUMMED = f"{PYTHON} reproduce.pipeline.checksums"
 ARM, WHOLE_ARM = "arm26 vmc_lib/arm", "vmc_lib/arm reproduce/whole_arm"
 SHIPPED = "vmc_lib/data vmc_lib/arm"

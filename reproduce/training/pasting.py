@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
-from render.cutout_atlas import WIDTH, load
+from reproduce.render.cutout_atlas import WIDTH, load
 from vmc_lib import photos
 
 HELD_OUT = 80  # cut-outs: those that validate

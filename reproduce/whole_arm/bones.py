@@ -9,7 +9,7 @@ import json
 import mujoco
 import numpy as np
 
-from render.bone_meshes import cluster_vertices, join_meshes, pack_mesh
+from reproduce.render.bone_meshes import cluster_vertices, join_meshes, pack_mesh
 from reproduce.whole_arm.derive import rotation_matrix, world_frame
 from reproduce.whole_arm.plant import FILE as MODEL
 

@@ -5,7 +5,7 @@ from functools import partial
 import numpy as np
 import pytest
 
-from reproduce.experiments.changed_worlds import (
+from reproduce.measures.changed_worlds import (
     PERTURBATIONS,
     adapt,
     error_clamp,

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from reproduce.experiments import feedback_control as measure
-from reproduce.experiments import path_measures
+from reproduce.measures import path_measures
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.cerebellum.forward_model import arm_copy
 from vmc_lib.motor import feedback

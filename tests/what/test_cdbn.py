@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 import torch
 
-from reproduce.experiments.gabor import best_gabor
+from reproduce.measures.gabor import best_gabor
 from vmc_lib.what.cdbn import CDBN
 from vmc_lib.what.learning import Learner
 

@@ -17,7 +17,7 @@ from reproduce.experiments.calibration import (
     nearest_templates,
     run_experiments,
 )
-from reproduce.experiments.changed_worlds import NOTHING, PERTURBATIONS
+from reproduce.measures.changed_worlds import NOTHING, PERTURBATIONS
 from vmc_lib.cerebellum.adaptation import CORRECTIONS
 from vmc_lib.cerebellum.offline import algorithm_1
 from vmc_lib.cerebellum.online import AimCorrection, WeightCorrection

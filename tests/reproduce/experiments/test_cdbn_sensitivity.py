@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from reproduce.experiments import cdbn_sensitivity
-from reproduce.experiments.gabor import best_gabor
+from reproduce.measures.gabor import best_gabor
 from vmc_lib import photos
 from vmc_lib.what.cdbn import CDBN, N_W
 from vmc_lib.what.recogniser import READ_OUTS

@@ -5,8 +5,8 @@ import pytest
 
 from reproduce.experiments import online_calibration
 from reproduce.experiments.calibration import SCENARIOS, no_calibration
-from reproduce.experiments.changed_worlds import BLOCKS, PERTURBATIONS
 from reproduce.experiments.online_calibration import learn, remaining
+from reproduce.measures.changed_worlds import BLOCKS, PERTURBATIONS
 from vmc_lib.cerebellum.online import WeightCorrection
 from vmc_lib.motor import templates
 

@@ -11,8 +11,8 @@ import numpy as np
 
 from reproduce import one_draw
 from reproduce.experiments import calibration as experiments
-from reproduce.experiments import second_plant
 from reproduce.ledger import arm, calibration, online, planning
+from reproduce.measures import second_plant
 from vmc_lib import photos
 from vmc_lib.cerebellum import offline
 from vmc_lib.motor import planning as motor_planning

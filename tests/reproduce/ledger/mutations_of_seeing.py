@@ -5,8 +5,9 @@ from functools import partial
 
 import numpy as np
 
-from reproduce.experiments import crbm_ablation, second_layers, slow_features
+from reproduce.experiments import crbm_ablation, second_layers
 from reproduce.ledger import filters, loop, naming
+from reproduce.measures import slow_features
 from reproduce.training import cdbn as training
 from vmc_lib import photos
 from vmc_lib.what import cdbn

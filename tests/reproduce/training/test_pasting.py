@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from render import cutout_atlas
+from reproduce.render import cutout_atlas
 from reproduce.training.pasting import HELD_OUT, paste_cutout, paste_cutouts
 from vmc_lib import photos
 from vmc_lib.boxes import area

@@ -20,7 +20,7 @@ const vmcBody = (() => {
     };
   };
 
-  /* A bone's surface, as render/bone_meshes.py packs it. */
+  /* A bone's surface, as reproduce/render/bone_meshes.py packs it. */
   const surface = (points, faces) => {
     const { BufferAttribute, BufferGeometry } = self.MeshCat.THREE;
     const shape = new BufferGeometry();
