@@ -3,21 +3,19 @@
 import json
 import re
 import shutil
-from html import escape
 from pathlib import Path
 
 import nbformat
 import numpy as np
-from markdown_it import MarkdownIt
-from mdit_py_plugins.dollarmath import dollarmath_plugin
 
 from book._ext.policy import seal
 from book.figures.plans import BOOK, NAMES
 from kit import arm, demos
-from kit.bank import templates
+from kit.bank import bank
 from kit.chapter_questions import bank_questions
 from kit.gift import gift
 from kit.key import key
+from kit.page import ASSETS, markdown_page
 from kit.plan import plans
 from kit.qti import package
 from kit.slides import build as slides
@@ -26,25 +24,6 @@ from vmc_lib.cerebellum import two_rates
 
 ROOT = Path(__file__).parents[1]
 CHAPTERS = [BOOK / f"{name}.ipynb" for name in NAMES]
-HEAD = """<!doctype html><html lang="en"><meta charset="utf-8"><title>{title}</title>
-<meta name="viewport" content="width=device-width">
-<style>:root {{ color-scheme: light dark; }}
-body {{ max-width: 45rem; margin: 2rem auto; padding: 0 1rem; font-family: sans-serif;
-line-height: 1.5; }} pre {{ overflow: auto; }}
-table {{ border-collapse: collapse; }}
-:is(th, td) {{ padding: .2em .6em; text-align: left; border-bottom: 1px solid #8888; }}</style>
-<link rel="stylesheet" href="katex.css"><script defer src="katex.js"></script>
-<script defer src="book.js"></script>
-"""
-
-
-def bank():
-    """The variants of every question, {(chapter, name): [Question]}, in the book's order."""
-    return {
-        (chapter.stem, template.name): template.variants()
-        for chapter in CHAPTERS
-        for template in templates(chapter.stem)
-    }
 
 
 def build(folder, pages):
@@ -71,11 +50,11 @@ def build(folder, pages):
     for name in ("projects", "assistants"):
         texts[name] = (ROOT / f"kit/{name}.md").read_text(encoding="utf-8")
     for name, text in texts.items():
-        (folder / f"{name}.html").write_text(_page(name, text), encoding="utf-8")
+        (folder / f"{name}.html").write_text(markdown_page(name, text), encoding="utf-8")
     for name in ("key", "plan"):
         (folder / f"{name}.md").write_text(texts[name], encoding="utf-8")
-    for name in ("vendor/katex.js", "vendor/katex.css", "book.js"):
-        shutil.copy(ROOT / "book/_static" / name, folder)
+    for path in ASSETS:
+        shutil.copy(path, folder)
     shutil.copy(ROOT / "kit/report.ipynb", folder)
     questions |= bank()
     (folder / "questions.gift").write_text(gift(questions), encoding="utf-8")
@@ -110,17 +89,6 @@ def throws():
     """What two memories leave of a shift, as a share of it, in 10, 30 and 15 throws (55,)."""
     turned = np.repeat([0.0, 1.0, 0.0], [10, 30, 15])
     return turned - two_rates.adapt(turned).sum(axis=1)
-
-
-def _page(name, text):
-    """A page of Markdown as HTML, its maths as KaTeX reads it."""
-
-    def maths(tex, options):
-        left, right = ("[", "]") if options["display_mode"] else ("(", ")")
-        return f"\\{left}{escape(tex)}\\{right}"
-
-    reader = MarkdownIt().enable("table").use(dollarmath_plugin, renderer=maths)
-    return seal(HEAD.format(title=f"The kit: {name}") + reader.render(text))
 
 
 if __name__ == "__main__":

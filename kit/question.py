@@ -98,14 +98,20 @@ class Template:
         tolerance = 0.01 * abs(answer) if self.tolerance is None else self.tolerance
         return Question(text, answer, tolerance, self.unit, self.hint)
 
-    def variants(self, count=VARIANTS):
-        """The first `count` questions that differ, the same at every call; ValueError if fewer."""
+    def variants(self, count=VARIANTS, seed="", without=()):
+        """The first `count` questions that differ, the same at every call with this `seed`.
+
+        The empty seed draws the public bank. None is among the texts `without`. Raises ValueError
+        where there are fewer.
+        """
+        start = [crc32(text.encode()) for text in (self.name, seed) if text]
         questions = {}
         for draw in range(DRAWS * count):
-            question = self.question(np.random.default_rng([crc32(self.name.encode()), draw]))
+            question = self.question(np.random.default_rng([*start, draw]))
             if question.choices:
-                question = question.placed(crc32(self.name.encode()) + len(questions))
-            if question.choices or self.zero or abs(question.answer) > 10 * question.tolerance:
+                question = question.placed(start[-1] + len(questions))
+            unclear = not question.choices and abs(question.answer) <= 10 * question.tolerance
+            if not (unclear and not self.zero) and question.text not in without:
                 questions.setdefault(question.text, question)
             if len(questions) == count:
                 return list(questions.values())

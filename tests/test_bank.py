@@ -7,8 +7,8 @@ from math import isfinite
 import numpy as np
 import pytest
 
-from kit.__main__ import CHAPTERS, bank
-from kit.bank import templates
+from kit.__main__ import CHAPTERS
+from kit.bank import bank, templates
 from kit.question import VARIANTS, Question, choice, numeric, steps
 
 TEMPLATES = {

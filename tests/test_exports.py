@@ -10,7 +10,8 @@ import nbformat
 import numpy as np
 import pytest
 
-from kit.__main__ import CHAPTERS, bank
+from kit.__main__ import CHAPTERS
+from kit.bank import bank
 from kit.chapter_questions import bank_questions
 from kit.gift import gift
 from kit.qti import SPACE, package

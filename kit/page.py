@@ -1,0 +1,34 @@
+"""A page of the kit: Markdown as HTML, sealed."""
+
+from html import escape
+from pathlib import Path
+
+from markdown_it import MarkdownIt
+from mdit_py_plugins.dollarmath import dollarmath_plugin
+
+from book._ext.policy import seal
+
+ROOT = Path(__file__).parents[1]
+STATIC = ROOT / "book/_static"
+ASSETS = [STATIC / name for name in ("vendor/katex.js", "vendor/katex.css", "book.js")]
+HEAD = """<!doctype html><html lang="en"><meta charset="utf-8"><title>{title}</title>
+<meta name="viewport" content="width=device-width">
+<style>:root {{ color-scheme: light dark; }}
+body {{ max-width: 45rem; margin: 2rem auto; padding: 0 1rem; font-family: sans-serif;
+line-height: 1.5; }} pre {{ overflow: auto; }}
+table {{ border-collapse: collapse; }}
+:is(th, td) {{ padding: .2em .6em; text-align: left; border-bottom: 1px solid #8888; }}</style>
+<link rel="stylesheet" href="katex.css"><script defer src="katex.js"></script>
+<script defer src="book.js"></script>
+"""
+
+
+def markdown_page(name, text):
+    """A page of Markdown as HTML, its maths as KaTeX reads it."""
+
+    def maths(tex, options):
+        left, right = ("[", "]") if options["display_mode"] else ("(", ")")
+        return f"\\{left}{escape(tex)}\\{right}"
+
+    reader = MarkdownIt().enable("table").use(dollarmath_plugin, renderer=maths)
+    return seal(HEAD.format(title=f"The kit: {name}") + reader.render(text))
