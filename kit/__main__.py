@@ -57,8 +57,14 @@ def build(folder, pages):
         shutil.copy(path, folder)
     shutil.copy(ROOT / "kit/report.ipynb", folder)
     questions |= bank()
-    (folder / "questions.gift").write_text(gift(questions), encoding="utf-8")
-    (folder / "questions-qti.zip").write_bytes(package(questions))
+    predictions = {name: q for name, q in questions.items() if q[0].level == "predict"}
+    graded = {name: q for name, q in questions.items() if name not in predictions}
+    for name, part, kind in (
+        ("questions", graded, "assignment"),
+        ("predictions", predictions, "survey"),
+    ):
+        (folder / f"{name}.gift").write_text(gift(part), encoding="utf-8")
+        (folder / f"{name}-qti.zip").write_bytes(package(part, kind))
     slides(folder / "slides", pages)
     demos.build(folder / "demos", pages)
     arm.build(folder / "arm-in-page")

@@ -10,6 +10,7 @@ from kit.question import Question
 from vmc_lib.show.figures import inline
 from vmc_lib.show.prose import COMMENT
 
+WORDS = 6  # of a question, in its name
 ON_ITS_PAGE = "needs-figure"  # the tag of a question that speaks of what stands beside it
 
 
@@ -39,7 +40,9 @@ def bank_questions(notebook):
     cells = (c for c in notebook.cells if ON_ITS_PAGE not in c.metadata.get("tags", ()))
     questions = {}
     for question in chapter_questions(cells):
-        name = f"{'prediction' if question.level == 'predict' else 'quiz'}_{len(questions) + 1}"
+        kind = "prediction" if question.level == "predict" else "quiz"
+        words = re.findall(r"[a-z]+", question.text.lower())[:WORDS]
+        name = "_".join([kind, str(len(questions) + 1), *words])  # as one would search for it
         questions[name] = [_for_bank(question).placed(len(questions))]
     return questions
 

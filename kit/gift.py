@@ -13,7 +13,7 @@ def gift(bank):
         "\n\n".join(
             [
                 f"$CATEGORY: $course$/{chapter}/{variants[0].level}/{name}",
-                *map(_item, item_names(name, variants), variants),
+                *map(_item, item_names(f"{chapter} {name}", variants), variants),
             ]
         )
         for (chapter, name), variants in bank.items()

@@ -10,19 +10,24 @@ from kit.gift import item_names
 from vmc_lib.show.packed import pack_zip
 
 SPACE = "http://www.imsglobal.org/xsd/ims_qtiasiv1p2"
-PACKAGE = "http://www.imsglobal.org/xsd/imscp_v1p1"
+PACKAGE = "http://www.imsglobal.org/xsd/imsccv1p1/imscp_v1p1"
+CANVAS = "http://canvas.instructure.com/xsd/cccv1p0"
+SETTINGS = "associatedcontent/imscc_xmlv1p1/learning-application-resource"
 
 
-def package(bank):
+def package(bank, kind="assignment"):
     """The bytes of the zip; `bank` maps (chapter, name) to the variants of a question.
 
-    The same bank gives the same bytes.
+    `kind` is what Canvas makes of a quiz: an "assignment", which it grades, or a "survey", which
+    it does not. The same bank gives the same bytes.
     """
     chapters = {}
     for (chapter, name), variants in bank.items():
         chapters.setdefault(chapter, {})[name] = variants
-    files = {f"{chapter}.xml": _quiz(chapter, groups) for chapter, groups in chapters.items()}
-    trees = {"imsmanifest.xml": _manifest(files), **files}
+    trees = {"imsmanifest.xml": _manifest(chapters)}
+    for chapter, groups in chapters.items():
+        trees[f"{chapter}/{chapter}.xml"] = _quiz(chapter, groups)
+        trees[f"{chapter}/assessment_meta.xml"] = _settings(chapter, len(groups), kind)
     text = partial(ElementTree.tostring, encoding="utf-8", xml_declaration=True)
     return pack_zip({path: text(tree) for path, tree in trees.items()})
 
@@ -35,19 +40,38 @@ def _element(tag, *children, text=None, **attributes):
     return element
 
 
-def _manifest(files):
-    resources = (
-        _element(
-            "resource",
-            _element("file", href=path),
-            identifier=path.removesuffix(".xml"),
-            type="imsqti_xmlv1p2",
-            href=path,
-        )
-        for path in files
-    )
+def _manifest(chapters):
+    """Each quiz with its questions, and the settings that Canvas reads beside them."""
+    resources = []
+    for chapter in chapters:
+        needs = _element("dependency", identifierref=f"{chapter}.settings")
+        questions = _element("file", href=f"{chapter}/{chapter}.xml")
+        settings = f"{chapter}/assessment_meta.xml"
+        resources += [
+            _element("resource", questions, needs, identifier=chapter, type="imsqti_xmlv1p2"),
+            _element(
+                "resource",
+                _element("file", href=settings),
+                identifier=f"{chapter}.settings",
+                type=SETTINGS,
+                href=settings,
+            ),
+        ]
     parts = _element("organizations"), _element("resources", *resources)
     return _element("manifest", *parts, identifier="quiz-bank", xmlns=PACKAGE)
+
+
+def _settings(chapter, points, kind):
+    texts = {
+        "title": chapter,
+        "shuffle_answers": "true",
+        "quiz_type": kind,
+        "points_possible": f"{points}.0",
+        "show_correct_answers": "true",
+        "allowed_attempts": "1",
+    }
+    parts = (_element(name, text=text) for name, text in texts.items())
+    return _element("quiz", *parts, identifier=chapter, xmlns=CANVAS)
 
 
 def _quiz(chapter, groups):

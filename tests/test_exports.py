@@ -112,14 +112,31 @@ def assert_model(element):
         assert_model(child)
 
 
+MANIFEST = "imsmanifest.xml"
+
+
+@pytest.mark.parametrize("kind", ["assignment", "survey"])
+def test_canvas_is_told_whether_a_quiz_is_graded(variants, kind):
+    zipped = ZipFile(io.BytesIO(package(variants, kind)))
+    for path in (name for name in zipped.namelist() if name.endswith("assessment_meta.xml")):
+        settings = ElementTree.fromstring(zipped.read(path))  # noqa: S314 (our own)
+        assert settings.find("{*}quiz_type").text == kind
+
+
 def test_qti_is_well_formed_and_each_item_accepts_its_answer(variants):
     zipped = ZipFile(io.BytesIO(package(variants)))
     assert package(variants) == package(variants)
-    manifest = ElementTree.fromstring(zipped.read("imsmanifest.xml"))  # noqa: S314 (our own)
+    manifest = ElementTree.fromstring(zipped.read(MANIFEST))  # noqa: S314 (our own)
     files = [file.get("href") for file in manifest.findall(".//{*}file")]
-    assert sorted(files) == sorted(f"{path.stem}.xml" for path in CHAPTERS)
+    chapters = [path.stem for path in CHAPTERS]
+    settings = [f"{chapter}/assessment_meta.xml" for chapter in chapters]
+    quizzes = [f"{chapter}/{chapter}.xml" for chapter in chapters]
+    assert sorted(files) == sorted(settings + quizzes) == sorted({*zipped.namelist()} - {MANIFEST})
+    identifiers = {one.get("identifier") for one in manifest.findall(".//{*}resource")}
+    needed = {one.get("identifierref") for one in manifest.findall(".//{*}dependency")}
+    assert needed == identifiers - {*chapters}
     items = {}
-    for path in files:
+    for path in quizzes:
         tree = ElementTree.fromstring(zipped.read(path))  # noqa: S314
         assert tree.tag == f"{{{SPACE}}}questestinterop"
         assert_model(tree)

@@ -17,6 +17,8 @@ from vmc_lib.show import questions
 
 BUILT = ROOT / "_build/html/book"
 
+EXPORTS = [f"{name}{end}" for name in ("questions", "predictions") for end in (".gift", "-qti.zip")]
+
 
 # ---------------------------------------------------------------- students' notebooks
 
@@ -145,7 +147,12 @@ def test_the_whole_kit_is_built_from_chapters_and_pages(kit):
     }
     folders = {"students", "slides", "demos", "arm-in-page"}
     names = {file.name for file in kit.iterdir()}
-    assert names == pages | folders | {"questions.gift", "questions-qti.zip"}
+    predictions, questions = (
+        (kit / f"{name}.gift").read_text(encoding="utf-8") for name in ("predictions", "questions")
+    )
+    assert "/predict/" in predictions
+    assert "/predict/" not in questions
+    assert names == pages | folders | {*EXPORTS}
     students = {file.name for file in (kit / "students").glob("*.ipynb")}
     assert students == {path.name for path in CHAPTERS}
     text = (kit / "key.md").read_text(encoding="utf-8")
