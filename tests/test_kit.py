@@ -196,6 +196,7 @@ def test_a_students_links_lead_to_files_that_are_there(kit):
     assert [link for link in links if not (folder / link[1]).exists()] == []
 
 
+@pytest.mark.audit
 def test_the_worked_report_runs_and_its_reason_holds():
     """The best gain falls with the delay, and later sight swings slower: the run says so."""
     notebook = nbformat.read(ROOT / "kit/report.ipynb", as_version=4)

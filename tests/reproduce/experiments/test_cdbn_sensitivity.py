@@ -28,6 +28,7 @@ def test_the_network_that_ships_is_the_first_variation():
     assert min(likeness) > 0.9  # another machine may round otherwise
 
 
+@pytest.mark.audit
 def test_every_width_finds_edges():
     for variation, (filters, _) in cdbn_sensitivity.load_results().items():
         assert np.median([best_gabor(w)[1] for w in filters]) > 0.75, variation

@@ -15,6 +15,7 @@ def test_shipped_results_have_their_shapes():
     assert all(0 <= x.min() <= x.max() <= 1 for x in results.values())
 
 
+@pytest.mark.audit
 def test_shipped_results_are_reproducible():
     sets = [domain_shift.level_crops("rig", split) for split in photos.SPLITS]
     train, validation, test = [(histograms_of_gradients(x), y) for x, y in sets]

@@ -45,6 +45,7 @@ def test_published_recipe_is_tested_on_the_same_photos_by_every_training():
     assert sum(counts[fresh_test_set.CEILING]["rig"][::2]) == 400
 
 
+@pytest.mark.audit
 def test_fresh_counts_of_shipped_photos_equal_the_tables():
     """Put to the photos that ship, its questions get the tables' answers: of the first training."""
     shots = photos.load("rig", "test")

@@ -1,6 +1,7 @@
 """Learning under motor noise: shipped results are reproducible."""
 
 import numpy as np
+import pytest
 
 from reproduce.experiments.learning_under_noise import (
     LEARNERS,
@@ -10,6 +11,7 @@ from reproduce.experiments.learning_under_noise import (
 )
 
 
+@pytest.mark.audit
 def test_shipped_results_are_reproducible():
     """One seed, fewer movements: the same numbers again."""
     stored = load_results()

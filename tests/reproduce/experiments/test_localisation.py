@@ -57,6 +57,7 @@ def test_table_1_counts_the_examples_of_the_split():
     assert linear_rows("published", 0)["validation"] == pytest.approx(expected, abs=0.02)
 
 
+@pytest.mark.audit
 def test_settings_are_chosen_on_validation_photos_from_one_grid(monkeypatch):
     """In a small part of the grid, to be quick."""
     few = dict.fromkeys(("rbf", "sigmoid"), (0.03, 1.0))

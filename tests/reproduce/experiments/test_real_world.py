@@ -20,6 +20,7 @@ def test_stored_answers_cover_every_photo(model, split):
         assert 0 <= count <= of == [answer["holds"] for answer in answers.values()].count(kind)
 
 
+@pytest.mark.audit
 @pytest.mark.parametrize("model", real_world.MODELS)
 def test_stored_answers_are_reproducible(model):
     stored = real_world.load_results(model, "validation")
@@ -32,6 +33,7 @@ def test_stored_answers_are_reproducible(model):
         assert now == pytest.approx({key: then[key] for key in now}, abs=0.02)
 
 
+@pytest.mark.audit
 def test_chosen_box_may_match_any_shuttlecock():
     shot = photos.load("real", "train")[0]  # two shuttlecocks
     swapped = {"shuttlecock": shot.more[0]}

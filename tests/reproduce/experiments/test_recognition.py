@@ -42,6 +42,7 @@ def test_a_precision_without_calls_is_not_a_number(monkeypatch):
     assert shares == {"named right": 0.5, "recall": 0}
 
 
+@pytest.mark.audit
 def test_shipped_probabilities_are_reproducible():
     cdbn, linear = load_classifiers()
     chances, truth = probabilities("rig", photos.load("rig", "validation"), cdbn, linear)

@@ -86,6 +86,7 @@ def scores(level):
     return {k: np.array(v, bool if isinstance(v[0], bool) else float) for k, v in stored.items()}
 
 
+@pytest.mark.audit
 @pytest.mark.parametrize("level", LEVELS)
 def test_loop_scores_are_reproducible(level, tmp_path):
     """On every fourth, to be quick, photo by photo; one may round otherwise elsewhere."""

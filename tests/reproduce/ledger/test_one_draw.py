@@ -19,6 +19,7 @@ def test_one_draw_of_movements_is_reproducible():
     )
 
 
+@pytest.mark.audit
 def test_one_pair_of_second_layers_is_reproducible():
     np.testing.assert_allclose(
         second_layers.preferences(0), second_layers.load_preferences()[0], atol=0.005

@@ -21,6 +21,7 @@ def test_motor_noise_is_multiplicative_smooth_and_independent():
     assert abs(np.corrcoef(noise[:, 300, 0], noise[:, 800, 0])[0, 1]) < 0.2
 
 
+@pytest.mark.audit
 def test_noise_share_gives_the_endpoint_deviation():
     """Other targets than those by which it was set, and other noise; one share of it ships."""
     mm = minimum_variance.LEVEL

@@ -114,6 +114,7 @@ def squares(n=3):
     return {"squares": np.arange(n) ** 2}
 
 
+@pytest.mark.audit
 def test_a_step_runs_until_it_is_up_to_date(tmp_path, monkeypatch, capsys):
     step = Step(squares, tmp_path / "squares.npz", "README.md")
     monkeypatch.setattr("reproduce.pipeline.steps.STEPS", (step,))

@@ -173,6 +173,7 @@ def test_shipped_results_meet_the_bars():
     assert both.mean() < 0.5 * place.mean()
 
 
+@pytest.mark.audit
 def test_shipped_results_are_reproducible():
     """The cheapest of its experiments again, one draw."""
     errors = experiment.online_errors(habits.load_templates(), 0)
