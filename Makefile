@@ -21,13 +21,13 @@ BUILT  := _build/.built
 BUILD  := $(BIN)/jupyter-book build -W -n --keep-going .
 PAGE   := _build/html/index.html
 LAYOUT := .venv/share/jupyter/lab/workspaces/book-9271.jupyterlab-workspace
-ROOMS  := book vmc_lib arm_in_page eye_in_page python_in_page reproduce
+ROOMS  := book vmc_lib page reproduce
 # One file saved since the book was built, if any: no list of prerequisites, where a name may hold no blank or colon
 NEWER  := $(shell find _config.yml _toc.yml $(ROOMS) -type f -newer $(BUILT) -not -path '*/.*' -not -path '*/__pycache__/*' 2>/dev/null | head -n 1)
 
 # What goes wrong most is asked first, and a suite that is red ends soon
 FIRST  := $(addprefix tests/,arm motor cerebellum where what test_loop.py test_camera.py test_boxes.py \
-  test_statistics.py in_page/test_drags.py show/test_plots_in_browser.py arm_in_page/test_numbers.py)
+  test_statistics.py page/demos/test_drags.py show/test_plots_in_browser.py page/arm/test_numbers.py)
 PYTEST := $(BIN)/pytest -n auto --dist worksteal --maxfail=10 --nbmake-timeout=3600
 
 PEERED := selective_search cuts simulators crbm planning loop scaling

@@ -7,10 +7,10 @@ import json
 import shutil
 from importlib.metadata import version
 
-from arm_in_page.controls import MUJOCO, STATIC
-from arm_in_page.live import MODEL_SCRIPTS, given
 from book._ext.policy import seal
 from kit.demos import ROOT
+from page.arm.controls import MUJOCO, STATIC
+from page.arm.live import MODEL_SCRIPTS, given
 from vmc_lib.show.render_mode import STATIC as SHOW
 
 SCRIPT = """/* The arm of `A book that sees and reaches`, and MuJoCo (Apache-2.0): see README.md. */

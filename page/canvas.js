@@ -1,9 +1,9 @@
-const vmcPixelsHidden =
+export const PIXELS_HIDDEN =
   "This browser hides a picture's pixels from pages (fingerprinting protection): allow it for this page.";
 
 /* A picture, drawn anew on a canvas, `scale` times as large; what is transparent stands on white.
    Null where the browser hides what a canvas holds. */
-const vmcDrawScaled = (picture, scale, canvas) => {
+export const drawScaled = (picture, scale, canvas) => {
   [canvas.width, canvas.height] = [picture.width, picture.height].map((side) => Math.max(1, Math.round(scale * side)));
   const context = canvas.getContext("2d", { willReadFrequently: true }), known = [12, 34, 56];
   const fill = (colour) => {
@@ -21,7 +21,7 @@ const vmcDrawScaled = (picture, scale, canvas) => {
 
 /* The reader's own pictures, chosen or dropped on a box: `take(picture, file)` is given each that this browser can
    read, `say` why it cannot. Returns what takes a file. */
-const vmcOwnPictures = (box, input, take, say) => {
+export const takePictures = (box, input, take, say) => {
   let latest;
   const read = async (file) => {
     if (!file) return say("That was no file: save the photo first, then choose it here.");
@@ -42,7 +42,7 @@ const vmcOwnPictures = (box, input, take, say) => {
 
 /* A picture in the middle of a grey one of another size: its pixels (vmc_lib/photos.py, read_image). All are drawn
    on one canvas: those of a film's frames would fill the memory before the browser collects them. */
-const vmcLetterbox = (() => {
+export const letterbox = (() => {
   const canvas = document.createElement("canvas"), context = canvas.getContext("2d", { willReadFrequently: true });
   return (picture, width, height) => {
     const scale = Math.min(width / picture.width, height / picture.height);

@@ -1,11 +1,10 @@
-/* The browser's end of widgets that a kernel answers (vmc_lib.show.live). */
-const GONE = "The kernel has gone: Run > Run All Cells.";
-const RUNNING = "The chapter is still running: the controls move as soon as it can answer.";
-const { loaded, lenders, vendored } = (globalThis.vmcScripts ??= {
-  loaded: new Set(), // names of the scripts that have run, once for the whole window
-  lenders: new Set(), // kernels that send a vendored script to whoever needs it
-  vendored: new Map(), // promises of these, by name
-});
+/* The browser's end of widgets that a kernel answers (vmc_lib.show.live). What it keeps serves the whole window,
+   of which several notebooks, and so several kernels, may have a part. */
+import { lend } from "./vendored.js";
+
+export const GONE = "The kernel has gone: Run > Run All Cells.";
+const lenders = new Set(); // kernels that send a vendored script to whoever needs it
+const vendored = new Map(); // promises of these, by name
 
 const run = (text) => {
   const { define } = self; // a module loader, where there is one: a script is to find none
@@ -66,55 +65,7 @@ const fetchVendored = (name) => {
   if (!vendored.has(name)) vendored.set(name, borrow(name).catch(forget));
   return vendored.get(name);
 };
-
-/* The first answer of a kernel. Until the browser has a channel beside the cells, a question waits
-   behind them; so it is repeated. */
-const firstAnswer = async (ask) => {
-  for (let wait = 250, answer; ; wait *= 2) {
-    const later = new Promise((resolve) => setTimeout(resolve, wait));
-    if ((answer = await Promise.race([ask("ping"), later]))) return answer;
-  }
-};
-
-/* A demo's states: `draw` is given the `first` at once, then what the kernel answers. Of places that
-   come while it works, the last wins. An error stands below the picture; the still follows the reader. */
-const states = (ask, box, first) => {
-  let wanted, working, resting;
-  const views = () =>
-    [...box.querySelectorAll(".vmc-scene")].map((div) => vmcScene(div).viewer?.capture_image() ?? "");
-  const work = async (draw) => {
-    working = true;
-    box.setAttribute("aria-busy", "true");
-    while (wanted !== undefined) {
-      const place = wanted;
-      wanted = undefined;
-      const state = await ask("state", place);
-      if (ask.left) break;
-      box.querySelector(".vmc-error").textContent = state.error ?? "";
-      if (!state.error) draw(state);
-    }
-    working = false;
-    box.removeAttribute("aria-busy");
-    resting = setTimeout(() => ask("still", views()), 1000);
-  };
-  const show = (place, draw) => {
-    if (first) return draw(first), (first = null);
-    clearTimeout(resting);
-    wanted = place;
-    if (!working) work(draw);
-  };
-  /* With words that say why, the controls are closed. */
-  const close = (words) => {
-    box.querySelector(".vmc-kernel").textContent = words;
-    box.toggleAttribute("data-closed", words);
-    for (const control of box.querySelectorAll("[data-stride], [data-stride] ~ .vmc-play"))
-      control.disabled = words;
-  };
-  close(RUNNING);
-  ask.onleave = () => close(GONE);
-  show.ready = firstAnswer(ask).then(() => close(ask.left ? GONE : ""));
-  return show;
-};
+lend(fetchVendored);
 
 /* Keys are the controls' own, but for shortcuts; Escape leads back to the notebook. */
 const keepKeys = (event) => {
@@ -123,21 +74,15 @@ const keepKeys = (event) => {
   else if (!(ctrlKey || metaKey || altKey || (shiftKey && key === "Enter"))) event.stopPropagation();
 };
 
-export default {
-  async render({ model, el }) {
-    const channel = await model.widget_manager.get_model(model.get("channel"));
-    const ask = connect(channel, model.get("vendored"));
-    el.innerHTML = model.get("page");
-    el.addEventListener("keydown", keepKeys);
-    globalThis.vmcKernel = fetchVendored;
-    for (const [name, text] of Object.entries(model.get("scripts")))
-      if (!loaded.has(name)) run(text, loaded.add(name));
-    const [box, first] = [el.firstElementChild, model.get("first")];
-    const [start] = model.get("start").match(/^vmc\w+$/); // a name, and no other code
-    const end = new Function(`return ${start}`)()(box, first && states(ask, box, first), ask);
-    return () => {
-      ask.leave();
-      end?.();
-    };
-  },
+/* Show a widget in an element: its markup, which `start` moves. */
+export const render = async ({ model, el }, start) => {
+  const channel = await model.widget_manager.get_model(model.get("channel"));
+  const ask = connect(channel, model.get("vendored"));
+  el.innerHTML = model.get("page");
+  el.addEventListener("keydown", keepKeys);
+  const end = start(el.firstElementChild, ask, model.get("first"));
+  return () => {
+    ask.leave();
+    end?.();
+  };
 };

@@ -14,7 +14,7 @@ os.environ |= {"VMC_RENDER_MODE": "live", "MPLBACKEND": "agg"}
 
 from IPython.core.interactiveshell import InteractiveShell
 
-from python_in_page.grader import changed
+from page.python.grader import changed
 from tests.laws import functions, law_cells
 from tests.project import ROOT, code_cells
 from vmc_lib import show

@@ -14,6 +14,7 @@ from filelock import FileLock
 from hypothesis import settings
 from playwright.sync_api import Error
 
+from page.bundle import page_script
 from tests import pages
 from tests.engines import NOT_TESTED, Firefox, WebKit
 from vmc_lib import photos
@@ -177,10 +178,12 @@ def engine(request, tmp_path_factory):
 
 @pytest.fixture(scope="session")
 def site(tmp_path_factory):
-    """A folder with the book's styles and scripts."""
+    """A folder with the book's styles, and its script."""
     folder = tmp_path_factory.mktemp("site")
     for static in pages.STATIC:
         shutil.copytree(static, folder, dirs_exist_ok=True)
+    script = page_script(f"book/{pages.SCRIPT}")
+    (folder / pages.SCRIPT).write_text(script, encoding="utf-8")
     return folder
 
 

@@ -34,7 +34,7 @@ addEventListener("error", ({ message, target }) =>
   vmcFailed(message ?? `no ${target.src ?? target.href}`), true);
 addEventListener("unhandledrejection", (event) => vmcFailed(event.reason));
 addEventListener("vmc-limit", () =>
-  (vmcPython.limit.seconds = +document.documentElement.dataset.limit));
+  (vmc["python/interpreter"].limit.seconds = +document.documentElement.dataset.limit));
 </script>"""
 
 

@@ -25,15 +25,14 @@ AXE = (ROOT / "tests/vendor/axe.js").read_text(encoding="utf-8")
 PROBES = (ROOT / "tests/probes.js").read_text(encoding="utf-8")
 CONFIG = yaml.safe_load((ROOT / "_config.yml").read_bytes())["sphinx"]["config"]
 STYLES = CONFIG["html_css_files"]
-SCRIPTS = [name for name, _ in CONFIG["html_js_files"]]  # the book's, in its order
-ROOMS = ("vmc_lib/show", "arm_in_page", "eye_in_page", "python_in_page")
-STATIC = [*(ROOT / room / "static" for room in ROOMS), ROOT / "book/_static"]
+SCRIPT = "photo.js"  # of page/book: the page that has all of the book's modules
+STATIC = [ROOT / "book/_static", ROOT / "page/static"]
 HEAD = "".join(
     (
         '<!doctype html><html lang="en"><meta charset="utf-8"><title>A page</title>'
         '<meta name="viewport" content="width=device-width">',
         *(f'<link rel="stylesheet" href="{name}">' for name in STYLES),
-        *(f'<script defer src="{name}"></script>' for name in SCRIPTS),
+        f'<script defer src="{SCRIPT}"></script>',
         '<body style="background: var(--vmc-paper); color: var(--vmc-ink)"><main>',
     )
 )
@@ -41,7 +40,7 @@ NO_WEBGL = """const { getContext } = HTMLCanvasElement.prototype;
 HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
   return kind.startsWith("webgl") ? null : getContext.call(this, kind, ...rest);
 };"""
-CAPTURE = "div => vmcScene(div).viewer.capture_image()"
+CAPTURE = "div => vmc['demo/scene'].viewOf(div).viewer.capture_image()"
 TWO_FRAMES = "() => new Promise((on) => requestAnimationFrame(() => requestAnimationFrame(on)))"
 STILL_BOXES = """async (things) => {
   const boxes = () => things.map((thing) => thing.getBoundingClientRect())

@@ -8,7 +8,7 @@ const fire = (target) => target.dispatchEvent(new Event("input", { bubbles: true
 async function idleControls() {
   const look = (demo) => [...demo.querySelectorAll(".vmc-picture")].map((picture) => {
     const scene = picture.querySelector(".vmc-scene");
-    return scene ? vmcScene(scene).viewer.capture_image() : picture.innerHTML;
+    return scene ? vmc["demo/scene"].viewOf(scene).viewer.capture_image() : picture.innerHTML;
   }).join();
   const controls = (demo) => {
     const groups = Map.groupBy(demo.querySelectorAll("[data-stride]"), (i) => i.name || i.id || i);
@@ -33,7 +33,7 @@ async function idleControls() {
   };
   const idle = [];
   for (const demo of demos()) {
-    for (const div of demo.querySelectorAll(".vmc-scene")) await vmcScene(div).awake();
+    for (const div of demo.querySelectorAll(".vmc-scene")) await vmc["demo/scene"].viewOf(div).awake();
     const all = controls(demo);
     for (const control of all) {
       const others = all.filter((other) => other !== control);

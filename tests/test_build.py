@@ -12,8 +12,8 @@ import pytest
 
 from book._ext import execute
 from book._ext.packed import strip_comments
-from eye_in_page import brain
-from python_in_page import pack
+from page.eye import brain
+from page.python import pack
 from tests import pages
 from tools import prose
 

@@ -36,4 +36,4 @@ def test_upload_button_needs_a_kernel(outputs, monkeypatch):
     assert figures == [("<p>drawn</p>", "alt")] * 3
     _, button = widgets  # after the still
     assert 'type="file"' in button.page
-    assert list(button.scripts) == ["canvas.js", "upload.js"]
+    assert button._esm == widget_script("demos/upload.js")

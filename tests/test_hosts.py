@@ -9,7 +9,7 @@ from tests.pages import BUILT, ROOT, open_url
 from tests.project import sample
 
 pytestmark = pytest.mark.browser
-ASK = "() => vmcPython.ask(['grader', 'run', [], '6 * 7'], () => {})"
+ASK = "() => vmc['python/interpreter'].ask(['grader', 'run', [], '6 * 7'], () => {})"
 POLICY = (
     "default-src 'self'; script-src 'self'{}; style-src 'self' 'unsafe-inline'; "
     "img-src 'self' data: blob:; font-src 'self' data:; connect-src 'none'; worker-src blob:"
@@ -58,13 +58,13 @@ def test_a_host_allows_python_by_the_policy_that_readme_states(under_policy):
     frame = hash_source(frame_script())
     assert frame in (ROOT / "README.md").read_text(encoding="utf-8")
     page = under_policy("08_arm", f" 'unsafe-eval' {frame}")
-    page.evaluate("() => { vmcPython.limit.seconds = 1000 }")
+    page.evaluate("() => { vmc['python/interpreter'].limit.seconds = 1000 }")
     assert page.evaluate(ASK)[1] == "42\n"
 
 
 def test_a_host_that_forbids_python_is_named(under_policy):
     page = under_policy("08_arm", " 'unsafe-eval'")
-    page.evaluate("() => { vmcPython.limit.opening = 1 }")
+    page.evaluate("() => { vmc['python/interpreter'].limit.opening = 1 }")
     assert "host forbids Python" in page.evaluate(f"{ASK}.catch((error) => error.message)")
 
 

@@ -7,18 +7,18 @@ import pytest
 from reproduce.pipeline.imports import imported_names
 from tests.project import ROOT, code, python
 
-PACKAGES = ("vmc_lib", "arm_in_page", "eye_in_page", "python_in_page", "reproduce")
+PACKAGES = ("vmc_lib", "page", "reproduce")
 EMPTY = [ROOT / f"vmc_lib/{name}/__init__.py" for name in ("where", "arm", "motor", "cerebellum")]
 FILES = sorted(p for top in PACKAGES for p in (ROOT / top).rglob("*.py") if p not in EMPTY)
 # From the bottom: a package may import those below it, and not those beside or above it
 FLOORS = (
-    ("vmc_lib", "reproduce.paper"),
+    ("vmc_lib", "reproduce.paper", "page.bundle"),
     ("vmc_lib.where", "vmc_lib.what", "vmc_lib.arm"),
     ("vmc_lib.motor", "vmc_lib.box_selection"),
     ("vmc_lib.cerebellum",),
     ("vmc_lib.loop", "reproduce.one_draw"),
     ("vmc_lib.show",),
-    ("reproduce.render", "arm_in_page", "eye_in_page", "python_in_page"),
+    ("reproduce.render", "page"),
     ("reproduce.results",),
     ("reproduce.training", "reproduce.peers"),
     ("reproduce.measures",),
@@ -42,7 +42,7 @@ def module(path):
 def test_the_reference_names_every_module_or_its_package():
     pages = "".join(p.read_text(encoding="utf-8") for p in (ROOT / "book/library").glob("*.md"))
     entries = {*" ".join(re.findall(r"```\{modules\}\n(.*?)```", pages, re.S)).split()}
-    names = {*map(module, FILES)} - {"vmc_lib", "reproduce", "reproduce.__main__"}
+    names = {*map(module, FILES)} - {"vmc_lib", "page", "reproduce", "reproduce.__main__"}
     assert not {name for name in names if not {name, name.rpartition(".")[0]} & entries}
 
 

@@ -21,7 +21,7 @@ from tests.project import ROOT, code, python, run, sample
 PYPROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 PROJECT = PYPROJECT["project"]
 OPTIONAL = PROJECT["optional-dependencies"] | {"derive": ["myo-sim"]}
-OURS = {"vmc_lib", "arm_in_page", "eye_in_page", "python_in_page", "reproduce"}
+OURS = {"vmc_lib", "page", "reproduce"}
 OURS |= {"book", "kit", "tests", "tools"}
 # Of January 2026: github.com/googlecolab/backend-info, pip-freeze.txt
 COLAB = "ipykernel==6.17.1 ipython==7.34.0 matplotlib==3.10.0 numpy==2.0.2 traitlets==5.7.1"
@@ -53,7 +53,7 @@ def imported(source):
 @pytest.mark.parametrize(
     ("patterns", "extras"),
     [
-        ("vmc_lib/**/*.py *_in_page/**/*.py book/figures/*.py", ()),
+        ("vmc_lib/**/*.py page/**/*.py book/figures/*.py", ()),
         ("reproduce/**/*.py", ("derive", "render")),
         ("book/*.ipynb", ()),
         ("book/_ext/*.py kit/**/*.py tests/**/*.py tools/*.py", ("book", "test", "cluster")),

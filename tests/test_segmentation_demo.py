@@ -9,19 +9,19 @@ import pytest
 from PIL import Image
 
 from book.figures import where
-from eye_in_page import SEARCH_SCRIPTS
-from tests.pages import STATIC, book_html, displayed, observe
+from page.bundle import FOLDER, widget_script
+from tests.pages import book_html, displayed, observe
 from tests.show.kernel import render
 from vmc_lib import photos
 from vmc_lib.where.selective_search import Strategy, hierarchies
 
 GROWN = """([pixels, k]) => {
   const data = Uint8Array.from(atob(pixels), (c) => c.charCodeAt(0));
-  const prepared = vmcEye.finish(vmcEye.prepare({ data, width: 600, height: 400 }, "HSV"));
-  const segments = vmcEye.finish(vmcEye.segment(prepared, k));
+  const prepared = vmc["eye/pieces"].finish(vmc["eye/selective_search"].prepare({ data, width: 600, height: 400 }, "HSV"));
+  const segments = vmc["eye/pieces"].finish(vmc["eye/selective_search"].segment(prepared, k));
   let text = "";
   for (const byte of new Uint8Array(segments.labels.buffer)) text += String.fromCharCode(byte);
-  return { ...vmcEye.grow(segments, [true, true, true, true]), labels: btoa(text) };
+  return { ...vmc["eye/selective_search"].grow(segments, [true, true, true, true]), labels: btoa(text) };
 }"""
 SHOTS = (
     *chain(*(photos.load(level, "train")[:2] for level in photos.LEVELS)),
@@ -119,7 +119,7 @@ def test_a_translated_button_plays_and_pauses(page):
 
 def test_no_script_compares_words_that_a_reader_sees():
     compares = re.compile(r"(textContent|innerText|innerHTML)(\.trim\(\))? *[!=]==? *[\"'`]")
-    scripts = [path for static in STATIC for path in static.glob("*.js")]
+    scripts = [path for path in FOLDER.rglob("*.js") if "vendor" not in path.parts]
     assert len(scripts) > 50
     assert not [path.name for path in scripts if compares.search(path.read_text(encoding="utf-8"))]
 
@@ -193,8 +193,7 @@ def test_in_a_kernel_it_is_the_same_page(monkeypatch):
     shown = displayed(monkeypatch, where)
     monkeypatch.setenv("VMC_RENDER_MODE", "live")
     where.segmentation_demo(SHOTS[0].image, "A cup.")
-    search = [path.name for path in SEARCH_SCRIPTS]
-    assert list(shown[1].scripts) == ["canvas.js", *search, "segmentation_demo.js"]
+    assert shown[1]._esm == widget_script("demos/segmentation.js")
     assert 'class="vmc-segmentation"' in shown[1].page
     monkeypatch.setenv("VMC_RENDER_MODE", "test")
     where.segmentation_demo(SHOTS[0].image, "A cup.")

@@ -6,15 +6,15 @@ from pathlib import Path
 
 from book._ext.policy import seal
 
-EVERYWHERE = ("book.js", "questions.js")
-SIGHT = "unpack|features|product|detector|stream|box_selection|see|follow"  # and a place
-SIGHT += "|markers|camera_calibration|marker_sheet|localiser"
-SIGHT += "|photo_marks|photo_words|your_photo|live_photo"
+SCRIPTS = {  # of page/book, and what a page must hold to need it: the first that it needs
+    "photo.js": 'class="vmc-eye',
+    "chapter.js": 'class="vmc-',
+    "words.js": "",
+}
 NEEDS = {  # what a page must hold to need an asset; none needs thebe, which asks the network
     "thebe": r"(?!)",
     "katex": r'class="math|\\\(',
     "design": r'class="[^"]*\bsd-',
-    rf"/({SIGHT})\.js": 'class="vmc-eye',
 }
 # Names, punctuation and spaces: coloured as all code is
 COLOURLESS = re.compile(r'<span class="(?:n|nn|p|w)">([^<]*)</span>')
@@ -22,6 +22,8 @@ COLOURLESS = re.compile(r'<span class="(?:n|nn|p|w)">([^<]*)</span>')
 
 def setup(app):
     os.environ["VMC_RENDER_MODE"] = "book"  # kernels inherit it: demos become self-contained pages
+    for script in SCRIPTS:
+        app.add_js_file(script, defer="defer")
     app.set_html_assets_policy("always")  # equations may come from a cell's output, unannounced
     app.connect("config-inited", launch)
     app.connect("html-page-context", mend, priority=900)
@@ -61,11 +63,11 @@ def settings_in_file(app, context):
 
 
 def drop_needless_assets(app, context, body):
-    """No script or style sheet that the page has no use for: KaTeX and its fonts are .6 MB."""
-    demos = "|".join(name for name, _ in app.config.html_js_files if name not in EVERYWHERE)
-    needs = NEEDS | {rf"/({demos})\b": 'class="vmc-'}
+    """One script of ours; no other, and no style sheet, without use: KaTeX and fonts are .6 MB."""
     page = re.sub("<pre>.*?</pre>", "", body, flags=re.S)  # what is code asks for nothing
-    needless = "|".join(asset for asset, mark in needs.items() if not re.search(mark, page))
+    needless = [asset for asset, mark in NEEDS.items() if not re.search(mark, page)]
+    needed = next(script for script, mark in SCRIPTS.items() if re.search(mark, page))
+    needless = "|".join([*needless, *(rf"/{script}" for script in SCRIPTS if script != needed)])
     for kind in ("script_files", "css_files"):
         context[kind] = [
             file

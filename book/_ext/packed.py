@@ -1,7 +1,7 @@
 """What a page loads is made light when the pages are built.
 
-What its reader asks for, the page's Python (`python_in_page`) and all that its eye has learnt
-(`eye_in_page`), is packed; every other script of our own goes without comments and indentation.
+Its script is a bundle of the modules in `page`, without comments and indentation. What its reader
+asks for, the page's Python (`page.python`) and all that its eye has learnt (`page.eye`), is packed.
 """
 
 from itertools import groupby
@@ -10,31 +10,46 @@ from pathlib import Path
 from pygments.lexers import JavascriptLexer
 from pygments.token import Comment, Whitespace
 
-from eye_in_page import brain
-from python_in_page import pack
+from book._ext.offline import SCRIPTS
+from page import bundle
+from page.eye import brain
+from page.python import pack
 
 
 def setup(app):
-    app.connect("build-finished", write)
+    app.connect("builder-inited", write_scripts)
+    app.connect("build-finished", write_packed)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
 
 
-def write(app, exception):
+def write_scripts(app):
+    """Write the pages' scripts before the pages, which name them by their sums."""
+    static = _static(app)
+    static.mkdir(parents=True, exist_ok=True)
+    for name in ("storage.js", *SCRIPTS):
+        script = light_script(f"book/{name}")
+        (static / name).write_text(script, encoding="utf-8", newline="\n")
+
+
+def write_packed(app, exception):
     if app.builder.format != "html" or exception:
         return
-    static = Path(app.outdir) / "_static"
     scripts = (brain, brain.SCRIPT), (pack, pack.SCRIPT), (pack, pack.PLOTS, pack.PLOTS)
     for packed, name, *given in scripts:
-        script = static / name
+        script = _static(app) / name
         made = script.stat().st_mtime if script.exists() else 0
         if made < max(path.stat().st_mtime for path in packed.inputs()):
             script.parent.mkdir(parents=True, exist_ok=True)
             script.write_text(packed.script(*given), encoding="utf-8", newline="\n")
-    for folder in app.config.html_static_path:
-        for script in Path(app.confdir, folder).glob("*.js"):
-            light = strip_comments(script.read_text(encoding="utf-8"))
-            light = f"// Readable in {folder}/{script.name}\n{light}"
-            (static / script.name).write_text(light, encoding="utf-8", newline="\n")
+
+
+def _static(app):
+    return Path(app.outdir) / "_static"
+
+
+def light_script(*entries):
+    """The script of a page that these modules need (`page.bundle`), made light."""
+    return bundle.HEAD + strip_comments(bundle.page_script(*entries))
 
 
 def strip_comments(script):

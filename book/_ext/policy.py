@@ -8,7 +8,7 @@ from pathlib import Path
 
 from vmc_lib.show.packed import unpack_bytes
 
-INTERPRETER = Path(__file__).parents[2] / "python_in_page/static/interpreter.js"
+INTERPRETER = Path(__file__).parents[2] / "page/python/interpreter.js"
 META = '<meta http-equiv="Content-Security-Policy" content="{}">'
 POLICY = (
     "default-src 'none'; script-src {}; style-src 'self' 'unsafe-inline'; "

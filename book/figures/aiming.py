@@ -4,8 +4,8 @@ from functools import cache
 
 import numpy as np
 
-from arm_in_page.live import KINEMATICS
 from book.figures.loop import above
+from page.arm.live import KINEMATICS
 from vmc_lib import NoReach
 from vmc_lib.arm.kinematics import TRUNK, TRUNK_RANGE, to_world, turn_towards
 from vmc_lib.show import Pad

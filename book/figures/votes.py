@@ -1,7 +1,7 @@
 """The population vector: every neuron votes for the direction that it prefers, and they are summed.
 
 The page works it out too, for any place of the reader's hand (`votes` in
-book/_static/in_page_demos.js).
+page/demos/votes.js).
 """
 
 import matplotlib.pyplot as plt

@@ -4,14 +4,13 @@ import re
 from base64 import b64decode
 from html import escape
 from io import BytesIO
-from pathlib import Path
 
 import numpy as np
 from IPython.display import HTML, display
 from PIL import Image
 
 from book.figures.panels import panels
-from eye_in_page import SEARCH_SCRIPTS
+from page.bundle import widget_script
 from vmc_lib.boxes import MIN_IOU, iou
 from vmc_lib.photos import as_rgb
 from vmc_lib.show.controls import slider
@@ -104,8 +103,6 @@ def rising(best, now):
     return fig
 
 
-STATIC = Path(__file__).parents[1] / "_static"
-CANVAS = STATIC / "canvas.js"
 SEGMENTATION = """<div class="vmc-segmentation"><div class="vmc-picture" style="display: grid;
 justify-items: center">PHOTO<canvas aria-hidden="true" style="LAYER" hidden></canvas></div>
 <form class="vmc-controls" autocomplete="off">SLIDERS
@@ -134,9 +131,8 @@ def segmentation_demo(image, alt):
     if render_mode() == "book":
         display(HTML(frame(page)))
     elif render_mode() == "live":
-        scripts = [CANVAS, *SEARCH_SCRIPTS, STATIC / "segmentation_demo.js"]
         display(still(alt, [photo], "segmentation"))
-        display(Live(frame(page, "segmentation"), "vmcSegmentationDemo", scripts))
+        display(Live(frame(page, "segmentation"), widget_script("demos/segmentation.js")))
 
 
 UPLOAD = """<div class="vmc-demo" id="upload"><form class="vmc-control">
@@ -151,11 +147,9 @@ def photo_upload(draw, example, alt):
     """
     figure(draw(example), alt=alt)
     if render_mode() == "live":
-        scripts = [CANVAS, Path(__file__).with_name("upload.js")]
+        answers = {"photo": lambda sent: draw(decode_image(sent))}
         display(still("", [], "upload"))
-        display(
-            Live(UPLOAD, "vmcUpload", scripts, {"photo": lambda sent: draw(decode_image(sent))})
-        )
+        display(Live(UPLOAD, widget_script("demos/upload.js"), answers))
 
 
 def decode_image(sent):

@@ -4,9 +4,9 @@ import json
 
 import numpy as np
 
-from arm_in_page.live import experience
 from book.figures.panels import panels
 from book.figures.whole_arm import BONES, VIEWS, arm_data, lines, view_from
+from page.arm.live import experience
 from reproduce.whole_arm import bones, habits, plant
 from vmc_lib.show import COLOURS, props
 from vmc_lib.show.scene import Scene

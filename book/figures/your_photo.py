@@ -8,11 +8,11 @@ import matplotlib.pyplot as plt
 import numpy as np
 from IPython.display import HTML, display
 
-from arm_in_page import live
 from book.figures.aiming import shore
 from book.figures.see_and_reach import place_errors
-from book.figures.where import CANVAS
-from eye_in_page import PLACE_SCRIPTS, SEARCH_SCRIPTS, SIGHT_SCRIPTS, STATIC, brain
+from page.arm import live
+from page.bundle import STATIC, widget_script
+from page.eye import brain
 from reproduce.experiments.printed_sheet import FROM_SHEET
 from reproduce.experiments.real_world import SIZED
 from vmc_lib import marker_sheet
@@ -26,7 +26,6 @@ from vmc_lib.show.live import VENDORED, Live
 from vmc_lib.show.outputs import still
 from vmc_lib.show.palette import COLOURS, EDGE, ON_PHOTO, plot_style
 from vmc_lib.show.render_mode import render_mode
-from vmc_lib.show.scene import SCRIPTS as VIEWER
 
 NAME = "your-photo"
 HIGH = 0.025  # m above the table: about the middle of a shuttlecock
@@ -57,11 +56,9 @@ def your_photo(example):
     else:
         learnt = SimpleNamespace(read_text=lambda **_: brain.script())
         vendored = VENDORED | {live.MUJOCO.name: live.MUJOCO, "brain.js": learnt}
-        eye = (*SEARCH_SCRIPTS, *SIGHT_SCRIPTS, *PLACE_SCRIPTS)
-        scripts = [*VIEWER, *live.SCRIPTS, CANVAS, *eye]
         display(still("A photo, an arm, a table from above.", [scene], NAME))
-        display(Live(page, "vmcLivePhoto", scripts, vendored=vendored))
-        sheets = live.STATIC / "live.css", STATIC / "your_photo.css"
+        display(Live(page, widget_script("eye/live_photo.js"), vendored=vendored))
+        sheets = STATIC / "live.css", STATIC / "your_photo.css"
         style = "".join(f"<style>{css.read_text(encoding='utf-8')}</style>" for css in sheets)
         display(HTML(style))
 

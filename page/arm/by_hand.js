@@ -1,57 +1,52 @@
 /* Be the cerebellum: the reader changes the weights by hand, one try after the other. */
-const vmcByHand = (() => {
-  "use strict";
+import { plus, sum, times } from "../vectors.js";
+import { millimetres, signed } from "./live.js";
+import { Aimed } from "./reach.js";
 
-  const { millimetres, signed } = vmcLive;
-  const { plus, sum, times } = vmcVectors;
-
-  class ByHand extends vmcReach.Aimed {
-    get hands() {
-      return [...this.controls.querySelectorAll("[name^=weight-]")];
-    }
-
-    /* The habitual plan, or the same with the weights as the reader has `moved` them; another rule keeps these. */
-    propose(moved) {
-      const plan = super.propose();
-      if (this.hands.includes(moved)) this.own = this.hands.map((slider) => +slider.value);
-      else if (moved?.name !== "rule") Object.assign(this, { own: null, tries: [] });
-      plan.weights = this.own ?? plan.weights;
-      this.showWeights(plan.weights);
-      return plan;
-    }
-
-    showWeights(weights) {
-      this.hands.forEach((slider, i) => {
-        slider.value = weights[i];
-        slider.nextElementSibling.textContent = signed(weights[i], 3);
-      });
-      this.tell({ sum: signed(sum(weights), 3) });
-    }
-
-    arrive(name, trial, end) {
-      super.arrive(name, trial, end);
-      this.showWeights(trial.weights);
-    }
-
-    /* Also where the weights put the mixture of the four places, Eq. 4, and all tries so far. */
-    mark(path) {
-      super.mark(path);
-      if (!this.plan) return;
-      const { points, weights } = this.plan;
-      this.drawing.marks.push(
-        ["dot", "blue", points.map((point, i) => times(weights[i], point)).reduce(plus), 3],
-        ...this.tries.map((place) => ["ring", "grey", place.reached, 2]));
-    }
-
-    sayMiss() {
-      const { tries, planned } = this;
-      if (`${tries.at(-1)?.weights}` !== `${planned.weights}`) tries.push(planned); // another rule is no try
-      if (tries.length === 1) return super.sayMiss();
-      const best = Math.min(...tries.map(({ error }) => error));
-      this.tell({ tries: `${tries.length - 1}` });
-      this.say(`It misses by ${millimetres(planned.error, 1)}; your best of ${tries.length - 1}: ${millimetres(best, 1)}.`);
-    }
+export class ByHand extends Aimed {
+  get hands() {
+    return [...this.controls.querySelectorAll("[name^=weight-]")];
   }
 
-  return { ByHand };
-})();
+  /* The habitual plan, or the same with the weights as the reader has `moved` them; another rule keeps these. */
+  propose(moved) {
+    const plan = super.propose();
+    if (this.hands.includes(moved)) this.own = this.hands.map((slider) => +slider.value);
+    else if (moved?.name !== "rule") Object.assign(this, { own: null, tries: [] });
+    plan.weights = this.own ?? plan.weights;
+    this.showWeights(plan.weights);
+    return plan;
+  }
+
+  showWeights(weights) {
+    this.hands.forEach((slider, i) => {
+      slider.value = weights[i];
+      slider.nextElementSibling.textContent = signed(weights[i], 3);
+    });
+    this.tell({ sum: signed(sum(weights), 3) });
+  }
+
+  arrive(name, trial, end) {
+    super.arrive(name, trial, end);
+    this.showWeights(trial.weights);
+  }
+
+  /* Also where the weights put the mixture of the four places, Eq. 4, and all tries so far. */
+  mark(path) {
+    super.mark(path);
+    if (!this.plan) return;
+    const { points, weights } = this.plan;
+    this.drawing.marks.push(
+      ["dot", "blue", points.map((point, i) => times(weights[i], point)).reduce(plus), 3],
+      ...this.tries.map((place) => ["ring", "grey", place.reached, 2]));
+  }
+
+  sayMiss() {
+    const { tries, planned } = this;
+    if (`${tries.at(-1)?.weights}` !== `${planned.weights}`) tries.push(planned); // another rule is no try
+    if (tries.length === 1) return super.sayMiss();
+    const best = Math.min(...tries.map(({ error }) => error));
+    this.tell({ tries: `${tries.length - 1}` });
+    this.say(`It misses by ${millimetres(planned.error, 1)}; your best of ${tries.length - 1}: ${millimetres(best, 1)}.`);
+  }
+}

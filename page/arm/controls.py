@@ -1,16 +1,15 @@
 """What the reader moves an arm in the page by, as markup: buttons, sliders, rules to choose."""
 
 from importlib.metadata import version
-from pathlib import Path
 
 import numpy as np
 
+from page.bundle import STATIC
 from vmc_lib.arm.model import MUSCLES
 from vmc_lib.motor import templates
 from vmc_lib.motor.inverse_dynamics import static_activation
 from vmc_lib.show.controls import radios, slider
 
-STATIC = Path(__file__).parent / "static"
 MUJOCO = STATIC / "vendor/mujoco.js"
 VERSIONS = {"Python": version("mujoco"), "page": "3.14.0"}  # of MuJoCo
 HAND = {way: f"hand, {way}" for way in ("forward", "up", "right")}

@@ -1,99 +1,96 @@
 /* What both ways to move the arm share. */
-const vmcLive = (() => {
-  "use strict";
+import { degrees, muscles, signed, turner } from "../demo/panel.js";
+import { load } from "./load.js";
+import { Drawing } from "./drawing.js";
 
-  const { Drawing } = vmcDrawing;
-  const { degrees, signed } = vmcPanel;
+export const OFTEN = 6; // of so many frames one also moves the plot and the numbers: these are slow
+const ACTIVE = 0.05; // what is called an active muscle
+export const frame = () => new Promise(requestAnimationFrame);
+export const millimetres = (metres, digits = 0) => `${signed(1000 * metres, digits)} mm`;
 
-  const OFTEN = 6; // of so many frames one also moves the plot and the numbers: these are slow
-  const ACTIVE = 0.05; // what is called an active muscle
-  const frame = () => new Promise(requestAnimationFrame);
-  const millimetres = (metres, digits = 0) => `${signed(1000 * metres, digits)} mm`;
+/* Who keeps the arm from running: the host's policy, its files, or the browser. */
+const whyNot = (words) =>
+  /content security|\bcsp\b|unsafe-eval/i.test(words)
+    ? "The page's host forbids the physics: its policy must allow script-src 'unsafe-eval'." // MuJoCo's own glue
+    : /^no \w+:/.test(words) ? `The page's host did not send a file of the book: there is ${words}.`
+      : `This browser cannot run the arm: ${words}`;
 
-  /* Who keeps the arm from running: the host's policy, its files, or the browser. */
-  const whyNot = (words) =>
-    /content security|\bcsp\b|unsafe-eval/i.test(words)
-      ? "The page's host forbids the physics: its policy must allow script-src 'unsafe-eval'." // MuJoCo's own glue
-      : /^no \w+:/.test(words) ? `The page's host did not send a file of the book: there is ${words}.`
-        : `This browser cannot run the arm: ${words}`;
-
-  class Live {
-    constructor(box) {
-      this.box = box;
-      this.given = JSON.parse(box.querySelector("script").textContent);
-      this.drawing = new Drawing(box, this.given);
-      this.calm = matchMedia("(prefers-reduced-motion: reduce)");
-      this.form = box.querySelector("form");
-      this.controls = this.form.querySelector("fieldset"); // closed until it is open
-      const { view } = this.drawing;
-      this.form.append(vmcPanel.muscles(view), vmcPanel.turner([view]));
-      view.pose(view.posed);
-      const keep = (event) => event.stopPropagation(); // a notebook would take it
-      this.form.addEventListener("keydown", keep);
-      this.form.elements.main.addEventListener("click", () => this.begin());
-      box.dataset.ready = "";
-    }
-
-    /* Whether the arm is there; it is loaded when it is first asked for. */
-    awake() {
-      return (this.loading ??= this.load());
-    }
-
-    async load() {
-      this.say("Loading the physics …");
-      await frame();
-      try {
-        const arm = await vmcArm.load(this.given);
-        await this.drawing.view.awake();
-        this.arm = arm;
-        await this.ready();
-      } catch (error) {
-        this.loading = this.arm = null;
-        this.say(error.name === "KernelGone" ? error.message : whyNot(`${error.message ?? error}`));
-        return false;
-      }
-      this.open();
-      return true;
-    }
-
-    async begin() {
-      if (await this.awake()) await this.main();
-    }
-
-    open() {
-      for (const element of this.form.elements) element.disabled = false;
-    }
-
-    /* Show one moment of a movement, { q, activation }; if `brief`, in the scene alone. */
-    show(moment, brief = false, seen = this.arm.look(moment.q)) {
-      this.drawing.show({ ...moment, ...seen }, brief);
-      const [forward, up, right] = seen.joints.at(-1);
-      if (!brief) this.tell({
-        shoulder: degrees(moment.q[0]), elbow: degrees(moment.q[1]),
-        active: `${moment.activation.filter((a) => a > ACTIVE).length}`,
-        forward: millimetres(forward), up: millimetres(up), right: millimetres(right),
-      });
-      return seen.joints.at(-1);
-    }
-
-    /* Put into words what the form has room for. */
-    tell(values) {
-      for (const place of this.box.querySelectorAll("[data-tell]"))
-        place.textContent = values[place.dataset.tell] ?? place.textContent;
-    }
-
-    say(words) {
-      const flat = this.arm && !this.drawing.view.viewer;
-      const note = flat ? " (This browser draws no 3-D picture: watch the side view.)" : "";
-      const law = this.arm?.muscle?.differs
-        ? " (The muscle's law was changed in Python: this arm keeps the book's.)" : "";
-      this.box.querySelector("[role=status]").textContent = words + note + law;
-    }
-
-    label(words) {
-      this.form.elements.main.textContent = words;
-    }
+export class Live {
+  constructor(box) {
+    this.box = box;
+    this.given = JSON.parse(box.querySelector("script").textContent);
+    this.drawing = new Drawing(box, this.given);
+    this.calm = matchMedia("(prefers-reduced-motion: reduce)");
+    this.form = box.querySelector("form");
+    this.controls = this.form.querySelector("fieldset"); // closed until it is open
+    const { view } = this.drawing;
+    this.form.append(muscles(view), turner([view]));
+    view.pose(view.posed);
+    const keep = (event) => event.stopPropagation(); // a notebook would take it
+    this.form.addEventListener("keydown", keep);
+    this.form.elements.main.addEventListener("click", () => this.begin());
+    box.dataset.ready = "";
   }
 
-  return { Live, OFTEN, degrees, frame, millimetres, signed };
-})();
+  /* Whether the arm is there; it is loaded when it is first asked for. */
+  awake() {
+    return (this.loading ??= this.load());
+  }
+
+  async load() {
+    this.say("Loading the physics …");
+    await frame();
+    try {
+      const arm = await load(this.given);
+      await this.drawing.view.awake();
+      this.arm = arm;
+      await this.ready();
+    } catch (error) {
+      this.loading = this.arm = null;
+      this.say(error.name === "KernelGone" ? error.message : whyNot(`${error.message ?? error}`));
+      return false;
+    }
+    this.open();
+    return true;
+  }
+
+  async begin() {
+    if (await this.awake()) await this.main();
+  }
+
+  open() {
+    for (const element of this.form.elements) element.disabled = false;
+  }
+
+  /* Show one moment of a movement, { q, activation }; if `brief`, in the scene alone. */
+  show(moment, brief = false, seen = this.arm.look(moment.q)) {
+    this.drawing.show({ ...moment, ...seen }, brief);
+    const [forward, up, right] = seen.joints.at(-1);
+    if (!brief) this.tell({
+      shoulder: degrees(moment.q[0]), elbow: degrees(moment.q[1]),
+      active: `${moment.activation.filter((a) => a > ACTIVE).length}`,
+      forward: millimetres(forward), up: millimetres(up), right: millimetres(right),
+    });
+    return seen.joints.at(-1);
+  }
+
+  /* Put into words what the form has room for. */
+  tell(values) {
+    for (const place of this.box.querySelectorAll("[data-tell]"))
+      place.textContent = values[place.dataset.tell] ?? place.textContent;
+  }
+
+  say(words) {
+    const flat = this.arm && !this.drawing.view.viewer;
+    const note = flat ? " (This browser draws no 3-D picture: watch the side view.)" : "";
+    const law = this.arm?.muscle?.differs
+      ? " (The muscle's law was changed in Python: this arm keeps the book's.)" : "";
+    this.box.querySelector("[role=status]").textContent = words + note + law;
+  }
+
+  label(words) {
+    this.form.elements.main.textContent = words;
+  }
+}
+
+export { degrees, signed };

@@ -1,6 +1,6 @@
 """The arm itself in the page: its physics runs there, in the reader's hand.
 
-MuJoCo's WebAssembly build reads the library's own `arm26.xml`; scripts in `static` add the muscle
+MuJoCo's WebAssembly build reads the library's own `arm26.xml`; modules here add the muscle
 law, planning and calibration, and a test holds them to the Python. Their constants come from here.
 """
 
@@ -12,7 +12,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 from IPython.display import HTML, display
 
-from arm_in_page.controls import MUJOCO, STATIC, bench_form, reach_form
+from page.arm.controls import MUJOCO, bench_form, reach_form
+from page.bundle import STATIC, widget_script
 from vmc_lib.arm import muscle
 from vmc_lib.arm.arm26 import geometry
 from vmc_lib.arm.dynamics import coefficients, hand
@@ -31,9 +32,7 @@ from vmc_lib.show.live import VENDORED, Live
 from vmc_lib.show.outputs import still
 from vmc_lib.show.packed import pack_bytes
 from vmc_lib.show.palette import plot_style
-from vmc_lib.show.render_mode import STATIC as SHOW
 from vmc_lib.show.render_mode import render_mode
-from vmc_lib.show.scene import SCRIPTS as VIEWER
 
 REACHES = (
     "A right arm before a table has reached for a target; beside it the plane that it moves in, "
@@ -52,13 +51,6 @@ KINEMATICS = {
     "bent": BENT.tolist(),
     "trunk": {"axis": TRUNK.tolist(), "range": TRUNK_RANGE.tolist()},
 }
-MODEL_SCRIPTS = ("vectors", "kinematics", "engine", "muscle", "arm", "arm26")
-MODEL_SCRIPTS += ("templates", "planning", "calibration")
-PAGE_SCRIPTS = ("whole", "drawing", "live", "bench", "reach", "by_hand", "experience", "start")
-SCRIPTS = (  # in the order in which they need one another
-    *(SHOW / name for name in ("axes.js", "handle.js")),
-    *(STATIC / f"{name}.js" for name in MODEL_SCRIPTS + PAGE_SCRIPTS),
-)
 LENS = {"at": (0.345, -0.39), "radius": 0.075, "times": 3}  # m, in the arm's plane
 _ENDS = ("red", "purple")  # where the planned and the calibrated reach end
 names = map("live-{}".format, itertools.count(1))
@@ -112,7 +104,7 @@ def show(name, mode, draw, controls, data, alt, law=""):
     elif render_mode() == "live":
         style = f"<style>{(STATIC / 'live.css').read_text(encoding='utf-8')}</style>"
         vendored = VENDORED | {MUJOCO.name: MUJOCO}
-        widget = Live(page, "vmcStart", [*VIEWER, *SCRIPTS], vendored=vendored)
+        widget = Live(page, widget_script("arm/start.js"), vendored=vendored)
         display(still(alt, drawn, name), widget, HTML(style))
 
 

@@ -1,20 +1,18 @@
-/* In the page every arm starts by itself; a live kernel's is started by it. */
-const vmcStart = (() => {
-  "use strict";
+/* What a reader moves an arm by, each in its mode. */
+import { Bench } from "./bench.js";
+import { ByHand } from "./by_hand.js";
+import { Experience } from "./experience.js";
+import { Aimed } from "./reach.js";
 
-  const modes = {
-    bench: vmcBench.Bench, reach: vmcReach.Aimed, weights: vmcByHand.ByHand, templates: vmcExperience.Experience,
+const MODES = { bench: Bench, reach: Aimed, weights: ByHand, templates: Experience };
+
+export const start = (box) => {
+  const live = new MODES[box.dataset.mode](box);
+  return () => {
+    live.turn = null; // what runs, ends
+    live.drawing.view.end();
   };
-  const start = (box) => new modes[box.dataset.mode](box);
-  const startAll = () => document.querySelectorAll(".vmc-live:not([data-ready])").forEach(start);
-  if (self.vmcKernel); // which starts its own
-  else if (document.readyState === "loading") addEventListener("DOMContentLoaded", startAll);
-  else startAll();
-  return (box) => {
-    const live = start(box);
-    return () => {
-      live.turn = null; // what runs, ends
-      live.drawing.view.end();
-    };
-  };
-})();
+};
+
+/* In the page every arm starts by itself. */
+export const startAll = () => document.querySelectorAll(".vmc-live:not([data-ready])").forEach(start);

@@ -1,7 +1,7 @@
 """A whole arm in the page: a target in space, and a reach of all muscles that MuJoCo runs there."""
 
-from arm_in_page.controls import form, plans, target_sliders
-from arm_in_page.live import CALIBRATION, names, show
+from page.arm.controls import form, plans, target_sliders
+from page.arm.live import CALIBRATION, names, show
 
 TELLS = {
     "planned": "planned miss",

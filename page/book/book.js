@@ -1,19 +1,17 @@
-/* Equations are set by KaTeX, where a page has any. One wider than the page scrolls; then the keyboard
-   must be able to reach it. */
-(() => {
-  window.vmcEquations = (element) => window.renderMathInElement?.(element, {
-    delimiters: [{ left: "\\(", right: "\\)", display: false }, { left: "\\[", right: "\\]", display: true }],
-    macros: { "\\bm": "\\boldsymbol{#1}" },
-  });
-  const reach = () =>
-    document.querySelectorAll("div.math").forEach((equation) =>
-      equation.scrollWidth > equation.clientWidth
-        ? equation.setAttribute("tabindex", "0")
-        : equation.removeAttribute("tabindex"));
-  addEventListener("DOMContentLoaded", () => vmcEquations(document.body));
-  addEventListener("load", reach);
-  addEventListener("resize", reach);
-})();
+/* What every page of words needs: its equations, its folds, names for a screen reader. */
+import { hash } from "../demo/address.js";
+import { memory } from "../demo/questions.js";
+import { setEquations } from "./equations.js";
+
+/* An equation wider than the page scrolls; then the keyboard must be able to reach it. */
+const reach = () =>
+  document.querySelectorAll("div.math").forEach((equation) =>
+    equation.scrollWidth > equation.clientWidth
+      ? equation.setAttribute("tabindex", "0")
+      : equation.removeAttribute("tabindex"));
+addEventListener("DOMContentLoaded", () => setEquations(document.body));
+addEventListener("load", reach);
+addEventListener("resize", reach);
 
 /* A page shows the model's own code; what imports, draws and tabulates is folded. A box in the header
    shows it all, and is remembered where the browser remembers. */
@@ -27,10 +25,10 @@ addEventListener("DOMContentLoaded", () => {
   label.innerHTML = '<input type="checkbox"> Show all code';
   const [box] = label.children;
   const show = () => folded.forEach((cell) => (cell.open = box.checked || cell.matches(":has(.vmc-lines)"))); // of the reader's
-  box.checked = vmcMemory.get("vmcCode") === "all";
+  box.checked = memory.get("vmcCode") === "all";
   box.addEventListener("change", () => {
     show();
-    vmcMemory.set("vmcCode", box.checked ? "all" : "model");
+    memory.set("vmcCode", box.checked ? "all" : "model");
   });
   show();
   folded.forEach((cell) => (cell.firstElementChild.title = "The code behind this"));
@@ -61,7 +59,7 @@ addEventListener("DOMContentLoaded", () =>
     button.addEventListener("click", () => open(inside.hasAttribute("hidden")));
     inside.addEventListener("beforematch", () => open(true));
     const asked = () => {
-      const place = document.getElementById(window.vmcHash?.().split("?")[0]);
+      const place = document.getElementById(hash().split("?")[0]);
       if (place && section.contains(place)) { open(true); place.scrollIntoView(); }
     };
     addEventListener("hashchange", asked);
@@ -72,7 +70,7 @@ addEventListener("DOMContentLoaded", () =>
 
 /* What a link leads to is unfolded. */
 const unfold = () => {
-  const place = document.getElementById(window.vmcHash?.()); // the key has no demos
+  const place = document.getElementById(hash()); // the key has no demos
   if (place?.matches("details")) place.open = true;
 };
 addEventListener("DOMContentLoaded", unfold);

@@ -1,98 +1,99 @@
 /* What a reader answered, attempt by attempt: kept in this browser alone, shown at a chapter's end, and
    saved as a file by whoever wants to hand it in. */
-(() => {
-  const KEY = "vmcRecord", MOST = 2000, LONGEST = 4000; // answers, signs of one
-  const page = location.pathname.split("/").pop().replace(/\.html$/, "");
-  const TEXTS = ["page", "kind", "id", "question", "answer", "feedback"];
-  const isAnswer = (one) => TEXTS.every((name) => typeof one?.[name] === "string"); // others may write there
-  const all = () => [vmcMemory.parsed(KEY) ?? []].flat().filter(isAnswer);
+import { memory } from "../demo/questions.js";
+import { setEquations } from "./equations.js";
 
-  /* The words of an element, its formulas as they were written. */
-  const words = (node) => {
-    const copy = node.cloneNode(true);
-    for (const formula of copy.querySelectorAll(".katex"))
-      formula.replaceWith(formula.querySelector("annotation")?.textContent ?? "");
-    return copy.textContent.replace(/\s+/g, " ").trim();
-  };
+const KEY = "vmcRecord", MOST = 2000, LONGEST = 4000; // answers, signs of one
+const page = location.pathname.split("/").pop().replace(/\.html$/, "");
+const TEXTS = ["page", "kind", "id", "question", "answer", "feedback"];
+const isAnswer = (one) => TEXTS.every((name) => typeof one?.[name] === "string"); // others may write there
+const all = () => [memory.parsed(KEY) ?? []].flat().filter(isAnswer);
 
-  const add = (kind, id, question, answer, right, feedback = "") => {
-    const entry = { page, kind, id, question: question.slice(0, 200), answer: answer.slice(0, LONGEST), right, feedback };
-    vmcMemory.set(KEY, JSON.stringify([...all(), entry].slice(-MOST)));
-    show();
-  };
+/* The words of an element, its formulas as they were written. */
+const words = (node) => {
+  const copy = node.cloneNode(true);
+  for (const formula of copy.querySelectorAll(".katex"))
+    formula.replaceWith(formula.querySelector("annotation")?.textContent ?? "");
+  return copy.textContent.replace(/\s+/g, " ").trim();
+};
 
-  /* The exercise that an answer is for, by its id and title. */
-  const exercise = (form) => {
-    let block = form.closest(".cell");
-    while (block && !block.matches(".exercise")) block = block.previousElementSibling;
-    return block ? [block.id, words(block.querySelector(".admonition-title"))] : ["", ""];
-  };
-  const verdict = (kind, form, text, answer) => {
-    const right = text.startsWith("✓");
-    if (right || text.startsWith("✗")) add(kind, ...exercise(form), answer, right, right ? "" : text.replace(/^✗ (Not yet\.)?\s*/, ""));
-  };
+const add = (kind, id, question, answer, right, feedback = "") => {
+  const entry = { page, kind, id, question: question.slice(0, 200), answer: answer.slice(0, LONGEST), right, feedback };
+  memory.set(KEY, JSON.stringify([...all(), entry].slice(-MOST)));
+  show();
+};
 
-  addEventListener("change", ({ target }) => {
-    if (!target.matches(".vmc-predict input")) return;
-    const question = words(target.closest("fieldset").querySelector("legend"));
-    add("prediction", target.name, question, target.value, target.closest("label").matches(".vmc-right"));
-  });
-  addEventListener("toggle", ({ target }) => {
-    if (!target.matches?.(".vmc-quiz > details[open]")) return;
-    const quiz = target.parentElement, number = [...document.querySelectorAll(".vmc-quiz")].indexOf(quiz) + 1;
-    add("quiz", `quiz-${number}`, words(quiz.querySelector("legend")), words(target.querySelector("summary")), target.matches(".vmc-right"));
-  }, true);
-  addEventListener("submit", ({ target }) => { // after questions.js has judged it
-    if (target.matches("form[data-check]"))
-      verdict("exercise", target, words(target.querySelector("[role=status]")), target.querySelector("input").value.trim());
-  });
-  addEventListener("vmc-graded", ({ target, detail: { said, lines } }) => {
-    if (!("cell" in target.dataset)) verdict("exercise", target, said, lines); // who runs a mechanism answers nothing
-  });
+/* The exercise that an answer is for, by its id and title. */
+const exercise = (form) => {
+  let block = form.closest(".cell");
+  while (block && !block.matches(".exercise")) block = block.previousElementSibling;
+  return block ? [block.id, words(block.querySelector(".admonition-title"))] : ["", ""];
+};
+const verdict = (kind, form, text, answer) => {
+  const right = text.startsWith("✓");
+  if (right || text.startsWith("✗")) add(kind, ...exercise(form), answer, right, right ? "" : text.replace(/^✗ (Not yet\.)?\s*/, ""));
+};
 
-  const FORGET = "Forget all of it", SURE = "Forget every answer and line, of all chapters?";
-  const place = document.createElement("details");
-  place.className = "vmc-record";
-  place.innerHTML = "<summary></summary><p>It stays in this browser. If you save it as a file, the file holds these lines, the name that you " +
-    "write here, and nothing else. Who forgets it all empties every page's fields, too: on a computer that others use, do.</p><p><label>Name or number, if your course asks for one: <input size=\"12\" autocomplete=\"off\"></label> " +
-    "<button type=\"button\">Save as a file</button> <button type=\"button\">" + FORGET + "</button></p><ol></ol>";
-  const [save, forget] = place.querySelectorAll("button");
+addEventListener("change", ({ target }) => {
+  if (!target.matches(".vmc-predict input")) return;
+  const question = words(target.closest("fieldset").querySelector("legend"));
+  add("prediction", target.name, question, target.value, target.closest("label").matches(".vmc-right"));
+});
+addEventListener("toggle", ({ target }) => {
+  if (!target.matches?.(".vmc-quiz > details[open]")) return;
+  const quiz = target.parentElement, number = [...document.querySelectorAll(".vmc-quiz")].indexOf(quiz) + 1;
+  add("quiz", `quiz-${number}`, words(quiz.querySelector("legend")), words(target.querySelector("summary")), target.matches(".vmc-right"));
+}, true);
+addEventListener("submit", ({ target }) => { // after questions.js has judged it
+  if (target.matches("form[data-check]"))
+    verdict("exercise", target, words(target.querySelector("[role=status]")), target.querySelector("input").value.trim());
+});
+addEventListener("vmc-graded", ({ target, detail: { said, lines } }) => {
+  if (!("cell" in target.dataset)) verdict("exercise", target, said, lines); // who runs a mechanism answers nothing
+});
 
-  const show = () => {
-    const kept = all();
-    place.hidden = !kept.length;
-    place.querySelector("summary").textContent = `What this browser has kept of your answers: ${kept.length}`;
-    const list = place.querySelector("ol");
-    list.replaceChildren(...kept.map(({ page, kind, question, answer, right, feedback }) => {
-      const code = `${answer}`.includes("\n"), item = document.createElement("li");
-      const text = `${page}, ${kind}: ${question} ${code ? "" : answer} ${right ? "✓" : "✗"} ${feedback}`;
-      item.textContent = text.replace(/\$([^$]+)\$/g, "\\($1\\)");
-      if (code) item.append(Object.assign(document.createElement("pre"), { textContent: answer }));
-      return item;
-    }));
-    window.vmcEquations?.(list);
-  };
-  save.addEventListener("click", () => {
-    const who = place.querySelector("input").value.trim();
-    const url = URL.createObjectURL(new Blob([JSON.stringify({ format: "answers 1", who, answers: all() }, null, 1)], { type: "application/json" }));
-    Object.assign(document.createElement("a"), { href: url, download: `answers-${who.replace(/[^\w-]+/g, "_") || "mine"}.json` }).click();
-    setTimeout(() => URL.revokeObjectURL(url), 1000);
-  });
-  /* At the second click, all that any page of the book has kept, and what stands in this one's fields. */
-  forget.addEventListener("click", () => {
-    if (forget.textContent !== SURE) return (forget.textContent = SURE);
-    const book = location.pathname.replace(/[^/]*$/, "");
-    vmcMemory.keys.filter((key) => key.startsWith("vmc") || key.startsWith(book)).forEach(vmcMemory.remove);
-    for (const field of document.querySelectorAll("input, textarea"))
-      Object.assign(field, { value: field.defaultValue, checked: field.defaultChecked }); // lest the browser brings it back
-    location.reload();
-  });
+const FORGET = "Forget all of it", SURE = "Forget every answer and line, of all chapters?";
+const place = document.createElement("details");
+place.className = "vmc-record";
+place.innerHTML = "<summary></summary><p>It stays in this browser. If you save it as a file, the file holds these lines, the name that you " +
+  "write here, and nothing else. Who forgets it all empties every page's fields, too: on a computer that others use, do.</p><p><label>Name or number, if your course asks for one: <input size=\"12\" autocomplete=\"off\"></label> " +
+  "<button type=\"button\">Save as a file</button> <button type=\"button\">" + FORGET + "</button></p><ol></ol>";
+const [save, forget] = place.querySelectorAll("button");
 
-  forget.addEventListener("blur", () => (forget.textContent = FORGET));
+const show = () => {
+  const kept = all();
+  place.hidden = !kept.length;
+  place.querySelector("summary").textContent = `What this browser has kept of your answers: ${kept.length}`;
+  const list = place.querySelector("ol");
+  list.replaceChildren(...kept.map(({ page, kind, question, answer, right, feedback }) => {
+    const code = `${answer}`.includes("\n"), item = document.createElement("li");
+    const text = `${page}, ${kind}: ${question} ${code ? "" : answer} ${right ? "✓" : "✗"} ${feedback}`;
+    item.textContent = text.replace(/\$([^$]+)\$/g, "\\($1\\)");
+    if (code) item.append(Object.assign(document.createElement("pre"), { textContent: answer }));
+    return item;
+  }));
+  setEquations(list);
+};
+save.addEventListener("click", () => {
+  const who = place.querySelector("input").value.trim();
+  const url = URL.createObjectURL(new Blob([JSON.stringify({ format: "answers 1", who, answers: all() }, null, 1)], { type: "application/json" }));
+  Object.assign(document.createElement("a"), { href: url, download: `answers-${who.replace(/[^\w-]+/g, "_") || "mine"}.json` }).click();
+  setTimeout(() => URL.revokeObjectURL(url), 1000);
+});
+/* At the second click, all that any page of the book has kept, and what stands in this one's fields. */
+forget.addEventListener("click", () => {
+  if (forget.textContent !== SURE) return (forget.textContent = SURE);
+  const book = location.pathname.replace(/[^/]*$/, "");
+  memory.keys.filter((key) => key.startsWith("vmc") || key.startsWith(book)).forEach(memory.remove);
+  for (const field of document.querySelectorAll("input, textarea"))
+    Object.assign(field, { value: field.defaultValue, checked: field.defaultChecked }); // lest the browser brings it back
+  location.reload();
+});
 
-  addEventListener("DOMContentLoaded", () => {
-    if (!document.querySelector(".vmc-predict, .vmc-quiz, form[data-check], form[data-function]")) return;
-    document.querySelector("article")?.append(place);
-    show();
-  });
-})();
+forget.addEventListener("blur", () => (forget.textContent = FORGET));
+
+addEventListener("DOMContentLoaded", () => {
+  if (!document.querySelector(".vmc-predict, .vmc-quiz, form[data-check], form[data-function]")) return;
+  document.querySelector("article")?.append(place);
+  show();
+});

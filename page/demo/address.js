@@ -1,5 +1,5 @@
 /* What stands after the # of the page's address, even if it came encoded, or cut. */
-window.vmcHash = () => {
+export const hash = () => {
   const text = location.hash.slice(1).replaceAll("&amp;", "&"); // as some mail programs write it
   if (/\?.*=/.test(text)) return text; // as it was written: who reads its values decodes them
   try { return decodeURIComponent(text); } catch { return text; } // cut in the middle of a sign
@@ -8,9 +8,7 @@ window.vmcHash = () => {
 /* A demo's state in the page's address: `#demo-3?photo=1&step=4` says where each control stands. It is
    read when the page opens and when the address changes, and written when the reader moves a control;
    the sign at the caption's end is a link to it. */
-const vmcAddress = (demo) => {
-  "use strict";
-
+export const addAddress = (demo) => {
   const inputs = [...demo.querySelectorAll("[data-stride]")];
   const caption = demo.querySelector("figcaption");
   if (!inputs.length || !caption || self.Reveal) return; // slides keep their own place in the address
@@ -31,7 +29,7 @@ const vmcAddress = (demo) => {
 
   /* Put the controls where the address says; whether it speaks of this demo. */
   const read = () => {
-    const [id, places] = vmcHash().split("?");
+    const [id, places] = hash().split("?");
     if (id !== demo.id || places === undefined) return false;
     for (const [key, place] of new URLSearchParams(places))
       for (const input of inputs.filter((input) => name(input) === key))

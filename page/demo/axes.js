@@ -1,8 +1,6 @@
 /* The axes of a plot that Python drew. Its `data-axes` say what they measure, and where in the
    picture they lie, as shares of its width and height. */
-const vmcAxes = (svg) => {
-  "use strict";
-
+export const axesOf = (svg) => {
   const [x0, x1, y0, y1, left, right, bottom, top] = svg.dataset.axes.split(" ").map(Number);
   const [wide, high] = [(right - left) / (x1 - x0), (top - bottom) / (y1 - y0)];
   const { width, height } = svg.viewBox.baseVal;

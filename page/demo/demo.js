@@ -1,250 +1,254 @@
 /* Moves a demo's picture when the reader moves its controls. In the page every state was computed when
    the book was built and travels along: a table of lines, and each state as places in it. A live
-   kernel is asked for each. */
-const vmcDemo = (() => {
-  "use strict";
+   kernel is asked for each (live.js). */
+import { unzip } from "../vendored.js";
+import { addAddress } from "./address.js";
+import { axesOf } from "./axes.js";
+import { addHandle } from "./handle.js";
+import { panelOf } from "./panel.js";
+import { viewOf } from "./scene.js";
+import { addSound } from "./sound.js";
 
-  const calm = matchMedia("(prefers-reduced-motion: reduce)");
+/* What the page works out itself, by name: see page/demos. */
+export const works = {};
 
-  /* Make `node` equal to `next`, touching only what differs: images neither reload nor flicker. */
-  const morph = (node, next) => {
-    if (node.nodeName !== next.nodeName) return node.replaceWith(next);
-    if (node.nodeType !== Node.ELEMENT_NODE) {
-      if (node.data !== next.data) node.data = next.data;
-      return;
-    }
-    for (const { name } of [...node.attributes])
-      if (!next.hasAttribute(name)) node.removeAttribute(name);
-    for (const { name, value } of next.attributes)
-      if (node.getAttribute(name) !== value) node.setAttribute(name, value);
-    const old = [...node.childNodes], fresh = [...next.childNodes]; // both lists change on the way
-    fresh.forEach((child, i) => (old[i] ? morph(old[i], child) : node.append(child)));
-    old.slice(fresh.length).forEach((child) => child.remove());
-  };
+const calm = matchMedia("(prefers-reduced-motion: reduce)");
 
-  /* The value at a place along values, which may lie between two; and the place of a value. */
-  const valueAt = (values, place) => {
-    const low = Math.min(Math.floor(place), values.length - 2), part = place - low;
-    if (part % 1 === 0) return values[place];
-    return +(values[low] + part * (values[low + 1] - values[low])).toPrecision(12);
-  };
-  const placeOf = (values, value) => {
-    const way = Math.sign(values[1] - values[0]);
-    const passed = values.filter((one) => (value - one) * way >= 0).length - 1;
-    const low = Math.max(0, Math.min(passed, values.length - 2));
-    return low + (value - values[low]) / (values[low + 1] - values[low]);
-  };
+/* Make `node` equal to `next`, touching only what differs: images neither reload nor flicker. */
+const morph = (node, next) => {
+  if (node.nodeName !== next.nodeName) return node.replaceWith(next);
+  if (node.nodeType !== Node.ELEMENT_NODE) {
+    if (node.data !== next.data) node.data = next.data;
+    return;
+  }
+  for (const { name } of [...node.attributes])
+    if (!next.hasAttribute(name)) node.removeAttribute(name);
+  for (const { name, value } of next.attributes)
+    if (node.getAttribute(name) !== value) node.setAttribute(name, value);
+  const old = [...node.childNodes], fresh = [...next.childNodes]; // both lists change on the way
+  fresh.forEach((child, i) => (old[i] ? morph(old[i], child) : node.append(child)));
+  old.slice(fresh.length).forEach((child) => child.remove());
+};
 
-  /* A slider's text: between two of its own ones, which begin with numbers, a number of four digits. */
-  const textAt = (texts, place) => {
-    if (place % 1 === 0) return texts[place];
-    const numbers = texts.map((text) => parseFloat(text.replace("−", "-")));
-    const [, after] = texts[0].match(/^−?[\d.]+(.*)/);
-    return `${+valueAt(numbers, place).toPrecision(4)}`.replace("-", "−") + after;
-  };
+/* The value at a place along values, which may lie between two; and the place of a value. */
+const valueAt = (values, place) => {
+  const low = Math.min(Math.floor(place), values.length - 2), part = place - low;
+  if (part % 1 === 0) return values[place];
+  return +(values[low] + part * (values[low + 1] - values[low])).toPrecision(12);
+};
+const placeOf = (values, value) => {
+  const way = Math.sign(values[1] - values[0]);
+  const passed = values.filter((one) => (value - one) * way >= 0).length - 1;
+  const low = Math.max(0, Math.min(passed, values.length - 2));
+  return low + (value - values[low]) / (values[low + 1] - values[low]);
+};
 
-  /* The states that are stored in the page, as a function that gives one to `draw`. */
-  const stored = async (demo) => {
-    const kept = await vmcUnzip(demo.querySelector("script").textContent).json(), { lines, states, data } = kept;
-    const ask = kept.work
-      ? computed(kept)
-      : (place, draw) => draw(states[place].map((places) => places.map((line) => lines[line])));
-    return Object.assign(ask, { data });
-  };
+/* A slider's text: between two of its own ones, which begin with numbers, a number of four digits. */
+const textAt = (texts, place) => {
+  if (place % 1 === 0) return texts[place];
+  const numbers = texts.map((text) => parseFloat(text.replace("−", "-")));
+  const [, after] = texts[0].match(/^−?[\d.]+(.*)/);
+  return `${+valueAt(numbers, place).toPrecision(4)}`.replace("-", "−") + after;
+};
 
-  /* The same for states that the page computes: a function of the book, given the values that a place
-     stands for, describes it in words and draws it on the pictures that came along. */
-  const computed = ({ work, grounds, given, grid }) => {
-    const axes = grounds.map((lines) => {
-      const box = document.createElement("template");
-      box.innerHTML = lines.join("\n");
-      return vmcAxes(box.content.firstElementChild);
+/* The states that are stored in the page, as a function that gives one to `draw`. */
+const stored = async (demo) => {
+  const kept = await unzip(demo.querySelector("script").textContent).json(), { lines, states, data } = kept;
+  const ask = kept.work
+    ? computed(kept)
+    : (place, draw) => draw(states[place].map((places) => places.map((line) => lines[line])));
+  return Object.assign(ask, { data });
+};
+
+/* The same for states that the page computes: a function of the book, given the values that a place
+   stands for, describes it in words and draws it on the pictures that came along. */
+const computed = ({ work, grounds, given, grid }) => {
+  const axes = grounds.map((lines) => {
+    const box = document.createElement("template");
+    box.innerHTML = lines.join("\n");
+    return axesOf(box.content.firstElementChild);
+  });
+  const ask = (place, draw, at = {}) => {
+    const values = grid.map((along, i) => {
+      const stride = grid.slice(i + 1).reduce((product, { length }) => product * length, 1);
+      return valueAt(along, at[stride] ?? Math.floor(place / stride) % along.length);
     });
-    const ask = (place, draw, at = {}) => {
-      const values = grid.map((along, i) => {
-        const stride = grid.slice(i + 1).reduce((product, { length }) => product * length, 1);
-        return valueAt(along, at[stride] ?? Math.floor(place / stride) % along.length);
-      });
-      const [words, ...marks] = vmcInPage[work](given, values, axes, place);
-      draw([[words], ...grounds.map((lines, i) => [...lines.slice(0, -1), marks[i], "</svg>"])]);
-    };
-    const { views, between } = vmcInPage[work];
-    return Object.assign(ask, { views: views?.(given), between });
+    const [words, ...marks] = works[work](given, values, axes, place);
+    draw([[words], ...grounds.map((lines, i) => [...lines.slice(0, -1), marks[i], "</svg>"])]);
   };
+  const { views, between } = works[work];
+  return Object.assign(ask, { views: views?.(given), between });
+};
 
-  /* A step is looked at for a while; if it brings a movement, for as long as that takes. */
-  const look = (demo, input) => {
-    const clock = demo.querySelector(".vmc-clock:not([hidden])");
-    if (clock) return clock.play();
-    const pause = calm.matches ? 1000 : Math.min(800, 5000 / input.max);
-    return new Promise((done) => setTimeout(done, pause));
+/* A step is looked at for a while; if it brings a movement, for as long as that takes. */
+const look = (demo, input) => {
+  const clock = demo.querySelector(".vmc-clock:not([hidden])");
+  if (clock) return clock.play();
+  const pause = calm.matches ? 1000 : Math.min(800, 5000 / input.max);
+  return new Promise((done) => setTimeout(done, pause));
+};
+
+/* A button that walks through its slider's steps, of which each is to `show`; by itself, once `ready`, where that
+   is asked for. */
+const addPlay = (demo, button, show, ready) => {
+  const input = button.parentElement.querySelector("input");
+  let playing = null;
+  const stop = () => {
+    playing = null;
+    button.setAttribute("aria-pressed", "false");
+    button.textContent = "Play";
   };
-
-  /* A button that walks through its slider's steps, of which each is to `show`; by itself, once `ready`, where that
-     is asked for. */
-  const addPlay = (demo, button, show, ready) => {
-    const input = button.parentElement.querySelector("input");
-    let playing = null;
-    const stop = () => {
-      playing = null;
-      button.setAttribute("aria-pressed", "false");
-      button.textContent = "Play";
-    };
-    button.addEventListener("click", async () => {
-      if (playing) return stop();
-      const mine = (playing = {});
-      button.setAttribute("aria-pressed", "true");
-      button.textContent = "Pause";
-      for (let step = input.value === input.max ? 0 : Math.round(input.value); step <= input.max; step++) {
-        input.value = step;
-        show();
-        await look(demo, input);
-        if (playing !== mine) return;
-      }
-      stop();
-    });
-    /* The reader's hand comes first, on whatever it lies; a movement's speed may change. */
-    for (const type of ["pointerdown", "input"])
-      demo.addEventListener(type, ({ target }) => {
-        if (target.closest("[data-stride], .vmc-clock :is(input, button), .vmc-handle")) stop();
-      }, true);
-    /* Paper shows where a demo leads, if the reader left it where it begins. */
-    let begun = null;
-    addEventListener("beforeprint", () => {
-      if (input.value !== input.defaultValue) return;
-      [begun, input.value] = [input.value, input.max];
+  button.addEventListener("click", async () => {
+    if (playing) return stop();
+    const mine = (playing = {});
+    button.setAttribute("aria-pressed", "true");
+    button.textContent = "Pause";
+    for (let step = input.value === input.max ? 0 : Math.round(input.value); step <= input.max; step++) {
+      input.value = step;
       show();
-      for (const still of demo.querySelectorAll(".vmc-scene:has(img)")) (vmcScene(still).start(), vmcScene(still).stop()); // anew
-    });
-    addEventListener("afterprint", () => {
-      if (begun === null) return;
-      [input.value, begun] = [begun, null];
-      show();
-    });
-    if ("unasked" in button.dataset && !calm.matches) {
-      const watch = new IntersectionObserver((entries) => {
-        if (!entries.at(-1).isIntersecting) return;
-        watch.disconnect();
-        if (+input.value === 0) button.click();
-      }, { threshold: 0.6 });
-      Promise.resolve(ready).then(() => watch.observe(demo.querySelector(".vmc-pictures")));
+      await look(demo, input);
+      if (playing !== mine) return;
     }
-  };
-
-  /* A pad: a handle on the first plot, or on each that has a view of a pad, moves its two sliders there, or to the
-     nearest stop. A view may depend on where the other pads stand. Returns what puts all handles in their places. */
-  const addHandles = (demo, sliders, given) => {
-    const pads = [...demo.querySelectorAll(".vmc-pad")].map((pad) =>
-      ({ grid: JSON.parse(pad.dataset.grid), twins: [...pad.querySelectorAll("input")] }));
-    const stand = () => pads.map(({ grid, twins }) => twins.map((twin, i) => valueAt(grid[i], +twin.value)));
-    const same = (place) => place;
-    const views = given ?? pads.slice(0, 1).map(() => ({ toView: same, fromView: same }));
-    const puts = views.map(({ pad = 0, picture = 0, toView, fromView }) => {
-      const { grid, twins } = pads[pad];
-      const put = vmcHandle(demo.querySelector(".vmc-pictures"), (seen) => {
-        const place = fromView(seen, stand());
-        grid.forEach((values, i) => {
-          if (sliders.includes(twins[i])) twins[i].step = 0.1;
-          twins[i].value = placeOf(values, place[i]);
-        });
-        twins[0].dispatchEvent(new Event("input", { bubbles: true }));
-      }, picture);
-      return () => put(toView(stand()[pad], stand()));
-    });
-    return () => puts.forEach((put) => put());
-  };
-
-  /* The demo's numbers in the page's sentences (vmc_lib/show/numbers.py). */
-  const tell = (demo) => {
-    const words = demo.querySelector(".vmc-pictures").getAttribute("aria-label");
-    for (const number of document.querySelectorAll(`.vmc-now[data-demo="${demo.id}"]`)) {
-      const { place } = number.dataset, slider = document.getElementById(`${demo.id}-${place}`);
-      const around = place.replace(/[^\w\s#]/g, "\\$&").replace("#", "(−?\\d+(?:[.,]\\d+)*)");
-      number.textContent = slider?.getAttribute("aria-valuetext") ?? words.match(around)?.[1] ?? "–";
-    }
-  };
-
-  /* A function that draws a state (its words and pictures, each a list of lines, cut to what is `allowed`), then calls `follow`. */
-  const all = { clean: (part) => part, settle: (messages) => messages };
-  const drawer = (demo, follow) => {
-    const [pictures, spoken] = [".vmc-pictures", ".vmc-spoken"].map((name) => demo.querySelector(name));
-    const places = [...demo.querySelectorAll(".vmc-picture, .vmc-data")];
-    return ([alt, ...parts], allowed = all) => {
-      const row = demo.querySelector(".vmc-controls"), held = demo.matches(":hover, :focus-within");
-      const top = () => row.getBoundingClientRect().top;
-      const before = held && top();
-      parts.forEach((lines, i) => {
-        if (!lines) return; // it stands there already
-        const picture = places[i], scene = picture.querySelector(".vmc-scene");
-        if (scene) return vmcScene(scene).show(allowed.settle(lines));
-        const next = picture.cloneNode(false), box = document.createElement("template");
-        box.innerHTML = lines.join("\n");
-        next.append(allowed.clean(box.content));
-        morph(picture, next);
-      });
-      const words = alt.join();
-      if (spoken && pictures.getAttribute("aria-label") !== words) spoken.textContent = words;
-      pictures.setAttribute("aria-label", words);
-      follow();
-      queueMicrotask(() => tell(demo)); // sliders may yet say where they stand
-      /* A picture of another height moves the page, and not what the reader's hand is on. */
-      if (held && top() !== before) scrollBy({ top: top() - before, behavior: "instant" });
-    };
-  };
-
-  /* How far along its values a control stands; of radio buttons only the checked one counts. */
-  const stands = ({ type, checked, value }) =>
-    type === "checkbox" ? +checked : type === "radio" && !checked ? 0 : Math.round(value);
-
-  /* `ask(place, draw)` gives `draw` the state at a place: its words and its pictures, as lines. */
-  const start = (demo, ask) => {
-    vmcSound(demo);
-    const inputs = [...demo.querySelectorAll("[data-stride]")];
-    const sliders = ask.between ? inputs.filter(({ dataset }) => "between" in dataset) : [];
-    const draw = drawer(demo, addHandles(demo, sliders, ask.views));
-    const show = () => {
-      for (const input of inputs)
-        if (input.dataset.texts) {
-          const text = textAt(JSON.parse(input.dataset.texts), sliders.includes(input) ? +input.value : Math.round(input.value));
-          input.setAttribute("aria-valuetext", text);
-          input.nextElementSibling.textContent = text;
-        }
-      const exact = Object.fromEntries(sliders.map(({ dataset, value }) => [dataset.stride, +value]));
-      demo.vmc.ask(inputs.reduce((sum, i) => sum + stands(i) * i.dataset.stride, 0), draw, exact);
-    };
-    demo.vmc = { ask, show, data: ask.data }; // the page's Python may answer instead
-
-    /* What the page works out anywhere follows the hand anywhere; keys go from stop to stop. */
-    const step = ({ type, target }) => sliders.includes(target) && (target.step = type === "keydown" ? 1 : 0.1);
-    for (const type of ["pointerdown", "keydown"]) demo.addEventListener(type, step, true);
-    for (const button of demo.querySelectorAll(".vmc-play")) addPlay(demo, button, show, ask.ready);
-    demo.addEventListener("input", show);
+    stop();
+  });
+  /* The reader's hand comes first, on whatever it lies; a movement's speed may change. */
+  for (const type of ["pointerdown", "input"])
+    demo.addEventListener(type, ({ target }) => {
+      if (target.closest("[data-stride], .vmc-clock :is(input, button), .vmc-handle")) stop();
+    }, true);
+  /* Paper shows where a demo leads, if the reader left it where it begins. */
+  let begun = null;
+  addEventListener("beforeprint", () => {
+    if (input.value !== input.defaultValue) return;
+    [begun, input.value] = [input.value, input.max];
     show();
-    const scenes = [...demo.querySelectorAll(".vmc-pictures .vmc-scene")].map((div) => vmcScene(div));
-    if (scenes.length) {
-      const panel = document.createElement("div");
-      panel.className = "vmc-controls vmc-of-scene";
-      panel.append(...vmcPanel(scenes));
-      demo.querySelector(".vmc-controls").after(panel);
-    }
-    demo.dataset.ready = "";
-    return () => scenes.forEach((scene) => scene.end());
-  };
+    for (const still of demo.querySelectorAll(".vmc-scene:has(img)")) (viewOf(still).start(), viewOf(still).stop()); // anew
+  });
+  addEventListener("afterprint", () => {
+    if (begun === null) return;
+    [input.value, begun] = [begun, null];
+    show();
+  });
+  if ("unasked" in button.dataset && !calm.matches) {
+    const watch = new IntersectionObserver((entries) => {
+      if (!entries.at(-1).isIntersecting) return;
+      watch.disconnect();
+      if (+input.value === 0) button.click();
+    }, { threshold: 0.6 });
+    Promise.resolve(ready).then(() => watch.observe(demo.querySelector(".vmc-pictures")));
+  }
+};
 
-  /* Paper is white. */
-  const { dataset } = document.documentElement;
-  let theme;
-  addEventListener("beforeprint", () => ([theme, dataset.theme] = [dataset.theme, "light"]));
-  addEventListener("afterprint", () => (dataset.theme = theme));
+/* A pad: a handle on the first plot, or on each that has a view of a pad, moves its two sliders there, or to the
+   nearest stop. A view may depend on where the other pads stand. Returns what puts all handles in their places. */
+const addHandles = (demo, sliders, given) => {
+  const pads = [...demo.querySelectorAll(".vmc-pad")].map((pad) =>
+    ({ grid: JSON.parse(pad.dataset.grid), twins: [...pad.querySelectorAll("input")] }));
+  const stand = () => pads.map(({ grid, twins }) => twins.map((twin, i) => valueAt(grid[i], +twin.value)));
+  const same = (place) => place;
+  const views = given ?? pads.slice(0, 1).map(() => ({ toView: same, fromView: same }));
+  const puts = views.map(({ pad = 0, picture = 0, toView, fromView }) => {
+    const { grid, twins } = pads[pad];
+    const put = addHandle(demo.querySelector(".vmc-pictures"), (seen) => {
+      const place = fromView(seen, stand());
+      grid.forEach((values, i) => {
+        if (sliders.includes(twins[i])) twins[i].step = 0.1;
+        twins[i].value = placeOf(values, place[i]);
+      });
+      twins[0].dispatchEvent(new Event("input", { bubbles: true }));
+    }, picture);
+    return () => put(toView(stand()[pad], stand()));
+  });
+  return () => puts.forEach((put) => put());
+};
 
-  const startAll = () =>
-    document.querySelectorAll(".vmc-demo").forEach(async (demo) => {
-      if (!demo.matches(":has(> script)")) return vmcSound(demo);
-      vmcAddress(demo);
-      start(demo, await stored(demo));
+/* The demo's numbers in the page's sentences (vmc_lib/show/numbers.py). */
+const tell = (demo) => {
+  const words = demo.querySelector(".vmc-pictures").getAttribute("aria-label");
+  for (const number of document.querySelectorAll(`.vmc-now[data-demo="${demo.id}"]`)) {
+    const { place } = number.dataset, slider = document.getElementById(`${demo.id}-${place}`);
+    const around = place.replace(/[^\w\s#]/g, "\\$&").replace("#", "(−?\\d+(?:[.,]\\d+)*)");
+    number.textContent = slider?.getAttribute("aria-valuetext") ?? words.match(around)?.[1] ?? "–";
+  }
+};
+
+/* A function that draws a state (its words and pictures, each a list of lines, cut to what is `allowed`), then calls `follow`. */
+const all = { clean: (part) => part, settle: (messages) => messages };
+const drawer = (demo, follow) => {
+  const [pictures, spoken] = [".vmc-pictures", ".vmc-spoken"].map((name) => demo.querySelector(name));
+  const places = [...demo.querySelectorAll(".vmc-picture, .vmc-data")];
+  return ([alt, ...parts], allowed = all) => {
+    const row = demo.querySelector(".vmc-controls"), held = demo.matches(":hover, :focus-within");
+    const top = () => row.getBoundingClientRect().top;
+    const before = held && top();
+    parts.forEach((lines, i) => {
+      if (!lines) return; // it stands there already
+      const picture = places[i], scene = picture.querySelector(".vmc-scene");
+      if (scene) return viewOf(scene).show(allowed.settle(lines));
+      const next = picture.cloneNode(false), box = document.createElement("template");
+      box.innerHTML = lines.join("\n");
+      next.append(allowed.clean(box.content));
+      morph(picture, next);
     });
-  if (self.vmcKernel); // which starts its own
-  else if (document.readyState === "complete") startAll();
-  else addEventListener("DOMContentLoaded", startAll); // scripts that are to come draw, too
-  return start;
-})();
+    const words = alt.join();
+    if (spoken && pictures.getAttribute("aria-label") !== words) spoken.textContent = words;
+    pictures.setAttribute("aria-label", words);
+    follow();
+    queueMicrotask(() => tell(demo)); // sliders may yet say where they stand
+    /* A picture of another height moves the page, and not what the reader's hand is on. */
+    if (held && top() !== before) scrollBy({ top: top() - before, behavior: "instant" });
+  };
+};
+
+/* How far along its values a control stands; of radio buttons only the checked one counts. */
+const stands = ({ type, checked, value }) =>
+  type === "checkbox" ? +checked : type === "radio" && !checked ? 0 : Math.round(value);
+
+/* `ask(place, draw)` gives `draw` the state at a place: its words and its pictures, as lines. */
+export const start = (demo, ask) => {
+  addSound(demo);
+  const inputs = [...demo.querySelectorAll("[data-stride]")];
+  const sliders = ask.between ? inputs.filter(({ dataset }) => "between" in dataset) : [];
+  const draw = drawer(demo, addHandles(demo, sliders, ask.views));
+  const show = () => {
+    for (const input of inputs)
+      if (input.dataset.texts) {
+        const text = textAt(JSON.parse(input.dataset.texts), sliders.includes(input) ? +input.value : Math.round(input.value));
+        input.setAttribute("aria-valuetext", text);
+        input.nextElementSibling.textContent = text;
+      }
+    const exact = Object.fromEntries(sliders.map(({ dataset, value }) => [dataset.stride, +value]));
+    demo.vmc.ask(inputs.reduce((sum, i) => sum + stands(i) * i.dataset.stride, 0), draw, exact);
+  };
+  demo.vmc = { ask, show, data: ask.data }; // the page's Python may answer instead
+
+  /* What the page works out anywhere follows the hand anywhere; keys go from stop to stop. */
+  const step = ({ type, target }) => sliders.includes(target) && (target.step = type === "keydown" ? 1 : 0.1);
+  for (const type of ["pointerdown", "keydown"]) demo.addEventListener(type, step, true);
+  for (const button of demo.querySelectorAll(".vmc-play")) addPlay(demo, button, show, ask.ready);
+  demo.addEventListener("input", show);
+  show();
+  const scenes = [...demo.querySelectorAll(".vmc-pictures .vmc-scene")].map((div) => viewOf(div));
+  if (scenes.length) {
+    const panel = document.createElement("div");
+    panel.className = "vmc-controls vmc-of-scene";
+    panel.append(...panelOf(scenes));
+    demo.querySelector(".vmc-controls").after(panel);
+  }
+  demo.dataset.ready = "";
+  return () => scenes.forEach((scene) => scene.end());
+};
+
+/* Paper is white. */
+const { dataset } = document.documentElement;
+let theme;
+addEventListener("beforeprint", () => ([theme, dataset.theme] = [dataset.theme, "light"]));
+addEventListener("afterprint", () => (dataset.theme = theme));
+
+/* In the page every demo starts by itself. */
+export const startAll = () =>
+  document.querySelectorAll(".vmc-demo").forEach(async (demo) => {
+    if (!demo.matches(":has(> script)")) return addSound(demo);
+    addAddress(demo);
+    start(demo, await stored(demo));
+  });

@@ -3,9 +3,9 @@
    fingers that move beside it scroll the page. `moved(place)` hears where it is wanted, `dropped()` that it was let go; the
    function returned puts it at a place. The picture is the first, or another by its number, of those
    that have axes. */
-const vmcHandle = (pictures, moved, number, dropped) => {
-  "use strict";
+import { axesOf } from "./axes.js";
 
+export const addHandle = (pictures, moved, number, dropped) => {
   const handle = document.createElement("span");
   handle.className = "vmc-handle";
   handle.dataset.picture = number ?? 0;
@@ -23,13 +23,13 @@ const vmcHandle = (pictures, moved, number, dropped) => {
 
   const put = () => {
     const [box, frame] = [plot(), pictures].map((element) => element.getBoundingClientRect());
-    const [right, down] = vmcAxes(plot()).drawn(place);
+    const [right, down] = axesOf(plot()).drawn(place);
     handle.style.transform =
       `translate(${box.left - frame.left + right * box.width}px, ${box.top - frame.top + down * box.height}px)`;
   };
 
   const go = ({ clientX, clientY }, [x, y] = [0, 0]) =>
-    moved(vmcAxes(plot()).pointed({ clientX: clientX - x, clientY: clientY - y }));
+    moved(axesOf(plot()).pointed({ clientX: clientX - x, clientY: clientY - y }));
 
   pictures.addEventListener("pointerdown", (event) => {
     const own = event.target === handle;

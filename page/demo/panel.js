@@ -1,176 +1,173 @@
 /* What stands under a scene: its clock, the numbers of the moment it shows, the muscles by name, and a
    slider that turns it. One clock moves all scenes of a demo, and what else follows time there. */
-const vmcPanel = (() => {
-  "use strict";
+import { distance } from "./anatomy.js";
+import { redness } from "./muscles.js";
 
-  const SPEEDS = { "real time": 1, "half speed": 0.5, "quarter speed": 0.25 };
-  const LATE = 100; // ms: where pictures come late a movement takes longer, and is still seen whole
-  const WRIST = "The model ends at the wrist. The hand and its target are drawn one palm's length " +
-    "beyond it.";
-  const calm = matchMedia("(prefers-reduced-motion: reduce)");
-  const signed = (number, digits) => (+number.toFixed(digits) + 0).toFixed(digits).replace("-", "−"); // no −0
-  const degrees = (angle) => `${signed((angle * 180) / Math.PI, 1)}°`;
+const SPEEDS = { "real time": 1, "half speed": 0.5, "quarter speed": 0.25 };
+const LATE = 100; // ms: where pictures come late a movement takes longer, and is still seen whole
+const WRIST = "The model ends at the wrist. The hand and its target are drawn one palm's length " +
+  "beyond it.";
+const calm = matchMedia("(prefers-reduced-motion: reduce)");
+export const signed = (number, digits) => (+number.toFixed(digits) + 0).toFixed(digits).replace("-", "−"); // no −0
+export const degrees = (angle) => `${signed((angle * 180) / Math.PI, 1)}°`;
 
-  const element = (html) => {
-    const box = document.createElement("template");
-    box.innerHTML = html.trim();
-    return box.content.firstElementChild;
+const element = (html) => {
+  const box = document.createElement("template");
+  box.innerHTML = html.trim();
+  return box.content.firstElementChild;
+};
+
+/* What else in a demo's pictures follows the time: marks that have a course, place by place. */
+const follow = ({ div, duration, time }) => {
+  for (const mark of div.closest(".vmc-pictures").querySelectorAll("[data-course]")) {
+    const course = mark.dataset.course.split(" ");
+    const place = duration ? Math.round((time / duration) * (course.length - 1)) : 0;
+    mark.setAttribute("transform", `translate(${course[place].replace(",", " ")})`);
+  }
+};
+
+/* Play, a slider of time, and how fast: shown where there is a movement. */
+const clock = (views) => {
+  const box = element(`<div class="vmc-control vmc-clock">
+    <button type="button" class="vmc-play" aria-pressed="false">Play the movement</button>
+    <label>time <input type="range" min="0" step="0.01" value="0"></label>
+    <output>0.00 s</output><select aria-label="speed">${Object.entries(SPEEDS)
+      .map(([text, pace]) => `<option value="${pace}">${text}</option>`).join("")}</select></div>`);
+  const [button, slider, speed] = ["button", "input", "select"].map((tag) => box.querySelector(tag));
+  let playing = null;
+  const stop = () => {
+    playing = null;
+    button.textContent = "Play the movement";
+    button.setAttribute("aria-pressed", "false");
   };
-
-  /* What else in a demo's pictures follows the time: marks that have a course, place by place. */
-  const follow = ({ div, duration, time }) => {
-    for (const mark of div.closest(".vmc-pictures").querySelectorAll("[data-course]")) {
-      const course = mark.dataset.course.split(" ");
-      const place = duration ? Math.round((time / duration) * (course.length - 1)) : 0;
-      mark.setAttribute("transform", `translate(${course[place].replace(",", " ")})`);
+  const set = (time) => views.forEach((view) => view.at(time));
+  const play = async () => {
+    const mine = (playing = {});
+    button.textContent = "Pause";
+    button.setAttribute("aria-pressed", "true");
+    const { duration } = views[0];
+    const start = +slider.value < duration ? +slider.value : 0;
+    const pace = calm.matches ? 500 : 0; // ms between two pictures
+    set(start);
+    let last = 0, time = start, then = performance.now();
+    while (time < duration) {
+      const now = await new Promise(requestAnimationFrame);
+      if (playing !== mine || !box.isConnected) return;
+      const passed = Math.min(Math.max(0, now - then), LATE) / 1000;
+      time = Math.min(duration, time + passed * speed.value);
+      then = now;
+      if (now - last < pace && time < duration) continue;
+      last = now;
+      set(time);
     }
+    stop();
   };
+  button.addEventListener("click", () => (playing ? stop() : play()));
+  slider.addEventListener("pointerdown", stop);
+  slider.addEventListener("input", () => (stop(), set(+slider.value)));
+  box.addEventListener("input", (event) => event.stopPropagation()); // no control of the demo
+  box.play = play;
+  const [view] = views;
+  view.listeners.push(() => {
+    const { duration, time } = view;
+    box.hidden = !duration;
+    slider.max = duration;
+    slider.value = time;
+    slider.setAttribute("aria-valuetext", `${time.toFixed(2)} s`);
+    box.querySelector("output").textContent = `${time.toFixed(2)} s`;
+    follow(view);
+  });
+  return box;
+};
 
-  /* Play, a slider of time, and how fast: shown where there is a movement. */
-  const clock = (views) => {
-    const box = element(`<div class="vmc-control vmc-clock">
-      <button type="button" class="vmc-play" aria-pressed="false">Play the movement</button>
-      <label>time <input type="range" min="0" step="0.01" value="0"></label>
-      <output>0.00 s</output><select aria-label="speed">${Object.entries(SPEEDS)
-        .map(([text, pace]) => `<option value="${pace}">${text}</option>`).join("")}</select></div>`);
-    const [button, slider, speed] = ["button", "input", "select"].map((tag) => box.querySelector(tag));
-    let playing = null;
-    const stop = () => {
-      playing = null;
-      button.textContent = "Play the movement";
-      button.setAttribute("aria-pressed", "false");
-    };
-    const set = (time) => views.forEach((view) => view.at(time));
-    const play = async () => {
-      const mine = (playing = {});
-      button.textContent = "Pause";
-      button.setAttribute("aria-pressed", "true");
-      const { duration } = views[0];
-      const start = +slider.value < duration ? +slider.value : 0;
-      const pace = calm.matches ? 500 : 0; // ms between two pictures
-      set(start);
-      let last = 0, time = start, then = performance.now();
-      while (time < duration) {
-        const now = await new Promise(requestAnimationFrame);
-        if (playing !== mine || !box.isConnected) return;
-        const passed = Math.min(Math.max(0, now - then), LATE) / 1000;
-        time = Math.min(duration, time + passed * speed.value);
-        then = now;
-        if (now - last < pace && time < duration) continue;
-        last = now;
-        set(time);
-      }
-      stop();
-    };
-    button.addEventListener("click", () => (playing ? stop() : play()));
-    slider.addEventListener("pointerdown", stop);
-    slider.addEventListener("input", () => (stop(), set(+slider.value)));
-    box.addEventListener("input", (event) => event.stopPropagation()); // no control of the demo
-    box.play = play;
-    const [view] = views;
-    view.listeners.push(() => {
-      const { duration, time } = view;
-      box.hidden = !duration;
-      slider.max = duration;
-      slider.value = time;
-      slider.setAttribute("aria-valuetext", `${time.toFixed(2)} s`);
-      box.querySelector("output").textContent = `${time.toFixed(2)} s`;
-      follow(view);
+/* The joints' angles, how far the hand is from the target now, and how the movement ends. */
+const numbers = (view) => {
+  const box = element(`<dl class="vmc-numbers simple"></dl>`);
+  view.listeners.push((pose) => {
+    if (!pose) return;
+    const rows = [["shoulder", degrees(pose.q[0])], ["elbow", degrees(pose.q[1])]];
+    const { target, end } = view.settings;
+    if (target) {
+      const off = distance(view.anatomy.wrist(pose.q, pose.turn), target);
+      rows.push(["hand to target now", `${(1000 * off).toFixed(1)} mm`]);
+    }
+    if (end) rows.push(["end point to target", `${(1000 * end.off).toFixed(1)} mm`],
+      ["speed in the hold", `${(1000 * end.speed).toFixed(0)} mm/s`]);
+    box.innerHTML = rows.map(([name, text]) => `<div><dt>${name}</dt><dd>${text}</dd></div>`).join("");
+  });
+  return box;
+};
+
+const colour = (activation) =>
+  `rgb(${redness(activation).map((x) => Math.round(255 * x)).join(" ")})`;
+
+let panels = 0;
+
+/* The muscles: which is which, how active each is now, and over the movement. */
+export const muscles = (view) => {
+  const name = `vmc-muscle-${++panels}`;
+  const box = element(`<div class="vmc-muscles" role="radiogroup" aria-label="muscles"><p>activation, from 0 <i></i> to 1</p></div>`);
+  view.anatomy.muscles.forEach((muscle, k) => {
+    const chip = element(`<label><input type="radio" name="${name}" value="${k}">
+      <i></i><span>${muscle.name}</span>
+      <svg viewBox="0 0 50 16" preserveAspectRatio="none" aria-hidden="true"><polyline/><line y2="16"/></svg>
+      <b></b></label>`);
+    for (const [type, shown] of [["pointerenter", k], ["pointerleave", null]])
+      chip.addEventListener(type, () => view.body?.muscles.point(shown ?? chosen()));
+    box.append(chip);
+  });
+  box.querySelector("i").style.background = `linear-gradient(90deg, ${
+    [0, 0.04, 0.16, 0.36, 0.64, 1].map((a) => `${colour(a)} ${100 * a}%`)})`;
+  const chosen = () => box.querySelector(":checked")?.value ?? null;
+  box.addEventListener("input", (event) => (event.stopPropagation(), view.body?.muscles.point(chosen())));
+  view.onmuscle = (k) => (box.querySelectorAll("input")[k].checked = true);
+  let drawn;
+  view.listeners.push((pose) => {
+    if (!pose) return;
+    const chips = [...box.querySelectorAll("label")];
+    const { motion } = view.settings;
+    if (drawn !== motion) chips.forEach((chip, k) => trace(chip, motion.activation.map((a) => a[k])));
+    drawn = motion;
+    chips.forEach((chip, k) => {
+      chip.querySelector("i").style.background = colour(pose.activation[k]);
+      chip.querySelector("b").textContent = pose.activation[k].toFixed(2);
+      const x = view.duration ? (50 * view.time) / view.duration : 0;
+      chip.querySelector("line").setAttribute("transform", `translate(${x} 0)`);
     });
-    return box;
+  });
+  return box;
+};
+
+const trace = (chip, values) => {
+  chip.querySelector("svg").style.display = values.length > 1 ? "" : "none";
+  const points = values.map((v, i) => `${((50 * i) / (values.length - 1)).toFixed(1)},${(15 - 14 * Math.sqrt(v)).toFixed(1)}`);
+  chip.querySelector("polyline").setAttribute("points", values.length > 1 ? points.join(" ") : "");
+};
+
+/* A slider that turns views, for hands on a keyboard; a mouse or a finger drags the scene itself. */
+export const turner = (views) => {
+  const label = element(`<label class="vmc-control vmc-turn">turn the view
+    <input type="range" min="-180" max="180" step="5" value="0"></label>`);
+  const slider = label.querySelector("input");
+  label.addEventListener("input", (event) => {
+    event.stopPropagation();
+    views.forEach((view) => view.turn(+slider.value));
+  });
+  views[0].listeners.push(() => (slider.value = views[0].turned));
+  return label;
+};
+
+/* All that a demo's scenes need, once they have an arm. */
+export const panelOf = (views) => {
+  const [view] = views;
+  const box = element(`<div class="vmc-panel"></div>`);
+  const fill = () => {
+    if (!view.anatomy || box.childElementCount) return;
+    box.append(clock(views), numbers(view), muscles(view));
+    if (view.settings.target) box.append(element(`<p class="vmc-note">${WRIST}</p>`));
+    view.at(view.wanted);
   };
-
-  /* The joints' angles, how far the hand is from the target now, and how the movement ends. */
-  const numbers = (view) => {
-    const box = element(`<dl class="vmc-numbers simple"></dl>`);
-    view.listeners.push((pose) => {
-      if (!pose) return;
-      const rows = [["shoulder", degrees(pose.q[0])], ["elbow", degrees(pose.q[1])]];
-      const { target, end } = view.settings;
-      if (target) {
-        const off = vmcAnatomy.distance(view.anatomy.wrist(pose.q, pose.turn), target);
-        rows.push(["hand to target now", `${(1000 * off).toFixed(1)} mm`]);
-      }
-      if (end) rows.push(["end point to target", `${(1000 * end.off).toFixed(1)} mm`],
-        ["speed in the hold", `${(1000 * end.speed).toFixed(0)} mm/s`]);
-      box.innerHTML = rows.map(([name, text]) => `<div><dt>${name}</dt><dd>${text}</dd></div>`).join("");
-    });
-    return box;
-  };
-
-  const colour = (activation) =>
-    `rgb(${vmcMuscles.redness(activation).map((x) => Math.round(255 * x)).join(" ")})`;
-
-  let panels = 0;
-
-  /* The muscles: which is which, how active each is now, and over the movement. */
-  const muscles = (view) => {
-    const name = `vmc-muscle-${++panels}`;
-    const box = element(`<div class="vmc-muscles" role="radiogroup" aria-label="muscles"><p>activation, from 0 <i></i> to 1</p></div>`);
-    view.anatomy.muscles.forEach((muscle, k) => {
-      const chip = element(`<label><input type="radio" name="${name}" value="${k}">
-        <i></i><span>${muscle.name}</span>
-        <svg viewBox="0 0 50 16" preserveAspectRatio="none" aria-hidden="true"><polyline/><line y2="16"/></svg>
-        <b></b></label>`);
-      for (const [type, shown] of [["pointerenter", k], ["pointerleave", null]])
-        chip.addEventListener(type, () => view.body?.muscles.point(shown ?? chosen()));
-      box.append(chip);
-    });
-    box.querySelector("i").style.background = `linear-gradient(90deg, ${
-      [0, 0.04, 0.16, 0.36, 0.64, 1].map((a) => `${colour(a)} ${100 * a}%`)})`;
-    const chosen = () => box.querySelector(":checked")?.value ?? null;
-    box.addEventListener("input", (event) => (event.stopPropagation(), view.body?.muscles.point(chosen())));
-    view.onmuscle = (k) => (box.querySelectorAll("input")[k].checked = true);
-    let drawn;
-    view.listeners.push((pose) => {
-      if (!pose) return;
-      const chips = [...box.querySelectorAll("label")];
-      const { motion } = view.settings;
-      if (drawn !== motion) chips.forEach((chip, k) => trace(chip, motion.activation.map((a) => a[k])));
-      drawn = motion;
-      chips.forEach((chip, k) => {
-        chip.querySelector("i").style.background = colour(pose.activation[k]);
-        chip.querySelector("b").textContent = pose.activation[k].toFixed(2);
-        const x = view.duration ? (50 * view.time) / view.duration : 0;
-        chip.querySelector("line").setAttribute("transform", `translate(${x} 0)`);
-      });
-    });
-    return box;
-  };
-
-  const trace = (chip, values) => {
-    chip.querySelector("svg").style.display = values.length > 1 ? "" : "none";
-    const points = values.map((v, i) => `${((50 * i) / (values.length - 1)).toFixed(1)},${(15 - 14 * Math.sqrt(v)).toFixed(1)}`);
-    chip.querySelector("polyline").setAttribute("points", values.length > 1 ? points.join(" ") : "");
-  };
-
-  /* A slider that turns views, for hands on a keyboard; a mouse or a finger drags the scene itself. */
-  const turner = (views) => {
-    const label = element(`<label class="vmc-control vmc-turn">turn the view
-      <input type="range" min="-180" max="180" step="5" value="0"></label>`);
-    const slider = label.querySelector("input");
-    label.addEventListener("input", (event) => {
-      event.stopPropagation();
-      views.forEach((view) => view.turn(+slider.value));
-    });
-    views[0].listeners.push(() => (slider.value = views[0].turned));
-    return label;
-  };
-
-  /* All that a demo's scenes need, once they have an arm. */
-  const panel = (views) => {
-    const [view] = views;
-    const box = element(`<div class="vmc-panel"></div>`);
-    const fill = () => {
-      if (!view.anatomy || box.childElementCount) return;
-      box.append(clock(views), numbers(view), muscles(view));
-      if (view.settings.target) box.append(element(`<p class="vmc-note">${WRIST}</p>`));
-      view.at(view.wanted);
-    };
-    view.listeners.push(fill);
-    fill();
-    return [box, turner(views)];
-  };
-
-  return Object.assign(panel, { degrees, muscles, signed, turner });
-})();
+  view.listeners.push(fill);
+  fill();
+  return [box, turner(views)];
+};

@@ -1,5 +1,7 @@
+import { setEquations } from "../book/equations.js";
+
 /* What a reader chose is remembered where the browser remembers: it may be told not to. */
-const vmcMemory = {
+export const memory = {
   get: (key) => { try { return localStorage.getItem(key); } catch { return null; } },
   parsed: (key) => { try { return JSON.parse(localStorage.getItem(key)); } catch { return null; } }, // it may be cut
   set: (key, text) => { try { localStorage.setItem(key, text); } catch {} },
@@ -13,12 +15,12 @@ const vmcMemory = {
   const key = ({ name, form }) => `${location.pathname} ${name || [...document.forms].indexOf(form)}`;
   addEventListener("DOMContentLoaded", () =>
     document.querySelectorAll(inputs).forEach((input) => {
-      const kept = vmcMemory.get(key(input));
+      const kept = memory.get(key(input));
       if (input.type === "radio") input.checked ||= input.value === kept;
       else input.value = kept ?? "";
     }));
   addEventListener("change", ({ target }) => {
-    if (target.matches(inputs)) vmcMemory.set(key(target), target.value);
+    if (target.matches(inputs)) memory.set(key(target), target.value);
   });
 }
 
@@ -36,7 +38,7 @@ addEventListener("DOMContentLoaded", () =>
   }));
 
 /* How a typed answer is: vmc_lib.show.answers.judge, by its rules. */
-const vmcJudge = (text, { expected, tolerance, scales, rules }) => {
+export const judge = (text, { expected, tolerance, scales, rules }) => {
   const clean = rules.clean.reduce((line, [pattern, by]) =>
     line.replace(RegExp(pattern, "g"), by).normalize("NFKC"), text.toLowerCase());
   const splits = expected.length > 1 ? rules.gaps.map((gap) => clean.split(RegExp(gap))) : [[clean]];
@@ -61,7 +63,7 @@ addEventListener("submit", (event) => {
   const question = JSON.parse(form.dataset.check);
   const text = form.querySelector("input").value.trim();
   const word = text.replace(/^["'“”‘’\s]+|["'“”‘’\s.]+$/g, "").toLowerCase();
-  const verdict = !text ? "empty" : question.rules ? vmcJudge(text, question) : word === question.expected ? "right" : "wrong";
+  const verdict = !text ? "empty" : question.rules ? judge(text, question) : word === question.expected ? "right" : "wrong";
   form.querySelector("[role=status]").innerHTML = JSON.parse(form.dataset.words)[verdict];
-  window.vmcEquations?.(form);
+  setEquations(form);
 });

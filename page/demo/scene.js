@@ -2,239 +2,240 @@
    few that meshcat has no command for, "name|JSON": camera, anatomy, motion, target, end. Given the next
    scene, a view sends its viewer only what differs. In the page the viewer is fetched from the book's
    own files when a scene comes into sight; a live kernel sends it. */
-const vmcScene = (() => {
-  "use strict";
+import { fetchVendored } from "../vendored.js";
+import { Anatomy, moment } from "./anatomy.js";
+import { Body, bones as unpackBones } from "./body.js";
+import { addPointer } from "./scene_pointer.js";
 
-  const MOST_LIVE = 6; // browsers keep few WebGL contexts: the scene unseen longest becomes a still
-  const live = new Set(); // in the order in which they came into sight
-  const views = new Map();
+const MOST_LIVE = 6; // browsers keep few WebGL contexts: the scene unseen longest becomes a still
+const live = new Set(); // in the order in which they came into sight
+const views = new Map();
 
-  const COMMANDS = new Set(["set_transform", "set_object", "set_property", "delete"]); // others run code, or save files
-  const NO_WEBGL = "This browser draws no 3-D picture: it has no WebGL, or it is switched off.";
-  const WIDE = 1.15; // width to height: in a narrower picture the eye steps back
+const COMMANDS = new Set(["set_transform", "set_object", "set_property", "delete"]); // others run code, or save files
+const NO_WEBGL = "This browser draws no 3-D picture: it has no WebGL, or it is switched off.";
+const WIDE = 1.15; // width to height: in a narrower picture the eye steps back
 
-  /* A scene brings its textures along: whatever it names, no host is asked for it, with the reader's session. */
-  const askNoHost = ({ ImageLoader: { prototype } }) => {
-    const { load } = prototype;
-    prototype.load = function (address, ...rest) {
-      const own = /^data:/.test(this.manager.resolveURL(address));
-      return load.call(this, own ? address : "data:,", ...rest);
+/* A scene brings its textures along: whatever it names, no host is asked for it, with the reader's session. */
+const askNoHost = ({ ImageLoader: { prototype } }) => {
+  const { load } = prototype;
+  prototype.load = function (address, ...rest) {
+    const own = /^data:/.test(this.manager.resolveURL(address));
+    return load.call(this, own ? address : "data:,", ...rest);
+  };
+};
+
+let loading, bones;
+const fetchAll = async () => {
+  if (!self.MeshCat) {
+    await fetchVendored("meshcat.js");
+    askNoHost(self.MeshCat.THREE);
+  }
+  if (!self.vmcBones) await fetchVendored("bones.js");
+  bones = await unpackBones();
+};
+const load = () => (loading ??= fetchAll().catch(() => (loading = null))); // who needs it next, tries again
+
+const hasWebGL = () => {
+  const context = document.createElement("canvas").getContext("webgl");
+  context?.getExtension("WEBGL_lose_context")?.loseContext();
+  return Boolean(context);
+};
+
+class View {
+  constructor(div) {
+    this.div = div;
+    this.words = [...div.children]; // they stand here until the picture does
+    this.messages = [];
+    this.settings = {}; // what the scene says beside meshcat's commands, by name
+    this.turned = this.raised = 0; // degrees
+    this.wanted = Infinity; // s: a movement is first shown at its end
+    this.listeners = [];
+    views.set(div, this);
+    new IntersectionObserver((entries) => entries.at(-1).isIntersecting && this.awake(), {
+      rootMargin: "200px",
+    }).observe(div);
+    (self.requestIdleCallback ?? setTimeout)(load); // paper shows what was never in sight
+    new ResizeObserver(() => this.viewer && (this.viewer.set_3d_pane_size(), this.look())).observe(div);
+  }
+
+  /* Come to life, unless the browser cannot: then the words in the div stay, and say why. */
+  async awake() {
+    await load();
+    live.delete(this);
+    if (!bones) return this.flat("The files of the 3-D picture did not come: load the page again.");
+    if (!this.viewer && !hasWebGL()) return this.flat(NO_WEBGL);
+    try {
+      if (!this.viewer) this.start();
+    } catch (error) {
+      console.error(error); // it may also be a fault of ours
+      return this.flat(NO_WEBGL);
+    }
+    live.add(this);
+    if (live.size > MOST_LIVE) [...live][0].stop();
+  }
+
+  flat(why) {
+    const note = Object.assign(document.createElement("p"), { className: "vmc-note", textContent: why });
+    this.viewer = this.body = null;
+    live.delete(this);
+    this.div.classList.add("vmc-flat");
+    this.div.replaceChildren(...this.words, note);
+  }
+
+  start() {
+    this.div.classList.remove("vmc-flat");
+    const canvas = document.createElement("div");
+    canvas.className = "vmc-canvas";
+    this.div.replaceChildren(canvas);
+    const viewer = new self.MeshCat.Viewer(canvas, false);
+    viewer.gui.domElement.remove();
+    viewer.set_3d_pane_size = function () {
+      const { clientWidth: w, clientHeight: h } = canvas;
+      if (w && h) Object.getPrototypeOf(viewer).set_3d_pane_size.call(viewer, w, h);
     };
-  };
+    viewer.handle_command = function (command) {
+      const { type, property = "" } = command;
+      if (COMMANDS.has(type) && !/proto|constructor/.test(property)) Object.getPrototypeOf(viewer).handle_command.call(viewer, command);
+    };
+    for (const part of ["Grid", "Axes"]) viewer.set_property([part], "visible", false);
+    viewer.hide_background();
+    // the book's axes: x forward, y up, z right
+    viewer.set_transform(["meshcat"], [1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1]);
+    viewer.camera.fov = 35;
+    viewer.controls.enabled = false; // the view turns itself: by hand, and by its slider
+    this.viewer = viewer;
+    this.sent = new Map();
+    this.body = null;
+    viewer.set_3d_pane_size();
+    const { posed } = this; // what others posed it to outlives the viewer
+    this.show(this.messages);
+    if (posed) this.pose(posed);
+    this.onstart?.();
+    addPointer(this, canvas);
+    const { domElement } = viewer.renderer;
+    domElement.addEventListener("webglcontextlost", () => this.viewer === viewer
+      && this.flat("The browser has taken the 3-D picture away: scroll on and back, or load the page again."));
+    domElement.addEventListener("webglcontextrestored", () => this.viewer ?? this.awake());
+    const draw = () => {
+      if (this.viewer !== viewer) return;
+      if (viewer.needs_render) viewer.render();
+      requestAnimationFrame(draw);
+    };
+    draw();
+  }
 
-  let loading, bones;
-  const fetchAll = async () => {
-    if (!self.MeshCat) {
-      await vmcVendored("meshcat.js");
-      askNoHost(self.MeshCat.THREE);
-    }
-    if (!self.vmcBones) await vmcVendored("bones.js");
-    bones = await vmcBody.bones();
-  };
-  const load = () => (loading ??= fetchAll().catch(() => (loading = null))); // who needs it next, tries again
+  /* Give the WebGL context back and leave a still of the last view. */
+  stop() {
+    const { viewer } = this;
+    const still = new Image();
+    still.src = viewer.capture_image();
+    still.alt = "";
+    viewer.controls.dispose();
+    viewer.renderer.dispose();
+    viewer.renderer.forceContextLoss();
+    viewer.set_3d_pane_size = () => {};
+    this.viewer = this.body = null;
+    live.delete(this);
+    this.div.replaceChildren(still);
+  }
 
-  const hasWebGL = () => {
-    const context = document.createElement("canvas").getContext("webgl");
-    context?.getExtension("WEBGL_lose_context")?.loseContext();
-    return Boolean(context);
-  };
+  /* The page has done with it. */
+  end() {
+    if (this.viewer) this.stop();
+    views.delete(this.div);
+  }
 
-  class View {
-    constructor(div) {
-      this.div = div;
-      this.words = [...div.children]; // they stand here until the picture does
-      this.messages = [];
-      this.settings = {}; // what the scene says beside meshcat's commands, by name
-      this.turned = this.raised = 0; // degrees
-      this.wanted = Infinity; // s: a movement is first shown at its end
-      this.listeners = [];
-      views.set(div, this);
-      new IntersectionObserver((entries) => entries.at(-1).isIntersecting && this.awake(), {
-        rootMargin: "200px",
-      }).observe(div);
-      (self.requestIdleCallback ?? setTimeout)(load); // paper shows what was never in sight
-      new ResizeObserver(() => this.viewer && (this.viewer.set_3d_pane_size(), this.look())).observe(div);
-    }
+  show(messages) {
+    this.messages = messages;
+    const next = new Map(messages.map((message) => message.split("|")));
+    const pairs = [...next].filter(([key]) => !key.includes(" "));
+    const { anatomy, ...settings } = Object.fromEntries(pairs.map(([key, data]) => [key, JSON.parse(data)]));
+    this.settings = settings;
+    if (anatomy) this.anatomy = new Anatomy(anatomy); // the page's Python does not tell it again
+    if (this.viewer) this.send(next);
+    const { motion } = this.settings;
+    if (motion) this.body?.draw(motion.q.map((q, i) => this.anatomy.wrist(q, motion.turn[i])));
+    this.at(this.wanted);
+    if (this.viewer) this.look();
+  }
 
-    /* Come to life, unless the browser cannot: then the words in the div stay, and say why. */
-    async awake() {
-      await load();
-      live.delete(this);
-      if (!bones) return this.flat("The files of the 3-D picture did not come: load the page again.");
-      if (!this.viewer && !hasWebGL()) return this.flat(NO_WEBGL);
-      try {
-        if (!this.viewer) this.start();
-      } catch (error) {
-        console.error(error); // it may also be a fault of ours
-        return this.flat(NO_WEBGL);
+  send(next) {
+    for (const key of [...this.sent.keys()])
+      if (!next.has(key) && this.sent.has(key)) this.forget(key.split(" ")[1]);
+    for (const [key, data] of next)
+      if (key.includes(" ") && this.sent.get(key) !== data) {
+        this.viewer.handle_command_bytearray(Uint8Array.from(atob(data), (c) => c.charCodeAt(0)));
+        this.sent.set(key, data);
       }
-      live.add(this);
-      if (live.size > MOST_LIVE) [...live][0].stop();
-    }
+    this.body ??= this.makeBody();
+  }
 
-    flat(why) {
-      const note = Object.assign(document.createElement("p"), { className: "vmc-note", textContent: why });
-      this.viewer = this.body = null;
-      live.delete(this);
-      this.div.classList.add("vmc-flat");
-      this.div.replaceChildren(...this.words, note);
-    }
+  /* What moves in the viewer, if anything does; another arm than arm26 has its own. */
+  makeBody() {
+    return this.anatomy && new Body(this.viewer, this.anatomy, bones);
+  }
 
-    start() {
-      this.div.classList.remove("vmc-flat");
-      const canvas = document.createElement("div");
-      canvas.className = "vmc-canvas";
-      this.div.replaceChildren(canvas);
-      const viewer = new self.MeshCat.Viewer(canvas, false);
-      viewer.gui.domElement.remove();
-      viewer.set_3d_pane_size = function () {
-        const { clientWidth: w, clientHeight: h } = canvas;
-        if (w && h) Object.getPrototypeOf(viewer).set_3d_pane_size.call(viewer, w, h);
-      };
-      viewer.handle_command = function (command) {
-        const { type, property = "" } = command;
-        if (COMMANDS.has(type) && !/proto|constructor/.test(property)) Object.getPrototypeOf(viewer).handle_command.call(viewer, command);
-      };
-      for (const part of ["Grid", "Axes"]) viewer.set_property([part], "visible", false);
-      viewer.hide_background();
-      // the book's axes: x forward, y up, z right
-      viewer.set_transform(["meshcat"], [1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1]);
-      viewer.camera.fov = 35;
-      viewer.controls.enabled = false; // the view turns itself: by hand, and by its slider
-      this.viewer = viewer;
-      this.sent = new Map();
-      this.body = null;
-      viewer.set_3d_pane_size();
-      const { posed } = this; // what others posed it to outlives the viewer
-      this.show(this.messages);
-      if (posed) this.pose(posed);
-      this.onstart?.();
-      vmcScenePointer(this, canvas);
-      const { domElement } = viewer.renderer;
-      domElement.addEventListener("webglcontextlost", () => this.viewer === viewer
-        && this.flat("The browser has taken the 3-D picture away: scroll on and back, or load the page again."));
-      domElement.addEventListener("webglcontextrestored", () => this.viewer ?? this.awake());
-      const draw = () => {
-        if (this.viewer !== viewer) return;
-        if (viewer.needs_render) viewer.render();
-        requestAnimationFrame(draw);
-      };
-      draw();
-    }
-
-    /* Give the WebGL context back and leave a still of the last view. */
-    stop() {
-      const { viewer } = this;
-      const still = new Image();
-      still.src = viewer.capture_image();
-      still.alt = "";
-      viewer.controls.dispose();
-      viewer.renderer.dispose();
-      viewer.renderer.forceContextLoss();
-      viewer.set_3d_pane_size = () => {};
-      this.viewer = this.body = null;
-      live.delete(this);
-      this.div.replaceChildren(still);
-    }
-
-    /* The page has done with it. */
-    end() {
-      if (this.viewer) this.stop();
-      views.delete(this.div);
-    }
-
-    show(messages) {
-      this.messages = messages;
-      const next = new Map(messages.map((message) => message.split("|")));
-      const pairs = [...next].filter(([key]) => !key.includes(" "));
-      const { anatomy, ...settings } = Object.fromEntries(pairs.map(([key, data]) => [key, JSON.parse(data)]));
-      this.settings = settings;
-      if (anatomy) this.anatomy = new vmcAnatomy.Anatomy(anatomy); // the page's Python does not tell it again
-      if (this.viewer) this.send(next);
-      const { motion } = this.settings;
-      if (motion) this.body?.draw(motion.q.map((q, i) => this.anatomy.wrist(q, motion.turn[i])));
-      this.at(this.wanted);
-      if (this.viewer) this.look();
-    }
-
-    send(next) {
-      for (const key of [...this.sent.keys()])
-        if (!next.has(key) && this.sent.has(key)) this.forget(key.split(" ")[1]);
-      for (const [key, data] of next)
-        if (key.includes(" ") && this.sent.get(key) !== data) {
-          this.viewer.handle_command_bytearray(Uint8Array.from(atob(data), (c) => c.charCodeAt(0)));
-          this.sent.set(key, data);
-        }
-      this.body ??= this.makeBody();
-    }
-
-    /* What moves in the viewer, if anything does; another arm than arm26 has its own. */
-    makeBody() {
-      return this.anatomy && new vmcBody.Body(this.viewer, this.anatomy, bones);
-    }
-
-    /* Take away everything at and under `path`; what is still wanted is then sent again. */
-    forget(path) {
-      this.viewer.handle_command({ type: "delete", path });
-      for (const key of [...this.sent.keys()]) {
-        const other = key.split(" ")[1];
-        if (other === path || other.startsWith(`${path}/`)) this.sent.delete(key);
-      }
-    }
-
-    /* How long the scene's movement takes, in s. */
-    get duration() {
-      return this.settings.motion ? (this.settings.motion.q.length - 1) * this.anatomy.every : 0;
-    }
-
-    /* Show the scene as it is at a time of its movement, between two moments a mixture. */
-    at(time) {
-      this.wanted = time;
-      this.time = Math.min(time, this.duration);
-      const { motion } = this.settings;
-      if (motion) this.pose(vmcAnatomy.moment(motion, this.time / this.anatomy.every));
-    }
-
-    /* Put the arm into a pose { q, activation, turn, grasp }; listeners are called. */
-    pose(pose) {
-      this.posed = pose;
-      this.body?.pose(pose, this.time / this.anatomy?.every);
-      this.listeners.forEach((listen) => listen(pose));
-    }
-
-    /* Walk around the scene and above it, in degrees from where its author stands. */
-    turn(turned, raised = this.raised) {
-      Object.assign(this, { turned, raised });
-      if (this.viewer) this.look();
-      this.listeners.forEach((listen) => listen(this.posed));
-    }
-
-    look() {
-      const [eye, at] = this.settings.camera ?? [[0, 0, 1], [0, 0, 0]];
-      const { camera, controls } = this.viewer;
-      const [x, y, z] = eye.map((e, i) => e - at[i]);
-      const level = Math.hypot(x, z);
-      const azimuth = Math.atan2(x, z) + (this.turned * Math.PI) / 180;
-      const wanted = Math.atan2(y, level) + (this.raised * Math.PI) / 180;
-      const up = Math.min(Math.max(wanted, 0.09), 1.4); // never from below the table
-      const far = Math.hypot(level, y) * Math.max(1, WIDE / camera.aspect);
-      const flat = far * Math.cos(up);
-      controls.target.set(...at);
-      camera.position.set(
-        at[0] + flat * Math.sin(azimuth), at[1] + far * Math.sin(up), at[2] + flat * Math.cos(azimuth));
-      this.viewer.render();
+  /* Take away everything at and under `path`; what is still wanted is then sent again. */
+  forget(path) {
+    this.viewer.handle_command({ type: "delete", path });
+    for (const key of [...this.sent.keys()]) {
+      const other = key.split(" ")[1];
+      if (other === path || other.startsWith(`${path}/`)) this.sent.delete(key);
     }
   }
 
-  /* On paper every scene is a still of its present state. */
-  addEventListener("beforeprint", () => {
-    if (!self.MeshCat || !hasWebGL()) return;
-    for (const view of views.values()) {
-      if (!view.viewer) view.start();
-      view.stop();
-    }
-  });
-  addEventListener("afterprint", () => [...views.values()].slice(0, MOST_LIVE).forEach((v) => v.awake()));
+  /* How long the scene's movement takes, in s. */
+  get duration() {
+    return this.settings.motion ? (this.settings.motion.q.length - 1) * this.anatomy.every : 0;
+  }
 
-  return (div) => views.get(div) ?? new View(div);
-})();
+  /* Show the scene as it is at a time of its movement, between two moments a mixture. */
+  at(time) {
+    this.wanted = time;
+    this.time = Math.min(time, this.duration);
+    const { motion } = this.settings;
+    if (motion) this.pose(moment(motion, this.time / this.anatomy.every));
+  }
+
+  /* Put the arm into a pose { q, activation, turn, grasp }; listeners are called. */
+  pose(pose) {
+    this.posed = pose;
+    this.body?.pose(pose, this.time / this.anatomy?.every);
+    this.listeners.forEach((listen) => listen(pose));
+  }
+
+  /* Walk around the scene and above it, in degrees from where its author stands. */
+  turn(turned, raised = this.raised) {
+    Object.assign(this, { turned, raised });
+    if (this.viewer) this.look();
+    this.listeners.forEach((listen) => listen(this.posed));
+  }
+
+  look() {
+    const [eye, at] = this.settings.camera ?? [[0, 0, 1], [0, 0, 0]];
+    const { camera, controls } = this.viewer;
+    const [x, y, z] = eye.map((e, i) => e - at[i]);
+    const level = Math.hypot(x, z);
+    const azimuth = Math.atan2(x, z) + (this.turned * Math.PI) / 180;
+    const wanted = Math.atan2(y, level) + (this.raised * Math.PI) / 180;
+    const up = Math.min(Math.max(wanted, 0.09), 1.4); // never from below the table
+    const far = Math.hypot(level, y) * Math.max(1, WIDE / camera.aspect);
+    const flat = far * Math.cos(up);
+    controls.target.set(...at);
+    camera.position.set(
+      at[0] + flat * Math.sin(azimuth), at[1] + far * Math.sin(up), at[2] + flat * Math.cos(azimuth));
+    this.viewer.render();
+  }
+}
+
+/* On paper every scene is a still of its present state. */
+addEventListener("beforeprint", () => {
+  if (!self.MeshCat || !hasWebGL()) return;
+  for (const view of views.values()) {
+    if (!view.viewer) view.start();
+    view.stop();
+  }
+});
+addEventListener("afterprint", () => [...views.values()].slice(0, MOST_LIVE).forEach((v) => v.awake()));
+
+export const viewOf = (div) => views.get(div) ?? new View(div);

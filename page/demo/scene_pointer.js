@@ -1,8 +1,6 @@
 /* A mouse or a finger on a scene: dragging turns it, pointing at a muscle names it. Fingers that move
    up or down scroll the page. */
-const vmcScenePointer = (view, canvas) => {
-  "use strict";
-
+export const addPointer = (view, canvas) => {
   const tip = document.createElement("span");
   tip.className = "vmc-tip";
   canvas.append(tip);

@@ -1,15 +1,15 @@
 /* The reader's own photo, made small before it travels: the channel to a kernel carries a few MB. */
-const vmcUpload = (box, _, ask) => {
-  "use strict";
+import { drawScaled, PIXELS_HIDDEN, takePictures } from "../canvas.js";
 
+export const start = (box, ask) => {
   const LARGEST = 1200; // pixels, of the longer side: the eye keeps half of them
   const [say, view, input] = ["[role=status]", ".vmc-picture", "input"].map((name) => box.querySelector(name));
   const tell = (words) => ([say.textContent, view.innerHTML] = [words, ""]);
 
-  vmcOwnPictures(box, input, async (picture, { name }) => {
+  takePictures(box, input, async (picture, { name }) => {
     const scale = Math.min(1, LARGEST / Math.max(picture.width, picture.height)), canvas = document.createElement("canvas");
     tell(`Looking at ${name} …`);
-    if (!vmcDrawScaled(picture, scale, canvas)) return tell(vmcPixelsHidden);
+    if (!drawScaled(picture, scale, canvas)) return tell(PIXELS_HIDDEN);
     const drawn = await ask("photo", canvas.toDataURL("image/jpeg", 0.92));
     tell(`${name}: ${drawn.error ?? "seen."}`);
     if (!drawn.error) view.innerHTML = drawn;

@@ -1,6 +1,6 @@
 """One script of all that the page's eye has learnt: the shipped arrays and settings, packed.
 
-The build writes it, and a page loads it when its reader first gives a photo: `vmcEye.unpack` makes
+The build writes it, and a page loads it when its reader first gives a photo: `unpack` makes
 of it what `brain` returns, arrays as typed arrays.
 """
 
@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from eye_in_page.localiser import localiser
+from page.eye.localiser import localiser
 from vmc_lib import box_selection, camera, data, photos
 from vmc_lib.loop import high_recall_detector
 from vmc_lib.show.packed import pack_bytes
@@ -103,7 +103,7 @@ def lab_grid():
 
 @cache
 def script():
-    """The script's text: it defines `vmcEye.packed`, arrays one behind another, gzip in base64."""
+    """The script's text: it defines `self.vmcBrain`, arrays one behind another, gzip in base64."""
     stored = bytearray()
 
     def store(array):
@@ -114,7 +114,7 @@ def script():
 
     tree = json.dumps(brain(), default=store)
     arrays = pack_bytes(bytes(stored))
-    return f"vmcEye.packed = {json.dumps({'tree': tree, 'arrays': arrays})};\n"
+    return f"self.vmcBrain = {json.dumps({'tree': tree, 'arrays': arrays})};\n"
 
 
 def inputs():

@@ -1,34 +1,28 @@
 /* A pinhole camera: projection, and back-projection of pixels onto a horizontal plane (vmc_lib/camera.py). */
-Object.assign(vmcEye, (() => {
-  "use strict";
+import { dot, minus, plus, times } from "../vectors.js";
 
-  const { dot, minus, plus, times } = vmcVectors;
+/* The pixel at which a point of the room appears. */
+export const project = ({ focal, centre, rotation, position }, point) => {
+  const [x, y, z] = rotation.map((axis) => dot(axis, minus(point, position)));
+  return plus(centre, times(focal / Math.max(z, 1e-6), [x, y]));
+};
 
-  /* The pixel at which a point of the room appears. */
-  const project = ({ focal, centre, rotation, position }, point) => {
-    const [x, y, z] = rotation.map((axis) => dot(axis, minus(point, position)));
-    return plus(centre, times(focal / Math.max(z, 1e-6), [x, y]));
-  };
+/* The ray through a pixel, its depth 1, and the depth at which it meets a height. */
+const sightLine = ({ focal, centre, rotation, position }, pixel, height) => {
+  const [x, y] = times(1 / focal, minus(pixel, centre));
+  const ray = rotation[0].map((_, k) => dot([x, y, 1], rotation.map((axis) => axis[k])));
+  return { ray, depth: (height - position[1]) / ray[1] };
+};
 
-  /* The ray through a pixel, its depth 1, and the depth at which it meets a height. */
-  const sightLine = ({ focal, centre, rotation, position }, pixel, height) => {
-    const [x, y] = times(1 / focal, minus(pixel, centre));
-    const ray = rotation[0].map((_, k) => dot([x, y, 1], rotation.map((axis) => axis[k])));
-    return { ray, depth: (height - position[1]) / ray[1] };
-  };
+/* Where the ray through a pixel meets a height. */
+export const backProject = (camera, pixel, height) => {
+  const { ray, depth } = sightLine(camera, pixel, height);
+  return plus(camera.position, times(depth, ray));
+};
 
-  /* Where the ray through a pixel meets a height. */
-  const backProject = (camera, pixel, height) => {
-    const { ray, depth } = sightLine(camera, pixel, height);
-    return plus(camera.position, times(depth, ray));
-  };
-
-  /* The physical size of what fills a box, if it stands on the table: the root of its area; beyond the horizon
-     Infinity. */
-  const physicalSize = (camera, [x0, y0, x1, y1], table) => {
-    const { depth } = sightLine(camera, [(x0 + x1) / 2, y1], table); // of its foot
-    return depth > 0 ? (Math.sqrt((x1 - x0) * (y1 - y0)) * depth) / camera.focal : Infinity;
-  };
-
-  return { backProject, physicalSize, project };
-})());
+/* The physical size of what fills a box, if it stands on the table: the root of its area; beyond the horizon
+   Infinity. */
+export const physicalSize = (camera, [x0, y0, x1, y1], table) => {
+  const { depth } = sightLine(camera, [(x0 + x1) / 2, y1], table); // of its foot
+  return depth > 0 ? (Math.sqrt((x1 - x0) * (y1 - y0)) * depth) / camera.focal : Infinity;
+};

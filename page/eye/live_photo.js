@@ -1,136 +1,140 @@
 /* The reader's own camera, live: the stream follows a shuttlecock from frame to frame, and wherever it comes to rest
    the arm reaches for it (book/figures/your_photo.py). */
-const vmcLivePhoto = (() => {
-  "use strict";
+import { frame } from "../arm/live.js";
+import { letterbox } from "../canvas.js";
+import { minus } from "../vectors.js";
+import { follow } from "./follow.js";
+import { paintOver, readSheet, sheetOutline } from "./marker_sheet.js";
+import * as words from "./photo_words.js";
+import { inPieces } from "./pieces.js";
+import { see } from "./see.js";
+import { unpack } from "./unpack.js";
+import { EYE, YourPhoto } from "./your_photo.js";
 
-  const { frame } = vmcLive;
-  const { EYE, YourPhoto } = vmcYourPhoto;
-  const { capital, where } = vmcPhotoWords;
+const STILL = 700; // ms in one place, after which the arm reaches
+const NEAR = 0.01, MOVED = 0.02; // m: what is still one place, and what is another
+const CAMERA = { video: { facingMode: "environment", width: { ideal: 1200 }, height: { ideal: 800 } } };
+const REFUSED = { NotAllowedError: "that was not allowed", NotFoundError: "there is none" };
 
-  const STILL = 700; // ms in one place, after which the arm reaches
-  const NEAR = 0.01, MOVED = 0.02; // m: what is still one place, and what is another
-  const CAMERA = { video: { facingMode: "environment", width: { ideal: 1200 }, height: { ideal: 800 } } };
-  const REFUSED = { NotAllowedError: "that was not allowed", NotFoundError: "there is none" };
+const distance = (a, b) => Math.hypot(...minus(a, b));
 
-  const distance = (a, b) => Math.hypot(...vmcVectors.minus(a, b));
-
-  /* A function that promises a picture of what a video shows. Its pixels are copied, where the browser can: of each
-     frame that is drawn Chromium keeps a copy of its own, up to 512 MB. */
-  const snapshots = (video) => {
-    const { width, height } = video, canvas = Object.assign(document.createElement("canvas"), { width, height });
-    const context = canvas.getContext("2d", { willReadFrequently: true }), pixels = context.createImageData(width, height);
-    const copy = async () => {
-      const frame = new VideoFrame(video), rect = { x: 0, y: 0, width, height };
-      await frame.copyTo(pixels.data, { format: "RGBA", rect }).finally(() => frame.close());
-      context.putImageData(pixels, 0, 0);
-      return canvas;
-    };
-    return () => copy().catch(() => video);
+/* A function that promises a picture of what a video shows. Its pixels are copied, where the browser can: of each
+   frame that is drawn Chromium keeps a copy of its own, up to 512 MB. */
+const snapshots = (video) => {
+  const { width, height } = video, canvas = Object.assign(document.createElement("canvas"), { width, height });
+  const context = canvas.getContext("2d", { willReadFrequently: true }), pixels = context.createImageData(width, height);
+  const copy = async () => {
+    const frame = new VideoFrame(video), rect = { x: 0, y: 0, width, height };
+    await frame.copyTo(pixels.data, { format: "RGBA", rect }).finally(() => frame.close());
+    context.putImageData(pixels, 0, 0);
+    return canvas;
   };
+  return () => copy().catch(() => video);
+};
 
-  class LivePhoto extends YourPhoto {
-    constructor(box) {
-      super(box);
-      const { live } = this.form.elements;
-      live.hidden = !navigator.mediaDevices?.getUserMedia; // on a page from an insecure host, say
-      live.addEventListener("click", () => (this.film ? this.stopFilm() : this.startFilm()));
-      document.addEventListener("visibilitychange", () => document.hidden && this.stopFilm());
-    }
+class LivePhoto extends YourPhoto {
+  constructor(box) {
+    super(box);
+    const { live } = this.form.elements;
+    live.hidden = !navigator.mediaDevices?.getUserMedia; // on a page from an insecure host, say
+    live.addEventListener("click", () => (this.film ? this.stopFilm() : this.startFilm()));
+    document.addEventListener("visibilitychange", () => document.hidden && this.stopFilm());
+  }
 
-    look(picture) {
+  look(picture) {
+    this.stopFilm();
+    return super.look(picture);
+  }
+
+  async startFilm() {
+    const { live } = this.form.elements, video = Object.assign(document.createElement("video"), { muted: true, playsInline: true });
+    live.disabled = true;
+    try {
+      const film = (video.srcObject = this.film = await navigator.mediaDevices.getUserMedia(CAMERA));
+      await video.play();
+      live.disabled = false;
+      if (this.film !== film) return; // the reader has chosen a photo, or left the page
+      this.turn = {}; // what a photo led to, ends
+      this.forget();
+      live.textContent = "Stop";
+      this.say("Opening the eye …");
+      this.brain = await unpack();
+      await this.followFilm(Object.assign(video, { width: video.videoWidth, height: video.videoHeight }), film);
+    } catch (error) {
       this.stopFilm();
-      return super.look(picture);
-    }
-
-    async startFilm() {
-      const { live } = this.form.elements, video = Object.assign(document.createElement("video"), { muted: true, playsInline: true });
-      live.disabled = true;
-      try {
-        const film = (video.srcObject = this.film = await navigator.mediaDevices.getUserMedia(CAMERA));
-        await video.play();
-        live.disabled = false;
-        if (this.film !== film) return; // the reader has chosen a photo, or left the page
-        this.turn = {}; // what a photo led to, ends
-        this.forget();
-        live.textContent = "Stop";
-        this.say("Opening the eye …");
-        this.brain = await vmcEye.unpack();
-        await this.followFilm(Object.assign(video, { width: video.videoWidth, height: video.videoHeight }), film);
-      } catch (error) {
-        this.stopFilm();
-        live.disabled = false;
-        this.say(`The camera does not serve: ${REFUSED[error.name] ?? error.message}. A photo will do.`);
-      }
-    }
-
-    stopFilm() {
-      this.film?.getTracks().forEach((track) => track.stop());
-      this.film = null;
-      this.form.elements.live.textContent = "Live";
-    }
-
-    /* Frame after frame, until the film stops. */
-    async followFilm(video, film) {
-      const { sheet } = this.given, snapshot = snapshots(video);
-      Object.assign(this, { aimed: null, stay: null });
-      for (let box = null, begun = performance.now(); this.film === film; await frame()) {
-        if (!film.active) throw new Error("it was unplugged, or taken by another program");
-        const eye = vmcLetterbox(await snapshot(), ...EYE);
-        const read = await vmcEye.inPieces(vmcEye.readSheet(eye, sheet, EYE)), { camera } = read;
-        this.bare = camera ? vmcEye.paintOver(eye, vmcEye.sheetOutline(camera, sheet)) : eye;
-        const found = box && camera && (await vmcEye.inPieces(vmcEye.follow(this.brain, this.bare, box, camera)));
-        if (this.film !== film) return;
-        this.photo.showFrame(eye);
-        this.drawSheet(read);
-        if (!camera) this.say(vmcPhotoWords.need(read, sheet));
-        else if (found) this.arriveAt((box = found));
-        else box = await this.search(film);
-        this.tell({ followed: `${(-1000 / (begun - (begun = performance.now()))).toFixed(0)} frames/s` });
-      }
-    }
-
-    /* The box of a shuttlecock, wherever it is; or null. */
-    async search(film) {
-      this.say("Looking for a shuttlecock …");
-      const report = (stage, found) => this.film === film && stage !== "sight" && this[`show${capital(stage)}`](found);
-      const sight = await vmcEye.see(this.brain, this.bare, { camera: this.camera, report });
-      if (this.film === film) this.tell({ found: vmcPhotoWords.found(sight) });
-      return sight.box;
-    }
-
-    /* A shuttlecock is in a box of this frame: its place is shown while it moves; when it rests, the arm reaches. */
-    arriveAt(box) {
-      const now = performance.now();
-      Object.assign(this, { boxes: [box], marks: [{ box, colour: "green" }] });
-      this.photo.drawBoxes(this.marks, 0);
-      let place;
-      try {
-        place = this.locate(0);
-      } catch (error) {
-        if (!(error instanceof RangeError)) throw error;
-        return this.say(vmcPhotoWords.outOfReach(this.camera));
-      }
-      if (!(distance(place, this.stay?.place ?? place) < NEAR)) this.stay = null;
-      this.stay ??= { place, since: now };
-      if (this.aimed && distance(place, this.aimed) < MOVED) return;
-      if (this.aimed) this.forgetReach();
-      Object.assign(this, { turn: {}, aimed: null, place });
-      this.tell({ place: where(place) });
-      this.rest();
-      if (now - this.stay.since < STILL) return;
-      this.aimed = place;
-      this.choose(0).catch((error) => this.say(`The arm stopped: ${error.message ?? error}.`));
+      live.disabled = false;
+      this.say(`The camera does not serve: ${REFUSED[error.name] ?? error.message}. A photo will do.`);
     }
   }
 
-  const start = (box) => {
-    const photo = new LivePhoto(box);
-    return () => {
-      photo.turn = null; // what runs, ends
-      photo.stopFilm();
-      photo.drawing.view.end();
-    };
+  stopFilm() {
+    this.film?.getTracks().forEach((track) => track.stop());
+    this.film = null;
+    this.form.elements.live.textContent = "Live";
+  }
+
+  /* Frame after frame, until the film stops. */
+  async followFilm(video, film) {
+    const { sheet } = this.given, snapshot = snapshots(video);
+    Object.assign(this, { aimed: null, stay: null });
+    for (let box = null, begun = performance.now(); this.film === film; await frame()) {
+      if (!film.active) throw new Error("it was unplugged, or taken by another program");
+      const eye = letterbox(await snapshot(), ...EYE);
+      const read = await inPieces(readSheet(eye, sheet, EYE)), { camera } = read;
+      this.bare = camera ? paintOver(eye, sheetOutline(camera, sheet)) : eye;
+      const found = box && camera && (await inPieces(follow(this.brain, this.bare, box, camera)));
+      if (this.film !== film) return;
+      this.photo.showFrame(eye);
+      this.drawSheet(read);
+      if (!camera) this.say(words.need(read, sheet));
+      else if (found) this.arriveAt((box = found));
+      else box = await this.search(film);
+      this.tell({ followed: `${(-1000 / (begun - (begun = performance.now()))).toFixed(0)} frames/s` });
+    }
+  }
+
+  /* The box of a shuttlecock, wherever it is; or null. */
+  async search(film) {
+    this.say("Looking for a shuttlecock …");
+    const report = (stage, found) => this.film === film && stage !== "sight" && this[`show${words.capital(stage)}`](found);
+    const sight = await see(this.brain, this.bare, { camera: this.camera, report });
+    if (this.film === film) this.tell({ found: words.found(sight) });
+    return sight.box;
+  }
+
+  /* A shuttlecock is in a box of this frame: its place is shown while it moves; when it rests, the arm reaches. */
+  arriveAt(box) {
+    const now = performance.now();
+    Object.assign(this, { boxes: [box], marks: [{ box, colour: "green" }] });
+    this.photo.drawBoxes(this.marks, 0);
+    let place;
+    try {
+      place = this.locate(0);
+    } catch (error) {
+      if (!(error instanceof RangeError)) throw error;
+      return this.say(words.outOfReach(this.camera));
+    }
+    if (!(distance(place, this.stay?.place ?? place) < NEAR)) this.stay = null;
+    this.stay ??= { place, since: now };
+    if (this.aimed && distance(place, this.aimed) < MOVED) return;
+    if (this.aimed) this.forgetReach();
+    Object.assign(this, { turn: {}, aimed: null, place });
+    this.tell({ place: words.where(place) });
+    this.rest();
+    if (now - this.stay.since < STILL) return;
+    this.aimed = place;
+    this.choose(0).catch((error) => this.say(`The arm stopped: ${error.message ?? error}.`));
+  }
+}
+
+export const start = (box) => {
+  const photo = new LivePhoto(box);
+  return () => {
+    photo.turn = null; // what runs, ends
+    photo.stopFilm();
+    photo.drawing.view.end();
   };
-  if (!self.vmcKernel) document.querySelectorAll(".vmc-eye").forEach(start); // a kernel starts its own
-  return start;
-})();
+};
+
+/* In the page every photo starts by itself. */
+export const startAll = () => document.querySelectorAll(".vmc-eye").forEach(start);

@@ -18,7 +18,7 @@ LARGEST = 127  # of 8 bits with a sign
 
 @cache
 def localiser():
-    """What `vmcEye.locate` needs of the `Localiser` of `VisuomotorModel.load("real")`."""
+    """What `locate` needs of the `Localiser` of `VisuomotorModel.load("real")`."""
     learnt = Localiser.load(PHOTOGRAPHS_AS)
     middle = learnt.support.mean(axis=0)
     x = learnt.support - middle

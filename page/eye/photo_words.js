@@ -1,54 +1,50 @@
 /* What the page says of a photo: what was found in it, what the arm needs, how well it reached. */
-const vmcPhotoWords = (() => {
-  "use strict";
+import { millimetres } from "../arm/live.js";
+import { counted } from "./see.js";
+import { fromBeyond } from "./marker_sheet.js";
 
-  const { counted } = vmcEye, { millimetres } = vmcLive;
+const AGAIN = "Another photo may do: from nearer, in even light.";
+const POINT = "Point at a box, and the arm reaches for what is in it.";
+const SCALE = " Is a shuttlecock there? Then measure the sheet’s line: if it is not 100 mm long, sizes and places are wrong.";
 
-  const AGAIN = "Another photo may do: from nearer, in even light.";
-  const POINT = "Point at a box, and the arm reaches for what is in it.";
-  const SCALE = " Is a shuttlecock there? Then measure the sheet’s line: if it is not 100 mm long, sizes and places are wrong.";
+export const capital = (words) => words[0].toUpperCase() + words.slice(1);
 
-  const capital = (words) => words[0].toUpperCase() + words.slice(1);
+/* What was found. */
+export const found = ({ summary }) => `${capital(summary)}.`;
 
-  /* What was found. */
-  const found = ({ summary }) => `${capital(summary)}.`;
+/* A sheet that is seen from its far side may lie upside down. */
+const upsideDown = (camera) => (fromBeyond(camera) ? " Does the sheet’s arrow point away from you?" : "");
 
-  /* A sheet that is seen from its far side may lie upside down. */
-  const upsideDown = (camera) => (vmcEye.fromBeyond(camera) ? " Does the sheet’s arrow point away from you?" : "");
+export const outOfReach = (camera) =>
+  `Out of reach: the hand can be where it is shaded. Lay it there, or point at another box.${upsideDown(camera)}`;
 
-  const outOfReach = (camera) =>
-    `Out of reach: the hand can be where it is shaded. Lay it there, or point at another box.${upsideDown(camera)}`;
+/* The camera of a sheet that was read, above the table. */
+export const camera = ({ markers, camera, why }, { fewest, first }) => {
+  const seen = counted(markers.length, "marker");
+  if (camera) return `${(100 * (camera.position[1] - first[1])).toFixed(0)} cm above the table (${seen})`;
+  return `unknown: ${seen} seen${why ? "" : `, ${fewest} needed`}`;
+};
 
-  /* The camera of a sheet that was read, above the table. */
-  const camera = ({ markers, camera, why }, { fewest, first }) => {
-    const seen = counted(markers.length, "marker");
-    if (camera) return `${(100 * (camera.position[1] - first[1])).toFixed(0)} cm above the table (${seen})`;
-    return `unknown: ${seen} seen${why ? "" : `, ${fewest} needed`}`;
-  };
+/* What the arm needs, where a sheet that was read gave no camera. */
+export const need = ({ markers: { length }, why }, { fewest }) =>
+  why ? `${capital(why)}. Then the arm can reach.`
+    : "To reach, the arm needs the printed sheet: lay it flat on the table, all of it in the photo, in even light. " +
+      `${length} of its markers ${length === 1 ? "is" : "are"} seen, ${fewest} are needed.`;
 
-  /* What the arm needs, where a sheet that was read gave no camera. */
-  const need = ({ markers: { length }, why }, { fewest }) =>
-    why ? `${capital(why)}. Then the arm can reach.`
-      : "To reach, the arm needs the printed sheet: lay it flat on the table, all of it in the photo, in even light. " +
-        `${length} of its markers ${length === 1 ? "is" : "are"} seen, ${fewest} are needed.`;
+/* What the reader may do next, with so many boxes to choose from. */
+export const next = ({ box, boxes }, count, read, sheet) => {
+  if (!count || (!boxes.length && !read.camera)) return AGAIN;
+  return read.camera ? POINT + (box ? "" : SCALE) : need(read, sheet);
+};
 
-  /* What the reader may do next, with so many boxes to choose from. */
-  const next = ({ box, boxes }, count, read, sheet) => {
-    if (!count || (!boxes.length && !read.camera)) return AGAIN;
-    return read.camera ? POINT + (box ? "" : SCALE) : need(read, sheet);
-  };
+/* How far a hand ended from the place that was seen, and how far off such places are: in half, in nine of ten. */
+export const end = (calibrated, planned, [half, most], camera) =>
+  `After trying off-line the hand misses the place seen by ${millimetres(calibrated, 1)}; it began from ` +
+  `${millimetres(planned, 1)}. In half of our test photos that place is right to ${millimetres(half)}, ` +
+  `in nine of ten to ${millimetres(most)}.${upsideDown(camera)}`;
 
-  /* How far a hand ended from the place that was seen, and how far off such places are: in half, in nine of ten. */
-  const end = (calibrated, planned, [half, most], camera) =>
-    `After trying off-line the hand misses the place seen by ${millimetres(calibrated, 1)}; it began from ` +
-    `${millimetres(planned, 1)}. In half of our test photos that place is right to ${millimetres(half)}, ` +
-    `in nine of ten to ${millimetres(most)}.${upsideDown(camera)}`;
-
-  /* A place. */
-  const where = ([ahead, , right]) => {
-    const [far, aside] = [ahead, right].map((x) => `${(100 * Math.abs(x)).toFixed(0)} cm`);
-    return `${far} ${ahead > 0 ? "ahead" : "behind"}, ${aside} ${right > 0 ? "right" : "left"}`;
-  };
-
-  return { camera, capital, end, found, need, next, outOfReach, where };
-})();
+/* A place. */
+export const where = ([ahead, , right]) => {
+  const [far, aside] = [ahead, right].map((x) => `${(100 * Math.abs(x)).toFixed(0)} cm`);
+  return `${far} ${ahead > 0 ? "ahead" : "behind"}, ${aside} ${right > 0 ? "right" : "left"}`;
+};

@@ -1,247 +1,253 @@
 /* The reader's own photo, to a reach, in the page: each stage is drawn on the photo as soon as it is known, and
    where the eye is wrong the reader may point at another box (book/figures/your_photo.py). */
-const vmcYourPhoto = (() => {
-  "use strict";
+import { toWorld, turnTowards } from "../arm/kinematics.js";
+import { frame } from "../arm/live.js";
+import * as planning from "../arm/planning.js";
+import { Reach } from "../arm/reach.js";
+import { load } from "../arm/templates.js";
+import { drawScaled, letterbox, PIXELS_HIDDEN, takePictures } from "../canvas.js";
+import { signed } from "../demo/panel.js";
+import { minus } from "../vectors.js";
+import { project } from "./camera.js";
+import { locate } from "./localiser.js";
+import { paintOver, readSheet, sheetOutline } from "./marker_sheet.js";
+import { PhotoMarks } from "./photo_marks.js";
+import * as words from "./photo_words.js";
+import { inPieces } from "./pieces.js";
+import { counted, see } from "./see.js";
+import { unpack } from "./unpack.js";
 
-  const { frame } = vmcLive;
-  const { counted } = vmcEye, { minus } = vmcVectors;
-  const { capital, where } = vmcPhotoWords;
-  const { toWorld, turnTowards } = vmcKinematics;
+export const EYE = [600, 400], LARGEST = 1200; // pixels: what the eye sees, and the longer side of what the sheet is read in
+const TURNING = 700; // ms, of the trunk
+const MANY = 8; // boxes to choose from
 
-  const EYE = [600, 400], LARGEST = 1200; // pixels: what the eye sees, and the longer side of what the sheet is read in
-  const TURNING = 700; // ms, of the trunk
-  const MANY = 8; // boxes to choose from
+class Superseded extends Error {} // the reader has chosen another photo
+const percent = (chance) => `${(100 * chance).toFixed(0)} %`;
 
-  class Superseded extends Error {} // the reader has chosen another photo
-  const percent = (chance) => `${(100 * chance).toFixed(0)} %`;
+export class YourPhoto extends Reach {
+  constructor(box) {
+    super(box);
+    const svg = box.querySelector("svg:has(image)"), ours = svg.querySelector("image").getAttribute("href");
+    this.photo = new PhotoMarks(svg, this.given);
+    const { own, example, file } = this.form.elements;
+    const take = takePictures(box, file, (picture) => this.look(picture), (why) => this.say(why));
+    own.addEventListener("click", () => file.click());
+    example.addEventListener("click", () => this.takeExample(ours));
+    this.form.addEventListener("submit", (event) => event.preventDefault());
+    addEventListener("paste", ({ clipboardData: { files } }) => files.length && take(files[0]));
+    box.addEventListener("click", ({ target }) => {
+      const chosen = target.closest("[data-box]");
+      if (chosen) this.choose(+chosen.dataset.box);
+    });
+  }
 
-  class YourPhoto extends vmcReach.Reach {
-    constructor(box) {
-      super(box);
-      const svg = box.querySelector("svg:has(image)"), ours = svg.querySelector("image").getAttribute("href");
-      this.photo = new vmcPhotoMarks.PhotoMarks(svg, this.given);
-      const { own, example, file } = this.form.elements;
-      const take = vmcOwnPictures(box, file, (picture) => this.look(picture), (why) => this.say(why));
-      own.addEventListener("click", () => file.click());
-      example.addEventListener("click", () => this.takeExample(ours));
-      this.form.addEventListener("submit", (event) => event.preventDefault());
-      addEventListener("paste", ({ clipboardData: { files } }) => files.length && take(files[0]));
-      box.addEventListener("click", ({ target }) => {
-        const chosen = target.closest("[data-box]");
-        if (chosen) this.choose(+chosen.dataset.box);
+  async takeExample(address) {
+    const picture = Object.assign(new Image(), { src: address });
+    await picture.decode();
+    return this.look(picture);
+  }
+
+  /* All stages, from a picture to the calibrated reach. */
+  async look(picture) {
+    const turn = (this.turn = {});
+    try {
+      await this.see(picture, (stage, found) => {
+        if (turn !== this.turn) throw new Superseded();
+        this[`show${words.capital(stage)}`](found);
       });
-    }
-
-    async takeExample(address) {
-      const picture = Object.assign(new Image(), { src: address });
-      await picture.decode();
-      return this.look(picture);
-    }
-
-    /* All stages, from a picture to the calibrated reach. */
-    async look(picture) {
-      const turn = (this.turn = {});
-      try {
-        await this.see(picture, (stage, found) => {
-          if (turn !== this.turn) throw new Superseded();
-          this[`show${capital(stage)}`](found);
-        });
-        if (turn === this.turn && this.sight.box) await this.choose(this.firstInReach());
-      } catch (error) {
-        if (!(error instanceof Superseded)) this.say(`The eye stopped: ${error.message ?? error}.`);
-      }
-    }
-
-    /* What the eye makes of a picture; `report` is told of each stage. */
-    async see(picture, report) {
-      const canvas = document.createElement("canvas");
-      const context = vmcDrawScaled(picture, Math.min(1, LARGEST / Math.max(picture.width, picture.height)), canvas);
-      if (!context) throw new Error(vmcPixelsHidden);
-      this.forget();
-      this.photo.show(canvas.toDataURL("image/jpeg", 0.9));
-      this.say("Looking for the sheet …");
-      await frame();
-      const large = context.getImageData(0, 0, canvas.width, canvas.height), { sheet } = this.given;
-      const read = await vmcEye.inPieces(vmcEye.readSheet(large, sheet, EYE));
-      report("sheet", read);
-      const eye = vmcLetterbox(canvas, ...EYE), { camera } = read;
-      this.bare = camera ? vmcEye.paintOver(eye, vmcEye.sheetOutline(camera, sheet)) : eye;
-      this.say("Opening the eye …");
-      await frame();
-      this.brain = await vmcEye.unpack();
-      this.say("Looking for things …");
-      await vmcEye.see(this.brain, this.bare, { camera, report });
-    }
-
-    /* Nothing is known of a new photo, */
-    forget() {
-      Object.assign(this, { read: null, camera: null, sight: null, boxes: [], bearing: 0 });
-      this.tell({ found: "", camera: "–", candidates: "–", kept: "–", followed: "–" });
-      this.box.querySelector(".vmc-boxes").hidden = true;
-      this.forgetReach();
-      this.rest();
-    }
-
-    /* or of a reach for another box. */
-    forgetReach() {
-      Object.assign(this, { place: null, plan: null, planned: null, calibrated: null });
-      this.tell({ place: "–", planned: "–", calibrated: "–" });
-      this.photo.reach.innerHTML = "";
-      this.form.elements.main.disabled = true;
-    }
-
-    showSheet(read) {
-      this.drawSheet(read);
-      this.rest();
-    }
-
-    drawSheet(read) {
-      const { camera } = read, { sheet } = this.given;
-      Object.assign(this, { read, camera });
-      if (camera) this.photo.drawSheet(vmcEye.sheetOutline(camera, sheet));
-      this.tell({ camera: vmcPhotoWords.camera(read, sheet) });
-    }
-
-    showCandidates({ boxes }) {
-      this.photo.drawCandidates(boxes);
-      this.tell({ candidates: counted(boxes.length, "box", "es") });
-    }
-
-    showKept({ boxes }) {
-      this.boxes = boxes;
-      this.photo.drawBoxes(boxes.map((box) => ({ box, colour: "orange" })));
-      this.tell({ kept: counted(boxes.length, "box", "es") });
-    }
-
-    showNames({ boxes, probability }) {
-      this.photo.drawBoxes(boxes.map((box, i) => ({ box, colour: probability[i] > 0.5 ? "green" : "blue" })));
-    }
-
-    /* The boxes that were looked at twice; where there are none, the reader chooses among those kept. */
-    showSight(sight) {
-      const { boxes, shuttlecocks, probability } = sight, choice = this.box.querySelector(".vmc-boxes");
-      this.sight = sight;
-      this.boxes = (boxes.length ? boxes : this.boxes).slice(0, MANY);
-      this.marks = this.boxes.map((box, i) => ({
-        box, colour: i < shuttlecocks.length ? "green" : "blue", words: boxes.length ? percent(probability[i]) : `${i + 1}`,
-      }));
-      this.photo.drawBoxes(this.marks);
-      const button = ({ words, colour }, i) =>
-        `<button type="button" data-box="${i}" aria-pressed="false" class="vmc-${colour}">${words}</button>`;
-      const asks = boxes.length ? "How surely a shuttlecock?" : "Boxes that were kept:";
-      const reaches = this.camera ? " Press one, and the arm reaches for it:" : "";
-      choice.innerHTML = `${asks}${reaches} ${this.marks.map(button).join("")}`;
-      choice.hidden = !this.boxes.length;
-      this.tell({ found: vmcPhotoWords.found(sight) });
-      this.say(vmcPhotoWords.next(sight, this.boxes.length, this.read, this.given.sheet));
-    }
-
-    /* Of the shuttlecocks the first that the arm can reach; else the first. */
-    firstInReach() {
-      const { boxes, camera, sight } = this;
-      const inReach = (_, i) => i < sight.shuttlecocks.length && this.isInReach(i);
-      return camera ? Math.max(0, boxes.findIndex(inReach)) : 0;
-    }
-
-    isInReach(number) {
-      try {
-        return Boolean(turnTowards(this.given.kinematics, this.locate(number)));
-      } catch (error) {
-        if (error instanceof RangeError) return false;
-        throw error;
-      }
-    }
-
-    /* Where what is in a box stands on the table. */
-    locate(number) {
-      return vmcEye.locate(this.brain.localiser, this.bare, this.boxes[number], this.camera);
-    }
-
-    /* Reach for what is in a box. */
-    async choose(number) {
-      this.turn = {};
-      this.forgetReach();
-      this.photo.drawBoxes(this.marks, number);
-      this.box.querySelectorAll("button[data-box]").forEach((button, i) => button.setAttribute("aria-pressed", i === number));
-      const { kinematics } = this.given;
-      if (!this.camera) return this.say(vmcPhotoWords.need(this.read, this.given.sheet));
-      try {
-        this.place = this.locate(number);
-        this.tell({ place: where(this.place) });
-        const { turn, place } = turnTowards(kinematics, this.place);
-        this.tell({ place: `${where(this.place)}; the trunk turns ${vmcPanel.signed((turn * 180) / Math.PI, 0)}°` });
-        await this.reach(place, turn);
-      } catch (error) {
-        if (!(error instanceof RangeError)) throw error;
-        this.rest();
-        this.say(vmcPhotoWords.outOfReach(this.camera));
-      }
-    }
-
-    /* Turn the trunk, plan, move, miss, calibrate, move again. */
-    async reach(target, bearing) {
-      const { turn } = this, from = this.bearing;
-      this.rest();
-      if (!(await this.awake()) || turn !== this.turn) return; // it has said why
-      Object.assign(this, { target, plan: vmcPlanning.plan(target, this.templateSet) });
-      const start = await frame();
-      for (let share = this.calm.matches ? 1 : 0; ; share = Math.min(1, ((await frame()) - start) / TURNING)) {
-        if (turn !== this.turn) return;
-        this.bearing = from + share * (bearing - from);
-        this.rest();
-        if (share === 1) break;
-      }
-      this.form.elements.main.disabled = false;
-      await this.main();
-    }
-
-    async ready() {
-      this.templateSet = await vmcTemplates.load(this.given.templateSet);
-      this.rule = "broydenCalibration";
-    }
-
-    async main() {
-      await super.main();
-      if (this.planned) await this.calibrate();
-      const { calibrated, camera, planned, given } = this;
-      if (calibrated) this.say(vmcPhotoWords.end(calibrated.error, planned.error, given.placeAccuracy, camera));
-    }
-
-    world(point) {
-      return toWorld(this.given.kinematics, point, this.bearing);
-    }
-
-    /* The arm as every reach begins, and what is known of the target. */
-    rest() {
-      const { start, rest } = this.given;
-      this.mark([]);
-      this.show({ q: start, activation: rest });
-    }
-
-    /* The line of sight, the place and the hand's way: from above, in the scene, and on the photo. */
-    mark(path) {
-      const { camera, place, planned, calibrated } = this, way = path.map((point) => this.world(point));
-      const ends = [[planned, "red"], [calibrated, "purple"]].map(([trial, colour]) => [trial && this.world(trial.hand), colour]);
-      const reached = ends.filter(([end]) => end);
-      this.drawing.balls = [place, ...ends.map(([end]) => end)];
-      this.drawing.marks = [
-        ...(camera ? [["dot", "blue", camera.position, 4]] : []),
-        ...(place ? [["line", "blue", [camera.position, place], 1.5], ["ring", "green", place, 6]] : []),
-        ["line", "orange", way, 2],
-        ...reached.map(([end, colour]) => ["dot", colour, end, 4]),
-      ];
-      if (!place) return;
-      const pixel = (point) => vmcEye.project(camera, point);
-      this.photo.drawReach(pixel(place), way.map(pixel), reached.map(([end, colour]) => [pixel(end), colour]));
-    }
-
-    show(moment, brief = false) {
-      const joints = this.arm ? this.arm.look(moment.q).joints.map((joint) => this.world(joint)) : [];
-      const { view } = this.drawing, beyond = view.anatomy && minus(this.world(view.anatomy.beyond), this.world([0, 0, 0]));
-      view.viewer?.set_transform(["meshcat", "goal"], [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, ...beyond, 1]);
-      this.drawing.show({ ...moment, turn: this.bearing, joints }, brief);
+      if (turn === this.turn && this.sight.box) await this.choose(this.firstInReach());
+    } catch (error) {
+      if (!(error instanceof Superseded)) this.say(`The eye stopped: ${error.message ?? error}.`);
     }
   }
 
-  return { EYE, YourPhoto };
-})();
+  /* What the eye makes of a picture; `report` is told of each stage. */
+  async see(picture, report) {
+    const canvas = document.createElement("canvas");
+    const context = drawScaled(picture, Math.min(1, LARGEST / Math.max(picture.width, picture.height)), canvas);
+    if (!context) throw new Error(PIXELS_HIDDEN);
+    this.forget();
+    this.photo.show(canvas.toDataURL("image/jpeg", 0.9));
+    this.say("Looking for the sheet …");
+    await frame();
+    const large = context.getImageData(0, 0, canvas.width, canvas.height), { sheet } = this.given;
+    const read = await inPieces(readSheet(large, sheet, EYE));
+    report("sheet", read);
+    const eye = letterbox(canvas, ...EYE), { camera } = read;
+    this.bare = camera ? paintOver(eye, sheetOutline(camera, sheet)) : eye;
+    this.say("Opening the eye …");
+    await frame();
+    this.brain = await unpack();
+    this.say("Looking for things …");
+    await see(this.brain, this.bare, { camera, report });
+  }
+
+  /* Nothing is known of a new photo, */
+  forget() {
+    Object.assign(this, { read: null, camera: null, sight: null, boxes: [], bearing: 0 });
+    this.tell({ found: "", camera: "–", candidates: "–", kept: "–", followed: "–" });
+    this.box.querySelector(".vmc-boxes").hidden = true;
+    this.forgetReach();
+    this.rest();
+  }
+
+  /* or of a reach for another box. */
+  forgetReach() {
+    Object.assign(this, { place: null, plan: null, planned: null, calibrated: null });
+    this.tell({ place: "–", planned: "–", calibrated: "–" });
+    this.photo.reach.innerHTML = "";
+    this.form.elements.main.disabled = true;
+  }
+
+  showSheet(read) {
+    this.drawSheet(read);
+    this.rest();
+  }
+
+  drawSheet(read) {
+    const { camera } = read, { sheet } = this.given;
+    Object.assign(this, { read, camera });
+    if (camera) this.photo.drawSheet(sheetOutline(camera, sheet));
+    this.tell({ camera: words.camera(read, sheet) });
+  }
+
+  showCandidates({ boxes }) {
+    this.photo.drawCandidates(boxes);
+    this.tell({ candidates: counted(boxes.length, "box", "es") });
+  }
+
+  showKept({ boxes }) {
+    this.boxes = boxes;
+    this.photo.drawBoxes(boxes.map((box) => ({ box, colour: "orange" })));
+    this.tell({ kept: counted(boxes.length, "box", "es") });
+  }
+
+  showNames({ boxes, probability }) {
+    this.photo.drawBoxes(boxes.map((box, i) => ({ box, colour: probability[i] > 0.5 ? "green" : "blue" })));
+  }
+
+  /* The boxes that were looked at twice; where there are none, the reader chooses among those kept. */
+  showSight(sight) {
+    const { boxes, shuttlecocks, probability } = sight, choice = this.box.querySelector(".vmc-boxes");
+    this.sight = sight;
+    this.boxes = (boxes.length ? boxes : this.boxes).slice(0, MANY);
+    this.marks = this.boxes.map((box, i) => ({
+      box, colour: i < shuttlecocks.length ? "green" : "blue", words: boxes.length ? percent(probability[i]) : `${i + 1}`,
+    }));
+    this.photo.drawBoxes(this.marks);
+    const button = ({ words, colour }, i) =>
+      `<button type="button" data-box="${i}" aria-pressed="false" class="vmc-${colour}">${words}</button>`;
+    const asks = boxes.length ? "How surely a shuttlecock?" : "Boxes that were kept:";
+    const reaches = this.camera ? " Press one, and the arm reaches for it:" : "";
+    choice.innerHTML = `${asks}${reaches} ${this.marks.map(button).join("")}`;
+    choice.hidden = !this.boxes.length;
+    this.tell({ found: words.found(sight) });
+    this.say(words.next(sight, this.boxes.length, this.read, this.given.sheet));
+  }
+
+  /* Of the shuttlecocks the first that the arm can reach; else the first. */
+  firstInReach() {
+    const { boxes, camera, sight } = this;
+    const inReach = (_, i) => i < sight.shuttlecocks.length && this.isInReach(i);
+    return camera ? Math.max(0, boxes.findIndex(inReach)) : 0;
+  }
+
+  isInReach(number) {
+    try {
+      return Boolean(turnTowards(this.given.kinematics, this.locate(number)));
+    } catch (error) {
+      if (error instanceof RangeError) return false;
+      throw error;
+    }
+  }
+
+  /* Where what is in a box stands on the table. */
+  locate(number) {
+    return locate(this.brain.localiser, this.bare, this.boxes[number], this.camera);
+  }
+
+  /* Reach for what is in a box. */
+  async choose(number) {
+    this.turn = {};
+    this.forgetReach();
+    this.photo.drawBoxes(this.marks, number);
+    this.box.querySelectorAll("button[data-box]").forEach((button, i) => button.setAttribute("aria-pressed", i === number));
+    const { kinematics } = this.given;
+    if (!this.camera) return this.say(words.need(this.read, this.given.sheet));
+    try {
+      this.place = this.locate(number);
+      this.tell({ place: words.where(this.place) });
+      const { turn, place } = turnTowards(kinematics, this.place);
+      this.tell({ place: `${words.where(this.place)}; the trunk turns ${signed((turn * 180) / Math.PI, 0)}°` });
+      await this.reach(place, turn);
+    } catch (error) {
+      if (!(error instanceof RangeError)) throw error;
+      this.rest();
+      this.say(words.outOfReach(this.camera));
+    }
+  }
+
+  /* Turn the trunk, plan, move, miss, calibrate, move again. */
+  async reach(target, bearing) {
+    const { turn } = this, from = this.bearing;
+    this.rest();
+    if (!(await this.awake()) || turn !== this.turn) return; // it has said why
+    Object.assign(this, { target, plan: planning.plan(target, this.templateSet) });
+    const start = await frame();
+    for (let share = this.calm.matches ? 1 : 0; ; share = Math.min(1, ((await frame()) - start) / TURNING)) {
+      if (turn !== this.turn) return;
+      this.bearing = from + share * (bearing - from);
+      this.rest();
+      if (share === 1) break;
+    }
+    this.form.elements.main.disabled = false;
+    await this.main();
+  }
+
+  async ready() {
+    this.templateSet = await load(this.given.templateSet);
+    this.rule = "broydenCalibration";
+  }
+
+  async main() {
+    await super.main();
+    if (this.planned) await this.calibrate();
+    const { calibrated, camera, planned, given } = this;
+    if (calibrated) this.say(words.end(calibrated.error, planned.error, given.placeAccuracy, camera));
+  }
+
+  world(point) {
+    return toWorld(this.given.kinematics, point, this.bearing);
+  }
+
+  /* The arm as every reach begins, and what is known of the target. */
+  rest() {
+    const { start, rest } = this.given;
+    this.mark([]);
+    this.show({ q: start, activation: rest });
+  }
+
+  /* The line of sight, the place and the hand's way: from above, in the scene, and on the photo. */
+  mark(path) {
+    const { camera, place, planned, calibrated } = this, way = path.map((point) => this.world(point));
+    const ends = [[planned, "red"], [calibrated, "purple"]].map(([trial, colour]) => [trial && this.world(trial.hand), colour]);
+    const reached = ends.filter(([end]) => end);
+    this.drawing.balls = [place, ...ends.map(([end]) => end)];
+    this.drawing.marks = [
+      ...(camera ? [["dot", "blue", camera.position, 4]] : []),
+      ...(place ? [["line", "blue", [camera.position, place], 1.5], ["ring", "green", place, 6]] : []),
+      ["line", "orange", way, 2],
+      ...reached.map(([end, colour]) => ["dot", colour, end, 4]),
+    ];
+    if (!place) return;
+    const pixel = (point) => project(camera, point);
+    this.photo.drawReach(pixel(place), way.map(pixel), reached.map(([end, colour]) => [pixel(end), colour]));
+  }
+
+  show(moment, brief = false) {
+    const joints = this.arm ? this.arm.look(moment.q).joints.map((joint) => this.world(joint)) : [];
+    const { view } = this.drawing, beyond = view.anatomy && minus(this.world(view.anatomy.beyond), this.world([0, 0, 0]));
+    view.viewer?.set_transform(["meshcat", "goal"], [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, ...beyond, 1]);
+    this.drawing.show({ ...moment, turn: this.bearing, joints }, brief);
+  }
+}

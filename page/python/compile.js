@@ -1,6 +1,6 @@
 /* The modules that Python in the page starts with, compiled by that Python into vendor/compiled.zip,
    and those that it draws with, into vendor/compiled-plots.zip: so that no reader's browser has to,
-   where most of its start went. node python_in_page/compile.js */
+   where most of its start went. node page/python/compile.js */
 const { readFileSync, readdirSync, writeFileSync } = require("fs");
 const { join } = require("path");
 

@@ -7,7 +7,7 @@ from io import StringIO
 
 import matplotlib as mpl
 
-from python_in_page.grader import changed, definitions
+from page.python.grader import changed, definitions
 from vmc_lib import show
 from vmc_lib.show.controls import Pad, Slider, as_control
 from vmc_lib.show.demo import draw_state, lines

@@ -1,218 +1,220 @@
 /* Exercises in which the reader writes a function: the empty one becomes a field to write in, and the
    page's Python grades it. So does a mechanism's cell, where it can run in the page, by its *Edit*: its
    lines run. What was typed, and what was said of it, is there again when the page is. */
-const vmcGrade = (() => {
-  "use strict";
+import { setEquations } from "../book/equations.js";
+import { memory } from "../demo/questions.js";
+import * as python from "./interpreter.js";
 
-  const escaped = (text) => `${text}`.replace(/[&<>"]/g, (sign) => `&#${sign.charCodeAt()};`);
-  const MARKS = /`([^`]+)`|\$([^$]+)\$|\*\*([^*]+)\*\*|\*([^*]+)\*/g;
+const escaped = (text) => `${text}`.replace(/[&<>"]/g, (sign) => `&#${sign.charCodeAt()};`);
+const MARKS = /`([^`]+)`|\$([^$]+)\$|\*\*([^*]+)\*\*|\*([^*]+)\*/g;
 
-  /* A line of Markdown as HTML, as vmc_lib.show.figures.inline has it. */
-  const inline = (text) =>
-    escaped(text).replace(MARKS, (_, code, tex, strong, words) =>
-      code ? `<code>${code}</code>` : tex ? `<span class="math inline">\\(${tex.trim()}\\)</span>`
-        : strong ? `<strong>${strong}</strong>` : `<em>${words}</em>`);
+/* A line of Markdown as HTML, as vmc_lib.show.figures.inline has it. */
+export const inline = (text) =>
+  escaped(text).replace(MARKS, (_, code, tex, strong, words) =>
+    code ? `<code>${code}</code>` : tex ? `<span class="math inline">\\(${tex.trim()}\\)</span>`
+      : strong ? `<strong>${strong}</strong>` : `<em>${words}</em>`);
 
-  const field = (cell) => cell.querySelector("textarea");
-  const book = (cell) => field(cell)?.defaultValue ?? cell.querySelector("pre").textContent;
+const field = (cell) => cell.querySelector("textarea");
+export const book = (cell) => field(cell)?.defaultValue ?? cell.querySelector("pre").textContent;
 
-  /* What a cell's reader ran last, else the book's: what only stands there is no part of a check, for a link may
-     have brought it. */
-  const ran = (cell) => field(cell)?.ran ?? book(cell);
+/* What a cell's reader ran last, else the book's: what only stands there is no part of a check, for a link may
+   have brought it. */
+const ran = (cell) => field(cell)?.ran ?? book(cell);
 
-  /* The cells of the chapter's code before one of them; no solution is among them. */
-  const above = (cell) =>
-    [...document.querySelectorAll(".cell:has(> .cell_input, > details > .cell_input)")]
-      .filter((one) => !one.closest(".solution") && one.compareDocumentPosition(cell) & 4); // one before cell
+/* The cells of the chapter's code before one of them; no solution is among them. */
+export const above = (cell) =>
+  [...document.querySelectorAll(".cell:has(> .cell_input, > details > .cell_input)")]
+    .filter((one) => !one.closest(".solution") && one.compareDocumentPosition(cell) & 4); // one before cell
 
-  /* Type for the reader, so that it can be undone. */
-  const type = (area, text) => {
-    area.focus();
-    if (!document.execCommand("insertText", false, text)) area.setRangeText(text, area.selectionStart, area.selectionEnd, "end");
-  };
+/* Type for the reader, so that it can be undone. */
+const type = (area, text) => {
+  area.focus();
+  if (!document.execCommand("insertText", false, text)) area.setRangeText(text, area.selectionStart, area.selectionEnd, "end");
+};
 
-  /* Enter indents the next line as Python needs it; Control and Enter check. Tab goes on, as always. */
-  const onKey = (event, form) => {
-    const area = event.target;
-    const before = area.value.slice(0, area.selectionStart).split("\n").pop();
-    if (event.key !== "Enter" || event.isComposing) return;
-    event.preventDefault();
-    if (event.ctrlKey || event.metaKey) form.requestSubmit();
-    else type(area, `\n${before.match(/^ */)[0]}${/:\s*(#.*)?$/.test(before) ? "    " : ""}`);
-  };
+/* Enter indents the next line as Python needs it; Control and Enter check. Tab goes on, as always. */
+const onKey = (event, form) => {
+  const area = event.target;
+  const before = area.value.slice(0, area.selectionStart).split("\n").pop();
+  if (event.key !== "Enter" || event.isComposing) return;
+  event.preventDefault();
+  if (event.ctrlKey || event.metaKey) form.requestSubmit();
+  else type(area, `\n${before.match(/^ */)[0]}${/:\s*(#.*)?$/.test(before) ? "    " : ""}`);
+};
 
-  const memoryOf = (name) => `${location.pathname} ${name}`;
-  const sum = (text) => [...text].reduce((sum, sign) => (31 * sum + sign.codePointAt()) | 0, 0); // tells editions of a cell apart
-  const isText = ({ said = [], ran = "", judged = "", mine = "" }) => [said, ran, judged, mine].flat().every((one) => typeof one === "string");
-  const make = (tag, more) => Object.assign(document.createElement(tag), more);
+/* The figures that run a cell's law, as laws.js knows them. */
+export const users = { figures: () => [] };
 
-  /* A cell in whose place the reader writes, and its form: buttons, and what was said of the lines. */
-  class Editor {
-    constructor(form, cell, name) {
-      const { stop, reset } = form.elements, empty = book(cell).trimEnd();
-      const area = make("textarea", { defaultValue: empty, spellcheck: false, wrap: "off", autocomplete: "off", className: "vmc-lines" });
-      const status = form.querySelector("[role=status]"), beside = make("div", { className: "vmc-beside" });
-      Object.assign(this, { form, cell, area, status, empty, beside, memory: memoryOf(name) });
-      area.setAttribute("autocapitalize", "off");
-      area.setAttribute("aria-label", `Your lines: ${name.split(".").pop()}`);
-      cell.querySelector(".cell_input").replaceChildren(area, beside);
-      form.hidden = false;
-      form.addEventListener("submit", (event) => {
-        event.preventDefault();
-        if (stop.disabled) this.check();
-      });
-      stop.addEventListener("click", () => vmcPython.stop());
-      reset.addEventListener("click", () => this.reset());
-      area.addEventListener("keydown", (event) => onKey(event, form));
-      for (const sign of ["pointerdown", "input"]) // of one who is about to write: it may be there when asked
-        area.addEventListener(sign, vmcPython.start, { once: true });
-      area.addEventListener("input", () => {
-        this.follow();
-        this.keep();
-      });
-      this.restore();
-      this.follow();
-    }
+const memoryOf = (name) => `${location.pathname} ${name}`;
+const sum = (text) => [...text].reduce((sum, sign) => (31 * sum + sign.codePointAt()) | 0, 0); // tells editions of a cell apart
+const isText = ({ said = [], ran = "", judged = "", mine = "" }) => [said, ran, judged, mine].flat().every((one) => typeof one === "string");
+const make = (tag, more) => Object.assign(document.createElement(tag), more);
 
-    /* The lines have changed: their room, and whether what was said is of them. */
-    follow() {
-      const { area, form, status, empty, said, judged } = this;
-      area.rows = area.value.split("\n").length + 1;
-      form.elements.reset.disabled = area.value === empty;
-      status.classList.toggle("vmc-earlier", Boolean(said?.[0]) && area.value !== judged);
-    }
-
-    show([message, printed]) {
-      this.status.innerHTML = `<p>${inline(message)}</p>${printed ? `<pre>${escaped(printed)}</pre>` : ""}`;
-      window.vmcEquations?.(this.status);
-    }
-
-    /* Keep the lines, those that ran last, what was `said` of those that were `judged`, and the reader's own where a
-       link's stand in their place; but nothing that equals the book's, and of a link nothing that has not run. */
-    keep() {
-      const { area, empty, memory, said, judged, mine } = this, typed = area.value, last = area.ran ?? empty;
-      if (typed === this.brought && typed !== last) return;
-      if (typed === empty && last === empty && mine === undefined) return vmcMemory.remove(memory);
-      vmcMemory.set(memory, JSON.stringify({ typed, ran: last, said, judged, mine, book: sum(empty) }));
-    }
-
-    restore() {
-      const { area, empty, memory } = this, kept = vmcMemory.parsed(memory);
-      if (typeof kept?.typed !== "string" || !isText(kept)) return; // others may write there
-      area.value = kept.typed;
-      this.mine = kept.mine;
-      if (kept.said) this.show(([this.said, this.judged] = [kept.said, kept.judged])[0]);
-      if ((kept.book ?? sum(empty)) === sum(empty)) area.ran = kept.ran;
-      else return this.offer("The book’s cell has changed since you wrote yours. It is now:", empty);
-      this.close();
-    }
-
-    /* Lines that stand beside the reader's, who may take them. */
-    offer(words, lines, yes = "Take it", no = "Keep mine") {
-      const take = make("button", { type: "button", textContent: yes, onclick: () => this.take(lines) });
-      const leave = make("button", { type: "button", textContent: no, onclick: () => {
-        if (lines === this.mine) this.mine = undefined;
-        this.close();
-        this.keep();
-      } });
-      this.beside.replaceChildren(make("p", { textContent: words }), make("pre", { textContent: lines, tabIndex: 0 }), take, " ", leave);
-    }
-
-    /* Nothing is offered any more but the reader's own lines, where others stand in their place. */
-    close() {
-      if (this.mine === undefined) this.beside.replaceChildren();
-      else this.offer("Your own lines:", this.mine, "Take them back", "Forget them");
-    }
-
-    bring(text) {
-      const lines = (this.brought = text.replace(/\r\n?/g, "\n")); // as a field has them
-      if (lines !== this.area.value) this.offer("A link brings these lines:", lines);
-    }
-
-    take(lines) {
-      const { area, empty } = this;
-      if (lines === this.mine) this.mine = undefined;
-      else if (area.value !== empty && area.value !== lines) this.mine ??= area.value;
-      area.select();
-      type(area, lines);
-      this.close();
-    }
-
-    run(lines) { // the demos below may follow: see laws.js
-      this.area.ran = this.area.lastRun = lines;
-      this.keep();
-      this.cell.dispatchEvent(new Event("vmc-run", { bubbles: true }));
-    }
-
-    /* The figures go back to the book's lines; the reader's stay in the field. */
-    back() {
-      this.said = this.judged = undefined;
-      this.run(this.empty);
-      this.show(["The figures run the book’s lines again; yours count when you run them."]);
-      this.follow();
-    }
-
-    async check() {
-      const { form, cell, area } = this, { stop } = form.elements, graded = form.dataset.function, lines = area.value;
-      stop.disabled = false;
-      this.said = undefined;
-      this.follow();
-      try {
-        const code = [above(cell).map(ran), lines];
-        const question = graded ? ["check", ...code, graded] : ["run", ...code, this.empty, window.vmcFigures?.(cell, lines) ?? []];
-        const [said, printed] = await vmcPython.ask(["grader", ...question], (text) => this.show([text]));
-        this.said = [`${said}`, `${printed}`];
-        this.run(lines);
-      } catch (error) {
-        this.said = [`✗ ${error.message}`];
-      }
-      stop.disabled = true;
-      this.judged = lines;
-      form.dispatchEvent(new CustomEvent("vmc-graded", { bubbles: true, detail: { said: this.said[0], lines } }));
-      this.show(this.said);
+/* A cell in whose place the reader writes, and its form: buttons, and what was said of the lines. */
+class Editor {
+  constructor(form, cell, name) {
+    const { stop, reset } = form.elements, empty = book(cell).trimEnd();
+    const area = make("textarea", { defaultValue: empty, spellcheck: false, wrap: "off", autocomplete: "off", className: "vmc-lines" });
+    const status = form.querySelector("[role=status]"), beside = make("div", { className: "vmc-beside" });
+    Object.assign(this, { form, cell, area, status, empty, beside, memory: memoryOf(name) });
+    area.setAttribute("autocapitalize", "off");
+    area.setAttribute("aria-label", `Your lines: ${name.split(".").pop()}`);
+    cell.querySelector(".cell_input").replaceChildren(area, beside);
+    form.hidden = false;
+    form.addEventListener("submit", (event) => {
+      event.preventDefault();
+      if (stop.disabled) this.check();
+    });
+    stop.addEventListener("click", () => python.stop());
+    reset.addEventListener("click", () => this.reset());
+    area.addEventListener("keydown", (event) => onKey(event, form));
+    for (const sign of ["pointerdown", "input"]) // of one who is about to write: it may be there when asked
+      area.addEventListener(sign, python.start, { once: true });
+    area.addEventListener("input", () => {
       this.follow();
       this.keep();
-    }
-
-    reset() {
-      this.area.select();
-      type(this.area, this.empty);
-      this.said = this.judged = undefined;
-      this.show([""]);
-      this.follow();
-      this.run(this.empty);
-    }
+    });
+    this.restore();
+    this.follow();
   }
 
-  /* A cell's *Edit*: it opens the cell, which is open at once where the reader has changed it before. A link may
-     bring lines, the reader `take` them, and go `back` to the book's. */
-  const offer = (cell) => {
-    const name = book(cell).match(/^def (\w+)/m)[1];
-    const form = make("form", { className: "vmc-check" });
-    form.dataset.cell = name;
-    form.innerHTML = `<button type="button" aria-label="Edit ${name}">Edit</button>`;
-    cell.append(form);
-    let editor;
-    const open = () => {
-      if (cell.querySelector("details")) cell.querySelector("details").open = true; // its code is folded
-      form.innerHTML = '<button>Run</button> <button type="button" name="stop" disabled>Stop</button> ' +
-        '<button type="button" name="reset" disabled>Reset</button> <div role="status"></div>';
-      return (editor = new Editor(form, cell, name));
-    };
-    cell.addEventListener("vmc-bring", ({ detail }) => (editor ?? open()).bring(detail));
-    cell.addEventListener("vmc-take", ({ detail }) => editor.take(detail));
-    cell.addEventListener("vmc-back", () => editor.back());
-    form.firstChild.addEventListener("click", () => {
-      open();
-      cell.querySelector("textarea").focus();
-    });
-    if (vmcMemory.get(memoryOf(name))) open();
-  };
+  /* The lines have changed: their room, and whether what was said is of them. */
+  follow() {
+    const { area, form, status, empty, said, judged } = this;
+    area.rows = area.value.split("\n").length + 1;
+    form.elements.reset.disabled = area.value === empty;
+    status.classList.toggle("vmc-earlier", Boolean(said?.[0]) && area.value !== judged);
+  }
 
-  addEventListener("DOMContentLoaded", () => {
-    for (const form of document.querySelectorAll("form[data-function]"))
-      new Editor(form, form.closest(".cell").previousElementSibling, form.dataset.function);
-    document.querySelectorAll(".cell.tag_runs-in-page").forEach(offer);
+  show([message, printed]) {
+    this.status.innerHTML = `<p>${inline(message)}</p>${printed ? `<pre>${escaped(printed)}</pre>` : ""}`;
+    setEquations(this.status);
+  }
+
+  /* Keep the lines, those that ran last, what was `said` of those that were `judged`, and the reader's own where a
+     link's stand in their place; but nothing that equals the book's, and of a link nothing that has not run. */
+  keep() {
+    const { area, empty, memory, said, judged, mine } = this, typed = area.value, last = area.ran ?? empty;
+    if (typed === this.brought && typed !== last) return;
+    if (typed === empty && last === empty && mine === undefined) return memory.remove(memory);
+    memory.set(memory, JSON.stringify({ typed, ran: last, said, judged, mine, book: sum(empty) }));
+  }
+
+  restore() {
+    const { area, empty, memory } = this, kept = memory.parsed(memory);
+    if (typeof kept?.typed !== "string" || !isText(kept)) return; // others may write there
+    area.value = kept.typed;
+    this.mine = kept.mine;
+    if (kept.said) this.show(([this.said, this.judged] = [kept.said, kept.judged])[0]);
+    if ((kept.book ?? sum(empty)) === sum(empty)) area.ran = kept.ran;
+    else return this.offer("The book’s cell has changed since you wrote yours. It is now:", empty);
+    this.close();
+  }
+
+  /* Lines that stand beside the reader's, who may take them. */
+  offer(words, lines, yes = "Take it", no = "Keep mine") {
+    const take = make("button", { type: "button", textContent: yes, onclick: () => this.take(lines) });
+    const leave = make("button", { type: "button", textContent: no, onclick: () => {
+      if (lines === this.mine) this.mine = undefined;
+      this.close();
+      this.keep();
+    } });
+    this.beside.replaceChildren(make("p", { textContent: words }), make("pre", { textContent: lines, tabIndex: 0 }), take, " ", leave);
+  }
+
+  /* Nothing is offered any more but the reader's own lines, where others stand in their place. */
+  close() {
+    if (this.mine === undefined) this.beside.replaceChildren();
+    else this.offer("Your own lines:", this.mine, "Take them back", "Forget them");
+  }
+
+  bring(text) {
+    const lines = (this.brought = text.replace(/\r\n?/g, "\n")); // as a field has them
+    if (lines !== this.area.value) this.offer("A link brings these lines:", lines);
+  }
+
+  take(lines) {
+    const { area, empty } = this;
+    if (lines === this.mine) this.mine = undefined;
+    else if (area.value !== empty && area.value !== lines) this.mine ??= area.value;
+    area.select();
+    type(area, lines);
+    this.close();
+  }
+
+  run(lines) { // the demos below may follow: see laws.js
+    this.area.ran = this.area.lastRun = lines;
+    this.keep();
+    this.cell.dispatchEvent(new Event("vmc-run", { bubbles: true }));
+  }
+
+  /* The figures go back to the book's lines; the reader's stay in the field. */
+  back() {
+    this.said = this.judged = undefined;
+    this.run(this.empty);
+    this.show(["The figures run the book’s lines again; yours count when you run them."]);
+    this.follow();
+  }
+
+  async check() {
+    const { form, cell, area } = this, { stop } = form.elements, graded = form.dataset.function, lines = area.value;
+    stop.disabled = false;
+    this.said = undefined;
+    this.follow();
+    try {
+      const code = [above(cell).map(ran), lines];
+      const question = graded ? ["check", ...code, graded] : ["run", ...code, this.empty, users.figures(cell, lines)];
+      const [said, printed] = await python.ask(["grader", ...question], (text) => this.show([text]));
+      this.said = [`${said}`, `${printed}`];
+      this.run(lines);
+    } catch (error) {
+      this.said = [`✗ ${error.message}`];
+    }
+    stop.disabled = true;
+    this.judged = lines;
+    form.dispatchEvent(new CustomEvent("vmc-graded", { bubbles: true, detail: { said: this.said[0], lines } }));
+    this.show(this.said);
+    this.follow();
+    this.keep();
+  }
+
+  reset() {
+    this.area.select();
+    type(this.area, this.empty);
+    this.said = this.judged = undefined;
+    this.show([""]);
+    this.follow();
+    this.run(this.empty);
+  }
+}
+
+/* A cell's *Edit*: it opens the cell, which is open at once where the reader has changed it before. A link may
+   bring lines, the reader `take` them, and go `back` to the book's. */
+const offer = (cell) => {
+  const name = book(cell).match(/^def (\w+)/m)[1];
+  const form = make("form", { className: "vmc-check" });
+  form.dataset.cell = name;
+  form.innerHTML = `<button type="button" aria-label="Edit ${name}">Edit</button>`;
+  cell.append(form);
+  let editor;
+  const open = () => {
+    if (cell.querySelector("details")) cell.querySelector("details").open = true; // its code is folded
+    form.innerHTML = '<button>Run</button> <button type="button" name="stop" disabled>Stop</button> ' +
+      '<button type="button" name="reset" disabled>Reset</button> <div role="status"></div>';
+    return (editor = new Editor(form, cell, name));
+  };
+  cell.addEventListener("vmc-bring", ({ detail }) => (editor ?? open()).bring(detail));
+  cell.addEventListener("vmc-take", ({ detail }) => editor.take(detail));
+  cell.addEventListener("vmc-back", () => editor.back());
+  form.firstChild.addEventListener("click", () => {
+    open();
+    cell.querySelector("textarea").focus();
   });
-  return { inline, above, book };
-})();
+  if (memory.get(memoryOf(name))) open();
+};
+
+addEventListener("DOMContentLoaded", () => {
+  for (const form of document.querySelectorAll("form[data-function]"))
+    new Editor(form, form.closest(".cell").previousElementSibling, form.dataset.function);
+  document.querySelectorAll(".cell.tag_runs-in-page").forEach(offer);
+});

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from python_in_page import absent
+from page.python import absent
 from vmc_lib.grading import (
     LONGEST,
     WRONG,

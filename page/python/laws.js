@@ -1,224 +1,225 @@
 /* Demos that the page's Python draws: by a law that the reader has changed above them, and between a
    slider's stops. Where it cannot, or is not asked, the nearest picture of the book stands. And arms
    that plan by such a law. */
-(() => {
-  "use strict";
+import { hash } from "../demo/address.js";
+import { clean, settle } from "./drawn.js";
+import * as grade from "./grade.js";
+import * as python from "./interpreter.js";
 
-  const STEP = 0.1; // of a slider, from one stop to the next
-  const FREE = "The sliders now take any value.";
-  const LAW = "law."; // before a cell's name, in an address
+const STEP = 0.1; // of a slider, from one stop to the next
+const FREE = "The sliders now take any value.";
+const LAW = "law."; // before a cell's name, in an address
 
-  const lastRun = (cell) => cell.querySelector("textarea")?.lastRun ?? vmcGrade.book(cell);
-  const inCode = (names) => names.map((name) => `\`${name}\``).join(", "); // Markdown, as all that is said here
-  const ownCells = (above) => above.filter((one) => lastRun(one) !== vmcGrade.book(one));
-  const users = []; // of laws: [a figure's cell, the cells of laws and those above it, what it needs of them]
+const lastRun = (cell) => cell.querySelector("textarea")?.lastRun ?? grade.book(cell);
+const inCode = (names) => names.map((name) => `\`${name}\``).join(", "); // Markdown, as all that is said here
+const ownCells = (above) => above.filter((one) => lastRun(one) !== grade.book(one));
+const users = []; // of laws: [a figure's cell, the cells of laws and those above it, what it needs of them]
 
-  /* The cells of the chapter's code before one of them, and the laws after it: it may run these, too. */
-  const codeOf = (cell) => [...vmcGrade.above(cell), ...[...document.querySelectorAll(".tag_runs-in-page")]
-    .filter((law) => cell.compareDocumentPosition(law) & 4)];
+/* The cells of the chapter's code before one of them, and the laws after it: it may run these, too. */
+const codeOf = (cell) => [...grade.above(cell), ...[...document.querySelectorAll(".tag_runs-in-page")]
+  .filter((law) => cell.compareDocumentPosition(law) & 4)];
 
-  /* The figures that may run a cell's law, `typed` in it: see `python_in_page.grader.run`. */
-  window.vmcFigures = (law, typed) => users.filter(([, above]) => above.includes(law)).map(([cell, above, needs]) =>
-    [cell.querySelector(".vmc-number")?.textContent.replace(/\D*/, "") ?? "", above.map((one) => (one === law ? typed : lastRun(one))),
-      above.map(vmcGrade.book), needs]);
+/* The figures that may run a cell's law, `typed` in it: see `page.python.grader.run`. */
+grade.users.figures = (law, typed) => users.filter(([, above]) => above.includes(law)).map(([cell, above, needs]) =>
+  [cell.querySelector(".vmc-number")?.textContent.replace(/\D*/, "") ?? "", above.map((one) => (one === law ? typed : lastRun(one))),
+    above.map(grade.book), needs]);
 
-  const BACK = '<button type="button" name="back" hidden>Back to the book’s</button>';
+const BACK = '<button type="button" name="back" hidden>Back to the book’s</button>';
 
-  /* A line below controls: what it says, and its buttons. */
-  const line = (controls, buttons) => {
-    const line = document.createElement("p");
-    line.className = "vmc-law";
-    line.innerHTML = `<span role="status"></span> ${buttons}`;
-    controls.after(line);
-    return [...line.children];
-  };
+/* A line below controls: what it says, and its buttons. */
+const line = (controls, buttons) => {
+  const line = document.createElement("p");
+  line.className = "vmc-law";
+  line.innerHTML = `<span role="status"></span> ${buttons}`;
+  controls.after(line);
+  return [...line.children];
+};
 
-  /* `update` at once where the reader has run a cell above; the book's cells again, by the button `back`. */
-  const watch = (above, back, update) => {
-    document.addEventListener("vmc-run", ({ target }) => above.includes(target) && update());
-    back.addEventListener("click", () => {
-      for (const one of ownCells(above)) one.dispatchEvent(new Event("vmc-back"));
-    });
-  };
+/* `update` at once where the reader has run a cell above; the book's cells again, by the button `back`. */
+const watch = (above, back, update) => {
+  document.addEventListener("vmc-run", ({ target }) => above.includes(target) && update());
+  back.addEventListener("click", () => {
+    for (const one of ownCells(above)) one.dispatchEvent(new Event("vmc-back"));
+  });
+};
 
-  /* Where a demo's controls stand, by name: see `python_in_page.demos.draw`. */
-  const places = (demo) => {
-    const stand = {};
-    for (const { type, checked, name, id, value } of demo.querySelectorAll("[data-stride]"))
-      if (type !== "radio" || checked)
-        stand[(name || id).slice(demo.id.length + 1)] = type === "checkbox" ? +checked : +value;
-    return stand;
-  };
+/* Where a demo's controls stand, by name: see `page.python.demos.draw`. */
+const places = (demo) => {
+  const stand = {};
+  for (const { type, checked, name, id, value } of demo.querySelectorAll("[data-stride]"))
+    if (type !== "radio" || checked)
+      stand[(name || id).slice(demo.id.length + 1)] = type === "checkbox" ? +checked : +value;
+  return stand;
+};
 
-  /* A demo that may be drawn by the reader's laws, and by sliders between their stops. */
-  class Follower {
-    laws = []; // of the reader's, those that it needs, by name
-    failed = false;
-    busy = false;
-    wanted = null; // the last place that was asked for; those that the hand only passes are left out
+/* A demo that may be drawn by the reader's laws, and by sliders between their stops. */
+class Follower {
+  laws = []; // of the reader's, those that it needs, by name
+  failed = false;
+  busy = false;
+  wanted = null; // the last place that was asked for; those that the hand only passes are left out
 
-    constructor(demo) {
-      const cell = demo.closest(".cell"), above = codeOf(cell);
-      users.push([cell, above, vmcGrade.book(cell)]);
-      const [status, run, back, between] = line(demo.querySelector(".vmc-controls"),
-        `<button type="button" name="run" hidden>Run it</button> ${BACK} ` +
-        '<button type="button" name="between">Any value (loads Python, 19 MB)</button>');
-      const sliders = [...demo.querySelectorAll("[data-between]")];
-      Object.assign(this, { demo, cell, above, status, run, back, between, sliders });
-      between.hidden = !sliders.length;
-      between.addEventListener("click", () => followers.forEach((one) => one.free(one === this)));
-      watch(above, back, () => this.update());
-      const name = (one) => one.querySelector("form[data-cell]")?.dataset.cell; // an exercise has none
-      demo.vmcLaws = () => ownCells(above).filter(name).map((one) => [LAW + name(one), lastRun(one)]);
-    }
-
-    say(text) {
-      if (this.said !== text) this.status.innerHTML = vmcGrade.inline((this.said = text));
-    }
-
-    /* The code above, as the reader has it and as the book has it, and the demo's own cell. */
-    get code() {
-      return [this.above.map(lastRun), this.above.map(vmcGrade.book), vmcGrade.book(this.cell)];
-    }
-
-    show({ parts, texts, error }, place, draw) {
-      const { demo, laws, sliders, between } = this;
-      if (error) return this.fail(`${laws.length ? `Your \`${laws.join(", ")}\`` : "Python"} stops: ${error}.`, place, draw);
-      draw(parts, vmcDrawn);
-      for (const [name, text] of Object.entries(texts)) {
-        const input = demo.querySelector(`#${CSS.escape(`${demo.id}-${name}`)}`);
-        input.setAttribute("aria-valuetext", text);
-        input.nextElementSibling.textContent = text;
-      }
-      const free = sliders.length && between.hidden ? FREE : "";
-      this.say(laws.length ? `This demo runs **your** ${inCode(laws)}.` : free);
-    }
-
-    fail(why, place, draw) {
-      this.failed = true;
-      this.book(place, draw);
-      this.say(`${why} This is the book’s.`);
-    }
-
-    async drawWanted() {
-      const { demo } = this;
-      this.busy = true;
-      demo.setAttribute("aria-busy", "true");
-      while (this.wanted) {
-        const [place, draw, ready] = this.wanted;
-        this.wanted = null;
-        try {
-          const question = ["demos", "draw", ...this.code, demo.id, ready ? null : places(demo), demo.vmc.data ?? ""];
-          const answer = await vmcPython.ask(question, (text) => this.say(text));
-          if (!this.wanted) this.show(answer, place, draw);
-        } catch (error) {
-          this.fail(error.message, place, draw);
-        }
-      }
-      this.busy = false;
-      demo.removeAttribute("aria-busy");
-    }
-
-    ask = (place, draw, exact, ready = false) => {
-      const { laws, failed } = this, off = this.sliders.some(({ value }) => value % 1);
-      if (!laws.length || failed) this.book(place, draw, exact);
-      if (failed || !(laws.length || off || ready)) return;
-      this.wanted = [place, draw, ready];
-      if (!this.busy) this.drawWanted();
-    };
-
-    /* From now on the demo asks here, and no longer the book. */
-    take() {
-      const { vmc } = this.demo;
-      if (vmc.ask !== this.ask) [this.book, vmc.ask] = [vmc.ask, this.ask];
-    }
-
-    /* What the reader's cells have become. */
-    async update() {
-      this.take();
-      Object.assign(this, { laws: [], failed: false, wanted: null });
-      this.run.hidden = true;
-      this.say("");
-      try {
-        if (ownCells(this.above).length) this.laws = await vmcPython.ask(["grader", "changed", ...this.code], () => {});
-      } catch (error) {
-        this.say(error.message);
-      }
-      this.back.hidden = !this.laws.length;
-      this.demo.vmc.show();
-    }
-
-    /* Its sliders take any value; if `ready`, Python is made ready for it. */
-    free(ready) {
-      this.take();
-      this.sliders.forEach((input) => (input.step = STEP));
-      this.between.hidden = true;
-      ready ? this.ask(0, () => {}, {}, true) : this.say(FREE);
-    }
-
-    /* A link has brought laws, by their cells' names. */
-    offer(laws) {
-      this.say(`This link brings another ${inCode([...laws.keys()])}. Read it in its cell first.`);
-      this.run.hidden = false;
-      this.run.onclick = () => {
-        this.run.hidden = true;
-        for (const [name, lines] of laws) {
-          cellOf(name).dispatchEvent(new CustomEvent("vmc-take", { detail: lines }));
-          cellOf(name).querySelector("form").requestSubmit();
-        }
-      };
-    }
+  constructor(demo) {
+    const cell = demo.closest(".cell"), above = codeOf(cell);
+    users.push([cell, above, grade.book(cell)]);
+    const [status, run, back, between] = line(demo.querySelector(".vmc-controls"),
+      `<button type="button" name="run" hidden>Run it</button> ${BACK} ` +
+      '<button type="button" name="between">Any value (loads Python, 19 MB)</button>');
+    const sliders = [...demo.querySelectorAll("[data-between]")];
+    Object.assign(this, { demo, cell, above, status, run, back, between, sliders });
+    between.hidden = !sliders.length;
+    between.addEventListener("click", () => followers.forEach((one) => one.free(one === this)));
+    watch(above, back, () => this.update());
+    const name = (one) => one.querySelector("form[data-cell]")?.dataset.cell; // an exercise has none
+    demo.vmcLaws = () => ownCells(above).filter(name).map((one) => [LAW + name(one), lastRun(one)]);
   }
 
-  /* An arm whose physics runs in the page (arm_in_page): it plans by the weights of the reader's law. */
-  const lead = (box) => {
-    const { law } = box.dataset, above = codeOf(box.closest(".cell")), form = box.querySelector("form");
-    users.push([box.closest(".cell"), above, law]);
-    const [status, back] = line(form, BACK);
-    const say = (text) => (status.innerHTML = vmcGrade.inline(text));
-    let mine = false;
-    watch(above, back, async () => {
+  say(text) {
+    if (this.said !== text) this.status.innerHTML = grade.inline((this.said = text));
+  }
+
+  /* The code above, as the reader has it and as the book has it, and the demo's own cell. */
+  get code() {
+    return [this.above.map(lastRun), this.above.map(grade.book), grade.book(this.cell)];
+  }
+
+  show({ parts, texts, error }, place, draw) {
+    const { demo, laws, sliders, between } = this;
+    if (error) return this.fail(`${laws.length ? `Your \`${laws.join(", ")}\`` : "Python"} stops: ${error}.`, place, draw);
+    draw(parts, { clean, settle });
+    for (const [name, text] of Object.entries(texts)) {
+      const input = demo.querySelector(`#${CSS.escape(`${demo.id}-${name}`)}`);
+      input.setAttribute("aria-valuetext", text);
+      input.nextElementSibling.textContent = text;
+    }
+    const free = sliders.length && between.hidden ? FREE : "";
+    this.say(laws.length ? `This demo runs **your** ${inCode(laws)}.` : free);
+  }
+
+  fail(why, place, draw) {
+    this.failed = true;
+    this.book(place, draw);
+    this.say(`${why} This is the book’s.`);
+  }
+
+  async drawWanted() {
+    const { demo } = this;
+    this.busy = true;
+    demo.setAttribute("aria-busy", "true");
+    while (this.wanted) {
+      const [place, draw, ready] = this.wanted;
+      this.wanted = null;
       try {
-        const question = ["grader", "changed", above.map(lastRun), above.map(vmcGrade.book), law];
-        mine = ownCells(above).length > 0 && (await vmcPython.ask(question, () => {})).length > 0;
-        say(mine ? `This arm plans by **your** ${inCode([law])}: let it reach.` : "");
+        const question = ["demos", "draw", ...this.code, demo.id, ready ? null : places(demo), demo.vmc.data ?? ""];
+        const answer = await python.ask(question, (text) => this.say(text));
+        if (!this.wanted) this.show(answer, place, draw);
       } catch (error) {
-        mine = false;
-        say(error.message);
+        this.fail(error.message, place, draw);
       }
-      back.hidden = !mine;
-      form.querySelector("fieldset").dispatchEvent(new Event("input", { bubbles: true })); // it plans anew
-    });
-    box.vmcLaw = async ({ target, points }) => {
-      if (!mine) return null;
-      const question = ["grader", "call", above.map(lastRun), law, [target, points]];
-      const { answer, error } = await vmcPython.ask(question, () => {}).catch(({ message }) => ({ error: message }));
-      if (answer?.length === points.length && answer.every(Number.isFinite)) return answer;
-      say(`Your \`${law}\` ${error ? `stops: ${error}` : `gives no ${points.length} weights`}. This is the book’s.`);
-      return null;
+    }
+    this.busy = false;
+    demo.removeAttribute("aria-busy");
+  }
+
+  ask = (place, draw, exact, ready = false) => {
+    const { laws, failed } = this, off = this.sliders.some(({ value }) => value % 1);
+    if (!laws.length || failed) this.book(place, draw, exact);
+    if (failed || !(laws.length || off || ready)) return;
+    this.wanted = [place, draw, ready];
+    if (!this.busy) this.drawWanted();
+  };
+
+  /* From now on the demo asks here, and no longer the book. */
+  take() {
+    const { vmc } = this.demo;
+    if (vmc.ask !== this.ask) [this.book, vmc.ask] = [vmc.ask, this.ask];
+  }
+
+  /* What the reader's cells have become. */
+  async update() {
+    this.take();
+    Object.assign(this, { laws: [], failed: false, wanted: null });
+    this.run.hidden = true;
+    this.say("");
+    try {
+      if (ownCells(this.above).length) this.laws = await python.ask(["grader", "changed", ...this.code], () => {});
+    } catch (error) {
+      this.say(error.message);
+    }
+    this.back.hidden = !this.laws.length;
+    this.demo.vmc.show();
+  }
+
+  /* Its sliders take any value; if `ready`, Python is made ready for it. */
+  free(ready) {
+    this.take();
+    this.sliders.forEach((input) => (input.step = STEP));
+    this.between.hidden = true;
+    ready ? this.ask(0, () => {}, {}, true) : this.say(FREE);
+  }
+
+  /* A link has brought laws, by their cells' names. */
+  offer(laws) {
+    this.say(`This link brings another ${inCode([...laws.keys()])}. Read it in its cell first.`);
+    this.run.hidden = false;
+    this.run.onclick = () => {
+      this.run.hidden = true;
+      for (const [name, lines] of laws) {
+        cellOf(name).dispatchEvent(new CustomEvent("vmc-take", { detail: lines }));
+        cellOf(name).querySelector("form").requestSubmit();
+      }
     };
-  };
+  }
+}
 
-  const cellOf = (name) => document.querySelector(`form[data-cell="${CSS.escape(name)}"]`)?.closest(".cell");
-
-  /* The laws that an address brings are shown beside their cells, and run when the reader asks for it. */
-  const bring = () => {
-    const [id, query] = vmcHash().split("?");
-    const laws = [...new URLSearchParams(query)].filter(([key, text]) => key.startsWith(LAW) && text).map(([key, text]) => [key.slice(LAW.length), text]);
-    const known = new Map(laws.filter(([name]) => cellOf(name))), unknown = laws.map(([name]) => name).filter((name) => !known.has(name));
-    if (known.size) followers.forEach(({ run }) => (run.hidden = true)); // the lines of an earlier link are gone
-    for (const [name, lines] of known) cellOf(name).dispatchEvent(new CustomEvent("vmc-bring", { detail: lines }));
-    const follower = followers.find(({ demo }) => demo.id === id);
-    if (known.size) follower?.offer(known);
-    else if (unknown.length) follower?.say(`This link brings a law for ${inCode(unknown)}; no cell of this page defines it.`);
-  };
-
-  let followers = [];
-  addEventListener("DOMContentLoaded", () => {
-    const demos = [...document.querySelectorAll(".tag_draws-in-page .vmc-demo:has(> script)")];
-    followers = demos.map((demo) => new Follower(demo));
-    document.querySelectorAll(".vmc-live[data-law]").forEach(lead);
-    bring();
+/* An arm whose physics runs in the page (page/arm): it plans by the weights of the reader's law. */
+const lead = (box) => {
+  const { law } = box.dataset, above = codeOf(box.closest(".cell")), form = box.querySelector("form");
+  users.push([box.closest(".cell"), above, law]);
+  const [status, back] = line(form, BACK);
+  const say = (text) => (status.innerHTML = grade.inline(text));
+  let mine = false;
+  watch(above, back, async () => {
+    try {
+      const question = ["grader", "changed", above.map(lastRun), above.map(grade.book), law];
+      mine = ownCells(above).length > 0 && (await python.ask(question, () => {})).length > 0;
+      say(mine ? `This arm plans by **your** ${inCode([law])}: let it reach.` : "");
+    } catch (error) {
+      mine = false;
+      say(error.message);
+    }
+    back.hidden = !mine;
+    form.querySelector("fieldset").dispatchEvent(new Event("input", { bubbles: true })); // it plans anew
   });
-  addEventListener("hashchange", bring);
-})();
+  box.vmcLaw = async ({ target, points }) => {
+    if (!mine) return null;
+    const question = ["grader", "call", above.map(lastRun), law, [target, points]];
+    const { answer, error } = await python.ask(question, () => {}).catch(({ message }) => ({ error: message }));
+    if (answer?.length === points.length && answer.every(Number.isFinite)) return answer;
+    say(`Your \`${law}\` ${error ? `stops: ${error}` : `gives no ${points.length} weights`}. This is the book’s.`);
+    return null;
+  };
+};
+
+const cellOf = (name) => document.querySelector(`form[data-cell="${CSS.escape(name)}"]`)?.closest(".cell");
+
+/* The laws that an address brings are shown beside their cells, and run when the reader asks for it. */
+const bring = () => {
+  const [id, query] = hash().split("?");
+  const laws = [...new URLSearchParams(query)].filter(([key, text]) => key.startsWith(LAW) && text).map(([key, text]) => [key.slice(LAW.length), text]);
+  const known = new Map(laws.filter(([name]) => cellOf(name))), unknown = laws.map(([name]) => name).filter((name) => !known.has(name));
+  if (known.size) followers.forEach(({ run }) => (run.hidden = true)); // the lines of an earlier link are gone
+  for (const [name, lines] of known) cellOf(name).dispatchEvent(new CustomEvent("vmc-bring", { detail: lines }));
+  const follower = followers.find(({ demo }) => demo.id === id);
+  if (known.size) follower?.offer(known);
+  else if (unknown.length) follower?.say(`This link brings a law for ${inCode(unknown)}; no cell of this page defines it.`);
+};
+
+let followers = [];
+addEventListener("DOMContentLoaded", () => {
+  const demos = [...document.querySelectorAll(".tag_draws-in-page .vmc-demo:has(> script)")];
+  followers = demos.map((demo) => new Follower(demo));
+  document.querySelectorAll(".vmc-live[data-law]").forEach(lead);
+  bring();
+});
+addEventListener("hashchange", bring);

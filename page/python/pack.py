@@ -13,13 +13,13 @@ from pathlib import Path
 
 from vmc_lib.show.packed import pack_bytes, pack_zip
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 VENDOR = Path(__file__).parent / "vendor"
 SCRIPT, PLOTS = "vendor/python.js", "vendor/plots.js"  # where the built page finds them
 # What can be imported in the page, by package, beside Python's own modules and NumPy. What these
 # import where it is used (MuJoCo, SciPy, OpenCV, torch) is not there.
 PACKAGES = {
-    "python_in_page": "absent grader",
+    "page.python": "absent grader",
     "book.exercises": " ".join(path.stem for path in sorted(ROOT.glob("book/exercises/*.py"))),
     "reproduce": "paper",
     "reproduce.experiments": "calibration feedback_control",
@@ -37,8 +37,7 @@ DATA = {Path("vmc_lib/arm/arm26.xml"), Path("vmc_lib/data/__init__.py")}  # and 
 DATA |= {Path("reproduce/results/__init__.py"), Path("reproduce/results/optimal.npz")}
 DATA |= {Path(f"vmc_lib/data/{name}.npz") for name in ("arm26", "rest", "templates")}
 # Beside these a demo's `draw` may import anything of the library that the page has the means for
-DRAWN = ("arm_in_page", "book/figures", "eye_in_page", "reproduce", "vmc_lib")
-DRAWN_DATA = {Path("vmc_lib/show/static/kernel.js")}
+DRAWN = ("book/figures", "page/arm", "page/eye", "reproduce", "vmc_lib")
 UNCHANGED = ("pyodide.js", "pyodide.asm.js", "pyodide.asm.wasm")
 UNCHANGED += ("LICENSE-MPL-2.0", "LICENSE-PSF-2.0")
 NEEDLESS = re.compile(  # in a page: headers, tests, other fonts, and what no browser can do
@@ -109,8 +108,8 @@ def drawn_paths():
     """What a demo's `draw` may import beside these, and the results that it may read."""
     sources = {path.relative_to(ROOT) for top in DRAWN for path in ROOT.glob(f"{top}/**/*.py")}
     results = {path.relative_to(ROOT) for path in ROOT.glob("reproduce/results/*.*")}
-    own = {Path(f"python_in_page/{name}.py") for name in ("demos", "measure")}
-    return sorted((sources | results | own | DRAWN_DATA) - set(paths()))
+    own = {Path(f"page/python/{name}.py") for name in ("demos", "measure")}
+    return sorted((sources | results | own | {Path("page/bundle.py")}) - set(paths()))
 
 
 def _read(paths):

@@ -14,8 +14,8 @@ from pathlib import Path
 
 import numpy as np
 
-from vmc_lib.show.live import STATIC
 from vmc_lib.show.packed import pack_bytes
+from vmc_lib.show.render_mode import STATIC
 
 FILE = STATIC / "vendor/bones.js"
 SHOULDER = np.array([-0.017545, -0.007, 0.17])  # m, in the frame of arm26's own ground

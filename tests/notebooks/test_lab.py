@@ -107,7 +107,7 @@ def test_scenes_and_the_arm_move_and_free_their_memory(run_all):
     scene = page.locator(".vmc-demo[data-ready]:has(.vmc-scene)").first
     scene.scroll_into_view_if_needed()
     scene.locator(".vmc-scene canvas").wait_for()
-    capture = "(demo) => vmcScene(demo.querySelector('.vmc-scene')).viewer.capture_image()"
+    capture = "(demo) => vmc['demo/scene'].viewOf(demo.querySelector('.vmc-scene')).viewer.capture_image()"
     before = scene.evaluate(capture)
     scene.locator("input[data-stride][type=range]").first.press("End")
     page.wait_for_function(

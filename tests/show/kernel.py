@@ -31,7 +31,7 @@ RENDER = """async ([script, traits, kernel, busy]) => {
   const el = document.body.appendChild(document.createElement("div"));
   await (await import(url)).default.render({ model, el });
 }"""
-TRAITS = ("page", "start", "scripts", "vendored", "first", "channel")
+TRAITS = ("page", "vendored", "first", "channel")
 
 
 def render(page, widget, monkeypatch, kernel="kernel", busy=False):

@@ -59,13 +59,11 @@ def test_a_live_demo_has_the_pages_markup_and_answers_for_each_state(live):
         assert shown.ask("state", place) == reply
 
 
-def test_a_live_demo_brings_its_scripts_and_its_first_state(live):
+def test_a_live_demo_brings_its_script_and_its_first_state(live):
     plot = live(k=Slider([1, 2], "k")).widget
-    assert list(plot.scripts) == [path.name for path in demo.PLOT_SCRIPTS]
-    assert plot.scripts["demo.js"] == (demo.STATIC / "demo.js").read_text(encoding="utf-8")
+    assert plot._esm == widget_script("demo/live.js")
     assert plot.first == [["words"], None]  # the plot stands in the page
     scene = live(lambda k: (named(k=k), Scene()), k=Slider([1, 2], "k")).widget
-    assert list(scene.scripts) == [path.name for path in demo.SCRIPTS]
     assert scene.first == [["words"], None, Scene().messages()]
 
 

@@ -58,7 +58,7 @@ def test_a_first_scene_needs_no_answer(live_demo):
     draw = lambda elbow: arm_scene([0, elbow])  # noqa: E731 (a demo's one line)
     page = live_demo(draw, busy=True, elbow=Slider([1.0, 1.4], "elbow"))
     scene = page.locator(".vmc-demo:not(.vmc-still) .vmc-scene")
-    messages = scene.evaluate("(div) => vmcScene(div).messages.length")
+    messages = scene.evaluate("(div) => vmc['demo/scene'].viewOf(div).messages.length")
     assert messages == len(draw(1.0).messages())
 
 

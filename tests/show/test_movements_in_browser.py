@@ -80,13 +80,13 @@ def test_the_pointer_and_a_slider_turn_the_view_and_never_to_below(moving):
     assert canvas.evaluate("c => getComputedStyle(c).touchAction") == "pan-y"  # a swipe scrolls
     drag(moving, middle(canvas), -100, -300)
     assert 40 <= float(moving.input_value(".vmc-turn input")) <= 60
-    height = "div => vmcScene(div).viewer.camera.position.y - vmcScene(div).settings.camera[1][1]"
+    height = "div => vmc['demo/scene'].viewOf(div).viewer.camera.position.y - vmc['demo/scene'].viewOf(div).settings.camera[1][1]"
     assert moving.eval_on_selector(".vmc-scene", height) > 0
 
 
 def test_a_muscle_is_named_under_the_pointer_and_chosen_by_its_name(moving):
     first = """div => {
-      const view = vmcScene(div);
+      const view = vmc["demo/scene"].viewOf(div);
       const { top, left, width, height } = div.getBoundingClientRect();
       for (let x = -1; x < 1; x += 0.02) for (let y = -1; y < 1; y += 0.02) {
         const k = view.body.muscles.found([x, y]);
@@ -138,10 +138,10 @@ def test_a_scene_without_its_files_says_so(open_demo, window):
 
 
 def test_a_picture_that_the_browser_takes_away_comes_back(moving):
-    get = "div => vmcScene(div).viewer.renderer.getContext().getExtension('WEBGL_lose_context')"
+    get = "div => vmc['demo/scene'].viewOf(div).viewer.renderer.getContext().getExtension('WEBGL_lose_context')"
     for back in (
         "(_, context) => context.restoreContext()",  # by itself, when the browser gives it back
-        "(div) => vmcScene(div).awake()",  # when the reader has scrolled on and back
+        "(div) => vmc['demo/scene'].viewOf(div).awake()",  # when the reader has scrolled on and back
     ):
         context = moving.query_selector(".vmc-scene").evaluate_handle(get)
         context.evaluate("context => context.loseContext()")

@@ -54,7 +54,7 @@ def test_an_arm_that_the_pages_python_draws_keeps_its_anatomy(open_demo):
     bent = scene.evaluate(CAPTURE)
     for elbow, expected in ((0, straight), (90, bent)):
         told = [line for line in draw(elbow).messages() if not line.startswith("anatomy")]
-        scene.evaluate("(div, told) => vmcScene(div).show(told)", told)
+        scene.evaluate("(div, told) => vmc['demo/scene'].viewOf(div).show(told)", told)
         assert scene.evaluate(CAPTURE) == expected
     assert straight != bent
 
@@ -80,7 +80,7 @@ def test_a_scene_asks_no_host_for_a_texture(open_demos):
     assert view.evaluate(LOADS, image["url"])
     image["url"] = "secret.png"
     told = f"{key}|{b64encode(umsgpack.packb(command)).decode()}"
-    view.evaluate("(div, told) => vmcScene(div).show([told])", told)
+    view.evaluate("(div, told) => vmc['demo/scene'].viewOf(div).show([told])", told)
     assert not view.evaluate(LOADS, "secret.png")
     assert not any("secret" in url for url in page.asked)
 
@@ -103,7 +103,7 @@ def test_at_most_six_scenes_live_and_the_others_are_images(open_demos):
 
 
 BEFORE_AND_AFTER = """(div) => {
-  const { words } = vmcScene(div), picture = [...div.children];
+  const { words } = vmc["demo/scene"].viewOf(div), picture = [...div.children];
   const parts = [...document.querySelectorAll("figure *")].filter((part) => !div.contains(part));
   const tops = () => parts.map((part) => part.getBoundingClientRect().top);
   const after = tops();

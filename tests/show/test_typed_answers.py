@@ -59,7 +59,7 @@ def test_the_page_judges_as_python_does(open_page, outputs, book):
     page = open_page(f"<h1>Q</h1>{''.join(forms)}")
     assert "in mm" in page.locator("form").first.inner_text()
     judged = page.evaluate(
-        """texts => texts.map(([form, text]) => vmcJudge(text,
+        """texts => texts.map(([form, text]) => vmc["demo/questions"].judge(text,
           JSON.parse(document.querySelectorAll("form")[form].dataset.check)))""",
         [[list(ANSWERS).index(question), text] for question, _, text in EVERY],
     )

@@ -19,11 +19,11 @@ from vmc_lib.motor import templates
 BOOK = Path(__file__).parents[2] / "_build/html/book"
 DRAWN = 5.0  # s of drawing that are counted
 COUNT = 2000  # steps of the arm of six muscles
-FRAMES = """() => vmcScene(document.querySelector(".vmc-live .vmc-scene"))
+FRAMES = """() => vmc["demo/scene"].viewOf(document.querySelector(".vmc-live .vmc-scene"))
   .viewer.renderer.info.render.frame"""
 LIFE = """async (seconds) => {
   const data = JSON.parse(document.querySelector(".vmc-live script").textContent);
-  const arm = await vmcArm.load(data);
+  const arm = await vmc["arm/load"].load(data);
   const movement = Array(Math.round(seconds / data.step)).fill(data.rest);
   const spent = () => {
     const start = performance.now();

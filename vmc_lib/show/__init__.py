@@ -1,7 +1,7 @@
 """How things are shown: `explore` (demos that answer their sliders), plots, photos, questions.
 
 The arm's own scenes are in `vmc_lib.show.arm`, and the arm that runs in the page in
-`arm_in_page.live`: what needs no arm need not wait for one.
+`page.arm`: what needs no arm need not wait for one.
 """
 
 from vmc_lib.show.compare import compare, dot_plot

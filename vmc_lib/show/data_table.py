@@ -140,7 +140,7 @@ def _kind(line):
 
 
 def name_curves(figure):
-    """Name a figure's curves for `static/sound.js`: lines of many points that run to the right."""
+    """Name a figure's curves for `sound.js`: lines of many points that run to the right."""
     for line, owner in (each for ax in figure.axes for each in _plotted(ax)):
         x, name = _points(line)[0], _label(owner) or line.get_gid() or _kind(line)
         if (

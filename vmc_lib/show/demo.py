@@ -19,7 +19,7 @@ from vmc_lib.show.alt_text import alt_text
 from vmc_lib.show.controls import Pad, Slider, Switch, as_control
 from vmc_lib.show.data_table import data_tables
 from vmc_lib.show.figures import frame, parts_of, pictures, side_by_side
-from vmc_lib.show.live import Live, exclusive_pyplot
+from vmc_lib.show.live import Live, demo_script, exclusive_pyplot
 from vmc_lib.show.numbers import Numbers
 from vmc_lib.show.outputs import Markup, still
 from vmc_lib.show.packed import pack_arrays, pack_json
@@ -32,12 +32,9 @@ from vmc_lib.show.positions import (
     strides,
     values_at,
 )
-from vmc_lib.show.render_mode import STATIC, render_mode
-from vmc_lib.show.scene import SCRIPTS as VIEWER
+from vmc_lib.show.render_mode import render_mode
 from vmc_lib.show.scene import Scene
 
-PLOT_SCRIPTS = [STATIC / f"{name}.js" for name in ("axes", "handle", "address", "sound", "demo")]
-SCRIPTS = [*VIEWER, *PLOT_SCRIPTS]
 MOST_POSITIONS = 200
 SWITCHES = '<div class="vmc-control"><div class="vmc-options">{}</div></div>'  # a row of them
 SAMPLE = 25  # positions along a control, of a demo that the page works out
@@ -58,9 +55,9 @@ def explore(draw, caption="", alt=None, in_page=None, data=None, printed=(), **c
 
     A demo may have as many positions as it likes if the book's page works them out itself:
     `in_page` is (name, ground, given), or a function that returns these, called for the book alone.
-    The page's `vmcInPage[name]` draws what `draw` does, by what it is `given` (as JSON takes it),
-    on plots or photos that `ground()` returned; with `views`, it puts a pad's handle on several of
-    them. Here a sample is evaluated, along each control.
+    The page's `works[name]` (page/demos) draws what `draw` does, by what it is `given` (as JSON
+    takes it), on plots or photos that `ground()` returned; with `views`, it puts a pad's handle on
+    several of them. Here a sample is evaluated, along each control.
 
     `data` are arrays, or dictionaries of them, by the names that the cell has for them: they travel
     with the book's page, whose Python could not make them, or not soon.
@@ -228,10 +225,9 @@ def _live(state, caption, controls, name):
     face = _face(alt, parts, controls, name)
     face += '<p class="vmc-kernel" role="status"></p><p class="vmc-error" role="alert"></p>'
     scenes = [part.messages() if isinstance(part, Scene) else None for part in parts]
-    scripts = SCRIPTS if any(scenes) else PLOT_SCRIPTS
     handle = display(still(alt, parts, name), display_id=True)
     answers = {"state": answer, "still": keep}
-    display(Live(frame(face, name), "vmcDemo", scripts, answers, first=[[alt], *scenes]))
+    display(Live(frame(face, name), demo_script(), answers, first=[[alt], *scenes]))
     if caption:
         display(Markup(frame("", caption=caption), caption))
     _freeze_once()

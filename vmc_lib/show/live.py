@@ -1,12 +1,12 @@
 """Widgets in a live kernel: the page's own scripts move their markup, and the kernel answers them.
 
-The browser's end is `static/kernel.js`. Questions are answered beside the cells, while a chapter
+The browser's end is `page/kernel.js`. Questions are answered beside the cells, while a chapter
 still runs: so there may be two threads that draw.
 """
 
 import traceback
 from contextlib import contextmanager
-from functools import lru_cache, partial
+from functools import cache, lru_cache, partial
 from importlib.util import find_spec
 from pathlib import Path
 from threading import RLock
@@ -19,7 +19,7 @@ import traitlets
 from IPython import get_ipython
 from ipywidgets import Widget
 
-from vmc_lib.show.render_mode import STATIC
+from vmc_lib.show.render_mode import BROUGHT, STATIC
 
 VENDORED = {"bones.js": STATIC / "vendor/bones.js"}
 if MESHCAT := find_spec("meshcat"):  # not in the page
@@ -27,11 +27,20 @@ if MESHCAT := find_spec("meshcat"):  # not in the page
 _pyplot = RLock()
 
 
-class Live(anywidget.AnyWidget):
-    """A widget that shows the markup `page` and calls `start`, the name of a function, on it.
+@cache
+def demo_script():
+    """What moves a demo in a live kernel: as a wheel brings it, or made of `page`."""
+    if BROUGHT.is_dir():
+        return (BROUGHT / "demo.js").read_text(encoding="utf-8")
+    from page import bundle  # in a clone
 
-    `scripts` are the paths of the JavaScript that `start` needs; they travel with the widget, and
-    run once in a window. `vendored` are the paths, by name, of what a script asks for only when it
+    return bundle.widget_script("demo/live.js")
+
+
+class Live(anywidget.AnyWidget):
+    """A widget that shows the markup `page`, which a `script` moves (`page.bundle.widget_script`).
+
+    `vendored` are the paths, by name, of what a script asks for only when it
     needs it. `answers` maps a question to the function that answers it, JSON in, JSON out; what
     that raises is shown where the picture would be. `first` is the first answer to "state": lines
     of text for every part of the page, or None for a part that stands there already.
@@ -40,19 +49,16 @@ class Live(anywidget.AnyWidget):
     it loads later than two seconds, as on a busy machine.
     """
 
-    _esm = (STATIC / "kernel.js").read_text(encoding="utf-8")
-    page, start = traitlets.Unicode().tag(sync=True), traitlets.Unicode().tag(sync=True)
-    scripts, vendored = traitlets.Dict().tag(sync=True), traitlets.List().tag(sync=True)
+    _esm, page = traitlets.Unicode().tag(sync=True), traitlets.Unicode().tag(sync=True)
+    vendored = traitlets.List().tag(sync=True)
     first = traitlets.List(allow_none=True).tag(sync=True)
     channel = traitlets.Unicode().tag(sync=True)
 
-    def __init__(self, page, start, scripts, answers=None, vendored=VENDORED, first=None):
-        scripts = {path.name: path.read_text(encoding="utf-8") for path in scripts}
+    def __init__(self, page, script, answers=None, vendored=VENDORED, first=None):
         self._channel = Widget()
         super().__init__(
+            _esm=script,
             page=page,
-            start=start,
-            scripts=scripts,
             vendored=list(vendored),
             first=first,
             channel=self._channel.model_id,
@@ -62,11 +68,8 @@ class Live(anywidget.AnyWidget):
             "script": lambda name: vendored[name].read_text(encoding="utf-8"),
         } | (answers or {})
         self._channel.on_msg(lambda _, message, buffers: self._reply(**message))
-        # ipykernel 7.4 gives a question to the thread that last wrote to the browser, here the
-        # cells', behind all cells to come; without this it takes the one that the browser names
-        self._channel.comm._reply_subshell_for = None
-        # nor are IPython's events for it: they show and close the figures of the cell that runs
-        self._channel.comm.handle_msg = self._channel._handle_msg
+        if kernel := getattr(get_ipython(), "kernel", None):
+            kernel.comm_manager.register_comm(_Listener(self._channel.comm, self._reply))
         _lock_cells_end()
 
     def __repr__(self):
@@ -80,6 +83,26 @@ class Live(anywidget.AnyWidget):
         except Exception as error:  # a reader's own code may raise anything
             reply = {"error": "".join(traceback.format_exception_only(error)).strip()}
         self._channel.send({"id": id} | reply)
+
+
+class _Listener:
+    """What a kernel hands a comm's messages to, in its place: `answer` hears the questions.
+
+    A comm of ipykernel 7.4 lets the thread that last wrote to the browser read them, here the
+    cells', behind all cells to come; this one lets the browser say which. Nor are IPython's events
+    for a question: they show and close the figures of the cell that runs.
+    """
+
+    def __init__(self, comm, answer):
+        self.comm_id, self.handle_close = comm.comm_id, comm.handle_close
+        self._comm, self._answer = comm, answer
+
+    def handle_msg(self, message):
+        data = message["content"]["data"]
+        if data.get("method") == "custom":
+            self._answer(**data["content"])
+        else:
+            self._comm.handle_msg(message)
 
 
 @lru_cache(1)

@@ -37,8 +37,8 @@ def number(value, digits=3):
 
 @cache
 def _style_sheet():
-    sheets = "".join(sheet.read_text(encoding="utf-8") for sheet in sorted(STATIC.glob("*.css")))
-    return f"<style>{sheets}</style>"
+    sheets = (STATIC / f"{name}.css" for name in ("demo", "scene"))
+    return f"<style>{''.join(sheet.read_text(encoding='utf-8') for sheet in sheets)}</style>"
 
 
 def svg(fig, salt):

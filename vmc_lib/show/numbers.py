@@ -7,7 +7,7 @@ NUMBER = r"(−?\d+(?:[.,]\d+)*)"
 
 
 class Numbers:
-    """What a demo's words and sliders say, by place: markup that `static/demo.js` keeps true.
+    """What a demo's words and sliders say, by place: markup that `demo.js` keeps true.
 
     `numbers["recall #"]` is the number at the # in the demo's `words`, `numbers["load"]` what the
     slider `load` stands at, of the `texts` by name: both as the demo first shows them, so that a

@@ -10,7 +10,7 @@ import numpy as np
 
 
 def pack_bytes(data):
-    """Bytes as gzip in base64, which the page's `vmcUnzip` unpacks."""
+    """Bytes as gzip in base64, which the page's `unzip` unpacks."""
     return base64.b64encode(gzip.compress(data, mtime=0)).decode()
 
 

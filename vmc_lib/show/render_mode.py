@@ -3,7 +3,9 @@
 import os
 from pathlib import Path
 
-STATIC = Path(__file__).parent / "static"  # what pages and kernels show demos with
+# What a live kernel shows demos with: a wheel brings it along (tools/wheel.py), a clone has `page`
+BROUGHT = Path(__file__).parent / "static"
+STATIC = BROUGHT if BROUGHT.is_dir() else Path(__file__).parents[2] / "page/static"
 MODES = ("live", "book", "test")
 
 

@@ -15,12 +15,6 @@ from collections import defaultdict
 
 import umsgpack
 
-from vmc_lib.show.render_mode import STATIC
-
-SCRIPTS = [  # what shows a scene, in order
-    STATIC / f"{name}.js"
-    for name in ("vendored", "anatomy", "muscles", "body", "scene_pointer", "scene", "panel")
-]
 _UUID = re.compile(rb"[0-9a-f]{8}(?:-[0-9a-f]{4}){3}-[0-9a-f]{12}")
 
 

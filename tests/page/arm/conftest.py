@@ -2,20 +2,20 @@
 
 import pytest
 
-from arm_in_page import live, live_arm, live_whole_arm
 from book.figures import whole_arm_live
+from page.arm import live, live_arm, live_whole_arm
 from reproduce.whole_arm import experiment, habits
 from tests import pages
-from tests.arm_in_page.controls import WHOLE_ARM_TARGET
+from tests.page.arm.controls import WHOLE_ARM_TARGET
 
 # `arm` and `templateSet` for a script that asks them something, made once a page and arm
 ASK = """async ([which, asked]) => {
   const given = JSON.parse(document.querySelectorAll(".vmc-live script")[which].textContent);
-  const arm = await ((self.testArms ??= {})[which] ??= vmcArm.load(given));
-  const templateSet = await vmcTemplates.load(given.templateSet);
+  const arm = await ((self.testArms ??= {})[which] ??= vmc["arm/load"].load(given));
+  const templateSet = await vmc["arm/templates"].load(given.templateSet);
   const reach = (plan) => (weights) => {
     const moments = arm.reach(templateSet.excitations({ ...plan, weights }));
-    return vmcVectors.mean(arm.hold(moments)).slice(0, asked.length);
+    return vmc["vectors"].mean(arm.hold(moments)).slice(0, asked.length);
   };
   %s
 }"""

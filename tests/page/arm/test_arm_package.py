@@ -7,8 +7,8 @@ import shutil
 import numpy as np
 import pytest
 
-from arm_in_page.live import given
 from kit import arm
+from page.arm.live import given
 from tests.pages import observe
 from tests.project import run
 from vmc_lib.arm.simulate import simulate

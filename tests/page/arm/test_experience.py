@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tests.arm_in_page.controls import number, readout, set_target, status
+from tests.page.arm.controls import number, readout, set_target, status
 from tests.pages import drag, middle
 from vmc_lib.cerebellum.offline import algorithm_1
 from vmc_lib.motor import templates
@@ -17,7 +17,7 @@ TARGET = np.array([0.09, -0.37])
 PLACE = """(box, [x, y]) => {
   const svg = box.querySelector("svg[data-axes]");
   const { left, top, width, height } = svg.getBoundingClientRect();
-  const [right, down] = vmcAxes(svg).drawn([x, y]);
+  const [right, down] = vmc["demo/axes"].axesOf(svg).drawn([x, y]);
   return [left + right * width, top + down * height];
 }"""
 
@@ -45,10 +45,10 @@ def test_plans_without_some_and_with_one_more_are_pythons(ask):
     kept = habit.with_weights(habit.weights + np.array([0.3, -0.3, 0.4, -0.4]))  # clipped
     past = with_one_more(own, kept)
     script = """const [weights, all] = asked, target = [0.09, -0.37];
-      const kept = { ...vmcPlanning.plan(target, templateSet), weights };
+      const kept = { ...vmc["arm/planning"].plan(target, templateSet), weights };
       templateSet.add(reach(kept)(weights), templateSet.excitations(kept));
       return all.map(([at, without]) => {
-        const plan = vmcPlanning.plan(at, templateSet, undefined, new Set(without));
+        const plan = vmc["arm/planning"].plan(at, templateSet, undefined, new Set(without));
         const commands = templateSet.excitations(plan)[500];
         return [plan.chosen, plan.weights, reach(plan)(plan.weights), commands];
       });"""

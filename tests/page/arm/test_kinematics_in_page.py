@@ -13,7 +13,7 @@ TARGETS = np.array([[0.12, -0.42], [0.045, -0.345], [0.17, -0.46]])
 @pytest.mark.parametrize("target", TARGETS, ids=str)
 def test_inverse_kinematics(ask, target):
     posture = ask(
-        "return vmcKinematics.inverseKinematics(given.kinematics, asked);", target.tolist()
+        "return vmc['arm/kinematics'].inverseKinematics(given.kinematics, asked);", target.tolist()
     )
     assert np.allclose(posture, inverse_kinematics(target), atol=1e-9)
 
@@ -26,8 +26,8 @@ def test_the_trunk_turns_as_in_python(ask):
     )
     script = """return asked.map((place) => {
       try {
-        const { turn, place: [x, y] } = vmcKinematics.turnTowards(given.kinematics, place);
-        return [turn, x, y, ...vmcKinematics.toWorld(given.kinematics, [x, y, 0.1], turn)];
+        const { turn, place: [x, y] } = vmc["arm/kinematics"].turnTowards(given.kinematics, place);
+        return [turn, x, y, ...vmc["arm/kinematics"].toWorld(given.kinematics, [x, y, 0.1], turn)];
       } catch (error) { return error.message; }
     });"""
     answers = list(zip(places := places.reshape(-1, 3), ask(script, places.tolist()), strict=True))

@@ -5,22 +5,10 @@ import json
 import mujoco
 import pytest
 
-from arm_in_page import controls, live, live_arm
-from tests.arm_in_page.controls import start, status
-from tests.pages import ROOT, SCRIPTS, STYLES, displayed
+from page.arm import controls, live, live_arm
+from tests.page.arm.controls import start, status
+from tests.pages import ROOT, displayed
 from tests.show.kernel import render
-
-
-def test_the_book_lists_every_script_in_the_order_of_need():
-    ours = [script.name for script in live.SCRIPTS]
-    assert [name for name in SCRIPTS if name in ours] == ours
-    assert {*live.STATIC.glob("*.js")} <= {*live.SCRIPTS}
-    assert {"demo.css", "live.css"} <= {*STYLES}
-
-
-def test_scripts_are_short():
-    for script in (*live.STATIC.glob("*.*"), *live.SHOW.glob("*.*")):
-        assert len(script.read_text(encoding="utf-8").splitlines()) <= 250, script.name
 
 
 def test_the_versions_of_mujoco_are_those_of_the_files():

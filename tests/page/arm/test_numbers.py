@@ -6,11 +6,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from arm_in_page import live
 from book.figures import whole_arm_live
 from book.figures.whole_arm import arm_data, lines
+from page.arm import live
 from reproduce.whole_arm import experiment
-from tests.arm_in_page.controls import WHOLE_ARM_TARGET
+from tests.page.arm.controls import WHOLE_ARM_TARGET
 from vmc_lib.arm import muscle
 from vmc_lib.arm.arm26 import geometry
 from vmc_lib.arm.dynamics import paths
@@ -35,7 +35,7 @@ TARGETS = np.array([[0.12, -0.42], [0.045, -0.345], [0.17, -0.46]])
 TARGETS_3D = np.array([WHOLE_ARM_TARGET, [0.52, 0.07, -0.065], [0.485, -0.09, -0.17]])
 CLOSE = 1e-3  # rad, m: of the whole arm, as the page has another version of MuJoCo
 ANATOMY = """const message = given.scene.find((message) => message.startsWith("anatomy|"));
-  const data = JSON.parse(message.slice(8)), anatomy = new vmcAnatomy.Anatomy(data); """
+  const data = JSON.parse(message.slice(8)), anatomy = new vmc["demo/anatomy"].Anatomy(data); """
 
 
 @pytest.mark.browser
@@ -51,7 +51,9 @@ ANATOMY = """const message = given.scene.find((message) => message.startsWith("a
 )
 def test_muscle_laws(ask, name, law, low, high):
     asked = np.random.default_rng(1).uniform(low, high, (300, len(low)))
-    script = f"return asked.map((all) => new vmcMuscle.Muscle(given.muscle).{name}(...all));"
+    script = (
+        f"return asked.map((all) => new vmc['arm/muscle'].Muscle(given.muscle).{name}(...all));"
+    )
     expected = law(*asked.T)
     assert np.allclose(ask(script, asked.tolist()), expected, rtol=1e-12, atol=1e-12)
     assert np.ptp(expected) > 0.5
@@ -59,7 +61,7 @@ def test_muscle_laws(ask, name, law, low, high):
 
 @pytest.mark.browser
 def test_constants_are_pythons_and_a_replaced_law_is_noticed(ask, monkeypatch):
-    script = "return new vmcMuscle.Muscle(asked).differs;"
+    script = "return new vmc['arm/muscle'].Muscle(asked).differs;"
     assert ask(script, live.given()["muscle"]) is False
     monkeypatch.setattr(muscle, "TAU_ACTIVATION", 0.05)
     assert ask(script, live.given()["muscle"]) is False
@@ -124,7 +126,7 @@ def test_what_is_drawn_of_the_whole_arm(ask, past):
 
 @pytest.mark.browser
 def test_a_muscle_reddens_with_activation_and_swells_as_it_shortens(ask):
-    rest, half, full = ask("return [0, 0.25, 1].map(vmcMuscles.redness);")
+    rest, half, full = ask("return [0, 0.25, 1].map(vmc['demo/muscles'].redness);")
     assert np.allclose(half, np.mean([rest, full], axis=0))  # the root of a quarter
     assert full[1] < 0.2 < rest[1]
     script = """return asked.map((q) =>
@@ -148,7 +150,7 @@ def flesh_volume(belly):
     ("name", "rule"), [("habitualWeights", habitual_weights), ("exactWeights", exact_weights)]
 )
 def test_plans(ask, past, arm, name, rule):
-    script = f"""const plan = vmcPlanning.plan(asked, templateSet, vmcPlanning.{name});
+    script = f"""const plan = vmc["arm/planning"].plan(asked, templateSet, vmc["arm/planning"].{name});
       return {{ ...plan, u: templateSet.excitations(plan) }};"""
     if arm == WHOLE:
         plans = [
@@ -173,9 +175,7 @@ def test_a_reach_with_weights_set_by_hand(ask):
     targets, by_hand = draw_targets(own, 20, rng), rng.uniform(-0.1, 0.6, (20, 4))
     planned = plan(targets, own)
     ends = execute(replace(planned, weights=by_hand)).endpoint
-    script = (
-        "return asked.map(([at, weights]) => reach(vmcPlanning.plan(at, templateSet))(weights));"
-    )
+    script = "return asked.map(([at, weights]) => reach(vmc['arm/planning'].plan(at, templateSet))(weights));"
     asked = [[*pair] for pair in zip(targets.tolist(), by_hand.tolist(), strict=True)]
     seen = np.array(ask(script, asked))
     assert np.abs(seen[:, :2] - ends).max() < 1e-6
@@ -195,8 +195,8 @@ def broyden(planned):
     ],
 )
 def test_calibration(ask, past, name, rule, arm):
-    script = f"""const plan = vmcPlanning.plan(asked, templateSet);
-      return [...vmcCalibration.{name}(plan, reach(plan), given.calibration)];"""
+    script = f"""const plan = vmc["arm/planning"].plan(asked, templateSet);
+      return [...vmc["arm/calibration"].{name}(plan, reach(plan), given.calibration)];"""
     planar = plan(TARGETS, templates.load())
     planned = experiment.plan_reaches(TARGETS_3D, past) if arm == WHOLE else planar
     expected = rule(planned)
@@ -214,9 +214,9 @@ def test_calibration(ask, past, name, rule, arm):
 def test_templates_on_a_line_and_targets_outside_are_refused(ask):
     script = "try {{ {} }} catch (error) {{ return error.message; }}"
     on_a_line = [[0.1, -0.4], [0.2, -0.4], [0.3, -0.4], [0.4, -0.4]]
-    exact = script.format("return vmcPlanning.exactWeights([0.25, -0.35], asked);")
+    exact = script.format("return vmc['arm/planning'].exactWeights([0.25, -0.35], asked);")
     assert "on one line" in ask(exact, on_a_line)
-    planned = script.format("return vmcPlanning.plan(asked, templateSet);")
+    planned = script.format("return vmc['arm/planning'].plan(asked, templateSet);")
     assert "not surrounded" in ask(planned, [0.5, -0.4])
 
 

@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from arm_in_page import controls, live
+from page.arm import controls, live
 from reproduce.whole_arm import experiment
-from tests.arm_in_page.controls import number, readout, set_target, start, status
+from tests.page.arm.controls import number, readout, set_target, start, status
 from tests.pages import NO_WEBGL, drag, middle, middles, probe
 from vmc_lib.arm.model import MUSCLES
 from vmc_lib.arm.simulate import simulate
@@ -104,7 +104,7 @@ def test_the_whole_arm_reaches_and_calibrates(open_arms, window, past):
     arm, target = page.whole, np.array([0.52, 0.07, -0.065])
     start(arm)
     arm.locator(".vmc-scene canvas").wait_for()
-    drawn = "div => vmcScene(div).body instanceof vmcWhole.Body"
+    drawn = "div => vmc['demo/scene'].viewOf(div).body instanceof vmc['arm/whole'].Body"
     assert arm.locator(".vmc-scene").evaluate(drawn)
     set_target(arm, target)
     arm.locator("[name=main]").click()
@@ -159,7 +159,7 @@ def test_a_first_reach_is_there_and_its_miss_is_enlarged(open_arms, ask):
     assert np.abs(enlarged - live.LENS["times"] * plain).max() < 1  # px
     stored = ask(
         """const { weights, reached, error, q, joints } = given.first;
-      const plan = vmcPlanning.plan([0.09, -0.37], templateSet);
+      const plan = vmc["arm/planning"].plan([0.09, -0.37], templateSet);
       return [[weights, plan.weights], [reached, reach(plan)(plan.weights)],
         [joints, arm.joints(q)], [[error], [Math.hypot(reached[0] - 0.09, reached[1] + 0.37)]]];""",
         [0, 0],
@@ -192,7 +192,7 @@ def test_weights_are_set_by_hand(open_arms, window):
 def test_with_reduced_motion_only_the_end_is_shown(open_arms, window):
     page = open_arms(window(reduced_motion="reduce"))
     start(page.reach)
-    frames = """() => vmcScene(document.querySelectorAll(".vmc-scene")[1])
+    frames = """() => vmc["demo/scene"].viewOf(document.querySelectorAll(".vmc-scene")[1])
       .viewer.renderer.info.render.frame"""
     before = page.evaluate(frames)
     page.reach.locator("[name=main]").click()

@@ -3,13 +3,12 @@
 import numpy as np
 import pytest
 
-from book._ext.policy import seal
 from book.figures import aiming, trade, votes, where
 from reproduce.experiments import recognition
-from tests.in_page import test_drags as dragged
-from tests.in_page import test_sliders as slid
-from tests.pages import HEAD, book_html, drag, middle, observe, settle
-from vmc_lib.show import Slider, demo
+from tests.page.demos import test_drags as dragged
+from tests.page.demos import test_sliders as slid
+from tests.pages import drag, middle
+from vmc_lib.show import Slider
 
 pytestmark = pytest.mark.browser
 RNG, LEVEL = np.random.default_rng(5), "varied"
@@ -54,28 +53,6 @@ DEMOS = {  # by its number in the page: its sliders' values, and words of Python
     6: ([slid.DRIVES] * 4, block_words),
     7: ([slid.CUTS], line_words),
 }
-
-
-UNPACKED = """() => Promise.all([...document.querySelectorAll(".vmc-demo > script")]
-  .map(({ textContent }) => vmcUnzip(textContent).json()))"""
-
-
-def test_a_script_that_comes_late_draws_nevertheless(window, site):
-    """Over a slow line a demo is unpacked before what computes its pictures is there."""
-    (site / "late.html").write_text(seal(HEAD + book_html(demo, declare)), encoding="utf-8")
-    reader = window()
-
-    def serve(route):
-        name = route.request.url.removeprefix("http://book/")
-        if name == "in_page_demos.js":
-            page.evaluate(UNPACKED)
-        route.fulfill(path=site / name)
-
-    reader.route("http://book/**", serve)
-    page = observe(reader.new_page())
-    page.goto("http://book/late.html")
-    settle(page)
-    assert page.errors == []
 
 
 @pytest.mark.parametrize("number", DEMOS)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from book.figures import aiming, reaching, votes, where
-from tests.in_page.markup import move, numbers, on, polylines, words
+from tests.page.demos.markup import move, numbers, on, polylines, words
 from tests.pages import drag, middle, middles
 from vmc_lib import photos
 from vmc_lib.arm.kinematics import to_world
@@ -107,7 +107,7 @@ def test_overlap_of_any_two_boxes(page):
     rng = np.random.default_rng(4)
     corners = rng.integers(0, 12, (2, 60, 2, 2))
     a, b = np.concatenate([corners.min(2), corners.max(2) + 1], axis=-1).tolist()
-    seen = page.evaluate("([a, b]) => a.map((box, i) => vmcEye.iou(box, b[i]))", [a, b])
+    seen = page.evaluate("([a, b]) => a.map((box, i) => vmc['eye/boxes'].iou(box, b[i]))", [a, b])
     assert np.allclose(seen, np.diag(iou(a, b)), atol=1e-12)
     assert 0 in seen
 
@@ -198,8 +198,8 @@ def test_the_camera_is_that_of_python(page):
     given = aiming.aim_in_page(SHOT)[2]
     seen, back = page.evaluate(
         """([camera, pixels, points]) => [
-          pixels.map((pixel) => vmcEye.backProject(camera, pixel, -0.4)),
-          points.map((point) => vmcEye.project(camera, point))]""",
+          pixels.map((pixel) => vmc["eye/camera"].backProject(camera, pixel, -0.4)),
+          points.map((point) => vmc["eye/camera"].project(camera, point))]""",
         [given["camera"], pixels.tolist(), points.tolist()],
     )
     assert np.allclose(seen, points, atol=1e-9)

@@ -9,7 +9,7 @@ import pytest
 
 from book.figures import regions, suppression
 from reproduce.experiments import localisation
-from tests.in_page.markup import move, numbers, on, words
+from tests.page.demos.markup import move, numbers, on, words
 from tests.pages import drag, middle
 from vmc_lib import photos
 from vmc_lib.boxes import nms
@@ -89,7 +89,7 @@ def test_a_machine_between_two_clouds_is_that_of_python(page, place, kernel):
         """([points, labels, cost, kernel, plane]) => {
           let reads = 0; // of the labels, two for each in a step
           const counted = new Proxy(labels, { get: (all, key) => (reads++, all[key]) });
-          const { alpha, score } = vmcInPage.margin.fit(points, counted, cost, kernel);
+          const { alpha, score } = vmc["demos/margin"].margin.fit(points, counted, cost, kernel);
           return [alpha, plane.map(score), reads / labels.length / 2];
         }""",
         [clouds.tolist(), labels, cost, kernel, plane.tolist()],

@@ -9,7 +9,7 @@ import pytest
 
 from book.figures import crbm, granule, names, trade
 from reproduce.experiments import localisation, recognition
-from tests.in_page.markup import move, numbers, on, polylines, words
+from tests.page.demos.markup import move, numbers, on, polylines, words
 from vmc_lib import photos
 from vmc_lib.cerebellum.online import GranuleCells
 from vmc_lib.show import Slider, explore

@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 
 from book.figures import your_photo
-from eye_in_page import brain
+from page.eye import brain
 from tests import pages
 from vmc_lib import photos
 
 ASK = """async ([asked, pixels, width, height]) => {
   const data = Uint8ClampedArray.from(atob(pixels), (c) => c.charCodeAt(0));
   const photo = { data, width, height };
-  const brain = await vmcEye.unpack();
+  const brain = await vmc["eye/unpack"].unpack();
   %s
 }"""
 NOTHING = np.zeros((1, 1, 3), np.uint8)

@@ -11,13 +11,13 @@ from PIL import Image
 from playwright.sync_api import expect
 
 from tests import pages
-from tests.arm_in_page.controls import readout, status
-from tests.eye_in_page.test_your_photo import AGAIN, NEED, OURS, SHOTS
+from tests.page.arm.controls import readout, status
+from tests.page.eye.test_your_photo import AGAIN, NEED, OURS, SHOTS
 from tools import browser
 from vmc_lib.boxes import iou, pad_boxes
 
 pytestmark = pytest.mark.browser
-FOLLOW = """return vmcEye.finish(vmcEye.follow(brain, photo, ...asked));"""
+FOLLOW = """return vmc["eye/pieces"].finish(vmc["eye/follow"].follow(brain, photo, ...asked));"""
 DRAWN = """const { prototype } = CanvasRenderingContext2D, { drawImage } = prototype;
 self.drawn = 0; // frames of a video: Chromium keeps a copy of each
 prototype.drawImage = function (picture, ...rest) {
@@ -31,10 +31,6 @@ navigator.mediaDevices.getUserMedia = async () => {
   setInterval(() => canvas.getContext("2d").drawImage(picture, 0, 0), 40);
   return (self.film = canvas.captureStream());
 };"""
-HELD = """() => {
-  const { unpack } = vmcEye, held = new Promise((resolve) => (self.go = resolve));
-  vmcEye.unpack = () => held.then(unpack);
-}"""
 RESTING_ELSEWHERE = """(first) =>
   document.querySelector("[role=status]").textContent.startsWith("After trying")
   && document.querySelector("[data-tell=place]").textContent !== first"""
@@ -96,15 +92,15 @@ def test_the_arm_reaches_again_for_what_has_been_moved(window, site, html):
 
 
 def test_a_film_that_is_left_or_cut_leaves_the_page_to_photos(window, site, html, tmp_path):
-    page = pages.open_html(window(FILM), site, html)
-    page.evaluate(HELD)
+    page, held = pages.open_html(window(FILM), site, html), []
+    page.route("**/brain.js", held.append)
     live, photo = page.locator("[name=live]"), tmp_path / "photo.jpg"
     live.click()
     show_in_film(page, BLANK)
     status(page, "Opening the eye")
     photo.write_bytes(jpeg(BLANK))
     page.locator("[type=file]").set_input_files(photo)
-    page.evaluate("go()")
+    held[0].continue_()
     status(page, AGAIN)
     expect(page.locator(".vmc-picture canvas").first).to_be_hidden()
     expect(live).to_have_text("Live")

@@ -8,7 +8,7 @@ from PIL import Image
 
 from book.figures import your_photo
 from tests import pages
-from tests.arm_in_page.controls import number, readout, status
+from tests.page.arm.controls import number, readout, status
 from tests.show.kernel import render
 from tests.test_marker_sheet import draw_sheet
 from vmc_lib import photos
@@ -155,7 +155,7 @@ def test_a_sheet_laid_upside_down_is_asked_about(page, tmp_path):
 
 
 WORDS = """const sheet = { fewest: 3 }, read = { markers: [], camera: asked.camera };
-return vmcPhotoWords.next(asked.sight, asked.count, read, sheet);"""
+return vmc["eye/photo_words"].next(asked.sight, asked.count, read, sheet);"""
 
 
 def test_the_arm_is_promised_where_it_can_reach(ask):

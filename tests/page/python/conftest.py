@@ -2,7 +2,7 @@
 
 import pytest
 
-from python_in_page import pack
+from page.python import pack
 from tests import pages
 from tests.exercises import EVERY
 from vmc_lib.show import questions
@@ -21,8 +21,8 @@ STUB = '''def {name}(u, a, rise, fall):
     ...  # your lines
 '''
 MECHANISM = "def cube(x):\n    return x**3\n\n\nassert cube(twice(2)) == 64"
-ASK = "(question) => vmcPython.ask(question, () => {})"
-PATIENT = "() => { vmcPython.limit.seconds = 1000 }"  # others may be at work, too
+ASK = "(question) => vmc['python/interpreter'].ask(question, () => {})"
+PATIENT = "() => { vmc['python/interpreter'].limit.seconds = 1000 }"  # others may be at work, too
 CELL = '<div class="cell"><div class="cell_input"><pre>{}</pre></div></div>'
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from bs4 import BeautifulSoup
 
-from python_in_page import pack
+from page.python import pack
 from tests.exercises import EVERY
 from tests.pages import open_html
 from vmc_lib.grading import EMPTY, RIGHT, WRONG, feedback
@@ -89,7 +89,7 @@ def test_what_is_said_is_set_as_in_the_notebook(offline, site):
     texts = [hint for exercise in EVERY.values() for hint in exercise.mistakes]
     texts += [feedback(lambda *_: "<b> & *not* $x$", EVERY["MIXED"]), RIGHT, EMPTY]
     page = open_html(offline, site, "<h1>E</h1>")
-    script = "(texts) => texts.map(vmcGrade.inline)"
+    script = "(texts) => texts.map(vmc['python/grade'].inline)"
     plain = [str(BeautifulSoup(html, "html.parser")) for html in page.evaluate(script, texts)]
     assert plain == [str(BeautifulSoup(inline(text), "html.parser")) for text in texts]
     page.close()

@@ -10,12 +10,12 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
-from python_in_page import demos
-from python_in_page.grader import changed
+from page.python import demos
+from page.python.grader import changed
 from tests.laws import functions, law_cells
+from tests.page.python.conftest import ASK
 from tests.pages import open_html
 from tests.project import CHAPTERS, code_cells
-from tests.python_in_page.conftest import ASK
 from vmc_lib.show import Choice, figures
 from vmc_lib.show.data_table import panels
 from vmc_lib.show.packed import pack_arrays
@@ -101,7 +101,7 @@ from unittest.mock import patch
 from zlib import crc32
 import matplotlib.pyplot as plt
 import numpy as np
-from python_in_page import demos
+from page.python import demos
 from vmc_lib.show import figures
 from vmc_lib.show.data_table import panels
 {inspect.getsource(digest)}
@@ -112,7 +112,7 @@ print(json.dumps([digest(*one) for one in json.loads(given)]))"""
 def page(offline, site):
     python = "<!-- tag_draws-in-page: its policy lets Python run -->"
     page = open_html(offline, site, f"<h1>D</h1>{python}")
-    page.evaluate("() => { vmcPython.limit.seconds = 100 }")
+    page.evaluate("() => { vmc['python/interpreter'].limit.seconds = 100 }")
     yield page
     page.close()
     assert page.errors == []

@@ -28,7 +28,7 @@ CLEAN = """(html) => {
   const box = document.createElement("template");
   box.innerHTML = html;
   const before = box.innerHTML;
-  vmcDrawn.clean(box.content);
+  vmc["python/drawn"].clean(box.content);
   return [before, box.innerHTML];
 }"""
 

@@ -6,7 +6,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.exercises import EVERY
-from tests.python_in_page.conftest import MECHANISM
+from tests.page.python.conftest import MECHANISM
 
 pytestmark = pytest.mark.browser
 RIGHT_LINES = inspect.getsource(EVERY["ACTIVATION_RATES"].right)
@@ -46,9 +46,9 @@ def test_python_is_loaded_for_who_writes_and_from_the_books_own_files(open_exerc
 
 def test_an_endless_loop_ends_by_itself_or_by_the_button(open_exercise):
     page = open_exercise()
-    page.evaluate("() => { vmcPython.limit.seconds = 1 }")
+    page.evaluate("() => { vmc['python/interpreter'].limit.seconds = 1 }")
     check(page, ENDLESS, "Stopped after 1 s. Does a loop never end?")
-    page.evaluate("() => { vmcPython.limit.seconds = 1000 }")
+    page.evaluate("() => { vmc['python/interpreter'].limit.seconds = 1000 }")
     page.button("Check").click()
     page.said.get_by_text("Checking").wait_for()
     page.button("Stop").click()

@@ -42,7 +42,9 @@ def first_words(markdown):
 )
 def test_every_exercise_is_checked_in_its_chapter(offline, chapter):
     page = open_url(offline, built(chapter).as_uri())
-    page.evaluate("() => { vmcPython.limit.seconds = 100 }")  # others may be at work, too
+    page.evaluate(
+        "() => { vmc['python/interpreter'].limit.seconds = 100 }"
+    )  # others may be at work, too
 
     def check(name, lines):
         return page.evaluate(f"async (lines) => {{ {CHECK % name.lower()} }}", lines)

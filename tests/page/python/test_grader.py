@@ -9,8 +9,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from python_in_page import absent
-from python_in_page.grader import call, changed, check, definitions, run
+from page.python import absent
+from page.python.grader import call, changed, check, definitions, run
 from tests.exercises import EVERY
 from vmc_lib.grading import EMPTY, RIGHT, WRONG, feedback
 

@@ -8,7 +8,7 @@ from playwright.sync_api import expect
 
 from book._ext.numbering import with_figure_numbers
 from tests import pages
-from tests.python_in_page.conftest import CELL
+from tests.page.python.conftest import CELL
 from vmc_lib import show
 from vmc_lib.show import demo
 
@@ -60,7 +60,9 @@ def open_law(open_page, law_html):
 
     def open_law(*window):
         page = open_page(law_html, *window)
-        page.evaluate("() => { vmcPython.limit.seconds = 100 }")  # others may be at work, too
+        page.evaluate(
+            "() => { vmc['python/interpreter'].limit.seconds = 100 }"
+        )  # others may be at work, too
         page.mine, page.other = page.locator(".vmc-demo").all()
         page.slider = page.mine.locator("input")
         page.line = page.mine.locator(".vmc-law [role=status]")
@@ -127,7 +129,7 @@ def test_arrays_that_the_page_cannot_make_come_with_it(open_page, monkeypatch):
     exec(f"{made}\n{lines}", {})  # noqa: S102
     cell = f'<div class="cell_input"><pre>{lines}</pre></div>{shown[0].data}'
     page = open_page(f'{CELL.format(made)}<div class="cell tag_draws-in-page">{cell}</div>')
-    page.evaluate("() => { vmcPython.limit.seconds = 100 }")
+    page.evaluate("() => { vmc['python/interpreter'].limit.seconds = 100 }")
     page.get_by_role("button", name="Any value").click()
     page.locator(".vmc-demo input").fill("1.5")
     expect(page.locator(TITLE)).to_contain_text("at 2: 4")
@@ -151,7 +153,7 @@ def test_an_exercise_above_is_no_law_and_a_law_that_fails_gives_the_demo_back(op
     page.get_by_role("button", name="Edit law").click()
     for lines, words in FAILING.items():
         if "while" in lines:  # and all that is drawn with has been loaded
-            page.evaluate("() => { vmcPython.limit.seconds = 10 }")
+            page.evaluate("() => { vmc['python/interpreter'].limit.seconds = 10 }")
         run(page, lines)
         expect(page.line).to_contain_text(words)
         expect(page.line).to_contain_text("This is the book’s.")

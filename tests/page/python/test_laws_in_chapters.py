@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from playwright.sync_api import expect
 
-from python_in_page import demos
-from python_in_page.grader import changed
+from page.python import demos
+from page.python.grader import changed
+from tests.page.python.test_demos import DEMOS, LAWS, starts, with_law
 from tests.pages import BUILT, open_url
-from tests.python_in_page.test_demos import DEMOS, LAWS, starts, with_law
 from vmc_lib.motor import templates
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import plan
@@ -46,7 +46,7 @@ def test_the_other_engines_follow_a_law(engine):
 
 def test_an_arm_plans_by_the_readers_law(window):
     page = open_url(window(reduced_motion="reduce"), (BUILT / "book/09_planning.html").as_uri())
-    page.evaluate("() => { vmcPython.limit.seconds = 100 }")
+    page.evaluate("() => { vmc['python/interpreter'].limit.seconds = 100 }")
     page.get_by_role("button", name="Edit four_around").click()
     lines = page.get_by_label("Your lines: four_around")
     expect(lines).to_be_visible()

@@ -8,9 +8,9 @@ from playwright.sync_api import expect
 
 from book._ext.policy import seal
 from tests import pages
-from tests.python_in_page.conftest import PATIENT
-from tests.python_in_page.test_editor import RIGHT_LINES
-from tests.python_in_page.test_laws import DEMO, FOLDED
+from tests.page.python.conftest import PATIENT
+from tests.page.python.test_editor import RIGHT_LINES
+from tests.page.python.test_laws import DEMO, FOLDED
 from vmc_lib.show import demo
 
 pytestmark = pytest.mark.browser
@@ -187,7 +187,7 @@ def test_only_its_page_sends_the_frame_code(chapter):
     other.wait_for_load_state("load")
     other.evaluate(PATIENT)
     with other.expect_event("frameattached"):
-        other.evaluate("() => { vmcPython.start() }")
+        other.evaluate("() => { vmc['python/interpreter'].start() }")
     page.evaluate("""() => {
       const code = "onmessage = ({ ports: [port] }) => port.postMessage(1)";
       const { port1, port2 } = new MessageChannel();
@@ -249,7 +249,7 @@ def test_an_answer_with_markup_stays_text(chapter):
     lines.fill(FORGE % FORGED)
     page.get_by_role("button", name="Check").click()
     expect(page.said).to_contain_text("<script>")
-    page.evaluate("() => { vmcPython.stop(); }")
+    page.evaluate("() => { vmc['python/interpreter'].stop(); }")
     page.get_by_role("button", name="Edit law").click()
     page.mine.fill(f"{FORGE % FORGED}\n{LAW}")
     page.get_by_role("button", name="Run", exact=True).click()

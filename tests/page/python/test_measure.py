@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from playwright.sync_api import expect
 
-from python_in_page import measure
+from page.python import measure
 from reproduce import ledger, one_draw
 from reproduce.experiments.calibration import SCENARIOS, SEEDS, load_results
+from tests.page.python.conftest import ASK
 from tests.pages import open_html
-from tests.python_in_page.conftest import ASK
 
 ENTRIES = {entry["where"]: entry for entry in ledger.load()["rows"]}
 QUICK = ["Fig. 9", "Ours, Eq. 5"]
@@ -47,7 +47,9 @@ def test_the_first_draw_is_the_one_that_ships():
 def page(offline, site):
     forms = "".join(re.findall(r"<form.*</form>", ledger.details(ENTRIES[w]))[0] for w in QUICK)
     page = open_html(offline, site, f"<h1>L</h1>{forms}")
-    page.evaluate("() => { vmcPython.limit.seconds = 100 }")  # others may be at work, too
+    page.evaluate(
+        "() => { vmc['python/interpreter'].limit.seconds = 100 }"
+    )  # others may be at work, too
     yield page
     page.close()
     assert page.errors == []

@@ -9,7 +9,7 @@ import zipfile
 
 import pytest
 
-from python_in_page import pack
+from page.python import pack
 from tests.project import ROOT
 from vmc_lib.show.packed import unpack_bytes
 
@@ -86,6 +86,6 @@ def test_what_is_compiled_was_made_of_the_vendored_sources():
 def test_the_page_tells_a_scripts_size(packed, script, most):
     size = len(packed[script].encode())
     assert size <= most
-    interpreter = (ROOT / "python_in_page/static/interpreter.js").read_text(encoding="utf-8")
+    interpreter = (ROOT / "page/python/interpreter.js").read_text(encoding="utf-8")
     name = script.split("/")[1]
     assert re.search(f'"{name}": "(.*?) MB"', interpreter)[1] == f"{size / 1e6:.0f}"

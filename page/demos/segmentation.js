@@ -1,7 +1,9 @@
 /* A photo falls into segments, which grow back: ours, or the reader's own, which never leaves the page. */
-const vmcSegmentationDemo = (box) => {
-  "use strict";
+import { drawScaled, PIXELS_HIDDEN, takePictures } from "../canvas.js";
+import { finish } from "../eye/pieces.js";
+import { grow as growSegments, prepare, segment } from "../eye/selective_search.js";
 
+export const start = (box) => {
   const AREA = 600 * 400, PLAY_TIME = 9000; // pixels, as our photos have; ms
   const [still, canvas, k, merged, play, choose, file, strip, say] = // as they stand in the page
     box.querySelectorAll("img, canvas, input, button, .vmc-strip, [role=status]");
@@ -9,10 +11,10 @@ const vmcSegmentationDemo = (box) => {
   let context, photo, prepared, tree, asked = 0;
 
   const look = (picture) => {
-    context = vmcDrawScaled(picture, Math.sqrt(AREA / (picture.width * picture.height)), canvas);
+    context = drawScaled(picture, Math.sqrt(AREA / (picture.width * picture.height)), canvas);
     if (!context) {
       stop();
-      strip.textContent = vmcPixelsHidden;
+      strip.textContent = PIXELS_HIDDEN;
       return false;
     }
     photo = context.getImageData(0, 0, canvas.width, canvas.height);
@@ -22,9 +24,9 @@ const vmcSegmentationDemo = (box) => {
 
   /* The segments and all regions above them, with their mean colours as four bytes. */
   const grow = () => {
-    prepared ??= vmcEye.finish(vmcEye.prepare(photo, "HSV"));
-    const segments = vmcEye.finish(vmcEye.segment(prepared, scale())), { labels } = segments;
-    const { merges, boxes } = vmcEye.grow(segments, [true, true, true, true]), count = merges.length + 1;
+    prepared ??= finish(prepare(photo, "HSV"));
+    const segments = finish(segment(prepared, scale())), { labels } = segments;
+    const { merges, boxes } = growSegments(segments, [true, true, true, true]), count = merges.length + 1;
     const sums = Array.from({ length: count }, () => [0, 0, 0, 0]);
     photo.data.forEach((byte, i) => (sums[labels[i >> 2]][i & 3] += byte));
     for (const [i, j] of merges) sums.push(sums[i].map((sum, c) => sum + sums[j][c]));
@@ -86,7 +88,7 @@ const vmcSegmentationDemo = (box) => {
   play.addEventListener("click", () => (play.getAttribute("aria-pressed") === "true" ? stop() : run()));
   for (const slider of [k, merged]) slider.addEventListener("input", () => { stop(); drawn(); });
 
-  vmcOwnPictures(box, file, (picture, { name }) => {
+  takePictures(box, file, (picture, { name }) => {
     say.textContent = `${name} stays in this page: it is sent nowhere.`;
     merged.value = 0;
     if (!look(picture)) return;
@@ -98,5 +100,5 @@ const vmcSegmentationDemo = (box) => {
   return stop;
 };
 
-/* A kernel starts its own. */
-if (!self.vmcKernel) document.querySelectorAll(".vmc-demo:has(> .vmc-segmentation)").forEach(vmcSegmentationDemo);
+/* In the page it starts by itself. */
+export const startAll = () => document.querySelectorAll(".vmc-demo:has(> .vmc-segmentation)").forEach(start);

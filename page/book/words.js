@@ -1,0 +1,3 @@
+/* The script of a page of words. */
+import "../demo/questions.js";
+import "./book.js";

@@ -1,0 +1,3 @@
+import { startAll } from "./live_photo.js";
+
+startAll();
