@@ -15,7 +15,7 @@ from kit.bank import bank
 from kit.chapter_questions import bank_questions
 from kit.gift import gift
 from kit.key import key
-from kit.page import ASSETS, markdown_page
+from kit.page import markdown_page, write_assets
 from kit.plan import plans
 from kit.qti import package
 from kit.slides import build as slides
@@ -53,8 +53,7 @@ def build(folder, pages):
         (folder / f"{name}.html").write_text(markdown_page(name, text), encoding="utf-8")
     for name in ("key", "plan"):
         (folder / f"{name}.md").write_text(texts[name], encoding="utf-8")
-    for path in ASSETS:
-        shutil.copy(path, folder)
+    write_assets(folder)
     shutil.copy(ROOT / "kit/report.ipynb", folder)
     questions |= bank()
     predictions = {name: q for name, q in questions.items() if q[0].level == "predict"}

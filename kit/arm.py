@@ -9,25 +9,27 @@ from importlib.metadata import version
 
 from book._ext.policy import seal
 from kit.demos import ROOT
-from page.arm.controls import MUJOCO, STATIC
-from page.arm.live import MODEL_SCRIPTS, given
-from vmc_lib.show.render_mode import STATIC as SHOW
+from page.arm.controls import MUJOCO
+from page.arm.live import given
+from page.bundle import bundle
 
 SCRIPT = """/* The arm of `A book that sees and reaches`, and MuJoCo (Apache-2.0): see README.md. */
 const armInPage = (() => {{
   const document = globalThis.document ?? // or Node's
     {{ baseURI: require("url").pathToFileURL(__filename).href }};
-{scripts}
+{mujoco}
+  const vmc = {modules}({{}});
   const given = {constants};
   return {{
     muscles: given.muscles, start: given.start, rest: given.rest,
-    load: () => vmcArm.load(given),
-    templates: () => vmcTemplates.load(given.templateSet),
-    ...vmcPlanning, ...vmcCalibration, calibration: given.calibration,
+    load: () => vmc["arm/load"].load(given),
+    templates: () => vmc["arm/templates"].load(given.templateSet),
+    ...vmc["arm/planning"], ...vmc["arm/calibration"], calibration: given.calibration,
   }};
 }})();
 if (typeof module === "object") module.exports = armInPage;
 """
+MODULES = ("load", "templates", "planning", "calibration")  # of page/arm: what it exports
 NPM = {
     "name": "arm-in-page",
     "version": version("vmc_lib"),
@@ -41,12 +43,14 @@ NPM = {
 def build(folder):
     """Write the package into a new folder."""
     folder.mkdir(parents=True)
-    paths = [SHOW / "vendored.js", *(STATIC / f"{name}.js" for name in MODEL_SCRIPTS), MUJOCO]
-    scripts = "\n".join(path.read_text(encoding="utf-8") for path in paths)
-    script = SCRIPT.format(scripts=scripts, constants=json.dumps(given(), allow_nan=False))
+    script = SCRIPT.format(
+        mujoco=MUJOCO.read_text(encoding="utf-8"),
+        modules=bundle(*(f"arm/{name}.js" for name in MODULES)),
+        constants=json.dumps(given(), allow_nan=False),
+    )
     (folder / "arm.js").write_text(script, encoding="utf-8")
-    example = (ROOT / "arm_in_page/example.html").read_text(encoding="utf-8")
+    example = (ROOT / "page/arm/example.html").read_text(encoding="utf-8")
     (folder / "example.html").write_text(seal(example), encoding="utf-8")
     (folder / "package.json").write_text(json.dumps(NPM, indent=2) + "\n", encoding="utf-8")
-    for name in ("arm_in_page/README.md", "LICENSE", "CREDITS.md"):
+    for name in ("page/arm/README.md", "LICENSE", "CREDITS.md"):
         shutil.copy(ROOT / name, folder)

@@ -1,9 +1,8 @@
 """Demos that travel: each demo of a chapter as one HTML file, and as a SCORM package.
 
-A file holds the figure as its page has it, and of the book's scripts those that the figure needs.
+A file holds the figure as its page has it, and of the modules in `page` those that it needs.
 """
 
-import json
 import re
 import shutil
 from functools import cache
@@ -12,20 +11,20 @@ from pathlib import Path
 
 import yaml
 
+from book._ext.packed import light_script
 from book._ext.policy import seal
 from kit import scorm
 from vmc_lib.show.packed import pack_bytes, unpack_bytes
 
 ROOT = Path(__file__).parents[1]
 CONFIG = yaml.safe_load((ROOT / "_config.yml").read_bytes())
-SCRIPTS = [name for name, _ in CONFIG["sphinx"]["config"]["html_js_files"]]
 STYLES = ("demo.css", "scene.css", "live.css")
 FIGURE = re.compile(r'<figure class="vmc-demo".*?</figure>', re.S)
 HEADING = re.compile(r'<h[1-3]>(.*?)<a class="headerlink"')
-STARTS = {  # what stands in a figure, and the script that moves it
-    'class="vmc-segmentation"': "segmentation_demo.js",
-    'class="vmc-live"': "start.js",
-    'type="application/gzip"': "demo.js",
+STARTS = {  # what stands in a figure, and the module that moves it
+    'class="vmc-segmentation"': "demos/page.js",
+    'class="vmc-live"': "arm/travel.js",
+    'type="application/gzip"': "demo/page.js",
 }
 VENDORED = {  # what stands in a figure, and what is fetched for it
     'class="vmc-scene"': ("meshcat.js", "bones.js"),
@@ -38,10 +37,7 @@ MADE_BY = {
     "mujoco.js": "MuJoCo (Apache-2.0)",
     "katex.js": "KaTeX (MIT)",
 }
-USES = re.compile(r"(?<![\w?)]\.)\bvmc[A-Z]\w*")  # a script's globals that must be there
-MAKES = re.compile(r"\b(vmc[A-Z]\w*)(?:(?:\.\w+)? = |, \(\(\) =>)")  # those it makes, or adds to
 GIVEN = re.compile(r'(?<=<script type="application/json">)[^<]+')  # what an arm has from Python
-GIVE = 'document.querySelector(".vmc-live > script").textContent = {};\n'
 PACKED = '<script type="application/gzip" id="{}">{}</script>'
 SOURCE = (
     "From <cite>{book}</cite>, “{chapter}”. Text and pictures: CC BY 4.0; code: BSD 3-Clause.{rest}"
@@ -92,13 +88,12 @@ def demo_page(chapter, heading, title, figure, static):
     """The figure as a page of its own; `static` is the folder of the built book's scripts."""
     vendored = [name for mark, names in VENDORED.items() if mark in figure for name in names]
     files = {name: _packed_file(static / "vendor" / name) for name in vendored}
-    plain = scripts_of(figure, static)
-    if given := GIVEN.search(figure):  # an arm starts when it has this
-        script = GIVE.format(json.dumps(given[0])) + plain.pop("start.js")
-        files["start.js"] = pack_bytes(script.encode())
+    if given := GIVEN.search(figure):
+        files["given.json"] = pack_bytes(given[0].encode())
+    script = light_script(*entries(figure))
     figure = re.sub(r"</?a\b[^>]*>", "", GIVEN.sub("", figure))  # what is linked stays in the book
     scripts = [PACKED.format(name, text) for name, text in files.items()]
-    scripts += [f"<script>\n{text}</script>" for text in plain.values()]
+    scripts.append(f"<script>\n{script}</script>")
     made_by = "; ".join(MADE_BY[name] for name in vendored)
     parts = {
         "title": escape(title),
@@ -116,32 +111,13 @@ def demo_page(chapter, heading, title, figure, static):
     return seal(re.sub(r"\{(\w+)\}", lambda found: parts.get(found[1], found[0]), page))
 
 
-def scripts_of(figure, static):
-    """The book's scripts that a figure needs, {name: text}, in the book's order.
-
-    A script needs those that make the globals it names.
-    """
-    scripts = _scripts(static)
-    without = set() if "vmc-scene" in figure else {"vmcScene", "vmcPanel"}
+def entries(figure):
+    """The modules by which a figure moves, and what it asks of others."""
+    modules = ["demo/travel.js", *(name for mark, name in STARTS.items() if mark in figure)]
     data = re.search(r'<script type="application/gzip">([^<]+)', figure)
-    if not data or not unpack_bytes(data[1]).startswith(b'{"work"'):
-        without.add("vmcInPage")
-    needed, asked = set(), [name for mark, name in STARTS.items() if mark in figure]
-    while asked:
-        needed.add(asked[-1])
-        _, _, uses = scripts[asked.pop()]
-        makers = (name for name, (_, makes, _) in scripts.items() if makes & uses - without)
-        asked += [name for name in makers if name not in needed]
-    return {name: text for name, (text, _, _) in scripts.items() if name in needed}
-
-
-@cache
-def _scripts(static):
-    """The book's scripts in its order, {name: (text, globals it makes, globals it needs)}."""
-    texts = {name: (static / name).read_text(encoding="utf-8") for name in SCRIPTS}
-    return {
-        name: (text, {*MAKES.findall(text)}, {*USES.findall(text)}) for name, text in texts.items()
-    }
+    if data and unpack_bytes(data[1]).startswith(b'{"work"'):
+        modules.append("demos/works.js")
+    return tuple(modules)
 
 
 @cache

@@ -5,7 +5,6 @@ public bank, or in the exams of the seeds that follow `--unlike`.
 """
 
 import argparse
-import shutil
 import sys
 from contextlib import suppress
 from pathlib import Path
@@ -13,7 +12,7 @@ from pathlib import Path
 from book.figures.plans import NAMES
 from kit.bank import templates
 from kit.gift import gift
-from kit.page import ASSETS, markdown_page
+from kit.page import markdown_page, write_assets
 from kit.qti import package
 from tools import browser
 
@@ -78,8 +77,7 @@ def write(folder, questions):
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "questions.gift").write_text(gift(questions), encoding="utf-8")
     (folder / "questions-qti.zip").write_bytes(package(questions))
-    for path in ASSETS:
-        shutil.copy(path, folder)
+    write_assets(folder)
     for name, key in {"exam": False, "exam-key": True}.items():
         page = markdown_page(name, sheet(questions, key))
         (folder / f"{name}.html").write_text(page, encoding="utf-8")

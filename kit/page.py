@@ -1,16 +1,16 @@
 """A page of the kit: Markdown as HTML, sealed."""
 
+import shutil
 from html import escape
 from pathlib import Path
 
 from markdown_it import MarkdownIt
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 
+from book._ext.packed import light_script
 from book._ext.policy import seal
 
-ROOT = Path(__file__).parents[1]
-STATIC = ROOT / "book/_static"
-ASSETS = [STATIC / name for name in ("vendor/katex.js", "vendor/katex.css", "book.js")]
+VENDOR = Path(__file__).parents[1] / "book/_static/vendor"
 HEAD = """<!doctype html><html lang="en"><meta charset="utf-8"><title>{title}</title>
 <meta name="viewport" content="width=device-width">
 <style>:root {{ color-scheme: light dark; }}
@@ -32,3 +32,10 @@ def markdown_page(name, text):
 
     reader = MarkdownIt().enable("table").use(dollarmath_plugin, renderer=maths)
     return seal(HEAD.format(title=f"The kit: {name}") + reader.render(text))
+
+
+def write_assets(folder):
+    """Write what every page loads beside itself into a folder: KaTeX, and what sets by it."""
+    for name in ("katex.js", "katex.css"):
+        shutil.copy(VENDOR / name, folder)
+    (folder / "book.js").write_text(light_script("book/book.js"), encoding="utf-8")

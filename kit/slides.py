@@ -21,6 +21,7 @@ from kit.chapter_slides import Slide, chapter_slides, sentence
 ROOT = Path(__file__).parents[1]
 CONFIG = demos.CONFIG["sphinx"]["config"]
 OWN = [ROOT / "kit/slides.css", ROOT / "kit/slides.js"]
+SCRIPT = "chapter.js"
 STYLES = ["pygments.css", *CONFIG["html_css_files"]]
 VENDOR = sorted((ROOT / "kit/vendor").glob("*.*"))
 MOST = 25  # slides a session
@@ -49,7 +50,7 @@ def build(folder, pages):
     static = folder / "_static"
     static.mkdir(parents=True)
     shutil.copytree(pages.parent / "_static/vendor", static / "vendor")
-    for name in (*demos.SCRIPTS, *STYLES):
+    for name in (SCRIPT, *STYLES):
         shutil.copy(pages.parent / "_static" / name, static / name)
     for file in (*VENDOR, *OWN):
         shutil.copy(file, static)
@@ -150,7 +151,7 @@ def _short(source):
 
 def _page(title, slides):
     styles = [*(file.name for file in VENDOR if file.suffix == ".css"), *STYLES, "slides.css"]
-    scripts = [*(file.name for file in VENDOR if file.suffix == ".js"), "slides.js", *demos.SCRIPTS]
+    scripts = [*(file.name for file in VENDOR if file.suffix == ".js"), "slides.js", SCRIPT]
     scripts.insert(0, CONFIG["mathjax_path"])
     head = [f'<link rel="stylesheet" href="_static/{name}">' for name in styles]
     head += [f'<script defer src="_static/{name}"></script>' for name in scripts]

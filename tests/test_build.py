@@ -11,6 +11,7 @@ import nbformat
 import pytest
 
 from book._ext import execute
+from book._ext.offline import SCRIPTS
 from book._ext.packed import strip_comments
 from page.eye import brain
 from page.python import pack
@@ -105,8 +106,8 @@ def test_a_chapter_is_executed_when_what_it_imports_has_changed(book):
     assert "printed 42" in page
     for packed in (pack, brain):  # the page's Python, and what its eye has learnt
         assert (book / "_build/html/_static" / packed.SCRIPT).stat().st_size > 1e6
-    script = (book / "_build/html/_static/see.js").read_text(encoding="utf-8")
-    assert script.startswith("// Readable in eye_in_page/static/see.js\nObject")
+    scripts = re.findall(r'<script [^>]*src="../_static/(\w+\.js)\?v=\w+"', page)
+    assert [name for name in scripts if name in SCRIPTS] == ["words.js"]
     assert (book / "_build/html/.nojekyll").exists()  # or GitHub's pages leave _static out
     # It can be saved, and without a repository nothing leads out
     assert "../_sources/book/chapter.ipynb" in links(page)

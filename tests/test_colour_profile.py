@@ -45,6 +45,7 @@ def test_the_page_sees_the_colours_that_python_sees(name, open_page, tmp_path):
     seen = page.evaluate("""async () => {
       const picture = await createImageBitmap(document.querySelector("input").files[0]);
       const canvas = document.createElement("canvas");
-      return [...vmc["canvas"].drawScaled(picture, 0.1, canvas).getImageData(9, 9, 1, 1).data].slice(0, 3);
+      const context = vmc["canvas"].drawScaled(picture, 0.1, canvas);
+      return [...context.getImageData(9, 9, 1, 1).data].slice(0, 3);
     }""")
     assert seen == pytest.approx(photos.read_image(path)[9, 9].tolist(), abs=2)

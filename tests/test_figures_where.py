@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from book.figures import where
+from page.bundle import widget_script
 
 TRUTH = {"cup": np.array([0.0, 0, 10, 10])}
 BOXES = np.array([[0.0, 0, 5, 10], [50, 50, 60, 60], [0, 0, 10, 10]])

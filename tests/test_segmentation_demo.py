@@ -17,11 +17,12 @@ from vmc_lib.where.selective_search import Strategy, hierarchies
 
 GROWN = """([pixels, k]) => {
   const data = Uint8Array.from(atob(pixels), (c) => c.charCodeAt(0));
-  const prepared = vmc["eye/pieces"].finish(vmc["eye/selective_search"].prepare({ data, width: 600, height: 400 }, "HSV"));
-  const segments = vmc["eye/pieces"].finish(vmc["eye/selective_search"].segment(prepared, k));
+  const { finish } = vmc["eye/pieces"], { grow, prepare, segment } = vmc["eye/selective_search"];
+  const prepared = finish(prepare({ data, width: 600, height: 400 }, "HSV"));
+  const segments = finish(segment(prepared, k));
   let text = "";
   for (const byte of new Uint8Array(segments.labels.buffer)) text += String.fromCharCode(byte);
-  return { ...vmc["eye/selective_search"].grow(segments, [true, true, true, true]), labels: btoa(text) };
+  return { ...grow(segments, [true, true, true, true]), labels: btoa(text) };
 }"""
 SHOTS = (
     *chain(*(photos.load(level, "train")[:2] for level in photos.LEVELS)),

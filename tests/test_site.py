@@ -127,7 +127,7 @@ def test_what_cannot_move_shows_its_first_picture_and_its_words(window, missing)
     script = f"delete self.{missing}" if missing == "DecompressionStream" else ""
     reader = window(script, java_script_enabled=missing != "scripts")
     if missing == "a script":
-        reader.route("**/demo.js*", lambda route: route.abort())
+        reader.route("**/chapter.js*", lambda route: route.abort())
     page = reader.new_page()
     page.goto(CHAPTER["08_arm"].as_uri())
     unfold(page)

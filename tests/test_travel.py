@@ -9,6 +9,7 @@ from zipfile import ZipFile
 import pytest
 
 from kit import demos, scorm
+from page.bundle import ordered
 from tests.pages import BUILT, open_url
 from vmc_lib.show.packed import pack_bytes
 
@@ -65,19 +66,15 @@ def test_every_demo_that_moves_is_a_light_file_with_its_source(folder):
         assert (folder / path.name.replace(".html", ".zip")).exists()
 
 
-def test_a_figure_takes_the_scripts_that_it_needs():
-    static = BUILT / "_static"
+def test_a_figure_takes_the_modules_that_it_needs():
     state = pack_bytes(b'{"lines": []}')
     plot = f'<figure class="vmc-demo"><script type="application/gzip">{state}</script></figure>'
     work = plot.replace(state, pack_bytes(b'{"work":"plan"}'))
-    plain = set(demos.scripts_of(plot, static))
-    assert {"vendored.js", "address.js", "handle.js", "demo.js"} <= plain
-    assert not plain & {"scene.js", "in_page_demos.js", "live.js", "grade.js"}
-    assert {"in_page_demos.js", "planning.js", "camera.js"} <= set(demos.scripts_of(work, static))
-    scene = plot.replace("<script", '<div class="vmc-scene"></div><script')
-    scene = demos.scripts_of(scene, static)
-    assert [*scene] == [name for name in demos.SCRIPTS if name in scene]
-    assert {"scene.js", "panel.js", "body.js"} <= set(scene) - plain
+    plain = set(ordered(demos.entries(plot)))
+    assert {"vendored.js", "demo/address.js", "demo/handle.js", "demo/demo.js"} <= plain
+    assert not [name for name in plain if re.match("arm|book|eye|python|demos", name)]
+    more = set(ordered(demos.entries(work))) - plain
+    assert {"demos/plan.js", "arm/planning.js", "eye/camera.js"} <= more
 
 
 FIGURE = "document.querySelector('figure')"

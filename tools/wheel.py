@@ -18,6 +18,7 @@ class BuildWithPage(build_py):
     """`build_py` that writes vmc_lib/show/static as well; an editable install has the clone."""
 
     def run(self):
+        """Do as `build_py` does, and write them."""
         super().run()
         if not self.editable_mode:
             write(Path(self.build_lib) / "vmc_lib/show/static")

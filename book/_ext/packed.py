@@ -4,6 +4,7 @@ Its script is a bundle of the modules in `page`, without comments and indentatio
 asks for, the page's Python (`page.python`) and all that its eye has learnt (`page.eye`), is packed.
 """
 
+from functools import cache
 from itertools import groupby
 from pathlib import Path
 
@@ -47,6 +48,7 @@ def _static(app):
     return Path(app.outdir) / "_static"
 
 
+@cache
 def light_script(*entries):
     """The script of a page that these modules need (`page.bundle`), made light."""
     return bundle.HEAD + strip_comments(bundle.page_script(*entries))

@@ -4,7 +4,7 @@ import { detect } from "./detector.js";
 import { inPieces } from "./pieces.js";
 import { propose } from "./selective_search.js";
 
-const percent = (p) => `${(100 * p).toFixed(0)} %`;
+export const percent = (p) => `${(100 * p).toFixed(0)} %`;
 export const counted = (count, thing, plural = "s") => `${count} ${thing}${count === 1 ? "" : plural}`;
 
 /* The result of both pathways: boxes, the likeliest first, and their probability of holding a shuttlecock. */

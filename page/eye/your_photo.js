@@ -14,15 +14,13 @@ import { paintOver, readSheet, sheetOutline } from "./marker_sheet.js";
 import { PhotoMarks } from "./photo_marks.js";
 import * as words from "./photo_words.js";
 import { inPieces } from "./pieces.js";
-import { counted, see } from "./see.js";
+import { counted, percent, see } from "./see.js";
 import { unpack } from "./unpack.js";
 
 export const EYE = [600, 400], LARGEST = 1200; // pixels: what the eye sees, and the longer side of what the sheet is read in
-const TURNING = 700; // ms, of the trunk
-const MANY = 8; // boxes to choose from
+const TURNING = 700, MANY = 8; // ms, of the trunk; boxes to choose from
 
 class Superseded extends Error {} // the reader has chosen another photo
-const percent = (chance) => `${(100 * chance).toFixed(0)} %`;
 
 export class YourPhoto extends Reach {
   constructor(box) {
@@ -172,12 +170,11 @@ export class YourPhoto extends Reach {
     this.forgetReach();
     this.photo.drawBoxes(this.marks, number);
     this.box.querySelectorAll("button[data-box]").forEach((button, i) => button.setAttribute("aria-pressed", i === number));
-    const { kinematics } = this.given;
     if (!this.camera) return this.say(words.need(this.read, this.given.sheet));
     try {
       this.place = this.locate(number);
       this.tell({ place: words.where(this.place) });
-      const { turn, place } = turnTowards(kinematics, this.place);
+      const { turn, place } = turnTowards(this.given.kinematics, this.place);
       this.tell({ place: `${words.where(this.place)}; the trunk turns ${signed((turn * 180) / Math.PI, 0)}°` });
       await this.reach(place, turn);
     } catch (error) {

@@ -8,6 +8,7 @@ from PIL import Image
 from playwright.sync_api import expect
 
 from tests import lab
+from tests.pages import CAPTURE
 
 pytestmark = pytest.mark.browser
 
@@ -107,11 +108,11 @@ def test_scenes_and_the_arm_move_and_free_their_memory(run_all):
     scene = page.locator(".vmc-demo[data-ready]:has(.vmc-scene)").first
     scene.scroll_into_view_if_needed()
     scene.locator(".vmc-scene canvas").wait_for()
-    capture = "(demo) => vmc['demo/scene'].viewOf(demo.querySelector('.vmc-scene')).viewer.capture_image()"
-    before = scene.evaluate(capture)
+    picture = scene.locator(".vmc-scene").first
+    before = picture.evaluate(CAPTURE)
     scene.locator("input[data-stride][type=range]").first.press("End")
     page.wait_for_function(
-        f"([demo, before]) => ({capture})(demo) !== before", arg=[scene.element_handle(), before]
+        f"([div, before]) => ({CAPTURE})(div) !== before", arg=[picture.element_handle(), before]
     )
     heap = []
     for _ in range(4):  # run, and run again three times

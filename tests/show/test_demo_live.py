@@ -16,6 +16,7 @@ import numpy as np
 import pytest
 from IPython.core.interactiveshell import InteractiveShell
 
+from page.bundle import widget_script
 from tests.pages import displayed
 from tests.show.kernel import named, show
 from vmc_lib.show import Choice, Scene, Slider, demo, photo_view

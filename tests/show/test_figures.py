@@ -2,7 +2,6 @@
 
 import base64
 import re
-from pathlib import Path
 
 import cv2
 import matplotlib.pyplot as plt
@@ -13,6 +12,7 @@ from vmc_lib.show import details, figures, itemise, photo_view, table
 from vmc_lib.show.figures import pictures
 from vmc_lib.show.markup import number
 from vmc_lib.show.palette import COLOURS, ON_PHOTO
+from vmc_lib.show.render_mode import STATIC
 
 
 def pixels(markup):
@@ -33,7 +33,7 @@ def contrast(one, other):
 
 
 def palette(theme):
-    css = (Path(figures.__file__).parent / "static/demo.css").read_text(encoding="utf-8")
+    css = (STATIC / "demo.css").read_text(encoding="utf-8")
     block = re.search(re.escape(theme) + r" \{(.*?)\}", css, re.S)[1]
     return dict(re.findall(r"--vmc-(\w+): (#[0-9a-f]{6})", block))
 

@@ -80,7 +80,10 @@ def test_the_pointer_and_a_slider_turn_the_view_and_never_to_below(moving):
     assert canvas.evaluate("c => getComputedStyle(c).touchAction") == "pan-y"  # a swipe scrolls
     drag(moving, middle(canvas), -100, -300)
     assert 40 <= float(moving.input_value(".vmc-turn input")) <= 60
-    height = "div => vmc['demo/scene'].viewOf(div).viewer.camera.position.y - vmc['demo/scene'].viewOf(div).settings.camera[1][1]"
+    height = """(div) => {
+      const { viewer, settings } = vmc["demo/scene"].viewOf(div);
+      return viewer.camera.position.y - settings.camera[1][1];
+    }"""
     assert moving.eval_on_selector(".vmc-scene", height) > 0
 
 
@@ -138,10 +141,11 @@ def test_a_scene_without_its_files_says_so(open_demo, window):
 
 
 def test_a_picture_that_the_browser_takes_away_comes_back(moving):
-    get = "div => vmc['demo/scene'].viewOf(div).viewer.renderer.getContext().getExtension('WEBGL_lose_context')"
+    get = """(div) => vmc["demo/scene"].viewOf(div).viewer.renderer.getContext()
+      .getExtension("WEBGL_lose_context")"""
     for back in (
         "(_, context) => context.restoreContext()",  # by itself, when the browser gives it back
-        "(div) => vmc['demo/scene'].viewOf(div).awake()",  # when the reader has scrolled on and back
+        "(div) => vmc['demo/scene'].viewOf(div).awake()",  # when the reader has scrolled away
     ):
         context = moving.query_selector(".vmc-scene").evaluate_handle(get)
         context.evaluate("context => context.loseContext()")

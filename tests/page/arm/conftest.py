@@ -12,6 +12,8 @@ from tests.page.arm.controls import WHOLE_ARM_TARGET
 ASK = """async ([which, asked]) => {
   const given = JSON.parse(document.querySelectorAll(".vmc-live script")[which].textContent);
   const arm = await ((self.testArms ??= {})[which] ??= vmc["arm/load"].load(given));
+  const [planning, muscle, calibration, kinematics] =
+    ["planning", "muscle", "calibration", "kinematics"].map((name) => vmc[`arm/${name}`]);
   const templateSet = await vmc["arm/templates"].load(given.templateSet);
   const reach = (plan) => (weights) => {
     const moments = arm.reach(templateSet.excitations({ ...plan, weights }));

@@ -51,9 +51,7 @@ ANATOMY = """const message = given.scene.find((message) => message.startsWith("a
 )
 def test_muscle_laws(ask, name, law, low, high):
     asked = np.random.default_rng(1).uniform(low, high, (300, len(low)))
-    script = (
-        f"return asked.map((all) => new vmc['arm/muscle'].Muscle(given.muscle).{name}(...all));"
-    )
+    script = f"return asked.map((all) => new muscle.Muscle(given.muscle).{name}(...all));"
     expected = law(*asked.T)
     assert np.allclose(ask(script, asked.tolist()), expected, rtol=1e-12, atol=1e-12)
     assert np.ptp(expected) > 0.5
@@ -61,7 +59,7 @@ def test_muscle_laws(ask, name, law, low, high):
 
 @pytest.mark.browser
 def test_constants_are_pythons_and_a_replaced_law_is_noticed(ask, monkeypatch):
-    script = "return new vmc['arm/muscle'].Muscle(asked).differs;"
+    script = "return new muscle.Muscle(asked).differs;"
     assert ask(script, live.given()["muscle"]) is False
     monkeypatch.setattr(muscle, "TAU_ACTIVATION", 0.05)
     assert ask(script, live.given()["muscle"]) is False
@@ -150,7 +148,7 @@ def flesh_volume(belly):
     ("name", "rule"), [("habitualWeights", habitual_weights), ("exactWeights", exact_weights)]
 )
 def test_plans(ask, past, arm, name, rule):
-    script = f"""const plan = vmc["arm/planning"].plan(asked, templateSet, vmc["arm/planning"].{name});
+    script = f"""const plan = planning.plan(asked, templateSet, planning.{name});
       return {{ ...plan, u: templateSet.excitations(plan) }};"""
     if arm == WHOLE:
         plans = [
@@ -175,7 +173,7 @@ def test_a_reach_with_weights_set_by_hand(ask):
     targets, by_hand = draw_targets(own, 20, rng), rng.uniform(-0.1, 0.6, (20, 4))
     planned = plan(targets, own)
     ends = execute(replace(planned, weights=by_hand)).endpoint
-    script = "return asked.map(([at, weights]) => reach(vmc['arm/planning'].plan(at, templateSet))(weights));"
+    script = "return asked.map(([at, weights]) => reach(planning.plan(at, templateSet))(weights));"
     asked = [[*pair] for pair in zip(targets.tolist(), by_hand.tolist(), strict=True)]
     seen = np.array(ask(script, asked))
     assert np.abs(seen[:, :2] - ends).max() < 1e-6
@@ -195,8 +193,8 @@ def broyden(planned):
     ],
 )
 def test_calibration(ask, past, name, rule, arm):
-    script = f"""const plan = vmc["arm/planning"].plan(asked, templateSet);
-      return [...vmc["arm/calibration"].{name}(plan, reach(plan), given.calibration)];"""
+    script = f"""const plan = planning.plan(asked, templateSet);
+      return [...calibration.{name}(plan, reach(plan), given.calibration)];"""
     planar = plan(TARGETS, templates.load())
     planned = experiment.plan_reaches(TARGETS_3D, past) if arm == WHOLE else planar
     expected = rule(planned)
@@ -214,9 +212,9 @@ def test_calibration(ask, past, name, rule, arm):
 def test_templates_on_a_line_and_targets_outside_are_refused(ask):
     script = "try {{ {} }} catch (error) {{ return error.message; }}"
     on_a_line = [[0.1, -0.4], [0.2, -0.4], [0.3, -0.4], [0.4, -0.4]]
-    exact = script.format("return vmc['arm/planning'].exactWeights([0.25, -0.35], asked);")
+    exact = script.format("return planning.exactWeights([0.25, -0.35], asked);")
     assert "on one line" in ask(exact, on_a_line)
-    planned = script.format("return vmc['arm/planning'].plan(asked, templateSet);")
+    planned = script.format("return planning.plan(asked, templateSet);")
     assert "not surrounded" in ask(planned, [0.5, -0.4])
 
 

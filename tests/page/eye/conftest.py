@@ -13,7 +13,9 @@ from vmc_lib import photos
 ASK = """async ([asked, pixels, width, height]) => {
   const data = Uint8ClampedArray.from(atob(pixels), (c) => c.charCodeAt(0));
   const photo = { data, width, height };
-  const brain = await vmc["eye/unpack"].unpack();
+  const modules = Object.keys(vmc).filter((path) => path.startsWith("eye/"));
+  const eye = Object.assign({}, ...modules.map((path) => vmc[path]));
+  const brain = await eye.unpack();
   %s
 }"""
 NOTHING = np.zeros((1, 1, 3), np.uint8)

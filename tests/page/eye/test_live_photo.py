@@ -17,7 +17,7 @@ from tools import browser
 from vmc_lib.boxes import iou, pad_boxes
 
 pytestmark = pytest.mark.browser
-FOLLOW = """return vmc["eye/pieces"].finish(vmc["eye/follow"].follow(brain, photo, ...asked));"""
+FOLLOW = """return eye.finish(eye.follow(brain, photo, ...asked));"""
 DRAWN = """const { prototype } = CanvasRenderingContext2D, { drawImage } = prototype;
 self.drawn = 0; // frames of a video: Chromium keeps a copy of each
 prototype.drawImage = function (picture, ...rest) {

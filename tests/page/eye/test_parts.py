@@ -73,12 +73,12 @@ def test_what_a_reader_loads_is_light():
 def test_boxes_are_suppressed_vote_and_are_moved(ask, rng):
     spread = rng.uniform([0, 0, 80, 80], [60, 60, 140, 140], (40, 4))
     scores, deltas = rng.normal(size=40).round(1), rng.normal(0, 0.3, (40, 4))
-    script = """const [boxes, scores, deltas] = asked, kept = vmc["eye/boxes"].nms(boxes, scores, 0.5);
+    script = """const [boxes, scores, deltas] = asked, kept = eye.nms(boxes, scores, 0.5);
       return {
         kept,
-        vote: vmc["eye/boxes"].vote(kept, boxes, scores),
-        padded: boxes.map((box) => vmc["eye/boxes"].padBox(box, 0.2)),
-        moved: boxes.map((box, i) => vmc["eye/boxes"].decodeDeltas(box, deltas[i])) };"""
+        vote: eye.vote(kept, boxes, scores),
+        padded: boxes.map((box) => eye.padBox(box, 0.2)),
+        moved: boxes.map((box, i) => eye.decodeDeltas(box, deltas[i])) };"""
     there = ask(script, [array.tolist() for array in (spread, scores, deltas)])
     kept = boxes.nms(spread, scores, 0.5)
     assert there["kept"] == kept.tolist()
@@ -93,8 +93,8 @@ def test_boxes_exactly_at_a_limit(ask):
     rows = np.array([[0, 0, 10, 10], [0, 0, 10, 5], [0, 0, 10, 4]], float)
     below = float(np.nextafter(0.5, 0))
     script = """const [rows, overlaps] = asked;
-      return [overlaps.map((overlap) => vmc["eye/boxes"].nms(rows.slice(0, 2), [2, 1], overlap)),
-        vmc["eye/boxes"].vote([0], rows, [1, 1, 1])];"""
+      return [overlaps.map((overlap) => eye.nms(rows.slice(0, 2), [2, 1], overlap)),
+        eye.vote([0], rows, [1, 1, 1])];"""
     kept, voted = ask(script, [rows.tolist(), [0.5, below]])
     assert kept == [boxes.nms(rows[:2], [2, 1], limit).tolist() for limit in (0.5, below)]
     assert kept == [[0, 1], [0]]
@@ -105,7 +105,7 @@ def test_physical_size(ask):
     eye = photos.load("sheet", "test")[0].camera
     given = {name: np.asarray(value).tolist() for name, value in vars(eye).items()}
     regions = [[10, 10, 60, 90], [300, 200, 420, 330], [0, -9000, 10, -8000]]
-    script = "return asked[1].map((box) => String(vmc['eye/camera'].physicalSize(asked[0], box, asked[2])));"
+    script = "return asked[1].map((box) => String(eye.physicalSize(asked[0], box, asked[2])));"
     there = np.float64(ask(script, [given, regions, camera.TABLE]))
     assert np.allclose(there, eye.sizes(regions), rtol=1e-9)
     assert np.isinf(there).any()
@@ -115,7 +115,7 @@ def test_physical_size(ask):
 def test_colours_are_those_of_opencv(ask, rng, space):
     image = rng.integers(0, 256, (100, 320, 3), dtype=np.uint8)
     image[0, :2] = [[0, 0, 0], [255, 255, 255]]
-    script = "return vmc['eye/colours'].colourSpaces[asked](photo, brain.lab).map((plane) => Array.from(plane));"
+    script = "return eye.colourSpaces[asked](photo, brain.lab).map((plane) => Array.from(plane));"
     there = np.float32(ask(script, space, image))
     here = COLOUR_SPACES[space](photos.as_float(image))
     assert (there.T.reshape(here.shape) == here).all()
@@ -125,7 +125,7 @@ def test_crops_and_gradients(ask, rng):
     image, regions = SHOT.image, random_boxes(rng, 40)
     regions[0] = regions[0, [0, 1, 0, 1]]  # of no area
     script = """return asked.map((box) =>
-      [vmc["eye/features"].crop(photo, box, 16), vmc["eye/features"].gradients(photo, box)].map((row) => Array.from(row)));"""
+      [eye.crop(photo, box, 16), eye.gradients(photo, box)].map((row) => Array.from(row)));"""
     crops, slopes = zip(*ask(script, regions.tolist(), image), strict=True)
     here = photos.crops(image, regions, 16)
     assert (np.float32(crops).reshape(here.shape) == here).all()
@@ -137,8 +137,8 @@ def test_the_detectors_answers_to_features(ask, rng):
     script = """const { detector } = brain;
       const ridges = [...detector.regressions, detector.iouPredictor];
       return asked.map((x) => [
-        vmc["eye/detector"].svmScore(detector, x),
-        ...ridges.flatMap((ridge) => Array.from(vmc["eye/detector"].predict(ridge, Float64Array.from(x)))),
+        eye.svmScore(detector, x),
+        ...ridges.flatMap((ridge) => Array.from(eye.predict(ridge, Float64Array.from(x)))),
       ]);"""
     columns = [detector().svm.score(x)]
     columns += [regression.predict(x) for regression in detector().regressions]
@@ -148,9 +148,7 @@ def test_the_detectors_answers_to_features(ask, rng):
 
 def test_the_detectors_boxes(ask):
     candidates = propose(SHOT.image, detector().recipe.strategy)
-    script = (
-        "return vmc['eye/pieces'].finish(vmc['eye/detector'].detect(brain.detector, photo, asked));"
-    )
+    script = "return eye.finish(eye.detect(brain.detector, photo, asked));"
     there, here = (
         ask(script, candidates.tolist(), SHOT.image),
         detector().detect(SHOT.image, candidates),
@@ -166,7 +164,7 @@ def test_the_detectors_boxes(ask):
 def test_the_streams_answers(ask, rng, flips):
     image, regions = SHOT.image, random_boxes(rng, 6)
     script = """const [boxes, flips] = asked;
-      return boxes.map((box) => vmc["eye/stream"].look(brain.stream, photo, box, flips));"""
+      return boxes.map((box) => eye.look(brain.stream, photo, box, flips));"""
     there = ask(script, [regions.tolist(), flips], image)
     log_odds, deltas = VentralStream.load().predict(image, regions, flips)
     assert np.allclose([answer["logOdds"] for answer in there], log_odds, atol=1e-4)
@@ -177,7 +175,7 @@ def test_the_streams_answers(ask, rng, flips):
 def test_a_sight_is_described_in_the_same_words(ask, probability):
     regions = np.arange(4.0 * len(probability)).reshape(-1, 4)
     script = """const [boxes, probability] = asked;
-      const sight = new vmc["eye/see"].Sight({ boxes, probability }, 0.4);
+      const sight = new eye.Sight({ boxes, probability }, 0.4);
       return [sight.summary, sight.box];"""
     here = Sight(
         Detections(regions, regions, regions, regions, regions), np.array(probability), 0.4

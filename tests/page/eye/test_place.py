@@ -17,8 +17,8 @@ SHOTS = photos.load(photos.SHEET_LEVEL, "test")
 SHEET = sheet()
 SKY = [280, 20, 320, 60]  # a box above the horizon of a camera that looks level
 READ = """const { sheet, size } = asked;
-  const { markers, camera, why } = vmc["eye/pieces"].finish(vmc["eye/marker_sheet"].readSheet(photo, sheet, size));
-  const bare = camera && vmc["eye/marker_sheet"].paintOver(photo, vmc["eye/marker_sheet"].sheetOutline(camera, sheet)).data;
+  const { markers, camera, why } = eye.finish(eye.readSheet(photo, sheet, size));
+  const bare = camera && eye.paintOver(photo, eye.sheetOutline(camera, sheet)).data;
   const text = (bytes) => Array.from(bytes, (byte) => String.fromCharCode(byte)).join("");
   return { ids: markers.map(({ id }) => id), camera, why, bare: bare && btoa(text(bare)) };"""
 
@@ -54,7 +54,7 @@ def place_under(camera, photo):
 @pytest.mark.browser
 @pytest.mark.parametrize("shot", SHOTS[::4], ids=lambda shot: shot.name)
 def test_a_camera_from_the_same_corners_is_that_of_opencv(ask, shot):
-    script = "return vmc['eye/camera_calibration'].calibrateCamera(asked.ids, asked.corners, 600, 400, asked.sheet);"
+    script = "return eye.calibrateCamera(asked.ids, asked.corners, 600, 400, asked.sheet);"
     ids, corners = detected(shot.image)
     here = marker_sheet.estimate_camera(shot.image)
     there = ask(script, {"ids": ids, "corners": corners, "sheet": SHEET})
@@ -104,7 +104,7 @@ def test_a_marker_that_does_not_fit_the_others_is_left_out(ask):
 @pytest.mark.parametrize("turn", [0, np.pi])
 def test_a_sheet_laid_upside_down_is_seen_from_beyond(ask, turn):
     there = read(ask, draw_sheet(EYE, sheets=[(turn, *STRAIGHT[1:])]))
-    assert ask("return vmc['eye/marker_sheet'].fromBeyond(asked)", there["camera"]) == (turn > 0)
+    assert ask("return eye.fromBeyond(asked)", there["camera"]) == (turn > 0)
 
 
 @pytest.mark.browser
@@ -119,7 +119,7 @@ def test_markers_are_found_in_bad_light_and_none_where_there_are_none(ask):
 @pytest.mark.browser
 def test_a_place_is_that_of_the_compact_localiser(ask):
     script = """const { box, camera } = asked;
-      return vmc["eye/localiser"].locate(brain.localiser, photo, box, camera);"""
+      return eye.locate(brain.localiser, photo, box, camera);"""
     for shot in SHOTS[::8]:
         box = shot.boxes["shuttlecock"]
         camera = {name: np.asarray(value).tolist() for name, value in vars(shot.camera).items()}
@@ -137,10 +137,10 @@ def test_a_place_is_that_of_the_compact_localiser(ask):
 @pytest.mark.browser
 @pytest.mark.parametrize("shot", SHOTS[3::12], ids=lambda shot: shot.name)
 def test_from_its_pixels_a_photo_leads_to_the_place_that_python_finds(ask, shot):
-    script = """const { camera } = vmc["eye/pieces"].finish(vmc["eye/marker_sheet"].readSheet(photo, asked, [600, 400]));
-      const bare = vmc["eye/marker_sheet"].paintOver(photo, vmc["eye/marker_sheet"].sheetOutline(camera, asked));
-      const { box } = await vmc["eye/see"].see(brain, bare, { camera });
-      return vmc["eye/localiser"].locate(brain.localiser, bare, box, camera);"""
+    script = """const { camera } = eye.finish(eye.readSheet(photo, asked, [600, 400]));
+      const bare = eye.paintOver(photo, eye.sheetOutline(camera, asked));
+      const { box } = await eye.see(brain, bare, { camera });
+      return eye.locate(brain.localiser, bare, box, camera);"""
     camera, bare = marker_sheet.remove_sheet(shot.image)
     box = see(VisuomotorModel.load("real"), bare, camera).box
     here = CompactLocaliser.load().locate(bare, box, camera)

@@ -12,7 +12,7 @@ SHEETS = photos.load("sheet", "test")[::4]
 REAL = [*photos.load("real", "test")[::3], photos.everyday()[0]]
 SEE = """const stages = {};
   const report = (stage, { boxes }) => (stages[stage] = boxes);
-  const { probability, box, summary } = await vmc["eye/see"].see(brain, photo, { camera: asked, report });
+  const { probability, box, summary } = await eye.see(brain, photo, { camera: asked, report });
   return { probability, box, summary, stages };"""
 
 
