@@ -120,7 +120,8 @@ def test_a_chapter_is_executed_when_what_it_imports_has_changed(book):
     for name in ("toggleHintShow", "togglebuttonSelector"):
         assert name in settings
 
-    (book / "kit").mkdir()
+    for room in ("kit", "vmc_lib"):
+        (book / room).mkdir()
     for other in ("vmc_lib/other.py", "kit/other.py"):  # which it does not import
         (book / other).write_text("line = 1\n", encoding="utf-8")
     environment = book / "_build/.doctrees/environment.pickle"

@@ -1,6 +1,7 @@
 """The library as a package: what it declares, what its wheel holds, and a chapter elsewhere."""
 
 import ast
+import json
 import re
 import shutil
 import sys
@@ -16,11 +17,14 @@ import pytest
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name as canonical
 
+from page.bundle import STATIC, widget_script
 from tests.project import ROOT, code, python, run, sample
+from tools import wheel
 
 PYPROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 PROJECT = PYPROJECT["project"]
 OPTIONAL = PROJECT["optional-dependencies"] | {"derive": ["myo-sim"]}
+LIVE_STYLES = ("demo", "scene")
 OURS = {"vmc_lib", "page", "reproduce"}
 OURS |= {"book", "kit", "tests", "tools"}
 # Of January 2026: github.com/googlecolab/backend-info, pip-freeze.txt
@@ -147,11 +151,31 @@ def alone(reader, tmp_path):
 
 
 def test_the_wheel_puts_all_of_the_library_and_nothing_else_into_site_packages(reader):
-    (wheel,) = reader.glob("*.whl")
-    names = {name for name in ZipFile(wheel).namelist() if ".dist-info/" not in name}
+    (file,) = reader.glob("*.whl")
+    names = {name for name in ZipFile(file).namelist() if ".dist-info/" not in name}
     files = {path for path in (ROOT / "vmc_lib").rglob("*") if path.is_file()}
     ours = {path.relative_to(ROOT).as_posix() for path in files if "__pycache__" not in path.parts}
-    assert names == ours
+    brought = {f"vmc_lib/show/static/{name}" for name in ("demo.js", *wheel.FILES)}
+    assert names == ours | brought
+
+
+def test_a_demo_of_the_wheel_is_moved_by_the_script_that_a_clone_makes(alone):
+    """And looks the same; there it comes along, for the wheel has no `page`."""
+    script = """
+import json
+from importlib.util import find_spec
+from vmc_lib.show import Slider, demo, explore, live, markup, outputs
+shown = []
+demo.display = lambda *items, **_: shown.extend(items)
+explore(lambda k: f"<svg><text>{k}</text></svg>", alt="words", k=Slider([1, 2], "k"))
+[widget] = [item for item in shown if isinstance(item, live.Live)]
+bones = live.VENDORED["bones.js"].read_text(encoding="utf-8")
+print(json.dumps([bool(find_spec("page")), widget._esm, markup.with_style_sheet(""), bones]))"""
+    clone, *there = json.loads(alone("-c", script))
+    bones = (STATIC / "vendor/bones.js").read_text(encoding="utf-8")
+    styles = "".join((STATIC / f"{name}.css").read_text(encoding="utf-8") for name in LIVE_STYLES)
+    assert not clone
+    assert there == [widget_script("demo/live.js"), f"<style>{styles}</style>", bones]
 
 
 def test_the_library_works_alone(alone):

@@ -45,7 +45,7 @@ const onKey = (event, form) => {
 /* The figures that run a cell's law, as laws.js knows them. */
 export const users = { figures: () => [] };
 
-const memoryOf = (name) => `${location.pathname} ${name}`;
+const keyOf = (name) => `${location.pathname} ${name}`;
 const sum = (text) => [...text].reduce((sum, sign) => (31 * sum + sign.codePointAt()) | 0, 0); // tells editions of a cell apart
 const isText = ({ said = [], ran = "", judged = "", mine = "" }) => [said, ran, judged, mine].flat().every((one) => typeof one === "string");
 const make = (tag, more) => Object.assign(document.createElement(tag), more);
@@ -56,7 +56,7 @@ class Editor {
     const { stop, reset } = form.elements, empty = book(cell).trimEnd();
     const area = make("textarea", { defaultValue: empty, spellcheck: false, wrap: "off", autocomplete: "off", className: "vmc-lines" });
     const status = form.querySelector("[role=status]"), beside = make("div", { className: "vmc-beside" });
-    Object.assign(this, { form, cell, area, status, empty, beside, memory: memoryOf(name) });
+    Object.assign(this, { form, cell, area, status, empty, beside, key: keyOf(name) });
     area.setAttribute("autocapitalize", "off");
     area.setAttribute("aria-label", `Your lines: ${name.split(".").pop()}`);
     cell.querySelector(".cell_input").replaceChildren(area, beside);
@@ -94,14 +94,14 @@ class Editor {
   /* Keep the lines, those that ran last, what was `said` of those that were `judged`, and the reader's own where a
      link's stand in their place; but nothing that equals the book's, and of a link nothing that has not run. */
   keep() {
-    const { area, empty, memory, said, judged, mine } = this, typed = area.value, last = area.ran ?? empty;
+    const { area, empty, key, said, judged, mine } = this, typed = area.value, last = area.ran ?? empty;
     if (typed === this.brought && typed !== last) return;
-    if (typed === empty && last === empty && mine === undefined) return memory.remove(memory);
-    memory.set(memory, JSON.stringify({ typed, ran: last, said, judged, mine, book: sum(empty) }));
+    if (typed === empty && last === empty && mine === undefined) return memory.remove(key);
+    memory.set(key, JSON.stringify({ typed, ran: last, said, judged, mine, book: sum(empty) }));
   }
 
   restore() {
-    const { area, empty, memory } = this, kept = memory.parsed(memory);
+    const { area, empty, key } = this, kept = memory.parsed(key);
     if (typeof kept?.typed !== "string" || !isText(kept)) return; // others may write there
     area.value = kept.typed;
     this.mine = kept.mine;
@@ -210,7 +210,7 @@ const offer = (cell) => {
     open();
     cell.querySelector("textarea").focus();
   });
-  if (memory.get(memoryOf(name))) open();
+  if (memory.get(keyOf(name))) open();
 };
 
 addEventListener("DOMContentLoaded", () => {
