@@ -82,7 +82,7 @@ class Engine:
         return answer.get("value")
 
     def limit(self, seconds):
-        """How long the page's Python may take; Firefox's driver does not see a page's `const`."""
+        """How long the page's Python may take; Firefox's driver sees no name of a page's own."""
         self.run(f"""document.documentElement.dataset.limit = {seconds};
           dispatchEvent(new Event("vmc-limit"));""")
 

@@ -93,10 +93,11 @@ def test_the_arm_reaches_again_for_what_has_been_moved(window, site, html):
 
 def test_a_film_that_is_left_or_cut_leaves_the_page_to_photos(window, site, html, tmp_path):
     page, held = pages.open_html(window(FILM), site, html), []
-    page.route("**/brain.js", held.append)
+    page.route("**/brain.js", lambda route: held.append(route))
     live, photo = page.locator("[name=live]"), tmp_path / "photo.jpg"
-    live.click()
-    show_in_film(page, BLANK)
+    with page.expect_request("**/brain.js"):
+        live.click()
+        show_in_film(page, BLANK)
     status(page, "Opening the eye")
     photo.write_bytes(jpeg(BLANK))
     page.locator("[type=file]").set_input_files(photo)
