@@ -6,7 +6,7 @@ The arm's own scenes are in `vmc_lib.show.arm`, and the arm that runs in the pag
 
 from vmc_lib.show.compare import compare, dot_plot
 from vmc_lib.show.controls import Choice, Pad, Slider, Switch
-from vmc_lib.show.demo import explore, figure
+from vmc_lib.show.demo import explore, figure, widget
 from vmc_lib.show.estimate import Estimate, estimate
 from vmc_lib.show.figures import details, itemise, markdown, note, photo_view, table
 from vmc_lib.show.palette import COLOURS
@@ -37,4 +37,5 @@ __all__ = [
     "solution",
     "table",
     "verify",
+    "widget",
 ]
