@@ -78,17 +78,17 @@ const firstAnswer = async (ask) => {
 
 /* A demo's states: `draw` is given the `first` at once, then what the kernel answers. Of places that
    come while it works, the last wins. An error stands below the picture; the still follows the reader. */
-const states = (ask, box, first) => {
-  let wanted, working, resting;
+const states = (ask, box, first, model) => {
+  let wanted, working, resting, last;
   const views = () =>
     [...box.querySelectorAll(".vmc-scene")].map((div) => vmcScene(div).viewer?.capture_image() ?? "");
   const work = async (draw) => {
     working = true;
     box.setAttribute("aria-busy", "true");
     while (wanted !== undefined) {
-      const place = wanted;
+      const place = (last = wanted);
       wanted = undefined;
-      const state = await ask("state", place);
+      const state = await ask(place === model.get("place") ? "picture" : "state", place);
       if (ask.left) break;
       box.querySelector(".vmc-error").textContent = state.error ?? "";
       if (!state.error) draw(state);
@@ -98,7 +98,7 @@ const states = (ask, box, first) => {
     resting = setTimeout(() => ask("still", views()), 1000);
   };
   const show = (place, draw) => {
-    if (first) return draw(first), (first = null);
+    if (first) return draw(first), (first = null), (last = place);
     clearTimeout(resting);
     wanted = place;
     if (!working) work(draw);
@@ -112,8 +112,34 @@ const states = (ask, box, first) => {
   };
   close(RUNNING);
   ask.onleave = () => close(GONE);
+  /* The controls go where the kernel or another view has put them, but for where the last answer came from. */
+  show.follow = () => {
+    const place = model.get("place");
+    if (place === last) return;
+    for (const input of box.querySelectorAll("[data-stride]")) {
+      const at = (length) => Math.floor(place / input.dataset.stride) % length;
+      if (input.type === "range") input.value = at(+input.max + 1);
+      else if (input.type === "checkbox") input.checked = at(2) === 1;
+      else if (input.type === "radio") input.checked = +input.value === at(input.closest("fieldset").elements.length);
+      else input.selectedIndex = at(input.length);
+    }
+    box.dispatchEvent(new Event("input", { bubbles: true }));
+  };
   show.ready = firstAnswer(ask).then(() => close(ask.left ? GONE : ""));
   return show;
+};
+
+/* What a widget shows; of a second view the labels are for its own controls. */
+let views = 0;
+const view = (markup) => {
+  const { content } = Object.assign(document.createElement("template"), { innerHTML: markup });
+  if (document.getElementById(content.firstElementChild.id)) {
+    views++;
+    for (const name of ["id", "name", "for"])
+      for (const one of content.querySelectorAll(`.vmc-controls [${name}]`))
+        one.setAttribute(name, `${one.getAttribute(name)}-${views}`);
+  }
+  return content;
 };
 
 /* Keys are the controls' own, but for shortcuts; Escape leads back to the notebook. */
@@ -127,15 +153,20 @@ export default {
   async render({ model, el }) {
     const channel = await model.widget_manager.get_model(model.get("channel"));
     const ask = connect(channel, model.get("vendored"));
-    el.innerHTML = model.get("page");
+    el.replaceChildren(view(model.get("page")));
     el.addEventListener("keydown", keepKeys);
     globalThis.vmcKernel = fetchVendored;
     for (const [name, text] of Object.entries(model.get("scripts")))
       if (!loaded.has(name)) run(text, loaded.add(name));
     const [box, first] = [el.firstElementChild, model.get("first")];
     const [start] = model.get("start").match(/^vmc\w+$/); // a name, and no other code
-    const end = new Function(`return ${start}`)()(box, first && states(ask, box, first), ask);
+    const show = first && states(ask, box, first, model);
+    const end = new Function(`return ${start}`)()(box, show, ask);
+    const follow = () => show?.follow();
+    follow();
+    model.on("change:place", follow);
     return () => {
+      model.off("change:place", follow);
       ask.leave();
       end?.();
     };
