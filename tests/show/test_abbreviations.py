@@ -16,6 +16,10 @@ class Colour(Enum):
     BLUE = "b"
 
 
+BOUNDS = [(0, 10), (0, 11), (-5, 5, 2), (0.0, 1.0), (0.0, 1.0, 0.25), (0, 2.0), (0, 1, 0.5)]
+BOUNDS += [(np.int64(0), np.int64(4)), (-1.0, 2.0, 0.7)]
+
+
 def where(control):
     """What a control starts with."""
     return control.values[control.first]
@@ -23,8 +27,7 @@ def where(control):
 
 @pytest.mark.parametrize(
     "spec",
-    [3, -3, 0, 2.5, 0.0, -0.4, (0, 10), (0, 11), (-5, 5, 2), (0.0, 1.0), (0.0, 1.0, 0.25)]
-    + [(0, 2.0), (0, 1, 0.5), (np.int64(0), np.int64(4)), (-1.0, 2.0, 0.7)],
+    [3, -3, 0, 2.5, 0.0, -0.4, *BOUNDS],
 )
 def test_numbers_and_bounds_are_the_slider_of_interact(spec):
     slider, theirs = as_control("k", spec), interactive.widget_from_abbrev(spec)

@@ -54,7 +54,7 @@ def test_a_number_goes_to_the_nearest_stop(mode):
 )
 def test_a_wrong_value_is_refused_and_changes_nothing(value, says):
     shown = one(k=(0, 10), how=["a", "b"])
-    with pytest.raises(ValueError, match="k|how|value") as error:
+    with pytest.raises(ValueError, match=r"k|how|value") as error:
         shown.value = value
     assert says in str(error.value)
     assert shown.value == {"k": 5, "how": "a"}
