@@ -20,6 +20,11 @@ from vmc_lib.show.controls import Choice, Control, Slider, Switch, is_number
 
 STEP = 0.1  # of numbers with a point, as ipywidgets has it
 MOST_STOPS = 10_001
+OPTIONS = {
+    "alt": "what it shows, in words: a text, or a function of the controls",
+    "data": "a dictionary of arrays",
+    "printed": "a list of {control: value}",
+}
 REMEDIES = {  # why a widget of ipywidgets is no control, and what to give instead
     ipywidgets.fixed: "does not move: bind it, functools.partial(draw, {name}={value!r})",
     ipywidgets.Text: "takes any text: give those to choose from, as a list",
@@ -32,6 +37,41 @@ REMEDIES = {  # why a widget of ipywidgets is no control, and what to give inste
     ipywidgets.SelectMultiple: "has several values at once: give a Checkbox for each",
     ipywidgets.Widget: "has no list of values: give a slider, a Dropdown or a Checkbox",
 }
+
+
+def check_call(draw, caption, alt, data, printed, names):
+    """ValueError for what is no function, caption or option, or for controls that it lacks."""
+    if not (callable(draw) and isinstance(caption, str)):
+        raise ValueError(
+            f"explore({draw!r}, {caption!r}, …): give the function that draws, then a caption"
+        )
+    wrong = {
+        "alt": not (alt is None or isinstance(alt, str) or callable(alt)) and alt,
+        "data": not (data is None or isinstance(data, dict)) and data,
+        "printed": not all(isinstance(one, dict) for one in printed) and printed,
+    }
+    for name, value in wrong.items():
+        if value is not False:
+            raise ValueError(
+                f"{name}={value!r} is no control but an option of `explore` ({OPTIONS[name]}): "
+                "let the control have another name"
+            )
+    _check_arguments(draw, names)
+
+
+def _check_arguments(draw, names):
+    """ValueError where the function does not take just these arguments."""
+    try:
+        takes = signature(draw)
+    except (TypeError, ValueError):  # of some that are written in C
+        return
+    try:
+        takes.bind(**dict.fromkeys(names))
+    except TypeError as error:
+        raise ValueError(
+            f"the function that draws takes {takes}, and the controls are {', '.join(names)}: "
+            f"{error}"
+        ) from None
 
 
 def as_control(name, spec, start=None):

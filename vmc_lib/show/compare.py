@@ -25,6 +25,11 @@ def dot_plot(series, measure, published=None, xlim=None):
     paper printed, shown as ticks. For several levels or measures, call it for each and show the
     tuple of figures.
     """
+    for label, rows in series.items() if isinstance(series, dict) else [("", series)]:
+        if not isinstance(rows, dict):
+            raise ValueError(
+                f"series {label!r} is {rows!r}: give {{label: {{row: draws}}}}, two dictionaries"
+            )
     every = *series.values(), published or {}
     names = list(dict.fromkeys(name for rows in every for name in rows))
     room = 0.15 + max(map(text_width, names))  # for the longest name

@@ -172,6 +172,8 @@ class Pad(Control):
     """
 
     def __init__(self, xs, ys, labels=("x", "y"), start=(None, None), unit="", between=True):
+        if not len(labels) == len(start) == 2:
+            raise ValueError(f"a pad has two labels and two starts, not {labels} and {start}")
         parts = zip((xs, ys), labels, start, strict=True)
         pair = [Slider(v, *rest, unit, between=between) for v, *rest in parts]
         object.__setattr__(self, "pair", pair)

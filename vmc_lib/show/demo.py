@@ -15,7 +15,7 @@ from uuid import uuid4
 import ipywidgets
 from IPython.display import HTML, display
 
-from vmc_lib.show.abbreviations import as_control, defaults
+from vmc_lib.show.abbreviations import as_control, check_call, defaults
 from vmc_lib.show.alt_text import alt_text
 from vmc_lib.show.controls import Slider
 from vmc_lib.show.data_table import data_tables
@@ -44,11 +44,6 @@ SCRIPTS = [*VIEWER, *PLOT_SCRIPTS]
 MOST_POSITIONS = 200
 SAID = '<p class="vmc-kernel" role="status"></p><p class="vmc-error" role="alert"></p>'
 SAMPLE = 25  # positions along a control, of a demo that the page works out
-OPTIONS = {
-    "alt": "what it shows, in words: a text, or a function of the controls",
-    "data": "a dictionary of arrays",
-    "printed": "a list of {control: value}",
-}
 _demos = itertools.count(1)
 
 
@@ -101,7 +96,7 @@ def widget(draw, caption="", alt=None, in_page=None, data=None, printed=(), **co
     >>> widget(lambda k: f"<p>{k}</p>", k=(0, 4, 2)).value
     {'k': 2}
     """
-    _check(draw, caption, alt, data, printed)
+    check_call(draw, caption, alt, data, printed, controls)
     specs, starts = controls, defaults(draw)
     controls = {name: as_control(name, spec, starts.get(name)) for name, spec in specs.items()}
     printed = [address(values, controls) for values in printed]
@@ -155,24 +150,6 @@ def _checked(state, caption, controls, name, texts, in_page, data, printed):
         markup = HTML(page(*start, stored, caption, controls, name, printed))
         show = partial(display, markup)
     return Demo(name, controls, Numbers(name, start[0], texts), show)
-
-
-def _check(draw, caption, alt, data, printed):
-    if not (callable(draw) and isinstance(caption, str)):
-        raise ValueError(
-            f"explore({draw!r}, {caption!r}, …): give the function that draws, then a caption"
-        )
-    wrong = {
-        "alt": not (alt is None or isinstance(alt, str) or callable(alt)) and alt,
-        "data": not (data is None or isinstance(data, dict)) and data,
-        "printed": not all(isinstance(one, dict) for one in printed) and printed,
-    }
-    for name, value in wrong.items():
-        if value is not False:
-            raise ValueError(
-                f"{name}={value!r} is no control but an option of `explore` ({OPTIONS[name]}): "
-                "let the control have another name"
-            )
 
 
 def draw_state(draw, values, name, alt=None, tables=True):
