@@ -54,6 +54,9 @@ class Photo:
     pose: str | None = None
     seed: tuple = ()
 
+    def __repr__(self):
+        return f"Photo({self.name!r}: {', '.join(self.boxes)})"
+
     @property
     def image(self):
         """(400, 600, 3) uint8, read-only, read from the file at the first use."""

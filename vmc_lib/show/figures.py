@@ -167,7 +167,11 @@ def details(summary, text):
 
 
 def itemise(values, form, between=", "):
-    """The values of a mapping in words: each by `form`, its value and its name given to it."""
+    """The values of a mapping in words: each by `form`, its value and its name given to it.
+
+    >>> itemise({"up": 0.35, "down": 1.61}, "{:.2f} {}")
+    '0.35 up, 1.61 down'
+    """
     return between.join(form.format(value, name) for name, value in values.items())
 
 
