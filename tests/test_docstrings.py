@@ -23,7 +23,7 @@ def test_examples_of_a_module(name):
 
 @pytest.mark.parametrize("page", ["README.md", "book/library.md"])
 def test_a_pages_python_sees_and_reaches(page):
-    [lines] = re.findall(r"```python\n(.*?)```", (ROOT / page).read_text("utf-8"), re.S)
+    [lines] = re.findall(r"```python\n(.*?)```", (ROOT / page).read_text(encoding="utf-8"), re.S)
     sight, miss = python("-c", lines).splitlines()
     assert "a shuttlecock" in sight
     assert max(abs(float(part)) for part in miss.strip("[]").split()) < 0.02
