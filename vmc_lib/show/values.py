@@ -56,7 +56,7 @@ class Demo(Live):
 
     @property
     def model_id(self):
-        """What a box knows it by: in the book, too, where it is then told to nobody else."""
+        """The name by which a box knows it, in the book too."""
         if self.comm is None:
             super().open()
         return super().model_id
