@@ -149,6 +149,8 @@ SHOWING = {
     "nothing drawn": (lambda g: explore(lambda k: None, k=(0, 3)), "NoneType", "`return fig`"),
     "a number drawn": (lambda g: figure(3), "int", "return a matplotlib Figure"),
     "another argument": (lambda g: explore(text, b=(0, 3)), "controls are b", "takes (k)"),
+    "plain words drawn": (lambda g: figure("plain"), "str", "`note(text)`"),
+    "a control without a name": (lambda g: explore(text, (0, 3)), "(0, 3)", "k=(0, 10)"),
     "a caption first": (lambda g: explore("caption", text), "'caption'", "then a caption"),
     "a scene and a pad": (
         lambda g: explore(lambda k: arm_scene((0, k[0])), alt="an arm", k=Pad([0, 1], [0.5, 1])),

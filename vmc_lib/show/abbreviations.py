@@ -43,7 +43,8 @@ def check_call(draw, caption, alt, data, printed, names):
     """ValueError for what is no function, caption or option, or for controls that it lacks."""
     if not (callable(draw) and isinstance(caption, str)):
         raise ValueError(
-            f"explore({draw!r}, {caption!r}, …): give the function that draws, then a caption"
+            f"explore({draw!r}, {caption!r}, …): give the function that draws, then a caption, "
+            "and each control by the name of its argument, k=(0, 10)"
         )
     wrong = {
         "alt": not (alt is None or isinstance(alt, str) or callable(alt)) and alt,
@@ -69,7 +70,7 @@ def _check_arguments(draw, names):
         takes.bind(**dict.fromkeys(names))
     except TypeError as error:
         raise ValueError(
-            f"the function that draws takes {takes}, and the controls are {', '.join(names)}: "
+            f"the function that draws takes {takes}, and the controls are {', '.join(names) or 'none'}: "
             f"{error}"
         ) from None
 

@@ -45,6 +45,7 @@ def parts_of(picture):
         markup = isinstance(part, str) and part.lstrip().startswith("<")
         if not (markup or isinstance(part, Scene | Figure | np.ndarray)):
             ends = "; the function ends with `return fig`" if part is None else ""
+            ends = "; plain words are `note(text)`" if isinstance(part, str) else ends
             raise ValueError(
                 f"cannot show a {type(part).__name__}: return a matplotlib Figure, an image array, "
                 f"SVG or HTML text, a Scene, or a tuple of these{ends}"
