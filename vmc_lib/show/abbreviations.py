@@ -69,9 +69,9 @@ def _check_arguments(draw, names):
     try:
         takes.bind(**dict.fromkeys(names))
     except TypeError as error:
+        named = ", ".join(names) or "none"
         raise ValueError(
-            f"the function that draws takes {takes}, and the controls are {', '.join(names) or 'none'}: "
-            f"{error}"
+            f"the function that draws takes {takes}, and the controls are {named}: {error}"
         ) from None
 
 
