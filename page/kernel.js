@@ -74,13 +74,26 @@ const keepKeys = (event) => {
   else if (!(ctrlKey || metaKey || altKey || (shiftKey && key === "Enter"))) event.stopPropagation();
 };
 
+/* What a widget shows; of a second view the labels are for its own controls. */
+let views = 0;
+const view = (markup) => {
+  const { content } = Object.assign(document.createElement("template"), { innerHTML: markup });
+  if (document.getElementById(content.firstElementChild.id)) {
+    views++;
+    for (const name of ["id", "name", "for"])
+      for (const one of content.querySelectorAll(`.vmc-controls [${name}]`))
+        one.setAttribute(name, `${one.getAttribute(name)}-${views}`);
+  }
+  return content;
+};
+
 /* Show a widget in an element: its markup, which `start` moves. */
 export const render = async ({ model, el }, start) => {
   const channel = await model.widget_manager.get_model(model.get("channel"));
   const ask = connect(channel, model.get("vendored"));
-  el.innerHTML = model.get("page");
+  el.replaceChildren(view(model.get("page")));
   el.addEventListener("keydown", keepKeys);
-  const end = start(el.firstElementChild, ask, model.get("first"));
+  const end = start(el.firstElementChild, ask, model.get("first"), model);
   return () => {
     ask.leave();
     end?.();

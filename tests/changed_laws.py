@@ -19,7 +19,7 @@ from tests.laws import functions, law_cells
 from tests.project import ROOT, code_cells
 from vmc_lib import show
 from vmc_lib.show import demo
-from vmc_lib.show.controls import as_control
+from vmc_lib.show.abbreviations import as_control
 
 OTHERWISE = """
 def otherwise(law):

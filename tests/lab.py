@@ -111,6 +111,18 @@ def execute(page, code):
     run(page, "await kernel.requestExecute({ code: asked }).done;", code)
 
 
+def add_cell(page, code):
+    """Write code into a new cell at the notebook's end, and run it."""
+    run(
+        page,
+        """notebook.activeCellIndex = notebook.widgets.length - 1;
+        await jupyterapp.commands.execute("notebook:insert-cell-below");
+        notebook.activeCell.model.sharedModel.setSource(asked);
+        await jupyterapp.commands.execute("notebook:run-cell");""",
+        code,
+    )
+
+
 def choose_cell(page, words):
     """Make the cell whose source has these words the active one, in sight."""
     script = """notebook.activeCellIndex = notebook.widgets.findIndex((cell) =>

@@ -136,7 +136,7 @@ def test_a_chapter_is_executed_when_what_it_imports_has_changed(book):
     assert times_executed(book) == 2
     assert [link for link in links(page) if link.startswith("http")] == [
         "https://mybinder.org/v2/gh/owner/name/main?urlpath=lab/tree/book/chapter.ipynb",
-        "https://colab.research.google.com/github/owner/name/blob/main/book/chapter.ipynb",
+        "https://colab.research.google.com/github/owner/name/blob/colab/book/chapter.ipynb",
     ]
 
 

@@ -6,6 +6,7 @@ from itertools import takewhile
 from tests.project import CHAPTERS, ROOT, code_cells, python
 
 HEAVY = {"cv2", "joblib", "matplotlib", "mujoco", "numba", "scipy", "sklearn", "torch"}
+HEAVY |= {"IPython", "anywidget", "ipywidgets", "meshcat", "traitlets"}  # nor a notebook
 NEED_THEM = ("arm26", "learning")  # the arm in MuJoCo, and training by torch
 
 

@@ -35,10 +35,12 @@ PINS = re.findall(
 
 
 def declared(*extras):
-    """The requirements of the core and some extras: name → versions."""
+    """The requirements of the core and some extras, with those that these name."""
     lists = [PROJECT["dependencies"], *(OPTIONAL[e] for e in extras)]
     requirements = [Requirement(line) for lines in lists for line in lines]
-    return {canonical(r.name): r.specifier for r in requirements if r.name != "vmc_lib"}
+    inner = {extra for r in requirements if r.name == "vmc_lib" for extra in r.extras}
+    own = {canonical(r.name): r.specifier for r in requirements if r.name != "vmc_lib"}
+    return (declared(*inner) if inner else {}) | own
 
 
 EVERYTHING = declared("book", "test", "cluster")
@@ -57,9 +59,10 @@ def imported(source):
 @pytest.mark.parametrize(
     ("patterns", "extras"),
     [
-        ("vmc_lib/**/*.py page/**/*.py book/figures/*.py", ()),
-        ("reproduce/**/*.py", ("derive", "render")),
-        ("book/*.ipynb", ()),
+        ("vmc_lib/*.py vmc_lib/[!s]*/*.py", ("learning",)),
+        ("vmc_lib/show/*.py", ("show",)),
+        ("page/**/*.py book/figures/*.py book/*.ipynb", ("chapters",)),
+        ("reproduce/**/*.py", ("chapters", "derive", "render")),
         ("book/_ext/*.py kit/**/*.py tests/**/*.py tools/*.py", ("book", "test", "cluster")),
     ],
 )
@@ -111,17 +114,44 @@ def test_the_lock_names_every_extra():
 
 
 def test_a_reader_installs_no_tools():
-    core = declared()
-    assert len(core) <= 25
-    assert all(core.values())
-    pulled, waiting = set(), [*core]
+    assert len(declared()) <= 6
+    assert all(declared("chapters").values())
+    assert not needed(declared()) & {"ipython", "matplotlib", "notebook", "torch", "traitlets"}
+    tools = {"pytest", "playwright", "ruff", "sphinx", "jupyter-book", "dask"}
+    assert not needed(declared("chapters")) & tools
+
+
+def needed(packages):
+    """The names of packages and of all that they pull in."""
+    pulled, waiting = set(), [*packages]
     while waiting:
         if (name := waiting.pop()) not in pulled:
             pulled.add(name)
             requirements = (Requirement(line) for line in metadata.requires(name) or [])
             here = (r for r in requirements if not r.marker or r.marker.evaluate({"extra": ""}))
             waiting += (canonical(r.name) for r in here)
-    assert not pulled & {"pytest", "playwright", "ruff", "sphinx", "jupyter-book", "dask"}
+    return pulled
+
+
+def test_the_model_runs_on_the_base_install_alone():
+    """In a plain script; what draws says what it lacks."""
+    absent = {n for name in declared("chapters").keys() - declared() for n in modules(name)}
+    script = f"""import sys
+sys.modules.update(dict.fromkeys({sorted(absent)}))
+from vmc_lib import loop, photos
+photo = photos.load("rig", "validation")[3]
+print(*loop.see_and_reach(loop.VisuomotorModel.load("rig"), photo.image, photo.camera))
+try: import vmc_lib.show
+except ImportError as error: print(error)"""
+    seen, missing = python("-c", script).splitlines()
+    assert re.match(r"Sight\(.* sure\) Reach\(", seen)
+    assert 'pip install "vmc_lib[show]"' in missing
+
+
+def modules(package):
+    """The names under which a package is imported."""
+    makers = metadata.packages_distributions()
+    return [name for name, made_by in makers.items() if package in map(canonical, made_by)]
 
 
 @pytest.fixture(scope="session")
@@ -198,7 +228,7 @@ print(vmc_lib.__file__, photos.load("rig", "test")[0].image.shape, sep="\\n")"""
 def test_colab_keeps_what_its_kernel_has_loaded(release):
     """Or the first cell would ask for a restart: to install is not enough."""
     name, version = release.split("==")
-    assert version in declared()[name]
+    assert version in declared("chapters")[name]
 
 
 def test_a_readers_file_may_hide_a_folder_as_readme_says(tmp_path):
@@ -221,8 +251,8 @@ locale.getencoding()"""
 def test_a_chapter_runs_elsewhere_after_the_lines_of_readme(reader, alone, tmp_path, chapter):
     """Live, also where text is ASCII unless its encoding is named."""
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    lines = r"!git clone .*> (\w+)\n(%cd \1)\n%pip install --quiet -e \.\n"  # for what `reader` has
-    [(folder, enter)] = re.findall(lines, readme)
+    lines = r"!git clone .*> (\w+)\n(%cd \1)\n%pip install --quiet -e .\.\[chapters\].\n"
+    [(folder, enter)] = re.findall(lines, readme)  # the last is for what `reader` has
     (tmp_path / folder).symlink_to(reader / "source")
     used = "import book.figures, vmc_lib\n[*book.__path__, vmc_lib.__file__]"
     notebook = nbformat.read(ROOT / f"book/{chapter}.ipynb", as_version=4)

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vmc_lib import NoReach
+from vmc_lib.short_repr import short_repr
 
 TABLE = -0.43  # height of the table top in the shoulder frame (m)
 
@@ -25,6 +26,8 @@ class Camera:
     centre: np.ndarray
     rotation: np.ndarray
     position: np.ndarray
+
+    __repr__ = short_repr
 
     def project(self, points):
         """Project points (n, 3) of the shoulder frame to pixels (n, 2).

@@ -209,13 +209,23 @@ def reach(model, target, calibration=algorithm_1):
     if calibration is None:
         planned = execute(habit).motion
         return Reach(target, turn, habit, planned, planned)
-    trials = calibrate(RULES.get(calibration, calibration), habit)
+    trials = calibrate(rule(calibration), habit)
     return Reach(target, turn, habit, trials.movements[0].motion, trials.best_motion)
+
+
+def rule(name):
+    """The rule of off-line calibration of that name, of `RULES`; a rule itself as it is.
+
+    ValueError for a name that none has.
+    """
+    if isinstance(name, str) and name not in RULES:
+        raise ValueError(f"no rule is called {name!r}: choose from {', '.join(RULES)}")
+    return RULES.get(name, name)
 
 
 def recalibrate(reach, calibration):
     """The same `Reach`, its second movement calibrated by a rule of `RULES`, or by its name."""
-    trials = calibrate(RULES.get(calibration, calibration), reach.plan)
+    trials = calibrate(rule(calibration), reach.plan)
     return replace(reach, calibrated=trials.best_motion)
 
 

@@ -54,6 +54,9 @@ class Photo:
     pose: str | None = None
     seed: tuple = ()
 
+    def __repr__(self):
+        return f"Photo({self.name!r}: {', '.join(self.boxes)})"
+
     @property
     def image(self):
         """(400, 600, 3) uint8, read-only, read from the file at the first use."""
@@ -166,6 +169,10 @@ def as_rgb(array):
     Takes uint8, or floats within [0, 1], scaled to 0..255. Grey is repeated in three channels, what
     is transparent stands on white. ValueError for anything else.
     """
+    if isinstance(array, str | Path):
+        raise ValueError(f"{str(array)!r} is a file's name: give read_image({str(array)!r})")
+    if isinstance(array, Photo):
+        raise ValueError(f"{array.name!r} is a Photo, with more than an image: give photo.image")
     array = np.asarray(array)
     image = array[..., None] if array.ndim == 2 else array
     if image.ndim != 3 or image.shape[2] not in (1, 3, 4) or 0 in image.shape:
@@ -196,6 +203,8 @@ def crops(image, boxes, size):
     """
     if image.dtype != np.uint8 or image.ndim != 3 or image.size == 0:
         raise ValueError(f"{image.dtype} {image.shape} is no uint8 image: see photos.read_image")
+    if size < 1:
+        raise ValueError(f"crops of {size}×{size} pixels: give a size of 1 or more")
     boxes = as_boxes(boxes)
     height, width = image.shape[:2]
     steps = (np.arange(size * 2) + 0.5) / (size * 2)

@@ -181,6 +181,7 @@ def execute(page, timeout):
     result = single_nb_execution(notebook, page.parent, timeout, allow_errors=False, **options)
     error = failure(notebook, result.err)
     notebook.cells = cells
+    notebook.metadata.pop("widgets", None)  # their state: no kernel is there to use it
     return notebook, result.time, error
 
 

@@ -47,9 +47,21 @@ def launch(app, config):
 def mend(app, pagename, templatename, context, doctree):
     """Mend the page's settings, its assets and its body."""
     body = context.get("body", "")
+    lead_to_what_sets_itself_up(context)
     settings_in_file(app, context)
     drop_needless_assets(app, context, body)
     context["body"] = mend_body(body)
+
+
+def lead_to_what_sets_itself_up(context):
+    """Let Colab's button open the chapters of their own branch, with a cell that fetches the book.
+
+    Binder builds from the main branch, and has what it needs. The branch: see tools/colab.py.
+    """
+    for button in context.get("header_buttons", []):
+        for one in button.get("buttons", [button]):
+            if "colab.research.google.com" in (one.get("url") or ""):
+                one["url"] = re.sub(r"/blob/[^/]+/", "/blob/colab/", one["url"])
 
 
 def settings_in_file(app, context):

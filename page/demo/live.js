@@ -16,17 +16,17 @@ const firstAnswer = async (ask) => {
 
 /* A demo's states: `draw` is given the `first` at once, then what the kernel answers. Of places that
    come while it works, the last wins. An error stands below the picture; the still follows the reader. */
-const states = (ask, box, first) => {
-  let wanted, working, resting;
+const states = (ask, box, first, model) => {
+  let wanted, working, resting, last;
   const views = () =>
     [...box.querySelectorAll(".vmc-scene")].map((div) => viewOf(div).viewer?.capture_image() ?? "");
   const work = async (draw) => {
     working = true;
     box.setAttribute("aria-busy", "true");
     while (wanted !== undefined) {
-      const place = wanted;
+      const place = (last = wanted);
       wanted = undefined;
-      const state = await ask("state", place);
+      const state = await ask(place === model.get("place") ? "picture" : "state", place);
       if (ask.left) break;
       box.querySelector(".vmc-error").textContent = state.error ?? "";
       if (!state.error) draw(state);
@@ -36,7 +36,7 @@ const states = (ask, box, first) => {
     resting = setTimeout(() => ask("still", views()), 1000);
   };
   const show = (place, draw) => {
-    if (first) return draw(first), (first = null);
+    if (first) return draw(first), (first = null), (last = place);
     clearTimeout(resting);
     wanted = place;
     if (!working) work(draw);
@@ -50,8 +50,30 @@ const states = (ask, box, first) => {
   };
   close(RUNNING);
   ask.onleave = () => close(GONE);
+  /* The controls go where the kernel or another view has put them, but for where the last answer came from. */
+  show.follow = () => {
+    const place = model.get("place");
+    if (place === last) return;
+    for (const input of box.querySelectorAll("[data-stride]")) {
+      const at = (length) => Math.floor(place / input.dataset.stride) % length;
+      if (input.type === "range") input.value = at(+input.max + 1);
+      else if (input.type === "checkbox") input.checked = at(2) === 1;
+      else if (input.type === "radio") input.checked = +input.value === at(input.closest("fieldset").elements.length);
+      else input.selectedIndex = at(input.length);
+    }
+    box.dispatchEvent(new Event("input", { bubbles: true }));
+  };
   show.ready = firstAnswer(ask).then(() => close(ask.left ? GONE : ""));
   return show;
 };
 
-export const start = (box, ask, first) => startDemo(box, states(ask, box, first));
+export const start = (box, ask, first, model) => {
+  const show = states(ask, box, first, model);
+  const end = startDemo(box, show);
+  show.follow();
+  model.on("change:place", show.follow);
+  return () => {
+    model.off("change:place", show.follow);
+    end?.();
+  };
+};

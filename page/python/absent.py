@@ -27,8 +27,12 @@ class Absent(metaclass=_Kind):
     def __init__(self, *given, **named):
         pass
 
+    def __call__(self, *given, **named):
+        """Nothing: it may be a decorator, or make something."""
+        return self
+
     def __getattr__(self, name):
-        return lambda *given, **named: self
+        return self
 
     def __bool__(self):
         return False

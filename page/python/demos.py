@@ -9,7 +9,8 @@ import matplotlib as mpl
 
 from page.python.grader import changed, definitions
 from vmc_lib import show
-from vmc_lib.show.controls import Pad, Slider, as_control
+from vmc_lib.show.abbreviations import as_control
+from vmc_lib.show.controls import Pad, Slider
 from vmc_lib.show.demo import draw_state, lines
 from vmc_lib.show.packed import unpack_arrays
 

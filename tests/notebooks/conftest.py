@@ -7,7 +7,7 @@ import pytest
 from tests import lab
 from tests.pages import observe
 
-CHAPTERS = ("02_candidates", "07_muscle", "08_arm", "16_noise")
+CHAPTERS = ("02_candidates", "07_muscle", "08_arm", "16_noise", "your_demo")
 FILES = (*(f"{name}.ipynb" for name in CHAPTERS), "glossary.md")
 ERROR = re.compile("vmc|blob:|anywidget|MeshCat|mujoco")  # what else complains is JupyterLab's
 LATE = "[anywidget] Failed to initialize model"  # of a busy machine: our demos move all the same

@@ -9,7 +9,7 @@ def named(**values):
 
 
 def show(draw=named, alt="words", **controls):
-    explore(draw, caption="A *caption*: $x < y$.", alt=alt, **controls)
+    return explore(draw, caption="A *caption*: $x < y$.", alt=alt, **controls)
 
 
 RENDER = """async ([script, traits, kernel, busy]) => {
@@ -17,7 +17,7 @@ RENDER = """async ([script, traits, kernel, busy]) => {
   const listeners = {};
   const model = {
     busy,
-    get: (name) => traits[name],
+    get: (name) => (model.traits ?? traits)[name] ?? traits[name],
     widget_manager: { get_model: async (id) => id === traits.channel && model },
     on: (event, listener) => ((listeners[event] ??= []).push(listener)),
     off: () => {},
@@ -26,12 +26,12 @@ RENDER = """async ([script, traits, kernel, busy]) => {
       if (!model.busy) self[kernel](message).then((reply) => emit("msg:custom", reply));
     },
   };
-  const emit = (event, value) => listeners[event].forEach((listener) => listener(value));
+  const emit = (event, value) => (listeners[event] ?? []).forEach((listener) => listener(value));
   Object.assign(self, { [`${kernel}Model`]: Object.assign(model, { emit }) });
   const el = document.body.appendChild(document.createElement("div"));
   await (await import(url)).default.render({ model, el });
 }"""
-TRAITS = ("page", "vendored", "first", "channel")
+TRAITS = ("page", "vendored", "first", "channel", "place")
 
 
 def render(page, widget, monkeypatch, kernel="kernel", busy=False):
@@ -40,13 +40,13 @@ def render(page, widget, monkeypatch, kernel="kernel", busy=False):
     The page's `kernelModel`, by another name where `kernel` has one, is what the widget talks to:
     it may be `closed` or `busy`, and `emit(event, value)` is what Jupyter calls.
     """
-    replies = []
-    monkeypatch.setattr(widget._channel, "send", replies.append)
 
     def answer(message):
+        replies = []
+        monkeypatch.setattr(widget._channel, "send", replies.append)
         widget._channel._handle_custom_msg(message, [])
         return replies.pop()
 
     page.expose_function(kernel, answer)
-    traits = {name: getattr(widget, name) for name in TRAITS}
+    traits = {name: getattr(widget, name, None) for name in TRAITS}
     page.evaluate(RENDER, [widget._esm, traits, kernel, busy])

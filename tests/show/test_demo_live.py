@@ -33,8 +33,9 @@ def live(monkeypatch):
         stills = []
         handle = SimpleNamespace(update=lambda still: stills.append(still.data))
         shown = displayed(monkeypatch, demo, handle)
-        show(*args, **controls)
-        still, widget, caption = shown
+        widget = show(*args, **controls)
+        still, bundle, caption = shown
+        assert widget.model_id in repr(bundle)
         stills.append(still.data)
         replies, channel = [], widget._channel
         monkeypatch.setattr(channel, "send", replies.append)

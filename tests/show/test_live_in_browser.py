@@ -20,11 +20,11 @@ def live_demo(offline, monkeypatch):
     def live_demo(draw, busy=False, **controls):
         monkeypatch.setenv("VMC_RENDER_MODE", "live")
         shown = displayed(monkeypatch, demo, SimpleNamespace(update=lambda still: None))
-        explore(draw, "c", "words", **controls)
+        widget = explore(draw, "c", "words", **controls)
         page = observe(offline.new_page())
         pages.append(page)
         page.set_content(shown[0].data)
-        render(page, shown[1], monkeypatch, busy=busy)
+        render(page, widget, monkeypatch, busy=busy)
         return page
 
     yield live_demo

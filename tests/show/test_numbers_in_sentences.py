@@ -45,7 +45,7 @@ def test_a_demo_gives_its_first_numbers_and_shows_nothing_more(monkeypatch, mode
     )
     assert ">30<" in numbers["# rows"]
     assert ">30 mm<" in numbers["n"]
-    assert numbers.texts.keys() == {"n"}
+    assert numbers.numbers.texts.keys() == {"n"}
     assert numbers._ipython_display_() is None
 
 

@@ -60,7 +60,12 @@ def muscle_paths(data):
 
 
 def geometry(q):
-    """`Geometry` of one posture (2,): the pose of each body and the path of each muscle."""
+    """`Geometry` of one posture (2,): the pose of each body and the path of each muscle.
+
+    ValueError for another shape.
+    """
+    if np.shape(q) != (2,):
+        raise ValueError(f"posture {q} must be (shoulder, elbow), in rad")
     data = forward(q)
     names = [MODEL.body(k).name for k in range(1, MODEL.nbody)]
     bodies = {n: (data.body(n).xmat.reshape(3, 3).copy(), data.body(n).xpos.copy()) for n in names}

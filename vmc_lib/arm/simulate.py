@@ -124,11 +124,14 @@ def simulate(
 def constant_excitation(level, duration, step=STEP):
     """Excitations (…, T, 6) for `simulate` that stay at `level` (…, 6) for `duration` in s.
 
-    ValueError when the duration is not finite, or shorter than one step.
+    ValueError for other shapes, or a duration that is not finite, or shorter than one step.
     """
     if not step <= duration < np.inf:
         raise ValueError(f"a duration of {duration} s: choose at least {step} s")
-    return np.repeat(np.asarray(level, dtype=float)[..., None, :], round(duration / step), axis=-2)
+    level = np.asarray(level, dtype=float)
+    if level.shape[-1:] != (6,):
+        raise ValueError(f"levels of shape {level.shape}: give one for each of the 6 muscles")
+    return np.repeat(level[..., None, :], round(duration / step), axis=-2)
 
 
 def _per_movement(name, value, leading, size):

@@ -4,9 +4,18 @@ The arm's own scenes are in `vmc_lib.show.arm`, and the arm that runs in the pag
 `page.arm`: what needs no arm need not wait for one.
 """
 
+try:
+    import anywidget  # noqa: F401
+    import matplotlib  # noqa: F401
+except ModuleNotFoundError as error:
+    raise ModuleNotFoundError(
+        f"{error.name} is not installed: what shows pictures comes with "
+        'pip install "vmc_lib[show]", a chapter\'s all with "vmc_lib[chapters]"'
+    ) from error
+
 from vmc_lib.show.compare import compare, dot_plot
 from vmc_lib.show.controls import Choice, Pad, Slider, Switch
-from vmc_lib.show.demo import explore, figure
+from vmc_lib.show.demo import explore, figure, widget
 from vmc_lib.show.estimate import Estimate, estimate
 from vmc_lib.show.figures import details, itemise, markdown, note, photo_view, table
 from vmc_lib.show.palette import COLOURS
@@ -37,4 +46,5 @@ __all__ = [
     "solution",
     "table",
     "verify",
+    "widget",
 ]

@@ -24,7 +24,15 @@ def dot_plot(series, measure, published=None, xlim=None):
     number (see `estimate`); `measure` names what is measured. `published` maps rows to what the
     paper printed, shown as ticks. For several levels or measures, call it for each and show the
     tuple of figures.
+
+    >>> dot_plot({"ours": {"rig": [3.1, 2.8, 3.3], "free": 4.2}}, "miss (mm)").axes[0].get_xlabel()
+    'miss (mm)'
     """
+    for label, rows in series.items() if isinstance(series, dict) else [("", series)]:
+        if not isinstance(rows, dict):
+            raise ValueError(
+                f"series {label!r} is {rows!r}: give {{label: {{row: draws}}}}, two dictionaries"
+            )
     every = *series.values(), published or {}
     names = list(dict.fromkeys(name for rows in every for name in rows))
     room = 0.15 + max(map(text_width, names))  # for the longest name

@@ -6,8 +6,8 @@ Each knows its values and its face, the same in the built page and in a live ker
 import html
 import itertools
 import json
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -15,21 +15,33 @@ import numpy as np
 from vmc_lib.show.markup import number
 
 MENU = 6  # a choice among this many or more is a menu, not a row of buttons
+MOST_SHOWN = 2000  # texts between a slider's stops that are measured
 
 
 @dataclass(frozen=True)
 class Control:
-    """A labelled choice among finitely many values; `start` is the first shown."""
+    """A labelled choice among finitely many values; `start` is the first shown.
+
+    Without a `label` it bears the name that `explore` knows it by. `labels` are what the reader
+    sees for each value, by default the value with its unit.
+    """
 
     values: Sequence
-    label: str
+    label: str = ""
     start: Any = None
     unit: str = ""
+    labels: Sequence[str] = field(default=(), kw_only=True)
 
     def __post_init__(self):
+        if not isinstance(self.values, Iterable):
+            raise ValueError(
+                f"the values {self.values!r} are no list: give all that the control has, as "
+                "range(6), [1, 2, 4] or np.linspace(0, 1, 11)"
+            )
         values = tuple(self.values)
         if len(values) < 2:
-            raise ValueError(f"the control {self.label!r} has values {values}: give at least two")
+            name = f"the control {self.label!r}" if self.label else "a control"
+            raise ValueError(f"{name} has values {values}: give at least two")
         object.__setattr__(self, "values", values)
         if self.start is not None:
             _ = self.first  # raises when `start` is none of the values
@@ -37,17 +49,22 @@ class Control:
     @property
     def first(self):
         """The position of the starting value."""
-        if self.start is None:
-            return 0
-        for place, value in enumerate(self.values):
-            numbers = _is_number(value) and _is_number(self.start)
-            if np.isclose(value, self.start) if numbers else value == self.start:
+        return 0 if self.start is None else self.place_of(self.start)
+
+    def place_of(self, value):
+        """The place of a value among the control's own; ValueError where it is none of them."""
+        for place, own in enumerate(self.values):
+            if own is value or (np.isclose(own, value) if _numbers(own, value) else own == value):
                 return place
         texts = self.texts if len(self.values) <= MENU else [*self.texts[:3], "…", self.texts[-1]]
         raise ValueError(
-            f"{self.label!r} cannot start at {self.start!r}: it has {', '.join(texts)}"
-            + f"; a unit is given as unit={self.start!r}" * isinstance(self.start, str)
+            f"{self.label!r} cannot stand at {value!r}: it has {', '.join(texts)}"
+            + f"; a unit is given as unit={value!r}" * isinstance(value, str)
         )
+
+    def nearest(self, value):
+        """The place of the value that a reader's hand would come to rest at."""
+        return self.place_of(value)
 
     def html(self, name, stride):
         """Its face: markup named `name`; a value's place counts `stride` times.
@@ -59,7 +76,7 @@ class Control:
     @property
     def texts(self):
         """The values as the reader sees them, with their unit."""
-        return [self.text(value) for value in self.values]
+        return list(self.labels) or [self.text(value) for value in self.values]
 
     def text(self, value):
         """A value with its unit."""
@@ -79,6 +96,13 @@ class Slider(Control):
     play: bool | str = False
     between: bool | float = True
 
+    def nearest(self, value):
+        """The place of the stop nearest to a number; ValueError beyond the slider's ends."""
+        numbers = [one for one in self.values if _numbers(one, value)]
+        if len(numbers) < len(self.values) or not min(numbers) <= value <= max(numbers):
+            return self.place_of(value)
+        return int(np.abs(np.subtract(numbers, value)).argmin())
+
     def value_at(self, place):
         """The value at a place along `values`, which may lie between two; whole where these are."""
         low = min(int(place), len(self.values) - 2)
@@ -94,18 +118,21 @@ class Slider(Control):
     def continuous(self):
         """Whether it has values between its own."""
         whole = all(isinstance(v, int) for v in self.values)
-        numbers = all(map(_is_number, self.values))
+        numbers = all(map(is_number, self.values)) and not self.labels
         return self.between and numbers and not (whole and np.ptp(self.values) < len(self.values))
 
     def html(self, name, stride):
-        text, texts = self.texts[self.first], json.dumps(self.texts, ensure_ascii=False)
-        along = {"min": 0, "max": len(self.values) - 1, "value": self.first}
-        state = {"data-stride": stride, "data-texts": texts, "aria-valuetext": text}
+        texts, last = self.texts, len(self.values) - 1
+        text, data = texts[self.first], json.dumps(texts, ensure_ascii=False)
+        along = {"min": 0, "max": last, "value": self.first}
+        state = {"data-stride": stride, "data-texts": data, "aria-valuetext": text}
         unasked = " data-unasked" * (self.play == "unasked")
         state |= {"data-between": ""} if self.continuous else {}
         play = f'<button type="button" class="vmc-play" aria-pressed="false"{unasked}>Play</button>'
-        steps = np.arange(0, len(self.values) - 0.95, 0.1 if self.continuous else 1).round(1)
-        shown = [self.text(self.value_at(step)) for step in steps]  # between its own, too
+        shown = texts
+        if self.continuous:  # between its own, too
+            steps = np.linspace(0, last, min(10 * last, MOST_SHOWN) + 1).round(1)
+            shown = [self.text(self.value_at(step)) for step in steps]
         widest = max(len(text) + 0.6 * sum(c in "mwMW%" for c in text) for text in shown)
         return slider(name, self.label, text, along | state, play if self.play else "", widest)
 
@@ -145,6 +172,8 @@ class Pad(Control):
     """
 
     def __init__(self, xs, ys, labels=("x", "y"), start=(None, None), unit="", between=True):
+        if not len(labels) == len(start) == 2:
+            raise ValueError(f"a pad has two labels and two starts, not {labels} and {start}")
         parts = zip((xs, ys), labels, start, strict=True)
         pair = [Slider(v, *rest, unit, between=between) for v, *rest in parts]
         object.__setattr__(self, "pair", pair)
@@ -154,6 +183,10 @@ class Pad(Control):
     def first(self):
         x, y = self.pair
         return x.first * len(y.values) + y.first
+
+    def nearest(self, value):
+        x, y = self.pair
+        return x.nearest(value[0]) * len(y.values) + y.nearest(value[1])
 
     def html(self, name, stride):
         x, y = self.pair
@@ -196,25 +229,14 @@ def _markup(attributes):
     return "".join(f' {name}="{html.escape(str(value))}"' for name, value in attributes.items())
 
 
-def _is_number(value):
+def is_number(value):
+    """Whether it is a number, and no truth value."""
     return isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
 
 
+def _numbers(*values):
+    return all(map(is_number, values))
+
+
 def _text(value):
-    return number(value, 4) if _is_number(value) else str(value)
-
-
-def as_control(name, spec):
-    """The control that `explore(..., name=spec)` asks for; ValueError when there is none."""
-    label = name.replace("_", " ")
-    if isinstance(spec, Control):
-        return spec
-    if isinstance(spec, (list, tuple)):
-        if not spec or all(isinstance(value, str) for value in spec):
-            return Choice(spec, label)
-        if sorted(spec, key=bool) == [False, True] and all(isinstance(v, bool) for v in spec):
-            return Switch((False, True), label, start=spec[0])
-    raise ValueError(
-        f"cannot make a control of {name}={spec!r}: give a Slider, a Pad, a list of strings, "
-        "or [False, True]"
-    )
+    return number(value, 4) if is_number(value) else str(value)

@@ -9,49 +9,55 @@ other goes through all its values. In both, every control must matter.
 import gc
 import itertools
 import math
-from functools import cache
+from functools import cache, partial
 from uuid import uuid4
 
-import numpy as np
+import ipywidgets
 from IPython.display import HTML, display
 
+from vmc_lib.show.abbreviations import as_control, check_call, defaults
 from vmc_lib.show.alt_text import alt_text
-from vmc_lib.show.controls import Pad, Slider, Switch, as_control
+from vmc_lib.show.controls import Slider
 from vmc_lib.show.data_table import data_tables
+from vmc_lib.show.face import check_pads, check_same_kinds, face, lines, moves
 from vmc_lib.show.figures import frame, parts_of, pictures, side_by_side
-from vmc_lib.show.live import Live, demo_script, exclusive_pyplot
+from vmc_lib.show.live import demo_script, exclusive_pyplot
 from vmc_lib.show.numbers import Numbers
 from vmc_lib.show.outputs import Markup, still
-from vmc_lib.show.packed import pack_arrays, pack_json
+from vmc_lib.show.packed import pack_arrays
 from vmc_lib.show.palette import plot_style
 from vmc_lib.show.positions import (
     address,
     along,
     first_position,
     idle_controls,
-    strides,
     values_at,
 )
 from vmc_lib.show.render_mode import render_mode
 from vmc_lib.show.scene import Scene
+from vmc_lib.show.stored import all_states, page, recipe
+from vmc_lib.show.values import Demo
 
 MOST_POSITIONS = 200
-SWITCHES = '<div class="vmc-control"><div class="vmc-options">{}</div></div>'  # a row of them
+SAID = '<p class="vmc-kernel" role="status"></p><p class="vmc-error" role="alert"></p>'
 SAMPLE = 25  # positions along a control, of a demo that the page works out
 _demos = itertools.count(1)
 
 
 def explore(draw, caption="", alt=None, in_page=None, data=None, printed=(), **controls):
-    """Show what `draw` returns and let the reader move its controls.
+    """Show what `draw` returns and let the reader move its controls, as ipywidgets' `interact`.
 
     `draw(**values)` is a pure function that returns a picture (see `figures`). Each control is a
-    `Slider`, a `Pad`, a list of strings (a choice) or `[False, True]` (a switch); a list starts at
-    its first. `caption` is Markdown and says what to notice; `alt` describes the picture in words,
-    as text or as a function of the same controls; a plot without it describes itself. `printed` is
-    where paper shows it, a list of {control: value} moved from the start; by default there, and
-    with its first slider at its other end. Returns the demo's `Numbers`, for sentences about what
-    it shows. Raises ValueError for a demo that could not work: more than 200 positions, a control
-    without effect, a start that is no value, an unknown picture.
+    `Slider`, a `Pad`, a `Choice` or a `Switch`, a widget of ipywidgets, or what `interact` takes:
+    (low, high), (low, high, step), a number, True or False, a list, a dictionary (see
+    `abbreviations`). `caption` is Markdown and says what to notice; `alt` describes the picture in
+    words, as text or as a function of the same controls; a plot without it describes itself.
+    `printed` is where paper shows it, a list of {control: value} moved from the start; by default
+    there, and with its first slider at its other end.
+
+    Returns the `Demo`, a widget: its `value` can be read, set, observed and linked. ValueError for
+    what could not work: an unknown control or picture, a start that is no value; in the book more
+    than 200 positions, whose states are stored, and a control without effect.
 
     A demo may have as many positions as it likes if the book's page works them out itself:
     `in_page` is (name, ground, given), or a function that returns these, called for the book alone.
@@ -61,19 +67,36 @@ def explore(draw, caption="", alt=None, in_page=None, data=None, printed=(), **c
 
     `data` are arrays, or dictionaries of them, by the names that the cell has for them: they travel
     with the book's page, whose Python could not make them, or not soon.
+
+    >>> import matplotlib.pyplot as plt
+    >>> def draw(a, b):
+    ...     fig, ax = plt.subplots()
+    ...     ax.plot([a, b])
+    ...     return fig
+    >>> demo = explore(draw, a=(0, 10), b=[1, 2, 4])
+    >>> demo.value
+    {'a': 5, 'b': 1}
+    >>> demo.value = {"b": 4}
+    >>> demo.value
+    {'a': 5, 'b': 4}
     """
-    if not (callable(draw) and isinstance(caption, str)):
-        raise ValueError(
-            f"explore({draw!r}, {caption!r}, …): give the function that draws, then a caption"
-        )
-    controls = {name: as_control(name, spec) for name, spec in controls.items()}
+    demo = widget(draw, caption, alt, in_page, data, printed, **controls)
+    demo.show()
+    return demo
+
+
+def widget(draw, caption="", alt=None, in_page=None, data=None, printed=(), **controls):
+    """A demo as `explore` takes it, not yet shown: to stand in an `HBox`, or where it is displayed.
+
+    As `explore` is to ipywidgets' `interact`, so is this to its `interactive`.
+
+    >>> widget(lambda k: f"<p>{k}</p>", k=(0, 4, 2)).value
+    {'k': 2}
+    """
+    check_call(draw, caption, alt, data, printed, controls)
+    specs, starts = controls, defaults(draw)
+    controls = {name: as_control(name, spec, starts.get(name)) for name, spec in specs.items()}
     printed = [address(values, controls) for values in printed]
-    positions = math.prod(len(control.values) for control in controls.values())
-    if positions > MOST_POSITIONS and not in_page:
-        raise ValueError(
-            f"{positions} positions are too many for a page (at most {MOST_POSITIONS}): "
-            "give the controls fewer values"
-        )
     # in JupyterLab several notebooks share a page, and kernels start anew
     name = f"demo-{uuid4().hex[:8] if render_mode() == 'live' else next(_demos)}"
 
@@ -88,7 +111,21 @@ def explore(draw, caption="", alt=None, in_page=None, data=None, printed=(), **c
 
     texts = {key: c.texts[c.first] for key, c in controls.items() if isinstance(c, Slider)}
     if render_mode() == "live":
-        return Numbers(name, _live(state, caption, controls, name), texts)
+        demo = _live(state, caption, controls, name, texts)
+    else:
+        demo = _checked(state, caption, controls, name, texts, in_page, data, printed)
+    demo.share({key: one for key, one in specs.items() if isinstance(one, ipywidgets.Widget)})
+    return demo
+
+
+def _checked(state, caption, controls, name, texts, in_page, data, printed):
+    """The demo in the built book or in a test, which must have all its states."""
+    positions = math.prod(len(control.values) for control in controls.values())
+    if positions > MOST_POSITIONS and not in_page:
+        raise ValueError(
+            f"{positions} positions are too many for a page (at most {MOST_POSITIONS}): "
+            "give the controls fewer values"
+        )
     state = cache(state)
     sample = along(controls, SAMPLE if in_page else MOST_POSITIONS)
     every = sample if in_page else range(positions)
@@ -100,14 +137,16 @@ def explore(draw, caption="", alt=None, in_page=None, data=None, printed=(), **c
     if idle:
         raise ValueError(f"the control {idle[0].label!r} never changes the picture")
     start, states = state(first_position(controls)), [state(place) for place in places]
-    _check_pads(start[1], controls)
+    check_pads(start[1], controls)
     for _, parts in states:
-        _same_kinds(parts, start[1])
+        check_same_kinds(parts, start[1])
+    show = lambda: None  # noqa: E731 - in a test
     if render_mode() == "book":
-        stored = _worked_out(in_page, controls, name) if in_page else _stored(states)
+        stored = recipe(in_page, controls, name) if in_page else all_states(states)
         stored |= {"data": pack_arrays(data)} if data else {}
-        display(HTML(_page(*start, stored, caption, controls, name, printed)))
-    return Numbers(name, start[0], texts)
+        markup = HTML(page(*start, stored, caption, controls, name, printed))
+        show = partial(display, markup)
+    return Demo(name, controls, Numbers(name, start[0], texts), show)
 
 
 def draw_state(draw, values, name, alt=None, tables=True):
@@ -115,8 +154,18 @@ def draw_state(draw, values, name, alt=None, tables=True):
     with exclusive_pyplot(), plot_style():
         picture = parts_of(draw(**values))
         numbers = data_tables(picture) if tables else []  # before the figures are closed
-        words = alt(**values) if callable(alt) else alt or alt_text(picture)
+        words = alt(**values) if callable(alt) else alt or _own_words(picture)
         return words, [*pictures(picture, name), *numbers]
+
+
+def _own_words(picture):
+    """What a picture says of itself; a reader's own notebook may leave it at nothing."""
+    try:
+        return alt_text(picture)
+    except ValueError:
+        if render_mode() != "live":
+            raise
+        return "A picture that nobody has described yet."
 
 
 def figure(picture, caption="", alt=None):
@@ -128,110 +177,50 @@ def _idle(state, places, controls):
     return idle_controls([repr(lines(state(place)[1])) for place in places], places, controls)
 
 
-def _same_kinds(parts, others):
-    one, other = ([isinstance(part, Scene) for part in drawn] for drawn in (parts, others))
-    if one != other:
-        raise ValueError("the draw function must return the same kinds of pictures everywhere")
-
-
-def _check_pads(parts, controls):
-    axes = any(isinstance(part, str) and "data-axes" in part for part in parts)
-    pads = [control.label for control in controls.values() if isinstance(control, Pad)]
-    if pads and not axes:
-        raise ValueError(
-            f"the pad {pads[0]!r} has no plot or photo to lie on: draw one beside the scene, "
-            "and return (figure, scene)"
-        )
-
-
-def lines(parts):
-    """The lines of each part: a scene's messages, or a picture's markup."""
-    return [part.messages() if isinstance(part, Scene) else part.split("\n") for part in parts]
-
-
-def _face(alt, parts, controls, name, printed=()):
-    """The pictures, and below them what the script moves them by."""
-    attribute = f' data-printed="{" ".join(printed)}"' if printed else ""
-    form, pairs = "", zip(controls.items(), strides(controls), strict=True)
-    for switches, row in itertools.groupby(pairs, lambda pair: isinstance(pair[0][1], Switch)):
-        faces = "".join(one.html(f"{name}-{key}", stride) for (key, one), stride in row)
-        form += SWITCHES.format(faces) if switches else faces
-    form = f'<form class="vmc-controls" autocomplete="off"{attribute}>{form}</form>'
-    face = [side_by_side(parts, alt), form]
-    if "<a " in face[0]:
-        face.reverse()  # what chooses among links comes before them
-    return "".join([*face, '<p class="vmc-spoken" aria-live="polite"></p>'])
-
-
-def _moves(parts, controls):
-    return controls or any(isinstance(part, Scene) for part in parts)
-
-
-def _page(alt, parts, data, caption, controls, name, printed):
-    """The demo as HTML: its first state to be seen at once, and compressed data for all others."""
-    if not _moves(parts, controls):
-        return frame(side_by_side(parts, alt), name, caption)
-    data = f'<script type="application/gzip">{pack_json(data)}</script>'
-    return frame(_face(alt, parts, controls, name, printed) + data, name, caption)
-
-
-def _stored(states):
-    """All states: a table of distinct lines, and each state as places in it.
-
-    States have most of their lines in common (a photo is one line), so each is stored once.
-    """
-    table = {}
-
-    def indices(lines):
-        return [table.setdefault(line, len(table)) for line in lines]
-
-    rows = [[indices(part) for part in ([alt], *lines(parts))] for alt, parts in states]
-    return {"lines": list(table), "states": rows}
-
-
-def _worked_out(in_page, controls, name):
-    """What the page needs to work every state out: see `explore`."""
-    work, ground, given = in_page() if callable(in_page) else in_page
-    with plot_style():
-        grounds = lines(pictures(ground(), name))
-    axes = [axis for control in controls.values() for axis in getattr(control, "pair", [control])]
-    grid = [np.asarray(axis.values).tolist() for axis in axes]
-    return {"work": work, "grounds": grounds, "given": given, "grid": grid}
-
-
-def _live(state, caption, controls, name):
-    """The same demo in a kernel, and a still of it for when the kernel is gone; its first words."""
+def _live(state, caption, controls, name, texts):
+    """The demo in a kernel; shown, with a still of it for when the kernel is gone."""
     alt, parts = state(first_position(controls))
-    _check_pads(parts, controls)
-    if not _moves(parts, controls):
-        display(Markup(frame(side_by_side(parts, alt), caption=caption), alt))
-        return alt
-    current = alt, parts  # what the reader sees
+    check_pads(parts, controls)
+    numbers = Numbers(name, alt, texts)
+    if not moves(parts, controls):
+        markup = Markup(frame(side_by_side(parts, alt), caption=caption), alt)
+        return Demo(name, controls, numbers, lambda: display(markup))
+    current, handle = (alt, parts), None  # what the reader sees; where its still stands
 
-    def answer(place):
+    def draw(place):
         nonlocal current
         alt, changed = state(place)
-        _same_kinds(changed, parts)
+        check_same_kinds(changed, parts)
         current = alt, changed
         return [[alt], *lines(changed)]
+
+    def move(place):
+        demo.move(place)
+        return draw(place)
 
     def keep(views):
         """Let the still show what the reader sees; of scenes in sight the browser sends a view."""
         (alt, parts), views = current, iter(views)
         views = [isinstance(part, Scene) and next(views) for part in parts]
         parts = [f'<img alt="" src="{v}">' if v else p for p, v in zip(parts, views, strict=True)]
-        handle.update(still(alt, parts, name))
+        if handle:
+            handle.update(still(alt, parts, name))
 
-    face = _face(alt, parts, controls, name)
-    face += '<p class="vmc-kernel" role="status"></p><p class="vmc-error" role="alert"></p>'
+    def show():
+        nonlocal handle
+        handle = display(still(*current, name), display_id=True)
+        bundle, metadata = demo._repr_mimebundle_()
+        display(bundle, metadata=metadata, raw=True)
+        if caption:
+            display(Markup(frame("", caption=caption), caption))
+        _freeze_once()
+
+    inside = face(alt, parts, controls, name) + SAID
     scenes = [part.messages() if isinstance(part, Scene) else None for part in parts]
-    handle = display(still(alt, parts, name), display_id=True)
-    answers = {"state": answer, "still": keep}
-    display(Live(frame(face, name), demo_script(), answers, first=[[alt], *scenes]))
-    if caption:
-        display(Markup(frame("", caption=caption), caption))
-    _freeze_once()
-    return alt
+    live = {"page": frame(inside, name), "script": demo_script(), "first": [[alt], *scenes]}
+    live["answers"] = {"state": move, "picture": draw, "still": keep}
+    demo = Demo(name, controls, numbers, show, live)
+    return demo
 
 
 @cache

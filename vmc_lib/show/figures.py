@@ -10,6 +10,7 @@ import re
 import numpy as np
 from IPython.display import Markdown, display
 from markdown_it import MarkdownIt
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 
@@ -39,12 +40,15 @@ def pictures(picture, name):
 def parts_of(picture):
     """The parts of a picture, a tuple; ValueError where there is one that cannot be shown."""
     parts = picture if isinstance(picture, tuple) else (picture,)
+    parts = tuple(part.figure if isinstance(part, Axes) else part for part in parts)
     for part in parts:
         markup = isinstance(part, str) and part.lstrip().startswith("<")
         if not (markup or isinstance(part, Scene | Figure | np.ndarray)):
+            ends = "; the function ends with `return fig`" if part is None else ""
+            ends = "; plain words are `note(text)`" if isinstance(part, str) else ends
             raise ValueError(
                 f"cannot show a {type(part).__name__}: return a matplotlib Figure, an image array, "
-                "SVG or HTML text, a Scene, or a tuple of these"
+                f"SVG or HTML text, a Scene, or a tuple of these{ends}"
             )
     return parts
 
@@ -61,9 +65,16 @@ def photo_view(image, boxes=(), points=(), axes=None):
 
     `boxes` holds (box, label, colour name) with box = (x0, y0, x1, y1) in pixels; `points` holds
     ((x, y), label, colour name). Labels may be empty. `axes` is what a `Pad` reads at the photo's
-    left, right, bottom and top edge: pixels, by default.
+    left, right, bottom and top edge: pixels, by default. ValueError for what is neither.
     """
+    if not isinstance(image, np.ndarray):
+        raise ValueError(f"{image!r} is no image: give an array, as photos.read_image returns it")
     height, width = image.shape[:2]
+    for name, marks, size in (("boxes", boxes, 4), ("points", points, 2)):
+        for mark in marks:
+            if not (len(mark) == 3 and np.shape(mark[0]) == (size,)):
+                place = "(x0, y0, x1, y1)" if size == 4 else "(x, y)"
+                raise ValueError(f"{name} hold {mark}: give ({place}, label, colour name)")
     left, right, bottom, top = axes or (0, width, height, 0)
     marks, words, taken = [], [], []  # words lie above marks; where they stand already
     for (x0, y0, x1, y1), label, colour in boxes:
@@ -157,7 +168,11 @@ def details(summary, text):
 
 
 def itemise(values, form, between=", "):
-    """The values of a mapping in words: each by `form`, its value and its name given to it."""
+    """The values of a mapping in words: each by `form`, its value and its name given to it.
+
+    >>> itemise({"up": 0.35, "down": 1.61}, "{:.2f} {}")
+    '0.35 up, 1.61 down'
+    """
     return between.join(form.format(value, name) for name, value in values.items())
 
 

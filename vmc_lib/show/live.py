@@ -43,7 +43,8 @@ class Live(anywidget.AnyWidget):
     `vendored` are the paths, by name, of what a script asks for only when it
     needs it. `answers` maps a question to the function that answers it, JSON in, JSON out; what
     that raises is shown where the picture would be. `first` is the first answer to "state": lines
-    of text for every part of the page, or None for a part that stands there already.
+    of text for every part of the page, or None for a part that stands there already. `state` are
+    further traits, of a subclass.
 
     Questions come by a `channel`, a model without a view: anywidget's own drops all messages where
     it loads later than two seconds, as on a busy machine.
@@ -54,7 +55,7 @@ class Live(anywidget.AnyWidget):
     first = traitlets.List(allow_none=True).tag(sync=True)
     channel = traitlets.Unicode().tag(sync=True)
 
-    def __init__(self, page, script, answers=None, vendored=VENDORED, first=None):
+    def __init__(self, page, script, answers=None, vendored=VENDORED, first=None, **state):
         self._channel = Widget()
         super().__init__(
             _esm=script,
@@ -62,6 +63,7 @@ class Live(anywidget.AnyWidget):
             vendored=list(vendored),
             first=first,
             channel=self._channel.model_id,
+            **state,
         )
         self.answers = {
             "ping": lambda _: True,

@@ -27,6 +27,3 @@ class Numbers:
         text = found[1] if found else self.texts[place]
         data = f'data-demo="{self.name}" data-place="{html.escape(place)}"'
         return f'<span class="vmc-now" {data}>{html.escape(text)}</span>'
-
-    def _ipython_display_(self):
-        """Nothing: the demo itself has been shown."""

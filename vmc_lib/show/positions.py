@@ -30,6 +30,17 @@ def values_at(position, controls):
     }
 
 
+def position(values, controls):
+    """The position of {name: value}, each the nearest that its control has.
+
+    ValueError for the name of no control, or a value beyond what its control has.
+    """
+    if unknown := values.keys() - controls.keys():
+        raise ValueError(f"no control is called {', '.join(unknown)}: there are {list(controls)}")
+    pairs = zip(controls.items(), strides(controls), strict=True)
+    return sum(control.nearest(values[name]) * stride for (name, control), stride in pairs)
+
+
 def along(controls, most):
     """The positions where all controls begin, and where one has moved: at most so many of each."""
     positions = [first_position(controls)]

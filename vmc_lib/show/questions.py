@@ -23,6 +23,7 @@ from vmc_lib.grading import (
     RIGHT,
     UNREAD,
     WRONG,
+    Exercise,
     agree,
     feedback,
     unreadable,
@@ -139,6 +140,8 @@ def grade(function, exercise):
     function prints, on its many cases, the beginning is shown. Where no reader is (in the
     book and in a test) a wrong one raises AssertionError.
     """
+    if not isinstance(exercise, Exercise):
+        raise ValueError(f"{exercise!r} is no Exercise: give one of book.exercises, as printed")
     with redirect_stdout(StringIO()) as printed:
         message = unreadable(_last_lines(exercise.right.__name__)) or feedback(function, exercise)
     print(printed.getvalue()[:LONGEST], end="")

@@ -22,6 +22,12 @@ class Scene:
     """A recorded meshcat scene in the book's axes (x forward, y up, z right; metres).
 
     `Scene(base)` starts from everything that `base` holds, so that what never moves is made once.
+
+    >>> from meshcat.geometry import Sphere
+    >>> scene = Scene()
+    >>> scene["ball"].set_object(Sphere(0.02))
+    >>> len(scene.messages())
+    2
     """
 
     zmq_url = web_url = None  # what meshcat asks of a window: there is no server

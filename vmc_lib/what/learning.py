@@ -24,7 +24,14 @@ class Learner(CRBM):
 
     @classmethod
     def random(cls, K, channels, n_w, rng, c=2, device="cpu"):
-        """An untrained machine: small random filters drawn from a torch.Generator."""
+        """An untrained machine: small random filters drawn from a torch.Generator.
+
+        ValueError for another source of random numbers, or no filters.
+        """
+        if not isinstance(rng, torch.Generator):
+            raise ValueError(f"rng = {rng}: give a torch.Generator().manual_seed(0)")
+        if min(K, channels, n_w) < 1:
+            raise ValueError(f"{K} filters of {channels}×{n_w}×{n_w}: give 1 or more of each")
         W = 0.01 * torch.randn(K, channels, n_w, n_w, generator=rng)
         return cls(W.to(device), torch.zeros(K, device=device), torch.zeros(channels).to(device), c)
 

@@ -1,0 +1,179 @@
+"""Wrong calls of public functions: each is told what is wrong, with the value, and the remedy."""
+
+from functools import cache
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+import torch
+
+from vmc_lib import boxes, loop, photos, statistics
+from vmc_lib.arm import arm26, dynamics, kinematics, simulate
+from vmc_lib.cerebellum import offline
+from vmc_lib.motor import execution, planning, templates
+from vmc_lib.show import (
+    COLOURS,
+    Pad,
+    Slider,
+    compare,
+    estimate,
+    explore,
+    figure,
+    grade,
+    photo_view,
+    table,
+)
+from vmc_lib.show.arm import arm_scene
+from vmc_lib.what import cdbn, crops, learning, recogniser
+from vmc_lib.where import detector, segmentation, selective_search, svm
+
+
+@cache
+def given():
+    """A model, a photo and a plan, as right calls have them."""
+    model, photo = loop.VisuomotorModel.load("rig"), photos.load("rig", "train")[0]
+    plan = planning.plan(np.array([0.1, -0.38]), model.template_set)
+    return SimpleNamespace(model=model, photo=photo, image=photo.image, plan=plan)
+
+
+def excite(value, start=(0, 1), muscles=6):
+    return simulate.simulate(np.full((10, muscles), value), start)
+
+
+def text(k):
+    return f"<p>{k}</p>"
+
+
+SIGHT = {  # a call: what its error says, the value and the remedy
+    "a level": (lambda g: photos.load("rigg", "train"), "'rigg'", "choose from"),
+    "a split": (lambda g: photos.load("rig", "valid"), "'valid'", "choose from ('train'"),
+    "a model's level": (lambda g: loop.VisuomotorModel.load("hard"), "'hard'", "choose from rig"),
+    "a detector": (lambda g: detector.ObjectDetector.load("rig", "best"), "'best'", "choose from"),
+    "a recogniser": (lambda g: recogniser.Recogniser.load("rig", "P3"), "'P3'", "choose from MP2"),
+    "a grey image": (lambda g: loop.see(g.model, g.image[..., 0]), "(400, 600)", "read_image"),
+    "floats": (lambda g: loop.see(g.model, g.image / 255), "float64", "read_image"),
+    "a file": (lambda g: loop.see(g.model, "a.jpg"), "'a.jpg'", "give read_image('a.jpg')"),
+    "a photo": (lambda g: loop.see(g.model, g.photo), "'rig/train/000'", "give photo.image"),
+    "a missing file": (lambda g: photos.read_image("nowhere.jpg"), "nowhere.jpg", "name right?"),
+    "a folder's list": (lambda g: photos.read_image(["a.jpg"]), "list", "give a path"),
+    "integers": (lambda g: photos.as_rgb([[1, 2], [3, 4]]), "int64", "give uint8"),
+    "8 bits as floats": (lambda g: photos.as_rgb(g.image * 1.0), "0..1", "divide 8 bits by 255"),
+    "a size": (lambda g: photos.crops(g.image, [[0, 0, 5, 5]], -2), "-2×-2", "1 or more"),
+    "a box of three": (lambda g: boxes.iou([[1, 2, 3]], [0, 0, 1, 1]), "(1, 3)", "(x0, y0, x1"),
+    "a box inside out": (lambda g: boxes.iou([5, 5, 1, 1], [0, 0, 3, 3]), "[5. 5.", "x0 <= x1"),
+    "too few scores": (lambda g: boxes.nms([[0, 0, 1, 1]], [0.3, 0.4]), "(2,)", "as many finite"),
+    "an overlap": (lambda g: boxes.nms([[0, 0, 1, 1]], [0.3], 3), "overlap = 3", "within 0..1"),
+    "an empty box": (lambda g: crops.crop(g.image, (0, 0, 0, 0)), "[0 0 0 0]", "600×400"),
+    "pixels": (lambda g: g.photo.camera.back_project([[1, 2, 3]]), "(1, 3)", "give (n, 2)"),
+    "points": (lambda g: g.photo.camera.project([[1, 2]]), "(1, 2)", "give (n, 3)"),
+    "a strategy": (lambda g: selective_search.propose(g.image, "x"), "'x'", "single, fast"),
+    "a scale": (lambda g: segmentation.segment(g.image / 255, k=-1), "k = [-1]", "above 0"),
+    "channels": (lambda g: segmentation.segment(g.image[..., 0]), "(400, 600)", "(height, width"),
+    "a kernel": (lambda g: svm.KernelSVM.fit(np.eye(2), [1, 0], "cubic"), "'cubic'", "linear, po"),
+    "one class": (lambda g: svm.KernelSVM.fit(np.eye(2), [1, 1]), "counter-examples", "more"),
+    "large crops": (
+        lambda g: g.model.recogniser.probability(np.zeros((2, 1, 100, 100))),
+        "(2, 1, 100, 100)", "give grey ones (n, 200, 200)",
+    ),
+    "layers": (lambda g: cdbn.CDBN.load().layers(np.zeros((1, 9, 9))), "v is (n, 1", "not (1, 9"),
+    "random numbers": (
+        lambda g: learning.Learner.random(2, 1, 5, np.random.default_rng(0)),
+        "PCG64", "give a torch.Generator()",
+    ),
+    "no filters": (
+        lambda g: learning.Learner.random(-1, 1, 5, torch.Generator()), "-1 filters", "1 or more"
+    ),
+}  # fmt: skip
+MOVING = {
+    "a target in the plane": (lambda g: loop.reach(g.model, (0.1, -0.4)), "[ 0.1 -0.4]", "in m"),
+    "a far target": (lambda g: loop.reach(g.model, (3, 0, 0)), "[3. 0. 0.]", "move the target"),
+    "no number": (lambda g: loop.reach(g.model, (np.nan, 0, 0)), "[nan", "must be finite"),
+    "a rule": (lambda g: loop.reach(g.model, g.photo.target, "best"), "'best'", "published, own"),
+    "a rule, again": (lambda g: loop.recalibrate(None, "exact"), "'exact'", "published, own"),
+    "no camera": (
+        lambda g: loop.locate(g.model, g.image, g.photo.boxes["shuttlecock"], None),
+        "camera is unknown", "give the photo's Camera",
+    ),
+    "degrees": (lambda g: arm_scene((0, 130)), "130.", "np.radians(degrees)"),
+    "three joints": (lambda g: arm_scene((0, 1, 2)), "(1, 3)", "give 2 numbers"),
+    "five muscles": (lambda g: arm_scene((0, 1), (0,) * 5), "(1, 5)", "give 6 numbers"),
+    "a ball in the plane": (
+        lambda g: arm_scene((0, 1), balls=[((0.1, 0.2), "red")]), "(1, 2)", "give 3 numbers"
+    ),
+    "a ball's colour": (
+        lambda g: arm_scene((0, 1), balls=[((0.1, 0, 0), "teal")]), "'teal'", "choose from blue"
+    ),
+    "a start in degrees": (lambda g: excite(0.1, (0, 90)), "90.", "np.radians(degrees)"),
+    "five excitations": (lambda g: excite(0.1, muscles=5), "(10, 5)", "use (T, 6)"),
+    "too much excitation": (lambda g: excite(2.0), "[0, 2]", "clip them to [0, 1]"),
+    "three levels": (
+        lambda g: simulate.constant_excitation((0, 0, 0), 1), "(3,)", "each of the 6 muscles"
+    ),
+    "a duration": (
+        lambda g: simulate.constant_excitation(6 * (0,), -1), "-1 s", "choose at least 0.001 s"
+    ),
+    "a load": (lambda g: arm26.model_with_load(-3), "-3 kg", "choose 0 to 10"),
+    "one joint": (lambda g: arm26.geometry((0,)), "(0,)", "(shoulder, elbow), in rad"),
+    "a posture": (lambda g: dynamics.hand((0, 1, 2)), "(0, 1, 2)", "(shoulder, elbow)"),
+    "a place": (lambda g: kinematics.inverse_kinematics((3, 0)), "[3. 0.]", "move the target"),
+    "no template near": (
+        lambda g: planning.plan((2, 2), g.model.template_set), "[2. 2.]", "move it inside them"
+    ),
+    "a rule of planning": (
+        lambda g: planning.plan((0.1, -0.38), g.model.template_set, rule="exact"),
+        "'exact'", "give habitual_weights or exact_weights",
+    ),
+    "no plan": (lambda g: execution.execute([0.1, -0.4]), "[0.1, -0.4]", "what plan(target, te"),
+    "templates": (lambda g: templates.load(4), "4 m apart", "choose one of (0.04"),
+    "the order of arguments": (
+        lambda g: offline.calibrate(g.plan, offline.algorithm_1), "the rule Plan(", "give algorith"
+    ),
+}  # fmt: skip
+SHOWING = {
+    "one draw": (lambda g: statistics.student([1.0]), "1 values", "give two or more"),
+    "a share": (lambda g: statistics.wilson(5, 3), "k (5)", "greater than n (3)"),
+    "no draws": (lambda g: estimate([]), "0 values", "give two or more"),
+    "a row": (lambda g: table(["a", "b"], [[1]]), "the row [1]", "2 cells"),
+    "a head": (lambda g: table(["a", ""], [[1, 2]]), "['a', '']", "needs a head"),
+    "a colour": (lambda g: COLOURS["teal"], "'teal'", "choose from blue"),
+    "a box on a photo": (
+        lambda g: photo_view(g.image, [((1, 2, 3), "a", "blue")]), "((1, 2, 3)", "give ((x0, y0"
+    ),
+    "a label first": (
+        lambda g: photo_view(g.image, points=[("a", (1, 2), "blue")]), "('a',", "give ((x, y), la"
+    ),
+    "a name of a photo": (lambda g: photo_view("a.jpg"), "'a.jpg'", "photos.read_image"),
+    "a unit as a start": (lambda g: Slider([1, 2], "k", "m"), "'m'", "unit='m'"),
+    "a number of values": (lambda g: Slider(5, "k"), "the values 5", "as range(6)"),
+    "one label": (lambda g: Pad([0, 1], [0, 1], ("x",)), "('x',)", "two labels"),
+    "nothing drawn": (lambda g: explore(lambda k: None, k=(0, 3)), "NoneType", "`return fig`"),
+    "a number drawn": (lambda g: figure(3), "int", "return a matplotlib Figure"),
+    "another argument": (lambda g: explore(text, b=(0, 3)), "controls are b", "takes (k)"),
+    "plain words drawn": (lambda g: figure("plain"), "str", "`note(text)`"),
+    "a control without a name": (lambda g: explore(text, (0, 3)), "(0, 3)", "k=(0, 10)"),
+    "a caption first": (lambda g: explore("caption", text), "'caption'", "then a caption"),
+    "a scene and a pad": (
+        lambda g: explore(lambda k: arm_scene((0, k[0])), alt="an arm", k=Pad([0, 1], [0.5, 1])),
+        "'x and y'", "return (figure, scene)",
+    ),
+    "a series": (lambda g: compare([1, 2], "mm"), "[1, 2]", "{label: {row: draws}}"),
+    "rows": (lambda g: compare({"ours": [1, 2]}, "mm"), "'ours' is [1, 2]", "{label: {row"),
+    "an exercise": (lambda g: grade(text, "exercise"), "'exercise'", "book.exercises"),
+    "a number in a sentence": (
+        lambda g: explore(text, k=(0, 3))["recall #"], "'recall #'", "has the sliders k"
+    ),
+}  # fmt: skip
+CALLS = SIGHT | MOVING | SHOWING
+
+
+def test_there_are_fifty():
+    assert len(CALLS) == len(SIGHT) + len(MOVING) + len(SHOWING) >= 50
+
+
+@pytest.mark.parametrize(("call", "value", "remedy"), CALLS.values(), ids=CALLS)
+def test_a_wrong_call_is_told_the_value_and_the_remedy(call, value, remedy):
+    with pytest.raises(ValueError, match=r"\w") as error:
+        call(given())
+    message = str(error.value)
+    assert value in message
+    assert remedy in message
