@@ -30,7 +30,7 @@ _pyplot = RLock()
 @cache
 def demo_script():
     """What moves a demo in a live kernel: as a wheel brings it, or made of `page`."""
-    if BROUGHT.is_dir():
+    if STATIC == BROUGHT:
         return (BROUGHT / "demo.js").read_text(encoding="utf-8")
     from page import bundle  # in a clone
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 # What a live kernel shows demos with: a wheel brings it along (tools/wheel.py), a clone has `page`
 BROUGHT = Path(__file__).parent / "static"
-STATIC = BROUGHT if BROUGHT.is_dir() else Path(__file__).parents[2] / "page/static"
+STATIC = BROUGHT if (BROUGHT / "demo.css").is_file() else Path(__file__).parents[2] / "page/static"
 MODES = ("live", "book", "test")
 
 
