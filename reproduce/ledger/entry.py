@@ -27,7 +27,8 @@ class Quantity:
     What is claimed is a number, or where `bound` a limit that all of the interval must be beyond,
     or None where the paper prints nothing to compare. `obtained` is held-out wherever something was
     learned, and `in_sample` stands beside it then. `nulls` are what other mechanisms obtain at the
-    same cost, among them luck: where one would hold as well, the verdict is "null passes too".
+    same cost, among them luck: where one would hold as well, and is not clearly worse, the verdict
+    is "null passes too".
     """
 
     name: str
@@ -56,8 +57,14 @@ class Quantity:
         return own if undecided or not self.passing_nulls() else NULL_PASSES
 
     def passing_nulls(self):
-        """The names of the nulls that would hold in place of what was obtained, as uncertain."""
-        return [name for name, value in self.nulls.items() if self._holds(value)]
+        """The nulls, by name, that would hold in place of ours, and are not clearly worse."""
+        return [name for name, x in self.nulls.items() if self._holds(x) and not self._is_worse(x)]
+
+    def _is_worse(self, null):
+        """Whether a null lies outside all our intervals, on their worse side."""
+        ends = self.obtained, self.low, self.high, self.least, self.most
+        signed = [self.better * float(end) for end in ends if end is not None]
+        return bool(self.better) and self.better * null < min(signed)
 
     def _holds(self, null):
         away = null - self.obtained
