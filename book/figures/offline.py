@@ -126,11 +126,6 @@ def with_guards(errors):
     return fig
 
 
-def in_mm(error):
-    """An error in mm as text, with two digits; below what matters beside the drift, as that."""
-    return f"{error:.2g} mm" if error >= 0.01 else "at most 0.01 mm"
-
-
 def after_the_command(away, reach):
     """Those distances by name, of one reach (its number as text) or the mean; the hold in grey."""
     fig, ax = panels(size=(6.0, 3.2))

@@ -128,7 +128,7 @@ def error_ratios(
         "planned / reach": published.held_out_planned.mean()
         / np.linalg.norm(unseen, axis=-1).mean(),
         "off-line, published": published.offline.mean() / published.planned.mean(),
-        **{f"{name}, {k}": x for name, e in runs.items() for k, x in left_of_planned(e).items()},
+        **{f"{name}, {k}": x for name, e in runs.items() for k, x in _ratios(e).items()},
         **(_own_ratios(template_set, rng, *size) if hold else {}),
     }
 
@@ -175,11 +175,8 @@ def ratio_name(experiments, measured_on):
     return f"{experiments} experiment{'s' * (experiments > 1)}, {measured_on}"
 
 
-def left_of_planned(errors):
-    """What `Errors` leave of the planned one after the first experiment and the last, by name.
-
-    In-sample and held-out, as `ratio_name` names it.
-    """
+def _ratios(errors):
+    """Of the planned error after the first experiment and the last, in-sample and held-out."""
     practised, others = errors.in_sample.mean(axis=1), errors.held_out.mean(axis=1)
     left = {
         "in-sample": practised / errors.planned.mean(),

@@ -15,7 +15,7 @@ from vmc_lib.short_repr import short_repr
 
 GAINS = tuple(range(21))  # the paper's n in [0, 20]
 LARGEST_STEP = 0.5  # of Δw's norm: no single correction may throw the arm about
-NUDGE = 0.02  # of one weight, to see what it does over the hold
+NUDGE = 0.1  # of one weight, to see what it does: smaller ones drown in a muscle's noise
 DAMPING = 1e-4  # of a least-squares step, a share of what all weights do; chosen on other targets
 
 
