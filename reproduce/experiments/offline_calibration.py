@@ -8,13 +8,17 @@ from functools import partial
 import numpy as np
 
 from reproduce.experiments.calibration import FIFTH
+from vmc_lib.arm.model import STEP
 from vmc_lib.arm.simulate import Perturbation
 from vmc_lib.cerebellum.offline import GAINS, algorithm_1, broyden_calibration
 from vmc_lib.motor import templates
 from vmc_lib.motor.execution import execute
+from vmc_lib.motor.feedback import REFLEX, reference_trajectory, simulate_feedback
+from vmc_lib.motor.inverse_dynamics import SAMPLES
 from vmc_lib.motor.planning import norm
 from vmc_lib.motor.templates import mean_distance
 
+MOVED = SAMPLES * STEP  # s: where the command ends
 GRIDS = {"n = 0 only": (0,), "every fifth n": FIFTH, "every n": GAINS}
 
 
@@ -70,6 +74,13 @@ def mean_best_so_far(errors):
 def hold_distances(plans, seconds=1.5):
     """How far the hand is from each target after the command, (n, T), mm, every 10 ms."""
     paths = templates.reach(plans.excitations, hold=seconds).hold
+    return 1000 * norm(paths - plans.target[:, None])
+
+
+def reflex_distances(plans, seconds=1.5):
+    """The same with the stretch reflex of chapter 12, which is told where the joints should be."""
+    reference = reference_trajectory(plans, MOVED + seconds)
+    paths = simulate_feedback(reference, REFLEX).hand[:, round(MOVED / STEP) :: templates.EVERY, :2]
     return 1000 * norm(paths - plans.target[:, None])
 
 

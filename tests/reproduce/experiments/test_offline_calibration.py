@@ -39,6 +39,12 @@ def test_a_load_leaves_more_error_than_an_empty_hand(habit):
     assert left[-1] / left[0] == pytest.approx(offline.error_ratio(trials))
 
 
+def test_a_reflex_keeps_the_hand_from_drifting(habit):
+    free, held = offline.hold_distances(habit), offline.reflex_distances(habit)
+    assert free.shape == held.shape == (4, 151)
+    assert held[:, -1].mean() < free[:, -1].mean()
+
+
 def test_the_hold_is_measured_from_the_end_of_the_command(habit):
     plans = habit.with_weights(broyden_calibration(habit).best_weights)
     hold = execute(plans).hold
