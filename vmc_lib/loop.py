@@ -121,6 +121,10 @@ class Reach:
         """The wrist's path (T + 1, 3) on the turned trunk, in the frame of the trunk straight."""
         return to_world(motion.hand, self.turn)
 
+    def distance(self, motion, place):
+        """How far the wrist is from a place (3,) over the hold, on average, m."""
+        return float(templates.mean_distance(to_world(motion.wrist, self.turn), place))
+
     def end_point(self, motion):
         """Where the wrist is on average over the hold, (3,), in the same frame."""
         return to_world(motion.wrist, self.turn).mean(axis=0)
@@ -201,7 +205,7 @@ def reach(model, target, calibration=algorithm_1):
     --------
     >>> photo = photos.load("rig", "validation")[0]
     >>> found = reach(VisuomotorModel.load("rig"), photo.target)
-    >>> bool(np.linalg.norm(found.end_point(found.calibrated) - photo.target) < 0.05)
+    >>> found.distance(found.calibrated, photo.target) < 0.05
     True
     """
     turn, point = turn_towards(target)

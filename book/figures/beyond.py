@@ -42,7 +42,7 @@ def changes():
 
     ratios = {"Eq. 4 exactly": planning_ablation.exact_weight_ratios()}
     ratios |= calibration.load_results()["changing neighbours"]
-    no_shares = "planned / reach", ", mm", ", speed", ", stray"
+    no_shares = "planned / reach", ", mm", ", bias", ", speed", ", stray", " 2.5 s"
     return {label(k): draws for k, draws in ratios.items() if not k.endswith(no_shares)}
 
 

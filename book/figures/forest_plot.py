@@ -16,6 +16,7 @@ SHAPES = {  # of each kind of mark, about its place; `demo.css` has their colour
     "fitted": "m0-4l4 4l-4 4l-4-4z",
     "reproduced": DOT,
     "beaten": "m0-4l4 7h-8z",
+    "null passes too": "m-4-1.5h8m-8 3h8",
     "differs": CROSS,
     "faster": DOT,
     "slower": CROSS,

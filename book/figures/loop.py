@@ -65,15 +65,14 @@ def draw_movement(photo, box, reach, motion):
     view = photo_view(photo.image, [(box, "seen", "green")], [(place, "", "green")])
     moving = _moving(photo.camera.project(hand[::EVERY]), "orange")
     view = view.replace("</svg>", moving + lens(photo, box, reach, motion) + "</svg>")
-    end = reach.end_point(motion)
     return view, arm_scene(
         motion.q,
         motion.activation,
         turn=turn,
         photo=photo,
         balls=[(reach.target, "green")],
-        grasp=np.linalg.norm(end - photo.target) < GRASPED,
-        end=(end, motion.speed),
+        grasp=reach.distance(motion, photo.target) < GRASPED,
+        end=(reach.end_point(motion), motion.speed),
     )
 
 
@@ -166,10 +165,10 @@ def above(parts, title, xlim, ylim):
 
 def describe_end(photo, reach, motion):
     """Where a motion ends, in words: both distances, and how fast the hand still moves."""
-    seen, true = (norm_mm(reach.end_point(motion) - p) for p in (reach.target, photo.target))
+    seen, true = (1000 * reach.distance(motion, p) for p in (reach.target, photo.target))
     return (
-        f"the hand ends {seen:.1f} mm from the place seen, {true:.1f} mm from the true one, and "
-        f"there it moves at {1000 * motion.speed:.0f} mm/s"
+        f"over the hold the hand is {seen:.1f} mm from the place seen, {true:.1f} mm from the true "
+        f"one, and moves at {1000 * motion.speed:.0f} mm/s"
         f"{THROUGH if meets_cup(photo, reach, motion) else ''}"
     )
 

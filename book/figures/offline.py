@@ -82,18 +82,19 @@ def best_of_each(plan, trials):
 def after_trial(plan, rules, trial, rule):
     """Hands after a trial of one rule; the mean errors of all against the extra reaches made.
 
-    `rules` maps a name to endpoints (trials, n, 2), and how many reaches a trial takes.
+    `rules` maps a name to hands over the hold (trials, n, T, 2), and the reaches of a trial.
     """
     fig, left, right = panels(*SIDE_BY_SIDE)
-    for name, (endpoints, cost) in rules.items():
-        errors = mean_mm(endpoints, plan.target)[: trial + 1]
+    for name, (holds, cost) in rules.items():
+        errors = mean_mm(holds, plan.target)[: trial + 1]
         right.plot(cost * np.arange(trial + 1), errors, ".-", label=name)
-    endpoints, cost = rules[rule][0][trial], rules[rule][1] * trial
-    now = mean_mm(endpoints, plan.target)
+    hold, cost = rules[rule][0][trial], rules[rule][1] * trial
+    now = mean_mm(hold, plan.target)
     mark_now(right, cost, now)
-    in_plane(left, plan, endpoints, f"extra reaches: {cost}, mean error {now:.2g} mm")
-    right.set(xlabel="extra reaches", xlim=(-1, 21), yscale="log")
-    right.set_yticks([10, 1, 0.1, 0.01], ["10", "1", "0.1", "0.01"])
+    in_plane(left, plan, hold.mean(axis=1), f"extra reaches: {cost}, mean error {now:.2g} mm")
+    right.set(xlabel="extra reaches", xlim=(-1, 21), yscale="log", ylim=(0.4, 20))
+    right.set_yticks([10, 5, 2, 1, 0.5], ["10", "5", "2", "1", "0.5"])
+    right.minorticks_off()
     right.legend(title="mean error (mm)")
     return fig
 
@@ -104,9 +105,9 @@ def after_rounds(plan, rounds_by, rounds, n, keep):
     `rounds_by[keep]` is what `offline_calibration.repeat_algorithm_1` returned.
     """
     fig, left, right = panels(*SIDE_BY_SIDE)
-    errors = {name: mean_mm(ends, plan.target) for name, ends in rounds_by[keep].items()}
+    errors = {name: mean_mm(holds, plan.target) for name, holds in rounds_by[keep].items()}
     now = errors[n][rounds]
-    in_plane(left, plan, rounds_by[keep][n][rounds], f"mean error {now:.1f} mm")
+    in_plane(left, plan, rounds_by[keep][n][rounds].mean(axis=1), f"mean error {now:.1f} mm")
     curves(right, range(5), errors, now=(rounds, now))
     right.set(xlabel="rounds", ylabel="mean error (mm)", ylim=(0, 25))
     return fig
@@ -116,19 +117,13 @@ def with_guards(errors):
     """Mean errors in mm, (trials, n) over the targets: of each trial, and of the best so far."""
     best = mean_best_so_far(errors)
     fig, ax = panels(size=(5.5, 3.2))
-    fig.subplots_adjust(left=0.17)  # room for 0.001
     ax.plot(errors.mean(axis=1), ".:", color=COLOURS["grey"], label="this trial")
     ax.plot(best, ".-", color=COLOURS["red"], label="the best so far")
-    ax.set(xlabel="trial", ylabel="mean error (mm)", yscale="log", ylim=(1e-3, 1000))
+    ax.set(xlabel="trial", ylabel="mean error (mm)", yscale="log", ylim=(0.5, 1000))
     ax.yaxis.set_major_formatter("{x:g}")
-    ax.set_title(f"before: {in_mm(best[0])}; best of eight: {in_mm(best[-1])}")
+    ax.set_title(f"before: {best[0]:.2g} mm; best of eight: {best[-1]:.2g} mm")
     ax.legend()
     return fig
-
-
-def in_mm(error):
-    """An error in mm as text, with two digits; below what matters beside the drift, as that."""
-    return f"{error:.2g} mm" if error >= 0.01 else "at most 0.01 mm"
 
 
 def after_the_command(away, reach):
@@ -147,8 +142,8 @@ def after_the_command(away, reach):
 HOLD_HEADS = [
     "plan",
     "miss where the command ends (mm)",
-    "miss of the end point (mm)",
-    "mean distance in the hold (mm)",
+    "miss: mean distance in the hold (mm)",
+    "bias: the mean place's (mm)",
     "speed in the hold (mm/s)",
 ]
 

@@ -2,10 +2,10 @@
 
 from book.figures.offline import SIDE_BY_SIDE, in_plane
 from book.figures.panels import curves, panels, shade_change
-from book.figures.reaching import mean_mm, reach_scene, reaches
+from book.figures.reaching import mean_mm, norm_mm, reach_scene, reaches
 from reproduce.experiments.calibration import SCENARIOS, ratio_name
 from reproduce.experiments.controller_comparison import MOVEMENTS
-from reproduce.experiments.online_calibration import STEPS, endpoints_by_width, remaining
+from reproduce.experiments.online_calibration import STEPS, holds_by_width, remaining
 from reproduce.measures.changed_worlds import BLOCKS, CURES
 from vmc_lib.motor.execution import execute, rotate_about_eye
 from vmc_lib.show import note, table
@@ -38,7 +38,7 @@ def progress(plans, history, steps, now, movements):
     k, shares = steps.index(now), remaining(history, plans)
     share = shares[movements][k]
     title = f"{share:.2f} of the planned error"
-    in_plane(left, plans[movements], history[movements][k], title)
+    in_plane(left, plans[movements], history[movements][k].mean(axis=1), title)
     curves(right, steps, {name: y[: k + 1] for name, y in shares.items()}, now=(now, share))
     right.set(ylabel="error / planned error", ylim=(0, 1.05))
     right.set_xlim(-0.04 * steps[-1], 1.04 * steps[-1])
@@ -99,19 +99,20 @@ def ablation(draws):
     }
 
 
-def choose_width(plans, widths, endpoints, width, movements):
+def choose_width(plans, widths, holds, width, movements):
     """Hands with cells of one width; the mean error of each set of movements against the width.
 
-    The `endpoints` of each set, (widths, n, 2), are known for some; for others cells practise anew.
+    The `holds` of each set, (widths, n, T, 2), are known for some; for others cells practise anew.
     """
-    endpoints = {k: dict(zip(widths, endpoints[k], strict=True)) for k in plans}
+    holds = {k: dict(zip(widths, holds[k], strict=True)) for k in plans}
     if width not in widths:
-        new = endpoints_by_width([width], plans)
-        endpoints = {k: dict(sorted((endpoints[k] | new[k]).items())) for k in plans}
+        new = holds_by_width([width], plans)
+        holds = {k: dict(sorted((holds[k] | new[k]).items())) for k in plans}
     fig, left, right = panels(*SIDE_BY_SIDE)
-    errors = errors_by_width(plans, endpoints)
+    errors = errors_by_width(plans, holds)
     now, widths = errors[movements][width], list(errors[movements])
-    in_plane(left, plans[movements], endpoints[movements][width], f"mean error {now:.2f} mm")
+    ended = holds[movements][width].mean(axis=1)
+    in_plane(left, plans[movements], ended, f"mean error {now:.2f} mm")
     wider = widths[widths.index(width) :]
     curves(right, wider, {k: [mm[w] for w in wider] for k, mm in errors.items()}, now=(width, now))
     right.set(xscale="log", xlabel="granule cells' width (m)", title="mean error (mm)")
@@ -122,11 +123,11 @@ def choose_width(plans, widths, endpoints, width, movements):
     return fig
 
 
-def errors_by_width(plans, endpoints):
-    """Mean error in mm, name -> width -> number, for plans and endpoints of the same names."""
+def errors_by_width(plans, holds):
+    """Mean error in mm, name -> width -> number, for plans and hands of the same names."""
     return {
-        name: {width: mean_mm(ends, plans[name].target) for width, ends in by_width.items()}
-        for name, by_width in endpoints.items()
+        name: {width: mean_mm(hold, plans[name].target) for width, hold in by_width.items()}
+        for name, by_width in holds.items()
     }
 
 
@@ -213,12 +214,13 @@ def periods_table(draws, names):
     return table(["change", "corrected", *PERIODS], rows)
 
 
-def after_effects_table(ends, target):
-    """A table of mean misses in mm; `ends` maps a world and a cure to `after_effects`."""
+def after_effects_table(moved):
+    """A table of mean misses in mm; `moved` maps a world and a cure to `after_effects`."""
     rows = []
-    for key, (first, left, after) in ends.items():
-        misses = [mean_mm(each, target) for each in (first, left, after)]
-        rows.append([*key, *(f"{mm:.0f} mm" for mm in (*misses, mean_mm(left, first)))])
+    for key, (first, left, after) in moved.items():
+        misses = [1000 * each.error.mean() for each in (first, left, after)]
+        by = norm_mm(left.endpoint - first.endpoint).mean()
+        rows.append([*key, *(f"{mm:.0f} mm" for mm in (*misses, by))])
     heads = ["change", "corrected", "first miss", "left", "taken away", "correction moves it by"]
     return table(heads, rows)
 

@@ -39,7 +39,7 @@ def parts_of_miss(rule, spacing, number):
     ax.plot(*TARGETS.T, "o", ms=4, mfc="none", color=COLOURS["green"], gid="targets")
     fig.legend(loc="outside upper right")
     ax.set_xticks([0, 0.1, 0.2])
-    ax.set_title(f"mean miss {in_all:.1f} mm")
+    ax.set_title(f"the mean place misses by {in_all:.1f} mm")
     return fig
 
 

@@ -11,6 +11,7 @@ from vmc_lib.arm.dynamics import hand
 from vmc_lib.arm.kinematics import inverse_kinematics
 from vmc_lib.arm.model import MUSCLES
 from vmc_lib.motor.planning import norm
+from vmc_lib.motor.templates import mean_distance
 from vmc_lib.show.arm import arm_scene
 from vmc_lib.show.arm_plane import plane
 from vmc_lib.show.palette import COLOURS
@@ -47,9 +48,9 @@ def norm_mm(vectors):
     return 1000 * norm(vectors)
 
 
-def mean_mm(endpoints, targets):
-    """Mean distance (…,) in mm of endpoints (…, n, 2) from targets (n, 2), in m."""
-    return norm_mm(endpoints - targets).mean(axis=-1)
+def mean_mm(holds, targets):
+    """Mean distance (…,) in mm of hands over the hold (…, n, T, 2) from targets (n, 2), in m."""
+    return 1000 * mean_distance(holds, targets).mean(axis=-1)
 
 
 def threads(ax, tails, tips, **style):

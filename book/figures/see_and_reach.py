@@ -20,14 +20,14 @@ CROWDED = (110, 60)  # pixels: labels nearer than that would hide each other
 
 
 def miss_mm(photo, reach, motion):
-    """How far a motion of a reach ends from the true shuttlecock, in mm."""
-    return norm_mm(reach.end_point(motion) - photo.target)
+    """How far the hand is from the true shuttlecock over the hold of a reach, in mm."""
+    return 1000 * reach.distance(motion, photo.target)
 
 
 def stage_errors(photo, reach, online):
     """Distances from the true shuttlecock in mm, by stage; none where there is no reach.
 
-    Of the place that is reached for, and of the end point of each movement.
+    Of the place that is reached for, and of the hand over the hold of each movement.
     """
     if reach is None:
         return {}

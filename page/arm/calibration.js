@@ -1,12 +1,13 @@
 /* Off-line calibration, Eq. 6–7 and ours (vmc_lib/cerebellum/offline.py). `reach(weights)` tells
-   where a reach ends. Both rules yield every trial as it is made, the plan's own reach first: its
-   weights, where it ended, and how far from the target. */
-import { dot, minus, plus, times } from "../vectors.js";
+   where the hand is over the hold of a reach. Both rules yield every trial as it is made, the plan's
+   own reach first: its weights, where it ended on average, and the mean distance from the target. */
+import { dot, mean, minus, plus, sum, times } from "../vectors.js";
 import { leastChange } from "./planning.js";
 
 const attempt = (plan, weights, reach) => {
-  const reached = reach(weights);
-  return { weights, reached, error: Math.hypot(...minus(plan.target, reached)) };
+  const hold = reach(weights).map((place) => place.slice(0, plan.target.length));
+  const distances = hold.map((place) => Math.hypot(...minus(plan.target, place)));
+  return { weights, reached: mean(hold), error: sum(distances) / hold.length };
 };
 
 /* Algorithm 1: every n of `gains`, each from the plan's own miss. */

@@ -14,8 +14,8 @@ export class Reach extends Live {
     return this.arm.reach(this.templateSet.excitations({ ...this.plan, weights }));
   }
 
-  endPoint(weights) {
-    return mean(this.arm.hold(this.motion(weights))).slice(0, this.target.length);
+  hold(weights) {
+    return this.arm.hold(this.motion(weights));
   }
 
   /* Play a movement in its own time. */
@@ -66,7 +66,7 @@ export class Reach extends Live {
     if (own) this.plan = { ...this.plan, weights: own }; // by the reader's Eq. 5 (page/python)
     Object.assign(this, { planned: null, calibrated: null });
     this.tell({ calibrated: "–", tries: "–" });
-    const reach = (weights) => this.endPoint(weights);
+    const reach = (weights) => this.hold(weights);
     const [first] = calibrations.algorithm1(this.plan, reach, { gains: [] });
     if (!(await this.play("planned", first, turn))) return;
     this.sayMiss();
@@ -80,7 +80,7 @@ export class Reach extends Live {
     this.say("Trying off-line …");
     const trials = [];
     const rule = calibrations[this.rule];
-    for (const trial of rule(this.plan, (w) => this.endPoint(w), this.given.calibration)) {
+    for (const trial of rule(this.plan, (w) => this.hold(w), this.given.calibration)) {
       trials.push(trial);
       this.tell({ tries: `${trials.length - 1}` });
       await frame();

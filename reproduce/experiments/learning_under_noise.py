@@ -52,17 +52,17 @@ def compare_calibration(noise, seed, count):
     rng = np.random.default_rng((seed, 3))
     habit = plan(draw_targets(load(), count, rng), templates_with_noise(noise, (seed, 4)))
     once = cache(execute)  # each plan meets its noise once
-    many = execute(habit.with_weights(np.tile(habit.weights, (20, 1, 1)))).endpoint
-    miss = norm(many - habit.target).mean()
+    many = execute(habit.with_weights(np.tile(habit.weights, (20, 1, 1))))
+    miss, ends = many.error.mean(), many.endpoint
     left = {
         "habit": 1000 * miss,
-        "nothing but noise": norm(many - many.mean(axis=0)).mean() / miss,
+        "nothing but noise": norm(ends - ends.mean(axis=0)).mean() / miss,
     }
     for name, rule in RULES.items():
         trials = rule(habit, execute=once)
-        again = execute(habit.with_weights(np.tile(trials.best_weights, (20, 1, 1)))).endpoint
+        again = execute(habit.with_weights(np.tile(trials.best_weights, (20, 1, 1))))
         left[f"{name}, best trial"] = trials.error.min(axis=0).mean() / miss
-        left[f"{name}, again"] = norm(again - habit.target).mean() / miss
+        left[f"{name}, again"] = again.error.mean() / miss
     return left
 
 

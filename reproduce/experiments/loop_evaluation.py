@@ -26,16 +26,15 @@ def score(photo, sight, place, reaches):
     proposed: a candidate overlaps the shuttlecock by 0.8; found: a kept box does; named: the chosen
     box is the shuttlecock's (more than half of the union shared); cup: it is the cup's; then
     distances in m from the true place: of the `place` found (3,), of the hand before calibration,
-    and after it by each rule of `reaches` (name -> `Reach`). They are NaN where no place was found
-    (`place` is None), or where it could not be reached for (`reaches` is empty).
+    and after it by each rule of `reaches` (name -> `Reach`), on average over the hold. They are NaN
+    where no place was found (`place` is None), or it could not be reached for (`reaches` is empty).
     """
-    ends = {} if place is None else {"target": place}
+    errors = dict.fromkeys(("target", "planned", *RULES), np.nan)
+    if place is not None:
+        errors["target"] = np.linalg.norm(place - photo.target)
     for rule, made in reaches.items():
-        ends |= {"planned": made.end_point(made.planned), rule: made.end_point(made.calibrated)}
-    errors = {
-        name: np.linalg.norm(ends[name] - photo.target) if name in ends else np.nan
-        for name in ("target", "planned", *RULES)
-    }
+        for name, motion in (("planned", made.planned), (rule, made.calibrated)):
+            errors[name] = made.distance(motion, photo.target)
     chosen = np.empty((0, 4)) if sight.box is None else sight.box[None]
     return {
         "proposed": _overlap(sight.detections.candidates, photo, "shuttlecock") >= MIN_IOU,
@@ -167,8 +166,8 @@ def _photo_lesions(model, photo):
         left[how] = dict.fromkeys(OUTCOMES) | {"object": object_in_box(photo, box)}
         with suppress(NoReach):
             made = reach_with_lesion(model, photo, box, how)
-            missed = np.linalg.norm(made.end_point(made.calibrated) - photo.target)
-            left[how]["missed"] = round(1000 * float(missed), 1)
+            missed = made.distance(made.calibrated, photo.target)
+            left[how]["missed"] = round(1000 * missed, 1)
             left[how]["speed"] = round(1000 * float(made.calibrated.speed), 1)
     return left
 

@@ -22,7 +22,7 @@ from vmc_lib.arm.model import MUSCLES
 from vmc_lib.cerebellum.adaptation import CORRECTIONS, Adaptation
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import draw_targets, plan
-from vmc_lib.motor.templates import load, reach
+from vmc_lib.motor.templates import load, mean_distance, reach
 
 LEFT = 0.5
 WHEN = "before", "after"  # it is corrected
@@ -74,9 +74,9 @@ def command_measures(excitations, muscle):
     The mean miss in mm, the mean effort, and how hard each muscle is driven, (6,): the root of its
     command's mean square.
     """
-    ends = reach(excitations * muscle_strength(muscle)).endpoint
+    hold = reach(excitations * muscle_strength(muscle)).hold
     return {
-        "miss": 1000 * np.linalg.norm(ends - TARGETS, axis=-1).mean(),
+        "miss": 1000 * mean_distance(hold, TARGETS).mean(),
         "effort": optimal_control.effort(excitations).mean(),
         "drive": np.sqrt(np.square(excitations).mean(axis=(0, 1))),
     }

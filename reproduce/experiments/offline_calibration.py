@@ -8,12 +8,17 @@ from functools import partial
 import numpy as np
 
 from reproduce.experiments.calibration import FIFTH
+from vmc_lib.arm.model import STEP
 from vmc_lib.arm.simulate import Perturbation
 from vmc_lib.cerebellum.offline import GAINS, algorithm_1, broyden_calibration
 from vmc_lib.motor import templates
 from vmc_lib.motor.execution import execute
+from vmc_lib.motor.feedback import REFLEX, reference_trajectory, simulate_feedback
+from vmc_lib.motor.inverse_dynamics import SAMPLES
 from vmc_lib.motor.planning import norm
+from vmc_lib.motor.templates import mean_distance
 
+MOVED = SAMPLES * STEP  # s: where the command ends
 GRIDS = {"n = 0 only": (0,), "every fifth n": FIFTH, "every n": GAINS}
 
 
@@ -23,29 +28,29 @@ def error_ratio(trials):
 
 
 def repeat_algorithm_1(plan, keep, rounds=4):
-    """Endpoints (rounds + 1, n, 2) by Algorithm 1 upon Algorithm 1, for each of `GRIDS`.
+    """Hands over the hold (rounds + 1, n, T, 2) by Algorithm 1 upon Algorithm 1, by `GRIDS`.
 
     With `keep` the weights before a round are among its tries.
     """
     first, everyone = 0 if keep else 1, np.arange(len(plan.target))
-    endpoints = {}
+    holds = {}
     for name, gains in GRIDS.items():
-        start, ends_at = plan, [execute(plan).endpoint]
+        start, held = plan, [execute(plan).hold]
         for _ in range(rounds):
             trials = algorithm_1(start, gains)
             winner = first + trials.error[first:].argmin(axis=0), everyone
             start = start.with_weights(trials.weights[winner])
-            ends_at.append(trials.endpoint[winner])
-        endpoints[name] = np.array(ends_at)
-    return endpoints
+            held.append(trials.hold[winner])
+        holds[name] = np.array(held)
+    return holds
 
 
 def reaches_until(mm, plan, rules):
     """Extra reaches by each rule until its mean error is below so many mm; infinite if never.
 
-    `rules` maps a name to endpoints (trials, n, 2), and how many reaches a trial takes.
+    `rules` maps a name to hands over the hold (trials, n, T, 2), and the reaches of a trial.
     """
-    errors = {name: 1000 * norm(ends - plan.target) for name, (ends, _) in rules.items()}
+    errors = {name: 1000 * mean_distance(hold, plan.target) for name, (hold, _) in rules.items()}
     return {
         name: rules[name][1] * min(np.flatnonzero(error.mean(axis=-1) < mm), default=np.inf)
         for name, error in errors.items()
@@ -66,24 +71,26 @@ def mean_best_so_far(errors):
     return np.minimum.accumulate(errors).mean(axis=1)
 
 
-def correct_plans(plans, trials):
-    """The plans as so many trials of Broyden calibration leave them."""
-    return plans.with_weights(broyden_calibration(plans, trials).best_weights)
-
-
 def hold_distances(plans, seconds=1.5):
     """How far the hand is from each target after the command, (n, T), mm, every 10 ms."""
     paths = templates.reach(plans.excitations, hold=seconds).hold
     return 1000 * norm(paths - plans.target[:, None])
 
 
+def reflex_distances(plans, seconds=1.5):
+    """The same with the stretch reflex of chapter 12, which is told where the joints should be."""
+    reference = reference_trajectory(plans, MOVED + seconds)
+    paths = simulate_feedback(reference, REFLEX).hand[:, round(MOVED / STEP) :: templates.EVERY, :2]
+    return 1000 * norm(paths - plans.target[:, None])
+
+
 def hold_measures(hold, target):
     """Means over reaches of hands' paths (n, T, 2) over the hold, for targets (n, 2), m.
 
-    The miss where the command ends, and of the end point; the distance from the target (all in
-    mm); the speed (mm/s).
+    The miss where the command ends; the distance from the target over the hold, and how far the
+    mean place is from it, the bias (all in mm); the speed (mm/s).
     """
     away = hold - target[:, None]
-    misses = away[:, 0], hold.mean(axis=1) - target, away
+    misses = away[:, 0], away, away.mean(axis=1)
     speed = templates.mean_speed(hold).mean()
     return [1000 * x for x in (*(norm(miss).mean() for miss in misses), speed)]

@@ -16,6 +16,7 @@ from vmc_lib.cerebellum.offline import broyden_calibration
 from vmc_lib.cerebellum.online import AimCorrection, GranuleCells, WeightCorrection
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import draw_targets, plan
+from vmc_lib.motor.templates import mean_distance
 
 READINGS = {"right for the place reached (as printed)": True, "right for the target": False}
 STEPS = range(0, 151, 25)  # movements practised by granule cells
@@ -30,7 +31,7 @@ def draw_plans(template_set, scenario, rng):
 
 
 def learn(model, plans, lessons, **options):
-    """Where the hand ends, name -> (lessons + 1, n, 2), before the first lesson and after each.
+    """Hands over the hold, name -> (lessons + 1, n, T, 2), before the first lesson and after each.
 
     `plans` maps names to plans that the model corrects; a lesson is a batch of plans that it
     practises. `options` are passed to its `update`.
@@ -40,15 +41,15 @@ def learn(model, plans, lessons, **options):
         if lesson is not None:
             model.update(lesson, **options)
         for name, some in plans.items():
-            history[name].append(execute(model.correct(some)).endpoint)
-    return {name: np.array(endpoints) for name, endpoints in history.items()}
+            history[name].append(execute(model.correct(some)).hold)
+    return {name: np.array(holds) for name, holds in history.items()}
 
 
 def remaining(history, plans):
     """Share of the planned error that is left after each lesson, name -> (lessons + 1,)."""
     left = {}
     for name, some in plans.items():
-        errors = np.linalg.norm(history[name] - some.target, axis=-1)
+        errors = mean_distance(history[name], some.target)
         left[name] = errors.mean(axis=-1) / execute(some).error.mean()
     return left
 
@@ -67,15 +68,15 @@ def granule_cell_history(plans, rng):
     return learner, learn(learner, plans, [plans["practised"], *new])
 
 
-def endpoints_by_width(widths, plans):
-    """Where the hand ends, name -> width -> (n, 2), once cells practised plans["practised"]."""
+def holds_by_width(widths, plans):
+    """Hands over the hold, name -> width -> (n, T, 2), once cells practised plans["practised"]."""
     practised = plans["practised"]
     learners = {
         width: AimCorrection(practised.template_set, GranuleCells(width)).update(practised)
         for width in widths
     }
     return {
-        name: {width: execute(one.correct(some)).endpoint for width, one in learners.items()}
+        name: {width: execute(one.correct(some)).hold for width, one in learners.items()}
         for name, some in plans.items()
     }
 
@@ -115,10 +116,6 @@ def adapt_to_worlds(trained, template_set, worlds, seeds=(3, 4)):
 
 
 def after_effects(trained, adapted, plans, change):
-    """Endpoints (n, 2) in a changed world, once it is learned, and once it is taken away again."""
+    """`Movement`s in a changed world, once it is learned, and once it is taken away again."""
     later = adapted.correct(plans)
-    return (
-        execute(trained.correct(plans), **change).endpoint,
-        execute(later, **change).endpoint,
-        execute(later).endpoint,
-    )
+    return execute(trained.correct(plans), **change), execute(later, **change), execute(later)

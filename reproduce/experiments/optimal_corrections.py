@@ -13,7 +13,7 @@ from reproduce.peers import minimum_variance, motor_noise, optimal_feedback
 from reproduce.peers.optimal_feedback import TICK
 from vmc_lib.arm.model import MUSCLES
 from vmc_lib.motor.inverse_dynamics import SAMPLES
-from vmc_lib.motor.templates import keep_last, reach
+from vmc_lib.motor.templates import keep_last, mean_distance, reach
 
 HOLD = slice(SAMPLES // TICK, None)  # ticks
 
@@ -34,8 +34,7 @@ def scatter_and_miss(noise, weak, rule, late=None):
     or with the best corrections, where deviations are known `late`, in ms.
     """
     scatter = optimal_feedback.scatter(hand_paths(noise, rule, late))
-    ends = hand_paths(weak, rule, late)[..., HOLD, :].mean(axis=-2)
-    miss = np.linalg.norm(ends - TARGETS, axis=-1)
+    miss = mean_distance(hand_paths(weak, rule, late)[..., HOLD, :], TARGETS)
     return 1000 * scatter.mean(axis=0), 1000 * miss.mean(axis=-1)
 
 

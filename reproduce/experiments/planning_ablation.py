@@ -12,19 +12,28 @@ from reproduce.experiments.calibration import SEEDS
 from reproduce.experiments.controller_comparison import templates_with_noise
 from vmc_lib.arm import muscle
 from vmc_lib.arm.engines import activations
-from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration
+from vmc_lib.cerebellum.offline import (
+    algorithm_1,
+    broyden_calibration,
+    gauss_newton_calibration,
+)
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import draw_targets, exact_weights, habitual_weights, norm, plan
 from vmc_lib.motor.templates import load
 
 WEIGHTS = {"nearness (Eq. 5)": habitual_weights, "exact (Eq. 4)": exact_weights}
 SPACINGS = 8, 6, 4  # cm between templates
-RULES = {"Algorithm 1": algorithm_1, "Broyden": broyden_calibration}
+RULES = {
+    "Algorithm 1": algorithm_1,
+    "Broyden": broyden_calibration,
+    "least squares": gauss_newton_calibration,
+}
 CORRECTIONS = {
     "none": lambda habit: execute(habit).error,
     "Algorithm 1": lambda habit: algorithm_1(habit).error.min(axis=0),
     "Broyden, 1 trial": lambda habit: broyden_calibration(habit, n_trials=1).error.min(axis=0),
     "Broyden, 2 trials": lambda habit: broyden_calibration(habit, n_trials=2).error.min(axis=0),
+    "least squares, 8 trials": lambda habit: gauss_newton_calibration(habit).error.min(axis=0),
 }
 
 

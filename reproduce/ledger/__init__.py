@@ -86,7 +86,7 @@ def anchor(where):
 def details(entry):
     """An entry's reasons and all of its numbers, folded, as Markdown."""
     text = " ".join(filter(None, (entry["because"], entry["note"])))
-    heads = ["number", "paper", "ours (95 %)", "one more draw", "in sample", "verdict"]
+    heads = ["number", "paper", "ours (95 %)", "one more draw", "in sample", "nulls", "verdict"]
     rows = [
         [
             q["name"] + ARROWS[q["better"]],
@@ -94,6 +94,7 @@ def details(entry):
             result_text(q),
             draw_text(q),
             q["in_sample"],
+            "; ".join(f"{name}: {value:.3g}" for name, value in q["nulls"].items()),
             q["verdict"],
         ]
         for q in entry["quantities"]

@@ -1,18 +1,19 @@
 """What an entry of the ledger is: a claim of the paper, the numbers that test it, and a verdict."""
 
 from collections.abc import Callable
-from dataclasses import KW_ONLY, asdict, dataclass
+from dataclasses import KW_ONLY, asdict, dataclass, field, replace
 
 import numpy as np
 
 from vmc_lib.statistics import student, wilson
 
-NOT_COMPARED, BY_CONSTRUCTION, FITTED, REPRODUCED, BEATEN, DIFFERS = VERDICTS = (
+NOT_COMPARED, BY_CONSTRUCTION, FITTED, REPRODUCED, BEATEN, NULL_PASSES, DIFFERS = VERDICTS = (
     "not compared",
     "by construction",
     "fitted",
     "reproduced",
     "beaten",
+    "null passes too",
     "differs",
 )
 HELD = "over the hold"  # names what is not read where the command ends
@@ -25,7 +26,9 @@ class Quantity:
 
     What is claimed is a number, or where `bound` a limit that all of the interval must be beyond,
     or None where the paper prints nothing to compare. `obtained` is held-out wherever something was
-    learned, and `in_sample` stands beside it then.
+    learned, and `in_sample` stands beside it then. `nulls` are what other mechanisms obtain at the
+    same cost, among them luck: where one would hold as well, and is not clearly worse, the verdict
+    is "null passes too".
     """
 
     name: str
@@ -44,10 +47,34 @@ class Quantity:
     fitted: bool = False  # a setting or a reading was chosen to come near what is claimed
     trivial: bool = False  # it cannot fail, short of a bug
     clock: bool = False  # read from a clock: no two runs give the same
+    nulls: dict = field(default_factory=dict)  # by name: what luck, or another mechanism, obtains
 
     @property
     def verdict(self) -> str:
         """One of VERDICTS; "beaten" is a number outside every interval, on its worse side."""
+        own = self._own_verdict()
+        undecided = own in (NOT_COMPARED, DIFFERS)
+        return own if undecided or not self.passing_nulls() else NULL_PASSES
+
+    def passing_nulls(self):
+        """The nulls, by name, that would hold in place of ours, and are not clearly worse."""
+        return [name for name, x in self.nulls.items() if self._holds(x) and not self._is_worse(x)]
+
+    def _is_worse(self, null):
+        """Whether a null lies outside all our intervals, on their worse side."""
+        ends = self.obtained, self.low, self.high, self.least, self.most
+        signed = [self.better * float(end) for end in ends if end is not None]
+        return bool(self.better) and self.better * null < min(signed)
+
+    def _holds(self, null):
+        away = null - self.obtained
+        ends = {
+            end: None if (known := getattr(self, end)) is None else known + away
+            for end in ("low", "high", "least", "most")
+        }
+        return replace(self, obtained=null, p=None, **ends)._own_verdict() != DIFFERS
+
+    def _own_verdict(self):
         if self.claimed is None:
             return NOT_COMPARED
         ends = [self.obtained, self.low, self.high]
@@ -143,8 +170,9 @@ class Row:
 def verdict(quantities):
     """A row's verdict: the first of these that one of its quantities has.
 
-    "differs", "beaten", "reproduced", "fitted", "by construction". So what was fitted, or cannot
-    fail, decides only where nothing else does. A row without numbers is "not compared".
+    "differs", "null passes too", "beaten", "reproduced", "fitted", "by construction". So what was
+    fitted, or cannot fail, decides only where nothing else does. A row without numbers is "not
+    compared".
     """
     found = {q.verdict for q in quantities}
     return next((v for v in reversed(VERDICTS) if v in found), NOT_COMPARED)
@@ -165,5 +193,7 @@ def measure(row):
     }
 
 
-def _plain(quantity):
-    return {k: v.item() if isinstance(v, np.generic) else v for k, v in quantity.items()}
+def _plain(value):
+    if isinstance(value, dict):
+        return {k: _plain(v) for k, v in value.items()}
+    return value.item() if isinstance(value, np.generic) else value

@@ -14,7 +14,7 @@ from vmc_lib.cerebellum.adaptation import CORRECTIONS, Adaptation
 from vmc_lib.cerebellum.online import AimCorrection
 from vmc_lib.motor.execution import EYE, execute, rotate_about_eye
 from vmc_lib.motor.planning import draw_targets, is_surrounded, plan
-from vmc_lib.motor.templates import load
+from vmc_lib.motor.templates import load, mean_distance
 
 PRISM = np.radians(6.0)
 PERTURBATIONS = {  # what may change, as `execute` takes it
@@ -31,12 +31,17 @@ class Curve(NamedTuple):
     """An adaptation, block by block; every movement is made before it is learned from."""
 
     target: np.ndarray  # (blocks, movements, 2), m, as seen
-    endpoint: np.ndarray  # (blocks, movements, 2), m, as seen
+    hold: np.ndarray  # (blocks, movements, n, 2), m: the hand's path over the hold, as seen
+
+    @property
+    def endpoint(self):
+        """Where the hand is on average over the hold, (blocks, movements, 2), m."""
+        return self.hold.mean(axis=-2)
 
     @property
     def error(self):
         """Mean distance from the target in each block, (blocks,), m."""
-        return np.linalg.norm(self.endpoint - self.target, axis=-1).mean(axis=-1)
+        return mean_distance(self.hold, self.target).mean(axis=-1)
 
 
 def adapt(learner, template_set, rng, perturbation, blocks=BLOCKS, movements=8):
@@ -49,14 +54,14 @@ def adapt(learner, template_set, rng, perturbation, blocks=BLOCKS, movements=8):
     targets = draw_targets(template_set, 4 * sum(blocks) * movements, rng)
     inside = targets[is_surrounded(rotate_about_eye(targets, -PRISM), template_set.points)]
     targets = inside[: sum(blocks) * movements].reshape(-1, movements, 2)
-    endpoint = [
+    hold = [
         learner.update(
             plan(t, template_set),
             partial(execute, **(perturbation if before <= b < before + during else {})),
-        ).endpoint
+        ).hold
         for b, t in enumerate(targets)
     ]
-    return Curve(targets, np.array(endpoint))
+    return Curve(targets, np.array(hold))
 
 
 def train_aim_correction(template_set, rng, movements=150):
@@ -69,9 +74,9 @@ def train_aim_correction(template_set, rng, movements=150):
 def without_learning(trained, template_set, perturbation, target, blocks=BLOCKS):
     """The `Curve` of such blocks of targets (blocks, movements, 2) where nothing learns."""
     corrected = trained.correct(plan(target, template_set))
-    changed = np.repeat([False, True, False], blocks)[:, None, None]
-    ends = execute(corrected, **perturbation).endpoint, execute(corrected).endpoint
-    return Curve(target, np.where(changed, *ends))
+    changed = np.repeat([False, True, False], blocks)[:, None, None, None]
+    holds = execute(corrected, **perturbation).hold, execute(corrected).hold
+    return Curve(target, np.where(changed, *holds))
 
 
 class Clamped(NamedTuple):

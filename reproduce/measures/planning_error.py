@@ -24,6 +24,6 @@ def mixed_and_reached(rule=habitual_weights, spacing=0.06, number=4):
 
 
 def mean_miss(rule, spacing=0.06):
-    """How far the hand ends from a target on average, in mm."""
+    """How far the hand's mean place over the hold is from a target on average, in mm: the bias."""
     _, reached = mixed_and_reached(rule, spacing)
     return 1000 * np.linalg.norm(reached - TARGETS, axis=-1).mean()

@@ -124,14 +124,14 @@ def measures_by_rule(rng, repeats=REPEATS):
 def kinematic_measures(motion, targets):
     """Numbers by name, (n,) each, of undisturbed reaches for targets (n, 2): a `HeldMotion`.
 
-    How far the hand misses, and is from its target at most during the hold (mm); how fast it moves
-    there on average (mm/s); the way it goes, over the straight distance; how far above the table it
-    stays (mm); and the `jerk`.
+    How far the hand is from its target during the hold, on average and at most (mm); how fast it
+    moves there on average (mm/s); the way it goes, over the straight distance; how far above the
+    table it stays (mm); and the `jerk`.
     """
     way, hold = motion.hand[..., :2], motion.hold
     off = hold - targets[:, None]
     return {
-        "miss": 1000 * norm(off.mean(axis=-2)),
+        "miss": 1000 * norm(off).mean(axis=-1),
         "farthest": 1000 * norm(off).max(axis=-1),
         "speed": 1000 * motion.speed,
         "path": norm(np.diff(way, axis=-2)).sum(axis=-1) / norm(targets - way[:, 0]),

@@ -27,6 +27,7 @@ from reproduce.experiments import (
     localisation,
     loop_evaluation,
     muscle_weakness,
+    nulls,
     printed_sheet,
     real_world,
     recognition,
@@ -145,6 +146,7 @@ STEPS = (
     Step(optimal_control.make, RESULTS / "optimal.npz", f"templates {ARM}", 1),
     Step(minimum_variance.make, RESULTS / "steady.npz", f"templates {ARM}", 2),
     Step(calibration.make, RESULTS / "movements.json", f"templates {ARM}", 10),
+    Step(nulls.make, RESULTS / "nulls.json", f"templates {ARM}", 5),
     Step(controller_comparison.make, RESULTS / "cerebella.json", f"templates {ARM}", 5),
     Step(feedback_control.make, RESULTS / "feedback.json", f"templates {ARM}", 2),
     Step(learning_under_noise.make, RESULTS / "unsteady.json", f"templates {ARM}", 3),
@@ -189,7 +191,7 @@ STEPS = (
         ledger.make,
         RESULTS / "ledger.json",
         "localisation recognition fresh_names fresh_test_set variations hmax_draws second_layers "
-        "class_independence movements optimal reproduce/results/opensim.npz "
+        "class_independence movements nulls unsteady optimal reproduce/results/opensim.npz "
         f"reproduce/results/bench {SHIPPED}",
         8,
     ),

@@ -16,6 +16,7 @@ from vmc_lib.cerebellum.offline import broyden_calibration
 from vmc_lib.cerebellum.online import AimCorrection, GranuleCells
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import exact_weights, plan
+from vmc_lib.motor.templates import mean_distance
 
 INSIDE = ZONE + np.array([[0.04], [-0.04]])  # m: targets keep so far from its edge
 SEEDS, COUNT = range(6), 17  # draws of targets, and targets of each
@@ -105,10 +106,12 @@ def stop_errors(past, seed, count=5):
     reaches = plan_reaches(drawn, past)
     alone = broyden_calibration(reaches, n_trials=4).movements[-1]
     both = [stop_calibration(reaches[k]).movements[-1] for k in range(count)]
-    misses = [end.endpoint[:3] - target for end, target in zip(both, drawn, strict=True)]
+    misses = [
+        mean_distance(end.hold[:, :3], target) for end, target in zip(both, drawn, strict=True)
+    ]
     return {
         **{"place, miss": alone.error.mean(), "place, speed": alone.speed.mean()},
-        "place and drift, miss": np.linalg.norm(misses, axis=-1).mean(),
+        "place and drift, miss": np.mean(misses),
         "place and drift, speed": np.mean([end.speed for end in both]),
     }
 
@@ -163,11 +166,12 @@ def optimised_errors(past, synergies, seed, count=COUNT):
         "seconds, optimiser": spent / count,
         "seconds, habit": (process_time() - began) / count,
     }
-    ends = {
-        "once": synergies.move(commands).endpoint,
-        "again": habits.record_templates(synergies, targets).points,
+    again = habits.record_templates(synergies, targets)
+    holds = {
+        "once": synergies.move(commands).hold,
+        "again": again.reach(again.excitations).hold,
     }
-    off = {k: np.linalg.norm(end - targets, axis=-1).mean() for k, end in ends.items()}
+    off = {k: mean_distance(hold, targets).mean() for k, hold in holds.items()}
     return seconds | {f"{name} / way": miss / mean_way(targets) for name, miss in off.items()}
 
 

@@ -1,6 +1,8 @@
 """Off-line calibration, as published and better."""
 
+from dataclasses import replace
 from functools import partial
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,9 +13,11 @@ from vmc_lib.cerebellum.offline import (
     algorithm_1_change,
     broyden_calibration,
     calibrate,
+    gauss_newton_calibration,
 )
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import draw_targets, plan
+from vmc_lib.motor.templates import TemplateSet
 
 
 @pytest.fixture(scope="module")
@@ -51,15 +55,50 @@ def test_the_other_sign_of_the_error_does_not_help(reaches):
 
 
 def test_broyden_calibration_meets_its_bars(reaches):
-    left = share_left(broyden_calibration(reaches, n_trials=4))
+    trials = broyden_calibration(reaches, n_trials=4)
+    left, bias = share_left(trials), [movement.bias.mean() for movement in trials.movements]
     assert left[1] < 0.27
-    assert left[2] < 0.05
-    assert left[4] < 0.001
+    assert left[2] < 0.16
+    assert left[4] > 0.1, "four weights that sum to one hold a place, not still"
+    assert bias[4] < 0.001 * bias[0]
+
+
+def test_gauss_newton_holds_the_hand_still(reaches):
+    trials = gauss_newton_calibration(reaches)
+    assert len(trials.error) == 1 + 4 + 4
+    best = execute(reaches.with_weights(trials.best_weights))
+    assert best.error.mean() < 0.06 * trials.error[0].mean()
+    assert best.speed.mean() < 0.7 * trials.movements[0].speed.mean()
+
+
+def test_gauss_newton_solves_a_linear_arm(template_set):
+    """Where the hold follows the weights linearly, and there are enough of them."""
+    slopes = np.random.default_rng(0).normal(size=(4, 2, 2))  # of the hand at two moments
+
+    def reach(commands, _=None):
+        return SimpleNamespace(hold=np.einsum("...tm,mnd->...nd", commands[..., :1, :4], slopes))
+
+    commands = np.eye(6)[:4, None]
+    linear = TemplateSet(template_set.points[:4], commands, (-np.inf, np.inf), reach)
+    error = gauss_newton_calibration(plan([0.05, -0.1], linear, rows=np.arange(4)), 2).error
+    assert error[-1] < 0.01 * error[0]
+
+
+def test_the_error_is_the_mean_distance_and_the_bias_the_mean_places(template_set):
+    """A hand that swings round its target is not on it."""
+    round_it = 0.01 * np.array([[1, 0], [0, 1], [-1, 0], [0, -1]])
+    swinging = replace(
+        template_set, reach=lambda *_: SimpleNamespace(hold=np.add([0.05, -0.42], round_it))
+    )
+    movement = execute(plan([0.05, -0.42], swinging))
+    assert movement.error == pytest.approx(0.01)
+    assert movement.bias == pytest.approx(0)
 
 
 def test_broyden_updates_beat_a_fixed_jacobian(reaches):
     learning, repeating = (
-        share_left(broyden_calibration(reaches, 3, broyden=b)) for b in (True, False)
+        [m.bias.mean() for m in broyden_calibration(reaches, 3, broyden=b).movements]
+        for b in (True, False)
     )
     assert learning[3] < 0.5 * repeating[3]
 

@@ -96,7 +96,7 @@ def test_algorithm_2_held_out_error_ratio():
 def test_aim_correction_held_out_error(template_set, held_out):
     before, batches = error(held_out), [lessons(template_set, 25, s) for s in range(30, 35)]
     learners = [AimCorrection(template_set).update(*batch) for batch in batches]
-    assert np.mean([error(learner.correct(held_out)) for learner in learners]) < 0.22 * before
+    assert np.mean([error(learner.correct(held_out)) for learner in learners]) < 0.27 * before
     for count, seed, limit in ((125, 35, 0.10 * before), (100, 36, 0.001)):  # m, by 150 and 250
         for lesson in lessons(template_set, count, seed):
             learners[0].update(lesson)

@@ -1,8 +1,8 @@
 """Off-line calibration: try, see the error, correct the weights, try again.
 
-`algorithm_1` is the paper's (Eq. 6–7), `broyden_calibration` our own. Both take a `Plan`, of
-one reach or a batch, and return `Trials`, the plan's own reach first. Both let the arm move by
-`execute`, or, in another world, by `partial(execute, perturbation=…)`.
+`algorithm_1` is the paper's (Eq. 6–7), `broyden_calibration` and `gauss_newton_calibration` are our
+own. Each takes a `Plan`, of one reach or a batch, and returns `Trials`, the plan's own reach first.
+Each lets the arm move by `execute`, or, in another world, by `partial(execute, perturbation=…)`.
 """
 
 from typing import NamedTuple
@@ -15,6 +15,8 @@ from vmc_lib.short_repr import short_repr
 
 GAINS = tuple(range(21))  # the paper's n in [0, 20]
 LARGEST_STEP = 0.5  # of Δw's norm: no single correction may throw the arm about
+NUDGE = 0.1  # of one weight, to see what it does: smaller ones drown in a muscle's noise
+DAMPING = 1e-4  # of a least-squares step, a share of what all weights do; chosen on other targets
 
 
 class Trials(NamedTuple):
@@ -22,10 +24,17 @@ class Trials(NamedTuple):
 
     weights: np.ndarray  # (trials, …, N)
     endpoint: np.ndarray  # (trials, …, 2), m
-    error: np.ndarray  # (trials, …), m: how far from the target
+    error: np.ndarray  # (trials, …), m: how far from the target, on average over the hold
     movements: tuple  # as they were made: `Movement`s, whose leading axis may count trials
 
     __repr__ = short_repr
+
+    @property
+    def hold(self):
+        """The hand's path over the hold in each trial, (trials, …, n, 2), m."""
+        shape = self.endpoint.shape[1:-1]
+        holds = [m.hold.reshape(-1, *shape, *m.hold.shape[-2:]) for m in self.movements]
+        return np.concatenate(holds)
 
     @property
     def best_weights(self):
@@ -151,22 +160,88 @@ def broyden_calibration(plan: Plan, n_trials=2, broyden=True, guarded=True, exec
     >>> from vmc_lib.motor.planning import plan
     >>> from vmc_lib.motor.templates import load
     >>> trials = broyden_calibration(plan([0.15, -0.4], load()))
-    >>> bool(trials.error[2] < 0.1 * trials.error[0])
+    >>> bool(trials.movements[2].bias < 0.1 * trials.movements[0].bias)
     True
     """
     jacobian, planned = np.swapaxes(plan.points, -1, -2), execute(plan)
-    weights, endpoint, tried = plan.weights, planned.endpoint, []
+    best, endpoint, tried = planned.error, planned.endpoint, []
+    weights = plan.weights
     for _ in range(n_trials):
         change = least_change(jacobian, plan.target - endpoint)
         change = _clip_norm(change) if guarded else change
-        tried.append(execute(plan.with_weights(weights + change)))
-        end = tried[-1].endpoint
+        tried.append(now := execute(plan.with_weights(weights + change)))
         if broyden:
-            jacobian = broyden_update(jacobian, change, end - endpoint)
-        better = (norm(plan.target - end) < norm(plan.target - endpoint))[..., None]
-        weights = np.where(better | (not guarded), weights + change, weights)
-        endpoint = np.where(better | (not guarded), end, endpoint)
+            jacobian = broyden_update(jacobian, change, now.endpoint - endpoint)
+        better = (now.error < best) | (not guarded)
+        weights = np.where(better[..., None], weights + change, weights)
+        endpoint = np.where(better[..., None], now.endpoint, endpoint)
+        best = np.where(better, now.error, best)
     return _trials(planned, *tried)
+
+
+def gauss_newton_calibration(plan: Plan, n_steps=4, execute=execute):
+    """Calibrate a plan off-line by least squares over the whole hold, so that the hand stays.
+
+    First each weight is nudged alone, N trials that measure how the hand's path over the hold
+    follows it. Then come Gauss–Newton steps, damped, each from the best weights so far; between
+    them every step corrects the measured Jacobian (Broyden). The weights need not sum to 1: more
+    of every muscle lifts the hand, and stiffens it.
+
+    Parameters
+    ----------
+    plan : Plan
+        Of one reach or a batch.
+    n_steps : int
+        How many movements to make after the first and the nudges.
+    execute : callable
+        Moves the arm: a plan to its `Movement`.
+
+    Returns
+    -------
+    Trials
+        The plan's movement, a trial for each weight, then the steps.
+
+    References
+    ----------
+    Nocedal, J. & Wright, S. J. (2006). Numerical optimization, chapter 10.
+
+    Examples
+    --------
+    >>> from vmc_lib.motor.planning import plan
+    >>> from vmc_lib.motor.templates import load
+    >>> trials = gauss_newton_calibration(plan([0.15, -0.4], load()))
+    >>> len(trials.error), bool(trials.error[-1] < 0.2 * trials.error[0])
+    (9, True)
+    """
+    planned, weights = execute(plan), plan.weights
+    ways = NUDGE * np.eye(weights.shape[-1]).reshape(-1, *(weights.ndim - 1) * [1], len(weights.T))
+    nudged = execute(plan.with_weights(weights + ways))
+    best, residual = planned.error, _residual(planned)
+    jacobian = np.moveaxis(_residual(nudged) - residual, 0, -1) / NUDGE
+    tried = []
+    for _ in range(n_steps):
+        change = _clip_norm(-_damped_least_squares(jacobian, residual))
+        tried.append(now := execute(plan.with_weights(weights + change)))
+        jacobian = broyden_update(jacobian, change, _residual(now) - residual)
+        better = now.error < best
+        weights = np.where(better[..., None], weights + change, weights)
+        residual = np.where(better[..., None], _residual(now), residual)
+        best = np.where(better, now.error, best)
+    return _trials(planned, nudged, *tried)
+
+
+def _residual(movement):
+    """How far the hand is from its target at each moment of the hold, axis by axis, (…, n D)."""
+    away = movement.hold - movement.plan.target[..., None, :]
+    return away.reshape(*away.shape[:-2], -1)
+
+
+def _damped_least_squares(matrix, wanted):
+    """The x (…, N) for which matrix (…, m, N) @ x is near `wanted` (…, m) (Levenberg)."""
+    normal = np.swapaxes(matrix, -1, -2) @ matrix
+    ridge = DAMPING * np.trace(normal, axis1=-2, axis2=-1)[..., None, None]
+    gradient = np.swapaxes(matrix, -1, -2) @ wanted[..., None]
+    return np.linalg.solve(normal + ridge * np.eye(matrix.shape[-1]), gradient)[..., 0]
 
 
 def broyden_update(jacobian, change, shift):
@@ -181,7 +256,8 @@ def _trials(*movements):
     plan = movements[0].plan
     weights = np.concatenate([m.plan.weights.reshape(-1, *plan.weights.shape) for m in movements])
     endpoint = np.concatenate([m.endpoint.reshape(-1, *plan.target.shape) for m in movements])
-    return Trials(weights, endpoint, norm(plan.target - endpoint), movements)
+    error = np.concatenate([m.error.reshape(-1, *plan.target.shape[:-1]) for m in movements])
+    return Trials(weights, endpoint, error, movements)
 
 
 def _clip_norm(change):

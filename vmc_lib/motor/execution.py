@@ -7,7 +7,7 @@ import numpy as np
 
 from vmc_lib.arm.simulate import UNPERTURBED, Perturbation
 from vmc_lib.motor.planning import Plan, norm
-from vmc_lib.motor.templates import mean_speed
+from vmc_lib.motor.templates import mean_distance, mean_speed
 from vmc_lib.short_repr import short_repr
 
 BATCH = 512  # movements simulated at once
@@ -29,7 +29,8 @@ def execute(plan, perturbation=UNPERTURBED, prism=0.0):
     Returns
     -------
     Movement
-        With `.motion`, `.endpoint`, `.error`, `.speed` and `.stray`, simulated when first read.
+        With `.motion`, `.endpoint`, `.error`, `.bias`, `.speed` and `.stray`, simulated when first
+        read.
 
     Raises
     ------
@@ -78,7 +79,16 @@ class Movement:
 
     @property
     def error(self):
-        """How far from the target the hand is seen to end, (…), m."""
+        """How far from the target the hand is seen over the hold, on average, (…), m.
+
+        A hand that swings round its target is not on it. Without a hold it is the distance where
+        the command ends.
+        """
+        return mean_distance(self.hold, self.plan.target)
+
+    @property
+    def bias(self):
+        """How far from the target the hand's mean place over the hold is, (…), m."""
         return norm(self.endpoint - self.plan.target)
 
     @property

@@ -60,6 +60,11 @@ def mean_speed(hold):
     return np.linalg.norm(np.diff(hold, axis=-2), axis=-1).sum(axis=-1) / HOLD
 
 
+def mean_distance(hold, target):
+    """The mean distance (…) of paths over the hold (…, n, D) from targets (…, D), in their unit."""
+    return np.linalg.norm(hold - np.asarray(target)[..., None, :], axis=-1).mean(axis=-1)
+
+
 def reach(excitations, perturbation=UNPERTURBED, hold=HOLD):
     """The `HeldMotion` from rest in `START`: excitations (…, T, 6), then `hold` s of the last."""
     rest = arrays("rest")["activation"]  # that holds the arm in START

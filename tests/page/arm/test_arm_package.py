@@ -42,8 +42,7 @@ USE = """const armInPage = require("arm-in-page");
 (async () => {
   const arm = await armInPage.load(), templates = await armInPage.templates();
   const plan = armInPage.plan([0.09, -0.37], templates);
-  const mean = (all) => [0, 1].map((k) => all.reduce((sum, p) => sum + p[k], 0) / all.length);
-  const reach = (weights) => mean(arm.hold(arm.reach(templates.excitations({ ...plan, weights }))));
+  const reach = (weights) => arm.hold(arm.reach(templates.excitations({ ...plan, weights })));
   const tries = [...armInPage.broydenCalibration(plan, reach, armInPage.calibration)];
   const motion = arm.move(Array(200).fill([0.5, 0, 0, 0.2, 0, 0]));
   console.log(JSON.stringify([tries.map(({ error }) => error), motion.at(-1).q]));

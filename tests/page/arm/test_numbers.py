@@ -172,11 +172,11 @@ def test_a_reach_with_weights_set_by_hand(ask):
     rng, own = np.random.default_rng(5), templates.load()
     targets, by_hand = draw_targets(own, 20, rng), rng.uniform(-0.1, 0.6, (20, 4))
     planned = plan(targets, own)
-    ends = execute(replace(planned, weights=by_hand)).endpoint
+    hold = execute(replace(planned, weights=by_hand)).hold
     script = "return asked.map(([at, weights]) => reach(planning.plan(at, templateSet))(weights));"
     asked = [[*pair] for pair in zip(targets.tolist(), by_hand.tolist(), strict=True)]
     seen = np.array(ask(script, asked))
-    assert np.abs(seen[:, :2] - ends).max() < 1e-6
+    assert np.abs(seen[..., :2] - hold).max() < 1e-6
 
 
 def broyden(planned):
@@ -198,9 +198,9 @@ def test_calibration(ask, past, name, rule, arm):
     planar = plan(TARGETS, templates.load())
     planned = experiment.plan_reaches(TARGETS_3D, past) if arm == WHOLE else planar
     expected = rule(planned)
-    arrays = {"reached": expected.endpoint}
+    arrays = {"reached": expected.endpoint, "error": expected.error}
     if arm != WHOLE:
-        arrays |= {"weights": expected.weights, "error": expected.error}
+        arrays |= {"weights": expected.weights}
     for k, target in enumerate(planned.target):
         trials = ask(script, target.tolist(), arm)
         for key, array in arrays.items():

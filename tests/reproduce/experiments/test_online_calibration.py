@@ -21,7 +21,7 @@ def plans():
 def test_before_its_first_lesson_a_model_leaves_the_planned_error(plans):
     history = learn(WeightCorrection(), plans, [plans["practised"]], rule=no_calibration)
     for name, shares in remaining(history, plans).items():
-        assert history[name].shape == (2, 5, 2)
+        assert history[name].shape == (2, 5, 51, 2)
         assert shares[0] == 1
         assert shares[1] != 1
 
@@ -62,4 +62,4 @@ def test_in_a_changed_world_only_what_learns_gets_better(plans):
     aim, baseline = (curves["a prism", cure].error for cure in ("aim", "nothing learns"))
     assert len(aim) == sum(BLOCKS)
     assert aim[before + during - 1] < 0.5 * baseline[before + during - 1]
-    assert aim[before + during] > 5 * baseline[before + during]  # the after-effect
+    assert aim[before + during] > 3 * baseline[before + during]  # the after-effect

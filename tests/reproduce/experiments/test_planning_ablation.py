@@ -13,7 +13,7 @@ def test_a_correction_keeps_its_best_trial():
     """So none leaves more than the plan, and two trials no more than one."""
     targets = np.array([[0.10, -0.40], [0.15, -0.41]])
     for weights, cm in product(ablation.WEIGHTS, ablation.SPACINGS):
-        none, published, one, two = (
+        none, published, one, two, _ = (
             ablation.reach_errors(targets, weights, how, cm) for how in ablation.CORRECTIONS
         )
         assert (published <= none).all()

@@ -1,5 +1,6 @@
 """What is made wrong under the ledger's rows of moving: the code, the truth or a stored reading.
 
+And rivals, mechanisms that one might take for the paper's: what a row says of them is held, too.
 Where a row reads what ships, the shipped numbers are made again first, from few draws.
 """
 
@@ -11,7 +12,9 @@ import numpy as np
 
 from reproduce import one_draw
 from reproduce.experiments import calibration as experiments
+from reproduce.experiments import nulls
 from reproduce.ledger import arm, calibration, online, planning
+from reproduce.ledger.entry import DIFFERS, NULL_PASSES
 from reproduce.measures import second_plant
 from vmc_lib import photos
 from vmc_lib.cerebellum import offline
@@ -139,6 +142,68 @@ def mixes_alike_for_every_target(patch):
     patch.setattr(calibration, "load_results", lambda: Again.of("aim", experiments=10))
 
 
+def lessons_teach_nothing(patch):
+    """No experiment changes what the rule does in the next."""
+    for rule in (nulls.WeightCorrection, nulls.ShuffledPairs):
+        patch.setattr(rule, "update", lambda self, *lesson, **how: self)
+    tries_again(patch, nulls.BY_LESSONS, movements=5, held_out=5, experiments=3)
+
+
+def tries_again(patch, part, **size):
+    """What `nulls.json` holds of a part, by the code as it is now, from few draws."""
+    shipped = nulls.load_results()
+    shipped[part] = experiments.repeat_over_seeds(partial(nulls.EXPERIMENTS[part], **size), FEW)
+    patch.setattr(nulls, "load_results", lambda: shipped)
+
+
+# Rivals: not the paper's mechanism made wrong, but another that one might take for it
+
+
+def searches_blindly(patch):
+    """Random changes of the weights, as many, in the place of Eq. 6–7."""
+    blind = partial(
+        offline.algorithm_1, change=partial(nulls.blind_change, rng=np.random.default_rng(0))
+    )
+    patch.setattr(experiments, "ABLATION", {})
+    for module in (calibration, experiments):
+        patch.setattr(module, "algorithm_1", blind)
+    patch.setattr(calibration, "load_results", lambda: Again.of("blind", experiments=1))
+    draws_few(patch, calibration)
+
+
+def tries_blindly(patch):
+    """The same where rules are compared by their number of tries."""
+    blind = partial(nulls.blind_change, rng=np.random.default_rng(0))
+    patch.setattr(nulls, "algorithm_1_change", blind)
+    tries_again(patch, nulls.BY_TRIES)
+
+
+def weighs(rule):
+    """Plans by other weights than Eq. 5's."""
+
+    def mutate(patch):
+        ratios, example = planning.planned_error_ratios, one_draw.worst_example
+        patch.setattr(
+            planning,
+            "planned_error_ratios",
+            lambda apart=0.06, _=None: ratios(apart, nulls.WEIGHTS[rule]),
+        )
+        patch.setattr(one_draw, "worst_example", lambda seed: example(seed, nulls.WEIGHTS[rule]))
+        patch.setattr(planning, "SEEDS", FEW)
+
+    mutate.__name__ = f"weighs_{rule}"
+    return mutate
+
+
+def shuffles_pairs(patch):
+    """Algorithm 2 learns corrections, but each at the place of another movement."""
+    shuffled = partial(nulls.ShuffledPairs, rng=np.random.default_rng(0))
+    patch.setattr(experiments, "ABLATION", {})
+    patch.setattr(experiments, "WeightCorrection", shuffled)
+    for module in (calibration, online):
+        patch.setattr(module, "load_results", lambda: Again.of("shuffled", experiments=2))
+
+
 class Again(dict):
     """What `movements.json` would hold, by the code as it is now: small, made where it is read."""
 
@@ -158,6 +223,19 @@ class Again(dict):
         return self[name]
 
 
+RIVALS = {  # what a row says of each
+    "Table IV": {weighs(rule): NULL_PASSES for rule in nulls.WEIGHTS},
+    "Fig. 9": {
+        weighs("nearest only"): DIFFERS,
+        weighs("uniform"): DIFFERS,
+        weighs("inverse square"): NULL_PASSES,
+    },
+    "III, Block 3": {moves_linearly: DIFFERS},
+    "Table V": {searches_blindly: NULL_PASSES},
+    "Fig. 4": {searches_blindly: NULL_PASSES},
+    "Ours, Eq. 6–7": {tries_blindly: DIFFERS},
+    "Table VI": {shuffles_pairs: DIFFERS},
+}
 MOVING = {
     "Fig. 3": [looks_at_the_cup],
     "IV C, computation": [plans_slowly],
@@ -176,6 +254,8 @@ MOVING = {
     "Ours, Table V": [calibrates_the_wrong_way],
     "Table VI": [learns_nothing],
     "Fig. 11": [turns_the_error],
-    "Fig. 12": [learns_nothing],
+    "Fig. 12": [lessons_teach_nothing],
+    "IV D, online": [learns_nothing],
+    "Ours, Eq. 6–7": [tries_blindly],
     "Ours, Table VI": [mixes_alike_for_every_target],
 }

@@ -10,6 +10,7 @@ from reproduce.ledger.entry import (
     DIFFERS,
     FITTED,
     NOT_COMPARED,
+    NULL_PASSES,
     REPRODUCED,
     Quantity,
 )
@@ -87,6 +88,39 @@ def test_rounding_widens_the_interval():
 def test_all_of_an_interval_is_beyond_a_limit(obtained, better, p, verdict):
     ends = {"low": obtained - 0.1, "high": obtained + 0.1, "p": p}
     assert Quantity("q", 1, obtained, **ends, better=better, bound=True).verdict == verdict
+
+
+@pytest.mark.parametrize(
+    ("claimed", "limit", "null", "verdict"),
+    [
+        (0.55, False, 0.6, NULL_PASSES),  # near enough to what is claimed
+        (0.55, False, 0.62, REPRODUCED),  # that too, but clearly worse than ours
+        (0.55, False, 0.3, NULL_PASSES),  # better than what is claimed
+        (0.55, False, 0.8, REPRODUCED),
+        (0.75, False, 0.9, BEATEN),
+        (0.75, False, 0.58, NULL_PASSES),  # what beats the paper does so by luck
+        (0.75, False, 0.7, BEATEN),  # luck beats it too, but not as ours does
+        (0.25, False, 0.2, DIFFERS),  # what does not hold needs no null
+        (1, True, 0.58, NULL_PASSES),
+        (1, True, 0.8, REPRODUCED),
+        (0.65, True, 0.58, REPRODUCED),  # as uncertain as ours, it might be above the limit
+        (None, False, 0.5, NOT_COMPARED),
+    ],
+)
+def test_a_null_passes_where_it_would_hold_in_the_place_of_ours(claimed, limit, null, verdict):
+    ends = {"low": 0.4, "high": 0.6, "better": -1, "bound": limit}
+    q = Quantity("q", claimed, 0.5, **ends, nulls={"luck": null, "none": 9.0})
+    assert q.verdict == verdict
+    assert q.passing_nulls() == ["luck"] or verdict != NULL_PASSES
+
+
+def test_what_was_fitted_is_no_better_than_its_null():
+    q = Quantity("q", 0.5, 0.5, fitted=True, nulls={"other weights": np.float64(0.5)})
+    assert q.verdict == NULL_PASSES
+    row = entry.Row("where", "claim", "chapter", lambda: [q, Quantity("r", 1, 2, better=1)])
+    measured = entry.measure(row)
+    assert measured["verdict"] == NULL_PASSES, "though it is beaten elsewhere"
+    assert type(measured["quantities"][0]["nulls"]["other weights"]) is float
 
 
 def test_verdict_of_a_row():

@@ -5,7 +5,7 @@ import pytest
 from reproduce import ledger
 from reproduce.ledger import calibration, filters, loop, planning
 from reproduce.ledger.entry import DIFFERS, NOT_COMPARED, measure
-from tests.reproduce.ledger.mutations_of_moving import MOVING
+from tests.reproduce.ledger.mutations_of_moving import MOVING, RIVALS
 from tests.reproduce.ledger.mutations_of_seeing import SEEING, learns_by_a_broken_recipe
 
 MUTATIONS = SEEING | MOVING
@@ -46,6 +46,16 @@ CASES = [
 def test_verdict_changes_when_the_code_is_wrong(where, mutate, monkeypatch):
     mutate(monkeypatch)
     assert measure(ROWS[where])["verdict"] == DIFFERS
+
+
+@pytest.mark.audit
+@pytest.mark.parametrize(
+    ("where", "rival", "says"),
+    [(where, rival, says) for where, found in RIVALS.items() for rival, says in found.items()],
+)
+def test_a_row_says_what_it_makes_of_a_rival(where, rival, says, monkeypatch):
+    rival(monkeypatch)
+    assert measure(ROWS[where])["verdict"] == says
 
 
 def test_the_recipe_that_is_whole_looks_like_gabors(monkeypatch):

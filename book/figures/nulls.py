@@ -1,0 +1,71 @@
+"""What does the work? Each mechanism of the paper beside its null and the best known."""
+
+import numpy as np
+
+from book.figures.panels import mark_now, panels
+from reproduce.experiments import nulls
+from reproduce.experiments.calibration import SCENARIOS, load_results
+from vmc_lib.show.palette import COLOURS
+from vmc_lib.statistics import student
+
+READINGS = {"where the command ends": nulls.BY_TRIES, "over the hold": nulls.BY_TRIES_HELD}
+LINES = {  # a rule -> its line
+    nulls.PAPER: ("blue", "-"),
+    nulls.BLIND: ("orange", "-"),
+    nulls.SAME_LENGTH: ("orange", ":"),
+    nulls.LINE: ("green", "--"),
+    nulls.WHOLE_HOLD: ("green", "-"),
+}
+
+
+def by_tries(reading, tries):
+    """What each rule leaves of the planned error after 0, 1, … tries, with 95 % bands."""
+    found = nulls.load_results()[READINGS[reading]]
+    fig, ax = panels(size=(6.4, 3.6))
+    for rule, (colour, style) in LINES.items():
+        middle, half = student(found[rule])
+        x = np.arange(len(middle))
+        ax.plot(x, middle, style, color=COLOURS[colour], label=rule)
+        ax.fill_between(x, middle - half, middle + half, color=COLOURS[colour], alpha=0.2, lw=0)
+        mark_now(ax, tries, middle[tries])
+    ax.set(xlabel="tries", ylabel="error / planned error", xlim=(0, nulls.TRIES), ylim=(0, 1.05))
+    ax.legend(loc="upper right", fontsize="small")
+    return fig
+
+
+def tries_in_words(reading, tries):
+    """The same in words: what each rule leaves after so many tries."""
+    found = nulls.load_results()[READINGS[reading]]
+    left = ", ".join(f"{found[rule][:, tries].mean():.2f} ({rule})" for rule in LINES)
+    return f"After {tries} tries, read {reading}, of the planned error there is left: {left}."
+
+
+def mechanisms():
+    """The mechanism, its nulls, the best known: part of the model -> name -> (draws,).
+
+    The miss over that of Eq. 5; and what is left of the planned error, off-line after the paper's
+    tries and online after one experiment, for movements never practised.
+    """
+    found, own = nulls.load_results(), load_results()[SCENARIOS[0]]
+    weights, tried, taught = (
+        found[k] for k in (nulls.BY_WEIGHTS, nulls.BY_TRIES, nulls.BY_LESSONS)
+    )
+    return {
+        "weights: miss over that of Eq. 5": {
+            "the paper: Eq. 5": np.ones(1),
+            **{f"null: {name}": weights[f"{name}, over Eq. 5"] for name in nulls.WEIGHTS},
+            "best known: Eq. 4 solved exactly": weights[f"{nulls.EXACT}, over Eq. 5"],
+        },
+        "off-line, 21 tries: error / planned": {
+            "the paper: Eq. 6–7": tried[nulls.PAPER][:, -1],
+            **{f"null: {name}": tried[name][:, -1] for name in nulls.LUCK},
+            f"the error's direction: {nulls.LINE}": tried[nulls.LINE][:, -1],
+            "best known: Broyden": tried[nulls.OURS][:, -1],
+        },
+        "online, new movements: error / planned": {
+            "the paper: Algorithm 2": taught[f"{nulls.PRINTED}, held-out"][:, 1],
+            f"the same, {nulls.BLINDLY_TAUGHT}": taught[f"{nulls.BLINDLY_TAUGHT}, held-out"][:, 1],
+            f"null: {nulls.SHUFFLED}": taught[f"{nulls.SHUFFLED}, held-out"][:, 1],
+            "best known: granule cells": own["own online, 25 movements, held-out"],
+        },
+    }
