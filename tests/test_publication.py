@@ -61,6 +61,14 @@ def test_every_doi_has_the_form_of_one():
     assert all(re.fullmatch(r"10\.\d{4,9}/\S+", doi) for doi in dois), dois
 
 
+def test_every_reference_can_be_opened():
+    """A DOI or an address; of one chapter of a book we found neither."""
+    closed = {name for name, entry in REFERENCES.items() if not {"doi", "url"} & {*entry.fields}}
+    assert closed == {"Todorov2003"}
+    addresses = [entry.fields["url"] for entry in REFERENCES.values() if "url" in entry.fields]
+    assert all(re.fullmatch(r"https?://\S+\.\S+/\S+", address) for address in addresses), addresses
+
+
 def test_the_files_of_the_checklist_exist():
     assert CHECKLIST
     for _, _, places in CHECKLIST:

@@ -65,6 +65,11 @@ def rates_of_counts(counts):
     return tuple(right / n if n else np.nan for n in (right + wrong, right + missed))
 
 
+def rates_of_right(right, shuttlecock):
+    """Precision and recall, of which crops (n,) are named right, and which are shuttlecocks."""
+    return rates_of_counts(confusion_counts(right == shuttlecock, shuttlecock))
+
+
 def table_3(level):
     """Table III on a level: measure -> split -> method -> (share, low, high), Wilson's 95 %.
 

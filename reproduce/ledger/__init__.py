@@ -86,13 +86,23 @@ def anchor(where):
 def details(entry):
     """An entry's reasons and all of its numbers, folded, as Markdown."""
     text = " ".join(filter(None, (entry["because"], entry["note"])))
-    heads = ["number", "paper", "ours (95 %)", "one more draw", "in sample", "nulls", "verdict"]
+    heads = [
+        "number",
+        "paper",
+        "ours (95 %)",
+        "one more draw",
+        "measured on",
+        "in sample",
+        "nulls",
+        "verdict",
+    ]
     rows = [
         [
             q["name"] + ARROWS[q["better"]],
             claim_text(q),
             result_text(q),
             draw_text(q),
+            q["sample"],
             q["in_sample"],
             "; ".join(f"{name}: {value:.3g}" for name, value in q["nulls"].items()),
             q["verdict"],

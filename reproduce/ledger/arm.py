@@ -26,7 +26,7 @@ def _figure_3():
         true = np.array([shot.target for shot in shots])
         gaps = np.linalg.norm(places - true, axis=1) / np.linalg.norm(true, axis=1)
         name = f"place seen, off the true one, over its distance ({level})"
-        quantities.append(mean(name, limit, gaps, better=-1, bound=True))
+        quantities.append(mean(name, limit, gaps, "photos", better=-1, bound=True))
     return quantities
 
 
@@ -67,7 +67,11 @@ def _effort():
     middle, half = student(np.log(spent / least))
     low, high = np.exp([middle - half, middle + half])
     name = "effort of habit over the optimum, geometric mean"
-    return [trivial_quantity(name, 1, np.exp(middle), low=low, high=high, **ABOVE)]
+    return [
+        trivial_quantity(
+            name, 1, np.exp(middle), low=low, high=high, sample=f"{len(spent)} targets", **ABOVE
+        )
+    ]
 
 
 ROWS = (

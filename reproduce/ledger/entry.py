@@ -47,6 +47,7 @@ class Quantity:
     fitted: bool = False  # a setting or a reading was chosen to come near what is claimed
     trivial: bool = False  # it cannot fail, short of a bug
     clock: bool = False  # read from a clock: no two runs give the same
+    sample: str = ""  # how many of what it was measured on, such as "20 draws"
     nulls: dict = field(default_factory=dict)  # by name: what luck, or another mechanism, obtains
 
     @property
@@ -94,57 +95,83 @@ class Quantity:
         return BEATEN if not agrees else BY_CONSTRUCTION if self.trivial else REPRODUCED
 
 
-def mean(name, claimed, values, **rest):
-    """A `Quantity` that is the mean of `values` (n,), with Student's interval."""
-    middle, half = student(values)
-    return Quantity(name, claimed, middle, low=middle - half, high=middle + half, **rest)
+def mean(name, claimed, values, unit="draws", of=None, **rest):
+    """A `Quantity` that is the mean of `values` (n,), one of each `unit`, with Student's interval.
 
-
-def mean_of_draws(name, claimed, values, limits=(0, np.inf), **rest):
-    """A `Quantity` that is the mean of draws (n,), each of a number as the paper's one is.
-
-    Beside Student's interval, that of one more draw, t s √(1 + 1/n). No interval leaves the
-    `limits`: a ratio of errors is never negative.
+    Where the paper's number is itself a mean over `of` so many: also where one more mean of that
+    size falls, t s √(1/n + 1/of).
     """
+    (middle, half), n = student(values), len(values)
+    ends = {"low": middle - half, "high": middle + half}
+    if of:
+        one = half * np.sqrt(1 + n / of)
+        ends |= {"least": middle - one, "most": middle + one}
+    return Quantity(name, claimed, middle, sample=f"{n} {unit}", **ends, **rest)
+
+
+def mean_of_draws(name, claimed, values, unit="draws", **rest):
+    """A `Quantity` that is the mean of ratios (n,), each of a draw as the paper's one is.
+
+    Both intervals are worked out on logarithms, so that none reaches below 0 and one odd draw
+    widens the side on which it lies: Student's of the mean (by the delta method: s / mean), and
+    that of one more draw, t s √(1 + 1/n) of the logarithms. ValueError for a draw that is not
+    positive.
+    """
+    if min(values) <= 0:
+        raise ValueError(f"{name}: a ratio of {min(values)} has no logarithm; take `mean` instead")
     middle, half = student(values)
-    one = half * np.sqrt(len(values) + 1)
-    ends = middle + np.array([-half, half, -one, one])
-    low, high, least, most = np.clip(ends, *limits).tolist()
+    logs, spread = student(np.log(values))
+    one = spread * np.sqrt(len(values) + 1)
+    low, high = middle * np.exp([-half / middle, half / middle])
+    least, most = np.exp([logs - one, logs + one])
     ends = {"low": low, "high": high, "least": least, "most": most}
-    return Quantity(name, claimed, middle, **ends, **rest)
+    return Quantity(name, claimed, middle, sample=f"{len(values)} {unit}", **ends, **rest)
 
 
-def share(name, claimed, right, n, of=None, **rest):
+def share(name, claimed, right, n, of=None, unit="cases", effect=1.0, **rest):
     """A `Quantity` that is a share, `right` of `n`, with Wilson's interval.
 
-    Where the paper counted `of` so many: also the least that one more count of that size gives, for
-    only what is below that is beaten.
+    Where the paper counted `of` so many: also where one more count of that size falls, for only
+    what is beyond that too is beaten or differs. Where several of a `unit` belong together, as
+    regions on one object do, all are worth fewer: counts are divided by the design `effect`.
     """
-    low, high = wilson(right, n)
-    least = _least_share(right, n, of)
-    return Quantity(name, claimed, right / n, low=low, high=high, least=least, **rest)
+    ends = dict(zip(("low", "high"), wilson(right / effect, n / effect), strict=True))
+    if of:
+        ends |= dict(zip(("least", "most"), _one_more_share(right, n, of, effect), strict=True))
+    return Quantity(name, claimed, right / n, sample=f"{round(n)} {unit}", **ends, **rest)
 
 
-def mean_of_trainings(name, claimed, shares, n, of=None, **rest):
+def mean_of_trainings(name, claimed, shares, n, of=None, unit="cases", effect=1.0, **rest):
     """A `Quantity` that is the mean of the shares of `n` that several trainings gave.
 
-    Its interval is the wider of two: Student's, for another training, and Wilson's, for others of
-    what was counted (if anything was). `of` as for a `share`.
+    Each of its intervals is the wider of two: Student's, for another training, and that of a
+    `share`, for others of what was counted (if anything was).
     """
     middle, half = student(shares)
-    low, high = wilson(middle * n, n) if n else (middle, middle)
-    low, high = max(0.0, min(low, middle - half)), min(1.0, max(high, middle + half))
-    least = _least_share(middle * n, n, of)
-    return Quantity(name, claimed, middle, low=low, high=high, least=least, **rest)
+    one = half * np.sqrt(len(shares) + 1)
+    counted = share(name, claimed, middle * n, n, of, unit, effect) if n else None
+    ends = {"low": middle - half, "high": middle + half}
+    ends |= {"least": middle - one, "most": middle + one} if of else {}
+    for end in ends if counted else ():
+        wider = min if end in ("low", "least") else max
+        ends[end] = wider(ends[end], getattr(counted, end))
+    ends = {end: float(np.clip(x, 0, 1)) for end, x in ends.items()}
+    sample = f"{len(shares)} trainings, {round(n)} {unit}"
+    return Quantity(name, claimed, middle, sample=sample, **ends, **rest)
 
 
-def _least_share(right, n, of):
-    """The 2.5 % point of one more share, of so many (posterior predictive, Jeffreys' prior)."""
+def _one_more_share(right, n, of, effect):
+    """The 95 % interval of one more share, of so many (posterior predictive, Jeffreys' prior)."""
     from scipy.stats import betabinom
 
-    if of is None:
-        return None
-    return betabinom.ppf(0.025, of, right + 0.5, n - right + 0.5) / of
+    right, n, of = right / effect, n / effect, max(1, round(of / effect))
+    return betabinom.ppf((0.025, 0.975), of, right + 0.5, n - right + 0.5) / of
+
+
+def wider_of(quantity, interval):
+    """A `Quantity` whose interval is the wider of its own and another (low, high), end by end."""
+    low, high = map(float, interval)
+    return replace(quantity, low=min(quantity.low, low), high=max(quantity.high, high))
 
 
 def trivial_quantity(name, claimed, obtained, **rest):

@@ -17,10 +17,11 @@ def _chain(scores, rule):
     nearer = 1000 * (scores["planned"] - scores[rule])[moved]
     name = "photos whose shuttlecock is found and named"
     exact = {"better": 1, "rounding": paper.SHARE}
+    closer = "how much nearer all that move are brought (mm)"
     return [
-        share(name, recall, named.sum(), count, paper.OBJECTS, **exact),
-        mean("how much nearer all that move are brought (mm)", 0, nearer, better=1, bound=True),
-        share("photos that end in a movement", None, moved.sum(), count),
+        share(name, recall, named.sum(), count, paper.OBJECTS, "photos", **exact),
+        mean(closer, 0, nearer, "movements", better=1, bound=True),
+        share("photos that end in a movement", None, moved.sum(), count, unit="photos"),
     ]
 
 

@@ -106,7 +106,7 @@ def _nearby():
         heavier = execute(habit.with_weights(1.1 * habit.weights)).error / gaps[*pairs.T]
         others = {"weights that sum to 1.1": heavier.mean()}
         name = f"half-way mixtures end astray, over the gap{reading}"
-        quantities.append(mean(name, 0.5, astray, nulls=others, **BELOW))
+        quantities.append(mean(name, 0.5, astray, "mixtures", nulls=others, **BELOW))
     return quantities
 
 

@@ -2,13 +2,18 @@
 
 from reproduce import paper
 from reproduce.experiments import fresh_test_set, localisation
-from reproduce.ledger.entry import Row, mean_of_draws, mean_of_trainings, share
+from reproduce.experiments.region_clusters import load_effects
+from reproduce.ledger.entry import Row, mean, mean_of_trainings, share
 from reproduce.results import arrays
 from vmc_lib import photos
 
 KERNELS = {"linear": "linear", "RBF": "rbf", "polynomial": "poly", "Gaussian": "sigmoid"}
 MEASURES = ("precision", "recall")
 SECOND_HUNDRED = "On a hundred fresh photos that had no part in any choice."
+CLUSTERED = (
+    " Several regions lie on one object, and are often right or wrong together: intervals take "
+    "them for fewer (1.0 to 1.8 times fewer: their design effect on the photos that ship)."
+)
 EXACT = {"better": 1, "rounding": paper.SHARE}
 
 
@@ -23,11 +28,12 @@ def _table_1():
     quantities = []
     for name, kernel in KERNELS.items():
         rows, learnt = held_out[kernel], in_sample[kernel].mean(axis=0)
-        quantities += _trained(name, paper.TABLE_1[name], rows, learnt, wanted, of)
+        how = {"unit": "regions", "effects": load_effects()["published"][kernel]}
+        quantities += _trained(name, paper.TABLE_1[name], rows, learnt, wanted, of, **how)
     return quantities
 
 
-def _trained(name, claimed, rows, in_sample, wanted, of):
+def _trained(name, claimed, rows, in_sample, wanted, of, unit="objects", effects=(1, 1)):
     """Of rows (trainings, 2) measured where so many regions or objects were wanted."""
     precision, recall = rows.mean(axis=0)
     called = recall * wanted / precision if precision else 0
@@ -38,6 +44,8 @@ def _trained(name, claimed, rows, in_sample, wanted, of):
             rows[:, k],
             (called, wanted)[k],
             of=of,
+            unit=unit,
+            effect=effects[k],
             in_sample=in_sample[k],
             **EXACT,
         )
@@ -45,11 +53,22 @@ def _trained(name, claimed, rows, in_sample, wanted, of):
     ]
 
 
-def _fresh(name, question, claimed, in_sample, of):
-    """What a question put to the fresh photos of the rig says."""
+def _fresh(name, question, claimed, in_sample, of, nulls, unit="objects", effects=(1, 1)):
+    """What a question put to the fresh photos of the rig says, beside `nulls`: name -> (2,)."""
     right, wrong, missed = fresh_test_set.load_counts()[question]["rig"]
     return [
-        share(f"{name}: {measure}", claimed[k], right, n, of, in_sample=in_sample[k], **EXACT)
+        share(
+            f"{name}: {measure}",
+            claimed[k],
+            right,
+            n,
+            of,
+            unit,
+            effects[k],
+            in_sample=in_sample[k],
+            nulls={null: rates[k] for null, rates in nulls.items()},
+            **EXACT,
+        )
         for k, (measure, n) in enumerate(
             zip(MEASURES, (right + wrong, right + missed), strict=True)
         )
@@ -60,23 +79,38 @@ def _kernels():
     rows = fresh_test_set.table_1()
     gaps = rows["rbf"] - rows["linear"]
     return [
-        mean_of_draws(f"{measure}, RBF less linear", 0, gaps[:, k], (-1, 1), better=-1)
+        mean(f"{measure}, RBF less linear", 0, gaps[:, k], "trainings", of=1, better=-1)
         for k, measure in enumerate(MEASURES)
     ]
 
 
 def _own_table_1():
     in_sample = localisation.table_1("rig", "train", "context")["linear"].mean(axis=0)
-    of = paper.TEST_ROIS["positive"]
-    return _fresh("linear, fresh photos", "linear", paper.TABLE_1["linear"], in_sample, of)
+    how = {"unit": "regions", "effects": load_effects()["context"]["linear"]}
+    return _fresh(
+        "linear, fresh photos",
+        "linear",
+        paper.TABLE_1["linear"],
+        in_sample,
+        paper.TEST_ROIS["positive"],
+        {"without context": fresh_test_set.table_1()["linear"].mean(axis=0)},
+        **how,
+    )
 
 
 def _own_table_2():
     in_sample = localisation.table_2("rig", "train")["improved"]
     name, rows = "improved, IoU", arrays("localisation")["rig/improved/seeds"]
     objects = sum(len(photo.boxes) for photo in photos.load("rig", "test"))
+    uncorrected = fresh_test_set.load_counts()["single"]["rig"]
+    nulls = {
+        "the same search, boxes not corrected": [
+            rate for rate, *_ in fresh_test_set.wilson_rates(*uncorrected)
+        ]
+    }
+    exam = paper.TABLE_2, in_sample, paper.OBJECTS, nulls
     return [
-        *_fresh(f"{name}, fresh photos", "improved", paper.TABLE_2, in_sample, paper.OBJECTS),
+        *_fresh(f"{name}, fresh photos", "improved", *exam),
         *_trained(name, None, rows, in_sample, objects, paper.OBJECTS),
     ]
 
@@ -91,7 +125,8 @@ def _table_2():
         how = paper.TABLE_2, rows, in_sample, objects, paper.OBJECTS
         quantities += _trained(f"published, {reading}", *how)
     limit = "recall that the candidates allow"
-    return [*quantities, share(limit, paper.TABLE_2[1], right, objects, paper.OBJECTS, **EXACT)]
+    of = paper.OBJECTS
+    return [*quantities, share(limit, paper.TABLE_2[1], right, objects, of, "objects", **EXACT)]
 
 
 ROWS = (
@@ -106,7 +141,9 @@ ROWS = (
         "*Ours, Table I*.",
         note="C and γ of each kernel were chosen on the rig's validation photos, from one grid; "
         "that crops have 16 × 16 pixels, from -1 to 1, is ours. “Gaussian” beside “RBF” is "
-        "unclear; we read it as the fourth kernel of LibSVM, the sigmoid. " + SECOND_HUNDRED,
+        "unclear; we read it as the fourth kernel of LibSVM, the sigmoid. "
+        + SECOND_HUNDRED
+        + CLUSTERED,
     ),
     Row(
         "IV A, kernels",
@@ -137,16 +174,16 @@ ROWS = (
         _own_table_1,
         differs="Its recall does; its precision is "
         "{q[linear, fresh photos: precision].obtained:.3f}, not 1.",
-        note=SECOND_HUNDRED,
+        note=SECOND_HUNDRED + CLUSTERED,
     ),
     Row(
         "Ours, Table II",
         "Corrected boxes and a judge of near misses localise both objects.",
         "03_regions",
         _own_table_2,
-        differs="Its recall does, and better; of all boxes that it keeps, "
-        "{q[improved, IoU, fresh photos: precision].obtained:.4f} are right, not all.",
         note="Two hundred fresh photos decide; beside them stands the mean of six trainings on the "
-        "forty that ship.",
+        "forty that ship. Of all boxes that it keeps, "
+        "{q[improved, IoU, fresh photos: precision].obtained:.4f} are right; the paper, which "
+        "counted no error among about 79, would often see none with ours either.",
     ),
 )

@@ -57,19 +57,26 @@ def separation(answers, shuttlecock):
     return views_right(answers, shuttlecock).mean()
 
 
+def most_varying(films):
+    """Directions (d, d) of films (n, views, d), those that vary most first: PCA, blind to time."""
+    flat = films.reshape(-1, films.shape[-1])
+    return np.linalg.svd(flat - flat.mean(axis=0), full_matrices=False)[2].T
+
+
 def steadiest_right():
-    """`views_right` of the steadiest unit in test films, (n,); and after shuffled lessons.
+    """`views_right` in test films of the steadiest unit, (n,); after shuffled lessons; of PCA.
 
     It learns from the films of training photos; then, again and again, from the same views in
-    another order, (SHUFFLES, n).
+    another order, (SHUFFLES, n). The last, (n,), is of the unit that varies most in them.
     """
     rng = np.random.default_rng(0)
     lived, _ = films("train", rng)
     new, shuttlecock = films("test", rng)
     flat, shape = lived.reshape(-1, lived.shape[-1]), lived.shape
     lessons = [lived, *(rng.permutation(flat).reshape(shape) for _ in range(SHUFFLES))]
-    right, *shuffled = (
-        views_right((new - flat.mean(axis=0)) @ slowest(lesson)[:, 0], shuttlecock)
-        for lesson in lessons
+    learnt = [*map(slowest, lessons), most_varying(lived)]
+    right, *shuffled, varying = (
+        views_right((new - flat.mean(axis=0)) @ directions[:, 0], shuttlecock)
+        for directions in learnt
     )
-    return right, np.array(shuffled)
+    return right, np.array(shuffled), varying

@@ -47,26 +47,58 @@ def test_a_number_is_held_against_its_interval(claimed, obtained, better, verdic
     ],
 )
 def test_beaten_is_what_no_single_draw_gives(claimed, fitted, verdict):
-    draws = 0.5 + 0.06 * np.array([-1, -1, 0, 0, 1, 1])
+    draws = 0.5 * np.exp(0.12 * np.array([-1, -1, 0, 0, 1, 1]))
     q = entry.mean_of_draws("q", claimed, draws, better=-1, fitted=fitted)
-    half = 2.5706 * draws.std(ddof=1)
-    assert (q.low, q.high) == pytest.approx((0.5 - half / 6**0.5, 0.5 + half / 6**0.5), rel=1e-4)
-    one = half * (1 + 1 / 6) ** 0.5
-    assert (q.least, q.most) == pytest.approx((0.5 - one, 0.5 + one), rel=1e-4)
-    assert q.verdict == verdict
+    half = 2.5706 * np.log(draws).std(ddof=1) * (1 + 1 / 6) ** 0.5
+    assert (q.least, q.most) == pytest.approx((0.5 * np.exp(-half), 0.5 * np.exp(half)), rel=1e-4)
+    assert (q.verdict, q.sample) == (verdict, "6 draws")
 
 
-def test_no_interval_of_a_share_or_a_ratio_leaves_its_limits():
-    q = entry.mean_of_draws("q", 1, [1, 1, 1, 0.9, 1, 1], (0, 1))
+def test_one_odd_draw_widens_the_interval_of_a_ratio_upwards_and_never_below_0():
+    draws = [0.016, 0.011, 0.011, 0.005, 0.157, 0.007]
+    q, plain = entry.mean_of_draws("q", None, draws), entry.mean("q", None, draws)
+    assert plain.low < 0 < q.least < q.low < q.obtained == plain.obtained < plain.high < q.high
+    with pytest.raises(ValueError, match="a ratio of 0 has no logarithm"):
+        entry.mean_of_draws("q", 1, [0.2, 0, 0.1])
+
+
+def test_where_the_papers_number_is_a_mean_too_its_own_luck_counts():
+    values = np.arange(40) % 4
+    alone, both = (entry.mean("q", 1.98, values, "photos", of=of) for of in (None, 40))
+    assert (alone.least, both.sample) == (None, "40 photos")
+    assert both.most - both.obtained == pytest.approx(2**0.5 * (both.high - both.obtained))
+
+
+def test_no_interval_of_a_share_leaves_its_limits():
+    q = entry.mean_of_trainings("q", 1, [1, 0.9, 1], 10, 10)
     assert (q.high, q.most) == (1, 1)
-    assert entry.mean_of_draws("q", 1, [0.01, 0.3, 0.01]).least == 0
-    assert entry.mean_of_trainings("q", 1, [1, 0.9, 1], 10).high == 1
 
 
 def test_a_share_is_beaten_only_where_a_count_of_the_papers_size_tells():
     many, few = (entry.share("q", 75 / 79, 397, 400, of, better=1) for of in (79, 9))
     assert (many.verdict, few.verdict) == (BEATEN, REPRODUCED)
-    assert entry.share("q", 1, 149, 150, better=1).verdict == DIFFERS  # one exception refutes each
+
+
+def test_a_share_differs_only_where_a_count_of_the_papers_size_tells():
+    """The paper saw five of five, or 79 of 79; one exception in many does not refute that."""
+    assert entry.share("q", 1, 149, 150, better=1).verdict == DIFFERS, "of all that there are"
+    assert entry.share("q", 1, 494, 500, 5, better=1).verdict == REPRODUCED
+    assert entry.share("q", 1, 397, 400, 79, better=1).verdict == REPRODUCED
+    assert entry.share("q", 1, 60, 100, 79, better=1).verdict == DIFFERS
+
+
+def test_what_belongs_together_counts_for_less():
+    alone, clustered = (entry.share("q", 1, 90, 100, 50, effect=e) for e in (1, 2))
+    assert (clustered.low, clustered.high) == entry.wilson(45, 50)
+    assert alone.obtained == clustered.obtained
+    assert clustered.least < alone.least < alone.low
+    trained = entry.mean_of_trainings("q", 1, [0.9, 0.9], 100, 50, effect=2)
+    assert (trained.low, trained.least) == (clustered.low, clustered.least)
+
+
+def test_the_wider_of_two_intervals():
+    q = entry.wider_of(entry.mean("q", 0, [1, 2, 3]), (1.9, 5))
+    assert q.low < 1.9 < q.high == 5
 
 
 def test_rounding_widens_the_interval():

@@ -1,0 +1,80 @@
+"""Does learning name the crops? The CDBN beside networks whose filters no lesson made.
+
+Both layers' filters are drawn at random, as strong as the learnt ones; biases, pooling, read-outs
+and classifier stay, the crops to learn names from are the same, and the classifier's cost is chosen
+on the same validation photos. Every network answers the test photos once.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+from joblib import Parallel, delayed
+
+from reproduce.experiments.cdbn_sensitivity import training_crops
+from reproduce.results import arrays
+from reproduce.training.name_classifier import fit_name_classifier
+from vmc_lib import photos
+from vmc_lib.what.cdbn import CDBN, crops_of
+from vmc_lib.what.crbm import CRBM
+from vmc_lib.what.crops import whiten
+from vmc_lib.what.recogniser import read_outs
+
+LEARNT, DRAWS = "learnt", range(6)
+LEVELS, ASKED = ("rig", "varied"), ("MP2", "P2")
+LESSONS = 20  # photos from whose shuttlecocks a network takes the mean and spread of P1
+
+
+def random_network(network, pictures, rng):
+    """A CDBN as `network`, with Gaussian filters as strong as its own in both layers.
+
+    P1 is standardised by its mean and spread on whitened pictures (n, 1, 200, 200).
+    """
+
+    def machine(crbm):
+        W = rng.normal(scale=crbm.W.std(), size=crbm.W.shape).astype(np.float32)
+        return CRBM(W, crbm.b, crbm.a, crbm.c)
+
+    first, second = map(machine, (network.first, network.second))
+    p1 = first.pooled(first.trim(pictures))
+    mean, spread = float(p1.mean()), float(p1.std())
+    return replace(network, first=first, second=second, mean=mean, spread=spread)
+
+
+def answers(draw, folder=photos.FOLDER):
+    """Probabilities (crops,) that the test photos' crops are shuttlecocks: "level/read-out" -> p.
+
+    Of the network that ships (LEARNT), or of a random one, by its number.
+    """
+    network, found = CDBN.load(), {}
+    if draw != LEARNT:
+        crops, positive = crops_of(photos.load("rig", "train", folder)[:LESSONS])
+        rng = np.random.default_rng(draw)
+        network = random_network(network, whiten(crops[positive]), rng)
+    for level in LEVELS:
+        jittered, y = training_crops(folder)[level]
+        x = read_outs(network, jittered)
+        exams = [crops_of(photos.load(level, split, folder)) for split in ("validation", "test")]
+        (checked, truth), (asked, _) = ((read_outs(network, crops), t) for crops, t in exams)
+        for name in ASKED:
+            classifier = fit_name_classifier(x[name], y, checked[name], truth)
+            found[f"{level}/{name}"] = np.float32(classifier.probability(asked[name]))
+    return found
+
+
+def make(folder=photos.FOLDER, draws=DRAWS):
+    """What `results/random_filters.npz` holds: "level/read-out" -> (1 + draws, crops).
+
+    The learnt network's answers come first.
+    """
+    rows = Parallel()(delayed(answers)(draw, folder) for draw in (LEARNT, *draws))
+    return {key: np.array([row[key] for row in rows]) for key in rows[0]}
+
+
+def load_right(level, read_out="MP2"):
+    """Which test crops of a level the networks name right: learnt (crops,), random (draws, crops).
+
+    And which of them are shuttlecocks, (crops,).
+    """
+    _, truth = crops_of(photos.load(level, "test"))
+    learnt, *random = (arrays("random_filters")[f"{level}/{read_out}"] > 0.5) == truth
+    return learnt, np.array(random), truth

@@ -1,0 +1,53 @@
+"""How much regions on one photo say the same: design effects of Table I's shares.
+
+A photo has several good regions on one object, and a classifier is often right, or wrong, about
+all of them. So a share of regions is less sure than if each had its own photo, by the design effect
+(its variance over photos, over that of independent regions). The fresh photos' answers are kept as
+counts; the effect is measured on the rig's test photos that ship, photo by photo.
+"""
+
+import numpy as np
+
+from reproduce import results
+from reproduce.experiments.localisation import TABLE_1_KERNELS, train_classifiers
+from reproduce.training.detectors import labelled_candidates
+from vmc_lib import photos
+from vmc_lib.where.recipes import RECIPES
+
+KERNELS = {"published": TABLE_1_KERNELS, "context": ("linear",)}  # by recipe
+
+
+def design_effect(right, total):
+    """The variance of Σ right / Σ total over clusters (n,), over the binomial one; at least 1.
+
+    Of a share of 0 or 1, which shows no variance, it is 1.
+    """
+    right, total = np.asarray(right, float), np.asarray(total, float)
+    share, n = right.sum() / total.sum(), len(total)
+    if share in (0, 1):
+        return 1.0
+    variance = n / (n - 1) * ((right - share * total) ** 2).sum() / total.sum() ** 2
+    return max(1.0, float(variance * total.sum() / (share * (1 - share))))
+
+
+def effects(name, kernel_names, folder=photos.FOLDER):
+    """Kernel -> the design effects of precision and of recall, with the recipe `name`."""
+    shots, found = photos.load("rig", "test", folder), {}
+    by_photo = [labelled_candidates([shot], RECIPES[name]) for shot in shots]
+    trained = train_classifiers("rig", name, kernel_names, 0, folder)
+    for kernel, (svm, threshold) in zip(kernel_names, trained, strict=True):
+        answers = [(svm.score(x) > threshold, truth) for x, truth in by_photo]
+        right = [(called & truth).sum() for called, truth in answers]
+        totals = [[part.sum() for part in parts] for parts in zip(*answers, strict=True)]
+        found[kernel] = [design_effect(right, total) for total in totals]
+    return found
+
+
+def make(folder=photos.FOLDER, kernels=KERNELS):
+    """What `results/region_clusters.json` holds: recipe -> `effects`."""
+    return {name: effects(name, some, folder) for name, some in kernels.items()}
+
+
+def load_effects():
+    """What `make` found: recipe -> kernel -> [precision's, recall's]."""
+    return results.records("region_clusters")
