@@ -8,7 +8,7 @@ from tests.pages import stop_clock
 from vmc_lib.show import Slider, explore, figure
 
 pytestmark = pytest.mark.browser
-RATE, PAUSE, LONG = 8000, 0.8, 2  # Hz, s: of the samples, and of static/sound.js
+RATE, PAUSE, LONG = 8000, 0.8, 2  # Hz, s: of the samples, and of page/demo/sound.js
 RENDER = f"""() => {{ self.AudioContext = class extends OfflineAudioContext {{
   constructor() {{
     super(2, {10 * RATE}, {RATE});
