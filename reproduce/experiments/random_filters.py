@@ -40,7 +40,7 @@ def random_network(network, pictures, rng):
     return replace(network, first=first, second=second, mean=mean, spread=spread)
 
 
-def answers(draw, folder=photos.FOLDER):
+def answers(draw, folder=photos.FOLDER, levels=LEVELS):
     """Probabilities (crops,) that the test photos' crops are shuttlecocks: "level/read-out" -> p.
 
     Of the network that ships (LEARNT), or of a random one, by its number.
@@ -50,7 +50,7 @@ def answers(draw, folder=photos.FOLDER):
         crops, positive = crops_of(photos.load("rig", "train", folder)[:LESSONS])
         rng = np.random.default_rng(draw)
         network = random_network(network, whiten(crops[positive]), rng)
-    for level in LEVELS:
+    for level in levels:
         jittered, y = training_crops(folder)[level]
         x = read_outs(network, jittered)
         exams = [crops_of(photos.load(level, split, folder)) for split in ("validation", "test")]

@@ -20,12 +20,12 @@ KERNELS = {"published": TABLE_1_KERNELS, "context": ("linear",)}  # by recipe
 def design_effect(right, total):
     """The variance of Σ right / Σ total over clusters (n,), over the binomial one; at least 1.
 
-    Of a share of 0 or 1, which shows no variance, it is 1.
+    Of a share of 0 or 1, which shows no variance, it is 1, and so it is of no regions at all.
     """
     right, total = np.asarray(right, float), np.asarray(total, float)
-    share, n = right.sum() / total.sum(), len(total)
-    if share in (0, 1):
+    if right.sum() in (0, total.sum()):
         return 1.0
+    share, n = right.sum() / total.sum(), len(total)
     variance = n / (n - 1) * ((right - share * total) ** 2).sum() / total.sum() ** 2
     return max(1.0, float(variance * total.sum() / (share * (1 - share))))
 

@@ -28,9 +28,12 @@ from reproduce.experiments import (
     loop_evaluation,
     muscle_weakness,
     nulls,
+    other_filters,
     printed_sheet,
+    random_filters,
     real_world,
     recognition,
+    region_clusters,
     second_layers,
     stream_ablation,
 )
@@ -140,6 +143,9 @@ STEPS = (
     Step(recognition.make, RESULTS / "recognition.npz", "photos cdbn", 3),
     Step(hmax_draws.make, RESULTS / "hmax_draws.npz", "photos recognition", 3),
     Step(second_layers.make, RESULTS / "second_layers.npz", "photos cdbn", 2),
+    Step(other_filters.make, RESULTS / "other_filters.json", "photos cdbn", 4),
+    Step(random_filters.make, RESULTS / "random_filters.npz", "photos cdbn", 4),
+    Step(region_clusters.make, RESULTS / "region_clusters.json", "photos candidates", 1),
     Step(class_independence.make, RESULTS / "class_independence.npz", "photos", 3),
     Step(cdbn_sensitivity.make, RESULTS / "variations.npz", "photos", 15),
     Step(crbm_ablation.make, RESULTS / "tricks.npz", "photos"),
@@ -191,6 +197,7 @@ STEPS = (
         ledger.make,
         RESULTS / "ledger.json",
         "localisation recognition fresh_names fresh_test_set variations hmax_draws second_layers "
+        "other_filters random_filters region_clusters "
         "class_independence movements nulls unsteady optimal reproduce/results/opensim.npz "
         f"reproduce/results/bench {SHIPPED}",
         8,

@@ -6,9 +6,14 @@ from reproduce import ledger
 from reproduce.ledger import calibration, filters, loop, planning
 from reproduce.ledger.entry import DIFFERS, NOT_COMPARED, measure
 from tests.reproduce.ledger.mutations_of_moving import MOVING, RIVALS
-from tests.reproduce.ledger.mutations_of_seeing import SEEING, learns_by_a_broken_recipe
+from tests.reproduce.ledger.mutations_of_seeing import (
+    SEEING,
+    SEEING_RIVALS,
+    learns_by_a_broken_recipe,
+    mixes_the_lessons,
+)
 
-MUTATIONS = SEEING | MOVING
+MUTATIONS, EVERY_RIVAL = SEEING | MOVING, SEEING_RIVALS | RIVALS
 ROWS = {row.where: row for row in ledger.ROWS}
 HOLDS = [e["where"] for e in ledger.load()["rows"] if e["verdict"] not in (DIFFERS, NOT_COMPARED)]
 CACHES = (
@@ -51,11 +56,19 @@ def test_verdict_changes_when_the_code_is_wrong(where, mutate, monkeypatch):
 @pytest.mark.audit
 @pytest.mark.parametrize(
     ("where", "rival", "says"),
-    [(where, rival, says) for where, found in RIVALS.items() for rival, says in found.items()],
+    [(where, *pair) for where, found in EVERY_RIVAL.items() for pair in found.items()],
 )
 def test_a_row_says_what_it_makes_of_a_rival(where, rival, says, monkeypatch):
     rival(monkeypatch)
     assert measure(ROWS[where])["verdict"] == says
+
+
+@pytest.mark.audit
+def test_what_the_second_layer_prefers_depends_on_its_lesson(monkeypatch):
+    """What stands of *IV B, W²*."""
+    mixes_the_lessons(monkeypatch)
+    numbers = measure(ROWS["IV B, W²"])["quantities"]
+    assert [q["verdict"] for q in numbers if "taught by" in q["name"]] == [DIFFERS]
 
 
 def test_the_recipe_that_is_whole_looks_like_gabors(monkeypatch):

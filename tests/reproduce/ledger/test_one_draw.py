@@ -3,10 +3,78 @@
 import numpy as np
 import pytest
 
-from reproduce.experiments import calibration, class_independence, hmax_draws, second_layers
+from reproduce.experiments import (
+    calibration,
+    cdbn_sensitivity,
+    class_independence,
+    hmax_draws,
+    other_filters,
+    random_filters,
+    region_clusters,
+    second_layers,
+)
+from reproduce.pipeline import stored
 from reproduce.results import arrays
+from tests.project import ROOT
 from vmc_lib import photos
+from vmc_lib.what.cdbn import N_W
 from vmc_lib.where.selective_search import propose
+
+ELSEWHERE = {  # tests that make one draw of other steps again
+    "localisation": "experiments/test_localisation.py::test_table_1_ships_as_it_is_measured",
+    "recognition": "experiments/test_recognition.py::test_shipped_probabilities_are_reproducible",
+    "optimal": "peers/test_optimal_control.py::test_shipped_optima_are_reproducible",
+    "nulls": "experiments/test_nulls.py::test_one_draw_of_nulls_is_reproducible",
+    "unsteady": "experiments/test_learning_under_noise.py::test_shipped_results_are_reproducible",
+}
+HERE = {"movements", "second_layers", "hmax_draws", "class_independence"}
+HERE |= {"random_filters", "other_filters", "region_clusters", "variations"}
+
+
+def test_one_draw_of_each_stored_result_is_made_again():
+    """But of those that the page says cannot be."""
+    for place in ELSEWHERE.values():
+        file, name = place.split("::")
+        text = (ROOT / "tests/reproduce" / file).read_text(encoding="utf-8")
+        assert f"def {name}(" in text, place
+    assert {*ELSEWHERE} | HERE == {*stored.RESTS_ON} - {*stored.NOT_AGAIN}
+
+
+def test_one_draw_of_random_filters_is_reproducible():
+    """On the rig, the second read-out: where both names are sure."""
+    now, shipped = random_filters.answers(0, levels=("rig",)), arrays("random_filters")
+    for key, probability in now.items():
+        np.testing.assert_allclose(probability, shipped[key][1], atol=0.02)
+
+
+@pytest.mark.audit
+def test_one_draw_of_other_filters_is_reproducible():
+    shipped = other_filters.load_rivals()
+    assert other_filters.second_layer("mirrored") == pytest.approx(
+        shipped["second"]["mirrored"], abs=1e-3
+    )
+    now = other_filters.first_layer("smoothed noise")
+    np.testing.assert_allclose(now, shipped["first"]["smoothed noise"], atol=1e-3)
+
+
+def test_design_effects_are_reproducible():
+    now = region_clusters.effects("context", ("linear",))["linear"]
+    assert now == pytest.approx(region_clusters.load_effects()["context"]["linear"], rel=0.05)
+
+
+def test_design_effect_by_hand():
+    """Two photos of two regions: alike in a photo, twice as unsure; independent of it, 1."""
+    assert region_clusters.design_effect([2, 0, 2, 0], [2, 2, 2, 2]) == pytest.approx(8 / 3)
+    assert region_clusters.design_effect([1, 1, 1, 1], [2, 2, 2, 2]) == 1
+    assert region_clusters.design_effect([2, 2], [2, 2]) == 1
+
+
+@pytest.mark.audit
+def test_one_training_of_the_network_is_reproducible():
+    filters, counts = cdbn_sensitivity.train_variation((N_W, 0), photos.FOLDER, photos.FOLDER)
+    shipped_filters, shipped = cdbn_sensitivity.load_results()[N_W, 0]
+    np.testing.assert_allclose(filters, shipped_filters, atol=0.02)
+    assert abs(counts - shipped).max() <= 2
 
 
 def test_one_draw_of_movements_is_reproducible():
