@@ -29,6 +29,7 @@ def by_tries(reading, tries):
         ax.fill_between(x, middle - half, middle + half, color=COLOURS[colour], alpha=0.2, lw=0)
         mark_now(ax, tries, middle[tries])
     ax.set(xlabel="tries", ylabel="error / planned error", xlim=(0, nulls.TRIES), ylim=(0, 1.05))
+    ax.set_xticks(range(0, nulls.TRIES + 1, 3))
     ax.legend(loc="upper right", fontsize="small")
     return fig
 
@@ -56,13 +57,13 @@ def mechanisms():
             **{f"null: {name}": weights[f"{name}, over Eq. 5"] for name in nulls.WEIGHTS},
             "best known: Eq. 4 solved exactly": weights[f"{nulls.EXACT}, over Eq. 5"],
         },
-        "off-line, 21 tries: error / planned": {
+        "off-line, 21 tries: error left": {
             "the paper: Eq. 6–7": tried[nulls.PAPER][:, -1],
             **{f"null: {name}": tried[name][:, -1] for name in nulls.LUCK},
             f"the error's direction: {nulls.LINE}": tried[nulls.LINE][:, -1],
             "best known: Broyden": tried[nulls.OURS][:, -1],
         },
-        "online, new movements: error / planned": {
+        "online, new reaches: error left": {
             "the paper: Algorithm 2": taught[f"{nulls.PRINTED}, held-out"][:, 1],
             f"the same, {nulls.BLINDLY_TAUGHT}": taught[f"{nulls.BLINDLY_TAUGHT}, held-out"][:, 1],
             f"null: {nulls.SHUFFLED}": taught[f"{nulls.SHUFFLED}, held-out"][:, 1],
