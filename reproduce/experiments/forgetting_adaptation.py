@@ -1,0 +1,178 @@
+"""People's experiments on the model: a turned cursor, and an error clamp, with learning that fades.
+
+The book's `Adaptation` takes a share of each error and forgets nothing. Here it may forget a share
+with every cycle of movements, as state-space models of people do (Smith et al. 2006). The targets
+lie round the start of the hand, and angles are measured there, as in the people's experiments.
+"""
+
+from functools import partial
+from itertools import product
+from typing import NamedTuple
+
+import numpy as np
+from joblib import Parallel, delayed
+
+from reproduce import results
+from reproduce.experiments.calibration import MANY
+from reproduce.measures.changed_worlds import BLOCKS, PERTURBATIONS, adapt, train_aim_correction
+from reproduce.people import MEASUREMENTS, MISSES
+from vmc_lib.arm.dynamics import hand
+from vmc_lib.cerebellum.adaptation import Adaptation
+from vmc_lib.motor.execution import execute
+from vmc_lib.motor.planning import plan
+from vmc_lib.motor.templates import START, load
+
+HOME = hand(START)[:2]  # m: where every reach begins
+DISTANCE = 0.08  # m: the farthest targets round which a hand may turn by 30 degrees among templates
+DIRECTIONS = np.radians([210.0, 250.0, 290.0, 330.0])  # there are no templates above the start
+SHARES = (0.1, 0.2, 0.3, 0.45, 1 / 1.3)  # of an error that is learnt at once; the book's is last
+FORGETS = (0.0, 0.01, 0.02, 0.03, 0.05, 0.07, 0.1, 0.15)  # of what was learnt, with every cycle
+SIZES = (1.75, 3.5, 7.0, 14.0)  # degrees, of clamps
+SHOWN, TURNED = np.radians(3.5), np.radians(30.0)
+SEEN, UNSEEN = "seen", "unseen"
+CLAMP = [SEEN, *80 * [SHOWN], *5 * [UNSEEN], *10 * [SEEN]]  # cycles: an angle is an error clamp
+CLAMPED = slice(1, 81)
+LAST_WITH_LOAD = sum(BLOCKS[:2]) - 1
+# cycles of 't Hart and Henriques: turned one way, the other way, and clamped to the target
+ROTATION = [*2 * [0.0], *25 * [-TURNED], *3 * [TURNED]]
+REBOUND = 5 * [0.0]
+
+
+class Shown(NamedTuple):
+    """What the learner sees of its movements."""
+
+    endpoint: np.ndarray  # (n, 2), m
+
+
+class ForgettingAdaptation(Adaptation):
+    """`Adaptation` of the aim that learns a `share` of an error, and `forgets` one of all."""
+
+    def __init__(self, trained_correction, template_set, share, forgets, corrects="aim"):
+        super().__init__(trained_correction, template_set, corrects, 1 / share - 1)
+        self.forgets = forgets
+
+    def update(self, plan, execute=execute):
+        """Move, learn from what is seen, and forget."""
+        movement = super().update(plan, execute)
+        self.forget()
+        return movement
+
+    def forget(self):
+        """Keep the rest of what was learnt."""
+        self.purkinje = (1 - self.forgets) * self.purkinje
+
+
+def turn(points, angle):
+    """Plane positions (…, 2) turned about `HOME` by an angle, rad, anticlockwise."""
+    c, s = np.cos(angle), np.sin(angle)
+    return (points - HOME) @ np.array([[c, s], [-s, c]]) + HOME
+
+
+def direction(points):
+    """The direction of plane positions (…, 2) from `HOME`, (…), rad."""
+    away = points - HOME
+    return np.arctan2(away[..., 1], away[..., 0])
+
+
+def targets(directions=DIRECTIONS):
+    """Places (n, 2), m, at `DISTANCE` from `HOME`."""
+    return HOME + DISTANCE * np.stack([np.cos(directions), np.sin(directions)], axis=-1)
+
+
+def hand_angles(learner, plans, cycles, look):
+    """How far the hand turns from its targets in each cycle, (cycles,), rad; mean over targets.
+
+    `look(cycle, movement)` says which end points (n, 2) are shown, or None if nothing is.
+    """
+    turned = []
+    for cycle in cycles:
+        movement = execute(learner.correct(plans))
+        off = direction(movement.endpoint) - direction(plans.target)
+        turned.append(np.angle(np.exp(1j * off)).mean())
+        seen = look(cycle, movement)
+        if seen is None:
+            learner.forget()
+        else:
+            learner.update(plans, lambda _, seen=seen: Shown(seen))
+    return np.array(turned)
+
+
+def clamp_angles(learner, plans, cycles=CLAMP):
+    """`hand_angles` in degrees of an error clamp, positive away from what is shown, from zero on.
+
+    In the first cycle and the last ten the hand is seen, in the five before these it is not.
+    """
+
+    def look(cycle, movement):
+        if cycle in (SEEN, UNSEEN):
+            return movement.endpoint if cycle == SEEN else None
+        return turn(plans.target, cycle)
+
+    angles = hand_angles(learner, plans, cycles, look)
+    return -np.degrees(angles - angles[0])
+
+
+def rotation_angles(learner, plans, cycles=ROTATION, rebound=REBOUND):
+    """`hand_angles` in degrees when what is seen of the hand is turned, then clamped to targets."""
+    angles = hand_angles(learner, plans, cycles, lambda c, movement: turn(movement.endpoint, c))
+    clamped = hand_angles(learner, plans, rebound, lambda c, _: turn(plans.target, c))
+    return np.degrees(np.concatenate([angles, clamped]) - angles[0])
+
+
+def learner_and_plans(share, forgets, seed=0):
+    """A `ForgettingAdaptation` on an arm that has practised, and plans to `targets`."""
+    template_set = load()
+    trained = train_aim_correction(template_set, np.random.default_rng(seed))
+    learner = ForgettingAdaptation(trained, template_set, share, forgets)
+    return learner, plan(targets(), template_set)
+
+
+def both_curves(share, forgets, seed=0):
+    """`clamp_angles` and `rotation_angles` of one setting."""
+    make = partial(learner_and_plans, share, forgets, seed)
+    return clamp_angles(*make()), rotation_angles(*make())
+
+
+def clamp_end(share, forgets, degrees):
+    """How far the hand has turned, in degrees, after 80 cycles of an error clamp of so many."""
+    cycles = [SEEN, *80 * [np.radians(degrees)], UNSEEN]
+    return clamp_angles(*learner_and_plans(share, forgets), cycles)[-1]
+
+
+def load_left(share, forgets, seed):
+    """Mean error in mm in the last block with 0.5 kg in the hand, corrected in the pull."""
+    rng, template_set = np.random.default_rng(seed), load()
+    trained = train_aim_correction(template_set, rng)
+    learner = ForgettingAdaptation(trained, template_set, share, forgets, "pull")
+    curve = adapt(learner, template_set, rng, PERTURBATIONS["a load of 0.5 kg"])
+    return 1000 * curve.error[LAST_WITH_LOAD]
+
+
+def nearest_setting(clamp):
+    """Fitted: the place in curves (shares, forgets, cycles) nearest to people's error clamp.
+
+    By the mean square over the clamped cycles of the group whose cursor missed the target.
+    """
+    people = np.array(MEASUREMENTS["clamp"][MISSES]["mean"])
+    off = np.square(clamp - people)[..., CLAMPED].mean(axis=-1)
+    return np.unravel_index(off.argmin(), off.shape)
+
+
+def make(shares=SHARES, forgets=FORGETS, seeds=MANY):
+    """What `results/forgetting.npz` holds: curves in degrees (shares, forgets, cycles), and costs.
+
+    At the fitted setting and at the book's: `ends` (2, sizes) is `clamp_end`, `load` (2, seeds)
+    is `load_left`.
+    """
+    curves = Parallel()(delayed(both_curves)(*one) for one in product(shares, forgets))
+    clamp, rotation = (
+        np.reshape(x, (len(shares), len(forgets), -1)) for x in zip(*curves, strict=True)
+    )
+    i, j = nearest_setting(clamp)
+    two = (shares[i], forgets[j]), (shares[-1], forgets[0])
+    ends = [[clamp_end(*one, degrees) for degrees in SIZES] for one in two]
+    left = [[load_left(*one, seed) for seed in seeds] for one in two]
+    return {"clamp": clamp, "rotation": rotation, "ends": ends, "load": left}
+
+
+load_results = partial(results.arrays, "forgetting")
