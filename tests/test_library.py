@@ -20,7 +20,7 @@ FLOORS = (
     ("vmc_lib.show",),
     ("reproduce.render", "page"),
     ("reproduce.results",),
-    ("reproduce.training", "reproduce.peers"),
+    ("reproduce.training", "reproduce.peers", "reproduce.people"),
     ("reproduce.measures",),
     ("reproduce.experiments", "reproduce.whole_arm"),
     ("reproduce.ledger",),

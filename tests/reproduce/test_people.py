@@ -82,11 +82,13 @@ def test_the_fit_is_the_setting_nearest_to_people():
     assert forgetting.nearest_setting(curves) == (1, 2)
 
 
-def test_no_setting_swings_back_as_people_do(stored):
+def test_no_setting_swings_back_across_the_target_as_people_do(stored):
     """A statement of the page: one memory can fade, but cannot change its side."""
-    last = slice(-2, None)
-    assert stored["rotation"][..., last].mean(axis=-1).max() < 0
-    assert np.mean(people.MEASUREMENTS["rotation"]["mean"][last]) > 5
+    first, last = (stored["rotation"][..., k] for k in (-len(forgetting.REBOUND), -1))
+    assert (first * last > 0).all()
+    curve = people.MEASUREMENTS["rotation"]["mean"]
+    assert curve[len(forgetting.ROTATION) - 1] < -10
+    assert curve[-1] > 5
 
 
 def test_a_minimum_jerk_reach_is_fastest_half_way():
