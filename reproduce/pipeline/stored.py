@@ -12,7 +12,7 @@ RESTS_ON = {  # a step, or what was recorded elsewhere -> the rows that read it
     "class_independence": ("IV A, search", "IV A, classes"),
     "recognition": ("Table III", "IV B, features"),
     "fresh_names": ("Table III", "IV B, features"),
-    "hmax_draws": ("Table III", "IV B, features"),
+    "hmax_draws": ("Table III",),
     "random_filters": ("Table III",),
     "variations": ("Table III", "III, width", "Fig. 7"),
     "other_filters": ("Fig. 7", "Fig. 8", "IV B, W²"),

@@ -1,12 +1,13 @@
 """The ledger: each row measured again and compared with the file."""
 
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from book.figures.claims import ALL, claims
-from reproduce import ledger
+from reproduce import ledger, results
 from reproduce.experiments.loop_evaluation import evaluate
 from reproduce.ledger import loop
 from reproduce.ledger.entry import (
@@ -20,6 +21,8 @@ from reproduce.ledger.entry import (
     measure,
 )
 from reproduce.pipeline import smoke_run
+from reproduce.pipeline.stored import RESTS_ON
+from vmc_lib import data
 from vmc_lib.photos import LEVELS
 
 STORED = {entry["where"]: entry for entry in ledger.load()["rows"]}
@@ -62,9 +65,29 @@ def _the_loop_as_it_ships():
         yield
 
 
+@pytest.fixture
+def results_read(monkeypatch):
+    """The names of the stored results that are read."""
+    found, read = set(), data.read
+
+    def watched(path):
+        if Path(path).is_relative_to(results.FOLDER):
+            found.add(Path(path).relative_to(results.FOLDER).with_suffix("").as_posix())
+        return read(path)
+
+    data.arrays.cache_clear()
+    monkeypatch.setattr(data, "read", watched)
+    return found
+
+
+def test_every_number_with_an_interval_says_what_it_was_measured_on():
+    assert [q["name"] for q in NUMBERS if q["low"] is not None and not q["sample"]] == []
+
+
 @pytest.mark.parametrize("row", ledger.ROWS, ids=lambda row: row.where)
-def test_ledger_row_is_reproducible(row):
+def test_ledger_row_is_reproducible(row, results_read):
     measured, stored = measure(row), STORED[row.where]
+    assert all(row.where in RESTS_ON[name] for name in results_read), results_read
     assert [q["name"] for q in measured["quantities"]] == [q["name"] for q in stored["quantities"]]
     for now, then in zip(measured["quantities"], stored["quantities"], strict=True):
         assert now.keys() == then.keys()
