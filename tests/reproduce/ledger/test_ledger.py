@@ -87,7 +87,9 @@ def test_every_number_with_an_interval_says_what_it_was_measured_on():
 @pytest.mark.parametrize("row", ledger.ROWS, ids=lambda row: row.where)
 def test_ledger_row_is_reproducible(row, results_read):
     measured, stored = measure(row), STORED[row.where]
-    assert all(row.where in RESTS_ON[name] for name in results_read), results_read
+    # the loop is not run here, but read from the ledger itself
+    stale = {name for name in results_read - {"ledger"} if row.where not in RESTS_ON[name]}
+    assert not stale, "say in `stored.RESTS_ON` that the row rests on it"
     assert [q["name"] for q in measured["quantities"]] == [q["name"] for q in stored["quantities"]]
     for now, then in zip(measured["quantities"], stored["quantities"], strict=True):
         assert now.keys() == then.keys()
