@@ -5,7 +5,6 @@ import numpy as np
 from book.figures.panels import panels, shade
 from reproduce import people
 from reproduce.experiments.forgetting_adaptation import CLAMPED, ROTATION
-from vmc_lib.show import table
 from vmc_lib.show.palette import COLOURS
 
 EVERY = 4  # cycles: so many of the clamp's points are drawn
@@ -86,8 +85,10 @@ def scatter(directions, by_direction, mean, sem):
 
 
 def sources():
-    """The sources as a table."""
-    heads = "Source", "People", "Error bars", "Licence", "How it was read"
+    """The sources as a list: each with its people, error bars, licence, and how it was read."""
     every = (people.CLAMP, people.ROTATION, people.SCATTER, people.SPEED, people.JUMP, people.SIZE)
-    rows = [[f"[{s.title}]({s.url})", s.people, s.bars, s.licence, s.how] for s in every]
-    return table(heads, rows)
+    return "\n".join(
+        f"- [{s.title}]({s.url}). *People*: {s.people}. *Error bars*: {s.bars}. "
+        f"*Licence*: {s.licence}. *Read*: {s.how}."
+        for s in every
+    )

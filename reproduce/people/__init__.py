@@ -24,12 +24,12 @@ MISSES, STRADDLES, HITS = "misses the target", "straddles its edge", "lies withi
 
 CLAMP = Source(
     "Kim, Parvin and Ivry 2019, experiment 1",
-    "https://github.com/hyosubkim/Influence-of-task-outcome-on-implicit-motor-learning"
-    " (its README leads to https://elifesciences.org/articles/39882)",
+    "https://github.com/hyosubkim/Influence-of-task-outcome-on-implicit-motor-learning",
     "48 people, 16 in each of three groups",
     "standard error over people",
     "MIT, Copyright (c) 2019 hyosubkim",
-    "worked out from e1_data.mat as the authors' e1_analyze.m does: hand angle at peak radial "
+    "the data of https://elifesciences.org/articles/39882, commit 8fe43dc0; worked out from "
+    "e1_data.mat as the authors' e1_analyze.m does: hand angle at peak radial "
     "speed, trials more than three standard deviations off a running mean of five left out, the "
     "mean of cycles 7 to 15 of each person and target taken away, the sign turned so that "
     "positive is away from what is shown; then the mean of a cycle of eight targets. Stored: "
@@ -41,15 +41,16 @@ ROTATION = Source(
     "17 people",
     "standard error over people",
     "GPL-3 (the package): means only, as facts, are stored here",
-    "worked out from data/tworatedata.rda: the mean of trials 17 to 32 of each person taken away, "
-    "then means of four trials; stored: the last two fours before, 25 at a rotation of 30 "
-    "degrees, 3 at the opposite one, 5 with the error clamped to zero",
+    "commit 7ff6d4c4; worked out from data/tworatedata.rda: the mean of trials 17 to 32 of each "
+    "person taken away, then means of four trials; stored: the last two fours before, 25 at a "
+    "rotation of 30 degrees, 3 at the opposite one, 5 with the error clamped to zero",
 )
 SCATTER = Source(
     "van Beers, Haggard and Wolpert 2004",
     "https://research.vu.nl/en/publications/the-role-of-execution-noise-in-movement-variability",
-    "15 people (as https://www.bohrium.com/paper-details/the-role-of-execution-noise-in-movement-"
-    "variability/812369203108511744-8768 says), 32 directions",
+    # fifteen: https://www.bohrium.com/paper-details/the-role-of-execution-noise-in-movement-
+    # variability/812369203108511744-8768
+    "15 people, 32 directions",
     "none printed in the abstract",
     "a number as a fact",
     "the abstract: 'The variability in the movement endpoints and in the initial movement "
