@@ -20,7 +20,7 @@ class Source(NamedTuple):
     how: str  # how the numbers were read
 
 
-MISSES, STRADDLES, HITS = "misses the target", "straddles its edge", "lies within the target"
+MISSES, HITS = "misses the target", "lies within the target"  # of three groups of CLAMP
 
 CLAMP = Source(
     "Kim, Parvin and Ivry 2019, experiment 1",
@@ -88,9 +88,5 @@ SIZE = Source(
     "are smaller than 6 degrees, and learning functions converge to a similar level of asymptotic "
     "learning over a wide range of error sizes'",
 )
-
-TWICE = 2.0  # SCATTER: the most variable direction beside the least
-TO_PEAK = 0.5  # SPEED: of the movement's time
-FIRST_ANSWER, USUAL_ANSWER = 0.110, 0.230  # JUMP: s
 
 MEASUREMENTS = results.records("measurements", folder=__path__[0])
