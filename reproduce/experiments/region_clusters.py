@@ -20,10 +20,10 @@ KERNELS = {"published": TABLE_1_KERNELS, "context": ("linear",)}  # by recipe
 def design_effect(right, total):
     """The variance of Σ right / Σ total over clusters (n,), over the binomial one; at least 1.
 
-    Of a share of 0 or 1, which shows no variance, it is 1, and so it is of no regions at all.
+    It is 1 where none can be seen: of one cluster, of no regions, or of a share of 0 or 1.
     """
     right, total = np.asarray(right, float), np.asarray(total, float)
-    if right.sum() in (0, total.sum()):
+    if len(total) < 2 or right.sum() in (0, total.sum()):
         return 1.0
     share, n = right.sum() / total.sum(), len(total)
     variance = n / (n - 1) * ((right - share * total) ** 2).sum() / total.sum() ** 2
