@@ -60,7 +60,7 @@ def stored_table():
     lines = [
         [
             f"`{name}`",
-            ", ".join(f"[{where}](#{anchor(where)})" for where in rows),
+            ", ".join(f'<a href="#{anchor(where)}">{where}</a>' for where in rows),
             minutes.get(name, "") + needs.get(name, ""),
             NOT_AGAIN.get(name, "yes"),
         ]
