@@ -9,7 +9,7 @@ from functools import cache
 import numpy as np
 
 from reproduce import paper
-from reproduce.experiments import learning_under_noise, nulls
+from reproduce.experiments import nulls
 from reproduce.experiments.calibration import (
     AS_PRINTED,
     SCENARIOS,
@@ -195,6 +195,8 @@ def _direction():
 
 def own_with_noise():
     """What our rules leave where commands waver as a person's do, (name, draws): see `unsteady`."""
+    from reproduce.experiments import learning_under_noise  # scikit-learn comes with it
+
     found = learning_under_noise.load_results()[f"{PERSON} mm"]
     name = f"{{}}, {WAVERS}"
     return (
