@@ -17,7 +17,8 @@ from vmc_lib.show import questions
 
 BUILT = ROOT / "_build/html/book"
 
-EXPORTS = [f"{name}{end}" for name in ("questions", "predictions") for end in (".gift", "-qti.zip")]
+ENDS = ".gift", ".xml", "-qti.zip"
+EXPORTS = [f"{name}{end}" for name in ("questions", "predictions") for end in ENDS]
 
 
 # ---------------------------------------------------------------- students' notebooks
