@@ -18,6 +18,7 @@ from kit.page import markdown_page, write_assets
 from kit.qti import package
 from tools import browser
 
+FOLDER = Path("_build/exam")
 FIELD = "\n\n&nbsp;\n\nAnswer: ________________"
 
 
@@ -57,7 +58,7 @@ def sheet(questions, key=False):
         text = f"**{number}.** {_plain(question.prompt)} *(chapter {int(chapter[:2])})*"
         choices = "\n".join(f"- ☐ {_plain(choice)}" for choice in question.choices)
         if question.picture:
-            data = b64encode(question.picture.png()).decode()
+            data = b64encode(question.picture.png).decode()
             text += f"\n\n![{_plain(question.picture.alt)}](data:image/png;base64,{data})"
         parts.append(f"{text}\n\n{choices}" if choices else text + ("" if key else FIELD))
         if key:
@@ -103,7 +104,7 @@ def print_sheets(folder):
 def main(arguments=None):
     """Write an exam, or say in a sentence why not."""
     parser = argparse.ArgumentParser("python -m kit.exam", description=__doc__)
-    parser.add_argument("folder", type=Path)
+    parser.add_argument("folder", type=Path, nargs="?", default=FOLDER, help=f"else {FOLDER}")
     parser.add_argument("--seed", required=True, help="a secret word; the same word, the same exam")
     parser.add_argument("--variants", type=int, default=5, help="of each question")
     parser.add_argument("--only", default="", help="numbers of chapters, such as 07,08")

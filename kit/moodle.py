@@ -23,7 +23,7 @@ def moodle_xml(bank):
 def _question(name, question):
     files = []
     if question.picture:
-        data = b64encode(question.picture.png()).decode()
+        data = b64encode(question.picture.png).decode()
         files = [element("file", text=data, name="picture.png", path="/", encoding="base64")]
         question = question.illustrated("@@PLUGINFILE@@/picture.png")
     form = "html" if question.html else "plain_text"

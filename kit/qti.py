@@ -30,7 +30,7 @@ def package(bank, kind="assignment"):
             item_names(f"{chapter} {name}", variants), variants, strict=True
         ):
             if question.picture:
-                pictures[_path(title)] = question.picture.png()
+                pictures[_path(title)] = question.picture.png
     trees = {"imsmanifest.xml": _manifest(chapters, pictures)}
     for chapter, groups in chapters.items():
         trees[f"{chapter}/{chapter}.xml"] = _quiz(chapter, groups)

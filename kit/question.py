@@ -19,6 +19,7 @@ import io
 from collections import ChainMap
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from html import escape
 from inspect import signature
 from math import floor, log10
@@ -42,10 +43,11 @@ class Picture:
     numbers: dict = field(compare=False)
     draw: Callable  # of axes and these numbers
 
+    @cached_property
     def png(self):
         """The drawing as PNG (bytes), the same each time."""
         with mpl.rc_context(mpl.rcParamsDefault | STYLE):
-            figure = Figure(figsize=(4.8, 3), dpi=100, layout="constrained")
+            figure = Figure(figsize=(5, 3.2), dpi=90, layout="constrained")
             self.draw(figure.subplots(), **self.numbers)
             file = io.BytesIO()
             figure.savefig(file, metadata={"Software": None})
@@ -135,7 +137,7 @@ class Template:
         names = {name: _plain(value) for name, value in (numbers | words).items()}
         names = ChainMap(names, self.formula.__globals__)
         text = _filled(self.formula, names)
-        picture = Picture(_filled(self.draw, names), numbers, self.draw) if self.draw else None
+        picture = self._picture(numbers, names) if self.draw else None
         if self.choices:
             choices = tuple(choice.format_map(names) for choice in self.choices)
             if answer not in range(len(choices)) or len({*choices}) < len(choices):
@@ -149,6 +151,11 @@ class Template:
         answer = float(answer)
         tolerance = 0.01 * abs(answer) if self.tolerance is None else self.tolerance
         return Question(text, answer, tolerance, self.unit, self.hint, picture=picture)
+
+    def _picture(self, numbers, names):
+        _, *drawn = signature(self.draw).parameters  # the first are the axes
+        shown = {name: numbers[name] for name in drawn}
+        return Picture(_filled(self.draw, names), shown, self.draw)
 
     def variants(self, count=VARIANTS, seed="", without=()):
         """The first `count` questions that differ, the same at every call with this `seed`.
