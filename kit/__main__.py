@@ -11,7 +11,7 @@ import numpy as np
 
 from book._ext.policy import seal
 from book.figures.plans import BOOK, NAMES
-from kit import arm, demos
+from kit import arm, demos, nbgrader
 from kit.bank import bank
 from kit.chapter_questions import bank_questions
 from kit.gift import gift
@@ -49,6 +49,9 @@ def build(folder, pages, web=""):
     for chapter in CHAPTERS:
         notebook = nbformat.read(chapter, as_version=4)
         nbformat.write(student(notebook, files), students / chapter.name)
+        assignment = folder / "nbgrader/source" / chapter.stem
+        assignment.mkdir(parents=True)
+        nbformat.write(nbgrader.source(notebook, files), assignment / chapter.name)
         page = (pages / f"{chapter.stem}.html").read_text(encoding="utf-8")
         keys.append(alive(key(notebook, page), ()))
         _, moving = demos.read(page)

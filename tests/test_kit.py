@@ -146,7 +146,7 @@ def test_the_whole_kit_is_built_from_chapters_and_pages(kit):
         "report.ipynb",
         "assistants.html",
     }
-    folders = {"students", "slides", "demos", "arm-in-page"}
+    folders = {"students", "nbgrader", "slides", "demos", "arm-in-page"}
     names = {file.name for file in kit.iterdir()}
     predictions, questions = (
         (kit / f"{name}.gift").read_text(encoding="utf-8") for name in ("predictions", "questions")
@@ -154,8 +154,10 @@ def test_the_whole_kit_is_built_from_chapters_and_pages(kit):
     assert "/predict/" in predictions
     assert "/predict/" not in questions
     assert names == pages | folders | {*EXPORTS}
+    chapters = {path.name for path in CHAPTERS}
+    assert {file.name for file in (kit / "nbgrader/source").glob("*/*.ipynb")} == chapters
     students = {file.name for file in (kit / "students").glob("*.ipynb")}
-    assert students == {path.name for path in CHAPTERS}
+    assert students == chapters
     text = (kit / "key.md").read_text(encoding="utf-8")
     assert text.count("**Solution.**") == text.count("### Exercise")
     assert "<details>" not in text
