@@ -27,20 +27,13 @@ def known_mistakes(chapter):
 def mark_of(outputs, known):
     """The mark that a check's outputs give; `known` are the exercise's hints."""
     text = "".join(output.get("data", {}).get("text/html", "") for output in outputs)
-    errors = [_error(output) for output in outputs if "ename" in output]
+    errors = [f"{o['ename']}: {o['evalue']}"[:LONGEST] for o in outputs if "ename" in o]
     if RIGHT in text:
         return RIGHT_MARK
     hints = [f"{KNOWN}{hint}" for hint in known if inline(hint) in text]
     unmarked = {NOT_YET: "not answered", UNREAD: "not read"}
     states = [state for words, state in unmarked.items() if words in text]
     return " ".join(errors or hints[:1] or states) or "not right"
-
-
-def _error(output):
-    """What a cell's error says; a KeyboardInterrupt is ours, when its time is up."""
-    if output["ename"] == "KeyboardInterrupt":
-        return TOO_LONG
-    return f"{output['ename']}: {output['evalue']}"[:LONGEST]
 
 
 def points(mark):

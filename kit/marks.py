@@ -20,7 +20,7 @@ from nbclient import NotebookClient
 from nbclient.util import run_sync
 
 from kit.__main__ import CHAPTERS
-from kit.marking import POINTS, RIGHT_MARK, WORDS, known_mistakes, mark_of, points
+from kit.marking import POINTS, RIGHT_MARK, TOO_LONG, WORDS, known_mistakes, mark_of, points
 from kit.student import checks, place
 
 CELL, NOTEBOOK = 60, 600  # s that each may run
@@ -52,12 +52,19 @@ def marks(chapter, submission, cell_limit=CELL, limit=NOTEBOOK):
     notebook = nbformat.v4.new_notebook(cells=cells)  # with our kernel, whatever the student's was
     _run(notebook, cell_limit, limit)
     results = {label: NO_CELL if source else WORDS for label, source in sources.items()}
-    known = known_mistakes(chapter)
+    known, slow = known_mistakes(chapter), False
     for label, cell in zip(labels + gone, cells, strict=True):
+        slow |= _interrupted(cell)  # this one or one above it, since the last check
         if label and results[label] != RIGHT_MARK:  # of two copies, one that is right will do
             mark = mark_of(cell.outputs, known.get(label, ()))
+            mark = TOO_LONG if slow and not points(mark) else mark
             results[label] = mark if label not in gone or points(mark) else NO_CELL
+        slow = slow and not label
     return results
+
+
+def _interrupted(cell):
+    return any(output.get("ename") == "KeyboardInterrupt" for output in cell.outputs)
 
 
 class _Client(NotebookClient):

@@ -139,6 +139,16 @@ def test_endless_check_is_interrupted_and_said(quick):
     assert results == {"first": "ran longer than a minute", "second": "not right"}
 
 
+def test_a_loop_above_a_check_is_said_at_that_check_alone(quick):
+    chapter, notebook = quick
+    notebook.cells[1].source = "def check(name, expected): answer"
+    loop = new_code_cell("from threading import Event\nEvent().wait()\nanswer = 2")
+    notebook.cells.insert(2, loop)
+    results = marks.marks(chapter, notebook, cell_limit=5)
+    unknown = "NameError: name 'answer' is not defined"
+    assert results == {"first": "ran longer than a minute", "second": unknown}
+
+
 def test_what_a_hand_in_prints_is_not_kept(quick):
     """It may have no end: the marks of a class would end with the memory."""
     chapter, notebook = quick
