@@ -52,7 +52,7 @@ def bank_questions(notebook, chapter, demos=(), web=""):
         question = _for_bank(question).placed(len(questions))
         if kind == "prediction":
             own = _has_figure(notebook.cells[place + 1 :])
-            where = _where(title, f"{number}.{figures + 1}", own, demos, web)
+            where = _where(title, f"{number}.{figures + own}", own, demos, web)
             question = question._replace(text=f"{question.text} {where}")
         questions[name] = [question]
     return questions
@@ -66,7 +66,7 @@ def _has_figure(cells):
 
 def _where(title, figure, own, demos, web):
     """A sentence, HTML: where in its chapter a prediction stands."""
-    place = f"<em>{escape(title)}</em>, {'' if own else 'before '}Figure {figure}"
+    place = f"<em>{escape(title)}</em>, {'' if own else 'after '}Figure {figure}"
     demo = f"figure-{figure.replace('.', '-')}"
     if not own or demo not in demos:
         return f"({place})"

@@ -228,12 +228,12 @@ def test_a_prediction_leads_to_its_figure():
         new_markdown_cell("**Figure.** Three."),
     ]
     notebook = new_notebook(cells=cells)
-    two, three = "<em>Names: *what*</em>, Figure 6.2", "<em>Names: *what*</em>, before Figure 6.3"
+    own, other = "<em>Names: *what*</em>, Figure 6.2", "<em>Names: *what*</em>, after Figure 6.2"
     places = {
-        (): (f"({two})", f"({three})"),
+        (): (f"({own})", f"({other})"),
         ("figure-6-2", "figure-6-3"): (
-            f"({two}: <code>demos/figure-6-2.html</code> of the kit)",
-            f"({three})",
+            f"({own}: <code>demos/figure-6-2.html</code> of the kit)",
+            f"({other})",
         ),
     }
     for demos, wanted in places.items():

@@ -163,6 +163,13 @@ def test_the_whole_kit_is_built_from_chapters_and_pages(kit):
     assert "<details>" not in text
 
 
+def test_predictions_lead_to_demos_that_are_there(kit):
+    text = (kit / "predictions.xml").read_text(encoding="utf-8")
+    demos = re.findall(r"demos/figure-[\d-]+\.html", text)
+    assert len(demos) > 50
+    assert all((kit / demo).exists() for demo in demos)
+
+
 def test_links_of_the_kits_pages_lead_to_files_that_are_there(kit):
     """Each page of words and each deck; the first page leads to all that are read."""
     pages = [*kit.glob("*.html"), *kit.glob("slides/*.html")]
