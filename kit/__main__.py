@@ -1,5 +1,6 @@
 """Builds the kit into _build/kit: `make kit`."""
 
+import argparse
 import json
 import re
 import shutil
@@ -10,11 +11,12 @@ import numpy as np
 
 from book._ext.policy import seal
 from book.figures.plans import BOOK, NAMES
-from kit import arm, demos
+from kit import arm, demos, nbgrader
 from kit.bank import bank
 from kit.chapter_questions import bank_questions
 from kit.gift import gift
 from kit.key import key
+from kit.moodle import moodle_xml
 from kit.page import markdown_page, write_assets
 from kit.plan import plans
 from kit.qti import package
@@ -23,11 +25,17 @@ from kit.student import alive, student
 from vmc_lib.cerebellum import two_rates
 
 ROOT = Path(__file__).parents[1]
+NOT_GRADED = """// Predictions: nobody should be graded for them. Set the quiz's maximum grade to 0.
+
+"""
 CHAPTERS = [BOOK / f"{name}.ipynb" for name in NAMES]
 
 
-def build(folder, pages):
-    """Write the kit into `folder`; `pages` is the folder of the built chapters, as HTML."""
+def build(folder, pages, web=""):
+    """Write the kit into `folder`; `pages` is the folder of the built chapters, as HTML.
+
+    `web` is the address at which the kit will lie, if it will.
+    """
     shutil.rmtree(folder, ignore_errors=True)
     students = folder / "students"
     students.mkdir(parents=True)
@@ -41,11 +49,14 @@ def build(folder, pages):
     for chapter in CHAPTERS:
         notebook = nbformat.read(chapter, as_version=4)
         nbformat.write(student(notebook, files), students / chapter.name)
+        assignment = folder / "nbgrader/source" / chapter.stem
+        assignment.mkdir(parents=True)
+        nbformat.write(nbgrader.source(notebook, files), assignment / chapter.name)
         page = (pages / f"{chapter.stem}.html").read_text(encoding="utf-8")
         keys.append(alive(key(notebook, page), ()))
-        questions |= {
-            (chapter.stem, name): several for name, several in bank_questions(notebook).items()
-        }
+        _, moving = demos.read(page)
+        asked = bank_questions(notebook, chapter.stem, moving, web)
+        questions |= {(chapter.stem, name): several for name, several in asked.items()}
     texts = {"key": "\n".join(keys), "plan": plans(), "index": index()}
     for name in ("projects", "assistants"):
         texts[name] = (ROOT / f"kit/{name}.md").read_text(encoding="utf-8")
@@ -58,11 +69,12 @@ def build(folder, pages):
     questions |= bank()
     predictions = {name: q for name, q in questions.items() if q[0].level == "predict"}
     graded = {name: q for name, q in questions.items() if name not in predictions}
-    for name, part, kind in (
-        ("questions", graded, "assignment"),
-        ("predictions", predictions, "survey"),
+    for name, part, kind, note in (
+        ("questions", graded, "assignment", ""),
+        ("predictions", predictions, "survey", NOT_GRADED),
     ):
-        (folder / f"{name}.gift").write_text(gift(part), encoding="utf-8")
+        (folder / f"{name}.gift").write_text(note + gift(part), encoding="utf-8")
+        (folder / f"{name}.xml").write_bytes(moodle_xml(part))
         (folder / f"{name}-qti.zip").write_bytes(package(part, kind))
     slides(folder / "slides", pages)
     demos.build(folder / "demos", pages)
@@ -97,5 +109,7 @@ def throws():
 
 
 if __name__ == "__main__":
-    build(ROOT / "_build/kit", ROOT / "_build/html/book")
+    parser = argparse.ArgumentParser("python -m kit", description=__doc__)
+    parser.add_argument("--web", default="", help="the address at which the kit will lie")
+    build(ROOT / "_build/kit", ROOT / "_build/html/book", parser.parse_args().web)
     print(f"The kit is in {ROOT / '_build/kit'}")

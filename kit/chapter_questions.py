@@ -4,22 +4,23 @@ Read from a chapter's notebook, where the run holds what came out (`vmc_lib.show
 """
 
 import re
+from html import escape
 
-from book._ext.plain import ANSWER, CHOICE, PREDICTION, QUIZ
+from book._ext.plain import ANSWER, CHOICE, FIGURE, PREDICTION, QUIZ
 from kit.question import Question
 from vmc_lib.show.figures import inline
 from vmc_lib.show.prose import COMMENT
 
 WORDS = 6  # of a question, in its name
-ON_ITS_PAGE = "needs-figure"  # the tag of a question that speaks of what stands beside it
 
 
 def chapter_questions(cells):
     """The predictions and quizzes among a notebook's cells, as `Question`s in Markdown."""
-    return [question for cell in cells if (question := _question(COMMENT.sub("", cell.source)))]
+    return [question for cell in cells if (question := _question(cell))]
 
 
-def _question(text):
+def _question(cell):
+    text = COMMENT.sub("", cell.source)
     if prediction := PREDICTION.fullmatch(text):
         question, choices, outcome, why = prediction.groups()
         choices = tuple(CHOICE.findall(choices))
@@ -32,19 +33,47 @@ def _question(text):
     return None
 
 
-def bank_questions(notebook):
-    """The questions of a chapter that can be asked without its page, {name: [Question]}.
+def bank_questions(notebook, chapter, demos=(), web=""):
+    """The questions of a chapter, such as "07_muscle", {name: [Question]}.
 
-    HTML, with formulas as KaTeX reads them; the right choice stands at another place each time.
+    HTML, with formulas as KaTeX reads them; the right choice stands at another place each time. A
+    prediction says where it stands, and leads to its figure's demo where that is among `demos`
+    ("figure-7-1"), on the `web` if the kit lies there at an address.
     """
-    cells = (c for c in notebook.cells if ON_ITS_PAGE not in c.metadata.get("tags", ()))
-    questions = {}
-    for question in chapter_questions(cells):
+    title, number = notebook.cells[0].source.splitlines()[0].lstrip("# "), int(chapter[:2])
+    questions, figures = {}, 0
+    for place, cell in enumerate(notebook.cells):
+        figures += bool(FIGURE.match(cell.source))
+        if not (question := _question(cell)):
+            continue
         kind = "prediction" if question.level == "predict" else "quiz"
         words = re.findall(r"[a-z]+", question.text.lower())[:WORDS]
         name = "_".join([kind, str(len(questions) + 1), *words])  # as one would search for it
-        questions[name] = [_for_bank(question).placed(len(questions))]
+        question = _for_bank(question).placed(len(questions))
+        if kind == "prediction":
+            own = _has_figure(notebook.cells[place + 1 :])
+            where = _where(title, f"{number}.{figures + own}", own, demos, web)
+            question = question._replace(text=f"{question.text} {where}")
+        questions[name] = [question]
     return questions
+
+
+def _has_figure(cells):
+    """Whether a figure comes before the next heading or prediction."""
+    ends = (cell.source for cell in cells if re.search(r"^(#+ |\*\*(Figure|Predict))", cell.source))
+    return bool(FIGURE.match(next(ends, "")))
+
+
+def _where(title, figure, own, demos, web):
+    """A sentence, HTML: where in its chapter a prediction stands."""
+    place = f"<em>{escape(title)}</em>, {'' if own else 'after '}Figure {figure}"
+    demo = f"figure-{figure.replace('.', '-')}"
+    if not own or demo not in demos:
+        return f"({place})"
+    file = f"demos/{demo}.html"
+    if web:
+        return f'({place}: <a href="{escape(web.rstrip("/"))}/{file}">its demo</a>)'
+    return f"({place}: <code>{file}</code> of the kit)"
 
 
 def _for_bank(question):

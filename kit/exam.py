@@ -6,16 +6,19 @@ public bank, or in the exams of the seeds that follow `--unlike`.
 
 import argparse
 import sys
+from base64 import b64encode
 from contextlib import suppress
 from pathlib import Path
 
 from book.figures.plans import NAMES
 from kit.bank import templates
 from kit.gift import gift
+from kit.moodle import moodle_xml
 from kit.page import markdown_page, write_assets
 from kit.qti import package
 from tools import browser
 
+FOLDER = Path("_build/exam")
 FIELD = "\n\n&nbsp;\n\nAnswer: ________________"
 
 
@@ -42,10 +45,10 @@ def exam(seed, count, numbers=(), unlike=()):
 
 def new_variants(template, seed, count, unlike=()):
     """So many variants of a template, none public, none of the seeds `unlike`; else ValueError."""
-    texts = {question.text for question in template.variants()}
+    contents = {question.content for question in template.variants()}
     for other in unlike:
-        texts |= {question.text for question in new_variants(template, other, count)}
-    return template.variants(count, seed, texts)
+        contents |= {question.content for question in new_variants(template, other, count)}
+    return template.variants(count, seed, contents)
 
 
 def sheet(questions, key=False):
@@ -54,6 +57,9 @@ def sheet(questions, key=False):
     for number, ((chapter, _), [question, *_]) in enumerate(questions.items(), start=1):
         text = f"**{number}.** {_plain(question.prompt)} *(chapter {int(chapter[:2])})*"
         choices = "\n".join(f"- ☐ {_plain(choice)}" for choice in question.choices)
+        if question.picture:
+            data = b64encode(question.picture.png).decode()
+            text += f"\n\n![{_plain(question.picture.alt)}](data:image/png;base64,{data})"
         parts.append(f"{text}\n\n{choices}" if choices else text + ("" if key else FIELD))
         if key:
             parts.append(f"**{_answer(question)}.** {_plain(question.hint)}")
@@ -76,6 +82,7 @@ def write(folder, questions):
     """Write an exam's files into a folder: for platforms, and on paper, with its key."""
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "questions.gift").write_text(gift(questions), encoding="utf-8")
+    (folder / "questions.xml").write_bytes(moodle_xml(questions))
     (folder / "questions-qti.zip").write_bytes(package(questions))
     write_assets(folder)
     for name, key in {"exam": False, "exam-key": True}.items():
@@ -97,7 +104,7 @@ def print_sheets(folder):
 def main(arguments=None):
     """Write an exam, or say in a sentence why not."""
     parser = argparse.ArgumentParser("python -m kit.exam", description=__doc__)
-    parser.add_argument("folder", type=Path)
+    parser.add_argument("folder", type=Path, nargs="?", default=FOLDER, help=f"else {FOLDER}")
     parser.add_argument("--seed", required=True, help="a secret word; the same word, the same exam")
     parser.add_argument("--variants", type=int, default=5, help="of each question")
     parser.add_argument("--only", default="", help="numbers of chapters, such as 07,08")

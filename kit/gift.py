@@ -7,17 +7,24 @@ from itertools import zip_longest
 def gift(bank):
     """The text of a GIFT file; `bank` maps (chapter, name) to the variants of a question.
 
+    GIFT holds no pictures: questions with one are left out.
     A quiz that draws one question at random from a category gives each student other numbers.
     """
     return "\n\n".join(
         "\n\n".join(
             [
-                f"$CATEGORY: $course$/{chapter}/{variants[0].level}/{name}",
+                f"$CATEGORY: {category(chapter, name, variants)}",
                 *map(_item, item_names(f"{chapter} {name}", variants), variants),
             ]
         )
         for (chapter, name), variants in bank.items()
+        if not variants[0].picture
     )
+
+
+def category(chapter, name, variants):
+    """Where Moodle keeps the variants of a question."""
+    return f"$course$/{chapter}/{variants[0].level}/{name}"
 
 
 def item_names(name, variants):

@@ -20,17 +20,13 @@ from nbclient import NotebookClient
 from nbclient.util import run_sync
 
 from kit.__main__ import CHAPTERS
-from kit.key import SOLUTION, exercise_named
+from kit.marking import POINTS, RIGHT_MARK, TOO_LONG, WORDS, known_mistakes, mark_of, points
 from kit.student import checks, place
-from vmc_lib.grading import NOT_YET, RIGHT, UNREAD
-from vmc_lib.show.figures import inline
 
 CELL, NOTEBOOK = 60, 600  # s that each may run
 COLUMNS = "file", "exercise", "points", "of", "mark"
-POINTS = 2  # an exercise; a known mistake has half of them
-RIGHT_MARK, WORDS, KNOWN = "right", "in words: for you to read", "a known mistake: "
-TOO_LONG = "ran longer than a minute"
-LONGEST = 500  # characters of an error
+BY_FILE = "file", "points", "of", "not right", "for you to read"
+NO_CELL = "no cell checks it"
 # Where a cell may begin, also where the separator is a semicolon, as in much of Europe
 FORMULA = re.compile(r"""(^|;)(?=[\s"]*[=+@＝＋－＠-])""")
 
@@ -39,9 +35,10 @@ def marks(chapter, submission, cell_limit=CELL, limit=NOTEBOOK):
     """The mark of each exercise of a chapter's notebook, {label: text}, in a hand-in.
 
     Runs the hand-in with our own checks in the places of the student's, which are known by the
-    exercise in their metadata or, where an editor dropped that, by their source. Answers in words
-    are left to the lecturer. A cell is interrupted after `cell_limit` seconds; TimeoutError where
-    the whole takes longer than `limit`.
+    exercise in their metadata or, where an editor dropped that, by their source; where a student
+    deleted that place, our check runs at the end. Answers in words are left to the lecturer. A cell
+    is interrupted after `cell_limit` seconds; TimeoutError where the whole takes longer than
+    `limit`.
     """
     sources = checks(chapter)
     code = [cell for cell in submission.cells if cell.cell_type == "code"]
@@ -50,14 +47,24 @@ def marks(chapter, submission, cell_limit=CELL, limit=NOTEBOOK):
         nbformat.v4.new_code_cell(sources.get(label) or cell.source)
         for cell, label in zip(code, labels, strict=True)
     ]
+    gone = [label for label, check in sources.items() if check and label not in labels]
+    cells += [nbformat.v4.new_code_cell(sources[label]) for label in gone]
     notebook = nbformat.v4.new_notebook(cells=cells)  # with our kernel, whatever the student's was
     _run(notebook, cell_limit, limit)
-    results = {label: "no cell checks it" if source else WORDS for label, source in sources.items()}
-    known = _known_mistakes(chapter)
-    for label, cell in zip(labels, cells, strict=True):
+    results = {label: NO_CELL if source else WORDS for label, source in sources.items()}
+    known, slow = known_mistakes(chapter), False
+    for label, cell in zip(labels + gone, cells, strict=True):
+        slow |= _interrupted(cell)  # this one or one above it, since the last check
         if label and results[label] != RIGHT_MARK:  # of two copies, one that is right will do
-            results[label] = _mark(cell.outputs, known.get(label, ()))
+            mark = mark_of(cell.outputs, known.get(label, ()))
+            mark = TOO_LONG if slow and not points(mark) else mark
+            results[label] = mark if label not in gone or points(mark) else NO_CELL
+        slow = slow and not label
     return results
+
+
+def _interrupted(cell):
+    return any(output.get("ename") == "KeyboardInterrupt" for output in cell.outputs)
 
 
 class _Client(NotebookClient):
@@ -83,47 +90,11 @@ async def _run(notebook, cell_limit, limit):
             raise
 
 
-def _known_mistakes(chapter):
-    """What the graded exercises say to known mistakes, {label: hints}."""
-    found, label = {}, None
-    for cell in chapter.cells:
-        label = cell.metadata.get("exercise", label)
-        if graded := SOLUTION.fullmatch(cell.source):
-            found[label] = [*exercise_named(chapter, graded[1]).mistakes]
-    return found
-
-
 def _label(cell, sources):
     """The exercise that a code cell of a hand-in has the place of, or None."""
     label, source = cell.metadata.get("exercise"), cell.source.strip()
     own = {place(label): label for label, check in sources.items() if check}
     return label if sources.get(label) else own.get(source)
-
-
-def _mark(outputs, known):
-    """The mark that a check's outputs give."""
-    text = "".join(output.get("data", {}).get("text/html", "") for output in outputs)
-    errors = [_error(output) for output in outputs if "ename" in output]
-    if RIGHT in text:
-        return RIGHT_MARK
-    hints = [f"{KNOWN}{hint}" for hint in known if inline(hint) in text]
-    unmarked = {NOT_YET: "not answered", UNREAD: "not read"}
-    states = [state for words, state in unmarked.items() if words in text]
-    return " ".join(errors or hints[:1] or states) or "not right"
-
-
-def _error(output):
-    """What a cell's error says; a KeyboardInterrupt is ours, when its time is up."""
-    if output.ename == "KeyboardInterrupt":
-        return TOO_LONG
-    return f"{output.ename}: {output.evalue}"[:LONGEST]
-
-
-def points(mark):
-    """The points that a mark is worth; none of ours for an answer in words."""
-    if mark == WORDS:
-        return ""
-    return POINTS * (mark == RIGHT_MARK) + POINTS / 2 * mark.startswith(KNOWN)
 
 
 def chapter_of(submission, name):
@@ -169,6 +140,14 @@ def rows(path):
     ]
 
 
+def by_file(several):
+    """The rows of one hand-in as one row: its points, what is not right, and what is to be read."""
+    *exercises, (path, _, earned, of, error) = several
+    wrong = [f"{label}: {mark}" for _, label, _, _, mark in exercises if points(mark) in {0, 1}]
+    read = [label for _, label, _, _, mark in exercises if mark == WORDS]
+    return [(path, earned, of, error or "; ".join(wrong), ", ".join(read))]
+
+
 def plain(cell):
     """A cell as one line of text, which no spreadsheet takes for a formula."""
     line = "".join(c if c.isprintable() else ascii(c)[1:-1] for c in str(cell))
@@ -180,6 +159,7 @@ def main():
     parser = argparse.ArgumentParser(prog="python -m kit.marks", description=__doc__)
     parser.add_argument("folders", nargs="+", type=Path, metavar="FOLDER")
     parser.add_argument("--jobs", type=int, default=1, help="notebooks that run at once")
+    parser.add_argument("--by", choices=("exercise", "file"), default="exercise", help="rows")
     options = parser.parse_args()
     found = sorted(path for folder in options.folders for path in folder.rglob("*"))
     files = [path for path in found if path.is_file() and ".ipynb_checkpoints" not in path.parts]
@@ -192,10 +172,11 @@ def main():
         sys.exit(f"no notebooks under {folders}: use python -m kit.marks FOLDER > marks.csv")
     sys.stdout.reconfigure(encoding="utf-8-sig", newline="")
     table = csv.writer(sys.stdout)
-    table.writerow(COLUMNS)
+    table.writerow(BY_FILE if options.by == "file" else COLUMNS)
     marked = Parallel(options.jobs, return_as="generator")(map(delayed(rows), handed_in))
-    for row in (row for several in marked for row in several):
-        table.writerow(map(plain, row))
+    for several in marked:
+        for row in by_file(several) if options.by == "file" else several:
+            table.writerow(map(plain, row))
         sys.stdout.flush()
 
 

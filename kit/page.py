@@ -24,14 +24,18 @@ table {{ border-collapse: collapse; }}
 
 
 def markdown_page(name, text):
-    """A page of Markdown as HTML, its maths as KaTeX reads it."""
+    """A page of Markdown as HTML."""
+    return seal(HEAD.format(title=f"The kit: {name}") + html(text))
+
+
+def html(text):
+    """Markdown as HTML, its maths as KaTeX reads it."""
 
     def maths(tex, options):
         left, right = ("[", "]") if options["display_mode"] else ("(", ")")
         return f"\\{left}{escape(tex)}\\{right}"
 
-    reader = MarkdownIt().enable("table").use(dollarmath_plugin, renderer=maths)
-    return seal(HEAD.format(title=f"The kit: {name}") + reader.render(text))
+    return MarkdownIt().enable("table").use(dollarmath_plugin, renderer=maths).render(text)
 
 
 def write_assets(folder):

@@ -6,20 +6,52 @@ For example:
     def distance(speed=steps(1, 9, 0.5), seconds=(10, 20)):
         '''A car drives {seconds} s at {speed} m/s. How far does it come?'''
         return speed * seconds
+
+A question with a picture has a function that draws the same numbers; its docstring is the text for
+those who do not see it:
+
+    @picture(journey)
+    @numeric("m")
+    ...
 """
 
+import io
 from collections import ChainMap
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from html import escape
 from inspect import signature
 from math import floor, log10
 from typing import NamedTuple
 from zlib import crc32
 
+import matplotlib as mpl
 import numpy as np
+from matplotlib.figure import Figure
 
 VARIANTS = 5
 DRAWS = 20  # for each variant, at most
+STYLE = {"axes.spines.top": False, "axes.spines.right": False, "font.size": 9}
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A drawing of a question's numbers, and the text for those who do not see it."""
+
+    alt: str
+    numbers: dict = field(compare=False)
+    draw: Callable  # of axes and these numbers
+
+    @cached_property
+    def png(self):
+        """The drawing as PNG (bytes), the same each time."""
+        with mpl.rc_context(mpl.rcParamsDefault | STYLE):
+            figure = Figure(figsize=(5, 3.2), dpi=90, layout="constrained")
+            self.draw(figure.subplots(), **self.numbers)
+            file = io.BytesIO()
+            figure.savefig(file, metadata={"Software": None})
+        return file.getvalue()
 
 
 class Question(NamedTuple):
@@ -34,6 +66,24 @@ class Question(NamedTuple):
     feedback: tuple = ()  # of each choice, if each has its own
     level: str = "apply"  # or "understand", or "predict": what is asked of a student
     html: bool = False
+    picture: Picture | None = None
+
+    @property
+    def content(self):
+        """What no two variants share: the text, and the numbers in the picture."""
+        return f"{self.text} {self.picture.numbers}" if self.picture else self.text
+
+    def illustrated(self, source):
+        """The question as HTML, with its picture from the address `source`."""
+        image = f'<p><img src="{source}" alt="{escape(self.picture.alt)}"></p>'
+        return self._replace(
+            text=f"<p>{escape(self.prompt)}</p>{image}",
+            unit="",
+            answer=escape(self.answer) if self.choices else self.answer,
+            hint=escape(self.hint),
+            choices=tuple(map(escape, self.choices)),
+            html=True,
+        )
 
     @property
     def prompt(self):
@@ -71,6 +121,7 @@ class Template:
     tolerance: float | None = None  # None: one per cent of the answer
     choices: tuple = ()  # texts like the docstring; the formula returns the index of the right one
     zero: bool = False  # whether 0 may be the answer; else such numbers are drawn again
+    draw: Callable | None = None  # of axes and the numbers; its docstring is the alternative text
 
     @property
     def name(self):
@@ -85,23 +136,31 @@ class Template:
         answer, words = answer if isinstance(answer, tuple) else (answer, {})
         names = {name: _plain(value) for name, value in (numbers | words).items()}
         names = ChainMap(names, self.formula.__globals__)
-        text = " ".join(self.formula.__doc__.split()).format_map(names)
+        text = _filled(self.formula, names)
+        picture = self._picture(numbers, names) if self.draw else None
         if self.choices:
             choices = tuple(choice.format_map(names) for choice in self.choices)
             if answer not in range(len(choices)) or len({*choices}) < len(choices):
                 raise ValueError(f"{text!r}: choice {answer} is not the one right one of {choices}")
             right = choices[int(answer)]
-            return Question(text, right, hint=self.hint, choices=choices, level="understand")
+            return Question(
+                text, right, hint=self.hint, choices=choices, level="understand", picture=picture
+            )
         if not np.isfinite(answer):
             raise ValueError(f"the answer to {text!r} is {answer}: draw other numbers")
         answer = float(answer)
         tolerance = 0.01 * abs(answer) if self.tolerance is None else self.tolerance
-        return Question(text, answer, tolerance, self.unit, self.hint)
+        return Question(text, answer, tolerance, self.unit, self.hint, picture=picture)
+
+    def _picture(self, numbers, names):
+        _, *drawn = signature(self.draw).parameters  # the first are the axes
+        shown = {name: numbers[name] for name in drawn}
+        return Picture(_filled(self.draw, names), shown, self.draw)
 
     def variants(self, count=VARIANTS, seed="", without=()):
         """The first `count` questions that differ, the same at every call with this `seed`.
 
-        The empty seed draws the public bank. None is among the texts `without`. Raises ValueError
+        The empty seed draws the public bank. None has a `content` in `without`. Raises ValueError
         where there are fewer.
         """
         start = [crc32(text.encode()) for text in (self.name, seed) if text]
@@ -111,11 +170,16 @@ class Template:
             if question.choices:
                 question = question.placed(start[-1] + len(questions))
             unclear = not question.choices and abs(question.answer) <= 10 * question.tolerance
-            if not (unclear and not self.zero) and question.text not in without:
-                questions.setdefault(question.text, question)
+            if not (unclear and not self.zero) and question.content not in without:
+                questions.setdefault(question.content, question)
             if len(questions) == count:
                 return list(questions.values())
         raise ValueError(f"{self.name} has no {count} variants: let it draw from more numbers")
+
+
+def _filled(function, names):
+    """A function's docstring as one line, with names in braces filled in."""
+    return " ".join(function.__doc__.split()).format_map(names)
 
 
 def _draw(domain, rng):
@@ -140,6 +204,11 @@ def count(unit="", hint=""):
 def choice(*choices, hint=""):
     """Decorator: a `Template` whose formula returns the index of the right choice."""
     return lambda formula: Template(formula, hint=hint, choices=choices)
+
+
+def picture(draw):
+    """Decorator: a `Template` with a picture, which `draw` draws on axes from the numbers."""
+    return lambda template: replace(template, draw=draw)
 
 
 def steps(low, high, step, zero=None):

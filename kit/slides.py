@@ -15,7 +15,7 @@ from bs4 import BeautifulSoup
 
 from book._ext.policy import seal
 from book.figures.plans import MORE, PLANS, TITLES
-from kit import demos
+from kit import demos, own_slides
 from kit.chapter_slides import Slide, chapter_slides, sentence
 
 ROOT = Path(__file__).parents[1]
@@ -45,8 +45,11 @@ addEventListener("DOMContentLoaded", () => Reveal.initialize({options}));
 """
 
 
-def build(folder, pages):
-    """Write one deck a session into `folder`, from the built `pages`, and the files they need."""
+def build(folder, pages, own=own_slides.FOLDER):
+    """Write one deck a session into `folder`, from the built `pages`, and the files they need.
+
+    `own` is the folder of the lecturer's slides; what else lies in it is copied beside the decks.
+    """
     static = folder / "_static"
     static.mkdir(parents=True)
     shutil.copytree(pages.parent / "_static/vendor", static / "vendor")
@@ -54,21 +57,28 @@ def build(folder, pages):
         shutil.copy(pages.parent / "_static" / name, static / name)
     for file in (*VENDOR, *OWN):
         shutil.copy(file, static)
-    for number, (title, slides) in enumerate(sessions(pages), start=1):
+    for file in own.glob("*.*"):
+        if file.suffix != ".md":
+            shutil.copy(file, folder)
+    for number, (title, slides) in enumerate(sessions(pages, own), start=1):
         name, title = (
             ("more", title) if title == REST else (f"session-{number}", f"{number}. {title}")
         )
         (folder / f"{name}.html").write_text(_page(title, slides), encoding="utf-8")
 
 
-def sessions(pages):
-    """The decks in order, as (title, slides), with the notes of the page on teaching."""
+def sessions(pages, lecturers):
+    """The decks in order, as (title, slides), with the notes of the page on teaching.
+
+    `lecturers` is the folder of the lecturer's own slides.
+    """
     teaching = _article(pages / "teaching.html")
     runs = teaching.select_one("#how-a-session-runs ol")
     fixed = {word: int(count) for word, count in MINUTES_OF.findall(runs.get_text())}
     plans = teaching.select("#session-by-session > section")
     titles, decks = [*TITLES, REST], [*(session.chapters for session in PLANS[6]), MORE]
-    for title, names, plan in zip(titles, decks, [*plans, None], strict=True):
+    parts = zip(titles, decks, [*plans, None], strict=True)
+    for number, (title, names, plan) in enumerate(parts, start=1):
         articles = [_article(pages / f"{name}.html") for name in names]
         notes = plan.select("ul") if plan else []
         items = [item for part in notes for item in part.select("li")]
@@ -89,6 +99,9 @@ def sessions(pages):
             "Quiz": [slide for chapter in chapters for slide in chapter.quiz],
             "Next": chapters[-1].recap,
         }
+        file = lecturers / f"session-{number}.md"
+        if file.exists():
+            own_slides.put_in(deck, own_slides.own_slides(file.read_text(encoding="utf-8")))
         first.notes.insert(0, _clock(deck, fixed))
         yield title, [slide for part in deck.values() for slide in part]
 

@@ -4,6 +4,7 @@ import re
 
 import nbformat
 
+POINTS = 2  # an exercise
 LINK = re.compile(r"(?<!!)\[([^\]]+)\]\((?!\w+:)([^)#\s]+)(#[^)\s]*)?\)")
 
 
@@ -34,7 +35,8 @@ def student(notebook, files=None):
     """The chapter without solutions, checks and outputs; what is graded carries the tag "graded".
 
     Of an exercise that is checked, that is the cell where it will be; of another, a cell for words.
-    Its metadata say of which `exercise`, by label. Links to files that are not in `files` are text.
+    Its metadata say of which `exercise`, by label, and how nbgrader grades it. Links to files that
+    are not in `files` are text.
     """
     sources, cells, label, graded = checks(notebook), [], None, False
     for cell in notebook.cells:
@@ -71,4 +73,15 @@ def _words(label):
 def _graded(cell, label):
     cell.metadata.tags = [*cell.metadata.get("tags", []), "graded"]
     cell.metadata.exercise = label
+    in_words = cell.cell_type == "markdown"
+    cell.metadata.nbgrader = {
+        "schema_version": 3,
+        "grade_id": label,
+        "grade": True,
+        "points": POINTS,
+        "solution": in_words,
+        "locked": not in_words,
+        "task": False,
+        "cell_type": cell.cell_type,
+    }
     return cell

@@ -7,9 +7,9 @@ from math import isfinite
 import numpy as np
 import pytest
 
-from kit.__main__ import CHAPTERS
+from kit.__main__ import CHAPTERS, ROOT
 from kit.bank import bank, templates
-from kit.question import VARIANTS, Question, choice, numeric, steps
+from kit.question import VARIANTS, Question, choice, numeric, picture, steps
 
 TEMPLATES = {
     template.name: template for chapter in CHAPTERS for template in templates(chapter.stem)
@@ -31,9 +31,9 @@ def test_the_bank_covers_every_chapter(questions):
 def test_every_variant_is_another_question_with_an_answer(questions):
     assert {len(variants) for variants in questions.values()} == {VARIANTS}
     every = [question for variants in questions.values() for question in variants]
-    assert len({question.text for question in every}) == len(every)
+    assert len({question.content for question in every}) == len(every)
     for question in every:
-        assert re.search(r"\d", question.text)
+        assert question.picture or re.search(r"\d", question.text)
         assert not re.search(r"nan|np\.|array\(|[{}]|\(s\)", question.text)
         assert not re.search(
             r"(?<![\w.])1 (joint|dimension|block|layer|lesson|link)s\b", question.text
@@ -100,3 +100,51 @@ def test_a_bad_template_is_refused(rng):
 
 def test_steps_include_both_ends():
     assert steps(-0.2, 0.2, 0.1, zero=0.5) == [-0.2, -0.1, 0.5, 0.1, 0.2]
+
+
+# ---------------------------------------------------------------- pictures
+
+PICTURES = {name: template for name, template in TEMPLATES.items() if template.draw}
+
+
+def test_a_picture_is_drawn_from_the_numbers_and_is_small():
+    def line(axes, high):
+        """A line up to {high}, {word}."""
+        axes.plot([0, high])
+
+    @picture(line)
+    @numeric("m")
+    def top(high=(2, 3, 4), add=(1,)):
+        """The line ends how far below {sum}?"""
+        return add, {"word": "so", "sum": high + add}
+
+    several = top.variants(3)
+    assert {q.picture.alt for q in several} == {f"A line up to {high}, so." for high in (2, 3, 4)}
+    assert all(question.picture.numbers.keys() == {"high"} for question in several)
+    files = {question.picture.png for question in several}
+    assert len(files) == 3
+    assert top.variants(3)[0].picture.png in files  # drawn anew
+    shown = several[0].illustrated("a.png")
+    assert shown.html
+    assert f'<img src="a.png" alt="{several[0].picture.alt}">' in shown.prompt
+
+
+@pytest.mark.parametrize("name", PICTURES)
+def test_what_a_picture_says_in_words_names_no_one_choice(name, questions):
+    [several] = [several for (_, key), several in questions.items() if key == name]
+    for question in several:
+        alt = question.picture.alt
+        named = [re.search(rf"\b{re.escape(choice)}", alt) for choice in question.choices]
+        assert sum(map(bool, named)) != 1, alt
+        assert not re.search(r"nan|np\.|array\(|[{}]", alt)
+
+
+def test_each_aim_of_the_course_has_pictures_that_ask_for_it():
+    text = (ROOT / "kit/assistants.md").read_text(encoding="utf-8")
+    aims = re.findall(r"^(\d)\. ", text, re.M)
+    rows = dict(re.findall(r"^\| (\d) \|.*\|(.*)\|$", text, re.M))
+    names = {aim: re.findall(r"`(\w+)`", row) for aim, row in rows.items()}
+    assert [*names] == aims
+    assert min(map(len, names.values())) >= 3
+    assert sorted(name for row in names.values() for name in row) == sorted(PICTURES)
+    assert len(PICTURES) >= 40

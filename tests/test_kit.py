@@ -17,7 +17,8 @@ from vmc_lib.show import questions
 
 BUILT = ROOT / "_build/html/book"
 
-EXPORTS = [f"{name}{end}" for name in ("questions", "predictions") for end in (".gift", "-qti.zip")]
+ENDS = ".gift", ".xml", "-qti.zip"
+EXPORTS = [f"{name}{end}" for name in ("questions", "predictions") for end in ENDS]
 
 
 # ---------------------------------------------------------------- students' notebooks
@@ -145,7 +146,7 @@ def test_the_whole_kit_is_built_from_chapters_and_pages(kit):
         "report.ipynb",
         "assistants.html",
     }
-    folders = {"students", "slides", "demos", "arm-in-page"}
+    folders = {"students", "nbgrader", "slides", "demos", "arm-in-page"}
     names = {file.name for file in kit.iterdir()}
     predictions, questions = (
         (kit / f"{name}.gift").read_text(encoding="utf-8") for name in ("predictions", "questions")
@@ -153,11 +154,20 @@ def test_the_whole_kit_is_built_from_chapters_and_pages(kit):
     assert "/predict/" in predictions
     assert "/predict/" not in questions
     assert names == pages | folders | {*EXPORTS}
+    chapters = {path.name for path in CHAPTERS}
+    assert {file.name for file in (kit / "nbgrader/source").glob("*/*.ipynb")} == chapters
     students = {file.name for file in (kit / "students").glob("*.ipynb")}
-    assert students == {path.name for path in CHAPTERS}
+    assert students == chapters
     text = (kit / "key.md").read_text(encoding="utf-8")
     assert text.count("**Solution.**") == text.count("### Exercise")
     assert "<details>" not in text
+
+
+def test_predictions_lead_to_demos_that_are_there(kit):
+    text = (kit / "predictions.xml").read_text(encoding="utf-8")
+    demos = re.findall(r"demos/figure-[\d-]+\.html", text)
+    assert len(demos) > 50
+    assert all((kit / demo).exists() for demo in demos)
 
 
 def test_links_of_the_kits_pages_lead_to_files_that_are_there(kit):

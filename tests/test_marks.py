@@ -107,7 +107,7 @@ MARKS = {
     "forged": "not right",
     "none": "not answered",
     "broken": "NameError: name 'broken' is not defined",
-    "cut": "no cell checks it",
+    "cut": "right",
     "why": "in words: for you to read",
 }
 
@@ -139,13 +139,23 @@ def test_endless_check_is_interrupted_and_said(quick):
     assert results == {"first": "ran longer than a minute", "second": "not right"}
 
 
+def test_a_loop_above_a_check_is_said_at_that_check_alone(quick):
+    chapter, notebook = quick
+    notebook.cells[1].source = "def check(name, expected): answer"
+    loop = new_code_cell("from threading import Event\nEvent().wait()\nanswer = 2")
+    notebook.cells.insert(2, loop)
+    results = marks.marks(chapter, notebook, cell_limit=5)
+    unknown = "NameError: name 'answer' is not defined"
+    assert results == {"first": "ran longer than a minute", "second": unknown}
+
+
 def test_what_a_hand_in_prints_is_not_kept(quick):
     """It may have no end: the marks of a class would end with the memory."""
     chapter, notebook = quick
     notebook.cells[1].source = "def check(*_): print('x' * 10**6)"
     kept = []
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(marks, "_mark", lambda outputs, _: kept.extend(outputs))
+        patch.setattr(marks, "mark_of", lambda outputs, _: kept.extend(outputs) or "")
         marks.marks(chapter, notebook)
     assert kept == []
 
@@ -180,7 +190,7 @@ def table(monkeypatch):
         assert text.startswith("\ufeff")  # or Excel takes it for something else than UTF-8
         rows = {}
         for row in csv.DictReader(io.StringIO(text[1:])):
-            assert tuple(row) == marks.COLUMNS
+            assert tuple(row) in (marks.COLUMNS, marks.BY_FILE)
             rows.setdefault(Path(row["file"]).name, []).append(row)
         return rows
 
@@ -248,6 +258,18 @@ def test_a_file_beside_a_hand_in_changes_no_mark_and_is_named(folder, table, cap
     assert {row["exercise"]: row["mark"] for row in found} == MARKS
     named = re.findall("it is no notebook: (.*)", capsys.readouterr().err)
     assert {*map(Path, named)} == others
+
+
+def test_a_student_is_one_row_on_request(folder, table):
+    (folder / "cut.ipynb").touch()
+    rows = table(folder, "--by", "file")
+    [row], [cut] = rows["right.ipynb"], rows["cut.ipynb"]
+    right = sum(mark == "right" for mark in MARKS.values())
+    assert (float(row["points"]), float(row["of"])) == (2 * right + 1, 2 * len(EXERCISES))
+    assert row["for you to read"] == "why"
+    wrong = [part.split(": ")[0] for part in row["not right"].split("; ")]
+    assert [*wrong] == [name for name, mark in MARKS.items() if mark != "right"][:-1]
+    assert cut["not right"].startswith("cannot be marked (")
 
 
 def test_several_run_at_once(tmp_path, table):

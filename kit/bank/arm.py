@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from kit.question import choice, numeric, steps, tenths
+from kit.bank.drawing import curves
+from kit.question import choice, numeric, picture, steps, tenths
 from vmc_lib.arm.arm26 import forward, mass_matrix, muscle_paths
 from vmc_lib.arm.model import MUSCLES
 
@@ -106,3 +107,82 @@ def motion_that_follows(
     damping take, is {torque} N m. What is the acceleration of the {joint} (Eq. 12)?"""
     inertia = np.round(mass_matrix(forward(np.radians([shoulder, elbow]))), 3)
     return np.linalg.solve(inertia, torque)[int(joint == "elbow")], {"inertia": inertia}
+
+
+ELBOWS = np.arange(0, 131, 2.0)  # degrees, the upper arm hanging
+
+
+def levers(k):
+    """Moment arms of a muscle at the elbow, cm, over `ELBOWS`."""
+    return np.array([moment_arms(0, elbow)[1, k] for elbow in ELBOWS])
+
+
+def lever_curve(axes, k, elbow):
+    """A muscle's moment arm at the elbow, in cm, against the elbow's angle, 0 to 130 degrees: a
+    curve with one mark on it, at {elbow} degrees and {lever:.1f} cm."""
+    curves(axes, ELBOWS, {"": levers(k)}, "elbow (degrees)", "moment arm (cm)")
+    axes.plot(elbow, moment_arms(0, elbow)[1, k], "ko")
+
+
+BENDERS = [MUSCLES.index(name) for name in ("BIClong", "BICshort", "BRA")]
+
+
+@picture(lever_curve)
+@numeric("N m", "Read the moment arm at the mark, in metres; times the force.")
+def torque_at_the_mark(k=BENDERS, elbow=steps(30, 110, 10), pull=steps(100, 600, 50)):
+    """In the posture of the mark this muscle pulls with {pull} N. What torque does it make at the
+    elbow?"""
+    lever = moment_arms(0, elbow)[1, k]
+    return pull * lever / 100, {"lever": lever}
+
+
+def bend(shoulder):
+    """Where the elbow of the planar arm is: forward, up (cm)."""
+    return 30 * np.array([np.sin(np.radians(shoulder)), -np.cos(np.radians(shoulder))])
+
+
+def stick(axes, shoulder, elbow):
+    """An arm of two links from the side, the shoulder in the middle above. The elbow is at
+    ({x[0]:.0f}, {y[0]:.0f}) cm, the wrist at ({x[1]:.0f}, {y[1]:.0f}), forward and up."""
+    axes.plot(*np.transpose([(0, 0), bend(shoulder), wrist(shoulder, elbow)]), "o-", lw=3)
+    axes.set_aspect("equal", "datalim")
+    axes.set(xlabel="forward (cm)", ylabel="up (cm)")
+    axes.grid(alpha=0.4)
+
+
+@picture(stick)
+@choice(
+    "{shoulder} and {elbow}",
+    "{shoulder} and {absolute}",
+    "{absolute} and {elbow}",
+    hint="The elbow's angle is that between the links, not that of the forearm with the vertical.",
+)
+def angles_of_a_posture(shoulder=steps(10, 50, 10), elbow=steps(30, 90, 10)):
+    """Which angles has this arm, in degrees, at the shoulder and at the elbow ({PLANAR})?"""
+    x, y = np.transpose([bend(shoulder), wrist(shoulder, elbow)])
+    return 0, {"absolute": shoulder + elbow, "x": x, "y": y}
+
+
+PAIRS = [(b, t) for b in ("BIClong", "BRA", "BICshort") for t in ("TRIlat", "TRImed", "TRIlong")]
+
+
+def lengths(names):
+    """Lengths of two muscles, cm, over `ELBOWS`, (2, n)."""
+    places = [MUSCLES.index(name) for name in names]
+    paths = [muscle_paths(forward(np.radians([0, elbow])))[0][places] for elbow in ELBOWS]
+    return 100 * np.transpose(paths)
+
+
+def two_lengths(axes, pair, swap):
+    """The lengths of two muscles, in cm, against the elbow's angle. From 0 to 130 degrees A goes
+    from {a[0]:.1f} to {a[1]:.1f}, B from {b[0]:.1f} to {b[1]:.1f}."""
+    a, b = lengths(pair)[[swap, 1 - swap]]
+    curves(axes, ELBOWS, {"A": a, "B": b}, "elbow (degrees)", "length (cm)")
+
+
+@picture(two_lengths)
+@choice("A", "B", hint="A muscle only shortens when it pulls: it turns the joint that way.")
+def which_one_bends(pair=PAIRS, swap=(0, 1)):
+    """The elbow's angle grows as the arm bends. Which muscle bends it by its pull?"""
+    a, b = lengths(pair)[[swap, 1 - swap]][:, [0, -1]]
+    return int(np.ptp(a) * np.sign(a[1] - a[0]) > 0), {"a": a, "b": b}

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from kit.question import count, numeric, steps
+from kit.bank.drawing import bars
+from kit.question import choice, count, numeric, picture, steps
 from vmc_lib.statistics import student
 
 SHARE, SECONDS = steps(0.2, 0.9, 0.05), steps(0.2, 2, 0.1)
@@ -72,3 +73,46 @@ def power_of_growth(times=(4, 10, 25), power=(0.5, 1, 1.5, 2), seconds=SECONDS):
     their number does it grow?"""
     later = round(seconds * times**power, 2)
     return np.log(later / seconds) / np.log(times), {"later": later}
+
+
+def three_changes(axes, first, second):
+    """Three bars of the median miss: no change, 100 %; change A, {a:g} %; change B, {b:g} %."""
+    shares = {"no change": 100, "A": 100 * first, "B": 100 * second}
+    bars(axes, shares, "median miss (%)")
+
+
+@picture(three_changes)
+@numeric("%", "Of what A leaves, B leaves its own share.", tolerance=1)
+def both_if_independent(first=steps(0.2, 0.9, 0.05), second=steps(0.2, 0.9, 0.05)):
+    """Two changes, each made alone. If they mend different parts of the miss, so that their shares
+    multiply, how much is left with both?"""
+    return 100 * first * second, {"a": 100 * first, "b": 100 * second}
+
+
+def four_cells(rng):
+    """Per cent of a miss that is left: with neither change, A, B, both; and which kind, (4,), k."""
+    a, b = 10 * rng.choice(np.arange(4, 9), 2, replace=False)
+    k = rng.integers(3)
+    both = a * b / 100 + (0, 0.5, -0.5)[k] * (min(a, b) - a * b / 100)
+    return np.array([100, a, b, round(both)]), k
+
+
+def two_by_two(axes, cells):
+    """Four bars of the median miss: neither change, 100 %; A, {left[1]} %; B, {left[2]} %; both,
+    {left[3]} %."""
+    left, _ = cells
+    names = "neither", "A", "B", "both"
+    bars(axes, dict(zip(names, left.astype(float), strict=True)), "median miss (%)")
+
+
+@picture(two_by_two)
+@choice(
+    "each does what it does alone",
+    "they mend partly the same thing",
+    "each helps more beside the other",
+    hint="Work out what would be left if the shares multiplied, and compare.",
+)
+def what_an_ablation_says(cells=four_cells):
+    """Two changes, alone and together. What does the fourth bar say of them?"""
+    left, k = cells
+    return k, {"left": left}

@@ -2,7 +2,9 @@
 
 import numpy as np
 
-from kit.question import choice, count, numeric, steps
+from kit.bank.drawing import boxes as draw_boxes
+from kit.bank.drawing import curves
+from kit.question import choice, count, numeric, picture, steps
 from vmc_lib.boxes import area, iou
 from vmc_lib.photos import HEIGHT, WIDTH
 
@@ -104,3 +106,54 @@ def fit_together(side=steps(40, 100, 10), gap=steps(10, 50, 10)):
     """Two square regions of {side} × {side} pixels, both full, lie side by side with a gap of {gap}
     pixels in a picture of {WIDTH} × {HEIGHT}. How well do they fit together ('fill')?"""
     return 1 - gap * side / (WIDTH * HEIGHT)
+
+
+BOXES = 2 ** np.arange(9)  # so many are tried
+
+
+def growing_recalls(rng):
+    """The recall of two methods after so many boxes, (2, 9), in odd twentieths."""
+    return np.sort([rng.choice(np.arange(5, 100, 10), 9, replace=False) for _ in "AB"]) / 100
+
+
+def recall_curves(axes, recalls):
+    """Recall against the number of boxes, from 1 to 256 in powers of two. Method A: {recalls[0]}.
+    Method B: {recalls[1]}."""
+    curves(axes, BOXES, dict(zip("AB", recalls, strict=True)), "boxes", "recall")
+    axes.set_xscale("log", base=2)
+    axes.set(xticks=BOXES, xticklabels=BOXES, yticks=np.arange(0, 1.1, 0.1))
+
+
+@picture(recall_curves)
+@count("boxes", "Go along the level to the curve, then down. Only powers of two were tried.")
+def boxes_for_a_recall(recalls=growing_recalls, level=(0.5, 0.6, 0.7, 0.8), method=(0, 1)):
+    """Of the numbers of boxes that were tried (1, 2, 4, …), which is the smallest with which method
+    {name} has a recall of at least {level}?"""
+    return BOXES[np.argmax(recalls[method] >= level)], {"name": "AB"[method]}
+
+
+# From a thing's box: moved a little; inside it; around it
+DEVIATIONS = [[0.1, 0.1, 0.1, 0.1], [0.2, 0.15, -0.15, -0.15], [-0.3, -0.3, 0.3, 0.3]]
+
+
+def three_candidates(size, order):
+    """The boxes of a thing and of three candidates around it, (4, 4), in this order."""
+    thing = np.array([100, 60, 100 + size[0], 60 + size[1]])
+    return np.vstack([thing, thing + np.array(DEVIATIONS)[order] * np.tile(size, 2)])
+
+
+def candidates(axes, size, order):
+    """A thing's box, {size[0]} × {size[1]} pixels, and three candidates: {said}."""
+    draw_boxes(axes, dict(zip(("thing", *"ABC"), three_candidates(size, order), strict=True)))
+
+
+@picture(candidates)
+@choice("A", "B", "C", hint="What both share over what either covers: too much costs as well.")
+def best_of_three_boxes(
+    size=lambda rng: 10 * rng.integers(8, 21, 2), order=lambda rng: rng.permutation(3)
+):
+    """Which candidate overlaps the thing best, by IoU?"""
+    thing, *others = three_candidates(size, order)
+    kinds = "of its size, a little beside it", "inside it", "around it"
+    said = (f"{name} is {kinds[k]}" for name, k in zip("ABC", order, strict=True))
+    return np.argmax(iou(thing, np.array(others))), {"said": "; ".join(said)}

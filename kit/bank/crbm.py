@@ -3,7 +3,8 @@
 import numpy as np
 import torch
 
-from kit.question import count, numeric, steps, tenths
+from kit.bank.drawing import bars
+from kit.question import choice, count, numeric, picture, steps, tenths
 from vmc_lib.what.learning import Learner
 
 WIDTH, N_W = steps(60, 240, 1), steps(5, 15, 1)
@@ -108,3 +109,77 @@ def step_of_learning(
     dream. By how much does their weight change at a rate of {rate} (contrastive divergence, without
     decay or momentum)?"""
     return rate * (data - dream)
+
+
+UNITS = "unit A", "unit B", "unit C", "unit D"
+
+
+def chances(drives):
+    """Chances of the five states of a block, (5,): of its units, and that all are off."""
+    units, pooled = block(drives.tolist())
+    return np.array([*units, 1 - pooled]).round(2)
+
+
+def four_chances(axes, drives):
+    """Five bars, one hidden. Unit A: {p[0]:.2f}; unit B: hidden; unit C: {p[2]:.2f}; unit D:
+    {p[3]:.2f}; all off: {p[4]:.2f}."""
+    shown = chances(drives)
+    shown[1] = np.nan
+    bars(axes, dict(zip((*UNITS, "all off"), shown, strict=True)), "chance", "{:.2f}")
+
+
+@picture(four_chances)
+@numeric(hint="One of the five states it is: their chances add up to 1.", tolerance=0.01)
+def hidden_chance(drives=tenths(-1, 2.5, 4)):
+    """The five states of a block of four units, and how likely each is. What is the chance of unit
+    B?"""
+    p = chances(drives)
+    return 1 - np.delete(p, 1).sum(), {"p": p}
+
+
+def five_chances(axes, drives):
+    """Five bars. Units A to D: {p[0]:.2f}, {p[1]:.2f}, {p[2]:.2f}, {p[3]:.2f}; all off:
+    {p[4]:.2f}."""
+    bars(axes, dict(zip((*UNITS, "all off"), chances(drives), strict=True)), "chance", "{:.2f}")
+
+
+@picture(five_chances)
+@numeric(hint="The logarithm of its chance over that of all off, whose drive is 0.", tolerance=0.12)
+def drive_from_chances(drives=tenths(0.3, 2, 4), k=range(4)):
+    """The five states of a block of four units, and how likely each is. Which drive does {unit}
+    receive?"""
+    p = chances(drives)
+    return np.log(p[k] / p[4]), {"p": p, "unit": UNITS[k]}
+
+
+TRICKS = ("whitening", "sparsity")
+RUNS = [(1, 1), (1, 0), (0, 1), (0, 0)]  # with each trick (1) or without it
+
+
+def four_runs(axes, order, scores):
+    """Four runs and how many of their filters became edges: {runs}."""
+    words = ["\n+ ".join(np.array(TRICKS)[np.array(RUNS[k], bool)]) or "neither" for k in order]
+    names = [f"{name}:\n{text}" for name, text in zip("ABCD", words, strict=True)]
+    bars(axes, dict(zip(names, scores[order], strict=True)), "filters that are edges (%)")
+
+
+@picture(four_runs)
+@choice(
+    "{pairs[0]}",
+    "{pairs[1]}",
+    "{pairs[2]}",
+    hint="They differ in this one thing, and both have the other trick.",
+)
+def runs_to_compare(
+    order=lambda rng: rng.permutation(4),
+    scores=lambda rng: np.sort(rng.choice(np.arange(5, 95), 4, replace=False))[::-1],
+    trick=(0, 1),
+):
+    """Filters were learnt four times. Which two runs say what {what} adds to a network that has
+    the other trick already?"""
+    name = dict(zip(order.tolist(), "ABCD", strict=True))
+    without = 2 - trick  # the run that has only the other trick
+    pairs = [" and ".join(sorted((name[0], name[k]))) for k in (without, trick + 1, 3)]
+    said = (f"{n}: {RUNS[k]}, {scores[k]} %" for n, k in zip("ABCD", order, strict=True))
+    runs = f"(whitening, sparsity), 1 for with; {'; '.join(said)}"
+    return 0, {"pairs": pairs, "what": TRICKS[trick], "runs": runs}

@@ -3,7 +3,8 @@
 import numpy as np
 import torch
 
-from kit.question import choice, count, numeric, steps, tenths
+from kit.bank.drawing import bars, boxes
+from kit.question import choice, count, numeric, picture, steps, tenths
 from vmc_lib.what.cdbn import CDBN
 from vmc_lib.what.learning import Learner
 
@@ -90,3 +91,49 @@ def steps_between_windows(c=(2, 3, 4), layers=(2, 3)):
     """Each of {layers} layers pools blocks of {c} × {c}. How many pixels of the picture lie
     between the windows of two neighbouring pooled units of the last layer?"""
     return c**layers
+
+
+def squares(axes, n_w, second, c, order):
+    """Three squares around one point. A is {sides[0]} pixels wide, B {sides[1]}, C {sides[2]}."""
+    widths = sides(n_w, second, c)[order]
+    named = {n: (-w / 2, -w / 2, w / 2, w / 2) for n, w in zip("ABC", widths, strict=True)}
+    boxes(axes, named)
+
+
+def sides(n_w, second, c):
+    """The width of a second filter's window in pixels, and two that it is not, (3,)."""
+    return np.array([(second - 1) * c + n_w + c - 1, second * n_w, second + n_w - 1])
+
+
+@picture(squares)
+@choice("A", "B", "C", hint="Its pooled units lie c pixels apart, and each sees n_w + c - 1.")
+def window_of_three(
+    n_w=(7, 8, 9, 10, 11), second=(5, 6, 7, 8), c=(2, 3), order=lambda rng: rng.permutation(3)
+):
+    """First-layer filters are {n_w} pixels wide, blocks {c} units, second-layer filters {second}
+    units. Which square is the patch of the picture under one second-layer filter?"""
+    return int(np.flatnonzero(order == 0)[0]), {"sides": sides(n_w, second, c)[order]}
+
+
+SHOWN = "V", "H1", "P1", "H2", "P2"
+
+
+def widths(width, n_w):
+    """How wide the layers are, in units, (5,)."""
+    layers = zero_network(n_w).layers(torch.zeros(1, 1, width, width))
+    return np.array([layers[name].shape[-1] for name in SHOWN], float)
+
+
+def four_widths(axes, width, n_w):
+    """Five bars: V is {w[0]:g} wide, H1 {w[1]:g}, P1 {w[2]:g}, H2 {w[3]:g}; P2 is hidden."""
+    shown = widths(width, n_w)
+    shown[4] = np.nan
+    bars(axes, dict(zip(SHOWN, shown, strict=True)), "width (units)")
+
+
+@picture(four_widths)
+@count("units", "Half of H2: a block is two units wide.")
+def next_width(width=steps(60, 160, 4), n_w=(6, 7, 8, 9, 10)):
+    """The width of each layer of a network with blocks of two. How wide is P2?"""
+    w = widths(width, n_w)
+    return int(w[4]), {"w": w}

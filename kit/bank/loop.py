@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from kit.question import numeric, steps
+from kit.bank.drawing import bars, points
+from kit.question import choice, numeric, picture, steps
 from vmc_lib.arm.kinematics import TRUNK, to_world
 from vmc_lib.camera import Camera
 from vmc_lib.photos import WIDTH
@@ -102,3 +103,48 @@ def errors_together(
     """Seeing is {seeing} mm off and moving {moving} mm; the two errors are {pair}. How far from the
     thing does the hand end (its root mean square)?"""
     return np.hypot(seeing, moving)
+
+
+STEPS = "seen", "named", "placed", "reached"
+
+
+def photos_left(rng):
+    """Of 200 photos, those that are left before the first step and after each of the four."""
+    return np.round(200 * np.cumprod([1, *rng.permutation([0.96, 0.91, 0.85, 0.78])])).astype(int)
+
+
+def chain(axes, left):
+    """Five bars: how many photos there are ({left[0]}), and in how many the thing is seen
+    ({left[1]}), then named ({left[2]}), then placed ({left[3]}), then reached ({left[4]})."""
+    bars(axes, dict(zip(("photos", *STEPS), left, strict=True)), "photos")
+
+
+@picture(chain)
+@choice(*STEPS, hint="Of what reaches a step, the share that it loses: not the tallest drop.")
+def step_that_loses_most(left=photos_left):
+    """Each bar counts the photos in which this step and all before it succeeded. Which step loses
+    the largest share of what reaches it?"""
+    return np.argmin(left[1:] / left[:-1])
+
+
+def three_places(rng):
+    """Where a thing is, is seen and where the hand ended: (3, 2), whole cm."""
+    true = rng.integers([20, -5], [40, 6])
+    seen = true + rng.choice([-4, -3, -2, 2, 3, 4], 2)
+    return np.array([true, seen, seen + rng.choice([-5, -4, -3, 3, 4, 5], 2)])
+
+
+def from_above(axes, places):
+    """The table from above, a centimetre a unit: the thing at ({places[0][0]}, {places[0][1]}), the
+    place where it is seen at ({places[1][0]}, {places[1][1]}), the end of the hand at
+    ({places[2][0]}, {places[2][1]})."""
+    names = "the thing", "seen here", "the hand ended here"
+    points(axes, dict(zip(names, places, strict=True)), "forward (cm)", "left (cm)")
+
+
+@picture(from_above)
+@numeric("cm", "The arm goes where the eye says: the eye's error is what is left.", tolerance=0.3)
+def left_to_the_eye(places=three_places):
+    """One reach, seen from above. Calibration now makes the arm perfect: it ends where it is sent.
+    How far from the thing will the hand end?"""
+    return np.linalg.norm(places[1] - places[0])

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from kit.question import choice, numeric, steps
+from kit.bank.drawing import curves
+from kit.question import choice, numeric, picture, steps
 from vmc_lib.arm import muscle
 from vmc_lib.arm.model import F0, L0, MUSCLES, SLACK
 
@@ -107,3 +108,62 @@ def when_does_it_pull_hardest(
     lengthens): {speeds[0]:+g} l0/s, {speeds[1]:+g} l0/s, {speeds[2]:+g} l0/s. At which one does it
     pull hardest?"""
     return np.argmax(muscle.force_velocity(speeds / muscle.MAX_VELOCITY))
+
+
+LENGTHS = np.linspace(0.4, 1.6, 121)  # of the best length
+
+
+def length_curve(axes, length):
+    """The active force against the fibre's length, a bell that is highest near 1, with a mark on
+    it at the length {length}."""
+    curves(axes, LENGTHS, {"": muscle.force_length(LENGTHS)}, "length / best length", "force / F0")
+    axes.plot(length, muscle.force_length(length), "ko")
+    axes.set_yticks(np.arange(0, 1.1, 0.1))
+
+
+@picture(length_curve)
+@numeric("N", "Read the height at the mark; take that share of F0, and of it the activation.", 20)
+def pull_at_the_mark(
+    length=steps(0.6, 1.3, 0.05), a=(0.3, 0.4, 0.5, 0.6), strongest=(600, 800, 1000)
+):
+    """A still muscle (F0 = {strongest} N) has the length of the mark and the activation {a}. The
+    curve is for full activation. How hard does its active part pull?"""
+    return strongest * a * muscle.force_length(length)
+
+
+TIMES = np.arange(0, 200.0)  # ms
+
+
+def fall(tau):
+    """Activation (200,) that nothing keeps up, from 1 on; τ in ms."""
+    return np.exp(-TIMES / tau)
+
+
+def one_fall(axes, tau):
+    """Activation against time, from 1 at 0 ms, falling less and less steeply towards 0. After 20 ms
+    it is {after:.2f}."""
+    curves(axes, TIMES, {"": fall(tau)}, "time (ms)", "activation")
+    axes.set(xticks=np.arange(0, 201, 20), yticks=np.arange(0, 1.1, 0.1))
+
+
+@picture(one_fall)
+@numeric("ms", "Where it is down to 1/e, 0.37, of its beginning.", tolerance=4)
+def time_constant_of_a_fall(tau=steps(30, 90, 2)):
+    """Excitation ended at 0 ms. What is the time constant of this muscle's fall?"""
+    return tau, {"after": fall(tau)[20]}
+
+
+def two_falls(axes, taus):
+    """Activation of two muscles against time, both from 1 at 0 ms, falling towards 0 at different
+    speeds. After 40 ms A has {after[0]:.2f}, B {after[1]:.2f}."""
+    curves(axes, TIMES, dict(zip("AB", map(fall, taus), strict=True)), "time (ms)", "activation")
+
+
+@picture(two_falls)
+@choice("A", "B", hint="A fast flicker is smoothed most by the muscle that changes slowest.")
+def which_smooths_more(
+    taus=lambda rng: 10 * rng.permutation(np.arange(3, 10))[:2], pulses=(5, 8, 10, 12)
+):
+    """Excitation ended at 0 ms. Both muscles rise alike. Which one keeps the more even force when
+    it gets {pulses} short pulses a second?"""
+    return np.argmax(taus), {"after": [fall(tau)[40] for tau in taus]}

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from kit.question import choice, count, numeric, steps, successes, tenths
+from kit.bank.drawing import curves
+from kit.question import choice, count, numeric, picture, steps, successes, tenths
 from vmc_lib.statistics import wilson
 from vmc_lib.what.recogniser import NameClassifier
 
@@ -55,3 +56,98 @@ def honest_chances(p=(0.6, 0.7, 0.8, 0.9), n=(20, 50, 100, 200)):
     """A calibrated recogniser says {p} for each of {n} crops. How many of them does one expect to
     be shuttlecocks?"""
     return round(p * n)
+
+
+def table_of_names(rng):
+    """Crops by what they show (rows) and by what they are called (columns), (2, 2)."""
+    return rng.integers([[50, 5], [5, 50]], [[90, 30], [30, 90]])
+
+
+def confusion(axes, table):
+    """A table of crops. Shuttlecocks: {table[0][0]} called shuttlecock, {table[0][1]} called cup.
+    Cups: {table[1][0]} called shuttlecock, {table[1][1]} called cup."""
+    axes.imshow(table, cmap="Blues", vmin=0, vmax=150)
+    for (row, column), number in np.ndenumerate(table):
+        axes.text(column, row, number, ha="center", va="center", fontsize=14)
+    names = ["shuttlecock", "cup"]
+    axes.set(xticks=[0, 1], xticklabels=names, yticks=[0, 1], yticklabels=names)
+    axes.set(xlabel="called", ylabel="shows")
+
+
+@picture(confusion)
+@numeric(hint="Recall: along the row, of what there is. Precision: down the column, of the calls.")
+def read_a_table(table=table_of_names, what=("recall", "precision")):
+    """What {what} does this recogniser have for shuttlecocks?"""
+    return table[0, 0] / (table[0] if what == "recall" else table[:, 0]).sum()
+
+
+SAID = np.arange(0.55, 1, 0.1)  # what a recogniser says of its names
+
+
+def came_true(bend, noise):
+    """How often names that were said with these chances were right, (5,)."""
+    return np.clip(SAID + bend * (SAID - 0.5) + noise, 0, 1).round(2)
+
+
+def reliability(axes, bend, noise):
+    """Said and came true: {pairs}. A dashed line shows where both are the same."""
+    axes.plot(SAID, came_true(bend, noise), "o-", label="this recogniser")
+    axes.plot([0.5, 1], [0.5, 1], "k--", label="said = came true")
+    axes.set(xlabel="chance that it says", ylabel="share that is right")
+    axes.grid(alpha=0.4)
+    axes.legend()
+
+
+@picture(reliability)
+@choice(
+    "it says more than comes true",
+    "it says less than comes true",
+    "what it says comes true",
+    hint="Below the dashed line it promised more than came.",
+)
+def honest_or_not(
+    bend=(-0.5, -0.4, 0.0, 0.3, 0.35), noise=lambda rng: rng.uniform(-0.02, 0.02, 5).round(3)
+):
+    """A recogniser's chances against how often they came true, each from hundreds of test crops.
+    How honest is it?"""
+    pairs = zip(SAID, came_true(bend, noise), strict=True)
+    words = {"pairs": "; ".join(f"{said:.2f} and {true:.2f}" for said, true in pairs)}
+    return (0 if bend < 0 else 1 if bend > 0 else 2), words
+
+
+SIZES = np.array([15, 20, 30, 45, 70, 100])  # examples
+
+
+def errors(seed):
+    """Errors of lines fitted to more and more examples: on these, and on new ones, (2, 6)."""
+    rng = np.random.default_rng(seed)
+    weights = rng.standard_normal(10)
+
+    def examples(n):
+        x = rng.standard_normal((n, 10))
+        return x, x @ weights + rng.standard_normal(n)
+
+    def error(x, y, fit):
+        return np.sqrt(np.mean((x @ fit - y) ** 2))
+
+    rows = []
+    for n in SIZES:
+        seen, new = examples(n), examples(1000)
+        fit = np.linalg.lstsq(*seen)[0]
+        rows.append((error(*seen, fit), error(*new, fit)))
+    return np.array(rows).T.round(2)
+
+
+def learning_curves(axes, seed, swap):
+    """Two errors against the number of training examples, 15 to 100. A: {a}. B: {b}."""
+    curves(axes, SIZES, dict(zip("AB", errors(seed)[[swap, 1 - swap]], strict=True)), "", "error")
+    axes.set_xlabel("training examples")
+
+
+@picture(learning_curves)
+@choice("A", "B", hint="What is learnt by heart looks best where there is little to learn.")
+def held_out_of_two(seed=lambda rng: int(rng.integers(10**6)), swap=(0, 1)):
+    """One of these curves is the error on the examples that were learnt from, the other on new
+    ones. Which is the held-out curve?"""
+    a, b = errors(seed)[[swap, 1 - swap]]
+    return 1 - swap, {"a": a, "b": b}

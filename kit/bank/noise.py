@@ -1,6 +1,9 @@
 """Questions on noise: of a pull, the best of many trials, senses, and what corrections cost."""
 
-from kit.question import numeric, steps
+import numpy as np
+
+from kit.bank.drawing import curves
+from kit.question import choice, numeric, picture, steps
 from vmc_lib.arm.muscle import force
 
 ERROR = steps(1, 12, 0.5)
@@ -41,3 +44,56 @@ def gain_of_the_last_step(q=(1, 2, 4), r=(0.5, 1, 2, 4), b=(0.5, 1, 2)):
     """In its last step a deviation x becomes x − b k x, with b = {b}. What is left costs {q} times
     its square, the correction k x costs {r} times its square. Which k is best?"""
     return q * b / (r + q * b**2)
+
+
+FORCES = np.linspace(20, 200, 10)  # N
+
+
+def spreads(share, order):
+    """Deviations in N of three noises over `FORCES`: a share, a constant, and both, (3, 10)."""
+    return np.array([0 * FORCES + 110 * share, share * FORCES, share * FORCES / 2 + 55 * share])[
+        order
+    ]
+
+
+def noises(axes, share, order):
+    """The deviation of a force in N against its mean, 20 to 200 N, in three muscles: {said}."""
+    curves(axes, FORCES, dict(zip("ABC", spreads(share, order), strict=True)), "mean (N)", "sd (N)")
+    axes.set_ylim(0, None)
+
+
+@picture(noises)
+@choice("A", "B", "C", hint="By that law a stronger command is noisier.")
+def against_noise_of_the_command(
+    share=steps(0.02, 0.2, 0.01), order=lambda rng: rng.permutation(3)
+):
+    """Three muscles hold a force as evenly as they can. Which one speaks against noise that grows
+    with the command?"""
+    ends = spreads(share, order)[:, [0, -1]]
+    said = (f"{n} from {a:.1f} to {b:.1f}" for n, (a, b) in zip("ABC", ends, strict=True))
+    return int(np.flatnonzero(order == 0)[0]), {"said": "; ".join(said)}
+
+
+PLACES = np.linspace(-30, 90, 481)  # mm
+
+
+def two_bells(axes, model, sense, seen):
+    """Two bells over a place in mm: what is predicted, around 0, with a deviation of {model} mm;
+    what is reported, around {seen}, with one of {sense} mm."""
+    named = {
+        name: np.exp(-(((PLACES - middle) / deviation) ** 2) / 2) / deviation / (2 * np.pi) ** 0.5
+        for name, middle, deviation in (("predicted", 0, model), ("reported", seen, sense))
+    }
+    curves(axes, PLACES, named, "place (mm)", "density")
+    axes.set_xticks(np.arange(-30, 91, 10))
+
+
+@picture(two_bells)
+@numeric(
+    "mm", "Of the way from 0 to the report, the share model² / (model² + sense²).", tolerance=2
+)
+def best_estimate(model=(6, 8, 10), sense=(6, 8, 10, 12), seen=(40, 50, 60)):
+    """A place is predicted (around 0 mm, deviation {model} mm) and reported (around {seen} mm).
+    Read how wide the report's bell is: at 0.61 of its height it is one deviation from its middle.
+    Where does the best estimate lie?"""
+    return seen * model**2 / (model**2 + sense**2)

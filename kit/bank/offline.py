@@ -4,7 +4,8 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from kit.question import choice, count, numeric, steps
+from kit.bank.drawing import bars, intervals
+from kit.question import choice, count, numeric, picture, steps
 from vmc_lib.cerebellum.offline import GAINS, LARGEST_STEP, algorithm_1_change
 from vmc_lib.motor.planning import least_change
 
@@ -122,3 +123,75 @@ def vote_of_neurons(n=(3, 4, 6, 8, 12), degrees=steps(0, 90, 5)):
     preferred = np.stack([np.cos(angles), np.sin(angles)], 1)
     reach = np.array([np.cos(np.radians(degrees)), np.sin(np.radians(degrees))])
     return np.linalg.norm(preferred.T @ (preferred @ reach))
+
+
+def noisy_trials(rng):
+    """Misses of 21 trials (mm), to a tenth."""
+    return np.round(np.abs(rng.normal(8, 3, 21)) + 1, 1)
+
+
+def trials(axes, misses):
+    """The misses of 21 trials of one reach, in mm, one ringed: the smallest. {misses}."""
+    axes.plot(range(21), misses, "o")
+    best = misses.argmin()
+    axes.plot(best, misses[best], "ko", ms=12, mfc="none")
+    axes.set(xlabel="n of Eq. 7", ylabel="miss (mm)", ylim=(0, None))
+    axes.grid(alpha=0.4)
+
+
+@picture(trials)
+@choice(
+    "larger on average",
+    "the same",
+    "smaller on average",
+    hint="The best of many is in part lucky, and luck is not kept. Without noise there is none.",
+)
+def best_made_again(misses=noisy_trials, noise=("with the same noise", "without any noise")):
+    """The ringed trial is kept. The trials were made {noise}. It is now made again, in the same
+    way. How large is its miss?"""
+    return int(noise == "without any noise")
+
+
+def three_gains(rng):
+    """How much three methods improve a reach, in mm: means and half intervals, (3, 2)."""
+    half = rng.integers(2, 6, 3) / 2
+    mean = np.array([half[0] + 1, half[1] - 0.5, -half[2] - 0.5])
+    return np.column_stack([mean, half])[rng.permutation(3)]
+
+
+def improvements(axes, gains):
+    """Mean improvements with their 95 % intervals, and a line at 0: {said}."""
+    intervals(axes, {n: (m - h, m, m + h) for n, (m, h) in zip("ABC", gains, strict=True)}, "")
+    axes.axvline(0, color="k", lw=1)
+    axes.set_xlabel("better by (mm), the same reaches")
+
+
+@picture(improvements)
+@choice("A", "B", "C", hint="The whole interval lies on the side where reaches are better.")
+def which_is_shown_to_help(gains=three_gains):
+    """Three methods change the same reaches, with 95 % intervals of the mean of the differences.
+    Which one is shown to help?"""
+    low = gains[:, 0] - gains[:, 1]
+    said = (f"{n}: {m:g} ± {h:g} mm" for n, (m, h) in zip("ABC", gains, strict=True))
+    return np.argmax(low), {"said": "; ".join(said)}
+
+
+def three_rules(rng):
+    """Mean misses without a change, with random changes, and with Algorithm 1, (3,), mm."""
+    return np.array([rng.integers(16, 25), rng.integers(9, 15), rng.integers(3, 8)], float)
+
+
+def rules(axes, misses):
+    """Three bars of the mean miss: the plan as it is, {misses[0]:g} mm; the best of 21 random
+    changes, {misses[1]:g} mm; Algorithm 1, the best of its 21, {misses[2]:g} mm."""
+    names = "as planned", "best of 21\nrandom changes", "Algorithm 1\n(best of 21)"
+    bars(axes, dict(zip(names, misses, strict=True)), "mean miss (mm)")
+
+
+@picture(rules)
+@numeric(hint="What it gains over its control, as a share of its whole gain.", tolerance=0.01)
+def gain_by_the_direction(misses=three_rules):
+    """The random changes are as large as those of Algorithm 1, and the best is kept as well. Of
+    what Algorithm 1 gains over the plan, which share is due to the directions of its changes?"""
+    planned, random, algorithm = misses
+    return (random - algorithm) / (planned - algorithm)

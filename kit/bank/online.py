@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from kit.question import choice, count, numeric, steps, tenths
+from kit.bank.drawing import curves
+from kit.question import choice, count, numeric, picture, steps, tenths
 from vmc_lib.cerebellum.adaptation import minimum_norm_update
 from vmc_lib.cerebellum.online import GranuleCells
 from vmc_lib.motor.execution import EYE, rotate_about_eye
@@ -107,3 +108,120 @@ def after_effect(shift=steps(20, 80, 5), learned=steps(0.5, 1, 0.05), side=("lef
     """Through a prism the world looks shifted by {shift} mm to the {side}. The arm has learnt to
     take {learned:.0%} of that away. Then the prism is taken off. Where does the next reach end?"""
     return 1, {"size": shift * learned, "other": {"left": "right", "right": "left"}[side]}
+
+
+CENTRES = np.arange(0, 41, 2)  # cm, of the granule cells along a line
+HERE = 20  # cm, the place that is practised
+
+
+def lessons(width, places, caution, n):
+    """The share of a constant error that is left at places (k,) before each of n lessons, (n, k).
+
+    All lessons are at `HERE`.
+    """
+    taught, *asked = (activity(width, CENTRES, place) for place in (HERE, *places))
+    weights, left = np.zeros((len(CENTRES), 1)), []
+    for _ in range(n):
+        left.append(1 - np.array(asked) @ weights[:, 0])
+        weights += minimum_norm_update(taught[None], 1 - taught[None] @ weights, caution)
+    return np.array(left)
+
+
+def two_places(width, away, caution):
+    return lessons(width, (HERE, HERE + away), caution, 9).T
+
+
+def practice_curves(axes, width, away, caution, swap):
+    """What is left of the error at two places, in nine reaches that are each followed by a lesson.
+    A ends at {ends[0]:.2f}, B at {ends[1]:.2f}."""
+    a, b = two_places(width, away, caution)[[swap, 1 - swap]]
+    curves(axes, range(1, 10), {"A": a, "B": b}, "reach", "error left")
+    axes.set_ylim(0, 1.05)
+
+
+@picture(practice_curves)
+@choice("A", "B", hint="What is learnt at one place reaches its neighbours only in part.")
+def which_was_practised(
+    width=(3, 4, 5, 6), away=(4, 5, 6, 8), caution=(0.3, 0.5, 1, 2), swap=(0, 1)
+):
+    """All lessons are given at one place. The curves are that place and another, {away} cm away.
+    Which one was never practised?"""
+    return 1 - swap, {"ends": two_places(width, away, caution)[[swap, 1 - swap], -1]}
+
+
+ALONG = np.arange(-16, 17.0)  # cm from the practised place
+
+
+def spread(width):
+    """The share of an error that practice at `HERE` takes away, along a line, (33,)."""
+    return 1 - lessons(width, HERE + ALONG, 0.01, 4)[-1]
+
+
+def two_spreads(axes, pair):
+    """How much of the error is taken away, against the distance from the practised place, for two
+    networks: two bells with their tops there. 8 cm away A has {at[0]:.2f}, B {at[1]:.2f}."""
+    named = dict(zip("AB", map(spread, pair), strict=True))
+    curves(axes, ALONG, named, "cm from the practised place", "taken away (share)")
+
+
+@picture(two_spreads)
+@choice(
+    "A",
+    "B",
+    "neither: a lesson changes its own place alone",
+    hint="Wide fields carry a lesson far, also to places where it is wrong.",
+)
+def which_teaches_too_far(
+    pair=lambda rng: rng.permutation([2, 3, 4, 5, 6])[:2], there=(6, 8, 10, 12)
+):
+    """Practice at 0 cm, with two kinds of granule cells. {there} cm away the world errs the other
+    way. Which network does more harm there?"""
+    return np.argmax(pair), {"at": [spread(width)[24] for width in pair]}
+
+
+def three_transfers(width, order):
+    """Transfers of what was learnt against distance, of which only one is not local, (3, 17)."""
+    distance = ALONG[16:]
+    local = spread(width)[16:]
+    return np.array([0.8 + 0 * distance, local, 0.6 * local])[order]
+
+
+def transfers(axes, width, order):
+    """Three experiments: after-effects, as a share of what was learnt, against the distance from
+    the trained place, 0 to 16 cm: {said}."""
+    named = dict(zip("ABC", three_transfers(width, order), strict=True))
+    curves(axes, ALONG[16:], named, "cm from the trained place", "after-effect (share)")
+    axes.set_ylim(0, 1.05)
+
+
+@picture(transfers)
+@choice("A", "B", "C", hint="Cells with local fields cannot know of a place where none was active.")
+def against_local_fields(width=steps(2.5, 5, 0.25), order=lambda rng: rng.permutation(3)):
+    """After practice at one place, three laboratories look for the after-effect elsewhere. Whose
+    result would speak against granule cells with fields of a few centimetres?"""
+    ends = three_transfers(width, order)[:, [0, -1]]
+    said = (f"{name} from {a:.2f} to {b:.2f}" for name, (a, b) in zip("ABC", ends, strict=True))
+    return int(np.flatnonzero(order == 0)[0]), {"said": "; ".join(said)}
+
+
+def through_a_prism(shift, learned):
+    """Sideways misses in mm: 5 reaches as usual, 20 with a prism, 10 without, (35,)."""
+    kept = learned * (1 - np.exp(-np.arange(20) / 4)) / (1 - np.exp(-5))
+    after = learned * np.exp(-np.arange(10) / 3)
+    return shift * np.concatenate([np.zeros(5), 1 - kept, -after])
+
+
+def prism_curve(axes, shift, learned):
+    """Sideways misses in mm against the reach: none in the first 5, then up to {shift} and falling
+    in the next 20, with a prism; in the first without it {first:.0f}, and then back to 0."""
+    curves(axes, range(1, 36), {"": through_a_prism(shift, learned)}, "reach", "miss (mm)")
+    axes.plot(range(1, 36), through_a_prism(shift, learned), "C0.")
+    axes.set_yticks(np.arange(-80, 90, 10))
+
+
+@picture(prism_curve)
+@numeric(hint="The first miss without the prism, over the first with it.", tolerance=0.05)
+def learnt_behind_a_prism(shift=(40, 50, 60, 70, 80), learned=steps(0.4, 0.9, 0.05)):
+    """A prism was worn from reach 6 to reach 25. Which share of its shift had the arm learnt to
+    take away, by the after-effect?"""
+    return learned, {"first": -shift * learned}

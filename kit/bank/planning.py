@@ -4,7 +4,8 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from kit.question import choice, numeric, steps
+from kit.bank.drawing import curves, points
+from kit.question import choice, numeric, picture, steps
 from vmc_lib.motor.inverse_dynamics import minimum_jerk_profile
 from vmc_lib.motor.planning import habitual_weights, least_change, surrounding
 
@@ -117,3 +118,63 @@ def nearest_in_its_quadrant(
 def share_of_the_way(share=steps(0.05, 0.95, 0.05)):
     """A minimum-jerk movement has used {share:.0%} of its time. What share of the way is done?"""
     return minimum_jerk_profile(share)
+
+
+def three_mixtures(four, weights):
+    """Where a mixture of four templates ends by these weights, evenly, and with the weights the
+    other way round: (3, 2), cm."""
+    return np.array([weights @ four.points, four.points.mean(axis=0), weights[::-1] @ four.points])
+
+
+def uneven(rng):
+    """Four templates, and weights that mix them elsewhere than their middle."""
+    four, weights = four_templates(rng), rng.permutation([0.6, 0.2, 0.1, 0.1])
+    away = np.diff(three_mixtures(four, weights)[[0, 1, 2, 0]], axis=0)
+    return (four, weights) if np.linalg.norm(away, axis=1).min() > 0.8 else uneven(rng)
+
+
+def plane(axes, mix, order):
+    """Four templates in the plane, each with its weight: {said}. Three crosses: {crosses}."""
+    four, weights = mix
+    templates = {
+        f"{w:g}{' ' * k}": p for k, (w, p) in enumerate(zip(weights, four.points, strict=True))
+    }
+    points(axes, templates, "forward (cm)", "up (cm)")
+    crosses = dict(zip("ABC", three_mixtures(*mix)[order], strict=True))
+    points(axes, crosses, "forward (cm)", "up (cm)", "x")
+
+
+@picture(plane)
+@choice("A", "B", "C", hint="Each point times its weight, added: near those that weigh most.")
+def where_it_is_mixed_to(mix=uneven, order=lambda rng: rng.permutation(3)):
+    """Four templates (dots) have the weights beside them. At which cross is Σ w p?"""
+    four, weights = mix
+    said = zip(weights, four.points, strict=True)
+    crosses = zip("ABC", three_mixtures(*mix)[order], strict=True)
+    return int(np.flatnonzero(order == 0)[0]), {
+        "said": "; ".join(f"{w:g} at ({x:g}, {y:g})" for w, (x, y) in said),
+        "crosses": "; ".join(f"{name} at ({x:.1f}, {y:.1f})" for name, (x, y) in crosses),
+    }
+
+
+POWERS = np.arange(1, 7)
+
+
+def two_valleys(rng):
+    """Mean misses (mm) by six powers, on the data to choose by and on the test data, (2, 6)."""
+    chosen, other = rng.permutation(POWERS)[:2]
+    return np.array([6 + abs(POWERS - chosen), 7 + abs(POWERS - other)]) + 0.5 * rng.integers(3)
+
+
+def validation_and_test(axes, misses):
+    """Mean misses in mm for the powers 1 to 6. Validation: {misses[0]}. Test: {misses[1]}."""
+    named = dict(zip(("validation", "test"), misses, strict=True))
+    curves(axes, POWERS, named, "power of the distance", "mean miss (mm)")
+    axes.set_yticks(np.arange(5, 15))
+
+
+@picture(validation_and_test)
+@numeric("mm", "Choose where validation is lowest; report the test there, once.", tolerance=0.2)
+def miss_to_report(misses=two_valleys):
+    """A power of the distance is to be chosen (Eq. 5 has 1). Which mean miss does one report?"""
+    return misses[1, misses[0].argmin()]

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from kit.question import choice, count, numeric, steps, successes
+from kit.bank.drawing import points
+from kit.question import choice, count, numeric, picture, steps, successes
 from reproduce.training.detectors import best_threshold
 from vmc_lib.boxes import encode_deltas, iou, nms, vote
 from vmc_lib.statistics import wilson
@@ -118,3 +119,59 @@ def how_sure_is_a_share(photos=successes((20, 40, 80, 160)), end=("lower", "uppe
     """A detector is right in {photos[0]} of {photos[1]} photos. Where is the {end} end of the
     share's 95 % interval, after Wilson?"""
     return wilson(*photos)[end == "upper"]
+
+
+def scored(rng):
+    """Scores of twelve boxes, one each tenth from -0.55 on, and which are hits; (12, 2)."""
+    right = rng.random(12) < np.linspace(0.25, 0.9, 12)
+    return np.column_stack([np.arange(12) / 10 - 0.55, right])
+
+
+def score_line(axes, boxes):
+    """Twelve boxes by their score, from left to right, a tenth apart, the first at -0.55. Hits (1)
+    and misses (0): {hits}."""
+    for right, mark in ((1, "C0o"), (0, "C1x")):
+        scores = boxes[boxes[:, 1] == right, 0]
+        axes.plot(scores, np.full(len(scores), right), mark, ms=8)
+    axes.set(yticks=[0, 1], yticklabels=["miss", "hit"], ylim=(-0.5, 1.5), xlabel="score")
+    axes.set_xticks(np.arange(-6, 7) / 10)
+    axes.grid(alpha=0.4)
+
+
+@picture(score_line)
+@count("hits", "Count the hits between the two thresholds.")
+def hits_lost(boxes=scored, low=steps(-0.6, 0.1, 0.1), rise=steps(0.2, 0.5, 0.1)):
+    """Boxes above the threshold are called. It rises from {low:g} to {high:g}. How many hits are
+    lost?"""
+    between = (boxes[:, 0] > low) & (boxes[:, 0] < low + rise)
+    words = {"high": low + rise, "hits": boxes[:, 1].astype(int)}
+    return (between & (boxes[:, 1] == 1)).sum(), words
+
+
+def f1(detectors):
+    """Of precisions and recalls (n, 2)."""
+    precision, recall = detectors.T
+    return 2 * precision * recall / (precision + recall)
+
+
+def four_detectors(rng):
+    """Recall and precision of four detectors, (4, 2), of which one has clearly the best F1."""
+    recall = rng.permutation([0.3, 0.5, 0.7, 0.9])
+    detectors = np.column_stack([recall, np.round(1.15 - recall + rng.uniform(-0.2, 0.2, 4), 1)])
+    best, second = np.sort(f1(detectors))[:-3:-1]
+    return detectors if best > second + 0.03 and detectors.max() <= 1 else four_detectors(rng)
+
+
+def precision_recall(axes, detectors):
+    """Precision against recall, a point each. A: recall {detectors[0][0]}, precision
+    {detectors[0][1]}; B: {detectors[1][0]}, {detectors[1][1]}; C: {detectors[2][0]},
+    {detectors[2][1]}; D: {detectors[3][0]}, {detectors[3][1]}."""
+    points(axes, dict(zip("ABCD", detectors, strict=True)), "recall", "precision")
+    axes.set(aspect="auto", xlim=(0, 1.05), ylim=(0, 1.1))
+
+
+@picture(precision_recall)
+@choice(*"ABCD", hint="2 P R / (P + R): one that is large cannot make up for one that is small.")
+def best_f1_of_four(detectors=four_detectors):
+    """Four detectors on the same photos. Which one has the best F1?"""
+    return np.argmax(f1(detectors))

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from kit.question import choice, count, numeric, steps, successes
+from kit.bank.drawing import intervals
+from kit.question import choice, count, numeric, picture, steps, successes
 from vmc_lib.statistics import wilson
 
 STEPS = ("finding", "naming", "placing", "moving")
@@ -91,3 +92,77 @@ def reaches_to_count(half=(0.05, 0.1, 0.15), share=(0.5, 0.6, 0.7, 0.8, 0.9)):
     """A share is near {share}. How many photos are needed for a 95 % interval of about ± {half} (by
     p ± 1.96 √(p (1 - p) / n), rounded up)?"""
     return np.ceil(1.96**2 * share * (1 - share) / half**2 - 1e-9)
+
+
+def four_counts(rng):
+    """Arrivals out of 100: of the whole brain, and of three lesions, one of which does little."""
+    whole = rng.integers(70, 90)
+    lesions = [whole - rng.integers(2, 6), *whole - rng.integers(25, 50, 2)]
+    return np.array([whole, *rng.permutation(lesions)])
+
+
+def arrivals(axes, counts):
+    """Arrivals in 100 photos with 95 % intervals. The whole brain: {counts[0]}; lesion A:
+    {counts[1]}; B: {counts[2]}; C: {counts[3]}."""
+    names = "whole", "lesion A", "lesion B", "lesion C"
+    ends = (wilson(count, 100) for count in counts)
+    parts = zip(names, counts, ends, strict=True)
+    shares = {name: (low, count / 100, high) for name, count, (low, high) in parts}
+    intervals(axes, shares, "share of photos in which the hand arrives")
+
+
+@picture(arrivals)
+@choice("A", "B", "C", hint="So many photos do not tell it from the whole brain.")
+def lesion_not_told_apart(counts=four_counts):
+    """A whole brain and three lesions, 100 other photos each, with 95 % intervals. Of which lesion
+    may one not claim that the part matters, by this result?"""
+    return np.argmax(counts[1:])
+
+
+def links(rng):
+    """How often each of four steps works where those before it did, whole and lesioned, (2, 4)."""
+    whole = 0.85 + 0.01 * rng.integers(0, 13, 4)
+    lesioned = whole + 0.01 * rng.integers(-2, 3, 4)
+    lesioned[rng.integers(4)] -= 0.4
+    return np.array([whole, lesioned]).round(2)
+
+
+def two_chains(axes, right):
+    """Of the photos in which all steps succeeded up to each step, a share: whole {whole}; with the
+    lesion {lesioned}."""
+    for row, name in zip(right, ("whole", "lesioned"), strict=True):
+        axes.plot(STEPS, row.cumprod(), "o-" if name == "whole" else "s--", label=name)
+    axes.set(ylabel="share that works up to here", ylim=(0, 1))
+    axes.grid(alpha=0.4)
+    axes.legend()
+
+
+@picture(two_chains)
+@choice(*STEPS, hint="From one step to the next, a share is lost: where do the two differ in it?")
+def which_link_was_cut(right=links):
+    """The share of photos in which this step and all before it work, in a whole brain and in a
+    lesioned one. Which step does the lesion hit?"""
+    whole, lesioned = right.cumprod(axis=1).round(2)
+    return np.argmin(right[1] / right[0]), {"whole": whole, "lesioned": lesioned}
+
+
+def nine_misses(rng):
+    """Nine misses in mm, whole, of which one is far out."""
+    return np.array([*rng.choice(np.arange(5, 100, 5), 8, replace=False), rng.integers(120, 200)])
+
+
+def dots(axes, misses):
+    """Nine misses in mm, as dots along a line. In order: {ordered}."""
+    axes.plot(misses, np.zeros(9), "o", ms=8, mfc="none")
+    axes.set(xlabel="miss (mm)", yticks=[], xticks=np.arange(0, 201, 10))
+    axes.tick_params("x", rotation=90)
+    axes.grid(alpha=0.4)
+
+
+@picture(dots)
+@numeric(
+    "mm", "The fifth of the nine; how far out the last one lies does not matter.", tolerance=1.5
+)
+def median_of_dots(misses=nine_misses):
+    """Nine reaches, a dot each. What is their median miss?"""
+    return np.median(misses), {"ordered": np.sort(misses)}

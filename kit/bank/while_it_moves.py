@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from kit.question import choice, numeric, steps
+from kit.bank.drawing import curves
+from kit.question import choice, numeric, picture, steps
 from vmc_lib.cerebellum.two_rates import Rates, adapt
 from vmc_lib.motor.feedback import FeedbackGains, curl, feedback_acceleration
 from vmc_lib.motor.inverse_dynamics import minimum_jerk_profile
@@ -99,3 +100,100 @@ def forgetting(retention=(0.6, 0.8, 0.9, 0.95, 0.99), reaches=(2, 5, 10, 20)):
     """A memory keeps {retention} of what it holds from reach to reach and sees no error. What share
     is left after {reaches} reaches?"""
     return retention**reaches
+
+
+def held(a_fast, a_slow, b_fast, b_slow):
+    """What the fast and the slow memory hold in 30 reaches in a world that is off by 1, (2, 30)."""
+    return adapt(np.ones(30), Rates((a_fast, a_slow), (b_fast, b_slow))).T
+
+
+def two_states(axes, a_fast, a_slow, b_fast, b_slow, swap):
+    """What two memories hold, against the reach. In the tenth A holds {tenth[0]:.2f} and B
+    {tenth[1]:.2f}, in the last A {last[0]:.2f} and B {last[1]:.2f}."""
+    a, b = held(a_fast, a_slow, b_fast, b_slow)[[swap, 1 - swap]]
+    curves(axes, range(1, 31), {"A": a, "B": b}, "reach", "held")
+
+
+@picture(two_states)
+@choice("A", "B", hint="The fast one leads at first, and gives way as the other takes over.")
+def which_memory_is_fast(a_fast=A_FAST, a_slow=A_SLOW, b_fast=B_FAST, b_slow=B_SLOW, swap=(0, 1)):
+    """A world is off by 1 in all 30 reaches, and two memories learn from the same errors. After the
+    last reach comes a pause in which much is forgotten. Which memory forgets most of what it
+    holds?"""
+    states = held(a_fast, a_slow, b_fast, b_slow)[[swap, 1 - swap]]
+    return swap, {"tenth": states[:, 9], "last": states[:, -1]}
+
+
+SECONDS = np.linspace(0, 1, 201)
+
+
+def seen_and_true(axes, way, delay):
+    """The hand's way in cm against time, from 0 to {way} cm in 0.6 s, and the same as it is seen,
+    later by a constant time. The hand is half way at 300 ms, what is seen {half} ms."""
+    true = way * minimum_jerk_profile(np.clip(SECONDS / 0.6, 0, 1))
+    late = way * minimum_jerk_profile(np.clip((SECONDS - delay / 1000) / 0.6, 0, 1))
+    curves(axes, 1000 * SECONDS, {"hand": true, "seen": late}, "time (ms)", "way (cm)")
+    axes.set_xticks(np.arange(0, 1001, 100))
+
+
+@picture(seen_and_true)
+@numeric("ms", "The way along the time axis from one curve to the other.", tolerance=15)
+def delay_of_sight(way=(10, 20, 30, 40), delay=steps(160, 300, 20)):
+    """The way of a hand, and the same as it is seen. How late is sight?"""
+    return delay, {"half": f"at {300 + delay:g}"}
+
+
+STARTS = (35, 45, 80, 90, 140, 160)  # ms after a push
+
+
+def after_a_push(axes, start, reflex, sight):
+    """How far a push at 0 ms takes a hand off its way, in mm, against time: it rises evenly, and
+    from {start} ms on less and less. Dashed lines: the delay of the reflex, {reflex} ms, and of
+    sight, {sight} ms."""
+    times = np.arange(0, 181)
+    off = times / 10 - np.clip(times - start, 0, None) ** 2 / 1500
+    curves(axes, times, {"": off}, "time after the push (ms)", "off its way (mm)")
+    axes.plot(start, start / 10, "ko")
+    for name, delay in {"reflex": reflex, "sight": sight}.items():
+        axes.axvline(delay, color="C1", ls="--")
+        axes.annotate(name, (delay, 0), (3, 0), textcoords="offset points")
+    axes.set_xticks(np.arange(0, 181, 20))
+
+
+@picture(after_a_push)
+@choice(
+    "the tissue's own stiffness alone",
+    "that, or the reflex; not sight",
+    "any of the three",
+    hint="What is late cannot have begun it: a cause does not come after its effect.",
+)
+def what_slowed_it(start=STARTS, reflex=(55, 60, 65), sight=(110, 120, 130)):
+    """A hand is pushed. From the dot on it is slowed down; the dashed lines say how late the reflex
+    and sight are. Which of muscle stiffness, reflex and sight can have begun it?"""
+    return int(start >= reflex) + int(start >= sight)
+
+
+def guided(learned, opposite, order):
+    """What is held in 20 guided reaches after a world and its opposite: by two memories, by one
+    that forgets, and by none: (3, 20)."""
+    world = np.concatenate([np.ones(learned), -np.ones(opposite), np.full(20, np.nan)])
+    both = adapt(world).sum(axis=1)[-20:]
+    return np.array([both, both[0] * 0.8 ** np.arange(20), np.zeros(20)])[order]
+
+
+def recoveries(axes, learned, opposite, order):
+    """What is held in 20 guided reaches, three curves. {said}."""
+    named = dict(zip("ABC", guided(learned, opposite, order), strict=True))
+    curves(axes, range(1, 21), named, "guided reach", "held")
+
+
+@picture(recoveries)
+@choice("A", "B", "C", hint="The fast memory forgets the opposite; the slow one answers the first.")
+def which_needs_two_memories(
+    learned=steps(40, 120, 5), opposite=(4, 5, 6), order=lambda rng: rng.permutation(3)
+):
+    """A hand learns a world in {learned} reaches, the opposite one in {opposite}, and is then
+    guided straight, without errors. Which result cannot come from one memory that only forgets?"""
+    ends = guided(learned, opposite, order)[:, [0, -1]]
+    said = (f"{n} goes from {a:.2f} to {b:.2f}" for n, (a, b) in zip("ABC", ends, strict=True))
+    return int(np.flatnonzero(order == 0)[0]), {"said": "; ".join(said)}

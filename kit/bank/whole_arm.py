@@ -3,7 +3,8 @@
 import numpy as np
 from scipy.optimize import nnls
 
-from kit.question import choice, count, numeric, steps
+from kit.bank.drawing import curves
+from kit.question import choice, count, numeric, picture, steps
 from reproduce.whole_arm.habits import invert_activation
 from vmc_lib.motor.planning import exact_weights, habitual_weights
 
@@ -104,3 +105,55 @@ def slow_to_fall(active=ACTIVATION, wanted=ACTIVATION):
     excitation than that, less, or just as much?"""
     excitation = invert_activation(np.array([[active], [wanted]]))[0, 0]
     return 2 if np.isclose(excitation, wanted) else int(excitation < wanted)
+
+
+SIZES = 2 ** np.arange(1, 7)  # joints, say
+
+
+def growth(axes, power, first):
+    """Seconds against size, both on logarithmic axes: a straight line through {first:g} s at 2 and
+    {last:g} s at 64."""
+    curves(axes, SIZES, {"": first * (SIZES / 2) ** power}, "size", "seconds")
+    axes.plot(SIZES, first * (SIZES / 2) ** power, "C0o")
+    axes.set(xscale="log", yscale="log", xticks=SIZES, xticklabels=SIZES)
+    axes.tick_params("x", which="minor", bottom=False, labelbottom=False)
+    axes.grid(alpha=0.4, which="both")
+
+
+@picture(growth)
+@numeric(
+    hint="Slope: how many tens the time grows by, over how many tens the size does.", tolerance=0.1
+)
+def power_on_two_logarithms(power=(1, 1.5, 2, 2.5, 3), first=(0.1, 0.2, 0.5, 1)):
+    """Measured times on two logarithmic axes. With which power of the size do they grow?"""
+    return power, {"last": first * 32**power}
+
+
+PUSHED = np.linspace(-20, 20, 41)  # degrees off a posture
+
+
+def holds(slopes):
+    """Torques of two muscle patterns against the deviation from a posture, N m, (2, 41)."""
+    return np.array([slope * PUSHED / 20 for slope in slopes])
+
+
+def two_holds(axes, slopes):
+    """Torque in N m against how far the joint is off its posture, -20 to 20 degrees, for two muscle
+    patterns, both 0 at 0. At 20 degrees A gives {slopes[0]:g}, B {slopes[1]:g}."""
+    named = dict(zip("AB", holds(slopes), strict=True))
+    curves(axes, PUSHED, named, "off (degrees)", "torque (N m)")
+    axes.axhline(0, color="k", lw=0.5)
+    axes.axvline(0, color="k", lw=0.5)
+
+
+def two_slopes(rng):
+    """At 20 degrees off, the torque that leads back is negative; one of each, N m, (2,)."""
+    return rng.permutation([rng.integers(1, 10), -rng.integers(1, 10)]) / 2
+
+
+@picture(two_holds)
+@choice("A", "B", hint="A torque against the deviation leads back; one along with it leads on.")
+def which_holds_by_itself(slopes=two_slopes):
+    """Two patterns of muscles hold a joint in the same posture, without a reflex. A fly nudges it.
+    With which pattern does it come back?"""
+    return np.argmin(slopes)
