@@ -197,8 +197,7 @@ from importlib.util import find_spec
 from vmc_lib.show import Slider, demo, explore, live, markup, outputs
 shown = []
 demo.display = lambda *items, **_: shown.extend(items)
-explore(lambda k: f"<svg><text>{k}</text></svg>", alt="words", k=Slider([1, 2], "k"))
-[widget] = [item for item in shown if isinstance(item, live.Live)]
+widget = explore(lambda k: f"<svg><text>{k}</text></svg>", alt="words", k=Slider([1, 2], "k"))
 bones = live.VENDORED["bones.js"].read_text(encoding="utf-8")
 print(json.dumps([bool(find_spec("page")), widget._esm, markup.with_style_sheet(""), bones]))"""
     clone, *there = json.loads(alone("-c", script))
