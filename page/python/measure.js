@@ -37,7 +37,7 @@ const follow = (form) => {
     }
     stop.disabled = true;
   });
-  stop.addEventListener("click", () => stop());
+  stop.addEventListener("click", () => python.stop());
   form.hidden = false;
 };
 
