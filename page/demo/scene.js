@@ -1,10 +1,11 @@
 /* Shows recorded meshcat scenes. A scene is a list of "type path property|base64" messages, and of a
-   few that meshcat has no command for, "name|JSON": camera, anatomy, motion, target, end. Given the next
+   few that meshcat has no command for, "name|JSON": camera, anatomy, motion, target, end, miss. Given the next
    scene, a view sends its viewer only what differs. In the page the viewer is fetched from the book's
    own files when a scene comes into sight; a live kernel sends it. */
 import { fetchVendored } from "../vendored.js";
 import { Anatomy, moment } from "./anatomy.js";
 import { Body, bones as unpackBones } from "./body.js";
+import { CloseUp } from "./close_up.js";
 import { addPointer } from "./scene_pointer.js";
 
 const MOST_LIVE = 6; // browsers keep few WebGL contexts: the scene unseen longest becomes a still
@@ -103,6 +104,11 @@ class View {
     viewer.set_transform(["meshcat"], [1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1]);
     viewer.camera.fov = 35;
     viewer.controls.enabled = false; // the view turns itself: by hand, and by its slider
+    this.closeUp = new CloseUp(this, canvas);
+    viewer.render = () => {
+      Object.getPrototypeOf(viewer).render.call(viewer);
+      this.closeUp.render(viewer);
+    };
     this.viewer = viewer;
     this.sent = new Map();
     this.body = null;
@@ -189,12 +195,16 @@ class View {
     return this.settings.motion ? (this.settings.motion.q.length - 1) * this.anatomy.every : 0;
   }
 
-  /* Show the scene as it is at a time of its movement, between two moments a mixture. */
-  at(time) {
+  /* Show the scene as it is at a time of its movement, between two moments a mixture; after its end, how
+     far the hand has lifted what it grasps, from 0 to 1. */
+  at(time, after = 0) {
     this.wanted = time;
     this.time = Math.min(time, this.duration);
-    const { motion } = this.settings;
-    if (motion) this.pose(moment(motion, this.time / this.anatomy.every));
+    const { motion, miss } = this.settings;
+    if (!motion) return;
+    const pose = moment(motion, this.time / this.anatomy.every);
+    if (this.viewer) this.closeUp.show(after);
+    this.pose(miss && this.viewer ? this.closeUp.lift(pose) : pose);
   }
 
   /* Put the arm into a pose { q, activation, turn, grasp }; listeners are called. */
