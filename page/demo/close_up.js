@@ -12,17 +12,21 @@ export const ruler = (mm, [x, y]) => {
   const angle = (Math.atan2(y, x) * 180) / Math.PI;
   const ticks = Array.from({ length: Math.floor(mm) + 1 }, (_, i) => `M${i} 0v${i % 5 ? 1.2 : 2.2}`).join("");
   return `<circle r="${mm}"/><g transform="rotate(${angle})"><path d="M0 0H${mm}${ticks}M${mm} 0v2.2"/></g>
+    <circle class="vmc-target" r="1"/><circle class="vmc-end" cx="${x}" cy="${y}" r=".8"/>
     <text y="${SPAN - 3}">${mm.toFixed(1)} mm</text>`;
 };
 
 export class CloseUp {
   constructor(view, canvas) {
     Object.assign(this, { view, after: 0 });
+    this.picture = document.createElement("canvas");
     this.sheet = document.createElementNS("http://www.w3.org/2000/svg", "svg");
-    this.sheet.setAttribute("class", "vmc-close-up");
     this.sheet.setAttribute("viewBox", `-${SPAN} -${SPAN} ${2 * SPAN} ${2 * SPAN}`);
-    this.sheet.setAttribute("aria-hidden", "true");
-    canvas.append(this.sheet);
+    this.box = document.createElement("div");
+    this.box.className = "vmc-close-up";
+    this.box.setAttribute("aria-hidden", "true"); // the panel says the same
+    this.box.append(this.picture, this.sheet);
+    canvas.append(this.box);
     this.camera = new self.MeshCat.THREE.OrthographicCamera(-HALF, HALF, HALF, -HALF, NEAR - 0.06, 3);
   }
 
@@ -32,15 +36,15 @@ export class CloseUp {
     return miss && this.view.time >= this.view.duration ? miss : null;
   }
 
-  /* Draw the ruler, or take it away; and what has become of the shuttlecock, from 0 to 1. */
+  /* Draw the ruler, or take it away; and note what has become of the shuttlecock, from 0 to 1. */
   show(after = 0) {
     const { miss, view } = this;
     this.after = miss ? after : 0;
-    this.sheet.toggleAttribute("hidden", !miss);
+    this.box.hidden = !miss;
     if (!miss) return;
     const { target } = view.settings, [c, s] = this.turned();
     const [x, y, z] = miss.end.map((e, i) => e - target[i]);
-    const words = ruler(miss.mm, [c * x - s * z, -y]);
+    const words = ruler(miss.mm, [1000 * (c * x - s * z), -1000 * y]);
     if (this.drawn !== words) this.sheet.innerHTML = this.drawn = words;
   }
 
@@ -49,22 +53,27 @@ export class CloseUp {
     return [Math.cos(turn), Math.sin(turn)];
   }
 
-  /* Render the corner, after the whole. */
+  /* Photograph the end, before the whole is rendered: only bones and shuttlecock. */
   render(viewer) {
-    if (!this.miss) return;
-    const { view, camera, sheet } = this, { renderer, scene } = viewer;
+    const { view, camera, picture } = this, { renderer, scene, scene_tree } = viewer;
+    if (!this.miss || this.after || !view.body) return;
     const [c, s] = this.turned(), [bx, by, bz] = view.anatomy.beyond;
     const [x, y, z] = view.settings.target;
     camera.position.set(x + c * bx + s * bz + NEAR * s, y + by, z + c * bz - s * bx + NEAR * c);
     camera.rotation.set(0, Math.atan2(s, c), 0);
-    const [box, whole] = [sheet, renderer.domElement].map((one) => one.getBoundingClientRect());
-    const corner = [box.left - whole.left, whole.bottom - box.bottom, box.width, box.height];
-    renderer.setViewport(...corner);
-    renderer.setScissor(...corner);
-    renderer.setScissorTest(true);
+    const goal = scene_tree.find(["meshcat", "goal"]), { path, mark } = view.body;
+    const others = Object.entries(goal.children).filter(([name]) => name !== "shuttlecock" && !name.startsWith("<"));
+    const hidden = [path, mark, ...others.map(([, { object }]) => object)].filter((thing) => thing.visible);
+    hidden.forEach((thing) => (thing.visible = false));
+    const size = this.box.clientWidth, ratio = renderer.getPixelRatio();
+    renderer.setViewport(0, 0, size, size);
     renderer.render(scene, camera);
-    renderer.setScissorTest(false);
-    renderer.setViewport(0, 0, whole.width, whole.height);
+    picture.width = picture.height = size * ratio;
+    const from = renderer.domElement.height - size * ratio; // GL counts from below
+    picture.getContext("2d").drawImage(renderer.domElement, 0, from, size * ratio, size * ratio, 0, 0, size * ratio, size * ratio);
+    hidden.forEach((thing) => (thing.visible = true));
+    const { width, height } = renderer.domElement;
+    renderer.setViewport(0, 0, width / ratio, height / ratio);
   }
 
   /* The pose in which the hand lifts the shuttlecock so far; and the shuttlecock, moved. */

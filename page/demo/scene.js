@@ -106,8 +106,8 @@ class View {
     viewer.controls.enabled = false; // the view turns itself: by hand, and by its slider
     this.closeUp = new CloseUp(this, canvas);
     viewer.render = () => {
-      Object.getPrototypeOf(viewer).render.call(viewer);
       this.closeUp.render(viewer);
+      Object.getPrototypeOf(viewer).render.call(viewer);
     };
     this.viewer = viewer;
     this.sent = new Map();
@@ -142,7 +142,7 @@ class View {
     viewer.set_3d_pane_size = () => {};
     this.viewer = this.body = null;
     live.delete(this);
-    this.div.replaceChildren(still);
+    this.div.replaceChildren(still, this.closeUp.box);
   }
 
   /* The page has done with it. */
@@ -204,13 +204,13 @@ class View {
     if (!motion) return;
     const pose = moment(motion, this.time / this.anatomy.every);
     if (this.viewer) this.closeUp.show(after);
-    this.pose(miss && this.viewer ? this.closeUp.lift(pose) : pose);
+    this.pose(pose, miss && this.viewer ? this.closeUp.lift(pose) : pose);
   }
 
-  /* Put the arm into a pose { q, activation, turn, grasp }; listeners are called. */
-  pose(pose) {
+  /* Put the arm into a pose { q, activation, turn, grasp }, drawn as it is `shown`; listeners are called. */
+  pose(pose, shown = pose) {
     this.posed = pose;
-    this.body?.pose(pose, this.time / this.anatomy?.every);
+    this.body?.pose(shown, this.time / this.anatomy?.every);
     this.listeners.forEach((listen) => listen(pose));
   }
 
