@@ -8,14 +8,25 @@ import re
 from html import escape
 from pathlib import Path
 
+from book._ext.execute import digest
+
 CHAPTER = re.compile(r"book/(\d\d)_\w+")
 LAST = "book/epilogue"
 PHOTO = "_static/thread.webp"
 
 
 def setup(app):
+    app.add_config_value("thread_state", "", "html")
+    app.connect("config-inited", note_state)
     app.connect("html-page-context", add_strip, priority=960)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
+
+
+def note_state(app, config):
+    """Let every page be written again where what the strips say may have changed."""
+    last = Path(app.srcdir, f"{LAST}.ipynb")
+    if last.exists():  # in a tiny book of the tests it does not
+        config.thread_state = digest(last) + Path(__file__).read_text(encoding="utf-8")
 
 
 def chapters(env):
@@ -38,7 +49,7 @@ def add_strip(app, pagename, templatename, context, doctree):
         photo.write_bytes(thread.photo_file())
     number = int(found[1]) if found else None
     places = {
-        n: (app.builder.get_relative_uri(pagename, page), title)
+        n: (app.builder.get_relative_uri(pagename, page) or "#", title)
         for n, (page, title) in chapters(app.env).items()
     }
     address = context["pathto"](PHOTO, resource=True)
@@ -53,9 +64,8 @@ def strip(number, places, photo):
     from book.figures import thread
 
     marks = "".join(mark(n, *place, n == number) for n, place in places.items())
-    step, words = thread.step_of(number), thread.words(number)
-    miss = words.rpartition(" by ")[2] if "mm" in words else "–"
-    told = f"Photo 1: {words}. See this step in chapter 1"
+    step, (miss, words) = thread.step_of(number), thread.words(number)
+    told = f"miss {miss}: photo 1, {words}. See this step in chapter 1"
     return (
         f'<nav class="vmc-thread" aria-label="The loop"><ol>{marks}</ol>'
         f'<a href="{places[1][0]}#demo-1?photo=0&amp;step={step}" aria-label="{told}">'

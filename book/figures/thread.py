@@ -33,11 +33,11 @@ CHAPTERS = {
     13: ("calibrated reach", "online"),
     **dict.fromkeys((14, 15, 16, None), ("third reach", "held")),
 }
-MADE = {  # what a motion of the thread is called
-    "plan": "the first reach misses",
-    "off-line": "calibrated off-line, the reach misses",
-    "online": "corrected before it moves, the reach misses",
-    "held": "calibrated over the whole hold, the reach misses",
+MADE = {  # how a motion of the thread was made
+    "plan": "as planned",
+    "off-line": "calibrated off-line",
+    "online": "corrected before it moves",
+    "held": "calibrated over the whole hold",
 }
 
 
@@ -77,11 +77,11 @@ def misses():
 
 
 def words(chapter):
-    """Where the thread is by a chapter, in words."""
+    """The miss by a chapter, a dash before anything moves; and where the thread then is."""
     step, motion = CHAPTERS[chapter]
     if motion is None:
-        return f"{step}; nothing has moved yet"
-    return f"{MADE[motion]} by {misses()[motion]:.1f} mm"
+        return "–", f"{step}; nothing has moved yet"
+    return f"{misses()[motion]:.1f} mm", f"a reach {MADE[motion]}"
 
 
 def photo_file():

@@ -76,14 +76,22 @@ export class CloseUp {
     renderer.setViewport(0, 0, width / ratio, height / ratio);
   }
 
+  /* Put the shuttlecock back: another scene may move it. */
+  putBack() {
+    if (!this.rest) return;
+    const { thing, position, quaternion } = this.rest;
+    thing.position.copy(position);
+    thing.quaternion.copy(quaternion);
+    this.rest = null;
+  }
+
   /* The pose in which the hand lifts the shuttlecock so far; and the shuttlecock, moved. */
   lift(pose) {
     const { miss, after, view } = this;
     const thing = view.viewer.scene_tree.find(["meshcat", "goal", "shuttlecock"]).object;
-    this.rest ??= { thing, position: thing.position.clone(), quaternion: thing.quaternion.clone() };
-    thing.position.copy(this.rest.position);
-    thing.quaternion.copy(this.rest.quaternion);
+    this.putBack();
     if (!miss || !after) return pose;
+    this.rest = { thing, position: thing.position.clone(), quaternion: thing.quaternion.clone() };
     const share = after * after * (3 - 2 * after);
     if (!miss.lifted) return this.tip(thing, share), pose;
     const lifted = { ...pose, q: [pose.q[0], pose.q[1] + FLEX * share] };

@@ -158,7 +158,7 @@ class View {
     const { anatomy, ...settings } = Object.fromEntries(pairs.map(([key, data]) => [key, JSON.parse(data)]));
     this.settings = settings;
     if (anatomy) this.anatomy = new Anatomy(anatomy); // the page's Python does not tell it again
-    if (this.viewer) this.send(next);
+    if (this.viewer) (this.closeUp.putBack(), this.send(next));
     const { motion } = this.settings;
     if (motion) this.body?.draw(motion.q.map((q, i) => this.anatomy.wrist(q, motion.turn[i])));
     this.at(this.wanted);
