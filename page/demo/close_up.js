@@ -18,7 +18,7 @@ export const ruler = (mm, [x, y]) => {
 
 export class CloseUp {
   constructor(view, canvas) {
-    Object.assign(this, { view, after: 0 });
+    Object.assign(this, { view, canvas, after: 0 });
     this.picture = document.createElement("canvas");
     this.sheet = document.createElementNS("http://www.w3.org/2000/svg", "svg");
     this.sheet.setAttribute("viewBox", `-${SPAN} -${SPAN} ${2 * SPAN} ${2 * SPAN}`);
@@ -26,7 +26,6 @@ export class CloseUp {
     this.box.className = "vmc-close-up";
     this.box.setAttribute("aria-hidden", "true"); // the panel says the same
     this.box.append(this.picture, this.sheet);
-    canvas.append(this.box);
     this.camera = new self.MeshCat.THREE.OrthographicCamera(-HALF, HALF, HALF, -HALF, NEAR - 0.06, 3);
   }
 
@@ -40,8 +39,8 @@ export class CloseUp {
   show(after = 0) {
     const { miss, view } = this;
     this.after = miss ? after : 0;
-    this.box.hidden = !miss;
-    if (!miss) return;
+    if (!miss) return this.box.remove();
+    if (!this.box.isConnected) this.canvas.append(this.box);
     const { target } = view.settings, [c, s] = this.turned();
     const [x, y, z] = miss.end.map((e, i) => e - target[i]);
     const words = ruler(miss.mm, [1000 * (c * x - s * z), -1000 * y]);

@@ -132,7 +132,7 @@ class View {
 
   /* Give the WebGL context back and leave a still of the last view. */
   stop() {
-    const { viewer } = this;
+    const { viewer, closeUp } = this, near = closeUp.box.isConnected ? [closeUp.box] : [];
     const still = new Image();
     still.src = viewer.capture_image();
     still.alt = "";
@@ -142,7 +142,7 @@ class View {
     viewer.set_3d_pane_size = () => {};
     this.viewer = this.body = null;
     live.delete(this);
-    this.div.replaceChildren(still, this.closeUp.box);
+    this.div.replaceChildren(still, ...near);
   }
 
   /* The page has done with it. */
