@@ -105,10 +105,7 @@ class View {
     viewer.camera.fov = 35;
     viewer.controls.enabled = false; // the view turns itself: by hand, and by its slider
     this.closeUp = new CloseUp(this, canvas);
-    viewer.render = () => {
-      this.closeUp.render(viewer);
-      Object.getPrototypeOf(viewer).render.call(viewer);
-    };
+    viewer.render = () => (this.closeUp.render(viewer), Object.getPrototypeOf(viewer).render.call(viewer));
     this.viewer = viewer;
     this.sent = new Map();
     this.body = null;
