@@ -129,7 +129,7 @@ def test_nothing_jumps_while_a_slider_is_dragged(page, width, height, places):
 SIZES = pytest.mark.parametrize(("width", "height"), [*SCREENS, (1366, 768)])
 [FRONT] = [path.as_uri() for path in CHAPTERS if path.stem == "index"] or [""]
 ARM_MOVES = """() => {
-  const edges = [...document.querySelectorAll(".vmc-picture :is(svg, canvas)")]
+  const edges = [...document.querySelectorAll(".vmc-picture :is(svg, canvas):not(.vmc-close-up *)")]
     .map((part) => part.getBoundingClientRect()).flatMap(({ top, bottom }) => [top, bottom]);
   const moves = document.querySelector(".vmc-clock [aria-pressed=true]");
   return moves && [scrollY, edges.length, Math.min(...edges), Math.max(...edges)]; }"""

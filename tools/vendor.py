@@ -61,7 +61,7 @@ def with_fonts(sheet):
         font = base64.b64encode((sheet.parent / source[1]).read_bytes()).decode()
         return f'src:url(data:font/woff2;base64,{font}) format("woff2")'
 
-    text = re.sub(r"src:url\(([^)]*\.woff2)\)[^;}]*", packed, sheet.read_text(encoding="utf-8"))
+    text = re.sub(r"src: ?url\(([^)]*\.woff2)\)[^;}]*", packed, sheet.read_text(encoding="utf-8"))
     return text.encode()
 
 

@@ -1,5 +1,7 @@
 """The loop as pictures: what the eye sees beside what the arm does, one step after the other."""
 
+from functools import cache
+
 import numpy as np
 
 from book.figures.lens import lens
@@ -7,7 +9,8 @@ from book.figures.panels import panels
 from book.figures.reaching import norm_mm
 from vmc_lib.arm.kinematics import TRUNK, to_world
 from vmc_lib.boxes import iou
-from vmc_lib.loop import RULES
+from vmc_lib.cerebellum.offline import gauss_newton_calibration
+from vmc_lib.loop import RULES, recalibrate
 from vmc_lib.motor.templates import START
 from vmc_lib.show import dot_plot, note
 from vmc_lib.show.arm import EVERY, arm_scene, beyond_wrist
@@ -16,13 +19,20 @@ from vmc_lib.show.palette import COLOURS, EDGE, ON_PHOTO
 from vmc_lib.statistics import wilson
 
 SEEING = ("a photo", "candidates", "regions", "after suppression", "names")
-LOOP_STEPS = (*SEEING, "first reach", "calibrated reach")
+LOOP_STEPS = (*SEEING, "first reach", "calibrated reach", "third reach")
 TURNED = 500  # ms: by then the trunk has turned
 FOREARM = 0.02  # m, the radius of a forearm that is a rod
-GRASPED = 0.033  # m from the middle of a shuttlecock, as wide as its skirt: a hand closes on it
+LIFTED = (
+    0.01  # m from the true middle of a shuttlecock: a hand has arrived, and is drawn to lift it
+)
+SLOW = (0.8, 1.0)  # s: a film shows a reach's last fifth of a second before the hold slowly
 THROUGH = " (on its way the forearm passes through the cup: the model feels no things)"
 LOOP_STAGES = (*SEEING, "place", "plan", "off-line", "online")
-STAGE_OF = {"first reach": "plan", "calibrated reach": "off-line"}  # of a step
+STAGE_OF = {
+    "first reach": "plan",
+    "calibrated reach": "off-line",
+    "third reach": "held",
+}  # of a step
 
 
 def moves(reach, online=None):
@@ -32,7 +42,19 @@ def moves(reach, online=None):
     """
     if reach is None:
         return {}
-    return {"plan": reach.planned, "off-line": reach.calibrated, "online": online}
+    made = {"plan": reach.planned, "off-line": reach.calibrated, "online": online}
+    return made | {"held": hold_still(reach)}
+
+
+@cache
+def hold_still(reach):
+    """The motion of a reach that our own rule has calibrated over the whole hold."""
+    return recalibrate(reach, gauss_newton_calibration).calibrated
+
+
+def miss_mm(reach, motion):
+    """The miss of a motion: how far the hand is from the place aimed at over the hold, in mm."""
+    return 1000 * reach.distance(motion, reach.target)
 
 
 def draw_step(step, photo, sight, reach, online=None):
@@ -65,15 +87,21 @@ def draw_movement(photo, box, reach, motion):
     view = photo_view(photo.image, [(box, "seen", "green")], [(place, "", "green")])
     moving = _moving(photo.camera.project(hand[::EVERY]), "orange")
     view = view.replace("</svg>", moving + lens(photo, box, reach, motion) + "</svg>")
-    return view, arm_scene(
+    end, lifted = reach.end_point(motion), reach.distance(motion, photo.target) < LIFTED
+    scene = arm_scene(
         motion.q,
         motion.activation,
         turn=turn,
         photo=photo,
         balls=[(reach.target, "green")],
-        grasp=reach.distance(motion, photo.target) < GRASPED,
-        end=(reach.end_point(motion), motion.speed),
+        grasp=lifted,
+        end=(end, motion.speed),
     )
+    miss = {"mm": round(miss_mm(reach, motion), 4), "end": end.round(5).tolist()}
+    scene.tell(
+        "miss", miss | {"lifted": bool(lifted), "stands": photo.pose == "standing", "slow": SLOW}
+    )
+    return view, scene
 
 
 def _turns(reach, motion):

@@ -4,6 +4,8 @@ import { distance } from "./anatomy.js";
 import { redness } from "./muscles.js";
 
 const SPEEDS = { "real time": 1, "half speed": 0.5, "quarter speed": 0.25 };
+const SLOWED = 0.25; // of its speed
+const LOOKED = 900, LIFTING = 900; // ms: for the miss; then the hand lifts what it grasps, or tips it over
 const LATE = 100; // ms: where pictures come late a movement takes longer, and is still seen whole
 const WRIST = "The model ends at the wrist. The hand and its target are drawn one palm's length " +
   "beyond it.";
@@ -40,8 +42,9 @@ const clock = (views) => {
     button.textContent = "Play the movement";
     button.setAttribute("aria-pressed", "false");
   };
-  const set = (time) => views.forEach((view) => view.at(time));
-  const play = async () => {
+  const set = (time, after) => views.forEach((view) => view.at(time, after));
+  /* In a film the last moments before the hold are slow. */
+  const play = async ({ film = false } = {}) => {
     const mine = (playing = {});
     button.textContent = "Pause";
     button.setAttribute("aria-pressed", "true");
@@ -49,16 +52,24 @@ const clock = (views) => {
     const start = +slider.value < duration ? +slider.value : 0;
     const pace = calm.matches ? 500 : 0; // ms between two pictures
     set(start);
+    const { miss } = views[0].settings, [slow, fast] = (film && miss?.slow) || [Infinity, Infinity];
     let last = 0, time = start, then = performance.now();
     while (time < duration) {
       const now = await new Promise(requestAnimationFrame);
       if (playing !== mine || !box.isConnected) return;
       const passed = Math.min(Math.max(0, now - then), LATE) / 1000;
-      time = Math.min(duration, time + passed * speed.value);
+      time = Math.min(duration, time + passed * speed.value * (time > slow && time < fast ? SLOWED : 1));
       then = now;
       if (now - last < pace && time < duration) continue;
       last = now;
       set(time);
+    }
+    if (miss && !calm.matches) for (const begun = performance.now() + LOOKED; ; ) {
+      const now = await new Promise(requestAnimationFrame);
+      if (playing !== mine || !box.isConnected) return;
+      const after = Math.min(1, (now - begun) / LIFTING);
+      if (after > 0) set(duration, after);
+      if (after === 1) break;
     }
     stop();
   };
@@ -86,12 +97,12 @@ const numbers = (view) => {
   view.listeners.push((pose) => {
     if (!pose) return;
     const rows = [["shoulder", degrees(pose.q[0])], ["elbow", degrees(pose.q[1])]];
-    const { target, end } = view.settings;
+    const { target, end, miss } = view.settings;
     if (target) {
       const off = distance(view.anatomy.wrist(pose.q, pose.turn), target);
       rows.push(["hand to target now", `${(1000 * off).toFixed(1)} mm`]);
     }
-    if (end) rows.push(["end point to target", `${(1000 * end.off).toFixed(1)} mm`],
+    if (end) rows.push(miss ? ["miss over the hold", `${miss.mm.toFixed(1)} mm`] : ["end point to target", `${(1000 * end.off).toFixed(1)} mm`],
       ["speed in the hold", `${(1000 * end.speed).toFixed(0)} mm/s`]);
     box.innerHTML = rows.map(([name, text]) => `<div><dt>${name}</dt><dd>${text}</dd></div>`).join("");
   });

@@ -5,7 +5,7 @@ const calm = matchMedia("(prefers-reduced-motion: reduce)");
 /* A step is looked at for a while; if it brings a movement, for as long as that takes. */
 const look = (demo, input) => {
   const clock = demo.querySelector(".vmc-clock:not([hidden])");
-  if (clock) return clock.play();
+  if (clock) return clock.play({ film: true });
   const pause = calm.matches ? 1000 : Math.min(800, 5000 / input.max);
   return new Promise((done) => setTimeout(done, pause));
 };

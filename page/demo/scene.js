@@ -1,10 +1,11 @@
 /* Shows recorded meshcat scenes. A scene is a list of "type path property|base64" messages, and of a
-   few that meshcat has no command for, "name|JSON": camera, anatomy, motion, target, end. Given the next
+   few that meshcat has no command for, "name|JSON": camera, anatomy, motion, target, end, miss. Given the next
    scene, a view sends its viewer only what differs. In the page the viewer is fetched from the book's
    own files when a scene comes into sight; a live kernel sends it. */
 import { fetchVendored } from "../vendored.js";
 import { Anatomy, moment } from "./anatomy.js";
 import { Body, bones as unpackBones } from "./body.js";
+import { CloseUp } from "./close_up.js";
 import { addPointer } from "./scene_pointer.js";
 
 const MOST_LIVE = 6; // browsers keep few WebGL contexts: the scene unseen longest becomes a still
@@ -103,6 +104,8 @@ class View {
     viewer.set_transform(["meshcat"], [1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1]);
     viewer.camera.fov = 35;
     viewer.controls.enabled = false; // the view turns itself: by hand, and by its slider
+    this.closeUp = new CloseUp(this, canvas);
+    viewer.render = () => (this.closeUp.render(viewer), Object.getPrototypeOf(viewer).render.call(viewer));
     this.viewer = viewer;
     this.sent = new Map();
     this.body = null;
@@ -126,7 +129,7 @@ class View {
 
   /* Give the WebGL context back and leave a still of the last view. */
   stop() {
-    const { viewer } = this;
+    const { viewer, closeUp } = this, near = closeUp.box.isConnected ? [closeUp.box] : [];
     const still = new Image();
     still.src = viewer.capture_image();
     still.alt = "";
@@ -136,7 +139,7 @@ class View {
     viewer.set_3d_pane_size = () => {};
     this.viewer = this.body = null;
     live.delete(this);
-    this.div.replaceChildren(still);
+    this.div.replaceChildren(still, ...near);
   }
 
   /* The page has done with it. */
@@ -152,7 +155,7 @@ class View {
     const { anatomy, ...settings } = Object.fromEntries(pairs.map(([key, data]) => [key, JSON.parse(data)]));
     this.settings = settings;
     if (anatomy) this.anatomy = new Anatomy(anatomy); // the page's Python does not tell it again
-    if (this.viewer) this.send(next);
+    if (this.viewer) (this.closeUp.putBack(), this.send(next));
     const { motion } = this.settings;
     if (motion) this.body?.draw(motion.q.map((q, i) => this.anatomy.wrist(q, motion.turn[i])));
     this.at(this.wanted);
@@ -189,18 +192,22 @@ class View {
     return this.settings.motion ? (this.settings.motion.q.length - 1) * this.anatomy.every : 0;
   }
 
-  /* Show the scene as it is at a time of its movement, between two moments a mixture. */
-  at(time) {
+  /* Show the scene as it is at a time of its movement, between two moments a mixture; after its end, how
+     far the hand has lifted what it grasps, from 0 to 1. */
+  at(time, after = 0) {
     this.wanted = time;
     this.time = Math.min(time, this.duration);
-    const { motion } = this.settings;
-    if (motion) this.pose(moment(motion, this.time / this.anatomy.every));
+    const { motion, miss } = this.settings;
+    if (!motion) return;
+    const pose = moment(motion, this.time / this.anatomy.every);
+    if (this.viewer) this.closeUp.show(after);
+    this.pose(pose, miss && this.viewer ? this.closeUp.lift(pose) : pose);
   }
 
-  /* Put the arm into a pose { q, activation, turn, grasp }; listeners are called. */
-  pose(pose) {
+  /* Put the arm into a pose { q, activation, turn, grasp }, drawn as it is `shown`; listeners are called. */
+  pose(pose, shown = pose) {
     this.posed = pose;
-    this.body?.pose(pose, this.time / this.anatomy?.every);
+    this.body?.pose(shown, this.time / this.anatomy?.every);
     this.listeners.forEach((listen) => listen(pose));
   }
 

@@ -1,0 +1,81 @@
+"""The running thread: a quiet strip above each chapter, the loop's sixteen marks and one miss.
+
+The same photo and the same arm, arrested at the chapter's step, and how far the hand is then from
+what it reaches for, as `book.figures.thread` works it out when the book is built.
+"""
+
+import re
+from html import escape
+from pathlib import Path
+
+from book._ext.execute import digest
+
+CHAPTER = re.compile(r"book/(\d\d)_\w+")
+LAST = "book/epilogue"
+PHOTO = "_static/thread.webp"
+
+
+def setup(app):
+    app.add_config_value("thread_state", "", "html")
+    app.connect("config-inited", note_state)
+    app.connect("html-page-context", add_strip, priority=960)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
+
+
+def note_state(app, config):
+    """Let every page be written again where what the strips say may have changed."""
+    last = Path(app.srcdir, f"{LAST}.ipynb")
+    if last.exists():  # in a tiny book of the tests it does not
+        config.thread_state = digest(last) + Path(__file__).read_text(encoding="utf-8")
+
+
+def chapters(env):
+    """The book's chapters by number, and the plain text of each one's title."""
+    pages = env.toctree_includes.get(env.config.root_doc, [])
+    numbers = {int(found[1]): page for page in pages if (found := CHAPTER.fullmatch(page))}
+    return {n: (page, env.titles[page].astext()) for n, page in sorted(numbers.items())}
+
+
+def add_strip(app, pagename, templatename, context, doctree):
+    """Put the strip above the page, if it is a chapter or the last page."""
+    found = CHAPTER.fullmatch(pagename)
+    if not found and pagename != LAST:
+        return
+    from book.figures import thread  # here, for it brings the model along
+
+    photo = Path(app.outdir, PHOTO)
+    if not photo.exists():
+        photo.parent.mkdir(exist_ok=True)
+        photo.write_bytes(thread.photo_file())
+    number = int(found[1]) if found else None
+    places = {
+        n: (app.builder.get_relative_uri(pagename, page) or "#", title)
+        for n, (page, title) in chapters(app.env).items()
+    }
+    address = context["pathto"](PHOTO, resource=True)
+    context["body"] = strip(number, places, address) + context["body"]
+
+
+def strip(number, places, photo):
+    """The strip (HTML) of a chapter by its number, of the last page by None.
+
+    `places` are chapters' numbers with their addresses and titles; `photo` is the photo's address.
+    """
+    from book.figures import thread
+
+    marks = "".join(mark(n, *place, n == number) for n, place in places.items())
+    step, (miss, words) = thread.step_of(number), thread.words(number)
+    first = places[1][0].rstrip("#")
+    told = f"miss {miss}: photo 1, {words}. See this step in chapter 1"
+    return (
+        f'<nav class="vmc-thread" aria-label="The loop"><ol>{marks}</ol>'
+        f'<a href="{first}#demo-1?photo=0&amp;step={step}" aria-label="{told}">'
+        f"{thread.picture(number, photo)}<span>miss <b>{miss}</b></span></a></nav>\n"
+    )
+
+
+def mark(number, address, title, here):
+    """One of the loop's marks: a link to a chapter, lit where it is `here`."""
+    name = escape(f"{number} {title}", quote=True)
+    lit = ' aria-current="page"' * here
+    return f'<li><a href="{address}" title="{name}" aria-label="{name}"{lit}></a></li>'

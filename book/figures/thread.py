@@ -1,0 +1,130 @@
+"""The running thread: one photo, one arm, one miss, as far as each chapter has brought them."""
+
+import io
+from functools import cache
+from types import SimpleNamespace
+
+import numpy as np
+from PIL import Image
+
+from book.figures.loop import LOOP_STEPS, miss_mm, moves
+from vmc_lib import loop, photos
+from vmc_lib.arm.arm26 import geometry
+from vmc_lib.arm.kinematics import to_world
+from vmc_lib.motor.templates import START
+from vmc_lib.show.arm import beyond_wrist
+from vmc_lib.show.palette import ON_PHOTO
+
+SIZE = (240, 160)  # pixels of the photo's file
+# By chapter: the step of chapter 1 that it is about, and the motion that it has by then
+CHAPTERS = {
+    1: ("first reach", "plan"),
+    2: ("candidates", None),
+    3: ("regions", None),
+    4: ("after suppression", None),
+    5: ("after suppression", None),
+    6: ("names", None),
+    7: ("names", None),
+    8: ("names", None),
+    9: ("first reach", "plan"),
+    10: ("calibrated reach", "off-line"),
+    11: ("calibrated reach", "online"),
+    12: ("calibrated reach", "online"),
+    13: ("calibrated reach", "online"),
+    **dict.fromkeys((14, 15, 16, None), ("third reach", "held")),
+}
+MADE = {  # how a motion of the thread was made
+    "plan": "as planned",
+    "off-line": "calibrated off-line",
+    "online": "corrected before it moves",
+    "held": "calibrated over the whole hold",
+}
+
+
+@cache
+def journey():
+    """Photo 1, what is seen in it, the reach for it, and its motions by name (see `MADE`)."""
+    model, photo = loop.VisuomotorModel.load("rig"), photos.load("rig", "test")[0]
+    sight, reach = loop.see_and_reach(model, photo.image, photo.camera)
+    return SimpleNamespace(
+        photo=photo, sight=sight, reach=reach, moves=moves(reach, online_motion(reach))
+    )
+
+
+def online_motion(reach):
+    """A reach corrected before it is made, by what a hundred others have taught (our own rule)."""
+    from vmc_lib.cerebellum.online import AimCorrection
+    from vmc_lib.motor import templates
+    from vmc_lib.motor.execution import execute
+    from vmc_lib.motor.planning import draw_targets, plan
+
+    template_set = templates.load()
+    practice = draw_targets(template_set, 100, np.random.default_rng(11))
+    cerebellum = AimCorrection(template_set).update(plan(practice, template_set))
+    return execute(cerebellum.correct(reach.plan)).motion
+
+
+def step_of(chapter):
+    """The place of a chapter's step among those of chapter 1."""
+    return LOOP_STEPS.index(CHAPTERS[chapter][0])
+
+
+@cache
+def misses():
+    """How far each motion of the thread ends from the place aimed at, by its name, in mm."""
+    one = journey()
+    return {name: miss_mm(one.reach, motion) for name, motion in one.moves.items()}
+
+
+def words(chapter):
+    """The miss by a chapter, a dash before anything moves; and where the thread then is."""
+    step, motion = CHAPTERS[chapter]
+    if motion is None:
+        return "–", f"{step}; nothing has moved yet"
+    return f"{misses()[motion]:.1f} mm", f"a reach {MADE[motion]}"
+
+
+def photo_file():
+    """The photo, small: a WebP file."""
+    file = io.BytesIO()
+    Image.fromarray(journey().photo.image).resize(SIZE).save(file, "webp", quality=70)
+    return file.getvalue()
+
+
+def picture(chapter, photo):
+    """The photo at an address with what a chapter has made of it, and the arm: small, as SVG."""
+    one, (step, name) = journey(), CHAPTERS[chapter]
+    motion = one.moves.get(name)
+    q, turn = (START, 0.0) if motion is None else (motion.q[-1], one.reach.turn)
+    boxes = {
+        "candidates": (one.sight.detections.candidates[::6], "grey"),
+        "regions": (one.sight.detections.passed, "orange"),
+        "after suppression": (one.sight.detections.boxes, "blue"),
+    }.get(step, ([one.sight.box], "green"))
+    return (
+        '<svg viewBox="60 20 480 320" aria-hidden="true" fill="none" stroke-linejoin="round">'
+        f'<image width="600" height="400" href="{photo}"/>{_boxes(*boxes)}'
+        f"{_arm(one.photo.camera, q, turn)}</svg>"
+    )
+
+
+def _boxes(boxes, colour):
+    path = "".join(
+        f"M{x:.0f} {y:.0f}H{right:.0f}V{bottom:.0f}H{x:.0f}Z" for x, y, right, bottom in boxes
+    )
+    return f'<path d="{path}" stroke="{ON_PHOTO[colour]}" stroke-width="5"/>'
+
+
+def _arm(camera, q, turn):
+    """The arm as the photo's camera would see it: a forearm, and a hand at the model's end."""
+    _, elbow, hand = to_world(geometry(q).joints, turn)
+    elbow, wrist = (place - beyond_wrist(turn) for place in (elbow, hand))
+    forearm, palm = (
+        " ".join(f"{x:.0f},{y:.0f}" for x, y in camera.project(np.array(ends)))
+        for ends in ((elbow, wrist), (wrist, hand))
+    )
+    return (
+        f'<polyline points="{forearm}" stroke="#e9dfca" stroke-width="34" stroke-linecap="round"/>'
+        f'<polyline points="{forearm}" stroke="#a33b2e" stroke-width="12"/>'
+        f'<polyline points="{palm}" stroke="#e9dfca" stroke-width="24" stroke-linecap="round"/>'
+    )

@@ -1,0 +1,178 @@
+"""The running thread: one photo, one arm, one miss, above every chapter and at the end."""
+
+import json
+import re
+
+import pytest
+from bs4 import BeautifulSoup
+
+from book.figures import thread
+from tests.pages import BUILT, CHAPTERS, open_url
+from vmc_lib.show.packed import unpack_bytes
+
+pytestmark = pytest.mark.browser
+BOOK = BUILT / "book"
+NUMBERED = [path for path in CHAPTERS if path.stem[:2].isdigit()]
+each_page = pytest.mark.parametrize(
+    "path", [*NUMBERED, BOOK / "epilogue.html"], ids=lambda path: path.stem
+)
+
+
+def number(path):
+    return int(path.stem[:2]) if path.stem[:2].isdigit() else None
+
+
+@each_page
+def test_a_strip_stands_above_every_chapter(path):
+    """Sixteen marks, this chapter's lit; the photo; and the miss, as the run works it out."""
+    soup = BeautifulSoup(path.read_text(encoding="utf-8"), "html.parser")
+    [strip] = soup.select(".vmc-thread")
+    marks = strip.select("li a")
+    assert [mark["href"] for mark in marks] == [
+        "#" if other == path else other.name for other in NUMBERED
+    ]
+    lit = [n for n, mark in enumerate(marks, start=1) if mark.get("aria-current")]
+    assert lit == [number(path)] * bool(number(path))
+    _, motion = thread.CHAPTERS[number(path)]
+    told = f"{thread.misses()[motion]:.1f} mm" if motion else "–"
+    assert strip.select_one("b").text == told
+    assert (path.parent / strip.select_one("image")["href"]).resolve().stat().st_size < 10_000
+    assert soup.article.find(True) == strip
+
+
+def test_the_miss_shrinks_from_chapter_to_chapter():
+    motions = [motion for _, motion in thread.CHAPTERS.values()]
+    misses = [thread.misses()[name] for name in dict.fromkeys(filter(None, motions))]
+    assert misses == sorted(misses, reverse=True)
+    assert misses[0] > 10 > misses[-1]
+
+
+def test_chapter_1_tells_the_same_misses():
+    text = (BOOK / "01_loop.html").read_text(encoding="utf-8")
+    said = re.findall(r"<strong>([\d.]+) mm</strong>", text)
+    for motion in ("plan", "off-line"):
+        assert f"{thread.misses()[motion]:.1f}" in said
+
+
+@pytest.mark.parametrize(("width", "height"), [(1280, 800), (390, 844)])
+def test_a_strip_is_low_and_leads_to_its_step(window, serious, width, height):
+    reader = window(viewport={"width": width, "height": height})
+    page = open_url(reader, (BOOK / "10_offline.html").as_uri())
+    box = page.locator(".vmc-thread").bounding_box()
+    assert box["height"] <= 52
+    assert box["x"] >= 0
+    assert box["x"] + box["width"] <= width
+    assert serious(page, ".vmc-thread") == []
+    page.locator(".vmc-thread > a").click()
+    page.wait_for_selector("#demo-1[data-ready]")
+    assert page.get_attribute("#demo-1-step", "aria-valuetext") == "calibrated reach"
+    page.close()
+
+
+def test_a_strip_is_not_printed(offline):
+    page = open_url(offline, (BOOK / "10_offline.html").as_uri())
+    page.emulate_media(media="print")
+    assert page.locator(".vmc-thread").is_hidden()
+    page.close()
+
+
+# ---- The miss, close by ----
+
+
+def told(path):
+    """What each arm scene of a page's first demo says of its miss, state by state."""
+    text = path.read_text(encoding="utf-8")
+    packed = re.search(r'<script type="application/gzip">(.*?)</script>', text, re.S)[1]
+    data = json.loads(unpack_bytes(packed))
+    for _, *parts in data["states"]:
+        lines = [data["lines"][place] for part in parts for place in part]
+        yield [json.loads(line[5:]) for line in lines if line.startswith("miss|")]
+
+
+def test_the_ruler_shows_the_miss_that_the_panel_tells(offline):
+    """In the close-up the ruler is as long as the number says; without it, before the end."""
+    page = open_url(offline, (BOOK / "epilogue.html").as_uri())
+    page.wait_for_selector(".vmc-scene canvas")
+    close_up, slider = page.locator(".vmc-close-up"), page.locator("#demo-1 [data-stride]")
+    for place, motion in enumerate(("plan", "off-line", "online", "held")):
+        slider.fill(str(place))
+        said = f"{thread.misses()[motion]:.1f} mm"
+        assert close_up.locator("text").text_content() == said
+        panel = page.locator(".vmc-numbers div", has_text="miss over the hold")
+        assert panel.locator("dd").inner_text() == said
+        radius = close_up.locator("circle").first.get_attribute("r")
+        assert float(radius) == pytest.approx(thread.misses()[motion], abs=1e-3)
+    page.fill(".vmc-clock input", "0.5")
+    assert close_up.is_hidden()
+    page.close()
+
+
+HEIGHT = """(div) => vmc["demo/scene"].viewOf(div).viewer.scene_tree
+  .find(["meshcat", "goal", "shuttlecock"]).object.position.y"""
+
+
+def test_a_hit_lifts_the_shuttlecock_and_a_miss_does_not(offline):
+    [[first], [calibrated], _, [third]] = told(BOOK / "epilogue.html")
+    assert [one["lifted"] for one in (first, calibrated, third)] == [False, True, True]
+    page = open_url(offline, (BOOK / "epilogue.html").as_uri())
+    page.wait_for_selector(".vmc-scene canvas")
+    scene, play = page.locator(".vmc-scene"), page.locator(".vmc-clock button")
+    before = scene.evaluate(HEIGHT)
+    for place, lifts in ((0, False), (3, True), (0, False)):
+        page.locator("#demo-1 [data-stride]").fill(str(place))
+        assert scene.evaluate(HEIGHT) == pytest.approx(before)
+        play.click()
+        page.wait_for_selector(".vmc-clock button[aria-pressed=false]")
+        assert (scene.evaluate(HEIGHT) > before + 0.02) == lifts
+    page.close()
+
+
+def test_nothing_is_lifted_where_less_motion_is_asked_for(window):
+    page = open_url(window(reduced_motion="reduce"), (BOOK / "epilogue.html").as_uri())
+    page.wait_for_selector(".vmc-scene canvas")
+    before = page.locator(".vmc-scene").evaluate(HEIGHT)
+    page.locator(".vmc-clock button").click()
+    page.wait_for_selector(".vmc-clock button[aria-pressed=false]")
+    assert page.locator(".vmc-scene").evaluate(HEIGHT) == pytest.approx(before)
+    assert page.locator(".vmc-close-up text").is_visible()
+    page.close()
+
+
+# ---- The face ----
+
+SIZE = "(e) => parseFloat(getComputedStyle(e).fontSize)"
+
+
+def test_a_chapter_is_larger_than_its_sections_and_code_can_be_read(offline):
+    page = open_url(offline, (BOOK / "13_see_and_reach.html").as_uri())
+    h1, h2, h3 = (page.locator(f"article {tag}").first.evaluate(SIZE) for tag in ("h1", "h2", "h3"))
+    assert h1 > h2 > h3 > 16
+    assert page.locator("article pre").first.evaluate(SIZE) >= 14
+    caption = page.locator("figcaption").first
+    assert caption.evaluate("(e) => getComputedStyle(e).textAlign") == "left"
+    assert page.evaluate("document.fonts.check('16px \"Source Serif 4\"')")
+    page.close()
+
+
+def test_the_face_is_light():
+    fonts = (BUILT / "_static/vendor").glob("text-*.css")
+    assert 0 < sum(font.stat().st_size for font in fonts) < 150_000
+
+
+@pytest.mark.parametrize(("width", "height"), [(1280, 800), (1366, 768), (390, 844)])
+def test_the_front_page_opens_on_a_sentence_and_three_doors(window, width, height):
+    page = open_url(
+        window(viewport={"width": width, "height": height}), (BOOK / "index.html").as_uri()
+    )
+    doors = page.locator(".vmc-doors a")
+    assert [door.get_attribute("href") for door in doors.all()] == [
+        "01_loop.html",
+        "your_photo.html",
+        "teaching.html",
+    ]
+    film = page.locator(".vmc-pictures").first.bounding_box()
+    for door in doors.all():
+        box = door.bounding_box()
+        assert box["y"] + box["height"] <= film["y"]
+    assert film["y"] + film["height"] <= height
+    page.close()
