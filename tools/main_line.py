@@ -49,7 +49,7 @@ def main_line(path):
         part.decompose()
     figures = [
         Figure(one.get("id", ""), _words(one.select_one("figcaption")), len(one.select(CONTROLS)))
-        for one in article.select(".vmc-demo, .vmc-live")
+        for one in article.select(".vmc-demo, .vmc-live:not(.vmc-demo *)")
     ]
     predictions = len(article.select(".vmc-predict"))
     return MainLine(_words(article), predictions, figures)
