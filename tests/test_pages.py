@@ -211,6 +211,7 @@ def test_a_box_shows_all_code_and_is_remembered(offline):
 
 def test_sliders_answer_the_keyboard(page):
     unfold(page)
+    page.eval_on_selector_all(".vmc-more", "folds => folds.forEach((fold) => (fold.open = true))")
     for slider in page.query_selector_all(".vmc-demo input[data-texts]"):
         value = int(slider.input_value())
         forward = value < int(slider.get_attribute("max"))

@@ -33,7 +33,7 @@ def held_in_words(shoulder, elbow):
 def _held(q):
     torques = holding.muscle_torques(q) @ static_activation(q)
     lack = np.abs(holding.required_torques(q) - torques).max()
-    return "held" if lack < 0.05 else f"falls: {lack:.1f} N m are missing"
+    return "held against gravity" if lack < 0.05 else f"falls: {lack:.1f} N m are missing"
 
 
 def moment_arms_and_torques(muscle_torques, joint, other):

@@ -67,7 +67,8 @@ def draw_step(step, photo, sight, reach, online=None):
         return photo_view(photo.image, boxes), arm_scene(START, photo=photo)
     if step == "place":
         place = photo.camera.project(reach.target)[0]
-        view = photo_view(photo.image, [(sight.box, "seen", "green")], [(place, "", "green")])
+        boxes, points = [(sight.box, "shuttlecock", "green")], [(place, "", "green")]
+        view = photo_view(photo.image, boxes, points)
         view = view.replace("</svg>", lens(photo, sight.box, reach) + "</svg>")
         balls = [(reach.target, "green")]
         return view, arm_scene(START, turn=reach.turn, photo=photo, balls=balls)
@@ -84,7 +85,7 @@ def draw_movement(photo, box, reach, motion):
     """The chosen box, the place reached for, the hand on its way and a `lens`; and the arm."""
     hand, turn = reach.hand(motion), _turns(reach, motion)
     [place] = photo.camera.project(reach.target[None])
-    view = photo_view(photo.image, [(box, "seen", "green")], [(place, "", "green")])
+    view = photo_view(photo.image, [(box, "shuttlecock", "green")], [(place, "", "green")])
     moving = _moving(photo.camera.project(hand[::EVERY]), "orange")
     view = view.replace("</svg>", moving + lens(photo, box, reach, motion) + "</svg>")
     end, lifted = reach.end_point(motion), reach.distance(motion, photo.target) < LIFTED

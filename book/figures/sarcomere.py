@@ -8,10 +8,11 @@ THICK, THIN = 0.56, 0.48  # myosin and actin, in optimal lengths: a sketch, not 
 ROWS = (26, 48, 70)  # where myosin lies, actin above it and below
 
 
-def sarcomere(length, speed=0.0):
+def sarcomere(length, speed=0.0, place='class="vmc-strip"', wide=WIDE):
     """A piece of fibre as SVG: discs, actin (blue), myosin (red), springs; arrows for the speed.
 
     `length` is in optimal lengths, `speed` in such lengths a second, lengthening positive.
+    `place` are attributes of the drawing, `wide` its width.
     """
     middle, half, half_thick = WIDE / 2, length * REST / 2, THICK * REST / 2
     overlap = np.clip(THIN * REST - (half - half_thick), 0, half_thick)
@@ -27,8 +28,8 @@ def sarcomere(length, speed=0.0):
         if speed:
             parts.append(_arrow(disc, side * np.sign(speed) * (8 + 5 * abs(speed))))
     parts += [_line(middle - half_thick, y, middle + half_thick, y, "red", 5) for y in ROWS]
-    size = f'viewBox="0 0 {WIDE} {HIGH}" width="{WIDE}" height="{HIGH}"'
-    return f'<svg class="vmc-strip" {size}>{"".join(parts)}</svg>'
+    size = f'viewBox="0 0 {WIDE} {HIGH}" width="{wide}" height="{wide * HIGH / WIDE:.0f}"'
+    return f"<svg {place} {size}>{''.join(parts)}</svg>"
 
 
 def _line(x0, y0, x1, y1, colour, width):

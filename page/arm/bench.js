@@ -3,7 +3,7 @@ import { degrees, frame, Live, OFTEN } from "./live.js";
 
 export class Bench extends Live {
   ready() {
-    this.sliders = [...this.controls.querySelectorAll("input")];
+    this.sliders = this.given.muscles.map((name) => this.form.elements[name]); // in the model's order
     this.controls.addEventListener("input", () => this.hear());
     this.form.elements.step.addEventListener("click", () => this.advance(10));
     this.form.elements.reset.addEventListener("click", () => this.reset());

@@ -17,9 +17,11 @@ _POSE = {"shoulder": "shoulder", "elbow": "elbow", **HAND}
 
 
 def bench_form(name):
-    """Six sliders."""
+    """Six sliders, of which three stand behind a fold."""
     rest = zip(MUSCLES, static_activation(templates.START).round(2), strict=True)
-    sliders = "".join(_slider(name, muscle, muscle, (0, 1, 0.01), u) for muscle, u in rest)
+    sliders = {muscle: _slider(name, muscle, muscle, (0, 1, 0.01), u) for muscle, u in rest}
+    shown = "".join(sliders.pop(muscle) for muscle in ("TRIlong", "BIClong", "BRA"))
+    sliders = shown + _more("".join(sliders.values()))
     buttons = {"step": "Step 10 ms", "reset": "Reset"}
     return form("Excitation of each muscle", buttons, sliders, {"time": "time"} | _POSE)
 
@@ -32,8 +34,9 @@ def reach_form(name, target, mode):
     zone = [end(templates.load().points, axis=0).round(3) for end in (np.min, np.max)]
     rules = {"algorithm1": "published (Eq. 6–7)", "broydenCalibration": "Broyden calibration"}
     controls = target_sliders(name, zone, target)
-    controls += _weights(name) if mode == "weights" else plans()
-    controls += radios("rule", "calibration", rules, "algorithm1", {})
+    rule = radios("rule", "calibration", rules, "algorithm1", {})
+    controls += _weights(name) if mode == "weights" else ""
+    controls += _more(rule if mode == "weights" else plans() + rule)
     tells = {"planned": "planned miss", "tries": "tries", "calibrated": "calibrated miss"}
     tells |= {"speed": "speed in the hold"}
     if mode == "weights":
@@ -43,6 +46,11 @@ def reach_form(name, target, mode):
         controls += _templates()
         buttons |= {"keep": "Keep as a template", "all": "All templates back"}
     return form("Target and rules", buttons, controls, tells)
+
+
+def _more(controls):
+    """Controls behind a fold, as those of a demo."""
+    return f'<details class="vmc-more"><summary>more</summary><div>{controls}</div></details>'
 
 
 def _templates():
