@@ -18,7 +18,7 @@ async (root) => {
       option.toggleAttribute("selected", option.selected);
     const shot = document.createElement("div");
     shot.className = "vmc-demo";
-    shot.append(...[...demo.querySelectorAll(".vmc-pictures, .vmc-controls")].map((n) => n.cloneNode(true)));
+    shot.append(...[...demo.querySelectorAll(".vmc-pictures, .vmc-controls:not(.vmc-more *)")].map((n) => n.cloneNode(true)));
     shot.querySelectorAll(".vmc-scene").forEach((scene, i) => {
       scene.replaceChildren(Object.assign(new Image(), { src: images[i] }));
     });

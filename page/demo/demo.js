@@ -116,7 +116,7 @@ const tell = (demo) => {
 const all = { clean: (part) => part, settle: (messages) => messages };
 const drawer = (demo, follow) => {
   const [pictures, spoken] = [".vmc-pictures", ".vmc-spoken"].map((name) => demo.querySelector(name));
-  const places = [...demo.querySelectorAll(".vmc-picture, .vmc-data")];
+  const places = [".vmc-picture", ".vmc-data"].flatMap((name) => [...demo.querySelectorAll(name)]);
   return ([alt, ...parts], allowed = all) => {
     const row = demo.querySelector(".vmc-controls"), held = demo.matches(":hover, :focus-within");
     const top = () => row.getBoundingClientRect().top;
@@ -172,8 +172,10 @@ export const start = (demo, ask) => {
   if (scenes.length) {
     const panel = document.createElement("div");
     panel.className = "vmc-controls vmc-of-scene";
-    panel.append(...panelOf(scenes));
+    const [shown, ...folded] = panelOf(scenes);
+    panel.append(shown);
     demo.querySelector(".vmc-controls").after(panel);
+    demo.querySelector(".vmc-more").append(...folded);
   }
   demo.dataset.ready = "";
   return () => scenes.forEach((scene) => scene.end());

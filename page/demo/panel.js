@@ -157,17 +157,18 @@ export const turner = (views) => {
   return label;
 };
 
-/* All that a demo's scenes need, once they have an arm. */
+/* All that a demo's scenes need, once they have an arm; the muscles and what turns the view stand behind a fold. */
 export const panelOf = (views) => {
   const [view] = views;
-  const box = element(`<div class="vmc-panel"></div>`);
+  const [box, behind] = [1, 2].map(() => element(`<div class="vmc-panel"></div>`));
   const fill = () => {
     if (!view.anatomy || box.childElementCount) return;
-    box.append(clock(views), numbers(view), muscles(view));
-    if (view.settings.target) box.append(element(`<p class="vmc-note">${WRIST}</p>`));
+    box.append(clock(views), numbers(view));
+    behind.append(muscles(view));
+    if (view.settings.target) behind.append(element(`<p class="vmc-note">${WRIST}</p>`));
     view.at(view.wanted);
   };
   view.listeners.push(fill);
   fill();
-  return [box, turner(views)];
+  return [box, behind, turner(views)];
 };

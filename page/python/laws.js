@@ -62,9 +62,11 @@ class Follower {
   constructor(demo) {
     const cell = demo.closest(".cell"), above = codeOf(cell);
     users.push([cell, above, grade.book(cell)]);
-    const [status, run, back, between] = line(demo.querySelector(".vmc-controls"),
-      `<button type="button" name="run" hidden>Run it</button> ${BACK} ` +
-      '<button type="button" name="between">Any value (loads Python, 19 MB)</button>');
+    const [status, run, back] = line(demo.querySelector(".vmc-controls"),
+      `<button type="button" name="run" hidden>Run it</button> ${BACK}`);
+    const between = document.createElement("button");
+    Object.assign(between, { type: "button", className: "vmc-any", textContent: "Any value (loads Python, 19 MB)" });
+    demo.querySelector(".vmc-more > form").after(between);
     const sliders = [...demo.querySelectorAll("[data-between]")];
     Object.assign(this, { demo, cell, above, status, run, back, between, sliders });
     between.hidden = !sliders.length;

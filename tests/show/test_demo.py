@@ -7,7 +7,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
-from tests.pages import displayed
+from tests.pages import book_html, displayed
 from tests.show.kernel import named, show
 from vmc_lib.show import COLOURS, Pad, Scene, Slider, demo, figure, photo_view
 from vmc_lib.show.packed import unpack_bytes
@@ -212,3 +212,14 @@ def test_plots_use_the_palette(shown, book):
     assert "var(--vmc-ink" in svg
     assert not re.findall(r"[:\"]\s*#(?:000000|ffffff|1c2430)", svg)
     assert plt.get_fignums() == []
+
+
+def test_some_controls_stand_behind_a_fold(monkeypatch):
+    draw = lambda a, b: f"<p>{a} {b}</p>"  # noqa: E731 (one line)
+    markup = book_html(demo, lambda: demo.explore(draw, more=["b"], a=[1, 2], b=[3, 4]))
+    shown, folded = markup.split('<details class="vmc-more">')
+    assert ('-a"' in shown, '-b"' in shown) == (True, False)
+    assert ('-a"' in folded, '-b"' in folded) == (False, True)
+    for wrong in (["c"], "b"):
+        with pytest.raises(ValueError, match="more="):
+            demo.explore(draw, more=wrong, a=[1, 2], b=[3, 4])

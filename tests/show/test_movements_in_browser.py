@@ -27,6 +27,7 @@ MOVEMENT = {"alt": lambda elbow: f"to {elbow}", "elbow": Slider([1.2, 1.5], "to"
 def moving(open_demo):
     page = open_demo(movement, **MOVEMENT)
     page.wait_for_selector(".vmc-scene canvas")
+    page.click(".vmc-more summary")
     return page
 
 

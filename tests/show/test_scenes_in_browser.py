@@ -37,7 +37,8 @@ def test_a_scene_depends_on_its_state_alone(open_demo):
         seen.append(scene.evaluate(CAPTURE))
     assert seen[:3] == seen[:-4:-1]
     assert len(set(seen)) == 4
-    page.fill(".vmc-controls > label input", "90")  # walk around
+    page.click(".vmc-more summary")
+    page.fill(".vmc-turn input", "90")  # walk around
     assert scene.evaluate(CAPTURE) != seen[-1]
     assert page.get_attribute(".vmc-pictures", "aria-label") == "ball at 0.0"
 

@@ -169,7 +169,7 @@ def test_controls_follow_the_kernel_in_every_view(offline, monkeypatch):
         ".filter((one) => one.textContent === words).length === 2",
         arg=f"{dict(made.value)}",
     )
-    for view in page.locator("form").all():
+    for view in page.locator("figure > form").all():
         assert view.get_by_role("slider").input_value() == "2"
         assert view.get_by_label("menu").input_value() == "5"
         assert view.get_by_label("b", exact=True).is_checked()

@@ -24,6 +24,7 @@ OPTIONS = {
     "alt": "what it shows, in words: a text, or a function of the controls",
     "data": "a dictionary of arrays",
     "printed": "a list of {control: value}",
+    "more": "a list of names of controls",
 }
 REMEDIES = {  # why a widget of ipywidgets is no control, and what to give instead
     ipywidgets.fixed: "does not move: bind it, functools.partial(draw, {name}={value!r})",
@@ -39,7 +40,7 @@ REMEDIES = {  # why a widget of ipywidgets is no control, and what to give inste
 }
 
 
-def check_call(draw, caption, alt, data, printed, names):
+def check_call(draw, caption, alt, data, printed, more, names):
     """ValueError for what is no function, caption or option, or for controls that it lacks."""
     if not (callable(draw) and isinstance(caption, str)):
         raise ValueError(
@@ -50,6 +51,7 @@ def check_call(draw, caption, alt, data, printed, names):
         "alt": not (alt is None or isinstance(alt, str) or callable(alt)) and alt,
         "data": not (data is None or isinstance(data, dict)) and data,
         "printed": not all(isinstance(one, dict) for one in printed) and printed,
+        "more": (isinstance(more, str) or not {*more} <= {*names}) and more,
     }
     for name, value in wrong.items():
         if value is not False:

@@ -44,7 +44,7 @@ SAMPLE = 25  # positions along a control, of a demo that the page works out
 _demos = itertools.count(1)
 
 
-def explore(draw, caption="", alt=None, in_page=None, data=None, printed=(), **controls):
+def explore(draw, caption="", alt=None, in_page=None, data=None, printed=(), more=(), **controls):
     """Show what `draw` returns and let the reader move its controls, as ipywidgets' `interact`.
 
     `draw(**values)` is a pure function that returns a picture (see `figures`). Each control is a
@@ -53,7 +53,8 @@ def explore(draw, caption="", alt=None, in_page=None, data=None, printed=(), **c
     `abbreviations`). `caption` is Markdown and says what to notice; `alt` describes the picture in
     words, as text or as a function of the same controls; a plot without it describes itself.
     `printed` is where paper shows it, a list of {control: value} moved from the start; by default
-    there, and with its first slider at its other end.
+    there, and with its first slider at its other end. `more` names controls that stand behind a
+    fold, as a plot's numbers do: a figure shows two or three.
 
     Returns the `Demo`, a widget: its `value` can be read, set, observed and linked. ValueError for
     what could not work: an unknown control or picture, a start that is no value; in the book more
@@ -80,12 +81,12 @@ def explore(draw, caption="", alt=None, in_page=None, data=None, printed=(), **c
     >>> demo.value
     {'a': 5, 'b': 4}
     """
-    demo = widget(draw, caption, alt, in_page, data, printed, **controls)
+    demo = widget(draw, caption, alt, in_page, data, printed, more, **controls)
     demo.show()
     return demo
 
 
-def widget(draw, caption="", alt=None, in_page=None, data=None, printed=(), **controls):
+def widget(draw, caption="", alt=None, in_page=None, data=None, printed=(), more=(), **controls):
     """A demo as `explore` takes it, not yet shown: to stand in an `HBox`, or where it is displayed.
 
     As `explore` is to ipywidgets' `interact`, so is this to its `interactive`.
@@ -93,7 +94,7 @@ def widget(draw, caption="", alt=None, in_page=None, data=None, printed=(), **co
     >>> widget(lambda k: f"<p>{k}</p>", k=(0, 4, 2)).value
     {'k': 2}
     """
-    check_call(draw, caption, alt, data, printed, controls)
+    check_call(draw, caption, alt, data, printed, more, controls)
     specs, starts = controls, defaults(draw)
     controls = {name: as_control(name, spec, starts.get(name)) for name, spec in specs.items()}
     printed = [address(values, controls) for values in printed]
@@ -111,14 +112,14 @@ def widget(draw, caption="", alt=None, in_page=None, data=None, printed=(), **co
 
     texts = {key: c.texts[c.first] for key, c in controls.items() if isinstance(c, Slider)}
     if render_mode() == "live":
-        demo = _live(state, caption, controls, name, texts)
+        demo = _live(state, caption, controls, name, texts, more)
     else:
-        demo = _checked(state, caption, controls, name, texts, in_page, data, printed)
+        demo = _checked(state, caption, controls, name, texts, in_page, data, printed, more)
     demo.share({key: one for key, one in specs.items() if isinstance(one, ipywidgets.Widget)})
     return demo
 
 
-def _checked(state, caption, controls, name, texts, in_page, data, printed):
+def _checked(state, caption, controls, name, texts, in_page, data, printed, more):
     """The demo in the built book or in a test, which must have all its states."""
     positions = math.prod(len(control.values) for control in controls.values())
     if positions > MOST_POSITIONS and not in_page:
@@ -144,7 +145,7 @@ def _checked(state, caption, controls, name, texts, in_page, data, printed):
     if render_mode() == "book":
         stored = recipe(in_page, controls, name) if in_page else all_states(states)
         stored |= {"data": pack_arrays(data)} if data else {}
-        markup = HTML(page(*start, stored, caption, controls, name, printed))
+        markup = HTML(page(*start, stored, caption, controls, name, printed, more))
         show = partial(display, markup)
     return Demo(name, controls, Numbers(name, start[0], texts), show)
 
@@ -177,7 +178,7 @@ def _idle(state, places, controls):
     return idle_controls([repr(lines(state(place)[1])) for place in places], places, controls)
 
 
-def _live(state, caption, controls, name, texts):
+def _live(state, caption, controls, name, texts, more):
     """The demo in a kernel; shown, with a still of it for when the kernel is gone."""
     alt, parts = state(first_position(controls))
     check_pads(parts, controls)
@@ -215,7 +216,7 @@ def _live(state, caption, controls, name, texts):
             display(Markup(frame("", caption=caption), caption))
         _freeze_once()
 
-    inside = face(alt, parts, controls, name) + SAID
+    inside = face(alt, parts, controls, name, more=more) + SAID
     scenes = [part.messages() if isinstance(part, Scene) else None for part in parts]
     live = {"page": frame(inside, name), "script": demo_script(), "first": [[alt], *scenes]}
     live["answers"] = {"state": move, "picture": draw, "still": keep}

@@ -3,11 +3,16 @@
 import itertools
 
 from vmc_lib.show.controls import Pad, Switch
+from vmc_lib.show.data_table import DataTable
 from vmc_lib.show.figures import side_by_side
 from vmc_lib.show.positions import strides
 from vmc_lib.show.scene import Scene
 
 SWITCHES = '<div class="vmc-control"><div class="vmc-options">{}</div></div>'  # a row of them
+MORE = (
+    '<details class="vmc-more"><summary>more</summary>'
+    '<form class="vmc-controls" autocomplete="off">{}</form>{}</details>'
+)
 
 
 def lines(parts):
@@ -15,18 +20,34 @@ def lines(parts):
     return [part.messages() if isinstance(part, Scene) else part.split("\n") for part in parts]
 
 
-def face(alt, parts, controls, name, printed=()):
-    """The pictures, and below them what the script moves them by."""
+def face(alt, parts, controls, name, printed=(), more=()):
+    """The pictures, and below them what the script moves them by.
+
+    Behind a fold stand the controls that are named in `more`, and the plots' numbers.
+    """
     attribute = f' data-printed="{" ".join(printed)}"' if printed else ""
-    form, pairs = "", zip(controls.items(), strides(controls), strict=True)
-    for switches, row in itertools.groupby(pairs, lambda pair: isinstance(pair[0][1], Switch)):
-        faces = "".join(one.html(f"{name}-{key}", stride) for (key, one), stride in row)
-        form += SWITCHES.format(faces) if switches else faces
-    form = f'<form class="vmc-controls" autocomplete="off"{attribute}>{form}</form>'
-    both = [side_by_side(parts, alt), form]
+    pairs = list(zip(controls.items(), strides(controls), strict=True))
+    shown, folded = (
+        _rows([pair for pair in pairs if (pair[0][0] in more) == behind], name)
+        for behind in (False, True)
+    )
+    tables = [part for part in parts if isinstance(part, DataTable)]
+    form = f'<form class="vmc-controls" autocomplete="off"{attribute}>{shown}</form>'
+    both = [side_by_side([part for part in parts if part not in tables], alt), form]
     if "<a " in both[0]:
         both.reverse()  # what chooses among links comes before them
-    return "".join([*both, '<p class="vmc-spoken" aria-live="polite"></p>'])
+    numbers = "".join(f'<div class="vmc-data" tabindex="0">{table}</div>' for table in tables)
+    fold = MORE.format(folded, numbers)
+    return "".join([*both, fold, '<p class="vmc-spoken" aria-live="polite"></p>'])
+
+
+def _rows(pairs, name):
+    """The faces of ((key, control), stride) pairs; switches that follow each other share a row."""
+    faces = ""
+    for switches, row in itertools.groupby(pairs, lambda pair: isinstance(pair[0][1], Switch)):
+        inside = "".join(one.html(f"{name}-{key}", stride) for (key, one), stride in row)
+        faces += SWITCHES.format(inside) if switches else inside
+    return faces
 
 
 def moves(parts, controls):

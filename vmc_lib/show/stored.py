@@ -8,12 +8,12 @@ from vmc_lib.show.packed import pack_json
 from vmc_lib.show.palette import plot_style
 
 
-def page(alt, parts, data, caption, controls, name, printed):
+def page(alt, parts, data, caption, controls, name, printed, more):
     """The demo as HTML: its first state to be seen at once, and compressed data for all others."""
     if not moves(parts, controls):
         return frame(side_by_side(parts, alt), name, caption)
     data = f'<script type="application/gzip">{pack_json(data)}</script>'
-    return frame(face(alt, parts, controls, name, printed) + data, name, caption)
+    return frame(face(alt, parts, controls, name, printed, more) + data, name, caption)
 
 
 def all_states(states):

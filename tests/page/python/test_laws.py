@@ -108,6 +108,7 @@ def test_a_law_moves_its_demos_and_goes_back(open_law, serious):
 
 def test_sliders_stand_between_their_stops(open_law, window):
     page = open_law(window(viewport={"width": 360, "height": 700}))
+    page.mine.get_by_text("more", exact=True).click()
     page.mine.get_by_role("button", name="Any value").click()
     page.slider.fill("1.5")
     expect(page.mine.locator(TITLE)).to_contain_text("at 2: 4")
@@ -130,6 +131,7 @@ def test_arrays_that_the_page_cannot_make_come_with_it(open_page, monkeypatch):
     cell = f'<div class="cell_input"><pre>{lines}</pre></div>{shown[0].data}'
     page = open_page(f'{CELL.format(made)}<div class="cell tag_draws-in-page">{cell}</div>')
     page.evaluate("() => { vmc['python/interpreter'].limit.seconds = 100 }")
+    page.get_by_text("more", exact=True).click()
     page.get_by_role("button", name="Any value").click()
     page.locator(".vmc-demo input").fill("1.5")
     expect(page.locator(TITLE)).to_contain_text("at 2: 4")
