@@ -6,7 +6,9 @@ from collections import Counter
 import nbformat
 
 OF_PAGES = ("tests/test_pages.py", "tests/test_site.py")
-DEMO = re.compile(r"^(?:\w+ = )?(?:explore|where\.segmentation_demo|live_arm)\(", re.M)
+DEMO = re.compile(
+    r"^(?:\w+ = )?(?:explore|where\.segmentation_demo|live_arm|live_whole_arm)\(", re.M
+)
 WITH_DEMO = "**Predict.**", "**Figure.**"
 UNREAD = re.compile(r"<details>.*?</details>|<!--.*?-->|\]\(.*?\)", re.S)
 EXERCISE = {"raises-exception", "solution"}  # tags of the cells below an exercise's text

@@ -133,3 +133,15 @@ def efforts_table(rules):
     }
     heads = "rule", "effort before (10⁻³)", "effort after (10⁻³)", "miss after (mm)"
     return table(heads, rows, ".1f")
+
+
+def trembling(ways, target, time):
+    """Hands that were told the same, near their target (2,): the last 0.3 s of `ways` (n, T, 2)."""
+    fig, ax = panels(size=(4.4, 4.4))
+    last = 1000 * (ways[:, max(time - 300, 0) : time + 1] - target)
+    ax.plot(*last.T, color=COLOURS["grey"], lw=0.8)
+    ax.plot(*last[:, -1].T, "o", color=COLOURS["red"], ms=5, gid="hands")
+    ax.plot(0, 0, "o", ms=16, mfc="none", mew=2, color=COLOURS["green"])
+    ax.set(xlim=(-40, 40), ylim=(-20, 60), aspect="equal")
+    ax.set(xlabel="forward of the target (mm)", ylabel="above it (mm)")
+    return fig
