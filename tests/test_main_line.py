@@ -7,10 +7,10 @@ from tools.main_line import main_line
 
 NUMBERED = [path for path in CHAPTERS if path.stem[:2].isdigit()]
 NOT_YET = {  # chapters that do not yet keep a bar
-    "words": {"10"},
-    "predictions": {"10", "11", "13"},
-    "captions": {f"{chapter:02}" for chapter in range(9, 17)},
-    "controls": {"10", "12", "14", "15"},
+    "words": (),
+    "predictions": (),
+    "captions": {"10", "13", "14", "16"},  # by a word or two
+    "controls": {"10", "15"},  # a game of six weights; an arm of four
 }
 
 
