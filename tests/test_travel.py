@@ -187,8 +187,8 @@ def test_a_platform_hears_of_the_beginning_of_a_move_and_of_the_end(slider, wind
     status = "cmi.core.lesson_status"
     begun = [["Initialize", ""], ["SetValue", status, "incomplete"], ["Commit", ""]]
     assert page.evaluate("calls") == begun
-    demo.locator("input[type=range]").first.press("ArrowRight")
-    demo.locator("input[type=range]").first.press("ArrowRight")
+    for end in ("Home", "End"):  # wherever it starts, one of them moves it
+        demo.locator("input[type=range]").first.press(end)
     moved = [*begun, ["SetValue", status, "completed"], ["Commit", ""]]
     assert page.evaluate("calls") == moved
     page.evaluate("document.querySelector('iframe').remove()")
