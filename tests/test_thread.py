@@ -34,8 +34,8 @@ def test_a_strip_stands_above_every_chapter(path):
     lit = [n for n, mark in enumerate(marks, start=1) if mark.get("aria-current")]
     assert lit == [number(path)] * bool(number(path))
     _, motion = thread.CHAPTERS[number(path)]
-    told = f"{thread.misses()[motion]:.1f} mm" if motion else "–"
-    assert strip.select_one("b").text == told
+    miss = f"{thread.misses()[motion]:.1f} mm" if motion else "–"
+    assert strip.select_one("b").text == miss
     assert (path.parent / strip.select_one("image")["href"]).resolve().stat().st_size < 10_000
     assert soup.article.find(True) == strip
 
@@ -49,9 +49,9 @@ def test_the_miss_shrinks_from_chapter_to_chapter():
 
 def test_chapter_1_tells_the_same_misses():
     text = (BOOK / "01_loop.html").read_text(encoding="utf-8")
-    said = re.findall(r"<strong>([\d.]+) mm</strong>", text)
+    numbers = re.findall(r"<strong>([\d.]+) mm</strong>", text)
     for motion in ("plan", "off-line"):
-        assert f"{thread.misses()[motion]:.1f}" in said
+        assert f"{thread.misses()[motion]:.1f}" in numbers
 
 
 @pytest.mark.parametrize(("width", "height"), [(1280, 800), (390, 844)])
@@ -79,8 +79,8 @@ def test_a_strip_is_not_printed(offline):
 # ---- The miss, close by ----
 
 
-def told(path):
-    """What each arm scene of a page's first demo says of its miss, state by state."""
+def miss_settings(path):
+    """The miss that each arm scene of a page's first demo carries, state by state."""
     text = path.read_text(encoding="utf-8")
     packed = re.search(r'<script type="application/gzip">(.*?)</script>', text, re.S)[1]
     data = json.loads(unpack_bytes(packed))
@@ -94,7 +94,7 @@ def test_the_ruler_shows_the_miss_that_the_panel_tells(offline):
     page = open_url(offline, (BOOK / "epilogue.html").as_uri())
     page.wait_for_selector(".vmc-scene canvas")
     close_up, slider = page.locator(".vmc-close-up"), page.locator("#demo-1 [data-stride]")
-    for place, motion in enumerate(("plan", "off-line", "online", "held")):
+    for place, motion in enumerate(("plan", "off-line", "online", "whole hold")):
         slider.fill(str(place))
         said = f"{thread.misses()[motion]:.1f} mm"
         assert close_up.locator("text").text_content() == said
@@ -112,7 +112,7 @@ HEIGHT = """(div) => vmc["demo/scene"].viewOf(div).viewer.scene_tree
 
 
 def test_a_hit_lifts_the_shuttlecock_and_a_miss_does_not(offline):
-    [[first], [calibrated], _, [third]] = told(BOOK / "epilogue.html")
+    [[first], [calibrated], _, [third]] = miss_settings(BOOK / "epilogue.html")
     assert [one["lifted"] for one in (first, calibrated, third)] == [False, True, True]
     page = open_url(offline, (BOOK / "epilogue.html").as_uri())
     page.wait_for_selector(".vmc-scene canvas")

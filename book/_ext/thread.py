@@ -66,10 +66,10 @@ def strip(number, places, photo):
     marks = "".join(mark(n, *place, n == number) for n, place in places.items())
     step, (miss, words) = thread.step_of(number), thread.words(number)
     first = places[1][0].rstrip("#")
-    told = f"miss {miss}: photo 1, {words}. See this step in chapter 1"
+    label = f"miss {miss}: photo 1, {words}. See this step in chapter 1"
     return (
         f'<nav class="vmc-thread" aria-label="The loop"><ol>{marks}</ol>'
-        f'<a href="{first}#demo-1?photo=0&amp;step={step}" aria-label="{told}">'
+        f'<a href="{first}#demo-1?photo=0&amp;step={step}" aria-label="{label}">'
         f"{thread.picture(number, photo)}<span>miss <b>{miss}</b></span></a></nav>\n"
     )
 

@@ -22,17 +22,11 @@ SEEING = ("a photo", "candidates", "regions", "after suppression", "names")
 LOOP_STEPS = (*SEEING, "first reach", "calibrated reach", "third reach")
 TURNED = 500  # ms: by then the trunk has turned
 FOREARM = 0.02  # m, the radius of a forearm that is a rod
-LIFTED = (
-    0.01  # m from the true middle of a shuttlecock: a hand has arrived, and is drawn to lift it
-)
-SLOW = (0.8, 1.0)  # s: a film shows a reach's last fifth of a second before the hold slowly
+LIFT_RADIUS = 0.01  # m from a shuttlecock's true middle: within it a hand is drawn to lift it
+SLOW_MOTION = (0.8, 1.0)  # s: of a reach, in a film: the last moments before the hold
 THROUGH = " (on its way the forearm passes through the cup: the model feels no things)"
 LOOP_STAGES = (*SEEING, "place", "plan", "off-line", "online")
-STAGE_OF = {
-    "first reach": "plan",
-    "calibrated reach": "off-line",
-    "third reach": "held",
-}  # of a step
+STAGE_OF = {"first reach": "plan", "calibrated reach": "off-line"}  # of a step
 
 
 def moves(reach, online=None):
@@ -42,18 +36,24 @@ def moves(reach, online=None):
     """
     if reach is None:
         return {}
-    made = {"plan": reach.planned, "off-line": reach.calibrated, "online": online}
-    return made | {"held": hold_still(reach)}
+    return {"plan": reach.planned, "off-line": reach.calibrated, "online": online}
 
 
 @cache
-def hold_still(reach):
-    """The motion of a reach that our own rule has calibrated over the whole hold."""
+def calibrate_over_hold(reach):
+    """The motion of a reach after least squares over its whole hold (our own rule)."""
     return recalibrate(reach, gauss_newton_calibration).calibrated
 
 
-def miss_mm(reach, motion):
-    """The miss of a motion: how far the hand is from the place aimed at over the hold, in mm."""
+def motion_at(step, reach, online=None):
+    """The motion that a step or a stage of a movement shows."""
+    if step == "third reach":
+        return calibrate_over_hold(reach)
+    return moves(reach, online)[STAGE_OF.get(step, step)]
+
+
+def aiming_error_mm(reach, motion):
+    """How far the hand is from the place aimed at, on average over the hold, in mm."""
     return 1000 * reach.distance(motion, reach.target)
 
 
@@ -72,8 +72,7 @@ def draw_step(step, photo, sight, reach, online=None):
         view = view.replace("</svg>", lens(photo, sight.box, reach) + "</svg>")
         balls = [(reach.target, "green")]
         return view, arm_scene(START, turn=reach.turn, photo=photo, balls=balls)
-    motion = moves(reach, online)[STAGE_OF.get(step, step)]
-    return draw_movement(photo, sight.box, reach, motion)
+    return draw_movement(photo, sight.box, reach, motion_at(step, reach, online))
 
 
 def step_view(step, *journey):
@@ -88,7 +87,8 @@ def draw_movement(photo, box, reach, motion):
     view = photo_view(photo.image, [(box, "shuttlecock", "green")], [(place, "", "green")])
     moving = _moving(photo.camera.project(hand[::EVERY]), "orange")
     view = view.replace("</svg>", moving + lens(photo, box, reach, motion) + "</svg>")
-    end, lifted = reach.end_point(motion), reach.distance(motion, photo.target) < LIFTED
+    end = reach.end_point(motion)
+    lifted = bool(reach.distance(motion, photo.target) < LIFT_RADIUS)
     scene = arm_scene(
         motion.q,
         motion.activation,
@@ -98,10 +98,9 @@ def draw_movement(photo, box, reach, motion):
         grasp=lifted,
         end=(end, motion.speed),
     )
-    miss = {"mm": round(miss_mm(reach, motion), 4), "end": end.round(5).tolist()}
-    scene.tell(
-        "miss", miss | {"lifted": bool(lifted), "stands": photo.pose == "standing", "slow": SLOW}
-    )
+    miss = {"mm": round(aiming_error_mm(reach, motion), 4), "end": end.round(5).tolist()}
+    miss |= {"lifted": lifted, "stands": photo.pose == "standing", "slow": SLOW_MOTION}
+    scene.tell("miss", miss)
     return view, scene
 
 
@@ -245,5 +244,5 @@ def describe_step(step, photo, sight, reach, online=None):
     if reach and step == "place":
         words = f"{norm_mm(reach.target - photo.target):.1f} mm from the true shuttlecock"
     elif reach:
-        words = describe_end(photo, reach, moves(reach, online)[STAGE_OF.get(step, step)])
+        words = describe_end(photo, reach, motion_at(step, reach, online))
     return f"{step.capitalize()}: {words}."

@@ -129,12 +129,3 @@ def reach_scene(motion, target):
     balls = [(hand(inverse_kinematics(target)), "green")]
     end = motion.wrist.mean(axis=0), motion.speed
     return arm_scene(motion.q, motion.activation, balls=balls, end=end)
-
-
-def plan_for_first_photo():
-    """The `Plan` of the reach that chapter 1 makes: for the shuttlecock of its first photo."""
-    from vmc_lib import loop, photos  # not in the page
-
-    photo = photos.load("rig", "test")[0]
-    _, made = loop.see_and_reach(loop.VisuomotorModel.load("rig"), photo.image, photo.camera)
-    return made.plan

@@ -7,10 +7,14 @@ from types import SimpleNamespace
 import numpy as np
 from PIL import Image
 
-from book.figures.loop import LOOP_STEPS, miss_mm, moves
+from book.figures.loop import LOOP_STEPS, aiming_error_mm, calibrate_over_hold, moves
 from vmc_lib import loop, photos
 from vmc_lib.arm.arm26 import geometry
 from vmc_lib.arm.kinematics import to_world
+from vmc_lib.cerebellum.online import AimCorrection
+from vmc_lib.motor import templates
+from vmc_lib.motor.execution import execute
+from vmc_lib.motor.planning import draw_targets, plan
 from vmc_lib.motor.templates import START
 from vmc_lib.show.arm import beyond_wrist
 from vmc_lib.show.palette import ON_PHOTO
@@ -31,37 +35,38 @@ CHAPTERS = {
     11: ("calibrated reach", "online"),
     12: ("calibrated reach", "online"),
     13: ("calibrated reach", "online"),
-    **dict.fromkeys((14, 15, 16, None), ("third reach", "held")),
+    **dict.fromkeys((14, 15, 16, None), ("third reach", "whole hold")),
 }
-MADE = {  # how a motion of the thread was made
+MOTIONS = {  # of the thread, by name: how each comes about
     "plan": "as planned",
     "off-line": "calibrated off-line",
     "online": "corrected before it moves",
-    "held": "calibrated over the whole hold",
+    "whole hold": "calibrated over the whole hold",
 }
 
 
 @cache
-def journey():
-    """Photo 1, what is seen in it, the reach for it, and its motions by name (see `MADE`)."""
+def first_reach():
+    """The first photo of chapter 1, what is seen in it, and the reach for its shuttlecock."""
     model, photo = loop.VisuomotorModel.load("rig"), photos.load("rig", "test")[0]
     sight, reach = loop.see_and_reach(model, photo.image, photo.camera)
-    return SimpleNamespace(
-        photo=photo, sight=sight, reach=reach, moves=moves(reach, online_motion(reach))
-    )
+    return SimpleNamespace(photo=photo, sight=sight, reach=reach)
 
 
-def online_motion(reach):
-    """A reach corrected before it is made, by what a hundred others have taught (our own rule)."""
-    from vmc_lib.cerebellum.online import AimCorrection
-    from vmc_lib.motor import templates
-    from vmc_lib.motor.execution import execute
-    from vmc_lib.motor.planning import draw_targets, plan
-
+@cache
+def trained_cerebellum():
+    """The `AimCorrection` that a hundred practised movements have taught."""
     template_set = templates.load()
     practice = draw_targets(template_set, 100, np.random.default_rng(11))
-    cerebellum = AimCorrection(template_set).update(plan(practice, template_set))
-    return execute(cerebellum.correct(reach.plan)).motion
+    return AimCorrection(template_set).update(plan(practice, template_set))
+
+
+@cache
+def motions():
+    """The motions of the first reach, by their names in `MOTIONS`."""
+    reach = first_reach().reach
+    online = execute(trained_cerebellum().correct(reach.plan)).motion
+    return moves(reach, online) | {"whole hold": calibrate_over_hold(reach)}
 
 
 def step_of(chapter):
@@ -72,8 +77,8 @@ def step_of(chapter):
 @cache
 def misses():
     """How far each motion of the thread ends from the place aimed at, by its name, in mm."""
-    one = journey()
-    return {name: miss_mm(one.reach, motion) for name, motion in one.moves.items()}
+    reach = first_reach().reach
+    return {name: aiming_error_mm(reach, motion) for name, motion in motions().items()}
 
 
 def words(chapter):
@@ -81,20 +86,20 @@ def words(chapter):
     step, motion = CHAPTERS[chapter]
     if motion is None:
         return "–", f"{step}; nothing has moved yet"
-    return f"{misses()[motion]:.1f} mm", f"a reach {MADE[motion]}"
+    return f"{misses()[motion]:.1f} mm", f"a reach {MOTIONS[motion]}"
 
 
 def photo_file():
     """The photo, small: a WebP file."""
     file = io.BytesIO()
-    Image.fromarray(journey().photo.image).resize(SIZE).save(file, "webp", quality=70)
+    Image.fromarray(first_reach().photo.image).resize(SIZE).save(file, "webp", quality=70)
     return file.getvalue()
 
 
 def picture(chapter, photo):
     """The photo at an address with what a chapter has made of it, and the arm: small, as SVG."""
-    one, (step, name) = journey(), CHAPTERS[chapter]
-    motion = one.moves.get(name)
+    one, (step, name) = first_reach(), CHAPTERS[chapter]
+    motion = motions().get(name)
     q, turn = (START, 0.0) if motion is None else (motion.q[-1], one.reach.turn)
     boxes = {
         "candidates": (one.sight.detections.candidates[::6], "grey"),

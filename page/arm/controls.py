@@ -8,7 +8,7 @@ from page.bundle import STATIC
 from vmc_lib.arm.model import MUSCLES
 from vmc_lib.motor import templates
 from vmc_lib.motor.inverse_dynamics import static_activation
-from vmc_lib.show.controls import radios, slider
+from vmc_lib.show.controls import fold, radios, slider
 
 MUJOCO = STATIC / "vendor/mujoco.js"
 VERSIONS = {"Python": version("mujoco"), "page": "3.14.0"}  # of MuJoCo
@@ -21,7 +21,7 @@ def bench_form(name):
     rest = zip(MUSCLES, static_activation(templates.START).round(2), strict=True)
     sliders = {muscle: _slider(name, muscle, muscle, (0, 1, 0.01), u) for muscle, u in rest}
     shown = "".join(sliders.pop(muscle) for muscle in ("TRIlong", "BIClong", "BRA"))
-    sliders = shown + _more("".join(sliders.values()))
+    sliders = shown + fold(f"<div>{''.join(sliders.values())}</div>")
     buttons = {"step": "Step 10 ms", "reset": "Reset"}
     return form("Excitation of each muscle", buttons, sliders, {"time": "time"} | _POSE)
 
@@ -34,9 +34,12 @@ def reach_form(name, target, mode):
     zone = [end(templates.load().points, axis=0).round(3) for end in (np.min, np.max)]
     rules = {"algorithm1": "published (Eq. 6–7)", "broydenCalibration": "Broyden calibration"}
     controls = target_sliders(name, zone, target)
-    rule = radios("rule", "calibration", rules, "algorithm1", {})
-    controls += _weights(name) if mode == "weights" else ""
-    controls += _more(rule if mode == "weights" else plans() + rule)
+    folded = radios("rule", "calibration", rules, "algorithm1", {})
+    if mode == "weights":
+        controls += _weights(name)
+    else:
+        folded = plans() + folded
+    controls += fold(f"<div>{folded}</div>")
     tells = {"planned": "planned miss", "tries": "tries", "calibrated": "calibrated miss"}
     tells |= {"speed": "speed in the hold"}
     if mode == "weights":
@@ -46,11 +49,6 @@ def reach_form(name, target, mode):
         controls += _templates()
         buttons |= {"keep": "Keep as a template", "all": "All templates back"}
     return form("Target and rules", buttons, controls, tells)
-
-
-def _more(controls):
-    """Controls behind a fold, as those of a demo."""
-    return f'<details class="vmc-more"><summary>more</summary><div>{controls}</div></details>'
 
 
 def _templates():

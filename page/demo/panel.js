@@ -4,8 +4,8 @@ import { distance } from "./anatomy.js";
 import { redness } from "./muscles.js";
 
 const SPEEDS = { "real time": 1, "half speed": 0.5, "quarter speed": 0.25 };
-const SLOWED = 0.25; // of its speed
-const LOOKED = 900, LIFTING = 900; // ms: for the miss; then the hand lifts what it grasps, or tips it over
+const SLOW_MOTION = 0.25; // of its speed
+const PAUSE = 900, LIFTING = 900; // ms: to see the miss; then the hand lifts what it grasps, or tips it over
 const LATE = 100; // ms: where pictures come late a movement takes longer, and is still seen whole
 const WRIST = "The model ends at the wrist. The hand and its target are drawn one palm's length " +
   "beyond it.";
@@ -53,23 +53,28 @@ const clock = (views) => {
     const pace = calm.matches ? 500 : 0; // ms between two pictures
     set(start);
     const { miss } = views[0].settings, [slow, fast] = (film && miss?.slow) || [Infinity, Infinity];
+    /* The time of the next picture; none once this is not played any more. */
+    const next = async () => {
+      const now = await new Promise(requestAnimationFrame);
+      return playing === mine && box.isConnected && now;
+    };
     let last = 0, time = start, then = performance.now();
     while (time < duration) {
-      const now = await new Promise(requestAnimationFrame);
-      if (playing !== mine || !box.isConnected) return;
+      const now = await next();
+      if (!now) return;
       const passed = Math.min(Math.max(0, now - then), LATE) / 1000;
-      time = Math.min(duration, time + passed * speed.value * (time > slow && time < fast ? SLOWED : 1));
+      time = Math.min(duration, time + passed * speed.value * (time > slow && time < fast ? SLOW_MOTION : 1));
       then = now;
       if (now - last < pace && time < duration) continue;
       last = now;
       set(time);
     }
-    if (miss && !calm.matches) for (const begun = performance.now() + LOOKED; ; ) {
-      const now = await new Promise(requestAnimationFrame);
-      if (playing !== mine || !box.isConnected) return;
-      const after = Math.min(1, (now - begun) / LIFTING);
+    const lifted = miss && !calm.matches ? performance.now() + PAUSE + LIFTING : 0;
+    for (let now = 0; now < lifted; ) {
+      now = await next();
+      if (!now) return;
+      const after = Math.min(1, 1 + (now - lifted) / LIFTING);
       if (after > 0) set(duration, after);
-      if (after === 1) break;
     }
     stop();
   };

@@ -32,6 +32,9 @@ def contrast(one, other):
     return (high + 0.05) / (low + 0.05)
 
 
+SCENE = {"muscle", "wood", "bone"}  # colours of the page, beside those of plots
+
+
 def palette(theme):
     css = (STATIC / "demo.css").read_text(encoding="utf-8")
     block = re.search(re.escape(theme) + r" \{(.*?)\}", css, re.S)[1]
@@ -39,15 +42,16 @@ def palette(theme):
 
 
 def test_the_style_sheet_holds_the_palette():
-    page = palette(":root")
-    assert page | COLOURS == page  # beside the plots' colours the page has the scene's
-    assert palette('html[data-theme="dark"]').keys() == page.keys() >= COLOURS.keys()
+    light, dark = palette(":root"), palette('html[data-theme="dark"]')
+    assert {name: light[name] for name in light.keys() - SCENE} == COLOURS
+    assert light.keys() == dark.keys() == COLOURS.keys() | SCENE
 
 
 @pytest.mark.parametrize("theme", [":root", 'html[data-theme="dark"]'])
 def test_colours_can_be_read_on_the_page(theme):
     colours = palette(theme)
     words = colours.keys() - {"line", "paper", "wood", "bone"}  # grounds and rules
+    assert contrast(colours["ink"], colours["wood"]) >= 4.5
     assert all(contrast(colours[name], colours["paper"]) >= 4.5 for name in words)
 
 

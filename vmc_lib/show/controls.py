@@ -209,6 +209,11 @@ def slider(name, label, text, attributes, after="", width=0):
     )
 
 
+def fold(inside):
+    """Minor controls (HTML) behind a quiet fold, "more"."""
+    return f'<details class="vmc-more"><summary>more</summary>{inside}</details>'
+
+
 def radios(name, label, options, chosen, attributes):
     """A row of radio buttons as markup: `options` are their texts by value, one is `chosen`.
 

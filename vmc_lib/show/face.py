@@ -2,17 +2,13 @@
 
 import itertools
 
-from vmc_lib.show.controls import Pad, Switch
+from vmc_lib.show.controls import Pad, Switch, fold
 from vmc_lib.show.data_table import DataTable
-from vmc_lib.show.figures import side_by_side
+from vmc_lib.show.figures import numbers, side_by_side
 from vmc_lib.show.positions import strides
 from vmc_lib.show.scene import Scene
 
 SWITCHES = '<div class="vmc-control"><div class="vmc-options">{}</div></div>'  # a row of them
-MORE = (
-    '<details class="vmc-more"><summary>more</summary>'
-    '<form class="vmc-controls" autocomplete="off">{}</form>{}</details>'
-)
 
 
 def lines(parts):
@@ -36,9 +32,9 @@ def face(alt, parts, controls, name, printed=(), more=()):
     both = [side_by_side([part for part in parts if part not in tables], alt), form]
     if "<a " in both[0]:
         both.reverse()  # what chooses among links comes before them
-    numbers = "".join(f'<div class="vmc-data" tabindex="0">{table}</div>' for table in tables)
-    fold = MORE.format(folded, numbers)
-    return "".join([*both, fold, '<p class="vmc-spoken" aria-live="polite"></p>'])
+    minor = f'<form class="vmc-controls" autocomplete="off">{folded}</form>'
+    behind = fold(minor + "".join(map(numbers, tables)))
+    return "".join([*both, behind, '<p class="vmc-spoken" aria-live="polite"></p>'])
 
 
 def _rows(pairs, name):

@@ -147,7 +147,7 @@ def side_by_side(parts, alt):
     )
     below = "".join(
         '<details class="vmc-numbers-of"><summary>The plot\'s numbers</summary>'
-        f'<div class="vmc-data" tabindex="0">{table}</div></details>'
+        f"{numbers(table)}</details>"
         for table in tables
     )
     role = "group" if "<a " in inner else "img"  # an image's links are none to a screen reader
@@ -155,6 +155,11 @@ def side_by_side(parts, alt):
         f'<div class="vmc-pictures" role="{role}" aria-label="{html.escape(alt)}">{inner}</div>'
         f"{below}"
     )
+
+
+def numbers(table):
+    """A plot's `DataTable`, to be scrolled (HTML)."""
+    return f'<div class="vmc-data" tabindex="0">{table}</div>'
 
 
 def markdown(text):
