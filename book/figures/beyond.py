@@ -98,7 +98,9 @@ def reach_in_space(trials, target, trial):
     motion, turn = movement.motion
     moves = motion.q[target], motion.activation[target]
     scene = arm_scene(*moves, turn=turn[target], balls=[(movement.plan.target[target], "green")])
-    return scene, note(f"misses by {1000 * trials.error[trial, target]:.1f} mm")
+    mm = 1000 * trials.error[trial, target]
+    scene.tell("miss", {"mm": round(mm, 4), "end": movement.endpoint[target].round(5).tolist()})
+    return scene, note(f"misses by {mm:.1f} mm")
 
 
 def detour(templates, places, ways, reach, route, senses, time):

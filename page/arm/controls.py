@@ -33,7 +33,7 @@ def reach_form(name, target, mode):
     """
     zone = [end(templates.load().points, axis=0).round(3) for end in (np.min, np.max)]
     rules = {"algorithm1": "published (Eq. 6–7)", "broydenCalibration": "Broyden calibration"}
-    controls = target_sliders(name, zone, target)
+    controls = "".join(target_sliders(name, zone, target))
     folded = radios("rule", "calibration", rules, "algorithm1", {})
     if mode == "weights":
         controls += _weights(name)
@@ -81,11 +81,13 @@ def plans():
 
 
 def target_sliders(name, zone, target):
-    """A slider for each axis of a target, in m, between the corners of its `zone` (2, axes)."""
-    return "".join(
-        _slider(name, key, f"target, {key}", (low, high, 0.001), at)
-        for key, low, high, at in zip(HAND, *zone, target, strict=False)
-    )
+    """A slider for each axis of a target, in m, between the corners of its `zone` (2, axes).
+
+    Its stops are 1 mm apart, and the target is one of them.
+    """
+    low, high = zone
+    spans = zip(HAND, np.round(low + np.mod(target - low, 0.001), 4), high, target, strict=False)
+    return [_slider(name, way, f"target, {way}", (*ends, 0.001), at) for way, *ends, at in spans]
 
 
 def form(legend, buttons, controls, tells):
@@ -110,5 +112,5 @@ def form(legend, buttons, controls, tells):
 
 def _slider(page, name, label, span, start):
     low, high, step = span
-    own = {"name": name, "min": low, "max": high, "step": step, "value": f"{start:.3g}"}
+    own = {"name": name, "min": low, "max": high, "step": step, "value": f"{start:.4g}"}
     return slider(f"{page}-{name}", label, own["value"].replace("-", "−"), own)

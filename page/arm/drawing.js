@@ -53,8 +53,10 @@ export class Drawing {
     if (given.lens) this.lens = new Lens(box, given.lens, this.plots[0]);
   }
 
-  /* Show the arm, { q, activation, joints }; if `brief`, in 3-D alone. */
+  /* Show the arm, { q, activation, joints }, and near by its `miss`, if it has come to an end; if `brief`,
+     in 3-D alone. */
   show(seen, brief) {
+    this.miss = seen.miss;
     this.view.pose(seen);
     this.place();
     if (brief) return;
@@ -71,12 +73,15 @@ export class Drawing {
   }
 
   place() {
-    const { viewer } = this.view;
+    const { viewer, settings, closeUp } = this.view;
     if (!viewer) return;
     this.balls.forEach((position, i) => {
       const path = ["meshcat", "goal", `ball${i}`];
       viewer.set_property(path, "visible", Boolean(position));
       if (position) viewer.set_transform(path, [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, ...position, 1]);
     });
+    if (!settings.motion) return; // a whole arm
+    Object.assign(settings, { miss: this.miss, target: this.balls[0] });
+    closeUp.show();
   }
 }

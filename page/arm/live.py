@@ -53,12 +53,13 @@ KINEMATICS = {
 }
 LENS = {"at": (0.345, -0.39), "radius": 0.075, "times": 3}  # m, in the arm's plane
 _ENDS = ("red", "purple")  # where the planned and the calibrated reach end
+PHOTO_1 = (0.1306, -0.4089)  # m, in the arm's plane: the shuttlecock of book.figures.thread
 names = map("live-{}".format, itertools.count(1))
 # u, a, length, velocity
 _ASKED = tuple(itertools.product((0.1, 0.9), (0.3, 0.7), (0.6, 1.3), (-0.5, 0.3)))
 
 
-def live_arm(mode, alt="", target=(0.09, -0.37), law=""):
+def live_arm(mode, alt="", target=PHOTO_1, law=""):
     """Show the arm with its physics in the page, loaded when the reader first asks for it.
 
     `mode` is "bench" (six excitation sliders move the arm) or "reach" (the reader sets a target;
@@ -149,6 +150,7 @@ def first(movement):
         "reached": movement.endpoint.tolist(),
         "error": float(movement.error),
         "speed": float(movement.speed),
+        "goal": hand(inverse_kinematics(movement.plan.target)).tolist(),
         "hand": motion.wrist.mean(axis=0).tolist(),
         "path": motion.hand[ten].round(4).tolist(),
         "q": motion.q[-1].tolist(),
@@ -186,8 +188,8 @@ def _reach_view(movement):
     """The arm at the end of a reach, its target, its remembered reaches, room for a magnifier."""
     target, end = (hand(inverse_kinematics(p)) for p in (movement.plan.target, movement.endpoint))
     balls = [(target, "green"), *((end, colour) for colour in _ENDS)]
-    figure, ax = plt.subplots(figsize=(4.9, 2.8), layout="none")
+    figure, ax = plt.subplots(figsize=(4.2, 2.5), layout="none")
     plane(ax, movement.plan.template_set.points)
-    ax.set_position((0.13, 0.16, 0.55, 0.82))
+    ax.set_position((0.14, 0.19, 0.54, 0.79))
     motion = movement.motion
     return arm_scene(motion.q[-1], motion.activation[-1], balls=balls), figure

@@ -42,12 +42,18 @@ export class Reach extends Live {
   arrive(name, trial, end) {
     this[name] = trial;
     this.mark(end.path);
-    this.show(end, false, end.joints && end);
+    const miss = { mm: 1000 * trial.error, end: this.world(trial.hand), turn: this.bearing };
+    this.show({ ...end, miss }, false, end.joints && end);
     this.tell({
       [name]: millimetres(trial.error, 1),
       speed: pace(trial),
       weights: trial.weights.map((w) => signed(w, 2)).join(", "),
     });
+  }
+
+  /* Where in the scene a place lies that the arm's model tells. */
+  world(place) {
+    return place;
   }
 
   sayMiss(next = "") {
@@ -105,7 +111,7 @@ export class Aimed extends Reach {
     this.form.elements.calibrate.addEventListener("click", () => this.calibrate());
     this.controls.addEventListener("input", ({ target }) => this.aim(target));
     this.controls.addEventListener("change", () => this.begin());
-    this.sliders = [...this.controls.querySelectorAll("[type=range]:not([name^=weight-])")];
+    this.sliders = ["forward", "up", "right"].flatMap((way) => this.form.elements[way] ?? []);
     const pictures = box.querySelector(".vmc-pictures");
     this.handles = this.drawing.plots.map(({ axes }, nth) => {
       const put = addHandle(pictures, (place) => {
@@ -118,6 +124,9 @@ export class Aimed extends Reach {
     this.open();
     this.stored = first;
     this.aim();
+    this.goal = (first ?? this.given).goal; // the physics is not there to say it
+    this.mark([]);
+    this.drawing.place();
     if (!first) return;
     this.arrive("planned", first, first);
     this.sayMiss();

@@ -2,6 +2,7 @@
 
 from page.arm.controls import form, plans, target_sliders
 from page.arm.live import CALIBRATION, names, show
+from vmc_lib.show.controls import fold
 
 TELLS = {
     "planned": "planned miss",
@@ -26,6 +27,8 @@ def live_whole_arm(arm, draw, zone, target, alt):
     """
     name = next(names)
     rule = '<input type="hidden" name="rule" value="broydenCalibration">'
-    controls = target_sliders(name, zone, target) + plans() + rule
+    forward, *others = target_sliders(name, zone, target)
+    controls = "".join(others) + fold(f"<div>{forward}{plans()}</div>") + rule
     controls_form = form("Target and plan", {"calibrate": "Correct"}, controls, TELLS)
-    show(name, "reach", draw, controls_form, arm | {"calibration": CALIBRATION}, alt)
+    data = arm | {"calibration": CALIBRATION, "goal": list(map(float, target))}
+    show(name, "reach", draw, controls_form, data, alt)

@@ -48,7 +48,7 @@ export class CloseUp {
   }
 
   turned() {
-    const { motion } = this.view.settings, turn = motion.turn.at(-1);
+    const { miss, motion } = this.view.settings, turn = miss.turn ?? motion.turn.at(-1);
     return [Math.cos(turn), Math.sin(turn)];
   }
 

@@ -69,7 +69,7 @@ const clock = (views) => {
       last = now;
       set(time);
     }
-    const lifted = miss && !calm.matches ? performance.now() + PAUSE + LIFTING : 0;
+    const lifted = miss && "lifted" in miss && !calm.matches ? performance.now() + PAUSE + LIFTING : 0;
     for (let now = 0; now < lifted; ) {
       now = await next();
       if (!now) return;
