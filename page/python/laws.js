@@ -70,7 +70,10 @@ class Follower {
     const sliders = [...demo.querySelectorAll("[data-between]")];
     Object.assign(this, { demo, cell, above, status, run, back, between, sliders });
     between.hidden = !sliders.length;
-    between.addEventListener("click", () => followers.forEach((one) => one.free(one === this)));
+    between.addEventListener("click", () => {
+      for (const one of followers) (one.free(), one.say(FREE));
+      this.ask(0, () => {}, {}, true); // Python is made ready for it
+    });
     watch(above, back, () => this.update());
     const name = (one) => one.querySelector("form[data-cell]")?.dataset.cell; // an exercise has none
     demo.vmcLaws = () => ownCells(above).filter(name).map((one) => [LAW + name(one), lastRun(one)]);
@@ -89,6 +92,7 @@ class Follower {
     const { demo, laws, sliders, between } = this;
     if (error) return this.fail(`${laws.length ? `Your \`${laws.join(", ")}\`` : "Python"} stops: ${error}.`, place, draw);
     draw(parts, { clean, settle });
+    for (const one of followers) one.free(); // Python is there
     for (const [name, text] of Object.entries(texts)) {
       const input = demo.querySelector(`#${CSS.escape(`${demo.id}-${name}`)}`);
       input.setAttribute("aria-valuetext", text);
@@ -152,12 +156,11 @@ class Follower {
     this.demo.vmc.show();
   }
 
-  /* Its sliders take any value; if `ready`, Python is made ready for it. */
-  free(ready) {
+  /* Its sliders take any value. */
+  free() {
     this.take();
     this.sliders.forEach((input) => (input.step = STEP));
     this.between.hidden = true;
-    ready ? this.ask(0, () => {}, {}, true) : this.say(FREE);
   }
 
   /* A link has brought laws, by their cells' names. */

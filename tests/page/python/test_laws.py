@@ -87,6 +87,7 @@ def test_a_law_moves_its_demos_and_goes_back(open_law, serious):
     expect(page.mine.locator(TITLE)).to_contain_text("at 1: 5")
     expect(page.other.locator(TITLE)).to_contain_text("at 1: 1")
     expect(page.other.locator(".vmc-law [role=status]")).to_have_text("")
+    expect(page.locator(".vmc-any:not([hidden])")).to_have_count(0)  # Python is there
     page.slider.fill("2")
     expect(page.mine.locator(TITLE)).to_contain_text("at 3: 15")
     expect(page.mine).not_to_have_attribute("aria-busy", "true")
