@@ -137,7 +137,8 @@ def _text(text, metadata):
     text = prose.COMMENT.sub("", text)
     if predicted := PREDICTION.fullmatch(text):
         question, choices, outcome, why = predicted.groups()
-        return prediction(question, CHOICE.findall(choices), outcome, why)
+        choices = CHOICE.findall(choices)
+        return with_guess(prediction(question, choices, outcome, why), choices, metadata)
     text = TERM.sub(_term, text)
     if caption := FIGURE.fullmatch(text):
         text = f"<figcaption>\n\n{caption[1]}\n\n</figcaption>"
@@ -152,6 +153,19 @@ def _text(text, metadata):
         f":::{{exercise}} {title[1] or ''}\n:label: {metadata['exercise']}\n\n"
         f"{text[title.end() :]}\n:::"
     )
+
+
+def with_guess(box, choices, metadata):
+    """A prediction's box that says where its choices lie on the next figure, if its cell does.
+
+    Its metadata's `guess` is an axis and a number for each choice, as "y 0.1 0.67 1" (page/demo/
+    guess.js). ValueError for another number of them.
+    """
+    if not (guess := metadata.get("guess")):
+        return box
+    if len(re.findall(r" -?[\d.]+", guess)) != len(choices):
+        raise ValueError(f"a guess on {guess!r} needs a number for each of {choices}")
+    return box.replace("<fieldset ", f'<fieldset data-guess="{guess}" ')
 
 
 def _quiz(question, answers):

@@ -27,6 +27,12 @@ export const axesOf = (svg) => {
     left, right, bottom, top, drawn, place: (point) => put(point).map(Number),
     head: [(x0 + x1) / 2, y1], // where a title stands
 
+    /* How far along axis 0 or 1 a value lies, 0 to 1. */
+    share: (value, axis, log) => {
+      const [low, high, at] = [...(axis ? [y0, y1] : [x0, x1]), value].map(log ? Math.log : Number);
+      return (at - low) / (high - low);
+    },
+
     /* Markup of a mark in a named colour: a "line" or an "arrow" through points of some width, an "area"
        within points, a "ring" or a "dot" of some radius, or "words" so far above a point. A line with a
        name is a curve, which can be heard. */
