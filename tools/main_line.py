@@ -55,6 +55,16 @@ def main_line(path):
     return MainLine(_words(article), predictions, figures)
 
 
+def section_words(path):
+    """The words of a built page's main line: what stands before its sections ("top"), then each."""
+    article = BeautifulSoup(path.read_text(encoding="utf-8"), "html.parser").select_one("article")
+    for part in article.select(ASIDE):
+        part.decompose()
+    page = article.select_one("section")
+    sections = {part.get("id"): part.extract() for part in page.select(":scope > section")}
+    return {name: _words(part) for name, part in {"top": page, **sections}.items()}
+
+
 def _words(part):
     if part is None:
         return 0

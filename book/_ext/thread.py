@@ -9,8 +9,10 @@ from html import escape
 from pathlib import Path
 
 from book._ext.execute import digest
+from book._ext.short_path import PAGES
 
 CHAPTER = re.compile(r"book/(\d\d)_\w+")
+SHORT = {int(found[1]) for page in PAGES if (found := CHAPTER.fullmatch(page))}  # chapters
 LAST = "book/epilogue"
 PHOTO = "_static/thread.webp"
 
@@ -76,6 +78,6 @@ def strip(number, places, photo):
 
 def mark(number, address, title, here):
     """One of the loop's marks: a link to a chapter, lit where it is `here`."""
-    name = escape(f"{number} {title}", quote=True)
-    lit = ' aria-current="page"' * here
+    name = escape(f"{number} {title}{', on the short path' * (number in SHORT)}", quote=True)
+    lit = ' class="vmc-short-path"' * (number in SHORT) + ' aria-current="page"' * here
     return f'<li><a href="{address}" title="{name}" aria-label="{name}"{lit}></a></li>'

@@ -1,0 +1,97 @@
+"""The short path through the book: sittings of about twenty minutes, one leading to the next.
+
+Where a piece of it ends, the page names the next one; the strip above a chapter (`thread`) and the
+sidebar mark the chapters that it goes through.
+"""
+
+import re
+from html import escape
+from itertools import pairwise
+from typing import NamedTuple
+
+from docutils.nodes import make_id
+
+MARK = " vmc-short-path"  # a class
+HEAD = re.compile(r'<section (?:class="[^"]*" )?id="([^"]+)">\s*<h2>')
+LINK = re.compile(r'(<a class="reference internal)(" href="([^"]*)">)')
+
+
+class Piece(NamedTuple):
+    """What is read of a page: from one heading, or else from its top, to the end of another's."""
+
+    page: str
+    first: str = ""
+    last: str = ""
+
+
+MERGING = Piece("02_candidates", "Merging", "Merging")
+SITTINGS = (
+    [Piece("01_loop", last="What: from a box to a name")],
+    [
+        Piece(
+            "01_loop",
+            "A place: from the eye to the shoulder",
+            "The first reach, and what the cerebellum makes of it",
+        )
+    ],
+    [Piece("02_candidates", last="Cutting: segments")],
+    [MERGING, Piece("04_crbm", last="What the brain does")],
+    [Piece("07_muscle", last="From excitation to activation")],
+    [Piece("09_planning", last="What the brain does")],
+    [Piece("09_planning", "Three equations", "Two reasons to miss")],
+    [Piece("10_offline", last="The paper's correction")],
+    [Piece("10_offline", "Algorithm 1, for 25 targets", "Does the direction matter?")],
+    [Piece("11_online", last="What the brain does")],
+    [Piece("11_online", "The paper's online calibration", "A cerebellum that generalises")],
+    [Piece("13_see_and_reach", last="The whole chain, stage by stage")],
+    [Piece("13_see_and_reach", "When it fails, where did it begin?", "Four brains")],
+    [Piece("epilogue")],
+)
+PIECES = [(nth, piece) for nth, pieces in enumerate(SITTINGS, 1) for piece in pieces]
+PAGES = {f"book/{piece.page}" for _, piece in PIECES}
+
+
+def setup(app):
+    app.connect("html-page-context", lead_on, priority=955)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
+
+
+def lead_on(app, pagename, templatename, context, doctree):
+    """Where a piece ends, name the next; and mark the path's chapters in the sidebar."""
+    if sidebar := context.get("generate_toctree_html"):
+        marked = {app.builder.get_relative_uri(pagename, page) or "#" for page in PAGES}
+        context["generate_toctree_html"] = lambda *a, **k: mark(sidebar(*a, **k), marked)
+    for (nth, here), (then, piece) in pairwise(PIECES):
+        if f"book/{here.page}" != pagename:
+            continue
+        page = f"book/{piece.page}"
+        title = piece.first or app.env.titles[page].astext()
+        address = app.builder.get_relative_uri(pagename, page)
+        address += f"#{make_id(piece.first)}" * bool(piece.first)
+        context["body"] = with_link(context["body"], here, nth, then, title, address)
+
+
+def mark(sidebar, marked):
+    """The sidebar (HTML) with a class on the links to these addresses."""
+
+    def one(link):
+        return f"{link[1]}{MARK}{link[2]}" if link[3] in marked else link[0]
+
+    return LINK.sub(one, sidebar) if isinstance(sidebar, str) else sidebar
+
+
+def with_link(body, here, nth, then, title, address):
+    """A page's body (HTML) that names the next piece after the one that ends `here`.
+
+    ValueError where the page has no such heading.
+    """
+    heads = list(HEAD.finditer(body))
+    names = [head[1] for head in heads]
+    last = make_id(here.last)
+    if last not in names:
+        raise ValueError(f"{here.page} has no section {here.last!r}, but {names}")
+    place = heads[names.index(last) + 1].start()
+    said = f"Sitting {nth} of {len(SITTINGS)} ends here. Next" if then > nth else "Go on with"
+    link = f'<a href="{address}">{escape(title)}</a>'
+    nav = f'<nav class="vmc-next-sitting" aria-label="The short path, {nth}">'
+    return f"{body[:place]}{nav}<b>The short path.</b> {said}: {link}</nav>\n{body[place:]}"

@@ -1,0 +1,69 @@
+"""The short path: sittings that are short, and lead from one to the next."""
+
+from itertools import pairwise
+from urllib.parse import urljoin
+
+import pytest
+from bs4 import BeautifulSoup
+from docutils.nodes import make_id
+
+from book._ext.short_path import PAGES, PIECES, SITTINGS
+from book.figures.inventory import title_and_minutes
+from tests.pages import BUILT
+from tools.main_line import main_line, section_words
+
+BOOK = BUILT / "book"
+each_sitting = pytest.mark.parametrize("sitting", SITTINGS, ids=range(1, len(SITTINGS) + 1))
+
+
+def words(piece):
+    """The words of a piece, the sections between its ends included."""
+    sections = section_words(BOOK / f"{piece.page}.html")
+    names = [*sections]
+    first = names.index(make_id(piece.first)) if piece.first else 0
+    last = names.index(make_id(piece.last)) if piece.last else len(names) - 1
+    return sum(sections[name] for name in names[first : last + 1])
+
+
+@each_sitting
+def test_a_sitting_is_short(sitting):
+    assert sum(map(words, sitting)) <= 1500
+
+
+def minutes(piece):
+    """Its share of the chapter's own minutes, by its words."""
+    path = BOOK / f"{piece.page}.html"
+    _, whole = title_and_minutes(BUILT.parents[1] / f"book/{piece.page}.ipynb")
+    return whole * words(piece) / main_line(path).words
+
+
+@each_sitting
+def test_a_sitting_takes_about_twenty_minutes(sitting):
+    """By the chapters' own clock; the last page states no minutes."""
+    assert sum(map(minutes, sitting)) <= 27
+
+
+def test_each_piece_names_the_next():
+    for (_, here), (_, then) in pairwise(PIECES):
+        soup = BeautifulSoup(
+            (BOOK / f"{here.page}.html").read_text(encoding="utf-8"), "html.parser"
+        )
+        last = soup.find("section", id=make_id(here.last))
+        link = last.find_next_sibling().select_one("a")
+        assert link.parent["class"] == ["vmc-next-sitting"]
+        address = f"{then.page}.html{'#' * bool(then.first)}{make_id(then.first)}"
+        assert urljoin(f"{here.page}.html", link["href"]) == address
+
+
+@pytest.mark.parametrize("page", ["01_loop", "03_regions", "13_see_and_reach"])
+def test_the_path_is_marked_at_the_side_and_in_the_strip(page):
+    soup = BeautifulSoup((BOOK / f"{page}.html").read_text(encoding="utf-8"), "html.parser")
+    marked = soup.select(".bd-sidebar-primary a.vmc-short-path")
+    here = f"{page}.html"
+    assert {urljoin(here, link["href"].rstrip("#")) for link in marked} == {
+        f"{name.removeprefix('book/')}.html" for name in PAGES
+    }
+    numbers = {int(name[5:7]) for name in PAGES if name[5:7].isdigit()}
+    strip = soup.select(".vmc-thread li a")
+    lit = {n for n, mark in enumerate(strip, 1) if "vmc-short-path" in mark.get("class", [])}
+    assert lit == numbers
