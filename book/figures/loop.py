@@ -29,6 +29,14 @@ LOOP_STAGES = (*SEEING, "place", "plan", "off-line", "online")
 STAGE_OF = {"first reach": "plan", "calibrated reach": "off-line"}  # of a step
 
 
+KINDS = {"rig": "photo", "free": "a moved camera,", "varied": "a hard photo,"}  # by level
+
+
+def photo_name(level, n):
+    """What readers call the n-th test photo of a level, from 1: "photo 1", "a hard photo, 2"."""
+    return f"{KINDS[level]} {n}"
+
+
 def moves(reach, online=None):
     """The motions of a reach by the stage that makes them; none where there is no reach.
 

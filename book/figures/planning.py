@@ -63,6 +63,16 @@ def in_frame(origin, weights, points, target):
     return fig
 
 
+def before_and_after(before, after):
+    """Misses (n,) in mm of the same targets, without the nearest template over with it."""
+    fig, ax = panels(size=(4.6, 3.2))
+    ax.plot(before, after, "o", ms=4, alpha=0.6, gid="targets")
+    ends = [0, max(before.max(), after.max())]
+    ax.plot(ends, ends, "--", color=COLOURS["grey"], gid="no change")
+    ax.set(xlabel="miss with all templates (mm)", ylabel="without the nearest (mm)")
+    return fig
+
+
 def habit_beside_optimum(target, motions, costs):
     """The hand's way and each muscle's effort on the way to one of the optima's targets (2,).
 

@@ -124,11 +124,6 @@ def plan_in_page(past, muscle, ended):
     return "plan", lambda: plan_figures(past, muscle), given
 
 
-def end_point_error(motion, target):
-    """How far the hand's mean place over the hold is from a target (2,), as a scene says it, m."""
-    return norm(motion.wrist.mean(axis=0) - hand(inverse_kinematics(target)))
-
-
 def reach_scene(motion, target):
     """The arm in one movement's motion to a target (2,), a green ball; its end point is red."""
     balls = [(hand(inverse_kinematics(target)), "green")]

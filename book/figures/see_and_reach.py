@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from book.figures.loop import describe_end, draw_movement, moves
+from book.figures.loop import describe_end, draw_movement, moves, photo_name
 from book.figures.panels import panels
 from book.figures.reaching import norm_mm
 from reproduce import results
@@ -172,7 +172,7 @@ def lesion_examples():
     for level, held in goes_for:
         outcomes = zip(*lesions[level]["ventral"].values(), strict=True)
         k = [what == held and mm is not None for what, mm, _ in outcomes].index(True)
-        shots[f"{level} {k + 1}"] = photos.load(level, "test")[k]
+        shots[photo_name(level, k + 1)] = photos.load(level, "test")[k]
     return shots
 
 

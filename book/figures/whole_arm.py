@@ -115,6 +115,18 @@ def measures_table(many, online):
     return table(["measured", "mean (95 % interval)"], rows)
 
 
+def activation_curves(holds):
+    """How active all muscles are, name -> (63,), the most active first; dotted, 5 %."""
+    fig, ax = panels(size=(5.6, 2.7))
+    for (name, active), colour in zip(holds.items(), ("green", "blue", "orange"), strict=True):
+        places = np.arange(1, len(active) + 1)
+        ax.plot(places, np.sort(active)[::-1], ".-", color=COLOURS[colour], label=name)
+    ax.axhline(0.05, ls=":", color=COLOURS["grey"], gid="5 %")
+    ax.set(xlabel="muscles, the most active first", ylabel="activation", xlim=(0, 64))
+    ax.legend()
+    return fig
+
+
 def strongest(activation, count=4):
     """The most active muscles of (63,), name -> activation, the strongest first."""
     return {plant.MUSCLES[m]: activation[m] for m in np.argsort(-activation)[:count]}
