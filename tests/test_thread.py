@@ -7,6 +7,7 @@ import pytest
 from bs4 import BeautifulSoup
 
 from book.figures import thread
+from page.arm.live import PHOTO_1
 from tests.pages import BUILT, CHAPTERS, open_url
 from vmc_lib.show.packed import unpack_bytes
 
@@ -104,6 +105,20 @@ def test_the_ruler_shows_the_miss_that_the_panel_tells(offline):
         assert float(radius) == pytest.approx(thread.misses()[motion], abs=1e-3)
     page.fill(".vmc-clock input", "0.5")
     assert close_up.is_hidden()
+    page.close()
+
+
+def test_the_live_arm_begins_with_photo_1_and_its_miss(offline):
+    """Its ruler, its words and the strip tell one miss; the ruler goes when the target moves."""
+    reach = thread.first_reach().reach
+    assert reach.plan.target == pytest.approx(PHOTO_1, abs=1e-4)
+    page = open_url(offline, (BOOK / "09_planning.html").as_uri())
+    page.wait_for_selector(".vmc-live canvas")
+    close_up, said = page.locator(".vmc-live .vmc-close-up"), f"{thread.misses()['plan']:.1f} mm"
+    assert close_up.locator("text").text_content() == said
+    assert page.locator("[data-tell=planned]").first.inner_text() == said
+    page.locator(".vmc-live [name=up]").fill("-0.39")
+    assert close_up.count() == 0
     page.close()
 
 
