@@ -6,7 +6,7 @@ from book.figures import whole_arm_live
 from page.arm import live, live_arm, live_whole_arm
 from reproduce.whole_arm import experiment, habits
 from tests import pages
-from tests.page.arm.controls import WHOLE_ARM_TARGET
+from tests.page.arm.controls import TARGET, WHOLE_ARM_TARGET
 
 # `arm` and `templateSet` for a script that asks them something, made once a page and arm
 ASK = """async ([which, asked]) => {
@@ -33,7 +33,7 @@ def past():
 def arms_html(past):
     def declare():
         live_arm("bench", "An arm of two joints and six muscles.")
-        live_arm("reach", "An arm before a plane of templates.")
+        live_arm("reach", "An arm before a plane of templates.", TARGET)
         live_whole_arm(
             whole_arm_live.arm(past, habits.muscle_synergies().rest),
             lambda: whole_arm_live.pictures(past, WHOLE_ARM_TARGET),
@@ -41,8 +41,8 @@ def arms_html(past):
             WHOLE_ARM_TARGET,
             "A whole arm before two views of it.",
         )
-        live_arm("weights", "An arm before four weights.")
-        live_arm("templates", "An arm before its templates.")
+        live_arm("weights", "An arm before four weights.", TARGET)
+        live_arm("templates", "An arm before its templates.", TARGET)
 
     return pages.book_html(live, declare)
 

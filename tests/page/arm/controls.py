@@ -4,6 +4,7 @@ import re
 
 import numpy as np
 
+TARGET = np.array([0.09, -0.37])  # in the arm's plane
 WHOLE_ARM_TARGET = np.array([0.475, 0.105, -0.09])
 
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tests.page.arm.controls import number, readout, set_target, status
+from tests.page.arm.controls import TARGET, number, readout, set_target, status
 from tests.pages import drag, middle
 from vmc_lib.cerebellum.offline import algorithm_1
 from vmc_lib.motor import templates
@@ -13,7 +13,6 @@ from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import is_surrounded, plan, surrounding
 
 pytestmark = pytest.mark.browser
-TARGET = np.array([0.09, -0.37])
 PLACE = """(box, [x, y]) => {
   const svg = box.querySelector("svg[data-axes]");
   const { left, top, width, height } = svg.getBoundingClientRect();

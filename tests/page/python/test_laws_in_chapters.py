@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from playwright.sync_api import expect
 
+from page.arm.live import PHOTO_1
 from page.python import demos
 from page.python.grader import changed
 from tests.page.python.test_demos import DEMOS, LAWS, starts, with_law
@@ -56,7 +57,7 @@ def test_an_arm_plans_by_the_readers_law(window):
     line = arm.locator(".vmc-law [role=status]")
     expect(line).to_have_text("This arm plans by your nearness: let it reach.")
     arm.locator("[name=main]").click()
-    habit = plan(np.array([0.09, -0.37]), templates.load())
+    habit = plan(np.array(PHOTO_1), templates.load())
     far = np.linalg.norm(habit.points - habit.target, axis=-1)
     mine = execute(habit.with_weights(far / far.sum()))
     miss = "The planned reach misses by {:.1f} mm".format
