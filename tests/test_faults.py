@@ -18,7 +18,7 @@ from vmc_lib.arm.dynamics import hand
 from vmc_lib.arm.kinematics import inverse_kinematics
 from vmc_lib.camera import Camera
 from vmc_lib.cerebellum.forward_model import arm_copy
-from vmc_lib.cerebellum.offline import algorithm_1, calibrate
+from vmc_lib.cerebellum.offline import calibrate
 from vmc_lib.cerebellum.online import AimCorrection, WeightCorrection
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.inverse_dynamics import static_activation
@@ -184,15 +184,8 @@ GREY = np.full((20, 30, 3), 0.5, np.float32)
         (lambda: static_activation((30, 60)), r"posture \[30. 60.\] rad is beyond .* np.radians"),
         (lambda: static_activation((np.nan, 1)), r"posture \[nan  1.\] rad is beyond"),
         (lambda: execute([0.15, -0.4]), r"\[0.15, -0.4\] is no Plan: give what plan"),
-        (
-            lambda: plan((0.15, -0.4), load(), rule="exact"),
-            "'exact' is no function: .* or exact_w",
-        ),
-        (lambda: calibrate("own", plan((0.15, -0.4), load())), "'own' .* or broyden_calibration"),
-        (
-            lambda: calibrate(plan((0.15, -0.4), load()), algorithm_1),
-            r"rule Plan\(.* no function",
-        ),
+        (lambda: plan((0.15, -0.4), load(), rule="Eq. 4"), "'Eq. 4': choose from .*'exact'"),
+        (lambda: calibrate(plan((0.15, -0.4), load()), "best"), "'best': choose from .* 'own'"),
         (lambda: CAMERA.back_project([[1, 2, 3]]), r"pixels of shape \(1, 3\): give \(n, 2\)"),
         (lambda: CAMERA.project([1, 2]), r"points of shape \(2,\): give \(n, 3\)"),
         (lambda: Recogniser.load().probability(np.zeros((2, 100, 100))), r"give .*\(n, 200, 200\)"),

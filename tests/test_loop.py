@@ -23,6 +23,7 @@ from vmc_lib.box_selection import (
 )
 from vmc_lib.boxes import decode_deltas
 from vmc_lib.camera import TABLE
+from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration
 from vmc_lib.motor import templates
 from vmc_lib.motor.execution import execute
 from vmc_lib.show import props
@@ -215,9 +216,7 @@ def test_each_command_is_simulated_once(model, photo, monkeypatch):
     reach = loop.reach(model, photo.target)
     assert sum(counts) == 22
     np.testing.assert_array_equal(execute(reach.plan).motion.q, reach.planned.q)
-    [best] = execute(
-        reach.plan.with_weights(loop.RULES["published"](reach.plan).best_weights[None])
-    ).motion
+    [best] = execute(reach.plan.with_weights(algorithm_1(reach.plan).best_weights[None])).motion
     np.testing.assert_allclose(best.q, reach.calibrated.q, atol=1e-5)
 
 
@@ -230,7 +229,7 @@ def test_shared_arrays_are_read_only(model):
 def test_a_rule_of_calibration_may_be_given_by_its_name(model, photo):
     reach = loop.reach(model, photo.target, "published")
     own = loop.recalibrate(reach, "own")
-    for one, rule in ((reach, loop.RULES["published"]), (own, loop.RULES["own"])):
+    for one, rule in ((reach, algorithm_1), (own, broyden_calibration)):
         expected = loop.reach(model, photo.target, rule).calibrated
         np.testing.assert_array_equal(one.calibrated.q, expected.q)
 

@@ -33,7 +33,8 @@ def given():
     """A model, a photo and a plan, as right calls have them."""
     model, photo = loop.VisuomotorModel.load("rig"), photos.load("rig", "train")[0]
     plan = planning.plan(np.array([0.1, -0.38]), model.template_set)
-    return SimpleNamespace(model=model, photo=photo, image=photo.image, plan=plan)
+    reach = loop.reach(model, photo.target, calibration=None)
+    return SimpleNamespace(model=model, photo=photo, image=photo.image, plan=plan, reach=reach)
 
 
 def excite(value, start=(0, 1), muscles=6):
@@ -88,8 +89,8 @@ MOVING = {
     "a target in the plane": (lambda g: loop.reach(g.model, (0.1, -0.4)), "[ 0.1 -0.4]", "in m"),
     "a far target": (lambda g: loop.reach(g.model, (3, 0, 0)), "[3. 0. 0.]", "move the target"),
     "no number": (lambda g: loop.reach(g.model, (np.nan, 0, 0)), "[nan", "must be finite"),
-    "a rule": (lambda g: loop.reach(g.model, g.photo.target, "best"), "'best'", "published, own"),
-    "a rule, again": (lambda g: loop.recalibrate(None, "exact"), "'exact'", "published, own"),
+    "a rule": (lambda g: loop.reach(g.model, g.photo.target, "best"), "'best'", "'published'"),
+    "a rule, again": (lambda g: loop.recalibrate(g.reach, "exact"), "'exact'", "'published'"),
     "no camera": (
         lambda g: loop.locate(g.model, g.image, g.photo.boxes["shuttlecock"], None),
         "camera is unknown", "give the photo's Camera",
@@ -120,13 +121,13 @@ MOVING = {
         lambda g: planning.plan((2, 2), g.model.template_set), "[2. 2.]", "move it inside them"
     ),
     "a rule of planning": (
-        lambda g: planning.plan((0.1, -0.38), g.model.template_set, rule="exact"),
-        "'exact'", "give habitual_weights or exact_weights",
+        lambda g: planning.plan((0.1, -0.38), g.model.template_set, rule="Eq. 4"),
+        "'Eq. 4'", "choose from 'habitual', 'exact'",
     ),
     "no plan": (lambda g: execution.execute([0.1, -0.4]), "[0.1, -0.4]", "what plan(target, te"),
     "templates": (lambda g: templates.load(4), "4 m apart", "choose one of (0.04"),
-    "the order of arguments": (
-        lambda g: offline.calibrate(g.plan, offline.algorithm_1), "the rule Plan(", "give algorith"
+    "a plan, a rule's place": (
+        lambda g: offline.calibrate(offline.algorithm_1, g.plan), "called Plan(", "choose from"
     ),
 }  # fmt: skip
 SHOWING = {

@@ -13,7 +13,7 @@ import numpy as np
 from vmc_lib import NoReach, photos
 from vmc_lib.arm.kinematics import to_world, turn_towards
 from vmc_lib.box_selection import SIZE_LIKELIHOOD_RATIO, BoxSelector, filter_by_size, scale_odds
-from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration, calibrate
+from vmc_lib.cerebellum.offline import calibrate
 from vmc_lib.motor import templates
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import Plan, plan
@@ -26,7 +26,6 @@ from vmc_lib.where.localiser import Localiser
 THRESHOLD_MARGIN = 1.0  # how much lower the detector's threshold is than alone
 OVERLAP = 0.6  # IoU that non-maximum suppression allows boxes that a stream is still to refine
 PHOTOGRAPHS_AS = "varied"  # the level whose places serve for photographs too
-RULES = {"published": algorithm_1, "own": broyden_calibration}  # of off-line calibration
 
 
 @dataclass(frozen=True)
@@ -183,14 +182,14 @@ def locate(model, image, box, camera):
     return model.localiser.locate(image, box, camera)
 
 
-def reach(model, target, calibration=algorithm_1):
+def reach(model, target, calibration="published"):
     """Reach for a target: turn the trunk, plan, move, calibrate off-line, move again.
 
     Parameters
     ----------
     model : VisuomotorModel
     target : (3,) array, m, in the shoulder frame
-    calibration : a rule of RULES or its name, or None to move once
+    calibration : {"published", "own"}, or a function as `calibrate` takes it; None to move once
 
     Returns
     -------
@@ -213,23 +212,13 @@ def reach(model, target, calibration=algorithm_1):
     if calibration is None:
         planned = execute(habit).motion
         return Reach(target, turn, habit, planned, planned)
-    trials = calibrate(rule(calibration), habit)
+    trials = calibrate(habit, calibration)
     return Reach(target, turn, habit, trials.movements[0].motion, trials.best_motion)
 
 
-def rule(name):
-    """The rule of off-line calibration of that name, of `RULES`; a rule itself as it is.
-
-    ValueError for a name that none has.
-    """
-    if isinstance(name, str) and name not in RULES:
-        raise ValueError(f"no rule is called {name!r}: choose from {', '.join(RULES)}")
-    return RULES.get(name, name)
-
-
 def recalibrate(reach, calibration):
-    """The same `Reach`, its second movement calibrated by a rule of `RULES`, or by its name."""
-    trials = calibrate(rule(calibration), reach.plan)
+    """The same `Reach`, its second movement calibrated by another rule, as `reach` takes it."""
+    trials = calibrate(reach.plan, calibration)
     return replace(reach, calibrated=trials.best_motion)
 
 

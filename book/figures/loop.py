@@ -9,8 +9,8 @@ from book.figures.panels import panels
 from book.figures.reaching import norm_mm
 from vmc_lib.arm.kinematics import TRUNK, to_world
 from vmc_lib.boxes import iou
-from vmc_lib.cerebellum.offline import gauss_newton_calibration
-from vmc_lib.loop import RULES, recalibrate
+from vmc_lib.cerebellum.offline import RULES, gauss_newton_calibration
+from vmc_lib.loop import recalibrate
 from vmc_lib.motor.templates import START
 from vmc_lib.show import dot_plot, note
 from vmc_lib.show.arm import EVERY, arm_scene, beyond_wrist

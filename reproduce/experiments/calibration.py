@@ -20,6 +20,7 @@ from reproduce.measures.changed_worlds import block_errors
 from vmc_lib.cerebellum.offline import (
     algorithm_1,
     broyden_calibration,
+    calibrate,
     gauss_newton_calibration,
 )
 from vmc_lib.cerebellum.online import (
@@ -75,7 +76,7 @@ def run_experiments(
         learner.update(practised, **lesson)
         in_sample.append(error(practised))
         others.append(error(unseen))
-    offline = lesson.get("rule", algorithm_1)(first).error.min(axis=0)
+    offline = calibrate(first, lesson.get("rule", "published")).error.min(axis=0)
     planned, held_out_planned = execute(first).error, execute(unseen).error
     return Errors(planned, offline, np.array(in_sample), np.array(others), held_out_planned)
 

@@ -9,8 +9,8 @@ from joblib import Parallel, delayed
 from reproduce import results
 from vmc_lib import NoReach, photos
 from vmc_lib.boxes import MIN_IOU, iou
-from vmc_lib.cerebellum.offline import algorithm_1
-from vmc_lib.loop import RULES, VisuomotorModel, locate, reach, recalibrate, see
+from vmc_lib.cerebellum.offline import RULES
+from vmc_lib.loop import VisuomotorModel, locate, reach, recalibrate, see
 from vmc_lib.what.recogniser import Recogniser
 from vmc_lib.where.detector import ObjectDetector
 
@@ -94,7 +94,7 @@ def _evaluate_photo(model, photo):
     with suppress(NoReach):  # nothing named, or out of reach: no movement, and counted as such
         place = locate(model, photo.image, sight.box, photo.camera)
         first = reach(model, place, calibration=None)
-        reaches = {name: recalibrate(first, rule) for name, rule in RULES.items()}
+        reaches = {name: recalibrate(first, name) for name in RULES}
     return score(photo, sight, place, reaches)
 
 
@@ -128,7 +128,7 @@ def reach_with_lesion(model, photo, box, lesion):
     place = locate(model, photo.image, box, photo.camera)
     if lesion == "dorsal":
         place = photos.load("rig", "train")[-1].target
-    return reach(model, place, None if lesion == "cerebellum" else algorithm_1)
+    return reach(model, place, None if lesion == "cerebellum" else "published")
 
 
 def evaluate_lesions(level, folder=photos.FOLDER):

@@ -7,7 +7,7 @@ import numpy as np
 from reproduce import paper, results
 from reproduce.experiments import loop_evaluation as trials
 from reproduce.ledger.entry import BELOW, Quantity, Row, mean, share
-from vmc_lib.loop import RULES
+from vmc_lib.cerebellum.offline import RULES
 
 
 def _chain(scores, rule):

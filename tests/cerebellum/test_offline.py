@@ -148,10 +148,15 @@ def test_algorithm_1_needs_a_gain(reaches):
 
 
 def test_calibrate_refuses_rules_that_return_no_trials(reaches):
-    assert calibrate(broyden_calibration, reaches).error.shape == (3, 60)
+    assert calibrate(reaches, broyden_calibration).error.shape == (3, 60)
 
     def mine(plan):
         return plan.weights
 
     with pytest.raises(ValueError, match="rule mine returned a ndarray: it must return Trials"):
-        calibrate(mine, reaches)
+        calibrate(reaches, mine)
+
+
+def test_a_rule_goes_by_its_name_too(reaches):
+    for name, rule in (("published", algorithm_1), ("own", broyden_calibration)):
+        np.testing.assert_array_equal(calibrate(reaches, name).error, rule(reaches).error)

@@ -169,3 +169,9 @@ def test_ten_thousand_random_targets_are_planned_or_refused(rule, template_set):
 def test_wrong_targets_are_refused(target, complaint, template_set):
     with pytest.raises(ValueError, match=complaint):
         plan(target, template_set)
+
+
+def test_a_rule_goes_by_its_name_too(template_set):
+    for name, rule in (("habitual", habitual_weights), ("exact", exact_weights)):
+        named, given = (plan((0.15, -0.4), template_set, one) for one in (name, rule))
+        np.testing.assert_array_equal(named.weights, given.weights)

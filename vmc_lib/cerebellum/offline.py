@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from vmc_lib.motor.execution import execute
-from vmc_lib.motor.planning import Plan, check_rule, least_change, norm
+from vmc_lib.motor.planning import Plan, least_change, norm, rule_called
 from vmc_lib.short_repr import short_repr
 
 GAINS = tuple(range(21))  # the paper's n in [0, 20]
@@ -47,18 +47,6 @@ class Trials(NamedTuple):
         """The `Motion` of the trial that came nearest, of one reach."""
         motions = [motion for movement in self.movements for motion in movement.motion]
         return motions[self.error.argmin()]
-
-
-def calibrate(rule, plan: Plan):
-    """The `Trials` by which a rule calibrates a plan; ValueError where it returns anything else."""
-    check_rule(rule, algorithm_1, broyden_calibration)
-    if not isinstance(trials := rule(plan), Trials):
-        name = getattr(rule, "__name__", rule)
-        raise ValueError(
-            f"the calibration rule {name} returned a {type(trials).__name__}: it must return "
-            "Trials(weights, endpoint, error, movements), as algorithm_1 does"
-        )
-    return trials
 
 
 def algorithm_1_change(plan, endpoint, n, origin=(0.0, 0.0), sign=1):
@@ -228,6 +216,23 @@ def gauss_newton_calibration(plan: Plan, n_steps=4, execute=execute):
         residual = np.where(better[..., None], _residual(now), residual)
         best = np.where(better, now.error, best)
     return _trials(planned, nudged, *tried)
+
+
+RULES = {"published": algorithm_1, "own": broyden_calibration}  # of off-line calibration
+
+
+def calibrate(plan: Plan, rule="published"):
+    """The `Trials` by which a rule calibrates a plan: one of `RULES` by its name, or a function.
+
+    ValueError for a name that none has, and where a function returns anything else.
+    """
+    if not isinstance(trials := rule_called(rule, RULES)(plan), Trials):
+        name = getattr(rule, "__name__", rule)
+        raise ValueError(
+            f"the calibration rule {name} returned a {type(trials).__name__}: it must return "
+            "Trials(weights, endpoint, error, movements), as algorithm_1 does"
+        )
+    return trials
 
 
 def _residual(movement):

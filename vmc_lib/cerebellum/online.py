@@ -19,15 +19,16 @@ from typing import Any
 
 import numpy as np
 
-from vmc_lib.cerebellum.offline import algorithm_1, calibrate
+from vmc_lib.cerebellum.offline import calibrate
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import (
+    RULES,
     Plan,
     check_batch,
     exact_weights,
-    habitual_weights,
     is_surrounded,
     plan,
+    rule_called,
     surrounding,
 )
 from vmc_lib.motor.templates import TemplateSet
@@ -77,7 +78,7 @@ class WeightCorrection:
     ----------
     hindsight : bool
         Learn as printed, or by the other reading.
-    weigh : callable
+    weigh : {"habitual", "exact"} or callable
         The rule of planning, as `plan` takes it; the paper's is Eq. 5.
     g : estimator
         With scikit-learn's methods, from `inputs` to Δw; the paper's is linear.
@@ -93,7 +94,7 @@ class WeightCorrection:
     """
 
     hindsight: bool = True
-    weigh: Callable = habitual_weights
+    weigh: str | Callable = "habitual"
     g: Any = field(default_factory=LinearRegression)
     inputs: Callable = equation_8
     training_pairs: list = field(default_factory=list)
@@ -105,11 +106,11 @@ class WeightCorrection:
             return planned
         return planned.with_weights(planned.weights + self.g.predict(self.inputs(planned)))
 
-    def update(self, plan: Plan, rule=algorithm_1, execute=execute):
-        """Algorithm 2, its steps for every plan of a batch; `rule` is the off-line calibration."""
+    def update(self, plan: Plan, rule="published", execute=execute):
+        """Algorithm 2, its steps for every plan of a batch; `rule`, as `calibrate` takes it."""
         check_batch(plan)
         online = self.correct(plan)  # 1, 2: "calibrated weights w_i^on = w_i + Δw_i^on"
-        modified = online.with_weights(calibrate(rule, online).best_weights)  # 3, 4: "w_i' = …"
+        modified = online.with_weights(calibrate(online, rule).best_weights)  # 3, 4: "w_i' = …"
         place = execute(modified).endpoint if self.hindsight else plan.target  # 4: "actual p_a'"
         right = self._planned(replace(plan, target=place))
         self.training_pairs.append((self.inputs(right), modified.weights - right.weights))
@@ -117,7 +118,8 @@ class WeightCorrection:
         return self
 
     def _planned(self, plan):
-        return plan.with_weights(self.weigh(plan.target, plan.points))
+        weigh = rule_called(self.weigh, RULES)
+        return plan.with_weights(weigh(plan.target, plan.points))
 
 
 class AimCorrection:

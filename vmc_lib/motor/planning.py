@@ -88,6 +88,9 @@ def exact_weights(target, points, power=1):
     return habit + least_change(np.swapaxes(points, -1, -2), missing)
 
 
+RULES = {"habitual": habitual_weights, "exact": exact_weights}  # of planning: Eq. 5, Eq. 4
+
+
 def least_change(jacobian, shift):
     """The smallest Δw (…, N) with Σ Δw = 0 that shifts the hand by `shift` (…, D).
 
@@ -157,7 +160,7 @@ def draw_targets(template_set, count, rng):
     return inside[:count]
 
 
-def plan(target, template_set, rule=habitual_weights, rows=None):
+def plan(target, template_set, rule="habitual", rows=None):
     """Plan a reach, or a batch, as a weighted sum of templates (Eq. 3–5).
 
     Parameters
@@ -166,8 +169,9 @@ def plan(target, template_set, rule=habitual_weights, rows=None):
         Where the hand should end, m.
     template_set : TemplateSet
         The remembered reaches.
-    rule : callable
-        Weights (…, N) from a target and the templates' points (…, N, 2).
+    rule : {"habitual", "exact"} or callable
+        By Eq. 5, or by Eq. 4 as well; or a function of your own: weights (…, N) from a target and
+        the templates' points (…, N, 2).
     rows : array (…, N), optional
         Which templates; by default the nearest in each quadrant. In space they must be given.
 
@@ -179,7 +183,7 @@ def plan(target, template_set, rule=habitual_weights, rows=None):
     ------
     ValueError
         Where a target is not finite, or of another dimension than the templates' points; where a
-        row is none of the template set; where the rule is no function.
+        row is none of the template set; where no rule has that name.
     vmc_lib.NoReach
         Where a target is not surrounded by templates.
 
@@ -190,7 +194,7 @@ def plan(target, template_set, rule=habitual_weights, rows=None):
     >>> reach.weights.shape, reach.excitations.shape
     ((4,), (1000, 6))
     """
-    check_rule(rule, habitual_weights, exact_weights)
+    weigh = rule_called(rule, RULES)
     target, axes = np.asarray(target, dtype=float), template_set.points.shape[-1:]
     if target.shape[-1:] != axes or not np.all(np.isfinite(target)):
         raise ValueError(f"target {target} must be finite plane positions (…, {axes[0]}) in m")
@@ -201,14 +205,20 @@ def plan(target, template_set, rule=habitual_weights, rows=None):
         if not (rows.size and np.isin(rows, known).all()):
             raise ValueError(f"rows {rows} must be of the {len(known)} templates, 0 to {known[-1]}")
     rows = np.broadcast_to(rows, (*target.shape[:-1], rows.shape[-1]))
-    return Plan(template_set, target, rows, rule(target, template_set.points[rows]))
+    return Plan(template_set, target, rows, weigh(target, template_set.points[rows]))
 
 
-def check_rule(rule, *known):
-    """Raise ValueError where a rule is no function; `known` are those that ship."""
-    if not callable(rule):
-        names = " or ".join(one.__name__ for one in known)
-        raise ValueError(f"the rule {rule!r} is no function: give {names}")
+def rule_called(name, rules):
+    """The function of that name in a table of rules; a function itself as it is.
+
+    ValueError for a name that none has.
+    """
+    if callable(name):
+        return name
+    if not isinstance(name, str) or name not in rules:
+        names = ", ".join(map(repr, rules))
+        raise ValueError(f"no rule is called {name!r}: choose from {names}, or give a function")
+    return rules[name]
 
 
 def check_batch(plan):

@@ -7,6 +7,7 @@ from reproduce import results
 from reproduce.experiments import loop_evaluation
 from reproduce.pipeline import smoke_run
 from vmc_lib import NoReach, loop, photos
+from vmc_lib.cerebellum.offline import RULES
 
 
 @pytest.fixture(scope="module")
@@ -19,8 +20,8 @@ def test_scores_count_what_went_wrong(photo, sight):
     assert failure["found"]
     assert failure["named"]
     assert not failure["cup"]
-    assert np.isnan([failure[key] for key in ("target", "planned", *loop.RULES)]).all()
-    success = failure | dict.fromkeys(("target", "planned", *loop.RULES), 0.004)
+    assert np.isnan([failure[key] for key in ("target", "planned", *RULES)]).all()
+    success = failure | dict.fromkeys(("target", "planned", *RULES), 0.004)
     both = {key: np.array([failure[key], success[key]]) for key in failure}
     summary = loop_evaluation.summary(both)
     assert summary["arrived, own"] == summary["arrived, published"] == summary["close, own"] == 0.5
