@@ -179,8 +179,11 @@ GREY = np.full((20, 30, 3), 0.5, np.float32)
         (lambda: AimCorrection(load()).update(plan((0.15, -0.4), load())), "plan for targets"),
         (lambda: marker_sheet.estimate_camera(GREY * 255), "divide 8 bits by 255"),
         (lambda: inverse_kinematics((0.1, 0.2, 0.3)), r"\(…, 2\), in m"),
-        (lambda: execute(None, prism=30.0), "prism of 30.0 rad: give radians"),
-        (lambda: execute(None, prism=np.nan), "prism of nan"),
+        (
+            lambda: execute(plan((0.15, -0.4), load()), prism=30.0),
+            "prism of 30.0 rad: give radians",
+        ),
+        (lambda: execute(plan((0.15, -0.4), load()), prism=np.nan), "prism of nan"),
         (lambda: static_activation((30, 60)), r"posture \[30. 60.\] rad is beyond .* np.radians"),
         (lambda: static_activation((np.nan, 1)), r"posture \[nan  1.\] rad is beyond"),
         (lambda: execute([0.15, -0.4]), r"\[0.15, -0.4\] is no Plan: give what plan"),

@@ -9,8 +9,8 @@ import torch
 
 from vmc_lib import boxes, loop, photos, statistics
 from vmc_lib.arm import arm26, dynamics, kinematics, simulate
-from vmc_lib.cerebellum import offline
-from vmc_lib.motor import execution, planning, templates
+from vmc_lib.cerebellum import feedback_error, forward_model, offline, online
+from vmc_lib.motor import execution, feedback, planning, templates
 from vmc_lib.show import (
     COLOURS,
     Pad,
@@ -32,9 +32,10 @@ from vmc_lib.where import detector, segmentation, selective_search, svm
 def given():
     """A model, a photo and a plan, as right calls have them."""
     model, photo = loop.VisuomotorModel.load("rig"), photos.load("rig", "train")[0]
-    plan = planning.plan(np.array([0.1, -0.38]), model.template_set)
+    plans = planning.plan(np.array([[0.1, -0.38], [0.15, -0.4]]), model.template_set)
     reach = loop.reach(model, photo.target, calibration=None)
-    return SimpleNamespace(model=model, photo=photo, image=photo.image, plan=plan, reach=reach)
+    seen = {"model": model, "photo": photo, "image": photo.image}
+    return SimpleNamespace(**seen, plan=plans[0], plans=plans, reach=reach)
 
 
 def excite(value, start=(0, 1), muscles=6):
@@ -53,6 +54,14 @@ SIGHT = {  # a call: what its error says, the value and the remedy
     "a recogniser": (lambda g: recogniser.Recogniser.load("rig", "P3"), "'P3'", "choose from MP2"),
     "a grey image": (lambda g: loop.see(g.model, g.image[..., 0]), "(400, 600)", "read_image"),
     "floats": (lambda g: loop.see(g.model, g.image / 255), "float64", "read_image"),
+    "a level for a model": (lambda g: loop.see("rig", g.image), "'rig'", 'load("rig")'),
+    "an image first": (lambda g: loop.see(g.image, g.model), "array(400", 'load("rig")'),
+    "a photo for a camera": (
+        lambda g: loop.see(g.model, g.image, g.photo), "Photo(", "give photo.camera"
+    ),
+    "a photo for a target": (lambda g: loop.reach(g.model, g.photo), "Photo(", "give numbers"),
+    "a list of pixels": (lambda g: photos.crops([[1]], [0, 0, 1, 1], 9), "[[1]]", "read_image"),
+    "scores in words": (lambda g: boxes.nms([[0, 0, 1, 1]], "good"), "'good'", "give numbers"),
     "a file": (lambda g: loop.see(g.model, "a.jpg"), "'a.jpg'", "give read_image('a.jpg')"),
     "a photo": (lambda g: loop.see(g.model, g.photo), "'rig/train/000'", "give photo.image"),
     "a missing file": (lambda g: photos.read_image("nowhere.jpg"), "nowhere.jpg", "name right?"),
@@ -125,14 +134,86 @@ MOVING = {
         "'Eq. 4'", "choose from 'habitual', 'exact'",
     ),
     "no plan": (lambda g: execution.execute([0.1, -0.4]), "[0.1, -0.4]", "what plan(target, te"),
+    "a load for a perturbation": (
+        lambda g: execution.execute(g.plan, 1.0), "perturbation 1.0", "give Perturbation(load=1.0)"
+    ),
+    "a prism of words": (lambda g: execution.execute(g.plan, prism="a"), "'a' rad", "give radians"),
+    "a prism in degrees": (lambda g: execution.execute(g.plan, prism=30), "30 rad", "give radians"),
+    "templates first": (
+        lambda g: planning.plan(g.model.template_set, (0.1, -0.38)),
+        "(0.1, -0.38)", "templates.load()",
+    ),
+    "a model for templates": (
+        lambda g: planning.plan((0.1, -0.38), g.model), "VisuomotorModel(", "templates.load()"
+    ),
+    "a target of words": (
+        lambda g: planning.plan("left", g.model.template_set), "'left'", "give numbers"
+    ),
+    "rows without a target": (
+        lambda g: planning.plan((0.1, -0.38), g.model.template_set, rows=[[0], [1]]),
+        "(2, 1)", "give (N,)",
+    ),
+    "another row": (
+        lambda g: planning.plan((0.1, -0.38), g.model.template_set, rows=[99]), "[99]", "0 to 18"
+    ),
+    "three weights": (lambda g: g.plan.with_weights([1, 0, 0]), "[1.0, 0.0, 0.0]", "each of 4"),
+    "a target in space": (
+        lambda g: planning.nearest((0.1, -0.4, 0), g.plan.points, 2), "0. ]", "points (4, 2)"
+    ),
+    "a seed for targets": (
+        lambda g: planning.draw_targets(g.model.template_set, 3, 0), "rng 0", "default_rng(seed)"
+    ),
+    "a seed for boxes": (lambda g: boxes.jitter_boxes([[0, 0, 9, 9]], 0.1, 1), "rng 1", "default_"),
+    "a plan to recalibrate": (
+        lambda g: loop.recalibrate(g.plan, "own"), "Plan(", "what loop.reach(model, target)"
+    ),
+    "no batch": (lambda g: online.WeightCorrection().update(g.plan), "is no batch", "plan for tar"),
+    "targets to correct": (
+        lambda g: online.WeightCorrection().correct(np.zeros((3, 2))), "array(3, 2)", "what plan("
+    ),
+    "a rule of learning": (
+        lambda g: online.WeightCorrection().update(g.plans, "exact"), "'exact'", "'published'"
+    ),
+    "one gain": (lambda g: offline.algorithm_1(g.plan, 5), "gains = 5", "as range(21)"),
+    "half a trial": (lambda g: offline.broyden_calibration(g.plan, 2.5), "= 2.5", "a whole number"),
+    "none together": (
+        lambda g: online.AimCorrection(g.model.template_set).update(g.plans, 0), "= 0", "1 or more"
+    ),
+    "lessons of another length": (
+        lambda g: online.GranuleCells().fit(np.zeros((3, 2)), np.zeros(2)), "(2,)", "give (n, d)"
+    ),
+    "a width of nothing": (
+        lambda g: online.GranuleCells(0).fit(np.zeros((3, 2)), np.zeros(3)), "of 0", "above 0"
+    ),
+    "a plan to feed back": (
+        lambda g: feedback.simulate_feedback(g.plans), "Plan(", "give reference_trajectory(plan)"
+    ),
+    "a plan to correct": (
+        lambda g: feedback_error.FeedbackErrorLearning(g.model.template_set).correct(g.plans),
+        "Plan(", "give reference_trajectory(plan)",
+    ),
+    "a strength": (lambda g: forward_model.arm_copy("strong"), "'strong'", "give numbers"),
+    "one movement": (
+        lambda g: forward_model.ForwardModel().update(g.reach.planned), "q=array(", "give a batch"
+    ),
+    "duration and level": (
+        lambda g: simulate.constant_excitation(1.0, 6 * [0]), "[0, 0, 0, 0", "choose at least"
+    ),
+    "a load in words": (lambda g: arm26.model_with_load("heavy"), "'heavy' kg", "choose 0 to 10"),
+    "a place in the plane": (
+        lambda g: kinematics.to_world([0.1, -0.4], 0.1), "[ 0.1 -0.4]", "of shape (…, 3), in m"
+    ),
+    "a hold": (lambda g: templates.load(hold="long"), "'long' s", "give seconds"),
     "templates": (lambda g: templates.load(4), "4 m apart", "choose one of (0.04"),
     "a plan, a rule's place": (
-        lambda g: offline.calibrate(offline.algorithm_1, g.plan), "called Plan(", "choose from"
+        lambda g: offline.calibrate(offline.algorithm_1, g.plan), "is no Plan", "give what plan("
     ),
 }  # fmt: skip
 SHOWING = {
     "one draw": (lambda g: statistics.student([1.0]), "1 values", "give two or more"),
-    "a share": (lambda g: statistics.wilson(5, 3), "k (5)", "greater than n (3)"),
+    "a share": (lambda g: statistics.wilson(5, 3), "5 of 3", "give counts"),
+    "no list": (lambda g: statistics.student(3.0), "1 values", "give two or more"),
+    "other answers": (lambda g: statistics.mcnemar([1, 0], [1]), "(1,)", "the same questions"),
     "no draws": (lambda g: estimate([]), "0 values", "give two or more"),
     "a row": (lambda g: table(["a", "b"], [[1]]), "the row [1]", "2 cells"),
     "a head": (lambda g: table(["a", ""], [[1, 2]]), "['a', '']", "needs a head"),
@@ -167,8 +248,8 @@ SHOWING = {
 CALLS = SIGHT | MOVING | SHOWING
 
 
-def test_there_are_fifty():
-    assert len(CALLS) == len(SIGHT) + len(MOVING) + len(SHOWING) >= 50
+def test_there_are_a_hundred():
+    assert len(CALLS) == len(SIGHT) + len(MOVING) + len(SHOWING) >= 100
 
 
 @pytest.mark.parametrize(("call", "value", "remedy"), CALLS.values(), ids=CALLS)

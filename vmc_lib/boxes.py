@@ -2,6 +2,9 @@
 
 import numpy as np
 
+from vmc_lib.checks import as_numbers, check_rng, is_within
+from vmc_lib.short_repr import short
+
 MIN_IOU = 0.8  # IoU at which a box counts as the object's (Section IV A)
 
 
@@ -11,7 +14,7 @@ def as_boxes(boxes):
     One box, or an empty list, becomes an array of one row or none. A box may have no area, and
     may lie outside the image. ValueError when a box is inside out or not finite.
     """
-    boxes = np.asarray(boxes, float)
+    boxes = as_numbers("boxes", boxes)
     if boxes.size == 0:
         return np.empty((0, 4))
     boxes = np.atleast_2d(boxes)
@@ -88,12 +91,12 @@ def nms(boxes, scores, overlap=0.3):
     >>> nms([[0, 0, 9, 9], [0, 0, 9, 8], [20, 0, 29, 9]], [0.6, 0.9, 0.8]).tolist()
     [1, 2]
     """
-    boxes, scores = as_boxes(boxes), np.asarray(scores, float)
+    boxes, scores = as_boxes(boxes), as_numbers("scores", scores)
     if scores.shape != (len(boxes),) or not np.isfinite(scores).all():
         got = f"shape {scores.shape}" if scores.shape != (len(boxes),) else scores
         raise ValueError(f"{len(boxes)} boxes need as many finite scores, not {got}")
-    if not 0 <= overlap <= 1:
-        raise ValueError(f"overlap = {overlap}: an IoU is within 0..1")
+    if not is_within(overlap, 0, 1):
+        raise ValueError(f"overlap = {short(overlap)}: an IoU is within 0..1")
     waiting, kept = np.argsort(-scores, kind="stable"), []
     while len(waiting):
         best, rest = waiting[0], waiting[1:]
@@ -125,6 +128,8 @@ def pad_boxes(boxes, margin):
 
 def jitter_boxes(boxes, amount, rng):
     """Jitter the edges of boxes (..., 4) by Gaussian noise, `amount` in shares of their sides."""
+    check_rng(rng)
+    boxes = np.asarray(boxes, float)
     _, sides = centres_and_sides(boxes)
     return boxes + rng.normal(0, amount, boxes.shape) * np.tile(sides, 2)
 

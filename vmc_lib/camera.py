@@ -9,6 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from vmc_lib import NoReach
+from vmc_lib.boxes import as_boxes
+from vmc_lib.checks import as_numbers
 from vmc_lib.short_repr import short_repr
 
 TABLE = -0.43  # height of the table top in the shoulder frame (m)
@@ -72,7 +74,7 @@ class Camera:
         The root of the area that each covers in a plane that faces the camera; inf for what stands
         beyond the horizon.
         """
-        x0, y0, x1, y1 = np.transpose(boxes)
+        x0, y0, x1, y1 = as_boxes(boxes).T
         _, depth = self._intersect(np.column_stack([(x0 + x1) / 2, y1]), TABLE)  # of its foot
         pixels = np.sqrt((x1 - x0) * (y1 - y0))
         return np.where(depth > 0, pixels * depth / self.focal, np.inf)
@@ -80,7 +82,7 @@ class Camera:
 
 def _rows(name, values, size):
     """Values as an array (n, size)."""
-    rows = np.atleast_2d(values)
+    rows = np.atleast_2d(as_numbers(name, values))
     if rows.ndim != 2 or rows.shape[1] != size:
         raise ValueError(f"{name} of shape {np.shape(values)}: give (n, {size})")
     return rows

@@ -13,7 +13,9 @@ import numpy as np
 from vmc_lib import NoReach, photos
 from vmc_lib.arm.kinematics import to_world, turn_towards
 from vmc_lib.box_selection import SIZE_LIKELIHOOD_RATIO, BoxSelector, filter_by_size, scale_odds
+from vmc_lib.camera import Camera
 from vmc_lib.cerebellum.offline import calibrate
+from vmc_lib.checks import check_kind
 from vmc_lib.motor import templates
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import Plan, plan
@@ -25,6 +27,7 @@ from vmc_lib.where.localiser import Localiser
 # Set on validation photos
 THRESHOLD_MARGIN = 1.0  # how much lower the detector's threshold is than alone
 OVERLAP = 0.6  # IoU that non-maximum suppression allows boxes that a stream is still to refine
+MODEL = 'VisuomotorModel.load("rig")'  # what is asked for where a model is missing
 PHOTOGRAPHS_AS = "varied"  # the level whose places serve for photographs too
 
 
@@ -149,8 +152,10 @@ def see(model, image, camera=None):
     >>> see(VisuomotorModel.load("rig"), photo.image, photo.camera).summary
     'a shuttlecock, 100 % sure'
     """
+    check_kind("model", model, VisuomotorModel, MODEL)
     detections, ratio = model.detector.detect(image), 1
     if camera is not None:
+        check_kind("camera", camera, Camera, "photo.camera, or None")
         detections, ratio = filter_by_size(detections, camera), SIZE_LIKELIHOOD_RATIO
     detections, probability = model.recogniser.select(image, detections)
     return Sight(detections, scale_odds(probability, ratio), model.recogniser.min_probability)
@@ -179,6 +184,8 @@ def locate(model, image, box, camera):
         raise NoReach("no shuttlecock was recognised: there is no place to reach for")
     if camera is None:
         raise NoReach("the camera is unknown, so a box has no place: give the photo's Camera")
+    check_kind("model", model, VisuomotorModel, MODEL)
+    check_kind("camera", camera, Camera, "photo.camera, or None")
     return model.localiser.locate(image, box, camera)
 
 
@@ -207,6 +214,7 @@ def reach(model, target, calibration="published"):
     >>> found.distance(found.calibrated, photo.target) < 0.05
     True
     """
+    check_kind("model", model, VisuomotorModel, MODEL)
     turn, point = turn_towards(target)
     habit = plan(point, model.template_set)
     if calibration is None:
@@ -218,6 +226,7 @@ def reach(model, target, calibration="published"):
 
 def recalibrate(reach, calibration):
     """The same `Reach`, its second movement calibrated by another rule, as `reach` takes it."""
+    check_kind("reach", reach, Reach, "what loop.reach(model, target) returns")
     trials = calibrate(reach.plan, calibration)
     return replace(reach, calibrated=trials.best_motion)
 

@@ -16,8 +16,10 @@ from PIL import Image, ImageOps, UnidentifiedImageError
 from vmc_lib import data
 from vmc_lib.boxes import as_boxes
 from vmc_lib.camera import Camera
+from vmc_lib.checks import is_within
 from vmc_lib.colour_profile import to_srgb
 from vmc_lib.compiled import compiled
+from vmc_lib.short_repr import short
 
 LEVELS = ("rig", "free", "varied")  # rendered, so that cameras and places are known
 REAL_LEVEL = "real"  # photographs
@@ -201,9 +203,11 @@ def crops(image, boxes, size):
     repeat; a box without area shows the one pixel, or row of pixels, it lies on. ValueError for
     another kind of image.
     """
+    if not isinstance(image, np.ndarray):
+        raise ValueError(f"{short(image)} is no uint8 image: see photos.read_image")
     if image.dtype != np.uint8 or image.ndim != 3 or image.size == 0:
         raise ValueError(f"{image.dtype} {image.shape} is no uint8 image: see photos.read_image")
-    if size < 1:
+    if not is_within(size, 1, np.inf):
         raise ValueError(f"crops of {size}×{size} pixels: give a size of 1 or more")
     boxes = as_boxes(boxes)
     height, width = image.shape[:2]

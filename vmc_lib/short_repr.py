@@ -20,8 +20,13 @@ class _ShortRepr(Repr):
         return name if is_dataclass(value) else super().repr_instance(value, level)
 
 
+def short(value):
+    """A repr of a line of any value."""
+    return _ShortRepr().repr(value)
+
+
 def short_repr(self):
     """The `__repr__` of a dataclass or a named tuple: of arrays, their shapes."""
     names = getattr(self, "_fields", None) or [field.name for field in fields(self)]
-    parts = (f"{name}={_ShortRepr().repr(getattr(self, name))}" for name in names)
+    parts = (f"{name}={short(getattr(self, name))}" for name in names)
     return f"{type(self).__name__}({', '.join(parts)})"

@@ -4,6 +4,9 @@ from functools import cache
 
 import numpy as np
 
+from vmc_lib.checks import as_numbers, is_within
+from vmc_lib.short_repr import short
+
 
 def student(values):
     """The mean of `values` (n, …) over the first axis, and half its 95 % interval's width, (…).
@@ -11,6 +14,7 @@ def student(values):
     Student's t: it speaks of what changed from value to value, a seed or a training, and of nothing
     else. ValueError for fewer than two values.
     """
+    values = np.atleast_1d(as_numbers("values", values))
     n = len(values)
     if n < 2:
         raise ValueError(f"{n} values have no spread: give two or more")
@@ -42,6 +46,8 @@ def wilson(right, n):
     """
     from scipy.stats import binomtest
 
+    if not (is_within(n, 1, np.inf) and is_within(right, 0, n)):
+        raise ValueError(f"{short(right)} of {short(n)} is no share: give counts, right first")
     interval = binomtest(round(right), round(n)).proportion_ci(method="wilson")
     return interval.low, interval.high
 
@@ -53,6 +59,9 @@ def mcnemar(one, other):
     """
     from scipy.stats import binomtest
 
+    one, other = np.asarray(one, bool), np.asarray(other, bool)
+    if one.shape != other.shape:
+        raise ValueError(f"answers {one.shape} and {other.shape}: give those to the same questions")
     wins, losses = int((one & ~other).sum()), int((other & ~one).sum())
     return wins, losses, binomtest(wins, wins + losses).pvalue if wins + losses else 1.0
 

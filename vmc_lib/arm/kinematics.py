@@ -10,6 +10,7 @@ import numpy as np
 from vmc_lib import NoReach
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.arm.model import LIMITS
+from vmc_lib.checks import as_numbers
 
 TRUNK = np.array([0.017545, -0.17])  # x and z of the axis about which the trunk turns, m
 TRUNK_RANGE = np.radians([-60.0, 90.0])
@@ -93,7 +94,7 @@ def to_world(points, psi):
 
     One turn `psi` in rad for all of them, or one for each, (…).
     """
-    points = np.array(points, dtype=float)
+    points = _positions(points, 3).copy()
     x, z = np.moveaxis(points[..., [0, 2]] - TRUNK, -1, 0)
     c, s = np.cos(psi), np.sin(psi)
     points[..., [0, 2]] = np.stack([c * x + s * z, c * z - s * x], axis=-1) + TRUNK
@@ -101,7 +102,7 @@ def to_world(points, psi):
 
 
 def _positions(points, axes):
-    points = np.asarray(points, dtype=float)
+    points = as_numbers("position", points)
     if points.shape[-1:] != (axes,) or not np.all(np.isfinite(points)):
         raise ValueError(f"position {points} must be finite, of shape (…, {axes}), in m")
     return points

@@ -10,7 +10,9 @@ from xml.etree import ElementTree
 
 import numpy as np
 
+from vmc_lib.checks import is_within
 from vmc_lib.data import read_only
+from vmc_lib.short_repr import short
 
 XML = (files("vmc_lib.arm") / "arm26.xml").read_text(encoding="utf-8")
 _MODEL = ElementTree.fromstring(XML)  # noqa: S314 (MuJoCo would take a tenth of a second)
@@ -31,5 +33,5 @@ STEP = float(_MODEL.find("option").get("timestep"))  # s
 
 def check_load(load):
     """Raise ValueError where a `load` in kg cannot be held."""
-    if not 0 <= load <= 10:
-        raise ValueError(f"a load of {load} kg cannot be held; choose 0 to 10")
+    if not is_within(load, 0, 10):
+        raise ValueError(f"a load of {short(load)} kg cannot be held; choose 0 to 10")

@@ -19,6 +19,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from vmc_lib.checks import check_rng
+
 TAU_ACTIVATION = 0.010  # s: calcium floods in quickly …
 TAU_DEACTIVATION = 0.040  # s: … and is pumped back slowly
 MAX_VELOCITY = 2.5  # optimal fibre lengths per second, the unit of v
@@ -97,6 +99,7 @@ def noisy(excitation, share, rng):
     The stronger the command, the noisier (Harris & Wolpert 1998, Nature 394:780); clipped to
     [0, 1].
     """
+    check_rng(rng)
     return np.clip(excitation * (1 + share * rng.standard_normal(np.shape(excitation))), 0, 1)
 
 

@@ -14,7 +14,8 @@ from vmc_lib.arm.dynamics import MARGIN, hand
 from vmc_lib.arm.engines import ENGINES, FARTHEST
 from vmc_lib.arm.model import F0, LIMITS, STEP
 from vmc_lib.arm.muscle import PAPER
-from vmc_lib.short_repr import short_repr
+from vmc_lib.checks import as_numbers, check_kind, is_within
+from vmc_lib.short_repr import short, short_repr
 
 
 class Perturbation(NamedTuple):
@@ -99,22 +100,23 @@ def simulate(
     >>> motion.q.shape, motion.hand.shape
     ((501, 2), (501, 3))
     """
-    u = np.asarray(excitations, dtype=float)
+    u = as_numbers("excitations", excitations)
     if u.ndim < 2 or u.shape[-1] != len(F0) or 0 in u.shape:
         raise ValueError(f"excitations have shape {u.shape}; use (T, 6) or (…, T, 6), T ≥ 1")
     _check_range("excitations", u)
     engine = engine or ("compiled" if muscle is PAPER else "mujoco")
-    if engine not in ENGINES:
-        raise ValueError(f"engine {engine!r} is unknown; choose one of {sorted(ENGINES)}")
+    if not isinstance(engine, str) or engine not in ENGINES:
+        raise ValueError(f"engine {short(engine)} is unknown; choose one of {sorted(ENGINES)}")
     if engine == "compiled" and muscle is not PAPER:
         raise ValueError("engine 'compiled' knows the paper's muscle alone; leave the engine out")
-    if not 0 < step <= 0.01:
-        raise ValueError(f"a step of {step} s: Euler's method needs one in (0, 0.01] s")
+    if not (is_within(step, 0, 0.01) and step):
+        raise ValueError(f"a step of {short(step)} s: Euler's method needs one in (0, 0.01] s")
     leading = u.shape[:-2]
     q = _per_movement("start", start, leading, 2)
     check_posture(q)
     a = _per_movement("activation", u[..., 0, :] if activation is None else activation, leading, 6)
     _check_range("activation", a)
+    check_kind("perturbation", perturbation, Perturbation, "Perturbation(load=1.0), in kg")
     _check_field(perturbation.field)
     path = ENGINES[engine](u.reshape(-1, *u.shape[-2:]), q, a, perturbation, step, muscle)
     check_sane(path[0])
@@ -126,16 +128,16 @@ def constant_excitation(level, duration, step=STEP):
 
     ValueError for other shapes, or a duration that is not finite, or shorter than one step.
     """
-    if not step <= duration < np.inf:
-        raise ValueError(f"a duration of {duration} s: choose at least {step} s")
-    level = np.asarray(level, dtype=float)
+    if not (is_within(duration, step, np.inf) and duration < np.inf):
+        raise ValueError(f"a duration of {short(duration)} s: choose at least {step} s")
+    level = as_numbers("level", level)
     if level.shape[-1:] != (6,):
         raise ValueError(f"levels of shape {level.shape}: give one for each of the 6 muscles")
     return np.repeat(level[..., None, :], round(duration / step), axis=-2)
 
 
 def _per_movement(name, value, leading, size):
-    value = np.asarray(value, dtype=float)
+    value = as_numbers(name, value)
     if value.shape not in ((size,), (*leading, size)) or not np.all(np.isfinite(value)):
         raise ValueError(
             f"{name} must be finite, of shape ({size},) or {(*leading, size)}: this one has shape "
@@ -152,6 +154,8 @@ def _check_range(name, value):
 
 def check_posture(q, name="start"):
     """ValueError where a posture (…, 2) lies beyond the joints' limits by more than MARGIN."""
+    if np.shape(q)[-1:] != (2,):
+        raise ValueError(f"{name} {q} must be (shoulder, elbow), (…, 2), in rad")
     far = ~np.all((q >= LIMITS[:, 0] - MARGIN) & (q <= LIMITS[:, 1] + MARGIN), axis=-1)
     if np.any(far):
         raise ValueError(

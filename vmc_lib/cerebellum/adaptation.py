@@ -16,7 +16,7 @@ import numpy as np
 
 from vmc_lib.cerebellum.online import GranuleCells
 from vmc_lib.motor.execution import execute
-from vmc_lib.motor.planning import Plan, check_batch, is_surrounded, plan
+from vmc_lib.motor.planning import Plan, check_batch, check_templates, is_surrounded, plan
 from vmc_lib.motor.templates import REACH
 
 SILENT = np.array([0.0, -REACH])  # where the hand ends when every muscle is silent
@@ -49,6 +49,7 @@ class Adaptation:
     """
 
     def __init__(self, trained_correction, template_set, corrects="aim", regularisation=0.3):
+        check_templates(template_set)
         if corrects not in CORRECTIONS:
             raise ValueError(f"cannot correct {corrects!r}; choose one of {CORRECTIONS}")
         self.trained_correction, self.template_set = trained_correction, template_set

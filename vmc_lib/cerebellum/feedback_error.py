@@ -11,6 +11,7 @@ from vmc_lib.arm.kinematics import inverse_kinematics
 from vmc_lib.cerebellum.adaptation import minimum_norm_update
 from vmc_lib.cerebellum.forward_model import FAST
 from vmc_lib.cerebellum.online import GranuleCells
+from vmc_lib.checks import check_kind
 from vmc_lib.motor.feedback import (
     SIGHT,
     TICK,
@@ -19,6 +20,7 @@ from vmc_lib.motor.feedback import (
     feedback_acceleration,
 )
 from vmc_lib.motor.inverse_dynamics import SAMPLES, minimum_jerk
+from vmc_lib.motor.planning import check_templates
 from vmc_lib.motor.templates import START
 
 
@@ -31,6 +33,7 @@ class FeedbackErrorLearning:
     regularisation = 0.3
 
     def __init__(self, template_set):
+        check_templates(template_set)
         ways = minimum_jerk(START, inverse_kinematics(template_set.points))
         places = mossy_fibres(ReferenceTrajectory(ways, template_set.excitations)).reshape(-1, 4)
         self.cells = GranuleCells(width=0.5, cells=300).fit(places, np.zeros((len(places), 2)))
@@ -57,5 +60,6 @@ class FeedbackErrorLearning:
 
 def mossy_fibres(reference):
     """Where the arm should be, and how fast, at every tick of the reach, (B, ticks, 4)."""
+    check_kind("reference", reference, ReferenceTrajectory, "reference_trajectory(plan)")
     path = reference.q, reference.velocity / FAST
     return np.concatenate([x[:, :SAMPLES:TICK] for x in path], axis=-1)

@@ -13,6 +13,7 @@ from vmc_lib.arm.dynamics import paths
 from vmc_lib.arm.engines import muscle_acceleration, muscle_torque
 from vmc_lib.arm.model import STEP
 from vmc_lib.cerebellum.online import GranuleCells
+from vmc_lib.checks import as_numbers, check_count
 
 FAST, STRONG = 5.0, 8.0  # rad/s and N m: they bring what the cells sense to about one
 
@@ -22,7 +23,7 @@ def arm_copy(strength=1.0):
 
     One strength, or one for each movement of a batch (B, 1). ValueError when one is negative.
     """
-    if not np.all(np.asarray(strength) >= 0):
+    if not np.all(as_numbers("strength", strength) >= 0):
         raise ValueError(f"muscles {strength} times as strong? give 0 or more")
 
     return partial(muscle_acceleration, strength=strength)
@@ -36,6 +37,9 @@ class ForwardModel:
 
     def update(self, motion, every=20):
         """Learn from a batch of movements, one sample every so many steps."""
+        check_count("every", every, least=1)
+        if np.ndim(motion.q) != 3:
+            raise ValueError(f"{motion} is of one movement: give a batch, q (B, T + 1, 2)")
         q, velocity, activation = (
             x[:, every:-1:every].reshape(-1, x.shape[-1])
             for x in (motion.q, motion.velocity, motion.activation)

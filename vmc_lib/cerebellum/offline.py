@@ -9,9 +9,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from vmc_lib.checks import check_count
 from vmc_lib.motor.execution import execute
-from vmc_lib.motor.planning import Plan, least_change, norm, rule_called
-from vmc_lib.short_repr import short_repr
+from vmc_lib.motor.planning import Plan, check_plan, least_change, norm, rule_called
+from vmc_lib.short_repr import short, short_repr
 
 GAINS = tuple(range(21))  # the paper's n in [0, 20]
 LARGEST_STEP = 0.5  # of Δw's norm: no single correction may throw the arm about
@@ -101,8 +102,8 @@ def algorithm_1(
     >>> len(trials.error), bool(trials.error.min() < trials.error[0])
     (22, True)
     """
-    if not len(gains):
-        raise ValueError("gains are empty: name at least one n to try, as in gains=range(21)")
+    if not np.size(gains) or np.ndim(gains) != 1:
+        raise ValueError(f"gains = {short(gains)}: name at least one n to try, as range(21) does")
     planned = execute(plan)
     changes = [change(plan, planned.endpoint, n, origin, sign) for n in gains]
     return _trials(planned, execute(plan.with_weights(plan.weights + np.stack(changes))))
@@ -151,7 +152,8 @@ def broyden_calibration(plan: Plan, n_trials=2, broyden=True, guarded=True, exec
     >>> bool(trials.movements[2].bias < 0.1 * trials.movements[0].bias)
     True
     """
-    jacobian, planned = np.swapaxes(plan.points, -1, -2), execute(plan)
+    check_count("n_trials", n_trials)
+    planned, jacobian = execute(plan), np.swapaxes(plan.points, -1, -2)
     best, endpoint, tried = planned.error, planned.endpoint, []
     weights = plan.weights
     for _ in range(n_trials):
@@ -201,6 +203,7 @@ def gauss_newton_calibration(plan: Plan, n_steps=4, execute=execute):
     >>> len(trials.error), bool(trials.error[-1] < 0.2 * trials.error[0])
     (9, True)
     """
+    check_count("n_steps", n_steps)
     planned, weights = execute(plan), plan.weights
     ways = NUDGE * np.eye(weights.shape[-1]).reshape(-1, *(weights.ndim - 1) * [1], len(weights.T))
     nudged = execute(plan.with_weights(weights + ways))
@@ -226,6 +229,7 @@ def calibrate(plan: Plan, rule="published"):
 
     ValueError for a name that none has, and where a function returns anything else.
     """
+    check_plan(plan)
     if not isinstance(trials := rule_called(rule, RULES)(plan), Trials):
         name = getattr(rule, "__name__", rule)
         raise ValueError(

@@ -20,11 +20,14 @@ from typing import Any
 import numpy as np
 
 from vmc_lib.cerebellum.offline import calibrate
+from vmc_lib.checks import as_numbers, check_count, is_within
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import (
     RULES,
     Plan,
     check_batch,
+    check_plan,
+    check_templates,
     exact_weights,
     is_surrounded,
     plan,
@@ -101,6 +104,7 @@ class WeightCorrection:
 
     def correct(self, plan: Plan):
         """The plan with the learned Δw added; as `weigh` has it before the first update."""
+        check_plan(plan)
         planned = self._planned(plan)
         if not self.training_pairs:
             return planned
@@ -146,6 +150,7 @@ class AimCorrection:
     """
 
     def __init__(self, template_set: TemplateSet, cells=None, neighbours=None):
+        check_templates(template_set)
         self.cells = cells or GranuleCells()
         fours = _neighbours(template_set.points) if neighbours is None else neighbours
         known = plan(template_set.points[fours], template_set, rows=fours[:, None])
@@ -157,6 +162,7 @@ class AimCorrection:
 
     def aim(self, plan: Plan):
         """Where to aim, (…, d), for the hand to end on the plan's target."""
+        check_plan(plan)
         shift = self.cells.predict(_rows(mossy_fibres(plan)))
         return plan.target + shift.reshape(plan.target.shape)
 
@@ -166,6 +172,7 @@ class AimCorrection:
         So many are made `together`; the next are aimed with what was learned from those.
         """
         check_batch(plan)
+        check_count("together", together, least=1)
         for first in range(0, len(plan.target), together):
             some = plan[first : first + together]
             aim = self.aim(some)
@@ -211,6 +218,11 @@ class GranuleCells:
     def fit(self, X, y):
         """Forget everything, place the cells about X (n, d), learn y (n,) or (n, k)."""
         X, y = _finite(X), _finite(y)
+        if X.ndim != 2 or not X.size or y.shape[:1] != X.shape[:1]:
+            raise ValueError(f"X {X.shape} and y {y.shape}: give (n, d), and (n,) or (n, k)")
+        check_count("cells", self.cells, least=1)
+        if not (is_within(self.width, 0, np.inf) and self.width):
+            raise ValueError(f"a width of {self.width}: give one above 0, in the units of X")
         rng = np.random.default_rng(self.random_state)
         low, high = X.min(axis=0) - self.width, X.max(axis=0) + self.width
         self.centres_ = rng.uniform(low, high, (self.cells, X.shape[1]))
@@ -238,15 +250,16 @@ class GranuleCells:
         X = _finite(X)
         if not hasattr(self, "centres_"):
             raise ValueError("the cells have learned nothing yet: fit them first")
-        if X.shape[1] != self.centres_.shape[1]:
-            raise ValueError(f"X has {X.shape[1]} features: give {self.centres_.shape[1]}")
+        if X.ndim != 2 or X.shape[1] != self.centres_.shape[1]:
+            n = self.centres_.shape[1]
+            raise ValueError(f"X of shape {X.shape}: give rows of {n} features, (n, {n})")
         away = zip(X.T, self.centres_.T, strict=True)  # one axis after the other: little memory
         squares = sum(np.subtract.outer(x, centre) ** 2 for x, centre in away)
         return np.exp(-squares / (2 * self.width**2))
 
 
 def _finite(values):
-    values = np.asarray(values, float)
+    values = as_numbers("what to learn from,", values)
     if not np.isfinite(values).all():
         raise ValueError("NaN or infinity among the numbers to learn from: leave those out")
     return values

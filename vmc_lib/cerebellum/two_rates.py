@@ -7,6 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from vmc_lib.checks import as_numbers
+
 
 class Rates(NamedTuple):
     """Of the fast memory and of the slow one: what is kept to the next reach, what is learned."""
@@ -25,6 +27,8 @@ def adapt(disturbance, rates=RATES):
     A disturbance that is not a number is a reach without an error, one that is guided straight.
     ValueError when a memory would grow without end.
     """
+    if (disturbance := as_numbers("disturbance", disturbance)).ndim != 1:
+        raise ValueError(f"disturbance of shape {disturbance.shape}: give one for each reach, (T,)")
     kept, learned = np.array(rates.kept), np.array(rates.learned)
     if np.abs(np.linalg.eigvals(np.diag(kept) - learned[:, None])).max() >= 1:
         raise ValueError(f"{rates} never settle; keep less than 1, and learn less")

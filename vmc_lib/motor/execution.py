@@ -6,11 +6,13 @@ from functools import cached_property
 import numpy as np
 
 from vmc_lib.arm.simulate import UNPERTURBED, Perturbation
-from vmc_lib.motor.planning import Plan, norm
+from vmc_lib.checks import check_kind, is_within
+from vmc_lib.motor.planning import Plan, check_plan, norm
 from vmc_lib.motor.templates import mean_distance, mean_speed
-from vmc_lib.short_repr import short_repr
+from vmc_lib.short_repr import short, short_repr
 
 BATCH = 512  # movements simulated at once
+QUARTER_TURN = np.pi / 2
 EYE = np.array([0.10, 0.25])  # above and a little in front of the shoulder
 
 
@@ -45,10 +47,10 @@ def execute(plan, perturbation=UNPERTURBED, prism=0.0):
     >>> movement.endpoint.shape, bool(movement.error < 0.02)
     ((2,), True)
     """
-    if not abs(prism) < np.pi / 2:
-        raise ValueError(f"a prism of {prism} rad: give radians, less than a quarter turn")
-    if not isinstance(plan, Plan):
-        raise ValueError(f"{plan!r} is no Plan: give what plan(target, template_set) returns")
+    check_plan(plan)
+    check_kind("perturbation", perturbation, Perturbation, "Perturbation(load=1.0), in kg")
+    if not is_within(prism, -QUARTER_TURN, QUARTER_TURN):
+        raise ValueError(f"a prism of {short(prism)} rad: give radians, within a quarter turn")
     return Movement(plan, perturbation, prism)
 
 

@@ -20,6 +20,7 @@ from vmc_lib.arm.kinematics import inverse_kinematics
 from vmc_lib.arm.model import STEP
 from vmc_lib.arm.muscle import noisy
 from vmc_lib.arm.simulate import Motion, check_sane
+from vmc_lib.checks import check_kind
 from vmc_lib.motor.inverse_dynamics import SAMPLES, minimum_jerk, minimum_jerk_profile, muscle_gain
 from vmc_lib.motor.planning import check_batch
 from vmc_lib.motor.templates import START
@@ -137,6 +138,7 @@ def simulate_feedback(reference, gains=SIGHT, model=None, disturbance=None, nois
     >>> simulate_feedback(reference).q.shape
     (1, 1001, 2)
     """
+    check_kind("reference", reference, ReferenceTrajectory, "reference_trajectory(plan)")
     if noise and rng is None:
         raise ValueError(f"noise of {noise} needs an rng; give np.random.default_rng(seed)")
     if not all(np.isfinite(each).all() for each in (*gains[:-2], noise)):

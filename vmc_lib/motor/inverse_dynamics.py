@@ -13,6 +13,7 @@ from vmc_lib.arm.engines import fibres
 from vmc_lib.arm.model import F0, STEP
 from vmc_lib.arm.muscle import PAPER
 from vmc_lib.arm.simulate import check_posture
+from vmc_lib.checks import as_numbers
 from vmc_lib.data import read_only
 
 MOVING, SAMPLES = 700, 1000  # ms: a movement; the movement and the hold that follows
@@ -47,6 +48,7 @@ def minimum_jerk(start, goal, samples=SAMPLES, moving=MOVING):
 
     Then they stay there.
     """
+    start, goal = as_numbers("start", start), as_numbers("goal", goal)
     done = minimum_jerk_profile(np.arange(samples + 1) / moving)[:, None]
     return start[..., None, :] + (goal - start)[..., None, :] * done
 
@@ -97,7 +99,7 @@ def static_activation(q):
 
     ValueError for a posture far beyond the joints' limits.
     """
-    check_posture(np.asarray(q, float), "posture")
+    check_posture(q := as_numbers("posture", q), "posture")
     torque, gain = required_torque(np.tile(q, (2, 1)))
     return bounded_least_squares(
         np.vstack([gain[0], 0.01 * np.eye(6)]), np.append(torque[0], np.zeros(6))

@@ -8,8 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from vmc_lib import NoReach
-from vmc_lib.motor.templates import TemplateSet
-from vmc_lib.short_repr import short_repr
+from vmc_lib.checks import as_numbers, check_count, check_kind, check_rng
+from vmc_lib.motor.templates import TemplateSet, offsets
+from vmc_lib.short_repr import short, short_repr
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,6 +44,11 @@ class Plan:
 
     def with_weights(self, weights):
         """The same templates, weighted otherwise; leading axes may be added, for many trials."""
+        weights = as_numbers("weights", weights)
+        if weights.shape[-1:] != self.rows.shape[-1:]:
+            raise ValueError(
+                f"weights {short(weights)}: give one for each of {self.rows.shape[-1]} templates"
+            )
         return replace(self, weights=weights, rows=np.broadcast_to(self.rows, weights.shape))
 
 
@@ -74,7 +80,7 @@ def habitual_weights(target, points, power=1):
     >>> habitual_weights(np.array([0.1, -0.4]), points).round(3).tolist()
     [0.75, 0.25]
     """
-    distance = norm(points - np.asarray(target)[..., None, :])
+    distance = norm(offsets(points, target))
     on = distance < 1e-9
     nearness = np.where(on, 1, distance) ** -power
     nearness = np.where(on.any(axis=-1, keepdims=True), on, nearness)
@@ -125,9 +131,10 @@ def nearest(target, points, count):
 
     ValueError when there are fewer points, or fewer than one is asked for.
     """
-    if not 1 <= count <= len(points):
+    check_count("count", count, least=1)
+    if count > len(points):
         raise ValueError(f"cannot choose {count} of {len(points)} templates")
-    distance = norm(points - np.asarray(target)[..., None, :])
+    distance = norm(offsets(points, target))
     return distance.argsort(axis=-1, kind="stable")[..., :count]
 
 
@@ -138,7 +145,7 @@ def is_surrounded(target, points):
 
 def _by_quadrant(target, points):
     """Distances (…, 4, N), infinite to points in other quadrants; no distance is in the first."""
-    away = points - np.asarray(target)[..., None, :]
+    away = offsets(points, target)
     quadrant = np.floor(np.arctan2(away[..., 1], away[..., 0]) / (np.pi / 2)) % 4
     here = quadrant[..., None, :] == np.arange(4)[:, None]
     return np.where(here, norm(away)[..., None, :], np.inf)
@@ -149,6 +156,9 @@ def draw_targets(template_set, count, rng):
 
     ValueError where they surround so little of it that the draw does not fill up.
     """
+    check_templates(template_set)
+    check_count("count", count)
+    check_rng(rng)
     low, high = template_set.points.min(axis=0), template_set.points.max(axis=0)
     drawn = rng.uniform(low, high, (4 * count + 20, 2))
     inside = drawn[is_surrounded(drawn, template_set.points)]
@@ -194,8 +204,9 @@ def plan(target, template_set, rule="habitual", rows=None):
     >>> reach.weights.shape, reach.excitations.shape
     ((4,), (1000, 6))
     """
+    check_templates(template_set)
     weigh = rule_called(rule, RULES)
-    target, axes = np.asarray(target, dtype=float), template_set.points.shape[-1:]
+    target, axes = as_numbers("target", target), template_set.points.shape[-1:]
     if target.shape[-1:] != axes or not np.all(np.isfinite(target)):
         raise ValueError(f"target {target} must be finite plane positions (…, {axes[0]}) in m")
     if rows is None:
@@ -204,6 +215,8 @@ def plan(target, template_set, rule="habitual", rows=None):
         rows, known = np.atleast_1d(rows), np.arange(len(template_set.points))
         if not (rows.size and np.isin(rows, known).all()):
             raise ValueError(f"rows {rows} must be of the {len(known)} templates, 0 to {known[-1]}")
+        if rows.ndim > max(target.ndim, 1):
+            raise ValueError(f"rows {rows.shape} of a target {target.shape}: give (N,) or (…, N)")
     rows = np.broadcast_to(rows, (*target.shape[:-1], rows.shape[-1]))
     return Plan(template_set, target, rows, weigh(target, template_set.points[rows]))
 
@@ -217,12 +230,25 @@ def rule_called(name, rules):
         return name
     if not isinstance(name, str) or name not in rules:
         names = ", ".join(map(repr, rules))
-        raise ValueError(f"no rule is called {name!r}: choose from {names}, or give a function")
+        raise ValueError(
+            f"no rule is called {short(name)}: choose from {names}, or give a function"
+        )
     return rules[name]
 
 
+def check_templates(template_set):
+    """Raise ValueError where what should be a `TemplateSet` is none."""
+    check_kind("template_set", template_set, TemplateSet, "what motor.templates.load() returns")
+
+
+def check_plan(plan):
+    """Raise ValueError where what should be a `Plan` is none."""
+    check_kind("plan", plan, Plan, "what plan(target, template_set) returns")
+
+
 def check_batch(plan):
-    """Raise ValueError where a plan is of one reach."""
+    """Raise ValueError where a plan is none, or of one reach."""
+    check_plan(plan)
     if plan.target.ndim != 2:
         raise ValueError(f"a plan for {plan.target} is no batch; plan for targets (B, 2)")
 

@@ -14,9 +14,10 @@ import numpy as np
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.arm.model import STEP
 from vmc_lib.arm.simulate import UNPERTURBED, Motion, simulate
+from vmc_lib.checks import as_numbers, is_within
 from vmc_lib.data import arrays, read_only
 from vmc_lib.motor.inverse_dynamics import spline
-from vmc_lib.short_repr import short_repr
+from vmc_lib.short_repr import short, short_repr
 
 START = np.radians([-20.0, 95.0])  # every reach begins here: elbow bent, the hand over the table
 SPACINGS = (0.04, 0.06, 0.07, 0.08)  # m: how densely past experience covers the plane …
@@ -62,7 +63,15 @@ def mean_speed(hold):
 
 def mean_distance(hold, target):
     """The mean distance (…) of paths over the hold (…, n, D) from targets (…, D), in their unit."""
-    return np.linalg.norm(hold - np.asarray(target)[..., None, :], axis=-1).mean(axis=-1)
+    return np.linalg.norm(offsets(hold, target), axis=-1).mean(axis=-1)
+
+
+def offsets(points, target):
+    """From targets (…, D) to points (…, N, D) in their unit; ValueError for another D."""
+    target = as_numbers("target", target)
+    if not target.shape[-1:] == np.shape(points)[-1:]:
+        raise ValueError(f"target {target} is of another dimension than points {np.shape(points)}")
+    return points - target[..., None, :]
 
 
 def reach(excitations, perturbation=UNPERTURBED, hold=HOLD):
@@ -102,8 +111,8 @@ def load(spacing=SPACING, hold=HOLD):
     """
     if spacing not in SPACINGS:
         raise ValueError(f"no templates lie {spacing} m apart; choose one of {SPACINGS}")
-    if not 0 <= hold < np.inf:
-        raise ValueError(f"a hold of {hold} s: give seconds, 0 or more")
+    if not (is_within(hold, 0, np.inf) and hold < np.inf):
+        raise ValueError(f"a hold of {short(hold)} s: give seconds, 0 or more")
     excitations = spline() @ arrays("templates")[key(spacing)].astype(float)
     move = partial(reach, hold=hold)
     return TemplateSet(read_only(move(excitations).endpoint), read_only(excitations), reach=move)
