@@ -13,14 +13,7 @@ from vmc_lib import loop, photos
 from vmc_lib.arm.arm26 import geometry
 from vmc_lib.arm.kinematics import to_world
 from vmc_lib.arm.simulate import simulate
-from vmc_lib.box_selection import (
-    MIN_PROBABILITY,
-    N_FIRST_PASS,
-    N_SECOND_PASS,
-    SIZE_LIKELIHOOD_RATIO,
-    BoxSelector,
-    rescore_boxes,
-)
+from vmc_lib.box_selection import SIZE_LIKELIHOOD_RATIO
 from vmc_lib.boxes import decode_deltas
 from vmc_lib.camera import TABLE
 from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration
@@ -28,8 +21,14 @@ from vmc_lib.motor import templates
 from vmc_lib.motor.execution import execute
 from vmc_lib.show import props
 from vmc_lib.show.arm import beyond_wrist
-from vmc_lib.what.recogniser import NameClassifier, Recogniser
-from vmc_lib.what.stream import FLIPS
+from vmc_lib.what.recogniser import Recogniser
+from vmc_lib.what.stream import (
+    FLIPS,
+    MIN_PROBABILITY,
+    N_FIRST_PASS,
+    N_SECOND_PASS,
+    VentralStream,
+)
 from vmc_lib.where.detector import Detections
 
 
@@ -94,17 +93,16 @@ def test_a_box_without_a_camera_has_no_place(model):
 BOXES = np.array([[0, 0, 50, 50], [100, 0, 150, 50], [200, 0, 250, 50.0]])
 
 
-WEIGHTS = NameClassifier(np.array([10.0, 1.0]), -5.0)
-
-
-def stream_of(places, probability, delta=0.0):
+class Told(VentralStream):
     """A stream that gives each box the probability of the nearest place, and all one delta."""
 
-    def predict(image, boxes, flips=None):
+    def __init__(self, places, probability, delta=0.0):
+        object.__setattr__(self, "told", (places, probability, delta))
+
+    def predict(self, image, boxes, flips=None):
+        places, probability, delta = self.told
         nearest = np.abs(boxes[:, None] - places).sum(2).argmin(1) if len(boxes) else []
         return logit(np.take(probability, nearest)), np.full((len(boxes), 4), delta)
-
-    return SimpleNamespace(predict=predict)
 
 
 class Fixed(Recogniser):
@@ -123,20 +121,19 @@ def sight_of(scores, probability, camera=None, selects=True):
     boxes = BOXES[: len(scores)]
     detections = Detections(boxes, scores, boxes, boxes, scores)
     detector = SimpleNamespace(detect=lambda image: detections)
-    selector = BoxSelector(stream_of(boxes, probability), WEIGHTS)
-    recogniser = selector if selects else Fixed(probability)
+    recogniser = Told(boxes, probability) if selects else Fixed(probability)
     image = np.zeros((400, 600, 3), np.uint8)
     return loop.see(loop.VisuomotorModel(detector, recogniser, None, None), image, camera)
 
 
-def test_detector_score_and_log_odds_are_combined():
-    sight = sight_of([0.9, 0.5, 0.4], [0.001, 0.97, 0.98])
-    np.testing.assert_array_equal(sight.shuttlecocks, BOXES[[1, 2]])
-    np.testing.assert_array_equal(sight.box, BOXES[1])
-    assert sight.detections.scores.tolist() == [0.5, 0.4, 0.9]
-    assert sight.summary.startswith("2 shuttlecocks")
-    alone = sight_of([0.9, 0.5, 0.4], [0.001, 0.97, 0.98], selects=False)
-    np.testing.assert_array_equal(alone.shuttlecocks, BOXES[[1, 2]])
+def test_the_likeliest_box_is_chosen():
+    for selects in (True, False):
+        sight = sight_of([0.9, 0.5, 0.4], [0.001, 0.97, 0.98], selects=selects)
+        assert sorted(sight.shuttlecocks.tolist()) == BOXES[[1, 2]].tolist()
+        assert sight.summary.startswith("2 shuttlecocks")
+    best = sight_of([0.9, 0.5, 0.4], [0.001, 0.97, 0.98])
+    np.testing.assert_array_equal(best.box, BOXES[2])
+    np.testing.assert_allclose(best.detections.scores, logit([0.98, 0.97, 0.001]))
 
 
 @pytest.mark.parametrize("selects", [True, False])
@@ -150,44 +147,41 @@ def test_a_camera_filters_boxes_by_size_and_scales_the_odds(selects):
     assert sight_of([0.3], [0.9], too_large, selects).box is None
 
 
-def test_the_best_boxes_are_rescored_in_two_passes():
-    corners = 60.0 * np.column_stack([np.arange(60) % 10, np.arange(60) // 10])
-    many, scores = np.hstack([corners, corners + 50]), np.linspace(0.9, 0.1, 60)
-    detections = Detections(many, scores, many, many, scores)
-    stream, calls = stream_of(many, np.linspace(0.1, 0.5, 60), delta=0.02), []
+def test_the_best_boxes_are_looked_at_twice():
+    corners = 60.0 * np.column_stack([np.arange(130) % 13, np.arange(130) // 13])
+    many, scores = np.hstack([corners, corners + 50]), np.linspace(0.9, 0.1, 130)
+    calls = []
 
-    def predict(image, boxes, *flips):
-        calls.append((boxes, *flips))
-        return stream.predict(image, boxes)
+    class Watched(Told):
+        def predict(self, image, boxes, *flips):
+            calls.append((boxes, *flips))
+            return super().predict(image, boxes)
 
-    selector = BoxSelector(SimpleNamespace(predict=predict), WEIGHTS)
-    selected, probability = selector.select(None, detections)
+    stream = Watched(many, np.linspace(0.1, 0.5, 130), delta=0.02)
+    selected, probability = stream.select(None, Detections(many, scores, many, many, scores))
     (first,), (again, flips) = calls
     assert flips == FLIPS
     np.testing.assert_array_equal(first, many[:N_FIRST_PASS])
     best = np.arange(N_FIRST_PASS)[::-1][:N_SECOND_PASS]
     step = np.full((N_SECOND_PASS, 4), 0.02)
     np.testing.assert_allclose(again, decode_deltas(many[best], step))
-    assert (np.diff(probability) <= 0).all()
-    rows = [list(scores).index(score) for score in selected.scores]
-    assert sorted(rows) == sorted(best)
-    refined = decode_deltas(decode_deltas(many[rows], step), step)
-    np.testing.assert_allclose(selected.boxes, refined)
+    np.testing.assert_allclose(selected.boxes, decode_deltas(again, step))
+    assert (np.diff(probability) < 0).all()
+    np.testing.assert_allclose(selected.scores, logit(probability))
 
 
 def test_of_overlapping_boxes_the_most_probable_is_kept():
     boxes = np.array([[0, 0, 50, 50], [2, 0, 52, 50], [200, 0, 250, 50.0]])
     detections = Detections(boxes, np.ones(3), boxes, boxes, np.ones(3))
-    selected, evidence = rescore_boxes(stream_of(boxes, [0.7, 0.9, 0.8]), None, detections)
-    np.testing.assert_array_equal(selected, boxes[[1, 2]])
-    np.testing.assert_allclose(evidence, np.column_stack([[1, 1], logit([0.9, 0.8])]))
+    selected, probability = Told(boxes, [0.7, 0.9, 0.8]).select(None, detections)
+    np.testing.assert_array_equal(selected.boxes, boxes[[1, 2]])
+    np.testing.assert_allclose(probability, [0.9, 0.8])
 
 
-def test_a_selector_has_a_lower_threshold_than_a_recogniser():
-    [fair] = sight_of([0.5], [0.45]).probability
-    assert MIN_PROBABILITY < fair < 0.5
-    assert sight_of([0.5], [0.45]).summary.startswith("a shuttlecock,")
-    assert sight_of([0.5], [0.45], selects=False).box is None
+def test_a_stream_has_a_higher_threshold_than_a_recogniser():
+    assert 0.5 < 0.7 < MIN_PROBABILITY
+    assert sight_of([0.5], [0.7]).box is None
+    assert sight_of([0.5], [0.7], selects=False).summary.startswith("a shuttlecock,")
 
 
 def test_without_a_probable_box_the_summary_counts_things():

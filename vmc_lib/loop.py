@@ -12,7 +12,7 @@ import numpy as np
 
 from vmc_lib import NoReach, photos
 from vmc_lib.arm.kinematics import to_world, turn_towards
-from vmc_lib.box_selection import SIZE_LIKELIHOOD_RATIO, BoxSelector, filter_by_size, scale_odds
+from vmc_lib.box_selection import SIZE_LIKELIHOOD_RATIO, filter_by_size, scale_odds
 from vmc_lib.camera import Camera
 from vmc_lib.cerebellum.offline import calibrate
 from vmc_lib.checks import check_kind
@@ -21,12 +21,11 @@ from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import Plan, plan
 from vmc_lib.short_repr import short_repr
 from vmc_lib.what.recogniser import Recogniser
+from vmc_lib.what.stream import VentralStream
 from vmc_lib.where.detector import Detections, ObjectDetector
 from vmc_lib.where.localiser import Localiser
 
-# Set on validation photos
-THRESHOLD_MARGIN = 1.0  # how much lower the detector's threshold is than alone
-OVERLAP = 0.6  # IoU that non-maximum suppression allows boxes that a stream is still to refine
+THRESHOLD_MARGIN = 1.0  # how much lower the detector's threshold is than alone: on validation
 MODEL = 'VisuomotorModel.load("rig")'  # what is asked for where a model is missing
 PHOTOGRAPHS_AS = "varied"  # the level whose places serve for photographs too
 
@@ -36,7 +35,7 @@ class VisuomotorModel:
     """All that is learnt: where objects are, what they are, where they stand, how to reach."""
 
     detector: ObjectDetector
-    recogniser: Recogniser | BoxSelector  # of what is detected, both `select` boxes
+    recogniser: Recogniser | VentralStream  # of what is detected, both `select` boxes
     localiser: Localiser
     template_set: templates.TemplateSet
 
@@ -48,28 +47,21 @@ class VisuomotorModel:
 
         It was trained on that level's training photos (the CDBN on those of all levels), its
         thresholds and probabilities set on its validation photos. That of the level "real" was
-        trained on renders and photographs, locates as PHOTOGRAPHS_AS does, and chooses among boxes
-        by what both pathways say.
+        trained on renders and photographs, and locates as PHOTOGRAPHS_AS does.
         """
         real = level == photos.REAL_LEVEL
         return cls(
             high_recall_detector(level),
-            BoxSelector.load() if real else Recogniser.load(level),
+            VentralStream.load() if real else Recogniser.load(level),
             Localiser.load(PHOTOGRAPHS_AS if real else level),
             templates.load(),
         )
 
 
 def high_recall_detector(level):
-    """The shipped detector of a level with a lower threshold: the recogniser is still to choose.
-
-    In photographs it also keeps boxes that overlap by up to OVERLAP.
-    """
-    if level == photos.REAL_LEVEL:
-        detector = ObjectDetector.load(level, "photographed")
-        detector = replace(detector, recipe=replace(detector.recipe, overlap=OVERLAP))
-    else:
-        detector = ObjectDetector.load(level)
+    """The shipped detector of a level with a lower threshold: the recogniser is still to choose."""
+    name = "photographed" if level == photos.REAL_LEVEL else "improved"
+    detector = ObjectDetector.load(level, name)
     return replace(detector, threshold=detector.threshold - THRESHOLD_MARGIN)
 
 

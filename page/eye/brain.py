@@ -13,10 +13,10 @@ import numpy as np
 
 from page.eye.localiser import localiser
 from vmc_lib import box_selection, camera, data, photos
-from vmc_lib.loop import high_recall_detector
 from vmc_lib.show.packed import pack_bytes
-from vmc_lib.what.stream import FLIPS, STAGES
+from vmc_lib.what import stream as ventral
 from vmc_lib.where.appearance import COLOUR_SPACES, MEASURES
+from vmc_lib.where.recipes import EVERY_RECIPE
 from vmc_lib.where.selective_search import STRATEGIES
 
 SCRIPT = "vendor/brain.js"  # where the built page finds it
@@ -39,26 +39,14 @@ def brain():
 
 def detector():
     """The `ObjectDetector` of `VisuomotorModel.load("real")`."""
-    learnt, shipped = data.arrays("detectors"), high_recall_detector(photos.REAL_LEVEL)
-    own, recipe = f"{photos.REAL_LEVEL}/photographed/", shipped.recipe
-
-    def parts(prefix):
-        names = [name.removeprefix(prefix) for name in learnt if name.startswith(prefix)]
-        return {name: learnt[prefix + name] for name in names if "/" not in name}
-
-    def ridge(called):
-        part = parts(f"{own}{called}/")
-        squares = (np.float64(part["centres"]) ** 2).sum(axis=1)
-        return part | {"axes": part["axes"].T, "squares": squares}  # rows, as the page needs them
+    learnt, recipe = data.arrays("detectors"), EVERY_RECIPE["photographed"]
+    own = f"{photos.REAL_LEVEL}/photographed/"
 
     strategy = asdict(STRATEGIES[recipe.strategy])
     strategy["similarities"] = [[x in used for x in MEASURES] for used in strategy["similarities"]]
-    return parts(own) | {
+    return {part: learnt[own + part] for part in ("support", "weights", "bias")} | {
         "strategy": strategy,
         "gate": recipe.gate,
-        "regressions": [ridge(f"regression {i}") for i in range(len(recipe.regressions))],
-        "iouPredictor": ridge("iou predictor"),
-        "threshold": shipped.threshold,
         "overlap": recipe.overlap,
     }
 
@@ -67,22 +55,19 @@ def stream():
     """The `VentralStream` that ships."""
     learnt = data.arrays("photographs")
     return {
-        "stages": [{part: learnt[f"{name}/{part}"] for part in "Wb"} for name in STAGES],
+        "stages": [{part: learnt[f"{name}/{part}"] for part in "Wb"} for name in ventral.STAGES],
         "readout": learnt["readout"],
         "offsets": learnt["offsets"],
-        "flips": FLIPS,
+        "flips": ventral.FLIPS,
     }
 
 
 def selector():
-    """The `BoxSelector` that ships: how both pathways are weighed."""
-    learnt = data.arrays("photographs")
+    """How boxes are chosen."""
     return {
-        "weights": learnt["judge/w"],
-        "bias": learnt["judge/b"],
-        "firstPass": box_selection.N_FIRST_PASS,
-        "secondPass": box_selection.N_SECOND_PASS,
-        "minProbability": box_selection.MIN_PROBABILITY,
+        "firstPass": ventral.N_FIRST_PASS,
+        "secondPass": ventral.N_SECOND_PASS,
+        "minProbability": ventral.MIN_PROBABILITY,
         "sizes": box_selection.SIZES,
         "ratio": box_selection.SIZE_LIKELIHOOD_RATIO,
         "table": camera.TABLE,

@@ -46,10 +46,8 @@ def toy_steps(folder):
     for place in (few, named):
         copy_real(place)
     small = {"boxes": 100, "regressions": (0.1,)}
-    improved, photographed = (
-        replace(EVERY_RECIPE[name], **small) for name in ("improved", "photographed")
-    )
-    recipes = EVERY_RECIPE | {"improved": improved, "photographed": photographed}
+    improved = replace(RECIPES["improved"], **small)
+    recipes = EVERY_RECIPE | {"improved": improved}
     size = {"movements": 2, "held_out": 4, "experiments": 1}
     experiments = {
         "tables": partial(calibration.error_ratios, scenario=calibration.SCENARIOS[1], **size),

@@ -13,7 +13,7 @@ from vmc_lib.boxes import MIN_IOU, decode_deltas, encode_deltas, iou
 from vmc_lib.data import arrays
 from vmc_lib.where.box_regression import RBFRidge, regress
 from vmc_lib.where.detector import ObjectDetector
-from vmc_lib.where.recipes import EVERY_RECIPE, PUBLISHED, SINGLE
+from vmc_lib.where.recipes import EVERY_RECIPE, PHOTOGRAPHED, PUBLISHED, SINGLE
 from vmc_lib.where.selective_search import propose
 from vmc_lib.where.svm import KernelSVM
 
@@ -186,9 +186,9 @@ def best_threshold(scores, right, wanted):
 def with_best_threshold(detector, shots):
     """The same detector with the score threshold of best F1 on validation photos.
 
-    The published recipe and its variant have none to choose: it stays at 0.
+    The published recipe, its variant and that of photographs have none to choose: it stays at 0.
     """
-    if detector.recipe in (PUBLISHED, SINGLE):
+    if detector.recipe in (PUBLISHED, SINGLE, PHOTOGRAPHED):
         return detector
     lenient, scores, right, wanted = replace(detector, threshold=-np.inf), [], [], 0
     for image in training_images(shots, replace(detector.recipe, mirror=False)):

@@ -10,18 +10,14 @@ from functools import partial
 import numpy as np
 import torch
 from joblib import Parallel, delayed
-from sklearn.linear_model import LogisticRegression
 from torch import nn
 from torch.nn import functional as F
 from torch.utils.data import DataLoader, Dataset
 
-from reproduce.training import pasting
 from reproduce.training.augmentation import augment
 from reproduce.training.samples import APART, PASTED, collect_samples, training_samples
-from vmc_lib import loop, photos
-from vmc_lib.box_selection import rescore_boxes
+from vmc_lib import photos
 from vmc_lib.boxes import iou
-from vmc_lib.what.recogniser import NameClassifier
 from vmc_lib.what.stream import WIDTH, VentralStream, standardise
 
 torch.set_num_threads(1)
@@ -29,7 +25,6 @@ torch.set_num_threads(1)
 MAPS = 32, 64, 128, 128  # of the four STAGES
 STEPS, BATCH, RATE = (9000, 4500), 64, (0.003, 0.0015)  # before and after mining
 HARD = 24  # windows of a photo that teach after mining: those most like a shuttlecock
-LAID = 200  # validation photographs on which a shuttlecock is laid
 NEAR, YES, NO = 0.3, 0.55, 0.4  # IoU from which edges are taught; of boxes called one, and not
 DROPPED = 0.3  # share of the last stage's activations hidden from the read-out while it learns
 SCALE, EDGES = 0.2, 2  # of the corrections that are read out; how much they count
@@ -130,7 +125,7 @@ def hard_negatives(stream, photo):
 
 
 def photographs(folder=photos.FOLDER, steps=STEPS, maps=MAPS, everyday=None, pasted=PASTED):
-    """The arrays of `data/photographs.npz`: a `VentralStream`, and the `BoxSelector`'s classifier.
+    """The arrays of `data/photographs.npz`: a `VentralStream`.
 
     It learns, its mistakes are mined, and it learns on. `everyday` and `pasted` as for
     `samples.collect_samples`.
@@ -145,29 +140,4 @@ def photographs(folder=photos.FOLDER, steps=STEPS, maps=MAPS, everyday=None, pas
             lessons = {level: Parallel()(map(mine, seen)) for level, seen in lessons.items()}
         train(network, Batches(training_samples(lessons), part, some), rate)
     stream = fold_batch_norm(network)
-    linear = fit_rescoring(stream, validation_photos(folder, min(LAID, pasted)))
-    learnt = {name: np.float16(part) for name, part in stream.arrays().items()}
-    return learnt | linear.arrays("judge")
-
-
-def validation_photos(folder=photos.FOLDER, laid=LAID):
-    """The validation photos of all levels, and `laid` real ones with held-out cut-outs on them."""
-    levels = {level: photos.load(level, "validation", folder) for level in photos.EVERY_LEVEL}
-    rng = np.random.default_rng(0)
-    pasted = pasting.paste_cutouts(levels[photos.REAL_LEVEL], "validation", laid, rng)
-    return [shot for shots in (*levels.values(), pasted) for shot in shots]
-
-
-def fit_rescoring(stream, shots):
-    """Fit the probability that a detected box is a shuttlecock's, from both pathways' scores.
-
-    Logistic regression on what `rescore_boxes` gives, as a `NameClassifier`; right is an IoU above
-    0.5. Renders teach with the photographs, for these alone are too few.
-    """
-    detector, x, y = loop.high_recall_detector(photos.REAL_LEVEL), [], []
-    for shot in shots:
-        boxes, features = rescore_boxes(stream, shot.image, detector.detect(shot.image))
-        x.append(features)
-        y.append(iou(boxes, photos.boxes_of(shot, "shuttlecock")).max(1, initial=0) > 0.5)
-    logistic = LogisticRegression(C=np.inf).fit(np.vstack(x), np.hstack(y))  # three numbers
-    return NameClassifier(logistic.coef_[0], float(logistic.intercept_[0]))
+    return {name: np.float16(part) for name, part in stream.arrays().items()}

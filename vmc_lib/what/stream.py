@@ -6,13 +6,14 @@ silent below its threshold (rectification). So a unit of the last stage sees 46 
 read-out answers two questions about a box: is it a shuttlecock, and where are its true edges?
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from vmc_lib.boxes import as_boxes, decode_deltas, pad_boxes
+from vmc_lib.boxes import as_boxes, decode_deltas, nms, pad_boxes
 from vmc_lib.data import arrays
 from vmc_lib.photos import crops
+from vmc_lib.short_repr import short_repr
 from vmc_lib.what.crbm import correlate_valid
 from vmc_lib.what.recogniser import logistic
 
@@ -20,6 +21,10 @@ STAGES = "V1", "V2", "V4", "IT"  # what stands there in the brain
 WIDTH, MARGIN = 48, 0.25  # of a crop, in pixels; what it shows around the box, in sides
 # Test-time augmentation, along x and along y: as it is, flipped left-right, up-down, and both
 FLIPS = (1, 1), (-1, 1), (1, -1), (-1, -1)
+# How it chooses among boxes, set on validation photos (reproduce.experiments.eye_ablation)
+N_FIRST_PASS = 100  # boxes, those of the best detector scores, that it looks at
+N_SECOND_PASS = 8  # of them, the likeliest, that it looks at again, refined, in all FLIPS
+MIN_PROBABILITY = 0.77  # above which a box is chosen: log-odds of 1.2
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,6 +35,9 @@ class VentralStream:
     biases: tuple
     readout: np.ndarray  # (5, d): log-odds of being a shuttlecock, and four deltas of the box
     offsets: np.ndarray  # (5,)
+    min_probability = MIN_PROBABILITY
+
+    __repr__ = short_repr
 
     def stages(self, x):
         """Activation maps (n, K, size, size) of each of STAGES, for inputs x (n, 3, 48, 48)."""
@@ -71,6 +79,23 @@ class VentralStream:
     def refine_boxes(self, image, boxes):
         """The boxes (n, 4), moved and stretched to what they show (box refinement)."""
         return decode_deltas(as_boxes(boxes), self.predict(image, boxes)[1])
+
+    def select(self, image, detections):
+        """Choose among an image's `Detections`: look, refine the likeliest, look again, refine.
+
+        It looks at the N_FIRST_PASS best, then at the N_SECOND_PASS likeliest in all FLIPS, and
+        non-maximum suppression keeps the likeliest of those that overlap. Returns their
+        `Detections`, the likeliest first, scored by their log-odds, and their probabilities (n,).
+        """
+        boxes = detections.boxes[:N_FIRST_PASS]
+        log_odds, deltas = self.predict(image, boxes)
+        best = np.argsort(-log_odds, kind="stable")[:N_SECOND_PASS]
+        boxes = decode_deltas(boxes[best], deltas[best])
+        log_odds, deltas = self.predict(image, boxes, FLIPS)
+        boxes = decode_deltas(boxes, deltas)
+        kept = nms(boxes, log_odds)
+        chosen = replace(detections, boxes=boxes[kept], scores=log_odds[kept])
+        return chosen, logistic(chosen.scores)
 
     def arrays(self):
         """The stream as a dict of arrays, to be saved with `np.savez`."""

@@ -46,7 +46,8 @@ GRADIENTS = replace(CONTEXT, features="gradients")
 REGRESSED = replace(GRADIENTS, strategy="finer", regressions=(0.15, 0.1, 0.07, 0.05))
 PREDICTED = replace(REGRESSED, predicts_iou=True)
 IMPROVED = replace(PREDICTED, vote=True)
-PHOTOGRAPHED = replace(IMPROVED, strategy="fast")  # real things differ more: more candidates
+# Real things differ more: more candidates, and a stream is still to look at what passes
+PHOTOGRAPHED = replace(GRADIENTS, strategy="fast", overlap=0.7)  # overlap: set on validation
 RECIPES = {
     "published": PUBLISHED,
     "single": SINGLE,

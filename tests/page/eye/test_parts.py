@@ -70,35 +70,31 @@ def test_what_a_reader_loads_is_light():
     assert len(photo) - len(chapter) < 60e3
 
 
-def test_boxes_are_suppressed_vote_and_are_moved(ask, rng):
+def test_boxes_are_suppressed_and_are_moved(ask, rng):
     spread = rng.uniform([0, 0, 80, 80], [60, 60, 140, 140], (40, 4))
     scores, deltas = rng.normal(size=40).round(1), rng.normal(0, 0.3, (40, 4))
     script = """const [boxes, scores, deltas] = asked, kept = eye.nms(boxes, scores, 0.5);
       return {
         kept,
-        vote: eye.vote(kept, boxes, scores),
         padded: boxes.map((box) => eye.padBox(box, 0.2)),
         moved: boxes.map((box, i) => eye.decodeDeltas(box, deltas[i])) };"""
     there = ask(script, [array.tolist() for array in (spread, scores, deltas)])
     kept = boxes.nms(spread, scores, 0.5)
     assert there["kept"] == kept.tolist()
     assert 1 < len(kept) < 40
-    assert np.allclose(there["vote"], boxes.vote(kept, spread, scores), atol=1e-10)
     assert np.allclose(there["padded"], boxes.pad_boxes(spread, 0.2), atol=1e-10)
     assert np.allclose(there["moved"], boxes.decode_deltas(spread, deltas), atol=1e-10)
 
 
 def test_boxes_exactly_at_a_limit(ask):
-    """An overlap of a half is allowed where a half is, and has a vote; one of 0.4 has none."""
-    rows = np.array([[0, 0, 10, 10], [0, 0, 10, 5], [0, 0, 10, 4]], float)
+    """An overlap of a half is allowed where a half is."""
+    rows = np.array([[0, 0, 10, 10], [0, 0, 10, 5]], float)
     below = float(np.nextafter(0.5, 0))
     script = """const [rows, overlaps] = asked;
-      return [overlaps.map((overlap) => eye.nms(rows.slice(0, 2), [2, 1], overlap)),
-        eye.vote([0], rows, [1, 1, 1])];"""
-    kept, voted = ask(script, [rows.tolist(), [0.5, below]])
-    assert kept == [boxes.nms(rows[:2], [2, 1], limit).tolist() for limit in (0.5, below)]
+      return overlaps.map((overlap) => eye.nms(rows, [2, 1], overlap));"""
+    kept = ask(script, [rows.tolist(), [0.5, below]])
+    assert kept == [boxes.nms(rows, [2, 1], limit).tolist() for limit in (0.5, below)]
     assert kept == [[0, 1], [0]]
-    assert np.allclose(voted, boxes.vote(np.array([0]), rows, np.ones(3)))
 
 
 def test_physical_size(ask):
@@ -132,18 +128,10 @@ def test_crops_and_gradients(ask, rng):
     assert np.abs(slopes - gradients(image, regions)).max() < 2e-4
 
 
-def test_the_detectors_answers_to_features(ask, rng):
+def test_the_detectors_scores_of_features(ask, rng):
     x = gradients(SHOT.image, random_boxes(rng, 20))
-    script = """const { detector } = brain;
-      const ridges = [...detector.regressions, detector.iouPredictor];
-      return asked.map((x) => [
-        eye.svmScore(detector, x),
-        ...ridges.flatMap((ridge) => Array.from(eye.predict(ridge, Float64Array.from(x)))),
-      ]);"""
-    columns = [detector().svm.score(x)]
-    columns += [regression.predict(x) for regression in detector().regressions]
-    columns += [detector().iou_predictor.predict(x)]
-    assert np.allclose(ask(script, x.tolist()), np.column_stack(columns), atol=1e-6)
+    script = "return asked.map((x) => eye.svmScore(brain.detector, x));"
+    assert np.allclose(ask(script, x.tolist()), detector().svm.score(x), atol=1e-6)
 
 
 def test_the_detectors_boxes(ask):
@@ -156,8 +144,7 @@ def test_the_detectors_boxes(ask):
     assert len(there["boxes"]) == pytest.approx(len(here.boxes), abs=1)
     best = min(8, len(here.boxes))
     assert best > 2
-    assert (boxes.iou(here.boxes[:best], there["boxes"]).max(1) > 0.9).all()
-    assert np.allclose(there["scores"][:best], here.scores[:best], atol=0.02)
+    assert np.allclose(there["boxes"][:best], here.boxes[:best])
 
 
 @pytest.mark.parametrize("flips", [FLIPS[:1], FLIPS])

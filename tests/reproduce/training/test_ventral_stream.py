@@ -90,9 +90,3 @@ def test_hard_negatives_hold_no_shuttlecock():
     assert iou(boxes, photo["shuttlecock"][1]).max() < samples.APART
     assert boxes[:, 0].max() <= np.median(photo["scene"][1][:, 0])
     assert negatives["shuttlecock"] is photo["shuttlecock"]
-
-
-def test_validation_photos_are_no_training_photos():
-    shots = training.validation_photos()
-    assert [shot.name for shot in shots].count("pasted") == training.LAID
-    assert not any("train" in shot.name for shot in shots)
