@@ -6,10 +6,11 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from book.figures.what import tiles
+from reproduce.experiments.real_world import share_text
 from reproduce.experiments.recognition import PUBLISHED, confusion_counts, rates_of_counts
 from vmc_lib.boxes import decode_deltas, iou
 from vmc_lib.photos import HEIGHT, WIDTH
-from vmc_lib.show import Estimate, dot_plot, estimate, photo_view
+from vmc_lib.show import Estimate, dot_plot, estimate, photo_view, table
 from vmc_lib.show.palette import COLOURS
 from vmc_lib.statistics import wilson
 
@@ -70,6 +71,19 @@ def refined_box(stream, photo, boxes, fits, look):
     true = photo.boxes["shuttlecock"], "", "green"
     label = f"IoU {fits[look]:.2f}, {chance:.0%}"
     return photo_view(photo.image, [true, (boxes[look], label, "orange")])
+
+
+def ablation_table(without, asked, longer):
+    """What the eye for photographs answers without each of its parts: a Markdown table."""
+    answers = {"nothing (as it ships)": without["nothing"], "(the longer eye)": longer} | without
+    total = {"right": asked["right"], "tight": asked["right"], "alarms": asked["alarms"]}
+    rows = [
+        [name, *(share_text(counts[key], of) for key, of in total.items())]
+        for name, counts in answers.items()
+        if name != "nothing"
+    ]
+    heads = "right (IoU above 0.5)", "tight (0.8)", "false alarms"
+    return table(["without", *heads], rows)
 
 
 def rivals(by_level, level, measure):

@@ -20,6 +20,7 @@ from reproduce.experiments import (
     controller_comparison,
     crbm_ablation,
     domain_shift,
+    eye_ablation,
     feedback_control,
     forgetting_adaptation,
     fresh_test_set,
@@ -168,6 +169,7 @@ STEPS = (
     Step(loop_evaluation.make_generalist, RESULTS / "generalist.json", SHIPPED, 1),
     Step(ventral_stream.photographs, MODEL / "photographs.npz", PHOTOGRAPHS, 35),
     Step(real_world.make, RESULTS / "real_world.json", SHIPPED, 3),
+    Step(eye_ablation.make, RESULTS / "eye_ablation.json", SHIPPED, 4),
     Step(f"{RENDER}.elsewhere {ELSEWHERE}", ELSEWHERE, minutes=15, needs="vtk"),
     Step(
         partial(real_world.make_elsewhere, ELSEWHERE),

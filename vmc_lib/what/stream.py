@@ -80,18 +80,18 @@ class VentralStream:
         """The boxes (n, 4), moved and stretched to what they show (box refinement)."""
         return decode_deltas(as_boxes(boxes), self.predict(image, boxes)[1])
 
-    def select(self, image, detections):
+    def select(self, image, detections, first=N_FIRST_PASS, second=N_SECOND_PASS, flips=FLIPS):
         """Choose among an image's `Detections`: look, refine the likeliest, look again, refine.
 
-        It looks at the N_FIRST_PASS best, then at the N_SECOND_PASS likeliest in all FLIPS, and
-        non-maximum suppression keeps the likeliest of those that overlap. Returns their
-        `Detections`, the likeliest first, scored by their log-odds, and their probabilities (n,).
+        It looks at the `first` best, then at the `second` likeliest in all `flips`; non-maximum
+        suppression keeps the likeliest of those that overlap. Returns their `Detections`, the
+        likeliest first, scored by their log-odds, and their probabilities (n,).
         """
-        boxes = detections.boxes[:N_FIRST_PASS]
+        boxes = detections.boxes[:first]
         log_odds, deltas = self.predict(image, boxes)
-        best = np.argsort(-log_odds, kind="stable")[:N_SECOND_PASS]
+        best = np.argsort(-log_odds, kind="stable")[:second]
         boxes = decode_deltas(boxes[best], deltas[best])
-        log_odds, deltas = self.predict(image, boxes, FLIPS)
+        log_odds, deltas = self.predict(image, boxes, flips)
         boxes = decode_deltas(boxes, deltas)
         kept = nms(boxes, log_odds)
         chosen = replace(detections, boxes=boxes[kept], scores=log_odds[kept])

@@ -1,0 +1,50 @@
+import numpy as np
+import pytest
+
+from reproduce.experiments import eye_ablation
+from vmc_lib import photos
+
+SHOT = photos.load("real", "validation")[0]
+
+
+def test_what_is_left_of_a_photo_shows_no_shuttlecock():
+    marked = np.zeros_like(SHOT.image)
+    for x0, y0, x1, y1 in photos.boxes_of(SHOT, "shuttlecock").astype(int):
+        marked[y0 : y1 + 1, x0 : x1 + 1] = 255
+    photo = type("Shot", (), {"boxes": SHOT.boxes, "more": SHOT.more, "image": marked})
+    left = eye_ablation.emptied(photo)
+    assert left.shape == (400, 600, 3)
+    assert left.max() <= 128  # black, and the grey around it
+
+
+def test_stored_counts_are_of_the_eye_that_ships():
+    found = eye_ablation.load_results()
+    asked = found.pop("asked")
+    assert list(found) == list(eye_ablation.WITHOUT)
+    assert asked == {"right": 77, "alarms": 36}
+    for counts in found.values():
+        assert counts["tight"] <= counts["right"] <= asked["right"]
+        assert counts["alarms"] <= asked["alarms"]
+
+
+def test_the_shorter_eye_meets_the_criterion():
+    """At least as many right and tight as the longer, at most one more alarm."""
+    ours, longer = eye_ablation.load_results()["nothing"], eye_ablation.LONGER
+    assert ours["right"] >= longer["right"]
+    assert ours["tight"] >= longer["tight"]
+    assert ours["alarms"] <= longer["alarms"] + 1
+
+
+@pytest.mark.parametrize("name", [name for name in eye_ablation.WITHOUT if name != "nothing"])
+def test_each_part_earns_its_place(name):
+    found = eye_ablation.load_results()
+    ours, without = found["nothing"], found[name]
+    worse = [ours[key] > without[key] for key in ("right", "tight")]
+    assert any(worse) or without["alarms"] > ours["alarms"]
+
+
+def test_a_picture_is_answered_without_each_part():
+    found = eye_ablation.make(count=1)
+    assert found["asked"] == {"right": 1, "alarms": 1}
+    assert found["nothing"]["right"] == 1
+    assert found["refinement"]["tight"] <= found["nothing"]["right"]
