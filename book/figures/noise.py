@@ -145,3 +145,63 @@ def trembling(ways, target, time):
     ax.set(xlim=(-40, 40), ylim=(-20, 60), aspect="equal")
     ax.set(xlabel="forward of the target (mm)", ylabel="above it (mm)")
     return fig
+
+
+def steered(paths, target):
+    """Controllers' repeated reaches (n, ticks, 2) to a target (2,): where they end, how far off.
+
+    Left the hands from 1 to 1.5 s, right their mean distance over time.
+    """
+    fig, left, right = panels(2, (8.2, 3.6))
+    for (name, path), hue in zip(paths.items(), ("orange", "blue"), strict=True):
+        off = 1000 * (path - target)
+        left.plot(*off[:, 100:151].T, color=COLOURS[hue], lw=0.8)
+        left.plot(*off[:, 150].T, "o", ms=4, color=COLOURS[hue], gid=name)
+        distance = np.linalg.norm(off, axis=-1)
+        mean = distance[:, 100:151].mean()
+        time = np.arange(distance.shape[1]) / 100  # s
+        right.plot(
+            time[50::2],
+            distance[:, 50::2].mean(axis=0),
+            color=COLOURS[hue],
+            label=f"{name}: {mean:.1f} mm",
+        )
+    left.plot(0, 0, "o", ms=16, mfc="none", mew=2, color=COLOURS["green"])
+    left.set(xlim=(-20, 20), ylim=(-20, 20), aspect="equal")
+    left.set(xlabel="forward of the target (mm)", ylabel="above it (mm)")
+    shade(right, 1.0, 1.5)
+    right.set(xlabel="time (s)", ylabel="mean distance (mm)", ylim=(0, 30), xlim=(0.5, 2.5))
+    right.legend(loc="upper right")
+    return fig
+
+
+def minimal_intervention(path, target, bar, aim):
+    """Repeated reaches (n, ticks, 2) to a point, or to an upright `bar`, that moves by `aim` (2,).
+
+    In mm from the target (2,) as it was.
+    """
+    fig, ax = panels(size=(4.4, 4.6))
+    off = 1000 * (path - target)
+    ax.plot(*off[:, :250:2].T, color=COLOURS["grey"], lw=0.6)
+    ax.plot(*off[:, -1].T, "o", ms=4, color=COLOURS["blue"], gid="hands")
+    place = 1000 * np.asarray(aim)
+    for at, alpha in (((0, 0), 0.35), (place, 1.0)):
+        ends = [at[0], at[0]], [at[1] - 45 * bar, at[1] + 45 * bar]
+        ax.plot(*ends, "-o", ms=12, mfc="none", mew=2, color=COLOURS["green"], alpha=alpha)
+    forward, up = off[:, -1].mean(axis=0)
+    ax.set_title(f"ends {forward:.0f} mm forward, {up:.0f} mm up")
+    ax.set(xlim=(-90, 90), ylim=(-90, 90), aspect="equal")
+    ax.set(xlabel="forward (mm)", ylabel="up (mm)")
+    return fig
+
+
+def miss_and_effort(effort, miss):
+    """Effort against miss in mm, means with 95 % intervals, by controller: draws (n,) of each."""
+    fig, ax = panels(size=(6.8, 3.8))
+    hues = "grey", "purple", "red", "orange", "green", "blue"
+    for name, hue in zip(effort, hues, strict=True):
+        (x, wide), (y, high) = student(effort[name]), student(miss[name])
+        ax.errorbar(x, y, high, wide, fmt="o", color=COLOURS[hue], label=name)
+    ax.set(xlabel="effort / the least", ylabel="miss (mm)", xlim=(0.5, 4.5), ylim=(0, 22))
+    ax.legend(loc="upper right")
+    return fig

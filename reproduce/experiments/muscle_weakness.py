@@ -2,9 +2,9 @@
 
 Each muscle in turn gets only `LEFT` of its commands, as if the nerve carried no more. Habit learns
 from its errors, in the aim or in the pull (`Adaptation`); it never learns which muscle is weak. The
-rivals know it. Least effort searches again. Least variance needs no search: its noise is a share of
-the command, so that the weak muscle, told twice as much, pulls and scatters as before. People whose
-wrist lost a muscle, in a simulation, drove all their muscles more (de Rugy et al. 2012).
+rivals know it. Least effort searches again. The steadiest commands need no search: noise is a share
+of the command, so that the weak muscle, told twice as much, pulls and scatters as before. People
+whose wrist lost a muscle, in a simulation, drove all their muscles more (de Rugy et al. 2012).
 """
 
 from dataclasses import replace
@@ -28,7 +28,7 @@ LEFT = 0.5
 WHEN = "before", "after"  # it is corrected
 TOGETHER = 5  # reaches that are made before the next are corrected
 TARGETS = optimal_control.TARGETS[optimal_control.INNER]  # nobody practises these
-RIVALS = "least effort", "least variance"
+RIVALS = "least effort", "steadiest"
 
 
 def muscle_strength(muscle):
@@ -117,7 +117,7 @@ def compare_rules(muscle):
     cheapest = optimal_control.excitations_from_knots(
         load_results()["least effort"][MUSCLES.index(muscle)].astype(float)
     )
-    again = cheapest, np.minimum(commands_by_rule["least variance"], muscle_strength(muscle))
+    again = cheapest, np.minimum(commands_by_rule["steadiest"], muscle_strength(muscle))
     for rival, got in zip(RIVALS, again, strict=True):
         both = zip(WHEN, (commands_by_rule[rival], got / muscle_strength(muscle)), strict=True)
         found[rival] = {
@@ -141,7 +141,7 @@ def habit_misses():
 
 def corrected_miss(rule):
     """The mean miss in mm over all weak muscles, each known, or habit's aim corrected for it."""
-    name = "habit, aim" if rule == "habit" else rule
+    name = "habit, aim" if "habit" in rule else rule
     return np.mean([compare_rules(muscle)[name]["after"]["miss"].mean() for muscle in MUSCLES])
 
 

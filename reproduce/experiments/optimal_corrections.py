@@ -1,7 +1,7 @@
-"""Optimal feedback control tested on noise and on weak muscles, beside the same commands alone.
+"""LQR tracking tested on noise and on weak muscles, beside the same commands alone.
 
 The commands are those of `minimum_variance.excitations_by_rule`; the corrections on the way are
-those of `optimal_feedback`.
+those of `lqr_tracking`.
 """
 
 from functools import cache
@@ -9,8 +9,8 @@ from functools import cache
 import numpy as np
 
 from reproduce.experiments.muscle_weakness import TARGETS, muscle_strength
-from reproduce.peers import minimum_variance, motor_noise, optimal_feedback
-from reproduce.peers.optimal_feedback import TICK
+from reproduce.peers import lqr_tracking, minimum_variance, motor_noise
+from reproduce.peers.lqr_tracking import TICK
 from vmc_lib.arm.model import MUSCLES
 from vmc_lib.motor.inverse_dynamics import SAMPLES
 from vmc_lib.motor.templates import keep_last, mean_distance, reach
@@ -33,7 +33,7 @@ def scatter_and_miss(noise, weak, rule, late=None):
     Means over the targets; noise and weakness are `disturbances`. Of a rule's commands alone,
     or with the best corrections, where deviations are known `late`, in ms.
     """
-    scatter = optimal_feedback.scatter(hand_paths(noise, rule, late))
+    scatter = lqr_tracking.scatter(hand_paths(noise, rule, late))
     miss = mean_distance(hand_paths(weak, rule, late)[..., HOLD, :], TARGETS)
     return 1000 * scatter.mean(axis=0), 1000 * miss.mean(axis=-1)
 
@@ -62,7 +62,7 @@ def means_by_rule(measures, rules, runs, known):
 def hand_paths(factors, rule, late=None):
     """The hand's paths (…, 6, 151, 2) in m, under a rule's commands times factors (…, 6, T, 6)."""
     if late is not None:
-        return optimal_feedback.move(_feedback_law(rule), factors, late // TICK)[0]
+        return lqr_tracking.move(_feedback_law(rule), factors, late // TICK)[0]
     commands = keep_last(minimum_variance.excitations_by_rule()[rule])
     motions = (reach(np.clip(commands * factor, 0, 1), hold=0.0) for factor in factors)
     return np.array([motion.hand[:, ::TICK, :2] for motion in motions])
@@ -70,4 +70,4 @@ def hand_paths(factors, rule, late=None):
 
 @cache
 def _feedback_law(rule):
-    return optimal_feedback.feedback_law(minimum_variance.excitations_by_rule()[rule])
+    return lqr_tracking.feedback_law(minimum_variance.excitations_by_rule()[rule])

@@ -2,5 +2,6 @@
 
 `baseline_features` and `hmax` name crops, `window_proposals` lists candidates, `muscle_models` pull
 by other laws, `adaptive_controllers` learn where to aim; `optimal_control`, `minimum_variance` and
-`optimal_feedback` choose other commands, the last two against `motor_noise`.
+`lqr_tracking` choose other commands, the last two against `motor_noise`; `lqg` corrects them by
+what late senses and `state_estimation` say.
 """

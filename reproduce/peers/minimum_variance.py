@@ -1,10 +1,11 @@
-"""Minimum-variance control, a rival of habit: the commands with the least endpoint scatter.
+"""The steadiest commands, a rival of habit: those after which the hand scatters least.
 
 Where noise grows with the command, commands differ in how far they let the hand scatter; Harris and
 Wolpert (1998) took the least scatter for the brain's aim. Task, arm and search are those of
 `optimal_control`. The scatter is counted at three moments of the hold, to first order of the noise
-of `motor_noise.with_noise`. What ships are the optima of the `INNER` targets, on which no template
-lies.
+of `motor_noise.with_noise`. That noise is slow; Harris and Wolpert's was white, so these are not
+their commands: `measures_by_rule` shows what white noise makes of them. What ships are the optima
+of the `INNER` targets, on which no template lies.
 """
 
 from functools import cache, partial
@@ -12,11 +13,13 @@ from functools import cache, partial
 import numpy as np
 
 from reproduce.peers import motor_noise, optimal_control
+from reproduce.peers.lqr_tracking import scatter
 from reproduce.peers.optimal_control import INNER, TARGETS
-from reproduce.peers.optimal_feedback import scatter
 from reproduce.results import arrays
 from vmc_lib.arm.dynamics import hand
+from vmc_lib.arm.muscle import noisy
 from vmc_lib.camera import TABLE
+from vmc_lib.cerebellum.offline import gauss_newton_calibration
 from vmc_lib.motor.inverse_dynamics import MOVING, SAMPLES, minimum_jerk
 from vmc_lib.motor.planning import norm, plan
 from vmc_lib.motor.templates import keep_last, load, reach
@@ -25,6 +28,7 @@ MOMENTS = [SAMPLES, 1250, 1500]  # ms: when scatter counts
 NUDGE = 1e-3  # of a knot: larger than `optimal_control`'s, for what is compared are differences
 WAVER = 0.03  # the share of noise by which its effect is found: about what reaches meet
 LEVEL, REPEATS = 5, 100  # mm that habit scatters by; reaches by which scatter is measured
+WHITE = 0.4  # of a command, each millisecond anew
 EVERY = 10  # ms between the samples of a path whose jerk is asked for
 MEASURE_NAMES = {  # what `measures_by_rule` measures, in words
     "scatter": "scatter (mm)",
@@ -34,6 +38,7 @@ MEASURE_NAMES = {  # what `measures_by_rule` measures, in words
     "miss": "miss without noise (mm)",
     "farthest": "farthest from the target in the hold (mm)",
     "speed": "speed in the hold (mm/s)",
+    "white": "scatter (mm), white noise",
 }
 
 
@@ -84,7 +89,7 @@ def make(targets=TARGETS[INNER], level=LEVEL, **how):
 
 @cache
 def least_variance_excitations():
-    """The excitations (6, T, 6) of least variance to the inner targets."""
+    """The steadiest excitations (6, T, 6) to the inner targets."""
     return optimal_control.excitations_from_knots(arrays("steady")["knots"].astype(float))
 
 
@@ -93,13 +98,17 @@ def noise_share():
     return float(arrays("steady")["share"])
 
 
+@cache
 def excitations_by_rule():
     """The excitations (6, T, 6) of the inner targets, by the rule that makes them."""
+    habit = plan(TARGETS[INNER], load())
+    learnt = gauss_newton_calibration(habit)
     return {
-        "habit": plan(TARGETS[INNER], load()).excitations,
+        "habit": habit.excitations,
         "least effort": optimal_control.optimal_excitations()[INNER],
-        "least variance": least_variance_excitations(),
+        "steadiest": least_variance_excitations(),
         "habit of least effort": optimal_control.mix_optima().excitations,
+        "calibrated habit": habit.with_weights(learnt.best_weights).excitations,
     }
 
 
@@ -107,18 +116,25 @@ def measures_by_rule(rng, repeats=REPEATS):
     """By rule and measure, one number for each of the inner targets.
 
     How far the hand scatters over the hold when the reach is repeated on an arm that wavers by
-    `LEVEL` mm (mm, a standard deviation), the effort (10⁻³), and `kinematic_measures`.
+    `LEVEL` mm (mm, a standard deviation), or where each millisecond has its own noise; the effort
+    (10⁻³), and `kinematic_measures`.
     """
-    noise, found = partial(motor_noise.with_noise, share=noise_share(), rng=rng), {}
+    slow = partial(motor_noise.with_noise, share=noise_share(), rng=rng)
+    white, found = partial(noisy, share=WHITE, rng=np.random.default_rng(2)), {}
     for name, excitations in excitations_by_rule().items():
-        many = (motor_noise.noisy_reach(noise, excitations).hold for _ in range(repeats))
-        variance = np.square(scatter(np.array(list(many)))).mean(axis=-1)
         found[name] = {
-            "scatter": 1000 * np.sqrt(variance),
+            "scatter": _hold_scatter(slow, excitations, repeats),
+            "white": _hold_scatter(white, excitations, repeats // 4),
             "effort": 1000 * optimal_control.effort(excitations),
             **kinematic_measures(reach(excitations), TARGETS[INNER]),
         }
     return found
+
+
+def _hold_scatter(noise, excitations, repeats):
+    """How far the hand scatters over the hold when reaches (n, T, 6) are repeated, (n,), mm."""
+    many = (motor_noise.noisy_reach(noise, excitations).hold for _ in range(repeats))
+    return 1000 * np.sqrt(np.square(scatter(np.array(list(many)))).mean(axis=-1))
 
 
 def kinematic_measures(motion, targets):
@@ -136,21 +152,20 @@ def kinematic_measures(motion, targets):
         "speed": 1000 * motion.speed,
         "path": norm(np.diff(way, axis=-2)).sum(axis=-1) / norm(targets - way[:, 0]),
         "height": 1000 * (way[..., 1].min(axis=-1) - TABLE),
-        "jerk": jerk(way),
+        "jerk": jerk(way[..., ::EVERY, :]),
     }
 
 
 def jerk(path):
     """The squared jerk of paths (…, T + 1, d) while they should move, over the least there can be.
 
-    The least is that of a straight way of minimum jerk to where the hand is at the end.
+    Of places `EVERY` so many ms. The least is that of a straight way of minimum jerk to where the
+    hand is at the end.
     """
-    way = path[..., : MOVING + 1, :]
-    straight = minimum_jerk(way[..., 0, :], way[..., -1, :], MOVING)
-    both = (
-        np.square(np.diff(x[..., ::EVERY, :], 3, axis=-2)).sum((-1, -2)) for x in (way, straight)
-    )
-    return np.divide(*both)
+    last = MOVING // EVERY
+    way = path[..., : last + 1, :]
+    straight = minimum_jerk(way[..., 0, :], way[..., -1, :], last, last)
+    return np.divide(*(np.square(np.diff(x, 3, axis=-2)).sum((-1, -2)) for x in (way, straight)))
 
 
 def _noise_effects(excitations, noises):

@@ -1,6 +1,6 @@
 """State estimation: a Kalman filter of the arm, whose senses err and whose commands are noisy.
 
-As in `optimal_feedback` the arm is linear in small deviations from a reach, step by step. What is
+As in `lqr_tracking` the arm is linear in small deviations from a reach, step by step. What is
 estimated is the deviation of all ten states; what is sensed is the hand's place, at every tick and
 without delay, with normal errors. The commands' noise is normal as well, grows with the command,
 and is new at every tick. Lengths are metres.
@@ -8,7 +8,7 @@ and is new at every tick. Lengths are metres.
 
 import numpy as np
 
-from reproduce.peers.optimal_feedback import PLACE, observation_slopes
+from reproduce.peers.lqr_tracking import PLACE, observation_slopes
 
 
 def command_noise(law, share):
@@ -24,18 +24,19 @@ def place_slopes(law):
 
 
 def kalman_gains(A, C, process, error):
-    """The best gains (ticks, 10, 2) for senses that err by `error` in each direction."""
-    P, found = np.zeros((10, 10)), []
+    """The best gains (ticks, n, k) for k senses, C (ticks, k, n), that err by `error` (k,)."""
+    P, found = np.zeros_like(A[0]), []
+    doubt = np.diag(np.broadcast_to(np.square(error), C.shape[1]))
     for a, c, noise in zip(A, C, process, strict=True):
         P = a @ P @ a.T + noise
-        found.append(np.linalg.solve(c @ P @ c.T + error**2 * np.eye(2), c @ P).T)
+        found.append(np.linalg.solve(c @ P @ c.T + doubt, c @ P).T)
         P = P - found[-1] @ c @ P
     return np.array(found)
 
 
 def estimate(A, C, gains, reports):
-    """Estimated states (…, ticks, 10) by the filter of some gains, from reports (…, ticks, 2)."""
-    x, found = np.zeros((*reports.shape[:-2], 10)), []
+    """Estimated states (…, ticks, n) by the filter of some gains, from reports (…, ticks, k)."""
+    x, found = np.zeros((*reports.shape[:-2], A.shape[-1])), []
     for t, (a, c, gain) in enumerate(zip(A, C, gains, strict=True)):
         x = x @ a.T
         x = x + (reports[..., t, :] - x @ c.T) @ gain.T

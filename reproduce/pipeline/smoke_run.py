@@ -90,6 +90,7 @@ def toy_steps(folder):
         toy("unsteady", [0], seeds=[0], sizes=(2, 4), held_out=8),
         toy("weakened", [0], muscle_weakness.TARGETS[:1], ["BRA"], count=2, before=20),
         toy("fresh_test_set", fresh, named, trainings=1, seeds=[0], patches=PATCHES),
+        toy("rivals", optimal_control.TARGETS[9:10], 2, [(0.0, 0.4)], [3.0], count=1),
         toy("lesions", ["rig"], few),
         toy("generalist", ["rig"], few),
         toy("photographs", few, (2, 1), (2, 2, 2, 2), everyday=1, pasted=2),

@@ -36,6 +36,7 @@ from reproduce.experiments import (
     real_world,
     recognition,
     region_clusters,
+    rival_controllers,
     second_layers,
     stream_ablation,
 )
@@ -165,6 +166,7 @@ STEPS = (
     ),
     Step(learning_under_noise.make, RESULTS / "unsteady.json", f"templates {ARM}", 3),
     Step(muscle_weakness.make, RESULTS / "weakened.npz", f"templates {ARM}", 1),
+    Step(rival_controllers.make, RESULTS / "rivals.json", f"templates optimal {ARM}", 6),
     Step(loop_evaluation.make, RESULTS / "lesions.json", SHIPPED, 6),
     Step(loop_evaluation.make_generalist, RESULTS / "generalist.json", SHIPPED, 1),
     Step(ventral_stream.photographs, MODEL / "photographs.npz", PHOTOGRAPHS, 35),

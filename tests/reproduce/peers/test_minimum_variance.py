@@ -19,7 +19,7 @@ def test_no_template_lies_on_the_targets():
 def test_least_variance_has_the_least_scatter():
     rules = minimum_variance.measures_by_rule(np.random.default_rng(1), repeats=40)
     scatter = {name: rows["scatter"].mean() for name, rows in rules.items()}
-    assert min(scatter, key=scatter.get) == "least variance"
+    assert min(scatter, key=scatter.get) == "steadiest"
     assert all(len(values) == 6 for rows in rules.values() for values in rows.values())
 
 
@@ -54,5 +54,6 @@ def test_gradients_equal_finite_differences():
 
 def test_jerk_of_a_minimum_jerk_path_is_one():
     way = minimum_jerk_profile(np.arange(1001) / 700)[:, None] * [0.1, 0.2]
-    assert minimum_variance.jerk(way) == pytest.approx(1)
-    assert minimum_variance.jerk(way[None] + 0.001 * np.sin(np.arange(1001) / 20)[:, None]) > 1.5
+    assert minimum_variance.jerk(way[::10]) == pytest.approx(1)
+    rough = way + 0.001 * np.sin(np.arange(1001) / 20)[:, None]
+    assert minimum_variance.jerk(rough[None, ::10]) > 1.5

@@ -15,7 +15,7 @@ INNER = optimal_control.TARGETS[optimal_control.INNER]
 WEAKENED = muscle_weakness.load_results()["least effort"].astype(float)
 OPTIMA = {
     "least effort": (optimal_control.optimal_excitations(), optimal_control.TARGETS),
-    "least variance": (minimum_variance.least_variance_excitations(), INNER),
+    "steadiest": (minimum_variance.least_variance_excitations(), INNER),
     **{
         f"least effort, {muscle} weak": (optimal_control.excitations_from_knots(knots), INNER)
         for muscle, knots in zip(MUSCLES, WEAKENED, strict=True)

@@ -7,7 +7,7 @@ import pytest
 
 from reproduce.peers import minimum_variance
 from reproduce.peers import state_estimation as estimation
-from reproduce.peers.optimal_feedback import feedback_law
+from reproduce.peers.lqr_tracking import feedback_law
 
 SHARE = 0.2
 

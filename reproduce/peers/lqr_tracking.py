@@ -1,11 +1,13 @@
-"""Optimal feedback control, a third rival: commands of least effort, corrected on the way.
+"""LQR tracking, a third rival: commands of least effort, corrected on the way.
 
 Todorov and Jordan (2002) took for the brain's aim not the best commands but the best *corrections*:
 those that disturb the task least, for the least change of command. A deviation that does not matter
-to the task is left alone. Here the commands are `optimal_control`'s, and deviations small: so the
-arm is taken to be linear in them, step by step, and the best gains follow from the end backwards
-(Riccati's equation). The state is all that there is to know of the arm: angles, speeds and
-activations (10,). The task is that of `minimum_variance`: be there, still, during the hold.
+to the task is left alone. Here the commands are given, `optimal_control`'s, and deviations small:
+so the arm is taken to be linear in them, step by step, and the best gains follow from the end
+backwards (Riccati's equation). The state is all that there is to know of the arm: angles, speeds
+and activations (10,); it is known exactly, and noise is not reckoned with. A controller whose
+senses err, and which reckons with noise, is `lqg`'s. The task is that of `minimum_variance`: be
+there, still, during the hold.
 """
 
 from typing import NamedTuple
@@ -108,7 +110,7 @@ class FeedbackLaw(NamedTuple):
 
 
 def feedback_law(excitations):
-    """The optimal feedback law (LQR) along commands (n, T, 6), and through the hold."""
+    """The LQR law along commands (n, T, 6), and through the hold."""
     commands, reference = in_ticks(keep_last(excitations)), states(excitations)
     return FeedbackLaw(commands, reference, *gains(reference, commands))
 

@@ -1,12 +1,12 @@
-"""Optimal feedback control: undisturbed the plan itself; the gains; corrections near the end."""
+"""LQR tracking: undisturbed the plan itself; the gains; corrections near the end."""
 
 from functools import cache
 
 import numpy as np
 import pytest
 
+from reproduce.peers import lqr_tracking as feedback
 from reproduce.peers import minimum_variance, motor_noise, optimal_control
-from reproduce.peers import optimal_feedback as feedback
 from vmc_lib.motor.templates import keep_last, reach
 
 TOLD = optimal_control.optimal_excitations()[optimal_control.INNER]

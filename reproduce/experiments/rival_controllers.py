@@ -1,0 +1,265 @@
+"""Habit, its calibrations and late feedback beside LQG control: equal arm, targets, noise, hold.
+
+All begin at rest in the same posture, reach for the `optimal_control.TARGETS`, on which no template
+lies, and hold for 1.5 s. Commands waver by `NOISE`, each millisecond anew, with the same draws for
+all; whoever has eyes gets the same reports, `DELAY` late and with the same errors. What can be
+tuned is tuned on other targets, for the least miss.
+"""
+
+from functools import partial
+from itertools import product
+from time import process_time
+from typing import NamedTuple
+
+import numpy as np
+from joblib import Parallel, delayed
+
+from reproduce.experiments import calibration
+from reproduce.experiments.controller_comparison import templates_with_noise
+from reproduce.peers import lqg
+from reproduce.peers.lqr_tracking import scatter
+from reproduce.peers.minimum_variance import jerk
+from reproduce.peers.optimal_control import TARGETS, optimal_excitations
+from vmc_lib.arm.dynamics import hand
+from vmc_lib.arm.muscle import noisy
+from vmc_lib.cerebellum.forward_model import arm_copy
+from vmc_lib.cerebellum.offline import algorithm_1, gauss_newton_calibration
+from vmc_lib.motor.execution import execute
+from vmc_lib.motor.feedback import (
+    SIGHT,
+    TICK,
+    proportional_derivative,
+    reference_trajectory,
+    simulate_feedback,
+)
+from vmc_lib.motor.inverse_dynamics import SAMPLES
+from vmc_lib.motor.planning import draw_targets, norm, plan
+from vmc_lib.motor.templates import keep_last, load, mean_distance, reach
+
+NOISE, DELAY, SECONDS, REPEATS = 0.4, 0.12, 2.5, 20
+TICKS = round(1000 * SECONDS) // TICK
+HOLD = slice(SAMPLES // TICK, 3 * SAMPLES // 2 // TICK + 1)  # ticks: 1 to 1.5 s
+GAINS, DAMPINGS = (0.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0), (0.25, 0.5, 1.0, 2.0)  # late feedback's
+MODEL_GAINS = (4.0, 15.0, 60.0, 120.0, 240.0)  # where it has a forward model
+PRICES = (3.0, 10.0, 30.0, 100.0)  # of the LQG controller's commands
+DELAYS, NOISES = (0.0, 0.06, 0.12, 0.18), (0.2, 0.4, 0.6)  # of the chapter's demo
+STATES = [*product(DELAYS, NOISES)]
+RULES = {  # how habit's weights are found, by trials on the arm that wavers
+    "habit": None,
+    "habit, Algorithm 1": algorithm_1,
+    "habit, ours": gauss_newton_calibration,
+}
+LATE, FORESEEN, LQG = "late feedback", "late feedback, forward model", "LQG"
+MISS, LATER, EFFORT = "miss, 1.0–1.5 s (mm)", "at 2.5 s (mm)", "effort / the least"
+PATH, JERK, SCATTER = "way / straight way", "jerk / the least", "scatter (mm)"
+TIME = "processor (ms)"
+MEASURES = MISS, LATER, SCATTER, EFFORT, PATH, JERK, TIME
+MUST_KNOW = {
+    "habit": "templates",
+    "habit, Algorithm 1": "templates; 21 tries at the target, and where they end",
+    "habit, ours": "templates; 8 tries at the target, and their holds",
+    LATE: "templates, the way, inverse dynamics; the eye's reports",
+    FORESEEN: "the same, and the arm's equations, and every activation",
+    LQG: "the arm's equations, the sizes of all noises, a price; the eye's reports",
+}
+
+
+class Luck(NamedTuple):
+    """What chance does to B movements: unit noise of commands, and errors of the senses."""
+
+    noise: np.ndarray  # (T TICK, B, 6), by which `muscle.noisy` draws
+    errors: np.ndarray  # (T, B, 4), rad and rad/s
+    seed: tuple
+
+
+def draw_luck(count, seed):
+    """The `Luck` of so many movements."""
+    noise = np.random.default_rng(seed).standard_normal((TICKS * TICK, count, 6))
+    errors = lqg.ERRORS * np.random.default_rng((seed, 1)).standard_normal((TICKS, count, 4))
+    return Luck(noise, errors, seed)
+
+
+def habit_paths(plans, luck, share=NOISE):
+    """Paths (B, T + 1, 2) and activations (B, T + 1, 6) by plans alone."""
+    commands = keep_last(plans.excitations, SECONDS - 1)
+    motion = reach(np.clip(commands * (1 + share * np.swapaxes(luck.noise, 0, 1)), 0, 1), hold=0.0)
+    return motion.hand[:, ::TICK, :2], motion.activation[:, ::TICK]
+
+
+def feedback_paths(plans, gain, damping, luck, share=NOISE, delay=DELAY, model=None, gains=SIGHT):
+    """The same by chapter 12's feedback, whose sight errs; gain and damping one, or (B, 1)."""
+    errors = iter(luck.errors)
+
+    def law(reference_q, reference_velocity, q, velocity, gain, damping):
+        off = next(errors)
+        seen = q + off[:, :2], velocity + off[:, 2:]
+        return proportional_derivative(reference_q, reference_velocity, *seen, gain, damping)
+
+    gains = gains._replace(gain=gain, damping=damping, delay=delay, law=law)
+    rng = np.random.default_rng(luck.seed)
+    reference = reference_trajectory(plans, SECONDS)
+    motion = simulate_feedback(reference, gains, model, noise=share, rng=rng)
+    return motion.hand[:, ::TICK, :2], motion.activation[:, ::TICK]
+
+
+def lqg_law(target, share=NOISE, price=lqg.PRICE, start=None, **more):
+    """The LQG law to a target (2,), found from some commands (T, 6) on, or from habit's plan."""
+    if start is None:
+        habit = keep_last(plan(target, load()).excitations, SECONDS - 1)
+        start = habit.reshape(TICKS, TICK, 6).mean(axis=1)
+    return lqg.solve(start, target, price, share=lqg.per_tick(share), **more)
+
+
+def lqg_paths(law, luck, share=NOISE, delay=DELAY):
+    """The same by an LQG law, whose senses err and are late."""
+    filters = lqg.filter_gains(law, round(100 * delay), lqg.per_tick(share))
+    draws = np.swapaxes(luck.noise, 0, 1).reshape(-1, TICKS, TICK, 6)
+    states, _ = lqg.steer(law, filters, share, draws, np.swapaxes(luck.errors, 0, 1))
+    return hand(states[..., :2])[..., :2], states[..., 4:]
+
+
+def miss(path, targets):
+    """How far paths (…, T + 1, 2) are from targets (…, 2) over the hold, (…,), mm."""
+    return 1000 * mean_distance(path[..., HOLD, :], targets)
+
+
+def repeated(plans, repeats=REPEATS):
+    """Each of n plans so often, one after the other: n × repeats."""
+    return plans[np.repeat(np.arange(len(plans.target)), repeats)]
+
+
+def best_feedback(delay=DELAY, share=NOISE, gains=GAINS, model=None, count=6, repeats=3):
+    """The gain and damping (2,) with which late feedback misses least, on other targets."""
+    pairs = np.array([*product(gains, DAMPINGS)])
+    plans = repeated(plan(_other_targets(count), load()), repeats * len(pairs))
+    gain, damping = np.tile(pairs, (count * repeats, 1)).T[..., None]
+    luck = draw_luck(len(plans.target), 101)
+    path, _ = feedback_paths(plans, gain, damping, luck, share, delay, model)
+    missed = miss(path, plans.target).reshape(-1, len(pairs)).mean(axis=0)
+    return pairs[missed.argmin()]
+
+
+def best_price(prices=PRICES, count=6, repeats=3):
+    """The price of commands with which the LQG controller misses least, on the same others."""
+    luck, targets = draw_luck(repeats, 101), _other_targets(count)
+
+    def missed(target, price):
+        return miss(lqg_paths(lqg_law(target, price=price), luck)[0], target).mean()
+
+    found = Parallel()(delayed(missed)(*pair) for pair in product(targets, prices))
+    return prices[np.reshape(found, (count, -1)).mean(axis=0).argmin()]
+
+
+def _other_targets(count):
+    return draw_targets(load(), count, np.random.default_rng(100))
+
+
+def compare(target, number, tuned, repeats=REPEATS):
+    """Every measure of every controller at one target (2,): numbers by "controller, measure"."""
+    luck, calm = draw_luck(repeats, (1, number)), draw_luck(1, 0)
+    calm = calm._replace(errors=0 * calm.errors)
+    habit, runs, times = plan(target[None], load()), {}, {}
+    wavering = templates_with_noise(partial(noisy, share=NOISE), (2, number))
+    for name, rule in RULES.items():
+        times[name], learnt = _learn(rule, plan(target[None], wavering))
+        runs[name] = partial(_by_habit, habit.with_weights(learnt))
+    for name, model in {LATE: None, FORESEEN: arm_copy()}.items():
+        runs[name] = partial(_by_feedback, habit, tuned[name], model)
+        still = _seconds(lambda: habit_paths(habit, calm))
+        times[name] = _seconds(lambda run=runs[name]: run(calm, 0.0)) - still
+    start = process_time()
+    law = lqg_law(target, price=tuned[LQG])
+    runs[LQG] = partial(lqg_paths, law)
+    runs[LQG](calm, 0.0)
+    times[LQG] = process_time() - start - still
+    least = np.square(reach(optimal_excitations()[number], hold=0.0).activation).mean()
+    found = {}
+    for name, run in runs.items():
+        measured = measure(target, *run(luck, NOISE), run(calm, 0.0)[0][0])
+        measured |= {EFFORT: measured[EFFORT] / least, TIME: 1000 * times[name]}
+        found |= {f"{name}, {what}": float(x) for what, x in measured.items()}
+    return found
+
+
+def measure(target, path, activation, calm):
+    """Numbers by name of noisy reaches (B, T + 1, …), and of the way (T + 1, 2) without noise.
+
+    The effort is the mean square of activation, until 1 s.
+    """
+    way = calm[: SAMPLES // TICK + 1]
+    return {
+        MISS: miss(path, target).mean(),
+        LATER: 1000 * norm(path[:, -1] - target).mean(),
+        SCATTER: 1000 * scatter(path)[HOLD].mean(),
+        EFFORT: np.square(activation[:, : SAMPLES // TICK]).mean(),
+        PATH: norm(np.diff(way, axis=0)).sum() / norm(target - way[0]),
+        JERK: jerk(way),
+    }
+
+
+def _by_habit(plans, luck, share):
+    return habit_paths(repeated(plans, luck.noise.shape[1]), luck, share)
+
+
+def _by_feedback(plans, gains, model, luck, share):
+    return feedback_paths(repeated(plans, luck.noise.shape[1]), *gains, luck, share, DELAY, model)
+
+
+def _learn(rule, plans):
+    """The processor's seconds that a rule takes, its tries taken off, and its weights (1, N)."""
+    tries = 0.0
+
+    def move(plans):
+        nonlocal tries
+        start = process_time()
+        made = execute(plans)
+        _ = made.hold  # the arm moves when it is asked for
+        tries += process_time() - start
+        return made
+
+    start = process_time()
+    plan(plans.target, load())
+    weights = rule(plans, execute=move).best_weights if rule else plans.weights
+    return process_time() - start - tries, weights
+
+
+def _seconds(call):
+    """The processor's seconds for a second call."""
+    call()
+    start = process_time()
+    call()
+    return process_time() - start
+
+
+def make(targets=TARGETS, repeats=REPEATS, states=STATES, prices=PRICES, **size):
+    """What `results/rivals.json` holds: what was tuned, and `compare` at every target.
+
+    `states` are the delays and noises for which late feedback is tuned.
+    """
+    jobs = [partial(best_feedback, *state, **size) for state in states]
+    jobs += [
+        partial(best_feedback, **size),
+        partial(best_feedback, gains=MODEL_GAINS, model=arm_copy(), **size),
+    ]
+    *gains, late, foreseen = Parallel()(delayed(job)() for job in jobs)
+    tuned = {LATE: late, FORESEEN: foreseen, LQG: best_price(prices, **size)}
+    each = Parallel()(
+        delayed(compare)(target, number, tuned, repeats) for number, target in enumerate(targets)
+    )
+    return {
+        "measures": {k: np.round([one[k] for one in each], 4).tolist() for k in each[0]},
+        "tuned": {k: np.atleast_1d(x).tolist() for k, x in tuned.items()},
+        "gains": {_state(*state): x.tolist() for state, x in zip(states, gains, strict=True)},
+    }
+
+
+def _state(delay, share):
+    return f"{delay:g} s, {share:g}"
+
+
+load_results = partial(calibration.load_results, "rivals")
+
+
+def tuned_gains(delay, share):
+    """The gain and damping of late feedback that ship for such a delay and noise."""
+    return load_results()["gains"][_state(delay, share)]

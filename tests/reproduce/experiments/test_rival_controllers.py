@@ -1,0 +1,51 @@
+"""Controllers compared: the shipped numbers again, equal luck, and what they say."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from reproduce.experiments import rival_controllers as rivals
+from vmc_lib.motor.planning import plan
+from vmc_lib.motor.templates import load
+
+
+@pytest.mark.audit
+def test_one_target_is_reproducible():
+    shipped = rivals.load_results()
+    now = rivals.compare(rivals.TARGETS[9], 9, shipped["tuned"] | {rivals.LQG: lqg_price(shipped)})
+    for name, value in now.items():
+        if rivals.TIME not in name:
+            assert value == pytest.approx(shipped["measures"][name][9], rel=0.01, abs=0.01), name
+
+
+def lqg_price(shipped):
+    return shipped["tuned"][rivals.LQG].item()
+
+
+def test_every_controller_has_every_measure_at_every_target():
+    measures = rivals.load_results()["measures"]
+    each = {f"{who}, {what}" for who in rivals.MUST_KNOW for what in rivals.MEASURES}
+    assert {*measures} == each
+    assert all(values.shape == (20,) for values in measures.values())
+
+
+def test_better_informed_controllers_miss_less():
+    """Habit, with the paper's calibration, with ours; late feedback, LQG: each by a clear step."""
+    misses = {k: rivals.load_results()["measures"][f"{k}, {rivals.MISS}"] for k in rivals.MUST_KNOW}
+    mean = {k: x.mean() for k, x in misses.items()}
+    for order in (
+        ("habit", "habit, Algorithm 1", "habit, ours"),
+        ("habit", rivals.LATE, rivals.LQG),
+    ):
+        assert all(mean[worse] > mean[better] for worse, better in pairwise(order))
+
+
+def test_late_feedback_without_gain_and_delay_meets_the_same_noise_as_habit():
+    """A plan alone, by both ways to move the arm: the noise is drawn alike."""
+    plans = rivals.repeated(plan(rivals.TARGETS[9:10], load()), 3)
+    luck = rivals.draw_luck(3, 5)
+    alone, _ = rivals.habit_paths(plans, luck)
+    still = rivals.SIGHT._replace(stretch=0.0, rate=0.0)
+    path, _ = rivals.feedback_paths(plans, 0.0, 0.0, luck, gains=still)
+    np.testing.assert_allclose(path, alone, atol=1e-9)
