@@ -1,18 +1,18 @@
 """The slides of a chapter, from its built page: one sentence each, the rest in the notes.
 
-A chapter gives its idea, the brain's wiring where it is drawn, its first equation, predictions with
-the demos that answer them, questions of its quiz, and its recap with the question that it leaves;
-of its exercises only where they are checked, and no demo whose cell carries the tag `off-slides`.
+A chapter gives its idea, the brain's wiring where it is drawn, equations for the board, predictions
+with the demos that answer them, questions of its quiz, and its recap with the question that it
+leaves; of its exercises only where they are checked, and no demo whose cell carries the tag
+`off-slides`.
 """
 
 import re
 from dataclasses import dataclass, field
 from html import escape
-from itertools import takewhile
 from operator import itemgetter
 from typing import NamedTuple
 
-from bs4 import Tag
+from bs4 import Comment, Tag
 
 WRAPPERS = {"cell", "cell_output", "output", "text_html"}  # of a cell's output
 WIRING = "What the brain does"  # a section: what it draws, and asks nothing about
@@ -26,52 +26,106 @@ class Slide:
 
     body: list
     notes: list = field(default_factory=list)
-    weight: int = 1  # how long it stays, beside the others of its part
-    seconds: float = 0
+    seconds: float = 0  # that it stays; 0 where its part of the session says that
+    active: bool = False  # whether students do something
 
     def __str__(self):
         notes = "".join(map(str, self.notes))
         body = "\n".join(map(str, self.body))
+        active = " data-active" if self.active else ""
         return (
-            f'<section data-timing="{self.seconds:.0f}"><div class="fit">{body}</div>'
+            f'<section data-timing="{self.seconds:.0f}"{active}><div class="fit">{body}</div>'
             f'<aside class="notes">{notes}</aside></section>'
         )
 
 
 class Chapter(NamedTuple):
-    """The slides of a chapter, each part a list: what it teaches, its quiz, its recap."""
+    """What a chapter gives to slides; demos and wiring as (place in the page, [Slide])."""
 
-    text: list
+    title: Slide
+    wiring: list
+    asked: list  # demos with a prediction
+    others: list  # demos without
     quiz: list
-    recap: list
+    recap: Slide
+    blocks: list  # (heading, element), what the page shows
+    cells: list  # of code
+
+    def text(self, count):
+        """Its title, its wiring and so many of its demos, in the page's order."""
+        chosen = self.wiring + spread(self.asked, count)
+        return [self.title, *(slide for _, pair in sorted(chosen, key=PLACE) for slide in pair)]
+
+    def demo_of(self, section):
+        """Take out the slides of the first demo of a section, by its heading, or of the chapter.
+
+        ValueError where it has none.
+        """
+        found = [(one, several) for several in (self.asked, self.others) for one in several]
+        heads = [self.blocks[place][0] for (place, _), _ in found]
+        for wanted in (lambda head: head.get_text() == section, lambda head: head.name == "h1"):
+            for head, (one, several) in zip(heads, found, strict=True):
+                if wanted(head):
+                    several.remove(one)
+                    return one[1]
+        raise ValueError(f"{self.title.body[0].get_text()}: no demo to open it")
+
+    def equations(self, numbers):
+        """A slide for each section's equations of these numbers."""
+        slides = {}
+        for place, (heading, part) in enumerate(self.blocks):
+            if _is(part, "math") and numbers & {*map(int, TAG.findall(str(part)))}:
+                if heading not in slides:
+                    words = _words_of(self.blocks, place)
+                    notes = _texts(self.blocks, heading)
+                    slides[heading] = Slide([_plain_heading(heading), sentence(words)], notes, 60)
+                slides[heading].body.append(part)
+        return [*slides.values()]
 
 
-def chapter_slides(article, most):
-    """A `Chapter` of at most so many slides, in the page's order; optional sections give none."""
+PLACE = itemgetter(0)
+TAG = re.compile(r"\\tag\{(\d+)\}")
+SHORT = 8  # words of a sentence that needs the next one
+MINUTE = 60  # s
+PAIR = 5 * MINUTE  # a prediction with its demo, or a drawing of the brain's wiring
+
+
+def chapter_slides(article, headings=None):
+    """The `Chapter` of a built page, from what stands under `headings`, or all; none is optional."""
     title, idea, *aims = article.find_all(["h1", "p"], recursive=False)
     *_, last = article.find_all("section", recursive=False)
     exercises = [EXERCISES] if article.select("form[data-function]") else []
     _remove_exercises(article)
+    cells = article.select(".cell_input")
     sources = dict.fromkeys(cite["title"] for cite in article.select("cite[title]"))
     cited = "; ".join(f"<cite>{escape(text)}</cite>" for text in sources)
-    first = Slide([title, idea], [*aims, f"<details><summary>Sources</summary>{cited}</details>"])
+    notes = [*aims, f"<details><summary>Sources</summary>{cited}</details>"]
+    first = Slide([title, idea], notes, MINUTE)
     heading, *text = last.find_all(["h2", "p", "ul"], recursive=False)
-    asked = [f"<p>{question}</p>" for question in last.select("p > strong")[-1:]]
-    recap = Slide([heading, sentence(text[0]), *asked, *exercises], text)
+    left = [f"<p>{question}</p>" for question in last.select("p > strong")[-1:]]
+    gist, *more = sentences(text[0])
+    gist = f"<p>{' '.join([gist, *more[: len(gist.split()) < SHORT]])}</p>"
+    recap = Slide([heading, gist, *left, *exercises], text)
     blocks = [*_blocks(article)]
+    if headings is not None:
+        shown = {*map(_plain, headings)}
+        blocks = [one for one in blocks if _plain(one[0].get_text()) in shown]
     demos = [*_pairs(blocks)]
     wiring = [one for one in demos if len(one[1]) == 1 and WIRING in blocks[one[0]][0].get_text()]
-    fixed = [*wiring, *_first_equations(blocks)] if most > 6 else []  # else too few slides for them
-    others = [pair for pair in demos if pair not in wiring]
-    with_question = [(place, pair) for place, pair in others if len(pair) > 1]
-    room = (most - 2 - len(fixed)) // 2  # a title and a question of the quiz apart
-    chosen = _spread(with_question if len(with_question) >= room else others, room)
-    middle = [slide for _, pair in sorted(fixed + chosen, key=itemgetter(0)) for slide in pair]
-    quiz = [Slide([box], _answers(box)) for box in article.select(".vmc-quiz")]
-    return Chapter([first, *middle], _spread(quiz, most - 1 - len(middle)), [recap])
+    asked = [one for one in demos if len(one[1]) > 1]
+    others = [one for one in demos if one not in asked and one not in wiring]
+    for _, [slide] in wiring:
+        slide.seconds, slide.active = PAIR, False
+    quiz = [Slide([box], _answers(box), active=True) for box in article.select(".vmc-quiz")]
+    return Chapter(first, wiring, asked, others, quiz, recap, blocks, cells)
 
 
-def _spread(items, count):
+def _plain(title):
+    """A title without the chapter's number, and with plain apostrophes."""
+    return re.sub(r"^\d+\. ", "", title.strip()).replace("’", "'")
+
+
+def spread(items, count):
     """So many of the items, evenly from the first on."""
     count = min(count, len(items))
     return [items[k * len(items) // count] for k in range(count)]
@@ -112,20 +166,16 @@ def _is(part, kind):
     return kind in part.get("class", ())
 
 
-def _first_equations(blocks):
-    """A slide of the chapter's first equations that stand together, as [(place, [slide])].
+def _words_of(blocks, place):
+    """The paragraph before an equation, in a list its last point; or else that after it.
 
-    With the sentence before them, which in a list is that of the last point; where they come first
-    in their section, with the sentence after them.
+    What is after it counts where it comes first in its section.
     """
-    for place, (heading, part) in enumerate(blocks):
-        if _is(part, "math"):
-            run = [math for _, math in takewhile(lambda one: _is(one[1], "math"), blocks[place:])]
-            above, before = blocks[place - 1]  # a chapter opens with its title
-            words = before if above is heading else blocks[place + len(run)][1]
-            *_, words = [words, *words.select("li > p")]
-            return [(place, [Slide([heading, sentence(words), *run], _texts(blocks, heading))])]
-    return []
+    heading, _ = blocks[place]
+    above, before = blocks[place - 1] if place else (None, None)
+    words = before if above is heading else blocks[place + 1][1]
+    *_, words = [words, *words.select("li > p")]
+    return words
 
 
 def _pairs(blocks):
@@ -143,9 +193,9 @@ def _pairs(blocks):
                 below = (p for h, p in blocks[place:] if h is heading)
                 box = box or next((p for p in below if p.select_one(".vmc-predict")), None)
             name = _plain_heading(heading)
-            ask = [Slide([name, box], [ALONE, *_answers(box)], 2)] if box else []
+            ask = [Slide([name, box], [ALONE, *_answers(box)], PAIR / 2, True)] if box else []
             notes = _guide(part, box) + _texts(blocks, heading)
-            yield place, [*ask, Slide([name, part], notes, 2)]
+            yield place, [*ask, Slide([name, part], notes, PAIR / 2, True)]
             box = None
 
 
@@ -181,13 +231,25 @@ def _texts(parts, heading):
 
 def sentence(paragraph):
     """The first sentence of a paragraph or a list: to the first full stop outside its markup."""
-    html = ""
+    return f"<p>{sentences(paragraph)[0]}</p>"
+
+
+def sentences(paragraph):
+    """The sentences of a paragraph, or of the first point of a list, each as HTML."""
+    found = [""]
     for part in (paragraph.select_one("li > p") or paragraph).contents:
-        end = None if isinstance(part, Tag) else FULL_STOP.search(part)
-        html += str(part) if isinstance(part, Tag) else escape(part[: end and end.end()])
-        if end:
-            break
-    return f"<p>{html}</p>"
+        if isinstance(part, Tag):
+            found[-1] += str(part)
+            continue
+        if isinstance(part, Comment):
+            continue
+        start = 0
+        for stop in FULL_STOP.finditer(part):
+            found[-1] += escape(part[start : stop.end()])
+            found.append("")
+            start = stop.end()
+        found[-1] += escape(part[start:])
+    return [text.strip() for text in found if text.strip()]
 
 
 def _answers(part):

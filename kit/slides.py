@@ -1,4 +1,4 @@
-"""Slides of the sessions, for reveal.js: at most 25 a session, made from the chapters' core.
+"""Slides of the sessions, for reveal.js, made from the chapters' core.
 
 A slide says one sentence; the speaker's notes hold the rest: what to ask, what to look for, where
 to stop, and the sources. Each stays as long as the page on teaching gives to its part of a session.
@@ -6,17 +6,15 @@ to stop, and the sources. Each stays as long as the page on teaching gives to it
 
 import re
 import shutil
-from copy import copy
 from html import escape
-from itertools import pairwise
 from pathlib import Path
 
 from bs4 import BeautifulSoup
 
 from book._ext.policy import seal
 from book.figures.plans import MORE, PLANS, TITLES
-from kit import demos, own_slides
-from kit.chapter_slides import Slide, chapter_slides, sentence
+from kit import demos, own_slides, session
+from kit.chapter_slides import Slide, chapter_slides, spread
 
 ROOT = Path(__file__).parents[1]
 CONFIG = demos.CONFIG["sphinx"]["config"]
@@ -24,8 +22,6 @@ OWN = [ROOT / "kit/slides.css", ROOT / "kit/slides.js"]
 SCRIPT = "chapter.js"
 STYLES = ["pygments.css", *CONFIG["html_css_files"]]
 VENDOR = sorted((ROOT / "kit/vendor").glob("*.*"))
-MOST = 25  # slides a session
-MINUTES = 90  # of a session
 REST = "For those who want more"  # the deck of the chapters that no session has
 PAGE = """<!doctype html>
 <html lang="en">
@@ -74,72 +70,28 @@ def sessions(pages, lecturers):
     """
     teaching = _article(pages / "teaching.html")
     runs = teaching.select_one("#how-a-session-runs ol")
-    fixed = {word: int(count) for word, count in MINUTES_OF.findall(runs.get_text())}
     plans = teaching.select("#session-by-session > section")
-    titles, decks = [*TITLES, REST], [*(session.chapters for session in PLANS[6]), MORE]
-    parts = zip(titles, decks, [*plans, None], strict=True)
-    for number, (title, names, plan) in enumerate(parts, start=1):
-        articles = [_article(pages / f"{name}.html") for name in names]
-        notes = plan.select("ul") if plan else []
-        items = [item for part in notes for item in part.select("li")]
-        timed = [item for item in items if MINUTES_OF.search(item.em.get_text())]
-        contents = "".join(f"<li>{article.h1.get_text()}</li>" for article in articles)
-        room = (MOST - 2 - len(timed)) // len(names)
-        chapters = [chapter_slides(article, room) for article in articles]
-        first = Slide([f"<h1>{escape(title)}</h1><ul>{contents}</ul>"], [runs, *map(copy, notes)])
-        own = [_lesson(item, articles) for item in timed]
-        for before, after in pairwise(chapters):
-            after.text[0].notes += ["<p>Before it:</p>", *before.recap[0].notes]
-        deck = {
-            "Begin": [first],
-            "In class": own[:1],
-            "Predict and drag": [slide for chapter in chapters for slide in chapter.text],
-            "One equation": own[1:2],
-            "One cell": own[2:],
-            "Quiz": [slide for chapter in chapters for slide in chapter.quiz],
-            "Next": chapters[-1].recap,
+    for number, (title, plan, text) in enumerate(zip(TITLES, PLANS[6], plans, strict=True), 1):
+        chapters = {
+            name: chapter_slides(_article(pages / f"{name}.html"), plan.headings(name))
+            for name in plan.chapters
         }
+        parts = session.deck(title, chapters, plan.read, runs, text)
         file = lecturers / f"session-{number}.md"
         if file.exists():
-            own_slides.put_in(deck, own_slides.own_slides(file.read_text(encoding="utf-8")))
-        first.notes.insert(0, _clock(deck, fixed))
-        yield title, [slide for part in deck.values() for slide in part]
+            own_slides.put_in(parts, own_slides.own_slides(file.read_text(encoding="utf-8")))
+            session.make_room(parts)
+        parts["Begin"][0].notes.insert(0, session.clock(parts))
+        yield title, [slide for slides in parts.values() for slide in slides]
+    yield REST, _rest([chapter_slides(_article(pages / f"{name}.html")) for name in MORE])
 
 
-MINUTES_OF = re.compile(r"(\w[\w ]*) \((\d+) minutes\)")
-
-
-def _lesson(item, articles):
-    """The slide of a part that the page on teaching names: its first sentence, and the rest below.
-
-    Where the sentence quotes a cell of the chapters, the cell is shown as well.
-    """
-    name, minutes = MINUTES_OF.search(item.em.get_text()).groups()
-    notes = copy(item)
-    item.em.decompose()
-    line = item.code.get_text() if item.code else None
-    cells = [cell for article in articles for cell in article.select(".cell_input")]
-    cell = [cell for cell in cells if line and line in cell.get_text()][:1]
-    body = [f"<h2>{name}</h2>", sentence(item.p), *cell]
-    return Slide(body, [notes], seconds=60 * int(minutes))
-
-
-def _clock(deck, fixed):
-    """Give each slide its seconds; a list of when each part of the session begins."""
-    for part, slides in deck.items():
-        for slide in slides if part in fixed else []:
-            slide.seconds = slide.seconds or 60 * fixed[part] / len(slides)
-    taken = sum(slide.seconds for slides in deck.values() for slide in slides)
-    rest = deck["Predict and drag"]
-    unit = (60 * MINUTES - taken) / sum(slide.weight for slide in rest)
-    for slide in rest:
-        slide.seconds = unit * slide.weight
-    lines, number, seconds = [], 1, 0
-    for part, slides in deck.items():
-        if slides:
-            lines.append(f"<li>{part}: from minute {seconds / 60:.0f}, slide {number}</li>")
-        number, seconds = number + len(slides), seconds + sum(slide.seconds for slide in slides)
-    return f"<ul>{''.join(lines)}</ul>"
+def _rest(chapters):
+    """The deck of the chapters that no session has: no quiz, and the last recap."""
+    items = "".join(f"<li>{chapter.title.body[0].get_text()}</li>" for chapter in chapters)
+    texts = [slide for chapter in chapters for slide in chapter.text(4)]
+    quiz = [slide for chapter in chapters for slide in spread(chapter.quiz, 2)]
+    return [Slide([f"<h1>{REST}</h1><ul>{items}</ul>"]), *texts, *quiz, chapters[-1].recap]
 
 
 def _article(path):
@@ -152,7 +104,7 @@ def _article(path):
     for link in article.select(".bibtex-citation a[title]"):
         link.name, link.string = "cite", _short(link["title"])
     for link in article.select("a"):
-        link.unwrap()
+        link.name, link.attrs = "span", {"data-to": link["href"]}
     return article
 
 
@@ -172,7 +124,7 @@ def _page(title, slides):
         title=escape(title),
         head="\n".join(head),
         options="{ disableLayout: true, hash: true, overview: false, slideNumber: 'c/t', "
-        f"totalTime: {60 * MINUTES}, transition: 'none', plugins: [RevealNotes] }}",
+        f"totalTime: {60 * session.MINUTES}, transition: 'none', plugins: [RevealNotes] }}",
         slides="\n".join(map(str, slides)),
     )
     return seal(page, _speaker_script(), frames="'self'")

@@ -1,0 +1,154 @@
+"""The slides of a session by the clock: its parts, as the page on teaching times them.
+
+Students do something on every `active` slide; a prediction takes five minutes with its demo, and
+there are as many of them as the ninety minutes leave room for.
+"""
+
+import re
+from copy import copy
+from html import escape
+from itertools import cycle, pairwise
+
+from kit.chapter_slides import MINUTE, PAIR, Slide, sentences
+
+MINUTES = 90  # of a session
+TIMED = re.compile(r"(\w[\w ]*) \((\d+) minutes\)")
+EQUATIONS = re.compile(r"Eqs?\.\s(\d+)(?:[–-](\d+))?")
+
+
+def deck(title, chapters, read, runs, plan):
+    """The slides of a session, {part: [Slide]}, from its `Chapter`s by name; `read` are those read.
+
+    `runs` is the page on teaching's list of what a session consists of, `plan` its section on this
+    one. Raises ValueError where the section leads to a demo that no slide can show.
+    """
+    fixed = {word: MINUTE * int(count) for word, count in TIMED.findall(runs.get_text())}
+    lists = plan.select("ul")
+    items = [item for part in lists for item in part.select("li")]
+    in_class, board, line = (item for item in items if TIMED.search(item.em.get_text()))
+    heads = (chapter.title.body[0].get_text() for chapter in chapters.values())
+    contents = "".join(f"<li>{head}</li>" for head in heads)
+    begin = Slide([f"<h1>{escape(title)}</h1><ul>{contents}</ul>"], [runs, *map(copy, lists)])
+    *_, last = chapters.values()
+    for before, after in pairwise(chapters.values()):
+        after.title.notes += ["<p>Before it:</p>", *before.recap.notes]
+    for name in chapters.keys() - {*read}:
+        chapters[name].wiring.clear()
+    parts = {
+        "Begin": _timed([begin], fixed["Begin"]),
+        "In class": _in_class(in_class, chapters),
+        "Predict and drag": [],
+        "One equation": _on_the_board(board, chapters),
+        "Break": _timed([_break(runs)], fixed["Break"]),
+        "One cell": [_cell(line, chapters)],
+        "Quiz": _timed(_quiz([chapters[name].quiz for name in read]), fixed["Quiz"]),
+        "Next": _timed([_next([chapters[name].recap for name in read], last)], fixed["Next"]),
+    }
+    taken = sum(slide.seconds for slides in parts.values() for slide in slides)
+    parts["Predict and drag"] = _predict(list(chapters.values()), MINUTE * MINUTES - taken)
+    return parts
+
+
+def clock(parts):
+    """A list, HTML, of when each part of a deck begins, and of how long students act."""
+    lines, number, seconds = [], 1, 0
+    for part, slides in parts.items():
+        lines.append(f"<li>{part}: from minute {seconds / MINUTE:.0f}, slide {number}</li>")
+        number, seconds = number + len(slides), seconds + sum(slide.seconds for slide in slides)
+    active = sum(one.seconds for slides in parts.values() for one in slides if one.active)
+    lines.append(f"<li>Students do something in {active / MINUTE:.0f} minutes of {MINUTES}.</li>")
+    return f"<ul>{''.join(lines)}</ul>"
+
+
+def make_room(parts):
+    """Give a lecturer's own slides a minute each, at the cost of the predictions and demos."""
+    own = [slide for slides in parts.values() for slide in slides if not slide.seconds]
+    rest = [slide for slide in parts["Predict and drag"] if slide.seconds]
+    left = 1 - MINUTE * len(own) / sum(slide.seconds for slide in rest)
+    for slide in rest:
+        slide.seconds *= left
+    for slide in own:
+        slide.seconds = MINUTE
+
+
+def _timed(slides, seconds):
+    """Slides that share so many seconds."""
+    for slide in slides:
+        slide.seconds = seconds / len(slides)
+    return slides
+
+
+def _lesson(item):
+    """The slide of a part that the page on teaching names, and what it says after a sentence."""
+    name, minutes = TIMED.search(item.em.get_text()).groups()
+    notes = copy(item)
+    item.em.decompose()
+    first, *rest = sentences(item.p)
+    return Slide([f"<h2>{name}</h2>", f"<p>{first}</p>"], [notes], MINUTE * int(minutes)), rest
+
+
+def _in_class(item, chapters):
+    """Its slide, and the demos to which it has links, each by its section or by its chapter."""
+    links = [(link["data-to"].split(".html")[0], link) for link in item.select("[data-to]")]
+    slide, _ = _lesson(item)
+    demos = [one for name, link in links for one in chapters[name].demo_of(link.get_text())]
+    slide.active = True
+    return _timed([slide, *demos], slide.seconds)
+
+
+def _on_the_board(item, chapters):
+    """The equations that it names, then its question, with the answer step by step."""
+    ranges = EQUATIONS.findall(item.get_text())
+    numbers = {n for low, high in ranges for n in range(int(low), int(high or low) + 1)}
+    slide, steps = _lesson(item)
+    slide.body += [f'<p class="fragment">{step}</p>' for step in steps]
+    equations = [one for chapter in chapters.values() for one in chapter.equations(numbers)]
+    slide.seconds -= sum(one.seconds for one in equations)
+    return [*equations, slide]
+
+
+def _cell(item, chapters):
+    """Its question, with the cell of the chapters that it quotes."""
+    line = item.code.get_text() if item.code else None
+    slide, _ = _lesson(item)
+    slide.active = True
+    cells = [cell for chapter in chapters.values() for cell in chapter.cells]
+    slide.body += [cell for cell in cells if line and line in cell.get_text()][:1]
+    return slide
+
+
+def _break(runs):
+    [item] = (item for item in runs.select("li") if "Break" in item.strong.get_text())
+    return Slide(["<h2>Break</h2>", "<p>Five minutes.</p>"], [copy(item)])
+
+
+def _quiz(quizzes):
+    """Two questions on what was read: the middle ones of two chapters, or the ends of one."""
+    if len(quizzes) > 1:
+        return [questions[len(questions) // 2] for questions in quizzes]
+    return [quizzes[0][0], quizzes[0][-1]]
+
+
+def _next(recaps, last):
+    """What the chapters that were read say in a sentence, and what the last one leaves open."""
+    heading, gist, *asked = last.recap.body
+    gists = [recap.body[1] for recap in recaps if recap is not last.recap] + [gist]
+    notes = [note for recap in recaps for note in recap.notes if recap is not last.recap]
+    return Slide([heading, *gists, *asked], [*notes, *last.recap.notes])
+
+
+def _predict(chapters, seconds):
+    """Titles, wiring and predictions with their demos: a minute or more, and five, five."""
+    wiring = [slide for chapter in chapters for _, pair in chapter.wiring for slide in pair]
+    room = seconds - sum(slide.seconds for slide in wiring) - MINUTE * len(chapters)
+    left, counts = room // PAIR, [0] * len(chapters)
+    for place in cycle(range(len(chapters))):
+        if not left or all(len(one.asked) == n for one, n in zip(chapters, counts, strict=True)):
+            break
+        if counts[place] < len(chapters[place].asked):
+            counts[place], left = counts[place] + 1, left - 1
+    rest = room - PAIR * sum(counts)
+    for chapter in chapters:
+        chapter.title.seconds += rest / len(chapters)
+    texts = (chapter.text(count) for chapter, count in zip(chapters, counts, strict=True))
+    return [slide for text in texts for slide in text]
