@@ -11,7 +11,7 @@ import numpy as np
 
 from book._ext.policy import seal
 from book.figures.plans import BOOK, NAMES
-from kit import arm, demos, nbgrader
+from kit import arm, concepts, demos, figures, nbgrader
 from kit.bank import bank
 from kit.chapter_questions import bank_questions
 from kit.gift import gift
@@ -78,8 +78,10 @@ def build(folder, pages, web=""):
         (folder / f"{name}-qti.zip").write_bytes(package(part, kind))
     slides(folder / "slides", pages)
     demos.build(folder / "demos", pages)
+    figures.build(folder / "figures", pages)
     arm.build(folder / "arm-in-page")
     (folder / "throws.html").write_text(throws_page(), encoding="utf-8")
+    (folder / "concepts.html").write_text(concepts.page(), encoding="utf-8")
     (folder / "class.html").write_text(class_page(), encoding="utf-8")
 
 
@@ -112,4 +114,5 @@ if __name__ == "__main__":
     parser = argparse.ArgumentParser("python -m kit", description=__doc__)
     parser.add_argument("--web", default="", help="the address at which the kit will lie")
     build(ROOT / "_build/kit", ROOT / "_build/html/book", parser.parse_args().web)
+    figures.print_pngs(ROOT / "_build/kit/figures")
     print(f"The kit is in {ROOT / '_build/kit'}")

@@ -91,7 +91,7 @@ PAIR = 5 * MINUTE  # a prediction with its demo, or a drawing of the brain's wir
 
 
 def chapter_slides(article, headings=None):
-    """The `Chapter` of a built page, from what stands under `headings`, or all; none is optional."""
+    """The `Chapter` of a built page: what stands under `headings`, or all that is not optional."""
     title, idea, *aims = article.find_all(["h1", "p"], recursive=False)
     *_, last = article.find_all("section", recursive=False)
     exercises = [EXERCISES] if article.select("form[data-function]") else []

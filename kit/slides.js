@@ -1,5 +1,5 @@
 /* A slide that is too tall for its room is drawn smaller until it fits: first a little, then with the
-   demo's controls beside its pictures. */
+   demo's controls beside its pictures, where a scene has them always. */
 const fits = (slide, content, least) => {
   for (let zoom = 1; zoom > least; zoom -= 0.05) {
     content.style.zoom = zoom;
@@ -8,14 +8,32 @@ const fits = (slide, content, least) => {
   return false;
 };
 
-const fit = () => {
-  const slide = Reveal.getCurrentSlide();
+const fit = (slide) => {
   const content = slide?.querySelector(":scope > .fit");
   if (!content) return;
   content.classList.remove("beside");
-  if (fits(slide, content, 0.8)) return;
+  if (!content.querySelector(".vmc-scene") && fits(slide, content, 0.8)) return;
   content.classList.add("beside");
   fits(slide, content, 0.4);
+};
+
+const fitCurrent = () => fit(Reveal.getCurrentSlide());
+
+/* Paper has all answers open, and every slide as small as that needs; each is measured alone. */
+const openAll = () => {
+  document.documentElement.classList.add("print-pdf"); // reveal.js' own paper lets slides flow
+  const current = Reveal.getCurrentSlide();
+  for (const answer of document.querySelectorAll(".fit details")) answer.open = true;
+  current.classList.remove("present");
+  for (const slide of document.querySelectorAll(".slides > section")) {
+    const { display } = slide.style;
+    slide.classList.add("present");
+    slide.style.display = "";
+    fit(slide);
+    slide.classList.remove("present");
+    slide.style.display = display;
+  }
+  current.classList.add("present");
 };
 
 /* What a presenter's clicker sends turns the page (or darkens the room) wherever the focus is; so do the
@@ -40,8 +58,9 @@ addEventListener("DOMContentLoaded", () => {
   Reveal.on("ready", () => Reveal.configure({ keyboardCondition: (event) => !needs(event) }));
   const heights = new ResizeObserver(() => {
     const slide = Reveal.getCurrentSlide();
-    if (slide.scrollHeight > slide.clientHeight + 1) fit();
+    if (slide.scrollHeight > slide.clientHeight + 1) fitCurrent();
   });
   for (const content of document.querySelectorAll(".fit")) heights.observe(content);
-  for (const event of ["ready", "slidechanged", "resize"]) Reveal.on(event, fit);
+  for (const event of ["ready", "slidechanged", "resize"]) Reveal.on(event, fitCurrent);
+  addEventListener("beforeprint", openAll);
 });

@@ -83,7 +83,7 @@ def test_throws_are_turned_saved_and_drawn_beside_the_model(page, tmp_path):
     )
     room.wait_for_selector("#status:has-text('bad.csv: its first line is not')")
     assert "slider.csv: all in it was thrown with the slider" in room.inner_text("#status")
-    assert "the mean of 2 files" in room.inner_text("#legend")
+    assert "the mean of 2 of the class" in room.inner_text("#legend")
     assert "last five turned: 0.75 ± 3.18" in room.inner_text("#sums")  # Student's, of two
     room.check("#model")
     points = room.locator("#plot polyline").evaluate_all(
@@ -94,6 +94,29 @@ def test_throws_are_turned_saved_and_drawn_beside_the_model(page, tmp_path):
     )
     np.testing.assert_allclose(model, throws(), atol=1e-3)
     np.testing.assert_allclose(mean[10:40], 0.75)
+
+
+def test_throws_travel_as_a_line_and_a_class_pastes_all_at_once(page):
+    """Who copied twice counts once; a cut line is named; the slider's throws give no line."""
+    room = page(throws_page())
+    room.fill("#who", "ann")
+    throw(room, 10)
+    assert room.is_disabled("#copy")
+    for _ in range(54):
+        room.click("#throw")
+    line = room.evaluate("() => ownLine()")
+    assert line.startswith("throws 1: ann; ")
+    assert room.is_enabled("#copy")
+    misses = line.split("; ")[1]
+    lines = f"[9:02] Bo: throws 1: bo; 5 {misses}\n{line}\n{line} thanks\nthrows 1: cy; 1 2 end"
+    room.fill("#lines", f"{lines}\nthrows 1: di; {misses}")
+    assert "2 of the class" in room.inner_text("#status")
+    assert "bo: 56 throws. cy: 2 throws." in room.inner_text("#status")
+    assert "the mean of 2 of the class" in room.inner_text("#legend")
+    other = page(throws_page())
+    for _ in range(55):
+        other.click("#throw")
+    assert other.is_disabled("#copy")
 
 
 def test_model_of_the_throws_adapts_and_has_an_after_effect():

@@ -138,6 +138,7 @@ def test_the_whole_kit_is_built_from_chapters_and_pages(kit):
         "plan.html",
         "throws.html",
         "class.html",
+        "concepts.html",
         "katex.js",
         "katex.css",
         "book.js",
@@ -146,7 +147,7 @@ def test_the_whole_kit_is_built_from_chapters_and_pages(kit):
         "report.ipynb",
         "assistants.html",
     }
-    folders = {"students", "nbgrader", "slides", "demos", "arm-in-page"}
+    folders = {"students", "nbgrader", "slides", "demos", "arm-in-page", "figures"}
     names = {file.name for file in kit.iterdir()}
     predictions, questions = (
         (kit / f"{name}.gift").read_text(encoding="utf-8") for name in ("predictions", "questions")

@@ -16,7 +16,8 @@ BUILT = ROOT / "_build/html/book"
 
 
 PAGE = """<section><h1>Arm</h1><p>Idea.</p><p>Aims.</p>
-  <section id="pull"><h2>Pull</h2><p>See Eq. 1 first. Then more.</p><div class="math">x \\tag{1}</div>
+  <section id="pull"><h2>Pull</h2><p>See Eq. 1 first. Then more.</p>
+    <div class="math">x \\tag{1}</div>
     <div class="exercise">Do.</div><div class="cell">Yours.<form data-function="x"></form></div>
     <div class="solution">So.</div>
     <div class="cell"><details>folded</details><div class="cell_output"><div class="output">
@@ -217,6 +218,16 @@ def test_slides_open_offline_fit_a_small_projector_and_their_demos_move(kit, win
     if name != "more":
         assert_first_demo_moves(page)
     assert page.errors == page.failed == []
+
+
+@pytest.mark.browser
+def test_a_deck_prints_one_slide_a_page(kit, window, tmp_path):
+    page = open_url(window(), (kit / "slides/session-5.html").as_uri())
+    page.wait_for_function("() => window.Reveal?.isReady()")
+    page.pdf(path=tmp_path / "deck.pdf", prefer_css_page_size=True)
+    pages = re.findall(rb"/Type\s*/Page\b", (tmp_path / "deck.pdf").read_bytes())
+    assert len(pages) == page.evaluate("() => Reveal.getTotalSlides()")
+    assert page.locator(".fit details:not([open])").count() == 0
 
 
 def assert_first_demo_moves(page):
