@@ -202,6 +202,6 @@ def miss_and_effort(effort, miss):
     for name, hue in zip(effort, hues, strict=True):
         (x, wide), (y, high) = student(effort[name]), student(miss[name])
         ax.errorbar(x, y, high, wide, fmt="o", color=COLOURS[hue], label=name)
-    ax.set(xlabel="effort / the least", ylabel="miss (mm)", xlim=(0.5, 4.5), ylim=(0, 22))
+    ax.set(xlabel="effort / the least", ylabel="miss (mm)", xlim=(0.5, 5.0), ylim=(0, 22))
     ax.legend(loc="upper right")
     return fig
