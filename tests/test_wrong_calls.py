@@ -22,6 +22,7 @@ from vmc_lib.show import (
     grade,
     photo_view,
     table,
+    widget,
 )
 from vmc_lib.show.arm import arm_scene
 from vmc_lib.what import cdbn, crops, learning, recogniser
@@ -105,10 +106,12 @@ MOVING = {
         "camera is unknown", "give the photo's Camera",
     ),
     "degrees": (lambda g: arm_scene((0, 130)), "130.", "np.radians(degrees)"),
-    "three joints": (lambda g: arm_scene((0, 1, 2)), "(1, 3)", "give 2 numbers"),
-    "five muscles": (lambda g: arm_scene((0, 1), (0,) * 5), "(1, 5)", "give 6 numbers"),
+    "joints apart": (lambda g: arm_scene(0, 1), "posture 0", "2 numbers in a tuple"),
+    "no joints": (lambda g: arm_scene(g.plan), "posture Plan(", "give numbers"),
+    "three joints": (lambda g: arm_scene((0, 1, 2)), "(3,)", "give 2 numbers"),
+    "five muscles": (lambda g: arm_scene((0, 1), (0,) * 5), "(5,)", "give 6 numbers"),
     "a ball in the plane": (
-        lambda g: arm_scene((0, 1), balls=[((0.1, 0.2), "red")]), "(1, 2)", "give 3 numbers"
+        lambda g: arm_scene((0, 1), balls=[((0.1, 0.2), "red")]), "(0.1, 0.2)", "give 3 numbers"
     ),
     "a ball's colour": (
         lambda g: arm_scene((0, 1), balls=[((0.1, 0, 0), "teal")]), "'teal'", "choose from blue"
@@ -228,6 +231,12 @@ SHOWING = {
     "a unit as a start": (lambda g: Slider([1, 2], "k", "m"), "'m'", "unit='m'"),
     "a number of values": (lambda g: Slider(5, "k"), "the values 5", "as range(6)"),
     "one label": (lambda g: Pad([0, 1], [0, 1], ("x",)), "('x',)", "two labels"),
+    "lines drawn": (lambda g: figure([1]), "list", "return `ax`"),
+    "a photo drawn": (lambda g: figure(g.photo), "Photo", "give photo.image"),
+    "up and down": (lambda g: Slider([1, 3, 2]), "['1', '3', '2']", "in order"),
+    "a value of words": (
+        lambda g: setattr(widget(text, k=(0, 3)), "value", {"k": "x"}), "'x'", "it has 0, 1, 2, 3"
+    ),
     "nothing drawn": (lambda g: explore(lambda k: None, k=(0, 3)), "NoneType", "`return fig`"),
     "a number drawn": (lambda g: figure(3), "int", "return a matplotlib Figure"),
     "another argument": (lambda g: explore(text, b=(0, 3)), "controls are b", "takes (k)"),

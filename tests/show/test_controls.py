@@ -13,7 +13,7 @@ def test_impossible_sliders_are_refused():
         Slider([1, 2], "size", start=3, unit="m")
     with pytest.raises(ValueError, match=r"stand at 3.3: it has 0, 0.5, 1, …, 10$"):
         Slider(np.linspace(0, 10, 21), "size", start=3.3)
-    with pytest.raises(ValueError, match=r"stand at 'm': .*; a unit is given as unit='m'"):
+    with pytest.raises(ValueError, match=r"stand at 'm', .*: a unit is given as unit='m'"):
         Slider([1, 2], "size", "m")
 
 

@@ -223,3 +223,11 @@ def test_some_controls_stand_behind_a_fold(monkeypatch):
     for wrong in (["c"], "b"):
         with pytest.raises(ValueError, match="more="):
             demo.explore(draw, more=wrong, a=[1, 2], b=[3, 4])
+
+
+def test_explore_is_a_decorator_too():
+    @demo.explore(alt="", k=(0, 4))
+    def squared(k):
+        return f"<p>{k**2}</p>"
+
+    assert squared.value == {"k": 2}

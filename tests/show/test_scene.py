@@ -12,6 +12,7 @@ from meshcat import geometry as g
 from meshcat.transformations import translation_matrix
 
 from vmc_lib import photos
+from vmc_lib.arm.simulate import simulate
 from vmc_lib.show import Scene, props
 from vmc_lib.show.arm import BEYOND, arm_scene
 
@@ -129,3 +130,8 @@ def test_shuttlecock_and_cup_lie_as_in_the_photo(pose):
         sent = decode(arm_scene((-0.3, 1.0), photo=photo))
         cup = sent["set_transform /meshcat/goal/cup "]["matrix"][12:15]
         assert projects_into(photo, np.add(cup, (0, 0.045, 0)), "cup")
+
+
+def test_a_movement_is_shown_as_it_was_returned():
+    motion = simulate(np.full((50, 6), 0.1), (0.0, 1.0))
+    assert decode(arm_scene(motion)) == decode(arm_scene(motion.q, motion.activation))

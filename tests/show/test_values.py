@@ -65,6 +65,12 @@ def test_one_value_alone_is_not_set_in_silence():
         one(k=(0, 10)).value["k"] = 3
 
 
+def test_values_are_shown_as_python_writes_them():
+    drawn = lambda x, at: photo_view(PHOTO, [((*at, 9, 9), f"{x}", "blue")])  # noqa: E731
+    shown = widget(drawn, x=np.linspace(0, 1, 3), at=Pad(np.arange(2.0), np.arange(2.0)))
+    assert repr(shown.value) == "{'x': 0.0, 'at': (0.0, 0.0)}"
+
+
 def test_values_are_observed(mode):
     shown, seen = one(k=(0, 4)), []
     shown.observe(lambda change: seen.append((change.old["k"], change.new["k"])), "value")

@@ -138,9 +138,10 @@ def constant_excitation(level, duration, step=STEP):
 
 def _per_movement(name, value, leading, size):
     value = as_numbers(name, value)
-    if value.shape not in ((size,), (*leading, size)) or not np.all(np.isfinite(value)):
+    shapes = dict.fromkeys(((size,), (*leading, size)))
+    if value.shape not in shapes or not np.all(np.isfinite(value)):
         raise ValueError(
-            f"{name} must be finite, of shape ({size},) or {(*leading, size)}: this one has shape "
+            f"{name} must be finite, of shape {' or '.join(map(str, shapes))}: this one has shape "
             f"{value.shape} and {np.isfinite(value).sum()} finite values"
         )
     return np.broadcast_to(value, (*leading, size)).reshape(-1, size)

@@ -13,7 +13,9 @@ import numpy as np
 
 from vmc_lib import NoReach
 from vmc_lib.arm.kinematics import to_world, turn_towards
-from vmc_lib.arm.simulate import check_posture
+from vmc_lib.arm.simulate import Motion, check_posture
+from vmc_lib.checks import as_numbers
+from vmc_lib.short_repr import short
 from vmc_lib.show.scene import Scene
 
 EVERY = 20  # ms between the moments of a movement that a scene carries: the viewer fills in
@@ -24,16 +26,19 @@ CLOSING = 0.25  # s before a movement's end in which a grasping hand closes
 def arm_scene(q, activation=6 * (0,), turn=0.0, photo=None, balls=(), grasp=False, end=None):
     """The arm in posture q (2,), in radians, on a trunk turned by `turn`; or in a movement.
 
-    A movement has q (T, 2) and `activation` (T, 6), a sample every millisecond, and `turn` one or
-    (T,). Muscles redden with `activation` (6,). `photo` puts its shuttlecock and its cup on the
-    table; `balls` are (position (3,), colour name) pairs, the green one is the target. Where there
-    is neither, there is no table: a hanging arm would reach through it. With `grasp` the hand
-    closes: at once, or at the end of the movement. `end` is the movement's end point (3,) and how
-    fast the hand still is there, in m/s: a red diamond, on a line from the target. ValueError for
-    other shapes, a posture beyond the joints' limits, or a colour that has no name.
+    A movement is a `Motion`, or has q (T, 2) and `activation` (T, 6), a sample every millisecond,
+    and `turn` one or (T,). Muscles redden with `activation` (6,). `photo` puts its shuttlecock and
+    its cup on the table; `balls` are (position (3,), colour name) pairs, the green one is the
+    target. Where there is neither, there is no table: a hanging arm would reach through it. With
+    `grasp` the hand closes: at once, or at the end of the movement. `end` is the movement's end
+    point (3,) and how fast the hand still is there, in m/s: a red diamond, on a line from the
+    target. ValueError for other shapes, a posture beyond the joints' limits, or a colour that has
+    no name.
     """
     table = bool(photo or len(balls))
     scene = Scene(_furniture(table))
+    if isinstance(q, Motion):
+        q, activation = q.q, q.activation
     q = _samples("posture", q, 2)[::EVERY]
     check_posture(q, "posture")
     moments = np.arange(len(q)) * EVERY / 1000
@@ -68,9 +73,11 @@ def arm_scene(q, activation=6 * (0,), turn=0.0, photo=None, balls=(), grasp=Fals
 
 def _samples(name, values, size):
     """Values (size,), or of a movement (T, size), as an array (T, size)."""
-    samples = np.atleast_2d(np.asarray(values, float))
+    samples = np.atleast_2d(as_numbers(name, values))
     if samples.ndim != 2 or samples.shape[1] != size:
-        raise ValueError(f"{name} of shape {samples.shape}: give {size} numbers")
+        raise ValueError(
+            f"{name} {short(values)} of shape {np.shape(values)}: give {size} numbers in a tuple"
+        )
     return samples
 
 

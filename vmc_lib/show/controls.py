@@ -43,6 +43,11 @@ class Control:
             name = f"the control {self.label!r}" if self.label else "a control"
             raise ValueError(f"{name} has values {values}: give at least two")
         object.__setattr__(self, "values", values)
+        if isinstance(self.start, str) and _numbers(*values):
+            raise ValueError(
+                f"{self.label!r} cannot stand at {self.start!r}, which is no number: a unit is "
+                f"given as unit={self.start!r}"
+            )
         if self.start is not None:
             _ = self.first  # raises when `start` is none of the values
 
@@ -57,10 +62,7 @@ class Control:
             if own is value or (np.isclose(own, value) if _numbers(own, value) else own == value):
                 return place
         texts = self.texts if len(self.values) <= MENU else [*self.texts[:3], "…", self.texts[-1]]
-        raise ValueError(
-            f"{self.label!r} cannot stand at {value!r}: it has {', '.join(texts)}"
-            + f"; a unit is given as unit={value!r}" * isinstance(value, str)
-        )
+        raise ValueError(f"{self.label!r} cannot stand at {value!r}: it has {', '.join(texts)}")
 
     def nearest(self, value):
         """The place of the value that a reader's hand would come to rest at."""
@@ -95,6 +97,16 @@ class Slider(Control):
 
     play: bool | str = False
     between: bool | float = True
+
+    def __post_init__(self):
+        super().__post_init__()
+        if _numbers(*self.values) and not self.labels:
+            steps = np.diff(self.values)
+            if not (np.all(steps > 0) or np.all(steps < 0)):
+                raise ValueError(
+                    f"the values {self.texts} go up and down: give them in order, as "
+                    "range(0, 10, 2) or np.linspace(0, 1, 11)"
+                )
 
     def nearest(self, value):
         """The place of the stop nearest to a number; ValueError beyond the slider's ends."""

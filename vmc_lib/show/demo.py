@@ -44,7 +44,9 @@ SAMPLE = 25  # positions along a control, of a demo that the page works out
 _demos = itertools.count(1)
 
 
-def explore(draw, caption="", alt=None, in_page=None, data=None, printed=(), more=(), **controls):
+def explore(
+    draw=None, caption="", alt=None, in_page=None, data=None, printed=(), more=(), **controls
+):
     """Show what `draw` returns and let the reader move its controls, as ipywidgets' `interact`.
 
     `draw(**values)` is a pure function that returns a picture (see `figures`). Each control is a
@@ -56,7 +58,8 @@ def explore(draw, caption="", alt=None, in_page=None, data=None, printed=(), mor
     there, and with its first slider at its other end. `more` names controls that stand behind a
     fold, as a plot's numbers do: a figure shows two or three.
 
-    Returns the `Demo`, a widget: its `value` can be read, set, observed and linked. ValueError for
+    Returns the `Demo`, a widget: its `value` can be read, set, observed and linked. Without `draw`
+    it is a decorator, and the function's name becomes the `Demo`'s. ValueError for
     what could not work: an unknown control or picture, a start that is no value; in the book more
     than 200 positions, whose states are stored, and a control without effect.
 
@@ -81,6 +84,9 @@ def explore(draw, caption="", alt=None, in_page=None, data=None, printed=(), mor
     >>> demo.value
     {'a': 5, 'b': 4}
     """
+    if draw is None:
+        how = {"caption": caption, "alt": alt, "in_page": in_page, "data": data}
+        return partial(explore, **how, printed=printed, more=more, **controls)
     demo = widget(draw, caption, alt, in_page, data, printed, more, **controls)
     demo.show()
     return demo

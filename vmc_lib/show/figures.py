@@ -24,6 +24,12 @@ _MARKDOWN = MarkdownIt().use(
     dollarmath_plugin, renderer=lambda tex, _: rf"\({html.escape(tex.strip())}\)"
 )
 
+HINTS = {  # what is returned instead of a picture, and what was meant
+    "NoneType": "; end the function with `return fig`, or `return plt.gcf()`",
+    "str": "; plain words are `note(text)`",
+    "list": "; after `ax.plot(…)` return `ax`, for several pictures `(fig, scene)`",
+    "Photo": "; give photo.image",
+}
 # The hyphen that Python writes before a number, beyond maths and code
 _MINUS = re.compile(r"(\$[^$]*\$|`[^`]*`)|(?<=[\s(*])-(?=\.?\d)")
 
@@ -44,11 +50,10 @@ def parts_of(picture):
     for part in parts:
         markup = isinstance(part, str) and part.lstrip().startswith("<")
         if not (markup or isinstance(part, Scene | Figure | np.ndarray)):
-            ends = "; the function ends with `return fig`" if part is None else ""
-            ends = "; plain words are `note(text)`" if isinstance(part, str) else ends
+            kind = type(part).__name__
             raise ValueError(
-                f"cannot show a {type(part).__name__}: return a matplotlib Figure, an image array, "
-                f"SVG or HTML text, a Scene, or a tuple of these{ends}"
+                f"cannot show a {kind}: return a matplotlib Figure, an image array, SVG or HTML "
+                f"text, a Scene, or a tuple of these{HINTS.get(kind, '')}"
             )
     return parts
 

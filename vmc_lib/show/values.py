@@ -14,6 +14,9 @@ from vmc_lib.show.positions import first_position, position, values_at
 class Values(dict):
     """What the controls of a demo stand at, by their names: set as a whole."""
 
+    def __repr__(self):
+        return repr({name: _plain(value) for name, value in self.items()})
+
     def __setitem__(self, name, value):
         raise TypeError(
             f"a value alone moves nothing: write demo.value = {{{name!r}: {value!r}}}, "
@@ -105,7 +108,7 @@ class Demo(Live):
         return {name: self._as_json(name, value) for name, value in values.items()}
 
     def _as_json(self, name, value):
-        plain = value.item() if isinstance(value, np.generic) else value
+        plain = _plain(value)
         if isinstance(plain, tuple):
             return [float(part) for part in plain]
         control = self.controls[name]
@@ -121,6 +124,13 @@ class Demo(Live):
 
     def _own(self, name):
         return getattr(self.controls.get(name), "values", ())
+
+
+def _plain(value):
+    """NumPy's numbers as Python's own, in a pair too."""
+    if isinstance(value, tuple):
+        return tuple(map(_plain, value))
+    return value.item() if isinstance(value, np.generic) else value
 
 
 def _cell():
