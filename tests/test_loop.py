@@ -15,7 +15,7 @@ from vmc_lib.arm.kinematics import to_world
 from vmc_lib.arm.simulate import simulate
 from vmc_lib.box_selection import SIZE_LIKELIHOOD_RATIO
 from vmc_lib.boxes import decode_deltas
-from vmc_lib.camera import TABLE
+from vmc_lib.camera import TABLE, Camera
 from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration
 from vmc_lib.motor import templates
 from vmc_lib.motor.execution import execute
@@ -115,6 +115,16 @@ class Fixed(Recogniser):
         return self.fixed[: len(boxes)]
 
 
+class Sizing(Camera):
+    """A camera by which the boxes of any image are of these sizes, in m."""
+
+    def __init__(self, *known):
+        object.__setattr__(self, "known", np.array(known))
+
+    def sizes(self, boxes):
+        return self.known[: len(boxes)]
+
+
 def sight_of(scores, probability, camera=None, selects=True):
     """The Sight of a model that detects BOXES with these scores and recognises them so."""
     scores = np.array(scores)
@@ -138,13 +148,12 @@ def test_the_likeliest_box_is_chosen():
 
 @pytest.mark.parametrize("selects", [True, False])
 def test_a_camera_filters_boxes_by_size_and_scales_the_odds(selects):
-    camera = SimpleNamespace(sizes=lambda boxes: np.array([0.07, 0.2, 0.08])[: len(boxes)])
-    before, after = (sight_of([0.3] * 3, [0.4] * 3, of, selects) for of in (None, camera))
+    cameras = None, Sizing(0.07, 0.2, 0.08)
+    before, after = (sight_of([0.3] * 3, [0.4] * 3, camera, selects) for camera in cameras)
     np.testing.assert_array_equal(after.detections.boxes, BOXES[[0, 2]])
     odds = [one.probability[0] / (1 - one.probability[0]) for one in (before, after)]
     assert odds[1] == pytest.approx(SIZE_LIKELIHOOD_RATIO * odds[0])
-    too_large = SimpleNamespace(sizes=lambda boxes: np.full(1, 0.3))
-    assert sight_of([0.3], [0.9], too_large, selects).box is None
+    assert sight_of([0.3], [0.9], Sizing(0.3), selects).box is None
 
 
 def test_the_best_boxes_are_looked_at_twice():
