@@ -128,8 +128,8 @@ BENDERS = [MUSCLES.index(name) for name in ("BIClong", "BICshort", "BRA")]
 
 
 @picture(lever_curve)
-@numeric("N m", "Read the moment arm at the mark, in metres; times the force.")
-def torque_at_the_mark(k=BENDERS, elbow=steps(30, 110, 10), pull=steps(100, 600, 50)):
+@numeric("N m", "Read the moment arm at the mark, in metres; times the force.", tolerance=0.5)
+def torque_at_the_mark(k=BENDERS, elbow=steps(30, 110, 10), pull=steps(200, 600, 50)):
     """In the posture of the mark this muscle pulls with {pull} N. What torque does it make at the
     elbow?"""
     lever = moment_arms(0, elbow)[1, k]

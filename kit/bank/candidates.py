@@ -44,8 +44,8 @@ def overlap_of_two(pair=near_boxes):
 
 @count("square pixels", "The smallest box around both.")
 def smallest_box_around(pair=boxes):
-    """Two regions have the boxes {pair[0]} and {pair[1]}. They merge. How large is the new region's
-    box?"""
+    """Two regions have the boxes {pair[0]} and {pair[1]}, each (x0, y0, x1, y1). They merge. How
+    large is the new region's box?"""
     return np.prod(np.max(pair, axis=0)[2:] - np.min(pair, axis=0)[:2])
 
 
@@ -61,8 +61,8 @@ def recall_at(
 
 @numeric(hint="The largest of the three.")
 def average_best_overlap(pair=near_boxes):
-    """A thing has the box {pair[0]}. The candidates are {names}. What is its best overlap (IoU),
-    which enters the mean ABO?"""
+    """A thing has the box {pair[0]}, as (x0, y0, x1, y1). The candidates are {names}. What is its
+    best overlap (IoU), which enters the mean ABO?"""
     candidates = pair[1] + np.array([[0, 0, 0, 0], [10, 0, 10, 0], [0, 20, 0, 20]])
     names = "; ".join(str(tuple(corners)) for corners in candidates.tolist())
     return iou(pair[0], candidates).max(), {"names": names}
