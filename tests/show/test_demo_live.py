@@ -98,7 +98,7 @@ def test_garbage_collection_skips_what_is_loaded_before_a_demo(live):
 
 
 def test_an_error_in_draw_is_shown_with_the_values_of_the_controls(live):
-    shown = live(lambda k: named(k=1 / k), k=Slider([1, 0, 2], "k"))
+    shown = live(lambda k: named(k=1 / k), k=Slider([-1, 0, 2], "k"))
     error = shown.ask("state", 1)["error"]
     assert "ZeroDivisionError: division by zero" in error
     assert "{'k': 0}" in error
