@@ -65,7 +65,7 @@ def test_the_brain_arrives_whole(ask):
 
 
 def test_what_a_reader_loads_is_light():
-    assert len(brain.script()) < 4.5e6
+    assert len(brain.script()) < 2e6
     chapter, photo = (light_script(f"book/{name}.js").encode() for name in ("chapter", "photo"))
     assert len(photo) - len(chapter) < 60e3
 
