@@ -60,7 +60,7 @@ def lead_on(app, pagename, templatename, context, doctree):
     """Where a piece ends, name the next; and mark the path's chapters in the sidebar."""
     if sidebar := context.get("generate_toctree_html"):
         marked = {app.builder.get_relative_uri(pagename, page) or "#" for page in PAGES}
-        context["generate_toctree_html"] = lambda *a, **k: mark(sidebar(*a, **k), marked)
+        context["generate_toctree_html"] = lambda **how: mark(sidebar(**how), marked)
     for (nth, here), (then, piece) in pairwise(PIECES):
         if f"book/{here.page}" != pagename:
             continue
@@ -72,12 +72,12 @@ def lead_on(app, pagename, templatename, context, doctree):
 
 
 def mark(sidebar, marked):
-    """The sidebar (HTML) with a class on the links to these addresses."""
+    """The sidebar, as the theme makes it, with a class on its links to these addresses (HTML)."""
 
     def one(link):
         return f"{link[1]}{MARK}{link[2]}" if link[3] in marked else link[0]
 
-    return LINK.sub(one, sidebar) if isinstance(sidebar, str) else sidebar
+    return LINK.sub(one, str(sidebar))
 
 
 def with_link(body, here, nth, then, title, address):
