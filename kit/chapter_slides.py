@@ -102,7 +102,7 @@ def chapter_slides(article, headings=None):
     notes = [*aims, f"<details><summary>Sources</summary>{cited}</details>"]
     first = Slide([title, idea], notes, MINUTE)
     heading, *text = last.find_all(["h2", "p", "ul"], recursive=False)
-    left = [f"<p>{question}</p>" for question in last.select("p > strong")[-1:]]
+    left = [_left_open(words) for words in last.select("p > strong")[-1:]]
     gist, *more = sentences(text[0])
     gist = f"<p>{' '.join([gist, *more[: len(gist.split()) < SHORT]])}</p>"
     recap = Slide([heading, gist, *left, *exercises], text)
@@ -118,6 +118,12 @@ def chapter_slides(article, headings=None):
         slide.seconds, slide.active = PAIR, False
     quiz = [Slide([box], _answers(box), active=True) for box in article.select(".vmc-quiz")]
     return Chapter(first, wiring, asked, others, quiz, recap, blocks, cells)
+
+
+def _left_open(words):
+    """A paragraph of what a recap has in bold: a question, or where it only says "Next:", all."""
+    whole = words.get_text().strip().endswith(":")
+    return f"<p>{words.parent.decode_contents() if whole else words}</p>"
 
 
 def _plain(title):

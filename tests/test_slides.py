@@ -108,6 +108,11 @@ def test_a_demo_is_found_by_its_section_or_by_its_chapter_once():
         chapter.demo_of("Pull")
 
 
+def test_a_recap_that_only_says_next_says_what():
+    page = PAGE.replace("<strong>What next?</strong>", "<strong>Next:</strong> a muscle.")
+    assert bodies(page)[-1] == f"Recap It was far. And more. Next: a muscle. {EXERCISES[3:-4]}"
+
+
 def deck(kit, name):
     page = BeautifulSoup((kit / f"slides/{name}.html").read_text(encoding="utf-8"), "html.parser")
     return page.select(".slides > section")
