@@ -190,6 +190,6 @@ def _reach_view(movement):
     balls = [(target, "green"), *((end, colour) for colour in _ENDS)]
     figure, ax = plt.subplots(figsize=(4.2, 2.5), layout="none")
     plane(ax, movement.plan.template_set.points)
-    ax.set_position((0.14, 0.19, 0.54, 0.79))
+    ax.set_position((0.18, 0.19, 0.51, 0.79))
     motion = movement.motion
     return arm_scene(motion.q[-1], motion.activation[-1], balls=balls), figure
