@@ -74,7 +74,8 @@ def test_a_figure_has_few_controls(path):
 SHOWN = """() => [...document.querySelectorAll(".vmc-demo, .vmc-live")].flatMap((figure) => {
   const select = (names) => [...figure.querySelectorAll(names)].filter(
     (part) => part.checkVisibility({ contentVisibilityAuto: true }) && !part.closest("details"));
-  const boxes = select(".vmc-pictures, .vmc-controls, .vmc-live-form > :is(div:not(.vmc-muscles), fieldset)")
+  const moved = ".vmc-controls, .vmc-live-form > :is(div:not(.vmc-muscles), fieldset)";
+  const boxes = select(`.vmc-pictures, ${moved}`)
     .map((part) => part.getBoundingClientRect());
   const words = select(".vmc-picture svg text").filter((word) => word.textContent.trim());
   const sizes = words.map((word) => {
