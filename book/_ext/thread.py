@@ -28,7 +28,8 @@ def note_state(app, config):
     """Let every page be written again where what the strips say may have changed."""
     last = Path(app.srcdir, f"{LAST}.ipynb")
     if last.exists():  # in a tiny book of the tests it does not
-        config.thread_state = digest(last) + Path(__file__).read_text(encoding="utf-8")
+        made = (Path(__file__).with_name(f"{name}.py") for name in ("thread", "short_path"))
+        config.thread_state = digest(last) + "".join(x.read_text(encoding="utf-8") for x in made)
 
 
 def chapters(env):
