@@ -13,7 +13,7 @@ from docutils.nodes import make_id
 
 MARK = " vmc-short-path"  # a class
 HEAD = re.compile(r'<section (?:class="[^"]*" )?id="([^"]+)">\s*<h2>')
-LINK = re.compile(r'(<a class="reference internal)(" href="([^"]*)">)')
+LINK = re.compile(r'(<a class="(?:current )?reference internal)(" href="([^"]*)">)')
 
 
 class Piece(NamedTuple):
