@@ -188,7 +188,7 @@ def minimal_intervention(path, target, bar, aim):
     for at, alpha in (((0, 0), 0.35), (place, 1.0)):
         ends = [at[0], at[0]], [at[1] - 45 * bar, at[1] + 45 * bar]
         ax.plot(*ends, "-o", ms=12, mfc="none", mew=2, color=COLOURS["green"], alpha=alpha)
-    forward, up = off[:, -1].mean(axis=0)
+    forward, up = off[:, -1].mean(axis=0).round() + 0.0  # no −0
     ax.set_title(f"ends {forward:.0f} mm forward, {up:.0f} mm up")
     ax.set(xlim=(-90, 90), ylim=(-90, 90), aspect="equal")
     ax.set(xlabel="forward (mm)", ylabel="up (mm)")
