@@ -21,7 +21,6 @@ ANSWERS = """from book.exercises.muscle import ACTIVATION_RATES, ACTIVATION_TO_H
 activation_rates = ACTIVATION_RATES.right
 activation_to_hold = ACTIVATION_TO_HOLD.right
 answer = 0.8"""
-KNOWN = "activation_rates = [*ACTIVATION_RATES.mistakes.values()][0]"
 
 PDF, CANNOT = b"%PDF-1.7\n%\xe2\xe3", "cannot be marked"
 
@@ -125,7 +124,7 @@ BY_NAME = {  # the file: what it holds, and its points, or how its row begins
     "checks forged": (changed(forged), 6),
     "checks twice": (changed(twice), 6),
     "as handed out": (handed_in(answers="pass"), 0),
-    "a known mistake": (handed_in(answers=f"{ANSWERS}\n{KNOWN}"), 5),
+    "two are missing": (handed_in(answers=f"{ANSWERS}\nanswer = activation_rates = None"), 2),
     "one is wrong": (handed_in(answers=f"{ANSWERS}\nanswer = 0.5"), 4),
     "a comma for the point": (handed_in(answers=f"{ANSWERS}\nanswer = '0,8'"), 6),
     "floods": (handed_in("for _ in range(100_000): print('flood')"), 6),
