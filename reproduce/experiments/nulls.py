@@ -2,8 +2,8 @@
 
 Off-line calibration makes 21 tries. `offline_rules` change the weights in other ways, as often.
 Online calibration learns from pairs: in `lessons` they are shuffled, or their corrections were
-found blindly. Eq. 5 weighs templates by nearness; `WEIGHTS` do otherwise. All meet the same
-targets, so that they are compared in pairs.
+found blindly, or nothing is learned and the plan's weights are others. Eq. 5 weighs templates by
+nearness; `WEIGHTS` do otherwise. All meet the same targets, so that they are compared in pairs.
 """
 
 from copy import deepcopy
@@ -14,7 +14,12 @@ from typing import Any
 import numpy as np
 
 from reproduce.experiments import calibration
-from reproduce.experiments.calibration import AS_PRINTED, MANY, run_experiments
+from reproduce.experiments.calibration import (
+    AS_PRINTED,
+    MANY,
+    no_calibration,
+    run_experiments,
+)
 from reproduce.one_draw import planned_error_ratio, worst_example
 from vmc_lib.cerebellum.offline import (
     algorithm_1,
@@ -35,12 +40,15 @@ from vmc_lib.motor.planning import (
 
 TRIES = 21  # of the paper's off-line calibration
 COARSE_TO_FINE = (10, 0, 20, 5, 15, 2, 8, 12, 18, *(1, 3, 4, 6, 7, 9, 11, 13, 14, 16, 17, 19))
+AS_ALGORITHM_1 = (*range(1, 21), 0)  # the n in the order in which it counts them
 LENGTH = 0.1  # of a blind change of the weights; chosen on other targets (seeds 100 to 109)
 PAPER, BLIND = "Eq. 6–7", "blind search"
 SAME_LENGTH, LINE = "random direction", "line search along Eq. 4"
 LUCK = BLIND, SAME_LENGTH
+IN_ORDER = f"{PAPER}, n = 1, 2, 3, …"
 OURS, WHOLE_HOLD = "Broyden", "least squares over the hold"
 PRINTED, SHUFFLED, BLINDLY_TAUGHT = "Algorithm 2", "shuffled pairs", "taught by blind search"
+NO_LESSON = "no lesson, inverse-square weights", "no lesson, Eq. 4 solved exactly"
 
 
 def _random_unit(plan, rng):
@@ -58,6 +66,9 @@ def random_direction_change(plan, *asked, rng):
     return norm(algorithm_1_change(plan, *asked))[..., None] * _random_unit(plan, rng)
 
 
+LAWS = {SAME_LENGTH: random_direction_change, BLIND: blind_change}  # luck's, of a generator
+
+
 def line_search_change(plan, endpoint, n, *_):
     """Δw (…, N) along Eq. 4: from a tenth of what it takes for the whole error, to 2.1 times it."""
     points = np.swapaxes(plan.points, -1, -2)
@@ -68,8 +79,7 @@ def offline_rules(rng):
     """Name -> a rule that calibrates a plan by `TRIES` movements."""
     laws = {
         PAPER: algorithm_1_change,
-        SAME_LENGTH: partial(random_direction_change, rng=rng),
-        BLIND: partial(blind_change, rng=rng),
+        **{name: partial(law, rng=rng) for name, law in LAWS.items()},
         LINE: line_search_change,
     }
     rules = {name: partial(algorithm_1, gains=COARSE_TO_FINE, change=x) for name, x in laws.items()}
@@ -93,6 +103,10 @@ def tries(seed, hold=templates.HOLD, count=25):
         found[name] = best.mean(axis=1) / planned.mean()
         found[f"{name}, tries alone"] = alone.mean() / planned.mean()
         found[f"{name}, nearer"] = (alone < planned).mean()
+        if name == PAPER:
+            by_n = np.array(tried)[np.argsort(COARSE_TO_FINE)]
+            best = np.minimum.accumulate([planned, *by_n[list(AS_ALGORITHM_1)]])
+            found[IN_ORDER] = best.mean(axis=1) / planned.mean()
     return found
 
 
@@ -111,6 +125,21 @@ class ShuffledPairs(WeightCorrection):
         return self
 
 
+@dataclass
+class OtherWeights:
+    """No learner: it gives every plan the weights of a `rule`, whatever was practised."""
+
+    rule: Any
+
+    def correct(self, plan):
+        """The plan with those weights."""
+        return plan.with_weights(self.rule(plan.target, plan.points))
+
+    def update(self, plan, **lesson):
+        """Nothing is learned."""
+        return self
+
+
 def lessons(seed, movements=25, held_out=200, experiments=10):
     """Algorithm 2 and its nulls, read where the command ends: what is left of the planned error.
 
@@ -124,6 +153,12 @@ def lessons(seed, movements=25, held_out=200, experiments=10):
         PRINTED: (WeightCorrection(), {}),
         SHUFFLED: (ShuffledPairs(rng=draw), {}),
         BLINDLY_TAUGHT: (WeightCorrection(), {"rule": blindly}),
+        **{
+            name: (OtherWeights(rule), {"rule": no_calibration})
+            for name, rule in zip(
+                NO_LESSON, (WEIGHTS["inverse square"], exact_weights), strict=True
+            )
+        },
     }
     found = {}
     for name, (learner, lesson) in learners.items():

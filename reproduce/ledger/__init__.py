@@ -21,7 +21,7 @@ from reproduce.ledger import (
     regions,
     search,
 )
-from reproduce.ledger.entry import VERDICTS, Quantity, measure
+from reproduce.ledger.entry import NULL_PASSES, VERDICTS, Quantity, measure
 from vmc_lib.photos import LEVELS
 from vmc_lib.show import table
 
@@ -57,9 +57,14 @@ def value(where, name):
     entries = {entry["where"]: entry["quantities"] for entry in load()["rows"]}
     for q in entries.get(where, ()):
         if q["name"] == name:
-            return Quantity(**{field.name: q[field.name] for field in fields(Quantity)})
+            return _quantity(q)
     known = [q["name"] for q in entries.get(where, ())] or list(entries)
     raise ValueError(f"the ledger has no {name!r} of {where!r}; choose from {known}")
+
+
+def _quantity(q):
+    """A number as it was stored, as a `Quantity` again."""
+    return Quantity(**{field.name: q[field.name] for field in fields(Quantity)})
 
 
 def verdict_counts(entries):
@@ -104,7 +109,7 @@ def details(entry):
             draw_text(q),
             q["sample"],
             q["in_sample"],
-            "; ".join(f"{name}: {value:.3g}" for name, value in q["nulls"].items()),
+            nulls_text(q),
             q["verdict"],
         ]
         for q in entry["quantities"]
@@ -140,6 +145,15 @@ def result_text(q):
     if q["low"] is not None:
         text += f" ({q['low']:.3g} to {q['high']:.3g})"
     return text if q["p"] is None else f"{text} (p = {q['p']:.2g})"
+
+
+def nulls_text(q):
+    """The nulls, as text; where they decide the verdict, which of them pass."""
+    passing = _quantity(q).passing_nulls() if q["verdict"] == NULL_PASSES else []
+    return "; ".join(
+        f"{name}: {value:.3g}{' (passes)' if name in passing else ''}"
+        for name, value in q["nulls"].items()
+    )
 
 
 def draw_text(q):

@@ -68,9 +68,10 @@ class Quantity:
         return bool(self.better) and self.better * null < min(signed)
 
     def _holds(self, null):
+        """In the place of ours, as uncertain; an end at 0 or 1, a share's edge, stays there."""
         away = null - self.obtained
         ends = {
-            end: None if (known := getattr(self, end)) is None else known + away
+            end: known if (known := getattr(self, end)) in (None, 0, 1) else known + away
             for end in ("low", "high", "least", "most")
         }
         return replace(self, obtained=null, p=None, **ends)._own_verdict() != DIFFERS

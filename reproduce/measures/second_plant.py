@@ -5,6 +5,7 @@ turn in a horizontal plane, with viscous joints, by any textbook's equations (Eq
 place of muscles). All its numbers are our choice.
 """
 
+from functools import partial
 from types import SimpleNamespace
 
 import numpy as np
@@ -13,7 +14,7 @@ from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration
 from vmc_lib.cerebellum.online import AimCorrection
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.inverse_dynamics import minimum_jerk
-from vmc_lib.motor.planning import draw_targets, plan
+from vmc_lib.motor.planning import draw_targets, exact_weights, plan
 from vmc_lib.motor.templates import HOLD, TemplateSet
 
 L1, L2, M1, M2 = 0.35, 0.30, 3.0, 2.0  # m and kg: the rods' lengths and masses
@@ -72,14 +73,26 @@ def torque_templates():
     return TemplateSet(reach(torques).endpoint, torques, (-np.inf, np.inf), reach)
 
 
-def experiment(seed):
-    """For one draw of targets, by name: the planned miss over the reach, and what rules leave."""
+def experiment(seed, laws=None):
+    """For one draw of targets, by name: the planned miss over the reach, and what rules leave.
+
+    Other laws in the place of Eq. 6–7, each of a random generator `rng`, leave so much after as
+    many tries, by their names, and after two.
+    """
     rng, past = np.random.default_rng(seed), torque_templates()
     habit, lessons = (plan(draw_targets(past, n, rng), past) for n in (25, 100))
     tries = broyden_calibration(habit).error.mean(axis=1)
     aimed = AimCorrection(past).update(lessons).correct(habit)
-    published = algorithm_1(habit).error.min(axis=0).mean()
-    own = {"own off-line": tries[2], "own online": execute(aimed).error.mean()}
-    left = {"off-line, published": published, **own}
+    left = {
+        "off-line, published": algorithm_1(habit).error.min(axis=0).mean(),
+        "own off-line": tries[2],
+        "own online": execute(aimed).error.mean(),
+        "exact weights": execute(plan(habit.target, past, exact_weights)).error.mean(),
+    }
+    for name, law in (laws or {}).items():
+        tried = algorithm_1(habit, change=partial(law, rng=rng)).error
+        left[name], left[f"{name}, two tries"] = (
+            tried[:k].min(axis=0).mean() for k in (len(tried), 3)
+        )
     reach_of = np.linalg.norm(habit.target, axis=-1).mean()
     return {"planned / reach": tries[0] / reach_of, **{k: v / tries[0] for k, v in left.items()}}

@@ -38,6 +38,8 @@ RESTS_ON = {  # a step, or what was recorded elsewhere -> the rows that read it
         "Table VI",
         "Fig. 11",
         "Fig. 12",
+        "IV D, online",
+        "Ours, Eq. 5",
     ),
     "unsteady": ("Ours, Table V", "Ours, Table VI"),
     "opensim": ("III, Block 4",),

@@ -10,7 +10,7 @@ from vmc_lib.cerebellum.offline import algorithm_1_change
 from vmc_lib.cerebellum.online import WeightCorrection
 from vmc_lib.motor import templates
 from vmc_lib.motor.execution import execute
-from vmc_lib.motor.planning import draw_targets, habitual_weights, plan
+from vmc_lib.motor.planning import draw_targets, exact_weights, habitual_weights, plan
 
 
 @pytest.fixture(scope="module")
@@ -58,6 +58,14 @@ def test_shuffled_pairs_keep_the_corrections_and_change_their_places(habit):
     assert not np.allclose(right, shuffled)
 
 
+def test_no_lesson_changes_other_weights():
+    past = templates.load()
+    habit = plan(draw_targets(past, 3, np.random.default_rng(0)), past)
+    learner = nulls.OtherWeights(exact_weights).update(habit)
+    expected = plan(habit.target, past, exact_weights).weights
+    np.testing.assert_allclose(learner.correct(habit).weights, expected)
+
+
 def test_other_weights_sum_to_one():
     target, points = np.array([0.02, 0.01]), np.array([[0, 0], [0.06, 0], [0.06, 0.06], [0, 0.06]])
     made = {name: rule(target, points) for name, rule in nulls.WEIGHTS.items()}
@@ -74,6 +82,8 @@ def test_what_ships_is_table_v_and_its_nulls_of_the_same_movements():
     few, full = ((tried[nulls.PAPER] - tried[nulls.BLIND])[:, k].mean() for k in (3, nulls.TRIES))
     assert few < -0.1, "with few tries the direction shows"
     assert full > -0.05, "with the paper's number it does not"
+    assert (tried[nulls.PAPER] < tried[nulls.SAME_LENGTH])[:, -1].mean() > 0.8, "but for its length"
+    np.testing.assert_array_equal(tried[nulls.IN_ORDER][:, -1], tried[nulls.PAPER][:, -1])
     assert tried[nulls.LINE][:, -1].mean() < 0.12
 
 

@@ -14,7 +14,7 @@ from reproduce import one_draw
 from reproduce.experiments import calibration as experiments
 from reproduce.experiments import nulls
 from reproduce.ledger import arm, calibration, online, planning
-from reproduce.ledger.entry import DIFFERS, NULL_PASSES
+from reproduce.ledger.entry import BEATEN, DIFFERS, NULL_PASSES, REPRODUCED
 from reproduce.measures import second_plant
 from vmc_lib import photos
 from vmc_lib.cerebellum import offline
@@ -165,7 +165,7 @@ def searches_blindly(patch):
         offline.algorithm_1, change=partial(nulls.blind_change, rng=np.random.default_rng(0))
     )
     patch.setattr(experiments, "ABLATION", {})
-    for module in (calibration, experiments):
+    for module in (calibration, experiments, second_plant):
         patch.setattr(module, "algorithm_1", blind)
     patch.setattr(calibration, "load_results", lambda: Again.of("blind", experiments=1))
     draws_few(patch, calibration)
@@ -204,6 +204,17 @@ def shuffles_pairs(patch):
         patch.setattr(module, "load_results", lambda: Again.of("shuffled", experiments=2))
 
 
+def learns_no_lesson(patch):
+    """Eq. 4 is solved exactly, in the place of Algorithm 2, and nothing is learned."""
+    patch.setattr(experiments, "ABLATION", {})
+    for module in (calibration, experiments):
+        untaught = partial(nulls.OtherWeights, motor_planning.exact_weights)
+        patch.setattr(module, "WeightCorrection", lambda untaught=untaught, **_: untaught())
+    for module in (calibration, online):
+        patch.setattr(module, "load_results", lambda: Again.of("untaught", experiments=2))
+    draws_few(patch, calibration)
+
+
 class Again(dict):
     """What `movements.json` would hold, by the code as it is now: small, made where it is read."""
 
@@ -224,17 +235,24 @@ class Again(dict):
 
 
 RIVALS = {  # what a row says of each
-    "Table IV": {weighs(rule): NULL_PASSES for rule in nulls.WEIGHTS},
+    "Table IV": {weighs(rule): NULL_PASSES for rule in nulls.WEIGHTS}
+    | {moves_linearly: NULL_PASSES},
     "Fig. 9": {
         weighs("nearest only"): DIFFERS,
         weighs("uniform"): DIFFERS,
         weighs("inverse square"): NULL_PASSES,
+        moves_linearly: NULL_PASSES,
     },
+    "III, Block 2": {moves_linearly: REPRODUCED},
+    "Ours, Eq. 5": {moves_linearly: BEATEN},
     "III, Block 3": {moves_linearly: DIFFERS},
     "Table V": {searches_blindly: NULL_PASSES},
     "Fig. 4": {searches_blindly: NULL_PASSES},
     "Ours, Eq. 6–7": {tries_blindly: DIFFERS},
-    "Table VI": {shuffles_pairs: NULL_PASSES},
+    "V, robots": {searches_blindly: NULL_PASSES},
+    "Table VI": {shuffles_pairs: NULL_PASSES, learns_no_lesson: NULL_PASSES},
+    "Fig. 11": {learns_no_lesson: NULL_PASSES},
+    "IV D, online": {learns_no_lesson: NULL_PASSES},
 }
 MOVING = {
     "Fig. 3": [looks_at_the_cup],

@@ -146,6 +146,13 @@ def test_a_null_passes_where_it_would_hold_in_the_place_of_ours(claimed, limit, 
     assert q.passing_nulls() == ["luck"] or verdict != NULL_PASSES
 
 
+def test_five_of_five_are_seen_where_a_null_is_right_less_often_too():
+    nulls = {"nine of ten": 0.9, "half": 0.5}
+    q = entry.share("q", 1, 143, 150, of=5, better=1, nulls=nulls)
+    assert (q.least, q.most) == (0.8, 1)
+    assert q.passing_nulls() == ["nine of ten"]
+
+
 def test_what_was_fitted_is_no_better_than_its_null():
     q = Quantity("q", 0.5, 0.5, fitted=True, nulls={"other weights": np.float64(0.5)})
     assert q.verdict == NULL_PASSES

@@ -45,6 +45,12 @@ def test_templates_end_on_their_goals(past):
     np.testing.assert_allclose(past.points, plant.GOALS, atol=1e-6)
 
 
+def test_other_laws_try_as_often_as_the_paper_s():
+    left = plant.experiment(0, {"the plan alone": lambda plan, *_, rng: 0 * plan.weights})
+    assert left["the plan alone"] == left["the plan alone, two tries"] == pytest.approx(1)
+    assert left["own online"] < left["exact weights"] < left["off-line, published"] < 1
+
+
 def test_the_same_functions_plan_and_calibrate_it(past):
     habit = plan(draw_targets(past, 10, np.random.default_rng(0)), past)
     assert habit.excitations.shape == (10, plant.SAMPLES, 2)
