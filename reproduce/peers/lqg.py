@@ -2,7 +2,7 @@
 
 What a nervous system has to do, in the field's own terms (Todorov & Jordan 2002). The price of a
 reach is, tick by tick, that of the hand's place and speed while it should be at rest on its target,
-and that of the whole command u:
+and that of the whole command u::
 
     J = Σ_t w_t |y(x_t) − y*|² + r |u_t|².
 
