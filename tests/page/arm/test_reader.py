@@ -132,7 +132,7 @@ def test_a_target_is_dragged(open_arms):
     status(page.reach, "The planned reach")  # it needs no other word
     assert np.subtract(middle(ring), (x, y)) == pytest.approx([-50, 30], abs=2)  # by 1 mm
     assert number(page.reach.locator("output").first.inner_text()) < 0.06
-    set_target(page.reach, (0, -0.49))
+    set_target(page.reach, (0.25, -0.49))
     assert "not surrounded" in status(page.reach, "Nothing planned")
 
 
@@ -140,12 +140,12 @@ def test_a_target_in_space_is_dragged_in_either_view(open_arms):
     page = open_arms()
     start(page.whole)
     handles, values = page.whole.locator(".vmc-handle"), page.whole.locator("fieldset output")
-    for view, axis in ((0, 1), (1, 2)):  # the one shows up, the other right
-        before = values.all_inner_texts()
+    for view, dx in ((0, -12), (1, 12)):  # the one shows up, the other right, both forward
+        before = values.all_text_contents()
         handles.nth(view).scroll_into_view_if_needed()
-        drag(page, middle(handles.nth(view)), 12, 12)
-        moved = [was != now for was, now in zip(before, values.all_inner_texts(), strict=True)]
-        assert moved == [place in (0, axis) for place in range(3)]
+        drag(page, middle(handles.nth(view)), dx, 12)
+        moved = [was != now for was, now in zip(before, values.all_text_contents(), strict=True)]
+        assert moved == [place in (2, view) for place in range(3)]
 
 
 def test_a_first_reach_is_there_and_its_miss_is_enlarged(open_arms, ask):
