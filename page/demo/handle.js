@@ -24,8 +24,9 @@ export const addHandle = (pictures, moved, number, dropped) => {
   const put = () => {
     const [box, frame] = [plot(), pictures].map((element) => element.getBoundingClientRect());
     const [right, down] = axesOf(plot()).drawn(place);
-    handle.style.transform =
-      `translate(${box.left - frame.left + right * box.width}px, ${box.top - frame.top + down * box.height}px)`;
+    const [x, y] = [box.left - frame.left + right * box.width, box.top - frame.top + down * box.height];
+    handle.hidden = x < 0 || x > frame.width; // where a phone has scrolled it out of sight
+    handle.style.transform = `translate(${x}px, ${y}px)`;
   };
 
   const go = ({ clientX, clientY }, [x, y] = [0, 0]) =>
