@@ -88,7 +88,7 @@ ITEMS = (
     Item(
         "Way A misses by 4 mm in one trial, way B by 5 mm in another. Which is better?",
         "That is open: one trial each does not tell",
-        ("A", "They are equally good: 1 mm is little"),
+        ("A", "They are equally good: 1 mm is too little to matter"),
         1,
     ),
 )

@@ -91,7 +91,8 @@ def _rest(chapters):
     items = "".join(f"<li>{chapter.title.body[0].get_text()}</li>" for chapter in chapters)
     texts = [slide for chapter in chapters for slide in chapter.text(4)]
     quiz = [slide for chapter in chapters for slide in spread(chapter.quiz, 2)]
-    return [Slide([f"<h1>{REST}</h1><ul>{items}</ul>"]), *texts, *quiz, chapters[-1].recap]
+    begin = Slide([f"<h1>{REST}</h1><ul>{items}</ul>"], ["<p>Show what a class asks for.</p>"])
+    return [begin, *texts, *quiz, chapters[-1].recap]
 
 
 def _article(path):
