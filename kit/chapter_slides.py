@@ -16,7 +16,7 @@ from bs4 import Comment, Tag
 
 WRAPPERS = {"cell", "cell_output", "output", "text_html"}  # of a cell's output
 WIRING = "What the brain does"  # a section: what it draws, and asks nothing about
-EXERCISES = "<p>Exercises: the chapter's page runs and checks your lines. Nothing to install.</p>"
+EXERCISES = "<p>Exercises: the chapter's page checks your lines; nothing to install.</p>"
 FULL_STOP = re.compile(r"(?<!Eq)(?<!Eqs)(?<!Fig)[.?!](?=\s|$)")
 
 
@@ -121,9 +121,9 @@ def chapter_slides(article, headings=None):
 
 
 def _left_open(words):
-    """A paragraph of what a recap has in bold: a question, or where it only says "Next:", all."""
-    whole = words.get_text().strip().endswith(":")
-    return f"<p>{words.parent.decode_contents() if whole else words}</p>"
+    """A paragraph of what a recap has in bold: a question, or "Next:" with what follows it."""
+    follows = words.next_siblings if words.get_text().strip().endswith(":") else ()
+    return f"<p>{''.join(map(str, (words, *follows)))}</p>"
 
 
 def _plain(title):

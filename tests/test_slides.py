@@ -128,7 +128,7 @@ def test_a_session_has_few_slides_and_each_demo_its_notes(kit):
         assert 10 <= len(slides) <= MOST
         for slide in slides:
             words = [p.get_text() for p in slide.select(".fit > p:not(.fragment)")]
-            assert sum(len(text.split()) for text in words) <= 85, words
+            assert sum(len(text.split()) for text in words) <= 75, words
             assert slide.select_one(".notes").get_text(strip=True)
             if slide.select(".fit .vmc-demo"):
                 text = slide.select_one(".notes").get_text()
