@@ -165,10 +165,9 @@ function cutWords() {
 }
 
 /* What is wider than the window, within a part of the page, but for what may scroll. */
-/* (A folded section is not laid out: its handles stand where they stood.) */
 function tooWide(within) {
   return [...document.querySelectorAll(`${within} *:not(pre *, table *, svg *)`)]
-    .filter((e) => e.checkVisibility() && e.getBoundingClientRect().right > innerWidth + 1
+    .filter((e) => e.getBoundingClientRect().right > innerWidth + 1
       && !e.closest("pre, table, div.math, .katex-mathml, .vmc-spoken, .vmc-picture"))
     .map((e) => e.outerHTML.slice(0, 120));
 }

@@ -242,6 +242,7 @@ def test_no_equation_and_no_word_of_a_picture_is_cut(page):
 @pytest.mark.parametrize("width", sample((320, 360, 412, 640, 768, 1024), 320, 768))
 def test_fits_phones_tablets_and_enlarged_pages(page, width):
     """Three phones, two tablets; 320 and 640 are a window of 1280 at 400 % and at 200 %."""
+    unfold(page)  # a folded section is not laid out anew
     resize(page, width, 700)
     whole = page.evaluate("() => document.documentElement.scrollWidth")
     assert (probe(page, "tooWide", "article"), whole) == ([], min(whole, width))
