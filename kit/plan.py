@@ -2,6 +2,7 @@
 
 from book.figures.inventory import title_and_minutes
 from book.figures.plans import BOOK, NAMES, PLANS, sections
+from kit.session import MINUTES
 
 INTRODUCTION = """# Plans: six, eight or twelve sessions of ninety minutes
 
@@ -15,7 +16,6 @@ takes about ten more.
 """
 HEAD = """| session | read | min | show | demos (min) | exercises (min) |
 |-|-|-|-|-|-|"""
-SESSION = 90  # minutes
 
 
 def plans():
@@ -26,7 +26,7 @@ def plans():
 def hours(count):
     """What a course of so many sessions takes a student, in hours, without a project."""
     homework = (session.minutes() + session.minutes("exercises") for session in PLANS[count])
-    return (SESSION * count + sum(homework)) / 60
+    return (MINUTES * count + sum(homework)) / 60
 
 
 def _plan(count):
