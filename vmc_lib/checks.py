@@ -25,8 +25,8 @@ def check_count(name, value, least=0):
 
 
 def is_within(value, low, high):
-    """Whether a value is one number, and within [low, high]; text and arrays are not."""
-    return isinstance(value, Real) and bool(low <= value <= high)
+    """Whether a value is one finite number, within [low, high]; text and arrays are not."""
+    return isinstance(value, Real) and bool(low <= value <= high and abs(value) < np.inf)
 
 
 def as_numbers(name, values):

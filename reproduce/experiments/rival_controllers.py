@@ -21,7 +21,7 @@ from reproduce.peers.lqr_tracking import scatter
 from reproduce.peers.minimum_variance import jerk
 from reproduce.peers.optimal_control import TARGETS, optimal_excitations
 from vmc_lib.arm.dynamics import hand
-from vmc_lib.arm.muscle import noisy
+from vmc_lib.arm.muscle import add_noise, noisy
 from vmc_lib.cerebellum.forward_model import arm_copy
 from vmc_lib.cerebellum.offline import algorithm_1, gauss_newton_calibration
 from vmc_lib.motor.execution import execute
@@ -82,7 +82,7 @@ def draw_luck(count, seed):
 def habit_paths(plans, luck, share=NOISE):
     """Paths (B, T + 1, 2) and activations (B, T + 1, 6) by plans alone."""
     commands = keep_last(plans.excitations, SECONDS - 1)
-    motion = reach(np.clip(commands * (1 + share * np.swapaxes(luck.noise, 0, 1)), 0, 1), hold=0.0)
+    motion = reach(add_noise(commands, share, np.swapaxes(luck.noise, 0, 1)), hold=0.0)
     return motion.hand[:, ::TICK, :2], motion.activation[:, ::TICK]
 
 

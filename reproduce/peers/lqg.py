@@ -35,7 +35,7 @@ from reproduce.peers.optimal_control import CLEARANCE
 from reproduce.peers.state_estimation import kalman_gains
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.arm.model import STEP
-from vmc_lib.arm.muscle import euler_activation, noisy
+from vmc_lib.arm.muscle import add_noise, euler_activation, noisy
 from vmc_lib.camera import TABLE
 from vmc_lib.data import arrays
 from vmc_lib.motor.feedback import TICK
@@ -219,8 +219,7 @@ def steer(law, filters, share, draws, errors):
     for t, told in enumerate(law.commands):
         u = np.clip(told - guess[:, :10] @ law.gains[t].T, 0, 1)
         sent.append(np.interp(u, *mean_pulls(share)[::-1]))
-        wavering = sent[-1][:, None] * (1 + share * draws[:, t])
-        now = next_states(now, np.clip(wavering, 0, 1))
+        now = next_states(now, add_noise(sent[-1][:, None], share, draws[:, t]))
         way.append(now)
         guess = guess @ whole[t].T
         guess[:, :10] += (u - told) @ law.B[t].T + slip[t]

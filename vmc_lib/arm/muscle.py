@@ -100,7 +100,12 @@ def noisy(excitation, share, rng):
     [0, 1].
     """
     check_rng(rng)
-    return np.clip(excitation * (1 + share * rng.standard_normal(np.shape(excitation))), 0, 1)
+    return add_noise(excitation, share, rng.standard_normal(np.shape(excitation)))
+
+
+def add_noise(excitation, share, draws):
+    """Signal-dependent noise by unit `draws` (…) that are there already, clipped to [0, 1]."""
+    return np.clip(excitation * (1 + share * draws), 0, 1)
 
 
 class Muscle(NamedTuple):

@@ -128,7 +128,7 @@ def constant_excitation(level, duration, step=STEP):
 
     ValueError for other shapes, or a duration that is not finite, or shorter than one step.
     """
-    if not (is_within(duration, step, np.inf) and duration < np.inf):
+    if not is_within(duration, step, np.inf):
         raise ValueError(f"a duration of {short(duration)} s: choose at least {step} s")
     level = as_numbers("level", level)
     if level.shape[-1:] != (6,):

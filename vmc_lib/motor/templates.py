@@ -111,7 +111,7 @@ def load(spacing=SPACING, hold=HOLD):
     """
     if spacing not in SPACINGS:
         raise ValueError(f"no templates lie {spacing} m apart; choose one of {SPACINGS}")
-    if not (is_within(hold, 0, np.inf) and hold < np.inf):
+    if not is_within(hold, 0, np.inf):
         raise ValueError(f"a hold of {short(hold)} s: give seconds, 0 or more")
     excitations = spline() @ arrays("templates")[key(spacing)].astype(float)
     move = partial(reach, hold=hold)
