@@ -225,7 +225,7 @@ WRONG = {  # cells of which a chapter alone fails, and what it says
     "a demo that a later cell changes": (
         "from vmc_lib.show import explore\nby = 1\n"
         "explore(lambda x: f'<p>{by * x}</p>', alt='words', x=[*'ab'])\nby = 2",
-        "these demos show something else now: ['demo-1']",
+        "these demos show something else now: ['demo-code']",
     ),
 }
 

@@ -65,8 +65,15 @@ def test_a_strip_is_low_and_leads_to_its_step(window, serious, width, height):
     assert box["x"] + box["width"] <= width
     assert serious(page, ".vmc-thread") == []
     page.locator(".vmc-thread > a").click()
-    page.wait_for_selector("#demo-1[data-ready]")
-    assert page.get_attribute("#demo-1-step", "aria-valuetext") == "calibrated reach"
+    page.wait_for_selector("#demo-whole-loop[data-ready]")
+    assert page.get_attribute("#demo-whole-loop-step", "aria-valuetext") == "calibrated reach"
+    page.close()
+
+
+@pytest.mark.parametrize("name", ["demo-whole-loop", "demo-1"])  # its name, and its number of old
+def test_a_demo_is_at_its_address(offline, name):
+    page = open_url(offline, f"{(BOOK / '01_loop.html').as_uri()}#{name}?photo=0&step=3")
+    assert page.input_value("#demo-whole-loop-step") == "3"
     page.close()
 
 
@@ -94,7 +101,7 @@ def test_the_ruler_shows_the_miss_that_the_panel_tells(offline):
     """In the close-up the ruler is as long as the number says; without it, before the end."""
     page = open_url(offline, (BOOK / "epilogue.html").as_uri())
     page.wait_for_selector(".vmc-scene canvas")
-    close_up, slider = page.locator(".vmc-close-up"), page.locator("#demo-1 [data-stride]")
+    close_up, slider = page.locator(".vmc-close-up"), page.locator(".vmc-demo [data-stride]")
     for place, motion in enumerate(("plan", "off-line", "online", "whole hold")):
         slider.fill(str(place))
         said = f"{thread.misses()[motion]:.1f} mm"
@@ -134,7 +141,7 @@ def test_a_hit_lifts_the_shuttlecock_and_a_miss_does_not(offline):
     scene, play = page.locator(".vmc-scene"), page.locator(".vmc-clock button")
     before = scene.evaluate(HEIGHT)
     for place, lifts in ((0, False), (3, True), (0, False)):
-        page.locator("#demo-1 [data-stride]").fill(str(place))
+        page.locator(".vmc-demo [data-stride]").fill(str(place))
         assert scene.evaluate(HEIGHT) == pytest.approx(before)
         play.click()
         page.wait_for_selector(".vmc-clock button[aria-pressed=false]")

@@ -1,6 +1,9 @@
-"""Demos drawn again at a chapter's end, where a later cell may have changed what they read."""
+"""Demos are named by their cells, and drawn again at the end: a later cell may change them."""
 
 import inspect
+from collections import Counter
+
+from IPython import get_ipython
 
 from vmc_lib import show
 from vmc_lib.show import demo
@@ -8,8 +11,12 @@ from vmc_lib.show import demo
 DECLARED = []  # (its name, a function, its result) of each demo that moves
 
 
-def record():
-    """Let `explore` record the demos that it shows from now on."""
+def record(cells):
+    """Let `explore` record the demos that it shows from now on, each named by its cell.
+
+    `cells` are the ids of the cells with code, as they will be executed.
+    """
+    demo.names = cell_names(cells)
     explore = show.explore
 
     def explore_and_record(*given, **named):
@@ -26,6 +33,15 @@ def record():
         return numbers
 
     show.explore = explore_and_record
+
+
+def cell_names(cells):
+    """The id of the cell that is executed, again and again; its second demo is `…-2`."""
+    given = Counter()
+    while True:
+        cell = cells[get_ipython().execution_count - 1]
+        given[cell] += 1
+        yield cell if given[cell] == 1 else f"{cell}-{given[cell]}"
 
 
 def draw_again():

@@ -54,14 +54,20 @@ def digest(page):
     """A name for the state of a chapter's lines and numbers, and of what it imports or reads."""
     root = page.parents[1]
     cells = nbformat.read(page, as_version=4).cells
-    code = [cell.source for cell in with_code(cells, CHECK) if cell.cell_type == "code"]
+    code = [cell.source for cell in code_cells(cells)]
     folders = [(root / room, DATA) for room in ROOMS]
     folders += [(root / room, {".py", ".ipynb"}) for room in COUNTED.get(page.stem, ())]
     files = {root / "constraints.txt"}.union(*(_files(*folder) for folder in folders))
     with suppress(SyntaxError):  # of which its execution will say where
         files |= imported_files("\n".join([BEFORE, *code]), root)
     states = [f"{file.relative_to(root)} {_content(file)}" for file in sorted(files)]
-    return hashlib.sha256("\n".join([*code, *states]).encode()).hexdigest()[:16]
+    names = [cell.id for cell in code_cells(cells)]
+    return hashlib.sha256("\n".join([*names, *code, *states]).encode()).hexdigest()[:16]
+
+
+def code_cells(cells):
+    """What is executed of a chapter: its code, and its prose's numbers (see `with_code`)."""
+    return [cell for cell in with_code(cells, CHECK) if cell.cell_type == "code"]
 
 
 def _files(folder, kinds):
@@ -161,8 +167,8 @@ def store(cache, page, notebook, data):
     cache.cache_notebook_bundle(bundle, check_validity=False, overwrite=True)
 
 
-# Every demo is drawn again at the end, where a later cell may have changed what it reads
-BEFORE = "from book._ext import drawn_again; drawn_again.record()"
+# A demo has its cell's name, and is drawn again at the end: a later cell may change what it reads
+BEFORE = "from book._ext import drawn_again"
 AFTER = "drawn_again.draw_again()"
 
 
@@ -171,10 +177,11 @@ def execute(page, timeout):
     notebook = nbformat.read(page, as_version=4)
     cells = notebook.cells
     notebook.cells = [*with_code(cells, CHECK), nbformat.v4.new_code_cell(AFTER)]
+    record = f"drawn_again.record({[cell.id for cell in code_cells(cells)]})"
     options = {
         "extra_arguments": [
             "--IPKernelApp.log_level=ERROR",  # or it warns that loopback is plain
-            f"--IPKernelApp.exec_lines={[BEFORE]}",
+            f"--IPKernelApp.exec_lines={[BEFORE, record]}",
         ],
         "force_raise_errors": True,  # also where a reader's error does not stop Run All
     }

@@ -72,7 +72,7 @@ def strip(number, places, photo):
     label = f"miss {miss}: photo 1, {words}. See this step in chapter 1"
     return (
         f'<nav class="vmc-thread" aria-label="The loop"><ol>{marks}</ol>'
-        f'<a href="{first}#demo-1?photo=0&amp;step={step}" aria-label="{label}">'
+        f'<a href="{first}#demo-whole-loop?photo=0&amp;step={step}" aria-label="{label}">'
         f"{thread.picture(number, photo)}<span>miss <b>{miss}</b></span></a></nav>\n"
     )
 

@@ -1,5 +1,5 @@
 /* What every page of words needs: its equations, its folds, names for a screen reader. */
-import { hash } from "../demo/address.js";
+import { address, hash } from "../demo/address.js";
 import { memory } from "../demo/questions.js";
 import { setEquations } from "./equations.js";
 
@@ -58,14 +58,14 @@ addEventListener("DOMContentLoaded", () =>
     heading.after(inside);
     button.addEventListener("click", () => open(inside.hasAttribute("hidden")));
     inside.addEventListener("beforematch", () => open(true));
-    const asked = () => {
-      const place = document.getElementById(hash().split("?")[0]);
+    const come = () => {
+      const place = document.getElementById(address()[0]);
       if (place && section.contains(place)) { open(true); place.scrollIntoView(); }
     };
-    addEventListener("hashchange", asked);
+    addEventListener("hashchange", come);
     addEventListener("load", () => inside.querySelector("span.highlighted") && open(true)); // by the book's search
     open(false);
-    asked();
+    come();
   }));
 
 /* What a link leads to is unfolded. */

@@ -5,7 +5,15 @@ export const hash = () => {
   try { return decodeURIComponent(text); } catch { return text; } // cut in the middle of a sign
 };
 
-/* A demo's state in the page's address: `#demo-3?photo=1&step=4` says where each control stands. It is
+/* What the address names, and where a demo's controls stand: [id, query]. Demos had numbers before they
+   had names: a link of that time names the page's demo of that number. */
+export const address = () => {
+  const [name, query] = hash().split("?"), [, number] = name.match(/^demo-(\d+)$/) ?? [];
+  const numbered = number && document.querySelectorAll(".vmc-demo[id^=demo-]")[number - 1];
+  return [numbered?.id ?? name, query];
+};
+
+/* A demo's state in the page's address: `#demo-saliency?photo=1` says where each control stands. It is
    read when the page opens and when the address changes, and written when the reader moves a control;
    the sign at the caption's end is a link to it. */
 export const addAddress = (demo) => {
@@ -29,7 +37,7 @@ export const addAddress = (demo) => {
 
   /* Put the controls where the address says; whether it speaks of this demo. */
   const read = () => {
-    const [id, places] = hash().split("?");
+    const [id, places] = address();
     if (id !== demo.id || places === undefined) return false;
     for (const [key, place] of new URLSearchParams(places))
       for (const input of inputs.filter((input) => name(input) === key))

@@ -1,7 +1,7 @@
 /* Demos that the page's Python draws: by a law that the reader has changed above them, and between a
    slider's stops. Where it cannot, or is not asked, the nearest picture of the book stands. And arms
    that plan by such a law. */
-import { hash } from "../demo/address.js";
+import { address } from "../demo/address.js";
 import { clean, settle } from "./drawn.js";
 import * as grade from "./grade.js";
 import * as python from "./interpreter.js";
@@ -210,7 +210,7 @@ const cellOf = (name) => document.querySelector(`form[data-cell="${CSS.escape(na
 
 /* The laws that an address brings are shown beside their cells, and run when the reader asks for it. */
 const bring = () => {
-  const [id, query] = hash().split("?");
+  const [id, query] = address();
   const laws = [...new URLSearchParams(query)].filter(([key, text]) => key.startsWith(LAW) && text).map(([key, text]) => [key.slice(LAW.length), text]);
   const known = new Map(laws.filter(([name]) => cellOf(name))), unknown = laws.map(([name]) => name).filter((name) => !known.has(name));
   if (known.size) followers.forEach(({ run }) => (run.hidden = true)); // the lines of an earlier link are gone

@@ -41,7 +41,7 @@ from vmc_lib.show.values import Demo
 MOST_POSITIONS = 200
 SAID = '<p class="vmc-kernel" role="status"></p><p class="vmc-error" role="alert"></p>'
 SAMPLE = 25  # positions along a control, of a demo that the page works out
-_demos = itertools.count(1)
+names = itertools.count(1)  # of the demos of a page; a build of the book gives them words
 
 
 def explore(
@@ -105,7 +105,7 @@ def widget(draw, caption="", alt=None, in_page=None, data=None, printed=(), more
     controls = {name: as_control(name, spec, starts.get(name)) for name, spec in specs.items()}
     printed = [address(values, controls) for values in printed]
     # in JupyterLab several notebooks share a page, and kernels start anew
-    name = f"demo-{uuid4().hex[:8] if render_mode() == 'live' else next(_demos)}"
+    name = f"demo-{uuid4().hex[:8] if render_mode() == 'live' else next(names)}"
 
     def state(place):
         """The description and the pictures at a position of the grid."""
