@@ -46,7 +46,7 @@ const clock = (views) => {
   /* In a film the last moments before the hold are slow. */
   const play = async ({ film = false } = {}) => {
     const mine = (playing = {});
-    button.textContent = "Pause";
+    button.textContent = "Pause the movement";
     button.setAttribute("aria-pressed", "true");
     const { duration } = views[0];
     const start = +slider.value < duration ? +slider.value : 0;
