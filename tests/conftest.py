@@ -29,6 +29,15 @@ os.environ.setdefault("MPLBACKEND", "agg")
 os.environ["PYTHONPATH"] = str(Path(__file__).parents[1])  # of the programs that tests start
 
 
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items):
+    """Leave to the audit what is asked of every page and marked `kinds`, but for these pages."""
+    for item in items:
+        kinds = item.get_closest_marker("kinds")
+        if kinds and item.callspec.params["page"].stem not in kinds.args:
+            item.add_marker("audit")
+
+
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_makereport(item, call):
     """Keep what the open pages showed when a test failed, in _build/failed."""

@@ -16,7 +16,7 @@ each_chapter = pytest.mark.parametrize("path", CHAPTERS, ids=lambda path: path.s
 
 def sample(cases, *kept):
     """The cases of a test, of which all but some, by name, wait for the audit (`make audit`)."""
-    name = lambda case: getattr(case, "stem", case)  # noqa: E731 - a file's, or itself
+    name = lambda case: getattr(case, "stem", getattr(case, "name", case))  # noqa: E731
     audit = pytest.mark.audit
     return [c if name(c) in kept else pytest.param(c, marks=audit, id=f"{name(c)}") for c in cases]
 

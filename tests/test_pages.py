@@ -9,6 +9,10 @@ from tests.pages import CHAPTERS, INSIDE, TWO_FRAMES, boxes, broken_links, open_
 from tests.project import sample
 
 pytestmark = pytest.mark.browser
+# A page of each kind of figure: plots, photos, scenes, live arms, many controls, words alone
+a_page_of_each_kind = pytest.mark.kinds(
+    *("index", "03_regions", "07_muscle", "10_offline", "15_whole_arm", "ledger", "your_photo")
+)
 each_chapter = pytest.mark.parametrize("path", CHAPTERS, ids=lambda path: path.stem)
 
 
@@ -106,6 +110,7 @@ def test_every_control_moves_its_picture(page):
     assert probe(page, "idleControls") == []
 
 
+@a_page_of_each_kind
 def test_every_place_of_a_dragged_slider_is_drawn(page):
     assert probe(page, "brokenDrags") == []
 
@@ -117,6 +122,7 @@ def test_sliders_stand_in_a_grid_and_still(page):
 EIGHTHS = [0.02 + 0.12 * k for k in range(9)]
 
 
+@a_page_of_each_kind
 @pytest.mark.parametrize(
     ("width", "height", "places"),
     [
@@ -160,7 +166,8 @@ def test_the_film_waits_where_less_motion_is_asked_for(window):
 
 
 @pytest.mark.parametrize(
-    ("width", "height"), [*SCREENS, pytest.param(*OTHER, marks=pytest.mark.audit)]
+    ("width", "height"),
+    [SCREENS[1], *(pytest.param(*one, marks=pytest.mark.audit) for one in (SCREENS[0], OTHER))],
 )
 def test_no_control_lies_over_a_picture(page, width, height):
     resize(page, width, height)
@@ -177,6 +184,7 @@ RUN_LENGTH = """(cell) => {
 }"""
 
 
+@a_page_of_each_kind
 def test_a_run_of_folded_cells_has_one_mark(page):
     """The keyboard opens all the run's cells by it, and folds them again."""
     runs = page.locator(RUNS)
@@ -195,6 +203,7 @@ def test_a_run_of_folded_cells_has_one_mark(page):
             cell.locator("> details > .cell_input").wait_for(state=state)
 
 
+@a_page_of_each_kind
 def test_marks_of_folded_code_have_room(page):
     """In the margin of a wide page, 24 pixels; between the lines of a phone's, 44."""
     unfold(page)
@@ -217,6 +226,7 @@ def test_a_box_shows_all_code_and_is_remembered(offline):
     page.close()
 
 
+@a_page_of_each_kind
 def test_sliders_answer_the_keyboard(page):
     unfold(page)
     page.eval_on_selector_all(".vmc-more", "folds => folds.forEach((fold) => (fold.open = true))")
@@ -230,6 +240,7 @@ def test_sliders_answer_the_keyboard(page):
         assert slider.get_attribute("aria-valuetext") != words
 
 
+@a_page_of_each_kind
 def test_is_accessible(page, serious):
     assert serious(page, "html", all_of_it=True) == []
 
