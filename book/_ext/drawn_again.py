@@ -9,6 +9,7 @@ from vmc_lib import show
 from vmc_lib.show import demo
 
 DECLARED = []  # (its name, a function, its result) of each demo that moves
+BEGUN = []  # the cells that have been executed, and the one that is
 
 
 def record(cells):
@@ -16,7 +17,9 @@ def record(cells):
 
     `cells` are the ids of the cells with code, as they will be executed.
     """
-    demo.names = cell_names(cells)
+    waiting = iter(cells)
+    get_ipython().events.register("pre_run_cell", lambda _: BEGUN.append(next(waiting, "")))
+    demo.names = cell_names()
     explore = show.explore
 
     def explore_and_record(*given, **named):
@@ -35,11 +38,11 @@ def record(cells):
     show.explore = explore_and_record
 
 
-def cell_names(cells):
+def cell_names():
     """The id of the cell that is executed, again and again; its second demo is `…-2`."""
     given = Counter()
     while True:
-        cell = cells[get_ipython().execution_count - 1]
+        cell = BEGUN[-1]
         given[cell] += 1
         yield cell if given[cell] == 1 else f"{cell}-{given[cell]}"
 
