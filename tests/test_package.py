@@ -187,6 +187,37 @@ def test_the_wheel_puts_all_of_the_library_and_nothing_else_into_site_packages(r
     ours = {path.relative_to(ROOT).as_posix() for path in files if "__pycache__" not in path.parts}
     brought = {f"vmc_lib/show/static/{name}" for name in ("demo.js", *wheel.FILES)}
     assert names == ours | brought
+    assert "vmc_lib/py.typed" in names
+
+
+# Without an ignored line's mistake mypy would call its comment unused
+TYPED = """
+from vmc_lib import loop, photos
+from vmc_lib.cerebellum.offline import calibrate
+from vmc_lib.motor import planning, templates
+from vmc_lib.show import widget
+from vmc_lib.show.arm import arm_scene
+model, photo = loop.VisuomotorModel.load("rig"), photos.load("rig", "test")[0]
+sight, reach = loop.see_and_reach(model, photo.image, photo.camera)
+plan = planning.plan((0.1, -0.38), templates.load(), rule="exact")
+print(sight.summary.upper(), calibrate(plan, "own").error.min(), calibrate(plan, calibrate))
+print(widget(lambda k: arm_scene((0, k)), k=(0, 2)).value)
+calibrate(plan, rule=3)  # type: ignore[arg-type]
+calibrate(plan, "best")  # type: ignore[arg-type]
+calibrate("own", plan)  # type: ignore[arg-type]
+planning.plan((0.1, -0.38), templates.load(), "published")  # type: ignore[arg-type]
+loop.see(photo, photo.image)  # type: ignore[arg-type]
+loop.reach(model)  # type: ignore[call-arg]
+sight.detection  # type: ignore[attr-defined]
+widget(3)  # type: ignore[arg-type]
+"""
+
+
+def test_a_checker_tells_right_calls_of_the_installed_library_from_wrong_ones(reader, tmp_path):
+    (tmp_path / "script.py").write_text(TYPED, encoding="utf-8")
+    options = [f"--config-file={ROOT / 'pyproject.toml'}", f"--cache-dir={tmp_path / 'cache'}"]
+    options += [f"--python-executable={reader / 'venv/bin/python'}", "--warn-unused-ignores"]
+    python("-m", "mypy", *options, "script.py", cwd=tmp_path, PYTHONPATH="")
 
 
 def test_a_demo_of_the_wheel_is_moved_by_the_script_that_a_clone_makes(alone):

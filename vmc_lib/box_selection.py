@@ -6,11 +6,16 @@ validation photos.
 
 from dataclasses import replace
 
+import numpy as np
+
+from vmc_lib.camera import Camera
+from vmc_lib.where.detector import Detections
+
 SIZES = (0.05, 0.092)  # m: smallest and largest physical size of a shuttlecock in its box
 SIZE_LIKELIHOOD_RATIO = 5  # how much more often a shuttlecock's box is of these sizes than another
 
 
-def filter_by_size(detections, camera):
+def filter_by_size(detections: Detections, camera: Camera) -> Detections:
     """The `Detections` whose boxes, seen by a `Camera`, are of a shuttlecock's physical size."""
     smallest, largest = SIZES
     size = camera.sizes(detections.boxes)
@@ -18,6 +23,6 @@ def filter_by_size(detections, camera):
     return replace(detections, boxes=detections.boxes[right], scores=detections.scores[right])
 
 
-def scale_odds(probability, ratio):
+def scale_odds(probability: np.ndarray, ratio: float) -> np.ndarray:
     """Multiply the odds of probabilities (n,) by a likelihood ratio (Bayes' rule)."""
     return probability * ratio / (probability * ratio + 1 - probability)

@@ -1,6 +1,7 @@
 """Bounding boxes: intersection over union, non-maximum suppression, voting, regression deltas."""
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from vmc_lib.checks import as_numbers, check_rng, is_within
 from vmc_lib.short_repr import short
@@ -8,7 +9,7 @@ from vmc_lib.short_repr import short
 MIN_IOU = 0.8  # IoU at which a box counts as the object's (Section IV A)
 
 
-def as_boxes(boxes):
+def as_boxes(boxes: ArrayLike) -> np.ndarray:
     """Convert boxes to a float64 array (n, 4) of (x0, y0, x1, y1), x1 and y1 exclusive.
 
     One box, or an empty list, becomes an array of one row or none. A box may have no area, and
@@ -26,18 +27,18 @@ def as_boxes(boxes):
     return boxes
 
 
-def area(boxes):
+def area(boxes: np.ndarray) -> np.ndarray:
     """Areas (n,) of boxes (n, 4), in square pixels."""
     x0, y0, x1, y1 = np.moveaxis(boxes, -1, 0)
     return (x1 - x0) * (y1 - y0)
 
 
-def centres_and_sides(boxes):
+def centres_and_sides(boxes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Centres (n, 2) and sides (n, 2), along x and y, of boxes (n, 4)."""
     return (boxes[..., :2] + boxes[..., 2:]) / 2, boxes[..., 2:] - boxes[..., :2]
 
 
-def iou(a, b):
+def iou(a: ArrayLike, b: ArrayLike) -> np.ndarray:
     """Intersection over union (Jaccard index) of boxes, pair by pair.
 
     Parameters
@@ -61,7 +62,7 @@ def iou(a, b):
     return np.divide(shared, union, out=np.zeros_like(shared), where=union > 0)
 
 
-def nms(boxes, scores, overlap=0.3):
+def nms(boxes: ArrayLike, scores: ArrayLike, overlap: float = 0.3) -> np.ndarray:
     """Greedy non-maximum suppression.
 
     The best box stays and suppresses every box that overlaps it by more than `overlap`; then the
@@ -105,7 +106,9 @@ def nms(boxes, scores, overlap=0.3):
     return np.array(kept, int)
 
 
-def vote(kept, boxes, scores, temperature=0.1):
+def vote(
+    kept: np.ndarray, boxes: np.ndarray, scores: np.ndarray, temperature: float = 0.1
+) -> np.ndarray:
     """Box voting: each of the boxes `kept` (indices) becomes a weighted mean of boxes near it.
 
     A box votes for each kept one that it overlaps by half or more and does not outscore. A vote
@@ -119,14 +122,14 @@ def vote(kept, boxes, scores, temperature=0.1):
     return weights @ boxes / weights.sum(1, keepdims=True)
 
 
-def pad_boxes(boxes, margin):
+def pad_boxes(boxes: ArrayLike, margin: float) -> np.ndarray:
     """Pad boxes (n, 4) by a margin on each side, given as a share of their sides."""
     boxes = as_boxes(boxes)
     pad = margin * (boxes[:, 2:] - boxes[:, :2])
     return np.hstack([boxes[:, :2] - pad, boxes[:, 2:] + pad])
 
 
-def jitter_boxes(boxes, amount, rng):
+def jitter_boxes(boxes: ArrayLike, amount: float, rng: np.random.Generator) -> np.ndarray:
     """Jitter the edges of boxes (..., 4) by Gaussian noise, `amount` in shares of their sides."""
     check_rng(rng)
     boxes = np.asarray(boxes, float)
@@ -134,13 +137,13 @@ def jitter_boxes(boxes, amount, rng):
     return boxes + rng.normal(0, amount, boxes.shape) * np.tile(sides, 2)
 
 
-def encode_deltas(boxes, truth):
+def encode_deltas(boxes: np.ndarray, truth: np.ndarray) -> np.ndarray:
     """Box-regression targets (dx/w, dy/h, log dw, log dh) from boxes to truth, (n, 4) (R-CNN)."""
     (centres, sides), (true_centres, true_sides) = map(centres_and_sides, (boxes, truth))
     return np.hstack([(true_centres - centres) / sides, np.log(true_sides / sides)])
 
 
-def decode_deltas(boxes, deltas):
+def decode_deltas(boxes: np.ndarray, deltas: np.ndarray) -> np.ndarray:
     """Move and stretch boxes (n, 4) by deltas (n, 4) as `encode_deltas` defines them."""
     centres, sides = centres_and_sides(boxes)
     centres = centres + deltas[:, :2] * sides

@@ -7,6 +7,7 @@ these coordinates, so a whole photo is the box (0, 0, 600, 400).
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from vmc_lib import NoReach
 from vmc_lib.boxes import as_boxes
@@ -31,7 +32,7 @@ class Camera:
 
     __repr__ = short_repr
 
-    def project(self, points):
+    def project(self, points: ArrayLike) -> np.ndarray:
         """Project points (n, 3) of the shoulder frame to pixels (n, 2).
 
         Raises ValueError for a point that is not in front of the camera, and for other shapes.
@@ -41,7 +42,7 @@ class Camera:
             raise ValueError("a point behind the camera has no picture: give points it faces")
         return self.focal * x[:, :2] / x[:, 2:] + self.centre
 
-    def rays(self, pixels):
+    def rays(self, pixels: ArrayLike) -> np.ndarray:
         """Ray directions (n, 3), in the shoulder frame, through pixels (n, 2); their depth is 1.
 
         Raises ValueError for other shapes.
@@ -49,7 +50,7 @@ class Camera:
         x = (_rows("pixels", pixels, 2) - self.centre) / self.focal
         return np.column_stack([x, np.ones(len(x))]) @ self.rotation
 
-    def back_project(self, pixels, height=TABLE):
+    def back_project(self, pixels: ArrayLike, height: float = TABLE) -> np.ndarray:
         """Back-project pixels (n, 2) to the points (n, 3) on their rays with y = height.
 
         Raises `NoReach` where a ray runs level with the plane or away from it.
@@ -68,7 +69,7 @@ class Camera:
         with np.errstate(divide="ignore", invalid="ignore"):
             return rays, (height - self.position[1]) / rays[:, 1]
 
-    def sizes(self, boxes):
+    def sizes(self, boxes: ArrayLike) -> np.ndarray:
         """Physical size of the objects in boxes (n, 4), if they stand on the table: (n,), m.
 
         The root of the area that each covers in a plane that faces the camera; inf for what stands

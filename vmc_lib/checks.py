@@ -1,19 +1,20 @@
 """Checks of what a caller gives: an error says what is wrong, the value, and the remedy."""
 
 from numbers import Integral, Real
+from typing import Any
 
 import numpy as np
 
 from vmc_lib.short_repr import short
 
 
-def check_kind(name, value, kind, remedy):
+def check_kind(name: str, value: object, kind: type, remedy: str) -> None:
     """Raise ValueError where a value is of another class than `kind`."""
     if not isinstance(value, kind):
         raise ValueError(f"{name} {short(value)} is no {kind.__name__}: give {remedy}")
 
 
-def check_rng(rng):
+def check_rng(rng: object) -> None:
     """Raise ValueError where `rng` is no source of random numbers, but a seed."""
     check_kind("rng", rng, np.random.Generator, "np.random.default_rng(seed)")
 
@@ -29,7 +30,7 @@ def is_within(value, low, high):
     return isinstance(value, Real) and bool(low <= value <= high and abs(value) < np.inf)
 
 
-def as_numbers(name, values):
+def as_numbers(name: str, values: Any) -> np.ndarray:
     """Convert values to an array of floats; ValueError where they are no numbers, or ragged."""
     try:
         return np.asarray(values, float)

@@ -2,12 +2,12 @@
 
 from io import BytesIO
 
-from PIL import ImageCms
+from PIL import Image, ImageCms
 
 MODES = ("RGB", "RGBA", "L", "CMYK")
 
 
-def to_srgb(image):
+def to_srgb(image: Image.Image) -> Image.Image:
     """A Pillow image as RGB, or RGBA, in sRGB: as it is where no profile can be read."""
     profile, mode = image.info.get("icc_profile"), "RGBA" if image.has_transparency_data else "RGB"
     if profile and image.mode in MODES:

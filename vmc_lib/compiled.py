@@ -1,11 +1,13 @@
 """Functions compiled by numba: at their first call, and again when what they read has changed."""
 
+from collections.abc import Callable
 from functools import wraps
 from hashlib import sha256
 from importlib.util import find_spec
 from inspect import unwrap
 from logging import getLogger
 from types import CodeType, FunctionType
+from typing import Any
 from warnings import warn
 
 import numpy as np
@@ -13,7 +15,7 @@ import numpy as np
 AVAILABLE = find_spec("numba") is not None  # not in the page
 
 
-def compiled(loop):
+def compiled(loop: Callable[..., Any]) -> Callable[..., Any]:
     """`numba.njit` of a function and of the plain functions that it calls.
 
     Numba freezes the module-level constants and functions that a function reads. If one is rebound,

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from functools import partial
 from traceback import format_exception_only, walk_tb
 from types import SimpleNamespace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -32,7 +32,7 @@ class Exercise(NamedTuple):
     tolerance: float = 1e-6  # of each number, in its own unit
 
 
-def agree(answer, expected, tolerance):
+def agree(answer: Any, expected: Any, tolerance: float) -> bool:
     """Whether a reader's `answer` is `expected`, within `tolerance`; NaN is NaN.
 
     For one number a list or an array of one is taken as well.

@@ -7,15 +7,18 @@ movement again.
 
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from vmc_lib import NoReach, photos
 from vmc_lib.arm.kinematics import to_world, turn_towards
+from vmc_lib.arm.simulate import Motion
 from vmc_lib.box_selection import SIZE_LIKELIHOOD_RATIO, filter_by_size, scale_odds
 from vmc_lib.camera import Camera
-from vmc_lib.cerebellum.offline import calibrate
-from vmc_lib.checks import check_kind
+from vmc_lib.cerebellum.offline import Rule, calibrate
+from vmc_lib.checks import as_numbers, check_kind
 from vmc_lib.motor import templates
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import Plan, plan
@@ -42,7 +45,7 @@ class VisuomotorModel:
     __repr__ = short_repr
 
     @classmethod
-    def load(cls, level):
+    def load(cls, level: str) -> Self:
         """The shipped model of a level of photos.
 
         It was trained on that level's training photos (the CDBN on those of all levels), its
@@ -58,7 +61,7 @@ class VisuomotorModel:
         )
 
 
-def high_recall_detector(level):
+def high_recall_detector(level: str) -> ObjectDetector:
     """The shipped detector of a level with a lower threshold: the recogniser is still to choose."""
     name = "photographed" if level == photos.REAL_LEVEL else "improved"
     detector = ObjectDetector.load(level, name)
@@ -73,21 +76,21 @@ class Sight:
     probability: np.ndarray  # (k,): that each kept box holds a shuttlecock
     min_probability: float = 0.5  # above which a box counts as one
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"Sight({self.summary})"
 
     @property
-    def shuttlecocks(self):
+    def shuttlecocks(self) -> np.ndarray:
         """The boxes (n, 4) that count as shuttlecocks, the best first."""
         return self.detections.boxes[self.probability > self.min_probability]
 
     @property
-    def box(self):
+    def box(self) -> np.ndarray | None:
         """The best of them (4,), or None where there is none."""
         return self.shuttlecocks[0] if len(self.shuttlecocks) else None
 
     @property
-    def summary(self):
+    def summary(self) -> str:
         """One-line description of the result."""
         sure = [f"{100 * p:.0f} %" for p in self.probability if p > self.min_probability]
         if sure:
@@ -111,20 +114,20 @@ class Reach:
 
     __repr__ = short_repr
 
-    def hand(self, motion):
+    def hand(self, motion: Motion) -> np.ndarray:
         """The wrist's path (T + 1, 3) on the turned trunk, in the frame of the trunk straight."""
         return to_world(motion.hand, self.turn)
 
-    def distance(self, motion, place):
+    def distance(self, motion: templates.HeldMotion, place: ArrayLike) -> float:
         """How far the wrist is from a place (3,) over the hold, on average, m."""
         return float(templates.mean_distance(to_world(motion.wrist, self.turn), place))
 
-    def end_point(self, motion):
+    def end_point(self, motion: templates.HeldMotion) -> np.ndarray:
         """Where the wrist is on average over the hold, (3,), in the same frame."""
         return to_world(motion.wrist, self.turn).mean(axis=0)
 
 
-def see(model, image, camera=None):
+def see(model: VisuomotorModel, image: np.ndarray, camera: Camera | None = None) -> Sight:
     """Detect the objects in an image and recognise the shuttlecocks among them.
 
     Parameters
@@ -153,7 +156,9 @@ def see(model, image, camera=None):
     return Sight(detections, scale_odds(probability, ratio), model.recogniser.min_probability)
 
 
-def locate(model, image, box, camera):
+def locate(
+    model: VisuomotorModel, image: np.ndarray, box: ArrayLike | None, camera: Camera | None
+) -> np.ndarray:
     """Locate the shuttlecock in a box: its place in the shoulder frame.
 
     Parameters
@@ -181,7 +186,9 @@ def locate(model, image, box, camera):
     return model.localiser.locate(image, box, camera)
 
 
-def reach(model, target, calibration="published"):
+def reach(
+    model: VisuomotorModel, target: ArrayLike, calibration: Rule | None = "published"
+) -> Reach:
     """Reach for a target: turn the trunk, plan, move, calibrate off-line, move again.
 
     Parameters
@@ -207,6 +214,7 @@ def reach(model, target, calibration="published"):
     True
     """
     check_kind("model", model, VisuomotorModel, MODEL)
+    target = as_numbers("target", target)
     turn, point = turn_towards(target)
     habit = plan(point, model.template_set)
     if calibration is None:
@@ -216,14 +224,16 @@ def reach(model, target, calibration="published"):
     return Reach(target, turn, habit, trials.movements[0].motion, trials.best_motion)
 
 
-def recalibrate(reach, calibration):
+def recalibrate(reach: Reach, calibration: Rule) -> Reach:
     """The same `Reach`, its second movement calibrated by another rule, as `reach` takes it."""
     check_kind("reach", reach, Reach, "what loop.reach(model, target) returns")
     trials = calibrate(reach.plan, calibration)
     return replace(reach, calibrated=trials.best_motion)
 
 
-def see_and_reach(model, image, camera):
+def see_and_reach(
+    model: VisuomotorModel, image: np.ndarray, camera: Camera | None
+) -> tuple[Sight, Reach | None]:
     """The `Sight` of an image and the `Reach` for what is seen; None where there is `NoReach`."""
     sight, made = see(model, image), None
     with suppress(NoReach):

@@ -6,6 +6,7 @@ the shuttlecock, and defines the shoulder frame.
 """
 
 from functools import cache
+from typing import Any
 
 import numpy as np
 
@@ -32,7 +33,7 @@ NEAR = 0.02  # m before the camera: what is nearer is not painted over
 
 
 @cache
-def board():
+def board() -> Any:
     """The markers as OpenCV has them."""
     import cv2
 
@@ -40,17 +41,17 @@ def board():
     return cv2.aruco.GridBoard(GRID, MARKER / 1000, GAP / 1000, kind)
 
 
-def marker_corners():
+def marker_corners() -> np.ndarray:
     """The markers' corners in the shoulder frame: (markers, 4, 3), m."""
     return FIRST + np.array(board().getObjPoints()) @ AXES
 
 
-def page_corners():
+def page_corners() -> np.ndarray:
     """The page's corners in the shoulder frame, clockwise from the upper left one: (4, 3), m."""
     return CORNER + np.array([[0, 0], [1, 0], [1, 1], [0, 1]]) * PAGE / 1000 @ AXES[:2]
 
 
-def page_image():
+def page_image() -> np.ndarray:
     """The sheet as an image, one pixel a millimetre: (297, 210) uint8, black on white."""
     picture = np.full(PAGE[::-1], 255, np.uint8)
     right, down = MARGIN
@@ -59,7 +60,7 @@ def page_image():
     return picture
 
 
-def remove_sheet(photo):
+def remove_sheet(photo: np.ndarray) -> tuple[Camera | None, np.ndarray]:
     """The `Camera` of a photo (height, width, 3), or None, and the photo without the sheet.
 
     The sheet is painted over in the colour around it, so that no marker passes for an object.
@@ -92,7 +93,7 @@ def _clip(polygon, camera):
     return np.array(part)
 
 
-def estimate_camera(photo):
+def estimate_camera(photo: np.ndarray) -> Camera | None:
     """Estimate the `Camera` of a photo, as `photos.as_rgb` takes it, that shows the sheet.
 
     Markers are detected in the whole photo; the camera's pixels are those of `read_image`, 600 ×
@@ -115,7 +116,7 @@ def estimate_camera(photo):
     return camera
 
 
-def detect_markers(photo):
+def detect_markers(photo: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Detect the sheet's markers in a photo (height, width, 3): ids (n,), corners (n, 4, 2)."""
     import cv2
 
@@ -139,7 +140,9 @@ def _best_fit(ids, corners, shape):
     return min((calibrate_camera(ids[k], corners[k], shape) for k in left), key=lambda fit: fit[1])
 
 
-def calibrate_camera(ids, corners, shape):
+def calibrate_camera(
+    ids: np.ndarray, corners: np.ndarray, shape: tuple[int, ...]
+) -> tuple[Camera, float, float]:
     """Calibrate the camera to which markers `ids` (n,) appear at corners (n, 4, 2) of a photo.
 
     `shape` is the photo's height and width. The unknowns are the camera's pose and focal length:

@@ -11,6 +11,7 @@ from functools import cache, lru_cache
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import ArrayLike
 from PIL import Image, ImageOps, UnidentifiedImageError
 
 from vmc_lib import data
@@ -56,11 +57,11 @@ class Photo:
     pose: str | None = None
     seed: tuple = ()
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"Photo({self.name!r}: {', '.join(self.boxes)})"
 
     @property
-    def image(self):
+    def image(self) -> np.ndarray:
         """(400, 600, 3) uint8, read-only, read from the file at the first use."""
         return _image(self.file)
 
@@ -70,7 +71,7 @@ def _image(file):
     return data.read_only(read_image(file))
 
 
-def load(level, split, folder=FOLDER):
+def load(level: str, split: str, folder: str | Path = FOLDER) -> list[Photo]:
     """Load the photos of one level and split.
 
     Parameters
@@ -106,7 +107,7 @@ def load(level, split, folder=FOLDER):
 
 
 @cache
-def everyday():
+def everyday() -> tuple[Photo, ...]:
     """The real photos of everyday things, without shuttlecocks, in order of their names."""
     return tuple(map(_read_sidecar, sorted(EVERYDAY.glob("*.json"))))
 
@@ -135,14 +136,14 @@ def _read_sidecar(sidecar):
     )
 
 
-def boxes_of(photo, name):
+def boxes_of(photo: Photo, name: str) -> np.ndarray:
     """The boxes (n, 4) of every thing of that name; ValueError where `more` may be another's."""
     if len(photo.more) and len(photo.boxes) > 1:
         raise ValueError(f"{photo.name}: which of {', '.join(photo.boxes)} are the further things?")
     return as_boxes([photo.boxes[name], *photo.more] if name in photo.boxes else [])
 
 
-def read_image(source):
+def read_image(source: str | Path | np.ndarray) -> np.ndarray:
     """Read an image as (400, 600, 3) uint8 RGB, letterboxed on grey.
 
     Parameters
@@ -165,7 +166,7 @@ def read_image(source):
     return image if image.shape == (HEIGHT, WIDTH, 3) else _letterbox(image)
 
 
-def as_rgb(array):
+def as_rgb(array: ArrayLike) -> np.ndarray:
     """Convert an array (h, w), (h, w, 1), (h, w, 3) or (h, w, 4) to uint8 RGB (h, w, 3), a copy.
 
     Takes uint8, or floats within [0, 1], scaled to 0..255. Grey is repeated in three channels, what
@@ -187,16 +188,16 @@ def as_rgb(array):
         raise ValueError(f"an image of {image.dtype} has no known range: give uint8")
     if image.shape[2] == 4:
         opaque = image[..., 3:] / np.float32(255)
-        return np.uint8(image[..., :3] * opaque + 255 * (1 - opaque) + 0.5)
+        return (image[..., :3] * opaque + 255 * (1 - opaque) + 0.5).astype(np.uint8)
     return np.repeat(image, 3, axis=2) if image.shape[2] == 1 else image.copy()
 
 
-def as_float(image):
+def as_float(image: ArrayLike) -> np.ndarray:
     """Convert an image, as `as_rgb` takes it, to float32 RGB (h, w, 3) in 0..1."""
     return as_rgb(image).astype(np.float32) / 255
 
 
-def crops(image, boxes, size):
+def crops(image: np.ndarray, boxes: ArrayLike, size: int) -> np.ndarray:
     """Crop boxes (n, 4) of a uint8 image (height, width, c): (n, size, size, c) in 0..1.
 
     A pixel is the mean of four samples spread evenly over it. Beyond the image its edge pixels

@@ -1,14 +1,17 @@
 """How sure a number is that was measured a few times, and how sure a difference."""
 
+from collections.abc import Sequence
 from functools import cache
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from vmc_lib.checks import as_numbers, is_within
 from vmc_lib.short_repr import short
 
 
-def student(values):
+def student(values: ArrayLike) -> tuple[Any, Any]:
     """The mean of `values` (n, …) over the first axis, and half its 95 % interval's width, (…).
 
     Student's t: it speaks of what changed from value to value, a seed or a training, and of nothing
@@ -23,7 +26,7 @@ def student(values):
 
 
 @cache
-def student_quantile(n):
+def student_quantile(n: int) -> float:
     """The 97.5 % point of Student's t with n degrees of freedom, 1, 2, …"""
     low, high = 0.0, 13.0
     for _ in range(60):
@@ -39,7 +42,7 @@ def student_quantile(n):
     return t
 
 
-def wilson(right, n):
+def wilson(right: float, n: float) -> tuple[float, float]:
     """The lower and upper end of the 95 % interval of a share, `right` of `n` (Wilson 1927).
 
     Counts that are means over trainings are rounded first.
@@ -52,7 +55,7 @@ def wilson(right, n):
     return interval.low, interval.high
 
 
-def mcnemar(one, other):
+def mcnemar(one: np.ndarray, other: np.ndarray) -> tuple[int, int, float]:
     """Of two methods' answers, (n,) each, right or not: only one right, only the other right, p.
 
     If neither is better, each wins about half of the cases on which they differ (McNemar 1947).
@@ -66,7 +69,7 @@ def mcnemar(one, other):
     return wins, losses, binomtest(wins, wins + losses).pvalue if wins + losses else 1.0
 
 
-def holm(chances):
+def holm(chances: Sequence[float] | np.ndarray) -> np.ndarray:
     """Chances (n,) of many tests, corrected for their number (Holm 1979)."""
     order = np.argsort(chances)
     left = len(chances) - np.arange(len(chances))

@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import mujoco
 import numpy as np
+from numpy.typing import ArrayLike
 
 from vmc_lib.arm.model import MUSCLES, XML, check_load
 
@@ -22,7 +23,7 @@ class Geometry(NamedTuple):
     muscles: dict  # name -> path (n, 3) from origin to insertion, tangent points of wraps included
 
     @property
-    def joints(self):
+    def joints(self) -> np.ndarray:
         """Shoulder, elbow and wrist, (3, 3)."""
         rotation, elbow = self.bodies["forearm"]
         _, shoulder = self.bodies["humerus"]
@@ -30,7 +31,7 @@ class Geometry(NamedTuple):
 
 
 @cache
-def model_with_load(load):
+def model_with_load(load: float) -> mujoco.MjModel:
     """The model with a weight of `load` kg, a point, held at the wrist; `MODEL` itself for 0."""
     check_load(load)
     if load == 0:
@@ -41,7 +42,9 @@ def model_with_load(load):
     return spec.compile()
 
 
-def forward(q, velocity=(0.0, 0.0), data=None):
+def forward(
+    q: ArrayLike, velocity: ArrayLike = (0.0, 0.0), data: mujoco.MjData | None = None
+) -> mujoco.MjData:
     """MuJoCo's data (new, or `data` overwritten) with one posture and joint velocity computed."""
     data = data or mujoco.MjData(MODEL)
     data.qpos, data.qvel = q, velocity
@@ -49,7 +52,7 @@ def forward(q, velocity=(0.0, 0.0), data=None):
     return data
 
 
-def muscle_paths(data):
+def muscle_paths(data: mujoco.MjData) -> tuple[np.ndarray, np.ndarray]:
     """Musculotendon lengths (…, 6) and moment arms (…, 2, 6) in m of MuJoCo's current posture.
 
     `data` is MuJoCo's own, or a `mujoco.batch.Batch` of many. A moment arm is minus the change of
@@ -59,7 +62,7 @@ def muscle_paths(data):
     return data.ten_length, -np.swapaxes(slopes, -1, -2)
 
 
-def geometry(q):
+def geometry(q: ArrayLike) -> Geometry:
     """`Geometry` of one posture (2,): the pose of each body and the path of each muscle.
 
     ValueError for another shape.
@@ -75,14 +78,14 @@ def geometry(q):
     return Geometry(bodies, dict(zip(MUSCLES, paths, strict=True)))
 
 
-def mass_matrix(data):
+def mass_matrix(data: mujoco.MjData) -> np.ndarray:
     """The joints' inertia (2, 2) in kg m² at MuJoCo's current posture."""
     matrix = np.empty((MODEL.nv, MODEL.nv))
     mujoco.mj_fullM(data.model, data, matrix)
     return matrix
 
 
-def dynamics_at(postures, load=0.0):
+def dynamics_at(postures: np.ndarray, load: float = 0.0) -> np.ndarray:
     """The terms of the dynamics, as `dynamics` has them, and the hand, in postures (n, 2): (n, 10).
 
     With a `load` in kg at the wrist.

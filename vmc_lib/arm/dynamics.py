@@ -9,10 +9,13 @@ MuJoCo's wrapping takes ten times as long as all the rest of a step. Both ship a
 """
 
 from functools import cache
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from vmc_lib.arm.model import DAMPING, LIMITS, STEP, check_load
+from vmc_lib.arm.muscle import Numbers
 from vmc_lib.data import arrays
 
 ROWS = 10_001  # of the muscle tables: steps of half a milliradian
@@ -24,14 +27,14 @@ DIFFERENCES = 3  # … of which each row's third differences are small, and comp
 SHOULDER, ELBOW = DAMPING.tolist()
 
 
-def trig_basis(shoulder, elbow):
+def trig_basis(shoulder: np.ndarray, elbow: np.ndarray) -> tuple[Any, ...]:
     """Basis functions: cosines and sines of the two angles, their sum, their products; eleven."""
     c1, s1, c2, s2 = np.cos(shoulder), np.sin(shoulder), np.cos(elbow), np.sin(elbow)
     c12, s12 = c1 * c2 - s1 * s2, s1 * c2 + c1 * s2
     return c1 * 0 + 1, c1, s1, c2, s2, c12, s12, c2 * c1, c2 * s1, c2 * c2, c2 * s2
 
 
-def trig_basis_gradient(shoulder, elbow):
+def trig_basis_gradient(shoulder: np.ndarray, elbow: np.ndarray) -> tuple[tuple, tuple]:
     """Derivatives of the `trig_basis` by the shoulder angle, and by the elbow angle: 2 × 11."""
     _, c1, s1, c2, s2, c12, s12, cc, cs, cc2, cs2 = trig_basis(shoulder, elbow)
     o = c1 * 0
@@ -49,7 +52,7 @@ def _trig_basis_of(q):
 
 
 @cache
-def coefficients(load=0.0):
+def coefficients(load: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
     """Of the basis in the dynamics (11, 7), as `_dynamics` unpacks it, and in the hand (11, 3).
 
     With a `load` in kg at the wrist.
@@ -60,7 +63,7 @@ def coefficients(load=0.0):
     return solved[:, :7].copy(), solved[:, 7:].copy()
 
 
-def hand(q):
+def hand(q: ArrayLike) -> np.ndarray:
     """Forward kinematics: the wrist's position in the shoulder frame.
 
     Parameters
@@ -81,14 +84,14 @@ def hand(q):
     return _trig_basis_of(q) @ coefficients()[1]
 
 
-def torque_for(q, velocity, acceleration):
+def torque_for(q: ArrayLike, velocity: np.ndarray, acceleration: np.ndarray) -> np.ndarray:
     """Inverse dynamics: torques (…, 2) in N m that give these accelerations over one step."""
     m11, m12, m22, b1, b2 = _dynamics(_terms(q), *velocity.T, STEP)
     a1, a2 = acceleration.T
     return np.array([m11 * a1 + m12 * a2 + b1, m12 * a1 + m22 * a2 + b2]).T
 
 
-def forward_dynamics(q, velocity, torque):
+def forward_dynamics(q: ArrayLike, velocity: np.ndarray, torque: np.ndarray) -> np.ndarray:
     """Forward dynamics, Eq. 12: the accelerations (…, 2) that joint torques cause."""
     return np.array(equation_12(_terms(q), *velocity.T, *torque.T, STEP)).T
 
@@ -97,7 +100,9 @@ def _terms(q):
     return (_trig_basis_of(q) @ coefficients()[0]).T
 
 
-def equation_12(terms, w1, w2, t1, t2, step):
+def equation_12(
+    terms: np.ndarray, w1: Numbers, w2: Numbers, t1: Numbers, t2: Numbers, step: float
+) -> tuple[Any, Any]:
     """Eq. 12 of one arm, or of many: both accelerations from velocities and torques of the joints.
 
     `terms` are the seven that `coefficients` makes of the basis.
@@ -118,7 +123,7 @@ def _dynamics(terms, w1, w2, step):
     return m11 + step * SHOULDER, m12, m22 + step * ELBOW, b1, b2
 
 
-def paths(q):
+def paths(q: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
     """Musculotendon lengths (…, 6) and moment arms (…, 2, 6) in m; angles held to the tables."""
     row, share = table_row(q, slice(2))
     entry = tables()[np.arange(2), row]
@@ -126,7 +131,7 @@ def paths(q):
     return value[..., 0, :6] + value[..., 1, :6], value[..., 6:]
 
 
-def table_row(angle, joint):
+def table_row(angle: ArrayLike, joint: int | slice) -> tuple[Any, Any]:
     """The row of the `tables` for a joint at this angle, and the share of the way to the next."""
     low = LOW[joint]
     # fmin, fmax: an angle that is not a number has a row, too; its movement is not a number either
@@ -136,7 +141,7 @@ def table_row(angle, joint):
 
 
 @cache
-def tables():
+def tables() -> np.ndarray:
     """Lengths and moment arms over the angle of either joint, and their slopes (2, ROWS, 24)."""
     table = arrays("arm26")["paths"]
     for _ in range(DIFFERENCES):

@@ -5,7 +5,10 @@ plane meets the target. What remains is planar: p = (x, y) of the wrist in the t
 frame. Its z follows from the posture, for the joints' axes are not quite parallel to z.
 """
 
+from typing import Any
+
 import numpy as np
+from numpy.typing import ArrayLike
 
 from vmc_lib import NoReach
 from vmc_lib.arm.dynamics import hand
@@ -17,7 +20,7 @@ TRUNK_RANGE = np.radians([-60.0, 90.0])
 BENT = np.array([LIMITS[0], [0.1, LIMITS[1, 1]]])  # a straighter elbow adds no reach, only doubt
 
 
-def inverse_kinematics(p):
+def inverse_kinematics(p: ArrayLike) -> np.ndarray:
     """Inverse kinematics: joint angles that put the wrist at a position in the arm's plane.
 
     Parameters
@@ -45,7 +48,7 @@ def inverse_kinematics(p):
     return _solve(lambda q: hand(q)[..., :2], p, p, p)
 
 
-def turn_towards(target):
+def turn_towards(target: ArrayLike) -> tuple[Any, np.ndarray]:
     """Turn the trunk until a target in the room lies in the arm's plane.
 
     Parameters
@@ -89,7 +92,7 @@ def turn_towards(target):
     return turn, hand(q)[..., :2]
 
 
-def to_world(points, psi):
+def to_world(points: np.ndarray, psi: ArrayLike) -> np.ndarray:
     """Points (…, 3) of the turned shoulder frame, in the frame of the trunk straight ahead.
 
     One turn `psi` in rad for all of them, or one for each, (…).

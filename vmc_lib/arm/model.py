@@ -28,10 +28,10 @@ MUSCLES = tuple(tendon.get("name") for tendon in _MODEL.findall("tendon/spatial"
 F0, L0, SLACK = (_numbers(f"custom/numeric[@name='{n}']", "data") for n in ("F0", "L0", "slack"))
 LIMITS = _numbers("worldbody//joint", "range")  # (2, 2): lowest and highest angle of each joint
 DAMPING = read_only(np.repeat(_numbers("default/joint", "damping"), 2))  # N m s: skin and joints
-STEP = float(_MODEL.find("option").get("timestep"))  # s
+STEP = _numbers("option", "timestep").item()  # s
 
 
-def check_load(load):
+def check_load(load: float) -> None:
     """Raise ValueError where a `load` in kg cannot be held."""
     if not is_within(load, 0, 10):
         raise ValueError(f"a load of {short(load)} kg cannot be held; choose 0 to 10")

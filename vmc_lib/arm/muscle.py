@@ -15,11 +15,13 @@ is made of the same functions.
 """
 
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from vmc_lib.checks import check_rng
+
+Numbers = float | np.ndarray
 
 TAU_ACTIVATION = 0.010  # s: calcium floods in quickly …
 TAU_DEACTIVATION = 0.040  # s: … and is pumped back slowly
@@ -27,18 +29,18 @@ MAX_VELOCITY = 2.5  # optimal fibre lengths per second, the unit of v
 VELOCITY_RANGE = 1 - 11**0.5, 0.9
 
 
-def activation_rate(excitation, activation):
+def activation_rate(excitation: Numbers, activation: Numbers) -> Any:
     """Eq. 9: how fast activation follows excitation, both in [0, 1]; per second, same shape."""
     gap, (fall, haste) = excitation - activation, _rates()
     return gap * (fall + haste * excitation * (gap >= 0))
 
 
-def euler_activation(excitation, activation, step):
+def euler_activation(excitation: Numbers, activation: Numbers, step: float) -> Any:
     """Eq. 9 by Euler's method: the activation one `step` in s later; same shape."""
     return activation + step * activation_rate(excitation, activation)
 
 
-def excitation_for(activation, rate):
+def excitation_for(activation: Numbers, rate: Numbers) -> Any:
     """Eq. 9 solved for the excitation that changes this activation at this rate; same shape.
 
     Rising, it is a quadratic in the excitation; falling, it is linear. Outside [0, 1] no
@@ -55,31 +57,33 @@ def _rates():
     return 1 / TAU_DEACTIVATION, 1 / TAU_ACTIVATION - 1 / TAU_DEACTIVATION
 
 
-def force_length(length):
+def force_length(length: Numbers) -> Any:
     """f1 of Eq. 11: the share of maximal force an active fibre has at this normalised length."""
     square = np.square(length - 0.95)
     return np.exp(square - 40 * np.square(square))
 
 
-def force_velocity(velocity):
+def force_velocity(velocity: Numbers) -> Any:
     """f2 of Eq. 11: 1.01 when still, falling to 0 in fast shortening, up to 1.6 in lengthening."""
     low, high = VELOCITY_RANGE
     inverse = 1 / np.square(1 - np.minimum(np.maximum(velocity, low), high))
     return 1.6 - 1.6 * np.exp(0.1 * inverse - 1.1 * np.square(inverse))
 
 
-def passive_force(length):
+def passive_force(length: Numbers) -> Any:
     """f3 of Eq. 11: the pull of a stretched muscle that nobody excites."""
     return 1.3 * np.arctan(0.1 * (np.maximum(length, 0.22) - 0.22) ** 10)
 
 
-def force(activation, length, velocity, maximum):
+def force(activation: Numbers, length: Numbers, velocity: Numbers, maximum: Numbers) -> Any:
     """Eq. 10: muscle force in newtons; `length` and `velocity` normalised, `maximum` = F0."""
     active = force_length(length) * force_velocity(velocity) * activation
     return maximum * (active + passive_force(length))
 
 
-def fibre(length, shortening, optimal, slack):
+def fibre(
+    length: Numbers, shortening: Numbers, optimal: Numbers, slack: Numbers
+) -> tuple[Any, Any]:
     """The fibre's length and velocity, normalised as Eq. 10 and 11 take them.
 
     From the musculotendon length and its shortening (m, m/s); `optimal` is the fibre's best length
@@ -88,12 +92,19 @@ def fibre(length, shortening, optimal, slack):
     return (length - slack) / optimal, -shortening / (MAX_VELOCITY * optimal)
 
 
-def musculotendon_force(activation, length, shortening, optimal, slack, maximum):
+def musculotendon_force(
+    activation: Numbers,
+    length: Numbers,
+    shortening: Numbers,
+    optimal: Numbers,
+    slack: Numbers,
+    maximum: Numbers,
+) -> Any:
     """Eq. 10 for a muscle and its tendon, measured as `fibre` takes them: newtons."""
     return force(activation, *fibre(length, shortening, optimal, slack), maximum)
 
 
-def noisy(excitation, share, rng):
+def noisy(excitation: Numbers, share: float, rng: np.random.Generator) -> np.ndarray:
     """Excitations (…) with motor noise: fresh each step, its deviation a `share` of the signal.
 
     The stronger the command, the noisier (Harris & Wolpert 1998, Nature 394:780); clipped to
@@ -103,7 +114,7 @@ def noisy(excitation, share, rng):
     return add_noise(excitation, share, rng.standard_normal(np.shape(excitation)))
 
 
-def add_noise(excitation, share, draws):
+def add_noise(excitation: Numbers, share: float, draws: Numbers) -> np.ndarray:
     """Signal-dependent noise by unit `draws` (…) that are there already, clipped to [0, 1]."""
     return np.clip(excitation * (1 + share * draws), 0, 1)
 

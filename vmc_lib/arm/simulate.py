@@ -5,15 +5,17 @@
 paper's. Both have the same muscles, the same joint stops and the same semi-implicit Euler steps.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from typing import Literal, NamedTuple, Self
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from vmc_lib.arm.dynamics import MARGIN, hand
 from vmc_lib.arm.engines import ENGINES, FARTHEST
 from vmc_lib.arm.model import F0, LIMITS, STEP
-from vmc_lib.arm.muscle import PAPER
+from vmc_lib.arm.muscle import PAPER, Muscle
 from vmc_lib.checks import as_numbers, check_kind, is_within
 from vmc_lib.short_repr import short, short_repr
 
@@ -38,32 +40,32 @@ class Motion:
 
     __repr__ = short_repr
 
-    def __iter__(self):
+    def __iter__(self) -> Iterator[Self]:
         """Every movement of a batch, or the one there is, as a `Motion` of its own."""
         parts = (x.reshape(-1, *x.shape[-2:]) for x in (self.q, self.velocity, self.activation))
         for q, velocity, activation in zip(*parts, strict=True):
             yield replace(self, q=q, velocity=velocity, activation=activation)
 
     @property
-    def hand(self):
+    def hand(self) -> np.ndarray:
         """The wrist's path (…, T + 1, 3) in the shoulder frame, m."""
         return hand(self.q)
 
     @property
-    def endpoint(self):
+    def endpoint(self) -> np.ndarray:
         """Where the wrist ends in the arm's plane, p = (x, y), (…, 2), m."""
         return hand(self.q[..., -1, :])[..., :2]
 
 
 def simulate(
-    excitations,
-    start,
-    activation=None,
-    engine=None,
-    perturbation=UNPERTURBED,
-    muscle=PAPER,
-    step=STEP,
-):
+    excitations: ArrayLike,
+    start: ArrayLike,
+    activation: ArrayLike | None = None,
+    engine: Literal["compiled", "mujoco"] | None = None,
+    perturbation: Perturbation = UNPERTURBED,
+    muscle: Muscle = PAPER,
+    step: float = STEP,
+) -> Motion:
     """Simulate the arm from rest, under given muscle excitations.
 
     Parameters
@@ -123,7 +125,7 @@ def simulate(
     return Motion(*(x.reshape(*leading, *x.shape[1:]) for x in path))
 
 
-def constant_excitation(level, duration, step=STEP):
+def constant_excitation(level: ArrayLike, duration: float, step: float = STEP) -> np.ndarray:
     """Excitations (…, T, 6) for `simulate` that stay at `level` (…, 6) for `duration` in s.
 
     ValueError for other shapes, or a duration that is not finite, or shorter than one step.
@@ -153,7 +155,7 @@ def _check_range(name, value):
         raise ValueError(f"{name}: values in [{low:.3g}, {high:.3g}]; clip them to [0, 1]")
 
 
-def check_posture(q, name="start"):
+def check_posture(q: np.ndarray, name: str = "start") -> None:
     """ValueError where a posture (…, 2) lies beyond the joints' limits by more than MARGIN."""
     if np.shape(q)[-1:] != (2,):
         raise ValueError(f"{name} {q} must be (shoulder, elbow), (…, 2), in rad")
@@ -170,7 +172,7 @@ def _check_field(field):
         raise ValueError(f"field {field} must be a finite (2, 2) matrix in N m s / rad")
 
 
-def check_sane(q, first=0):
+def check_sane(q: np.ndarray, first: int = 0) -> None:
     """ValueError where joint angles (B, T, 2) are not finite, or far beyond the joints' limits.
 
     `first` is the step of the first of them, for what the error says.

@@ -11,13 +11,14 @@ a share of it away (Albus, 1971). The error alone does not say what is wrong. It
 """
 
 from dataclasses import replace
+from typing import Literal
 
 import numpy as np
 
-from vmc_lib.cerebellum.online import GranuleCells
-from vmc_lib.motor.execution import execute
+from vmc_lib.cerebellum.online import AimCorrection, GranuleCells, WeightCorrection
+from vmc_lib.motor.execution import Execute, Movement, execute
 from vmc_lib.motor.planning import Plan, check_batch, check_templates, is_surrounded, plan
-from vmc_lib.motor.templates import REACH
+from vmc_lib.motor.templates import REACH, TemplateSet
 
 SILENT = np.array([0.0, -REACH])  # where the hand ends when every muscle is silent
 CORRECTIONS = ("aim", "pull")
@@ -48,7 +49,13 @@ class Adaptation:
     (2, 2)
     """
 
-    def __init__(self, trained_correction, template_set, corrects="aim", regularisation=0.3):
+    def __init__(
+        self,
+        trained_correction: AimCorrection | WeightCorrection,
+        template_set: TemplateSet,
+        corrects: Literal["aim", "pull"] = "aim",
+        regularisation: float = 0.3,
+    ) -> None:
         check_templates(template_set)
         if corrects not in CORRECTIONS:
             raise ValueError(f"cannot correct {corrects!r}; choose one of {CORRECTIONS}")
@@ -58,7 +65,7 @@ class Adaptation:
         self.cells = GranuleCells(width=0.1, cells=300).fit(template_set.points, nothing)
         self.purkinje = self.cells.purkinje_
 
-    def correct(self, plan: Plan):
+    def correct(self, plan: Plan) -> Plan:
         """The plan with the trained correction, and with what was learned since."""
         shift = self.shift(plan)
         if self.corrects == "aim":
@@ -66,7 +73,7 @@ class Adaptation:
         trained = self.trained_correction.correct(plan)
         return trained.with_weights(trained.weights + weight_correction(plan.points, shift))
 
-    def update(self, plan: Plan, execute=execute):
+    def update(self, plan: Plan, execute: Execute = execute) -> Movement:
         """Move, and learn from the error that is seen. Returns the `Movement`.
 
         The batch is learned at once: all its movements are made before. What should have been done
@@ -79,7 +86,7 @@ class Adaptation:
         self.purkinje = self.purkinje + minimum_norm_update(active, missing, self.regularisation)
         return movement
 
-    def shift(self, plan: Plan):
+    def shift(self, plan: Plan) -> np.ndarray:
         """How far to shift the hand, (B, 2), as learned; an aim is kept where templates are."""
         shift = self.cells.excite(plan.target) @ self.purkinje
         if self.corrects == "pull":
@@ -94,7 +101,9 @@ class Adaptation:
         return replace(habit, rows=there.rows, weights=there.weights)
 
 
-def minimum_norm_update(active, missing, regularisation):
+def minimum_norm_update(
+    active: np.ndarray, missing: np.ndarray, regularisation: float
+) -> np.ndarray:
     """Regularised least-squares (NLMS) update (cells, k) of Purkinje weights, for errors (n, k).
 
     `active` (n, cells) says which granule cells took part; a single sample is learned by a share
@@ -105,7 +114,7 @@ def minimum_norm_update(active, missing, regularisation):
     return active.T @ np.linalg.solve(overlap, missing)
 
 
-def weight_correction(points, shift):
+def weight_correction(points: np.ndarray, shift: np.ndarray) -> np.ndarray:
     """The smallest Δw (…, N) that shifts the hand by `shift` (…, 2), by Eq. 4 from `SILENT`.
 
     It sums to more than zero where the hand must be lifted: more of everything.

@@ -5,9 +5,12 @@ that joins the plan. Their lesson, at each place of the way, is the acceleration
 asks for there: the climbing fibres carry a motor error (Kawato & Gomi 1992).
 """
 
+from typing import Self
+
 import numpy as np
 
 from vmc_lib.arm.kinematics import inverse_kinematics
+from vmc_lib.arm.simulate import Motion
 from vmc_lib.cerebellum.adaptation import minimum_norm_update
 from vmc_lib.cerebellum.forward_model import FAST
 from vmc_lib.cerebellum.online import GranuleCells
@@ -15,13 +18,14 @@ from vmc_lib.checks import check_kind
 from vmc_lib.motor.feedback import (
     SIGHT,
     TICK,
+    FeedbackGains,
     ReferenceTrajectory,
     excitations_for_acceleration,
     feedback_acceleration,
 )
 from vmc_lib.motor.inverse_dynamics import SAMPLES, minimum_jerk
 from vmc_lib.motor.planning import check_templates
-from vmc_lib.motor.templates import START
+from vmc_lib.motor.templates import START, TemplateSet
 
 
 class FeedbackErrorLearning:
@@ -32,14 +36,14 @@ class FeedbackErrorLearning:
 
     regularisation = 0.3
 
-    def __init__(self, template_set):
+    def __init__(self, template_set: TemplateSet) -> None:
         check_templates(template_set)
         ways = minimum_jerk(START, inverse_kinematics(template_set.points))
         places = mossy_fibres(ReferenceTrajectory(ways, template_set.excitations)).reshape(-1, 4)
         self.cells = GranuleCells(width=0.5, cells=300).fit(places, np.zeros((len(places), 2)))
         self.purkinje = self.cells.purkinje_
 
-    def correct(self, reference):
+    def correct(self, reference: ReferenceTrajectory) -> ReferenceTrajectory:
         """The `ReferenceTrajectory` with what was learned added to its excitations."""
         active = self.cells.excite(mossy_fibres(reference).reshape(-1, 4))
         learned = np.zeros_like(reference.q[:, :-1])
@@ -49,7 +53,9 @@ class FeedbackErrorLearning:
         u = excitations_for_acceleration(*place, learned, reference.excitations)
         return ReferenceTrajectory(reference.q, u)
 
-    def update(self, reference, motion, gains=SIGHT):
+    def update(
+        self, reference: ReferenceTrajectory, motion: Motion, gains: FeedbackGains = SIGHT
+    ) -> Self:
         """Learn from the motion of a batch of movements along this reference."""
         path = reference.q, reference.velocity, motion.q, motion.velocity
         wanted = feedback_acceleration(gains, *(x[:, :SAMPLES:TICK].reshape(-1, 2) for x in path))
@@ -58,7 +64,7 @@ class FeedbackErrorLearning:
         return self
 
 
-def mossy_fibres(reference):
+def mossy_fibres(reference: ReferenceTrajectory) -> np.ndarray:
     """Where the arm should be, and how fast, at every tick of the reach, (B, ticks, 4)."""
     check_kind("reference", reference, ReferenceTrajectory, "reference_trajectory(plan)")
     path = reference.q, reference.velocity / FAST

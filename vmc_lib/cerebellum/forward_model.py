@@ -5,20 +5,23 @@ the muscles' torque, and Purkinje cells sum them to the acceleration. The teache
 report later. `arm_copy` is the true equations, or true but for the strength of the muscles.
 """
 
+from collections.abc import Callable
 from functools import partial
+from typing import Self
 
 import numpy as np
 
 from vmc_lib.arm.dynamics import paths
 from vmc_lib.arm.engines import muscle_acceleration, muscle_torque
 from vmc_lib.arm.model import STEP
+from vmc_lib.arm.simulate import Motion
 from vmc_lib.cerebellum.online import GranuleCells
 from vmc_lib.checks import as_numbers, check_count
 
 FAST, STRONG = 5.0, 8.0  # rad/s and N m: they bring what the cells sense to about one
 
 
-def arm_copy(strength=1.0):
+def arm_copy(strength: float = 1.0) -> Callable[..., np.ndarray]:
     """A forward model that knows the arm, but believes its muscles `strength` times as strong.
 
     One strength, or one for each movement of a batch (B, 1). ValueError when one is negative.
@@ -32,10 +35,10 @@ def arm_copy(strength=1.0):
 class ForwardModel:
     """Granule cells that learn which acceleration (…, 2) follows; called as `arm_copy()` is."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.cells = GranuleCells(width=1.0, cells=300, ridge=1e-3)
 
-    def update(self, motion, every=20):
+    def update(self, motion: Motion, every: int = 20) -> Self:
         """Learn from a batch of movements, one sample every so many steps."""
         check_count("every", every, least=1)
         if np.ndim(motion.q) != 3:
@@ -48,12 +51,12 @@ class ForwardModel:
         self.cells.partial_fit(mossy_fibres(q, velocity, activation), felt)
         return self
 
-    def __call__(self, q, velocity, activation):
+    def __call__(self, q: np.ndarray, velocity: np.ndarray, activation: np.ndarray) -> np.ndarray:
         """The acceleration (B, 2) expected in rad/s²."""
         return self.cells.excite(mossy_fibres(q, velocity, activation)) @ self.cells.purkinje_
 
 
-def mossy_fibres(q, velocity, activation):
+def mossy_fibres(q: np.ndarray, velocity: np.ndarray, activation: np.ndarray) -> np.ndarray:
     """The inputs of the granule cells: posture, speed, muscles' torque, (B, 6)."""
     torque = muscle_torque(activation, *paths(q), velocity)
     return np.concatenate([q, velocity / FAST, torque / STRONG], axis=-1)

@@ -5,13 +5,16 @@ own. Each takes a `Plan`, of one reach or a batch, and returns `Trials`, the pla
 Each lets the arm move by `execute`, or, in another world, by `partial(execute, perturbation=…)`.
 """
 
-from typing import NamedTuple
+from collections.abc import Callable, Sequence
+from typing import Literal, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from vmc_lib.checks import check_count
-from vmc_lib.motor.execution import execute
+from vmc_lib.motor.execution import Execute, execute
 from vmc_lib.motor.planning import Plan, check_plan, least_change, norm, rule_called
+from vmc_lib.motor.templates import HeldMotion
 from vmc_lib.short_repr import short, short_repr
 
 GAINS = tuple(range(21))  # the paper's n in [0, 20]
@@ -31,26 +34,32 @@ class Trials(NamedTuple):
     __repr__ = short_repr
 
     @property
-    def hold(self):
+    def hold(self) -> np.ndarray:
         """The hand's path over the hold in each trial, (trials, …, n, 2), m."""
         shape = self.endpoint.shape[1:-1]
         holds = [m.hold.reshape(-1, *shape, *m.hold.shape[-2:]) for m in self.movements]
         return np.concatenate(holds)
 
     @property
-    def best_weights(self):
+    def best_weights(self) -> np.ndarray:
         """Weights (…, N) of the trial that came nearest."""
         winner = self.error.argmin(axis=0)
         return np.take_along_axis(self.weights, winner[None, ..., None], axis=0)[0]
 
     @property
-    def best_motion(self):
+    def best_motion(self) -> HeldMotion:
         """The `Motion` of the trial that came nearest, of one reach."""
         motions = [motion for movement in self.movements for motion in movement.motion]
         return motions[self.error.argmin()]
 
 
-def algorithm_1_change(plan, endpoint, n, origin=(0.0, 0.0), sign=1):
+def algorithm_1_change(
+    plan: Plan,
+    endpoint: np.ndarray,
+    n: float,
+    origin: ArrayLike = (0.0, 0.0),
+    sign: Literal[1, -1] = 1,
+) -> np.ndarray:
     """Eq. 6–7: Δw_i = k_i cos θ_i (…, N), with k_i growing with n for templates nearer than p_t."""
     error = sign * (plan.target - endpoint)
     towards = plan.points - endpoint[..., None, :]
@@ -61,8 +70,13 @@ def algorithm_1_change(plan, endpoint, n, origin=(0.0, 0.0), sign=1):
 
 
 def algorithm_1(
-    plan: Plan, gains=GAINS, origin=(0.0, 0.0), sign=1, execute=execute, change=algorithm_1_change
-):
+    plan: Plan,
+    gains: Sequence[int] = GAINS,
+    origin: ArrayLike = (0.0, 0.0),
+    sign: Literal[1, -1] = 1,
+    execute: Execute = execute,
+    change: Callable[..., np.ndarray] = algorithm_1_change,
+) -> Trials:
     """Calibrate a plan off-line by Algorithm 1: try every n, each with the correction of Eq. 6–7.
 
     The paper leaves `origin` and `sign` open. The sign was chosen for the ratio of errors that it
@@ -109,7 +123,13 @@ def algorithm_1(
     return _trials(planned, execute(plan.with_weights(plan.weights + np.stack(changes))))
 
 
-def broyden_calibration(plan: Plan, n_trials=2, broyden=True, guarded=True, execute=execute):
+def broyden_calibration(
+    plan: Plan,
+    n_trials: int = 2,
+    broyden: bool = True,
+    guarded: bool = True,
+    execute: Execute = execute,
+) -> Trials:
     """Calibrate a plan off-line by Broyden's method: solve Eq. 4 for the error, trial by trial.
 
     Each trial makes the smallest Δw that shifts the hand by the whole error, if moving a weight
@@ -169,7 +189,7 @@ def broyden_calibration(plan: Plan, n_trials=2, broyden=True, guarded=True, exec
     return _trials(planned, *tried)
 
 
-def gauss_newton_calibration(plan: Plan, n_steps=4, execute=execute):
+def gauss_newton_calibration(plan: Plan, n_steps: int = 4, execute: Execute = execute) -> Trials:
     """Calibrate a plan off-line by least squares over the whole hold, so that the hand stays.
 
     First each weight is nudged alone, N trials that measure how the hand's path over the hold
@@ -221,10 +241,14 @@ def gauss_newton_calibration(plan: Plan, n_steps=4, execute=execute):
     return _trials(planned, nudged, *tried)
 
 
-RULES = {"published": algorithm_1, "own": broyden_calibration}  # of off-line calibration
+RULES: dict[str, Callable[..., Trials]] = {  # of off-line calibration
+    "published": algorithm_1,
+    "own": broyden_calibration,
+}
+Rule = Literal["published", "own"] | Callable[[Plan], Trials]
 
 
-def calibrate(plan: Plan, rule="published"):
+def calibrate(plan: Plan, rule: Rule = "published") -> Trials:
     """The `Trials` by which a rule calibrates a plan: one of `RULES` by its name, or a function.
 
     ValueError for a name that none has, and where a function returns anything else.
@@ -253,7 +277,7 @@ def _damped_least_squares(matrix, wanted):
     return np.linalg.solve(normal + ridge * np.eye(matrix.shape[-1]), gradient)[..., 0]
 
 
-def broyden_update(jacobian, change, shift):
+def broyden_update(jacobian: np.ndarray, change: np.ndarray, shift: np.ndarray) -> np.ndarray:
     """The nearest Jacobian (…, D, N) by which a change (…, N) would have had the shift (…, D)."""
     surprise = shift - (jacobian @ change[..., None])[..., 0]
     square = np.maximum((change**2).sum(axis=-1), 1e-24)[..., None, None]

@@ -15,13 +15,13 @@ learns; that is a batch of plans.
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import partial
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
-from vmc_lib.cerebellum.offline import calibrate
+from vmc_lib.cerebellum.offline import Rule, calibrate
 from vmc_lib.checks import as_numbers, check_count, is_within
-from vmc_lib.motor.execution import execute
+from vmc_lib.motor.execution import Execute, execute
 from vmc_lib.motor.planning import (
     RULES,
     Plan,
@@ -40,7 +40,7 @@ from vmc_lib.motor.templates import TemplateSet
 smooth_weights = partial(exact_weights, power=1.25)
 
 
-def equation_8(plan: Plan):
+def equation_8(plan: Plan) -> np.ndarray:
     """The inputs of the paper's g, for a plan: p_t, every w_i and every p_i, (…, 2 + 3 N).
 
     Eq. 8 names w_i^off and p_i^off, "the positions of the movement after off-line calibration",
@@ -50,7 +50,7 @@ def equation_8(plan: Plan):
     return np.concatenate([plan.target, plan.weights, points], axis=-1)
 
 
-def mossy_fibres(plan: Plan):
+def mossy_fibres(plan: Plan) -> np.ndarray:
     """The inputs of the granule cells: a plan's target, also among its templates, (…, 4 or 6)."""
     return np.concatenate([plan.target, plan.target - plan.points.mean(axis=-2)], axis=-1)
 
@@ -58,13 +58,13 @@ def mossy_fibres(plan: Plan):
 class LinearRegression:
     """Least squares with an intercept, the paper's g; scikit-learn's, without its import."""
 
-    def fit(self, X, y):
+    def fit(self, X: np.ndarray, y: np.ndarray) -> Self:
         """Learn y (n, k) at X (n, d), forgetting all else."""
         self.mean_, self.intercept_ = X.mean(axis=0), y.mean(axis=0)
         self.slopes_ = np.linalg.lstsq(X - self.mean_, y - self.intercept_, rcond=1e-6)[0]
         return self
 
-    def predict(self, X):
+    def predict(self, X: np.ndarray) -> np.ndarray:
         """The answers (n, k) at X (n, d)."""
         return self.intercept_ + (X - self.mean_) @ self.slopes_
 
@@ -102,7 +102,7 @@ class WeightCorrection:
     inputs: Callable = equation_8
     training_pairs: list = field(default_factory=list)
 
-    def correct(self, plan: Plan):
+    def correct(self, plan: Plan) -> Plan:
         """The plan with the learned Δw added; as `weigh` has it before the first update."""
         check_plan(plan)
         planned = self._planned(plan)
@@ -110,7 +110,7 @@ class WeightCorrection:
             return planned
         return planned.with_weights(planned.weights + self.g.predict(self.inputs(planned)))
 
-    def update(self, plan: Plan, rule="published", execute=execute):
+    def update(self, plan: Plan, rule: Rule = "published", execute: Execute = execute) -> Self:
         """Algorithm 2, its steps for every plan of a batch; `rule`, as `calibrate` takes it."""
         check_batch(plan)
         online = self.correct(plan)  # 1, 2: "calibrated weights w_i^on = w_i + Δw_i^on"
@@ -149,24 +149,29 @@ class AimCorrection:
     True
     """
 
-    def __init__(self, template_set: TemplateSet, cells=None, neighbours=None):
+    def __init__(
+        self,
+        template_set: TemplateSet,
+        cells: "GranuleCells | None" = None,
+        neighbours: np.ndarray | None = None,
+    ) -> None:
         check_templates(template_set)
         self.cells = cells or GranuleCells()
         fours = _neighbours(template_set.points) if neighbours is None else neighbours
         known = plan(template_set.points[fours], template_set, rows=fours[:, None])
         self.cells.fit(_rows(mossy_fibres(known)), np.zeros_like(_rows(known.target)))
 
-    def correct(self, plan: Plan):
+    def correct(self, plan: Plan) -> Plan:
         """The plan aimed where it should be for the hand to end on the target."""
         return self._at(plan, self.aim(plan))
 
-    def aim(self, plan: Plan):
+    def aim(self, plan: Plan) -> np.ndarray:
         """Where to aim, (…, d), for the hand to end on the plan's target."""
         check_plan(plan)
         shift = self.cells.predict(_rows(mossy_fibres(plan)))
         return plan.target + shift.reshape(plan.target.shape)
 
-    def update(self, plan: Plan, together=5, execute=execute):
+    def update(self, plan: Plan, together: int = 5, execute: Execute = execute) -> Self:
         """Move, and learn from where the hand went: a training pair for each movement of the batch.
 
         So many are made `together`; the next are aimed with what was learned from those.
@@ -180,7 +185,9 @@ class AimCorrection:
             self.cells.partial_fit(*self.training_pairs(some, aim, end))
         return self
 
-    def training_pairs(self, plan: Plan, aim, endpoint):
+    def training_pairs(
+        self, plan: Plan, aim: np.ndarray, endpoint: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
         """Mossy fibres (B, 2 d) of movements, and how far beyond to aim there, (B, d).
 
         By hindsight: each aim was right for the place where its movement ended.
@@ -212,10 +219,12 @@ class GranuleCells:
     random about the first inputs; `ridge` is the L2 penalty on the Purkinje weights.
     """
 
-    def __init__(self, width=0.05, cells=600, ridge=3e-4, random_state=0):
+    def __init__(
+        self, width: float = 0.05, cells: int = 600, ridge: float = 3e-4, random_state: int = 0
+    ) -> None:
         self.width, self.cells, self.ridge, self.random_state = width, cells, ridge, random_state
 
-    def fit(self, X, y):
+    def fit(self, X: np.ndarray, y: np.ndarray) -> Self:
         """Forget everything, place the cells about X (n, d), learn y (n,) or (n, k)."""
         X, y = _finite(X), _finite(y)
         if X.ndim != 2 or not X.size or y.shape[:1] != X.shape[:1]:
@@ -230,7 +239,7 @@ class GranuleCells:
         self.climbing_ = np.zeros((self.cells, *y.shape[1:]))
         return self.partial_fit(X, y)
 
-    def partial_fit(self, X, y):
+    def partial_fit(self, X: np.ndarray, y: np.ndarray) -> Self:
         """Learn these as well; in which order batches come does not matter."""
         if not hasattr(self, "centres_"):
             return self.fit(X, y)
@@ -241,11 +250,11 @@ class GranuleCells:
         self.purkinje_ = np.linalg.solve(regularised_gram, self.climbing_)
         return self
 
-    def predict(self, X):
+    def predict(self, X: np.ndarray) -> np.ndarray:
         """The correction (n,) or (n, k) for each X (n, d)."""
         return self.excite(X) @ self.purkinje_
 
-    def excite(self, X):
+    def excite(self, X: np.ndarray) -> np.ndarray:
         """How active each granule cell is, (n, cells) in [0, 1], for each X (n, d)."""
         X = _finite(X)
         if not hasattr(self, "centres_"):

@@ -6,6 +6,7 @@ The state-space model of Smith et al. (2006, PLoS Biology 4:e179). The rates are
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from vmc_lib.checks import as_numbers
 
@@ -20,7 +21,7 @@ class Rates(NamedTuple):
 RATES = Rates()
 
 
-def adapt(disturbance, rates=RATES):
+def adapt(disturbance: ArrayLike, rates: Rates = RATES) -> np.ndarray:
     """States (T, 2) of the fast and slow process before each trial, under a `disturbance` (T,).
 
     What both hold together is taken off the disturbance; both learn from the error that is left.

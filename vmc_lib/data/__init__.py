@@ -25,7 +25,7 @@ class DamagedFile(ValueError):
 
 
 @cache
-def arrays(name, folder=FOLDER):
+def arrays(name: str, folder: Path = FOLDER) -> dict[str, np.ndarray]:
     """The arrays of the data file `name`.npz, by name; read once, shared, and so read-only.
 
     FileNotFoundError when nothing of that name ships, `DamagedFile` when the file is damaged.
@@ -40,13 +40,13 @@ def arrays(name, folder=FOLDER):
         raise DamagedFile(path, error) from None
 
 
-def read_only(array):
+def read_only(array: np.ndarray) -> np.ndarray:
     """Make an array read-only, in place: what is cached is shared by all."""
     array.flags.writeable = False
     return array
 
 
-def read(path):
+def read(path: Path) -> bytes:
     """The bytes of a file that ships.
 
     FileNotFoundError where it is missing, `DamagedFile` where it is not the one that shipped.
@@ -60,7 +60,7 @@ def read(path):
     return content
 
 
-def checksum(content):
+def checksum(content: bytes) -> str:
     """The first 16 digits of the SHA-256 of bytes."""
     return hashlib.sha256(content).hexdigest()[:16]
 

@@ -1,5 +1,6 @@
 """Execution of a plan: what the arm does with it, in a world that the plan does not know."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -8,7 +9,7 @@ import numpy as np
 from vmc_lib.arm.simulate import UNPERTURBED, Perturbation
 from vmc_lib.checks import check_kind, is_within
 from vmc_lib.motor.planning import Plan, check_plan, norm
-from vmc_lib.motor.templates import mean_distance, mean_speed
+from vmc_lib.motor.templates import HeldMotion, mean_distance, mean_speed
 from vmc_lib.short_repr import short, short_repr
 
 BATCH = 512  # movements simulated at once
@@ -16,7 +17,7 @@ QUARTER_TURN = np.pi / 2
 EYE = np.array([0.10, 0.25])  # above and a little in front of the shoulder
 
 
-def execute(plan, perturbation=UNPERTURBED, prism=0.0):
+def execute(plan: Plan, perturbation: Perturbation = UNPERTURBED, prism: float = 0.0) -> "Movement":
     """Let the arm move as planned, and hold.
 
     Parameters
@@ -65,22 +66,22 @@ class Movement:
     __repr__ = short_repr
 
     @cached_property
-    def motion(self):
+    def motion(self) -> HeldMotion:
         """The trajectories, a `Motion` with its `hold`."""
         return self.plan.template_set.reach(self.plan.excitations, self.perturbation)
 
     @cached_property
-    def hold(self):
+    def hold(self) -> np.ndarray:
         """The hand's path over the hold as it is seen, (…, n, 2), m; in space (…, n, 3)."""
         return rotate_about_eye(self._hold, self.prism) if self.prism else self._hold
 
     @property
-    def endpoint(self):
+    def endpoint(self) -> np.ndarray:
         """Where the hand is seen on average over the hold, (…, 2), m; in space (…, 3)."""
         return self.hold.mean(axis=-2)
 
     @property
-    def error(self):
+    def error(self) -> np.ndarray:
         """How far from the target the hand is seen over the hold, on average, (…), m.
 
         A hand that swings round its target is not on it. Without a hold it is the distance where
@@ -89,17 +90,17 @@ class Movement:
         return mean_distance(self.hold, self.plan.target)
 
     @property
-    def bias(self):
+    def bias(self) -> np.ndarray:
         """How far from the target the hand's mean place over the hold is, (…), m."""
         return norm(self.endpoint - self.plan.target)
 
     @property
-    def speed(self):
+    def speed(self) -> np.ndarray:
         """How fast the hand still moves over the hold, on average, (…), m/s."""
         return mean_speed(self.hold)
 
     @property
-    def stray(self):
+    def stray(self) -> np.ndarray:
         """How far the hand strays from its mean place over the hold, at most, (…), m."""
         away = self.hold - self.hold.mean(axis=-2, keepdims=True)
         return norm(away).max(axis=-1)
@@ -117,7 +118,10 @@ class Movement:
         return hold.reshape(*self.plan.weights.shape[:-1], *hold.shape[1:])
 
 
-def rotate_about_eye(points, angle):
+def rotate_about_eye(points: np.ndarray, angle: float) -> np.ndarray:
     """Plane positions (…, 2) rotated about the eye by `angle`, upwards where it is positive."""
     c, s = np.cos(angle), np.sin(angle)
     return (points - EYE) @ np.array([[c, s], [-s, c]]) + EYE
+
+
+Execute = Callable[[Plan], Movement]  # whatever lets the arm move

@@ -13,6 +13,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from vmc_lib.arm.dynamics import paths, torque_for
 from vmc_lib.arm.engines import NO_DRAG, allocate_trajectory, fibres, step_trajectory
@@ -22,18 +23,28 @@ from vmc_lib.arm.muscle import noisy
 from vmc_lib.arm.simulate import Motion, check_sane
 from vmc_lib.checks import check_kind
 from vmc_lib.motor.inverse_dynamics import SAMPLES, minimum_jerk, minimum_jerk_profile, muscle_gain
-from vmc_lib.motor.planning import check_batch
+from vmc_lib.motor.planning import Plan, check_batch
 from vmc_lib.motor.templates import START
 
+Model = Callable[..., np.ndarray]  # a forward model: q, velocity, activation → acceleration
 TICK = 10  # steps: sight corrects, and the model predicts, a hundred times a second
 
 
-def proportional_derivative(reference_q, reference_velocity, q, velocity, gain, damping):
+def proportional_derivative(
+    reference_q: np.ndarray,
+    reference_velocity: np.ndarray,
+    q: np.ndarray,
+    velocity: np.ndarray,
+    gain: float,
+    damping: float,
+) -> np.ndarray:
     """Proportional-derivative feedback toward the reference, (…, 2), rad/s²."""
     return gain * (reference_q - q + damping * (reference_velocity - velocity))
 
 
-def predict_state(model, q, velocity, activations):
+def predict_state(
+    model: Model, q: np.ndarray, velocity: np.ndarray, activations: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     """Predict the present state from delayed feedback by a forward model.
 
     It replays the activations (ticks, B, 6) sent since the arm was at q (B, 2) with this velocity.
@@ -69,12 +80,12 @@ class ReferenceTrajectory(NamedTuple):
     excitations: np.ndarray  # (B, T, 6): the plan's
 
     @property
-    def velocity(self):
+    def velocity(self) -> np.ndarray:
         """How fast the joints should turn, (B, T + 1, 2), rad/s."""
         return np.gradient(self.q, STEP, axis=1)
 
 
-def reference_trajectory(plan, seconds=2.0):
+def reference_trajectory(plan: Plan, seconds: float = 2.0) -> ReferenceTrajectory:
     """The `ReferenceTrajectory` of a batch of plans: minimum jerk to the targets, and a hold there.
 
     ValueError when it is shorter than the plan itself, or there is no batch.
@@ -88,7 +99,9 @@ def reference_trajectory(plan, seconds=2.0):
     return ReferenceTrajectory(q, u)
 
 
-def switch(first, second, at):
+def switch(
+    first: ReferenceTrajectory, second: ReferenceTrajectory, at: float
+) -> ReferenceTrajectory:
     """The first reference until `at` s, then smoothly the second, after another 0.4 s."""
     share = minimum_jerk_profile((np.arange(first.q.shape[1]) * STEP - at) / 0.4)[:, None]
     q = first.q + share * (second.q - first.q)
@@ -96,7 +109,14 @@ def switch(first, second, at):
     return ReferenceTrajectory(q, u)
 
 
-def simulate_feedback(reference, gains=SIGHT, model=None, disturbance=None, noise=0.0, rng=None):
+def simulate_feedback(
+    reference: ReferenceTrajectory,
+    gains: FeedbackGains = SIGHT,
+    model: Model | None = None,
+    disturbance: "Disturbance | None" = None,
+    noise: float = 0.0,
+    rng: np.random.Generator | None = None,
+) -> Motion:
     """Simulate a batch of movements that feedback corrects on their way.
 
     Parameters
@@ -166,18 +186,26 @@ def simulate_feedback(reference, gains=SIGHT, model=None, disturbance=None, nois
         felt = np.maximum(tick - spinal, 0)
         reflex = _reflex(gains, q[:, felt], velocity[:, felt], lengths[:, felt], rates[:, felt])
         now = np.clip(np.swapaxes(planned[:, tick] + sight[:, None] + reflex, 0, 1), 0, 1)
-        u[:, tick] = np.swapaxes(noisy(now, noise, rng) if noise else now, 0, 1)
+        u[:, tick] = np.swapaxes(noisy(now, noise, rng) if noise and rng else now, 0, 1)
         step_trajectory(u, path, tick, push=push, drag=disturbance.drag)
         check_sane(q[:, tick + 1], first=tick[0] + 1)  # or the next tick is of what blew up
     return Motion(*path)
 
 
-def feedback_acceleration(gains, reference_q, reference_velocity, q, velocity):
+def feedback_acceleration(
+    gains: FeedbackGains,
+    reference_q: np.ndarray,
+    reference_velocity: np.ndarray,
+    q: np.ndarray,
+    velocity: np.ndarray,
+) -> np.ndarray:
     """The acceleration (…, 2) that sight asks for, by its law, rad/s²."""
     return gains.law(reference_q, reference_velocity, q, velocity, gains.gain, gains.damping)
 
 
-def excitations_for_acceleration(q, velocity, acceleration, excitations):
+def excitations_for_acceleration(
+    q: np.ndarray, velocity: np.ndarray, acceleration: np.ndarray, excitations: np.ndarray
+) -> np.ndarray:
     """Excitations (…, 6) changed so that muscles add this acceleration (…, 2), where they can.
 
     The minimum-norm change, by the pseudo-inverse. Muscles cannot push: what clipping to [0, 1]
@@ -200,18 +228,18 @@ class Disturbance(NamedTuple):
     force: np.ndarray | float = 0.0  # (2,) or (B, 2), N, from …
     at: np.ndarray | float = 0.0  # … this time on, one or (B, 1), s, for 50 ms
 
-    def __call__(self, time, velocity):
+    def __call__(self, time: np.ndarray, velocity: np.ndarray) -> np.ndarray:
         """The force (…, 2) in N on hands that move at this velocity (…, 2) in m/s."""
         pushed = (self.at <= time) & (time < self.at + 0.05)
         return velocity @ np.transpose(self.drag) + self.force * pushed
 
 
-def curl(strength):
+def curl(strength: float) -> Disturbance:
     """A curl field: it pushes a moving hand aside, clockwise, by `strength` N for each m/s."""
     return Disturbance(drag=strength * np.array([[0.0, 1.0], [-1.0, 0.0]]))
 
 
-def push(force, at):
+def push(force: ArrayLike, at: float | np.ndarray) -> Disturbance:
     """A push of the hand by `force` (2,) in N, from `at` s on, for 50 ms.
 
     Each of a batch may have its own: forces (B, 2), and times (B, 1).

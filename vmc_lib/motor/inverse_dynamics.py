@@ -7,6 +7,7 @@ few spline coefficients keep.
 from functools import cache
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from vmc_lib.arm import dynamics
 from vmc_lib.arm.engines import fibres
@@ -21,7 +22,7 @@ KNOTS = 28  # spline coefficients of each muscle's excitation
 
 
 @cache
-def spline(knots=KNOTS, samples=SAMPLES):
+def spline(knots: int = KNOTS, samples: int = SAMPLES) -> np.ndarray:
     """Cubic B-splines (samples, knots); a row sums to 1, so knots in [0, 1] stay in [0, 1].
 
     By the recursion of Cox and de Boor: SciPy's are the same, but cannot run in the page.
@@ -37,13 +38,15 @@ def spline(knots=KNOTS, samples=SAMPLES):
     return read_only(basis)
 
 
-def minimum_jerk_profile(share):
+def minimum_jerk_profile(share: ArrayLike) -> np.ndarray:
     """Minimum jerk (Flash & Hogan 1985): the share of a way done at each share of its time."""
     s = np.clip(share, 0, 1)
     return s**3 * (10 - 15 * s + 6 * s**2)
 
 
-def minimum_jerk(start, goal, samples=SAMPLES, moving=MOVING):
+def minimum_jerk(
+    start: ArrayLike, goal: ArrayLike, samples: int = SAMPLES, moving: int = MOVING
+) -> np.ndarray:
     """Minimum-jerk paths (…, samples + 1, n) from start to goal (…, n), there after `moving`.
 
     Then they stay there.
@@ -53,7 +56,7 @@ def minimum_jerk(start, goal, samples=SAMPLES, moving=MOVING):
     return start[..., None, :] + (goal - start)[..., None, :] * done
 
 
-def muscle_gain(q, velocity):
+def muscle_gain(q: np.ndarray, velocity: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Muscle torque as a linear function of activation: slack torque (…, 2), gain (…, 2, 6), N m.
 
     An activation (…, 6) adds gain @ activation to the torque of the slack muscles.
@@ -64,7 +67,7 @@ def muscle_gain(q, velocity):
     return (arms * slack).sum(axis=-1), arms * (full - slack)
 
 
-def required_torque(path):
+def required_torque(path: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Inverse dynamics: the muscle torque that a joint path requires, and the torque of activation.
 
     Any activation (T, 6) with torque = gain @ activation at every step keeps to the path.
@@ -94,7 +97,7 @@ def required_torque(path):
     return dynamics.torque_for(q, velocity, acceleration) - slack, gain
 
 
-def static_activation(q):
+def static_activation(q: ArrayLike) -> np.ndarray:
     """The activations (6,) that hold the posture q (2,), small ones preferred (a ridge).
 
     ValueError for a posture far beyond the joints' limits.
@@ -106,7 +109,7 @@ def static_activation(q):
     )
 
 
-def bounded_least_squares(matrix, wanted):
+def bounded_least_squares(matrix: np.ndarray, wanted: np.ndarray) -> np.ndarray:
     """The x (n,) in [0, 1] for which matrix @ x is nearest to `wanted`, in least squares.
 
     By active sets (Stark & Parker 1995): SciPy's `bvls` is the same, but cannot run in the page.

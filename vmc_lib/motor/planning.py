@@ -3,9 +3,12 @@
 Every function takes one target (2,) or a batch (B, 2). Positions are in the arm's plane, in m.
 """
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from typing import Any, Literal, Self
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from vmc_lib import NoReach
 from vmc_lib.checks import as_numbers, check_count, check_kind, check_rng
@@ -25,24 +28,24 @@ class Plan:
     __repr__ = short_repr
 
     @property
-    def points(self):
+    def points(self) -> np.ndarray:
         """Where these templates reach, p_i, (…, N, 2), m."""
         return self.template_set.points[self.rows]
 
     @property
-    def excitations(self):
+    def excitations(self) -> np.ndarray:
         """The mix of Eq. 3, u_t(t) = Σ w_i u_i(t), (…, T, 6), clipped to a command's limits."""
         share = np.zeros((*self.weights.shape[:-1], len(self.template_set.points)))
         np.put_along_axis(share, self.rows, self.weights, axis=-1)
         mixed = np.tensordot(share, self.template_set.excitations, axes=1)
         return np.clip(mixed, *self.template_set.limits)
 
-    def __getitem__(self, which):
+    def __getitem__(self, which: Any) -> Self:
         """Some plans of a batch."""
         parts = {name: getattr(self, name)[which] for name in ("target", "rows", "weights")}
         return replace(self, **parts)
 
-    def with_weights(self, weights):
+    def with_weights(self, weights: ArrayLike) -> Self:
         """The same templates, weighted otherwise; leading axes may be added, for many trials."""
         weights = as_numbers("weights", weights)
         if weights.shape[-1:] != self.rows.shape[-1:]:
@@ -52,7 +55,7 @@ class Plan:
         return replace(self, weights=weights, rows=np.broadcast_to(self.rows, weights.shape))
 
 
-def habitual_weights(target, points, power=1):
+def habitual_weights(target: ArrayLike, points: np.ndarray, power: float = 1) -> np.ndarray:
     """Inverse-distance weights of templates, summing to 1 (Eq. 5).
 
     A target on a template gives that template all the weight, the limit of the equation.
@@ -87,7 +90,7 @@ def habitual_weights(target, points, power=1):
     return nearness / nearness.sum(axis=-1, keepdims=True)
 
 
-def exact_weights(target, points, power=1):
+def exact_weights(target: ArrayLike, points: np.ndarray, power: float = 1) -> np.ndarray:
     """Weights (…, N) that satisfy Eq. 4, Σ w_i p_i = p_t, and sum to 1: the nearest to Eq. 5's."""
     habit = habitual_weights(target, points, power)
     missing = target - (habit[..., None, :] @ points)[..., 0, :]
@@ -95,9 +98,10 @@ def exact_weights(target, points, power=1):
 
 
 RULES = {"habitual": habitual_weights, "exact": exact_weights}  # of planning: Eq. 5, Eq. 4
+Rule = Literal["habitual", "exact"] | Callable[[np.ndarray, np.ndarray], np.ndarray]
 
 
-def least_change(jacobian, shift):
+def least_change(jacobian: np.ndarray, shift: np.ndarray) -> np.ndarray:
     """The smallest Δw (…, N) with Σ Δw = 0 that shifts the hand by `shift` (…, D).
 
     The minimum-norm solution, by the pseudo-inverse. `jacobian` (…, D, N) says where each weight
@@ -115,7 +119,7 @@ def least_change(jacobian, shift):
     return (np.linalg.pinv(centred) @ shift[..., None])[..., 0]
 
 
-def surrounding(target, points):
+def surrounding(target: ArrayLike, points: np.ndarray) -> np.ndarray:
     """The nearest point (of N, 2) in each of the four quadrants round a target: rows (…, 4).
 
     `NoReach` when a quadrant is empty: the target is outside the plane that experience covers.
@@ -126,7 +130,7 @@ def surrounding(target, points):
     return _by_quadrant(target, points).argmin(axis=-1)
 
 
-def nearest(target, points, count):
+def nearest(target: ArrayLike, points: np.ndarray, count: int) -> np.ndarray:
     """The `count` points (of N, 2) nearest to a target (…, 2): rows (…, count).
 
     ValueError when there are fewer points, or fewer than one is asked for.
@@ -138,7 +142,7 @@ def nearest(target, points, count):
     return distance.argsort(axis=-1, kind="stable")[..., :count]
 
 
-def is_surrounded(target, points):
+def is_surrounded(target: ArrayLike, points: np.ndarray) -> np.ndarray:
     """Whether targets (…, 2) have a point (of N, 2) in every quadrant round them, (…)."""
     return np.isfinite(_by_quadrant(target, points).min(axis=-1)).all(axis=-1)
 
@@ -151,7 +155,7 @@ def _by_quadrant(target, points):
     return np.where(here, norm(away)[..., None, :], np.inf)
 
 
-def draw_targets(template_set, count, rng):
+def draw_targets(template_set: TemplateSet, count: int, rng: np.random.Generator) -> np.ndarray:
     """Targets (count, 2), drawn evenly from the plane that the templates surround.
 
     ValueError where they surround so little of it that the draw does not fill up.
@@ -170,7 +174,12 @@ def draw_targets(template_set, count, rng):
     return inside[:count]
 
 
-def plan(target, template_set, rule="habitual", rows=None):
+def plan(
+    target: ArrayLike,
+    template_set: TemplateSet,
+    rule: Rule = "habitual",
+    rows: ArrayLike | None = None,
+) -> Plan:
     """Plan a reach, or a batch, as a weighted sum of templates (Eq. 3–5).
 
     Parameters
@@ -221,7 +230,7 @@ def plan(target, template_set, rule="habitual", rows=None):
     return Plan(template_set, target, rows, weigh(target, template_set.points[rows]))
 
 
-def rule_called(name, rules):
+def rule_called(name: str | Callable, rules: Mapping[str, Callable]) -> Callable:
     """The function of that name in a table of rules; a function itself as it is.
 
     ValueError for a name that none has.
@@ -236,23 +245,23 @@ def rule_called(name, rules):
     return rules[name]
 
 
-def check_templates(template_set):
+def check_templates(template_set: object) -> None:
     """Raise ValueError where what should be a `TemplateSet` is none."""
     check_kind("template_set", template_set, TemplateSet, "what motor.templates.load() returns")
 
 
-def check_plan(plan):
+def check_plan(plan: object) -> None:
     """Raise ValueError where what should be a `Plan` is none."""
     check_kind("plan", plan, Plan, "what plan(target, template_set) returns")
 
 
-def check_batch(plan):
+def check_batch(plan: Plan) -> None:
     """Raise ValueError where a plan is none, or of one reach."""
     check_plan(plan)
     if plan.target.ndim != 2:
         raise ValueError(f"a plan for {plan.target} is no batch; plan for targets (B, 2)")
 
 
-def norm(vectors):
+def norm(vectors: np.ndarray) -> np.ndarray:
     """The Euclidean norms (…) of vectors (…, d)."""
     return np.linalg.norm(vectors, axis=-1)

@@ -10,10 +10,11 @@ from dataclasses import dataclass
 from functools import cache, partial
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.arm.model import STEP
-from vmc_lib.arm.simulate import UNPERTURBED, Motion, simulate
+from vmc_lib.arm.simulate import UNPERTURBED, Motion, Perturbation, simulate
 from vmc_lib.checks import as_numbers, is_within
 from vmc_lib.data import arrays, read_only
 from vmc_lib.motor.inverse_dynamics import spline
@@ -36,37 +37,37 @@ class HeldMotion(Motion):
     __repr__ = short_repr
 
     @property
-    def wrist(self):
+    def wrist(self) -> np.ndarray:
         """The wrist's path from the command's end on, (…, n, 3) in the shoulder frame, m."""
         return hand(self.q[..., -1 - self.held :: EVERY, :])
 
     @property
-    def hold(self):
+    def hold(self) -> np.ndarray:
         """The same in the arm's plane, (…, n, 2), m."""
         return self.wrist[..., :2]
 
     @property
-    def endpoint(self):
+    def endpoint(self) -> np.ndarray:
         """Where the wrist is on average over the hold, (…, 2), m."""
         return self.hold.mean(axis=-2)
 
     @property
-    def speed(self):
+    def speed(self) -> np.ndarray:
         """How fast the wrist still moves over the hold, on average, (…), m/s."""
         return mean_speed(self.hold)
 
 
-def mean_speed(hold):
+def mean_speed(hold: np.ndarray) -> np.ndarray:
     """The mean speed (…), m/s, of what takes the path (…, n, D), m, over the hold."""
     return np.linalg.norm(np.diff(hold, axis=-2), axis=-1).sum(axis=-1) / HOLD
 
 
-def mean_distance(hold, target):
+def mean_distance(hold: np.ndarray, target: ArrayLike) -> np.ndarray:
     """The mean distance (…) of paths over the hold (…, n, D) from targets (…, D), in their unit."""
     return np.linalg.norm(offsets(hold, target), axis=-1).mean(axis=-1)
 
 
-def offsets(points, target):
+def offsets(points: np.ndarray, target: ArrayLike) -> np.ndarray:
     """From targets (…, D) to points (…, N, D) in their unit; ValueError for another D."""
     target = as_numbers("target", target)
     if not target.shape[-1:] == np.shape(points)[-1:]:
@@ -74,14 +75,16 @@ def offsets(points, target):
     return points - target[..., None, :]
 
 
-def reach(excitations, perturbation=UNPERTURBED, hold=HOLD):
+def reach(
+    excitations: np.ndarray, perturbation: Perturbation = UNPERTURBED, hold: float = HOLD
+) -> HeldMotion:
     """The `HeldMotion` from rest in `START`: excitations (…, T, 6), then `hold` s of the last."""
     rest = arrays("rest")["activation"]  # that holds the arm in START
     motion = simulate(keep_last(excitations, hold), START, rest, perturbation=perturbation)
     return HeldMotion(**vars(motion), held=round(hold / STEP))
 
 
-def keep_last(excitations, hold=HOLD):
+def keep_last(excitations: np.ndarray, hold: float = HOLD) -> np.ndarray:
     """Excitations (…, T, 6), and then `hold` s of the last of them."""
     last = np.repeat(excitations[..., -1:, :], round(hold / STEP), axis=-2)
     return np.concatenate([excitations, last], axis=-2)
@@ -103,7 +106,7 @@ class TemplateSet:
 
 
 @cache
-def load(spacing=SPACING, hold=HOLD):
+def load(spacing: float = SPACING, hold: float = HOLD) -> TemplateSet:
     """The shipped `TemplateSet` whose reached points lie `spacing` metres apart.
 
     A movement ends with a `hold` of so many seconds, over which its end point is the mean. With 0
@@ -118,6 +121,6 @@ def load(spacing=SPACING, hold=HOLD):
     return TemplateSet(read_only(move(excitations).endpoint), read_only(excitations), reach=move)
 
 
-def key(spacing):
+def key(spacing: float) -> str:
     """The name under which the knots of such a set are stored."""
     return f"knots_{1000 * spacing:.0f}mm"

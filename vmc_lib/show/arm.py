@@ -6,15 +6,19 @@ from the `anatomy` that comes along. The model ends at the wrist: the hand beyon
 so that it can meet what the wrist reaches for, all that is drawn `BEYOND` the wrist.
 """
 
+from collections.abc import Sequence
 from functools import cache
 from importlib.util import find_spec
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from vmc_lib import NoReach
 from vmc_lib.arm.kinematics import to_world, turn_towards
 from vmc_lib.arm.simulate import Motion, check_posture
 from vmc_lib.checks import as_numbers
+from vmc_lib.photos import Photo
 from vmc_lib.short_repr import short
 from vmc_lib.show.scene import Scene
 
@@ -23,7 +27,15 @@ BEYOND = np.array([0.085, -0.01, -0.025])  # m from the wrist to what the hand h
 CLOSING = 0.25  # s before a movement's end in which a grasping hand closes
 
 
-def arm_scene(q, activation=6 * (0,), turn=0.0, photo=None, balls=(), grasp=False, end=None):
+def arm_scene(
+    q: ArrayLike | Motion,
+    activation: ArrayLike = 6 * (0,),
+    turn: ArrayLike = 0.0,
+    photo: Photo | None = None,
+    balls: Sequence[tuple[Any, str]] = (),
+    grasp: bool = False,
+    end: tuple[ArrayLike, float] | None = None,
+) -> Scene:
     """The arm in posture q (2,), in radians, on a trunk turned by `turn`; or in a movement.
 
     A movement is a `Motion`, or has q (T, 2) and `activation` (T, 6), a sample every millisecond,
@@ -38,7 +50,7 @@ def arm_scene(q, activation=6 * (0,), turn=0.0, photo=None, balls=(), grasp=Fals
     table = bool(photo or len(balls))
     scene = Scene(_furniture(table))
     if isinstance(q, Motion):
-        q, activation = q.q, q.activation
+        activation, q = q.activation, q.q
     q = _samples("posture", q, 2)[::EVERY]
     check_posture(q, "posture")
     moments = np.arange(len(q)) * EVERY / 1000
@@ -81,7 +93,7 @@ def _samples(name, values, size):
     return samples
 
 
-def beyond_wrist(turn):
+def beyond_wrist(turn: float) -> np.ndarray:
     """From the wrist to what the hand holds (3,), in m, where the trunk has turned."""
     return to_world(BEYOND, turn) - to_world(np.zeros(3), turn)
 

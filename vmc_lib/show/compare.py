@@ -1,9 +1,12 @@
 """Comparisons: estimates with their intervals, as a dot plot, in words and in one table."""
 
 import math
+from collections.abc import Mapping
+from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.figure import Figure
 
 from vmc_lib.show.demo import figure
 from vmc_lib.show.estimate import estimate
@@ -12,12 +15,23 @@ from vmc_lib.show.palette import COLOURS
 from vmc_lib.show.svg_renderer import text_width
 
 
-def compare(series, measure, published=None, xlim=None, alt=None):
+def compare(
+    series: Mapping[str, Mapping[str, Any]],
+    measure: str,
+    published: Mapping[str, float] | None = None,
+    xlim: tuple[float, float] | None = None,
+    alt: str | None = None,
+) -> None:
     """Show a `dot_plot`; its numbers stand folded below, and its description comes from them."""
     figure(lambda: dot_plot(series, measure, published, xlim), alt=alt)
 
 
-def dot_plot(series, measure, published=None, xlim=None):
+def dot_plot(
+    series: Mapping[str, Mapping[str, Any]],
+    measure: str,
+    published: Mapping[str, float] | None = None,
+    xlim: tuple[float, float] | None = None,
+) -> Figure:
     """A table as a picture: a dot for each row of each series, with its interval; a figure.
 
     `series` maps a label to its rows, and a row's name to draws (n,), to (value, low, high) or to a
@@ -28,10 +42,10 @@ def dot_plot(series, measure, published=None, xlim=None):
     >>> dot_plot({"ours": {"rig": [3.1, 2.8, 3.3], "free": 4.2}}, "miss (mm)").axes[0].get_xlabel()
     'miss (mm)'
     """
-    for label, rows in series.items() if isinstance(series, dict) else [("", series)]:
-        if not isinstance(rows, dict):
+    for label, given in series.items() if isinstance(series, dict) else [("", series)]:
+        if not isinstance(given, dict):
             raise ValueError(
-                f"series {label!r} is {rows!r}: give {{label: {{row: draws}}}}, two dictionaries"
+                f"series {label!r} is {given!r}: give {{label: {{row: draws}}}}, two dictionaries"
             )
     every = *series.values(), published or {}
     names = list(dict.fromkeys(name for rows in every for name in rows))

@@ -52,11 +52,11 @@ class Control:
             _ = self.first  # raises when `start` is none of the values
 
     @property
-    def first(self):
+    def first(self) -> int:
         """The position of the starting value."""
         return 0 if self.start is None else self.place_of(self.start)
 
-    def place_of(self, value):
+    def place_of(self, value: Any) -> int:
         """The place of a value among the control's own; ValueError where it is none of them."""
         for place, own in enumerate(self.values):
             if own is value or (np.isclose(own, value) if _numbers(own, value) else own == value):
@@ -64,11 +64,11 @@ class Control:
         texts = self.texts if len(self.values) <= MENU else [*self.texts[:3], "…", self.texts[-1]]
         raise ValueError(f"{self.label!r} cannot stand at {value!r}: it has {', '.join(texts)}")
 
-    def nearest(self, value):
+    def nearest(self, value: Any) -> int:
         """The place of the value that a reader's hand would come to rest at."""
         return self.place_of(value)
 
-    def html(self, name, stride):
+    def html(self, name: str, stride: int) -> str:
         """Its face: markup named `name`; a value's place counts `stride` times.
 
         Demos count their positions in mixed radix, and the page's script adds up the places.
@@ -76,11 +76,11 @@ class Control:
         raise NotImplementedError
 
     @property
-    def texts(self):
+    def texts(self) -> list[str]:
         """The values as the reader sees them, with their unit."""
         return list(self.labels) or [self.text(value) for value in self.values]
 
-    def text(self, value):
+    def text(self, value: Any) -> str:
         """A value with its unit."""
         unit = self.unit if self.unit in ("", "°") else f" {self.unit}"
         return f"{_text(value)}{unit}"
@@ -108,14 +108,14 @@ class Slider(Control):
                     "range(0, 10, 2) or np.linspace(0, 1, 11)"
                 )
 
-    def nearest(self, value):
+    def nearest(self, value: Any) -> int:
         """The place of the stop nearest to a number; ValueError beyond the slider's ends."""
         numbers = [one for one in self.values if _numbers(one, value)]
         if len(numbers) < len(self.values) or not min(numbers) <= value <= max(numbers):
             return self.place_of(value)
         return int(np.abs(np.subtract(numbers, value)).argmin())
 
-    def value_at(self, place):
+    def value_at(self, place: float) -> Any:
         """The value at a place along `values`, which may lie between two; whole where these are."""
         low = min(int(place), len(self.values) - 2)
         one, other = self.values[low : low + 2]
@@ -127,13 +127,15 @@ class Slider(Control):
         return value if self.between is True else round(value / self.between) * self.between
 
     @property
-    def continuous(self):
+    def continuous(self) -> bool:
         """Whether it has values between its own."""
         whole = all(isinstance(v, int) for v in self.values)
         numbers = all(map(is_number, self.values)) and not self.labels
-        return self.between and numbers and not (whole and np.ptp(self.values) < len(self.values))
+        return bool(
+            self.between and numbers and not (whole and np.ptp(self.values) < len(self.values))
+        )
 
-    def html(self, name, stride):
+    def html(self, name: str, stride: int) -> str:
         texts, last = self.texts, len(self.values) - 1
         text, data = texts[self.first], json.dumps(texts, ensure_ascii=False)
         along = {"min": 0, "max": last, "value": self.first}
@@ -153,7 +155,7 @@ class Slider(Control):
 class Choice(Control):
     """One of a few alternatives: buttons, or a menu when there are many."""
 
-    def html(self, name, stride):
+    def html(self, name: str, stride: int) -> str:
         if len(self.values) >= MENU:
             options = "".join(
                 f'<option value="{i}"{" selected" * (i == self.first)}>{html.escape(text)}</option>'
@@ -171,7 +173,7 @@ class Choice(Control):
 class Switch(Control):
     """On or off."""
 
-    def html(self, name, stride):
+    def html(self, name: str, stride: int) -> str:
         own = f'type="checkbox" name="{name}" data-stride="{stride}"{" checked" * self.first}'
         return f"<label><input {own}>{html.escape(self.label)}</label>"
 
@@ -183,24 +185,34 @@ class Pad(Control):
     slider's.
     """
 
-    def __init__(self, xs, ys, labels=("x", "y"), start=(None, None), unit="", between=True):
+    pair: list[Slider]
+
+    def __init__(
+        self,
+        xs: Sequence[float],
+        ys: Sequence[float],
+        labels: tuple[str, str] = ("x", "y"),
+        start: tuple[float | None, float | None] = (None, None),
+        unit: str = "",
+        between: bool | float = True,
+    ) -> None:
         if not len(labels) == len(start) == 2:
             raise ValueError(f"a pad has two labels and two starts, not {labels} and {start}")
         parts = zip((xs, ys), labels, start, strict=True)
-        pair = [Slider(v, *rest, unit, between=between) for v, *rest in parts]
+        pair = [Slider(v, label, first, unit, between=between) for v, label, first in parts]
         object.__setattr__(self, "pair", pair)
         super().__init__(tuple(itertools.product(xs, ys)), " and ".join(labels), unit=unit)
 
     @property
-    def first(self):
+    def first(self) -> int:
         x, y = self.pair
         return x.first * len(y.values) + y.first
 
-    def nearest(self, value):
+    def nearest(self, value: Any) -> int:
         x, y = self.pair
         return x.nearest(value[0]) * len(y.values) + y.nearest(value[1])
 
-    def html(self, name, stride):
+    def html(self, name: str, stride: int) -> str:
         x, y = self.pair
         grid = html.escape(json.dumps([[float(value) for value in s.values] for s in self.pair]))
         twins = x.html(f"{name}-x", stride * len(y.values)) + y.html(f"{name}-y", stride)

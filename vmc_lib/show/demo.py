@@ -9,7 +9,9 @@ other goes through all its values. In both, every control must matter.
 import gc
 import itertools
 import math
+from collections.abc import Callable, Mapping, Sequence
 from functools import cache, partial
+from typing import Any
 from uuid import uuid4
 
 import ipywidgets
@@ -45,8 +47,15 @@ names = itertools.count(1)  # of the demos of a page; a build of the book gives 
 
 
 def explore(
-    draw=None, caption="", alt=None, in_page=None, data=None, printed=(), more=(), **controls
-):
+    draw: Callable[..., Any] | None = None,
+    caption: str = "",
+    alt: str | Callable[..., str] | None = None,
+    in_page: Any = None,
+    data: Mapping[str, Any] | None = None,
+    printed: Sequence[Mapping[str, Any]] = (),
+    more: Sequence[str] = (),
+    **controls: Any,
+) -> Any:
     """Show what `draw` returns and let the reader move its controls, as ipywidgets' `interact`.
 
     `draw(**values)` is a pure function that returns a picture (see `figures`). Each control is a
@@ -92,7 +101,16 @@ def explore(
     return demo
 
 
-def widget(draw, caption="", alt=None, in_page=None, data=None, printed=(), more=(), **controls):
+def widget(
+    draw: Callable[..., Any],
+    caption: str = "",
+    alt: str | Callable[..., str] | None = None,
+    in_page: Any = None,
+    data: Mapping[str, Any] | None = None,
+    printed: Sequence[Mapping[str, Any]] = (),
+    more: Sequence[str] = (),
+    **controls: Any,
+) -> Demo:
     """A demo as `explore` takes it, not yet shown: to stand in an `HBox`, or where it is displayed.
 
     As `explore` is to ipywidgets' `interact`, so is this to its `interactive`.
@@ -175,7 +193,7 @@ def _own_words(picture):
         return "A picture that nobody has described yet."
 
 
-def figure(picture, caption="", alt=None):
+def figure(picture: Any, caption: str = "", alt: str | Callable[..., str] | None = None) -> None:
     """Show a picture that does not move, or what a function without arguments draws."""
     explore(picture if callable(picture) else lambda: picture, caption, alt)
 

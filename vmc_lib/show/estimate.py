@@ -4,6 +4,7 @@ from math import floor, log10
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from vmc_lib.statistics import student
 
@@ -34,7 +35,7 @@ class Estimate(NamedTuple):
         return f"{value} ({low} to {high})"
 
 
-def estimate(value):
+def estimate(value: ArrayLike) -> Estimate:
     """The `Estimate` of draws (n,), by Student's t; or of a number, or of (value, low, high).
 
     Draws are an array or a list, an interval is a tuple. A single draw has no interval.

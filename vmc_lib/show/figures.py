@@ -6,6 +6,8 @@ tuple of these shown side by side. Colours are named, never raw.
 
 import html
 import re
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from IPython.display import Markdown, display
@@ -65,7 +67,12 @@ def _markup(part, salt):
     return image_tag(part) if isinstance(part, np.ndarray) else part
 
 
-def photo_view(image, boxes=(), points=(), axes=None):
+def photo_view(
+    image: np.ndarray,
+    boxes: Iterable[tuple[Any, str, str]] = (),
+    points: Iterable[tuple[Any, str, str]] = (),
+    axes: tuple[float, float, float, float] | None = None,
+) -> str:
     """A photo with boxes on it, as SVG.
 
     `boxes` holds (box, label, colour name) with box = (x0, y0, x1, y1) in pixels; `points` holds
@@ -75,8 +82,8 @@ def photo_view(image, boxes=(), points=(), axes=None):
     if not isinstance(image, np.ndarray):
         raise ValueError(f"{image!r} is no image: give an array, as photos.read_image returns it")
     height, width = image.shape[:2]
-    for name, marks, size in (("boxes", boxes, 4), ("points", points, 2)):
-        for mark in marks:
+    for name, given, size in (("boxes", boxes, 4), ("points", points, 2)):
+        for mark in given:
             if not (len(mark) == 3 and np.shape(mark[0]) == (size,)):
                 place = "(x0, y0, x1, y1)" if size == 4 else "(x, y)"
                 raise ValueError(f"{name} hold {mark}: give ({place}, label, colour name)")
@@ -117,13 +124,13 @@ def _label(x, y, text, colour):
     )
 
 
-def margins(fig, left=0.7, top=0.3):
+def margins(fig: Figure, left: float = 0.7, top: float = 0.3) -> None:
     """Leave so many inches beside and above a figure's plots: quicker than to seek their room."""
     width, height = fig.get_size_inches()
     fig.subplots_adjust(left / width, 0.5 / height, 1 - 0.2 / width, 1 - top / height)
 
 
-def note(text):
+def note(text: str) -> str:
     """A line of text as a picture (HTML), to stand beside others and to move with a demo."""
     return f'<p class="vmc-strip">{html.escape(text)}</p>'
 
@@ -167,17 +174,17 @@ def numbers(table):
     return f'<div class="vmc-data" tabindex="0">{table}</div>'
 
 
-def markdown(text):
+def markdown(text: str) -> None:
     """Show Markdown; an f-string puts the run's own numbers into a sentence."""
     display(Markdown(_MINUS.sub(lambda match: match[1] or "−", text)))
 
 
-def details(summary, text):
+def details(summary: str, text: str) -> None:
     """Show Markdown that stays folded under its summary until the reader asks for it."""
     markdown(f"<details><summary>{summary}</summary>\n\n{text}\n\n</details>")
 
 
-def itemise(values, form, between=", "):
+def itemise(values: Mapping[str, Any], form: str, between: str = ", ") -> str:
     """The values of a mapping in words: each by `form`, its value and its name given to it.
 
     >>> itemise({"up": 0.35, "down": 1.61}, "{:.2f} {}")
@@ -186,7 +193,11 @@ def itemise(values, form, between=", "):
     return between.join(form.format(value, name) for name, value in values.items())
 
 
-def table(heads, rows, form=None):
+def table(
+    heads: Sequence[str],
+    rows: Iterable[Sequence[Any]] | Mapping[str, Sequence[Any]],
+    form: str | None = None,
+) -> str:
     """A Markdown table of column heads and rows of as many cells: text, numbers, or None.
 
     `rows` may map a row's name to its other cells. Numbers get three digits; draws (n,) and

@@ -23,7 +23,7 @@ from vmc_lib.show.render_mode import BROUGHT, STATIC
 
 VENDORED = {"bones.js": STATIC / "vendor/bones.js"}
 if MESHCAT := find_spec("meshcat"):  # not in the page
-    VENDORED["meshcat.js"] = Path(MESHCAT.origin).parent / "viewer/dist/main.min.js"
+    VENDORED["meshcat.js"] = Path(str(MESHCAT.origin)).parent / "viewer/dist/main.min.js"
 _pyplot = RLock()
 
 

@@ -9,8 +9,10 @@ import html
 import inspect
 import json
 import zlib
+from collections.abc import Callable
 from contextlib import redirect_stdout
 from io import StringIO
+from typing import Any
 
 import numpy as np
 from IPython import get_ipython
@@ -66,7 +68,9 @@ def prediction(question, choices, outcome, why):
     )
 
 
-def check(answer, expected, tolerance=1e-6, hint="", unit=""):
+def check(
+    answer: Any, expected: Any, tolerance: float = 1e-6, hint: str = "", unit: str = ""
+) -> None:
     """Show whether the reader's `answer` is right.
 
     `expected` is a number, a text, or any nesting of numbers; a number may be off by `tolerance`,
@@ -133,7 +137,7 @@ def _field(expected, tolerance, hint, unit):
     )
 
 
-def grade(function, exercise):
+def grade(function: Callable[..., Any], exercise: Exercise) -> None:
     """Show whether the reader's `function` does what an `Exercise` asks; if not, a hint.
 
     Lines that Python cannot read have left an older function there: it is not graded. Of what the
@@ -167,7 +171,7 @@ def _buttons(right):
     )
 
 
-def solution(exercise):
+def solution(exercise: Exercise) -> None:
     """Show our lines for an `Exercise`: in a notebook folded, as the page does it itself."""
     lines = f"```python\n{source(exercise)}```"
     if render_mode() == "book":

@@ -12,6 +12,8 @@ import itertools
 import json
 import re
 from collections import defaultdict
+from collections.abc import Iterable
+from typing import Any, Self
 
 import umsgpack
 
@@ -32,26 +34,26 @@ class Scene:
 
     zmq_url = web_url = None  # what meshcat asks of a window: there is no server
 
-    def __init__(self, base=None):
+    def __init__(self, base: Self | None = None) -> None:
         self._messages = dict(base._messages) if base else {}
         if base is None:
             self.look((1.2, 0.5, 1.4), at=(0.2, -0.2, 0.0))
 
-    def look(self, eye, at):
+    def look(self, eye: Iterable[float], at: Iterable[float]) -> None:
         """Place the reader's eye, and the point it looks at (and walks around)."""
         self.tell("camera", [list(map(float, eye)), list(map(float, at))])
 
-    def tell(self, name, value):
+    def tell(self, name: str, value: Any) -> None:
         """Tell the viewer, as JSON takes it, what no meshcat command says: see scene.js."""
         self._messages[name] = json.dumps(value, separators=(",", ":"))
 
-    def __getitem__(self, path):
+    def __getitem__(self, path: str) -> Any:
         """The meshcat visualizer at `path`: `scene["hand"].set_object(...)`."""
         import meshcat  # here, for it brings a server along
 
         return meshcat.Visualizer(window=self)[path]
 
-    def send(self, command):
+    def send(self, command: Any) -> None:
         """Record one meshcat command (called by meshcat)."""
         lowered = command.lower()
         key = f"{lowered['type']} {lowered['path']} {lowered.get('property', '')}"
@@ -61,10 +63,10 @@ class Scene:
         packed = _UUID.sub(lambda uuid: b"%036d" % numbers[uuid[0]], packed)
         self._messages[key] = base64.b64encode(packed).decode()
 
-    def messages(self):
+    def messages(self) -> list[str]:
         """The scene as a list of `"type path property|base64"` strings, in recorded order."""
         return [f"{key}|{data}" for key, data in self._messages.items()]
 
-    def html(self, alt):
+    def html(self, alt: str) -> str:
         """Where the viewer will stand in the page; until then, and without WebGL, words."""
         return f'<div class="vmc-scene"><p>{html.escape(alt)}</p></div>'

@@ -5,6 +5,7 @@ change a function on purpose: a live notebook says by how much, and the demos ru
 """
 
 import ast
+from typing import Any
 
 from IPython import get_ipython
 from IPython.display import HTML, display
@@ -17,7 +18,7 @@ from vmc_lib.show.render_mode import render_mode
 _VERIFIED = {}  # functions by their names, as they were when they last agreed with the library
 
 
-def verify(ours, library, tolerance=1e-8):
+def verify(ours: Any, library: Any, tolerance: float = 1e-8) -> None:
     """Verify what a cell's own functions return against what the library's do.
 
     Both are arrays, or tuples or dictionaries of these, as `vmc_lib.grading.deviation` takes them.

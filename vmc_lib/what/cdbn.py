@@ -1,10 +1,13 @@
 """Convolutional deep belief network (CDBN): a CRBM on the picture, a second on its pooled maps."""
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any, Self
 
 import numpy as np
 
 from vmc_lib.data import arrays
+from vmc_lib.photos import Photo
 from vmc_lib.what.crbm import CRBM
 from vmc_lib.what.crops import crop
 
@@ -20,7 +23,7 @@ class CDBN:
     mean: float
     spread: float
 
-    def layers(self, v):
+    def layers(self, v: np.ndarray) -> dict[str, np.ndarray]:
         """Every layer's maps (n, maps, height, width) for whitened pictures v (n, 1, 200, 200).
 
         Hidden layers lose a last row and column where their width is odd, so that blocks fit:
@@ -31,16 +34,16 @@ class CDBN:
         h2, p2 = self.second.posterior(self.standardised_p1(p1))
         return {"V": v, "H1": h1, "P1": p1, "H2": h2, "P2": p2, "MP2": p2.mean(1, keepdims=True)}
 
-    def standardised_p1(self, p1):
+    def standardised_p1(self, p1: np.ndarray) -> np.ndarray:
         """The first CRBM's pooled maps as input of the second: standardised and trimmed."""
         return self.second.trim((p1 - self.mean) / self.spread)
 
-    def pooled(self, v):
+    def pooled(self, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """P1 and P2 of `layers` alone."""
         p1 = self.first.pooled(self.first.trim(v))
         return p1, self.second.pooled(self.standardised_p1(p1))
 
-    def projected_filters(self):
+    def projected_filters(self) -> np.ndarray:
         """The second layer's filters projected into the picture: (K, 23, 23) for width 8.
 
         Each of its weights paints, in the blocks of c × c hidden units that it sees through
@@ -50,31 +53,31 @@ class CDBN:
         spread_out = np.kron(self.second.W, np.ones((c, c), np.float32) / c**2)
         return self.first.visible_mean(spread_out)[:, 0] - self.first.a
 
-    def arrays(self):
+    def arrays(self) -> dict[str, Any]:
         """The network as a dict of arrays, to be saved with `np.savez`."""
         machines = {"first": self.first, "second": self.second}
         parts = {f"{m}.{k}": x for m, crbm in machines.items() for k, x in crbm.arrays().items()}
         return parts | {"mean": self.mean, "spread": self.spread}
 
     @classmethod
-    def from_arrays(cls, arrays, kind=CRBM):
+    def from_arrays(cls, arrays: Mapping[str, np.ndarray], kind: type[CRBM] = CRBM) -> Self:
         """The network that `arrays` describes (a dict, or an open .npz file).
 
         Its machines are of a `kind`: a CRBM sees, a `learning.Learner` goes on learning.
         """
-        machines = (
+        first, second = (
             kind.from_arrays({k: arrays[f"{m}.{k}"] for k in ("W", "b", "a", "c")})
             for m in ("first", "second")
         )
-        return cls(*machines, float(arrays["mean"]), float(arrays["spread"]))
+        return cls(first, second, float(arrays["mean"]), float(arrays["spread"]))
 
     @classmethod
-    def load(cls, kind=CRBM):
+    def load(cls, kind: type[CRBM] = CRBM) -> Self:
         """The network that ships with the book."""
         return cls.from_arrays(arrays("cdbn"), kind)
 
 
-def crops_of(shots):
+def crops_of(shots: Sequence[Photo]) -> tuple[np.ndarray, np.ndarray]:
     """The crops (n, 200, 200) in the true boxes of photos, and which are shuttlecocks (n,)."""
     named = [(crop(shot.image, box), name) for shot in shots for name, box in shot.boxes.items()]
     return np.array([x for x, _ in named]), np.array([name == "shuttlecock" for _, name in named])

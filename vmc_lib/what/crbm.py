@@ -8,13 +8,15 @@ Shapes: visible v (n, channels, n_v, n_v), hidden h (n, K, n_h, n_h) with n_h = 
 pooled p (n, K, n_h / c, n_h / c). To see, arrays are NumPy's; to learn (`learning`), torch's.
 """
 
+from collections.abc import Mapping
 from itertools import product
+from typing import Any, Self
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
 
-def correlate_valid(v, W, padding=0):
+def correlate_valid(v: np.ndarray, W: np.ndarray, padding: int = 0) -> np.ndarray:
     """Valid cross-correlation of maps v with filters W (deep learning's "convolution").
 
     v: (n, channels, height, width); W: (K, channels, n_w, n_w); `padding`: zeros around v first.
@@ -38,7 +40,7 @@ class CRBM:
 
     xp, _correlate = np, staticmethod(correlate_valid)  # torch's in `learning.Learner`
 
-    def __init__(self, W, b, a, c=2):
+    def __init__(self, W: np.ndarray, b: np.ndarray, a: np.ndarray, c: int = 2) -> None:
         if W.ndim != 4 or len(b) != len(W) or len(a) != W.shape[1]:
             raise ValueError(
                 f"W {tuple(W.shape)}, b {tuple(b.shape)} and a {tuple(a.shape)} do not belong "
@@ -46,7 +48,7 @@ class CRBM:
             )
         self.W, self.b, self.a, self.c = W, b, a, c
 
-    def preactivation(self, v):
+    def preactivation(self, v: np.ndarray) -> np.ndarray:
         """Preactivation of each hidden unit, (W̃ᵏ * v)ᵢⱼ + bₖ.
 
         Convolution turns its filter by 180°, and W̃ is turned already: so it is the
@@ -61,16 +63,16 @@ class CRBM:
                 raise ValueError(f"hidden width {n_h} is not in blocks of {self.c}: trim v first")
         return self._correlate(v, self.W) + self.b[:, None, None]
 
-    def trim(self, v):
+    def trim(self, v: Any) -> np.ndarray:
         """Drop the last rows and columns of v, those that fill no block of hidden units."""
         return v[..., *(slice(n - (n - self.W.shape[-1] + 1) % self.c) for n in v.shape[2:])]
 
-    def energy(self, v, h):
+    def energy(self, v: np.ndarray, h: np.ndarray) -> np.ndarray:
         """E(v, h) of Eq. 1: (n,). Low energy means that the two go well together."""
         agreement = (h * self.preactivation(v)).sum((1, 2, 3))
         return -agreement - (self.a[:, None, None] * v - v**2 / 2).sum((1, 2, 3))
 
-    def posterior(self, v):
+    def posterior(self, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Probabilities that hidden and pooled units are on, given v: (h, p).
 
         In a block, the units and the off state share one softmax of their preactivations.
@@ -85,13 +87,13 @@ class CRBM:
         h = self.xp.moveaxis(h, (0, 1), (3, 5)).reshape(n, K, rows * self.c, columns * self.c)
         return h, 1 - off / total
 
-    def pooled(self, v):
+    def pooled(self, v: np.ndarray) -> np.ndarray:
         """The probabilities p of `posterior` alone, in a fraction of the time."""
         on = self.xp.exp(self.preactivation(v).clip(max=80))  # p is 1 long before it overflows
         rows = sum(on[..., y :: self.c, :] for y in range(self.c))
         return 1 - 1 / (1 + sum(rows[..., x :: self.c] for x in range(self.c)))
 
-    def visible_mean(self, h):
+    def visible_mean(self, h: np.ndarray) -> np.ndarray:
         """The mean of v given h, Σₖ hᵏ * Wᵏ + a: each unit that is on paints its filter.
 
         This convolution does turn W: it is the cross-correlation with W turned by 180°.
@@ -100,11 +102,12 @@ class CRBM:
         painted = self._correlate(h, turned, padding=self.W.shape[-1] - 1)
         return painted + self.a[:, None, None]
 
-    def arrays(self):
+    def arrays(self) -> dict[str, Any]:
         """The machine as a dict of arrays, to be saved with `np.savez`."""
         return {name: np.asarray(getattr(self, name)) for name in "Wba"} | {"c": self.c}
 
     @classmethod
-    def from_arrays(cls, arrays):
+    def from_arrays(cls, arrays: Mapping[str, np.ndarray]) -> Self:
         """The machine that `arrays` describes (a dict, or an open .npz file)."""
-        return cls(*(arrays[name] for name in "Wba"), int(arrays["c"]))
+        W, b, a = (arrays[name] for name in "Wba")
+        return cls(W, b, a, int(arrays["c"]))

@@ -1,13 +1,15 @@
 """Grey crops of boxes, whitened as the retina does: the input of the ventral pathway."""
 
+from collections.abc import Sequence
 from functools import cache
 
 import numpy as np
+from numpy.typing import DTypeLike
 
 WIDTH = 200  # pixels of a crop, as in the paper
 
 
-def crop(image, box):
+def crop(image: np.ndarray, box: Sequence[float] | np.ndarray) -> np.ndarray:
     """Crop a box (x0, y0, x1, y1) of an image, in grey, resized to (200, 200), in 0..1.
 
     The crop is stretched to a square, whatever the shape of the box, as in the paper. ValueError
@@ -26,7 +28,7 @@ def crop(image, box):
     return cv2.resize(grey, (WIDTH, WIDTH), interpolation=how).astype(np.float32) / 255
 
 
-def whiten(pictures, cutoff=0.4, dtype=np.float32):
+def whiten(pictures: np.ndarray, cutoff: float = 0.4, dtype: DTypeLike = np.float32) -> np.ndarray:
     """Whiten grey pictures (n, height, width) for a CRBM: `dtype` (n, 1, height, width).
 
     In photos, neighbouring pixels are alike and coarse contrast outweighs fine contrast: amplitude

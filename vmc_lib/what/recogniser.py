@@ -1,6 +1,8 @@
 """Recogniser: logistic regression on CDBN features, is it a shuttlecock?"""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any, Self
 
 import numpy as np
 
@@ -14,7 +16,7 @@ READ_OUTS = "MP2", "P2", "P1 + P2"
 POOLED_LEVEL = "everywhere"  # all rendered levels together: for a photo of none of them
 
 
-def readout_features(cdbn, v):
+def readout_features(cdbn: CDBN, v: np.ndarray) -> dict[str, np.ndarray]:
     """Read-out features (n, d) of whitened crops v (n, 1, 200, 200), by the name of the read-out.
 
     "MP2" is the paper's, the mean map of Eq. 2: where is anything? "P2" keeps the ten maps apart,
@@ -34,14 +36,14 @@ def readout_features(cdbn, v):
     return {"MP2": p2.mean(1).reshape(len(v), -1), "P2": few[1], "P1 + P2": both}
 
 
-def read_outs(cdbn, crops):
+def read_outs(cdbn: CDBN, crops: np.ndarray) -> dict[str, np.ndarray]:
     """The `readout_features` (n, d) of grey crops (n, 200, 200), by the name of the read-out."""
     one_by_one = (whiten(crop[None]) for crop in crops)  # less memory
     parts = [readout_features(cdbn, v) for v in one_by_one]
     return {name: np.concatenate([part[name] for part in parts]) for name in READ_OUTS}
 
 
-def logistic(log_odds):
+def logistic(log_odds: float | np.ndarray) -> np.ndarray:
     """The logistic function: the probability that has such log-odds; nothing overflows."""
     return np.exp(-np.logaddexp(0, -log_odds))
 
@@ -54,24 +56,24 @@ class NameClassifier:
     bias: float
 
     @classmethod
-    def load(cls, file, key):
+    def load(cls, file: str, key: str) -> Self:
         """The one stored in a data file under `key`/w and `key`/b."""
         return cls.from_arrays(arrays(file), key)
 
     @classmethod
-    def from_arrays(cls, arrays, key):
+    def from_arrays(cls, arrays: Mapping[str, np.ndarray], key: str) -> Self:
         """The one in a dict of arrays under `key`/w and `key`/b."""
         return cls(arrays[f"{key}/w"], float(arrays[f"{key}/b"]))
 
-    def arrays(self, key):
+    def arrays(self, key: str) -> dict[str, Any]:
         """The classifier as a dict of arrays, to be saved with `np.savez`."""
         return {f"{key}/w": np.float32(self.weights), f"{key}/b": self.bias}
 
-    def log_odds(self, x):
+    def log_odds(self, x: np.ndarray) -> np.ndarray:
         """The log-odds (n,) for features (n, d)."""
         return x @ self.weights + self.bias
 
-    def probability(self, x):
+    def probability(self, x: np.ndarray) -> np.ndarray:
         """The probability (n,) for features (n, d)."""
         return logistic(self.log_odds(x))
 
@@ -88,7 +90,7 @@ class Recogniser:
     __repr__ = short_repr
 
     @classmethod
-    def load(cls, level=POOLED_LEVEL, name="P1 + P2"):
+    def load(cls, level: str = POOLED_LEVEL, name: str = "P1 + P2") -> Self:
         """The recogniser that has learnt names from the training photos of a level.
 
         Its CDBN has learnt from those of all levels. Its read-out "MP2" is the paper's, the default
@@ -99,7 +101,7 @@ class Recogniser:
                 raise ValueError(f"there is no {given!r}: choose from {', '.join(known)}")
         return cls(CDBN.load(), name, NameClassifier.load("recogniser", f"{level}/{name}"))
 
-    def probability(self, crops):
+    def probability(self, crops: np.ndarray) -> np.ndarray:
         """Probability (n,) that each grey crop (n, 200, 200) shows a shuttlecock.
 
         ValueError for crops of another size.
@@ -113,10 +115,10 @@ class Recogniser:
             )
         return self.classifier.probability(read_outs(self.cdbn, crops)[self.name])
 
-    def box_probability(self, image, boxes):
+    def box_probability(self, image: np.ndarray, boxes: np.ndarray) -> np.ndarray:
         """Probability (n,) that each of the boxes (n, 4) of an image shows a shuttlecock."""
         return self.probability(np.array([crop(image, box) for box in boxes]))
 
-    def select(self, image, detections):
+    def select(self, image: np.ndarray, detections: Any) -> tuple[Any, np.ndarray]:
         """The `Detections` as they are, and the probabilities (n,) of their boxes."""
         return detections, self.box_probability(image, detections.boxes)

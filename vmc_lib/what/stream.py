@@ -6,7 +6,9 @@ silent below its threshold (rectification). So a unit of the last stage sees 46 
 read-out answers two questions about a box: is it a shuttlecock, and where are its true edges?
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any, Self
 
 import numpy as np
 
@@ -39,7 +41,7 @@ class VentralStream:
 
     __repr__ = short_repr
 
-    def stages(self, x):
+    def stages(self, x: np.ndarray) -> dict[str, np.ndarray]:
         """Activation maps (n, K, size, size) of each of STAGES, for inputs x (n, 3, 48, 48)."""
         maps = {}
         for name, W, b in zip(STAGES, self.filters, self.biases, strict=False):
@@ -49,7 +51,9 @@ class VentralStream:
             maps[name] = x = (strongest + b[:, None, None]).clip(0)
         return maps
 
-    def predict(self, image, boxes, flips=FLIPS[:1]):
+    def predict(
+        self, image: np.ndarray, boxes: np.ndarray, flips: Sequence[Any] = FLIPS[:1]
+    ) -> tuple[np.ndarray, np.ndarray]:
         """Log-odds and box deltas, averaged over flips (test-time augmentation).
 
         Parameters
@@ -65,22 +69,29 @@ class VentralStream:
         """
         if not len(boxes):
             return np.zeros(0), np.zeros((0, 4))
-        x, mean = preprocess(image, boxes), 0
+        x, mean = preprocess(image, boxes), np.zeros(5)
         for along, down in flips:
             *_, last = self.stages(x[:, :, ::down, ::along]).values()
             outputs = last.reshape(len(last), -1) @ self.readout.T + self.offsets
             mean = mean + outputs * np.array([1, along, down, 1, 1]) / len(flips)
         return mean[:, 0], mean[:, 1:]
 
-    def box_probability(self, image, boxes):
+    def box_probability(self, image: np.ndarray, boxes: np.ndarray) -> np.ndarray:
         """Probability (n,) that each of the boxes (n, 4) of an image shows a shuttlecock."""
         return logistic(self.predict(image, boxes)[0])
 
-    def refine_boxes(self, image, boxes):
+    def refine_boxes(self, image: np.ndarray, boxes: np.ndarray) -> np.ndarray:
         """The boxes (n, 4), moved and stretched to what they show (box refinement)."""
         return decode_deltas(as_boxes(boxes), self.predict(image, boxes)[1])
 
-    def select(self, image, detections, first=N_FIRST_PASS, second=N_SECOND_PASS, flips=FLIPS):
+    def select(
+        self,
+        image: np.ndarray,
+        detections: Any,
+        first: int = N_FIRST_PASS,
+        second: int = N_SECOND_PASS,
+        flips: Sequence[Any] = FLIPS,
+    ) -> tuple[Any, np.ndarray]:
         """Choose among an image's `Detections`: look, refine the likeliest, look again, refine.
 
         It looks at the `first` best, then at the `second` likeliest in all `flips`; non-maximum
@@ -97,7 +108,7 @@ class VentralStream:
         chosen = replace(detections, boxes=boxes[kept], scores=log_odds[kept])
         return chosen, logistic(chosen.scores)
 
-    def arrays(self):
+    def arrays(self) -> dict[str, np.ndarray]:
         """The stream as a dict of arrays, to be saved with `np.savez`."""
         parts = {"readout": self.readout, "offsets": self.offsets}
         for name, W, b in zip(STAGES, self.filters, self.biases, strict=True):
@@ -105,14 +116,14 @@ class VentralStream:
         return parts
 
     @classmethod
-    def load(cls):
+    def load(cls) -> Self:
         """The stream that ships with the book."""
-        learnt = {k: np.float32(part) for k, part in arrays("photographs").items()}
+        learnt = {k: part.astype(np.float32) for k, part in arrays("photographs").items()}
         W, b = (tuple(learnt[f"{name}/{part}"] for name in STAGES) for part in "Wb")
         return cls(W, b, learnt["readout"], learnt["offsets"])
 
 
-def preprocess(image, boxes):
+def preprocess(image: np.ndarray, boxes: np.ndarray) -> np.ndarray:
     """Crops of boxes in colour, standardised one by one: the network's input.
 
     boxes: (n, 4) of a uint8 image; each is cut out with a MARGIN. Returns (n, 3, WIDTH, WIDTH)
@@ -121,7 +132,7 @@ def preprocess(image, boxes):
     return standardise(np.moveaxis(crops(image, pad_boxes(boxes, MARGIN), WIDTH), 3, 1))
 
 
-def standardise(x):
+def standardise(x: np.ndarray) -> np.ndarray:
     """Standardise crops (n, 3, height, width): each less its mean, over its standard deviation.
 
     So does an eye adapt to the light.

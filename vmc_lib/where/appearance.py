@@ -9,7 +9,7 @@ import numpy as np
 
 from vmc_lib.compiled import compiled
 
-LAB_LOWEST, LAB_RANGE = np.float32([[0, -128, -128], [100, 255, 255]])  # L, a and b
+LAB_LOWEST, LAB_RANGE = np.array([[0, -128, -128], [100, 255, 255]], np.float32)  # L, a and b
 
 
 def _hsv(rgb):
@@ -47,7 +47,7 @@ class Appearance(NamedTuple):
 
 
 @compiled
-def merge_regions(regions, i, j, new):
+def merge_regions(regions: Appearance, i: int, j: int, new: int) -> None:
     """Write into row `new` of an Appearance the union of regions i and j, from their rows alone."""
     size, boxes = regions.size, regions.boxes
     size[new] = size[i] + size[j]
@@ -61,7 +61,9 @@ def merge_regions(regions, i, j, new):
 
 
 @compiled
-def similarity(regions, pairs, measures=(True, True, True, True)):
+def similarity(
+    regions: Appearance, pairs: np.ndarray, measures: tuple[bool, ...] = (True, True, True, True)
+) -> np.ndarray:
     """Similarity of pairs (m, 2) of regions, (m,): the sum of those MEASURES that are True.
 
     Each is at most 1, for regions that are most alike (Uijlings et al. 2013, section 3.2).
@@ -86,13 +88,13 @@ def similarity(regions, pairs, measures=(True, True, True, True)):
     return total
 
 
-def colour_codes(channels):
+def colour_codes(channels: np.ndarray) -> tuple[np.ndarray, int]:
     """Colour bin of each pixel in each channel: codes (c, pixels), and how many bins there are."""
     bins = np.clip(channels * COLOUR_BINS, 0, COLOUR_BINS - 1).astype(np.uint8)
     return np.moveaxis(bins, 2, 0).reshape(channels.shape[2], -1), COLOUR_BINS
 
 
-def texture_codes(channels):
+def texture_codes(channels: np.ndarray) -> tuple[np.ndarray, int]:
     """Quantised directional derivatives: 4 orientations × 2 signs × 10 bins per channel.
 
     Returns the codes (4c, pixels), and how many bins there are.
@@ -130,13 +132,15 @@ def _count(labels, codes, regions, bins):
     return counts
 
 
-def histograms(counts):
+def histograms(counts: np.ndarray) -> np.ndarray:
     """Counts (regions, ...) normalised to sum to 1 in each region: (regions, bins), float32."""
     counts = counts.reshape(len(counts), -1).astype(np.float32)
     return counts / counts.sum(1, keepdims=True)
 
 
-def describe(labels, colours, textures):
+def describe(
+    labels: np.ndarray, colours: tuple[np.ndarray, int], textures: tuple[np.ndarray, int]
+) -> Appearance:
     """The Appearance of n labelled segments, with room for every merge: 2n - 1 rows."""
     from scipy.ndimage import find_objects
 

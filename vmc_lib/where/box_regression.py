@@ -4,12 +4,15 @@ Both learn from true boxes that were jittered on purpose. The numbers were chose
 photos a level, of which 20 ship.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 
 from vmc_lib.boxes import decode_deltas
 from vmc_lib.where.kernels import rbf
+from vmc_lib.where.recipes import Recipe
 
 DIRECTIONS = 100  # principal directions of the features that the basis functions are in
 PENALTY = 0.1  # of the ridge regression
@@ -27,11 +30,11 @@ class RBFRidge:
     axes: np.ndarray  # (d, k) the principal directions of the features
     centres: np.ndarray  # (r, k)
     gamma: float
-    weights: np.ndarray = 0  # (d + r,), or (d + r, m) for m numbers
-    bias: np.ndarray = 0
+    weights: np.ndarray | float = 0  # (d + r,), or (d + r, m) for m numbers
+    bias: np.ndarray | float = 0
 
     @classmethod
-    def fit(cls, x, y, count, rng):
+    def fit(cls, x: np.ndarray, y: np.ndarray, count: int, rng: np.random.Generator) -> Self:
         """Fit to features x (n, d), targets y (n,) or (n, m); `count` random rows are centres."""
         from sklearn.linear_model import Ridge
 
@@ -43,18 +46,20 @@ class RBFRidge:
         ridge = Ridge(PENALTY).fit(untrained.basis(x), y)
         return replace(untrained, weights=ridge.coef_.T, bias=ridge.intercept_)
 
-    def basis(self, x):
+    def basis(self, x: np.ndarray) -> np.ndarray:
         """Design matrix: centred features x (n, d) and RBF activations, (n, d + r)."""
         x = x - self.mean
         z = x @ self.axes
         return np.hstack([x, rbf(z, self.centres, self.gamma)])
 
-    def predict(self, x):
+    def predict(self, x: np.ndarray) -> np.ndarray:
         """Predicted targets (n,) or (n, m) of features x (n, d)."""
         return self.basis(x) @ self.weights + self.bias
 
 
-def regress(recipe, regressions, image, boxes):
+def regress(
+    recipe: Recipe, regressions: Sequence[RBFRidge], image: np.ndarray, boxes: np.ndarray
+) -> np.ndarray:
     """Refine boxes (n, 4) of an image by predicted deltas, once for each of `regressions`."""
     for regression in regressions:
         boxes = decode_deltas(boxes, regression.predict(recipe.describe(image, boxes)))

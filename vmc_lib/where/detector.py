@@ -7,8 +7,10 @@ gradients, box regression, a prediction of the final IoU, votes.
 """
 
 from dataclasses import dataclass, fields
+from typing import Any, Self
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from vmc_lib.boxes import as_boxes, nms, vote
 from vmc_lib.data import arrays
@@ -33,7 +35,7 @@ class Detections:
     __repr__ = short_repr
 
     @property
-    def counts(self):
+    def counts(self) -> dict[str, int]:
         """How many boxes each step leaves."""
         steps = self.candidates, self.passed, self.boxes
         return dict(zip(("candidates", "passed", "kept"), map(len, steps), strict=True))
@@ -52,14 +54,14 @@ class ObjectDetector:
     __repr__ = short_repr
 
     @classmethod
-    def load(cls, level, name="improved"):
+    def load(cls, level: str, name: str = "improved") -> Self:
         """The shipped detector of a level, by the name of its recipe; ValueError for another."""
         learnt, key = arrays("detectors"), f"{level}/{TRAINED_AS.get(name, name)}"
         if f"{level}/{name}/threshold" not in learnt:
             trained = [one for one in EVERY_RECIPE if f"{level}/{one}/threshold" in learnt]
             known = ", ".join(trained or EVERY_LEVEL)
             raise ValueError(f"no detector {name!r} for level {level!r}: choose from {known}")
-        parts = {
+        parts: dict[str, Any] = {
             part.removeprefix(f"{key}/"): value.astype(float)
             for part, value in learnt.items()
             if part.startswith(f"{key}/")
@@ -74,7 +76,7 @@ class ObjectDetector:
         predictor = ridge("iou predictor") if recipe.predicts_iou else None
         return cls(recipe, svm, regressions, predictor, learnt[f"{level}/{name}/threshold"].item())
 
-    def parts(self):
+    def parts(self) -> dict[str, np.ndarray]:
         """The arrays that `load` reads, by name."""
         parts = {part: getattr(self.svm, part) for part in PARTS}
         ridges = {f"regression {i}": ridge for i, ridge in enumerate(self.regressions)}
@@ -84,15 +86,17 @@ class ObjectDetector:
             parts |= {f"{called}/{part}": value for part, value in vars(ridge).items()}
         return parts
 
-    def score(self, image, boxes):
+    def score(self, image: np.ndarray, boxes: ArrayLike) -> np.ndarray:
         """Classifier scores (n,) of boxes (n, 4) in an image."""
         return self.svm.score(self.recipe.describe(image, boxes))
 
-    def regress(self, image, boxes, rounds=None):
+    def regress(
+        self, image: np.ndarray, boxes: np.ndarray, rounds: int | None = None
+    ) -> np.ndarray:
         """Refine boxes (n, 4) by box regression, `rounds` times (by default all)."""
         return regress(self.recipe, self.regressions[:rounds], image, boxes)
 
-    def detect(self, image, boxes=None):
+    def detect(self, image: np.ndarray, boxes: ArrayLike | None = None) -> Detections:
         """Detect objects.
 
         Parameters

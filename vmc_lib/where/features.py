@@ -1,6 +1,7 @@
 """Features of boxes: raw pixels (the paper's), with context, and histograms of gradients (HOG)."""
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from vmc_lib.boxes import as_boxes, pad_boxes
 from vmc_lib.compiled import compiled
@@ -9,7 +10,7 @@ from vmc_lib.photos import crops
 DIRECTIONS = 8  # orientations of gradients, over 360°
 
 
-def raw_pixels(image, boxes, size=16):
+def raw_pixels(image: np.ndarray, boxes: ArrayLike, size: int = 16) -> np.ndarray:
     """Raw-pixel features: size × size RGB pixels of each box, from -1 to 1, (n, 3 size²).
 
     The paper takes raw RGB pixels and prints no size: 16 is ours. It prints no scale either;
@@ -18,7 +19,7 @@ def raw_pixels(image, boxes, size=16):
     return 2 * crops(image, boxes, size).reshape(-1, 3 * size**2) - 1
 
 
-def pixels_in_context(image, boxes):
+def pixels_in_context(image: np.ndarray, boxes: ArrayLike) -> np.ndarray:
     """16 × 16 pixels of each box and a quarter of it around, and its width and height, (n, 770).
 
     A crop forgets how large its box was. The sides are in octaves, 0 for those of the image; one of
@@ -31,7 +32,9 @@ def pixels_in_context(image, boxes):
     return np.hstack([pixels, octaves], dtype=np.float32)
 
 
-def gradients(image, boxes, cells=10, margin=0.25):
+def gradients(
+    image: np.ndarray, boxes: ArrayLike, cells: int = 10, margin: float = 0.25
+) -> np.ndarray:
     """Histograms of oriented gradients in 10 × 10 cells over each box and a margin, (n, 800).
 
     Each of the 3 × 3 pixels of a cell votes with the gradient of its strongest channel,

@@ -3,7 +3,7 @@
 import numpy as np
 
 
-def rbf(x, centres, gamma):
+def rbf(x: np.ndarray, centres: np.ndarray, gamma: float) -> np.ndarray:
     """Radial basis functions: exp(-gamma ‖x - c‖²), (n, m), of x (n, d) and centres (m, d)."""
     squares = (x**2).sum(1)[:, None] + (centres**2).sum(1) - 2 * x @ centres.T
     return np.exp(-gamma * squares.clip(0))

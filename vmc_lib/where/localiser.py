@@ -6,12 +6,16 @@ taller than a lying one. Both are predicted from the features of the box, by reg
 photos. The paper is silent on this step.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
+from typing import Any, Self
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from vmc_lib.boxes import as_boxes, centres_and_sides, jitter_boxes
+from vmc_lib.camera import Camera
 from vmc_lib.data import arrays, read_only
 from vmc_lib.photos import LEVELS, crops
 from vmc_lib.short_repr import short_repr
@@ -39,7 +43,7 @@ class Localiser:
     __repr__ = short_repr
 
     @classmethod
-    def fit(cls, shots, rng):
+    def fit(cls, shots: Sequence[Any], rng: np.random.Generator) -> Self:
         """Fit to photos whose shuttlecocks' places are known; `rng` jitters their boxes."""
         from sklearn.kernel_ridge import KernelRidge
 
@@ -59,7 +63,7 @@ class Localiser:
 
     @classmethod
     @cache
-    def load(cls, level):
+    def load(cls, level: str) -> Self:
         """The shipped localiser of a level of photos, read once; ValueError for an unknown one."""
         learnt = arrays("localisers")
         if f"{level}/mean" not in learnt:
@@ -67,16 +71,16 @@ class Localiser:
         shown, shape, *rest = (learnt[f"{level}/{part}"] for part in PARTS)
         return cls(read_only(np.hstack([shown / 255, shape])), *rest)
 
-    def parts(self):
+    def parts(self) -> dict[str, Any]:
         """The arrays that `load` reads, by name; features are stored as bytes."""
         shown, shape = np.uint8(np.round(255 * self.support[:, :-2])), self.support[:, -2:]
         return dict(zip(PARTS, (shown, shape, self.weights, self.mean, self.spread), strict=True))
 
-    def kernel(self, x):
+    def kernel(self, x: np.ndarray) -> np.ndarray:
         """How alike features x (m, d) and those learnt from are, (m, n)."""
         return rbf(x, self.support, GAMMA)
 
-    def locate(self, image, box, camera):
+    def locate(self, image: np.ndarray, box: ArrayLike, camera: Camera) -> np.ndarray:
         """The place (3,) in the shoulder frame (m) of a shuttlecock in `box` (4,) of an image.
 
         `NoReach` when the line of sight does not meet the predicted height.

@@ -3,12 +3,16 @@
 A further one is for photographs.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 
+import numpy as np
+from numpy.typing import ArrayLike
+
 from vmc_lib.where.features import gradients, pixels_in_context, raw_pixels
 
-FEATURES = {
+FEATURES: dict[str, Callable[..., np.ndarray]] = {
     "pixels": raw_pixels,
     "8 pixels": partial(raw_pixels, size=8),
     "32 pixels": partial(raw_pixels, size=32),
@@ -34,7 +38,7 @@ class Recipe:
     vote: bool = False  # box voting after non-maximum suppression
     overlap: float = 0.3  # that non-maximum suppression allows
 
-    def describe(self, image, boxes):
+    def describe(self, image: np.ndarray, boxes: ArrayLike) -> np.ndarray:
         """The features (n, d) of boxes (n, 4) of an image."""
         return FEATURES[self.features](image, boxes)
 

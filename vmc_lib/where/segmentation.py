@@ -8,6 +8,8 @@ An edge is packed into one uint64: the bits of its float32 weight, then its inde
 direction. So edges sort by weight, and equal ones by position, on every machine alike.
 """
 
+from collections.abc import Iterator, Sequence
+
 import numpy as np
 
 from vmc_lib.compiled import compiled
@@ -15,7 +17,7 @@ from vmc_lib.compiled import compiled
 NEIGHBOUR_OFFSETS = (0, 1), (1, 0), (1, 1), (1, -1)  # (dy, dx); the other four mirror these
 
 
-def segment(channels, k=100, sigma=0.8):
+def segment(channels: np.ndarray, k: float = 100, sigma: float = 0.8) -> np.ndarray:
     """Graph-based segmentation of an image.
 
     Parameters
@@ -41,7 +43,9 @@ def segment(channels, k=100, sigma=0.8):
     return next(segmentations(channels, [k], sigma))
 
 
-def segmentations(channels, scales, sigma=0.8):
+def segmentations(
+    channels: np.ndarray, scales: Sequence[float], sigma: float = 0.8
+) -> Iterator[np.ndarray]:
     """The labels of `segment` at each scale k in turn; the edges are sorted once for all."""
     import cv2
 

@@ -4,6 +4,7 @@ The most similar neighbours merge, again and again; every region on the way, fro
 the whole table, is a candidate (Uijlings et al. 2013; the paper's Block 1-1, bottom-up part).
 """
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from heapq import heapify, heappop, heappush
 from itertools import chain
@@ -15,6 +16,7 @@ from vmc_lib.photos import as_float
 from vmc_lib.where.appearance import (
     COLOUR_SPACES,
     MEASURES,
+    Appearance,
     colour_codes,
     describe,
     merge_regions,
@@ -32,7 +34,7 @@ class Hierarchy:
     merges: np.ndarray  # (n - 1, 2) the two regions merged at each step; step t makes region n + t
     boxes: np.ndarray  # (2n - 1, 4) around every region, in the order in which they are made
 
-    def after(self, steps):
+    def after(self, steps: int) -> np.ndarray:
         """Labels (height, width) after so many merges; a region keeps its number until merged."""
         n = len(self.merges) + 1
         into = np.arange(n + steps)
@@ -41,7 +43,7 @@ class Hierarchy:
         return into[self.labels]
 
 
-def adjacent_regions(labels):
+def adjacent_regions(labels: np.ndarray) -> np.ndarray:
     """Pairs (m, 2) of regions that share a border, each pair once, the lower number first."""
     n = labels.max() + 1
     sides = (labels[:, :-1], labels[:, 1:]), (labels[:-1], labels[1:])
@@ -49,7 +51,7 @@ def adjacent_regions(labels):
     return np.stack(np.divmod(np.unique(pairs.min(0) * n + pairs.max(0)), n), axis=1)
 
 
-def grow(labels, appearance, measures):
+def grow(labels: np.ndarray, appearance: Appearance, measures: tuple[bool, ...]) -> Hierarchy:
     """Hierarchical grouping: merge the two most similar neighbours until one region is left.
 
     The Appearance describes the segments in `labels`; its empty rows are filled. `measures` are the
@@ -111,7 +113,7 @@ class Strategy:
     k: tuple = (100,)  # scales of the segmentation
     similarities: tuple = (ALL,)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         named = (self.colours, COLOUR_SPACES), (chain(*self.similarities), MEASURES)
         for names, known in named:
             for name in names:
@@ -141,7 +143,7 @@ STRATEGIES = {
 }
 
 
-def hierarchies(image, strategy):
+def hierarchies(image: np.ndarray, strategy: Strategy) -> Iterator[Hierarchy]:
     """Grow every Hierarchy of a Strategy on an image, one by one."""
     rgb = as_float(image)
     for colour in strategy.colours:
@@ -153,7 +155,9 @@ def hierarchies(image, strategy):
                 yield grow(labels, appearance, similarities)
 
 
-def rank_boxes(trees, rng, smallest=20):
+def rank_boxes(
+    trees: Iterable[Hierarchy], rng: np.random.Generator, smallest: float = 20
+) -> np.ndarray:
     """Pool and rank the boxes (n, 4) of several hierarchies, none twice.
 
     Each hierarchy ranks its regions from the last made (the largest) down; a rank is then
@@ -172,7 +176,12 @@ def rank_boxes(trees, rng, smallest=20):
     return boxes[(boxes[:, 2:] - boxes[:, :2] >= smallest).all(1)]
 
 
-def propose(image, strategy="single", rng=None, smallest=20):
+def propose(
+    image: np.ndarray,
+    strategy: str | Strategy = "single",
+    rng: np.random.Generator | None = None,
+    smallest: float = 20,
+) -> np.ndarray:
     """Object candidates of an image by selective search.
 
     Parameters

@@ -1,6 +1,7 @@
 """Kernel support vector machine: a binary classifier."""
 
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 
@@ -20,7 +21,14 @@ class KernelSVM:
     bias: float
 
     @classmethod
-    def fit(cls, x, y, kernel="linear", cost=0.1, scale=1.0):
+    def fit(
+        cls,
+        x: np.ndarray,
+        y: np.ndarray,
+        kernel: str = "linear",
+        cost: float = 0.1,
+        scale: float = 1.0,
+    ) -> Self:
         """Fit to features x (n, d) and labels y (n,), true or false; `cost` is the SVM's C.
 
         The kernel's γ is `scale` over d times the variance of x.
@@ -39,7 +47,7 @@ class KernelSVM:
             support, weights = (weights @ support)[None], np.ones(1)
         return cls(kernel, gamma, support, weights, svc.intercept_[0])
 
-    def score(self, x):
+    def score(self, x: np.ndarray) -> np.ndarray:
         """Signed decision value (n,) of each row of x (n, d)."""
         if not len(x):
             return np.empty(0)
