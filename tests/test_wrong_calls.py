@@ -7,20 +7,23 @@ import numpy as np
 import pytest
 import torch
 
-from vmc_lib import boxes, loop, photos, statistics
-from vmc_lib.arm import arm26, dynamics, kinematics, simulate
+from vmc_lib import box_selection, boxes, loop, photos, statistics
+from vmc_lib.arm import arm26, dynamics, kinematics, muscle, simulate
 from vmc_lib.cerebellum import feedback_error, forward_model, offline, online
 from vmc_lib.motor import execution, feedback, planning, templates
 from vmc_lib.show import (
     COLOURS,
     Pad,
     Slider,
+    Switch,
     compare,
     estimate,
     explore,
     figure,
     grade,
+    note,
     photo_view,
+    solution,
     table,
     widget,
 )
@@ -37,6 +40,10 @@ def given():
     reach = loop.reach(model, photo.target, calibration=None)
     seen = {"model": model, "photo": photo, "image": photo.image}
     return SimpleNamespace(**seen, plan=plans[0], plans=plans, reach=reach)
+
+
+def reference(g):
+    return feedback.reference_trajectory(g.plans, 1.0)
 
 
 def excite(value, start=(0, 1), muscles=6):
@@ -94,6 +101,31 @@ SIGHT = {  # a call: what its error says, the value and the remedy
     "no filters": (
         lambda g: learning.Learner.random(-1, 1, 5, torch.Generator()), "-1 filters", "1 or more"
     ),
+    "no photo": (lambda g: photos.boxes_of("rig", "cup"), "'rig'", "give one of load("),
+    "a file to crop": (lambda g: crops.crop("a.jpg", (0, 0, 9, 9)), "'a.jpg'", "read_image"),
+    "a photo to crop": (
+        lambda g: g.model.recogniser.box_probability(g.photo, [[0, 0, 9, 9]]),
+        "Photo(…)", "read_image",
+    ),
+    "a crop of three": (lambda g: crops.crop(g.image, (0, 0, 9)), "(1, 3)", "(x0, y0, x1, y1)"),
+    "a file to segment": (lambda g: segmentation.segment("a.jpg"), "'a.jpg'", "photos.as_float"),
+    "a margin": (lambda g: boxes.pad_boxes([0, 0, 9, 9], "wide"), "'wide'", "give numbers"),
+    "an amount": (
+        lambda g: boxes.jitter_boxes([[0, 0, 9, 9]], "much", np.random.default_rng(0)),
+        "'much'", "give numbers",
+    ),
+    "a height": (
+        lambda g: g.photo.camera.back_project([[300, 300]], "table"), "'table'", "give numbers"
+    ),
+    "boxes for detections": (
+        lambda g: box_selection.filter_by_size([[0, 0, 9, 9]], g.photo.camera),
+        "[[0, 0, 9, 9]]", "detect(image)",
+    ),
+    "odds": (lambda g: box_selection.scale_odds(0.5, "five"), "'five'", "give numbers"),
+    "no camera to locate by": (
+        lambda g: g.model.localiser.locate(g.image, (0, 0, 9, 9), None), "None", "photo.camera"
+    ),
+    "three labels": (lambda g: svm.KernelSVM.fit(np.eye(2), [0, 1, 1]), "(2, 2)", "n labels"),
 }  # fmt: skip
 MOVING = {
     "a target in the plane": (lambda g: loop.reach(g.model, (0.1, -0.4)), "[ 0.1 -0.4]", "in m"),
@@ -211,6 +243,63 @@ MOVING = {
     "a plan, a rule's place": (
         lambda g: offline.calibrate(offline.algorithm_1, g.plan), "is no Plan", "give what plan("
     ),
+    "a name for a photo": (lambda g: arm_scene((0, 1), photo="rig"), "'rig'", "photos.load("),
+    "one ball": (
+        lambda g: arm_scene((0, 1), balls=(0.1, 0, 0)), "0.1 is no pair", "colour name)"
+    ),
+    "an end of three": (
+        lambda g: arm_scene((0, 1), balls=[((0.1, 0, 0), "red")], end=(0, 0, 0)),
+        "(0, 0, 0) is no pair", "speed)",
+    ),
+    "a turn": (lambda g: arm_scene((0, 1), turn="left"), "'left'", "give numbers"),
+    "a muscle": (
+        lambda g: simulate.simulate(np.zeros((9, 6)), (0, 1), muscle="Hill"),
+        "'Hill'", "two functions",
+    ),
+    "a share of noise": (
+        lambda g: muscle.noisy(0.5, "some", np.random.default_rng(0)), "'some'", "0 or more"
+    ),
+    "six excitations": (lambda g: templates.reach(np.zeros(6)), "(6,)", "(…, T, 6)"),
+    "weights of a rule": (
+        lambda g: planning.plan((0.1, -0.38), g.model.template_set, lambda target, points: 1),
+        "weights 1", "return them as (4,)",
+    ),
+    "ragged points": (
+        lambda g: planning.habitual_weights((0.1, -0.4), [[0.1, -0.3], [0.2]]),
+        "[[0.1, -0.3], [0.2]]", "in rows of a length",
+    ),
+    "a time in words": (
+        lambda g: feedback.reference_trajectory(g.plans, "long"), "'long' s", "1 s or more"
+    ),
+    "a gain alone": (
+        lambda g: feedback.simulate_feedback(reference(g), 30.0), "30.0", "SIGHT._replace("
+    ),
+    "a model's name": (
+        lambda g: feedback.simulate_feedback(reference(g), model="copy"), "'copy'", "arm_copy()"
+    ),
+    "a disturbance": (
+        lambda g: feedback.simulate_feedback(reference(g), disturbance=3.0), "3.0", "curl(strength)"
+    ),
+    "noise in words": (
+        lambda g: feedback.simulate_feedback(reference(g), noise="some"), "'some'", "0 or more"
+    ),
+    "a seed for noise": (
+        lambda g: feedback.simulate_feedback(reference(g), noise=0.1, rng=0), "rng 0", "default_rng"
+    ),
+    "a force in space": (lambda g: feedback.push((1, 2, 3), 0.2), "[1. 2. 3.]", "arm's plane"),
+    "a curl": (lambda g: feedback.curl("strong"), "'strong'", "give numbers"),
+    "a plan to switch to": (
+        lambda g: feedback.switch(reference(g), g.plan, 0.2), "Plan(", "reference_trajectory(plan)"
+    ),
+    "a regression that is new": (
+        lambda g: online.LinearRegression().predict(np.zeros((1, 2))), "nothing yet", "fit it first"
+    ),
+    "a sign": (lambda g: offline.algorithm_1(g.plan, sign=2), "sign 2", "1 or -1"),
+    "an origin": (lambda g: offline.algorithm_1(g.plan, origin=3), "origin 3", "(x, y) in m"),
+    "a place first": (
+        lambda g: g.reach.distance((0, 0, 0), g.reach.planned), "(0, 0, 0)", "reach.planned"
+    ),
+    "a movement's name": (lambda g: g.reach.hand("planned"), "'planned'", "give reach.planned"),
 }  # fmt: skip
 SHOWING = {
     "one draw": (lambda g: statistics.student([1.0]), "1 values", "give two or more"),
@@ -253,12 +342,25 @@ SHOWING = {
     "a number in a sentence": (
         lambda g: explore(text, k=(0, 3))["recall #"], "'recall #'", "has the sliders k"
     ),
+    "chances": (lambda g: statistics.holm("few"), "'few'", "give numbers"),
+    "an estimate in words": (lambda g: estimate("few"), "'few'", "give numbers"),
+    "an interval alone": (lambda g: estimate((1, 2)), "(1, 2)", "(value, low, high)"),
+    "no rows": (lambda g: table(["a"], 3), "rows 3", "a list of rows"),
+    "a note of a number": (lambda g: note(3), "note 3", "str(…)"),
+    "boxes in a row": (lambda g: photo_view(g.image, [1, 2, 3, 4]), "hold 1", "give ((x0, y0"),
+    "an exercise to solve": (lambda g: solution(text), "exercise <function", "book.exercises"),
+    "one start": (lambda g: Pad([0, 1], [0, 1], start=5), "5", "two starts"),
+    "labels of values": (lambda g: Slider([0, 1], labels=["a"]), "['a']", "one for each"),
+    "a switch": (lambda g: Switch("on"), "('o', 'n')", "give (False, True)"),
+    "a control as an attribute": (
+        lambda g: setattr(widget(text, k=(0, 3)), "k", 2), "'k': 2", "write demo.value = {"
+    ),
 }  # fmt: skip
 CALLS = SIGHT | MOVING | SHOWING
 
 
-def test_there_are_a_hundred():
-    assert len(CALLS) == len(SIGHT) + len(MOVING) + len(SHOWING) >= 100
+def test_no_name_stands_twice_and_there_are_over_a_hundred():
+    assert len(CALLS) == len(SIGHT) + len(MOVING) + len(SHOWING) >= 140
 
 
 @pytest.mark.parametrize(("call", "value", "remedy"), CALLS.values(), ids=CALLS)

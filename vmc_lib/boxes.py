@@ -125,16 +125,16 @@ def vote(
 def pad_boxes(boxes: ArrayLike, margin: float) -> np.ndarray:
     """Pad boxes (n, 4) by a margin on each side, given as a share of their sides."""
     boxes = as_boxes(boxes)
-    pad = margin * (boxes[:, 2:] - boxes[:, :2])
+    pad = as_numbers("margin", margin) * (boxes[:, 2:] - boxes[:, :2])
     return np.hstack([boxes[:, :2] - pad, boxes[:, 2:] + pad])
 
 
 def jitter_boxes(boxes: ArrayLike, amount: float, rng: np.random.Generator) -> np.ndarray:
     """Jitter the edges of boxes (..., 4) by Gaussian noise, `amount` in shares of their sides."""
     check_rng(rng)
-    boxes = np.asarray(boxes, float)
+    boxes = as_numbers("boxes", boxes)
     _, sides = centres_and_sides(boxes)
-    return boxes + rng.normal(0, amount, boxes.shape) * np.tile(sides, 2)
+    return boxes + rng.normal(0, as_numbers("amount", amount), boxes.shape) * np.tile(sides, 2)
 
 
 def encode_deltas(boxes: np.ndarray, truth: np.ndarray) -> np.ndarray:

@@ -55,7 +55,7 @@ class Camera:
 
         Raises `NoReach` where a ray runs level with the plane or away from it.
         """
-        rays, depth = self._intersect(pixels, height)
+        rays, depth = self._intersect(pixels, as_numbers("height", height))
         if not np.all(np.isfinite(depth) & (depth > 0)):
             raise NoReach(
                 f"a ray from the camera at {np.round(self.position, 3)} never meets the plane "

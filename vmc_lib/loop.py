@@ -116,10 +116,12 @@ class Reach:
 
     def hand(self, motion: Motion) -> np.ndarray:
         """The wrist's path (T + 1, 3) on the turned trunk, in the frame of the trunk straight."""
+        check_kind("motion", motion, Motion, "reach.planned, or reach.calibrated")
         return to_world(motion.hand, self.turn)
 
     def distance(self, motion: templates.HeldMotion, place: ArrayLike) -> float:
         """How far the wrist is from a place (3,) over the hold, on average, m."""
+        check_kind("motion", motion, templates.HeldMotion, "reach.planned, or reach.calibrated")
         return float(templates.mean_distance(to_world(motion.wrist, self.turn), place))
 
     def end_point(self, motion: templates.HeldMotion) -> np.ndarray:

@@ -1,6 +1,5 @@
 """How sure a number is that was measured a few times, and how sure a difference."""
 
-from collections.abc import Sequence
 from functools import cache
 from typing import Any
 
@@ -69,10 +68,11 @@ def mcnemar(one: np.ndarray, other: np.ndarray) -> tuple[int, int, float]:
     return wins, losses, binomtest(wins, wins + losses).pvalue if wins + losses else 1.0
 
 
-def holm(chances: Sequence[float] | np.ndarray) -> np.ndarray:
+def holm(chances: ArrayLike) -> np.ndarray:
     """Chances (n,) of many tests, corrected for their number (Holm 1979)."""
+    chances = np.atleast_1d(as_numbers("chances", chances))
     order = np.argsort(chances)
     left = len(chances) - np.arange(len(chances))
     corrected = np.empty(len(chances))
-    corrected[order] = np.minimum(np.maximum.accumulate(np.array(chances)[order] * left), 1)
+    corrected[order] = np.minimum(np.maximum.accumulate(chances[order] * left), 1)
     return corrected

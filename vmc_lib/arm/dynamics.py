@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 
 from vmc_lib.arm.model import DAMPING, LIMITS, STEP, check_load
 from vmc_lib.arm.muscle import Numbers
+from vmc_lib.checks import as_numbers
 from vmc_lib.data import arrays
 
 ROWS = 10_001  # of the muscle tables: steps of half a milliradian
@@ -84,15 +85,18 @@ def hand(q: ArrayLike) -> np.ndarray:
     return _trig_basis_of(q) @ coefficients()[1]
 
 
-def torque_for(q: ArrayLike, velocity: np.ndarray, acceleration: np.ndarray) -> np.ndarray:
+def torque_for(q: ArrayLike, velocity: ArrayLike, acceleration: ArrayLike) -> np.ndarray:
     """Inverse dynamics: torques (…, 2) in N m that give these accelerations over one step."""
+    velocity = as_numbers("velocity", velocity)
+    acceleration = as_numbers("acceleration", acceleration)
     m11, m12, m22, b1, b2 = _dynamics(_terms(q), *velocity.T, STEP)
     a1, a2 = acceleration.T
     return np.array([m11 * a1 + m12 * a2 + b1, m12 * a1 + m22 * a2 + b2]).T
 
 
-def forward_dynamics(q: ArrayLike, velocity: np.ndarray, torque: np.ndarray) -> np.ndarray:
+def forward_dynamics(q: ArrayLike, velocity: ArrayLike, torque: ArrayLike) -> np.ndarray:
     """Forward dynamics, Eq. 12: the accelerations (…, 2) that joint torques cause."""
+    velocity, torque = as_numbers("velocity", velocity), as_numbers("torque", torque)
     return np.array(equation_12(_terms(q), *velocity.T, *torque.T, STEP)).T
 
 

@@ -106,6 +106,7 @@ def simulate(
     if u.ndim < 2 or u.shape[-1] != len(F0) or 0 in u.shape:
         raise ValueError(f"excitations have shape {u.shape}; use (T, 6) or (…, T, 6), T ≥ 1")
     _check_range("excitations", u)
+    check_kind("muscle", muscle, Muscle, "Muscle(activation_rate, force), two functions")
     engine = engine or ("compiled" if muscle is PAPER else "mujoco")
     if not isinstance(engine, str) or engine not in ENGINES:
         raise ValueError(f"engine {short(engine)} is unknown; choose one of {sorted(ENGINES)}")

@@ -118,6 +118,10 @@ def algorithm_1(
     """
     if not np.size(gains) or np.ndim(gains) != 1:
         raise ValueError(f"gains = {short(gains)}: name at least one n to try, as range(21) does")
+    if sign not in (1, -1) or np.shape(origin) != (2,):
+        raise ValueError(
+            f"origin {short(origin)}, sign {short(sign)}: give (x, y) in m, and 1 or -1"
+        )
     planned = execute(plan)
     changes = [change(plan, planned.endpoint, n, origin, sign) for n in gains]
     return _trials(planned, execute(plan.with_weights(plan.weights + np.stack(changes))))

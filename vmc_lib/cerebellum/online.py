@@ -66,6 +66,8 @@ class LinearRegression:
 
     def predict(self, X: np.ndarray) -> np.ndarray:
         """The answers (n, k) at X (n, d)."""
+        if not hasattr(self, "slopes_"):
+            raise ValueError("the regression has learned nothing yet: fit it first")
         return self.intercept_ + (X - self.mean_) @ self.slopes_
 
 

@@ -21,10 +21,11 @@ from vmc_lib.arm.kinematics import inverse_kinematics
 from vmc_lib.arm.model import STEP
 from vmc_lib.arm.muscle import noisy
 from vmc_lib.arm.simulate import Motion, check_sane
-from vmc_lib.checks import check_kind
+from vmc_lib.checks import as_numbers, check_kind, is_within
 from vmc_lib.motor.inverse_dynamics import SAMPLES, minimum_jerk, minimum_jerk_profile, muscle_gain
 from vmc_lib.motor.planning import Plan, check_batch
 from vmc_lib.motor.templates import START
+from vmc_lib.short_repr import short
 
 Model = Callable[..., np.ndarray]  # a forward model: q, velocity, activation → acceleration
 TICK = 10  # steps: sight corrects, and the model predicts, a hundred times a second
@@ -91,9 +92,9 @@ def reference_trajectory(plan: Plan, seconds: float = 2.0) -> ReferenceTrajector
     ValueError when it is shorter than the plan itself, or there is no batch.
     """
     check_batch(plan)
+    if not is_within(seconds, SAMPLES * STEP, np.inf):
+        raise ValueError(f"{short(seconds)} s is too short for a reach; give 1 s or more")
     more = round(seconds / STEP) - SAMPLES
-    if more < 0:
-        raise ValueError(f"{seconds} s is too short for a reach; give 1 s or more")
     q = minimum_jerk(START, inverse_kinematics(plan.target), SAMPLES + more)
     u = np.pad(plan.excitations, ((0, 0), (0, more), (0, 0)), mode="edge")
     return ReferenceTrajectory(q, u)
@@ -103,6 +104,8 @@ def switch(
     first: ReferenceTrajectory, second: ReferenceTrajectory, at: float
 ) -> ReferenceTrajectory:
     """The first reference until `at` s, then smoothly the second, after another 0.4 s."""
+    for reference in (first, second):
+        check_kind("reference", reference, ReferenceTrajectory, "reference_trajectory(plan)")
     share = minimum_jerk_profile((np.arange(first.q.shape[1]) * STEP - at) / 0.4)[:, None]
     q = first.q + share * (second.q - first.q)
     u = first.excitations + share[:-1] * (second.excitations - first.excitations)
@@ -159,6 +162,15 @@ def simulate_feedback(
     (1, 1001, 2)
     """
     check_kind("reference", reference, ReferenceTrajectory, "reference_trajectory(plan)")
+    check_kind("gains", gains, FeedbackGains, "SIGHT, or SIGHT._replace(gain=30.0)")
+    if not (model is None or callable(model)):
+        raise ValueError(
+            f"model {short(model)} predicts nothing: give a ForwardModel, or arm_copy()"
+        )
+    if disturbance is not None:
+        check_kind("disturbance", disturbance, Disturbance, "curl(strength), or push(force, at)")
+    if not is_within(noise, 0, np.inf):
+        raise ValueError(f"noise of {short(noise)} times the signal: give a number, 0 or more")
     if noise and rng is None:
         raise ValueError(f"noise of {noise} needs an rng; give np.random.default_rng(seed)")
     if not all(np.isfinite(each).all() for each in (*gains[:-2], noise)):
@@ -186,7 +198,7 @@ def simulate_feedback(
         felt = np.maximum(tick - spinal, 0)
         reflex = _reflex(gains, q[:, felt], velocity[:, felt], lengths[:, felt], rates[:, felt])
         now = np.clip(np.swapaxes(planned[:, tick] + sight[:, None] + reflex, 0, 1), 0, 1)
-        u[:, tick] = np.swapaxes(noisy(now, noise, rng) if noise and rng else now, 0, 1)
+        u[:, tick] = np.swapaxes(noisy(now, noise, rng) if rng is not None and noise else now, 0, 1)
         step_trajectory(u, path, tick, push=push, drag=disturbance.drag)
         check_sane(q[:, tick + 1], first=tick[0] + 1)  # or the next tick is of what blew up
     return Motion(*path)
@@ -236,7 +248,7 @@ class Disturbance(NamedTuple):
 
 def curl(strength: float) -> Disturbance:
     """A curl field: it pushes a moving hand aside, clockwise, by `strength` N for each m/s."""
-    return Disturbance(drag=strength * np.array([[0.0, 1.0], [-1.0, 0.0]]))
+    return Disturbance(drag=as_numbers("strength", strength) * np.array([[0.0, 1.0], [-1.0, 0.0]]))
 
 
 def push(force: ArrayLike, at: float | np.ndarray) -> Disturbance:
@@ -244,7 +256,10 @@ def push(force: ArrayLike, at: float | np.ndarray) -> Disturbance:
 
     Each of a batch may have its own: forces (B, 2), and times (B, 1).
     """
-    return Disturbance(force=np.array(force), at=at)
+    force = as_numbers("force", force)
+    if force.shape[-1:] != (2,):
+        raise ValueError(f"a force {force} N: give (forward, up), in the arm's plane")
+    return Disturbance(force, at=at)
 
 
 def _reflex(gains, q, velocity, reference_length, reference_rate):

@@ -227,7 +227,12 @@ def plan(
         if rows.ndim > max(target.ndim, 1):
             raise ValueError(f"rows {rows.shape} of a target {target.shape}: give (N,) or (…, N)")
     rows = np.broadcast_to(rows, (*target.shape[:-1], rows.shape[-1]))
-    return Plan(template_set, target, rows, weigh(target, template_set.points[rows]))
+    weights = weigh(target, template_set.points[rows])
+    if np.shape(weights) != rows.shape:
+        raise ValueError(
+            f"the rule gave weights {short(weights)}: it must return them as {rows.shape}"
+        )
+    return Plan(template_set, target, rows, weights)
 
 
 def rule_called(name: str | Callable, rules: Mapping[str, Callable]) -> Callable:

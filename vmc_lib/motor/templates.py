@@ -69,7 +69,7 @@ def mean_distance(hold: np.ndarray, target: ArrayLike) -> np.ndarray:
 
 def offsets(points: np.ndarray, target: ArrayLike) -> np.ndarray:
     """From targets (…, D) to points (…, N, D) in their unit; ValueError for another D."""
-    target = as_numbers("target", target)
+    target, points = as_numbers("target", target), as_numbers("points", points)
     if not target.shape[-1:] == np.shape(points)[-1:]:
         raise ValueError(f"target {target} is of another dimension than points {np.shape(points)}")
     return points - target[..., None, :]
@@ -86,6 +86,8 @@ def reach(
 
 def keep_last(excitations: np.ndarray, hold: float = HOLD) -> np.ndarray:
     """Excitations (…, T, 6), and then `hold` s of the last of them."""
+    if np.ndim(excitations) < 2:
+        raise ValueError(f"excitations {np.shape(excitations)}: give (…, T, 6), one set a step")
     last = np.repeat(excitations[..., -1:, :], round(hold / STEP), axis=-2)
     return np.concatenate([excitations, last], axis=-2)
 

@@ -45,7 +45,7 @@ def check_call(draw, caption, alt, data, printed, more, names):
     if not (callable(draw) and isinstance(caption, str)):
         raise ValueError(
             f"explore({draw!r}, {caption!r}, …): give the function that draws, then a caption, "
-            "and each control by the name of its argument, k=(0, 10)"
+            "and each control by the name of its argument, k=(0, 10); none is called caption"
         )
     wrong = {
         "alt": not (alt is None or isinstance(alt, str) or callable(alt)) and alt,

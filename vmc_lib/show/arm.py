@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 from vmc_lib import NoReach
 from vmc_lib.arm.kinematics import to_world, turn_towards
 from vmc_lib.arm.simulate import Motion, check_posture
-from vmc_lib.checks import as_numbers
+from vmc_lib.checks import as_numbers, check_kind
 from vmc_lib.photos import Photo
 from vmc_lib.short_repr import short
 from vmc_lib.show.scene import Scene
@@ -47,6 +47,12 @@ def arm_scene(
     target. ValueError for other shapes, a posture beyond the joints' limits, or a colour that has
     no name.
     """
+    if photo is not None:
+        check_kind("photo", photo, Photo, 'one of photos.load("rig", "test")')
+    for ball in balls:
+        _check_pair("a ball", ball, "((x, y, z), colour name)")
+    if end:
+        _check_pair("end", end, "((x, y, z), speed)")
     table = bool(photo or len(balls))
     scene = Scene(_furniture(table))
     if isinstance(q, Motion):
@@ -55,7 +61,7 @@ def arm_scene(
     check_posture(q, "posture")
     moments = np.arange(len(q)) * EVERY / 1000
     active = np.broadcast_to(_samples("activation", activation, 6)[::EVERY], (len(q), 6))
-    turns = np.broadcast_to(np.atleast_1d(turn)[::EVERY], len(q))
+    turns = np.broadcast_to(np.atleast_1d(as_numbers("turn", turn))[::EVERY], len(q))
     closed = np.clip(1 + (moments - moments[-1]) / CLOSING, 0, 1) * bool(grasp)
     motion = {"q": q, "activation": active, "turn": turns, "grasp": closed}
     scene.tell("motion", {name: value.round(4).tolist() for name, value in motion.items()})
@@ -81,6 +87,12 @@ def arm_scene(
                 off = float(np.linalg.norm(np.subtract(place, position)))
                 scene.tell("end", {"off": round(off, 7), "speed": round(float(speed), 7)})
     return scene
+
+
+def _check_pair(name, pair, parts):
+    """Raise ValueError for what is no pair."""
+    if not isinstance(pair, tuple | list) or len(pair) != 2:
+        raise ValueError(f"{name} {short(pair)} is no pair: give {parts}")
 
 
 def _samples(name, values, size):

@@ -43,6 +43,8 @@ class Control:
             name = f"the control {self.label!r}" if self.label else "a control"
             raise ValueError(f"{name} has values {values}: give at least two")
         object.__setattr__(self, "values", values)
+        if self.labels and len(self.labels) != len(values):
+            raise ValueError(f"labels {self.labels} of {len(values)} values: give one for each")
         if isinstance(self.start, str) and _numbers(*values):
             raise ValueError(
                 f"{self.label!r} cannot stand at {self.start!r}, which is no number: a unit is "
@@ -173,6 +175,11 @@ class Choice(Control):
 class Switch(Control):
     """On or off."""
 
+    def __post_init__(self):
+        super().__post_init__()
+        if len(self.values) != 2 or isinstance(self.values[0], str):
+            raise ValueError(f"a switch between {self.values}: give (False, True), or a Choice")
+
     def html(self, name: str, stride: int) -> str:
         own = f'type="checkbox" name="{name}" data-stride="{stride}"{" checked" * self.first}'
         return f"<label><input {own}>{html.escape(self.label)}</label>"
@@ -196,7 +203,7 @@ class Pad(Control):
         unit: str = "",
         between: bool | float = True,
     ) -> None:
-        if not len(labels) == len(start) == 2:
+        if not all(np.iterable(pair) and len(pair) == 2 for pair in (labels, start)):
             raise ValueError(f"a pad has two labels and two starts, not {labels} and {start}")
         parts = zip((xs, ys), labels, start, strict=True)
         pair = [Slider(v, label, first, unit, between=between) for v, label, first in parts]

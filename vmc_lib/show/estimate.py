@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vmc_lib.checks import as_numbers
 from vmc_lib.statistics import student
 
 
@@ -44,8 +45,10 @@ def estimate(value: ArrayLike) -> Estimate:
     3.0 (2.5 to 3.5)
     """
     if isinstance(value, tuple):
+        if len(value) != 3:
+            raise ValueError(f"{value} is no estimate: give (value, low, high), or a list of draws")
         return Estimate(*value)
-    draws = np.ravel(value)
+    draws = np.ravel(as_numbers("draws", value))
     if len(draws) == 1:
         return Estimate(*3 * (draws[0],))
     mean, half = student(draws)

@@ -16,6 +16,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 
+from vmc_lib.checks import check_kind
+from vmc_lib.short_repr import short
 from vmc_lib.show.data_table import DataTable, name_curves
 from vmc_lib.show.estimate import estimate
 from vmc_lib.show.markup import data_uri, image_tag, number, svg
@@ -84,7 +86,7 @@ def photo_view(
     height, width = image.shape[:2]
     for name, given, size in (("boxes", boxes, 4), ("points", points, 2)):
         for mark in given:
-            if not (len(mark) == 3 and np.shape(mark[0]) == (size,)):
+            if not (np.iterable(mark) and len(mark) == 3 and np.shape(mark[0]) == (size,)):
                 place = "(x0, y0, x1, y1)" if size == 4 else "(x, y)"
                 raise ValueError(f"{name} hold {mark}: give ({place}, label, colour name)")
     left, right, bottom, top = axes or (0, width, height, 0)
@@ -132,6 +134,7 @@ def margins(fig: Figure, left: float = 0.7, top: float = 0.3) -> None:
 
 def note(text: str) -> str:
     """A line of text as a picture (HTML), to stand beside others and to move with a demo."""
+    check_kind("note", text, str, 'text, str(…) or f"{…}"')
     return f'<p class="vmc-strip">{html.escape(text)}</p>'
 
 
@@ -176,6 +179,7 @@ def numbers(table):
 
 def markdown(text: str) -> None:
     """Show Markdown; an f-string puts the run's own numbers into a sentence."""
+    check_kind("Markdown", text, str, 'text, str(…) or f"{…}"')
     display(Markdown(_MINUS.sub(lambda match: match[1] or "−", text)))
 
 
@@ -209,6 +213,8 @@ def table(
         rows = [[name, *cells] for name, cells in rows.items()]
     if not all(heads):
         raise ValueError(f"every column needs a head, and {list(heads)} leaves one empty")
+    if not all(map(np.iterable, [rows, *(rows if np.iterable(rows) else ())])):
+        raise ValueError(f"rows {short(rows)}: give a list of rows, each a list of its cells")
     lines = [heads, ["---"] * len(heads), *rows]
     if wrong := [row for row in rows if len(row) != len(heads)]:
         raise ValueError(f"the row {wrong[0]} does not have {len(heads)} cells, as {heads} has")

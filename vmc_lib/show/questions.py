@@ -18,6 +18,7 @@ import numpy as np
 from IPython import get_ipython
 from IPython.display import HTML, display
 
+from vmc_lib.checks import check_kind
 from vmc_lib.grading import (
     EMPTY,
     LONGEST,
@@ -173,6 +174,7 @@ def _buttons(right):
 
 def solution(exercise: Exercise) -> None:
     """Show our lines for an `Exercise`: in a notebook folded, as the page does it itself."""
+    check_kind("exercise", exercise, Exercise, "one of book.exercises")
     lines = f"```python\n{source(exercise)}```"
     if render_mode() == "book":
         markdown(lines)

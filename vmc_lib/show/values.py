@@ -42,7 +42,7 @@ class Demo(Live):
 
     def __init__(self, name, controls, numbers, show, live=None):
         """`show()` shows it; `live` is what the widget of a live kernel is made of: see `Live`."""
-        self.name, self.controls, self.numbers, self._show = name, controls, numbers, show
+        self.name, self.numbers, self._show, self.controls = name, numbers, show, controls
         self._shown_in = None  # the cell in which it was shown last
         start = first_position(controls)
         state = {"place": start, "value": Values(values_at(start, controls))}
@@ -51,6 +51,11 @@ class Demo(Live):
             super().__init__(**live, **state)
         else:
             anywidget.AnyWidget.__init__(self, **state)
+
+    def __setattr__(self, name, value):
+        if name in vars(self).get("controls", ()) and not hasattr(self, name):
+            raise ValueError(f"a demo has one value: write demo.value = {{{name!r}: {value!r}}}")
+        super().__setattr__(name, value)
 
     def open(self):
         """Tell the browser of the widget, where one listens."""

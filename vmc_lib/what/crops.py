@@ -6,6 +6,9 @@ from functools import cache
 import numpy as np
 from numpy.typing import DTypeLike
 
+from vmc_lib.boxes import as_boxes
+from vmc_lib.short_repr import short
+
 WIDTH = 200  # pixels of a crop, as in the paper
 
 
@@ -19,8 +22,11 @@ def crop(image: np.ndarray, box: Sequence[float] | np.ndarray) -> np.ndarray:
 
     from vmc_lib.photos import as_rgb
 
+    if not isinstance(image, np.ndarray):
+        raise ValueError(f"{short(image)} is no image: see photos.read_image")
     height, width = image.shape[:2]
-    x0, y0, x1, y1 = np.clip(np.round(box), 0, [width, height] * 2).astype(int)
+    [corners] = as_boxes(box)
+    x0, y0, x1, y1 = np.clip(np.round(corners), 0, [width, height] * 2).astype(int)
     if x1 - x0 < 2 or y1 - y0 < 2:
         raise ValueError(f"the box {np.round(box, 1)} holds nothing of a {width}×{height} image")
     grey = cv2.cvtColor(as_rgb(image[y0:y1, x0:x1]), cv2.COLOR_RGB2GRAY)

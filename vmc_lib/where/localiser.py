@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 
 from vmc_lib.boxes import as_boxes, centres_and_sides, jitter_boxes
 from vmc_lib.camera import Camera
+from vmc_lib.checks import check_kind
 from vmc_lib.data import arrays, read_only
 from vmc_lib.photos import LEVELS, crops
 from vmc_lib.short_repr import short_repr
@@ -85,6 +86,7 @@ class Localiser:
 
         `NoReach` when the line of sight does not meet the predicted height.
         """
+        check_kind("camera", camera, Camera, "photo.camera")
         boxes = as_boxes(box)
         centres, sides = centres_and_sides(boxes)
         alike = self.kernel(_describe(image, boxes))

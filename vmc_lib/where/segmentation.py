@@ -13,6 +13,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from vmc_lib.compiled import compiled
+from vmc_lib.short_repr import short
 
 NEIGHBOUR_OFFSETS = (0, 1), (1, 0), (1, 1), (1, -1)  # (dy, dx); the other four mirror these
 
@@ -49,6 +50,8 @@ def segmentations(
     """The labels of `segment` at each scale k in turn; the edges are sorted once for all."""
     import cv2
 
+    if not isinstance(channels, np.ndarray):
+        raise ValueError(f"{short(channels)} is no array: see photos.as_float")
     if channels.ndim != 3 or 0 in channels.shape or not np.all(np.isfinite(channels)):
         raise ValueError(f"channels {channels.shape} must be finite, (height, width, c), not empty")
     if channels.dtype.kind != "f":

@@ -179,7 +179,7 @@ def rank_boxes(
 def propose(
     image: np.ndarray,
     strategy: str | Strategy = "single",
-    rng: np.random.Generator | None = None,
+    rng: np.random.Generator | int | None = None,
     smallest: float = 20,
 ) -> np.ndarray:
     """Object candidates of an image by selective search.

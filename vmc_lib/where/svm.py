@@ -40,6 +40,9 @@ class KernelSVM:
             raise ValueError(f"kernel {kernel!r} is none of {', '.join(KERNELS)}")
         if len(np.unique(y)) < 2:
             raise ValueError("a classifier needs examples and counter-examples: give more photos")
+        x = np.asarray(x)
+        if x.ndim != 2 or len(x) != len(y):
+            raise ValueError(f"features {x.shape} and {len(y)} labels: give (n, d), and n labels")
         gamma = scale / (x.shape[1] * x.var())
         svc = SVC(C=cost, kernel=kernel, gamma=gamma, cache_size=500).fit(x, y)
         support, weights = svc.support_vectors_, svc.dual_coef_[0]
