@@ -61,8 +61,19 @@ def test_a_wrong_value_is_refused_and_changes_nothing(value, says):
 
 
 def test_one_value_alone_is_not_set_in_silence():
+    shown, seen = one(k=(0, 10)), []
+    shown.observe(lambda change: seen.append(change.new["k"]), "value")
     with pytest.raises(TypeError, match=r"write demo.value = \{'k': 3\}"):
-        one(k=(0, 10)).value["k"] = 3
+        shown.value["k"] = 3
+    with pytest.raises(TypeError, match=r"write demo.value = \{'k': 3\}"):
+        shown.value.update(k=3)
+    shown.value |= {"k": 3}
+    assert seen == [3]
+
+
+def test_demos_of_other_controls_are_not_linked_in_silence():
+    with pytest.raises(ValueError, match="linked have the same controls"):
+        ipywidgets.link((one(k=(0, 4)), "value"), (one(j=(0, 4)), "value"))
 
 
 def test_values_are_shown_as_python_writes_them():

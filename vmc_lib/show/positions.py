@@ -36,7 +36,10 @@ def position(values, controls):
     ValueError for the name of no control, or a value beyond what its control has.
     """
     if unknown := values.keys() - controls.keys():
-        raise ValueError(f"no control is called {', '.join(unknown)}: there are {list(controls)}")
+        raise ValueError(
+            f"no control is called {', '.join(unknown)}: there are {list(controls)}; demos that "
+            "are linked have the same controls"
+        )
     pairs = zip(controls.items(), strides(controls), strict=True)
     return sum(control.nearest(values[name]) * stride for (name, control), stride in pairs)
 

@@ -23,6 +23,14 @@ class Values(dict):
             "which leaves the other controls where they stand"
         )
 
+    def update(self, *values, **named):
+        """Refuse, as one value alone is refused."""
+        for name, value in dict(*values, **named).items():
+            self[name] = value
+
+    def __ior__(self, values):
+        return self | values  # demo.value |= … sets the demo's
+
 
 class Demo(Live):
     """A demo as an ipywidgets' widget; in the built book, which has no kernel, it is shown alone.
