@@ -14,8 +14,10 @@ from zipfile import ZipFile
 
 import nbformat
 import pytest
+from packaging.metadata import Metadata
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name as canonical
+from packaging.utils import parse_wheel_filename
 
 from page.bundle import STATIC, widget_script
 from tests.project import ROOT, code, python, run, sample
@@ -188,6 +190,17 @@ def test_the_wheel_puts_all_of_the_library_and_nothing_else_into_site_packages(r
     brought = {f"vmc_lib/show/static/{name}" for name in ("demo.js", *wheel.FILES)}
     assert names == ours | brought
     assert "vmc_lib/py.typed" in names
+
+
+def test_an_index_takes_the_wheel(reader):
+    (file,) = reader.glob("*.whl")
+    with ZipFile(file) as content:
+        [name] = [name for name in content.namelist() if name.endswith(".dist-info/METADATA")]
+        described = Metadata.from_email(content.read(name))  # raises where one thing is invalid
+    assert parse_wheel_filename(file.name)[:2] == ("vmc-lib", described.version)
+    assert described.description_content_type == "text/markdown"
+    assert described.description == (ROOT / "README.md").read_text(encoding="utf-8")
+    assert described.license_expression == PROJECT["license"]
 
 
 # Without an ignored line's mistake mypy would call its comment unused
