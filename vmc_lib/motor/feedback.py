@@ -259,7 +259,7 @@ def push(force: ArrayLike, at: float | np.ndarray) -> Disturbance:
     force = as_numbers("force", force)
     if force.shape[-1:] != (2,):
         raise ValueError(f"a force {force} N: give (forward, up), in the arm's plane")
-    return Disturbance(force, at=at)
+    return Disturbance(force=force, at=at)
 
 
 def _reflex(gains, q, velocity, reference_length, reference_rate):

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 from vmc_lib import NoReach
 from vmc_lib.arm.kinematics import to_world, turn_towards
 from vmc_lib.arm.simulate import Motion, check_posture
-from vmc_lib.checks import as_numbers, check_kind
+from vmc_lib.checks import as_numbers
 from vmc_lib.photos import Photo
 from vmc_lib.short_repr import short
 from vmc_lib.show.scene import Scene
@@ -47,8 +47,8 @@ def arm_scene(
     target. ValueError for other shapes, a posture beyond the joints' limits, or a colour that has
     no name.
     """
-    if photo is not None:
-        check_kind("photo", photo, Photo, 'one of photos.load("rig", "test")')
+    if not (photo is None or hasattr(photo, "target")):
+        raise ValueError(f'photo {short(photo)} is none: give one of photos.load("rig", "test")')
     for ball in balls:
         _check_pair("a ball", ball, "((x, y, z), colour name)")
     if end:
