@@ -77,12 +77,12 @@ class _Client(NotebookClient):
 
 @run_sync
 async def _run(notebook, cell_limit, limit):
-    """Run all cells in an empty folder, from which Python imports nothing."""
+    """Run all cells as a reader's, in an empty folder, from which Python imports nothing."""
     client = _Client(notebook, timeout=cell_limit, interrupt_on_timeout=True, allow_errors=True)
     with TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         try:
             async with asyncio.timeout(limit) as clock:
-                environment = os.environ | {"PYTHONSAFEPATH": "1"}
+                environment = os.environ | {"PYTHONSAFEPATH": "1", "VMC_RENDER_MODE": "live"}
                 await client.async_execute(cwd=folder, env=environment)
         except Exception as error:
             if clock.expired():  # a cell may refuse to be interrupted

@@ -37,11 +37,6 @@ GRADE = "from book.exercises.loop import MIXED\n\ngrade(known, MIXED)"
 [HINT, *_] = MIXED.mistakes
 
 
-@pytest.fixture(autouse=True)
-def live(monkeypatch):
-    monkeypatch.setenv("VMC_RENDER_MODE", "live")
-
-
 @pytest.fixture
 def chapter():
     """A chapter of exercises: in each, its own variable has to become 2."""

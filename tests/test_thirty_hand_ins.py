@@ -21,6 +21,7 @@ ANSWERS = """from book.exercises.muscle import ACTIVATION_RATES, ACTIVATION_TO_H
 activation_rates = ACTIVATION_RATES.right
 activation_to_hold = ACTIVATION_TO_HOLD.right
 answer = 0.8"""
+KNOWN = "activation_rates = [*ACTIVATION_RATES.mistakes.values()][0]"
 
 PDF, CANNOT = b"%PDF-1.7\n%\xe2\xe3", "cannot be marked"
 
@@ -109,7 +110,6 @@ WHOLE = dumped(RIGHT)
 BY_NAME = {  # the file: what it holds, and its points, or how its row begins
     "right": (RIGHT, 6),
     "Müller 张": (RIGHT, 6),
-    "two words (1)": (RIGHT, 6),
     "CAPITALS.IPYNB": (RIGHT, 6),
     "no heading": (changed(without_heading), 6),
     "no metadata": (changed(bare), 6),
@@ -124,6 +124,7 @@ BY_NAME = {  # the file: what it holds, and its points, or how its row begins
     "checks forged": (changed(forged), 6),
     "checks twice": (changed(twice), 6),
     "as handed out": (handed_in(answers="pass"), 0),
+    "a known mistake (1)": (handed_in(answers=f"{ANSWERS}\n{KNOWN}"), 5),
     "two are missing": (handed_in(answers=f"{ANSWERS}\nanswer = activation_rates = None"), 2),
     "one is wrong": (handed_in(answers=f"{ANSWERS}\nanswer = 0.5"), 4),
     "a comma for the point": (handed_in(answers=f"{ANSWERS}\nanswer = '0,8'"), 6),
