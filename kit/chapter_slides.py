@@ -9,6 +9,7 @@ leaves; of its exercises only where they are checked, and no demo whose cell car
 import re
 from dataclasses import dataclass, field
 from html import escape
+from itertools import takewhile
 from operator import itemgetter
 from typing import NamedTuple
 
@@ -121,9 +122,15 @@ def chapter_slides(article, headings=None):
 
 
 def _left_open(words):
-    """A paragraph of what a recap has in bold: a question, or "Next:" with what follows it."""
-    follows = words.next_siblings if words.get_text().strip().endswith(":") else ()
-    return f"<p>{''.join(map(str, (words, *follows)))}</p>"
+    """A paragraph of what a recap has in bold: a question, or "Next:" with what it asks."""
+    follows = []
+    if words.get_text().strip().endswith(":"):
+        follows = takewhile(lambda part: not _is_link(part), words.next_siblings)
+    return f"<p>{''.join(map(str, (words, *follows))).strip()}</p>"
+
+
+def _is_link(part):
+    return isinstance(part, Tag) and part.has_attr("data-to")
 
 
 def _plain(title):
@@ -198,6 +205,8 @@ def _pairs(blocks):
             if heading.name == "h1":
                 below = (p for h, p in blocks[place:] if h is heading)
                 box = box or next((p for p in below if p.select_one(".vmc-predict")), None)
+            for folded in part.select(".vmc-live-form .vmc-more"):
+                folded["open"] = ""  # a class calls out what each of its sliders should be
             name = _plain_heading(heading)
             ask = [Slide([name, box], [ALONE, *_answers(box)], PAIR / 2, True)] if box else []
             notes = _guide(part, box) + _texts(blocks, heading)

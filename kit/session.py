@@ -9,6 +9,8 @@ from copy import copy
 from html import escape
 from itertools import cycle, pairwise
 
+from bs4 import BeautifulSoup
+
 from kit.chapter_slides import MINUTE, PAIR, Slide, sentences
 
 MINUTES = 90  # of a session
@@ -88,32 +90,44 @@ def _lesson(item):
 
 
 def _in_class(item, chapters):
-    """Its slide, and the demos to which it has links, each by its section or by its chapter."""
+    """Its slide, and the demos to which it has links, each by its section or by its chapter.
+
+    The slide itself leads to a page of the kit that the item names.
+    """
     links = [(link["data-to"].split(".html")[0], link) for link in item.select("[data-to]")]
+    pages = dict.fromkeys(re.findall(r"\w+\.html", item.get_text()))
     slide, _ = _lesson(item)
+    slide.body += [f'<p><a href="../{page}" target="_blank">{page}</a></p>' for page in pages]
     demos = [one for name, link in links for one in chapters[name].demo_of(link.get_text())]
     slide.active = True
     return _timed([slide, *demos], slide.seconds)
 
 
 def _on_the_board(item, chapters):
-    """The equations that it names, then its question, with the answer step by step."""
+    """The equations that it names, then its question, with them and the answer step by step."""
     ranges = EQUATIONS.findall(item.get_text())
     numbers = {n for low, high in ranges for n in range(int(low), int(high or low) + 1)}
     slide, steps = _lesson(item)
-    slide.body += [f'<p class="fragment">{step}</p>' for step in steps]
     equations = [one for chapter in chapters.values() for one in chapter.equations(numbers)]
+    lines = [copy(part) for one in equations for part in one.body[2:]]
+    slide.body += [*lines, *(f'<p class="fragment">{step}</p>' for step in steps)]
     slide.seconds -= sum(one.seconds for one in equations)
     return [*equations, slide]
 
 
 def _cell(item, chapters):
-    """Its question, with the cell of the chapters that it quotes."""
+    """Its question, with the cell of the chapters that it quotes, the line in it marked."""
     line = item.code.get_text() if item.code else None
     slide, _ = _lesson(item)
     slide.active = True
     cells = [cell for chapter in chapters.values() for cell in chapter.cells]
-    slide.body += [cell for cell in cells if line and line in cell.get_text()][:1]
+    for cell in [cell for cell in cells if line and line in cell.get_text()][:1]:
+        lines = [
+            f"<mark>{html}</mark>" if line in BeautifulSoup(html, "html.parser").get_text() else html
+            for html in cell.pre.decode_contents().split("\n")
+        ]
+        code = "\n".join(lines)
+        slide.body.append(f'<div class="highlight"><pre>{code}</pre></div>')
     return slide
 
 

@@ -1,5 +1,5 @@
-/* A slide that is too tall for its room is drawn smaller until it fits: first a little, then with the
-   demo's controls beside its pictures, where a scene has them always. */
+/* A slide that is too tall for its room is drawn smaller until it fits: a demo's controls stand below its
+   pictures, or beside them, whichever leaves these larger; a scene has them always beside it. */
 const fits = (slide, content, least) => {
   for (let zoom = 1; zoom > least; zoom -= 0.05) {
     content.style.zoom = zoom;
@@ -8,13 +8,19 @@ const fits = (slide, content, least) => {
   return false;
 };
 
+const area = (content) => [...content.querySelectorAll(".vmc-picture > :is(svg, img)")]
+  .map((picture) => picture.getBoundingClientRect())
+  .reduce((sum, { width, height }) => sum + width * height, 0);
+
 const fit = (slide) => {
   const content = slide?.querySelector(":scope > .fit");
   if (!content) return;
-  content.classList.remove("beside");
-  if (!content.querySelector(".vmc-scene") && fits(slide, content, 0.8)) return;
-  content.classList.add("beside");
-  fits(slide, content, 0.4);
+  const drawn = (where, least) => {
+    content.classList.toggle("beside", where === "beside");
+    return fits(slide, content, least) ? area(content) : -1;
+  };
+  const below = content.querySelector(".vmc-scene") ? -1 : drawn("below", 0.8);
+  if (drawn("beside", 0.4) <= below) drawn("below", 0.8);
 };
 
 const fitCurrent = () => fit(Reveal.getCurrentSlide());
