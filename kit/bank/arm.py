@@ -61,10 +61,12 @@ def bag_in_the_hand(kilograms=steps(0.5, 5, 0.5), reach=REACH, lever=LEVER):
 
 
 @numeric("cm", "The forearm's angle is the sum of the two.", tolerance=0.1)
-def where_the_wrist_is(shoulder=SHOULDER, elbow=ELBOW, way=("forward", "up")):
+def where_the_wrist_is(
+    shoulder=SHOULDER, elbow=ELBOW, way=(("in front of", "behind"), ("above", "below"))
+):
     """An arm ({PLANAR}) is at {shoulder} degrees in the shoulder and {elbow} in the elbow. How far
-    {way} of the shoulder is the wrist?"""
-    return wrist(shoulder, elbow)[int(way == "up")]
+    {way[0]} the shoulder is the wrist ({way[1]} it: a negative number)?"""
+    return wrist(shoulder, elbow)[int(way[0] == "above")]
 
 
 @numeric("cm", "The law of cosines.")

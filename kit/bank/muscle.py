@@ -48,12 +48,16 @@ def flicker(on=steps(0.1, 0.9, 0.05)):
     return on / RISE / (on / RISE + (1 - on) / FALL)
 
 
-@numeric(
-    hint="Solve Eq. 9 for u: a quadratic while it rises, linear while it falls.", tolerance=0.005
-)
-def excitation_wanted(a=steps(0.1, 0.7, 0.1), rate=steps(-2, 10, 1, zero=5)):
-    """Activation is {a} and must change at {rate} per second. Which excitation does it {LAG}?"""
+@numeric(hint="Solve Eq. 9 for u: a quadratic while it rises.", tolerance=0.005)
+def excitation_wanted(a=steps(0.1, 0.7, 0.1), rate=steps(1, 10, 1)):
+    """Activation is {a} and must rise by {rate} per second. Which excitation does it {LAG}?"""
     return muscle.excitation_for(a, float(rate))
+
+
+@numeric(hint="Solve Eq. 9 for u: linear while it falls.", tolerance=0.002)
+def excitation_to_fall(a=steps(0.3, 0.9, 0.1), rate=steps(0.5, 5, 0.5)):
+    """Activation is {a} and must fall by {rate} per second. Which excitation does it {LAG}?"""
+    return muscle.excitation_for(a, -rate)
 
 
 @numeric(hint="exp(-40 (l - 0.95)⁴ + (l - 0.95)²)", tolerance=0.002)

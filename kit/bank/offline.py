@@ -146,7 +146,7 @@ def trials(axes, misses):
     "smaller on average",
     hint="The best of many is in part lucky, and luck is not kept. Without noise there is none.",
 )
-def best_made_again(misses=noisy_trials, noise=("with the same noise", "without any noise")):
+def best_made_again(misses=noisy_trials, noise=("with noise, other in each", "without any noise")):
     """The ringed trial is kept. The trials were made {noise}. It is now made again, in the same
     way. How large is its miss?"""
     return int(noise == "without any noise")
