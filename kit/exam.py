@@ -5,20 +5,26 @@ public bank, or in the exams of the seeds that follow `--unlike`.
 """
 
 import argparse
+import re
 import sys
 from base64 import b64encode
 from contextlib import suppress
 from pathlib import Path
 
-from book.figures.plans import NAMES
+import nbformat
+
+from book.figures.plans import BOOK, NAMES
 from kit.bank import templates
+from kit.chapter_slides import TAG
 from kit.gift import gift
 from kit.moodle import moodle_xml
 from kit.page import markdown_page, write_assets
 from kit.qti import package
+from kit.session import equations_named
 from tools import browser
 
 FOLDER = Path("_build/exam")
+SET = re.compile(r"(?:\$\$|\\begin{equation\*})(.+?)(?:\$\$|\\end{equation\*})", re.S)
 FIELD = "\n\n&nbsp;\n\nAnswer: ________________"
 
 
@@ -52,7 +58,10 @@ def new_variants(template, seed, count, unlike=()):
 
 
 def sheet(questions, key=False):
-    """An exam on paper as Markdown: one variant of each question; the `key` has the answers."""
+    """An exam on paper as Markdown: one variant of each question; the `key` has the answers.
+
+    What a question names as "Eq. 5" stands at the end.
+    """
     parts = [f"# {'Key of the exam' if key else 'Exam'}\n\n{len(questions)} questions."]
     for number, ((chapter, _), [question, *_]) in enumerate(questions.items(), start=1):
         text = f"**{number}.** {_plain(question.prompt)} *(chapter {int(chapter[:2])})*"
@@ -63,7 +72,20 @@ def sheet(questions, key=False):
         parts.append(f"{text}\n\n{choices}" if choices else text + ("" if key else FIELD))
         if key:
             parts.append(f"**{_answer(question)}.** {_plain(question.hint)}")
+    if equations := _equations("\n".join(parts)):
+        parts += ["## The equations", *equations]
     return "\n\n".join(parts) + "\n"
+
+
+def _equations(text):
+    """The equations that a text names, as the chapters write them: Markdown, in order."""
+    found = {}
+    for name in NAMES:
+        for cell in nbformat.read(BOOK / f"{name}.ipynb", as_version=4).cells:
+            found |= {
+                int(TAG.search(tex)[1]): tex for tex in SET.findall(cell.source) if "\\tag" in tex
+            }
+    return [f"$$\n{found[n].strip()}\n$$" for n in sorted(equations_named(text) & found.keys())]
 
 
 def _answer(question):

@@ -51,6 +51,12 @@ def deck(title, chapters, read, runs, plan):
     return parts
 
 
+def equations_named(text):
+    """The numbers of the equations that a text names, as "Eq. 5" or "Eq. 6–7"."""
+    ranges = EQUATIONS.findall(text)
+    return {n for low, high in ranges for n in range(int(low), int(high or low) + 1)}
+
+
 def clock(parts):
     """A list, HTML, of when each part of a deck begins, and of how long students act."""
     lines, number, seconds = [], 1, 0
@@ -105,8 +111,7 @@ def _in_class(item, chapters):
 
 def _on_the_board(item, chapters):
     """The equations that it names, then its question, with them and the answer step by step."""
-    ranges = EQUATIONS.findall(item.get_text())
-    numbers = {n for low, high in ranges for n in range(int(low), int(high or low) + 1)}
+    numbers = equations_named(item.get_text())
     slide, steps = _lesson(item)
     equations = [one for chapter in chapters.values() for one in chapter.equations(numbers)]
     lines = [copy(part) for one in equations for part in one.body[2:]]
@@ -123,7 +128,9 @@ def _cell(item, chapters):
     cells = [cell for chapter in chapters.values() for cell in chapter.cells]
     for cell in [cell for cell in cells if line and line in cell.get_text()][:1]:
         lines = [
-            f"<mark>{html}</mark>" if line in BeautifulSoup(html, "html.parser").get_text() else html
+            f"<mark>{html}</mark>"
+            if line in BeautifulSoup(html, "html.parser").get_text()
+            else html
             for html in cell.pre.decode_contents().split("\n")
         ]
         code = "\n".join(lines)

@@ -1,11 +1,14 @@
 """A private exam: other numbers than the public bank's and than another seed's."""
 
+import ast
 import re
+from inspect import getsource
 
 import pytest
 
+from book.figures.plans import NAMES
 from kit import exam
-from kit.bank import bank
+from kit.bank import bank, templates
 
 
 def contents(questions):
@@ -24,6 +27,45 @@ def test_two_seeds_ask_the_same_of_other_numbers():
         | contents(first) & public
         | contents(second) & public
     )
+
+
+def given(question):
+    """How many numbers a question gives, and how many choices."""
+    return len(re.findall(r"\d+(?:\.\d+)?", question.prompt)), len(question.choices)
+
+
+def operations(template):
+    """How many operations a template's formula writes out; a call counts as one."""
+    [formula] = ast.parse(getsource(template.formula)).body
+    parts = [part for line in formula.body for part in ast.walk(line)]
+    return sum(isinstance(part, ast.BinOp | ast.Compare | ast.Call) for part in parts)
+
+
+def test_two_exams_of_the_whole_bank_share_no_item_and_are_equally_hard():
+    first, second = exam.exam("a", 1), exam.exam("b", 1, unlike=["a"])
+    steps = {(name, one.name): operations(one) for name in NAMES for one in templates(name)}
+    totals = [sum(steps[key] for key in drawn) for drawn in (first, second)]
+    assert totals[1] == pytest.approx(totals[0], rel=0.02)  # two have no other numbers left
+    assert second.keys() <= first.keys()
+    for key, [other] in second.items():
+        [one] = first[key]
+        assert one.content != other.content
+        assert given(one) == given(other)
+
+
+def test_more_than_a_third_of_the_bank_asks_several_steps():
+    counts = [operations(template) for name in NAMES for template in templates(name)]
+    assert sum(count >= 3 for count in counts) > len(counts) / 3
+
+
+def test_an_exam_on_paper_ends_with_the_equations_that_it_names():
+    questions = exam.exam("a", 1, ["07", "09"])
+    text = exam.sheet(questions)
+    asked, equations = text.split("## The equations")
+    named = {int(number) for number in re.findall(r"Eq\. (\d+)", asked)}
+    assert {int(tag) for tag in re.findall(r"tag\{(\d+)\}", equations)} == named
+    assert {5, 9, 10, 11} <= named
+    assert "##" not in exam.sheet(exam.exam("a", 1, ["03"]))
 
 
 @pytest.mark.parametrize(

@@ -12,8 +12,8 @@ PHOTOS = (40, 80, 120)
 
 @numeric(hint="Probabilities multiply.", tolerance=0.003)
 def chain_of_links(right=steps(0.8, 0.98, 0.02), links=steps(2, 6, 1)):
-    """A chain has {links} links, each right with probability {right}, whatever became of the others.
-    With what probability does the whole chain work?"""
+    """A chain has {links} links, each right with probability {right}, whatever became of the
+    others. With what probability does the whole chain work?"""
     return right**links
 
 
