@@ -1,6 +1,7 @@
 """Demos that travel: each demo of a chapter as one HTML file, and as a SCORM package.
 
-A file holds the figure as its page has it, and of the modules in `page` those that it needs.
+A file holds the figure as its page has it, below the prediction that it answers, and of the modules
+in `page` those that it needs.
 """
 
 import re
@@ -20,6 +21,7 @@ ROOT = Path(__file__).parents[1]
 CONFIG = yaml.safe_load((ROOT / "_config.yml").read_bytes())
 STYLES = ("demo.css", "scene.css", "live.css")
 FIGURE = re.compile(r'<figure class="vmc-demo".*?</figure>', re.S)
+QUESTION = re.compile(r'<div class="admonition tip">(?:(?!</?div).)*?vmc-predict.*?</div>', re.S)
 HEADING = re.compile(r'<h[1-3]>(.*?)<a class="headerlink"')
 STARTS = {  # what stands in a figure, and the module that moves it
     'class="vmc-segmentation"': "demos/page.js",
@@ -73,14 +75,19 @@ def build(folder, pages):
 
 
 def read(page):
-    """A built page's title, and its demos that move, {name: (heading, figure)}."""
+    """A built page's title, and its demos that move, {name: (heading, question and figure)}."""
     headings = [(found.start(), _words(found[1])) for found in HEADING.finditer(page)]
-    demos = {}
+    demos, before = {}, 0
     for found in FIGURE.finditer(page):
         number = re.search(r"Figure ([\d.]+)</span>", found[0])
         if number and any(mark in found[0] for mark in STARTS):
-            heading = [words for start, words in headings if start < found.start()][-1]
-            demos[f"figure-{number[1].replace('.', '-')}"] = heading, found[0]
+            begin, heading = [one for one in headings if one[0] < found.start()][-1]
+            asked = QUESTION.findall(page, max(begin, before), found.start())
+            if begin == headings[0][0]:  # the demo that opens a chapter has its question below
+                asked += QUESTION.findall(page, found.end(), headings[1][0])[:1]
+            name = f"figure-{number[1].replace('.', '-')}"
+            demos[name] = heading, "".join(asked[-1:]) + found[0]
+        before = found.end()
     return headings[0][1], demos
 
 

@@ -1,4 +1,6 @@
-/* Tells a platform by SCORM 1.2 when the demo was moved: then it is completed. Without a platform it is silent. */
+/* Tells a platform by SCORM 1.2 what its student has done: predicted, and then moved the demo. Half of the score is
+   for each, whatever the prediction was; both together complete it, or the move where nothing is asked. Without a
+   platform it is silent. */
 (() => {
   "use strict";
 
@@ -10,14 +12,25 @@
     return; // a page of another host, which may not be looked into
   }
   if (`${api?.LMSInitialize("")}` !== "true") return;
+  addEventListener("pagehide", () => api.LMSFinish(""), { once: true });
+  if (api.LMSGetValue("cmi.core.lesson_status") === "completed") return; // and stays so
 
-  const tell = (status) => {
-    if (api.LMSGetValue("cmi.core.lesson_status") === "completed") return; // and stays so
-    api.LMSSetValue("cmi.core.lesson_status", status);
+  const tell = (status, score) => {
+    const values = { lesson_status: status, "score.min": 0, "score.max": 100, "score.raw": score };
+    for (const [name, value] of Object.entries(values)) api.LMSSetValue(`cmi.core.${name}`, `${value}`);
     api.LMSCommit("");
   };
-  tell("incomplete");
-  addEventListener("input", () => tell("completed"), { once: true });
-  addEventListener("click", ({ target }) => target.closest("form button") && tell("completed"));
-  addEventListener("pagehide", () => api.LMSFinish(""), { once: true });
+  const question = document.querySelector(".vmc-predict");
+  let predicted = !question, looked = false;
+  const predict = () => {
+    if (!predicted) tell("incomplete", 50);
+    predicted = true;
+  };
+  const look = () => {
+    if (predicted && !looked) tell("completed", 100);
+    looked = predicted;
+  };
+  tell("incomplete", 0);
+  addEventListener("input", ({ target }) => (question?.contains(target) ? predict() : look()));
+  addEventListener("click", ({ target }) => target.closest(".vmc-demo form button") && look());
 })();

@@ -35,11 +35,12 @@ def files(folder):
 
 @pytest.fixture(scope="session")
 def slider(files):
-    """A file with a slider whose states are stored."""
+    """A file with a slider whose states are stored, and a prediction."""
+    marks = 'type="range"[^>]*data-stride', 'class="vmc-predict"'
     return next(
         path
         for path in files
-        if re.search('type="range"[^>]*data-stride', path.read_text(encoding="utf-8"))
+        if all(re.search(mark, path.read_text(encoding="utf-8")) for mark in marks)
     )
 
 
@@ -54,6 +55,8 @@ def test_every_demo_that_moves_is_a_light_file_with_its_source(folder):
     files = sorted(folder.glob("figure-*.html"))
     assert len(files) == len(figures) > 50
     sizes = [path.stat().st_size for path in files]
+    asked = [path for path in files if "vmc-predict" in path.read_text(encoding="utf-8")]
+    assert len(asked) > 0.7 * len(files)
     assert median(sizes) <= 0.5e6
     assert max(sizes) <= 5e6
     index = (folder / "index.html").read_text(encoding="utf-8")
@@ -174,7 +177,7 @@ var API = {
 </script><iframe src="/index.html" width="900" height="700"></iframe>"""
 
 
-def test_a_platform_hears_of_the_beginning_of_a_move_and_of_the_end(slider, window):
+def test_a_platform_hears_of_a_prediction_then_of_a_move_and_of_the_end(slider, window):
     index = unzip(slider.with_suffix(".zip").read_bytes())["index.html"]
     reader = window()
     reader.route("http://lms/**", lambda route: route.fulfill(body=index, content_type="text/html"))
@@ -184,12 +187,23 @@ def test_a_platform_hears_of_the_beginning_of_a_move_and_of_the_end(slider, wind
     page = open_url(reader, "http://lms/")
     demo = page.frame_locator("iframe").locator("[data-ready]")
     demo.wait_for()
-    status = "cmi.core.lesson_status"
-    begun = [["Initialize", ""], ["SetValue", status, "incomplete"], ["Commit", ""]]
-    assert page.evaluate("calls") == begun
-    for end in ("Home", "End"):  # wherever it starts, one of them moves it
-        demo.locator("input[type=range]").first.press(end)
-    moved = [*begun, ["SetValue", status, "completed"], ["Commit", ""]]
+
+    def told(state, score):
+        values = {"lesson_status": state, "score.min": "0", "score.max": "100", "score.raw": score}
+        sent = [["SetValue", f"cmi.core.{name}", value] for name, value in values.items()]
+        return [*sent, ["Commit", ""]]
+
+    def move():
+        for end in ("Home", "End"):  # wherever it starts, one of them moves it
+            demo.locator("input[type=range]").first.press(end)
+
+    begun = [["Initialize", ""], *told("incomplete", "0")]
+    move()
+    assert page.evaluate("calls") == begun  # who has not predicted has not looked
+    page.frame_locator("iframe").locator(".vmc-predict input").last.check()
+    assert page.evaluate("calls") == [*begun, *told("incomplete", "50")]
+    move()
+    moved = [*begun, *told("incomplete", "50"), *told("completed", "100")]
     assert page.evaluate("calls") == moved
     page.evaluate("document.querySelector('iframe').remove()")
     assert page.evaluate("calls") == [*moved, ["Finish", ""]]
