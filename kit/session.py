@@ -114,8 +114,12 @@ def _on_the_board(item, chapters):
     numbers = equations_named(item.get_text())
     slide, steps = _lesson(item)
     equations = [one for chapter in chapters.values() for one in chapter.equations(numbers)]
-    lines = [copy(part) for one in equations for part in one.body[2:]]
-    slide.body += [*lines, *(f'<p class="fragment">{step}</p>' for step in steps)]
+    lines = [part for one in equations for part in one.body[2:]]
+    text = "".join(f'<p class="fragment">{step}</p>' for step in steps)
+    maths = "".join(map(str, lines))
+    slide.body.append(
+        f'<div class="board"><div>{maths}</div><div>{text}</div></div>' if maths else text
+    )
     slide.seconds -= sum(one.seconds for one in equations)
     return [*equations, slide]
 

@@ -2,6 +2,7 @@
 
 import re
 
+import numpy as np
 import pytest
 from bs4 import BeautifulSoup
 
@@ -249,6 +250,44 @@ def assert_first_demo_moves(page):
     assert pictures.is_visible()
     assert pictures.inner_html() != first
     assert page.evaluate("() => Reveal.getCurrentSlide().querySelector('.vmc-demo') !== null")
+
+
+# Where each handle of a deck stands on its picture, as a share of it: as the slide fits, and larger
+HANDLES = """async () => {
+  const frames = async () => {
+    for (let k = 0; k < 5; k++) await new Promise(requestAnimationFrame);
+  };
+  const middle = ({ left, top, width, height }) => [left + width / 2, top + height / 2];
+  const places = [];
+  for (const handle of document.querySelectorAll(".fit .vmc-handle")) {
+    Reveal.slide(Reveal.getIndices(handle.closest(".slides > section")).h);
+    const pictures = handle.closest(".vmc-pictures"), { style } = handle.closest(".fit");
+    const plot = pictures.querySelectorAll("svg[data-axes]")[handle.dataset.picture];
+    const place = () => {
+      const { left, top, width, height } = plot.getBoundingClientRect();
+      const [x, y] = middle(handle.getBoundingClientRect());
+      return [(x - left) / width, (y - top) / height];
+    };
+    await frames();
+    const fitted = place();
+    style.zoom = 1.3;
+    await frames();
+    places.push([...fitted, ...place()]);
+    Reveal.slide(0);
+  }
+  return places;
+}"""
+
+
+@pytest.mark.browser
+def test_a_handle_stands_on_its_mark_however_small_its_slide_is_drawn(decks):
+    places = []
+    for deck in decks:
+        deck.bring_to_front()
+        places += deck.evaluate(HANDLES)
+    assert len(places) >= 5
+    x, y, larger_x, larger_y = np.transpose(places)
+    assert max(np.abs(x - larger_x).max(), np.abs(y - larger_y).max()) < 0.02
 
 
 CLICKED = {  # what a speaker clicks, and whether it needs the arrows and the space bar itself

@@ -26,7 +26,8 @@ export const addHandle = (pictures, moved, number, dropped) => {
     const [right, down] = axesOf(plot()).drawn(place);
     const [x, y] = [box.left - frame.left + right * box.width, box.top - frame.top + down * box.height];
     handle.hidden = x < 0 || x > frame.width; // where a phone has scrolled it out of sight
-    handle.style.transform = `translate(${x}px, ${y}px)`;
+    const zoom = frame.width / pictures.offsetWidth || 1; // a slide is drawn smaller until it fits
+    handle.style.transform = `translate(${x / zoom}px, ${y / zoom}px)`;
   };
 
   const go = ({ clientX, clientY }, [x, y] = [0, 0]) =>
