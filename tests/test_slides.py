@@ -156,6 +156,14 @@ def test_a_session_takes_ninety_minutes_of_which_students_act_in_half(session):
     assert f"Students do something in {sum(active):.0f} minutes of 90." in clock
 
 
+LINES = {  # that are changed, where a cell has them
+    1: ["(name, k): segment(photos.as_float(image), k)"],
+    2: ["x = p2.mean(1)  # Eq. 2: is there anything, and where?"],
+    4: ["return (1 / d) / (1 / d).sum(axis=-1, keepdims=True)"],
+    5: ["penalty = ridge * np.eye(active.shape[1])"],
+}
+
+
 def test_each_part_of_a_session_has_its_slide_and_a_pair_its_five_minutes(session):
     """Hands, board, break and cell; two questions of a quiz, three predictions or more."""
     number, slides, minutes = session
@@ -163,7 +171,11 @@ def test_each_part_of_a_session_has_its_slide_and_a_pair_its_five_minutes(sessio
     names = [head.get_text() if head else "" for head in heads]
     own = [names.index(name) for name in ("In class", "On the board", "Break", "Change a line")]
     assert own == sorted(own)
-    assert slides[own[1]].select(".fragment")
+    hands, board, _, cell = (slides[k] for k in own)
+    assert len(board.select(".fragment")) >= 3
+    assert bool(board.select(".board div.math")) == (number in {3, 4})
+    assert [line.get_text().strip() for line in cell.select("mark")] == LINES.get(number, [])
+    assert len(hands.select("a")) == (number == 5)  # to the page for throws
     assert len([slide for slide in slides if slide.select(".fit .vmc-quiz")]) == 2
     demos = [k for k in range(own[1]) if slides[k].select(".fit .vmc-demo") and minutes[k] < 5]
     asked = [k for k in demos if slides[k - 1].select(".fit .vmc-predict")]
