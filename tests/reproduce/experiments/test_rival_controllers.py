@@ -41,6 +41,13 @@ def test_better_informed_controllers_miss_less():
         assert all(mean[worse] > mean[better] for worse, better in pairwise(order))
 
 
+def test_no_controller_spends_less_than_the_least_effort():
+    """Not even LQG, whose commands are not held to splines, and may change in the hold."""
+    measures = rivals.load_results()["measures"]
+    for who in rivals.MUST_KNOW:
+        assert measures[f"{who}, {rivals.EFFORT}"].min() > 0.97
+
+
 def test_late_feedback_without_gain_and_delay_meets_the_same_noise_as_habit():
     """A plan alone, by both ways to move the arm: the noise is drawn alike."""
     plans = rivals.repeated(plan(rivals.TARGETS[9:10], load()), 3)
