@@ -36,6 +36,7 @@ from vmc_lib.motor.planning import draw_targets, exact_weights, is_surrounded, p
 from vmc_lib.motor.templates import START, load, reach
 
 JUMP, JUMPS_AT = 0.05, 0.15  # m and s: how far a target jumps, and when
+PERSON = 0.4  # noise with which the end of a repeated reach scatters by 2 mm, as a person's does
 FIELD, BLOCKS = 15.0, (2, 10, 6)  # N for each m/s; blocks of reaches before, in and after the field
 FARTHEST = 0.085  # m: of eight equal reaches from `START` that end above the table
 
@@ -53,10 +54,10 @@ def exact_plans(targets, template_set):
     return plan(targets, template_set, exact_weights)
 
 
-def fit_forward_model(template_set, rng, count=20):
+def fit_forward_model(template_set, rng, count=20, noise=NOISE):
     """A `ForwardModel` that has felt so many reaches with motor noise, without sight."""
     some = exact_plans(draw_targets(template_set, count, rng), template_set)
-    return ForwardModel().update(reach(noisy(some.excitations, NOISE, rng)))
+    return ForwardModel().update(reach(noisy(some.excitations, noise, rng)))
 
 
 def draw_target_jumps(template_set, count, rng, by=JUMP):
@@ -173,7 +174,7 @@ def centre_out(template_set, turned=0.0):
     return reference_trajectory(exact_plans(ends, template_set), 1.0)
 
 
-def curl_field_deviations(learner, template_set, model, rng, blocks=BLOCKS):
+def curl_field_deviations(learner, template_set, model, rng, blocks=BLOCKS, noise=NOISE):
     """How far a curl field bends `centre_out` reaches as they are learned: (blocks, 8), in m.
 
     The same reaches come in every block; `blocks` counts those before, in and after the field.
@@ -185,28 +186,29 @@ def curl_field_deviations(learner, template_set, model, rng, blocks=BLOCKS):
     for block in range(sum(blocks)):
         on = before <= block < before + during
         if block in (before, before + during):
-            held_out.append(reach_in_field(learner, others, curl(FIELD), model, rng)[0])
+            held_out.append(reach_in_field(learner, others, curl(FIELD), model, rng, noise)[0])
         field = curl(FIELD) if on else None
-        bend, motion = reach_in_field(learner, practised, field, model, rng)
+        bend, motion = reach_in_field(learner, practised, field, model, rng, noise)
         learner.update(practised, motion)
         bends.append(bend)
     return np.array(bends), np.array(held_out)
 
 
-def reach_in_field(learner, reference, disturbance, model, rng):
+def reach_in_field(learner, reference, disturbance, model, rng, noise=NOISE):
     """Noisy reaches with what was learned: their deviation (B,) in m, and their `Motion`."""
-    motion = simulate_feedback(learner.correct(reference), SIGHT, model, disturbance, NOISE, rng)
+    motion = simulate_feedback(learner.correct(reference), SIGHT, model, disturbance, noise, rng)
     return path_deviation(motion.hand[..., :2], hand(reference.q)[..., :2]), motion
 
 
-def curl_field_errors(seed, **size):
+def curl_field_errors(seed, noise=NOISE, **size):
     """For one seed, the mean deviation in mm of each block, to the left, and its mean size.
 
-    And the mean size for ways never practised, before and after; `size` as for
-    `curl_field_deviations`.
+    And the mean size for ways never practised, before and after. Commands waver by `noise`;
+    `size` as for `curl_field_deviations`.
     """
     rng, template_set = np.random.default_rng(seed), load()
-    model, learner = fit_forward_model(template_set, rng), FeedbackErrorLearning(template_set)
+    model = fit_forward_model(template_set, rng, noise=noise)
+    learner, size = FeedbackErrorLearning(template_set), {"noise": noise, **size}
     bends, held_out = curl_field_deviations(learner, template_set, model, rng, **size)
     return {
         "to the left": 1000 * bends.mean(axis=1),
@@ -215,7 +217,13 @@ def curl_field_errors(seed, **size):
     }
 
 
-EXPERIMENTS = {"gains": gain_sweep, "reaches": reach_measures, "field": curl_field_errors}
+LIKE_A_PERSON = "field, a person's noise"
+EXPERIMENTS = {
+    "gains": gain_sweep,
+    "reaches": reach_measures,
+    "field": curl_field_errors,
+    LIKE_A_PERSON: partial(curl_field_errors, noise=PERSON),
+}
 
 
 def make(experiments=EXPERIMENTS, seeds=SEEDS):
