@@ -13,6 +13,8 @@ from vmc_lib.show.arm import arm_scene
 from vmc_lib.show.arm_plane import plane
 from vmc_lib.show.figures import margins
 from vmc_lib.show.palette import COLOURS
+from vmc_lib.show.svg_renderer import text_width
+from vmc_lib.statistics import student
 
 TRIED = ((-0.05, 0.3), (-0.53, -0.25))  # the plane round the obstacles, m
 
@@ -145,3 +147,55 @@ def race(target, rivals, reaches):
     right.minorticks_off()
     right.legend()
     return fig
+
+
+def settings(found, argument=None):
+    """Of what `sensitivity` found, each other setting; those alone that change an `argument`."""
+    from reproduce.experiments import sensitivity  # not in the page
+
+    return {
+        name: found[name]
+        for choice, others in sensitivity.CHOICES.items()
+        for other, given in others.items()
+        if argument in (None, *given)
+        for name in [sensitivity.name_of(choice, other)]
+    }
+
+
+def tornado(rule):
+    """How a rule's miss changes with each of our choices: mm, 95 % of the difference, in pairs.
+
+    A bar for each other setting, from the miss as it is; the choices with most effect come first.
+    """
+    from reproduce.experiments import sensitivity  # not in the page
+
+    found = sensitivity.load_results()
+    usual = found[sensitivity.AS_IT_IS][rule]
+    shifts = {
+        choice: {
+            f"{choice} → {other}": student(found[sensitivity.name_of(choice, other)][rule] - usual)
+            for other in others
+        }
+        for choice, others in sensitivity.CHOICES.items()
+    }
+    order = sorted(shifts, key=lambda choice: -max(abs(x) for x, _ in shifts[choice].values()))
+    rows = {name: shift for choice in order for name, shift in shifts[choice].items()}
+    shift, half = np.transpose([*rows.values()])
+    fig, ax = plt.subplots(figsize=(7.2, 0.8 + 0.22 * len(rows)), layout="none")
+    ax.barh(range(len(rows)), shift, left=usual.mean(), alpha=0.4, gid="shift")
+    middle = usual.mean() + shift
+    ax.errorbar(middle, range(len(rows)), xerr=half, fmt="o", ms=4, elinewidth=1.4, zorder=3)
+    ax.axvline(usual.mean(), color=COLOURS["ink"], lw=1)
+    ax.set_yticks(range(len(rows)), rows)
+    ax.set(xlabel=f"miss, {rule} (mm)", ylim=(len(rows) - 0.5, -0.5))
+    margins(fig, left=0.3 + max(map(text_width, rows)), top=0.12)
+    return fig
+
+
+def tornado_in_words(rule):
+    """The same in words: the miss as it is, and with every other setting."""
+    from reproduce.experiments import sensitivity  # not in the page
+
+    found = sensitivity.load_results()
+    each = "; ".join(f"{x[rule].mean():.1f} mm ({name})" for name, x in settings(found).items())
+    return f"The miss, {rule}: {found[sensitivity.AS_IT_IS][rule].mean():.1f} mm as it is; {each}."

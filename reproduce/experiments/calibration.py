@@ -100,15 +100,16 @@ ABLATION = {  # from Algorithm 2 to our rule, one thing more at each: a learner,
 
 
 def error_ratios(
-    seed, scenario=SCENARIOS[0], hold=HOLD, movements=25, held_out=200, experiments=10
+    seed, scenario=SCENARIOS[0], hold=HOLD, movements=25, held_out=200, experiments=10, past=None
 ):
     """Tables IV to VI and the own rules for one seed and scenario: ratios of errors, by name.
 
     "online" is Algorithm 2 as printed. The other reading of it, and `ABLATION` from it to our rule,
     practise the same movements and are tested on the same others. Movements end with a `hold` of so
-    many seconds; without one only what the paper has is measured.
+    many seconds; without one only what the paper has is measured. `past` are other templates than
+    those that ship, of an arm with such a hold.
     """
-    rng, template_set = np.random.default_rng(seed), load(hold=hold)
+    rng, template_set = np.random.default_rng(seed), past or load(hold=hold)
     if scenario != SCENARIOS[0]:
         template_set = nearest_templates(template_set, draw_targets(template_set, 1, rng)[0])
     size, same = (movements, held_out, experiments), partial(deepcopy, rng)

@@ -93,7 +93,7 @@ ROWS = (
         "{q[joint angle (°), Thelen's law in both, stiff tendons].obtained:.1f}°. But OpenSim's "
         "own muscle is Thelen's, and Eq. 10–11 as printed are another: a joint is up to "
         "{q[joint angle (°), Eq. 10–11 less OpenSim's muscle].obtained:.0f}° apart. The paper does "
-        "not say which of the two it ran.",
+        "not say which of the two it ran: Tables IV to VI stand here with both.",
         note="As equal we count a hundredth of a muscle's length and 1°. Four recorded commands, "
         "0.6 s each, and the postures between −70° and 30° of the shoulder.",
     ),

@@ -10,7 +10,7 @@ from operator import truediv
 import numpy as np
 
 from reproduce import paper
-from reproduce.experiments import nulls
+from reproduce.experiments import nulls, sensitivity
 from reproduce.experiments.calibration import SCENARIOS, load_results, ratio_name
 from reproduce.ledger.calibration import (
     EXAMPLES,
@@ -23,6 +23,7 @@ from reproduce.ledger.calibration import (
     own_rules,
     own_with_noise,
     printed_results,
+    thelen_results,
 )
 from reproduce.ledger.entry import ABOVE, HELD, Row, mean, mean_of_draws, share
 
@@ -50,6 +51,7 @@ def _table_6():
         _learned(name.format(SCENARIOS[1]), None, fixed),
         _learned(name.format("the other reading"), None, found, "online, the other reading"),
         *(_learned(name.format(f"{s}, {HELD}"), None, load_results()[s]) for s in SCENARIOS),
+        _learned(name.format(sensitivity.ON_THELEN), None, thelen_results()),
         share("practised: draws that leave as much as the paper's", None, *as_much),
     ]
 
@@ -156,7 +158,10 @@ ROWS = (
         "Algorithm 2 is taken as printed: w' is learned for "
         "the place p_a' that it reached. Learned for the target instead (the other reading), it "
         "leaves {q[error after over planned, the other reading]"
-        ".obtained:.2f}.",
+        ".obtained:.2f}. With OpenSim's own muscle, Thelen's, "
+        f"{{q[error after over planned, {sensitivity.ON_THELEN}].in_sample:.2f}} is left of those "
+        f"practised, and {{q[error after over planned, {sensitivity.ON_THELEN}].obtained:.2f}} of "
+        "others.",
     ),
     Row(
         "Fig. 11",

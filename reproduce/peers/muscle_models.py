@@ -14,7 +14,8 @@ from vmc_lib.arm.muscle import PAPER, Muscle
 def lag(wanted, activation):
     """Both muscles' lag in s: the more active, the slower to rise and the faster to fall."""
     pace, rises = 0.5 + 1.5 * activation, wanted > activation
-    return np.where(rises, muscle.TAU_ACTIVATION * pace, muscle.TAU_DEACTIVATION / pace)
+    up, down = muscle.TAU_ACTIVATION * pace, muscle.TAU_DEACTIVATION / pace
+    return down + rises * (up - down)
 
 
 def activation_rate(excitation, activation):
@@ -29,7 +30,8 @@ def thelen_force(activation, length, velocity, maximum):
     """
     fastest = 2.5 + 7.5 * activation  # fibre lengths a second
     rate = velocity * muscle.MAX_VELOCITY / fastest
-    shrinking, growing = np.clip(rate, -1, 0), np.maximum(rate, 0) * (2 + 2 / 0.3) / 0.8
+    shrinking = np.minimum(np.maximum(rate, -1), 0)
+    growing = np.maximum(rate, 0) * (2 + 2 / 0.3) / 0.8
     speed = (1 + shrinking) / (1 - shrinking / 0.3) + 0.8 * growing / (1 + growing)
     passive = np.expm1(4 * np.maximum(length - 1, 0) / 0.6) / np.expm1(4)
     return maximum * (np.exp(-((length - 1) ** 2) / 0.5) * speed * activation + passive)

@@ -38,6 +38,7 @@ from reproduce.experiments import (
     region_clusters,
     rival_controllers,
     second_layers,
+    sensitivity,
     stream_ablation,
 )
 from reproduce.peers import minimum_variance, optimal_control
@@ -165,6 +166,7 @@ STEPS = (
         3,
     ),
     Step(learning_under_noise.make, RESULTS / "unsteady.json", f"templates {ARM}", 3),
+    Step(sensitivity.make, RESULTS / "sensitivity.json", f"templates {ARM}", 8),
     Step(muscle_weakness.make, RESULTS / "weakened.npz", f"templates {ARM}", 1),
     Step(rival_controllers.make, RESULTS / "rivals.json", f"templates optimal {ARM}", 6),
     Step(loop_evaluation.make, RESULTS / "lesions.json", SHIPPED, 6),
@@ -209,7 +211,8 @@ STEPS = (
         RESULTS / "ledger.json",
         "localisation recognition fresh_names fresh_test_set variations hmax_draws second_layers "
         "other_filters random_filters region_clusters "
-        "class_independence movements nulls unsteady optimal reproduce/results/opensim.npz "
+        "class_independence movements nulls unsteady sensitivity optimal "
+        "reproduce/results/opensim.npz "
         f"reproduce/results/bench {SHIPPED}",
         8,
     ),
