@@ -158,7 +158,7 @@ STEPS = (
     Step(calibration.make, RESULTS / "movements.json", f"templates {ARM}", 10),
     Step(nulls.make, RESULTS / "nulls.json", f"templates {ARM}", 5),
     Step(controller_comparison.make, RESULTS / "cerebella.json", f"templates {ARM}", 5),
-    Step(feedback_control.make, RESULTS / "feedback.json", f"templates {ARM}", 2),
+    Step(feedback_control.make, RESULTS / "feedback.json", f"templates {ARM}", 8),
     Step(
         forgetting_adaptation.make,
         RESULTS / "forgetting.npz",
