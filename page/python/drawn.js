@@ -10,7 +10,8 @@ const ATTRIBUTES = set("alt class clip-path clip-rule colspan cx cy d dx dy fill
   "aria-hidden aria-label data-axes data-course data-curve");
 const CLASSES = set("vmc-forest vmc-image vmc-key vmc-panels vmc-strip"); // the theme has some that cover the page
 const STYLES = /^(--|fill|stroke|stop|opacity|font|text-anchor|image-rendering|vector-effect)/;
-const IDS = /^(?=.*[\d-])[\w-]+$/; // with a digit or a hyphen, and no dot: no name of a script's, or a file's
+// With a digit or a hyphen, and no dot, or Matplotlib's, which may lack both: no name of a script's, or a file's
+const IDS = /^(?=.*[\d-])[\w-]+$|^p[\da-f]{10}$/;
 const PLACES = /^#[\w-]+$|^\s*data:image\/(png|jpeg|webp);base64,[\w+/=\s]*$/; // in the page, or a photo of its own
 
 const holds = (name, value) => {

@@ -20,6 +20,7 @@ DRAWN = [  # what is drawn, and what of it becomes part of the page
     ('<p style="position: fixed; fill: red">x</p>', '<p style="fill: red;">x</p>'),
     ('<p style="fill: url(//evil)">x</p><p fill="u\\rl(x)">y</p>', "<p>x</p><p>y</p>"),
     ('<p id="mujoco.js">a</p><p id="vmcPythonFiles">b</p>', "<p>a</p><p>b</p>"),
+    ('<svg><g id="pbeabfdadcc"></g></svg>', '<svg><g id="pbeabfdadcc"></g></svg>'),
     ('<div class="vmc-scene" data-law="x"></div>', "<div></div>"),
     ('<p class="fixed-top w-100 h-100">x</p>', "<p>x</p>"),
     ("<p style=\"--x: image-set('/x' 1x)\">x</p>", "<p>x</p>"),
