@@ -17,7 +17,7 @@ from PIL import Image, ImageOps, UnidentifiedImageError
 from vmc_lib import data
 from vmc_lib.boxes import as_boxes
 from vmc_lib.camera import Camera
-from vmc_lib.checks import check_kind, is_within
+from vmc_lib.checks import is_within
 from vmc_lib.colour_profile import to_srgb
 from vmc_lib.compiled import compiled
 from vmc_lib.short_repr import short
@@ -138,7 +138,8 @@ def _read_sidecar(sidecar):
 
 def boxes_of(photo: Photo, name: str) -> np.ndarray:
     """The boxes (n, 4) of every thing of that name; ValueError where `more` may be another's."""
-    check_kind("photo", photo, Photo, 'one of load("rig", "train")')
+    if not hasattr(photo, "boxes"):
+        raise ValueError(f'photo {short(photo)} is no Photo: give one of load("rig", "train")')
     if len(photo.more) and len(photo.boxes) > 1:
         raise ValueError(f"{photo.name}: which of {', '.join(photo.boxes)} are the further things?")
     return as_boxes([photo.boxes[name], *photo.more] if name in photo.boxes else [])

@@ -186,11 +186,11 @@ def make(choices=CHOICES, spacing=templates.SPACING, seeds=MANY, count=20, **siz
         for choice, others in choices.items()
         for other, given in others.items()
     }
-    parallel, size = Parallel(), {"experiments": 1, **size}
-    found = parallel(delayed(misses)(**given, count=count) for given in settings.values())
+    # first, and here: a process that has held another arm gave other numbers on Thelen's muscle
+    past, size = thelen_templates(spacing), {"experiments": 1, **size}
+    draws = [thelen_tables(past, seed, **size) for seed in seeds]
+    found = Parallel()(delayed(misses)(**given, count=count) for given in settings.values())
     parts = dict(zip(settings, found, strict=True))
-    past = thelen_templates(spacing)
-    draws = parallel(delayed(thelen_tables)(past, seed, **size) for seed in seeds)
     parts[PRINTED] = {k: [draw[k] for draw in draws] for k in draws[0]}
     return {
         part: {k: np.round(values, 4).tolist() for k, values in rows.items()}

@@ -41,6 +41,7 @@ RESTS_ON = {  # a step, or what was recorded elsewhere -> the rows that read it
         "IV D, online",
         "Ours, Eq. 5",
     ),
+    "sensitivity": ("Table IV", "Table V", "Table VI"),
     "unsteady": ("Ours, Table V", "Ours, Table VI"),
     "opensim": ("III, Block 4",),
     "bench/loop": ("II A, speed",),

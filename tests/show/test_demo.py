@@ -48,7 +48,7 @@ def test_book_page_is_the_same_in_every_build(shown, book, monkeypatch):
         return fig
 
     for _ in range(2):
-        monkeypatch.setattr(demo, "_demos", iter([1]))
+        monkeypatch.setattr(demo, "names", iter([1]))
         show(draw, k=Slider([1, 2], "k"))
     assert shown[0].data == shown[1].data
 

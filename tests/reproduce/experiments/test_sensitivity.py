@@ -70,3 +70,11 @@ def test_shipped_misses_are_reproducible():
     shipped = sensitivity.load_results()[sensitivity.name_of(choice, other)]
     for rule, misses in sensitivity.misses(**sensitivity.CHOICES[choice][other]).items():
         np.testing.assert_allclose(misses, shipped[rule], atol=2e-4)
+
+
+@pytest.mark.audit
+def test_draws_on_thelens_muscle_are_reproducible():
+    past = sensitivity.thelen_templates(templates.SPACING)
+    now = sensitivity.thelen_tables(past, sensitivity.MANY[0], experiments=1)
+    shipped = sensitivity.load_results()[sensitivity.PRINTED]
+    assert now == pytest.approx({name: values[0] for name, values in shipped.items()}, abs=2e-3)
