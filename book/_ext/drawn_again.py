@@ -1,7 +1,7 @@
 """Demos are named by their cells, and drawn again at the end: a later cell may change them."""
 
 import inspect
-from collections import Counter
+import itertools
 
 from IPython import get_ipython
 
@@ -9,7 +9,6 @@ from vmc_lib import show
 from vmc_lib.show import demo
 
 DECLARED = []  # (its name, a function, its result) of each demo that moves
-BEGUN = []  # the cells that have been executed, and the one that is
 
 
 def record(cells):
@@ -18,8 +17,11 @@ def record(cells):
     `cells` are the ids of the cells with code, as they will be executed.
     """
     waiting = iter(cells)
-    get_ipython().events.register("pre_run_cell", lambda _: BEGUN.append(next(waiting, "")))
-    demo.names = cell_names()
+
+    def begin(_):
+        demo.names = cell_names(next(waiting, ""))
+
+    get_ipython().events.register("pre_run_cell", begin)
     explore = show.explore
 
     def explore_and_record(*given, **named):
@@ -38,13 +40,10 @@ def record(cells):
     show.explore = explore_and_record
 
 
-def cell_names():
-    """The id of the cell that is executed, again and again; its second demo is `…-2`."""
-    given = Counter()
-    while True:
-        cell = BEGUN[-1]
-        given[cell] += 1
-        yield cell if given[cell] == 1 else f"{cell}-{given[cell]}"
+def cell_names(cell):
+    """The names of a cell's demos: its id, and then `…-2` and so on."""
+    yield cell
+    yield from (f"{cell}-{n}" for n in itertools.count(2))
 
 
 def draw_again():

@@ -53,15 +53,15 @@ def cache_folder(root):
 def digest(page):
     """A name for the state of a chapter's lines and numbers, and of what it imports or reads."""
     root = page.parents[1]
-    cells = nbformat.read(page, as_version=4).cells
-    code = [cell.source for cell in code_cells(cells)]
+    cells = code_cells(nbformat.read(page, as_version=4).cells)
+    code = [cell.source for cell in cells]
     folders = [(root / room, DATA) for room in ROOMS]
     folders += [(root / room, {".py", ".ipynb"}) for room in COUNTED.get(page.stem, ())]
     files = {root / "constraints.txt"}.union(*(_files(*folder) for folder in folders))
     with suppress(SyntaxError):  # of which its execution will say where
         files |= imported_files("\n".join([BEFORE, *code]), root)
     states = [f"{file.relative_to(root)} {_content(file)}" for file in sorted(files)]
-    names = [cell.id for cell in code_cells(cells)]
+    names = [cell.id for cell in cells]  # of its demos
     return hashlib.sha256("\n".join([*names, *code, *states]).encode()).hexdigest()[:16]
 
 

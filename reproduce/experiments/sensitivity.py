@@ -204,3 +204,8 @@ def name_of(choice, other):
 
 
 load_results = partial(calibration.load_results, "sensitivity")
+
+
+def load_thelen_tables():
+    """What Tables IV to VI measure with Thelen's muscle, where the command ends."""
+    return load_results()[PRINTED]

@@ -93,7 +93,7 @@ def by_luck(kind=""):
 def _table_5():
     claimed, entry, left = paper.calibrated_error_ratio("off-line"), "off-line, published", nearer()
     name, fitted = "error after over planned, {}", {"fitted": True, **OFFLINE}
-    tried = nulls.load_results()[nulls.BY_TRIES]
+    tried, thelen = nulls.load_results()[nulls.BY_TRIES], sensitivity.load_thelen_tables()
     return [
         *(
             mean_of_draws(name.format(s), number, printed_results(s)[entry], **fitted, nulls=luck)
@@ -111,13 +111,8 @@ def _table_5():
             mean_of_draws(name.format(f"{s}, {HELD}"), None, load_results()[s][entry])
             for s in SCENARIOS
         ),
-        mean_of_draws(name.format(sensitivity.ON_THELEN), None, thelen_results()[entry]),
+        mean_of_draws(name.format(sensitivity.ON_THELEN), None, thelen[entry]),
     ]
-
-
-def thelen_results():
-    """What Tables V and VI measure with Thelen's muscle, where the command ends."""
-    return sensitivity.load_results()[sensitivity.PRINTED]
 
 
 def _figure_4():

@@ -23,7 +23,6 @@ from reproduce.ledger.calibration import (
     own_rules,
     own_with_noise,
     printed_results,
-    thelen_results,
 )
 from reproduce.ledger.entry import ABOVE, HELD, Row, mean, mean_of_draws, share
 
@@ -51,7 +50,7 @@ def _table_6():
         _learned(name.format(SCENARIOS[1]), None, fixed),
         _learned(name.format("the other reading"), None, found, "online, the other reading"),
         *(_learned(name.format(f"{s}, {HELD}"), None, load_results()[s]) for s in SCENARIOS),
-        _learned(name.format(sensitivity.ON_THELEN), None, thelen_results()),
+        _learned(name.format(sensitivity.ON_THELEN), None, sensitivity.load_thelen_tables()),
         share("practised: draws that leave as much as the paper's", None, *as_much),
     ]
 

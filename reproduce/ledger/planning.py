@@ -59,7 +59,7 @@ def _fitted_by_other_weights():
 
 def _table_4():
     claimed, apart = paper.planned_error_ratio(), fitted_spacing()
-    thelen = sensitivity.load_results()[sensitivity.PRINTED]
+    thelen = sensitivity.load_thelen_tables()
     name, missed = "planned error over reach", planned_error_ratios(apart)
     fitted_name, others = (
         f"{name}, templates {100 * apart:.0f} cm apart",
