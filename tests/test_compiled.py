@@ -2,7 +2,7 @@
 
 import sys
 import warnings
-from types import SimpleNamespace
+from types import ModuleType, SimpleNamespace
 
 import numpy as np
 import pytest
@@ -58,6 +58,13 @@ def test_changed_constants_and_functions_are_compiled_again(expression, first, s
         space["c"] = value
         assert outer(1.5) == outer.__wrapped__(1.5)
     assert outer(1.5) == 3.0
+
+
+def test_a_changed_number_of_a_module_is_compiled_again():
+    laws = ModuleType("laws")
+    product = compiled(define("def product(x):\n    return x * laws.c\n", laws=laws)[0].product)
+    for laws.c in (2.0, 3.0, 2.0):
+        assert product(1.5) == 1.5 * laws.c
 
 
 def test_unsupported_arguments_affect_their_call_alone():

@@ -6,7 +6,7 @@ from hashlib import sha256
 from importlib.util import find_spec
 from inspect import unwrap
 from logging import getLogger
-from types import CodeType, FunctionType
+from types import CodeType, FunctionType, ModuleType
 from typing import Any
 from warnings import warn
 
@@ -44,12 +44,16 @@ def compiled(loop: Callable[..., Any]) -> Callable[..., Any]:
 
 def _reads(function):
     """What numba freezes of a function, and of those it calls: (module's names, name, value)."""
-    space = function.__globals__
-    for name in function.__code__.co_names:
+    space, names = function.__globals__, function.__code__.co_names
+    for name in names:
         if name in space and space[name] is not function:
             yield space, name, space[name]
             if isinstance(space[name], FunctionType) and unwrap(space[name]) is not function:
                 yield from _reads(unwrap(space[name]))
+            if isinstance(space[name], ModuleType):  # numbers by their module's name
+                inside = vars(space[name])
+                numbers = (n for n in names if isinstance(inside.get(n), float | int | np.ndarray))
+                yield from ((inside, n, inside[n]) for n in numbers)
 
 
 def _machine(loop, frozen):
