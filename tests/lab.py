@@ -123,6 +123,14 @@ def add_cell(page, code):
     )
 
 
+def wait_for_controls(page):
+    """Wait until the kernel has answered all demos: until then their controls take no key."""
+    page.wait_for_function(
+        "() => document.querySelectorAll('.vmc-demo[data-ready]').length > 1"
+        " && !document.querySelector('.vmc-demo[data-closed]')"
+    )
+
+
 def choose_cell(page, words):
     """Make the cell whose source has these words the active one, in sight."""
     script = """notebook.activeCellIndex = notebook.widgets.findIndex((cell) =>

@@ -63,10 +63,7 @@ def run_all(visit):
         assert not re.findall(r"\{[a-z-]+\}|```|:::|\]\(|\$|:[a-z]+: ", "\n".join(words))
         page.evaluate("() => jupyterapp.commands.execute('notebook:run-all-cells')")
         assert lab.outputs(page, "error") == []
-        page.wait_for_function(
-            "() => document.querySelectorAll('.vmc-demo[data-ready]').length > 1"
-            " && !document.querySelector('.vmc-demo[data-closed]')"
-        )
+        lab.wait_for_controls(page)
         return page
 
     return run_all

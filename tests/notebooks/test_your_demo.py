@@ -29,6 +29,7 @@ def test_demos_in_a_box_follow_ipywidgets_python_and_one_another(run_all):
     page.wait_for_function("(first) => first.value === '4'", arg=first.element_handle())
     lab.add_cell(page, LINKED)
     page.get_by_text("left 2", exact=True).wait_for()
+    lab.wait_for_controls(page)
     page.locator("figure", has_text="left").get_by_role("slider").press("End")
     page.get_by_text("left 4", exact=True).wait_for()
     page.get_by_text("right 4", exact=True).wait_for()
