@@ -163,6 +163,10 @@ def test_a_build_names_the_chapters_that_fail_their_cell_and_a_remedy(book):
 
 
 def test_pages_that_warn_fail_every_build_until_they_are_mended(book):
+    for packed in (brain.SCRIPT, pack.SCRIPT, pack.PLOTS):  # newer than what they are made of
+        script = book / "_build/html/_static" / packed
+        script.parent.mkdir(parents=True, exist_ok=True)
+        script.touch()
     write(book, CODE, "[nowhere](nowhere.md)")
     write(book, CODE, "```{nothing}\n```", name="other")
     for _ in range(2):

@@ -1,5 +1,7 @@
 """The main line of the built chapters is short: words, captions, controls, predictions."""
 
+import json
+
 import pytest
 
 from tests.pages import CHAPTERS, open_url
@@ -11,8 +13,8 @@ NOT_YET = {  # chapters that do not yet keep a bar
     "predictions": (),
     "captions": (),
     "controls": {"10"},  # a game of six weights
-    "heights, 1280": {"13"},  # a photo and its sheet
-    "words, 1280": {"08"},  # three plots side by side, a bench
+    "heights": {"13"},  # a photo and its sheet
+    "sizes of words": {"08"},  # three plots side by side, a bench
 }
 LATE = pytest.mark.xfail(strict=True, reason="not yet as short as it shall be")
 
@@ -86,37 +88,31 @@ SHOWN = """() => [...document.querySelectorAll(".vmc-demo, .vmc-live")].flatMap(
   const share = (Math.max(...ends) - Math.min(...ends)) / innerHeight;
   return boxes.length ? [[figure.id, share, Math.min(...sizes, 99)]] : [];
 })"""
-SCREENS = {1280: 800}
-
-
-def on_screens(bar):
-    """Each chapter on a laptop's screen."""
-    cases = [
-        pytest.param(path, width, marks=[LATE] * (path.stem[:2] in NOT_YET[f"{bar}, {width}"]))
-        for width in SCREENS
-        for path in NUMBERED
-    ]
-    names = [f"{path.stem}-{width}" for width in SCREENS for path in NUMBERED]
-    return pytest.mark.parametrize(("path", "width"), cases, ids=names)
+LAPTOP = {"width": 1280, "height": 800}
 
 
 @pytest.fixture
-def shown(window, path, width):
+def shown(window, once, path):
     """Of each figure its name, its height with its controls (of the window's), its least words."""
-    page = open_url(window(viewport={"width": width, "height": SCREENS[width]}), path.as_uri())
-    page.wait_for_function("document.querySelector('.vmc-demo[data-ready]')")
-    yield page.evaluate(SHOWN)
-    page.close()
+
+    def measure(folder):
+        folder.mkdir()
+        page = open_url(window(viewport=LAPTOP), path.as_uri())
+        page.wait_for_function("document.querySelector('.vmc-demo[data-ready]')")
+        (folder / "shown.json").write_text(json.dumps(page.evaluate(SHOWN)), encoding="utf-8")
+
+    file = once(f"main_line_{path.stem}", measure) / "shown.json"
+    return json.loads(file.read_text(encoding="utf-8"))
 
 
 @pytest.mark.browser
-@on_screens("heights")
+@chapters("heights")
 def test_a_figure_and_its_controls_fit_the_window(shown):
     assert [(name, share) for name, share, _ in shown if share > 0.85] == []
 
 
 @pytest.mark.browser
-@on_screens("words")
+@chapters("sizes of words")
 def test_words_of_plots_can_be_read(shown):
     """11 px high at least, rounded."""
     assert [(name, size) for name, _, size in shown if round(size) < 11] == []

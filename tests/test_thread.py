@@ -55,7 +55,9 @@ def test_chapter_1_tells_the_same_misses():
         assert f"{thread.misses()[motion]:.1f}" in numbers
 
 
-@pytest.mark.parametrize(("width", "height"), [(1280, 800), (390, 844)])
+@pytest.mark.parametrize(
+    ("width", "height"), [pytest.param(1280, 800, marks=pytest.mark.audit), (390, 844)]
+)
 def test_a_strip_is_low_and_leads_to_its_step(window, serious, width, height):
     reader = window(viewport={"width": width, "height": height})
     page = open_url(reader, (BOOK / "10_offline.html").as_uri())

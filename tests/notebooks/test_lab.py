@@ -103,6 +103,7 @@ def test_a_plot_follows_the_kernel_shows_its_errors_and_leaves_a_still(run_all):
     assert not lost.is_visible()
 
 
+@pytest.mark.audit
 def test_scenes_and_the_arm_move_and_free_their_memory(run_all):
     page = run_all("08_arm")
     scene = page.locator(".vmc-demo[data-ready]:has(.vmc-scene)").first

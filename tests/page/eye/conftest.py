@@ -1,5 +1,6 @@
 """The eye in a page, as tests ask it."""
 
+import shutil
 from base64 import b64encode
 
 import numpy as np
@@ -22,10 +23,15 @@ NOTHING = np.zeros((1, 1, 3), np.uint8)
 
 
 @pytest.fixture(scope="session", autouse=True)
-def brain_script(site):
-    """What the eye has learnt is among the book's scripts."""
+def brain_script(site, once):
+    """What the eye has learnt, packed by one worker, is among the book's scripts."""
+
+    def write(folder):
+        folder.mkdir()
+        (folder / "brain.js").write_text(brain.script(), encoding="utf-8")
+
     (site / "vendor").mkdir(exist_ok=True)
-    (site / brain.SCRIPT).write_text(brain.script(), encoding="utf-8")
+    shutil.copy(once("brain", write) / "brain.js", site / brain.SCRIPT)
 
 
 @pytest.fixture(scope="session")

@@ -7,6 +7,7 @@ from tests import pages
 from tests.exercises import EVERY
 from vmc_lib.show import questions
 
+SCRIPTS = pack.SCRIPT, pack.PLOTS
 ABOVE = """import numpy as np
 import cv2
 
@@ -27,8 +28,16 @@ CELL = '<div class="cell"><div class="cell_input"><pre>{}</pre></div></div>'
 
 
 @pytest.fixture(scope="session")
-def packed():
-    return {name: pack.script(name) for name in (pack.SCRIPT, pack.PLOTS)}
+def packed(once):
+    """The page's Python, by name: packed by one worker."""
+
+    def write(folder):
+        for name in SCRIPTS:
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
+            (folder / name).write_text(pack.script(name), encoding="utf-8")
+
+    folder = once("packed", write)
+    return {name: (folder / name).read_text(encoding="utf-8") for name in SCRIPTS}
 
 
 @pytest.fixture(scope="session")

@@ -42,7 +42,7 @@ def html(exercise_html):
     return f"{imports}{end}{FOLDED.format(LAW)}{rest}{demo_cell}"
 
 
-@pytest.fixture(params=["file", "http"])
+@pytest.fixture(params=["file", pytest.param("http", marks=pytest.mark.audit)])
 def chapter(request, window, site, html):
     """A function that opens the chapter, with what stands after a # in its address."""
     (site / "links.html").write_text(seal(pages.HEAD + html), encoding="utf-8")
