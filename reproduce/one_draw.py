@@ -61,10 +61,10 @@ def _few_templates(seed):
 def _non_linear(seed):
     numbers = {}
     for reading, hold in HOLDS.items():
-        past = templates.load(hold=hold)
-        left = planned_error_ratio(seed, past, exact_weights)
+        past, count = templates.load(hold=hold), MANY if hold else COUNT
+        left = planned_error_ratio(seed, past, exact_weights, count=count)
         numbers |= {"miss over reach with exact weights, above rounding": left} if not hold else {}
-        share = 1 - left / planned_error_ratio(seed, past)
+        share = 1 - left / planned_error_ratio(seed, past, count=count)
         numbers[f"share of the miss that exact weights remove{reading}"] = share
     return numbers
 

@@ -34,15 +34,17 @@ def miss_histogram(miss):
 
 def changes():
     """What each change leaves of the planned miss, of the ledger's draws: name -> (draws,)."""
-    from reproduce.experiments import (
-        calibration,
-        planning_ablation,  # not in the page
-    )
+    from reproduce.experiments import calibration  # these two are not in the page
+    from reproduce.ledger import planning
 
     def label(name):
-        return name.replace("own off-line", "off-line, Broyden").replace("1 trials", "1 trial")
+        rule = "least squares" if name == calibration.WHOLE_HOLD else "Broyden"
+        return name.replace("own off-line", f"off-line, {rule}").replace("1 trials", "1 trial")
 
-    ratios = {"Eq. 4 exactly": planning_ablation.exact_weight_ratios()}
+    removed = planning.draws("III, Block 3")[
+        "share of the miss that exact weights remove, over the hold"
+    ]
+    ratios = {"Eq. 4 exactly": 1 - removed}
     ratios |= calibration.load_results()["changing neighbours"]
     no_shares = "planned / reach", ", mm", ", bias", ", speed", ", stray", " 2.5 s"
     return {label(k): draws for k, draws in ratios.items() if not k.endswith(no_shares)}

@@ -8,7 +8,6 @@ from functools import cache, partial
 
 import numpy as np
 
-from reproduce.experiments.calibration import SEEDS
 from reproduce.experiments.controller_comparison import templates_with_noise
 from vmc_lib.arm import muscle
 from vmc_lib.arm.engines import activations
@@ -18,7 +17,7 @@ from vmc_lib.cerebellum.offline import (
     gauss_newton_calibration,
 )
 from vmc_lib.motor.execution import execute
-from vmc_lib.motor.planning import draw_targets, exact_weights, habitual_weights, norm, plan
+from vmc_lib.motor.planning import exact_weights, habitual_weights, norm, plan
 from vmc_lib.motor.templates import load
 
 WEIGHTS = {"nearness (Eq. 5)": habitual_weights, "exact (Eq. 4)": exact_weights}
@@ -77,16 +76,3 @@ def muscle_scatter(plans, percent):
     ends = execute(on_noisy_arm(plans, percent)).endpoint
     shift = norm(ends.mean(axis=0) - execute(plans).endpoint[0])
     return a.std() / a.mean(), *1000 * ends.std(axis=0, ddof=1), 1000 * shift
-
-
-def exact_weight_ratios(seeds=SEEDS, count=200):
-    """The mean error by exact weights over that by habitual weights, a ratio for each seed."""
-    ratios = []
-    for seed in seeds:
-        targets = draw_targets(load(), count, np.random.default_rng(seed))
-        exact, habitual = (
-            execute(plan(targets, load(), rule)).error.mean()
-            for rule in (exact_weights, habitual_weights)
-        )
-        ratios.append(exact / habitual)
-    return ratios

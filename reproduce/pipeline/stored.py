@@ -13,7 +13,7 @@ RESTS_ON = {  # a step, or what was recorded elsewhere -> the rows that read it
     "recognition": ("Table III", "IV B, features"),
     "fresh_names": ("Table III", "IV B, features"),
     "hmax_draws": ("Table III",),
-    "random_filters": ("Table III",),
+    "random_filters": ("Table III", "Fig. 1", "Ours, Fig. 1"),
     "variations": ("Table III", "III, width", "Fig. 7"),
     "other_filters": ("Fig. 7", "Fig. 8", "IV B, W²"),
     "second_layers": ("IV B, W²",),
@@ -30,6 +30,7 @@ RESTS_ON = {  # a step, or what was recorded elsewhere -> the rows that read it
     "nulls": (
         "Table IV",
         "Fig. 9",
+        "IV C, templates",
         "Table V",
         "Fig. 4",
         "Fig. 10",
@@ -59,7 +60,11 @@ NOT_AGAIN = {  # of which no test makes a draw again, and why
 def stored_table():
     """What is stored, as Markdown: its rows, minutes to make it again, and whether a test does."""
     minutes = {step.name: f"{step.minutes:g}" for step in STEPS}
-    needs = {step.name: f", and {step.needs}" for step in STEPS if step.needs}
+    needs = {
+        step.name: f", and {step.needs} ({minutes.get(step.needs, 'installed')})"
+        for step in STEPS
+        if step.needs
+    }
     lines = [
         [
             f"`{name}`",

@@ -6,6 +6,7 @@ import pytest
 from reproduce.experiments import nulls
 from reproduce.experiments.calibration import AS_PRINTED, SCENARIOS
 from reproduce.experiments.calibration import load_results as load_movements
+from tests.project import sample
 from vmc_lib.cerebellum.offline import algorithm_1_change
 from vmc_lib.cerebellum.online import WeightCorrection
 from vmc_lib.motor import templates
@@ -87,7 +88,8 @@ def test_what_ships_is_table_v_and_its_nulls_of_the_same_movements():
     assert tried[nulls.LINE][:, -1].mean() < 0.12
 
 
-def test_one_draw_of_nulls_is_reproducible():
-    now, shipped = nulls.weights(0), nulls.load_results()[nulls.BY_WEIGHTS]
+@pytest.mark.parametrize("part", sample(nulls.EXPERIMENTS, nulls.BY_WEIGHTS))
+def test_one_draw_of_nulls_is_reproducible(part):
+    now, shipped = nulls.EXPERIMENTS[part](0), nulls.load_results()[part]
     for name, value in now.items():
         np.testing.assert_allclose(value, shipped[name][0], atol=2e-4)

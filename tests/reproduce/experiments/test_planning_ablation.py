@@ -21,11 +21,6 @@ def test_a_correction_keeps_its_best_trial():
         assert (one <= none).all()
 
 
-def test_exact_weights_leave_less_than_habitual_ones():
-    [ratio] = ablation.exact_weight_ratios(seeds=[0], count=20)
-    assert 0 < ratio < 0.8
-
-
 def test_only_noise_makes_a_repeated_command_worse_than_its_best_trial():
     habit = plan(draw_targets(load(), 3, np.random.default_rng(1)), load())
     calm = ablation.repeated_errors(habit)

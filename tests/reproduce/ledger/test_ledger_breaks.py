@@ -20,7 +20,7 @@ CACHES = (
     planning.planned_error_ratios,
     planning.draws,
     planning.errors_3d,
-    calibration.nearer,
+    calibration.left_from_origins,
     filters.gabor_correlations,
     filters.layer_maps,
     loop.level_scores,

@@ -89,6 +89,15 @@ def test_one_draw_of_movements_is_reproducible():
 
 
 @pytest.mark.audit
+def test_one_draw_of_our_own_rules_is_reproducible():
+    """Over the hold and at 2.5 s, off-line and online, as the rows *Ours* have them."""
+    name = calibration.SCENARIOS[0]
+    now = calibration.EXPERIMENTS[name](0)
+    shipped = {k: values[0] for k, values in calibration.load_results()[name].items()}
+    assert {k: round(v, 4) for k, v in now.items()} == pytest.approx(shipped, abs=2e-4)
+
+
+@pytest.mark.audit
 def test_one_pair_of_second_layers_is_reproducible():
     np.testing.assert_allclose(
         second_layers.preferences(0), second_layers.load_preferences()[0], atol=0.005
