@@ -246,3 +246,19 @@ def test_what_the_loop_returns_has_a_repr_of_a_line(model, photo, sight):
     assert repr(reach.planned) == (
         "HeldMotion(q=array(1501, 2), velocity=array(1501, 2), activation=array(1501, 6), held=500)"
     )
+
+
+def test_of_two_shuttlecocks_the_one_in_reach_is_reached_for(model, photo, monkeypatch):
+    """The best box stays the best; where none can be reached, there is no reach."""
+    near = photo.boxes["shuttlecock"]
+    far = near - np.array([0, 1000, 0, 1000])  # beyond the horizon
+    for boxes, reached in (([far, near], True), ([near, far], True), ([far], False)):
+        found = Detections(None, None, None, np.array(boxes), None)
+        sight = loop.Sight(found, np.full(len(boxes), 0.9))
+        monkeypatch.setattr(loop, "see", lambda *_, sight=sight: sight)
+        seen, made = loop.see_and_reach(model, photo.image, photo.camera)
+        assert seen is sight
+        assert (made is not None) == reached
+        if made:
+            there = loop.locate(model, photo.image, near, photo.camera)
+            assert made.target == pytest.approx(there)

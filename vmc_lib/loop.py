@@ -236,8 +236,12 @@ def recalibrate(reach: Reach, calibration: Rule) -> Reach:
 def see_and_reach(
     model: VisuomotorModel, image: np.ndarray, camera: Camera | None
 ) -> tuple[Sight, Reach | None]:
-    """The `Sight` of an image and the `Reach` for what is seen; None where there is `NoReach`."""
-    sight, made = see(model, image), None
-    with suppress(NoReach):
-        made = reach(model, locate(model, image, sight.box, camera))
-    return sight, made
+    """The `Sight` of an image and the `Reach` for the best shuttlecock that can be reached.
+
+    The reach is None where there is `NoReach` for any.
+    """
+    sight = see(model, image)
+    for box in sight.shuttlecocks:
+        with suppress(NoReach):
+            return sight, reach(model, locate(model, image, box, camera))
+    return sight, None
