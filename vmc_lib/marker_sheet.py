@@ -13,9 +13,12 @@ import numpy as np
 from vmc_lib.camera import TABLE, Camera
 from vmc_lib.photos import HEIGHT, WIDTH, as_rgb, read_image
 
-PAGE = np.array([210, 297])  # mm, to the right and down: A4
+PAPERS = {  # mm: the page, and from its upper left corner to the first marker; right and down
+    "A4": ((210, 297), (21, 34)),
+    "Letter": ((216, 279), (24, 24)),
+}
+PAGE, MARGIN = np.array(PAPERS["A4"])
 MARKER, GAP, GRID = 48, 12, (3, 4)  # mm, mm, columns and rows of markers
-MARGIN = np.array([21, 34])  # mm, from the page's upper left corner to the first marker
 CORNER = np.array([0.337, TABLE, 0.12])  # the page's upper left corner, in the shoulder frame (m)
 AXES = np.array([[0, 0, 1.0], [-1, 0, 0], [0, -1, 0]])  # right, down the page, into the table
 FIRST = CORNER + MARGIN / 1000 @ AXES[:2]  # of the first marker
@@ -23,9 +26,13 @@ FEWEST = 3  # markers that must be detected
 RESIDUAL = 1.5  # pixels of 600 × 400 (RMS) by which a camera may miss the markers' corners
 FOCALS = (120, 4200)  # the shortest and the longest focal length of lenses, in such pixels
 FOCAL_SPREAD = 0.2  # standard error of a focal length, over it, above which it is unknown
+ASIDE = 24  # such pixels by which a lens may look past the photo's middle,
+GAIN = 0.85  # and the share of a residual below which another middle explains the markers better
 REFUSALS = {  # why markers give no camera, and what to do
     "mirrored": "the photo is mirrored: take it with the camera on the back",
     "doubled": "two sheets are seen: cover one",
+    "cropped": "the photo is cropped, or its lens bends straight lines: "
+    "take a whole one, without the widest lens",
     "uneven": "the markers do not lie as on one flat sheet: smooth it, and cover other markers",
     "focal": "the focal length does not show: take the photo more at a slant",
 }
@@ -51,10 +58,13 @@ def page_corners() -> np.ndarray:
     return CORNER + np.array([[0, 0], [1, 0], [1, 1], [0, 1]]) * PAGE / 1000 @ AXES[:2]
 
 
-def page_image() -> np.ndarray:
-    """The sheet as an image, one pixel a millimetre: (297, 210) uint8, black on white."""
-    picture = np.full(PAGE[::-1], 255, np.uint8)
-    right, down = MARGIN
+def page_image(paper: str = "A4") -> np.ndarray:
+    """The sheet on one of PAPERS, one pixel a millimetre: (height, width) uint8, black on white.
+
+    The markers are as large on each, so that cameras from all are the same.
+    """
+    page, (right, down) = PAPERS[paper]
+    picture = np.full(page[::-1], 255, np.uint8)
     wide, high = (np.array(GRID) * (MARKER + GAP) - GAP).tolist()
     picture[down : down + high, right : right + wide] = board().generateImage((wide, high))
     return picture
@@ -109,6 +119,10 @@ def estimate_camera(photo: np.ndarray) -> Camera | None:
     if len(np.unique(ids)) < len(ids):
         raise ValueError(REFUSALS["doubled"])
     camera, residual, spread = _best_fit(ids, corners, photo.shape[:2])
+    other, left, _ = calibrate_camera(ids, corners, photo.shape[:2], any_middle=True)
+    aside = np.linalg.norm(other.centre - camera.centre)
+    if aside > ASIDE and left < min(RESIDUAL, GAIN * residual):
+        raise ValueError(REFUSALS["cropped"])
     if not (residual <= RESIDUAL and camera.position[1] > TABLE):
         raise ValueError(REFUSALS["uneven"])
     if not (FOCALS[0] <= camera.focal <= FOCALS[1] and spread <= FOCAL_SPREAD):
@@ -141,12 +155,13 @@ def _best_fit(ids, corners, shape):
 
 
 def calibrate_camera(
-    ids: np.ndarray, corners: np.ndarray, shape: tuple[int, ...]
+    ids: np.ndarray, corners: np.ndarray, shape: tuple[int, ...], any_middle: bool = False
 ) -> tuple[Camera, float, float]:
     """Calibrate the camera to which markers `ids` (n,) appear at corners (n, 4, 2) of a photo.
 
     `shape` is the photo's height and width. The unknowns are the camera's pose and focal length:
-    the principal point is the photo's middle, and the lens has no distortion. Returns the `Camera`
+    the lens has no distortion, and the principal point is the photo's middle; with `any_middle`
+    it is unknown, too, as in a photo that was cropped. Returns the `Camera`
     and its reprojection error (RMS), both in pixels of 600 × 400, and the standard error of its
     focal length, over it.
     """
@@ -155,14 +170,18 @@ def calibrate_camera(
     points, pixels = board().matchImagePoints([*corners], ids)
     height, width = shape
     guess = np.array([[width, 0, width / 2], [0, width, height / 2], [0, 0, 1.0]])
-    only_focal = cv2.CALIB_USE_INTRINSIC_GUESS | cv2.CALIB_FIX_PRINCIPAL_POINT
-    only_focal |= cv2.CALIB_FIX_ASPECT_RATIO | cv2.CALIB_ZERO_TANGENT_DIST
-    only_focal |= cv2.CALIB_FIX_K1 | cv2.CALIB_FIX_K2 | cv2.CALIB_FIX_K3
+    known = cv2.CALIB_USE_INTRINSIC_GUESS | cv2.CALIB_FIX_ASPECT_RATIO
+    known |= cv2.CALIB_ZERO_TANGENT_DIST
+    known |= cv2.CALIB_FIX_K1 | cv2.CALIB_FIX_K2 | cv2.CALIB_FIX_K3
+    if not any_middle:
+        known |= cv2.CALIB_FIX_PRINCIPAL_POINT
     size = (width, height)  # OpenCV counts from the middle of a pixel
     residual, intrinsics, _, [turn], [shift], errors, *_ = cv2.calibrateCameraExtended(
-        [points], [pixels + np.float32(0.5)], size, guess, None, flags=only_focal
+        [points], [pixels + np.float32(0.5)], size, guess, None, flags=known
     )
     rotation, focal = cv2.Rodrigues(turn)[0] @ AXES, intrinsics[0, 0]
-    scale, middle = min(WIDTH / width, HEIGHT / height), np.array([WIDTH, HEIGHT]) / 2
+    scale = min(WIDTH / width, HEIGHT / height)
+    aside = intrinsics[:2, 2] - np.array([width, height]) / 2
+    middle = np.array([WIDTH, HEIGHT]) / 2 + scale * aside
     camera = Camera(scale * focal, middle, rotation, FIRST - shift[:, 0] @ rotation)
     return camera, scale * residual, errors[:2].max() / focal

@@ -78,6 +78,8 @@ def sheet():
         "residual": marker_sheet.RESIDUAL,
         "focals": marker_sheet.FOCALS,
         "focalSpread": marker_sheet.FOCAL_SPREAD,
+        "aside": marker_sheet.ASIDE,
+        "gain": marker_sheet.GAIN,
         "refusals": marker_sheet.REFUSALS,
         "near": marker_sheet.NEAR,
     }
@@ -107,9 +109,9 @@ def _page(example, scene, plot):
         for name, label in FINDINGS.items()
     )
     return f"""<div class="vmc-eye" id="{NAME}"><form class="vmc-live-form" autocomplete="off">
-<div><button type="button" name="own">Your photo …</button>
+<div><button type="button" name="example">Example</button>
+<button type="button" name="own">Your photo …</button>
 <button type="button" name="live" hidden>Live</button>
-<button type="button" name="example">Example</button>
 <button type="button" name="main" disabled>Again</button>
 <input type="file" name="file" accept="image/*" aria-label="Your photo" hidden></div>
 <output data-tell="found"></output>

@@ -61,13 +61,14 @@ const guess = (points, pixels, centre, { axes, first }) => {
 };
 
 /* A camera changed by seven numbers: its focal length, a small turn of the `pivot` that it looks at, and where
-   it sees that, all as shares. */
+   it sees that, all as shares; two more move its middle, in focal lengths. */
 const changed = (camera, pivot, [longer, ...by]) => {
+  const [across = 0, down = 0] = by.slice(6), centre = plus(camera.centre, times(camera.focal, [across, down]));
   const turn = by.slice(0, 3), angle = Math.hypot(...turn) || 1e-300;
   const seen = camera.rotation.map((axis) => dot(axis, minus(pivot, camera.position)));
   const rotation = multiply(rotationAround(times(1 / angle, turn), angle), camera.rotation);
-  const position = minus(pivot, mix(plus(seen, times(seen[2], by.slice(3))), rotation));
-  return { ...camera, focal: camera.focal * (1 + longer), rotation, position };
+  const position = minus(pivot, mix(plus(seen, times(seen[2], by.slice(3, 6))), rotation));
+  return { focal: camera.focal * (1 + longer), centre, rotation, position };
 };
 
 /* The standard error of the first of the unknowns that a fit with such slopes leaves such errors. */
@@ -79,11 +80,12 @@ const standardError = (slopes, error) => {
 
 /* The camera whose pictures of `places` (n, 3) lie nearest to `pixels` (Levenberg and Marquardt); how far
    off they are, in pixels, as `error`; and the standard error of its focal length, over it, as `spread`. */
-const fit = (camera, places, pixels) => {
+const fit = (camera, places, pixels, unknowns) => {
   const pivot = mean(places), missed = (one) => places.flatMap((place, i) => minus(pixels[i], project(one, place)));
-  const nudge = (k, by) => missed(changed(camera, pivot, Array.from({ length: 7 }, (_, i) => (i === k ? by : 0))));
+  const each = (value) => Array.from({ length: unknowns }, (_, k) => value(k));
+  const nudge = (k, by) => missed(changed(camera, pivot, each((i) => (i === k ? by : 0))));
   const square = (error) => dot(error, error);
-  const slopesOf = () => Array.from({ length: 7 }, (_, k) => times(5e5, minus(nudge(k, -1e-6), nudge(k, 1e-6))));
+  const slopesOf = () => each((k) => times(5e5, minus(nudge(k, -1e-6), nudge(k, 1e-6))));
   let error = missed(camera), damping = 1e-3;
   for (let round = 0; round < 100 && damping < 1e12; round++) {
     const next = changed(camera, pivot, leastSquares(slopesOf(), error, damping)), left = missed(next);
@@ -96,10 +98,11 @@ const fit = (camera, places, pixels) => {
   return { ...camera, error: Math.sqrt(square(error) / places.length), spread };
 };
 
-/* The camera, in the photo's pixels, to which corners (n, 4, 2) of the markers `ids` appear. */
-export const calibrateCamera = (ids, corners, width, height, sheet) => {
+/* The camera, in the photo's pixels, to which corners (n, 4, 2) of the markers `ids` appear; one that is `near` a
+   camera may look past the photo's middle. */
+export const calibrateCamera = (ids, corners, width, height, sheet, near = null) => {
   const points = ids.flatMap((id) => sheet.markers[id]), centre = [width / 2, height / 2];
   const pixels = corners.flat().map((corner) => plus(corner, [0.5, 0.5])); // from the middle of a pixel
   const places = points.map((point) => plus(sheet.first, mix(point, sheet.axes.slice(0, 2))));
-  return fit(guess(points, pixels, centre, sheet), places, pixels);
+  return fit(near ?? guess(points, pixels, centre, sheet), places, pixels, near ? 9 : 7);
 };

@@ -80,7 +80,7 @@ class LivePhoto extends YourPhoto {
     for (let box = null, begun = performance.now(); this.film === film; await frame()) {
       if (!film.active) throw new Error("it was unplugged, or taken by another program");
       const eye = letterbox(await snapshot(), ...EYE);
-      const read = await inPieces(readSheet(eye, sheet, EYE)), { camera } = read;
+      const read = await inPieces(readSheet(eye, sheet, EYE, true)), { camera } = read;
       this.bare = camera ? paintOver(eye, sheetOutline(camera, sheet)) : eye;
       const found = box && camera && (await inPieces(follow(this.brain, this.bare, box, camera)));
       if (this.film !== film) return;

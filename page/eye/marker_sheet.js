@@ -28,8 +28,9 @@ function* bestFit(calibrate, all, most, fewest) {
 }
 
 /* The markers { id, corners } that a photo shows, and its camera, of another `size` [width, height]; null where
-   the markers are too few, or where they give none that can be: then `why` says so. */
-export function* readSheet(photo, sheet, size) {
+   the markers are too few, or where they give none that can be: then `why` says so. Of a photo that is surely `whole`,
+   as a film's frames are, it is not asked whether it was cropped. */
+export function* readSheet(photo, sheet, size, whole = false) {
   const { width, height } = photo, levels = greyLevels(photo), { codes, fewest, refusals } = sheet;
   const patterns = [...codes, ...codes.map(mirrored)];
   const seen = yield* findMarkers(levels, width, height, patterns, codes.length);
@@ -43,9 +44,11 @@ export function* readSheet(photo, sheet, size) {
     return corners.map((corner) => refineCorner(levels, width, height, corner, reach));
   });
   const scale = Math.min(size[0] / width, size[1] / height), most = sheet.residual / scale;
-  const calibrate = (left) =>
-    calibrateCamera(left.map((k) => ids[k]), left.map((k) => refined[k]), width, height, sheet);
-  const camera = yield* bestFit(calibrate, [...ids.keys()], most, fewest), focal = scale * camera.focal;
+  const calibrate = (left, near) =>
+    calibrateCamera(left.map((k) => ids[k]), left.map((k) => refined[k]), width, height, sheet, near);
+  const all = [...ids.keys()], camera = yield* bestFit(calibrate, all, most, fewest), focal = scale * camera.focal;
+  const other = whole ? camera : calibrate(all, camera), aside = scale * Math.hypot(...minus(other.centre, camera.centre));
+  if (aside > sheet.aside && other.error < Math.min(most, sheet.gain * camera.error)) return none(refusals.cropped);
   if (!(camera.error <= most && camera.position[1] > sheet.first[1])) return none(refusals.uneven);
   if (!(sheet.focals[0] <= focal && focal <= sheet.focals[1] && camera.spread <= sheet.focalSpread)) return none(refusals.focal);
   return { markers, camera: { ...camera, focal, centre: times(0.5, size) }, why: null };

@@ -10,7 +10,16 @@ from playwright.sync_api import Error
 from book.figures.your_photo import place_accuracy, sheet
 from page.eye.localiser import CompactLocaliser, shift_mm
 from tests.project import sample
-from tests.test_marker_sheet import EYE, LOW, REFUSED, STRAIGHT, displaced, draw_sheet, looking
+from tests.test_marker_sheet import (
+    EYE,
+    LOW,
+    REFUSED,
+    STRAIGHT,
+    bent,
+    displaced,
+    draw_sheet,
+    looking,
+)
 from vmc_lib import NoReach, marker_sheet, photos
 from vmc_lib.loop import VisuomotorModel, see
 
@@ -89,10 +98,17 @@ def test_a_sheet_that_reaches_behind_the_camera_is_painted_over(ask, name):
 
 
 @pytest.mark.browser
-@pytest.mark.parametrize("why", sample(REFUSED, "doubled"))
+@pytest.mark.parametrize("why", sample(REFUSED, "doubled", "cropped"))
 def test_markers_that_give_no_camera_are_refused_as_in_python(ask, why):
     there = read(ask, np.ascontiguousarray(REFUSED[why]()))
     assert (there["camera"], there["why"]) == (None, marker_sheet.REFUSALS[why])
+
+
+@pytest.mark.browser
+def test_a_lens_that_bends_straight_lines_is_refused_as_in_python(ask):
+    photo = draw_sheet(EYE, size=2)
+    assert read(ask, bent(photo, 0))["why"] is None
+    assert read(ask, bent(photo, 0.1))["why"] == marker_sheet.REFUSALS["cropped"]
 
 
 @pytest.mark.browser
