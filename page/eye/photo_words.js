@@ -5,7 +5,8 @@ import { fromBeyond } from "./marker_sheet.js";
 
 const AGAIN = "Another photo may do: from nearer, in even light.";
 const POINT = "Point at a box, and the arm reaches for what is in it.";
-const SCALE = " Is a shuttlecock there? Then measure the sheet’s line: if it is not 100 mm long, sizes and places are wrong.";
+const MEASURE = "measure the sheet’s line: if it is not 100 mm long, sizes and places are wrong.";
+const SCALE = ` Is a shuttlecock there? Then ${MEASURE}`;
 
 export const capital = (words) => words[0].toUpperCase() + words.slice(1);
 
@@ -42,6 +43,9 @@ export const end = (calibrated, planned, [half, most], camera) =>
   `After trying off-line the hand misses the place seen by ${millimetres(calibrated, 1)}; it began from ` +
   `${millimetres(planned, 1)}. In half of our test photos that place is right to ${millimetres(half)}, ` +
   `in nine of ten to ${millimetres(most)}.${upsideDown(camera)}`;
+
+/* A shuttlecock's size, m, that none has. */
+export const wrongSize = (size) => ` By the sheet it is ${(100 * size).toFixed(0)} cm large, as no shuttlecock is: ${MEASURE}`;
 
 /* A place. */
 export const where = ([ahead, , right]) => {

@@ -8,7 +8,8 @@ import { load } from "../arm/templates.js";
 import { drawScaled, letterbox, PIXELS_HIDDEN, takePictures } from "../canvas.js";
 import { signed } from "../demo/panel.js";
 import { minus } from "../vectors.js";
-import { project } from "./camera.js";
+import { hasRightSize } from "./box_selection.js";
+import { physicalSize, project } from "./camera.js";
 import { locate } from "./localiser.js";
 import { paintOver, readSheet, sheetOutline } from "./marker_sheet.js";
 import { PhotoMarks } from "./photo_marks.js";
@@ -159,6 +160,13 @@ export class YourPhoto extends Reach {
     }
   }
 
+  /* What is to be said of a shuttlecock that, by the sheet, is too large or too small for one. */
+  sizeDoubt(number) {
+    const { boxes, brain: { selector }, camera, marks } = this, box = boxes[number];
+    if (marks[number].colour !== "green" || hasRightSize(box, camera, selector)) return "";
+    return words.wrongSize(physicalSize(camera, box, selector.table));
+  }
+
   /* Where what is in a box stands on the table. */
   locate(number) {
     return locate(this.brain.localiser, this.bare, this.boxes[number], this.camera);
@@ -171,6 +179,7 @@ export class YourPhoto extends Reach {
     this.photo.drawBoxes(this.marks, number);
     this.box.querySelectorAll("button[data-box]").forEach((button, i) => button.setAttribute("aria-pressed", i === number));
     if (!this.camera) return this.say(words.need(this.read, this.given.sheet));
+    this.doubt = this.sizeDoubt(number);
     try {
       this.place = this.locate(number);
       this.tell({ place: words.where(this.place) });
@@ -180,7 +189,7 @@ export class YourPhoto extends Reach {
     } catch (error) {
       if (!(error instanceof RangeError)) throw error;
       this.rest();
-      this.say(words.outOfReach(this.camera));
+      this.say(words.outOfReach(this.camera) + this.doubt);
     }
   }
 
@@ -210,7 +219,7 @@ export class YourPhoto extends Reach {
     await super.main();
     if (this.planned) await this.calibrate();
     const { calibrated, camera, planned, given } = this;
-    if (calibrated) this.say(words.end(calibrated.error, planned.error, given.placeAccuracy, camera));
+    if (calibrated) this.say(words.end(calibrated.error, planned.error, given.placeAccuracy, camera) + this.doubt);
   }
 
   world(point) {

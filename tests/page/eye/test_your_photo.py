@@ -11,8 +11,10 @@ from page.arm.live import TRIALS
 from tests import pages
 from tests.page.arm.controls import number, readout, status
 from tests.show.kernel import render
+from tests.test_colour_profile import swapped_profile
 from tests.test_marker_sheet import draw_sheet
 from vmc_lib import photos
+from vmc_lib.box_selection import SIZES
 from vmc_lib.boxes import pad_boxes
 from vmc_lib.cerebellum.offline import broyden_calibration
 from vmc_lib.loop import VisuomotorModel, locate, reach, recalibrate, see
@@ -25,7 +27,8 @@ UNREADABLE = "This browser cannot read .*: save it, or a phone's HEIC, as a JPEG
 NEED = "To reach, the arm needs the printed sheet: "
 AGAIN = "Another photo may do"
 NOTHING = "No shuttlecock, but|Nothing that looks like an object"
-END = f"After trying|Out of reach|{NEED}|Two sheets|Point at a box, .*wrong|{AGAIN}|This browser"
+REFUSED = "Two sheets|The photo is cropped"
+END = f"After trying|Out of reach|{NEED}|{REFUSED}|Point at a box, .*wrong|{AGAIN}|This browser"
 
 
 @pytest.fixture(scope="module")
@@ -103,6 +106,17 @@ def test_the_reader_points_at_another_box(page):
         said = status(page, "After trying|Out of reach")
         assert readout(page, "place") != before
         assert ("can be where it is shaded" in said) == said.startswith("Out of reach")
+
+
+def test_the_example_stands_first_and_alone_is_blue(page):
+    buttons = page.locator(".vmc-live-form > div > button:visible").all()
+    assert [button.inner_text() for button in buttons[:2]] == ["Example", "Your photo …"]
+    grounds = [
+        button.evaluate("(it) => getComputedStyle(it).backgroundColor") for button in buttons
+    ]
+    red, green, blue = map(int, re.findall(r"\d+", grounds[0])[:3])
+    assert blue > 1.3 * max(red, green)
+    assert grounds.count(grounds[0]) == 1
 
 
 def promises(page):
@@ -191,8 +205,71 @@ def test_the_shuttlecock_in_reach_is_taken_first(page, tmp_path):
     assert found(page).startswith("2 shuttlecocks, ")
     pressed = page.locator(".vmc-boxes button[aria-pressed=true]")
     assert pressed.get_attribute("data-box") == "1"
+    place = readout(page, "place")
     page.locator(".vmc-boxes button").first.click()
     assert status(page, "Out of reach")
+    point_at(page, 1)  # in the photo
+    assert status(page, "After trying")
+    assert pressed.get_attribute("data-box") == "1"
+    assert readout(page, "place") == place
+
+
+def point_at(page, number):
+    """Click in the middle of a box in the photo."""
+    box = page.locator(f".vmc-picture [data-box='{number}'] rect").first.bounding_box()
+    page.mouse.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+
+
+def sideways(folder):
+    """Our photo as a phone saves it that was turned: on its side, and a word on how to turn it."""
+    turn = Image.Exif()
+    turn[0x0112] = 6
+    Image.fromarray(np.rot90(OURS.image)).save(folder / "turned.png", exif=turn)
+    return folder / "turned.png"
+
+
+def other_colours(folder):
+    """Our photo with red and green swapped, and a profile that swaps them back."""
+    image = Image.fromarray(np.ascontiguousarray(OURS.image[..., [1, 0, 2]]))
+    image.save(folder / "profile.png", icc_profile=swapped_profile())
+    return folder / "profile.png"
+
+
+@pytest.mark.parametrize("save_as", [sideways, other_colours])
+def test_a_photo_as_phones_save_it_gives_the_same_place(page, tmp_path, save_as):
+    """As ours, and as the same file gives in Python."""
+    page.get_by_role("button", name="Example").click()
+    status(page, "After trying")
+    place = readout(page, "place")
+    file = save_as(tmp_path)
+    assert np.abs(photos.read_image(file) - OURS.image.astype(int)).mean() < 1
+    assert give(page, file).startswith("After trying")
+    assert found(page) == "A shuttlecock, 100 % sure."
+    assert readout(page, "place") == place
+
+
+def test_a_photo_that_was_cropped_has_no_place_and_is_asked_for_whole(page, tmp_path):
+    whole = draw_sheet(OURS.camera, size=2, ground=remove_sheet(OURS.image)[1])
+    assert give(page, write(tmp_path, whole)).startswith("After trying")
+    cropped = np.ascontiguousarray(whole[:, 200:])
+    said = give(page, write(tmp_path, cropped))
+    assert said.startswith(
+        "The photo is cropped, or its lens bends straight lines: take a whole one"
+    )
+    assert found(page).startswith("A shuttlecock, ")
+    assert readout(page, "place") == "–"
+    with pytest.raises(ValueError, match="the photo is cropped"):
+        remove_sheet(cropped)
+
+
+def test_a_sheet_shrunk_to_a5_is_told_by_the_shuttlecocks_size(page, tmp_path):
+    a5 = draw_sheet(OURS.camera, sheets=[(0, 0, 0, 0.71)], ground=remove_sheet(OURS.image)[1])
+    camera, bare = remove_sheet(a5)
+    box = see(VisuomotorModel.load("real"), bare, camera).box
+    size = camera.sizes(box[None]).item()
+    assert size > SIZES[1]
+    says = f"By the sheet it is {100 * size:.0f} cm large, as no shuttlecock is: measure the sheet"
+    assert says in give(page, write(tmp_path, a5))
 
 
 def save(folder, name, mode="RGB", size=(60, 40), **options):
