@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 import pytest
 
-from book.figures import where
+from book.figures import racket, where
 from page.bundle import widget_script
 
 TRUTH = {"cup": np.array([0.0, 0, 10, 10])}
@@ -38,3 +38,25 @@ def test_upload_button_needs_a_kernel(outputs, monkeypatch):
     _, button = widgets  # after the still
     assert 'type="file"' in button.page
     assert button._esm == widget_script("demos/upload.js")
+
+
+def test_boxes_of_the_racket_are_counted_by_where_they_lie():
+    true = racket.racket().boxes["shuttlecock"]
+    boxes = np.array([[60, 10, 90, 40], [100, 50, 330, 90], true, true + 300], float)
+    assert racket.count(boxes) == (1, 1, 2)
+    assert "Of 4 boxes 1 lie in the racket's head, 1 on" in racket.racket_in_words(boxes)
+    image = racket.racket().image
+    drawn = {
+        every: racket.racket_view(image, boxes, every).count("<rect") for every in (True, False)
+    }
+    assert drawn[True] - drawn[False] == 2 * 2  # each has an edge
+
+
+def test_only_the_rackets_head_is_blurred():
+    clear, blurred = racket.images().values()
+    x0, y0, x1, y1 = racket.HEAD
+    changed = (clear != blurred).any(axis=2)
+    assert changed[y0:y1, x0:x1].mean() > 0.9
+    changed[y0:y1, x0:x1] = False
+    assert not changed.any()
+    assert np.ptp(racket.without_colour(clear), axis=2).max() == 0
