@@ -128,24 +128,25 @@ def detour(templates, places, ways, reach, route, senses, time):
 
 
 def race(target, rivals, reaches):
-    """Rules that correct one reach: where each has come nearest so far, and by how much it misses.
+    """Rules that correct one reach: where what each has kept so far ends, and how far it misses.
 
-    `rivals` maps a name to its `Trials` of one plan, `reaches` counts those made after the plan.
+    `rivals` maps a name to its `Movement`s (1 + tries, draws), `reaches` counts those made after
+    the plan. Where there are many draws, the miss is their mean.
     """
     fig, left, right = panels(2, (8, 3.6))
-    for k, (name, trials) in enumerate(rivals.items()):
-        miss = np.minimum.accumulate(1000 * trials.error)[: reaches + 1]
-        nearest = trials.endpoint[trials.error[: reaches + 1].argmin()]
-        away = 1000 * (nearest - target)
-        left.plot([0, away[0]], [0, away[1]], f"C{k}", lw=1)
-        left.plot(*away, "o", color=f"C{k}", ms=8)
+    for k, (name, kept) in enumerate(rivals.items()):
+        miss = 1000 * kept.error.mean(axis=1)[: reaches + 1]
+        away = 1000 * (kept.endpoint[len(miss) - 1] - target)
+        if len(away) == 1:
+            left.plot([0, away[0, 0]], [0, away[0, 1]], f"C{k}", lw=1)
+        left.plot(*away.T, "o", color=f"C{k}", ms=8 if len(away) == 1 else 3)
         right.plot(miss, ".-", color=f"C{k}", label=name)
     left.plot(0, 0, "o", ms=14, mfc="none", mew=2, color=COLOURS["green"])
     left.set(xlim=(-16, 16), ylim=(-16, 16), aspect="equal")
     left.set(xlabel="forward of the target (mm)", ylabel="above it (mm)")
     right.set(xlabel="extra reaches", xlim=(-0.5, 21.5), yscale="log", ylim=(0.1, 20))
     right.set_yticks([10, 3, 1, 0.3, 0.1], ["10", "3", "1", "0.3", "0.1"])
-    right.set_title("the best miss so far (mm)")
+    right.set_title("miss of what is kept (mm)")
     right.minorticks_off()
     right.legend()
     return fig

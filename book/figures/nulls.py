@@ -3,12 +3,16 @@
 import numpy as np
 
 from book.figures.panels import mark_now, panels
-from reproduce.experiments import nulls
+from reproduce.experiments import learning_curves, nulls
 from reproduce.experiments.calibration import SCENARIOS, load_results
 from vmc_lib.show.palette import COLOURS
 from vmc_lib.statistics import student
 
-READINGS = {"where the command ends": nulls.BY_TRIES, "over the hold": nulls.BY_TRIES_HELD}
+READINGS = {  # how a movement is read -> what each rule then leaves after 0, 1, … tries
+    "where the command ends": lambda: nulls.load_results()[nulls.BY_TRIES],
+    "over the hold": lambda: nulls.load_results()[nulls.BY_TRIES_HELD],
+    "over the hold, at a person's noise": lambda: learning_curves.load_results()["off-line"],
+}
 LINES = {  # a rule -> its line
     nulls.PAPER: ("blue", "-"),
     nulls.BLIND: ("orange", "-"),
@@ -19,8 +23,11 @@ LINES = {  # a rule -> its line
 
 
 def by_tries(reading, tries):
-    """What each rule leaves of the planned error after 0, 1, … tries, with 95 % bands."""
-    found = nulls.load_results()[READINGS[reading]]
+    """What each rule leaves of the planned error after 0, 1, … tries, with 95 % bands.
+
+    Where there is noise, dotted: what it alone leaves.
+    """
+    found = READINGS[reading]()
     fig, ax = panels(size=(6.4, 3.6))
     for rule, (colour, style) in LINES.items():
         middle, half = student(found[rule])
@@ -28,6 +35,8 @@ def by_tries(reading, tries):
         ax.plot(x, middle, style, color=COLOURS[colour], label=rule)
         ax.fill_between(x, middle - half, middle + half, color=COLOURS[colour], alpha=0.2, lw=0)
         mark_now(ax, tries, middle[tries])
+    if "noise alone" in found:
+        ax.axhline(found["noise alone"].mean(), ls=":", color=COLOURS["grey"], gid="noise alone")
     ax.set(xlabel="tries", ylabel="error / planned error", xlim=(0, nulls.TRIES), ylim=(0, 1.05))
     ax.set_xticks(range(0, nulls.TRIES + 1, 3))
     ax.legend(loc="upper right", fontsize="small")
@@ -36,7 +45,7 @@ def by_tries(reading, tries):
 
 def tries_in_words(reading, tries):
     """The same in words: what each rule leaves after so many tries."""
-    found = nulls.load_results()[READINGS[reading]]
+    found = READINGS[reading]()
     left = ", ".join(f"{found[rule][:, tries].mean():.2f} ({rule})" for rule in LINES)
     return f"After {tries} tries, read {reading}, of the planned error there is left: {left}."
 

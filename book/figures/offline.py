@@ -79,15 +79,18 @@ def best_of_each(plan, trials):
     return fig
 
 
-def after_trial(plan, rules, trial, rule):
+def after_trial(plan, rules, trial, rule, noisy=()):
     """Hands after a trial of one rule; the mean errors of all against the extra reaches made.
 
     `rules` maps a name to hands over the hold (trials, n, T, 2), and the reaches of a trial.
+    Dashed: `noisy`, mean errors after 0, 1, … reaches by Broyden's rule on an arm with noise, mm.
     """
     fig, left, right = panels(*SIDE_BY_SIDE)
     for name, (holds, cost) in rules.items():
         errors = mean_mm(holds, plan.target)[: trial + 1]
         right.plot(cost * np.arange(trial + 1), errors, ".-", label=name)
+    if len(noisy):
+        right.plot(noisy, "--", color=COLOURS["grey"], label="Broyden, a person's noise")
     hold, cost = rules[rule][0][trial], rules[rule][1] * trial
     now = mean_mm(hold, plan.target)
     mark_now(right, cost, now)

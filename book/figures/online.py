@@ -3,6 +3,7 @@
 from book.figures.offline import SIDE_BY_SIDE, in_plane
 from book.figures.panels import curves, panels, shade_change
 from book.figures.reaching import mean_mm, norm_mm, reach_scene, reaches
+from reproduce.experiments import learning_curves
 from reproduce.experiments.calibration import SCENARIOS, ratio_name
 from reproduce.experiments.controller_comparison import MOVEMENTS
 from reproduce.experiments.online_calibration import STEPS, holds_by_width, remaining
@@ -59,12 +60,18 @@ def after_experiment(plans, linear, published, experiment, movements, step_5, te
 
 
 def after_movements(plans, granule, linear, movements, templates_are, measured_on):
-    """`progress` of granule cells, by scenario; dotted, that of Algorithm 2 (`linear`)."""
+    """`progress` of granule cells, by scenario; dotted, that of Algorithm 2 (`linear`).
+
+    Dashed: the mean of many draws on an arm with a person's noise.
+    """
     some = plans[templates_are]
     fig = progress(some, granule[templates_are], STEPS, movements, measured_on)
     line = remaining(linear[templates_are], some)[measured_on]
     look = dict(color=COLOURS["grey"], gid="Algorithm 2")
     fig.axes[1].plot(STEPS[: len(line)], line, ":", **look)
+    name = learning_curves.online_name(templates_are, learning_curves.NOISY)
+    noisy = learning_curves.load_results()[name][f"granule cells, {measured_on}"].mean(axis=0)
+    fig.axes[1].plot(STEPS, noisy, "--", color=COLOURS["grey"], gid="a person's noise")
     fig.axes[1].set_xlabel("movements (dotted: Algorithm 2)")
     return fig
 

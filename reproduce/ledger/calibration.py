@@ -31,6 +31,7 @@ from reproduce.ledger.entry import (
 )
 from reproduce.measures import second_plant
 from reproduce.one_draw import COUNT
+from reproduce.peers.motor_noise import PERSON
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.cerebellum.offline import algorithm_1
 from vmc_lib.motor import templates
@@ -40,7 +41,6 @@ from vmc_lib.motor.planning import draw_targets, plan
 OFFLINE = {"better": -1, "rounding": paper.ratio_rounding("off-line", "planned")}
 IN_SAMPLE, HELD_OUT = "in-sample", "held-out"
 EXAMPLES = 5  # that Figs. 10 and 11 show
-PERSON = 2  # mm: how far a person's hand scatters at the end of a reach, about
 WAVERS = f"the hand wavers by {PERSON} mm"
 FIT_NOTE = "The reading is fitted: which way the error points was chosen by the published ratio. "
 

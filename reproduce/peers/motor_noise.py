@@ -19,24 +19,29 @@ from vmc_lib.motor.planning import draw_targets, exact_weights, plan
 from vmc_lib.motor.templates import HOLD, keep_last, load, reach
 
 KNOTS = 12  # spline coefficients a second: noise wavers about as slowly as commands change
+PERSON = 2  # mm: how far a person's hand scatters at the end of a reach, about
 
 
 @cache
-def noise_basis(samples):
+def noise_basis(samples, step=STEP):
     """Spline basis (samples, knots) of noise, scaled so that random sums have unit variance."""
-    curves = spline(round(KNOTS * samples * STEP), samples)
+    curves = spline(round(KNOTS * samples * step), samples)
     return curves / np.linalg.norm(curves, axis=1, keepdims=True)
 
 
-def noise_factor(shape, share, rng):
-    """Multiplicative noise for commands of a shape (…, T, 6): 1 + share · (a smooth curve)."""
-    curves = noise_basis(shape[-2])
-    return 1 + share * curves @ rng.standard_normal((*shape[:-2], curves.shape[1], 6))
+def noise_factor(shape, share, rng, step=STEP):
+    """Multiplicative noise for commands of a shape (…, T, muscles), one every `step` s.
+
+    1 + share · (a smooth curve).
+    """
+    curves = noise_basis(shape[-2], step)
+    draws = rng.standard_normal((*shape[:-2], curves.shape[1], shape[-1]))
+    return 1 + share * curves @ draws
 
 
-def with_noise(excitations, share, rng):
-    """Excitations (…, T, 6) with signal-dependent noise, clipped to [0, 1]."""
-    return np.clip(excitations * noise_factor(np.shape(excitations), share, rng), 0, 1)
+def with_noise(excitations, share, rng, step=STEP):
+    """Excitations (…, T, muscles) with signal-dependent noise, clipped to [0, 1]."""
+    return np.clip(excitations * noise_factor(np.shape(excitations), share, rng, step), 0, 1)
 
 
 def noisy_reach(noise, excitations, perturbation=UNPERTURBED):

@@ -10,6 +10,7 @@ from time import process_time
 import numpy as np
 
 from reproduce import results
+from reproduce.peers import motor_noise
 from reproduce.whole_arm import habits, plant
 from reproduce.whole_arm.habits import ZONE, goal_grid
 from vmc_lib.cerebellum.offline import broyden_calibration
@@ -69,6 +70,17 @@ def planned_errors(past, targets):
         **{"planned speed": first.speed.mean(), "planned stray": first.stray.mean()},
         **{"corrected speed": last.speed.mean(), "corrected stray": last.stray.mean()},
     }
+
+
+def with_noise(past, share, rng):
+    """The memories `past`, on an arm whose commands waver by a share of their size, also held."""
+
+    def reach(commands, perturbation=None):
+        held = np.pad(commands, [*(commands.ndim - 2) * [(0, 0)], (0, plant.HOLD), (0, 0)], "edge")
+        moved = past.reach(motor_noise.with_noise(held, share, rng, plant.TICK), perturbation)
+        return plant.Motion(*(x[..., : -plant.HOLD, :] for x in moved))
+
+    return replace(past, reach=reach)
 
 
 class StopMotion(plant.Motion):
