@@ -37,8 +37,9 @@ def by_tries(reading, tries):
         mark_now(ax, tries, middle[tries])
     if "noise alone" in found:
         ax.axhline(found["noise alone"].mean(), ls=":", color=COLOURS["grey"], gid="noise alone")
-    ax.set(xlabel="tries", ylabel="error / planned error", xlim=(0, nulls.TRIES), ylim=(0, 1.05))
+    ax.set(xlabel="tries", ylabel="error / planned error", xlim=(0, nulls.TRIES), ylim=(0, 1.2))
     ax.set_xticks(range(0, nulls.TRIES + 1, 3))
+    ax.set_yticks(np.arange(0, 1.1, 0.2).round(1))  # above, the legend
     ax.legend(loc="upper right", fontsize="small")
     return fig
 

@@ -109,9 +109,12 @@ def arm_name(noise):
     return f"{WHOLE_ARM}, {noise}"
 
 
-def make(scenarios=SCENARIOS, seeds=MANY, **size):
-    """What `results/learning_curves.json` holds: every curve with every seed, without and with."""
-    experiments = {OFF_LINE: off_line}
+def make(scenarios=SCENARIOS, seeds=MANY, movements=25, **size):
+    """What `results/learning_curves.json` holds: every curve with every seed.
+
+    Off-line for so many `movements`; `size` is that of `whole_arm`.
+    """
+    experiments = {OFF_LINE: partial(off_line, count=movements)}
     for noise, share in {CALM: 0, NOISY: WHOLE_ARM_SHARE}.items():
         for scenario in scenarios:
             experiments[online_name(scenario, noise)] = partial(

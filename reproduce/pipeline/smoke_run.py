@@ -88,7 +88,7 @@ def toy_steps(folder):
         toy("feedback", watched, seeds=[0]),
         toy("forgetting", [0.45], [0.05], seeds=[0]),
         toy("unsteady", [0], seeds=[0], sizes=(2, 4), held_out=8),
-        toy("learning_curves", [], seeds=[0], count=1, trials=1),
+        toy("learning_curves", [], [0], movements=2, count=1, trials=1),
         toy("sensitivity", {}, 0.08, [0], 2, movements=2, held_out=4),
         toy("weakened", [0], muscle_weakness.TARGETS[:1], ["BRA"], count=2, before=20),
         toy("fresh_test_set", fresh, named, trainings=1, seeds=[0], patches=PATCHES),

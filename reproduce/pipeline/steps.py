@@ -167,12 +167,6 @@ STEPS = (
         3,
     ),
     Step(learning_under_noise.make, RESULTS / "unsteady.json", f"templates {ARM}", 3),
-    Step(
-        learning_curves.make,
-        RESULTS / "learning_curves.json",
-        f"templates unsteady whole_arm_habits {WHOLE_ARM}",
-        10,
-    ),
     Step(sensitivity.make, RESULTS / "sensitivity.json", f"templates {ARM}", 8),
     Step(muscle_weakness.make, RESULTS / "weakened.npz", f"templates {ARM}", 1),
     Step(rival_controllers.make, RESULTS / "rivals.json", f"templates optimal {ARM}", 6),
@@ -225,6 +219,12 @@ STEPS = (
     ),
     Step(habits.make, RESULTS / "whole_arm_habits.npz", WHOLE_ARM),
     Step(experiment.make, RESULTS / "whole_arm.json", f"whole_arm_habits {WHOLE_ARM}", 8),
+    Step(
+        learning_curves.make,
+        RESULTS / "learning_curves.json",
+        f"templates unsteady whole_arm_habits {WHOLE_ARM}",
+        10,
+    ),
     Step(f"{PYTHON} reproduce.whole_arm.derive", plant.FILE, needs="myo-sim"),
     Step(f"{PYTHON} reproduce.whole_arm.bones", bones63.FILE, needs="myo-sim"),
     Step(
