@@ -118,7 +118,7 @@ def calibrates_the_wrong_way(patch):
     """Both off-line rules step away from the target."""
     corrects_the_wrong_way(patch)
     patch.setattr(experiments, "ABLATION", {})
-    patch.setattr(experiments, "algorithm_1", partial(offline.algorithm_1, sign=-1))
+    patch.setitem(offline.RULES, "published", partial(offline.algorithm_1, sign=-1))
     patch.setattr(calibration, "load_results", lambda: Again.of("off-line", experiments=1))
 
 
@@ -165,7 +165,8 @@ def searches_blindly(patch):
         offline.algorithm_1, change=partial(nulls.blind_change, rng=np.random.default_rng(0))
     )
     patch.setattr(experiments, "ABLATION", {})
-    for module in (calibration, experiments, second_plant):
+    patch.setitem(offline.RULES, "published", blind)
+    for module in (calibration, second_plant):
         patch.setattr(module, "algorithm_1", blind)
     patch.setattr(calibration, "load_results", lambda: Again.of("blind", experiments=1))
     draws_few(patch, calibration)
