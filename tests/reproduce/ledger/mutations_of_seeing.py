@@ -24,10 +24,17 @@ from vmc_lib.where.svm import KernelSVM
 FEW = range(3)  # draws, to be quick
 
 
-def names_the_cup(patch):
-    """The recogniser's probability is that of the other thing; sixteen photos."""
-    real, load = loop.trials.see, photos.load
+def sees_sixteen_photos(patch):
+    """Sixteen photos meet the chain; of all is known which random filters name."""
+    load, right = photos.load, loop.random_filters.load_right("rig")
+    patch.setattr(loop.random_filters, "load_right", lambda level: right)
     patch.setattr(photos, "load", lambda *kind: load(*kind)[:16])
+
+
+def names_the_cup(patch):
+    """The recogniser's probability is that of the other thing."""
+    real = loop.trials.see
+    sees_sixteen_photos(patch)
     patch.setattr(
         loop.trials,
         "see",
@@ -179,7 +186,7 @@ def names_by(method):
 
 
 def names_by_random_filters(patch):
-    """The whole chain names by networks that nothing taught; sixteen photos."""
+    """The whole chain names by networks that nothing taught."""
     load, real = photos.load, loop.trials.VisuomotorModel.load
     crops, positive = cdbn.crops_of(load("rig", "train")[: random_filters.LESSONS])
     pictures, rng = filters.whiten(crops[positive]), np.random.default_rng(0)
@@ -196,7 +203,7 @@ def names_by_random_filters(patch):
         other = replace(model.recogniser, cdbn=network, classifier=linear)
         return replace(model, recogniser=other)
 
-    patch.setattr(photos, "load", lambda *kind: load(*kind)[:16])
+    sees_sixteen_photos(patch)
     patch.setattr(loop.trials.VisuomotorModel, "load", taught)
 
 
