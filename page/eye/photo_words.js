@@ -1,5 +1,7 @@
 /* What the page says of a photo: what was found in it, what the arm needs, how well it reached. */
 import { millimetres } from "../arm/live.js";
+import { hasRightSize } from "./box_selection.js";
+import { physicalSize } from "./camera.js";
 import { counted } from "./see.js";
 import { fromBeyond } from "./marker_sheet.js";
 
@@ -44,8 +46,12 @@ export const end = (calibrated, planned, [half, most], camera) =>
   `${millimetres(planned, 1)}. In half of our test photos that place is right to ${millimetres(half)}, ` +
   `in nine of ten to ${millimetres(most)}.${upsideDown(camera)}`;
 
-/* A shuttlecock's size, m, that none has. */
-export const wrongSize = (size) => ` By the sheet it is ${(100 * size).toFixed(0)} cm large, as no shuttlecock is: ${MEASURE}`;
+/* What is to be said of a shuttlecock that, by the sheet, is too large or too small for one. */
+export const sizeDoubt = ({ boxes, brain: { selector }, camera, marks }, number) => {
+  if (marks[number].colour !== "green" || hasRightSize(boxes[number], camera, selector)) return "";
+  const size = physicalSize(camera, boxes[number], selector.table);
+  return ` By the sheet it is ${(100 * size).toFixed(0)} cm large, as no shuttlecock is: ${MEASURE}`;
+};
 
 /* A place. */
 export const where = ([ahead, , right]) => {

@@ -1,5 +1,4 @@
-/* The reader's own photo, to a reach, in the page: each stage is drawn on the photo as soon as it is known, and
-   where the eye is wrong the reader may point at another box (book/figures/your_photo.py). */
+/* The reader's own photo, to a reach, in the page; where the eye is wrong the reader points at another box. */
 import { toWorld, turnTowards } from "../arm/kinematics.js";
 import { frame } from "../arm/live.js";
 import * as planning from "../arm/planning.js";
@@ -8,8 +7,7 @@ import { load } from "../arm/templates.js";
 import { drawScaled, letterbox, PIXELS_HIDDEN, takePictures } from "../canvas.js";
 import { signed } from "../demo/panel.js";
 import { minus } from "../vectors.js";
-import { hasRightSize } from "./box_selection.js";
-import { physicalSize, project } from "./camera.js";
+import { project } from "./camera.js";
 import { locate } from "./localiser.js";
 import { paintOver, readSheet, sheetOutline } from "./marker_sheet.js";
 import { PhotoMarks } from "./photo_marks.js";
@@ -160,13 +158,6 @@ export class YourPhoto extends Reach {
     }
   }
 
-  /* What is to be said of a shuttlecock that, by the sheet, is too large or too small for one. */
-  sizeDoubt(number) {
-    const { boxes, brain: { selector }, camera, marks } = this, box = boxes[number];
-    if (marks[number].colour !== "green" || hasRightSize(box, camera, selector)) return "";
-    return words.wrongSize(physicalSize(camera, box, selector.table));
-  }
-
   /* Where what is in a box stands on the table. */
   locate(number) {
     return locate(this.brain.localiser, this.bare, this.boxes[number], this.camera);
@@ -179,7 +170,7 @@ export class YourPhoto extends Reach {
     this.photo.drawBoxes(this.marks, number);
     this.box.querySelectorAll("button[data-box]").forEach((button, i) => button.setAttribute("aria-pressed", i === number));
     if (!this.camera) return this.say(words.need(this.read, this.given.sheet));
-    this.doubt = this.sizeDoubt(number);
+    this.doubt = words.sizeDoubt(this, number);
     try {
       this.place = this.locate(number);
       this.tell({ place: words.where(this.place) });

@@ -30,7 +30,10 @@ PRACTISED = "error after over planned, changing neighbours, practised"
 NEW = "error after over planned, changing neighbours, never practised"
 NULLS = nulls.SHUFFLED, *nulls.NO_LESSON
 NEARER = "examples brought nearer, practised"
-LESS_EXACT = f"{nulls.PRINTED} less exact weights, {{}}"
+LESS_EXACT = {
+    kind: f"{nulls.PRINTED} less exact weights, {movements}"
+    for kind, movements in ((IN_SAMPLE, "practised"), (HELD_OUT, "never practised"))
+}
 FALLS = "steps, experiment to experiment, in which the error falls"
 ONLINE = {"better": -1, "rounding": paper.ratio_rounding("online", "planned")}
 
@@ -57,7 +60,7 @@ def _table_6():
         *(_learned(name.format(f"{s}, {HELD}"), None, load_results()[s]) for s in SCENARIOS),
         _learned(name.format(sensitivity.ON_THELEN), None, sensitivity.load_thelen_tables()),
         share("practised: draws that leave as much as the paper's", None, *as_much),
-        *(mean(LESS_EXACT.format(kind), None, taught_less[kind]) for kind in (IN_SAMPLE, HELD_OUT)),
+        *(mean(LESS_EXACT[kind], None, taught_less[kind]) for kind in (IN_SAMPLE, HELD_OUT)),
     ]
 
 
@@ -156,8 +159,8 @@ ROWS = (
         f"{{q[{PRACTISED}].nulls[{nulls.NO_LESSON[0]}]:.2f}}, just the paper's share, with Eq. 4 "
         f"solved exactly {{q[{PRACTISED}].nulls[{nulls.NO_LESSON[1]}]:.2f}}. (Algorithm 2 "
         "itself leaves less than these on what it practised, "
-        f"{{q[{LESS_EXACT.format(IN_SAMPLE)}].obtained:+.3f}} on the same draws, and more on what "
-        f"it did not, {{q[{LESS_EXACT.format(HELD_OUT)}].obtained:+.3f}}.) And the teacher "
+        f"{{q[{LESS_EXACT[IN_SAMPLE]}].obtained:+.3f}} on the same draws, and more on what "
+        f"it did not, {{q[{LESS_EXACT[HELD_OUT]}].obtained:+.3f}}.) And the teacher "
         "matters little: taught by blind search instead of Eq. 6–7 it leaves "
         f"{{q[error after over planned, {nulls.BLINDLY_TAUGHT}].in_sample:.2f}} "
         f"of those practised, and {{q[error after over planned, {nulls.BLINDLY_TAUGHT}]"
