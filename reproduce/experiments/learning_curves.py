@@ -15,7 +15,6 @@ from reproduce.peers.motor_noise import PERSON, endpoint_deviation, with_noise
 from vmc_lib.cerebellum.offline import broyden_calibration
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import draw_targets, norm, plan
-from vmc_lib.motor.templates import load
 
 OFF_LINE, WHOLE_ARM = "off-line", "whole arm"
 CALM, NOISY = "calm", "a person's noise"
@@ -29,9 +28,8 @@ def person_share():
 
 def templates_of_person(stream, noise=NOISY):
     """The templates, on an arm with a person's noise, which `stream` seeds; or on a `CALM` one."""
-    if noise == CALM:
-        return load()
-    return templates_with_noise(partial(with_noise, share=person_share()), stream)
+    wavers = None if noise == CALM else partial(with_noise, share=person_share())
+    return templates_with_noise(wavers, stream)
 
 
 def kept_again(habit, trials):

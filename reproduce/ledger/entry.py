@@ -139,7 +139,7 @@ def share(name, claimed, right, n, of=None, unit="cases", effect=1.0, **rest):
     ends = dict(zip(("low", "high"), wilson(right / effect, n / effect), strict=True))
     if of:
         ends |= dict(zip(("least", "most"), _one_more_share(right, n, of, effect), strict=True))
-    return Quantity(name, claimed, right / n, sample=f"{round(n)} {unit}", **ends, **rest)
+    return Quantity(name, claimed, right / n, sample=_counted(n, unit, effect), **ends, **rest)
 
 
 def mean_of_trainings(name, claimed, shares, n, of=None, unit="cases", effect=1.0, **rest):
@@ -157,8 +157,13 @@ def mean_of_trainings(name, claimed, shares, n, of=None, unit="cases", effect=1.
         wider = min if end in ("low", "least") else max
         ends[end] = wider(ends[end], getattr(counted, end))
     ends = {end: float(np.clip(x, 0, 1)) for end, x in ends.items()}
-    sample = f"{len(shares)} trainings, {round(n)} {unit}"
+    sample = f"{len(shares)} trainings, {_counted(n, unit, effect)}"
     return Quantity(name, claimed, middle, sample=sample, **ends, **rest)
+
+
+def _counted(n, unit, effect):
+    """How many of what a share was counted on, and their design effect if they are clustered."""
+    return f"{round(n)} {unit}" + (f" (design effect {effect:.1f})" if effect > 1 else "")
 
 
 def _one_more_share(right, n, of, effect):

@@ -45,10 +45,6 @@ def _table_6():
     as_much = (practised >= claimed).sum(), len(practised)
     luck = {name: lessons[f"{name}, in-sample"][:, 1].mean() for name in NULLS}
     taught = [lessons[f"{nulls.BLINDLY_TAUGHT}, {kind}"][:, 1] for kind in (HELD_OUT, IN_SAMPLE)]
-    taught_less = {
-        kind: (lessons[f"{nulls.PRINTED}, {kind}"] - lessons[f"{nulls.NO_LESSON[1]}, {kind}"])[:, 1]
-        for kind in (IN_SAMPLE, HELD_OUT)
-    }
     return [
         mean_of_draws(PRACTISED, claimed, practised, **ONLINE, nulls=luck),
         mean_of_draws(NEW, None, held_out, in_sample=practised.mean()),
@@ -60,7 +56,11 @@ def _table_6():
         *(_learned(name.format(f"{s}, {HELD}"), None, load_results()[s]) for s in SCENARIOS),
         _learned(name.format(sensitivity.ON_THELEN), None, sensitivity.load_thelen_tables()),
         share("practised: draws that leave as much as the paper's", None, *as_much),
-        *(mean(LESS_EXACT[kind], None, taught_less[kind]) for kind in (IN_SAMPLE, HELD_OUT)),
+        *(
+            mean(less, None, (lessons[f"{nulls.PRINTED}, {kind}"] - lessons[exact])[:, 1])
+            for kind, less in LESS_EXACT.items()
+            for exact in [f"{nulls.NO_LESSON[1]}, {kind}"]
+        ),
     ]
 
 

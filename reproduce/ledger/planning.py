@@ -116,12 +116,10 @@ def _nearby():
 def _few_templates():
     """Denser templates; by other weights than Eq. 5's, too; then more of them combined."""
     found, others = draws("IV C, templates"), nulls.load_results()[nulls.BY_WEIGHTS]
-    steps = [
-        [templates.SPACINGS.index(apart) for apart in pair] for pair in ((0.06, 0.08), (0.04, 0.06))
-    ]
+    at = templates.SPACINGS.index
     luck = [
-        {name: (others[name][:, dense] / others[name][:, wide]).mean() for name in WEIGHTS}
-        for dense, wide in steps
+        {name: (others[name][:, at(dense)] / others[name][:, at(wide)]).mean() for name in WEIGHTS}
+        for dense, wide in ((0.06, 0.08), (0.04, 0.06))
     ]
     return [
         mean(name, 1, ratios, nulls=null, **BELOW)

@@ -10,11 +10,9 @@ from vmc_lib import photos
 KERNELS = {"linear": "linear", "RBF": "rbf", "polynomial": "poly", "Gaussian": "sigmoid"}
 MEASURES = ("precision", "recall")
 SECOND_HUNDRED = "On a hundred fresh photos that had no part in any choice."
-EFFECTS = [x for of in load_effects().values() for effects in of.values() for x in effects]
 CLUSTERED = (
     " Several regions lie on one object, and are often right or wrong together: intervals take "
-    f"them for fewer ({min(EFFECTS):.1f} to {max(EFFECTS):.1f} times fewer: their design effect on "
-    "the photos that ship)."
+    "them for fewer, by their design effect on the photos that ship."
 )
 EXACT = {"better": 1, "rounding": paper.SHARE}
 

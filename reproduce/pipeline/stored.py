@@ -59,19 +59,23 @@ NOT_AGAIN = {  # of which no test makes a draw again, and why
 
 def stored_table():
     """What is stored, as Markdown: its rows, minutes to make it again, and whether a test does."""
-    minutes = {step.name: f"{step.minutes:g}" for step in STEPS}
-    needs = {
-        step.name: f", and {step.needs} ({minutes.get(step.needs, 'installed')})"
-        for step in STEPS
-        if step.needs
-    }
     lines = [
         [
             f"`{name}`",
             ", ".join(f'<a href="#{anchor(where)}">{where}</a>' for where in rows),
-            minutes.get(name, "") + needs.get(name, ""),
+            _minutes(name),
             NOT_AGAIN.get(name, "yes"),
         ]
         for name, rows in RESTS_ON.items()
     ]
     return table(["stored", "rows", "minutes", "one draw made again"], lines)
+
+
+def _minutes(name):
+    """The minutes of the step of that name, and of what it needs; none where it is no step."""
+    steps = {step.name: step for step in STEPS}
+    if name not in steps:
+        return ""
+    step = steps[name]
+    needs = f", and {step.needs} ({steps[step.needs].minutes:g})" if step.needs else ""
+    return f"{step.minutes:g}{needs}"
