@@ -72,10 +72,11 @@ def stored_table():
 
 
 def _minutes(name):
-    """The minutes of the step of that name, and of what it needs; none where it is no step."""
+    """The minutes of the step of that name, and what it needs; none where it is no step."""
     steps = {step.name: step for step in STEPS}
     if name not in steps:
         return ""
-    step = steps[name]
-    needs = f", and {step.needs} ({steps[step.needs].minutes:g})" if step.needs else ""
-    return f"{step.minutes:g}{needs}"
+    minutes, needs = f"{steps[name].minutes:g}", steps[name].needs  # a step, or words
+    if needs in steps:
+        needs = f"{needs} ({steps[needs].minutes:g})"
+    return f"{minutes}, and {needs}" if needs else minutes

@@ -41,6 +41,17 @@ def test_one_draw_of_each_stored_result_is_made_again():
     assert {*ELSEWHERE} | HERE == {*stored.RESTS_ON} - {*stored.NOT_AGAIN}
 
 
+def test_the_page_says_what_it_takes_to_make_a_stored_result_again():
+    """Minutes of its step, and what else that needs: another step with its own, or words."""
+    rows = [line.split("|") for line in stored.stored_table().splitlines() if "<a href" in line]
+    minutes = {name.strip(" `"): text.strip() for _, name, _, text, *_ in rows}
+    assert [*minutes] == [*stored.RESTS_ON]
+    assert minutes["nulls"] == "5"
+    assert minutes["fresh_names"] == "5, and fresh_photos (40)"
+    assert minutes["opensim"].endswith("and OpenSim in .bench, ARM26=path/to/arm26.osim")
+    assert minutes["bench/loop"] == ""
+
+
 def test_one_draw_of_random_filters_is_reproducible():
     """On the rig, the second read-out: where both names are sure."""
     now, shipped = random_filters.answers(0, levels=("rig",)), arrays("random_filters")
