@@ -10,7 +10,7 @@ import torch
 from vmc_lib import box_selection, boxes, loop, photos, statistics
 from vmc_lib.arm import arm26, dynamics, kinematics, muscle, simulate
 from vmc_lib.cerebellum import feedback_error, forward_model, offline, online
-from vmc_lib.motor import execution, feedback, planning, templates
+from vmc_lib.motor import execution, feedback, inverse_dynamics, planning, templates
 from vmc_lib.show import (
     COLOURS,
     Pad,
@@ -124,6 +124,24 @@ SIGHT = {  # a call: what its error says, the value and the remedy
     "odds": (lambda g: box_selection.scale_odds(0.5, "five"), "'five'", "give numbers"),
     "no camera to locate by": (
         lambda g: g.model.localiser.locate(g.image, (0, 0, 9, 9), None), "None", "photo.camera"
+    ),
+    "a third box kept": (
+        lambda g: boxes.vote([2], [[0, 0, 9, 9]] * 2, [0.1, 0.2]), "[2.0]", "indices of the 2 boxes"
+    ),
+    "one kept": (lambda g: boxes.vote(0, [[0, 0, 9, 9]], [0.1]), "kept 0.0", "as nms does"),
+    "kept by name": (lambda g: boxes.vote(["a"], [[0, 0, 9, 9]], [1]), "['a']", "give numbers"),
+    "a score of two": (
+        lambda g: boxes.vote([0], [[0, 0, 9, 9]] * 2, [0.1]), "(1,)", "as many finite scores"
+    ),
+    "no temperature": (
+        lambda g: boxes.vote([0], [[0, 0, 9, 9]], [1], 0), "temperature = 0", "above 0"
+    ),
+    "deltas of three": (
+        lambda g: boxes.decode_deltas([0, 0, 9, 9], [[0, 0, 0]]), "(1, 3)", "a row of 4 for each"
+    ),
+    "a delta alone": (lambda g: boxes.decode_deltas([0, 0, 9, 9], 0.1), "()", "a row of 4"),
+    "two true boxes of three": (
+        lambda g: boxes.encode_deltas([[0, 0, 9, 9]] * 3, [[0, 0, 9, 8]] * 2), "(2, 4)", "3 boxes"
     ),
     "three labels": (lambda g: svm.KernelSVM.fit(np.eye(2), [0, 1, 1]), "(2, 2)", "n labels"),
 }  # fmt: skip
@@ -298,6 +316,33 @@ MOVING = {
     "an origin": (lambda g: offline.algorithm_1(g.plan, origin=3), "origin 3", "(x, y) in m"),
     "a place first": (
         lambda g: g.reach.distance((0, 0, 0), g.reach.planned), "(0, 0, 0)", "reach.planned"
+    ),
+    "a goal in space": (
+        lambda g: inverse_dynamics.minimum_jerk((0, 0), (1, 1, 1)), "[1. 1. 1.]", "of one length"
+    ),
+    "an angle alone": (lambda g: inverse_dynamics.minimum_jerk(0, 1), "goal 1.0", "(…, n)"),
+    "samples before the start": (
+        lambda g: inverse_dynamics.minimum_jerk((0, 0), (1, 1), samples=-1), "= -1", "1 or more"
+    ),
+    "no time to move": (
+        lambda g: inverse_dynamics.minimum_jerk((0, 0), (1, 1), moving=0), "= 0", "above 0"
+    ),
+    "half of the time": (
+        lambda g: inverse_dynamics.minimum_jerk_profile("half"), "'half'", "give numbers"
+    ),
+    "a path in space": (
+        lambda g: inverse_dynamics.required_torque(np.zeros((5, 3))), "(5, 3)", "(T + 1, 2)"
+    ),
+    "a path of a moment": (
+        lambda g: inverse_dynamics.required_torque([[0, 1]]), "(1, 2)", "two rows or more"
+    ),
+    "a speed of one joint": (
+        lambda g: inverse_dynamics.muscle_gain((0, 1), (0,)), "(1,)", "give both as (…, 2)"
+    ),
+    "muscles of three joints": (lambda g: dynamics.paths((0, 1, 2)), "(0, 1, 2)", "elbow), (…, 2)"),
+    "muscles by name": (lambda g: dynamics.paths("bent"), "bent", "(shoulder, elbow), (…, 2)"),
+    "a power": (
+        lambda g: planning.exact_weights((0.1, -0.4), g.plan.points, "two"), "'two'", "as 1 or 2"
     ),
     "a movement's name": (lambda g: g.reach.hand("planned"), "'planned'", "give reach.planned"),
 }  # fmt: skip

@@ -27,14 +27,15 @@ def as_boxes(boxes: ArrayLike) -> np.ndarray:
     return boxes
 
 
-def area(boxes: np.ndarray) -> np.ndarray:
+def area(boxes: ArrayLike) -> np.ndarray:
     """Areas (n,) of boxes (n, 4), in square pixels."""
-    x0, y0, x1, y1 = np.moveaxis(boxes, -1, 0)
+    x0, y0, x1, y1 = np.moveaxis(np.asarray(boxes), -1, 0)
     return (x1 - x0) * (y1 - y0)
 
 
-def centres_and_sides(boxes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def centres_and_sides(boxes: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
     """Centres (n, 2) and sides (n, 2), along x and y, of boxes (n, 4)."""
+    boxes = np.asarray(boxes)
     return (boxes[..., :2] + boxes[..., 2:]) / 2, boxes[..., 2:] - boxes[..., :2]
 
 
@@ -92,10 +93,7 @@ def nms(boxes: ArrayLike, scores: ArrayLike, overlap: float = 0.3) -> np.ndarray
     >>> nms([[0, 0, 9, 9], [0, 0, 9, 8], [20, 0, 29, 9]], [0.6, 0.9, 0.8]).tolist()
     [1, 2]
     """
-    boxes, scores = as_boxes(boxes), as_numbers("scores", scores)
-    if scores.shape != (len(boxes),) or not np.isfinite(scores).all():
-        got = f"shape {scores.shape}" if scores.shape != (len(boxes),) else scores
-        raise ValueError(f"{len(boxes)} boxes need as many finite scores, not {got}")
+    boxes, scores = _boxes_and_scores(boxes, scores)
     if not is_within(overlap, 0, 1):
         raise ValueError(f"overlap = {short(overlap)}: an IoU is within 0..1")
     waiting, kept = np.argsort(-scores, kind="stable"), []
@@ -106,15 +104,32 @@ def nms(boxes: ArrayLike, scores: ArrayLike, overlap: float = 0.3) -> np.ndarray
     return np.array(kept, int)
 
 
+def _boxes_and_scores(boxes, scores):
+    """Boxes and their scores as arrays; ValueError where one finite score is not there for each."""
+    boxes, scores = as_boxes(boxes), as_numbers("scores", scores)
+    if scores.shape != (len(boxes),) or not np.isfinite(scores).all():
+        got = f"shape {scores.shape}" if scores.shape != (len(boxes),) else scores
+        raise ValueError(f"{len(boxes)} boxes need as many finite scores, not {got}")
+    return boxes, scores
+
+
 def vote(
-    kept: np.ndarray, boxes: np.ndarray, scores: np.ndarray, temperature: float = 0.1
+    kept: ArrayLike, boxes: ArrayLike, scores: ArrayLike, temperature: float = 0.1
 ) -> np.ndarray:
     """Box voting: each of the boxes `kept` (indices) becomes a weighted mean of boxes near it.
 
     A box votes for each kept one that it overlaps by half or more and does not outscore. A vote
     weighs exp(-lag / temperature), its score being `lag` below the kept box's (after Gidaris &
-    Komodakis 2015).
+    Komodakis 2015). ValueError where `kept` is no list of boxes' indices, or the temperature not
+    above 0.
     """
+    boxes, scores = _boxes_and_scores(boxes, scores)
+    kept = as_numbers("kept", kept)
+    if kept.ndim != 1 or not np.isin(kept, np.arange(len(boxes))).all():
+        raise ValueError(f"kept {short(kept)}: give indices of the {len(boxes)} boxes, as nms does")
+    kept = kept.astype(int)
+    if not (is_within(temperature, 0, np.inf) and temperature > 0):
+        raise ValueError(f"temperature = {short(temperature)}: give a number above 0")
     lag = scores[kept, None] - scores
     votes = (lag >= 0) & (iou(boxes[kept], boxes) >= 0.5)
     votes[np.arange(len(kept)), kept] = True  # without area, it does not overlap even itself
@@ -137,14 +152,29 @@ def jitter_boxes(boxes: ArrayLike, amount: float, rng: np.random.Generator) -> n
     return boxes + rng.normal(0, as_numbers("amount", amount), boxes.shape) * np.tile(sides, 2)
 
 
-def encode_deltas(boxes: np.ndarray, truth: np.ndarray) -> np.ndarray:
-    """Box-regression targets (dx/w, dy/h, log dw, log dh) from boxes to truth, (n, 4) (R-CNN)."""
+def _one_for_each(boxes, name, rows):
+    """Boxes and rows of four; ValueError unless they are as many, or one stands for all."""
+    if rows.shape[1:] != (4,) or (len(rows) != len(boxes) and 1 not in (len(rows), len(boxes))):
+        raise ValueError(f"{name} {rows.shape} of {len(boxes)} boxes: give a row of 4 for each")
+    return boxes, rows
+
+
+def encode_deltas(boxes: ArrayLike, truth: ArrayLike) -> np.ndarray:
+    """Box-regression targets (dx/w, dy/h, log dw, log dh) from boxes to truth, (n, 4) (R-CNN).
+
+    ValueError unless there is one true box for each, or one for all.
+    """
+    boxes, truth = _one_for_each(as_boxes(boxes), "truth", as_boxes(truth))
     (centres, sides), (true_centres, true_sides) = map(centres_and_sides, (boxes, truth))
     return np.hstack([(true_centres - centres) / sides, np.log(true_sides / sides)])
 
 
-def decode_deltas(boxes: np.ndarray, deltas: np.ndarray) -> np.ndarray:
-    """Move and stretch boxes (n, 4) by deltas (n, 4) as `encode_deltas` defines them."""
+def decode_deltas(boxes: ArrayLike, deltas: ArrayLike) -> np.ndarray:
+    """Move and stretch boxes (n, 4) by deltas (n, 4) as `encode_deltas` defines them.
+
+    ValueError unless there is one row of deltas for each, or one for all.
+    """
+    boxes, deltas = _one_for_each(as_boxes(boxes), "deltas", as_numbers("deltas", deltas))
     centres, sides = centres_and_sides(boxes)
     centres = centres + deltas[:, :2] * sides
     half = sides * np.exp(deltas[:, 2:]) / 2

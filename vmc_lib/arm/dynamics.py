@@ -47,9 +47,14 @@ def trig_basis_gradient(shoulder: np.ndarray, elbow: np.ndarray) -> tuple[tuple,
 
 def _trig_basis_of(q):
     """`trig_basis` of postures (…, 2), as an array (…, 11); ValueError for other shapes."""
+    return np.array(trig_basis(*_posture(q).T)).T
+
+
+def _posture(q):
+    """Postures as an array (…, 2), in rad; ValueError for other shapes."""
     if np.shape(q)[-1:] != (2,):
         raise ValueError(f"posture {q} must be (shoulder, elbow), (…, 2), in rad")
-    return np.array(trig_basis(*np.transpose(q))).T
+    return as_numbers("posture", q)
 
 
 @cache
@@ -128,8 +133,11 @@ def _dynamics(terms, w1, w2, step):
 
 
 def paths(q: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
-    """Musculotendon lengths (…, 6) and moment arms (…, 2, 6) in m; angles held to the tables."""
-    row, share = table_row(q, slice(2))
+    """Musculotendon lengths (…, 6) and moment arms (…, 2, 6) in m; angles held to the tables.
+
+    ValueError where a posture is no (…, 2).
+    """
+    row, share = table_row(_posture(q), slice(2))
     entry = tables()[np.arange(2), row]
     value = entry[..., :12] + share[..., None] * entry[..., 12:]
     return value[..., 0, :6] + value[..., 1, :6], value[..., 6:]

@@ -14,8 +14,9 @@ from vmc_lib.arm.engines import fibres
 from vmc_lib.arm.model import F0, STEP
 from vmc_lib.arm.muscle import PAPER
 from vmc_lib.arm.simulate import check_posture
-from vmc_lib.checks import as_numbers
+from vmc_lib.checks import as_numbers, check_count, is_within
 from vmc_lib.data import read_only
+from vmc_lib.short_repr import short
 
 MOVING, SAMPLES = 700, 1000  # ms: a movement; the movement and the hold that follows
 KNOTS = 28  # spline coefficients of each muscle's excitation
@@ -40,7 +41,7 @@ def spline(knots: int = KNOTS, samples: int = SAMPLES) -> np.ndarray:
 
 def minimum_jerk_profile(share: ArrayLike) -> np.ndarray:
     """Minimum jerk (Flash & Hogan 1985): the share of a way done at each share of its time."""
-    s = np.clip(share, 0, 1)
+    s = np.clip(as_numbers("share", share), 0, 1)
     return s**3 * (10 - 15 * s + 6 * s**2)
 
 
@@ -49,9 +50,15 @@ def minimum_jerk(
 ) -> np.ndarray:
     """Minimum-jerk paths (…, samples + 1, n) from start to goal (…, n), there after `moving`.
 
-    Then they stay there.
+    Then they stay there. ValueError where start and goal are no joint angles, or places, of one
+    length; where there is no sample, or no time to move.
     """
     start, goal = as_numbers("start", start), as_numbers("goal", goal)
+    if start.ndim == 0 or start.shape[-1:] != goal.shape[-1:]:
+        raise ValueError(f"from start {start} to goal {goal}: give both of one length, (…, n)")
+    check_count("samples", samples, least=1)
+    if not (is_within(moving, 0, np.inf) and moving > 0):
+        raise ValueError(f"moving = {short(moving)}: give a number of samples above 0")
     done = minimum_jerk_profile(np.arange(samples + 1) / moving)[:, None]
     return start[..., None, :] + (goal - start)[..., None, :] * done
 
@@ -59,8 +66,12 @@ def minimum_jerk(
 def muscle_gain(q: np.ndarray, velocity: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Muscle torque as a linear function of activation: slack torque (…, 2), gain (…, 2, 6), N m.
 
-    An activation (…, 6) adds gain @ activation to the torque of the slack muscles.
+    An activation (…, 6) adds gain @ activation to the torque of the slack muscles. ValueError for
+    another shape of the posture (…, 2), or of its velocity.
     """
+    q, velocity = as_numbers("posture", q), as_numbers("velocity", velocity)
+    if q.shape != velocity.shape:
+        raise ValueError(f"posture {q.shape} and velocity {velocity.shape}: give both as (…, 2)")
     lengths, arms = dynamics.paths(q)
     normal = fibres(lengths, arms, velocity)
     slack, full = (PAPER.force(a, *normal, F0)[..., None, :] for a in (0.0, 1.0))
@@ -75,7 +86,7 @@ def required_torque(path: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     Parameters
     ----------
     path : array (T + 1, 2)
-        Joint angles, rad, a millisecond apart.
+        Joint angles, rad, a millisecond apart; two or more.
 
     Returns
     -------
@@ -84,12 +95,22 @@ def required_torque(path: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     gain : array (T, 2, 6)
         Torque per unit activation, N m.
 
+    Raises
+    ------
+    ValueError
+        Where the path is of another shape.
+
     Examples
     --------
     >>> torque, gain = required_torque(np.zeros((11, 2)))
     >>> torque.shape, gain.shape
     ((10, 2), (10, 2, 6))
     """
+    path = as_numbers("path", path)
+    if path.ndim != 2 or path.shape[1] != 2 or len(path) < 2:
+        raise ValueError(
+            f"path {path.shape}: give joint angles (T + 1, 2) in rad, two rows or more"
+        )
     velocity = np.diff(path, axis=0, prepend=path[:1]) / STEP
     acceleration = np.diff(velocity, axis=0) / STEP
     q, velocity = path[:-1], velocity[:-1]

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vmc_lib import NoReach
-from vmc_lib.checks import as_numbers, check_count, check_kind, check_rng
+from vmc_lib.checks import as_numbers, check_count, check_kind, check_rng, is_within
 from vmc_lib.motor.templates import TemplateSet, offsets
 from vmc_lib.short_repr import short, short_repr
 
@@ -84,6 +84,8 @@ def habitual_weights(target: ArrayLike, points: np.ndarray, power: float = 1) ->
     [0.75, 0.25]
     """
     distance = norm(offsets(points, target))
+    if not is_within(power, -np.inf, np.inf):
+        raise ValueError(f"power = {short(power)}: give a number, as 1 or 2")
     on = distance < 1e-9
     nearness = np.where(on, 1, distance) ** -power
     nearness = np.where(on.any(axis=-1, keepdims=True), on, nearness)
