@@ -62,9 +62,8 @@ def test_every_doi_has_the_form_of_one():
 
 
 def test_every_reference_can_be_opened():
-    """A DOI or an address; of a chapter of a book and of an abstract we have seen neither."""
     closed = {name for name, entry in REFERENCES.items() if not {"doi", "url"} & {*entry.fields}}
-    assert closed == {"Nagasaki1989", "Todorov2003"}
+    assert not closed
     addresses = [entry.fields["url"] for entry in REFERENCES.values() if "url" in entry.fields]
     assert all(re.fullmatch(r"https?://\S+\.\S+/\S+", address) for address in addresses), addresses
 
