@@ -13,10 +13,12 @@ READINGS = {  # how a movement is read -> what each rule then leaves after 0, 1,
     "over the hold": lambda: nulls.load_results()[nulls.BY_TRIES_HELD],
     "over the hold, at a person's noise": lambda: learning_curves.load_results()["off-line"],
 }
+KINDS = nulls.IN_SAMPLE, nulls.HELD_OUT
 LINES = {  # a rule -> its line
     nulls.PAPER: ("blue", "-"),
     nulls.BLIND: ("orange", "-"),
     nulls.SAME_LENGTH: ("orange", ":"),
+    nulls.RANDOM_LENGTH: ("blue", ":"),
     nulls.LINE: ("green", "--"),
     nulls.WHOLE_HOLD: ("green", "-"),
 }
@@ -29,11 +31,8 @@ def by_tries(reading, tries):
     """
     found = READINGS[reading]()
     fig, ax = panels(size=(6.4, 3.6))
-    for rule, (colour, style) in LINES.items():
-        middle, half = student(found[rule])
-        x = np.arange(len(middle))
-        ax.plot(x, middle, style, color=COLOURS[colour], label=rule)
-        ax.fill_between(x, middle - half, middle + half, color=COLOURS[colour], alpha=0.2, lw=0)
+    for rule in (name for name in LINES if name in found):
+        middle = _curve(ax, rule, np.arange(nulls.TRIES + 1), found[rule])
         mark_now(ax, tries, middle[tries])
     if "noise alone" in found:
         ax.axhline(found["noise alone"].mean(), ls=":", color=COLOURS["grey"], gid="noise alone")
@@ -44,10 +43,32 @@ def by_tries(reading, tries):
     return fig
 
 
+def _curve(ax, rule, x, shares):
+    """A rule's line over `x`, the mean of the draws (draws, x), returned, with its 95 % band."""
+    (colour, style), (middle, half) = LINES[rule], student(shares)
+    ax.plot(x, middle, style, color=COLOURS[colour], label=rule)
+    ax.fill_between(x, middle - half, middle + half, color=COLOURS[colour], alpha=0.2, lw=0)
+    return middle
+
+
+def by_teaching():
+    """What Algorithm 2 leaves after one experiment, by the tries that each of its lessons cost."""
+    found = nulls.load_results()[nulls.BY_TEACHING]
+    fig, *axes = panels(2, size=(6.4, 3.0))
+    for ax, kind, movements in zip(axes, KINDS, ("practised", "never practised"), strict=True):
+        for rule in (nulls.PAPER, nulls.BLIND, nulls.LINE):
+            _curve(ax, rule, nulls.TAUGHT, found[f"{rule}, {kind}"])
+        ax.set(title=movements, xlabel="tries a lesson", xlim=(0, nulls.TRIES), ylim=(0, 0.8))
+        ax.set_xticks(nulls.TAUGHT)
+    axes[0].set_ylabel("error / planned error")
+    axes[1].legend(loc="lower right", fontsize="small")
+    return fig
+
+
 def tries_in_words(reading, tries):
     """The same in words: what each rule leaves after so many tries."""
     found = READINGS[reading]()
-    left = ", ".join(f"{found[rule][:, tries].mean():.2f} ({rule})" for rule in LINES)
+    left = ", ".join(f"{found[n][:, tries].mean():.2f} ({n})" for n in LINES if n in found)
     return f"After {tries} tries, read {reading}, of the planned error there is left: {left}."
 
 
@@ -69,7 +90,7 @@ def mechanisms():
         },
         "off-line, 21 tries: error left": {
             "the paper: Eq. 6–7": tried[nulls.PAPER][:, -1],
-            **{f"null: {name}": tried[name][:, -1] for name in nulls.LUCK},
+            **{f"null: {name}": tried[name][:, -1] for name in nulls.NULLS},
             f"the error's direction: {nulls.LINE}": tried[nulls.LINE][:, -1],
             "best known: Broyden": tried[nulls.OURS][:, -1],
         },

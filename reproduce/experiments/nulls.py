@@ -2,7 +2,8 @@
 
 Off-line calibration makes 21 tries. `offline_rules` change the weights in other ways, as often.
 Online calibration learns from pairs: in `lessons` they are shuffled, or their corrections were
-found blindly, or nothing is learned and the plan's weights are others. Eq. 5 weighs templates by
+found blindly, or nothing is learned and the plan's weights are others; in `teaching` few tries, or
+none, find the corrections. Eq. 5 weighs templates by
 nearness; `WEIGHTS` do otherwise. All meet the same targets, so that they are compared in pairs.
 """
 
@@ -44,10 +45,14 @@ AS_ALGORITHM_1 = (*range(1, 21), 0)  # the n in the order in which it counts the
 LENGTH = 0.1  # of a blind change of the weights; chosen on other targets (seeds 100 to 109)
 PAPER, BLIND = "Eq. 6–7", "blind search"
 SAME_LENGTH, LINE = "random direction", "line search along Eq. 4"
-LUCK = BLIND, SAME_LENGTH
+RANDOM_LENGTH = "random length"
+LUCK = BLIND, SAME_LENGTH  # in place of a direction …
+NULLS = *LUCK, RANDOM_LENGTH  # … and of a length
+TAUGHT = 0, 1, 3, 6, 11, TRIES  # tries that a lesson costs
 IN_ORDER = f"{PAPER}, n = 1, 2, 3, …"
 OURS, WHOLE_HOLD = "Broyden", "least squares over the hold"
 PRINTED, SHUFFLED, BLINDLY_TAUGHT = "Algorithm 2", "shuffled pairs", "taught by blind search"
+IN_SAMPLE, HELD_OUT = "in-sample", "held-out"
 NO_LESSON = "no lesson, inverse-square weights", "no lesson, Eq. 4 solved exactly"
 
 
@@ -66,6 +71,14 @@ def random_direction_change(plan, *asked, rng):
     return norm(algorithm_1_change(plan, *asked))[..., None] * _random_unit(plan, rng)
 
 
+def random_length_change(plan, *asked, rng):
+    """A Δw (…, N) along that of Eq. 6–7, of a random length: up to twice that of a blind one."""
+    change = algorithm_1_change(plan, *asked)
+    length = norm(change)[..., None]
+    drawn = rng.uniform(0, 2 * LENGTH, length.shape)
+    return drawn * np.divide(change, length, out=np.zeros_like(change), where=length > 0)
+
+
 LAWS = {SAME_LENGTH: random_direction_change, BLIND: blind_change}  # luck's, of a generator
 
 
@@ -75,6 +88,11 @@ def line_search_change(plan, endpoint, n, *_):
     return (n + 1) / 10 * least_change(points, plan.target - endpoint)
 
 
+def calibration_by(law, order=COARSE_TO_FINE):
+    """Algorithm 1 with another `law` for Eq. 6–7, and the n in this order."""
+    return partial(algorithm_1, gains=order, change=law)
+
+
 def offline_rules(rng):
     """Name -> a rule that calibrates a plan by `TRIES` movements."""
     laws = {
@@ -82,7 +100,7 @@ def offline_rules(rng):
         **{name: partial(law, rng=rng) for name, law in LAWS.items()},
         LINE: line_search_change,
     }
-    rules = {name: partial(algorithm_1, gains=COARSE_TO_FINE, change=x) for name, x in laws.items()}
+    rules = {name: calibration_by(law) for name, law in laws.items()}
     rules[OURS] = partial(broyden_calibration, n_trials=TRIES)
     rules[WHOLE_HOLD] = lambda habit: gauss_newton_calibration(habit, TRIES - habit.rows.shape[-1])
     return rules
@@ -97,7 +115,9 @@ def tries(seed, hold=templates.HOLD, count=25):
     rng, past = np.random.default_rng(seed), templates.load(hold=hold)
     _, targets = (draw_targets(past, n, rng) for n in (200, count))
     habit, found = plan(targets, past), {}
-    for name, rule in offline_rules(rng).items():
+    rules = offline_rules(rng)
+    rules[RANDOM_LENGTH] = calibration_by(partial(random_length_change, rng=rng))
+    for name, rule in rules.items():
         planned, *tried = rule(habit).error
         best, alone = np.minimum.accumulate([planned, *tried]), np.min(tried, axis=0)
         found[name] = best.mean(axis=1) / planned.mean()
@@ -165,11 +185,36 @@ def lessons(seed, movements=25, held_out=200, experiments=10):
         size = movements, held_out, experiments
         errors = run_experiments(learner, past, deepcopy(rng), *size, **lesson)
         for kind, before, after in (
-            ("in-sample", errors.planned, errors.in_sample),
-            ("held-out", errors.held_out_planned, errors.held_out),
+            (IN_SAMPLE, errors.planned, errors.in_sample),
+            (HELD_OUT, errors.held_out_planned, errors.held_out),
         ):
             found[f"{name}, {kind}"] = after.mean(axis=1) / before.mean()
             found[f"{name}, nearer, {kind}"] = (after[1] < before).mean()
+    return found
+
+
+def teaching(seed, movements=25, held_out=200):
+    """What Algorithm 2 leaves after one experiment whose lessons cost so many tries, (TAUGHT,).
+
+    By the law that found the corrections, in-sample and held-out; without a try the lesson is the
+    habit's own movement. The targets are those of `lessons` with the same seed.
+    """
+    past, found = templates.load(hold=0.0), {}
+    draw = np.random.default_rng((seed, 2))
+    laws = {
+        PAPER: (algorithm_1_change, AS_ALGORITHM_1),
+        BLIND: (partial(blind_change, rng=draw), AS_ALGORITHM_1),
+        LINE: (line_search_change, COARSE_TO_FINE),
+    }
+    for name, (law, order) in laws.items():
+        left = {IN_SAMPLE: [], HELD_OUT: []}
+        for count in TAUGHT:
+            rule = calibration_by(law, order[:count]) if count else no_calibration
+            size = WeightCorrection(), past, np.random.default_rng(seed), movements, held_out, 1
+            errors = run_experiments(*size, rule=rule)
+            left[IN_SAMPLE].append(errors.in_sample[1].mean() / errors.planned.mean())
+            left[HELD_OUT].append(errors.held_out[1].mean() / errors.held_out_planned.mean())
+        found |= {f"{name}, {kind}": np.array(shares) for kind, shares in left.items()}
     return found
 
 
@@ -208,10 +253,12 @@ def weights(seed):
 
 BY_TRIES, BY_TRIES_HELD = f"tries, {AS_PRINTED}", "tries, over the hold"
 BY_LESSONS, BY_WEIGHTS = f"lessons, {AS_PRINTED}", f"weights, {AS_PRINTED}"
+BY_TEACHING = f"teaching, {AS_PRINTED}"
 EXPERIMENTS = {
     BY_TRIES: partial(tries, hold=0.0),
     BY_TRIES_HELD: tries,
     BY_LESSONS: lessons,
+    BY_TEACHING: teaching,
     BY_WEIGHTS: weights,
 }
 make = partial(calibration.make, EXPERIMENTS, MANY)  # what `results/nulls.json` holds

@@ -43,6 +43,16 @@ def test_a_random_direction_is_as_long_as_equations_6_and_7(habit):
     assert not np.allclose(own, other)
 
 
+def test_a_random_length_keeps_the_direction_of_equations_6_and_7(habit):
+    hand = execute(habit).endpoint
+    own = algorithm_1_change(habit, hand, 3, (0, 0), 1)
+    other = nulls.random_length_change(habit, hand, 3, (0, 0), 1, rng=np.random.default_rng(1))
+    lengths = [np.linalg.norm(x, axis=-1) for x in (own, other)]
+    np.testing.assert_allclose((own * other).sum(axis=-1), np.prod(lengths, axis=0))
+    assert (lengths[1] < 2 * nulls.LENGTH).all()
+    assert not np.allclose(*lengths)
+
+
 def test_the_line_search_is_along_equation_4(habit):
     hand = execute(habit).endpoint
     change = nulls.line_search_change(habit, hand, 9)
@@ -86,6 +96,17 @@ def test_what_ships_is_table_v_and_its_nulls_of_the_same_movements():
     assert (tried[nulls.PAPER] < tried[nulls.SAME_LENGTH])[:, -1].mean() > 0.8, "but for its length"
     np.testing.assert_array_equal(tried[nulls.IN_ORDER][:, -1], tried[nulls.PAPER][:, -1])
     assert tried[nulls.LINE][:, -1].mean() < 0.12
+
+
+def test_a_teacher_of_many_tries_is_algorithm_1_and_one_of_few_teaches_better():
+    lessons, teaching = (nulls.load_results()[x] for x in (nulls.BY_LESSONS, nulls.BY_TEACHING))
+    for kind in (nulls.IN_SAMPLE, nulls.HELD_OUT):
+        by_tries = teaching[f"{nulls.PAPER}, {kind}"]
+        np.testing.assert_allclose(
+            by_tries[:, -1], lessons[f"{nulls.PRINTED}, {kind}"][:, 1], atol=2e-4
+        )
+        less = by_tries[:, nulls.TAUGHT.index(3)] - by_tries[:, -1]
+        assert (less < 0).mean() > 0.8, kind
 
 
 @pytest.mark.parametrize("part", sample(nulls.EXPERIMENTS, nulls.BY_WEIGHTS))
