@@ -23,10 +23,10 @@ FOOT = '<p class="pageNumber" style="width: 100%; font-size: 8px; text-align: ce
 STYLE = """<style>
 article { break-before: page; }
 /* A bookmark joins a heading's lines without a space, and says twice what sticks out of its page */
-:is(h1, h2, h3) { line-height: 1.6; }
-h1 { font-size: 1.8rem; }
-h2 { font-size: 1.4rem; }
-h3 { font-size: 1.15rem; }
+.bd-content :is(h1, h2, h3) { line-height: 1.6; }
+.bd-content h1 { font-size: 1.8rem; }
+.bd-content h2 { font-size: 1.4rem; }
+.bd-content h3 { font-size: 1.15rem; }
 figure { break-inside: avoid; }
 figure.vmc-demo:has(> .vmc-demo + .vmc-demo) { break-inside: auto; }
 figcaption { break-before: avoid; }

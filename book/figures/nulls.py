@@ -59,7 +59,7 @@ def by_teaching():
         for rule in (nulls.PAPER, nulls.BLIND, nulls.LINE):
             _curve(ax, rule, nulls.TAUGHT, found[f"{rule}, {kind}"])
         ax.set(title=movements, xlabel="tries a lesson", xlim=(0, nulls.TRIES), ylim=(0, 0.8))
-        ax.set_xticks(nulls.TAUGHT)
+        ax.set_xticks([0, *nulls.TAUGHT[2:]])
     axes[0].set_ylabel("error / planned error")
     axes[1].legend(loc="lower right", fontsize="small")
     return fig

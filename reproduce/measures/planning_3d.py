@@ -6,6 +6,7 @@ the six excitations, so that all that plans and calibrates in the plane does so 
 are in the frame of the trunk straight ahead, in m.
 """
 
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -14,7 +15,7 @@ from vmc_lib import NoReach
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.arm.kinematics import inverse_kinematics, to_world, turn_towards
 from vmc_lib.arm.simulate import UNPERTURBED
-from vmc_lib.cerebellum.offline import broyden_calibration
+from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration
 from vmc_lib.motor import planning, templates
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.templates import HeldMotion
@@ -75,31 +76,47 @@ def surrounding(target, template_set):
     return np.concatenate([rows, rows + 1], axis=-1)
 
 
-def plan_and_correct(targets, template_set, trials=3, rule=planning.habitual_weights):
-    """`Trials` for targets (n, 3): planned by Eq. 5 (or another rule), then corrected by Eq. 4."""
+def plan(targets, template_set, rule=planning.habitual_weights):
+    """The `Plan` for targets (n, 3), by Eq. 5 or another rule."""
     chosen = surrounding(targets, template_set)
-    planned = planning.plan(targets, with_trunk_turns(template_set), rule, chosen)
-    return broyden_calibration(planned, trials, broyden=False, guarded=False)
+    return planning.plan(targets, with_trunk_turns(template_set), rule, chosen)
 
 
-def experiment(seed, count=100, trials=3):
+def plan_and_correct(targets, template_set, trials=3):
+    """`Trials` for targets (n, 3): planned by Eq. 5, then corrected by Eq. 4."""
+    habit = plan(targets, template_set)
+    return broyden_calibration(habit, trials, broyden=False, guarded=False)
+
+
+def experiment(seed, count=100, trials=3, laws=None):
     """One draw of `count` targets in space: numbers by name.
 
     "planned / reach" is the mean miss over the mean distance from the shoulder; "exact / reach",
     the same with weights that satisfy Eq. 4; "in the plane", the same for the same reaches before
-    the trunk turns; "corrected 1 ×" and so on, what is left of the planned miss.
+    the trunk turns; "corrected 1 ×" and so on, what is left of the planned miss; and by the names
+    of other `laws`, each of a random generator `rng`, what the best of as many tries leaves.
     """
     rng, past = np.random.default_rng(seed), templates.load()
     flat = planning.draw_targets(past, count, rng)
     places = hand(inverse_kinematics(flat))
     targets = to_world(places, rng.uniform(TURNS[0], TURNS[-1], count))
     distance = np.linalg.norm(places, axis=1).mean()
+    habit = plan(targets, past)
     planned, *left = plan_and_correct(targets, past, trials).error.mean(axis=1)
-    exact = plan_and_correct(targets, past, 0, planning.exact_weights).error.mean()
+    by_luck = {
+        name: algorithm_1(habit, range(trials), change=partial(law, rng=rng)).error
+        for name, law in (laws or {}).items()
+    }
+    exact = execute(plan(targets, past, planning.exact_weights)).error.mean()
     in_plane = execute(planning.plan(flat, past)).error.mean()
     return {
         "planned / reach": planned / distance,
         "exact / reach": exact / distance,
         "in the plane": in_plane / np.linalg.norm(flat, axis=1).mean(),
         **{f"corrected {k} ×": mean / planned for k, mean in enumerate(left, start=1)},
+        **{
+            f"{name} {k} ×": tried[: k + 1].min(axis=0).mean() / planned
+            for name, tried in by_luck.items()
+            for k in range(1, trials + 1)
+        },
     }
