@@ -96,9 +96,6 @@ def form(legend, buttons, controls, tells):
         f'<button type="button" name="{name}" disabled>{text}</button>'
         for name, text in buttons.items()
     )
-    readings = "".join(
-        f'<div><dt>{label}</dt><dd data-tell="{name}">–</dd></div>' for name, label in tells.items()
-    )
     size = f"{MUJOCO.stat().st_size / 1e6:.1f} MB"
     physics = f"MuJoCo {VERSIONS['page']} ({size}, part of this book)"
     return (
@@ -106,8 +103,16 @@ def form(legend, buttons, controls, tells):
         f'<div><button type="button" name="main">Start the arm</button>{closed}</div>'
         f'<p role="status">{physics} is loaded when you start.</p>'
         f'<fieldset disabled><legend class="vmc-spoken">{legend}</legend>{controls}</fieldset>'
-        f"<dl>{readings}</dl></form>"
+        f"{readings(tells)}</form>"
     )
+
+
+def readings(tells):
+    """What an arm tells: a list of the labels of its numbers by name, each without a number yet."""
+    rows = "".join(
+        f'<div><dt>{label}</dt><dd data-tell="{name}">–</dd></div>' for name, label in tells.items()
+    )
+    return f"<dl>{rows}</dl>"
 
 
 def _slider(page, name, label, span, start):

@@ -1,6 +1,6 @@
 """A whole arm in the page: a target in space, and a reach of all muscles that MuJoCo runs there."""
 
-from page.arm.controls import form, plans, target_sliders
+from page.arm.controls import form, plans, readings, target_sliders
 from page.arm.live import CALIBRATION, names, show
 from vmc_lib.show.controls import fold
 
@@ -9,9 +9,9 @@ TELLS = {
     "tries": "corrections",
     "calibrated": "corrected miss",
     "speed": "speed in the hold",
-    "active": "muscles above 5 %",
     "weights": "weights",
 }
+FOLDED = {"active": "muscles above 5 %"}  # the chapter asks how many, below
 
 
 def live_whole_arm(arm, draw, zone, target, alt):
@@ -28,7 +28,7 @@ def live_whole_arm(arm, draw, zone, target, alt):
     name = next(names)
     rule = '<input type="hidden" name="rule" value="broydenCalibration">'
     forward, *others = target_sliders(name, zone, target)
-    controls = "".join(others) + fold(f"<div>{forward}{plans()}</div>") + rule
+    controls = "".join(others) + fold(f"<div>{forward}{plans()}</div>{readings(FOLDED)}") + rule
     controls_form = form("Target and plan", {"calibrate": "Correct"}, controls, TELLS)
     data = arm | {"calibration": CALIBRATION, "goal": list(map(float, target))}
     show(name, "reach", draw, controls_form, data, alt)

@@ -25,14 +25,18 @@ export const memory = {
 }
 
 /* What stands still below a prediction, and would give it away, waits until the reader has chosen or
-   asked what came out. */
+   asked what came out; and so do still figures right below it. */
+const MOVED = ".vmc-controls, fieldset, input, button.vmc-play";
 addEventListener("DOMContentLoaded", () =>
   document.querySelectorAll(".admonition > .vmc-predict").forEach((question) => {
-    let cell = question.parentElement.nextElementSibling;
-    while (cell?.matches(".cell:not(:has(> .cell_output))")) cell = cell.nextElementSibling;
-    if (!cell?.matches(".cell") || cell.querySelector(".vmc-controls, fieldset, input, button.vmc-play")) return;
-    const output = cell.querySelector(".cell_output");
-    const wait = () => output.classList.toggle("vmc-waits", !question.querySelector(":checked, [open]"));
+    const outputs = [];
+    for (let cell = question.parentElement; (cell = cell.nextElementSibling)?.matches(".cell"); ) {
+      const output = cell.querySelector(":scope > .cell_output");
+      if (output?.querySelector(MOVED) || (outputs.length && output && !output.querySelector(".vmc-demo"))) break;
+      if (output) outputs.push(output);
+    }
+    const wait = () => outputs.forEach((output) =>
+      output.classList.toggle("vmc-waits", !question.querySelector(":checked, [open]")));
     for (const type of ["change", "toggle"]) question.addEventListener(type, wait, true);
     wait();
   }));
