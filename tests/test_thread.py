@@ -41,6 +41,19 @@ def test_a_strip_stands_above_every_chapter(path):
     assert soup.article.find(True) == strip
 
 
+def test_a_strip_tells_the_miss_before_where_a_chapter_changes_it():
+    said = {}
+    for path in NUMBERED:
+        soup = BeautifulSoup(path.read_text(encoding="utf-8"), "html.parser")
+        said[number(path)] = soup.select_one(".vmc-thread > a span").text
+        assert soup.select_one(".vmc-thread > a")["aria-label"].startswith(said[number(path)])
+    numbers = {name: f"{miss:.1f}" for name, miss in thread.misses().items()}
+    changes = {10: ("plan", "off-line"), 11: ("off-line", "online"), 14: ("online", "whole hold")}
+    assert {n: text for n, text in said.items() if "→" in text} == {
+        n: f"miss {numbers[before]} → {numbers[after]} mm" for n, (before, after) in changes.items()
+    }
+
+
 def test_the_miss_shrinks_from_chapter_to_chapter():
     motions = [motion for _, motion in thread.CHAPTERS.values()]
     misses = [thread.misses()[name] for name in dict.fromkeys(filter(None, motions))]
