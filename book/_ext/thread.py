@@ -71,7 +71,8 @@ def strip(number, places, photo):
     step, (miss, words) = thread.step_of(number), thread.words(number)
     first = places[1][0].rstrip("#")
     before = thread.words(number - 1)[0] if number in [*places][1:] else "–"
-    said = "miss " if before in ("–", miss) else f"miss {before.removesuffix(' mm')} → "
+    same = before == miss or "–" in (before, miss)
+    said = "miss " if same else f"miss {before.removesuffix(' mm')} → "
     label = f"{said}{miss}: photo 1, {words}. See this step in chapter 1"
     return (
         f'<nav class="vmc-thread" aria-label="The loop"><ol>{marks}</ol>'
