@@ -116,3 +116,18 @@ def test_a_figure_and_its_controls_fit_the_window(shown):
 def test_words_of_plots_can_be_read(shown):
     """11 px high at least, rounded."""
     assert [(name, size) for name, _, size in shown if round(size) < 11] == []
+
+
+BUTTON = ".vmc-demo :is(.vmc-play, .vmc-live-form button)"
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize(
+    "name", ["01_loop", "09_planning", "12_while_it_moves", "13_see_and_reach", "15_whole_arm"]
+)
+def test_on_a_phone_the_first_button_is_on_the_first_screen(window, name):
+    [path] = [path for path in NUMBERED if path.stem == name]
+    page = open_url(window(viewport={"width": 390, "height": 844}), path.as_uri())
+    box = page.locator(BUTTON).first.bounding_box()
+    assert 0 < box["y"] < box["y"] + box["height"] <= 844
+    page.close()
