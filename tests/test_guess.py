@@ -47,6 +47,19 @@ def test_a_guess_is_drawn_where_its_value_lies(offline, path):
     page.close()
 
 
+@pytest.mark.browser
+def test_still_figures_below_a_prediction_wait_for_the_guess(window):
+    """Both of them: either would give it away."""
+    [path] = [path for path in CHAPTERS if path.stem == "15_whole_arm"]
+    page = open_url(window(), path.as_uri())
+    question = page.locator(".vmc-predict", has_text="an easy posture of its own")
+    figures = [page.locator(f"#demo-{name} svg").first for name in ("wa-result", "wa-left")]
+    assert [figure.is_visible() for figure in figures] == [False, False]
+    question.locator("input").first.check()
+    assert [figure.is_visible() for figure in figures] == [True, True]
+    page.close()
+
+
 def test_a_guess_needs_a_place_for_each_choice():
     box = '<fieldset class="vmc-predict">'
     assert with_guess(box, ["a", "b"], {}) == box
