@@ -87,7 +87,7 @@ def standardised(
 
 
 @count("pixels", "Each pooling multiplies the step by c.")
-def steps_between_windows(c=(2, 3, 4), layers=(2, 3)):
+def steps_between_windows(c=(2, 3, 4, 5), layers=(2, 3, 4)):
     """Each of {layers} layers pools blocks of {c} × {c}. How many pixels of the picture lie
     between the windows of two neighbouring pooled units of the last layer?"""
     return c**layers

@@ -111,7 +111,8 @@ def surprise_that_is_learned(
     change=(0.1, 0.2, 0.25, 0.5), foreseen=steps(5, 20, 1), moved=steps(2, 25, 1)
 ):
     """One weight is changed by {change}. The hand was to move {foreseen} mm and moves {moved} mm.
-    By how much does Broyden's rule change its belief, in mm for a weight of 1?"""
+    By how much does Broyden's rule change its belief of how far a weight of 1 moves it (negative:
+    less far)?"""
     return (moved - foreseen) / change
 
 

@@ -22,7 +22,7 @@ def freedom_to_spare(spare=(2, 3, 4, 6, 7, 9), space=(("a plane", 2), ("space", 
     "muscles",
     "One more than the joints: together they must be able to pull in every direction.",
 )
-def muscles_that_are_needed(joints=(2, 3, 4, 5, 6, 7)):
+def muscles_that_are_needed(joints=steps(2, 20, 1)):
     """Muscles only pull. How many are needed at least to turn {joints} joints, each both ways, with
     any combination of torques?"""
     return joints + 1
