@@ -98,7 +98,7 @@ def _lesson(item):
 def _in_class(item, chapters):
     """Its slide, and the demos to which it has links, each by its section or by its chapter.
 
-    The slide itself leads to a page of the kit that the item names.
+    The slide itself leads to a page of the kit that the item names. The last demo takes half.
     """
     links = [(link["data-to"].split(".html")[0], link) for link in item.select("[data-to]")]
     pages = dict.fromkeys(re.findall(r"\w+\.html", item.get_text()))
@@ -106,7 +106,8 @@ def _in_class(item, chapters):
     slide.body += [f'<p><a href="../{page}" target="_blank">{page}</a></p>' for page in pages]
     demos = [one for name, link in links for one in chapters[name].demo_of(link.get_text())]
     slide.active = True
-    return _timed([slide, *demos], slide.seconds)
+    half = slide.seconds / 2 if demos else 0
+    return [*_timed([slide, *demos[:-1]], slide.seconds - half), *_timed(demos[-1:], half)]
 
 
 def _on_the_board(item, chapters):
@@ -148,10 +149,14 @@ def _break(runs):
 
 
 def _quiz(quizzes):
-    """Two questions on what was read: the middle ones of two chapters, or the ends of one."""
-    if len(quizzes) > 1:
-        return [questions[len(questions) // 2] for questions in quizzes]
-    return [quizzes[0][0], quizzes[0][-1]]
+    """Two questions: of two chapters the last and the middle one, of one its first and last.
+
+    None of these asks of what is left out of a chapter that is read in part.
+    """
+    if len(quizzes) == 1:
+        return [quizzes[0][0], quizzes[0][-1]]
+    first, second = quizzes
+    return [first[-1], second[len(second) // 2]]
 
 
 def _next(recaps, last):
