@@ -176,6 +176,9 @@ def test_each_part_of_a_session_has_its_slide_and_a_pair_its_five_minutes(sessio
     assert bool(board.select(".board div.math")) == (number in {3, 4})
     assert [line.get_text().strip() for line in cell.select("mark")] == LINES.get(number, [])
     assert len(hands.select("a")) == (number == 5)  # to the page for throws
+    starts = np.cumsum([0, *minutes[:-1]])
+    taken = [m for m, start in zip(minutes, starts, strict=True) if 5 <= start < 15]
+    assert len(taken) == 1 or taken[-1] == pytest.approx(sum(taken) / 2)  # its demo has half
     assert len([slide for slide in slides if slide.select(".fit .vmc-quiz")]) == 2
     demos = [k for k in range(own[1]) if slides[k].select(".fit .vmc-demo") and minutes[k] < 5]
     asked = [k for k in demos if slides[k - 1].select(".fit .vmc-predict")]
