@@ -261,5 +261,9 @@ EXPERIMENTS = {
     BY_TEACHING: teaching,
     BY_WEIGHTS: weights,
 }
-make = partial(calibration.make, EXPERIMENTS, MANY)  # what `results/nulls.json` holds
 load_results = partial(calibration.load_results, "nulls")
+
+
+def make(experiments=EXPERIMENTS, seeds=MANY):
+    """What `results/nulls.json` holds: every experiment with every seed, to four digits."""
+    return calibration.make(experiments, seeds)

@@ -12,7 +12,7 @@ from shutil import copy
 import numpy as np
 
 from reproduce import ledger
-from reproduce.experiments import calibration, feedback_control, muscle_weakness
+from reproduce.experiments import calibration, feedback_control, muscle_weakness, nulls
 from reproduce.measures import changed_worlds
 from reproduce.peers import optimal_control
 from reproduce.pipeline.progress import run_tasks
@@ -55,6 +55,10 @@ def toy_steps(folder):
             changed_worlds.block_errors, before=20, blocks=(1, 1, 1), movements=2
         ),
     }
+    by_luck = {
+        nulls.BY_TRIES: partial(nulls.tries, count=2),
+        nulls.BY_TEACHING: partial(nulls.teaching, movements=2, held_out=4),
+    }
     one = {"reflex alone": {0.5: feedback_control.REFLEX}}
     watched = {
         "gains": partial(feedback_control.gain_sweep, by_gain=one, count=2, seconds=2.0),
@@ -84,6 +88,7 @@ def toy_steps(folder):
         toy("optimal", optimal_control.TARGETS[12:13]),
         toy("steady", optimal_control.TARGETS[12:13], 0, ftol=1.0),
         toy("movements", experiments, seeds=[0]),
+        toy("nulls", by_luck, seeds=[0]),
         toy("cerebella", seeds=[0], movements=(2, 4), held_out=4),
         toy("feedback", watched, seeds=[0]),
         toy("forgetting", [0.45], [0.05], seeds=[0]),

@@ -157,7 +157,7 @@ STEPS = (
     Step(optimal_control.make, RESULTS / "optimal.npz", f"templates {ARM}", 1),
     Step(minimum_variance.make, RESULTS / "steady.npz", f"templates {ARM}", 2),
     Step(calibration.make, RESULTS / "movements.json", f"templates {ARM}", 10),
-    Step(nulls.make, RESULTS / "nulls.json", f"templates {ARM}", 5),
+    Step(nulls.make, RESULTS / "nulls.json", f"templates {ARM}", 12),
     Step(controller_comparison.make, RESULTS / "cerebella.json", f"templates {ARM}", 5),
     Step(feedback_control.make, RESULTS / "feedback.json", f"templates {ARM}", 8),
     Step(
