@@ -27,14 +27,22 @@ def as_boxes(boxes: ArrayLike) -> np.ndarray:
     return boxes
 
 
+def _check_fours(boxes):
+    """Raise ValueError where boxes are no rows of four; their order is not looked at."""
+    if np.shape(boxes)[-1:] != (4,):
+        raise ValueError(f"boxes {short(boxes)} must be rows of (x0, y0, x1, y1)")
+
+
 def area(boxes: ArrayLike) -> np.ndarray:
     """Areas (n,) of boxes (n, 4), in square pixels."""
+    _check_fours(boxes)
     x0, y0, x1, y1 = np.moveaxis(np.asarray(boxes), -1, 0)
     return (x1 - x0) * (y1 - y0)
 
 
 def centres_and_sides(boxes: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
     """Centres (n, 2) and sides (n, 2), along x and y, of boxes (n, 4)."""
+    _check_fours(boxes)
     boxes = np.asarray(boxes)
     return (boxes[..., :2] + boxes[..., 2:]) / 2, boxes[..., 2:] - boxes[..., :2]
 
@@ -140,7 +148,9 @@ def vote(
 def pad_boxes(boxes: ArrayLike, margin: float) -> np.ndarray:
     """Pad boxes (n, 4) by a margin on each side, given as a share of their sides."""
     boxes = as_boxes(boxes)
-    pad = as_numbers("margin", margin) * (boxes[:, 2:] - boxes[:, :2])
+    if not is_within(margin, -0.5, np.inf):
+        raise ValueError(f"margin {short(margin)}: give one number, above -0.5, as 0.25")
+    pad = margin * (boxes[:, 2:] - boxes[:, :2])
     return np.hstack([boxes[:, :2] - pad, boxes[:, 2:] + pad])
 
 
@@ -149,7 +159,9 @@ def jitter_boxes(boxes: ArrayLike, amount: float, rng: np.random.Generator) -> n
     check_rng(rng)
     boxes = as_numbers("boxes", boxes)
     _, sides = centres_and_sides(boxes)
-    return boxes + rng.normal(0, as_numbers("amount", amount), boxes.shape) * np.tile(sides, 2)
+    if not np.all((amount := as_numbers("amount", amount)) >= 0):
+        raise ValueError(f"amount {short(amount)}: give a share of the sides, 0 or more")
+    return boxes + rng.normal(0, amount, boxes.shape) * np.tile(sides, 2)
 
 
 def _one_for_each(boxes, name, rows):
@@ -162,10 +174,14 @@ def _one_for_each(boxes, name, rows):
 def encode_deltas(boxes: ArrayLike, truth: ArrayLike) -> np.ndarray:
     """Box-regression targets (dx/w, dy/h, log dw, log dh) from boxes to truth, (n, 4) (R-CNN).
 
-    ValueError unless there is one true box for each, or one for all.
+    ValueError unless there is one true box for each, or one for all; where one has no area.
     """
     boxes, truth = _one_for_each(as_boxes(boxes), "truth", as_boxes(truth))
     (centres, sides), (true_centres, true_sides) = map(centres_and_sides, (boxes, truth))
+    for one, its_sides in ((boxes, sides), (truth, true_sides)):
+        if not np.all(its_sides > 0):
+            flat = one[(its_sides <= 0).any(1)][0]
+            raise ValueError(f"box {flat} has no area, so no deltas: leave it out")
     return np.hstack([(true_centres - centres) / sides, np.log(true_sides / sides)])
 
 

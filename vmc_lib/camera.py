@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from vmc_lib import NoReach
 from vmc_lib.boxes import as_boxes
 from vmc_lib.checks import as_numbers
-from vmc_lib.short_repr import short_repr
+from vmc_lib.short_repr import short, short_repr
 
 TABLE = -0.43  # height of the table top in the shoulder frame (m)
 
@@ -32,13 +32,22 @@ class Camera:
 
     __repr__ = short_repr
 
+    def __post_init__(self) -> None:
+        shapes = {"focal": (), "centre": (2,), "rotation": (3, 3), "position": (3,)}
+        for name, shape in shapes.items():
+            given = getattr(self, name)
+            if as_numbers(name, given).shape != shape:
+                raise ValueError(f"a camera's {name} {short(given)}: give numbers, {shape}")
+            if shape:
+                object.__setattr__(self, name, np.asarray(given))
+
     def project(self, points: ArrayLike) -> np.ndarray:
         """Project points (n, 3) of the shoulder frame to pixels (n, 2).
 
         Raises ValueError for a point that is not in front of the camera, and for other shapes.
         """
         x = (_rows("points", points, 3) - self.position) @ self.rotation.T
-        if np.any(x[:, 2] <= 0):
+        if not np.all(x[:, 2] > 0):  # or it is no number
             raise ValueError("a point behind the camera has no picture: give points it faces")
         return self.focal * x[:, :2] / x[:, 2:] + self.centre
 

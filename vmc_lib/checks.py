@@ -1,11 +1,16 @@
 """Checks of what a caller gives: an error says what is wrong, the value, and the remedy."""
 
+from collections.abc import Callable
+from functools import cache, wraps
 from numbers import Integral, Real
-from typing import Any
+from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
 
 from vmc_lib.short_repr import short
+
+Given = ParamSpec("Given")
+Returned = TypeVar("Returned")
 
 
 def check_kind(name: str, value: object, kind: type, remedy: str) -> None:
@@ -25,6 +30,28 @@ def check_count(name, value, least=0):
         raise ValueError(f"{name} = {short(value)}: give a whole number, {least} or more")
 
 
+def check_function(name, value, remedy):
+    """Raise ValueError where a value cannot be called."""
+    if not callable(value):
+        raise ValueError(f"{name} {short(value)} is no function: give {remedy}")
+
+
+def cached(function: Callable[Given, Returned]) -> Callable[Given, Returned]:
+    """`functools.cache`, with a ValueError where an argument is a list or another such."""
+    kept: Any = cache(function)
+
+    @wraps(function)
+    def call(*given: Given.args, **named: Given.kwargs) -> Returned:
+        try:
+            hash((given, *named.values()))
+        except TypeError:
+            lists = short([*given, *named.values()])
+            raise ValueError(f"{function.__name__} of {lists}: give numbers or names") from None
+        return kept(*given, **named)
+
+    return call
+
+
 def is_within(value, low, high):
     """Whether a value is one finite number, within [low, high]; text and arrays are not."""
     return isinstance(value, Real) and bool(low <= value <= high and abs(value) < np.inf)
@@ -33,6 +60,8 @@ def is_within(value, low, high):
 def as_numbers(name: str, values: Any) -> np.ndarray:
     """Convert values to an array of floats; ValueError where they are no numbers, or ragged."""
     try:
+        if values is None:  # NumPy would take it for NaN
+            raise TypeError
         return np.asarray(values, float)
     except (TypeError, ValueError):
         message = (

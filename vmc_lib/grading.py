@@ -55,8 +55,13 @@ def deviation(ours, library, tolerance=1e-8):
     Both are what `np.asarray` takes, or tuples or dictionaries of that.
     """
     if isinstance(library, dict):
+        if hasattr(ours, "keys") and not library.keys() <= {*ours.keys()}:
+            return f"by its names: {in_words(map(str, library))} are asked for"
         ours, library = tuple(ours[key] for key in library), tuple(library.values())
     if isinstance(library, tuple):
+        ours = tuple(ours) if np.iterable(ours) else (ours,)
+        if len(ours) != len(library):
+            return f"by its length, {len(ours)} instead of {len(library)}"
         pairs = zip(ours, library, strict=True)
         return next(filter(None, (deviation(*pair, tolerance) for pair in pairs)), "")
     ours, library = np.asarray(ours, float), np.asarray(library, float)

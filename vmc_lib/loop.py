@@ -126,6 +126,7 @@ class Reach:
 
     def end_point(self, motion: templates.HeldMotion) -> np.ndarray:
         """Where the wrist is on average over the hold, (3,), in the same frame."""
+        check_kind("motion", motion, templates.HeldMotion, "reach.planned, or reach.calibrated")
         return to_world(motion.wrist, self.turn).mean(axis=0)
 
 
@@ -240,6 +241,8 @@ def see_and_reach(
 
     The reach is None where there is `NoReach` for any.
     """
+    if camera is not None:
+        check_kind("camera", camera, Camera, "photo.camera, or None")
     sight = see(model, image)
     for box in sight.shuttlecocks:
         with suppress(NoReach):

@@ -12,6 +12,7 @@ import numpy as np
 
 from vmc_lib.camera import TABLE, Camera
 from vmc_lib.photos import HEIGHT, WIDTH, as_rgb, read_image
+from vmc_lib.short_repr import short
 
 PAPERS = {  # mm: the page, and from its upper left corner to the first marker; right and down
     "A4": ((210, 297), (21, 34)),
@@ -63,6 +64,8 @@ def page_image(paper: str = "A4") -> np.ndarray:
 
     The markers are as large on each, so that cameras from all are the same.
     """
+    if not isinstance(paper, str) or paper not in PAPERS:
+        raise ValueError(f"no paper is called {short(paper)}: choose from {', '.join(PAPERS)}")
     page, (right, down) = PAPERS[paper]
     picture = np.full(page[::-1], 255, np.uint8)
     wide, high = (np.array(GRID) * (MARKER + GAP) - GAP).tolist()
@@ -134,6 +137,8 @@ def detect_markers(photo: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Detect the sheet's markers in a photo (height, width, 3): ids (n,), corners (n, 4, 2)."""
     import cv2
 
+    if not (isinstance(photo, np.ndarray) and photo.dtype == np.uint8 and photo.ndim == 3):
+        raise ValueError(f"{short(photo)} is no uint8 photo: give photos.as_rgb(…)")
     parameters = cv2.aruco.DetectorParameters()
     parameters.cornerRefinementMethod = cv2.aruco.CORNER_REFINE_SUBPIX
     corners, ids, _ = cv2.aruco.ArucoDetector(board().getDictionary(), parameters).detectMarkers(
@@ -163,10 +168,15 @@ def calibrate_camera(
     the lens has no distortion, and the principal point is the photo's middle; with `any_middle`
     it is unknown, too, as in a photo that was cropped. Returns the `Camera`
     and its reprojection error (RMS), both in pixels of 600 × 400, and the standard error of its
-    focal length, over it.
+    focal length, over it. ValueError for too few markers, and for other shapes.
     """
     import cv2
 
+    if len(ids) < FEWEST or np.shape(corners) != (len(ids), 4, 2):
+        raise ValueError(
+            f"{len(ids)} markers at corners {np.shape(corners)}: give (n,) and (n, 4, 2), with "
+            f"{FEWEST} markers or more"
+        )
     points, pixels = board().matchImagePoints([*corners], ids)
     height, width = shape
     guess = np.array([[width, 0, width / 2], [0, width, height / 2], [0, 0, 1.0]])

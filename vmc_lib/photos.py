@@ -6,9 +6,12 @@ frame, and the shuttlecock's true place. Those of the level "real" are photograp
 """
 
 import json
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache, lru_cache
+from numbers import Integral
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -17,7 +20,6 @@ from PIL import Image, ImageOps, UnidentifiedImageError
 from vmc_lib import data
 from vmc_lib.boxes import as_boxes
 from vmc_lib.camera import Camera
-from vmc_lib.checks import is_within
 from vmc_lib.colour_profile import to_srgb
 from vmc_lib.compiled import compiled
 from vmc_lib.short_repr import short
@@ -99,6 +101,8 @@ def load(level: str, split: str, folder: str | Path = FOLDER) -> list[Photo]:
         raise ValueError(f"unknown level {level!r}: choose from {known}")
     if split not in SPLITS:
         raise ValueError(f"unknown split {split!r}: choose from {SPLITS}")
+    if not isinstance(folder, str | Path):
+        raise ValueError(f"folder {short(folder)}: give the path of what holds the levels")
     place = Path(folder) / level / split
     sidecars = sorted(place.glob("*.json"))
     if not sidecars:
@@ -134,6 +138,13 @@ def _read_sidecar(sidecar):
         *place,
         **rendered,
     )
+
+
+def check_photos(shots: Any) -> None:
+    """Raise ValueError where what should be a list of photos is none, or empty."""
+    listed = isinstance(shots, Sequence) and len(shots)
+    if not listed or not all(hasattr(one, "boxes") for one in shots):
+        raise ValueError(f'{short(shots)} holds no photos: give a list, load("rig", "train")')
 
 
 def boxes_of(photo: Photo, name: str) -> np.ndarray:
@@ -178,7 +189,10 @@ def as_rgb(array: ArrayLike) -> np.ndarray:
         raise ValueError(f"{str(array)!r} is a file's name: give read_image({str(array)!r})")
     if isinstance(array, Photo):
         raise ValueError(f"{array.name!r} is a Photo, with more than an image: give photo.image")
-    array = np.asarray(array)
+    try:
+        array = np.asarray(array)
+    except ValueError:
+        raise ValueError(f"{short(array)} is no image: give rows of a length, (h, w, 3)") from None
     image = array[..., None] if array.ndim == 2 else array
     if image.ndim != 3 or image.shape[2] not in (1, 3, 4) or 0 in image.shape:
         raise ValueError(f"an array of shape {array.shape} is not an image: give (h, w, 3)")
@@ -210,8 +224,10 @@ def crops(image: np.ndarray, boxes: ArrayLike, size: int) -> np.ndarray:
         raise ValueError(f"{short(image)} is no uint8 image: see photos.read_image")
     if image.dtype != np.uint8 or image.ndim != 3 or image.size == 0:
         raise ValueError(f"{image.dtype} {image.shape} is no uint8 image: see photos.read_image")
-    if not is_within(size, 1, np.inf):
-        raise ValueError(f"crops of {size}×{size} pixels: give a size of 1 or more")
+    if not (isinstance(size, Integral) and size >= 1):
+        raise ValueError(
+            f"crops of {short(size)}×{short(size)}: give a whole size in pixels, 1 or more"
+        )
     boxes = as_boxes(boxes)
     height, width = image.shape[:2]
     steps = (np.arange(size * 2) + 0.5) / (size * 2)

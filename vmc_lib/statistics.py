@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vmc_lib.checks import as_numbers, is_within
+from vmc_lib.checks import as_numbers, check_count, is_within
 from vmc_lib.short_repr import short
 
 
@@ -27,6 +27,7 @@ def student(values: ArrayLike) -> tuple[Any, Any]:
 @cache
 def student_quantile(n: int) -> float:
     """The 97.5 % point of Student's t with n degrees of freedom, 1, 2, …"""
+    check_count("n", n, least=1)
     low, high = 0.0, 13.0
     for _ in range(60):
         t = (low + high) / 2
@@ -61,6 +62,9 @@ def mcnemar(one: np.ndarray, other: np.ndarray) -> tuple[int, int, float]:
     """
     from scipy.stats import binomtest
 
+    for answers in (one, other):
+        if not np.isin(answers, (False, True)).all():
+            raise ValueError(f"answers {short(answers)}: give True or False for each question")
     one, other = np.asarray(one, bool), np.asarray(other, bool)
     if one.shape != other.shape:
         raise ValueError(f"answers {one.shape} and {other.shape}: give those to the same questions")
@@ -71,6 +75,8 @@ def mcnemar(one: np.ndarray, other: np.ndarray) -> tuple[int, int, float]:
 def holm(chances: ArrayLike) -> np.ndarray:
     """Chances (n,) of many tests, corrected for their number (Holm 1979)."""
     chances = np.atleast_1d(as_numbers("chances", chances))
+    if chances.ndim != 1 or not np.all((chances >= 0) & (chances <= 1)):
+        raise ValueError(f"chances {short(chances)}: give a list of p-values, 0 to 1")
     order = np.argsort(chances)
     left = len(chances) - np.arange(len(chances))
     corrected = np.empty(len(chances))

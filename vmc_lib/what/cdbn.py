@@ -7,7 +7,7 @@ from typing import Any, Self
 import numpy as np
 
 from vmc_lib.data import arrays
-from vmc_lib.photos import Photo
+from vmc_lib.photos import Photo, check_photos
 from vmc_lib.what.crbm import CRBM
 from vmc_lib.what.crops import crop
 
@@ -79,5 +79,6 @@ class CDBN:
 
 def crops_of(shots: Sequence[Photo]) -> tuple[np.ndarray, np.ndarray]:
     """The crops (n, 200, 200) in the true boxes of photos, and which are shuttlecocks (n,)."""
+    check_photos(shots)
     named = [(crop(shot.image, box), name) for shot in shots for name, box in shot.boxes.items()]
     return np.array([x for x, _ in named]), np.array([name == "shuttlecock" for _, name in named])

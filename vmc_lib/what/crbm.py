@@ -15,6 +15,9 @@ from typing import Any, Self
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
+from vmc_lib.checks import check_count
+from vmc_lib.short_repr import short
+
 
 def correlate_valid(v: np.ndarray, W: np.ndarray, padding: int = 0) -> np.ndarray:
     """Valid cross-correlation of maps v with filters W (deep learning's "convolution").
@@ -23,6 +26,11 @@ def correlate_valid(v: np.ndarray, W: np.ndarray, padding: int = 0) -> np.ndarra
     Returns (n, K, height - n_w + 1, width - n_w + 1). One matrix product correlates every row of a
     filter with every row of the maps; then the rows of a filter are added.
     """
+    if np.ndim(v) != 4 or np.ndim(W) != 4 or v.shape[1] != W.shape[1]:
+        raise ValueError(
+            f"maps {np.shape(v)} and filters {np.shape(W)}: give (n, channels, height, width) and "
+            "(K, channels, n_w, n_w)"
+        )
     if padding:
         v = np.pad(v, [(0, 0), (0, 0), (padding, padding), (padding, padding)])
     (n, channels, height, width), (K, _, n_w, _) = v.shape, W.shape
@@ -41,6 +49,9 @@ class CRBM:
     xp, _correlate = np, staticmethod(correlate_valid)  # torch's in `learning.Learner`
 
     def __init__(self, W: np.ndarray, b: np.ndarray, a: np.ndarray, c: int = 2) -> None:
+        if not all(hasattr(each, "shape") for each in (W, b, a)):
+            raise ValueError(f"W, b and a are {short([W, b, a])}: give arrays, np.array(…)")
+        check_count("c", c, least=1)
         if W.ndim != 4 or len(b) != len(W) or len(a) != W.shape[1]:
             raise ValueError(
                 f"W {tuple(W.shape)}, b {tuple(b.shape)} and a {tuple(a.shape)} do not belong "
@@ -55,8 +66,8 @@ class CRBM:
         cross-correlation with W itself. ValueError for a picture whose hidden width is no
         multiple of c (see `trim`), or of other channels.
         """
-        if v.ndim != 4 or v.shape[1] != len(self.a):
-            raise ValueError(f"v is (n, {len(self.a)}, n_v, n_v), not {tuple(v.shape)}")
+        if np.ndim(v) != 4 or v.shape[1] != len(self.a):
+            raise ValueError(f"v is (n, {len(self.a)}, n_v, n_v), not {tuple(np.shape(v))}")
         for n_v in v.shape[2:]:
             n_h = n_v - self.W.shape[-1] + 1
             if n_h < 1 or n_h % self.c:
@@ -69,7 +80,10 @@ class CRBM:
 
     def energy(self, v: np.ndarray, h: np.ndarray) -> np.ndarray:
         """E(v, h) of Eq. 1: (n,). Low energy means that the two go well together."""
-        agreement = (h * self.preactivation(v)).sum((1, 2, 3))
+        z = self.preactivation(v)
+        if np.shape(h)[1:] != tuple(z.shape[1:]):
+            raise ValueError(f"h {np.shape(h)} of v {tuple(v.shape)}: give {tuple(z.shape)}")
+        agreement = (h * z).sum((1, 2, 3))
         return -agreement - (self.a[:, None, None] * v - v**2 / 2).sum((1, 2, 3))
 
     def posterior(self, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -4,9 +4,12 @@ What is in `crbm` and `cdbn` computes with NumPy's arrays. Learning takes torch'
 be differentiated and moved to a GPU, through the same equations.
 """
 
+from collections.abc import Iterable
 from itertools import islice
 from math import isfinite
+from numbers import Integral
 
+import numpy as np
 import torch
 from torch.nn import functional as F
 
@@ -30,7 +33,7 @@ class Learner(CRBM):
         """
         if not isinstance(rng, torch.Generator):
             raise ValueError(f"rng = {rng}: give a torch.Generator().manual_seed(0)")
-        if min(K, channels, n_w) < 1:
+        if not all(isinstance(count, Integral) and count >= 1 for count in (K, channels, n_w)):
             raise ValueError(f"{K} filters of {channels}×{n_w}×{n_w}: give 1 or more of each")
         W = 0.01 * torch.randn(K, channels, n_w, n_w, generator=rng)
         return cls(W.to(device), torch.zeros(K, device=device), torch.zeros(channels).to(device), c)
@@ -105,6 +108,10 @@ class Learner(CRBM):
         map's mean activity towards `sparsity` through its bias.
         ValueError for no patches, for NaN in them, and when learning runs away.
         """
+        if not isinstance(epochs, Iterable):
+            raise ValueError(f"epochs = {epochs}: give a range, range({epochs})")
+        if patches is None or isinstance(patches, np.ndarray):
+            raise ValueError(f"patches are a {type(patches).__name__}: give a torch.Tensor")
         if len(patches) == 0:
             raise ValueError("there are no patches to learn from")
         history = []
@@ -150,6 +157,8 @@ class Patches:
     """
 
     def __init__(self, maps, width, count, rng):
+        if maps.ndim != 4 or not 1 <= width <= min(maps.shape[2:]):
+            raise ValueError(f"no window is {width} wide in maps {tuple(maps.shape)}: give less")
         self.windows = maps.unfold(2, width, 1).unfold(3, width, 1)
         n, _, rows, columns = self.windows.shape[:4]
         draws = torch.rand(3, count, generator=rng)

@@ -7,8 +7,9 @@ from typing import Any, Self
 import numpy as np
 
 from vmc_lib import photos
+from vmc_lib.boxes import as_boxes
 from vmc_lib.data import arrays
-from vmc_lib.short_repr import short_repr
+from vmc_lib.short_repr import short, short_repr
 from vmc_lib.what.cdbn import CDBN
 from vmc_lib.what.crops import WIDTH, crop, whiten
 
@@ -48,6 +49,12 @@ def logistic(log_odds: float | np.ndarray) -> np.ndarray:
     return np.exp(-np.logaddexp(0, -log_odds))
 
 
+def check_detections(detections: object) -> None:
+    """Raise ValueError where what should be `Detections` has no boxes."""
+    if not hasattr(detections, "boxes"):
+        raise ValueError(f"detections {short(detections)}: give what detect(image) returns")
+
+
 @dataclass(frozen=True, eq=False)
 class NameClassifier:
     """Logistic regression: the probability of being a shuttlecock, from weights (d,) and a bias."""
@@ -71,6 +78,8 @@ class NameClassifier:
 
     def log_odds(self, x: np.ndarray) -> np.ndarray:
         """The log-odds (n,) for features (n, d)."""
+        if np.shape(x)[-1:] != self.weights.shape:
+            raise ValueError(f"features {np.shape(x)}: give rows of {len(self.weights)}")
         return x @ self.weights + self.bias
 
     def probability(self, x: np.ndarray) -> np.ndarray:
@@ -106,7 +115,7 @@ class Recogniser:
 
         ValueError for crops of another size.
         """
-        if len(crops) == 0:
+        if np.ndim(crops) and len(crops) == 0:
             return np.zeros(0)
         if np.shape(crops)[1:] != (WIDTH, WIDTH):
             raise ValueError(
@@ -117,8 +126,9 @@ class Recogniser:
 
     def box_probability(self, image: np.ndarray, boxes: np.ndarray) -> np.ndarray:
         """Probability (n,) that each of the boxes (n, 4) of an image shows a shuttlecock."""
-        return self.probability(np.array([crop(image, box) for box in boxes]))
+        return self.probability(np.array([crop(image, box) for box in as_boxes(boxes)]))
 
     def select(self, image: np.ndarray, detections: Any) -> tuple[Any, np.ndarray]:
         """The `Detections` as they are, and the probabilities (n,) of their boxes."""
+        check_detections(detections)
         return detections, self.box_probability(image, detections.boxes)

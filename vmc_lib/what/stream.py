@@ -13,11 +13,12 @@ from typing import Any, Self
 import numpy as np
 
 from vmc_lib.boxes import as_boxes, decode_deltas, nms, pad_boxes
+from vmc_lib.checks import check_count
 from vmc_lib.data import arrays
 from vmc_lib.photos import crops
 from vmc_lib.short_repr import short_repr
 from vmc_lib.what.crbm import correlate_valid
-from vmc_lib.what.recogniser import logistic
+from vmc_lib.what.recogniser import check_detections, logistic
 
 STAGES = "V1", "V2", "V4", "IT"  # what stands there in the brain
 WIDTH, MARGIN = 48, 0.25  # of a crop, in pixels; what it shows around the box, in sides
@@ -67,7 +68,7 @@ class VentralStream:
         log_odds : (n,), that a box holds a shuttlecock
         deltas : (n, 4), from each box to the shuttlecock's, as `boxes.decode_deltas` takes them
         """
-        if not len(boxes):
+        if not len(boxes := as_boxes(boxes)):
             return np.zeros(0), np.zeros((0, 4))
         x, mean = preprocess(image, boxes), np.zeros(5)
         for along, down in flips:
@@ -98,6 +99,9 @@ class VentralStream:
         suppression keeps the likeliest of those that overlap. Returns their `Detections`, the
         likeliest first, scored by their log-odds, and their probabilities (n,).
         """
+        check_detections(detections)
+        check_count("first", first)
+        check_count("second", second)
         boxes = detections.boxes[:first]
         log_odds, deltas = self.predict(image, boxes)
         best = np.argsort(-log_odds, kind="stable")[:second]

@@ -11,6 +11,7 @@ from typing import Self
 import numpy as np
 
 from vmc_lib.boxes import decode_deltas
+from vmc_lib.checks import check_count, check_rng
 from vmc_lib.where.kernels import rbf
 from vmc_lib.where.recipes import Recipe
 
@@ -38,6 +39,8 @@ class RBFRidge:
         """Fit to features x (n, d), targets y (n,) or (n, m); `count` random rows are centres."""
         from sklearn.linear_model import Ridge
 
+        check_count("count", count, least=1)
+        check_rng(rng)
         mean = x.mean(0)
         axes = np.linalg.eigh(np.cov(x.T))[1][:, -DIRECTIONS:]
         places = (x - mean) @ axes
@@ -48,6 +51,8 @@ class RBFRidge:
 
     def basis(self, x: np.ndarray) -> np.ndarray:
         """Design matrix: centred features x (n, d) and RBF activations, (n, d + r)."""
+        if np.shape(x)[-1:] != self.mean.shape:
+            raise ValueError(f"features {np.shape(x)}: give (n, {len(self.mean)})")
         x = x - self.mean
         z = x @ self.axes
         return np.hstack([x, rbf(z, self.centres, self.gamma)])

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vmc_lib.boxes import as_boxes, nms, vote
+from vmc_lib.checks import check_count
 from vmc_lib.data import arrays
 from vmc_lib.photos import EVERY_LEVEL
 from vmc_lib.short_repr import short_repr
@@ -56,7 +57,7 @@ class ObjectDetector:
     @classmethod
     def load(cls, level: str, name: str = "improved") -> Self:
         """The shipped detector of a level, by the name of its recipe; ValueError for another."""
-        learnt, key = arrays("detectors"), f"{level}/{TRAINED_AS.get(name, name)}"
+        learnt, key = arrays("detectors"), f"{level}/{TRAINED_AS.get(str(name), name)}"
         if f"{level}/{name}/threshold" not in learnt:
             trained = [one for one in EVERY_RECIPE if f"{level}/{one}/threshold" in learnt]
             known = ", ".join(trained or EVERY_LEVEL)
@@ -94,6 +95,8 @@ class ObjectDetector:
         self, image: np.ndarray, boxes: np.ndarray, rounds: int | None = None
     ) -> np.ndarray:
         """Refine boxes (n, 4) by box regression, `rounds` times (by default all)."""
+        if rounds is not None:
+            check_count("rounds", rounds)
         return regress(self.recipe, self.regressions[:rounds], image, boxes)
 
     def detect(self, image: np.ndarray, boxes: ArrayLike | None = None) -> Detections:

@@ -4,6 +4,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vmc_lib.boxes import as_boxes, pad_boxes
+from vmc_lib.checks import check_count
 from vmc_lib.compiled import compiled
 from vmc_lib.photos import crops
 
@@ -27,8 +28,8 @@ def pixels_in_context(image: np.ndarray, boxes: ArrayLike) -> np.ndarray:
     """
     boxes = as_boxes(boxes)
     sides = np.maximum(boxes[:, 2:] - boxes[:, :2], 1)
-    octaves = np.log2(sides / image.shape[1::-1])
     pixels = crops(image, pad_boxes(boxes, 0.25), 16).reshape(-1, 768)
+    octaves = np.log2(sides / image.shape[1::-1])
     return np.hstack([pixels, octaves], dtype=np.float32)
 
 
@@ -42,6 +43,7 @@ def gradients(
     shows whether the object ends where the box does. After Dalal & Triggs (2005), with one
     normalisation for each box.
     """
+    check_count("cells", cells, least=1)
     dx, dy = _strongest_gradient(crops(image, pad_boxes(boxes, margin), 3 * cells))
     strength, turns = np.hypot(dx, dy), np.arctan2(dy, dx) / (2 * np.pi)
     angle = (turns - np.floor(turns)) * DIRECTIONS

@@ -8,7 +8,6 @@ photos. The paper is silent on this step.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache
 from typing import Any, Self
 
 import numpy as np
@@ -16,9 +15,9 @@ from numpy.typing import ArrayLike
 
 from vmc_lib.boxes import as_boxes, centres_and_sides, jitter_boxes
 from vmc_lib.camera import Camera
-from vmc_lib.checks import check_kind
+from vmc_lib.checks import cached, check_kind
 from vmc_lib.data import arrays, read_only
-from vmc_lib.photos import LEVELS, crops
+from vmc_lib.photos import LEVELS, check_photos, crops
 from vmc_lib.short_repr import short_repr
 from vmc_lib.where.features import gradients
 from vmc_lib.where.kernels import rbf
@@ -48,6 +47,7 @@ class Localiser:
         """Fit to photos whose shuttlecocks' places are known; `rng` jitters their boxes."""
         from sklearn.kernel_ridge import KernelRidge
 
+        check_photos(shots)
         inputs, targets = [], []
         for photo in shots:
             box = photo.boxes["shuttlecock"]
@@ -63,7 +63,7 @@ class Localiser:
         return cls(x, ridge.dual_coef_, mean, spread)
 
     @classmethod
-    @cache
+    @cached
     def load(cls, level: str) -> Self:
         """The shipped localiser of a level of photos, read once; ValueError for an unknown one."""
         learnt = arrays("localisers")
@@ -87,7 +87,10 @@ class Localiser:
         `NoReach` when the line of sight does not meet the predicted height.
         """
         check_kind("camera", camera, Camera, "photo.camera")
-        boxes = as_boxes(box)
+        if len(boxes := as_boxes(box)) != 1:
+            raise ValueError(
+                f"{len(boxes)} boxes: give one, (x0, y0, x1, y1), and locate each alone"
+            )
         centres, sides = centres_and_sides(boxes)
         alike = self.kernel(_describe(image, boxes))
         right, down, height = self.mean + self.spread * (alike @ self.weights)[0]

@@ -40,6 +40,8 @@ class Recipe:
 
     def describe(self, image: np.ndarray, boxes: ArrayLike) -> np.ndarray:
         """The features (n, d) of boxes (n, 4) of an image."""
+        if not isinstance(self.features, str) or self.features not in FEATURES:
+            raise ValueError(f"features {self.features!r} are none of {', '.join(FEATURES)}")
         return FEATURES[self.features](image, boxes)
 
 

@@ -8,11 +8,14 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from heapq import heapify, heappop, heappush
 from itertools import chain
+from numbers import Integral
 
 import numpy as np
 
+from vmc_lib.checks import as_numbers, check_count, check_kind, check_rng, is_within
 from vmc_lib.compiled import compiled
 from vmc_lib.photos import as_float
+from vmc_lib.short_repr import short
 from vmc_lib.where.appearance import (
     COLOUR_SPACES,
     MEASURES,
@@ -37,6 +40,9 @@ class Hierarchy:
     def after(self, steps: int) -> np.ndarray:
         """Labels (height, width) after so many merges; a region keeps its number until merged."""
         n = len(self.merges) + 1
+        check_count("steps", steps)
+        if steps >= n:
+            raise ValueError(f"steps = {steps}: this hierarchy has {n - 1} merges")
         into = np.arange(n + steps)
         for new in reversed(range(n, n + steps)):
             into[self.merges[new - n]] = into[new]
@@ -45,6 +51,9 @@ class Hierarchy:
 
 def adjacent_regions(labels: np.ndarray) -> np.ndarray:
     """Pairs (m, 2) of regions that share a border, each pair once, the lower number first."""
+    labels = np.asarray(labels)
+    if labels.ndim != 2 or labels.dtype.kind not in "iu":
+        raise ValueError(f"labels {labels.dtype} {labels.shape}: give what segment(…) returns")
     n = labels.max() + 1
     sides = (labels[:, :-1], labels[:, 1:]), (labels[:-1], labels[1:])
     pairs = np.hstack([[one[one != other], other[one != other]] for one, other in sides])
@@ -114,12 +123,15 @@ class Strategy:
     similarities: tuple = (ALL,)
 
     def __post_init__(self) -> None:
+        for names in (self.colours, self.similarities, *self.similarities):
+            if not isinstance(names, tuple | list):
+                raise ValueError(f"{names!r} in {self}: give names in a tuple, as ({names!r},)")
         named = (self.colours, COLOUR_SPACES), (chain(*self.similarities), MEASURES)
         for names, known in named:
             for name in names:
                 if name not in known:
                     raise ValueError(f"{name!r} is none of {', '.join(known)}")
-        scales = np.asarray(self.k, float)
+        scales = as_numbers("k", self.k)
         if scales.ndim != 1 or not (np.isfinite(scales) & (scales > 0)).all():
             raise ValueError(f"k = {self.k}: give a tuple of finite numbers above 0")
         if not (len(self.colours) and len(scales) and len(self.similarities)):
@@ -145,6 +157,7 @@ STRATEGIES = {
 
 def hierarchies(image: np.ndarray, strategy: Strategy) -> Iterator[Hierarchy]:
     """Grow every Hierarchy of a Strategy on an image, one by one."""
+    check_kind("strategy", strategy, Strategy, "one of STRATEGIES, by its name")
     rgb = as_float(image)
     for colour in strategy.colours:
         channels = COLOUR_SPACES[colour](rgb)
@@ -165,11 +178,16 @@ def rank_boxes(
     all first (Uijlings et al. 2013). Boxes narrower or lower than `smallest` pixels
     are left out.
     """
+    check_rng(rng)
+    if not is_within(smallest, -np.inf, np.inf):
+        raise ValueError(f"smallest = {short(smallest)}: give pixels, as 20")
     boxes, ranks = [], []
     for tree in trees:
         n = len(tree.boxes)
         boxes.append(tree.boxes)
         ranks.append(np.arange(n, 0, -1) * rng.random(n))
+    if not boxes:
+        raise ValueError("there is no hierarchy to rank boxes of: give one or more")
     boxes = np.concatenate(boxes)[np.argsort(np.concatenate(ranks))]
     _, first = np.unique(boxes, axis=0, return_index=True)
     boxes = boxes[np.sort(first)]
@@ -211,8 +229,12 @@ def propose(
     [[0.0, 0.0, 60.0, 40.0]]
     """
     if not isinstance(strategy, Strategy):
-        if strategy not in STRATEGIES:
+        if not isinstance(strategy, str) or strategy not in STRATEGIES:
             raise ValueError(f"strategy {strategy!r} is none of {', '.join(STRATEGIES)}")
         strategy = STRATEGIES[strategy]
+    if isinstance(rng, str | float) or (isinstance(rng, Integral) and rng < 0):
+        raise ValueError(
+            f"rng {short(rng)}: give a seed, 0 or more, or np.random.default_rng(seed)"
+        )
     rng = np.random.default_rng(0 if rng is None else rng)
     return rank_boxes(hierarchies(image, strategy), rng, smallest)

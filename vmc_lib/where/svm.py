@@ -36,14 +36,16 @@ class KernelSVM:
         """
         from sklearn.svm import SVC
 
-        if kernel not in KERNELS:
+        if not isinstance(kernel, str) or kernel not in KERNELS:
             raise ValueError(f"kernel {kernel!r} is none of {', '.join(KERNELS)}")
+        x = np.asarray(x)
+        if x.ndim != 2 or np.shape(y) != x.shape[:1]:
+            raise ValueError(f"features {x.shape}, labels {np.shape(y)}: give (n, d), and n labels")
         if len(np.unique(y)) < 2:
             raise ValueError("a classifier needs examples and counter-examples: give more photos")
-        x = np.asarray(x)
-        if x.ndim != 2 or len(x) != len(y):
-            raise ValueError(f"features {x.shape} and {len(y)} labels: give (n, d), and n labels")
-        gamma = scale / (x.shape[1] * x.var())
+        if not 0 < (spread := x.var()) < np.inf:
+            raise ValueError(f"features of variance {spread}: give finite ones that differ")
+        gamma = scale / (x.shape[1] * spread)
         svc = SVC(C=cost, kernel=kernel, gamma=gamma, cache_size=500).fit(x, y)
         support, weights = svc.support_vectors_, svc.dual_coef_[0]
         if kernel == "linear":  # then the sum is one term: a weight for each feature
@@ -54,4 +56,6 @@ class KernelSVM:
         """Signed decision value (n,) of each row of x (n, d)."""
         if not len(x):
             return np.empty(0)
+        if np.ndim(x) != 2 or x.shape[1] != self.support.shape[1]:
+            raise ValueError(f"features {np.shape(x)}: give (n, {self.support.shape[1]})")
         return KERNELS[self.kernel](x, self.support, self.gamma) @ self.weights + self.bias
