@@ -1,6 +1,5 @@
 """The arm as a MuJoCo model: OpenSim's arm26, two joints and six muscles (`arm26.xml`)."""
 
-from functools import cache
 from typing import NamedTuple
 
 import mujoco
@@ -8,6 +7,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vmc_lib.arm.model import MUSCLES, XML, check_load
+from vmc_lib.arm.simulate import check_posture
+from vmc_lib.checks import as_numbers, cached, check_kind
 
 LOG = mujoco.MjLogConfig.get()
 LOG.logto_file = False  # no file in the reader's folder: a warning is on the console
@@ -30,7 +31,7 @@ class Geometry(NamedTuple):
         return np.array([shoulder, elbow, elbow + rotation @ MODEL.site("hand").pos])
 
 
-@cache
+@cached
 def model_with_load(load: float) -> mujoco.MjModel:
     """The model with a weight of `load` kg, a point, held at the wrist; `MODEL` itself for 0."""
     check_load(load)
@@ -65,10 +66,11 @@ def muscle_paths(data: mujoco.MjData) -> tuple[np.ndarray, np.ndarray]:
 def geometry(q: ArrayLike) -> Geometry:
     """`Geometry` of one posture (2,): the pose of each body and the path of each muscle.
 
-    ValueError for another shape.
+    ValueError for another shape, or far beyond the joints' limits.
     """
     if np.shape(q) != (2,):
         raise ValueError(f"posture {q} must be (shoulder, elbow), in rad")
+    check_posture(as_numbers("posture", q), "posture")
     data = forward(q)
     names = [MODEL.body(k).name for k in range(1, MODEL.nbody)]
     bodies = {n: (data.body(n).xmat.reshape(3, 3).copy(), data.body(n).xpos.copy()) for n in names}
@@ -80,6 +82,7 @@ def geometry(q: ArrayLike) -> Geometry:
 
 def mass_matrix(data: mujoco.MjData) -> np.ndarray:
     """The joints' inertia (2, 2) in kg m² at MuJoCo's current posture."""
+    check_kind("data", data, mujoco.MjData, "forward(q)")
     matrix = np.empty((MODEL.nv, MODEL.nv))
     mujoco.mj_fullM(data.model, data, matrix)
     return matrix
@@ -90,6 +93,9 @@ def dynamics_at(postures: np.ndarray, load: float = 0.0) -> np.ndarray:
 
     With a `load` in kg at the wrist.
     """
+    postures = as_numbers("postures", postures)
+    if postures.ndim != 2 or postures.shape[1] != 2:
+        raise ValueError(f"postures {postures.shape}: give (shoulder, elbow) in rad, (n, 2)")
     data = mujoco.MjData(model_with_load(load))
     return np.array([_snapshot(q, data) for q in postures])
 

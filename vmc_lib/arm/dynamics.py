@@ -16,8 +16,9 @@ from numpy.typing import ArrayLike
 
 from vmc_lib.arm.model import DAMPING, LIMITS, STEP, check_load
 from vmc_lib.arm.muscle import Numbers
-from vmc_lib.checks import as_numbers
+from vmc_lib.checks import as_numbers, cached
 from vmc_lib.data import arrays
+from vmc_lib.short_repr import short
 
 ROWS = 10_001  # of the muscle tables: steps of half a milliradian
 MARGIN = 0.4  # rad: the tables reach a little beyond the joints' stops
@@ -57,7 +58,7 @@ def _posture(q):
     return as_numbers("posture", q)
 
 
-@cache
+@cached
 def coefficients(load: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
     """Of the basis in the dynamics (11, 7), as `_dynamics` unpacks it, and in the hand (11, 3).
 
@@ -92,8 +93,8 @@ def hand(q: ArrayLike) -> np.ndarray:
 
 def torque_for(q: ArrayLike, velocity: ArrayLike, acceleration: ArrayLike) -> np.ndarray:
     """Inverse dynamics: torques (…, 2) in N m that give these accelerations over one step."""
-    velocity = as_numbers("velocity", velocity)
-    acceleration = as_numbers("acceleration", acceleration)
+    velocity = _per_joint("velocity", velocity)
+    acceleration = _per_joint("acceleration", acceleration)
     m11, m12, m22, b1, b2 = _dynamics(_terms(q), *velocity.T, STEP)
     a1, a2 = acceleration.T
     return np.array([m11 * a1 + m12 * a2 + b1, m12 * a1 + m22 * a2 + b2]).T
@@ -101,8 +102,16 @@ def torque_for(q: ArrayLike, velocity: ArrayLike, acceleration: ArrayLike) -> np
 
 def forward_dynamics(q: ArrayLike, velocity: ArrayLike, torque: ArrayLike) -> np.ndarray:
     """Forward dynamics, Eq. 12: the accelerations (…, 2) that joint torques cause."""
-    velocity, torque = as_numbers("velocity", velocity), as_numbers("torque", torque)
+    velocity, torque = _per_joint("velocity", velocity), _per_joint("torque", torque)
     return np.array(equation_12(_terms(q), *velocity.T, *torque.T, STEP)).T
+
+
+def _per_joint(name, values):
+    """Values as an array (…, 2); ValueError for other shapes."""
+    values = as_numbers(name, values)
+    if values.shape[-1:] != (2,):
+        raise ValueError(f"{name} {short(values)}: give one for each joint, (…, 2)")
+    return values
 
 
 def _terms(q):

@@ -97,7 +97,7 @@ def to_world(points: np.ndarray, psi: ArrayLike) -> np.ndarray:
 
     One turn `psi` in rad for all of them, or one for each, (…).
     """
-    points = _positions(points, 3).copy()
+    points, psi = _positions(points, 3).copy(), as_numbers("turn", psi)
     x, z = np.moveaxis(points[..., [0, 2]] - TRUNK, -1, 0)
     c, s = np.cos(psi), np.sin(psi)
     points[..., [0, 2]] = np.stack([c * x + s * z, c * z - s * x], axis=-1) + TRUNK

@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from vmc_lib.checks import check_rng, is_within
+from vmc_lib.checks import as_numbers, check_rng, is_within
 from vmc_lib.short_repr import short
 
 Numbers = float | np.ndarray
@@ -114,6 +114,7 @@ def noisy(excitation: Numbers, share: float, rng: np.random.Generator) -> np.nda
     check_rng(rng)
     if not is_within(share, 0, np.inf):
         raise ValueError(f"noise of {short(share)} times the signal: give a number, 0 or more")
+    excitation = as_numbers("excitation", excitation)
     return add_noise(excitation, share, rng.standard_normal(np.shape(excitation)))
 
 

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from vmc_lib.arm.dynamics import MARGIN, hand
 from vmc_lib.arm.engines import ENGINES, FARTHEST
-from vmc_lib.arm.model import F0, LIMITS, STEP
+from vmc_lib.arm.model import F0, LIMITS, STEP, check_load
 from vmc_lib.arm.muscle import PAPER, Muscle
 from vmc_lib.checks import as_numbers, check_kind, is_within
 from vmc_lib.short_repr import short, short_repr
@@ -112,14 +112,14 @@ def simulate(
         raise ValueError(f"engine {short(engine)} is unknown; choose one of {sorted(ENGINES)}")
     if engine == "compiled" and muscle is not PAPER:
         raise ValueError("engine 'compiled' knows the paper's muscle alone; leave the engine out")
-    if not (is_within(step, 0, 0.01) and step):
-        raise ValueError(f"a step of {short(step)} s: Euler's method needs one in (0, 0.01] s")
+    _check_step(step)
     leading = u.shape[:-2]
     q = _per_movement("start", start, leading, 2)
     check_posture(q)
     a = _per_movement("activation", u[..., 0, :] if activation is None else activation, leading, 6)
     _check_range("activation", a)
     check_kind("perturbation", perturbation, Perturbation, "Perturbation(load=1.0), in kg")
+    check_load(perturbation.load)
     _check_field(perturbation.field)
     path = ENGINES[engine](u.reshape(-1, *u.shape[-2:]), q, a, perturbation, step, muscle)
     check_sane(path[0])
@@ -129,13 +129,16 @@ def simulate(
 def constant_excitation(level: ArrayLike, duration: float, step: float = STEP) -> np.ndarray:
     """Excitations (…, T, 6) for `simulate` that stay at `level` (…, 6) for `duration` in s.
 
-    ValueError for other shapes, or a duration that is not finite, or shorter than one step.
+    ValueError for other shapes, levels beyond [0, 1], a step as `simulate` refuses it, or a
+    duration that is not finite, or shorter than one step.
     """
+    _check_step(step)
     if not is_within(duration, step, np.inf):
         raise ValueError(f"a duration of {short(duration)} s: choose at least {step} s")
     level = as_numbers("level", level)
     if level.shape[-1:] != (6,):
         raise ValueError(f"levels of shape {level.shape}: give one for each of the 6 muscles")
+    _check_range("levels", level)
     return np.repeat(level[..., None, :], round(duration / step), axis=-2)
 
 
@@ -150,6 +153,11 @@ def _per_movement(name, value, leading, size):
     return np.broadcast_to(value, (*leading, size)).reshape(-1, size)
 
 
+def _check_step(step):
+    if not (is_within(step, 0, 0.01) and step):
+        raise ValueError(f"a step of {short(step)} s: Euler's method needs one in (0, 0.01] s")
+
+
 def _check_range(name, value):
     low, high = value.min(initial=0), value.max(initial=0)
     if not (low >= 0 and high <= 1):
@@ -160,6 +168,7 @@ def check_posture(q: np.ndarray, name: str = "start") -> None:
     """ValueError where a posture (…, 2) lies beyond the joints' limits by more than MARGIN."""
     if np.shape(q)[-1:] != (2,):
         raise ValueError(f"{name} {q} must be (shoulder, elbow), (…, 2), in rad")
+    q = as_numbers(name, q)
     far = ~np.all((q >= LIMITS[:, 0] - MARGIN) & (q <= LIMITS[:, 1] + MARGIN), axis=-1)
     if np.any(far):
         raise ValueError(
@@ -169,7 +178,7 @@ def check_posture(q: np.ndarray, name: str = "start") -> None:
 
 
 def _check_field(field):
-    if np.shape(field) != (2, 2) or not np.all(np.isfinite(field)):
+    if np.shape(field) != (2, 2) or not np.isfinite(as_numbers("field", field)).all():
         raise ValueError(f"field {field} must be a finite (2, 2) matrix in N m s / rad")
 
 

@@ -16,9 +16,11 @@ from typing import Literal
 import numpy as np
 
 from vmc_lib.cerebellum.online import AimCorrection, GranuleCells, WeightCorrection
+from vmc_lib.checks import as_numbers, is_within
 from vmc_lib.motor.execution import Execute, Movement, execute
 from vmc_lib.motor.planning import Plan, check_batch, check_templates, is_surrounded, plan
 from vmc_lib.motor.templates import REACH, TemplateSet
+from vmc_lib.short_repr import short
 
 SILENT = np.array([0.0, -REACH])  # where the hand ends when every muscle is silent
 CORRECTIONS = ("aim", "pull")
@@ -59,6 +61,13 @@ class Adaptation:
         check_templates(template_set)
         if corrects not in CORRECTIONS:
             raise ValueError(f"cannot correct {corrects!r}; choose one of {CORRECTIONS}")
+        if not hasattr(trained_correction, "correct"):
+            raise ValueError(
+                f"trained_correction {short(trained_correction)} corrects nothing: give an "
+                "AimCorrection"
+            )
+        if not is_within(regularisation, 0, np.inf):
+            raise ValueError(f"regularisation = {short(regularisation)}: give 0 or more")
         self.trained_correction, self.template_set = trained_correction, template_set
         self.corrects, self.regularisation = corrects, regularisation
         nothing = np.zeros_like(template_set.points)
@@ -88,6 +97,7 @@ class Adaptation:
 
     def shift(self, plan: Plan) -> np.ndarray:
         """How far to shift the hand, (B, 2), as learned; an aim is kept where templates are."""
+        check_batch(plan)
         shift = self.cells.excite(plan.target) @ self.purkinje
         if self.corrects == "pull":
             return shift
@@ -109,6 +119,10 @@ def minimum_norm_update(
     `active` (n, cells) says which granule cells took part; a single sample is learned by a share
     1 / (1 + regularisation).
     """
+    if np.ndim(active) != 2 or np.shape(missing)[:1] != np.shape(active)[:1]:
+        raise ValueError(
+            f"active {np.shape(active)} and missing {np.shape(missing)}: give (n, cells) and (n, k)"
+        )
     overlap = active @ active.T
     overlap += regularisation * np.diag(np.diag(overlap))
     return active.T @ np.linalg.solve(overlap, missing)
@@ -119,4 +133,7 @@ def weight_correction(points: np.ndarray, shift: np.ndarray) -> np.ndarray:
 
     It sums to more than zero where the hand must be lifted: more of everything.
     """
+    shift = as_numbers("shift", shift)
+    if shift.shape[-1:] != SILENT.shape:
+        raise ValueError(f"shift {short(shift)}: give (…, 2) in the arm's plane, in m")
     return (np.linalg.pinv(np.swapaxes(points - SILENT, -1, -2)) @ shift[..., None])[..., 0]

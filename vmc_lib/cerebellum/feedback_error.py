@@ -57,6 +57,14 @@ class FeedbackErrorLearning:
         self, reference: ReferenceTrajectory, motion: Motion, gains: FeedbackGains = SIGHT
     ) -> Self:
         """Learn from the motion of a batch of movements along this reference."""
+        check_kind("reference", reference, ReferenceTrajectory, "reference_trajectory(plan)")
+        check_kind("motion", motion, Motion, "simulate_feedback(reference)")
+        check_kind("gains", gains, FeedbackGains, "SIGHT, or SIGHT._replace(gain=30.0)")
+        if motion.q.shape != reference.q.shape:
+            raise ValueError(
+                f"motion of q {motion.q.shape} along a reference {reference.q.shape}: give what "
+                "simulate_feedback made of it"
+            )
         path = reference.q, reference.velocity, motion.q, motion.velocity
         wanted = feedback_acceleration(gains, *(x[:, :SAMPLES:TICK].reshape(-1, 2) for x in path))
         active = self.cells.excite(mossy_fibres(reference).reshape(-1, 4))

@@ -16,7 +16,7 @@ from vmc_lib.arm.engines import muscle_acceleration, muscle_torque
 from vmc_lib.arm.model import STEP
 from vmc_lib.arm.simulate import Motion
 from vmc_lib.cerebellum.online import GranuleCells
-from vmc_lib.checks import as_numbers, check_count
+from vmc_lib.checks import as_numbers, check_count, check_kind
 
 FAST, STRONG = 5.0, 8.0  # rad/s and N m: they bring what the cells sense to about one
 
@@ -40,6 +40,7 @@ class ForwardModel:
 
     def update(self, motion: Motion, every: int = 20) -> Self:
         """Learn from a batch of movements, one sample every so many steps."""
+        check_kind("motion", motion, Motion, "a batch, as execute(plans).motion")
         check_count("every", every, least=1)
         if np.ndim(motion.q) != 3:
             raise ValueError(f"{motion} is of one movement: give a batch, q (B, T + 1, 2)")
@@ -58,5 +59,6 @@ class ForwardModel:
 
 def mossy_fibres(q: np.ndarray, velocity: np.ndarray, activation: np.ndarray) -> np.ndarray:
     """The inputs of the granule cells: posture, speed, muscles' torque, (B, 6)."""
-    torque = muscle_torque(activation, *paths(q), velocity)
+    q, velocity = as_numbers("q", q), as_numbers("velocity", velocity)
+    torque = muscle_torque(as_numbers("activation", activation), *paths(q), velocity)
     return np.concatenate([q, velocity / FAST, torque / STRONG], axis=-1)

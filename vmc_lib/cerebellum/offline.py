@@ -11,7 +11,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vmc_lib.checks import check_count
+from vmc_lib.checks import as_numbers, check_count, check_function
 from vmc_lib.motor.execution import Execute, execute
 from vmc_lib.motor.planning import Plan, check_plan, least_change, norm, rule_called
 from vmc_lib.motor.templates import HeldMotion
@@ -21,6 +21,8 @@ GAINS = tuple(range(21))  # the paper's n in [0, 20]
 LARGEST_STEP = 0.5  # of Δw's norm: no single correction may throw the arm about
 NUDGE = 0.1  # of one weight, to see what it does: smaller ones drown in a muscle's noise
 DAMPING = 1e-4  # of a least-squares step, a share of what all weights do; chosen on other targets
+
+MOVES = "execute, or partial(execute, perturbation=…)"  # what is asked for where no arm would move
 
 
 class Trials(NamedTuple):
@@ -118,7 +120,10 @@ def algorithm_1(
     """
     if not np.size(gains) or np.ndim(gains) != 1:
         raise ValueError(f"gains = {short(gains)}: name at least one n to try, as range(21) does")
-    if sign not in (1, -1) or np.shape(origin) != (2,):
+    as_numbers("gains", gains)
+    check_function("change", change, "algorithm_1_change")
+    check_function("execute", execute, MOVES)
+    if sign not in (1, -1) or as_numbers("origin", origin).shape != (2,):
         raise ValueError(
             f"origin {short(origin)}, sign {short(sign)}: give (x, y) in m, and 1 or -1"
         )
@@ -177,6 +182,7 @@ def broyden_calibration(
     True
     """
     check_count("n_trials", n_trials)
+    check_function("execute", execute, MOVES)
     planned, jacobian = execute(plan), np.swapaxes(plan.points, -1, -2)
     best, endpoint, tried = planned.error, planned.endpoint, []
     weights = plan.weights
@@ -228,6 +234,7 @@ def gauss_newton_calibration(plan: Plan, n_steps: int = 4, execute: Execute = ex
     (9, True)
     """
     check_count("n_steps", n_steps)
+    check_function("execute", execute, MOVES)
     planned, weights = execute(plan), plan.weights
     ways = NUDGE * np.eye(weights.shape[-1]).reshape(-1, *(weights.ndim - 1) * [1], len(weights.T))
     nudged = execute(plan.with_weights(weights + ways))

@@ -19,8 +19,8 @@ from typing import Any, Self
 
 import numpy as np
 
-from vmc_lib.cerebellum.offline import Rule, calibrate
-from vmc_lib.checks import as_numbers, check_count, is_within
+from vmc_lib.cerebellum.offline import MOVES, Rule, calibrate
+from vmc_lib.checks import as_numbers, check_count, check_function, is_within
 from vmc_lib.motor.execution import Execute, execute
 from vmc_lib.motor.planning import (
     RULES,
@@ -35,6 +35,7 @@ from vmc_lib.motor.planning import (
     surrounding,
 )
 from vmc_lib.motor.templates import TemplateSet
+from vmc_lib.short_repr import short
 
 # With Eq. 5's power of 1 the weights have a kink at every template; chosen on validation targets
 smooth_weights = partial(exact_weights, power=1.25)
@@ -46,12 +47,14 @@ def equation_8(plan: Plan) -> np.ndarray:
     Eq. 8 names w_i^off and p_i^off, "the positions of the movement after off-line calibration",
     which a movement still to be made does not have. Here they are the plan's weights and `points`.
     """
+    check_plan(plan)
     points = plan.points.reshape(*plan.points.shape[:-2], -1)
     return np.concatenate([plan.target, plan.weights, points], axis=-1)
 
 
 def mossy_fibres(plan: Plan) -> np.ndarray:
     """The inputs of the granule cells: a plan's target, also among its templates, (…, 4 or 6)."""
+    check_plan(plan)
     return np.concatenate([plan.target, plan.target - plan.points.mean(axis=-2)], axis=-1)
 
 
@@ -60,6 +63,9 @@ class LinearRegression:
 
     def fit(self, X: np.ndarray, y: np.ndarray) -> Self:
         """Learn y (n, k) at X (n, d), forgetting all else."""
+        X, y = as_numbers("X", X), as_numbers("y", y)
+        if X.ndim != 2 or y.shape[:1] != X.shape[:1] or not X.size:
+            raise ValueError(f"X {X.shape} and y {y.shape}: give (n, d) and (n, k)")
         self.mean_, self.intercept_ = X.mean(axis=0), y.mean(axis=0)
         self.slopes_ = np.linalg.lstsq(X - self.mean_, y - self.intercept_, rcond=1e-6)[0]
         return self
@@ -68,6 +74,8 @@ class LinearRegression:
         """The answers (n, k) at X (n, d)."""
         if not hasattr(self, "slopes_"):
             raise ValueError("the regression has learned nothing yet: fit it first")
+        if (X := as_numbers("X", X)).shape[-1:] != self.mean_.shape:
+            raise ValueError(f"X {X.shape}: give rows of {len(self.mean_)} features")
         return self.intercept_ + (X - self.mean_) @ self.slopes_
 
 
@@ -115,6 +123,7 @@ class WeightCorrection:
     def update(self, plan: Plan, rule: Rule = "published", execute: Execute = execute) -> Self:
         """Algorithm 2, its steps for every plan of a batch; `rule`, as `calibrate` takes it."""
         check_batch(plan)
+        check_function("execute", execute, MOVES)
         online = self.correct(plan)  # 1, 2: "calibrated weights w_i^on = w_i + Δw_i^on"
         modified = online.with_weights(calibrate(online, rule).best_weights)  # 3, 4: "w_i' = …"
         place = execute(modified).endpoint if self.hindsight else plan.target  # 4: "actual p_a'"
@@ -158,8 +167,12 @@ class AimCorrection:
         neighbours: np.ndarray | None = None,
     ) -> None:
         check_templates(template_set)
-        self.cells = cells or GranuleCells()
-        fours = _neighbours(template_set.points) if neighbours is None else neighbours
+        if not (cells is None or hasattr(cells, "partial_fit")):
+            raise ValueError(f"cells {short(cells)} learn nothing: give GranuleCells()")
+        self.cells, points = cells or GranuleCells(), template_set.points
+        fours = np.asarray(_neighbours(points) if neighbours is None else neighbours)
+        if fours.ndim != 2 or not np.isin(fours, np.arange(len(points))).all():
+            raise ValueError(f"neighbours {short(fours)}: give rows of templates, (n, N)")
         known = plan(template_set.points[fours], template_set, rows=fours[:, None])
         self.cells.fit(_rows(mossy_fibres(known)), np.zeros_like(_rows(known.target)))
 
@@ -180,6 +193,7 @@ class AimCorrection:
         """
         check_batch(plan)
         check_count("together", together, least=1)
+        check_function("execute", execute, MOVES)
         for first in range(0, len(plan.target), together):
             some = plan[first : first + together]
             aim = self.aim(some)
@@ -234,6 +248,8 @@ class GranuleCells:
         check_count("cells", self.cells, least=1)
         if not (is_within(self.width, 0, np.inf) and self.width):
             raise ValueError(f"a width of {self.width}: give one above 0, in the units of X")
+        if not is_within(self.ridge, 0, np.inf):
+            raise ValueError(f"a ridge of {short(self.ridge)}: give a number, 0 or more")
         rng = np.random.default_rng(self.random_state)
         low, high = X.min(axis=0) - self.width, X.max(axis=0) + self.width
         self.centres_ = rng.uniform(low, high, (self.cells, X.shape[1]))
@@ -246,6 +262,9 @@ class GranuleCells:
         if not hasattr(self, "centres_"):
             return self.fit(X, y)
         active, y = self.excite(X), _finite(y)
+        if y.shape != (len(active), *self.climbing_.shape[1:]):
+            k = self.climbing_.shape[1:]
+            raise ValueError(f"y {y.shape} at {len(active)} X: give {(len(active), *k)}")
         self.gram_ += active.T @ active
         self.climbing_ += active.T @ y
         regularised_gram = self.gram_ + self.ridge * np.eye(self.cells)

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vmc_lib.checks import as_numbers
+from vmc_lib.checks import as_numbers, check_kind
 
 
 class Rates(NamedTuple):
@@ -30,7 +30,10 @@ def adapt(disturbance: ArrayLike, rates: Rates = RATES) -> np.ndarray:
     """
     if (disturbance := as_numbers("disturbance", disturbance)).ndim != 1:
         raise ValueError(f"disturbance of shape {disturbance.shape}: give one for each reach, (T,)")
-    kept, learned = np.array(rates.kept), np.array(rates.learned)
+    check_kind("rates", rates, Rates, "Rates(kept=(0.6, 0.99), learned=(0.2, 0.03))")
+    kept, learned = as_numbers("kept", rates.kept), as_numbers("learned", rates.learned)
+    if not kept.shape == learned.shape == (2,):
+        raise ValueError(f"{rates}: give two of each, of the fast memory and of the slow one")
     if np.abs(np.linalg.eigvals(np.diag(kept) - learned[:, None])).max() >= 1:
         raise ValueError(f"{rates} never settle; keep less than 1, and learn less")
     held = np.zeros((len(disturbance) + 1, 2))

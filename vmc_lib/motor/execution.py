@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from vmc_lib.arm.simulate import UNPERTURBED, Perturbation
-from vmc_lib.checks import check_kind, is_within
+from vmc_lib.checks import as_numbers, check_kind, is_within
 from vmc_lib.motor.planning import Plan, check_plan, norm
 from vmc_lib.motor.templates import HeldMotion, mean_distance, mean_speed
 from vmc_lib.short_repr import short, short_repr
@@ -120,6 +120,9 @@ class Movement:
 
 def rotate_about_eye(points: np.ndarray, angle: float) -> np.ndarray:
     """Plane positions (…, 2) rotated about the eye by `angle`, upwards where it is positive."""
+    points, angle = as_numbers("points", points), as_numbers("angle", angle)
+    if points.shape[-1:] != EYE.shape or angle.ndim:
+        raise ValueError(f"points {points.shape} by {angle}: give (…, 2) in the plane, and radians")
     c, s = np.cos(angle), np.sin(angle)
     return (points - EYE) @ np.array([[c, s], [-s, c]]) + EYE
 

@@ -21,7 +21,7 @@ from vmc_lib.arm.kinematics import inverse_kinematics
 from vmc_lib.arm.model import STEP
 from vmc_lib.arm.muscle import noisy
 from vmc_lib.arm.simulate import Motion, check_sane
-from vmc_lib.checks import as_numbers, check_kind, is_within
+from vmc_lib.checks import as_numbers, check_function, check_kind, is_within
 from vmc_lib.motor.inverse_dynamics import SAMPLES, minimum_jerk, minimum_jerk_profile, muscle_gain
 from vmc_lib.motor.planning import Plan, check_batch
 from vmc_lib.motor.templates import START
@@ -106,6 +106,11 @@ def switch(
     """The first reference until `at` s, then smoothly the second, after another 0.4 s."""
     for reference in (first, second):
         check_kind("reference", reference, ReferenceTrajectory, "reference_trajectory(plan)")
+    if first.q.shape != second.q.shape or not is_within(at, -np.inf, np.inf):
+        raise ValueError(
+            f"from {first.q.shape} to {second.q.shape} at {short(at)} s: give two references of "
+            "one length, for as many movements, and seconds"
+        )
     share = minimum_jerk_profile((np.arange(first.q.shape[1]) * STEP - at) / 0.4)[:, None]
     q = first.q + share * (second.q - first.q)
     u = first.excitations + share[:-1] * (second.excitations - first.excitations)
@@ -173,7 +178,9 @@ def simulate_feedback(
         raise ValueError(f"noise of {short(noise)} times the signal: give a number, 0 or more")
     if noise and rng is None:
         raise ValueError(f"noise of {noise} needs an rng; give np.random.default_rng(seed)")
-    if not all(np.isfinite(each).all() for each in (*gains[:-2], noise)):
+    for name, each in zip(gains._fields[-2:], gains[-2:], strict=True):
+        check_function(f"gains' {name}", each, "one of the arguments of SIGHT's")
+    if not all(is_within(each, -np.inf, np.inf) for each in gains[:-2]):
         raise ValueError(f"{gains} with noise of {noise}: give finite numbers")
     late, spinal = _steps(gains.delay), _steps(gains.spinal, least=TICK)
     target, target_velocity, planned = reference.q, reference.velocity, reference.excitations
@@ -181,9 +188,13 @@ def simulate_feedback(
     u, path = np.empty(planned.shape), allocate_trajectory(planned, target[:, 0], 0, planned[:, 0])
     q, velocity, activation = path
     disturbance = disturbance or Disturbance()
-    if np.shape(disturbance.drag) != (2, 2) or not np.isfinite(disturbance.drag).all():
+    if (
+        np.shape(disturbance.drag) != (2, 2)
+        or not np.isfinite(as_numbers("drag", disturbance.drag)).all()
+    ):
         raise ValueError(f"drag {disturbance.drag} must be a finite (2, 2) matrix in N s / m")
     times = STEP * np.arange(planned.shape[1])[:, None, None]
+    _check_push(disturbance, len(planned))
     pushes = disturbance(times, np.zeros((len(times), len(planned), 2)))  # on a hand at rest
     if not np.isfinite(pushes).all():
         raise ValueError(f"a push of {disturbance.force} N at {disturbance.at} s must be finite")
@@ -248,7 +259,10 @@ class Disturbance(NamedTuple):
 
 def curl(strength: float) -> Disturbance:
     """A curl field: it pushes a moving hand aside, clockwise, by `strength` N for each m/s."""
-    return Disturbance(drag=as_numbers("strength", strength) * np.array([[0.0, 1.0], [-1.0, 0.0]]))
+    strength = as_numbers("strength", strength)
+    if strength.ndim:
+        raise ValueError(f"a curl of {short(strength)} N s / m: give one number")
+    return Disturbance(drag=strength * np.array([[0.0, 1.0], [-1.0, 0.0]]))
 
 
 def push(force: ArrayLike, at: float | np.ndarray) -> Disturbance:
@@ -259,7 +273,21 @@ def push(force: ArrayLike, at: float | np.ndarray) -> Disturbance:
     force = as_numbers("force", force)
     if force.shape[-1:] != (2,):
         raise ValueError(f"a force {force} N: give (forward, up), in the arm's plane")
-    return Disturbance(force=force, at=at)
+    return Disturbance(force=force, at=as_numbers("at", at)[()])
+
+
+def _check_push(disturbance, batch):
+    """Raise ValueError where a push is not for so many movements."""
+    force, at = as_numbers("force", disturbance.force), as_numbers("at", disturbance.at)
+    try:
+        fits = np.broadcast_shapes(force.shape, at.shape, (batch, 2)) == (batch, 2)
+    except ValueError:
+        fits = False
+    if not fits:
+        raise ValueError(
+            f"a push {force.shape} at {at.shape} of {batch} movements: give one for all, or "
+            f"forces ({batch}, 2) and times ({batch}, 1)"
+        )
 
 
 def _reflex(gains, q, velocity, reference_length, reference_rate):

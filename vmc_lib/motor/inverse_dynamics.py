@@ -4,8 +4,6 @@ Habitual planning never does this. It is how the templates were made, as smooth 
 few spline coefficients keep.
 """
 
-from functools import cache
-
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -14,7 +12,7 @@ from vmc_lib.arm.engines import fibres
 from vmc_lib.arm.model import F0, STEP
 from vmc_lib.arm.muscle import PAPER
 from vmc_lib.arm.simulate import check_posture
-from vmc_lib.checks import as_numbers, check_count, is_within
+from vmc_lib.checks import as_numbers, cached, check_count, is_within
 from vmc_lib.data import read_only
 from vmc_lib.short_repr import short
 
@@ -22,12 +20,14 @@ MOVING, SAMPLES = 700, 1000  # ms: a movement; the movement and the hold that fo
 KNOTS = 28  # spline coefficients of each muscle's excitation
 
 
-@cache
+@cached
 def spline(knots: int = KNOTS, samples: int = SAMPLES) -> np.ndarray:
     """Cubic B-splines (samples, knots); a row sums to 1, so knots in [0, 1] stay in [0, 1].
 
     By the recursion of Cox and de Boor: SciPy's are the same, but cannot run in the page.
     """
+    check_count("knots", knots, least=4)
+    check_count("samples", samples, least=2)
     edges = np.concatenate([[0] * 3, np.linspace(0, 1, knots - 2), [1] * 3])
     x = np.linspace(0, 1, samples)[:, None]
     last = edges[:-1] == edges[knots - 1]  # the interval that holds its upper end, too
@@ -111,6 +111,8 @@ def required_torque(path: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         raise ValueError(
             f"path {path.shape}: give joint angles (T + 1, 2) in rad, two rows or more"
         )
+    if not np.isfinite(path).all():
+        raise ValueError("a path needs finite joint angles: one is NaN or infinite")
     velocity = np.diff(path, axis=0, prepend=path[:1]) / STEP
     acceleration = np.diff(velocity, axis=0) / STEP
     q, velocity = path[:-1], velocity[:-1]
@@ -124,6 +126,8 @@ def static_activation(q: ArrayLike) -> np.ndarray:
     ValueError for a posture far beyond the joints' limits.
     """
     check_posture(q := as_numbers("posture", q), "posture")
+    if q.ndim != 1:
+        raise ValueError(f"postures {q.shape}: give one, (2,), in rad")
     torque, gain = required_torque(np.tile(q, (2, 1)))
     return bounded_least_squares(
         np.vstack([gain[0], 0.01 * np.eye(6)]), np.append(torque[0], np.zeros(6))

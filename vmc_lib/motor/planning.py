@@ -41,7 +41,9 @@ class Plan:
         return np.clip(mixed, *self.template_set.limits)
 
     def __getitem__(self, which: Any) -> Self:
-        """Some plans of a batch."""
+        """Some plans of a batch; ValueError where there is one plan alone."""
+        if np.ndim(self.target) < 2:
+            raise ValueError(f"a plan for {self.target} is no batch: plan for targets (B, 2)")
         parts = {name: getattr(self, name)[which] for name in ("target", "rows", "weights")}
         return replace(self, **parts)
 
@@ -226,6 +228,7 @@ def plan(
         rows, known = np.atleast_1d(rows), np.arange(len(template_set.points))
         if not (rows.size and np.isin(rows, known).all()):
             raise ValueError(f"rows {rows} must be of the {len(known)} templates, 0 to {known[-1]}")
+        rows = rows.astype(int)
         if rows.ndim > max(target.ndim, 1):
             raise ValueError(f"rows {rows.shape} of a target {target.shape}: give (N,) or (…, N)")
     rows = np.broadcast_to(rows, (*target.shape[:-1], rows.shape[-1]))

@@ -7,7 +7,7 @@ activation at rest.
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache, partial
+from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.arm.model import STEP
 from vmc_lib.arm.simulate import UNPERTURBED, Motion, Perturbation, simulate
-from vmc_lib.checks import as_numbers, is_within
+from vmc_lib.checks import as_numbers, cached, is_within
 from vmc_lib.data import arrays, read_only
 from vmc_lib.motor.inverse_dynamics import spline
 from vmc_lib.short_repr import short, short_repr
@@ -88,8 +88,14 @@ def keep_last(excitations: np.ndarray, hold: float = HOLD) -> np.ndarray:
     """Excitations (…, T, 6), and then `hold` s of the last of them."""
     if np.ndim(excitations) < 2:
         raise ValueError(f"excitations {np.shape(excitations)}: give (…, T, 6), one set a step")
+    _check_hold(hold)
     last = np.repeat(excitations[..., -1:, :], round(hold / STEP), axis=-2)
     return np.concatenate([excitations, last], axis=-2)
+
+
+def _check_hold(hold):
+    if not is_within(hold, 0, np.inf):
+        raise ValueError(f"a hold of {short(hold)} s: give seconds, 0 or more")
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,7 +113,7 @@ class TemplateSet:
     __repr__ = short_repr
 
 
-@cache
+@cached
 def load(spacing: float = SPACING, hold: float = HOLD) -> TemplateSet:
     """The shipped `TemplateSet` whose reached points lie `spacing` metres apart.
 
@@ -116,8 +122,7 @@ def load(spacing: float = SPACING, hold: float = HOLD) -> TemplateSet:
     """
     if spacing not in SPACINGS:
         raise ValueError(f"no templates lie {spacing} m apart; choose one of {SPACINGS}")
-    if not is_within(hold, 0, np.inf):
-        raise ValueError(f"a hold of {short(hold)} s: give seconds, 0 or more")
+    _check_hold(hold)
     excitations = spline() @ arrays("templates")[key(spacing)].astype(float)
     move = partial(reach, hold=hold)
     return TemplateSet(read_only(move(excitations).endpoint), read_only(excitations), reach=move)
