@@ -50,8 +50,8 @@ def check_call(draw, caption, alt, data, printed, more, names):
     wrong = {
         "alt": not (alt is None or isinstance(alt, str) or callable(alt)) and alt,
         "data": not (data is None or isinstance(data, dict)) and data,
-        "printed": not all(isinstance(one, dict) for one in printed) and printed,
-        "more": (isinstance(more, str) or not {*more} <= {*names}) and more,
+        "printed": not (_listed(printed) and all(isinstance(x, dict) for x in printed)) and printed,
+        "more": not (_listed(more) and {*more} <= {*names}) and more,
     }
     for name, value in wrong.items():
         if value is not False:
@@ -60,6 +60,10 @@ def check_call(draw, caption, alt, data, printed, more, names):
                 "let the control have another name"
             )
     _check_arguments(draw, names)
+
+
+def _listed(value):
+    return isinstance(value, Iterable) and not isinstance(value, str)
 
 
 def _check_arguments(draw, names):
@@ -203,6 +207,8 @@ def _of_widget(name, widget, label):
 
 def _selection(name, control, widget, label):
     values, labels = _options(widget.options)
+    if not values:
+        raise ValueError(f"{name}={type(widget).__name__}(…) has no options: give two or more")
     if widget.value is None:
         widget.value = values[0]
     return control(values, label, widget.value, labels=labels)

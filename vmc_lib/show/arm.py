@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 from vmc_lib import NoReach
 from vmc_lib.arm.kinematics import to_world, turn_towards
 from vmc_lib.arm.simulate import Motion, check_posture
-from vmc_lib.checks import as_numbers
+from vmc_lib.checks import as_numbers, is_within
 from vmc_lib.photos import Photo
 from vmc_lib.short_repr import short
 from vmc_lib.show.scene import Scene
@@ -49,19 +49,32 @@ def arm_scene(
     """
     if not (photo is None or hasattr(photo, "target")):
         raise ValueError(f'photo {short(photo)} is none: give one of photos.load("rig", "test")')
+    if not np.iterable(balls):
+        raise ValueError(f"balls {short(balls)}: give a list of ((x, y, z), colour name)")
     for ball in balls:
         _check_pair("a ball", ball, "((x, y, z), colour name)")
     if end:
         _check_pair("end", end, "((x, y, z), speed)")
+        _samples("the end's place", end[0], 3)
+        if not is_within(end[1], 0, np.inf):
+            raise ValueError(f"the end's speed {short(end[1])}: give m/s, 0 or more")
     table = bool(photo or len(balls))
     scene = Scene(_furniture(table))
     if isinstance(q, Motion):
+        if np.ndim(q.q) != 2:
+            raise ValueError(f"{short(q)} is a batch: give one movement of it, list(motion)[0]")
         activation, q = q.activation, q.q
     q = _samples("posture", q, 2)[::EVERY]
     check_posture(q, "posture")
     moments = np.arange(len(q)) * EVERY / 1000
-    active = np.broadcast_to(_samples("activation", activation, 6)[::EVERY], (len(q), 6))
-    turns = np.broadcast_to(np.atleast_1d(as_numbers("turn", turn))[::EVERY], len(q))
+    active = _samples("activation", activation, 6)[::EVERY]
+    turns = np.atleast_1d(as_numbers("turn", turn))[::EVERY]
+    if turns.ndim != 1 or not {len(active), len(turns)} <= {1, len(q)}:
+        raise ValueError(
+            f"activation {np.shape(activation)} or turn {np.shape(turn)} is of another movement "
+            "than the posture: give a row for each of its rows, or one"
+        )
+    active, turns = np.broadcast_to(active, (len(q), 6)), np.broadcast_to(turns, len(q))
     closed = np.clip(1 + (moments - moments[-1]) / CLOSING, 0, 1) * bool(grasp)
     motion = {"q": q, "activation": active, "turn": turns, "grasp": closed}
     scene.tell("motion", {name: value.round(4).tolist() for name, value in motion.items()})

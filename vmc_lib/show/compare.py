@@ -47,6 +47,13 @@ def dot_plot(
             raise ValueError(
                 f"series {label!r} is {given!r}: give {{label: {{row: draws}}}}, two dictionaries"
             )
+    if not series or not (published is None or isinstance(published, dict)):
+        raise ValueError(
+            f"series {list(series)}, published {published!r}: give {{label: {{row: draws}}}}, one "
+            "label or more, and {row: number}"
+        )
+    if not (xlim is None or np.shape(xlim) == (2,)):
+        raise ValueError(f"xlim {xlim!r}: give (low, high)")
     every = *series.values(), published or {}
     names = list(dict.fromkeys(name for rows in every for name in rows))
     room = 0.15 + max(map(text_width, names))  # for the longest name

@@ -61,7 +61,8 @@ class Control:
     def place_of(self, value: Any) -> int:
         """The place of a value among the control's own; ValueError where it is none of them."""
         for place, own in enumerate(self.values):
-            if own is value or (np.isclose(own, value) if _numbers(own, value) else own == value):
+            same = np.isclose(own, value) if _numbers(own, value) else own == value
+            if own is value or (isinstance(same, bool | np.bool_) and same):
                 return place
         texts = self.texts if len(self.values) <= MENU else [*self.texts[:3], "…", self.texts[-1]]
         raise ValueError(f"{self.label!r} cannot stand at {value!r}: it has {', '.join(texts)}")
@@ -205,6 +206,9 @@ class Pad(Control):
     ) -> None:
         if not all(np.iterable(pair) and len(pair) == 2 for pair in (labels, start)):
             raise ValueError(f"a pad has two labels and two starts, not {labels} and {start}")
+        for numbers in (xs, ys):
+            if np.iterable(numbers) and not all(map(is_number, numbers)):
+                raise ValueError(f"a pad along {numbers!r}: give numbers, as range(0, 600, 100)")
         parts = zip((xs, ys), labels, start, strict=True)
         pair = [Slider(v, label, first, unit, between=between) for v, label, first in parts]
         object.__setattr__(self, "pair", pair)
@@ -217,6 +221,8 @@ class Pad(Control):
 
     def nearest(self, value: Any) -> int:
         x, y = self.pair
+        if np.shape(value) != (2,):
+            raise ValueError(f"{self.label!r} cannot stand at {value!r}: give both, (x, y)")
         return x.nearest(value[0]) * len(y.values) + y.nearest(value[1])
 
     def html(self, name: str, stride: int) -> str:

@@ -47,6 +47,7 @@ def estimate(value: ArrayLike) -> Estimate:
     if isinstance(value, tuple):
         if len(value) != 3:
             raise ValueError(f"{value} is no estimate: give (value, low, high), or a list of draws")
+        as_numbers("estimate", value)
         return Estimate(*value)
     draws = np.ravel(as_numbers("draws", value))
     if len(draws) == 1:

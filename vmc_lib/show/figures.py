@@ -33,6 +33,8 @@ HINTS = {  # what is returned instead of a picture, and what was meant
     "str": "; plain words are `note(text)`",
     "list": "; after `ax.plot(…)` return `ax`, for several pictures `(fig, scene)`",
     "Photo": "; give photo.image",
+    "HTML": "; give its text, html.data",
+    "Image": "; give np.asarray(image)",
 }
 # The hyphen that Python writes before a number, beyond maths and code
 _MINUS = re.compile(r"(\$[^$]*\$|`[^`]*`)|(?<=[\s(*])-(?=\.?\d)")
@@ -85,6 +87,8 @@ def photo_view(
         raise ValueError(f"{image!r} is no image: give an array, as photos.read_image returns it")
     height, width = image.shape[:2]
     for name, given, size in (("boxes", boxes, 4), ("points", points, 2)):
+        if not np.iterable(given):
+            raise ValueError(f"{name} are {given!r}: give a list of them")
         for mark in given:
             if not (np.iterable(mark) and len(mark) == 3 and np.shape(mark[0]) == (size,)):
                 place = "(x0, y0, x1, y1)" if size == 4 else "(x, y)"
@@ -211,6 +215,8 @@ def table(
     """
     if isinstance(rows, dict):
         rows = [[name, *cells] for name, cells in rows.items()]
+    if not np.iterable(heads):
+        raise ValueError(f"heads {heads!r}: give a list of texts, one for each column")
     if not all(heads):
         raise ValueError(f"every column needs a head, and {list(heads)} leaves one empty")
     if not all(map(np.iterable, [rows, *(rows if np.iterable(rows) else ())])):

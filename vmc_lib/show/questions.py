@@ -18,7 +18,7 @@ import numpy as np
 from IPython import get_ipython
 from IPython.display import HTML, display
 
-from vmc_lib.checks import check_kind
+from vmc_lib.checks import check_kind, is_within
 from vmc_lib.grading import (
     EMPTY,
     LONGEST,
@@ -80,6 +80,10 @@ def check(
     (Markdown). Where no reader is (in the book and in a test) what is not right raises
     AssertionError: running a chapter proves its solutions.
     """
+    if expected is None or not is_within(tolerance, 0, np.inf):
+        raise ValueError(
+            f"expected {expected!r} within {tolerance!r}: give what is right, and a number"
+        )
     if _unanswered(answer):
         typed = render_mode() == "book" and isinstance(expected, (int, float, str, tuple))
         form = _field(expected, tolerance, hint, unit) if typed else verdict(NOT_YET)

@@ -15,7 +15,10 @@ from collections import defaultdict
 from collections.abc import Iterable
 from typing import Any, Self
 
+import numpy as np
 import umsgpack
+
+from vmc_lib.checks import as_numbers
 
 _UUID = re.compile(rb"[0-9a-f]{8}(?:-[0-9a-f]{4}){3}-[0-9a-f]{12}")
 
@@ -41,7 +44,10 @@ class Scene:
 
     def look(self, eye: Iterable[float], at: Iterable[float]) -> None:
         """Place the reader's eye, and the point it looks at (and walks around)."""
-        self.tell("camera", [list(map(float, eye)), list(map(float, at))])
+        view = [as_numbers("view", point).tolist() for point in (eye, at)]
+        if list(map(np.shape, view)) != [(3,), (3,)]:
+            raise ValueError(f"a view from {eye} at {at}: give both as (x, y, z), in m")
+        self.tell("camera", view)
 
     def tell(self, name: str, value: Any) -> None:
         """Tell the viewer, as JSON takes it, what no meshcat command says: see scene.js."""

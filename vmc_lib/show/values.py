@@ -41,7 +41,7 @@ class Demo(Live):
     number in a sentence (see `Numbers`).
     """
 
-    value = traitlets.Any().tag(
+    value = traitlets.TraitType().tag(
         sync=True,
         to_json=lambda value, demo: demo.as_json(value),
         from_json=lambda value, demo: demo.from_json(value),
@@ -64,6 +64,23 @@ class Demo(Live):
         if name in vars(self).get("controls", ()) and not hasattr(self, name):
             raise ValueError(f"a demo has one value: write demo.value = {{{name!r}: {value!r}}}")
         super().__setattr__(name, value)
+
+    def __getattr__(self, name):
+        if name in vars(self).get("controls", ()):
+            raise AttributeError(f"a demo has one value: read demo.value[{name!r}]")
+        raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+
+    def observe(self, handler, names=traitlets.All, type="change"):
+        """As of any widget: its `value`; ValueError for a control alone, which would not be told.
+
+        What changed there is `change.new`, a dictionary.
+        """
+        for name in [names] if isinstance(names, str) else names or ():
+            if name in vars(self).get("controls", ()):
+                raise ValueError(
+                    f"a demo has one value: observe 'value', and read change.new[{name!r}]"
+                )
+        super().observe(handler, names, type)
 
     def open(self):
         """Tell the browser of the widget, where one listens."""
