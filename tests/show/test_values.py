@@ -91,6 +91,27 @@ def test_values_are_observed(mode):
     assert seen == [(2, 3), (3, 4)]
 
 
+def test_one_control_is_neither_observed_nor_read_in_silence():
+    shown, seen = one(k=(0, 4)), []
+    with pytest.raises(ValueError, match=r"observe 'value', and read change.new\['k'\]"):
+        shown.observe(seen.append, ["value", "k"])
+    with pytest.raises(AttributeError, match=r"read demo.value\['k'\]"):
+        _ = shown.k
+    with pytest.raises(AttributeError, match="has no attribute 'j'"):
+        _ = shown.j
+    shown.observe(seen.append)
+    shown.value = {"k": 3}
+    assert "value" in {change.name for change in seen}
+
+
+def test_a_control_may_be_called_value_and_share_a_slider():
+    slider = ipywidgets.IntSlider(2, 0, 4)
+    shown, seen = one(value=slider), []
+    shown.observe(lambda change: seen.append(change.new["value"]), "value")
+    slider.value = 3
+    assert seen == [3]
+
+
 def test_two_demos_are_linked(mode):
     one_demo, other = one(k=(0, 4)), one(k=(0, 4))
     link = ipywidgets.link((one_demo, "value"), (other, "value"))

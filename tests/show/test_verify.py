@@ -63,6 +63,9 @@ def test_a_build_and_a_test_hold_a_chapter_to_the_library(run, monkeypatch, mode
         (([1], [2]), ([1], [3]), "by at most 1"),
         ({"a": 1, "b": 5}, {"a": 1}, ""),
         ({"a": 1}, {"a": 0.5}, "by at most 0.5"),
+        ({"a": 1}, {"a": 1, "b": 2}, "by its names: a and b are asked for"),
+        ((1, 2), (1, 2, 3), "by its length, 2 instead of 3"),
+        (3, (1, 2, 3), "by its length, 1 instead of 3"),
     ],
 )
 def test_a_deviation_in_words(ours, library, words):

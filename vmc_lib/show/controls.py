@@ -189,8 +189,8 @@ class Switch(Control):
 class Pad(Control):
     """A place (x, y) on a grid, dragged over the first plot or photo; two sliders are its twin.
 
-    Its values are pairs, in the units of the plot's axes or in the photo's pixels; `between` as a
-    slider's.
+    Its values are pairs, in the units of the plot's axes or in the photo's pixels. `xs` and `ys`
+    are all of them, as range(0, 601, 100), not bounds; `between` as a slider's.
     """
 
     pair: list[Slider]

@@ -75,8 +75,8 @@ class Demo(Live):
 
         What changed there is `change.new`, a dictionary.
         """
-        for name in [names] if isinstance(names, str) else names or ():
-            if name in vars(self).get("controls", ()):
+        for name in names if isinstance(names, list | tuple | set) else [names]:
+            if name in vars(self).get("controls", ()) and not self.has_trait(name):
                 raise ValueError(
                     f"a demo has one value: observe 'value', and read change.new[{name!r}]"
                 )
