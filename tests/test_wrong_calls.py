@@ -609,13 +609,13 @@ MOVING = {
     "a negative hold": (lambda g: templates.keep_last(np.zeros((9, 6)), -1), "-1 s", "0 or more"),
     "a hold of NaN": (lambda g: templates.reach(np.zeros((9, 6)), hold=np.nan), "nan s", "0 or m"),
     "a switch in words": (
-        lambda g: feedback.switch(reference(g), reference(g), "now"), "'now' s", "seconds"
+        lambda g: feedback.switch(reference(g), reference(g), "now"), "'now'", "give numbers"
     ),
     "a switch to a longer one": (
         lambda g: feedback.switch(reference(g), feedback.reference_trajectory(g.plans), 0.2),
         "(2, 2001, 2)", "of one length",
     ),
-    "gains in words": (lambda g: corrected(g, gain="high"), "'high'", "give finite numbers"),
+    "gains in words": (lambda g: corrected(g, gain="high"), "'high'", "give numbers"),
     "no delay": (lambda g: corrected(g, delay=None), "delay=None", "give finite numbers"),
     "two delays": (lambda g: corrected(g, delay=[0.1, 0.2]), "[0.1, 0.2]", "finite numbers"),
     "a law's name": (lambda g: corrected(g, law="PD"), "'PD'", "SIGHT's"),

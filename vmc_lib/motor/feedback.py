@@ -106,7 +106,9 @@ def switch(
     """The first reference until `at` s, then smoothly the second, after another 0.4 s."""
     for reference in (first, second):
         check_kind("reference", reference, ReferenceTrajectory, "reference_trajectory(plan)")
-    if first.q.shape != second.q.shape or not is_within(at, -np.inf, np.inf):
+    as_many = len(first.q) == len(second.q) or 1 in (len(first.q), len(second.q))
+    alike = as_many and first.q.shape[1:] == second.q.shape[1:]
+    if not (alike and np.isfinite(as_numbers("at", at)).all()):
         raise ValueError(
             f"from {first.q.shape} to {second.q.shape} at {short(at)} s: give two references of "
             "one length, for as many movements, and seconds"
@@ -180,7 +182,8 @@ def simulate_feedback(
         raise ValueError(f"noise of {noise} needs an rng; give np.random.default_rng(seed)")
     for name, each in zip(gains._fields[-2:], gains[-2:], strict=True):
         check_function(f"gains' {name}", each, "one of the arguments of SIGHT's")
-    if not all(is_within(each, -np.inf, np.inf) for each in gains[:-2]):
+    delays = all(is_within(each, -np.inf, np.inf) for each in (gains.delay, gains.spinal))
+    if not (delays and all(np.isfinite(as_numbers("gains", each)).all() for each in gains[:-2])):
         raise ValueError(f"{gains} with noise of {noise}: give finite numbers")
     late, spinal = _steps(gains.delay), _steps(gains.spinal, least=TICK)
     target, target_velocity, planned = reference.q, reference.velocity, reference.excitations

@@ -41,10 +41,10 @@ class Plan:
         return np.clip(mixed, *self.template_set.limits)
 
     def __getitem__(self, which: Any) -> Self:
-        """Some plans of a batch; ValueError where there is one plan alone."""
-        if np.ndim(self.target) < 2:
-            raise ValueError(f"a plan for {self.target} is no batch: plan for targets (B, 2)")
+        """Some plans of a batch; ValueError where it would be a part of one plan."""
         parts = {name: getattr(self, name)[which] for name in ("target", "rows", "weights")}
+        if not np.ndim(parts["target"]):
+            raise ValueError(f"a plan for {self.target} is no batch: plan for targets (B, 2)")
         return replace(self, **parts)
 
     def with_weights(self, weights: ArrayLike) -> Self:
