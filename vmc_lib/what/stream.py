@@ -89,19 +89,20 @@ class VentralStream:
         self,
         image: np.ndarray,
         detections: Any,
-        first: int = N_FIRST_PASS,
-        second: int = N_SECOND_PASS,
+        first: int | None = N_FIRST_PASS,
+        second: int | None = N_SECOND_PASS,
         flips: Sequence[Any] = FLIPS,
     ) -> tuple[Any, np.ndarray]:
         """Choose among an image's `Detections`: look, refine the likeliest, look again, refine.
 
-        It looks at the `first` best, then at the `second` likeliest in all `flips`; non-maximum
-        suppression keeps the likeliest of those that overlap. Returns their `Detections`, the
-        likeliest first, scored by their log-odds, and their probabilities (n,).
+        It looks at the `first` best, then at the `second` likeliest in all `flips` (None: at all
+        boxes); non-maximum suppression keeps the likeliest of those that overlap. Returns their
+        `Detections`, the likeliest first, scored by their log-odds, and their probabilities (n,).
         """
         check_detections(detections)
-        check_count("first", first)
-        check_count("second", second)
+        for name, count in (("first", first), ("second", second)):
+            if count is not None:
+                check_count(name, count)
         boxes = detections.boxes[:first]
         log_odds, deltas = self.predict(image, boxes)
         best = np.argsort(-log_odds, kind="stable")[:second]
