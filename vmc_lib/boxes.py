@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vmc_lib.checks import as_numbers, check_rng, is_within
+from vmc_lib.checks import as_numbers, check_rng, is_positive, is_within
 from vmc_lib.short_repr import short
 
 MIN_IOU = 0.8  # IoU at which a box counts as the object's (Section IV A)
@@ -25,6 +25,13 @@ def as_boxes(boxes: ArrayLike) -> np.ndarray:
     if wrong.any():
         raise ValueError(f"box {boxes[wrong][0]} needs finite x0 <= x1 and y0 <= y1")
     return boxes
+
+
+def as_box(box: ArrayLike) -> np.ndarray:
+    """Convert one box to a float64 array (4,), as `as_boxes` does; ValueError for none, or more."""
+    if len(boxes := as_boxes(box)) != 1:
+        raise ValueError(f"{len(boxes)} boxes: give one alone, (x0, y0, x1, y1)")
+    return boxes[0]
 
 
 def _check_fours(boxes):
@@ -136,7 +143,7 @@ def vote(
     if kept.ndim != 1 or not np.isin(kept, np.arange(len(boxes))).all():
         raise ValueError(f"kept {short(kept)}: give indices of the {len(boxes)} boxes, as nms does")
     kept = kept.astype(int)
-    if not (is_within(temperature, 0, np.inf) and temperature > 0):
+    if not is_positive(temperature):
         raise ValueError(f"temperature = {short(temperature)}: give a number above 0")
     lag = scores[kept, None] - scores
     votes = (lag >= 0) & (iou(boxes[kept], boxes) >= 0.5)

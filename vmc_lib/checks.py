@@ -57,6 +57,17 @@ def is_within(value, low, high):
     return isinstance(value, Real) and bool(low <= value <= high and abs(value) < np.inf)
 
 
+def is_positive(value):
+    """Whether a value is one finite number above 0."""
+    return is_within(value, 0, np.inf) and value > 0
+
+
+def check_features(x, width):
+    """Raise ValueError where x is not (n, width)."""
+    if np.ndim(x) != 2 or np.shape(x)[1] != width:
+        raise ValueError(f"X of shape {np.shape(x)}: give rows of {width} features, (n, {width})")
+
+
 def as_numbers(name: str, values: Any) -> np.ndarray:
     """Convert values to an array of floats; ValueError where they are no numbers, or ragged."""
     try:

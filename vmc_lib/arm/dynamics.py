@@ -48,14 +48,7 @@ def trig_basis_gradient(shoulder: np.ndarray, elbow: np.ndarray) -> tuple[tuple,
 
 def _trig_basis_of(q):
     """`trig_basis` of postures (…, 2), as an array (…, 11); ValueError for other shapes."""
-    return np.array(trig_basis(*_posture(q).T)).T
-
-
-def _posture(q):
-    """Postures as an array (…, 2), in rad; ValueError for other shapes."""
-    if np.shape(q)[-1:] != (2,):
-        raise ValueError(f"posture {q} must be (shoulder, elbow), (…, 2), in rad")
-    return as_numbers("posture", q)
+    return np.array(trig_basis(*_per_joint("posture", q, "rad").T)).T
 
 
 @cached
@@ -93,8 +86,8 @@ def hand(q: ArrayLike) -> np.ndarray:
 
 def torque_for(q: ArrayLike, velocity: ArrayLike, acceleration: ArrayLike) -> np.ndarray:
     """Inverse dynamics: torques (…, 2) in N m that give these accelerations over one step."""
-    velocity = _per_joint("velocity", velocity)
-    acceleration = _per_joint("acceleration", acceleration)
+    velocity = _per_joint("velocity", velocity, "rad/s")
+    acceleration = _per_joint("acceleration", acceleration, "rad/s²")
     m11, m12, m22, b1, b2 = _dynamics(_terms(q), *velocity.T, STEP)
     a1, a2 = acceleration.T
     return np.array([m11 * a1 + m12 * a2 + b1, m12 * a1 + m22 * a2 + b2]).T
@@ -102,16 +95,20 @@ def torque_for(q: ArrayLike, velocity: ArrayLike, acceleration: ArrayLike) -> np
 
 def forward_dynamics(q: ArrayLike, velocity: ArrayLike, torque: ArrayLike) -> np.ndarray:
     """Forward dynamics, Eq. 12: the accelerations (…, 2) that joint torques cause."""
-    velocity, torque = _per_joint("velocity", velocity), _per_joint("torque", torque)
+    velocity, torque = (
+        _per_joint("velocity", velocity, "rad/s"),
+        _per_joint("torque", torque, "N m"),
+    )
     return np.array(equation_12(_terms(q), *velocity.T, *torque.T, STEP)).T
 
 
-def _per_joint(name, values):
+def _per_joint(name, values, unit):
     """Values as an array (…, 2); ValueError for other shapes."""
-    values = as_numbers(name, values)
-    if values.shape[-1:] != (2,):
-        raise ValueError(f"{name} {short(values)}: give one for each joint, (…, 2)")
-    return values
+    if np.shape(values)[-1:] != (2,):
+        raise ValueError(
+            f"{name} {short(values)}: give one for each joint, (shoulder, elbow), (…, 2), in {unit}"
+        )
+    return as_numbers(name, values)
 
 
 def _terms(q):
@@ -146,7 +143,7 @@ def paths(q: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
 
     ValueError where a posture is no (…, 2).
     """
-    row, share = table_row(_posture(q), slice(2))
+    row, share = table_row(_per_joint("posture", q, "rad"), slice(2))
     entry = tables()[np.arange(2), row]
     value = entry[..., :12] + share[..., None] * entry[..., 12:]
     return value[..., 0, :6] + value[..., 1, :6], value[..., 6:]

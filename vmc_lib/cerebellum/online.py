@@ -20,7 +20,14 @@ from typing import Any, Self
 import numpy as np
 
 from vmc_lib.cerebellum.offline import MOVES, Rule, calibrate
-from vmc_lib.checks import as_numbers, check_count, check_function, is_within
+from vmc_lib.checks import (
+    as_numbers,
+    check_count,
+    check_features,
+    check_function,
+    is_positive,
+    is_within,
+)
 from vmc_lib.motor.execution import Execute, execute
 from vmc_lib.motor.planning import (
     RULES,
@@ -246,7 +253,7 @@ class GranuleCells:
         if X.ndim != 2 or not X.size or y.shape[:1] != X.shape[:1]:
             raise ValueError(f"X {X.shape} and y {y.shape}: give (n, d), and (n,) or (n, k)")
         check_count("cells", self.cells, least=1)
-        if not (is_within(self.width, 0, np.inf) and self.width):
+        if not is_positive(self.width):
             raise ValueError(f"a width of {self.width}: give one above 0, in the units of X")
         if not is_within(self.ridge, 0, np.inf):
             raise ValueError(f"a ridge of {short(self.ridge)}: give a number, 0 or more")
@@ -280,9 +287,7 @@ class GranuleCells:
         X = _finite(X)
         if not hasattr(self, "centres_"):
             raise ValueError("the cells have learned nothing yet: fit them first")
-        if X.ndim != 2 or X.shape[1] != self.centres_.shape[1]:
-            n = self.centres_.shape[1]
-            raise ValueError(f"X of shape {X.shape}: give rows of {n} features, (n, {n})")
+        check_features(X, self.centres_.shape[1])
         away = zip(X.T, self.centres_.T, strict=True)  # one axis after the other: little memory
         squares = sum(np.subtract.outer(x, centre) ** 2 for x, centre in away)
         return np.exp(-squares / (2 * self.width**2))

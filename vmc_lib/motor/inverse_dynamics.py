@@ -12,7 +12,7 @@ from vmc_lib.arm.engines import fibres
 from vmc_lib.arm.model import F0, STEP
 from vmc_lib.arm.muscle import PAPER
 from vmc_lib.arm.simulate import check_posture
-from vmc_lib.checks import as_numbers, cached, check_count, is_within
+from vmc_lib.checks import as_numbers, cached, check_count, is_positive
 from vmc_lib.data import read_only
 from vmc_lib.short_repr import short
 
@@ -57,7 +57,7 @@ def minimum_jerk(
     if start.ndim == 0 or start.shape[-1:] != goal.shape[-1:]:
         raise ValueError(f"from start {start} to goal {goal}: give both of one length, (…, n)")
     check_count("samples", samples, least=1)
-    if not (is_within(moving, 0, np.inf) and moving > 0):
+    if not is_positive(moving):
         raise ValueError(f"moving = {short(moving)}: give a number of samples above 0")
     done = minimum_jerk_profile(np.arange(samples + 1) / moving)[:, None]
     return start[..., None, :] + (goal - start)[..., None, :] * done

@@ -6,8 +6,8 @@ from functools import cache
 import numpy as np
 from numpy.typing import DTypeLike
 
-from vmc_lib.boxes import as_boxes
-from vmc_lib.checks import as_numbers, is_within
+from vmc_lib.boxes import as_box
+from vmc_lib.checks import as_numbers, is_positive
 from vmc_lib.short_repr import short
 
 WIDTH = 200  # pixels of a crop, as in the paper
@@ -26,9 +26,7 @@ def crop(image: np.ndarray, box: Sequence[float] | np.ndarray) -> np.ndarray:
     if not isinstance(image, np.ndarray):
         raise ValueError(f"{short(image)} is no image: see photos.read_image")
     height, width = image.shape[:2]
-    if len(corners := as_boxes(box)) != 1:
-        raise ValueError(f"{len(corners)} boxes: give one alone, (x0, y0, x1, y1)")
-    [corners] = corners
+    corners = as_box(box)
     x0, y0, x1, y1 = np.clip(np.round(corners), 0, [width, height] * 2).astype(int)
     if x1 - x0 < 2 or y1 - y0 < 2:
         raise ValueError(f"the box {np.round(box, 1)} holds nothing of a {width}×{height} image")
@@ -49,7 +47,7 @@ def whiten(pictures: np.ndarray, cutoff: float = 0.4, dtype: DTypeLike = np.floa
     from scipy import fft  # NumPy's in the page
 
     x = np.asarray(as_numbers("pictures", pictures), dtype)
-    if not (is_within(cutoff, 0, np.inf) and cutoff):
+    if not is_positive(cutoff):
         raise ValueError(f"cutoff = {short(cutoff)}: give cycles a pixel, above 0")
     if x.ndim != 3 or 0 in x.shape:
         raise ValueError(f"pictures are (n, height, width), not {x.shape}")

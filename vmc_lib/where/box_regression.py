@@ -11,7 +11,7 @@ from typing import Self
 import numpy as np
 
 from vmc_lib.boxes import decode_deltas
-from vmc_lib.checks import check_count, check_rng
+from vmc_lib.checks import check_count, check_features, check_rng
 from vmc_lib.where.kernels import rbf
 from vmc_lib.where.recipes import Recipe
 
@@ -51,8 +51,7 @@ class RBFRidge:
 
     def basis(self, x: np.ndarray) -> np.ndarray:
         """Design matrix: centred features x (n, d) and RBF activations, (n, d + r)."""
-        if np.shape(x)[-1:] != self.mean.shape:
-            raise ValueError(f"features {np.shape(x)}: give (n, {len(self.mean)})")
+        check_features(x, len(self.mean))
         x = x - self.mean
         z = x @ self.axes
         return np.hstack([x, rbf(z, self.centres, self.gamma)])

@@ -13,7 +13,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vmc_lib.boxes import as_boxes, centres_and_sides, jitter_boxes
+from vmc_lib.boxes import as_box, centres_and_sides, jitter_boxes
 from vmc_lib.camera import Camera
 from vmc_lib.checks import cached, check_kind
 from vmc_lib.data import arrays, read_only
@@ -87,10 +87,7 @@ class Localiser:
         `NoReach` when the line of sight does not meet the predicted height.
         """
         check_kind("camera", camera, Camera, "photo.camera")
-        if len(boxes := as_boxes(box)) != 1:
-            raise ValueError(
-                f"{len(boxes)} boxes: give one, (x0, y0, x1, y1), and locate each alone"
-            )
+        boxes = as_box(box)[None]
         centres, sides = centres_and_sides(boxes)
         alike = self.kernel(_describe(image, boxes))
         right, down, height = self.mean + self.spread * (alike @ self.weights)[0]

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from vmc_lib.checks import is_within
+from vmc_lib.checks import is_positive
 from vmc_lib.compiled import compiled
 from vmc_lib.short_repr import short
 
@@ -59,8 +59,7 @@ def segmentations(
         raise ValueError(f"channels of {channels.dtype} are not in 0..1: see photos.as_float")
     if not np.iterable(scales) or not len(scales):
         raise ValueError(f"scales {short(scales)}: give a list of one k or more")
-    above = all(is_within(x, 0, np.inf) and x > 0 for x in (sigma, *scales))
-    if not (above and sigma < max(channels.shape)):
+    if not (all(map(is_positive, (sigma, *scales))) and sigma < max(channels.shape)):
         raise ValueError(
             f"scales k = {scales}, sigma = {sigma}: give finite numbers above 0, and a sigma "
             f"smaller than an image of {channels.shape[1]}×{channels.shape[0]} pixels"

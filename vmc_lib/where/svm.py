@@ -5,6 +5,7 @@ from typing import Self
 
 import numpy as np
 
+from vmc_lib.checks import check_features
 from vmc_lib.where.kernels import KERNELS
 
 PARTS = ("gamma", "support", "weights", "bias")  # of an SVM, as they are stored
@@ -56,6 +57,5 @@ class KernelSVM:
         """Signed decision value (n,) of each row of x (n, d)."""
         if not len(x):
             return np.empty(0)
-        if np.ndim(x) != 2 or x.shape[1] != self.support.shape[1]:
-            raise ValueError(f"features {np.shape(x)}: give (n, {self.support.shape[1]})")
+        check_features(x, self.support.shape[1])
         return KERNELS[self.kernel](x, self.support, self.gamma) @ self.weights + self.bias
