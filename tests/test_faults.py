@@ -173,7 +173,7 @@ GREY = np.full((20, 30, 3), 0.5, np.float32)
         (lambda: segment(GREY[..., 0]), r"\(height, width, c\)"),
         (lambda: segment(np.uint8(255 * GREY)), "uint8 are not in 0..1: see photos.as_float"),
         (lambda: crop(255 * GREY, (0, 0, 9, 9)), "divide 8 bits by 255"),
-        (lambda: hand((0.1, 0.2, 0.3)), r"posture \(0.1, 0.2, 0.3\) must be .* in rad"),
+        (lambda: hand((0.1, 0.2, 0.3)), r"posture \(0.1, 0.2, 0.3\): .*each joint.* in rad"),
         (lambda: arm_copy(np.nan), "nan times as strong"),
         (lambda: WeightCorrection().update(plan((0.15, -0.4), load())), "plan for targets"),
         (lambda: AimCorrection(load()).update(plan((0.15, -0.4), load())), "plan for targets"),
