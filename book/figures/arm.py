@@ -49,7 +49,7 @@ def moment_arms_and_torques(muscle_torques, joint, other):
     muscle_lines(right, turn, muscle_torques(q)[:, k])
     left.set(title="moment arm (mm)", ylim=(-55, 55), xlabel=f"{joint} (degrees)")
     right.set(title="greatest torque (N m)", ylim=(-45, 45), xlabel=f"{joint} (degrees)")
-    fig.legend(*left.get_legend_handles_labels(), loc="upper center", ncols=6, fontsize=9)
+    fig.legend(*left.get_legend_handles_labels(), loc="upper center", ncols=6)
     fig.subplots_adjust(top=0.8)
     return fig
 
@@ -70,7 +70,7 @@ def holding_map(muscle_torques, busiest, load):
     plane_view(right)
     patches, _ = areas.legend_elements()
     labels = ["to 10%", "to 25%", "to 50%", "to 100%"]
-    right.legend(patches, labels, loc="upper right", fontsize=9)
+    right.legend(patches, labels, loc="upper right")
     right.text(0.14, -0.4, "● shuttlecocks", color=COLOURS["red"], va="center")
     right.set_title(f"holds {(least <= 1).mean():.0%} of all postures")
     return fig
@@ -82,10 +82,10 @@ def torque_polygon(ax, each, needed):
     ax.fill(*np.transpose(corners), color=COLOURS["blue"], alpha=0.2)
     arrows(ax, [0, 0], each.T, "ink")
     for name, tip in zip(MUSCLES, each.T, strict=True):
-        left = name in ("TRIlat", "BRA")  # another's name stands on the right
-        look = {"ha": "right" if left else "left", "fontsize": 8}
-        at = -3 if left else 3, -11 if tip[1] < 0 else 3
-        ax.annotate(name, tip, at, textcoords="offset points", **look)
+        left = name in ("TRIlat", "BRA", "BIClong")  # another's name stands on the right
+        side = "right" if left else "left"
+        at = -3 if left else 3, -12 if tip[1] < 0 else 3
+        ax.annotate(name, tip, at, textcoords="offset points", ha=side)
     ax.plot(*needed, "x", color=COLOURS["red"], ms=9, mew=2)
     ax.set(xlabel="at the shoulder (N m)", ylabel="at the elbow (N m)")
 
@@ -142,7 +142,7 @@ def paths_beside_opensim(muscle, joint):
         right.plot(turn, apart[row, alone, k], color=COLOURS[colour], label=name)
     right.set(xlabel=f"{joint} (degrees)", ylim=(-6, 6))
     most = opensim_arm.largest_differences()[0, k]
-    right.set_title(f"−70° to 30°: up to {most:.3f} mm", fontsize=9)
+    right.set_title(f"−70° to 30°: up to {most:.3f} mm")
     right.legend(loc="lower left", ncols=2)
     return fig
 

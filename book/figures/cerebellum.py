@@ -36,7 +36,7 @@ def circuit():
         f'<text x="{x}" y="{y}" fill="var(--vmc-{c})" {halo}>{t}</text>' for x, y, t, c in words
     ]
     size = f'viewBox="0 0 {WIDE + 90} {HIGH}" width="{WIDE + 90}" height="{HIGH}" font-size="13"'
-    return f'<svg {size} style="--least: 480px">{"".join(parts)}</svg>'
+    return f'<svg {size} style="--least: 550px">{"".join(parts)}</svg>'
 
 
 def _path(d, colour, width):

@@ -2,6 +2,8 @@
 
 from vmc_lib.show.palette import css
 
+WORDS, LEGIBLE = 14, 11  # px: words, and as small as a phone may make them
+
 
 def drawing(width, height, *parts):
     """Parts on a sheet of `width` × `height`, lines in ink, with an arrow's tip to be had."""
@@ -12,7 +14,8 @@ def drawing(width, height, *parts):
     return "\n".join(
         [
             f'<svg viewBox="0 0 {width} {height}" width="{width}" height="{height}" '
-            f'font-size="14" fill="none" stroke="{css("ink")}" stroke-width="1.5">{tip}',
+            f'font-size="{WORDS}" fill="none" stroke="{css("ink")}" stroke-width="1.5" '
+            f'style="--least: {LEGIBLE / WORDS * width:.0f}px">{tip}',
             *parts,
             "</svg>",
         ]
@@ -169,7 +172,7 @@ def stack(sizes, n_w):
         parts.append(words(f"{middle:.0f}", 180, f"{maps} × {height} × {width}"))
         x += max(side + 50, 124)
     step = f"match by {n_w} × {n_w}, pool by 2 × 2, and again; then the mean of the maps"
-    return drawing(f"{x:.0f}", 212, *parts, words(f"{x / 2:.0f}", 206, step, "grey"))
+    return drawing(round(x), 212, *parts, words(f"{x / 2:.0f}", 206, step, "grey"))
 
 
 def smith_predictor():

@@ -39,7 +39,7 @@ def by_tries(reading, tries):
     ax.set(xlabel="tries", ylabel="error / planned error", xlim=(0, nulls.TRIES), ylim=(0, 1.2))
     ax.set_xticks(range(0, nulls.TRIES + 1, 3))
     ax.set_yticks(np.arange(0, 1.1, 0.2).round(1))  # above, the legend
-    ax.legend(loc="upper right", fontsize="small")
+    ax.legend(loc="upper right")
     return fig
 
 
@@ -61,7 +61,7 @@ def by_teaching():
         ax.set(title=movements, xlabel="tries a lesson", xlim=(0, nulls.TRIES), ylim=(0, 0.8))
         ax.set_xticks([0, *nulls.TAUGHT[2:]])
     axes[0].set_ylabel("error / planned error")
-    axes[1].legend(loc="lower right", fontsize="small")
+    axes[1].legend(loc="lower right")
     return fig
 
 

@@ -33,13 +33,11 @@ def reach_form(name, target, mode):
     """
     zone = [end(templates.load().points, axis=0).round(3) for end in (np.min, np.max)]
     rules = {"algorithm1": "published (Eq. 6–7)", "broydenCalibration": "Broyden calibration"}
-    controls = "".join(target_sliders(name, zone, target))
-    folded = radios("rule", "calibration", rules, "algorithm1", {})
-    if mode == "weights":
-        controls += _weights(name)
-    else:
-        folded = plans() + folded
-    controls += fold(f"<div>{folded}</div>")
+    shown, folded = "".join(target_sliders(name, zone, target)), plans()
+    if mode == "weights":  # the target is dragged, or set behind the fold
+        shown, folded = _weights(name), shown
+    folded += radios("rule", "calibration", rules, "algorithm1", {})
+    controls = shown + fold(f"<div>{folded}</div>")
     tells = {"planned": "planned miss", "tries": "tries", "calibrated": "calibrated miss"}
     tells |= {"speed": "speed in the hold"}
     if mode == "weights":

@@ -1,5 +1,5 @@
 /* What both ways to move the arm share. */
-import { degrees, muscles, signed, turner } from "../demo/panel.js";
+import { degrees, foldOf, signed } from "../demo/panel.js";
 import { load } from "./load.js";
 import { Drawing } from "./drawing.js";
 
@@ -24,7 +24,7 @@ export class Live {
     this.form = box.querySelector("form");
     this.controls = this.form.querySelector("fieldset"); // closed until it is open
     const { view } = this.drawing;
-    this.form.append(muscles(view), turner([view]));
+    this.form.append(foldOf(view));
     view.pose(view.posed);
     const keep = (event) => event.stopPropagation(); // a notebook would take it
     this.form.addEventListener("keydown", keep);

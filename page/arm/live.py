@@ -179,7 +179,7 @@ def _answers():
 
 def _bench_view():
     """The arm at rest, and the plane it moves in."""
-    figure, ax = plt.subplots(figsize=(4.4, 4.4))
+    figure, ax = plt.subplots(figsize=(4.1, 3.4))
     plane_view(ax)
     return arm_scene(templates.START), figure
 

@@ -120,7 +120,7 @@ const colour = (activation) =>
 let panels = 0;
 
 /* The muscles: which is which, how active each is now, and over the movement. */
-export const muscles = (view) => {
+const muscles = (view) => {
   const name = `vmc-muscle-${++panels}`;
   const box = element(`<div class="vmc-muscles" role="radiogroup" aria-label="muscles"><p>activation, from 0 <i></i> to 1</p></div>`);
   view.anatomy.muscles.forEach((muscle, k) => {
@@ -161,7 +161,7 @@ const trace = (chip, values) => {
 };
 
 /* A slider that turns views, for hands on a keyboard; a mouse or a finger drags the scene itself. */
-export const turner = (views) => {
+const turner = (views) => {
   const label = element(`<label class="vmc-control vmc-turn">turn the view
     <input type="range" min="-180" max="180" step="5" value="0"></label>`);
   const slider = label.querySelector("input");
@@ -173,13 +173,23 @@ export const turner = (views) => {
   return label;
 };
 
-/* All that a demo's scenes need, once they have an arm; the muscles and what turns the view stand behind a fold. */
+/* The muscles and what turns the view, behind a fold: for an arm that runs. */
+export const foldOf = (view) => {
+  const fold = element(`<details class="vmc-more"><summary>muscles, view</summary></details>`);
+  fold.append(muscles(view), turner([view]));
+  return fold;
+};
+
+/* All that a demo's scenes need, once they have an arm. The muscles and what turns the view stand behind a
+   fold, and so do the numbers where a line of words tells how the movement ends. */
 export const panelOf = (views) => {
   const [view] = views;
   const [box, behind] = [1, 2].map(() => element(`<div class="vmc-panel"></div>`));
   const fill = () => {
     if (!view.anatomy || box.childElementCount) return;
-    box.append(clock(views), numbers(view));
+    const told = view.div.closest(".vmc-pictures").querySelector(".vmc-strip");
+    box.append(clock(views));
+    (told ? behind : box).append(numbers(view));
     behind.append(muscles(view));
     if (view.settings.target) behind.append(element(`<p class="vmc-note">${WRIST}</p>`));
     view.at(view.wanted);

@@ -112,7 +112,7 @@ def photo_view(
     return "\n".join(
         [
             f'<svg viewBox="0 0 {width} {height}" width="{width}" height="{height}" fill="none" '
-            f'stroke-width="3" font-size="20" data-axes="{left} {right} {bottom} {top} 0 1 1 0">',
+            f'stroke-width="3" font-size="21" data-axes="{left} {right} {bottom} {top} 0 1 1 0">',
             f'<image width="{width}" height="{height}" href="',
             data_uri(image),
             '"/>',
