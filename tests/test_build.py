@@ -100,6 +100,7 @@ def test_a_script_without_comments_does_the_same(offline):
     page.close()
 
 
+@pytest.mark.audit
 def test_a_chapter_is_executed_when_what_it_imports_has_changed(book):
     write(book, CODE, "$$1 + 1$$\n\n:::{note}\n:class: dropdown\nWords.\n:::")
     page = build(book)
@@ -162,6 +163,7 @@ def test_a_build_names_the_chapters_that_fail_their_cell_and_a_remedy(book):
     assert not (book / "_build/html/book/chapter.html").exists()
 
 
+@pytest.mark.audit
 def test_pages_that_warn_fail_every_build_until_they_are_mended(book):
     for packed in (brain.SCRIPT, pack.SCRIPT, pack.PLOTS):  # newer than what they are made of
         script = book / "_build/html/_static" / packed

@@ -127,6 +127,7 @@ def quick():
 FOREVER = "from threading import Event\ndef check(name, expected):\n    if name == 'first': "
 
 
+@pytest.mark.audit
 def test_endless_check_is_interrupted_and_said(quick):
     chapter, notebook = quick
     notebook.cells[1].source = FOREVER + "Event().wait()"
@@ -134,6 +135,7 @@ def test_endless_check_is_interrupted_and_said(quick):
     assert results == {"first": "ran longer than a minute", "second": "not right"}
 
 
+@pytest.mark.audit
 def test_a_loop_above_a_check_is_said_at_that_check_alone(quick):
     chapter, notebook = quick
     notebook.cells[1].source = "def check(name, expected): answer"
@@ -267,6 +269,7 @@ def test_a_student_is_one_row_on_request(folder, table):
     assert cut["not right"].startswith("cannot be marked (")
 
 
+@pytest.mark.audit
 def test_several_run_at_once(tmp_path, table):
     for name in ("7 a.ipynb", "7 b.ipynb"):
         nbformat.write(new_notebook(cells=[new_code_cell("1 / 0")]), tmp_path / name)

@@ -226,6 +226,7 @@ widget(3)  # type: ignore[arg-type]
 """
 
 
+@pytest.mark.audit
 def test_a_checker_tells_right_calls_of_the_installed_library_from_wrong_ones(reader, tmp_path):
     (tmp_path / "script.py").write_text(TYPED, encoding="utf-8")
     options = [f"--config-file={ROOT / 'pyproject.toml'}", f"--cache-dir={tmp_path / 'cache'}"]

@@ -38,6 +38,7 @@ FIRST = ".vmc-demo:has(.vmc-controls, input[type=range]), .vmc-live"
 MOVABLE = ":is(.vmc-handle, input, select):visible"
 
 
+@a_page_of_each_kind
 @pytest.mark.parametrize(("width", "height"), SCREENS)
 def test_the_first_screen_plays(page, width, height):
     """Before anything is moved (so this test comes first), what can be moved stands there whole."""
@@ -66,6 +67,7 @@ def test_links_lead_somewhere(page):
     assert broken_links(page) == []
 
 
+@a_page_of_each_kind
 def test_a_term_shows_its_card_to_the_keyboard(page):
     """The glossary's first sentence, as the link is reached by Tab."""
     unfold(page)
@@ -106,6 +108,7 @@ def test_every_icon_is_drawn(page):
     assert max(page.eval_on_selector_all(".svg-inline--fa", heights)) < 40
 
 
+@a_page_of_each_kind
 def test_every_control_moves_its_picture(page):
     assert probe(page, "idleControls") == []
 
@@ -115,6 +118,7 @@ def test_every_place_of_a_dragged_slider_is_drawn(page):
     assert probe(page, "brokenDrags") == []
 
 
+@a_page_of_each_kind
 def test_sliders_stand_in_a_grid_and_still(page):
     assert probe(page, "restlessSliders") == []
 
@@ -165,6 +169,7 @@ def test_the_film_waits_where_less_motion_is_asked_for(window):
     assert page.get_attribute("[data-stride]", "aria-valuetext") == "a photo"
 
 
+@a_page_of_each_kind
 @pytest.mark.parametrize(
     ("width", "height"),
     [SCREENS[1], *(pytest.param(*one, marks=pytest.mark.audit) for one in (SCREENS[0], OTHER))],
@@ -250,6 +255,7 @@ def test_no_equation_and_no_word_of_a_picture_is_cut(page):
     assert probe(page, "cutWords") == []
 
 
+@a_page_of_each_kind
 @pytest.mark.parametrize("width", sample((320, 360, 412, 640, 768, 1024), 320, 768))
 def test_fits_phones_tablets_and_enlarged_pages(page, width):
     """Three phones, two tablets; 320 and 640 are a window of 1280 at 400 % and at 200 %."""

@@ -51,6 +51,7 @@ def test_clone_with_crlf_matches_the_vendor_manifest(clone):
     python("tools/vendor.py", "--check", cwd=clone)
 
 
+@pytest.mark.audit
 def test_the_programs_run_in_a_folder_of_an_awkward_name(clone):
     assert "templates.npz" in python("-m", "reproduce", "--list", cwd=clone)
 

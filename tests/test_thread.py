@@ -164,6 +164,7 @@ def test_a_hit_lifts_the_shuttlecock_and_a_miss_does_not(offline):
     page.close()
 
 
+@pytest.mark.audit
 def test_nothing_is_lifted_where_less_motion_is_asked_for(window):
     page = open_url(window(reduced_motion="reduce"), (BOOK / "epilogue.html").as_uri())
     page.wait_for_selector(".vmc-scene canvas")

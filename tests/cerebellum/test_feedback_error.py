@@ -55,6 +55,7 @@ def test_centre_out_reaches_are_equal_and_end_above_the_table(template_set, turn
         assert hand(measure.centre_out(template_set).q)[:, -1, 1].min() < TABLE
 
 
+@pytest.mark.audit
 def test_shipped_curl_field_meets_the_bars():
     """Six seeds: deviation in the field, after-effect, washout."""
     shipped, (new, during, _) = measure.load_results(), measure.BLOCKS

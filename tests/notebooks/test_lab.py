@@ -14,6 +14,7 @@ pytestmark = pytest.mark.browser
 PLOT = ".vmc-demo[data-ready]:has(svg[data-axes])"  # not the drawing that opens a chapter
 
 
+@pytest.mark.audit
 def test_a_quiz_is_answered_without_a_kernel_and_links_open_as_something_to_read(visit):
     page, question = visit("07_muscle"), "resists. What resists"
     lab.choose_cell(page, question)

@@ -136,6 +136,7 @@ def test_a_calibrated_reach_becomes_a_template(arm):
     status(arm, f"The planned reach misses by {1000 * elsewhere.error:.1f} mm")
 
 
+@pytest.mark.audit
 def test_a_finger_needs_no_aim(open_arms, window, serious):
     page = open_arms(window(viewport={"width": 360, "height": 740}, has_touch=True))
     page.past.locator("svg[data-axes]").scroll_into_view_if_needed()

@@ -32,6 +32,7 @@ def test_mujoco_is_loaded_by_the_start_and_from_the_books_own_files(open_arms, s
     assert ask("return arm.mujoco.mj_versionString();") == controls.VERSIONS["page"]
 
 
+@pytest.mark.audit
 def test_an_arm_with_another_law_than_pythons_says_so(open_arms, window):
     page = open_arms(
         window(
@@ -137,6 +138,7 @@ def test_a_target_is_dragged(open_arms):
     assert "not surrounded" in status(page.reach, "Nothing planned")
 
 
+@pytest.mark.audit
 def test_a_target_in_space_is_dragged_in_either_view(open_arms):
     page = open_arms()
     start(page.whole)
@@ -194,6 +196,7 @@ def test_weights_are_set_by_hand(open_arms, window):
     assert "planned" in status(arm, "The planned reach")
 
 
+@pytest.mark.audit
 def test_with_reduced_motion_only_the_end_is_shown(open_arms, window):
     page = open_arms(window(reduced_motion="reduce"))
     start(page.reach)

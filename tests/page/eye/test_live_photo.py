@@ -79,6 +79,7 @@ def test_a_box_follows_what_has_moved_in_it_or_beside_it(ask, shot):
     assert ask(FOLLOW, [box.tolist(), camera], BLANK) is None
 
 
+@pytest.mark.audit
 def test_the_arm_reaches_again_for_what_has_been_moved(window, site, html):
     page = pages.open_html(window(FILM, viewport={"width": 800, "height": 900}), site, html)
 

@@ -104,6 +104,7 @@ def test_markers_that_give_no_camera_are_refused_as_in_python(ask, why):
     assert (there["camera"], there["why"]) == (None, marker_sheet.REFUSALS[why])
 
 
+@pytest.mark.audit
 @pytest.mark.browser
 def test_a_lens_that_bends_straight_lines_is_refused_as_in_python(ask):
     photo = draw_sheet(EYE, size=2)
@@ -124,6 +125,7 @@ def test_a_sheet_laid_upside_down_is_seen_from_beyond(ask, turn):
     assert ask("return eye.fromBeyond(asked)", there["camera"]) == (turn > 0)
 
 
+@pytest.mark.audit
 @pytest.mark.browser
 def test_markers_are_found_in_bad_light_and_none_where_there_are_none(ask):
     for change in (0.25, 1.6):

@@ -93,6 +93,7 @@ def test_the_page_may_send_nothing(page):
     page.failed.clear()
 
 
+@pytest.mark.audit
 def test_the_reader_points_at_another_box(page):
     """The arm then reaches for that; what is out of reach is said, with what to do."""
     page.get_by_role("button", name="Example").click()
@@ -147,6 +148,7 @@ def test_a_photo_without_the_sheet_is_seen_and_has_no_place(page):
     assert not promises(page)
 
 
+@pytest.mark.audit
 def test_where_nothing_is_a_shuttlecock_the_reader_may_choose(page):
     assert_nothing_found(page, give(page, photos.everyday()[0].file))
 
@@ -195,6 +197,7 @@ def test_the_arm_is_promised_where_it_can_reach(ask):
         assert ("the arm reaches" in said) == bool(count and camera is not None)
 
 
+@pytest.mark.audit
 def test_the_shuttlecock_in_reach_is_taken_first(page, tmp_path):
     """Here the second, which is paler; a copy of it, which the page likes best, is too far."""
     x0, y0, x1, y1 = np.int32(np.round(pad_boxes(OURS.boxes["shuttlecock"], 0.15)))[0]
@@ -235,6 +238,7 @@ def other_colours(folder):
     return folder / "profile.png"
 
 
+@pytest.mark.audit
 @pytest.mark.parametrize("save_as", [sideways, other_colours])
 def test_a_photo_as_phones_save_it_gives_the_same_place(page, tmp_path, save_as):
     """As ours, and as the same file gives in Python."""
@@ -248,6 +252,7 @@ def test_a_photo_as_phones_save_it_gives_the_same_place(page, tmp_path, save_as)
     assert readout(page, "place") == place
 
 
+@pytest.mark.audit
 def test_a_photo_that_was_cropped_has_no_place_and_is_asked_for_whole(page, tmp_path):
     whole = draw_sheet(OURS.camera, size=2, ground=remove_sheet(OURS.image)[1])
     assert give(page, write(tmp_path, whole)).startswith("After trying")
@@ -262,6 +267,7 @@ def test_a_photo_that_was_cropped_has_no_place_and_is_asked_for_whole(page, tmp_
         remove_sheet(cropped)
 
 
+@pytest.mark.audit
 def test_a_sheet_shrunk_to_a5_is_told_by_the_shuttlecocks_size(page, tmp_path):
     a5 = draw_sheet(OURS.camera, sheets=[(0, 0, 0, 0.71)], ground=remove_sheet(OURS.image)[1])
     camera, bare = remove_sheet(a5)
@@ -277,6 +283,7 @@ def save(folder, name, mode="RGB", size=(60, 40), **options):
     return folder / name
 
 
+@pytest.mark.audit
 def test_no_file_is_met_with_silence(page, tmp_path):
     words = tmp_path / "words.jpg"
     words.write_text("no picture", encoding="utf-8")
@@ -307,6 +314,7 @@ def test_no_file_is_met_with_silence(page, tmp_path):
     assert page.locator(".vmc-picture image").evaluate(size) == [60, 40]
 
 
+@pytest.mark.audit
 def test_in_a_kernel_it_is_the_same_page(monkeypatch, window):
     shown = pages.displayed(monkeypatch, your_photo)
     for mode in ("live", "test"):

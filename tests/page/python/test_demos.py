@@ -125,7 +125,7 @@ def with_law(stem, above):
 
 
 # Photos, patches, a changed law, an arm, noise; the others' demos take three minutes
-SOME = sample(DEMOS, "03_regions", "04_crbm", "06_names", "07_muscle", "08_arm", "16_noise")
+SOME = sample(DEMOS, "03_regions", "04_crbm", "06_names", "07_muscle", "08_arm")
 
 
 @pytest.mark.browser

@@ -121,6 +121,7 @@ def test_sliders_stand_between_their_stops(open_law, window):
     assert page.evaluate("() => document.documentElement.scrollWidth") <= 360
 
 
+@pytest.mark.audit
 def test_arrays_that_the_page_cannot_make_come_with_it(open_page, monkeypatch):
     made = "import cv2\nimport numpy as np\ntable = cv2.multiply(np.ones(3), 2.0)[:, 0]"
     lines = DEMO.replace("law(x)", "x + table[0]").replace(

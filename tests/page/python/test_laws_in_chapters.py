@@ -45,6 +45,7 @@ def test_the_other_engines_follow_a_law(engine):
         assert sorted(texts) == sorted(re.findall("<text[^>]*>([^<]*)</text>", "\n".join(picture)))
 
 
+@pytest.mark.audit
 def test_an_arm_plans_by_the_readers_law(window):
     page = open_url(window(reduced_motion="reduce"), (BUILT / "book/09_planning.html").as_uri())
     page.evaluate("() => { vmc['python/interpreter'].limit.seconds = 100 }")

@@ -38,7 +38,9 @@ def linear_rows(name, seed):
     return dict(zip(photos.SPLITS, rows[:, 0], strict=True))
 
 
-@pytest.mark.parametrize(("name", "off"), [("published", 0.01), ("context", 0.02)])
+@pytest.mark.parametrize(
+    ("name", "off"), [("published", 0.01), pytest.param("context", 0.02, marks=pytest.mark.audit)]
+)
 def test_table_1_ships_as_it_is_measured(name, off):
     for split in photos.SPLITS:
         table = localisation.table_1("rig", split, name)

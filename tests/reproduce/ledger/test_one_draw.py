@@ -52,6 +52,7 @@ def test_the_page_says_what_it_takes_to_make_a_stored_result_again():
     assert minutes["bench/loop"] == ""
 
 
+@pytest.mark.audit
 def test_one_draw_of_random_filters_is_reproducible():
     """On the rig, the second read-out: where both names are sure."""
     now, shipped = random_filters.answers(0, levels=("rig",)), arrays("random_filters")
