@@ -91,29 +91,35 @@ from importlib import import_module
 
 from vmc_lib.compiled import compiled
 
-law = import_module(sys.argv[1]).law
-
 
 @compiled
 def total(x):
     return law(x) + 1.0
 
 
-print(total(2.0))
+for name in sys.argv[1:]:
+    law = import_module(name).law
+    print(total(2.0))
 """
 
 
 @pytest.fixture
 def run_loop(tmp_path):
-    """A function: what the loop gives with a law, and how many files the cache then holds."""
+    """A function: what the loop gives with a law, and how many files the cache then holds.
+
+    Before it, in the same process, the loop may run with others.
+    """
     (tmp_path / "loop.py").write_text(LOOP, encoding="utf-8")
 
-    def run_loop(name, expression):
-        law = tmp_path / f"{name}.py"
-        law.write_text(f"def law(x):\n    return {expression}\n", encoding="utf-8")
+    def run_loop(name, expression, **before):
+        laws = before | {name: expression}
+        for law, text in laws.items():
+            written = f"def law(x):\n    return {text}\n"
+            (tmp_path / f"{law}.py").write_text(written, encoding="utf-8")
         environment = {"PYTHONPATH": str(ROOT), "PYTHONDONTWRITEBYTECODE": "1"}
-        total = python("loop.py", name, cwd=tmp_path, **environment)
-        law.unlink()
+        *_, total = python("loop.py", *laws, cwd=tmp_path, **environment).split()
+        for law in laws:
+            (tmp_path / f"{law}.py").unlink()
         return float(total), len(list(tmp_path.rglob("*.nbc")))
 
     return run_loop
@@ -132,6 +138,16 @@ def test_disk_cache_is_not_used_for_changed_source(run_loop):
 
 def test_disk_cache_survives_a_law_whose_module_is_gone(run_loop):
     assert [run_loop(name, "x * 2")[0] for name in ("old_law", "new_law")] == [5.0, 5.0]
+
+
+LONG = " + ".join(f"1e-9 * x ** 0.{power}" for power in range(10, 90))  # too long to be inlined
+
+
+def test_code_from_the_disk_calls_its_own_law(run_loop):
+    """Though this process has compiled another, of the same name."""
+    alone, _ = run_loop("one", f"x * 2 + {LONG}")
+    after, _ = run_loop("one", f"x * 2 + {LONG}", other=f"x * 5 + {LONG}")
+    assert after == alone == pytest.approx(5)
 
 
 def empty(file):

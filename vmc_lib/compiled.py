@@ -66,18 +66,25 @@ def _machine(loop, frozen):
     if config.DISABLE_JIT:
         return loop
 
+    content = _content(loop), [(name, _content(x)) for _, name, x in frozen]
+    digest = sha256(repr(content).encode()).hexdigest()[:12]
+
     def ready(function):
-        """The same function, which finds compiled ones, in a module that the cache can import."""
+        """The same function, which finds compiled ones, in a module that the cache can import.
+
+        Named by what all of them read: by its name the cache finds a file, and the linker a callee,
+        which it may have from another file.
+        """
         code, space = function.__code__, function.__globals__
         called = {n: unwrap(space[n]) for n in code.co_names if type(space.get(n)) is FunctionType}
         callees = {n: njit(ready(f)) for n, f in called.items() if f is not function}
         parts = function.__name__, function.__defaults__, function.__closure__
         home = {"__name__": loop.__globals__.get("__name__")}
-        return FunctionType(code, space | callees | home, *parts)
+        copied = FunctionType(code, space | callees | home, *parts)
+        copied.__qualname__ += f"-{digest}"
+        return copied
 
     plain = ready(loop)
-    content = _content(loop), [(name, _content(x)) for _, name, x in frozen]
-    plain.__qualname__ += "-" + sha256(repr(content).encode()).hexdigest()[:12]  # the file's name
     try:
         machine = njit(plain, cache=True, nogil=True)
         _guard(machine._cache)
