@@ -33,6 +33,12 @@ def tagged(cell, *tags):
     return {*tags} & {*cell.metadata.get("tags", [])}
 
 
+def test_no_widget_captures_output(notebook):
+    """The client that builds the book answers such a widget, and may then miss the cell's reply."""
+    cells = "\n".join(sources(notebook))
+    assert not re.search(r"\b(interactive_output|interact|Output)\(", cells)
+
+
 def test_no_cell_rebinds_what_an_earlier_function_reads(notebook):
     """Or a demo above it would fail, or show another thing, as soon as it is moved.
 

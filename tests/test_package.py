@@ -135,6 +135,7 @@ def needed(packages):
     return pulled
 
 
+@pytest.mark.audit
 def test_the_model_runs_on_the_base_install_alone():
     """In a plain script; what draws says what it lacks."""
     absent = {n for name in declared("chapters").keys() - declared() for n in modules(name)}

@@ -230,6 +230,7 @@ def test_without_webassembly_it_says_so(open_arms, window):
     page.errors[:] = [error for error in page.errors if "mujoco.js" not in error]  # MuJoCo's
 
 
+@pytest.mark.audit
 def test_arms_are_accessible_and_fit_a_phone(open_arms, window, serious):
     page = open_arms(window(viewport={"width": 360, "height": 700}))
     assert serious(page, "main") == []

@@ -146,6 +146,7 @@ FAILING = {
 }
 
 
+@pytest.mark.audit
 def test_an_exercise_above_is_no_law_and_a_law_that_fails_gives_the_demo_back(open_law):
     page = open_law()
     page.get_by_label("Your lines: activation_rates").fill("1 / 0")
