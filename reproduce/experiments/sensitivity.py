@@ -186,7 +186,6 @@ def make(choices=CHOICES, spacing=templates.SPACING, seeds=MANY, count=20, **siz
         for choice, others in choices.items()
         for other, given in others.items()
     }
-    # first, and here: a process that has held another arm gave other numbers on Thelen's muscle
     past, size = thelen_templates(spacing), {"experiments": 1, **size}
     draws = [thelen_tables(past, seed, **size) for seed in seeds]
     found = Parallel()(delayed(misses)(**given, count=count) for given in settings.values())
