@@ -46,6 +46,8 @@ def test_values_that_differ_have_different_contents(one, other):
         ("x * c[0][1]", ((1, 2.0),), ((1, 3.0),)),
         ("x * c", np.float32(2), np.float32(3)),
         ("c(x)", lambda x: 2 * x, lambda x: 3 * x),
+        ("sum([c * y for y in (x, x)])", 1.0, 2.0),
+        ("sum([c(y) for y in (x, x)])", lambda x: x, lambda x: 3 * x),
         ("x * c(x)", lambda x, by=2.0: by, lambda x, by=3.0: by),
     ],
 )

@@ -44,7 +44,7 @@ def compiled(loop: Callable[..., Any]) -> Callable[..., Any]:
 
 def _reads(function):
     """What numba freezes of a function, and of those it calls: (module's names, name, value)."""
-    space, names = function.__globals__, function.__code__.co_names
+    space, names = function.__globals__, dict.fromkeys(_names(function.__code__))
     for name in names:
         if name in space and space[name] is not function:
             yield space, name, space[name]
@@ -54,6 +54,14 @@ def _reads(function):
                 inside = vars(space[name])
                 numbers = (n for n in names if isinstance(inside.get(n), float | int | np.ndarray))
                 yield from ((inside, n, inside[n]) for n in numbers)
+
+
+def _names(code):
+    """The names that code looks up, its comprehensions' too."""
+    yield from code.co_names
+    for part in code.co_consts:
+        if isinstance(part, CodeType):
+            yield from _names(part)
 
 
 def _machine(loop, frozen):
@@ -76,7 +84,8 @@ def _machine(loop, frozen):
         which it may have from another file.
         """
         code, space = function.__code__, function.__globals__
-        called = {n: unwrap(space[n]) for n in code.co_names if type(space.get(n)) is FunctionType}
+        names = (n for n in _names(code) if type(space.get(n)) is FunctionType)
+        called = {n: unwrap(space[n]) for n in names}
         callees = {n: njit(ready(f)) for n, f in called.items() if f is not function}
         parts = function.__name__, function.__defaults__, function.__closure__
         home = {"__name__": loop.__globals__.get("__name__")}
