@@ -187,9 +187,9 @@ export const panelOf = (views) => {
   const [box, behind] = [1, 2].map(() => element(`<div class="vmc-panel"></div>`));
   const fill = () => {
     if (!view.anatomy || box.childElementCount) return;
-    const told = view.div.closest(".vmc-pictures").querySelector(".vmc-strip");
+    const strip = view.div.closest(".vmc-pictures").querySelector(".vmc-strip");
     box.append(clock(views));
-    (told ? behind : box).append(numbers(view));
+    (strip ? behind : box).append(numbers(view));
     behind.append(muscles(view));
     if (view.settings.target) behind.append(element(`<p class="vmc-note">${WRIST}</p>`));
     view.at(view.wanted);
