@@ -145,9 +145,9 @@ def test_canvas_is_told_whether_a_quiz_is_graded(variants, kind):
 
 
 def test_qti_is_well_formed_and_each_item_accepts_its_answer(variants):
+    variants = {name: several[:3] for name, several in variants.items()}  # each draws a picture
     zipped = ZipFile(io.BytesIO(package(variants)))
-    some = dict(list(variants.items())[:5])
-    assert package(some) == package(some)
+    assert package(variants) == package(variants)
     manifest = ElementTree.fromstring(zipped.read(MANIFEST))  # noqa: S314 (our own)
     files = [file.get("href") for file in manifest.findall(".//{*}file")]
     pictures = [path for path in files if path.startswith("pictures/")]

@@ -49,7 +49,7 @@ def moment_arms_and_torques(muscle_torques, joint, other):
     muscle_lines(right, turn, muscle_torques(q)[:, k])
     left.set(title="moment arm (mm)", ylim=(-55, 55), xlabel=f"{joint} (degrees)")
     right.set(title="greatest torque (N m)", ylim=(-45, 45), xlabel=f"{joint} (degrees)")
-    fig.legend(*left.get_legend_handles_labels(), loc="upper center", ncols=6)
+    fig.legend(*left.get_legend_handles_labels(), loc="upper center", ncols=6, columnspacing=1)
     fig.subplots_adjust(top=0.8)
     return fig
 

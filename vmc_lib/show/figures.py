@@ -28,6 +28,7 @@ _MARKDOWN = MarkdownIt().use(
     dollarmath_plugin, renderer=lambda tex, _: rf"\({html.escape(tex.strip())}\)"
 )
 
+LETTERS = 21  # px of a photo: how large words on it are
 HINTS = {  # what is returned instead of a picture, and what was meant
     "NoneType": "; end the function with `return fig`, or `return plt.gcf()`",
     "str": "; plain words are `note(text)`",
@@ -109,10 +110,14 @@ def photo_view(
         circle = f'<circle cx="{x:.1f}" cy="{y:.1f}" r="6"'
         marks += [f'{circle} {EDGE}/>{circle} stroke="{ON_PHOTO[colour]}"/>']
         words += [_label(x + 11, y + 7, label, colour)]
+    # on a phone a photo is so wide that its words, if it has any, are 11 px high: 1.333 × `--least`
+    wide = f"--least: {0.75 * 11 / LETTERS * width:.0f}px; --ratio: {width / height:.3f}"
+    least = wide if any(label for _, label, _ in (*boxes, *points)) else ""
     return "\n".join(
         [
             f'<svg viewBox="0 0 {width} {height}" width="{width}" height="{height}" fill="none" '
-            f'stroke-width="3" font-size="21" data-axes="{left} {right} {bottom} {top} 0 1 1 0">',
+            f'stroke-width="3" font-size="{LETTERS}" style="{least}" '
+            f'data-axes="{left} {right} {bottom} {top} 0 1 1 0">',
             f'<image width="{width}" height="{height}" href="',
             data_uri(image),
             '"/>',
