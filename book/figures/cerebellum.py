@@ -2,7 +2,10 @@
 
 import numpy as np
 
+from vmc_lib.show.palette import least_width
+
 WIDE, HIGH = 560, 300
+WORDS = 13  # px: how large words are
 GRANULES = np.linspace(60, 310, 10)  # x of each granule cell
 FIBRES = np.linspace(85, 130, len(GRANULES))  # y of the line that each sends to the right
 ACTIVE = (3, 4, 5)  # the few that this target excites
@@ -35,8 +38,9 @@ def circuit():
     parts += [
         f'<text x="{x}" y="{y}" fill="var(--vmc-{c})" {halo}>{t}</text>' for x, y, t, c in words
     ]
-    size = f'viewBox="0 0 {WIDE + 90} {HIGH}" width="{WIDE + 90}" height="{HIGH}" font-size="13"'
-    return f'<svg {size} style="--least: 550px">{"".join(parts)}</svg>'
+    size = f'viewBox="0 0 {WIDE + 90} {HIGH}" width="{WIDE + 90}" height="{HIGH}"'
+    letters = f'font-size="{WORDS}" style="{least_width(WIDE + 90, WORDS)}"'
+    return f"<svg {size} {letters}>{''.join(parts)}</svg>"
 
 
 def _path(d, colour, width):

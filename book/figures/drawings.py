@@ -1,8 +1,8 @@
 """Drawings: two streams, a box corrected, a line of sight, a CRBM's block, a stack. All SVG."""
 
-from vmc_lib.show.palette import css
+from vmc_lib.show.palette import css, least_width
 
-WORDS, LEGIBLE = 14, 11  # px: words, and as small as a phone may make them
+WORDS = 14  # px: how large words are
 
 
 def drawing(width, height, *parts):
@@ -15,7 +15,7 @@ def drawing(width, height, *parts):
         [
             f'<svg viewBox="0 0 {width} {height}" width="{width}" height="{height}" '
             f'font-size="{WORDS}" fill="none" stroke="{css("ink")}" stroke-width="1.5" '
-            f'style="--least: {LEGIBLE / WORDS * width:.0f}px">{tip}',
+            f'style="{least_width(width, WORDS)}">{tip}',
             *parts,
             "</svg>",
         ]

@@ -21,7 +21,7 @@ from vmc_lib.short_repr import short
 from vmc_lib.show.data_table import DataTable, name_curves
 from vmc_lib.show.estimate import estimate
 from vmc_lib.show.markup import data_uri, image_tag, number, svg
-from vmc_lib.show.palette import EDGE, ON_PHOTO
+from vmc_lib.show.palette import EDGE, ON_PHOTO, least_width
 from vmc_lib.show.scene import Scene
 
 _MARKDOWN = MarkdownIt().use(
@@ -110,13 +110,12 @@ def photo_view(
         circle = f'<circle cx="{x:.1f}" cy="{y:.1f}" r="6"'
         marks += [f'{circle} {EDGE}/>{circle} stroke="{ON_PHOTO[colour]}"/>']
         words += [_label(x + 11, y + 7, label, colour)]
-    # on a phone a photo is so wide that its words, if it has any, are 11 px high: 1.333 × `--least`
-    wide = f"--least: {0.75 * 11 / LETTERS * width:.0f}px; --ratio: {width / height:.3f}"
-    least = wide if any(label for _, label, _ in (*boxes, *points)) else ""
+    wordless = not any(label for _, label, _ in (*boxes, *points))
+    shape = "" if wordless else f"{least_width(width, LETTERS)}; --ratio: {width / height:.3f}"
     return "\n".join(
         [
             f'<svg viewBox="0 0 {width} {height}" width="{width}" height="{height}" fill="none" '
-            f'stroke-width="3" font-size="{LETTERS}" style="{least}" '
+            f'stroke-width="3" font-size="{LETTERS}" style="{shape}" '
             f'data-axes="{left} {right} {bottom} {top} 0 1 1 0">',
             f'<image width="{width}" height="{height}" href="',
             data_uri(image),

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.ticker import AutoLocator, FixedLocator, MaxNLocator, NullLocator
 from PIL import Image
 
-from vmc_lib.show.palette import COLOURS, css, plot_style
+from vmc_lib.show.palette import COLOURS, STYLE, css, least_width, plot_style
 from vmc_lib.show.render_mode import STATIC, render_mode
 from vmc_lib.show.svg_renderer import figure_svg
 
@@ -48,8 +48,7 @@ def svg(fig, salt):
         svg = figure_svg(fig)
     plt.close(fig)  # or the notebook would show it a second time
     width, height = fig.get_size_inches()
-    least = 0.62 * 72 * width  # on a phone a wide plot scrolls, its words stay legible
-    shape = f"--least: {least:.0f}pt; --ratio: {width / height:.3f}"
+    shape = f"{least_width(72 * width, STYLE['font.size'])}; --ratio: {width / height:.3f}"
     root = f'<svg {_SVG_ROOT} {_axes(fig)} style="{shape}" '
     svg = svg[svg.index("<svg ") :].replace("<svg ", root, 1)
     svg = re.sub(r"<metadata>.*?</metadata>|<!--.*?-->|<style.*?</style>", "", svg, flags=re.S)

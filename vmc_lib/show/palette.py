@@ -34,12 +34,21 @@ ON_PHOTO = Palette(
     grey="#c8ced6",
     ink="#ffffff",
 )
+LEGIBLE = 11  # px
 EDGE = 'stroke="#10151c" stroke-width="6" stroke-linejoin="round"'
 
 
 def css(name):
     """A named colour as CSS: the page's own, or else that of `COLOURS`."""
     return f"var(--vmc-{name}, {COLOURS[name]})"
+
+
+def least_width(width, size):
+    """CSS: the width (px) at which a picture's words are LEGIBLE: a phone scrolls it, no smaller.
+
+    Drawn `width` wide, its words are of this size, in the same unit.
+    """
+    return f"--least: {LEGIBLE / size * width:.0f}px"
 
 
 # One look for every plot of the book: what `explore` and `figure` draw, they draw with this.
