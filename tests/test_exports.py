@@ -20,6 +20,7 @@ from kit.chapter_questions import bank_questions
 from kit.gift import gift
 from kit.moodle import moodle_xml
 from kit.qti import SPACE, package
+from tests.project import sample
 
 
 @pytest.fixture(scope="module")
@@ -144,8 +145,9 @@ def test_canvas_is_told_whether_a_quiz_is_graded(variants, kind):
         assert settings.find("{*}quiz_type").text == kind
 
 
-def test_qti_is_well_formed_and_each_item_accepts_its_answer(variants):
-    variants = {name: several[:3] for name, several in variants.items()}  # each draws a picture
+@pytest.mark.parametrize("count", sample([3, None], 3))  # of a question: each draws a picture
+def test_qti_is_well_formed_and_each_item_accepts_its_answer(variants, count):
+    variants = {name: several[:count] for name, several in variants.items()}
     zipped = ZipFile(io.BytesIO(package(variants)))
     assert package(variants) == package(variants)
     manifest = ElementTree.fromstring(zipped.read(MANIFEST))  # noqa: S314 (our own)

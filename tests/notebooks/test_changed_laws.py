@@ -19,7 +19,6 @@ LAWS = {path: laws for path in CHAPTERS if (laws := laws_of(path))}
 SOME = sample(LAWS, "07_muscle")
 
 
-@pytest.mark.audit
 @pytest.mark.parametrize("path", SOME, ids=lambda path: path.stem)
 def test_a_changed_law_moves_a_demo_and_says_so(path):
     found = json.loads(python("-m", "tests.changed_laws", path.stem).splitlines()[-1])
