@@ -102,31 +102,42 @@ def after_trial(plan, rules, trial, rule, noisy=()):
     return fig
 
 
-def after_rounds(plan, rounds_by, rounds, n, keep):
+def after_rounds(plan, holds, noisy, rounds, n):
     """Hands after so many rounds with one grid of n; the mean errors of all against the rounds.
 
-    `rounds_by[keep]` is what `offline_calibration.repeat_algorithm_1` returned.
+    `holds` is what `offline_calibration.repeat_algorithm_1` returned. Dashed: with this grid on an
+    arm with noise, `noisy` (draws, 1 + rounds), mm.
     """
     fig, left, right = panels(*SIDE_BY_SIDE)
-    errors = {name: mean_mm(holds, plan.target) for name, holds in rounds_by[keep].items()}
+    errors = {name: mean_mm(each, plan.target) for name, each in holds.items()}
     now = errors[n][rounds]
-    in_plane(left, plan, rounds_by[keep][n][rounds].mean(axis=1), f"mean error {now:.1f} mm")
+    in_plane(left, plan, holds[n][rounds].mean(axis=1), f"mean error {now:.1f} mm")
+    with_noise(right, range(5), noisy)
     curves(right, range(5), errors, now=(rounds, now))
     right.set(xlabel="rounds", ylabel="mean error (mm)", ylim=(0, 25))
     return fig
 
 
-def with_guards(errors):
-    """Mean errors in mm, (trials, n) over the targets: of each trial, and of the best so far."""
+def with_guards(errors, noisy):
+    """Mean errors in mm, (trials, n) over the targets: of each trial, and of the best so far.
+
+    Dashed: `noisy`, the best so far on an arm with noise (draws, trials), mm.
+    """
     best = mean_best_so_far(errors)
     fig, ax = panels(size=(5.5, 3.2))
     ax.plot(errors.mean(axis=1), ".:", color=COLOURS["grey"], label="this trial")
     ax.plot(best, ".-", color=COLOURS["red"], label="the best so far")
+    with_noise(ax, range(len(best)), noisy)
     ax.set(xlabel="trial", ylabel="mean error (mm)", yscale="log", ylim=(0.5, 1000))
     ax.yaxis.set_major_formatter("{x:g}")
     ax.set_title(f"before: {best[0]:.2g} mm; best of eight: {best[-1]:.2g} mm")
     ax.legend()
     return fig
+
+
+def with_noise(ax, x, curves):
+    """Dashed over x (n,), the mean of `curves` (draws, n) on an arm with a person's noise."""
+    ax.plot(x, curves.mean(axis=0), "--", color=COLOURS["grey"], label="a person's noise")
 
 
 def after_the_command(away, reach):

@@ -1,6 +1,6 @@
 """Figures of the chapter on online calibration: learning curves, granule cells, changed worlds."""
 
-from book.figures.offline import SIDE_BY_SIDE, in_plane
+from book.figures.offline import SIDE_BY_SIDE, in_plane, with_noise
 from book.figures.panels import curves, panels, shade_change
 from book.figures.reaching import mean_mm, norm_mm, reach_scene, reaches
 from reproduce.experiments import learning_curves
@@ -70,8 +70,8 @@ def after_movements(plans, granule, linear, movements, templates_are, measured_o
     look = dict(color=COLOURS["grey"], gid="Algorithm 2")
     fig.axes[1].plot(STEPS[: len(line)], line, ":", **look)
     name = learning_curves.online_name(templates_are, learning_curves.NOISY)
-    noisy = learning_curves.load_results()[name][f"granule cells, {measured_on}"].mean(axis=0)
-    fig.axes[1].plot(STEPS, noisy, "--", color=COLOURS["grey"], gid="a person's noise")
+    noisy = learning_curves.load_results()[name][f"granule cells, {measured_on}"]
+    with_noise(fig.axes[1], STEPS, noisy)
     fig.axes[1].set_xlabel("movements (dotted: Algorithm 2)")
     return fig
 
@@ -158,8 +158,11 @@ def misses_by_lesion(attempts):
     }
 
 
-def adaptation(templates, adaptations, block, change, cure):
-    """Hands in a block of a `Curve`; the mean error of each block, dotted where nothing learns."""
+def adaptation(templates, adaptations, noisy, block, change, cure):
+    """Hands in a block of a `Curve`; the mean error of each block, dotted where nothing learns.
+
+    Dashed: `noisy[change, cure]`, the mean of draws (draws, blocks) at a person's noise, mm.
+    """
     fig, left, right = panels(*SIDE_BY_SIDE)
     curve, baseline = adaptations[change, cure], adaptations[change, CURES[-1]]
     errors = 1000 * curve.error
@@ -169,6 +172,7 @@ def adaptation(templates, adaptations, block, change, cure):
     if cure != CURES[-1]:
         name = f"correct the {cure}"
         right.plot(1000 * baseline.error, ":", color=COLOURS["grey"], gid=CURES[-1])
+    with_noise(right, range(len(errors)), noisy[change, cure])
     curves(right, range(len(errors)), {name: errors}, now=(block, errors[block]))
     right.set(xlabel="block of 8 movements", ylabel="mean error (mm)")
     right.set(xticks=range(0, 16, 5), ylim=(0, 110))

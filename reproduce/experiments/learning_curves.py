@@ -1,7 +1,8 @@
 """Learning curves at a person's noise (`motor_noise`): how many more tries does it then take?
 
 What a rule keeps after a noisy try was partly luck, so it is given once more, and judged by that.
-Without noise the same targets are those of `nulls.tries`, or practised here as well.
+Without noise the same targets are those of `nulls.tries` and of `block_errors`, or practised here
+as well. In a changed world nothing is kept: every movement is to a new target.
 """
 
 from functools import partial
@@ -9,16 +10,28 @@ from functools import partial
 import numpy as np
 
 from reproduce.experiments import calibration, nulls, online_calibration
-from reproduce.experiments.calibration import MANY, SCENARIOS
+from reproduce.experiments.calibration import MANY, SCENARIOS, SEEDS
 from reproduce.experiments.controller_comparison import templates_with_noise
+from reproduce.experiments.offline_calibration import (
+    LOADS,
+    move_with_load,
+    repeat_algorithm_1,
+    trials_with_load,
+)
+from reproduce.measures.changed_worlds import block_errors
 from reproduce.peers.motor_noise import PERSON, endpoint_deviation, with_noise
 from vmc_lib.cerebellum.offline import broyden_calibration
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import draw_targets, norm, plan
+from vmc_lib.motor.templates import mean_distance
 
 OFF_LINE, WHOLE_ARM = "off-line", "whole arm"
+ROUNDS, WITH_LOAD, WORLDS = "rounds", "with a load", "changed worlds"
 CALM, NOISY = "calm", "a person's noise"
+KEPT = {True: "only if it is better", False: "always"}  # what a round of Algorithm 1 finds
+GUARDED = {True: "guards", False: "no guards"}
 WHOLE_ARM_SHARE = 0.0077  # of each command: so the finger scatters by `PERSON` mm, about
+WHOLE_ARM_SHARES = {CALM: 0, NOISY: WHOLE_ARM_SHARE}
 
 
 def person_share():
@@ -32,7 +45,7 @@ def templates_of_person(stream, noise=NOISY):
     return templates_with_noise(wavers, stream)
 
 
-def kept_again(habit, trials):
+def kept_again(habit, trials, execute=execute):
     """The `Movement`s (trials, n) of what is kept after each trial, given once more: no luck."""
     best = [trials.error[: k + 1].argmin(axis=0) for k in range(len(trials.error))]
     kept = np.take_along_axis(trials.weights, np.array(best)[..., None], axis=0)
@@ -62,10 +75,51 @@ def off_line(seed, count=25):
 
     But Broyden's makes four tries: after many, noise can leave it a belief that moves no hand.
     """
-    rng, past = np.random.default_rng(seed), templates_of_person((seed, 5))
-    _, targets = (draw_targets(past, n, rng) for n in (200, count))
+    rng = np.random.default_rng(seed)
+    habit = draw_habit(templates_of_person((seed, 5)), rng, count)
     rules = nulls.offline_rules(rng) | {nulls.OURS: partial(broyden_calibration, n_trials=4)}
-    return curves_by_tries(plan(targets, past), rules)
+    return curves_by_tries(habit, rules)
+
+
+def draw_habit(past, rng, count=25):
+    """The habit's plans for the targets of `nulls.tries`."""
+    _, targets = (draw_targets(past, n, rng) for n in (200, count))
+    return plan(targets, past)
+
+
+def rounds(seed, noise=NOISY, count=25):
+    """The mean miss in mm after 0, 1, … rounds of Algorithm 1, by `rounds_name`; one seed."""
+    habit = draw_habit(templates_of_person((seed, 8), noise), np.random.default_rng(seed), count)
+    return {
+        rounds_name(n, keep): 1000 * mean_distance(holds, habit.target).mean(axis=1)
+        for keep in KEPT
+        for n, holds in repeat_algorithm_1(habit, keep).items()
+    }
+
+
+def rounds_name(n, keep):
+    """Under which name the rounds of one of `GRIDS` ship."""
+    return f"{n}, kept {KEPT[keep]}"
+
+
+def with_load(seed, noise=NOISY, count=25):
+    """The mean miss in mm of what is kept after 0, 1, … tries with each load, by `load_name`."""
+    habit = draw_habit(templates_of_person((seed, 9), noise), np.random.default_rng(seed), count)
+    return {
+        load_name(name, guarded): 1000 * kept_again(habit, trials, move_with_load(kg)).error.mean(1)
+        for name, kg in LOADS.items()
+        for guarded, trials in trials_with_load(habit, kg).items()
+    }
+
+
+def load_name(load, guarded):
+    """Under which name the tries with one of `LOADS` ship."""
+    return f"{load}, {GUARDED[guarded]}"
+
+
+def changed_worlds(seed, **size):
+    """What `block_errors` finds on an arm with a person's noise; one seed."""
+    return block_errors(seed, past=templates_of_person((seed, 10)), **size)
 
 
 def online(seed, scenario, noise=NOISY):
@@ -86,43 +140,57 @@ def online(seed, scenario, noise=NOISY):
     }
 
 
-def whole_arm(seed, share=WHOLE_ARM_SHARE, count=2, trials=4):
+def whole_arm(seed, noise=NOISY, count=2, trials=4):
     """`curves_by_tries` of Broyden calibration on the arm of 63 muscles, with one seed."""
     from reproduce.whole_arm import experiment, habits  # MuJoCo comes with them
 
     past, rng = habits.load_templates(), np.random.default_rng((seed, 7))
     targets = experiment.draw_targets_3d(past, count=count, rng=np.random.default_rng(seed))
-    habit = experiment.plan_reaches(targets, experiment.with_noise(past, share, rng))
+    wavering = experiment.with_noise(past, WHOLE_ARM_SHARES[noise], rng)
     rules = {"Broyden": partial(broyden_calibration, n_trials=trials)}
-    return curves_by_tries(habit, rules, repeats=5)
+    return curves_by_tries(experiment.plan_reaches(targets, wavering), rules, repeats=5)
+
+
+def at_noise(part, noise):
+    """Under which name curves ship, `CALM` or `NOISY`."""
+    return f"{part}, {noise}"
 
 
 def online_name(scenario, noise):
-    """Under which name the curves of a scenario ship, `CALM` or `NOISY`."""
-    return f"online, {scenario}, {noise}"
+    """Under which name those of `online` ship."""
+    return at_noise(f"online, {scenario}", noise)
 
 
-def arm_name(noise):
-    """Under which name the curves of the whole arm ship, `CALM` or `NOISY`."""
-    return f"{WHOLE_ARM}, {noise}"
+def in_both(experiments):
+    """Experiments that take a `noise`, `CALM` and `NOISY`, by `at_noise`."""
+    return {
+        at_noise(part, noise): partial(experiment, noise=noise)
+        for noise in (CALM, NOISY)
+        for part, experiment in experiments.items()
+    }
 
 
-def make(scenarios=SCENARIOS, seeds=MANY, movements=25, **size):
-    """What `results/learning_curves.json` holds: every curve with every seed.
+ON_LINE = {f"online, {scenario}": partial(online, scenario=scenario) for scenario in SCENARIOS}
+MANY_DRAWS = {OFF_LINE: off_line} | in_both(ON_LINE | {WHOLE_ARM: whole_arm})
+SIX_DRAWS = in_both({ROUNDS: rounds, WITH_LOAD: with_load}) | {WORLDS: changed_worlds}
 
-    Off-line for so many `movements`; `size` is that of `whole_arm`.
-    """
-    experiments = {OFF_LINE: partial(off_line, count=movements)}
-    for noise, share in {CALM: 0, NOISY: WHOLE_ARM_SHARE}.items():
-        for scenario in scenarios:
-            experiments[online_name(scenario, noise)] = partial(
-                online, scenario=scenario, noise=noise
-            )
-        experiments[arm_name(noise)] = partial(whole_arm, share=share, **size)
-    return calibration.make(experiments, seeds)
+
+def make(experiments=MANY_DRAWS | SIX_DRAWS, seeds=None):
+    """What `results/learning_curves.json` holds: every curve with every seed."""
+    made = {}
+    for name, experiment in experiments.items():
+        draws = seeds or (SEEDS if name in SIX_DRAWS else MANY)
+        made |= calibration.make({name: experiment}, draws)
+    return made
 
 
 load_results = partial(calibration.load_results, "learning_curves")
+
+
+def both(part):
+    """What ships of a part, `CALM` and `NOISY`."""
+    shipped = load_results()
+    return [shipped[at_noise(part, noise)] for noise in (CALM, NOISY)]
 
 
 def first_below(level, curves):

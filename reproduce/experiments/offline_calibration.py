@@ -19,6 +19,7 @@ from vmc_lib.motor.planning import norm
 from vmc_lib.motor.templates import mean_distance
 
 MOVED = SAMPLES * STEP  # s: where the command ends
+LOADS = {"empty": 0, "0.25 kg": 0.25}  # in the hand, kg
 GRIDS = {"n = 0 only": (0,), "every fifth n": FIFTH, "every n": GAINS}
 
 
@@ -30,18 +31,18 @@ def error_ratio(trials):
 def repeat_algorithm_1(plan, keep, rounds=4):
     """Hands over the hold (rounds + 1, n, T, 2) by Algorithm 1 upon Algorithm 1, by `GRIDS`.
 
-    With `keep` the weights before a round are among its tries.
+    With `keep` the weights before a round are among its tries. Each round's best weights move the
+    arm once more: where it wavers, a lucky try does not count.
     """
     first, everyone = 0 if keep else 1, np.arange(len(plan.target))
     holds = {}
     for name, gains in GRIDS.items():
-        start, held = plan, [execute(plan).hold]
+        weights = [plan.weights]
         for _ in range(rounds):
-            trials = algorithm_1(start, gains)
+            trials = algorithm_1(plan.with_weights(weights[-1]), gains)
             winner = first + trials.error[first:].argmin(axis=0), everyone
-            start = start.with_weights(trials.weights[winner])
-            held.append(trials.hold[winner])
-        holds[name] = np.array(held)
+            weights.append(trials.weights[winner])
+        holds[name] = execute(plan.with_weights(np.array(weights))).hold
     return holds
 
 
@@ -57,13 +58,23 @@ def reaches_until(mm, plan, rules):
     }
 
 
-def errors_with_load(plan, load):
-    """Errors in mm, (9, n), of Broyden calibration with a load in kg: guarded -> errors."""
-    move = partial(execute, perturbation=Perturbation(load))
+def move_with_load(load):
+    """`execute` with a load in kg in the hand."""
+    return partial(execute, perturbation=Perturbation(load))
+
+
+def trials_with_load(plan, load):
+    """`Trials` of Broyden calibration with a load in kg, eight after the first: guarded -> them."""
+    move = move_with_load(load)
     return {
-        guarded: 1000 * broyden_calibration(plan, 8, guarded=guarded, execute=move).error
+        guarded: broyden_calibration(plan, 8, guarded=guarded, execute=move)
         for guarded in (True, False)
     }
+
+
+def errors_with_load(plan, load):
+    """Their errors in mm, (9, n): guarded -> errors."""
+    return {k: 1000 * trials.error for k, trials in trials_with_load(plan, load).items()}
 
 
 def mean_best_so_far(errors):

@@ -108,12 +108,13 @@ def _direction(points):
     return np.arctan2(away[..., 1], away[..., 0])
 
 
-def block_errors(seed, before=150, blocks=BLOCKS, **size):
+def block_errors(seed, before=150, blocks=BLOCKS, past=None, **size):
     """Mean error in mm of each block, by world and by what is corrected, for one seed.
 
-    So many movements are practised `before`; `blocks` and `size` are passed to `adapt`.
+    So many movements are practised `before`; `blocks` and `size` are passed to `adapt`. `past` are
+    other templates than those that ship.
     """
-    rng, template_set = np.random.default_rng(seed), load()
+    rng, template_set = np.random.default_rng(seed), past or load()
     trained, errors = train_aim_correction(template_set, rng, before), {}
     for name, world in PERTURBATIONS.items():
         for corrects in CORRECTIONS:

@@ -12,7 +12,13 @@ from shutil import copy
 import numpy as np
 
 from reproduce import ledger
-from reproduce.experiments import calibration, feedback_control, muscle_weakness, nulls
+from reproduce.experiments import (
+    calibration,
+    feedback_control,
+    learning_curves,
+    muscle_weakness,
+    nulls,
+)
 from reproduce.measures import changed_worlds
 from reproduce.peers import optimal_control
 from reproduce.pipeline.progress import run_tasks
@@ -65,6 +71,13 @@ def toy_steps(folder):
         "reaches": partial(feedback_control.reach_measures, count=2, seconds=2.0),
         "field": partial(feedback_control.curl_field_errors, blocks=(1, 1, 1)),
     }
+    curves = {
+        "off-line": partial(learning_curves.off_line, count=2),
+        "rounds": partial(learning_curves.rounds, count=2),
+        "with a load": partial(learning_curves.with_load, count=2),
+        "worlds": partial(learning_curves.changed_worlds, before=20, blocks=(1, 1, 1), movements=2),
+        "whole arm": partial(learning_curves.whole_arm, count=1, trials=1),
+    }
     toys = (
         toy("candidates", few, ["test"]),
         toy("detectors", few, recipes),
@@ -93,7 +106,7 @@ def toy_steps(folder):
         toy("feedback", watched, seeds=[0]),
         toy("forgetting", [0.45], [0.05], seeds=[0]),
         toy("unsteady", [0], seeds=[0], sizes=(2, 4), held_out=8),
-        toy("learning_curves", [], [0], movements=2, count=1, trials=1),
+        toy("learning_curves", curves, seeds=[0]),
         toy("sensitivity", {}, 0.08, [0], 2, movements=2, held_out=4),
         toy("weakened", [0], muscle_weakness.TARGETS[:1], ["BRA"], count=2, before=20),
         toy("fresh_test_set", fresh, named, trainings=1, seeds=[0], patches=PATCHES),

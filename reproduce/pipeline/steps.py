@@ -223,7 +223,7 @@ STEPS = (
         learning_curves.make,
         RESULTS / "learning_curves.json",
         f"templates unsteady whole_arm_habits {WHOLE_ARM}",
-        10,
+        11,
     ),
     Step(f"{PYTHON} reproduce.whole_arm.derive", plant.FILE, needs="myo-sim"),
     Step(f"{PYTHON} reproduce.whole_arm.bones", bones63.FILE, needs="myo-sim"),

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from reproduce.experiments import learning_curves, nulls
-from reproduce.experiments.learning_curves import CALM, NOISY, arm_name, online_name
+from reproduce.experiments import calibration, learning_curves, nulls
+from reproduce.experiments import offline_calibration as offline
+from reproduce.experiments.learning_curves import CALM, NOISY, WHOLE_ARM, at_noise, online_name
 from reproduce.peers.motor_noise import PERSON
 from vmc_lib.cerebellum.offline import Trials, broyden_calibration
 from vmc_lib.motor.execution import execute
@@ -27,6 +28,13 @@ def test_a_lucky_try_is_given_again_without_its_luck():
     np.testing.assert_allclose(again, np.tile(execute(habit).error, (2, 1)), atol=1e-9)
 
 
+def test_what_is_kept_with_a_load_is_given_again_with_it():
+    habit = plan(draw_targets(load(), 3, np.random.default_rng(0)), load())
+    trials = offline.trials_with_load(habit, 0.25)[True]
+    again = learning_curves.kept_again(habit, trials, offline.move_with_load(0.25)).error
+    np.testing.assert_allclose(again, np.minimum.accumulate(trials.error), atol=1e-9)
+
+
 def test_tries_until_a_level():
     curves = np.array([[1.0, 0.5, 0.1], [1.0, 0.7, 0.3]])
     assert learning_curves.first_below(0.6, curves) == 1
@@ -35,11 +43,11 @@ def test_tries_until_a_level():
 
 def test_hands_scatter_as_a_persons_does_in_what_ships():
     shipped = learning_curves.load_results()
-    for name in (learning_curves.OFF_LINE, arm_name(NOISY)):
+    for name in (learning_curves.OFF_LINE, at_noise(WHOLE_ARM, NOISY)):
         assert shipped[name]["scatter"].shape == (20,)
         scatter = np.sqrt(np.square(shipped[name]["scatter"]).mean())
         assert scatter == pytest.approx(PERSON, rel=0.25)
-    assert shipped[arm_name(CALM)]["scatter"].max() < 1e-9
+    assert shipped[at_noise(WHOLE_ARM, CALM)]["scatter"].max() < 1e-9
 
 
 def test_noise_makes_every_curve_end_higher():
@@ -54,13 +62,28 @@ def test_noise_makes_every_curve_end_higher():
             assert (left - calm[name])[:, -1].mean() > 0
 
 
+def test_noise_leaves_more_after_rounds_tries_with_a_load_and_in_changed_worlds():
+    worlds = calibration.load_results()["perturbations"]
+    pairs = [
+        *map(learning_curves.both, (learning_curves.ROUNDS, learning_curves.WITH_LOAD)),
+        (worlds, learning_curves.load_results()[learning_curves.WORLDS]),
+    ]
+    for calm, noisy in pairs:
+        assert calm.keys() == noisy.keys()
+        more = [(noisy[name] - mm)[:, -1].mean() for name, mm in calm.items()]
+        assert np.mean(more) > 0.5
+
+
 @pytest.mark.audit
 def test_shipped_curves_are_reproducible():
     shipped, scenario = learning_curves.load_results(), learning_curves.SCENARIOS[0]
     again = {
         learning_curves.OFF_LINE: learning_curves.off_line(0),
         online_name(scenario, NOISY): learning_curves.online(0, scenario),
-        arm_name(NOISY): learning_curves.whole_arm(0),
+        at_noise(WHOLE_ARM, NOISY): learning_curves.whole_arm(0),
+        at_noise(learning_curves.ROUNDS, NOISY): learning_curves.rounds(0),
+        at_noise(learning_curves.WITH_LOAD, NOISY): learning_curves.with_load(0),
+        learning_curves.WORLDS: learning_curves.changed_worlds(0),
     }
     for part, curves in again.items():
         for name, values in curves.items():
