@@ -34,9 +34,10 @@ def test_a_strip_stands_above_every_chapter(path):
     ]
     lit = [n for n, mark in enumerate(marks, start=1) if mark.get("aria-current")]
     assert lit == [number(path)] * bool(number(path))
-    _, motion = thread.CHAPTERS[number(path)]
-    miss = f"{thread.misses()[motion]:.1f} mm" if motion else "–"
-    assert strip.select_one("b").text == miss
+    step, motion = thread.CHAPTERS[number(path)]
+    miss = f"{thread.misses()[motion]:.1f} mm" if motion else f"photo 1: {step}"
+    assert strip.select_one("a span").text.endswith(miss)
+    assert len(strip.select("b")) == bool(motion)
     assert (path.parent / strip.select_one("image")["href"]).resolve().stat().st_size < 10_000
     assert soup.article.find(True) == strip
 

@@ -63,21 +63,25 @@ def strip(number, places, photo):
     """The strip (HTML) of a chapter by its number, of the last page by None.
 
     `places` are chapters' numbers with their addresses and titles; `photo` is the photo's address.
-    A chapter that makes the miss smaller says it before and after.
+    A chapter that makes the miss smaller says it before and after; one before any reach, its step.
     """
     from book.figures import thread
 
     marks = "".join(mark(n, *place, n == number) for n, place in places.items())
     step, (miss, words) = thread.step_of(number), thread.words(number)
     first = places[1][0].rstrip("#")
-    before = thread.words(number - 1)[0] if number in [*places][1:] else "–"
-    same = before == miss or "–" in (before, miss)
-    said = "miss " if same else f"miss {before.removesuffix(' mm')} → "
-    label = f"{said}{miss}: photo 1, {words}. See this step in chapter 1"
+    before = thread.words(number - 1)[0] if number in [*places][1:] else ""
+    earlier = f"{before.removesuffix(' mm')} → " if before not in ("", miss) else ""
+    said, number_said = f"photo 1: {words}", ""
+    label = said
+    if miss:
+        said, number_said = f"miss {earlier}", f"<b>{miss}</b>"
+        label = f"{said}{miss}: photo 1, {words}"
+    label += ". See this step in chapter 1"
     return (
         f'<nav class="vmc-thread" aria-label="The loop"><ol>{marks}</ol>'
         f'<a href="{first}#demo-whole-loop?photo=0&amp;step={step}" aria-label="{label}">'
-        f"{thread.picture(number, photo)}<span>{said}<b>{miss}</b></span></a></nav>\n"
+        f"{thread.picture(number, photo)}<span>{said}{number_said}</span></a></nav>\n"
     )
 
 

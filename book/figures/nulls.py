@@ -25,14 +25,14 @@ LINES = {  # a rule -> its line
 
 
 def by_tries(reading, tries):
-    """What each rule leaves of the planned error after 0, 1, … tries, with 95 % bands.
+    """What each rule leaves of the planned error after 0, 1, … `tries`, with 95 % bands.
 
     Where there is noise, dotted: what it alone leaves.
     """
     found = READINGS[reading]()
     fig, ax = panels(size=(6.4, 3.6))
     for rule in (name for name in LINES if name in found):
-        middle = _curve(ax, rule, np.arange(nulls.TRIES + 1), found[rule])
+        middle = _curve(ax, rule, np.arange(tries + 1), found[rule][:, : tries + 1])
         mark_now(ax, tries, middle[tries])
     if "noise alone" in found:
         ax.axhline(found["noise alone"].mean(), ls=":", color=COLOURS["grey"], gid="noise alone")

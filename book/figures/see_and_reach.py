@@ -39,7 +39,9 @@ def lesion_view(photo, box, reach):
     """The box and the calibrated reach under a lesion, and in words how the hand ends."""
     motion = reach.calibrated
     words = describe_end(photo, reach, motion).capitalize()
-    return *draw_movement(photo, box, reach, motion), note(f"{words}.")
+    view, scene = draw_movement(photo, box, reach, motion)
+    scene.tell("miss", None)  # it would tell how near the hand is to the wrong place
+    return view, scene, note(f"{words}.")
 
 
 def shares_within(errors, limit):

@@ -22,7 +22,7 @@ from vmc_lib.show.palette import ON_PHOTO
 SIZE = (240, 160)  # pixels of the photo's file
 # By chapter: the step of chapter 1 that it is about, and the motion that it has by then
 CHAPTERS = {
-    1: ("first reach", "plan"),
+    1: ("first reach", None),  # its first question is how far the hand misses
     2: ("candidates", None),
     3: ("regions", None),
     4: ("after suppression", None),
@@ -82,10 +82,10 @@ def misses():
 
 
 def words(chapter):
-    """The miss by a chapter, a dash before anything moves; and where the thread then is."""
+    """The miss by a chapter, empty before there is one; and where the thread then is."""
     step, motion = CHAPTERS[chapter]
     if motion is None:
-        return "–", f"{step}; nothing has moved yet"
+        return "", step
     return f"{misses()[motion]:.1f} mm", f"a reach {MOTIONS[motion]}"
 
 

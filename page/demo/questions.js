@@ -24,6 +24,13 @@ export const memory = {
   });
 }
 
+/* A choice opens what came out: by a click or Enter, for arrows pass over choices that are not meant. */
+{
+  const open = (target) => target.closest(".vmc-predict label")?.closest(".vmc-predict").querySelector("details").toggleAttribute("open", true);
+  addEventListener("click", ({ target, detail }) => { if (detail) open(target); });
+  addEventListener("keydown", ({ target, key }) => { if (key === "Enter") open(target); });
+}
+
 /* What stands still below a prediction, and would give it away, waits until the reader has chosen or
    asked what came out; and so do still figures right below it. */
 const MOVED = ".vmc-controls, fieldset, input, button.vmc-play";

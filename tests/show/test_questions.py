@@ -157,12 +157,22 @@ def test_a_prediction_is_kept_and_marked_beside_the_outcome(open_questions):
     assert page.evaluate(MARKS) == ["none"] * 3
     page.reload()
     assert page.is_checked("input >> nth=2")
-    page.click("summary")
+    assert not page.is_visible("text=One and")
+    page.focus("input >> nth=2")
+    page.keyboard.press("Enter")
     assert page.is_visible("text=One and")
     assert page.evaluate(MARKS) == ["none", "✓", "✗"]
     page.emulate_media(media="print")
     assert page.is_visible("text=three")
     assert not page.is_visible("text=One and")
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("by", ["input >> nth=1", "label >> nth=1", "summary"])
+def test_a_choice_opens_what_came_out(open_questions, by):
+    page = open_questions(PREDICTION)
+    page.click(by)
+    assert page.is_visible("text=One and")
 
 
 @pytest.mark.browser
@@ -184,7 +194,6 @@ def test_a_prediction_works_where_storage_is_forbidden(open_questions):
     page.add_init_script("Object.defineProperty(window, 'localStorage', { get() { throw 'no' } })")
     page.reload()
     page.check("input >> nth=1")
-    page.click("summary")
     assert page.evaluate(MARKS) == ["none", "✓", "none"]
 
 
