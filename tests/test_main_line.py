@@ -9,7 +9,6 @@ from tests.pages import CHAPTERS, open_url
 from tools.main_line import main_line
 
 NUMBERED = [path for path in CHAPTERS if path.stem[:2].isdigit()]
-LATE = pytest.mark.xfail(strict=True, reason="not yet as short as it shall be")
 each_chapter = pytest.mark.parametrize("path", NUMBERED, ids=lambda path: path.stem)
 
 
@@ -79,15 +78,15 @@ SCREENS = {"laptop": {"width": 1280, "height": 800}, "phone": {"width": 390, "he
 ON_PHONES = {"01", "04", "08", "09", "13"}  # chapters; the others' phones wait for the audit
 
 
-def on_screens(*late):
-    """A test of each chapter on each screen, but for those, "number screen", that come late."""
-    cases = []
-    for path, screen in product(NUMBERED, SCREENS):
-        number = path.stem[:2]
-        marks = [LATE] * (f"{number} {screen}" in late)
-        marks += [pytest.mark.audit] * (screen == "phone" and number not in ON_PHONES)
-        cases += [pytest.param(path, screen, marks=marks, id=f"{path.stem}-{screen}")]
-    return pytest.mark.parametrize(("path", "screen"), cases)
+def on_screen(path, screen):
+    """A chapter's case on a screen: most phones wait for the audit."""
+    waits = [pytest.mark.audit] * (screen == "phone" and path.stem[:2] not in ON_PHONES)
+    return pytest.param(path, screen, marks=waits, id=f"{path.stem}-{screen}")
+
+
+on_screens = pytest.mark.parametrize(
+    ("path", "screen"), [on_screen(*case) for case in product(NUMBERED, SCREENS)]
+)
 
 
 @pytest.fixture
@@ -105,13 +104,13 @@ def shown(window, once, path, screen):
 
 
 @pytest.mark.browser
-@on_screens("15 phone")
+@on_screens
 def test_a_figure_and_its_controls_fit_the_window(shown):
     assert [(name, share) for name, share, _ in shown if share > 0.85] == []
 
 
 @pytest.mark.browser
-@on_screens()
+@on_screens
 def test_words_of_plots_can_be_read(shown):
     """11 px high at least, rounded."""
     assert [(name, size) for name, _, size in shown if round(size) < 11] == []

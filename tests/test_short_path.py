@@ -53,6 +53,9 @@ def test_each_piece_names_the_next():
         assert link.parent["class"] == ["vmc-next-sitting"]
         address = f"{then.page}.html{'#' * bool(then.first)}{make_id(then.first)}"
         assert urljoin(f"{here.page}.html", link["href"]) == address
+        further = [soup.select_one(a["href"]) for a in link.find_next_siblings("a")]
+        heads = ["Recap", "Quiz"] if here.page != then.page else []
+        assert [section.h2.find(string=True) for section in further] == heads
 
 
 @pytest.mark.parametrize("page", ["01_loop", "03_regions", "13_see_and_reach"])

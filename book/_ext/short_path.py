@@ -12,6 +12,7 @@ from typing import NamedTuple
 from docutils.nodes import make_id
 
 MARK = " vmc-short-path"  # a class
+RECAP = ' Before you leave: the <a href="#recap">recap</a> and the <a href="#quiz">quiz</a> below.'
 HEAD = re.compile(r'<section (?:class="[^"]*" )?id="([^"]+)">\s*<h2>')
 LINK = re.compile(r'(<a class="(?:current )?reference internal)(" href="([^"]*)">)')
 
@@ -68,7 +69,8 @@ def lead_on(app, pagename, templatename, context, doctree):
         title = piece.first or app.env.titles[page].astext()
         address = app.builder.get_relative_uri(pagename, page)
         address += f"#{make_id(piece.first)}" * bool(piece.first)
-        context["body"] = with_link(context["body"], here, nth, then, title, address)
+        recap = RECAP * (here.page != piece.page)
+        context["body"] = with_link(context["body"], here, nth, then, title, address, recap)
 
 
 def mark(sidebar, marked):
@@ -80,7 +82,7 @@ def mark(sidebar, marked):
     return LINK.sub(one, str(sidebar))
 
 
-def with_link(body, here, nth, then, title, address):
+def with_link(body, here, nth, then, title, address, recap=""):
     """A page's body (HTML) that names the next piece after the one that ends `here`.
 
     ValueError where the page has no such heading.
@@ -94,4 +96,4 @@ def with_link(body, here, nth, then, title, address):
     said = f"Sitting {nth} of {len(SITTINGS)} ends here. Next" if then > nth else "Go on with"
     link = f'<a href="{address}">{escape(title)}</a>'
     nav = f'<nav class="vmc-next-sitting" aria-label="The short path, {nth}">'
-    return f"{body[:place]}{nav}<b>The short path.</b> {said}: {link}</nav>\n{body[place:]}"
+    return f"{body[:place]}{nav}<b>The short path.</b> {said}: {link}.{recap}</nav>\n{body[place:]}"
