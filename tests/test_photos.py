@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from reproduce.experiments.real_world import COUNTEREXAMPLES
 from vmc_lib import photos
 from vmc_lib.arm.kinematics import turn_towards
 from vmc_lib.camera import TABLE
@@ -138,6 +139,20 @@ def test_everyday_photos_are_small_and_credited():
         for x0, y0, x1, y1 in shot.boxes.values():
             assert 0 <= x0 < x0 + 20 <= x1 <= WIDTH
             assert 0 <= y0 < y0 + 20 <= y1 <= HEIGHT
+
+
+def test_counterexamples_are_split_by_scene_and_credited():
+    credits = (FOLDER.parents[2] / "CREDITS.md").read_text(encoding="utf-8")
+    splits = {}
+    for file in sorted(COUNTEREXAMPLES.glob("real/*/*.json")):
+        sidecar = json.loads(file.read_text(encoding="utf-8"))
+        assert splits.setdefault(sidecar["scene"], file.parent.name) == file.parent.name
+        assert not sidecar["boxes"]
+        assert sidecar["credit"]
+        assert sidecar["licence"].startswith(("CC BY 2.0", "CC BY 4.0", "MIT"))
+        assert sidecar["source"].split("@")[0] in credits
+    for split in photos.SPLITS:
+        assert all(one.image.std() > 10 for one in photos.load("real", split, COUNTEREXAMPLES))
 
 
 def test_an_unknown_level_or_split_is_refused():

@@ -86,6 +86,12 @@ def ablation_table(without, asked, longer):
     return table(["without", *heads], rows)
 
 
+def scene_table(counts, of):
+    """Of `of` pasted scenes of each kind, what was right, tight and a false alarm: a table."""
+    rows = [[name, *(share_text(count, of) for count in three)] for name, three in counts.items()]
+    return table(["scene", "right (IoU above 0.5)", "tight (0.8)", "false alarms"], rows)
+
+
 def rivals(by_level, level, measure):
     """Table III on a level as a dot plot; on the rig's, ticks for what the paper printed."""
     published = PUBLISHED.get(measure) if level == "rig" else None

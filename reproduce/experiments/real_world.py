@@ -1,7 +1,10 @@
 """Evaluation on photographs and on another renderer's scenes: detection, naming, false alarms."""
 
+from pathlib import Path
+
 from joblib import Parallel, delayed
 
+from reproduce import training
 from reproduce.experiments.loop_evaluation import MIN_IOU
 from reproduce.results import records
 from vmc_lib import photos
@@ -9,6 +12,7 @@ from vmc_lib.boxes import iou
 from vmc_lib.loop import VisuomotorModel, see
 from vmc_lib.statistics import wilson
 
+COUNTEREXAMPLES = Path(training.__file__).parent / "counterexamples"  # without a shuttlecock
 MODELS, SPLITS = ("varied", "real"), ("validation", "test")
 SIZED = ", size counts"  # where the camera is known
 QUESTIONS = {  # about which photos, and what has to be so
@@ -59,14 +63,19 @@ def share_text(count, of):
     return f"{count} of {of} ({low:.0%} to {high:.0%})"
 
 
+def photographs(split, folder=photos.FOLDER):
+    """The photographs of a split: those that ship, and counter-examples."""
+    return [
+        shot for where in (folder, COUNTEREXAMPLES) for shot in photos.load("real", split, where)
+    ]
+
+
 def make(folder=photos.FOLDER, models=MODELS, splits=SPLITS):
     """What `results/real_world.json` holds: model -> split -> photo -> what `examine` found."""
     found = {}
     for name in models:
         model = VisuomotorModel.load(name)
-        found[name] = {
-            split: _examine_all(model, photos.load("real", split, folder)) for split in splits
-        }
+        found[name] = {split: _examine_all(model, photographs(split, folder)) for split in splits}
     return found
 
 

@@ -116,6 +116,7 @@ def toy_steps(folder):
         toy("photographs", few, (2, 1), (2, 2, 2, 2), everyday=1, pasted=2),
         toy("real_world", few, splits=["validation"]),
         toy("eye_ablation", count=1),
+        toy("pasted_scenes", ["validation"], 1),
         toy("elsewhere", few),
         toy("domains", few, [4], equal=4, draws=2, patches=PATCHES, steps=2),
         toy("ablation", few, draws=1, steps=2, everyday=1, pasted=2),

@@ -32,6 +32,7 @@ from reproduce.experiments import (
     muscle_weakness,
     nulls,
     other_filters,
+    pasted_scenes,
     printed_sheet,
     random_filters,
     real_world,
@@ -132,10 +133,14 @@ RENDER, OPENSIM = f"{PYTHON} reproduce.render", ".bench/bin/python -m tools.benc
 SUMMED = f"{PYTHON} reproduce.pipeline.checksums"
 ARM, WHOLE_ARM = "arm26 vmc_lib/arm", "vmc_lib/arm reproduce/whole_arm"
 SHIPPED = "vmc_lib/data vmc_lib/arm"
+COUNTER = "reproduce/training/counterexamples"
 PHOTOGRAPHS = "photos candidates detectors cutouts vmc_lib/data/real"
 STEPS = (
     Step(RENDER, MODEL / "photos", minutes=25, needs=MITSUBA),
-    Step(f"{RENDER}.cutouts", cutout_atlas.FILE, minutes=6, needs=MITSUBA),
+    *(
+        Step(f"{RENDER}.cutouts {kind}", file, minutes=6, needs=MITSUBA)
+        for kind, file in cutout_atlas.FILES.items()
+    ),
     Step(shipped_models.candidates, MODEL / "candidates.npz", "photos", 4),
     Step(shipped_models.detectors, MODEL / "detectors.npz", "photos candidates", 6),
     Step(shipped_models.localisers, MODEL / "localisers.npz", "photos", 1),
@@ -173,8 +178,9 @@ STEPS = (
     Step(loop_evaluation.make, RESULTS / "lesions.json", SHIPPED, 6),
     Step(loop_evaluation.make_generalist, RESULTS / "generalist.json", SHIPPED, 1),
     Step(ventral_stream.photographs, MODEL / "photographs.npz", PHOTOGRAPHS, 35),
-    Step(real_world.make, RESULTS / "real_world.json", SHIPPED, 3),
+    Step(real_world.make, RESULTS / "real_world.json", f"{SHIPPED} {COUNTER}", 3),
     Step(eye_ablation.make, RESULTS / "eye_ablation.json", SHIPPED, 4),
+    Step(pasted_scenes.make, RESULTS / "pasted_scenes.json", f"{SHIPPED} {COUNTER}", 4),
     Step(f"{RENDER}.elsewhere {ELSEWHERE}", ELSEWHERE, minutes=15, needs="vtk"),
     Step(
         partial(real_world.make_elsewhere, ELSEWHERE),

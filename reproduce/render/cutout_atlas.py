@@ -1,4 +1,4 @@
-"""Atlas of rendered shuttlecock cut-outs (`render.cutouts`), to paste on photographs."""
+"""Atlases of rendered cut-outs (`render.cutouts`), to paste on photographs."""
 
 import io
 from functools import cache
@@ -8,10 +8,12 @@ from PIL import Image
 
 from vmc_lib import data
 
-FILE, WIDTH, COLUMNS = data.FOLDER / "cutouts.webp", 128, 20
+WIDTH, COLUMNS = 128, 20
+FILES = {"shuttlecocks": data.FOLDER / "cutouts.webp", "decoys": data.FOLDER / "decoys.webp"}
+HELD_OUT = 80  # cut-outs of each, the last: those that validate
 
 
-def store(cutouts, file=FILE):
+def store(cutouts, file):
     """Write cut-outs (n, WIDTH, WIDTH, 4) uint8 RGBA as one image; n is a multiple of COLUMNS."""
     rows = np.reshape(cutouts, (-1, COLUMNS, WIDTH, WIDTH, 4)).swapaxes(1, 2)
     sheet = rows.reshape(-1, COLUMNS * WIDTH, 4)
@@ -19,8 +21,8 @@ def store(cutouts, file=FILE):
 
 
 @cache
-def load(file=FILE):
-    """Read the cut-outs that `store` has written: (n, WIDTH, WIDTH, 4) uint8 RGBA."""
-    sheet = np.array(Image.open(io.BytesIO(data.read(file))))
+def load(kind):
+    """Read the cut-outs of a kind of FILES, as `store` wrote them: (n, WIDTH, WIDTH, 4) uint8."""
+    sheet = np.array(Image.open(io.BytesIO(data.read(FILES[kind]))))
     rows = sheet.reshape(-1, WIDTH, COLUMNS, WIDTH, 4).swapaxes(1, 2)
     return data.read_only(rows.reshape(-1, WIDTH, WIDTH, 4))

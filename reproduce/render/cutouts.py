@@ -1,31 +1,52 @@
-"""Cut-outs of shuttlecocks: `python -m reproduce.render.cutouts` (needs mitsuba).
+"""Cut-outs of shuttlecocks and decoys: `python -m reproduce.render.cutouts` (needs mitsuba).
 
-Feathered and nylon ones, new and worn, of several colours, turned any way, near and far, in any
-light, on nothing. `reproduce.training.pasting` lays them on photographs.
+Feathered and nylon ones, new and worn, of several colours, and things that resemble them, turned
+any way, near and far, in any light, on nothing. `reproduce.training.pasting` lays them on
+photographs.
 """
 
 import argparse
+from dataclasses import replace
 
 import mitsuba as mi
 import numpy as np
 
 mi.set_variant("llvm_ad_rgb")
 
-from reproduce.render import cutout_atlas, scene, shuttlecocks  # noqa: E402
+from reproduce.render import cutout_atlas, decoys, scene, shuttlecocks  # noqa: E402
 from reproduce.render.materials import rgb  # noqa: E402
 from reproduce.render.picture import develop, solid  # noqa: E402
+from reproduce.render.scene import GLAZES  # noqa: E402
 
-COUNT, SAMPLES = 480, 64
+SAMPLES = 64
+COUNTS = {"shuttlecocks": 480, "decoys": 320}
 DYES = "#d3f000 #d3f000 #e8f53a #f4f4ee #f4f4ee #a8e04a #ff8a2a #f28fb0".split()
 
 
-def random_shuttlecock(rng):
+def random_shuttlecock(rng, _number):
     """A shuttlecock (a Mesh) whose middle is the origin, as it may lie, stand, fly or be held."""
     feathered = rng.random() < 0.5
     one = shuttlecocks.worn(rng) if feathered else shuttlecocks.nylon(rng, rgb(rng.choice(DYES)))
+    return one.moved(shift=(0, -shuttlecocks.LENGTH / 2, 0)).moved(random_rotation(rng))
+
+
+def random_decoy(rng, number):
+    """A decoy (a Mesh) as large as a shuttlecock, its middle the origin; the last are held out."""
+    held_out = number >= COUNTS["decoys"] - cutout_atlas.HELD_OUT
+    kinds = decoys.HELD_OUT if held_out else decoys.TAUGHT
+    colour = rgb(rng.choice(2 * DYES + GLAZES))
+    one = kinds[rng.integers(len(kinds))](rng, colour)
+    low, high = one.vertices.min(0), one.vertices.max(0)
+    centred = one.moved(shift=-(low + high) / 2)
+    scale = shuttlecocks.LENGTH / (high - low).max()
+    return replace(centred, vertices=scale * centred.vertices).moved(random_rotation(rng))
+
+
+def random_rotation(rng):
+    """A uniformly random rotation (3, 3)."""
     turn, _ = np.linalg.qr(rng.standard_normal((3, 3)))
     turn *= np.linalg.det(turn)  # no mirror
-    return one.moved(shift=(0, -shuttlecocks.LENGTH / 2, 0)).moved(turn)
+    return turn
 
 
 def take(mesh, rng):
@@ -68,15 +89,18 @@ def take(mesh, rng):
     )
 
 
+MAKERS = {"shuttlecocks": random_shuttlecock, "decoys": random_decoy}
+
+
 def main():
     """Render the cut-outs that ship."""
     parser = argparse.ArgumentParser(prog="python -m reproduce.render.cutouts", description=__doc__)
-    parser.add_argument("--count", type=int, default=COUNT)
-    images = []
-    for number in range(parser.parse_args().count):
-        rng = np.random.default_rng((5, number))
-        images.append(take(random_shuttlecock(rng), rng))
-    cutout_atlas.store(images)
+    parser.add_argument("kind", choices=MAKERS)
+    kind, images = parser.parse_args().kind, []
+    for number in range(COUNTS[kind]):
+        rng = np.random.default_rng((5 + list(MAKERS).index(kind), number))
+        images.append(take(MAKERS[kind](rng, number), rng))
+    cutout_atlas.store(images, cutout_atlas.FILES[kind])
 
 
 if __name__ == "__main__":

@@ -4,26 +4,27 @@ A renderer's shuttlecock on a renderer's table teaches renders. On a photograph,
 is real, and nothing but the shuttlecock tells it apart from there.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import cv2
 import numpy as np
 
-from reproduce.render.cutout_atlas import WIDTH, load
+from reproduce.render.cutout_atlas import HELD_OUT, WIDTH, load
 from vmc_lib import photos
 
-HELD_OUT = 80  # cut-outs: those that validate
 SEEN = 0.4  # of light that a cut-out keeps off what is behind: from there it has an edge
 LARGE = 0.2, 1.2  # of the photo's height: how wide a cut-out is laid there, what is empty with it
 
 
 @dataclass(frozen=True, eq=False)
 class PastedPhoto:
-    """A photograph on which a shuttlecock was laid, as a `Photo`."""
+    """A photograph on which things were laid, as a `Photo`; `decoys` (n, 4) are no shuttlecocks."""
 
     image: np.ndarray
     boxes: dict
-    name, more, camera = "pasted", np.empty((0, 4)), None
+    more: np.ndarray = field(default_factory=lambda: np.empty((0, 4)))
+    decoys: np.ndarray = field(default_factory=lambda: np.empty((0, 4)))
+    name, camera = "pasted", None
 
 
 def paste_cutouts(shots, split, count, rng):
@@ -32,7 +33,8 @@ def paste_cutouts(shots, split, count, rng):
     The last HELD_OUT cut-outs validate ("validation"), the others teach ("train").
     """
     grounds = [shot for shot in shots if "shuttlecock" not in shot.boxes]
-    some = load()[:-HELD_OUT] if split == "train" else load()[-HELD_OUT:]
+    cutouts = load("shuttlecocks")
+    some = cutouts[:-HELD_OUT] if split == "train" else cutouts[-HELD_OUT:]
     return [
         paste_cutout(grounds[i % len(grounds)], some[rng.integers(len(some))], rng)
         for i in range(count)
@@ -45,17 +47,23 @@ def paste_cutout(background, cutout, rng):
     x = transform_cutout(cutout, rng)
     height, width = x.shape[:2]
     top, left = rng.integers(np.subtract(image.shape[:2], (height, width)))
-    colour, alpha = jitter_colour(x[..., :3], rng), x[..., 3:]
-    image *= 1 - shadow(alpha[..., 0], (top, left), rng)[..., None]
-    there = image[top : top + height, left : left + width]
-    there += alpha * (colour - there)
+    lay(image, x, (top, left), rng)
     box = np.array([left, top, left + width, top + height], float)
     return PastedPhoto(np.uint8(255 * image.clip(0, 1) + 0.5), {"shuttlecock": box})
 
 
-def transform_cutout(cutout, rng):
+def lay(image, cutout, corner, rng):
+    """Lay a cut-out (h, w, 4), lit anyhow, with a shadow, at a corner of an image, in place."""
+    (height, width), (top, left) = cutout.shape[:2], corner
+    colour, alpha = jitter_colour(cutout[..., :3], rng), cutout[..., 3:]
+    image *= 1 - shadow(alpha[..., 0], corner, rng)[..., None]
+    there = image[top : top + height, left : left + width]
+    there += alpha * (colour - there)
+
+
+def transform_cutout(cutout, rng, large=LARGE):
     """A cut-out as floats (h, w, 4), turned by any angle, of any size, sharp or soft, no margin."""
-    width = photos.HEIGHT * np.exp(rng.uniform(*np.log(LARGE)))
+    width = photos.HEIGHT * np.exp(rng.uniform(*np.log(large)))
     scale, size = width / WIDTH, int(1.5 * width)
     matrix = cv2.getRotationMatrix2D((WIDTH / 2, WIDTH / 2), rng.uniform(0, 360), scale)
     matrix[:, 2] += (size - WIDTH) / 2

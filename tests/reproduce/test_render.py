@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from reproduce.render import furniture, scene, shuttlecocks
+from reproduce.render import decoys, furniture, scene, shuttlecocks
 from reproduce.render.sidecar import in_full_view, store
 from vmc_lib import photos
 
@@ -56,3 +56,14 @@ def test_a_shuttlecock_stands_on_its_cork_and_has_its_length(make):
         cork = mesh.vertices[mesh.vertices[:, 1] < 0.02]
         assert np.hypot(cork[:, 0], cork[:, 2]).max() == pytest.approx(shuttlecocks.BALL, abs=1e-3)
         assert mesh.faces.max() < len(mesh.vertices) == len(mesh.colours)
+
+
+@pytest.mark.parametrize("make", [*decoys.TAUGHT, *decoys.HELD_OUT])
+def test_a_decoy_is_a_finite_mesh_with_its_colour(make):
+    rng, colour = np.random.default_rng(0), np.array([0.9, 0.1, 0.2])
+    mesh = make(rng, colour)
+    assert np.isfinite(mesh.vertices).all()
+    assert np.isfinite(mesh.normals()).all()
+    assert mesh.faces.max() < len(mesh.vertices) == len(mesh.colours)
+    assert 0.02 < np.ptp(mesh.vertices, axis=0).max() < 0.6
+    assert ((mesh.colours >= 0) & (mesh.colours <= 1)).all()
