@@ -25,7 +25,7 @@ from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import draw_targets, norm, plan
 from vmc_lib.motor.templates import mean_distance
 
-OFF_LINE, WHOLE_ARM = "off-line", "whole arm"
+OFF_LINE, WHOLE_ARM, MEMORIES = "off-line", "whole arm", "memories of the whole arm"
 ROUNDS, WITH_LOAD, WORLDS = "rounds", "with a load", "changed worlds"
 CALM, NOISY = "calm", "a person's noise"
 KEPT = {True: "only if it is better", False: "always"}  # what a round of Algorithm 1 finds
@@ -141,14 +141,40 @@ def online(seed, scenario, noise=NOISY):
 
 
 def whole_arm(seed, noise=NOISY, count=2, trials=4):
-    """`curves_by_tries` of Broyden calibration on the arm of 63 muscles, with one seed."""
+    """`corrections` on the arm of 63 muscles by the memories that ship, with one seed."""
     from reproduce.whole_arm import experiment, habits  # MuJoCo comes with them
 
     past, rng = habits.load_templates(), np.random.default_rng((seed, 7))
     targets = experiment.draw_targets_3d(past, count=count, rng=np.random.default_rng(seed))
-    wavering = experiment.with_noise(past, WHOLE_ARM_SHARES[noise], rng)
+    return corrections(targets, past, noise, rng, trials)
+
+
+def memories(seed, count=3, trials=4, sides=(3, 4), shared=(14, 34)):
+    """What corrections leave by other memories, all asked for the same targets; one seed.
+
+    By name, (1 + trials,); and "…, scatter": how far repeated reaches end from their mean, in mm.
+    """
+    from reproduce.whole_arm import experiment
+
+    sets = dict(experiment.memory_sets(sides, shared))
+    sets[experiment.ANY_POSTURE] = experiment.memories_of_any_posture(seed, sides[0])
+    rng = np.random.default_rng(seed)
+    targets, found = experiment.draw_targets_3d(*sets.values(), count=count, rng=rng), {}
+    for name, past in sets.items():
+        curves = corrections(targets, past, NOISY, np.random.default_rng((seed, 11)), trials)
+        found |= {name: curves["Broyden"], f"{name}, scatter": curves["scatter"]}
+    return found
+
+
+def corrections(targets, past, noise, rng, trials):
+    """`curves_by_tries` of Broyden calibration by memories `past`, `CALM` or `NOISY`."""
+    from reproduce.whole_arm import experiment
+
+    habit = experiment.plan_reaches(
+        targets, experiment.with_noise(past, WHOLE_ARM_SHARES[noise], rng)
+    )
     rules = {"Broyden": partial(broyden_calibration, n_trials=trials)}
-    return curves_by_tries(experiment.plan_reaches(targets, wavering), rules, repeats=5)
+    return curves_by_tries(habit, rules, repeats=5)
 
 
 def at_noise(part, noise):
@@ -172,7 +198,8 @@ def in_both(experiments):
 
 ON_LINE = {f"online, {scenario}": partial(online, scenario=scenario) for scenario in SCENARIOS}
 MANY_DRAWS = {OFF_LINE: off_line} | in_both(ON_LINE | {WHOLE_ARM: whole_arm})
-SIX_DRAWS = in_both({ROUNDS: rounds, WITH_LOAD: with_load}) | {WORLDS: changed_worlds}
+SIX_DRAWS = in_both({ROUNDS: rounds, WITH_LOAD: with_load})
+SIX_DRAWS |= {WORLDS: changed_worlds, MEMORIES: memories}
 
 
 def make(experiments=MANY_DRAWS | SIX_DRAWS, seeds=None):

@@ -77,6 +77,7 @@ def toy_steps(folder):
         "with a load": partial(learning_curves.with_load, count=2),
         "worlds": partial(learning_curves.changed_worlds, before=20, blocks=(1, 1, 1), movements=2),
         "whole arm": partial(learning_curves.whole_arm, count=1, trials=1),
+        "memories": partial(learning_curves.memories, count=1, trials=1, sides=(2,), shared=()),
     }
     toys = (
         toy("candidates", few, ["test"]),
@@ -122,7 +123,7 @@ def toy_steps(folder):
         toy("ablation", few, draws=1, steps=2, everyday=1, pasted=2),
         toy("printed_sheet", count=1),
         toy("whole_arm_habits", habits.goal_grid(2)[:2]),
-        toy("whole_arm", [2], [14], sparse_memories(), seeds=[0], count=1),
+        toy("whole_arm", (2,), (14,), sparse_memories(), seeds=[0], count=1),
         toy("ledger", ledger.ROWS[-1:], levels=()),
     )
     return {"photos": scenes, **dict(toys)}

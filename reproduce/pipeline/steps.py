@@ -229,7 +229,7 @@ STEPS = (
         learning_curves.make,
         RESULTS / "learning_curves.json",
         f"templates unsteady whole_arm_habits {WHOLE_ARM}",
-        11,
+        15,
     ),
     Step(f"{PYTHON} reproduce.whole_arm.derive", plant.FILE, needs="myo-sim"),
     Step(f"{PYTHON} reproduce.whole_arm.bones", bones63.FILE, needs="myo-sim"),

@@ -5,6 +5,7 @@ Eight memories surround a place in space, one in each octant; whatever plans and
 """
 
 from dataclasses import replace
+from functools import cache
 from time import process_time
 
 import numpy as np
@@ -26,6 +27,7 @@ WIDTH = 0.1  # m: how wide granule cells are; chosen on validation targets
 NUDGE = 0.03  # rad: how far each joint is turned aside
 PROBE = 0.1  # of one weight, to see what it does
 SPARE = 0.5  # rad: how far apart memories' easy postures are that share no habit
+ANY_POSTURE = "any posture"  # of memories that share none
 
 
 def octants(target, points):
@@ -205,20 +207,34 @@ def random_postures(goals, rng):
     return habits.EASY + rng.uniform(-SPARE, SPARE, (len(goals), len(habits.EASY)))
 
 
+@cache
+def memory_sets(sides=(3, 4), shared=(6, 14, 34)):
+    """Sets of memories by name: of grids with so many along each edge, and of so few commands."""
+    own, few = habits.muscle_synergies(), goal_grid(sides[0])
+    sets = {f"{side**3} memories": habits.record_templates(own, goal_grid(side)) for side in sides}
+    return sets | {
+        f"{count} commands": habits.record_templates(habits.muscle_synergies(count), few)
+        for count in shared
+    }
+
+
+def memories_of_any_posture(seed, side=3):
+    """Memories of all 63 muscles, each of an easy posture of its own, drawn with a seed."""
+    goals, rng = goal_grid(side), np.random.default_rng((seed, 1))
+    return habits.record_templates(habits.muscle_synergies(), goals, random_postures(goals, rng))
+
+
 def make(sides=(3, 4), shared=(6, 14, 34), past=None, seeds=SEEDS, **size):
     """What ships: every experiment's numbers, by name; each a list over draws.
 
     `past` are the densest memories, by default those that ship. All memories are asked for the same
     targets; those of any posture are made anew for every draw.
     """
-    past, own, few = past or habits.load_templates(), habits.muscle_synergies(), goal_grid(sides[0])
-    sets = {f"{side**3} memories": habits.record_templates(own, goal_grid(side)) for side in sides}
-    for count in shared:
-        sets[f"{count} commands"] = habits.record_templates(habits.muscle_synergies(count), few)
-    sets[f"{len(past.points)} memories"] = past
+    past, own = past or habits.load_templates(), habits.muscle_synergies()
+    sets = memory_sets(sides, shared) | {f"{len(past.points)} memories": past}
     found = {name: {"covered": covered_share(known)} for name, known in sets.items()}
     known = {name: memories for name, memories in sets.items() if found[name]["covered"] > 0.5}
-    draws = [compare_memories(known, own, few, seed, **size) for seed in seeds]
+    draws = [compare_memories(known, sides[0], seed, **size) for seed in seeds]
     for name, row in join_draws(draws).items():
         found.setdefault(name, {}).update(join_draws(row))
     found["after 3 s"] = drift(past).tolist()
@@ -229,17 +245,14 @@ def make(sides=(3, 4), shared=(6, 14, 34), past=None, seeds=SEEDS, **size):
     return found
 
 
-def compare_memories(sets, synergies, goals, seed, count=COUNT):
+def compare_memories(sets, side, seed, count=COUNT):
     """One draw: what `planned_errors` finds of all these memories, and of those of any posture."""
-    rng = np.random.default_rng(seed)
-    apart = habits.record_templates(
-        synergies, goals, random_postures(goals, np.random.default_rng((seed, 1)))
-    )
-    sets = {**sets, "any posture": apart}
+    rng, apart = np.random.default_rng(seed), memories_of_any_posture(seed, side)
+    sets = {**sets, ANY_POSTURE: apart}
     targets = draw_targets_3d(*sets.values(), count=count, rng=rng)
-    away = np.linalg.norm(apart.points - goals, axis=-1).mean()
+    away = np.linalg.norm(apart.points - goal_grid(side), axis=-1).mean()
     rows = {name: planned_errors(known, targets) for name, known in sets.items()}
-    rows["any posture"] |= {"covered": covered_share(apart), "from their goals": away}
+    rows[ANY_POSTURE] |= {"covered": covered_share(apart), "from their goals": away}
     return rows
 
 

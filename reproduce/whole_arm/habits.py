@@ -51,9 +51,13 @@ class SynergyMap:
         """The commands (n,) that hold the arm where every reach starts."""
         return self.share(START, 0 * START, 0 * START)
 
-    def move(self, commands, _perturbation=None):
+    def move(self, commands):
         """The `plant.Motion` that commands (…, T, n) give the arm from rest in `START`."""
-        return plant.move(commands @ self.groups.T, START, self.groups @ self.rest)
+        return self.excite(commands @ self.groups.T)
+
+    def excite(self, excitations, _perturbation=None):
+        """The same for the excitations (…, T, 63) of every muscle."""
+        return plant.move(excitations, START, self.groups @ self.rest)
 
     def commands(self, goal):
         """The commands (T, n) of the smoothest way to a posture (7,), and a hold there."""
@@ -129,7 +133,7 @@ def record_templates(synergies, goals, easy=EASY):
     """Record templates: a `TemplateSet` of reaches that end near the goals (N, 3).
 
     Each is tried once, and then aimed beyond its goal by as much as it missed. `easy` is the easy
-    posture (7,), or one for each goal (N, 7).
+    posture (7,), or one for each goal (N, 7). What is recorded are the excitations of all muscles.
     """
     missed = 0
     for _ in ("tried", "corrected"):
@@ -138,7 +142,7 @@ def record_templates(synergies, goals, easy=EASY):
         commands = synergies.hold(commands)
         reached = synergies.move(commands).endpoint
         missed = goals - reached
-    return TemplateSet(reached, commands, reach=synergies.move)
+    return TemplateSet(reached, commands @ synergies.groups.T, reach=synergies.excite)
 
 
 def goal_grid(side=SIDE):
@@ -160,4 +164,4 @@ def load_templates():
     """The shipped `TemplateSet`: 125 reaches of all 63 muscles."""
     shipped = results.arrays("whole_arm_habits")
     commands = shipped["commands"].astype(float)
-    return TemplateSet(shipped["points"], commands, reach=muscle_synergies().move)
+    return TemplateSet(shipped["points"], commands, reach=muscle_synergies().excite)

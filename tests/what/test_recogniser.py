@@ -106,3 +106,13 @@ def test_examples():
             iou([jitter_boxes(box, JITTER, rng)], [box])[0, 0] for box in objects for _ in range(20)
         ]
         assert 0.6 < np.mean(near) < 0.95
+
+
+def test_a_box_without_contrast_shows_nothing():
+    shot = photos.load("rig", "test")[0]
+    box, white = shot.boxes["shuttlecock"], np.array([0, 0, 100, 100])
+    image = shot.image.copy()
+    image[:110, :110] = 255
+    chance = Recogniser.load("rig").box_probability(image, np.array([white, box]))
+    assert chance[0] == 0
+    assert chance[1] > 0.5

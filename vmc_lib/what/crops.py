@@ -35,6 +35,11 @@ def crop(image: np.ndarray, box: Sequence[float] | np.ndarray) -> np.ndarray:
     return cv2.resize(grey, (WIDTH, WIDTH), interpolation=how).astype(np.float32) / 255
 
 
+def has_contrast(pictures: np.ndarray) -> np.ndarray:
+    """Whether each of the grey pictures (n, height, width) has enough contrast to be whitened."""
+    return pictures.std((1, 2)) > 1e-4
+
+
 def whiten(pictures: np.ndarray, cutoff: float = 0.4, dtype: DTypeLike = np.float32) -> np.ndarray:
     """Whiten grey pictures (n, height, width) for a CRBM: `dtype` (n, 1, height, width).
 
@@ -51,7 +56,7 @@ def whiten(pictures: np.ndarray, cutoff: float = 0.4, dtype: DTypeLike = np.floa
         raise ValueError(f"cutoff = {short(cutoff)}: give cycles a pixel, above 0")
     if x.ndim != 3 or 0 in x.shape:
         raise ValueError(f"pictures are (n, height, width), not {x.shape}")
-    if not (np.isfinite(x).all() and (x.std((1, 2)) > 1e-4).all()):
+    if not (np.isfinite(x).all() and has_contrast(x).all()):
         raise ValueError("a picture needs finite values and some contrast: one has not")
     # A mirrored border, so that opposite edges do not meet in the transform
     border = max(1, min(x.shape[1:]) // 10)

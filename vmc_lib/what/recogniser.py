@@ -11,7 +11,7 @@ from vmc_lib.boxes import as_boxes
 from vmc_lib.data import arrays
 from vmc_lib.short_repr import short, short_repr
 from vmc_lib.what.cdbn import CDBN
-from vmc_lib.what.crops import WIDTH, crop, whiten
+from vmc_lib.what.crops import WIDTH, crop, has_contrast, whiten
 
 READ_OUTS = "MP2", "P2", "P1 + P2"
 POOLED_LEVEL = "everywhere"  # all rendered levels together: for a photo of none of them
@@ -125,8 +125,14 @@ class Recogniser:
         return self.classifier.probability(read_outs(self.cdbn, crops)[self.name])
 
     def box_probability(self, image: np.ndarray, boxes: np.ndarray) -> np.ndarray:
-        """Probability (n,) that each of the boxes (n, 4) of an image shows a shuttlecock."""
-        return self.probability(np.array([crop(image, box) for box in as_boxes(boxes)]))
+        """Probability (n,) that each of the boxes (n, 4) of an image shows a shuttlecock.
+
+        It is 0 where a box shows nothing: a grey without any contrast, as of white paper.
+        """
+        crops = np.reshape([crop(image, box) for box in as_boxes(boxes)], (-1, WIDTH, WIDTH))
+        probability, shows = np.zeros(len(crops)), has_contrast(crops)
+        probability[shows] = self.probability(crops[shows])
+        return probability
 
     def select(self, image: np.ndarray, detections: Any) -> tuple[Any, np.ndarray]:
         """The `Detections` as they are, and the probabilities (n,) of their boxes."""
