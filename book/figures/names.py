@@ -5,6 +5,7 @@ from itertools import product
 import matplotlib.pyplot as plt
 import numpy as np
 
+from book.figures.panels import panels
 from book.figures.what import tiles
 from reproduce.experiments.real_world import share_text
 from reproduce.experiments.recognition import PUBLISHED, confusion_counts, rates_of_counts
@@ -144,7 +145,7 @@ def sorted_crops_in_page(held_out, methods):
 
 def reliability(chances, truth, bins=5):
     """In each bin of the probabilities given (n,), the share that came true, with its interval."""
-    fig, ax = plt.subplots(figsize=(4.2, 3.4))
+    fig, ax = panels(size=(4.2, 3.4))
     ax.plot([0, 1], [0, 1], color=COLOURS["grey"], lw=1, gid="guide")
     place = np.minimum((chances * bins).astype(int), bins - 1)
     groups = [place == i for i in np.unique(place)]

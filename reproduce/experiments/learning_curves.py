@@ -149,7 +149,7 @@ def whole_arm(seed, noise=NOISY, count=2, trials=4):
     return corrections(targets, past, noise, rng, trials)
 
 
-def memories(seed, count=3, trials=4, sides=(3, 4), shared=(14, 34)):
+def memories(seed, noise=NOISY, count=3, trials=4, sides=(3, 4), shared=(14, 34)):
     """What corrections leave by other memories, all asked for the same targets; one seed.
 
     By name, (1 + trials,); and "…, scatter": how far repeated reaches end from their mean, in mm.
@@ -161,7 +161,7 @@ def memories(seed, count=3, trials=4, sides=(3, 4), shared=(14, 34)):
     rng = np.random.default_rng(seed)
     targets, found = experiment.draw_targets_3d(*sets.values(), count=count, rng=rng), {}
     for name, past in sets.items():
-        curves = corrections(targets, past, NOISY, np.random.default_rng((seed, 11)), trials)
+        curves = corrections(targets, past, noise, np.random.default_rng((seed, 11)), trials)
         found |= {name: curves["Broyden"], f"{name}, scatter": curves["scatter"]}
     return found
 
@@ -198,8 +198,8 @@ def in_both(experiments):
 
 ON_LINE = {f"online, {scenario}": partial(online, scenario=scenario) for scenario in SCENARIOS}
 MANY_DRAWS = {OFF_LINE: off_line} | in_both(ON_LINE | {WHOLE_ARM: whole_arm})
-SIX_DRAWS = in_both({ROUNDS: rounds, WITH_LOAD: with_load})
-SIX_DRAWS |= {WORLDS: changed_worlds, MEMORIES: memories}
+SIX_DRAWS = in_both({ROUNDS: rounds, WITH_LOAD: with_load, MEMORIES: memories})
+SIX_DRAWS |= {WORLDS: changed_worlds}
 
 
 def make(experiments=MANY_DRAWS | SIX_DRAWS, seeds=None):

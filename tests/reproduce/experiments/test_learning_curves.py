@@ -84,7 +84,7 @@ def test_shipped_curves_are_reproducible():
         at_noise(learning_curves.ROUNDS, NOISY): learning_curves.rounds(0),
         at_noise(learning_curves.WITH_LOAD, NOISY): learning_curves.with_load(0),
         learning_curves.WORLDS: learning_curves.changed_worlds(0),
-        learning_curves.MEMORIES: learning_curves.memories(0),
+        at_noise(learning_curves.MEMORIES, NOISY): learning_curves.memories(0),
     }
     for part, curves in again.items():
         for name, values in curves.items():
