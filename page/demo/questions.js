@@ -28,7 +28,7 @@ export const memory = {
 {
   const open = (target) => target.closest(".vmc-predict label")?.closest(".vmc-predict").querySelector("details").toggleAttribute("open", true);
   addEventListener("click", ({ target, detail }) => { if (detail) open(target); });
-  addEventListener("keydown", ({ target, key }) => { if (key === "Enter") open(target); });
+  addEventListener("keydown", ({ target, key }) => { if (key === "Enter") open(target); }, true); // a question keeps its keys to itself
 }
 
 /* What stands still below a prediction, and would give it away, waits until the reader has chosen or
