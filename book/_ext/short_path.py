@@ -82,7 +82,7 @@ def mark(sidebar, marked):
     return LINK.sub(one, str(sidebar))
 
 
-def with_link(body, here, nth, then, title, address, recap=""):
+def with_link(body, here, nth, then, title, address, recap):
     """A page's body (HTML) that names the next piece after the one that ends `here`.
 
     ValueError where the page has no such heading.

@@ -72,16 +72,13 @@ def strip(number, places, photo):
     first = places[1][0].rstrip("#")
     before = thread.words(number - 1)[0] if number in [*places][1:] else ""
     earlier = f"{before.removesuffix(' mm')} → " if before not in ("", miss) else ""
-    said, number_said = f"photo 1: {words}", ""
-    label = said
-    if miss:
-        said, number_said = f"miss {earlier}", f"<b>{miss}</b>"
-        label = f"{said}{miss}: photo 1, {words}"
-    label += ". See this step in chapter 1"
+    said = f"miss {earlier}<b>{miss}</b>" if miss else f"photo 1: {words}"
+    spoken = f"miss {earlier}{miss}: photo 1, {words}" if miss else said
     return (
         f'<nav class="vmc-thread" aria-label="The loop"><ol>{marks}</ol>'
-        f'<a href="{first}#demo-whole-loop?photo=0&amp;step={step}" aria-label="{label}">'
-        f"{thread.picture(number, photo)}<span>{said}{number_said}</span></a></nav>\n"
+        f'<a href="{first}#demo-whole-loop?photo=0&amp;step={step}" '
+        f'aria-label="{spoken}. See this step in chapter 1">'
+        f"{thread.picture(number, photo)}<span>{said}</span></a></nav>\n"
     )
 
 

@@ -112,7 +112,7 @@ def after_rounds(plan, holds, noisy, rounds, n):
     errors = {name: mean_mm(each, plan.target) for name, each in holds.items()}
     now = errors[n][rounds]
     in_plane(left, plan, holds[n][rounds].mean(axis=1), f"mean error {now:.1f} mm")
-    with_noise(right, range(5), noisy)
+    plot_noisy_mean(right, range(5), noisy)
     curves(right, range(5), errors, now=(rounds, now))
     right.set(xlabel="rounds", ylabel="mean error (mm)", ylim=(0, 25))
     return fig
@@ -127,7 +127,7 @@ def with_guards(errors, noisy):
     fig, ax = panels(size=(5.5, 3.2))
     ax.plot(errors.mean(axis=1), ".:", color=COLOURS["grey"], label="this trial")
     ax.plot(best, ".-", color=COLOURS["red"], label="the best so far")
-    with_noise(ax, range(len(best)), noisy)
+    plot_noisy_mean(ax, range(len(best)), noisy)
     ax.set(xlabel="trial", ylabel="mean error (mm)", yscale="log", ylim=(0.5, 1000))
     ax.yaxis.set_major_formatter("{x:g}")
     ax.set_title(f"before: {best[0]:.2g} mm; best of eight: {best[-1]:.2g} mm")
@@ -135,7 +135,7 @@ def with_guards(errors, noisy):
     return fig
 
 
-def with_noise(ax, x, curves):
+def plot_noisy_mean(ax, x, curves):
     """Dashed over x (n,), the mean of `curves` (draws, n) on an arm with a person's noise."""
     ax.plot(x, curves.mean(axis=0), "--", color=COLOURS["grey"], label="a person's noise")
 

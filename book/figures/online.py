@@ -1,6 +1,6 @@
 """Figures of the chapter on online calibration: learning curves, granule cells, changed worlds."""
 
-from book.figures.offline import SIDE_BY_SIDE, in_plane, with_noise
+from book.figures.offline import SIDE_BY_SIDE, in_plane, plot_noisy_mean
 from book.figures.panels import curves, panels, shade_change
 from book.figures.reaching import mean_mm, norm_mm, reach_scene, reaches
 from reproduce.experiments import learning_curves
@@ -71,7 +71,7 @@ def after_movements(plans, granule, linear, movements, templates_are, measured_o
     fig.axes[1].plot(STEPS[: len(line)], line, ":", **look)
     name = learning_curves.online_name(templates_are, learning_curves.NOISY)
     noisy = learning_curves.load_results()[name][f"granule cells, {measured_on}"]
-    with_noise(fig.axes[1], STEPS, noisy)
+    plot_noisy_mean(fig.axes[1], STEPS, noisy)
     fig.axes[1].set_xlabel("movements (dotted: Algorithm 2)")
     return fig
 
@@ -172,7 +172,7 @@ def adaptation(templates, adaptations, noisy, block, change, cure):
     if cure != CURES[-1]:
         name = f"correct the {cure}"
         right.plot(1000 * baseline.error, ":", color=COLOURS["grey"], gid=CURES[-1])
-    with_noise(right, range(len(errors)), noisy[change, cure])
+    plot_noisy_mean(right, range(len(errors)), noisy[change, cure])
     curves(right, range(len(errors)), {name: errors}, now=(block, errors[block]))
     right.set(xlabel="block of 8 movements", ylabel="mean error (mm)")
     right.set(xticks=range(0, 16, 5), ylim=(0, 110))

@@ -133,7 +133,7 @@ RENDER, OPENSIM = f"{PYTHON} reproduce.render", ".bench/bin/python -m tools.benc
 SUMMED = f"{PYTHON} reproduce.pipeline.checksums"
 ARM, WHOLE_ARM = "arm26 vmc_lib/arm", "vmc_lib/arm reproduce/whole_arm"
 SHIPPED = "vmc_lib/data vmc_lib/arm"
-COUNTER = "reproduce/training/counterexamples"
+COUNTEREXAMPLES = "reproduce/training/counterexamples"
 PHOTOGRAPHS = "photos candidates detectors cutouts vmc_lib/data/real"
 STEPS = (
     Step(RENDER, MODEL / "photos", minutes=25, needs=MITSUBA),
@@ -178,9 +178,9 @@ STEPS = (
     Step(loop_evaluation.make, RESULTS / "lesions.json", SHIPPED, 6),
     Step(loop_evaluation.make_generalist, RESULTS / "generalist.json", SHIPPED, 1),
     Step(ventral_stream.photographs, MODEL / "photographs.npz", PHOTOGRAPHS, 35),
-    Step(real_world.make, RESULTS / "real_world.json", f"{SHIPPED} {COUNTER}", 3),
+    Step(real_world.make, RESULTS / "real_world.json", f"{SHIPPED} {COUNTEREXAMPLES}", 3),
     Step(eye_ablation.make, RESULTS / "eye_ablation.json", SHIPPED, 4),
-    Step(pasted_scenes.make, RESULTS / "pasted_scenes.json", f"{SHIPPED} {COUNTER}", 4),
+    Step(pasted_scenes.make, RESULTS / "pasted_scenes.json", f"{SHIPPED} {COUNTEREXAMPLES}", 4),
     Step(f"{RENDER}.elsewhere {ELSEWHERE}", ELSEWHERE, minutes=15, needs="vtk"),
     Step(
         partial(real_world.make_elsewhere, ELSEWHERE),

@@ -13,11 +13,14 @@ FILES = {"shuttlecocks": data.FOLDER / "cutouts.webp", "decoys": data.FOLDER / "
 HELD_OUT = 80  # cut-outs of each, the last: those that validate
 
 
-def store(cutouts, file):
-    """Write cut-outs (n, WIDTH, WIDTH, 4) uint8 RGBA as one image; n is a multiple of COLUMNS."""
+def store(cutouts, kind):
+    """Write the cut-outs (n, WIDTH, WIDTH, 4) uint8 RGBA of a kind of FILES as one image.
+
+    n is a multiple of COLUMNS.
+    """
     rows = np.reshape(cutouts, (-1, COLUMNS, WIDTH, WIDTH, 4)).swapaxes(1, 2)
     sheet = rows.reshape(-1, COLUMNS * WIDTH, 4)
-    Image.fromarray(sheet).save(file, quality=80, alpha_quality=80, method=6)
+    Image.fromarray(sheet).save(FILES[kind], quality=80, alpha_quality=80, method=6)
 
 
 @cache

@@ -33,7 +33,7 @@ def random_shuttlecock(rng, _number):
 def random_decoy(rng, number):
     """A decoy (a Mesh) as large as a shuttlecock, its middle the origin; the last are held out."""
     held_out = number >= COUNTS["decoys"] - cutout_atlas.HELD_OUT
-    kinds = decoys.HELD_OUT if held_out else decoys.TAUGHT
+    kinds = decoys.HELD_OUT_KINDS if held_out else decoys.TRAINING_KINDS
     colour = rgb(rng.choice(2 * DYES + GLAZES))
     one = kinds[rng.integers(len(kinds))](rng, colour)
     low, high = one.vertices.min(0), one.vertices.max(0)
@@ -100,7 +100,7 @@ def main():
     for number in range(COUNTS[kind]):
         rng = np.random.default_rng((5 + list(MAKERS).index(kind), number))
         images.append(take(MAKERS[kind](rng, number), rng))
-    cutout_atlas.store(images, cutout_atlas.FILES[kind])
+    cutout_atlas.store(images, kind)
 
 
 if __name__ == "__main__":

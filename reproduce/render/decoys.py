@@ -1,7 +1,7 @@
 """Things that resemble a shuttlecock or lie beside one, as meshes in metres, y up: hard negatives.
 
 Each takes `rng` and a colour (linear RGB). Cones, bells, cups and lamps have its outline, flowers
-and fans its pleats, whisks and wheels its ribs.
+and paper cases its pleats, whisks and wheels its ribs.
 """
 
 from functools import partial
@@ -180,8 +180,8 @@ def shoe_sole(rng, colour):
     return grid_mesh(points, shades, 0.7)
 
 
-TAUGHT = (
+TRAINING_KINDS = (
     traffic_cone, bell, paper_case, flower, bouquet, whisk, brush, glass, racket, cup, paper,
     partial(pleated, height=0.05, narrow=0.015, wide=0.035), shoe_sole, pen,
 )  # fmt: skip
-HELD_OUT = lamp, wheel, light_bulb, ball  # kinds that validate alone
+HELD_OUT_KINDS = lamp, wheel, light_bulb, ball  # kinds that validate alone

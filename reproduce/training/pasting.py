@@ -47,13 +47,13 @@ def paste_cutout(background, cutout, rng):
     x = transform_cutout(cutout, rng)
     height, width = x.shape[:2]
     top, left = rng.integers(np.subtract(image.shape[:2], (height, width)))
-    lay(image, x, (top, left), rng)
+    composite(image, x, (top, left), rng)
     box = np.array([left, top, left + width, top + height], float)
     return PastedPhoto(np.uint8(255 * image.clip(0, 1) + 0.5), {"shuttlecock": box})
 
 
-def lay(image, cutout, corner, rng):
-    """Lay a cut-out (h, w, 4), lit anyhow, with a shadow, at a corner of an image, in place."""
+def composite(image, cutout, corner, rng):
+    """Composite a cut-out (h, w, 4), lit anyhow, with a shadow, into an image in place."""
     (height, width), (top, left) = cutout.shape[:2], corner
     colour, alpha = jitter_colour(cutout[..., :3], rng), cutout[..., 3:]
     image *= 1 - shadow(alpha[..., 0], corner, rng)[..., None]

@@ -8,7 +8,13 @@ import cv2
 import numpy as np
 
 from reproduce.render.cutout_atlas import HELD_OUT, load
-from reproduce.training.pasting import LARGE, PastedPhoto, jitter_colour, lay, transform_cutout
+from reproduce.training.pasting import (
+    LARGE,
+    PastedPhoto,
+    composite,
+    jitter_colour,
+    transform_cutout,
+)
 from vmc_lib import photos
 from vmc_lib.boxes import iou
 
@@ -76,14 +82,14 @@ def paste_scene(image, shuttlecocks, decoys, count, most_decoys, strings, rng):
     kinds = count * [shuttlecocks] + rng.integers(min(1, most_decoys), most_decoys + 1) * [decoys]
     boxes = np.empty((0, 4))
     for some in kinds:
-        boxes = paste_cutout(image, some[rng.integers(len(some))], boxes, rng)
+        boxes = paste_apart(image, some[rng.integers(len(some))], boxes, rng)
     if strings == "in front":
         draw_strings(image, rng)
     named = {"shuttlecock": boxes[0]} if count else {}
     return PastedPhoto(np.uint8(255 * image.clip(0, 1) + 0.5), named, boxes[1:count], boxes[count:])
 
 
-def paste_cutout(image, cutout, boxes, rng):
+def paste_apart(image, cutout, boxes, rng):
     """Paste a cut-out in place, apart from the boxes (n, 4) of others: all boxes, its own last.
 
     Where the place drawn for it is taken, a smaller size and another place are drawn.
@@ -95,7 +101,7 @@ def paste_cutout(image, cutout, boxes, rng):
         box = np.array([left, top, left + width, top + height], float)
         if iou(box[None], boxes).max(initial=0) <= APART:
             break
-    lay(image, x, (top, left), rng)
+    composite(image, x, (top, left), rng)
     return np.vstack([boxes, box])
 
 

@@ -58,7 +58,7 @@ def test_a_shuttlecock_stands_on_its_cork_and_has_its_length(make):
         assert mesh.faces.max() < len(mesh.vertices) == len(mesh.colours)
 
 
-@pytest.mark.parametrize("make", [*decoys.TAUGHT, *decoys.HELD_OUT])
+@pytest.mark.parametrize("make", [*decoys.TRAINING_KINDS, *decoys.HELD_OUT_KINDS])
 def test_a_decoy_is_a_finite_mesh_with_its_colour(make):
     rng, colour = np.random.default_rng(0), np.array([0.9, 0.1, 0.2])
     mesh = make(rng, colour)

@@ -17,7 +17,7 @@ def test_stored_cutouts_load_again(tmp_path, monkeypatch):
     some[:, 32:96, 32:96, :3] = rng.integers(0, 255, (cutout_atlas.COLUMNS, 1, 1, 3))
     some[:, 32:96, 32:96, 3] = 255
     monkeypatch.setitem(cutout_atlas.FILES, "some", tmp_path / "some.webp")
-    cutout_atlas.store(some, cutout_atlas.FILES["some"])
+    cutout_atlas.store(some, "some")
     read = cutout_atlas.load("some")
     assert read.shape == some.shape
     assert np.abs(read[:, 40:88, 40:88].astype(int) - some[:, 40:88, 40:88]).mean() < 4

@@ -27,7 +27,7 @@ def black_cutout():
 def test_a_cutout_lies_in_its_box(seed):
     image = np.full((*scenes.PICTURE, 3), 0.5, np.float32)
     rng = np.random.default_rng(seed)
-    [box] = scenes.paste_cutout(image, black_cutout(), np.empty((0, 4)), rng)
+    [box] = scenes.paste_apart(image, black_cutout(), np.empty((0, 4)), rng)
     x0, y0, x1, y1 = box.astype(int)
     assert 0 <= x0 < x1 <= photos.WIDTH
     assert 0 <= y0 < y1 <= photos.HEIGHT
@@ -42,7 +42,7 @@ def test_cutouts_are_laid_apart():
     image = np.full((*scenes.PICTURE, 3), 0.5, np.float32)
     rng, boxes = np.random.default_rng(0), np.empty((0, 4))
     for _ in range(3):
-        boxes = scenes.paste_cutout(image, black_cutout(), boxes, rng)
+        boxes = scenes.paste_apart(image, black_cutout(), boxes, rng)
     assert len(boxes) == 3
     assert iou(boxes, boxes)[~np.eye(3, dtype=bool)].max() == 0
 
