@@ -15,7 +15,7 @@ from page.bundle import STATIC, widget_script
 from page.eye import brain
 from reproduce.experiments.printed_sheet import FROM_SHEET
 from reproduce.experiments.real_world import SIZED
-from vmc_lib import marker_sheet
+from vmc_lib import marker_sheet, photos
 from vmc_lib.arm.kinematics import TRUNK
 from vmc_lib.camera import TABLE
 from vmc_lib.motor.templates import START
@@ -28,6 +28,8 @@ from vmc_lib.show.palette import COLOURS, EDGE, ON_PHOTO, plot_style
 from vmc_lib.show.render_mode import render_mode
 
 NAME = "your-photo"
+LENS = 26 / 43.3  # of a usual phone: focal length by the diagonal, of a picture 36 mm × 24 mm large
+SLANT, NEAREST = np.pi / 4, 0.5  # of a camera that is guessed: from the horizontal; m away
 HIGH = 0.025  # m above the table: about the middle of a shuttlecock
 FINDINGS = {
     "camera": "camera",
@@ -91,11 +93,29 @@ def place_accuracy():
     return (np.quantile(millimetres, [0.5, 0.9], method="higher") / 1000).tolist()
 
 
+def camera_guess():
+    """What is supposed of a photo without the sheet: its camera, and the shuttlecock's place.
+
+    The shuttlecock's size (m) and its place (3,) are the medians of training renders.
+    """
+    shots = photos.load("varied", "train")
+    sizes = [shot.camera.sizes(photos.boxes_of(shot, "shuttlecock")) for shot in shots]
+    place = np.median([shot.target for shot in shots], axis=0)
+    return {
+        "lens": LENS,
+        "slant": SLANT,
+        "nearest": NEAREST,
+        "size": float(np.median(sizes)),
+        "place": place.tolist(),
+    }
+
+
 def _page(example, scene, plot):
     given = live.given() | {
         "views": [[2, 0]],
         "sheet": sheet(),
         "placeAccuracy": place_accuracy(),
+        "guess": camera_guess(),
         "table": TABLE,
         "edge": EDGE,
         "paint": ON_PHOTO,
@@ -113,12 +133,13 @@ def _page(example, scene, plot):
 <button type="button" name="own">Your photo …</button>
 <button type="button" name="live" hidden>Live</button>
 <button type="button" name="main" disabled>Again</button>
+<button type="button" name="keep" disabled>Keep this picture</button>
 <input type="file" name="file" accept="image/*" aria-label="Your photo" hidden></div>
 <output data-tell="found"></output>
 <p role="status">Your photo stays on this device. Eye and arm ({size:.0f} MB, part of this book) are
 loaded when you start.</p><fieldset disabled hidden></fieldset>
-<div class="vmc-pictures"><div class="vmc-picture"><canvas width="{WIDTH}" height="{HEIGHT}" hidden>
-</canvas><svg viewBox="0 0 {WIDTH} {HEIGHT}"
+<div class="vmc-pictures"><div class="vmc-picture"><canvas width="{2 * WIDTH}"
+height="{2 * HEIGHT}" hidden></canvas><svg viewBox="0 0 {WIDTH} {HEIGHT}"
 width="{WIDTH}" height="{HEIGHT}" fill="none" stroke-width="3" font-size="20" role="img"
 aria-label="A table with a shuttlecock and a sheet of markers."><image width="{WIDTH}"
 height="{HEIGHT}" href="data:image/jpeg;base64,{photo}"/><g></g><g></g><g></g></svg></div>

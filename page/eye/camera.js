@@ -26,3 +26,15 @@ export const physicalSize = (camera, [x0, y0, x1, y1], table) => {
   const { depth } = sightLine(camera, [(x0 + x1) / 2, y1], table); // of its foot
   return depth > 0 ? (Math.sqrt((x1 - x0) * (y1 - y0)) * depth) / camera.focal : Infinity;
 };
+
+/* A guess at the camera of a phone's photo, its middle and its diagonal in pixels: with a usual `lens`, held at a slant,
+   from where what fills a box is as large as a shuttlecock and lies in a place. Were that `nearest` or nearer, the photo is
+   part of one from there. */
+export const guessCamera = ([x0, y0, x1, y1], { lens, slant, size, place, nearest }, centre, diagonal) => {
+  const pixels = Math.sqrt((x1 - x0) * (y1 - y0)) / size; // for a metre, there
+  const focal = Math.max(lens * diagonal, nearest * pixels), away = focal / pixels, [c, s] = [Math.cos(slant), Math.sin(slant)];
+  const rotation = [[0, 0, 1], [-s, -c, 0], [c, -s, 0]], pixel = [(x0 + x1) / 2, (y0 + y1) / 2];
+  const ray = [...times(1 / focal, minus(pixel, centre)), 1];
+  const position = minus(place, [0, 1, 2].map((k) => away * dot(ray, rotation.map((axis) => axis[k]))));
+  return { focal, centre, rotation, position };
+};

@@ -4,7 +4,7 @@ import { frame } from "../arm/live.js";
 import { letterbox } from "../canvas.js";
 import { minus } from "../vectors.js";
 import { follow } from "./follow.js";
-import { paintOver, readSheet, sheetOutline } from "./marker_sheet.js";
+import { paintOver, paperLight, readSheet, sheetOutline } from "./marker_sheet.js";
 import * as words from "./photo_words.js";
 import { inPieces } from "./pieces.js";
 import { see } from "./see.js";
@@ -79,13 +79,15 @@ class LivePhoto extends YourPhoto {
     Object.assign(this, { aimed: null, stay: null });
     for (let box = null, begun = performance.now(); this.film === film; await frame()) {
       if (!film.active) throw new Error("it was unplugged, or taken by another program");
-      const eye = letterbox(await snapshot(), ...EYE);
+      const picture = await snapshot(), eye = letterbox(picture, ...EYE);
       const read = await inPieces(readSheet(eye, sheet, EYE, true)), { camera } = read;
+      this.light = camera && paperLight(eye, camera, sheet); // before the sheet is painted over
       this.bare = camera ? paintOver(eye, sheetOutline(camera, sheet)) : eye;
       const found = box && camera && (await inPieces(follow(this.brain, this.bare, box, camera)));
       if (this.film !== film) return;
-      this.photo.showFrame(eye);
       this.drawSheet(read);
+      this.photo.showFrame(picture);
+      this.drawArm();
       if (!camera) this.say(words.need(read, sheet));
       else if (found) this.arriveAt((box = found));
       else box = await this.search(film);
@@ -132,6 +134,7 @@ export const start = (box) => {
   return () => {
     photo.turn = null; // what runs, ends
     photo.stopFilm();
+    photo.armInPhoto.end();
     photo.drawing.view.end();
   };
 };

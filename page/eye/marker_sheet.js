@@ -68,6 +68,20 @@ export const sheetOutline = (camera, { page, near }) => {
   }).map((corner) => project(camera, corner));
 };
 
+const PLACES = 24, BRIGHT = 0.8; // along the paper's sides, where it is asked; the share that is darker than its white
+
+/* The light (3,) on the sheet, 0 to 1: of white paper what a photo shows as white. */
+export const paperLight = ({ data, width, height }, camera, { page: [a, b, , d] }) => {
+  const shares = Array.from({ length: PLACES }, (_, i) => (i + 0.5) / PLACES);
+  const places = shares.flatMap((u) => shares.map((v) => plus(a, plus(times(u, minus(b, a)), times(v, minus(d, a))))));
+  const pixels = places.map((place) => project(camera, place).map(Math.round));
+  const seen = pixels.filter(([x, y]) => x >= 0 && x < width && y >= 0 && y < height);
+  return [0, 1, 2].map((k) => {
+    const levels = seen.map(([x, y]) => data[4 * (y * width + x) + k]).sort((p, q) => p - q);
+    return levels[Math.floor(BRIGHT * levels.length)] / 255;
+  });
+};
+
 /* Of each row of a picture, the first and last pixel on or within a convex polygon, whose lines are drawn from
    their left ends as OpenCV draws them (Bresenham 1965). */
 const filled = (polygon, height) => {

@@ -34,17 +34,33 @@ export const need = ({ markers: { length }, why }, { fewest }) =>
     : "To reach, the arm needs the printed sheet: lay it flat on the table, all of it in the photo, in even light. " +
       `${length} of its markers ${length === 1 ? "is" : "are"} seen, ${fewest} are needed.`;
 
-/* What the reader may do next, with so many boxes to choose from. */
+/* Whether nobody has laid a sheet: then the camera is guessed. */
+export const isBare = ({ markers, why }) => !markers.length && !why;
+
+/* What comes next; or what the reader may do, with so many boxes to choose from. */
 export const next = ({ box, boxes }, count, read, sheet) => {
   if (!count || (!boxes.length && !read.camera)) return AGAIN;
-  return read.camera ? POINT + (box ? "" : SCALE) : need(read, sheet);
+  if (!read.camera && !isBare(read)) return need(read, sheet);
+  if (box) return "Planning the reach …";
+  return POINT + (read.camera ? SCALE : "");
 };
 
-/* How far a hand ended from the place that was seen, and how far off such places are: in half, in nine of ten. */
-export const end = (calibrated, planned, [half, most], camera) =>
-  `After trying off-line the hand misses the place seen by ${millimetres(calibrated, 1)}; it began from ` +
-  `${millimetres(planned, 1)}. In half of our test photos that place is right to ${millimetres(half)}, ` +
-  `in nine of ten to ${millimetres(most)}.${upsideDown(camera)}`;
+/* How far a hand ended from the place that it reached for. */
+export const reached = (calibrated, planned) =>
+  `After trying off-line the hand misses the place seen by ${millimetres(calibrated, 1)}; it began from ${millimetres(planned, 1)}. `;
+
+/* How far off places are that a sheet tells: in half of the photos, in nine of ten. */
+export const placed = ([half, most], camera) =>
+  `In half of our test photos that place is right to ${millimetres(half)}, in nine of ten to ${millimetres(most)}.${upsideDown(camera)}`;
+
+/* What a place is that no sheet tells. */
+export const guessed = ({ slant, size }) =>
+  `No sheet is seen, so the place is a guess: a phone’s usual lens, held at ${((180 * slant) / Math.PI).toFixed(0)}°, ` +
+  `and a shuttlecock ${(100 * size).toFixed(0)} cm large, within reach. With the sheet it is measured.`;
+
+/* What a picture is that a reader keeps. */
+export const kept = (error, guesses) =>
+  `A model arm of six muscles, drawn into a photograph. It missed the place ${guesses ? "guessed" : "seen"} by ${millimetres(error, 1)}.`;
 
 /* What is to be said of a shuttlecock that, by the sheet, is too large or too small for one. */
 export const sizeDoubt = ({ boxes, brain: { selector }, camera, marks }, number) => {

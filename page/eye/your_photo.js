@@ -6,10 +6,11 @@ import { Reach } from "../arm/reach.js";
 import { load } from "../arm/templates.js";
 import { drawScaled, letterbox, PIXELS_HIDDEN, takePictures } from "../canvas.js";
 import { signed } from "../demo/panel.js";
-import { minus } from "../vectors.js";
-import { project } from "./camera.js";
+import { minus, times } from "../vectors.js";
+import { ArmInPhoto } from "./arm_in_photo.js";
+import { guessCamera, project } from "./camera.js";
 import { locate } from "./localiser.js";
-import { paintOver, readSheet, sheetOutline } from "./marker_sheet.js";
+import { paintOver, paperLight, readSheet, sheetOutline } from "./marker_sheet.js";
 import { PhotoMarks } from "./photo_marks.js";
 import * as words from "./photo_words.js";
 import { inPieces } from "./pieces.js";
@@ -18,6 +19,8 @@ import { unpack } from "./unpack.js";
 
 export const EYE = [600, 400], LARGEST = 1200; // pixels: what the eye sees, and the longer side of what the sheet is read in
 const TURNING = 700, MANY = 8; // ms, of the trunk; boxes to choose from
+const INDOORS = [0.8, 0.8, 0.8]; // light, where no paper tells
+const LINE = 60; // pixels, below a picture that is kept
 
 class Superseded extends Error {} // the reader has chosen another photo
 
@@ -26,10 +29,12 @@ export class YourPhoto extends Reach {
     super(box);
     const svg = box.querySelector("svg:has(image)"), ours = svg.querySelector("image").getAttribute("href");
     this.photo = new PhotoMarks(svg, this.given);
-    const { own, example, file } = this.form.elements;
+    this.armInPhoto = new ArmInPhoto(this.drawing.view, EYE, this.photo.context);
+    const { own, example, file, keep } = this.form.elements;
     const take = takePictures(box, file, (picture) => this.look(picture), (why) => this.say(why));
     own.addEventListener("click", () => file.click());
     example.addEventListener("click", () => this.takeExample(ours));
+    keep.addEventListener("click", () => this.keep());
     this.form.addEventListener("submit", (event) => event.preventDefault());
     addEventListener("paste", ({ clipboardData: { files } }) => files.length && take(files[0]));
     box.addEventListener("click", ({ target }) => {
@@ -64,13 +69,15 @@ export class YourPhoto extends Reach {
     const context = drawScaled(picture, Math.min(1, LARGEST / Math.max(picture.width, picture.height)), canvas);
     if (!context) throw new Error(PIXELS_HIDDEN);
     this.forget();
-    this.photo.show(canvas.toDataURL("image/jpeg", 0.9));
+    this.photo.show(canvas);
+    this.diagonal = this.photo.scale(EYE) * Math.hypot(canvas.width, canvas.height);
     this.say("Looking for the sheet …");
     await frame();
     const large = context.getImageData(0, 0, canvas.width, canvas.height), { sheet } = this.given;
     const read = await inPieces(readSheet(large, sheet, EYE));
     report("sheet", read);
     const eye = letterbox(canvas, ...EYE), { camera } = read;
+    this.light = camera && paperLight(eye, camera, sheet);
     this.bare = camera ? paintOver(eye, sheetOutline(camera, sheet)) : eye;
     this.say("Opening the eye …");
     await frame();
@@ -93,7 +100,7 @@ export class YourPhoto extends Reach {
     Object.assign(this, { place: null, plan: null, planned: null, calibrated: null });
     this.tell({ place: "–", planned: "–", calibrated: "–" });
     this.photo.reach.innerHTML = "";
-    this.form.elements.main.disabled = true;
+    for (const name of ["main", "keep"]) this.form.elements[name].disabled = true;
   }
 
   showSheet(read) {
@@ -135,11 +142,15 @@ export class YourPhoto extends Reach {
     const button = ({ words, colour }, i) =>
       `<button type="button" data-box="${i}" aria-pressed="false" class="vmc-${colour}">${words}</button>`;
     const asks = boxes.length ? "How surely a shuttlecock?" : "Boxes that were kept:";
-    const reaches = this.camera ? " Press one, and the arm reaches for it:" : "";
+    const reaches = this.camera || (this.guesses && boxes.length) ? " Press one, and the arm reaches for it:" : "";
     choice.innerHTML = `${asks}${reaches} ${this.marks.map(button).join("")}`;
     choice.hidden = !this.boxes.length;
     this.tell({ found: words.found(sight) });
     this.say(words.next(sight, this.boxes.length, this.read, this.given.sheet));
+  }
+
+  get guesses() {
+    return words.isBare(this.read);
   }
 
   /* Of the shuttlecocks the first that the arm can reach; else the first. */
@@ -169,13 +180,16 @@ export class YourPhoto extends Reach {
     this.forgetReach();
     this.photo.drawBoxes(this.marks, number);
     this.box.querySelectorAll("button[data-box]").forEach((button, i) => button.setAttribute("aria-pressed", i === number));
-    if (!this.camera) return this.say(words.need(this.read, this.given.sheet));
-    this.doubt = words.sizeDoubt(this, number);
+    const { guess, sheet } = this.given;
+    if (this.guesses) this.camera = guessCamera(this.boxes[number], guess, times(0.5, EYE), this.diagonal);
+    if (!this.camera) return this.say(words.need(this.read, sheet));
+    this.doubt = this.guesses ? "" : words.sizeDoubt(this, number);
     try {
-      this.place = this.locate(number);
+      this.place = this.guesses ? guess.place : this.locate(number);
       this.tell({ place: words.where(this.place) });
       const { turn, place } = turnTowards(this.given.kinematics, this.place);
-      this.tell({ place: `${words.where(this.place)}; the trunk turns ${signed((turn * 180) / Math.PI, 0)}°` });
+      const measured = `${words.where(this.place)}; the trunk turns ${signed((turn * 180) / Math.PI, 0)}°`;
+      this.tell({ place: this.guesses ? "a guess" : measured });
       await this.reach(place, turn);
     } catch (error) {
       if (!(error instanceof RangeError)) throw error;
@@ -207,10 +221,29 @@ export class YourPhoto extends Reach {
   }
 
   async main() {
+    const { keep } = this.form.elements;
+    keep.disabled = true;
     await super.main();
     if (this.planned) await this.calibrate();
     const { calibrated, camera, planned, given } = this;
-    if (calibrated) this.say(words.end(calibrated.error, planned.error, given.placeAccuracy, camera) + this.doubt);
+    if (!calibrated) return; // another photo was chosen
+    const place = this.guesses ? words.guessed(given.guess) : words.placed(given.placeAccuracy, camera);
+    this.say(words.reached(calibrated.error, planned.error) + place + this.doubt);
+    keep.disabled = !this.drawing.view.body; // without WebGL
+  }
+
+  /* The photo with the arm in it, and a line that says what it is, as a file. */
+  keep() {
+    const { context } = this.photo, { width, height } = context.canvas, line = words.kept(this.calibrated.error, this.guesses);
+    const canvas = Object.assign(document.createElement("canvas"), { width, height: height + LINE }), ink = canvas.getContext("2d");
+    this.drawArm();
+    ink.fillStyle = "white";
+    ink.fillRect(0, 0, width, height + LINE);
+    ink.drawImage(context.canvas, 0, 0);
+    Object.assign(ink, { fillStyle: "black", font: `${LINE / 2.4}px sans-serif`, textBaseline: "middle" });
+    ink.fillText(line, LINE / 2, height + LINE / 2, width - LINE);
+    const href = canvas.toDataURL("image/jpeg", 0.92);
+    Object.assign(document.createElement("a"), { href, download: "reach.jpg" }).click();
   }
 
   world(point) {
@@ -243,8 +276,20 @@ export class YourPhoto extends Reach {
 
   show(moment, brief = false) {
     const joints = this.arm ? this.arm.look(moment.q).joints.map((joint) => this.world(joint)) : [];
-    const { view } = this.drawing, beyond = view.anatomy && minus(this.world(view.anatomy.beyond), this.world([0, 0, 0]));
-    view.viewer?.set_transform(["meshcat", "goal"], [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, ...beyond, 1]);
+    this.drawing.view.viewer?.set_transform(["meshcat", "goal"], [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, ...this.beyond, 1]);
     this.drawing.show({ ...moment, turn: this.bearing, joints }, brief);
+    this.photo.drawPhoto();
+    this.drawArm();
+  }
+
+  /* From the wrist to what the hand holds. */
+  get beyond() {
+    return minus(this.world(this.drawing.view.anatomy.beyond), this.world([0, 0, 0]));
+  }
+
+  /* The arm in the photo, as soon as a place is known to reach for. */
+  drawArm() {
+    const { camera, place, given, light } = this;
+    if (camera && place) this.armInPhoto.draw(camera, this.beyond, given.table, light ?? INDOORS);
   }
 }

@@ -7,6 +7,7 @@ import pytest
 from PIL import Image
 
 from book.figures import your_photo
+from book.figures.your_photo import camera_guess
 from page.arm.live import TRIALS
 from tests import pages
 from tests.page.arm.controls import number, readout, status
@@ -16,6 +17,7 @@ from tests.test_marker_sheet import draw_sheet
 from vmc_lib import photos
 from vmc_lib.box_selection import SIZES
 from vmc_lib.boxes import pad_boxes
+from vmc_lib.camera import Camera
 from vmc_lib.cerebellum.offline import broyden_calibration
 from vmc_lib.loop import VisuomotorModel, locate, reach, recalibrate, see
 from vmc_lib.marker_sheet import remove_sheet
@@ -25,10 +27,11 @@ SHOTS = photos.load(photos.SHEET_LEVEL, "test")
 OURS = SHOTS[20]
 UNREADABLE = "This browser cannot read .*: save it, or a phone's HEIC, as a JPEG or PNG."
 NEED = "To reach, the arm needs the printed sheet: "
+POINT = "Point at a box, and the arm reaches for what is in it."
 AGAIN = "Another photo may do"
 NOTHING = "No shuttlecock, but|Nothing that looks like an object"
 REFUSED = "Two sheets|The photo is cropped"
-END = f"After trying|Out of reach|{NEED}|{REFUSED}|Point at a box, .*wrong|{AGAIN}|This browser"
+END = f"After trying|Out of reach|{NEED}|{REFUSED}|{POINT}|{AGAIN}|This browser"
 
 
 @pytest.fixture(scope="module")
@@ -128,24 +131,60 @@ def promises(page):
 def assert_nothing_found(page, said):
     """Assert that a photo without sheet and shuttlecock is met with plain words."""
     assert re.match(NOTHING, found(page))
-    assert said.startswith(NEED if found(page).startswith("No shuttlecock") else AGAIN)
-    assert not promises(page)
+    assert said.startswith(POINT if found(page).startswith("No shuttlecock") else AGAIN)
+    assert promises(page) == found(page).startswith("No shuttlecock")
 
 
-def test_a_photo_without_the_sheet_is_seen_and_has_no_place(page):
-    """What was found is said first, and stays; then what the arm needs."""
+def test_in_a_photo_without_the_sheet_the_arm_reaches_for_a_guess(page):
+    """What was found is said first, and stays; then that nothing is measured."""
     shot = next(shot for shot in photos.load("real", "test") if shot.boxes)
-    assert give(page, shot.file).startswith(NEED)
+    assert "so the place is a guess: a phone’s usual lens, held at 45°" in give(page, shot.file)
     first, choices = found(page), page.locator(".vmc-boxes button")
     assert re.fullmatch(r"A shuttlecock, \d+ % sure\.", first)
     assert "0 markers seen, 3 needed" in readout(page, "camera")
     assert page.locator(".vmc-boxes button.vmc-green").count() >= 1
     choices.last.click()
     assert choices.last.get_attribute("aria-pressed") == "true"
-    assert status(page, NEED)
+    assert "so the place is a guess" in status(page, "After trying")
     assert found(page) == first
-    assert readout(page, "place") == "–"
-    assert not promises(page)
+    assert readout(page, "place") == "a guess"
+
+
+@pytest.mark.parametrize("box", [(100, 80, 140, 110), (50, 20, 500, 390)], ids=["far", "near"])
+def test_a_guessed_camera_sees_the_place_in_the_box_as_large_as_a_shuttlecock(ask, box):
+    guess = camera_guess()
+    script = "return eye.guessCamera(...asked);"
+    camera = Camera(**ask(script, [box, guess, [300, 200], 721]))
+    x0, y0, x1, y1 = box
+    place = np.array(guess["place"])
+    np.testing.assert_allclose(camera.project(place[None])[0], [(x0 + x1) / 2, (y0 + y1) / 2])
+    across = guess["size"] * camera.rotation[0]
+    left, right = camera.project(np.array([place - across / 2, place + across / 2]))
+    assert right[0] - left[0] == pytest.approx(np.sqrt((x1 - x0) * (y1 - y0)))
+    assert camera.focal >= guess["lens"] * 721
+    assert np.linalg.norm(camera.position - place) >= guess["nearest"]
+
+
+def difference(image, other):
+    """Where two images (h, w, 3) differ visibly: (h, w)."""
+    return np.abs(image.astype(int) - other).max(2) > 40
+
+
+def test_the_arm_is_drawn_into_the_photo_where_it_reaches_and_can_be_kept(page, tmp_path):
+    page.get_by_role("button", name="Example").click()
+    status(page, "After trying")
+    with page.expect_download() as kept:
+        page.get_by_role("button", name="Keep this picture").click()
+    kept.value.save_as(tmp_path / "reach.jpg")
+    image = np.array(Image.open(tmp_path / "reach.jpg"))
+    assert image.shape == (860, 1200, 3)
+    photo = np.array(Image.fromarray(OURS.image).resize((1200, 800)))
+    arm = difference(image[:800], photo)
+    assert 0.03 < arm.mean() < 0.5
+    x, y = np.int32(2 * OURS.camera.project(OURS.target[None])[0])
+    assert arm[y - 60 : y + 60, x - 60 : x + 60].mean() > 0.15  # the hand
+    assert not arm[:200].any()  # it comes from below
+    assert (image[800:] < 100).any()  # a line on what it is
 
 
 @pytest.mark.audit
@@ -175,26 +214,29 @@ def test_a_sheet_laid_upside_down_is_asked_about(page, tmp_path):
     )
 
 
-WORDS = """const sheet = { fewest: 3 }, read = { markers: [], camera: asked.camera };
-return vmc["eye/photo_words"].next(asked.sight, asked.count, read, sheet);"""
+WORDS = """const sheet = { fewest: 3 }, { sight, count, camera, seen } = asked;
+const read = { markers: Array(seen), camera };
+return vmc["eye/photo_words"].next(sight, count, read, sheet);"""
 
 
 def test_the_arm_is_promised_where_it_can_reach(ask):
-    """Never without a camera; with one, sizes are doubted where nothing is a shuttlecock."""
+    """Never where too little of a sheet is seen; by one, sizes are doubted of what is none."""
     nothing, box = {"boxes": [], "box": None}, [0, 0, 1, 1]
     things, shuttlecock = {"boxes": [box], "box": None}, {"boxes": [box], "box": box}
-    for sight, count, camera, says in (
-        (nothing, 0, None, "Another photo"),
-        (nothing, 1, None, "Another photo"),
-        (nothing, 0, {}, "Another photo"),
-        (things, 1, None, NEED),
-        (shuttlecock, 1, None, NEED),
-        (shuttlecock, 1, {}, "Point at a box"),
-        (things, 1, {}, "Point at a box.* not 100 mm long, sizes and places are wrong"),
+    for sight, count, camera, seen, says in (
+        (nothing, 0, None, 0, "Another photo"),
+        (nothing, 1, None, 0, "Another photo"),
+        (nothing, 0, {}, 3, "Another photo"),
+        (things, 1, None, 2, NEED),
+        (shuttlecock, 1, None, 2, NEED),
+        (things, 1, None, 0, f"{POINT}$"),
+        (shuttlecock, 1, None, 0, "Planning the reach"),
+        (shuttlecock, 1, {}, 3, "Planning the reach"),
+        (things, 1, {}, 3, "Point at a box.* not 100 mm long, sizes and places are wrong"),
     ):
-        said = ask(WORDS, {"sight": sight, "count": count, "camera": camera})
+        said = ask(WORDS, {"sight": sight, "count": count, "camera": camera, "seen": seen})
         assert re.match(says, said)
-        assert ("the arm reaches" in said) == bool(count and camera is not None)
+        assert ("the arm reaches" in said) == says.startswith("Point")
 
 
 @pytest.mark.audit
@@ -303,15 +345,19 @@ def test_no_file_is_met_with_silence(page, tmp_path):
         save(tmp_path, "turned.jpg", size=(400, 600), exif=turned),
     ):
         assert_nothing_found(page, give(page, file))
-    size = """async ({ href }) => {
-      const picture = Object.assign(new Image(), { src: href.baseVal });
-      await picture.decode();
-      return [picture.width, picture.height];
-    }"""
-    assert page.locator(".vmc-picture image").evaluate(size) == [600, 400]  # the right way up
+    assert margin(page) == BLACK  # the right way up it fills the picture
     page.locator("[type=file]").set_input_files(tmp_path / "large.jpg")  # slow to read, and then
     give(page, tmp_path / "grey.jpg")  # another
-    assert page.locator(".vmc-picture image").evaluate(size) == [60, 40]
+    assert margin(page) == BLACK
+
+
+BLACK = [0, 0, 0]
+
+
+def margin(page):
+    """The colour of the photo's picture at its left edge: grey beside what is not as wide."""
+    pixel = "(it) => [...it.getContext('2d').getImageData(2, 400, 1, 1).data].slice(0, 3)"
+    return page.locator(".vmc-picture canvas").first.evaluate(pixel)
 
 
 @pytest.mark.audit
