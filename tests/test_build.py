@@ -253,6 +253,22 @@ def test_a_chapter_tested_alone_fails_where_it_is_wrong(book):
         assert words in done.stdout
 
 
+def test_a_kernel_whose_port_was_taken_is_started_once_more(monkeypatch):
+    starts = []
+
+    def start(name):
+        starts.append(name)
+        if len(starts) < 2 or name == "dead":
+            raise RuntimeError("Kernel died before replying to kernel_info")
+        return "ran"
+
+    monkeypatch.setattr(execute, "single_nb_execution", start)
+    assert execute.run("chapter") == "ran"
+    with pytest.raises(RuntimeError, match="Kernel died"):
+        execute.run("dead")
+    assert starts == ["chapter", "chapter", "dead", "dead"]
+
+
 HARM = {  # of which files of the cache, and what becomes of them
     "outputs cut": ("executed/*/base.ipynb", lambda old: old[:-100]),
     "outputs empty": ("executed/*/base.ipynb", lambda old: b""),

@@ -185,11 +185,22 @@ def execute(page, timeout):
         ],
         "force_raise_errors": True,  # also where a reader's error does not stop Run All
     }
-    result = single_nb_execution(notebook, page.parent, timeout, allow_errors=False, **options)
+    result = run(notebook, page.parent, timeout, allow_errors=False, **options)
     error = failure(notebook, result.err)
     notebook.cells = cells
     notebook.metadata.pop("widgets", None)  # their state: no kernel is there to use it
     return notebook, result.time, error
+
+
+def run(*given, **options):
+    """`single_nb_execution`; once more where the kernel died.
+
+    Its ports are chosen before it starts: by then another, started beside it, may have taken one.
+    """
+    try:
+        return single_nb_execution(*given, **options)
+    except RuntimeError:  # jupyter_client's where none answers, nbclient's where it dies later
+        return single_nb_execution(*given, **options)
 
 
 def failure(notebook, error):
