@@ -55,3 +55,18 @@ export const letterbox = (() => {
     return context.getImageData(0, 0, width, height);
   };
 })();
+
+const LINE = 60; // pixels
+
+/* Save what is on a canvas, and below it a line of words, as a file of a name. */
+export const saveWithLine = (picture, words, download) => {
+  const { width, height } = picture, canvas = Object.assign(document.createElement("canvas"), { width, height: height + LINE });
+  const context = canvas.getContext("2d");
+  context.fillStyle = "white";
+  context.fillRect(0, 0, width, height + LINE);
+  context.drawImage(picture, 0, 0);
+  Object.assign(context, { fillStyle: "black", font: `${0.4 * LINE}px sans-serif`, textBaseline: "middle" });
+  context.fillText(words, LINE / 2, height + LINE / 2, width - LINE);
+  const href = canvas.toDataURL("image/jpeg", 0.92);
+  Object.assign(document.createElement("a"), { href, download }).click();
+};

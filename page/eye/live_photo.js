@@ -5,11 +5,12 @@ import { letterbox } from "../canvas.js";
 import { minus } from "../vectors.js";
 import { follow } from "./follow.js";
 import { paintOver, paperLight, readSheet, sheetOutline } from "./marker_sheet.js";
+import { EYE } from "./photo_reach.js";
 import * as words from "./photo_words.js";
 import { inPieces } from "./pieces.js";
 import { see } from "./see.js";
 import { unpack } from "./unpack.js";
-import { EYE, YourPhoto } from "./your_photo.js";
+import { YourPhoto } from "./your_photo.js";
 
 const STILL = 700; // ms in one place, after which the arm reaches
 const NEAR = 0.01, MOVED = 0.02; // m: what is still one place, and what is another
@@ -86,7 +87,7 @@ class LivePhoto extends YourPhoto {
       const found = box && camera && (await inPieces(follow(this.brain, this.bare, box, camera)));
       if (this.film !== film) return;
       this.drawSheet(read);
-      this.photo.showFrame(picture);
+      this.photo.photo = picture;
       this.drawArm();
       if (!camera) this.say(words.need(read, sheet));
       else if (found) this.arriveAt((box = found));
