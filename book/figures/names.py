@@ -74,17 +74,14 @@ def refined_box(stream, photo, boxes, fits, look):
     return photo_view(photo.image, [true, (boxes[look], label, "orange")])
 
 
-def ablation_table(without, asked, longer):
+def ablation_table(without, asked):
     """What the eye for photographs answers without each of its parts: a Markdown table."""
-    answers = {"nothing (as it ships)": without["nothing"], "(the longer eye)": longer} | without
     total = {"right": asked["right"], "tight": asked["right"], "alarms": asked["alarms"]}
     rows = [
         [name, *(share_text(counts[key], of) for key, of in total.items())]
-        for name, counts in answers.items()
-        if name != "nothing"
+        for name, counts in without.items()
     ]
-    heads = "right (IoU above 0.5)", "tight (0.8)", "false alarms"
-    return table(["without", *heads], rows)
+    return table(["without", "right (IoU above 0.5)", "tight (0.8)", "false alarms"], rows)
 
 
 def scene_table(counts, of):

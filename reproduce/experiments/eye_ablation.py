@@ -1,20 +1,9 @@
-"""Ablation of the eye for photographs: what each of its parts brings, on validation photographs.
+"""Ablation of the eye for photographs: what each of its parts brings, on validation pictures.
 
-The criterion was written before anything was measured. A shorter eye (candidates, a gate, the
-stream names and refines what passes, non-maximum suppression) replaces the longer one (with box
-regression, a predicted IoU, votes and a judge of both pathways beside these) if, at a threshold
-chosen here,
-
-- it chooses the right box (IoU above 0.5), and a tight one (at least 0.8), of no fewer validation
-  photographs and renders of all levels together;
-- it takes at most one picture more without a shuttlecock for one: validation photographs of other
-  things, those of everyday things (which the stream has learnt from), and what is left of
-  validation photographs where the part with the shuttlecock is cut off (`emptied`);
-- its code is shorter.
-
-Of those that do, the simplest is taken: a part stays only if without it something gets worse. No
-test photo has a part in the choice. `LONGER` is what the longer eye reached, counted once before
-it was taken out.
+Candidates, a gate, the stream names and refines what passes, non-maximum suppression: a part stays
+only if without it something gets worse. The pictures: renders and photographs of validation,
+counter-examples, what is left of photographs where the part with the shuttlecock is cut off
+(`emptied`), and pasted scenes. No test photo has a part in the choice.
 """
 
 from collections import Counter
@@ -24,6 +13,8 @@ from functools import partial
 import numpy as np
 from joblib import Parallel, delayed
 
+from reproduce.experiments.pasted_scenes import pasted_photos
+from reproduce.experiments.real_world import photographs
 from reproduce.results import records
 from vmc_lib import photos
 from vmc_lib.boxes import MIN_IOU, iou
@@ -31,7 +22,8 @@ from vmc_lib.loop import Sight, VisuomotorModel
 from vmc_lib.what.stream import FLIPS, VentralStream
 from vmc_lib.where.selective_search import propose
 
-LONGER = {"right": 75, "tight": 72, "alarms": 1}
+SCENES_EACH = 20  # pasted scenes of each kind
+COUNTED = "right", "tight", "alarms"
 
 
 class Unmoved(VentralStream):
@@ -64,10 +56,11 @@ def emptied(photo):
 
 def pictures(folder=photos.FOLDER):
     """(image, true boxes (n, 4) of shuttlecocks) of every picture that is asked."""
-    levels = [photos.load(level, "validation", folder) for level in photos.EVERY_LEVEL]
-    shots = [shot for level in levels for shot in level] + [*photos.everyday()]
+    renders = [shot for level in photos.LEVELS for shot in photos.load(level, "validation", folder)]
+    real = photographs("validation", folder)
+    shots = [*renders, *real, *pasted_photos("validation", SCENES_EACH)]
     asked = [(shot.image, photos.boxes_of(shot, "shuttlecock")) for shot in shots]
-    cut = [shot for shot in levels[-1] if "shuttlecock" in shot.boxes]
+    cut = [shot for shot in real if "shuttlecock" in shot.boxes]
     return asked + [(emptied(shot), np.empty((0, 4))) for shot in cut]
 
 
@@ -82,7 +75,7 @@ def make(folder=photos.FOLDER, count=None):
     found = Parallel()(delayed(_answers)(model, *one) for kind in kinds for one in kind)
     sums = {name: sum((one[name] for one in found), Counter()) for name in WITHOUT}
     totals = dict(zip(("right", "alarms"), map(len, kinds), strict=True))
-    return {"asked": totals, **{name: {key: s[key] for key in LONGER} for name, s in sums.items()}}
+    return {"asked": totals, **{name: {key: s[key] for key in COUNTED} for name, s in sums.items()}}
 
 
 load_results = partial(records, "eye_ablation")

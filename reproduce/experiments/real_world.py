@@ -1,18 +1,15 @@
 """Evaluation on photographs and on another renderer's scenes: detection, naming, false alarms."""
 
-from pathlib import Path
-
 from joblib import Parallel, delayed
 
-from reproduce import training
 from reproduce.experiments.loop_evaluation import MIN_IOU
 from reproduce.results import records
+from reproduce.training.samples import COUNTEREXAMPLES
 from vmc_lib import photos
 from vmc_lib.boxes import iou
 from vmc_lib.loop import VisuomotorModel, see
 from vmc_lib.statistics import wilson
 
-COUNTEREXAMPLES = Path(training.__file__).parent / "counterexamples"  # without a shuttlecock
 MODELS, SPLITS = ("varied", "real"), ("validation", "test")
 SIZED = ", size counts"  # where the camera is known
 QUESTIONS = {  # about which photos, and what has to be so

@@ -134,7 +134,7 @@ SUMMED = f"{PYTHON} reproduce.pipeline.checksums"
 ARM, WHOLE_ARM = "arm26 vmc_lib/arm", "vmc_lib/arm reproduce/whole_arm"
 SHIPPED = "vmc_lib/data vmc_lib/arm"
 COUNTEREXAMPLES = "reproduce/training/counterexamples"
-PHOTOGRAPHS = "photos candidates detectors cutouts vmc_lib/data/real"
+PHOTOGRAPHS = f"photos candidates detectors cutouts decoys vmc_lib/data/real {COUNTEREXAMPLES}"
 STEPS = (
     Step(RENDER, MODEL / "photos", minutes=25, needs=MITSUBA),
     *(
@@ -177,9 +177,9 @@ STEPS = (
     Step(rival_controllers.make, RESULTS / "rivals.json", f"templates optimal {ARM}", 6),
     Step(loop_evaluation.make, RESULTS / "lesions.json", SHIPPED, 6),
     Step(loop_evaluation.make_generalist, RESULTS / "generalist.json", SHIPPED, 1),
-    Step(ventral_stream.photographs, MODEL / "photographs.npz", PHOTOGRAPHS, 35),
+    Step(ventral_stream.photographs, MODEL / "photographs.npz", PHOTOGRAPHS, 95),
     Step(real_world.make, RESULTS / "real_world.json", f"{SHIPPED} {COUNTEREXAMPLES}", 3),
-    Step(eye_ablation.make, RESULTS / "eye_ablation.json", SHIPPED, 4),
+    Step(eye_ablation.make, RESULTS / "eye_ablation.json", f"{SHIPPED} {COUNTEREXAMPLES}", 8),
     Step(pasted_scenes.make, RESULTS / "pasted_scenes.json", f"{SHIPPED} {COUNTEREXAMPLES}", 4),
     Step(f"{RENDER}.elsewhere {ELSEWHERE}", ELSEWHERE, minutes=15, needs="vtk"),
     Step(

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 import cv2
 import numpy as np
 
-from reproduce.render.cutout_atlas import HELD_OUT, WIDTH, load
+from reproduce.render.cutout_atlas import WIDTH
 from vmc_lib import photos
 
 SEEN = 0.4  # of light that a cut-out keeps off what is behind: from there it has an edge
@@ -25,31 +25,6 @@ class PastedPhoto:
     more: np.ndarray = field(default_factory=lambda: np.empty((0, 4)))
     decoys: np.ndarray = field(default_factory=lambda: np.empty((0, 4)))
     name, camera = "pasted", None
-
-
-def paste_cutouts(shots, split, count, rng):
-    """Paste cut-outs on the real photos `shots` that show no shuttlecock, in turn: `PastedPhoto`s.
-
-    The last HELD_OUT cut-outs validate ("validation"), the others teach ("train").
-    """
-    grounds = [shot for shot in shots if "shuttlecock" not in shot.boxes]
-    cutouts = load("shuttlecocks")
-    some = cutouts[:-HELD_OUT] if split == "train" else cutouts[-HELD_OUT:]
-    return [
-        paste_cutout(grounds[i % len(grounds)], some[rng.integers(len(some))], rng)
-        for i in range(count)
-    ]
-
-
-def paste_cutout(background, cutout, rng):
-    """A `PastedPhoto`: a cut-out of any size, turned and lit anyhow, with a shadow, on a photo."""
-    image = background.image[:, :: rng.choice([-1, 1])].astype(np.float32) / 255
-    x = transform_cutout(cutout, rng)
-    height, width = x.shape[:2]
-    top, left = rng.integers(np.subtract(image.shape[:2], (height, width)))
-    composite(image, x, (top, left), rng)
-    box = np.array([left, top, left + width, top + height], float)
-    return PastedPhoto(np.uint8(255 * image.clip(0, 1) + 0.5), {"shuttlecock": box})
 
 
 def composite(image, cutout, corner, rng):

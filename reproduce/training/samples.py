@@ -1,19 +1,21 @@
 """Training samples of the ventral stream: boxes of renders and photographs, by source and kind."""
 
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from joblib import Parallel, delayed
 
-from reproduce.training import pasting
 from reproduce.training.augmentation import ALL, Augmentation
 from reproduce.training.detectors import candidates
+from reproduce.training.scenes import paste_photos
 from vmc_lib import loop, photos
 from vmc_lib.boxes import iou
 
 SHARES = {"shuttlecock": 0.4, "other": 0.15, "scene": 0.45}  # of what is drawn
-SOURCES = {"rendered": 0.3, "real": 0.4, "pasted": 0.3}  # of each, as far as a source has it
-PASTED = 500  # photographs on which a shuttlecock is laid
+SOURCES = {"rendered": 0.25, "real": 0.35, "pasted": 0.4}  # of each, as far as a source has it
+PASTED = 1050  # scenes that are pasted on photographs
+COUNTEREXAMPLES = Path(__file__).parent / "counterexamples"  # photographs without a shuttlecock
 APART = 0.3  # IoU under which a window shows no shuttlecock
 
 
@@ -53,12 +55,13 @@ def training_samples(by_level):
 def collect_samples(rng, folder=photos.FOLDER, everyday=None, pasted=PASTED):
     """Collect the samples of all training photos: level -> what `photo_samples` gives.
 
-    Among the real ones are those of everyday things, or so many of them. On real ones without a
-    shuttlecock one is laid, as often as `pasted` says: the level "pasted".
+    Among the real ones are those of everyday things and COUNTEREXAMPLES, or `everyday` of each. On
+    real ones without a shuttlecock scenes are pasted, `pasted` of them: the level "pasted".
     """
     shots = {level: photos.load(level, "train", folder) for level in photos.EVERY_LEVEL}
-    shots[photos.REAL_LEVEL] += photos.everyday()[:everyday]
-    shots["pasted"] = pasting.paste_cutouts(shots[photos.REAL_LEVEL], "train", pasted, rng)
+    for some in (photos.everyday(), photos.load(photos.REAL_LEVEL, "train", COUNTEREXAMPLES)):
+        shots[photos.REAL_LEVEL] += some[:everyday]
+    shots["pasted"] = paste_photos(shots[photos.REAL_LEVEL], "train", pasted, rng)
     return {level: photo_samples(some, rng) for level, some in shots.items()}
 
 
@@ -86,6 +89,7 @@ def boxes_by_kind(photo, proposed, rng):
     """Boxes of a photo by kind, background from `proposed` (n, 4): kind -> (image, boxes)."""
     shuttlecocks = photos.boxes_of(photo, "shuttlecock")
     others = [photos.boxes_of(photo, name) for name in photo.boxes if name != "shuttlecock"]
+    others.append(getattr(photo, "decoys", np.empty((0, 4))))
     windows = np.vstack([proposed, random_windows(rng)])
     apart = iou(windows, shuttlecocks).max(1, initial=0) < APART
     kinds = shuttlecocks, np.vstack([np.empty((0, 4)), *others]), windows[apart]

@@ -25,6 +25,13 @@ def test_answers_are_counted_by_kind():
     assert counts == {"alone": (2, 1, 1), "decoys alone": (0, 0, 1)}
 
 
+def test_few_scenes_without_a_shuttlecock_raise_an_alarm():
+    by_scene = pasted_scenes.load_results()["test"]
+    empty = [name for name, (count, *_) in SCENES.items() if not count]
+    counts = pasted_scenes.count_answers(by_scene, MIN_PROBABILITY)
+    assert sum(counts[name][2] for name in empty) <= 0.1 * len(empty) * pasted_scenes.COUNT
+
+
 def test_stored_answers_are_those_of_the_shipped_stream():
     stored = pasted_scenes.load_results()["validation"]["alone"][0]
     [photo] = pasted_scenes.pasted_photos("validation", count=1)[:1]

@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 
 from reproduce.training import samples
+from reproduce.training.scenes import paste_photos
 from vmc_lib import photos
 from vmc_lib.boxes import iou
 
@@ -52,15 +53,21 @@ def test_renders_fill_in_for_photographs(pools, rng):
     assert all(box.shape == (4,) for _, box, _ in draws)
 
 
-def test_samples_include_everyday_and_pasted_photos(monkeypatch, rng):
+def test_decoys_are_other_things(rng):
+    [photo] = paste_photos(photos.load("real", "train"), "train", 6, rng)[-1:]
+    kinds = samples.boxes_by_kind(photo, photo.decoys, rng)
+    assert "shuttlecock" not in kinds
+    np.testing.assert_array_equal(kinds["other"][1], photo.decoys)
+
+
+def test_samples_include_everyday_counterexamples_and_pasted_photos(monkeypatch, rng):
     class Blind:
         def detect(self, image):
             return type("Found", (), {"boxes": np.empty((0, 4))})
 
     monkeypatch.setattr(samples.loop, "high_recall_detector", lambda level: Blind())
-    pools = samples.collect_samples(rng, everyday=2, pasted=3)
+    pools = samples.collect_samples(rng, everyday=2, pasted=7)
     assert list(pools) == [*photos.EVERY_LEVEL, "pasted"]
     for level in photos.EVERY_LEVEL:
-        assert len(pools[level]) == len(photos.load(level, "train")) + 2 * (level == "real")
-    assert len(pools["pasted"]) == 3
-    assert all("shuttlecock" in photo for photo in pools["pasted"])
+        assert len(pools[level]) == len(photos.load(level, "train")) + 4 * (level == "real")
+    assert ["shuttlecock" in photo for photo in pools["pasted"]] == 5 * [True] + 2 * [False]
