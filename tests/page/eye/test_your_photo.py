@@ -201,7 +201,7 @@ def write(folder, image):
 def test_of_two_sheets_one_is_to_be_covered(page, tmp_path):
     two = draw_sheet(OURS.camera, sheets=[(0.2, -130, 300, 1)], ground=OURS.image)
     assert give(page, write(tmp_path, two)).startswith("Two sheets are seen: cover one.")
-    assert found(page).startswith("2 shuttlecocks, 100 %")  # a sheet that stays is taken for one
+    assert found(page) == "A shuttlecock, 100 % sure."  # no sheet is taken for one
     assert "unknown: " in readout(page, "camera")
     assert not promises(page)
 
