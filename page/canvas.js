@@ -40,18 +40,26 @@ export const takePictures = (box, input, take, say) => {
   return read;
 };
 
-/* A picture in the middle of a grey one of another size: its pixels (vmc_lib/photos.py, read_image). All are drawn
-   on one canvas: those of a film's frames would fill the memory before the browser collects them. */
+/* How many times as large a picture is where it fills a size, whole. */
+export const fitScale = (picture, width, height) => Math.min(width / picture.width, height / picture.height);
+
+/* Draw a picture in the middle of a context's canvas, whole, on grey (vmc_lib/photos.py, read_image). */
+export const drawLetterboxed = (context, picture) => {
+  const { width, height } = context.canvas, scale = fitScale(picture, width, height);
+  const size = [picture.width, picture.height].map((side) => Math.max(1, Math.round(scale * side)));
+  context.fillStyle = "rgb(128 128 128)";
+  context.fillRect(0, 0, width, height);
+  context.imageSmoothingQuality = "high";
+  context.drawImage(picture, (width - size[0]) >> 1, (height - size[1]) >> 1, ...size);
+};
+
+/* The pixels of a picture, letterboxed to a size. All are drawn on one canvas: those of a film's frames would fill the
+   memory before the browser collects them. */
 export const letterbox = (() => {
   const canvas = document.createElement("canvas"), context = canvas.getContext("2d", { willReadFrequently: true });
   return (picture, width, height) => {
-    const scale = Math.min(width / picture.width, height / picture.height);
-    const size = [picture.width, picture.height].map((side) => Math.max(1, Math.round(scale * side)));
     Object.assign(canvas, { width, height });
-    context.fillStyle = "rgb(128 128 128)";
-    context.fillRect(0, 0, width, height);
-    context.imageSmoothingQuality = "high";
-    context.drawImage(picture, (width - size[0]) >> 1, (height - size[1]) >> 1, ...size);
+    drawLetterboxed(context, picture);
     return context.getImageData(0, 0, width, height);
   };
 })();

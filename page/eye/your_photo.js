@@ -1,7 +1,7 @@
 /* The reader's own photo, to a reach, in the page; where the eye is wrong the reader points at another box. */
 import { turnTowards } from "../arm/kinematics.js";
 import { frame } from "../arm/live.js";
-import { drawScaled, letterbox, PIXELS_HIDDEN, takePictures } from "../canvas.js";
+import { drawScaled, fitScale, letterbox, PIXELS_HIDDEN, takePictures } from "../canvas.js";
 import { signed } from "../demo/panel.js";
 import { times } from "../vectors.js";
 import { guessCamera } from "./camera.js";
@@ -59,7 +59,7 @@ export class YourPhoto extends PhotoReach {
     if (!context) throw new Error(PIXELS_HIDDEN);
     this.forget();
     this.photo.show(canvas);
-    this.diagonal = this.photo.scale(EYE) * Math.hypot(canvas.width, canvas.height);
+    this.diagonal = fitScale(canvas, ...EYE) * Math.hypot(canvas.width, canvas.height);
     this.say("Looking for the sheet …");
     await frame();
     const large = context.getImageData(0, 0, canvas.width, canvas.height), { sheet } = this.given;

@@ -4,7 +4,7 @@ A renderer's shuttlecock on a renderer's table teaches renders. On a photograph,
 is real, and nothing but the shuttlecock tells it apart from there.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import cv2
 import numpy as np
@@ -13,7 +13,6 @@ from reproduce.render.cutout_atlas import WIDTH
 from vmc_lib import photos
 
 SEEN = 0.4  # of light that a cut-out keeps off what is behind: from there it has an edge
-LARGE = 0.2, 1.2  # of the photo's height: how wide a cut-out is laid there, what is empty with it
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,8 +21,8 @@ class PastedPhoto:
 
     image: np.ndarray
     boxes: dict
-    more: np.ndarray = field(default_factory=lambda: np.empty((0, 4)))
-    decoys: np.ndarray = field(default_factory=lambda: np.empty((0, 4)))
+    more: np.ndarray
+    decoys: np.ndarray
     name, camera = "pasted", None
 
 
@@ -36,8 +35,11 @@ def composite(image, cutout, corner, rng):
     there += alpha * (colour - there)
 
 
-def transform_cutout(cutout, rng, large=LARGE):
-    """A cut-out as floats (h, w, 4), turned by any angle, of any size, sharp or soft, no margin."""
+def transform_cutout(cutout, rng, large):
+    """A cut-out as floats (h, w, 4), turned by any angle, sharp or soft, without its margin.
+
+    With the margin it is as wide as a share of the photo's height between two, `large`.
+    """
     width = photos.HEIGHT * np.exp(rng.uniform(*np.log(large)))
     scale, size = width / WIDTH, int(1.5 * width)
     matrix = cv2.getRotationMatrix2D((WIDTH / 2, WIDTH / 2), rng.uniform(0, 360), scale)

@@ -8,13 +8,7 @@ import cv2
 import numpy as np
 
 from reproduce.render.cutout_atlas import HELD_OUT, load
-from reproduce.training.pasting import (
-    LARGE,
-    PastedPhoto,
-    composite,
-    jitter_colour,
-    transform_cutout,
-)
+from reproduce.training.pasting import PastedPhoto, composite, jitter_colour, transform_cutout
 from vmc_lib import photos
 from vmc_lib.boxes import iou
 
@@ -28,6 +22,7 @@ SCENES = {  # of a photo: shuttlecocks, decoys at most, and where a racket's str
     "strings alone": (0, 2, "behind"),
 }
 PLAIN = 0.3  # of grounds: white, dark or a court's, not a photograph
+LARGE = 0.2, 1.2  # of the photo's height: how wide a cut-out is pasted, what is empty with it
 APART = 0.0  # IoU up to which things may overlap
 PICTURE = photos.HEIGHT, photos.WIDTH
 
