@@ -4,7 +4,7 @@ from joblib import Parallel, delayed
 
 from reproduce.experiments.loop_evaluation import MIN_IOU
 from reproduce.results import records
-from reproduce.training.samples import COUNTEREXAMPLES
+from reproduce.training import COUNTEREXAMPLES
 from vmc_lib import photos
 from vmc_lib.boxes import iou
 from vmc_lib.loop import VisuomotorModel, see

@@ -1,11 +1,11 @@
 """Training samples of the ventral stream: boxes of renders and photographs, by source and kind."""
 
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 from joblib import Parallel, delayed
 
+from reproduce.training import COUNTEREXAMPLES
 from reproduce.training.augmentation import ALL, Augmentation
 from reproduce.training.detectors import candidates
 from reproduce.training.scenes import paste_photos
@@ -15,7 +15,6 @@ from vmc_lib.boxes import iou
 SHARES = {"shuttlecock": 0.4, "other": 0.15, "scene": 0.45}  # of what is drawn
 SOURCES = {"rendered": 0.25, "real": 0.35, "pasted": 0.4}  # of each, as far as a source has it
 PASTED = 1050  # scenes that are pasted on photographs
-COUNTEREXAMPLES = Path(__file__).parent / "counterexamples"  # photographs without a shuttlecock
 APART = 0.3  # IoU under which a window shows no shuttlecock
 
 
