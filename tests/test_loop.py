@@ -25,7 +25,6 @@ from vmc_lib.what.recogniser import Recogniser
 from vmc_lib.what.stream import (
     FLIPS,
     MIN_PROBABILITY,
-    N_FIRST_PASS,
     N_SECOND_PASS,
     VentralStream,
 )
@@ -170,8 +169,8 @@ def test_the_best_boxes_are_looked_at_twice():
     selected, probability = stream.select(None, Detections(many, scores, many, many, scores))
     (first,), (again, flips) = calls
     assert flips == FLIPS
-    np.testing.assert_array_equal(first, many[:N_FIRST_PASS])
-    best = np.arange(N_FIRST_PASS)[::-1][:N_SECOND_PASS]
+    np.testing.assert_array_equal(first, many)
+    best = np.arange(len(many))[::-1][:N_SECOND_PASS]
     step = np.full((N_SECOND_PASS, 4), 0.02)
     np.testing.assert_allclose(again, decode_deltas(many[best], step))
     np.testing.assert_allclose(selected.boxes, decode_deltas(again, step))
@@ -187,17 +186,28 @@ def test_of_overlapping_boxes_the_most_probable_is_kept():
     np.testing.assert_allclose(probability, [0.9, 0.8])
 
 
-def test_a_stream_has_a_higher_threshold_than_a_recogniser():
-    assert 0.5 < 0.7 < MIN_PROBABILITY
-    assert sight_of([0.5], [0.7]).box is None
-    assert sight_of([0.5], [0.7], selects=False).summary.startswith("a shuttlecock,")
+def test_the_probabilities_of_chosen_boxes_are_calibrated():
+    boxes = BOXES[:2]
+    stream = Told(boxes, [0.7, 0.9])
+    object.__setattr__(stream, "sigmoid", (0.5, -1.0))
+    selected, probability = stream.select(
+        None, Detections(boxes, np.ones(2), boxes, boxes, np.ones(2))
+    )
+    np.testing.assert_allclose(selected.scores, 0.5 * logit(np.array([0.9, 0.7])) - 1)
+    np.testing.assert_allclose(logit(probability), selected.scores)
+
+
+def test_a_stream_has_a_lower_threshold_than_a_recogniser():
+    assert MIN_PROBABILITY < 0.4 < 0.5
+    assert sight_of([0.5], [0.4]).summary.startswith("a shuttlecock,")
+    assert sight_of([0.5], [0.4], selects=False).box is None
 
 
 def test_without_a_probable_box_the_summary_counts_things():
-    unsure = sight_of([0.3, 0.2], [0.6, 0.5])
+    unsure = sight_of([0.3, 0.2], [0.3, 0.2])
     assert unsure.box is None
     assert unsure.summary.startswith("no shuttlecock, but 2 things")
-    assert sight_of([0.3], [0.6]).summary.startswith("no shuttlecock, but 1 thing;")
+    assert sight_of([0.3], [0.3]).summary.startswith("no shuttlecock, but 1 thing;")
     nothing = sight_of(np.empty(0), np.empty(0))
     assert nothing.summary == "nothing that looks like an object"
 

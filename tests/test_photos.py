@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from reproduce.training import COUNTEREXAMPLES
+from reproduce.training.photographs import COUNTEREXAMPLES
 from vmc_lib import photos
 from vmc_lib.arm.kinematics import turn_towards
 from vmc_lib.camera import TABLE

@@ -67,7 +67,7 @@ def corrected_reach(trials, targets, k, correction, time):
 def nudge_plot(activation, dampers):
     """How far the finger is from its place after small nudges, while activations (63,) hold on."""
     away = 1000 * experiment.nudge(activation, dampers)[:, ::4]
-    fig, ax = panels(size=(5.6, 2.7))
+    fig, ax = panels(size=(4.3, 2.6))
     ax.plot(4 * plant.TICK * np.arange(away.shape[1]), away.T, color=COLOURS["blue"])
     ax.set(xlabel="time (s)", ylabel="finger off its place (mm)", ylim=(0, 150))
     ax.set(title=f"after 3 s on average {away[:, -1].mean():.0f} mm")

@@ -10,6 +10,7 @@ from functools import cache
 from pathlib import Path
 
 import numpy as np
+from wasmtime import wat2wasm
 
 from page.eye.localiser import localiser
 from vmc_lib import box_selection, camera, data, photos
@@ -20,6 +21,7 @@ from vmc_lib.where.recipes import EVERY_RECIPE
 from vmc_lib.where.selective_search import STRATEGIES
 
 SCRIPT = "vendor/brain.js"  # where the built page finds it
+CONVOLUTION = Path(__file__).with_name("convolution.wat")
 FILES = [data.FOLDER / f"{name}.npz" for name in ("detectors", "photographs", "localisers")]
 GRID = 33  # colours a side of the grid between which OpenCV interpolates Lab
 OPENCV_ONE = 1 << 14  # how it stores 1 there
@@ -58,14 +60,15 @@ def stream():
         "stages": [{part: learnt[f"{name}/{part}"] for part in "Wb"} for name in ventral.STAGES],
         "readout": learnt["readout"],
         "offsets": learnt["offsets"],
+        "sigmoid": learnt["sigmoid"],
         "flips": ventral.FLIPS,
+        "convolution": np.frombuffer(wat2wasm(CONVOLUTION.read_text(encoding="utf-8")), np.uint8),
     }
 
 
 def selector():
     """How boxes are chosen."""
     return {
-        "firstPass": ventral.N_FIRST_PASS,
         "secondPass": ventral.N_SECOND_PASS,
         "minProbability": ventral.MIN_PROBABILITY,
         "sizes": box_selection.SIZES,
@@ -105,4 +108,4 @@ def script():
 def inputs():
     """Every file that the script is made of."""
     library = Path(photos.__file__).parent  # whose constants go in, too
-    return [*Path(__file__).parent.glob("*.py"), *library.rglob("*.py"), *FILES]
+    return [*Path(__file__).parent.glob("*.py"), *library.rglob("*.py"), CONVOLUTION, *FILES]

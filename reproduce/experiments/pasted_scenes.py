@@ -8,8 +8,8 @@ from functools import partial
 import numpy as np
 from joblib import Parallel, delayed
 
-from reproduce.experiments.real_world import photographs
 from reproduce.results import records
+from reproduce.training.photographs import photographs
 from reproduce.training.scenes import SCENES, paste_photos
 from vmc_lib import photos
 from vmc_lib.boxes import MIN_IOU, iou

@@ -4,7 +4,7 @@ from joblib import Parallel, delayed
 
 from reproduce.experiments.loop_evaluation import MIN_IOU
 from reproduce.results import records
-from reproduce.training import COUNTEREXAMPLES
+from reproduce.training.photographs import photographs
 from vmc_lib import photos
 from vmc_lib.boxes import iou
 from vmc_lib.loop import VisuomotorModel, see
@@ -58,13 +58,6 @@ def share_text(count, of):
     """A share as text, with its 95 % interval (Wilson)."""
     low, high = wilson(count, of)
     return f"{count} of {of} ({low:.0%} to {high:.0%})"
-
-
-def photographs(split, folder=photos.FOLDER):
-    """The photographs of a split: those that ship, and counter-examples."""
-    return [
-        shot for where in (folder, COUNTEREXAMPLES) for shot in photos.load("real", split, where)
-    ]
 
 
 def make(folder=photos.FOLDER, models=MODELS, splits=SPLITS):

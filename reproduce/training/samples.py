@@ -5,16 +5,16 @@ from dataclasses import dataclass
 import numpy as np
 from joblib import Parallel, delayed
 
-from reproduce.training import COUNTEREXAMPLES
 from reproduce.training.augmentation import ALL, Augmentation
 from reproduce.training.detectors import candidates
+from reproduce.training.photographs import COUNTEREXAMPLES, photographs
 from reproduce.training.scenes import paste_photos
 from vmc_lib import loop, photos
 from vmc_lib.boxes import iou
 
 SHARES = {"shuttlecock": 0.4, "other": 0.15, "scene": 0.45}  # of what is drawn
 SOURCES = {"rendered": 0.25, "real": 0.35, "pasted": 0.4}  # of each, as far as a source has it
-PASTED = 1050  # scenes that are pasted on photographs
+PASTED, VALIDATION = 1050, 280  # scenes that are pasted on photographs to train, to validate
 APART = 0.3  # IoU under which a window shows no shuttlecock
 
 
@@ -62,6 +62,12 @@ def collect_samples(rng, folder=photos.FOLDER, everyday=None, pasted=PASTED):
         shots[photos.REAL_LEVEL] += some[:everyday]
     shots["pasted"] = paste_photos(shots[photos.REAL_LEVEL], "train", pasted, rng)
     return {level: photo_samples(some, rng) for level, some in shots.items()}
+
+
+def validation_photos(rng, folder=photos.FOLDER, everyday=None, pasted=VALIDATION):
+    """Photographs of validation, `everyday` of them, and so many scenes `pasted` on such ones."""
+    shots = photographs("validation", folder)
+    return shots[:everyday] + paste_photos(shots, "validation", pasted, rng)
 
 
 def photo_samples(shots, rng):

@@ -5,18 +5,27 @@ from the true ones. A box that strays far is a lesson in both.
 """
 
 from contextlib import contextmanager
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 import torch
 from joblib import Parallel, delayed
+from scipy.optimize import minimize
 from torch import nn
 from torch.nn import functional as F
 from torch.utils.data import DataLoader, Dataset
 
 from reproduce.training.augmentation import augment
-from reproduce.training.samples import APART, PASTED, collect_samples, training_samples
-from vmc_lib import photos
+from reproduce.training.samples import (
+    APART,
+    PASTED,
+    VALIDATION,
+    collect_samples,
+    training_samples,
+    validation_photos,
+)
+from vmc_lib import loop, photos
 from vmc_lib.boxes import iou
 from vmc_lib.what.stream import WIDTH, VentralStream, standardise
 
@@ -124,11 +133,42 @@ def hard_negatives(stream, photo):
     return photo | {"scene": (image, some[hardest])}
 
 
+def calibrate(stream, shots):
+    """Platt scaling: a stream whose choices come true as often as it says, on these photos.
+
+    It has learnt from boxes of which four in ten show a shuttlecock; of hundreds in a photo it
+    chooses the likeliest. So a sigmoid of the chosen box's log-odds is fitted to whether that box
+    is right (Platt 1999, with his smoothed targets).
+    """
+    asked = delayed(partial(likeliest_box, stream, loop.high_recall_detector(photos.REAL_LEVEL)))
+    log_odds, right = np.transpose([found for found in Parallel()(map(asked, shots)) if found])
+    hits, misses = right.sum(), (1 - right).sum()
+    target = np.where(right, (hits + 1) / (hits + 2), 1 / (misses + 2))
+
+    def cross_entropy(sigmoid):
+        z = np.polyval(sigmoid, log_odds)
+        return (np.logaddexp(0, z) - target * z).sum()
+
+    return replace(stream, sigmoid=minimize(cross_entropy, (1, 0)).x)
+
+
+def likeliest_box(stream, detector, shot):
+    """The log-odds of the box that a stream chooses in a photo, and whether it is a shuttlecock.
+
+    None where nothing is detected.
+    """
+    chosen, _ = stream.select(shot.image, detector.detect(shot.image))
+    if not len(chosen.boxes):
+        return None
+    fits = iou(chosen.boxes[:1], photos.boxes_of(shot, "shuttlecock"))
+    return chosen.scores[0], fits.max(initial=0) > 0.5
+
+
 def photographs(folder=photos.FOLDER, steps=STEPS, maps=MAPS, everyday=None, pasted=PASTED):
     """The arrays of `data/photographs.npz`: a `VentralStream`.
 
-    It learns, its mistakes are mined, and it learns on. `everyday` and `pasted` as for
-    `samples.collect_samples`.
+    It learns, its mistakes are mined, and it learns on; at last it is calibrated. `everyday` and
+    `pasted` as for `samples.collect_samples`.
     """
     lessons, network = (
         collect_samples(np.random.default_rng(0), folder, everyday, pasted),
@@ -139,5 +179,7 @@ def photographs(folder=photos.FOLDER, steps=STEPS, maps=MAPS, everyday=None, pas
             mine = delayed(partial(hard_negatives, fold_batch_norm(network)))
             lessons = {level: Parallel()(map(mine, seen)) for level, seen in lessons.items()}
         train(network, Batches(training_samples(lessons), part, some), rate)
-    stream = fold_batch_norm(network)
+    scenes = min(pasted, VALIDATION)
+    asked = validation_photos(np.random.default_rng(0), folder, everyday, scenes)
+    stream = calibrate(fold_batch_norm(network), asked)
     return {name: np.float16(part) for name, part in stream.arrays().items()}

@@ -5,7 +5,7 @@ import pytest
 
 from vmc_lib import photos
 from vmc_lib.boxes import decode_deltas, iou
-from vmc_lib.what.stream import FLIPS, MARGIN, STAGES, WIDTH, VentralStream, preprocess
+from vmc_lib.what.stream import BATCH, FLIPS, MARGIN, STAGES, WIDTH, VentralStream, preprocess
 
 STREAM = VentralStream.load()
 SHOTS = [shot for shot in photos.load("real", "train") if "shuttlecock" in shot.boxes]
@@ -55,6 +55,16 @@ def test_it_recognises_shuttlecocks_and_refines_boxes():
         after.append(iou(STREAM.refine_boxes(shot.image, astray), true)[0, 0])
     assert np.mean(np.array(chances) > 0.5) > 0.8
     assert np.mean(after) > np.mean(before) + 0.05
+
+
+def test_many_boxes_are_answered_as_one_by_one(rng):
+    ends = np.sort(rng.uniform(0, 400, (BATCH + 5, 2, 2)), axis=1)
+    boxes = ends.reshape(-1, 4) + np.array([0, 0, 9, 9])
+    log_odds, deltas = STREAM.predict(SHOTS[0].image, boxes)
+    alone = [STREAM.predict(SHOTS[0].image, box[None]) for box in boxes[:: BATCH + 4]]
+    np.testing.assert_allclose(log_odds[:: BATCH + 4], [one[0][0] for one in alone], atol=1e-4)
+    np.testing.assert_allclose(deltas[:: BATCH + 4], [one[1][0] for one in alone], atol=1e-4)
+    assert len(log_odds) == len(deltas) == BATCH + 5
 
 
 @pytest.mark.parametrize(("along", "down"), FLIPS[1:])

@@ -22,12 +22,12 @@ from vmc_lib.what.recogniser import check_detections, logistic
 
 STAGES = "V1", "V2", "V4", "IT"  # what stands there in the brain
 WIDTH, MARGIN = 48, 0.25  # of a crop, in pixels; what it shows around the box, in sides
+BATCH = 64  # crops at a time: more leave the processor's cache
 # Test-time augmentation, along x and along y: as it is, flipped left-right, up-down, and both
 FLIPS = (1, 1), (-1, 1), (1, -1), (-1, -1)
 # How it chooses among boxes, set on validation photos (reproduce.experiments.eye_ablation)
-N_FIRST_PASS = 100  # boxes, those of the best detector scores, that it looks at
-N_SECOND_PASS = 8  # of them, the likeliest, that it looks at again, refined, in all FLIPS
-MIN_PROBABILITY = 0.77  # above which a box is chosen: log-odds of 1.2
+N_SECOND_PASS = 4  # boxes, the likeliest, that it looks at again, refined, in all FLIPS
+MIN_PROBABILITY = 1 / 3  # above which one is chosen: a miss counts twice as much as a false alarm
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,6 +38,7 @@ class VentralStream:
     biases: tuple
     readout: np.ndarray  # (5, d): log-odds of being a shuttlecock, and four deltas of the box
     offsets: np.ndarray  # (5,)
+    sigmoid: Any = (1.0, 0.0)  # slope and offset of the chosen boxes' log-odds (Platt 1999)
     min_probability = MIN_PROBABILITY
 
     __repr__ = short_repr
@@ -70,6 +71,11 @@ class VentralStream:
         """
         if not len(boxes := as_boxes(boxes)):
             return np.zeros(0), np.zeros((0, 4))
+        if len(boxes) > BATCH:
+            parts = [boxes[at : at + BATCH] for at in range(0, len(boxes), BATCH)]
+            outputs = zip(*(self.predict(image, part, flips) for part in parts), strict=True)
+            log_odds, deltas = map(np.concatenate, outputs)
+            return log_odds, deltas
         x, mean = preprocess(image, boxes), np.zeros(5)
         for along, down in flips:
             *_, last = self.stages(x[:, :, ::down, ::along]).values()
@@ -89,33 +95,31 @@ class VentralStream:
         self,
         image: np.ndarray,
         detections: Any,
-        first: int | None = N_FIRST_PASS,
-        second: int | None = N_SECOND_PASS,
+        second: int = N_SECOND_PASS,
         flips: Sequence[Any] = FLIPS,
     ) -> tuple[Any, np.ndarray]:
         """Choose among an image's `Detections`: look, refine the likeliest, look again, refine.
 
-        It looks at the `first` best, then at the `second` likeliest in all `flips` (None: at all
-        boxes); non-maximum suppression keeps the likeliest of those that overlap. Returns their
-        `Detections`, the likeliest first, scored by their log-odds, and their probabilities (n,).
+        It looks at all, then at the `second` likeliest in all `flips`; non-maximum suppression
+        keeps the likeliest of those that overlap. Returns their `Detections`, the likeliest first,
+        scored by their log-odds, and their probabilities (n,), both calibrated by `sigmoid`: of the
+        likeliest of many boxes fewer are right than of boxes as they come.
         """
         check_detections(detections)
-        for name, count in (("first", first), ("second", second)):
-            if count is not None:
-                check_count(name, count)
-        boxes = detections.boxes[:first]
+        check_count("second", second)
+        boxes = detections.boxes
         log_odds, deltas = self.predict(image, boxes)
         best = np.argsort(-log_odds, kind="stable")[:second]
         boxes = decode_deltas(boxes[best], deltas[best])
         log_odds, deltas = self.predict(image, boxes, flips)
-        boxes = decode_deltas(boxes, deltas)
+        log_odds, boxes = np.polyval(self.sigmoid, log_odds), decode_deltas(boxes, deltas)
         kept = nms(boxes, log_odds)
         chosen = replace(detections, boxes=boxes[kept], scores=log_odds[kept])
         return chosen, logistic(chosen.scores)
 
     def arrays(self) -> dict[str, np.ndarray]:
         """The stream as a dict of arrays, to be saved with `np.savez`."""
-        parts = {"readout": self.readout, "offsets": self.offsets}
+        parts = {name: np.array(getattr(self, name)) for name in ("readout", "offsets", "sigmoid")}
         for name, W, b in zip(STAGES, self.filters, self.biases, strict=True):
             parts |= {f"{name}/W": W, f"{name}/b": b}
         return parts
@@ -125,7 +129,7 @@ class VentralStream:
         """The stream that ships with the book."""
         learnt = {k: part.astype(np.float32) for k, part in arrays("photographs").items()}
         W, b = (tuple(learnt[f"{name}/{part}"] for name in STAGES) for part in "Wb")
-        return cls(W, b, learnt["readout"], learnt["offsets"])
+        return cls(W, b, learnt["readout"], learnt["offsets"], learnt["sigmoid"])
 
 
 def preprocess(image: np.ndarray, boxes: np.ndarray) -> np.ndarray:

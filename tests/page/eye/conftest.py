@@ -38,7 +38,8 @@ def brain_script(site, once):
 def eye_page(chromium, site):
     """A page, offline, with the book's scripts."""
     context = chromium.new_context(offline=True)
-    page = pages.open_html(context, site, "")
+    eye = '<!-- class="vmc-eye": its policy lets WebAssembly run -->'
+    page = pages.open_html(context, site, eye)
     yield page
     context.close()
     assert page.errors == page.failed == []

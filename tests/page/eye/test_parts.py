@@ -158,14 +158,17 @@ def test_the_streams_answers(ask, rng, flips):
     assert np.allclose([answer["deltas"] for answer in there], deltas, atol=1e-5)
 
 
+def test_where_no_code_can_be_compiled_the_reader_is_told_what_helps(ask):
+    script = """try { eye.build(new Uint8Array(8), []); } catch (error) { return error.message; }"""
+    assert "those since 2023 do" in ask(script)
+
+
 @pytest.mark.parametrize("probability", [[], [0.3], [0.31, 0.2], [0.9], [0.997, 0.6, 0.2]])
 def test_a_sight_is_described_in_the_same_words(ask, probability):
     regions = np.arange(4.0 * len(probability)).reshape(-1, 4)
     script = """const [boxes, probability] = asked;
       const sight = new eye.Sight({ boxes, probability }, 0.4);
       return [sight.summary, sight.box];"""
-    here = Sight(
-        Detections(regions, regions, regions, regions, regions), np.array(probability), 0.4
-    )
+    here = Sight(Detections(*[regions] * 5), np.array(probability), 0.4)
     box = None if here.box is None else here.box.tolist()
     assert ask(script, [regions.tolist(), probability]) == [here.summary, box]

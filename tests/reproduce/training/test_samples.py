@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from reproduce.training import samples
-from reproduce.training.scenes import paste_photos
+from reproduce.training.scenes import SCENES, paste_photos
 from vmc_lib import photos
 from vmc_lib.boxes import iou
 
@@ -71,3 +71,11 @@ def test_samples_include_everyday_counterexamples_and_pasted_photos(monkeypatch,
     for level in photos.EVERY_LEVEL:
         assert len(pools[level]) == len(photos.load(level, "train")) + 4 * (level == "real")
     assert ["shuttlecock" in photo for photo in pools["pasted"]] == 5 * [True] + 2 * [False]
+
+
+def test_validation_photos_hold_photographs_and_every_kind_of_scene(rng):
+    first, *scenes = samples.validation_photos(rng, everyday=1, pasted=len(SCENES))
+    assert first.name.startswith("real/validation/")
+    assert [len(photos.boxes_of(one, "shuttlecock")) for one in scenes] == [
+        count for count, *_ in SCENES.values()
+    ]

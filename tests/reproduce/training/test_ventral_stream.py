@@ -1,13 +1,16 @@
 """Training of the ventral stream: batches, loss, batch-norm folding, hard negatives."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import torch
 
 from reproduce.training import samples
 from reproduce.training import ventral_stream as training
-from vmc_lib import photos
+from vmc_lib import loop, photos
 from vmc_lib.boxes import iou
-from vmc_lib.what.stream import WIDTH
+from vmc_lib.what.recogniser import logistic
+from vmc_lib.what.stream import WIDTH, VentralStream
 
 MAPS = 4, 4, 4, 4
 SHOT = photos.load("rig", "train")[0]
@@ -90,3 +93,21 @@ def test_hard_negatives_hold_no_shuttlecock():
     assert iou(boxes, photo["shuttlecock"][1]).max() < samples.APART
     assert boxes[:, 0].max() <= np.median(photo["scene"][1][:, 0])
     assert negatives["shuttlecock"] is photo["shuttlecock"]
+
+
+def test_calibrated_log_odds_come_true(monkeypatch, rng):
+    log_odds = rng.normal(0, 4, 3000)
+    answers = [*zip(log_odds, rng.random(3000) < logistic(0.5 * log_odds - 1.5), strict=True), None]
+    monkeypatch.setattr(training, "likeliest_box", lambda stream, detector, shot: shot)
+    calibrated = training.calibrate(VentralStream.load(), answers)
+    np.testing.assert_allclose(calibrated.sigmoid, (0.5, -1.5), atol=0.15)
+
+
+def test_the_box_that_is_asked_for_is_the_likeliest():
+    stream, detector = VentralStream.load(), loop.high_recall_detector("real")
+    shot = photos.load("real", "validation")[0]
+    log_odds, right = training.likeliest_box(stream, detector, shot)
+    assert log_odds > 3
+    assert right
+    plain = SimpleNamespace(image=np.full_like(shot.image, 128), boxes={})
+    assert training.likeliest_box(stream, detector, plain) is None
