@@ -74,7 +74,7 @@ def pictures(past, target):
     plots = []
     for title, (x, y, label) in VIEWS.items():
         fig, ax = panels(size=(2.7, 2.3))
-        ax.plot(past.points[:, x], past.points[:, y], "o", ms=2, color=COLOURS["line"])
+        ax.plot(past.points[:, x], past.points[:, y], "o", ms=2, color=COLOURS["grey"])
         view_from(ax, y, label, title)
         plots.append(fig)
     return space, *plots
