@@ -25,13 +25,10 @@ def whitening_view(crop, white):
 
 
 def explanations_of(v, energies, chances, names):
-    """A small picture v (height, width) beside the energy of each explanation; their chances."""
-    small = {"figsize": (4.3, 2.3), "layout": "none"}  # each as wide as a phone
-    edges = {"right": 0.97, "bottom": 0.13, "top": 0.88}
-    first, (left, middle) = plt.subplots(1, 2, width_ratios=[1, 1.4], **small)
-    first.subplots_adjust(left=0.01, wspace=0.9, **edges)
-    second, right = plt.subplots(**small)
-    second.subplots_adjust(left=0.25, **edges)
+    """A small picture v (height, width), and the energy and chance of each explanation of it."""
+    shape = {"width_ratios": [1, 1.2, 1.2], "layout": "none"}
+    fig, (left, middle, right) = plt.subplots(1, 3, figsize=(6.8, 2.3), **shape)
+    fig.subplots_adjust(left=0.01, right=0.98, bottom=0.13, top=0.88, wspace=0.72)
     left.pcolormesh(v, vmin=-2.1, vmax=2.1, edgecolor=COLOURS["grey"], cmap="gray")
     left.set(title="v", xticks=[], yticks=[], aspect="equal")
     bars = middle.barh(names, energies, color=COLOURS["orange"])
@@ -39,10 +36,10 @@ def explanations_of(v, energies, chances, names):
     middle.set(title="energy E(v, h)", xlim=(0, 45))
     bars = right.barh(names, chances, color=COLOURS["blue"])
     right.bar_label(bars, fmt="%.2f", padding=2)
-    right.set(title="p(h | v)", xlim=(0, 1.25))
+    right.set(title="p(h | v)", xlim=(0, 1.25), yticks=[])
     for ax in (left, middle, right):
         ax.invert_yaxis()
-    return first, second
+    return fig
 
 
 def block(chances):
