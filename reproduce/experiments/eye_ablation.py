@@ -15,7 +15,7 @@ from joblib import Parallel, delayed
 
 from reproduce.experiments.pasted_scenes import pasted_photos
 from reproduce.results import records
-from reproduce.training.photographs import photographs
+from reproduce.training.photographs import load_photographs
 from vmc_lib import photos
 from vmc_lib.boxes import MIN_IOU, iou
 from vmc_lib.loop import Sight, VisuomotorModel
@@ -23,7 +23,7 @@ from vmc_lib.what.stream import FLIPS, N_SECOND_PASS, VentralStream
 from vmc_lib.where.selective_search import propose
 
 SCENES_EACH = 20  # pasted scenes of each kind
-LOOKED_AT = 100
+N_BEST = 100  # boxes, of the best detector scores
 COUNTED = "right", "tight", "alarms"
 
 
@@ -36,13 +36,13 @@ class Unmoved(VentralStream):
         return log_odds, 0 * deltas
 
 
-class Hasty(VentralStream):
-    """A stream that looks at the boxes of the LOOKED_AT best detector scores only."""
+class BestBoxes(VentralStream):
+    """A stream that looks at the N_BEST boxes of the best detector scores alone."""
 
     def select(self, image, detections, **settings):
         """As the stream's, of fewer boxes."""
         return super().select(
-            image, replace(detections, boxes=detections.boxes[:LOOKED_AT]), **settings
+            image, replace(detections, boxes=detections.boxes[:N_BEST]), **settings
         )
 
 
@@ -50,7 +50,7 @@ WITHOUT = {  # what is left out -> how the stream chooses, its class, and the ov
     "nothing": ({}, VentralStream, None),
     "flips": ({"flips": FLIPS[:1]}, VentralStream, None),
     "refinement": ({}, Unmoved, None),
-    f"all boxes but {LOOKED_AT}": ({}, Hasty, None),
+    f"all boxes but {N_BEST}": ({}, BestBoxes, None),
     "half of the second look": ({"second": N_SECOND_PASS // 2}, VentralStream, None),
     "suppression before it looks": ({}, VentralStream, 1.0),
 }
@@ -68,7 +68,7 @@ def emptied(photo):
 def pictures(folder=photos.FOLDER):
     """(image, true boxes (n, 4) of shuttlecocks) of every picture that is asked."""
     renders = [shot for level in photos.LEVELS for shot in photos.load(level, "validation", folder)]
-    real = photographs("validation", folder)
+    real = load_photographs("validation", folder)
     shots = [*renders, *real, *pasted_photos("validation", SCENES_EACH)]
     asked = [(shot.image, photos.boxes_of(shot, "shuttlecock")) for shot in shots]
     cut = [shot for shot in real if "shuttlecock" in shot.boxes]

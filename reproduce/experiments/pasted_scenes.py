@@ -9,7 +9,7 @@ import numpy as np
 from joblib import Parallel, delayed
 
 from reproduce.results import records
-from reproduce.training.photographs import photographs
+from reproduce.training.photographs import load_photographs
 from reproduce.training.scenes import SCENES, paste_photos
 from vmc_lib import photos
 from vmc_lib.boxes import MIN_IOU, iou
@@ -35,7 +35,7 @@ load_results = partial(records, "pasted_scenes")
 def pasted_photos(split, count=COUNT):
     """The `PastedPhoto`s of a split, SCENES in turn, `count` of each."""
     rng = np.random.default_rng(SPLITS.index(split))
-    return paste_photos(photographs(split), split, count * len(SCENES), rng)
+    return paste_photos(load_photographs(split), split, count * len(SCENES), rng)
 
 
 def answer_photos(model, shots):

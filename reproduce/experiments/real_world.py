@@ -4,7 +4,7 @@ from joblib import Parallel, delayed
 
 from reproduce.experiments.loop_evaluation import MIN_IOU
 from reproduce.results import records
-from reproduce.training.photographs import photographs
+from reproduce.training.photographs import load_photographs
 from vmc_lib import photos
 from vmc_lib.boxes import iou
 from vmc_lib.loop import VisuomotorModel, see
@@ -65,7 +65,9 @@ def make(folder=photos.FOLDER, models=MODELS, splits=SPLITS):
     found = {}
     for name in models:
         model = VisuomotorModel.load(name)
-        found[name] = {split: _examine_all(model, photographs(split, folder)) for split in splits}
+        found[name] = {
+            split: _examine_all(model, load_photographs(split, folder)) for split in splits
+        }
     return found
 
 

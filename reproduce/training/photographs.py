@@ -7,7 +7,7 @@ from vmc_lib import photos
 COUNTEREXAMPLES = Path(__file__).parent / "counterexamples"
 
 
-def photographs(split, folder=photos.FOLDER):
+def load_photographs(split, folder=photos.FOLDER):
     """The photographs of a split: those that ship, and counter-examples."""
     return [
         shot

@@ -7,7 +7,7 @@ from joblib import Parallel, delayed
 
 from reproduce.training.augmentation import ALL, Augmentation
 from reproduce.training.detectors import candidates
-from reproduce.training.photographs import COUNTEREXAMPLES, photographs
+from reproduce.training.photographs import COUNTEREXAMPLES, load_photographs
 from reproduce.training.scenes import paste_photos
 from vmc_lib import loop, photos
 from vmc_lib.boxes import iou
@@ -66,7 +66,7 @@ def collect_samples(rng, folder=photos.FOLDER, everyday=None, pasted=PASTED):
 
 def validation_photos(rng, folder=photos.FOLDER, everyday=None, pasted=VALIDATION):
     """Photographs of validation, `everyday` of them, and so many scenes `pasted` on such ones."""
-    shots = photographs("validation", folder)
+    shots = load_photographs("validation", folder)
     return shots[:everyday] + paste_photos(shots, "validation", pasted, rng)
 
 

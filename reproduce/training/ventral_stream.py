@@ -133,8 +133,8 @@ def hard_negatives(stream, photo):
     return photo | {"scene": (image, some[hardest])}
 
 
-def calibrate(stream, shots):
-    """Platt scaling: a stream whose choices come true as often as it says, on these photos.
+def fit_sigmoid(stream, shots):
+    """Platt scaling: the stream whose choices come true as often as it says, on these photos.
 
     It has learnt from boxes of which four in ten show a shuttlecock; of hundreds in a photo it
     chooses the likeliest. So a sigmoid of the chosen box's log-odds is fitted to whether that box
@@ -167,8 +167,8 @@ def likeliest_box(stream, detector, shot):
 def photographs(folder=photos.FOLDER, steps=STEPS, maps=MAPS, everyday=None, pasted=PASTED):
     """The arrays of `data/photographs.npz`: a `VentralStream`.
 
-    It learns, its mistakes are mined, and it learns on; at last it is calibrated. `everyday` and
-    `pasted` as for `samples.collect_samples`.
+    It learns, its mistakes are mined, and it learns on; at last its sigmoid is fitted. `everyday`
+    and `pasted` as for `samples.collect_samples`.
     """
     lessons, network = (
         collect_samples(np.random.default_rng(0), folder, everyday, pasted),
@@ -181,5 +181,5 @@ def photographs(folder=photos.FOLDER, steps=STEPS, maps=MAPS, everyday=None, pas
         train(network, Batches(training_samples(lessons), part, some), rate)
     scenes = min(pasted, VALIDATION)
     asked = validation_photos(np.random.default_rng(0), folder, everyday, scenes)
-    stream = calibrate(fold_batch_norm(network), asked)
+    stream = fit_sigmoid(fold_batch_norm(network), asked)
     return {name: np.float16(part) for name, part in stream.arrays().items()}

@@ -4,6 +4,7 @@ import pytest
 
 from reproduce import results
 from reproduce.experiments import real_world
+from reproduce.training.photographs import load_photographs
 from vmc_lib import loop, photos
 
 
@@ -11,7 +12,7 @@ from vmc_lib import loop, photos
 @pytest.mark.parametrize("model", real_world.MODELS)
 def test_stored_answers_cover_every_photo(model, split):
     answers = real_world.load_results(model, split)
-    shots = real_world.photographs(split)
+    shots = load_photographs(split)
     assert list(answers) == [photo.name for photo in shots]
     for photo, answer in zip(shots, answers.values(), strict=True):
         assert answer["holds"] == next(iter(photo.boxes), "neither")
@@ -24,7 +25,7 @@ def test_stored_answers_cover_every_photo(model, split):
 @pytest.mark.parametrize("model", real_world.MODELS)
 def test_stored_answers_are_reproducible(model):
     stored = real_world.load_results(model, "validation")
-    first, *_, last = real_world.photographs("validation")  # with a shuttlecock, and with neither
+    first, *_, last = load_photographs("validation")  # with a shuttlecock, and with neither
     for photo in (first, last):
         now = real_world.examine(loop.VisuomotorModel.load(model), photo)
         then = stored[photo.name]

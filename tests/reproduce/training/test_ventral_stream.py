@@ -95,11 +95,11 @@ def test_hard_negatives_hold_no_shuttlecock():
     assert negatives["shuttlecock"] is photo["shuttlecock"]
 
 
-def test_calibrated_log_odds_come_true(monkeypatch, rng):
+def test_the_sigmoid_is_that_by_which_choices_come_true(monkeypatch, rng):
     log_odds = rng.normal(0, 4, 3000)
     answers = [*zip(log_odds, rng.random(3000) < logistic(0.5 * log_odds - 1.5), strict=True), None]
     monkeypatch.setattr(training, "likeliest_box", lambda stream, detector, shot: shot)
-    calibrated = training.calibrate(VentralStream.load(), answers)
+    calibrated = training.fit_sigmoid(VentralStream.load(), answers)
     np.testing.assert_allclose(calibrated.sigmoid, (0.5, -1.5), atol=0.15)
 
 
