@@ -56,6 +56,10 @@ def test_each_piece_names_the_next():
         further = [soup.select_one(a["href"]) for a in link.find_next_siblings("a")]
         heads = ["Recap", "Quiz"] if here.page != then.page else []
         assert [section.h2.find(string=True) for section in further] == heads
+        if heads:  # where the chapter itself ends, too
+            *_, end = soup.select(".vmc-next-sitting a")
+            assert end["href"] == link["href"]
+            assert not end.find_all_next("section")
 
 
 @pytest.mark.parametrize("page", ["01_loop", "03_regions", "13_see_and_reach"])

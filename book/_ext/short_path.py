@@ -12,7 +12,10 @@ from typing import NamedTuple
 from docutils.nodes import make_id
 
 MARK = " vmc-short-path"  # a class
-RECAP = ' Before you leave: the <a href="#recap">recap</a> and the <a href="#quiz">quiz</a> below.'
+RECAP = (
+    ' The <a href="#recap">recap</a> below sums up the whole chapter, and the'
+    ' <a href="#quiz">quiz</a> asks about all of it.'
+)
 HEAD = re.compile(r'<section (?:class="[^"]*" )?id="([^"]+)">\s*<h2>')
 LINK = re.compile(r'(<a class="(?:current )?reference internal)(" href="([^"]*)">)')
 
@@ -69,8 +72,14 @@ def lead_on(app, pagename, templatename, context, doctree):
         title = piece.first or app.env.titles[page].astext()
         address = app.builder.get_relative_uri(pagename, page)
         address += f"#{make_id(piece.first)}" * bool(piece.first)
-        recap = RECAP * (here.page != piece.page)
-        context["body"] = with_link(context["body"], here, nth, then, title, address, recap)
+        link = f'<a href="{address}">{escape(title)}</a>'
+        said = f"Sitting {nth} goes on with: {link}."
+        if then > nth:
+            said = f"Sitting {nth} of {len(SITTINGS)} ends here. Next: {link}."
+        body, place = context["body"], end_of(context["body"], here)
+        if here.page != piece.page:  # the page's end leads on, too: its *Next* is another
+            body, said = body + nav(f"{nth}, again", said), said + RECAP
+        context["body"] = f"{body[:place]}{nav(nth, said)}\n{body[place:]}"
 
 
 def mark(sidebar, marked):
@@ -82,18 +91,20 @@ def mark(sidebar, marked):
     return LINK.sub(one, str(sidebar))
 
 
-def with_link(body, here, nth, then, title, address, recap):
-    """A page's body (HTML) that names the next piece after the one that ends `here`.
+def nav(label, text):
+    """A line (HTML) that leads on along the path."""
+    label = f'aria-label="The short path, {label}"'
+    return f'<nav class="vmc-next-sitting" {label}><b>The short path.</b> {text}</nav>'
+
+
+def end_of(body, piece):
+    """Where a piece ends in its page's body (HTML): before the heading after its last.
 
     ValueError where the page has no such heading.
     """
     heads = list(HEAD.finditer(body))
     names = [head[1] for head in heads]
-    last = make_id(here.last)
+    last = make_id(piece.last)
     if last not in names:
-        raise ValueError(f"{here.page} has no section {here.last!r}, but {names}")
-    place = heads[names.index(last) + 1].start()
-    said = f"Sitting {nth} of {len(SITTINGS)} ends here. Next" if then > nth else "Go on with"
-    link = f'<a href="{address}">{escape(title)}</a>'
-    nav = f'<nav class="vmc-next-sitting" aria-label="The short path, {nth}">'
-    return f"{body[:place]}{nav}<b>The short path.</b> {said}: {link}.{recap}</nav>\n{body[place:]}"
+        raise ValueError(f"{piece.page} has no section {piece.last!r}, but {names}")
+    return heads[names.index(last) + 1].start()
