@@ -42,16 +42,16 @@ def test_a_strip_stands_above_every_chapter(path):
     assert soup.article.find(True) == strip
 
 
-def test_a_strip_tells_the_miss_before_where_a_chapter_changes_it():
+def test_a_strip_tells_the_plans_miss_where_a_chapter_changes_it():
     said = {}
     for path in NUMBERED:
         soup = BeautifulSoup(path.read_text(encoding="utf-8"), "html.parser")
         said[number(path)] = soup.select_one(".vmc-thread > a span").text
         assert soup.select_one(".vmc-thread > a")["aria-label"].startswith(said[number(path)])
     numbers = {name: f"{miss:.1f}" for name, miss in thread.misses().items()}
-    changes = {10: ("plan", "off-line"), 11: ("off-line", "online"), 14: ("online", "whole hold")}
+    changes = {10: "off-line", 11: "online", 14: "whole hold"}  # each a correction of the plan
     assert {n: text for n, text in said.items() if "→" in text} == {
-        n: f"miss {numbers[before]} → {numbers[after]} mm" for n, (before, after) in changes.items()
+        n: f"miss {numbers['plan']} → {numbers[after]} mm" for n, after in changes.items()
     }
 
 

@@ -63,7 +63,7 @@ def strip(number, places, photo):
     """The strip (HTML) of a chapter by its number, of the last page by None.
 
     `places` are chapters' numbers with their addresses and titles; `photo` is the photo's address.
-    A chapter that makes the miss smaller says it before and after; one before any reach, its step.
+    A chapter that makes the miss smaller says the plan's, too; one before any reach, its step.
     """
     from book.figures import thread
 
@@ -71,7 +71,7 @@ def strip(number, places, photo):
     step, (miss, words) = thread.step_of(number), thread.words(number)
     first = places[1][0].rstrip("#")
     before = thread.words(number - 1)[0] if number in [*places][1:] else ""
-    earlier = f"{before.removesuffix(' mm')} → " if before not in ("", miss) else ""
+    earlier = f"{thread.misses()['plan']:.1f} → " if before not in ("", miss) else ""
     said = f"miss {earlier}<b>{miss}</b>" if miss else f"photo 1: {words}"
     spoken = f"miss {earlier}{miss}: photo 1, {words}" if miss else said
     return (

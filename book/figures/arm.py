@@ -149,7 +149,7 @@ def paths_beside_opensim(muscle, joint):
 
 def step_error(steps, miss):
     """How far the wrist ends from where the smallest steps put it: (n,) in mm, steps in ms."""
-    fig, ax = panels(size=(5.5, 2.6))
+    fig, ax = panels(size=(4.3, 2.6))
     ax.plot(steps, miss, "o-", color=COLOURS["purple"])
     ax.set(xlabel="step (ms)", ylabel="wrist differs by (mm)")
     ax.set(xlim=(0, None), ylim=(0, None))

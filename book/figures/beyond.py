@@ -21,7 +21,7 @@ TRIED = ((-0.05, 0.3), (-0.53, -0.25))  # the plane round the obstacles, m
 
 def miss_histogram(miss):
     """How many reaches miss by how much: `miss` (n,) in mm, on a logarithmic axis, a median."""
-    fig, ax = panels(size=(5.5, 3.2))
+    fig, ax = panels(size=(4.3, 3.0))
     ax.stairs(*np.histogram(miss, np.geomspace(2.5e-5, 40, 63)), fill=True)
     median = np.median(miss)
     ax.axvline(median, color="C1")

@@ -167,7 +167,7 @@ def final_recall(shots, strategy, overlap):
 
 def recall_plot(curves, overlap):
     """Recall at an overlap against boxes tried, of what `proposal_curves` returned: a figure."""
-    fig, ax = panels(size=(6, 3.4))
+    fig, ax = panels(size=(4.3, 3.4))
     for (name, best), colour in zip(curves.items(), COLOURS.values(), strict=False):
         share = (best >= np.float32(overlap)).mean(0)
         tried = np.arange(1, len(share) + 1)
@@ -179,7 +179,7 @@ def recall_plot(curves, overlap):
 
 def growth_plot(growth, count):
     """Processor time against pixels, name -> (n, 2), for the first photos: a log-log figure."""
-    fig, ax = panels(size=(6, 3.4))
+    fig, ax = panels(size=(4.3, 3.4))
     for (name, points), colour in zip(growth.items(), COLOURS.values(), strict=False):
         x, y = points.T
         ax.loglog(x, x / x[2] * y[2], ":", color=colour)

@@ -19,7 +19,7 @@ from vmc_lib.show.palette import COLOURS, EDGE, ON_PHOTO
 from vmc_lib.statistics import wilson
 
 SEEING = ("a photo", "candidates", "regions", "after suppression", "names")
-LOOP_STEPS = (*SEEING, "first reach", "calibrated reach", "third reach")
+LOOP_STEPS = (*SEEING, "first reach", "calibrated reach", "our own rule")
 TURNED = 500  # ms: by then the trunk has turned
 FOREARM = 0.02  # m, the radius of a forearm that is a rod
 LIFT_RADIUS = 0.01  # m from a shuttlecock's true middle: within it a hand is drawn to lift it
@@ -55,7 +55,7 @@ def calibrate_over_hold(reach):
 
 def motion_at(step, reach, online=None):
     """The motion that a step or a stage of a movement shows."""
-    if step == "third reach":
+    if step == "our own rule":
         return calibrate_over_hold(reach)
     return moves(reach, online)[STAGE_OF.get(step, step)]
 

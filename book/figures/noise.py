@@ -137,7 +137,7 @@ def efforts_table(rules):
 
 def trembling(ways, target, time):
     """Hands that were told the same, near their target (2,): the last 0.3 s of `ways` (n, T, 2)."""
-    fig, ax = panels(size=(4.4, 4.4))
+    fig, ax = panels(size=(4.3, 4.3))
     last = 1000 * (ways[:, max(time - 300, 0) : time + 1] - target)
     ax.plot(*last.T, color=COLOURS["grey"], lw=0.8)
     ax.plot(*last[:, -1].T, "o", color=COLOURS["red"], ms=5, gid="hands")
@@ -180,7 +180,7 @@ def minimal_intervention(path, target, bar, aim):
 
     In mm from the target (2,) as it was.
     """
-    fig, ax = panels(size=(4.4, 4.6))
+    fig, ax = panels(size=(4.3, 4.5))
     off = 1000 * (path - target)
     ax.plot(*off[:, :250:2].T, color=COLOURS["grey"], lw=0.6)
     ax.plot(*off[:, -1].T, "o", ms=4, color=COLOURS["blue"], gid="hands")

@@ -30,16 +30,16 @@ def by_tries(reading, tries):
     Where there is noise, dotted: what it alone leaves.
     """
     found = READINGS[reading]()
-    fig, ax = panels(size=(6.4, 3.6))
+    fig, ax = panels(size=(4.3, 4.0))
+    fig.subplots_adjust(top=0.72)  # above, the legend
     for rule in (name for name in LINES if name in found):
         middle = _curve(ax, rule, np.arange(tries + 1), found[rule][:, : tries + 1])
-        mark_now(ax, tries, middle[tries])
+        mark_now(ax, tries, middle[tries], LINES[rule][0])
     if "noise alone" in found:
         ax.axhline(found["noise alone"].mean(), ls=":", color=COLOURS["grey"], gid="noise alone")
-    ax.set(xlabel="tries", ylabel="error / planned error", xlim=(0, nulls.TRIES), ylim=(0, 1.2))
+    ax.set(xlabel="tries", ylabel="error / planned error", xlim=(0, nulls.TRIES), ylim=(0, 1.05))
     ax.set_xticks(range(0, nulls.TRIES + 1, 3))
-    ax.set_yticks(np.arange(0, 1.1, 0.2).round(1))  # above, the legend
-    ax.legend(loc="upper right")
+    fig.legend(loc="upper center", ncols=2)
     return fig
 
 

@@ -34,7 +34,7 @@ def miss_above(above, rule=least_change):
     """That change, where the target lies in the middle of `FOUR`."""
     target = FOUR.mean(axis=0)
     hand_at = target + np.array([0, above])
-    fig, ax = plt.subplots(figsize=(4.6, 4.6))
+    fig, ax = plt.subplots(figsize=(4.3, 4.3))
     corrections(ax, target, hand_at, FOUR, change_above(above, rule))
     ends(ax, target, hand_at)
     return fig
@@ -124,7 +124,7 @@ def with_guards(errors, noisy):
     Dashed: `noisy`, the best so far on an arm with noise (draws, trials), mm.
     """
     best = mean_best_so_far(errors)
-    fig, ax = panels(size=(5.5, 3.2))
+    fig, ax = panels(size=(4.3, 3.2))
     ax.plot(errors.mean(axis=1), ".:", color=COLOURS["grey"], label="this trial")
     ax.plot(best, ".-", color=COLOURS["red"], label="the best so far")
     plot_noisy_mean(ax, range(len(best)), noisy)
@@ -142,7 +142,7 @@ def plot_noisy_mean(ax, x, curves):
 
 def after_the_command(away, reach):
     """Those distances by name, of one reach (its number as text) or the mean; the hold in grey."""
-    fig, ax = panels(size=(6.0, 3.2))
+    fig, ax = panels(size=(4.3, 3.2))
     time = 1 + np.arange(next(iter(away.values())).shape[1]) * templates.EVERY / 1000
     shade(ax, 1, 1 + templates.HOLD)
     for name, each in away.items():

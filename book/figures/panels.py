@@ -46,9 +46,9 @@ def curves(ax, x, lines, now):
         ax.legend()
 
 
-def mark_now(ax, x, y):
-    """A red dot where the reader is."""
-    ax.plot(x, y, "o", ms=9, color=COLOURS["red"], clip_on=False, gid="now")
+def mark_now(ax, x, y, colour="red"):
+    """A dot where the reader is."""
+    ax.plot(x, y, "o", ms=9, color=COLOURS[colour], clip_on=False, gid="now")
 
 
 def shade(ax, first, last):
@@ -67,7 +67,7 @@ def strip_plot(rows, measure, middle=np.median, xlim=None, text="{:.1f}"):
 
     A figure; the middle of a row stands as a bar, and as `text` after its name.
     """
-    fig, ax = panels(size=(5.5, 0.9 + 0.5 * len(rows)))
+    fig, ax = panels(size=(4.3, 0.9 + 0.5 * len(rows)))
     aside = np.random.default_rng(0).uniform(-0.25, 0.25, max(map(len, rows.values())))
     names = [f"{name}: {text.format(middle(values))}" for name, values in rows.items()]
     for row, values in enumerate(rows.values()):

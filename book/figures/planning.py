@@ -50,7 +50,7 @@ def in_frame(origin, weights, points, target):
     shoulder.
     """
     place = origin + weights @ (points - origin)
-    fig, ax = plt.subplots(figsize=(4.6, 4.6))
+    fig, ax = plt.subplots(figsize=(4.3, 4.3))
     plane(ax, templates.load().points, within=((-0.08, 0.42), (-0.62, 0.34)))
     arrows(ax, [origin, origin], origin + np.array([[0.07, 0], [0, 0.07]]), "purple")
     arrows(ax, origin, target, "purple")
@@ -65,7 +65,7 @@ def in_frame(origin, weights, points, target):
 
 def before_and_after(before, after):
     """Misses (n,) in mm of the same targets, without the nearest template over with it."""
-    fig, ax = panels(size=(4.6, 3.2))
+    fig, ax = panels(size=(4.3, 3.2))
     ax.plot(before, after, "o", ms=4, alpha=0.6, gid="targets")
     ends = [0, max(before.max(), after.max())]
     ax.plot(ends, ends, "--", color=COLOURS["grey"], gid="no change")

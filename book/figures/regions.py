@@ -72,7 +72,7 @@ def margin_plot(cost, kernel, yours):
 
 
 def _plane():
-    fig, ax = panels(size=(4.6, 3.6))
+    fig, ax = panels(size=(4.3, 3.4))
     for mark, colour, name in ("o", "blue", "something"), ("s", "orange", "table"):
         ax.plot([], [], mark, color=COLOURS[colour], label=name)
     ax.set(xticks=[], yticks=[], xlim=PLANE, ylim=PLANE, aspect="equal")

@@ -46,7 +46,7 @@ def lesion_view(photo, box, reach):
 
 def shares_within(errors, limit):
     """Cumulative shares of errors, name -> (n,) in mm, up to a limit: a figure of steps."""
-    fig, ax = panels(size=(5, 3.4))
+    fig, ax = panels(size=(4.3, 3.2))
     for name, values in errors.items():
         share = np.arange(1, len(values) + 1) / len(values)
         ax.step(np.sort(values), share, where="post", label=name)
@@ -76,8 +76,8 @@ def failure_bars(failures):
 
     Each level tells how many of its failures are the moving's, with a 95 % interval.
     """
-    fig, ax = panels(size=(5, 3.6))
-    fig.subplots_adjust(left=0.36, bottom=0.32)  # room for words and for the legend
+    fig, ax = panels(size=(4.3, 3.4))
+    fig.subplots_adjust(left=0.42, bottom=0.34)  # room for words and for the legend
     levels = [_name_failures(level, stages) for level, stages in failures.items()]
     left = np.zeros(len(failures))
     for stage, colour in zip(FAILURES, FAILURE_COLOURS, strict=True):
@@ -85,7 +85,7 @@ def failure_bars(failures):
         ax.barh(levels, share, left=left, label=FAILURES[stage], color=COLOURS[colour])
         left += share
     ax.set(xlim=(0, 1), xlabel="share of the test photos")
-    fig.legend(ncols=3, loc="lower center")
+    fig.legend(ncols=2, loc="lower center")
     return fig
 
 

@@ -37,7 +37,7 @@ def lean(target, neurons, evenly):
 
 def votes_plot(target=None, neurons=4, evenly=True):
     """A figure of the votes (grey), the reach (green) and the votes' sum (red); or it is empty."""
-    fig, ax = plt.subplots(figsize=(4.6, 3.6))
+    fig, ax = plt.subplots(figsize=(4.3, 3.4))
     ax.set(xlim=(-1.6, 1.6), ylim=(-1.25, 1.25), aspect="equal")
     ax.axis("off")
     if target is not None:
