@@ -8,6 +8,7 @@ from contextlib import suppress
 from functools import partial
 from pathlib import Path
 
+import joblib
 import numpy as np
 import pytest
 from filelock import FileLock
@@ -27,6 +28,11 @@ settings.load_profile("untimed")
 os.environ["VMC_RENDER_MODE"] = "test"
 os.environ.setdefault("MPLBACKEND", "agg")
 os.environ["PYTHONPATH"] = str(Path(__file__).parents[1])  # of the programs that tests start
+
+
+def pytest_xdist_auto_num_workers():
+    """One worker more than processors: who drives a browser waits for it half of the time."""
+    return joblib.cpu_count() + 1
 
 
 @pytest.hookimpl(tryfirst=True)

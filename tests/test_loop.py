@@ -25,7 +25,8 @@ from vmc_lib.what.recogniser import Recogniser
 from vmc_lib.what.stream import (
     FLIPS,
     MIN_PROBABILITY,
-    N_SECOND_PASS,
+    N_LOOKS,
+    N_REFINED,
     VentralStream,
 )
 from vmc_lib.where.detector import Detections
@@ -155,7 +156,7 @@ def test_a_camera_filters_boxes_by_size_and_scales_the_odds(selects):
     assert sight_of([0.3], [0.9], Sizing(0.3), selects).box is None
 
 
-def test_the_best_boxes_are_looked_at_twice():
+def test_the_best_boxes_are_refined_and_looked_at_again():
     corners = 60.0 * np.column_stack([np.arange(130) % 13, np.arange(130) // 13])
     many, scores = np.hstack([corners, corners + 50]), np.linspace(0.9, 0.1, 130)
     calls = []
@@ -167,13 +168,15 @@ def test_the_best_boxes_are_looked_at_twice():
 
     stream = Watched(many, np.linspace(0.1, 0.5, 130), delta=0.02)
     selected, probability = stream.select(None, Detections(many, scores, many, many, scores))
-    (first,), (again, flips) = calls
-    assert flips == FLIPS
+    (first,), *further = calls
     np.testing.assert_array_equal(first, many)
-    best = np.arange(len(many))[::-1][:N_SECOND_PASS]
-    step = np.full((N_SECOND_PASS, 4), 0.02)
-    np.testing.assert_allclose(again, decode_deltas(many[best], step))
-    np.testing.assert_allclose(selected.boxes, decode_deltas(again, step))
+    boxes, step = many[::-1][:N_REFINED], np.full((N_REFINED, 4), 0.02)
+    assert len(further) == N_LOOKS - 1
+    for again, flips in further:
+        assert flips == FLIPS
+        boxes = decode_deltas(boxes, step)
+        np.testing.assert_allclose(again, boxes)
+    np.testing.assert_allclose(selected.boxes, decode_deltas(boxes, step))
     assert (np.diff(probability) < 0).all()
     np.testing.assert_allclose(selected.scores, logit(probability))
 

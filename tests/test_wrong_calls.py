@@ -262,7 +262,7 @@ SIGHT = {  # a call: what its error says, the value and the remedy
     "boxes to select": (lambda g: g.model.recogniser.select(g.image, BOX), "[[0, 0", "detect(im"),
     "boxes for a stream": (lambda g: STREAM.select(g.image, BOX), "[[0, 0, 9, 9]]", "detect(im"),
     "how many to look at": (
-        lambda g: STREAM.select(g.image, found(g), second="all"), "'all'", "whole number"
+        lambda g: STREAM.select(g.image, found(g), refined="all"), "'all'", "whole number"
     ),
     "nothing for a stream": (lambda g: STREAM.predict(g.image, None), "boxes None", "numbers"),
     "a grey stream": (

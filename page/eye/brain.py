@@ -49,7 +49,6 @@ def detector():
     return {part: learnt[own + part] for part in ("support", "weights", "bias")} | {
         "strategy": strategy,
         "gate": recipe.gate,
-        "overlap": recipe.overlap,
     }
 
 
@@ -69,7 +68,8 @@ def stream():
 def selector():
     """How boxes are chosen."""
     return {
-        "secondPass": ventral.N_SECOND_PASS,
+        "refined": ventral.N_REFINED,
+        "looks": ventral.N_LOOKS,
         "minProbability": ventral.MIN_PROBABILITY,
         "sizes": box_selection.SIZES,
         "ratio": box_selection.SIZE_LIKELIHOOD_RATIO,

@@ -1,6 +1,5 @@
-/* The object detector for photographs (vmc_lib/where/detector.py): it scores candidates, and of those that pass it
-   keeps the best of those that overlap. */
-import { nms } from "./boxes.js";
+/* The object detector for photographs (vmc_lib/where/detector.py): it scores candidates, and keeps those that pass. */
+import { falling } from "./boxes.js";
 import { gradients } from "./features.js";
 import { each } from "./pieces.js";
 
@@ -12,8 +11,6 @@ export const svmScore = ({ support, weights, bias }, features) =>
 
 /* The boxes kept, the best first. */
 export const detect = function* (detector, photo, candidates) {
-  const { gate, overlap } = detector;
   const scores = yield* each(candidates, (box) => svmScore(detector, gradients(photo, box)), EVERY);
-  const pass = (_, i) => scores[i] > gate, passed = candidates.filter(pass);
-  return { boxes: nms(passed, scores.filter(pass), overlap).map((i) => passed[i]) };
+  return { boxes: falling(scores).filter((i) => scores[i] > detector.gate).map((i) => candidates[i]) };
 };

@@ -19,8 +19,7 @@ from reproduce.training.photographs import load_photographs
 from vmc_lib import photos
 from vmc_lib.boxes import MIN_IOU, iou
 from vmc_lib.loop import Sight, VisuomotorModel
-from vmc_lib.what.stream import FLIPS, N_SECOND_PASS, VentralStream
-from vmc_lib.where.selective_search import propose
+from vmc_lib.what.stream import FLIPS, N_LOOKS, N_REFINED, VentralStream
 
 SCENES_EACH = 20  # pasted scenes of each kind
 N_BEST = 100  # boxes, of the best detector scores
@@ -46,13 +45,13 @@ class BestBoxes(VentralStream):
         )
 
 
-WITHOUT = {  # what is left out -> how the stream chooses, its class, and the overlap allowed
-    "nothing": ({}, VentralStream, None),
-    "flips": ({"flips": FLIPS[:1]}, VentralStream, None),
-    "refinement": ({}, Unmoved, None),
-    f"all boxes but {N_BEST}": ({}, BestBoxes, None),
-    "half of the second look": ({"second": N_SECOND_PASS // 2}, VentralStream, None),
-    "suppression before it looks": ({}, VentralStream, 1.0),
+WITHOUT = {  # what is left out -> how the stream chooses, and its class
+    "nothing": ({}, VentralStream),
+    "flips": ({"flips": FLIPS[:1]}, VentralStream),
+    "refinement": ({}, Unmoved),
+    f"all boxes but {N_BEST}": ({}, BestBoxes),
+    "half of the boxes refined": ({"refined": N_REFINED // 2}, VentralStream),
+    "the last look": ({"looks": N_LOOKS - 1}, VentralStream),
 }
 
 
@@ -94,12 +93,10 @@ load_results = partial(records, "eye_ablation")
 
 def _answers(model, image, truth):
     """What is left out -> a Counter of what the eye's answer is, for one picture."""
-    candidates, answers = propose(image, model.detector.recipe.strategy), {}
-    for name, (settings, kind, overlap) in WITHOUT.items():
-        detector, stream = model.detector, kind(**vars(model.recogniser))
-        if overlap is not None:
-            detector = replace(detector, recipe=replace(detector.recipe, overlap=overlap))
-        chosen = stream.select(image, detector.detect(image, candidates), **settings)
+    found, answers = model.detector.detect(image), {}
+    for name, (settings, kind) in WITHOUT.items():
+        stream = kind(**vars(model.recogniser))
+        chosen = stream.select(image, found, **settings)
         box = Sight(*chosen, stream.min_probability).box
         fit = iou(box, truth).max(initial=0) if box is not None else 0
         alarm = box is not None and not len(truth)

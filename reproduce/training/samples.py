@@ -10,12 +10,13 @@ from reproduce.training.detectors import candidates
 from reproduce.training.photographs import COUNTEREXAMPLES, load_photographs
 from reproduce.training.scenes import paste_photos
 from vmc_lib import loop, photos
-from vmc_lib.boxes import iou
+from vmc_lib.boxes import iou, nms
 
 SHARES = {"shuttlecock": 0.4, "other": 0.15, "scene": 0.45}  # of what is drawn
 SOURCES = {"rendered": 0.25, "real": 0.35, "pasted": 0.4}  # of each, as far as a source has it
 PASTED, VALIDATION = 1050, 280  # scenes that are pasted on photographs to train, to validate
 APART = 0.3  # IoU under which a window shows no shuttlecock
+ALIKE = 0.7  # IoU above which a window teaches what another does
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,8 +87,9 @@ def photo_samples(shots, rng):
 
 
 def detected_boxes(finder, shot):
-    """The boxes that an object detector keeps of a photo."""
-    return finder.detect(shot.image).boxes
+    """The boxes that an object detector keeps of a photo, but those much like a better one."""
+    found = finder.detect(shot.image)
+    return found.boxes[nms(found.boxes, found.scores, ALIKE)]
 
 
 def boxes_by_kind(photo, proposed, rng):

@@ -53,7 +53,7 @@ REGRESSED = replace(GRADIENTS, strategy="finer", regressions=(0.15, 0.1, 0.07, 0
 PREDICTED = replace(REGRESSED, predicts_iou=True)
 IMPROVED = replace(PREDICTED, vote=True)
 # Real things differ more: more candidates, and a stream is still to look at what passes
-PHOTOGRAPHED = replace(GRADIENTS, strategy="fast", overlap=0.7)  # overlap: set on validation
+PHOTOGRAPHED = replace(GRADIENTS, strategy="fast", overlap=1.0)  # all that pass: on validation
 RECIPES = {
     "published": PUBLISHED,
     "single": SINGLE,
