@@ -114,46 +114,46 @@ def box_regression():
 def line_of_sight():
     """From the side: an eye, its line of sight, and two heights at which a thing may lie on it."""
     return drawing(
-        520,
+        430,
         230,
-        f'<path d="M20 190H500" stroke="{css("grey")}" stroke-width="4"/>',
-        f'<circle cx="60" cy="40" r="12" fill="{css("paper")}"/><circle cx="66" cy="44" r="4"/>',
-        arrow("M72 48L412 188", "blue", 2),
-        f'<path d="M297 138H418M357 163H418" stroke="{css("grey")}" stroke-dasharray="4 4"/>',
-        f'<circle cx="291" cy="138" r="6" fill="{css("orange")}" stroke="none"/>',
-        f'<circle cx="351" cy="163" r="6" fill="{css("green")}" stroke="none"/>',
-        words(60, 20, "eye"),
-        words(210, 84, "line of sight", "blue"),
-        words(464, 143, "if it stands"),
-        words(456, 168, "if it lies"),
-        arrow("M291 204H349", "red"),
-        words(320, 222, "off by so much", "red"),
-        words(120, 184, "table"),
+        f'<path d="M10 190H420" stroke="{css("grey")}" stroke-width="4"/>',
+        f'<circle cx="40" cy="40" r="12" fill="{css("paper")}"/><circle cx="46" cy="44" r="4"/>',
+        arrow("M52 48L352 188", "blue", 2),
+        f'<path d="M251 138H328M304 163H328" stroke="{css("grey")}" stroke-dasharray="4 4"/>',
+        f'<circle cx="245" cy="138" r="6" fill="{css("orange")}" stroke="none"/>',
+        f'<circle cx="298" cy="163" r="6" fill="{css("green")}" stroke="none"/>',
+        words(40, 20, "eye"),
+        words(186, 84, "line of sight", "blue"),
+        words(376, 143, "if it stands"),
+        words(368, 168, "if it lies"),
+        arrow("M245 204H296", "red"),
+        words(270, 222, "off by so much", "red"),
+        words(90, 184, "table"),
     )
 
 
 def crbm_block():
     """Picture, one map of hidden units with a block of 2 × 2, and the map of its pooled units."""
-    window = f'<rect x="66" y="46" width="60" height="60" stroke="{css("blue")}" stroke-width="3"/>'
+    window = f'<rect x="48" y="46" width="60" height="60" stroke="{css("blue")}" stroke-width="3"/>'
     block = (
-        f'<rect x="276" y="36" width="50" height="50" stroke="{css("orange")}" stroke-width="3"/>'
+        f'<rect x="240" y="36" width="50" height="50" stroke="{css("orange")}" stroke-width="3"/>'
     )
     return drawing(
-        560,
+        432,
         190,
-        grid(26, 26, 120, 6),
+        grid(8, 26, 120, 6),
         window,
-        grid(226, 36, 100, 4, [(2, 1)], "orange"),
+        grid(190, 36, 100, 4, [(2, 1)], "orange"),
         block,
-        grid(446, 61, 50, 2, [(1, 0)], "orange"),
-        arrow("M130 74H284", "blue"),
-        arrow("M330 61H460", "orange"),
-        words(86, 168, "picture v"),
-        words(276, 160, "hidden map h"),
-        words(471, 135, "pooled map p"),
-        words(186, 62, "match", "blue"),
-        words(392, 52, "pool", "orange"),
-        words(276, 180, "of a block, at most one is on", "orange"),
+        grid(370, 61, 50, 2, [(1, 0)], "orange"),
+        arrow("M112 74H248", "blue"),
+        arrow("M294 61H384", "orange"),
+        words(68, 168, "picture v"),
+        words(240, 160, "hidden map h"),
+        words(380, 135, "pooled map p"),
+        words(159, 62, "match", "blue"),
+        words(332, 52, "pool", "orange"),
+        words(240, 180, "of a block, at most one is on", "orange"),
     )
 
 

@@ -76,8 +76,8 @@ def failure_bars(failures):
 
     Each level tells how many of its failures are the moving's, with a 95 % interval.
     """
-    fig, ax = panels(size=(4.3, 3.4))
-    fig.subplots_adjust(left=0.42, bottom=0.34)  # room for words and for the legend
+    fig, ax = panels(size=(4.3, 3.6))
+    fig.subplots_adjust(left=0.42, bottom=0.4)  # room for words and for the legend
     levels = [_name_failures(level, stages) for level, stages in failures.items()]
     left = np.zeros(len(failures))
     for stage, colour in zip(FAILURES, FAILURE_COLOURS, strict=True):
