@@ -69,8 +69,8 @@ export const sizeDoubt = ({ boxes, brain: { selector }, camera, marks }, number)
   return ` By the sheet it is ${(100 * size).toFixed(0)} cm large, as no shuttlecock is: ${MEASURE}`;
 };
 
-/* A place. */
+/* A place, from the shoulder. */
 export const where = ([ahead, , right]) => {
   const [far, aside] = [ahead, right].map((x) => `${(100 * Math.abs(x)).toFixed(0)} cm`);
-  return `${far} ${ahead > 0 ? "ahead" : "behind"}, ${aside} ${right > 0 ? "right" : "left"}`;
+  return `${far} ${ahead > 0 ? "ahead" : "behind"}, ${aside} ${right > 0 ? "right" : "left"} of the shoulder`;
 };
