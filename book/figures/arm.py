@@ -119,7 +119,7 @@ def laws_beside_opensim(by_law, command, law):
 
 def engine_difference(gap):
     """How far two engines are apart, (movements, T) in degrees, a millisecond apart."""
-    fig, ax = panels(size=(6.5, 2.6))
+    fig, ax = panels(size=(4.3, 2.6))
     ax.semilogy(gap.T + 1e-14, color=COLOURS["blue"], alpha=0.4, linewidth=1)
     ax.set(xlabel="time (ms)", ylabel="difference (°)")
     return fig
@@ -158,7 +158,7 @@ def step_error(steps, miss):
 
 def elbow_torques(bag, muscle):
     """The torques of 1 kg at two lever arms in m, as bars."""
-    fig, ax = panels(size=(6.5, 1.8))
+    fig, ax = panels(size=(4.3, 1.8))
     ax.barh(["bag", "muscle"], [9.81 * bag, 9.81 * muscle], color=[COLOURS["grey"], COLOURS["red"]])
     ax.set(xlabel="torque at the elbow (N m)", xlim=(0, 7))
     return fig

@@ -173,7 +173,8 @@ def recall_plot(curves, overlap):
         tried = np.arange(1, len(share) + 1)
         ax.semilogx(tried, share, label=f"{name} {share[-1]:.2f}", color=colour)
     ax.set(xlabel="boxes tried, a photo", ylabel="recall", ylim=(0, 1.02))
-    ax.legend()
+    fig.subplots_adjust(top=0.78)  # above, the legend
+    fig.legend(loc="upper center", ncols=2, handlelength=1.2, columnspacing=1)
     return fig
 
 

@@ -42,7 +42,7 @@ def off_by_width(*line, lessons):
     """The same for many widths, the last of what `off_by` takes before the lessons."""
     *line, widths = line
     off = [off_by(*line, width, lessons) for width in widths]
-    fig, ax = panels(size=(6.5, 2.6))
+    fig, ax = panels(size=(4.3, 2.6))
     ax.plot(widths, off, color=COLOURS["red"])
     ax.set(xscale="log", ylim=(0, 5), xlabel="cells' width (m)", ylabel="off by (mm)")
     ax.set_title(f"least at {widths[np.argmin(off)]:.3f} m: {min(off):.2f} mm")

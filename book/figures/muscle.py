@@ -85,7 +85,7 @@ def force_curves(law, length, speed):
 
 def force_velocity(speed, f2):
     """The force-velocity curve f₂ (n,) over a fibre's speed (n,) in l₀/s."""
-    fig, ax = panels(size=(6.5, 2.6))
+    fig, ax = panels(size=(4.3, 2.6))
     ax.plot(speed, f2, color=COLOURS["purple"])
     ax.set(xlabel="fibre's speed (l₀/s)", ylim=(-0.1, 1.8))
     ax.set_title("← shortening  f₂  lengthening →")

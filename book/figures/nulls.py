@@ -39,6 +39,7 @@ def by_tries(reading, tries):
         ax.axhline(found["noise alone"].mean(), ls=":", color=COLOURS["grey"], gid="noise alone")
     ax.set(xlabel="tries", ylabel="error / planned error", xlim=(0, nulls.TRIES), ylim=(0, 1.05))
     ax.set_xticks(range(0, nulls.TRIES + 1, 3))
+    ax.set_yticks(np.arange(0, 1.1, 0.2).round(1))
     fig.legend(loc="upper center", ncols=2, handlelength=1.2, columnspacing=1)
     return fig
 

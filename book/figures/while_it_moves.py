@@ -123,7 +123,7 @@ def two_rates(states, block=100):
 
     Lines stand after the first block of reaches, and before the last.
     """
-    fig, ax = panels(size=(6.5, 3.2))
+    fig, ax = panels(size=(4.3, 3.2))
     for change in (block, len(states) - block):
         ax.axvline(change, color=COLOURS["grey"], lw=1, ls=":")
     for name, line in zip(("fast", "slow"), states.T, strict=True):
