@@ -1,3 +1,5 @@
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -63,7 +65,7 @@ def test_decoys_are_other_things(rng):
 def test_samples_include_everyday_counterexamples_and_pasted_photos(monkeypatch, rng):
     class Blind:
         def detect(self, image):
-            return type("Found", (), {"boxes": np.empty((0, 4))})
+            return SimpleNamespace(boxes=np.empty((0, 4)), scores=np.empty(0))
 
     monkeypatch.setattr(samples.loop, "high_recall_detector", lambda level: Blind())
     pools = samples.collect_samples(rng, everyday=2, pasted=7)
@@ -71,6 +73,15 @@ def test_samples_include_everyday_counterexamples_and_pasted_photos(monkeypatch,
     for level in photos.EVERY_LEVEL:
         assert len(pools[level]) == len(photos.load(level, "train")) + 4 * (level == "real")
     assert ["shuttlecock" in photo for photo in pools["pasted"]] == 5 * [True] + 2 * [False]
+
+
+def test_of_windows_that_are_alike_the_best_teaches():
+    boxes, scores = np.array([[0, 0, 50, 50], [2, 0, 52, 50], [20, 0, 70, 50.0]]), np.arange(3)
+    finder = type(
+        "Finder", (), {"detect": lambda image: SimpleNamespace(boxes=boxes, scores=scores)}
+    )
+    kept = samples.detected_boxes(finder, SimpleNamespace(image=None))
+    np.testing.assert_array_equal(kept, boxes[[2, 1]])
 
 
 def test_validation_photos_hold_photographs_and_every_kind_of_scene(rng):
