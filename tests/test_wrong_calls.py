@@ -264,6 +264,9 @@ SIGHT = {  # a call: what its error says, the value and the remedy
     "how many to look at": (
         lambda g: STREAM.select(g.image, found(g), refined="all"), "'all'", "whole number"
     ),
+    "no look at all": (
+        lambda g: STREAM.select(g.image, found(g), looks=0), "looks = 0", "1 or more"
+    ),
     "nothing for a stream": (lambda g: STREAM.predict(g.image, None), "boxes None", "numbers"),
     "a grey stream": (
         lambda g: STREAM.stages(np.zeros((1, 1, 48, 48))), "(1, 1, 48, 48)", "(n, channels, h"

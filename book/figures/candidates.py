@@ -4,7 +4,7 @@ from itertools import compress, product
 
 import numpy as np
 
-from book.figures.panels import panels
+from book.figures.panels import legend_above, panels
 from book.figures.where import best_so_far, in_corner, mean_colours, mosaic, nearest, rising
 from reproduce import results
 from reproduce.peers.window_proposals import edge_density, sliding_windows
@@ -173,8 +173,7 @@ def recall_plot(curves, overlap):
         tried = np.arange(1, len(share) + 1)
         ax.semilogx(tried, share, label=f"{name} {share[-1]:.2f}", color=colour)
     ax.set(xlabel="boxes tried, a photo", ylabel="recall", ylim=(0, 1.02))
-    fig.subplots_adjust(top=0.78)  # above, the legend
-    fig.legend(loc="upper center", ncols=2, handlelength=1.2, columnspacing=1)
+    legend_above(fig, 0.75)
     return fig
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from book.figures.panels import mark_now, panels
+from book.figures.panels import legend_above, mark_now, panels
 from reproduce.experiments import learning_curves, nulls
 from reproduce.experiments.calibration import SCENARIOS, load_results
 from vmc_lib.show.palette import COLOURS
@@ -31,7 +31,6 @@ def by_tries(reading, tries):
     """
     found = READINGS[reading]()
     fig, ax = panels(size=(4.3, 4.0))
-    fig.subplots_adjust(top=0.72)  # above, the legend
     for rule in (name for name in LINES if name in found):
         middle = _curve(ax, rule, np.arange(tries + 1), found[rule][:, : tries + 1])
         mark_now(ax, tries, middle[tries], LINES[rule][0])
@@ -40,7 +39,7 @@ def by_tries(reading, tries):
     ax.set(xlabel="tries", ylabel="error / planned error", xlim=(0, nulls.TRIES), ylim=(0, 1.05))
     ax.set_xticks(range(0, nulls.TRIES + 1, 3))
     ax.set_yticks(np.arange(0, 1.1, 0.2).round(1))
-    fig.legend(loc="upper center", ncols=2, handlelength=1.2, columnspacing=1)
+    legend_above(fig, 1.1)
     return fig
 
 

@@ -30,6 +30,12 @@ def panels(columns=1, size=(6.5, 2.7)):
     return fig, *axes[0]
 
 
+def legend_above(fig, room):
+    """A legend in two columns above a figure's plots, which leave it so much room (inches)."""
+    fig.legend(loc="upper center", ncols=2, handlelength=1.2, columnspacing=1)
+    margins(fig, top=room)
+
+
 def muscle_lines(ax, x, values):
     """A line for each muscle: `values` (n, muscles) over `x` (n,)."""
     for name, line in zip(MUSCLES, np.transpose(values), strict=True):

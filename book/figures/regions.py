@@ -2,14 +2,13 @@
 
 import numpy as np
 
-from book.figures.panels import panels
+from book.figures.panels import legend_above, panels
 from book.figures.where import in_corner
 from reproduce import paper
 from reproduce.experiments import fresh_test_set, localisation, real_world
 from reproduce.measures.precision_recall import rates
 from vmc_lib.boxes import iou
 from vmc_lib.show import COLOURS, dot_plot, photo_view, table
-from vmc_lib.show.figures import margins
 from vmc_lib.statistics import wilson
 
 CHANNELS = ("red", "green", "blue", "mean")
@@ -77,8 +76,7 @@ def _plane():
         ax.plot([], [], mark, color=COLOURS[colour], label=name)
     ax.set(xticks=[], yticks=[], xlim=PLANE, ylim=PLANE, aspect="equal")
     ax.set(xlabel="blueness", ylabel="roundness")
-    fig.legend(loc="upper center", ncols=2)
-    margins(fig, top=0.6)
+    legend_above(fig, 0.6)
     return fig, ax
 
 

@@ -119,7 +119,7 @@ export class YourPhoto extends PhotoReach {
     this.photo.drawBoxes(boxes.map((box, i) => ({ box, colour: probability[i] > 0.5 ? "green" : "blue" })));
   }
 
-  /* The boxes that were looked at twice; where there are none, the reader chooses among those kept. */
+  /* The boxes that were refined; where there are none, the reader chooses among those kept. */
   showSight(sight) {
     const { boxes, shuttlecocks, probability } = sight, choice = this.box.querySelector(".vmc-boxes");
     this.sight = sight;

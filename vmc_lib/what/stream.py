@@ -110,7 +110,7 @@ class VentralStream:
         """
         check_detections(detections)
         check_count("refined", refined)
-        check_count("looks", looks)
+        check_count("looks", looks, 1)
         boxes = detections.boxes
         log_odds, deltas = self.predict(image, boxes)
         best = np.argsort(-log_odds, kind="stable")[:refined]
