@@ -10,7 +10,11 @@ import subprocess
 import sys
 from contextlib import contextmanager
 
-SYSTEM = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
+# The first is Chromium without the parts that draw a window: a fifth quicker
+SYSTEM = (
+    *("chromium-headless-shell", "chromium", "chromium-browser"),
+    *("google-chrome", "google-chrome-stable"),
+)
 # WebGL in software: the arm is drawn on machines without a graphics card too; the page around it
 # is put together without WebGL, which is twice as quick there. A graphics process that dies, for
 # want of memory or time, is started again, and the pages opened after it have WebGL as before
