@@ -13,6 +13,8 @@ PYTHON ?= python3
 # Threads that wait for each other spin, and stand still as soon as the machine has other work
 export OMP_NUM_THREADS = 1
 export OPENBLAS_NUM_THREADS = 1
+# Else every worker of the tests translates all modules anew
+export PYTHONDONTWRITEBYTECODE =
 # Where pip.conf says `user = true`, pip would refuse to install into an environment
 export PIP_USER = 0
 BIN    := .venv/bin

@@ -1,5 +1,6 @@
 """What a reader meets on the main line of a built chapter, counted: `python -m tools.main_line`."""
 
+import re
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
@@ -44,9 +45,7 @@ def main_line(path):
 
     A pad is one control; what lies behind "more" is none.
     """
-    article = BeautifulSoup(path.read_text(encoding="utf-8"), "html.parser").select_one("article")
-    for part in article.select(ASIDE):
-        part.decompose()
+    article = _article(path)
     figures = [
         Figure(one.get("id", ""), _words(one.select_one("figcaption")), len(one.select(CONTROLS)))
         for one in article.select(".vmc-demo, .vmc-live:not(.vmc-demo *)")
@@ -55,14 +54,21 @@ def main_line(path):
     return MainLine(_words(article), predictions, figures)
 
 
+@cache
 def section_words(path):
     """The words of a built page's main line: what stands before its sections ("top"), then each."""
-    article = BeautifulSoup(path.read_text(encoding="utf-8"), "html.parser").select_one("article")
-    for part in article.select(ASIDE):
-        part.decompose()
-    page = article.select_one("section")
+    page = _article(path).select_one("section")
     sections = {part.get("id"): part.extract() for part in page.select(":scope > section")}
     return {name: _words(part) for name, part in {"top": page, **sections}.items()}
+
+
+def _article(path):
+    """A built page's article, without its pictures, which are long, and what is folded."""
+    html = re.sub("<svg.*?</svg>", "", path.read_text(encoding="utf-8"), flags=re.DOTALL)
+    article = BeautifulSoup(html, "html.parser").select_one("article")
+    for part in article.select(ASIDE):
+        part.decompose()
+    return article
 
 
 def _words(part):
