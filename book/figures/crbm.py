@@ -1,8 +1,11 @@
 """Figures of a CRBM: whitened crops, explanations, a block's chances, dreams and learning."""
 
+import itertools
+
 import matplotlib.pyplot as plt
 import numpy as np
 
+from book.figures.panels import legend_above
 from book.figures.what import grey, tiles, with_words
 from reproduce.experiments.crbm_ablation import corner_share, even_tone
 from vmc_lib.show import dot_plot, photo_view
@@ -22,6 +25,27 @@ def whitening_view(crop, white):
     square = MIDDLE.start, MIDDLE.start, MIDDLE.stop, MIDDLE.stop
     mean = f"{white[MIDDLE, MIDDLE].mean():+.2f}"
     return crop, photo_view(np.uint8(255 * grey(white)), [(square, mean, "orange")])
+
+
+def wave_spectra(crop, white):
+    """How strong the waves of a crop (200, 200) are by frequency, and of what whitening leaves."""
+    fig, ax = plt.subplots(figsize=(4.3, 2.8))
+    for pixels, label in ((crop, "the crop"), (white, "whitened")):
+        frequency, amplitude = mean_amplitudes(pixels)
+        ax.loglog(frequency, amplitude / amplitude[0], label=label)
+    ax.set(xlabel="frequency f (cycles a pixel)", ylabel="strength of a wave")
+    legend_above(fig, 0.6)
+    return fig
+
+
+def mean_amplitudes(pixels, octaves=6):
+    """Frequencies and mean amplitudes of the waves of pixels (n, n), by half octaves."""
+    f = np.hypot(*np.meshgrid(*[np.fft.fftfreq(len(pixels))] * 2))
+    window = np.outer(*[np.hanning(len(pixels))] * 2)  # opposite edges do not meet
+    amplitude = np.abs(np.fft.fft2((pixels - pixels.mean()) * window))
+    limits = 0.5 * 2.0 ** np.arange(-octaves, 0.1, 0.5)
+    bins = [(low <= f) & (f < high) for low, high in itertools.pairwise(limits)]
+    return np.sqrt(limits[1:] * limits[:-1]), np.array([amplitude[b].mean() for b in bins])
 
 
 def explanations_of(v, energies, chances, names):
