@@ -7,7 +7,7 @@ import pytest
 from bs4 import BeautifulSoup
 from docutils.nodes import make_id
 
-from book._ext.short_path import PAGES, PIECES, SITTINGS
+from book._ext.short_path import PAGES, PIECES, QUIZ, SITTINGS
 from book.figures.inventory import title_and_minutes
 from tests.pages import BUILT
 from tools.main_line import main_line, section_words
@@ -60,6 +60,13 @@ def test_each_piece_names_the_next():
             *_, end = soup.select(".vmc-next-sitting a")
             assert end["href"] == link["href"]
             assert not end.find_all_next("section")
+
+
+@pytest.mark.parametrize("page", QUIZ)
+def test_the_path_says_which_questions_it_answers(page):
+    soup = BeautifulSoup((BOOK / f"{page}.html").read_text(encoding="utf-8"), "html.parser")
+    *_, end = soup.select(".vmc-next-sitting:has([href='#quiz'])")
+    assert f"the quiz {QUIZ[page]} about what you have read." in end.get_text()
 
 
 @pytest.mark.parametrize("page", ["01_loop", "03_regions", "13_see_and_reach"])

@@ -13,9 +13,16 @@ from docutils.nodes import make_id
 
 MARK = " vmc-short-path"  # a class
 RECAP = (
-    ' The <a href="#recap">recap</a> below sums up the whole chapter, and the'
-    ' <a href="#quiz">quiz</a> asks about all of it.'
+    ' The <a href="#recap">recap</a> below sums up the whole chapter;'
+    ' the <a href="#quiz">quiz</a> {} about what you have read.'
 )
+# What else a chapter's quiz asks is of sections that the path leaves out
+QUIZ = {
+    "02_candidates": "asks in its first question",
+    "04_crbm": "asks in its second question",
+    "07_muscle": "asks in its first question",
+    "09_planning": "asks in its first and its last question",
+}
 HEAD = re.compile(r'<section (?:class="[^"]*" )?id="([^"]+)">\s*<h2>')
 LINK = re.compile(r'(<a class="(?:current )?reference internal)(" href="([^"]*)">)')
 
@@ -29,6 +36,7 @@ class Piece(NamedTuple):
 
 
 MERGING = Piece("02_candidates", "Merging", "Merging")
+REASONS = Piece("09_planning", "Two reasons to miss", "Two reasons to miss")
 SITTINGS = (
     [Piece("01_loop", last="What: from a box to a name")],
     [
@@ -42,11 +50,11 @@ SITTINGS = (
     [MERGING, Piece("04_crbm", last="What the brain does")],
     [Piece("07_muscle", last="From excitation to activation")],
     [Piece("09_planning", last="What the brain does")],
-    [Piece("09_planning", "Three equations", "Two reasons to miss")],
-    [Piece("10_offline", last="The paper's correction")],
-    [Piece("10_offline", "Algorithm 1, for 25 targets", "Does the direction matter?")],
-    [Piece("11_online", last="What the brain does")],
-    [Piece("11_online", "The paper's online calibration", "A cerebellum that generalises")],
+    [Piece("09_planning", "Three equations", "How good is it?")],
+    [REASONS, Piece("10_offline", last="What the brain does")],
+    [Piece("10_offline", "The paper's correction", "Does the direction matter?")],
+    [Piece("11_online", last="The paper's online calibration")],
+    [Piece("11_online", "Granule cells", "A cerebellum that generalises")],
     [Piece("13_see_and_reach", last="The whole chain, stage by stage")],
     [Piece("13_see_and_reach", "When it fails, where did it begin?", "Four brains")],
     [Piece("epilogue")],
@@ -78,7 +86,7 @@ def lead_on(app, pagename, templatename, context, doctree):
             said = f"Sitting {nth} of {len(SITTINGS)} ends here. Next: {link}."
         body, place = context["body"], end_of(context["body"], here)
         if here.page != piece.page:  # the page's end leads on, too: its *Next* is another
-            body, said = body + nav(f"{nth}, again", said), said + RECAP
+            body, said = body + nav(f"{nth}, again", said), said + recap(here.page)
         context["body"] = f"{body[:place]}{nav(nth, said)}\n{body[place:]}"
 
 
@@ -95,6 +103,11 @@ def nav(label, text):
     """A line (HTML) that leads on along the path."""
     label = f'aria-label="The short path, {label}"'
     return f'<nav class="vmc-next-sitting" {label}><b>The short path.</b> {text}</nav>'
+
+
+def recap(page):
+    """What stands at the end of a page that is read in part (HTML)."""
+    return RECAP.format(QUIZ.get(page, "asks"))
 
 
 def end_of(body, piece):
