@@ -64,11 +64,11 @@ def emptied(photo):
     return photos.read_image(max(parts, key=lambda part: part.size))
 
 
-def pictures(folder=photos.FOLDER):
+def pictures(folder=photos.FOLDER, each=SCENES_EACH):
     """(image, true boxes (n, 4) of shuttlecocks) of every picture that is asked."""
     renders = [shot for level in photos.LEVELS for shot in photos.load(level, "validation", folder)]
     real = load_photographs("validation", folder)
-    shots = [*renders, *real, *pasted_photos("validation", SCENES_EACH)]
+    shots = [*renders, *real, *pasted_photos("validation", each)]
     asked = [(shot.image, photos.boxes_of(shot, "shuttlecock")) for shot in shots]
     cut = [shot for shot in real if "shuttlecock" in shot.boxes]
     return asked + [(emptied(shot), np.empty((0, 4))) for shot in cut]
@@ -80,7 +80,8 @@ def make(folder=photos.FOLDER, count=None):
     "right", "tight" of the pictures with a shuttlecock, "alarms" of those without; `count` of
     either are asked, by default all.
     """
-    model, asked = VisuomotorModel.load(photos.REAL_LEVEL), pictures(folder)
+    model = VisuomotorModel.load(photos.REAL_LEVEL)
+    asked = pictures(folder, SCENES_EACH if count is None else count)
     kinds = [[one for one in asked if bool(len(one[1])) == has][:count] for has in (True, False)]
     found = Parallel()(delayed(_answers)(model, *one) for kind in kinds for one in kind)
     sums = {name: sum((one[name] for one in found), Counter()) for name in WITHOUT}

@@ -42,7 +42,7 @@ from vmc_lib.show.values import Demo
 
 MOST_POSITIONS = 200
 SAID = '<p class="vmc-kernel" role="status"></p><p class="vmc-error" role="alert"></p>'
-SAMPLE = 25  # positions along a control, of a demo that the page works out
+SAMPLE = 8  # positions along a control, of a demo that the page works out
 names = itertools.count(1)  # of the demos of a page; a build of the book gives them words
 
 
