@@ -5,7 +5,7 @@ import itertools
 import matplotlib.pyplot as plt
 import numpy as np
 
-from book.figures.panels import legend_above
+from book.figures.panels import legend_above, panels
 from book.figures.what import grey, tiles, with_words
 from reproduce.experiments.crbm_ablation import corner_share, even_tone
 from vmc_lib.show import dot_plot, photo_view
@@ -29,11 +29,14 @@ def whitening_view(crop, white):
 
 def wave_spectra(crop, white):
     """How strong the waves of a crop (200, 200) are by frequency, and of what whitening leaves."""
-    fig, ax = plt.subplots(figsize=(4.3, 2.8))
+    fig, ax = panels(size=(4.3, 2.8))
     for pixels, label in ((crop, "the crop"), (white, "whitened")):
         frequency, amplitude = mean_amplitudes(pixels)
         ax.loglog(frequency, amplitude / amplitude[0], label=label)
     ax.set(xlabel="frequency f (cycles a pixel)", ylabel="strength of a wave")
+    for axis in (ax.xaxis, ax.yaxis):
+        axis.set_major_formatter("{x:g}")
+    ax.minorticks_off()
     legend_above(fig, 0.6)
     return fig
 
@@ -81,7 +84,7 @@ def block_in_page():
 
 
 def _bars():
-    fig, ax = plt.subplots(figsize=(6.2, 2.6))
+    fig, ax = plt.subplots(figsize=(4.3, 2.6))
     ax.set(xlim=(-0.6, 4.6), ylim=(0, 1.12), ylabel="probability", title=" ")
     ax.set_xticks(range(5), [*(f"unit {i}" for i in (1, 2, 3, 4)), "all off"])
     return fig, ax
@@ -113,7 +116,7 @@ def modulation(hidden, pooled):
 
 def gradients(ks, distances, cosines):
     """How far CD-k is from the true gradient, and the cosine with it, over the rounds k."""
-    fig, ax = plt.subplots(figsize=(5.5, 2.6))
+    fig, ax = plt.subplots(figsize=(4.3, 2.6))
     ax.plot(distances, "o-", label="distance from the true gradient")
     ax.plot(cosines, "s-", label="cosine with it (1: same direction)")
     ax.set_xticks(range(len(ks)), ks)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from book.figures.panels import panels
+from book.figures.panels import legend_above, panels
 from vmc_lib.cerebellum.online import GranuleCells
 from vmc_lib.show.palette import COLOURS
 
@@ -70,13 +70,12 @@ def bells(excite, purkinje, places, aside, x, order, width, lessons, place):
 
 
 def _plot():
-    fig, ax = panels(size=(6.5, 3.6))
+    fig, ax = panels(size=(4.3, 3.6))
     for name, (style, colour) in LOOKS.items():
         ax.plot([], [], style, color=COLOURS[colour], label=name)
     ax.set(xlabel="where the hand ends, forward (m)", ylabel="aim aside (mm)")
     ax.set(xlim=(-0.01, 0.25), ylim=(FLOOR, TOP))
-    fig.subplots_adjust(bottom=0.3)  # room for the legend
-    fig.legend(loc="lower center", ncols=3)
+    legend_above(fig, 1.1)
     return fig, ax
 
 

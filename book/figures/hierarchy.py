@@ -93,7 +93,7 @@ def correlations(by_layer, title):
 
 def over_time(answers, shuttlecock):
     """A unit's answers (n, views) to films of n objects, blue for shuttlecocks, orange for cups."""
-    fig, ax = plt.subplots(figsize=(5.6, 2.6))
+    fig, ax = plt.subplots(figsize=(4.3, 2.6))
     for here, colour in ((shuttlecock, "blue"), (~shuttlecock, "orange")):
         ax.plot(range(1, answers.shape[1] + 1), answers[here].T, lw=1, color=COLOURS[colour])
     ax.axhline(0, color=COLOURS["ink"])

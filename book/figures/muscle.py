@@ -53,7 +53,7 @@ def lifting_in_words(load, lengths, time):
 def response(excitation, activation, with_means=False):
     """An excitation (T,), one value a ms, and the activation (T,) that follows it."""
     means = [f", mean {x.mean():.2f}" * with_means for x in (excitation, activation)]
-    fig, ax = panels(size=(6.5, 2.6))
+    fig, ax = panels(size=(4.3, 2.6))
     time = np.arange(len(excitation))
     ax.fill_between(time, excitation, color=COLOURS["line"], label="excitation" + means[0])
     ax.plot(time, activation, color=COLOURS["red"], label="active" + means[1])
@@ -94,7 +94,7 @@ def force_velocity(speed, f2):
 
 def isometric(force):
     """The force (600,) in N of a muscle held still under pulses, and its pull before them."""
-    fig, ax = panels(size=(6.5, 2.6))
+    fig, ax = panels(size=(4.3, 2.6))
     ax.axhline(force[0], color=COLOURS["blue"], label="passive")
     ax.plot(force, color=COLOURS["red"], label="total")
     ax.set(xlabel="time (ms)", ylabel="force (N)", ylim=(0, 1600))

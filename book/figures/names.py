@@ -114,7 +114,7 @@ def sorted_crops(chances, shuttlecock, threshold):
 
 
 def _rows():
-    fig, ax = plt.subplots(figsize=(6.4, 2.4))
+    fig, ax = plt.subplots(figsize=(4.3, 2.4))
     ax.set(xlim=(-0.02, 1.02), xlabel="probability of a shuttlecock", ylim=(-0.45, 1.45))
     ax.set(yticks=[0, 1], yticklabels=["cups", "shuttlecocks"], title=" ")
     return fig, ax

@@ -68,7 +68,7 @@ def learning_curves(ratios, learners, counts):
 
     `ratios` (seeds, k) by the learner's name and "held-out"; means with 95 % intervals.
     """
-    fig, ax = panels(size=(6.5, 3.4))
+    fig, ax = panels(size=(4.3, 3.4))
     for k, name in enumerate(learners):
         beside = np.array(counts) * 1.04 ** (k - 1)
         ax.errorbar(beside, *student(ratios[f"{name}, held-out"]), fmt="o-", ms=4, label=name)

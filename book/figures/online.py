@@ -185,7 +185,7 @@ def clamp_plot(drifts, clamp):
 
     Dashed: where the hand would be if it made up for the `clamp`.
     """
-    fig, ax = panels(size=(6.5, 3))
+    fig, ax = panels(size=(4.3, 3))
     for drift in drifts.values():
         ax.plot(drift, color=COLOURS["grey"], alpha=0.5, gid="other clamps")
     shade_change(ax, BLOCKS)
@@ -193,7 +193,7 @@ def clamp_plot(drifts, clamp):
     last, drift = sum(BLOCKS[:2]) - 1, drifts[clamp]
     curves(ax, range(len(drift)), {f"{clamp}°": drift}, now=(last, drift[last]))
     ax.set(xlabel="block of 8 movements", ylabel="drift, seen from the eye (°)", ylim=(-13, 1))
-    ax.set_title(f"shown {clamp}° above the target, the hand ends {-drift[last]:.1f}° below")
+    ax.set_title(f"shown {clamp}° above, the hand ends {-drift[last]:.1f}° below")
     return fig
 
 

@@ -62,7 +62,7 @@ def adaptation(clamp, rotation):
 
 def sizes(degrees, ends, people_end, people_sem):
     """Where the hand ends under clamps of several sizes: the model's, by setting, and people's."""
-    fig, ax = panels(size=(5.6, 3.0))
+    fig, ax = panels(size=(4.3, 3.0))
     for (name, end), hue in zip(ends.items(), ("blue", "orange"), strict=True):
         ax.plot(degrees, end, "o-", color=COLOURS[hue], label=name)
     points(ax, [3.5], [people_end], [people_sem], "people")
@@ -73,7 +73,7 @@ def sizes(degrees, ends, people_end, people_sem):
 
 def scatter(directions, by_direction, mean, sem):
     """Standard deviations in degrees by direction (n,), and people's mean as a band."""
-    fig, ax = panels(size=(5.8, 3.0))
+    fig, ax = panels(size=(4.3, 3.0))
     ax.axhspan(mean - 2 * sem, mean + 2 * sem, color=COLOURS["grey"], alpha=0.4, lw=0)
     ax.axhline(mean, color=COLOURS["ink"], lw=1, label="people, hand unseen")
     ax.plot(directions, by_direction, "o-", color=COLOURS["blue"], label="the model")

@@ -117,7 +117,7 @@ def measures_table(many, online):
 
 def activation_curves(holds):
     """How active all muscles are, name -> (63,), the most active first; dotted, 5 %."""
-    fig, ax = panels(size=(5.6, 2.7))
+    fig, ax = panels(size=(4.3, 2.7))
     for (name, active), colour in zip(holds.items(), ("green", "blue"), strict=True):
         places = np.arange(1, len(active) + 1)
         ax.plot(places, np.sort(active)[::-1], ".-", color=COLOURS[colour], label=name)
