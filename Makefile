@@ -1,5 +1,5 @@
 # make book   build the book and say where to open it
-# make check  check style and the model, and one page of each kind: two minutes, while working
+# make check  check style and the model, and one page of each kind: a minute, while working
 # make test   run the tests: library, chapters, pages in a browser; those of `make check` first
 # make audit  run them all, at night and before a release: all engines, rows broken on purpose, toy data
 # make lab    open the chapters in JupyterLab

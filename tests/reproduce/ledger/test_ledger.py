@@ -86,7 +86,7 @@ def test_every_number_with_an_interval_says_what_it_was_measured_on():
 
 def _row(row):
     """A row as a case: those that take long wait for the audit."""
-    long = row.where in ("V, robots", "Table V", "Fig. 1")
+    long = row.where in ("V, robots", "Table V", "Fig. 1", "Fig. 7", "Fig. 8", "III, Block 3")
     return pytest.param(row, marks=[pytest.mark.audit] * long, id=row.where)
 
 
