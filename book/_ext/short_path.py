@@ -22,6 +22,7 @@ QUIZ = {
     "04_crbm": "asks in its second question",
     "07_muscle": "asks in its first question",
     "09_planning": "asks in its first and its last question",
+    "10_offline": "asks in its last question",
 }
 HEAD = re.compile(r'<section (?:class="[^"]*" )?id="([^"]+)">\s*<h2>')
 LINK = re.compile(r'(<a class="(?:current )?reference internal)(" href="([^"]*)">)')
