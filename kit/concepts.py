@@ -17,7 +17,7 @@ from book._ext.policy import seal
 from vmc_lib.statistics import student
 
 ROOT = Path(__file__).parents[1]
-LINE = re.compile(r"concepts 1: (before|after); ([^;\n]+); ([-\d ]+) end")
+LINE = re.compile(r"concepts 1: (before|after); ([^;\n]+); ((?:(?:-1|[0-2]) )+)end")
 SIMULATED = "simulated"  # begins the code of an answer that nobody gave
 
 

@@ -11,6 +11,7 @@ import csv
 import os
 import re
 import sys
+from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -24,6 +25,7 @@ from kit.marking import POINTS, RIGHT_MARK, TOO_LONG, WORDS, known_mistakes, mar
 from kit.student import checks, place
 
 CELL, NOTEBOOK = 60, 600  # s that each may run
+MOST_OUTPUTS, LARGEST_OUTPUT = 1000, 100_000  # of a cell, signs: a check says less
 COLUMNS = "file", "exercise", "points", "of", "mark"
 BY_FILE = "file", "points", "of", "not right", "for you to read"
 NO_CELL = "no cell checks it"
@@ -68,21 +70,25 @@ def _interrupted(cell):
 
 
 class _Client(NotebookClient):
-    """Keeps nothing that a hand-in prints: no mark reads it, and it may have no end."""
+    """Keeps little of what a hand-in shows, which may have no end, and nothing that it prints."""
 
     def output(self, outs, msg, *place):
-        if msg["msg_type"] != "stream":
+        large = len(outs) >= MOST_OUTPUTS or len(repr(msg["content"])) > LARGEST_OUTPUT
+        if msg["msg_type"] == "error" or not (msg["msg_type"] == "stream" or large):
             return super().output(outs, msg, *place)
 
 
 @run_sync
 async def _run(notebook, cell_limit, limit):
     """Run all cells as a reader's, in an empty folder, from which Python imports nothing."""
-    client = _Client(notebook, timeout=cell_limit, interrupt_on_timeout=True, allow_errors=True)
-    with TemporaryDirectory(ignore_cleanup_errors=True) as folder:
+    limits = {"timeout": cell_limit, "interrupt_on_timeout": True, "allow_errors": True}
+    client = _Client(notebook, store_widget_state=False, **limits)
+    fresh = partial(TemporaryDirectory, ignore_cleanup_errors=True)
+    with fresh() as folder, fresh() as settings:  # IPython's: the next hand-in finds others
         try:
             async with asyncio.timeout(limit) as clock:
-                environment = os.environ | {"PYTHONSAFEPATH": "1", "VMC_RENDER_MODE": "live"}
+                own = {"PYTHONSAFEPATH": "1", "VMC_RENDER_MODE": "live", "IPYTHONDIR": settings}
+                environment = os.environ | own
                 await client.async_execute(cwd=folder, env=environment)
         except Exception as error:
             if clock.expired():  # a cell may refuse to be interrupted

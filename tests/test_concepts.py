@@ -33,6 +33,12 @@ def test_only_those_who_answered_twice_count_and_with_their_last_answer():
     np.testing.assert_array_equal(pairs["a1"], [none, RIGHT])
 
 
+@pytest.mark.parametrize("odd", ["- - 1", "1-1 2", "9" * 5000, "3 0 1"])
+def test_a_line_that_is_none_is_passed_over(odd):
+    lines = [line("before", "a1", RIGHT), f"concepts 1: after; a1; {odd} end"]
+    assert concepts.read("\n".join([*lines, line("after", "a1", RIGHT)])).keys() == {"a1"}
+
+
 def test_the_report_has_the_gain_and_what_is_still_thought():
     wrong = [(place + 1) % 3 for place in RIGHT]
     half = RIGHT[:4] + wrong[4:]

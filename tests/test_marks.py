@@ -157,6 +157,37 @@ def test_what_a_hand_in_prints_is_not_kept(quick):
     assert kept == []
 
 
+def test_of_what_a_hand_in_shows_little_is_kept(quick):
+    """It may have no end, either, and be large."""
+    chapter, notebook = quick
+    notebook.cells[1].source = """def check(*_):
+    for _ in range(1200):
+        display({"text/plain": "x"}, raw=True)
+    display({"text/plain": "x" * 10**6}, raw=True)"""
+    kept = []
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(marks, "mark_of", lambda outputs, _: kept.extend(outputs) or "")
+        marks.marks(chapter, notebook)
+    assert len(kept) == 2 * marks.MOST_OUTPUTS
+    assert {output["data"]["text/plain"] for output in kept} == {"x"}
+
+
+def test_no_hand_in_finds_what_another_left_in_ipythons_settings(quick):
+    chapter, notebook = quick
+    plant = """import os
+from pathlib import Path
+start = Path(os.environ["IPYTHONDIR"]) / "profile_default/startup/0.py"
+start.parent.mkdir(parents=True, exist_ok=True)
+assert not start.exists()
+start.write_text("planted = 1")
+assert "planted" not in globals()
+answer = 1
+def check(*_): assert answer == 1"""
+    notebook.cells[1].source = plant
+    assert marks.marks(chapter, notebook) == marks.marks(chapter, notebook)
+    assert "AssertionError" not in str(marks.marks(chapter, notebook))
+
+
 def test_a_cell_that_refuses_to_be_interrupted_ends_the_hand_in(quick):
     chapter, notebook = quick
     notebook.cells[1].source = (

@@ -3,7 +3,7 @@
 import { memory } from "../demo/questions.js";
 import { setEquations } from "./equations.js";
 
-const KEY = "vmcRecord", MOST = 2000, LONGEST = 4000; // answers, signs of one
+const KEY = "vmcRecord", MOST = 2000, LONGEST = 4000, LARGEST = 1e6; // answers, signs of one, and of all: the browser keeps five million
 const page = location.pathname.split("/").pop().replace(/\.html$/, "");
 const TEXTS = ["page", "kind", "id", "question", "answer", "feedback"];
 const isAnswer = (one) => TEXTS.every((name) => typeof one?.[name] === "string"); // others may write there
@@ -19,7 +19,9 @@ const words = (node) => {
 
 const add = (kind, id, question, answer, right, feedback = "") => {
   const entry = { page, kind, id, question: question.slice(0, 200), answer: answer.slice(0, LONGEST), right, feedback };
-  memory.set(KEY, JSON.stringify([...all(), entry].slice(-MOST)));
+  const entries = [...all(), entry].slice(-MOST);
+  while (JSON.stringify(entries).length > LARGEST) entries.splice(0, Math.ceil(entries.length / 10));
+  memory.set(KEY, JSON.stringify(entries));
   show();
 };
 

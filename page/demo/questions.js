@@ -4,7 +4,7 @@ import { setEquations } from "../book/equations.js";
 export const memory = {
   get: (key) => { try { return localStorage.getItem(key); } catch { return null; } },
   parsed: (key) => { try { return JSON.parse(localStorage.getItem(key)); } catch { return null; } }, // it may be cut
-  set: (key, text) => { try { localStorage.setItem(key, text); } catch {} },
+  set: (key, text) => { try { localStorage.setItem(key, text); return true; } catch { return false; } },
   remove: (key) => { try { localStorage.removeItem(key); } catch {} },
   get keys() { try { return Object.keys(localStorage); } catch { return []; } },
 };

@@ -47,7 +47,8 @@ export const users = { figures: () => [] };
 
 const keyOf = (name) => `${location.pathname} ${name}`;
 const sum = (text) => [...text].reduce((sum, sign) => (31 * sum + sign.codePointAt()) | 0, 0); // tells editions of a cell apart
-const isText = ({ said = [], ran = "", judged = "", mine = "" }) => [said, ran, judged, mine].flat().every((one) => typeof one === "string");
+const isText = ({ said = [], ran = "", judged = "", mine = [] }) => [said, ran, judged, mine].flat().every((one) => typeof one === "string");
+const FULL = "This browser keeps your lines no longer: copy them before you close the page.";
 const make = (tag, more) => Object.assign(document.createElement(tag), more);
 
 /* A cell in whose place the reader writes, and its form: buttons, and what was said of the lines. */
@@ -56,7 +57,7 @@ class Editor {
     const { stop, reset } = form.elements, empty = book(cell).trimEnd();
     const area = make("textarea", { defaultValue: empty, spellcheck: false, wrap: "off", autocomplete: "off", className: "vmc-lines" });
     const status = form.querySelector("[role=status]"), beside = make("div", { className: "vmc-beside" });
-    Object.assign(this, { form, cell, area, status, empty, beside, key: keyOf(name) });
+    Object.assign(this, { form, cell, area, status, empty, beside, key: keyOf(name), mine: [], brought: new Set() });
     area.setAttribute("autocapitalize", "off");
     area.setAttribute("aria-label", `Your lines: ${name.split(".").pop()}`);
     cell.querySelector(".cell_input").replaceChildren(area, beside);
@@ -91,59 +92,85 @@ class Editor {
     setEquations(this.status);
   }
 
-  /* Keep the lines, those that ran last, what was `said` of those that were `judged`, and the reader's own where a
-     link's stand in their place; but nothing that equals the book's, and of a link nothing that has not run. */
+  /* Keep the lines, those that ran last, what was `said` of those that were `judged`, and the reader's own where
+     others stand in their place; but nothing that equals the book's, and of a link nothing that has not run. */
   keep() {
     const { area, empty, key, said, judged, mine } = this, typed = area.value, last = area.ran ?? empty;
-    if (typed === this.brought && typed !== last) return;
-    if (typed === empty && last === empty && mine === undefined) return memory.remove(key);
-    memory.set(key, JSON.stringify({ typed, ran: last, said, judged, mine, book: sum(empty) }));
+    if (this.brought.has(typed) && typed !== last) return;
+    this.merge();
+    if (typed === empty && last === empty && !mine.length) memory.remove(key);
+    else if (!memory.set(key, JSON.stringify({ typed, ran: last, said, judged, mine, book: sum(empty) })))
+      this.show([[...(said ?? [""]).slice(0, 1), FULL].join(" "), said?.[1]]);
+    this.kept = memory.get(key);
+  }
+
+  /* Another tab may have kept other lines since this one looked: they stay the reader's. */
+  merge() {
+    const { key, kept } = this;
+    if (memory.get(key) === kept) return;
+    const there = memory.parsed(key);
+    if (typeof there?.typed !== "string" || !isText(there)) return;
+    if ([there.typed, there.mine ?? []].flat().filter((lines) => this.retain(lines)).length) this.close();
+  }
+
+  /* Lines of the reader's stay beside the cell when others take their place. */
+  retain(lines) {
+    const { area, empty, brought, mine } = this;
+    return ![area.value, empty, ...brought, ...mine].includes(lines) && mine.push(lines);
+  }
+
+  drop(lines) {
+    if (this.mine.includes(lines)) this.mine.splice(this.mine.indexOf(lines), 1);
   }
 
   restore() {
     const { area, empty, key } = this, kept = memory.parsed(key);
+    this.kept = memory.get(key);
     if (typeof kept?.typed !== "string" || !isText(kept)) return; // others may write there
     area.value = kept.typed;
-    this.mine = kept.mine;
+    this.mine = [kept.mine ?? []].flat();
     if (kept.said) this.show(([this.said, this.judged] = [kept.said, kept.judged])[0]);
     if ((kept.book ?? sum(empty)) === sum(empty)) area.ran = kept.ran;
     else return this.offer("The book’s cell has changed since you wrote yours. It is now:", empty);
     this.close();
   }
 
-  /* Lines that stand beside the reader's, who may take them. */
-  offer(words, lines, yes = "Take it", no = "Keep mine") {
-    const take = make("button", { type: "button", textContent: yes, onclick: () => this.take(lines) });
-    const leave = make("button", { type: "button", textContent: no, onclick: () => {
-      if (lines === this.mine) this.mine = undefined;
-      this.close();
-      this.keep();
-    } });
-    this.beside.replaceChildren(make("p", { textContent: words }), make("pre", { textContent: lines, tabIndex: 0 }), take, " ", leave);
+  /* Lines that stand beside the reader's, who may take them; by `no` they go. */
+  choice(words, lines, yes, no, go) {
+    const button = (textContent, onclick) => make("button", { type: "button", textContent, onclick });
+    const leave = () => (go(), this.close(), this.keep());
+    return [make("p", { textContent: words }), make("pre", { textContent: lines, tabIndex: 0 }), button(yes, () => this.take(lines)), " ", button(no, leave)];
+  }
+
+  offer(words, lines) {
+    this.beside.replaceChildren(...this.choice(words, lines, "Take it", "Keep mine", () => {}));
   }
 
   /* Nothing is offered any more but the reader's own lines, where others stand in their place. */
   close() {
-    if (this.mine === undefined) this.beside.replaceChildren();
-    else this.offer("Your own lines:", this.mine, "Take them back", "Forget them");
+    const own = (lines) => this.choice("Your own lines:", lines, "Take them back", "Forget them", () => this.drop(lines));
+    this.beside.replaceChildren(...this.mine.flatMap(own));
   }
 
   bring(text) {
-    const lines = (this.brought = text.replace(/\r\n?/g, "\n")); // as a field has them
+    const lines = text.replace(/\r\n?/g, "\n"); // as a field has them
+    this.brought.add(lines);
     if (lines !== this.area.value) this.offer("A link brings these lines:", lines);
   }
 
   take(lines) {
-    const { area, empty } = this;
-    if (lines === this.mine) this.mine = undefined;
-    else if (area.value !== empty && area.value !== lines) this.mine ??= area.value;
+    const { area } = this, before = area.value;
+    this.drop(lines);
     area.select();
     type(area, lines);
+    this.retain(before);
     this.close();
+    this.keep();
   }
 
   run(lines) { // the demos below may follow: see laws.js
     this.area.ran = this.area.lastRun = lines;
+    this.brought.delete(lines); // the reader's own, from now on
     this.keep();
     this.cell.dispatchEvent(new Event("vmc-run", { bubbles: true }));
   }

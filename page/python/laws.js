@@ -9,9 +9,10 @@ import * as python from "./interpreter.js";
 const STEP = 0.1; // of a slider, from one stop to the next
 const FREE = "The sliders now take any value.";
 const LAW = "law."; // before a cell's name, in an address
+const LONGEST = 20_000; // signs of a law in an address: the browser keeps five million in all
 
 const lastRun = (cell) => cell.querySelector("textarea")?.lastRun ?? grade.book(cell);
-const inCode = (names) => names.map((name) => `\`${name}\``).join(", "); // Markdown, as all that is said here
+const inCode = (names) => names.map((name) => `\`${name.replaceAll("`", "").slice(0, 60)}\``).join(", "); // Markdown, as all that is said here
 const ownCells = (above) => above.filter((one) => lastRun(one) !== grade.book(one));
 const users = []; // of laws: [a figure's cell, the cells of laws and those above it, what it needs of them]
 
@@ -212,12 +213,14 @@ const cellOf = (name) => document.querySelector(`form[data-cell="${CSS.escape(na
 const bring = () => {
   const [id, query] = address();
   const laws = [...new URLSearchParams(query)].filter(([key, text]) => key.startsWith(LAW) && text).map(([key, text]) => [key.slice(LAW.length), text]);
-  const known = new Map(laws.filter(([name]) => cellOf(name))), unknown = laws.map(([name]) => name).filter((name) => !known.has(name));
-  if (known.size) followers.forEach(({ run }) => (run.hidden = true)); // the lines of an earlier link are gone
-  for (const [name, lines] of known) cellOf(name).dispatchEvent(new CustomEvent("vmc-bring", { detail: lines }));
+  if (!laws.length) return;
   const follower = followers.find(({ demo }) => demo.id === id);
+  followers.forEach(({ run }) => (run.hidden = true)); // the lines of an earlier link are gone
+  if (laws.some(([, lines]) => lines.length > LONGEST)) return follower?.say("This link’s lines are too long for a cell: none is taken.");
+  const known = new Map(laws.filter(([name]) => cellOf(name))), unknown = laws.map(([name]) => name).filter((name) => !known.has(name));
+  for (const [name, lines] of known) cellOf(name).dispatchEvent(new CustomEvent("vmc-bring", { detail: lines }));
   if (known.size) follower?.offer(known);
-  else if (unknown.length) follower?.say(`This link brings a law for ${inCode(unknown)}; no cell of this page defines it.`);
+  else follower?.say(`This link brings a law for ${inCode(unknown)}; no cell of this page defines it.`);
 };
 
 let followers = [];

@@ -136,11 +136,69 @@ def test_the_readers_own_lines_stay_beside_a_links(chapter):
     expect(page.beside).to_contain_text("Your own lines:")
     page.get_by_role("button", name="Take them back").click()
     expect(page.mine).to_have_value(OWN)
+    expect(page.beside.locator("pre")).to_have_text(LAW.replace("2 *", "5 *"))
+    page.get_by_role("button", name="Forget them").click()
     expect(page.beside).to_have_count(0)
     page.evaluate(GO, brought)
     page.get_by_role("button", name="Keep mine").click()
     expect(page.mine).to_have_value(OWN)
     expect(page.beside).to_have_count(0)
+
+
+def own_lines(page):
+    """Every text that the page keeps for the reader's law, in its field and beside it."""
+    kept = page.evaluate("() => Object.values(localStorage).map((one) => JSON.parse(one))")
+    return {lines for one in kept for lines in (one["typed"], *one["mine"])}
+
+
+def test_no_number_of_links_takes_the_readers_lines(chapter):
+    """What was made of a link's lines is the reader's as well; *Keep mine* forgets none."""
+    page = chapter()
+    page.get_by_role("button", name="Edit law").click()
+    page.mine.fill(OWN)
+    wanted = [OWN]
+    for factor in (5, 6):
+        brought = LAW.replace("2 *", f"{factor} *")
+        page.evaluate(GO, link(page, brought))
+        page.get_by_role("button", name="Take it").click()
+        wanted.append(f"{brought}  # tried")
+        page.mine.fill(wanted[-1])
+    page.evaluate(GO, link(page, OWN))
+    page.get_by_role("button", name="Keep mine").click()
+    assert own_lines(page) == {*wanted}
+    page.close()
+    page = chapter()
+    assert own_lines(page) == {*wanted}
+    expect(page.beside.locator("pre")).to_have_text([OWN, wanted[1]])
+    page.get_by_role("button", name="Forget them").first.click()
+    assert own_lines(page) == {*wanted[1:]}
+
+
+def test_lines_of_another_tab_stay(chapter):
+    first = chapter()
+    first.get_by_role("button", name="Edit law").click()
+    first.mine.fill(OWN)
+    second = chapter(link(first, EVIL))
+    newer = f"{OWN}, and another"
+    first.mine.fill(newer)
+    second.get_by_role("button", name="Take it").click()
+    second.mine.fill(f"{EVIL}  # tried")
+    assert own_lines(second) == {OWN, newer, f"{EVIL}  # tried"}
+
+
+def test_a_link_too_long_for_a_cell_brings_nothing(chapter):
+    page = chapter()
+    page.evaluate(GO, link(page, f"{LAW}{' ' * 20_000}# long"))
+    expect(page.line).to_have_text("This link’s lines are too long for a cell: none is taken.")
+    expect(page.get_by_role("button", name="Run it")).to_be_hidden()
+    assert page.mine.count() == 0
+
+
+def test_where_the_browser_keeps_nothing_more_it_says_so(chapter):
+    page = chapter()
+    page.evaluate("() => { localStorage.full = 'x'.repeat(5 * 2 ** 20 - 200) }")
+    page.get_by_label("Your lines: activation_rates").fill("#" * 1000)
+    expect(page.said).to_contain_text("This browser keeps your lines no longer: copy them")
 
 
 def test_whatever_its_line_ends_what_a_link_brings_is_not_kept(chapter):
@@ -202,9 +260,10 @@ def test_only_its_page_sends_the_frame_code(chapter):
 
 def test_a_law_that_no_cell_has_is_named(chapter):
     page = chapter()
-    page.evaluate(GO, link(page, "1", "<b>nope</b>"))
+    page.evaluate(GO, link(page, "1", "<b>`nope` $x$</b>"))
+    expect(page.line.locator("code")).to_have_text("<b>nope $x$</b>")
     expect(page.line).to_have_text(
-        "This link brings a law for <b>nope</b>; no cell of this page defines it."
+        "This link brings a law for <b>nope $x$</b>; no cell of this page defines it."
     )
     expect(page.get_by_role("button", name="Run it")).to_be_hidden()
 
