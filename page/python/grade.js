@@ -48,7 +48,7 @@ export const users = { figures: () => [] };
 const keyOf = (name) => `${location.pathname} ${name}`;
 const sum = (text) => [...text].reduce((sum, sign) => (31 * sum + sign.codePointAt()) | 0, 0); // tells editions of a cell apart
 const isText = ({ said = [], ran = "", judged = "", mine = [] }) => [said, ran, judged, mine].flat().every((one) => typeof one === "string");
-const FULL = "This browser keeps your lines no longer: copy them before you close the page.";
+const FULL = "This browser has no room for your lines: copy them before you close the page.";
 const make = (tag, more) => Object.assign(document.createElement(tag), more);
 
 /* A cell in whose place the reader writes, and its form: buttons, and what was said of the lines. */
@@ -99,7 +99,7 @@ class Editor {
     if (this.brought.has(typed) && typed !== last) return;
     this.merge();
     if (typed === empty && last === empty && !mine.length) memory.remove(key);
-    else if (!memory.set(key, JSON.stringify({ typed, ran: last, said, judged, mine, book: sum(empty) })))
+    else if (!memory.set(key, JSON.stringify({ typed, ran: last, said, judged, mine, book: sum(empty) })) && !this.status.textContent.includes(FULL))
       this.show([[...(said ?? [""]).slice(0, 1), FULL].join(" "), said?.[1]]);
     this.kept = memory.get(key);
   }

@@ -198,7 +198,7 @@ def test_where_the_browser_keeps_nothing_more_it_says_so(chapter):
     page = chapter()
     page.evaluate("() => { localStorage.full = 'x'.repeat(5 * 2 ** 20 - 200) }")
     page.get_by_label("Your lines: activation_rates").fill("#" * 1000)
-    expect(page.said).to_contain_text("This browser keeps your lines no longer: copy them")
+    expect(page.said).to_contain_text("This browser has no room for your lines: copy them")
 
 
 def test_whatever_its_line_ends_what_a_link_brings_is_not_kept(chapter):
