@@ -98,8 +98,9 @@ class Editor {
     const { area, empty, key, said, judged, mine } = this, typed = area.value, last = area.ran ?? empty;
     if (this.brought.has(typed) && typed !== last) return;
     this.merge();
+    const all = JSON.stringify({ typed, ran: last, said, judged, mine, book: sum(empty) });
     if (typed === empty && last === empty && !mine.length) memory.remove(key);
-    else if (!memory.set(key, JSON.stringify({ typed, ran: last, said, judged, mine, book: sum(empty) })) && !this.status.textContent.includes(FULL))
+    else if (!memory.set(key, all) && !this.status.textContent.includes(FULL))
       this.show([[...(said ?? [""]).slice(0, 1), FULL].join(" "), said?.[1]]);
     this.kept = memory.get(key);
   }
