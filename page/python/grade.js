@@ -48,6 +48,9 @@ export const users = { figures: () => [] };
 const keyOf = (name) => `${location.pathname} ${name}`;
 const sum = (text) => [...text].reduce((sum, sign) => (31 * sum + sign.codePointAt()) | 0, 0); // tells editions of a cell apart
 const isText = ({ said = [], ran = "", judged = "", mine = [] }) => [said, ran, judged, mine].flat().every((one) => typeof one === "string");
+/* What is kept of a cell, where it is what an `Editor` keeps: others may write there. */
+const read = (key, kept = memory.parsed(key)) =>
+  typeof kept?.typed === "string" && isText(kept) && { ...kept, mine: [kept.mine ?? []].flat() };
 const FULL = "This browser has no room for your lines: copy them before you close the page.";
 const make = (tag, more) => Object.assign(document.createElement(tag), more);
 
@@ -109,9 +112,8 @@ class Editor {
   merge() {
     const { key, kept } = this;
     if (memory.get(key) === kept) return;
-    const there = memory.parsed(key);
-    if (typeof there?.typed !== "string" || !isText(there)) return;
-    if ([there.typed, there.mine ?? []].flat().filter((lines) => this.retain(lines)).length) this.close();
+    const there = read(key);
+    if (there && [there.typed, ...there.mine].filter((lines) => this.retain(lines)).length) this.close();
   }
 
   /* Lines of the reader's stay beside the cell when others take their place. */
@@ -125,11 +127,11 @@ class Editor {
   }
 
   restore() {
-    const { area, empty, key } = this, kept = memory.parsed(key);
+    const { area, empty, key } = this, kept = read(key);
     this.kept = memory.get(key);
-    if (typeof kept?.typed !== "string" || !isText(kept)) return; // others may write there
+    if (!kept) return;
     area.value = kept.typed;
-    this.mine = [kept.mine ?? []].flat();
+    this.mine = kept.mine;
     if (kept.said) this.show(([this.said, this.judged] = [kept.said, kept.judged])[0]);
     if ((kept.book ?? sum(empty)) === sum(empty)) area.ran = kept.ran;
     else return this.offer("The book’s cell has changed since you wrote yours. It is now:", empty);
