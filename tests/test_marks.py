@@ -174,18 +174,15 @@ def test_of_what_a_hand_in_shows_little_is_kept(quick):
 
 def test_no_hand_in_finds_what_another_left_in_ipythons_settings(quick):
     chapter, notebook = quick
-    plant = """import os
+    notebook.cells[1].source = """import os
 from pathlib import Path
 start = Path(os.environ["IPYTHONDIR"]) / "profile_default/startup/0.py"
+found = start.exists() or "planted" in globals()
 start.parent.mkdir(parents=True, exist_ok=True)
-assert not start.exists()
 start.write_text("planted = 1")
-assert "planted" not in globals()
-answer = 1
-def check(*_): assert answer == 1"""
-    notebook.cells[1].source = plant
-    assert marks.marks(chapter, notebook) == marks.marks(chapter, notebook)
-    assert "AssertionError" not in str(marks.marks(chapter, notebook))
+def check(*_): raise ValueError(f"found: {found}")"""
+    clean = dict.fromkeys(("first", "second"), "ValueError: found: False")
+    assert [marks.marks(chapter, notebook) for _ in range(2)] == [clean] * 2
 
 
 def test_a_cell_that_refuses_to_be_interrupted_ends_the_hand_in(quick):
