@@ -54,9 +54,11 @@ export class PhotoReach extends Reach {
     keep.disabled = true;
     await super.main();
     if (this.planned) await this.calibrate();
-    const { calibrated, camera, planned, given } = this;
+    const { brain, calibrated, camera, planned, given } = this;
     if (!calibrated) return; // another photo was chosen
-    const place = this.guesses ? words.guessed(given.guess) : words.placed(given.placeAccuracy, camera);
+    const place = this.guesses
+      ? words.guessed(given.guess, camera, brain.selector)
+      : words.placed(given.placeAccuracy, camera);
     this.say(words.reached(calibrated.error, planned.error) + place + this.doubt);
     keep.disabled = !this.drawing.view.body; // without WebGL
   }

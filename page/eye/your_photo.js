@@ -159,22 +159,35 @@ export class YourPhoto extends PhotoReach {
     return locate(this.brain.localiser, this.bare, this.boxes[number], this.camera);
   }
 
+  /* Without a sheet, what is in a box is given a place, and the camera that would see it there; */
+  guess(number) {
+    const { guess } = this.given;
+    this.camera = guessCamera(this.boxes[number], guess, times(0.5, EYE), this.diagonal);
+    Object.assign(this, { place: guess.place, doubt: "" });
+    this.tell({ place: "a guess" });
+  }
+
+  /* with one, it is located. RangeError where it is out of reach. */
+  measure(number) {
+    this.doubt = words.sizeDoubt(this, number);
+    this.place = this.locate(number);
+    const place = words.where(this.place);
+    this.tell({ place });
+    const { turn } = turnTowards(this.given.kinematics, this.place);
+    this.tell({ place: `${place}; the trunk turns ${signed((turn * 180) / Math.PI, 0)}°` });
+  }
+
   /* Reach for what is in a box. */
   async choose(number) {
     this.turn = {};
     this.forgetReach();
     this.photo.drawBoxes(this.marks, number);
     this.box.querySelectorAll("button[data-box]").forEach((button, i) => button.setAttribute("aria-pressed", i === number));
-    const { guess, sheet } = this.given;
-    if (this.guesses) this.camera = guessCamera(this.boxes[number], guess, times(0.5, EYE), this.diagonal);
-    if (!this.camera) return this.say(words.need(this.read, sheet));
-    this.doubt = this.guesses ? "" : words.sizeDoubt(this, number);
+    if (!this.camera && !this.guesses) return this.say(words.need(this.read, this.given.sheet));
     try {
-      this.place = this.guesses ? guess.place : this.locate(number);
-      this.tell({ place: words.where(this.place) });
+      if (this.guesses) this.guess(number);
+      else this.measure(number);
       const { turn, place } = turnTowards(this.given.kinematics, this.place);
-      const measured = `${words.where(this.place)}; the trunk turns ${signed((turn * 180) / Math.PI, 0)}°`;
-      this.tell({ place: this.guesses ? "a guess" : measured });
       await this.reach(place, turn);
     } catch (error) {
       if (!(error instanceof RangeError)) throw error;

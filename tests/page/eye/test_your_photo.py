@@ -138,7 +138,9 @@ def assert_nothing_found(page, said):
 def test_in_a_photo_without_the_sheet_the_arm_reaches_for_a_guess(page):
     """What was found is said first, and stays; then that nothing is measured."""
     shot = next(shot for shot in photos.load("real", "test") if shot.boxes)
-    assert "so the place is a guess: a phone’s usual lens, held at 45°" in give(page, shot.file)
+    said, spread = give(page, shot.file), 100 * np.ptp(SIZES) / sum(SIZES)
+    assert "so the place is a guess: a phone’s usual lens, held at 45°" in said
+    assert re.search(rf" \d+ cm from the camera, ± {spread:.0f} %", said)
     first, choices = found(page), page.locator(".vmc-boxes button")
     assert re.fullmatch(r"A shuttlecock, \d+ % sure\.", first)
     assert "0 markers seen, 3 needed" in readout(page, "camera")
