@@ -49,6 +49,7 @@ def detector():
     return {part: learnt[own + part] for part in ("support", "weights", "bias")} | {
         "strategy": strategy,
         "gate": recipe.gate,
+        "windows": recipe.windows,
     }
 
 

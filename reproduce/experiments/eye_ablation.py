@@ -1,9 +1,9 @@
 """Ablation of the eye for photographs: what each of its parts brings, on validation pictures.
 
-Candidates, a gate, the stream names and refines what passes, non-maximum suppression: a part stays
-only if without it something gets worse. The pictures: renders and photographs of validation,
-counter-examples, what is left of photographs where the part with the shuttlecock is cut off
-(`emptied`), and pasted scenes. No test photo has a part in the choice.
+Candidates that pass a gate, sliding windows, a stream that names and refines them, non-maximum
+suppression: a part stays only if without it something gets worse. The pictures: renders and
+photographs of validation, counter-examples, what is left of photographs where the part with the
+shuttlecock is cut off (`emptied`), and pasted scenes. No test photo has a part in the choice.
 """
 
 from collections import Counter
@@ -45,13 +45,15 @@ class BestBoxes(VentralStream):
         )
 
 
-WITHOUT = {  # what is left out -> how the stream chooses, and its class
-    "nothing": ({}, VentralStream),
-    "flips": ({"flips": FLIPS[:1]}, VentralStream),
-    "refinement": ({}, Unmoved),
-    f"all boxes but {N_BEST}": ({}, BestBoxes),
-    "half of the boxes refined": ({"refined": N_REFINED // 2}, VentralStream),
-    "the last look": ({"looks": N_LOOKS - 1}, VentralStream),
+WITHOUT = {  # what is left out -> how the stream chooses, its class, and among which boxes
+    "nothing": ({}, VentralStream, "all"),
+    "flips": ({"flips": FLIPS[:1]}, VentralStream, "all"),
+    "refinement": ({}, Unmoved, "all"),
+    "sliding windows": ({}, VentralStream, "candidates"),
+    "candidates": ({}, VentralStream, "windows"),
+    f"all boxes but {N_BEST}": ({}, BestBoxes, "all"),
+    "half of the boxes refined": ({"refined": N_REFINED // 2}, VentralStream, "all"),
+    "the last look": ({"looks": N_LOOKS - 1}, VentralStream, "all"),
 }
 
 
@@ -94,12 +96,23 @@ load_results = partial(records, "eye_ablation")
 
 def _answers(model, image, truth):
     """What is left out -> a Counter of what the eye's answer is, for one picture."""
-    found, answers = model.detector.detect(image), {}
-    for name, (settings, kind) in WITHOUT.items():
+    found, answers = _detections(model.detector, image), {}
+    for name, (settings, kind, boxes) in WITHOUT.items():
         stream = kind(**vars(model.recogniser))
-        chosen = stream.select(image, found, **settings)
+        chosen = stream.select(image, found[boxes], **settings)
         box = Sight(*chosen, stream.min_probability).box
         fit = iou(box, truth).max(initial=0) if box is not None else 0
         alarm = box is not None and not len(truth)
         answers[name] = Counter(right=int(fit > 0.5), tight=int(fit >= MIN_IOU), alarms=int(alarm))
     return answers
+
+
+def _detections(detector, image):
+    """The `Detections` of all boxes that pass, of candidates alone, and of windows alone."""
+    found = detector.detect(image)
+    without_windows = replace(detector, recipe=replace(detector.recipe, windows=()))
+    return {
+        "all": found,
+        "candidates": without_windows.detect(image, found.candidates),
+        "windows": detector.detect(image, found.candidates[:0]),
+    }

@@ -22,7 +22,7 @@ from reproduce.training.samples import (
 from vmc_lib import photos
 
 PLAIN = Augmentation(
-    stray=0, quarters=False, colour=0, light=0, blur=0, noise=0, compress=0, hide=0
+    stray=0, quarters=False, colour=0, light=0, blur=0, noise=0, compress=0, hide=0, strings=0
 )
 MAPS = 8, 16, 32, 32  # of the four stages
 WITHOUT = {  # how samples change when an idea is left out, and how many maps the stages have

@@ -177,7 +177,7 @@ STEPS = (
     Step(rival_controllers.make, RESULTS / "rivals.json", f"templates optimal {ARM}", 6),
     Step(loop_evaluation.make, RESULTS / "lesions.json", SHIPPED, 6),
     Step(loop_evaluation.make_generalist, RESULTS / "generalist.json", SHIPPED, 1),
-    Step(ventral_stream.photographs, MODEL / "photographs.npz", PHOTOGRAPHS, 95),
+    Step(ventral_stream.photographs, MODEL / "photographs.npz", PHOTOGRAPHS, 70),
     Step(real_world.make, RESULTS / "real_world.json", f"{SHIPPED} {COUNTEREXAMPLES}", 3),
     Step(eye_ablation.make, RESULTS / "eye_ablation.json", f"{SHIPPED} {COUNTEREXAMPLES}", 8),
     Step(pasted_scenes.make, RESULTS / "pasted_scenes.json", f"{SHIPPED} {COUNTEREXAMPLES}", 4),

@@ -11,10 +11,12 @@ import cv2
 import numpy as np
 
 from vmc_lib.boxes import decode_deltas, encode_deltas, iou, jitter_boxes, pad_boxes
+from vmc_lib.photos import crops
 from vmc_lib.what.stream import MARGIN, WIDTH
 
 STRAYS = 0.05, 0.12, 0.2  # in sides: how far a box lies from the shuttlecock's, by turns
 TINT = 0.2  # of a colour's strength, as a logarithm
+GAPS = 0.1, 0.4  # between strings, in sides of a crop
 
 
 @dataclass(frozen=True)
@@ -29,6 +31,7 @@ class Augmentation:
     noise: float = 0.04
     compress: float = 0.3  # share of crops that are saved as a poor JPEG
     hide: float = 0.2  # share of crops of which something hides a part
+    strings: float = 0.15  # share of crops that lie under a grid of strings
 
 
 ALL = Augmentation()
@@ -46,18 +49,19 @@ def augment(image, box, holds, rng, augmentation=ALL):
     if holds:
         near = decode_deltas(box, rng.normal(0, rng.choice(STRAYS), (1, 4)))
         fit, lack = iou(near, box)[0, 0], encode_deltas(near, box)[0]
-    x = crop_in_colour(image, pad_boxes(near, MARGIN), 2 * WIDTH)
+    [x] = crops(image, pad_boxes(near, MARGIN), WIDTH)
     x, lack = quarter_turn(x, lack, rng) if augmentation.quarters else (x, lack)
     x = x * np.exp(rng.normal(0, TINT * augmentation.colour, 3)).astype(np.float32)
     return simulate_camera(np.ascontiguousarray(x), rng, augmentation), fit, lack
 
 
 def simulate_camera(x, rng, augmentation=ALL):
-    """A picture (n, n, 3) relit, occluded, blurred, noisy and compressed, WIDTH pixels wide."""
+    """A picture (n, n, 3) under strings, relit, occluded, blurred, noisy and compressed."""
+    if rng.random() < augmentation.strings:
+        x = draw_grid(x, rng)
     x = relight(x, augmentation, rng)
     if rng.random() < augmentation.hide:
         x = occlude(x, rng)
-    x = cv2.resize(x, (WIDTH, WIDTH), interpolation=cv2.INTER_AREA)
     sigma = augmentation.blur * rng.random() ** 2
     if sigma > 0.2:
         x = cv2.GaussianBlur(x, (0, 0), sigma)
@@ -65,16 +69,6 @@ def simulate_camera(x, rng, augmentation=ALL):
     if rng.random() < augmentation.compress:
         x = compress_jpeg(x, int(rng.integers(20, 80)))
     return np.float32(x.clip(0, 1))
-
-
-def crop_in_colour(image, box, width):
-    """Crop of a box in colour, (width, width, 3) in 0..1; beyond the image, edges repeat."""
-    (x0, y0), (x1, y1) = np.round(np.reshape(box, (2, 2))).astype(int)
-    columns = np.arange(x0, max(x1, x0 + 4)).clip(0, image.shape[1] - 1)
-    rows = np.arange(y0, max(y1, y0 + 4)).clip(0, image.shape[0] - 1)
-    part = image[rows][:, columns]
-    how = cv2.INTER_AREA if min(part.shape[:2]) > width else cv2.INTER_LINEAR
-    return cv2.resize(part, (width, width), interpolation=how).astype(np.float32) / 255
 
 
 def quarter_turn(x, lack, rng):
@@ -101,6 +95,21 @@ def occlude(x, rng):
     stripes = rng.random(3) + 0.1 * rng.standard_normal((depth, 1, 3))
     np.rot90(x, rng.integers(4))[start : start + depth] = stripes
     return x
+
+
+def draw_grid(x, rng):
+    """A picture (n, n, 3) under a grid of lines, as of a racket's strings, seen at a slant."""
+    n, angle = len(x), rng.uniform(0, np.pi)
+    gap, thick = n * np.exp(rng.uniform(*np.log(GAPS))), rng.uniform(0.3, 1.6)
+    down, right = np.mgrid[-1 : 1 : n * 1j, -1 : 1 : n * 1j]
+    hidden = np.zeros((n, n))
+    for turn in angle, angle + np.pi / 2 + rng.normal(0, 0.1):
+        across = right * np.cos(turn) + down * np.sin(turn)
+        across = n / 2 * across * (1 + rng.uniform(-0.3, 0.3) * (right + down)) / gap
+        off = gap * np.abs((across + rng.random()) % 1 - 0.5)
+        hidden = np.maximum(hidden, (thick / 2 + 0.5 - off).clip(0, min(1, thick)))
+    colour = rng.choice([0.95, 0.8, 0.1]) * rng.uniform(0.7, 1.05, 3)
+    return np.float32(x + hidden[..., None] * (colour - x))
 
 
 def compress_jpeg(x, quality):

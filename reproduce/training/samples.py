@@ -14,7 +14,7 @@ from vmc_lib.boxes import iou, nms
 
 SHARES = {"shuttlecock": 0.4, "other": 0.15, "scene": 0.45}  # of what is drawn
 SOURCES = {"rendered": 0.25, "real": 0.35, "pasted": 0.4}  # of each, as far as a source has it
-PASTED, VALIDATION = 1050, 280  # scenes that are pasted on photographs to train, to validate
+PASTED, VALIDATION = 1400, 280  # scenes that are pasted on photographs to train, to validate
 APART = 0.3  # IoU under which a window shows no shuttlecock
 ALIKE = 0.7  # IoU above which a window teaches what another does
 
@@ -74,9 +74,9 @@ def validation_photos(rng, folder=photos.FOLDER, everyday=None, pasted=VALIDATIO
 def photo_samples(shots, rng):
     """The `boxes_by_kind` of each photo, from candidates (renders) or detections (photographs).
 
-    In photographs, the windows that teach best are those that look like objects to the detector.
+    In photographs, the windows that teach best are those at which the stream will have to look.
     """
-    finder = loop.high_recall_detector(loop.PHOTOGRAPHS_AS)
+    finder = loop.high_recall_detector(photos.REAL_LEVEL)
     found = Parallel()(
         delayed(candidates)(shot, "single")
         if shot.camera

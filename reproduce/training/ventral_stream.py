@@ -32,7 +32,7 @@ from vmc_lib.what.stream import WIDTH, VentralStream, standardise
 torch.set_num_threads(1)
 
 MAPS = 32, 64, 128, 128  # of the four STAGES
-STEPS, BATCH, RATE = (9000, 4500), 64, (0.003, 0.0015)  # before and after mining
+STEPS, BATCH, RATE = (14_000, 7000), 64, (0.003, 0.0015)  # before and after mining
 HARD = 24  # windows of a photo that teach after mining: those most like a shuttlecock
 NEAR, YES, NO = 0.3, 0.55, 0.4  # IoU from which edges are taught; of boxes called one, and not
 DROPPED = 0.3  # share of the last stage's activations hidden from the read-out while it learns
@@ -93,14 +93,17 @@ def train(network, batches, rate):
     """Train a network in place, on `Batches`.
 
     By torch's AdamW, whose rate rises and falls once (OneCycleLR). While it learns, each map is
-    brought to one scale (batch normalisation).
+    brought to one scale (batch normalisation), and products are of 16 bits: twice as quick
+    where the processor has them.
     """
     network.to(memory_format=torch.channels_last)  # as the crops lie: twice as quick
     learner = torch.optim.AdamW(network.parameters(), lr=rate, weight_decay=0.02)
     rise_and_fall = torch.optim.lr_scheduler.OneCycleLR(learner, rate, len(batches), pct_start=0.15)
     with torch_seed(batches.seed):
         for x, fit, lack in DataLoader(batches, batch_size=None, num_workers=1):  # drawn beside
-            error = loss(network(x), fit, lack)
+            with torch.autocast("cpu", torch.bfloat16):
+                outputs = network(x)
+            error = loss(outputs.float(), fit, lack)
             learner.zero_grad()
             error.backward()
             learner.step()
@@ -141,7 +144,7 @@ def fit_sigmoid(stream, shots):
     is right (Platt 1999, with his smoothed targets).
     """
     asked = delayed(partial(likeliest_box, stream, loop.high_recall_detector(photos.REAL_LEVEL)))
-    log_odds, right = np.transpose([found for found in Parallel()(map(asked, shots)) if found])
+    log_odds, right = np.transpose(Parallel()(map(asked, shots)))
     hits, misses = right.sum(), (1 - right).sum()
     target = np.where(right, (hits + 1) / (hits + 2), 1 / (misses + 2))
 
@@ -153,13 +156,8 @@ def fit_sigmoid(stream, shots):
 
 
 def likeliest_box(stream, detector, shot):
-    """The log-odds of the box that a stream chooses in a photo, and whether it is a shuttlecock.
-
-    None where nothing is detected.
-    """
+    """The log-odds of the box that a stream chooses in a photo, and whether it is a shuttlecock."""
     chosen, _ = stream.select(shot.image, detector.detect(shot.image))
-    if not len(chosen.boxes):
-        return None
     fits = iou(chosen.boxes[:1], photos.boxes_of(shot, "shuttlecock"))
     return chosen.scores[0], fits.max(initial=0) > 0.5
 

@@ -3,9 +3,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from vmc_lib.boxes import as_boxes, iou
-from vmc_lib.where.detector import ObjectDetector
-from vmc_lib.where.recipes import RECIPES
+from vmc_lib.boxes import area, as_boxes, iou
+from vmc_lib.where.detector import ObjectDetector, window_grid
+from vmc_lib.where.recipes import PHOTOGRAPHED, RECIPES
 
 
 def test_each_step_leaves_fewer_boxes(photo):
@@ -69,3 +69,15 @@ def test_unknown_detectors_are_refused():
     ):
         with pytest.raises(ValueError, match=remedy):
             ObjectDetector.load(level, name)
+
+
+def test_windows_cover_an_image_and_pass_whatever_they_score():
+    windows = window_grid(400, 600, (130, 330))
+    assert windows.min() == 0
+    np.testing.assert_array_equal(windows.max(0)[2:], [600, 400])
+    assert (area(windows) <= 330**2).all()
+    for side, box in ((130, [411, 222, 541, 352]), (330, [270, 70, 600, 400])):
+        assert iou(np.array([box]), windows).max() > 0.5, side
+    blank = np.zeros((400, 600, 3), np.uint8)
+    found = ObjectDetector.load("real", "photographed").detect(blank)
+    np.testing.assert_array_equal(found.passed, window_grid(400, 600, PHOTOGRAPHED.windows))

@@ -6,6 +6,7 @@ and `SINGLE` with one hierarchy of candidates; each further one of `RECIPES` add
 gradients, box regression, a prediction of the final IoU, votes.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from typing import Any, Self
 
@@ -29,7 +30,7 @@ class Detections:
 
     candidates: np.ndarray  # (n, 4) of selective search
     candidate_scores: np.ndarray  # (n,)
-    passed: np.ndarray  # (m, 4) boxes above the threshold, after box regression if any
+    passed: np.ndarray  # (m, 4) boxes above the threshold, after box regression if any; windows
     boxes: np.ndarray  # (k, 4) left by non-maximum suppression, the best first
     scores: np.ndarray  # (k,)
 
@@ -131,7 +132,19 @@ class ObjectDetector:
             score = self.iou_predictor.predict if self.iou_predictor else self.svm.score
             passed_scores = score(recipe.describe(image, passed))
         good = passed_scores > self.threshold
-        passed, passed_scores = passed[good], passed_scores[good]
+        windows = window_grid(*image.shape[:2], recipe.windows)
+        passed = np.vstack([passed[good], windows])
+        passed_scores = np.append(passed_scores[good], self.score(image, windows))
         kept = nms(passed, passed_scores, recipe.overlap)
         best = vote(kept, passed, passed_scores) if recipe.vote else passed[kept]
         return Detections(boxes, scores, passed, best, passed_scores[kept])
+
+
+def window_grid(height: int, width: int, sides: Sequence[float]) -> np.ndarray:
+    """Sliding windows (n, 4) over an image: squares a third of a side apart, cut at its edges."""
+    windows = [np.empty((0, 4))]
+    for side in sides:
+        x, y = (np.arange(-side / 6, size - 5 * side / 6 + 1, side / 3) for size in (width, height))
+        corners = np.stack(np.meshgrid(x, y), -1).reshape(-1, 2)
+        windows.append(np.hstack([corners, corners + side]))
+    return np.vstack(windows).clip(0, [width, height] * 2)

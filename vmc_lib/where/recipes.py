@@ -35,6 +35,7 @@ class Recipe:
     regressions: tuple = ()  # rounds of box regression: the jitter, in sides, each is trained for
     boxes: int = 12_800  # that each round is trained on, and the IoU predictor on twice as many
     predicts_iou: bool = False  # regressed boxes score their predicted IoU
+    windows: tuple = ()  # sides of sliding windows that pass whatever they score, pixels
     vote: bool = False  # box voting after non-maximum suppression
     overlap: float = 0.3  # that non-maximum suppression allows
 
@@ -52,8 +53,9 @@ GRADIENTS = replace(CONTEXT, features="gradients")
 REGRESSED = replace(GRADIENTS, strategy="finer", regressions=(0.15, 0.1, 0.07, 0.05))
 PREDICTED = replace(REGRESSED, predicts_iou=True)
 IMPROVED = replace(PREDICTED, vote=True)
-# Real things differ more: more candidates, and a stream is still to look at what passes
-PHOTOGRAPHED = replace(GRADIENTS, strategy="fast", overlap=1.0)  # all that pass: on validation
+# Real things differ more: more candidates, and a stream is still to look at all that pass. Under
+# strings no region has a shuttlecock's outline, so windows pass, too (both chosen on validation)
+PHOTOGRAPHED = replace(GRADIENTS, strategy="fast", windows=(130, 210, 330), overlap=1.0)
 RECIPES = {
     "published": PUBLISHED,
     "single": SINGLE,

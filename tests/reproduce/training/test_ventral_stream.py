@@ -97,7 +97,7 @@ def test_hard_negatives_hold_no_shuttlecock():
 
 def test_the_sigmoid_is_that_by_which_choices_come_true(monkeypatch, rng):
     log_odds = rng.normal(0, 4, 3000)
-    answers = [*zip(log_odds, rng.random(3000) < logistic(0.5 * log_odds - 1.5), strict=True), None]
+    answers = [*zip(log_odds, rng.random(3000) < logistic(0.5 * log_odds - 1.5), strict=True)]
     monkeypatch.setattr(training, "likeliest_box", lambda stream, detector, shot: shot)
     calibrated = training.fit_sigmoid(VentralStream.load(), answers)
     np.testing.assert_allclose(calibrated.sigmoid, (0.5, -1.5), atol=0.15)
@@ -109,5 +109,7 @@ def test_the_box_that_is_asked_for_is_the_likeliest():
     log_odds, right = training.likeliest_box(stream, detector, shot)
     assert log_odds > 3
     assert right
-    plain = SimpleNamespace(image=np.full_like(shot.image, 128), boxes={})
-    assert training.likeliest_box(stream, detector, plain) is None
+    plain = SimpleNamespace(image=np.full_like(shot.image, 128), boxes={}, more=shot.more)
+    log_odds, right = training.likeliest_box(stream, detector, plain)
+    assert log_odds < 0
+    assert not right
