@@ -12,7 +12,7 @@ from playwright.sync_api import expect
 
 from tests import pages
 from tests.page.arm.controls import readout, status
-from tests.page.eye.test_your_photo import AGAIN, NEED, OURS, SHOTS
+from tests.page.eye.test_your_photo import NEED, OURS, POINT, SHOTS
 from tests.project import sample
 from tools import browser
 from vmc_lib.boxes import iou, pad_boxes
@@ -111,7 +111,7 @@ def test_a_film_that_is_left_or_cut_leaves_the_page_to_photos(window, site, html
     photo.write_bytes(jpeg(BLANK))
     page.locator("[type=file]").set_input_files(photo)
     page.evaluate("go()")
-    status(page, AGAIN)
+    status(page, POINT)
     expect(live).to_have_text("Live")
     live.click()
     show_in_film(page, BLANK)
