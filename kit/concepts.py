@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from book._ext.policy import seal
-from vmc_lib.statistics import student
+from vmc_lib.statistics import t_interval
 
 ROOT = Path(__file__).parents[1]
 LINE = re.compile(r"concepts 1: (before|after); ([^;\n]+); ((?:(?:-1|[0-2]) )+)end")
@@ -122,7 +122,7 @@ def report(pairs):
     chosen = np.array([*pairs.values()])  # (students, before and after, items)
     right = chosen == [item.place for item in ITEMS]
     score = right.sum(axis=2)
-    gain, half = student(score[:, 1] - score[:, 0])
+    gain, half = t_interval(score[:, 1] - score[:, 0])
     lines = [
         f"{len(pairs)} students, of {len(ITEMS)} right before {score[:, 0].mean():.1f}, after "
         f"{score[:, 1].mean():.1f}: {gain:+.1f} ± {half:.1f} (95 % interval of the mean).",

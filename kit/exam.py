@@ -52,8 +52,9 @@ def exam(seed, count, numbers=(), unlike=()):
 def new_variants(template, seed, count, unlike=()):
     """So many variants of a template, none public, none of the seeds `unlike`; else ValueError."""
     contents = {question.content for question in template.variants()}
-    for other in unlike:
-        contents |= {question.content for question in new_variants(template, other, count)}
+    for number, other in enumerate(unlike):  # each was unlike those before it
+        older = new_variants(template, other, count, unlike[:number])
+        contents |= {question.content for question in older}
     return template.variants(count, seed, contents)
 
 
@@ -130,7 +131,9 @@ def main(arguments=None):
     parser.add_argument("--seed", required=True, help="a secret word; the same word, the same exam")
     parser.add_argument("--variants", type=int, default=5, help="of each question")
     parser.add_argument("--only", default="", help="numbers of chapters, such as 07,08")
-    parser.add_argument("--unlike", nargs="*", default=(), help="seeds of earlier exams")
+    parser.add_argument(
+        "--unlike", nargs="*", default=(), help="seeds of earlier exams, oldest first"
+    )
     asked = parser.parse_args(arguments)
     try:
         numbers = [number for number in asked.only.split(",") if number]

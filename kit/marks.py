@@ -21,8 +21,8 @@ from nbclient import NotebookClient
 from nbclient.util import run_sync
 
 from kit.__main__ import CHAPTERS
-from kit.marking import POINTS, RIGHT_MARK, TOO_LONG, WORDS, known_mistakes, mark_of, points
-from kit.student import checks, place
+from kit.marking import RIGHT_MARK, TOO_LONG, WORDS, known_mistakes, mark_of, points
+from kit.student import POINTS, checks, place
 
 CELL, NOTEBOOK = 60, 600  # s that each may run
 MOST_OUTPUTS, LARGEST_OUTPUT = 1000, 100_000  # of a cell, signs: a check says less
@@ -149,7 +149,9 @@ def rows(path):
 def by_file(several):
     """The rows of one hand-in as one row: its points, what is not right, and what is to be read."""
     *exercises, (path, _, earned, of, error) = several
-    wrong = [f"{label}: {mark}" for _, label, _, _, mark in exercises if points(mark) in {0, 1}]
+    wrong = [
+        f"{label}: {mark}" for _, label, _, _, mark in exercises if mark not in (RIGHT_MARK, WORDS)
+    ]
     read = [label for _, label, _, _, mark in exercises if mark == WORDS]
     return [(path, earned, of, error or "; ".join(wrong), ", ".join(read))]
 

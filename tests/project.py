@@ -17,8 +17,9 @@ each_chapter = pytest.mark.parametrize("path", CHAPTERS, ids=lambda path: path.s
 def sample(cases, *kept):
     """The cases of a test, of which all but some, by name, wait for the audit (`make audit`)."""
     name = lambda case: getattr(case, "stem", getattr(case, "name", case))  # noqa: E731
-    audit = pytest.mark.audit
-    return [c if name(c) in kept else pytest.param(c, marks=audit, id=f"{name(c)}") for c in cases]
+    named, audit = {name(c): c for c in cases}, pytest.mark.audit
+    assert not named or {*kept} <= {*named}, f"no case { ({*kept} - {*named}) }"
+    return [c if n in kept else pytest.param(c, marks=audit, id=f"{n}") for n, c in named.items()]
 
 
 def code_cells(path):

@@ -29,6 +29,15 @@ def test_two_seeds_ask_the_same_of_other_numbers():
     )
 
 
+def test_a_third_exam_repeats_neither_of_two():
+    """The second was drawn unlike the first, and so are its questions when the third looks."""
+    first = exam.exam("a", 5, ["07", "11"])
+    second = exam.exam("b", 5, ["07", "11"], unlike=["a"])
+    third = exam.exam("c", 5, ["07", "11"], unlike=["a", "b"])
+    assert third
+    assert not contents(third) & (contents(first) | contents(second))
+
+
 def given(question):
     """How many numbers a question gives, and how many choices."""
     return len(re.findall(r"\d+(?:\.\d+)?", question.prompt)), len(question.choices)

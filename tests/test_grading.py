@@ -103,6 +103,12 @@ def test_one_false_alarm_is_not_taken_for_percentages_that_are_not_rounded():
     assert said(one_alarm, "POSSIBLE_COUNTS") == "It returns numbers, shape (0,) for (1,)."
 
 
+def test_a_named_tuple_is_shown_as_a_tuple():
+    one = Exercise(lambda x: (x, 2 * x), lambda rng: (rng.random(2),), {})
+    text = feedback(lambda x: np.linalg.slogdet(np.diag(x)), one)
+    assert re.search(r"yours gives `\(.*\)`", text)
+
+
 def test_the_smallest_case_that_fails_is_shown():
     one = Exercise(lambda x: x.sum(), lambda rng: (np.arange(rng.integers(2, 9)),), {})
     assert "Where `x = [0 1 2]`, `3` is right" in feedback(lambda x: x.sum() * (len(x) < 3), one)

@@ -26,7 +26,7 @@ def test_a_miss_is_as_long_as_the_bar_says(photo, aside):
     bar, mm = drawn(svg, "ink")[-1], 10 * int(re.search(r">(\d) cm<", svg)[1])
     assert mm == (50 if aside else 10)
     for colour, motion in (("grey", reach.planned), ("red", reach.calibrated)):
-        off = 1000 * np.linalg.norm(reach.end_point(motion) - reach.target)
+        off = 1000 * np.linalg.norm(reach.endpoint(motion) - reach.target)
         assert drawn(svg, colour)[0] / bar * mm == pytest.approx(off, abs=1)
     assert max(drawn(svg, "red")) < RADIUS
     x, y = map(float, re.search(r"translate\((\d+) (\d+)\)", svg).groups())

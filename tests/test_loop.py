@@ -50,7 +50,7 @@ def test_a_photo_becomes_a_reach_that_calibration_improves(model, photo, sight):
         for motion in (reach.planned, reach.calibrated)
     )
     assert calibrated < planned < 0.05
-    assert np.linalg.norm(reach.end_point(reach.calibrated) - target) < 0.05
+    assert np.linalg.norm(reach.endpoint(reach.calibrated) - target) < 0.05
 
 
 def test_the_hand_path_is_in_the_frame_of_the_straight_trunk(model, photo):
@@ -206,11 +206,11 @@ def test_a_stream_has_a_lower_threshold_than_a_recogniser():
     assert sight_of([0.5], [0.4], selects=False).box is None
 
 
-def test_without_a_probable_box_the_summary_counts_things():
+def test_without_a_probable_box_the_summary_counts_boxes():
     unsure = sight_of([0.3, 0.2], [0.3, 0.2])
     assert unsure.box is None
-    assert unsure.summary.startswith("no shuttlecock, but 2 things")
-    assert sight_of([0.3], [0.3]).summary.startswith("no shuttlecock, but 1 thing;")
+    assert unsure.summary.startswith("no shuttlecock; likeliest of 2 boxes: 30 %")
+    assert sight_of([0.3], [0.3]).summary.startswith("no shuttlecock; likeliest of 1 box:")
     nothing = sight_of(np.empty(0), np.empty(0))
     assert nothing.summary == "nothing that looks like an object"
 

@@ -61,7 +61,7 @@ def chapter():
 
 @pytest.fixture
 def hand_in(chapter):
-    """What a student made of it, right but for the last six exercises."""
+    """What a student made of it, right in six of twelve exercises."""
     notebook = student(chapter)
     checks = {
         cell.metadata.exercise: cell

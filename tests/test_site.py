@@ -66,7 +66,7 @@ def arm_scenes(path):
 
 
 def in_picture(camera, points):
-    """Where points (n, 3) are seen, from −1 to 1 in the narrowest picture (vmc_lib's scene.js)."""
+    """Where points (n, 3) are seen, from −1 to 1 in the narrowest picture (page/demo/scene.js)."""
     eye, at = np.array(camera)
     forward = (at - eye) / np.linalg.norm(at - eye)
     right = np.cross(forward, [0, 1, 0]) / np.linalg.norm(np.cross(forward, [0, 1, 0]))

@@ -4,23 +4,23 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from vmc_lib.statistics import holm, mcnemar, student, wilson
+from vmc_lib.statistics import holm, mcnemar, t_interval, wilson
 
 
 def test_student_agrees_with_scipy():
     values = np.random.default_rng(0).normal(size=(6, 2))
-    mean, half = student(values)
+    mean, half = t_interval(values)
     low, high = stats.t.interval(0.95, 5, values.mean(axis=0), stats.sem(values))
     np.testing.assert_allclose([mean - half, mean + half], [low, high])
 
 
 def test_interval_of_equal_values_is_zero():
-    assert student([2.0, 2.0, 2.0]) == (2.0, 0.0)
+    assert t_interval([2.0, 2.0, 2.0]) == (2.0, 0.0)
 
 
 def test_one_value_has_no_interval():
     with pytest.raises(ValueError, match="1 values have no spread"):
-        student([3.0])
+        t_interval([3.0])
 
 
 @pytest.mark.parametrize(("right", "n"), [(40, 40), (37, 40), (1, 7)])

@@ -568,7 +568,7 @@ MOVING = {
         lambda g: planning.exact_weights((0.1, -0.4), g.plan.points, "two"), "'two'", "as 1 or 2"
     ),
     "a movement's name": (lambda g: g.reach.hand("planned"), "'planned'", "give reach.planned"),
-    "an end by name": (lambda g: g.reach.end_point("planned"), "'planned'", "give reach.planned"),
+    "an end by name": (lambda g: g.reach.endpoint("planned"), "'planned'", "give reach.planned"),
     "geometry in degrees": (lambda g: arm26.geometry((0, 90)), "90", "np.radians(degrees)"),
     "geometry of NaN": (lambda g: arm26.geometry((np.nan, 0)), "nan", "np.radians(degrees)"),
     "geometry in words": (lambda g: arm26.geometry(("a", "b")), "('a', 'b')", "give numbers"),
@@ -722,9 +722,9 @@ MOVING = {
     ),
 }  # fmt: skip
 SHOWING = {
-    "one draw": (lambda g: statistics.student([1.0]), "1 values", "give two or more"),
+    "one draw": (lambda g: statistics.t_interval([1.0]), "1 values", "give two or more"),
     "a share": (lambda g: statistics.wilson(5, 3), "5 of 3", "give counts"),
-    "no list": (lambda g: statistics.student(3.0), "1 values", "give two or more"),
+    "no list": (lambda g: statistics.t_interval(3.0), "1 values", "give two or more"),
     "other answers": (lambda g: statistics.mcnemar([1, 0], [1]), "(1,)", "the same questions"),
     "no draws": (lambda g: estimate([]), "0 values", "give two or more"),
     "a row": (lambda g: table(["a", "b"], [[1]]), "the row [1]", "2 cells"),
@@ -775,8 +775,8 @@ SHOWING = {
     "a control as an attribute": (
         lambda g: setattr(widget(text, k=(0, 3)), "k", 2), "'k': 2", "write demo.value = {"
     ),
-    "no freedom": (lambda g: statistics.student_quantile(0), "n = 0", "1 or more"),
-    "half a freedom": (lambda g: statistics.student_quantile(2.5), "n = 2.5", "whole number"),
+    "no freedom": (lambda g: statistics.t_quantile(0), "n = 0", "1 or more"),
+    "half a freedom": (lambda g: statistics.t_quantile(2.5), "n = 2.5", "whole number"),
     "answers in words": (
         lambda g: statistics.mcnemar(["no", "yes"], ["yes", "no"]), "['no', 'yes']", "True or False"
     ),

@@ -134,9 +134,9 @@ def vote(
     """Box voting: each of the boxes `kept` (indices) becomes a weighted mean of boxes near it.
 
     A box votes for each kept one that it overlaps by half or more and does not outscore. A vote
-    weighs exp(-lag / temperature), its score being `lag` below the kept box's (after Gidaris &
-    Komodakis 2015). ValueError where `kept` is no list of boxes' indices, or the temperature not
-    above 0.
+    weighs exp(-lag / temperature), where `lag` is how far its score is below the kept box's (after
+    Gidaris & Komodakis 2015). ValueError where `kept` is no list of boxes' indices, or the
+    temperature not above 0.
     """
     boxes, scores = _boxes_and_scores(boxes, scores)
     kept = as_numbers("kept", kept)

@@ -20,8 +20,8 @@ def compiled(loop: Callable[..., Any]) -> Callable[..., Any]:
 
     Numba freezes the module-level constants and functions that a function reads. If one is rebound,
     as chapters invite readers to (not: changed in place), it is compiled again at its next call.
-    The machine code is kept for the next process, where its folder can be written; what the disk
-    has spoilt is made anew, as the log says. Without numba, or with what numba cannot compile, a
+    The machine code is kept for the next process, where its folder can be written; a damaged file
+    of it is made anew, and logged. Without numba, or with what numba cannot compile, a
     call runs as plain Python, slowly, with a warning; so it does, without one, where
     NUMBA_DISABLE_JIT asks for it.
     `__wrapped__` is that plain Python. Arguments are positional; functions that call each other in

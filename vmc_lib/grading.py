@@ -172,7 +172,7 @@ def _short(value, digits=4):
     if isinstance(value, str):
         return repr(value[:100])
     if isinstance(value, tuple | list):
-        begins, *_, ends = str(type(value)())
+        begins, ends = "[]" if isinstance(value, list) else "()"
         return f"{begins}{', '.join(_short(one, digits) for one in value[:25])}{ends}"
     if isinstance(value, SimpleNamespace):
         return ", ".join(f"{name}: {_short(one, digits)}" for name, one in vars(value).items())

@@ -28,9 +28,11 @@ from vmc_lib.what.stream import VentralStream
 from vmc_lib.where.detector import Detections, ObjectDetector
 from vmc_lib.where.localiser import Localiser
 
-THRESHOLD_MARGIN = 1.0  # how much lower the detector's threshold is than alone: on validation
+THRESHOLD_MARGIN = (
+    1.0  # how far the detector's threshold is lowered for a recogniser
+)
 MODEL = 'VisuomotorModel.load("rig")'  # what is asked for where a model is missing
-PHOTOGRAPHS_AS = "varied"  # the level whose places serve for photographs too
+PHOTOGRAPHS_AS = "varied"  # the level whose localiser serves photographs, too
 
 
 @dataclass(frozen=True)
@@ -99,7 +101,8 @@ class Sight:
         if not len(self.probability):
             return "nothing that looks like an object"
         count, likeliest = len(self.probability), 100 * self.probability.max()
-        return f"no shuttlecock, but {count} thing{'s' * (count > 1)}; likeliest {likeliest:.0f} %"
+        boxes = f"{count} box{'es' * (count > 1)}"
+        return f"no shuttlecock; likeliest of {boxes}: {likeliest:.0f} %"
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,7 +127,7 @@ class Reach:
         check_kind("motion", motion, templates.HeldMotion, "reach.planned, or reach.calibrated")
         return float(templates.mean_distance(to_world(motion.wrist, self.turn), place))
 
-    def end_point(self, motion: templates.HeldMotion) -> np.ndarray:
+    def endpoint(self, motion: templates.HeldMotion) -> np.ndarray:
         """Where the wrist is on average over the hold, (3,), in the same frame."""
         check_kind("motion", motion, templates.HeldMotion, "reach.planned, or reach.calibrated")
         return to_world(motion.wrist, self.turn).mean(axis=0)

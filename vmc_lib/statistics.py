@@ -10,22 +10,22 @@ from vmc_lib.checks import as_numbers, check_count, is_within
 from vmc_lib.short_repr import short
 
 
-def student(values: ArrayLike) -> tuple[Any, Any]:
-    """The mean of `values` (n, …) over the first axis, and half its 95 % interval's width, (…).
+def t_interval(values: ArrayLike) -> tuple[Any, Any]:
+    """Student's t interval: the mean of `values` (n, …) and half its 95 % interval's width, (…).
 
-    Student's t: it speaks of what changed from value to value, a seed or a training, and of nothing
-    else. ValueError for fewer than two values.
+    It speaks of what changed from value to value, a seed or a training, and of nothing else.
+    ValueError for fewer than two values.
     """
     values = np.atleast_1d(as_numbers("values", values))
     n = len(values)
     if n < 2:
         raise ValueError(f"{n} values have no spread: give two or more")
     error = np.std(values, axis=0, ddof=1) / np.sqrt(n)
-    return np.mean(values, axis=0), student_quantile(n - 1) * error
+    return np.mean(values, axis=0), t_quantile(n - 1) * error
 
 
 @cache
-def student_quantile(n: int) -> float:
+def t_quantile(n: int) -> float:
     """The 97.5 % point of Student's t with n degrees of freedom, 1, 2, …"""
     check_count("n", n, least=1)
     low, high = 0.0, 13.0
@@ -56,9 +56,10 @@ def wilson(right: float, n: float) -> tuple[float, float]:
 
 
 def mcnemar(one: np.ndarray, other: np.ndarray) -> tuple[int, int, float]:
-    """Of two methods' answers, (n,) each, right or not: only one right, only the other right, p.
+    """McNemar's exact test of two methods' answers, (n,) each, right or not (McNemar 1947).
 
-    If neither is better, each wins about half of the cases on which they differ (McNemar 1947).
+    If neither is better, each wins about half of the cases on which they differ. Returns how often
+    only the one is right, how often only the other, and p.
     """
     from scipy.stats import binomtest
 
@@ -72,13 +73,13 @@ def mcnemar(one: np.ndarray, other: np.ndarray) -> tuple[int, int, float]:
     return wins, losses, binomtest(wins, wins + losses).pvalue if wins + losses else 1.0
 
 
-def holm(chances: ArrayLike) -> np.ndarray:
-    """Chances (n,) of many tests, corrected for their number (Holm 1979)."""
-    chances = np.atleast_1d(as_numbers("chances", chances))
-    if chances.ndim != 1 or not np.all((chances >= 0) & (chances <= 1)):
-        raise ValueError(f"chances {short(chances)}: give a list of p-values, 0 to 1")
-    order = np.argsort(chances)
-    left = len(chances) - np.arange(len(chances))
-    corrected = np.empty(len(chances))
-    corrected[order] = np.minimum(np.maximum.accumulate(chances[order] * left), 1)
+def holm(p_values: ArrayLike) -> np.ndarray:
+    """Holm-Bonferroni correction of the p-values (n,) of many tests (Holm 1979)."""
+    p_values = np.atleast_1d(as_numbers("p_values", p_values))
+    if p_values.ndim != 1 or not np.all((p_values >= 0) & (p_values <= 1)):
+        raise ValueError(f"p-values {short(p_values)}: give a list of them, 0 to 1")
+    order = np.argsort(p_values)
+    left = len(p_values) - np.arange(len(p_values))
+    corrected = np.empty(len(p_values))
+    corrected[order] = np.minimum(np.maximum.accumulate(p_values[order] * left), 1)
     return corrected

@@ -46,10 +46,10 @@ def add_strip(app, pagename, templatename, context, doctree):
         return
     from book.figures import thread  # here, for it brings the model along
 
-    photo = Path(app.outdir, PHOTO)
-    if not photo.exists():
+    photo, pixels = Path(app.outdir, PHOTO), thread.photo_file()
+    if not photo.exists() or photo.read_bytes() != pixels:
         photo.parent.mkdir(exist_ok=True)
-        photo.write_bytes(thread.photo_file())
+        photo.write_bytes(pixels)
     number = int(found[1]) if found else None
     places = {
         n: (app.builder.get_relative_uri(pagename, page) or "#", title)

@@ -14,7 +14,7 @@ from vmc_lib.show.arm_plane import plane
 from vmc_lib.show.figures import margins
 from vmc_lib.show.palette import COLOURS
 from vmc_lib.show.svg_renderer import text_width
-from vmc_lib.statistics import student
+from vmc_lib.statistics import t_interval
 
 TRIED = ((-0.05, 0.3), (-0.53, -0.25))  # the plane round the obstacles, m
 
@@ -176,7 +176,9 @@ def tornado(rule):
     usual = found[sensitivity.AS_IT_IS][rule]
     shifts = {
         choice: {
-            f"{choice} → {other}": student(found[sensitivity.name_of(choice, other)][rule] - usual)
+            f"{choice} → {other}": t_interval(
+                found[sensitivity.name_of(choice, other)][rule] - usual
+            )
             for other in others
         }
         for choice, others in sensitivity.CHOICES.items()

@@ -22,7 +22,7 @@ def lens(photo, box, reach, motion=None):
         return np.column_stack([away @ along, -away[:, 1]])
 
     motions = [] if motion is None else [reach.planned, motion]
-    [true, *ends] = flat([photo.target, *map(reach.end_point, motions)])
+    [true, *ends] = flat([photo.target, *map(reach.endpoint, motions)])
     scale = LONG / max(LONG / MOST, np.abs([true, *ends]).max())
     x, y = _corner(box)
     parts = [f'<circle r="{RADIUS}" fill="#10151c" fill-opacity=".85" stroke="none"/>']

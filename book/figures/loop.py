@@ -95,7 +95,7 @@ def draw_movement(photo, box, reach, motion):
     view = photo_view(photo.image, [(box, "shuttlecock", "green")], [(place, "", "green")])
     moving = _moving(photo.camera.project(hand[::EVERY]), "orange")
     view = view.replace("</svg>", moving + lens(photo, box, reach, motion) + "</svg>")
-    end = reach.end_point(motion)
+    end = reach.endpoint(motion)
     lifted = bool(reach.distance(motion, photo.target) < LIFT_RADIUS)
     scene = arm_scene(
         motion.q,

@@ -8,7 +8,7 @@ from book.figures.panels import mark_now, panels, shade
 from vmc_lib.arm.model import MUSCLES
 from vmc_lib.show import dot_plot, table
 from vmc_lib.show.palette import COLOURS
-from vmc_lib.statistics import student
+from vmc_lib.statistics import t_interval
 
 
 def scatter_table(scatter):
@@ -71,7 +71,7 @@ def learning_curves(ratios, learners, counts):
     fig, ax = panels(size=(4.3, 3.4))
     for k, name in enumerate(learners):
         beside = np.array(counts) * 1.04 ** (k - 1)
-        ax.errorbar(beside, *student(ratios[f"{name}, held-out"]), fmt="o-", ms=4, label=name)
+        ax.errorbar(beside, *t_interval(ratios[f"{name}, held-out"]), fmt="o-", ms=4, label=name)
     floor = ratios["nothing but noise"].mean()
     ax.axhline(floor, color=COLOURS["grey"], ls=":", label="the noise alone")
     ax.set(xlabel="movements", ylabel="left of habit's miss")
@@ -200,7 +200,7 @@ def miss_and_effort(effort, miss):
     fig, ax = panels(size=(6.8, 3.8))
     hues = "grey", "purple", "red", "orange", "green", "blue"
     for name, hue in zip(effort, hues, strict=True):
-        (x, wide), (y, high) = student(effort[name]), student(miss[name])
+        (x, wide), (y, high) = t_interval(effort[name]), t_interval(miss[name])
         ax.errorbar(x, y, high, wide, fmt="o", color=COLOURS[hue], label=name)
     ax.set(xlabel="effort / the least", ylabel="miss (mm)", xlim=(0.5, 5.0), ylim=(0, 22))
     ax.legend(loc="upper right")

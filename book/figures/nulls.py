@@ -6,7 +6,7 @@ from book.figures.panels import legend_above, mark_now, panels
 from reproduce.experiments import learning_curves, nulls
 from reproduce.experiments.calibration import SCENARIOS, load_results
 from vmc_lib.show.palette import COLOURS
-from vmc_lib.statistics import student
+from vmc_lib.statistics import t_interval
 
 READINGS = {  # how a movement is read -> what each rule then leaves after 0, 1, … tries
     "where the command ends": lambda: nulls.load_results()[nulls.BY_TRIES],
@@ -45,7 +45,7 @@ def by_tries(reading, tries):
 
 def _curve(ax, rule, x, shares):
     """A rule's line over `x`, the mean of the draws (draws, x), returned, with its 95 % band."""
-    (colour, style), (middle, half) = LINES[rule], student(shares)
+    (colour, style), (middle, half) = LINES[rule], t_interval(shares)
     ax.plot(x, middle, style, color=COLOURS[colour], label=rule)
     ax.fill_between(x, middle - half, middle + half, color=COLOURS[colour], alpha=0.2, lw=0)
     return middle

@@ -4,7 +4,7 @@ import numpy as np
 
 from kit.bank.drawing import bars
 from kit.question import choice, count, numeric, picture, steps
-from vmc_lib.statistics import student
+from vmc_lib.statistics import t_interval
 
 SHARE, SECONDS = steps(0.2, 0.9, 0.05), steps(0.2, 2, 0.1)
 
@@ -20,7 +20,7 @@ def share_that_is_left(before=steps(4, 12, 0.5), after=steps(0.2, 3.5, 0.1)):
 def interval_of_six_seeds(values=lambda rng: np.round(rng.normal(0.4, 0.05, 6), 2)):
     """Six seeds leave these shares of the miss: {values}. What is the half-width of the mean's 95 %
     interval (Student's t for five degrees of freedom: 2.571)?"""
-    return student(values)[1]
+    return t_interval(values)[1]
 
 
 @numeric(hint="Multiply. An ablation asks whether that is so.", tolerance=0.003)

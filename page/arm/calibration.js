@@ -1,12 +1,12 @@
 /* Off-line calibration, Eq. 6–7 and ours (vmc_lib/cerebellum/offline.py). `reach(weights)` tells
    where the hand is over the hold of a reach. Both rules yield every trial as it is made, the plan's
    own reach first: its weights, where it ended on average, and the mean distance from the target. */
-import { dot, mean, minus, plus, sum, times } from "../vectors.js";
+import { distance, dot, mean, minus, plus, sum, times } from "../vectors.js";
 import { leastChange } from "./planning.js";
 
 const attempt = (plan, weights, reach) => {
   const hold = reach(weights).map((place) => place.slice(0, plan.target.length));
-  const distances = hold.map((place) => Math.hypot(...minus(plan.target, place)));
+  const distances = hold.map((place) => distance(plan.target, place));
   return { weights, reached: mean(hold), error: sum(distances) / hold.length };
 };
 
@@ -28,8 +28,8 @@ const algorithm1Change = ({ target, points }, reached, n) => {
     const towards = minus(point, reached);
     const lengths = far * Math.hypot(...towards);
     const cosine = lengths > 0 ? dot(towards, error) / lengths : 0;
-    const distance = Math.hypot(...point);
-    return (far / from) * (1 + (n * (to - distance)) / distance) * cosine;
+    const away = Math.hypot(...point);
+    return (far / from) * (1 + (n * (to - away)) / away) * cosine;
   });
 };
 

@@ -1,4 +1,4 @@
-/* What both ways to move the arm share. */
+/* What all ways to move an arm share. */
 import { degrees, foldOf, signed } from "../demo/panel.js";
 import { load } from "./load.js";
 import { Drawing } from "./drawing.js";
@@ -18,6 +18,7 @@ const whyNot = (words) =>
 export class Live {
   constructor(box) {
     this.box = box;
+    this.life = new AbortController(); // what listens beyond the box, does so until the page has done with it
     this.given = JSON.parse(box.querySelector("script").textContent);
     this.drawing = new Drawing(box, this.given);
     this.calm = matchMedia("(prefers-reduced-motion: reduce)");
@@ -43,6 +44,7 @@ export class Live {
     try {
       const arm = await load(this.given);
       await this.drawing.view.awake();
+      if (this.life.signal.aborted) return false;
       this.arm = arm;
       await this.ready();
     } catch (error) {
@@ -56,6 +58,13 @@ export class Live {
 
   async begin() {
     if (await this.awake()) await this.main();
+  }
+
+  /* The page has done with it: what runs, ends. */
+  end() {
+    this.life.abort();
+    this.turn = null;
+    this.drawing.view.end();
   }
 
   open() {

@@ -1,11 +1,11 @@
 /* Habitual planning, Eq. 3–5 (vmc_lib/motor/planning.py). */
-import { dot, minus, plus, sum, times } from "../vectors.js";
+import { distance, dot, minus, plus, sum, times } from "../vectors.js";
 
 /* Eq. 5: by nearness; a target on a template gives that template all the weight. */
 export const habitualWeights = (target, points) => {
-  const distance = points.map((point) => Math.hypot(...minus(point, target)));
-  const on = distance.some((d) => d < 1e-9);
-  const nearness = distance.map((d) => (on ? +(d < 1e-9) : 1 / d));
+  const distances = points.map((point) => distance(point, target));
+  const on = distances.some((d) => d < 1e-9);
+  const nearness = distances.map((d) => (on ? +(d < 1e-9) : 1 / d));
   return times(1 / sum(nearness), nearness);
 };
 
@@ -37,12 +37,12 @@ const octant = ([x, y, z]) => (x >= 0) + 2 * (y >= 0) + 4 * (z >= 0); // reprodu
 /* The nearest template in each quadrant round the target; in space, in each octant. */
 const surrounding = (target, points, without) => {
   const part = target.length > 2 ? octant : quadrant;
-  const nearest = Array.from({ length: 2 ** target.length }, () => ({ distance: Infinity }));
+  const nearest = Array.from({ length: 2 ** target.length }, () => ({ far: Infinity }));
   points.forEach((point, row) => {
     if (without.has(row)) return;
     const away = minus(point, target);
-    const [here, distance] = [part(away), Math.hypot(...away)];
-    if (distance < nearest[here].distance) nearest[here] = { row, distance };
+    const [here, far] = [part(away), Math.hypot(...away)];
+    if (far < nearest[here].far) nearest[here] = { row, far };
   });
   if (nearest.some(({ row }) => row === undefined))
     throw new RangeError("this target is not surrounded by templates; move it inside them");

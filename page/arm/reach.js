@@ -1,6 +1,6 @@
 /* The reach: the reader sets a target; the page plans, moves, misses, calibrates. */
 import { addHandle } from "../demo/handle.js";
-import { mean, minus, sum } from "../vectors.js";
+import { distance, mean, sum } from "../vectors.js";
 import * as calibrations from "./calibration.js";
 import { frame, Live, millimetres, OFTEN, signed } from "./live.js";
 import * as planning from "./planning.js";
@@ -32,7 +32,7 @@ export class Reach extends Live {
       if (turn !== this.turn) return false;
     }
     const hold = this.arm.hold(motion);
-    const way = sum(hold.slice(1).map((place, t) => Math.hypot(...minus(place, hold[t]))));
+    const way = sum(hold.slice(1).map((place, t) => distance(place, hold[t])));
     const speed = way / (this.given.held * this.given.step);
     this.arrive(name, { ...trial, hand: mean(hold), speed }, { path, ...motion.at(-1) });
     return true;

@@ -8,10 +8,7 @@ const MODES = { bench: Bench, reach: Aimed, weights: ByHand, templates: Experien
 
 export const start = (box) => {
   const live = new MODES[box.dataset.mode](box);
-  return () => {
-    live.turn = null; // what runs, ends
-    live.drawing.view.end();
-  };
+  return () => live.end();
 };
 
 /* In the page every arm starts by itself. */

@@ -165,7 +165,8 @@ export const start = (demo, ask) => {
   /* What the page works out anywhere follows the hand anywhere; keys go from stop to stop. */
   const step = ({ type, target }) => sliders.includes(target) && (target.step = type === "keydown" ? 1 : 0.1);
   for (const type of ["pointerdown", "keydown"]) demo.addEventListener(type, step, true);
-  for (const button of demo.querySelectorAll(".vmc-play")) addPlay(demo, button, show, ask.ready);
+  const life = new AbortController();
+  for (const button of demo.querySelectorAll(".vmc-play")) addPlay(demo, button, show, ask.ready, life.signal);
   demo.addEventListener("input", show);
   show();
   const scenes = [...demo.querySelectorAll(".vmc-pictures .vmc-scene")].map((div) => viewOf(div));
@@ -178,14 +179,17 @@ export const start = (demo, ask) => {
     demo.querySelector(".vmc-more").append(...folded);
   }
   demo.dataset.ready = "";
-  return () => scenes.forEach((scene) => scene.end());
+  return () => {
+    life.abort();
+    scenes.forEach((scene) => scene.end());
+  };
 };
 
 /* Paper is white. */
 const { dataset } = document.documentElement;
 let theme;
 addEventListener("beforeprint", () => ([theme, dataset.theme] = [dataset.theme, "light"]));
-addEventListener("afterprint", () => (dataset.theme = theme));
+addEventListener("afterprint", () => (theme === undefined ? delete dataset.theme : (dataset.theme = theme)));
 
 /* In the page every demo starts by itself. */
 export const startAll = () =>

@@ -1,6 +1,6 @@
 /* What stands under a scene: its clock, the numbers of the moment it shows, the muscles by name, and a
    slider that turns it. One clock moves all scenes of a demo, and what else follows time there. */
-import { distance } from "./anatomy.js";
+import { distance } from "../vectors.js";
 import { redness } from "./muscles.js";
 
 const SPEEDS = { "real time": 1, "half speed": 0.5, "quarter speed": 0.25 };
@@ -134,7 +134,7 @@ const muscles = (view) => {
   });
   box.querySelector("i").style.background = `linear-gradient(90deg, ${
     [0, 0.04, 0.16, 0.36, 0.64, 1].map((a) => `${colour(a)} ${100 * a}%`)})`;
-  const chosen = () => box.querySelector(":checked")?.value ?? null;
+  const chosen = (view.chosen = () => box.querySelector(":checked")?.value ?? null);
   box.addEventListener("input", (event) => (event.stopPropagation(), view.body?.muscles.point(chosen())));
   view.onmuscle = (k) => (box.querySelectorAll("input")[k].checked = true);
   let drawn;

@@ -11,8 +11,8 @@ const look = (demo, input) => {
 };
 
 /* A button that walks through its slider's steps, of which each is to `show`; by itself, once `ready`, where that
-   is asked for. */
-export const addPlay = (demo, button, show, ready) => {
+   is asked for; until a `signal` says that the page has done with the demo. */
+export const addPlay = (demo, button, show, ready, signal) => {
   const input = button.parentElement.querySelector("input");
   let playing = null;
   const stop = () => {
@@ -45,12 +45,12 @@ export const addPlay = (demo, button, show, ready) => {
     [begun, input.value] = [input.value, input.max];
     show();
     for (const still of demo.querySelectorAll(".vmc-scene:has(img)")) (viewOf(still).start(), viewOf(still).stop()); // anew
-  });
+  }, { signal });
   addEventListener("afterprint", () => {
     if (begun === null) return;
     [input.value, begun] = [begun, null];
     show();
-  });
+  }, { signal });
   if ("unasked" in button.dataset && !calm.matches) {
     const watch = new IntersectionObserver((entries) => {
       if (!entries.at(-1).isIntersecting) return;

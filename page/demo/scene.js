@@ -62,6 +62,7 @@ class View {
   /* Come to life, unless the browser cannot: then the words in the div stay, and say why. */
   async awake() {
     await load();
+    if (views.get(this.div) !== this) return; // the page has done with it
     live.delete(this);
     if (!bones) return this.flat("The files of the 3-D picture did not come: load the page again.");
     if (!this.viewer && !hasWebGL()) return this.flat(NO_WEBGL);
@@ -236,13 +237,15 @@ class View {
 }
 
 /* On paper every scene is a still of its present state. */
+let lived = [];
 addEventListener("beforeprint", () => {
   if (!self.MeshCat || !hasWebGL()) return;
+  lived = [...live];
   for (const view of views.values()) {
     if (!view.viewer) view.start();
     view.stop();
   }
 });
-addEventListener("afterprint", () => [...views.values()].slice(0, MOST_LIVE).forEach((v) => v.awake()));
+addEventListener("afterprint", () => lived.forEach((view) => view.awake()));
 
 export const viewOf = (div) => views.get(div) ?? new View(div);

@@ -5,6 +5,7 @@ export const addPointer = (view, canvas) => {
   tip.className = "vmc-tip";
   canvas.append(tip);
   let held = null;
+  const point = (k) => view.body?.muscles.point(k ?? view.chosen?.() ?? null);
 
   const under = ({ clientX, clientY }) => {
     const { left, top, width, height } = canvas.getBoundingClientRect();
@@ -19,11 +20,11 @@ export const addPointer = (view, canvas) => {
     held = { x: event.clientX, y: event.clientY, turned: view.turned, raised: view.raised };
     canvas.setPointerCapture(event.pointerId);
     const k = under(event);
-    view.body?.muscles.point(k);
+    point(k);
     if (k !== null) view.onmuscle?.(k);
   });
   canvas.addEventListener("pointermove", (event) => {
-    if (!held) return view.body?.muscles.point(under(event));
+    if (!held) return point(under(event));
     const [right, down] = [event.clientX - held.x, event.clientY - held.y];
     const turned = ((held.turned - 0.5 * right + 540) % 360) - 180;
     const raised = event.pointerType === "touch" ? view.raised : held.raised + 0.3 * down;
@@ -32,6 +33,6 @@ export const addPointer = (view, canvas) => {
   for (const type of ["pointerup", "pointercancel"]) canvas.addEventListener(type, () => (held = null));
   canvas.addEventListener("pointerleave", () => {
     tip.textContent = "";
-    view.body?.muscles.point(null);
+    point(null);
   });
 };

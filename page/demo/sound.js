@@ -4,7 +4,7 @@
 import { axesOf } from "./axes.js";
 
 const LONG = 2, PAUSE = 0.8, SOFT = 0.02; // seconds
-const LOWEST = 220, OCTAVES = 2, LOUD = 0.15; // Hz
+const LOWEST = 220, OCTAVES = 2, LOUD = 0.15; // Hz; above it; gain
 let stop = () => {}; // what sounds now, of whichever demo
 
 /* Where in its picture the plot of a line lies: left, right, bottom, top. */

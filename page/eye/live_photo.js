@@ -2,7 +2,7 @@
    the arm reaches for it (book/figures/your_photo.py). */
 import { frame } from "../arm/live.js";
 import { letterbox } from "../canvas.js";
-import { minus } from "../vectors.js";
+import { distance } from "../vectors.js";
 import { follow } from "./follow.js";
 import { paintOver, paperLight, readSheet, sheetOutline } from "./marker_sheet.js";
 import { EYE } from "./photo_reach.js";
@@ -16,8 +16,6 @@ const STILL = 700; // ms in one place, after which the arm reaches
 const NEAR = 0.01, MOVED = 0.02; // m: what is still one place, and what is another
 const CAMERA = { video: { facingMode: "environment", width: { ideal: 1200 }, height: { ideal: 800 } } };
 const REFUSED = { NotAllowedError: "that was not allowed", NotFoundError: "there is none" };
-
-const distance = (a, b) => Math.hypot(...minus(a, b));
 
 /* A function that promises a picture of what a video shows. Its pixels are copied, where the browser can: of each
    frame that is drawn Chromium keeps a copy of its own, up to 512 MB. */
@@ -39,7 +37,8 @@ class LivePhoto extends YourPhoto {
     const { live } = this.form.elements;
     live.hidden = !navigator.mediaDevices?.getUserMedia; // on a page from an insecure host, say
     live.addEventListener("click", () => (this.film ? this.stopFilm() : this.startFilm()));
-    document.addEventListener("visibilitychange", () => document.hidden && this.stopFilm());
+    const { signal } = this.life;
+    document.addEventListener("visibilitychange", () => document.hidden && this.stopFilm(), { signal });
   }
 
   look(picture) {
@@ -49,12 +48,15 @@ class LivePhoto extends YourPhoto {
 
   async startFilm() {
     const { live } = this.form.elements, video = Object.assign(document.createElement("video"), { muted: true, playsInline: true });
+    const request = (this.request = {}); // until the reader chooses a photo, or leaves the page
     live.disabled = true;
     try {
-      const film = (video.srcObject = this.film = await navigator.mediaDevices.getUserMedia(CAMERA));
-      await video.play();
+      const film = await navigator.mediaDevices.getUserMedia(CAMERA);
       live.disabled = false;
-      if (this.film !== film) return; // the reader has chosen a photo, or left the page
+      if (this.request !== request) return film.getTracks().forEach((track) => track.stop());
+      video.srcObject = this.film = film;
+      await video.play();
+      if (this.film !== film) return;
       this.turn = {}; // what a photo led to, ends
       this.forget();
       live.textContent = "Stop";
@@ -62,15 +64,16 @@ class LivePhoto extends YourPhoto {
       this.brain = await unpack();
       await this.followFilm(Object.assign(video, { width: video.videoWidth, height: video.videoHeight }), film);
     } catch (error) {
-      this.stopFilm();
       live.disabled = false;
+      if (this.request !== request) return;
+      this.stopFilm();
       this.say(`The camera does not serve: ${REFUSED[error.name] ?? error.message}. A photo will do.`);
     }
   }
 
   stopFilm() {
     this.film?.getTracks().forEach((track) => track.stop());
-    this.film = null;
+    this.film = this.request = null;
     this.form.elements.live.textContent = "Live";
   }
 
@@ -133,10 +136,9 @@ class LivePhoto extends YourPhoto {
 export const start = (box) => {
   const photo = new LivePhoto(box);
   return () => {
-    photo.turn = null; // what runs, ends
     photo.stopFilm();
     photo.armInPhoto.end();
-    photo.drawing.view.end();
+    photo.end();
   };
 };
 

@@ -1,6 +1,6 @@
 /* A photo of the printed sheet: its camera, and the photo without the sheet (vmc_lib/marker_sheet.py). A photo is
    { data, width, height }, four bytes a pixel; `sheet` is what Python gives (book/figures/your_photo.py). */
-import { dot, minus, plus, sum, times } from "../vectors.js";
+import { distance, dot, minus, plus, sum, times } from "../vectors.js";
 import { project } from "./camera.js";
 import { calibrateCamera, refineCorner } from "./camera_calibration.js";
 import { findMarkers } from "./markers.js";
@@ -39,7 +39,7 @@ export function* readSheet(photo, sheet, size, whole = false) {
   if (ids.length < fewest) return none(seen.length - ids.length < fewest ? null : refusals.mirrored);
   if (new Set(ids).size < ids.length) return none(refusals.doubled);
   const refined = markers.map(({ corners }) => {
-    const side = sum(corners.map((corner, i) => Math.hypot(...minus(corner, corners[(i + 1) % 4])))) / 4;
+    const side = sum(corners.map((corner, i) => distance(corner, corners[(i + 1) % 4]))) / 4;
     const reach = Math.max(1, Math.min(WINDOW, Math.round(SHARE * side)));
     return corners.map((corner) => refineCorner(levels, width, height, corner, reach));
   });
@@ -47,7 +47,7 @@ export function* readSheet(photo, sheet, size, whole = false) {
   const calibrate = (left, near) =>
     calibrateCamera(left.map((k) => ids[k]), left.map((k) => refined[k]), width, height, sheet, near);
   const all = [...ids.keys()], camera = yield* bestFit(calibrate, all, most, fewest), focal = scale * camera.focal;
-  const other = whole ? camera : calibrate(all, camera), aside = scale * Math.hypot(...minus(other.centre, camera.centre));
+  const other = whole ? camera : calibrate(all, camera), aside = scale * distance(other.centre, camera.centre);
   if (aside > sheet.aside && other.error < Math.min(most, sheet.gain * camera.error)) return none(refusals.cropped);
   if (!(camera.error <= most && camera.position[1] > sheet.first[1])) return none(refusals.uneven);
   if (!(sheet.focals[0] <= focal && focal <= sheet.focals[1] && camera.spread <= sheet.focalSpread)) return none(refusals.focal);

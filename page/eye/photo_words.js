@@ -1,6 +1,6 @@
 /* What the page says of a photo: what was found in it, what the arm needs, how well it reached. */
 import { millimetres } from "../arm/live.js";
-import { minus } from "../vectors.js";
+import { distance } from "../vectors.js";
 import { hasRightSize } from "./box_selection.js";
 import { physicalSize } from "./camera.js";
 import { counted } from "./see.js";
@@ -56,7 +56,7 @@ export const placed = ([half, most], camera) =>
 
 /* What a place is that no sheet tells, and how far off its distance may be: shuttlecocks differ in size. */
 export const guessed = ({ slant, size, place }, { position }, { sizes: [least, most] }) => {
-  const away = Math.hypot(...minus(position, place)), share = (most - least) / (most + least);
+  const away = distance(position, place), share = (most - least) / (most + least);
   return `No sheet is seen, so the place is a guess: a phone’s usual lens, held at ${((180 * slant) / Math.PI).toFixed(0)}°, ` +
     `and a shuttlecock ${(100 * size).toFixed(0)} cm large, within reach. Then it is ${(100 * away).toFixed(0)} cm from the camera, ` +
     `± ${(100 * share).toFixed(0)} %, as shuttlecocks differ in size. With the sheet the place is measured.`;

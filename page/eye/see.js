@@ -28,7 +28,7 @@ export class Sight {
     const { probability } = this, sure = probability.slice(0, this.shuttlecocks.length).map(percent);
     if (sure.length) return `${sure.length > 1 ? `${sure.length} shuttlecocks` : "a shuttlecock"}, ${sure.join(", ")} sure`;
     if (!probability.length) return "nothing that looks like an object";
-    return `no shuttlecock, but ${counted(probability.length, "thing")}; likeliest ${percent(Math.max(...probability))}`;
+    return `no shuttlecock; likeliest of ${counted(probability.length, "box", "es")}: ${percent(Math.max(...probability))}`;
   }
 }
 

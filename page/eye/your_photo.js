@@ -25,7 +25,7 @@ export class YourPhoto extends PhotoReach {
     own.addEventListener("click", () => file.click());
     example.addEventListener("click", () => this.takeExample(ours));
     this.form.addEventListener("submit", (event) => event.preventDefault());
-    addEventListener("paste", ({ clipboardData: { files } }) => files.length && take(files[0]));
+    addEventListener("paste", ({ clipboardData: { files } }) => files.length && take(files[0]), { signal: this.life.signal });
     box.addEventListener("click", ({ target }) => {
       const chosen = target.closest("[data-box]");
       if (chosen) this.choose(+chosen.dataset.box);
@@ -116,7 +116,8 @@ export class YourPhoto extends PhotoReach {
   }
 
   showNames({ boxes, probability }) {
-    this.photo.drawBoxes(boxes.map((box, i) => ({ box, colour: probability[i] > 0.5 ? "green" : "blue" })));
+    const { minProbability } = this.brain.selector;
+    this.photo.drawBoxes(boxes.map((box, i) => ({ box, colour: probability[i] > minProbability ? "green" : "blue" })));
   }
 
   /* The boxes that were refined; where there are none, the reader chooses among those kept. */

@@ -3,6 +3,7 @@
 import { fetchVendored, unzip } from "../vendored.js";
 
 const SIZES = { "python.js": "11 MB", "plots.js": "8 MB" };
+export const MEGABYTES = Object.values(SIZES).reduce((total, size) => total + parseFloat(size), 0);
 const HOLDS = { "python.js": "library.zip", "plots.js": "plots.zip" }; // a file of each
 export const limit = { seconds: 10, opening: 60 }; // for one answer, and for the frame
 

@@ -66,7 +66,7 @@ class Follower {
     const [status, run, back] = line(demo.querySelector(".vmc-controls"),
       `<button type="button" name="run" hidden>Run it</button> ${BACK}`);
     const between = document.createElement("button");
-    Object.assign(between, { type: "button", className: "vmc-any", textContent: "Any value (loads Python, 19 MB)" });
+    Object.assign(between, { type: "button", className: "vmc-any", textContent: `Any value (loads Python, ${python.MEGABYTES} MB)` });
     demo.querySelector(".vmc-more > form").after(between);
     const sliders = [...demo.querySelectorAll("[data-between]")];
     Object.assign(this, { demo, cell, above, status, run, back, between, sliders });

@@ -22,7 +22,7 @@ LEVELS, LABELS, EQUAL, DRAWS = photos.EVERY_LEVEL, (10, 40, 160, 640), 80, 6
 EXAMS = "in-sample", *LEVELS
 WAYS = "HOG", "without labels", "end to end"  # the last two of the CDBN
 PATCHES, STEPS, BATCH = 20_000, 600, 16
-PENALTIES, RATES = 10.0 ** np.arange(-4, 1), (0.002, 0.01)  # chosen on validation crops
+INVERSE_PENALTIES, RATES = 10.0 ** np.arange(-4, 1), (0.002, 0.01)  # chosen on validation crops
 ON_NARROW = {"width": 19, "rate": 0.03}  # of the second layer, whose maps are 20 wide
 
 
@@ -125,14 +125,14 @@ def draw_rows(labels, count, rng):
 
 
 def evaluate_linear_readout(taught, validation, exams, rng):
-    """A linear read-out of fixed features: scores for each of the PENALTIES."""
+    """A linear read-out of fixed features: scores for each of the INVERSE_PENALTIES."""
     from sklearn.linear_model import LogisticRegression
 
     centre, size = taught[0].mean(0), taught[0].std(0) + 1e-3
     sets = [((x - centre) / size, y) for x, y in (taught, validation, *exams)]
     found = []
-    for penalty in PENALTIES:
-        linear = LogisticRegression(C=penalty, class_weight="balanced", max_iter=300).fit(*sets[0])
+    for C in INVERSE_PENALTIES:
+        linear = LogisticRegression(C=C, class_weight="balanced", max_iter=300).fit(*sets[0])
         found.append([balanced_accuracy(linear.predict(x), y) for x, y in sets])
     return found
 

@@ -7,14 +7,20 @@ lie round the start of the hand, and angles are measured there, as in the people
 
 from functools import partial
 from itertools import product
-from typing import NamedTuple
 
 import numpy as np
 from joblib import Parallel, delayed
 
 from reproduce import results
 from reproduce.experiments.calibration import MANY
-from reproduce.measures.changed_worlds import BLOCKS, PERTURBATIONS, adapt, train_aim_correction
+from reproduce.measures.changed_worlds import (
+    BLOCKS,
+    PERTURBATIONS,
+    Seen,
+    adapt,
+    direction,
+    train_aim_correction,
+)
 from reproduce.people import MEASUREMENTS, MISSES
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.cerebellum.adaptation import Adaptation
@@ -36,12 +42,6 @@ LAST_WITH_LOAD = sum(BLOCKS[:2]) - 1
 # cycles of 't Hart and Henriques: turned one way, the other way, and clamped to the target
 ROTATION = [*2 * [0.0], *25 * [-TURNED], *3 * [TURNED]]
 REBOUND = 5 * [0.0]
-
-
-class Shown(NamedTuple):
-    """What the learner sees of its movements."""
-
-    endpoint: np.ndarray  # (n, 2), m
 
 
 class ForgettingAdaptation(Adaptation):
@@ -68,12 +68,6 @@ def turn(points, angle):
     return (points - HOME) @ np.array([[c, s], [-s, c]]) + HOME
 
 
-def direction(points):
-    """The direction of plane positions (…, 2) from `HOME`, (…), rad."""
-    away = points - HOME
-    return np.arctan2(away[..., 1], away[..., 0])
-
-
 def targets(directions=DIRECTIONS):
     """Places (n, 2), m, at `DISTANCE` from `HOME`."""
     return HOME + DISTANCE * np.stack([np.cos(directions), np.sin(directions)], axis=-1)
@@ -87,13 +81,13 @@ def hand_angles(learner, plans, cycles, look):
     turned = []
     for cycle in cycles:
         movement = execute(learner.correct(plans))
-        off = direction(movement.endpoint) - direction(plans.target)
+        off = direction(movement.endpoint, HOME) - direction(plans.target, HOME)
         turned.append(np.angle(np.exp(1j * off)).mean())
         seen = look(cycle, movement)
         if seen is None:
             learner.forget()
         else:
-            learner.update(plans, lambda _, seen=seen: Shown(seen))
+            learner.update(plans, lambda _, seen=seen: Seen(seen))
     return np.array(turned)
 
 

@@ -24,7 +24,7 @@ from reproduce.training.detectors import (
 )
 from vmc_lib import photos
 from vmc_lib.boxes import MIN_IOU, nms
-from vmc_lib.statistics import student
+from vmc_lib.statistics import t_interval
 from vmc_lib.where.detector import ObjectDetector
 from vmc_lib.where.recipes import PUBLISHED, RECIPES
 from vmc_lib.where.svm import KernelSVM
@@ -166,7 +166,7 @@ def table_2_interval(level, name):
 
     Precision and recall on the test photos at IoU 0.8; the recipe is one of RETRAINED.
     """
-    return student(arrays("localisation")[f"{level}/{name}/seeds"])
+    return t_interval(arrays("localisation")[f"{level}/{name}/seeds"])
 
 
 def figure_6(level, split="test"):

@@ -39,14 +39,14 @@ def muscle_strength(muscle):
 
 
 def weak_arm(muscle):
-    """The templates of the whole arm, as they are remembered, on one whose `muscle` is weak."""
+    """The templates of the healthy arm, as they are remembered, on one whose `muscle` is weak."""
     return replace(load(), reach=partial(_weak_reach, muscle_strength(muscle)))
 
 
 def learn_weak_arm(seed, count=100, before=150, muscles=MUSCLES):
     """What habit makes of each muscle's weakness, in one draw: numbers by name.
 
-    It has practised `before` movements with the whole arm, and then `count` with the weak one: of
+    It has practised `before` movements with the healthy arm, and then `count` with the weak one: of
     these, and of as many others, the mean miss in mm, and `command_measures`, before and after.
     """
     rng = np.random.default_rng(seed)

@@ -109,9 +109,9 @@ def _via_points(template_set):
     return spots, reference_trajectory(exact_plans(spots, template_set))
 
 
-def reference_paths(intention):
-    """The hand's ways (B, ticks, 2) as they are meant."""
-    return hand(intention.q[:, ::TICK])[..., :2]
+def reference_paths(reference):
+    """The hand's paths (B, ticks, 2) along a `ReferenceTrajectory`."""
+    return hand(reference.q[:, ::TICK])[..., :2]
 
 
 def clearance(ways, balls):

@@ -10,8 +10,8 @@ import numpy as np
 
 from reproduce.experiments.muscle_weakness import TARGETS, muscle_strength
 from reproduce.peers import lqr_tracking, minimum_variance, motor_noise
-from reproduce.peers.lqr_tracking import TICK
 from vmc_lib.arm.model import MUSCLES
+from vmc_lib.motor.feedback import TICK
 from vmc_lib.motor.inverse_dynamics import SAMPLES
 from vmc_lib.motor.templates import keep_last, mean_distance, reach
 

@@ -2,11 +2,10 @@
 
 from joblib import Parallel, delayed
 
-from reproduce.experiments.loop_evaluation import MIN_IOU
 from reproduce.results import records
 from reproduce.training.photographs import load_photographs
 from vmc_lib import photos
-from vmc_lib.boxes import iou
+from vmc_lib.boxes import MIN_IOU, iou
 from vmc_lib.loop import VisuomotorModel, see
 from vmc_lib.statistics import wilson
 

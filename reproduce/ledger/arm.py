@@ -11,7 +11,7 @@ from vmc_lib.arm.model import L0
 from vmc_lib.boxes import as_boxes, centres_and_sides
 from vmc_lib.motor import templates
 from vmc_lib.motor.planning import plan
-from vmc_lib.statistics import student
+from vmc_lib.statistics import t_interval
 from vmc_lib.where.localiser import Localiser
 
 CENTRE, MEAN_PLACE = (
@@ -83,7 +83,7 @@ def _effort():
     spent, least = map(
         optimal_control.effort, (habit.excitations, optimal_control.optimal_excitations())
     )
-    middle, half = student(np.log(spent / least))
+    middle, half = t_interval(np.log(spent / least))
     low, high = np.exp([middle - half, middle + half])
     name = "effort of habit over the optimum, geometric mean"
     return [

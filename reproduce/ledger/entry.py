@@ -5,7 +5,7 @@ from dataclasses import KW_ONLY, asdict, dataclass, field, replace
 
 import numpy as np
 
-from vmc_lib.statistics import student, wilson
+from vmc_lib.statistics import t_interval, wilson
 
 NOT_COMPARED, BY_CONSTRUCTION, FITTED, REPRODUCED, BEATEN, NULL_PASSES, DIFFERS = VERDICTS = (
     "not compared",
@@ -102,7 +102,7 @@ def mean(name, claimed, values, unit="draws", of=None, **rest):
     Where the paper's number is itself a mean over `of` so many: also where one more mean of that
     size falls, t s √(1/n + 1/of).
     """
-    (middle, half), n = student(values), len(values)
+    (middle, half), n = t_interval(values), len(values)
     ends = {"low": middle - half, "high": middle + half}
     if of:
         one = half * np.sqrt(1 + n / of)
@@ -120,8 +120,8 @@ def mean_of_draws(name, claimed, values, unit="draws", **rest):
     """
     if min(values) <= 0:
         raise ValueError(f"{name}: a ratio of {min(values)} has no logarithm; take `mean` instead")
-    middle, half = student(values)
-    logs, spread = student(np.log(values))
+    middle, half = t_interval(values)
+    logs, spread = t_interval(np.log(values))
     one = spread * np.sqrt(len(values) + 1)
     low, high = middle * np.exp([-half / middle, half / middle])
     least, most = np.exp([logs - one, logs + one])
@@ -148,7 +148,7 @@ def mean_of_trainings(name, claimed, shares, n, of=None, unit="cases", effect=1.
     Each of its intervals is the wider of two: Student's, for another training, and that of a
     `share`, for others of what was counted (if anything was).
     """
-    middle, half = student(shares)
+    middle, half = t_interval(shares)
     one = half * np.sqrt(len(shares) + 1)
     counted = share(name, claimed, middle * n, n, of, unit, effect) if n else None
     ends = {"low": middle - half, "high": middle + half}

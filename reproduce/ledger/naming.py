@@ -23,7 +23,7 @@ from reproduce.ledger.entry import (
 from reproduce.ledger.filters import NETWORKS
 from reproduce.measures import slow_features
 from vmc_lib.photos import LEVELS
-from vmc_lib.statistics import student
+from vmc_lib.statistics import t_interval
 from vmc_lib.what.cdbn import N_W
 from vmc_lib.what.recogniser import READ_OUTS
 
@@ -119,7 +119,7 @@ def _learnt_less_random(name, claimed, read_out, **rest):
     """
     learnt, random, _ = random_filters.load_right("varied", read_out)
     gaps = by_photo(learnt) - by_photo(random)
-    trained, drawn = student(_trainings_right(read_out)), student(random.mean(axis=1))
+    trained, drawn = t_interval(_trainings_right(read_out)), t_interval(random.mean(axis=1))
     middle, half = trained[0] - drawn[0], np.hypot(trained[1], drawn[1])
     again = mean(name, claimed, gaps.mean(axis=1), of=1)
     sample = f"photos, {len(NETWORKS)} trainings, {len(random)} draws"

@@ -79,8 +79,8 @@ def without_learning(trained, template_set, perturbation, target, blocks=BLOCKS)
     return Curve(target, np.where(changed, *holds))
 
 
-class Clamped(NamedTuple):
-    """What is seen of movements under an error clamp, wherever they end."""
+class Seen(NamedTuple):
+    """What the learner sees of its movements, wherever they end."""
 
     endpoint: np.ndarray  # (n, 2), m
 
@@ -93,18 +93,18 @@ def error_clamp(trained, template_set, rng, angle, blocks=BLOCKS, movements=8):
     does (Morehead et al., 2017).
     """
     plans = plan(draw_targets(template_set, movements, rng), template_set)
-    clamped = Clamped(rotate_about_eye(plans.target, angle))
+    clamped = Seen(rotate_about_eye(plans.target, angle))
     learner, drift = Adaptation(trained, template_set), []
     for is_clamped in np.repeat([False, True, False], blocks):
         movement = execute(learner.correct(plans))
-        drift.append(np.mean(_direction(movement.endpoint) - _direction(plans.target)))
+        drift.append(np.mean(direction(movement.endpoint, EYE) - direction(plans.target, EYE)))
         learner.update(plans, lambda _, seen=clamped if is_clamped else movement: seen)
     return np.array(drift)
 
 
-def _direction(points):
-    """The direction of plane positions (…, 2) as the eye sees them, (…), rad."""
-    away = points - EYE
+def direction(points, centre):
+    """The direction of plane positions (…, 2) from a `centre` (2,), (…), rad."""
+    away = points - centre
     return np.arctan2(away[..., 1], away[..., 0])
 
 

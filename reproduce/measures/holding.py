@@ -30,8 +30,8 @@ def required_torques(q, load=0.0):
 def busiest(q, load=0.0):
     """The busiest muscle's least activation (…) that holds q, above 1 where none does.
 
-    Of all directions of the torque the one in which what is required comes nearest to what all
-    muscles that help give together.
+    The largest ratio, over all directions of torque, of the torque required to what all muscles
+    that help give together (by the duality of linear programming).
     """
     most = np.maximum(np.swapaxes(muscle_torques(q), -1, -2) @ DIRECTIONS, 0).sum(axis=-2)
     return (required_torques(q, load) @ DIRECTIONS / np.maximum(most, 1e-9)).max(axis=-1)

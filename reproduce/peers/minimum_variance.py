@@ -17,7 +17,7 @@ from reproduce.peers.lqr_tracking import scatter
 from reproduce.peers.optimal_control import INNER, TARGETS
 from reproduce.results import arrays
 from vmc_lib.arm.dynamics import hand
-from vmc_lib.arm.muscle import noisy
+from vmc_lib.arm.muscle import add_noise, noisy
 from vmc_lib.camera import TABLE
 from vmc_lib.cerebellum.offline import gauss_newton_calibration
 from vmc_lib.motor.inverse_dynamics import MOVING, SAMPLES, minimum_jerk
@@ -172,7 +172,7 @@ def jerk(path):
 def _noise_effects(excitations, noises):
     """How far noises (n, T, 6) move the places of the hand, in dm: (…, n, places)."""
     commands = keep_last(excitations)[..., None, :, :]
-    both = (np.clip(commands * (1 + side * WAVER * noises), 0, 1) for side in (1, -1))
+    both = (add_noise(commands, side * WAVER, noises) for side in (1, -1))
     ends = (hand(reach(noisy, hold=0.0).q[..., MOMENTS, :])[..., :2] for noisy in both)
     effects = 10 * np.subtract(*ends) / (2 * WAVER)
     return effects.reshape(*effects.shape[:-2], -1)

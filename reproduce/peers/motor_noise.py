@@ -47,7 +47,7 @@ def with_noise(excitations, share, rng, step=STEP):
 def noisy_reach(noise, excitations, perturbation=UNPERTURBED):
     """The `HeldMotion` of excitations (…, T, 6) and their hold, with `noise(excitations)` on both.
 
-    Without more noise than this the hold would keep on one moment's noise.
+    If only the command were noisy, the hold would repeat the noise of its last moment.
     """
     motion = reach(noise(keep_last(excitations)), perturbation, hold=0.0)
     return replace(motion, held=round(HOLD / STEP))

@@ -55,12 +55,11 @@ def search(target, strength=FULL_STRENGTH):
 
 
 def minimise_cost(target, cost, slope, ftol=1e-4, most=FULL_STRENGTH, knots=KNOTS):
-    """The knots `x` that bring the hand there at least `cost`, as an `OptimizeResult`.
+    """The knots `x` that bring the hand there at the least `cost`, as an `OptimizeResult`.
 
-    Each muscle has so many `knots`; none gets more than `most` (6,).
-    `slope` (n,) is the cost's; how often the arm was tried: each of the search's `nfev` trials
-    moves it once, each of its `njev` slopes once for every knot and once more (beside what the cost
-    takes).
+    Each muscle has so many `knots`; none gets more than `most` (6,). `slope` (n,) is the gradient
+    of the cost. Each of the search's `nfev` trials moves the arm once, each of its `njev` gradients
+    once for every knot and once more (beside what the cost takes).
     """
     from scipy.optimize import minimize
 

@@ -26,7 +26,7 @@ def train_crbm(maps, seed, n_w, patches, *, epochs, width, **how):
 
 
 def train_cdbn(pictures, positive, seed=0, n_w=N_W, patches=PATCHES, device="cpu", second=SECOND):
-    """A CDBN of Learners, second_crbm by whitened pictures (n, 1, 200, 200).
+    """Train a CDBN of Learners, layer by layer, on whitened pictures (n, 1, 200, 200).
 
     The first layer learns from all pictures, the second, as in the paper, only from the positive
     ones (`positive` (n,) bool), the shuttlecocks. `device`: "cpu" or "cuda"; `second`: how the

@@ -7,7 +7,7 @@ import pytest
 from vmc_lib.show import compare, demo, dot_plot, estimate, photo_view, table
 from vmc_lib.show.alt_text import alt_text
 from vmc_lib.show.scene import Scene
-from vmc_lib.statistics import student
+from vmc_lib.statistics import t_interval
 
 DRAWS = [0.3, 0.5, 0.4]
 
@@ -19,7 +19,7 @@ def closed():
 
 
 def test_estimate_of_draws_has_students_interval():
-    mean, half = student(DRAWS)
+    mean, half = t_interval(DRAWS)
     assert estimate(DRAWS) == estimate(np.array(DRAWS)) == (mean, mean - half, mean + half)
     assert estimate((0.4, 0.2, 0.7)) == (0.4, 0.2, 0.7)
     assert estimate(0.4) == estimate([0.4]) == (0.4, 0.4, 0.4)

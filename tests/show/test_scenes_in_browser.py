@@ -86,6 +86,9 @@ def test_a_scene_asks_no_host_for_a_texture(open_demos):
     assert not any("secret" in url for url in page.asked)
 
 
+LIVE = "all => all.map((scene) => Boolean(scene.querySelector('canvas')))"
+
+
 def test_at_most_six_scenes_live_and_the_others_are_images(open_demos):
     page = open_demos(lambda: [figure(ball(0.1), "c", f"scene {i}") for i in range(9)])
     for _ in range(2):  # down, and up again
@@ -94,13 +97,15 @@ def test_at_most_six_scenes_live_and_the_others_are_images(open_demos):
             scene.wait_for_selector("canvas")
             assert len(page.query_selector_all(".vmc-scene canvas")) <= 6
     assert len(page.query_selector_all(".vmc-scene img")) == 3
+    before = page.eval_on_selector_all(".vmc-scene", LIVE)
     page.evaluate("dispatchEvent(new Event('beforeprint'))")
     images = page.eval_on_selector_all(".vmc-scene img", "all => all.map(i => i.src)")
     assert len(images) == 9
     assert len(set(images)) == 1
     assert len(images[0]) > 3000
     page.evaluate("dispatchEvent(new Event('afterprint'))")
-    page.wait_for_selector(".vmc-scene canvas")
+    page.wait_for_function("() => document.querySelectorAll('.vmc-scene canvas').length === 6")
+    assert page.eval_on_selector_all(".vmc-scene", LIVE) == before
 
 
 BEFORE_AND_AFTER = """(div) => {

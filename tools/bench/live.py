@@ -8,10 +8,8 @@ which draws the reply.
 
 import json
 import os
-import re
 import subprocess
 import sys
-from itertools import pairwise
 from pathlib import Path
 from time import process_time
 from types import SimpleNamespace
@@ -28,20 +26,19 @@ STATES = 24  # of a demo, at most
 def chapter(name):
     """A row for each demo of a chapter, which runs here, live."""
     from vmc_lib.show import demo
-    from vmc_lib.show.live import Live
 
-    items, names = [], {}
+    demos, names, widget = [], {}, demo.widget
     still = SimpleNamespace(update=lambda item: None)
-    demo.display = lambda item, **_: items.append(item) or still
+    demo.display = lambda *items, **_: still
+    demo.widget = lambda *given, **named: demos.append(widget(*given, **named)) or demos[-1]
     for cell in nbformat.read(BOOK / f"{name}.ipynb", as_version=4).cells:
         if cell.cell_type == "code":
-            items.clear()
             exec(cell.source, names)  # noqa: S102
-            for widget, caption in pairwise(items):
-                if isinstance(widget, Live) and (times := latencies(widget.answers["state"])):
-                    words = re.sub("<.*?>", "", caption.data)[:40]
-                    median, late = np.percentile(times, [50, 95])
-                    yield {"chapter": name, "demo": words, "median": median, "95 %": late}
+    for one in demos:
+        if hasattr(one, "answers") and (times := latencies(one.answers["state"])):
+            [[words, *_], *_] = one.first
+            median, late = np.percentile(times, [50, 95])
+            yield {"chapter": name, "demo": words[:40], "median": median, "95 %": late}
 
 
 def latencies(answer):
@@ -63,7 +60,7 @@ def main():
     """Measure all chapters, each in a process of its own; the slowest demo first."""
     rows = []
     for path in sorted(BOOK.glob("[0-9]*.ipynb")):
-        command = [sys.executable, "-m", "bench.live", path.stem]
+        command = [sys.executable, "-m", "tools.bench.live", path.stem]
         environment = os.environ | {"VMC_RENDER_MODE": "live"}
         done = subprocess.run(
             command, env=environment, check=True, capture_output=True, encoding="utf-8"

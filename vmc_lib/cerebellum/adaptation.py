@@ -85,8 +85,8 @@ class Adaptation:
     def update(self, plan: Plan, execute: Execute = execute) -> Movement:
         """Move, and learn from the error that is seen. Returns the `Movement`.
 
-        The batch is learned at once: all its movements are made before. What should have been done
-        is what was done and the error more. What could not be done is thus forgotten, or it would
+        The batch is learned at once: all its movements are made before. The right shift is the one
+        that was made plus the error. So a shift that could not be made is forgotten; else it would
         pile up with every error: *windup*, as engineers call it.
         """
         check_batch(plan)

@@ -54,7 +54,7 @@ class ForwardModel:
 
     def __call__(self, q: np.ndarray, velocity: np.ndarray, activation: np.ndarray) -> np.ndarray:
         """The acceleration (B, 2) expected in rad/s²."""
-        return self.cells.excite(mossy_fibres(q, velocity, activation)) @ self.cells.purkinje_
+        return self.cells.predict(mossy_fibres(q, velocity, activation))
 
 
 def mossy_fibres(q: np.ndarray, velocity: np.ndarray, activation: np.ndarray) -> np.ndarray:

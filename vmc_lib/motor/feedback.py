@@ -103,7 +103,7 @@ def reference_trajectory(plan: Plan, seconds: float = 2.0) -> ReferenceTrajector
 def switch(
     first: ReferenceTrajectory, second: ReferenceTrajectory, at: float
 ) -> ReferenceTrajectory:
-    """The first reference until `at` s, then smoothly the second, after another 0.4 s."""
+    """The first reference until `at` s, then over 0.4 s, smoothly, to the second."""
     for reference in (first, second):
         check_kind("reference", reference, ReferenceTrajectory, "reference_trajectory(plan)")
     as_many = len(first.q) == len(second.q) or 1 in (len(first.q), len(second.q))

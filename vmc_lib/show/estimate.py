@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vmc_lib.checks import as_numbers
-from vmc_lib.statistics import student
+from vmc_lib.statistics import t_interval
 
 
 class Estimate(NamedTuple):
@@ -52,5 +52,5 @@ def estimate(value: ArrayLike) -> Estimate:
     draws = np.ravel(as_numbers("draws", value))
     if len(draws) == 1:
         return Estimate(*3 * (draws[0],))
-    mean, half = student(draws)
+    mean, half = t_interval(draws)
     return Estimate(mean, mean - half, mean + half)

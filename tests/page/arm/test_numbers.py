@@ -15,7 +15,7 @@ from vmc_lib.arm import muscle
 from vmc_lib.arm.arm26 import geometry
 from vmc_lib.arm.dynamics import paths
 from vmc_lib.arm.kinematics import to_world
-from vmc_lib.arm.model import F0, MUSCLES
+from vmc_lib.arm.model import MUSCLES
 from vmc_lib.arm.simulate import simulate
 from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration
 from vmc_lib.motor import templates
@@ -224,4 +224,3 @@ def test_knots_make_the_templates():
     knots = knots.reshape(given["shape"]).astype(float)
     assert np.abs(live.spline() @ knots - templates.load().excitations).max() < 1e-12
     json.dumps(given, allow_nan=False)
-    assert len(live.given()["F0"]) == len(F0)

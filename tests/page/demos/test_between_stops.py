@@ -11,7 +11,6 @@ from tests.pages import drag, middle
 from vmc_lib.show import Slider
 
 pytestmark = pytest.mark.browser
-RNG, LEVEL = np.random.default_rng(5), "varied"
 
 
 def declare():
@@ -56,12 +55,12 @@ DEMOS = {  # by its number in the page: its sliders' values, and words of Python
 
 
 @pytest.mark.parametrize("number", DEMOS)
-def test_any_value_is_answered_as_in_python(page, number):
+def test_any_value_is_answered_as_in_python(page, number, rng):
     values, words = DEMOS[number]
     box = page.locator(".vmc-demo").nth(number)
     sliders, beside = (box.locator(f"[data-between]{k}") for k in ("", " + output"))
     for _ in range(20):
-        places = [round(RNG.uniform(0, len(v) - 1), 1) for v in values]
+        places = [round(rng.uniform(0, len(v) - 1), 1) for v in values]
         for slider, place in zip(sliders.all(), places, strict=True):
             slider.dispatch_event("pointerdown")
             slider.fill(str(place))

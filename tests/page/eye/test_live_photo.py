@@ -32,6 +32,11 @@ navigator.mediaDevices.getUserMedia = async () => {
   setInterval(() => canvas.getContext("2d").drawImage(picture, 0, 0), 40);
   return (self.film = canvas.captureStream());
 };"""
+LATE = """navigator.mediaDevices.getUserMedia = () => new Promise((allow) => {
+  const film = document.createElement("canvas").captureStream();
+  self.allow = () => (allow(film), film.getTracks().map(({ readyState }) => readyState));
+  self.tracks = () => film.getTracks().map(({ readyState }) => readyState);
+});"""
 HELD = """() => {
   const { append } = Element.prototype;
   document.head.append = (tag) => {
@@ -119,6 +124,20 @@ def test_a_film_that_is_left_or_cut_leaves_the_page_to_photos(window, site, html
     page.evaluate("film.getTracks().forEach((track) => track.stop())")
     assert "unplugged" in status(page, "The camera does not serve")
     expect(live).to_be_enabled()
+    assert page.errors == []
+
+
+def test_a_camera_allowed_after_a_photo_is_switched_off(window, site, html, tmp_path):
+    page = pages.open_html(window(LATE), site, html)
+    page.locator("[name=live]").click()
+    photo = tmp_path / "photo.jpg"
+    photo.write_bytes(jpeg(BLANK))
+    page.locator("[type=file]").set_input_files(photo)
+    status(page, POINT)
+    assert page.evaluate("allow()") == ["live"]
+    expect(page.locator("[name=live]")).to_be_enabled()
+    assert page.evaluate("tracks()") == ["ended"]
+    assert page.locator("p[role=status]").inner_text().startswith(POINT)
     assert page.errors == []
 
 

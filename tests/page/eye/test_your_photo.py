@@ -29,13 +29,13 @@ UNREADABLE = "This browser cannot read .*: save it, or a phone's HEIC, as a JPEG
 NEED = "To reach, the arm needs the printed sheet: "
 POINT = "Point at a box, and the arm reaches for what is in it."
 AGAIN = "Another photo may do"
-NOTHING = "No shuttlecock, but|Nothing that looks like an object"
+NOTHING = "No shuttlecock;|Nothing that looks like an object"
 REFUSED = "Two sheets|The photo is cropped"
 END = f"After trying|Out of reach|{NEED}|{REFUSED}|{POINT}|{AGAIN}|This browser"
 
 
 @pytest.fixture(scope="module")
-def page(eye_page, offline, site, html):
+def page(offline, site, html):
     page = pages.open_html(offline, site, html)
     page.locator(".vmc-eye[data-ready]").wait_for()
     yield page
@@ -55,7 +55,20 @@ def found(page):
     return page.locator("[data-tell=found]").inner_text()
 
 
-def test_our_photo_leads_to_a_corrected_reach(page):
+def keep_picture(page, file):
+    """Keep a page's picture of the reach in a file: its pixels (height, width, 3)."""
+    with page.expect_download() as kept:
+        page.get_by_role("button", name="Keep this picture").click()
+    kept.value.save_as(file)
+    return np.array(Image.open(file))
+
+
+def difference(image, other):
+    """Where two images (h, w, 3) differ visibly: (h, w)."""
+    return np.abs(image.astype(int) - other).max(2) > 40
+
+
+def test_our_photo_leads_to_a_corrected_reach_and_its_picture(page, tmp_path):
     assert len(page.locator("main").inner_text().split()) < 120
     page.asked.clear()
     page.get_by_role("button", name="Example").click()
@@ -80,6 +93,15 @@ def test_our_photo_leads_to_a_corrected_reach(page):
     assert number(readout(page, "calibrated")) == pytest.approx(left, abs=1)
     assert left < 0.3 * planned
     assert [url for url in page.asked if not url.startswith(("file:", "data:", "blob:"))] == []
+    image = keep_picture(page, tmp_path / "reach.jpg")
+    assert image.shape == (860, 1200, 3)
+    photo = np.array(Image.fromarray(OURS.image).resize((1200, 800)))
+    arm = difference(image[:800], photo)
+    assert 0.03 < arm.mean() < 0.5
+    x, y = np.int32(2 * OURS.camera.project(OURS.target[None])[0])
+    assert arm[y - 60 : y + 60, x - 60 : x + 60].mean() > 0.15  # the hand
+    assert not arm[:200].any()  # it comes from below
+    assert (image[800:] < 100).any()  # a line on what it is
 
 
 def test_the_page_may_send_nothing(page):
@@ -165,28 +187,6 @@ def test_a_guessed_camera_sees_the_place_in_the_box_as_large_as_a_shuttlecock(as
     assert right[0] - left[0] == pytest.approx(np.sqrt((x1 - x0) * (y1 - y0)))
     assert camera.focal >= guess["lens"] * 721
     assert np.linalg.norm(camera.position - place) >= guess["nearest"]
-
-
-def difference(image, other):
-    """Where two images (h, w, 3) differ visibly: (h, w)."""
-    return np.abs(image.astype(int) - other).max(2) > 40
-
-
-def test_the_arm_is_drawn_into_the_photo_where_it_reaches_and_can_be_kept(page, tmp_path):
-    page.get_by_role("button", name="Example").click()
-    status(page, "After trying")
-    with page.expect_download() as kept:
-        page.get_by_role("button", name="Keep this picture").click()
-    kept.value.save_as(tmp_path / "reach.jpg")
-    image = np.array(Image.open(tmp_path / "reach.jpg"))
-    assert image.shape == (860, 1200, 3)
-    photo = np.array(Image.fromarray(OURS.image).resize((1200, 800)))
-    arm = difference(image[:800], photo)
-    assert 0.03 < arm.mean() < 0.5
-    x, y = np.int32(2 * OURS.camera.project(OURS.target[None])[0])
-    assert arm[y - 60 : y + 60, x - 60 : x + 60].mean() > 0.15  # the hand
-    assert not arm[:200].any()  # it comes from below
-    assert (image[800:] < 100).any()  # a line on what it is
 
 
 @pytest.mark.audit

@@ -73,7 +73,7 @@ def test_linear_readout_separates_separable_classes(rng):
     scores = domain_shift.evaluate_linear_readout(
         (features, labels), (features, labels), [(features, ~labels)], rng
     )
-    assert np.shape(scores) == (len(domain_shift.PENALTIES), 3)
+    assert np.shape(scores) == (len(domain_shift.INVERSE_PENALTIES), 3)
     assert scores[-1] == [1, 1, 0]
 
 
@@ -81,4 +81,4 @@ def test_end_to_end_has_a_choice_for_each_rate_and_penalty(rng):
     crops, labels = rng.random((6, 200, 200), np.float32), np.arange(6) < 3
     few = crops, labels
     scores = domain_shift.evaluate_end_to_end(few, few, [few], rng, steps=2)
-    assert np.shape(scores) == (len(domain_shift.RATES) * len(domain_shift.PENALTIES), 3)
+    assert np.shape(scores) == (len(domain_shift.RATES) * len(domain_shift.INVERSE_PENALTIES), 3)

@@ -181,6 +181,6 @@ def test_the_wider_interval_of_trainings_over_photos_counts():
         for shares, n in (([0.5, 0.5, 0.5], 40), ([0.1, 0.5, 0.9], 10**6))
     )
     assert (alike.low, alike.high) == entry.wilson(20, 40)
-    middle, half = entry.student([0.1, 0.5, 0.9])
+    middle, half = entry.t_interval([0.1, 0.5, 0.9])
     assert (unlike.low, unlike.high) == (max(middle - half, 0), min(middle + half, 1))
     assert middle - half < 0
