@@ -28,9 +28,7 @@ from vmc_lib.what.stream import VentralStream
 from vmc_lib.where.detector import Detections, ObjectDetector
 from vmc_lib.where.localiser import Localiser
 
-THRESHOLD_MARGIN = (
-    1.0  # how far the detector's threshold is lowered for a recogniser
-)
+THRESHOLD_MARGIN = 1.0  # how far the detector's threshold is lowered for a recogniser
 MODEL = 'VisuomotorModel.load("rig")'  # what is asked for where a model is missing
 PHOTOGRAPHS_AS = "varied"  # the level whose localiser serves photographs, too
 
