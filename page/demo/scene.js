@@ -247,5 +247,4 @@ addEventListener("beforeprint", () => {
   }
 });
 addEventListener("afterprint", () => lived.forEach((view) => view.awake()));
-
 export const viewOf = (div) => views.get(div) ?? new View(div);

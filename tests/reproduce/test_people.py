@@ -5,6 +5,7 @@ import pytest
 
 from reproduce import people
 from reproduce.experiments import forgetting_adaptation as forgetting
+from reproduce.measures.changed_worlds import Seen, direction
 from reproduce.measures.reach_statistics import direction_scatter, speed_shape
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.cerebellum.adaptation import Adaptation
@@ -55,13 +56,13 @@ def test_without_forgetting_it_is_the_books_learner():
     learner, plans = forgetting.learner_and_plans(forgetting.SHARES[-1], 0)
     ours = Adaptation(learner.trained_correction, load())
     for one in (learner, ours):
-        one.update(plans, lambda _: forgetting.Shown(forgetting.turn(plans.target, 0.1)))
+        one.update(plans, lambda _: Seen(forgetting.turn(plans.target, 0.1)))
     np.testing.assert_allclose(learner.purkinje, ours.purkinje)
 
 
 def test_the_rest_is_kept():
     learner, plans = forgetting.learner_and_plans(0.5, 0.25)
-    learner.update(plans, lambda _: forgetting.Shown(forgetting.turn(plans.target, 0.1)))
+    learner.update(plans, lambda _: Seen(forgetting.turn(plans.target, 0.1)))
     before = learner.purkinje
     learner.forget()
     np.testing.assert_allclose(learner.purkinje, 0.75 * before)
@@ -70,7 +71,8 @@ def test_the_rest_is_kept():
 def test_turns_about_home():
     places = forgetting.targets()
     turned = forgetting.turn(places, 0.2)
-    np.testing.assert_allclose(forgetting.direction(turned) - forgetting.direction(places), 0.2)
+    was, now = (direction(some, forgetting.HOME) for some in (places, turned))
+    np.testing.assert_allclose(now - was, 0.2)
     np.testing.assert_allclose(
         np.linalg.norm(turned - forgetting.HOME, axis=1), forgetting.DISTANCE
     )
