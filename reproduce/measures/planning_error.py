@@ -23,7 +23,7 @@ def mixed_and_reached(rule=habitual_weights, spacing=0.06, number=4):
     return (plans.weights[:, None] @ plans.points)[:, 0], execute(plans).endpoint
 
 
-def mean_miss(rule, spacing=0.06):
-    """How far the hand's mean place over the hold is from a target on average, in mm: the bias."""
+def mean_bias(rule, spacing=0.06):
+    """The mean bias: how far the hand's mean place over the hold is from a target, in mm."""
     _, reached = mixed_and_reached(rule, spacing)
     return 1000 * np.linalg.norm(reached - TARGETS, axis=-1).mean()

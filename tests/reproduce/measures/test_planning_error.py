@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from reproduce.measures.planning_error import TARGETS, mean_miss, mixed_and_reached
+from reproduce.measures.planning_error import TARGETS, mean_bias, mixed_and_reached
 from vmc_lib.motor.planning import exact_weights
 
 
@@ -10,7 +10,7 @@ def test_exact_weights_leave_the_arms_part_alone():
     mixed, reached = mixed_and_reached(exact_weights)
     np.testing.assert_allclose(mixed, TARGETS, atol=1e-9)
     part = 1000 * np.linalg.norm(reached - mixed, axis=-1).mean()
-    np.testing.assert_allclose(mean_miss(exact_weights), part)
+    np.testing.assert_allclose(mean_bias(exact_weights), part)
 
 
 def test_nearest_templates_mix_another_place_than_quadrants():
