@@ -33,9 +33,9 @@ CLAMP = Source(
     "speed, trials more than three standard deviations off a running mean of five left out, the "
     "mean of cycles 7 to 15 of each person and target taken away, the sign turned so that "
     "positive is away from what is shown; then the mean of a cycle of eight targets. Stored: "
-    "cycle 15 (seen), 80 clamped at 3.5 degrees, 5 with no feedback, 10 seen; and of each person the "
-    "standard deviation of the angle in the first five reaches to a target, without feedback, "
-    "mean over the eight targets",
+    "cycle 15 (seen), 80 clamped at 3.5 degrees, 5 with no feedback, 10 seen; and of each "
+    "person the standard deviation of the angle in the first five reaches to a target, without "
+    "feedback, mean over the eight targets",
 )
 ROTATION = Source(
     "'t Hart and Henriques, the data set tworatedata of the R package SMCL, version 2022.3.11",
