@@ -52,9 +52,8 @@ def exam(seed, count, numbers=(), unlike=()):
 def new_variants(template, seed, count, unlike=()):
     """So many variants of a template, none public, none of the seeds `unlike`; else ValueError."""
     contents = {question.content for question in template.variants()}
-    for number, other in enumerate(unlike):  # each was unlike those before it
-        older = new_variants(template, other, count, unlike[:number])
-        contents |= {question.content for question in older}
+    for other in unlike:  # each was drawn unlike those before it
+        contents |= {question.content for question in template.variants(count, other, contents)}
     return template.variants(count, seed, contents)
 
 

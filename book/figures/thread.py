@@ -89,6 +89,7 @@ def words(chapter):
     return f"{misses()[motion]:.1f} mm", f"a reach {MOTIONS[motion]}"
 
 
+@cache
 def photo_file():
     """The photo, small: a WebP file."""
     file = io.BytesIO()

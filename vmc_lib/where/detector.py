@@ -30,7 +30,7 @@ class Detections:
 
     candidates: np.ndarray  # (n, 4) of selective search
     candidate_scores: np.ndarray  # (n,)
-    passed: np.ndarray  # (m, 4) boxes above the threshold, and regression if any; sliding windows
+    passed: np.ndarray  # (m, 4) above the threshold, after any box regression; then windows
     boxes: np.ndarray  # (k, 4) left by non-maximum suppression, the best first
     scores: np.ndarray  # (k,)
 
