@@ -28,6 +28,7 @@ from zlib import crc32
 
 import matplotlib as mpl
 import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 VARIANTS = 5
@@ -50,7 +51,8 @@ class Picture:
             figure = Figure(figsize=(5, 3.2), dpi=90, layout="constrained")
             self.draw(figure.subplots(), **self.numbers)
             file = io.BytesIO()
-            figure.savefig(file, metadata={"Software": None})
+            # Not by `savefig`, which draws a figure with a layout twice
+            FigureCanvasAgg(figure).print_png(file, metadata={"Software": None})
         return file.getvalue()
 
 

@@ -3,6 +3,7 @@
 import itertools
 import os
 import re
+import shutil
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
@@ -11,9 +12,11 @@ from weakref import WeakSet
 
 import pytest
 import yaml
+from bs4 import BeautifulSoup
 from joblib import cpu_count
 from playwright.sync_api import TimeoutError, expect
 
+from book._ext.packed import write_script
 from book._ext.policy import seal
 
 ROOT = Path(__file__).parents[1]
@@ -56,6 +59,21 @@ STILL_BOXES = """async (things) => {
 }"""
 OPEN = WeakSet()  # pages that are observed: what they show is kept when a test fails
 counter = itertools.count(1)
+
+
+def above_sections(path):
+    """What stands above the first section of a built page: its sidebar and its strip."""
+    above, _ = path.read_text(encoding="utf-8").split("<section", 1)
+    return BeautifulSoup(above, "html.parser")
+
+
+def copy_scripts(folder, *names):
+    """Copy packed scripts of the built book into a folder; what is older than its files is new."""
+    for name in names:
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        with suppress(FileNotFoundError):
+            shutil.copy2(BUILT / "_static" / name, folder / name)
+        write_script(folder, name)
 
 
 def displayed(patch, module, handle=None):

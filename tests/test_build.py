@@ -214,8 +214,9 @@ def test_a_number_in_prose_is_the_runs(book, chapter):
         return execute.executed(chapter, 600)[2]
 
     assert has(42) is None
-    assert has(41).startswith("cell prose (`# It is 41<!--")
-    assert has(41).endswith("ValueError: the text says '41', the run '42'")
+    said = has(41)
+    assert said.startswith("cell prose (`# It is 41<!--")
+    assert said.endswith("ValueError: the text says '41', the run '42'")
     prose.update(chapter)
     assert nbformat.read(chapter, as_version=4).cells[2].source.startswith("It is 42<")
     assert execute.executed(chapter, 600)[2] is None

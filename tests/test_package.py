@@ -7,7 +7,7 @@ import shutil
 import sys
 import sysconfig
 import tomllib
-from functools import partial
+from functools import cache, partial
 from importlib import metadata
 from pathlib import Path
 from zipfile import ZipFile
@@ -58,6 +58,9 @@ def imported(source):
         yield from {module.split(".")[0] for module in modules} - OURS - sys.stdlib_module_names
 
 
+packages_distributions = cache(metadata.packages_distributions)
+
+
 @pytest.mark.parametrize(
     ("patterns", "extras"),
     [
@@ -69,7 +72,7 @@ def imported(source):
     ],
 )
 def test_imports_are_declared(patterns, extras):
-    makers, names_declared = metadata.packages_distributions(), declared(*extras)
+    makers, names_declared = packages_distributions(), declared(*extras)
     files = [path for pattern in patterns.split() for path in ROOT.glob(pattern)]
     names = {name for path in files for name in imported(code(path))}
     assert names

@@ -3,7 +3,6 @@
 import re
 
 import pytest
-from bs4 import BeautifulSoup
 
 from tests.pages import CHAPTERS, INSIDE, TWO_FRAMES, boxes, broken_links, open_url, probe, unfold
 from tests.project import sample
@@ -13,7 +12,6 @@ pytestmark = pytest.mark.browser
 a_page_of_each_kind = pytest.mark.kinds(
     *("index", "03_regions", "07_muscle", "10_offline", "15_whole_arm", "ledger", "your_photo")
 )
-each_chapter = pytest.mark.parametrize("path", CHAPTERS, ids=lambda path: path.stem)
 
 
 @pytest.fixture(scope="module", params=CHAPTERS, ids=lambda path: path.stem)
@@ -95,11 +93,10 @@ def test_pictures_are_there(page):
     assert probe(page, "missingPictures") == []
 
 
-@each_chapter
-def test_folds_are_closed_and_hide_no_exercise(path):
-    text = path.read_text(encoding="utf-8")
+def test_folds_are_closed_and_hide_no_exercise(page):
+    text = page.path.read_text(encoding="utf-8")
     assert text.count("<details") == text.count("</details>")
-    assert not BeautifulSoup(text, "html.parser").select("details .exercise")
+    assert page.locator("details .exercise").count() == 0
 
 
 def test_every_icon_is_drawn(page):
@@ -152,13 +149,18 @@ ARM_MOVES = """() => {
 
 
 @SIZES
-def test_the_film_plays_on_the_first_screen(window, width, height):
-    """The front page's: by itself, photo and arm in the window when the arm begins to move."""
+def test_three_doors_and_a_film_that_plays_are_on_the_first_screen(window, width, height):
+    """The front page's film: by itself, photo and arm in the window when the arm begins to move."""
     page = open_url(window(viewport={"width": width, "height": height}), FRONT)
     scrolled, edges, top, bottom = page.wait_for_function(ARM_MOVES).json_value()
     assert (scrolled, edges) == (0, 4)
     assert 0 <= top < bottom <= height
     assert page.errors == []
+    doors, film = page.locator(".vmc-doors a"), page.locator(".vmc-pictures").first
+    addresses = [door.get_attribute("href") for door in doors.all()]
+    assert addresses == ["01_loop.html", "your_photo.html", "teaching.html"]
+    [[_, above, *_]] = boxes(film)
+    assert all(y + tall <= above for _, y, _, tall in boxes(doors))
 
 
 def test_the_film_waits_where_less_motion_is_asked_for(window):

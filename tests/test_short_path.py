@@ -1,5 +1,6 @@
 """The short path: sittings that are short, and lead from one to the next."""
 
+from functools import cache
 from itertools import pairwise
 from urllib.parse import urljoin
 
@@ -9,7 +10,7 @@ from docutils.nodes import make_id
 
 from book._ext.short_path import PAGES, PIECES, QUIZ, SITTINGS
 from book.figures.inventory import title_and_minutes
-from tests.pages import BUILT
+from tests.pages import BUILT, above_sections
 from tools.main_line import main_line, section_words
 
 BOOK = BUILT / "book"
@@ -43,11 +44,15 @@ def test_a_sitting_takes_about_twenty_minutes(sitting):
     assert sum(map(minutes, sitting)) <= 27
 
 
+@cache
+def parsed(page):
+    """A built page, parsed once for all pieces of it."""
+    return BeautifulSoup((BOOK / f"{page}.html").read_text(encoding="utf-8"), "html.parser")
+
+
 def test_each_piece_names_the_next():
     for (_, here), (_, then) in pairwise(PIECES):
-        soup = BeautifulSoup(
-            (BOOK / f"{here.page}.html").read_text(encoding="utf-8"), "html.parser"
-        )
+        soup = parsed(here.page)
         last = soup.find("section", id=make_id(here.last))
         link = last.find_next_sibling().select_one("a")
         assert link.parent["class"] == ["vmc-next-sitting"]
@@ -64,14 +69,13 @@ def test_each_piece_names_the_next():
 
 @pytest.mark.parametrize("page", QUIZ)
 def test_the_path_says_which_questions_it_answers(page):
-    soup = BeautifulSoup((BOOK / f"{page}.html").read_text(encoding="utf-8"), "html.parser")
-    *_, end = soup.select(".vmc-next-sitting:has([href='#quiz'])")
+    *_, end = parsed(page).select(".vmc-next-sitting:has([href='#quiz'])")
     assert f"the quiz {QUIZ[page]} about what you have read." in end.get_text()
 
 
 @pytest.mark.parametrize("page", ["01_loop", "03_regions", "13_see_and_reach"])
 def test_the_path_is_marked_at_the_side_and_in_the_strip(page):
-    soup = BeautifulSoup((BOOK / f"{page}.html").read_text(encoding="utf-8"), "html.parser")
+    soup = above_sections(BOOK / f"{page}.html")
     marked = soup.select(".bd-sidebar-primary a.vmc-short-path")
     here = f"{page}.html"
     assert {urljoin(here, link["href"].rstrip("#")) for link in marked} == {

@@ -4,11 +4,10 @@ import json
 import re
 
 import pytest
-from bs4 import BeautifulSoup
 
 from book.figures import thread
 from page.arm.live import PHOTO_1
-from tests.pages import BUILT, CHAPTERS, open_url
+from tests.pages import BUILT, CHAPTERS, above_sections, open_url
 from vmc_lib.show.packed import unpack_bytes
 
 pytestmark = pytest.mark.browser
@@ -26,8 +25,9 @@ def number(path):
 @each_page
 def test_a_strip_stands_above_every_chapter(path):
     """Sixteen marks, this chapter's lit; the photo; and the miss, as the run works it out."""
-    soup = BeautifulSoup(path.read_text(encoding="utf-8"), "html.parser")
-    [strip] = soup.select(".vmc-thread")
+    assert path.read_text(encoding="utf-8").count('class="vmc-thread"') == 1
+    soup = above_sections(path)
+    strip = soup.select_one(".vmc-thread")
     marks = strip.select("li a")
     assert [mark["href"] for mark in marks] == [
         "#" if other == path else other.name for other in NUMBERED
@@ -45,9 +45,9 @@ def test_a_strip_stands_above_every_chapter(path):
 def test_a_strip_tells_the_plans_miss_where_a_chapter_changes_it():
     said = {}
     for path in NUMBERED:
-        soup = BeautifulSoup(path.read_text(encoding="utf-8"), "html.parser")
-        said[number(path)] = soup.select_one(".vmc-thread > a span").text
-        assert soup.select_one(".vmc-thread > a")["aria-label"].startswith(said[number(path)])
+        [link] = above_sections(path).select(".vmc-thread > a")
+        said[number(path)] = link.span.text
+        assert link["aria-label"].startswith(said[number(path)])
     numbers = {name: f"{miss:.1f}" for name, miss in thread.misses().items()}
     changes = {10: "off-line", 11: "online", 14: "whole hold"}  # each a correction of the plan
     assert {n: text for n, text in said.items() if "→" in text} == {
@@ -196,22 +196,3 @@ def test_a_chapter_is_larger_than_its_sections_and_code_can_be_read(offline):
 def test_the_face_is_light():
     fonts = (BUILT / "_static/vendor").glob("text-*.css")
     assert 0 < sum(font.stat().st_size for font in fonts) < 150_000
-
-
-@pytest.mark.parametrize(("width", "height"), [(1280, 800), (1366, 768), (390, 844)])
-def test_the_front_page_opens_on_a_sentence_and_three_doors(window, width, height):
-    page = open_url(
-        window(viewport={"width": width, "height": height}), (BOOK / "index.html").as_uri()
-    )
-    doors = page.locator(".vmc-doors a")
-    assert [door.get_attribute("href") for door in doors.all()] == [
-        "01_loop.html",
-        "your_photo.html",
-        "teaching.html",
-    ]
-    film = page.locator(".vmc-pictures").first.bounding_box()
-    for door in doors.all():
-        box = door.bounding_box()
-        assert box["y"] + box["height"] <= film["y"]
-    assert film["y"] + film["height"] <= height
-    page.close()

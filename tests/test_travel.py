@@ -17,8 +17,8 @@ pytestmark = pytest.mark.browser
 
 
 @pytest.fixture(scope="session")
-def folder(once):
-    return once("demos", lambda folder: demos.build(folder, BUILT / "book"))
+def folder(kit):
+    return kit / "demos"
 
 
 @pytest.fixture(scope="session")

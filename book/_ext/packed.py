@@ -4,7 +4,7 @@ Its script is a bundle of the modules in `page`, without comments and indentatio
 asks for, the page's Python (`page.python`) and all that its eye has learnt (`page.eye`), is packed.
 """
 
-from functools import cache
+from functools import cache, partial
 from itertools import groupby
 from pathlib import Path
 
@@ -15,6 +15,12 @@ from book._ext.offline import SCRIPTS
 from page import bundle
 from page.eye import brain
 from page.python import pack
+
+SCRIPTS_ON_REQUEST = {  # how each is written, and of what files
+    brain.SCRIPT: (brain.script, brain.inputs),
+    pack.SCRIPT: (pack.script, pack.inputs),
+    pack.PLOTS: (partial(pack.script, pack.PLOTS), pack.inputs),
+}
 
 
 def setup(app):
@@ -35,13 +41,17 @@ def write_scripts(app):
 def write_packed(app, exception):
     if app.builder.format != "html" or exception:
         return
-    scripts = (brain, brain.SCRIPT), (pack, pack.SCRIPT), (pack, pack.PLOTS, pack.PLOTS)
-    for packed, name, *given in scripts:
-        script = _static(app) / name
-        made = script.stat().st_mtime if script.exists() else 0
-        if made < max(path.stat().st_mtime for path in packed.inputs()):
-            script.parent.mkdir(parents=True, exist_ok=True)
-            script.write_text(packed.script(*given), encoding="utf-8", newline="\n")
+    for name in SCRIPTS_ON_REQUEST:
+        write_script(_static(app), name)
+
+
+def write_script(static, name):
+    """Write one of SCRIPTS_ON_REQUEST into a folder, unless it is newer than all that it holds."""
+    (pack_script, inputs), file = SCRIPTS_ON_REQUEST[name], static / name
+    written = file.stat().st_mtime if file.exists() else 0
+    if written < max(path.stat().st_mtime for path in inputs()):
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(pack_script(), encoding="utf-8", newline="\n")
 
 
 def _static(app):

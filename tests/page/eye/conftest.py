@@ -24,14 +24,9 @@ NOTHING = np.zeros((1, 1, 3), np.uint8)
 
 @pytest.fixture(scope="session", autouse=True)
 def brain_script(site, once):
-    """What the eye has learnt, packed by one worker, is among the book's scripts."""
-
-    def write(folder):
-        folder.mkdir()
-        (folder / "brain.js").write_text(brain.script(), encoding="utf-8")
-
-    (site / "vendor").mkdir(exist_ok=True)
-    shutil.copy(once("brain", write) / "brain.js", site / brain.SCRIPT)
+    """What the eye has learnt, as built or packed by one worker, is among the book's scripts."""
+    folder = once("brain", lambda folder: pages.copy_scripts(folder, brain.SCRIPT))
+    shutil.copytree(folder, site, dirs_exist_ok=True)
 
 
 @pytest.fixture(scope="session")

@@ -29,14 +29,8 @@ CELL = '<div class="cell"><div class="cell_input"><pre>{}</pre></div></div>'
 
 @pytest.fixture(scope="session")
 def packed(once):
-    """The page's Python, by name: packed by one worker."""
-
-    def write(folder):
-        for name in SCRIPTS:
-            (folder / name).parent.mkdir(parents=True, exist_ok=True)
-            (folder / name).write_text(pack.script(name), encoding="utf-8")
-
-    folder = once("packed", write)
+    """The page's Python, by name: as built, or packed by one worker."""
+    folder = once("packed", lambda folder: pages.copy_scripts(folder, *SCRIPTS))
     return {name: (folder / name).read_text(encoding="utf-8") for name in SCRIPTS}
 
 
