@@ -189,6 +189,13 @@ def test_of_overlapping_boxes_the_most_probable_is_kept():
     np.testing.assert_allclose(probability, [0.9, 0.8])
 
 
+def test_many_boxes_of_one_shuttlecock_leave_room_for_another():
+    boxes = np.array([*([k, k, k + 100, k + 100] for k in range(2 * N_REFINED)), [300, 0, 400, 99]])
+    chances, ones = np.linspace(0.9, 0.5, len(boxes)), np.ones(len(boxes))
+    selected, _ = Told(boxes, chances).select(None, Detections(boxes, ones, boxes, boxes, ones))
+    np.testing.assert_array_equal(selected.boxes, boxes[[0, -1]])
+
+
 def test_the_probabilities_of_chosen_boxes_are_calibrated():
     boxes = BOXES[:2]
     stream = Told(boxes, [0.7, 0.9])

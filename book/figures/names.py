@@ -76,12 +76,12 @@ def refined_box(stream, photo, boxes, fits, look):
 
 def ablation_table(without, asked):
     """What the eye for photographs answers without each of its parts: a Markdown table."""
-    total = {"right": asked["right"], "tight": asked["right"], "alarms": asked["alarms"]}
     rows = [
-        [name, *(share_text(counts[key], of) for key, of in total.items())]
+        [name, *(share_text(count, asked[key]) for key, count in counts.items())]
         for name, counts in without.items()
     ]
-    return table(["without", "right (IoU above 0.5)", "tight (0.8)", "false alarms"], rows)
+    heads = "right (IoU above 0.5)", "tight (0.8)", "all shuttlecocks", "false alarms"
+    return table(["without", *heads], rows)
 
 
 def scene_table(counts, of):

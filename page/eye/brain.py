@@ -69,6 +69,7 @@ def stream():
 def selector():
     """How boxes are chosen."""
     return {
+        "alike": ventral.ALIKE,
         "refined": ventral.N_REFINED,
         "looks": ventral.N_LOOKS,
         "minProbability": ventral.MIN_PROBABILITY,

@@ -6,8 +6,8 @@ photographs of validation, counter-examples, what is left of photographs where t
 shuttlecock is cut off (`emptied`), and pasted scenes. No test photo has a part in the choice.
 """
 
-from collections import Counter
-from dataclasses import replace
+from collections import Counter, defaultdict
+from dataclasses import dataclass, field, replace
 from functools import partial
 
 import numpy as np
@@ -18,15 +18,29 @@ from reproduce.results import records
 from reproduce.training.photographs import load_photographs
 from vmc_lib import photos
 from vmc_lib.boxes import MIN_IOU, iou
-from vmc_lib.loop import Sight, VisuomotorModel
+from vmc_lib.loop import VisuomotorModel
 from vmc_lib.what.stream import FLIPS, N_LOOKS, N_REFINED, VentralStream
 
 SCENES_EACH = 20  # pasted scenes of each kind
 N_BEST = 100  # boxes, of the best detector scores
-COUNTED = "right", "tight", "alarms"
+COUNTED = "right", "tight", "found", "alarms"
 
 
-class Unmoved(VentralStream):
+@dataclass(frozen=True, eq=False)
+class MemoisedStream(VentralStream):
+    """A stream that looks once at the same boxes of one picture."""
+
+    memory: dict = field(default_factory=dict)
+
+    def predict(self, image, boxes, flips=FLIPS[:1]):
+        """As the stream's, of one and the same image."""
+        key = boxes.tobytes(), tuple(flips)
+        if key not in self.memory:
+            self.memory[key] = super().predict(image, boxes, flips)
+        return self.memory[key]
+
+
+class Unmoved(MemoisedStream):
     """A stream that names boxes and leaves them where they are."""
 
     def predict(self, *given):
@@ -35,7 +49,7 @@ class Unmoved(VentralStream):
         return log_odds, 0 * deltas
 
 
-class BestBoxes(VentralStream):
+class BestBoxes(MemoisedStream):
     """A stream that looks at the N_BEST boxes of the best detector scores alone."""
 
     def select(self, image, detections, **settings):
@@ -46,14 +60,15 @@ class BestBoxes(VentralStream):
 
 
 WITHOUT = {  # what is left out -> how the stream chooses, its class, and among which boxes
-    "nothing": ({}, VentralStream, "all"),
-    "flips": ({"flips": FLIPS[:1]}, VentralStream, "all"),
+    "nothing": ({}, MemoisedStream, "all"),
+    "flips": ({"flips": FLIPS[:1]}, MemoisedStream, "all"),
     "refinement": ({}, Unmoved, "all"),
-    "sliding windows": ({}, VentralStream, "candidates"),
-    "candidates": ({}, VentralStream, "windows"),
+    "sliding windows": ({}, MemoisedStream, "candidates"),
+    "candidates": ({}, MemoisedStream, "windows"),
     f"all boxes but {N_BEST}": ({}, BestBoxes, "all"),
-    "half of the boxes refined": ({"refined": N_REFINED // 2}, VentralStream, "all"),
-    "the last look": ({"looks": N_LOOKS - 1}, VentralStream, "all"),
+    "suppression before refinement": ({"alike": 1.0}, MemoisedStream, "all"),
+    "half of the boxes refined": ({"refined": N_REFINED // 2}, MemoisedStream, "all"),
+    "the last look": ({"looks": N_LOOKS - 1}, MemoisedStream, "all"),
 }
 
 
@@ -79,16 +94,17 @@ def pictures(folder=photos.FOLDER, each=SCENES_EACH):
 def make(folder=photos.FOLDER, count=None):
     """What `results/eye_ablation.json` holds: what is left out -> counts, and `asked`: of how many.
 
-    "right", "tight" of the pictures with a shuttlecock, "alarms" of those without; `count` of
-    either are asked, by default all.
+    "right", "tight" of the pictures with a shuttlecock, "found" of all shuttlecocks, "alarms" of
+    pictures without; `count` of either are asked, by default all.
     """
     model = VisuomotorModel.load(photos.REAL_LEVEL)
-    asked = pictures(folder, SCENES_EACH if count is None else count)
-    kinds = [[one for one in asked if bool(len(one[1])) == has][:count] for has in (True, False)]
-    found = Parallel()(delayed(_answers)(model, *one) for kind in kinds for one in kind)
+    some = pictures(folder, SCENES_EACH if count is None else count)
+    shown, empty = ([one for one in some if bool(len(one[1])) == has][:count] for has in (1, 0))
+    found = Parallel()(delayed(_answers)(model, *one) for one in shown + empty)
     sums = {name: sum((one[name] for one in found), Counter()) for name in WITHOUT}
-    totals = dict(zip(("right", "alarms"), map(len, kinds), strict=True))
-    return {"asked": totals, **{name: {key: s[key] for key in COUNTED} for name, s in sums.items()}}
+    totals = len(shown), len(shown), sum(len(truth) for _, truth in shown), len(empty)
+    asked = dict(zip(COUNTED, totals, strict=True))
+    return {"asked": asked, **{name: {key: s[key] for key in COUNTED} for name, s in sums.items()}}
 
 
 load_results = partial(records, "eye_ablation")
@@ -96,14 +112,15 @@ load_results = partial(records, "eye_ablation")
 
 def _answers(model, image, truth):
     """What is left out -> a Counter of what the eye's answer is, for one picture."""
-    found, answers = _detections(model.detector, image), {}
+    found, memory, answers = _detections(model.detector, image), defaultdict(dict), {}
     for name, (settings, kind, boxes) in WITHOUT.items():
-        stream = kind(**vars(model.recogniser))
-        chosen = stream.select(image, found[boxes], **settings)
-        box = Sight(*chosen, stream.min_probability).box
-        fit = iou(box, truth).max(initial=0) if box is not None else 0
-        alarm = box is not None and not len(truth)
-        answers[name] = Counter(right=int(fit > 0.5), tight=int(fit >= MIN_IOU), alarms=int(alarm))
+        stream = kind(**vars(model.recogniser), memory=memory[kind])
+        chosen, probability = stream.select(image, found[boxes], **settings)
+        fits = iou(chosen.boxes[probability > stream.min_probability], truth)
+        best, each = fits[:1].max(initial=0), fits.max(0, initial=0)
+        alarm = len(fits) and not len(truth)
+        counts = best > 0.5, best >= MIN_IOU, (each > 0.5).sum(), alarm
+        answers[name] = Counter(dict(zip(COUNTED, map(int, counts), strict=True)))
     return answers
 
 

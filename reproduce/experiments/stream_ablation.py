@@ -29,7 +29,7 @@ WITHOUT = {  # how samples change when an idea is left out, and how many maps th
     "all of them": (lambda pool: pool, MAPS),
     "two stages, not four": (lambda pool: pool, MAPS[:2]),
     "without new looks": (lambda pool: replace(pool, augmentation=PLAIN), MAPS),
-    "without shuttlecocks laid on photographs": (lambda pool: without(pool, "pasted"), MAPS),
+    "without pasted scenes": (lambda pool: without(pool, "pasted"), MAPS),
     "without windows of photographs": (
         lambda pool: without(pool, "real", "pasted", kinds=["scene"]),
         MAPS,

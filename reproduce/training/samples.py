@@ -11,12 +11,12 @@ from reproduce.training.photographs import COUNTEREXAMPLES, load_photographs
 from reproduce.training.scenes import paste_photos
 from vmc_lib import loop, photos
 from vmc_lib.boxes import iou, nms
+from vmc_lib.what.stream import ALIKE
 
 SHARES = {"shuttlecock": 0.4, "other": 0.15, "scene": 0.45}  # of what is drawn
 SOURCES = {"rendered": 0.25, "real": 0.35, "pasted": 0.4}  # of each, as far as a source has it
 PASTED, VALIDATION = 1400, 280  # scenes that are pasted on photographs to train, to validate
 APART = 0.3  # IoU under which a window shows no shuttlecock
-ALIKE = 0.7  # IoU above which a window teaches what another does
 
 
 @dataclass(frozen=True, eq=False)

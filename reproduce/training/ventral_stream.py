@@ -32,11 +32,11 @@ from vmc_lib.what.stream import WIDTH, VentralStream, standardise
 torch.set_num_threads(1)
 
 MAPS = 32, 64, 128, 128  # of the four STAGES
-STEPS, BATCH, RATE = (14_000, 7000), 64, (0.003, 0.0015)  # before and after mining
+STEPS, BATCH, RATE = (17_000, 13_000), 64, (0.003, 0.0015)  # before and after mining
 HARD = 24  # windows of a photo that teach after mining: those most like a shuttlecock
 NEAR, YES, NO = 0.3, 0.55, 0.4  # IoU from which edges are taught; of boxes called one, and not
-DROPPED = 0.3  # share of the last stage's activations hidden from the read-out while it learns
-SCALE, EDGES = 0.2, 2  # of the corrections that are read out; how much they count
+DROPPED = 0.1  # share of the last stage's activations hidden from the read-out while it learns
+SCALE, EDGES = 0.2, 5  # of the corrections that are read out; how much they count
 
 
 def augmented_batch(pool, count, rng):
@@ -54,7 +54,7 @@ def build_network(seed, maps=MAPS):
     with torch_seed(seed):
         for count in maps:
             layers.append(nn.Conv2d(channels, count, 3, padding=1, bias=False))
-            layers += nn.BatchNorm2d(count), nn.ReLU(), nn.MaxPool2d(2)
+            layers += nn.BatchNorm2d(count), nn.MaxPool2d(2), nn.ReLU()
             channels = count
         readout = nn.Flatten(), nn.Dropout(DROPPED), nn.Linear(places * channels, 5)
     return nn.Sequential(*layers, *readout)
@@ -125,11 +125,12 @@ def fold_batch_norm(network):
 def hard_negatives(stream, photo):
     """Hard negatives: a photo's boxes by kind, with the windows of highest false log-odds.
 
-    As `samples.boxes_by_kind` gives it. They are sought among its windows as they are, and as the
-    stream tightens them.
+    As `samples.boxes_by_kind` gives it. They are sought among its likeliest windows as they are,
+    and as the stream tightens these.
     """
     image, windows = photo["scene"]
-    some = np.vstack([windows, stream.refine_boxes(image, windows)])
+    likeliest = windows[np.argsort(-stream.predict(image, windows)[0])[: 2 * HARD]]
+    some = np.vstack([likeliest, stream.refine_boxes(image, likeliest)])
     if "shuttlecock" in photo:
         some = some[iou(some, photo["shuttlecock"][1]).max(1) < APART]
     hardest = np.argsort(-stream.predict(image, some)[0])[:HARD]

@@ -26,6 +26,7 @@ BATCH = 64  # crops at a time: more leave the processor's cache
 # Test-time augmentation, along x and along y: as it is, flipped left-right, up-down, and both
 FLIPS = (1, 1), (-1, 1), (1, -1), (-1, -1)
 # How it chooses among boxes, set on validation photos (reproduce.experiments.eye_ablation)
+ALIKE = 0.7  # IoU above which two boxes show the same: the likelier alone is looked at again
 N_REFINED = 4  # boxes, the likeliest, that it refines and looks at again, in all FLIPS
 N_LOOKS = 3  # at all boxes, and at these, each time refined (iterative box regression)
 MIN_PROBABILITY = 1 / 3  # above which one is chosen: a miss counts twice as much as a false alarm
@@ -96,29 +97,30 @@ class VentralStream:
         self,
         image: np.ndarray,
         detections: Any,
+        alike: float = ALIKE,
         refined: int = N_REFINED,
         looks: int = N_LOOKS,
         flips: Sequence[Any] = FLIPS,
     ) -> tuple[Any, np.ndarray]:
         """Choose among an image's `Detections`: look, refine the likeliest, look again, refine.
 
-        It looks at all, then at the `refined` likeliest in all `flips`, `looks` times in all;
-        non-maximum suppression keeps the likeliest of those that overlap. Returns their
-        `Detections`, the likeliest first, scored by their log-odds, and their probabilities (n,),
-        both calibrated by `sigmoid`: of the likeliest of many boxes fewer are right than of boxes
-        as they come.
+        It looks at all, then at the `refined` likeliest of which no two overlap by more than
+        `alike`, in all `flips`, `looks` times in all; non-maximum suppression keeps the likeliest
+        of those that overlap. Returns their `Detections`, the likeliest first, scored by their
+        log-odds, and their probabilities (n,), both calibrated by `sigmoid`: of the likeliest of
+        many boxes fewer are right than of boxes as they come.
         """
         check_detections(detections)
         check_count("refined", refined)
         check_count("looks", looks, 1)
-        boxes = detections.boxes
-        log_odds, deltas = self.predict(image, boxes)
-        best = np.argsort(-log_odds, kind="stable")[:refined]
-        boxes, log_odds, deltas = boxes[best], log_odds[best], deltas[best]
+        log_odds, deltas = self.predict(image, detections.boxes)
+        boxes = decode_deltas(detections.boxes, deltas)
+        best = nms(boxes, log_odds, alike)[:refined]
+        boxes, log_odds = boxes[best], log_odds[best]
         for _ in range(1, looks):
-            boxes = decode_deltas(boxes, deltas)
             log_odds, deltas = self.predict(image, boxes, flips)
-        log_odds, boxes = np.polyval(self.sigmoid, log_odds), decode_deltas(boxes, deltas)
+            boxes = decode_deltas(boxes, deltas)
+        log_odds = np.polyval(self.sigmoid, log_odds)
         kept = nms(boxes, log_odds)
         chosen = replace(detections, boxes=boxes[kept], scores=log_odds[kept])
         return chosen, logistic(chosen.scores)

@@ -242,7 +242,6 @@ def test_the_arm_is_promised_where_it_can_reach(ask):
 
 
 @pytest.mark.audit
-@pytest.mark.xfail(strict=True, reason="all boxes that are refined may lie on one shuttlecock")
 def test_the_shuttlecock_in_reach_is_taken_first(page, tmp_path):
     """Here the second, which is paler; a copy of it, which the page likes best, is too far."""
     x0, y0, x1, y1 = np.int32(np.round(pad_boxes(OURS.boxes["shuttlecock"], 0.15)))[0]

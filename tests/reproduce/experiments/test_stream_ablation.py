@@ -49,7 +49,7 @@ def test_each_ablation_leaves_one_idea_out():
     ]
     pasted = {(s, kind) for s, kind in everything if s == "pasted"}
     windows = {(s, kind) for s, kind in everything if s != "rendered" and kind == "scene"}
-    assert has("without shuttlecocks laid on photographs") == everything - pasted
+    assert has("without pasted scenes") == everything - pasted
     assert has("without windows of photographs") == everything - windows
     assert {s for s, _ in has("without photographs")} == {"rendered"}
 
