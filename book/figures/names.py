@@ -80,7 +80,7 @@ def ablation_table(without, asked):
         [name, *(share_text(count, asked[key]) for key, count in counts.items())]
         for name, counts in without.items()
     ]
-    heads = "right (IoU above 0.5)", "tight (0.8)", "all shuttlecocks", "false alarms"
+    heads = "right (IoU above 0.5)", "tight (0.8)", "found, of all", "false alarms"
     return table(["without", *heads], rows)
 
 
