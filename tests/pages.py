@@ -68,7 +68,7 @@ def above_sections(path):
 
 
 def copy_scripts(folder, *names):
-    """Copy packed scripts of the built book into a folder; what is older than its files is new."""
+    """Copy packed scripts of the built book into a folder, or pack those that hold a newer file."""
     for name in names:
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         with suppress(FileNotFoundError):

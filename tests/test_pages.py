@@ -159,8 +159,9 @@ def test_three_doors_and_a_film_that_plays_are_on_the_first_screen(window, width
     doors, film = page.locator(".vmc-doors a"), page.locator(".vmc-pictures").first
     addresses = [door.get_attribute("href") for door in doors.all()]
     assert addresses == ["01_loop.html", "your_photo.html", "teaching.html"]
-    [[_, above, *_]] = boxes(film)
+    [[_, above, _, deep]] = boxes(film)
     assert all(y + tall <= above for _, y, _, tall in boxes(doors))
+    assert above + deep <= height
 
 
 def test_the_film_waits_where_less_motion_is_asked_for(window):
