@@ -12,6 +12,7 @@ from tests.pages import (
     BUILT,
     CHAPTERS,
     INSIDE,
+    TWO_FRAMES,
     broken,
     broken_links,
     open_url,
@@ -138,6 +139,20 @@ def test_what_cannot_move_shows_its_first_picture_and_its_words(window, missing)
 
 
 # ---- Pages made by Sphinx, search, and the web ----
+
+
+def test_a_slider_restyles_its_own_demo(chromium, offline):
+    """A rule for what has a demo (`:has`) may not make the browser restyle the whole page."""
+    page = open_url(offline, CHAPTER["10_offline"].as_uri())
+    page.locator("#demo-weight-change input[type=range]").first.focus()
+    chromium.start_tracing(page=page, categories=["devtools.timeline"])
+    page.keyboard.press("ArrowRight")
+    page.evaluate(TWO_FRAMES)
+    events = json.loads(chromium.stop_tracing())["traceEvents"]
+    restyled = [e["args"]["elementCount"] for e in events if "elementCount" in e["args"]]
+    everything = page.evaluate("() => document.querySelectorAll('*').length")
+    assert 0 < max(restyled) < everything / 5
+    page.close()
 
 
 def test_a_line_of_the_ledger_opens_its_row(offline):

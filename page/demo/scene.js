@@ -232,7 +232,7 @@ class View {
     controls.target.set(...at);
     camera.position.set(
       at[0] + flat * Math.sin(azimuth), at[1] + far * Math.sin(up), at[2] + flat * Math.cos(azimuth));
-    this.viewer.render();
+    this.viewer.set_dirty(); // one picture a frame, however often it moved
   }
 }
 
