@@ -132,7 +132,7 @@ def test_the_reader_points_at_another_box(page):
     boxes = page.locator(".vmc-boxes button")
     assert boxes.first.get_attribute("aria-pressed") == "true"
     for n in range(1, boxes.count()):
-        page.locator("p[role=status]").evaluate("(it) => (it.textContent = '')")
+        clear_status(page)
         boxes.nth(n).press("Enter")
         said = status(page, "After trying|Out of reach")
         assert readout(page, "place") != before
