@@ -36,16 +36,66 @@ FIRST = ".vmc-demo:has(.vmc-controls, input[type=range]), .vmc-live"
 MOVABLE = ":is(.vmc-handle, input, select):visible"
 
 
+@pytest.mark.chapters
 @a_page_of_each_kind
 @pytest.mark.parametrize(("width", "height"), SCREENS)
 def test_the_first_screen_plays(page, width, height):
     """Before anything is moved (so this test comes first), what can be moved stands there whole."""
-    if not page.path.stem[:2].isdigit():
-        pytest.skip("not a chapter")
     resize(page, width, height)
     page.evaluate("() => scrollTo(0, 0)")
     [[_, y, _, tall]] = boxes(page.locator(FIRST).first.locator(MOVABLE).first)
     assert y + tall <= height
+
+
+SHOWN = """() => [...document.querySelectorAll(".vmc-demo, .vmc-live")].flatMap((figure) => {
+  const select = (names) => [...figure.querySelectorAll(names)].filter(
+    (part) => part.checkVisibility({ contentVisibilityAuto: true }) && !part.closest("details"));
+  const moved = ".vmc-controls, .vmc-live-form > :is(div:not(.vmc-muscles), fieldset)";
+  const boxes = select(`.vmc-pictures, ${moved}`)
+    .map((part) => part.getBoundingClientRect());
+  const words = select(".vmc-picture svg text").filter((word) => word.textContent.trim());
+  const sizes = words.map((word) => {
+    const { a, b } = word.getScreenCTM();
+    return parseFloat(getComputedStyle(word).fontSize) * Math.hypot(a, b);
+  });
+  const ends = boxes.flatMap(({ top, bottom }) => [top, bottom]);
+  const share = (Math.max(...ends) - Math.min(...ends)) / innerHeight;
+  return boxes.length ? [[figure.id, share, Math.min(...sizes, 99)]] : [];
+})"""
+PLAYING = ("01_loop", "09_planning", "12_while_it_moves", "13_see_and_reach", "15_whole_arm")
+BUTTON = ".vmc-demo :is(.vmc-play, .vmc-live-form button)"
+at_sizes = pytest.mark.parametrize(
+    ("width", "height"),
+    [
+        SCREENS[1],
+        pytest.param(*SCREENS[0], marks=pytest.mark.kinds(*PLAYING, "04_crbm", "08_arm")),
+    ],
+)
+
+
+@pytest.mark.chapters
+@at_sizes
+def test_a_figure_and_its_controls_fit_the_window(page, width, height):
+    resize(page, width, height)
+    assert [(name, share) for name, share, _ in page.evaluate(SHOWN) if share > 0.85] == []
+
+
+@pytest.mark.chapters
+@at_sizes
+def test_words_of_plots_can_be_read(page, width, height):
+    """11 px high at least, rounded."""
+    resize(page, width, height)
+    assert [(name, size) for name, _, size in page.evaluate(SHOWN) if round(size) < 11] == []
+
+
+@pytest.mark.chapters
+@pytest.mark.kinds(*PLAYING)
+def test_on_a_phone_the_first_button_is_on_the_first_screen(page):
+    if page.path.stem not in PLAYING:
+        pytest.skip("it has no such button")
+    resize(page, *SCREENS[0])
+    [[_, top, _, height], *_] = boxes(page.locator(BUTTON))
+    assert 0 < top < top + height <= 844
 
 
 def test_asks_nothing_beyond_the_book(page):
