@@ -35,17 +35,13 @@ def pytest_xdist_auto_num_workers():
     return joblib.cpu_count() + 1
 
 
-def has_chapter(item):
-    """Whether a test's page is a numbered chapter."""
-    return item.callspec.params["page"].stem[:2].isdigit()
-
-
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items):
-    """Of all pages `chapters` asks chapters alone; `kinds` leaves to the audit all but its own."""
-    items[:] = [one for one in items if not one.get_closest_marker("chapters") or has_chapter(one)]
-    for item in items:
-        kinds = item.get_closest_marker("kinds")
+    """Ask of all pages `only` its own; leave to the audit all but those of `kinds`."""
+    for item in list(items):
+        only, kinds = map(item.get_closest_marker, ("only", "kinds"))
+        if only and item.callspec.params["page"].stem not in only.args:
+            items.remove(item)
         if kinds and item.callspec.params["page"].stem not in kinds.args:
             item.add_marker("audit")
 

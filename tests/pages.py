@@ -22,6 +22,7 @@ from book._ext.policy import seal
 ROOT = Path(__file__).parents[1]
 BUILT = ROOT / "_build/html"
 CHAPTERS = sorted((BUILT / "book").glob("*.html"))
+NUMBERED = [path for path in CHAPTERS if path.stem[:2].isdigit()]
 INSIDE = (f"{BUILT.as_uri()}/", "data:", "blob:")
 PACKED = re.compile(r'<script type="application/gzip">([^<]+)')
 AXE = (ROOT / "tests/vendor/axe.js").read_text(encoding="utf-8")

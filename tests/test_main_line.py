@@ -2,10 +2,9 @@
 
 import pytest
 
-from tests.pages import CHAPTERS
+from tests.pages import NUMBERED
 from tools.main_line import main_line
 
-NUMBERED = [path for path in CHAPTERS if path.stem[:2].isdigit()]
 each_chapter = pytest.mark.parametrize("path", NUMBERED, ids=lambda path: path.stem)
 
 

@@ -4,7 +4,17 @@ import re
 
 import pytest
 
-from tests.pages import CHAPTERS, INSIDE, TWO_FRAMES, boxes, broken_links, open_url, probe, unfold
+from tests.pages import (
+    CHAPTERS,
+    INSIDE,
+    NUMBERED,
+    TWO_FRAMES,
+    boxes,
+    broken_links,
+    open_url,
+    probe,
+    unfold,
+)
 from tests.project import sample
 
 pytestmark = pytest.mark.browser
@@ -12,6 +22,7 @@ pytestmark = pytest.mark.browser
 a_page_of_each_kind = pytest.mark.kinds(
     *("index", "03_regions", "07_muscle", "10_offline", "15_whole_arm", "ledger", "your_photo")
 )
+each_chapter = pytest.mark.only(*(path.stem for path in NUMBERED))
 
 
 @pytest.fixture(scope="module", params=CHAPTERS, ids=lambda path: path.stem)
@@ -36,7 +47,7 @@ FIRST = ".vmc-demo:has(.vmc-controls, input[type=range]), .vmc-live"
 MOVABLE = ":is(.vmc-handle, input, select):visible"
 
 
-@pytest.mark.chapters
+@each_chapter
 @a_page_of_each_kind
 @pytest.mark.parametrize(("width", "height"), SCREENS)
 def test_the_first_screen_plays(page, width, height):
@@ -73,14 +84,14 @@ at_sizes = pytest.mark.parametrize(
 )
 
 
-@pytest.mark.chapters
+@each_chapter
 @at_sizes
 def test_a_figure_and_its_controls_fit_the_window(page, width, height):
     resize(page, width, height)
     assert [(name, share) for name, share, _ in page.evaluate(SHOWN) if share > 0.85] == []
 
 
-@pytest.mark.chapters
+@each_chapter
 @at_sizes
 def test_words_of_plots_can_be_read(page, width, height):
     """11 px high at least, rounded."""
@@ -88,11 +99,8 @@ def test_words_of_plots_can_be_read(page, width, height):
     assert [(name, size) for name, _, size in page.evaluate(SHOWN) if round(size) < 11] == []
 
 
-@pytest.mark.chapters
-@pytest.mark.kinds(*PLAYING)
+@pytest.mark.only(*PLAYING)
 def test_on_a_phone_the_first_button_is_on_the_first_screen(page):
-    if page.path.stem not in PLAYING:
-        pytest.skip("it has no such button")
     resize(page, *SCREENS[0])
     [[_, top, _, height], *_] = boxes(page.locator(BUTTON))
     assert 0 < top < top + height <= 844

@@ -138,9 +138,6 @@ def test_what_cannot_move_shows_its_first_picture_and_its_words(window, missing)
     assert all("newer browser" in demo["said"] for demo in shown)
 
 
-# ---- Pages made by Sphinx, search, and the web ----
-
-
 def test_a_slider_restyles_its_own_demo(chromium, offline):
     """A rule for what has a demo (`:has`) may not make the browser restyle the whole page."""
     page = open_url(offline, CHAPTER["10_offline"].as_uri())
@@ -153,6 +150,9 @@ def test_a_slider_restyles_its_own_demo(chromium, offline):
     everything = page.evaluate("() => document.querySelectorAll('*').length")
     assert 0 < max(restyled) < everything / 5
     page.close()
+
+
+# ---- Pages made by Sphinx, search, and the web ----
 
 
 def test_a_line_of_the_ledger_opens_its_row(offline):

@@ -7,12 +7,11 @@ import pytest
 
 from book.figures import thread
 from page.arm.live import PHOTO_1
-from tests.pages import BUILT, CHAPTERS, above_sections, open_url
+from tests.pages import BUILT, NUMBERED, above_sections, open_url
 from vmc_lib.show.packed import unpack_bytes
 
 pytestmark = pytest.mark.browser
 BOOK = BUILT / "book"
-NUMBERED = [path for path in CHAPTERS if path.stem[:2].isdigit()]
 each_page = pytest.mark.parametrize(
     "path", [*NUMBERED, BOOK / "epilogue.html"], ids=lambda path: path.stem
 )
