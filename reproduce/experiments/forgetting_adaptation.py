@@ -24,7 +24,7 @@ from reproduce.measures.changed_worlds import (
 from reproduce.people import MEASUREMENTS, MISSES
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.cerebellum.adaptation import Adaptation
-from vmc_lib.motor.execution import execute
+from vmc_lib.motor.execution import execute, rotate
 from vmc_lib.motor.planning import plan
 from vmc_lib.motor.templates import START, load
 
@@ -62,12 +62,6 @@ class ForgettingAdaptation(Adaptation):
         self.purkinje = (1 - self.forgets) * self.purkinje
 
 
-def turn(points, angle):
-    """Plane positions (…, 2) turned about `HOME` by an angle, rad, anticlockwise."""
-    c, s = np.cos(angle), np.sin(angle)
-    return (points - HOME) @ np.array([[c, s], [-s, c]]) + HOME
-
-
 def targets(directions=DIRECTIONS):
     """Places (n, 2), m, at `DISTANCE` from `HOME`."""
     return HOME + DISTANCE * np.stack([np.cos(directions), np.sin(directions)], axis=-1)
@@ -100,7 +94,7 @@ def clamp_angles(learner, plans, cycles=CLAMP):
     def look(cycle, movement):
         if cycle in (SEEN, UNSEEN):
             return movement.endpoint if cycle == SEEN else None
-        return turn(plans.target, cycle)
+        return rotate(plans.target, cycle, HOME)
 
     angles = hand_angles(learner, plans, cycles, look)
     return -np.degrees(angles - angles[0])
@@ -108,8 +102,8 @@ def clamp_angles(learner, plans, cycles=CLAMP):
 
 def rotation_angles(learner, plans, cycles=ROTATION, rebound=REBOUND):
     """`hand_angles` in degrees when what is seen of the hand is turned, then clamped to targets."""
-    angles = hand_angles(learner, plans, cycles, lambda c, movement: turn(movement.endpoint, c))
-    clamped = hand_angles(learner, plans, rebound, lambda c, _: turn(plans.target, c))
+    angles = hand_angles(learner, plans, cycles, lambda c, seen: rotate(seen.endpoint, c, HOME))
+    clamped = hand_angles(learner, plans, rebound, lambda c, _: rotate(plans.target, c, HOME))
     return np.degrees(np.concatenate([angles, clamped]) - angles[0])
 
 

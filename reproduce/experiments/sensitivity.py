@@ -115,14 +115,10 @@ def find_templates(spacing=templates.SPACING, hold=templates.HOLD):
     """A `TemplateSet` found anew on the arm as it now is, of reaches that end where they should."""
     goals = reach_templates.reachable_grid(spacing)
     knots = np.array([reach_templates.find_reach(goal) for goal in goals])
-    past = _template_set(np.clip(inverse_dynamics.spline() @ knots, 0, 1), hold)
+    excitations = np.clip(inverse_dynamics.spline() @ knots, 0, 1)
+    past = templates.simulate_templates(excitations, hold)
     right = norm(past.points - goals) < ASTRAY
     return replace(past, points=past.points[right], excitations=past.excitations[right])
-
-
-def _template_set(excitations, hold):
-    move = partial(templates.reach, hold=hold)
-    return templates.TemplateSet(move(excitations).endpoint, excitations, reach=move)
 
 
 @cache
@@ -173,7 +169,9 @@ def thelen_templates(spacing):
 def thelen_tables(excitations, seed, **size):
     """`calibration.error_ratios` on Thelen's muscle, as printed, for one seed."""
     with changed_arm(of_muscle(THELEN)):
-        return error_ratios(seed, hold=0.0, past=_template_set(excitations, 0.0), **size)
+        return error_ratios(
+            seed, hold=0.0, past=templates.simulate_templates(excitations, 0.0), **size
+        )
 
 
 def make(choices=CHOICES, spacing=templates.SPACING, seeds=MANY, count=20, **size):

@@ -10,6 +10,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
+from vmc_lib.arm.simulate import UNPERTURBED, check_unperturbed
 from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration
 from vmc_lib.cerebellum.online import AimCorrection
 from vmc_lib.motor.execution import execute
@@ -47,11 +48,13 @@ def mass_and_drag(q, velocity):
     return mass, coriolis + VISCOSITY * velocity
 
 
-def reach(torques, _perturbation=None):
+def reach(torques, perturbation=UNPERTURBED):
     """The tip's path over the hold, `hold` (…, n, 2), and its mean, `endpoint`, in m.
 
     Torques (…, T, 2), in N m, move the arm from rest in `START`; the last are then held.
+    ValueError for a perturbation.
     """
+    check_unperturbed(perturbation)
     q, velocity = (np.broadcast_to(x, (*torques.shape[:-2], 2)) for x in (START, np.zeros(2)))
     held, path = round(HOLD / STEP), []
     for step in range(torques.shape[-2] + held):

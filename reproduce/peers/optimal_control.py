@@ -18,7 +18,7 @@ from vmc_lib.arm.kinematics import inverse_kinematics
 from vmc_lib.camera import TABLE
 from vmc_lib.motor.inverse_dynamics import MOVING, SAMPLES, bounded_least_squares, spline
 from vmc_lib.motor.planning import plan
-from vmc_lib.motor.templates import TemplateSet, load, reach
+from vmc_lib.motor.templates import load, reach, simulate_templates
 
 KNOTS = 24  # spline coefficients of each muscle's excitation: with 40 the effort is 0.6 % less
 TARGETS = np.array(list(product((0.03, 0.06, 0.09, 0.12, 0.15), (-0.42, -0.39, -0.36, -0.33))))
@@ -108,7 +108,7 @@ def mix_optima():
 
     Each mixes the four optima that lie 3 cm to its sides, above and below: a square of 6 cm.
     """
-    memories = TemplateSet(reach(optimal_excitations()).endpoint, optimal_excitations())
+    memories = simulate_templates(optimal_excitations())
     corners = INNER[:, None] + [-5, -3, 3, 5]  # `TARGETS` has rows of four
     return plan(TARGETS[INNER], memories, rows=corners)
 

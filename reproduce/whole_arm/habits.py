@@ -16,6 +16,7 @@ from scipy.optimize import least_squares, nnls
 from reproduce import results
 from reproduce.peers.muscle_models import lag
 from reproduce.whole_arm import plant
+from vmc_lib.arm.simulate import UNPERTURBED, check_unperturbed
 from vmc_lib.motor.inverse_dynamics import MOVING, bounded_least_squares, minimum_jerk
 from vmc_lib.motor.templates import TemplateSet
 
@@ -55,8 +56,9 @@ class SynergyMap:
         """The `plant.Motion` that commands (…, T, n) give the arm from rest in `START`."""
         return self.excite(commands @ self.groups.T)
 
-    def excite(self, excitations, _perturbation=None):
-        """The same for the excitations (…, T, 63) of every muscle."""
+    def excite(self, excitations, perturbation=UNPERTURBED):
+        """The same for excitations (…, T, 63) of every muscle; ValueError for a perturbation."""
+        check_unperturbed(perturbation)
         return plant.move(excitations, START, self.groups @ self.rest)
 
     def commands(self, goal):

@@ -175,6 +175,8 @@ def test_wrong_delays_are_refused(few, delays):
     [
         ({"gains": FeedbackGains(gain=np.nan)}, "gain=nan.*finite"),
         ({"noise": np.inf}, "noise of inf"),
+        ({"errors": np.zeros((3, 4, 4))}, r"errors \(3, 4, 4\): give one number, or \(100, "),
+        ({"errors": np.nan}, "errors .* finite"),
         ({"disturbance": push((np.nan, 0), 0.1)}, r"push of \[nan  0.\] N"),
         ({"disturbance": Disturbance(drag=3.0)}, r"drag 3.0 must be a finite \(2, 2\)"),
         ({"disturbance": push((1e5, 0), 0.1)}, "movement 0 blows up: at step 1[0-9]{2} "),
@@ -183,6 +185,26 @@ def test_wrong_delays_are_refused(few, delays):
 def test_what_makes_no_movement_is_refused(few, named, words):
     with pytest.raises(ValueError, match=words):
         simulate_feedback(reference_trajectory(few, 1.0), rng=np.random.default_rng(0), **named)
+
+
+def test_whoever_reads_the_report_reads_its_errors(few):
+    """The law; with a forward model, the model: it predicts from what the eye says."""
+    reference, errors = reference_trajectory(few, 1.0), np.array([0.1, -0.2, 0.3, -0.4])
+    told = []
+
+    def law(_reference_q, _reference_velocity, q, velocity, _gain, _damping):
+        told.append((q, velocity))
+        return np.zeros_like(q)
+
+    def predict(_model, q, velocity, _activations):
+        return law(None, None, q, velocity, None, None), velocity
+
+    gains = FeedbackGains(law=law, delay=0.0)
+    first = reference.q[:, 0] + errors[:2], 0 * reference.q[:, 0] + errors[2:]
+    for senses, model in ((gains, None), (gains._replace(predict=predict), arm_copy())):
+        told.clear()
+        simulate_feedback(reference, senses, model, errors=errors)
+        np.testing.assert_allclose(told[0], first)
 
 
 def test_noise_without_an_rng_is_refused(few):

@@ -28,6 +28,22 @@ def test_templates_end_at_rest_on_their_points(spacing):
     np.testing.assert_array_equal(template_set.points, motion.endpoint)
 
 
+@pytest.mark.parametrize("hold", [0.25, 0.5, 1.0])
+def test_speed_is_the_paths_length_over_the_holds_time(hold):
+    movement = execute(plan([0.15, -0.4], templates.load(hold=hold)))
+    path = movement.motion.hand[-1 - round(1000 * hold) :: templates.EVERY, :2]
+    length = np.linalg.norm(np.diff(path, axis=0), axis=1).sum()
+    assert movement.speed == pytest.approx(length / hold)
+    assert movement.motion.speed == pytest.approx(length / hold)
+
+
+def test_without_a_hold_there_is_no_speed():
+    movement = execute(plan([0.15, -0.4], templates.load(hold=0.0)))
+    for speed in (lambda: movement.speed, lambda: movement.motion.speed):
+        with pytest.raises(ValueError, match="a hold of 0 s: give a longer hold"):
+            speed()
+
+
 def test_mujoco_reaches_the_same_points():
     template_set = templates.load(0.08)
     compiled = templates.reach(template_set.excitations[:4]).hand[:, -1 - HOLD, :2]

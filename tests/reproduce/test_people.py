@@ -9,6 +9,7 @@ from reproduce.measures.changed_worlds import Seen, direction
 from reproduce.measures.reach_statistics import direction_scatter, speed_shape
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.cerebellum.adaptation import Adaptation
+from vmc_lib.motor.execution import rotate
 from vmc_lib.motor.planning import plan
 from vmc_lib.motor.templates import load
 
@@ -56,13 +57,13 @@ def test_without_forgetting_it_is_the_books_learner():
     learner, plans = forgetting.learner_and_plans(forgetting.SHARES[-1], 0)
     ours = Adaptation(learner.trained_correction, load())
     for one in (learner, ours):
-        one.update(plans, lambda _: Seen(forgetting.turn(plans.target, 0.1)))
+        one.update(plans, lambda _: Seen(rotate(plans.target, 0.1, forgetting.HOME)))
     np.testing.assert_allclose(learner.purkinje, ours.purkinje)
 
 
 def test_the_rest_is_kept():
     learner, plans = forgetting.learner_and_plans(0.5, 0.25)
-    learner.update(plans, lambda _: Seen(forgetting.turn(plans.target, 0.1)))
+    learner.update(plans, lambda _: Seen(rotate(plans.target, 0.1, forgetting.HOME)))
     before = learner.purkinje
     learner.forget()
     np.testing.assert_allclose(learner.purkinje, 0.75 * before)
@@ -70,7 +71,7 @@ def test_the_rest_is_kept():
 
 def test_turns_about_home():
     places = forgetting.targets()
-    turned = forgetting.turn(places, 0.2)
+    turned = rotate(places, 0.2, forgetting.HOME)
     was, now = (direction(some, forgetting.HOME) for some in (places, turned))
     np.testing.assert_allclose(now - was, 0.2)
     np.testing.assert_allclose(

@@ -29,7 +29,7 @@ def stages(model, photo):
         "names": lambda: model.recogniser.box_probability(photo.image, regions.boxes),
         "place": lambda: loop.locate(model, photo.image, sight.box, photo.camera),
         "turn and plan": lambda: plan(loop.turn_towards(place)[1], model.template_set).excitations,
-        # anew each time: a plan remembers its own
+        # anew each time: a movement is made once
         "first movement (simulated)": lambda: execute(reach.plan).motion,
         "off-line, published (21 movements)": lambda: algorithm_1(reach.plan),
         "off-line, own (2 movements)": lambda: broyden_calibration(reach.plan),

@@ -38,7 +38,7 @@ def more_templates(spacing):
     goals = reach_templates.reachable_grid(spacing)
     excitations = spline() @ np.array([reach_templates.find_reach(goal) for goal in goals])
     seconds = process_time() - start
-    template_set = templates.TemplateSet(templates.reach(excitations).endpoint, excitations)
+    template_set = templates.simulate_templates(excitations)
     held_out = np.random.default_rng(0).uniform(*ON_THE_TABLE, (200, 2))
     error = 1000 * execute(plan(held_out, template_set)).error.mean()
     return [row("templates", len(goals), error, seconds)]

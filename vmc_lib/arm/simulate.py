@@ -30,6 +30,12 @@ class Perturbation(NamedTuple):
 UNPERTURBED = Perturbation()
 
 
+def check_unperturbed(perturbation: Perturbation) -> None:
+    """Raise ValueError for a load or a field, of an arm that knows none."""
+    if perturbation != UNPERTURBED:
+        raise ValueError(f"this arm knows no {perturbation}: leave it out")
+
+
 @dataclass(frozen=True, eq=False)
 class Motion:
     """Trajectories of a movement, or of a batch; sample t is the state t steps after the start."""

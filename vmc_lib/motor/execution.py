@@ -97,7 +97,7 @@ class Movement:
     @property
     def speed(self) -> np.ndarray:
         """How fast the hand still moves over the hold, on average, (…), m/s."""
-        return mean_speed(self.hold)
+        return mean_speed(self.hold, self.plan.template_set.seconds)
 
     @property
     def stray(self) -> np.ndarray:
@@ -120,11 +120,16 @@ class Movement:
 
 def rotate_about_eye(points: np.ndarray, angle: float) -> np.ndarray:
     """Plane positions (…, 2) rotated about the eye by `angle`, upwards where it is positive."""
+    return rotate(points, angle, EYE)
+
+
+def rotate(points: np.ndarray, angle: float, centre: np.ndarray) -> np.ndarray:
+    """Plane positions (…, 2) rotated about a `centre` (2,) by `angle`, rad, anticlockwise."""
     points, angle = as_numbers("points", points), as_numbers("angle", angle)
     if points.shape[-1:] != EYE.shape or angle.ndim:
         raise ValueError(f"points {points.shape} by {angle}: give (…, 2) in the plane, and radians")
     c, s = np.cos(angle), np.sin(angle)
-    return (points - EYE) @ np.array([[c, s], [-s, c]]) + EYE
+    return (points - centre) @ np.array([[c, s], [-s, c]]) + centre
 
 
 Execute = Callable[[Plan], Movement]  # whatever lets the arm move

@@ -124,6 +124,7 @@ def simulate_feedback(
     gains: FeedbackGains = SIGHT,
     model: Model | None = None,
     disturbance: "Disturbance | None" = None,
+    errors: ArrayLike = 0.0,
     noise: float = 0.0,
     rng: np.random.Generator | None = None,
 ) -> Motion:
@@ -140,6 +141,9 @@ def simulate_feedback(
         one, late sight is taken for the present.
     disturbance : Disturbance, optional
         What pushes the hand.
+    errors : array
+        Of what the eye reports, to be broadcast to (ticks, B, 4): of q in rad, of velocity in
+        rad/s.
     noise : float
         The share of `muscle.noisy`.
     rng : numpy.random.Generator, optional
@@ -154,7 +158,8 @@ def simulate_feedback(
     ------
     ValueError
         When there is noise but no `rng`; a delay is not a whole number of ticks, for the reflex one
-        or more; a gain, the noise or the disturbance is not finite; or a movement blows up.
+        or more; a gain, the noise, an error or the disturbance is not finite; or a movement blows
+        up.
 
     References
     ----------
@@ -202,10 +207,11 @@ def simulate_feedback(
     if not np.isfinite(pushes).all():
         raise ValueError(f"a push of {disturbance.force} N at {disturbance.at} s must be finite")
     push = np.ascontiguousarray(np.swapaxes(pushes, 0, 1))
-    for k in range(0, len(times), TICK):
+    ticks = range(0, len(times), TICK)
+    for k, off in zip(ticks, _sight_errors(errors, len(ticks), len(planned)), strict=True):
         seen, tick = max(k - late, 0), np.arange(k, min(k + TICK, len(times)))
         sent = np.swapaxes(activation[:, seen:k:TICK], 0, 1)
-        here = q[:, seen], velocity[:, seen]
+        here = q[:, seen] + off[:, :2], velocity[:, seen] + off[:, 2:]
         here = gains.predict(model, *here, sent) if model else here
         wanted = feedback_acceleration(gains, target[:, k], target_velocity[:, k], *here)
         sight = excitations_for_acceleration(*here, wanted, planned[:, k]) - planned[:, k]
@@ -291,6 +297,18 @@ def _check_push(disturbance, batch):
             f"a push {force.shape} at {at.shape} of {batch} movements: give one for all, or "
             f"forces ({batch}, 2) and times ({batch}, 1)"
         )
+
+
+def _sight_errors(errors, ticks, batch):
+    """What the eye errs by at each tick, (ticks, batch, 4); ValueError where it cannot be so."""
+    errors, shape = as_numbers("errors", errors), (ticks, batch, 4)
+    try:
+        each = np.broadcast_to(errors, shape)
+    except ValueError:
+        raise ValueError(f"errors {errors.shape}: give one number, or {shape}") from None
+    if not np.isfinite(errors).all():
+        raise ValueError("errors of what the eye reports: give finite numbers")
+    return each
 
 
 def _reflex(gains, q, velocity, reference_length, reference_rate):

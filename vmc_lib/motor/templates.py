@@ -54,12 +54,17 @@ class HeldMotion(Motion):
     @property
     def speed(self) -> np.ndarray:
         """How fast the wrist still moves over the hold, on average, (…), m/s."""
-        return mean_speed(self.hold)
+        return mean_speed(self.hold, self.held * STEP)
 
 
-def mean_speed(hold: np.ndarray) -> np.ndarray:
-    """The mean speed (…), m/s, of what takes the path (…, n, D), m, over the hold."""
-    return np.linalg.norm(np.diff(hold, axis=-2), axis=-1).sum(axis=-1) / HOLD
+def mean_speed(hold: np.ndarray, seconds: float = HOLD) -> np.ndarray:
+    """The mean speed (…), m/s, of what takes the path (…, n, D), m, over a hold of so many seconds.
+
+    ValueError where there is no hold.
+    """
+    if not seconds:
+        raise ValueError("no speed over a hold of 0 s: give a longer hold, as load(hold=0.5)")
+    return np.linalg.norm(np.diff(hold, axis=-2), axis=-1).sum(axis=-1) / seconds
 
 
 def mean_distance(hold: np.ndarray, target: ArrayLike) -> np.ndarray:
@@ -108,7 +113,8 @@ class TemplateSet:
     points: np.ndarray  # (N, 2): where in the arm's plane each reach ended, m
     excitations: np.ndarray  # (N, T, 6), in [0, 1], 1 kHz
     limits: tuple = (0.0, 1.0)  # of a command: no nerve can do otherwise
-    reach: Callable = reach  # commands (…, T, m), perturbation -> a motion with `hold` (…, n, 2)
+    reach: Callable = reach  # commands (…, T, m), perturbation -> a motion with `hold` (…, n, 2) …
+    seconds: float = HOLD  # … of so many seconds
 
     __repr__ = short_repr
 
@@ -123,9 +129,14 @@ def load(spacing: float = SPACING, hold: float = HOLD) -> TemplateSet:
     if spacing not in SPACINGS:
         raise ValueError(f"no templates lie {spacing} m apart; choose one of {SPACINGS}")
     _check_hold(hold)
-    excitations = spline() @ arrays("templates")[key(spacing)].astype(float)
+    return simulate_templates(spline() @ arrays("templates")[key(spacing)].astype(float), hold)
+
+
+def simulate_templates(excitations: np.ndarray, hold: float = HOLD) -> TemplateSet:
+    """The `TemplateSet` of our arm's reaches by excitations (N, T, 6), each with a `hold` (s)."""
     move = partial(reach, hold=hold)
-    return TemplateSet(read_only(move(excitations).endpoint), read_only(excitations), reach=move)
+    points = read_only(move(excitations).endpoint)
+    return TemplateSet(points, read_only(excitations), reach=move, seconds=hold)
 
 
 def key(spacing: float) -> str:

@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 
 from reproduce.measures import second_plant as plant
+from vmc_lib.arm.simulate import Perturbation
 from vmc_lib.cerebellum.offline import broyden_calibration
+from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import draw_targets, plan
 
 
@@ -20,6 +22,12 @@ def test_a_posture_puts_the_tip_where_it_should():
 def test_many_trials_of_many_movements_move_as_each_alone(past):
     torques = past.excitations[:6].reshape(2, 3, plant.SAMPLES, 2)
     np.testing.assert_allclose(plant.reach(torques).endpoint.reshape(6, 2), past.points[:6])
+
+
+def test_a_load_that_it_does_not_know_is_refused(past):
+    movement = execute(plan(plant.GOALS[0], past), Perturbation(load=1.0))
+    with pytest.raises(ValueError, match=r"knows no Perturbation.*load=1\.0"):
+        _ = movement.error
 
 
 def test_kinetic_energy_is_kept_without_friction(monkeypatch):
