@@ -28,7 +28,6 @@ from vmc_lib.motor.execution import execute
 from vmc_lib.motor.feedback import (
     SIGHT,
     TICK,
-    proportional_derivative,
     reference_trajectory,
     simulate_feedback,
 )
@@ -88,17 +87,10 @@ def habit_paths(plans, luck, share=NOISE):
 
 def feedback_paths(plans, gain, damping, luck, share=NOISE, delay=DELAY, model=None, gains=SIGHT):
     """The same by chapter 12's feedback, whose sight errs; gain and damping one, or (B, 1)."""
-    errors = iter(luck.errors)
-
-    def law(reference_q, reference_velocity, q, velocity, gain, damping):
-        off = next(errors)
-        seen = q + off[:, :2], velocity + off[:, 2:]
-        return proportional_derivative(reference_q, reference_velocity, *seen, gain, damping)
-
-    gains = gains._replace(gain=gain, damping=damping, delay=delay, law=law)
+    gains = gains._replace(gain=gain, damping=damping, delay=delay)
     rng = np.random.default_rng(luck.seed)
     reference = reference_trajectory(plans, SECONDS)
-    motion = simulate_feedback(reference, gains, model, noise=share, rng=rng)
+    motion = simulate_feedback(reference, gains, model, errors=luck.errors, noise=share, rng=rng)
     return motion.hand[:, ::TICK, :2], motion.activation[:, ::TICK]
 
 
