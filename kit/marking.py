@@ -10,7 +10,7 @@ from vmc_lib.grading import NOT_YET, RIGHT, UNREAD
 from vmc_lib.show.figures import inline
 
 RIGHT_MARK, WORDS, KNOWN = "right", "in words: for you to read", "a known mistake: "
-TOO_LONG = "ran longer than a minute"
+TOO_LONG = "ran longer than {} s"
 LONGEST = 500  # characters of an error
 
 

@@ -59,7 +59,7 @@ def marks(chapter, submission, cell_limit=CELL, limit=NOTEBOOK):
         slow |= _interrupted(cell)  # this one or one above it, since the last check
         if label and results[label] != RIGHT_MARK:  # of two copies, one that is right will do
             mark = mark_of(cell.outputs, known.get(label, ()))
-            mark = TOO_LONG if slow and not points(mark) else mark
+            mark = TOO_LONG.format(cell_limit) if slow and not points(mark) else mark
             results[label] = mark if label not in gone or points(mark) else NO_CELL
         slow = slow and not label
     return results

@@ -41,7 +41,7 @@ def deck(title, chapters, read, runs, plan):
         "In class": _in_class(in_class, chapters),
         "Predict and drag": [],
         "One equation": _on_the_board(board, chapters),
-        "Break": _timed([_break(runs)], fixed["Break"]),
+        "Break": _timed([_break(runs, fixed["Break"])], fixed["Break"]),
         "One cell": [_cell(line, chapters)],
         "Quiz": _timed(_quiz([chapters[name].quiz for name in read]), fixed["Quiz"]),
         "Next": _timed([_next([chapters[name].recap for name in read], last)], fixed["Next"]),
@@ -143,9 +143,9 @@ def _cell(item, chapters):
     return slide
 
 
-def _break(runs):
+def _break(runs, seconds):
     [item] = (item for item in runs.select("li") if "Break" in item.strong.get_text())
-    return Slide(["<h2>Break</h2>", "<p>Five minutes.</p>"], [copy(item)])
+    return Slide(["<h2>Break</h2>", f"<p>{seconds // MINUTE} minutes.</p>"], [copy(item)])
 
 
 def _quiz(quizzes):

@@ -103,8 +103,12 @@ const launch = () => {
     return ask({ files: vmcPythonFiles });
   };
   const loaded = {};
-  const ready = (script) => (loaded[script] ??= Promise.race([ended, load(script)]));
-  ready("python.js").catch(stop); // so that the next one tries again
+  const failed = (error) => {
+    stop(error); // so that the next one tries again
+    throw error;
+  };
+  const ready = (script) => (loaded[script] ??= Promise.race([ended, load(script)]).catch(failed));
+  ready("python.js").catch(() => {}); // whoever asks is told
   return { ask, end, ready };
 };
 const here = (script) => self.vmcPythonFiles?.[HOLDS[script]];

@@ -114,8 +114,8 @@ def make(exam, folder=photos.FOLDER, trainings=TRAININGS, seeds=NETWORK_SEEDS, p
     found = {}
     for level in photos.LEVELS:
         shots = photos.load(level, "test", exam)
-        known = {photo.name for photo in photos.load(level, "test")}
-        if known & {photo.name for photo in shots}:
+        shipped = {photo.name for photo in photos.load(level, "test")}
+        if known := shipped & {photo.name for photo in shots}:
             raise ValueError(f"{exam} holds photos that ship, no exam: delete {sorted(known)}")
         fresh = [shot for shot in shots if shot.seed[-1] >= FRESH]
         rows = kernel_counts(level, "context", KERNELS, fresh, folder, trainings)

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 from joblib import parallel_config
+from joblib.externals.loky import get_reusable_executor
 
 from reproduce import ledger, results
 from reproduce.experiments import (
@@ -79,10 +80,15 @@ class Step:
         return getattr(self.make, "func", self.make)
 
     def inputs(self):
-        """Every file that the step depends on: what it reads, and the code that it can run."""
+        """Every file that the step depends on: what it reads, and the code that it can run.
+
+        ValueError where it reads neither a step's file nor one that is there.
+        """
         makes = {step.name: step.file for step in STEPS}
-        places = [makes.get(name, ROOT / name) for name in self.reads.split()]
-        within = (file for place in places for file in (place, *place.rglob("*")))
+        places = {name: makes.get(name, ROOT / name) for name in self.reads.split()}
+        if lost := [name for name in places if name not in makes and not places[name].exists()]:
+            raise ValueError(f"{self.name} reads {lost}: name steps, or files and folders here")
+        within = (file for place in places.values() for file in (place, *place.rglob("*")))
         found = {file for file in within if file.suffix in DATA}
         own = Path(getsourcefile(self.function))
         return found | {own} | imported_files(own.read_text(encoding="utf-8"))
@@ -96,6 +102,7 @@ class Step:
 def _make_file(step):
     with parallel_config(n_jobs=-1):
         write(step.file, step.make)
+    get_reusable_executor().shutdown()  # idle workers would keep this process for five minutes
 
 
 def write(file, make):
