@@ -61,7 +61,7 @@ def run_experiments(
     """`Errors` of a learner that practises so many `movements` in every experiment.
 
     They are the same movements each time, as we read Fig. 12, or new ones where `fresh`. What
-    `lesson` names is passed to the learner's `update`: `rule=quick` saves Algorithm 1's time.
+    `lesson` names is passed to the learner's `update`: `rule=coarse_algorithm_1` saves time.
     """
     unseen = plan(draw_targets(template_set, held_out, rng), template_set)
     first = practised = plan(draw_targets(template_set, movements, rng), template_set)

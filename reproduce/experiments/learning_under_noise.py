@@ -11,7 +11,7 @@ from reproduce.experiments.controller_comparison import (
     templates_with_noise,
     train_controller,
 )
-from reproduce.experiments.planning_ablation import RULES
+from reproduce.experiments.planning_ablation import repeat_best_trials
 from reproduce.peers.adaptive_controllers import RIDGE, DeltaRuleCells
 from reproduce.peers.motor_noise import noise_share_for, with_noise
 from vmc_lib.cerebellum.online import AimCorrection, GranuleCells, WeightCorrection
@@ -51,18 +51,15 @@ def compare_calibration(noise, seed, count):
     """The off-line part of `compare_learners`, for so many targets."""
     rng = np.random.default_rng((seed, 3))
     habit = plan(draw_targets(load(), count, rng), templates_with_noise(noise, (seed, 4)))
-    once = cache(execute)  # each plan meets its noise once
     many = execute(habit.with_weights(np.tile(habit.weights, (20, 1, 1))))
     miss, ends = many.error.mean(), many.endpoint
     left = {
         "habit": 1000 * miss,
         "nothing but noise": norm(ends - ends.mean(axis=0)).mean() / miss,
     }
-    for name, rule in RULES.items():
-        trials = rule(habit, execute=once)
-        again = execute(habit.with_weights(np.tile(trials.best_weights, (20, 1, 1))))
-        left[f"{name}, best trial"] = trials.error.min(axis=0).mean() / miss
-        left[f"{name}, again"] = again.error.mean() / miss
+    for name, (best, again) in repeat_best_trials(habit, 20, cache(execute)).items():
+        left[f"{name}, best trial"] = best.mean() / miss
+        left[f"{name}, again"] = again.mean() / miss
     return left
 
 

@@ -16,7 +16,6 @@ from reproduce.measures import gabor, texture_tuning
 from reproduce.measures.edges import edge_numbers
 from vmc_lib import photos
 from vmc_lib.what.cdbn import CDBN, N_W, K, crops_of
-from vmc_lib.what.crbm import CRBM
 from vmc_lib.what.crops import whiten
 
 SEEDS, PATCHES, EVERY = range(3), 20_000, 8  # as many seeds as trainings in Fig. 7
@@ -72,17 +71,17 @@ SECOND = {
 }
 
 
-def with_filters(crbm, W):
+def with_scaled_filters(crbm, W):
     """The CRBM with other filters, as strong as its own."""
     W = np.float32(W.reshape(crbm.W.shape) * crbm.W.std() / W.std())
-    return CRBM(W, crbm.b, crbm.a, crbm.c)
+    return crbm.with_filters(W)
 
 
 def first_layer(name, folder=photos.FOLDER, seeds=SEEDS, **size):
-    """What Figs. 7 and 8 measure of a rival of FIRST: six numbers.
+    """What Figs. 7 and 8 and V1 measure of a rival of FIRST: eight numbers.
 
-    The means of `edge_numbers`; then how much better hidden and pooled units are tuned than with
-    the same filters shuffled.
+    The means of `edge_numbers`; how much better hidden and pooled units are tuned than with the
+    same filters shuffled; the mean bandwidth, octaves, and the median one of direction, degrees.
     """
     layers = [
         FIRST[name](whitened_patches(np.random.default_rng(seed), folder, **size), seed)
@@ -90,16 +89,18 @@ def first_layer(name, folder=photos.FOLDER, seeds=SEEDS, **size):
     ]
     shaped = np.reshape(layers, (len(layers), K, N_W, N_W))
     crops, shuttlecock = crops_of(photos.load("rig", "validation", folder))
-    other = with_filters(CDBN.load().first, shaped[0])
+    other = with_scaled_filters(CDBN.load().first, shaped[0])
     tuned = texture_tuning.over_shuffled(other, whiten(crops[shuttlecock])).mean(axis=1)
-    return [float(np.mean(values)) for values in (*edge_numbers(shaped), *tuned)]
+    octaves, widths = np.transpose([gabor.bandwidths(W) for W in np.concatenate(shaped)])
+    found = *edge_numbers(shaped), *tuned, octaves
+    return [*(float(np.mean(values)) for values in found), float(np.median(widths))]
 
 
 def second_layer(name, seeds=SEEDS):
     """How well Gabor functions fit the projected filters of a rival of SECOND, the mean."""
     network = CDBN.load()
     others = [SECOND[name](network.second.W, np.random.default_rng(seed)) for seed in seeds]
-    layers = [replace(network, second=with_filters(network.second, W)) for W in others]
+    layers = [replace(network, second=with_scaled_filters(network.second, W)) for W in others]
     fits = [gabor.best_gabor(W)[1] for layer in layers for W in layer.projected_filters()]
     return float(np.mean(fits))
 

@@ -44,19 +44,27 @@ def reach_errors(targets, weights, correction, spacing):
 def repeated_errors(habit, repeats=4):
     """Errors (n,) of a noisy plan: as planned, of each rule's best trial, and of that trial again.
 
-    The last is a mean over repeats. A plan meets its noise once: to give its commands again, make
-    it again.
+    The last is a mean over repeats.
     """
-    run = cache(execute)
-    trials = {name: rule(habit, execute=run) for name, rule in RULES.items()}
-    errors = {"planned": 1000 * run(habit).error}
-    for name, rule_trials in trials.items():
-        again = [
-            execute(habit.with_weights(rule_trials.best_weights)).error for _ in range(repeats)
-        ]
-        errors[f"{name}, best trial"] = 1000 * rule_trials.error.min(axis=0)
-        errors[f"{name}, again"] = 1000 * np.mean(again, axis=0)
+    once = cache(execute)
+    errors = {"planned": 1000 * once(habit).error}
+    for name, (best, again) in repeat_best_trials(habit, repeats, once).items():
+        errors[f"{name}, best trial"] = 1000 * best
+        errors[f"{name}, again"] = 1000 * again.mean(axis=0)
     return errors
+
+
+def repeat_best_trials(habit, repeats, once):
+    """By rule: the errors, m, of its best trial (n,), and of the same commands again (repeats, n).
+
+    A plan meets its noise `once`: to give its commands again, make it again.
+    """
+    found = {}
+    for name, rule in RULES.items():
+        trials = rule(habit, execute=once)
+        again = execute(habit.with_weights(np.tile(trials.best_weights, (repeats, 1, 1))))
+        found[name] = trials.error.min(axis=0), again.error
+    return found
 
 
 def on_noisy_arm(plans, percent):

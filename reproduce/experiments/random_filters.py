@@ -15,7 +15,6 @@ from reproduce.results import arrays
 from reproduce.training.name_classifier import fit_name_classifier
 from vmc_lib import photos
 from vmc_lib.what.cdbn import CDBN, crops_of
-from vmc_lib.what.crbm import CRBM
 from vmc_lib.what.crops import whiten
 from vmc_lib.what.recogniser import read_outs
 
@@ -32,7 +31,7 @@ def random_network(network, pictures, rng):
 
     def machine(crbm):
         W = rng.normal(scale=crbm.W.std(), size=crbm.W.shape).astype(np.float32)
-        return CRBM(W, crbm.b, crbm.a, crbm.c)
+        return crbm.with_filters(W)
 
     first, second = map(machine, (network.first, network.second))
     p1 = first.pooled(first.trim(pictures))
@@ -40,16 +39,20 @@ def random_network(network, pictures, rng):
     return replace(network, first=first, second=second, mean=mean, spread=spread)
 
 
+def draw_network(draw, folder=photos.FOLDER):
+    """The `random_network` of this number."""
+    crops, positive = crops_of(photos.load("rig", "train", folder)[:LESSONS])
+    rng = np.random.default_rng(draw)
+    return random_network(CDBN.load(), whiten(crops[positive]), rng)
+
+
 def answers(draw, folder=photos.FOLDER, levels=LEVELS):
     """Probabilities (crops,) that the test photos' crops are shuttlecocks: "level/read-out" -> p.
 
     Of the network that ships (LEARNT), or of a random one, by its number.
     """
-    network, found = CDBN.load(), {}
-    if draw != LEARNT:
-        crops, positive = crops_of(photos.load("rig", "train", folder)[:LESSONS])
-        rng = np.random.default_rng(draw)
-        network = random_network(network, whiten(crops[positive]), rng)
+    network = CDBN.load() if draw == LEARNT else draw_network(draw, folder)
+    found = {}
     for level in levels:
         jittered, y = training_crops(folder)[level]
         x = read_outs(network, jittered)

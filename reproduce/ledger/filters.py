@@ -19,7 +19,6 @@ from reproduce.measures import edges, gabor, texture_tuning
 from reproduce.measures.texture_tuning import shuffle
 from vmc_lib import photos
 from vmc_lib.what import cdbn
-from vmc_lib.what.crbm import CRBM
 from vmc_lib.what.crops import whiten
 
 # Of macaque cells, full widths at half height: the median (De Valois, Yund & Hepler 1982,
@@ -93,7 +92,7 @@ def _v1():
     found = quantile_test(widths).confidence_interval()
     name = "median bandwidth of direction (°), the paper's claim being the macaque's"
     ends = {"low": found.low, "high": found.high, "rounding": 5}
-    ends["sample"] = f"{len(widths)} filters"
+    ends |= {"sample": f"{len(widths)} filters", "nulls": first_layer_nulls(7)}
     least, most = OCTAVES
     return [
         Quantity(name, MACAQUE, np.median(widths), **ends),
@@ -103,6 +102,7 @@ def _v1():
             octaves,
             "filters",
             rounding=(most - least) / 2,
+            nulls=first_layer_nulls(6),
         ),
     ]
 
@@ -198,7 +198,7 @@ def gabor_correlations(kind):
     if kind == "W2 shuffled":
         machine = network.second
         W = shuffle(machine.W, np.random.default_rng(0))
-        network = replace(network, second=CRBM(W, machine.b, machine.a, machine.c))
+        network = replace(network, second=machine.with_filters(W))
     some = network.first.W[:, 0] if kind == "W1" else network.projected_filters()
     return np.array([gabor.best_gabor(W)[1] for W in some])
 

@@ -47,7 +47,7 @@ def published_scores():
 
 @cache
 def level_scores(level):
-    """`level_scores` on the test photos of a level, run once."""
+    """`loop_evaluation.evaluate` of the test photos of a level, run once."""
     return trials.evaluate(level)
 
 

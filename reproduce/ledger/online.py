@@ -187,8 +187,10 @@ ROWS = (
         f"teach it to leave {{q[error after over planned, {UNCORRECTED}].obtained:.2f}} of others, "
         f"three tries of Eq. 6–7 {{q[error after over planned, {THREE_TRIES}].obtained:.2f}}, "
         f"all 21 {{q[{NEW}].obtained:.2f}}. "
-        "Algorithm 2 is taken as printed: w' is learned for "
-        "the place p_a' that it reached. Learned for the target instead (the other reading), it "
+        "Of Algorithm 2 step 5 is taken as printed: w' is learned for the place p_a' that it "
+        "reached. Eq. 8's weights and places after off-line calibration we read as the plan's, and "
+        "what is learned as the change from Eq. 5's weights at p_a'. Learned for the target "
+        "instead (the other reading), it "
         "leaves {q[error after over planned, the other reading]"
         ".obtained:.2f}. With OpenSim's own muscle, Thelen's, "
         f"{{q[error after over planned, {sensitivity.ON_THELEN}].in_sample:.2f}} is left of those "
@@ -244,8 +246,9 @@ ROWS = (
         "Learning where to aim, for movements never practised.",
         "11_online",
         _own_table_6,
-        note=OVER_THE_HOLD + " An arm without noise: where the hand wavers by 2 mm, as a person's "
-        "does, "
+        note=OVER_THE_HOLD + " What learns matters little: after 25 movements most of the learners "
+        "that the chapter compares do as well as granule cells. An arm without noise: where the "
+        "hand wavers by 2 mm, as a person's does, "
         f"{{q[error over planned, own online, 250 movements, held-out, {WAVERS}].obtained:.2f}} is "
         "left, beside Algorithm 2's "
         f"{{q[error over planned, Algorithm 2, 250 movements, held-out, {WAVERS}].obtained:.2f}}.",

@@ -8,6 +8,7 @@ from reproduce.results import arrays
 from vmc_lib import photos
 
 KERNELS = {"linear": "linear", "RBF": "rbf", "polynomial": "poly", "Gaussian": "sigmoid"}
+GUESSED = "Gaussian"  # which is another name for RBF: we do not know what the paper trained
 MEASURES = ("precision", "recall")
 SECOND_HUNDRED = "On a hundred fresh photos that had no part in any choice."
 CLUSTERED = (
@@ -29,7 +30,8 @@ def _table_1():
     for name, kernel in KERNELS.items():
         rows, learnt = held_out[kernel], in_sample[kernel].mean(axis=0)
         how = {"unit": "regions", "effects": load_effects()["published"][kernel]}
-        quantities += _trained(name, paper.TABLE_1[name], rows, learnt, wanted, of, **how)
+        claimed = None if name == GUESSED else paper.TABLE_1[name]
+        quantities += _trained(name, claimed, rows, learnt, wanted, of, **how)
     return quantities
 
 
@@ -125,8 +127,7 @@ def _table_2():
         how = paper.TABLE_2, rows, in_sample, objects, paper.OBJECTS
         quantities += _trained(f"published, {reading}", *how)
     limit = "recall that the candidates allow"
-    of = paper.OBJECTS
-    return [*quantities, share(limit, paper.TABLE_2[1], right, objects, of, "objects", **EXACT)]
+    return [*quantities, share(limit, None, right, objects, unit="objects")]
 
 
 ROWS = (
@@ -140,8 +141,8 @@ ROWS = (
         "others'. A margin, the box's size, and shaken and mirrored examples (context) help: see "
         "*Ours, Table I*.",
         note="C and γ of each kernel were chosen on the rig's validation photos, from one grid; "
-        "that crops have 16 × 16 pixels, from -1 to 1, is ours. “Gaussian” beside “RBF” is "
-        "unclear; we read it as the fourth kernel of LibSVM, the sigmoid. "
+        "that crops have 16 × 16 pixels, from -1 to 1, is ours. “Gaussian” and “RBF” name one "
+        "kernel: for “Gaussian” we trained the fourth of LibSVM, the sigmoid, and compare nothing. "
         + SECOND_HUNDRED
         + CLUSTERED,
     ),

@@ -11,7 +11,7 @@ SAMPLES, NOISE = 8_000, 0.3
 def exact_samples(crbm, states, n, rng):
     """Samples (n, 1, height, width) of a CRBM's own distribution; `states` are all its h."""
     means = crbm.visible_mean(states)
-    weights = means.square().sum((1, 2, 3)) / 2 + crbm.b * states.sum((1, 2, 3))
+    weights = means.square().sum((1, 2, 3)) / 2 + states.sum((2, 3)) @ crbm.b
     some = torch.multinomial(torch.softmax(weights, 0), n, replacement=True, generator=rng)
     return means[some] + torch.randn(n, *means.shape[1:], generator=rng)
 

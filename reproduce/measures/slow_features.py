@@ -22,12 +22,12 @@ def drift(photo, box, rng):
     return np.array([crop(photo.image, at) for at in np.hstack([centres - half, centres + half])])
 
 
-def films(split, rng):
+def films(split, rng, cdbn=None):
     """P2's means over quarters in each object's film, (n, VIEWS, d), and which n are shuttlecocks.
 
-    Of the first SHOTS photos of a split of the rig.
+    Of the first SHOTS photos of a split of the rig; by the network that ships, or another.
     """
-    cdbn, shots = CDBN.load(), photos.load("rig", split)[:SHOTS]
+    cdbn, shots = cdbn or CDBN.load(), photos.load("rig", split)[:SHOTS]
     things = [(shot, *pair) for shot in shots for pair in shot.boxes.items()]
     features = [read_outs(cdbn, drift(shot, box, rng))["P2"] for shot, _, box in things]
     return np.array(features), np.array([name == "shuttlecock" for _, name, _ in things])
@@ -63,15 +63,15 @@ def most_varying(films):
     return np.linalg.svd(flat - flat.mean(axis=0), full_matrices=False)[2].T
 
 
-def steadiest_right():
+def steadiest_right(cdbn=None):
     """`views_right` in test films of the steadiest unit, (n,); after shuffled lessons; of PCA.
 
     It learns from the films of training photos; then, again and again, from the same views in
     another order, (SHUFFLES, n). The last, (n,), is of the unit that varies most in them.
     """
     rng = np.random.default_rng(0)
-    lived, _ = films("train", rng)
-    new, shuttlecock = films("test", rng)
+    lived, _ = films("train", rng, cdbn)
+    new, shuttlecock = films("test", rng, cdbn)
     flat, shape = lived.reshape(-1, lived.shape[-1]), lived.shape
     lessons = [lived, *(rng.permutation(flat).reshape(shape) for _ in range(SHUFFLES))]
     learnt = [*map(slowest, lessons), most_varying(lived)]

@@ -4,7 +4,6 @@ import numpy as np
 from scipy.ndimage import uniform_filter
 
 from reproduce.measures.gabor import direction_vector
-from vmc_lib.what.crbm import CRBM
 
 ORDERS = 8  # of a filter's numbers
 
@@ -52,7 +51,7 @@ def over_shuffled(crbm, pictures):
     Filters in any order are tuned a little, for each has some direction.
     """
     rng = np.random.default_rng(0)
-    others = (CRBM(shuffle(crbm.W, rng), crbm.b, crbm.a, crbm.c) for _ in range(ORDERS))
+    others = (crbm.with_filters(shuffle(crbm.W, rng)) for _ in range(ORDERS))
     theirs = np.array([tuning(other, pictures).mean(axis=1) for other in others])
     return tuning(crbm, pictures).mean(axis=1)[:, None] - theirs.T
 

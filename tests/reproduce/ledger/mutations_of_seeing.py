@@ -115,8 +115,8 @@ def mixes_up_the_films(patch):
     few_films(patch)
     real = slow_features.films
 
-    def mixed(split, rng):
-        features, kind = real(split, rng)
+    def mixed(split, rng, cdbn=None):
+        features, kind = real(split, rng, cdbn)
         flat = features.reshape(-1, features.shape[-1])
         new = features if split == "test" else rng.permutation(flat).reshape(features.shape)
         return new, kind
@@ -153,7 +153,7 @@ def has_first_filters(name):
         layer = np.reshape(other_filters.FIRST[name](patches, 0), (10, 8, 8))
         patch.setattr(filters, "first_layers", lambda: np.repeat(layer[None], 3, axis=0))
         network = cdbn.CDBN.load()
-        other = replace(network, first=other_filters.with_filters(network.first, layer))
+        other = replace(network, first=other_filters.with_scaled_filters(network.first, layer))
         patch.setattr(filters.cdbn.CDBN, "load", lambda: other)
 
     mutate.__name__ = f"has_first_filters_of_{name}"

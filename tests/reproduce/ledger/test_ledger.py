@@ -23,8 +23,13 @@ from reproduce.ledger.entry import (
 from reproduce.pipeline import smoke_run
 from reproduce.pipeline.stored import RESTS_ON
 from vmc_lib import data
+from vmc_lib.cerebellum.offline import broyden_calibration
+from vmc_lib.motor.planning import draw_targets, plan
+from vmc_lib.motor.templates import load
 from vmc_lib.photos import LEVELS
+from vmc_lib.statistics import t_interval
 
+TIME = "III, Block 1-2, time"
 STORED = {entry["where"]: entry for entry in ledger.load()["rows"]}
 NUMBERS = [q for entry in STORED.values() for q in entry["quantities"]]
 
@@ -86,7 +91,7 @@ def test_every_number_with_an_interval_says_what_it_was_measured_on():
 
 def _row(row):
     """A row as a case: those that take long wait for the audit."""
-    long = row.where in ("V, robots", "Table V", "Fig. 1", "Fig. 7", "Fig. 8", "III, Block 3")
+    long = row.where in ("V, robots", "Table V", "Fig. 1", "Fig. 7", "Fig. 8", "III, Block 3", TIME)
     return pytest.param(row, marks=[pytest.mark.audit] * long, id=row.where)
 
 
@@ -192,3 +197,18 @@ def test_a_mark_is_ours_over_the_papers_or_on_a_scale_of_its_own():
         assert min(ends) <= mark.value <= max(ends)
         assert q["claimed"] or max(map(abs, ends)) in (0, pytest.approx(1))
         assert q["claimed"] or mark.value * q["obtained"] >= 0
+
+
+@pytest.mark.audit
+def test_broydens_rule_counts_at_two_trials_and_hardly_at_four():
+    """As *Ours, Table V* says of the pseudo-inverse: six draws of 25 movements."""
+    left, past = {True: [], False: []}, load()
+    for seed in range(6):
+        habit = plan(draw_targets(past, 25, np.random.default_rng(seed)), past)
+        for broyden, draws in left.items():
+            error = broyden_calibration(habit, 4, broyden=broyden).error
+            best = np.minimum.accumulate(error, axis=0).mean(axis=1)
+            draws.append(best[[2, 4]] / best[0])
+    (two, four), (half_two, half_four) = t_interval(np.subtract(left[False], left[True]))
+    assert two > half_two
+    assert abs(four) < half_four
