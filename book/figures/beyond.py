@@ -26,7 +26,7 @@ def miss_histogram(miss):
     median = np.median(miss)
     ax.axvline(median, color="C1")
     ax.set_title(f"median {median:.2g} mm")
-    ax.set(xscale="log", xlabel="miss at the end of the reach (mm)")
+    ax.set(xscale="log", xlabel="miss, mean over the hold (mm)")
     ax.set(ylabel="reaches", ylim=(0, 20), yticks=range(0, 21, 5))
     ax.xaxis.set_major_formatter("{x:g}")
     return fig

@@ -1,4 +1,4 @@
-"""What does the work? Each mechanism of the paper beside its null and the best known."""
+"""What does the work? Each mechanism of the paper beside its nulls and ours."""
 
 import numpy as np
 
@@ -73,7 +73,7 @@ def tries_in_words(reading, tries):
 
 
 def mechanisms():
-    """The mechanism, its nulls, the best known: part of the model -> name -> (draws,).
+    """The mechanism, its nulls, and ours: part of the model -> name -> (draws,).
 
     The miss over that of Eq. 5; and what is left of the planned error, off-line after the paper's
     tries and online after one experiment, for movements never practised.
@@ -86,18 +86,18 @@ def mechanisms():
         "weights: miss over that of Eq. 5": {
             "the paper: Eq. 5": np.ones(1),
             **{f"null: {name}": weights[f"{name}, over Eq. 5"] for name in nulls.WEIGHTS},
-            "best known: Eq. 4 solved exactly": weights[f"{nulls.EXACT}, over Eq. 5"],
+            "ours: Eq. 4 solved exactly": weights[f"{nulls.EXACT}, over Eq. 5"],
         },
         "off-line, 21 tries: error left": {
             "the paper: Eq. 6–7": tried[nulls.PAPER][:, -1],
             **{f"null: {name}": tried[name][:, -1] for name in nulls.NULLS},
             f"the error's direction: {nulls.LINE}": tried[nulls.LINE][:, -1],
-            "best known: Broyden": tried[nulls.OURS][:, -1],
+            "ours: Broyden": tried[nulls.OURS][:, -1],
         },
         "online, new reaches: error left": {
             "the paper: Algorithm 2": taught[f"{nulls.PRINTED}, held-out"][:, 1],
             f"the same, {nulls.BLINDLY_TAUGHT}": taught[f"{nulls.BLINDLY_TAUGHT}, held-out"][:, 1],
             f"null: {nulls.SHUFFLED}": taught[f"{nulls.SHUFFLED}, held-out"][:, 1],
-            "best known: granule cells": own["own online, 25 movements, held-out"],
+            "ours: granule cells": own["own online, 25 movements, held-out"],
         },
     }

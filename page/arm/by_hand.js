@@ -44,7 +44,7 @@ export class ByHand extends Aimed {
   sayMiss() {
     const { tries, planned } = this;
     if (`${tries.at(-1)?.weights}` !== `${planned.weights}`) tries.push(planned); // another rule is no try
-    if (tries.length === 1) return super.sayMiss();
+    if (tries.length === 1) return super.sayMiss(" Move a weight, and let go.");
     const best = Math.min(...tries.map(({ error }) => error));
     this.tell({ tries: `${tries.length - 1}` });
     this.say(`It misses by ${millimetres(planned.error, 1)}; your best of ${tries.length - 1}: ${millimetres(best, 1)}.`);
