@@ -112,6 +112,9 @@ def miss_settings(path):
         yield [json.loads(line[5:]) for line in lines if line.startswith("miss|")]
 
 
+FILLS = "all => all.map((one) => getComputedStyle(one).fill)"
+
+
 def test_the_ruler_shows_the_miss_that_the_panel_tells(offline):
     """In the close-up the ruler is as long as the number says; without it, before the end."""
     page = open_url(offline, (BOOK / "epilogue.html").as_uri())
@@ -125,6 +128,8 @@ def test_the_ruler_shows_the_miss_that_the_panel_tells(offline):
         assert panel.locator("dd").inner_text() == said
         radius = close_up.locator("circle").first.get_attribute("r")
         assert float(radius) == pytest.approx(thread.misses()[motion], abs=1e-3)
+    circle, scale, *_ = close_up.locator("circle, path").evaluate_all(FILLS)
+    assert circle == scale == "none"  # lines, not discs
     page.fill(".vmc-clock input", "0.5")
     assert close_up.is_hidden()
     page.close()
