@@ -10,7 +10,7 @@ export const svmScore = ({ support, weights, bias }, features) =>
   features.reduce((sum, x, i) => sum + x * support[i], 0) * weights[0] + bias[0];
 
 /* Sliding windows over an image: squares a third of a side apart, cut at its edges. */
-export const windowGrid = ({ width, height }, sides) =>
+const windowGrid = ({ width, height }, sides) =>
   sides.flatMap((side) => {
     const starts = (size) => {
       const count = Math.ceil((size + 1 - (2 / 3) * side) / (side / 3));

@@ -19,7 +19,7 @@ from reproduce.experiments.offline_calibration import (
     trials_with_load,
 )
 from reproduce.measures.changed_worlds import block_errors
-from reproduce.peers.motor_noise import PERSON, endpoint_deviation, with_noise
+from reproduce.peers.motor_noise import PERSON_MM, endpoint_deviation, with_noise
 from vmc_lib.cerebellum.offline import broyden_calibration
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import draw_targets, norm, plan
@@ -30,13 +30,13 @@ ROUNDS, WITH_LOAD, WORLDS = "rounds", "with a load", "changed worlds"
 CALM, NOISY = "calm", "a person's noise"
 KEPT = {True: "only if it is better", False: "always"}  # what a round of Algorithm 1 finds
 GUARDED = {True: "guards", False: "no guards"}
-WHOLE_ARM_SHARE = 0.0077  # of each command: so the finger scatters by `PERSON` mm, about
+WHOLE_ARM_SHARE = 0.0077  # of each command: so the finger scatters by `PERSON_MM` mm, about
 WHOLE_ARM_SHARES = {CALM: 0, NOISY: WHOLE_ARM_SHARE}
 
 
 def person_share():
-    """The share of each command by which it wavers where the hand scatters by `PERSON` mm."""
-    return calibration.load_results("unsteady")[f"{PERSON} mm"]["noise"][0]
+    """The share of each command by which it wavers where the hand scatters by `PERSON_MM` mm."""
+    return calibration.load_results("unsteady")[f"{PERSON_MM} mm"]["noise"][0]
 
 
 def templates_of_person(stream, noise=NOISY):

@@ -13,7 +13,6 @@ from vmc_lib import photos
 from vmc_lib.what.cdbn import CDBN, N_W, crops_of
 from vmc_lib.what.crops import whiten
 
-TAUGHT_BY = ("shuttlecocks", "cups")
 SEEDS, PATCHES, EVERY = range(6), 5000, 4
 
 
@@ -27,7 +26,7 @@ def preference(answers, shuttlecock):
 
 
 def preferences(seed, folder=photos.FOLDER, patches=PATCHES, every=EVERY):
-    """Mean `preference` on the rig's validation photos of P² taught by each of TAUGHT_BY, (2,)."""
+    """Mean `preference` on the rig's validation photos of P² taught by either thing, (2,)."""
     from reproduce.training.cdbn import SECOND, train_crbm  # with torch, slow to load
     from vmc_lib.what.learning import Learner
 

@@ -31,7 +31,7 @@ from reproduce.ledger.entry import (
 )
 from reproduce.measures import second_plant
 from reproduce.one_draw import COUNT
-from reproduce.peers.motor_noise import PERSON
+from reproduce.peers.motor_noise import PERSON_MM
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.cerebellum.offline import algorithm_1
 from vmc_lib.motor import templates
@@ -41,7 +41,7 @@ from vmc_lib.motor.planning import draw_targets, plan
 OFFLINE = {"better": -1, "rounding": paper.ratio_rounding("off-line", "planned")}
 IN_SAMPLE, HELD_OUT = "in-sample", "held-out"
 EXAMPLES = 5  # that Figs. 10 and 11 show
-WAVERS = f"the hand wavers by {PERSON} mm"
+WAVERS = f"the hand wavers by {PERSON_MM} mm"
 FIT_NOTE = "The reading is fitted: which way the error points was chosen by the published ratio. "
 
 
@@ -213,7 +213,7 @@ def own_with_noise():
     """What our rules leave where commands waver as a person's do, (name, draws): see `unsteady`."""
     from reproduce.experiments import learning_under_noise  # scikit-learn comes with it
 
-    found = learning_under_noise.load_results()[f"{PERSON} mm"]
+    found = learning_under_noise.load_results()[f"{PERSON_MM} mm"]
     name = f"{{}}, {WAVERS}"
     return (
         [(name.format(f"off-line, {rule}"), found[f"{rule}, again"]) for rule in RULES],

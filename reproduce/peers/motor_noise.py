@@ -19,7 +19,7 @@ from vmc_lib.motor.planning import draw_targets, exact_weights, plan
 from vmc_lib.motor.templates import HOLD, keep_last, load, reach
 
 KNOTS = 12  # spline coefficients a second: noise wavers about as slowly as commands change
-PERSON = 2  # mm: how far a person's hand scatters at the end of a reach, about
+PERSON_MM = 2  # mm: how far a person's hand scatters at the end of a reach, about
 
 
 @cache

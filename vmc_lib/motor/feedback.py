@@ -174,42 +174,18 @@ def simulate_feedback(
     (1, 1001, 2)
     """
     check_kind("reference", reference, ReferenceTrajectory, "reference_trajectory(plan)")
-    check_kind("gains", gains, FeedbackGains, "SIGHT, or SIGHT._replace(gain=30.0)")
-    if not (model is None or callable(model)):
-        raise ValueError(
-            f"model {short(model)} predicts nothing: give a ForwardModel, or arm_copy()"
-        )
-    if disturbance is not None:
-        check_kind("disturbance", disturbance, Disturbance, "curl(strength), or push(force, at)")
-    if not is_within(noise, 0, np.inf):
-        raise ValueError(f"noise of {short(noise)} times the signal: give a number, 0 or more")
-    if noise and rng is None:
-        raise ValueError(f"noise of {noise} needs an rng; give np.random.default_rng(seed)")
-    for name, each in zip(gains._fields[-2:], gains[-2:], strict=True):
-        check_function(f"gains' {name}", each, "one of the arguments of SIGHT's")
-    delays = all(is_within(each, -np.inf, np.inf) for each in (gains.delay, gains.spinal))
-    if not (delays and all(np.isfinite(as_numbers("gains", each)).all() for each in gains[:-2])):
-        raise ValueError(f"{gains} with noise of {noise}: give finite numbers")
+    _check_senses(gains, model, noise, rng)
     late, spinal = _steps(gains.delay), _steps(gains.spinal, least=TICK)
     target, target_velocity, planned = reference.q, reference.velocity, reference.excitations
     lengths, rates = fibres(*paths(target), target_velocity)
     u, path = np.empty(planned.shape), allocate_trajectory(planned, target[:, 0], 0, planned[:, 0])
     q, velocity, activation = path
-    disturbance = disturbance or Disturbance()
-    if (
-        np.shape(disturbance.drag) != (2, 2)
-        or not np.isfinite(as_numbers("drag", disturbance.drag)).all()
-    ):
-        raise ValueError(f"drag {disturbance.drag} must be a finite (2, 2) matrix in N s / m")
-    times = STEP * np.arange(planned.shape[1])[:, None, None]
-    _check_push(disturbance, len(planned))
-    pushes = disturbance(times, np.zeros((len(times), len(planned), 2)))  # on a hand at rest
-    if not np.isfinite(pushes).all():
-        raise ValueError(f"a push of {disturbance.force} N at {disturbance.at} s must be finite")
-    push = np.ascontiguousarray(np.swapaxes(pushes, 0, 1))
-    ticks = range(0, len(times), TICK)
+    disturbance = Disturbance() if disturbance is None else disturbance
+    push = _push_over_time(disturbance, *planned.shape[:2])
+    steps = planned.shape[1]
+    ticks = range(0, steps, TICK)
     for k, off in zip(ticks, _sight_errors(errors, len(ticks), len(planned)), strict=True):
-        seen, tick = max(k - late, 0), np.arange(k, min(k + TICK, len(times)))
+        seen, tick = max(k - late, 0), np.arange(k, min(k + TICK, steps))
         sent = np.swapaxes(activation[:, seen:k:TICK], 0, 1)
         here = q[:, seen] + off[:, :2], velocity[:, seen] + off[:, 2:]
         here = gains.predict(model, *here, sent) if model else here
@@ -222,6 +198,24 @@ def simulate_feedback(
         step_trajectory(u, path, tick, push=push, drag=disturbance.drag)
         check_sane(q[:, tick + 1], first=tick[0] + 1)  # or the next tick is of what blew up
     return Motion(*path)
+
+
+def _check_senses(gains, model, noise, rng):
+    """Raise ValueError for gains, a model or noise with which nobody can move."""
+    check_kind("gains", gains, FeedbackGains, "SIGHT, or SIGHT._replace(gain=30.0)")
+    if not (model is None or callable(model)):
+        raise ValueError(
+            f"model {short(model)} predicts nothing: give a ForwardModel, or arm_copy()"
+        )
+    if not is_within(noise, 0, np.inf):
+        raise ValueError(f"noise of {short(noise)} times the signal: give a number, 0 or more")
+    if noise and rng is None:
+        raise ValueError(f"noise of {noise} needs an rng; give np.random.default_rng(seed)")
+    for name, each in zip(gains._fields[-2:], gains[-2:], strict=True):
+        check_function(f"gains' {name}", each, "one of the arguments of SIGHT's")
+    delays = all(is_within(each, -np.inf, np.inf) for each in (gains.delay, gains.spinal))
+    if not (delays and all(np.isfinite(as_numbers("gains", each)).all() for each in gains[:-2])):
+        raise ValueError(f"{gains} with noise of {noise}: give finite numbers")
 
 
 def feedback_acceleration(
@@ -283,6 +277,23 @@ def push(force: ArrayLike, at: float | np.ndarray) -> Disturbance:
     if force.shape[-1:] != (2,):
         raise ValueError(f"a force {force} N: give (forward, up), in the arm's plane")
     return Disturbance(force=force, at=as_numbers("at", at)[()])
+
+
+def _push_over_time(disturbance, batch, steps):
+    """What a disturbance pushes a hand at rest with, (batch, steps, 2), N.
+
+    ValueError for one that is not for so many movements, or not finite.
+    """
+    check_kind("disturbance", disturbance, Disturbance, "curl(strength), or push(force, at)")
+    drag = as_numbers("drag", disturbance.drag)
+    if drag.shape != (2, 2) or not np.isfinite(drag).all():
+        raise ValueError(f"drag {disturbance.drag} must be a finite (2, 2) matrix in N s / m")
+    _check_push(disturbance, batch)
+    times = STEP * np.arange(steps)[:, None, None]
+    pushes = disturbance(times, np.zeros((steps, batch, 2)))
+    if not np.isfinite(pushes).all():
+        raise ValueError(f"a push of {disturbance.force} N at {disturbance.at} s must be finite")
+    return np.ascontiguousarray(np.swapaxes(pushes, 0, 1))
 
 
 def _check_push(disturbance, batch):
