@@ -6,7 +6,7 @@ photographs of validation, counter-examples, what is left of photographs where t
 shuttlecock is cut off (`emptied`), and pasted scenes. No test photo has a part in the choice.
 """
 
-from collections import Counter, defaultdict
+from collections import Counter
 from dataclasses import dataclass, field, replace
 from functools import partial
 
@@ -28,16 +28,19 @@ COUNTED = "right", "tight", "found", "alarms"
 
 @dataclass(frozen=True, eq=False)
 class MemoisedStream(VentralStream):
-    """A stream that looks once at the same boxes of one picture."""
+    """A stream that looks once at each box of one picture."""
 
     memory: dict = field(default_factory=dict)
 
     def predict(self, image, boxes, flips=FLIPS[:1]):
         """As the stream's, of one and the same image."""
-        key = boxes.tobytes(), tuple(flips)
-        if key not in self.memory:
-            self.memory[key] = super().predict(image, boxes, flips)
-        return self.memory[key]
+        keys = [(box.tobytes(), tuple(flips)) for box in boxes]
+        new = [i for i, key in enumerate(keys) if key not in self.memory]
+        outputs = zip(*super().predict(image, boxes[new], flips), strict=True)
+        self.memory.update(zip([keys[i] for i in new], outputs, strict=True))
+        if not keys:
+            return np.zeros(0), np.zeros((0, 4))
+        return tuple(map(np.array, zip(*map(self.memory.get, keys), strict=True)))
 
 
 class Unmoved(MemoisedStream):
@@ -112,9 +115,9 @@ load_results = partial(records, "eye_ablation")
 
 def _answers(model, image, truth):
     """What is left out -> a Counter of what the eye's answer is, for one picture."""
-    found, memory, answers = _detections(model.detector, image), defaultdict(dict), {}
+    found, memory, answers = _detections(model.detector, image), {}, {}
     for name, (settings, kind, boxes) in WITHOUT.items():
-        stream = kind(**vars(model.recogniser), memory=memory[kind])
+        stream = kind(**vars(model.recogniser), memory=memory)
         chosen, probability = stream.select(image, found[boxes], **settings)
         fits = iou(chosen.boxes[probability > stream.min_probability], truth)
         best, each = fits[:1].max(initial=0), fits.max(0, initial=0)
