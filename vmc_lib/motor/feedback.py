@@ -124,9 +124,9 @@ def simulate_feedback(
     gains: FeedbackGains = SIGHT,
     model: Model | None = None,
     disturbance: "Disturbance | None" = None,
-    errors: ArrayLike = 0.0,
     noise: float = 0.0,
     rng: np.random.Generator | None = None,
+    errors: ArrayLike = 0.0,
 ) -> Motion:
     """Simulate a batch of movements that feedback corrects on their way.
 
@@ -141,13 +141,13 @@ def simulate_feedback(
         one, late sight is taken for the present.
     disturbance : Disturbance, optional
         What pushes the hand.
-    errors : array
-        Of what the eye reports, to be broadcast to (ticks, B, 4): of q in rad, of velocity in
-        rad/s.
     noise : float
         The share of `muscle.noisy`.
     rng : numpy.random.Generator, optional
         Draws the noise.
+    errors : array
+        Of what the eye reports, to be broadcast to (ticks, B, 4): of q in rad, of velocity in
+        rad/s.
 
     Returns
     -------
