@@ -167,6 +167,6 @@ def test_an_unknown_step_is_refused(capsys):
 
 
 def test_a_step_that_reads_what_is_not_there_is_refused():
-    one = Step(np.zeros, ROOT / "none.npz", "photos templats vmc_lib/no_such")
-    with pytest.raises(ValueError, match=r"none reads \['templats', 'vmc_lib/no_such'\]"):
+    one = Step(np.zeros, ROOT / "none.npz", "photos lost vmc_lib/no_such")
+    with pytest.raises(ValueError, match=r"none reads \['lost', 'vmc_lib/no_such'\]"):
         one.inputs()
