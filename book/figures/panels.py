@@ -2,7 +2,6 @@
 
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.ticker import LogLocator
 
 from vmc_lib.arm.model import MUSCLES
 from vmc_lib.show.figures import margins
@@ -82,7 +81,10 @@ def strip_plot(rows, measure, middle=np.median, xlim=None, text="{:.1f}"):
     ax.set_yticks(range(len(names)), names)
     ax.set(xscale="log", xlim=xlim, xlabel=measure, ylim=(len(names) - 0.5, -0.5))
     low, high = ax.get_xlim()
-    ax.xaxis.set_major_locator(LogLocator(subs=(1,) if high > 1000 * low else (1, 2, 5)))
+    ticks = np.outer(10.0 ** np.arange(-9, 10), [1] if high > 1000 * low else [1, 2, 5]).ravel()
+    first, last = np.searchsorted(ticks, low), np.searchsorted(ticks, high, "right")
+    few = last - first < 2  # then the axis reaches the round numbers beside it
+    ax.set_xticks(ticks[first - few : last + few])
     ax.xaxis.set_major_formatter("{x:g}")
     ax.minorticks_off()
     margins(fig, left=0.15 + max(map(text_width, names)), top=0.12)
