@@ -1,21 +1,11 @@
 """From a photo to the first movement: how long each stage takes, beside OpenCV's search alone."""
 
-import cv2
-import numpy as np
-
 from tools.bench.report import publish, seconds
+from tools.bench.selective_search import opencv
 from vmc_lib import loop, photos
 from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import plan
-
-
-def opencv(image):
-    """OpenCV contrib's selective search, fast: its boxes."""
-    search = cv2.ximgproc.segmentation.createSelectiveSearchSegmentation()
-    search.setBaseImage(np.ascontiguousarray(image[..., ::-1]))
-    search.switchToSelectiveSearchFast()
-    return search.process()
 
 
 def stages(model, photo):
@@ -38,7 +28,7 @@ def stages(model, photo):
 
 if __name__ == "__main__":
     photo = photos.load("free", "validation")[1]
-    peer = seconds(lambda: opencv(photo.image))
+    peer = seconds(lambda: opencv(photo.image, "fast"))
     times = {
         name: seconds(call)
         for name, call in stages(loop.VisuomotorModel.load("free"), photo).items()
