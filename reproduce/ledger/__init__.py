@@ -6,6 +6,7 @@ that file, and a test measures the rows again and compares. Nothing in it is typ
 
 import json
 import re
+from collections import Counter
 from dataclasses import fields
 from html import escape
 
@@ -72,15 +73,17 @@ def verdict_counts(entries):
 
     And of how many quantities the paper claims only that they are more, or less, than something.
     """
-    rows = [entry["verdict"] for entry in entries]
-    numbers, limits = (
-        [q["verdict"] for entry in entries for q in entry["quantities"] if q["bound"] or not only]
-        for only in (False, True)
-    )
-    lists = rows, numbers, limits
-    lines = [[f"*{v}*", *(found.count(v) for found in lists)] for v in VERDICTS]
+    rows = Counter(entry["verdict"] for entry in entries)
+    counts = rows, numbers_by_verdict(entries), numbers_by_verdict(entries, limits=True)
+    lines = [[f"*{v}*", *(count[v] for count in counts)] for v in VERDICTS]
     heads = ["verdict", "rows", "numbers", "of these, only > or <"]
-    return table(heads, [*lines, ["together", *map(len, lists)]])
+    return table(heads, [*lines, ["together", *map(Counter.total, counts)]])
+
+
+def numbers_by_verdict(entries, limits=False):
+    """How many quantities of entries have each verdict, a Counter; `limits`: those > or < alone."""
+    quantities = (q for entry in entries for q in entry["quantities"])
+    return Counter(q["verdict"] for q in quantities if q["bound"] or not limits)
 
 
 def anchor(where):

@@ -15,7 +15,7 @@ RESTS_ON = {  # a step, or what was recorded elsewhere -> the rows that read it
     "hmax_draws": ("Table III",),
     "random_filters": ("Table III", "Fig. 1", "Ours, Fig. 1"),
     "variations": ("Table III", "III, width", "Fig. 7"),
-    "other_filters": ("Fig. 7", "Fig. 8", "IV B, W²"),
+    "other_filters": ("Fig. 7", "Fig. 8", "IV B, V1", "IV B, W²"),
     "second_layers": ("IV B, W²",),
     "optimal": ("III, Block 2, effort",),
     "movements": (
