@@ -230,6 +230,19 @@ def test_the_teachers_page_joins_two_hundred_files(page, tmp_path):
     assert room.locator("#rows tr").count() == 2
 
 
+# Reads one file while three others are still being read; returns who is in the table.
+READ_TWICE = """async () => {
+  const file = (who) => new File([JSON.stringify({ format: "answers 1", who, answers: [] })], who);
+  await Promise.all([read(["ann", "bob", "cy"].map(file)), read([file("di")])]);
+  return [...students.keys()]; }"""
+
+
+def test_files_that_are_chosen_while_others_are_read_take_their_place(page):
+    room = page(class_page())
+    assert room.evaluate(READ_TWICE) == ["di"]
+    assert room.inner_text("#status") == "1 students."
+
+
 @pytest.mark.parametrize(
     "answers",
     [
