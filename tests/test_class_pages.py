@@ -97,7 +97,10 @@ def test_throws_are_turned_saved_and_drawn_beside_the_model(page, tmp_path):
 
 
 def test_throws_travel_as_a_line_and_a_class_pastes_all_at_once(page):
-    """Who copied twice counts once; a cut line is named; the slider's throws give no line."""
+    """Who copied twice counts once; a cut line is named; the slider's throws give no line.
+
+    A name may hold what parts a line.
+    """
     room = page(throws_page())
     room.fill("#who", "ann")
     throw(room, 10)
@@ -113,6 +116,9 @@ def test_throws_travel_as_a_line_and_a_class_pastes_all_at_once(page):
     assert "2 of the class" in room.inner_text("#status")
     assert "bo: 56 throws. cy: 2 throws." in room.inner_text("#status")
     assert "the mean of 2 of the class" in room.inner_text("#legend")
+    room.fill("#who", 'Anna; "B"')
+    room.fill("#lines", room.evaluate("() => ownLine()"))
+    assert room.inner_text("#status") == "1 of the class."
     other = page(throws_page())
     for _ in range(55):
         other.click("#throw")
