@@ -324,3 +324,18 @@ def test_fits_phones_tablets_and_enlarged_pages(page, width):
     resize(page, width, 700)
     whole = page.evaluate("() => document.documentElement.scrollWidth")
     assert (probe(page, "tooWide", "article"), whole) == ([], min(whole, width))
+
+
+@pytest.mark.kinds("03_regions", "11_online")
+def test_fits_a_phone_whose_letters_are_half_as_large_again(page):
+    """24 px by the browser's own setting: breakpoints in rem know of it, those in px do not."""
+    unfold(page)
+    resize(page, *SCREENS[0])
+    browser = page.context.new_cdp_session(page)
+    browser.send("Page.setFontSizes", {"fontSizes": {"standard": 24}})
+    page.evaluate(TWO_FRAMES)
+    whole = page.evaluate("() => document.documentElement.scrollWidth")
+    wide = probe(page, "tooWide", "article")
+    browser.send("Page.setFontSizes", {"fontSizes": {"standard": 16}})
+    browser.detach()
+    assert (wide, whole) == ([], 390)
