@@ -137,6 +137,23 @@ def test_a_term_shows_its_card_to_the_keyboard(page):
     assert shown[1:-1].replace('\\"', '"') == terms.first.get_attribute("data-card")
 
 
+# Of the header's buttons those that look the same, whether the keyboard has reached them or not.
+UNMARKED = """() => [...document.querySelectorAll(".bd-header-article button")]
+  .filter((button) => button.checkVisibility({ visibilityProperty: true })).filter((button) => {
+    button.focus({ focusVisible: true });
+    const { outlineStyle, outlineWidth } = getComputedStyle(button);
+    button.blur();
+    return outlineStyle === "none" || parseFloat(outlineWidth) < 2;
+  }).map((button) => button.outerHTML)"""
+
+
+@a_page_of_each_kind
+def test_buttons_of_the_header_show_the_keyboards_focus(page):
+    resize(page, *SCREENS[1])
+    page.keyboard.press("Tab")  # from now on focus comes by the keyboard
+    assert page.evaluate(UNMARKED) == []
+
+
 def test_equations_that_are_named_are_linked(page):
     assert probe(page, "unlinkedEquations") == []
 
