@@ -7,7 +7,9 @@ from urllib.parse import unquote, urljoin, urlsplit
 import numpy as np
 import pypdfium2
 import pytest
+from sphinx.errors import ExtensionError
 
+from book._ext.offline import own_words
 from tests.pages import (
     BUILT,
     CHAPTERS,
@@ -206,6 +208,23 @@ def test_search_finds_the_shuttlecock(offline, over_http, scheme):
     assert page.errors == []
     page.evaluate("() => localStorage.clear()")  # it marks what was sought on every page
     page.close()
+
+
+def test_search_takes_no_property_of_an_object_for_a_word(offline):
+    page = open_url(offline, f"{BUILT.as_uri()}/search.html?q=__proto__")
+    page.wait_for_selector(".search-summary:not(:empty)")
+    assert page.locator("#search-results li").count() == 0
+    found = page.evaluate("() => Search.performTermsSearch(new Set(['constructor']), new Set())")
+    assert found == page.errors == []
+    page.evaluate("() => localStorage.clear()")
+    page.close()
+
+
+def test_a_search_that_cannot_be_mended_fails_the_build():
+    mended = own_words((BUILT / "_static/searchtools.js").read_text(encoding="utf-8"))
+    assert own_words(mended) == mended
+    with pytest.raises(ExtensionError, match="own_words"):
+        own_words("const files = index.get(word);")
 
 
 def test_words_that_a_search_marks_are_readable(offline, serious):

@@ -4,6 +4,8 @@ import os
 import re
 from pathlib import Path
 
+from sphinx.errors import ExtensionError
+
 from book._ext.policy import seal
 
 SCRIPTS = {  # of page/book, and what a page must hold to need it: the first that it needs
@@ -17,6 +19,8 @@ NEEDS = {  # what a page must hold to need an asset; none needs thebe, which ask
     "design": r'class="[^"]*\bsd-',
 }
 # Names, punctuation and spaces: coloured as all code is
+# Where Sphinx's search reads a word's pages: "constructor" is a property of every object
+WORDS_PAGES = re.compile(r"files: (terms|titleTerms)\[word\]")
 COLOURLESS = re.compile(r'<span class="(?:n|nn|p|w)">([^<]*)</span>')
 
 
@@ -29,6 +33,7 @@ def setup(app):
     app.connect("html-page-context", mend, priority=900)
     app.connect("autodoc-process-docstring", code_marks)
     app.connect("build-finished", seal_pages)
+    app.connect("build-finished", mend_search)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
 
 
@@ -113,6 +118,22 @@ def seal_pages(app, exception):
         page = path.read_text(encoding="utf-8")
         if (sealed := seal(page)) != page:
             path.write_text(sealed, encoding="utf-8", newline="\n")
+
+
+def mend_search(app, exception):
+    """Let the search find what its index holds, and no property that every object has."""
+    if app.builder.format != "html" or exception:
+        return
+    path = Path(app.outdir, "_static/searchtools.js")
+    path.write_text(own_words(path.read_text(encoding="utf-8")), encoding="utf-8", newline="\n")
+
+
+def own_words(script):
+    """Sphinx's search, or one that is mended already, with reads of the index's own words."""
+    own = WORDS_PAGES.sub(r"files: Object.hasOwn(\1, word) ? \1[word] : undefined", script)
+    if own.count("files: Object.hasOwn(") != 2:
+        raise ExtensionError("searchtools.js reads its index in another way: see own_words")
+    return own
 
 
 def code_marks(app, what, name, obj, options, lines):
