@@ -15,7 +15,7 @@ export const address = () => {
 
 /* A demo's state in the page's address: `#demo-saliency?photo=1` says where each control stands. It is
    read when the page opens and when the address changes, and written when the reader moves a control;
-   the sign at the caption's end is a link to it. */
+   the sign at the caption's end is a link to it, also where Play or a law of the reader's has led. */
 export const addAddress = (demo) => {
   const inputs = [...demo.querySelectorAll("[data-stride]")];
   const caption = demo.querySelector("figcaption");
@@ -61,10 +61,10 @@ export const addAddress = (demo) => {
   });
   let waiting; // until the hand rests: browsers bear only so many new addresses a second
   demo.addEventListener("input", () => {
-    link.href = state();
+    const moved = state(); // Play may soon go on from here, and leaves the address alone
     clearTimeout(waiting);
-    waiting = setTimeout(() => history.replaceState(history.state, "", link.href), 200);
+    waiting = setTimeout(() => history.replaceState(history.state, "", moved), 200);
   });
+  demo.addEventListener("vmc-shown", () => (link.href = state()));
   if (read()) addEventListener("load", come); // pictures take their room
-  link.href = state();
 };

@@ -159,6 +159,7 @@ export const start = (demo, ask) => {
       }
     const exact = Object.fromEntries(sliders.map(({ dataset, value }) => [dataset.stride, +value]));
     demo.vmc.ask(inputs.reduce((sum, i) => sum + stands(i) * i.dataset.stride, 0), draw, exact);
+    demo.dispatchEvent(new Event("vmc-shown")); // its link goes where it stands (address.js)
   };
   demo.vmc = { ask, show, data: ask.data }; // the page's Python may answer instead
 

@@ -229,3 +229,4 @@ def test_play_leaves_the_address_alone_and_stops_for_any_control(addressed):
     addressed.click(".vmc-play")
     addressed.wait_for_selector(".vmc-play[aria-pressed=false]")
     assert "x=4" not in addressed.evaluate("location.hash")
+    assert "?x=4&" in addressed.get_attribute(".vmc-link", "href")  # which says what is shown now

@@ -85,6 +85,7 @@ def test_a_law_moves_its_demos_and_goes_back(open_law, serious):
     expect(said).to_have_text(words)
     expect(page.line).to_have_text("This demo runs your law.")
     expect(page.mine.locator(TITLE)).to_contain_text("at 1: 5")
+    expect(page.mine.locator(".vmc-link")).to_have_attribute("href", re.compile(r"&law\.law=def"))
     expect(page.other.locator(TITLE)).to_contain_text("at 1: 1")
     expect(page.other.locator(".vmc-law [role=status]")).to_have_text("")
     expect(page.locator(".vmc-any:not([hidden])")).to_have_count(0)  # Python is there
