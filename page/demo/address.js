@@ -15,11 +15,12 @@ export const address = () => {
 
 /* A demo's state in the page's address: `#demo-saliency?photo=1` says where each control stands. It is
    read when the page opens and when the address changes, and written when the reader moves a control;
-   the sign at the caption's end is a link to it, also where Play or a law of the reader's has led. */
+   the sign at the caption's end is a link to it, also where Play or a law of the reader's has led.
+   Returns what reads it for the first time, as soon as it is known whether sliders stand between their stops. */
 export const addAddress = (demo) => {
   const inputs = [...demo.querySelectorAll("[data-stride]")];
   const caption = demo.querySelector("figcaption");
-  if (!inputs.length || !caption || self.Reveal) return; // slides keep their own place in the address
+  if (!inputs.length || !caption || self.Reveal) return () => {}; // slides keep their own place in the address
   const name = (input) => (input.name || input.id).slice(demo.id.length + 1);
   const link = document.createElement("a");
   Object.assign(link, { className: "vmc-link", textContent: "#", title: "Link to what the demo shows now" });
@@ -35,17 +36,23 @@ export const addAddress = (demo) => {
     return `#${demo.id}?${places}`;
   };
 
-  /* Put the controls where the address says; whether it speaks of this demo. */
-  const read = () => {
+  /* What the address says of this demo. */
+  const said = () => {
     const [id, places] = address();
-    if (id !== demo.id || places === undefined) return false;
-    for (const [key, place] of new URLSearchParams(places))
+    return id === demo.id ? places : undefined;
+  };
+
+  /* Put the controls where the address says, and between its stops a slider that may stand there. */
+  let between = false;
+  const read = () => {
+    for (const [key, place] of new URLSearchParams(said()))
       for (const input of inputs.filter((input) => name(input) === key))
-        if (input.type === "range") input.value = place; // the browser keeps it within the range
-        else if (input.type === "checkbox") input.checked = place === "1";
+        if (input.type === "range") {
+          if (between && "between" in input.dataset && place % 1) input.step = 0.1; // else the browser rounds it
+          input.value = place; // the browser keeps it within the range
+        } else if (input.type === "checkbox") input.checked = place === "1";
         else if (input.type === "radio") input.checked ||= input.value === place;
         else if (input.options[place]) input.value = place;
-    return true;
   };
 
   /* Bring it into sight, out of whatever it is folded in. */
@@ -55,7 +62,8 @@ export const addAddress = (demo) => {
   };
 
   addEventListener("hashchange", () => {
-    if (!read()) return;
+    if (said() === undefined) return;
+    read();
     demo.dispatchEvent(new Event("input", { bubbles: true }));
     come();
   });
@@ -66,5 +74,9 @@ export const addAddress = (demo) => {
     waiting = setTimeout(() => history.replaceState(history.state, "", moved), 200);
   });
   demo.addEventListener("vmc-shown", () => (link.href = state()));
-  if (read()) addEventListener("load", come); // pictures take their room
+  if (said() !== undefined) addEventListener("load", come); // pictures take their room
+  return (free) => {
+    between = free;
+    read();
+  };
 };

@@ -196,6 +196,7 @@ addEventListener("afterprint", () => (theme === undefined ? delete dataset.theme
 export const startAll = () =>
   document.querySelectorAll(".vmc-demo").forEach(async (demo) => {
     if (!demo.matches(":has(> script)")) return addSound(demo);
-    addAddress(demo);
-    start(demo, await stored(demo));
+    const read = addAddress(demo), ask = await stored(demo);
+    read(ask.between);
+    start(demo, ask);
   });

@@ -2,12 +2,13 @@
 
 import numpy as np
 import pytest
+from playwright.sync_api import expect
 
 from book.figures import aiming, trade, votes, where
 from reproduce.experiments import recognition
 from tests.page.demos import test_drags as dragged
 from tests.page.demos import test_sliders as slid
-from tests.pages import drag, middle
+from tests.pages import drag, middle, open_url
 from vmc_lib.show import Slider
 
 pytestmark = pytest.mark.browser
@@ -83,3 +84,20 @@ def test_a_handle_stays_under_the_hand_and_keys_go_from_stop_to_stop(page):
     assert float(across.input_value()) % 1
     across.press("ArrowRight")
     assert float(across.input_value()) % 1 == 0
+
+
+def test_a_link_leads_between_stops(page):
+    box = page.locator(".vmc-demo").nth(0)
+    slider, pictures = box.locator("[data-between]").first, box.locator(".vmc-pictures")
+    slider.dispatch_event("pointerdown")
+    slider.fill("5.3")
+    link = box.locator(".vmc-link").get_attribute("href")
+    words = pictures.get_attribute("aria-label")
+    slider.press("ArrowRight")
+    page.evaluate("(link) => { location.hash = ''; location.hash = link }", link)
+    expect(slider).to_have_value("5.3")
+    other = open_url(page.context, f"{page.url.split('#')[0]}{link}")
+    there = other.locator(".vmc-demo").nth(0)
+    assert there.locator("[data-between]").first.input_value() == "5.3"
+    assert there.locator(".vmc-pictures").get_attribute("aria-label") == words
+    other.close()
