@@ -42,17 +42,21 @@ export const addAddress = (demo) => {
     return id === demo.id ? places : undefined;
   };
 
-  /* Put the controls where the address says, and between its stops a slider that may stand there. */
+  /* Put the controls where the address says, and between its stops a slider that may stand there. What follows a number
+     came along, as a sentence's end does; what is none, as in a link that was cut, moves nothing. */
   let between = false;
   const read = () => {
-    for (const [key, place] of new URLSearchParams(said()))
+    for (const [key, text] of new URLSearchParams(said())) {
+      const place = parseFloat(text);
+      if (!Number.isFinite(place)) continue;
       for (const input of inputs.filter((input) => name(input) === key))
         if (input.type === "range") {
           if (between && "between" in input.dataset && place % 1) input.step = 0.1; // else the browser rounds it
           input.value = place; // the browser keeps it within the range
-        } else if (input.type === "checkbox") input.checked = place === "1";
-        else if (input.type === "radio") input.checked ||= input.value === place;
-        else if (input.options[place]) input.value = place;
+        } else if (input.type === "checkbox") input.checked = place === 1;
+        else if (input.type === "radio") input.checked ||= +input.value === place;
+        else if (input.options[place]) input.selectedIndex = place;
+    }
   };
 
   /* Bring it into sight, out of whatever it is folded in. */

@@ -212,13 +212,17 @@ def test_an_address_is_followed_and_its_impossible_values_are_ignored(addressed)
         ("?x=2&amp;way=1", "[2, 'right', 'a', False]"),
         ("?on=1&x=99&name=99&way=7&who=3", "[4, 'right', 'a', True]"),
         ("?", "[4, 'right', 'a', True]"),
+        ("?x=3.", "[3, 'right', 'a', True]"),  # it ends a sentence,
+        ("?name=1&x=2)", "[2, 'right', 'b', True]"),
+        ("?name=length&x=&on=&way=0", "[2, 'left', 'b', True]"),  # was cut,
+        ("?name=__proto__&x=two&way=1>", "[2, 'right', 'b', True]"),  # or mangled
     ):
         addressed.evaluate(f"location.hash = '#{addressed.id}{state}'")
         addressed.wait_for_function(
             "seen => document.querySelectorAll('.vmc-demo text')[0].textContent === seen", arg=seen
         )
     addressed.evaluate("location.hash = '#%'")
-    assert shown_now(addressed) == "[4, 'right', 'a', True]"
+    assert shown_now(addressed) == "[2, 'right', 'b', True]"
 
 
 def test_play_leaves_the_address_alone_and_stops_for_any_control(addressed):
