@@ -46,6 +46,11 @@ class LivePhoto extends YourPhoto {
     return super.look(picture);
   }
 
+  refuse(why) {
+    this.stopFilm();
+    super.refuse(why);
+  }
+
   async startFilm() {
     const { live } = this.form.elements, video = Object.assign(document.createElement("video"), { muted: true, playsInline: true });
     const request = (this.request = {}); // until the reader chooses a photo, or leaves the page

@@ -21,7 +21,7 @@ export class YourPhoto extends PhotoReach {
   constructor(box) {
     super(box);
     const ours = box.querySelector("svg image").getAttribute("href"), { own, example, file } = this.form.elements;
-    const take = takePictures(box, file, (picture) => this.look(picture), (why) => this.say(why));
+    const take = takePictures(box, file, (picture) => this.look(picture), (why) => this.refuse(why));
     own.addEventListener("click", () => file.click());
     example.addEventListener("click", () => this.takeExample(ours));
     this.form.addEventListener("submit", (event) => event.preventDefault());
@@ -70,9 +70,17 @@ export class YourPhoto extends PhotoReach {
     this.bare = camera ? paintOver(eye, sheetOutline(camera, sheet)) : eye;
     this.say("Opening the eye …");
     await frame();
-    this.brain = await unpack();
-    this.say("Looking for things …");
+    report("eye", await unpack());
     await see(this.brain, this.bare, { camera, report });
+  }
+
+  /* Say why a file is no photo; what an earlier one led to, ends, lest it speaks after. */
+  refuse(why) {
+    const { photo } = this.photo;
+    this.turn = {};
+    if (photo) this.forget();
+    if (photo) this.photo.show(photo);
+    this.say(why);
   }
 
   /* Nothing is known of a new photo, */
@@ -102,6 +110,11 @@ export class YourPhoto extends PhotoReach {
     Object.assign(this, { read, camera });
     if (camera) this.photo.drawSheet(sheetOutline(camera, sheet));
     this.tell({ camera: words.camera(read, sheet) });
+  }
+
+  showEye(brain) {
+    this.brain = brain;
+    this.say("Looking for things …");
   }
 
   showCandidates({ boxes }) {

@@ -12,7 +12,7 @@ from playwright.sync_api import expect
 
 from tests import pages
 from tests.page.arm.controls import readout, status
-from tests.page.eye.test_your_photo import NEED, OURS, POINT, SHOTS
+from tests.page.eye.test_your_photo import NEED, OURS, POINT, SHOTS, text_file
 from tests.project import sample
 from tools import browser
 from vmc_lib.boxes import iou, pad_boxes
@@ -117,6 +117,12 @@ def test_a_film_that_is_left_or_cut_leaves_the_page_to_photos(window, site, html
     page.locator("[type=file]").set_input_files(photo)
     page.evaluate("go()")
     status(page, POINT)
+    expect(live).to_have_text("Live")
+    live.click()
+    show_in_film(page, BLANK)
+    status(page, NEED)
+    page.locator("[type=file]").set_input_files(text_file(tmp_path))
+    status(page, "This browser cannot read")
     expect(live).to_have_text("Live")
     live.click()
     show_in_film(page, BLANK)

@@ -32,12 +32,22 @@ AGAIN = "Another photo may do"
 NOTHING = "No shuttlecock;|Nothing that looks like an object"
 REFUSED = "Two sheets|The photo is cropped"
 END = f"After trying|Out of reach|{NEED}|{REFUSED}|{POINT}|{AGAIN}|This browser"
+LOOKS = """() => {
+  const eye = vmc["eye/your_photo"].YourPhoto.prototype, { look } = eye;
+  self.looks = []; // at one photo after the other: promises of their ends
+  eye.look = function (picture) {
+    const end = look.call(this, picture);
+    self.looks.push(end);
+    return end;
+  };
+}"""
 
 
 @pytest.fixture(scope="module")
 def page(offline, site, html):
     page = pages.open_html(offline, site, html)
     page.locator(".vmc-eye[data-ready]").wait_for()
+    page.evaluate(LOOKS)
     yield page
     page.close()
     assert page.errors == page.failed == []
@@ -328,6 +338,23 @@ def test_a_sheet_shrunk_to_a5_is_told_by_the_shuttlecocks_size(page, tmp_path):
     assert says in give(page, write(tmp_path, a5))
 
 
+def text_file(folder):
+    """A file that is no photo, whatever its name says."""
+    (folder / "words.jpg").write_text("no picture", encoding="utf-8")
+    return folder / "words.jpg"
+
+
+def test_what_cannot_be_read_is_said_last(page, tmp_path):
+    page.evaluate("() => (looks.length = 0)")
+    page.get_by_role("button", name="Example").click()
+    page.wait_for_function("() => looks.length")
+    give(page, text_file(tmp_path))
+    page.evaluate("() => Promise.all(looks)")  # the eye has stopped
+    assert re.fullmatch(UNREADABLE, page.locator("p[role=status]").inner_text())
+    assert readout(page, "camera") == "–"
+    assert page.locator("[data-box]:visible").count() == 0
+
+
 def save(folder, name, mode="RGB", size=(60, 40), **options):
     Image.new(mode, size).save(folder / name, **options)
     return folder / name
@@ -335,11 +362,9 @@ def save(folder, name, mode="RGB", size=(60, 40), **options):
 
 @pytest.mark.audit
 def test_no_file_is_met_with_silence(page, tmp_path):
-    words = tmp_path / "words.jpg"
-    words.write_text("no picture", encoding="utf-8")
     heic = tmp_path / "phone.heic"
     heic.write_bytes(b"\0\0\0\x18ftypheic\0\0\0\0mif1heic")
-    for file in (words, heic):
+    for file in (text_file(tmp_path), heic):
         assert re.fullmatch(UNREADABLE, give(page, file))
     turned = Image.Exif()
     turned[0x0112] = 6
