@@ -20,13 +20,14 @@ export const drawScaled = (picture, scale, canvas) => {
 };
 
 /* The reader's own pictures, chosen or dropped on a box: `take(picture, file)` is given each that this browser can
-   read, `say` why it cannot. Returns what takes a file. */
+   read, `say` why it cannot. Returns what takes a file, or an image of the page's. */
 export const takePictures = (box, input, take, say) => {
   let latest;
   const read = async (file) => {
-    if (!file) return say("That was no file: save the photo first, then choose it here.");
     latest = file;
-    const picture = await createImageBitmap(file).catch(() => null);
+    if (!file) return say("That was no file: save the photo first, then choose it here.");
+    const decoded = file instanceof Image ? file.decode().then(() => file) : createImageBitmap(file);
+    const picture = await decoded.catch(() => null);
     if (file !== latest) return; // a large one takes long, and the reader has chosen another
     if (picture) return take(picture, file);
     say(`This browser cannot read ${file.name}: save it, or a phone's HEIC, as a JPEG or PNG.`);

@@ -23,19 +23,13 @@ export class YourPhoto extends PhotoReach {
     const ours = box.querySelector("svg image").getAttribute("href"), { own, example, file } = this.form.elements;
     const take = takePictures(box, file, (picture) => this.look(picture), (why) => this.refuse(why));
     own.addEventListener("click", () => file.click());
-    example.addEventListener("click", () => this.takeExample(ours));
+    example.addEventListener("click", () => take(Object.assign(new Image(), { src: ours })));
     this.form.addEventListener("submit", (event) => event.preventDefault());
     addEventListener("paste", ({ clipboardData: { files } }) => files.length && take(files[0]), { signal: this.life.signal });
     box.addEventListener("click", ({ target }) => {
       const chosen = target.closest("[data-box]");
       if (chosen) this.choose(+chosen.dataset.box);
     });
-  }
-
-  async takeExample(address) {
-    const picture = Object.assign(new Image(), { src: address });
-    await picture.decode();
-    return this.look(picture);
   }
 
   /* All stages, from a picture to the calibrated reach. */

@@ -42,6 +42,14 @@ LOOKS = """() => {
   };
 }"""
 
+HELD = """() => {
+  const read = createImageBitmap;
+  self.createImageBitmap = (file) => new Promise((done) => {
+    self.createImageBitmap = read;
+    self.go = () => read(file).then(done);
+  });
+}"""
+
 
 @pytest.fixture(scope="module")
 def page(offline, site, html):
@@ -353,6 +361,19 @@ def test_what_cannot_be_read_is_said_last(page, tmp_path):
     assert re.fullmatch(UNREADABLE, page.locator("p[role=status]").inner_text())
     assert readout(page, "camera") == "–"
     assert page.locator("[data-box]:visible").count() == 0
+
+
+def test_the_example_chosen_last_is_shown_though_a_file_is_read_slowly(page, tmp_path):
+    page.evaluate("() => (looks.length = 0)")
+    page.evaluate(HELD)
+    page.locator("[type=file]").set_input_files(save(tmp_path, "slow.png"))
+    page.wait_for_function("() => self.go")
+    page.get_by_role("button", name="Example").click()
+    page.wait_for_function("() => looks.length")
+    page.evaluate("() => go()")
+    page.evaluate(pages.TWO_FRAMES)
+    assert page.evaluate("() => looks.length") == 1
+    give(page, text_file(tmp_path))  # which ends it
 
 
 def save(folder, name, mode="RGB", size=(60, 40), **options):
