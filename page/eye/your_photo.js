@@ -25,7 +25,9 @@ export class YourPhoto extends PhotoReach {
     own.addEventListener("click", () => file.click());
     example.addEventListener("click", () => take(Object.assign(new Image(), { src: ours })));
     this.form.addEventListener("submit", (event) => event.preventDefault());
-    addEventListener("paste", ({ clipboardData: { files } }) => files.length && take(files[0]), { signal: this.life.signal });
+    addEventListener("paste", ({ target, clipboardData: { files } }) => {
+      if (files.length && !target.closest(":read-write")) take(files[0]); // where one writes, the text is meant
+    }, { signal: this.life.signal });
     box.addEventListener("click", ({ target }) => {
       const chosen = target.closest("[data-box]");
       if (chosen) this.choose(+chosen.dataset.box);

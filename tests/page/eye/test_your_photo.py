@@ -376,6 +376,31 @@ def test_the_example_chosen_last_is_shown_though_a_file_is_read_slowly(page, tmp
     give(page, text_file(tmp_path))  # which ends it
 
 
+PASTE = """(field) => {
+  const main = document.querySelector("main"), clipboardData = new DataTransfer();
+  clipboardData.setData("text/plain", "return 1");
+  clipboardData.items.add(new File(["no picture"], "pasted.png", { type: "image/png" }));
+  const read = createImageBitmap;
+  let taken = false;
+  self.createImageBitmap = (file) => ((taken = true), read(file));
+  main.insertAdjacentHTML("beforeend", field);
+  main.lastChild.dispatchEvent(new ClipboardEvent("paste", { clipboardData, bubbles: true }));
+  main.lastChild.remove();
+  self.createImageBitmap = read;
+  return taken;
+}"""
+
+
+def test_what_is_pasted_where_one_writes_is_no_photo(page):
+    """Some programs copy text with a picture of it."""
+    clear_status(page)
+    for field in ("<textarea></textarea>", "<input>", "<p contenteditable></p>"):
+        assert not page.evaluate(PASTE, field)
+    for field in ("<input type=range>", "<p></p>"):
+        assert page.evaluate(PASTE, field)
+    assert re.fullmatch(UNREADABLE, status(page, "This browser"))
+
+
 def save(folder, name, mode="RGB", size=(60, 40), **options):
     Image.new(mode, size).save(folder / name, **options)
     return folder / name
