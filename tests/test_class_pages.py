@@ -7,6 +7,7 @@ import re
 
 import numpy as np
 import pytest
+from playwright.sync_api import expect
 
 from kit.__main__ import class_page, throws, throws_page
 from tests.formulas import FORMULAS, computes
@@ -169,6 +170,7 @@ def test_a_page_keeps_what_was_answered_shows_it_and_saves_it(chapter):
     for typed in ("4", "?", "3"):
         chapter.fill("form[data-check] input", typed)
         chapter.keyboard.press("Enter")
+    chapter.locator(".vmc-quiz .vmc-right").evaluate("(one) => { one.open = true }")  # a search may
     chapter.click("summary:text('This')")
     chapter.wait_for_function("() => localStorage.vmcRecord.includes('quiz')")
     chapter.locator("form:not([data-check])").evaluate(
@@ -201,6 +203,20 @@ def test_a_page_keeps_what_was_answered_shows_it_and_saves_it(chapter):
     assert chapter.locator("input:checked").count() == 0  # nor is anything left in a field
     assert chapter.locator("form[data-check] input").input_value() == ""
     assert chapter.evaluate("() => Object.keys(localStorage)") == []
+
+
+FILL = """() => { for (let text = "x".repeat(2 ** 20), n = 0; text; n++)
+  try { localStorage[n] = text } catch { text = text.slice(0, text.length / 2) } }"""
+
+
+def test_where_the_browser_keeps_no_more_it_is_said_and_the_file_has_the_answers(chapter):
+    chapter.evaluate(FILL)
+    chapter.check("input[value=one]")
+    record = chapter.locator(".vmc-record")
+    expect(record.get_by_role("status")).to_contain_text("save your answers as a file")
+    kept = json.loads(saved(chapter, ".vmc-record button"))
+    chapter.evaluate("() => localStorage.clear()")
+    assert [one["answer"] for one in kept["answers"]][-1:] == ["one"]
 
 
 def answer(text, right, feedback=""):

@@ -7,7 +7,8 @@ const KEY = "vmcRecord", MOST = 2000, LONGEST = 4000, LARGEST = 1e6; // answers,
 const page = location.pathname.split("/").pop().replace(/\.html$/, "");
 const TEXTS = ["page", "kind", "id", "question", "answer", "feedback"];
 const isAnswer = (one) => TEXTS.every((name) => typeof one?.[name] === "string"); // others may write there
-const all = () => [memory.parsed(KEY) ?? []].flat().filter(isAnswer);
+const unkept = []; // answers for which the browser had no room
+const all = () => [memory.parsed(KEY) ?? [], unkept].flat(2).filter(isAnswer);
 
 /* The words of an element, its formulas as they were written. */
 const words = (node) => {
@@ -21,7 +22,8 @@ const add = (kind, id, question, answer, right, feedback = "") => {
   const entry = { page, kind, id, question: question.slice(0, 200), answer: answer.slice(0, LONGEST), right, feedback };
   const entries = [...all(), entry].slice(-MOST);
   while (JSON.stringify(entries).length > LARGEST) entries.splice(0, Math.ceil(entries.length / 10));
-  memory.set(KEY, JSON.stringify(entries));
+  if (memory.set(KEY, JSON.stringify(entries))) unkept.length = 0;
+  else unkept.push(entry);
   show();
 };
 
@@ -36,16 +38,16 @@ const verdict = (kind, form, text, answer) => {
   if (right || text.startsWith("✗")) add(kind, ...exercise(form), answer, right, right ? "" : text.replace(/^✗ (Not yet\.)?\s*/, ""));
 };
 
-addEventListener("change", ({ target }) => {
-  if (!target.matches(".vmc-predict input")) return;
+addEventListener("vmc-predicted", ({ target }) => {
   const question = words(target.closest("fieldset").querySelector("legend"));
   add("prediction", target.name, question, target.value, target.closest("label").matches(".vmc-right"));
 });
-addEventListener("toggle", ({ target }) => {
-  if (!target.matches?.(".vmc-quiz > details[open]")) return;
-  const quiz = target.parentElement, number = [...document.querySelectorAll(".vmc-quiz")].indexOf(quiz) + 1;
-  add("quiz", `quiz-${number}`, words(quiz.querySelector("legend")), words(target.querySelector("summary")), target.matches(".vmc-right"));
-}, true);
+addEventListener("click", ({ target }) => { // the browser itself opens them, too, for a link or a search
+  const answer = target.closest(".vmc-quiz > details:not([open]) > summary");
+  if (!answer) return;
+  const quiz = answer.closest(".vmc-quiz"), number = [...document.querySelectorAll(".vmc-quiz")].indexOf(quiz) + 1;
+  add("quiz", `quiz-${number}`, words(quiz.querySelector("legend")), words(answer), answer.parentElement.matches(".vmc-right"));
+});
 addEventListener("submit", ({ target }) => { // after questions.js has judged it
   if (target.matches("form[data-check]"))
     verdict("exercise", target, words(target.querySelector("[role=status]")), target.querySelector("input").value.trim());
@@ -57,15 +59,19 @@ addEventListener("vmc-graded", ({ target, detail: { said, lines } }) => {
 const FORGET = "Forget all of it", SURE = "Forget every answer and line, of all chapters?";
 const place = document.createElement("details");
 place.className = "vmc-record";
-place.innerHTML = "<summary></summary><p>It stays in this browser. If you save it as a file, the file holds these lines, the name that you " +
+place.innerHTML = "<summary></summary><p role=\"status\"></p><p>If you save it as a file, the file holds these lines, the name that you " +
   "write here, and nothing else. Who forgets it all empties every page's fields, too: on a computer that others use, do.</p><p><label>Name or number, if your course asks for one: <input size=\"12\" autocomplete=\"off\"></label> " +
   "<button type=\"button\">Save as a file</button> <button type=\"button\">" + FORGET + "</button></p><ol></ol>";
 const [save, forget] = place.querySelectorAll("button");
+const STAYS = "It stays in this browser.", GOES = "This browser keeps no more: save your answers as a file before you close the page.";
 
 const show = () => {
   const kept = all();
   place.hidden = !kept.length;
-  place.querySelector("summary").textContent = `What this browser has kept of your answers: ${kept.length}`;
+  place.querySelector("summary").textContent = `What this browser has kept of your answers: ${kept.length - unkept.length}`;
+  const goes = unkept.length > 0 || document.documentElement.dataset.storage === "page";
+  if (goes) place.open = true;
+  place.querySelector("[role=status]").textContent = goes ? GOES : STAYS;
   const list = place.querySelector("ol");
   list.replaceChildren(...kept.map(({ page, kind, question, answer, right, feedback }) => {
     const code = `${answer}`.includes("\n"), item = document.createElement("li");

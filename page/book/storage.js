@@ -10,6 +10,7 @@ try {
     removeItem: (key) => kept.delete(String(key)),
     clear: () => kept.clear(),
   };
+  document.documentElement.dataset.storage = "page"; // record.js says so
   for (const name of ["localStorage", "sessionStorage"]) Object.defineProperty(self, name, { value });
 }
 

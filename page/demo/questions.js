@@ -10,26 +10,46 @@ export const memory = {
 };
 
 /* A prediction and what was typed are there again when the page is. */
-{
-  const inputs = ".vmc-predict input, form.vmc-check input";
-  const key = ({ name, form }) => `${location.pathname} ${name || [...document.forms].indexOf(form)}`;
-  addEventListener("DOMContentLoaded", () =>
-    document.querySelectorAll(inputs).forEach((input) => {
-      const kept = memory.get(key(input));
-      if (input.type === "radio") input.checked ||= input.value === kept;
-      else input.value = kept ?? "";
-    }));
-  addEventListener("change", ({ target }) => {
-    if (target.matches(inputs)) memory.set(key(target), target.value);
-  });
-}
+const inputs = ".vmc-predict input, form[data-check] input", MEANT = " meant";
+const questionOf = (target) => target.closest(".vmc-predict label")?.closest(".vmc-predict");
+const checks = () => [...document.querySelectorAll("form[data-check]")]; // other forms come and go
+const key = ({ name, form }) => `${location.pathname} ${name || `check-${checks().indexOf(form)}`}`;
+addEventListener("DOMContentLoaded", () =>
+  document.querySelectorAll(inputs).forEach((input) => {
+    const kept = memory.get(key(input)), question = questionOf(input);
+    if (!question) input.value = kept ?? "";
+    else if ((input.checked ||= input.value === kept))
+      memory.get(key(input) + MEANT) ? (question.dataset.chosen = true) : (question.passed = input);
+  }));
+addEventListener("change", ({ target }) => {
+  if (!target.matches(inputs)) return;
+  memory.set(key(target), target.value);
+  if (questionOf(target)) questionOf(target).passed = target;
+});
 
-/* A choice opens what came out: by a click or Enter, for arrows pass over choices that are not meant. */
-{
-  const open = (target) => target.closest(".vmc-predict label")?.closest(".vmc-predict").querySelector("details").toggleAttribute("open", true);
-  addEventListener("click", ({ target, detail }) => { if (detail) open(target); });
-  addEventListener("keydown", ({ target, key }) => { if (key === "Enter") open(target); }, true); // a question keeps its keys to itself
-}
+/* A choice opens what came out, and counts: by a click or Enter, or where the reader opens it; for arrows pass over
+   choices that are not meant. */
+const settle = (question) => {
+  const { passed } = question;
+  if (!passed?.checked) return;
+  question.passed = null;
+  question.dataset.chosen = true;
+  memory.set(key(passed) + MEANT, "yes");
+  passed.dispatchEvent(new Event("vmc-predicted", { bubbles: true }));
+};
+const confirm = (question) => {
+  question.querySelector("details").open = true;
+  settle(question);
+};
+addEventListener("click", ({ target, detail }) => { // the choice changes after it
+  if (detail && questionOf(target)) setTimeout(confirm, 0, questionOf(target));
+});
+addEventListener("keydown", ({ target, key }) => { // a question keeps its keys to itself
+  if (key === "Enter" && questionOf(target)) confirm(questionOf(target));
+}, true);
+addEventListener("toggle", ({ target }) => {
+  if (target.matches?.(".vmc-predict > details[open]")) settle(target.parentElement);
+}, true);
 
 /* What stands still below a prediction, and would give it away, waits until the reader has chosen or
    asked what came out; and so do still figures right below it. */
@@ -43,8 +63,8 @@ addEventListener("DOMContentLoaded", () =>
       if (output) outputs.push(output);
     }
     const wait = () => outputs.forEach((output) =>
-      output.classList.toggle("vmc-waits", !question.querySelector(":checked, [open]")));
-    for (const type of ["change", "toggle"]) question.addEventListener(type, wait, true);
+      output.classList.toggle("vmc-waits", !question.dataset.chosen && !question.querySelector("[open]")));
+    for (const type of ["vmc-predicted", "toggle"]) question.addEventListener(type, wait, true);
     wait();
   }));
 
@@ -57,7 +77,7 @@ export const judge = (text, { expected, tolerance, scales, rules }) => {
   const parts = splits.find((split) => split.length === expected.length)?.map((part) => part.match(number));
   if (!parts?.every(Boolean)) return "unread";
   const singular = (unit) => unit.replace(/[\s·]/g, "").replace(/(?<=[\p{L}\d_]{3})s$/u, "");
-  const factors = parts.map(([, , , unit = ""]) => scales[singular(unit)]);
+  const factors = parts.map(([, , , unit = ""]) => Object.hasOwn(scales, singular(unit)) && scales[singular(unit)]);
   if (!factors.every(Boolean)) return "unit";
   const near = ([, over, under = "1"], k) => {
     const value = (factors[k] * Number(over.replace(",", "."))) / Number(under.replace(",", "."));

@@ -69,15 +69,12 @@ class Editor {
       event.preventDefault();
       if (stop.disabled) this.check();
     });
-    stop.addEventListener("click", () => python.stop());
+    stop.addEventListener("click", () => this.asked.abort(Error("Stopped.")));
     reset.addEventListener("click", () => this.reset());
     area.addEventListener("keydown", (event) => onKey(event, form));
     for (const sign of ["pointerdown", "input"]) // of one who is about to write: it may be there when asked
       area.addEventListener(sign, python.start, { once: true });
-    area.addEventListener("input", () => {
-      this.follow();
-      this.keep();
-    });
+    area.addEventListener("input", () => (this.follow(), this.keep()));
     this.restore();
     this.follow();
   }
@@ -141,7 +138,7 @@ class Editor {
   /* Lines that stand beside the reader's, who may take them; by `no` they go. */
   choice(words, lines, yes, no, go) {
     const button = (textContent, onclick) => make("button", { type: "button", textContent, onclick });
-    const leave = () => (go(), this.close(), this.keep());
+    const leave = () => (go(), this.close(), this.keep(), this.area.focus());
     return [make("p", { textContent: words }), make("pre", { textContent: lines, tabIndex: 0 }), button(yes, () => this.take(lines)), " ", button(no, leave)];
   }
 
@@ -188,21 +185,22 @@ class Editor {
 
   async check() {
     const { form, cell, area } = this, { stop } = form.elements, graded = form.dataset.function, lines = area.value;
+    Object.assign(this, { said: undefined, asked: new AbortController() });
     stop.disabled = false;
-    this.said = undefined;
     this.follow();
     try {
       const code = [above(cell).map(ran), lines];
       const question = graded ? ["check", ...code, graded] : ["run", ...code, this.empty, users.figures(cell, lines)];
-      const [said, printed] = await python.ask(["grader", ...question], (text) => this.show([text]));
+      const [said, printed] = await python.ask(["grader", ...question], (text) => this.show([text]), this.asked.signal);
       this.said = [`${said}`, `${printed}`];
       this.run(lines);
+      form.dispatchEvent(new CustomEvent("vmc-graded", { bubbles: true, detail: { said: this.said[0], lines } }));
     } catch (error) {
       this.said = [`✗ ${error.message}`];
     }
+    if (document.activeElement === stop) form.querySelector("button").focus(); // what is disabled loses it
     stop.disabled = true;
     this.judged = lines;
-    form.dispatchEvent(new CustomEvent("vmc-graded", { bubbles: true, detail: { said: this.said[0], lines } }));
     this.show(this.said);
     this.follow();
     this.keep();

@@ -142,8 +142,17 @@ const answer = async (question, say) => {
   }
 };
 
-let last = Promise.resolve();
-export const ask = (question, say) => {
-  const next = () => answer(question, say);
-  return (last = last.then(next, next));
+/* One question after the other. A `signal` aborts its own question alone: the one that runs, or waits. */
+let last = Promise.resolve(), asked = 0;
+export const ask = (question, say, signal) => {
+  const end = () => stop();
+  const next = async () => {
+    signal?.throwIfAborted();
+    signal?.addEventListener("abort", end);
+    return answer(question, say).finally(() => signal?.removeEventListener("abort", end));
+  };
+  if (asked++ && signal) say("Waiting for what runs now …");
+  const turn = (last = last.then(next, next).finally(() => asked--));
+  const aborted = new Promise((_, reject) => signal?.addEventListener("abort", () => reject(signal.reason)));
+  return Promise.race([turn, aborted]);
 };

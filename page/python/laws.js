@@ -40,6 +40,7 @@ const line = (controls, buttons) => {
 const watch = (above, back, update) => {
   document.addEventListener("vmc-run", ({ target }) => above.includes(target) && update());
   back.addEventListener("click", () => {
+    back.closest(".vmc-demo, .vmc-live").querySelector("input, select").focus(); // the button goes
     for (const one of ownCells(above)) one.dispatchEvent(new Event("vmc-back"));
   });
 };
@@ -72,6 +73,7 @@ class Follower {
     Object.assign(this, { demo, cell, above, status, run, back, between, sliders });
     between.hidden = !sliders.length;
     between.addEventListener("click", () => {
+      sliders[0].focus(); // the button goes
       for (const one of followers) (one.free(), one.say(FREE));
       this.ask(0, () => {}, {}, true); // Python is made ready for it
     });

@@ -11,6 +11,7 @@ const follow = (form) => {
     <button>Measure</button> <button type="button" name="stop" disabled>Stop</button> <span role="status"></span>
     <div class="vmc-data" tabindex="0" hidden></div>`;
   const { seed, stop } = form.elements;
+  let asked;
   const status = form.querySelector("[role=status]"), table = form.querySelector(".vmc-data");
   const say = (words) => (status.textContent = words);
   const show = (found) => {
@@ -24,20 +25,22 @@ const follow = (form) => {
     event.preventDefault();
     if (!stop.disabled) return;
     stop.disabled = false;
-    const first = +seed.value, draws = [];
+    asked = new AbortController();
+    const first = +seed.value, draws = [], { signal } = asked;
     try {
       while (draws.length < DRAWS) {
         const next = `Draw ${draws.length + 1} of ${DRAWS}`;
-        draws.push(await python.ask(["measure", "draw", where, first + draws.length], (words) => say(`${next}. ${words}`)));
-        show(await python.ask(["measure", "summary", draws], () => {}));
+        draws.push(await python.ask(["measure", "draw", where, first + draws.length], (words) => say(`${next}. ${words}`), signal));
+        show(await python.ask(["measure", "summary", draws], () => {}, signal));
       }
       say(`Seeds ${first} to ${first + DRAWS - 1}.`);
     } catch (error) {
       say(`✗ ${error.message}`);
     }
+    if (document.activeElement === stop) form.querySelector("button").focus(); // what is disabled loses it
     stop.disabled = true;
   });
-  stop.addEventListener("click", () => python.stop());
+  stop.addEventListener("click", () => asked.abort(Error("Stopped.")));
   form.hidden = false;
 };
 

@@ -145,9 +145,13 @@ MARKS = """() => [...document.querySelectorAll("label")]
   .map((label) => getComputedStyle(label, "::after").content.replaceAll('"', ""))"""
 
 
+ANSWERS = "() => JSON.parse(localStorage.vmcRecord ?? '[]').map(({ answer }) => answer)"
+
+
 @pytest.mark.browser
 def test_a_prediction_is_kept_and_marked_beside_the_outcome(open_questions):
     page = open_questions(PREDICTION)
+    page.evaluate("() => localStorage.clear()")
     page.keyboard.press("Tab")
     page.keyboard.press("ArrowDown")
     page.keyboard.press("ArrowDown")
@@ -158,9 +162,11 @@ def test_a_prediction_is_kept_and_marked_beside_the_outcome(open_questions):
     page.reload()
     assert page.is_checked("input >> nth=2")
     assert not page.is_visible("text=One and")
+    assert page.evaluate(ANSWERS) == []  # the arrows pass over choices
     page.focus("input >> nth=2")
     page.keyboard.press("Enter")
     assert page.is_visible("text=One and")
+    assert page.evaluate(ANSWERS) == ["*three*"]
     assert page.evaluate(MARKS) == ["none", "✓", "✗"]
     page.emulate_media(media="print")
     assert page.is_visible("text=three")
@@ -182,6 +188,8 @@ def test_a_still_output_below_a_prediction_is_hidden_until_it_is_made(open_quest
     cells = [f"<div class='cell'><div class='cell_output'>{x}</div></div>" for x in below]
     code, again = "<div class='cell'>code</div>", PREDICTION.replace("predict-", "again-")
     page = open_questions(PREDICTION, code, cells[0], again, cells[1])
+    page.focus("input >> nth=1")
+    page.keyboard.press("ArrowDown")
     assert not page.is_visible("text=four")
     assert page.is_visible("text=a demo")
     page.click(by)
@@ -197,6 +205,24 @@ def test_a_prediction_works_where_storage_is_forbidden(open_questions):
     assert page.evaluate(MARKS) == ["none", "✓", "none"]
 
 
+CELL = """<div class="cell tag_runs-in-page"><div class="cell_input"><pre>def f(x):
+    return x</pre></div></div>"""
+
+
+@pytest.mark.browser
+def test_each_field_has_its_own_answer_again(open_questions):
+    """Whatever other forms there are: a cell that can be edited gets one when the page starts."""
+    check(None, 3)
+    check(None, 4)
+    page = open_questions(CELL)
+    fields = page.locator("form[data-check] input").all()
+    for typed, field in enumerate(fields):
+        field.fill(f"{typed}")
+        field.press("Enter")
+    page.reload()
+    assert [field.input_value() for field in fields] == ["0", "1"]
+
+
 @pytest.mark.browser
 @pytest.mark.parametrize(
     ("expected", "tries"),
@@ -210,6 +236,7 @@ def test_a_prediction_works_where_storage_is_forbidden(open_questions):
                 "4/5": "Right",
                 "80 %": "Right",
                 "0,8 m": "Not read",
+                "1 constructor": "Not read",
                 "8": "Not yet",
                 "1/0": "Not yet",
             },

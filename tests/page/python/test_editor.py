@@ -53,11 +53,30 @@ def test_an_endless_loop_ends_by_itself_or_by_the_button(open_exercise):
     page.said.get_by_text("Checking").wait_for()
     page.button("Stop").click()
     page.said.get_by_text("Stopped.").wait_for()
+    expect(page.button("Check")).to_be_focused()
     page.button("Check").click()
     page.button("Stop").click()  # while it starts
     page.said.get_by_text("Stopped.").wait_for()
     assert page.button("Stop").is_disabled()
     check(page, RIGHT_LINES, "✓ Right.")
+    assert "Stopped" not in page.evaluate("() => localStorage.vmcRecord")  # it was no answer
+
+
+def test_stop_ends_its_own_question_and_not_the_one_that_it_waits_for(open_exercise):
+    page = open_exercise()
+    page.evaluate("() => { vmc['python/interpreter'].limit.seconds = 1000 }")
+    page.lines.fill(ENDLESS)
+    page.button("Check").click()
+    page.said.get_by_text("Checking").wait_for()
+    page.get_by_role("button", name="Edit cube").click()
+    first, second = (page.locator(f"form[data-{kind}]") for kind in ("function", "cell"))
+    second.get_by_text("Run").click()
+    second.get_by_text("Waiting for what runs now").wait_for()
+    second.get_by_text("Stop", exact=True).click()
+    second.get_by_text("✗ Stopped.").wait_for()
+    assert "Checking" in first.get_by_role("status").inner_text()
+    first.get_by_text("Stop", exact=True).click()
+    first.get_by_text("✗ Stopped.").wait_for()
 
 
 def test_lines_and_verdict_are_kept_until_reset(open_exercise):
