@@ -163,8 +163,10 @@ export const start = (demo, ask) => {
   };
   demo.vmc = { ask, show, data: ask.data }; // the page's Python may answer instead
 
-  /* What the page works out anywhere follows the hand anywhere; keys go from stop to stop. */
-  const step = ({ type, target }) => sliders.includes(target) && (target.step = type === "keydown" ? 1 : 0.1);
+  /* What the page works out anywhere follows the hand anywhere; keys that move it go from stop to stop. */
+  const step = ({ key, target }) => {
+    if (sliders.includes(target) && (!key || /^(Arrow|Page|Home|End)/.test(key))) target.step = key ? 1 : 0.1;
+  };
   for (const type of ["pointerdown", "keydown"]) demo.addEventListener(type, step, true);
   const life = new AbortController();
   for (const button of demo.querySelectorAll(".vmc-play")) addPlay(demo, button, show, ask.ready, life.signal);
