@@ -18,9 +18,9 @@ NEEDS = {  # what a page must hold to need an asset; none needs thebe, which ask
     "katex": r'class="math|\\\(',
     "design": r'class="[^"]*\bsd-',
 }
-# Names, punctuation and spaces: coloured as all code is
 # Where Sphinx's search reads a word's pages: "constructor" is a property of every object
 WORDS_PAGES = re.compile(r"files: (terms|titleTerms)\[word\]")
+# Names, punctuation and spaces: coloured as all code is
 COLOURLESS = re.compile(r'<span class="(?:n|nn|p|w)">([^<]*)</span>')
 
 
