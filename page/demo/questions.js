@@ -24,7 +24,9 @@ addEventListener("DOMContentLoaded", () =>
 addEventListener("change", ({ target }) => {
   if (!target.matches(inputs)) return;
   memory.set(key(target), target.value);
-  if (questionOf(target)) questionOf(target).passed = target;
+  const question = questionOf(target);
+  if (question) question.passed = target;
+  if (question?.clicked) settle(question);
 });
 
 /* A choice opens what came out, and counts: by a click or Enter, or where the reader opens it; for arrows pass over
@@ -37,15 +39,18 @@ const settle = (question) => {
   memory.set(key(passed) + MEANT, "yes");
   passed.dispatchEvent(new Event("vmc-predicted", { bubbles: true }));
 };
-const confirm = (question) => {
-  question.querySelector("details").open = true;
-  settle(question);
-};
-addEventListener("click", ({ target, detail }) => { // the choice changes after it
-  if (detail && questionOf(target)) setTimeout(confirm, 0, questionOf(target));
+const open = (question) => question.querySelector("details").toggleAttribute("open", true);
+addEventListener("click", ({ target, detail }) => {
+  const question = detail && questionOf(target);
+  if (!question) return;
+  open(question);
+  question.clicked = true; // then the choice changes, if it does
+  if (target.closest("label").contains(question.passed)) settle(question);
 });
 addEventListener("keydown", ({ target, key }) => { // a question keeps its keys to itself
-  if (key === "Enter" && questionOf(target)) confirm(questionOf(target));
+  const question = questionOf(target);
+  if (question) question.clicked = false;
+  if (question && key === "Enter" && open(question)) settle(question);
 }, true);
 addEventListener("toggle", ({ target }) => {
   if (target.matches?.(".vmc-predict > details[open]")) settle(target.parentElement);
