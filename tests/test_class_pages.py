@@ -95,6 +95,20 @@ def test_throws_are_turned_saved_and_drawn_beside_the_model(page, tmp_path):
     )
     np.testing.assert_allclose(model, throws(), atol=1e-3)
     np.testing.assert_allclose(mean[10:40], 0.75)
+    room.evaluate(CHOSEN_TWICE, text)
+    assert room.inner_text("#status").startswith("1 of the class")
+
+
+# Chooses one file while three others are still being read; goes on when all have been.
+CHOSEN_TWICE = """async (text) => {
+  const file = (who) => new File([text.replaceAll(",0\\n", ",300\\n")], who);
+  for (const names of [["ann", "bob", "cy"], ["di"]]) {
+    const chosen = new DataTransfer(), files = document.querySelector("#files");
+    for (const name of names) chosen.items.add(file(name));
+    files.files = chosen.files;
+    files.dispatchEvent(new Event("change"));
+  }
+  for (let k = 0; k < 9; k++) await file("x").text(); }"""
 
 
 def test_throws_travel_as_a_line_and_a_class_pastes_all_at_once(page):
