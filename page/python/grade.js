@@ -3,6 +3,7 @@
    lines run. What was typed, and what was said of it, is there again when the page is. */
 import { setEquations } from "../book/equations.js";
 import { memory } from "../demo/questions.js";
+import { disable } from "./disable.js";
 import * as python from "./interpreter.js";
 
 const escaped = (text) => `${text}`.replace(/[&<>"]/g, (sign) => `&#${sign.charCodeAt()};`);
@@ -198,8 +199,7 @@ class Editor {
     } catch (error) {
       this.said = [`✗ ${error.message}`];
     }
-    if (document.activeElement === stop) form.querySelector("button").focus(); // what is disabled loses it
-    stop.disabled = true;
+    disable(stop);
     this.judged = lines;
     this.show(this.said);
     this.follow();

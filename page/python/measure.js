@@ -1,5 +1,6 @@
 /* The ledger's numbers, measured again in the page: draw after draw, from a seed of the reader's on, and
    what they are on average stands beside what ships. */
+import { disable } from "./disable.js";
 import { inline } from "./grade.js";
 import * as python from "./interpreter.js";
 
@@ -37,8 +38,7 @@ const follow = (form) => {
     } catch (error) {
       say(`✗ ${error.message}`);
     }
-    if (document.activeElement === stop) form.querySelector("button").focus(); // what is disabled loses it
-    stop.disabled = true;
+    disable(stop);
   });
   stop.addEventListener("click", () => asked.abort(Error("Stopped.")));
   form.hidden = false;
