@@ -19,17 +19,19 @@ export const drawScaled = (picture, scale, canvas) => {
   return context;
 };
 
-/* The reader's own pictures, chosen or dropped on a box: `take(picture, file)` is given each that this browser can
-   read, `say` why it cannot. Returns what takes a file, or an image of the page's. */
+/* The reader's own pictures, chosen or dropped on a box: `take(picture, file, isLatest)` is given each that this
+   browser can read, and can ask whether another came since; `say` why it cannot. Returns what takes a file, or an
+   image of the page's. */
 export const takePictures = (box, input, take, say) => {
   let latest;
   const read = async (file) => {
     latest = file;
+    const isLatest = () => file === latest;
     if (!file) return say("That was no file: save the photo first, then choose it here.");
     const decoded = file instanceof Image ? file.decode().then(() => file) : createImageBitmap(file);
     const picture = await decoded.catch(() => null);
-    if (file !== latest) return; // a large one takes long, and the reader has chosen another
-    if (picture) return take(picture, file);
+    if (!isLatest()) return; // a large one takes long, and the reader has chosen another
+    if (picture) return take(picture, file, isLatest);
     say(`This browser cannot read ${file.name}: save it, or a phone's HEIC, as a JPEG or PNG.`);
   };
   input.addEventListener("change", () => read(input.files[0]).then(() => (input.value = "")));

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from book.figures import racket, where
-from page.bundle import widget_script
+from page.bundle import bundle, widget_script
+from tests import pages
 
 TRUTH = {"cup": np.array([0.0, 0, 10, 10])}
 BOXES = np.array([[0.0, 0, 5, 10], [50, 50, 60, 60], [0, 0, 10, 10]])
@@ -38,6 +39,32 @@ def test_upload_button_needs_a_kernel(outputs, monkeypatch):
     _, button = widgets  # after the still
     assert 'type="file"' in button.page
     assert button._esm == widget_script("demos/upload.js")
+
+
+UPLOAD = """(script) => {
+  const box = document.body;
+  box.innerHTML = "<input type=file><p role=status></p><div class=vmc-picture></div>";
+  const answer = () => new Promise((resolve) => (self.resolve = resolve));
+  (0, eval)(script)({})["demos/upload"].start(box, answer);
+}"""
+
+
+@pytest.mark.browser
+def test_a_late_answer_leaves_what_is_said_of_a_later_file(window, tmp_path):
+    files = tmp_path / "photo.png", tmp_path / "words.txt"
+    cv2.imwrite(str(files[0]), np.zeros((4, 6, 3), np.uint8))
+    files[1].write_text("no picture", encoding="utf-8")
+    page = window().new_page()
+    page.evaluate(UPLOAD, bundle("demos/upload.js"))
+    chosen, status = page.locator("input"), page.get_by_role("status")
+    chosen.set_input_files(files[0])
+    page.wait_for_function("() => self.resolve")
+    chosen.set_input_files(files[1])
+    page.wait_for_function("() => document.body.innerText.includes('words.txt')")
+    page.evaluate("() => resolve('<p>drawn</p>')")
+    page.evaluate(pages.TWO_FRAMES)
+    assert "cannot read words.txt" in status.inner_text()
+    assert page.get_by_text("drawn").count() == 0
 
 
 def test_boxes_of_the_racket_are_counted_by_where_they_lie():
