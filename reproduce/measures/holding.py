@@ -11,7 +11,6 @@ from vmc_lib.motor.inverse_dynamics import muscle_gain
 POSTURES = np.radians(np.stack(np.mgrid[-90:91:3, 0:131:5], axis=-1))
 _ANGLES = np.linspace(0, 2 * np.pi, 180, endpoint=False)
 DIRECTIONS = np.stack([np.cos(_ANGLES), np.sin(_ANGLES)])  # (2, 180), of torques
-GRAVITY = 9.81  # m/s²
 
 
 def muscle_torques(q):
@@ -21,10 +20,8 @@ def muscle_torques(q):
 
 def required_torques(q, load=0.0):
     """What gravity, a load in kg at the wrist, and slack muscles leave to hold (…, 2)."""
-    nudged = dynamics.hand(q[..., None, :] + 1e-6 * np.eye(2))
-    lift = (nudged - dynamics.hand(q)[..., None, :])[..., 1] / 1e-6
     slack, _ = muscle_gain(q, 0 * q)
-    return dynamics.torque_for(q, 0 * q, 0 * q) - slack + GRAVITY * load * lift
+    return dynamics.torque_for(q, 0 * q, 0 * q, load) - slack
 
 
 def busiest(q, load=0.0):

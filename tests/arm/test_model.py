@@ -105,6 +105,20 @@ def test_closed_forms_that_ship_equal_mujoco():
         np.testing.assert_allclose(shipped, arm_tables.coefficients(load), rtol=0, atol=2e-9)
 
 
+def test_a_load_is_a_point_at_the_wrist():
+    """It weighs as the hand rises (m g dy/dq), and resists as the hand moves (m Jᵀ J)."""
+    q, turns, mass = np.radians([20.0, 90.0]), np.eye(2), 0.7
+    jacobian = np.transpose([dynamics.hand(q + t) - dynamics.hand(q - t) for t in 1e-5 * turns])
+    jacobian /= 2e-5
+    still = np.zeros((2, 2))
+    weight, pull = (
+        dynamics.torque_for([q, q], still, turn, mass) - dynamics.torque_for([q, q], still, turn)
+        for turn in (still, turns)
+    )
+    np.testing.assert_allclose(weight[0], mass * -MODEL.opt.gravity[1] * jacobian[1], atol=1e-6)
+    np.testing.assert_allclose(pull - weight, mass * jacobian.T @ jacobian, atol=1e-6)
+
+
 def test_geometry_agrees_with_hand_and_lengths():
     q = np.radians([-20.0, 80.0])
     bodies, muscles = geometry(q)

@@ -38,7 +38,8 @@ def model_with_load(load: float) -> mujoco.MjModel:
     if load == 0:
         return MODEL
     spec = mujoco.MjSpec.from_string(XML)
-    weight = {"mass": load, "inertia": [1e-9] * 3, "explicitinertial": True}
+    # Without `ipos` its mass would lie as far from the wrist again as the wrist from the elbow
+    weight = {"mass": load, "ipos": [0, 0, 0], "inertia": [1e-9] * 3, "explicitinertial": True}
     spec.body("forearm").add_body(name="held", pos=MODEL.site("hand").pos, **weight)
     return spec.compile()
 

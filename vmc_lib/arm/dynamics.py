@@ -84,11 +84,16 @@ def hand(q: ArrayLike) -> np.ndarray:
     return _trig_basis_of(q) @ coefficients()[1]
 
 
-def torque_for(q: ArrayLike, velocity: ArrayLike, acceleration: ArrayLike) -> np.ndarray:
-    """Inverse dynamics: torques (…, 2) in N m that give these accelerations over one step."""
+def torque_for(
+    q: ArrayLike, velocity: ArrayLike, acceleration: ArrayLike, load: float = 0.0
+) -> np.ndarray:
+    """Inverse dynamics: torques (…, 2) in N m that give these accelerations over one step.
+
+    With a `load` in kg at the wrist.
+    """
     velocity = _per_joint("velocity", velocity, "rad/s")
     acceleration = _per_joint("acceleration", acceleration, "rad/s²")
-    m11, m12, m22, b1, b2 = _dynamics(_terms(q), *velocity.T, STEP)
+    m11, m12, m22, b1, b2 = _dynamics(_terms(q, load), *velocity.T, STEP)
     a1, a2 = acceleration.T
     return np.array([m11 * a1 + m12 * a2 + b1, m12 * a1 + m22 * a2 + b2]).T
 
@@ -111,8 +116,8 @@ def _per_joint(name, values, unit):
     return as_numbers(name, values)
 
 
-def _terms(q):
-    return (_trig_basis_of(q) @ coefficients()[0]).T
+def _terms(q, load=0.0):
+    return (_trig_basis_of(q) @ coefficients(load)[0]).T
 
 
 def equation_12(

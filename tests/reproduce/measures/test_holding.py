@@ -6,6 +6,7 @@ from scipy.optimize import linprog
 
 from reproduce.measures import holding
 from vmc_lib.arm import simulate
+from vmc_lib.arm.arm26 import MODEL
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.motor.inverse_dynamics import static_activation
 
@@ -25,7 +26,7 @@ def test_a_load_costs_the_work_of_lifting_it():
     extra = holding.required_torques(LOW, 2.0) - holding.required_torques(LOW)
     turn = np.array([0.02, -0.01])  # rad
     low, high = (hand(LOW + half)[1] for half in (-turn / 2, turn / 2))
-    assert extra @ turn == pytest.approx(2 * holding.GRAVITY * (high - low), rel=1e-3)
+    assert extra @ turn == pytest.approx(2 * -MODEL.opt.gravity[1] * (high - low), rel=1e-3)
 
 
 def test_the_busiest_muscle_does_as_little_as_it_can():
