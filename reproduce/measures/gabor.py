@@ -11,6 +11,8 @@ from functools import cache
 
 import numpy as np
 
+from vmc_lib.what.crops import whitening_gain
+
 EIGHT = 8  # pixels: the width of a filter for which shapes are given; with it, all lengths grow
 PATIENCE = {"maxiter": 400}
 
@@ -113,28 +115,38 @@ def best_gabor(W):
 def grating_answers(W, step=0.05):
     """Answers (frequencies, 180) of a filter W (n_w, n_w) to gratings, each at its best phase.
 
-    Frequencies are `step` octaves apart, directions 1°.
+    Frequencies are `_frequencies`, `step` octaves apart, directions 1° apart.
     """
     return abs(_gratings(len(W), step) @ np.ravel(W))
 
 
+def _frequencies(step):
+    """Of gratings, in cycles a pixel: up to one stripe in two pixels."""
+    return 2 ** np.arange(-4.5, -1, step)
+
+
 @cache
 def _gratings(n_w, step):
-    octaves, angles = np.arange(-4.5, -1, step), np.radians(np.arange(180))
+    angles = np.radians(np.arange(180))
     y, x = np.mgrid[:n_w, :n_w].reshape(2, -1)
     across = np.multiply.outer(np.cos(angles), x) + np.multiply.outer(np.sin(angles), y)
-    return np.exp(2j * np.pi * np.multiply.outer(2**octaves, across))
+    return np.exp(2j * np.pi * np.multiply.outer(_frequencies(step), across))
 
 
 def bandwidths(W, step=0.05):
     """How sharply a filter W (n_w, n_w) is tuned to stripes: octaves, and degrees of direction.
 
-    Both are full widths at half height of its answers to gratings, each at its best phase.
+    Both are full widths at half height of its answers to gratings, each at its best phase. As a
+    cell is, it is asked through the retina: W sees a grating that was whitened. The octaves are
+    infinite where its answers stay above half down to the coarsest grating, or up to the finest.
     """
-    answers = grating_answers(W, step)
+    answers = grating_answers(W, step) * whitening_gain(_frequencies(step))[:, None]
     best, direction = np.unravel_index(answers.argmax(), answers.shape)
     enough = answers >= answers.max() / 2
-    return enough[:, direction].sum() * step, enough[best].sum()
+    below = np.flatnonzero(~enough[:, direction])
+    k = np.searchsorted(below, best)  # of the first below half that is finer
+    octaves = (below[k] - below[k - 1] - 1) * step if 0 < k < len(below) else np.inf
+    return octaves, enough[best].sum()
 
 
 def direction_vector(W):

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from functools import cache
 
 import numpy as np
-from numpy.typing import DTypeLike
+from numpy.typing import ArrayLike, DTypeLike
 
 from vmc_lib.boxes import as_box
 from vmc_lib.checks import as_numbers, is_positive
@@ -66,8 +66,14 @@ def whiten(pictures: np.ndarray, cutoff: float = 0.4, dtype: DTypeLike = np.floa
     return (x - x.mean((2, 3), keepdims=True)) / x.std((2, 3), keepdims=True, ddof=1)
 
 
+def whitening_gain(f: ArrayLike, cutoff: float = 0.4) -> np.ndarray:
+    """The whitening filter's gain at spatial frequencies f, in cycles a pixel."""
+    f = np.asarray(f)
+    return f * np.exp(-((f / cutoff) ** 4))
+
+
 @cache
 def _whitening_filter(height, width, cutoff):
     """Gain of the whitening filter at each frequency of pictures of a size."""
     f = np.hypot(np.fft.fftfreq(height)[:, None], np.fft.rfftfreq(width))
-    return np.float32(f * np.exp(-((f / cutoff) ** 4)))
+    return np.float32(whitening_gain(f, cutoff))

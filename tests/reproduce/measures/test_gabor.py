@@ -32,3 +32,18 @@ def test_a_round_blob_is_fitted_by_a_blob_and_has_no_direction():
     assert gabor.best_fit(stripes, gabor.BLOBS)[1] < 0.8 < gabor.best_gabor(stripes)[1]
     assert abs(gabor.direction_vector(blob)) < 0.1 < 0.4 < abs(gabor.direction_vector(stripes))
     assert np.degrees(np.angle(gabor.direction_vector(stripes))) / 2 == pytest.approx(30, abs=3)
+
+
+def test_bandwidths_are_those_of_a_cell_behind_the_retina():
+    """A wide Gabor function's are known: its answers are a Gauss function of the frequency."""
+    n_w, wavelength, breadth = 65, 6, 8.0
+    stripes = gabor.gabor_pair(n_w, 0, wavelength, breadth, breadth, 0, 0)[0].reshape(n_w, n_w)
+    half = np.sqrt(2 * np.log(2)) / (2 * np.pi * breadth)  # of its width in frequency
+    octaves = np.log2((1 / wavelength + half) / (1 / wavelength - half))
+    found, degrees = gabor.bandwidths(stripes)
+    assert found == pytest.approx(octaves, abs=0.06)
+    assert degrees == pytest.approx(2 * np.degrees(np.arctan(half * wavelength)), abs=2)
+
+
+def test_a_filter_wider_than_the_coarsest_stripe_has_no_bandwidth():
+    assert gabor.bandwidths(np.ones((64, 64)))[0] == np.inf
