@@ -19,10 +19,10 @@ from reproduce.experiments.offline_calibration import (
     trials_with_load,
 )
 from reproduce.measures.changed_worlds import block_errors
-from reproduce.peers.motor_noise import PERSON_MM, endpoint_deviation, with_noise
+from reproduce.peers.motor_noise import PERSON_MM, endpoint_deviation, noise_floor, with_noise
 from vmc_lib.cerebellum.offline import broyden_calibration
 from vmc_lib.motor.execution import execute
-from vmc_lib.motor.planning import draw_targets, norm, plan
+from vmc_lib.motor.planning import draw_targets, plan
 from vmc_lib.motor.templates import mean_distance
 
 OFF_LINE, WHOLE_ARM, MEMORIES = "off-line", "whole arm", "memories of the whole arm"
@@ -56,14 +56,14 @@ def curves_by_tries(habit, rules, repeats=20):
     """What each rule leaves of habit's miss after 0, 1, … tries, by name, (trials,).
 
     Also habit's miss and how far its repeated reaches end from their mean, both in mm; and what
-    "noise alone" leaves: how far the hand is from the mean of its own ways over the hold.
+    "noise alone" leaves (`noise_floor`).
     """
     many = execute(habit.with_weights(np.tile(habit.weights, (repeats, 1, 1))))
-    miss, unbiased = many.error.mean(), np.sqrt(repeats / (repeats - 1))
+    miss = many.error.mean()
     return {
         "habit": 1000 * miss,
         "scatter": 1000 * endpoint_deviation(many.endpoint),
-        "noise alone": unbiased * norm(many.hold - many.hold.mean(axis=0)).mean() / miss,
+        "noise alone": noise_floor(many.hold) / miss,
         **{
             k: kept_again(habit, rule(habit)).error.mean(axis=1) / miss for k, rule in rules.items()
         },

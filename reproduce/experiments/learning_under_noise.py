@@ -13,10 +13,10 @@ from reproduce.experiments.controller_comparison import (
 )
 from reproduce.experiments.planning_ablation import repeat_best_trials
 from reproduce.peers.adaptive_controllers import RIDGE, DeltaRuleCells
-from reproduce.peers.motor_noise import noise_share_for, with_noise
+from reproduce.peers.motor_noise import noise_floor, noise_share_for, with_noise
 from vmc_lib.cerebellum.online import AimCorrection, GranuleCells, WeightCorrection
 from vmc_lib.motor.execution import execute
-from vmc_lib.motor.planning import draw_targets, norm, plan
+from vmc_lib.motor.planning import draw_targets, plan
 from vmc_lib.motor.templates import load
 
 LEVELS = (0, 2, 5, 10)  # mm: the hand's standard deviation
@@ -35,9 +35,9 @@ def compare_learners(mm, seed, learners=LEARNERS, sizes=MOVEMENTS, held_out=200)
     """One draw on an arm that wavers by `mm`: shares of habit's miss that are left, by name.
 
     In-sample and held-out after so many movements (`train_controller`), and after off-line
-    calibration: of the best trial, and of the same command given again. "Nothing but noise" is how
-    far reaches end from their own mean, "habit" the miss in mm that all are shares of; "noise" the
-    coefficient of variation of a command.
+    calibration: of the best trial, and of the same command given again. "Nothing but noise" is
+    `noise_floor`, "habit" the miss in mm that all are shares of; "noise" the coefficient of
+    variation of a command.
     """
     share = noise_share_for(mm)
     noise, left = partial(with_noise, share=share), {"noise": share}
@@ -52,11 +52,8 @@ def compare_calibration(noise, seed, count):
     rng = np.random.default_rng((seed, 3))
     habit = plan(draw_targets(load(), count, rng), templates_with_noise(noise, (seed, 4)))
     many = execute(habit.with_weights(np.tile(habit.weights, (20, 1, 1))))
-    miss, ends = many.error.mean(), many.endpoint
-    left = {
-        "habit": 1000 * miss,
-        "nothing but noise": norm(ends - ends.mean(axis=0)).mean() / miss,
-    }
+    miss = many.error.mean()
+    left = {"habit": 1000 * miss, "nothing but noise": noise_floor(many.hold) / miss}
     for name, (best, again) in repeat_best_trials(habit, 20, cache(execute)).items():
         left[f"{name}, best trial"] = best.mean() / miss
         left[f"{name}, again"] = again.mean() / miss

@@ -168,7 +168,7 @@ def lessons(seed, movements=25, held_out=200, experiments=10):
     """
     past, rng = templates.load(hold=0.0), np.random.default_rng(seed)
     draw = np.random.default_rng((seed, 1))
-    blindly = partial(algorithm_1, change=partial(blind_change, rng=draw))
+    blindly = calibration_by(*teachers(seed)[BLIND])
     learners = {
         PRINTED: (WeightCorrection(), {}),
         SHUFFLED: (ShuffledPairs(rng=draw), {}),
@@ -193,22 +193,30 @@ def lessons(seed, movements=25, held_out=200, experiments=10):
     return found
 
 
+def teachers(seed):
+    """What finds a lesson's corrections: name -> a law, and the n in the order in which it tries.
+
+    All but one try n coarse to fine: then few tries span as many n as all, and differ in number.
+    """
+    return {
+        PAPER: (algorithm_1_change, COARSE_TO_FINE),
+        IN_ORDER: (algorithm_1_change, AS_ALGORITHM_1),
+        BLIND: (partial(blind_change, rng=np.random.default_rng((seed, 2))), COARSE_TO_FINE),
+        LINE: (line_search_change, COARSE_TO_FINE),
+    }
+
+
 def teaching(seed, movements=25, held_out=200):
     """What Algorithm 2 leaves after one experiment whose lessons cost so many tries, (TAUGHT,).
 
     By the law that found the corrections, in-sample and held-out; without a try the lesson is the
-    habit's own movement. The targets are those of `lessons` with the same seed.
+    habit's own movement. The targets are those of `lessons` with the same seed, and so is luck.
     """
     past, found = templates.load(hold=0.0), {}
-    draw = np.random.default_rng((seed, 2))
-    laws = {
-        PAPER: (algorithm_1_change, AS_ALGORITHM_1),
-        BLIND: (partial(blind_change, rng=draw), AS_ALGORITHM_1),
-        LINE: (line_search_change, COARSE_TO_FINE),
-    }
-    for name, (law, order) in laws.items():
+    for name in teachers(seed):
         left = {IN_SAMPLE: [], HELD_OUT: []}
         for count in TAUGHT:
+            law, order = teachers(seed)[name]  # with luck that has not been drawn yet
             rule = calibration_by(law, order[:count]) if count else no_calibration
             size = WeightCorrection(), past, np.random.default_rng(seed), movements, held_out, 1
             errors = run_experiments(*size, rule=rule)

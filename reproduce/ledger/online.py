@@ -34,12 +34,14 @@ LESS_EXACT = {
     kind: f"{nulls.PRINTED} less exact weights, {movements}"
     for kind, movements in ((IN_SAMPLE, "practised"), (HELD_OUT, "never practised"))
 }
-THREE_TRIES = f"taught by three tries of {nulls.PAPER}"
+SMALL_N = f"taught by {nulls.PAPER}, n = 1, 2, 3 alone"
+SPREAD_N = f"taught by {nulls.PAPER}, n = 0, 10, 20 alone"
 FALLS = "steps, experiment to experiment, in which the error falls"
 UNCORRECTED = "lessons of uncorrected movements"
 TEACHERS = {  # of Algorithm 2, and how often they try
     UNCORRECTED: (nulls.PAPER, 0),
-    THREE_TRIES: (nulls.PAPER, 3),
+    SMALL_N: (nulls.IN_ORDER, 3),
+    SPREAD_N: (nulls.PAPER, 3),
     f"taught by one try of a {nulls.LINE}": (nulls.LINE, 1),
 }
 ONLINE = {"better": -1, "rounding": paper.ratio_rounding("online", "planned")}
@@ -185,7 +187,7 @@ ROWS = (
         f"of those practised, and {{q[error after over planned, {nulls.BLINDLY_TAUGHT}]"
         ".obtained:.2f} of others. More tries do not make a better teacher: uncorrected movements "
         f"teach it to leave {{q[error after over planned, {UNCORRECTED}].obtained:.2f}} of others, "
-        f"three tries of Eq. 6–7 {{q[error after over planned, {THREE_TRIES}].obtained:.2f}}, "
+        f"three tries of Eq. 6–7 {{q[error after over planned, {SMALL_N}].obtained:.2f}}, "
         f"all 21 {{q[{NEW}].obtained:.2f}}. "
         "Of Algorithm 2 step 5 is taken as printed: w' is learned for the place p_a' that it "
         "reached. Eq. 8's weights and places after off-line calibration we read as the plan's, and "

@@ -15,7 +15,7 @@ import numpy as np
 from vmc_lib.arm.model import STEP
 from vmc_lib.arm.simulate import UNPERTURBED
 from vmc_lib.motor.inverse_dynamics import spline
-from vmc_lib.motor.planning import draw_targets, exact_weights, plan
+from vmc_lib.motor.planning import draw_targets, exact_weights, norm, plan
 from vmc_lib.motor.templates import HOLD, keep_last, load, reach
 
 KNOTS = 12  # spline coefficients a second: noise wavers about as slowly as commands change
@@ -56,6 +56,16 @@ def noisy_reach(noise, excitations, perturbation=UNPERTURBED):
 def endpoint_deviation(ends):
     """The standard deviation in m of ends (repeats, n, 2) about their means, over both axes."""
     return np.sqrt(ends.var(axis=0, ddof=1).mean())
+
+
+def noise_floor(holds):
+    """The mean distance in m of repeated holds (repeats, n, samples, 2) from their mean path.
+
+    It is what noise alone leaves of a miss: no rule can leave less. Each path is a part of the
+    mean, which is corrected for.
+    """
+    repeats = len(holds)
+    return np.sqrt(repeats / (repeats - 1)) * norm(holds - holds.mean(axis=0)).mean()
 
 
 @cache

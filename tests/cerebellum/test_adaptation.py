@@ -11,7 +11,7 @@ from reproduce.measures.changed_worlds import (
     error_clamp,
     train_aim_correction,
 )
-from vmc_lib.cerebellum.adaptation import SILENT, Adaptation, weight_correction
+from vmc_lib.cerebellum.adaptation import Adaptation, silent_endpoint, weight_correction
 from vmc_lib.cerebellum.online import AimCorrection
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import draw_targets, plan
@@ -61,11 +61,17 @@ def test_a_single_error_is_learned_by_its_share(template_set):
 
 
 def test_weight_correction_satisfies_equation_4():
-    points = np.array([[(0.0, -0.4), (0.1, -0.4), (0.1, -0.3), (0.0, -0.3)]])
+    pulls = np.array([[(0.0, 0.1), (0.1, 0.1), (0.1, 0.2), (0.0, 0.2)]])
     shift = np.array([[0.01, 0.03]])
-    change = weight_correction(points, shift)
-    np.testing.assert_allclose((change[:, None] @ (points - SILENT))[:, 0], shift)
+    change = weight_correction(pulls, shift)
+    np.testing.assert_allclose((change[:, None] @ pulls)[:, 0], shift)
     assert change.sum() > 0
+
+
+def test_in_silence_the_hand_ends_where_the_weights_sum_to_nothing(template_set):
+    reach = plan(np.array([[0.15, -0.4]]), template_set)
+    silence = execute(reach.with_weights(0 * reach.weights))
+    np.testing.assert_allclose(silence.endpoint[0], silent_endpoint(template_set))
 
 
 def test_adaptation_curves_have_new_targets(template_set, skill):

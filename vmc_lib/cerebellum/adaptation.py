@@ -7,7 +7,7 @@ a share of it away (Albus, 1971). The error alone does not say what is wrong. It
 
 - in the **aim**, as behind a prism: plan for another place, with the templates there;
 - in the **pull**, as with a load: give the same templates other weights, which need not sum to
-  one. To do nothing is a template too, and the hand then hangs straight down.
+  one. To do nothing is a template too, and the hand then drops.
 """
 
 from dataclasses import replace
@@ -19,10 +19,9 @@ from vmc_lib.cerebellum.online import AimCorrection, GranuleCells, WeightCorrect
 from vmc_lib.checks import as_numbers, is_within
 from vmc_lib.motor.execution import Execute, Movement, execute
 from vmc_lib.motor.planning import Plan, check_batch, check_templates, is_surrounded, plan
-from vmc_lib.motor.templates import REACH, TemplateSet
+from vmc_lib.motor.templates import TemplateSet
 from vmc_lib.short_repr import short
 
-SILENT = np.array([0.0, -REACH])  # where the hand ends when every muscle is silent
 CORRECTIONS = ("aim", "pull")
 SHARES = np.linspace(1, 0, 41)  # of a shift of the aim: the largest that experience allows is made
 
@@ -70,6 +69,7 @@ class Adaptation:
             raise ValueError(f"regularisation = {short(regularisation)}: give 0 or more")
         self.trained_correction, self.template_set = trained_correction, template_set
         self.corrects, self.regularisation = corrects, regularisation
+        self.silent = silent_endpoint(template_set)
         nothing = np.zeros_like(template_set.points)
         self.cells = GranuleCells(width=0.1, cells=300).fit(template_set.points, nothing)
         self.purkinje = self.cells.purkinje_
@@ -80,7 +80,8 @@ class Adaptation:
         if self.corrects == "aim":
             return self._aimed(plan, plan.target + shift)
         trained = self.trained_correction.correct(plan)
-        return trained.with_weights(trained.weights + weight_correction(plan.points, shift))
+        change = weight_correction(plan.points - self.silent, shift)
+        return trained.with_weights(trained.weights + change)
 
     def update(self, plan: Plan, execute: Execute = execute) -> Movement:
         """Move, and learn from the error that is seen. Returns the `Movement`.
@@ -128,12 +129,18 @@ def minimum_norm_update(
     return active.T @ np.linalg.solve(overlap, missing)
 
 
-def weight_correction(points: np.ndarray, shift: np.ndarray) -> np.ndarray:
-    """The smallest Δw (…, N) that shifts the hand by `shift` (…, 2), by Eq. 4 from `SILENT`.
+def silent_endpoint(template_set: TemplateSet) -> np.ndarray:
+    """Where the hand ends, (2,), in m, when every muscle is silent."""
+    return template_set.reach(np.zeros_like(template_set.excitations[:1])).endpoint[0]
 
-    It sums to more than zero where the hand must be lifted: more of everything.
+
+def weight_correction(pulls: np.ndarray, shift: np.ndarray) -> np.ndarray:
+    """The smallest Δw (…, N) that shifts the hand by `shift` (…, 2), by Eq. 4.
+
+    `pulls` (…, N, 2) is how far each template brings the hand from where it ends in silence. Δw
+    sums to more than zero where the hand must be lifted: more of everything.
     """
-    shift = as_numbers("shift", shift)
-    if shift.shape[-1:] != SILENT.shape:
+    pulls, shift = as_numbers("pulls", pulls), as_numbers("shift", shift)
+    if shift.shape[-1:] != pulls.shape[-1:]:
         raise ValueError(f"shift {short(shift)}: give (…, 2) in the arm's plane, in m")
-    return (np.linalg.pinv(np.swapaxes(points - SILENT, -1, -2)) @ shift[..., None])[..., 0]
+    return (np.linalg.pinv(np.swapaxes(pulls, -1, -2)) @ shift[..., None])[..., 0]
