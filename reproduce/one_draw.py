@@ -6,10 +6,11 @@ means over such draws.
 
 import numpy as np
 
+from reproduce.measures.planning_error import template_rows
 from vmc_lib.cerebellum.offline import broyden_calibration, gauss_newton_calibration
 from vmc_lib.motor import templates
 from vmc_lib.motor.execution import execute
-from vmc_lib.motor.planning import draw_targets, exact_weights, habitual_weights, nearest, plan
+from vmc_lib.motor.planning import draw_targets, exact_weights, habitual_weights, plan
 
 COUNT, MANY = 25, 200  # movements of a draw, as in the paper; and where they are new ones
 HOLDS = {"": 0.0, ", over the hold": templates.HOLD}  # how long the hold is, s
@@ -18,12 +19,11 @@ HOLDS = {"": 0.0, ", over the hold": templates.HOLD}  # how long the hold is, s
 def planned_error_ratio(seed, past=None, rule=habitual_weights, number=4, count=COUNT):
     """The mean miss over the mean reach; of templates `past` the plan mixes a `number`.
 
-    Four are one in each quadrant, any other number the nearest; the paper's reading by default.
+    Which, `template_rows` says; the paper's reading by default.
     """
     past = past or templates.load(hold=0.0)
     targets = draw_targets(past, count, np.random.default_rng(seed))
-    rows = None if number == 4 else nearest(targets, past.points, number)
-    plans = plan(targets, past, rule, rows)
+    plans = plan(targets, past, rule, template_rows(targets, past.points, number))
     return execute(plans).error.mean() / np.linalg.norm(targets, axis=-1).mean()
 
 

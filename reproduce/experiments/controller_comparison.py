@@ -47,9 +47,10 @@ def compare(kind, cells, seed, movements=MOVEMENTS, held_out=200):
 
 
 def train_controller(kind, cells, seed, movements, held_out, noise=None):
-    """A learner that has practised, the seconds it took, and the shares of habit's error left.
+    """A learner that has practised, the seconds of its last lesson, and the shares of error left.
 
-    Those are in-sample and held-out, (len(movements), 2); `noise` as for `templates_with_noise`.
+    Those, of habit's error, are in-sample and held-out, (len(movements), 2); `noise` as for
+    `templates_with_noise`.
     """
     rng = np.random.default_rng(seed)
     unseen, targets = (draw_targets(load(), n, rng) for n in (held_out, movements[-1]))

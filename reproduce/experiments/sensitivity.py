@@ -20,6 +20,7 @@ from reproduce.experiments.calibration import (
     coarse_algorithm_1,
     error_ratios,
 )
+from reproduce.measures.planning_error import template_rows
 from reproduce.peers.muscle_models import LAWS
 from reproduce.training import reach_templates
 from vmc_lib import data
@@ -29,7 +30,7 @@ from vmc_lib.cerebellum.offline import algorithm_1, gauss_newton_calibration
 from vmc_lib.cerebellum.online import WeightCorrection
 from vmc_lib.motor import inverse_dynamics, templates
 from vmc_lib.motor.execution import EYE, execute
-from vmc_lib.motor.planning import draw_targets, is_surrounded, nearest, norm, plan
+from vmc_lib.motor.planning import draw_targets, is_surrounded, norm, plan
 
 ASTRAY = 0.01  # m: a reach that ends so far from its goal is none to remember
 MARGIN = 0.008  # m: so far inside of what templates surround; those of another arm end elsewhere
@@ -143,7 +144,7 @@ def misses(
         past = find_templates(spacing) if arm else templates.load(spacing)
         others = draw_targets(past, 25, np.random.default_rng(8))
         habit, practised = (
-            plan(some, past, rows=None if number == 4 else nearest(some, past.points, number))
+            plan(some, past, rows=template_rows(some, past.points, number))
             for some in (goals, others)
         )
         rule = partial(coarse_algorithm_1, origin=origin, sign=sign)

@@ -67,7 +67,7 @@ def _left_from_origins(seed):
 
 
 def nearer(found, rule):
-    """How many movements a rule of `nulls` brings nearer, and of how many, in all draws.
+    """How many practised movements a rule of `nulls` brings nearer, and of how many, in all draws.
 
     `rule` names what it `found`: a share of each draw's `COUNT`, the same movements as its nulls'.
     """

@@ -101,11 +101,11 @@ def _left(found, experiments, rule="online"):
 
 def _figure_11():
     lessons, rule = nulls.load_results()[nulls.BY_LESSONS], f"{nulls.PRINTED}, nearer"
-    practised, came = (nearer(lessons, f"{rule}, {kind}") for kind in (IN_SAMPLE, HELD_OUT))
+    practised, others = nearer(lessons, f"{rule}, {IN_SAMPLE}"), lessons[f"{rule}, {HELD_OUT}"]
     luck = {null: lessons[f"{null}, nearer, in-sample"].mean() for null in NULLS}
     return [
         share(NEARER, 1, *practised, EXAMPLES, better=1, nulls=luck),
-        share("examples brought nearer, never practised", None, *came),
+        mean("examples brought nearer, never practised", None, others),
     ]
 
 

@@ -14,7 +14,6 @@ from reproduce.experiments.calibration import (
     AS_PRINTED,
     MANY,
     SCENARIOS,
-    SEEDS,
     load_results,
     repeat_over_seeds,
 )
@@ -34,7 +33,7 @@ PRINTED = f"{SCENARIOS[0]}, {AS_PRINTED}"
 def planned_error_ratios(spacing=templates.SPACING, rule=habitual_weights):
     """The mean miss over the mean reach by templates `spacing` m apart: (seeds,)."""
     past = templates.load(spacing, hold=0.0)
-    return np.array([planned_error_ratio(seed, past, rule) for seed in SEEDS])
+    return np.array([planned_error_ratio(seed, past, rule) for seed in MANY])
 
 
 @cache

@@ -118,11 +118,12 @@ def ripple(force):
     return np.ptp(late) / late.mean()
 
 
-def isotonic(law, loads, per_speed=1 / muscle.MAX_VELOCITY, duration=300, step=1e-4):
+def isotonic(law, loads, per_speed=1 / muscle.MAX_VELOCITY, duration=300):
     """Lengths and speeds (ms, n) of the half-active muscle from when loads (n,) in kg are released.
 
-    `per_speed` turns a speed into the v of Eq. 11; `duration` is in ms, `step` in s.
+    `per_speed` turns a speed into the v of Eq. 11; `duration` is in ms, of ten steps each.
     """
+    step = 1e-4  # s
     loads = np.asarray(loads, float)
     length, speed, path = np.ones_like(loads), np.zeros_like(loads), []
     for _ in range(round(duration / 1000 / step)):

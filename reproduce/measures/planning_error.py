@@ -11,15 +11,18 @@ TARGETS = np.stack(
 ).reshape(-1, 2)
 
 
+def template_rows(targets, points, number):
+    """Rows (n, number) of the nearest templates, for `plan`; of four None: one in each quadrant."""
+    return None if number == 4 else nearest(targets, points, number)
+
+
 def mixed_and_reached(rule=habitual_weights, spacing=0.06, number=4):
     """Where the weights alone would send the hand (N, 2) for `TARGETS`, and where it ends, in m.
 
-    Of templates `spacing` m apart it mixes a `number`: four are one in each quadrant, any other
-    number the nearest.
+    Of templates `spacing` m apart it mixes a `number` (`template_rows`).
     """
     past = templates.load(spacing)
-    rows = None if number == 4 else nearest(TARGETS, past.points, number)
-    plans = plan(TARGETS, past, rule, rows)
+    plans = plan(TARGETS, past, rule, template_rows(TARGETS, past.points, number))
     return (plans.weights[:, None] @ plans.points)[:, 0], execute(plans).endpoint
 
 

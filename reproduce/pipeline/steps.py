@@ -138,7 +138,8 @@ def describe_steps():
 PYTHON, MITSUBA = f"{sys.executable} -m", "mitsuba and LLVM 19"
 RENDER, OPENSIM = f"{PYTHON} reproduce.render", ".bench/bin/python -m tools.bench.opensim_reference"
 SUMMED = f"{PYTHON} reproduce.pipeline.checksums"
-ARM, WHOLE_ARM = "arm26 vmc_lib/arm", "vmc_lib/arm reproduce/whole_arm"
+TABLES, WHOLE_ARM = "arm26 vmc_lib/arm", "vmc_lib/arm reproduce/whole_arm"
+ARM = f"rest {TABLES}"
 SHIPPED = "vmc_lib/data vmc_lib/arm"
 COUNTEREXAMPLES = "reproduce/training/counterexamples"
 PHOTOGRAPHS = f"photos candidates detectors cutouts decoys vmc_lib/data/real {COUNTEREXAMPLES}"
@@ -154,15 +155,20 @@ STEPS = (
     Step(shipped_models.cdbn, MODEL / "cdbn.npz", "photos", 2),
     Step(shipped_models.recogniser, MODEL / "recogniser.npz", "photos cdbn", 2),
     Step(arm_tables.make, MODEL / "arm26.npz", "vmc_lib/arm", 0.1),
-    Step(arm_tables.make_rest, MODEL / "rest.npz", ARM, 0.1),
-    Step(shipped_models.templates, MODEL / "templates.npz", f"rest {ARM}", 1),
+    Step(arm_tables.make_rest, MODEL / "rest.npz", TABLES, 0.1),
+    Step(shipped_models.templates, MODEL / "templates.npz", ARM, 1),
     Step(localisation.make, RESULTS / "localisation.npz", "photos candidates detectors", 25),
     Step(recognition.make, RESULTS / "recognition.npz", "photos cdbn", 3),
     Step(hmax_draws.make, RESULTS / "hmax_draws.npz", "photos recognition", 3),
     Step(second_layers.make, RESULTS / "second_layers.npz", "photos cdbn", 2),
     Step(other_filters.make, RESULTS / "other_filters.json", "photos cdbn", 4),
     Step(random_filters.make, RESULTS / "random_filters.npz", "photos cdbn", 4),
-    Step(region_clusters.make, RESULTS / "region_clusters.json", "photos candidates", 1),
+    Step(
+        region_clusters.make,
+        RESULTS / "region_clusters.json",
+        "photos candidates localisation",
+        1,
+    ),
     Step(class_independence.make, RESULTS / "class_independence.npz", "photos", 3),
     Step(cdbn_sensitivity.make, RESULTS / "variations.npz", "photos", 15),
     Step(crbm_ablation.make, RESULTS / "tricks.npz", "photos"),
@@ -235,7 +241,7 @@ STEPS = (
     Step(
         learning_curves.make,
         RESULTS / "learning_curves.json",
-        f"templates unsteady whole_arm_habits {WHOLE_ARM}",
+        f"templates unsteady whole_arm_habits {ARM} {WHOLE_ARM}",
         15,
     ),
     Step(f"{PYTHON} reproduce.whole_arm.derive", plant.FILE, needs="myo-sim"),
