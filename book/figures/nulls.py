@@ -22,6 +22,8 @@ LINES = {  # a rule -> its line
     nulls.LINE: ("green", "--"),
     nulls.WHOLE_HOLD: ("green", "-"),
 }
+TEACHERS = {rule: LINES[rule] for rule in (nulls.PAPER, nulls.BLIND, nulls.LINE)}
+TEACHERS[nulls.IN_ORDER] = "blue", "--"
 
 
 def by_tries(reading, tries):
@@ -32,7 +34,8 @@ def by_tries(reading, tries):
     found = READINGS[reading]()
     fig, ax = panels(size=(4.3, 4.0))
     for rule in (name for name in LINES if name in found):
-        middle = _curve(ax, rule, np.arange(tries + 1), found[rule][:, : tries + 1])
+        shares = found[rule][:, : tries + 1]
+        middle = _curve(ax, rule, LINES[rule], np.arange(tries + 1), shares)
         mark_now(ax, tries, middle[tries], LINES[rule][0])
     if "noise alone" in found:
         ax.axhline(found["noise alone"].mean(), ls=":", color=COLOURS["grey"], gid="noise alone")
@@ -43,9 +46,9 @@ def by_tries(reading, tries):
     return fig
 
 
-def _curve(ax, rule, x, shares):
-    """A rule's line over `x`, the mean of the draws (draws, x), returned, with its 95 % band."""
-    (colour, style), (middle, half) = LINES[rule], t_interval(shares)
+def _curve(ax, rule, line, x, shares):
+    """A rule's `line` over `x`, the mean of the draws (draws, x), returned, with its 95 % band."""
+    (colour, style), (middle, half) = line, t_interval(shares)
     ax.plot(x, middle, style, color=COLOURS[colour], label=rule)
     ax.fill_between(x, middle - half, middle + half, color=COLOURS[colour], alpha=0.2, lw=0)
     return middle
@@ -56,8 +59,8 @@ def by_teaching():
     found = nulls.load_results()[nulls.BY_TEACHING]
     fig, *axes = panels(2, size=(6.4, 3.0))
     for ax, kind, movements in zip(axes, KINDS, ("practised", "never practised"), strict=True):
-        for rule in (nulls.PAPER, nulls.BLIND, nulls.LINE):
-            _curve(ax, rule, nulls.TAUGHT, found[f"{rule}, {kind}"])
+        for rule, line in TEACHERS.items():
+            _curve(ax, rule, line, nulls.TAUGHT, found[f"{rule}, {kind}"])
         ax.set(title=movements, xlabel="tries a lesson", xlim=(0, nulls.TRIES), ylim=(0, 0.8))
         ax.set_xticks([0, *nulls.TAUGHT[2:]])
     axes[0].set_ylabel("error / planned error")
