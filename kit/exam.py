@@ -13,6 +13,7 @@ from pathlib import Path
 
 import nbformat
 
+from book._ext.numbering import equations_named
 from book.figures.plans import BOOK, NAMES
 from kit.bank import templates
 from kit.chapter_slides import TAG
@@ -20,7 +21,6 @@ from kit.gift import gift
 from kit.moodle import moodle_xml
 from kit.page import markdown_page, write_assets
 from kit.qti import package
-from kit.session import equations_named
 from tools import browser
 
 FOLDER = Path("_build/exam")

@@ -9,7 +9,7 @@ from functools import partial
 from itertools import count
 from pathlib import Path
 
-REFERENCE = re.compile(r"Eqs?\.[ \u00a0](\d+)(?:(?:–| to | and )\d+)?")
+REFERENCE = re.compile(r"Eqs?\.\s(\d+)(?:([–-]|\sto\s|\sand\s)(\d+))?")
 DISPLAYED = re.compile(
     r'<div class="(?:amsmath )?math notranslate nohighlight"[^>]*>'
     r"(?=(?:(?!</div>).)*?\\tag\{(\d+)\})",
@@ -61,6 +61,15 @@ def with_links(body, pages, uri):
         elif not closed and not tag[1] and (tag[2] in CLOSED or "math notranslate" in part):
             closed, depth = tag[2], 1
     return "".join(parts)
+
+
+def equations_named(text):
+    """The numbers of the equations that a text names, as "Eq. 5", "Eq. 6–7" or "Eq. 3 and 5"."""
+    named = set()
+    for first, word, last in REFERENCE.findall(text):
+        ends = int(first), int(last or first)
+        named.update(ends if "and" in word else range(ends[0], ends[1] + 1))
+    return named
 
 
 def with_anchors(body, tags):
