@@ -10,11 +10,13 @@ from itertools import count
 from pathlib import Path
 
 REFERENCE = re.compile(r"Eqs?\.\s(\d+)(?:([–-]|\sto\s|\sand\s)(\d+))?")
+EQUATION_NUMBER = re.compile(r"\\tag\{(\d+)\}")
 DISPLAYED = re.compile(
     r'<div class="(?:amsmath )?math notranslate nohighlight"[^>]*>'
-    r"(?=(?:(?!</div>).)*?\\tag\{(\d+)\})",
+    rf"(?=(?:(?!</div>).)*?{EQUATION_NUMBER.pattern})",
     re.S,
 )
+FIGURE_NUMBER = re.compile(r"Figure ([\d.]+)</span>")  # as `with_figure_numbers` writes it
 # Where no link may stand, or where the text is not prose
 CLOSED = {"a", "button", "code", "h1", "h2", "h3", "label", "pre", "script", "style", "summary"}
 CLOSED |= {"svg"}
@@ -31,7 +33,7 @@ def find(app, env):
     env.equation_pages = {}
     for page in env.toctree_includes.get(env.config.root_doc, []):
         text = Path(env.doc2path(page)).read_text(encoding="utf-8")
-        for tag in re.findall(r"\\tag\{(\d+)\}", text):
+        for tag in EQUATION_NUMBER.findall(text):
             env.equation_pages[tag] = page
 
 
