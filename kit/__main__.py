@@ -1,19 +1,17 @@
 """Builds the kit into _build/kit: `make kit`."""
 
 import argparse
-import json
 import re
 import shutil
 from pathlib import Path
 
 import nbformat
-import numpy as np
 
-from book._ext.policy import seal
 from book.figures.plans import BOOK, NAMES
 from kit import arm, concepts, demos, figures, nbgrader
 from kit.bank import bank
 from kit.chapter_questions import bank_questions
+from kit.class_pages import class_page, throws_page
 from kit.gift import gift
 from kit.key import key
 from kit.moodle import moodle_xml
@@ -22,7 +20,6 @@ from kit.plan import plans
 from kit.qti import package
 from kit.slides import build as slides
 from kit.student import alive, student
-from vmc_lib.cerebellum import two_rates
 
 ROOT = Path(__file__).parents[1]
 NOT_GRADED = """// Predictions: nobody should be graded for them. Set the quiz's maximum grade to 0.
@@ -91,23 +88,6 @@ def index():
     text = next(cell.source for cell in cells if "`make kit` writes" in cell.source)
     listed = re.search(r"`make kit` writes.+\n\n((?:- .+\n(?:  .+\n)*)+)", text)[1]
     return "# The kit\n\n" + re.sub(r"`([\w/.-]+\.(html|ipynb))`", r"[\1](\1)", listed)
-
-
-def throws_page():
-    """The page on which a class throws with a turned pointer, with the model's curve in it."""
-    page = (ROOT / "kit/pages/throws.html").read_text(encoding="utf-8")
-    return seal(page.replace("/*MODEL*/[]", json.dumps(throws().round(4).tolist())))
-
-
-def class_page():
-    """The page that joins what a class has answered."""
-    return seal((ROOT / "kit/pages/class.html").read_text(encoding="utf-8"))
-
-
-def throws():
-    """What two memories leave of a shift, as a share of it, in 10, 30 and 15 throws (55,)."""
-    turned = np.repeat([0.0, 1.0, 0.0], [10, 30, 15])
-    return turned - two_rates.adapt(turned).sum(axis=1)
 
 
 if __name__ == "__main__":

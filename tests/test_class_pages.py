@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 from playwright.sync_api import expect
 
-from kit.__main__ import class_page, throws, throws_page
+from kit import class_pages
+from kit.class_pages import class_page, throws, throws_page
 from tests.formulas import FORMULAS, computes
 from tests.pages import book_html, boxes, observe
 from vmc_lib.show import check, questions
@@ -147,6 +148,27 @@ def test_model_of_the_throws_adapts_and_has_an_after_effect():
     assert 0 < left[39] < 0.5
     assert -1 < left[40] < -0.5
     assert abs(left[54]) < abs(left[40]) / 2
+
+
+def test_throws_are_as_many_and_as_turned_as_the_blocks_say(page, monkeypatch):
+    monkeypatch.setattr(class_pages, "BLOCKS", ((2, 0), (6, 20), (4, 0)))
+    room = page(throws_page())
+    assert room.inner_text("#status") == "Throw 1 of 12."
+    for _ in range(12):
+        room.click("#throw")
+    heights = room.locator("#plot circle").evaluate_all("all => all.map((c) => c.cy.baseVal.value)")
+    np.testing.assert_allclose(heights, np.repeat([150, 60, 150], [2, 6, 4]))
+    room.fill("#lines", "\n".join(f"throws 1: {who}; {SHORT} end" for who in ("ann", "bob")))
+    assert room.inner_text("#sums") == (
+        "first turned: 1.00 ± 0.00; last five turned: 0.50 ± 0.00; first after: -0.50 ± 0.00"
+    )
+
+
+SHORT = "0 0 20 10 10 10 10 10 -10 0 0 0"
+
+
+def test_the_table_of_throws_has_a_name_that_is_read_aloud(page):
+    assert page(throws_page()).get_by_role("region", name="the throws").count() == 1
 
 
 def test_sheet_for_goggles_has_a_line_for_each_throw(page):
