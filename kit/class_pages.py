@@ -1,6 +1,7 @@
 """Pages for a class without a server: throws with a turned pointer, and what all have answered."""
 
 import json
+import re
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +10,7 @@ from book._ext.policy import seal
 from vmc_lib.cerebellum import two_rates
 
 PAGES = Path(__file__).parent / "pages"
+RECORD = Path(__file__).parents[1] / "page/book/record.js"  # saves what the class's page reads
 BLOCKS = (10, 0), (30, 30), (15, 0)  # throws, and by how many degrees they are turned
 
 
@@ -27,5 +29,8 @@ def throws():
 
 
 def class_page():
-    """The page that joins what a class has answered."""
-    return seal((PAGES / "class.html").read_text(encoding="utf-8"))
+    """The page that joins what a class has answered, with the limits by which answers are kept."""
+    page = (PAGES / "class.html").read_text(encoding="utf-8")
+    record = RECORD.read_text(encoding="utf-8")
+    page = page.replace("/*MOST*/0", re.search(r"\bMOST = (\d+)", record)[1])
+    return seal(page.replace("/*TEXTS*/[]", re.search(r"\bTEXTS = (\[.+?\])", record)[1]))

@@ -307,7 +307,6 @@ def test_files_that_are_chosen_while_others_are_read_take_their_place(page):
         [None],
         [answer("", False) | {"feedback": {"toString": 1}}],
         [answer("", False) | {"page": 7}],
-        [answer("1", False)] * 2001,
     ],
 )
 def test_a_file_that_no_page_saved_leaves_the_others_in_the_table(page, tmp_path, answers):
@@ -321,6 +320,20 @@ def test_a_file_that_no_page_saved_leaves_the_others_in_the_table(page, tmp_path
         "1 students. Not read: bob.json (it is no file of answers)."
     )
     assert room.locator("#rows tr").count() == 1
+
+
+def test_of_a_longer_file_than_a_page_keeps_the_last_answers_are_read(page, tmp_path):
+    """A page saves more where its browser kept no more; what is left out is said."""
+    answers = [answer("old", False), *[answer("new", False)] * 2000]
+    file = {"format": "answers 1", "who": "ann", "answers": answers}
+    (tmp_path / "ann.json").write_text(json.dumps(file), encoding="utf-8")
+    room = page(class_page())
+    room.set_input_files("#files", tmp_path / "ann.json")
+    room.wait_for_selector("#rows tr")
+    assert room.inner_text("#status") == (
+        "1 students. Only the last 2000 answers are read of: ann.json (1 left out)."
+    )
+    assert room.locator("#rows td:nth-child(3)").all_inner_texts() == ["new"]
 
 
 def test_no_answer_becomes_a_formula(page, tmp_path):
