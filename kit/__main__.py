@@ -34,26 +34,41 @@ def build(folder, pages, web=""):
     `web` is the address at which the kit will lie, if it will.
     """
     shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    write_notebooks(folder)
+    write_texts(folder, pages)
+    write_questions(folder, pages, web)
+    slides(folder / "slides", pages)
+    demos.build(folder / "demos", pages)
+    figures.build(folder / "figures", pages)
+    arm.build(folder / "arm-in-page")
+    shutil.copy(ROOT / "kit/report.ipynb", folder)
+    in_class = {"throws": throws_page(), "class": class_page(), "concepts": concepts.page()}
+    for name, page in in_class.items():
+        (folder / f"{name}.html").write_text(page, encoding="utf-8")
+
+
+def write_notebooks(folder):
+    """Write the chapters as students and nbgrader get them, with the pages to which they link."""
+    pages = [*(ROOT / "book").glob("*.md")]
+    files = {path.name for path in (*pages, *CHAPTERS)} | {"references.bib"}
     students = folder / "students"
-    students.mkdir(parents=True)
-    pages_of_words = [*(ROOT / "book").glob("*.md")]
-    files = {path.name for path in (*pages_of_words, *CHAPTERS)} | {"references.bib"}
-    for page in pages_of_words:
+    students.mkdir()
+    for page in pages:
         text = alive(page.read_text(encoding="utf-8"), files)
         (students / page.name).write_text(text, encoding="utf-8")
     shutil.copy(ROOT / "book/references.bib", students)
-    keys, questions = [], {}
     for chapter in CHAPTERS:
         notebook = nbformat.read(chapter, as_version=4)
         nbformat.write(student(notebook, files), students / chapter.name)
         assignment = folder / "nbgrader/source" / chapter.stem
         assignment.mkdir(parents=True)
         nbformat.write(nbgrader.source(notebook, files), assignment / chapter.name)
-        page = (pages / f"{chapter.stem}.html").read_text(encoding="utf-8")
-        keys.append(alive(key(notebook, page), ()))
-        _, moving = demos.read(page)
-        asked = bank_questions(notebook, chapter.stem, moving, web)
-        questions |= {(chapter.stem, name): several for name, several in asked.items()}
+
+
+def write_texts(folder, pages):
+    """Write what a teacher reads, as pages: the first page, the key, the plans, two handouts."""
+    keys = [alive(key(notebook, page), ()) for _, notebook, page in chapters(pages)]
     texts = {"key": "\n".join(keys), "plan": plans(), "index": index()}
     for name in ("projects", "assistants"):
         texts[name] = (ROOT / f"kit/{name}.md").read_text(encoding="utf-8")
@@ -62,7 +77,15 @@ def build(folder, pages, web=""):
     for name in ("key", "plan"):
         (folder / f"{name}.md").write_text(texts[name], encoding="utf-8")
     write_assets(folder)
-    shutil.copy(ROOT / "kit/report.ipynb", folder)
+
+
+def write_questions(folder, pages, web):
+    """Write the bank and the quizzes for platforms, and apart from them the predictions."""
+    questions = {}
+    for chapter, notebook, page in chapters(pages):
+        _, moving = demos.read(page)
+        asked = bank_questions(notebook, chapter, moving, web)
+        questions |= {(chapter, name): several for name, several in asked.items()}
     questions |= bank()
     predictions = {name: q for name, q in questions.items() if q[0].level == "predict"}
     graded = {name: q for name, q in questions.items() if name not in predictions}
@@ -73,13 +96,13 @@ def build(folder, pages, web=""):
         (folder / f"{name}.gift").write_text(note + gift(part), encoding="utf-8")
         (folder / f"{name}.xml").write_bytes(moodle_xml(part))
         (folder / f"{name}-qti.zip").write_bytes(package(part, kind))
-    slides(folder / "slides", pages)
-    demos.build(folder / "demos", pages)
-    figures.build(folder / "figures", pages)
-    arm.build(folder / "arm-in-page")
-    (folder / "throws.html").write_text(throws_page(), encoding="utf-8")
-    (folder / "concepts.html").write_text(concepts.page(), encoding="utf-8")
-    (folder / "class.html").write_text(class_page(), encoding="utf-8")
+
+
+def chapters(pages):
+    """Each chapter's name, its notebook, and its page in the folder `pages`, HTML."""
+    for path in CHAPTERS:
+        page = (pages / f"{path.stem}.html").read_text(encoding="utf-8")
+        yield path.stem, nbformat.read(path, as_version=4), page
 
 
 def index():
