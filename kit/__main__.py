@@ -1,19 +1,17 @@
 """Builds the kit into _build/kit: `make kit`."""
 
 import argparse
-import json
 import re
 import shutil
 from pathlib import Path
 
 import nbformat
-import numpy as np
 
-from book._ext.policy import seal
 from book.figures.plans import BOOK, NAMES
 from kit import arm, concepts, demos, figures, nbgrader
 from kit.bank import bank
 from kit.chapter_questions import bank_questions
+from kit.class_pages import class_page, throws_page
 from kit.gift import gift
 from kit.key import key
 from kit.moodle import moodle_xml
@@ -22,7 +20,6 @@ from kit.plan import plans
 from kit.qti import package
 from kit.slides import build as slides
 from kit.student import alive, student
-from vmc_lib.cerebellum import two_rates
 
 ROOT = Path(__file__).parents[1]
 NOT_GRADED = """// Predictions: nobody should be graded for them. Set the quiz's maximum grade to 0.
@@ -37,26 +34,41 @@ def build(folder, pages, web=""):
     `web` is the address at which the kit will lie, if it will.
     """
     shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    write_notebooks(folder)
+    write_texts(folder, pages)
+    write_questions(folder, pages, web)
+    slides(folder / "slides", pages)
+    demos.build(folder / "demos", pages)
+    figures.build(folder / "figures", pages)
+    arm.build(folder / "arm-in-page")
+    shutil.copy(ROOT / "kit/report.ipynb", folder)
+    in_class = {"throws": throws_page(), "class": class_page(), "concepts": concepts.page()}
+    for name, page in in_class.items():
+        (folder / f"{name}.html").write_text(page, encoding="utf-8")
+
+
+def write_notebooks(folder):
+    """Write the chapters as students and nbgrader get them, with the pages to which they link."""
+    pages = [*(ROOT / "book").glob("*.md")]
+    files = {path.name for path in (*pages, *CHAPTERS)} | {"references.bib"}
     students = folder / "students"
-    students.mkdir(parents=True)
-    pages_of_words = [*(ROOT / "book").glob("*.md")]
-    files = {path.name for path in (*pages_of_words, *CHAPTERS)} | {"references.bib"}
-    for page in pages_of_words:
+    students.mkdir()
+    for page in pages:
         text = alive(page.read_text(encoding="utf-8"), files)
         (students / page.name).write_text(text, encoding="utf-8")
     shutil.copy(ROOT / "book/references.bib", students)
-    keys, questions = [], {}
     for chapter in CHAPTERS:
         notebook = nbformat.read(chapter, as_version=4)
         nbformat.write(student(notebook, files), students / chapter.name)
         assignment = folder / "nbgrader/source" / chapter.stem
         assignment.mkdir(parents=True)
         nbformat.write(nbgrader.source(notebook, files), assignment / chapter.name)
-        page = (pages / f"{chapter.stem}.html").read_text(encoding="utf-8")
-        keys.append(alive(key(notebook, page), ()))
-        _, moving = demos.read(page)
-        asked = bank_questions(notebook, chapter.stem, moving, web)
-        questions |= {(chapter.stem, name): several for name, several in asked.items()}
+
+
+def write_texts(folder, pages):
+    """Write what a teacher reads, as pages: the first page, the key, the plans, two handouts."""
+    keys = [alive(key(notebook, page), ()) for _, notebook, page in chapters(pages)]
     texts = {"key": "\n".join(keys), "plan": plans(), "index": index()}
     for name in ("projects", "assistants"):
         texts[name] = (ROOT / f"kit/{name}.md").read_text(encoding="utf-8")
@@ -65,7 +77,15 @@ def build(folder, pages, web=""):
     for name in ("key", "plan"):
         (folder / f"{name}.md").write_text(texts[name], encoding="utf-8")
     write_assets(folder)
-    shutil.copy(ROOT / "kit/report.ipynb", folder)
+
+
+def write_questions(folder, pages, web):
+    """Write the bank and the quizzes for platforms, and apart from them the predictions."""
+    questions = {}
+    for chapter, notebook, page in chapters(pages):
+        _, moving = demos.read(page)
+        asked = bank_questions(notebook, chapter, moving, web)
+        questions |= {(chapter, name): several for name, several in asked.items()}
     questions |= bank()
     predictions = {name: q for name, q in questions.items() if q[0].level == "predict"}
     graded = {name: q for name, q in questions.items() if name not in predictions}
@@ -76,13 +96,13 @@ def build(folder, pages, web=""):
         (folder / f"{name}.gift").write_text(note + gift(part), encoding="utf-8")
         (folder / f"{name}.xml").write_bytes(moodle_xml(part))
         (folder / f"{name}-qti.zip").write_bytes(package(part, kind))
-    slides(folder / "slides", pages)
-    demos.build(folder / "demos", pages)
-    figures.build(folder / "figures", pages)
-    arm.build(folder / "arm-in-page")
-    (folder / "throws.html").write_text(throws_page(), encoding="utf-8")
-    (folder / "concepts.html").write_text(concepts.page(), encoding="utf-8")
-    (folder / "class.html").write_text(class_page(), encoding="utf-8")
+
+
+def chapters(pages):
+    """Each chapter's name, its notebook, and its page in the folder `pages`, HTML."""
+    for path in CHAPTERS:
+        page = (pages / f"{path.stem}.html").read_text(encoding="utf-8")
+        yield path.stem, nbformat.read(path, as_version=4), page
 
 
 def index():
@@ -91,23 +111,6 @@ def index():
     text = next(cell.source for cell in cells if "`make kit` writes" in cell.source)
     listed = re.search(r"`make kit` writes.+\n\n((?:- .+\n(?:  .+\n)*)+)", text)[1]
     return "# The kit\n\n" + re.sub(r"`([\w/.-]+\.(html|ipynb))`", r"[\1](\1)", listed)
-
-
-def throws_page():
-    """The page on which a class throws with a turned pointer, with the model's curve in it."""
-    page = (ROOT / "kit/pages/throws.html").read_text(encoding="utf-8")
-    return seal(page.replace("/*MODEL*/[]", json.dumps(throws().round(4).tolist())))
-
-
-def class_page():
-    """The page that joins what a class has answered."""
-    return seal((ROOT / "kit/pages/class.html").read_text(encoding="utf-8"))
-
-
-def throws():
-    """What two memories leave of a shift, as a share of it, in 10, 30 and 15 throws (55,)."""
-    turned = np.repeat([0.0, 1.0, 0.0], [10, 30, 15])
-    return turned - two_rates.adapt(turned).sum(axis=1)
 
 
 if __name__ == "__main__":

@@ -6,7 +6,7 @@ Read from a chapter's notebook, where the run holds what came out (`vmc_lib.show
 import re
 from html import escape
 
-from book._ext.plain import ANSWER, CHOICE, FIGURE, PREDICTION, QUIZ
+from book._ext.plain import ANSWER, CHOICE, PREDICTION, QUIZ, WRITTEN_CAPTION
 from kit.question import Question
 from vmc_lib.show.figures import inline
 from vmc_lib.show.prose import COMMENT
@@ -43,7 +43,7 @@ def bank_questions(notebook, chapter, demos=(), web=""):
     title, number = notebook.cells[0].source.splitlines()[0].lstrip("# "), int(chapter[:2])
     questions, figures = {}, 0
     for place, cell in enumerate(notebook.cells):
-        figures += bool(FIGURE.match(cell.source))
+        figures += bool(WRITTEN_CAPTION.match(cell.source))
         if not (question := _question(cell)):
             continue
         kind = "prediction" if question.level == "predict" else "quiz"
@@ -61,7 +61,7 @@ def bank_questions(notebook, chapter, demos=(), web=""):
 def _has_figure(cells):
     """Whether a figure comes before the next heading or prediction."""
     ends = (cell.source for cell in cells if re.search(r"^(#+ |\*\*(Figure|Predict))", cell.source))
-    return bool(FIGURE.match(next(ends, "")))
+    return bool(WRITTEN_CAPTION.match(next(ends, "")))
 
 
 def _where(title, figure, own, demos, web):

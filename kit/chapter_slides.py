@@ -15,6 +15,8 @@ from typing import NamedTuple
 
 from bs4 import Comment, Tag
 
+from book._ext.numbering import EQUATION_NUMBER
+
 WRAPPERS = {"cell", "cell_output", "output", "text_html"}  # of a cell's output
 WIRING = "What the brain does"  # a section: what it draws, and asks nothing about
 EXERCISES = "<p>Exercises: the chapter's page checks your lines; nothing to install.</p>"
@@ -75,7 +77,7 @@ class Chapter(NamedTuple):
         """A slide for each section's equations of these numbers."""
         slides = {}
         for place, (heading, part) in enumerate(self.blocks):
-            if _is(part, "math") and numbers & {*map(int, TAG.findall(str(part)))}:
+            if _is(part, "math") and numbers & {*map(int, EQUATION_NUMBER.findall(str(part)))}:
                 if heading not in slides:
                     words = _words_of(self.blocks, place)
                     notes = _texts(self.blocks, heading)
@@ -85,7 +87,6 @@ class Chapter(NamedTuple):
 
 
 PLACE = itemgetter(0)
-TAG = re.compile(r"\\tag\{(\d+)\}")
 SHORT = 8  # words of a sentence that needs the next one
 MINUTE = 60  # s
 PAIR = 5 * MINUTE  # a prediction with its demo, or a drawing of the brain's wiring

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import yaml
 
+from book._ext.numbering import FIGURE_NUMBER
 from book._ext.packed import light_script
 from book._ext.policy import seal
 from kit import scorm
@@ -79,7 +80,7 @@ def read(page):
     headings = [(found.start(), _words(found[1])) for found in HEADING.finditer(page)]
     demos, before = {}, 0
     for found in FIGURE.finditer(page):
-        number = re.search(r"Figure ([\d.]+)</span>", found[0])
+        number = FIGURE_NUMBER.search(found[0])
         if number and any(mark in found[0] for mark in STARTS):
             begin, heading = [one for one in headings if one[0] < found.start()][-1]
             asked = QUESTION.findall(page, max(begin, before), found.start())

@@ -13,14 +13,13 @@ from pathlib import Path
 
 import nbformat
 
+from book._ext.numbering import EQUATION_NUMBER, equations_named
 from book.figures.plans import BOOK, NAMES
 from kit.bank import templates
-from kit.chapter_slides import TAG
 from kit.gift import gift
 from kit.moodle import moodle_xml
 from kit.page import markdown_page, write_assets
 from kit.qti import package
-from kit.session import equations_named
 from tools import browser
 
 FOLDER = Path("_build/exam")
@@ -83,7 +82,9 @@ def _equations(text):
     for name in NAMES:
         for cell in nbformat.read(BOOK / f"{name}.ipynb", as_version=4).cells:
             found |= {
-                int(TAG.search(tex)[1]): tex for tex in SET.findall(cell.source) if "\\tag" in tex
+                int(EQUATION_NUMBER.search(tex)[1]): tex
+                for tex in SET.findall(cell.source)
+                if "\\tag" in tex
             }
     return [f"$$\n{found[n].strip()}\n$$" for n in sorted(equations_named(text) & found.keys())]
 

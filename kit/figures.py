@@ -8,15 +8,15 @@ import re
 from base64 import b64decode
 from html import escape, unescape
 
+from book._ext.numbering import FIGURE_NUMBER
 from book._ext.policy import seal
 from kit.demos import CONFIG, FIGURE
 from tools import browser
 from vmc_lib.show.palette import COLOURS
 
 LICENCE = "From “{book}”, chapter “{chapter}”, Figure {number}. CC BY 4.0; pictures: CREDITS.md."
-NUMBER = re.compile(r"Figure ([\d.]+)</span>")
 TITLE = re.compile(r"<h1>(.*?)<a class=\"headerlink\"", re.S)
-TAG = re.compile(r"<(/?)svg\b")
+SVG_TAG = re.compile(r"<(/?)svg\b")
 PHOTO = re.compile(r'<img [^>]*src="data:image/(\w+);base64,([^"]+)"')
 COLOUR = re.compile(r"var\(--vmc-(\w+)\)")
 PAGE = """<!doctype html><html lang="en"><meta charset="utf-8"><title>Figures to take along</title>
@@ -35,7 +35,7 @@ def build(folder, pages):
         page = path.read_text(encoding="utf-8")
         chapter = unescape(re.sub("<[^>]*>", "", TITLE.search(page)[1]))
         for figure in FIGURE.findall(page):
-            if number := NUMBER.search(figure):
+            if number := FIGURE_NUMBER.search(figure):
                 line = LICENCE.format(book=CONFIG["title"], chapter=chapter, number=number[1])
                 files = pictures(figure, line)
                 for k, (end, data) in enumerate(files, start=1):
@@ -57,7 +57,7 @@ def pictures(figure, line):
 def _drawings(html):
     """The outermost drawings."""
     depth = start = 0
-    for tag in TAG.finditer(html):
+    for tag in SVG_TAG.finditer(html):
         if tag[1]:
             depth -= 1
             if not depth:

@@ -14,13 +14,13 @@ A file `session-3.md` of the folder holds, for that deck:
 import re
 from pathlib import Path
 
+from book._ext.numbering import FIGURE_NUMBER
 from kit.chapter_slides import Slide
 from kit.page import html
 
 FOLDER = Path(__file__).parent / "own"  # of the lecturer: nothing writes there
 PLACE = re.compile(r"^after: Figure ([\d.]+)$", re.M)
 NOTE = re.compile(r"^Note: ", re.M)
-FIGURE = re.compile(r"Figure ([\d.]+)</span>")
 
 
 def own_slides(text):
@@ -52,7 +52,7 @@ def put_in(deck, own):
     for part, slides in deck.items():
         deck[part] = []
         for slide in slides:
-            shown = FIGURE.findall(str(slide.body))
+            shown = FIGURE_NUMBER.findall(str(slide.body))
             figures += shown
             deck[part] += [slide, *(mine for figure in shown for mine in left.pop(figure, ()))]
     for figure in left:

@@ -11,7 +11,7 @@ from tempfile import TemporaryDirectory
 import yaml
 from bs4 import BeautifulSoup
 
-from kit.__main__ import build
+from kit.__main__ import write_texts
 from tools import browser
 
 ROOT = Path(__file__).parents[1]
@@ -102,9 +102,14 @@ def _join(articles):
     return str(whole)
 
 
-if __name__ == "__main__":
-    with browser.launch() as chromium:
-        build(ROOT / "_build/kit", ROOT / "_build/html/book")
-        key = ROOT / "_build/kit/key.html"
+def main():
+    """Print the built book with the key at its end; a kit that was built stays as it is."""
+    with browser.launch() as chromium, TemporaryDirectory() as folder:
+        write_texts(Path(folder), ROOT / "_build/html/book")
+        key = Path(folder) / "key.html"
         print_book(chromium, ROOT / "_build/html", names(), ROOT / "_build/book.pdf", key)
     print(f"The book is at {ROOT / '_build/book.pdf'}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,6 +1,6 @@
 /* Tells a platform by SCORM 1.2 what its student has done: predicted, and then moved the demo. Half of the score is
-   for each, whatever the prediction was; both together complete it, or the move where nothing is asked. Without a
-   platform it is silent. */
+   for each, whatever the prediction was; both together complete it, or the move where nothing is asked. A later visit
+   goes on from the score that the platform has kept. Without a platform it is silent. */
 (() => {
   "use strict";
 
@@ -20,8 +20,8 @@
     for (const [name, value] of Object.entries(values)) api.LMSSetValue(`cmi.core.${name}`, `${value}`);
     api.LMSCommit("");
   };
-  const question = document.querySelector(".vmc-predict");
-  let predicted = !question, looked = false;
+  const question = document.querySelector(".vmc-predict"), score = api.LMSGetValue("cmi.core.score.raw");
+  let predicted = !question || +score >= 50, looked = false;
   const predict = () => {
     if (!predicted) tell("incomplete", 50);
     predicted = true;
@@ -30,7 +30,7 @@
     if (predicted && !looked) tell("completed", 100);
     looked = predicted;
   };
-  tell("incomplete", 0);
+  if (!score) tell("incomplete", 0);
   addEventListener("input", ({ target }) => (question?.contains(target) ? predict() : look()));
   addEventListener("click", ({ target }) => target.closest(".vmc-demo form button") && look());
 })();

@@ -11,11 +11,11 @@ from itertools import cycle, pairwise
 
 from bs4 import BeautifulSoup
 
+from book._ext.numbering import equations_named
 from kit.chapter_slides import MINUTE, PAIR, Slide, sentences
 
 MINUTES = 90  # of a session
 TIMED = re.compile(r"(\w[\w ]*) \((\d+) minutes\)")
-EQUATIONS = re.compile(r"Eqs?\.\s(\d+)(?:[–-](\d+))?")
 
 
 def deck(title, chapters, read, runs, plan):
@@ -49,12 +49,6 @@ def deck(title, chapters, read, runs, plan):
     taken = sum(slide.seconds for slides in parts.values() for slide in slides)
     parts["Predict and drag"] = _predict(list(chapters.values()), MINUTE * MINUTES - taken)
     return parts
-
-
-def equations_named(text):
-    """The numbers of the equations that a text names, as "Eq. 5" or "Eq. 6–7"."""
-    ranges = EQUATIONS.findall(text)
-    return {n for low, high in ranges for n in range(int(low), int(high or low) + 1)}
 
 
 def clock(parts):

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 from playwright.sync_api import expect
 
-from kit.__main__ import class_page, throws, throws_page
+from kit import class_pages
+from kit.class_pages import class_page, throws, throws_page
 from tests.formulas import FORMULAS, computes
 from tests.pages import book_html, boxes, observe
 from vmc_lib.show import check, questions
@@ -149,6 +150,27 @@ def test_model_of_the_throws_adapts_and_has_an_after_effect():
     assert abs(left[54]) < abs(left[40]) / 2
 
 
+def test_throws_are_as_many_and_as_turned_as_the_blocks_say(page, monkeypatch):
+    monkeypatch.setattr(class_pages, "BLOCKS", ((2, 0), (6, 20), (4, 0)))
+    room = page(throws_page())
+    assert room.inner_text("#status") == "Throw 1 of 12."
+    for _ in range(12):
+        room.click("#throw")
+    heights = room.locator("#plot circle").evaluate_all("all => all.map((c) => c.cy.baseVal.value)")
+    np.testing.assert_allclose(heights, np.repeat([150, 60, 150], [2, 6, 4]))
+    room.fill("#lines", "\n".join(f"throws 1: {who}; {SHORT} end" for who in ("ann", "bob")))
+    assert room.inner_text("#sums") == (
+        "first turned: 1.00 ± 0.00; last five turned: 0.50 ± 0.00; first after: -0.50 ± 0.00"
+    )
+
+
+SHORT = "0 0 20 10 10 10 10 10 -10 0 0 0"
+
+
+def test_the_table_of_throws_has_a_name_that_is_read_aloud(page):
+    assert page(throws_page()).get_by_role("region", name="the throws").count() == 1
+
+
 def test_sheet_for_goggles_has_a_line_for_each_throw(page):
     rows = list(csv.DictReader(io.StringIO(saved(page(throws_page()), "#sheet"))))
     assert [row["throw"] for row in rows] == [str(k) for k in range(1, 56)]
@@ -285,7 +307,6 @@ def test_files_that_are_chosen_while_others_are_read_take_their_place(page):
         [None],
         [answer("", False) | {"feedback": {"toString": 1}}],
         [answer("", False) | {"page": 7}],
-        [answer("1", False)] * 2001,
     ],
 )
 def test_a_file_that_no_page_saved_leaves_the_others_in_the_table(page, tmp_path, answers):
@@ -299,6 +320,20 @@ def test_a_file_that_no_page_saved_leaves_the_others_in_the_table(page, tmp_path
         "1 students. Not read: bob.json (it is no file of answers)."
     )
     assert room.locator("#rows tr").count() == 1
+
+
+def test_of_a_longer_file_than_a_page_keeps_the_last_answers_are_read(page, tmp_path):
+    """A page saves more where its browser kept no more; what is left out is said."""
+    answers = [answer("old", False), *[answer("new", False)] * 2000]
+    file = {"format": "answers 1", "who": "ann", "answers": answers}
+    (tmp_path / "ann.json").write_text(json.dumps(file), encoding="utf-8")
+    room = page(class_page())
+    room.set_input_files("#files", tmp_path / "ann.json")
+    room.wait_for_selector("#rows tr")
+    assert room.inner_text("#status") == (
+        "1 students. Only the last 2000 answers are read of: ann.json (1 left out)."
+    )
+    assert room.locator("#rows td:nth-child(3)").all_inner_texts() == ["new"]
 
 
 def test_no_answer_becomes_a_formula(page, tmp_path):

@@ -77,6 +77,12 @@ def test_an_exam_on_paper_ends_with_the_equations_that_it_names():
     assert "##" not in exam.sheet(exam.exam("a", 1, ["03"]))
 
 
+def test_a_key_ends_with_both_equations_of_a_hint():
+    name = "10_offline", "change_of_a_weight"
+    _, equations = exam.sheet({name: bank()[name]}, key=True).split("## The equations")
+    assert re.findall(r"tag\{(\d+)\}", equations) == ["6", "7"]
+
+
 @pytest.mark.parametrize(
     ("settings", "words"),
     [

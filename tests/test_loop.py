@@ -9,6 +9,7 @@ import pytest
 from scipy.special import logit
 
 from book.figures.loop import describe_end, meets_cup
+from book.figures.see_and_reach import lesion_view
 from vmc_lib import loop, photos
 from vmc_lib.arm.arm26 import geometry
 from vmc_lib.arm.kinematics import to_world
@@ -282,3 +283,22 @@ def test_of_two_shuttlecocks_the_one_in_reach_is_reached_for(model, photo, monke
         if made:
             there = loop.locate(model, photo.image, near, photo.camera)
             assert made.target == pytest.approx(there)
+
+
+@pytest.mark.parametrize(
+    ("lesion", "label", "told"),
+    [
+        ("none", "shuttlecock", "from the place seen"),
+        ("cerebellum", "shuttlecock", "from the place seen"),
+        ("ventral", "best score", "Nothing has a name."),
+        ("dorsal", "shuttlecock", "its place is not used"),
+    ],
+)
+def test_a_lesion_tells_what_its_box_is(photo, model, lesion, label, told):
+    """Without names no box is called a shuttlecock; without places none is aimed at."""
+    box = photo.boxes["shuttlecock"]
+    reach = loop.reach(model, photo.target, calibration=None)
+    view, _, words = lesion_view(photo, box, reach, lesion)
+    assert re.findall(r"<text[^>]*>(?!\d+ cm)([^<]+)</text>", view) == [label]
+    assert told in str(words)
+    assert ("the place seen" in str(words)) == (lesion != "dorsal")

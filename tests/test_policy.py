@@ -7,7 +7,7 @@ import pytest
 
 from book._ext.policy import META, hash_source, seal
 from kit import scorm
-from kit.__main__ import class_page, throws_page
+from kit.class_pages import class_page, throws_page
 from tests.pages import BUILT, open_html
 
 HEAD = '<!doctype html><meta charset="utf-8"><title>A page</title>'

@@ -3,6 +3,7 @@
 import json
 import re
 import tomllib
+from contextlib import nullcontext
 from ctypes import c_int
 from pathlib import Path
 
@@ -171,6 +172,20 @@ def test_links_hold_on_paper_wherever_the_book_lies(chromium, tmp_path):
         texts = [page.get_textpage().get_text_bounded() for page in book]
         assert "It is 7." in texts[-1]
         assert not re.findall("Unseen|#", " ".join(texts))
+
+
+def test_the_pdf_has_the_key_and_leaves_the_kit_as_it_was(tmp_path, monkeypatch):
+    keys, picture = [], tmp_path / "_build/kit/figures/figure-2-1.png"
+    picture.parent.mkdir(parents=True)
+    picture.touch()
+    monkeypatch.setattr(pdf, "ROOT", tmp_path)
+    monkeypatch.setattr(pdf, "names", list)
+    monkeypatch.setattr(pdf.browser, "launch", nullcontext)
+    monkeypatch.setattr(pdf, "write_texts", lambda folder, _: (folder / "key.html").touch())
+    monkeypatch.setattr(pdf, "print_book", lambda *given: keys.append(given[-1].exists()))
+    pdf.main()
+    assert keys == [True]
+    assert picture.exists()
 
 
 def _headings(name):

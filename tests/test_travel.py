@@ -169,7 +169,7 @@ PLATFORM = """<!doctype html><script>
 const calls = [], kept = { "cmi.core.lesson_status": "not attempted" };
 var API = {
   LMSInitialize: (none) => (calls.push(["Initialize", none]), "true"),
-  LMSGetValue: (key) => kept[key],
+  LMSGetValue: (key) => kept[key] ?? "",
   LMSSetValue: (key, value) => (calls.push(["SetValue", key, value]), (kept[key] = value), "true"),
   LMSCommit: (none) => (calls.push(["Commit", none]), "true"),
   LMSFinish: (none) => (calls.push(["Finish", none]), "true"),
@@ -177,14 +177,18 @@ var API = {
 </script><iframe src="/index.html" width="900" height="700"></iframe>"""
 
 
-def test_a_platform_hears_of_a_prediction_then_of_a_move_and_of_the_end(slider, window):
-    index = unzip(slider.with_suffix(".zip").read_bytes())["index.html"]
-    reader = window()
+def on_platform(reader, package):
+    """A platform's page that shows the index of a package, its bytes."""
+    index = unzip(package)["index.html"]
     reader.route("http://lms/**", lambda route: route.fulfill(body=index, content_type="text/html"))
     reader.route(
         "http://lms/", lambda route: route.fulfill(body=PLATFORM, content_type="text/html")
     )
-    page = open_url(reader, "http://lms/")
+    return open_url(reader, "http://lms/")
+
+
+def test_a_platform_hears_of_a_prediction_then_of_a_move_and_of_the_end(slider, window):
+    page = on_platform(window(), slider.with_suffix(".zip").read_bytes())
     demo = page.frame_locator("iframe").locator("[data-ready]")
     demo.wait_for()
 
@@ -207,6 +211,25 @@ def test_a_platform_hears_of_a_prediction_then_of_a_move_and_of_the_end(slider, 
     assert page.evaluate("calls") == moved
     page.evaluate("document.querySelector('iframe').remove()")
     assert page.evaluate("calls") == [*moved, ["Finish", ""]]
+    assert page.errors == []
+
+
+ASKS_AND_MOVES = """<form class="vmc-predict"><input type="radio"></form><input type="range">"""
+
+
+def test_a_later_visit_goes_on_from_the_score_that_was_kept(window):
+    page = on_platform(window(), scorm.package("a", "A", f"{ASKS_AND_MOVES}</html>"))
+
+    def kept_in_a_later_visit():
+        page.frames[1].goto("http://lms/index.html")
+        return page.evaluate(
+            "['lesson_status', 'score.raw'].map((name) => kept[`cmi.core.${name}`])"
+        )
+
+    page.frames[1].check("[type=radio]")
+    assert kept_in_a_later_visit() == ["incomplete", "50"]
+    page.frames[1].press("[type=range]", "Home")
+    assert kept_in_a_later_visit() == ["completed", "100"]
     assert page.errors == []
 
 

@@ -9,12 +9,14 @@ from functools import partial
 from itertools import count
 from pathlib import Path
 
-REFERENCE = re.compile(r"Eqs?\.[ \u00a0](\d+)(?:(?:–| to | and )\d+)?")
+REFERENCE = re.compile(r"Eqs?\.\s(\d+)(?:([–-]|\sto\s|\sand\s)(\d+))?")
+EQUATION_NUMBER = re.compile(r"\\tag\{(\d+)\}")
 DISPLAYED = re.compile(
     r'<div class="(?:amsmath )?math notranslate nohighlight"[^>]*>'
-    r"(?=(?:(?!</div>).)*?\\tag\{(\d+)\})",
+    rf"(?=(?:(?!</div>).)*?{EQUATION_NUMBER.pattern})",
     re.S,
 )
+FIGURE_NUMBER = re.compile(r"Figure ([\d.]+)</span>")  # as `with_figure_numbers` writes it
 # Where no link may stand, or where the text is not prose
 CLOSED = {"a", "button", "code", "h1", "h2", "h3", "label", "pre", "script", "style", "summary"}
 CLOSED |= {"svg"}
@@ -31,7 +33,7 @@ def find(app, env):
     env.equation_pages = {}
     for page in env.toctree_includes.get(env.config.root_doc, []):
         text = Path(env.doc2path(page)).read_text(encoding="utf-8")
-        for tag in re.findall(r"\\tag\{(\d+)\}", text):
+        for tag in EQUATION_NUMBER.findall(text):
             env.equation_pages[tag] = page
 
 
@@ -61,6 +63,15 @@ def with_links(body, pages, uri):
         elif not closed and not tag[1] and (tag[2] in CLOSED or "math notranslate" in part):
             closed, depth = tag[2], 1
     return "".join(parts)
+
+
+def equations_named(text):
+    """The numbers of the equations that a text names, as "Eq. 5", "Eq. 6–7" or "Eq. 3 and 5"."""
+    named = set()
+    for first, word, last in REFERENCE.findall(text):
+        ends = int(first), int(last or first)
+        named.update(ends if "and" in word else range(ends[0], ends[1] + 1))
+    return named
 
 
 def with_anchors(body, tags):

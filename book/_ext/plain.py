@@ -40,7 +40,7 @@ PREDICTION = re.compile(
     r"<details><summary>What came out</summary>\n\n\*\*(.+)\.\*\* (.+)\n\n</details>"
 )
 CHOICE = re.compile(r"^- (.+)", re.M)
-FIGURE = re.compile(r"\*\*Figure\.\*\* ([\s\S]+)")
+WRITTEN_CAPTION = re.compile(r"\*\*Figure\.\*\* ([\s\S]+)")
 CAPTION = re.compile(
     r"</figure>((?:(?!<figure).)*?)<figcaption>\s*<p>(.*?)</p>\s*</figcaption>", re.S
 )
@@ -140,7 +140,7 @@ def _text(text, metadata):
         choices = CHOICE.findall(choices)
         return with_guess(prediction(question, choices, outcome, why), choices, metadata)
     text = TERM.sub(_term, text)
-    if caption := FIGURE.fullmatch(text):
+    if caption := WRITTEN_CAPTION.fullmatch(text):
         text = f"<figcaption>\n\n{caption[1]}\n\n</figcaption>"
     if quiz := QUIZ.fullmatch(text):
         text = _quiz(*quiz.groups())

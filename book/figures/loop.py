@@ -88,11 +88,11 @@ def step_view(step, *journey):
     return *draw_step(step, *journey), note(describe_step(step, *journey))
 
 
-def draw_movement(photo, box, reach, motion):
+def draw_movement(photo, box, reach, motion, label="shuttlecock", colour="green"):
     """The chosen box, the place reached for, the hand on its way and a `lens`; and the arm."""
     hand, turn = reach.hand(motion), _turns(reach, motion)
     [place] = photo.camera.project(reach.target[None])
-    view = photo_view(photo.image, [(box, "shuttlecock", "green")], [(place, "", "green")])
+    view = photo_view(photo.image, [(box, label, colour)], [(place, "", "green")])
     moving = _moving(photo.camera.project(hand[::EVERY]), "orange")
     view = view.replace("</svg>", moving + lens(photo, box, reach, motion) + "</svg>")
     end = reach.endpoint(motion)
@@ -199,11 +199,11 @@ def above(parts, title, xlim, ylim):
     return fig
 
 
-def describe_end(photo, reach, motion):
+def describe_end(photo, reach, motion, aim="the place seen"):
     """Where a motion ends, in words: both distances, and how fast the hand still moves."""
     seen, true = (1000 * reach.distance(motion, p) for p in (reach.target, photo.target))
     return (
-        f"over the hold the hand is {seen:.1f} mm from the place seen, {true:.1f} mm from the true "
+        f"over the hold the hand is {seen:.1f} mm from {aim}, {true:.1f} mm from the true "
         f"one, and moves at {1000 * motion.speed:.0f} mm/s"
         f"{THROUGH if meets_cup(photo, reach, motion) else ''}"
     )

@@ -16,6 +16,17 @@ from vmc_lib.statistics import wilson
 FAILURES = {"": "arrived"} | {stage: stage for stage in FAILURE_STAGES}
 FAILURE_COLOURS = ("green", "red", "orange", "purple", "blue", "grey")
 STAGES = ("place", "plan", "off-line", "online")  # that have a distance
+SEEN = "the place seen"
+BOXES = {  # by lesion: the box's label and colour, what it is for, and what the hand aims at
+    "none": ("shuttlecock", "green", "", SEEN),
+    "ventral": ("best score", "green", "Nothing has a name. ", SEEN),
+    "dorsal": (
+        "shuttlecock",
+        "blue",
+        "The box has a name, but its place is not used. ",
+        "the place in an old photo",
+    ),
+}
 CROWDED = (110, 60)  # pixels: labels nearer than that would hide each other
 
 
@@ -35,13 +46,14 @@ def stage_errors(photo, reach, online):
     return {"place": norm_mm(reach.target - photo.target)} | ends
 
 
-def lesion_view(photo, box, reach):
-    """The box and the calibrated reach under a lesion, and in words how the hand ends."""
+def lesion_view(photo, box, reach, lesion):
+    """The box and the calibrated reach under a lesion; what the box is for; how the hand ends."""
     motion = reach.calibrated
-    words = describe_end(photo, reach, motion).capitalize()
-    view, scene = draw_movement(photo, box, reach, motion)
+    label, colour, told, aim = BOXES.get(lesion, BOXES["none"])
+    words = describe_end(photo, reach, motion, aim).capitalize()
+    view, scene = draw_movement(photo, box, reach, motion, label, colour)
     scene.tell("miss", None)  # it would tell how near the hand is to the wrong place
-    return view, scene, note(f"{words}.")
+    return view, scene, note(f"{told}{words}.")
 
 
 def shares_within(errors, limit):
