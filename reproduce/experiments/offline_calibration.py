@@ -19,7 +19,7 @@ from vmc_lib.motor.planning import norm
 from vmc_lib.motor.templates import mean_distance
 
 MOVED = SAMPLES * STEP  # s: where the command ends
-LOADS = {"empty": 0, "0.25 kg": 0.25}  # in the hand, kg
+LOADS = {"empty": 0, "0.5 kg": 0.5}  # in the hand, kg
 GRIDS = {"n = 0 only": (0,), "every fifth n": FIFTH, "every n": GAINS}
 
 
