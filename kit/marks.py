@@ -82,7 +82,8 @@ class _Client(NotebookClient):
 async def _run(notebook, cell_limit, limit):
     """Run all cells as a reader's, in an empty folder, from which Python imports nothing."""
     limits = {"timeout": cell_limit, "interrupt_on_timeout": True, "allow_errors": True}
-    client = _Client(notebook, store_widget_state=False, **limits)
+    quiet = ["--IPKernelApp.log_level=ERROR"]  # or each kernel warns that loopback is plain
+    client = _Client(notebook, store_widget_state=False, extra_arguments=quiet, **limits)
     fresh = partial(TemporaryDirectory, ignore_cleanup_errors=True)
     with fresh() as folder, fresh() as settings:  # IPython's: the next hand-in finds others
         try:

@@ -172,6 +172,11 @@ def test_of_what_a_hand_in_shows_little_is_kept(quick):
     assert {output["data"]["text/plain"] for output in kept} == {"x"}
 
 
+def test_a_kernel_says_nothing_of_itself(quick, capfd):
+    marks.marks(*quick)
+    assert capfd.readouterr().err == ""
+
+
 def test_no_hand_in_finds_what_another_left_in_ipythons_settings(quick):
     chapter, notebook = quick
     notebook.cells[1].source = """import os
