@@ -146,6 +146,23 @@ def test_a_loop_above_a_check_is_said_at_that_check_alone(quick):
     assert results == {"first": "ran longer than 5 s", "second": unknown}
 
 
+@pytest.mark.audit
+def test_a_chapters_own_cell_may_take_its_time(quick):
+    chapter, _ = quick
+    chapter.cells[1].source = "import time\ntime.sleep(6)\ndef check(*_): pass"
+    results = marks.marks(chapter, student(chapter), cell_limit=5)
+    assert results == dict.fromkeys(("first", "second"), "not right")
+
+
+def test_a_hand_in_runs_on_one_thread(quick, monkeypatch):
+    monkeypatch.setenv("OMP_NUM_THREADS", "2")
+    chapter, notebook = quick
+    notebook.cells[1].source = """import os
+def check(*_): raise ValueError(os.environ["OMP_NUM_THREADS"])"""
+    results = marks.marks(chapter, notebook)
+    assert results == dict.fromkeys(("first", "second"), "ValueError: 1")
+
+
 def test_what_a_hand_in_prints_is_not_kept(quick):
     """It may have no end: the marks of a class would end with the memory."""
     chapter, notebook = quick
