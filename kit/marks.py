@@ -21,7 +21,7 @@ from nbclient import NotebookClient
 from nbclient.util import run_sync
 
 from kit.__main__ import CHAPTERS
-from kit.marking import RIGHT_MARK, TOO_LONG, WORDS, known_mistakes, mark_of, points
+from kit.marking import RIGHT_MARK, TOO_LONG, WORDS, errors, known_mistakes, mark_of, points
 from kit.student import POINTS, checks, place
 
 CELL, NOTEBOOK = 60, 600  # s that each may run
@@ -29,6 +29,7 @@ MOST_OUTPUTS, LARGEST_OUTPUT = 1000, 100_000  # of a cell, signs: a check says l
 COLUMNS = "file", "exercise", "points", "of", "mark"
 BY_FILE = "file", "points", "of", "not right", "for you to read"
 NO_CELL = "no cell checks it"
+MISSING = re.compile(r"NameError: name '(\w+)' is not defined")
 # Where a cell may begin, also where the separator is a semicolon, as in much of Europe
 FORMULA = re.compile(r"""(^|;)(?=[\s"]*[=+@＝＋－＠-])""")
 
@@ -55,15 +56,24 @@ def marks(chapter, submission, cell_limit=CELL, limit=NOTEBOOK):
     own = {cell.source for cell in chapter.cells} - {*sources.values()}  # no student made them slow
     _run(notebook, lambda cell: None if cell.source in own else cell_limit, limit)
     results = {label: NO_CELL if source else WORDS for label, source in sources.items()}
-    known, slow = known_mistakes(chapter), False
+    known, ran = known_mistakes(chapter), []
     for label, cell in zip(labels + gone, cells, strict=True):
-        slow |= _interrupted(cell)  # this one or one above it, since the last check
+        ran.append(cell)  # since the last check
         if label and results[label] != RIGHT_MARK:  # of two copies, one that is right will do
-            mark = mark_of(cell.outputs, known.get(label, ()))
+            mark = _cause(mark_of(cell.outputs, known.get(label, ())), ran)
+            slow = any(map(_interrupted, ran))
             mark = TOO_LONG.format(cell_limit) if slow and not points(mark) else mark
             results[label] = mark if label not in gone or points(mark) else NO_CELL
-        slow = slow and not label
+        if label:
+            ran = []
     return results
+
+
+def _cause(mark, cells):
+    """A mark; if that is a missing name, the first error of the cells in which the name stands."""
+    missing = MISSING.match(mark)
+    named = [cell for cell in cells if missing and re.search(rf"\b{missing[1]}\b", cell.source)]
+    return next((error for cell in named for error in errors(cell.outputs)), mark)
 
 
 def _interrupted(cell):

@@ -101,7 +101,7 @@ MARKS = {
     "unread": "not read",
     "forged": "not right",
     "none": "not answered",
-    "broken": "NameError: name 'broken' is not defined",
+    "broken": "NameError: name 'unknown' is not defined",
     "cut": "right",
     "why": "in words: for you to read",
 }
@@ -161,6 +161,26 @@ def test_a_hand_in_runs_on_one_thread(quick, monkeypatch):
 def check(*_): raise ValueError(os.environ["OMP_NUM_THREADS"])"""
     results = marks.marks(chapter, notebook)
     assert results == dict.fromkeys(("first", "second"), "ValueError: 1")
+
+
+UNDEFINED = "NameError: name 'arms' is not defined"
+
+
+@pytest.mark.parametrize(
+    ("lines", "mark"),
+    [
+        ("def arms(q)\n    return q", "SyntaxError: expected ':' (line 1)"),
+        ("n = input('n?')\ndef arms(q): ...", "StdinNotImplementedError: "),
+        ("arms_of_two = 1 / 0", UNDEFINED),
+    ],
+)
+def test_a_missing_function_is_marked_by_what_went_wrong_in_its_cell(quick, lines, mark):
+    chapter, notebook = quick
+    notebook.cells[1].source = "def check(*_): arms"
+    notebook.cells.insert(3, new_code_cell(lines))
+    results = marks.marks(chapter, notebook)
+    assert results["first"].startswith(mark)
+    assert results["second"] == UNDEFINED
 
 
 def test_what_a_hand_in_prints_is_not_kept(quick):
