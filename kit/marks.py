@@ -110,10 +110,14 @@ async def _run(notebook, limit_of, limit):
 
 
 def _label(cell, sources):
-    """The exercise that a code cell of a hand-in has the place of, or None."""
+    """The exercise that a code cell of a hand-in has the place of, or None.
+
+    In the book's own notebook that is the check itself.
+    """
     label, source = cell.metadata.get("exercise"), cell.source.strip()
-    own = {place(label): label for label, check in sources.items() if check}
-    return label if sources.get(label) else own.get(source)
+    checked = [label for label, check in sources.items() if check]
+    own = {text: label for label in checked for text in (place(label), sources[label])}
+    return label if label in checked else own.get(source)
 
 
 def chapter_of(submission, name):

@@ -111,6 +111,17 @@ def test_an_answer_is_marked_by_our_own_check(chapter, hand_in):
     assert marks.marks(chapter, hand_in) == MARKS
 
 
+def test_the_books_own_notebook_is_marked_where_it_checks(chapter):
+    notebook = nbformat.from_dict(chapter)
+    answers = {"plain": "2", "wrong": "3", "known": "lambda *_: None"}
+    for name, answer in answers.items():
+        [cell] = [cell for cell in notebook.cells if cell.source == f"{name} = None"]
+        cell.source = f"{name} = {answer}"
+    expected = {"plain": "right", "wrong": "not right", "why": MARKS["why"]}
+    unanswered = dict.fromkeys(EXERCISES, "not answered")
+    assert marks.marks(chapter, notebook) == unanswered | expected
+
+
 @pytest.fixture
 def quick():
     """A chapter of two exercises and a hand-in; nothing is imported, so no cell takes a second."""
