@@ -32,10 +32,12 @@ def exam(seed, count, numbers=(), unlike=()):
 
     `numbers` are those of the chapters ("07"), none for all. What has not so many variants that
     are new is left out. Raises ValueError for an empty seed, a seed that is to be unlike itself,
-    or a chapter that is none.
+    fewer than one variant, or a chapter that is none.
     """
     if not seed or seed in unlike:
         raise ValueError(f"the seed {seed!r} is empty, or one that it must be unlike: take another")
+    if count < 1:
+        raise ValueError(f"{count} variants of each question make no exam: ask for 1 or more")
     known = {name[:2] for name in NAMES}
     if strangers := [number for number in numbers if number not in known]:
         raise ValueError(f"no chapter {strangers[0]!r}: give some of {', '.join(sorted(known))}")
@@ -102,8 +104,13 @@ def _plain(text):
 
 
 def write(folder, questions):
-    """Write an exam's files into a folder: for platforms, and on paper, with its key."""
+    """Write an exam's files into a folder: for platforms, and on paper, with its key.
+
+    ValueError where it is not empty: it may hold another exam.
+    """
     folder.mkdir(parents=True, exist_ok=True)
+    if any(folder.iterdir()):
+        raise ValueError(f"the folder {folder} is not empty: name another, or empty it")
     (folder / "questions.gift").write_text(gift(questions), encoding="utf-8")
     (folder / "questions.xml").write_bytes(moodle_xml(questions))
     (folder / "questions-qti.zip").write_bytes(package(questions))
@@ -138,9 +145,9 @@ def main(arguments=None):
     try:
         numbers = [number for number in asked.only.split(",") if number]
         questions = exam(asked.seed, asked.variants, numbers, asked.unlike)
+        write(asked.folder, questions)
     except ValueError as error:
         sys.exit(str(error))
-    write(asked.folder, questions)
     print_sheets(asked.folder)
     chapters = {chapter for chapter, _ in questions}
     names = {template.name for chapter in chapters for template in templates(chapter)}

@@ -1,5 +1,6 @@
 """A mark: what the check of an exercise has shown, in words and as points."""
 
+import re
 from contextlib import contextmanager
 
 from IPython.utils.capture import capture_output
@@ -12,6 +13,7 @@ from vmc_lib.show.figures import inline
 RIGHT_MARK, WORDS, KNOWN = "right", "in words: for you to read", "a known mistake: "
 TOO_LONG = "ran longer than {} s"
 LONGEST = 500  # characters of an error
+CELL_FILE = re.compile(r"(?<=\()\d+\.py, (?=line \d+\)$)")  # the kernel's name for a cell
 
 
 def known_mistakes(chapter):
@@ -24,16 +26,21 @@ def known_mistakes(chapter):
     return found
 
 
+def errors(outputs):
+    """The errors that a cell's outputs show, each as one text."""
+    found = (CELL_FILE.sub("", f"{o['ename']}: {o['evalue']}") for o in outputs if "ename" in o)
+    return [text[:LONGEST] for text in found]
+
+
 def mark_of(outputs, known):
     """The mark that a check's outputs give; `known` are the exercise's hints."""
     text = "".join(output.get("data", {}).get("text/html", "") for output in outputs)
-    errors = [f"{o['ename']}: {o['evalue']}"[:LONGEST] for o in outputs if "ename" in o]
     if RIGHT in text:
         return RIGHT_MARK
     hints = [f"{KNOWN}{hint}" for hint in known if inline(hint) in text]
     unmarked = {NOT_YET: "not answered", UNREAD: "not read"}
     states = [state for words, state in unmarked.items() if words in text]
-    return " ".join(errors or hints[:1] or states) or "not right"
+    return " ".join(errors(outputs) or hints[:1] or states) or "not right"
 
 
 def points(mark):

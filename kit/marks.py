@@ -21,7 +21,7 @@ from nbclient import NotebookClient
 from nbclient.util import run_sync
 
 from kit.__main__ import CHAPTERS
-from kit.marking import RIGHT_MARK, TOO_LONG, WORDS, known_mistakes, mark_of, points
+from kit.marking import RIGHT_MARK, TOO_LONG, WORDS, errors, known_mistakes, mark_of, points
 from kit.student import POINTS, checks, place
 
 CELL, NOTEBOOK = 60, 600  # s that each may run
@@ -29,6 +29,7 @@ MOST_OUTPUTS, LARGEST_OUTPUT = 1000, 100_000  # of a cell, signs: a check says l
 COLUMNS = "file", "exercise", "points", "of", "mark"
 BY_FILE = "file", "points", "of", "not right", "for you to read"
 NO_CELL = "no cell checks it"
+MISSING = re.compile(r"NameError: name '(\w+)' is not defined")
 # Where a cell may begin, also where the separator is a semicolon, as in much of Europe
 FORMULA = re.compile(r"""(^|;)(?=[\s"]*[=+@＝＋－＠-])""")
 
@@ -39,8 +40,8 @@ def marks(chapter, submission, cell_limit=CELL, limit=NOTEBOOK):
     Runs the hand-in with our own checks in the places of the student's, which are known by the
     exercise in their metadata or, where an editor dropped that, by their source; where a student
     deleted that place, our check runs at the end. Answers in words are left to the lecturer. A cell
-    is interrupted after `cell_limit` seconds; TimeoutError where the whole takes longer than
-    `limit`.
+    that is not as in the chapter is interrupted after `cell_limit` seconds; TimeoutError where the
+    whole takes longer than `limit`.
     """
     sources = checks(chapter)
     code = [cell for cell in submission.cells if cell.cell_type == "code"]
@@ -52,17 +53,27 @@ def marks(chapter, submission, cell_limit=CELL, limit=NOTEBOOK):
     gone = [label for label, check in sources.items() if check and label not in labels]
     cells += [nbformat.v4.new_code_cell(sources[label]) for label in gone]
     notebook = nbformat.v4.new_notebook(cells=cells)  # with our kernel, whatever the student's was
-    _run(notebook, cell_limit, limit)
+    own = {cell.source for cell in chapter.cells} - {*sources.values()}  # no student made them slow
+    _run(notebook, lambda cell: None if cell.source in own else cell_limit, limit)
     results = {label: NO_CELL if source else WORDS for label, source in sources.items()}
-    known, slow = known_mistakes(chapter), False
+    known, ran = known_mistakes(chapter), []
     for label, cell in zip(labels + gone, cells, strict=True):
-        slow |= _interrupted(cell)  # this one or one above it, since the last check
+        ran.append(cell)  # since the last check
         if label and results[label] != RIGHT_MARK:  # of two copies, one that is right will do
-            mark = mark_of(cell.outputs, known.get(label, ()))
+            mark = _cause(mark_of(cell.outputs, known.get(label, ())), ran)
+            slow = any(map(_interrupted, ran))
             mark = TOO_LONG.format(cell_limit) if slow and not points(mark) else mark
             results[label] = mark if label not in gone or points(mark) else NO_CELL
-        slow = slow and not label
+        if label:
+            ran = []
     return results
+
+
+def _cause(mark, cells):
+    """A mark; if that is a missing name, the first error of the cells in which the name stands."""
+    missing = MISSING.match(mark)
+    named = [cell for cell in cells if missing and re.search(rf"\b{missing[1]}\b", cell.source)]
+    return next((error for cell in named for error in errors(cell.outputs)), mark)
 
 
 def _interrupted(cell):
@@ -79,15 +90,17 @@ class _Client(NotebookClient):
 
 
 @run_sync
-async def _run(notebook, cell_limit, limit):
+async def _run(notebook, limit_of, limit):
     """Run all cells as a reader's, in an empty folder, from which Python imports nothing."""
-    limits = {"timeout": cell_limit, "interrupt_on_timeout": True, "allow_errors": True}
-    client = _Client(notebook, store_widget_state=False, **limits)
+    limits = {"timeout_func": limit_of, "interrupt_on_timeout": True, "allow_errors": True}
+    quiet = ["--IPKernelApp.log_level=ERROR"]  # or each kernel warns that loopback is plain
+    client = _Client(notebook, store_widget_state=False, extra_arguments=quiet, **limits)
     fresh = partial(TemporaryDirectory, ignore_cleanup_errors=True)
     with fresh() as folder, fresh() as settings:  # IPython's: the next hand-in finds others
         try:
             async with asyncio.timeout(limit) as clock:
                 own = {"PYTHONSAFEPATH": "1", "VMC_RENDER_MODE": "live", "IPYTHONDIR": settings}
+                own |= {"OMP_NUM_THREADS": "1"}  # more only wait for each other
                 environment = os.environ | own
                 await client.async_execute(cwd=folder, env=environment)
         except Exception as error:
@@ -97,10 +110,14 @@ async def _run(notebook, cell_limit, limit):
 
 
 def _label(cell, sources):
-    """The exercise that a code cell of a hand-in has the place of, or None."""
+    """The exercise that a code cell of a hand-in has the place of, or None.
+
+    In the book's own notebook that is the check itself.
+    """
     label, source = cell.metadata.get("exercise"), cell.source.strip()
-    own = {place(label): label for label, check in sources.items() if check}
-    return label if sources.get(label) else own.get(source)
+    checked = [label for label, check in sources.items() if check]
+    own = {text: label for label in checked for text in (place(label), sources[label])}
+    return label if label in checked else own.get(source)
 
 
 def chapter_of(submission, name):

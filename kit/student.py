@@ -5,6 +5,11 @@ import re
 import nbformat
 
 POINTS = 2  # an exercise
+GRADED_BELOW = "Then run the folded bar below it: it grades what you wrote."
+CHECKED_LATER = (
+    "Leave the cell below it as it is: it shows nothing, and your teacher's program checks your "
+    "work there."
+)
 LINK = re.compile(r"(?<!!)\[([^\]]+)\]\((?!\w+:)([^)#\s]+)(#[^)\s]*)?\)")
 
 
@@ -56,7 +61,8 @@ def student(notebook, files=None):
                 cell.metadata.jupyter = {}  # shown
                 label, graded = None, True
         else:
-            cell = nbformat.from_dict(cell | {"source": alive(cell.source, files)})
+            text = alive(cell.source, files).replace(GRADED_BELOW, CHECKED_LATER)
+            cell = nbformat.from_dict(cell | {"source": text})
         cells.append(cell)
     return nbformat.from_dict(notebook | {"cells": cells})
 

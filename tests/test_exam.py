@@ -88,6 +88,7 @@ def test_a_key_ends_with_both_equations_of_a_hint():
     [
         (("", 5), "the seed '' is empty"),
         (("a", 5, (), ["a"]), "the seed 'a' is empty, or one that it must be unlike"),
+        (("a", 0), "0 variants of each question make no exam: ask for 1 or more"),
         (("a", 5, ["7"]), "no chapter '7': give some of 01, 02"),
     ],
 )
@@ -111,3 +112,10 @@ def test_its_files_are_written_and_the_sheet_has_no_answer(tmp_path, monkeypatch
     assert (tmp_path / "questions.gift").stat().st_size > 1000
     with pytest.raises(SystemExit, match="no chapter '99'"):
         exam.main([str(tmp_path), "--seed", "a", "--only", "99"])
+
+
+def test_no_exam_is_written_over_another(tmp_path):
+    (tmp_path / "exam.html").touch()
+    with pytest.raises(SystemExit, match=re.escape(f"the folder {tmp_path} is not empty")):
+        exam.main([str(tmp_path), "--seed", "b", "--only", "07", "--variants", "1"])
+    assert [file.name for file in tmp_path.iterdir()] == ["exam.html"]

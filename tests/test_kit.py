@@ -43,6 +43,12 @@ def test_a_student_gets_every_exercise_and_no_solution(chapter):
     assert exercises
 
 
+def test_a_student_is_told_where_work_is_checked(chapter):
+    [how_to_run] = [cell.source for cell in student(chapter).cells if cell.id == "how-to-run"]
+    assert "your teacher's program checks your work there" in how_to_run
+    assert "folded bar" not in how_to_run
+
+
 def names_in(notebook, context):
     """The names that code cells load or store; the arguments of functions apart."""
     code = [ast.parse(cell.source) for cell in notebook.cells if cell.cell_type == "code"]

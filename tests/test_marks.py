@@ -101,7 +101,7 @@ MARKS = {
     "unread": "not read",
     "forged": "not right",
     "none": "not answered",
-    "broken": "NameError: name 'broken' is not defined",
+    "broken": "NameError: name 'unknown' is not defined",
     "cut": "right",
     "why": "in words: for you to read",
 }
@@ -109,6 +109,17 @@ MARKS = {
 
 def test_an_answer_is_marked_by_our_own_check(chapter, hand_in):
     assert marks.marks(chapter, hand_in) == MARKS
+
+
+def test_the_books_own_notebook_is_marked_where_it_checks(chapter):
+    notebook = nbformat.from_dict(chapter)
+    answers = {"plain": "2", "wrong": "3", "known": "lambda *_: None"}
+    for name, answer in answers.items():
+        [cell] = [cell for cell in notebook.cells if cell.source == f"{name} = None"]
+        cell.source = f"{name} = {answer}"
+    expected = {"plain": "right", "wrong": "not right", "why": MARKS["why"]}
+    unanswered = dict.fromkeys(EXERCISES, "not answered")
+    assert marks.marks(chapter, notebook) == unanswered | expected
 
 
 @pytest.fixture
@@ -146,6 +157,43 @@ def test_a_loop_above_a_check_is_said_at_that_check_alone(quick):
     assert results == {"first": "ran longer than 5 s", "second": unknown}
 
 
+@pytest.mark.audit
+def test_a_chapters_own_cell_may_take_its_time(quick):
+    chapter, _ = quick
+    chapter.cells[1].source = "import time\ntime.sleep(6)\ndef check(*_): pass"
+    results = marks.marks(chapter, student(chapter), cell_limit=5)
+    assert results == dict.fromkeys(("first", "second"), "not right")
+
+
+def test_a_hand_in_runs_on_one_thread(quick, monkeypatch):
+    monkeypatch.setenv("OMP_NUM_THREADS", "2")
+    chapter, notebook = quick
+    notebook.cells[1].source = """import os
+def check(*_): raise ValueError(os.environ["OMP_NUM_THREADS"])"""
+    results = marks.marks(chapter, notebook)
+    assert results == dict.fromkeys(("first", "second"), "ValueError: 1")
+
+
+UNDEFINED = "NameError: name 'arms' is not defined"
+
+
+@pytest.mark.parametrize(
+    ("lines", "mark"),
+    [
+        ("def arms(q)\n    return q", "SyntaxError: expected ':' (line 1)"),
+        ("n = input('n?')\ndef arms(q): ...", "StdinNotImplementedError: "),
+        ("arms_of_two = 1 / 0", UNDEFINED),
+    ],
+)
+def test_a_missing_function_is_marked_by_what_went_wrong_in_its_cell(quick, lines, mark):
+    chapter, notebook = quick
+    notebook.cells[1].source = "def check(*_): arms"
+    notebook.cells.insert(3, new_code_cell(lines))
+    results = marks.marks(chapter, notebook)
+    assert results["first"].startswith(mark)
+    assert results["second"] == UNDEFINED
+
+
 def test_what_a_hand_in_prints_is_not_kept(quick):
     """It may have no end: the marks of a class would end with the memory."""
     chapter, notebook = quick
@@ -170,6 +218,11 @@ def test_of_what_a_hand_in_shows_little_is_kept(quick):
         marks.marks(chapter, notebook)
     assert len(kept) == 2 * marks.MOST_OUTPUTS
     assert {output["data"]["text/plain"] for output in kept} == {"x"}
+
+
+def test_a_kernel_says_nothing_of_itself(quick, capfd):
+    marks.marks(*quick)
+    assert capfd.readouterr().err == ""
 
 
 def test_no_hand_in_finds_what_another_left_in_ipythons_settings(quick):
