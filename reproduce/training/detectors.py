@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from vmc_lib import photos
 from vmc_lib.boxes import MIN_IOU, decode_deltas, encode_deltas, iou
 from vmc_lib.data import arrays
 from vmc_lib.where.box_regression import RBFRidge, regress
@@ -30,7 +31,8 @@ MINED = 51_200  # candidates of all photos among which the hard ones are sought
 
 def candidates(photo, strategy=PUBLISHED.strategy):
     """`propose(photo.image, strategy)`, looked up where the photo ships with its candidates."""
-    boxes = arrays("candidates").get(f"{photo.name}/{strategy}")
+    shipped = arrays("candidates") if photos.FOLDER in photo.file.parents else {}
+    boxes = shipped.get(f"{photo.name}/{strategy}")
     return propose(photo.image, strategy) if boxes is None else boxes.astype(float)
 
 
