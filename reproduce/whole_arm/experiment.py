@@ -110,8 +110,7 @@ def stop_calibration(reach, trials=4):
     ways = PROBE * (np.eye(count) - 1 / count)
     ends = execute(planned.with_weights(reach.weights + ways)).endpoint
     slopes = (ends - execute(planned).endpoint) / PROBE
-    known = replace(past, points=slopes)
-    return broyden_calibration(replace(planned, template_set=known), trials)
+    return broyden_calibration(planned, trials, jacobian=slopes.T)
 
 
 def stop_errors(past, seed, count=5):
