@@ -81,12 +81,16 @@ class Sight:
 
     @property
     def shuttlecocks(self) -> np.ndarray:
-        """The boxes (n, 4) that count as shuttlecocks, the best first."""
+        """The boxes (n, 4) that count as shuttlecocks, in the order of `detections`.
+
+        That is the detector's, the best object first; after a `VentralStream` the likeliest
+        shuttlecock is first.
+        """
         return self.detections.boxes[self.probability > self.min_probability]
 
     @property
     def box(self) -> np.ndarray | None:
-        """The best of them (4,), or None where there is none."""
+        """The first of them (4,), or None where there is none."""
         return self.shuttlecocks[0] if len(self.shuttlecocks) else None
 
     @property
@@ -238,7 +242,7 @@ def recalibrate(reach: Reach, calibration: Rule) -> Reach:
 def see_and_reach(
     model: VisuomotorModel, image: np.ndarray, camera: Camera | None
 ) -> tuple[Sight, Reach | None]:
-    """The `Sight` of an image and the `Reach` for the best shuttlecock that can be reached.
+    """The `Sight` of an image and the `Reach` for the first shuttlecock that can be reached.
 
     The reach is None where there is `NoReach` for any.
     """
