@@ -40,6 +40,10 @@ def test_candidates_of_another_folders_photo_are_its_own(photo, tmp_path):
     assert candidates(replace(photo, file=blank)).tolist() == [[0, 0, 600, 400]]
 
 
+def test_a_photo_is_searched_once(photo):
+    assert candidates(photo) is candidates(photo)
+
+
 def test_diverse_grouping_is_fitted_to_the_papers_number_of_boxes():
     counts = [len(candidates(photo, "diverse")) for photo in photos.load("rig", "train")]
     assert np.mean(counts) == pytest.approx(paper.BOXES_PER_PHOTO, abs=1)
