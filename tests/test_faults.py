@@ -91,6 +91,11 @@ def test_a_missing_file_is_named(shipped):
         photos.load("free", "test", shipped / "photos")
 
 
+def test_arrays_that_are_shared_cannot_be_replaced():
+    with pytest.raises(TypeError, match="does not support item assignment"):
+        data.arrays("cdbn")["mean"] = np.zeros(1)
+
+
 def test_damage_without_a_checksum_is_noticed(tmp_path):
     shutil.copy(results.FOLDER / "optimal.npz", tmp_path)
     cut(tmp_path / "optimal.npz")

@@ -3,6 +3,7 @@
 import hashlib
 import json
 import re
+from copy import deepcopy
 from dataclasses import replace
 
 import numpy as np
@@ -44,6 +45,15 @@ def test_every_photo_agrees_with_its_sidecar(level, split):
         assert np.all(np.abs(centre - middle) < 0.2 * size)
         assert shot.pose in ("lying", "standing")
         assert 0.015 < shot.target[1] - TABLE < 0.05
+
+
+def test_boxes_are_read_only_for_all_who_share_them(photo):
+    with pytest.raises(TypeError, match="does not support item assignment"):
+        photo.boxes["cup"] = np.zeros(4)
+
+
+def test_a_photo_is_copied_with_its_boxes(photo):
+    np.testing.assert_equal(deepcopy(photo).boxes, dict(photo.boxes))
 
 
 @pytest.mark.parametrize("level", LEVELS)

@@ -295,15 +295,26 @@ SIGHT = {  # a call: what its error says, the value and the remedy
     "words to whiten": (lambda g: crops.whiten("photo"), "'photo'", "give numbers"),
     "no cutoff": (lambda g: crops.whiten(NOISE, 0), "cutoff = 0", "above 0"),
     "a cutoff in words": (lambda g: crops.whiten(NOISE, "fine"), "'fine'", "above 0"),
+    "a row to crop": (lambda g: crops.crop(np.zeros(5), BOX[0]), "array(5,)", "read_image"),
     "two crops": (lambda g: crops.crop(g.image, BOX * 2), "2 boxes", "give one alone"),
     "photos by name": (lambda g: cdbn.crops_of("rig"), "'rig'", 'load("rig", "train")'),
     "a photo alone": (lambda g: cdbn.crops_of(g.photo), "Photo(…)", "give a list"),
     "half a filter": (
         lambda g: learning.Learner.random(2.5, 1, 5, torch.Generator()), "2.5 filters", "1 or more"
     ),
+    "no flips": (lambda g: STREAM.predict(g.image, BOX, ()), "flips ()", "one or more"),
+    "another flip": (lambda g: STREAM.predict(g.image, BOX, [(2, 1)]), "(2, 1)", "(-1, -1)"),
     "epochs": (lambda g: learner().fit(torch.zeros(2, 1, 14, 14), 3, 0), "= 3", "range(3)"),
     "patches of NumPy": (
         lambda g: learner().fit(np.zeros((2, 1, 14, 14)), range(1), 0), "ndarray", "torch.Tensor"
+    ),
+    "no steps": (
+        lambda g: learner().fit(torch.zeros(2, 1, 14, 14), range(1), 0, steps=0),
+        "steps = 0", "1 or more",
+    ),
+    "an empty batch": (
+        lambda g: learner().fit(torch.zeros(2, 1, 14, 14), range(1), 0, batch=0),
+        "batch = 0", "1 or more",
     ),
     "wide patches": (
         lambda g: learning.Patches(torch.zeros(1, 1, 9, 9), 20, 3, torch.Generator()),
@@ -323,6 +334,10 @@ SIGHT = {  # a call: what its error says, the value and the remedy
         lambda g: features.pixels_in_context(g.photo, BOX), "Photo(…)", "read_image"
     ),
     "localisers in a list": (lambda g: localiser.Localiser.load(["rig"]), "['rig']", "or names"),
+    "photographs to fit": (
+        lambda g: localiser.Localiser.fit(photos.load("real", "train"), RNG),
+        "real/train/001", 'load("rig", "train")',
+    ),
     "no photos to fit": (lambda g: localiser.Localiser.fit([], RNG), "[]", 'load("rig", "train")'),
     "a scale in words": (lambda g: segmentation.segment(NOISE, "fine"), "'fine'", "above 0"),
     "a list of scales": (lambda g: segmentation.segment(NOISE, [5, 9]), "[5, 9]", "above 0"),
@@ -350,6 +365,9 @@ SIGHT = {  # a call: what its error says, the value and the remedy
     "merges too many": (lambda g: tree().after(99), "steps = 99", "0 merges"),
     "labels of floats": (
         lambda g: selective_search.adjacent_regions(NOISE[0]), "float64", "segment(…)"
+    ),
+    "three classes": (
+        lambda g: svm.KernelSVM.fit(np.eye(3), [0, 1, 2]), "[0, 1, 2]", "true and false"
     ),
     "no labels": (lambda g: svm.KernelSVM.fit(np.eye(2), None), "labels ()", "n labels"),
     "features of NaN": (

@@ -29,7 +29,7 @@ from vmc_lib.where.detector import Detections, ObjectDetector
 from vmc_lib.where.localiser import Localiser
 
 THRESHOLD_MARGIN = 1.0  # how far the detector's threshold is lowered for a recogniser
-MODEL = 'VisuomotorModel.load("rig")'  # what is asked for where a model is missing
+LOAD_MODEL = 'VisuomotorModel.load("rig")'  # the remedy where a model is missing
 PHOTOGRAPHS_AS = "varied"  # the level whose localiser serves photographs, too
 
 
@@ -81,12 +81,16 @@ class Sight:
 
     @property
     def shuttlecocks(self) -> np.ndarray:
-        """The boxes (n, 4) that count as shuttlecocks, the best first."""
+        """The boxes (n, 4) that count as shuttlecocks, in the order of `detections`.
+
+        That is the detector's, the best object first; after a `VentralStream` the likeliest
+        shuttlecock is first.
+        """
         return self.detections.boxes[self.probability > self.min_probability]
 
     @property
     def box(self) -> np.ndarray | None:
-        """The best of them (4,), or None where there is none."""
+        """The first of them (4,), or None where there is none."""
         return self.shuttlecocks[0] if len(self.shuttlecocks) else None
 
     @property
@@ -151,7 +155,7 @@ def see(model: VisuomotorModel, image: np.ndarray, camera: Camera | None = None)
     >>> see(VisuomotorModel.load("rig"), photo.image, photo.camera).summary
     'a shuttlecock, 100 % sure'
     """
-    check_kind("model", model, VisuomotorModel, MODEL)
+    check_kind("model", model, VisuomotorModel, LOAD_MODEL)
     detections, ratio = model.detector.detect(image), 1
     if camera is not None:
         check_kind("camera", camera, Camera, "photo.camera, or None")
@@ -185,7 +189,7 @@ def locate(
         raise NoReach("no shuttlecock was recognised: there is no place to reach for")
     if camera is None:
         raise NoReach("the camera is unknown, so a box has no place: give the photo's Camera")
-    check_kind("model", model, VisuomotorModel, MODEL)
+    check_kind("model", model, VisuomotorModel, LOAD_MODEL)
     check_kind("camera", camera, Camera, "photo.camera, or None")
     return model.localiser.locate(image, box, camera)
 
@@ -217,7 +221,7 @@ def reach(
     >>> found.distance(found.calibrated, photo.target) < 0.05
     True
     """
-    check_kind("model", model, VisuomotorModel, MODEL)
+    check_kind("model", model, VisuomotorModel, LOAD_MODEL)
     target = as_numbers("target", target)
     turn, point = turn_towards(target)
     habit = plan(point, model.template_set)
@@ -238,7 +242,7 @@ def recalibrate(reach: Reach, calibration: Rule) -> Reach:
 def see_and_reach(
     model: VisuomotorModel, image: np.ndarray, camera: Camera | None
 ) -> tuple[Sight, Reach | None]:
-    """The `Sight` of an image and the `Reach` for the best shuttlecock that can be reached.
+    """The `Sight` of an image and the `Reach` for the first shuttlecock that can be reached.
 
     The reach is None where there is `NoReach` for any.
     """

@@ -6,11 +6,12 @@ frame, and the shuttlecock's true place. Those of the level "real" are photograp
 """
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, lru_cache
 from numbers import Integral
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -47,7 +48,7 @@ class Photo:
 
     name: str
     file: Path
-    boxes: dict
+    boxes: Mapping[str, np.ndarray]
     more: np.ndarray
     unclear: np.ndarray
     credit: str
@@ -61,6 +62,10 @@ class Photo:
 
     def __repr__(self) -> str:
         return f"Photo({self.name!r}: {', '.join(self.boxes)})"
+
+    def __getstate__(self) -> dict[str, Any]:
+        """State to pickle or copy: boxes as a dict, for a read-only mapping cannot be pickled."""
+        return vars(self) | {"boxes": dict(self.boxes)}
 
     @property
     def image(self) -> np.ndarray:
@@ -128,10 +133,11 @@ def _read_sidecar(sidecar):
         camera = {key: np.array(value)[()] for key, value in truth["camera"].items()}
         rendered = {"camera": Camera(**camera), "target": data.read_only(np.array(truth["target"]))}
         rendered |= {"turn": truth["turn"], "pose": truth["pose"], "seed": tuple(truth["seed"])}
+    boxes = {name: data.read_only(np.array(box, float)) for name, box in truth["boxes"].items()}
     return Photo(
         "/".join((*place, sidecar.stem)),
         file,
-        {name: data.read_only(np.array(box, float)) for name, box in truth["boxes"].items()},
+        MappingProxyType(boxes),
         more,
         unclear,
         "; ".join(truth[key] for key in ("credit", "licence") if key in truth),

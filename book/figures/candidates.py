@@ -74,7 +74,7 @@ def merging_parts(photo, tree):
     labels = tree.labels.astype(np.min_scalar_type(tree.labels.max()))
     colours = mean_colours(photo.image, labels)
     rest = {"merges": np.uint16(tree.merges), "boxes": np.int16(tree.boxes)}
-    return {"truth": photo.boxes, "colours": colours, "labels": labels} | rest
+    return {"truth": dict(photo.boxes), "colours": colours, "labels": labels} | rest
 
 
 def merging_view(truth, colours, labels, merges, boxes, percent):

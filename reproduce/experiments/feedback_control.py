@@ -36,7 +36,7 @@ from vmc_lib.motor.planning import draw_targets, exact_weights, is_surrounded, p
 from vmc_lib.motor.templates import START, load, reach
 
 JUMP, JUMPS_AT = 0.05, 0.15  # m and s: how far a target jumps, and when
-PERSON_SHARE = 0.7  # noise at which reaches that the eye sees scatter at their end by `PERSON_MM`
+PERSON_SHARE = 0.7  # noise at which reaches that the eye guides scatter by `PERSON_MM`
 FIELD, BLOCKS = 15.0, (2, 10, 6)  # N for each m/s; blocks of reaches before, in and after the field
 FARTHEST = 0.085  # m: of eight equal reaches from `START` that end above the table
 

@@ -18,7 +18,6 @@ from vmc_lib.motor.inverse_dynamics import SAMPLES
 from vmc_lib.motor.planning import norm
 from vmc_lib.motor.templates import mean_distance
 
-MOVED = SAMPLES * STEP  # s: where the command ends
 LOADS = {"empty": 0, "0.5 kg": 0.5}  # in the hand, kg
 GRIDS = {"n = 0 only": (0,), "every fifth n": FIFTH, "every n": GAINS}
 
@@ -90,8 +89,8 @@ def hold_distances(plans, seconds=1.5):
 
 def reflex_distances(plans, seconds=1.5):
     """The same with the stretch reflex of chapter 12, which is told where the joints should be."""
-    reference = reference_trajectory(plans, MOVED + seconds)
-    paths = simulate_feedback(reference, REFLEX).hand[:, round(MOVED / STEP) :: templates.EVERY, :2]
+    reference = reference_trajectory(plans, SAMPLES * STEP + seconds)
+    paths = simulate_feedback(reference, REFLEX).hand[:, SAMPLES :: templates.EVERY, :2]
     return 1000 * norm(paths - plans.target[:, None])
 
 

@@ -21,7 +21,11 @@ GAPS = 0.1, 0.4  # between strings, in sides of a crop
 
 @dataclass(frozen=True)
 class Augmentation:
-    """Strengths of the augmentation; at 0 a crop stays as it is."""
+    """Strengths of the augmentation; at 0 a crop keeps all but its brightness.
+
+    For `relight` brings the brightest of any crop to 1. And whatever these are, a shuttlecock's box
+    strays by STRAYS: how to correct it is learnt from there.
+    """
 
     stray: float = 0.08  # of the edges of other boxes than a shuttlecock's, in sides
     quarters: bool = True  # any quarter turn, mirrored or not
@@ -79,7 +83,7 @@ def quarter_turn(x, lack, rng):
 
 
 def relight(x, augmentation, rng):
-    """A picture under a random gradient of light and another exposure (gamma)."""
+    """A picture under a random gradient of light and another exposure (gamma), its maximum 1."""
     ramp = np.linspace(-0.5, 0.5, len(x), dtype=np.float32)
     right, down = augmentation.light * rng.uniform(-1, 1, 2)
     shade = np.exp(right * ramp + down * ramp[:, None])

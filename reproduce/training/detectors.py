@@ -6,11 +6,13 @@ regression and IoU prediction were chosen on 120 validation photos a level, of w
 """
 
 from dataclasses import dataclass, replace
+from functools import cache
 
 import numpy as np
 
+from vmc_lib import photos
 from vmc_lib.boxes import MIN_IOU, decode_deltas, encode_deltas, iou
-from vmc_lib.data import arrays
+from vmc_lib.data import arrays, read_only
 from vmc_lib.where.box_regression import RBFRidge, regress
 from vmc_lib.where.detector import ObjectDetector
 from vmc_lib.where.recipes import EVERY_RECIPE, PHOTOGRAPHED, PUBLISHED, SINGLE
@@ -28,10 +30,15 @@ HARD_NEGATIVES, EASY_NEGATIVES = 25, 10  # further candidates a photo: mined one
 MINED = 51_200  # candidates of all photos among which the hard ones are sought
 
 
+@cache
 def candidates(photo, strategy=PUBLISHED.strategy):
-    """`propose(photo.image, strategy)`, looked up where the photo ships with its candidates."""
-    boxes = arrays("candidates").get(f"{photo.name}/{strategy}")
-    return propose(photo.image, strategy) if boxes is None else boxes.astype(float)
+    """`propose(photo.image, strategy)`, looked up where the photo ships with its candidates.
+
+    Found once, shared, and so read-only.
+    """
+    shipped = arrays("candidates") if photos.FOLDER in photo.file.parents else {}
+    boxes = shipped.get(f"{photo.name}/{strategy}")
+    return read_only(propose(photo.image, strategy) if boxes is None else boxes.astype(float))
 
 
 @dataclass(frozen=True, eq=False)

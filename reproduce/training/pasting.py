@@ -12,7 +12,7 @@ import numpy as np
 from reproduce.render.cutout_atlas import WIDTH
 from vmc_lib import photos
 
-SEEN = 0.4  # of light that a cut-out keeps off what is behind: from there it has an edge
+MIN_ALPHA = 0.4  # of light that a cut-out keeps off what is behind: from there it has an edge
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +51,7 @@ def transform_cutout(cutout, rng, large):
     x = cv2.warpAffine(x, matrix, (size, size))
     x = cv2.GaussianBlur(x, (0, 0), 0.3 + 1.5 * max(scale, 0.5) * rng.random() ** 2)
     x[..., :3] /= np.maximum(x[..., 3:], 1e-3)
-    rows, columns = (np.flatnonzero(x[..., 3].max(axis) > SEEN) for axis in (1, 0))
+    rows, columns = (np.flatnonzero(x[..., 3].max(axis) > MIN_ALPHA) for axis in (1, 0))
     part = x[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
     return part[: photos.HEIGHT - 1, : photos.WIDTH - 1]
 

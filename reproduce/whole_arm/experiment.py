@@ -17,7 +17,7 @@ from reproduce.whole_arm.habits import ZONE, goal_grid
 from vmc_lib.cerebellum.offline import broyden_calibration
 from vmc_lib.cerebellum.online import AimCorrection, GranuleCells
 from vmc_lib.motor.execution import execute
-from vmc_lib.motor.planning import exact_weights, plan
+from vmc_lib.motor.planning import exact_weights, is_surrounded, plan, surrounding
 from vmc_lib.motor.templates import mean_distance
 
 INSIDE = ZONE + np.array([[0.04], [-0.04]])  # m: targets keep so far from its edge
@@ -30,24 +30,16 @@ SPARE = 0.5  # rad: how far apart memories' easy postures are that share no habi
 ANY_POSTURE = "any posture"  # of memories that share none
 
 
-def octants(target, points):
-    """The nearest point in each octant round targets (…, 3): rows (…, 8), and whether all exist."""
-    away = points - target[..., None, :]
-    here = ((away >= 0) @ [1, 2, 4])[..., None, :] == np.arange(8)[:, None]
-    distance = np.where(here, np.linalg.norm(away, axis=-1)[..., None, :], np.inf)
-    return distance.argmin(axis=-1), np.isfinite(distance.min(axis=-1)).all(axis=-1)
-
-
 def draw_targets_3d(*memories, count, rng):
     """Targets (count, 3) in the zone that all these sets of memories surround."""
     drawn = rng.uniform(*INSIDE, (8 * count + 20, 3))
-    inside = [octants(drawn, known.points)[1] for known in memories]
+    inside = [is_surrounded(drawn, known.points) for known in memories]
     return drawn[np.all(inside, axis=0)][:count]
 
 
 def plan_reaches(targets, past, **rule):
     """The `Plan`s to targets (n, 3), each by the eight memories around it."""
-    return plan(targets, past, rows=octants(targets, past.points)[0], **rule)
+    return plan(targets, past, **rule)
 
 
 def mean_way(targets):
@@ -110,8 +102,7 @@ def stop_calibration(reach, trials=4):
     ways = PROBE * (np.eye(count) - 1 / count)
     ends = execute(planned.with_weights(reach.weights + ways)).endpoint
     slopes = (ends - execute(planned).endpoint) / PROBE
-    known = replace(past, points=slopes)
-    return broyden_calibration(replace(planned, template_set=known), trials)
+    return broyden_calibration(planned, trials, jacobian=slopes.T)
 
 
 def stop_errors(past, seed, count=5):
@@ -156,8 +147,9 @@ def online_errors(past, seed, count=COUNT, width=WIDTH):
         plan_reaches(draw_targets_3d(past, count=n, rng=rng), past)
         for n in (count, LESSONS * count)
     )
-    spots = octants(rng.uniform(*ZONE, (4000, 3)), past.points)
-    around = np.unique(spots[0][spots[1]], axis=0)
+    spots = rng.uniform(*ZONE, (4000, 3))
+    spots = spots[is_surrounded(spots, past.points)]
+    around = np.unique(surrounding(spots, past.points), axis=0)
     aims = AimCorrection(past, GranuleCells(width), around).update(practised)
     return {
         name: execute(aims.correct(plans)).error.mean() / execute(plans).error.mean()
@@ -192,7 +184,7 @@ def optimised_errors(past, synergies, seed, count=COUNT):
 def covered_share(past, count=1000):
     """The share of the zone that memories surround."""
     spots = np.random.default_rng(0).uniform(*INSIDE, (count, 3))
-    return float(octants(spots, past.points)[1].mean())
+    return float(is_surrounded(spots, past.points).mean())
 
 
 def seconds_per_second(synergies, count=5):

@@ -103,6 +103,16 @@ def test_broyden_updates_beat_a_fixed_jacobian(reaches):
     assert learning[3] < 0.5 * repeating[3]
 
 
+def test_broyden_calibration_starts_from_the_jacobian_it_is_given(reaches):
+    """Were the hand to move twice as far, half the change would do."""
+    twice = 2 * np.swapaxes(reaches.points, -1, -2)
+    whole, half = (
+        np.diff(broyden_calibration(reaches, 1, guarded=False, jacobian=j).weights, axis=0)
+        for j in (None, twice)
+    )
+    np.testing.assert_allclose(half, whole / 2, atol=1e-12)
+
+
 def test_corrections_are_finite_on_a_target_and_on_a_template(template_set):
     reach = plan([0.15, -0.4], template_set)
     np.testing.assert_allclose(algorithm_1_change(reach, reach.target, 5), 0)

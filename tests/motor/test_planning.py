@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from vmc_lib import NoReach
 from vmc_lib.motor import templates
 from vmc_lib.motor.execution import execute, rotate_about_eye
 from vmc_lib.motor.planning import (
@@ -55,6 +56,14 @@ def test_surrounding_templates_are_the_corners_of_the_cell(template_set):
     assert np.all(side == [(1, 1), (-1, 1), (-1, -1), (1, -1)])
     nearer = np.linalg.norm(template_set.points - targets[:, None], axis=-1).min(axis=-1)
     assert np.all(np.linalg.norm(corners - targets[:, None], axis=-1).min(axis=-1) == nearer)
+
+
+def test_the_nearest_point_in_each_octant_surrounds_a_place_in_space():
+    corners = np.stack(np.meshgrid(*[[-1.0, 1.0]] * 3), axis=-1).reshape(-1, 3)
+    rows = surrounding(np.zeros((2, 3)), np.vstack([2 * corners, corners]))
+    assert np.sort(rows).tolist() == 2 * [list(range(8, 16))]
+    with pytest.raises(NoReach, match="not surrounded"):
+        surrounding(np.array([3.0, 0, 0]), corners)
 
 
 def test_plan_excitations_are_a_clipped_weighted_sum(template_set):

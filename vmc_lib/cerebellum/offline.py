@@ -138,6 +138,7 @@ def broyden_calibration(
     broyden: bool = True,
     guarded: bool = True,
     execute: Execute = execute,
+    jacobian: np.ndarray | None = None,
 ) -> Trials:
     """Calibrate a plan off-line by Broyden's method: solve Eq. 4 for the error, trial by trial.
 
@@ -157,6 +158,8 @@ def broyden_calibration(
         No step is larger than `LARGEST_STEP`, and each starts from the best weights so far.
     execute : callable
         Moves the arm: a plan to its `Movement`.
+    jacobian : array (…, D, N), optional
+        Where each weight takes the hand at first, m; by default the templates' points p_i.
 
     Returns
     -------
@@ -183,9 +186,9 @@ def broyden_calibration(
     """
     check_count("n_trials", n_trials)
     check_function("execute", execute, MOVES)
-    planned, jacobian = execute(plan), np.swapaxes(plan.points, -1, -2)
+    planned, weights = execute(plan), plan.weights
+    jacobian = np.swapaxes(plan.points, -1, -2) if jacobian is None else jacobian
     best, endpoint, tried = planned.error, planned.endpoint, []
-    weights = plan.weights
     for _ in range(n_trials):
         change = least_change(jacobian, plan.target - endpoint)
         change = _clip_norm(change) if guarded else change

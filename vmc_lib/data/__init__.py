@@ -6,8 +6,10 @@
 import hashlib
 import io
 import json
+from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
+from types import MappingProxyType
 from zipfile import BadZipFile
 from zlib import error as ZlibError
 
@@ -25,7 +27,7 @@ class DamagedFile(ValueError):
 
 
 @cache
-def arrays(name: str, folder: Path = FOLDER) -> dict[str, np.ndarray]:
+def arrays(name: str, folder: Path = FOLDER) -> Mapping[str, np.ndarray]:
     """The arrays of the data file `name`.npz, by name; read once, shared, and so read-only.
 
     FileNotFoundError when nothing of that name ships, `DamagedFile` when the file is damaged.
@@ -33,7 +35,7 @@ def arrays(name: str, folder: Path = FOLDER) -> dict[str, np.ndarray]:
     path = Path(folder) / f"{name}.npz"
     try:
         with np.load(io.BytesIO(read(path)), allow_pickle=False) as file:
-            return {part: read_only(array) for part, array in file.items()}
+            return MappingProxyType({part: read_only(array) for part, array in file.items()})
     except (BadZipFile, EOFError, OSError, ZlibError) as error:
         if isinstance(error, FileNotFoundError):
             raise

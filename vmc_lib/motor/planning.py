@@ -126,12 +126,13 @@ def least_change(jacobian: np.ndarray, shift: np.ndarray) -> np.ndarray:
 def surrounding(target: ArrayLike, points: np.ndarray) -> np.ndarray:
     """The nearest point (of N, 2) in each of the four quadrants round a target: rows (…, 4).
 
-    `NoReach` when a quadrant is empty: the target is outside the plane that experience covers.
+    In space, (of N, 3) in each of the eight octants: rows (…, 8).
+    `NoReach` when one of them is empty: the target is outside what experience covers.
     """
     if not np.all(inside := is_surrounded(target, points)):
         alone = np.atleast_2d(target)[~np.atleast_1d(inside)][0]
         raise NoReach(f"target {alone} m is not surrounded by templates; move it inside them")
-    return _by_quadrant(target, points).argmin(axis=-1)
+    return _by_orthant(target, points).argmin(axis=-1)
 
 
 def nearest(target: ArrayLike, points: np.ndarray, count: int) -> np.ndarray:
@@ -147,16 +148,24 @@ def nearest(target: ArrayLike, points: np.ndarray, count: int) -> np.ndarray:
 
 
 def is_surrounded(target: ArrayLike, points: np.ndarray) -> np.ndarray:
-    """Whether targets (…, 2) have a point (of N, 2) in every quadrant round them, (…)."""
-    return np.isfinite(_by_quadrant(target, points).min(axis=-1)).all(axis=-1)
+    """Whether targets (…, D) have a point (of N, D) in every quadrant or octant round them, (…)."""
+    return np.isfinite(_by_orthant(target, points).min(axis=-1)).all(axis=-1)
 
 
-def _by_quadrant(target, points):
-    """Distances (…, 4, N), infinite to points in other quadrants; no distance is in the first."""
+def _by_orthant(target, points):
+    """Distances (…, 2^D, N), infinite to points in other quadrants or octants.
+
+    No distance is in the first quadrant, and in the last octant.
+    """
     away = offsets(points, target)
-    quadrant = np.floor(np.arctan2(away[..., 1], away[..., 0]) / (np.pi / 2)) % 4
-    here = quadrant[..., None, :] == np.arange(4)[:, None]
+    which = _quadrant(away) if away.shape[-1] == 2 else (away >= 0) @ [1, 2, 4]
+    here = which[..., None, :] == np.arange(2 ** away.shape[-1])[:, None]
     return np.where(here, norm(away)[..., None, :], np.inf)
+
+
+def _quadrant(away):
+    """Which quadrant offsets (…, 2) lie in, 0 to 3, counter-clockwise."""
+    return np.floor(np.arctan2(away[..., 1], away[..., 0]) / (np.pi / 2)) % 4
 
 
 def draw_targets(template_set: TemplateSet, count: int, rng: np.random.Generator) -> np.ndarray:
@@ -196,7 +205,7 @@ def plan(
         By Eq. 5, or by Eq. 4 as well; or a function of your own: weights (…, N) from a target and
         the templates' points (…, N, 2).
     rows : array (…, N), optional
-        Which templates; by default the nearest in each quadrant. In space they must be given.
+        Which templates; by default the nearest in each quadrant, or octant.
 
     Returns
     -------

@@ -23,7 +23,7 @@ def crop(image: np.ndarray, box: Sequence[float] | np.ndarray) -> np.ndarray:
 
     from vmc_lib.photos import as_rgb
 
-    if not isinstance(image, np.ndarray):
+    if not isinstance(image, np.ndarray) or image.ndim < 2:
         raise ValueError(f"{short(image)} is no image: see photos.read_image")
     height, width = image.shape[:2]
     corners = as_box(box)

@@ -13,6 +13,7 @@ import numpy as np
 import torch
 from torch.nn import functional as F
 
+from vmc_lib.checks import check_count
 from vmc_lib.what.crbm import CRBM
 
 # Its threads meet at thousands of barriers a second, and each waits spinning: with one other busy
@@ -87,8 +88,9 @@ class Learner(CRBM):
         The exact gradient is the `statistics` of the data minus those of the model's own samples.
         CD-k takes for a sample what k rounds of `gibbs` make of the data (Hinton 2002). Returns the
         gradients for W, b and a, the probabilities of the hidden units given the data, and the
-        sample.
+        sample. ValueError for fewer than one of `steps`.
         """
+        check_count("steps", steps, 1)
         chain = self.gibbs(v, rng, **how)
         _, on = next(chain)
         sample, on_in_sample = next(islice(chain, steps - 1, None))
@@ -106,8 +108,10 @@ class Learner(CRBM):
         random numbers from (seed, epoch) and starts without momentum, so a machine saved after
         epoch 3 and trained on range(4, 8) ends as one trained on range(8). `pressure` pulls each
         map's mean activity towards `sparsity` through its bias.
-        ValueError for no patches, for NaN in them, and when learning runs away.
+        ValueError for no patches, for NaN in them, for fewer than one of `steps` or in a `batch`,
+        and when learning runs away.
         """
+        check_count("batch", batch, 1)
         if not isinstance(epochs, Iterable):
             raise ValueError(f"epochs = {epochs}: give a range, range({epochs})")
         if patches is None or isinstance(patches, np.ndarray):

@@ -16,7 +16,7 @@ from vmc_lib.boxes import as_boxes, decode_deltas, nms, pad_boxes
 from vmc_lib.checks import check_count
 from vmc_lib.data import arrays
 from vmc_lib.photos import crops
-from vmc_lib.short_repr import short_repr
+from vmc_lib.short_repr import short, short_repr
 from vmc_lib.what.crbm import correlate_valid
 from vmc_lib.what.recogniser import check_detections, logistic
 
@@ -70,7 +70,14 @@ class VentralStream:
         -------
         log_odds : (n,), that a box holds a shuttlecock
         deltas : (n, 4), from each box to the shuttlecock's, as `boxes.decode_deltas` takes them
+
+        Raises
+        ------
+        ValueError
+            For no flips, and for any that is none of FLIPS.
         """
+        if not len(flips) or any(tuple(flip) not in FLIPS for flip in flips):
+            raise ValueError(f"flips {short(flips)}: give one or more of {FLIPS}")
         if not len(boxes := as_boxes(boxes)):
             return np.zeros(0), np.zeros((0, 4))
         if len(boxes) > BATCH:

@@ -44,12 +44,19 @@ class Localiser:
 
     @classmethod
     def fit(cls, shots: Sequence[Any], rng: np.random.Generator) -> Self:
-        """Fit to photos whose shuttlecocks' places are known; `rng` jitters their boxes."""
+        """Fit to photos whose shuttlecocks' places are known; `rng` jitters their boxes.
+
+        ValueError for photographs, whose places are not known.
+        """
         from sklearn.kernel_ridge import KernelRidge
 
         check_photos(shots)
         inputs, targets = [], []
         for photo in shots:
+            if photo.target is None:
+                raise ValueError(
+                    f'the place in {photo.name} is not known: give renders, load("rig", "train")'
+                )
             box = photo.boxes["shuttlecock"]
             boxes = np.vstack([box, jitter_boxes(np.tile(box, (COPIES, 1)), JITTER, rng)])
             centres, sides = centres_and_sides(boxes)

@@ -6,6 +6,7 @@ from typing import Self
 import numpy as np
 
 from vmc_lib.checks import check_features
+from vmc_lib.short_repr import short
 from vmc_lib.where.kernels import KERNELS
 
 PARTS = ("gamma", "support", "weights", "bias")  # of an SVM, as they are stored
@@ -33,7 +34,8 @@ class KernelSVM:
         """Fit to features x (n, d) and labels y (n,), true or false; `cost` is the SVM's C.
 
         The kernel's γ is `scale` over d times the variance of x.
-        ValueError for an unknown kernel, and where one of the two labels has no example.
+        ValueError for an unknown kernel, for more labels than two, and where one of the two has no
+        example.
         """
         from sklearn.svm import SVC
 
@@ -42,7 +44,9 @@ class KernelSVM:
         x = np.asarray(x)
         if x.ndim != 2 or np.shape(y) != x.shape[:1]:
             raise ValueError(f"features {x.shape}, labels {np.shape(y)}: give (n, d), and n labels")
-        if len(np.unique(y)) < 2:
+        if len(labels := np.unique(y)) > 2:
+            raise ValueError(f"labels {short(labels.tolist())}: give two kinds, true and false")
+        if len(labels) < 2:
             raise ValueError("a classifier needs examples and counter-examples: give more photos")
         if not 0 < (spread := x.var()) < np.inf:
             raise ValueError(f"features of variance {spread}: give finite ones that differ")

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from PIL import Image
 
 from reproduce import paper
 from reproduce.training.detectors import (
@@ -31,6 +32,16 @@ def test_shipped_candidates_are_proposed_again(photo, strategy):
     shipped, again = ({tuple(box) for box in boxes} for boxes in (stored, boxes))
     assert len(shipped & again) > 0.9 * len(shipped | again)
     assert (candidates(replace(photo, name="mine"), strategy) == boxes).all()
+
+
+def test_candidates_of_another_folders_photo_are_its_own(photo, tmp_path):
+    """Even where a photo of that name ships."""
+    Image.new("RGB", (600, 400)).save(blank := tmp_path / "000.png")
+    assert candidates(replace(photo, file=blank)).tolist() == [[0, 0, 600, 400]]
+
+
+def test_a_photo_is_searched_once(photo):
+    assert candidates(photo) is candidates(photo)
 
 
 def test_diverse_grouping_is_fitted_to_the_papers_number_of_boxes():

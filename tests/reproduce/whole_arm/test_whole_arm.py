@@ -131,14 +131,6 @@ def test_many_reaches_move_as_each_alone():
     np.testing.assert_allclose(both.reshape(4, 3), past.points[:4], atol=1e-9)
 
 
-def test_octants_are_distinguished():
-    corners = np.stack(np.meshgrid(*[[-1.0, 1.0]] * 3), axis=-1).reshape(-1, 3)
-    rows, inside = experiment.octants(np.zeros((2, 3)), np.vstack([2 * corners, corners]))
-    assert inside.all()
-    assert (rows >= 8).all()
-    assert not experiment.octants(np.array([3.0, 0, 0]), corners)[1]
-
-
 def test_the_same_functions_plan_and_correct_it():
     """Three targets of a fresh draw: the plan is near, two corrections nearer."""
     past = habits.load_templates()
