@@ -171,6 +171,24 @@ def test_captions_and_predictions_are_prose(path):
             assert not [c for c in calls if any(k.arg == "caption" for k in c.keywords)], cell.id
 
 
+OWN_WORDS = {  # plots, which tell their data; and what the page itself describes
+    *("recall-at-overlap", "2dc490-f", "table-1", "table-2", "fresh-d", "shifted-crop"),
+    "suppression-d",
+}
+
+
+@pytest.mark.parametrize("stem", ["02_candidates", "03_regions", "05_hierarchy"])
+def test_a_picture_that_is_no_plot_is_described(stem):
+    """Its own words would be the labels that are written in it, and not what is seen."""
+    silent = set()
+    for cell in nbformat.read(ROOT / f"book/{stem}.ipynb", as_version=4).cells:
+        tree = ast.parse(cell.source if cell.cell_type == "code" else "")
+        calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call)]
+        shown = [call for call in calls if names_in(call.func) & {"explore", "figure"}]
+        silent |= {cell.id for call in shown if not any(k.arg == "alt" for k in call.keywords)}
+    assert silent <= OWN_WORDS
+
+
 def names_in(tree):
     return {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
 

@@ -6,9 +6,10 @@ import cv2
 import numpy as np
 import pytest
 
-from book.figures import racket, where
+from book.figures import racket, regions, where
 from page.bundle import bundle, widget_script
 from tests import pages
+from vmc_lib.show.palette import ON_PHOTO
 
 TRUTH = {"cup": np.array([0.0, 0, 10, 10])}
 BOXES = np.array([[0.0, 0, 5, 10], [50, 50, 60, 60], [0, 0, 10, 10]])
@@ -19,6 +20,34 @@ def test_the_best_so_far_never_falls():
     assert best["cup"] == pytest.approx([0.5, 0.5, 1])
     axes = where.rising(best, 2).axes[0]
     assert axes.get_legend_handles_labels()[1] == ["cup 0.50"]
+
+
+class Astray:
+    """A detector whose box regression takes every box to one place."""
+
+    def __init__(self, box):
+        self.box = np.array([box])
+
+    def regress(self, image, boxes, rounds):
+        return self.box if rounds else boxes
+
+
+IMAGE = np.zeros((20, 20, 3), np.uint8)
+
+
+@pytest.mark.parametrize(("wide", "colour"), [(7.98, "orange"), (8, "green")])
+def test_a_corrected_box_is_green_from_an_overlap_of_eight_tenths(wide, colour):
+    """Not from 0.798, which is 0.80 in two digits."""
+    shown = regions.regressed_view(Astray([0, 0, wide, 10]), IMAGE, TRUTH["cup"], (5, 5), 1)
+    assert "IoU 0.80" in shown
+    assert [name for name in ("green", "orange") if ON_PHOTO[name] in shown] == [colour]
+
+
+def test_a_box_starts_as_far_on_one_side_as_on_the_other():
+    for middle, said in ((-1, 5), "0.6 left, 0 down"), ((11, 5), "0.6 right, 0 down"):
+        _, shared = regions.regress(Astray(None), IMAGE, TRUTH["cup"], middle, 0)
+        assert shared == pytest.approx(3.5 / (9 + 10 - 3.5) * 9 / 10, abs=0.03)
+        assert said in regions.regressed_view(Astray(None), IMAGE, TRUTH["cup"], middle, 0)
 
 
 def test_photo_upload_is_decoded():

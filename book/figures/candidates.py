@@ -17,6 +17,12 @@ from vmc_lib.where.selective_search import ALL, Hierarchy, Strategy, hierarchies
 SPACES = ("HSV", "Lab", "rgI", "I")
 MOST = 1000  # boxes tried, a photo
 PROPOSALS = ("selective search", "windows", "windows by edges")
+CONTRASTS = {  # in words: what the saliency map adds up
+    "all three": "lightness and both pairs of colours differ",
+    "lightness": "lightness differs",
+    "red and green": "red and green differ",
+    "blue and yellow": "blue and yellow differ",
+}
 
 
 def contrasts(image):
@@ -64,9 +70,24 @@ def saliency_view(image, heat):
     return photo_view(lit, points=[(most_salient(heat), "", "orange")])
 
 
+def saliency_in_words(heat, thing, attend):
+    """What `saliency_view` draws, in words: of a photo of a `thing`, with `attend` of CONTRASTS."""
+    high, wide = heat.shape
+    x, y = most_salient(heat)
+    return (
+        f"{thing}: bright where {CONTRASTS[attend]} most from what lies around, dark elsewhere. A "
+        f"circle at {x / wide:.0%} of the way to the right and {y / high:.0%} of the way down."
+    )
+
+
 def segments_view(image, labels):
     """An image's segments in their mean colours, and how many they are."""
     return photo_view(mosaic(image, labels), [in_corner(f"{labels.max() + 1} segments")])
+
+
+def segments_in_words(name, labels, k):
+    """The same in words, of a photo by its `name`, cut with a scale `k`."""
+    return f"{name}, cut with k = {k} into {labels.max() + 1} segments, each in its mean colour."
 
 
 def merging_parts(photo, tree):
@@ -109,6 +130,26 @@ def overlaps_by_measure(shots):
         for photo in shots
     ]
     return dict(zip(ways, np.transpose(rows), strict=True))
+
+
+def merging_in_words(truth, merges, boxes, percent, **_):
+    """What `merging_view` shows, in words."""
+    made = round(percent / 100 * len(merges))
+    now = len(merges) + 1 + made
+    best = best_so_far(truth, np.float64(boxes))
+    fits = ", ".join(f"{name} {overlap[now - 1]:.2f}" for name, overlap in best.items())
+    return (
+        f"A photo as {len(merges) + 1 - made} segments in their mean colours, after {made} of "
+        f"{len(merges)} merges; green, the best box so far for each thing: {fits}. Beside it, how "
+        "these overlaps rose with each region made."
+    )
+
+
+def best_boxes_in_words(name, photo, boxes):
+    """What `best_boxes_view` shows of a photo by its `name`, in words."""
+    best = iou(list(photo.boxes.values()), boxes).max(1)
+    fits = ", ".join(f"{k} {overlap:.2f}" for k, overlap in zip(photo.boxes, best, strict=True))
+    return f"{name}, and the best box for each thing, with its overlap: {fits}."
 
 
 def best_boxes_view(photo, boxes):

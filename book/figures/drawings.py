@@ -61,8 +61,9 @@ def two_streams():
     folds = "M146 196C205 178 262 166 318 152M240 32C228 72 246 104 218 152"
     cerebellum = "M330 212C345 196 420 196 440 214C448 244 400 262 362 254C336 248 322 232 330 212Z"
     return drawing(
-        520,
+        432,
         290,
+        '<g transform="translate(-44)">',
         f'<path d="{outline}" fill="{css("line")}" fill-opacity=".35"/>',
         f'<path d="{folds}" stroke="{css("grey")}"/>',
         f'<path d="{cerebellum}"/>',
@@ -75,15 +76,16 @@ def two_streams():
         words(372, 22, "where: the dorsal stream", "blue"),
         words(180, 122, "motor"),
         words(168, 226, "IT", "orange"),
-        words(120, 274, "what: the ventral stream", "orange"),
+        words(132, 274, "what: the ventral stream", "orange"),
         words(386, 234, "cerebellum"),
+        "</g>",
     )
 
 
 def box_regression():
     """A box that lies astray, the four numbers that its content gives, and the box they make."""
-    cup = f'<path d="M60 62v52q0 26 32 26t32-26v-52zM124 76h16v34h-16" fill="{css("line")}"/>'
-    there = cup.replace("M60 62", "M430 62").replace("M124 76", "M494 76")
+    cup = f'<path d="M60 42v52q0 26 32 26t32-26v-52zM124 56h16v34h-16" fill="{css("line")}"/>'
+    there = f'<g transform="translate(210)">{cup}</g>'
 
     def box(x, y, width, height, colour):
         return (
@@ -92,22 +94,19 @@ def box_regression():
         )
 
     return drawing(
-        560,
-        190,
+        420,
+        212,
         cup,
-        box(86, 76, 72, 78, "orange"),
-        arrow("M166 104H184"),
-        words(284, 66, "what it shows:"),
-        words(284, 88, "gradients in 10 × 10 cells"),
-        words(284, 122, "so: move left and up,"),
-        words(284, 142, "stretch across and down"),
-        arrow("M386 104H416"),
+        box(86, 56, 72, 78, "orange"),
+        arrow("M178 84H242"),
         there,
-        box(456, 76, 72, 78, "orange"),
-        box(424, 56, 92, 90, "green"),
-        arrow("M492 115L474 104", "green"),
-        words(120, 180, "before", "orange"),
-        words(470, 180, "after one round", "green"),
+        box(296, 56, 72, 78, "orange"),
+        box(264, 36, 92, 90, "green"),
+        arrow("M332 95L314 84", "green"),
+        words(100, 22, "before", "orange"),
+        words(310, 22, "after one round", "green"),
+        words(210, 164, "what it shows: gradients in 10 × 10 cells"),
+        words(210, 186, "so: move left and up, stretch across and down"),
     )
 
 
@@ -158,21 +157,20 @@ def crbm_block():
 
 
 def stack(sizes, n_w):
-    """The CDBN's layers, drawn to scale: `sizes` is layer → (maps, height, width)."""
-    parts, x = [], 20
-    for layer, (maps, height, width) in sizes.items():
-        side, copies = width * 0.42, min(maps, 4)
-        for i in reversed(range(copies)):
+    """The CDBN's layers, to scale, in two rows: `sizes` is layer → (maps, height, width)."""
+    parts = []
+    for i, (layer, (maps, height, width)) in enumerate(sizes.items()):
+        side, copies, x, foot = width * 0.42, min(maps, 4), 70 + 140 * (i % 3), (110, 216)[i // 3]
+        for k in reversed(range(copies)):
             parts.append(
-                f'<rect x="{x + 4 * i:.0f}" y="{104 - side / 2 - 4 * i:.0f}" width="{side:.0f}" '
-                f'height="{side:.0f}" fill="{css("paper")}"/>'
+                f'<rect x="{x - side / 2 + 4 * k:.0f}" y="{foot - side - 4 * k:.0f}" '
+                f'width="{side:.0f}" height="{side:.0f}" fill="{css("paper")}"/>'
             )
-        middle = x + side / 2
-        parts.append(words(f"{middle:.0f}", 164, layer))
-        parts.append(words(f"{middle:.0f}", 180, f"{maps} × {height} × {width}"))
-        x += max(side + 50, 124)
-    step = f"match by {n_w} × {n_w}, pool by 2 × 2, and again; then the mean of the maps"
-    return drawing(round(x), 212, *parts, words(f"{x / 2:.0f}", 206, step, "grey"))
+        parts.append(words(x, foot + 20, layer))
+        parts.append(words(x, foot + 37, f"{maps} × {height} × {width}"))
+    steps = f"match by {n_w} × {n_w}, pool by 2 × 2, and again;", "then the mean of the maps"
+    parts += [words(210, 282 + 20 * row, step, "grey") for row, step in enumerate(steps)]
+    return drawing(420, 312, *parts)
 
 
 def smith_predictor():

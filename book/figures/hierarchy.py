@@ -12,15 +12,32 @@ from vmc_lib.show.markup import data_uri, number
 from vmc_lib.show.palette import COLOURS
 
 ZOOMS = {"V": 1, "H1": 0.5, "P1": 1, "H2": 1, "P2": 2, "MP2": 4}
+LOOKS = {  # of a crop's layers
+    "V": "A whitened crop in grey, with {}: its edges are dark and bright, its surfaces grey",
+    "H1": "Ten dark maps of a crop with {}: thin bright lines, in each along other edges",
+    "P1": "Ten dark maps of a crop with {}: the same lines as in H1, thicker",
+    "H2": "Ten dark maps of a crop with {}: rows of small dots where many edges lie",
+    "P2": "Ten maps of a crop with {}: broad bright bands and patches, much alike in all ten",
+    "MP2": "One coarse map of a crop with {}: bright where its edges are, without lines",
+}
 
 
 def layer(maps, name):
-    """A layer's maps, of a dict layer -> (1, K, height, width), and how many numbers they are."""
+    """A layer's maps, of a dict layer -> (1, K, height, width), and how many they are."""
     x, zoom = np.asarray(maps[name])[0], ZOOMS[name]
-    words = f"{name}: {' × '.join(map(str, x.shape))} = {x.size:,} numbers"
+    words = f"{name}: {_size(x)}"
     if zoom < 1:  # half as large, to fit the page
         x, zoom = x.reshape(len(x), x.shape[1] // 2, 2, -1, 2).max((2, 4)), 1
     return with_words(grey(x[0]) if name == "V" else tiles(x, zoom=zoom), words, (204, 504))
+
+
+def layer_in_words(maps, name, shown):
+    """What `layer` draws of a crop that shows a thing, in words."""
+    return f"{LOOKS[name].format(shown)}. {name}: {_size(np.asarray(maps[name])[0])}."
+
+
+def _size(x):
+    return " × ".join(map(str, x.shape))
 
 
 def beside_gabors(filters, fits):
@@ -28,6 +45,15 @@ def beside_gabors(filters, fits):
     gabors, correlations = zip(*fits, strict=True)
     words = f"median correlation {np.median(correlations):.2f}"
     return with_words(tiles([*filters, *gabors], columns=10, zoom=6), words)
+
+
+def beside_gabors_in_words(fits):
+    """The same in words."""
+    typical = np.median([correlation for _, correlation in fits])
+    return (
+        "Two rows of ten small grey pictures: filters, and under each the Gabor function nearest "
+        f"to it. Median correlation {typical:.2f}."
+    )
 
 
 def unit(stack, zoom, column, row, patches, pictures, shuttlecock):
@@ -45,6 +71,16 @@ def unit(stack, zoom, column, row, patches, pictures, shuttlecock):
     nine = tiles(patches[k], columns=3, zoom=72 // patches.shape[-1])
     marked = photo_view(image, [(box, "", "orange")], axes=(0.5, 5.5, 2.5, 0.5))
     return marked, with_words(nine, words)
+
+
+def unit_in_words(layer, column, row, pictures, shuttlecock):
+    """What `unit` draws, in words."""
+    k = 5 * (row - 1) + column - 1
+    return (
+        f"Ten filters of {layer} in two rows of five, as small grey pictures; in an orange frame "
+        f"the one in column {column}, row {row}. Beside them the nine patches that excite it most: "
+        f"{shuttlecock[pictures[k]].sum()} are from shuttlecocks."
+    )
 
 
 def layers_under_shift(cdbn, crop, right, down):
@@ -75,19 +111,28 @@ def under_shift(crop, layers, shift):
         *(f'<use href="#shifted-crop" x="{x}" y="{y}"/>' for x, y in places),
         "</svg>",
     ]
-    now, before = layers[shift], layers[0, 0]
-    strongest = before["P2"][0].sum((1, 2)).argmax()
-    alike = [np.corrcoef(now[k].ravel(), before[k].ravel())[0, 1] for k in ("P2", "MP2")]
+    now, strongest = layers[shift], layers[0, 0]["P2"][0].sum((1, 2)).argmax()
     maps = tiles([now["P2"][0, strongest], now["MP2"][0, 0]], zoom=4)
-    return "\n".join(picture), with_words(maps, "P2 {:.2f}, MP2 {:.2f} alike".format(*alike))
+    return "\n".join(picture), with_words(maps, "left: one of P2; right: MP2")
+
+
+def under_shift_in_words(shift):
+    """The same in words."""
+    x, y = shift
+    return (
+        f"A whitened crop of a shuttlecock, shifted {abs(x)} px {'left' if x < 0 else 'right'} and "
+        f"{abs(y)} px {'up' if y < 0 else 'down'}. Beside it two coarse maps, bright where the "
+        "shuttlecock is: one of P2, and MP2."
+    )
 
 
 def correlations(by_layer, title):
     """How well each layer's maps correlate with what they were (layer -> correlation), as bars."""
-    fig, ax = plt.subplots(figsize=(5.6, 2.4))
-    bars = ax.bar(list(by_layer), list(by_layer.values()), color=COLOURS["blue"])
-    ax.bar_label(bars, fmt="%.2f")
-    ax.set(ylim=(min(0, *by_layer.values()) - 0.05, 1.15), ylabel="correlation", title=title)
+    fig, ax = plt.subplots(figsize=(4.3, 2.9))
+    bars = ax.barh(list(by_layer), list(by_layer.values()), color=COLOURS["blue"])
+    ax.bar_label(bars, fmt="%.2f", padding=2)
+    ax.set(xlim=(min(0, *by_layer.values()) - 0.05, 1.2), xlabel="correlation", title=title)
+    ax.invert_yaxis()  # the first on top
     return fig
 
 
@@ -103,8 +148,33 @@ def over_time(answers, shuttlecock):
     return fig
 
 
+def over_time_in_words(answers, shuttlecock):
+    """The same in words."""
+    way = "keeps its sign in most films" if _steady(answers) > 0.75 else "often changes its sign"
+    return (
+        f"{len(answers)} lines over {answers.shape[1]} views, blue for shuttlecocks, orange for "
+        f"cups. The answer {way}; its sign tells cup from shuttlecock in "
+        f"{separation(answers, shuttlecock):.0%}."
+    )
+
+
+def _steady(answers):
+    """The share of films (n, views) in which a unit's answers have one sign."""
+    return np.mean(abs(np.sign(answers).sum(1)) == answers.shape[1])
+
+
 def mean_map(p2, before):
     """The maps P2 (1, K, height, width) and their mean MP2, with its change from `before`."""
     change = float(abs(p2.mean(1) - before.mean(1)).max())
     mean = with_words(tiles(p2.mean(1), zoom=4), f"MP2: changed by {number(change, 1)}")
     return with_words(tiles(p2[0]), "P2"), mean
+
+
+def mean_map_in_words(p2, before, dealt_anew):
+    """The same in words."""
+    change = float(abs(p2.mean(1) - before.mean(1)).max())
+    look = "ten speckled maps, all alike" if dealt_anew else "ten maps, each with its own bands"
+    return (
+        f"P2 of a shuttlecock: {look}. Beside them their mean, MP2: a bright shuttlecock without "
+        f"lines, changed by {number(change, 1)}."
+    )

@@ -16,38 +16,45 @@ def lifting(load, lengths, time):
 
     `load` is in kg; `lengths` (ms,), in l₀, are the fibre's after the release; `time` is in ms.
     """
-    possible = _possible_lengths(lengths)
-    now = min(time, len(possible) - 1)
-    length, speed = possible[now], 1000 * np.gradient(possible)[now]
+    length, speed, said = _fibre(lengths, time)
     long, thick, box = 105 * length, 26 / np.sqrt(length), 16 * np.cbrt(load)
     low, hook = 30 + long, 46 + long  # where the belly ends, and its tendon
     belly = f"M85,30C{85 - thick:.1f},{30 + long / 3:.1f} {85 - thick:.1f},{30 + 2 * long / 3:.1f}"
     belly += f" 85,{low:.1f}C{85 + thick:.1f},{30 + 2 * long / 3:.1f} {85 + thick:.1f},"
     belly += f"{30 + long / 3:.1f} 85,30Z"
     beside = 'x="165" y="100"'
-    way = "it shortens" if length < possible[0] else "it lengthens"
     return (
         '<svg viewBox="0 0 420 260" width="504" height="312" font-size="15">'
         '<path d="M30,10H140" stroke="var(--vmc-ink)" stroke-width="6"/>'
         f'<path d="M85,10V{hook:.1f}" stroke="var(--vmc-grey)" stroke-width="6"/>'
         f'<path d="{belly}" fill="var(--vmc-red)" stroke="var(--vmc-red)"/>'
-        f'<path d="M35,{46 + 105 * possible[0]:.1f}h40" stroke="var(--vmc-grey)" '
+        f'<path d="M35,{46 + 105 * lengths[0]:.1f}h40" stroke="var(--vmc-grey)" '
         'stroke-dasharray="4 4"/>'
         f'<rect x="{85 - box / 2:.1f}" y="{hook:.1f}" width="{box:.1f}" height="{box:.1f}" rx="3" '
         'fill="var(--vmc-grey)"/>'
         f'<text x="{95 + box / 2:.1f}" y="{hook + box / 2 + 5:.1f}" '
         f'fill="var(--vmc-ink)">{load} kg</text>'
         f'<g fill="var(--vmc-ink)"><text x="180" y="40">{time} ms</text>'
-        f'<text x="180" y="64">{way if now else "half on"}: {length:.2f} l₀</text></g>'
+        f'<text x="180" y="64">{said}</text></g>'
         f"{sarcomere(length, speed, beside, 250)}</svg>"
     )
 
 
 def lifting_in_words(load, lengths, time):
     """The drawing of `lifting`, described."""
+    return f"A muscle with {load} kg after {time} ms: {_fibre(lengths, time)[2]}."
+
+
+def _fibre(lengths, time):
+    """A fibre's length in l₀ and its speed in l₀/s at a `time` in ms, or where it ends; in words.
+
+    It moves from when it is let go, at 0 ms.
+    """
     possible = _possible_lengths(lengths)
-    length = possible[min(time, len(possible) - 1)]
-    return f"A muscle with {load} kg: after {time} ms its fibres are {length:.2f} l₀ long."
+    now = min(time, len(possible) - 1)
+    length, speed = possible[now], 1000 * np.gradient(possible)[now]
+    way = "shortening" if speed < 0 else "lengthening"
+    return length, speed, f"length {length:.2f} l₀, {way if now else 'half on'}"
 
 
 def response(excitation, activation, with_means=False):

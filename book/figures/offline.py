@@ -14,7 +14,7 @@ from vmc_lib.motor.templates import START
 from vmc_lib.show import table
 from vmc_lib.show.palette import COLOURS
 
-SIDE_BY_SIDE = 2, (8.2, 3.6)  # the plane, and curves
+SIDE_BY_SIDE = 2, (8.2, 3.3)  # the plane, and curves
 FOUR = 0.06 * np.array([[1, -7], [2, -7], [2, -6], [1, -6]])  # templates round a target, m
 ORIGINS = {  # where Eq. 7 may measure from, m
     "shoulder": (0, 0),

@@ -7,7 +7,7 @@ from book.figures.where import in_corner
 from reproduce import paper
 from reproduce.experiments import fresh_test_set, localisation, real_world
 from reproduce.measures.precision_recall import rates
-from vmc_lib.boxes import iou
+from vmc_lib.boxes import MIN_IOU, iou
 from vmc_lib.show import COLOURS, dot_plot, photo_view, table
 from vmc_lib.statistics import wilson
 
@@ -110,22 +110,39 @@ def weight_map(weights, channel):
     return fig
 
 
-def regress(detector, image, thing, corner, rounds):
-    """A box from `corner`, 0.9 times as large as a thing's (4,), corrected; and its IoU with it."""
-    box = np.concatenate([corner, corner + 0.9 * (thing[2:] - thing[:2])])
+def regress(detector, image, thing, middle, rounds):
+    """A box around `middle`, 0.9 times as large as a thing's (4,), corrected; its IoU with that."""
+    half = 0.45 * (thing[2:] - thing[:2])
+    box = np.concatenate([middle - half, middle + half])
     box = detector.regress(image, box[None], rounds)
     return box[0], iou(box, thing).item()
 
 
-def regressed_view(detector, image, thing, corner, rounds):
-    """An image with a thing's box, a corrected one (see `regress`), their IoU, and its start."""
-    box, shared = regress(detector, image, thing, np.array(corner), rounds)
-    right, down = ((np.array(corner) - thing[:2]) / (thing[2:] - thing[:2])).round(1)
-    began = f"began {abs(right):g} {'left' if right < 0 else 'right'}"
-    began += f", {abs(down):g} {'up' if down < 0 else 'down'}"
-    colour = "green" if round(shared, 2) >= 0.8 else "orange"
-    words = in_corner(f"IoU {shared:.2f}; {began}", colour)
+def regressed_view(detector, image, thing, middle, rounds):
+    """An image with a thing's box, a corrected one (see `regress`), their IoU, and its start.
+
+    Green at an IoU of 0.8 or more.
+    """
+    box, shared = regress(detector, image, thing, middle, rounds)
+    colour = "green" if shared >= MIN_IOU else "orange"
+    words = in_corner(f"IoU {shared:.2f}; began {_began(thing, middle)}", colour)
     return photo_view(image, [(thing, "", "grey"), (box, "", colour), words])
+
+
+def regressed_in_words(detector, image, thing, middle, rounds):
+    """The same in words."""
+    _, shared = regress(detector, image, thing, middle, rounds)
+    return (
+        f"Two boxes on a photo: the thing's own, and one that began {_began(thing, middle)} "
+        f"(in widths and heights). After {rounds} rounds of box regression: IoU {shared:.2f}."
+    )
+
+
+def _began(thing, middle):
+    """How far off a thing a box's middle lies, in its widths and heights, in words."""
+    right, down = ((middle - (thing[:2] + thing[2:]) / 2) / (thing[2:] - thing[:2])).round(1)
+    across = f"{abs(right):g} {'left' if right < 0 else 'right'}"
+    return f"{across}, {abs(down):g} {'up' if down < 0 else 'down'}"
 
 
 def kernel_plot(level, recipe, measure):

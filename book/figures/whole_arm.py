@@ -155,7 +155,7 @@ def views(motion, moment, target):
     away = 1000 * np.linalg.norm(tips[-1] - target)
     active = motion.activation[moment]
     shade = np.clip(0.22 + 1.6 * active, 0, 1)
-    fig, *axes = panels(2, size=(8.2, 3.9))
+    fig, *axes = panels(2, size=(8.2, 3.65))
     for ax, (title, (x, y, label)) in zip(axes, VIEWS.items(), strict=True):
         paths = [way[:, [x, y]] for way in ways]
         ax.plot(bones[:, x], bones[:, y], **BONE, gid="bones")

@@ -114,6 +114,37 @@ def test_on_a_phone_panels_stand_one_above_the_other(open_demo):
     assert shown.nth(1).screenshot() != before  # the same drawing, moved by the same slider
 
 
+CUT = """(panels) => {
+  const wide = (element) => element.getBoundingClientRect().width;
+  const split = +getComputedStyle(panels).getPropertyValue("--split");
+  const [left, right] = panels.children;
+  const [whole, again] = [left, right].map((panel) => wide(panel.firstElementChild));
+  return [wide(left) - split * whole, wide(right) - (1 - split) * again]; }"""
+WORD_SIZES = """(words) => words.filter((word) => word.textContent.trim())
+  .map((word) => parseFloat(getComputedStyle(word).fontSize) * word.getScreenCTM().a)
+  .filter((size) => size > 0)"""  # a label that is turned has none here
+STRIP = '<svg class="vmc-strip" viewBox="0 0 440 96" width="440"><path d="M0 0H440"/></svg>'
+
+
+@pytest.mark.parametrize(("wide", "strip"), [(6.5, ()), (6.5, (STRIP,)), (8.2, ())])
+@pytest.mark.parametrize("width", [320, 390, 600])
+def test_on_a_phone_no_panel_is_cut_off(open_demo, wide, strip, width):
+    """Nor beside a drawing, nor where its words need more width; and they can be read."""
+
+    def draw(x):
+        fig, (left, right) = plt.subplots(1, 2, figsize=(wide, 3.3), layout="none")
+        left.plot([0, x])
+        right.plot([x, 0])
+        return *strip, fig
+
+    page = open_demo(draw, alt="Two plots.", x=Slider([1, 2], "x"))
+    page.set_viewport_size({"width": width, "height": 844})
+    assert page.eval_on_selector(".vmc-panels", CUT) == pytest.approx([0, 0], abs=1)
+    assert page.eval_on_selector(".vmc-picture:last-child", "p => p.scrollWidth <= p.clientWidth")
+    sizes = page.eval_on_selector_all(".vmc-panels text", WORD_SIZES)
+    assert width == 320 or round(min(sizes)) >= 11
+
+
 UNREADY_AND_READY = """(demo) => {
   const high = () => demo.getBoundingClientRect().height, ready = high();
   delete demo.dataset.ready;

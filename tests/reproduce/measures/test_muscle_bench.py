@@ -70,3 +70,12 @@ def test_on_a_tendon_the_pull_settles_where_fibre_and_tendon_agree():
     length = 1 - 2.4 * (ended - begun)
     still = muscle_bench.normalised_force(muscle.PAPER, 0.5, length, 0)
     assert coarse[-1] == pytest.approx(still, abs=1e-3)
+
+
+def test_a_fibre_is_said_to_move_as_it_does_now():
+    """Not as it has moved since it was let go; and its length is not taken for a change."""
+    there_and_back = np.concatenate([np.linspace(1, 0.9, 101), np.linspace(0.9, 1, 101)])
+    said = {0: "1.00 l₀, half on", 50: "0.95 l₀, shortening", 150: "0.95 l₀, lengthening"}
+    for time, words in said.items():
+        assert f"length {words}" in figures.lifting(20, there_and_back, time)
+        assert f"length {words}" in figures.lifting_in_words(20, there_and_back, time)
