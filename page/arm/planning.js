@@ -32,7 +32,7 @@ export const leastChange = (jacobian, shift) => {
 };
 
 const quadrant = ([x, y]) => (Math.floor(Math.atan2(y, x) / (Math.PI / 2)) + 4) % 4;
-const octant = ([x, y, z]) => (x >= 0) + 2 * (y >= 0) + 4 * (z >= 0); // reproduce/whole_arm/experiment.py
+const octant = ([x, y, z]) => (x >= 0) + 2 * (y >= 0) + 4 * (z >= 0); // vmc_lib/motor/planning.py
 
 /* The nearest template in each quadrant round the target; in space, in each octant. */
 const surrounding = (target, points, without) => {
