@@ -27,8 +27,10 @@ PATIENT = "() => { vmc['python/interpreter'].limit.seconds = 1000 }"  # others m
 # In place of Python: a test answers, when it will
 STAND_IN = """() => {
   window.asked = [];
-  vmc['python/interpreter'].ask = (question, say) =>
-    new Promise((answer, fail) => asked.push({ name: question[1], say, answer, fail }));
+  vmc['python/interpreter'].ask = (question, say, signal) => new Promise((answer, fail) => {
+    asked.push({ name: question[1], say, answer, fail });
+    signal?.addEventListener('abort', () => fail(signal.reason));
+  });
 }"""
 CELL = '<div class="cell"><div class="cell_input"><pre>{}</pre></div></div>'
 

@@ -180,6 +180,41 @@ def test_a_law_that_fails_at_one_place_is_asked_at_the_next(run_law, late):
     assert page.line.text_content() == "This demo runs your law."
 
 
+def test_what_ran_when_the_lines_were_reset_does_not_come_back(run_law, late):
+    page = run_law
+    law = page.get_by_label("Your lines: law")
+    page.get_by_role("button", name="Run", exact=True).click()
+    page.locator("[data-cell=law] [name=reset]").click()
+    late(page, "run", "answer(['✓ It runs.', ''])")
+    assert page.locator("[data-cell=law] [role=status]").text_content() == ""
+    assert law.evaluate("(area) => area.lastRun") == LAW
+    page.get_by_role("button", name="Run", exact=True).click()
+    late(page, "run", "answer(['✓ It runs.', ''])")
+    assert "✓ It runs." in page.locator("[data-cell=law] [role=status]").text_content()
+
+
+def test_what_ran_when_the_book_came_back_leaves_it(run_law, late):
+    page = run_law
+    late(page, "changed", "answer(['law'])")
+    page.get_by_role("button", name="Run", exact=True).click()
+    page.mine.get_by_role("button", name="Back to the book").click()
+    late(page, "run", "answer(['✓ It runs.', ''])")
+    said = page.locator("[data-cell=law] [role=status]").text_content()
+    assert said.startswith("The figures run the book’s lines again")
+
+
+def test_a_links_lines_run_while_others_are_checked(run_law, late):
+    page = run_law
+    brought = LAW.replace("2 *", "7 *")
+    page.get_by_role("button", name="Run", exact=True).click()
+    link = f"#{page.mine.get_attribute('id')}?law.law={quote(brought)}"
+    page.evaluate("(link) => { location.hash = link }", link)
+    page.mine.get_by_role("button", name="Run it").click()
+    late(page, "run", "answer(['✓ It runs.', ''])")
+    law = page.get_by_label("Your lines: law")
+    assert law.evaluate("(area) => area.lastRun") == brought
+
+
 @pytest.mark.audit
 def test_arrays_that_the_page_cannot_make_come_with_it(open_page, monkeypatch):
     made = "import cv2\nimport numpy as np\ntable = cv2.multiply(np.ones(3), 2.0)[:, 0]"
