@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tests.pages import CAPTURE, NO_WEBGL, boxes, drag, middle
+from tests.pages import CAPTURE, NO_WEBGL, boxes, drag, middle, stop_clock
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.show import Slider
 from vmc_lib.show.arm import arm_scene
@@ -65,6 +65,18 @@ def test_a_movement_plays_to_its_end_and_stops_when_the_clock_is_set(moving):
     moving.fill(".vmc-clock input", "0.04")
     assert moving.get_attribute(play, "aria-pressed") == "false"
     assert moving.inner_text(time) == "0.04 s"
+
+
+def test_a_key_on_the_clock_pauses_what_goes_from_step_to_step(open_demo, window):
+    page = open_demo(movement, window(), elbow=Slider([1.2, 1.5], "to", play=True))
+    page.wait_for_selector(".vmc-clock:not([hidden])")
+    stop_clock(page)
+    page.click("[data-stride] ~ .vmc-play")
+    page.clock.run_for(50)
+    page.press(".vmc-clock button", "Enter")
+    page.clock.run_for(60_000)
+    assert page.inner_text("[data-stride] ~ .vmc-play") == "Play"
+    assert page.input_value("[data-stride]") == "0"
 
 
 def test_a_movement_that_comes_after_a_posture_is_shown_at_its_end(open_demo):
