@@ -158,7 +158,7 @@ def test_sheet_for_goggles_has_a_line_for_each_throw(page):
 # ---------------------------------------------------------------- what a class answered
 
 
-QUIZ = """<fieldset class="vmc-quiz"><legend>Which?</legend>
+QUIZ = """<fieldset class="vmc-quiz" name="quiz-which"><legend>Which?</legend>
 <details class="vmc-wrong"><summary>This</summary><p>✗ No.</p></details>
 <details class="vmc-right"><summary>That</summary><p>✓ Right.</p></details></fieldset>"""
 GRADED = """<form class="vmc-check"></form>"""
@@ -210,6 +210,7 @@ def test_a_page_keeps_what_was_answered_shows_it_and_saves_it(chapter):
         ("exercise", "def f():\n    return -1", False, "The sign is wrong."),
     ]
     assert {a["id"] for a in kept["answers"] if a["kind"] == "exercise"} == {"ex-one"}
+    assert [a["id"] for a in kept["answers"] if a["kind"] == "quiz"] == ["quiz-which"]
     record.get_by_role("button", name="Forget").click()
     with chapter.expect_navigation():
         record.get_by_role("button", name="Forget every answer and line").click()

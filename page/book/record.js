@@ -45,8 +45,8 @@ addEventListener("vmc-predicted", ({ target }) => {
 addEventListener("click", ({ target }) => { // the browser itself opens them, too, for a link or a search
   const answer = target.closest(".vmc-quiz > details:not([open]) > summary");
   if (!answer) return;
-  const quiz = answer.closest(".vmc-quiz"), number = [...document.querySelectorAll(".vmc-quiz")].indexOf(quiz) + 1;
-  add("quiz", `quiz-${number}`, words(quiz.querySelector("legend")), words(answer), answer.parentElement.matches(".vmc-right"));
+  const quiz = answer.closest(".vmc-quiz");
+  add("quiz", quiz.name, words(quiz.querySelector("legend")), words(answer), answer.parentElement.matches(".vmc-right"));
 });
 addEventListener("submit", ({ target }) => { // after questions.js has judged it
   if (target.matches("form[data-check]"))

@@ -12,8 +12,7 @@ export const memory = {
 /* A prediction and what was typed are there again when the page is. */
 const inputs = ".vmc-predict input, form[data-check] input", MEANT = " meant";
 const questionOf = (target) => target.closest(".vmc-predict label")?.closest(".vmc-predict");
-const checks = () => [...document.querySelectorAll("form[data-check]")]; // other forms come and go
-const key = ({ name, form }) => `${location.pathname} ${name || `check-${checks().indexOf(form)}`}`;
+const key = ({ name }) => `${location.pathname} ${name}`;
 addEventListener("DOMContentLoaded", () =>
   document.querySelectorAll(inputs).forEach((input) => {
     const kept = memory.get(key(input)), question = questionOf(input);

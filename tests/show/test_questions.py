@@ -1,5 +1,8 @@
 """Predictions and checks: what they show, what they refuse, and how the page answers."""
 
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
+
 import numpy as np
 import pytest
 
@@ -221,6 +224,19 @@ def test_each_field_has_its_own_answer_again(open_questions):
         field.press("Enter")
     page.reload()
     assert [field.input_value() for field in fields] == ["0", "1"]
+
+
+@pytest.mark.browser
+def test_a_field_has_its_answer_again_where_an_edition_asks_more(open_questions, shown):
+    check(None, 3, hint="Three.")
+    page = open_questions()
+    page.fill("input", "2")
+    page.press("input", "Enter")
+    check(None, 4)
+    file = Path(unquote(urlsplit(page.url).path))
+    file.write_text(file.read_text("utf-8").replace("<h1>Q</h1>", shown[1]), "utf-8")
+    page.reload()
+    assert page.locator("input").evaluate_all("(all) => all.map((one) => one.value)") == ["", "2"]
 
 
 @pytest.mark.browser
