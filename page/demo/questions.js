@@ -48,8 +48,12 @@ addEventListener("click", ({ target, detail }) => {
 });
 addEventListener("keydown", ({ target, key }) => { // a question keeps its keys to itself
   const question = questionOf(target);
-  if (question) question.clicked = false;
-  if (question && key === "Enter" && open(question)) settle(question);
+  if (!question) return;
+  question.clicked = false;
+  if (key !== "Enter") return;
+  target.click(); // Tab comes to the first choice, and arrows alone choose
+  open(question);
+  settle(question);
 }, true);
 addEventListener("toggle", ({ target }) => {
   if (target.matches?.(".vmc-predict > details[open]")) settle(target.parentElement);

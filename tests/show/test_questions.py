@@ -177,6 +177,16 @@ def test_a_prediction_is_kept_and_marked_beside_the_outcome(open_questions):
 
 
 @pytest.mark.browser
+def test_enter_on_a_choice_that_no_arrow_passed_counts_as_that_choice(open_questions):
+    page = open_questions(PREDICTION)
+    page.evaluate("() => localStorage.clear()")
+    page.keyboard.press("Tab")
+    page.keyboard.press("Enter")
+    assert page.is_checked("input >> nth=0")
+    assert page.evaluate(ANSWERS) == ["one"]
+
+
+@pytest.mark.browser
 @pytest.mark.parametrize("by", ["input >> nth=1", "label >> nth=1", "summary"])
 def test_a_choice_opens_what_came_out(open_questions, by):
     page = open_questions(PREDICTION)
