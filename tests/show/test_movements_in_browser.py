@@ -91,6 +91,8 @@ def test_a_movement_that_comes_after_a_posture_is_shown_at_its_end(open_demo):
 def test_the_pointer_and_a_slider_turn_the_view_and_never_to_below(moving):
     canvas = moving.locator(".vmc-canvas")
     assert canvas.evaluate("c => getComputedStyle(c).touchAction") == "pan-y"  # a swipe scrolls
+    drag(moving, middle(canvas), -100, -300, "right")
+    assert moving.input_value(".vmc-turn input") == "0"
     drag(moving, middle(canvas), -100, -300)
     assert 40 <= float(moving.input_value(".vmc-turn input")) <= 60
     height = """(div) => {
