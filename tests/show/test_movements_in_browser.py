@@ -134,6 +134,19 @@ def test_without_webgl_words_stand_for_the_scene_and_the_numbers_follow(open_dem
     assert numbers(page)["elbow"] == "57.3°"
 
 
+PRINT_EARLY = """let viewer;
+Object.defineProperty(self, "MeshCat", { get: () => viewer, set(made) {
+  viewer = made;
+  dispatchEvent(new Event("beforeprint"));
+} });"""
+
+
+def test_a_page_printed_before_the_bones_are_there_draws_its_scene_later(open_demo, window):
+    page = open_demo(movement, window(PRINT_EARLY), **MOVEMENT)
+    page.wait_for_selector(".vmc-scene canvas")
+    assert page.errors == []
+
+
 ONE_CONTEXT = NO_WEBGL.replace('startsWith("webgl") ?', 'includes("webgl") && self.vmcAsked++ ?')
 
 
