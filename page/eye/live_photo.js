@@ -23,8 +23,8 @@ const snapshots = (video) => {
   const { width, height } = video, canvas = Object.assign(document.createElement("canvas"), { width, height });
   const context = canvas.getContext("2d", { willReadFrequently: true }), pixels = context.createImageData(width, height);
   const copy = async () => {
-    const frame = new VideoFrame(video), rect = { x: 0, y: 0, width, height };
-    await frame.copyTo(pixels.data, { format: "RGBA", rect }).finally(() => frame.close());
+    const shown = new VideoFrame(video), rect = { x: 0, y: 0, width, height };
+    await shown.copyTo(pixels.data, { format: "RGBA", rect }).finally(() => shown.close());
     context.putImageData(pixels, 0, 0);
     return canvas;
   };

@@ -14,14 +14,14 @@ const LONGEST = 20_000; // signs of a law in an address: the browser keeps five 
 const lastRun = (cell) => cell.querySelector("textarea")?.lastRun ?? grade.book(cell);
 const inCode = (names) => names.map((name) => `\`${name.replaceAll("`", "").slice(0, 60)}\``).join(", "); // Markdown, as all that is said here
 const ownCells = (above) => above.filter((one) => lastRun(one) !== grade.book(one));
-const users = []; // of laws: [a figure's cell, the cells of laws and those above it, what it needs of them]
+const figures = []; // that use laws: [a figure's cell, the cells of laws and those above it, what it needs of them]
 
 /* The cells of the chapter's code before one of them, and the laws after it: it may run these, too. */
 const codeOf = (cell) => [...grade.above(cell), ...[...document.querySelectorAll(".tag_runs-in-page")]
   .filter((law) => cell.compareDocumentPosition(law) & 4)];
 
 /* The figures that may run a cell's law, `typed` in it: see `page.python.grader.run`. */
-grade.users.figures = (law, typed) => users.filter(([, above]) => above.includes(law)).map(([cell, above, needs]) =>
+grade.users.figures = (law, typed) => figures.filter(([, above]) => above.includes(law)).map(([cell, above, needs]) =>
   [cell.querySelector(".vmc-number")?.textContent.replace(/\D*/, "") ?? "", above.map((one) => (one === law ? typed : lastRun(one))),
     above.map(grade.book), needs]);
 
@@ -62,7 +62,7 @@ class Follower {
 
   constructor(demo) {
     const cell = demo.closest(".cell"), above = codeOf(cell);
-    users.push([cell, above, grade.book(cell)]);
+    figures.push([cell, above, grade.book(cell)]);
     const [status, run, back] = line(demo.querySelector(".vmc-controls"),
       `<button type="button" name="run" hidden>Run it</button> ${BACK}`);
     const between = document.createElement("button");
@@ -192,7 +192,7 @@ class Follower {
 /* An arm whose physics runs in the page (page/arm): it plans by the weights of the reader's law. */
 const lead = (box) => {
   const { law } = box.dataset, above = codeOf(box.closest(".cell")), form = box.querySelector("form");
-  users.push([box.closest(".cell"), above, law]);
+  figures.push([box.closest(".cell"), above, law]);
   const [status, back] = line(form, BACK);
   const say = (text) => (status.innerHTML = grade.inline(text));
   let mine = false;

@@ -119,7 +119,7 @@ def test_the_whole_arm_reaches_and_calibrates(open_arms, window, past):
     arm, target = page.whole, np.array([0.52, 0.07, -0.065])
     start(arm)
     arm.locator(".vmc-scene canvas").wait_for()
-    drawn = "div => vmc['demo/scene'].viewOf(div).body instanceof vmc['arm/whole'].Body"
+    drawn = "div => vmc['demo/scene'].viewOf(div).body instanceof vmc['arm/whole'].WholeBody"
     assert arm.locator(".vmc-scene").evaluate(drawn)
     set_target(arm, target)
     arm.locator("[name=main]").click()
