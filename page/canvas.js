@@ -34,7 +34,11 @@ export const takePictures = (box, input, take, say) => {
     if (picture) return take(picture, file, isLatest);
     say(`This browser cannot read ${file.name}: save it, or a phone's HEIC, as a JPEG or PNG.`);
   };
-  input.addEventListener("change", () => read(input.files[0]).then(() => (input.value = "")));
+  input.addEventListener("change", () => {
+    const [file] = input.files;
+    input.value = ""; // so that the same file can be chosen again
+    read(file);
+  });
   box.addEventListener("dragover", (event) => event.preventDefault());
   box.addEventListener("drop", (event) => {
     event.preventDefault();

@@ -190,13 +190,13 @@ def middle(thing):
     return place
 
 
-def drag(page, place, right, down):
+def drag(page, place, right, down, button="left"):
     """Press the mouse at a place (x, y), move it, in px, and let it go."""
     x, y = place
     page.mouse.move(x, y)
-    page.mouse.down()
+    page.mouse.down(button=button)
     page.mouse.move(x + right, y + down, steps=4)
-    page.mouse.up()
+    page.mouse.up(button=button)
 
 
 def probe(page, name, asked=None):

@@ -96,6 +96,17 @@ def test_a_late_answer_leaves_what_is_said_of_a_later_file(window, tmp_path):
     assert page.get_by_text("drawn").count() == 0
 
 
+@pytest.mark.browser
+def test_a_photo_can_be_chosen_again_while_it_is_looked_at(window, tmp_path):
+    photo = tmp_path / "photo.png"
+    cv2.imwrite(str(photo), np.zeros((4, 6, 3), np.uint8))
+    page = window().new_page()
+    page.evaluate(UPLOAD, bundle("demos/upload.js"))
+    page.locator("input").set_input_files(photo)
+    page.wait_for_function("() => self.resolve")
+    assert page.locator("input").input_value() == ""
+
+
 def test_boxes_of_the_racket_are_counted_by_where_they_lie():
     true = racket.racket().boxes["shuttlecock"]
     boxes = np.array([[60, 10, 90, 40], [100, 50, 330, 90], true, true + 300], float)

@@ -17,7 +17,7 @@ from pathlib import Path
 from textwrap import indent
 
 from vmc_lib.show import prose
-from vmc_lib.show.questions import prediction
+from vmc_lib.show.questions import prediction, question_name
 
 GLOSSARY = Path(__file__).parents[1] / "glossary.md"
 HEAD = re.compile(r"^## (.+)\n", re.M)
@@ -180,7 +180,8 @@ def _quiz(question, answers):
             f"the quiz {question!r} needs two or more answers, one of them right; after its "
             f"<summary> and an empty line each goes on with ✓ or ✗ and why: got {answers}"
         )
-    legend = f'<fieldset class="vmc-quiz"><legend>\n\n{question}\n\n</legend>'
+    name = question_name("quiz", question)
+    legend = f'<fieldset class="vmc-quiz" name="{name}"><legend>\n\n{question}\n\n</legend>'
     return f"{legend}\n\n{ANSWER.sub(_answer, answers)}\n\n</fieldset>"
 
 

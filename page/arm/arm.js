@@ -14,6 +14,11 @@ export class Arm {
     this.reset();
   }
 
+  /* MuJoCo's memory is given back by hand. */
+  free() {
+    for (const part of [this.data, this.seen, this.model]) part.delete();
+  }
+
   /* At rest in a posture, the muscles' activation as given: by default as every reach begins. */
   reset(posture = this.given.start, activation = this.given.rest) {
     this.mujoco.mj_resetData(this.model, this.data);

@@ -1,7 +1,7 @@
 /* How the arm is drawn: in the scene that Python recorded (vmc_lib/show/arm.py), and on a plot. */
 import { axesOf } from "../demo/axes.js";
 import { viewOf } from "../demo/scene.js";
-import { Body } from "./whole.js";
+import { WholeBody } from "./whole.js";
 
 /* Markup of marks on a plot, each point where `flat` says. */
 const draw = (marks, measure, flat) =>
@@ -68,7 +68,7 @@ export class Drawing {
 
   /* The scene's arm is a whole one: what no recorded scene holds. */
   showWhole(given) {
-    const { view } = this, makeBody = () => new Body(view.viewer, given.muscles, given.bones);
+    const { view } = this, makeBody = () => new WholeBody(view.viewer, given.muscles, given.bones);
     Object.assign(view, { anatomy: given, posed: given.still, makeBody });
   }
 

@@ -39,14 +39,19 @@ export class Live {
   }
 
   async load() {
+    const { signal } = this.life;
     this.say("Loading the physics …");
     await frame();
     try {
       const arm = await load(this.given);
       await this.drawing.view.awake();
-      if (this.life.signal.aborted) return false;
+      if (signal.aborted) {
+        arm.free();
+        return false;
+      }
       this.arm = arm;
       await this.ready();
+      if (signal.aborted) return false;
     } catch (error) {
       this.loading = this.arm = null;
       this.say(error.name === "KernelGone" ? error.message : whyNot(`${error.message ?? error}`));
@@ -64,6 +69,8 @@ export class Live {
   end() {
     this.life.abort();
     this.turn = null;
+    this.arm?.free();
+    this.arm = null;
     this.drawing.view.end();
   }
 

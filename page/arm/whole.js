@@ -6,7 +6,7 @@ import { Muscles } from "../demo/muscles.js";
 const SIDES = 6; // of a muscle: there are many, and each costs time
 const { belly } = Anatomy.prototype;
 
-export class Body {
+export class WholeBody {
   /* `muscles`: what the belly of each is drawn by; `bones`: their surfaces in the bodies' frames. */
   constructor(viewer, muscles, bones) {
     const { THREE } = self.MeshCat;

@@ -8,7 +8,8 @@ const page = location.pathname.split("/").pop().replace(/\.html$/, "");
 const TEXTS = ["page", "kind", "id", "question", "answer", "feedback"];
 const isAnswer = (one) => TEXTS.every((name) => typeof one?.[name] === "string"); // others may write there
 const unkept = []; // answers for which the browser had no room
-const all = () => [memory.parsed(KEY) ?? [], unkept].flat(2).filter(isAnswer);
+const stored = () => [memory.parsed(KEY) ?? []].flat().filter(isAnswer);
+const all = () => [...stored(), ...unkept].slice(-MOST);
 
 /* The words of an element, its formulas as they were written. */
 const words = (node) => {
@@ -45,8 +46,8 @@ addEventListener("vmc-predicted", ({ target }) => {
 addEventListener("click", ({ target }) => { // the browser itself opens them, too, for a link or a search
   const answer = target.closest(".vmc-quiz > details:not([open]) > summary");
   if (!answer) return;
-  const quiz = answer.closest(".vmc-quiz"), number = [...document.querySelectorAll(".vmc-quiz")].indexOf(quiz) + 1;
-  add("quiz", `quiz-${number}`, words(quiz.querySelector("legend")), words(answer), answer.parentElement.matches(".vmc-right"));
+  const quiz = answer.closest(".vmc-quiz");
+  add("quiz", quiz.name, words(quiz.querySelector("legend")), words(answer), answer.parentElement.matches(".vmc-right"));
 });
 addEventListener("submit", ({ target }) => { // after questions.js has judged it
   if (target.matches("form[data-check]"))
@@ -66,22 +67,29 @@ const [save, forget] = place.querySelectorAll("button");
 const STAYS = "It stays in this browser.", GOES = "This browser keeps no more: save your answers as a file before you close the page.";
 
 const show = () => {
-  const kept = all();
-  place.hidden = !kept.length;
-  place.querySelector("summary").textContent = `What this browser has kept of your answers: ${kept.length - unkept.length}`;
+  const { length } = stored();
+  place.hidden = !length && !unkept.length;
+  place.querySelector("summary").textContent = `What this browser has kept of your answers: ${length}`;
   const goes = unkept.length > 0 || document.documentElement.dataset.storage === "page";
   if (goes) place.open = true;
   place.querySelector("[role=status]").textContent = goes ? GOES : STAYS;
-  const list = place.querySelector("ol");
-  list.replaceChildren(...kept.map(({ page, kind, question, answer, right, feedback }) => {
+  list();
+};
+
+/* Many answers, with their formulas, take seconds to draw: who looks at them waits. */
+const list = () => {
+  if (!place.open) return;
+  const items = place.querySelector("ol");
+  items.replaceChildren(...all().map(({ page, kind, question, answer, right, feedback }) => {
     const code = `${answer}`.includes("\n"), item = document.createElement("li");
     const text = `${page}, ${kind}: ${question} ${code ? "" : answer} ${right ? "✓" : "✗"} ${feedback}`;
     item.textContent = text.replace(/\$([^$]+)\$/g, "\\($1\\)");
     if (code) item.append(Object.assign(document.createElement("pre"), { textContent: answer }));
     return item;
   }));
-  setEquations(list);
+  setEquations(items);
 };
+place.addEventListener("toggle", list);
 save.addEventListener("click", () => {
   const who = place.querySelector("input").value.trim();
   const url = URL.createObjectURL(new Blob([JSON.stringify({ format: "answers 1", who, answers: all() }, null, 1)], { type: "application/json" }));

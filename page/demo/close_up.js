@@ -4,7 +4,7 @@
 const HALF = 0.032; // m from the middle to the edge of the close-up
 const NEAR = 0.5; // m: where its eye stands
 const FLEX = 0.3, ROLL = 0.7, TOPPLE = 1.3; // rad: the elbow lifts, what lies rolls, what stands falls
-const LENGTH = 0.085, RIM = 0.033; // m, of a shuttlecock: vmc_lib/show/props.py
+const LENGTH = 0.085, RIM = 0.033; // m, of a shuttlecock: vmc_lib/show/props.py, held equal by a test
 const SPAN = (1000 * HALF).toFixed(0);
 
 /* The ruler as SVG, in mm round the target, y down: from there towards (x, y), as long as the miss. */
@@ -113,3 +113,5 @@ export class CloseUp {
     thing.quaternion.premultiply(turn);
   }
 }
+
+export { LENGTH, RIM };

@@ -107,7 +107,7 @@ const tell = (demo) => {
   const words = demo.querySelector(".vmc-pictures").getAttribute("aria-label");
   for (const number of document.querySelectorAll(`.vmc-now[data-demo="${demo.id}"]`)) {
     const { place } = number.dataset, slider = document.getElementById(`${demo.id}-${place}`);
-    const around = place.replace(/[^\w\s#]/g, "\\$&").replace("#", "(−?\\d+(?:[.,]\\d+)*)");
+    const around = place.replace(/[^\w\s#]/g, "\\$&").replaceAll("#", "(−?\\d+(?:[.,]\\d+)*)");
     number.textContent = slider?.getAttribute("aria-valuetext") ?? words.match(around)?.[1] ?? "–";
   }
 };

@@ -34,6 +34,7 @@ export const addHandle = (pictures, moved, number, dropped) => {
     moved(axesOf(plot()).pointed({ clientX: clientX - x, clientY: clientY - y }));
 
   pictures.addEventListener("pointerdown", (event) => {
+    if (event.button) return; // the others are the browser's
     const own = event.target === handle;
     if (!own && (event.pointerType === "touch" || !on(event))) return;
     event.preventDefault(); // no text is selected on the way

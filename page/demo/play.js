@@ -34,7 +34,7 @@ export const addPlay = (demo, button, show, ready, signal) => {
     stop();
   });
   /* The reader's hand comes first, on whatever it lies; a movement's speed may change. */
-  for (const type of ["pointerdown", "input"])
+  for (const type of ["pointerdown", "click", "input"]) // a key on a button makes a click alone
     demo.addEventListener(type, ({ target }) => {
       if (target.closest("[data-stride], .vmc-clock :is(input, button), .vmc-handle")) stop();
     }, true);

@@ -12,8 +12,7 @@ export const memory = {
 /* A prediction and what was typed are there again when the page is. */
 const inputs = ".vmc-predict input, form[data-check] input", MEANT = " meant";
 const questionOf = (target) => target.closest(".vmc-predict label")?.closest(".vmc-predict");
-const checks = () => [...document.querySelectorAll("form[data-check]")]; // other forms come and go
-const key = ({ name, form }) => `${location.pathname} ${name || `check-${checks().indexOf(form)}`}`;
+const key = ({ name }) => `${location.pathname} ${name}`;
 addEventListener("DOMContentLoaded", () =>
   document.querySelectorAll(inputs).forEach((input) => {
     const kept = memory.get(key(input)), question = questionOf(input);
@@ -49,8 +48,12 @@ addEventListener("click", ({ target, detail }) => {
 });
 addEventListener("keydown", ({ target, key }) => { // a question keeps its keys to itself
   const question = questionOf(target);
-  if (question) question.clicked = false;
-  if (question && key === "Enter" && open(question)) settle(question);
+  if (!question) return;
+  question.clicked = false;
+  if (key !== "Enter") return;
+  target.click(); // Tab comes to the first choice, and arrows alone choose
+  open(question);
+  settle(question);
 }, true);
 addEventListener("toggle", ({ target }) => {
   if (target.matches?.(".vmc-predict > details[open]")) settle(target.parentElement);

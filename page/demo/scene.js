@@ -1,7 +1,7 @@
 /* Shows recorded meshcat scenes. A scene is a list of "type path property|base64" messages, and of a
    few that meshcat has no command for, "name|JSON": camera, anatomy, motion, target, end, miss. Given the next
-   scene, a view sends its viewer only what differs. In the page the viewer is fetched from the book's
-   own files when a scene comes into sight; a live kernel sends it. */
+   scene, a view sends its viewer only what differs. The viewer is fetched (page/vendored.js) when the page
+   is idle, or a scene comes into sight. */
 import { fetchVendored } from "../vendored.js";
 import { Anatomy, moment } from "./anatomy.js";
 import { Body, bones as unpackBones } from "./body.js";
@@ -239,7 +239,7 @@ class View {
 /* On paper every scene is a still of its present state. */
 let lived = [];
 addEventListener("beforeprint", () => {
-  if (!self.MeshCat || !hasWebGL()) return;
+  if (!bones || !hasWebGL()) return; // all is fetched, and can be drawn
   lived = [...live];
   for (const view of views.values()) {
     if (!view.viewer) view.start();

@@ -17,6 +17,7 @@ export const addPointer = (view, canvas) => {
   };
 
   canvas.addEventListener("pointerdown", (event) => {
+    if (event.button) return; // the others are the browser's
     held = { x: event.clientX, y: event.clientY, turned: view.turned, raised: view.raised };
     canvas.setPointerCapture(event.pointerId);
     const k = under(event);

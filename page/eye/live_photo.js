@@ -23,8 +23,8 @@ const snapshots = (video) => {
   const { width, height } = video, canvas = Object.assign(document.createElement("canvas"), { width, height });
   const context = canvas.getContext("2d", { willReadFrequently: true }), pixels = context.createImageData(width, height);
   const copy = async () => {
-    const frame = new VideoFrame(video), rect = { x: 0, y: 0, width, height };
-    await frame.copyTo(pixels.data, { format: "RGBA", rect }).finally(() => frame.close());
+    const shown = new VideoFrame(video), rect = { x: 0, y: 0, width, height };
+    await shown.copyTo(pixels.data, { format: "RGBA", rect }).finally(() => shown.close());
     context.putImageData(pixels, 0, 0);
     return canvas;
   };
@@ -36,7 +36,10 @@ class LivePhoto extends YourPhoto {
     super(box);
     const { live } = this.form.elements;
     live.hidden = !navigator.mediaDevices?.getUserMedia; // on a page from an insecure host, say
-    live.addEventListener("click", () => (this.film ? this.stopFilm() : this.startFilm()));
+    live.addEventListener("click", () => {
+      if (this.film) this.stopFilm();
+      else if (!this.request) this.startFilm(); // disabled meanwhile, the button would lose the keyboard's focus
+    });
     const { signal } = this.life;
     document.addEventListener("visibilitychange", () => document.hidden && this.stopFilm(), { signal });
   }
@@ -54,10 +57,8 @@ class LivePhoto extends YourPhoto {
   async startFilm() {
     const { live } = this.form.elements, video = Object.assign(document.createElement("video"), { muted: true, playsInline: true });
     const request = (this.request = {}); // until the reader chooses a photo, or leaves the page
-    live.disabled = true;
     try {
       const film = await navigator.mediaDevices.getUserMedia(CAMERA);
-      live.disabled = false;
       if (this.request !== request) return film.getTracks().forEach((track) => track.stop());
       video.srcObject = this.film = film;
       await video.play();
@@ -69,7 +70,6 @@ class LivePhoto extends YourPhoto {
       this.brain = await unpack();
       await this.followFilm(Object.assign(video, { width: video.videoWidth, height: video.videoHeight }), film);
     } catch (error) {
-      live.disabled = false;
       if (this.request !== request) return;
       this.stopFilm();
       this.say(`The camera does not serve: ${REFUSED[error.name] ?? error.message}. A photo will do.`);

@@ -46,7 +46,7 @@ const sight = function* (brain, photo, camera, report) {
 };
 
 /* A promise of the Sight of a photo { data, width, height }, four bytes a pixel, 600 × 400. `report(stage, data)`
-   tells of each stage as soon as it is known: the "candidates" so far, the boxes and scores "kept", the boxes and
-   probability of their "names", the "sight". */
+   tells of each stage as soon as it is known: the "candidates" so far, the boxes and scores "kept", of any size, the
+   boxes and probability that the first look "names", the "sight" after more looks. */
 export const see = (brain, photo, { camera = null, report = () => {} } = {}) =>
   inPieces(sight(brain, photo, camera, report));

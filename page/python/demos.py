@@ -27,7 +27,7 @@ def draw(above, book, cell, name, places, data=""):
     law of the reader's made. Without `places` it is only prepared.
     """
     own = unpack_arrays(data) if changed(above, book, cell) else {}
-    stale = frozenset(name for name in own if changed(above, book, name))
+    stale = frozenset(array for array in own if changed(above, book, array))
     try:
         with redirect_stdout(StringIO()):
             demo, controls, _ = prepared(tuple(above), cell, data, stale)

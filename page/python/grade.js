@@ -5,6 +5,7 @@ import { setEquations } from "../book/equations.js";
 import { memory } from "../demo/questions.js";
 import { disable } from "./disable.js";
 import * as python from "./interpreter.js";
+import { onKey, type } from "./typing.js";
 
 const escaped = (text) => `${text}`.replace(/[&<>"]/g, (sign) => `&#${sign.charCodeAt()};`);
 const MARKS = /`([^`]+)`|\$([^$]+)\$|\*\*([^*]+)\*\*|\*([^*]+)\*/g;
@@ -26,22 +27,6 @@ const ran = (cell) => field(cell)?.ran ?? book(cell);
 export const above = (cell) =>
   [...document.querySelectorAll(".cell:has(> .cell_input, > details > .cell_input)")]
     .filter((one) => !one.closest(".solution") && one.compareDocumentPosition(cell) & 4); // one before cell
-
-/* Type for the reader, so that it can be undone. */
-const type = (area, text) => {
-  area.focus();
-  if (!document.execCommand("insertText", false, text)) area.setRangeText(text, area.selectionStart, area.selectionEnd, "end");
-};
-
-/* Enter indents the next line as Python needs it; Control and Enter check. Tab goes on, as always. */
-const onKey = (event, form) => {
-  const area = event.target;
-  const before = area.value.slice(0, area.selectionStart).split("\n").pop();
-  if (event.key !== "Enter" || event.isComposing) return;
-  event.preventDefault();
-  if (event.ctrlKey || event.metaKey) form.requestSubmit();
-  else type(area, `\n${before.match(/^ */)[0]}${/:\s*(#.*)?$/.test(before) ? "    " : ""}`);
-};
 
 /* The figures that run a cell's law, as laws.js knows them. */
 export const users = { figures: () => [] };
@@ -68,7 +53,7 @@ class Editor {
     form.hidden = false;
     form.addEventListener("submit", (event) => {
       event.preventDefault();
-      if (stop.disabled) this.check();
+      if (!this.asked) this.check();
     });
     stop.addEventListener("click", () => this.asked.abort(Error("Stopped.")));
     reset.addEventListener("click", () => this.reset());
@@ -159,8 +144,18 @@ class Editor {
     if (lines !== this.area.value) this.offer("A link brings these lines:", lines);
   }
 
+  /* What is being checked ends unanswered: other lines take its place. */
+  end() {
+    if (!this.asked) return;
+    this.asked.abort();
+    this.asked = null;
+    this.show([""]);
+    disable(this.form.elements.stop);
+  }
+
   take(lines) {
     const { area } = this, before = area.value;
+    this.end();
     this.drop(lines);
     area.select();
     type(area, lines);
@@ -178,6 +173,7 @@ class Editor {
 
   /* The figures go back to the book's lines; the reader's stay in the field. */
   back() {
+    this.end();
     this.said = this.judged = undefined;
     this.run(this.empty);
     this.show(["The figures run the book’s lines again; yours count when you run them."]);
@@ -186,19 +182,22 @@ class Editor {
 
   async check() {
     const { form, cell, area } = this, { stop } = form.elements, graded = form.dataset.function, lines = area.value;
-    Object.assign(this, { said: undefined, asked: new AbortController() });
+    const asked = (this.asked = new AbortController());
+    this.said = undefined;
     stop.disabled = false;
     this.follow();
     try {
       const code = [above(cell).map(ran), lines];
       const question = graded ? ["check", ...code, graded] : ["run", ...code, this.empty, users.figures(cell, lines)];
-      const [said, printed] = await python.ask(["grader", ...question], (text) => this.show([text]), this.asked.signal);
+      const [said, printed] = await python.ask(["grader", ...question], (text) => this.show([text]), asked.signal);
       this.said = [`${said}`, `${printed}`];
       this.run(lines);
       form.dispatchEvent(new CustomEvent("vmc-graded", { bubbles: true, detail: { said: this.said[0], lines } }));
     } catch (error) {
+      if (this.asked !== asked) return;
       this.said = [`✗ ${error.message}`];
     }
+    this.asked = null;
     disable(stop);
     this.judged = lines;
     this.show(this.said);
@@ -207,6 +206,7 @@ class Editor {
   }
 
   reset() {
+    this.end();
     this.area.select();
     type(this.area, this.empty);
     this.said = this.judged = undefined;

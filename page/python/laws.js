@@ -14,14 +14,14 @@ const LONGEST = 20_000; // signs of a law in an address: the browser keeps five 
 const lastRun = (cell) => cell.querySelector("textarea")?.lastRun ?? grade.book(cell);
 const inCode = (names) => names.map((name) => `\`${name.replaceAll("`", "").slice(0, 60)}\``).join(", "); // Markdown, as all that is said here
 const ownCells = (above) => above.filter((one) => lastRun(one) !== grade.book(one));
-const users = []; // of laws: [a figure's cell, the cells of laws and those above it, what it needs of them]
+const figures = []; // that use laws: [a figure's cell, the cells of laws and those above it, what it needs of them]
 
 /* The cells of the chapter's code before one of them, and the laws after it: it may run these, too. */
 const codeOf = (cell) => [...grade.above(cell), ...[...document.querySelectorAll(".tag_runs-in-page")]
   .filter((law) => cell.compareDocumentPosition(law) & 4)];
 
 /* The figures that may run a cell's law, `typed` in it: see `page.python.grader.run`. */
-grade.users.figures = (law, typed) => users.filter(([, above]) => above.includes(law)).map(([cell, above, needs]) =>
+grade.users.figures = (law, typed) => figures.filter(([, above]) => above.includes(law)).map(([cell, above, needs]) =>
   [cell.querySelector(".vmc-number")?.textContent.replace(/\D*/, "") ?? "", above.map((one) => (one === law ? typed : lastRun(one))),
     above.map(grade.book), needs]);
 
@@ -57,13 +57,12 @@ const places = (demo) => {
 /* A demo that may be drawn by the reader's laws, and by sliders between their stops. */
 class Follower {
   laws = []; // of the reader's, those that it needs, by name
-  failed = false;
   busy = false;
-  wanted = null; // the last place that was asked for; those that the hand only passes are left out
+  wanted = null; // the last place that was asked for, until it is drawn; those that the hand only passes are left out
 
   constructor(demo) {
     const cell = demo.closest(".cell"), above = codeOf(cell);
-    users.push([cell, above, grade.book(cell)]);
+    figures.push([cell, above, grade.book(cell)]);
     const [status, run, back] = line(demo.querySelector(".vmc-controls"),
       `<button type="button" name="run" hidden>Run it</button> ${BACK}`);
     const between = document.createElement("button");
@@ -91,8 +90,14 @@ class Follower {
     return [this.above.map(lastRun), this.above.map(grade.book), grade.book(this.cell)];
   }
 
+  /* Say what it runs, and where its sliders stand. */
+  sayLaws() {
+    const { laws, sliders, between } = this, free = sliders.length && between.hidden ? FREE : "";
+    this.say(laws.length ? `This demo runs **your** ${inCode(laws)}.` : free);
+  }
+
   show({ parts, texts, error }, place, draw) {
-    const { demo, laws, sliders, between } = this;
+    const { demo, laws } = this;
     if (error) return this.fail(`${laws.length ? `Your \`${laws.join(", ")}\`` : "Python"} stops: ${error}.`, place, draw);
     draw(parts, { clean, settle });
     for (const one of followers) one.free(); // Python is there
@@ -101,12 +106,10 @@ class Follower {
       input.setAttribute("aria-valuetext", text);
       input.nextElementSibling.textContent = text;
     }
-    const free = sliders.length && between.hidden ? FREE : "";
-    this.say(laws.length ? `This demo runs **your** ${inCode(laws)}.` : free);
+    this.sayLaws();
   }
 
   fail(why, place, draw) {
-    this.failed = true;
     this.book(place, draw);
     this.say(`${why} This is the book’s.`);
   }
@@ -116,26 +119,27 @@ class Follower {
     this.busy = true;
     demo.setAttribute("aria-busy", "true");
     while (this.wanted) {
-      const [place, draw, ready] = this.wanted;
-      this.wanted = null;
+      const { wanted } = this, [place, draw, ready] = wanted;
+      const isLatest = () => this.wanted === wanted;
       try {
         const question = ["demos", "draw", ...this.code, demo.id, ready ? null : places(demo), demo.vmc.data ?? ""];
-        const answer = await python.ask(question, (text) => this.say(text));
-        if (!this.wanted) this.show(answer, place, draw);
+        const answer = await python.ask(question, (text) => this.wanted && this.say(text));
+        if (isLatest()) this.show(answer, place, draw);
       } catch (error) {
-        this.fail(error.message, place, draw);
+        if (isLatest()) this.fail(error.message, place, draw);
       }
+      if (isLatest()) this.wanted = null;
     }
     this.busy = false;
     demo.removeAttribute("aria-busy");
   }
 
   ask = (place, draw, exact, ready = false) => {
-    const { laws, failed } = this, off = this.sliders.some(({ value }) => value % 1);
-    if (!laws.length || failed) this.book(place, draw, exact);
-    if (failed || !(laws.length || off || ready)) return;
-    this.wanted = [place, draw, ready];
-    if (!this.busy) this.drawWanted();
+    const { laws, wanted } = this, off = this.sliders.some(({ value }) => value % 1);
+    if (!laws.length) this.book(place, draw, exact);
+    this.wanted = laws.length || off || ready ? [place, draw, ready] : null;
+    if (this.wanted && !this.busy) this.drawWanted();
+    if (wanted && !this.wanted) this.sayLaws(); // and no longer what it waits for
   };
 
   /* From now on the demo asks here, and no longer the book. */
@@ -146,15 +150,20 @@ class Follower {
 
   /* What the reader's cells have become. */
   async update() {
+    const none = [];
     this.take();
-    Object.assign(this, { laws: [], failed: false, wanted: null });
+    Object.assign(this, { laws: none, wanted: null });
     this.run.hidden = true;
     this.say("");
+    let laws = none, why = "";
     try {
-      if (ownCells(this.above).length) this.laws = await python.ask(["grader", "changed", ...this.code], () => {});
-    } catch (error) {
-      this.say(error.message);
+      if (ownCells(this.above).length) laws = await python.ask(["grader", "changed", ...this.code], () => {});
+    } catch ({ message }) {
+      why = message;
     }
+    if (this.laws !== none) return; // the reader has run another since
+    this.laws = laws;
+    this.say(why);
     this.back.hidden = !this.laws.length;
     this.demo.vmc.show();
   }
@@ -183,14 +192,15 @@ class Follower {
 /* An arm whose physics runs in the page (page/arm): it plans by the weights of the reader's law. */
 const lead = (box) => {
   const { law } = box.dataset, above = codeOf(box.closest(".cell")), form = box.querySelector("form");
-  users.push([box.closest(".cell"), above, law]);
+  figures.push([box.closest(".cell"), above, law]);
   const [status, back] = line(form, BACK);
   const say = (text) => (status.innerHTML = grade.inline(text));
   let mine = false;
   watch(above, back, async () => {
     try {
       const question = ["grader", "changed", above.map(lastRun), above.map(grade.book), law];
-      mine = ownCells(above).length > 0 && (await python.ask(question, () => {})).length > 0;
+      const laws = ownCells(above).length ? await python.ask(question, () => {}) : [];
+      mine = laws.length > 0 && ownCells(above).length > 0; // the reader may have gone back meanwhile
       say(mine ? `This arm plans by **your** ${inCode([law])}: let it reach.` : "");
     } catch (error) {
       mine = false;

@@ -10,7 +10,7 @@ const follow = (form) => {
   const { where, shipped } = form.dataset, ours = JSON.parse(shipped);
   form.innerHTML = `<label>Measure it again, here, from seed <input type="number" name="seed" value="100" min="0" max="999999" required></label>
     <button>Measure</button> <button type="button" name="stop" disabled>Stop</button> <span role="status"></span>
-    <div class="vmc-data" tabindex="0" hidden></div>`;
+    <div class="vmc-data" tabindex="0" role="group" aria-label="Measured again" hidden></div>`;
   const { seed, stop } = form.elements;
   let asked;
   const status = form.querySelector("[role=status]"), table = form.querySelector(".vmc-data");

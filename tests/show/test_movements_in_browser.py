@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tests.pages import CAPTURE, NO_WEBGL, boxes, drag, middle
+from tests.pages import CAPTURE, NO_WEBGL, boxes, drag, middle, stop_clock
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.show import Slider
 from vmc_lib.show.arm import arm_scene
@@ -67,6 +67,18 @@ def test_a_movement_plays_to_its_end_and_stops_when_the_clock_is_set(moving):
     assert moving.inner_text(time) == "0.04 s"
 
 
+def test_a_key_on_the_clock_pauses_what_goes_from_step_to_step(open_demo, window):
+    page = open_demo(movement, window(), elbow=Slider([1.2, 1.5], "to", play=True))
+    page.wait_for_selector(".vmc-clock:not([hidden])")
+    stop_clock(page)
+    page.click("[data-stride] ~ .vmc-play")
+    page.clock.run_for(50)
+    page.press(".vmc-clock button", "Enter")
+    page.clock.run_for(60_000)
+    assert page.inner_text("[data-stride] ~ .vmc-play") == "Play"
+    assert page.input_value("[data-stride]") == "0"
+
+
 def test_a_movement_that_comes_after_a_posture_is_shown_at_its_end(open_demo):
     draw = lambda moves: movement(1.2)[1] if moves else arm_scene([0, 1])  # noqa: E731 (one line)
     page = open_demo(draw, moves=[False, True])
@@ -79,6 +91,8 @@ def test_a_movement_that_comes_after_a_posture_is_shown_at_its_end(open_demo):
 def test_the_pointer_and_a_slider_turn_the_view_and_never_to_below(moving):
     canvas = moving.locator(".vmc-canvas")
     assert canvas.evaluate("c => getComputedStyle(c).touchAction") == "pan-y"  # a swipe scrolls
+    drag(moving, middle(canvas), -100, -300, "right")
+    assert moving.input_value(".vmc-turn input") == "0"
     drag(moving, middle(canvas), -100, -300)
     assert 40 <= float(moving.input_value(".vmc-turn input")) <= 60
     height = """(div) => {
@@ -118,6 +132,19 @@ def test_without_webgl_words_stand_for_the_scene_and_the_numbers_follow(open_dem
     assert "newer browser" not in page.eval_on_selector(".vmc-demo", after)
     page.fill(".vmc-clock input", "0")
     assert numbers(page)["elbow"] == "57.3°"
+
+
+PRINT_EARLY = """let viewer;
+Object.defineProperty(self, "MeshCat", { get: () => viewer, set(made) {
+  viewer = made;
+  dispatchEvent(new Event("beforeprint"));
+} });"""
+
+
+def test_a_page_printed_before_the_bones_are_there_draws_its_scene_later(open_demo, window):
+    page = open_demo(movement, window(PRINT_EARLY), **MOVEMENT)
+    page.wait_for_selector(".vmc-scene canvas")
+    assert page.errors == []
 
 
 ONE_CONTEXT = NO_WEBGL.replace('startsWith("webgl") ?', 'includes("webgl") && self.vmcAsked++ ?')

@@ -59,7 +59,7 @@ def test_a_sentence_follows_its_demo(open_page, monkeypatch):
                 lambda n, many=many: f"It has {n * many / 4:.2f} (l₀) of {many}." if n else "None.",
                 n=Slider(range(many), "n", 2),
             )
-            markdown(f"At {numbers['n']}: {numbers['has # (l₀)']}")
+            markdown(f"At {numbers['n']}: {numbers['has # (l₀) of #']}")
 
     monkeypatch.setenv("VMC_RENDER_MODE", "book")
     parts = []

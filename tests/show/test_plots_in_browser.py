@@ -188,7 +188,8 @@ def test_a_plots_numbers_are_a_table_that_follows_its_controls(open_demo):
     page.click(".vmc-demo summary")
     page.focus("[type=range]")
     page.keyboard.press("End")
-    rows = [row.split() for row in page.locator(".vmc-data tr").all_inner_texts()]
+    numbers = page.get_by_role("group", name="The plot's numbers")
+    rows = [row.split() for row in numbers.locator("tr").all_inner_texts()]
     assert rows == [["time", "(s)", "force", "(N)"], ["0", "0"], ["1", "3"], ["2", "6"]]
     assert page.locator("details").get_attribute("open") is not None
 

@@ -1,5 +1,8 @@
 """Predictions and checks: what they show, what they refuse, and how the page answers."""
 
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
+
 import numpy as np
 import pytest
 
@@ -174,6 +177,16 @@ def test_a_prediction_is_kept_and_marked_beside_the_outcome(open_questions):
 
 
 @pytest.mark.browser
+def test_enter_on_a_choice_that_no_arrow_passed_counts_as_that_choice(open_questions):
+    page = open_questions(PREDICTION)
+    page.evaluate("() => localStorage.clear()")
+    page.keyboard.press("Tab")
+    page.keyboard.press("Enter")
+    assert page.is_checked("input >> nth=0")
+    assert page.evaluate(ANSWERS) == ["one"]
+
+
+@pytest.mark.browser
 @pytest.mark.parametrize("by", ["input >> nth=1", "label >> nth=1", "summary"])
 def test_a_choice_opens_what_came_out(open_questions, by):
     page = open_questions(PREDICTION)
@@ -221,6 +234,19 @@ def test_each_field_has_its_own_answer_again(open_questions):
         field.press("Enter")
     page.reload()
     assert [field.input_value() for field in fields] == ["0", "1"]
+
+
+@pytest.mark.browser
+def test_a_field_has_its_answer_again_where_an_edition_asks_more(open_questions, shown):
+    check(None, 3, hint="Three.")
+    page = open_questions()
+    page.fill("input", "2")
+    page.press("input", "Enter")
+    check(None, 4)
+    file = Path(unquote(urlsplit(page.url).path))
+    file.write_text(file.read_text("utf-8").replace("<h1>Q</h1>", shown[1]), "utf-8")
+    page.reload()
+    assert page.locator("input").evaluate_all("(all) => all.map((one) => one.value)") == ["", "2"]
 
 
 @pytest.mark.browser

@@ -29,7 +29,7 @@ def test_every_answer_says_why():
     assert "<em>one</em>" in page
     assert "&lt; 3" in page
     assert page.index("two") < page.index("✓ Right.") < page.index("three")
-    assert page.startswith('<fieldset class="vmc-quiz"><legend>')
+    assert page.startswith('<fieldset class="vmc-quiz" name="quiz-')
 
 
 @pytest.mark.parametrize(

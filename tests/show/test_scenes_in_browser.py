@@ -12,7 +12,7 @@ from meshcat.transformations import translation_matrix
 from PIL import Image
 
 from tests.pages import CAPTURE
-from vmc_lib.show import Scene, Slider, explore, figure, photo_view
+from vmc_lib.show import Scene, Slider, explore, figure, photo_view, props
 from vmc_lib.show.arm import arm_scene
 
 pytestmark = pytest.mark.browser
@@ -41,6 +41,11 @@ def test_a_scene_depends_on_its_state_alone(open_demo):
     page.fill(".vmc-turn input", "90")  # walk around
     assert scene.evaluate(CAPTURE) != seen[-1]
     assert page.get_attribute(".vmc-pictures", "aria-label") == "ball at 0.0"
+
+
+def test_the_close_ups_shuttlecock_is_as_large_as_the_scenes(open_page):
+    sizes = "() => { const { LENGTH, RIM } = vmc['demo/close_up']; return [LENGTH, RIM]; }"
+    assert open_page("<h1>S</h1>").evaluate(sizes) == [props.LENGTH, props.RIM]
 
 
 def test_an_arm_that_the_pages_python_draws_keeps_its_anatomy(open_demo):

@@ -182,7 +182,8 @@ def side_by_side(parts, alt):
 
 def numbers(table):
     """A plot's `DataTable`, to be scrolled (HTML)."""
-    return f'<div class="vmc-data" tabindex="0">{table}</div>'
+    named = 'role="group" aria-label="The plot\'s numbers"'
+    return f'<div class="vmc-data" tabindex="0" {named}>{table}</div>'
 
 
 def markdown(text: str) -> None:

@@ -40,6 +40,11 @@ from vmc_lib.show.render_mode import render_mode
 _OWN_KEYS = 'onkeydown="event.stopPropagation()"'
 
 
+def question_name(kind, text):
+    """The name of a question in a page: it stays while the question's text does."""
+    return f"{kind}-{zlib.crc32(text.encode()):08x}"
+
+
 def prediction(question, choices, outcome, why):
     """A question before a demo, as HTML: what came out stays folded until asked.
 
@@ -52,7 +57,7 @@ def prediction(question, choices, outcome, why):
             f"the prediction {question!r} needs two to four choices, a why, and its outcome "
             f"{outcome!r} among them: got {choices}"
         )
-    name = f"predict-{zlib.crc32(question.encode()):08x}"  # stays while the question does
+    name = question_name("predict", question)
     buttons = "".join(
         f'<label class="vmc-{"right" if choice == outcome else "wrong"}">'
         f'<input type="radio" name="{name}" value="{html.escape(choice)}"> {inline(choice)}</label>'
@@ -131,13 +136,14 @@ def _field(expected, tolerance, hint, unit):
         values, size = np.ravel(expected).tolist(), np.size(expected)
         data = {"expected": values, "tolerance": tolerance}
         data |= {"scales": scales_of(unit), "rules": RULES}
+    name = question_name("check", f"{data['expected']} {hint} {unit}")
     several = f" ({size}, with spaces between)" if size > 1 else ""
     asked = f" in {html.escape(unit)}" if unit else ""
     words = json.dumps(_words(size, inline(hint), unit), ensure_ascii=False)
     return (
         f'<form class="vmc-check" autocomplete="off" data-check="{html.escape(json.dumps(data))}" '
         f'data-words="{html.escape(words)}">'
-        f'<label>Your answer{asked}{several}: <input type="text" size="12"></label> '
+        f'<label>Your answer{asked}{several}: <input type="text" name="{name}" size="12"></label> '
         f'<button>Check</button> <span role="status">{NOT_YET}</span></form>'
     )
 

@@ -32,6 +32,19 @@ def test_mujoco_is_loaded_by_the_start_and_from_the_books_own_files(open_arms, s
     assert ask("return arm.mujoco.mj_versionString();") == controls.VERSIONS["page"]
 
 
+ENDED = """async () => {
+  const live = new vmc["arm/bench"].Bench(document.querySelector(".vmc-live"));
+  await live.awake();
+  const { data, seen, model } = live.arm;
+  live.end();
+  return [data, seen, model].map((part) => part.isDeleted());
+}"""
+
+
+def test_an_arm_whose_page_has_done_with_it_gives_its_memory_back(open_arms):
+    assert open_arms().evaluate(ENDED) == [True, True, True]
+
+
 @pytest.mark.audit
 def test_an_arm_with_another_law_than_pythons_says_so(open_arms, window):
     page = open_arms(
@@ -106,7 +119,7 @@ def test_the_whole_arm_reaches_and_calibrates(open_arms, window, past):
     arm, target = page.whole, np.array([0.52, 0.07, -0.065])
     start(arm)
     arm.locator(".vmc-scene canvas").wait_for()
-    drawn = "div => vmc['demo/scene'].viewOf(div).body instanceof vmc['arm/whole'].Body"
+    drawn = "div => vmc['demo/scene'].viewOf(div).body instanceof vmc['arm/whole'].WholeBody"
     assert arm.locator(".vmc-scene").evaluate(drawn)
     set_target(arm, target)
     arm.locator("[name=main]").click()

@@ -34,6 +34,8 @@ SHOT = photos.load("free", "test")[0]
 ACROSS_SHOT, DOWN_SHOT = np.arange(0, 601, 10), np.arange(0, 401, 10)
 AROUND, NEURONS = np.linspace(-0.95, 0.95, 20), range(3, 61)
 
+VALUES = "(forms) => forms.map((form) => [...form].map(({ value }) => value))"
+
 
 @cache
 def ends():
@@ -101,6 +103,14 @@ def test_a_box_is_moved_by_its_middle_and_stretched_by_its_corner(page):
         assert [a != b for a, b in zip(before, now, strict=True)] == moved
         far = np.subtract(middles(handles), places)
         assert np.abs(far[-1] - [20, 15]).max() < 4  # the corner comes along, to the grid
+
+
+def test_the_right_button_drags_nothing(page):
+    box = page.locator(".vmc-demo").nth(0)
+    box.scroll_into_view_if_needed()
+    before = box.locator("form").evaluate_all(VALUES)
+    drag(page, middles(box.locator(".vmc-handle"))[0], 20, 15, "right")
+    assert box.locator("form").evaluate_all(VALUES) == before
 
 
 def test_overlap_of_any_two_boxes(page):

@@ -24,6 +24,14 @@ STUB = '''def {name}(u, a, rise, fall):
 MECHANISM = "def cube(x):\n    return x**3\n\n\nassert cube(twice(2)) == 64"
 ASK = "(question) => vmc['python/interpreter'].ask(question, () => {})"
 PATIENT = "() => { vmc['python/interpreter'].limit.seconds = 1000 }"  # others may be at work, too
+# In place of Python: a test answers, when it will
+STAND_IN = """() => {
+  window.asked = [];
+  vmc['python/interpreter'].ask = (question, say, signal) => new Promise((answer, fail) => {
+    asked.push({ name: question[1], say, answer, fail });
+    signal?.addEventListener('abort', () => fail(signal.reason));
+  });
+}"""
 CELL = '<div class="cell"><div class="cell_input"><pre>{}</pre></div></div>'
 
 
@@ -68,6 +76,18 @@ def open_exercise(open_page, exercise_html):
         return page
 
     return open_exercise
+
+
+@pytest.fixture(scope="session")
+def late():
+    """A function: what the stand-in was asked by a name is met, late, as JavaScript has it."""
+
+    def late(page, name, met):
+        each = f"asked.filter((one) => one.name === '{name}').forEach((one) => one.{met})"
+        page.evaluate(f"() => {{ {each} }}")
+        page.evaluate(pages.TWO_FRAMES)
+
+    return late
 
 
 @pytest.fixture(scope="module")

@@ -8,7 +8,7 @@ from playwright.sync_api import expect
 
 from book._ext.numbering import with_figure_numbers
 from tests import pages
-from tests.page.python.conftest import CELL
+from tests.page.python.conftest import CELL, STAND_IN
 from vmc_lib import show
 from vmc_lib.show import demo
 
@@ -120,6 +120,99 @@ def test_sliders_stand_between_their_stops(open_law, window):
     expect(page.mine.locator(TITLE)).to_contain_text("at 3: 6")
     expect(page.other.get_by_role("button", name="Any value")).to_be_hidden()
     assert page.evaluate("() => document.documentElement.scrollWidth") <= 360
+
+
+LATE = {
+    "a picture": "answer({ parts: [['late'], ['<p>late</p>']], texts: { x: 'late' } })",
+    "an error": "answer({ error: 'late' })",
+    "no answer": "fail(Error('late'))",
+    "progress": "say('late')",
+}
+
+
+@pytest.mark.parametrize("what", LATE.values(), ids=LATE)
+def test_what_comes_late_leaves_the_books_picture_at_a_stop(open_law, late, what):
+    page = open_law()
+    page.evaluate(STAND_IN)
+    page.mine.get_by_text("more", exact=True).click()
+    page.mine.get_by_role("button", name="Any value").click()
+    late(page, "draw", "answer({ parts: [], texts: {} })")
+    page.slider.fill("1.5")
+    page.slider.fill("2")
+    late(page, "draw", what)
+    assert "late" not in page.mine.text_content()
+    assert page.line.text_content() == "The sliders now take any value."
+
+
+@pytest.fixture
+def run_law(open_law, late):
+    """The chapter, where a law has run, and the demos ask what has changed."""
+    page = open_law()
+    page.evaluate(STAND_IN)
+    page.get_by_role("button", name="Edit law").click()
+    run(page, LAW.replace("2 *", "5 *"))
+    late(page, "run", "answer(['✓ It runs.', ''])")
+    return page
+
+
+def test_a_drawing_by_the_readers_law_leaves_the_book_that_came_back(run_law, late):
+    page = run_law
+    late(page, "changed", "answer(['law'])")
+    page.mine.get_by_role("button", name="Back to the book").click()
+    late(page, "draw", LATE["a picture"])
+    assert "at 1: 2" in page.mine.locator(TITLE).text_content()
+
+
+def test_a_law_that_was_reset_meanwhile_is_not_the_readers(run_law, late):
+    page = run_law
+    page.locator("[data-cell=law] [name=reset]").click()
+    late(page, "changed", "answer(['law'])")
+    assert page.mine.get_by_role("button", name="Back to the book").is_hidden()
+
+
+def test_a_law_that_fails_at_one_place_is_asked_at_the_next(run_law, late):
+    page = run_law
+    late(page, "changed", "answer(['law'])")
+    late(page, "draw", "fail(Error('Stopped after 10 s.'))")
+    assert page.line.text_content() == "Stopped after 10 s. This is the book’s."
+    page.slider.fill("2")
+    late(page, "draw", LATE["a picture"])
+    assert page.line.text_content() == "This demo runs your law."
+
+
+def test_what_ran_when_the_lines_were_reset_does_not_come_back(run_law, late):
+    page = run_law
+    law = page.get_by_label("Your lines: law")
+    page.get_by_role("button", name="Run", exact=True).click()
+    page.locator("[data-cell=law] [name=reset]").click()
+    late(page, "run", "answer(['✓ It runs.', ''])")
+    assert page.locator("[data-cell=law] [role=status]").text_content() == ""
+    assert law.evaluate("(area) => area.lastRun") == LAW
+    page.get_by_role("button", name="Run", exact=True).click()
+    late(page, "run", "answer(['✓ It runs.', ''])")
+    assert "✓ It runs." in page.locator("[data-cell=law] [role=status]").text_content()
+
+
+def test_what_ran_when_the_book_came_back_leaves_it(run_law, late):
+    page = run_law
+    late(page, "changed", "answer(['law'])")
+    page.get_by_role("button", name="Run", exact=True).click()
+    page.mine.get_by_role("button", name="Back to the book").click()
+    late(page, "run", "answer(['✓ It runs.', ''])")
+    said = page.locator("[data-cell=law] [role=status]").text_content()
+    assert said.startswith("The figures run the book’s lines again")
+
+
+def test_a_links_lines_run_while_others_are_checked(run_law, late):
+    page = run_law
+    brought = LAW.replace("2 *", "7 *")
+    page.get_by_role("button", name="Run", exact=True).click()
+    link = f"#{page.mine.get_attribute('id')}?law.law={quote(brought)}"
+    page.evaluate("(link) => { location.hash = link }", link)
+    page.mine.get_by_role("button", name="Run it").click()
+    late(page, "run", "answer(['✓ It runs.', ''])")
+    law = page.get_by_label("Your lines: law")
+    assert law.evaluate("(area) => area.lastRun") == brought
 
 
 @pytest.mark.audit
