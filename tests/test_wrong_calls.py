@@ -603,7 +603,7 @@ MOVING = {
         lambda g: simulate.constant_excitation(6 * (0,), 1, "ms"), "'ms' s", "(0, 0.01] s"
     ),
     "no step": (lambda g: simulate.constant_excitation(6 * (0,), 1, 0), "of 0 s", "(0, 0.01] s"),
-    "a posture of words": (lambda g: simulate.check_posture(("a", "b")), "('a', 'b')", "numbers"),
+    "a posture of words": (lambda g: dynamics.check_posture(("a", "b")), "('a', 'b')", "numbers"),
     "a part of one plan": (lambda g: g.plan[0], "[ 0.1  -0.38]", "plan for targets (B, 2)"),
     "an eye in space": (
         lambda g: execution.rotate_about_eye((0, 0, 0), 0.1), "(3,)", "give (…, 2)"
@@ -720,6 +720,21 @@ MOVING = {
     "three memories": (
         lambda g: two_rates.adapt([1], two_rates.Rates(kept=(0.6, 0.9, 0.99))), "0.9,", "two of"
     ),
+    "a hand in degrees": (lambda g: dynamics.hand((0, 60)), "60", "np.radians(degrees)"),
+    "muscles in degrees": (lambda g: dynamics.paths((0, 60)), "60", "np.radians(degrees)"),
+    "torques in degrees": (
+        lambda g: dynamics.torque_for((0, 90), (0, 0), (0, 0)), "90", "np.radians(degrees)"
+    ),
+    "accelerations in degrees": (
+        lambda g: dynamics.forward_dynamics((0, 90), (0, 0), (0, 0)), "90", "np.radians(degrees)"
+    ),
+    "a path in degrees": (
+        lambda g: inverse_dynamics.minimum_jerk((0, 30), (0, 60), 100), "30", "np.radians(degrees)"
+    ),
+    "a goal in degrees": (
+        lambda g: inverse_dynamics.minimum_jerk((0, 1), (0, 60)), "60", "np.radians(degrees)"
+    ),
+    "MuJoCo in degrees": (lambda g: arm26.forward((0, 90)), "90", "np.radians(degrees)"),
 }  # fmt: skip
 SHOWING = {
     "one draw": (lambda g: statistics.t_interval([1.0]), "1 values", "give two or more"),

@@ -12,9 +12,9 @@ from typing import Literal, NamedTuple, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vmc_lib.arm.dynamics import MARGIN, hand
-from vmc_lib.arm.engines import ENGINES, FARTHEST
-from vmc_lib.arm.model import F0, LIMITS, STEP, check_load
+from vmc_lib.arm.dynamics import FARTHEST, check_posture, hand
+from vmc_lib.arm.engines import ENGINES
+from vmc_lib.arm.model import F0, STEP, check_load
 from vmc_lib.arm.muscle import PAPER, Muscle
 from vmc_lib.checks import as_numbers, check_kind, is_within
 from vmc_lib.short_repr import short, short_repr
@@ -121,7 +121,7 @@ def simulate(
     _check_step(step)
     leading = u.shape[:-2]
     q = _per_movement("start", start, leading, 2)
-    check_posture(q)
+    check_posture(q, "start")
     a = _per_movement("activation", u[..., 0, :] if activation is None else activation, leading, 6)
     _check_range("activation", a)
     check_kind("perturbation", perturbation, Perturbation, "Perturbation(load=1.0), in kg")
@@ -168,19 +168,6 @@ def _check_range(name, value):
     low, high = value.min(initial=0), value.max(initial=0)
     if not (low >= 0 and high <= 1):
         raise ValueError(f"{name}: values in [{low:.3g}, {high:.3g}]; clip them to [0, 1]")
-
-
-def check_posture(q: np.ndarray, name: str = "start") -> None:
-    """ValueError where a posture (…, 2) lies beyond the joints' limits by more than MARGIN."""
-    if np.shape(q)[-1:] != (2,):
-        raise ValueError(f"{name} {q} must be (shoulder, elbow), (…, 2), in rad")
-    q = as_numbers(name, q)
-    far = ~np.all((q >= LIMITS[:, 0] - MARGIN) & (q <= LIMITS[:, 1] + MARGIN), axis=-1)
-    if np.any(far):
-        raise ValueError(
-            f"{name} {q[far][0]} rad is beyond the joints' limits, {LIMITS.round(2).tolist()} rad; "
-            "give radians: np.radians(degrees)"
-        )
 
 
 def _check_field(field):

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vmc_lib.arm.dynamics import paths, torque_for
+from vmc_lib.arm.dynamics import equation_12_torques, paths, terms
 from vmc_lib.arm.engines import NO_DRAG, allocate_trajectory, fibres, step_trajectory
 from vmc_lib.arm.kinematics import inverse_kinematics
 from vmc_lib.arm.model import STEP
@@ -237,8 +237,10 @@ def excitations_for_acceleration(
     The minimum-norm change, by the pseudo-inverse. Muscles cannot push: what clipping to [0, 1]
     takes from one is asked of the others, twice.
     """
-    still = torque_for(q, velocity, np.zeros_like(acceleration))
-    torque = torque_for(q, velocity, acceleration) - still
+    now = terms(q)
+    still = equation_12_torques(now, *velocity.T, 0, 0, STEP)
+    torque = equation_12_torques(now, *velocity.T, *acceleration.T, STEP)
+    torque = np.subtract(torque, still).T
     gain = muscle_gain(q, velocity)[1]
     share, u = np.linalg.pinv(gain), excitations
     for _ in range(3):
