@@ -735,6 +735,17 @@ MOVING = {
         lambda g: inverse_dynamics.minimum_jerk((0, 1), (0, 60)), "60", "np.radians(degrees)"
     ),
     "MuJoCo in degrees": (lambda g: arm26.forward((0, 90)), "90", "np.radians(degrees)"),
+    "a muscle in words": (lambda g: muscle.force("a", 1, 0, 1), "activation 'a'", "give numbers"),
+    "a speed's text": (lambda g: muscle.force_velocity("x"), "velocity 'x'", "give numbers"),
+    "less than no activation": (lambda g: muscle.force(-1, 1, 0, 1), "[-1, 0]", "clip them to [0"),
+    "a named activation": (
+        lambda g: muscle.force(activation=2, length=1, velocity=0, maximum=1), "[0, 2]", "clip them"
+    ),
+    "more than all excitation": (
+        lambda g: muscle.activation_rate(3, 0.1), "excitation: values in [0, 3]", "clip them"
+    ),
+    "an activation of NaN": (lambda g: muscle.activation_rate(1, np.nan), "nan", "clip them"),
+    "a step back": (lambda g: muscle.euler_activation(0.5, 0.1, -1), "-1 s", "above 0"),
 }  # fmt: skip
 SHOWING = {
     "one draw": (lambda g: statistics.t_interval([1.0]), "1 values", "give two or more"),

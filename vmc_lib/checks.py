@@ -62,6 +62,13 @@ def is_positive(value):
     return is_within(value, 0, np.inf) and value > 0
 
 
+def check_shares(name, values):
+    """Raise ValueError where numbers lie outside [0, 1] by more than Euler's method rounds."""
+    low, high = values.min(initial=0), values.max(initial=0)
+    if not (low >= 0 and high <= 1 + 1e-9):
+        raise ValueError(f"{name}: values in [{low:.3g}, {high:.3g}]; clip them to [0, 1]")
+
+
 def check_features(x, width):
     """Raise ValueError where x is not (n, width)."""
     if np.ndim(x) != 2 or np.shape(x)[1] != width:

@@ -157,7 +157,7 @@ def _step_together(
             torque += np.einsum("bjx,bx->bj", jacobian, pushed)
         terms = coefficients[0].T @ trig_basis(*now.T)
         change = equation_12(terms, *w.T, *torque.T, step)
-        activation[:, t + 1] = euler_activation(u[:, t], a, step)
+        activation[:, t + 1] = a + step * PAPER.activation_rate(u[:, t], a)
         velocity[:, t + 1] = w + step * np.transpose(change)
         q[:, t + 1] = now + step * velocity[:, t + 1]
 
