@@ -746,6 +746,17 @@ MOVING = {
     ),
     "an activation of NaN": (lambda g: muscle.activation_rate(1, np.nan), "nan", "clip them"),
     "a step back": (lambda g: muscle.euler_activation(0.5, 0.1, -1), "-1 s", "above 0"),
+    "a law that returns nothing": (
+        lambda g: offline.algorithm_1(g.plan, [1], change=lambda *a: None),
+        "None, a NoneType", "Δw, an array (4,)",
+    ),
+    "a law of one number": (
+        lambda g: offline.algorithm_1(g.plan, [1], change=lambda *a: 0.1),
+        "<lambda> returned 0.1", "Δw, an array (4,)",
+    ),
+    "gains of NaN": (
+        lambda g: offline.algorithm_1(g.plan, [np.nan]), "gains = [nan]", "finite numbers"
+    ),
 }  # fmt: skip
 SHOWING = {
     "one draw": (lambda g: statistics.t_interval([1.0]), "1 values", "give two or more"),
