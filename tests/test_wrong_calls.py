@@ -757,6 +757,15 @@ MOVING = {
     "gains of NaN": (
         lambda g: offline.algorithm_1(g.plan, [np.nan]), "gains = [nan]", "finite numbers"
     ),
+    "no target to weigh for": (
+        lambda g: planning.habitual_weights((np.nan, 0), g.plan.points), "(nan, 0)", "give finite"
+    ),
+    "no target to be exact about": (
+        lambda g: planning.exact_weights((np.nan, 0), g.plan.points), "(nan, 0)", "give finite"
+    ),
+    "nearest to nothing": (
+        lambda g: planning.nearest((np.nan, 0), g.plan.points, 2), "(nan, 0)", "give finite"
+    ),
 }  # fmt: skip
 SHOWING = {
     "one draw": (lambda g: statistics.t_interval([1.0]), "1 values", "give two or more"),

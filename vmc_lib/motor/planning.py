@@ -85,7 +85,7 @@ def habitual_weights(target: ArrayLike, points: np.ndarray, power: float = 1) ->
     >>> habitual_weights(np.array([0.1, -0.4]), points).round(3).tolist()
     [0.75, 0.25]
     """
-    distance = norm(offsets(points, target))
+    distance = _distances(target, points)
     if not is_within(power, -np.inf, np.inf):
         raise ValueError(f"power = {short(power)}: give a number, as 1 or 2")
     on = distance < 1e-9
@@ -142,8 +142,17 @@ def nearest(target: ArrayLike, points: np.ndarray, count: int) -> np.ndarray:
     check_count("count", count, least=1)
     if count > len(points):
         raise ValueError(f"cannot choose {count} of {len(points)} templates")
-    distance = norm(offsets(points, target))
-    return distance.argsort(axis=-1, kind="stable")[..., :count]
+    return _distances(target, points).argsort(axis=-1, kind="stable")[..., :count]
+
+
+def _distances(target, points):
+    """From targets (…, D) to points (…, N, D), (…, N); ValueError where one is not finite."""
+    distances = norm(offsets(points, target))
+    if not np.isfinite(distances).all():
+        raise ValueError(
+            f"target {short(target)}, points {short(points)}: give finite places, in m"
+        )
+    return distances
 
 
 def is_surrounded(target: ArrayLike, points: np.ndarray) -> np.ndarray:
