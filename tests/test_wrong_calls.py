@@ -766,6 +766,10 @@ MOVING = {
     "nearest to nothing": (
         lambda g: planning.nearest((np.nan, 0), g.plan.points, 2), "(nan, 0)", "give finite"
     ),
+    "a plan of three weights": (
+        lambda g: execution.execute(replace(g.plan, weights=np.full(3, 0.3))),
+        "weights (3,) and rows (4,)", "give plan.with_weights(",
+    ),
 }  # fmt: skip
 SHOWING = {
     "one draw": (lambda g: statistics.t_interval([1.0]), "1 values", "give two or more"),

@@ -269,9 +269,14 @@ def check_templates(template_set: object) -> None:
     check_kind("template_set", template_set, TemplateSet, "what motor.templates.load() returns")
 
 
-def check_plan(plan: object) -> None:
-    """Raise ValueError where what should be a `Plan` is none."""
+def check_plan(plan: Any) -> None:
+    """Raise ValueError where it is no `Plan`, or not of one weight for each of its rows."""
     check_kind("plan", plan, Plan, "what plan(target, template_set) returns")
+    if np.shape(plan.weights) != np.shape(plan.rows):
+        raise ValueError(
+            f"a plan of weights {np.shape(plan.weights)} and rows {np.shape(plan.rows)}: "
+            "give plan.with_weights(one for each row)"
+        )
 
 
 def check_batch(plan: Plan) -> None:
