@@ -367,6 +367,10 @@ SIGHT = {  # a call: what its error says, the value and the remedy
     "a seed for centres": (
         lambda g: box_regression.RBFRidge.fit(np.eye(2), np.eye(2), 1, 0), "rng 0", "default_rng"
     ),
+    "a place outside": (
+        lambda g: loop.locate(g.model, g.image, [900, 900, 950, 950], g.photo.camera),
+        "[900 900 950 950]", "600×400",
+    ),
 }  # fmt: skip
 MOVING = {
     "a target in the plane": (lambda g: loop.reach(g.model, (0.1, -0.4)), "[ 0.1 -0.4]", "in m"),
