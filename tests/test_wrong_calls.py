@@ -385,6 +385,12 @@ SIGHT = {  # a call: what its error says, the value and the remedy
     "a seed for centres": (
         lambda g: box_regression.RBFRidge.fit(np.eye(2), np.eye(2), 1, 0), "rng 0", "default_rng"
     ),
+    "a place outside": (
+        lambda g: loop.locate(g.model, g.image, [900, 900, 950, 950], g.photo.camera),
+        "[900 900 950 950]", "600×400",
+    ),
+    "a photo of no name": (lambda g: photos.read_image(""), "is a folder", "name a file in it"),
+    "a network's level": (lambda g: cdbn.CDBN.load("rig"), "'rig'", "write CDBN.load()"),
 }  # fmt: skip
 MOVING = {
     "a target in the plane": (lambda g: loop.reach(g.model, (0.1, -0.4)), "[ 0.1 -0.4]", "in m"),
@@ -621,7 +627,7 @@ MOVING = {
         lambda g: simulate.constant_excitation(6 * (0,), 1, "ms"), "'ms' s", "(0, 0.01] s"
     ),
     "no step": (lambda g: simulate.constant_excitation(6 * (0,), 1, 0), "of 0 s", "(0, 0.01] s"),
-    "a posture of words": (lambda g: simulate.check_posture(("a", "b")), "('a', 'b')", "numbers"),
+    "a posture of words": (lambda g: dynamics.check_posture(("a", "b")), "('a', 'b')", "numbers"),
     "a part of one plan": (lambda g: g.plan[0], "[ 0.1  -0.38]", "plan for targets (B, 2)"),
     "an eye in space": (
         lambda g: execution.rotate_about_eye((0, 0, 0), 0.1), "(3,)", "give (…, 2)"
@@ -738,6 +744,66 @@ MOVING = {
     "three memories": (
         lambda g: two_rates.adapt([1], two_rates.Rates(kept=(0.6, 0.9, 0.99))), "0.9,", "two of"
     ),
+    "a hand in degrees": (lambda g: dynamics.hand((0, 60)), "60", "np.radians(degrees)"),
+    "muscles in degrees": (lambda g: dynamics.paths((0, 60)), "60", "np.radians(degrees)"),
+    "torques in degrees": (
+        lambda g: dynamics.torque_for((0, 90), (0, 0), (0, 0)), "90", "np.radians(degrees)"
+    ),
+    "accelerations in degrees": (
+        lambda g: dynamics.forward_dynamics((0, 90), (0, 0), (0, 0)), "90", "np.radians(degrees)"
+    ),
+    "a path in degrees": (
+        lambda g: inverse_dynamics.minimum_jerk((0, 30), (0, 60), 100), "30", "np.radians(degrees)"
+    ),
+    "a goal in degrees": (
+        lambda g: inverse_dynamics.minimum_jerk((0, 1), (0, 60)), "60", "np.radians(degrees)"
+    ),
+    "MuJoCo in degrees": (lambda g: arm26.forward((0, 90)), "90", "np.radians(degrees)"),
+    "a muscle in words": (lambda g: muscle.force("a", 1, 0, 1), "activation 'a'", "give numbers"),
+    "a speed's text": (lambda g: muscle.force_velocity("x"), "velocity 'x'", "give numbers"),
+    "less than no activation": (lambda g: muscle.force(-1, 1, 0, 1), "[-1, 0]", "clip them to [0"),
+    "a named activation": (
+        lambda g: muscle.force(activation=2, length=1, velocity=0, maximum=1), "[0, 2]", "clip them"
+    ),
+    "more than all excitation": (
+        lambda g: muscle.activation_rate(3, 0.1), "excitation: values in [0, 3]", "clip them"
+    ),
+    "an activation of NaN": (lambda g: muscle.activation_rate(1, np.nan), "nan", "clip them"),
+    "a step back": (lambda g: muscle.euler_activation(0.5, 0.1, -1), "-1 s", "above 0"),
+    "a law that returns nothing": (
+        lambda g: offline.algorithm_1(g.plan, [1], change=lambda *a: None),
+        "None, a NoneType", "Δw, an array (4,)",
+    ),
+    "a law of one number": (
+        lambda g: offline.algorithm_1(g.plan, [1], change=lambda *a: 0.1),
+        "<lambda> returned 0.1", "Δw, an array (4,)",
+    ),
+    "gains of NaN": (
+        lambda g: offline.algorithm_1(g.plan, [np.nan]), "gains = [nan]", "finite numbers"
+    ),
+    "no target to weigh for": (
+        lambda g: planning.habitual_weights((np.nan, 0), g.plan.points), "(nan, 0)", "give finite"
+    ),
+    "no target to be exact about": (
+        lambda g: planning.exact_weights((np.nan, 0), g.plan.points), "(nan, 0)", "give finite"
+    ),
+    "nearest to nothing": (
+        lambda g: planning.nearest((np.nan, 0), g.plan.points, 2), "(nan, 0)", "give finite"
+    ),
+    "a plan of three weights": (
+        lambda g: execution.execute(replace(g.plan, weights=np.full(3, 0.3))),
+        "weights (3,) and rows (4,)", "give plan.with_weights(",
+    ),
+    "a push of NaN": (lambda g: feedback.push([np.nan, 2], 1), "[nan, 2.0] N", "finite"),
+    "a push before the start": (lambda g: feedback.push([1, 2], -1), "at -1.0 s", "0 s or later"),
+    "a curl of NaN": (lambda g: feedback.curl(np.nan), "nan N s / m", "finite"),
+    "a number in quotes": (
+        lambda g: muscle.force_velocity("1"), "velocity '1'", "give numbers"
+    ),
+    "a target in quotes": (
+        lambda g: planning.plan(["0.1", "-0.38"], g.model.template_set), "['0.1'", "give numbers"
+    ),
+    "an imaginary velocity": (lambda g: muscle.force_velocity(1j), "velocity 1j", "give numbers"),
 }  # fmt: skip
 SHOWING = {
     "one draw": (lambda g: statistics.t_interval([1.0]), "1 values", "give two or more"),
@@ -853,6 +919,9 @@ SHOWING = {
     ),
     "one place on paper": (lambda g: widget(text, k=(0, 3), printed=3), "printed=3", "a list of"),
     "a number of more": (lambda g: widget(text, k=(0, 3), more=3), "more=3", "a list of names"),
+    "a draw of NaN": (lambda g: statistics.t_interval([1, np.nan]), "nan", "finite numbers"),
+    "a share for a count": (lambda g: statistics.wilson(0.5, 1), "0.5 of 1", "give counts"),
+    "a slider along a word": (lambda g: Slider("abc", "x"), "'abc'", "as range(6)"),
 }  # fmt: skip
 CALLS = SIGHT | MOVING | SHOWING
 

@@ -62,6 +62,13 @@ def is_positive(value):
     return is_within(value, 0, np.inf) and value > 0
 
 
+def check_shares(name, values):
+    """Raise ValueError where numbers lie outside [0, 1] by more than Euler's method rounds."""
+    low, high = values.min(initial=0), values.max(initial=0)
+    if not (low >= 0 and high <= 1 + 1e-9):
+        raise ValueError(f"{name}: values in [{low:.3g}, {high:.3g}]; clip them to [0, 1]")
+
+
 def check_features(x, width):
     """Raise ValueError where x is not (n, width)."""
     if np.ndim(x) != 2 or np.shape(x)[1] != width:
@@ -71,9 +78,10 @@ def check_features(x, width):
 def as_numbers(name: str, values: Any) -> np.ndarray:
     """Convert values to an array of floats; ValueError where they are no numbers, or ragged."""
     try:
-        if values is None:  # NumPy would take it for NaN
-            raise TypeError
-        return np.asarray(values, float)
+        numbers = np.asarray(values)
+        if values is None or numbers.dtype.kind in "USc":
+            raise TypeError  # NumPy would take None for NaN, "1" for 1, and 1j for 0
+        return numbers.astype(float, copy=False)
     except (TypeError, ValueError):
         message = (
             f"{name} {short(values)} is no array of numbers: give numbers, in rows of a length"

@@ -80,6 +80,14 @@ def test_muscle_paths_are_continuous():
         assert np.abs(slope - between).max() < 1e-5  # a length that jumped would leave its slope
 
 
+def test_an_angle_that_is_no_number_gives_none():
+    lengths, arms = dynamics.paths([[0, np.nan], [0, 1]])
+    assert np.isnan(lengths[0]).all()
+    assert np.isnan(arms[0, 1]).all()
+    assert np.isfinite(lengths[1]).all()
+    assert np.isfinite(arms[1]).all()
+
+
 def test_closed_form_dynamics_equal_mujoco():
     rng = np.random.default_rng(0)
     q = rng.uniform(*LIMITS.T, (200, 2))

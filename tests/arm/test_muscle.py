@@ -23,6 +23,14 @@ def test_muscle_curves_at_published_values():
     np.testing.assert_allclose(muscle.activation_rate(0, 1), -25)
 
 
+def test_laws_take_lists_and_what_euler_rounds():
+    np.testing.assert_allclose(muscle.force_length([0.95, 0.95]), 1)
+    np.testing.assert_allclose(muscle.force([0, 0], [0.2] * 2, 0, maximum=[1, 2]), 0)
+    assert muscle.activation_rate(1, 1 + 2e-16) <= 0
+    with pytest.raises(TypeError, match="positional"):
+        muscle.force_length(1, 2)
+
+
 @given(UNIT, UNIT)
 def test_activation_moves_towards_excitation(u, a):
     rate = muscle.activation_rate(u, a)

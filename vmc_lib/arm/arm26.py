@@ -6,8 +6,8 @@ import mujoco
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vmc_lib.arm.dynamics import check_posture, check_radians
 from vmc_lib.arm.model import MUSCLES, XML, check_load
-from vmc_lib.arm.simulate import check_posture
 from vmc_lib.checks import as_numbers, cached, check_kind
 
 LOG = mujoco.MjLogConfig.get()
@@ -47,7 +47,11 @@ def model_with_load(load: float) -> mujoco.MjModel:
 def forward(
     q: ArrayLike, velocity: ArrayLike = (0.0, 0.0), data: mujoco.MjData | None = None
 ) -> mujoco.MjData:
-    """MuJoCo's data (new, or `data` overwritten) with one posture and joint velocity computed."""
+    """MuJoCo's data (new, or `data` overwritten) with one posture and joint velocity computed.
+
+    ValueError for a posture in degrees.
+    """
+    check_radians("posture", as_numbers("posture", q))
     data = data or mujoco.MjData(MODEL)
     data.qpos, data.qvel = q, velocity
     mujoco.mj_forward(data.model, data)
@@ -71,7 +75,7 @@ def geometry(q: ArrayLike) -> Geometry:
     """
     if np.shape(q) != (2,):
         raise ValueError(f"posture {q} must be (shoulder, elbow), in rad")
-    check_posture(as_numbers("posture", q), "posture")
+    check_posture(q)
     data = forward(q)
     names = [MODEL.body(k).name for k in range(1, MODEL.nbody)]
     bodies = {n: (data.body(n).xmat.reshape(3, 3).copy(), data.body(n).xpos.copy()) for n in names}

@@ -23,6 +23,7 @@ from vmc_lib.short_repr import short
 ROWS = 10_001  # of the muscle tables: steps of half a milliradian
 MARGIN = 0.4  # rad: the tables reach a little beyond the joints' stops
 LOW, HIGH = LIMITS[:, 0] - MARGIN, LIMITS[:, 1] + MARGIN
+FARTHEST = 2 * np.pi  # rad: no joint turns so far, unless the movement blows up
 ROWS_PER_RADIAN = (ROWS - 1) / (HIGH - LOW)
 UNIT = 1e-11  # m: the muscle tables ship in whole numbers of it …
 DIFFERENCES = 3  # … of which each row's third differences are small, and compress
@@ -81,7 +82,7 @@ def hand(q: ArrayLike) -> np.ndarray:
     >>> hand(np.radians([0, 90])).round(3).tolist()
     [0.249, -0.293, 0.061]
     """
-    return _trig_basis_of(q) @ coefficients()[1]
+    return _trig_basis_of(_posture(q)) @ coefficients()[1]
 
 
 def torque_for(
@@ -93,9 +94,8 @@ def torque_for(
     """
     velocity = _per_joint("velocity", velocity, "rad/s")
     acceleration = _per_joint("acceleration", acceleration, "rad/s²")
-    m11, m12, m22, b1, b2 = _dynamics(_terms(q, load), *velocity.T, STEP)
-    a1, a2 = acceleration.T
-    return np.array([m11 * a1 + m12 * a2 + b1, m12 * a1 + m22 * a2 + b2]).T
+    now = terms(_posture(q), load)
+    return np.array(equation_12_torques(now, *velocity.T, *acceleration.T, STEP)).T
 
 
 def forward_dynamics(q: ArrayLike, velocity: ArrayLike, torque: ArrayLike) -> np.ndarray:
@@ -104,7 +104,37 @@ def forward_dynamics(q: ArrayLike, velocity: ArrayLike, torque: ArrayLike) -> np
         _per_joint("velocity", velocity, "rad/s"),
         _per_joint("torque", torque, "N m"),
     )
-    return np.array(equation_12(_terms(q), *velocity.T, *torque.T, STEP)).T
+    return np.array(equation_12(terms(_posture(q)), *velocity.T, *torque.T, STEP)).T
+
+
+def check_posture(q: ArrayLike, name: str = "posture") -> None:
+    """ValueError where a posture (…, 2) lies beyond the joints' limits by more than MARGIN."""
+    if np.shape(q)[-1:] != (2,):
+        raise ValueError(f"{name} {q} must be (shoulder, elbow), (…, 2), in rad")
+    q = as_numbers(name, q)
+    far = ~np.all((q >= LOW) & (q <= HIGH), axis=-1)
+    if np.any(far):
+        raise ValueError(
+            f"{name} {q[far][0]} rad is beyond the joints' limits, {LIMITS.round(2).tolist()} rad; "
+            "give radians: np.radians(degrees)"
+        )
+
+
+def check_radians(name: str, q: np.ndarray) -> None:
+    """ValueError where an angle is so large that it can be in degrees alone."""
+    far = np.abs(q) >= FARTHEST
+    if np.any(far):
+        raise ValueError(
+            f"{name} {short(q)}: {q[far][0]:g} rad is a turn or more; "
+            "give radians: np.radians(degrees)"
+        )
+
+
+def _posture(q):
+    """A posture as an array (…, 2); ValueError for another shape, or in degrees."""
+    q = _per_joint("posture", q, "rad")
+    check_radians("posture", q)
+    return q
 
 
 def _per_joint(name, values, unit):
@@ -116,7 +146,11 @@ def _per_joint(name, values, unit):
     return as_numbers(name, values)
 
 
-def _terms(q, load=0.0):
+def terms(q: ArrayLike, load: float = 0.0) -> np.ndarray:
+    """The terms of Eq. 12 (7, …) in postures (…, 2): inertia, motion, gravity.
+
+    For loops: the angles may be as wild as a forward model predicts them.
+    """
     return (_trig_basis_of(q) @ coefficients(load)[0]).T
 
 
@@ -133,6 +167,14 @@ def equation_12(
     return (m22 * t1 - m12 * t2) / determinant, (m11 * t2 - m12 * t1) / determinant
 
 
+def equation_12_torques(
+    terms: np.ndarray, w1: Numbers, w2: Numbers, a1: Numbers, a2: Numbers, step: float
+) -> tuple[Any, Any]:
+    """Eq. 12 solved for the torques of the joints: from their velocities and accelerations."""
+    m11, m12, m22, b1, b2 = _dynamics(terms, w1, w2, step)
+    return m11 * a1 + m12 * a2 + b1, m12 * a1 + m22 * a2 + b2
+
+
 def _dynamics(terms, w1, w2, step):
     """The mass matrix's entries, and the torques of motion, gravity and damping."""
     m11, m12, m22, swing, bend, gravity1, gravity2 = terms
@@ -146,21 +188,26 @@ def _dynamics(terms, w1, w2, step):
 def paths(q: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
     """Musculotendon lengths (…, 6) and moment arms (…, 2, 6) in m; angles held to the tables.
 
-    ValueError where a posture is no (…, 2).
+    ValueError where a posture is no (…, 2), or in degrees.
     """
+    return interpolated_paths(_posture(q))
+
+
+def interpolated_paths(q: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
+    """`paths` for loops: the angles may be as wild as a forward model predicts them."""
     row, share = table_row(_per_joint("posture", q, "rad"), slice(2))
     entry = tables()[np.arange(2), row]
     value = entry[..., :12] + share[..., None] * entry[..., 12:]
     return value[..., 0, :6] + value[..., 1, :6], value[..., 6:]
 
 
-def table_row(angle: ArrayLike, joint: int | slice) -> tuple[Any, Any]:
+def table_row(angle: Numbers, joint: int | slice) -> tuple[Any, Any]:
     """The row of the `tables` for a joint at this angle, and the share of the way to the next."""
     low = LOW[joint]
-    # fmin, fmax: an angle that is not a number has a row, too; its movement is not a number either
+    # fmin, fmax: an angle that is not a number has a row, too, and a share that is none either
     place = (np.fmin(np.fmax(angle, low), HIGH[joint]) - low) * ROWS_PER_RADIAN[joint]
     row = np.int64(place)
-    return row, place - row
+    return row, place - row + 0 * angle
 
 
 @cache

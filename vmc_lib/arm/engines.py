@@ -9,14 +9,20 @@ from copy import copy
 import numpy as np
 
 from vmc_lib.arm import dynamics
-from vmc_lib.arm.dynamics import equation_12, table_row, trig_basis, trig_basis_gradient
+from vmc_lib.arm.dynamics import (
+    FARTHEST,
+    equation_12,
+    interpolated_paths,
+    table_row,
+    trig_basis,
+    trig_basis_gradient,
+)
 from vmc_lib.arm.model import F0, L0, LIMITS, SLACK, STEP
 from vmc_lib.arm.muscle import PAPER, euler_activation, fibre, musculotendon_force
 from vmc_lib.compiled import AVAILABLE, compiled
 
 STOP_STIFFNESS = 200.0  # N m / rad: ours, not arm26's; bone and ligament beyond the joints' limits
 STOP_DAMPING = 0.5  # s / rad
-FARTHEST = 2 * np.pi  # rad: no joint turns so far, unless the movement blows up
 NO_PUSH, NO_DRAG, NO_FIELD = np.empty((0, 0, 2)), np.zeros((2, 2)), np.zeros((2, 2))
 
 
@@ -54,8 +60,9 @@ def muscle_acceleration(q, velocity, activation, strength=1.0):
 
     Every muscle's torque is multiplied by `strength`.
     """
-    torque = strength * muscle_torque(activation, *dynamics.paths(q), velocity)
-    return dynamics.forward_dynamics(q, velocity, torque + stop_torque(q, velocity))
+    torque = strength * muscle_torque(activation, *interpolated_paths(q), velocity)
+    torque = torque + stop_torque(q, velocity)
+    return np.transpose(equation_12(dynamics.terms(q), *np.transpose(velocity), *torque.T, STEP))
 
 
 def _compiled_engine(excitations, start, first, perturbation, step, muscle):
@@ -142,7 +149,7 @@ def _step_together(
     """`_step` of all arms at once, in NumPy: for Python without numba, as in the page."""
     for t in range(first, end):
         now, w, a = q[:, t], velocity[:, t], activation[:, t]
-        torque = muscle_torque(a, *dynamics.paths(now), w) + stop_torque(now, w) + w @ field.T
+        torque = muscle_torque(a, *interpolated_paths(now), w) + stop_torque(now, w) + w @ field.T
         if len(push):
             rises = np.array(trig_basis_gradient(*now.T))
             jacobian = np.einsum("jnb,nx->bjx", rises, coefficients[1][:, :2])
@@ -150,7 +157,7 @@ def _step_together(
             torque += np.einsum("bjx,bx->bj", jacobian, pushed)
         terms = coefficients[0].T @ trig_basis(*now.T)
         change = equation_12(terms, *w.T, *torque.T, step)
-        activation[:, t + 1] = euler_activation(u[:, t], a, step)
+        activation[:, t + 1] = a + step * PAPER.activation_rate(u[:, t], a)
         velocity[:, t + 1] = w + step * np.transpose(change)
         q[:, t + 1] = now + step * velocity[:, t + 1]
 

@@ -11,17 +11,21 @@ Three curves and one lag. The paper leaves units and ranges open; we read it so:
 - the passive force rises again below l = 0.22 (an even power): `passive_force` holds l above it.
 
 Every law takes numbers or arrays: NumPy works them out as they stand, and the arm's compiled loop
-is made of the same functions.
+is made of the same functions, without the checks that `law` adds.
 """
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from functools import wraps
+from inspect import signature, unwrap
+from numbers import Real
+from typing import Any, NamedTuple, ParamSpec
 
 import numpy as np
 
-from vmc_lib.checks import as_numbers, check_rng, is_within
+from vmc_lib.checks import as_numbers, check_rng, check_shares, is_positive, is_within
 from vmc_lib.short_repr import short
 
+Given = ParamSpec("Given")
 Numbers = float | np.ndarray
 
 TAU_ACTIVATION = 0.010  # s: calcium floods in quickly …
@@ -30,12 +34,39 @@ MAX_VELOCITY = 2.5  # optimal fibre lengths per second, the unit of v
 VELOCITY_RANGE = 1 - 11**0.5, 0.9
 
 
+def law(equation: Callable[Given, Any]) -> Callable[Given, Any]:
+    """An equation that takes lists, too, and refuses text, and what no muscle can have.
+
+    The arm's loops leave these checks out, by `unwrap`: they would take longer than the equation,
+    and what blows up there is told of by its step.
+    """
+    names = tuple(signature(equation).parameters)
+
+    @wraps(equation)
+    def call(*given: Any, **named: Any) -> Any:
+        numbers = {name: _checked(name, value) for name, value in named.items()}
+        return equation(*map(_checked, names, given), *given[len(names) :], **numbers)
+
+    return call
+
+
+def _checked(name, value):
+    numbers = as_numbers(name, value)
+    if name in ("excitation", "activation"):
+        check_shares(name, numbers)
+    if name == "step" and not is_positive(value):
+        raise ValueError(f"a step of {short(value)} s: give seconds, above 0")
+    return value if isinstance(value, Real) else numbers
+
+
+@law
 def activation_rate(excitation: Numbers, activation: Numbers) -> Any:
     """Eq. 9: how fast activation follows excitation, both in [0, 1]; per second, same shape."""
     gap, (fall, haste) = excitation - activation, _rates()
     return gap * (fall + haste * excitation * (gap >= 0))
 
 
+@law
 def euler_activation(excitation: Numbers, activation: Numbers, step: float) -> Any:
     """Eq. 9 by Euler's method: the activation one `step` in s later; same shape."""
     return activation + step * activation_rate(excitation, activation)
@@ -58,12 +89,14 @@ def _rates():
     return 1 / TAU_DEACTIVATION, 1 / TAU_ACTIVATION - 1 / TAU_DEACTIVATION
 
 
+@law
 def force_length(length: Numbers) -> Any:
     """f1 of Eq. 11: the share of maximal force an active fibre has at this normalised length."""
     square = np.square(length - 0.95)
     return np.exp(square - 40 * np.square(square))
 
 
+@law
 def force_velocity(velocity: Numbers) -> Any:
     """f2 of Eq. 11: 1.01 when still, falling to 0 in fast shortening, up to 1.6 in lengthening."""
     low, high = VELOCITY_RANGE
@@ -71,11 +104,13 @@ def force_velocity(velocity: Numbers) -> Any:
     return 1.6 - 1.6 * np.exp(0.1 * inverse - 1.1 * np.square(inverse))
 
 
+@law
 def passive_force(length: Numbers) -> Any:
     """f3 of Eq. 11: the pull of a stretched muscle that nobody excites."""
     return 1.3 * np.arctan(0.1 * (np.maximum(length, 0.22) - 0.22) ** 10)
 
 
+@law
 def force(activation: Numbers, length: Numbers, velocity: Numbers, maximum: Numbers) -> Any:
     """Eq. 10: muscle force in newtons; `length` and `velocity` normalised, `maximum` = F0."""
     active = force_length(length) * force_velocity(velocity) * activation
@@ -131,4 +166,4 @@ class Muscle(NamedTuple):
 
 
 # Looked up when they are called: whoever replaces a law of this module is followed
-PAPER = Muscle(lambda *given: activation_rate(*given), lambda *given: force(*given))
+PAPER = Muscle(lambda *given: unwrap(activation_rate)(*given), lambda *given: unwrap(force)(*given))

@@ -12,11 +12,11 @@ from typing import Literal, NamedTuple, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vmc_lib.arm.dynamics import MARGIN, hand
-from vmc_lib.arm.engines import ENGINES, FARTHEST
-from vmc_lib.arm.model import F0, LIMITS, STEP, check_load
+from vmc_lib.arm.dynamics import FARTHEST, check_posture, hand
+from vmc_lib.arm.engines import ENGINES
+from vmc_lib.arm.model import F0, STEP, check_load
 from vmc_lib.arm.muscle import PAPER, Muscle
-from vmc_lib.checks import as_numbers, check_kind, is_within
+from vmc_lib.checks import as_numbers, check_kind, check_shares, is_within
 from vmc_lib.short_repr import short, short_repr
 
 
@@ -111,7 +111,7 @@ def simulate(
     u = as_numbers("excitations", excitations)
     if u.ndim < 2 or u.shape[-1] != len(F0) or 0 in u.shape:
         raise ValueError(f"excitations have shape {u.shape}; use (T, 6) or (…, T, 6), T ≥ 1")
-    _check_range("excitations", u)
+    check_shares("excitations", u)
     check_kind("muscle", muscle, Muscle, "Muscle(activation_rate, force), two functions")
     engine = engine or ("compiled" if muscle is PAPER else "mujoco")
     if not isinstance(engine, str) or engine not in ENGINES:
@@ -121,9 +121,9 @@ def simulate(
     _check_step(step)
     leading = u.shape[:-2]
     q = _per_movement("start", start, leading, 2)
-    check_posture(q)
+    check_posture(q, "start")
     a = _per_movement("activation", u[..., 0, :] if activation is None else activation, leading, 6)
-    _check_range("activation", a)
+    check_shares("activation", a)
     check_kind("perturbation", perturbation, Perturbation, "Perturbation(load=1.0), in kg")
     check_load(perturbation.load)
     _check_field(perturbation.field)
@@ -144,7 +144,7 @@ def constant_excitation(level: ArrayLike, duration: float, step: float = STEP) -
     level = as_numbers("level", level)
     if level.shape[-1:] != (6,):
         raise ValueError(f"levels of shape {level.shape}: give one for each of the 6 muscles")
-    _check_range("levels", level)
+    check_shares("levels", level)
     return np.repeat(level[..., None, :], round(duration / step), axis=-2)
 
 
@@ -162,25 +162,6 @@ def _per_movement(name, value, leading, size):
 def _check_step(step):
     if not (is_within(step, 0, 0.01) and step):
         raise ValueError(f"a step of {short(step)} s: Euler's method needs one in (0, 0.01] s")
-
-
-def _check_range(name, value):
-    low, high = value.min(initial=0), value.max(initial=0)
-    if not (low >= 0 and high <= 1):
-        raise ValueError(f"{name}: values in [{low:.3g}, {high:.3g}]; clip them to [0, 1]")
-
-
-def check_posture(q: np.ndarray, name: str = "start") -> None:
-    """ValueError where a posture (…, 2) lies beyond the joints' limits by more than MARGIN."""
-    if np.shape(q)[-1:] != (2,):
-        raise ValueError(f"{name} {q} must be (shoulder, elbow), (…, 2), in rad")
-    q = as_numbers(name, q)
-    far = ~np.all((q >= LIMITS[:, 0] - MARGIN) & (q <= LIMITS[:, 1] + MARGIN), axis=-1)
-    if np.any(far):
-        raise ValueError(
-            f"{name} {q[far][0]} rad is beyond the joints' limits, {LIMITS.round(2).tolist()} rad; "
-            "give radians: np.radians(degrees)"
-        )
 
 
 def _check_field(field):

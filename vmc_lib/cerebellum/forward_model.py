@@ -11,7 +11,7 @@ from typing import Self
 
 import numpy as np
 
-from vmc_lib.arm.dynamics import paths
+from vmc_lib.arm.dynamics import interpolated_paths
 from vmc_lib.arm.engines import muscle_acceleration, muscle_torque
 from vmc_lib.arm.model import STEP
 from vmc_lib.arm.simulate import Motion
@@ -60,5 +60,6 @@ class ForwardModel:
 def mossy_fibres(q: np.ndarray, velocity: np.ndarray, activation: np.ndarray) -> np.ndarray:
     """The inputs of the granule cells: posture, speed, muscles' torque, (B, 6)."""
     q, velocity = as_numbers("q", q), as_numbers("velocity", velocity)
-    torque = muscle_torque(as_numbers("activation", activation), *paths(q), velocity)
+    lengths, arms = interpolated_paths(q)
+    torque = muscle_torque(as_numbers("activation", activation), lengths, arms, velocity)
     return np.concatenate([q, velocity / FAST, torque / STRONG], axis=-1)

@@ -108,7 +108,7 @@ def algorithm_1(
     Raises
     ------
     ValueError
-        Where there is no n to try.
+        Where there is no n to try, or the change is no Δw of the plan.
 
     Examples
     --------
@@ -120,7 +120,8 @@ def algorithm_1(
     """
     if not np.size(gains) or np.ndim(gains) != 1:
         raise ValueError(f"gains = {short(gains)}: name at least one n to try, as range(21) does")
-    as_numbers("gains", gains)
+    if not np.isfinite(as_numbers("gains", gains)).all():
+        raise ValueError(f"gains = {short(gains)}: give finite numbers")
     check_function("change", change, "algorithm_1_change")
     check_function("execute", execute, MOVES)
     if sign not in (1, -1) or as_numbers("origin", origin).shape != (2,):
@@ -129,6 +130,13 @@ def algorithm_1(
         )
     planned = execute(plan)
     changes = [change(plan, planned.endpoint, n, origin, sign) for n in gains]
+    for each in changes:
+        if np.shape(each) != plan.weights.shape:
+            name = getattr(change, "__name__", change)
+            raise ValueError(
+                f"the law {name} returned {short(each)}, a {type(each).__name__}: it must return "
+                f"Δw, an array {plan.weights.shape}, as algorithm_1_change does"
+            )
     return _trials(planned, execute(plan.with_weights(plan.weights + np.stack(changes))))
 
 

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vmc_lib.arm.dynamics import paths, torque_for
+from vmc_lib.arm.dynamics import equation_12_torques, paths, terms
 from vmc_lib.arm.engines import NO_DRAG, allocate_trajectory, fibres, step_trajectory
 from vmc_lib.arm.kinematics import inverse_kinematics
 from vmc_lib.arm.model import STEP
@@ -237,8 +237,10 @@ def excitations_for_acceleration(
     The minimum-norm change, by the pseudo-inverse. Muscles cannot push: what clipping to [0, 1]
     takes from one is asked of the others, twice.
     """
-    still = torque_for(q, velocity, np.zeros_like(acceleration))
-    torque = torque_for(q, velocity, acceleration) - still
+    now = terms(q)
+    still = equation_12_torques(now, *velocity.T, 0, 0, STEP)
+    torque = equation_12_torques(now, *velocity.T, *acceleration.T, STEP)
+    torque = np.subtract(torque, still).T
     gain = muscle_gain(q, velocity)[1]
     share, u = np.linalg.pinv(gain), excitations
     for _ in range(3):
@@ -263,8 +265,8 @@ class Disturbance(NamedTuple):
 def curl(strength: float) -> Disturbance:
     """A curl field: it pushes a moving hand aside, clockwise, by `strength` N for each m/s."""
     strength = as_numbers("strength", strength)
-    if strength.ndim:
-        raise ValueError(f"a curl of {short(strength)} N s / m: give one number")
+    if not is_within(strength[()], -np.inf, np.inf):
+        raise ValueError(f"a curl of {short(strength)} N s / m: give one number, a finite one")
     return Disturbance(drag=strength * np.array([[0.0, 1.0], [-1.0, 0.0]]))
 
 
@@ -273,10 +275,14 @@ def push(force: ArrayLike, at: float | np.ndarray) -> Disturbance:
 
     Each of a batch may have its own: forces (B, 2), and times (B, 1).
     """
-    force = as_numbers("force", force)
+    force, at = as_numbers("force", force), as_numbers("at", at)
     if force.shape[-1:] != (2,):
         raise ValueError(f"a force {force} N: give (forward, up), in the arm's plane")
-    return Disturbance(force=force, at=as_numbers("at", at)[()])
+    if not (np.isfinite(force).all() and np.all((at >= 0) & (at < np.inf))):
+        raise ValueError(
+            f"a push of {short(force)} N at {short(at)} s: give finite numbers, 0 s or later"
+        )
+    return Disturbance(force=force, at=at[()])
 
 
 def _push_over_time(disturbance, batch, steps):

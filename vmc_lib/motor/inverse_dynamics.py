@@ -7,11 +7,10 @@ few spline coefficients keep.
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vmc_lib.arm import dynamics
+from vmc_lib.arm.dynamics import check_posture, check_radians, interpolated_paths, torque_for
 from vmc_lib.arm.engines import fibres
 from vmc_lib.arm.model import F0, STEP
 from vmc_lib.arm.muscle import PAPER
-from vmc_lib.arm.simulate import check_posture
 from vmc_lib.checks import as_numbers, cached, check_count, is_positive
 from vmc_lib.data import read_only
 from vmc_lib.short_repr import short
@@ -51,11 +50,13 @@ def minimum_jerk(
     """Minimum-jerk paths (…, samples + 1, n) from start to goal (…, n), there after `moving`.
 
     Then they stay there. ValueError where start and goal are no joint angles, or places, of one
-    length; where there is no sample, or no time to move.
+    length, or are angles in degrees; where there is no sample, or no time to move.
     """
     start, goal = as_numbers("start", start), as_numbers("goal", goal)
     if start.ndim == 0 or start.shape[-1:] != goal.shape[-1:]:
         raise ValueError(f"from start {start} to goal {goal}: give both of one length, (…, n)")
+    check_radians("start", start)
+    check_radians("goal", goal)
     check_count("samples", samples, least=1)
     if not is_positive(moving):
         raise ValueError(f"moving = {short(moving)}: give a number of samples above 0")
@@ -72,7 +73,7 @@ def muscle_gain(q: np.ndarray, velocity: np.ndarray) -> tuple[np.ndarray, np.nda
     q, velocity = as_numbers("posture", q), as_numbers("velocity", velocity)
     if q.shape != velocity.shape:
         raise ValueError(f"posture {q.shape} and velocity {velocity.shape}: give both as (…, 2)")
-    lengths, arms = dynamics.paths(q)
+    lengths, arms = interpolated_paths(q)
     normal = fibres(lengths, arms, velocity)
     slack, full = (PAPER.force(a, *normal, F0)[..., None, :] for a in (0.0, 1.0))
     return (arms * slack).sum(axis=-1), arms * (full - slack)
@@ -117,7 +118,7 @@ def required_torque(path: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     acceleration = np.diff(velocity, axis=0) / STEP
     q, velocity = path[:-1], velocity[:-1]
     slack, gain = muscle_gain(q, velocity)
-    return dynamics.torque_for(q, velocity, acceleration) - slack, gain
+    return torque_for(q, velocity, acceleration) - slack, gain
 
 
 def static_activation(q: ArrayLike) -> np.ndarray:
@@ -125,7 +126,7 @@ def static_activation(q: ArrayLike) -> np.ndarray:
 
     ValueError for a posture far beyond the joints' limits.
     """
-    check_posture(q := as_numbers("posture", q), "posture")
+    check_posture(q := as_numbers("posture", q))
     if q.ndim != 1:
         raise ValueError(f"postures {q.shape}: give one, (2,), in rad")
     torque, gain = required_torque(np.tile(q, (2, 1)))

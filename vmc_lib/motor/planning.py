@@ -85,7 +85,7 @@ def habitual_weights(target: ArrayLike, points: np.ndarray, power: float = 1) ->
     >>> habitual_weights(np.array([0.1, -0.4]), points).round(3).tolist()
     [0.75, 0.25]
     """
-    distance = norm(offsets(points, target))
+    distance = _distances(target, points)
     if not is_within(power, -np.inf, np.inf):
         raise ValueError(f"power = {short(power)}: give a number, as 1 or 2")
     on = distance < 1e-9
@@ -143,8 +143,17 @@ def nearest(target: ArrayLike, points: np.ndarray, count: int) -> np.ndarray:
     check_count("count", count, least=1)
     if count > len(points):
         raise ValueError(f"cannot choose {count} of {len(points)} templates")
-    distance = norm(offsets(points, target))
-    return distance.argsort(axis=-1, kind="stable")[..., :count]
+    return _distances(target, points).argsort(axis=-1, kind="stable")[..., :count]
+
+
+def _distances(target, points):
+    """From targets (…, D) to points (…, N, D), (…, N); ValueError where one is not finite."""
+    distances = norm(offsets(points, target))
+    if not np.isfinite(distances).all():
+        raise ValueError(
+            f"target {short(target)}, points {short(points)}: give finite places, in m"
+        )
+    return distances
 
 
 def is_surrounded(target: ArrayLike, points: np.ndarray) -> np.ndarray:
@@ -269,9 +278,14 @@ def check_templates(template_set: object) -> None:
     check_kind("template_set", template_set, TemplateSet, "what motor.templates.load() returns")
 
 
-def check_plan(plan: object) -> None:
-    """Raise ValueError where what should be a `Plan` is none."""
+def check_plan(plan: Any) -> None:
+    """Raise ValueError where it is no `Plan`, or not of one weight for each of its rows."""
     check_kind("plan", plan, Plan, "what plan(target, template_set) returns")
+    if np.shape(plan.weights) != np.shape(plan.rows):
+        raise ValueError(
+            f"a plan of weights {np.shape(plan.weights)} and rows {np.shape(plan.rows)}: "
+            "give plan.with_weights(one for each row)"
+        )
 
 
 def check_batch(plan: Plan) -> None:

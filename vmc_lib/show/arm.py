@@ -15,8 +15,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vmc_lib import NoReach
+from vmc_lib.arm.dynamics import check_posture
 from vmc_lib.arm.kinematics import to_world, turn_towards
-from vmc_lib.arm.simulate import Motion, check_posture
+from vmc_lib.arm.simulate import Motion
 from vmc_lib.checks import as_numbers, is_within
 from vmc_lib.photos import Photo
 from vmc_lib.short_repr import short
@@ -65,7 +66,7 @@ def arm_scene(
             raise ValueError(f"{short(q)} is a batch: give one movement of it, list(motion)[0]")
         activation, q = q.activation, q.q
     q = _samples("posture", q, 2)[::EVERY]
-    check_posture(q, "posture")
+    check_posture(q)
     moments = np.arange(len(q)) * EVERY / 1000
     active = _samples("activation", activation, 6)[::EVERY]
     turns = np.atleast_1d(as_numbers("turn", turn))[::EVERY]
