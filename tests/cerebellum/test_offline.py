@@ -122,7 +122,7 @@ def test_corrections_are_finite_on_a_target_and_on_a_template(template_set):
 
 
 def test_guards_limit_the_error_with_a_load(reaches):
-    loaded = partial(execute, perturbation=Perturbation(load=0.25))
+    loaded = partial(execute, perturbation=Perturbation(load=0.5))
     trials = [broyden_calibration(reaches, 4, guarded=g, execute=loaded) for g in (True, False)]
     guarded, bold = (each.error for each in trials)
     np.testing.assert_array_equal(guarded[0], bold[0])

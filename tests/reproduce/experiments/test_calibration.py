@@ -139,13 +139,15 @@ def test_steps_are_measured_on_the_same_movements():
 def test_no_cure_gets_worse_with_practice():
     """An aim that cannot be kept must not pile up: late blocks beside the early ones.
 
-    Of the error that is there where nothing learns: some blocks' targets are harder.
+    Of the error that is there where nothing learns: some blocks' targets are harder. Of the pull,
+    this is true for the load; elsewhere it only never gets as bad as where nothing learns.
     """
     draws = load_results()["perturbations"]
     for world, corrects in product(PERTURBATIONS, CORRECTIONS):
         error, alone = (draws[f"{world}, {cure}"].mean(axis=0) for cure in (corrects, NOTHING))
         early, late = (error[k].sum() / alone[k].sum() for k in (slice(3, 6), slice(7, 10)))
-        assert late < 1.15 * early, (world, corrects)
+        serves = corrects == "aim" or "load" in world
+        assert late < (1.15 * early if serves else 0.8), (world, corrects)
 
 
 def test_shipped_results_are_reproducible(template_set):

@@ -45,7 +45,7 @@ def silences_a_muscle(patch):
         return replace(past, reach=lambda u, p: past.reach(u * awake, p))
 
     patch.setattr(planning.templates, "load", load)
-    patch.setattr(planning, "SEEDS", FEW)
+    patch.setattr(planning, "MANY", FEW)
 
 
 def moves_linearly(patch):
@@ -57,7 +57,7 @@ def moves_linearly(patch):
 
     for module in (planning, one_draw):
         patch.setattr(module, "execute", execute)
-    patch.setattr(planning, "SEEDS", FEW)
+    patch.setattr(planning, "MANY", FEW)
 
 
 def plans_slowly(patch):
@@ -79,7 +79,6 @@ def shuffles_the_weights(patch):
 
     for module in (planning, one_draw, motor_planning):
         patch.setattr(module, "exact_weights", shuffled)
-    patch.setattr(planning, "SEEDS", FEW)
     draws_few(patch, planning)
 
 
@@ -190,7 +189,7 @@ def weighs(rule):
             lambda apart=0.06, _=None: ratios(apart, nulls.WEIGHTS[rule]),
         )
         patch.setattr(one_draw, "worst_example", lambda seed: example(seed, nulls.WEIGHTS[rule]))
-        patch.setattr(planning, "SEEDS", FEW)
+        patch.setattr(planning, "MANY", FEW)
 
     mutate.__name__ = f"weighs_{rule}"
     return mutate

@@ -45,5 +45,6 @@ def test_bandwidths_are_those_of_a_cell_behind_the_retina():
     assert degrees == pytest.approx(2 * np.degrees(np.arctan(half * wavelength)), abs=2)
 
 
-def test_a_filter_wider_than_the_coarsest_stripe_has_no_bandwidth():
-    assert gabor.bandwidths(np.ones((64, 64)))[0] == np.inf
+def test_a_blob_wider_than_the_coarsest_stripe_has_no_bandwidth():
+    bell = np.exp(-np.square(np.arange(-32, 33) / 12) / 2)
+    assert gabor.bandwidths(np.outer(bell, bell))[0] == np.inf
