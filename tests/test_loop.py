@@ -271,7 +271,7 @@ def test_what_the_loop_returns_has_a_repr_of_a_line(model, photo, sight):
 def test_of_two_shuttlecocks_the_one_in_reach_is_reached_for(model, photo, monkeypatch):
     """The best box stays the best; where none can be reached, there is no reach."""
     near = photo.boxes["shuttlecock"]
-    far = near - np.array([0, 1000, 0, 1000])  # beyond the horizon
+    far = np.array([0.0, 0.0, 40.0, 40.0])  # a corner of the table, out of reach
     for boxes, reached in (([far, near], True), ([near, far], True), ([far], False)):
         found = Detections(None, None, None, np.array(boxes), None)
         sight = loop.Sight(found, np.full(len(boxes), 0.9))

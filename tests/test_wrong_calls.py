@@ -147,7 +147,7 @@ SIGHT = {  # a call: what its error says, the value and the remedy
     "a box inside out": (lambda g: boxes.iou([5, 5, 1, 1], [0, 0, 3, 3]), "[5. 5.", "x0 <= x1"),
     "too few scores": (lambda g: boxes.nms([[0, 0, 1, 1]], [0.3, 0.4]), "(2,)", "as many finite"),
     "an overlap": (lambda g: boxes.nms([[0, 0, 1, 1]], [0.3], 3), "overlap = 3", "within 0..1"),
-    "an empty box": (lambda g: crops.crop(g.image, (0, 0, 0, 0)), "[0 0 0 0]", "600×400"),
+    "an empty box": (lambda g: crops.crop(g.image, (0, 0, 0, 0)), "(0, 0, 0, 0)", "600×400"),
     "pixels": (lambda g: g.photo.camera.back_project([[1, 2, 3]]), "(1, 3)", "give (n, 2)"),
     "points": (lambda g: g.photo.camera.project([[1, 2]]), "(1, 2)", "give (n, 3)"),
     "a strategy": (lambda g: selective_search.propose(g.image, "x"), "'x'", "single, fast"),
@@ -366,6 +366,10 @@ SIGHT = {  # a call: what its error says, the value and the remedy
     ),
     "a seed for centres": (
         lambda g: box_regression.RBFRidge.fit(np.eye(2), np.eye(2), 1, 0), "rng 0", "default_rng"
+    ),
+    "a place outside": (
+        lambda g: loop.locate(g.model, g.image, [900, 900, 950, 950], g.photo.camera),
+        "[900, 900, 950, 950]", "600×400",
     ),
 }  # fmt: skip
 MOVING = {

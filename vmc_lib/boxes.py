@@ -34,6 +34,17 @@ def as_box(box: ArrayLike) -> np.ndarray:
     return boxes[0]
 
 
+def pixels_inside(box: ArrayLike, image: np.ndarray) -> np.ndarray:
+    """The whole pixels (x0, y0, x1, y1) of a box in an image; ValueError for fewer than 2 × 2."""
+    if not isinstance(image, np.ndarray):
+        raise ValueError(f"{short(image)} is no image: see photos.read_image")
+    height, width = image.shape[:2]
+    inside = np.clip(np.round(as_box(box)), 0, [width, height] * 2).astype(int)
+    if np.any(inside[2:] - inside[:2] < 2):
+        raise ValueError(f"the box {short(box)} holds nothing of a {width}×{height} image")
+    return inside
+
+
 def _check_fours(boxes):
     """Raise ValueError where boxes are no rows of four; their order is not looked at."""
     if np.shape(boxes)[-1:] != (4,):

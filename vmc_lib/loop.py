@@ -16,6 +16,7 @@ from vmc_lib import NoReach, photos
 from vmc_lib.arm.kinematics import to_world, turn_towards
 from vmc_lib.arm.simulate import Motion
 from vmc_lib.box_selection import SIZE_LIKELIHOOD_RATIO, filter_by_size, scale_odds
+from vmc_lib.boxes import pixels_inside
 from vmc_lib.camera import Camera
 from vmc_lib.cerebellum.offline import Rule, calibrate
 from vmc_lib.checks import as_numbers, check_kind
@@ -180,6 +181,8 @@ def locate(
     ------
     vmc_lib.NoReach
         Without a box or a camera, or if the line of sight does not meet the table.
+    ValueError
+        For a box outside the image.
     """
     if box is None:
         raise NoReach("no shuttlecock was recognised: there is no place to reach for")
@@ -187,6 +190,7 @@ def locate(
         raise NoReach("the camera is unknown, so a box has no place: give the photo's Camera")
     check_kind("model", model, VisuomotorModel, MODEL)
     check_kind("camera", camera, Camera, "photo.camera, or None")
+    pixels_inside(box, image)  # or the localiser would read its place off the image's edge
     return model.localiser.locate(image, box, camera)
 
 

@@ -6,7 +6,7 @@ from functools import cache
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike
 
-from vmc_lib.boxes import as_box
+from vmc_lib.boxes import pixels_inside
 from vmc_lib.checks import as_numbers, is_positive
 from vmc_lib.short_repr import short
 
@@ -23,13 +23,7 @@ def crop(image: np.ndarray, box: Sequence[float] | np.ndarray) -> np.ndarray:
 
     from vmc_lib.photos import as_rgb
 
-    if not isinstance(image, np.ndarray):
-        raise ValueError(f"{short(image)} is no image: see photos.read_image")
-    height, width = image.shape[:2]
-    corners = as_box(box)
-    x0, y0, x1, y1 = np.clip(np.round(corners), 0, [width, height] * 2).astype(int)
-    if x1 - x0 < 2 or y1 - y0 < 2:
-        raise ValueError(f"the box {np.round(box, 1)} holds nothing of a {width}×{height} image")
+    x0, y0, x1, y1 = pixels_inside(box, image)
     grey = cv2.cvtColor(as_rgb(image[y0:y1, x0:x1]), cv2.COLOR_RGB2GRAY)
     how = cv2.INTER_AREA if min(x1 - x0, y1 - y0) > WIDTH else cv2.INTER_CUBIC
     return cv2.resize(grey, (WIDTH, WIDTH), interpolation=how).astype(np.float32) / 255
