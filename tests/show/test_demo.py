@@ -157,6 +157,12 @@ def test_an_unknown_render_mode_is_refused(monkeypatch):
         show()
 
 
+def test_an_error_says_in_plain_numbers_what_was_asked_for():
+    with pytest.raises(ZeroDivisionError) as error:
+        demo.widget(lambda n: f"<p>{1 // int(n)}</p>", n=Slider(np.linspace(0, 1, 3)))
+    assert error.value.__notes__ == ["It was asked for {'n': 0.0}."]
+
+
 @pytest.mark.parametrize("drawn", [None, 3, "plain words", [np.eye(2)], {}])
 def test_an_unknown_picture_is_refused_before_its_words_are_asked_for(drawn):
     with pytest.raises(ValueError, match="cannot show"):

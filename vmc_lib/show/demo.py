@@ -38,7 +38,7 @@ from vmc_lib.show.positions import (
 from vmc_lib.show.render_mode import render_mode
 from vmc_lib.show.scene import Scene
 from vmc_lib.show.stored import all_states, page, recipe
-from vmc_lib.show.values import Demo
+from vmc_lib.show.values import Demo, Values
 
 MOST_POSITIONS = 200
 SAID = '<p class="vmc-kernel" role="status"></p><p class="vmc-error" role="alert"></p>'
@@ -131,7 +131,7 @@ def widget(
         try:
             return draw_state(draw, values, name, alt, not in_page)
         except Exception as error:
-            error.add_note(f"It was asked for {values}.")
+            error.add_note(f"It was asked for {Values(values)}.")
             raise
 
     texts = {key: c.texts[c.first] for key, c in controls.items() if isinstance(c, Slider)}

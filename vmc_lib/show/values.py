@@ -125,7 +125,7 @@ class Demo(Live):
     @traitlets.validate("value")
     def _on_the_grid(self, proposal):
         if not isinstance(proposal.value, dict):
-            raise ValueError(f"value = {proposal.value!r}: give a dictionary, {dict(self.value)}")
+            raise ValueError(f"value = {proposal.value!r}: give a dictionary, {self.value}")
         values = values_at(self.place, self.controls) | proposal.value
         return Values(values_at(position(values, self.controls), self.controls))
 
