@@ -227,7 +227,7 @@ def test_reading_refuses_damaged_files(picture, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     with pytest.raises(ValueError, match=f"no photo at {tmp_path}/missing.jpg"):
         photos.read_image("missing.jpg")
-    with pytest.raises(ValueError, match="cannot be read"):
+    with pytest.raises(ValueError, match="is a folder: name a file in it"):
         photos.read_image(tmp_path)
     (tmp_path / "text.jpg").write_text("not a photo", encoding="utf-8")
     with pytest.raises(ValueError, match="not an image"):
@@ -249,7 +249,7 @@ def test_reading_refuses_damaged_files(picture, tmp_path, monkeypatch):
         ("https://example.org/a.jpg", "is an address: save the photo"),
         ("file:///a.jpg", "is an address"),
         ("~nobody-of-that-name/a.jpg", "cannot be read"),
-        (".", "cannot be read"),
+        (".", "is a folder"),
     ],
 )
 def test_what_is_no_file_is_told(name, words):

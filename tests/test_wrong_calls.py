@@ -371,6 +371,7 @@ SIGHT = {  # a call: what its error says, the value and the remedy
         lambda g: loop.locate(g.model, g.image, [900, 900, 950, 950], g.photo.camera),
         "[900, 900, 950, 950]", "600×400",
     ),
+    "a photo of no name": (lambda g: photos.read_image(""), "is a folder", "name a file in it"),
 }  # fmt: skip
 MOVING = {
     "a target in the plane": (lambda g: loop.reach(g.model, (0.1, -0.4)), "[ 0.1 -0.4]", "in m"),

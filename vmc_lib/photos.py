@@ -258,6 +258,8 @@ def _open(path):
         raise ValueError(f"{path} is an address: save the photo, and give the path of its file")
     try:
         path = Path(path).expanduser()
+        if path.is_dir():
+            raise ValueError(f"{path.absolute()} is a folder: name a file in it")
         with Image.open(path) as file:
             if file.mode[0] in "IF":
                 raise ValueError(f"{path} holds more than 8 bits a channel: save it with 8")
