@@ -775,6 +775,9 @@ MOVING = {
         lambda g: execution.execute(replace(g.plan, weights=np.full(3, 0.3))),
         "weights (3,) and rows (4,)", "give plan.with_weights(",
     ),
+    "a push of NaN": (lambda g: feedback.push([np.nan, 2], 1), "[nan, 2.0] N", "finite"),
+    "a push before the start": (lambda g: feedback.push([1, 2], -1), "at -1.0 s", "0 s or later"),
+    "a curl of NaN": (lambda g: feedback.curl(np.nan), "nan N s / m", "finite"),
 }  # fmt: skip
 SHOWING = {
     "one draw": (lambda g: statistics.t_interval([1.0]), "1 values", "give two or more"),
@@ -890,6 +893,9 @@ SHOWING = {
     ),
     "one place on paper": (lambda g: widget(text, k=(0, 3), printed=3), "printed=3", "a list of"),
     "a number of more": (lambda g: widget(text, k=(0, 3), more=3), "more=3", "a list of names"),
+    "a draw of NaN": (lambda g: statistics.t_interval([1, np.nan]), "nan", "finite numbers"),
+    "a share for a count": (lambda g: statistics.wilson(0.5, 1), "0.5 of 1", "give counts"),
+    "a slider along a word": (lambda g: Slider("abc", "x"), "'abc'", "as range(6)"),
 }  # fmt: skip
 CALLS = SIGHT | MOVING | SHOWING
 

@@ -14,12 +14,14 @@ def t_interval(values: ArrayLike) -> tuple[Any, Any]:
     """Student's t interval: the mean of `values` (n, …) and half its 95 % interval's width, (…).
 
     It speaks of what changed from value to value, a seed or a training, and of nothing else.
-    ValueError for fewer than two values.
+    ValueError for fewer than two values, or one that is not finite.
     """
     values = np.atleast_1d(as_numbers("values", values))
     n = len(values)
     if n < 2:
         raise ValueError(f"{n} values have no spread: give two or more")
+    if not np.isfinite(values).all():
+        raise ValueError(f"values {short(values)}: give finite numbers")
     error = np.std(values, axis=0, ddof=1) / np.sqrt(n)
     return np.mean(values, axis=0), t_quantile(n - 1) * error
 
@@ -49,7 +51,8 @@ def wilson(right: float, n: float) -> tuple[float, float]:
     """
     from scipy.stats import binomtest
 
-    if not (is_within(n, 1, np.inf) and is_within(right, 0, n)):
+    whole = n != 1 or right in (0, 1)  # of one case, a part is a share itself
+    if not (is_within(n, 1, np.inf) and is_within(right, 0, n) and whole):
         raise ValueError(f"{short(right)} of {short(n)} is no share: give counts, right first")
     interval = binomtest(round(right), round(n)).proportion_ci(method="wilson")
     return interval.low, interval.high

@@ -177,7 +177,7 @@ def test_wrong_delays_are_refused(few, delays):
         ({"noise": np.inf}, "noise of inf"),
         ({"errors": np.zeros((3, 4, 4))}, r"errors \(3, 4, 4\): give one number, or \(100, "),
         ({"errors": np.nan}, "errors .* finite"),
-        ({"disturbance": push((np.nan, 0), 0.1)}, r"push of \[nan  0.\] N"),
+        ({"disturbance": Disturbance(force=np.array([np.nan, 0]))}, r"push of \[nan  0.\] N"),
         ({"disturbance": Disturbance(drag=3.0)}, r"drag 3.0 must be a finite \(2, 2\)"),
         ({"disturbance": push((1e5, 0), 0.1)}, "movement 0 blows up: at step 1[0-9]{2} "),
     ],

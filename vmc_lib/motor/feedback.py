@@ -265,8 +265,8 @@ class Disturbance(NamedTuple):
 def curl(strength: float) -> Disturbance:
     """A curl field: it pushes a moving hand aside, clockwise, by `strength` N for each m/s."""
     strength = as_numbers("strength", strength)
-    if strength.ndim:
-        raise ValueError(f"a curl of {short(strength)} N s / m: give one number")
+    if not is_within(strength[()], -np.inf, np.inf):
+        raise ValueError(f"a curl of {short(strength)} N s / m: give one number, a finite one")
     return Disturbance(drag=strength * np.array([[0.0, 1.0], [-1.0, 0.0]]))
 
 
@@ -275,10 +275,14 @@ def push(force: ArrayLike, at: float | np.ndarray) -> Disturbance:
 
     Each of a batch may have its own: forces (B, 2), and times (B, 1).
     """
-    force = as_numbers("force", force)
+    force, at = as_numbers("force", force), as_numbers("at", at)
     if force.shape[-1:] != (2,):
         raise ValueError(f"a force {force} N: give (forward, up), in the arm's plane")
-    return Disturbance(force=force, at=as_numbers("at", at)[()])
+    if not (np.isfinite(force).all() and np.all((at >= 0) & (at < np.inf))):
+        raise ValueError(
+            f"a push of {short(force)} N at {short(at)} s: give finite numbers, 0 s or later"
+        )
+    return Disturbance(force=force, at=at[()])
 
 
 def _push_over_time(disturbance, batch, steps):

@@ -102,6 +102,10 @@ class Slider(Control):
     between: bool | float = True
 
     def __post_init__(self):
+        if isinstance(self.values, str):
+            raise ValueError(
+                f"the values {self.values!r} of a slider are text: give a list, as range(6)"
+            )
         super().__post_init__()
         if _numbers(*self.values) and not self.labels:
             steps = np.diff(self.values)
