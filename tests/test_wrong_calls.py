@@ -372,6 +372,7 @@ SIGHT = {  # a call: what its error says, the value and the remedy
         "[900, 900, 950, 950]", "600×400",
     ),
     "a photo of no name": (lambda g: photos.read_image(""), "is a folder", "name a file in it"),
+    "a network's level": (lambda g: cdbn.CDBN.load("rig"), "'rig'", "write CDBN.load()"),
 }  # fmt: skip
 MOVING = {
     "a target in the plane": (lambda g: loop.reach(g.model, (0.1, -0.4)), "[ 0.1 -0.4]", "in m"),

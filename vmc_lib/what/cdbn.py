@@ -8,6 +8,7 @@ import numpy as np
 
 from vmc_lib.data import arrays
 from vmc_lib.photos import Photo, check_photos
+from vmc_lib.short_repr import short
 from vmc_lib.what.crbm import CRBM
 from vmc_lib.what.crops import crop
 
@@ -74,6 +75,11 @@ class CDBN:
     @classmethod
     def load(cls, kind: type[CRBM] = CRBM) -> Self:
         """The network that ships with the book."""
+        if not (isinstance(kind, type) and issubclass(kind, CRBM)):
+            raise ValueError(
+                f"no network of {short(kind)}: there is one for all levels; write CDBN.load(), or "
+                "CDBN.load(Learner)"
+            )
         return cls.from_arrays(arrays("cdbn"), kind)
 
 
