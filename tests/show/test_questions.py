@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from tests.pages import boxes
+from tests.project import python
 from vmc_lib.show import check, questions
 from vmc_lib.show.questions import prediction
 
@@ -20,6 +21,21 @@ ASKED = "How much is $1 + 1$?", ["one", "two", "*three*"], "two", "One and *one*
 
 
 PREDICTION = prediction(*ASKED)
+
+KERNEL = """
+from IPython.core.interactiveshell import InteractiveShell
+from vmc_lib.show.questions import explain_unknown_names
+shell = InteractiveShell.instance(colors="nocolor")
+explain_unknown_names(shell)
+for cell in ("def half(x:\\n    return x / 2", "half(1)", "third(1)"):
+    shell.run_cell(cell, store_history=True)
+"""
+
+
+def test_an_unknown_name_is_told_with_the_cell_that_was_not_read(tmp_path):
+    _, half, third = python("-c", KERNEL, IPYTHONDIR=str(tmp_path)).split("Error: ")[-3:]
+    assert "In the cell that defines half: Python cannot read line 1: '('" in half
+    assert "In the cell" not in third
 
 
 def test_a_prediction_folds_the_outcome():

@@ -166,6 +166,20 @@ def _last_lines(name):
     return next((cell for cell in reversed(cells) if f"def {name}(" in cell), "")
 
 
+def explain_unknown_names(shell: Any) -> None:
+    """Let a kernel's NameError say that the cell that defines the name could not be read.
+
+    Called as the kernel starts: `grade(f, …)` itself is not entered where there is no `f`.
+    """
+
+    def explain(shell, kind, error, trace, tb_offset=None):
+        if why := unreadable(_last_lines(error.name)):
+            error.add_note(f"In the cell that defines {error.name}:{why.removeprefix(WRONG)}")
+        shell.showtraceback((kind, error, trace), tb_offset=tb_offset)
+
+    shell.set_custom_exc((NameError,), explain)
+
+
 def _buttons(right):
     """What the page's Python checks the cell above with; grade.js shows it, and opens the cell."""
     return (
