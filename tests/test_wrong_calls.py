@@ -779,6 +779,13 @@ MOVING = {
     "a push of NaN": (lambda g: feedback.push([np.nan, 2], 1), "[nan, 2.0] N", "finite"),
     "a push before the start": (lambda g: feedback.push([1, 2], -1), "at -1.0 s", "0 s or later"),
     "a curl of NaN": (lambda g: feedback.curl(np.nan), "nan N s / m", "finite"),
+    "a number in quotes": (
+        lambda g: muscle.force_velocity("1"), "velocity '1'", "give numbers"
+    ),
+    "a target in quotes": (
+        lambda g: planning.plan(["0.1", "-0.38"], g.model.template_set), "['0.1'", "give numbers"
+    ),
+    "an imaginary velocity": (lambda g: muscle.force_velocity(1j), "velocity 1j", "give numbers"),
 }  # fmt: skip
 SHOWING = {
     "one draw": (lambda g: statistics.t_interval([1.0]), "1 values", "give two or more"),

@@ -78,9 +78,10 @@ def check_features(x, width):
 def as_numbers(name: str, values: Any) -> np.ndarray:
     """Convert values to an array of floats; ValueError where they are no numbers, or ragged."""
     try:
-        if values is None:  # NumPy would take it for NaN
-            raise TypeError
-        return np.asarray(values, float)
+        numbers = np.asarray(values)
+        if values is None or numbers.dtype.kind in "USc":
+            raise TypeError  # NumPy would take None for NaN, "1" for 1, and 1j for 0
+        return numbers.astype(float, copy=False)
     except (TypeError, ValueError):
         message = (
             f"{name} {short(values)} is no array of numbers: give numbers, in rows of a length"
