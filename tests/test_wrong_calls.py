@@ -147,7 +147,7 @@ SIGHT = {  # a call: what its error says, the value and the remedy
     "a box inside out": (lambda g: boxes.iou([5, 5, 1, 1], [0, 0, 3, 3]), "[5. 5.", "x0 <= x1"),
     "too few scores": (lambda g: boxes.nms([[0, 0, 1, 1]], [0.3, 0.4]), "(2,)", "as many finite"),
     "an overlap": (lambda g: boxes.nms([[0, 0, 1, 1]], [0.3], 3), "overlap = 3", "within 0..1"),
-    "an empty box": (lambda g: crops.crop(g.image, (0, 0, 0, 0)), "[0 0 0 0]", "600×400"),
+    "an empty box": (lambda g: crops.crop(g.image, (0, 0, 0, 0)), "(0, 0, 0, 0)", "600×400"),
     "pixels": (lambda g: g.photo.camera.back_project([[1, 2, 3]]), "(1, 3)", "give (n, 2)"),
     "points": (lambda g: g.photo.camera.project([[1, 2]]), "(1, 2)", "give (n, 3)"),
     "a strategy": (lambda g: selective_search.propose(g.image, "x"), "'x'", "single, fast"),
@@ -387,7 +387,7 @@ SIGHT = {  # a call: what its error says, the value and the remedy
     ),
     "a place outside": (
         lambda g: loop.locate(g.model, g.image, [900, 900, 950, 950], g.photo.camera),
-        "[900 900 950 950]", "600×400",
+        "[900, 900, 950, 950]", "600×400",
     ),
     "a photo of no name": (lambda g: photos.read_image(""), "is a folder", "name a file in it"),
     "a network's level": (lambda g: cdbn.CDBN.load("rig"), "'rig'", "write CDBN.load()"),

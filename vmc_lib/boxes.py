@@ -41,7 +41,7 @@ def pixels_inside(box: ArrayLike, image: np.ndarray) -> np.ndarray:
     height, width = image.shape[:2]
     inside = np.clip(np.round(as_box(box)), 0, [width, height] * 2).astype(int)
     if np.any(inside[2:] - inside[:2] < 2):
-        raise ValueError(f"the box {np.round(box, 1)} holds nothing of a {width}×{height} image")
+        raise ValueError(f"the box {short(box)} holds nothing of a {width}×{height} image")
     return inside
 
 
