@@ -6,14 +6,18 @@ means over such draws.
 
 import numpy as np
 
-from reproduce.measures.planning_error import template_rows
 from vmc_lib.cerebellum.offline import broyden_calibration, gauss_newton_calibration
 from vmc_lib.motor import templates
 from vmc_lib.motor.execution import execute
-from vmc_lib.motor.planning import draw_targets, exact_weights, habitual_weights, plan
+from vmc_lib.motor.planning import draw_targets, exact_weights, habitual_weights, nearest, plan
 
 COUNT, MANY = 25, 200  # movements of a draw, as in the paper; and where they are new ones
 HOLDS = {"": 0.0, ", over the hold": templates.HOLD}  # how long the hold is, s
+
+
+def template_rows(targets, points, number):
+    """Rows (n, number) of the nearest templates, for `plan`; of four None: one in each quadrant."""
+    return None if number == 4 else nearest(targets, points, number)
 
 
 def planned_error_ratio(seed, past=None, rule=habitual_weights, number=4, count=COUNT):

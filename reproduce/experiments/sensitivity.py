@@ -20,7 +20,7 @@ from reproduce.experiments.calibration import (
     coarse_algorithm_1,
     error_ratios,
 )
-from reproduce.measures.planning_error import template_rows
+from reproduce.one_draw import template_rows
 from reproduce.peers.muscle_models import LAWS
 from reproduce.training import reach_templates
 from vmc_lib import data

@@ -2,18 +2,14 @@
 
 import numpy as np
 
+from reproduce.one_draw import template_rows
 from vmc_lib.motor import templates
 from vmc_lib.motor.execution import execute
-from vmc_lib.motor.planning import habitual_weights, nearest, plan
+from vmc_lib.motor.planning import habitual_weights, plan
 
 TARGETS = np.stack(
     np.meshgrid(np.arange(0.01, 0.18, 0.02), np.arange(-0.44, -0.31, 0.02)), axis=-1
 ).reshape(-1, 2)
-
-
-def template_rows(targets, points, number):
-    """Rows (n, number) of the nearest templates, for `plan`; of four None: one in each quadrant."""
-    return None if number == 4 else nearest(targets, points, number)
 
 
 def mixed_and_reached(rule=habitual_weights, spacing=0.06, number=4):
