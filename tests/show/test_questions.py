@@ -260,7 +260,8 @@ def test_a_field_has_its_answer_again_where_an_edition_asks_more(open_questions,
     page.press("input", "Enter")
     check(None, 4)
     file = Path(unquote(urlsplit(page.url).path))
-    file.write_text(file.read_text("utf-8").replace("<h1>Q</h1>", shown[1]), "utf-8")
+    more = file.read_text(encoding="utf-8").replace("<h1>Q</h1>", shown[1])
+    file.write_text(more, encoding="utf-8")
     page.reload()
     assert page.locator("input").evaluate_all("(all) => all.map((one) => one.value)") == ["", "2"]
 

@@ -2,7 +2,6 @@
 
 import base64
 import json
-from dataclasses import asdict
 from types import SimpleNamespace
 
 import numpy as np
@@ -101,7 +100,7 @@ def test_cup_and_table_have_the_colours_of_the_photo():
     x0, y0, x1, y1 = photo.boxes["cup"].astype(int)
     image[y0:y1, x0:x1] = 20, 40, 200
     image[::3] = 255  # what is lit is not what it is like
-    painted = SimpleNamespace(**asdict(photo) | {"image": image, "camera": photo.camera})
+    painted = SimpleNamespace(**vars(photo) | {"image": image, "camera": photo.camera})
     sent = decode(arm_scene((-0.3, 1.0), photo=painted))
     for name, colour in {
         "goal/cup": 0x1428C8,
