@@ -16,7 +16,7 @@ from vmc_lib.show.arm_plane import plane
 from vmc_lib.show.markup import number
 from vmc_lib.show.palette import COLOURS
 
-SIZE, WITHIN = (8.2, 3.4), ((-0.08, 0.3), (-0.53, -0.2))  # inches; m
+SIZE, WITHIN = (8.2, 3.3), ((-0.08, 0.3), (-0.53, -0.2))  # inches; m
 EVERY = 10  # ms
 GUIDE = {"color": COLOURS["grey"], "gid": "guide"}
 
