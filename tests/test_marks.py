@@ -147,6 +147,18 @@ def test_endless_check_is_interrupted_and_said(quick):
 
 
 @pytest.mark.audit
+def test_a_students_loop_in_the_chapters_own_cell_ends_with_that_cell(quick):
+    chapter, _ = quick
+    chapter.cells.insert(2, new_code_cell("law()", id="own"))
+    notebook = student(chapter)
+    notebook.cells[1].source = (
+        FOREVER + "pass\n    raise ValueError(name)\ndef law(): Event().wait()"
+    )
+    results = marks.marks(chapter, notebook, cell_limit=2, limit=20)
+    assert results == {"first": "ran longer than 2 s", "second": "ValueError: second"}
+
+
+@pytest.mark.audit
 def test_a_loop_above_a_check_is_said_at_that_check_alone(quick):
     chapter, notebook = quick
     notebook.cells[1].source = "def check(name, expected): answer"

@@ -303,6 +303,7 @@ SIGHT = {  # a call: what its error says, the value and the remedy
         lambda g: learning.Learner.random(2.5, 1, 5, torch.Generator()), "2.5 filters", "1 or more"
     ),
     "no flips": (lambda g: STREAM.predict(g.image, BOX, ()), "flips ()", "one or more"),
+    "a flip alone": (lambda g: STREAM.predict(g.image, BOX, (1, 1)), "flips (1, 1)", "one or more"),
     "another flip": (lambda g: STREAM.predict(g.image, BOX, [(2, 1)]), "(2, 1)", "(-1, -1)"),
     "epochs": (lambda g: learner().fit(torch.zeros(2, 1, 14, 14), 3, 0), "= 3", "range(3)"),
     "patches of NumPy": (
@@ -476,6 +477,9 @@ MOVING = {
     ),
     "one gain": (lambda g: offline.algorithm_1(g.plan, 5), "gains = 5", "as range(21)"),
     "half a trial": (lambda g: offline.broyden_calibration(g.plan, 2.5), "= 2.5", "a whole number"),
+    "a Jacobian of joints": (
+        lambda g: offline.broyden_calibration(g.plan, jacobian=np.eye(3)), "(3, 3)", "give (D, N)"
+    ),
     "none together": (
         lambda g: online.AimCorrection(g.model.template_set).update(g.plans, 0), "= 0", "1 or more"
     ),

@@ -63,10 +63,10 @@ def is_positive(value):
 
 
 def check_shares(name, values):
-    """Raise ValueError where numbers lie outside [0, 1] by more than Euler's method rounds."""
+    """Raise ValueError where numbers lie below 0, or above 1 by more than Euler's method rounds."""
     low, high = values.min(initial=0), values.max(initial=0)
     if not (low >= 0 and high <= 1 + 1e-9):
-        raise ValueError(f"{name}: values in [{low:.3g}, {high:.3g}]; clip them to [0, 1]")
+        raise ValueError(f"{name}: values in [{low:.9g}, {high:.9g}]; clip them to [0, 1]")
 
 
 def check_features(x, width):

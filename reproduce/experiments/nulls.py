@@ -196,7 +196,7 @@ def lessons(seed, movements=25, held_out=200, experiments=10):
 def teachers(seed):
     """What finds a lesson's corrections: name -> a law, and the n in the order in which it tries.
 
-    All but one try n coarse to fine: then few tries span as many n as all, and differ in number.
+    All but one try n coarse to fine: few tries then span as wide a range of n as all do.
     """
     return {
         PAPER: (algorithm_1_change, COARSE_TO_FINE),

@@ -37,8 +37,8 @@ VELOCITY_RANGE = 1 - 11**0.5, 0.9
 def law(equation: Callable[Given, Any]) -> Callable[Given, Any]:
     """An equation that takes lists, too, and refuses text, and what no muscle can have.
 
-    The arm's loops leave these checks out, by `unwrap`: they would take longer than the equation,
-    and what blows up there is told of by its step.
+    The arm's compiled loop leaves these checks out, by `unwrap`: they would take longer than the
+    equation, and what blows up there is told of by its step.
     """
     names = tuple(signature(equation).parameters)
 

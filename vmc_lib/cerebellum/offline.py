@@ -177,7 +177,7 @@ def broyden_calibration(
     Raises
     ------
     ValueError
-        Where the templates lie on one line.
+        Where the templates lie on one line, or a Jacobian is of another shape.
 
     References
     ----------
@@ -195,7 +195,10 @@ def broyden_calibration(
     check_count("n_trials", n_trials)
     check_function("execute", execute, MOVES)
     planned, weights = execute(plan), plan.weights
-    jacobian = np.swapaxes(plan.points, -1, -2) if jacobian is None else jacobian
+    along = np.swapaxes(plan.points, -1, -2)
+    jacobian = along if jacobian is None else as_numbers("jacobian", jacobian)
+    if jacobian.shape[-2:] != along.shape[-2:]:
+        raise ValueError(f"jacobian {jacobian.shape}: give (D, N) as points have it, {along.shape}")
     best, endpoint, tried = planned.error, planned.endpoint, []
     for _ in range(n_trials):
         change = least_change(jacobian, plan.target - endpoint)

@@ -50,7 +50,7 @@ def minimum_jerk(
     """Minimum-jerk paths (…, samples + 1, n) from start to goal (…, n), there after `moving`.
 
     Then they stay there. ValueError where start and goal are no joint angles, or places, of one
-    length, or are angles in degrees; where there is no sample, or no time to move.
+    length, or are angles in degrees (places: in m); where there is no sample, or no time to move.
     """
     start, goal = as_numbers("start", start), as_numbers("goal", goal)
     if start.ndim == 0 or start.shape[-1:] != goal.shape[-1:]:

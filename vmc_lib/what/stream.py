@@ -76,7 +76,7 @@ class VentralStream:
         ValueError
             For no flips, and for any that is none of FLIPS.
         """
-        if not len(flips) or any(tuple(flip) not in FLIPS for flip in flips):
+        if np.ndim(flips) != 2 or any(tuple(flip) not in FLIPS for flip in flips):
             raise ValueError(f"flips {short(flips)}: give one or more of {FLIPS}")
         if not len(boxes := as_boxes(boxes)):
             return np.zeros(0), np.zeros((0, 4))

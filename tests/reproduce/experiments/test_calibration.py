@@ -136,18 +136,18 @@ def test_steps_are_measured_on_the_same_movements():
         assert one[f"online, {step}, 1 experiment, held-out"] == expected
 
 
-def test_no_cure_gets_worse_with_practice():
+def test_with_practice_no_correction_gets_worse_but_the_pull_in_honey():
     """An aim that cannot be kept must not pile up: late blocks beside the early ones.
 
-    Of the error that is there where nothing learns: some blocks' targets are harder. Of the pull,
-    this is true for the load; elsewhere it only never gets as bad as where nothing learns.
+    Of the error that is there where nothing learns: some blocks' targets are harder. In honey the
+    pull teaches wrong changes, and only stays below what nothing learnt would leave.
     """
     draws = load_results()["perturbations"]
     for world, corrects in product(PERTURBATIONS, CORRECTIONS):
         error, alone = (draws[f"{world}, {cure}"].mean(axis=0) for cure in (corrects, NOTHING))
         early, late = (error[k].sum() / alone[k].sum() for k in (slice(3, 6), slice(7, 10)))
-        serves = corrects == "aim" or "load" in world
-        assert late < (1.15 * early if serves else 0.8), (world, corrects)
+        wrong = (world, corrects) == ("a viscous field", "pull")
+        assert late < (0.8 if wrong else 1.15 * early), (world, corrects)
 
 
 def test_shipped_results_are_reproducible(template_set):
