@@ -195,10 +195,10 @@ def broyden_calibration(
     check_count("n_trials", n_trials)
     check_function("execute", execute, MOVES)
     planned, weights = execute(plan), plan.weights
-    along = np.swapaxes(plan.points, -1, -2)
-    jacobian = along if jacobian is None else as_numbers("jacobian", jacobian)
-    if jacobian.shape[-2:] != along.shape[-2:]:
-        raise ValueError(f"jacobian {jacobian.shape}: give (D, N) as points have it, {along.shape}")
+    points, shape = np.swapaxes(plan.points, -1, -2), (plan.target.shape[-1], weights.shape[-1])
+    jacobian = points if jacobian is None else as_numbers("jacobian", jacobian)
+    if jacobian.shape[-2:] != shape:
+        raise ValueError(f"jacobian {jacobian.shape}: give (D, N) of target and weights, {shape}")
     best, endpoint, tried = planned.error, planned.endpoint, []
     for _ in range(n_trials):
         change = least_change(jacobian, plan.target - endpoint)
