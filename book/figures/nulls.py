@@ -57,7 +57,7 @@ def _curve(ax, rule, line, x, shares):
 def by_teaching():
     """What Algorithm 2 leaves after one experiment, by the tries that each of its lessons cost."""
     found = nulls.load_results()[nulls.BY_TEACHING]
-    fig, *axes = panels(2, size=(6.4, 3.0))
+    fig, *axes = panels(2, size=(6.4, 3.5))
     for ax, kind, movements in zip(axes, KINDS, ("practised", "never practised"), strict=True):
         for rule, line in TEACHERS.items():
             _curve(ax, rule, line, nulls.TAUGHT, found[f"{rule}, {kind}"])
