@@ -160,6 +160,15 @@ def open_questions(open_page, shown, book):
     return lambda *parts: open_page(f"<h1>Q</h1>{''.join([*parts, *shown])}")
 
 
+@pytest.fixture
+def unanswered(open_questions):
+    """The page of a prediction, of which nothing is kept, with the keyboard on its first choice."""
+    page = open_questions(PREDICTION)
+    page.evaluate("() => localStorage.clear()")
+    page.keyboard.press("Tab")
+    return page
+
+
 MARKS = """() => [...document.querySelectorAll("label")]
   .map((label) => getComputedStyle(label, "::after").content.replaceAll('"', ""))"""
 
@@ -168,10 +177,8 @@ ANSWERS = "() => JSON.parse(localStorage.vmcRecord ?? '[]').map(({ answer }) => 
 
 
 @pytest.mark.browser
-def test_a_prediction_is_kept_and_marked_beside_the_outcome(open_questions):
-    page = open_questions(PREDICTION)
-    page.evaluate("() => localStorage.clear()")
-    page.keyboard.press("Tab")
+def test_a_prediction_is_kept_and_marked_beside_the_outcome(unanswered):
+    page = unanswered
     page.keyboard.press("ArrowDown")
     page.keyboard.press("ArrowDown")
     assert page.is_checked("input >> nth=2")
@@ -193,10 +200,8 @@ def test_a_prediction_is_kept_and_marked_beside_the_outcome(open_questions):
 
 
 @pytest.mark.browser
-def test_enter_on_a_choice_that_no_arrow_passed_counts_as_that_choice(open_questions):
-    page = open_questions(PREDICTION)
-    page.evaluate("() => localStorage.clear()")
-    page.keyboard.press("Tab")
+def test_enter_on_a_choice_that_no_arrow_passed_counts_as_that_choice(unanswered):
+    page = unanswered
     page.keyboard.press("Enter")
     assert page.is_checked("input >> nth=0")
     assert page.evaluate(ANSWERS) == ["one"]
