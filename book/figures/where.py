@@ -107,7 +107,7 @@ SEGMENTATION = """<div class="vmc-segmentation"><div class="vmc-picture" style="
 justify-items: center">PHOTO<canvas aria-hidden="true" style="LAYER" hidden></canvas></div>
 <form class="vmc-controls" autocomplete="off">SLIDERS
 <div class="vmc-control"><div class="vmc-options">
-<button type="button" class="vmc-play" aria-pressed="false">Play</button>
+<button type="button" class="vmc-play">Play</button>
 <button type="button" class="vmc-play">Your photo …</button>
 <input type="file" accept="image/*" aria-label="Your photo" hidden></div></div></form>
 <p class="vmc-strip" style="min-height: 3.6em; CENTRED"></p>

@@ -2,6 +2,7 @@
    slider that turns it. One clock moves all scenes of a demo, and what else follows time there. */
 import { distance } from "../vectors.js";
 import { redness } from "./muscles.js";
+import { showRunning } from "./running.js";
 
 const SPEEDS = { "real time": 1, "half speed": 0.5, "quarter speed": 0.25 };
 const SLOW_MOTION = 0.25; // of its speed
@@ -31,7 +32,7 @@ const follow = ({ div, duration, time }) => {
 /* Play, a slider of time, and how fast: shown where there is a movement. */
 const clock = (views) => {
   const box = element(`<div class="vmc-control vmc-clock">
-    <button type="button" class="vmc-play" aria-pressed="false">Play the movement</button>
+    <button type="button" class="vmc-play">Play the movement</button>
     <label>time <input type="range" min="0" step="0.01" value="0"></label>
     <output>0.00 s</output><select aria-label="speed">${Object.entries(SPEEDS)
       .map(([text, pace]) => `<option value="${pace}">${text}</option>`).join("")}</select></div>`);
@@ -39,15 +40,13 @@ const clock = (views) => {
   let playing = null;
   const stop = () => {
     playing = null;
-    button.textContent = "Play the movement";
-    button.setAttribute("aria-pressed", "false");
+    showRunning(button, false, "Play the movement");
   };
   const set = (time, after) => views.forEach((view) => view.at(time, after));
   /* In a film the last moments before the hold are slow. */
   const play = async ({ film = false } = {}) => {
     const mine = (playing = {});
-    button.textContent = "Pause the movement";
-    button.setAttribute("aria-pressed", "true");
+    showRunning(button, true, "Pause the movement");
     const { duration } = views[0];
     const start = +slider.value < duration ? +slider.value : 0;
     const pace = calm.matches ? 500 : 0; // ms between two pictures

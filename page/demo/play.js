@@ -1,3 +1,4 @@
+import { showRunning } from "./running.js";
 import { viewOf } from "./scene.js";
 
 const calm = matchMedia("(prefers-reduced-motion: reduce)");
@@ -17,14 +18,12 @@ export const addPlay = (demo, button, show, ready, signal) => {
   let playing = null;
   const stop = () => {
     playing = null;
-    button.setAttribute("aria-pressed", "false");
-    button.textContent = "Play";
+    showRunning(button, false, "Play");
   };
   button.addEventListener("click", async () => {
     if (playing) return stop();
     const mine = (playing = {});
-    button.setAttribute("aria-pressed", "true");
-    button.textContent = "Pause";
+    showRunning(button, true, "Pause");
     for (let step = input.value === input.max ? 0 : Math.round(input.value); step <= input.max; step++) {
       input.value = step;
       show();

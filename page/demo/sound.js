@@ -2,6 +2,7 @@
    right a tone is as high as the curve, two octaves from the plot's bottom to its top. One curve follows
    the other; where a plot has two, both sound once more together, one in each ear. */
 import { axesOf } from "./axes.js";
+import { showRunning } from "./running.js";
 
 const LONG = 2, PAUSE = 0.8, SOFT = 0.02; // seconds
 const LOWEST = 220, OCTAVES = 2, LOUD = 0.15; // Hz; above it; gain
@@ -67,14 +68,12 @@ const listen = (demo, button, said) => {
     waits.push(setTimeout(show, 1000 * i * each, heard));
   });
   waits.push(setTimeout(() => stop(), 1000 * all.length * each));
-  button.textContent = "Stop";
-  button.setAttribute("aria-pressed", "true");
+  showRunning(button, true, "Stop");
   stop = () => {
     waits.forEach(clearTimeout);
     show([]);
     audio.close();
-    button.textContent = "Listen";
-    button.setAttribute("aria-pressed", "false");
+    showRunning(button, false, "Listen");
     stop = () => {};
   };
 };
@@ -85,7 +84,7 @@ export const addSound = (demo) => {
   said.setAttribute("role", "status");
   (demo.querySelector("figcaption") ?? demo).append("\u00a0", button, "\u00a0", said);
   button.addEventListener("click", () => {
-    const sounds = button.getAttribute("aria-pressed") === "true";
+    const sounds = "running" in button.dataset;
     stop();
     if (!sounds) listen(demo, button, said);
   });

@@ -1,5 +1,6 @@
 /* A photo falls into segments, which grow back: ours, or the reader's own, which never leaves the page. */
 import { drawScaled, PIXELS_HIDDEN, takePictures } from "../canvas.js";
+import { showRunning } from "../demo/running.js";
 import { finish } from "../eye/pieces.js";
 import { grow as growSegments, prepare, segment } from "../eye/selective_search.js";
 
@@ -66,16 +67,12 @@ export const start = (box) => {
     if (tree?.scale !== scale()) strip.textContent = "Cutting …";
     requestAnimationFrame(() => setTimeout(() => mine === asked && done(draw())));
   });
-  const showPlaying = (playing) => {
-    play.setAttribute("aria-pressed", playing);
-    play.textContent = playing ? "Pause" : "Play";
-  };
   const stop = () => {
     asked++;
-    showPlaying(false);
+    showRunning(play, false, "Play");
   };
   const run = async () => {
-    showPlaying(true);
+    showRunning(play, true, "Pause");
     merged.value %= 1;
     await drawn();
     const begun = performance.now() - PLAY_TIME * merged.value;
@@ -85,7 +82,7 @@ export const start = (box) => {
     }
     stop();
   };
-  play.addEventListener("click", () => (play.getAttribute("aria-pressed") === "true" ? stop() : run()));
+  play.addEventListener("click", () => ("running" in play.dataset ? stop() : run()));
   for (const slider of [k, merged]) slider.addEventListener("input", () => { stop(); drawn(); });
 
   takePictures(box, file, (picture, { name }) => {

@@ -59,11 +59,11 @@ def test_a_movement_plays_to_its_end_and_stops_when_the_clock_is_set(moving):
     assert moving.inner_text(time) == "0.20 s"
     moving.select_option(".vmc-clock select", label="quarter speed")
     moving.click(play)
-    moving.wait_for_selector(f"{play}[aria-pressed=false]")
+    moving.wait_for_selector(f"{play}:not([data-running])")
     assert moving.inner_text(time) == "0.20 s"
     moving.click(play)
     moving.fill(".vmc-clock input", "0.04")
-    assert moving.get_attribute(play, "aria-pressed") == "false"
+    assert moving.get_attribute(play, "data-running") is None
     assert moving.inner_text(time) == "0.04 s"
 
 

@@ -87,9 +87,9 @@ def test_play_goes_to_the_end_and_stops(open_demo, window):
     page = open_demo(np.eye, window(), N=Slider(range(2, 6), "size", play=True))
     stop_clock(page)
     page.click(".vmc-play")
-    assert page.get_attribute(".vmc-play", "aria-pressed") == "true"
+    assert page.get_attribute(".vmc-play", "data-running") is not None
     page.clock.run_for(60_000)
-    assert page.get_attribute(".vmc-play", "aria-pressed") == "false"
+    assert page.get_attribute(".vmc-play", "data-running") is None
     assert page.inner_text("output") == "5"
 
 
@@ -260,9 +260,9 @@ def test_an_address_is_followed_and_its_impossible_values_are_ignored(addressed)
 def test_play_leaves_the_address_alone_and_stops_for_any_control(addressed):
     addressed.click(".vmc-play")
     addressed.get_by_label("right").check()
-    assert addressed.get_attribute(".vmc-play", "aria-pressed") == "false"
+    assert addressed.get_attribute(".vmc-play", "data-running") is None
     addressed.wait_for_function("() => location.hash.includes('way=1')")
     addressed.click(".vmc-play")
-    addressed.wait_for_selector(".vmc-play[aria-pressed=false]")
+    addressed.wait_for_selector(".vmc-play:not([data-running])")
     assert "x=4" not in addressed.evaluate("location.hash")
     assert "?x=4&" in addressed.get_attribute(".vmc-link", "href")  # which says what is shown now

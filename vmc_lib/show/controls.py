@@ -149,7 +149,7 @@ class Slider(Control):
         state = {"data-stride": stride, "data-texts": data, "aria-valuetext": text}
         unasked = " data-unasked" * (self.play == "unasked")
         state |= {"data-between": ""} if self.continuous else {}
-        play = f'<button type="button" class="vmc-play" aria-pressed="false"{unasked}>Play</button>'
+        play = f'<button type="button" class="vmc-play"{unasked}>Play</button>'
         shown = texts
         if self.continuous:  # between its own, too
             steps = np.linspace(0, last, min(10 * last, MOST_SHOWN) + 1).round(1)
