@@ -12,7 +12,6 @@ from urllib.parse import urlsplit
 from urllib.request import url2pathname
 
 import pytest
-from jupyterlab.labapp import LabApp
 
 from tests.project import CHAPTERS, NOTEBOOKS, ROOT, code, python, run
 
@@ -210,6 +209,8 @@ def test_jupyterlab_knows_our_settings():
         package, name = plugin.split(":")
         properties = json.loads((SCHEMAS / package / f"{name}.json").read_bytes())["properties"]
         assert settings.keys() <= properties.keys()
+    from jupyterlab.labapp import LabApp  # which starts Node
+
     classes = {each.__name__: each for each in LabApp.serverapp_class.classes}
     options = json.loads((ROOT / ".binder/jupyter_server_config.json").read_bytes())
     for name, traits in options.items():

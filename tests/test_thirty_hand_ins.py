@@ -105,52 +105,55 @@ def dumped(notebook, **settings):
     return json.dumps(notebook, **settings).encode()
 
 
-RIGHT = handed_in()
-WHOLE = dumped(RIGHT)
-BY_NAME = {  # the file: what it holds, and its points, or how its row begins
-    "right": (RIGHT, 6),
-    "Müller 张": (RIGHT, 6),
-    "CAPITALS.IPYNB": (RIGHT, 6),
-    "no heading": (changed(without_heading), 6),
-    "no metadata": (changed(bare), 6),
-    "from colab": (changed(colab), 6),
-    "from vs code": (changed(vs_code), 6),
-    "of R": (changed(of_another_language), 6),
-    "with outputs": (changed(with_outputs), 6),
-    "windows": (dumped(RIGHT, indent=1).replace(b"\n", b"\r\n"), 6),
-    "with a mark of order": (b"\xef\xbb\xbf" + WHOLE, 6),
-    "in UTF-16": (json.dumps(RIGHT).encode("utf-16"), CANNOT),
-    "checks deleted": (changed(without_checks), 6),
-    "checks forged": (changed(forged), 6),
-    "checks twice": (changed(twice), 6),
-    "as handed out": (handed_in(answers="pass"), 0),
-    "a known mistake (1)": (handed_in(answers=f"{ANSWERS}\n{KNOWN}"), 5),
-    "two are missing": (handed_in(answers=f"{ANSWERS}\nanswer = activation_rates = None"), 2),
-    "one is wrong": (handed_in(answers=f"{ANSWERS}\nanswer = 0.5"), 4),
-    "a comma for the point": (handed_in(answers=f"{ANSWERS}\nanswer = '0,8'"), 6),
-    "floods": (handed_in("for _ in range(100_000): print('flood')"), 6),
-    "loops": (handed_in("while True: pass"), 6),
-    "asks": (handed_in("input('your name?')"), 6),
-    "raises": (handed_in("import no_such_module"), 6),
-    "leaves": (handed_in("import sys; sys.exit(1)"), 6),
-    "dies": (handed_in("import os; os._exit(1)"), CANNOT),
-    "writes": (handed_in("open('numpy.py', 'w').write('no')"), 6),
-    "cut": (WHOLE[:-300], CANNOT),
-    "empty": (b"", CANNOT),
-    "a PDF": (PDF, CANNOT),
-}
+def hand_ins():
+    """Every kind, by the file's name: what it holds, and its points, or how its row begins."""
+    right = handed_in()
+    whole = dumped(right)
+    return {
+        "right": (right, 6),
+        "Müller 张": (right, 6),
+        "CAPITALS.IPYNB": (right, 6),
+        "no heading": (changed(without_heading), 6),
+        "no metadata": (changed(bare), 6),
+        "from colab": (changed(colab), 6),
+        "from vs code": (changed(vs_code), 6),
+        "of R": (changed(of_another_language), 6),
+        "with outputs": (changed(with_outputs), 6),
+        "windows": (dumped(right, indent=1).replace(b"\n", b"\r\n"), 6),
+        "with a mark of order": (b"\xef\xbb\xbf" + whole, 6),
+        "in UTF-16": (json.dumps(right).encode("utf-16"), CANNOT),
+        "checks deleted": (changed(without_checks), 6),
+        "checks forged": (changed(forged), 6),
+        "checks twice": (changed(twice), 6),
+        "as handed out": (handed_in(answers="pass"), 0),
+        "a known mistake (1)": (handed_in(answers=f"{ANSWERS}\n{KNOWN}"), 5),
+        "two are missing": (handed_in(answers=f"{ANSWERS}\nanswer = activation_rates = None"), 2),
+        "one is wrong": (handed_in(answers=f"{ANSWERS}\nanswer = 0.5"), 4),
+        "a comma for the point": (handed_in(answers=f"{ANSWERS}\nanswer = '0,8'"), 6),
+        "floods": (handed_in("for _ in range(100_000): print('flood')"), 6),
+        "loops": (handed_in("while True: pass"), 6),
+        "asks": (handed_in("input('your name?')"), 6),
+        "raises": (handed_in("import no_such_module"), 6),
+        "leaves": (handed_in("import sys; sys.exit(1)"), 6),
+        "dies": (handed_in("import os; os._exit(1)"), CANNOT),
+        "writes": (handed_in("open('numpy.py', 'w').write('no')"), 6),
+        "cut": (whole[:-300], CANNOT),
+        "empty": (b"", CANNOT),
+        "a PDF": (PDF, CANNOT),
+    }
 
 
-def write(folder):
-    for name, (content, _) in BY_NAME.items():
+def write(folder, contents):
+    for name, content in contents.items():
         file = folder / (name if name.endswith("IPYNB") else f"{name}.ipynb")
         file.write_bytes(content if isinstance(content, bytes) else dumped(content))
 
 
 @pytest.mark.audit
 def test_thirty_hand_ins_are_thirty_rows(tmp_path):
-    assert len(BY_NAME) == 30
-    write(tmp_path)
+    by_name = hand_ins()
+    assert len(by_name) == 30
+    write(tmp_path, {name: content for name, (content, _) in by_name.items()})
     start = perf_counter()
     command = [sys.executable, "-m", "kit.marks", str(tmp_path), "--by", "file", "--jobs", "2"]
     table = subprocess.run(command, cwd=ROOT, capture_output=True, check=True).stdout
@@ -161,7 +164,7 @@ def test_thirty_hand_ins_are_thirty_rows(tmp_path):
     wrong = {
         name: row["points"] or row["not right"][:80]
         for name, row in earned.items()
-        if not _as_expected(row, BY_NAME[name][1])
+        if not _as_expected(row, by_name[name][1])
     }
     assert wrong == {}
     print(f"thirty hand-ins in {taken:.0f} s")

@@ -2,6 +2,7 @@
 
 import base64
 import re
+from types import MappingProxyType
 
 import cv2
 import matplotlib.pyplot as plt
@@ -85,6 +86,12 @@ def test_photo_view_draws_boxes_and_points():
     assert "target" in svg
 
 
+def test_photo_view_takes_boxes_and_points_one_by_one():
+    image = np.zeros((400, 600, 3), np.uint8)
+    boxes, points = [((10, 20, 110, 70), "cup", "orange")], [((30, 40), "target", "green")]
+    assert photo_view(image, iter(boxes), iter(points)) == photo_view(image, boxes, points)
+
+
 def test_words_of_a_photo_do_not_hide_each_other():
     """Below the words in the corner stands a box's name, and below its box that of a second."""
     corner, *boxes = (8, 0, 8, 0), (8, 42, 90, 120), (8, 42, 90, 121)
@@ -153,6 +160,13 @@ def test_numbers_are_written_as_in_a_text_and_not_as_in_code():
 def test_a_tables_rows_may_have_names_and_its_numbers_a_format():
     rows = {"ours": [0.125, (2, 1, 3), 7, "so"]}
     assert table("abcde", rows, ".1f").endswith("| ours | 0.1 | 2.0 (1.0 to 3.0) | 7 | so |")
+
+
+def test_a_tables_rows_come_one_by_one_or_in_any_mapping():
+    rows = {"ours": [1], "theirs": [2]}
+    expected = table("ab", rows)
+    assert table("ab", ([name, *cells] for name, cells in rows.items())) == expected
+    assert table("ab", MappingProxyType(rows)) == expected
 
 
 def test_values_are_listed_with_their_names():
