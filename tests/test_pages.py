@@ -164,6 +164,22 @@ def test_figures_are_numbered(page):
     assert [number and int(number[1]) for number in numbers] == [*range(1, len(captions) + 1)]
 
 
+# Captions that say "above", whose pictures or panels do not stand one below the other.
+NOT_STACKED = """() => [...document.querySelectorAll("figcaption:has([data-stacked])")]
+  .filter((caption) => caption.checkVisibility()).filter((caption) => {
+    const parts = ".vmc-panels > div, .vmc-picture:not(:has(.vmc-panels))";
+    const [first, second] = [...caption.closest("figure").querySelectorAll(parts)]
+      .map((part) => part.getBoundingClientRect());
+    return caption.innerText.includes("Left:") || !second?.height || second.top < first.bottom;
+  }).map((caption) => caption.innerText)"""
+
+
+def test_a_caption_says_above_where_pictures_stand_one_below_the_other(page):
+    unfold(page)
+    resize(page, 390, 844)
+    assert page.evaluate(NOT_STACKED) == []
+
+
 def test_pictures_are_there(page):
     assert probe(page, "missingPictures") == []
 

@@ -44,6 +44,8 @@ WRITTEN_CAPTION = re.compile(r"\*\*Figure\.\*\* ([\s\S]+)")
 CAPTION = re.compile(
     r"</figure>((?:(?!<figure).)*?)<figcaption>\s*<p>(.*?)</p>\s*</figcaption>", re.S
 )
+SIDE = re.compile(r"\b(Left|Right)(?=:)")
+STACKED = {"Left": "Above", "Right": "Below"}
 VERDICTS = {"✓": ("right", "✓ Right."), "✗": ("wrong", "✗ No.")}
 
 
@@ -74,8 +76,16 @@ def definitions(text):
 
 def give_captions(app, pagename, templatename, context, doctree):
     """Put each caption into the figure above it."""
-    within = r"<figcaption>\2</figcaption></figure>\1"
+
+    def within(found):
+        return f"<figcaption>{SIDE.sub(_side, found[2])}</figcaption></figure>{found[1]}"
+
     context["body"] = CAPTION.sub(within, context.get("body", ""))
+
+
+def _side(found):
+    """A side's name, and what the style sheet calls it where pictures stand one below the other."""
+    return f'<span data-stacked="{STACKED[found[1]]}"><span>{found[1]}</span></span>'
 
 
 def give_cards(app, pagename, templatename, context, doctree):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from book._ext.plain import CAPTION, with_directives
+from book._ext.plain import give_captions, with_directives
 from vmc_lib.show import prose
 
 NAMES = {"x": 0.678, "n": 3, "low": -2.0, "np": np}
@@ -53,5 +53,7 @@ def test_a_caption_stands_in_the_figure_above_it():
     inside = "<p>Blue</p>"
     assert cell["source"] == "<figcaption>\n\nBlue: *this*, 0.68.\n\n</figcaption>"
     body = f"<figure>1</figure><figure>2</figure></div>\n<figcaption>\n{inside}\n</figcaption>"
-    page = CAPTION.sub(r"<figcaption>\2</figcaption></figure>\1", body)
-    assert page == "<figure>1</figure><figure>2<figcaption>Blue</figcaption></figure></div>\n"
+    page = {"body": body}
+    give_captions(None, "page", "page.html", page, None)
+    figure = "<figure>2<figcaption>Blue</figcaption></figure>"
+    assert page["body"] == f"<figure>1</figure>{figure}</div>\n"
