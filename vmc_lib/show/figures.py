@@ -86,30 +86,9 @@ def photo_view(
     """
     if not isinstance(image, np.ndarray):
         raise ValueError(f"{image!r} is no image: give an array, as photos.read_image returns it")
+    boxes, points = _marks("boxes", boxes, 4), _marks("points", points, 2)
     height, width = image.shape[:2]
-    for name, given, size in (("boxes", boxes, 4), ("points", points, 2)):
-        if not np.iterable(given):
-            raise ValueError(f"{name} are {given!r}: give a list of them")
-        for mark in given:
-            if not (np.iterable(mark) and len(mark) == 3 and np.shape(mark[0]) == (size,)):
-                place = "(x0, y0, x1, y1)" if size == 4 else "(x, y)"
-                raise ValueError(f"{name} hold {mark}: give ({place}, label, colour name)")
     left, right, bottom, top = axes or (0, width, height, 0)
-    marks, words, taken = [], [], []  # words lie above marks; where they stand already
-    for (x0, y0, x1, y1), label, colour in boxes:
-        rect = f'x="{x0:.1f}" y="{y0:.1f}" width="{x1 - x0:.1f}" height="{y1 - y0:.1f}"'
-        marks += [f'<rect {rect} {EDGE}/><rect {rect} stroke="{ON_PHOTO[colour]}"/>']
-        long = 12 * len(label) + 9 * sum(map(label.count, "%m"))  # about; these are wide
-        x, low = max(min(x0, width - long), 0), min(y1 + 21, height - 7)
-        near = [y for begin, y, end in taken if begin < x + long and x < end]
-        places = [y0 - 7, low, y0 + 21] if y0 > 26 else [low, y0 + 21]
-        y = next((y for y in places if all(abs(y - other) > 20 for other in near)), places[0])
-        words += [_label(x, y, label, colour)]
-        taken += [(x, y, x + long)] * bool(label)
-    for (x, y), label, colour in points:
-        circle = f'<circle cx="{x:.1f}" cy="{y:.1f}" r="6"'
-        marks += [f'{circle} {EDGE}/>{circle} stroke="{ON_PHOTO[colour]}"/>']
-        words += [_label(x + 11, y + 7, label, colour)]
     wordless = not any(label for _, label, _ in (*boxes, *points))
     shape = "" if wordless else f"{least_width(width, LETTERS)}; --ratio: {width / height:.3f}"
     return "\n".join(
@@ -120,11 +99,51 @@ def photo_view(
             f'<image width="{width}" height="{height}" href="',
             data_uri(image),
             '"/>',
-            *marks,
-            *words,
+            *(_rectangle(box, colour) for box, _, colour in boxes),
+            *(_circle(point, colour) for point, _, colour in points),
+            *_box_labels(boxes, width, height),  # words lie above marks
+            *(_label(x + 11, y + 7, label, colour) for (x, y), label, colour in points),
             "</svg>",
         ]
     )
+
+
+def _marks(name, given, size):
+    """The boxes or the points of a photo as a list; ValueError for what is none."""
+    if not np.iterable(given):
+        raise ValueError(f"{name} are {given!r}: give a list of them")
+    marks = list(given)
+    for mark in marks:
+        if not (np.iterable(mark) and len(mark) == 3 and np.shape(mark[0]) == (size,)):
+            place = "(x0, y0, x1, y1)" if size == 4 else "(x, y)"
+            raise ValueError(f"{name} hold {mark}: give ({place}, label, colour name)")
+    return marks
+
+
+def _rectangle(box, colour):
+    x0, y0, x1, y1 = box
+    rect = f'<rect x="{x0:.1f}" y="{y0:.1f}" width="{x1 - x0:.1f}" height="{y1 - y0:.1f}"'
+    return f'{rect} {EDGE}/>{rect} stroke="{ON_PHOTO[colour]}"/>'
+
+
+def _circle(point, colour):
+    x, y = point
+    circle = f'<circle cx="{x:.1f}" cy="{y:.1f}" r="6"'
+    return f'{circle} {EDGE}/>{circle} stroke="{ON_PHOTO[colour]}"/>'
+
+
+def _box_labels(boxes, width, height):
+    """The boxes' labels, each above, below or inside its box: where it hides none before it."""
+    labels, taken = [], []
+    for (x0, y0, _, y1), label, colour in boxes:
+        long = 12 * len(label) + 9 * sum(map(label.count, "%m"))  # about; these are wide
+        x, low = max(min(x0, width - long), 0), min(y1 + 21, height - 7)
+        near = [y for begin, y, end in taken if begin < x + long and x < end]
+        places = [y0 - 7, low, y0 + 21] if y0 > 26 else [low, y0 + 21]
+        y = next((y for y in places if all(abs(y - other) > 20 for other in near)), places[0])
+        labels.append(_label(x, y, label, colour))
+        taken += [(x, y, x + long)] * bool(label)
+    return labels
 
 
 def _label(x, y, text, colour):
