@@ -854,6 +854,7 @@ SHOWING = {
     "an estimate in words": (lambda g: estimate("few"), "'few'", "give numbers"),
     "an interval alone": (lambda g: estimate((1, 2)), "(1, 2)", "(value, low, high)"),
     "no rows": (lambda g: table(["a"], 3), "rows 3", "a list of rows"),
+    "a row of one number": (lambda g: table(["a", "b"], {"ours": 1}), "{'ours': 1}", "a list of r"),
     "a note of a number": (lambda g: note(3), "note 3", "str(…)"),
     "boxes in a row": (lambda g: photo_view(g.image, [1, 2, 3, 4]), "hold 1", "give ((x0, y0"),
     "an exercise to solve": (lambda g: solution(text), "exercise <function", "book.exercises"),

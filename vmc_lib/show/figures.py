@@ -237,18 +237,24 @@ def table(
     if it is given. ValueError where a row has another number of cells, or a column has no head: a
     screen reader would call it nothing.
     """
-    if isinstance(rows, dict):
-        rows = [[name, *cells] for name, cells in rows.items()]
     if not np.iterable(heads):
         raise ValueError(f"heads {heads!r}: give a list of texts, one for each column")
     if not all(heads):
         raise ValueError(f"every column needs a head, and {list(heads)} leaves one empty")
-    if not all(map(np.iterable, [rows, *(rows if np.iterable(rows) else ())])):
-        raise ValueError(f"rows {short(rows)}: give a list of rows, each a list of its cells")
+    rows = _rows(rows)
     lines = [heads, ["---"] * len(heads), *rows]
     if wrong := [row for row in rows if len(row) != len(heads)]:
         raise ValueError(f"the row {wrong[0]} does not have {len(heads)} cells, as {heads} has")
     return "\n".join(f"| {' | '.join(_cell(x, form) for x in line)} |" for line in lines)
+
+
+def _rows(given):
+    """The rows of a table as a list, their names as first cells; ValueError for what are none."""
+    named = isinstance(given, Mapping)
+    rows = list(given.values() if named else given) if np.iterable(given) else [given]
+    if not all(map(np.iterable, rows)):
+        raise ValueError(f"rows {short(given)}: give a list of rows, each a list of its cells")
+    return [[name, *row] for name, row in zip(given, rows, strict=True)] if named else rows
 
 
 def _cell(value, form):
