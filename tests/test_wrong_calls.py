@@ -520,6 +520,11 @@ MOVING = {
         lambda g: arm_scene((0, 1), balls=[((0.1, 0, 0), "red")], end=(0, 0, 0)),
         "(0, 0, 0) is no pair", "speed)",
     ),
+    "an end without its target": (
+        lambda g: arm_scene((0, 1), balls=[((0.1, 0, 0), "red")], end=((0.2, 0, 0), 1)),
+        "((0.2, 0, 0), 1)", "as a green ball",
+    ),
+    "no end": (lambda g: arm_scene((0, 1), end=()), "end () is no pair", "speed)"),
     "a turn": (lambda g: arm_scene((0, 1), turn="left"), "'left'", "give numbers"),
     "a muscle": (
         lambda g: simulate.simulate(np.zeros((9, 6)), (0, 1), muscle="Hill"),

@@ -45,62 +45,36 @@ def arm_scene(
     target. Where there is neither, there is no table: a hanging arm would reach through it. With
     `grasp` the hand closes: at once, or at the end of the movement. `end` is the movement's end
     point (3,) and how fast the hand still is there, in m/s: a red diamond, on a line from the
-    target. ValueError for other shapes, a posture beyond the joints' limits, or a colour that has
-    no name.
+    target. ValueError for other shapes, a posture beyond the joints' limits, a colour that has no
+    name, or an end without a target.
     """
+    _check_goals(photo, balls, end)
+    motion = _motion(q, activation, turn, grasp)
+    table = bool(photo or len(balls))
+    scene = Scene(_furniture(table))
+    scene.tell("motion", {name: value.round(4).tolist() for name, value in motion.items()})
+    if table:
+        _add_goals(scene, photo, balls, end, motion["turn"][-1])
+    return scene
+
+
+def _check_goals(photo, balls, end):
+    """Raise ValueError for what is no photo, no balls, or an end without its target."""
     if not (photo is None or hasattr(photo, "target")):
         raise ValueError(f'photo {short(photo)} is none: give one of photos.load("rig", "test")')
     if not np.iterable(balls):
         raise ValueError(f"balls {short(balls)}: give a list of ((x, y, z), colour name)")
     for ball in balls:
         _check_pair("a ball", ball, "((x, y, z), colour name)")
-    if end:
-        _check_pair("end", end, "((x, y, z), speed)")
-        _samples("the end's place", end[0], 3)
-        if not is_within(end[1], 0, np.inf):
-            raise ValueError(f"the end's speed {short(end[1])}: give m/s, 0 or more")
-    table = bool(photo or len(balls))
-    scene = Scene(_furniture(table))
-    if isinstance(q, Motion):
-        if np.ndim(q.q) != 2:
-            raise ValueError(f"{short(q)} is a batch: give one movement of it, list(motion)[0]")
-        activation, q = q.activation, q.q
-    q = _samples("posture", q, 2)[::EVERY]
-    check_posture(q)
-    moments = np.arange(len(q)) * EVERY / 1000
-    active = _samples("activation", activation, 6)[::EVERY]
-    turns = np.atleast_1d(as_numbers("turn", turn))[::EVERY]
-    if turns.ndim != 1 or not {len(active), len(turns)} <= {1, len(q)}:
-        raise ValueError(
-            f"activation {np.shape(activation)} or turn {np.shape(turn)} is of another movement "
-            "than the posture: give a row for each of its rows, or one"
-        )
-    active, turns = np.broadcast_to(active, (len(q), 6)), np.broadcast_to(turns, len(q))
-    closed = np.clip(1 + (moments - moments[-1]) / CLOSING, 0, 1) * bool(grasp)
-    motion = {"q": q, "activation": active, "turn": turns, "grasp": closed}
-    scene.tell("motion", {name: value.round(4).tolist() for name, value in motion.items()})
-    if not table:
-        return scene
-    from vmc_lib.show import props  # here, with meshcat, which the page has not
-
-    final = turns[-1] or (_turn_for(photo.target) if photo else 0.0)  # before a reach: its own
-    scene["goal"].set_transform(props.place(beyond_wrist(final)))
-    if photo:
-        props.table(scene["table"], photo)
-        props.shuttlecock(scene["goal/shuttlecock"], photo)
-        props.cup(scene["goal/cup"], photo)
-    for i, (position, colour) in enumerate(balls):
-        _samples("a ball's position", position, 3)
-        props.ball(scene[f"goal/ball{i}"], position, colour)
-        if colour == "green":
-            scene.tell("target", np.round(position, 5).tolist())
-            if end:
-                place, speed = end
-                props.diamond(scene["goal/end"], place, "red")
-                props.line(scene["goal/miss"], (position, place), "red")
-                off = float(np.linalg.norm(np.subtract(place, position)))
-                scene.tell("end", {"off": round(off, 7), "speed": round(float(speed), 7)})
-    return scene
+        _samples("a ball's position", ball[0], 3)
+    if end is None:
+        return
+    _check_pair("end", end, "((x, y, z), speed)")
+    _samples("the end's place", end[0], 3)
+    if not is_within(end[1], 0, np.inf):
+        raise ValueError(f"the end's speed {short(end[1])}: give m/s, 0 or more")
+    if not any(colour == "green" for _, colour in balls):
+        raise ValueError(f"end {short(end)}: give its target, too, as a green ball")
 
 
 def _check_pair(name, pair, parts):
@@ -117,6 +91,53 @@ def _samples(name, values, size):
             f"{name} {short(values)} of shape {np.shape(values)}: give {size} numbers in a tuple"
         )
     return samples
+
+
+def _motion(q, activation, turn, grasp):
+    """A movement's samples by name, one every `EVERY` ms: joints, muscles, trunk and grasp."""
+    if isinstance(q, Motion):
+        if np.ndim(q.q) != 2:
+            raise ValueError(f"{short(q)} is a batch: give one movement of it, list(motion)[0]")
+        activation, q = q.activation, q.q
+    q = _samples("posture", q, 2)[::EVERY]
+    check_posture(q)
+    active = _samples("activation", activation, 6)[::EVERY]
+    turns = np.atleast_1d(as_numbers("turn", turn))[::EVERY]
+    if turns.ndim != 1 or not {len(active), len(turns)} <= {1, len(q)}:
+        raise ValueError(
+            f"activation {np.shape(activation)} or turn {np.shape(turn)} is of another movement "
+            "than the posture: give a row for each of its rows, or one"
+        )
+    moments = np.arange(len(q)) * EVERY / 1000
+    return {
+        "q": q,
+        "activation": np.broadcast_to(active, (len(q), 6)),
+        "turn": np.broadcast_to(turns, len(q)),
+        "grasp": np.clip(1 + (moments - moments[-1]) / CLOSING, 0, 1) * bool(grasp),
+    }
+
+
+def _add_goals(scene, photo, balls, end, turn):
+    """Add what is reached for, where the trunk has turned at last, and how the reach ends."""
+    from vmc_lib.show import props  # here, with meshcat, which the page has not
+
+    turn = turn or (_turn_for(photo.target) if photo else 0.0)  # before a reach: its own
+    scene["goal"].set_transform(props.place(beyond_wrist(turn)))
+    if photo:
+        props.table(scene["table"], photo)
+        props.shuttlecock(scene["goal/shuttlecock"], photo)
+        props.cup(scene["goal/cup"], photo)
+    for i, (position, colour) in enumerate(balls):
+        props.ball(scene[f"goal/ball{i}"], position, colour)
+        if colour == "green":
+            target = position
+            scene.tell("target", np.round(target, 5).tolist())
+    if end:
+        place, speed = end
+        props.diamond(scene["goal/end"], place, "red")
+        props.line(scene["goal/miss"], (target, place), "red")
+        off = float(np.linalg.norm(np.subtract(place, target)))
+        scene.tell("end", {"off": round(off, 7), "speed": round(float(speed), 7)})
 
 
 def beyond_wrist(turn: float) -> np.ndarray:
