@@ -1,5 +1,7 @@
 """Estimates and comparisons: what their intervals are, and how they are drawn and described."""
 
+from types import MappingProxyType
+
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
@@ -50,6 +52,12 @@ def test_dot_plot_shows_values_intervals_and_published_ticks():
     [legend] = fig.legends
     assert [text.get_text() for text in legend.get_texts()] == ["test", "train", "published"]
     assert not dot_plot({"": {"a": 1}}, "x").legends
+
+
+def test_dot_plot_takes_any_mapping():
+    series = MappingProxyType({"ours": MappingProxyType({"a": 1.0})})
+    fig = dot_plot(series, "x", MappingProxyType({"a": 2.0}))
+    assert [line.get_xdata().tolist() for line in fig.axes[0].lines] == [[1.0], [2.0]]
 
 
 def test_a_comparison_has_one_table_and_its_own_description(outputs, monkeypatch):

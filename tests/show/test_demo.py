@@ -2,6 +2,7 @@
 
 import json
 import re
+from types import MappingProxyType
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -195,7 +196,7 @@ def test_the_kinds_of_pictures_may_not_change():
 
 def test_what_paper_shows_is_a_place_of_the_controls(shown, book):
     controls = {"k": Slider([1, 2], "k"), "on": [False, True]}
-    show(printed=[{"k": 2}, {"on": True}], **controls)
+    show(printed=[MappingProxyType({"k": 2}), {"on": True}], **controls)
     assert 'data-printed="k=1&amp;on=0 k=0&amp;on=1"' in shown[0].data
     for wrong in ({"k": 3}, {"j": 1}):
         with pytest.raises(ValueError, match=r"cannot stand at 3|no control is called"):

@@ -3,6 +3,7 @@
 import gzip
 import json
 from base64 import b64decode
+from types import MappingProxyType
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from vmc_lib.show.packed import pack_arrays, pack_json, unpack_arrays
 def test_arrays_come_back_as_they_were(rng):
     given = {
         "x": rng.normal(size=(3, 2)),
-        "by": {"rig": {"a b": np.arange(4)}, "at": np.float32(1)},
+        "by": MappingProxyType({"rig": {"a b": np.arange(4)}, "at": np.float32(1)}),
     }
     back = unpack_arrays(pack_arrays(given))
     assert list(back) == ["x", "by"]

@@ -49,9 +49,9 @@ def check_call(draw, caption, alt, data, printed, more, names):
         )
     wrong = {
         "alt": not (alt is None or isinstance(alt, str) or callable(alt)) and alt,
-        "data": not (data is None or isinstance(data, dict)) and data,
-        "printed": not (_listed(printed) and all(isinstance(x, dict) for x in printed)) and printed,
-        "more": not (_listed(more) and {*more} <= {*names}) and more,
+        "data": not (data is None or isinstance(data, Mapping)) and data,
+        "printed": not _list_of(Mapping, printed) and printed,
+        "more": not (_list_of(str, more) and {*more} <= {*names}) and more,
     }
     for name, value in wrong.items():
         if value is not False:
@@ -62,8 +62,9 @@ def check_call(draw, caption, alt, data, printed, more, names):
     _check_arguments(draw, names)
 
 
-def _listed(value):
-    return isinstance(value, Iterable) and not isinstance(value, str)
+def _list_of(kind, value):
+    several = isinstance(value, Iterable) and not isinstance(value, str)
+    return several and all(isinstance(one, kind) for one in value)
 
 
 def _check_arguments(draw, names):

@@ -42,12 +42,12 @@ def dot_plot(
     >>> dot_plot({"ours": {"rig": [3.1, 2.8, 3.3], "free": 4.2}}, "miss (mm)").axes[0].get_xlabel()
     'miss (mm)'
     """
-    for label, given in series.items() if isinstance(series, dict) else [("", series)]:
-        if not isinstance(given, dict):
+    for label, given in series.items() if isinstance(series, Mapping) else [("", series)]:
+        if not isinstance(given, Mapping):
             raise ValueError(
                 f"series {label!r} is {given!r}: give {{label: {{row: draws}}}}, two dictionaries"
             )
-    if not series or not (published is None or isinstance(published, dict)):
+    if not series or not (published is None or isinstance(published, Mapping)):
         raise ValueError(
             f"series {list(series)}, published {published!r}: give {{label: {{row: draws}}}}, one "
             "label or more, and {row: number}"

@@ -4,6 +4,7 @@ import base64
 import gzip
 import io
 import json
+from collections.abc import Mapping
 from zipfile import ZIP_STORED, ZipFile, ZipInfo
 
 import numpy as np
@@ -56,7 +57,7 @@ def unpack_arrays(text):
 
 def _flat(arrays, path=""):
     for name, value in arrays.items():
-        if isinstance(value, dict):
+        if isinstance(value, Mapping):
             yield from _flat(value, f"{path}{name}/")
         else:
             yield f"{path}{name}", value
