@@ -29,6 +29,39 @@ const follow = ({ div, duration, time }) => {
   }
 };
 
+/* The times of the pictures that the browser draws, in ms, for as long as it `goesOn()`. */
+const frames = async function* (goesOn) {
+  for (;;) {
+    const now = await new Promise(requestAnimationFrame);
+    if (!goesOn()) return;
+    yield now;
+  }
+};
+
+/* The moments of a movement that are seen, from a `start` on: [time, how far the hand has lifted what it grasps]. In a
+   film the last ones before the hold are slow. */
+const moments = async function* ({ duration, settings: { miss } }, start, speed, film, goesOn) {
+  const [slow, fast] = (film && miss?.slow) || [Infinity, Infinity];
+  const pace = calm.matches ? 500 : 0; // ms between two pictures
+  let last = 0, time = start, then = performance.now();
+  for await (const now of frames(goesOn)) {
+    const passed = Math.min(Math.max(0, now - then), LATE) / 1000;
+    time = Math.min(duration, time + passed * speed.value * (time > slow && time < fast ? SLOW_MOTION : 1));
+    then = now;
+    if (now - last < pace && time < duration) continue;
+    last = now;
+    yield [time];
+    if (time === duration) break;
+  }
+  if (!miss || !("lifted" in miss) || calm.matches) return;
+  const lifted = performance.now() + PAUSE + LIFTING;
+  for await (const now of frames(goesOn)) {
+    const after = Math.min(1, 1 + (now - lifted) / LIFTING);
+    if (after > 0) yield [duration, after];
+    if (after === 1) break;
+  }
+};
+
 /* Play, a slider of time, and how fast: shown where there is a movement. */
 const clock = (views) => {
   const box = element(`<div class="vmc-control vmc-clock">
@@ -36,60 +69,34 @@ const clock = (views) => {
     <label>time <input type="range" min="0" step="0.01" value="0"></label>
     <output>0.00 s</output><select aria-label="speed">${Object.entries(SPEEDS)
       .map(([text, pace]) => `<option value="${pace}">${text}</option>`).join("")}</select></div>`);
-  const [button, slider, speed] = ["button", "input", "select"].map((tag) => box.querySelector(tag));
+  const [button, slider, output, speed] = box.querySelectorAll("button, input, output, select");
+  const [view] = views;
   let playing = null;
   const stop = () => {
     playing = null;
     showRunning(button, false, "Play the movement");
   };
   const set = (time, after) => views.forEach((view) => view.at(time, after));
-  /* In a film the last moments before the hold are slow. */
   const play = async ({ film = false } = {}) => {
-    const mine = (playing = {});
+    const mine = (playing = {}), goesOn = () => playing === mine && box.isConnected;
     showRunning(button, true, "Pause the movement");
-    const { duration } = views[0];
-    const start = +slider.value < duration ? +slider.value : 0;
-    const pace = calm.matches ? 500 : 0; // ms between two pictures
+    const start = +slider.value < view.duration ? +slider.value : 0;
     set(start);
-    const { miss } = views[0].settings, [slow, fast] = (film && miss?.slow) || [Infinity, Infinity];
-    /* The time of the next picture; none once this is not played any more. */
-    const next = async () => {
-      const now = await new Promise(requestAnimationFrame);
-      return playing === mine && box.isConnected && now;
-    };
-    let last = 0, time = start, then = performance.now();
-    while (time < duration) {
-      const now = await next();
-      if (!now) return;
-      const passed = Math.min(Math.max(0, now - then), LATE) / 1000;
-      time = Math.min(duration, time + passed * speed.value * (time > slow && time < fast ? SLOW_MOTION : 1));
-      then = now;
-      if (now - last < pace && time < duration) continue;
-      last = now;
-      set(time);
-    }
-    const lifted = miss && "lifted" in miss && !calm.matches ? performance.now() + PAUSE + LIFTING : 0;
-    for (let now = 0; now < lifted; ) {
-      now = await next();
-      if (!now) return;
-      const after = Math.min(1, 1 + (now - lifted) / LIFTING);
-      if (after > 0) set(duration, after);
-    }
-    stop();
+    for await (const moment of moments(view, start, speed, film, goesOn)) set(...moment);
+    if (goesOn()) stop();
   };
   button.addEventListener("click", () => (playing ? stop() : play()));
   slider.addEventListener("pointerdown", stop);
   slider.addEventListener("input", () => (stop(), set(+slider.value)));
   box.addEventListener("input", (event) => event.stopPropagation()); // no control of the demo
   box.play = play;
-  const [view] = views;
   view.listeners.push(() => {
-    const { duration, time } = view;
+    const { duration, time } = view, text = `${time.toFixed(2)} s`;
     box.hidden = !duration;
     slider.max = duration;
     slider.value = time;
-    slider.setAttribute("aria-valuetext", `${time.toFixed(2)} s`);
-    box.querySelector("output").textContent = `${time.toFixed(2)} s`;
+    slider.setAttribute("aria-valuetext", text);
+    output.textContent = text;
     follow(view);
   });
   return box;
