@@ -4,97 +4,124 @@ import { showRunning } from "../demo/running.js";
 import { finish } from "../eye/pieces.js";
 import { grow as growSegments, prepare, segment } from "../eye/selective_search.js";
 
-export const start = (box) => {
-  const AREA = 600 * 400, PLAY_TIME = 9000; // pixels, as our photos have; ms
-  const [still, canvas, k, merged, play, choose, file, strip, say] = // as they stand in the page
-    box.querySelectorAll("img, canvas, input, button, .vmc-strip, [role=status]");
-  const scale = () => Math.round(2 ** k.value);
-  let context, photo, prepared, tree, asked = 0;
+const AREA = 600 * 400, PLAY_TIME = 9000; // pixels, as our photos have; ms
+const text = (n) => n.toLocaleString("en-GB");
 
-  const look = (picture) => {
-    context = drawScaled(picture, Math.sqrt(AREA / (picture.width * picture.height)), canvas);
-    if (!context) {
-      stop();
-      strip.textContent = PIXELS_HIDDEN;
-      return false;
+/* A picture on a canvas that is not shown yet, and its pixels; null where the browser hides them. */
+const take = (picture, canvas) => {
+  const context = drawScaled(picture, Math.sqrt(AREA / (picture.width * picture.height)), canvas);
+  if (!context) return null;
+  canvas.hidden = true;
+  return { context, pixels: context.getImageData(0, 0, canvas.width, canvas.height) };
+};
+
+/* A photo's segments at a scale and all regions above them, with their mean colours as four bytes. */
+const grow = (photo, scale) => {
+  photo.prepared ??= finish(prepare(photo.pixels, "HSV"));
+  const segments = finish(segment(photo.prepared, scale)), { labels } = segments;
+  const { merges, boxes } = growSegments(segments, [true, true, true, true]), count = merges.length + 1;
+  const sums = Array.from({ length: count }, () => [0, 0, 0, 0]);
+  photo.pixels.data.forEach((byte, i) => (sums[labels[i >> 2]][i & 3] += byte));
+  for (const [i, j] of merges) sums.push(sums[i].map((sum, c) => sum + sums[j][c]));
+  const bytes = Uint8Array.from(sums.flatMap((sum) => sum.map((x) => (255 * x) / sum[3]))); // they are opaque
+  return { scale, labels, count, merges, boxes, colours: new Int32Array(bytes.buffer) };
+};
+
+/* Colour each segment as the last of so many regions that it lies in, and frame the newest of them. */
+const paint = (context, { labels, count, merges, boxes, colours }, regions) => {
+  const shown = colours.slice();
+  for (let made = regions - 1; made >= count; made--)
+    for (const part of merges[made - count]) shown[part] = shown[made];
+  const pixels = labels.map((label) => shown[label]);
+  context.putImageData(new ImageData(new Uint8ClampedArray(pixels.buffer), context.canvas.width), 0, 0);
+  const [x0, y0, x1, y1] = boxes[regions - 1];
+  for (const [colour, wide] of regions > count ? [["black", 5], ["orange", 3]] : []) {
+    Object.assign(context, { strokeStyle: colour, lineWidth: wide });
+    context.strokeRect(x0, y0, x1 - x0, y1 - y0);
+  }
+};
+
+const fadeIn = (canvas) => {
+  canvas.hidden = false;
+  return canvas.animate({ opacity: [0, 1] }, matchMedia("(prefers-reduced-motion: reduce)").matches ? 0 : 1500);
+};
+
+class Segmentation {
+  constructor(box) {
+    const [still, canvas, k, merged, play, choose, file, strip, say] = // as they stand in the page
+      box.querySelectorAll("img, canvas, input, button, .vmc-strip, [role=status]");
+    Object.assign(this, { still, canvas, k, merged, play, strip, asked: 0 });
+    play.addEventListener("click", () => ("running" in play.dataset ? this.stop() : this.run()));
+    for (const slider of [k, merged]) slider.addEventListener("input", () => { this.stop(); this.show(); });
+    takePictures(box, file, (picture, { name }) => {
+      say.textContent = `${name} stays in this page: it is sent nowhere.`;
+      merged.value = 0;
+      if (!this.look(picture)) return;
+      still.src = canvas.toDataURL("image/jpeg", 0.9);
+      this.run();
+    }, (why) => (say.textContent = why));
+    choose.addEventListener("click", () => file.click());
+  }
+
+  get scale() {
+    return Math.round(2 ** this.k.value);
+  }
+
+  look(picture) {
+    this.photo = take(picture, this.canvas);
+    if (!this.photo) {
+      this.stop();
+      this.strip.textContent = PIXELS_HIDDEN;
     }
-    photo = context.getImageData(0, 0, canvas.width, canvas.height);
-    prepared = tree = null;
-    return (canvas.hidden = true);
-  };
+    return this.photo;
+  }
 
-  /* The segments and all regions above them, with their mean colours as four bytes. */
-  const grow = () => {
-    prepared ??= finish(prepare(photo, "HSV"));
-    const segments = finish(segment(prepared, scale())), { labels } = segments;
-    const { merges, boxes } = growSegments(segments, [true, true, true, true]), count = merges.length + 1;
-    const sums = Array.from({ length: count }, () => [0, 0, 0, 0]);
-    photo.data.forEach((byte, i) => (sums[labels[i >> 2]][i & 3] += byte));
-    for (const [i, j] of merges) sums.push(sums[i].map((sum, c) => sum + sums[j][c]));
-    const bytes = Uint8Array.from(sums.flatMap((sum) => sum.map((x) => (255 * x) / sum[3]))); // they are opaque
-    tree = { scale: scale(), labels, count, merges, boxes, colours: new Int32Array(bytes.buffer) };
-  };
-
-  const draw = () => {
-    if (tree?.scale !== scale()) grow();
-    const { labels, count, merges, boxes, colours } = tree, { width, height } = photo;
-    const left = Math.round(count ** (1 - merged.value)), regions = 2 * count - left, shown = colours.slice();
-    for (let made = regions - 1; made >= count; made--)
-      for (const part of merges[made - count]) shown[part] = shown[made];
-    const pixels = labels.map((label) => shown[label]);
-    context.putImageData(new ImageData(new Uint8ClampedArray(pixels.buffer), width), 0, 0);
-    const [x0, y0, x1, y1] = boxes[regions - 1];
-    for (const [colour, wide] of left < count ? [["black", 5], ["orange", 3]] : []) {
-      Object.assign(context, { strokeStyle: colour, lineWidth: wide });
-      context.strokeRect(x0, y0, x1 - x0, y1 - y0);
-    }
-    const text = (n) => n.toLocaleString("en-GB");
-    k.nextElementSibling.textContent = scale();
+  draw() {
+    const { photo, scale, canvas, k, merged } = this;
+    if (photo.tree?.scale !== scale) photo.tree = grow(photo, scale);
+    const { count } = photo.tree, left = Math.round(count ** (1 - merged.value)), regions = 2 * count - left;
+    paint(photo.context, photo.tree, regions);
+    k.nextElementSibling.textContent = scale;
     merged.nextElementSibling.textContent = `${text(left)} left`;
-    if (canvas.hidden) {
-      canvas.hidden = false;
-      const fade = matchMedia("(prefers-reduced-motion: reduce)").matches ? 0 : 1500;
-      canvas.animate({ opacity: [0, 1] }, fade).onfinish = draw;
-    }
+    if (canvas.hidden) fadeIn(canvas).onfinish = () => this.draw();
     if (canvas.getAnimations().length) return; // the words wait for the picture
-    strip.textContent = `${text(regions)} region${regions > 1 ? "s" : ""} so far, a box around each, in ${width} × ${height} pixels.`;
-  };
+    const all = `${text(regions)} region${regions > 1 ? "s" : ""} so far, a box around each`;
+    this.strip.textContent = `${all}, in ${canvas.width} × ${canvas.height} pixels.`;
+  }
 
   /* To cut takes a moment: say so, and begin when that can be seen. Only the last who asked is answered. */
-  const drawn = () => new Promise((done) => {
-    const mine = ++asked;
-    if (!photo && !look(still)) return;
-    if (tree?.scale !== scale()) strip.textContent = "Cutting …";
-    requestAnimationFrame(() => setTimeout(() => mine === asked && done(draw())));
-  });
-  const stop = () => {
-    asked++;
-    showRunning(play, false, "Play");
-  };
-  const run = async () => {
-    showRunning(play, true, "Pause");
+  show() {
+    const mine = ++this.asked;
+    return new Promise((done) => {
+      if (!this.photo && !this.look(this.still)) return;
+      if (this.photo.tree?.scale !== this.scale) this.strip.textContent = "Cutting …";
+      requestAnimationFrame(() => setTimeout(() => mine === this.asked && done(this.draw())));
+    });
+  }
+
+  stop() {
+    this.asked++;
+    showRunning(this.play, false, "Play");
+  }
+
+  async run() {
+    const { merged } = this;
+    showRunning(this.play, true, "Pause");
     merged.value %= 1;
-    await drawn();
+    await this.show();
     const begun = performance.now() - PLAY_TIME * merged.value;
     while (+merged.value < 1) {
       merged.value = (performance.now() - begun) / PLAY_TIME;
-      await drawn();
+      await this.show();
     }
-    stop();
-  };
-  play.addEventListener("click", () => ("running" in play.dataset ? stop() : run()));
-  for (const slider of [k, merged]) slider.addEventListener("input", () => { stop(); drawn(); });
+    this.stop();
+  }
+}
 
-  takePictures(box, file, (picture, { name }) => {
-    say.textContent = `${name} stays in this page: it is sent nowhere.`;
-    merged.value = 0;
-    if (!look(picture)) return;
-    still.src = canvas.toDataURL("image/jpeg", 0.9);
-    run();
-  }, (why) => (say.textContent = why));
-  choose.addEventListener("click", () => file.click());
+export const start = (box) => {
+  const demo = new Segmentation(box);
   box.dataset.ready = "";
-  return stop;
+  return () => demo.stop();
 };
 
 /* In the page it starts by itself. */
