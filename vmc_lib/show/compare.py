@@ -42,16 +42,7 @@ def dot_plot(
     >>> dot_plot({"ours": {"rig": [3.1, 2.8, 3.3], "free": 4.2}}, "miss (mm)").axes[0].get_xlabel()
     'miss (mm)'
     """
-    for label, given in series.items() if isinstance(series, Mapping) else [("", series)]:
-        if not isinstance(given, Mapping):
-            raise ValueError(
-                f"series {label!r} is {given!r}: give {{label: {{row: draws}}}}, two dictionaries"
-            )
-    if not series or not (published is None or isinstance(published, Mapping)):
-        raise ValueError(
-            f"series {list(series)}, published {published!r}: give {{label: {{row: draws}}}}, one "
-            "label or more, and {row: number}"
-        )
+    _check_series(series, published)
     if not (xlim is None or np.shape(xlim) == (2,)):
         raise ValueError(f"xlim {xlim!r}: give (low, high)")
     every = *series.values(), published or {}
@@ -78,3 +69,17 @@ def dot_plot(
         fig.legend(loc="upper center", ncols=ncols, columnspacing=1, handletextpad=0.3)
     margins(fig, left=room, top=0.12 + 0.22 * rows)
     return fig
+
+
+def _check_series(series, published):
+    """Raise ValueError for what are no series, or no published numbers."""
+    for label, given in series.items() if isinstance(series, Mapping) else [("", series)]:
+        if not isinstance(given, Mapping):
+            raise ValueError(
+                f"series {label!r} is {given!r}: give {{label: {{row: draws}}}}, two dictionaries"
+            )
+    if not series or not (published is None or isinstance(published, Mapping)):
+        raise ValueError(
+            f"series {list(series)}, published {published!r}: give {{label: {{row: draws}}}}, one "
+            "label or more, and {row: number}"
+        )
