@@ -2,7 +2,7 @@
    slider that turns it. One clock moves all scenes of a demo, and what else follows time there. */
 import { distance } from "../vectors.js";
 import { redness } from "./muscles.js";
-import { showRunning } from "./running.js";
+import { calm, showRunning } from "./running.js";
 
 const SPEEDS = { "real time": 1, "half speed": 0.5, "quarter speed": 0.25 };
 const SLOW_MOTION = 0.25; // of its speed
@@ -10,7 +10,6 @@ const PAUSE = 900, LIFTING = 900; // ms: to see the miss; then the hand lifts wh
 const LATE = 100; // ms: where pictures come late a movement takes longer, and is still seen whole
 const WRIST = "The model ends at the wrist. The hand and its target are drawn one palm's length " +
   "beyond it.";
-const calm = matchMedia("(prefers-reduced-motion: reduce)");
 export const signed = (number, digits) => (+number.toFixed(digits) + 0).toFixed(digits).replace("-", "−"); // no −0
 export const degrees = (angle) => `${signed((angle * 180) / Math.PI, 1)}°`;
 

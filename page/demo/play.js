@@ -1,7 +1,5 @@
-import { showRunning } from "./running.js";
+import { calm, showRunning } from "./running.js";
 import { viewOf } from "./scene.js";
-
-const calm = matchMedia("(prefers-reduced-motion: reduce)");
 
 /* A step is looked at for a while; if it brings a movement, for as long as that takes. */
 const look = (demo, input) => {
@@ -9,6 +7,22 @@ const look = (demo, input) => {
   if (clock) return clock.play({ film: true });
   const pause = calm.matches ? 1000 : Math.min(800, 5000 / input.max);
   return new Promise((done) => setTimeout(done, pause));
+};
+
+/* Paper shows where a demo leads, if the reader left it where it begins. */
+const printEnd = (demo, input, show, signal) => {
+  let begun = null;
+  addEventListener("beforeprint", () => {
+    if (input.value !== input.defaultValue) return;
+    [begun, input.value] = [input.value, input.max];
+    show();
+    for (const still of demo.querySelectorAll(".vmc-scene:has(img)")) (viewOf(still).start(), viewOf(still).stop()); // anew
+  }, { signal });
+  addEventListener("afterprint", () => {
+    if (begun === null) return;
+    [input.value, begun] = [begun, null];
+    show();
+  }, { signal });
 };
 
 /* A button that walks through its slider's steps, of which each is to `show`; by itself, once `ready`, where that
@@ -37,19 +51,7 @@ export const addPlay = (demo, button, show, ready, signal) => {
     demo.addEventListener(type, ({ target }) => {
       if (target.closest("[data-stride], .vmc-clock :is(input, button), .vmc-handle")) stop();
     }, true);
-  /* Paper shows where a demo leads, if the reader left it where it begins. */
-  let begun = null;
-  addEventListener("beforeprint", () => {
-    if (input.value !== input.defaultValue) return;
-    [begun, input.value] = [input.value, input.max];
-    show();
-    for (const still of demo.querySelectorAll(".vmc-scene:has(img)")) (viewOf(still).start(), viewOf(still).stop()); // anew
-  }, { signal });
-  addEventListener("afterprint", () => {
-    if (begun === null) return;
-    [input.value, begun] = [begun, null];
-    show();
-  }, { signal });
+  printEnd(demo, input, show, signal);
   if ("unasked" in button.dataset && !calm.matches) {
     const watch = new IntersectionObserver((entries) => {
       if (!entries.at(-1).isIntersecting) return;

@@ -1,6 +1,6 @@
 /* A photo falls into segments, which grow back: ours, or the reader's own, which never leaves the page. */
 import { drawScaled, PIXELS_HIDDEN, takePictures } from "../canvas.js";
-import { showRunning } from "../demo/running.js";
+import { calm, showRunning } from "../demo/running.js";
 import { finish } from "../eye/pieces.js";
 import { grow as growSegments, prepare, segment } from "../eye/selective_search.js";
 
@@ -43,7 +43,7 @@ const paint = (context, { labels, count, merges, boxes, colours }, regions) => {
 
 const fadeIn = (canvas) => {
   canvas.hidden = false;
-  return canvas.animate({ opacity: [0, 1] }, matchMedia("(prefers-reduced-motion: reduce)").matches ? 0 : 1500);
+  return canvas.animate({ opacity: [0, 1] }, calm.matches ? 0 : 1500);
 };
 
 class Segmentation {
