@@ -1,5 +1,7 @@
 /* The axes of a plot that Python drew. Its `data-axes` say what they measure, and where in the
    picture they lie, as shares of its width and height. */
+import { clip } from "../vectors.js";
+
 export const axesOf = (svg) => {
   const [x0, x1, y0, y1, left, right, bottom, top] = svg.dataset.axes.split(" ").map(Number);
   const [wide, high] = [(right - left) / (x1 - x0), (top - bottom) / (y1 - y0)];
@@ -45,7 +47,7 @@ export const axesOf = (svg) => {
       const [x, y] = put(points);
       if (kind === "words") { // whole, at the picture's edge too
         const half = 3 * size.length;
-        return `<text x="${Math.min(Math.max(x, half), width - half)}" y="${y - above}" fill="${paint}" font-size="10"
+        return `<text x="${clip(x, half, width - half)}" y="${y - above}" fill="${paint}" font-size="10"
           text-anchor="middle">${size}</text>`;
       }
       const look = kind === "ring" ? `fill="none" stroke-width="2" stroke` : "fill";

@@ -1,6 +1,7 @@
 /* The reader's guess, drawn on the figure beside what came out: a dashed line where the choice lies on an
    axis of the next figure's first plot. The prediction says where, `data-guess="y 0.1 0.67 1"`: the axis
    ("log y" for a logarithmic one), and a place for each choice. */
+import { clip } from "../vectors.js";
 import { axesOf } from "./axes.js";
 
 const drawGuess = (question) => {
@@ -19,7 +20,7 @@ const drawGuess = (question) => {
     if (line.hidden) return;
     const plot = pictures.querySelector("svg[data-axes]");
     const { left, right, bottom, top, share } = axesOf(plot);
-    const along = Math.min(Math.max(share(+places[chosen], nth, log), 0), 1); // at the edge, if beyond
+    const along = clip(share(+places[chosen], nth, log), 0, 1); // at the edge, if beyond
     const [box, frame] = [plot, pictures].map((element) => element.getBoundingClientRect());
     const at = [box.left - frame.left + left * box.width, box.top - frame.top + top * box.height];
     const size = [(right - left) * box.width, (bottom - top) * box.height];

@@ -1,10 +1,11 @@
 /* Muscles in a viewer's scene, each a belly and its tendons along its path. */
+import { clip } from "../vectors.js";
 import { mix, RINGS } from "./anatomy.js";
 
 const REST = [0.93, 0.74, 0.70], FULL = [0.78, 0.02, 0.06], SINEW = [0.93, 0.90, 0.84];
 
 /* How red a muscle is: the eye tells weak activations apart when it sees their root. */
-export const redness = (activation) => mix(REST, FULL, Math.sqrt(Math.min(Math.max(activation, 0), 1)));
+export const redness = (activation) => mix(REST, FULL, Math.sqrt(clip(activation, 0, 1)));
 
 export class Muscles {
   /* So many muscles `within` an object of the scene, each with so many sides. */

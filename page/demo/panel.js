@@ -1,6 +1,6 @@
 /* What stands under a scene: its clock, the numbers of the moment it shows, the muscles by name, and a
    slider that turns it. One clock moves all scenes of a demo, and what else follows time there. */
-import { distance } from "../vectors.js";
+import { clip, distance } from "../vectors.js";
 import { redness } from "./muscles.js";
 import { calm, showRunning } from "./running.js";
 
@@ -44,7 +44,7 @@ const moments = async function* ({ duration, settings: { miss } }, start, speed,
   const pace = calm.matches ? 500 : 0; // ms between two pictures
   let last = 0, time = start, then = performance.now();
   for await (const now of frames(goesOn)) {
-    const passed = Math.min(Math.max(0, now - then), LATE) / 1000;
+    const passed = clip(now - then, 0, LATE) / 1000;
     time = Math.min(duration, time + passed * speed.value * (time > slow && time < fast ? SLOW_MOTION : 1));
     then = now;
     if (now - last < pace && time < duration) continue;

@@ -2,6 +2,7 @@
    few that meshcat has no command for, "name|JSON": camera, anatomy, motion, target, end, miss. Given the next
    scene, a view sends its viewer only what differs. The viewer is fetched (page/vendored.js) when the page
    is idle, or a scene comes into sight. */
+import { clip, minus } from "../vectors.js";
 import { fetchVendored } from "../vendored.js";
 import { Anatomy, moment } from "./anatomy.js";
 import { Body, bones as unpackBones } from "./body.js";
@@ -222,11 +223,10 @@ class View {
   look() {
     const [eye, at] = this.settings.camera ?? [[0, 0, 1], [0, 0, 0]];
     const { camera, controls } = this.viewer;
-    const [x, y, z] = eye.map((e, i) => e - at[i]);
+    const [x, y, z] = minus(eye, at);
     const level = Math.hypot(x, z);
     const azimuth = Math.atan2(x, z) + (this.turned * Math.PI) / 180;
-    const wanted = Math.atan2(y, level) + (this.raised * Math.PI) / 180;
-    const up = Math.min(Math.max(wanted, 0.09), 1.4); // never from below the table
+    const up = clip(Math.atan2(y, level) + (this.raised * Math.PI) / 180, 0.09, 1.4); // never from below the table
     const far = Math.hypot(level, y) * Math.max(1, WIDE / camera.aspect);
     const flat = far * Math.cos(up);
     controls.target.set(...at);

@@ -1,5 +1,7 @@
 /* A mouse or a finger on a scene: dragging turns it, pointing at a muscle names it. Fingers that move
    up or down scroll the page. */
+import { clip } from "../vectors.js";
+
 export const addPointer = (view, canvas) => {
   const tip = document.createElement("span");
   tip.className = "vmc-tip";
@@ -29,7 +31,7 @@ export const addPointer = (view, canvas) => {
     const [right, down] = [event.clientX - held.x, event.clientY - held.y];
     const turned = ((held.turned - 0.5 * right + 540) % 360) - 180;
     const raised = event.pointerType === "touch" ? view.raised : held.raised + 0.3 * down;
-    view.turn(turned, Math.min(Math.max(raised, -30), 70));
+    view.turn(turned, clip(raised, -30, 70));
   });
   for (const type of ["pointerup", "pointercancel"]) canvas.addEventListener(type, () => (held = null));
   canvas.addEventListener("pointerleave", () => {

@@ -1,6 +1,7 @@
 /* Sonification: a reader hears the curves of a demo's plots. In two seconds from a plot's left to its
    right a tone is as high as the curve, two octaves from the plot's bottom to its top. One curve follows
    the other; where a plot has two, both sound once more together, one in each ear. */
+import { clip } from "../vectors.js";
 import { axesOf } from "./axes.js";
 import { showRunning } from "./running.js";
 
@@ -22,7 +23,7 @@ const frame = (line) => {
 const stretches = (line) => {
   const [left, right, bottom, top] = frame(line);
   const tone = ([x, y]) => {
-    const share = Math.min(Math.max((y - bottom) / (top - bottom), 0), 1);
+    const share = clip((y - bottom) / (top - bottom), 0, 1);
     return [(LONG * (x - left)) / (right - left), LOWEST * 2 ** (OCTAVES * share)];
   };
   return (line.getAttribute("d") ?? line.getAttribute("points")).split("M").map((stretch) => {
