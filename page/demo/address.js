@@ -1,3 +1,5 @@
+import { moveTo } from "./control.js";
+
 /* What stands after the # of the page's address, even if it came encoded, or cut. */
 export const hash = () => {
   const text = location.hash.slice(1).replaceAll("&amp;", "&"); // as some mail programs write it
@@ -49,13 +51,10 @@ export const addAddress = (demo) => {
     for (const [key, text] of new URLSearchParams(said())) {
       const place = parseFloat(text);
       if (!Number.isFinite(place)) continue;
-      for (const input of inputs.filter((input) => name(input) === key))
-        if (input.type === "range") {
-          if (between && "between" in input.dataset && place % 1) input.step = 0.1; // else the browser rounds it
-          input.value = place; // the browser keeps it within the range
-        } else if (input.type === "checkbox") input.checked = place === 1;
-        else if (input.type === "radio") input.checked ||= +input.value === place;
-        else if (input.options[place]) input.selectedIndex = place;
+      for (const input of inputs.filter((input) => name(input) === key)) {
+        if (between && "between" in input.dataset && place % 1) input.step = 0.1; // else the browser rounds it
+        moveTo(input, place);
+      }
     }
   };
 

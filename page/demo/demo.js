@@ -1,9 +1,11 @@
 /* Moves a demo's picture when the reader moves its controls. In the page every state was computed when
    the book was built and travels along: a table of lines, and each state as places in it. A live
    kernel is asked for each (live.js). */
+import { clip } from "../vectors.js";
 import { unzip } from "../vendored.js";
 import { addAddress } from "./address.js";
 import { axesOf } from "./axes.js";
+import { stands } from "./control.js";
 import { addHandle } from "./handle.js";
 import { panelOf } from "./panel.js";
 import { addPlay } from "./play.js";
@@ -12,6 +14,9 @@ import { addSound } from "./sound.js";
 
 /* What the page works out itself, by name: see page/demos. */
 export const works = {};
+
+/* What lines of markup make, apart from the page. */
+const contentOf = (lines) => Object.assign(document.createElement("template"), { innerHTML: lines.join("\n") }).content;
 
 /* Make `node` equal to `next`, touching only what differs: images neither reload nor flicker. */
 const morph = (node, next) => {
@@ -38,7 +43,7 @@ const valueAt = (values, place) => {
 const placeOf = (values, value) => {
   const way = Math.sign(values[1] - values[0]);
   const passed = values.filter((one) => (value - one) * way >= 0).length - 1;
-  const low = Math.max(0, Math.min(passed, values.length - 2));
+  const low = clip(passed, 0, values.length - 2);
   return low + (value - values[low]) / (values[low + 1] - values[low]);
 };
 
@@ -62,11 +67,7 @@ const stored = async (demo) => {
 /* The same for states that the page computes: a function of the book, given the values that a place
    stands for, describes it in words and draws it on the pictures that came along. */
 const computed = ({ work, grounds, given, grid }) => {
-  const axes = grounds.map((lines) => {
-    const box = document.createElement("template");
-    box.innerHTML = lines.join("\n");
-    return axesOf(box.content.firstElementChild);
-  });
+  const axes = grounds.map((lines) => axesOf(contentOf(lines).firstElementChild));
   const ask = (place, draw, at = {}) => {
     const values = grid.map((along, i) => {
       const stride = grid.slice(i + 1).reduce((product, { length }) => product * length, 1);
@@ -125,9 +126,8 @@ const drawer = (demo, follow) => {
       if (!lines) return; // it stands there already
       const picture = places[i], scene = picture.querySelector(".vmc-scene");
       if (scene) return viewOf(scene).show(allowed.settle(lines));
-      const next = picture.cloneNode(false), box = document.createElement("template");
-      box.innerHTML = lines.join("\n");
-      next.append(allowed.clean(box.content));
+      const next = picture.cloneNode(false);
+      next.append(allowed.clean(contentOf(lines)));
       morph(picture, next);
     });
     const words = alt.join();
@@ -139,10 +139,6 @@ const drawer = (demo, follow) => {
     if (held && top() !== before) scrollBy({ top: top() - before, behavior: "instant" });
   };
 };
-
-/* How far along its values a control stands; of radio buttons only the checked one counts. */
-const stands = ({ type, checked, value }) =>
-  type === "checkbox" ? +checked : type === "radio" && !checked ? 0 : Math.round(value);
 
 /* `ask(place, draw)` gives `draw` the state at a place: its words and its pictures, as lines. */
 export const start = (demo, ask) => {

@@ -1,5 +1,6 @@
 /* A demo in a live kernel, which works its states out. */
 import { GONE } from "../kernel.js";
+import { countOf, moveTo } from "./control.js";
 import { start as startDemo } from "./demo.js";
 import { viewOf } from "./scene.js";
 
@@ -54,13 +55,8 @@ const states = (ask, box, first, model) => {
   show.follow = () => {
     const place = model.get("place");
     if (place === last) return;
-    for (const input of box.querySelectorAll("[data-stride]")) {
-      const at = (length) => Math.floor(place / input.dataset.stride) % length;
-      if (input.type === "range") input.value = at(+input.max + 1);
-      else if (input.type === "checkbox") input.checked = at(2) === 1;
-      else if (input.type === "radio") input.checked = +input.value === at(input.closest("fieldset").elements.length);
-      else input.selectedIndex = at(input.length);
-    }
+    for (const input of box.querySelectorAll("[data-stride]"))
+      moveTo(input, Math.floor(place / input.dataset.stride) % countOf(input));
     box.dispatchEvent(new Event("input", { bubbles: true }));
   };
   show.ready = firstAnswer(ask).then(() => close(ask.left ? GONE : ""));
