@@ -96,6 +96,12 @@ def test_the_readers_photo_is_seen_in_the_page_alone(page, tmp_path):
     remedy = "cannot read words.jpg: save it, or a phone's HEIC, as a JPEG or PNG"
     page.get_by_text(remedy).wait_for()
     assert "367 × 653" in numbers(page)
+    box = page.locator("img").bounding_box()
+    assert box["height"] <= 0.8 * page.viewport_size["height"]
+    assert box == page.locator("canvas").bounding_box()
+    page.get_by_role("button", name="The book's photo").click()
+    page.get_by_text("600 × 400 pixels").wait_for()
+    assert page.get_by_role("button", name="The book's photo").is_hidden()
 
 
 @pytest.mark.browser

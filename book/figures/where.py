@@ -109,10 +109,11 @@ justify-items: center">PHOTO<canvas aria-hidden="true" style="LAYER" hidden></ca
 <div class="vmc-control"><div class="vmc-options">
 <button type="button" class="vmc-play">Play</button>
 <button type="button" class="vmc-play">Your photo …</button>
+<button type="button" class="vmc-play" hidden>The book's photo</button>
 <input type="file" accept="image/*" aria-label="Your photo" hidden></div></div></form>
 <p class="vmc-strip" style="min-height: 3.6em; CENTRED"></p>
 <p role="status" style="CENTRED"></p></div>"""
-LAYER = "grid-area: 1 / 1; max-width: 100%; height: auto"
+LAYER = "grid-area: 1 / 1; max-width: 100%; max-height: 80vh; height: auto"
 CENTRED = "text-align: center"
 
 

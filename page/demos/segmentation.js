@@ -48,7 +48,7 @@ const fadeIn = (canvas) => {
 
 class Segmentation {
   constructor(box) {
-    const [still, canvas, k, merged, play, choose, file, strip, say] = // as they stand in the page
+    const [still, canvas, k, merged, play, choose, back, file, strip, say] = // as they stand in the page
       box.querySelectorAll("img, canvas, input, button, .vmc-strip, [role=status]");
     Object.assign(this, { still, canvas, k, merged, play, strip, asked: 0 });
     play.addEventListener("click", () => ("running" in play.dataset ? this.stop() : this.run()));
@@ -57,10 +57,19 @@ class Segmentation {
       say.textContent = `${name} stays in this page: it is sent nowhere.`;
       merged.value = 0;
       if (!this.look(picture)) return;
+      back.hidden = false;
       still.src = canvas.toDataURL("image/jpeg", 0.9);
       this.run();
     }, (why) => (say.textContent = why));
     choose.addEventListener("click", () => file.click());
+    const { src } = still;
+    back.addEventListener("click", async () => {
+      this.stop();
+      [back.hidden, canvas.hidden, merged.value, say.textContent] = [true, true, 0, ""];
+      [still.src, this.photo] = [src, null];
+      await still.decode();
+      this.show();
+    });
   }
 
   get scale() {
@@ -85,7 +94,7 @@ class Segmentation {
     merged.nextElementSibling.textContent = `${text(left)} left`;
     if (canvas.hidden) fadeIn(canvas).onfinish = () => this.draw();
     if (canvas.getAnimations().length) return; // the words wait for the picture
-    const all = `${text(regions)} region${regions > 1 ? "s" : ""} so far, a box around each`;
+    const all = `${text(regions)} region${regions > 1 ? "s" : ""} made so far, a box around each`;
     this.strip.textContent = `${all}, in ${canvas.width} × ${canvas.height} pixels.`;
   }
 
