@@ -3,7 +3,7 @@
 from book.figures.forest_plot import RATIO, SIGN, Line, Mark
 from reproduce import ledger
 
-ENTRIES = {entry["where"]: entry for entry in ledger.load()["rows"]}
+ENTRIES = {entry["where"]: entry for entry in ledger.load_results()["rows"]}
 ALL = "all"
 
 

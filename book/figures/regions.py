@@ -172,7 +172,7 @@ def recipe_plot(best, overlap):
 
 def fresh_plot(level, measure):
     """Shares on the fresh test set, and what forty photos would know of them: a dot plot."""
-    counts, part = fresh_test_set.load_counts(), MEASURES.index(measure)
+    counts, part = fresh_test_set.load_results(), MEASURES.index(measure)
     rows = {row: fresh_test_set.wilson_rates(*counts[row][level])[part] for row in FRESH_ROWS}
     if level == "rig":
         mean = np.mean([counts["IoU", k][level] for k in range(localisation.TRAININGS)], axis=0)

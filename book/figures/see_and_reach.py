@@ -6,7 +6,7 @@ from book.figures.loop import describe_end, draw_movement, moves, photo_name
 from book.figures.panels import panels
 from book.figures.reaching import norm_mm
 from reproduce import results
-from reproduce.experiments.loop_evaluation import FAILURE_STAGES, LESIONS, load_outcomes
+from reproduce.experiments.loop_evaluation import FAILURE_STAGES, LESIONS, lesion_outcomes
 from reproduce.experiments.real_world import count_answers, share_text
 from vmc_lib import marker_sheet, photos
 from vmc_lib.arm.kinematics import to_world
@@ -214,7 +214,7 @@ def lesion_table():
     """What the target boxes hold under each lesion, and how the reaches end: a Markdown table."""
     objects, rows = ("shuttlecock", "cup", "neither", "nothing"), []
     for lesion in LESIONS:
-        held, missed, speed = load_outcomes(lesion)
+        held, missed, speed = lesion_outcomes(lesion)
         counts = ["–"] * len(objects)  # a place, and no box
         if lesion != "dorsal":
             counts = [np.sum(held == name) for name in objects]

@@ -37,6 +37,6 @@ def make(folder=photos.FOLDER, ways=WAYS):
     return found
 
 
-def load_boxed(level):
+def boxed_by_strategy(level):
     """What `make` found of a level's test photos: strategy -> (photos, 2), shuttlecock and cup."""
     return {way: arrays("class_independence")[f"{level}/{way}"] for way in WAYS[level]}

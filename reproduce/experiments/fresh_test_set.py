@@ -13,17 +13,15 @@ from reproduce.experiments.cdbn_sensitivity import SPLITS, VARIATIONS, train_var
 from reproduce.experiments.localisation import (
     TABLE_1_KERNELS,
     TRAININGS,
+    detect_photos,
     train_classifiers,
 )
-from reproduce.experiments.recognition import confusion_counts
-from reproduce.measures.precision_recall import true_positives
+from reproduce.experiments.recognition import confusion_counts, rates_of_counts, share_interval
 from reproduce.training.detectors import candidates, fit_detector, labelled_candidates
 from vmc_lib import photos, show
 from vmc_lib.boxes import MIN_IOU, area, iou
-from vmc_lib.statistics import wilson
 from vmc_lib.what.cdbn import N_W, PATCHES
 from vmc_lib.what.recogniser import READ_OUTS
-from vmc_lib.where.detector import ObjectDetector
 from vmc_lib.where.recipes import PUBLISHED, RECIPES
 
 FRESH = 140  # number of the first photo that had no part in Table I
@@ -49,7 +47,7 @@ READINGS = {  # how well boxes fit objects, by what "overlapped region" and "pro
 }
 
 
-def load_counts():
+def load_results():
     """Question -> level -> (right, wrong, missed): counts.
 
     "linear" and "rbf" are rows of Table I with context, means over as many trainings as there;
@@ -64,11 +62,10 @@ def load_counts():
 def wilson_rates(right, wrong, missed):
     """Precision and recall, and the 95 % interval of each (Wilson): ((share, low, high), …).
 
-    The intervals take the counts as independent, which those of several boxes on one object are
-    not, and leave out the luck of training.
+    NaN where nothing is called an object. The intervals take the counts as independent, which those
+    of several boxes on one object are not, and leave out the luck of training.
     """
-    totals = right + wrong, right + missed
-    return tuple((right / n, *wilson(right, n)) for n in totals)
+    return tuple(share_interval(right, n) for n in (right + wrong, right + missed))
 
 
 def table_1():
@@ -78,14 +75,13 @@ def table_1():
 
 def rates_by_seed(question):
     """Likewise of a kernel, or for Table II of one of the READINGS: (trainings, 2)."""
-    counts = load_counts()
-    rows = [wilson_rates(*counts[question, seed]["rig"]) for seed in range(TRAININGS)]
-    return np.array([[share for share, *_ in row] for row in rows])
+    counts = load_results()
+    return np.array([rates_of_counts(counts[question, seed]["rig"]) for seed in range(TRAININGS)])
 
 
 def markdown_table(*questions):
     """Answers as Markdown: precision / recall on every level, each with its interval."""
-    counts, rows = load_counts(), []
+    counts, rows = load_results(), []
     for question in questions:
         cells = [question if isinstance(question, str) else "{}, seed {}".format(*question)]
         for level in photos.LEVELS:
@@ -99,7 +95,7 @@ def markdown_table(*questions):
 
 def mean_errors(level):
     """Crops of a level named wrong by each read-out of the CDBN, the mean over NETWORK_SEEDS."""
-    counts = load_counts()
+    counts = load_results()
     return {
         name: np.mean([sum(counts[name, seed][level][1:]) for seed in NETWORK_SEEDS])
         for name in READ_OUTS
@@ -117,10 +113,10 @@ def make(exam, folder=photos.FOLDER, trainings=TRAININGS, seeds=NETWORK_SEEDS, p
         shipped = {photo.name for photo in photos.load(level, "test")}
         if known := shipped & {photo.name for photo in shots}:
             raise ValueError(f"{exam} holds photos that ship, no exam: delete {sorted(known)}")
-        fresh = [shot for shot in shots if shot.seed[-1] >= FRESH]
+        fresh = fresh_photos(level, exam)
         rows = kernel_counts(level, "context", KERNELS, fresh, folder, trainings)
         answers = dict(zip(KERNELS, np.mean(rows, axis=0).tolist(), strict=True))
-        answers |= detector_counts(level, shots)
+        answers |= detector_counts(level, exam)
         if level == "rig":
             answers |= published_counts(level, fresh, shots, folder, trainings)
         for question, counts in answers.items():
@@ -133,6 +129,11 @@ def make(exam, folder=photos.FOLDER, trainings=TRAININGS, seeds=NETWORK_SEEDS, p
     return list(found.items())
 
 
+def fresh_photos(level, exam):
+    """The second hundred test photos of a level in `exam`: none had a part in a choice."""
+    return [shot for shot in photos.load(level, "test", exam) if shot.seed[-1] >= FRESH]
+
+
 def make_names(exam):
     """What `results/fresh_names.npz` holds: `recognition.probabilities` for the second hundred.
 
@@ -140,7 +141,7 @@ def make_names(exam):
     """
     kept, learnt = {}, recognition.load_classifiers()
     for level in photos.LEVELS:
-        shots = [shot for shot in photos.load(level, "test", exam) if shot.seed[-1] >= FRESH]
+        shots = fresh_photos(level, exam)
         found, kept[f"{level}/fresh"] = recognition.probabilities(level, shots, *learnt)
         kept |= {f"{level}/{method}/fresh": chances for method, chances in found.items()}
         if level == "rig":
@@ -171,14 +172,18 @@ def published_counts(level, fresh, shots, folder=photos.FOLDER, trainings=TRAINI
         for k, kernel in enumerate(TABLE_1_KERNELS)
         for seed in range(trainings)
     }
-    truth = [np.array(list(photo.boxes.values())) for photo in shots]
     every, lessons = list(map(candidates, shots)), photos.load(level, "train", folder)
+    truth = _true_boxes(shots)
     for seed in range(trainings):
         detector = fit_detector(lessons, PUBLISHED, np.random.default_rng(seed))
         kept = [detector.detect(p.image, b).boxes for p, b in zip(shots, every, strict=True)]
         for reading, fit in READINGS.items():
             found[reading, seed] = _box_counts(map(fit, kept, truth, every))
     return found | {CEILING: _box_counts(map(iou, every, truth))}
+
+
+def _true_boxes(shots):
+    return [np.array(list(photo.boxes.values())) for photo in shots]
 
 
 def _box_counts(fits):
@@ -188,13 +193,10 @@ def _box_counts(fits):
     return tuple(map(int, (reached.sum(), (~right).sum(), (~reached).sum())))
 
 
-def detector_counts(level, shots):
-    """The answers of Table II's detectors on photos of a level."""
-    found = {}
+def detector_counts(level, exam=photos.FOLDER):
+    """The answers of Table II's detectors on the test photos of a level in the folder `exam`."""
+    truth, found = _true_boxes(photos.load(level, "test", exam)), {}
     for name in DETECTORS:
-        detector = ObjectDetector.load(level, name)
-        strategy = detector.recipe.strategy
-        searches = (detector.detect(photo.image, candidates(photo, strategy)) for photo in shots)
-        right, reached = true_positives(shots, [detections.boxes for detections in searches])
-        found[name] = tuple(map(int, (right.sum(), (~right).sum(), (~reached).sum())))
+        kept = [detections.boxes for detections in detect_photos(level, "test", name, exam)]
+        found[name] = _box_counts(map(iou, kept, truth))
     return found

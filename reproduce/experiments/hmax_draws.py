@@ -54,7 +54,7 @@ def probabilities(shots):
     return np.array([NameClassifier(w, b).probability(x) for w, b, x in linear])
 
 
-def load_called(split):
+def called_by_draw(split):
     """Which true boxes of a split each draw calls shuttlecocks, (draws, n).
 
     The split "fresh" is of the rig's photos that were rendered when all was settled.
@@ -67,4 +67,4 @@ def load_called(split):
 def error_counts(split):
     """How many true boxes of a split each draw names wrong, (draws,)."""
     _, truth = load_probabilities("rig", split)
-    return (load_called(split) != truth).sum(axis=1)
+    return (called_by_draw(split) != truth).sum(axis=1)

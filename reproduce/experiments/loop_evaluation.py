@@ -149,7 +149,7 @@ def make(levels=photos.LEVELS, folder=photos.FOLDER):
     return {level: evaluate_lesions(level, folder) for level in levels}
 
 
-def load_outcomes(lesion):
+def lesion_outcomes(lesion):
     """What each test photo's target box holds, how far the hand ends (mm), and its speed (mm/s).
 
     Of all levels in turn (n,), from `results/lesions.json`; NaN where there was no reach.

@@ -6,14 +6,15 @@ another order, or in the mirror. Each is as strong as the learnt layer, whose bi
 """
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 from joblib import Parallel, delayed
 from scipy.ndimage import gaussian_filter
 
-from reproduce import results
 from reproduce.measures import gabor, texture_tuning
 from reproduce.measures.edges import edge_numbers
+from reproduce.results import records
 from vmc_lib import photos
 from vmc_lib.what.cdbn import CDBN, N_W, K, crops_of
 from vmc_lib.what.crops import whiten
@@ -114,6 +115,4 @@ def make(folder=photos.FOLDER, **size):
     }
 
 
-def load_rivals():
-    """What `make` found."""
-    return results.records("other_filters")
+load_results = partial(records, "other_filters")

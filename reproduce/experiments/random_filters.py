@@ -73,7 +73,7 @@ def make(folder=photos.FOLDER, draws=DRAWS):
     return {key: np.array([row[key] for row in rows]) for key in rows[0]}
 
 
-def load_right(level, read_out="MP2"):
+def right_by_network(level, read_out="MP2"):
     """Which test crops of a level the networks name right: learnt (crops,), random (draws, crops).
 
     And which of them are shuttlecocks, (crops,).

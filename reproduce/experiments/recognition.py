@@ -61,13 +61,18 @@ def confusion_counts(probability, shuttlecock, threshold=0.5):
 
 def rates_of_counts(counts):
     """Precision and recall of `confusion_counts`; NaN where a denominator is 0."""
-    right, wrong, missed, _ = counts
+    right, wrong, missed, *_ = counts
     return tuple(right / n if n else np.nan for n in (right + wrong, right + missed))
 
 
-def rates_of_right(right, shuttlecock):
-    """Precision and recall, of which crops (n,) are named right, and which are shuttlecocks."""
-    return rates_of_counts(confusion_counts(right == shuttlecock, shuttlecock))
+def rates_of_answers(probability, shuttlecock):
+    """Precision and recall of probabilities (n,), or of what is called a shuttlecock, (n,)."""
+    return rates_of_counts(confusion_counts(probability, shuttlecock))
+
+
+def share_interval(count, of):
+    """A share and its 95 % interval (Wilson): (share, low, high), NaN of none."""
+    return (count / of, *wilson(count, of)) if of else 3 * (np.nan,)
 
 
 def table_3(level):
@@ -82,7 +87,7 @@ def table_3(level):
             right, wrong, missed, rest = confusion_counts(probability[method], truth)
             counts = (right + rest, len(truth)), (right, right + wrong), (right, right + missed)
             for measure, (k, n) in zip(MEASURES, counts, strict=True):
-                rows[measure][label][method] = (k / n, *wilson(k, n)) if n else 3 * (np.nan,)
+                rows[measure][label][method] = share_interval(k, n)
     return rows
 
 
@@ -150,7 +155,7 @@ def accuracy_across_levels(learnt, classifiers):
         for taught, name in product(photos.LEVELS, READ_OUTS):
             chances = classifiers[taught, f"CDBN, {name}"].probability(x[name])
             right = int(((chances > 0.5) == truth).sum())
-            rows[taught][name][tested] = right / len(truth), *wilson(right, len(truth))
+            rows[taught][name][tested] = share_interval(right, len(truth))
     return rows
 
 

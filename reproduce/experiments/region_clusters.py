@@ -6,10 +6,12 @@ all of them. So a share of regions is less sure than if each had its own photo, 
 counts; the effect is measured on the rig's test photos that ship, photo by photo.
 """
 
+from functools import partial
+
 import numpy as np
 
-from reproduce import results
 from reproduce.experiments.localisation import TABLE_1_KERNELS, train_classifiers
+from reproduce.results import records
 from reproduce.training.detectors import labelled_candidates
 from vmc_lib import photos
 from vmc_lib.where.recipes import RECIPES
@@ -48,6 +50,4 @@ def make(folder=photos.FOLDER, kernels=KERNELS):
     return {name: effects(name, some, folder) for name, some in kernels.items()}
 
 
-def load_effects():
-    """What `make` found: recipe -> kernel -> [precision's, recall's]."""
-    return results.records("region_clusters")
+load_results = partial(records, "region_clusters")

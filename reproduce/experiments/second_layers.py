@@ -5,6 +5,8 @@ fourth training photo. A shuttlecock has more edges than a cup, so every second 
 to it, a random one and the first layer too: what counts is the difference that the lesson makes.
 """
 
+from functools import partial
+
 import numpy as np
 from joblib import Parallel, delayed
 
@@ -60,6 +62,4 @@ def make(folder=photos.FOLDER, seeds=SEEDS, **size):
     return {"preferences": np.array(found)}
 
 
-def load_preferences():
-    """What `make` found, (seeds, 2): taught by shuttlecocks, by cups."""
-    return arrays("second_layers")["preferences"]
+load_results = partial(arrays, "second_layers")

@@ -45,7 +45,7 @@ def make(rows=ROWS, levels=LEVELS):
     }
 
 
-def load():
+def load_results():
     """The ledger as it was last measured: {"rows": [...], "loop": {level: `loop.loop_results`}}."""
     return results.records("ledger")
 
@@ -55,7 +55,7 @@ def value(where, name):
 
     Chapters ask here, so that a claim has one number. ValueError where there is none.
     """
-    entries = {entry["where"]: entry["quantities"] for entry in load()["rows"]}
+    entries = {entry["where"]: entry["quantities"] for entry in load_results()["rows"]}
     for q in entries.get(where, ()):
         if q["name"] == name:
             return _quantity(q)
@@ -128,7 +128,7 @@ def measure_again(where):
     """Where a row's numbers are measured again in the page, as HTML; nothing if that is slow."""
     if where not in one_draw.DRAWS:
         return ""
-    entries = {entry["where"]: entry["quantities"] for entry in load()["rows"]}
+    entries = {entry["where"]: entry["quantities"] for entry in load_results()["rows"]}
     shipped = escape(json.dumps({q["name"]: result_text(q) for q in entries[where]}))
     given = f'data-where="{where}" data-shipped="{shipped}"'
     return f'\n\n<form class="vmc-measure" hidden {given}></form>'

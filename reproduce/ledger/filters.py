@@ -82,7 +82,7 @@ def _figure_7():
 
 def first_layer_nulls(k):
     """The k-th number of filters that no CRBM learnt, by their name."""
-    return {name: numbers[k] for name, numbers in other_filters.load_rivals()["first"].items()}
+    return {name: numbers[k] for name, numbers in other_filters.load_results()["first"].items()}
 
 
 def _v1():
@@ -145,8 +145,8 @@ def _deeper():
     layers = cdbn.CDBN.load().layers(whiten(crops))
     fits = {kind: gabor_correlations(kind) for kind in ("W1", "W2", "W2 shuffled")}
     simpler = ttest_ind(fits["W2"], fits["W1"], equal_var=False).confidence_interval()
-    others = other_filters.load_rivals()["second"]
-    taught = second_layers.load_preferences()
+    others = other_filters.load_results()["second"]
+    taught = second_layers.load_results()["preferences"]
     prefers = {
         name: second_layers.preference(layers[layer], shuttlecock)
         for name, layer in (("P¹", "P1"), ("P²", "P2"))

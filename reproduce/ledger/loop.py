@@ -29,7 +29,7 @@ def _chain(scores, rule):
 
 def _by_random_filters(scores):
     """The share of photos found, and named by networks of random filters instead of learnt ones."""
-    _, random, shuttlecock = random_filters.load_right("rig")
+    _, random, shuttlecock = random_filters.right_by_network("rig")
     return {"random filters": scores["found"].mean() * random[:, shuttlecock].mean()}
 
 

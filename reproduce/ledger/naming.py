@@ -41,17 +41,15 @@ UNLEARNT = "raw pixels", "HOG"
 def _table_3():
     """On the rig's fresh photos: the CDBN on both hundreds, HMAX's draws on the second."""
     exact = {"better": 1, "rounding": paper.SHARE_3}
-    fresh = fresh_test_set.load_counts()
+    fresh = fresh_test_set.load_results()
     counts = [fresh["MP2", seed]["rig"] for seed in fresh_test_set.NETWORK_SEEDS]
-    cdbn_rows = np.array([[s for s, *_ in fresh_test_set.wilson_rates(*row)] for row in counts])
+    cdbn_rows = np.array([recognition.rates_of_counts(row) for row in counts])
     n = np.sum(counts, axis=1).mean()
     learnt = {split: _draws(split) for split in ("fresh", "train")}
     as_good = (learnt["fresh"] >= paper.TABLE_3["HMAX"]).all(axis=1)
     nulls, good = _nulls(), "HMAX: draws as good as the paper's in both"
     probability, truth = recognition.load_probabilities("rig", "train")
-    in_sample = recognition.rates_of_counts(
-        recognition.confusion_counts(probability["CDBN, MP2"], truth)
-    )
+    in_sample = recognition.rates_of_answers(probability["CDBN, MP2"], truth)
     return [
         *(
             mean_of_trainings(
@@ -87,12 +85,9 @@ def _table_3():
 def _nulls():
     """Precision and recall on the rig of other features under the same classifier: name -> (2,)."""
     probability, truth = recognition.load_probabilities("rig", "fresh")
-    found = {
-        name: recognition.rates_of_counts(recognition.confusion_counts(probability[name], truth))
-        for name in UNLEARNT
-    }
-    _, random, truth = random_filters.load_right("rig")
-    rows = [recognition.rates_of_right(row, truth) for row in random]
+    found = {name: recognition.rates_of_answers(probability[name], truth) for name in UNLEARNT}
+    _, random, truth = random_filters.right_by_network("rig")
+    rows = [recognition.rates_of_answers(right == truth, truth) for right in random]
     return found | {UNTAUGHT: np.mean(rows, axis=0)}
 
 
@@ -117,7 +112,7 @@ def _learnt_less_random(name, claimed, read_out, **rest):
 
     Photo by photo the network that ships is compared, network by network all its trainings.
     """
-    learnt, random, _ = random_filters.load_right("varied", read_out)
+    learnt, random, _ = random_filters.right_by_network("varied", read_out)
     gaps = by_photo(learnt) - by_photo(random)
     trained, drawn = t_interval(_trainings_right(read_out)), t_interval(random.mean(axis=1))
     middle, half = trained[0] - drawn[0], np.hypot(trained[1], drawn[1])
@@ -143,9 +138,8 @@ def by_photo(right):
 def _draws(split):
     """Precision and recall of each draw of HMAX's prototypes on the rig, (draws, 2)."""
     _, truth = recognition.load_probabilities("rig", split)
-    called = hmax_draws.load_called(split)
-    counts = [recognition.confusion_counts(row, truth) for row in called]
-    return np.array([recognition.rates_of_counts(row) for row in counts])
+    called = hmax_draws.called_by_draw(split)
+    return np.array([recognition.rates_of_answers(row, truth) for row in called])
 
 
 def _width():

@@ -1,8 +1,7 @@
 """The ledger's rows on choosing regions: Tables I and II, and what we do better."""
 
 from reproduce import paper
-from reproduce.experiments import fresh_test_set, localisation
-from reproduce.experiments.region_clusters import load_effects
+from reproduce.experiments import fresh_test_set, localisation, recognition, region_clusters
 from reproduce.ledger.entry import Row, mean, mean_of_trainings, share
 from reproduce.results import arrays
 from vmc_lib import photos
@@ -24,12 +23,12 @@ def _table_1():
         fresh_test_set.table_1(),
         localisation.table_1("rig", "train", "published"),
     )
-    right, _, missed = fresh_test_set.load_counts()["linear", 0]["rig"]
+    right, _, missed = fresh_test_set.load_results()["linear", 0]["rig"]
     wanted, of = right + missed, paper.TEST_ROIS["positive"]
     quantities = []
     for name, kernel in KERNELS.items():
         rows, learnt = held_out[kernel], in_sample[kernel].mean(axis=0)
-        how = {"unit": "regions", "effects": load_effects()["published"][kernel]}
+        how = {"unit": "regions", "effects": region_clusters.load_results()["published"][kernel]}
         claimed = None if name == GUESSED else paper.TABLE_1[name]
         quantities += _trained(name, claimed, rows, learnt, wanted, of, **how)
     return quantities
@@ -57,7 +56,7 @@ def _trained(name, claimed, rows, in_sample, wanted, of, unit="objects", effects
 
 def _fresh(name, question, claimed, in_sample, of, nulls, unit="objects", effects=(1, 1)):
     """What a question put to the fresh photos of the rig says, beside `nulls`: name -> (2,)."""
-    right, wrong, missed = fresh_test_set.load_counts()[question]["rig"]
+    right, wrong, missed = fresh_test_set.load_results()[question]["rig"]
     return [
         share(
             f"{name}: {measure}",
@@ -88,7 +87,7 @@ def _kernels():
 
 def _own_table_1():
     in_sample = localisation.table_1("rig", "train", "context")["linear"].mean(axis=0)
-    how = {"unit": "regions", "effects": load_effects()["context"]["linear"]}
+    how = {"unit": "regions", "effects": region_clusters.load_results()["context"]["linear"]}
     return _fresh(
         "linear, fresh photos",
         "linear",
@@ -104,12 +103,8 @@ def _own_table_2():
     in_sample = localisation.table_2("rig", "train")["improved"]
     name, rows = "improved, IoU", arrays("localisation")["rig/improved/seeds"]
     objects = sum(len(photo.boxes) for photo in photos.load("rig", "test"))
-    uncorrected = fresh_test_set.load_counts()["single"]["rig"]
-    nulls = {
-        "the same search, boxes not corrected": [
-            rate for rate, *_ in fresh_test_set.wilson_rates(*uncorrected)
-        ]
-    }
+    uncorrected = fresh_test_set.load_results()["single"]["rig"]
+    nulls = {"the same search, boxes not corrected": recognition.rates_of_counts(uncorrected)}
     exam = paper.TABLE_2, in_sample, paper.OBJECTS, nulls
     return [
         *_fresh(f"{name}, fresh photos", "improved", *exam),
@@ -119,7 +114,7 @@ def _own_table_2():
 
 def _table_2():
     """What the published recipe localises, by each reading, over its trainings."""
-    right, _, missed = fresh_test_set.load_counts()[fresh_test_set.CEILING]["rig"]
+    right, _, missed = fresh_test_set.load_results()[fresh_test_set.CEILING]["rig"]
     objects, quantities = right + missed, []
     learnt = {"IoU": localisation.table_2("rig", "train")["published"]}
     for reading in fresh_test_set.READINGS:

@@ -77,7 +77,7 @@ def _fewer():
 
 def _search():
     """Selective search beside windows of every size, everywhere; *fast* has more groupings."""
-    some, (many,) = photos.load("rig", "test"), class_independence.load_boxed("rig").values()
+    some, (many,) = photos.load("rig", "test"), class_independence.boxed_by_strategy("rig").values()
     everywhere = window_proposals.exhaustive((photos.HEIGHT, photos.WIDTH))
     found = [candidates(photo) for photo in some]
     both = found, [everywhere] * len(some)
@@ -113,7 +113,7 @@ def _seconds(image, everywhere, part=5000):
 
 def _classes():
     """Shuttlecocks less cups, on varied tables, by ever more ways of grouping; ours decides."""
-    claims, boxed = {PUBLISHED.strategy: 0}, class_independence.load_boxed("varied")
+    claims, boxed = {PUBLISHED.strategy: 0}, class_independence.boxed_by_strategy("varied")
     return [
         mean(
             f"shuttlecocks boxed well, less cups, {way}",

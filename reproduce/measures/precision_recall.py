@@ -13,14 +13,6 @@ def precision_recall(shots, boxes):
     return tuple(float(rates(best, MIN_IOU)) for best in best_overlaps(shots, boxes))
 
 
-def true_positives(shots, boxes):
-    """Of a list of boxes a photo, which boxes are right, and which objects have a right box.
-
-    Truth values for all boxes of all photos in turn, and for all objects.
-    """
-    return tuple(best >= MIN_IOU for best in best_overlaps(shots, boxes))
-
-
 def best_overlaps(shots, boxes):
     """The best IoU of each box with an object of its photo, and of each object with a box."""
     shared = [iou(b, list(p.boxes.values())) for p, b in zip(shots, boxes, strict=True)]

@@ -14,7 +14,7 @@ from tests.page.python.conftest import ASK
 from tests.pages import open_html
 from tests.project import sample
 
-ENTRIES = {entry["where"]: entry for entry in ledger.load()["rows"]}
+ENTRIES = {entry["where"]: entry for entry in ledger.load_results()["rows"]}
 QUICK = ["Fig. 9", "Ours, Eq. 5"]
 draw_once = cache(measure.draw)
 

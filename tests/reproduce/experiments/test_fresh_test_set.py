@@ -17,7 +17,7 @@ PUBLISHED = {  # what is asked of the published recipe, on the rig alone
 
 
 def test_counts_cover_two_hundred_photos_a_level():
-    counts = fresh_test_set.load_counts()
+    counts = fresh_test_set.load_results()
     assert set(counts) == PUBLISHED | {
         *fresh_test_set.KERNELS,
         *fresh_test_set.DETECTORS,
@@ -33,11 +33,11 @@ def test_counts_cover_two_hundred_photos_a_level():
             elif isinstance(question, tuple):  # shuttlecocks, among as many cups
                 assert right + missed == 200
             else:  # candidates on an object, the same for both kernels, in the second hundred
-                assert right + missed == sum(fresh_test_set.load_counts()["rbf"][level][::2]) > 200
+                assert right + missed == sum(fresh_test_set.load_results()["rbf"][level][::2]) > 200
 
 
 def test_published_recipe_is_tested_on_the_same_photos_by_every_training():
-    counts = fresh_test_set.load_counts()
+    counts = fresh_test_set.load_results()
     for name, seed in PUBLISHED - {fresh_test_set.CEILING}:
         (right, _, missed), of = counts[name, seed]["rig"], counts[name, 0]["rig"]
         assert list(counts[name, seed]) == ["rig"]
@@ -54,7 +54,7 @@ def test_fresh_counts_of_shipped_photos_equal_the_tables():
         "rig", "context", fresh_test_set.KERNELS, shots, trainings=1
     )
     counts = dict(zip(fresh_test_set.KERNELS, rows, strict=True))
-    counts |= fresh_test_set.detector_counts("rig", shots)
+    counts |= fresh_test_set.detector_counts("rig")
     counts |= fresh_test_set.published_counts("rig", shots, shots, trainings=1)
     objects = counts.pop(fresh_test_set.CEILING)
     assert objects[0] + objects[2] == 2 * len(shots)
@@ -74,12 +74,18 @@ def test_shares_by_hand():
     assert np.isclose(high - low, 0.26, atol=0.01)
 
 
+def test_what_calls_nothing_has_no_precision():
+    precision, recall = fresh_test_set.wilson_rates(0, 0, 3)
+    assert np.isnan(precision).all()
+    assert recall[0] == 0
+
+
 def test_a_table_has_a_row_for_each_question():
     *_, first, last = fresh_test_set.markdown_table("linear", ("MP2", 1)).splitlines()
     assert first.startswith("| linear |")
     assert last.startswith("| MP2, seed 1 |")
     (precision, *_), (recall, *_) = fresh_test_set.wilson_rates(
-        *fresh_test_set.load_counts()["linear"]["rig"]
+        *fresh_test_set.load_results()["linear"]["rig"]
     )
     assert f"{precision:.3f}" in first.split("|")[2]
     assert f"{recall:.3f}" in first.split("|")[2]

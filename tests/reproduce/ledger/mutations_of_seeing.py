@@ -26,8 +26,8 @@ FEW = range(3)  # draws, to be quick
 
 def sees_sixteen_photos(patch):
     """Sixteen photos meet the chain; of all is known which random filters name."""
-    load, right = photos.load, loop.random_filters.load_right("rig")
-    patch.setattr(loop.random_filters, "load_right", lambda level: right)
+    load, right = photos.load, loop.random_filters.right_by_network("rig")
+    patch.setattr(loop.random_filters, "right_by_network", lambda level: right)
     patch.setattr(photos, "load", lambda *kind: load(*kind)[:16])
 
 
@@ -107,7 +107,7 @@ def mixes_the_lessons(patch):
 
     patch.setattr(training, "train_crbm", train)
     again = [second_layers.preferences(seed, patches=200, every=20) for seed in FEW]
-    patch.setattr(second_layers, "load_preferences", lambda: np.array(again))
+    patch.setattr(second_layers, "load_results", lambda: {"preferences": np.array(again)})
 
 
 def mixes_up_the_films(patch):
@@ -136,10 +136,10 @@ def few_films(patch):
 
 def lets_through_what_is_not_there(patch):
     """Every other box that the improved detector keeps holds nothing."""
-    counts = regions.fresh_test_set.load_counts()
+    counts = regions.fresh_test_set.load_results()
     right, _, missed = counts["improved"]["rig"]
     counts["improved"]["rig"] = right, right, missed
-    patch.setattr(regions.fresh_test_set, "load_counts", lambda: counts)
+    patch.setattr(regions.fresh_test_set, "load_results", lambda: counts)
 
 
 # Rivals: not the paper's mechanism made wrong, but another that one might take for it
@@ -179,7 +179,7 @@ def names_by(method):
             return naming.recognition.confusion_counts(probability[method], truth)[:3]
 
         fresh = {("MP2", seed): {"rig": counts(seed)} for seed in range(3)}
-        patch.setattr(naming.fresh_test_set, "load_counts", lambda: fresh)
+        patch.setattr(naming.fresh_test_set, "load_results", lambda: fresh)
 
     mutate.__name__ = f"names_by_{method}"
     return mutate
@@ -209,9 +209,9 @@ def names_by_random_filters(patch):
 
 def corrects_no_box(patch):
     """Detectors that search alike and correct no box."""
-    counts = regions.fresh_test_set.load_counts()
+    counts = regions.fresh_test_set.load_results()
     counts["improved"] = counts["single"]
-    patch.setattr(regions.fresh_test_set, "load_counts", lambda: counts)
+    patch.setattr(regions.fresh_test_set, "load_results", lambda: counts)
 
 
 def heeds_what_varies_most(patch):

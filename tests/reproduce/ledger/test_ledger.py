@@ -30,7 +30,7 @@ from vmc_lib.photos import LEVELS
 from vmc_lib.statistics import t_interval
 
 TIME = "III, Block 1-2, time"
-STORED = {entry["where"]: entry for entry in ledger.load()["rows"]}
+STORED = {entry["where"]: entry for entry in ledger.load_results()["rows"]}
 NUMBERS = [q for entry in STORED.values() for q in entry["quantities"]]
 
 
@@ -127,7 +127,7 @@ def test_rows_that_differ_give_a_reason():
 
 def scores(level):
     """What ships of the loop's test photos: arrays (40,) of true or false, or of metres."""
-    stored = ledger.load()["loop"][level]["scores"]
+    stored = ledger.load_results()["loop"][level]["scores"]
     return {k: np.array(v, bool if isinstance(v[0], bool) else float) for k, v in stored.items()}
 
 
@@ -146,12 +146,12 @@ def test_loop_scores_are_reproducible(level, tmp_path):
 
 @pytest.mark.parametrize("level", LEVELS)
 def test_loop_outcomes_follow_from_the_scores(level):
-    stored = ledger.load()["loop"][level]
+    stored = ledger.load_results()["loop"][level]
     assert loop.outcomes(scores(level)) == {k: stored[k] for k in ("summary", "failures")}
 
 
 def test_ledger_values_are_found_by_name():
-    row = ledger.load()["rows"][0]
+    row = ledger.load_results()["rows"][0]
     stored = row["quantities"][0]
     assert ledger.value(row["where"], stored["name"]).obtained == stored["obtained"]
     with pytest.raises(ValueError, match="no 'beauty'"):
@@ -161,7 +161,7 @@ def test_ledger_values_are_found_by_name():
 
 
 def test_the_page_shows_every_row_and_every_number():
-    entries = ledger.load()["rows"]
+    entries = ledger.load_results()["rows"]
     page, lines = claims(ALL, ALL), ledger.verdict_counts(entries).splitlines()
     assert list(page) == list(ledger.PARTS)
     drawn = {line.address: (line.name, len(line.marks)) for part in page.values() for line in part}

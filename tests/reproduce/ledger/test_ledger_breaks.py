@@ -15,7 +15,9 @@ from tests.reproduce.ledger.mutations_of_seeing import (
 
 MUTATIONS, EVERY_RIVAL = SEEING | MOVING, SEEING_RIVALS | RIVALS
 ROWS = {row.where: row for row in ledger.ROWS}
-HOLDS = [e["where"] for e in ledger.load()["rows"] if e["verdict"] not in (DIFFERS, NOT_COMPARED)]
+HOLDS = [
+    e["where"] for e in ledger.load_results()["rows"] if e["verdict"] not in (DIFFERS, NOT_COMPARED)
+]
 CACHES = (
     planning.planned_error_ratios,
     planning.draws,

@@ -62,7 +62,7 @@ def test_one_draw_of_random_filters_is_reproducible():
 
 @pytest.mark.audit
 def test_one_draw_of_other_filters_is_reproducible():
-    shipped = other_filters.load_rivals()
+    shipped = other_filters.load_results()
     assert other_filters.second_layer("mirrored") == pytest.approx(
         shipped["second"]["mirrored"], abs=1e-3
     )
@@ -72,7 +72,7 @@ def test_one_draw_of_other_filters_is_reproducible():
 
 def test_design_effects_are_reproducible():
     now = region_clusters.effects("context", ("linear",))["linear"]
-    assert now == pytest.approx(region_clusters.load_effects()["context"]["linear"], rel=0.05)
+    assert now == pytest.approx(region_clusters.load_results()["context"]["linear"], rel=0.05)
 
 
 def test_design_effect_by_hand():
@@ -110,7 +110,7 @@ def test_one_draw_of_movements_is_reproducible(reading, size):
 @pytest.mark.audit
 def test_one_pair_of_second_layers_is_reproducible():
     np.testing.assert_allclose(
-        second_layers.preferences(0), second_layers.load_preferences()[0], atol=0.005
+        second_layers.preferences(0), second_layers.load_results()["preferences"][0], atol=0.005
     )
 
 
@@ -123,7 +123,7 @@ def test_draws_of_prototypes_say_of_crops_what_is_shipped():
 def test_what_is_boxed_well_is_reproducible(level):
     some = slice(0, 40, 8)
     shots = photos.load(level, "test")[some]
-    for way, boxed in class_independence.load_boxed(level).items():
+    for way, boxed in class_independence.boxed_by_strategy(level).items():
         if way != "quality":  # ten times as slow
             found = [propose(shot.image, way) for shot in shots]
             now = class_independence.objects_boxed(found, shots)
