@@ -11,6 +11,7 @@ from vmc_lib.motor import templates
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import draw_targets, exact_weights, habitual_weights, nearest, plan
 
+WHOLE_HOLD = "own off-line, 8 trials over the whole hold"
 COUNT, MANY = 25, 200  # movements of a draw, as in the paper; and where they are new ones
 HOLDS = {"": 0.0, ", over the hold": templates.HOLD}  # how long the hold is, s
 
@@ -78,14 +79,31 @@ def _exact(seed):
     return {"error with exact weights over that with Eq. 5, in the plane": left}
 
 
+def error_ratio(trials):
+    """Mean error of the best trials of each reach, over the planned one."""
+    return trials.error.min(axis=0).mean() / trials.error[0].mean()
+
+
+def mean_best_so_far(errors):
+    """Mean over the targets of the least error up to each trial, (trials,), for (trials, n)."""
+    return np.minimum.accumulate(errors).mean(axis=1)
+
+
+def offline_ratios(tried, held):
+    """Mean errors over the planned one: after 1, 2 and 4 trials, and over the whole hold, by name.
+
+    Of the `Trials` by Broyden's rule, and by least squares.
+    """
+    left = mean_best_so_far(tried.error) / tried.error[0].mean()
+    ratios = {f"own off-line, {k} trials": left[k] for k in (1, 2, 4)}
+    return ratios | {WHOLE_HOLD: error_ratio(held)}
+
+
 def _own_offline(seed):
     past = templates.load()
     habit = plan(draw_targets(past, MANY, np.random.default_rng(seed)), past)
-    name, tried = "error over planned, own off-line, {}", broyden_calibration(habit, 4).error
-    left = np.minimum.accumulate(tried).mean(axis=1) / tried[0].mean()
-    held = gauss_newton_calibration(habit).error.min(axis=0).mean() / tried[0].mean()
-    rows = {name.format(f"{k} trials"): left[k] for k in (1, 2, 4)}
-    return rows | {name.format("8 trials over the whole hold"): held}
+    ratios = offline_ratios(broyden_calibration(habit, 4), gauss_newton_calibration(habit))
+    return {f"error over planned, {name}": ratio for name, ratio in ratios.items()}
 
 
 DRAWS = {

@@ -7,6 +7,7 @@ from book.figures.panels import panels
 from book.figures.reaching import norm_mm
 from reproduce import results
 from reproduce.experiments.obstacle_avoidance import RADIUS
+from reproduce.one_draw import WHOLE_HOLD
 from vmc_lib.photos import LEVELS
 from vmc_lib.show import note, table
 from vmc_lib.show.arm import arm_scene
@@ -38,7 +39,7 @@ def changes():
     from reproduce.ledger import planning
 
     def label(name):
-        rule = "least squares" if name == calibration.WHOLE_HOLD else "Broyden"
+        rule = "least squares" if name == WHOLE_HOLD else "Broyden"
         return name.replace("own off-line", f"off-line, {rule}").replace("1 trials", "1 trial")
 
     removed = planning.draws("III, Block 3")[

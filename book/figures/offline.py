@@ -6,7 +6,8 @@ import numpy as np
 from book.figures.panels import curves, mark_now, panels, shade
 from book.figures.reaching import corrections, ends, mean_mm, reaches
 from reproduce.experiments.calibration import FIFTH
-from reproduce.experiments.offline_calibration import error_ratio, hold_measures, mean_best_so_far
+from reproduce.experiments.offline_calibration import hold_measures
+from reproduce.one_draw import error_ratio, mean_best_so_far
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.motor import templates
 from vmc_lib.motor.planning import least_change

@@ -17,6 +17,7 @@ from joblib import Parallel, delayed
 
 from reproduce import results
 from reproduce.measures.changed_worlds import block_errors
+from reproduce.one_draw import WHOLE_HOLD, offline_ratios
 from vmc_lib.cerebellum.offline import (
     algorithm_1,
     broyden_calibration,
@@ -37,7 +38,6 @@ from vmc_lib.motor.templates import HOLD, load, reach
 SEEDS, MANY = range(6), range(20)  # the latter where draws differ so much that six do not tell
 NOISE = 0.2  # of every excitation's size, fresh in every step
 SCENARIOS = ("changing neighbours", "four fixed templates")
-WHOLE_HOLD = "own off-line, 8 trials over the whole hold"
 
 FIFTH = range(0, 21, 5)  # every fifth n
 # Algorithm 1 with these: a quarter of the reaches, and hardly a difference
@@ -143,10 +143,7 @@ def _own_ratios(template_set, rng, movements, held_out, experiments):
     """
     many = plan(draw_targets(template_set, held_out, rng), template_set)
     tried, held = broyden_calibration(many, 4), gauss_newton_calibration(many)
-    left = np.minimum.accumulate(tried.error).mean(axis=1) / tried.error[0].mean()
-    rows = {f"own off-line, {k} trials": left[k] for k in (1, 2, 4)}
-    rows[WHOLE_HOLD] = held.error.min(axis=0).mean() / held.error[0].mean()
-    learner = AimCorrection(template_set)
+    rows, learner = offline_ratios(tried, held), AimCorrection(template_set)
     own = run_experiments(learner, template_set, rng, movements, held_out, experiments, fresh=True)
     aimed = own.held_out.mean(axis=1) / own.held_out_planned.mean()
     rows |= {

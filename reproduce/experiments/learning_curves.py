@@ -22,7 +22,6 @@ from reproduce.measures.changed_worlds import block_errors
 from reproduce.peers.motor_noise import PERSON_MM, endpoint_deviation, noise_floor, with_noise
 from vmc_lib.cerebellum.offline import broyden_calibration
 from vmc_lib.motor.execution import execute
-from vmc_lib.motor.planning import draw_targets, plan
 from vmc_lib.motor.templates import mean_distance
 
 OFF_LINE, WHOLE_ARM, MEMORIES = "off-line", "whole arm", "memories of the whole arm"
@@ -76,20 +75,15 @@ def off_line(seed, count=25):
     But Broyden's makes four tries: after many, noise can leave it a belief that moves no hand.
     """
     rng = np.random.default_rng(seed)
-    habit = draw_habit(templates_of_person((seed, 5)), rng, count)
+    habit = nulls.draw_habit(templates_of_person((seed, 5)), rng, count)
     rules = nulls.offline_rules(rng) | {nulls.OURS: partial(broyden_calibration, n_trials=4)}
     return curves_by_tries(habit, rules)
 
 
-def draw_habit(past, rng, count=25):
-    """The habit's plans for the targets of `nulls.tries`."""
-    _, targets = (draw_targets(past, n, rng) for n in (200, count))
-    return plan(targets, past)
-
-
 def rounds(seed, noise=NOISY, count=25):
     """The mean miss in mm after 0, 1, … rounds of Algorithm 1, by `rounds_name`; one seed."""
-    habit = draw_habit(templates_of_person((seed, 8), noise), np.random.default_rng(seed), count)
+    past, rng = templates_of_person((seed, 8), noise), np.random.default_rng(seed)
+    habit = nulls.draw_habit(past, rng, count)
     return {
         rounds_name(n, keep): 1000 * mean_distance(holds, habit.target).mean(axis=1)
         for keep in KEPT
@@ -104,7 +98,8 @@ def rounds_name(n, keep):
 
 def with_load(seed, noise=NOISY, count=25):
     """The mean miss in mm of what is kept after 0, 1, … tries with each load, by `load_name`."""
-    habit = draw_habit(templates_of_person((seed, 9), noise), np.random.default_rng(seed), count)
+    past, rng = templates_of_person((seed, 9), noise), np.random.default_rng(seed)
+    habit = nulls.draw_habit(past, rng, count)
     return {
         load_name(name, guarded): 1000 * kept_again(habit, trials, move_with_load(kg)).error.mean(1)
         for name, kg in LOADS.items()

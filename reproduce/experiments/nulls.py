@@ -21,7 +21,7 @@ from reproduce.experiments.calibration import (
     no_calibration,
     run_experiments,
 )
-from reproduce.one_draw import planned_error_ratio, worst_example
+from reproduce.one_draw import mean_best_so_far, planned_error_ratio, worst_example
 from vmc_lib.cerebellum.offline import (
     algorithm_1,
     algorithm_1_change,
@@ -106,6 +106,12 @@ def offline_rules(rng):
     return rules
 
 
+def draw_habit(past, rng, count=25):
+    """The habit's plans for the targets that `error_ratios` practises with the same generator."""
+    _, targets = (draw_targets(past, n, rng) for n in (200, count))
+    return plan(targets, past)
+
+
 def tries(seed, hold=templates.HOLD, count=25):
     """What each rule leaves of the planned error after 0, 1, … tries, by name, (1 + TRIES,).
 
@@ -113,20 +119,19 @@ def tries(seed, hold=templates.HOLD, count=25):
     without the plan: what the best leaves, and the share of movements that it brings nearer.
     """
     rng, past = np.random.default_rng(seed), templates.load(hold=hold)
-    _, targets = (draw_targets(past, n, rng) for n in (200, count))
-    habit, found = plan(targets, past), {}
+    habit, found = draw_habit(past, rng, count), {}
     rules = offline_rules(rng)
     rules[RANDOM_LENGTH] = calibration_by(partial(random_length_change, rng=rng))
     for name, rule in rules.items():
         planned, *tried = rule(habit).error
-        best, alone = np.minimum.accumulate([planned, *tried]), np.min(tried, axis=0)
-        found[name] = best.mean(axis=1) / planned.mean()
+        alone = np.min(tried, axis=0)
+        found[name] = mean_best_so_far([planned, *tried]) / planned.mean()
         found[f"{name}, tries alone"] = alone.mean() / planned.mean()
         found[f"{name}, nearer"] = (alone < planned).mean()
         if name == PAPER:
             by_n = np.array(tried)[np.argsort(COARSE_TO_FINE)]
-            best = np.minimum.accumulate([planned, *by_n[list(AS_ALGORITHM_1)]])
-            found[IN_ORDER] = best.mean(axis=1) / planned.mean()
+            in_order = [planned, *by_n[list(AS_ALGORITHM_1)]]
+            found[IN_ORDER] = mean_best_so_far(in_order) / planned.mean()
     return found
 
 

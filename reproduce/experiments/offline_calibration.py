@@ -22,11 +22,6 @@ LOADS = {"empty": 0, "0.5 kg": 0.5}  # in the hand, kg
 GRIDS = {"n = 0 only": (0,), "every fifth n": FIFTH, "every n": GAINS}
 
 
-def error_ratio(trials):
-    """Mean error of the best trials of each reach, over the planned one."""
-    return trials.error.min(axis=0).mean() / trials.error[0].mean()
-
-
 def repeat_algorithm_1(plan, keep, rounds=4):
     """Hands over the hold (rounds + 1, n, T, 2) by Algorithm 1 upon Algorithm 1, by `GRIDS`.
 
@@ -74,11 +69,6 @@ def trials_with_load(plan, load):
 def errors_with_load(plan, load):
     """Their errors in mm, (9, n): guarded -> errors."""
     return {k: 1000 * trials.error for k, trials in trials_with_load(plan, load).items()}
-
-
-def mean_best_so_far(errors):
-    """Mean over the targets of the least error up to each trial, (trials,), for (trials, n)."""
-    return np.minimum.accumulate(errors).mean(axis=1)
 
 
 def hold_distances(plans, seconds=1.5):

@@ -14,7 +14,6 @@ from reproduce.experiments.calibration import (
     AS_PRINTED,
     MANY,
     SCENARIOS,
-    WHOLE_HOLD,
     load_results,
     repeat_over_seeds,
 )
@@ -30,7 +29,7 @@ from reproduce.ledger.entry import (
     trivial_quantity,
 )
 from reproduce.measures import second_plant
-from reproduce.one_draw import COUNT
+from reproduce.one_draw import COUNT, WHOLE_HOLD
 from reproduce.peers.motor_noise import PERSON_MM
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.cerebellum.offline import algorithm_1

@@ -11,7 +11,6 @@ from reproduce.experiments.calibration import (
     AS_PRINTED,
     SCENARIOS,
     SEEDS,
-    WHOLE_HOLD,
     coarse_algorithm_1,
     error_ratios,
     load_results,
@@ -19,6 +18,7 @@ from reproduce.experiments.calibration import (
     run_experiments,
 )
 from reproduce.measures.changed_worlds import NOTHING, PERTURBATIONS
+from reproduce.one_draw import WHOLE_HOLD
 from vmc_lib.cerebellum.adaptation import CORRECTIONS
 from vmc_lib.cerebellum.offline import algorithm_1
 from vmc_lib.cerebellum.online import AimCorrection, WeightCorrection

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from reproduce.experiments import offline_calibration as offline
+from reproduce.one_draw import error_ratio, mean_best_so_far
 from vmc_lib.cerebellum.offline import broyden_calibration
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import draw_targets, plan
@@ -33,10 +34,10 @@ def test_reaches_are_counted_until_the_mean_error_is_small_enough(habit):
 def test_a_load_leaves_more_error_than_an_empty_hand(habit):
     lifted, empty = (offline.errors_with_load(habit, kg)[True] for kg in (0.25, 0))
     assert lifted.shape == (9, 4)
-    assert offline.mean_best_so_far(lifted)[-1] > offline.mean_best_so_far(empty)[-1]
+    assert mean_best_so_far(lifted)[-1] > mean_best_so_far(empty)[-1]
     trials = broyden_calibration(habit, 8)
-    left = offline.mean_best_so_far(1000 * trials.error)
-    assert left[-1] / left[0] == pytest.approx(offline.error_ratio(trials))
+    left = mean_best_so_far(1000 * trials.error)
+    assert left[-1] / left[0] == pytest.approx(error_ratio(trials))
 
 
 def test_a_reflex_keeps_the_hand_from_drifting(habit):
