@@ -16,10 +16,10 @@ from reproduce.experiments.calibration import MANY
 from reproduce.measures.changed_worlds import (
     BLOCKS,
     PERTURBATIONS,
-    Seen,
+    Observation,
     adapt,
-    direction,
     train_aim_correction,
+    turn_between,
 )
 from reproduce.people import MEASUREMENTS, MISSES
 from vmc_lib.arm.dynamics import hand
@@ -35,8 +35,13 @@ SHARES = (0.1, 0.2, 0.3, 0.45, 1 / 1.3)  # of an error that is learnt at once; t
 FORGETS = (0.0, 0.01, 0.02, 0.03, 0.05, 0.07, 0.1, 0.15)  # of what was learnt, with every cycle
 SIZES = (1.75, 3.5, 7.0, 14.0)  # degrees, of clamps
 SHOWN, TURNED = np.radians(3.5), np.radians(30.0)
-SEEN, UNSEEN = "seen", "unseen"
-CLAMP = [SEEN, *80 * [SHOWN], *5 * [UNSEEN], *10 * [SEEN]]  # cycles: an angle is an error clamp
+VISIBLE, HIDDEN = "visible", "hidden"
+CLAMP = [
+    VISIBLE,
+    *80 * [SHOWN],
+    *5 * [HIDDEN],
+    *10 * [VISIBLE],
+]  # cycles: an angle is a clamp
 CLAMPED = slice(1, 81)
 LAST_WITH_LOAD = sum(BLOCKS[:2]) - 1
 # cycles of 't Hart and Henriques: turned one way, the other way, and clamped to the target
@@ -75,13 +80,12 @@ def hand_angles(learner, plans, cycles, look):
     turned = []
     for cycle in cycles:
         movement = execute(learner.correct(plans))
-        off = direction(movement.endpoint, HOME) - direction(plans.target, HOME)
-        turned.append(np.angle(np.exp(1j * off)).mean())
+        turned.append(turn_between(movement.endpoint, plans.target, HOME).mean())
         seen = look(cycle, movement)
         if seen is None:
             learner.forget()
         else:
-            learner.update(plans, lambda _, seen=seen: Seen(seen))
+            learner.update(plans, lambda _, seen=seen: Observation(seen))
     return np.array(turned)
 
 
@@ -92,8 +96,8 @@ def clamp_angles(learner, plans, cycles=CLAMP):
     """
 
     def look(cycle, movement):
-        if cycle in (SEEN, UNSEEN):
-            return movement.endpoint if cycle == SEEN else None
+        if cycle in (VISIBLE, HIDDEN):
+            return movement.endpoint if cycle == VISIBLE else None
         return rotate(plans.target, cycle, HOME)
 
     angles = hand_angles(learner, plans, cycles, look)
@@ -123,7 +127,7 @@ def both_curves(share, forgets, seed=0):
 
 def clamp_end(share, forgets, degrees):
     """How far the hand has turned, in degrees, after 80 cycles of an error clamp of so many."""
-    cycles = [SEEN, *80 * [np.radians(degrees)], UNSEEN]
+    cycles = [VISIBLE, *80 * [np.radians(degrees)], HIDDEN]
     return clamp_angles(*learner_and_plans(share, forgets), cycles)[-1]
 
 

@@ -79,7 +79,7 @@ def without_learning(trained, template_set, perturbation, target, blocks=BLOCKS)
     return Curve(target, np.where(changed, *holds))
 
 
-class Seen(NamedTuple):
+class Observation(NamedTuple):
     """What the learner sees of its movements, wherever they end."""
 
     endpoint: np.ndarray  # (n, 2), m
@@ -93,11 +93,11 @@ def error_clamp(trained, template_set, rng, angle, blocks=BLOCKS, movements=8):
     does (Morehead et al., 2017).
     """
     plans = plan(draw_targets(template_set, movements, rng), template_set)
-    clamped = Seen(rotate_about_eye(plans.target, angle))
+    clamped = Observation(rotate_about_eye(plans.target, angle))
     learner, drift = Adaptation(trained, template_set), []
     for is_clamped in np.repeat([False, True, False], blocks):
         movement = execute(learner.correct(plans))
-        drift.append(np.mean(direction(movement.endpoint, EYE) - direction(plans.target, EYE)))
+        drift.append(turn_between(movement.endpoint, plans.target, EYE).mean())
         learner.update(plans, lambda _, seen=clamped if is_clamped else movement: seen)
     return np.array(drift)
 
@@ -106,6 +106,11 @@ def direction(points, centre):
     """The direction of plane positions (…, 2) from a `centre` (2,), (…), rad."""
     away = points - centre
     return np.arctan2(away[..., 1], away[..., 0])
+
+
+def turn_between(points, targets, centre):
+    """The angle from targets (…, 2) to points (…, 2) about a centre (2,), (…), rad in (−π, π]."""
+    return np.angle(np.exp(1j * (direction(points, centre) - direction(targets, centre))))
 
 
 def block_errors(seed, before=150, blocks=BLOCKS, past=None, **size):

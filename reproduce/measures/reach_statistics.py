@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from reproduce.measures.changed_worlds import turn_between
 from reproduce.peers.motor_noise import noisy_reach, with_noise
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.arm.model import STEP
@@ -13,10 +14,8 @@ def direction_scatter(plans, start, share, repeats, rng):
     `plans` to n targets are made so many times, with signal-dependent noise of that `share` in
     every command (`with_noise`); directions are seen from the `start` (2,).
     """
-    away = _noisy_ends(plans, share, repeats, rng) - start
-    meant = plans.target - start
-    turned = np.arctan2(away[..., 1], away[..., 0]) - np.arctan2(meant[:, 1], meant[:, 0])
-    return np.degrees(np.angle(np.exp(1j * turned)).std(axis=0, ddof=1))
+    turned = turn_between(_noisy_ends(plans, share, repeats, rng), plans.target, start)
+    return np.degrees(turned.std(axis=0, ddof=1))
 
 
 def _noisy_ends(plans, share, repeats, rng):

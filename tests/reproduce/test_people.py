@@ -5,7 +5,7 @@ import pytest
 
 from reproduce import people
 from reproduce.experiments import forgetting_adaptation as forgetting
-from reproduce.measures.changed_worlds import Seen, direction
+from reproduce.measures.changed_worlds import Observation, turn_between
 from reproduce.measures.reach_statistics import direction_scatter, speed_shape
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.cerebellum.adaptation import Adaptation
@@ -57,13 +57,13 @@ def test_without_forgetting_it_is_the_books_learner():
     learner, plans = forgetting.learner_and_plans(forgetting.SHARES[-1], 0)
     ours = Adaptation(learner.trained_correction, load())
     for one in (learner, ours):
-        one.update(plans, lambda _: Seen(rotate(plans.target, 0.1, forgetting.HOME)))
+        one.update(plans, lambda _: Observation(rotate(plans.target, 0.1, forgetting.HOME)))
     np.testing.assert_allclose(learner.purkinje, ours.purkinje)
 
 
 def test_the_rest_is_kept():
     learner, plans = forgetting.learner_and_plans(0.5, 0.25)
-    learner.update(plans, lambda _: Seen(rotate(plans.target, 0.1, forgetting.HOME)))
+    learner.update(plans, lambda _: Observation(rotate(plans.target, 0.1, forgetting.HOME)))
     before = learner.purkinje
     learner.forget()
     np.testing.assert_allclose(learner.purkinje, 0.75 * before)
@@ -72,8 +72,7 @@ def test_the_rest_is_kept():
 def test_turns_about_home():
     places = forgetting.targets()
     turned = rotate(places, 0.2, forgetting.HOME)
-    was, now = (direction(some, forgetting.HOME) for some in (places, turned))
-    np.testing.assert_allclose(now - was, 0.2)
+    np.testing.assert_allclose(turn_between(turned, places, forgetting.HOME), 0.2)
     np.testing.assert_allclose(
         np.linalg.norm(turned - forgetting.HOME, axis=1), forgetting.DISTANCE
     )
