@@ -15,14 +15,14 @@ READINGS = {  # how a movement is read -> what each rule then leaves after 0, 1,
 }
 KINDS = nulls.IN_SAMPLE, nulls.HELD_OUT
 LINES = {  # a rule -> its line
-    nulls.PAPER: ("blue", "-"),
+    nulls.EQ_6_7: ("blue", "-"),
     nulls.BLIND: ("orange", "-"),
     nulls.SAME_LENGTH: ("orange", ":"),
     nulls.RANDOM_LENGTH: ("blue", ":"),
     nulls.LINE: ("green", "--"),
-    nulls.WHOLE_HOLD: ("green", "-"),
+    nulls.LEAST_SQUARES: ("green", "-"),
 }
-TEACHERS = {rule: LINES[rule] for rule in (nulls.PAPER, nulls.BLIND, nulls.LINE)}
+TEACHERS = {rule: LINES[rule] for rule in (nulls.EQ_6_7, nulls.BLIND, nulls.LINE)}
 TEACHERS[nulls.IN_ORDER] = "blue", "--"
 
 
@@ -92,13 +92,13 @@ def mechanisms():
             "ours: Eq. 4 solved exactly": weights[f"{nulls.EXACT}, over Eq. 5"],
         },
         "off-line, 21 tries: error left": {
-            "the paper: Eq. 6–7": tried[nulls.PAPER][:, -1],
+            "the paper: Eq. 6–7": tried[nulls.EQ_6_7][:, -1],
             **{f"null: {name}": tried[name][:, -1] for name in nulls.NULLS},
             f"the error's direction: {nulls.LINE}": tried[nulls.LINE][:, -1],
-            "ours: Broyden": tried[nulls.OURS][:, -1],
+            "ours: Broyden": tried[nulls.BROYDEN][:, -1],
         },
         "online, new reaches: error left": {
-            "the paper: Algorithm 2": taught[f"{nulls.PRINTED}, held-out"][:, 1],
+            "the paper: Algorithm 2": taught[f"{nulls.ALGORITHM_2}, held-out"][:, 1],
             f"the same, {nulls.BLINDLY_TAUGHT}": taught[f"{nulls.BLINDLY_TAUGHT}, held-out"][:, 1],
             f"null: {nulls.SHUFFLED}": taught[f"{nulls.SHUFFLED}, held-out"][:, 1],
             "ours: granule cells": own["own online, 25 movements, held-out"],

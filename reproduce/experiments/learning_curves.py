@@ -76,7 +76,7 @@ def off_line(seed, count=25):
     """
     rng = np.random.default_rng(seed)
     habit = nulls.draw_habit(templates_of_person((seed, 5)), rng, count)
-    rules = nulls.offline_rules(rng) | {nulls.OURS: partial(broyden_calibration, n_trials=4)}
+    rules = nulls.offline_rules(rng) | {nulls.BROYDEN: partial(broyden_calibration, n_trials=4)}
     return curves_by_tries(habit, rules)
 
 

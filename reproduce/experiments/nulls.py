@@ -43,15 +43,15 @@ TRIES = 21  # of the paper's off-line calibration
 COARSE_TO_FINE = (10, 0, 20, 5, 15, 2, 8, 12, 18, *(1, 3, 4, 6, 7, 9, 11, 13, 14, 16, 17, 19))
 AS_ALGORITHM_1 = (*range(1, 21), 0)  # the n in the order in which it counts them
 LENGTH = 0.1  # of a blind change of the weights; chosen on other targets (seeds 100 to 109)
-PAPER, BLIND = "Eq. 6–7", "blind search"
+EQ_6_7, BLIND = "Eq. 6–7", "blind search"
 SAME_LENGTH, LINE = "random direction", "line search along Eq. 4"
 RANDOM_LENGTH = "random length"
 LUCK = BLIND, SAME_LENGTH  # in place of a direction …
 NULLS = *LUCK, RANDOM_LENGTH  # … and of a length
 TAUGHT = 0, 1, 3, 6, 11, TRIES  # tries that a lesson costs
-IN_ORDER = f"{PAPER}, n = 1, 2, 3, …"
-OURS, WHOLE_HOLD = "Broyden", "least squares over the hold"
-PRINTED, SHUFFLED, BLINDLY_TAUGHT = "Algorithm 2", "shuffled pairs", "taught by blind search"
+IN_ORDER = f"{EQ_6_7}, n = 1, 2, 3, …"
+BROYDEN, LEAST_SQUARES = "Broyden", "least squares over the hold"
+ALGORITHM_2, SHUFFLED, BLINDLY_TAUGHT = "Algorithm 2", "shuffled pairs", "taught by blind search"
 IN_SAMPLE, HELD_OUT = "in-sample", "held-out"
 NO_LESSON = "no lesson, inverse-square weights", "no lesson, Eq. 4 solved exactly"
 
@@ -96,13 +96,13 @@ def calibration_by(law, order=COARSE_TO_FINE):
 def offline_rules(rng):
     """Name -> a rule that calibrates a plan by `TRIES` movements."""
     laws = {
-        PAPER: algorithm_1_change,
+        EQ_6_7: algorithm_1_change,
         **{name: partial(law, rng=rng) for name, law in LAWS.items()},
         LINE: line_search_change,
     }
     rules = {name: calibration_by(law) for name, law in laws.items()}
-    rules[OURS] = partial(broyden_calibration, n_trials=TRIES)
-    rules[WHOLE_HOLD] = lambda habit: gauss_newton_calibration(habit, TRIES - habit.rows.shape[-1])
+    rules[BROYDEN] = partial(broyden_calibration, n_trials=TRIES)
+    rules[LEAST_SQUARES] = lambda plan: gauss_newton_calibration(plan, TRIES - plan.rows.shape[-1])
     return rules
 
 
@@ -128,7 +128,7 @@ def tries(seed, hold=templates.HOLD, count=25):
         found[name] = mean_best_so_far([planned, *tried]) / planned.mean()
         found[f"{name}, tries alone"] = alone.mean() / planned.mean()
         found[f"{name}, nearer"] = (alone < planned).mean()
-        if name == PAPER:
+        if name == EQ_6_7:
             by_n = np.array(tried)[np.argsort(COARSE_TO_FINE)]
             in_order = [planned, *by_n[list(AS_ALGORITHM_1)]]
             found[IN_ORDER] = mean_best_so_far(in_order) / planned.mean()
@@ -175,7 +175,7 @@ def lessons(seed, movements=25, held_out=200, experiments=10):
     draw = np.random.default_rng((seed, 1))
     blindly = calibration_by(*teachers(seed)[BLIND])
     learners = {
-        PRINTED: (WeightCorrection(), {}),
+        ALGORITHM_2: (WeightCorrection(), {}),
         SHUFFLED: (ShuffledPairs(rng=draw), {}),
         BLINDLY_TAUGHT: (WeightCorrection(), {"rule": blindly}),
         **{
@@ -204,7 +204,7 @@ def teachers(seed):
     All but one try n coarse to fine: few tries then span as wide a range of n as all do.
     """
     return {
-        PAPER: (algorithm_1_change, COARSE_TO_FINE),
+        EQ_6_7: (algorithm_1_change, COARSE_TO_FINE),
         IN_ORDER: (algorithm_1_change, AS_ALGORITHM_1),
         BLIND: (partial(blind_change, rng=np.random.default_rng((seed, 2))), COARSE_TO_FINE),
         LINE: (line_search_change, COARSE_TO_FINE),

@@ -34,10 +34,11 @@ from vmc_lib.motor.planning import draw_targets, is_surrounded, norm, plan
 
 ASTRAY = 0.01  # m: a reach that ends so far from its goal is none to remember
 MARGIN = 0.008  # m: so far inside of what templates surround; those of another arm end elsewhere
-HABIT, PAPER, ONLINE, OURS = "habit", "Algorithm 1", "Algorithm 2, new reaches", "least squares"
-RULES = HABIT, PAPER, ONLINE, OURS
+HABIT, ALGORITHM_1 = "habit", "Algorithm 1"
+ONLINE, LEAST_SQUARES = "Algorithm 2, new reaches", "least squares"
+RULES = HABIT, ALGORITHM_1, ONLINE, LEAST_SQUARES
 AS_IT_IS, THELEN = "as it is", "Thelen 2003"
-PRINTED = f"{SCENARIOS[0]}, {AS_PRINTED}, {THELEN}"
+PRINTED_ON_THELEN = f"{SCENARIOS[0]}, {AS_PRINTED}, {THELEN}"
 ON_THELEN = "with OpenSim's own muscle (Thelen's)"  # in words
 
 
@@ -151,9 +152,9 @@ def misses(
         learner = WeightCorrection(hindsight).update(practised, rule=rule)
         found = {
             HABIT: execute(habit).error,
-            PAPER: algorithm_1(habit, origin=origin, sign=sign).error.min(axis=0),
+            ALGORITHM_1: algorithm_1(habit, origin=origin, sign=sign).error.min(axis=0),
             ONLINE: execute(learner.correct(habit)).error,
-            OURS: gauss_newton_calibration(habit).error.min(axis=0),
+            LEAST_SQUARES: gauss_newton_calibration(habit).error.min(axis=0),
         }
     return {rule: 1000 * error for rule, error in found.items()}
 
@@ -189,7 +190,7 @@ def make(choices=CHOICES, spacing=templates.SPACING, seeds=MANY, count=20, **siz
     draws = [thelen_tables(past, seed, **size) for seed in seeds]
     found = Parallel()(delayed(misses)(**given, count=count) for given in settings.values())
     parts = dict(zip(settings, found, strict=True))
-    parts[PRINTED] = {k: [draw[k] for draw in draws] for k in draws[0]}
+    parts[PRINTED_ON_THELEN] = {k: [draw[k] for draw in draws] for k in draws[0]}
     return {
         part: {k: np.round(values, 4).tolist() for k, values in rows.items()}
         for part, rows in parts.items()
@@ -206,4 +207,4 @@ load_results = partial(calibration.load_results, "sensitivity")
 
 def load_thelen_tables():
     """What Tables IV to VI measure with Thelen's muscle, where the command ends."""
-    return load_results()[PRINTED]
+    return load_results()[PRINTED_ON_THELEN]

@@ -115,13 +115,13 @@ def _table_5():
 
 def _figure_4():
     name, kind = "error after Eq. 6 with the searched n of Eq. 7, over planned", ", tries alone"
-    left = nulls.load_results()[nulls.BY_TRIES][nulls.PAPER + kind]
+    left = nulls.load_results()[nulls.BY_TRIES][nulls.EQ_6_7 + kind]
     return [mean(name, 1, left, fitted=True, nulls=by_luck(kind), **BELOW)]
 
 
 def _figure_10():
     name, kind = "examples that off-line calibration brings nearer", ", nearer"
-    came = nearer(nulls.load_results()[nulls.BY_TRIES], nulls.PAPER + kind)
+    came = nearer(nulls.load_results()[nulls.BY_TRIES], nulls.EQ_6_7 + kind)
     return [share(name, 1, *came, EXAMPLES, better=1, fitted=True, nulls=by_luck(kind))]
 
 
@@ -198,7 +198,7 @@ def _direction():
     found, name = nulls.load_results()[nulls.BY_TRIES], "{} less {}, tries: {}"
     fitted = {"fitted": True} | BELOW
 
-    def less(k, luck, rule=nulls.PAPER, claimed=None, **rest):
+    def less(k, luck, rule=nulls.EQ_6_7, claimed=None, **rest):
         return mean(name.format(rule, luck, k), claimed, (found[rule] - found[luck])[:, k], **rest)
 
     return [
@@ -236,9 +236,9 @@ FIXED = (
 OVER_THE_HOLD = (
     "Over the hold, where ours are meant to be; the paper's number is read where the command ends."
 )
-LESS = f"{nulls.PAPER} less {{}}, tries: {{}}"
+LESS = f"{nulls.EQ_6_7} less {{}}, tries: {{}}"
 LESS_IN_ORDER = f"{nulls.IN_ORDER} less {nulls.BLIND}, tries: 3"
-LESS_FROM_COARSE = f"{nulls.PAPER} less {nulls.BLIND}, tries: 3"
+LESS_FROM_COARSE = f"{nulls.EQ_6_7} less {nulls.BLIND}, tries: 3"
 ROWS = (
     Row(
         "Table V",

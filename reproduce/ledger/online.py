@@ -31,17 +31,17 @@ NEW = "error after over planned, changing neighbours, never practised"
 NULLS = nulls.SHUFFLED, *nulls.NO_LESSON
 NEARER = "examples brought nearer, practised"
 LESS_EXACT = {
-    kind: f"{nulls.PRINTED} less exact weights, {movements}"
+    kind: f"{nulls.ALGORITHM_2} less exact weights, {movements}"
     for kind, movements in ((IN_SAMPLE, "practised"), (HELD_OUT, "never practised"))
 }
-SMALL_N = f"taught by {nulls.PAPER}, n = 1, 2, 3 alone"
-SPREAD_N = f"taught by {nulls.PAPER}, n = 0, 10, 20 alone"
+SMALL_N = f"taught by {nulls.EQ_6_7}, n = 1, 2, 3 alone"
+SPREAD_N = f"taught by {nulls.EQ_6_7}, n = 0, 10, 20 alone"
 FALLS = "steps, experiment to experiment, in which the error falls"
 UNCORRECTED = "lessons of uncorrected movements"
 TEACHERS = {  # of Algorithm 2, and how often they try
-    UNCORRECTED: (nulls.PAPER, 0),
+    UNCORRECTED: (nulls.EQ_6_7, 0),
     SMALL_N: (nulls.IN_ORDER, 3),
-    SPREAD_N: (nulls.PAPER, 3),
+    SPREAD_N: (nulls.EQ_6_7, 3),
     f"taught by one try of a {nulls.LINE}": (nulls.LINE, 1),
 }
 ONLINE = {"better": -1, "rounding": paper.ratio_rounding("online", "planned")}
@@ -67,7 +67,7 @@ def _table_6():
         _learned(name.format(sensitivity.ON_THELEN), None, sensitivity.load_thelen_tables()),
         share("practised: draws that leave as much as the paper's", None, *as_much),
         *(
-            mean(less, None, (lessons[f"{nulls.PRINTED}, {kind}"] - lessons[exact])[:, 1])
+            mean(less, None, (lessons[f"{nulls.ALGORITHM_2}, {kind}"] - lessons[exact])[:, 1])
             for kind, less in LESS_EXACT.items()
             for exact in [f"{nulls.NO_LESSON[1]}, {kind}"]
         ),
@@ -100,7 +100,7 @@ def _left(found, experiments, rule="online"):
 
 
 def _figure_11():
-    lessons, rule = nulls.load_results()[nulls.BY_LESSONS], f"{nulls.PRINTED}, nearer"
+    lessons, rule = nulls.load_results()[nulls.BY_LESSONS], f"{nulls.ALGORITHM_2}, nearer"
     practised, others = nearer(lessons, f"{rule}, {IN_SAMPLE}"), lessons[f"{rule}, {HELD_OUT}"]
     luck = {null: lessons[f"{null}, nearer, in-sample"].mean() for null in NULLS}
     return [
@@ -115,10 +115,10 @@ def _figure_12():
     falls, luck, blind, new = (
         (np.diff(curves[f"{rule}, {kind}"][:, 1:]) < 0).mean(axis=1)
         for rule, kind in (
-            (nulls.PRINTED, IN_SAMPLE),
+            (nulls.ALGORITHM_2, IN_SAMPLE),
             (nulls.SHUFFLED, IN_SAMPLE),
             (nulls.BLINDLY_TAUGHT, IN_SAMPLE),
-            (nulls.PRINTED, HELD_OUT),
+            (nulls.ALGORITHM_2, HELD_OUT),
         )
     )
     taught = {nulls.SHUFFLED: luck.mean(), nulls.BLINDLY_TAUGHT: blind.mean()}

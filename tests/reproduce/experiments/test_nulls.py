@@ -89,25 +89,26 @@ def test_other_weights_sum_to_one():
 def test_what_ships_is_table_v_and_its_nulls_of_the_same_movements():
     tried = nulls.load_results()[nulls.BY_TRIES]
     table_5 = load_movements()[f"{SCENARIOS[0]}, {AS_PRINTED}"]["off-line, published"]
-    np.testing.assert_allclose(tried[nulls.PAPER][:, -1], table_5, atol=2e-4)
-    few, full = ((tried[nulls.PAPER] - tried[nulls.BLIND])[:, k].mean() for k in (3, nulls.TRIES))
+    np.testing.assert_allclose(tried[nulls.EQ_6_7][:, -1], table_5, atol=2e-4)
+    few, full = ((tried[nulls.EQ_6_7] - tried[nulls.BLIND])[:, k].mean() for k in (3, nulls.TRIES))
     assert few < -0.1, "with few tries the direction shows"
     assert full > -0.05, "with the paper's number it does not"
-    assert (tried[nulls.PAPER] < tried[nulls.SAME_LENGTH])[:, -1].mean() > 0.8, "but for its length"
-    np.testing.assert_array_equal(tried[nulls.IN_ORDER][:, -1], tried[nulls.PAPER][:, -1])
+    nearer = tried[nulls.EQ_6_7] < tried[nulls.SAME_LENGTH]
+    assert nearer[:, -1].mean() > 0.8, "but for its length"
+    np.testing.assert_array_equal(tried[nulls.IN_ORDER][:, -1], tried[nulls.EQ_6_7][:, -1])
     assert tried[nulls.LINE][:, -1].mean() < 0.12
 
 
 def test_a_teacher_of_many_tries_is_algorithm_1_and_one_of_small_n_teaches_better():
     lessons, teaching = (nulls.load_results()[x] for x in (nulls.BY_LESSONS, nulls.BY_TEACHING))
-    same = {nulls.PAPER: nulls.PRINTED, nulls.IN_ORDER: nulls.PRINTED}
+    same = {nulls.EQ_6_7: nulls.ALGORITHM_2, nulls.IN_ORDER: nulls.ALGORITHM_2}
     same[nulls.BLIND] = nulls.BLINDLY_TAUGHT
     three = nulls.TAUGHT.index(3)
     for kind in (nulls.IN_SAMPLE, nulls.HELD_OUT):
         for teacher, lesson in same.items():
             full = teaching[f"{teacher}, {kind}"][:, -1]
             np.testing.assert_allclose(full, lessons[f"{lesson}, {kind}"][:, 1], atol=2e-4)
-        small, spread = (teaching[f"{x}, {kind}"][:, three] for x in (nulls.IN_ORDER, nulls.PAPER))
+        small, spread = (teaching[f"{x}, {kind}"][:, three] for x in (nulls.IN_ORDER, nulls.EQ_6_7))
         assert (small < full).mean() > 0.8, kind
         assert (small < spread).mean() > 0.8, kind
 
