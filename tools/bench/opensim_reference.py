@@ -69,7 +69,7 @@ def swing(q):
     return run(model, *put(model, q), [0.5], 1e-11)[0]
 
 
-def excited(excitations, elastic):
+def excited_model(excitations, elastic):
     """A model whose muscles get excitations (T, 6) and have settled to the first; our damping.
 
     Its tendons are `elastic` and its fibres pennate, as arm26 ships, or neither, as ours are
@@ -98,7 +98,7 @@ def excited(excitations, elastic):
 
 def movement(levels, elastic):
     """Joint angles (60, 2), every 10 ms, that constant excitations (6,) give; from (0°, 60°)."""
-    model = excited(constant_excitation(levels, 0.6), elastic)
+    model = excited_model(constant_excitation(levels, 0.6), elastic)
     state, joints = put(model, np.radians([0, 60]))
     model.equilibrateMuscles(state)
     return run(model, state, joints, 0.01 * np.arange(1, 61), 1e-7)

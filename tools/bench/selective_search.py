@@ -66,7 +66,7 @@ METHODS = {"ours": ours, "OpenCV contrib": opencv, "PyPI selectivesearch": pypi}
 ENTRANTS = {"single": list(METHODS), "fast": list(METHODS)[:2], "quality": list(METHODS)[:2]}
 
 
-def timed(method, image, strategy):
+def time_search(method, image, strategy):
     """What a method proposes, its wall time and its processor time (s)."""
     wall, busy = perf_counter(), process_time()
     orders = METHODS[method](image, strategy)
@@ -92,11 +92,11 @@ def process_cost(method, strategy, image, again=1):
     """
     code = f"""
 import sys
-from tools.bench.selective_search import np, timed
+from tools.bench.selective_search import np, time_search
 memory = lambda kind: int(open("/proc/self/status").read().split(kind + ":")[1].split()[0]) >> 10
 image = np.frombuffer(sys.stdin.buffer.read(), np.uint8).reshape({image.shape})
 rest = memory("VmRSS")
-search = lambda image: timed({method!r}, image, {strategy!r})[2]
+search = lambda image: time_search({method!r}, image, {strategy!r})[2]
 search(image[:100, :150].copy())
 print(rest, search(image), memory("VmHWM"), min(search(image) for _ in range({again})))
 """
@@ -121,7 +121,7 @@ def overlap_scores(runs, pictures, limits):
 
 def compare(name, pictures, strategy, costs):
     """A row for every entrant of a strategy on some photos."""
-    runs = {m: [timed(m, p.image, strategy) for p in pictures] for m in ENTRANTS[strategy]}
+    runs = {m: [time_search(m, p.image, strategy) for p in pictures] for m in ENTRANTS[strategy]}
     count = {m: np.array([len(orders[0]) for orders, _, _ in run]) for m, run in runs.items()}
     equal = np.minimum(count["ours"], count["OpenCV contrib"])
     for method, run in runs.items():

@@ -17,7 +17,7 @@ import mujoco
 import numpy as np
 from mujoco import rollout
 
-from tools.bench.opensim_reference import excited, put, run
+from tools.bench.opensim_reference import excited_model, put, run
 from tools.bench.report import publish, seconds
 from vmc_lib.arm.model import F0, L0, MUSCLES, SLACK, STEP, XML
 from vmc_lib.arm.simulate import simulate
@@ -30,7 +30,7 @@ FINE = 20  # small steps in one of ours
 
 def opensim(accuracy):
     """Ends of the reach (1, 2) in OpenSim's own arm, as a function to be timed."""
-    model = excited(REACH, elastic=True)
+    model = excited_model(REACH, elastic=True)
     state, joints = put(model, START)
     model.equilibrateMuscles(state)
     return lambda: run(model, state, joints, [1.0], accuracy)
