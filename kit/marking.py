@@ -51,7 +51,7 @@ def points(mark):
 
 
 @contextmanager
-def judged(known):
+def points_of_check(known):
     """Runs a check, as nbgrader does; yields a function of nothing, which says its points then.
 
     AssertionError with the mark where it is worth none.

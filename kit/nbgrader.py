@@ -14,10 +14,10 @@ HIDDEN = """
 ### BEGIN HIDDEN TESTS
 import os
 
-from kit.marking import judged
+from kit.marking import points_of_check
 
 os.environ["VMC_RENDER_MODE"] = "live"
-with judged({known!r}) as points:
+with points_of_check({known!r}) as points:
 {check}
 
 points()
