@@ -196,12 +196,12 @@ def outputs(notebook):
 
 def test_whoever_comes_second_reads_and_a_failure_is_executed_again(book, chapter):
     for _ in range(2):
-        notebook, _, error = execute.executed(chapter, 600)
+        notebook, _, error = execute.execute_cached(chapter, 600)
         assert (outputs(notebook), error) == (["printed 42\n"], None)
     assert times_executed(book) == 1
     write(book, f"{CODE}  # another word\n1 / 0")
     for times in (2, 3):
-        assert "ZeroDivisionError" in execute.executed(chapter, 600)[2]
+        assert "ZeroDivisionError" in execute.execute_cached(chapter, 600)[2]
         assert times_executed(book) == times
 
 
@@ -211,7 +211,7 @@ def test_a_number_in_prose_is_the_runs(book, chapter):
         text = f"It is {number}<!--{{6 * library.SEVEN}}-->."
         notebook.cells[2:] = [nbformat.v4.new_markdown_cell(text, id="prose")]
         nbformat.write(notebook, chapter)
-        return execute.executed(chapter, 600)[2]
+        return execute.execute_cached(chapter, 600)[2]
 
     assert has(42) is None
     said = has(41)
@@ -219,7 +219,7 @@ def test_a_number_in_prose_is_the_runs(book, chapter):
     assert said.endswith("ValueError: the text says '41', the run '42'")
     prose.update(chapter)
     assert nbformat.read(chapter, as_version=4).cells[2].source.startswith("It is 42<")
-    assert execute.executed(chapter, 600)[2] is None
+    assert execute.execute_cached(chapter, 600)[2] is None
 
 
 WRONG = {  # cells of which a chapter alone fails, and what it says
@@ -285,7 +285,7 @@ def test_a_damaged_cache_is_made_anew(book, chapter):
     (folder / "desktop.ini").touch()  # as a synchronised folder leaves it
 
     def is_stored():
-        return execute.stored(execute.open_cache(folder), chapter, "state")
+        return execute.read_stored(execute.open_cache(folder), chapter, "state")
 
     assert not is_stored()
     for name, (pattern, harm) in HARM.items():

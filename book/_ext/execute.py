@@ -87,11 +87,12 @@ def execute_what_changed(app, env, added, changed, removed):
     names = {Path(env.doc2path(name)): name for name in env.found_docs}
     pages = {page: digest(page) for page in sorted(names) if page.suffix == ".ipynb"}
     cache = open_cache(app.config.nb_execution_cache_path)
-    missing = [page for page in pages if not stored(cache, page, pages[page])]
+    missing = [page for page in pages if not read_stored(cache, page, pages[page])]
     start, failed = monotonic(), []
     with ProcessPoolExecutor(min(cpu_count(), len(missing) or 1)) as pool:
         jobs = {
-            pool.submit(executed, page, app.config.nb_execution_timeout): page for page in missing
+            pool.submit(execute_cached, page, app.config.nb_execution_timeout): page
+            for page in missing
         }
         for done, job in enumerate(as_completed(jobs), start=1):
             page, (_, seconds, error) = jobs[job], job.result()
@@ -124,7 +125,7 @@ def open_cache(folder):
     return cache
 
 
-def stored(cache, page, state):
+def read_stored(cache, page, state):
     """A page's notebook with its outputs, whole and of a state (see `digest`), or None."""
     try:
         record = cache.match_cache_notebook(nbformat.read(page, as_version=4))
@@ -138,7 +139,7 @@ def stored(cache, page, state):
     return bundle.nb if bundle.record.data.get("digest") == state else None
 
 
-def executed(page, timeout):
+def execute_cached(page, timeout):
     """A chapter's executed notebook, its seconds, and where and how it failed, or None.
 
     From the cache, or executed now: the build asks for its pages, and nbmake for its tests.
@@ -147,7 +148,7 @@ def executed(page, timeout):
     folder.parent.mkdir(exist_ok=True)
     lock = FileLock(folder.with_suffix(".lock"))
     with lock:
-        if notebook := stored(open_cache(folder), page, state):
+        if notebook := read_stored(open_cache(folder), page, state):
             return notebook, 0, None
     notebook, seconds, error = execute(page, timeout)
     if not error:
