@@ -26,7 +26,11 @@ DYES = "#d3f000 #d3f000 #e8f53a #f4f4ee #f4f4ee #a8e04a #ff8a2a #f28fb0".split()
 def random_shuttlecock(rng, _number):
     """A shuttlecock (a Mesh) whose middle is the origin, as it may lie, stand, fly or be held."""
     feathered = rng.random() < 0.5
-    one = shuttlecocks.worn(rng) if feathered else shuttlecocks.nylon(rng, rgb(rng.choice(DYES)))
+    one = (
+        shuttlecocks.worn_shuttlecock(rng)
+        if feathered
+        else shuttlecocks.nylon(rng, rgb(rng.choice(DYES)))
+    )
     return one.moved(shift=(0, -shuttlecocks.LENGTH / 2, 0)).moved(random_rotation(rng))
 
 

@@ -38,7 +38,7 @@ def bell(rng, colour):
     return join(lathe(profile, colour, rng.uniform(0.15, 0.5)), tube(ring, 0.002, colour))
 
 
-def pleated(rng, colour, height, narrow, wide):
+def pleated_wall(rng, colour, height, narrow, wide):
     """A pleated wall, open above and below: a paper case, a lampshade, a skirt."""
     folds, angle = int(rng.integers(14, 40)), np.linspace(0, 2 * np.pi, 400)
     t = np.linspace(0, 1, 6)[:, None]
@@ -50,7 +50,7 @@ def pleated(rng, colour, height, narrow, wide):
 
 def paper_case(rng, colour):
     """A paper case for a small cake, often with the cake in it."""
-    wall = pleated(rng, colour, 0.03, 0.022, 0.034)
+    wall = pleated_wall(rng, colour, 0.03, 0.022, 0.034)
     top = [(0.033, 0.026), (0.036, 0.034), (0.028, 0.046), (0.012, 0.052), (0, 0.053)]
     cake = lathe(top, rgb(rng.choice(["#7a4a22", "#c98f3d", "#f0e0c0"])), 0.9)
     return join(wall, cake) if rng.random() < 0.5 else wall
@@ -58,7 +58,7 @@ def paper_case(rng, colour):
 
 def lamp(rng, colour):
     """A table lamp: a shade, smooth or pleated, on a stem."""
-    shade = pleated(rng, colour, 0.06, 0.045, 0.025 * rng.uniform(0.6, 1.4))
+    shade = pleated_wall(rng, colour, 0.06, 0.045, 0.025 * rng.uniform(0.6, 1.4))
     stem = lathe([(0.03, 0), (0.03, 0.004), (0.004, 0.008), (0.004, 0.09), (0, 0.09)], colour * 0.5)
     return join(shade.moved(shift=(0, 0.05, 0)), stem)
 
@@ -182,7 +182,7 @@ def shoe_sole(rng, colour):
 
 TRAINING_KINDS = (
     traffic_cone, bell, paper_case, flower, bouquet, whisk, brush, glass, racket, cup, paper,
-    partial(pleated, height=0.05, narrow=0.015, wide=0.035), shoe_sole, pen,
+    partial(pleated_wall, height=0.05, narrow=0.015, wide=0.035), shoe_sole, pen,
 )  # fmt: skip
 # Of decoys that validate and test, not train. Balls still lie about in renders that train
 # (`objects.CLUTTER`), and of photographs that train two show light bulbs.

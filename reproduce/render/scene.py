@@ -116,14 +116,14 @@ def circle(mesh):
     return centre, np.linalg.norm(flat - centre, axis=1).max()
 
 
-def apart(mesh, others):
+def is_apart(mesh, others):
     """Whether the mesh keeps clear of all the others, by 4 mm."""
     centre, radius = circle(mesh)
     rounds = map(circle, others)
     return all(np.linalg.norm(centre - c) > radius + r + 0.004 for c, r in rounds)
 
 
-def whole(mesh, camera):
+def is_whole(mesh, camera):
     """Whether the camera sees all of the mesh, with a border around it."""
     pixels = camera.project(mesh.vertices)
     return bool(np.all((pixels > BORDER) & (pixels < [WIDTH - BORDER, HEIGHT - BORDER])))
@@ -143,18 +143,19 @@ def draw(level, rng, furnish=setting):
         camera = EYE if level == "rig" else free_eye(rng)
         turn, reach = np.radians(rng.uniform(-10, 60)), rng.uniform(0.08, 0.22)
         standing = bool(rng.random() < 0.25)
-        bird, middle = shuttlecocks.resting(feathered, standing, *rng.uniform(0, 2 * np.pi, 2))
+        roll, heading = rng.uniform(0, 2 * np.pi, 2)
+        bird, middle = shuttlecocks.rest_on_table(feathered, standing, roll, heading)
         target = to_world(np.array([reach, TABLE + middle[1], HAND]), turn)
         bird = bird.moved(shift=target - middle)
         vessel = place(cup, rng, target, 0.08, 0.24)
-        if apart(vessel, [bird]) and whole(bird, camera) and whole(vessel, camera):
+        if is_apart(vessel, [bird]) and is_whole(bird, camera) and is_whole(vessel, camera):
             break
     things = {"shuttlecock": bird, "cup": vessel}
     for k in range(rng.integers(4) if level == "varied" else 0):
         make, colour = objects.CLUTTER[rng.integers(len(objects.CLUTTER))], rgb(rng.choice(COVERS))
         for _ in range(20):
             thing = place(make(rng, colour), rng, MIDDLE, 0, 0.3)
-            if apart(thing, things.values()):
+            if is_apart(thing, things.values()):
                 things[f"{make.__name__} {k}"] = thing
                 break
     pose = "standing" if standing else "lying"
@@ -180,7 +181,7 @@ def draw_with_sheet(rng):
         corners = camera.project(marker_sheet.marker_corners().reshape(-1, 3))
         inside = np.all((corners > 0) & (corners < [WIDTH, HEIGHT]), axis=1)
         pair = (scene.things[name] for name in CLASSES)
-        if inside.mean() >= 0.5 and all(whole(thing, camera) for thing in pair):
+        if inside.mean() >= 0.5 and all(is_whole(thing, camera) for thing in pair):
             return replace(scene, table=with_sheet(scene.table), camera=camera)
 
 

@@ -30,7 +30,7 @@ def _foot(rng, threads):
     return [lathe(profile, cork, roughness=0.6, sides=32), *rings]
 
 
-def worn(rng):
+def worn_shuttlecock(rng):
     """A feathered shuttlecock along +y that was played with: feathers bent, a few of them lost."""
     bend, lost = rng.uniform(0, 0.07), rng.uniform(0, 0.1)
     shade = rgb(rng.choice(["#ffffff", "#ffffff", "#f3ead2", "#e6e9ee"]))
@@ -98,7 +98,7 @@ def _feather(rng):
     return join(vane, tube(quill, np.linspace(0.0011, 0.0005, 8), FEATHER * 0.9, sides=6))
 
 
-def resting(mesh, standing, roll, heading):
+def rest_on_table(mesh, standing, roll, heading):
     """The shuttlecock on its skirt, or on cork and rim, turned; and the middle of its axis."""
     tilt = np.pi if standing else LEAN - np.pi / 2
     turn = rotation(1, heading) @ rotation(2, tilt) @ rotation(1, roll)

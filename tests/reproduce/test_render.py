@@ -13,9 +13,9 @@ def test_scene_objects_are_in_view_and_apart(furnish):
     view = scene.draw("varied", np.random.default_rng(1), furnish)
     things = list(view.things.values())
     assert list(view.things)[:2] == list(photos.CLASSES)
-    assert all(scene.whole(thing, view.camera) for thing in things[:2])
+    assert all(scene.is_whole(thing, view.camera) for thing in things[:2])
     for thing in things:
-        assert scene.apart(thing, [other for other in things if other is not thing])
+        assert scene.is_apart(thing, [other for other in things if other is not thing])
     assert view.table.shape == (2048, 2048, 3)
 
 
@@ -46,7 +46,9 @@ def make_nylon(rng):
     return shuttlecocks.nylon(rng, np.ones(3))
 
 
-@pytest.mark.parametrize("make", [shuttlecocks.shuttlecock, shuttlecocks.worn, make_nylon])
+@pytest.mark.parametrize(
+    "make", [shuttlecocks.shuttlecock, shuttlecocks.worn_shuttlecock, make_nylon]
+)
 def test_a_shuttlecock_stands_on_its_cork_and_has_its_length(make):
     for seed in range(3):
         mesh = make(np.random.default_rng(seed))
