@@ -6,7 +6,7 @@ from book.figures.reaching import mean_mm, norm_mm, reach_scene, reaches
 from reproduce.experiments import learning_curves
 from reproduce.experiments.calibration import SCENARIOS, ratio_name
 from reproduce.experiments.controller_comparison import MOVEMENTS
-from reproduce.experiments.online_calibration import STEPS, holds_by_width, remaining
+from reproduce.experiments.online_calibration import STEPS, error_shares, holds_by_width
 from reproduce.measures.changed_worlds import BLOCKS, CURES
 from vmc_lib.motor.execution import execute, rotate_about_eye
 from vmc_lib.show import note, table
@@ -36,7 +36,7 @@ def progress(plans, history, steps, now, movements):
     `plans` and `history` by name, as `learn` takes and returns them.
     """
     fig, left, right = panels(*SIDE_BY_SIDE)
-    k, shares = steps.index(now), remaining(history, plans)
+    k, shares = steps.index(now), error_shares(history, plans)
     share = shares[movements][k]
     title = f"{share:.2f} of the planned error"
     in_plane(left, plans[movements], history[movements][k].mean(axis=1), title)
@@ -66,7 +66,7 @@ def after_movements(plans, granule, linear, movements, templates_are, measured_o
     """
     some = plans[templates_are]
     fig = progress(some, granule[templates_are], STEPS, movements, measured_on)
-    line = remaining(linear[templates_are], some)[measured_on]
+    line = error_shares(linear[templates_are], some)[measured_on]
     look = dict(color=COLOURS["grey"], gid="Algorithm 2")
     fig.axes[1].plot(STEPS[: len(line)], line, ":", **look)
     name = learning_curves.online_name(templates_are, learning_curves.NOISY)

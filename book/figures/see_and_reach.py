@@ -16,10 +16,10 @@ from vmc_lib.statistics import wilson
 FAILURES = {"": "arrived"} | {stage: stage for stage in FAILURE_STAGES}
 FAILURE_COLOURS = ("green", "red", "orange", "purple", "blue", "grey")
 STAGES = ("place", "plan", "off-line", "online")  # that have a distance
-SEEN = "the place seen"
+PLACE_SEEN = "the place seen"
 BOXES = {  # by lesion: the box's label and colour, what it is for, and what the hand aims at
-    "none": ("shuttlecock", "green", "", SEEN),
-    "ventral": ("best score", "green", "Nothing has a name. ", SEEN),
+    "none": ("shuttlecock", "green", "", PLACE_SEEN),
+    "ventral": ("best score", "green", "Nothing has a name. ", PLACE_SEEN),
     "dorsal": (
         "shuttlecock",
         "blue",

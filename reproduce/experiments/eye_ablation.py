@@ -3,7 +3,8 @@
 Candidates that pass a gate, sliding windows, a stream that names and refines them, non-maximum
 suppression: a part stays only if without it something gets worse. The pictures: renders and
 photographs of validation, counter-examples, what is left of photographs where the part with the
-shuttlecock is cut off (`emptied`), and pasted scenes. No test photo has a part in the choice.
+shuttlecock is cut off (`largest_empty_part`), and pasted scenes. No test photo has a part in the
+choice.
 """
 
 from collections import Counter
@@ -75,7 +76,7 @@ WITHOUT = {  # what is left out -> how the stream chooses, its class, and among 
 }
 
 
-def emptied(photo):
+def largest_empty_part(photo):
     """The largest part of a photo beside, above or below its shuttlecocks, (400, 600, 3)."""
     boxes, image = photos.boxes_of(photo, "shuttlecock"), photo.image
     x0, y0 = np.floor(boxes[:, :2].min(0).clip(0)).astype(int)
@@ -91,7 +92,7 @@ def pictures(folder=photos.FOLDER, each=SCENES_EACH):
     shots = [*renders, *real, *pasted_photos("validation", each)]
     asked = [(shot.image, photos.boxes_of(shot, "shuttlecock")) for shot in shots]
     cut = [shot for shot in real if "shuttlecock" in shot.boxes]
-    return asked + [(emptied(shot), np.empty((0, 4))) for shot in cut]
+    return asked + [(largest_empty_part(shot), np.empty((0, 4))) for shot in cut]
 
 
 def make(folder=photos.FOLDER, count=None):

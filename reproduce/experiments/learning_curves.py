@@ -69,7 +69,7 @@ def curves_by_tries(habit, rules, repeats=20):
     }
 
 
-def off_line(seed, count=25):
+def offline_curves(seed, count=25):
     """`curves_by_tries` of the rules of `nulls`, for the same targets, with one seed.
 
     But Broyden's makes four tries: after many, noise can leave it a belief that moves no hand.
@@ -80,7 +80,7 @@ def off_line(seed, count=25):
     return curves_by_tries(habit, rules)
 
 
-def rounds(seed, noise=NOISY, count=25):
+def round_misses(seed, noise=NOISY, count=25):
     """The mean miss in mm after 0, 1, … rounds of Algorithm 1, by `rounds_name`; one seed."""
     past, rng = templates_of_person((seed, 8), noise), np.random.default_rng(seed)
     habit = nulls.draw_habit(past, rng, count)
@@ -117,7 +117,7 @@ def changed_worlds(seed, **size):
     return block_errors(seed, past=templates_of_person((seed, 10)), **size)
 
 
-def online(seed, scenario, noise=NOISY):
+def online_curves(seed, scenario, noise=NOISY):
     """What Algorithm 2 and granule cells leave of habit's miss after 0, 25, … movements, by name.
 
     Of the 25 movements practised first, and of 100 never practised, as in chapter 11; one seed.
@@ -131,7 +131,7 @@ def online(seed, scenario, noise=NOISY):
     return {
         f"{learner}, {movements}": left
         for learner, history in histories.items()
-        for movements, left in online_calibration.remaining(history, plans).items()
+        for movements, left in online_calibration.error_shares(history, plans).items()
     }
 
 
@@ -144,7 +144,7 @@ def whole_arm(seed, noise=NOISY, count=2, trials=4):
     return corrections(targets, past, noise, rng, trials)
 
 
-def memories(seed, noise=NOISY, count=3, trials=4, sides=(3, 4), shared=(14, 34)):
+def memory_curves(seed, noise=NOISY, count=3, trials=4, sides=(3, 4), shared=(14, 34)):
     """What corrections leave by other memories, all asked for the same targets; one seed.
 
     By name, (1 + trials,); and "…, scatter": how far repeated reaches end from their mean, in mm.
@@ -178,7 +178,7 @@ def at_noise(part, noise):
 
 
 def online_name(scenario, noise):
-    """Under which name those of `online` ship."""
+    """Under which name those of `online_curves` ship."""
     return at_noise(f"online, {scenario}", noise)
 
 
@@ -191,9 +191,9 @@ def in_both(experiments):
     }
 
 
-ON_LINE = {f"online, {scenario}": partial(online, scenario=scenario) for scenario in SCENARIOS}
-MANY_DRAWS = {OFF_LINE: off_line} | in_both(ON_LINE | {WHOLE_ARM: whole_arm})
-SIX_DRAWS = in_both({ROUNDS: rounds, WITH_LOAD: with_load, MEMORIES: memories})
+ON_LINE = {f"online, {each}": partial(online_curves, scenario=each) for each in SCENARIOS}
+MANY_DRAWS = {OFF_LINE: offline_curves} | in_both(ON_LINE | {WHOLE_ARM: whole_arm})
+SIX_DRAWS = in_both({ROUNDS: round_misses, WITH_LOAD: with_load, MEMORIES: memory_curves})
 SIX_DRAWS |= {WORLDS: changed_worlds}
 
 
@@ -209,7 +209,7 @@ def make(experiments=MANY_DRAWS | SIX_DRAWS, seeds=None):
 load_results = partial(calibration.load_results, "learning_curves")
 
 
-def both(part):
+def load_pair(part):
     """What ships of a part, `CALM` and `NOISY`."""
     shipped = load_results()
     return [shipped[at_noise(part, noise)] for noise in (CALM, NOISY)]

@@ -45,7 +45,7 @@ def learn(model, plans, lessons, **options):
     return {name: np.array(holds) for name, holds in history.items()}
 
 
-def remaining(history, plans):
+def error_shares(history, plans):
     """Share of the planned error that is left after each lesson, name -> (lessons + 1,)."""
     left = {}
     for name, some in plans.items():

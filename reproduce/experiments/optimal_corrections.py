@@ -15,7 +15,7 @@ from vmc_lib.motor.feedback import TICK
 from vmc_lib.motor.inverse_dynamics import SAMPLES
 from vmc_lib.motor.templates import keep_last, mean_distance, reach
 
-HOLD = slice(SAMPLES // TICK, None)  # ticks
+HOLD_TICKS = slice(SAMPLES // TICK, None)  # ticks
 
 
 def disturbances(rng):
@@ -34,7 +34,7 @@ def scatter_and_miss(noise, weak, rule, late=None):
     or with the best corrections, where deviations are known `late`, in ms.
     """
     scatter = lqr_tracking.scatter(hand_paths(noise, rule, late))
-    miss = mean_distance(hand_paths(weak, rule, late)[..., HOLD, :], TARGETS)
+    miss = mean_distance(hand_paths(weak, rule, late)[..., HOLD_TICKS, :], TARGETS)
     return 1000 * scatter.mean(axis=0), 1000 * miss.mean(axis=-1)
 
 
@@ -49,7 +49,7 @@ def means_by_rule(measures, rules, runs, known):
         for k, words in minimum_variance.MEASURE_NAMES.items()
         if k != "scatter"
     }
-    held = {how: [scatter[HOLD].mean() for scatter, _ in run] for how, run in runs.items()}
+    held = {how: [scatter[HOLD_TICKS].mean() for scatter, _ in run] for how, run in runs.items()}
     weak = {how: [miss.mean() for _, miss in run] for how, run in runs.items()}
     return (
         calm

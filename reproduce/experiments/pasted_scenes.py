@@ -16,7 +16,6 @@ from vmc_lib.boxes import MIN_IOU, iou
 from vmc_lib.loop import VisuomotorModel, see
 
 SPLITS, COUNT = ("validation", "test"), 40  # photos of each kind of scene
-MODEL = photos.REAL_LEVEL
 
 
 def make(splits=SPLITS, count=COUNT):
@@ -25,7 +24,7 @@ def make(splits=SPLITS, count=COUNT):
     An answer is the likeliest box's probability of being a shuttlecock (0 where there is no box),
     and its IoU with the one that it fits best.
     """
-    model = VisuomotorModel.load(MODEL)
+    model = VisuomotorModel.load(photos.REAL_LEVEL)
     return {split: _by_scene(answer_photos(model, pasted_photos(split, count))) for split in splits}
 
 

@@ -37,7 +37,7 @@ from vmc_lib.motor.templates import keep_last, load, mean_distance, reach
 
 NOISE, DELAY, SECONDS, REPEATS = 0.4, 0.12, 2.5, 20
 TICKS = round(1000 * SECONDS) // TICK
-HOLD = slice(SAMPLES // TICK, 3 * SAMPLES // 2 // TICK + 1)  # ticks: 1 to 1.5 s
+HOLD_TICKS = slice(SAMPLES // TICK, 3 * SAMPLES // 2 // TICK + 1)  # ticks: 1 to 1.5 s
 GAINS, DAMPINGS = (0.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0), (0.25, 0.5, 1.0, 2.0)  # late feedback's
 MODEL_GAINS = (4.0, 15.0, 60.0, 120.0, 240.0)  # where it has a forward model
 PRICES = (3.0, 10.0, 30.0, 100.0)  # of the LQG controller's commands
@@ -112,10 +112,10 @@ def lqg_paths(law, luck, share=NOISE, delay=DELAY):
 
 def miss(path, targets):
     """How far paths (…, T + 1, 2) are from targets (…, 2) over the hold, (…,), mm."""
-    return 1000 * mean_distance(path[..., HOLD, :], targets)
+    return 1000 * mean_distance(path[..., HOLD_TICKS, :], targets)
 
 
-def repeated(plans, repeats=REPEATS):
+def repeat_plans(plans, repeats=REPEATS):
     """Each of n plans so often, one after the other: n × repeats."""
     return plans[np.repeat(np.arange(len(plans.target)), repeats)]
 
@@ -123,7 +123,7 @@ def repeated(plans, repeats=REPEATS):
 def best_feedback(delay=DELAY, share=NOISE, gains=GAINS, model=None, count=6, repeats=3):
     """The gain and damping (2,) with which late feedback misses least, on other targets."""
     pairs = np.array([*product(gains, DAMPINGS)])
-    plans = repeated(plan(_other_targets(count), load()), repeats * len(pairs))
+    plans = repeat_plans(plan(_other_targets(count), load()), repeats * len(pairs))
     gain, damping = np.tile(pairs, (count * repeats, 1)).T[..., None]
     luck = draw_luck(len(plans.target), 101)
     path, _ = feedback_paths(plans, gain, damping, luck, share, delay, model)
@@ -182,7 +182,7 @@ def measure(target, path, activation, calm):
     return {
         MISS: miss(path, target).mean(),
         LATER: 1000 * norm(path[:, -1] - target).mean(),
-        SCATTER: 1000 * scatter(path)[HOLD].mean(),
+        SCATTER: 1000 * scatter(path)[HOLD_TICKS].mean(),
         EFFORT: np.square(activation[:, : SAMPLES // TICK]).mean(),
         PATH: norm(np.diff(way, axis=0)).sum() / norm(target - way[0]),
         JERK: jerk(way),
@@ -190,11 +190,13 @@ def measure(target, path, activation, calm):
 
 
 def _by_habit(plans, luck, share):
-    return habit_paths(repeated(plans, luck.noise.shape[1]), luck, share)
+    return habit_paths(repeat_plans(plans, luck.noise.shape[1]), luck, share)
 
 
 def _by_feedback(plans, gains, model, luck, share):
-    return feedback_paths(repeated(plans, luck.noise.shape[1]), *gains, luck, share, DELAY, model)
+    return feedback_paths(
+        repeat_plans(plans, luck.noise.shape[1]), *gains, luck, share, DELAY, model
+    )
 
 
 def _learn(rule, plans):

@@ -42,7 +42,7 @@ PRINTED_ON_THELEN = f"{SCENARIOS[0]}, {AS_PRINTED}, {THELEN}"
 ON_THELEN = "with OpenSim's own muscle (Thelen's)"  # in words
 
 
-def scaled(factor, name, *modules):
+def with_constant(factor, name, *modules):
     """Replacements, (module, name, value), of a constant by so many times its value."""
     return [(module, name, factor * getattr(module, name)) for module in modules]
 
@@ -53,7 +53,7 @@ def from_posture(*degrees):
     return [(module, "START", start) for module in (templates, reach_templates)]
 
 
-def lasting(seconds):
+def with_duration(seconds):
     """Replacements by which a movement of the same command lasts as long."""
     slower = partial(inverse_dynamics.minimum_jerk, moving=round(1000 * seconds))
     return [(reach_templates, "minimum_jerk", slower)]
@@ -67,17 +67,17 @@ def of_muscle(law):
 def with_lags(factor):
     """Replacements by which activation rises and falls so many times as slowly."""
     constants = "TAU_ACTIVATION", "TAU_DEACTIVATION"
-    return [x for name in constants for x in scaled(factor, name, muscle)]
+    return [x for name in constants for x in with_constant(factor, name, muscle)]
 
 
 def with_damping(factor):
     """Replacements by which the joints are damped so many times as much."""
-    return [x for name in ("SHOULDER", "ELBOW") for x in scaled(factor, name, dynamics)]
+    return [x for name in ("SHOULDER", "ELBOW") for x in with_constant(factor, name, dynamics)]
 
 
 def with_strength(factor):
     """Replacements by which the muscles are so many times as strong."""
-    return scaled(factor, "F0", engines, inverse_dynamics)
+    return with_constant(factor, "F0", engines, inverse_dynamics)
 
 
 CHOICES = {  # what we chose -> what else might have been: of `misses`, the arguments
@@ -87,9 +87,9 @@ CHOICES = {  # what we chose -> what else might have been: of `misses`, the argu
         f"{x}° and {y}°".replace("-", "−"): {"arm": from_posture(x, y)}
         for x, y in ((-30, 105), (-10, 85))
     },
-    "duration, 0.7 s": {f"{s} s": {"arm": lasting(s)} for s in (0.5, 0.9)},
+    "duration, 0.7 s": {f"{s} s": {"arm": with_duration(s)} for s in (0.5, 0.9)},
     "greatest forces F0": {f"{k:g} ×": {"arm": with_strength(k)} for k in (0.8, 1.25)},
-    "optimal length": {f"{k:g} ×": {"arm": scaled(k, "L0", engines)} for k in (0.95, 1.05)},
+    "optimal length": {f"{k:g} ×": {"arm": with_constant(k, "L0", engines)} for k in (0.95, 1.05)},
     "time constants": {f"{k:g} ×": {"arm": with_lags(k)} for k in (0.5, 2)},
     "damping of joints": {f"{k:g} ×": {"arm": with_damping(k)} for k in (0.5, 2)},
     "Eq. 7, from the shoulder": {

@@ -19,7 +19,7 @@ CENTRE, MEAN_PLACE = (
     "the mean place in training",
 )
 WITHOUT_LEARNING = CENTRE, MEAN_PLACE
-START = np.radians([0, 60])  # from which OpenSim's movements were recorded
+RECORDED_FROM = np.radians([0, 60])  # the posture, of OpenSim's movements
 
 
 def _figure_3():
@@ -51,7 +51,7 @@ def _figure_3():
 
 def _dynamics():
     """Eq. 9–12 in our arm beside OpenSim's arm26."""
-    by_law = opensim_arm.movements_by_law(START)
+    by_law = opensim_arm.movements_by_law(RECORDED_FROM)
     theirs = opensim_arm.RECORDED["elastic"], opensim_arm.RECORDED["rigid"]
     laws = "the paper (Eq. 9–11)", "Thelen 2003"
     ours, thelen = map(opensim_arm.largest_angle, (by_law[law] for law in laws), theirs)

@@ -65,7 +65,7 @@ def _left_from_origins(seed):
     }
 
 
-def nearer(found, rule):
+def count_nearer(found, rule):
     """How many practised movements a rule of `nulls` brings nearer, and of how many, in all draws.
 
     `rule` names what it `found`: a share of each draw's `COUNT`, the same movements as its nulls'.
@@ -121,7 +121,7 @@ def _figure_4():
 
 def _figure_10():
     name, kind = "examples that off-line calibration brings nearer", ", nearer"
-    came = nearer(nulls.load_results()[nulls.BY_TRIES], nulls.EQ_6_7 + kind)
+    came = count_nearer(nulls.load_results()[nulls.BY_TRIES], nulls.EQ_6_7 + kind)
     return [share(name, 1, *came, EXAMPLES, better=1, fitted=True, nulls=by_luck(kind))]
 
 

@@ -19,7 +19,7 @@ from reproduce.ledger.calibration import (
     IN_SAMPLE,
     OVER_THE_HOLD,
     WAVERS,
-    nearer,
+    count_nearer,
     own_rules,
     own_with_noise,
     printed_results,
@@ -101,7 +101,10 @@ def _left(found, experiments, rule="online"):
 
 def _figure_11():
     lessons, rule = nulls.load_results()[nulls.BY_LESSONS], f"{nulls.ALGORITHM_2}, nearer"
-    practised, others = nearer(lessons, f"{rule}, {IN_SAMPLE}"), lessons[f"{rule}, {HELD_OUT}"]
+    practised, others = (
+        count_nearer(lessons, f"{rule}, {IN_SAMPLE}"),
+        lessons[f"{rule}, {HELD_OUT}"],
+    )
     luck = {null: lessons[f"{null}, nearer, in-sample"].mean() for null in NULLS}
     return [
         share(NEARER, 1, *practised, EXAMPLES, better=1, nulls=luck),

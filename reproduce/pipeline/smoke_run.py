@@ -72,12 +72,14 @@ def toy_steps(folder):
         "field": partial(feedback_control.curl_field_errors, blocks=(1, 1, 1)),
     }
     curves = {
-        "off-line": partial(learning_curves.off_line, count=2),
-        "rounds": partial(learning_curves.rounds, count=2),
+        "off-line": partial(learning_curves.offline_curves, count=2),
+        "rounds": partial(learning_curves.round_misses, count=2),
         "with a load": partial(learning_curves.with_load, count=2),
         "worlds": partial(learning_curves.changed_worlds, before=20, blocks=(1, 1, 1), movements=2),
         "whole arm": partial(learning_curves.whole_arm, count=1, trials=1),
-        "memories": partial(learning_curves.memories, count=1, trials=1, sides=(2,), shared=()),
+        "memories": partial(
+            learning_curves.memory_curves, count=1, trials=1, sides=(2,), shared=()
+        ),
     }
     toys = (
         toy("candidates", few, ["test"]),

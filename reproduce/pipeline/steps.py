@@ -53,7 +53,7 @@ from reproduce.whole_arm import bones as bones63
 from reproduce.whole_arm import experiment, habits, plant
 from vmc_lib import data
 
-ROOT, MODEL, RESULTS = Path(__file__).parents[2], data.FOLDER, results.FOLDER
+ROOT, DATA_FOLDER, RESULTS = Path(__file__).parents[2], data.FOLDER, results.FOLDER
 FRESH = ROOT / "_build/fresh_photos"  # of tests to come: they do not ship
 ELSEWHERE = ROOT / "_build/elsewhere_photos"  # likewise
 DATA = {".xml", ".npz", ".json", ".jpg", ".webp"}
@@ -111,7 +111,7 @@ def write(file, make):
     if file.suffix == ".npz":
         with results.replacement(file) as new:
             np.savez_compressed(new, **content)
-        if file.parent == MODEL:
+        if file.parent == DATA_FOLDER:
             checksums.write()
     else:
         results.write(file.stem, content, file.parent)
@@ -144,19 +144,19 @@ SHIPPED = "vmc_lib/data vmc_lib/arm"
 COUNTEREXAMPLES = "reproduce/training/counterexamples"
 PHOTOGRAPHS = f"photos candidates detectors cutouts decoys vmc_lib/data/real {COUNTEREXAMPLES}"
 STEPS = (
-    Step(RENDER, MODEL / "photos", minutes=25, needs=MITSUBA),
+    Step(RENDER, DATA_FOLDER / "photos", minutes=25, needs=MITSUBA),
     *(
         Step(f"{RENDER}.cutouts {kind}", file, minutes=6, needs=MITSUBA)
         for kind, file in cutout_atlas.FILES.items()
     ),
-    Step(shipped_models.candidates, MODEL / "candidates.npz", "photos", 4),
-    Step(shipped_models.detectors, MODEL / "detectors.npz", "photos candidates", 6),
-    Step(shipped_models.localisers, MODEL / "localisers.npz", "photos", 1),
-    Step(shipped_models.cdbn, MODEL / "cdbn.npz", "photos", 2),
-    Step(shipped_models.recogniser, MODEL / "recogniser.npz", "photos cdbn", 2),
-    Step(arm_tables.make, MODEL / "arm26.npz", "vmc_lib/arm", 0.1),
-    Step(arm_tables.make_rest, MODEL / "rest.npz", TABLES, 0.1),
-    Step(shipped_models.templates, MODEL / "templates.npz", ARM, 1),
+    Step(shipped_models.candidates, DATA_FOLDER / "candidates.npz", "photos", 4),
+    Step(shipped_models.detectors, DATA_FOLDER / "detectors.npz", "photos candidates", 6),
+    Step(shipped_models.localisers, DATA_FOLDER / "localisers.npz", "photos", 1),
+    Step(shipped_models.cdbn, DATA_FOLDER / "cdbn.npz", "photos", 2),
+    Step(shipped_models.recogniser, DATA_FOLDER / "recogniser.npz", "photos cdbn", 2),
+    Step(arm_tables.make, DATA_FOLDER / "arm26.npz", "vmc_lib/arm", 0.1),
+    Step(arm_tables.make_rest, DATA_FOLDER / "rest.npz", TABLES, 0.1),
+    Step(shipped_models.templates, DATA_FOLDER / "templates.npz", ARM, 1),
     Step(localisation.make, RESULTS / "localisation.npz", "photos candidates detectors", 25),
     Step(recognition.make, RESULTS / "recognition.npz", "photos cdbn", 3),
     Step(hmax_draws.make, RESULTS / "hmax_draws.npz", "photos recognition", 3),
@@ -190,7 +190,7 @@ STEPS = (
     Step(rival_controllers.make, RESULTS / "rivals.json", f"templates optimal {ARM}", 6),
     Step(loop_evaluation.make, RESULTS / "lesions.json", SHIPPED, 6),
     Step(loop_evaluation.make_generalist, RESULTS / "generalist.json", SHIPPED, 1),
-    Step(ventral_stream.photographs, MODEL / "photographs.npz", PHOTOGRAPHS, 70),
+    Step(ventral_stream.photographs, DATA_FOLDER / "photographs.npz", PHOTOGRAPHS, 70),
     Step(real_world.make, RESULTS / "real_world.json", f"{SHIPPED} {COUNTEREXAMPLES}", 3),
     Step(eye_ablation.make, RESULTS / "eye_ablation.json", f"{SHIPPED} {COUNTEREXAMPLES}", 8),
     Step(pasted_scenes.make, RESULTS / "pasted_scenes.json", f"{SHIPPED} {COUNTEREXAMPLES}", 4),
@@ -204,7 +204,7 @@ STEPS = (
     ),
     Step(domain_shift.make, RESULTS / "domains.npz", "photos", 8),
     Step(stream_ablation.make, RESULTS / "ablation.npz", PHOTOGRAPHS, 15),
-    Step(f"{RENDER} --sheet --samples 16", MODEL / "photos/sheet", minutes=5, needs=MITSUBA),
+    Step(f"{RENDER} --sheet --samples 16", DATA_FOLDER / "photos/sheet", minutes=5, needs=MITSUBA),
     Step(printed_sheet.make, RESULTS / "printed_sheet.json", f"sheet {SHIPPED}"),
     Step(
         f'{RENDER} --only "*/test" --first 40 --count 200 --folder {FRESH}',

@@ -12,7 +12,7 @@ def test_what_is_left_of_a_photo_shows_no_shuttlecock():
     for x0, y0, x1, y1 in photos.boxes_of(SHOT, "shuttlecock").astype(int):
         marked[y0 : y1 + 1, x0 : x1 + 1] = 255
     photo = type("Shot", (), {"boxes": SHOT.boxes, "more": SHOT.more, "image": marked})
-    left = eye_ablation.emptied(photo)
+    left = eye_ablation.largest_empty_part(photo)
     assert left.shape == (400, 600, 3)
     assert left.max() <= 128  # black, and the grey around it
 

@@ -65,7 +65,7 @@ def test_noise_makes_every_curve_end_higher():
 def test_noise_leaves_more_after_rounds_tries_with_a_load_and_in_changed_worlds():
     worlds = calibration.load_results()["perturbations"]
     pairs = [
-        *map(learning_curves.both, (learning_curves.ROUNDS, learning_curves.WITH_LOAD)),
+        *map(learning_curves.load_pair, (learning_curves.ROUNDS, learning_curves.WITH_LOAD)),
         (worlds, learning_curves.load_results()[learning_curves.WORLDS]),
     ]
     for calm, noisy in pairs:
@@ -78,13 +78,13 @@ def test_noise_leaves_more_after_rounds_tries_with_a_load_and_in_changed_worlds(
 def test_shipped_curves_are_reproducible():
     shipped, scenario = learning_curves.load_results(), learning_curves.SCENARIOS[0]
     again = {
-        learning_curves.OFF_LINE: learning_curves.off_line(0),
-        online_name(scenario, NOISY): learning_curves.online(0, scenario),
+        learning_curves.OFF_LINE: learning_curves.offline_curves(0),
+        online_name(scenario, NOISY): learning_curves.online_curves(0, scenario),
         at_noise(WHOLE_ARM, NOISY): learning_curves.whole_arm(0),
-        at_noise(learning_curves.ROUNDS, NOISY): learning_curves.rounds(0),
+        at_noise(learning_curves.ROUNDS, NOISY): learning_curves.round_misses(0),
         at_noise(learning_curves.WITH_LOAD, NOISY): learning_curves.with_load(0),
         learning_curves.WORLDS: learning_curves.changed_worlds(0),
-        at_noise(learning_curves.MEMORIES, NOISY): learning_curves.memories(0),
+        at_noise(learning_curves.MEMORIES, NOISY): learning_curves.memory_curves(0),
     }
     for part, curves in again.items():
         for name, values in curves.items():

@@ -5,7 +5,7 @@ import pytest
 
 from reproduce.experiments import online_calibration
 from reproduce.experiments.calibration import SCENARIOS, no_calibration
-from reproduce.experiments.online_calibration import learn, remaining
+from reproduce.experiments.online_calibration import error_shares, learn
 from reproduce.measures.changed_worlds import BLOCKS, PERTURBATIONS
 from vmc_lib.cerebellum.online import WeightCorrection
 from vmc_lib.motor import templates
@@ -20,7 +20,7 @@ def plans():
 
 def test_before_its_first_lesson_a_model_leaves_the_planned_error(plans):
     history = learn(WeightCorrection(), plans, [plans["practised"]], rule=no_calibration)
-    for name, shares in remaining(history, plans).items():
+    for name, shares in error_shares(history, plans).items():
         assert history[name].shape == (2, 5, 51, 2)
         assert shares[0] == 1
         assert shares[1] != 1

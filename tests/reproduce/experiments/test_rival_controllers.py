@@ -53,7 +53,7 @@ def test_no_controller_spends_less_than_the_least_effort():
 
 def test_late_feedback_without_gain_and_delay_meets_the_same_noise_as_habit():
     """A plan alone, by both ways to move the arm: the noise is drawn alike."""
-    plans = rivals.repeated(plan(rivals.TARGETS[9:10], load()), 3)
+    plans = rivals.repeat_plans(plan(rivals.TARGETS[9:10], load()), 3)
     luck = rivals.draw_luck(3, 5)
     alone, _ = rivals.habit_paths(plans, luck)
     still = rivals.SIGHT._replace(stretch=0.0, rate=0.0)
