@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from reproduce.render import picture, scene
-from reproduce.render.sidecar import in_full_view, store
+from reproduce.render.sidecar import store
 from vmc_lib.photos import FOLDER, LEVELS, SHEET_LEVEL, SPLITS
 
 COUNTS = {"train": 40, "validation": 20, "test": 40}
@@ -24,7 +24,7 @@ def make(level, split, number, samples, folder):
     seed = ((*LEVELS, SHEET_LEVEL).index(level), SPLITS.index(split), number)
     rng = np.random.default_rng(seed)
     draw = scene.draw_with_sheet if level == SHEET_LEVEL else partial(scene.draw, level)
-    drawn, boxes = in_full_view(partial(draw, rng), picture.masks)
+    drawn, boxes = scene.draw_in_full_view(partial(draw, rng), picture.masks)
     image = picture.take(drawn, samples, int(rng.integers(2**31)))
     store(folder / level / split / f"{number:03d}.jpg", image, drawn, boxes, seed)
 

@@ -14,6 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
+from reproduce.render.meshes import join_triangles
 from vmc_lib.show.packed import pack_bytes
 from vmc_lib.show.render_mode import STATIC
 
@@ -65,13 +66,6 @@ def cluster_vertices(points, faces, cell):
     return means[used], faces.reshape(-1, 3)
 
 
-def join_meshes(meshes):
-    """Many meshes as one."""
-    starts = np.cumsum([0, *(len(points) for points, _ in meshes[:-1])])
-    faces = [faces + start for (_, faces), start in zip(meshes, starts, strict=True)]
-    return np.concatenate([points for points, _ in meshes]), np.concatenate(faces)
-
-
 def bone_meshes(folder):
     """All that the page draws, as JSON takes it, from the .vtp files in `folder`.
 
@@ -81,7 +75,7 @@ def bone_meshes(folder):
     """
 
     def mesh(names):
-        return join_meshes([read(Path(folder) / f"{name}.vtp") for name in names.split()])
+        return join_triangles([read(Path(folder) / f"{name}.vtp") for name in names.split()])
 
     def middle(*names):
         return np.mean([mesh(f"arm_r_{name}")[0].mean(0) for name in names], axis=0)

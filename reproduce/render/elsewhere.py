@@ -15,7 +15,7 @@ from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to
 
 from reproduce.render import furniture, meshes, scene
 from reproduce.render.materials import SPAN
-from reproduce.render.sidecar import in_full_view, store
+from reproduce.render.sidecar import store
 from vmc_lib.camera import TABLE
 from vmc_lib.photos import CLASSES, HEIGHT, SPLITS, WIDTH
 
@@ -130,7 +130,8 @@ def main():
     for number in range(arguments.first, arguments.first + arguments.count):
         seed = (4, SPLITS.index(arguments.split), number)  # a level of its own
         rng = np.random.default_rng(seed)
-        drawn, boxes = in_full_view(partial(scene.draw, "varied", rng, furniture.setting), masks)
+        draw = partial(scene.draw, "varied", rng, furniture.setting)
+        drawn, boxes = scene.draw_in_full_view(draw, masks)
         path = arguments.folder / f"varied/{arguments.split}/{number:03d}.jpg"
         store(path, take(drawn, rng), drawn, boxes, seed)
 

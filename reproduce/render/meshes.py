@@ -34,13 +34,17 @@ class Mesh:
 
 def join(*meshes):
     """One mesh out of many; it keeps the first one's roughness."""
-    starts = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes[:-1])])
-    return Mesh(
-        np.concatenate([mesh.vertices for mesh in meshes]),
-        np.concatenate([mesh.faces + start for mesh, start in zip(meshes, starts, strict=True)]),
-        np.concatenate([mesh.colours for mesh in meshes]),
-        meshes[0].roughness,
-    )
+    triangles = join_triangles([(mesh.vertices, mesh.faces) for mesh in meshes])
+    colours = np.concatenate([mesh.colours for mesh in meshes])
+    return Mesh(*triangles, colours, meshes[0].roughness)
+
+
+def join_triangles(pairs):
+    """Vertices (n, 3) and faces (m, 3) of one mesh out of those of many."""
+    vertices, faces = zip(*pairs, strict=True)
+    starts = np.cumsum([0, *map(len, vertices[:-1])])
+    shifted = [each + start for each, start in zip(faces, starts, strict=True)]
+    return np.concatenate(vertices), np.concatenate(shifted)
 
 
 def rotation(axis, angle):

@@ -15,6 +15,7 @@ from vmc_lib.photos import CLASSES, HEIGHT, WIDTH
 HAND = 0.06  # how far to the right of the shoulder the hand moves, about (m)
 MIDDLE = np.array([0.19, -0.42, -0.07])  # of the places the hand can reach
 BORDER = 8  # pixels kept free around the shuttlecock and the cup
+VISIBLE = 0.96  # the least share of either that nothing else hides
 
 GLAZES = "#1b3f9c #a8321e #1f5f3a #d29a12 #efebe2 #26282e #0e6a75 #74142a #d85f17 #6f8fb0".split()
 COVERS = "#8c1d24 #17365f #1e4d36 #c07a14 #2a2a30 #5a2d5f #b8b2a2 #0f5f66".split()
@@ -194,3 +195,21 @@ def with_sheet(table):
     ink = marker_sheet.page_image().T[::-1, ::-1, None] / 255
     covered[row - wide : row, column - high : column] = 0.04 + 0.76 * ink  # toner, paper
     return covered
+
+
+def draw_in_full_view(draw, masks):
+    """A scene of `draw()` in which shuttlecock and cup are in full view, and the boxes around them.
+
+    Draws until one is. `masks` gives, by name, a thing's mask alone and among the others.
+    """
+    while True:
+        scene = draw()
+        visibility = masks(scene)
+        if all(part.sum() >= VISIBLE * whole.sum() for whole, part in visibility.values()):
+            return scene, {name: mask_box(visibility[name][1]) for name in CLASSES}
+
+
+def mask_box(mask):
+    """The smallest box (x0, y0, x1, y1) around a mask."""
+    rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
+    return [int(columns[0]), int(rows[0]), int(columns[-1]) + 1, int(rows[-1]) + 1]

@@ -9,7 +9,8 @@ import json
 import mujoco
 import numpy as np
 
-from reproduce.render.bone_meshes import cluster_vertices, join_meshes, pack_mesh
+from reproduce.render.bone_meshes import cluster_vertices, pack_mesh
+from reproduce.render.meshes import join_triangles
 from reproduce.whole_arm.derive import rotation_matrix, world_frame
 from reproduce.whole_arm.plant import FILE as MODEL
 
@@ -53,7 +54,7 @@ def _mesh(full, body):
         meshes.append(
             (points @ rotation_matrix(full.geom_quat[geom]).T + full.geom_pos[geom], triangles)
         )
-    return join_meshes(meshes) if meshes else None
+    return join_triangles(meshes) if meshes else None
 
 
 if __name__ == "__main__":

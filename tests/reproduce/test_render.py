@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from reproduce.render import decoys, furniture, scene, shuttlecocks
-from reproduce.render.sidecar import in_full_view, store
+from reproduce.render.sidecar import store
 from vmc_lib import photos
 
 
@@ -30,7 +30,7 @@ def test_occluded_scenes_are_redrawn_and_photos_load_as_stored(tmp_path):
     def masks(view):
         return {"shuttlecock": (full, full if view is not scenes[0] else half), "cup": (full, full)}
 
-    last, boxes = in_full_view(draw, masks)
+    last, boxes = scene.draw_in_full_view(draw, masks)
     assert len(scenes) == 2
     assert last is scenes[1]
     assert boxes["shuttlecock"] == [40, 10, 80, 30]
