@@ -8,7 +8,12 @@ from itertools import product
 import numpy as np
 
 from reproduce import paper
-from reproduce.peers.baseline_features import bag_of_sift, histograms_of_gradients, raw_pixels, sift
+from reproduce.peers.baseline_features import (
+    bag_of_sift,
+    grey_pixels,
+    histograms_of_gradients,
+    sift,
+)
 from reproduce.results import arrays
 from reproduce.training.name_classifier import fit_name_classifier, labelled_crops
 from vmc_lib import photos
@@ -48,7 +53,7 @@ def features(crops, learnt):
 
     readouts, matches = read_outs(learnt["cdbn"], crops), hmax(crops, learnt["prototypes"])
     by_hand = [histograms_of_gradients(crops), bag_of_sift(crops, learnt["words"])]
-    found = [*readouts.values(), matches[:, :10], matches, *by_hand, raw_pixels(crops)]
+    found = [*readouts.values(), matches[:, :10], matches, *by_hand, grey_pixels(crops)]
     return dict(zip(METHODS, found, strict=True))
 
 

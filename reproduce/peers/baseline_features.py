@@ -6,7 +6,7 @@ Each function takes grey crops (n, 200, 200) in 0..1 and returns features (n, d)
 import numpy as np
 
 
-def raw_pixels(crops, width=32):
+def grey_pixels(crops, width=32):
     """The pixels themselves, on a coarser grid."""
     import cv2
 

@@ -63,7 +63,7 @@ class TrainingImage:
         )
         return TrainingImage(self.pixels[:, ::-1], *boxes)
 
-    def jitter_boxes(self, times, spread, rng):
+    def sample_near_boxes(self, times, spread, rng):
         """Each true box so many times, and boxes moved and stretched from it by about `spread`."""
         truth = np.repeat(self.truth, times, axis=0)
         return truth, decode_deltas(truth, rng.normal(scale=spread, size=truth.shape))
@@ -106,7 +106,7 @@ def svm_training_set(images, recipe, rng):
         overlap = image.overlap
         good, bad = image.candidates[overlap >= MIN_IOU], image.candidates[overlap <= 0.5]
         bad = rng.permutation(bad)[: -(-ROIS // len(images))]
-        _, jittered = image.jitter_boxes(recipe.jittered, JITTER, rng)
+        _, jittered = image.sample_near_boxes(recipe.jittered, JITTER, rng)
         x.append(recipe.describe(image.pixels, np.vstack([good, jittered, bad])))
         y.append(np.arange(len(x[-1])) < len(good) + len(jittered))
     return np.concatenate(x), np.concatenate(y)
@@ -122,7 +122,7 @@ def fit_box_regression(images, recipe, rng):
     for spread in recipe.regressions:
         x, goal = [], []
         for image in images:
-            truth, boxes = image.jitter_boxes(times, spread, rng)
+            truth, boxes = image.sample_near_boxes(times, spread, rng)
             x.append(recipe.describe(image.pixels, boxes))
             goal.append(encode_deltas(boxes, truth))
         x, goal = np.concatenate(x), np.concatenate(goal)
@@ -140,7 +140,7 @@ def fit_iou_predictor(images, recipe, svm, regressions, rng):
     total = sum(len(image.truth) for image in images)
     times, x, y = 2 * recipe.boxes // total // len(JITTERS) + 1, [], []
     for image in images:
-        near = [image.jitter_boxes(times, spread, rng)[1] for spread in JITTERS]
+        near = [image.sample_near_boxes(times, spread, rng)[1] for spread in JITTERS]
         some = rng.permutation(image.candidates)[: MINED // len(images)]
         off = some[iou(some, image.truth).max(1, initial=0) < BACKGROUND]
         passed = svm.score(recipe.describe(image.pixels, off)) > recipe.gate
