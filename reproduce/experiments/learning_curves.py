@@ -22,6 +22,7 @@ from reproduce.measures.changed_worlds import block_errors
 from reproduce.peers.motor_noise import PERSON_MM, endpoint_deviation, noise_floor, with_noise
 from vmc_lib.cerebellum.offline import broyden_calibration
 from vmc_lib.motor.execution import execute
+from vmc_lib.motor.planning import plan
 from vmc_lib.motor.templates import mean_distance
 
 OFF_LINE, WHOLE_ARM, MEMORIES = "off-line", "whole arm", "memories of the whole arm"
@@ -165,9 +166,7 @@ def corrections(targets, past, noise, rng, trials):
     """`curves_by_tries` of Broyden calibration by memories `past`, `CALM` or `NOISY`."""
     from reproduce.whole_arm import experiment
 
-    habit = experiment.plan_reaches(
-        targets, experiment.with_noise(past, WHOLE_ARM_SHARES[noise], rng)
-    )
+    habit = plan(targets, experiment.with_noise(past, WHOLE_ARM_SHARES[noise], rng))
     rules = {"Broyden": partial(broyden_calibration, n_trials=trials)}
     return curves_by_tries(habit, rules, repeats=5)
 

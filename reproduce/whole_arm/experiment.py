@@ -37,11 +37,6 @@ def draw_targets_3d(*memories, count, rng):
     return drawn[np.all(inside, axis=0)][:count]
 
 
-def plan_reaches(targets, past, **rule):
-    """The `Plan`s to targets (n, 3), each by the eight memories around it."""
-    return plan(targets, past, **rule)
-
-
 def mean_way(targets):
     """How far the finger moves to targets (n, 3) on average, m."""
     return np.linalg.norm(targets - plant.tip_and_jacobian(habits.START)[0], axis=-1).mean()
@@ -52,8 +47,8 @@ def planned_errors(past, targets):
 
     The way is what is moved; a reach is as long as its target (n, 3) is far from the shoulder.
     """
-    trials = broyden_calibration(plan_reaches(targets, past))
-    exact = execute(plan_reaches(targets, past, rule=exact_weights)).error.mean()
+    trials = broyden_calibration(plan(targets, past))
+    exact = execute(plan(targets, past, rule=exact_weights)).error.mean()
     none, *left = trials.error.mean(axis=1)
     first, *_, last = trials.movements
     return {
@@ -108,7 +103,7 @@ def stop_calibration(reach, trials=4):
 def stop_errors(past, seed, count=5):
     """One draw: mean miss, m, and speed over the hold, m/s, after four corrections of each kind."""
     drawn = draw_targets_3d(past, count=count, rng=np.random.default_rng((seed, 2)))
-    reaches = plan_reaches(drawn, past)
+    reaches = plan(drawn, past)
     alone = broyden_calibration(reaches, n_trials=4).movements[-1]
     both = [stop_calibration(reaches[k]).movements[-1] for k in range(count)]
     misses = [
@@ -144,8 +139,7 @@ def online_errors(past, seed, count=COUNT, width=WIDTH):
     """One draw: what online calibration leaves of the planned miss, in sample and held out."""
     rng = np.random.default_rng(100 + seed)
     new, practised = (
-        plan_reaches(draw_targets_3d(past, count=n, rng=rng), past)
-        for n in (count, LESSONS * count)
+        plan(draw_targets_3d(past, count=n, rng=rng), past) for n in (count, LESSONS * count)
     )
     spots = rng.uniform(*ZONE, (4000, 3))
     spots = spots[is_surrounded(spots, past.points)]
@@ -167,7 +161,7 @@ def optimised_errors(past, synergies, seed, count=COUNT):
     commands = np.array([synergies.commands(habits.reach_posture(goal)) for goal in targets])
     spent = process_time() - began
     began = process_time()
-    plan_reaches(targets, past).excitations  # noqa: B018 (they are made when they are asked for)
+    plan(targets, past).excitations  # noqa: B018 (they are made when they are asked for)
     seconds = {
         "seconds, optimiser": spent / count,
         "seconds, habit": (process_time() - began) / count,

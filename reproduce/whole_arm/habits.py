@@ -138,7 +138,7 @@ def record_templates(synergies, goals, easy=EASY):
     posture (7,), or one for each goal (N, 7). What is recorded are the excitations of all muscles.
     """
     missed = 0
-    for _ in ("tried", "corrected"):
+    for _ in range(2):  # once at the goal, then beyond it by the miss
         ways = zip(goals + missed, np.broadcast_to(easy, (len(goals), len(EASY))), strict=True)
         commands = np.array([synergies.commands(reach_posture(*way)) for way in ways])
         commands = synergies.hold(commands)

@@ -9,7 +9,6 @@ import pytest
 from book.figures import whole_arm_live
 from book.figures.whole_arm import arm_data, lines
 from page.arm import live
-from reproduce.whole_arm import experiment
 from tests.page.arm.controls import WHOLE_ARM_TARGET
 from vmc_lib.arm import muscle
 from vmc_lib.arm.arm26 import geometry
@@ -84,7 +83,7 @@ def test_movements(ask):
 
 @pytest.mark.browser
 def test_movements_of_the_whole_arm(ask, past):
-    reach = experiment.plan_reaches(WHOLE_ARM_TARGET, past)
+    reach = plan(WHOLE_ARM_TARGET, past)
     moved = ask("return arm.reach(asked);", reach.excitations.tolist(), WHOLE)[1:]
     motion = execute(reach).motion
     assert np.abs(np.array([moment["q"] for moment in moved]) - motion.joints).max() < CLOSE
@@ -109,7 +108,7 @@ def test_joints_and_what_is_drawn_of_the_arm(ask):
 
 @pytest.mark.browser
 def test_what_is_drawn_of_the_whole_arm(ask, past):
-    joints = execute(experiment.plan_reaches(WHOLE_ARM_TARGET, past)).motion.joints[-1]
+    joints = execute(plan(WHOLE_ARM_TARGET, past)).motion.joints[-1]
     for q in (whole_arm_live.START, joints):
         (ends, ways), data = lines(q), arm_data(q)
         drawn = ask("return arm.look(asked);", q.tolist(), WHOLE)
@@ -151,9 +150,7 @@ def test_plans(ask, past, arm, name, rule):
     script = f"""const plan = planning.plan(asked, templateSet, planning.{name});
       return {{ ...plan, u: templateSet.excitations(plan) }};"""
     if arm == WHOLE:
-        plans = [
-            (target, experiment.plan_reaches(target, past, rule=rule)) for target in TARGETS_3D
-        ]
+        plans = [(target, plan(target, past, rule=rule)) for target in TARGETS_3D]
     else:
         own = templates.load()
         inner = own.points[is_surrounded(own.points, own.points)]
@@ -196,7 +193,7 @@ def test_calibration(ask, past, name, rule, arm):
     script = f"""const plan = planning.plan(asked, templateSet);
       return [...calibration.{name}(plan, reach(plan), given.calibration)];"""
     planar = plan(TARGETS, templates.load())
-    planned = experiment.plan_reaches(TARGETS_3D, past) if arm == WHOLE else planar
+    planned = plan(TARGETS_3D, past) if arm == WHOLE else planar
     expected = rule(planned)
     arrays = {"reached": expected.endpoint, "error": expected.error}
     if arm != WHOLE:

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from page.arm import controls, live
-from reproduce.whole_arm import experiment
 from tests.page.arm.controls import number, readout, set_target, start, status
 from tests.pages import NO_WEBGL, drag, middle, middles, probe
 from vmc_lib.arm.model import MUSCLES
@@ -124,7 +123,7 @@ def test_the_whole_arm_reaches_and_calibrates(open_arms, window, past):
     set_target(arm, target)
     arm.locator("[name=main]").click()
     status(arm, "The planned reach")
-    trials = broyden_calibration(experiment.plan_reaches(target, past), live.TRIALS)
+    trials = broyden_calibration(plan(target, past), live.TRIALS)
     assert number(readout(arm, "planned")) == pytest.approx(1000 * trials.error[0], abs=0.3)
     final = trials.movements[0].motion.activation[-1]
     arm.get_by_text("more", exact=True).click()  # the chapter asks how many

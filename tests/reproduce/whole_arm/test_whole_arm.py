@@ -6,6 +6,7 @@ import pytest
 
 from reproduce.whole_arm import experiment, habits, plant
 from vmc_lib.cerebellum.offline import broyden_calibration
+from vmc_lib.motor.planning import plan
 from vmc_lib.motor.templates import mean_speed
 
 STILL = np.zeros(7)
@@ -135,7 +136,7 @@ def test_the_same_functions_plan_and_correct_it():
     """Three targets of a fresh draw: the plan is near, two corrections nearer."""
     past = habits.load_templates()
     targets = experiment.draw_targets_3d(past, count=3, rng=np.random.default_rng(77))
-    errors = broyden_calibration(experiment.plan_reaches(targets, past)).error.mean(axis=1)
+    errors = broyden_calibration(plan(targets, past)).error.mean(axis=1)
     assert errors[0] < 0.1 * np.linalg.norm(targets, axis=1).mean()
     assert errors[2] < 0.5 * errors[0]
 
@@ -144,7 +145,7 @@ def test_place_and_drift_are_corrected_together():
     """Eight weights meet six demands: the finger ends nearer, and slower."""
     past = habits.load_templates()
     target = experiment.draw_targets_3d(past, count=2, rng=np.random.default_rng(8))[1]
-    trials = experiment.stop_calibration(experiment.plan_reaches(target, past), trials=3)
+    trials = experiment.stop_calibration(plan(target, past), trials=3)
     first, *_, last = trials.movements
     assert np.linalg.norm(last.endpoint[:3] - target) < 0.2 * np.linalg.norm(
         first.endpoint[:3] - target
