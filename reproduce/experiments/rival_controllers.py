@@ -104,7 +104,7 @@ def lqg_law(target, share=NOISE, price=lqg.PRICE, start=None, **more):
 
 def lqg_paths(law, luck, share=NOISE, delay=DELAY):
     """The same by an LQG law, whose senses err and are late."""
-    filters = lqg.filter_gains(law, round(100 * delay), lqg.per_tick(share))
+    filters = lqg.filter_gains(law, round(1000 * delay / TICK), lqg.per_tick(share))
     draws = np.swapaxes(luck.noise, 0, 1).reshape(-1, TICKS, TICK, 6)
     states, _ = lqg.steer(law, filters, share, draws, np.swapaxes(luck.errors, 0, 1))
     return hand(states[..., :2])[..., :2], states[..., 4:]
@@ -155,9 +155,9 @@ def compare(target, number, tuned, repeats=REPEATS):
     for name, rule in RULES.items():
         times[name], learnt = _learn(rule, plan(target[None], wavering))
         runs[name] = partial(_by_habit, habit.with_weights(learnt))
+    still = _seconds(lambda: habit_paths(habit, calm))
     for name, model in {LATE: None, FORESEEN: arm_copy()}.items():
         runs[name] = partial(_by_feedback, habit, tuned[name], model)
-        still = _seconds(lambda: habit_paths(habit, calm))
         times[name] = _seconds(lambda run=runs[name]: run(calm, 0.0)) - still
     start = process_time()
     law = lqg_law(target, price=tuned[LQG])
