@@ -7,6 +7,8 @@ from vmc_lib.checks import as_numbers, check_rng, is_positive, is_within
 from vmc_lib.short_repr import short
 
 MIN_IOU = 0.8  # IoU at which a box counts as the object's (Section IV A)
+NEGATIVE_IOU = 0.5  # IoU up to which a candidate clearly shows no object (Section III, Block 1-1)
+HIT_IOU = 0.5  # IoU above which a box lies on an object: most of their union is shared
 
 
 def as_boxes(boxes: ArrayLike) -> np.ndarray:

@@ -18,7 +18,7 @@ from reproduce.experiments.pasted_scenes import pasted_photos
 from reproduce.results import records
 from reproduce.training.photographs import load_photographs
 from vmc_lib import photos
-from vmc_lib.boxes import MIN_IOU, iou
+from vmc_lib.boxes import HIT_IOU, MIN_IOU, iou
 from vmc_lib.loop import VisuomotorModel
 from vmc_lib.what.stream import FLIPS, N_LOOKS, N_REFINED, VentralStream
 
@@ -123,7 +123,7 @@ def _answers(model, image, truth):
         fits = iou(chosen.boxes[probability > stream.min_probability], truth)
         best, each = fits[:1].max(initial=0), fits.max(0, initial=0)
         alarm = len(fits) and not len(truth)
-        counts = best > 0.5, best >= MIN_IOU, (each > 0.5).sum(), alarm
+        counts = best > HIT_IOU, best >= MIN_IOU, (each > HIT_IOU).sum(), alarm
         answers[name] = Counter(dict(zip(COUNTED, map(int, counts), strict=True)))
     return answers
 

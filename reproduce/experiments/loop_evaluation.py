@@ -8,7 +8,7 @@ from joblib import Parallel, delayed
 
 from reproduce import results
 from vmc_lib import NoReach, photos
-from vmc_lib.boxes import MIN_IOU, iou
+from vmc_lib.boxes import HIT_IOU, MIN_IOU, iou
 from vmc_lib.cerebellum.offline import RULES
 from vmc_lib.loop import VisuomotorModel, locate, reach, recalibrate, see
 from vmc_lib.what.recogniser import Recogniser
@@ -35,12 +35,12 @@ def score(photo, sight, place, reaches):
     for rule, made in reaches.items():
         for name, motion in (("planned", made.planned), (rule, made.calibrated)):
             errors[name] = made.distance(motion, photo.target)
-    chosen = np.empty((0, 4)) if sight.box is None else sight.box[None]
+    held = object_in_box(photo, sight.box)
     return {
         "proposed": _overlap(sight.detections.candidates, photo, "shuttlecock") >= MIN_IOU,
         "found": _overlap(sight.detections.boxes, photo, "shuttlecock") >= MIN_IOU,
-        "named": _overlap(chosen, photo, "shuttlecock") > 0.5,
-        "cup": _overlap(chosen, photo, "cup") > 0.5,
+        "named": held == "shuttlecock",
+        "cup": held == "cup",
         **errors,
     }
 
@@ -90,6 +90,10 @@ def make_generalist(levels=photos.LEVELS, folder=photos.FOLDER):
 
 
 def _evaluate_photo(model, photo):
+    """`score` of a photo: the likeliest box alone is gone for.
+
+    Where it cannot be reached there is no reach, though `see_and_reach` would try the next.
+    """
     sight, place, reaches = see(model, photo.image), None, {}
     with suppress(NoReach):  # nothing named, or out of reach: no movement, and counted as such
         place = locate(model, photo.image, sight.box, photo.camera)
@@ -179,5 +183,5 @@ def object_in_box(photo, box):
     """
     if box is None:
         return "nothing"
-    names = ("shuttlecock", "cup")
-    return next((name for name in names if _overlap(box[None], photo, name) > 0.5), "neither")
+    on = (name for name in photos.CLASSES if _overlap(box[None], photo, name) > HIT_IOU)
+    return next(on, "neither")

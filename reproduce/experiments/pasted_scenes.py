@@ -12,7 +12,7 @@ from reproduce.results import records
 from reproduce.training.photographs import load_photographs
 from reproduce.training.scenes import SCENES, paste_photos
 from vmc_lib import photos
-from vmc_lib.boxes import MIN_IOU, iou
+from vmc_lib.boxes import HIT_IOU, MIN_IOU, iou
 from vmc_lib.loop import VisuomotorModel, see
 
 SPLITS, COUNT = ("validation", "test"), 40  # photos of each kind of scene
@@ -60,6 +60,6 @@ def count_answers(by_scene, threshold):
     for name, answers in by_scene.items():
         chance, fit = np.transpose(answers)
         chosen, empty = chance > threshold, not SCENES[name][0]
-        alarms = chosen.sum() if empty else (chosen & (fit <= 0.5)).sum()
-        counts[name] = (chosen & (fit > 0.5)).sum(), (chosen & (fit >= MIN_IOU)).sum(), alarms
+        alarms = chosen.sum() if empty else (chosen & (fit <= HIT_IOU)).sum()
+        counts[name] = (chosen & (fit > HIT_IOU)).sum(), (chosen & (fit >= MIN_IOU)).sum(), alarms
     return {name: tuple(map(int, three)) for name, three in counts.items()}

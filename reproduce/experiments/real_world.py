@@ -5,7 +5,7 @@ from joblib import Parallel, delayed
 from reproduce.results import records
 from reproduce.training.photographs import load_photographs
 from vmc_lib import photos
-from vmc_lib.boxes import MIN_IOU, iou
+from vmc_lib.boxes import HIT_IOU, MIN_IOU, iou
 from vmc_lib.loop import VisuomotorModel, see
 from vmc_lib.statistics import wilson
 
@@ -18,9 +18,9 @@ QUESTIONS = {  # about which photos, and what has to be so
     ),
     "cups called a shuttlecock": ("cup", lambda result: result["chance"] > 0.5),
     "a good candidate": ("shuttlecock", lambda result: result["candidate"] >= MIN_IOU),
-    "a box on the shuttlecock": ("shuttlecock", lambda result: result["kept"] > 0.5),
+    "a box on the shuttlecock": ("shuttlecock", lambda result: result["kept"] > HIT_IOU),
     "a good box": ("shuttlecock", lambda result: result["kept"] >= MIN_IOU),
-    "the chosen box is the shuttlecock's": ("shuttlecock", lambda result: result["fit"] > 0.5),
+    "the chosen box is the shuttlecock's": ("shuttlecock", lambda result: result["fit"] > HIT_IOU),
     "and fits well": ("shuttlecock", lambda result: result["fit"] >= MIN_IOU),
     "photos of a cup with a false alarm": ("cup", lambda result: result["chosen"] is not None),
     "photos of neither with one": ("neither", lambda result: result["chosen"] is not None),
@@ -49,8 +49,8 @@ def count_choices(found):
     """
     results = [result for result in found.values() if result["holds"] == "shuttlecock"]
     silent = [result for result in results if result["chosen"] is None]
-    wrong = sum(result["chosen"] is not None and result["fit"] <= 0.5 for result in results)
-    return wrong, len(silent), sum(result["kept"] > 0.5 for result in silent)
+    wrong = sum(result["chosen"] is not None and result["fit"] <= HIT_IOU for result in results)
+    return wrong, len(silent), sum(result["kept"] > HIT_IOU for result in silent)
 
 
 def share_text(count, of):

@@ -11,7 +11,7 @@ from reproduce.ledger.entry import Quantity, Row, mean, share, trivial_quantity
 from reproduce.peers import window_proposals
 from reproduce.training.detectors import candidates
 from vmc_lib import photos
-from vmc_lib.boxes import MIN_IOU, iou
+from vmc_lib.boxes import MIN_IOU, NEGATIVE_IOU, iou
 from vmc_lib.where.features import raw_pixels
 from vmc_lib.where.recipes import PUBLISHED
 from vmc_lib.where.selective_search import propose
@@ -27,7 +27,8 @@ def rois(split):
         iou(candidates(p, PUBLISHED.strategy), list(p.boxes.values())).max(axis=1)
         for p in photos.load("rig", split)
     ]
-    return np.array([[(b >= MIN_IOU).sum() for b in best], [(b <= 0.5).sum() for b in best]])
+    positives, negatives = (b >= MIN_IOU for b in best), (b <= NEGATIVE_IOU for b in best)
+    return np.array([[part.sum() for part in some] for some in (positives, negatives)])
 
 
 def _rois():

@@ -11,7 +11,7 @@ from functools import cache
 import numpy as np
 
 from vmc_lib import photos
-from vmc_lib.boxes import MIN_IOU, decode_deltas, encode_deltas, iou
+from vmc_lib.boxes import MIN_IOU, NEGATIVE_IOU, decode_deltas, encode_deltas, iou
 from vmc_lib.data import arrays, read_only
 from vmc_lib.where.box_regression import RBFRidge, regress
 from vmc_lib.where.detector import ObjectDetector
@@ -90,7 +90,7 @@ def labelled_candidates(shots, recipe=PUBLISHED):
     x, y = [], []
     for image in training_images(shots, replace(recipe, mirror=False)):
         overlap = image.overlap
-        clear = (overlap >= MIN_IOU) | (overlap <= 0.5)
+        clear = (overlap >= MIN_IOU) | (overlap <= NEGATIVE_IOU)
         x.append(recipe.describe(image.pixels, image.candidates[clear]))
         y.append(overlap[clear] >= MIN_IOU)
     return np.concatenate(x), np.concatenate(y)
@@ -104,7 +104,7 @@ def svm_training_set(images, recipe, rng):
     x, y = [], []
     for image in images:
         overlap = image.overlap
-        good, bad = image.candidates[overlap >= MIN_IOU], image.candidates[overlap <= 0.5]
+        good, bad = image.candidates[overlap >= MIN_IOU], image.candidates[overlap <= NEGATIVE_IOU]
         bad = rng.permutation(bad)[: -(-ROIS // len(images))]
         _, jittered = image.sample_near_boxes(recipe.jittered, JITTER, rng)
         x.append(recipe.describe(image.pixels, np.vstack([good, jittered, bad])))

@@ -26,7 +26,7 @@ from reproduce.training.samples import (
     validation_photos,
 )
 from vmc_lib import loop, photos
-from vmc_lib.boxes import iou
+from vmc_lib.boxes import HIT_IOU, iou
 from vmc_lib.what.stream import WIDTH, VentralStream, standardise
 
 torch.set_num_threads(1)
@@ -160,7 +160,7 @@ def likeliest_box(stream, detector, shot):
     """The log-odds of the box that a stream chooses in a photo, and whether it is a shuttlecock."""
     chosen, _ = stream.select(shot.image, detector.detect(shot.image))
     fits = iou(chosen.boxes[:1], photos.boxes_of(shot, "shuttlecock"))
-    return chosen.scores[0], fits.max(initial=0) > 0.5
+    return chosen.scores[0], fits.max(initial=0) > HIT_IOU
 
 
 def photographs(folder=photos.FOLDER, steps=STEPS, maps=MAPS, everyday=None, pasted=PASTED):
