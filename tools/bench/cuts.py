@@ -12,7 +12,7 @@ import numpy as np
 from tools.bench.report import publish
 from tools.bench.selective_search import DRAWS, SMALLEST, opencv, outdoors, renders
 from vmc_lib import photos
-from vmc_lib.boxes import iou
+from vmc_lib.boxes import MIN_IOU, iou
 from vmc_lib.where.appearance import COLOUR_SPACES, colour_codes, describe, texture_codes
 from vmc_lib.where.segmentation import merge_segments, pixel_edges, pixel_offsets, sort_by_weight
 from vmc_lib.where.selective_search import ALL, grow, rank_boxes
@@ -50,7 +50,7 @@ def recall_difference(image, truth, opencv_boxes, **settings):
     orders = [rank_boxes([tree], np.random.default_rng(draw), SMALLEST) for draw in range(DRAWS)]
     equal = min(len(orders[0]), len(opencv_boxes))
     ours, peers = (
-        [iou(truth, order[:equal]).max(1, initial=0) >= 0.8 for order in lists]
+        [iou(truth, order[:equal]).max(1, initial=0) >= MIN_IOU for order in lists]
         for lists in (orders, [opencv_boxes])
     )
     return len(orders[0]), np.mean(ours, axis=0) - peers[0]
@@ -59,7 +59,7 @@ def recall_difference(image, truth, opencv_boxes, **settings):
 def bootstrap_over_photos(differences, rng, draws=2000):
     """The mean over all objects of photos (a list of arrays), and its 95 % interval over photos."""
     picks = rng.integers(0, len(differences), (draws, len(differences)))
-    means = [np.concatenate([differences[i] for i in photos]).mean() for photos in picks]
+    means = [np.concatenate([differences[i] for i in pick]).mean() for pick in picks]
     return np.concatenate(differences).mean(), *np.percentile(means, [2.5, 97.5])
 
 
