@@ -22,6 +22,11 @@ COUNTS["varied", "train"] = 160
 REAL = {"train": (33, 5, 10), "validation": (17, 3, 5), "test": (18, 3, 5)}
 
 
+def test_levels_are_loaded_in_turn_in_steps():
+    names = [photo.name for level in photos.LEVELS for photo in photos.load(level, "train")[::20]]
+    assert [photo.name for photo in photos.load_levels("train", step=20)] == names
+
+
 @pytest.mark.parametrize(("level", "split"), EVERY)
 def test_every_photo_agrees_with_its_sidecar(level, split):
     shots = photos.load(level, split)

@@ -210,6 +210,7 @@ SIGHT = {  # a call: what its error says, the value and the remedy
         lambda g: boxes.encode_deltas([[0, 0, 9, 9]] * 3, [[0, 0, 9, 8]] * 2), "(2, 4)", "3 boxes"
     ),
     "three labels": (lambda g: svm.KernelSVM.fit(np.eye(2), [0, 1, 1]), "(2, 2)", "n labels"),
+    "a step of nothing": (lambda g: photos.load_levels("train", step=0), "step = 0", "1 or more"),
     "a folder of no name": (lambda g: photos.load("rig", "train", None), "folder None", "the path"),
     "rows of two lengths": (lambda g: photos.as_rgb([[1], [1, 2]]), "[[1], [1, 2]]", "(h, w, 3)"),
     "half a pixel more": (lambda g: photos.crops(g.image, BOX, 2.5), "2.5×2.5", "a whole size"),

@@ -21,6 +21,7 @@ from PIL import Image, ImageOps, UnidentifiedImageError
 from vmc_lib import data
 from vmc_lib.boxes import as_boxes
 from vmc_lib.camera import Camera
+from vmc_lib.checks import check_count
 from vmc_lib.colour_profile import to_srgb
 from vmc_lib.compiled import compiled
 from vmc_lib.short_repr import short
@@ -113,6 +114,12 @@ def load(level: str, split: str, folder: str | Path = FOLDER) -> list[Photo]:
     if not sidecars:
         raise ValueError(f"no photos under {place}: python -m reproduce.render makes them")
     return list(map(_read_sidecar, sidecars))
+
+
+def load_levels(split: str, folder: str | Path = FOLDER, step: int = 1) -> list[Photo]:
+    """Load the photos of a split of all LEVELS in turn; of each level every `step`-th."""
+    check_count("step", step, least=1)
+    return [photo for level in LEVELS for photo in load(level, split, folder)[::step]]
 
 
 @cache

@@ -68,8 +68,7 @@ def train_variation(variation, folder, exam, patches=PATCHES):
     from reproduce.training.cdbn import train_cdbn  # with torch, slow to load
 
     n_w, seed = variation
-    shots = [shot for level in photos.LEVELS for shot in photos.load(level, "train", folder)]
-    crops, positive = crops_of(shots)
+    crops, positive = crops_of(photos.load_levels("train", folder))
     cdbn = CDBN.from_arrays(train_cdbn(whiten(crops), positive, seed, n_w, patches).arrays())
     counts = np.zeros((len(photos.LEVELS), len(READ_OUTS), len(SPLITS), 4), int)
     for i, (level, (jittered, y)) in enumerate(training_crops(folder).items()):

@@ -87,8 +87,7 @@ def largest_empty_part(photo):
 
 def pictures(folder=photos.FOLDER, each=SCENES_EACH):
     """(image, true boxes (n, 4) of shuttlecocks) of every picture that is asked."""
-    renders = [shot for level in photos.LEVELS for shot in photos.load(level, "validation", folder)]
-    real = load_photographs("validation", folder)
+    renders, real = photos.load_levels("validation", folder), load_photographs("validation", folder)
     shots = [*renders, *real, *pasted_photos("validation", each)]
     asked = [(shot.image, photos.boxes_of(shot, "shuttlecock")) for shot in shots]
     cut = [shot for shot in real if "shuttlecock" in shot.boxes]

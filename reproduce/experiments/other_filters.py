@@ -25,8 +25,7 @@ SMOOTH = 1.0  # standard deviation of the noise's smoothing, in units of the fil
 
 def whitened_patches(rng, folder=photos.FOLDER, count=PATCHES, every=EVERY):
     """Patches (count, N_W²), each less its mean, from all levels' whitened training crops."""
-    shots = [s for level in photos.LEVELS for s in photos.load(level, "train", folder)[::every]]
-    crops = whiten(crops_of(shots)[0])[:, 0]
+    crops = whiten(crops_of(photos.load_levels("train", folder, every))[0])[:, 0]
     which = rng.integers(len(crops), size=count)
     y, x = rng.integers(crops.shape[-1] - N_W + 1, size=(2, count))
     cut = [crops[i, a : a + N_W, b : b + N_W] for i, a, b in zip(which, y, x, strict=True)]

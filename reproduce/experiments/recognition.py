@@ -220,8 +220,7 @@ def learn_unsupervised(folder, prototypes, rng):
 
     from reproduce.peers.hmax import draw_prototypes
 
-    shots = [shot for level in photos.LEVELS for shot in photos.load(level, "train", folder)]
-    crops, _ = crops_of(shots)
+    crops, _ = crops_of(photos.load_levels("train", folder))
     some = crops[rng.permutation(len(crops))[:60]]
     descriptors = np.concatenate([sift(crop) for crop in some])
     words = KMeans(WORDS, n_init=1, random_state=0).fit(descriptors).cluster_centers_

@@ -33,10 +33,7 @@ def preferences(seed, folder=photos.FOLDER, patches=PATCHES, every=EVERY):
     from vmc_lib.what.learning import Learner
 
     network = CDBN.load(Learner)
-    shots = [
-        shot for level in photos.LEVELS for shot in photos.load(level, "train", folder)[::every]
-    ]
-    p1, taught = first_maps(network, shots)
+    p1, taught = first_maps(network, photos.load_levels("train", folder, every))
     exam, shuttlecock = first_maps(network, photos.load("rig", "validation", folder))
     found = []
     for who in (taught, ~taught):

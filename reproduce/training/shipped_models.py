@@ -78,8 +78,7 @@ def localisers(folder=photos.FOLDER):
 
 def cdbn(folder=photos.FOLDER, patches=PATCHES):
     """The CDBN trained on the crops of all levels."""
-    shots = [shot for level in photos.LEVELS for shot in photos.load(level, "train", folder)]
-    crops, positive = crops_of(shots)
+    crops, positive = crops_of(photos.load_levels("train", folder))
     return train_cdbn(whiten(crops), positive, patches=patches).arrays()
 
 
