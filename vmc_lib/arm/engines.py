@@ -32,7 +32,7 @@ def activations(excitations, first, muscle=PAPER, step=STEP):
     path = np.empty((len(steps) + 1, *first.shape))
     path[0] = first
     for k, u in enumerate(steps):
-        path[k + 1] = path[k] + step * muscle.activation_rate(u, path[k])
+        path[k + 1] = muscle.step_activation(u, path[k], step)
     return np.swapaxes(path, 0, 1)
 
 
@@ -157,7 +157,7 @@ def _step_together(
             torque += np.einsum("bjx,bx->bj", jacobian, pushed)
         terms = coefficients[0].T @ trig_basis(*now.T)
         change = equation_12(terms, *w.T, *torque.T, step)
-        activation[:, t + 1] = a + step * PAPER.activation_rate(u[:, t], a)
+        activation[:, t + 1] = PAPER.step_activation(u[:, t], a, step)
         velocity[:, t + 1] = w + step * np.transpose(change)
         q[:, t + 1] = now + step * velocity[:, t + 1]
 

@@ -164,6 +164,12 @@ class Muscle(NamedTuple):
     activation_rate: Callable
     force: Callable
 
+    def step_activation(
+        self, excitation: np.ndarray, activation: np.ndarray, step: float
+    ) -> np.ndarray:
+        """One step of Euler's method, in s, of its activation; same shape."""
+        return activation + step * self.activation_rate(excitation, activation)
+
 
 # Looked up when they are called: whoever replaces a law of this module is followed
 PAPER = Muscle(lambda *given: unwrap(activation_rate)(*given), lambda *given: unwrap(force)(*given))
