@@ -198,13 +198,19 @@ EXPERIMENTS = TABLES | {"perturbations": block_errors}
 
 def make(experiments=EXPERIMENTS, seeds=None):
     """What `results/movements.json` holds: every experiment with every seed, to four digits."""
-    repeated = {
-        name: repeat_over_seeds(experiment, seeds or (MANY if name in TABLES else SEEDS))
-        for name, experiment in experiments.items()
-    }
+    return round_results(
+        {
+            name: repeat_over_seeds(experiment, seeds or (MANY if name in TABLES else SEEDS))
+            for name, experiment in experiments.items()
+        }
+    )
+
+
+def round_results(parts):
+    """Results as their file holds them, part -> name -> numbers in lists, to four digits."""
     return {
         part: {name: np.round(values, 4).tolist() for name, values in rows.items()}
-        for part, rows in repeated.items()
+        for part, rows in parts.items()
     }
 
 

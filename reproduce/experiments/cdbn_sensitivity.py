@@ -1,6 +1,7 @@
 """Sensitivity of the CDBN to seed and filter width: the whole network, trained anew for each."""
 
 from functools import cache
+from itertools import starmap
 
 import numpy as np
 from joblib import Parallel, delayed
@@ -71,17 +72,28 @@ def train_variation(variation, folder, exam, patches=PATCHES):
     crops, positive = crops_of(photos.load_levels("train", folder))
     cdbn = CDBN.from_arrays(train_cdbn(whiten(crops), positive, seed, n_w, patches).arrays())
     counts = np.zeros((len(photos.LEVELS), len(READ_OUTS), len(SPLITS), 4), int)
-    for i, (level, (jittered, y)) in enumerate(training_crops(folder).items()):
-        x = read_outs(cdbn, jittered)
-        exams = photos.load(level, "validation", folder), photos.load(level, "test", exam)
-        sets = [(read_outs(cdbn, crops), truth) for crops, truth in map(crops_of, exams)]
-        (checked, checked_truth), _ = sets
-        for j, name in enumerate(READ_OUTS):
-            linear = fit_name_classifier(x[name], y, checked[name], checked_truth)
-            counts[i, j] = [
-                confusion_counts(linear.probability(z[name]), truth) for z, truth in sets
-            ]
+    for i, level in enumerate(photos.LEVELS):
+        for j, answers in enumerate(answer_crops(cdbn, level, folder, exam).values()):
+            counts[i, j] = list(starmap(confusion_counts, answers))
     return cdbn.first.W[:, 0], counts
+
+
+def answer_crops(network, level, folder, exam, names=READ_OUTS):
+    """Answers by a network's read-outs: name -> (probabilities, truth), (n,), on each of SPLITS.
+
+    The classifiers learn from training photos of a level in `folder`, their cost is chosen on those
+    of validation; the test photos are those in the folder `exam`.
+    """
+    jittered, y = training_crops(folder)[level]
+    x = read_outs(network, jittered)
+    exams = photos.load(level, "validation", folder), photos.load(level, "test", exam)
+    sets = [(read_outs(network, crops), truth) for crops, truth in map(crops_of, exams)]
+    (checked, checked_truth), _ = sets
+    answers = {}
+    for name in names:
+        linear = fit_name_classifier(x[name], y, checked[name], checked_truth)
+        answers[name] = [(linear.probability(z[name]), truth) for z, truth in sets]
+    return answers
 
 
 @cache

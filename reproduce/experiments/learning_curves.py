@@ -10,7 +10,13 @@ from functools import partial
 import numpy as np
 
 from reproduce.experiments import calibration, nulls, online_calibration
-from reproduce.experiments.calibration import MANY, SCENARIOS, SEEDS
+from reproduce.experiments.calibration import (
+    MANY,
+    SCENARIOS,
+    SEEDS,
+    repeat_over_seeds,
+    round_results,
+)
 from reproduce.experiments.controller_comparison import templates_with_noise
 from reproduce.experiments.offline_calibration import (
     LOADS,
@@ -198,11 +204,12 @@ SIX_DRAWS |= {WORLDS: changed_worlds}
 
 def make(experiments=MANY_DRAWS | SIX_DRAWS, seeds=None):
     """What `results/learning_curves.json` holds: every curve with every seed."""
-    made = {}
-    for name, experiment in experiments.items():
-        draws = seeds or (SEEDS if name in SIX_DRAWS else MANY)
-        made |= calibration.make({name: experiment}, draws)
-    return made
+    return round_results(
+        {
+            name: repeat_over_seeds(experiment, seeds or (SEEDS if name in SIX_DRAWS else MANY))
+            for name, experiment in experiments.items()
+        }
+    )
 
 
 load_results = partial(calibration.load_results, "learning_curves")

@@ -10,13 +10,11 @@ from dataclasses import replace
 import numpy as np
 from joblib import Parallel, delayed
 
-from reproduce.experiments.cdbn_sensitivity import training_crops
+from reproduce.experiments.cdbn_sensitivity import answer_crops
 from reproduce.results import arrays
-from reproduce.training.name_classifier import fit_name_classifier
 from vmc_lib import photos
 from vmc_lib.what.cdbn import CDBN, crops_of
 from vmc_lib.what.crops import whiten
-from vmc_lib.what.recogniser import read_outs
 
 LEARNT, DRAWS = "learnt", range(6)
 LEVELS, ASKED = ("rig", "varied"), ("MP2", "P2")
@@ -54,13 +52,8 @@ def answers(draw, folder=photos.FOLDER, levels=LEVELS):
     network = CDBN.load() if draw == LEARNT else draw_network(draw, folder)
     found = {}
     for level in levels:
-        jittered, y = training_crops(folder)[level]
-        x = read_outs(network, jittered)
-        exams = [crops_of(photos.load(level, split, folder)) for split in ("validation", "test")]
-        (checked, truth), (asked, _) = ((read_outs(network, crops), t) for crops, t in exams)
-        for name in ASKED:
-            classifier = fit_name_classifier(x[name], y, checked[name], truth)
-            found[f"{level}/{name}"] = np.float32(classifier.probability(asked[name]))
+        asked = answer_crops(network, level, folder, folder, ASKED)
+        found |= {f"{level}/{name}": np.float32(test) for name, (_, (test, _)) in asked.items()}
     return found
 
 

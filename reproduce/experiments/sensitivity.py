@@ -19,6 +19,7 @@ from reproduce.experiments.calibration import (
     SCENARIOS,
     coarse_algorithm_1,
     error_ratios,
+    round_results,
 )
 from reproduce.one_draw import template_rows
 from reproduce.peers.muscle_models import LAWS
@@ -191,10 +192,7 @@ def make(choices=CHOICES, spacing=templates.SPACING, seeds=MANY, count=20, **siz
     found = Parallel()(delayed(misses)(**given, count=count) for given in settings.values())
     parts = dict(zip(settings, found, strict=True))
     parts[PRINTED_ON_THELEN] = {k: [draw[k] for draw in draws] for k in draws[0]}
-    return {
-        part: {k: np.round(values, 4).tolist() for k, values in rows.items()}
-        for part, rows in parts.items()
-    }
+    return round_results(parts)
 
 
 def name_of(choice, other):
