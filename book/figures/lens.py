@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from vmc_lib.arm.kinematics import to_world
+from vmc_lib.arm.kinematics import rotate_by_turn, to_world
 from vmc_lib.show.palette import ON_PHOTO
 
 RADIUS, MOST = 104, 5.0  # pixels; pixels a mm, at most: less where a mark would lie outside
@@ -15,7 +15,7 @@ def lens(photo, box, reach, motion=None):
     A ring at the place seen, a cross at the true one; after a motion a dot where the hand ends and
     its way over the hold, beside the end of the first reach, dashed.
     """
-    along = to_world([1.0, 0, 0], reach.turn) - to_world([0.0, 0, 0], reach.turn)
+    along = rotate_by_turn([1.0, 0, 0], reach.turn)
 
     def flat(places):
         away = 1000 * (np.atleast_2d(places) - reach.target)

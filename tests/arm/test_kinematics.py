@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from vmc_lib.arm.dynamics import hand
-from vmc_lib.arm.kinematics import inverse_kinematics, to_world, turn_towards
+from vmc_lib.arm.kinematics import inverse_kinematics, rotate_by_turn, to_world, turn_towards
 
 ANGLE = st.floats(np.radians(-59), np.radians(59))  # inside the trunk's range, not on its edge
 
@@ -29,6 +29,12 @@ def test_turn_towards_inverts_to_world(x, y, psi):
 def test_positive_turns_are_to_the_left():
     ahead = np.array([0.3, -0.4, -0.17])
     assert to_world(ahead, 0.5)[2] < ahead[2]
+
+
+def test_a_turn_rotates_what_lies_between_two_points():
+    points, turns = np.array([[0.3, -0.4, -0.1], [0.1, 0.2, 0.3]]), np.array([0.5, -0.8])
+    between = to_world(points, turns) - to_world(np.zeros_like(points), turns)
+    np.testing.assert_allclose(rotate_by_turn(points, turns), between, atol=1e-15)
 
 
 @pytest.mark.parametrize(

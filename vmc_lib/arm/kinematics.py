@@ -16,6 +16,7 @@ from vmc_lib.arm.model import LIMITS
 from vmc_lib.checks import as_numbers
 
 TRUNK = np.array([0.017545, -0.17])  # x and z of the axis about which the trunk turns, m
+ON_AXIS = np.insert(TRUNK, 1, 0)
 TRUNK_RANGE = np.radians([-60.0, 90.0])
 BENT = np.array([LIMITS[0], [0.1, LIMITS[1, 1]]])  # a straighter elbow adds no reach, only doubt
 
@@ -97,11 +98,16 @@ def to_world(points: np.ndarray, psi: ArrayLike) -> np.ndarray:
 
     One turn `psi` in rad for all of them, or one for each, (…).
     """
-    points, psi = _positions(points, 3).copy(), as_numbers("turn", psi)
-    x, z = np.moveaxis(points[..., [0, 2]] - TRUNK, -1, 0)
+    return rotate_by_turn(_positions(points, 3) - ON_AXIS, psi) + ON_AXIS
+
+
+def rotate_by_turn(vectors: np.ndarray, psi: ArrayLike) -> np.ndarray:
+    """Rotate vectors (…, 3) by a turn of the trunk, as `to_world` does points: lengths stay."""
+    vectors, psi = _positions(vectors, 3).copy(), as_numbers("turn", psi)
+    x, z = np.moveaxis(vectors[..., [0, 2]], -1, 0)
     c, s = np.cos(psi), np.sin(psi)
-    points[..., [0, 2]] = np.stack([c * x + s * z, c * z - s * x], axis=-1) + TRUNK
-    return points
+    vectors[..., [0, 2]] = np.stack([c * x + s * z, c * z - s * x], axis=-1)
+    return vectors
 
 
 def _positions(points, axes):

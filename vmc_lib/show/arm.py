@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 
 from vmc_lib import NoReach
 from vmc_lib.arm.dynamics import check_posture
-from vmc_lib.arm.kinematics import to_world, turn_towards
+from vmc_lib.arm.kinematics import rotate_by_turn, turn_towards
 from vmc_lib.arm.simulate import Motion
 from vmc_lib.checks import as_numbers, is_within
 from vmc_lib.photos import Photo
@@ -142,7 +142,7 @@ def _add_goals(scene, photo, balls, end, turn):
 
 def beyond_wrist(turn: float) -> np.ndarray:
     """From the wrist to what the hand holds (3,), in m, where the trunk has turned."""
-    return to_world(BEYOND, turn) - to_world(np.zeros(3), turn)
+    return rotate_by_turn(BEYOND, turn)
 
 
 def _turn_for(place):
