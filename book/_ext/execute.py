@@ -23,11 +23,10 @@ from sphinx.application import ENV_PICKLE_FILENAME
 from sphinx.errors import ExtensionError
 from sphinx.util import logging
 
-from reproduce.pipeline.imports import imported_files
+from reproduce.pipeline.imports import DATA_SUFFIXES, imported_files
 from vmc_lib.show.prose import CHECK, with_code
 
 ROOMS = ("vmc_lib", "reproduce")  # where any chapter may read data
-DATA = {".xml", ".npz", ".json", ".jpg", ".webp"}
 COUNTED = {"tested": ("tests", "book")}  # pages, and the folders whose code they count
 say = logging.getLogger(__name__).info
 
@@ -55,7 +54,7 @@ def digest(page):
     root = page.parents[1]
     cells = code_cells(nbformat.read(page, as_version=4).cells)
     code = [cell.source for cell in cells]
-    folders = [(root / room, DATA) for room in ROOMS]
+    folders = [(root / room, DATA_SUFFIXES) for room in ROOMS]
     folders += [(root / room, {".py", ".ipynb"}) for room in COUNTED.get(page.stem, ())]
     files = {root / "constraints.txt"}.union(*(_files(*folder) for folder in folders))
     with suppress(SyntaxError):  # of which its execution will say where

@@ -5,14 +5,13 @@
 
 import json
 
+from reproduce.pipeline.imports import DATA_SUFFIXES
 from vmc_lib import data
-
-KINDS = {".npz", ".json", ".jpg", ".webp"}
 
 
 def data_checksums():
     """The checksum of every file that ships, by its place in the folder."""
-    files = sorted(file for file in data.FOLDER.rglob("*") if file.suffix in KINDS)
+    files = sorted(file for file in data.FOLDER.rglob("*") if file.suffix in DATA_SUFFIXES)
     return {
         file.relative_to(data.FOLDER).as_posix(): data.checksum(file.read_bytes())
         for file in files

@@ -6,6 +6,7 @@ from importlib.util import resolve_name
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
+DATA_SUFFIXES = {".xml", ".npz", ".json", ".jpg", ".webp"}  # of what code reads beside it
 
 
 def imported_names(source, package=""):

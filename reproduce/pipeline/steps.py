@@ -46,7 +46,7 @@ from reproduce.experiments import (
 )
 from reproduce.peers import minimum_variance, optimal_control
 from reproduce.pipeline import checksums
-from reproduce.pipeline.imports import imported_files
+from reproduce.pipeline.imports import DATA_SUFFIXES, imported_files
 from reproduce.render import bone_meshes, cutout_atlas
 from reproduce.training import arm_tables, shipped_models, ventral_stream
 from reproduce.whole_arm import bones as bones63
@@ -56,7 +56,6 @@ from vmc_lib import data
 ROOT, DATA_FOLDER, RESULTS = Path(__file__).parents[2], data.FOLDER, results.FOLDER
 FRESH = ROOT / "_build/fresh_photos"  # of tests to come: they do not ship
 ELSEWHERE = ROOT / "_build/elsewhere_photos"  # likewise
-DATA = {".xml", ".npz", ".json", ".jpg", ".webp"}
 
 
 @dataclass(frozen=True)
@@ -89,7 +88,7 @@ class Step:
         if lost := [name for name in places if name not in makes and not places[name].exists()]:
             raise ValueError(f"{self.name} reads {lost}: name steps, or files and folders here")
         within = (file for place in places.values() for file in (place, *place.rglob("*")))
-        found = {file for file in within if file.suffix in DATA}
+        found = {file for file in within if file.suffix in DATA_SUFFIXES}
         own = Path(getsourcefile(self.function))
         return found | {own} | imported_files(own.read_text(encoding="utf-8"))
 
