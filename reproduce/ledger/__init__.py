@@ -55,12 +55,16 @@ def value(where, name):
 
     Chapters ask here, so that a claim has one number. ValueError where there is none.
     """
-    entries = {entry["where"]: entry["quantities"] for entry in load_results()["rows"]}
+    entries = _quantities_by_row()
     for q in entries.get(where, ()):
         if q["name"] == name:
             return _quantity(q)
     known = [q["name"] for q in entries.get(where, ())] or list(entries)
     raise ValueError(f"the ledger has no {name!r} of {where!r}; choose from {known}")
+
+
+def _quantities_by_row():
+    return {entry["where"]: entry["quantities"] for entry in load_results()["rows"]}
 
 
 def _quantity(q):
@@ -128,8 +132,8 @@ def measure_again(where):
     """Where a row's numbers are measured again in the page, as HTML; nothing if that is slow."""
     if where not in one_draw.DRAWS:
         return ""
-    entries = {entry["where"]: entry["quantities"] for entry in load_results()["rows"]}
-    shipped = escape(json.dumps({q["name"]: result_text(q) for q in entries[where]}))
+    quantities = _quantities_by_row()[where]
+    shipped = escape(json.dumps({q["name"]: result_text(q) for q in quantities}))
     given = f'data-where="{where}" data-shipped="{shipped}"'
     return f'\n\n<form class="vmc-measure" hidden {given}></form>'
 

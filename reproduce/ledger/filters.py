@@ -139,18 +139,16 @@ def layer_maps():
 
 
 def _deeper():
+    return _gabor_fits() + _preferences()
+
+
+def _gabor_fits():
+    """How well Gabors fit the second layer's filters, less the first's, and less shuffled ones."""
     from scipy.stats import ttest_ind
 
-    crops, shuttlecock = cdbn.crops_of(photos.load("rig", "validation"))
-    layers = cdbn.CDBN.load().layers(whiten(crops))
     fits = {kind: gabor_correlations(kind) for kind in ("W1", "W2", "W2 shuffled")}
     simpler = ttest_ind(fits["W2"], fits["W1"], equal_var=False).confidence_interval()
     others = other_filters.load_results()["second"]
-    taught = second_layers.load_results()["preferences"]
-    prefers = {
-        name: second_layers.preference(layers[layer], shuttlecock)
-        for name, layer in (("P¹", "P1"), ("P²", "P2"))
-    }
     return [
         Quantity(
             "fit of a Gabor, second layer less first",
@@ -170,6 +168,19 @@ def _deeper():
             nulls={name: fit - fits["W2 shuffled"].mean() for name, fit in others.items()},
             **ABOVE,
         ),
+    ]
+
+
+def _preferences():
+    """How much more layers answer to shuttlecocks than to cups, by teacher and by layer."""
+    crops, shuttlecock = cdbn.crops_of(photos.load("rig", "validation"))
+    layers = cdbn.CDBN.load().layers(whiten(crops))
+    taught = second_layers.load_results()["preferences"]
+    prefers = {
+        name: second_layers.preference(layers[layer], shuttlecock)
+        for name, layer in (("P¹", "P1"), ("P²", "P2"))
+    }
+    return [
         mean(
             "P² to shuttlecocks over cups: taught by shuttlecocks, less taught by cups",
             0,
