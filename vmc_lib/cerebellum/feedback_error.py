@@ -39,13 +39,15 @@ class FeedbackErrorLearning:
     def __init__(self, template_set: TemplateSet) -> None:
         check_templates(template_set)
         ways = minimum_jerk(START, inverse_kinematics(template_set.points))
-        places = mossy_fibres(ReferenceTrajectory(ways, template_set.excitations)).reshape(-1, 4)
+        places = trajectory_inputs(ReferenceTrajectory(ways, template_set.excitations)).reshape(
+            -1, 4
+        )
         self.cells = GranuleCells(width=0.5, cells=300).fit(places, np.zeros((len(places), 2)))
         self.purkinje = self.cells.purkinje_
 
     def correct(self, reference: ReferenceTrajectory) -> ReferenceTrajectory:
         """The `ReferenceTrajectory` with what was learned added to its excitations."""
-        active = self.cells.excite(mossy_fibres(reference).reshape(-1, 4))
+        active = self.cells.excite(trajectory_inputs(reference).reshape(-1, 4))
         learned = np.zeros_like(reference.q[:, :-1])
         ticks = (active @ self.purkinje).reshape(len(learned), -1, 2)
         learned[:, :SAMPLES] = np.repeat(ticks, TICK, axis=1)
@@ -67,13 +69,13 @@ class FeedbackErrorLearning:
             )
         path = reference.q, reference.velocity, motion.q, motion.velocity
         wanted = feedback_acceleration(gains, *(x[:, :SAMPLES:TICK].reshape(-1, 2) for x in path))
-        active = self.cells.excite(mossy_fibres(reference).reshape(-1, 4))
+        active = self.cells.excite(trajectory_inputs(reference).reshape(-1, 4))
         self.purkinje = self.purkinje + minimum_norm_update(active, wanted, self.regularisation)
         return self
 
 
-def mossy_fibres(reference: ReferenceTrajectory) -> np.ndarray:
-    """Where the arm should be, and how fast, at every tick of the reach, (B, ticks, 4)."""
+def trajectory_inputs(reference: ReferenceTrajectory) -> np.ndarray:
+    """The mossy fibres' input: where the arm should be, and how fast, each tick, (B, ticks, 4)."""
     check_kind("reference", reference, ReferenceTrajectory, "reference_trajectory(plan)")
     path = reference.q, reference.velocity / FAST
     return np.concatenate([x[:, :SAMPLES:TICK] for x in path], axis=-1)

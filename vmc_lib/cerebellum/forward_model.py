@@ -49,16 +49,16 @@ class ForwardModel:
             for x in (motion.q, motion.velocity, motion.activation)
         )
         felt = np.diff(motion.velocity, axis=1)[:, every::every].reshape(-1, 2) / STEP
-        self.cells.partial_fit(mossy_fibres(q, velocity, activation), felt)
+        self.cells.partial_fit(state_inputs(q, velocity, activation), felt)
         return self
 
     def __call__(self, q: np.ndarray, velocity: np.ndarray, activation: np.ndarray) -> np.ndarray:
         """The acceleration (B, 2) expected in rad/s²."""
-        return self.cells.predict(mossy_fibres(q, velocity, activation))
+        return self.cells.predict(state_inputs(q, velocity, activation))
 
 
-def mossy_fibres(q: np.ndarray, velocity: np.ndarray, activation: np.ndarray) -> np.ndarray:
-    """The inputs of the granule cells: posture, speed, muscles' torque, (B, 6)."""
+def state_inputs(q: np.ndarray, velocity: np.ndarray, activation: np.ndarray) -> np.ndarray:
+    """The mossy fibres' input: posture, speed, muscles' torque, (B, 6)."""
     q, velocity = as_numbers("q", q), as_numbers("velocity", velocity)
     lengths, arms = interpolated_paths(q)
     torque = muscle_torque(as_numbers("activation", activation), lengths, arms, velocity)

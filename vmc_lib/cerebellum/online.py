@@ -60,7 +60,7 @@ def equation_8(plan: Plan) -> np.ndarray:
 
 
 def mossy_fibres(plan: Plan) -> np.ndarray:
-    """The inputs of the granule cells: a plan's target, also among its templates, (…, 4 or 6)."""
+    """The mossy fibres' input: a plan's target, also among its templates, (…, 4 or 6)."""
     check_plan(plan)
     return np.concatenate([plan.target, plan.target - plan.points.mean(axis=-2)], axis=-1)
 
