@@ -39,9 +39,8 @@ class FeedbackErrorLearning:
     def __init__(self, template_set: TemplateSet) -> None:
         check_templates(template_set)
         ways = minimum_jerk(START, inverse_kinematics(template_set.points))
-        places = trajectory_inputs(ReferenceTrajectory(ways, template_set.excitations)).reshape(
-            -1, 4
-        )
+        reaches = ReferenceTrajectory(ways, template_set.excitations)
+        places = trajectory_inputs(reaches).reshape(-1, 4)
         self.cells = GranuleCells(width=0.5, cells=300).fit(places, np.zeros((len(places), 2)))
         self.purkinje = self.cells.purkinje_
 
