@@ -149,16 +149,16 @@ def make_names(exam):
     return kept
 
 
-def kernel_counts(level, name, kernels, shots, folder=photos.FOLDER, trainings=TRAININGS):
-    """The answers of Table I's kernels, with the recipe `name`, on photos of a level.
+def kernel_counts(level, recipe_name, kernels, shots, folder=photos.FOLDER, trainings=TRAININGS):
+    """The answers of Table I's kernels, with a recipe, on photos of a level.
 
     (trainings, kernels, 3), as lists.
     """
-    x, truth = labelled_candidates(shots, RECIPES[name])
+    x, truth = labelled_candidates(shots, RECIPES[recipe_name])
     return [
         [
             confusion_counts(svm.score(x), truth, threshold)[:3]
-            for svm, threshold in train_classifiers(level, name, kernels, seed, folder)
+            for svm, threshold in train_classifiers(level, recipe_name, kernels, seed, folder)
         ]
         for seed in range(trainings)
     ]

@@ -41,25 +41,27 @@ SIZES = {8: "8 pixels", 16: "pixels", 32: "32 pixels"}  # sides of the crops, as
 TRAININGS = 6
 
 
-def table_1(level, split="test", name="published"):
+def table_1(level, split="test", recipe_name="published"):
     """Table I: for each kernel, precision and recall of each training, (TRAININGS, 2).
 
-    Of the RoI classifier, before suppression, with the features and examples of the recipe `name`,
+    Of the RoI classifier, before suppression, with the features and examples of the recipe
     "published" or "context". As in the paper, over candidates that clearly hold an object or
     clearly do not.
     """
-    rows = [arrays("localisation")[f"{level}/{name}/table 1/{seed}"] for seed in range(TRAININGS)]
+    rows = [
+        arrays("localisation")[f"{level}/{recipe_name}/table 1/{seed}"] for seed in range(TRAININGS)
+    ]
     by_kernel = np.swapaxes(rows, 0, 2)[:, photos.SPLITS.index(split)]
     return dict(zip(TABLE_1_KERNELS, by_kernel, strict=True))
 
 
-def kernel_settings(name="published"):
+def kernel_settings(recipe_name="published"):
     """C and the scale of γ of each kernel of Table I, as `KernelSVM.fit` takes them.
 
     Those of the published recipe are as `best_setting` chose; those of "context" were chosen with
     the rest of it.
     """
-    if name == "context":
+    if recipe_name == "context":
         return {kernel: (cost, 1.0) for kernel, cost in CONTEXT_COSTS.items()}
     return dict(zip(TABLE_1_KERNELS, arrays("localisation")["published/settings"], strict=True))
 
@@ -94,20 +96,20 @@ def f1_by_size():
     return dict(zip(SIZES, arrays("localisation")["published/sizes"], strict=True))
 
 
-def train_classifiers(level, name, kernels, seed, folder=photos.FOLDER, chosen=None):
-    """For each kernel of Table I, a KernelSVM trained with the recipe `name`, and its threshold.
+def train_classifiers(level, recipe_name, kernels, seed, folder=photos.FOLDER, chosen=None):
+    """For each kernel of Table I, a KernelSVM trained with a recipe, and its threshold.
 
     Beyond the published recipe, whose threshold is 0, the validation photos set the threshold.
     Both kinds of photos lie in `folder`. Settings other than `kernel_settings` may be `chosen`.
     """
-    chosen = chosen or kernel_settings(name)
-    recipe, rng = RECIPES[name], np.random.default_rng(seed)
+    chosen = chosen or kernel_settings(recipe_name)
+    recipe, rng = RECIPES[recipe_name], np.random.default_rng(seed)
     images = training_images(photos.load(level, "train", folder), recipe)
     learnt = svm_training_set(images, recipe, rng)
     x, truth = labelled_candidates(photos.load(level, "validation", folder), recipe)
     for kernel in kernels:
         svm = KernelSVM.fit(*learnt, kernel, *chosen[kernel])
-        yield svm, 0 if name == "published" else smoothed_threshold(svm.score(x), truth)
+        yield svm, 0 if recipe_name == "published" else smoothed_threshold(svm.score(x), truth)
 
 
 def smoothed_threshold(scores, right):
@@ -123,11 +125,13 @@ def smoothed_threshold(scores, right):
     return best_threshold(scores, chances, chances.sum())
 
 
-def measure_table_1(level, name, seed, kernels=TABLE_1_KERNELS, folder=photos.FOLDER, chosen=None):
+def measure_table_1(
+    level, recipe_name, seed, kernels=TABLE_1_KERNELS, folder=photos.FOLDER, chosen=None
+):
     """Table I: (precision, recall) of each kernel in each of the SPLITS, (3, kernels, 2)."""
-    trained, rows = list(train_classifiers(level, name, kernels, seed, folder, chosen)), []
+    trained, rows = list(train_classifiers(level, recipe_name, kernels, seed, folder, chosen)), []
     for split in photos.SPLITS:
-        x, truth = labelled_candidates(photos.load(level, split, folder), RECIPES[name])
+        x, truth = labelled_candidates(photos.load(level, split, folder), RECIPES[recipe_name])
         called = [truth[svm.score(x) > threshold] for svm, threshold in trained]
         rows.append([(r.sum() / max(len(r), 1), r.sum() / truth.sum()) for r in called])
     return np.array(rows)
@@ -161,12 +165,12 @@ def best_by_recipe(level, split):
     return np.array([*columns]).T.reshape(len(RECIPES), 2, -1)
 
 
-def table_2_interval(level, name):
+def table_2_interval(level, recipe_name):
     """Table II's row of a recipe over TRAININGS trainings: means (2,), half 95 % intervals (2,).
 
     Precision and recall on the test photos at IoU 0.8; the recipe is one of RETRAINED.
     """
-    return t_interval(arrays("localisation")[f"{level}/{name}/seeds"])
+    return t_interval(arrays("localisation")[f"{level}/{recipe_name}/seeds"])
 
 
 def figure_6(level, split="test"):
@@ -204,22 +208,23 @@ def chosen_settings(folder=photos.FOLDER):
     }
 
 
-def final_boxes(level, split, name, folder):
-    """The boxes that the shipped detector `name` leaves, by photo."""
+def final_boxes(level, split, recipe_name, folder):
+    """The boxes that the shipped detector of a recipe leaves, by photo."""
     shots = photos.load(level, split, folder)
-    pairs = zip(shots, detect_photos(level, split, name, folder), strict=True)
+    pairs = zip(shots, detect_photos(level, split, recipe_name, folder), strict=True)
     return {
-        f"{photo.name}/{name}": detections.boxes.astype(np.float32) for photo, detections in pairs
+        f"{photo.name}/{recipe_name}": detections.boxes.astype(np.float32)
+        for photo, detections in pairs
     }
 
 
-def table_1_arrays(level, name, seed, folder, chosen):
+def table_1_arrays(level, recipe_name, seed, folder, chosen):
     """Table I of one training, (3 splits, 4 kernels, 2)."""
-    rows = measure_table_1(level, name, seed, folder=folder, chosen=chosen)
-    return {f"{level}/{name}/table 1/{seed}": rows}
+    rows = measure_table_1(level, recipe_name, seed, folder=folder, chosen=chosen)
+    return {f"{level}/{recipe_name}/table 1/{seed}": rows}
 
 
-def retrain_detectors(level, name, recipe, trainings, folder):
+def retrain_detectors(level, recipe_name, recipe, trainings, folder):
     """Precision and recall on the test photos of detectors from many seeds, (trainings, 2)."""
     train, held_out, test = (photos.load(level, split, folder) for split in photos.SPLITS)
     rows = []
@@ -229,4 +234,4 @@ def retrain_detectors(level, name, recipe, trainings, folder):
         )
         searches = detect_photos(level, "test", detector, folder)
         rows.append(precision_recall(test, [detections.boxes for detections in searches]))
-    return {f"{level}/{name}/seeds": np.array(rows)}
+    return {f"{level}/{recipe_name}/seeds": np.array(rows)}

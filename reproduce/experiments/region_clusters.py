@@ -32,11 +32,11 @@ def design_effect(right, total):
     return max(1.0, float(variance * total.sum() / (share * (1 - share))))
 
 
-def effects(name, kernel_names, folder=photos.FOLDER):
-    """Kernel -> the design effects of precision and of recall, with the recipe `name`."""
+def effects(recipe_name, kernel_names, folder=photos.FOLDER):
+    """Kernel -> the design effects of precision and of recall, with a recipe."""
     shots, found = photos.load("rig", "test", folder), {}
-    by_photo = [labelled_candidates([shot], RECIPES[name]) for shot in shots]
-    trained = train_classifiers("rig", name, kernel_names, 0, folder)
+    by_photo = [labelled_candidates([shot], RECIPES[recipe_name]) for shot in shots]
+    trained = train_classifiers("rig", recipe_name, kernel_names, 0, folder)
     for kernel, (svm, threshold) in zip(kernel_names, trained, strict=True):
         answers = [(svm.score(x) > threshold, truth) for x, truth in by_photo]
         right = [(called & truth).sum() for called, truth in answers]
