@@ -8,6 +8,8 @@ from pathlib import Path
 import nbformat
 import pytest
 
+from book.figures.inventory import core, reading_and_demos
+
 ROOT = Path(__file__).parents[1]
 NOTEBOOKS = sorted((ROOT / "book").glob("*.ipynb"))
 CHAPTERS = [path for path in NOTEBOOKS if path.stem[:2].isdigit()]
@@ -45,3 +47,8 @@ def run(*command, cwd=ROOT, **environment):
 def python(*arguments, **options):
     """What Python prints (see `run`)."""
     return run(sys.executable, *arguments, **options)
+
+
+def core_minutes(path):
+    """How long a chapter's core takes to read and play, estimated."""
+    return sum(reading_and_demos(core(nbformat.read(path, as_version=4).cells)))

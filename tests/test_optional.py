@@ -6,8 +6,8 @@ import nbformat
 import pytest
 
 from book._ext.plain import with_directives
-from book.figures.inventory import core, core_minutes, title_and_minutes
-from tests.project import each_chapter
+from book.figures.inventory import core, title_and_minutes
+from tests.project import core_minutes, each_chapter
 
 SECTION = """
 <a href="#inside">there</a>

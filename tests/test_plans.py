@@ -2,9 +2,8 @@
 
 import pytest
 
-from book.figures.inventory import core_minutes
 from book.figures.plans import PLANS, Session, sections
-from tests.project import CHAPTERS, each_chapter
+from tests.project import CHAPTERS, core_minutes, each_chapter
 
 
 def test_a_plan_takes_each_chapter_once_and_in_order():

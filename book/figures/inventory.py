@@ -65,11 +65,6 @@ def core(cells):
             yield cell
 
 
-def core_minutes(path):
-    """How long a chapter's core takes to read and play, estimated."""
-    return sum(reading_and_demos(core(nbformat.read(path, as_version=4).cells)))
-
-
 def reading_and_demos(cells):
     """Minutes to read cells and to play with their demos: 43 words a minute, 5 a demo.
 
