@@ -21,7 +21,7 @@ SCRIPT, PLOTS = "vendor/python.js", "vendor/plots.js"  # where the built page fi
 PACKAGES = {
     "page.python": "absent grader",
     "book.exercises": " ".join(path.stem for path in sorted(ROOT.glob("book/exercises/*.py"))),
-    "reproduce": "paper",
+    "reproduce": "one_draw paper",
     "reproduce.experiments": "calibration feedback_control",
     "reproduce.measures": "changed_worlds holding muscle_bench path_measures",
     "reproduce.peers": "lqr_tracking muscle_models optimal_control state_estimation",
