@@ -51,20 +51,24 @@ def mean_amplitudes(pixels, octaves=6):
     return np.sqrt(limits[1:] * limits[:-1]), np.array([amplitude[b].mean() for b in bins])
 
 
-def explanations_of(v, energies, chances, names):
-    """A small picture v (height, width), and the energy and chance of each explanation of it."""
-    shape = {"width_ratios": [1, 1.2, 1.2], "layout": "none"}
-    fig, (left, middle, right) = plt.subplots(1, 3, figsize=(6.8, 2.3), **shape)
-    fig.subplots_adjust(left=0.01, right=0.98, bottom=0.13, top=0.88, wspace=0.72)
-    left.pcolormesh(v, vmin=-2.1, vmax=2.1, edgecolor=COLOURS["grey"], cmap="gray")
-    left.set(title="v", xticks=[], yticks=[], aspect="equal")
-    bars = middle.barh(names, energies, color=COLOURS["orange"])
-    middle.bar_label(bars, fmt="{:z.1f}", padding=2)  # no minus zero
-    middle.set(title="energy E(v, h)", xlim=(0, 45))
+def explanations_of(v, energies, chances, names, most):
+    """A small picture v (height, width), and the energy and chance of each explanation of it.
+
+    The energies' axis holds `most`.
+    """
+    fig, (left, right) = plt.subplots(1, 2, figsize=(6.8, 2.3), layout="none")
+    fig.subplots_adjust(left=0.32, right=0.97, bottom=0.13, top=0.88, wspace=0.75)
+    picture = left.inset_axes((-1.48, 0.2, 0.72, 0.6))
+    picture.pcolormesh(v, vmin=-2.1, vmax=2.1, edgecolor=COLOURS["grey"], cmap="gray")
+    picture.set(title="v", xticks=[], yticks=[], aspect="equal")
+    picture.invert_yaxis()
+    bars = left.barh(names, energies, color=COLOURS["orange"])
+    left.bar_label(bars, fmt="{:z.1f}", padding=2)  # no minus zero
+    left.set(title="energy E(v, h)", xlim=(0, 1.25 * most))
     bars = right.barh(names, chances, color=COLOURS["blue"])
     right.bar_label(bars, fmt="%.2f", padding=2)
-    right.set(title="p(h | v)", xlim=(0, 1.25), yticks=[])
-    for ax in (left, middle, right):
+    right.set(title="p(h | v)", xlim=(0, 1.25))
+    for ax in (left, right):
         ax.invert_yaxis()
     return fig
 
@@ -91,8 +95,19 @@ def _bars():
 
 
 def correlation(patch, dream):
-    """The correlation of the FREE pixels of a patch and its dream (1, 1, 21, 21)."""
-    return float(np.corrcoef(*(np.ravel(x[0, 0, FREE, FREE]) for x in (patch, dream)))[0, 1])
+    """The correlation of a patch and its dream (1, 1, 21, 21), FREE pixels; 0 with an even grey."""
+    middles = [np.ravel(x[0, 0, FREE, FREE]) for x in (patch, dream)]
+    return 0.0 if is_grey(dream) else float(np.corrcoef(*middles)[0, 1])
+
+
+def correlations(patch, dreams):
+    """The `correlation` (n,) of a patch (1, 21, 21) with each of its dreams (n, 1, 21, 21)."""
+    return np.array([correlation(patch[None], dream[None]) for dream in dreams])
+
+
+def is_grey(dream):
+    """Whether the FREE pixels of a dream (1, 1, 21, 21) are one even grey, but for rounding."""
+    return float(np.std(np.asarray(dream)[0, 0, FREE, FREE])) < 1e-6
 
 
 def dream_beside(patch, dream, limit):
@@ -116,12 +131,12 @@ def modulation(hidden, pooled):
 
 def gradients(ks, distances, cosines):
     """How far CD-k is from the true gradient, and the cosine with it, over the rounds k."""
-    fig, ax = plt.subplots(figsize=(4.3, 2.6))
+    fig, ax = panels(size=(4.3, 2.9))
     ax.plot(distances, "o-", label="distance from the true gradient")
     ax.plot(cosines, "s-", label="cosine with it (1: same direction)")
     ax.set_xticks(range(len(ks)), ks)
     ax.set(xlabel="rounds k", ylim=(0, 1.05))
-    ax.legend()
+    legend_above(fig, 0.6, columns=1)
     return fig
 
 

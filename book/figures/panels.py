@@ -5,7 +5,7 @@ import numpy as np
 
 from vmc_lib.arm.model import MUSCLES
 from vmc_lib.show.figures import margins
-from vmc_lib.show.palette import COLOURS
+from vmc_lib.show.palette import COLOURS, css
 from vmc_lib.show.svg_renderer import text_width
 
 # What straightens the elbow is blue; what bends it is orange, or red where it spans no shoulder.
@@ -29,9 +29,9 @@ def panels(columns=1, size=(6.5, 2.7)):
     return fig, *axes[0]
 
 
-def legend_above(fig, room):
-    """A legend in two columns above a figure's plots, which leave it so much room (inches)."""
-    fig.legend(loc="upper center", ncols=2, handlelength=1.2, columnspacing=1)
+def legend_above(fig, room, columns=2):
+    """A legend in columns above a figure's plots, which leave it so much room (inches)."""
+    fig.legend(loc="upper center", ncols=columns, handlelength=1.2, columnspacing=1)
     margins(fig, top=room)
 
 
@@ -40,6 +40,15 @@ def muscle_lines(ax, x, values):
     for name, line in zip(MUSCLES, np.transpose(values), strict=True):
         colour, style = STYLES[name]
         ax.plot(x, line, style, color=COLOURS[colour], label=name)
+
+
+def muscle_key():
+    """The names and lines of `muscle_lines` (HTML), for plots that a phone shows one by one."""
+    dashes = {"-": "", "--": "7 3", ":": "2 3"}
+    line = '<svg viewBox="0 0 27 8" width="27" fill="none"><path d="M0 4H27" style="stroke: {}" '
+    line += 'stroke-width="2" stroke-dasharray="{}"/></svg>\u00a0{} \u2002'
+    items = (line.format(css(c), dashes[kind], name) for name, (c, kind) in STYLES.items())
+    return f'<p class="vmc-strip" style="font-size: .85rem">{"".join(items)}</p>'
 
 
 def curves(ax, x, lines, now):
