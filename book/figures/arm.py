@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from book.figures.panels import muscle_lines, panels
+from book.figures.panels import muscle_key, muscle_lines, panels
 from book.figures.reaching import arrows
 from reproduce.measures import holding, opensim_arm
 from vmc_lib.arm import dynamics
@@ -44,14 +44,12 @@ def moment_arms_and_torques(muscle_torques, joint, other):
     k, turn = list(JOINTS).index(joint), JOINTS[joint]
     q = np.radians(np.full((len(turn), 2), float(other)))
     q[:, k] = np.radians(turn)
-    fig, left, right = panels(2, size=(6.5, 3.4))
+    fig, left, right = panels(2, size=(6.5, 3.1))
     muscle_lines(left, turn, 1000 * dynamics.paths(q)[1][:, k])
     muscle_lines(right, turn, muscle_torques(q)[:, k])
     left.set(title="moment arm (mm)", ylim=(-55, 55), xlabel=f"{joint} (degrees)")
     right.set(title="greatest torque (N m)", ylim=(-45, 45), xlabel=f"{joint} (degrees)")
-    fig.legend(*left.get_legend_handles_labels(), loc="upper center", ncols=6, columnspacing=1)
-    fig.subplots_adjust(top=0.8)
-    return fig
+    return muscle_key(), fig
 
 
 def holding_map(muscle_torques, busiest, load):
