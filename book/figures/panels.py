@@ -46,7 +46,7 @@ def muscle_key():
     """The names and lines of `muscle_lines` (HTML), for plots that a phone shows one by one."""
     dashes = {"-": "", "--": "7 3", ":": "2 3"}
     line = '<svg viewBox="0 0 27 8" width="27" fill="none"><path d="M0 4H27" style="stroke: {}" '
-    line += 'stroke-width="2" stroke-dasharray="{}"/></svg>\u00a0{} \u2002'
+    line += 'stroke-width="2" stroke-dasharray="{}"/></svg>\u202f{} \u2002'
     items = (line.format(css(c), dashes[kind], name) for name, (c, kind) in STYLES.items())
     return f'<p class="vmc-strip" style="font-size: .85rem">{"".join(items)}</p>'
 
