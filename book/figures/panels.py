@@ -44,11 +44,15 @@ def muscle_lines(ax, x, values):
 
 def muscle_key():
     """The names and lines of `muscle_lines` (HTML), for plots that a phone shows one by one."""
-    dashes = {"-": "", "--": "7 3", ":": "2 3"}
-    line = '<svg viewBox="0 0 27 8" width="27" fill="none"><path d="M0 4H27" style="stroke: {}" '
-    line += 'stroke-width="2" stroke-dasharray="{}"/></svg>\u202f{} \u2002'
-    items = (line.format(css(c), dashes[kind], name) for name, (c, kind) in STYLES.items())
-    return f'<p class="vmc-strip" style="font-size: .85rem">{"".join(items)}</p>'
+    dashes, wide = {"-": "", "--": "7 3", ":": "2 3"}, 96
+    items = (
+        f'<svg viewBox="0 0 {wide} 20" width="{wide}" fill="none" font-size="13">'
+        f'<path d="M0 10H25" stroke-width="2" stroke-dasharray="{dashes[kind]}" '
+        f'style="stroke: {css(colour)}"/>'
+        f'<text x="30" y="15" style="fill: {css("ink")}">{name}</text></svg>'
+        for name, (colour, kind) in STYLES.items()
+    )
+    return f'<p class="vmc-strip">{" ".join(items)}</p>'
 
 
 def curves(ax, x, lines, now):
