@@ -105,8 +105,12 @@ def possible_counts(percents, most):
 
 
 def _printed(rng):
-    """Percentages above 50, some of them exact; drawn anew while one could be rounded both ways."""
+    """Percentages above 50, some of them exact or without a false alarm.
+
+    They are drawn anew while one could be rounded both ways.
+    """
     found, alarms = int(rng.integers(20, 50)), rng.integers(1, 20, 2)
+    alarms[0] *= rng.random() < 0.7
     if rng.random() < 0.3:
         found, alarms = 36, rng.choice([4, 9, 12, 14], 2)
     percents, most = (100 * found / (found + alarms)).round(1), found * int(rng.integers(1, 3))
@@ -140,6 +144,9 @@ POSSIBLE_COUNTS = Exercise(
             lambda percents, most: _counts(
                 percents, most, lambda n: np.floor(1000 * _precisions(n)) / 1000, half=1e-9
             )
+        ),
+        "No false alarm at all is a number too: try zero.": lambda percents, most: _counts(
+            percents, most, lambda n: n / (n + np.arange(1, n + 1))
         ),
         "That is a share of the shuttlecocks, as recall is. Precision divides by all that were "
         "*called* one, false alarms among them.": lambda percents, most: _counts(
