@@ -229,7 +229,7 @@ ROWS = (
         "more of the crops right than MP2 of random filters, and "
         "{q[named right on varied tables, MP2 less raw pixels].obtained:.2f} more than raw pixels; "
         "but HOG, made by hand, names more, and where P2 is read instead, how much of what in each "
-        "quarter, random filters name as many "
+        "quarter, no difference from random filters can be shown "
         "({q[the same of P2, less random filters in both layers].obtained:+.2f}). "
         f"The CDBN's are means over {len(NETWORKS)} trainings, on two hundred fresh photos of "
         "the rig. HMAX's are means over 25 draws of its ten prototypes, on the second hundred: the "
