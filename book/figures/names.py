@@ -1,5 +1,6 @@
 """Figures of names: boxes with their probabilities, crops sorted by them, and calibration."""
 
+from collections import Counter
 from itertools import product
 
 import matplotlib.pyplot as plt
@@ -9,11 +10,14 @@ from book.figures.panels import panels
 from book.figures.what import tiles
 from reproduce.experiments.real_world import share_text
 from reproduce.experiments.recognition import PUBLISHED, confusion_counts, rates_of_counts
+from reproduce.training.scenes import SCENES
 from vmc_lib.boxes import decode_deltas, iou
 from vmc_lib.photos import HEIGHT, WIDTH
 from vmc_lib.show import Estimate, dot_plot, estimate, photo_view, table
 from vmc_lib.show.palette import COLOURS
 from vmc_lib.statistics import wilson
+
+PICTURE = [WIDTH, HEIGHT, WIDTH, HEIGHT]
 
 
 def shares(draws, *names):
@@ -33,9 +37,24 @@ def boxes_beside(photo, recogniser, shifts, scales):
     places = list(product(photo.boxes, shifts, scales))
     true = np.array([photo.boxes[thing] for thing, *_ in places])
     deltas = [(shift, 0, np.log(scale), np.log(scale)) for _, shift, scale in places]
-    boxes = decode_deltas(true, np.array(deltas)).clip(0, [WIDTH, HEIGHT, WIDTH, HEIGHT])
+    boxes = decode_deltas(true, np.array(deltas)).clip(0, PICTURE)
     chances = recogniser.box_probability(photo.image, boxes)
     return dict(zip(places, zip(boxes, chances, strict=True), strict=True))
+
+
+def steps_to_loss(shots, recogniser, steps):
+    """Step, in widths, at which a box slid off a shuttlecock loses the name -> how many boxes.
+
+    One slides to the left and one to the right in each photo; None where it keeps the name.
+    """
+    lost = Counter()
+    for shot, side in product(shots, (-1, 1)):
+        deltas = np.array([(side * step, 0, 0, 0) for step in steps])
+        true = np.tile(shot.boxes["shuttlecock"], (len(steps), 1))
+        boxes = decode_deltas(true, deltas).clip(0, PICTURE)
+        unnamed = recogniser.box_probability(shot.image, boxes) <= 0.5
+        lost[steps[unnamed.argmax()] if unnamed.any() else None] += 1
+    return dict(sorted(lost.items(), key=lambda pair: pair[0] or np.inf))
 
 
 def named_box(image, box, chance):
@@ -85,8 +104,14 @@ def ablation_table(without, asked):
 
 
 def scene_table(counts, of):
-    """Of `of` pasted scenes of each kind, what was right, tight and a false alarm: a table."""
-    rows = [[name, *(share_text(count, of) for count in three)] for name, three in counts.items()]
+    """Of `of` pasted scenes of each kind, what was right, tight and a false alarm: a table.
+
+    A scene without a shuttlecock has a dash for what is right and tight.
+    """
+    rows = []
+    for name, three in counts.items():
+        *found, alarms = (share_text(count, of) for count in three)
+        rows.append([name, *(found if SCENES[name][0] else ("–", "–")), alarms])
     return table(["scene", "right (IoU above 0.5)", "tight (0.8)", "false alarms"], rows)
 
 
@@ -154,5 +179,4 @@ def reliability(chances, truth, bins=5):
         ax.annotate(f"{here.sum()}", point, (7, -4), textcoords="offset points")
     ax.set(xlabel="probability given", ylabel="share that came true")
     ax.set(xlim=(-0.05, 1.12), ylim=(-0.05, 1.08))
-    ax.set(title=f"mean squared error {np.square(chances - truth).mean():.3f}")
     return fig
