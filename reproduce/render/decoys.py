@@ -185,5 +185,5 @@ TRAINING_KINDS = (
     partial(pleated_wall, height=0.05, narrow=0.015, wide=0.035), shoe_sole, pen,
 )  # fmt: skip
 # Of decoys that validate and test, not train. Balls still lie about in renders that train
-# (`objects.CLUTTER`), and of photographs that train two show light bulbs.
+# (`objects.CLUTTER`), and photographs that train show wheels, a lamp and light bulbs.
 HELD_OUT_KINDS = lamp, wheel, light_bulb, ball
