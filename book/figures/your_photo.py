@@ -33,13 +33,14 @@ SLANT, NEAREST = np.pi / 4, 0.5  # of a camera that is guessed: from the horizon
 HIGH = 0.025  # m above the table: about the middle of a shuttlecock
 FINDINGS = {
     "camera": "camera",
-    "candidates": "candidates",
-    "kept": "kept",
+    "candidates": "looked at",
+    "kept": "may hold a thing",
     "followed": "followed",
     "place": "place",
     "planned": "planned miss",
-    "calibrated": "calibrated miss",
+    "calibrated": "corrected miss",
 }
+LIVE = "followed"  # told while the reader's camera runs
 
 
 def your_photo(example):
@@ -125,7 +126,7 @@ def _page(example, scene, plot):
     photo = b64encode(example.file.read_bytes()).decode()  # its very pixels
     size = (live.MUJOCO.stat().st_size + len(brain.script())) / 1e6
     findings = "".join(
-        f'<div><dt>{label}</dt><dd data-tell="{name}">–</dd></div>'
+        f'<div{" hidden" * (name == LIVE)}><dt>{label}</dt><dd data-tell="{name}">–</dd></div>'
         for name, label in FINDINGS.items()
     )
     return f"""<div class="vmc-eye" id="{NAME}"><form class="vmc-live-form" autocomplete="off">
@@ -156,13 +157,10 @@ def _scene():
 
 
 def _above():
-    """From above: the sheet, the trunk's axis, and, shaded, where the hand can be."""
+    """From above: the trunk's axis, and, shaded, where the hand can be; the page adds the sheet."""
     fig, ax = plt.subplots(figsize=(2.5, 2.5))
     ax.fill(*shore(TABLE + HIGH), color=COLOURS["green"], alpha=0.15, lw=0)
-    x, _, z = marker_sheet.page_corners().T
-    ax.fill(z, x, color=COLOURS["grey"], alpha=0.25, lw=0)
     ax.plot(*TRUNK[::-1], "s", color=COLOURS["purple"])
-    ax.annotate("sheet", (z.mean(), x.mean()), ha="center")
     ax.annotate("trunk", TRUNK[::-1] - 0.03, ha="right", va="top")
     ax.set(xlim=(-0.35, 0.4), ylim=(-0.25, 0.5), aspect="equal", title="from above")
     ax.set_axis_off()

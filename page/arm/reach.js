@@ -1,11 +1,18 @@
 /* The reach: the reader sets a target; the page plans, moves, misses, calibrates. */
 import { addHandle } from "../demo/handle.js";
-import { distance, mean, sum } from "../vectors.js";
+import { clip, distance, mean, sum } from "../vectors.js";
 import * as calibrations from "./calibration.js";
 import { frame, Live, millimetres, OFTEN, signed } from "./live.js";
 import * as planning from "./planning.js";
 import { load } from "./templates.js";
 
+/* How far [up, aside] of a point its words stand: beyond it as seen from the target, within the plot's frame. */
+const beyond = ({ svg, measure: { place, left, right, bottom, top } }, target, point, words) => {
+  const { width, height } = svg.viewBox.baseVal, [[x0, y0], [x, y]] = [target, point].map(place);
+  const far = Math.hypot(x - x0, y - y0) || 1, half = 3 * words.length + 2;
+  const aside = clip(x + ((10 + half) * (x - x0)) / far, left * width + half, right * width - half) - x;
+  return [y - clip(y + (14 * (y - y0)) / far + 4, top * height + 11, bottom * height - 4), aside];
+};
 const pace = ({ speed }) => `${millimetres(speed)}/s`;
 
 /* A reach that is planned: played, missed, calibrated. */
@@ -83,7 +90,7 @@ export class Reach extends Live {
     if (!this.planned || !this.arm) await this.begin();
     if (!this.planned) return;
     const turn = (this.turn = {});
-    this.say("Trying off-line …");
+    this.say("Correcting by trial …");
     const trials = [];
     const rule = calibrations[this.rule];
     for (const trial of rule(this.plan, (w) => this.hold(w), this.given.calibration)) {
@@ -175,8 +182,8 @@ export class Aimed extends Reach {
     const shown = (calibrated ?? planned)?.weights ?? plan?.weights;
     const width = (i) => 8 * Math.abs(shown[i]);
     const threads = plan?.points.map((p, i) => ["line", "blue", [target, p], width(i)]);
-    const above = (p) => (p[1] >= target[1] ? 7 : -14); // away from its thread
-    const weights = target.length > 2 ? [] : plan?.points.map((p, i) => ["words", "ink", p, signed(shown[i], 2), above(p)]);
+    const label = (p, words) => ["words", "ink", p, words, beyond(this.drawing.plots[0], target, p, words)];
+    const weights = target.length > 2 ? [] : plan?.points.map((p, i) => label(p, signed(shown[i], 2)));
     const ends = [[planned, "red"], [calibrated, "purple"]].filter(([trial]) => trial);
     this.drawing.marks = [
       ...(threads ?? []),

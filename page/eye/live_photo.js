@@ -15,7 +15,7 @@ import { YourPhoto } from "./your_photo.js";
 const STILL = 700; // ms in one place, after which the arm reaches
 const NEAR = 0.01, MOVED = 0.02; // m: what is still one place, and what is another
 const CAMERA = { video: { facingMode: "environment", width: { ideal: 1200 }, height: { ideal: 800 } } };
-const REFUSED = { NotAllowedError: "that was not allowed", NotFoundError: "there is none" };
+const REFUSED = { NotAllowedError: "The camera was not allowed", NotFoundError: "No camera was found" };
 
 /* A function that promises a picture of what a video shows. Its pixels are copied, where the browser can: of each
    frame that is drawn Chromium keeps a copy of its own, up to 512 MB. */
@@ -44,6 +44,11 @@ class LivePhoto extends YourPhoto {
     document.addEventListener("visibilitychange", () => document.hidden && this.stopFilm(), { signal });
   }
 
+  /* Where stands how many frames a second are followed. */
+  get pace() {
+    return this.box.querySelector("[data-tell=followed]").parentElement;
+  }
+
   look(picture) {
     this.stopFilm();
     return super.look(picture);
@@ -66,13 +71,14 @@ class LivePhoto extends YourPhoto {
       this.turn = {}; // what a photo led to, ends
       this.forget();
       live.textContent = "Stop";
+      this.pace.hidden = false;
       this.say("Opening the eye …");
       this.brain = await unpack();
       await this.followFilm(Object.assign(video, { width: video.videoWidth, height: video.videoHeight }), film);
     } catch (error) {
       if (this.request !== request) return;
       this.stopFilm();
-      this.say(`The camera does not serve: ${REFUSED[error.name] ?? error.message}. A photo will do.`);
+      this.say(`${REFUSED[error.name] ?? `The camera stopped: ${error.message}`}. A photo will do.`);
     }
   }
 
@@ -80,6 +86,7 @@ class LivePhoto extends YourPhoto {
     this.film?.getTracks().forEach((track) => track.stop());
     this.film = this.request = null;
     this.form.elements.live.textContent = "Live";
+    this.pace.hidden = true;
   }
 
   /* Frame after frame, until the film stops. */

@@ -5,7 +5,7 @@ import * as planning from "../arm/planning.js";
 import { Reach } from "../arm/reach.js";
 import { load } from "../arm/templates.js";
 import { saveWithLine } from "../canvas.js";
-import { minus } from "../vectors.js";
+import { mean, minus } from "../vectors.js";
 import { ArmInPhoto } from "./arm_in_photo.js";
 import { project } from "./camera.js";
 import { PhotoMarks } from "./photo_marks.js";
@@ -21,6 +21,8 @@ export class PhotoReach extends Reach {
     this.photo = new PhotoMarks(box.querySelector("svg:has(image)"), this.given);
     this.armInPhoto = new ArmInPhoto(this.drawing.view, EYE, this.photo.context);
     this.form.elements.keep.addEventListener("click", () => this.keep());
+    this.bearing = 0;
+    this.rest();
   }
 
   get guesses() {
@@ -59,7 +61,7 @@ export class PhotoReach extends Reach {
     const place = this.guesses
       ? words.guessed(given.guess, camera, brain.selector)
       : words.placed(given.placeAccuracy, camera);
-    this.say(words.reached(calibrated.error, planned.error) + place + this.doubt);
+    this.say(words.reached(calibrated.error, planned.error, this.guesses) + place + this.doubt);
     keep.disabled = !this.drawing.view.body; // without WebGL
   }
 
@@ -80,6 +82,13 @@ export class PhotoReach extends Reach {
     this.show({ q: start, activation: rest });
   }
 
+  /* The sheet from above, for the example that is shown first, and wherever one is seen. */
+  get sheetMarks() {
+    const { read, photo, given } = this, { page } = given.sheet;
+    if (photo.photo && (!read || words.isBare(read))) return [];
+    return [["line", "grey", [...page, page[0]], 1.5], ["words", "ink", mean(page), "sheet", -4]];
+  }
+
   /* The line of sight, the place and the hand's way: from above, in the scene, and on the photo. */
   mark(path) {
     const { camera, place, planned, calibrated } = this, way = path.map((point) => this.world(point));
@@ -87,6 +96,7 @@ export class PhotoReach extends Reach {
     const reached = ends.filter(([end]) => end);
     this.drawing.balls = [place, ...ends.map(([end]) => end)];
     this.drawing.marks = [
+      ...this.sheetMarks,
       ...(camera ? [["dot", "blue", camera.position, 4]] : []),
       ...(place ? [["line", "blue", [camera.position, place], 1.5], ["ring", "green", place, 6]] : []),
       ["line", "orange", way, 2],

@@ -1,6 +1,6 @@
 /* What the page says of a photo: what was found in it, what the arm needs, how well it reached. */
 import { millimetres } from "../arm/live.js";
-import { distance } from "../vectors.js";
+import { distance, dot, minus } from "../vectors.js";
 import { hasRightSize } from "./box_selection.js";
 import { physicalSize } from "./camera.js";
 import { counted } from "./see.js";
@@ -47,19 +47,25 @@ export const next = ({ box, boxes }, count, read, sheet) => {
 };
 
 /* How far a hand ended from the place that it reached for. */
-export const reached = (calibrated, planned) =>
-  `After trying off-line the hand misses the place seen by ${millimetres(calibrated, 1)}; it began from ${millimetres(planned, 1)}. `;
+export const reached = (calibrated, planned, guesses) =>
+  `Corrected by trial, the hand misses the place ${guesses ? "guessed" : "seen"} by ${millimetres(calibrated, 1)}; ` +
+  `it began from ${millimetres(planned, 1)}. `;
 
 /* How far off places are that a sheet tells: in half of the photos, in nine of ten. */
 export const placed = ([half, most], camera) =>
   `In half of our test photos that place is right to ${millimetres(half)}, in nine of ten to ${millimetres(most)}.${upsideDown(camera)}`;
 
-/* What a place is that no sheet tells, and how far off its distance may be: shuttlecocks differ in size. */
-export const guessed = ({ slant, size, place }, { position }, { sizes: [least, most] }) => {
-  const away = distance(position, place), share = (most - least) / (most + least);
-  return `No sheet is seen, so the place is a guess: a phone’s usual lens, held at ${((180 * slant) / Math.PI).toFixed(0)}°, ` +
-    `and a shuttlecock ${(100 * size).toFixed(0)} cm large, within reach. Then it is ${(100 * away).toFixed(0)} cm from the camera, ` +
-    `± ${(100 * share).toFixed(0)} %, as shuttlecocks differ in size. With the sheet the place is measured.`;
+/* What a place is that no sheet tells, and how far off its distance may be: shuttlecocks differ in size. Where a usual
+   lens would see it nearer than is likely, the camera was taken away from it (camera.js). */
+export const guessed = ({ slant, size, place, nearest }, { position, rotation }, { sizes: [least, most] }) => {
+  const cm = (metres) => `${(100 * metres).toFixed(0)} cm`, share = (most - least) / (most + least);
+  const isPart = dot(rotation[2], minus(place, position)) < nearest + 1e-6, held = `${((180 * slant) / Math.PI).toFixed(0)}°`;
+  const camera = isPart
+    ? `By a phone’s usual lens a shuttlecock of ${cm(size)} would be nearer than ${cm(nearest)}. ` +
+      `So this is taken as a part of a photo from ${cm(nearest)} away, held at ${held}.`
+    : `By a phone’s usual lens, held at ${held}, a shuttlecock of ${cm(size)} is ${cm(distance(position, place))} from the camera, ` +
+      `± ${(100 * share).toFixed(0)} %, as shuttlecocks differ in size.`;
+  return `No sheet is seen, so the place is a guess, the same for every photo without one. ${camera} With the sheet it is measured.`;
 };
 
 /* What a picture is that a reader keeps. */

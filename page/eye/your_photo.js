@@ -140,7 +140,7 @@ export class YourPhoto extends PhotoReach {
     this.photo.drawBoxes(this.marks);
     const button = ({ words, colour }, i) =>
       `<button type="button" data-box="${i}" aria-pressed="false" class="vmc-${colour}">${words}</button>`;
-    const asks = boxes.length ? "How surely a shuttlecock?" : "Boxes that were kept:";
+    const asks = boxes.length ? "How surely a shuttlecock?" : "Boxes that may hold a thing:";
     const reaches = this.camera || (this.guesses && boxes.length) ? " Press one, and the arm reaches for it:" : "";
     choice.innerHTML = `${asks}${reaches} ${this.marks.map(button).join("")}`;
     choice.hidden = !this.boxes.length;

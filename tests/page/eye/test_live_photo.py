@@ -45,7 +45,7 @@ HELD = """() => {
   };
 }"""
 RESTING_ELSEWHERE = """(first) =>
-  document.querySelector("[role=status]").textContent.startsWith("After trying")
+  document.querySelector("[role=status]").textContent.startsWith("Corrected by trial")
   && document.querySelector("[data-tell=place]").textContent !== first"""
 BLANK = np.full_like(OURS.image, 128)
 FAKE = "--use-fake-device-for-media-stream --use-fake-ui-for-media-stream".split()
@@ -92,7 +92,7 @@ def test_the_arm_reaches_again_for_what_has_been_moved(window, site, html):
     show_in_film(page, BLANK)
     status(page, NEED)
     show_in_film(page, OURS.image)
-    status(page, "After trying")
+    status(page, "Corrected by trial")
     first = readout(page, "place")
     assert re.fullmatch(r"\d+ frames/s", readout(page, "followed"))
     for step in range(1, 9):
@@ -100,7 +100,7 @@ def test_the_arm_reaches_again_for_what_has_been_moved(window, site, html):
     page.wait_for_function(RESTING_ELSEWHERE, arg=first)
     page.get_by_role("button", name="Stop").click()
     page.get_by_role("button", name="Example").click()
-    status(page, "After trying")
+    status(page, "Corrected by trial")
     assert readout(page, "place") == first
     assert page.errors == []
 
@@ -128,7 +128,7 @@ def test_a_film_that_is_left_or_cut_leaves_the_page_to_photos(window, site, html
     show_in_film(page, BLANK)
     status(page, NEED)
     page.evaluate("film.getTracks().forEach((track) => track.stop())")
-    assert "unplugged" in status(page, "The camera does not serve")
+    assert "unplugged" in status(page, "The camera stopped")
     assert page.errors == []
 
 
@@ -169,7 +169,7 @@ def test_it_takes_what_the_browsers_camera_shows(chromium, site, html, tmp_path)
     context.add_init_script(DRAWN)
     page = pages.open_html(context, site, html)
     page.get_by_role("button", name="Live").click()
-    assert "misses the place seen by" in status(page, "After trying")
+    assert "misses the place seen by" in status(page, "Corrected by trial")
     assert page.evaluate("drawn") == 0
     assert page.errors == []
     films.close()
@@ -178,7 +178,8 @@ def test_it_takes_what_the_browsers_camera_shows(chromium, site, html, tmp_path)
 def test_without_a_camera_a_photo_will_do(open_page, html):
     page = open_page(html)
     page.get_by_role("button", name="Live").click()
-    assert "A photo will do." in status(page, "The camera does not serve")
+    status(page, "No camera was found. A photo will do.")
+    expect(page.locator("[data-tell=followed]")).to_be_hidden()
 
 
 def test_where_a_page_may_ask_no_camera_there_is_no_button(window, site, html):
