@@ -4,15 +4,26 @@ import { millimetres, signed } from "./live.js";
 import { Aimed } from "./reach.js";
 
 export class ByHand extends Aimed {
+  constructor(box) {
+    super(box);
+    const { plan } = this.form.elements;
+    plan.addEventListener("click", () => {
+      this.aim(plan);
+      this.begin();
+    });
+  }
+
   get hands() {
     return [...this.controls.querySelectorAll("[name^=weight-]")];
   }
 
-  /* The habitual plan, or the same with the weights as the reader has `moved` them; another rule keeps these. */
+  /* The habitual plan, or the same with the weights as the reader has `moved` them; another rule keeps these, the plan's
+     own weights the tries alone. */
   propose(moved) {
     const plan = super.propose();
     if (this.hands.includes(moved)) this.own = this.hands.map((slider) => +slider.value);
-    else if (moved?.name !== "rule") Object.assign(this, { own: null, tries: [] });
+    else if (moved?.name === "plan") this.own = null;
+    else if (moved?.name !== "rule") Object.assign(this, { own: null, habit: null, tries: [] });
     plan.weights = this.own ?? plan.weights;
     this.showWeights(plan.weights);
     return plan;
@@ -31,22 +42,26 @@ export class ByHand extends Aimed {
     this.showWeights(trial.weights);
   }
 
-  /* Also where the weights put the mixture of the four places, Eq. 4, and all tries so far. */
+  /* Also where the weights put the mixture of the four places, Eq. 4, and where the plan and all tries so far ended. */
   mark(path) {
     super.mark(path);
     if (!this.plan) return;
     const { points, weights } = this.plan;
     this.drawing.marks.push(
       ["dot", "blue", points.map((point, i) => times(weights[i], point)).reduce(plus), 3],
-      ...this.tries.map((place) => ["ring", "grey", place.reached, 2]));
+      ...[this.habit, ...this.tries].filter(Boolean).map((place) => ["ring", "grey", place.reached, 2]));
   }
 
   sayMiss() {
-    const { tries, planned } = this;
+    const { own, tries, planned } = this;
+    if (!own) {
+      this.habit = planned;
+      return super.sayMiss(" Move a weight, and let go.");
+    }
     if (`${tries.at(-1)?.weights}` !== `${planned.weights}`) tries.push(planned); // another rule is no try
-    if (tries.length === 1) return super.sayMiss(" Move a weight, and let go.");
-    const best = Math.min(...tries.map(({ error }) => error));
-    this.tell({ tries: `${tries.length - 1}` });
-    this.say(`It misses by ${millimetres(planned.error, 1)}; your best of ${tries.length - 1}: ${millimetres(best, 1)}.`);
+    const best = Math.min(...tries.map(({ error }) => error)), { habit } = this;
+    this.tell({ tries: `${tries.length}` });
+    this.say(`It misses by ${millimetres(planned.error, 1)}; your best of ${tries.length}: ${millimetres(best, 1)}` +
+      `${habit ? ` (the plan: ${millimetres(habit.error, 1)})` : ""}.`);
   }
 }

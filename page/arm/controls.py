@@ -36,24 +36,26 @@ def reach_form(name, target, mode):
     shown, folded = "".join(target_sliders(name, zone, target)), plans()
     if mode == "weights":  # the target is dragged, or set behind the fold
         shown, folded = _weights(name), shown
-    folded += radios("rule", "calibration", rules, "algorithm1", {})
+    rule = "broydenCalibration" if mode == "templates" else "algorithm1"  # a kept reach then hits
+    folded += radios("rule", "calibration", rules, rule, {})
     controls = shown + fold(f"<div>{folded}</div>")
     tells = {"planned": "planned miss", "tries": "tries", "calibrated": "calibrated miss"}
     tells |= {"speed": "speed in the hold"}
+    buttons = {"calibrate": "Calibrate"}
     if mode == "weights":
         tells |= {"planned": "miss before calibration", "sum": "sum of the weights"}
-    buttons = {"calibrate": "Calibrate"}
+        buttons |= {"plan": "Plan's weights"}
     if mode == "templates":
         controls += _templates()
-        buttons |= {"keep": "Keep as a template", "all": "All templates back"}
+        buttons |= {"keep": "Keep as a template", "all": "First templates again"}
     return form("Target and rules", buttons, controls, tells)
 
 
 def _templates():
     """A box to tick for each template, folded: its dot on the plot does the same."""
-    places = (np.round(templates.load().points, 2) + 0.0).tolist()  # no −0
+    places = (np.round(templates.load().points, 3) + 0.0).tolist()  # no −0
     boxes = "".join(
-        f'<label><input type="checkbox" name="template" checked> {x:.2f}, {y:.2f}</label>'
+        f'<label><input type="checkbox" name="template" checked> {x:.3f}, {y:.3f}</label>'
         for x, y in places
     ).replace("-", "−")
     return (

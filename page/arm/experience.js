@@ -11,6 +11,7 @@ export class Experience extends Aimed {
     const { keep, all } = this.form.elements;
     keep.addEventListener("click", () => this.keep());
     all.addEventListener("click", () => {
+      this.forgetAdded();
       for (const one of this.boxes) one.checked = true;
       this.again();
     });
@@ -72,10 +73,21 @@ export class Experience extends Aimed {
     const { weights, reached } = calibrated ?? planned;
     templateSet.add(reached, templateSet.excitations({ ...plan, weights }));
     const label = this.boxes.at(-1).parentElement.cloneNode(true);
-    label.lastChild.textContent = ` ${reached.map((x) => signed(x, 3)).join(", ")}`;
+    const place = reached.map((x) => signed(x, 3)).join(", ");
+    label.lastChild.textContent = ` ${place}`;
     this.boxes.at(-1).parentElement.after(label);
     this.boxes.at(-1).checked = true;
+    this.news = ` Kept: template ${this.boxes.length}, at ${place}.`;
     this.again();
+    this.say(this.news.trim()); // and after the reach once more
+  }
+
+  /* The templates are again those that the book has. */
+  forgetAdded() {
+    const { points } = this.given.templateSet;
+    for (const one of this.boxes.slice(points.length)) one.parentElement.remove();
+    this.templateSet?.shorten(points.length);
+    this.news = "";
   }
 
   again() {
@@ -95,9 +107,9 @@ export class Experience extends Aimed {
   }
 
   sayMiss() {
-    const all = this.boxes.length, { stays } = this;
-    this.stays = null;
+    const all = this.boxes.length, { stays, news } = this;
+    Object.assign(this, { stays: null, news: "" });
     if (stays) this.say(stays);
-    else super.sayMiss(` ${all - this.without.size} of ${all} templates left.`);
+    else super.sayMiss(`${news ?? ""} ${all - this.without.size} of ${all} templates in use.`);
   }
 }

@@ -23,6 +23,11 @@ class TemplateSet {
     this.points.push(point);
   }
 
+  /* The first so many alone. */
+  shorten(length) {
+    this.points.length = this.commands.length = length;
+  }
+
   /* Eq. 3: Σ w_i u_i(t), held to [0, 1]. */
   excitations({ chosen, weights }) {
     const mixed = chosen.map((n) => (this.commands[n] ??= this.expand(n)));

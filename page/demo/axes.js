@@ -36,8 +36,8 @@ export const axesOf = (svg) => {
     },
 
     /* Markup of a mark in a named colour: a "line" or an "arrow" through points of some width, an "area"
-       within points, a "ring" or a "dot" of some radius, or "words" so far above a point. A line with a
-       name is a curve, which can be heard. */
+       within points, a "ring" or a "dot" of some radius, or "words" so far above a point, and
+       [up, aside] of it where both are given. A line with a name is a curve, which can be heard. */
     mark: (kind, colour, points, size, above, name) => {
       const paint = `var(--vmc-${colour})`;
       if (kind === "line" || kind === "arrow")
@@ -46,8 +46,8 @@ export const axesOf = (svg) => {
       if (kind === "area") return `<polygon points="${points.map(put).join(" ")}" fill="${paint}"/>`;
       const [x, y] = put(points);
       if (kind === "words") { // whole, at the picture's edge too
-        const half = 3 * size.length;
-        return `<text x="${clip(x, half, width - half)}" y="${y - above}" fill="${paint}" font-size="10"
+        const half = 3 * size.length, [up, aside = 0] = [above].flat();
+        return `<text x="${clip(+x + aside, half, width - half)}" y="${y - up}" fill="${paint}" font-size="10"
           text-anchor="middle">${size}</text>`;
       }
       const look = kind === "ring" ? `fill="none" stroke-width="2" stroke` : "fill";

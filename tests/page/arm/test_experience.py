@@ -5,9 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from page.arm.live import TRIALS
 from tests.page.arm.controls import TARGET, number, readout, set_target, status
 from tests.pages import drag, middle
-from vmc_lib.cerebellum.offline import algorithm_1
+from vmc_lib.cerebellum.offline import broyden_calibration
 from vmc_lib.motor import templates
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import is_surrounded, plan, surrounding
@@ -82,7 +83,7 @@ def place(arm, row):
 
 def said(arm, movement, left):
     miss = f"The planned reach misses by {1000 * movement.error:.1f} mm"
-    assert f"{left} of 19 templates left" in status(arm, f"{miss}.*{left} of 19")
+    assert f"{left} of 19 templates in use" in status(arm, f"{miss}.*{left} of 19")
     assert readout(arm, "planned") == f"{1000 * movement.error:.1f} mm"
 
 
@@ -102,7 +103,7 @@ def test_a_click_on_a_dot_takes_it_away_and_another_puts_it_back(arm):
     box.focus()
     arm.page.keyboard.press("Space")
     said(arm, execute(fewer), 18)
-    arm.get_by_role("button", name="All templates back").click()
+    arm.get_by_role("button", name="First templates again").click()
     said(arm, execute(plan(TARGET, templates.load())), 19)
     x, y = middle(arm.locator(".vmc-handle"))
     drag(arm.page, (x, y), *np.subtract(place(arm, near), (x, y)))  # onto the dot, which stays
@@ -123,17 +124,25 @@ def test_the_last_template_of_a_quadrant_stays(arm):
 def test_a_calibrated_reach_becomes_a_template(arm):
     own, label = templates.load(), "target, forward"
     arm.get_by_role("button", name="Calibrate").click()
-    status(arm, "After 21 tries")
+    status(arm, f"After {TRIALS} tries")  # by Broyden's rule
     arm.get_by_role("button", name="Keep as a template").click()
-    trials = algorithm_1(plan(TARGET, own))
+    trials = broyden_calibration(plan(TARGET, own), TRIALS)
     best = plan(TARGET, own).with_weights(trials.weights[trials.error.argmin()])
     more = with_one_more(own, best)
     after = execute(plan(TARGET, more))
-    assert "20 of 20" in status(arm, f"The planned reach misses by {1000 * after.error:.1f} mm")
-    assert after.error < 0.005
+    said = status(arm, f"The planned reach misses by {1000 * after.error:.1f} mm")
+    place = ", ".join(f"{x:.3f}".replace("-", "−") for x in more.points[-1])
+    assert said.endswith(f"Kept: template 20, at {place}. 20 of 20 templates in use.")
+    assert after.error < 0.0025
+    labels = arm.locator("label:has([name=template])").all_text_contents()
+    assert {len(x.split(".")[-1]) for label in labels for x in label.split(",")} == {3}
     arm.get_by_label(label).fill("0.1")
     elsewhere = execute(plan([0.1, -0.37], more))
     status(arm, f"The planned reach misses by {1000 * elsewhere.error:.1f} mm")
+    arm.get_by_role("button", name="First templates again").click()
+    before = execute(plan([0.1, -0.37], own))
+    assert "19 of 19" in status(arm, f"The planned reach misses by {1000 * before.error:.1f} mm")
+    assert arm.locator("[name=template]").count() == 19
 
 
 @pytest.mark.audit

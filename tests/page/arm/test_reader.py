@@ -191,12 +191,16 @@ def test_a_first_reach_is_there_and_its_miss_is_enlarged(open_arms, ask):
 def test_weights_are_set_by_hand(open_arms, window):
     arm = open_arms(window(reduced_motion="reduce")).by_hand
     habit = plan([0.09, -0.37], templates.load())
-    for tries, weight in enumerate(("0.3", "0.45"), start=1):
+    plans = f"(the plan: {1000 * execute(habit).error:.1f} mm)"
+    made = []
+    for tries, weight in enumerate(("0.6", "0.7"), start=1):
         arm.get_by_label("weight, upper right").fill(weight)
         weights = [number(text) for text in arm.locator("fieldset output").all_inner_texts()[:4]]
         said = status(arm, f"It misses by .* of {tries}")
         miss = execute(replace(habit, weights=np.array(weights))).error
-        assert f"It misses by {1000 * miss:.1f} mm" in said
+        made.append(1000 * miss)
+        assert f"It misses by {made[-1]:.1f} mm" in said
+        assert f"of {tries}: {min(made):.1f} mm {plans}" in said  # all are worse than the plan
     assert arm.locator("svg g circle[stroke='var(--vmc-grey)']").count() == 4  # 2, twice
     assert number(readout(arm, "sum")) == pytest.approx(sum(weights), abs=2e-3)
     arm.get_by_text("more", exact=True).click()
@@ -205,6 +209,10 @@ def test_weights_are_set_by_hand(open_arms, window):
     arm.locator("[name=calibrate]").click()
     assert f"it began from {1000 * miss:.1f} mm" in status(arm, f"After {live.TRIALS} tries")
     assert number(readout(arm, "sum")) == pytest.approx(sum(weights), abs=2e-3)
+    arm.get_by_role("button", name="Plan's weights").click()
+    assert f"{1000 * execute(habit).error:.1f} mm" in status(arm, "The planned reach")
+    shown = [number(text) for text in arm.locator("fieldset output").all_inner_texts()[:4]]
+    assert np.allclose(shown, habit.weights, atol=6e-4)
     set_target(arm, (0.1, -0.38))
     assert "planned" in status(arm, "The planned reach")
 
