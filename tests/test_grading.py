@@ -49,7 +49,14 @@ def test_no_fault_explains_one_number_or_another_fault():
         (lambda right: right + 1e-5, "Nearly: it differs by 1e-05 at most."),
         (lambda right: str(right), "It returns a text, not numbers."),
         (lambda right: right.sum, "It returns a function, not numbers."),
-        (lambda right: [right, right], "It returns numbers, shape (2,) for ()."),
+        (
+            lambda right: [right, right],
+            "It returns a list of 2 numbers; one plain number is asked for.",
+        ),
+        (
+            lambda right: [2.3 * right + 1],
+            "It returns a list of 1 number; one plain number is asked for.",
+        ),
         (lambda right: right * np.nan, "It is *nan*, not a number: a division of zero by zero?"),
         (lambda right: right if right < 1 else None, "Here it returns nothing"),
         (lambda right: min(right, 0.1), "Right in "),

@@ -77,6 +77,9 @@ def difference(answer, right):
     if (got := numbers(answer)) is None:
         return "What it returns cannot be read as numbers, in rows of equal length."
     right = np.asarray(right, float)
+    if got.ndim and not right.ndim:
+        many = f"{got.size} number{'s' * (got.size != 1)}"
+        return f"It returns a list of {many}; one plain number is asked for."
     if got.shape != right.shape:
         alike = got.size == right.size and np.allclose(got.ravel(), right.ravel())
         what = "The right numbers" if alike else "It returns numbers" if got.ndim else "One number"

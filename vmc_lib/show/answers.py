@@ -26,7 +26,9 @@ RULES = {
         (r"^\s+|[\s.,;!]+$", ""),
     ],
     "gaps": [r";\s*|,?\s+(?=[-+.,0-9])", r"[;,]\s*|\s+(?=[-+.,0-9])"],  # in "0,5 0,8", in "190,95"
-    "number": rf"({_NUMBER})(?:/({_NUMBER}))?\s*([^\s0-9.,;:^+-](?:\S|\s(?![0-9]))*)?",
+    # No digit in a unit but its power's: "20/tan(60)" is a formula
+    "number": rf"({_NUMBER})(?:/({_NUMBER}))?\s*"
+    r"([^\s0-9.,;:^+-](?:[^\s0-9]|\^-?[0-9]+|\s(?![0-9]))*)?",
 }
 _QUANTITIES = (
     {
