@@ -247,6 +247,30 @@ FILL = """() => { for (let text = "x".repeat(2 ** 20), n = 0; text; n++)
   try { localStorage[n] = text } catch { text = text.slice(0, text.length / 2) } }"""
 
 
+def test_a_long_question_ends_in_an_ellipsis_and_an_answer_stands_out(chapter):
+    """And one line of code keeps its indentation; the buttons look as others do."""
+    chapter.locator("legend").first.evaluate("(it) => (it.textContent = 'Why? '.repeat(100))")
+    chapter.check("input[value=one]")
+    chapter.wait_for_function("() => localStorage.vmcRecord")
+    chapter.locator("form:not([data-check])").evaluate(
+        "(form, detail) => form.dispatchEvent("
+        "new CustomEvent('vmc-graded', { bubbles: true, detail }))",
+        {"said": "✗ Not yet.", "lines": "    return -1"},
+    )
+    record = chapter.locator(".vmc-record")
+    record.locator("summary").click()
+    expect(record.locator("li")).to_have_count(2)
+    first, code = record.locator("li").all()
+    expect(first).to_contain_text(re.compile(r"Why\?… → one ✗"))
+    expect(first.locator("strong")).to_have_text("one")
+    assert code.locator("pre").evaluate("(it) => it.textContent") == "    return -1"
+    check, save = (
+        chapter.locator(f"{where} button").first.evaluate("(it) => getComputedStyle(it).borderTop")
+        for where in (".vmc-check:not(.vmc-record *)", ".vmc-record")
+    )
+    assert save == check
+
+
 def test_where_the_browser_keeps_no_more_it_is_said_and_the_file_has_the_answers(chapter):
     chapter.evaluate(FILL)
     chapter.check("input[value=one]")

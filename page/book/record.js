@@ -4,6 +4,7 @@ import { memory } from "../demo/questions.js";
 import { setEquations } from "./equations.js";
 
 const KEY = "vmcRecord", MOST = 2000, LONGEST = 4000, LARGEST = 1e6; // answers, signs of one, and of all: the browser keeps five million
+const ASKED = 200; // signs of a question
 const page = location.pathname.split("/").pop().replace(/\.html$/, "");
 const TEXTS = ["page", "kind", "id", "question", "answer", "feedback"];
 const isAnswer = (one) => TEXTS.every((name) => typeof one?.[name] === "string"); // others may write there
@@ -19,8 +20,9 @@ const words = (node) => {
   return copy.textContent.replace(/\s+/g, " ").trim();
 };
 
+const shortened = (text) => (text.length > ASKED ? `${text.slice(0, ASKED - 1).trimEnd()}…` : text);
 const add = (kind, id, question, answer, right, feedback = "") => {
-  const entry = { page, kind, id, question: question.slice(0, 200), answer: answer.slice(0, LONGEST), right, feedback };
+  const entry = { page, kind, id, question: shortened(question), answer: answer.slice(0, LONGEST), right, feedback };
   const entries = [...all(), entry].slice(-MOST);
   while (JSON.stringify(entries).length > LARGEST) entries.splice(0, Math.ceil(entries.length / 10));
   if (memory.set(KEY, JSON.stringify(entries))) unkept.length = 0;
@@ -61,8 +63,8 @@ const FORGET = "Forget all of it", SURE = "Forget every answer and line, of all 
 const place = document.createElement("details");
 place.className = "vmc-record";
 place.innerHTML = "<summary></summary><p role=\"status\"></p><p>If you save it as a file, the file holds these lines, the name that you " +
-  "write here, and nothing else. Who forgets it all empties every page's fields, too: on a computer that others use, do.</p><p><label>Name or number, if your course asks for one: <input size=\"12\" autocomplete=\"off\"></label> " +
-  "<button type=\"button\">Save as a file</button> <button type=\"button\">" + FORGET + "</button></p><ol></ol>";
+  "write here, and nothing else. Who forgets it all empties every page's fields, too: on a computer that others use, do.</p><p class=\"vmc-check\"><label>Name or number, if your course asks for one: <input size=\"12\" autocomplete=\"off\"></label></p>" +
+  "<p class=\"vmc-check\"><button type=\"button\">Save as a file</button> <button type=\"button\">" + FORGET + "</button></p><ol></ol>";
 const [save, forget] = place.querySelectorAll("button");
 const STAYS = "It stays in this browser.", GOES = "This browser keeps no more: save your answers as a file before you close the page.";
 
@@ -81,10 +83,10 @@ const list = () => {
   if (!place.open) return;
   const items = place.querySelector("ol");
   items.replaceChildren(...all().map(({ page, kind, question, answer, right, feedback }) => {
-    const code = `${answer}`.includes("\n"), item = document.createElement("li");
-    const text = `${page}, ${kind}: ${question} ${code ? "" : answer} ${right ? "✓" : "✗"} ${feedback}`;
-    item.textContent = text.replace(/\$([^$]+)\$/g, "\\($1\\)");
-    if (code) item.append(Object.assign(document.createElement("pre"), { textContent: answer }));
+    const code = /\n|^\s/.test(answer), item = document.createElement("li"); // whatever else is typed was trimmed
+    const make = (tag, textContent) => Object.assign(document.createElement(tag), { textContent });
+    const text = (words) => words.replace(/\$([^$]+)\$/g, "\\($1\\)"), ends = text(` ${right ? "✓" : "✗"} ${feedback}`);
+    item.append(text(`${page}, ${kind}: ${question}`), ...(code ? [ends, make("pre", answer)] : [" → ", make("strong", text(answer)), ends]));
     return item;
   }));
   setEquations(items);

@@ -38,17 +38,18 @@ const isText = ({ said = [], ran = "", judged = "", mine = [] }) => [said, ran, 
 const read = (key, kept = memory.parsed(key)) =>
   typeof kept?.typed === "string" && isText(kept) && { ...kept, mine: [kept.mine ?? []].flat() };
 const FULL = "This browser has no room for your lines: copy them before you close the page.";
+const again = (said) => said.replace(/: (Figures? [\d., and]+) now runs? yours/, ". Your lines are kept: press Run, and $1 will run them again"); // after a reload
 const make = (tag, more) => Object.assign(document.createElement(tag), more);
 
 /* A cell in whose place the reader writes, and its form: buttons, and what was said of the lines. */
 class Editor {
-  constructor(form, cell, name) {
+  constructor(form, cell, name, called = name.split(".").pop()) {
     const { stop, reset } = form.elements, empty = book(cell).trimEnd();
     const area = make("textarea", { defaultValue: empty, spellcheck: false, wrap: "off", autocomplete: "off", className: "vmc-lines" });
     const status = form.querySelector("[role=status]"), beside = make("div", { className: "vmc-beside" });
     Object.assign(this, { form, cell, area, status, empty, beside, key: keyOf(name), mine: [], brought: new Set() });
     area.setAttribute("autocapitalize", "off");
-    area.setAttribute("aria-label", `Your lines: ${name.split(".").pop()}`);
+    area.setAttribute("aria-label", `Your lines: ${called}`);
     cell.querySelector(".cell_input").replaceChildren(area, beside);
     form.hidden = false;
     form.addEventListener("submit", (event) => {
@@ -115,7 +116,8 @@ class Editor {
     if (!kept) return;
     area.value = kept.typed;
     this.mine = kept.mine;
-    if (kept.said) this.show(([this.said, this.judged] = [kept.said, kept.judged])[0]);
+    Object.assign(this, { said: kept.said, judged: kept.judged });
+    if (kept.said) this.show([again(kept.said[0]), kept.said[1]]);
     if ((kept.book ?? sum(empty)) === sum(empty)) area.ran = kept.ran;
     else return this.offer("The book’s cell has changed since you wrote yours. It is now:", empty);
     this.close();
@@ -219,17 +221,17 @@ class Editor {
 /* A cell's *Edit*: it opens the cell, which is open at once where the reader has changed it before. A link may
    bring lines, the reader `take` them, and go `back` to the book's. */
 const offer = (cell) => {
-  const name = book(cell).match(/^def (\w+)/m)[1];
+  const names = [...book(cell).matchAll(/^def (\w+)/gm)].map(([, one]) => one), [name] = names, called = names.join(", ");
   const form = make("form", { className: "vmc-check" });
   form.dataset.cell = name;
-  form.innerHTML = `<button type="button" aria-label="Edit ${name}">Edit</button>`;
+  form.innerHTML = `<button type="button" aria-label="Edit ${called}">Edit</button>`;
   cell.append(form);
   let editor;
   const open = () => {
     if (cell.querySelector("details")) cell.querySelector("details").open = true; // its code is folded
     form.innerHTML = '<button>Run</button> <button type="button" name="stop" disabled>Stop</button> ' +
       '<button type="button" name="reset" disabled>Reset</button> <div role="status"></div>';
-    return (editor = new Editor(form, cell, name));
+    return (editor = new Editor(form, cell, name, called));
   };
   cell.addEventListener("vmc-bring", ({ detail }) => (editor ?? open()).bring(detail));
   cell.addEventListener("vmc-take", ({ detail }) => editor.take(detail));

@@ -94,6 +94,13 @@ def test_a_law_moves_its_demos_and_goes_back(open_law, serious):
     expect(page.mine).not_to_have_attribute("aria-busy", "true")
     assert serious(page, "html", all_of_it=True) == []
     link = page.mine.locator(".vmc-link").get_attribute("href")
+    page.reload()
+    kept = "Your lines are kept: press Run, and Figure 7.1 will run them again."
+    expect(said).to_have_text(f"Your law differs from the book's, by at most 3. {kept}")
+    page.get_by_role("button", name="Run", exact=True).click()
+    expect(said).to_have_text(words)
+    page.slider.fill("2")
+    expect(page.mine.locator(TITLE)).to_contain_text("at 3: 15")
     page.mine.get_by_role("button", name="Back to the book").click()
     expect(page.mine.locator(TITLE)).to_contain_text("at 3: 6")
     expect(page.line).to_have_text("")

@@ -49,7 +49,7 @@ def test_the_other_engines_follow_a_law(engine):
 def test_an_arm_plans_by_the_readers_law(window):
     page = open_url(window(reduced_motion="reduce"), (BUILT / "book/09_planning.html").as_uri())
     page.evaluate("() => { vmc['python/interpreter'].limit.seconds = 100 }")
-    page.get_by_role("button", name="Edit four_around").click()
+    page.get_by_role("button", name="Edit four_around, nearness").click()
     lines = page.get_by_label("Your lines: four_around")
     expect(lines).to_be_visible()
     lines.fill(lines.input_value().replace("(1 / d) / (1 / d)", "d / d"))
