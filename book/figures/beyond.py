@@ -115,7 +115,7 @@ def detour(templates, places, ways, reach, route, senses, time):
     """
     target, ball, via = places[reach]
     path = ways[f"{route}, {senses}"][[*places].index(reach), : round(100 * time) + 1]
-    fig, ax = plt.subplots(figsize=(6, 4))
+    fig, ax = plt.subplots(figsize=(4.3, 3.2))  # inches: a phone has the plot's whole width
     plane(ax, templates, within=TRIED)
     ax.add_patch(plt.Circle(ball, RADIUS, color=COLOURS["orange"]))
     if route != "straight":
@@ -187,14 +187,20 @@ def tornado(rule):
     order = sorted(shifts, key=lambda choice: -max(abs(x) for x, _ in shifts[choice].values()))
     rows = {name: shift for choice in order for name, shift in shifts[choice].items()}
     shift, half = np.transpose([*rows.values()])
-    fig, ax = plt.subplots(figsize=(7.2, 0.8 + 0.22 * len(rows)), layout="none")
-    ax.barh(range(len(rows)), shift, left=usual.mean(), alpha=0.4, gid="shift")
+    # A phone has the plot's whole width: names longer than 2 inches stand in two lines
+    names = [x if text_width(x) <= 2 else x.replace(" → ", "\n→ ") for x in rows]
+    lines = [name.count("\n") + 1 for name in names]
+    places = np.cumsum(lines) - np.divide(lines, 2)  # of a name's middle, in lines
+    fig, ax = plt.subplots(figsize=(4.3, 0.8 + 0.19 * sum(lines)), layout="none")
+    ax.barh(places, shift, left=usual.mean(), alpha=0.4, gid="shift")
     middle = usual.mean() + shift
-    ax.errorbar(middle, range(len(rows)), xerr=half, fmt="o", ms=4, elinewidth=1.4, zorder=3)
+    ax.errorbar(middle, places, xerr=half, fmt="o", ms=4, elinewidth=1.4, zorder=3)
     ax.axvline(usual.mean(), color=COLOURS["ink"], lw=1)
-    ax.set_yticks(range(len(rows)), rows)
-    ax.set(xlabel=f"miss, {rule} (mm)", ylim=(len(rows) - 0.5, -0.5))
-    margins(fig, left=0.3 + max(map(text_width, rows)), top=0.12)
+    ax.set_yticks(places, names)
+    ax.set(xlabel=f"miss, {rule} (mm)", ylim=(sum(lines), 0))
+    margins(
+        fig, left=0.15 + max(text_width(x) for name in names for x in name.split("\n")), top=0.12
+    )
     return fig
 
 

@@ -2,6 +2,7 @@
 
 from itertools import product
 
+import matplotlib.pyplot as plt
 import numpy as np
 
 from book.figures.panels import mark_now, panels, shade
@@ -197,11 +198,11 @@ def minimal_intervention(path, target, bar, aim):
 
 def miss_and_effort(effort, miss):
     """Effort against miss in mm, means with 95 % intervals, by controller: draws (n,) of each."""
-    fig, ax = panels(size=(6.8, 3.8))
+    fig, ax = plt.subplots(figsize=(4.3, 4))  # inches: a phone has the plot's whole width
     hues = "grey", "purple", "red", "orange", "green", "blue"
     for name, hue in zip(effort, hues, strict=True):
         (x, wide), (y, high) = t_interval(effort[name]), t_interval(miss[name])
         ax.errorbar(x, y, high, wide, fmt="o", color=COLOURS[hue], label=name)
     ax.set(xlabel="effort / the least", ylabel="miss (mm)", xlim=(0.5, 5.0), ylim=(0, 22))
-    ax.legend(loc="upper right")
+    fig.legend(loc="outside upper center", ncols=2, columnspacing=1, handlelength=1)
     return fig

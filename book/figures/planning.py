@@ -32,7 +32,7 @@ def parts_of_miss(rule, spacing, number):
     mixed, reached = mixed_and_reached(rule, spacing / 100, number)
     parts = reached - mixed, mixed - TARGETS, reached - TARGETS
     by_arm, by_weights, in_all = (norm_mm(part).mean() for part in parts)
-    fig, ax = plt.subplots(figsize=(6.5, 4.8))
+    fig, ax = plt.subplots(figsize=(4.3, 4.4))  # inches: a phone has the plot's whole width
     plane(ax, templates.load(spacing / 100).points, within=((-0.02, 0.2), (-0.51, -0.29)))
     arrows(ax, mixed, reached, "orange", f"the arm: {by_arm:.1f} mm")
     arrows(ax, TARGETS, mixed, "blue", f"the weights: {by_weights:.1f} mm")

@@ -60,6 +60,18 @@ def test_dot_plot_takes_any_mapping():
     assert [line.get_xdata().tolist() for line in fig.axes[0].lines] == [[1.0], [2.0]]
 
 
+def test_a_phone_shows_a_dot_plot_with_long_names_whole():
+    """A name stands in two lines, and in one where it is said; a formula is never cut."""
+    long, formula = "off-line, least squares, 8 trials over the whole hold", r"$a \cdot b$ of it"
+    fig = dot_plot({"": {long: 1, formula: 2}}, "x")
+    assert fig.get_figwidth() == 4.2  # inches
+    first, second = (text.get_text() for text in fig.axes[0].get_yticklabels())
+    assert first.replace("\n", " ") == long
+    assert first.count("\n") == 1
+    assert second == formula
+    assert long in alt_text(fig)
+
+
 def test_a_comparison_has_one_table_and_its_own_description(outputs, monkeypatch):
     monkeypatch.setenv("VMC_RENDER_MODE", "book")
     items = outputs(demo)

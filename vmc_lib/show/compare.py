@@ -12,7 +12,9 @@ from vmc_lib.show.demo import figure
 from vmc_lib.show.estimate import estimate
 from vmc_lib.show.figures import margins
 from vmc_lib.show.palette import COLOURS
-from vmc_lib.show.svg_renderer import text_width
+from vmc_lib.show.svg_renderer import text_width, wrapped
+
+LONGEST = 1.95  # inches, of a row's name on one line
 
 
 def compare(
@@ -47,8 +49,12 @@ def dot_plot(
         raise ValueError(f"xlim {xlim!r}: give (low, high)")
     every = *series.values(), published or {}
     names = list(dict.fromkeys(name for rows in every for name in rows))
-    room = 0.15 + max(map(text_width, names))  # for the longest name
-    size = max(4.2, room + 2.4), 0.95 + len(names) * (0.16 + 0.14 * len(series))
+    shown = [wrapped(name, LONGEST) for name in names]  # a phone has the plot's whole width
+    lines = [line for name in shown for line in name.split("\n")]
+    room = 0.15 + max(map(text_width, lines))
+    most = max(name.count("\n") for name in shown) + 1
+    row = max(0.16 + 0.14 * len(series), 0.19 * most * (most > 1))
+    size = max(4.2, room + 2.1), 0.95 + len(names) * row
     fig, ax = plt.subplots(figsize=size, layout="none")
     for k, (label, rows) in enumerate(series.items()):
         apart = 0.5 * ((k + 0.5) / len(series) - 0.5)
@@ -60,7 +66,7 @@ def dot_plot(
         places = [names.index(name) for name in published]
         style = dict(fmt="|", ms=15, mew=1.6, color=COLOURS["ink"], label="published")
         ax.errorbar(list(published.values()), places, **style)
-    ax.set_yticks(range(len(names)), names)
+    ax.set_yticks(range(len(names)), shown)
     ax.set(xlabel=measure, xlim=xlim, ylim=(len(names) - 0.5, -0.5))
     labels = ax.get_legend_handles_labels()[1]
     ncols = 4 if len("".join(labels)) < 24 else 3

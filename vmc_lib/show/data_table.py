@@ -169,7 +169,7 @@ def _names(axis):
     formatter = axis.get_major_formatter()
     if isinstance(formatter, FixedFormatter | FuncFormatter | StrCategoryFormatter):
         places = axis.get_ticklocs()
-        names = [str(name) for name in formatter.format_ticks(places)]
+        names = [str(name).replace("\n", " ") for name in formatter.format_ticks(places)]
         counted = np.array_equal(places, range(len(places))) and names != [*map(number, places)]
         if names and (counted or all(name[:1].isalpha() for name in names)):
             return lambda place: names[np.abs(places - place).argmin()]

@@ -46,6 +46,19 @@ def text_width(words):
     return _size(words, FontProperties(), is_math_text(words))[0] / 72
 
 
+def wrapped(words, width):
+    """A plot's words in lines of at most so many inches, where no word or formula is longer."""
+    first, *rest = [words] if is_math_text(words) else words.split(" ")
+    lines = [first]
+    for word in rest:
+        longer = f"{lines[-1]} {word}"
+        if text_width(longer) <= width:
+            lines[-1] = longer
+        else:
+            lines.append(word)
+    return "\n".join(lines)
+
+
 @lru_cache(4096)
 def _size(s, prop, ismath):
     """Width, height and descent of a line of text, in points."""

@@ -231,8 +231,7 @@ def test_where_a_usual_lens_would_be_too_near_no_distance_is_stated_by_it(ask):
     """The photo is then said to be a part of one; the other distance follows the box."""
     guess, selector = camera_guess(), {"sizes": list(SIZES)}
     near, far = (
-        ask(GUESSED, [box, guess, selector])
-        for box in ((50, 20, 500, 390), (270, 185, 330, 215))
+        ask(GUESSED, [box, guess, selector]) for box in ((50, 20, 500, 390), (270, 185, 330, 215))
     )
     assert "would be nearer than 50 cm" in near
     assert "taken as a part of a photo from 50 cm away" in near
