@@ -10,6 +10,7 @@ import pytest
 from scipy.optimize import nnls
 from sklearn.metrics import mean_squared_error, precision_score, recall_score
 
+from book.exercises import beyond
 from tests.exercises import EVERY, exercises
 from tests.project import CHAPTERS, code, each_chapter
 from vmc_lib import photos
@@ -244,3 +245,9 @@ def test_a_solution_is_folded_once(outputs, monkeypatch, mode, folds):
     solution(EVERY["MIXED"])
     assert texts[0].count("<details>") == folds
     assert "```python\ndef mixed(distances, commands):\n" in texts[0]
+
+
+def test_the_trials_needed_are_counted_to_the_first_below():
+    assert beyond.trials_needed(np.array([1e-2, 2e-4, 5e-5, 9e-5])) == 2
+    with pytest.raises(ValueError, match=r"no bias .* is below 0.0001 m"):
+        beyond.trials_needed(np.array([5.0, 1.0]))

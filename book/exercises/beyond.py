@@ -4,7 +4,10 @@ from itertools import product
 
 import numpy as np
 
+from vmc_lib.cerebellum.offline import broyden_calibration
 from vmc_lib.grading import Exercise
+from vmc_lib.motor import templates
+from vmc_lib.motor.planning import plan
 
 
 def tenfold(sizes, errors):
@@ -67,3 +70,17 @@ CUBE_WEIGHTS = Exercise(
 
 def _nearness(d):
     return (1 / d) / (1 / d).sum()
+
+
+def median_biases(targets, n_trials=8):
+    """Median bias (1 + n_trials,), m, by trial of Broyden calibration; templates 8 cm apart."""
+    tried = broyden_calibration(plan(targets, templates.load(0.08)), n_trials).movements
+    return np.median([movement.bias for movement in tried], axis=1)
+
+
+def trials_needed(biases, within=1e-4):
+    """The first trial whose bias (1 + n_trials,), m, is below `within`; ValueError if none is."""
+    below = np.flatnonzero(biases < within)
+    if not below.size:
+        raise ValueError(f"no bias of {biases!r} is below {within!r} m: try more often")
+    return int(below[0])
