@@ -9,6 +9,7 @@ from vmc_lib.show.palette import COLOURS
 
 EVERY = 4  # cycles: so many of the clamp's points are drawn
 LAST = 10  # cycles: over which a clamp's end is averaged
+SECOND = 3  # the second cycle of the first rotation
 TURNED = slice(22, 27)  # the last five cycles of the first rotation
 
 
@@ -63,11 +64,33 @@ def adaptation(clamp, rotation):
 def sizes(degrees, ends, people_end, people_sem):
     """Where the hand ends under clamps of several sizes: the model's, by setting, and people's."""
     fig, ax = panels(size=(4.3, 3.0))
-    for (name, end), hue in zip(ends.items(), ("blue", "orange"), strict=True):
-        ax.plot(degrees, end, "o-", color=COLOURS[hue], label=name)
+    looks = ("blue", "o-"), ("purple", "o--"), ("orange", "o-")
+    for (name, end), (hue, line) in zip(ends.items(), looks, strict=True):
+        ax.plot(degrees, end, line, color=COLOURS[hue], label=name)
     points(ax, [3.5], [people_end], [people_sem], "people")
-    ax.set(xlabel="clamp (°)", ylabel="hand ends at (°)", xlim=(0, 15), ylim=(0, 95))
+    ax.set(xlabel="clamp (°)", ylabel="hand ends at (°)", xlim=(0, 15), ylim=(0, 115))
     ax.legend(loc="upper left")
+    return fig
+
+
+def along_shares(shares, misfit, second):
+    """By the share learnt, in percent: the misfit to the clamp; the rotation's second cycle.
+
+    Of a setting with the forgetting that comes nearest to the clamp.
+    """
+    fig, left, right = panels(2, (8.2, 3.0))
+    for ax, y in ((left, misfit), (right, second)):
+        ax.plot(shares, y, "o-", color=COLOURS["blue"], label="the model")
+        ax.set(xlabel="of an error it learns (%)")
+    left.set(ylabel="distance (standard errors)", ylim=(0, None))
+    left.set_title(f"error clamp: nearest at {shares[np.argmin(misfit)]} %")
+    turned = people.MEASUREMENTS["rotation"]
+    mean, sem = (turned[key][SECOND] for key in ("mean", "sem"))
+    right.axhspan(mean - sem, mean + sem, color=COLOURS["grey"], alpha=0.4, lw=0)
+    right.axhline(mean, color=COLOURS["ink"], lw=1, label="people")
+    right.set(ylabel="hand turns by (°)", ylim=(0, 25))
+    right.set_title("rotation of 30°: second cycle")
+    right.legend(loc="lower right")
     return fig
 
 

@@ -31,8 +31,8 @@ from vmc_lib.motor.templates import START, load
 HOME = hand(START)[:2]  # m: where every reach begins
 DISTANCE = 0.08  # m: the farthest targets round which a hand may turn by 30 degrees among templates
 DIRECTIONS = np.radians([210.0, 250.0, 290.0, 330.0])  # there are no templates above the start
-SHARES = (0.1, 0.2, 0.3, 0.45, 1 / 1.3)  # of an error that is learnt at once; the book's is last
-FORGETS = (0.0, 0.01, 0.02, 0.03, 0.05, 0.07, 0.1, 0.15)  # of what was learnt, with every cycle
+SHARES = *(k / 100 for k in range(10, 80, 5)), 1 / 1.3  # of an error; the book's is last
+FORGETS = tuple(k / 200 for k in range(21))  # of what was learnt, with every cycle
 SIZES = (1.75, 3.5, 7.0, 14.0)  # degrees, of clamps
 SHOWN, TURNED = np.radians(3.5), np.radians(30.0)
 VISIBLE, HIDDEN = "visible", "hidden"
@@ -47,6 +47,7 @@ LAST_WITH_LOAD = sum(BLOCKS[:2]) - 1
 # cycles of 't Hart and Henriques: turned one way, the other way, and clamped to the target
 ROTATION = [*2 * [0.0], *25 * [-TURNED], *3 * [TURNED]]
 REBOUND = 5 * [0.0]
+COMPARED = slice(3, 27)  # of the first rotation: in its first cycle people learn after each reach
 
 
 class ForgettingAdaptation(Adaptation):
@@ -140,30 +141,54 @@ def load_left(share, forgets, seed):
     return 1000 * curve.error[LAST_WITH_LOAD]
 
 
-def nearest_setting(clamp):
-    """Fitted: the place in curves (shares, forgets, cycles) nearest to people's error clamp.
+def misfits(curves, people, cycles):
+    """Root mean square over `cycles` of how far curves (…, cycles) are from people's means.
 
-    By the mean square over the clamped cycles of the group whose cursor missed the target.
+    In people's standard errors.
     """
-    people = np.array(MEASUREMENTS["clamp"][MISSES]["mean"])
-    off = np.square(clamp - people)[..., CLAMPED].mean(axis=-1)
-    return np.unravel_index(off.argmin(), off.shape)
+    off = (curves - np.array(people["mean"])) / np.array(people["sem"])
+    return np.sqrt(np.square(off)[..., cycles].mean(axis=-1))
+
+
+def both_misfits(clamp, rotation):
+    """`misfits` (2, shares, forgets): in the clamp whose cursor missed the target; rotated."""
+    of_clamp = misfits(clamp, MEASUREMENTS["clamp"][MISSES], CLAMPED)
+    return np.stack([of_clamp, misfits(rotation, MEASUREMENTS["rotation"], COMPARED)])
+
+
+def nearest_setting(misfit):
+    """Fitted: the place of the least misfit (shares, forgets).
+
+    ValueError where it is at an edge of the grid: a better one may lie beyond. What has one value
+    is not fitted.
+    """
+    best = np.unravel_index(misfit.argmin(), misfit.shape)
+    if any(k in (0, n - 1) for k, n in zip(best, misfit.shape, strict=True) if n > 1):
+        raise ValueError(f"the least misfit is at an edge of the grid {misfit.shape}: widen it")
+    return best
+
+
+def fitted_settings(clamp, rotation):
+    """Two places in (shares, forgets): `nearest_setting` to the clamp, and to both tests."""
+    both = both_misfits(clamp, rotation)
+    return nearest_setting(both[0]), nearest_setting(np.hypot(*both))
 
 
 def make(shares=SHARES, forgets=FORGETS, seeds=MANY):
     """What `results/forgetting.npz` holds: curves in degrees (shares, forgets, cycles), and costs.
 
-    At the fitted setting and at the book's: `ends` (2, sizes) is `clamp_end`, `load` (2, seeds)
-    is `load_left`.
+    At the two `fitted_settings` and at the book's: `ends` (3, sizes) is `clamp_end`, `load`
+    (3, seeds) is `load_left`.
     """
     curves = Parallel()(delayed(both_curves)(*one) for one in product(shares, forgets))
     clamp, rotation = (
-        np.reshape(x, (len(shares), len(forgets), -1)) for x in zip(*curves, strict=True)
+        np.reshape(x, (len(shares), len(forgets), -1)).astype(np.float32)
+        for x in zip(*curves, strict=True)
     )
-    i, j = nearest_setting(clamp)
-    two = (shares[i], forgets[j]), (shares[-1], forgets[0])
-    ends = [[clamp_end(*one, degrees) for degrees in SIZES] for one in two]
-    left = [[load_left(*one, seed) for seed in seeds] for one in two]
+    fitted = [(shares[i], forgets[j]) for i, j in fitted_settings(clamp, rotation)]
+    three = *fitted, (shares[-1], forgets[0])
+    ends = [[clamp_end(*one, degrees) for degrees in SIZES] for one in three]
+    left = [[load_left(*one, seed) for seed in seeds] for one in three]
     return {"clamp": clamp, "rotation": rotation, "ends": ends, "load": left}
 
 

@@ -181,7 +181,7 @@ STEPS = (
         forgetting_adaptation.make,
         RESULTS / "forgetting.npz",
         f"templates reproduce/people {ARM}",
-        3,
+        15,
     ),
     Step(learning_under_noise.make, RESULTS / "unsteady.json", f"templates {ARM}", 3),
     Step(sensitivity.make, RESULTS / "sensitivity.json", f"templates {ARM}", 8),

@@ -78,10 +78,28 @@ def test_turns_about_home():
     )
 
 
-def test_the_fit_is_the_setting_nearest_to_people():
-    curves = np.zeros((2, 3, len(forgetting.CLAMP)))
-    curves[1, 2] = people.MEASUREMENTS["clamp"][people.MISSES]["mean"]
-    assert forgetting.nearest_setting(curves) == (1, 2)
+def test_a_misfit_is_in_peoples_standard_errors():
+    group = people.MEASUREMENTS["clamp"][people.MISSES]
+    curve = np.add(group["mean"], 2 * np.array(group["sem"]))
+    assert forgetting.misfits(curve, group, forgetting.CLAMPED) == pytest.approx(2)
+
+
+def test_the_fit_is_the_setting_of_the_least_misfit_inside_the_grid():
+    misfit = np.ones((3, 4))
+    misfit[1, 2] = 0.5
+    assert forgetting.nearest_setting(misfit) == (1, 2)
+    assert forgetting.nearest_setting(misfit[1:2]) == (0, 2)
+    for edge in (misfit[:2], misfit[1:], misfit[:, :3], misfit[:, 2:]):
+        with pytest.raises(ValueError, match="at an edge"):
+            forgetting.nearest_setting(edge)
+
+
+def test_the_stored_fits_lie_inside_the_grid(stored):
+    grid = len(forgetting.SHARES), len(forgetting.FORGETS)
+    assert stored["clamp"].shape[:2] == grid
+    for place in forgetting.fitted_settings(stored["clamp"], stored["rotation"]):
+        assert (np.array(place) > 0).all()
+        assert (np.array(place) < np.subtract(grid, 1)).all()
 
 
 def test_no_setting_swings_back_across_the_target_as_people_do(stored):
