@@ -11,7 +11,7 @@ from vmc_lib.statistics import t_interval
 READINGS = {  # how a movement is read -> what each rule then leaves after 0, 1, … tries
     "where the command ends": lambda: nulls.load_results()[nulls.BY_TRIES],
     "over the hold": lambda: nulls.load_results()[nulls.BY_TRIES_HELD],
-    "over the hold, at a person's noise": lambda: learning_curves.load_results()["off-line"],
+    "over the hold, with 2 mm of scatter": lambda: learning_curves.load_results()["off-line"],
 }
 KINDS = nulls.IN_SAMPLE, nulls.HELD_OUT
 LINES = {  # a rule -> its line

@@ -91,7 +91,7 @@ def after_trial(plan, rules, trial, rule, noisy=()):
         errors = mean_mm(holds, plan.target)[: trial + 1]
         right.plot(cost * np.arange(trial + 1), errors, ".-", label=name)
     if len(noisy):
-        right.plot(noisy, "--", color=COLOURS["grey"], label="Broyden, a person's noise")
+        right.plot(noisy, "--", color=COLOURS["grey"], label="Broyden, 2 mm of scatter")
     hold, cost = rules[rule][0][trial], rules[rule][1] * trial
     now = mean_mm(hold, plan.target)
     mark_now(right, cost, now)
@@ -137,8 +137,8 @@ def with_guards(errors, noisy):
 
 
 def plot_noisy_mean(ax, x, curves):
-    """Dashed over x (n,), the mean of `curves` (draws, n) on an arm with a person's noise."""
-    ax.plot(x, curves.mean(axis=0), "--", color=COLOURS["grey"], label="a person's noise")
+    """Dashed over x (n,), the mean of `curves` (draws, n) on an arm whose hand scatters by 2 mm."""
+    ax.plot(x, curves.mean(axis=0), "--", color=COLOURS["grey"], label="2 mm of scatter")
 
 
 def after_the_command(away, reach):

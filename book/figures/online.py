@@ -62,7 +62,7 @@ def after_experiment(plans, linear, published, experiment, movements, step_5, te
 def after_movements(plans, granule, linear, movements, templates_are, measured_on):
     """`progress` of granule cells, by scenario; dotted, that of Algorithm 2 (`linear`).
 
-    Dashed: the mean of many draws on an arm with a person's noise.
+    Dashed: the mean of many draws on an arm whose hand scatters by 2 mm.
     """
     some = plans[templates_are]
     fig = progress(some, granule[templates_are], STEPS, movements, measured_on)
@@ -161,7 +161,7 @@ def misses_by_lesion(attempts):
 def adaptation(templates, adaptations, noisy, block, change, cure):
     """Hands in a block of a `Curve`; the mean error of each block, dotted where nothing learns.
 
-    Dashed: `noisy[change, cure]`, the mean of draws (draws, blocks) at a person's noise, mm.
+    Dashed: `noisy[change, cure]`, the mean of draws (draws, blocks) with 2 mm of scatter, mm.
     """
     fig, left, right = panels(*SIDE_BY_SIDE)
     curve, baseline = adaptations[change, cure], adaptations[change, CURES[-1]]

@@ -4,6 +4,7 @@ The experiments whose results ship.
 """
 
 from functools import partial
+from itertools import product
 
 import numpy as np
 
@@ -18,6 +19,7 @@ from reproduce.measures.path_measures import (
     path_length_ratio,
     tremor,
 )
+from reproduce.peers.motor_noise import SCATTER_MM
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.arm.muscle import noisy
 from vmc_lib.cerebellum.feedback_error import FeedbackErrorLearning
@@ -36,7 +38,7 @@ from vmc_lib.motor.planning import draw_targets, exact_weights, is_surrounded, p
 from vmc_lib.motor.templates import START, load, reach
 
 JUMP, JUMPS_AT = 0.05, 0.15  # m and s: how far a target jumps, and when
-PERSON_SHARE = 0.7  # noise at which reaches that the eye guides scatter by `PERSON_MM`
+SCATTER_SHARE = 0.7  # noise at which reaches that the eye guides scatter by `SCATTER_MM`
 FIELD, BLOCKS = 15.0, (2, 10, 6)  # N for each m/s; blocks of reaches before, in and after the field
 FARTHEST = 0.085  # m: of eight equal reaches from `START` that end above the table
 
@@ -46,6 +48,10 @@ BY_GAIN = {
     **{arm: {g: SIGHT._replace(gain=g) for g in GAINS} for arm in ("late sight", "forward model")},
 }
 BEST = {"reflex alone": 0.5, "late sight": 2, "forward model": 240}  # by `gain_sweep`
+BY_BOTH = {  # gains and dampings of sight
+    "late sight": [*product((0.5, 1, 2, 4), (0.25, 1.0, 2.0, 3.0, 4.0, 6.0))],
+    "forward model": [*product((120, 240, 480), (0.1, 0.15, 0.25, 0.4))],
+}
 ARMS = {"the plan alone": OPEN_LOOP} | {arm: BY_GAIN[arm][gain] for arm, gain in BEST.items()}
 
 
@@ -155,6 +161,28 @@ def gain_sweep(seed, by_gain=BY_GAIN, count=40, **size):
     return reach_measures((seed, 1), arms, count, **size)
 
 
+def damping_sweep(seed, by_both=BY_BOTH, count=20):
+    """By "arm, gain, damping", the mean miss in mm after a jump: other reaches again.
+
+    Every arm, and the reflex alone, meets the same jumps and the same noise.
+    """
+    rng, template_set = np.random.default_rng((seed, 2)), load()
+    model = fit_forward_model(template_set, rng)
+    first, second = draw_target_jumps(template_set, count, rng)
+    reference = reference_after_jump(template_set, first, second)
+
+    def missed(gains, model=None):
+        return end_error(watch(reference, gains, model).hand[..., :2], second).mean()
+
+    found = {"reflex alone": missed(ARMS["reflex alone"])}
+    for arm, pairs in by_both.items():
+        known = model if arm == "forward model" else None
+        for gain, damping in pairs:
+            sight = SIGHT._replace(gain=gain, damping=damping)
+            found[f"{arm}, {gain:g}, {damping:g}"] = missed(sight, known)
+    return found
+
+
 def sweep_means(measured):
     """By arm, the mean of what `gain_sweep` measured at each of sight's `GAINS`."""
     swept = load_results()["gains"]
@@ -217,12 +245,13 @@ def curl_field_errors(seed, noise=NOISE, **size):
     }
 
 
-LIKE_A_PERSON = "field, a person's noise"
+WITH_SCATTER = f"field, {SCATTER_MM} mm of scatter"
 EXPERIMENTS = {
     "gains": gain_sweep,
+    "dampings": damping_sweep,
     "reaches": reach_measures,
     "field": curl_field_errors,
-    LIKE_A_PERSON: partial(curl_field_errors, noise=PERSON_SHARE),
+    WITH_SCATTER: partial(curl_field_errors, noise=SCATTER_SHARE),
 }
 
 

@@ -1,4 +1,4 @@
-"""Learning curves at a person's noise (`motor_noise`): how many more tries does it then take?
+"""Learning curves with 2 mm of scatter (`motor_noise`): how many more tries does it then take?
 
 What a rule keeps after a noisy try was partly luck, so it is given once more, and judged by that.
 Without noise the same targets are those of `nulls.tries` and of `block_errors`, or practised here
@@ -25,7 +25,7 @@ from reproduce.experiments.offline_calibration import (
     trials_with_load,
 )
 from reproduce.measures.changed_worlds import block_errors
-from reproduce.peers.motor_noise import PERSON_MM, endpoint_deviation, noise_floor, with_noise
+from reproduce.peers.motor_noise import SCATTER_MM, endpoint_deviation, noise_floor, with_noise
 from vmc_lib.cerebellum.offline import broyden_calibration
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import plan
@@ -33,21 +33,21 @@ from vmc_lib.motor.templates import mean_distance
 
 OFF_LINE, WHOLE_ARM, MEMORIES = "off-line", "whole arm", "memories of the whole arm"
 ROUNDS, WITH_LOAD, WORLDS = "rounds", "with a load", "changed worlds"
-CALM, NOISY = "calm", "a person's noise"
+CALM, NOISY = "calm", f"{SCATTER_MM} mm of scatter"
 KEPT = {True: "only if it is better", False: "always"}  # what a round of Algorithm 1 finds
 GUARDED = {True: "guards", False: "no guards"}
-WHOLE_ARM_SHARE = 0.0077  # of each command: so the finger scatters by `PERSON_MM` mm, about
+WHOLE_ARM_SHARE = 0.0077  # of each command: so the finger scatters by `SCATTER_MM` mm, about
 WHOLE_ARM_SHARES = {CALM: 0, NOISY: WHOLE_ARM_SHARE}
 
 
-def person_share():
-    """The share of each command by which it wavers where the hand scatters by `PERSON_MM` mm."""
-    return calibration.load_results("unsteady")[f"{PERSON_MM} mm"]["noise"][0]
+def scatter_share():
+    """The share of each command by which it wavers where the hand scatters by `SCATTER_MM` mm."""
+    return calibration.load_results("unsteady")[f"{SCATTER_MM} mm"]["noise"][0]
 
 
-def templates_of_person(stream, noise=NOISY):
-    """The templates, on an arm with a person's noise, which `stream` seeds; or on a `CALM` one."""
-    wavers = None if noise == CALM else partial(with_noise, share=person_share())
+def noisy_templates(stream, noise=NOISY):
+    """The templates, on an arm whose hand scatters, which `stream` seeds; or on a `CALM` one."""
+    wavers = None if noise == CALM else partial(with_noise, share=scatter_share())
     return templates_with_noise(wavers, stream)
 
 
@@ -82,14 +82,14 @@ def offline_curves(seed, count=25):
     But Broyden's makes four tries: after many, noise can leave it a belief that moves no hand.
     """
     rng = np.random.default_rng(seed)
-    habit = nulls.draw_habit(templates_of_person((seed, 5)), rng, count)
+    habit = nulls.draw_habit(noisy_templates((seed, 5)), rng, count)
     rules = nulls.offline_rules(rng) | {nulls.BROYDEN: partial(broyden_calibration, n_trials=4)}
     return curves_by_tries(habit, rules)
 
 
 def round_misses(seed, noise=NOISY, count=25):
     """The mean miss in mm after 0, 1, … rounds of Algorithm 1, by `rounds_name`; one seed."""
-    past, rng = templates_of_person((seed, 8), noise), np.random.default_rng(seed)
+    past, rng = noisy_templates((seed, 8), noise), np.random.default_rng(seed)
     habit = nulls.draw_habit(past, rng, count)
     return {
         rounds_name(n, keep): 1000 * mean_distance(holds, habit.target).mean(axis=1)
@@ -105,7 +105,7 @@ def rounds_name(n, keep):
 
 def with_load(seed, noise=NOISY, count=25):
     """The mean miss in mm of what is kept after 0, 1, … tries with each load, by `load_name`."""
-    past, rng = templates_of_person((seed, 9), noise), np.random.default_rng(seed)
+    past, rng = noisy_templates((seed, 9), noise), np.random.default_rng(seed)
     habit = nulls.draw_habit(past, rng, count)
     return {
         load_name(name, guarded): 1000 * kept_again(habit, trials, move_with_load(kg)).error.mean(1)
@@ -120,8 +120,8 @@ def load_name(load, guarded):
 
 
 def changed_worlds(seed, **size):
-    """What `block_errors` finds on an arm with a person's noise; one seed."""
-    return block_errors(seed, past=templates_of_person((seed, 10)), **size)
+    """What `block_errors` finds where the hand scatters by `SCATTER_MM`; one seed."""
+    return block_errors(seed, past=noisy_templates((seed, 10)), **size)
 
 
 def online_curves(seed, scenario, noise=NOISY):
@@ -130,7 +130,7 @@ def online_curves(seed, scenario, noise=NOISY):
     Of the 25 movements practised first, and of 100 never practised, as in chapter 11; one seed.
     """
     rng = np.random.default_rng(seed)
-    plans = online_calibration.draw_plans(templates_of_person((seed, 6), noise), scenario, rng)
+    plans = online_calibration.draw_plans(noisy_templates((seed, 6), noise), scenario, rng)
     histories = {
         "Algorithm 2": online_calibration.algorithm_2_history(plans, hindsight=True),
         "granule cells": online_calibration.granule_cell_history(plans, rng)[1],

@@ -30,7 +30,7 @@ from reproduce.ledger.entry import (
 )
 from reproduce.measures import second_plant
 from reproduce.one_draw import COUNT, WHOLE_HOLD
-from reproduce.peers.motor_noise import PERSON_MM
+from reproduce.peers.motor_noise import SCATTER_MM
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.cerebellum.offline import algorithm_1
 from vmc_lib.motor import templates
@@ -40,7 +40,7 @@ from vmc_lib.motor.planning import draw_targets, plan
 OFFLINE = {"better": -1, "rounding": paper.ratio_rounding("off-line", "planned")}
 IN_SAMPLE, HELD_OUT = "in-sample", "held-out"
 EXAMPLES = 5  # that Figs. 10 and 11 show
-WAVERS = f"the hand wavers by {PERSON_MM} mm"
+WAVERS = f"the hand wavers by {SCATTER_MM} mm"
 FIT_NOTE = "The reading is fitted: which way the error points was chosen by the published ratio. "
 
 
@@ -209,10 +209,10 @@ def _direction():
 
 
 def own_with_noise():
-    """What our rules leave where commands waver as a person's do, (name, draws): see `unsteady`."""
+    """What our rules leave where the hand scatters by 2 mm, (name, draws): see `unsteady`."""
     from reproduce.experiments import learning_under_noise  # scikit-learn comes with it
 
-    found = learning_under_noise.load_results()[f"{PERSON_MM} mm"]
+    found = learning_under_noise.load_results()[f"{SCATTER_MM} mm"]
     name = f"{{}}, {WAVERS}"
     return (
         [(name.format(f"off-line, {rule}"), found[f"{rule}, again"]) for rule in RULES],
@@ -313,8 +313,8 @@ ROWS = (
         _own_table_5,
         note=OVER_THE_HOLD + " Broyden's rule betters the pseudo-inverse from try to try: with two "
         "trials that counts, with four the pseudo-inverse as it was leaves hardly more. An arm "
-        "without noise. Where the hand wavers by 2 mm, as a person's "
-        f"does, least squares leave {{q[error over planned, off-line, least squares, {WAVERS}]"
+        "without noise. Where the hand wavers by 2 mm, "
+        f"least squares leave {{q[error over planned, off-line, least squares, {WAVERS}]"
         ".obtained:.2f}. Mixtures drift: at 2.5 s the hand is "
         f"{{q[mm from the target at 2.5 s, {WHOLE_HOLD}].obtained:.1f}} mm from the target, where "
         "habit's is {q[mm from the target at 2.5 s, planned].obtained:.0f} mm; some holds are "

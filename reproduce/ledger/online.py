@@ -254,7 +254,7 @@ ROWS = (
         _own_table_6,
         note=OVER_THE_HOLD + " What learns matters little: after 25 movements most of the learners "
         "that the chapter compares do as well as granule cells. An arm without noise: where the "
-        "hand wavers by 2 mm, as a person's does, "
+        "hand wavers by 2 mm, "
         f"{{q[error over planned, own online, 250 movements, held-out, {WAVERS}].obtained:.2f}} is "
         "left, beside Algorithm 2's "
         f"{{q[error over planned, Algorithm 2, 250 movements, held-out, {WAVERS}].obtained:.2f}}.",

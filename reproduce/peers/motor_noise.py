@@ -19,7 +19,7 @@ from vmc_lib.motor.planning import draw_targets, exact_weights, norm, plan
 from vmc_lib.motor.templates import HOLD, keep_last, load, reach
 
 KNOTS = 12  # spline coefficients a second: noise wavers about as slowly as commands change
-PERSON_MM = 2  # mm: how far a person's hand scatters at the end of a reach, about
+SCATTER_MM = 2  # mm, of a repeated reach's end: commands then vary by 1.7 %, as a finger's push
 
 
 @cache

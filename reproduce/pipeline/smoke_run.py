@@ -68,6 +68,9 @@ def toy_steps(folder):
     one = {"reflex alone": {0.5: feedback_control.REFLEX}}
     watched = {
         "gains": partial(feedback_control.gain_sweep, by_gain=one, count=2, seconds=2.0),
+        "dampings": partial(
+            feedback_control.damping_sweep, by_both={"late sight": [(2, 1.5)]}, count=2
+        ),
         "reaches": partial(feedback_control.reach_measures, count=2, seconds=2.0),
         "field": partial(feedback_control.curl_field_errors, blocks=(1, 1, 1)),
     }

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from reproduce.experiments import feedback_control as measure
-from reproduce.peers.motor_noise import PERSON_MM, endpoint_deviation
+from reproduce.peers.motor_noise import SCATTER_MM, endpoint_deviation
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.camera import TABLE
 from vmc_lib.cerebellum.feedback_error import FeedbackErrorLearning
@@ -51,13 +51,13 @@ def test_untrained_learner_changes_nothing(template_set):
 
 
 def test_reaches_that_the_eye_guides_scatter_as_a_persons(template_set):
-    noise, rng = measure.PERSON_SHARE, np.random.default_rng(0)
+    noise, rng = measure.SCATTER_SHARE, np.random.default_rng(0)
     model = measure.fit_forward_model(template_set, rng, noise=noise)
     eight = measure.centre_out(template_set)
     many = ReferenceTrajectory(*(np.repeat(x, 20, axis=0) for x in eight))
     motion = simulate_feedback(many, SIGHT, model, None, noise, rng)
     ends = motion.hand[:, -1, :2].reshape(8, 20, 2).swapaxes(0, 1)
-    assert 1000 * endpoint_deviation(ends) == pytest.approx(PERSON_MM, rel=0.1)
+    assert 1000 * endpoint_deviation(ends) == pytest.approx(SCATTER_MM, rel=0.1)
 
 
 @pytest.mark.parametrize("turned", [0.0, -12.5])

@@ -1,4 +1,4 @@
-"""Learning curves at a person's noise: shipped, reproducible, and judged without luck."""
+"""Learning curves with 2 mm of scatter: shipped, reproducible, and judged without luck."""
 
 import numpy as np
 import pytest
@@ -6,7 +6,7 @@ import pytest
 from reproduce.experiments import calibration, learning_curves, nulls
 from reproduce.experiments import offline_calibration as offline
 from reproduce.experiments.learning_curves import CALM, NOISY, WHOLE_ARM, at_noise, online_name
-from reproduce.peers.motor_noise import PERSON_MM
+from reproduce.peers.motor_noise import SCATTER_MM
 from vmc_lib.cerebellum.offline import Trials, broyden_calibration
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import draw_targets, plan
@@ -46,7 +46,7 @@ def test_hands_scatter_as_a_persons_does_in_what_ships():
     for name in (learning_curves.OFF_LINE, at_noise(WHOLE_ARM, NOISY)):
         assert shipped[name]["scatter"].shape == (20,)
         scatter = np.sqrt(np.square(shipped[name]["scatter"]).mean())
-        assert scatter == pytest.approx(PERSON_MM, rel=0.25)
+        assert scatter == pytest.approx(SCATTER_MM, rel=0.25)
     assert shipped[at_noise(WHOLE_ARM, CALM)]["scatter"].max() < 1e-9
 
 
