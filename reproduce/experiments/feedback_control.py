@@ -48,11 +48,17 @@ BY_GAIN = {
     **{arm: {g: SIGHT._replace(gain=g) for g in GAINS} for arm in ("late sight", "forward model")},
 }
 BEST = {"reflex alone": 0.5, "late sight": 2, "forward model": 240}  # by `gain_sweep`
+TUNED = 0.125, 24.0  # late sight's gain and damping, by `damping_sweep`: almost a brake alone
+REACHES = 100  # by each of the seeds
 BY_BOTH = {  # gains and dampings of sight
-    "late sight": [*product((0.5, 1, 2, 4), (0.25, 1.0, 2.0, 3.0, 4.0, 6.0))],
+    "late sight": [
+        *product((0.5, 1, 2, 4), (0.25, 1.0, 2.0, 3.0, 4.0, 6.0)),
+        *product((0.125, 0.25), (6.0, 12.0, 24.0)),
+    ],
     "forward model": [*product((120, 240, 480), (0.1, 0.15, 0.25, 0.4))],
 }
 ARMS = {"the plan alone": OPEN_LOOP} | {arm: BY_GAIN[arm][gain] for arm, gain in BEST.items()}
+ARMS["late sight"] = SIGHT._replace(gain=TUNED[0], damping=TUNED[1])
 
 
 def exact_plans(targets, template_set):
@@ -122,7 +128,7 @@ def compare_models(models, goals, template_set):
     return tremors, {k: 1000 * overshoot(path, goals).mean() for k, path in paths.items()}
 
 
-def reach_measures(seed, arms=ARMS, count=100, seconds=3.0):
+def reach_measures(seed, arms=ARMS, count=REACHES, seconds=3.0):
     """By arm and measure, the means over so many reaches to a target that stays, or jumps.
 
     Arms whose name begins with "forward model" have one.

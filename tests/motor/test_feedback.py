@@ -82,14 +82,31 @@ def test_each_arm_has_the_gain_that_is_best_on_other_reaches():
         assert min(missed, key=missed.get) == measure.BEST[arm], missed
 
 
+def test_late_sight_has_the_gain_and_damping_that_are_best_on_other_reaches():
+    """No best one lies at the edge of what was tried, where a better one may lie beyond.
+
+    But late sight is the better the less it pulls; what is inside is how strongly it brakes.
+    """
+    swept = measure.load_results()["dampings"]
+    for arm, pairs in measure.BY_BOTH.items():
+        missed = {pair: swept["{}, {:g}, {:g}".format(arm, *pair)].mean() for pair in pairs}
+        best = min(missed, key=missed.get)
+        brakes, gains = [gain * damping for gain, damping in pairs], [gain for gain, _ in pairs]
+        assert min(brakes) < np.prod(best) < max(brakes), (arm, best)
+        if arm == "late sight":
+            assert best == measure.TUNED
+        else:
+            assert min(gains) < best[0] < max(gains), best
+
+
 def test_shipped_arms_differ_by_the_forward_model():
-    """Six seeds: late sight does no better than the reflex alone; the model brings the hand there.
+    """Six seeds: late sight does little better than the reflex; the model brings the hand there.
 
     Taken away at the same gain, it leaves an arm that swings and trembles.
     """
     shipped = measure.load_results()
     miss = {arm: shipped["reaches"][f"{arm}, miss after a jump (mm)"] for arm in measure.ARMS}
-    assert (miss["late sight"] > miss["reflex alone"] - 1).all()
+    assert 0 < (miss["reflex alone"] - miss["late sight"]).mean() < 3
     assert (miss["late sight"] < miss["the plan alone"]).all()
     assert (5 * miss["forward model"] < miss["late sight"]).all()
     assert (shipped["reaches"]["forward model, jumps within 10 mm"] >= 0.9).all()
