@@ -208,8 +208,8 @@ def smith_predictor():
         arrow("M300 125V227", "blue"),
         words(228, 190, "model’s hand, now", "blue"),
         f'<path d="M341 240H313" stroke="{css("red")}" stroke-dasharray="5 4"/>',
-        words(344, 282, "0, if the model is exact", "red"),
+        words(344, 284, "0, if the model is exact", "red"),
         meeting(300, 240, (288, 222, "+")),
         arrow("M289 240H48V64"),
-        words(168, 259, "what the feedback takes for the hand"),
+        words(162, 262, "what the feedback takes for the hand"),
     )
