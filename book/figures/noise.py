@@ -82,16 +82,18 @@ def learning_curves(ratios, learners, counts):
     return fig
 
 
-def scatter_and_miss(uncorrected, weak_miss, corrected, corrected_weak_miss):
+def scatter_and_miss(uncorrected, paid, weak_miss, corrected, corrected_weak_miss):
     """How far reaches scatter on their way, and miss with each muscle weak; both in mm.
 
-    Scatter (151,), `uncorrected` by rule; misses (6,), of the commands alone and corrected.
+    Scatter (151,), `uncorrected` by rule, and with corrections `paid` for the whole way; misses
+    (6,), of the commands alone and corrected.
     """
     time = np.arange(len(corrected)) / 100  # s
     fig, left, right = panels(2, (8.2, 3.4))
     for (rule, scatter), hue in zip(uncorrected.items(), ("grey", "orange", "green"), strict=True):
         left.plot(time, scatter, color=COLOURS[hue], label=rule)
     left.plot(time, corrected, color=COLOURS["blue"], label="corrected")
+    left.plot(time, paid, "--", color=COLOURS["blue"], lw=1, label="the way paid for, too")
     left.axvline(0.35, ymax=0.77, color=COLOURS["grey"], lw=1)
     shade(left, 0.7, 1.5)
     left.set(xlabel="time (s)", ylabel="scatter (mm)", ylim=(0, 4.4))
@@ -199,7 +201,7 @@ def minimal_intervention(path, target, bar, aim):
 def miss_and_effort(effort, miss):
     """Effort against miss in mm, means with 95 % intervals, by controller: draws (n,) of each."""
     fig, ax = plt.subplots(figsize=(4.3, 4))  # inches: a phone has the plot's whole width
-    hues = "grey", "purple", "red", "orange", "green", "blue"
+    hues = "grey", "purple", "red", "orange", "green", "blue", "ink"
     for name, hue in zip(effort, hues, strict=True):
         (x, wide), (y, high) = t_interval(effort[name]), t_interval(miss[name])
         ax.errorbar(x, y, high, wide, fmt="o", color=COLOURS[hue], label=name)

@@ -14,6 +14,7 @@ from vmc_lib.arm.model import MUSCLES
 from vmc_lib.motor.feedback import TICK
 from vmc_lib.motor.inverse_dynamics import SAMPLES
 from vmc_lib.motor.templates import keep_last, mean_distance, reach
+from vmc_lib.statistics import t_interval
 
 HOLD_TICKS = slice(SAMPLES // TICK, None)  # ticks
 
@@ -27,47 +28,61 @@ def disturbances(rng):
     return noise, np.broadcast_to(weak[:, None, None], (len(MUSCLES), *shape))
 
 
-def scatter_and_miss(noise, weak, rule, late=None):
-    """How far the hand scatters on its way, (151,), and misses with each muscle weak, (6,), in mm.
+def scatter_and_miss(noise, weak, rule, late=None, **paid):
+    """How far the hand scatters on its way, (6, 151), and misses with each muscle weak, in mm.
 
-    Means over the targets; noise and weakness are `disturbances`. Of a rule's commands alone,
-    or with the best corrections, where deviations are known `late`, in ms.
+    The misses are (muscles, 6); noise and weakness are `disturbances`. Of a rule's commands alone,
+    or with the best corrections, where deviations are known `late`, in ms. They are `paid` for
+    in the hold alone, or `since` another tick.
     """
-    scatter = lqr_tracking.scatter(hand_paths(noise, rule, late))
-    miss = mean_distance(hand_paths(weak, rule, late)[..., HOLD_TICKS, :], TARGETS)
-    return 1000 * scatter.mean(axis=0), 1000 * miss.mean(axis=-1)
+    scatter = lqr_tracking.scatter(hand_paths(noise, rule, late, **paid))
+    miss = mean_distance(hand_paths(weak, rule, late, **paid)[..., HOLD_TICKS, :], TARGETS)
+    return 1000 * scatter, 1000 * miss
 
 
-def means_by_rule(measures, rules, runs, known):
-    """Means of all measures: {a measure in words: its mean by rule (rules,)}.
+def draws_by_rule(measures, rules, runs):
+    """All measures, one number for each target: {a measure in words: (rules, 6)}.
 
-    `measures` are those without disturbances, `runs` each rule's (scatter, misses with one muscle
-    weak) by how it is corrected, and `known` its miss where it knows which muscle is weak.
+    `measures` are those without disturbances, `runs` each rule's `scatter_and_miss` by how it is
+    corrected.
     """
     calm = {
-        words: [measures[r][k].mean() for r in rules]
+        words: [measures[r][k] for r in rules]
         for k, words in minimum_variance.MEASURE_NAMES.items()
         if k != "scatter"
     }
-    held = {how: [scatter[HOLD_TICKS].mean() for scatter, _ in run] for how, run in runs.items()}
-    weak = {how: [miss.mean() for _, miss in run] for how, run in runs.items()}
-    return (
+    held = {
+        how: [scatter[:, HOLD_TICKS].mean(axis=-1) for scatter, _ in run]
+        for how, run in runs.items()
+    }
+    weak = {how: [miss.mean(axis=0) for _, miss in run] for how, run in runs.items()}
+    rows = (
         calm
-        | {f"scatter (mm), {how}": means for how, means in held.items()}
-        | {f"miss (mm), one weak, {how}": means for how, means in weak.items()}
-        | {"miss (mm), one weak, known (habit: aim learnt)": known}
+        | {f"scatter (mm), {how}": each for how, each in held.items()}
+        | {f"miss (mm), one weak, {how}": each for how, each in weak.items()}
     )
+    return {words: np.array(each) for words, each in rows.items()}
 
 
-def hand_paths(factors, rule, late=None):
+def surely_least(draws):
+    """The row of (rules, n) that is least, target by target beyond luck; None where none is.
+
+    Its paired differences from each other row have 95 % intervals above 0.
+    """
+    best = draws.mean(axis=1).argmin()
+    middles, halves = zip(*map(t_interval, np.delete(draws, best, 0) - draws[best]), strict=True)
+    return best if (np.array(middles) > halves).all() else None
+
+
+def hand_paths(factors, rule, late=None, **paid):
     """The hand's paths (…, 6, 151, 2) in m, under a rule's commands times factors (…, 6, T, 6)."""
     if late is not None:
-        return lqr_tracking.move(_feedback_law(rule), factors, late // TICK)[0]
+        return lqr_tracking.move(_feedback_law(rule, **paid), factors, late // TICK)[0]
     commands = keep_last(minimum_variance.excitations_by_rule()[rule])
     motions = (reach(np.clip(commands * factor, 0, 1), hold=0.0) for factor in factors)
     return np.array([motion.hand[:, ::TICK, :2] for motion in motions])
 
 
 @cache
-def _feedback_law(rule):
-    return lqr_tracking.feedback_law(minimum_variance.excitations_by_rule()[rule])
+def _feedback_law(rule, **paid):
+    return lqr_tracking.feedback_law(minimum_variance.excitations_by_rule()[rule], **paid)

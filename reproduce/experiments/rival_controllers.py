@@ -38,9 +38,10 @@ from vmc_lib.motor.templates import keep_last, load, mean_distance, reach
 NOISE, DELAY, SECONDS, REPEATS = 0.4, 0.12, 2.5, 20
 TICKS = round(1000 * SECONDS) // TICK
 HOLD_TICKS = slice(SAMPLES // TICK, 3 * SAMPLES // 2 // TICK + 1)  # ticks: 1 to 1.5 s
-GAINS, DAMPINGS = (0.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0), (0.25, 0.5, 1.0, 2.0)  # late feedback's
-MODEL_GAINS = (4.0, 15.0, 60.0, 120.0, 240.0)  # where it has a forward model
-PRICES = (3.0, 10.0, 30.0, 100.0)  # of the LQG controller's commands
+GAINS = (0.0, 2.0, 8.0, 32.0, 128.0, 512.0, 2048.0)  # late feedback's
+DAMPINGS = (0.04, 0.1, 0.25, 0.6, 1.5, 4.0)
+MODEL_GAINS = (60.0, 120.0, 240.0, 480.0, 960.0)  # where it has a forward model
+PRICES = (0.1, 0.3, 1.0, 3.0, 10.0)  # of the LQG controller's commands
 DELAYS, NOISES = (0.0, 0.06, 0.12, 0.18), (0.2, 0.4, 0.6)  # of the chapter's demo
 STATES = [*product(DELAYS, NOISES)]
 RULES = {  # how habit's weights are found, by trials on the arm that wavers
@@ -49,6 +50,7 @@ RULES = {  # how habit's weights are found, by trials on the arm that wavers
     "habit, ours": gauss_newton_calibration,
 }
 LATE, FORESEEN, LQG = "late feedback", "late feedback, forward model", "LQG"
+AT_PRICE = f"LQG, price {lqg.PRICE:g}"  # not tuned
 MISS, LATER, EFFORT = "miss, 1.0–1.5 s (mm)", "at 2.5 s (mm)", "effort / the least"
 PATH, JERK, SCATTER = "way / straight way", "jerk / the least", "scatter (mm)"
 TIME = "processor (ms)"
@@ -60,6 +62,7 @@ MUST_KNOW = {
     LATE: "templates, the way, inverse dynamics; the eye's reports",
     FORESEEN: "the same, and the arm's equations, and every activation",
     LQG: "the arm's equations, the sizes of all noises, a price; the eye's reports",
+    AT_PRICE: "the same, and another price",
 }
 
 
@@ -122,24 +125,34 @@ def repeat_plans(plans, repeats=REPEATS):
 
 def best_feedback(delay=DELAY, share=NOISE, gains=GAINS, model=None, count=6, repeats=3):
     """The gain and damping (2,) with which late feedback misses least, on other targets."""
-    pairs = np.array([*product(gains, DAMPINGS)])
-    plans = repeat_plans(plan(_other_targets(count), load()), repeats * len(pairs))
-    gain, damping = np.tile(pairs, (count * repeats, 1)).T[..., None]
-    luck = draw_luck(len(plans.target), 101)
-    path, _ = feedback_paths(plans, gain, damping, luck, share, delay, model)
-    missed = miss(path, plans.target).reshape(-1, len(pairs)).mean(axis=0)
-    return pairs[missed.argmin()]
+    return least_missed(feedback_misses(delay, share, gains, model, count, repeats))
 
 
-def best_price(prices=PRICES, count=6, repeats=3):
-    """The price of commands with which the LQG controller misses least, on the same others."""
+def least_missed(tried):
+    """The gain and damping, or the price, (k,), whose misses (count,) are least on average."""
+    return np.array(min(tried, key=lambda pair: np.mean(tried[pair])))
+
+
+def feedback_misses(delay=DELAY, share=NOISE, gains=GAINS, model=None, count=6, repeats=3):
+    """The mean misses (count,) in mm at other targets, by gain and damping: all by equal luck."""
+    plans = repeat_plans(plan(_other_targets(count), load()), repeats)
+    luck, missed = draw_luck(len(plans.target), 101), {}
+    for pair in product(gains, DAMPINGS):
+        path, _ = feedback_paths(plans, *pair, luck, share, delay, model)
+        missed[pair] = miss(path, plans.target).reshape(count, repeats).mean(axis=1)
+    return missed
+
+
+def price_misses(prices=PRICES, count=6, repeats=3):
+    """The mean misses (count,) in mm of the LQG controller at the same others, by its price."""
     luck, targets = draw_luck(repeats, 101), _other_targets(count)
 
     def missed(target, price):
         return miss(lqg_paths(lqg_law(target, price=price), luck)[0], target).mean()
 
     found = Parallel()(delayed(missed)(*pair) for pair in product(targets, prices))
-    return prices[np.reshape(found, (count, -1)).mean(axis=0).argmin()]
+    each = np.reshape(found, (count, -1)).T
+    return {(price,): row for price, row in zip(prices, each, strict=True)}
 
 
 def _other_targets(count):
@@ -159,11 +172,11 @@ def compare(target, number, tuned, repeats=REPEATS):
     for name, model in {LATE: None, FORESEEN: arm_copy()}.items():
         runs[name] = partial(_by_feedback, habit, tuned[name], model)
         times[name] = _seconds(lambda run=runs[name]: run(calm, 0.0)) - still
-    start = process_time()
-    law = lqg_law(target, price=tuned[LQG])
-    runs[LQG] = partial(lqg_paths, law)
-    runs[LQG](calm, 0.0)
-    times[LQG] = process_time() - start - still
+    for name, price in {LQG: tuned[LQG].item(), AT_PRICE: lqg.PRICE}.items():
+        start = process_time()
+        runs[name] = partial(lqg_paths, lqg_law(target, price=price))
+        runs[name](calm, 0.0)
+        times[name] = process_time() - start - still
     least = np.square(reach(optimal_excitations()[number], hold=0.0).activation).mean()
     found = {}
     for name, run in runs.items():
@@ -226,25 +239,36 @@ def _seconds(call):
 
 
 def make(targets=TARGETS, repeats=REPEATS, states=STATES, prices=PRICES, **size):
-    """What `results/rivals.json` holds: what was tuned, and `compare` at every target.
+    """What `results/rivals.json` holds: what was tried and tuned, and `compare` at every target.
 
     `states` are the delays and noises for which late feedback is tuned.
     """
     jobs = [partial(best_feedback, *state, **size) for state in states]
     jobs += [
-        partial(best_feedback, **size),
-        partial(best_feedback, gains=MODEL_GAINS, model=arm_copy(), **size),
+        partial(feedback_misses, **size),
+        partial(feedback_misses, gains=MODEL_GAINS, model=arm_copy(), **size),
     ]
     *gains, late, foreseen = Parallel()(delayed(job)() for job in jobs)
-    tuned = {LATE: late, FORESEEN: foreseen, LQG: best_price(prices, **size)}
+    tried = {LATE: late, FORESEEN: foreseen, LQG: price_misses(prices, **size)}
+    tuned = {name: least_missed(misses) for name, misses in tried.items()}
     each = Parallel()(
         delayed(compare)(target, number, tuned, repeats) for number, target in enumerate(targets)
     )
     return {
         "measures": {k: np.round([one[k] for one in each], 4).tolist() for k in each[0]},
-        "tuned": {k: np.atleast_1d(x).tolist() for k, x in tuned.items()},
+        "tuned": {k: x.tolist() for k, x in tuned.items()},
+        **{tried_name(k): _stored(misses) for k, misses in tried.items()},
         "gains": {_state(*state): x.tolist() for state, x in zip(states, gains, strict=True)},
     }
+
+
+def tried_name(name):
+    """Under which name the misses of all that was tried for a controller ship."""
+    return f"{name}, tried"
+
+
+def _stored(misses):
+    return {", ".join(f"{x:g}" for x in k): np.round(v, 4).tolist() for k, v in misses.items()}
 
 
 def _state(delay, share):

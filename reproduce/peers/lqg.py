@@ -44,7 +44,7 @@ from vmc_lib.motor.templates import START
 
 SENSED = np.eye(4, 10)  # of the state: angles and speeds
 ERRORS = np.array([0.01, 0.01, 0.1, 0.1])  # rad and rad/s: a few mm, and a few cm/s, at the hand
-PRICE = 3.0  # of a command's square, where 5 mm or 50 mm/s cost 1 at every tick; by `rivals`
+PRICE = 3.0  # of a command's square, where 5 mm or 50 mm/s cost 1 at every tick
 EVERY_WAY = (1.0, 1.0)  # a miss forward costs, and one upwards
 SETTLED = 300  # ms in which a muscle's mean pull is measured
 ENOUGH = 1e-4  # of its cost: what a better reach must gain

@@ -74,21 +74,22 @@ def observation_slopes(state):
     return np.swapaxes(C, -1, -2) / (2 * NUDGE)
 
 
-def deviation_price(state):
-    """What small deviations cost along states (…, ticks + 1, 10): matrices, 0 before the hold."""
+def deviation_price(state, since=MOVING // TICK):
+    """What small deviations cost along states (…, ticks + 1, 10): matrices, 0 before a tick."""
     C = observation_slopes(state)
     price = np.swapaxes(C, -1, -2) @ C
-    price[..., : MOVING // TICK, :, :] = 0
+    price[..., :since, :, :] = 0
     return price
 
 
-def gains(state, commands):
+def gains(state, commands, since=MOVING // TICK):
     """The best gains (…, ticks, 6, 10) along states (…, ticks + 1, 10), and the arm's slopes.
 
-    A correction is minus the gain times the deviation. Only the hold is paid for, and corrections.
+    A correction is minus the gain times the deviation. Paid for are corrections, and deviations
+    `since` a tick: the hold's alone, or with 0 the whole way's.
     """
     A, B = linearise(state[..., :-1, :], commands)
-    price = deviation_price(state)
+    price = deviation_price(state, since)
     ahead, found = price[..., -1, :, :], []
     for t in reversed(range(commands.shape[-3])):
         a, b = A[..., t, :, :], B[..., t, :, :]
@@ -109,10 +110,10 @@ class FeedbackLaw(NamedTuple):
     B: np.ndarray  # (n, ticks, 10, 6)
 
 
-def feedback_law(excitations):
-    """The LQR law along commands (n, T, 6), and through the hold."""
+def feedback_law(excitations, since=MOVING // TICK):
+    """The LQR law along commands (n, T, 6), and through the hold; `since` as for `gains`."""
     commands, reference = in_ticks(keep_last(excitations)), states(excitations)
-    return FeedbackLaw(commands, reference, *gains(reference, commands))
+    return FeedbackLaw(commands, reference, *gains(reference, commands, since))
 
 
 def move(law, share, late=0):
