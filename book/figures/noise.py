@@ -93,7 +93,7 @@ def scatter_and_miss(uncorrected, paid, weak_miss, corrected, corrected_weak_mis
     for (rule, scatter), hue in zip(uncorrected.items(), ("grey", "orange", "green"), strict=True):
         left.plot(time, scatter, color=COLOURS[hue], label=rule)
     left.plot(time, corrected, color=COLOURS["blue"], label="corrected")
-    left.plot(time, paid, "--", color=COLOURS["blue"], lw=1, label="the way paid for, too")
+    left.plot(time, paid, "--", color=COLOURS["blue"], lw=1, label="all the way")
     left.axvline(0.35, ymax=0.77, color=COLOURS["grey"], lw=1)
     shade(left, 0.7, 1.5)
     left.set(xlabel="time (s)", ylabel="scatter (mm)", ylim=(0, 4.4))
