@@ -123,9 +123,9 @@ def repeat_plans(plans, repeats=REPEATS):
     return plans[np.repeat(np.arange(len(plans.target)), repeats)]
 
 
-def best_feedback(delay=DELAY, share=NOISE, gains=GAINS, model=None, count=6, repeats=3):
-    """The gain and damping (2,) with which late feedback misses least, on other targets."""
-    return least_missed(feedback_misses(delay, share, gains, model, count, repeats))
+def best_feedback(*state, **size):
+    """The gain and damping (2,) with which late feedback misses least, as `feedback_misses`."""
+    return least_missed(feedback_misses(*state, **size))
 
 
 def least_missed(tried):
@@ -133,11 +133,13 @@ def least_missed(tried):
     return np.array(min(tried, key=lambda pair: np.mean(tried[pair])))
 
 
-def feedback_misses(delay=DELAY, share=NOISE, gains=GAINS, model=None, count=6, repeats=3):
+def feedback_misses(
+    delay=DELAY, share=NOISE, gains=GAINS, dampings=DAMPINGS, model=None, count=6, repeats=3
+):
     """The mean misses (count,) in mm at other targets, by gain and damping: all by equal luck."""
     plans = repeat_plans(plan(_other_targets(count), load()), repeats)
     luck, missed = draw_luck(len(plans.target), 101), {}
-    for pair in product(gains, DAMPINGS):
+    for pair in product(gains, dampings):
         path, _ = feedback_paths(plans, *pair, luck, share, delay, model)
         missed[pair] = miss(path, plans.target).reshape(count, repeats).mean(axis=1)
     return missed
@@ -238,18 +240,21 @@ def _seconds(call):
     return process_time() - start
 
 
-def make(targets=TARGETS, repeats=REPEATS, states=STATES, prices=PRICES, **size):
+def make(
+    targets=TARGETS, repeats=REPEATS, states=STATES, prices=PRICES, dampings=DAMPINGS, count=6
+):
     """What `results/rivals.json` holds: what was tried and tuned, and `compare` at every target.
 
-    `states` are the delays and noises for which late feedback is tuned.
+    `states` are the delays and noises for which late feedback is tuned, at `count` targets.
     """
+    size = {"dampings": dampings, "count": count}
     jobs = [partial(best_feedback, *state, **size) for state in states]
     jobs += [
         partial(feedback_misses, **size),
         partial(feedback_misses, gains=MODEL_GAINS, model=arm_copy(), **size),
     ]
     *gains, late, foreseen = Parallel()(delayed(job)() for job in jobs)
-    tried = {LATE: late, FORESEEN: foreseen, LQG: price_misses(prices, **size)}
+    tried = {LATE: late, FORESEEN: foreseen, LQG: price_misses(prices, count)}
     tuned = {name: least_missed(misses) for name, misses in tried.items()}
     each = Parallel()(
         delayed(compare)(target, number, tuned, repeats) for number, target in enumerate(targets)

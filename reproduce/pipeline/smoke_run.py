@@ -116,7 +116,7 @@ def toy_steps(folder):
         toy("sensitivity", {}, 0.08, [0], 2, movements=2, held_out=4),
         toy("weakened", [0], muscle_weakness.TARGETS[:1], ["BRA"], count=2, before=20),
         toy("fresh_test_set", fresh, named, trainings=1, seeds=[0], patches=PATCHES),
-        toy("rivals", optimal_control.TARGETS[9:10], 2, [(0.0, 0.4)], [3.0], count=1),
+        toy("rivals", optimal_control.TARGETS[9:10], 2, [(0.0, 0.4)], [3.0], [0.25], 1),
         toy("lesions", ["rig"], few),
         toy("generalist", ["rig"], few),
         toy("photographs", few, (2, 1), (2, 2, 2, 2), everyday=1, pasted=2),
