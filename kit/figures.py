@@ -5,17 +5,18 @@ the licence stands in each SVG and in the list, index.html.
 """
 
 import re
+import shutil
 from base64 import b64decode
 from html import escape, unescape
 
 from book._ext.numbering import FIGURE_NUMBER
 from book._ext.policy import seal
-from kit.demos import CONFIG, FIGURE
+from kit.demos import CONFIG, FIGURE, ROOT
 from tools import browser
 from vmc_lib.show.palette import COLOURS
 
 LICENCE = "From “{book}”, chapter “{chapter}”, Figure {number}. CC BY 4.0; pictures: CREDITS.md."
-TITLE = re.compile(r"<h1>(.*?)<a class=\"headerlink\"", re.S)
+TITLE = re.compile(r'<h1>((?:(?!</h1>).)*?)<a class="headerlink"', re.S)  # not the contents'
 SVG_TAG = re.compile(r"<(/?)svg\b")
 PHOTO = re.compile(r'<img [^>]*src="data:image/(\w+);base64,([^"]+)"')
 COLOUR = re.compile(r"var\(--vmc-(\w+)\)")
@@ -45,6 +46,8 @@ def build(folder, pages):
                     items.append(ITEM.format(name=name, line=escape(line)))
     page = seal(PAGE.format(items="\n".join(items)))
     (folder / "index.html").write_text(page, encoding="utf-8")
+    for name in ("LICENSE-text", "CREDITS.md"):
+        shutil.copy(ROOT / name, folder)
 
 
 def pictures(figure, line):

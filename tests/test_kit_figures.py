@@ -1,5 +1,6 @@
 """Figures to take along: each a file that stands alone, with its licence's line."""
 
+import re
 from xml.etree import ElementTree
 
 import pytest
@@ -21,14 +22,21 @@ def test_a_drawing_stands_alone_in_its_light_colours():
     assert photo == ("png", b"AB")
 
 
+def test_a_chapter_is_named_by_its_heading_not_by_the_contents_above_it():
+    page = '<h1>Arm</h1>\n<p>Contents</p>\n<h1>An arm<a class="headerlink" href="#arm"></a></h1>'
+    assert figures.TITLE.search(page)[1] == "An arm"
+
+
 def test_every_chapter_gives_drawings_that_can_be_read(kit):
     files = [*(kit / "figures").glob("*.svg")]
     text = (kit / "figures/index.html").read_text(encoding="utf-8")
     assert {file.name.split("-")[1] for file in files} >= {str(n) for n in range(2, 17)}
     for file in files:
         root = ElementTree.parse(file).getroot()  # noqa: S314 (our own)
-        assert "CC BY 4.0" in root[0].text
+        assert re.fullmatch(r"From “.+ CC BY 4\.0; pictures: CREDITS\.md\.", root[0].text)
+        assert "Contents" not in root[0].text
         assert f'href="{file.name}"' in text
+    assert all((kit / "figures" / name).exists() for name in ("CREDITS.md", "LICENSE-text"))
 
 
 @pytest.mark.browser
