@@ -1,7 +1,7 @@
 """The page of plans: a course of six, eight or twelve sessions, section by section."""
 
 from book.figures.inventory import title_and_minutes
-from book.figures.plans import BOOK, NAMES, PLANS, sections
+from book.figures.plans import BOOK, MORE, NAMES, PLANS, sections
 from kit.session import MINUTES
 
 INTRODUCTION = """# Plans: six, eight or twelve sessions of ninety minutes
@@ -13,9 +13,13 @@ the time that all demos of what is read take, 5 minutes each: the slides hold a 
 the minutes at a chapter's head count them, too. *Exercises*, of what is read, come after the
 session. *Hours* are a student's, all in all: the session, what is read, the exercises; a project
 takes about ten more.
+
+*Slides* names the decks with these chapters. There are decks of the six sessions only, and one of
+the chapters that these leave out. In a longer course stop a deck at a chapter's title, and go on
+there the next time. Of a chapter that the six sessions read in part, the decks show that part.
 """
-HEAD = """| session | read | min | show | demos (min) | exercises (min) |
-|-|-|-|-|-|-|"""
+HEAD = """| session | read | read (min) | show | slides | demos (min) | exercises (min) |
+|-|-|-|-|-|-|-|"""
 
 
 def plans():
@@ -32,7 +36,7 @@ def hours(count):
 def _plan(count):
     rows = [
         f"| {number} | {_read(session)} | {session.minutes():.0f} | "
-        f"{_titles(session.shown)} | {session.minutes('demos'):.0f} | "
+        f"{_titles(session.shown)} | {_decks(session)} | {session.minutes('demos'):.0f} | "
         f"{session.minutes('exercises'):.0f} |"
         for number, session in enumerate(PLANS[count], start=1)
     ]
@@ -53,15 +57,27 @@ def _read(session):
     )
 
 
+def _decks(session):
+    """Links to the decks that show a session's chapters."""
+    decks = {f"session-{k}": six.chapters for k, six in enumerate(PLANS[6], 1)} | {"more": MORE}
+    names = [name for name, held in decks.items() if {*held} & {*session.chapters}]
+    return ", ".join(f"[{name.split('-')[-1]}](slides/{name}.html)" for name in names)
+
+
 def _titles(chapters):
     return "; ".join(title_and_minutes(BOOK / f"{chapter}.ipynb")[0] for chapter in chapters)
 
 
 def _sections():
-    """Each chapter's sections: the core, what is optional, and the minutes to read of each."""
+    """Each chapter's sections: the core, what is optional, and the minutes to read of each.
+
+    Exercises are no reading.
+    """
     for chapter in NAMES:
         yield f"### {_titles([chapter])}\n"
         for part in sections(chapter):
             title = part.title if part.core else f"*{part.title}* (optional)"
-            yield f"- {title}: {part.read:.0f} min"
+            minutes = f"{part.read:.0f}" if part.read >= 0.5 else "under 1"
+            if part.title != "Exercises":
+                yield f"- {title}: {minutes} min"
         yield ""

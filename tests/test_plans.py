@@ -1,8 +1,12 @@
 """Plans of a course: every chapter once, and no more to read than an hour a session."""
 
+import re
+
+import nbformat
 import pytest
 
-from book.figures.plans import PLANS, Session, sections
+from book.figures.plans import BOOK, PLANS, Session, sections
+from kit.plan import plans
 from tests.project import CHAPTERS, core_minutes, each_chapter
 
 
@@ -26,6 +30,33 @@ def test_the_core_sections_add_up_to_the_minutes_of_the_core(path):
 def test_what_a_session_reads_is_read_in_an_hour():
     read = [(session.read, session.minutes()) for plan in PLANS.values() for session in plan]
     assert [one for one in read if not 0 < one[1] <= 60] == []
+
+
+def test_each_session_of_each_plan_names_the_decks_of_its_chapters():
+    text = plans()
+    rows = re.findall(r"^\| \d+ \|.*$", text, re.M)
+    decks = [re.findall(r"\((slides/[\w-]+\.html)\)", row) for row in rows]
+    numbers = [*range(1, 7), 1, 1, 2, 3, 4, 5, 5, 6, 1, 1, 2, 2, 3, 4, 4, 5, 5, 6, 6, "more"]
+    names = [n if n == "more" else f"session-{n}" for n in numbers]
+    assert decks == [[f"slides/{name}.html"] for name in names]
+    assert "stop a deck at a chapter's title" in text
+
+
+def test_the_page_of_plans_says_which_minutes_and_never_none():
+    text = plans()
+    assert text.count("| read (min) |") == len(PLANS)
+    assert " 0 min" not in text
+    assert "- *What draws the eye by itself* (optional): under 1 min" in text
+    assert "- Exercises" not in text
+
+
+def test_the_last_chapter_of_a_session_asks_its_question_in_bold():
+    """Which the lecturer reads aloud: not the word "Next:" alone."""
+    for session in PLANS[6]:
+        cells = nbformat.read(BOOK / f"{session.chapters[-1]}.ipynb", as_version=4).cells
+        [recap] = [cell.source for cell in cells if cell.source.startswith("## Recap")]
+        *_, bold = re.findall(r"\*\*([^*]+)\*\*", recap)
+        assert "?" in bold, session
 
 
 def test_what_is_read_in_part_is_some_of_its_core():
