@@ -8,10 +8,13 @@ import argparse
 import re
 import sys
 from base64 import b64encode
+from collections import Counter
 from contextlib import suppress
 from pathlib import Path
+from zlib import crc32
 
 import nbformat
+import numpy as np
 
 from book._ext.numbering import EQUATION_NUMBER, equations_named
 from book.figures.plans import BOOK, NAMES
@@ -24,7 +27,8 @@ from tools import browser
 
 FOLDER = Path("_build/exam")
 SET = re.compile(r"(?:\$\$|\\begin{equation\*})(.+?)(?:\$\$|\\end{equation\*})", re.S)
-FIELD = "\n\n&nbsp;\n\nAnswer: ________________"
+FIELD = "&nbsp;\n\nAnswer: ________________"
+HEAD = "Name: ________________________________ Date: ________________\n\n"
 
 
 def exam(seed, count, numbers=(), unlike=()):
@@ -58,37 +62,63 @@ def new_variants(template, seed, count, unlike=()):
     return template.variants(count, seed, contents)
 
 
+def shorten(questions, count, seed):
+    """So many of an exam's questions, drawn by the seed, as evenly over its chapters as may be.
+
+    ValueError for fewer than one, or more than there are.
+    """
+    if not 0 < count <= len(questions):
+        raise ValueError(f"{count} of {len(questions)} questions: ask for 1 to {len(questions)}")
+    taken, turns, names = Counter(), {}, [*questions]
+    for k in np.random.default_rng(crc32(seed.encode())).permutation(len(names)):
+        chapter, _ = names[k]
+        turns[names[k]] = taken[chapter]
+        taken[chapter] += 1
+    kept = {*sorted(turns, key=turns.get)[:count]}  # a first of each chapter, then a second
+    return {name: variants for name, variants in questions.items() if name in kept}
+
+
 def sheet(questions, key=False):
     """An exam on paper as Markdown: one variant of each question; the `key` has the answers.
 
     What a question names as "Eq. 5" stands at the end.
     """
-    parts = [f"# {'Key of the exam' if key else 'Exam'}\n\n{len(questions)} questions."]
+    title, first = ("Key of the exam", "") if key else ("Exam", HEAD)
+    parts = [f"# {title}\n\n{first}{len(questions)} questions."]
     for number, ((chapter, _), [question, *_]) in enumerate(questions.items(), start=1):
-        text = f"**{number}.** {_plain(question.prompt)} *(chapter {int(chapter[:2])})*"
-        choices = "\n".join(f"- ☐ {_plain(choice)}" for choice in question.choices)
+        lines = [f"**{number}.** {_plain(question.prompt)} *(chapter {int(chapter[:2])})*"]
         if question.picture:
             data = b64encode(question.picture.png).decode()
-            text += f"\n\n![{_plain(question.picture.alt)}](data:image/png;base64,{data})"
-        parts.append(f"{text}\n\n{choices}" if choices else text + ("" if key else FIELD))
+            lines.append(f"![{_plain(question.picture.alt)}](data:image/png;base64,{data})")
+        if question.choices:
+            lines.append("\n".join(f"- ☐ {_plain(choice)}" for choice in question.choices))
+        elif not key:
+            lines.append(FIELD)
         if key:
-            parts.append(f"**{_answer(question)}.** {_plain(question.hint)}")
-    if equations := _equations("\n".join(parts)):
-        parts += ["## The equations", *equations]
+            lines.append(f"**{_answer(question)}.** {_plain(question.hint)}")
+        parts.append(_whole(*lines))
+    named = equations_named("\n".join(parts))
+    if equations := [text for number, text in numbered_equations().items() if number in named]:
+        parts += ["## The equations", *map(_whole, equations)]
     return "\n\n".join(parts) + "\n"
 
 
-def _equations(text):
-    """The equations that a text names, as the chapters write them: Markdown, in order."""
+def _whole(*parts):
+    """Markdown that no end of a page parts."""
+    return "\n\n".join(['<div class="whole">', *parts, "</div>"])
+
+
+def numbered_equations():
+    """The equations as the chapters write them, {number: Markdown}, in order."""
     found = {}
     for name in NAMES:
         for cell in nbformat.read(BOOK / f"{name}.ipynb", as_version=4).cells:
             found |= {
-                int(EQUATION_NUMBER.search(tex)[1]): tex
+                int(EQUATION_NUMBER.search(tex)[1]): f"$$\n{tex.strip()}\n$$"
                 for tex in SET.findall(cell.source)
                 if "\\tag" in tex
             }
-    return [f"$$\n{found[n].strip()}\n$$" for n in sorted(equations_named(text) & found.keys())]
+    return dict(sorted(found.items()))
 
 
 def _answer(question):
@@ -106,8 +136,10 @@ def _plain(text):
 def write(folder, questions):
     """Write an exam's files into a folder: for platforms, and on paper, with its key.
 
-    ValueError where it is not empty: it may hold another exam.
+    ValueError where it is a file, or not empty: it may hold another exam.
     """
+    if folder.is_file():
+        raise ValueError(f"{folder} is a file: name a folder")
     folder.mkdir(parents=True, exist_ok=True)
     if any(folder.iterdir()):
         raise ValueError(f"the folder {folder} is not empty: name another, or empty it")
@@ -128,7 +160,8 @@ def print_sheets(folder):
         page = chromium.new_page()
         for file in (folder / "exam.html", folder / "exam-key.html"):
             page.goto(file.resolve().as_uri())
-            page.pdf(path=file.with_suffix(".pdf"), format="A4", margin={"top": "15mm"})
+            margin = {"top": "15mm", "bottom": "15mm"}
+            page.pdf(path=file.with_suffix(".pdf"), format="A4", margin=margin)
 
 
 def main(arguments=None):
@@ -138,20 +171,23 @@ def main(arguments=None):
     parser.add_argument("--seed", required=True, help="a secret word; the same word, the same exam")
     parser.add_argument("--variants", type=int, default=5, help="of each question")
     parser.add_argument("--only", default="", help="numbers of chapters, such as 07,08")
+    parser.add_argument("--questions", type=int, help="so many, of all chapters; else all")
     parser.add_argument(
         "--unlike", nargs="*", default=(), help="seeds of earlier exams, oldest first"
     )
     asked = parser.parse_args(arguments)
     try:
-        numbers = [number for number in asked.only.split(",") if number]
-        questions = exam(asked.seed, asked.variants, numbers, asked.unlike)
+        numbers = [number.zfill(2) for number in re.split(r"[,\s]+", asked.only) if number]
+        questions = every = exam(asked.seed, asked.variants, numbers, asked.unlike)
+        if asked.questions is not None:
+            questions = shorten(every, asked.questions, asked.seed)
         write(asked.folder, questions)
     except ValueError as error:
         sys.exit(str(error))
     print_sheets(asked.folder)
-    chapters = {chapter for chapter, _ in questions}
+    chapters = {chapter for chapter, _ in every}
     names = {template.name for chapter in chapters for template in templates(chapter)}
-    if left_out := names - {name for _, name in questions}:
+    if left_out := names - {name for _, name in every}:
         print(f"Left out, for want of other numbers: {', '.join(sorted(left_out))}")
     print(f"{len(questions)} questions, {asked.variants} variants each: {asked.folder}")
 

@@ -17,7 +17,9 @@ HEAD = """<!doctype html><html lang="en"><meta charset="utf-8"><title>{title}</t
 body {{ max-width: 45rem; margin: 2rem auto; padding: 0 1rem; font-family: sans-serif;
 line-height: 1.5; }} pre {{ overflow: auto; }}
 table {{ border-collapse: collapse; }}
-:is(th, td) {{ padding: .2em .6em; text-align: left; border-bottom: 1px solid #8888; }}</style>
+:is(th, td) {{ padding: .2em .6em; text-align: left; border-bottom: 1px solid #8888; }}
+.whole, tr {{ break-inside: avoid; }}
+.whole ul {{ padding: 0; list-style: none; }}</style>
 <link rel="stylesheet" href="katex.css"><script defer src="katex.js"></script>
 <script defer src="book.js"></script>
 """

@@ -2,6 +2,7 @@
 
 import ast
 import re
+from collections import Counter
 from inspect import getsource
 
 import pytest
@@ -9,6 +10,7 @@ import pytest
 from book.figures.plans import NAMES
 from kit import exam
 from kit.bank import bank, templates
+from kit.page import markdown_page
 
 
 def contents(questions):
@@ -83,6 +85,33 @@ def test_a_key_ends_with_both_equations_of_a_hint():
     assert re.findall(r"tag\{(\d+)\}", equations) == ["6", "7"]
 
 
+def test_a_question_on_paper_is_one_block_with_boxes_and_no_dots():
+    """A page's end parts no question from its picture, its choices or its line."""
+    questions = exam.exam("a", 1, ["07"])
+    for key in (False, True):
+        page = markdown_page("exam", exam.sheet(questions, key))
+        blocks = re.findall(r'<div class="whole">(.*?)</div>', page, re.S)
+        for block, [question, *_] in zip(blocks, questions.values(), strict=False):
+            assert block.count("☐") == len(question.choices)
+            assert block.count("<img") == bool(question.picture)
+            assert ("Answer: ____" in block) == (not question.choices and not key)
+        assert ("Name: ____" in page, "Date: ____" in page) == (not key, not key)
+        assert ".whole, tr { break-inside: avoid; }" in page
+        assert ".whole ul { padding: 0; list-style: none; }" in page
+
+
+def test_a_short_exam_asks_of_every_chapter_the_same_with_the_same_seed():
+    questions = exam.exam("a", 1, ["07", "08", "09"])
+    short = exam.shorten(questions, 7, "a")
+    counts = Counter(chapter for chapter, _ in short)
+    assert sorted(counts.values()) == [2, 2, 3]
+    assert short == exam.shorten(questions, 7, "a")
+    assert [*short] == [name for name in questions if name in short]
+    assert short.keys() != exam.shorten(questions, 7, "b").keys()
+    with pytest.raises(ValueError, match=r"0 of .* questions: ask for 1 to"):
+        exam.shorten(questions, 0, "a")
+
+
 @pytest.mark.parametrize(
     ("settings", "words"),
     [
@@ -112,6 +141,24 @@ def test_its_files_are_written_and_the_sheet_has_no_answer(tmp_path, monkeypatch
     assert (tmp_path / "questions.gift").stat().st_size > 1000
     with pytest.raises(SystemExit, match="no chapter '99'"):
         exam.main([str(tmp_path), "--seed", "a", "--only", "99"])
+
+
+@pytest.mark.parametrize("only", ["7,8", "07, 08"])
+def test_chapters_may_be_named_as_one_writes_them(only, tmp_path, monkeypatch):
+    monkeypatch.setattr(exam, "print_sheets", lambda folder: None)
+    words = ["--seed", "a", "--variants", "1", "--questions", "4"]
+    exam.main([str(tmp_path), *words, "--only", only])
+    text = (tmp_path / "questions.gift").read_text(encoding="utf-8")
+    asked = re.findall(r"course\$/(\d+)_", text)
+    pictures = (tmp_path / "exam.html").read_text(encoding="utf-8").count("<img")
+    assert len(asked) + pictures == 4  # GIFT holds none
+    assert {*asked} <= {"07", "08"}
+
+
+def test_no_exam_is_written_into_a_file(tmp_path):
+    (tmp_path / "a").touch()
+    with pytest.raises(SystemExit, match="a is a file: name a folder"):
+        exam.main([str(tmp_path / "a"), "--seed", "b", "--only", "07", "--variants", "1"])
 
 
 def test_no_exam_is_written_over_another(tmp_path):
