@@ -158,13 +158,19 @@ def main(arguments=None):
     """Write the report of some files, or of simulated answers."""
     parser = argparse.ArgumentParser("python -m kit.concepts", description=__doc__)
     parser.add_argument("files", nargs="*", type=Path, metavar="LINES")
-    parser.add_argument("--simulate", type=int, default=0, help="so many students")
+    parser.add_argument("--simulate", type=int, help="so many students")
     asked = parser.parse_args(arguments)
-    text = "\n".join(file.read_text(encoding="utf-8") for file in asked.files)
-    if asked.simulate:
-        text = simulated(asked.simulate, np.random.default_rng(0))
+    if asked.simulate is not None and asked.simulate < 3:
+        parser.error("--simulate: three or more")
+    if not asked.files and not asked.simulate:
+        parser.error("give the files with the class's lines, or --simulate")
     try:
+        text = "\n".join(file.read_text(encoding="utf-8") for file in asked.files)
+        if asked.simulate:
+            text = simulated(asked.simulate, np.random.default_rng(0))
         print(report(read(text)))
+    except OSError as error:
+        sys.exit(f"{error.filename} cannot be read: {error.strerror}")
     except ValueError as error:
         sys.exit(str(error))
 

@@ -7,12 +7,13 @@ from IPython.utils.capture import capture_output
 
 from kit.key import SOLUTION, exercise_named
 from kit.student import POINTS
-from vmc_lib.grading import NOT_YET, RIGHT, UNREAD
+from vmc_lib.grading import COMMA, NOT_YET, RIGHT, UNREAD
 from vmc_lib.show.figures import inline
 
 RIGHT_MARK, WORDS, KNOWN = "right", "in words: for you to read", "a known mistake: "
 TOO_LONG = "ran longer than {} s"
 LONGEST = 500  # characters of an error
+SIGNS = {"ge": "≥", "le": "≤", "cdot": "·", "times": "×", "lVert": "‖", "rVert": "‖"}
 CELL_FILE = re.compile(r"(?<=\()\d+\.py, (?=line \d+\)$)")  # the kernel's name for a cell
 
 
@@ -37,10 +38,16 @@ def mark_of(outputs, known):
     text = "".join(output.get("data", {}).get("text/html", "") for output in outputs)
     if RIGHT in text:
         return RIGHT_MARK
-    hints = [f"{KNOWN}{hint}" for hint in known if inline(hint) in text]
-    unmarked = {NOT_YET: "not answered", UNREAD: "not read"}
+    hints = [f"{KNOWN}{_plain(hint)}" for hint in known if inline(hint) in text]
+    unmarked = {NOT_YET: "not answered", COMMA: f"not read: write it {COMMA}", UNREAD: "not read"}
     states = [state for words, state in unmarked.items() if words in text]
-    return " ".join(errors(outputs) or hints[:1] or states) or "not right"
+    return " ".join(errors(outputs) or hints[:1] or states[:1]) or "not right"
+
+
+def _plain(hint):
+    """A hint, Markdown, without marks; of its maths the letters and the names: "tau_act ≥ u"."""
+    text = re.sub(r"\\math\w+ ?|[{}$*`]", "", hint)
+    return re.sub(r"\\(\w+?)(?=\b|_)", lambda name: SIGNS.get(name[1], name[1]), text)
 
 
 def points(mark):

@@ -28,7 +28,7 @@ CELL, NOTEBOOK = 60, 600  # s that each may run
 MOST_OUTPUTS, LARGEST_OUTPUT = 1000, 100_000  # of a cell, signs: a check says less
 COLUMNS = "file", "exercise", "points", "of", "mark"
 BY_FILE = "file", "points", "of", "not right", "for you to read"
-NO_CELL = "no cell checks it"
+GONE = " (the check's cell was deleted)"
 MISSING = re.compile(r"NameError: name '(\w+)' is not defined")
 # Where a cell may begin, also where the separator is a semicolon, as in much of Europe
 FORMULA = re.compile(r"""(^|;)(?=[\s"]*[=+@＝＋－＠-])""")
@@ -56,7 +56,7 @@ def marks(chapter, submission, cell_limit=CELL, limit=NOTEBOOK):
     # The chapter's own may be slow, but may also call a student's function that never ends
     own = {cell.source for cell in chapter.cells} - {*sources.values()}
     _run(notebook, lambda cell: limit / 4 if cell.source in own else cell_limit, limit)
-    results = {label: NO_CELL if source else WORDS for label, source in sources.items()}
+    results = {label: "" if source else WORDS for label, source in sources.items()}
     known, ran = known_mistakes(chapter), []
     for label, cell in zip(labels + gone, cells, strict=True):
         ran.append(cell)  # since the last check
@@ -64,7 +64,7 @@ def marks(chapter, submission, cell_limit=CELL, limit=NOTEBOOK):
             mark = _cause(mark_of(cell.outputs, known.get(label, ())), ran)
             slow = any(map(_interrupted, ran))
             mark = TOO_LONG.format(cell_limit) if slow and not points(mark) else mark
-            results[label] = mark if label not in gone or points(mark) else NO_CELL
+            results[label] = mark if label not in gone or points(mark) else mark + GONE
         if label:
             ran = []
     return results
@@ -183,11 +183,15 @@ def plain(cell):
 def main():
     """Write the table of the notebooks in some folders: CSV, UTF-8, with Excel's mark of that."""
     parser = argparse.ArgumentParser(prog="python -m kit.marks", description=__doc__)
-    parser.add_argument("folders", nargs="+", type=Path, metavar="FOLDER")
+    parser.add_argument("folders", nargs="+", type=Path, metavar="FOLDER", help="or a notebook")
     parser.add_argument("--jobs", type=int, default=1, help="notebooks that run at once")
     parser.add_argument("--by", choices=("exercise", "file"), default="exercise", help="rows")
     options = parser.parse_args()
-    found = sorted(path for folder in options.folders for path in folder.rglob("*"))
+    if options.jobs < 1:
+        parser.error("--jobs: give 1 or more")
+    if missing := [folder for folder in options.folders if not folder.exists()]:
+        sys.exit(f"there is no folder {missing[0]}")
+    found = sorted(path for folder in options.folders for path in (folder, *folder.rglob("*")))
     files = [path for path in found if path.is_file() and ".ipynb_checkpoints" not in path.parts]
     handed_in = [path for path in files if path.suffix.lower() == ".ipynb"]
     for path in files:

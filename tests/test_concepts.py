@@ -53,6 +53,20 @@ def test_the_report_has_the_gain_and_what_is_still_thought():
         concepts.report(dict([*pairs.items()][:2]))
 
 
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["nowhere.txt"], "nowhere.txt cannot be read: No such file"),
+        ([], "give the files with the class's lines, or --simulate"),
+        (["--simulate", "0"], "--simulate: three or more"),
+    ],
+)
+def test_what_gives_no_report_is_said_in_a_sentence(arguments, words, capsys):
+    with pytest.raises(SystemExit) as left:
+        concepts.main(arguments)
+    assert words in f"{left.value} {capsys.readouterr().err}"
+
+
 def test_a_simulated_class_gains_what_was_put_in_and_is_marked(capsys):
     concepts.main(["--simulate", "400"])
     text = capsys.readouterr().out

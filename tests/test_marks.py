@@ -14,8 +14,10 @@ from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 
 from book.exercises.loop import MIXED
 from kit import marks
+from kit.marking import mark_of
 from kit.student import student
 from tests.formulas import FORMULAS, computes
+from vmc_lib.show.figures import inline
 
 EXERCISES = (
     "known",
@@ -29,6 +31,7 @@ EXERCISES = (
     "forged",
     "none",
     "broken",
+    "comma",
     "cut",
 )
 
@@ -61,7 +64,7 @@ def chapter():
 
 @pytest.fixture
 def hand_in(chapter):
-    """What a student made of it, right in six of twelve exercises."""
+    """What a student made of it, right in six of thirteen exercises."""
     notebook = student(chapter)
     checks = {
         cell.metadata.exercise: cell
@@ -79,6 +82,7 @@ def hand_in(chapter):
                 "forged": "3",
                 "none": "None",
                 "broken": "unknown",
+                "comma": "2,0",
             }
             cell.source = f"{name} = {lines.get(name, 2)}"
     checks["moved"].id = "another"
@@ -102,6 +106,7 @@ MARKS = {
     "forged": "not right",
     "none": "not answered",
     "broken": "NameError: name 'unknown' is not defined",
+    "comma": "not read: write it with a point, not with a comma",
     "cut": "right",
     "why": "in words: for you to read",
 }
@@ -303,7 +308,8 @@ def test_every_file_gets_its_rows(hand_in, tmp_path, table):
     nbformat.write(new_notebook(cells=[new_code_cell("1 / 0")]), folder / "7 a student.ipynb")
     nbformat.write(new_notebook(), folder / "notes.ipynb")
     rows = table(folder)
-    bare_marks = MARKS | {"forged": "no cell checks it"}  # it has lost its metadata and source
+    # What has lost its metadata and its source is known as no check
+    bare_marks = MARKS | {"forged": f"not right{marks.GONE}"}
     *found, total = rows.pop("a student.ipynb")
     assert {row["exercise"]: row["mark"] for row in found} == bare_marks
     points = {row["exercise"]: row["points"] for row in found}
@@ -317,14 +323,33 @@ def test_every_file_gets_its_rows(hand_in, tmp_path, table):
     assert float(total["points"]) == 2 * right + 1
     assert float(total["of"]) == 2 * len(EXERCISES)
     *unmarked, total = rows.pop("7 a student.ipynb")
-    assert {row["mark"] for row in unmarked} == {"no cell checks it", MARKS["why"]}
+    undefined = f"NameError: name 'check' is not defined{marks.GONE}"
+    assert {row["mark"] for row in unmarked} >= {undefined, MARKS["why"]}
     assert float(total["points"]) == 0
     assert rows.keys() == {"cut.ipynb", "empty.ipynb", "notes.ipynb"}
     assert all(row["mark"].startswith("cannot be marked (") for [row] in rows.values())
     assert "no chapter has its first heading" in rows["notes.ipynb"][0]["mark"]
-    for none in ("none", "cut.ipynb"):
-        with pytest.raises(SystemExit, match=r"no notebooks under .* FOLDER"):
-            table(folder / none)
+    (tmp_path / "none").mkdir()
+    with pytest.raises(SystemExit, match=r"no notebooks under .* FOLDER"):
+        table(tmp_path / "none")
+    assert table(folder / "empty.ipynb").keys() == {"empty.ipynb"}
+
+
+def test_a_folder_that_is_not_there_is_named(tmp_path, table):
+    with pytest.raises(SystemExit, match=r"there is no folder .*nowhere"):
+        table(tmp_path / "nowhere")
+
+
+def test_no_job_is_no_answer(tmp_path, table, capsys):
+    with pytest.raises(SystemExit):
+        table(tmp_path, "--jobs", 0)
+    assert "--jobs: give 1 or more" in capsys.readouterr().err
+
+
+def test_a_known_mistake_is_said_without_marks():
+    hint = r"You took $\tau_{act}$ *alone*: $u \ge \mathbf a$."
+    [mark] = {mark_of([{"data": {"text/html": inline(hint)}}], [hint])}
+    assert mark == "a known mistake: You took tau_act alone: u ≥ a."
 
 
 @pytest.fixture
@@ -368,7 +393,7 @@ def test_several_run_at_once(tmp_path, table):
         nbformat.write(new_notebook(cells=[new_code_cell("1 / 0")]), tmp_path / name)
     one, other = table(tmp_path, "--jobs", 2).values()
     assert [row["mark"] for row in one] == [row["mark"] for row in other]
-    assert one[0]["mark"] == "no cell checks it"
+    assert one[0]["mark"].endswith(marks.GONE)
 
 
 @pytest.mark.parametrize("formula", FORMULAS)

@@ -18,6 +18,7 @@ from vmc_lib.hints import difference, fault, numbers
 
 _AROUND = " \t\"'“”‘’."  # a word may come in quotes, and end its sentence
 NOT_YET, RIGHT, WRONG, UNREAD = "Not answered yet.", "✓ Right.", "✗ Not yet.", "Not read."
+COMMA = "with a point, not with a comma"
 CASES = 20
 LONGEST = 2000  # characters of what lines printed that are shown
 EMPTY = f"{NOT_YET} The function returns nothing."
@@ -47,6 +48,13 @@ def agree(answer: Any, expected: Any, tolerance: float) -> bool:
     return answer.shape == expected.shape and np.allclose(
         answer, expected, rtol=0, atol=tolerance, equal_nan=True
     )
+
+
+def with_point(answer: Any, expected: Any) -> str:
+    """The number "0.8" where one is `expected` and Python read 0,8, two whole ones; else ""."""
+    two = isinstance(answer, tuple) and [*map(type, answer)] == [int, int]
+    one = np.ndim(expected) == 0 and not isinstance(expected, str)
+    return f"{answer[0]}.{answer[1]}" if two and one else ""
 
 
 def deviation(ours, library, tolerance=1e-8):

@@ -20,6 +20,7 @@ from IPython.display import HTML, display
 
 from vmc_lib.checks import check_kind, is_within
 from vmc_lib.grading import (
+    COMMA,
     EMPTY,
     LONGEST,
     NOT_YET,
@@ -30,6 +31,7 @@ from vmc_lib.grading import (
     agree,
     feedback,
     unreadable,
+    with_point,
 )
 from vmc_lib.show.answers import RULES, judge, scales_of
 from vmc_lib.show.figures import details, inline, markdown
@@ -93,14 +95,19 @@ def check(
         typed = render_mode() == "book" and isinstance(expected, (int, float, str, tuple))
         form = _field(expected, tolerance, hint, unit) if typed else verdict(NOT_YET)
         return display(HTML(form))
+    point = with_point(answer, expected)
     if isinstance(answer, str) and not isinstance(expected, str):
         state = judge(answer, expected, tolerance, unit)
+    elif point:
+        state = "unread"
     else:
         state = "right" if agree(answer, expected, tolerance) else "wrong"
     if state != "right" and render_mode() != "live":
         raise AssertionError(f"check: {answer!r} is not {expected!r} within {tolerance}: {state}")
     got = f"You have {html.escape(repr(answer))}. "
-    display(HTML(verdict(_words(np.size(expected), got + inline(hint), unit)[state])))
+    words = _words(np.size(expected), got + inline(hint), unit)
+    words |= {"unread": f"{UNREAD} Write {point} {COMMA}."} if point else {}
+    display(HTML(verdict(words[state])))
 
 
 def _words(count, hint, unit):
