@@ -10,7 +10,7 @@ from book.figures.plans import PLANS
 from kit.__main__ import CHAPTERS, ROOT
 from kit.chapter_slides import EXERCISES, chapter_slides
 from kit.session import MINUTES
-from tests.pages import open_url
+from tests.pages import TWO_FRAMES, open_url
 from tests.project import sample
 
 BUILT = ROOT / "_build/html/book"
@@ -249,6 +249,14 @@ def test_a_deck_prints_one_slide_a_page(kit, window, tmp_path):
     pages = re.findall(rb"/Type\s*/Page\b", (tmp_path / "deck.pdf").read_bytes())
     assert len(pages) == page.evaluate("() => Reveal.getTotalSlides()")
     assert page.locator(".fit details:not([open])").count() == 0
+    page.emulate_media(media="print")
+    reasons = page.locator(".fit :is(.vmc-quiz, .vmc-predict) details p")
+    shown = "(all) => all.map((one) => one.checkVisibility())"
+    assert all(reasons.evaluate_all(shown))
+    line = "(mark) => getComputedStyle(mark).printColorAdjust + getComputedStyle(mark).outlineStyle"
+    assert page.locator(".fit mark").first.evaluate(line) == "exactsolid"
+    box = "(one) => getComputedStyle(one).listStyleType + getComputedStyle(one).listStylePosition"
+    assert page.locator(".fit .vmc-quiz .vmc-right summary").first.evaluate(box) == '"☑ "inside'
 
 
 def assert_first_demo_moves(page):
@@ -303,6 +311,16 @@ def test_a_handle_stands_on_its_mark_however_small_its_slide_is_drawn(decks):
     assert len(places) >= 5
     x, y, larger_x, larger_y = np.transpose(places)
     assert max(np.abs(x - larger_x).max(), np.abs(y - larger_y).max()) < 0.02
+
+
+@pytest.mark.browser
+def test_a_plan_beside_a_scene_is_read_from_the_last_row(decks):
+    deck = next(deck for deck in decks if deck.locator(".vmc-live .vmc-handle").count())
+    deck.bring_to_front()
+    plot = deck.locator(".vmc-live .vmc-handle >> xpath=.. >> css=svg[data-axes]").first
+    plot.evaluate(SHOW)
+    deck.evaluate(TWO_FRAMES)
+    assert plot.bounding_box()["width"] >= 0.3 * 1280
 
 
 CLICKED = {  # what a speaker clicks, and whether it needs the arrows and the space bar itself
