@@ -45,6 +45,12 @@ def test_every_variant_is_another_question_with_an_answer(questions):
             assert 0 <= question.tolerance <= abs(question.answer) / 10 or question.answer == 0
 
 
+def test_a_quadrant_is_named_as_one_says_it(questions):
+    for question in questions["09_planning", "nearest_in_its_quadrant"]:
+        named = r"from the quadrant (above|below) and (in front of|behind) it\?$"
+        assert re.search(named, question.text)
+
+
 def test_the_right_choice_has_no_place_of_its_own(questions):
     for variants in questions.values():
         if variants[0].choices:

@@ -98,7 +98,12 @@ def mixture_beyond_the_limits(
     return np.clip(weights @ [high, low], 0, 1), {"weights": weights}
 
 
-QUADRANTS = "above and forward", "above and behind", "below and behind", "below and forward"
+QUADRANTS = (
+    "above and in front of it",
+    "above and behind it",
+    "below and behind it",
+    "below and in front of it",
+)
 
 
 @choice(*(f"{{names[{k}]}}" for k in range(8)), hint="Only two lie there; the nearer one is taken.")
@@ -106,7 +111,7 @@ def nearest_in_its_quadrant(
     four=four_templates, order=lambda rng: rng.permutation(8), quadrant=range(4)
 ):
     """The target is {four.at} cm (x forward, y up). Which of these templates does the plan take
-    from the quadrant {where} of it?"""
+    from the quadrant {where}?"""
     farther = four.points + 2 * np.sign(four.points - four.target)
     points = np.vstack([four.points, farther])[order]
     names = [f"({x:g}, {y:g})" for x, y in points]
