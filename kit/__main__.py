@@ -12,6 +12,7 @@ from kit import arm, concepts, demos, figures, nbgrader
 from kit.bank import bank
 from kit.chapter_questions import bank_questions
 from kit.class_pages import class_page, throws_page
+from kit.exam import numbered_equations
 from kit.gift import gift
 from kit.key import key
 from kit.moodle import moodle_xml
@@ -67,9 +68,10 @@ def write_notebooks(folder):
 
 
 def write_texts(folder, pages):
-    """Write what a teacher reads, as pages: the first page, the key, the plans, two handouts."""
+    """Write what a teacher reads, as pages: the first page, the key, the plans, three handouts."""
     keys = [alive(key(notebook, page), ()) for _, notebook, page in chapters(pages)]
     texts = {"key": "\n".join(keys), "plan": plans(), "index": index()}
+    texts["equations"] = "\n\n".join(["# The equations", *numbered_equations().values()])
     for name in ("projects", "assistants"):
         texts[name] = (ROOT / f"kit/{name}.md").read_text(encoding="utf-8")
     for name, text in texts.items():
@@ -110,7 +112,13 @@ def index():
     cells = nbformat.read(ROOT / "book/teaching.ipynb", as_version=4).cells
     text = next(cell.source for cell in cells if "`make kit` writes" in cell.source)
     listed = re.search(r"`make kit` writes.+\n\n((?:- .+\n(?:  .+\n)*)+)", text)[1]
-    return "# The kit\n\n" + re.sub(r"`([\w/.-]+\.(html|ipynb))`", r"[\1](\1)", listed)
+    listed = re.sub(r"`(.+)1\.html` to `\1(\d)\.html`", _each, listed)
+    return "# The kit\n\n" + re.sub(r"`([\w/.-]+(?:\.html|\.ipynb|/))`", r"[\1](\1)", listed)
+
+
+def _each(found):
+    """The names of all decks, in place of the first and the last."""
+    return ", ".join(f"`{found[1]}{number}.html`" for number in range(1, int(found[2]) + 1))
 
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@ from nbclient import NotebookClient
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 
 from book.exercises.loop import MIXED
-from kit.__main__ import CHAPTERS, ROOT
+from kit.__main__ import CHAPTERS, ROOT, index
 from kit.key import key
 from kit.student import LINK, checks, student
 from vmc_lib.show import questions
@@ -149,6 +149,7 @@ def test_the_whole_kit_is_built_from_chapters_and_pages(kit):
         "katex.css",
         "book.js",
         "index.html",
+        "equations.html",
         "projects.html",
         "report.ipynb",
         "assistants.html",
@@ -189,7 +190,16 @@ def test_links_of_the_kits_pages_lead_to_files_that_are_there(kit):
     dead = [link for page in pages for link in links[page] if not (page.parent / link).exists()]
     assert dead == []
     first = {"plan.html", "key.html", "projects.html", "assistants.html", "throws.html"}
-    assert first | {"class.html", "slides/session-1.html"} <= {*links[kit / "index.html"]}
+    assert first | {"class.html", "equations.html"} <= {*links[kit / "index.html"]}
+    decks = {f"slides/{deck.name}" for deck in kit.glob("slides/*.html")}
+    folders = {"students/", "figures/index.html", "demos/index.html", "arm-in-page/example.html"}
+    assert decks | folders <= {*links[kit / "index.html"]}
+    assert "(below)" not in index()  # there is nothing below
+
+
+def test_the_page_of_equations_has_each_number_once(kit):
+    page = (kit / "equations.html").read_text(encoding="utf-8")
+    assert re.findall(r"tag\{(\d+)\}", page) == [str(number) for number in range(1, 13)]
 
 
 def test_every_exercise_that_is_checked_has_its_answer_in_the_key(kit, chapter):
