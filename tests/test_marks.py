@@ -348,7 +348,7 @@ def test_no_job_is_no_answer(tmp_path, table, capsys):
 
 def test_a_known_mistake_is_said_without_marks():
     hint = r"You took $\tau_{act}$ *alone*: $u \ge \mathbf a$."
-    [mark] = {mark_of([{"data": {"text/html": inline(hint)}}], [hint])}
+    mark = mark_of([{"data": {"text/html": inline(hint)}}], [hint])
     assert mark == "a known mistake: You took tau_act alone: u ≥ a."
 
 
