@@ -170,7 +170,7 @@ def main(arguments=None):
     parser.add_argument("folder", type=Path, nargs="?", default=FOLDER, help=f"else {FOLDER}")
     parser.add_argument("--seed", required=True, help="a secret word; the same word, the same exam")
     parser.add_argument("--variants", type=int, default=5, help="of each question")
-    parser.add_argument("--only", default="", help="numbers of chapters, such as 07,08")
+    parser.add_argument("--only", default="", help="numbers of chapters, such as 7,8")
     parser.add_argument("--questions", type=int, help="so many, of all chapters; else all")
     parser.add_argument(
         "--unlike", nargs="*", default=(), help="seeds of earlier exams, oldest first"
