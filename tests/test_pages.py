@@ -174,6 +174,7 @@ NOT_STACKED = """() => [...document.querySelectorAll("figcaption:has([data-stack
   }).map((caption) => caption.innerText)"""
 
 
+@a_page_of_each_kind
 def test_a_caption_says_above_where_pictures_stand_one_below_the_other(page):
     unfold(page)
     resize(page, 390, 844)

@@ -10,7 +10,6 @@ from book.figures.panels import panels
 from book.figures.what import tiles
 from reproduce.experiments.real_world import share_text
 from reproduce.experiments.recognition import PUBLISHED, confusion_counts, rates_of_counts
-from reproduce.training.scenes import SCENES
 from vmc_lib.boxes import decode_deltas, iou
 from vmc_lib.photos import HEIGHT, WIDTH
 from vmc_lib.show import Estimate, dot_plot, estimate, photo_view, table
@@ -108,6 +107,8 @@ def scene_table(counts, of):
 
     A scene without a shuttlecock has a dash for what is right and tight.
     """
+    from reproduce.training.scenes import SCENES  # whose cut-outs need more than a page has
+
     rows = []
     for name, three in counts.items():
         *found, alarms = (share_text(count, of) for count in three)

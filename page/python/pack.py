@@ -24,7 +24,7 @@ PACKAGES = {
     "reproduce": "one_draw paper",
     "reproduce.experiments": "calibration feedback_control",
     "reproduce.measures": "changed_worlds holding muscle_bench path_measures",
-    "reproduce.peers": "lqr_tracking muscle_models optimal_control state_estimation",
+    "reproduce.peers": "lqr_tracking motor_noise muscle_models optimal_control state_estimation",
     "vmc_lib": "boxes camera checks compiled grading hints short_repr statistics",
     "vmc_lib.arm": "dynamics engines kinematics model muscle simulate",
     "vmc_lib.cerebellum": "adaptation feedback_error forward_model offline online two_rates",
