@@ -47,7 +47,9 @@ def mark_of(outputs, known):
 def _plain(hint):
     """A hint, Markdown, without marks; of its maths the letters and the names: "tau_act ≥ u"."""
     text = re.sub(r"\\math\w+ ?|[{}$*`]", "", hint)
-    return re.sub(r"\\(\w+?)(?=\b|_)", lambda name: SIGNS.get(name[1], name[1]), text)
+    text = re.sub(r"(?<=\d)(?=\\)", " ", text)
+    text = re.sub(r"\\(\w+?)(?=\b|_)", lambda name: SIGNS.get(name[1], name[1]), text)
+    return re.sub(r"‖ (.+?) ‖", r"‖\1‖", text)
 
 
 def points(mark):

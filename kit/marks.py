@@ -64,7 +64,7 @@ def marks(chapter, submission, cell_limit=CELL, limit=NOTEBOOK):
             mark = _cause(mark_of(cell.outputs, known.get(label, ())), ran)
             slow = any(map(_interrupted, ran))
             mark = TOO_LONG.format(cell_limit) if slow and not points(mark) else mark
-            results[label] = mark if label not in gone or points(mark) else mark + GONE
+            results[label] = mark if label not in gone or mark == RIGHT_MARK else mark + GONE
         if label:
             ran = []
     return results

@@ -50,11 +50,11 @@ def agree(answer: Any, expected: Any, tolerance: float) -> bool:
     )
 
 
-def with_point(answer: Any, expected: Any) -> str:
-    """The number "0.8" where one is `expected` and Python read 0,8, two whole ones; else ""."""
+def has_comma(answer: Any, expected: Any) -> bool:
+    """Whether one number is `expected` and Python read two whole ones, as it reads 0,8."""
     two = isinstance(answer, tuple) and [*map(type, answer)] == [int, int]
     one = np.ndim(expected) == 0 and not isinstance(expected, str)
-    return f"{answer[0]}.{answer[1]}" if two and one else ""
+    return two and one
 
 
 def deviation(ours, library, tolerance=1e-8):

@@ -44,7 +44,7 @@ def boxes_beside(photo, recogniser, shifts, scales):
 def steps_to_loss(shots, recogniser, steps):
     """Step, in widths, at which a box slid off a shuttlecock loses the name -> how many boxes.
 
-    One slides to the left and one to the right in each photo; None where it keeps the name.
+    One slides to the left and one to the right in each photo; "never" where it keeps the name.
     """
     lost = Counter()
     for shot, side in product(shots, (-1, 1)):
@@ -52,8 +52,8 @@ def steps_to_loss(shots, recogniser, steps):
         true = np.tile(shot.boxes["shuttlecock"], (len(steps), 1))
         boxes = decode_deltas(true, deltas).clip(0, PICTURE)
         unnamed = recogniser.box_probability(shot.image, boxes) <= 0.5
-        lost[steps[unnamed.argmax()] if unnamed.any() else None] += 1
-    return dict(sorted(lost.items(), key=lambda pair: pair[0] or np.inf))
+        lost[steps[unnamed.argmax()] if unnamed.any() else "never"] += 1
+    return dict(sorted(lost.items(), key=lambda pair: np.inf if pair[0] == "never" else pair[0]))
 
 
 def named_box(image, box, chance):

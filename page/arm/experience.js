@@ -77,9 +77,8 @@ export class Experience extends Aimed {
     label.lastChild.textContent = ` ${place}`;
     this.boxes.at(-1).parentElement.after(label);
     this.boxes.at(-1).checked = true;
-    this.news = ` Kept: template ${this.boxes.length}, at ${place}.`;
     this.again();
-    this.say(this.news.trim()); // and after the reach once more
+    this.say(`Kept: template ${this.boxes.length}, at ${place}.`);
   }
 
   /* The templates are again those that the book has. */
@@ -87,7 +86,6 @@ export class Experience extends Aimed {
     const { points } = this.given.templateSet;
     for (const one of this.boxes.slice(points.length)) one.parentElement.remove();
     this.templateSet?.shorten(points.length);
-    this.news = "";
   }
 
   again() {
@@ -107,9 +105,9 @@ export class Experience extends Aimed {
   }
 
   sayMiss() {
-    const all = this.boxes.length, { stays, news } = this;
-    Object.assign(this, { stays: null, news: "" });
+    const all = this.boxes.length, { stays } = this;
+    this.stays = null;
     if (stays) this.say(stays);
-    else super.sayMiss(`${news ?? ""} ${all - this.without.size} of ${all} templates in use.`);
+    else super.sayMiss(` ${all - this.without.size} of ${all} templates in use.`);
   }
 }

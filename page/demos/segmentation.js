@@ -62,12 +62,11 @@ class Segmentation {
       this.run();
     }, (why) => (say.textContent = why));
     choose.addEventListener("click", () => file.click());
-    const { src } = still;
-    back.addEventListener("click", async () => {
+    const ours = still.cloneNode();
+    back.addEventListener("click", () => {
       this.stop();
-      [back.hidden, canvas.hidden, merged.value, say.textContent] = [true, true, 0, ""];
-      [still.src, this.photo] = [src, null];
-      await still.decode();
+      [back.hidden, merged.value, say.textContent, still.src] = [true, 0, "", ours.src];
+      this.look(ours);
       this.show();
     });
   }

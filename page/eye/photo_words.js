@@ -48,7 +48,7 @@ export const next = ({ box, boxes }, count, read, sheet) => {
 
 /* How far a hand ended from the place that it reached for. */
 export const reached = (calibrated, planned, guesses) =>
-  `Corrected by trial, the hand misses the place ${guesses ? "guessed" : "seen"} by ${millimetres(calibrated, 1)}; ` +
+  `Corrected by trial, the hand ends ${millimetres(calibrated, 1)} from the place ${guesses ? "guessed" : "seen"}; ` +
   `it began from ${millimetres(planned, 1)}. `;
 
 /* How far off places are that a sheet tells: in half of the photos, in nine of ten. */
@@ -61,9 +61,9 @@ export const guessed = ({ slant, size, place, nearest }, { position, rotation },
   const cm = (metres) => `${(100 * metres).toFixed(0)} cm`, share = (most - least) / (most + least);
   const isPart = dot(rotation[2], minus(place, position)) < nearest + 1e-6, held = `${((180 * slant) / Math.PI).toFixed(0)}°`;
   const camera = isPart
-    ? `By a phone’s usual lens a shuttlecock of ${cm(size)} would be nearer than ${cm(nearest)}. ` +
-      `So this is taken as a part of a photo from ${cm(nearest)} away, held at ${held}.`
-    : `By a phone’s usual lens, held at ${held}, a shuttlecock of ${cm(size)} is ${cm(distance(position, place))} from the camera, ` +
+    ? `With a phone’s usual lens a shuttlecock of ${cm(size)} would be nearer than ${cm(nearest)}. ` +
+      `So this picture is taken as part of a larger photo, from ${cm(nearest)} away, held at ${held}.`
+    : `With a phone’s usual lens, held at ${held}, a shuttlecock of ${cm(size)} is ${cm(distance(position, place))} from the camera, ` +
       `± ${(100 * share).toFixed(0)} %, as shuttlecocks differ in size.`;
   return `No sheet is seen, so the place is a guess, the same for every photo without one. ${camera} With the sheet it is measured.`;
 };

@@ -117,7 +117,7 @@ class Editor {
     area.value = kept.typed;
     this.mine = kept.mine;
     Object.assign(this, { said: kept.said, judged: kept.judged });
-    if (kept.said) this.show([again(kept.said[0]), kept.said[1]]);
+    if (kept.said?.length) this.show([again(kept.said[0]), kept.said[1]]);
     if ((kept.book ?? sum(empty)) === sum(empty)) area.ran = kept.ran;
     else return this.offer("The book’s cell has changed since you wrote yours. It is now:", empty);
     this.close();

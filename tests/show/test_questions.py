@@ -132,7 +132,7 @@ def test_wrong_answers_show_the_hint_and_fail_where_no_reader_is(
         ("eleven", "Write a number"),
         ("11 or 12", "Write a number"),
         ("11 km", "Write it without"),
-        ((11, 5), "Write 11.5 with a point, not with a comma"),
+        ((11, 5), "Write the number with a point, not with a comma"),
     ],
 )
 def test_what_cannot_be_read_is_not_wrong_and_fails_a_test(answer, said, shown, monkeypatch):

@@ -30,8 +30,8 @@ from vmc_lib.grading import (
     Exercise,
     agree,
     feedback,
+    has_comma,
     unreadable,
-    with_point,
 )
 from vmc_lib.show.answers import RULES, judge, scales_of
 from vmc_lib.show.figures import details, inline, markdown
@@ -95,10 +95,10 @@ def check(
         typed = render_mode() == "book" and isinstance(expected, (int, float, str, tuple))
         form = _field(expected, tolerance, hint, unit) if typed else verdict(NOT_YET)
         return display(HTML(form))
-    point = with_point(answer, expected)
+    comma = has_comma(answer, expected)
     if isinstance(answer, str) and not isinstance(expected, str):
         state = judge(answer, expected, tolerance, unit)
-    elif point:
+    elif comma:
         state = "unread"
     else:
         state = "right" if agree(answer, expected, tolerance) else "wrong"
@@ -106,7 +106,7 @@ def check(
         raise AssertionError(f"check: {answer!r} is not {expected!r} within {tolerance}: {state}")
     got = f"You have {html.escape(repr(answer))}. "
     words = _words(np.size(expected), got + inline(hint), unit)
-    words |= {"unread": f"{UNREAD} Write {point} {COMMA}."} if point else {}
+    words |= {"unread": f"{UNREAD} Write the number {COMMA}."} if comma else {}
     display(HTML(verdict(words[state])))
 
 

@@ -192,7 +192,7 @@ def test_in_a_photo_without_the_sheet_the_arm_reaches_for_a_guess(page):
     """What was found is said first, and stays; then that nothing is measured."""
     shot = next(shot for shot in photos.load("real", "test") if shot.boxes)
     said = give(page, shot.file)
-    assert "misses the place guessed by" in said
+    assert "from the place guessed" in said
     assert sheets_from_above(page) == 0
     assert "so the place is a guess, the same for every photo without one." in said
     assert "a part of a photo from 50 cm away, held at 45°" in said  # it is cut round the thing
