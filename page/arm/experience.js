@@ -78,7 +78,8 @@ export class Experience extends Aimed {
     this.boxes.at(-1).parentElement.after(label);
     this.boxes.at(-1).checked = true;
     this.again();
-    this.say(`Kept: template ${this.boxes.length}, at ${place}.`);
+    this.kept = ` Kept: template ${this.boxes.length}, at ${place}.`; // said now, and after the reach
+    this.say(this.kept.trim());
   }
 
   /* The templates are again those that the book has. */
@@ -86,6 +87,11 @@ export class Experience extends Aimed {
     const { points } = this.given.templateSet;
     for (const one of this.boxes.slice(points.length)) one.parentElement.remove();
     this.templateSet?.shorten(points.length);
+  }
+
+  aim(moved) {
+    this.kept = "";
+    super.aim(moved);
   }
 
   again() {
@@ -105,9 +111,9 @@ export class Experience extends Aimed {
   }
 
   sayMiss() {
-    const all = this.boxes.length, { stays } = this;
-    this.stays = null;
+    const all = this.boxes.length, { stays, kept } = this;
+    Object.assign(this, { stays: null, kept: "" });
     if (stays) this.say(stays);
-    else super.sayMiss(` ${all - this.without.size} of ${all} templates in use.`);
+    else super.sayMiss(`${kept} ${all - this.without.size} of ${all} templates in use.`);
   }
 }

@@ -130,10 +130,9 @@ def test_a_calibrated_reach_becomes_a_template(arm):
     best = plan(TARGET, own).with_weights(trials.weights[trials.error.argmin()])
     more = with_one_more(own, best)
     after = execute(plan(TARGET, more))
-    place = ", ".join(f"{x:.3f}".replace("-", "−") for x in more.points[-1])
-    status(arm, f"Kept: template 20, at {place}.")
     said = status(arm, f"The planned reach misses by {1000 * after.error:.1f} mm")
-    assert said.endswith("20 of 20 templates in use.")
+    place = ", ".join(f"{x:.3f}".replace("-", "−") for x in more.points[-1])
+    assert said.endswith(f"Kept: template 20, at {place}. 20 of 20 templates in use.")
     assert after.error < 0.0025
     labels = arm.locator("label:has([name=template])").all_text_contents()
     assert {len(x.split(".")[-1]) for label in labels for x in label.split(",")} == {3}

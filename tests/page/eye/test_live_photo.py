@@ -169,7 +169,7 @@ def test_it_takes_what_the_browsers_camera_shows(chromium, site, html, tmp_path)
     context.add_init_script(DRAWN)
     page = pages.open_html(context, site, html)
     page.get_by_role("button", name="Live").click()
-    assert "misses the place seen by" in status(page, "Corrected by trial")
+    assert "from the place seen" in status(page, "Corrected by trial")
     assert page.evaluate("drawn") == 0
     assert page.errors == []
     films.close()

@@ -99,7 +99,7 @@ def test_our_photo_leads_to_a_corrected_reach_and_its_picture(page, tmp_path):
     page.get_by_role("button", name="Example").click()
     said = status(page, "Corrected by trial")
     assert found(page) == "A shuttlecock, 100 % sure."
-    assert "misses the place seen by" in said
+    assert "from the place seen" in said
     assert sheets_from_above(page) == 1
     half, most = (1000 * error for error in your_photo.place_accuracy())
     assert f"right to {half:.0f} mm, in nine of ten to {most:.0f} mm" in said
@@ -195,7 +195,7 @@ def test_in_a_photo_without_the_sheet_the_arm_reaches_for_a_guess(page):
     assert "from the place guessed" in said
     assert sheets_from_above(page) == 0
     assert "so the place is a guess, the same for every photo without one." in said
-    assert "a part of a photo from 50 cm away, held at 45°" in said  # it is cut round the thing
+    assert "part of a larger photo, from 50 cm away, held at 45°" in said  # it is cut round the thing
     first, choices = found(page), page.locator(".vmc-boxes button")
     assert re.fullmatch(r"A shuttlecock, \d+ % sure\.", first)
     assert "0 markers seen, 3 needed" in readout(page, "camera")
@@ -234,7 +234,7 @@ def test_where_a_usual_lens_would_be_too_near_no_distance_is_stated_by_it(ask):
         ask(GUESSED, [box, guess, selector]) for box in ((50, 20, 500, 390), (270, 185, 330, 215))
     )
     assert "would be nearer than 50 cm" in near
-    assert "taken as a part of a photo from 50 cm away" in near
+    assert "taken as part of a larger photo, from 50 cm away" in near
     assert "±" not in near
     away = guess["lens"] * 721 * guess["size"] / np.sqrt(60 * 30)
     spread = 100 * np.ptp(SIZES) / sum(SIZES)
@@ -478,5 +478,5 @@ def test_in_a_kernel_it_is_the_same_page(monkeypatch, window):
     page = pages.observe(window().new_page())
     render(page, shown[1], monkeypatch)
     page.locator("[name=example]").click()
-    assert "misses the place seen by" in status(page, "Corrected by trial")
+    assert "from the place seen" in status(page, "Corrected by trial")
     assert page.errors == []
