@@ -283,6 +283,14 @@ def _state(delay, share):
 load_results = partial(calibration.load_results, "rivals")
 
 
+def is_inside(name):
+    """Whether all that is tuned of a controller lies inside what was tried, at no edge of it."""
+    shipped = load_results()
+    tried = np.array([pair.split(", ") for pair in shipped[tried_name(name)]], float)
+    best = shipped["tuned"][name]
+    return bool(((tried.min(axis=0) < best) & (best < tried.max(axis=0))).all())
+
+
 def tuned_gains(delay, share):
     """The gain and damping of late feedback that ship for such a delay and noise."""
     return load_results()["gains"][_state(delay, share)]

@@ -31,6 +31,7 @@ def test_no_best_value_lies_at_the_edge_of_what_was_tried():
     assert shipped["tuned"][rivals.FORESEEN][0] > min(rivals.MODEL_GAINS)
     (price,) = shipped["tuned"][rivals.LQG]
     assert min(rivals.PRICES) < price < max(rivals.PRICES)
+    assert all(map(rivals.is_inside, shipped["tuned"]))
 
 
 def test_what_ships_as_tuned_missed_least_of_all_that_was_tried():
