@@ -50,7 +50,7 @@ def test_untrained_learner_changes_nothing(template_set):
     np.testing.assert_allclose(corrected.excitations, reference.excitations, atol=1e-12)
 
 
-def test_reaches_that_the_eye_guides_scatter_as_a_persons(template_set):
+def test_reaches_that_the_eye_guides_scatter_by_2_mm(template_set):
     noise, rng = measure.SCATTER_SHARE, np.random.default_rng(0)
     model = measure.fit_forward_model(template_set, rng, noise=noise)
     eight = measure.centre_out(template_set)

@@ -41,7 +41,7 @@ def test_tries_until_a_level():
     assert learning_curves.first_below(0.1, curves) == np.inf
 
 
-def test_hands_scatter_as_a_persons_does_in_what_ships():
+def test_hands_scatter_by_2_mm_in_what_ships():
     shipped = learning_curves.load_results()
     for name in (learning_curves.OFF_LINE, at_noise(WHOLE_ARM, NOISY)):
         assert shipped[name]["scatter"].shape == (20,)
