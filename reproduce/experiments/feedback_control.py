@@ -48,7 +48,9 @@ BY_GAIN = {
     **{arm: {g: SIGHT._replace(gain=g) for g in GAINS} for arm in ("late sight", "forward model")},
 }
 BEST = {"reflex alone": 0.5, "late sight": 2, "forward model": 240}  # by `gain_sweep`
-TUNED = 0.125, 24.0  # late sight's gain and damping, by `damping_sweep`: almost a brake alone
+# Late sight's gain and damping that missed least in `damping_sweep`: almost a brake alone. Of those
+# tried the gain is the lowest, the damping the longest: less pull, braking as much, may miss less.
+TUNED = 0.125, 24.0
 REACHES = 100  # by each of the seeds
 BY_BOTH = {  # gains and dampings of sight
     "late sight": [
