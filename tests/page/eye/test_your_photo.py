@@ -195,7 +195,7 @@ def test_in_a_photo_without_the_sheet_the_arm_reaches_for_a_guess(page):
     assert "from the place guessed" in said
     assert sheets_from_above(page) == 0
     assert "so the place is a guess, the same for every photo without one." in said
-    assert "part of a larger photo, from 50 cm away, held at 45°" in said  # it is cut round the thing
+    assert "part of a larger photo, from 50 cm away, held at 45°" in said
     first, choices = found(page), page.locator(".vmc-boxes button")
     assert re.fullmatch(r"A shuttlecock, \d+ % sure\.", first)
     assert "0 markers seen, 3 needed" in readout(page, "camera")
