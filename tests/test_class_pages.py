@@ -198,6 +198,15 @@ def chapter(open_page):
     return open_page(f"<article><h1>A</h1>{prediction}{exercise}{below}{QUIZ}</article>")
 
 
+def grade(chapter, **detail):
+    """Tell the page what was `said` of a function's `lines`, as its grader does."""
+    chapter.locator("form:not([data-check])").evaluate(
+        "(form, detail) => form.dispatchEvent("
+        "new CustomEvent('vmc-graded', { bubbles: true, detail }))",
+        detail,
+    )
+
+
 def test_a_page_keeps_what_was_answered_shows_it_and_saves_it(chapter):
     record = chapter.locator(".vmc-record")
     assert not record.is_visible()
@@ -209,11 +218,7 @@ def test_a_page_keeps_what_was_answered_shows_it_and_saves_it(chapter):
     chapter.locator(".vmc-quiz .vmc-right").evaluate("(one) => { one.open = true }")  # a search may
     chapter.click("summary:text('This')")
     chapter.wait_for_function("() => localStorage.vmcRecord.includes('quiz')")
-    chapter.locator("form:not([data-check])").evaluate(
-        "(form, detail) => form.dispatchEvent("
-        "new CustomEvent('vmc-graded', { bubbles: true, detail }))",
-        {"said": "✗ Not yet. The sign is wrong.", "lines": "def f():\n    return -1"},
-    )
+    grade(chapter, said="✗ Not yet. The sign is wrong.", lines="def f():\n    return -1")
     chapter.reload()
     assert "7" not in record.locator("summary").inner_text()
     assert "6" in record.locator("summary").inner_text()
@@ -252,11 +257,7 @@ def test_a_long_question_ends_in_an_ellipsis_and_an_answer_stands_out(chapter):
     chapter.locator("legend").first.evaluate("(it) => (it.textContent = 'Why? '.repeat(100))")
     chapter.check("input[value=one]")
     chapter.wait_for_function("() => localStorage.vmcRecord")
-    chapter.locator("form:not([data-check])").evaluate(
-        "(form, detail) => form.dispatchEvent("
-        "new CustomEvent('vmc-graded', { bubbles: true, detail }))",
-        {"said": "✗ Not yet.", "lines": "    return -1"},
-    )
+    grade(chapter, said="✗ Not yet.", lines="    return -1")
     record = chapter.locator(".vmc-record")
     record.locator("summary").click()
     expect(record.locator("li")).to_have_count(2)

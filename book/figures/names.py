@@ -16,8 +16,6 @@ from vmc_lib.show import Estimate, dot_plot, estimate, photo_view, table
 from vmc_lib.show.palette import COLOURS
 from vmc_lib.statistics import wilson
 
-PICTURE = [WIDTH, HEIGHT, WIDTH, HEIGHT]
-
 
 def shares(draws, *names):
     """Estimates of shares from draws (…, draws, n), by the names along all axes but the draws'.
@@ -36,9 +34,8 @@ def boxes_beside(photo, recogniser, shifts, scales):
     places = list(product(photo.boxes, shifts, scales))
     true = np.array([photo.boxes[thing] for thing, *_ in places])
     deltas = [(shift, 0, np.log(scale), np.log(scale)) for _, shift, scale in places]
-    boxes = decode_deltas(true, np.array(deltas)).clip(0, PICTURE)
-    chances = recogniser.box_probability(photo.image, boxes)
-    return dict(zip(places, zip(boxes, chances, strict=True), strict=True))
+    moved = _move_boxes(photo, recogniser, true, deltas)
+    return dict(zip(places, zip(*moved, strict=True), strict=True))
 
 
 def steps_to_loss(shots, recogniser, steps):
@@ -48,12 +45,18 @@ def steps_to_loss(shots, recogniser, steps):
     """
     lost = Counter()
     for shot, side in product(shots, (-1, 1)):
-        deltas = np.array([(side * step, 0, 0, 0) for step in steps])
+        deltas = [(side * step, 0, 0, 0) for step in steps]
         true = np.tile(shot.boxes["shuttlecock"], (len(steps), 1))
-        boxes = decode_deltas(true, deltas).clip(0, PICTURE)
-        unnamed = recogniser.box_probability(shot.image, boxes) <= 0.5
+        _, chances = _move_boxes(shot, recogniser, true, deltas)
+        unnamed = chances <= 0.5
         lost[steps[unnamed.argmax()] if unnamed.any() else "never"] += 1
     return dict(sorted(lost.items(), key=lambda pair: np.inf if pair[0] == "never" else pair[0]))
+
+
+def _move_boxes(photo, recogniser, true, deltas):
+    """True boxes (n, 4) moved by deltas (n, 4) within their photo, and their probabilities."""
+    boxes = decode_deltas(true, np.array(deltas)).clip(0, [WIDTH, HEIGHT, WIDTH, HEIGHT])
+    return boxes, recogniser.box_probability(photo.image, boxes)
 
 
 def named_box(image, box, chance):

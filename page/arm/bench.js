@@ -1,4 +1,5 @@
 /* The bench: six excitations in the reader's hand. */
+import { calm } from "../demo/running.js";
 import { degrees, frame, Live, OFTEN } from "./live.js";
 
 export class Bench extends Live {
@@ -50,7 +51,7 @@ export class Bench extends Live {
       return this.say(`Paused at ${time} s. Shoulder ${shoulder}, elbow ${elbow}.`);
     }
     this.say("The arm is running.");
-    const pace = this.calm.matches ? 500 : 0; // ms between two pictures
+    const pace = calm.matches ? 500 : 0; // ms between two pictures
     for (let last = await frame(), now, n = 0; (now = await frame()), turn === this.turn; ) {
       if (now - last < pace) continue;
       const steps = Math.round(Math.min(now - last, Math.max(pace, 50)));

@@ -21,7 +21,6 @@ export class Live {
     this.life = new AbortController(); // what listens beyond the box, does so until the page has done with it
     this.given = JSON.parse(box.querySelector("script").textContent);
     this.drawing = new Drawing(box, this.given);
-    this.calm = matchMedia("(prefers-reduced-motion: reduce)");
     this.form = box.querySelector("form");
     this.controls = this.form.querySelector("fieldset"); // closed until it is open
     const { view } = this.drawing;

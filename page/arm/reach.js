@@ -1,5 +1,6 @@
 /* The reach: the reader sets a target; the page plans, moves, misses, calibrates. */
 import { addHandle } from "../demo/handle.js";
+import { calm } from "../demo/running.js";
 import { clip, distance, mean, sum } from "../vectors.js";
 import * as calibrations from "./calibration.js";
 import { frame, Live, millimetres, OFTEN, signed } from "./live.js";
@@ -32,7 +33,7 @@ export class Reach extends Live {
     const every = Math.ceil(10 / step); // of its moments the path has one
     const path = motion.filter((_, t) => t % every === 0).map(({ q }) => this.arm.hand(q));
     const start = await frame();
-    for (let n = 0, t = this.calm.matches ? motion.length : 0; t < motion.length - 1; n++) {
+    for (let n = 0, t = calm.matches ? motion.length : 0; t < motion.length - 1; n++) {
       this.mark(path.slice(0, 1 + t / every));
       this.show(motion[t], n % OFTEN > 0);
       t = Math.max(0, Math.round(((await frame()) - start) / step));

@@ -5,6 +5,7 @@ import * as planning from "../arm/planning.js";
 import { Reach } from "../arm/reach.js";
 import { load } from "../arm/templates.js";
 import { saveWithLine } from "../canvas.js";
+import { calm } from "../demo/running.js";
 import { mean, minus } from "../vectors.js";
 import { ArmInPhoto } from "./arm_in_photo.js";
 import { project } from "./camera.js";
@@ -36,7 +37,7 @@ export class PhotoReach extends Reach {
     if (!(await this.awake()) || turn !== this.turn) return; // it has said why
     Object.assign(this, { target, plan: planning.plan(target, this.templateSet) });
     const start = await frame();
-    for (let share = this.calm.matches ? 1 : 0; ; share = Math.min(1, ((await frame()) - start) / TURNING)) {
+    for (let share = calm.matches ? 1 : 0; ; share = Math.min(1, ((await frame()) - start) / TURNING)) {
       if (turn !== this.turn) return;
       this.bearing = from + share * (bearing - from);
       this.rest();
