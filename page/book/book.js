@@ -3,15 +3,17 @@ import { address, hash } from "../demo/address.js";
 import { memory } from "../demo/questions.js";
 import { setEquations } from "./equations.js";
 
-/* An equation wider than the page scrolls; then the keyboard must be able to reach it. */
+/* An equation or code wider than the page scrolls; then the keyboard must be able to reach it. The theme sees to
+   code when a page opens, but not to that of a fold, which has no width until it is open. */
 const reach = () =>
-  document.querySelectorAll("div.math").forEach((equation) =>
-    equation.scrollWidth > equation.clientWidth
-      ? equation.setAttribute("tabindex", "0")
-      : equation.removeAttribute("tabindex"));
+  document.querySelectorAll("div.math, details[open] pre").forEach((wide) =>
+    wide.scrollWidth > wide.clientWidth
+      ? wide.setAttribute("tabindex", "0")
+      : wide.removeAttribute("tabindex"));
 addEventListener("DOMContentLoaded", () => setEquations(document.body));
 addEventListener("load", reach);
 addEventListener("resize", reach);
+document.addEventListener("toggle", reach, true);
 
 /* A page shows the model's own code; what imports, draws and tabulates is folded. A box in the header
    shows it all, and is remembered where the browser remembers. */
