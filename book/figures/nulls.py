@@ -22,6 +22,7 @@ LINES = {  # a rule -> its line
     nulls.LINE: ("green", "--"),
     nulls.LEAST_SQUARES: ("green", "-"),
 }
+NULLS_ONLINE = nulls.SHUFFLED, *nulls.NO_LESSON
 TEACHERS = {rule: LINES[rule] for rule in (nulls.EQ_6_7, nulls.BLIND, nulls.LINE)}
 TEACHERS[nulls.IN_ORDER] = "blue", "--"
 
@@ -100,7 +101,8 @@ def mechanisms():
         "online, new reaches: error left": {
             "the paper: Algorithm 2": taught[f"{nulls.ALGORITHM_2}, held-out"][:, 1],
             f"the same, {nulls.BLINDLY_TAUGHT}": taught[f"{nulls.BLINDLY_TAUGHT}, held-out"][:, 1],
-            f"null: {nulls.SHUFFLED}": taught[f"{nulls.SHUFFLED}, held-out"][:, 1],
-            "ours: granule cells": own["own online, 25 movements, held-out"],
+            **{f"null: {k}": taught[f"{k}, held-out"][:, 1] for k in NULLS_ONLINE},
+            "ours, over the hold: granule cells": own["own online, 25 movements, held-out"],
+            f"null, over the hold: {nulls.NO_LESSON[1]}": own["own online, 0 movements, held-out"],
         },
     }

@@ -228,4 +228,16 @@ def settings_table():
         f"Tried: C of {costs}; γ of {scales}, over the number of features times their variance. "
         "(*linear* has no γ; with *poly* a larger C does the same.)\n\n"
         + table(["C, γ", *localisation.TABLE_1_KERNELS], rows)
+        + f"\n\nWith *published*, these lie at an edge of what was tried, so that settings beyond "
+        f"may do better: {', '.join(_at_an_edge())}."
     )
+
+
+def _at_an_edge():
+    """The chosen settings of the published recipe that are the least or largest of those tried."""
+    for kernel, (cost, scale) in localisation.kernel_settings().items():
+        scales = localisation.FREE_SCALES[kernel]
+        if cost in (min(localisation.COSTS), max(localisation.COSTS)):
+            yield f"C of *{kernel}*"
+        if len(scales) > 1 and scale in (min(scales), max(scales)):
+            yield f"γ of *{kernel}*"

@@ -42,7 +42,7 @@ from vmc_lib.motor.planning import (
 TRIES = 21  # of the paper's off-line calibration
 COARSE_TO_FINE = (10, 0, 20, 5, 15, 2, 8, 12, 18, *(1, 3, 4, 6, 7, 9, 11, 13, 14, 16, 17, 19))
 AS_ALGORITHM_1 = (*range(1, 21), 0)  # the n in the order in which it counts them
-LENGTH = 0.1  # of a blind change of the weights; chosen on other targets (seeds 100 to 109)
+LENGTH = 0.1  # of a blind change of the weights: good, not best, on other targets (seeds 100–109)
 EQ_6_7, BLIND = "Eq. 6–7", "blind search"
 SAME_LENGTH, LINE = "random direction", "line search along Eq. 4"
 RANDOM_LENGTH = "random length"

@@ -19,6 +19,7 @@ CENTRE, MEAN_PLACE = (
     "the mean place in training",
 )
 WITHOUT_LEARNING = CENTRE, MEAN_PLACE
+ONE_TARGET = optimal_control.TARGETS[12]
 RECORDED_FROM = np.radians([0, 60])  # the posture, of OpenSim's movements
 
 
@@ -69,7 +70,7 @@ def _computation():
     """How much quicker a plan is than the exact optimum, and how often that tries the arm."""
     timed = {row["task"]: row for row in results.records("bench/planning")["rows"]}
     quicker = timed["habitual plan"]["× faster than optimal control"]
-    found = optimal_control.search(optimal_control.TARGETS[12])
+    found = optimal_control.search(ONE_TARGET)
     tried = found.nfev + found.njev * (1 + found.x.size)
     return [
         trivial_quantity("times quicker than optimal control", 1, quicker, **ABOVE),
@@ -121,6 +122,9 @@ ROWS = (
         "Habit spares the computation of an optimal movement.",
         "09_planning",
         _computation,
+        note="The movements tried are those for one target, "
+        "{:.0f} cm forward and {:.0f} cm down; ".format(*100 * np.abs(ONE_TARGET))
+        + "chapter 9 searches for another, and counts others.",
     ),
     Row(
         "III, Block 2, effort",

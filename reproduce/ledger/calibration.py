@@ -116,7 +116,7 @@ def _table_5():
 def _figure_4():
     name, kind = "error after Eq. 6 with the searched n of Eq. 7, over planned", ", tries alone"
     left = nulls.load_results()[nulls.BY_TRIES][nulls.EQ_6_7 + kind]
-    return [mean(name, 1, left, fitted=True, nulls=by_luck(kind), **BELOW)]
+    return [mean_of_draws(name, 1, left, fitted=True, nulls=by_luck(kind), **BELOW)]
 
 
 def _figure_10():
@@ -135,9 +135,9 @@ def _robots():
     }
     name = "two links, torques: {}"
     return [
-        mean(name.format("planned / reach"), None, found["planned / reach"]),
+        mean_of_draws(name.format("planned / reach"), None, found["planned / reach"]),
         *(
-            mean(
+            mean_of_draws(
                 name.format(rule), 1, found[rule], nulls={k: found[k].mean() for k in luck}, **BELOW
             )
             for rule, luck in others.items()
@@ -178,7 +178,7 @@ def _own_table_5():
     luck = [
         {f"{nulls.BLIND}, as many tries": held[nulls.BLIND][:, k].mean()} for k in tries.values()
     ]
-    last, noisy = (WHOLE_HOLD, "own off-line, 4 trials", "planned"), own_with_noise()[0]
+    last = WHOLE_HOLD, "own off-line, 4 trials", "planned"
     return [
         *own_rules("off-line", tries, OFFLINE, luck),
         *(
@@ -189,8 +189,21 @@ def _own_table_5():
             mean_of_draws(f"the worst of 200, {k}", None, found[f"{k}, worst at 2.5 s"])
             for k in last
         ),
-        *(mean_of_draws(f"error over planned, {name}", None, left) for name, left in noisy),
+        *(
+            mean_of_draws(f"error over planned, {name}", None, left, f"draws of {n} movements")
+            for n, noisy in ((50, own_with_noise()[0]), (25, _curves_with_noise()))
+            for name, left in noisy
+        ),
     ]
+
+
+def _curves_with_noise():
+    """Likewise of `learning_curves`, which chapter 10 draws: after so many tries, (name, draws)."""
+    from reproduce.experiments import learning_curves  # scikit-learn comes with it
+
+    found = learning_curves.load_results()[learning_curves.OFF_LINE]
+    for rule, tries in ((nulls.EQ_6_7, 21), (nulls.BROYDEN, 4), (nulls.LEAST_SQUARES, 8)):
+        yield f"off-line, {rule}, {tries} tries, {WAVERS}", found[rule][:, tries]
 
 
 def _direction():
@@ -209,7 +222,10 @@ def _direction():
 
 
 def own_with_noise():
-    """What our rules leave where the hand scatters by 2 mm, (name, draws): see `unsteady`."""
+    """What our rules leave where the hand scatters by 2 mm, (name, draws): see `unsteady`.
+
+    A draw is of 50 movements off-line; that of `_curves_with_noise` is one of 25.
+    """
     from reproduce.experiments import learning_under_noise  # scikit-learn comes with it
 
     found = learning_under_noise.load_results()[f"{SCATTER_MM} mm"]
@@ -251,7 +267,7 @@ ROWS = (
         "paper's ratio than the shoulder. We keep the shoulder, from which all our places are "
         "measured: the ratio does not choose the origin. And it does not choose the rule: blind "
         "search, the best of as many changes of the weights that were drawn without looking at the "
-        "error, of a length that was chosen on other targets, leaves no more; random directions, "
+        "error, of a good length found on other targets, leaves no more; random directions, "
         "each as long as the change of Eq. 6–7, leave "
         f"{{q[error after over planned, {nulls.SAME_LENGTH}, as many tries].obtained:.2f}}; the "
         "direction of Eq. 6 with a length drawn by luck leaves "
@@ -315,7 +331,9 @@ ROWS = (
         "trials that counts, with four the pseudo-inverse as it was leaves hardly more. An arm "
         "without noise. Where the hand wavers by 2 mm, "
         f"least squares leave {{q[error over planned, off-line, least squares, {WAVERS}]"
-        ".obtained:.2f}. Mixtures drift: at 2.5 s the hand is "
+        ".obtained:.2f} (six draws of 50 movements; after as many tries in chapter 10's curves, "
+        f"20 draws of 25, {{q[error over planned, off-line, {nulls.LEAST_SQUARES}, 8 tries, "
+        f"{WAVERS}].obtained:.2f}}). Mixtures drift: at 2.5 s the hand is "
         f"{{q[mm from the target at 2.5 s, {WHOLE_HOLD}].obtained:.1f}} mm from the target, where "
         "habit's is {q[mm from the target at 2.5 s, planned].obtained:.0f} mm; some holds are "
         f"unstable (at worst {{q[the worst of 200, {WHOLE_HOLD}].obtained:.0f}} mm, a mean over "
@@ -332,7 +350,7 @@ ROWS = (
         f"({{q[{LESS.format(nulls.SAME_LENGTH, 21)}].obtained:+.3f}}, from "
         f"{{q[{LESS.format(nulls.SAME_LENGTH, 21)}].low:+.3f}} to "
         f"{{q[{LESS.format(nulls.SAME_LENGTH, 21)}].high:+.3f}}). *Blind search* takes one length, "
-        "a good one, chosen on other targets: its best of 21 leaves less than the best of Eq. 6–7 "
+        "a good one, found on other targets: its best of 21 leaves less than the best of Eq. 6–7 "
         f"({{q[{LESS.format(nulls.BLIND, 21)}].obtained:+.3f}}, from "
         f"{{q[{LESS.format(nulls.BLIND, 21)}].low:+.3f}} to "
         f"{{q[{LESS.format(nulls.BLIND, 21)}].high:+.3f}}). So the direction is worth something, "

@@ -37,12 +37,17 @@ LESS_EXACT = {
 SMALL_N = f"taught by {nulls.EQ_6_7}, n = 1, 2, 3 alone"
 SPREAD_N = f"taught by {nulls.EQ_6_7}, n = 0, 10, 20 alone"
 FALLS = "steps, experiment to experiment, in which the error falls"
+BY_ONE_TRY = f"taught by one try of a {nulls.LINE}"
 UNCORRECTED = "lessons of uncorrected movements"
 TEACHERS = {  # of Algorithm 2, and how often they try
     UNCORRECTED: (nulls.EQ_6_7, 0),
     SMALL_N: (nulls.IN_ORDER, 3),
     SPREAD_N: (nulls.EQ_6_7, 3),
-    f"taught by one try of a {nulls.LINE}": (nulls.LINE, 1),
+    BY_ONE_TRY: (nulls.LINE, 1),
+}
+TAUGHT_LESS = {
+    teacher: f"{teacher}, less by {nulls.EQ_6_7}, never practised"
+    for teacher in (nulls.BLINDLY_TAUGHT, BY_ONE_TRY)
 }
 ONLINE = {"better": -1, "rounding": paper.ratio_rounding("online", "planned")}
 
@@ -71,7 +76,20 @@ def _table_6():
             for kind, less in LESS_EXACT.items()
             for exact in [f"{nulls.NO_LESSON[1]}, {kind}"]
         ),
+        *_taught_less(),
     ]
+
+
+def _taught_less():
+    """What other teachers than Eq. 6–7 leave of movements never practised, less what it leaves."""
+    found = nulls.load_results()[nulls.BY_TEACHING]
+    by_paper = found[f"{nulls.EQ_6_7}, {HELD_OUT}"][:, -1]
+    for what, (teacher, tries) in {
+        nulls.BLINDLY_TAUGHT: (nulls.BLIND, nulls.TRIES),
+        BY_ONE_TRY: TEACHERS[BY_ONE_TRY],
+    }.items():
+        left = found[f"{teacher}, {HELD_OUT}"][:, nulls.TAUGHT.index(tries)]
+        yield mean(TAUGHT_LESS[what], None, left - by_paper)
 
 
 def _taught(name):
@@ -137,7 +155,7 @@ def _figure_12():
 
 def _tenth(name, claimed, found, **rest):
     held_out, in_sample = map(truediv, _left(found, 10), _left(found, 1))
-    return mean(name, claimed, held_out, in_sample=in_sample.mean(), **rest)
+    return mean_of_draws(name, claimed, held_out, in_sample=in_sample.mean(), **rest)
 
 
 def _as_good():
@@ -185,10 +203,14 @@ ROWS = (
         "itself leaves less than these on what it practised, "
         f"{{q[{LESS_EXACT[IN_SAMPLE]}].obtained:+.3f}} on the same draws, and more on what "
         f"it did not, {{q[{LESS_EXACT[HELD_OUT]}].obtained:+.3f}}.) And the teacher "
-        "matters little: taught by blind search instead of Eq. 6–7 it leaves "
-        f"{{q[error after over planned, {nulls.BLINDLY_TAUGHT}].in_sample:.2f}} "
-        f"of those practised, and {{q[error after over planned, {nulls.BLINDLY_TAUGHT}]"
-        ".obtained:.2f} of others. Uncorrected movements teach it to leave "
+        "need not be Eq. 6–7: taught by blind search it leaves "
+        f"{{q[error after over planned, {nulls.BLINDLY_TAUGHT}].in_sample:.2f}} of those practised "
+        f"and {{q[error after over planned, {nulls.BLINDLY_TAUGHT}].obtained:.2f}} of others "
+        f"({{q[{TAUGHT_LESS[nulls.BLINDLY_TAUGHT]}].obtained:+.3f}} on the same draws); by one try "
+        f"along Eq. 4 it leaves less of others, "
+        f"{{q[error after over planned, {BY_ONE_TRY}].obtained:.2f}} "
+        f"({{q[{TAUGHT_LESS[BY_ONE_TRY]}].obtained:+.3f}}). Uncorrected movements teach it to "
+        "leave "
         f"{{q[error after over planned, {UNCORRECTED}].obtained:.2f}} of others, "
         f"Eq. 6–7 with n = 1, 2 and 3 {{q[error after over planned, {SMALL_N}].obtained:.2f}}, "
         f"with n = 0, 10 and 20 {{q[error after over planned, {SPREAD_N}].obtained:.2f}}, "

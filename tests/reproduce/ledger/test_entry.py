@@ -162,6 +162,13 @@ def test_what_was_fitted_is_no_better_than_its_null():
     assert type(measured["quantities"][0]["nulls"]["other weights"]) is float
 
 
+def test_what_was_fitted_to_come_near_passes_no_null_that_is_merely_less():
+    """As of Table IV, whose spacing is fitted: neither side of the claim is better."""
+    ends, luck = {"low": 0.4, "high": 0.6}, {"near": 0.58, "far less": 0.2, "far more": 0.8}
+    q = Quantity("q", 0.5, 0.5, **ends, fitted=True, nulls=luck)
+    assert q.passing_nulls() == ["near"]
+
+
 def test_verdict_of_a_row():
     trivial, good = entry.trivial_quantity("q", 1, 1), Quantity("q", 1, 1)
     better, worse = Quantity("q", 1, 2, better=1), Quantity("q", 1, 0)

@@ -89,6 +89,14 @@ def test_every_number_with_an_interval_says_what_it_was_measured_on():
     assert [q["name"] for q in NUMBERS if q["low"] is not None and not q["sample"]] == []
 
 
+def test_no_interval_of_a_share_passes_1():
+    ends = "obtained", "low", "high", "least", "most"
+    shares = [q for q in NUMBERS if q["name"].endswith((": precision", ": recall"))]
+    assert len(shares) > 20
+    for q in shares:
+        assert all(0 <= q[end] <= 1 for end in ends if q[end] is not None), q["name"]
+
+
 def _row(row):
     """A row as a case: those that take long wait for the audit."""
     long = row.where in ("V, robots", "Table V", "Fig. 1", "Fig. 7", "Fig. 8", "III, Block 3", TIME)

@@ -26,6 +26,7 @@ ELSEWHERE = {  # tests that make one draw of other steps again
     "optimal": "peers/test_optimal_control.py::test_shipped_optima_are_reproducible",
     "nulls": "experiments/test_nulls.py::test_one_draw_of_nulls_is_reproducible",
     "sensitivity": "experiments/test_sensitivity.py::test_draws_on_thelens_muscle_are_reproducible",
+    "learning_curves": "experiments/test_learning_curves.py::test_shipped_curves_are_reproducible",
     "unsteady": "experiments/test_learning_under_noise.py::test_shipped_results_are_reproducible",
 }
 HERE = {"movements", "second_layers", "hmax_draws", "class_independence"}
