@@ -34,9 +34,8 @@ def _table_1():
     return quantities
 
 
-def _trained(name, claimed, rows, in_sample, wanted, of, nulls=None, **how):
+def _trained(name, claimed, rows, in_sample, wanted, of, unit="objects", effects=(1, 1)):
     """Of rows (trainings, 2) measured where so many regions or objects were wanted."""
-    nulls, unit, effects = nulls or {}, how.get("unit", "objects"), how.get("effects", (1, 1))
     precision, recall = rows.mean(axis=0)
     called = recall * wanted / precision if precision else 0
     return [
@@ -49,14 +48,13 @@ def _trained(name, claimed, rows, in_sample, wanted, of, nulls=None, **how):
             unit=unit,
             effect=effects[k],
             in_sample=in_sample[k],
-            nulls={null: rates[k] for null, rates in nulls.items()},
             **EXACT,
         )
         for k, measure in enumerate(MEASURES)
     ]
 
 
-def _fresh(name, question, claimed, in_sample, of, nulls):
+def _fresh(name, question, claimed, in_sample, of, nulls, unit="objects", effects=(1, 1)):
     """What a question put to the fresh photos of the rig says, beside `nulls`: name -> (2,)."""
     right, wrong, missed = fresh_test_set.load_results()[question]["rig"]
     return [
@@ -66,7 +64,8 @@ def _fresh(name, question, claimed, in_sample, of, nulls):
             right,
             n,
             of,
-            "objects",
+            unit,
+            effects[k],
             in_sample=in_sample[k],
             nulls={null: rates[k] for null, rates in nulls.items()},
             **EXACT,
@@ -87,22 +86,16 @@ def _kernels():
 
 
 def _own_table_1():
-    """On fresh photos, whose counts are means; how trainings scatter is read on those that ship."""
-    in_sample, shipped = (
-        localisation.table_1("rig", split, "context")["linear"] for split in ("train", "test")
-    )
-    right, wrong, missed = fresh_test_set.load_results()["linear"]["rig"]
-    rates = recognition.rates_of_counts((right, wrong, missed))
-    return _trained(
+    in_sample = localisation.table_1("rig", "train", "context")["linear"].mean(axis=0)
+    how = {"unit": "regions", "effects": region_clusters.load_results()["context"]["linear"]}
+    return _fresh(
         "linear, fresh photos",
+        "linear",
         paper.TABLE_1["linear"],
-        rates + shipped - shipped.mean(axis=0),
-        in_sample.mean(axis=0),
-        right + missed,
+        in_sample,
         paper.TEST_ROIS["positive"],
         {"without context": fresh_test_set.table_1()["linear"].mean(axis=0)},
-        unit="regions",
-        effects=region_clusters.load_results()["context"]["linear"],
+        **how,
     )
 
 
@@ -180,8 +173,7 @@ ROWS = (
         differs="Its recall does; its precision is "
         "{q[linear, fresh photos: precision].obtained:.3f}, not 1.",
         note=SECOND_HUNDRED
-        + " Of these only the mean over trainings is stored; how much trainings scatter is read on "
-        "the forty photos that ship, which are fewer, so the interval is rather too wide."
+        + " The counts are means over trainings, whose scatter is not in the intervals."
         + CLUSTERED,
     ),
     Row(
