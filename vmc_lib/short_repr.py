@@ -10,7 +10,9 @@ class _ShortRepr(Repr):
     """`reprlib` with the shapes of long arrays, and the names alone of objects that hold some."""
 
     def repr_ndarray(self, array, level):
-        return str(array.round(3).tolist()) if array.size <= FEW else f"array{array.shape}"
+        if array.size > FEW:
+            return f"array{array.shape}"
+        return str((array.round(3) if array.dtype.kind in "fc" else array).tolist())
 
     def repr_float64(self, number, level):
         return f"{number:.3f}"
