@@ -325,6 +325,20 @@ def test_the_teachers_page_joins_two_hundred_files(page, tmp_path):
     assert room.locator("#rows tr").count() == 2
 
 
+@pytest.mark.parametrize("names", [("ann", "ann (1)"), ("ann (1)", "ann")])
+def test_of_two_files_of_which_one_begins_the_other_the_longer_counts(page, tmp_path, names):
+    """A browser saves the second as "ann (1)", which many computers list first."""
+    answers = [answer("1", False), answer("2", True)]
+    for name, kept in (("ann", answers[:1]), ("ann (1)", answers)):
+        file = {"format": "answers 1", "who": "ann", "answers": kept}
+        (tmp_path / f"{name}.json").write_text(json.dumps(file), encoding="utf-8")
+    room = page(class_page())
+    room.set_input_files("#files", [tmp_path / f"{name}.json" for name in names])
+    room.wait_for_selector("#rows tr")
+    (row,) = list(csv.reader(io.StringIO(saved(room, "#save"))))[1:]
+    assert row[2:] == ["1", "1", "1", "0", "1", "0", "1"]
+
+
 # Reads one file while three others are still being read; returns who is in the table.
 READ_TWICE = """async () => {
   const file = (who) => new File([JSON.stringify({ format: "answers 1", who, answers: [] })], who);
