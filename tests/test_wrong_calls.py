@@ -116,6 +116,7 @@ def cells():
     return online.GranuleCells().fit(np.eye(2), np.eye(2))
 
 
+RAGGED = [[1, 2], [3]]
 BOX, RNG, STREAM = [[0, 0, 9, 9]], np.random.default_rng(0), stream.VentralStream.load()
 NOISE, BLANK = RNG.random((3, 20, 20)), np.zeros((40, 60, 3))
 
@@ -226,9 +227,15 @@ SIGHT = {  # a call: what its error says, the value and the remedy
     "a middle of three": (
         lambda g: boxes.centres_and_sides([1, 2, 3]), "[1, 2, 3]", "(x0, y0, x1, y1)"
     ),
+    "a score as text in an array": (
+        lambda g: boxes.nms(BOX, np.array("x")), "scores x is", "give numbers"
+    ),
     "a jitter of three": (
         lambda g: boxes.jitter_boxes([[0, 0, 9]], 0.1, RNG), "[[0.0, 0.0, 9.0]]", "(x0, y0, x1, y1)"
     ),
+    "ragged boxes": (lambda g: boxes.area(RAGGED), "[[1, 2], [3]]", "rows of a length"),
+    "a jitter without end": (lambda g: boxes.jitter_boxes(BOX, np.inf, RNG), "inf", "0 or more"),
+    "a jitter of none": (lambda g: boxes.jitter_boxes(BOX, [], RNG), "[]", "one share"),
     "less than no jitter": (lambda g: boxes.jitter_boxes(BOX, -0.1, RNG), "-0.1", "0 or more"),
     "no boxes for nms": (lambda g: boxes.nms(None, []), "boxes None", "give numbers"),
     "a flat box": (lambda g: boxes.encode_deltas([0, 0, 0, 9], BOX), "[0. 0. 0. 9.]", "leave it"),
@@ -240,6 +247,7 @@ SIGHT = {  # a call: what its error says, the value and the remedy
     ),
     "more than sure": (lambda g: box_selection.scale_odds(1.5, 2), "1.5", "give 0 to 1"),
     "odds below none": (lambda g: box_selection.scale_odds(0.5, -1), "ratio -1.0", "0 or more"),
+    "odds without end": (lambda g: box_selection.scale_odds(0.5, np.inf), "inf", "finite ratio"),
     "two places": (
         lambda g: loop.locate(g.model, g.image, BOX * 2, g.photo.camera), "2 boxes", "give one"
     ),
@@ -539,6 +547,41 @@ MOVING = {
         lambda g: planning.plan((0.1, -0.38), g.model.template_set, lambda target, points: 1),
         "weights 1", "return them as (4,)",
     ),
+    "a ragged posture": (lambda g: dynamics.hand(RAGGED), "[[1, 2], [3]]", "rows of a length"),
+    "a ragged torque": (
+        lambda g: dynamics.forward_dynamics([0, 1], [0, 0], RAGGED), "[[1, 2], [3]]", "of a length"
+    ),
+    "ragged limits": (lambda g: dynamics.check_posture(RAGGED), "[[1, 2], [3]]", "of a length"),
+    "a ragged drawing": (lambda g: arm26.geometry(RAGGED), "[[1, 2], [3]]", "rows of a length"),
+    "ragged excitations": (lambda g: templates.reach(RAGGED), "[[1, 2], [3]]", "rows of a length"),
+    "ragged rows": (
+        lambda g: planning.plan((0.1, -0.38), g.model.template_set, rows=RAGGED),
+        "[[1, 2], [3]]", "rows of a length",
+    ),
+    "ragged gains": (
+        lambda g: offline.algorithm_1(g.plan, RAGGED), "[[1, 2], [3]]", "rows of a length"
+    ),
+    "no templates for silence": (
+        lambda g: adaptation.silent_endpoint(None), "template_set None", "load()"
+    ),
+    "a velocity of another arm": (
+        lambda g: forward_model.state_inputs([0, 1], [0, 0, 0], np.zeros(6)), "(3,)", "each joint"
+    ),
+    "an arm that returns nothing": (
+        lambda g: offline.algorithm_1(g.plan, execute=lambda _: None), "None", "execute, or"
+    ),
+    "an arm that returns its plan": (
+        lambda g: offline.broyden_calibration(g.plan, execute=lambda plan: plan),
+        "Plan(", "execute, or",
+    ),
+    "an arm that tells its error": (
+        lambda g: offline.gauss_newton_calibration(g.plan, execute=lambda _: 0.1),
+        "0.1", "execute, or",
+    ),
+    "an arm that teaches nothing": (
+        lambda g: online.AimCorrection(g.model.template_set).update(g.plans, execute=lambda _: 1),
+        "returned, 1", "execute, or",
+    ),
     "ragged points": (
         lambda g: planning.habitual_weights((0.1, -0.4), [[0.1, -0.3], [0.2]]),
         "[[0.1, -0.3], [0.2]]", "in rows of a length",
@@ -819,6 +862,7 @@ SHOWING = {
     "one draw": (lambda g: statistics.t_interval([1.0]), "1 values", "give two or more"),
     "a share": (lambda g: statistics.wilson(5, 3), "5 of 3", "give counts"),
     "no list": (lambda g: statistics.t_interval(3.0), "1 values", "give two or more"),
+    "ragged answers": (lambda g: statistics.mcnemar(RAGGED, [1]), "[[1, 2], [3]]", "of a length"),
     "other answers": (lambda g: statistics.mcnemar([1, 0], [1]), "(1,)", "the same questions"),
     "no draws": (lambda g: estimate([]), "0 values", "give two or more"),
     "a row": (lambda g: table(["a", "b"], [[1]]), "the row [1]", "2 cells"),

@@ -30,7 +30,9 @@ def filter_by_size(detections: Detections, camera: Camera) -> Detections:
 def scale_odds(probability: np.ndarray, ratio: float) -> np.ndarray:
     """Multiply the odds of probabilities (n,) by a likelihood ratio (Bayes' rule)."""
     probability, ratio = as_numbers("probability", probability), as_numbers("ratio", ratio)
-    if not (np.all((probability >= 0) & (probability <= 1)) and np.all(ratio >= 0)):
+    if not (
+        np.all((probability >= 0) & (probability <= 1)) and np.all((ratio >= 0) & (ratio < np.inf))
+    ):
         given = f"{short(probability)}, ratio {short(ratio)}"
-        raise ValueError(f"probability {given}: give 0 to 1, and a ratio of 0 or more")
+        raise ValueError(f"probability {given}: give 0 to 1, and a finite ratio, 0 or more")
     return probability * ratio / (probability * ratio + 1 - probability)

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vmc_lib.checks import as_numbers, check_rng, is_positive, is_within
+from vmc_lib.checks import as_numbers, check_rng, is_positive, is_within, shape_of
 from vmc_lib.short_repr import short
 
 MIN_IOU = 0.8  # IoU at which a box counts as the object's (Section IV A)
@@ -49,7 +49,7 @@ def pixels_inside(box: ArrayLike, image: np.ndarray) -> np.ndarray:
 
 def _check_fours(boxes):
     """Raise ValueError where boxes are no rows of four; their order is not looked at."""
-    if np.shape(boxes)[-1:] != (4,):
+    if shape_of("boxes", boxes)[-1:] != (4,):
         raise ValueError(f"boxes {short(boxes)} must be rows of (x0, y0, x1, y1)")
 
 
@@ -179,8 +179,9 @@ def jitter_boxes(boxes: ArrayLike, amount: float, rng: np.random.Generator) -> n
     check_rng(rng)
     boxes = as_numbers("boxes", boxes)
     _, sides = centres_and_sides(boxes)
-    if not np.all((amount := as_numbers("amount", amount)) >= 0):
-        raise ValueError(f"amount {short(amount)}: give a share of the sides, 0 or more")
+    amount = as_numbers("amount", amount)
+    if amount.ndim or not 0 <= amount < np.inf:
+        raise ValueError(f"amount {short(amount)}: give one share of the sides, 0 or more")
     return boxes + rng.normal(0, amount, boxes.shape) * np.tile(sides, 2)
 
 

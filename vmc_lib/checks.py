@@ -75,6 +75,14 @@ def check_features(x, width):
         raise ValueError(f"X of shape {np.shape(x)}: give rows of {width} features, (n, {width})")
 
 
+def shape_of(name: str, values: Any) -> tuple[int, ...]:
+    """The shape of an array, or of what becomes one; ValueError where its rows are ragged."""
+    try:
+        return np.shape(values)
+    except ValueError:
+        raise ValueError(f"{name} {short(values)}: give rows of a length") from None
+
+
 def as_numbers(name: str, values: Any) -> np.ndarray:
     """Convert values to an array of floats; ValueError where they are no numbers, or ragged."""
     try:

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vmc_lib.checks import as_numbers, check_count, is_within
+from vmc_lib.checks import as_numbers, check_count, is_within, shape_of
 from vmc_lib.short_repr import short
 
 
@@ -67,7 +67,7 @@ def mcnemar(one: np.ndarray, other: np.ndarray) -> tuple[int, int, float]:
     from scipy.stats import binomtest
 
     for answers in (one, other):
-        if not np.isin(answers, (False, True)).all():
+        if not shape_of("answers", answers) or not np.isin(answers, (False, True)).all():
             raise ValueError(f"answers {short(answers)}: give True or False for each question")
     one, other = np.asarray(one, bool), np.asarray(other, bool)
     if one.shape != other.shape:

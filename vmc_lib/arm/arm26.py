@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from vmc_lib.arm.dynamics import check_posture, check_radians
 from vmc_lib.arm.model import MUSCLES, XML, check_load
-from vmc_lib.checks import as_numbers, cached, check_kind
+from vmc_lib.checks import as_numbers, cached, check_kind, shape_of
 
 LOG = mujoco.MjLogConfig.get()
 LOG.logto_file = False  # no file in the reader's folder: a warning is on the console
@@ -73,7 +73,7 @@ def geometry(q: ArrayLike) -> Geometry:
 
     ValueError for another shape, or far beyond the joints' limits.
     """
-    if np.shape(q) != (2,):
+    if shape_of("posture", q) != (2,):
         raise ValueError(f"posture {q} must be (shoulder, elbow), in rad")
     check_posture(q)
     data = forward(q)

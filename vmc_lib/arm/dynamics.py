@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 
 from vmc_lib.arm.model import DAMPING, LIMITS, STEP, check_load
 from vmc_lib.arm.muscle import Numbers
-from vmc_lib.checks import as_numbers, cached
+from vmc_lib.checks import as_numbers, cached, shape_of
 from vmc_lib.data import arrays
 from vmc_lib.short_repr import short
 
@@ -109,7 +109,7 @@ def forward_dynamics(q: ArrayLike, velocity: ArrayLike, torque: ArrayLike) -> np
 
 def check_posture(q: ArrayLike, name: str = "posture") -> None:
     """ValueError where a posture (…, 2) lies beyond the joints' limits by more than MARGIN."""
-    if np.shape(q)[-1:] != (2,):
+    if shape_of(name, q)[-1:] != (2,):
         raise ValueError(f"{name} {q} must be (shoulder, elbow), (…, 2), in rad")
     q = as_numbers(name, q)
     far = ~np.all((q >= LOW) & (q <= HIGH), axis=-1)
@@ -139,7 +139,7 @@ def _posture(q):
 
 def _per_joint(name, values, unit):
     """Values as an array (…, 2); ValueError for other shapes."""
-    if np.shape(values)[-1:] != (2,):
+    if shape_of(name, values)[-1:] != (2,):
         raise ValueError(
             f"{name} {short(values)}: give one for each joint, (shoulder, elbow), (…, 2), in {unit}"
         )

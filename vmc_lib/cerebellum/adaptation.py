@@ -131,6 +131,7 @@ def minimum_norm_update(
 
 def silent_endpoint(template_set: TemplateSet) -> np.ndarray:
     """Where the hand ends, (2,), in m, when every muscle is silent."""
+    check_templates(template_set)
     return template_set.reach(np.zeros_like(template_set.excitations[:1])).endpoint[0]
 
 

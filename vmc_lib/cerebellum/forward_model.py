@@ -60,6 +60,8 @@ class ForwardModel:
 def state_inputs(q: np.ndarray, velocity: np.ndarray, activation: np.ndarray) -> np.ndarray:
     """The mossy fibres' input: posture, speed, muscles' torque, (B, 6)."""
     q, velocity = as_numbers("q", q), as_numbers("velocity", velocity)
+    if velocity.shape != q.shape:
+        raise ValueError(f"velocity {velocity.shape} of q {q.shape}: give one for each joint")
     lengths, arms = interpolated_paths(q)
     torque = muscle_torque(as_numbers("activation", activation), lengths, arms, velocity)
     return np.concatenate([q, velocity / FAST, torque / STRONG], axis=-1)

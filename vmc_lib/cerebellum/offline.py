@@ -11,8 +11,8 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vmc_lib.checks import as_numbers, check_count, check_function
-from vmc_lib.motor.execution import Execute, execute
+from vmc_lib.checks import as_numbers, check_count, check_function, check_kind
+from vmc_lib.motor.execution import Execute, Movement, execute
 from vmc_lib.motor.planning import Plan, check_plan, least_change, norm, rule_called
 from vmc_lib.motor.templates import HeldMotion
 from vmc_lib.short_repr import short, short_repr
@@ -118,9 +118,10 @@ def algorithm_1(
     >>> len(trials.error), bool(trials.error.min() < trials.error[0])
     (22, True)
     """
-    if not np.size(gains) or np.ndim(gains) != 1:
+    numbers = as_numbers("gains", gains)
+    if not numbers.size or numbers.ndim != 1:
         raise ValueError(f"gains = {short(gains)}: name at least one n to try, as range(21) does")
-    if not np.isfinite(as_numbers("gains", gains)).all():
+    if not np.isfinite(numbers).all():
         raise ValueError(f"gains = {short(gains)}: give finite numbers")
     check_function("change", change, "algorithm_1_change")
     check_function("execute", execute, MOVES)
@@ -128,7 +129,7 @@ def algorithm_1(
         raise ValueError(
             f"origin {short(origin)}, sign {short(sign)}: give (x, y) in m, and 1 or -1"
         )
-    planned = execute(plan)
+    planned = moved(execute, plan)
     changes = [change(plan, planned.endpoint, n, origin, sign) for n in gains]
     for each in changes:
         if np.shape(each) != plan.weights.shape:
@@ -194,7 +195,7 @@ def broyden_calibration(
     """
     check_count("n_trials", n_trials)
     check_function("execute", execute, MOVES)
-    planned, weights = execute(plan), plan.weights
+    planned, weights = moved(execute, plan), plan.weights
     points, shape = np.swapaxes(plan.points, -1, -2), (plan.target.shape[-1], weights.shape[-1])
     jacobian = points if jacobian is None else as_numbers("jacobian", jacobian)
     if jacobian.shape[-2:] != shape:
@@ -249,7 +250,7 @@ def gauss_newton_calibration(plan: Plan, n_steps: int = 4, execute: Execute = ex
     """
     check_count("n_steps", n_steps)
     check_function("execute", execute, MOVES)
-    planned, weights = execute(plan), plan.weights
+    planned, weights = moved(execute, plan), plan.weights
     ways = NUDGE * np.eye(weights.shape[-1]).reshape(-1, *(weights.ndim - 1) * [1], len(weights.T))
     nudged = execute(plan.with_weights(weights + ways))
     best, residual = planned.error, _residual(planned)
@@ -286,6 +287,12 @@ def calibrate(plan: Plan, rule: Rule = "published") -> Trials:
             "Trials(weights, endpoint, error, movements), as algorithm_1 does"
         )
     return trials
+
+
+def moved(execute: Execute, plan: Plan) -> Movement:
+    """The `Movement` of a plan by `execute`; ValueError where that returns anything else."""
+    check_kind("what execute returned,", movement := execute(plan), Movement, MOVES)
+    return movement
 
 
 def _residual(movement):

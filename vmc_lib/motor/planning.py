@@ -158,7 +158,7 @@ def _distances(target, points):
 
 def is_surrounded(target: ArrayLike, points: np.ndarray) -> np.ndarray:
     """Whether targets (…, D) have a point (of N, D) in every quadrant or octant round them, (…)."""
-    return np.isfinite(_by_orthant(target, points).min(axis=-1)).all(axis=-1)
+    return np.isfinite(_by_orthant(target, points).min(axis=-1, initial=np.inf)).all(axis=-1)
 
 
 def _by_orthant(target, points):
@@ -243,10 +243,10 @@ def plan(
     if rows is None:
         rows = surrounding(target, template_set.points)
     else:
-        rows, known = np.atleast_1d(rows), np.arange(len(template_set.points))
-        if not (rows.size and np.isin(rows, known).all()):
+        given, known = np.atleast_1d(as_numbers("rows", rows)), np.arange(len(template_set.points))
+        if not (given.size and np.isin(given, known).all()):
             raise ValueError(f"rows {rows} must be of the {len(known)} templates, 0 to {known[-1]}")
-        rows = rows.astype(int)
+        rows = given.astype(int)
         if rows.ndim > max(target.ndim, 1):
             raise ValueError(f"rows {rows.shape} of a target {target.shape}: give (N,) or (…, N)")
     rows = np.broadcast_to(rows, (*target.shape[:-1], rows.shape[-1]))

@@ -91,8 +91,9 @@ def reach(
 
 def keep_last(excitations: np.ndarray, hold: float = HOLD) -> np.ndarray:
     """Excitations (…, T, 6), and then `hold` s of the last of them."""
-    if np.ndim(excitations) < 2:
-        raise ValueError(f"excitations {np.shape(excitations)}: give (…, T, 6), one set a step")
+    excitations = as_numbers("excitations", excitations)
+    if excitations.ndim < 2:
+        raise ValueError(f"excitations {excitations.shape}: give (…, T, 6), one set a step")
     _check_hold(hold)
     last = np.repeat(excitations[..., -1:, :], round(hold / STEP), axis=-2)
     return np.concatenate([excitations, last], axis=-2)

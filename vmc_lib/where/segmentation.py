@@ -64,11 +64,12 @@ def segmentations(
             f"scales k = {scales}, sigma = {sigma}: give finite numbers above 0, and a sigma "
             f"smaller than an image of {channels.shape[1]}×{channels.shape[0]} pixels"
         )
-    smooth = cv2.GaussianBlur(channels, (0, 0), sigma).reshape(channels.shape)
+    smooth = cv2.GaussianBlur(channels, (0, 0), float(sigma)).reshape(channels.shape)
     height, width = smooth.shape[:2]
     edges, offsets = sort_by_weight(pixel_edges(smooth)), pixel_offsets(width)
     for k in scales:  # the published k is for grey values in 0..255
-        labels = merge_segments(edges, offsets, height * width, k / 255, k)
+        pixels = height * width
+        labels = merge_segments(edges, offsets, pixels, k / 255, min(k, pixels))
         yield labels.reshape(height, width)
 
 
