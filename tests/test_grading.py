@@ -146,6 +146,11 @@ def test_lines_that_python_cannot_read_are_told(lines):
     assert RIGHT not in unreadable(lines)
 
 
+@pytest.mark.parametrize(("lines", "why"), [("\0", "null bytes"), ("-" * 20_000 + "1", "too deep")])
+def test_lines_that_python_refuses_as_a_whole_have_no_number(lines, why):
+    assert re.match(f"{WRONG} Python cannot read these lines: .*{why}", unreadable(lines))
+
+
 @pytest.fixture
 def live(outputs, monkeypatch):
     """What a notebook shows."""

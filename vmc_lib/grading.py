@@ -130,7 +130,10 @@ def unreadable(lines):
     try:
         compile(lines, "lines", "exec")
     except SyntaxError as error:
-        return f"{WRONG} Python cannot read line {error.lineno}: {error.msg}."
+        where = f"line {error.lineno}" if error.lineno else "these lines"
+        return f"{WRONG} Python cannot read {where}: {error.msg}."
+    except (MemoryError, RecursionError):
+        return f"{WRONG} Python cannot read these lines: they are nested too deep."
     return None
 
 
