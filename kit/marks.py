@@ -129,7 +129,8 @@ def chapter_of(submission, name):
     """
     text = "\n".join(cell.source for cell in submission.cells if cell.cell_type == "markdown")
     signs = [heading.strip() for heading in re.findall(r"^# .*", text, re.M)[:1]]
-    signs += [cell.metadata.get("exercise") for cell in submission.cells]
+    labels = [cell.metadata.get("exercise") for cell in submission.cells]
+    signs += [label for label in labels if isinstance(label, str)]
     signs += map(int, re.findall(r"^\d+", name))
     chapters = {}
     for path in CHAPTERS:
@@ -151,8 +152,9 @@ def chapter_of(submission, name):
 def rows(path):
     """A hand-in's rows: one an exercise and one for its sum, or one that says why it has none."""
     try:
-        text = path.read_text(encoding="utf-8-sig")  # PowerShell begins a text with a mark
-        submission = nbformat.reads(text, as_version=4)
+        submission = _notebook(
+            path.read_text(encoding="utf-8-sig")
+        )  # PowerShell begins with a mark
         results = marks(chapter_of(submission, path.name), submission)
     except Exception as error:  # whatever is wrong with one file, the others are marked
         reason, *_ = str(error).split("\n")
@@ -162,6 +164,14 @@ def rows(path):
         *((path, label, points(mark), POINTS, mark) for label, mark in results.items()),
         (path, "all that is checked", sum(earned), POINTS * len(earned), ""),
     ]
+
+
+def _notebook(text):
+    """The notebook that a text holds; ValueError where it holds something else."""
+    try:
+        return nbformat.reads(text, as_version=4)
+    except (AttributeError, TypeError) as error:  # of a list, for example
+        raise ValueError("it holds no notebook") from error
 
 
 def by_file(several):
@@ -192,8 +202,10 @@ def main():
     if missing := [folder for folder in options.folders if not folder.exists()]:
         sys.exit(f"there is no folder {missing[0]}")
     found = sorted(path for folder in options.folders for path in (folder, *folder.rglob("*")))
-    files = [path for path in found if path.is_file() and ".ipynb_checkpoints" not in path.parts]
-    handed_in = [path for path in files if path.suffix.lower() == ".ipynb"]
+    own = [path for path in found if ".ipynb_checkpoints" not in path.parts]
+    named = [path for path in own if path.suffix.lower() == ".ipynb"]
+    handed_in = [path for path in named if path.is_file() or not path.exists()]  # or a dead link
+    files = [path for path in own if path.is_file() or path in named]
     for path in files:
         if path not in handed_in:
             print(f"not marked, for it is no notebook: {plain(path)}", file=sys.stderr)

@@ -337,6 +337,25 @@ def test_every_file_gets_its_rows(hand_in, tmp_path, table):
     assert table(folder / "empty.ipynb").keys() == {"empty.ipynb"}
 
 
+@pytest.mark.usefixtures("book")
+def test_what_has_a_notebooks_name_but_is_none_is_said(tmp_path, table, capsys):
+    """A list, a label that is none, a dead link: a row each; a folder: a line."""
+    folder = tmp_path / "in"
+    (folder / "folder.ipynb").mkdir(parents=True)
+    (folder / "list.ipynb").write_text("[]", encoding="utf-8")
+    (folder / "link.ipynb").symlink_to(tmp_path / "nowhere.ipynb")
+    for name, label in (("label", ["first"]), ("number", 7)):
+        cell = new_code_cell("1", metadata={"exercise": label})
+        nbformat.write(new_notebook(cells=[cell]), folder / f"{name}.ipynb")
+    rows = {name: row["mark"] for name, [row] in table(folder).items()}
+    assert rows["list.ipynb"] == "cannot be marked (ValueError: it holds no notebook)"
+    assert "No such file" in rows["link.ipynb"]
+    assert "no chapter has its first heading" in rows["label.ipynb"]
+    assert "no chapter has its first heading" in rows["number.ipynb"]
+    assert rows.keys() == {f"{name}.ipynb" for name in ("list", "link", "label", "number")}
+    assert "it is no notebook: " + str(folder / "folder.ipynb") in capsys.readouterr().err
+
+
 def test_a_folder_that_is_not_there_is_named(tmp_path, table):
     with pytest.raises(SystemExit, match=r"there is no folder .*nowhere"):
         table(tmp_path / "nowhere")
