@@ -3,6 +3,9 @@
 import base64
 import json
 import re
+import runpy
+import subprocess
+import sys
 from pathlib import Path
 
 import meshcat
@@ -108,6 +111,13 @@ def test_a_download_with_another_checksum_is_refused(monkeypatch, elsewhere):
     assert vendor.problems() == []
     vendor.refresh()
     assert vendor.problems() == []
+
+
+def test_an_option_that_there_is_not_fetches_nothing(monkeypatch):
+    monkeypatch.setattr(sys, "argv", ["vendor", "--chek"])
+    monkeypatch.setattr(subprocess, "run", None)
+    with pytest.raises(SystemExit, match="2"):
+        runpy.run_path(vendor.__file__, run_name="__main__")
 
 
 def test_the_bill_holds_every_vendored_file_and_every_pin():

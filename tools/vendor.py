@@ -6,6 +6,7 @@ python -m tools.vendor --check     compare the files here, and CREDITS.md's tabl
 python -m tools.vendor --table     write that table, as the first two do
 """
 
+import argparse
 import base64
 import hashlib
 import json
@@ -139,8 +140,15 @@ def refresh(update=False):
 
 
 if __name__ == "__main__":
-    if not {"--check", "--table"} & {*sys.argv}:
-        refresh(update="--update" in sys.argv)
-    if "--check" not in sys.argv:
+    parser = argparse.ArgumentParser(
+        "python -m tools.vendor", description=__doc__, formatter_class=argparse.RawTextHelpFormatter
+    )
+    one_of = parser.add_mutually_exclusive_group()
+    for option in ("--update", "--check", "--table"):
+        one_of.add_argument(option, action="store_true")
+    options = parser.parse_args()
+    if not (options.check or options.table):
+        refresh(options.update)
+    if not options.check:
         write_table()
     sys.exit("\n".join(problems()) or 0)
