@@ -34,8 +34,15 @@ def build(folder, pages, web=""):
 
     `web` is the address at which the kit will lie, if it will.
     """
+    if missing := [path for path in CHAPTERS if not (pages / f"{path.stem}.html").is_file()]:
+        raise SystemExit(
+            f"no page of {missing[0].stem} in {pages}: build the book first: make book"
+        )
     shutil.rmtree(folder, ignore_errors=True)
-    folder.mkdir(parents=True)
+    try:
+        folder.mkdir(parents=True)
+    except OSError as error:
+        raise SystemExit(f"the kit cannot be written: {error}") from error
     write_notebooks(folder)
     write_texts(folder, pages)
     write_questions(folder, pages, web)

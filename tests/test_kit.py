@@ -10,7 +10,7 @@ from nbclient import NotebookClient
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 
 from book.exercises.loop import MIXED
-from kit.__main__ import CHAPTERS, ROOT, index
+from kit.__main__ import CHAPTERS, ROOT, build, index
 from kit.key import key
 from kit.student import LINK, checks, student
 from vmc_lib.show import questions
@@ -19,6 +19,13 @@ BUILT = ROOT / "_build/html/book"
 
 ENDS = ".gift", ".xml", "-qti.zip"
 EXPORTS = [f"{name}{end}" for name in ("questions", "predictions") for end in ENDS]
+
+
+def test_without_a_built_book_the_old_kit_stays(tmp_path):
+    (tmp_path / "old").mkdir()
+    with pytest.raises(SystemExit, match="build the book first: make book"):
+        build(tmp_path / "old", tmp_path / "pages")
+    assert (tmp_path / "old").is_dir()
 
 
 # ---------------------------------------------------------------- students' notebooks
