@@ -110,6 +110,11 @@ def patient(new_context, **kind):
     return context
 
 
+# Writes into a browser's storage until it takes no more.
+FILL = """() => { for (let text = "x".repeat(2 ** 20), n = 0; text; n++)
+  try { localStorage[n] = text } catch { text = text.slice(0, text.length / 2) } }"""
+
+
 def observe(page):
     """Keep what a page asks for, what does not come, and what it complains about."""
     OPEN.add(page)

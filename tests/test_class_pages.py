@@ -12,7 +12,7 @@ from playwright.sync_api import expect
 from kit import class_pages
 from kit.class_pages import class_page, throws, throws_page
 from tests.formulas import FORMULAS, computes
-from tests.pages import book_html, boxes, observe
+from tests.pages import FILL, book_html, boxes, observe
 from vmc_lib.show import check, questions
 
 pytestmark = pytest.mark.browser
@@ -135,10 +135,26 @@ def test_throws_travel_as_a_line_and_a_class_pastes_all_at_once(page):
     room.fill("#who", 'Anna; "B"')
     room.fill("#lines", room.evaluate("() => ownLine()"))
     assert room.inner_text("#status") == "1 of the class."
+    another = line.replace("ann; ", "ann; 7")
+    room.fill("#lines", f"{line}\n{another}")
+    assert room.inner_text("#status") == (
+        "1 of the class. Other throws with the same name, the last read: ann."
+    )
     other = page(throws_page())
     for _ in range(55):
         other.click("#throw")
     assert other.is_disabled("#copy")
+
+
+def test_a_cell_that_is_no_number_is_named_by_its_line(page, tmp_path):
+    rows = [f"a,{k},{'12 cm' if k == 20 else 30 * (k > 10)},3,200" for k in range(1, 56)]
+    (tmp_path / "a.csv").write_text(
+        "\n".join(["who,throw,turned,miss,ms", *rows]), encoding="utf-8"
+    )
+    room = page(throws_page())
+    room.set_input_files("#files", tmp_path / "a.csv")
+    room.wait_for_selector("#status:has-text('a.csv: line 21, turned: \"12 cm\" is no number')")
+    assert "0 of the class" in room.inner_text("#status")
 
 
 def test_model_of_the_throws_adapts_and_has_an_after_effect():
@@ -248,8 +264,14 @@ def test_a_page_keeps_what_was_answered_shows_it_and_saves_it(chapter):
     assert chapter.evaluate("() => Object.keys(localStorage)") == []
 
 
-FILL = """() => { for (let text = "x".repeat(2 ** 20), n = 0; text; n++)
-  try { localStorage[n] = text } catch { text = text.slice(0, text.length / 2) } }"""
+def test_what_another_tab_keeps_is_counted_here_too(chapter):
+    other = chapter.context.new_page()
+    other.goto(chapter.url)
+    chapter.check("input[value=one]")
+    expect(other.locator(".vmc-record summary")).to_contain_text("1")
+    chapter.evaluate("() => localStorage.clear()")
+    expect(other.locator(".vmc-record")).to_be_hidden()
+    other.close()
 
 
 def test_a_long_question_ends_in_an_ellipsis_and_an_answer_stands_out(chapter):

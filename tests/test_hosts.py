@@ -5,7 +5,7 @@ from urllib.parse import quote, unquote, urlsplit
 import pytest
 
 from book._ext.policy import frame_script, hash_source
-from tests.pages import BUILT, ROOT, open_url
+from tests.pages import BUILT, FILL, ROOT, open_url
 from tests.project import sample
 
 pytestmark = pytest.mark.browser
@@ -98,9 +98,12 @@ def test_a_chapter_plays_wherever_it_lies(window, address, tmp_path):
     assert page.errors == page.failed == []
 
 
-def test_colours_change_where_storage_is_forbidden(window):
-    no = "Object.defineProperty(self, '{}', {{ configurable: true, get() {{ throw Error() }} }});"
-    script = "".join(map(no.format, ("localStorage", "sessionStorage")))
+NO = "Object.defineProperty(self, '{}', {{ configurable: true, get() {{ throw Error() }} }});"
+FORBIDDEN = "".join(map(NO.format, ("localStorage", "sessionStorage")))
+
+
+@pytest.mark.parametrize("script", [FORBIDDEN, f"({FILL})()"], ids=["forbidden", "full"])
+def test_colours_change_where_nothing_can_be_stored(window, script):
     page = open_url(window(script), (BUILT / "book/07_muscle.html").as_uri())
     button = page.locator(".theme-switch-button").first
     seen = []

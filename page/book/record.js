@@ -110,6 +110,9 @@ forget.addEventListener("click", () => {
 
 forget.addEventListener("blur", () => (forget.textContent = FORGET));
 
+addEventListener("storage", ({ key }) => { // another tab kept or forgot some
+  if (key === KEY || key === null) show();
+});
 addEventListener("DOMContentLoaded", () => {
   if (!document.querySelector(".vmc-predict, .vmc-quiz, form[data-check], form[data-function]")) return;
   document.querySelector("article")?.append(place);

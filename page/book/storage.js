@@ -1,9 +1,20 @@
 /* Where a browser is told to keep nothing, its storage throws: the theme's scripts get one that lasts as
-   long as the page. */
+   long as the page. Where it is full, what the theme writes lasts as long. */
+const kept = new Map();
 try {
   localStorage.getItem("mode");
+  const { getItem, setItem } = Storage.prototype;
+  Storage.prototype.getItem = function (key) { return kept.get(key) ?? getItem.call(this, key); };
+  Storage.prototype.setItem = function (key, text) {
+    try {
+      setItem.call(this, key, text);
+      kept.delete(key);
+    } catch (error) {
+      if (!["mode", "theme"].includes(key)) throw error; // the book's own scripts ask whether there is room
+      kept.set(key, text);
+    }
+  };
 } catch {
-  const kept = new Map();
   const value = {
     getItem: (key) => kept.get(String(key)) ?? null,
     setItem: (key, text) => kept.set(String(key), String(text)),
