@@ -21,6 +21,13 @@ ENDS = ".gift", ".xml", "-qti.zip"
 EXPORTS = [f"{name}{end}" for name in ("questions", "predictions") for end in ENDS]
 
 
+def test_a_folder_that_cannot_be_written_is_named(tmp_path, monkeypatch):
+    monkeypatch.setattr("kit.__main__.CHAPTERS", [])
+    (tmp_path / "file").touch()
+    with pytest.raises(SystemExit, match=r"the kit cannot be written: .*file"):
+        build(tmp_path / "file/kit", tmp_path)
+
+
 def test_without_a_built_book_the_old_kit_stays(tmp_path):
     (tmp_path / "old").mkdir()
     with pytest.raises(SystemExit, match="build the book first: make book"):

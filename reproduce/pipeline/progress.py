@@ -1,6 +1,7 @@
 """Run steps by doit, which leaves out what is up to date, with a line of progress each."""
 
 import json
+import os
 from pathlib import Path
 from time import perf_counter
 
@@ -32,6 +33,9 @@ def run_tasks(tasks, names, folder, *options):
     What they read and made is remembered in `folder`, to know what is up to date; a memory that is
     damaged is made anew.
     """
+    if not os.access(folder, os.W_OK):
+        print(f"{folder} cannot be written: there is no place for what is remade")
+        return 1
     memory = Path(folder, ".doit.json")
     try:
         dict(json.loads(memory.read_bytes()) if memory.exists() else {})

@@ -131,6 +131,11 @@ def test_a_step_runs_until_it_is_up_to_date(tmp_path, monkeypatch, capsys):
         assert "is damaged, and made anew" in capsys.readouterr().out
 
 
+def test_a_folder_that_cannot_be_written_is_named(tmp_path, capsys):
+    assert progress.run_tasks([], [], tmp_path / "nowhere") == 1
+    assert f"{tmp_path / 'nowhere'} cannot be written" in capsys.readouterr().out
+
+
 def test_the_list_names_every_step_its_file_and_its_minutes(capsys):
     assert __main__.main(["--list"]) == 0
     lines = capsys.readouterr().out.splitlines()
