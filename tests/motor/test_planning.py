@@ -77,6 +77,12 @@ def test_plan_excitations_are_a_clipped_weighted_sum(template_set):
     assert wild.excitations.max() <= 1
 
 
+def test_a_template_chosen_twice_has_both_weights(template_set):
+    twice = plan([0.15, -0.4], template_set, rows=[5, 6, 7, 5])
+    expected = twice.weights @ template_set.excitations[[5, 6, 7, 5]].reshape(4, -1)
+    np.testing.assert_allclose(twice.excitations.ravel(), expected.clip(0, 1), atol=1e-12)
+
+
 def test_executing_a_large_batch_in_parts_changes_nothing(template_set):
     targets = draw_targets(template_set, 30, np.random.default_rng(1))
     batch = plan(targets, template_set)

@@ -36,7 +36,8 @@ class Plan:
     def excitations(self) -> np.ndarray:
         """The mix of Eq. 3, u_t(t) = Σ w_i u_i(t), (…, T, 6), clipped to a command's limits."""
         share = np.zeros((*self.weights.shape[:-1], len(self.template_set.points)))
-        np.put_along_axis(share, self.rows, self.weights, axis=-1)
+        *batch, _ = np.indices(self.rows.shape, sparse=True)
+        np.add.at(share, (*batch, self.rows), self.weights)  # a row chosen twice has both weights
         mixed = np.tensordot(share, self.template_set.excitations, axes=1)
         return np.clip(mixed, *self.template_set.limits)
 
