@@ -37,7 +37,7 @@ def chapter_counts(paths):
     return {
         "numbered chapters": len(paths),
         "cells that compute": sum(cell.cell_type == "code" for cell in cells),
-        "demos": code.count("explore("),
+        "demos": len(DEMO.findall(code)),
         "questions to answer before them": sum(c.source.startswith("**Predict.**") for c in cells),
         "exercises": sum("exercise" in cell.metadata for cell in cells),
         "checked answers": len(re.findall(r"\bcheck\(", code)),
