@@ -86,6 +86,11 @@ def test_one_number_may_come_in_a_list_but_not_as_text():
     assert not agree(0.8 + 1j, 0.8, 1e-6)
 
 
+def test_nothing_is_no_number_and_nan_is_nan():
+    assert not agree(None, np.nan, 1e-6)
+    assert agree(np.nan, np.nan, 1e-6)
+
+
 @each_exercise
 def test_right_and_wrong_are_shown_in_digits_that_tell_them_apart(name):
     one = EVERY[name]

@@ -60,7 +60,7 @@ def has_comma(answer: Any, expected: Any) -> bool:
 def deviation(ours, library, tolerance=1e-8):
     """How `ours` deviates from what the `library` gives, in words; "" where `np.allclose` holds.
 
-    Both are what `np.asarray` takes, or tuples or dictionaries of that.
+    `library` is what `np.asarray` takes, or a tuple or dictionary of that; `ours` may be anything.
     """
     if isinstance(library, dict):
         if hasattr(ours, "keys") and not library.keys() <= {*ours.keys()}:
@@ -72,9 +72,13 @@ def deviation(ours, library, tolerance=1e-8):
             return f"by its length, {len(ours)} instead of {len(library)}"
         pairs = zip(ours, library, strict=True)
         return next(filter(None, (deviation(*pair, tolerance) for pair in pairs)), "")
-    ours, library = np.asarray(ours, float), np.asarray(library, float)
+    ours, library = numbers(ours), np.asarray(library, float)
+    if ours is None:
+        return "by what cannot be read as numbers"
     if ours.shape != library.shape:
         return f"by its shape, {ours.shape} instead of {library.shape}"
+    if not np.isfinite(library).all():
+        return "whose numbers are not all finite here"
     if not np.isfinite(ours).all():
         return "by numbers that are not finite"
     if np.allclose(ours, library, atol=tolerance):

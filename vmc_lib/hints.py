@@ -6,6 +6,8 @@ shape, and are asked where none of its own fits.
 
 import numpy as np
 
+from vmc_lib.checks import as_numbers
+
 # A hint, and what a function with that fault gives for what is right, an array.
 FAULTS = [
     ("The sign is wrong, everywhere.", np.negative),
@@ -91,9 +93,8 @@ def difference(answer, right):
 
 
 def numbers(value):
-    """A value as an array of floats, or None: words, rows of unequal length, complex numbers."""
+    """A value as an array of floats, or None: nothing, words, rows of unequal length, complex numbers."""
     try:
-        array = np.asarray(value)
-        return None if array.dtype.kind in "USc" else array.astype(float)
-    except (TypeError, ValueError):
+        return as_numbers("answer", value)
+    except ValueError:
         return None
