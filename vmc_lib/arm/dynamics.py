@@ -100,11 +100,13 @@ def torque_for(
 
 def forward_dynamics(q: ArrayLike, velocity: ArrayLike, torque: ArrayLike) -> np.ndarray:
     """Forward dynamics, Eq. 12: the accelerations (…, 2) that joint torques cause."""
-    velocity, torque = (
-        _per_joint("velocity", velocity, "rad/s"),
-        _per_joint("torque", torque, "N m"),
-    )
-    return np.array(equation_12(terms(_posture(q)), *velocity.T, *torque.T, STEP)).T
+    velocity = _per_joint("velocity", velocity, "rad/s")
+    return joint_acceleration(_posture(q), velocity, _per_joint("torque", torque, "N m"))
+
+
+def joint_acceleration(q: np.ndarray, velocity: np.ndarray, torque: np.ndarray) -> np.ndarray:
+    """`forward_dynamics` for loops: the angles may be as wild as a forward model predicts them."""
+    return np.transpose(equation_12(terms(q), *np.transpose(velocity), *torque.T, STEP))
 
 
 def check_posture(q: ArrayLike, name: str = "posture") -> None:

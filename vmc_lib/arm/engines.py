@@ -61,8 +61,7 @@ def muscle_acceleration(q, velocity, activation, strength=1.0):
     Every muscle's torque is multiplied by `strength`.
     """
     torque = strength * muscle_torque(activation, *interpolated_paths(q), velocity)
-    torque = torque + stop_torque(q, velocity)
-    return np.transpose(equation_12(dynamics.terms(q), *np.transpose(velocity), *torque.T, STEP))
+    return dynamics.joint_acceleration(q, velocity, torque + stop_torque(q, velocity))
 
 
 def _compiled_engine(excitations, start, first, perturbation, step, muscle):
