@@ -52,8 +52,14 @@ export const turnTowards = (arm, target) => {
   return { turn, place: hand(arm, q).slice(0, 2) };
 };
 
+/* A vector (3,), rotated by a turn of the trunk. */
+export const rotateByTurn = ([x, y, z], turn) => {
+  const [c, s] = [Math.cos(turn), Math.sin(turn)];
+  return [c * x + s * z, y, c * z - s * x];
+};
+
 /* A point of the turned shoulder frame, in that of the trunk straight ahead. */
-export const toWorld = ({ trunk: { axis } }, [x, y, z], turn) => {
-  const [u, w] = minus([x, z], axis), [c, s] = [Math.cos(turn), Math.sin(turn)];
-  return [c * u + s * w + axis[0], y, c * w - s * u + axis[1]];
+export const toWorld = ({ trunk: { axis } }, point, turn) => {
+  const onAxis = [axis[0], 0, axis[1]];
+  return plus(rotateByTurn(minus(point, onAxis), turn), onAxis);
 };

@@ -1,6 +1,9 @@
 /* The miss, made visible: where a movement ends, a picture in the scene's corner shows hand and target
    from the side, six times nearer, and a ruler from the target as long as the miss. What the hand then does
    to the shuttlecock, lift it or tip it over, is an illustration: the model ends with the hold. */
+import { rotateByTurn } from "../arm/kinematics.js";
+import { minus, plus } from "../vectors.js";
+
 const HALF = 0.032; // m from the middle to the edge of the close-up
 const NEAR = 0.5; // m: where its eye stands
 const FLEX = 0.3, ROLL = 0.7, TOPPLE = 1.3; // rad: the elbow lifts, what lies rolls, what stands falls
@@ -41,25 +44,24 @@ export class CloseUp {
     this.after = miss ? after : 0;
     if (!miss) return this.box.remove();
     if (!this.box.isConnected) this.canvas.append(this.box);
-    const { target } = view.settings, [c, s] = this.turned();
-    const [x, y, z] = miss.end.map((e, i) => e - target[i]);
-    const words = ruler(miss.mm, [1000 * (c * x - s * z), -1000 * y]);
+    const [x, y] = rotateByTurn(minus(miss.end, view.settings.target), -this.turn);
+    const words = ruler(miss.mm, [1000 * x, -1000 * y]);
     if (this.drawn !== words) this.sheet.innerHTML = this.drawn = words;
   }
 
-  turned() {
-    const { miss, motion } = this.view.settings, turn = miss.turn ?? motion.turn.at(-1);
-    return [Math.cos(turn), Math.sin(turn)];
+  /* How far the trunk has turned in the end, rad. */
+  get turn() {
+    const { miss, motion } = this.view.settings;
+    return miss.turn ?? motion.turn.at(-1);
   }
 
   /* Photograph the end, before the whole is rendered: only bones and shuttlecock. */
   render(viewer) {
     const { view, camera, picture } = this, { renderer, scene, scene_tree } = viewer;
     if (!this.miss || this.after || !view.body) return;
-    const [c, s] = this.turned(), [bx, by, bz] = view.anatomy.beyond;
-    const [x, y, z] = view.settings.target;
-    camera.position.set(x + c * bx + s * bz + NEAR * s, y + by, z + c * bz - s * bx + NEAR * c);
-    camera.rotation.set(0, Math.atan2(s, c), 0);
+    const from = rotateByTurn(plus(view.anatomy.beyond, [0, 0, NEAR]), this.turn);
+    camera.position.set(...plus(view.settings.target, from));
+    camera.rotation.set(0, this.turn, 0);
     const goal = scene_tree.find(["meshcat", "goal"]), { path, mark } = view.body;
     const others = Object.entries(goal.children).filter(([name]) => name !== "shuttlecock" && !name.startsWith("<"));
     const hidden = [path, mark, ...others.map(([, { object }]) => object)].filter((thing) => thing.visible);
@@ -68,8 +70,8 @@ export class CloseUp {
     renderer.setViewport(0, 0, size, size);
     renderer.render(scene, camera);
     picture.width = picture.height = size * ratio;
-    const from = renderer.domElement.height - size * ratio; // GL counts from below
-    picture.getContext("2d").drawImage(renderer.domElement, 0, from, size * ratio, size * ratio, 0, 0, size * ratio, size * ratio);
+    const top = renderer.domElement.height - size * ratio; // GL counts from below
+    picture.getContext("2d").drawImage(renderer.domElement, 0, top, size * ratio, size * ratio, 0, 0, size * ratio, size * ratio);
     hidden.forEach((thing) => (thing.visible = true));
     const { width, height } = renderer.domElement;
     renderer.setViewport(0, 0, width / ratio, height / ratio);
