@@ -93,7 +93,7 @@ def difference(answer, right):
 
 
 def numbers(value):
-    """A value as an array of floats, or None: nothing, words, rows of unequal length, complex numbers."""
+    """A value as an array of floats, or None: nothing, words, complex numbers, ragged rows."""
     try:
         return as_numbers("answer", value)
     except ValueError:

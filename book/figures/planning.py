@@ -11,6 +11,7 @@ from reproduce.peers.minimum_variance import MEASURE_NAMES, kinematic_measures
 from vmc_lib.arm.model import MUSCLES
 from vmc_lib.motor import templates
 from vmc_lib.show import table
+from vmc_lib.show.markup import minus
 from vmc_lib.show.palette import COLOURS
 
 WATCHED = {name: MEASURE_NAMES[name] for name in ("path", "farthest", "speed")}
@@ -19,7 +20,7 @@ WATCHED["height"] = "lowest above the table (mm)"
 
 def planned_in_words(target, ended):
     """A plan for a target (2,) that took the hand to `ended` (2,)."""
-    at = ", ".join(f"{x:.3f}".replace("-", "−") for x in target)
+    at = minus(", ".join(f"{x:.3f}" for x in target))
     return (
         f"A target at {at} m and the four templates that plan it; the hand ends "
         f"{norm_mm(ended - target):.1f} mm away. Beside it, one muscle's excitation as a weighted "
@@ -59,7 +60,7 @@ def in_frame(origin, weights, points, target):
     ends(ax, target, place)
     at = "mixed to ({:.3f}, {:.3f}) m".format(*place)
     away = f"{norm_mm(place - target):.0f} mm from the target"
-    ax.set_title(f"{at}, {away}".replace("-", "−"), fontsize=10)
+    ax.set_title(minus(f"{at}, {away}"), fontsize=10)
     return fig
 
 

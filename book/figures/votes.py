@@ -8,6 +8,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from book.figures.reaching import arrows
+from vmc_lib.show.markup import minus
 from vmc_lib.show.palette import COLOURS
 
 
@@ -56,7 +57,7 @@ def votes_plot(target=None, neurons=4, evenly=True):
 
 def votes_in_words(target, neurons, evenly):
     """The same for those who cannot see it."""
-    reach = ", ".join(f"{x:.2f}".replace("-", "−") for x in target)
+    reach = minus(", ".join(f"{x:.2f}" for x in target))
     off = f"{lean(target, neurons, evenly):.0f}° off"
     return f"Votes of {neurons} neurons for a reach to {reach}; their sum is {off}."
 

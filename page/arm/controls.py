@@ -9,6 +9,7 @@ from vmc_lib.arm.model import MUSCLES
 from vmc_lib.motor import templates
 from vmc_lib.motor.inverse_dynamics import static_activation
 from vmc_lib.show.controls import fold, radios, slider
+from vmc_lib.show.markup import minus
 
 MUJOCO = STATIC / "vendor/mujoco.js"
 VERSIONS = {"Python": version("mujoco"), "page": "3.14.0"}  # of MuJoCo
@@ -55,9 +56,9 @@ def _templates():
     """A box to tick for each template, folded: its dot on the plot does the same."""
     places = (np.round(templates.load().points, 3) + 0.0).tolist()  # no −0
     boxes = "".join(
-        f'<label><input type="checkbox" name="template" checked> {x:.3f}, {y:.3f}</label>'
-        for x, y in places
-    ).replace("-", "−")
+        f'<label><input type="checkbox" name="template" checked> {place}</label>'
+        for place in (minus(f"{x:.3f}, {y:.3f}") for x, y in places)
+    )
     return (
         '<details class="vmc-numbers-of"><summary>The templates, one by one</summary>'
         '<fieldset class="vmc-control"><legend>forward, up (m)</legend>'
@@ -118,4 +119,4 @@ def readings(tells):
 def _slider(page, name, label, span, start):
     low, high, step = span
     own = {"name": name, "min": low, "max": high, "step": step, "value": f"{start:.4g}"}
-    return slider(f"{page}-{name}", label, own["value"].replace("-", "−"), own)
+    return slider(f"{page}-{name}", label, minus(own["value"]), own)

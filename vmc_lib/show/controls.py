@@ -95,7 +95,8 @@ class Slider(Control):
 
     With `play="unasked"` it does so by itself, once, when the demo comes into view: unless the
     reader has asked the browser for less motion. Where the page works them out, or Python runs in
-    it, values `between` these can be chosen, too; if that is a number, multiples of it.
+    it, values that lie between these can be chosen, too; with a number for `between` only its
+    multiples, with `between=False` none.
     """
 
     play: bool | str = False

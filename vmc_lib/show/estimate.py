@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vmc_lib.checks import as_numbers
+from vmc_lib.show.markup import minus
 from vmc_lib.statistics import t_interval
 
 
@@ -30,9 +31,9 @@ class Estimate(NamedTuple):
     def __format__(self, spec):
         width = self.high - self.low
         if not width > 0:
-            return format(self.value, spec or ".3g").replace("-", "−")
+            return minus(format(self.value, spec or ".3g"))
         spec = spec or f".{max(0, 1 - floor(log10(width)))}f"
-        value, low, high = (format(x, spec).replace("-", "−") for x in self)
+        value, low, high = (minus(format(x, spec)) for x in self)
         return f"{value} ({low} to {high})"
 
 

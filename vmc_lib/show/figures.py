@@ -20,7 +20,7 @@ from vmc_lib.checks import check_kind
 from vmc_lib.short_repr import short
 from vmc_lib.show.data_table import DataTable, name_curves
 from vmc_lib.show.estimate import estimate
-from vmc_lib.show.markup import data_uri, image_tag, number, svg
+from vmc_lib.show.markup import data_uri, image_tag, minus, number, svg
 from vmc_lib.show.palette import EDGE, ON_PHOTO, least_width
 from vmc_lib.show.scene import Scene
 
@@ -37,8 +37,7 @@ HINTS = {  # what is returned instead of a picture, and what was meant
     "HTML": "; give its text, html.data",
     "Image": "; give np.asarray(image)",
 }
-# The hyphen that Python writes before a number, beyond maths and code
-_MINUS = re.compile(r"(\$[^$]*\$|`[^`]*`)|(?<=[\s(*])-(?=\.?\d)")
+_NO_WORDS = re.compile(r"(\$[^$]*\$|`[^`]*`|</?\w[^>]*>|\]\([^)]*\))")  # maths, code, tags, links
 
 
 def pictures(picture, name):
@@ -208,7 +207,9 @@ def numbers(table):
 def markdown(text: str) -> None:
     """Show Markdown; an f-string puts the run's own numbers into a sentence."""
     check_kind("Markdown", text, str, 'text, str(…) or f"{…}"')
-    display(Markdown(_MINUS.sub(lambda match: match[1] or "−", text)))
+    parts = _NO_WORDS.split(text)
+    parts[::2] = map(minus, parts[::2])
+    display(Markdown("".join(parts)))
 
 
 def details(summary: str, text: str) -> None:

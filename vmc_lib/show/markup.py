@@ -16,7 +16,7 @@ from vmc_lib.show.svg_renderer import figure_svg
 
 _NAMED = {code: css(name) for name, code in COLOURS.items()}
 _NAMED |= {"#000000": css("ink"), "#ffffff": css("paper")}
-_MINUS = re.compile(r"(?<=[\s(>])-(?=\.?\d)")  # before a number in words: the axes have it so
+_HYPHEN = re.compile(r"(?<![\w)-])-(?=\.?\d|inf\b)")  # that Python writes before a number
 _CURVE = re.compile(r'<g id="curve:([^"]*)">\s*<path')
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _STEPS = MaxNLocator(5, steps=[1, 2, 5, 10])
@@ -28,11 +28,16 @@ def with_style_sheet(markup):
     return _style_sheet() + markup if render_mode() == "live" else markup
 
 
+def minus(text):
+    """Text in which the hyphen that Python writes before a number is a minus: −0.5, (−1, 2)."""
+    return _HYPHEN.sub("−", text)
+
+
 def number(value, digits=3):
     """A number in words, of so many digits: −0.5, 1200 (not 1.2e+03), 3·10⁻⁸ (not 3e-08)."""
     text, _, power = f"{float(f'{value:.{digits}g}'):g}".partition("e")
     times = f"·10{str(int(power)).translate(_RAISED)}" if power else ""
-    return text.replace("-", "−") + times
+    return minus(text) + times
 
 
 @cache
@@ -56,7 +61,7 @@ def svg(fig, salt):
     used = set(re.findall(r"#([\w.-]+)", svg))
     svg = re.sub(r' id="([^"]*)"', lambda name: name[0] if name[1] in used else "", svg)
     svg = re.sub(r"font-family: [^;\"]+(; )?", "", svg)
-    svg = re.sub(r">[^<>]*</t", lambda words: _MINUS.sub("−", words[0]), svg)
+    svg = re.sub(r">[^<>]*</t", lambda words: minus(words[0]), svg)
     svg = re.sub(r' d="[^"]*"', lambda d: re.sub(r"(\.\d\d)\d+", r"\1", d[0]), svg)
     svg = re.sub(r"#[0-9a-f]{6}\b", lambda code: _NAMED.get(code[0], code[0]), svg)
     return _stackable(re.sub(r"\n\s*", "\n", svg).strip(), fig, f"{salt}-panels")

@@ -10,11 +10,12 @@ import re
 import numpy as np
 from nbformat.v4 import new_code_cell
 
+from vmc_lib.show.markup import minus
+
 NUMBER = re.compile(
     r"(?:<!--\[-->(?P<words>[^<]*)|(?P<word>[^\s>*(]*)\**)"
     r"<!--\{(?P<value>.+?)(?::(?P<form>[-+.,%\w]*))?\}-->"
 )
-HYPHEN = re.compile(r"(?<![\w)])-(?=\.?\d)")  # which Python writes before a number
 COMMENT = re.compile(r"<!--(?:\[|\{.+?\})-->")
 
 CHECK = "import vmc_lib.show.prose as _prose\n_prose.check_numbers({!r}, globals())"
@@ -28,7 +29,7 @@ def evaluate(number, names):
     """
     value = eval(number["value"], {**names, "nearest": nearest})  # noqa: S307  (the chapter's own)
     if not isinstance(value, bool | np.bool_):
-        return HYPHEN.sub("−", format(value, number["form"] or ""))
+        return minus(format(value, number["form"] or ""))
     if not value:
         raise ValueError(f"the text needs {number['value']}, and the run says that it is false")
     return None
