@@ -4,16 +4,15 @@ from functools import cache
 
 import numpy as np
 
-from book.figures.loop import above
+from book.figures.loop import AHEAD, above
 from page.arm.live import KINEMATICS
 from vmc_lib import NoReach
-from vmc_lib.arm.kinematics import TRUNK, TRUNK_RANGE, to_world, turn_towards
+from vmc_lib.arm.kinematics import ON_AXIS, TRUNK, TRUNK_RANGE, to_world, turn_towards
 from vmc_lib.show import Pad
 from vmc_lib.show.figures import photo_view
+from vmc_lib.show.markup import minus
 from vmc_lib.show.palette import COLOURS, EDGE, ON_PHOTO
 
-AXIS = np.insert(TRUNK, 1, 0)
-AHEAD = [[0, 0, 0.06], [0.5, 0, 0.06]]  # along the plane in which the hand moves
 AWAY = np.linspace(0.2, 0.45, 201)  # m from the trunk's axis: no hand reaches the table beyond
 
 
@@ -24,17 +23,17 @@ def aim_view(photo, pixel=None):
     """
     corners = [(x, y) for x in (0, 600) for y in (0, 400)]
     eye = photo.camera.position
-    parts = [([eye], "^", "blue", "eye"), ([AXIS], "s", "purple", "trunk's axis")]
+    parts = [([eye], "^", "blue", "eye"), ([ON_AXIS], "s", "purple", "trunk's axis")]
     if pixel is not None:
         place = target_place(photo, pixel)
         turn = trunk_turn(place)
         colour = "green" if turn is not None else "red"
         parts += [([eye, place], "-", "blue", ""), ([place], "o", colour, "")]
         if turn is not None:
-            parts += [([AXIS, to_world([0, 0, 0], turn)], "-", "purple", "")]
+            parts += [([ON_AXIS, to_world([0, 0, 0], turn)], "-", "purple", "")]
             parts += [(to_world(AHEAD, turn), "-", "grey", "")]
     view = photo_view(photo.image, points=[] if pixel is None else [(pixel, "", colour)])
-    x, _, z = np.transpose([*photo.camera.back_project(corners, photo.target[1]), eye, AXIS])
+    x, _, z = np.transpose([*photo.camera.back_project(corners, photo.target[1]), eye, ON_AXIS])
     limits = [(low - 0.05, high + 0.05) for low, high in ((z.min(), z.max()), (x.min(), x.max()))]
     fig = above(parts, " " if pixel is None else distance_and_turn(photo, pixel), *limits)
     fig.axes[0].fill(*shore(photo.target[1]), color=COLOURS["green"], alpha=0.12, lw=0)
@@ -89,7 +88,7 @@ def distance_and_turn(photo, pixel):
     turn = trunk_turn(place)
     trunk = "out of reach" if turn is None else f"the trunk turns {np.degrees(turn):.0f}°"
     away = 100 * np.hypot(*(place[[0, 2]] - TRUNK))
-    return f"{away:.0f} cm from the axis: {trunk}".replace("-", "−")
+    return minus(f"{away:.0f} cm from the axis: {trunk}")
 
 
 def aim_in_page(photo):

@@ -88,11 +88,6 @@ def torque_polygon(ax, each, needed):
     ax.set(xlabel="at the shoulder (N m)", ylabel="at the elbow (N m)")
 
 
-def movement(motion):
-    """The arm as it moves."""
-    return arm_scene(motion.q, motion.activation)
-
-
 def end_in_words(motion):
     """Where a movement ends."""
     return "At the end: shoulder {:.0f}°, elbow {:.0f}°.".format(*np.degrees(motion.q[-1]))

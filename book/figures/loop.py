@@ -7,7 +7,7 @@ import numpy as np
 from book.figures.lens import lens
 from book.figures.panels import panels
 from book.figures.reaching import norm_mm
-from vmc_lib.arm.kinematics import TRUNK, to_world
+from vmc_lib.arm.kinematics import ON_AXIS, to_world
 from vmc_lib.boxes import iou
 from vmc_lib.cerebellum.offline import RULES, gauss_newton_calibration
 from vmc_lib.loop import recalibrate
@@ -22,6 +22,7 @@ SEEING = ("a photo", "candidates", "regions", "after suppression", "names")
 LOOP_STEPS = (*SEEING, "first reach", "calibrated reach", "our own rule")
 TURNED = 500  # ms: by then the trunk has turned
 FOREARM = 0.02  # m, the radius of a forearm that is a rod
+AHEAD = [[0, 0, 0.06], [0.5, 0, 0.06]]  # m, along the plane in which the hand moves
 LIFT_RADIUS = 0.01  # m from a shuttlecock's true middle: within it a hand is drawn to lift it
 SLOW_MOTION = (0.8, 1.0)  # s: of a reach, in a film: the last moments before the hold
 THROUGH = " (on its way the forearm passes through the cup: the model feels no things)"
@@ -98,8 +99,7 @@ def draw_movement(photo, box, reach, motion, label="shuttlecock", colour="green"
     end = reach.endpoint(motion)
     lifted = bool(reach.distance(motion, photo.target) < LIFT_RADIUS)
     scene = arm_scene(
-        motion.q,
-        motion.activation,
+        motion,
         turn=turn,
         photo=photo,
         balls=[(reach.target, "green")],
@@ -147,15 +147,14 @@ def from_above(photo, reach, turned):
     from vmc_lib.arm.arm26 import geometry
 
     q, turn = (reach.planned.q[-1], reach.turn) if turned else (START, 0.0)
-    shoulder, ahead = to_world([[0, 0, 0.06], [0.5, 0, 0.06]], turn)
-    axis = np.insert(TRUNK, 1, 0)
+    shoulder, ahead = to_world(AHEAD, turn)
     plane = [([shoulder, ahead], "--", "grey", "the arm's plane")] if turned else []
     parts = (
         ([photo.camera.position, photo.target], ":", "blue", ""),
         *plane,
-        ([axis, to_world([[0, 0, 0]], turn)[0]], "-", "purple", ""),
+        ([ON_AXIS, to_world([[0, 0, 0]], turn)[0]], "-", "purple", ""),
         (to_world(geometry(q).joints, turn), "o-", "ink", "" if turned else "hand"),
-        ([axis], "s", "purple", "trunk's axis"),
+        ([ON_AXIS], "s", "purple", "trunk's axis"),
         ([to_world([[0, 0, 0]], turn)[0]], "o", "ink", "shoulder"),
         ([photo.camera.position], "^", "blue", "eye"),
         ([photo.target], "*", "green", "shuttlecock"),

@@ -6,13 +6,12 @@ import numpy as np
 
 from book.figures.where import in_corner
 from vmc_lib import photos
-from vmc_lib.boxes import iou
+from vmc_lib.boxes import HIT_IOU, iou
 from vmc_lib.show.figures import photo_view
 
 NAME = "real/test/017"  # riyaznizar1997, CC BY 4.0 (see CREDITS.md); nothing was tuned on it
 HEAD = np.array([50, 0, 310, 235])  # a box around the racket's head, drawn by hand
 STRINGS, FLOOR = (70, 20, 290, 185), (0, 235, 220, 400)  # pieces as large, of either alone
-ON = 0.5  # the IoU above which a box lies on the shuttlecock
 BLUR = 6  # pixels
 
 
@@ -54,7 +53,7 @@ def in_head(boxes):
 
 def on_shuttlecock(boxes):
     """Which of boxes (n, 4) lie on the shuttlecock: (n,)."""
-    return iou(racket().boxes["shuttlecock"], boxes)[0] > ON
+    return iou(racket().boxes["shuttlecock"], boxes)[0] > HIT_IOU
 
 
 def count(boxes):

@@ -14,6 +14,7 @@ from vmc_lib.motor.planning import norm
 from vmc_lib.motor.templates import mean_distance
 from vmc_lib.show.arm import arm_scene
 from vmc_lib.show.arm_plane import plane
+from vmc_lib.show.markup import minus
 from vmc_lib.show.palette import COLOURS
 
 RING = {"mfc": "none", "mew": 1.8, "color": COLOURS["green"]}  # a target's mark
@@ -81,7 +82,7 @@ def corrections(ax, target, reached, points, change):
     arrows(ax, reached, points, "grey")
     arrows(ax, reached, target, "blue")
     for point, by in zip(points, change, strict=True):
-        text = f"{by:+.3f}".replace("-", "−")
+        text = minus(f"{by:+.3f}")
         away = 6 if point[1] >= reached[1] else -14  # from the arrows
         ax.annotate(text, point, (0, away), textcoords="offset points", ha="center")
 
@@ -128,4 +129,4 @@ def reach_scene(motion, target):
     """The arm in one movement's motion to a target (2,), a green ball; its end point is red."""
     balls = [(hand(inverse_kinematics(target)), "green")]
     end = motion.wrist.mean(axis=0), motion.speed
-    return arm_scene(motion.q, motion.activation, balls=balls, end=end)
+    return arm_scene(motion, balls=balls, end=end)
