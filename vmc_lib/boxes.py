@@ -8,6 +8,7 @@ from vmc_lib.short_repr import short
 
 MIN_IOU = 0.8  # IoU at which a box counts as the object's (Section IV A)
 NEGATIVE_IOU = 0.5  # IoU up to which a candidate clearly shows no object (Section III, Block 1-1)
+VOTE_IOU = 0.5  # IoU from which on a box votes for another
 HIT_IOU = 0.5  # IoU above which a box lies on an object: most of their union is shared
 
 
@@ -144,9 +145,9 @@ def _boxes_and_scores(boxes, scores):
 def vote(
     kept: ArrayLike, boxes: ArrayLike, scores: ArrayLike, temperature: float = 0.1
 ) -> np.ndarray:
-    """Box voting: each of the boxes `kept` (indices) becomes a weighted mean of boxes near it.
+    """Box voting: each of the boxes `kept` becomes a weighted mean of those near it, (k, 4).
 
-    A box votes for each kept one that it overlaps by half or more and does not outscore. A vote
+    `kept` (k,) are indices of the `boxes` (n, 4), which have `scores` (n,). A box votes for each kept one that it overlaps by half or more and does not outscore. A vote
     weighs exp(-lag / temperature), where `lag` is how far its score is below the kept box's (after
     Gidaris & Komodakis 2015). ValueError where `kept` is no list of boxes' indices, or the
     temperature not above 0.
@@ -159,7 +160,7 @@ def vote(
     if not is_positive(temperature):
         raise ValueError(f"temperature = {short(temperature)}: give a number above 0")
     lag = scores[kept, None] - scores
-    votes = (lag >= 0) & (iou(boxes[kept], boxes) >= 0.5)
+    votes = (lag >= 0) & (iou(boxes[kept], boxes) >= VOTE_IOU)
     votes[np.arange(len(kept)), kept] = True  # without area, it does not overlap even itself
     weights = votes * np.exp(-lag.clip(0) / temperature)
     return weights @ boxes / weights.sum(1, keepdims=True)

@@ -51,7 +51,8 @@ class VisuomotorModel:
 
         It was trained on that level's training photos (the CDBN on those of all levels), its
         thresholds and probabilities set on its validation photos. That of the level "real" was
-        trained on renders and photographs, and locates as PHOTOGRAPHS_AS does.
+        trained on renders and photographs, and locates as PHOTOGRAPHS_AS does. ValueError where no
+        level has that name.
         """
         real = level == photos.REAL_LEVEL
         return cls(

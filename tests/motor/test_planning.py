@@ -178,7 +178,7 @@ def test_ten_thousand_random_targets_are_planned_or_refused(rule, template_set):
         ((0.5, -0.4), "not surrounded"),
         ((0.15, -0.2), "not surrounded"),
         ((np.nan, -0.4), "finite"),
-        ((0.15, -0.4, 0.05), "plane positions"),
+        ((0.15, -0.4, 0.05), "finite positions"),
     ],
 )
 def test_wrong_targets_are_refused(target, complaint, template_set):

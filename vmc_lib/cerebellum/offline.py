@@ -20,7 +20,7 @@ from vmc_lib.short_repr import short, short_repr
 GAINS = tuple(range(21))  # the paper's n in [0, 20]
 LARGEST_STEP = 0.5  # of Δw's norm: no single correction may throw the arm about
 NUDGE = 0.1  # of one weight, to see what it does: smaller ones drown in a muscle's noise
-DAMPING = 1e-4  # of a least-squares step, a share of what all weights do; chosen on other targets
+RIDGE_SHARE = 1e-4  # of a least-squares step, a share of what all weights do; chosen on other targets
 
 MOVES = "execute, or partial(execute, perturbation=…)"  # what is asked for where no arm would move
 
@@ -304,7 +304,7 @@ def _residual(movement):
 def _damped_least_squares(matrix, wanted):
     """The x (…, N) for which matrix (…, m, N) @ x is near `wanted` (…, m) (Levenberg)."""
     normal = np.swapaxes(matrix, -1, -2) @ matrix
-    ridge = DAMPING * np.trace(normal, axis1=-2, axis2=-1)[..., None, None]
+    ridge = RIDGE_SHARE * np.trace(normal, axis1=-2, axis2=-1)[..., None, None]
     gradient = np.swapaxes(matrix, -1, -2) @ wanted[..., None]
     return np.linalg.solve(normal + ridge * np.eye(matrix.shape[-1]), gradient)[..., 0]
 

@@ -126,7 +126,7 @@ def rotate_about_eye(points: np.ndarray, angle: float) -> np.ndarray:
 def rotate(points: np.ndarray, angle: float, centre: np.ndarray) -> np.ndarray:
     """Plane positions (…, 2) rotated about a `centre` (2,) by `angle`, rad, anticlockwise."""
     points, angle = as_numbers("points", points), as_numbers("angle", angle)
-    if points.shape[-1:] != EYE.shape or angle.ndim:
+    if points.shape[-1:] != (2,) or angle.ndim:
         raise ValueError(f"points {points.shape} by {angle}: give (…, 2) in the plane, and radians")
     c, s = np.cos(angle), np.sin(angle)
     return (points - centre) @ np.array([[c, s], [-s, c]]) + centre

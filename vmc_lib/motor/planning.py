@@ -1,6 +1,7 @@
 """Habitual planning (Eq. 3–5): a new reach as a weighted sum of templates.
 
-Every function takes one target (2,) or a batch (B, 2). Positions are in the arm's plane, in m.
+Every function takes one target (D,) or a batch (B, D), in m: in the arm's plane, D = 2, or, but for
+`draw_targets`, in space, D = 3.
 """
 
 from collections.abc import Callable, Mapping
@@ -21,7 +22,7 @@ class Plan:
     """Which templates a reach uses, and how much of each."""
 
     template_set: TemplateSet
-    target: np.ndarray  # (…, 2)
+    target: np.ndarray  # (…, D)
     rows: np.ndarray  # (…, N): of the template set
     weights: np.ndarray  # (…, N)
 
@@ -29,7 +30,7 @@ class Plan:
 
     @property
     def points(self) -> np.ndarray:
-        """Where these templates reach, p_i, (…, N, 2), m."""
+        """Where these templates reach, p_i, (…, N, D), m."""
         return self.template_set.points[self.rows]
 
     @property
@@ -65,9 +66,9 @@ def habitual_weights(target: ArrayLike, points: np.ndarray, power: float = 1) ->
 
     Parameters
     ----------
-    target : array (…, 2)
+    target : array (…, D)
         Where to reach, m.
-    points : array (…, N, 2)
+    points : array (…, N, D)
         Where the templates reach, m.
     power : float
         Of the inverse distance; 1 in the paper.
@@ -137,7 +138,7 @@ def surrounding(target: ArrayLike, points: np.ndarray) -> np.ndarray:
 
 
 def nearest(target: ArrayLike, points: np.ndarray, count: int) -> np.ndarray:
-    """The `count` points (of N, 2) nearest to a target (…, 2): rows (…, count).
+    """The `count` points (of N, D) nearest to a target (…, D): rows (…, count).
 
     ValueError when there are fewer points, or fewer than one is asked for.
     """
@@ -174,7 +175,7 @@ def _by_orthant(target, points):
 
 
 def _quadrant(away):
-    """Which quadrant offsets (…, 2) lie in, 0 to 3, counter-clockwise."""
+    """Which quadrant offsets (…, 2) lie in, 0 to 3, anticlockwise."""
     return np.floor(np.arctan2(away[..., 1], away[..., 0]) / (np.pi / 2)) % 4
 
 
@@ -207,13 +208,13 @@ def plan(
 
     Parameters
     ----------
-    target : array (…, 2), or in space (…, 3)
+    target : array (…, D)
         Where the hand should end, m.
     template_set : TemplateSet
         The remembered reaches.
     rule : {"habitual", "exact"} or callable
         By Eq. 5, or by Eq. 4 as well; or a function of your own: weights (…, N) from a target and
-        the templates' points (…, N, 2).
+        the templates' points (…, N, D).
     rows : array (…, N), optional
         Which templates; by default the nearest in each quadrant, or octant.
 
@@ -240,7 +241,7 @@ def plan(
     weigh = rule_called(rule, RULES)
     target, axes = as_numbers("target", target), template_set.points.shape[-1:]
     if target.shape[-1:] != axes or not np.all(np.isfinite(target)):
-        raise ValueError(f"target {target} must be finite plane positions (…, {axes[0]}) in m")
+        raise ValueError(f"target {target} must be finite positions (…, {axes[0]}) in m")
     if rows is None:
         rows = surrounding(target, template_set.points)
     else:
