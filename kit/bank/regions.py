@@ -149,8 +149,8 @@ def hits_lost(boxes=scored, low=steps(-0.6, 0.1, 0.1), rise=steps(0.2, 0.5, 0.1)
 
 
 def f1(detectors):
-    """Of precisions and recalls (n, 2)."""
-    precision, recall = detectors.T
+    """F1 scores (n,): the harmonic mean of recall and precision, of `detectors` (n, 2)."""
+    recall, precision = detectors.T
     return 2 * precision * recall / (precision + recall)
 
 
