@@ -143,7 +143,7 @@ SIGHT = {  # a call: what its error says, the value and the remedy
     "a folder's list": (lambda g: photos.read_image(["a.jpg"]), "list", "give a path"),
     "integers": (lambda g: photos.as_rgb([[1, 2], [3, 4]]), "int64", "give uint8"),
     "8 bits as floats": (lambda g: photos.as_rgb(g.image * 1.0), "0..1", "divide 8 bits by 255"),
-    "a size": (lambda g: photos.crops(g.image, [[0, 0, 5, 5]], -2), "-2×-2", "1 or more"),
+    "a size": (lambda g: photos.crops(g.image, [[0, 0, 5, 5]], -2), "size = -2", "1 or more"),
     "a box of three": (lambda g: boxes.iou([[1, 2, 3]], [0, 0, 1, 1]), "(1, 3)", "(x0, y0, x1"),
     "a box inside out": (lambda g: boxes.iou([5, 5, 1, 1], [0, 0, 3, 3]), "[5. 5.", "x0 <= x1"),
     "too few scores": (lambda g: boxes.nms([[0, 0, 1, 1]], [0.3, 0.4]), "(2,)", "as many finite"),
@@ -166,7 +166,7 @@ SIGHT = {  # a call: what its error says, the value and the remedy
         "PCG64", "give a torch.Generator()",
     ),
     "no filters": (
-        lambda g: learning.Learner.random(-1, 1, 5, torch.Generator()), "-1 filters", "1 or more"
+        lambda g: learning.Learner.random(-1, 1, 5, torch.Generator()), "K = -1", "1 or more"
     ),
     "no photo": (lambda g: photos.boxes_of("rig", "cup"), "'rig'", "give one of load("),
     "a file to crop": (lambda g: crops.crop("a.jpg", (0, 0, 9, 9)), "'a.jpg'", "read_image"),
@@ -214,8 +214,8 @@ SIGHT = {  # a call: what its error says, the value and the remedy
     "a step of nothing": (lambda g: photos.load_levels("train", step=0), "step = 0", "1 or more"),
     "a folder of no name": (lambda g: photos.load("rig", "train", None), "folder None", "the path"),
     "rows of two lengths": (lambda g: photos.as_rgb([[1], [1, 2]]), "[[1], [1, 2]]", "(h, w, 3)"),
-    "half a pixel more": (lambda g: photos.crops(g.image, BOX, 2.5), "2.5×2.5", "a whole size"),
-    "a size as text": (lambda g: photos.crops(g.image, BOX, "9"), "'9'×'9'", "a whole size"),
+    "half a pixel more": (lambda g: photos.crops(g.image, BOX, 2.5), "size = 2.5", "a whole number"),
+    "a size as text": (lambda g: photos.crops(g.image, BOX, "9"), "size = '9'", "a whole number"),
     "a point that is none": (
         lambda g: g.photo.camera.project([[np.nan, 0, 0]]), "no picture", "it faces"
     ),
@@ -309,7 +309,7 @@ SIGHT = {  # a call: what its error says, the value and the remedy
     "photos by name": (lambda g: cdbn.crops_of("rig"), "'rig'", 'load("rig", "train")'),
     "a photo alone": (lambda g: cdbn.crops_of(g.photo), "Photo(…)", "give a list"),
     "half a filter": (
-        lambda g: learning.Learner.random(2.5, 1, 5, torch.Generator()), "2.5 filters", "1 or more"
+        lambda g: learning.Learner.random(2.5, 1, 5, torch.Generator()), "K = 2.5", "1 or more"
     ),
     "no flips": (lambda g: STREAM.predict(g.image, BOX, ()), "flips ()", "one or more"),
     "a flip alone": (lambda g: STREAM.predict(g.image, BOX, (1, 1)), "flips (1, 1)", "one or more"),

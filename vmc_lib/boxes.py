@@ -147,10 +147,11 @@ def vote(
 ) -> np.ndarray:
     """Box voting: each of the boxes `kept` becomes a weighted mean of those near it, (k, 4).
 
-    `kept` (k,) are indices of the `boxes` (n, 4), which have `scores` (n,). A box votes for each kept one that it overlaps by half or more and does not outscore. A vote
-    weighs exp(-lag / temperature), where `lag` is how far its score is below the kept box's (after
-    Gidaris & Komodakis 2015). ValueError where `kept` is no list of boxes' indices, or the
-    temperature not above 0.
+    `kept` (k,) are indices of the `boxes` (n, 4), which have `scores` (n,). A box votes for each
+    kept one that it overlaps by half or more and does not outscore. A vote weighs
+    exp(-lag / temperature), where `lag` is how far its score is below the kept box's (after Gidaris
+    & Komodakis 2015). ValueError where `kept` is no list of boxes' indices, or the temperature not
+    above 0.
     """
     boxes, scores = _boxes_and_scores(boxes, scores)
     kept = as_numbers("kept", kept)

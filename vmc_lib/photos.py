@@ -9,7 +9,6 @@ import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, lru_cache
-from numbers import Integral
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -237,10 +236,7 @@ def crops(image: np.ndarray, boxes: ArrayLike, size: int) -> np.ndarray:
         raise ValueError(f"{short(image)} is no uint8 image: see photos.read_image")
     if image.dtype != np.uint8 or image.ndim != 3 or image.size == 0:
         raise ValueError(f"{image.dtype} {image.shape} is no uint8 image: see photos.read_image")
-    if not (isinstance(size, Integral) and size >= 1):
-        raise ValueError(
-            f"crops of {short(size)}×{short(size)}: give a whole size in pixels, 1 or more"
-        )
+    check_count("size", size, least=1)
     boxes = as_boxes(boxes)
     height, width = image.shape[:2]
     steps = (np.arange(size * 2) + 0.5) / (size * 2)

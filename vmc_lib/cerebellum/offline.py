@@ -20,7 +20,7 @@ from vmc_lib.short_repr import short, short_repr
 GAINS = tuple(range(21))  # the paper's n in [0, 20]
 LARGEST_STEP = 0.5  # of Δw's norm: no single correction may throw the arm about
 NUDGE = 0.1  # of one weight, to see what it does: smaller ones drown in a muscle's noise
-RIDGE_SHARE = 1e-4  # of a least-squares step, a share of what all weights do; chosen on other targets
+RIDGE_SHARE = 1e-4  # of a least-squares step: of what all weights do; chosen on other targets
 
 MOVES = "execute, or partial(execute, perturbation=…)"  # what is asked for where no arm would move
 

@@ -7,7 +7,6 @@ be differentiated and moved to a GPU, through the same equations.
 from collections.abc import Iterable
 from itertools import islice
 from math import isfinite
-from numbers import Integral
 
 import numpy as np
 import torch
@@ -30,12 +29,12 @@ class Learner(CRBM):
     def random(cls, K, channels, n_w, rng, c=2, device="cpu"):
         """An untrained machine: small random filters drawn from a torch.Generator.
 
-        ValueError for another source of random numbers, or no filters.
+        ValueError for another source of random numbers, or a count that is no whole number above 0.
         """
         if not isinstance(rng, torch.Generator):
             raise ValueError(f"rng = {rng}: give a torch.Generator().manual_seed(0)")
-        if not all(isinstance(count, Integral) and count >= 1 for count in (K, channels, n_w)):
-            raise ValueError(f"{K} filters of {channels}×{n_w}×{n_w}: give 1 or more of each")
+        for name, count in (("K", K), ("channels", channels), ("n_w", n_w)):
+            check_count(name, count, least=1)
         W = 0.01 * torch.randn(K, channels, n_w, n_w, generator=rng)
         return cls(W.to(device), torch.zeros(K, device=device), torch.zeros(channels).to(device), c)
 
