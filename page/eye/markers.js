@@ -1,6 +1,6 @@
 /* Finds ArUco markers in a grey picture, as OpenCV's detector does for vmc_lib/marker_sheet.py: dark connected
    patches with four corners, inside which lies one of the known patterns. */
-import { sum } from "../vectors.js";
+import { distance, mean, sum } from "../vectors.js";
 
 const CELLS = 6, SMALLEST = 10, FEWEST = 20; // of a marker: cells a side, frame included; pixels a side, in all
 const DARKER = 7, AROUND = [2, 6, 11].map((pixels) => pixels / 600); // grey levels; of the picture's longer side
@@ -65,7 +65,7 @@ const corners = (patch, width) => {
   const a = farthest((x, y) => apart(middle, x, y)), c = farthest((x, y) => apart(a, x, y));
   const b = farthest((x, y) => -side(a, c, x, y)), d = farthest((x, y) => side(a, c, x, y));
   const quad = [a, b, c, d], next = [b, c, d, a];
-  const sides = quad.map((corner, i) => apart(corner, ...next[i])), longest = Math.max(...sides);
+  const sides = quad.map((corner, i) => distance(corner, next[i])), longest = Math.max(...sides);
   const halves = [-side(a, c, ...b), side(a, c, ...d)];
   if (Math.min(...sides) < SMALLEST || Math.min(...halves) < 0.3 * Math.max(...halves)) return null;
   const within = (corner, i) => {
@@ -111,8 +111,6 @@ const identify = (grey, width, quad, codes) => {
   return null;
 };
 
-const middle = (quad) => [0, 1].map((k) => sum(quad.map((corner) => corner[k])) / quad.length);
-
 /* The markers { id, corners } in a picture, until there are `enough`; a marker of which there are two, twice. What
    is dark in a picture depends on how far around one looks. */
 export function* findMarkers(grey, width, height, codes, enough = codes.length) {
@@ -122,7 +120,7 @@ export function* findMarkers(grey, width, height, codes, enough = codes.length) 
     yield;
     for (const patch of patches(dark, width, height)) {
       const quad = corners(patch, width), marker = quad && identify(grey, width, quad, codes);
-      const same = ({ id, corners }) => id === marker.id && apart(middle(corners), ...middle(quad)) < SMALLEST;
+      const same = ({ id, corners }) => id === marker.id && distance(mean(corners), mean(quad)) < SMALLEST;
       if (marker && !found.some(same)) found.push(marker);
       yield;
     }
