@@ -187,4 +187,4 @@ def two_lengths(axes, pair, swap):
 def which_one_bends(pair=PAIRS, swap=(0, 1)):
     """The elbow's angle grows as the arm bends. Which muscle bends it by its pull?"""
     a, b = lengths(pair)[[swap, 1 - swap]][:, [0, -1]]
-    return int(np.ptp(a) * np.sign(a[1] - a[0]) > 0), {"a": a, "b": b}
+    return int(a[1] > a[0]), {"a": a, "b": b}

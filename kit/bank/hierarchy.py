@@ -35,7 +35,7 @@ def window_of_the_second_layer(n_w=steps(4, 12, 1), second=steps(3, 10, 1), c=(2
     """First-layer filters are {n_w} pixels wide, blocks {c} units, second-layer filters {second}
     units. How wide is the patch of the picture under one second-layer filter (without competition
     in its own block)?"""
-    return (second - 1) * c + n_w + c - 1
+    return sides(n_w, second, c)[0]
 
 
 @count("weights", "K2 × K1 × n_w²")

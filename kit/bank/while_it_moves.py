@@ -3,7 +3,7 @@
 import numpy as np
 
 from kit.bank.drawing import curves
-from kit.question import choice, numeric, picture, steps
+from kit.question import choice, count, numeric, picture, steps
 from vmc_lib.cerebellum.two_rates import Rates, adapt
 from vmc_lib.motor.feedback import FeedbackGains, curl, feedback_acceleration
 from vmc_lib.motor.inverse_dynamics import minimum_jerk_profile
@@ -59,7 +59,7 @@ def fastest_moment(way=steps(10, 40, 2), seconds=steps(0.4, 1, 0.1)):
     return way / seconds * np.gradient(minimum_jerk_profile(times), times).max()
 
 
-@numeric("steps", "Delay over step.", tolerance=0)
+@count("steps", "Delay over step.")
 def samples_of_a_delay(delay=steps(60, 240, 20), tick=(5, 10, 20)):
     """Sight is {delay} ms late, and a forward model foresees every {tick} ms. How many of its steps
     must it replay to know where the arm is now?"""
