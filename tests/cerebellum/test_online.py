@@ -78,19 +78,12 @@ def test_other_reading_trains_on_the_target(template_set):
 
 
 def test_algorithm_2_held_out_error_ratio():
-    """Where a movement ends with its command, as we read the paper: a mean over three lessons."""
+    """Where a movement ends with its command, as we read the paper; the other reading is worse in
+    `tests/reproduce/experiments/test_calibration.py`, on all draws."""
     past, rule = load(hold=0.0), partial(algorithm_1, gains=range(0, 21, 5))
     others = plan(draw_targets(past, 100, np.random.default_rng(20)), past)
-    errors = [
-        [
-            error(WeightCorrection(h).update(*lessons(past, 25, seed), rule).correct(others))
-            for h in (True, False)
-        ]
-        for seed in (21, 22, 23)
-    ]
-    printed, other = np.mean(errors, axis=0)
-    assert printed < 0.61 * error(others)  # the paper's own ratio, on what it practised
-    assert printed < 0.9 * other
+    taught = WeightCorrection().update(*lessons(past, 25), rule)
+    assert error(taught.correct(others)) < 0.61 * error(others)  # the paper's, on what it practised
 
 
 def test_aim_correction_held_out_error(template_set, held_out):

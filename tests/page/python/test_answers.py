@@ -65,19 +65,12 @@ def test_general_hints_are_those_of_the_notebook(ask, name):
 @pytest.mark.parametrize(
     ("typed", "words"),
     [
-        (
-            "import scipy\nscipy.linalg",
-            "Line 1 stops: `ModuleNotFoundError: This page has NumPy alone",
-        ),
-        ("from scipy.signal import correlate2d", "This page has NumPy alone: scipy needs"),
+        ("x = 1\ninput()", "Line 2 stops: `RuntimeError: This page cannot ask"),
         ("import torch", "This page has NumPy alone: torch needs Python of your own"),
         ("import asyncio", "This page has NumPy alone: asyncio needs Python of your own"),
-        ("x = 1\ninput()", "Line 2 stops: `RuntimeError: This page cannot ask"),
-        ("exit()", "Nothing to leave here"),
-        ("import sys\nsys.exit()", "Line 2 stops: `SystemExit`."),
     ],
 )
-def test_what_the_page_has_not_is_refused_in_words(ask, typed, words):
+def test_what_pyodide_has_not_is_refused_in_words(ask, typed, words):
     said, _ = ask([], typed)
     assert words in said
 
