@@ -172,8 +172,6 @@ GREY = np.full((20, 30, 3), 0.5, np.float32)
     ("call", "words"),
     [
         (lambda: segment(GREY, k=0), "k = .*0.*above 0"),
-        (lambda: segment(GREY, sigma=-1), "sigma = -1.*above 0"),
-        (lambda: segment(GREY, sigma=1e6), "sigma smaller than an image of 30×20 pixels"),
         (lambda: segment(GREY * np.nan), "finite"),
         (lambda: segment(GREY[..., 0]), r"\(height, width, c\)"),
         (lambda: segment(np.uint8(255 * GREY)), "uint8 are not in 0..1: see photos.as_float"),

@@ -214,7 +214,7 @@ SIGHT = {  # a call: what its error says, the value and the remedy
     "a step of nothing": (lambda g: photos.load_levels("train", step=0), "step = 0", "1 or more"),
     "a folder of no name": (lambda g: photos.load("rig", "train", None), "folder None", "the path"),
     "rows of two lengths": (lambda g: photos.as_rgb([[1], [1, 2]]), "[[1], [1, 2]]", "(h, w, 3)"),
-    "half a pixel more": (lambda g: photos.crops(g.image, BOX, 2.5), "size = 2.5", "a whole number"),
+    "half a pixel more": (lambda g: photos.crops(g.image, BOX, 2.5), "size = 2.5", "whole number"),
     "a size as text": (lambda g: photos.crops(g.image, BOX, "9"), "size = '9'", "a whole number"),
     "a point that is none": (
         lambda g: g.photo.camera.project([[np.nan, 0, 0]]), "no picture", "it faces"
@@ -351,7 +351,6 @@ SIGHT = {  # a call: what its error says, the value and the remedy
     "no photos to fit": (lambda g: localiser.Localiser.fit([], RNG), "[]", 'load("rig", "train")'),
     "a scale in words": (lambda g: segmentation.segment(NOISE, "fine"), "'fine'", "above 0"),
     "a list of scales": (lambda g: segmentation.segment(NOISE, [5, 9]), "[5, 9]", "above 0"),
-    "no blur": (lambda g: segmentation.segment(NOISE, sigma=None), "sigma = None", "above 0"),
     "one scale": (lambda g: next(segmentation.segmentations(NOISE, 100)), "100", "give a list"),
     "scales of a strategy": (
         lambda g: selective_search.Strategy(k=("fine",)), "('fine',)", "give numbers"

@@ -41,12 +41,12 @@ def wave_spectra(crop, white):
     return fig
 
 
-def mean_amplitudes(pixels, octaves=6):
-    """Frequencies and mean amplitudes of the waves of pixels (n, n), by half octaves."""
+def mean_amplitudes(pixels):
+    """Frequencies and mean amplitudes of the waves of pixels (n, n), by half octaves, of six."""
     f = np.hypot(*np.meshgrid(*[np.fft.fftfreq(len(pixels))] * 2))
     window = np.outer(*[np.hanning(len(pixels))] * 2)  # opposite edges do not meet
     amplitude = np.abs(np.fft.fft2((pixels - pixels.mean()) * window))
-    limits = 0.5 * 2.0 ** np.arange(-octaves, 0.1, 0.5)
+    limits = 0.5 * 2.0 ** np.arange(-6, 0.1, 0.5)
     bins = [(low <= f) & (f < high) for low, high in itertools.pairwise(limits)]
     return np.sqrt(limits[1:] * limits[:-1]), np.array([amplitude[b].mean() for b in bins])
 

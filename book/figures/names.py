@@ -169,11 +169,11 @@ def sorted_crops_in_page(held_out, methods):
     return "line", lambda: _rows()[0], given
 
 
-def reliability(chances, truth, bins=5):
-    """In each bin of the probabilities given (n,), the share that came true, with its interval."""
+def reliability(chances, truth):
+    """In five bins of the probabilities given (n,), the share that came true, with its interval."""
     fig, ax = panels(size=(4.2, 3.4))
     ax.plot([0, 1], [0, 1], color=COLOURS["grey"], lw=1, gid="guide")
-    place = np.minimum((chances * bins).astype(int), bins - 1)
+    place = np.minimum((chances * 5).astype(int), 4)
     groups = [place == i for i in np.unique(place)]
     given = np.array([chances[here].mean() for here in groups])
     share = np.array([truth[here].mean() for here in groups])

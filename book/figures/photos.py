@@ -62,10 +62,10 @@ def longer_sides(shots):
     return (boxes[:, 2:] - boxes[:, :2]).max(axis=1)
 
 
-def cutout_sheet(cutouts, columns=12):
-    """Cut-outs (n, w, w, 4), 0 to 255, on grey and on one image, half as large: uint8."""
+def cutout_sheet(cutouts):
+    """Cut-outs (n, w, w, 4), 0 to 255, on grey, in rows of 12, half as large: an image, uint8."""
     grey = np.array([0.36, 0.38, 0.42])
     colour, opaque = np.split(cutouts / 255, [3], axis=-1)
     tiles = opaque * colour + (1 - opaque) * grey
-    rows = tiles.reshape(-1, columns, *tiles.shape[1:]).swapaxes(1, 2)
-    return np.uint8(255 * rows.reshape(-1, columns * tiles.shape[2], 3))[::2, ::2]
+    rows = tiles.reshape(-1, 12, *tiles.shape[1:]).swapaxes(1, 2)
+    return np.uint8(255 * rows.reshape(-1, 12 * tiles.shape[2], 3))[::2, ::2]

@@ -26,15 +26,15 @@ OBJECTS = 80  # in 40 photos
 QUALITIES = ("a good candidate", "a box on the shuttlecock", "a good box")
 
 
-def crop_sheet(crops, columns=8):
-    """Crops (n, 3 size²) of `raw_pixels`, size up to 32, in rows of so many: an image.
+def crop_sheet(crops):
+    """Crops (n, 3 size²) of `raw_pixels`, size up to 32, in rows of eight: an image.
 
     Each is drawn 32 pixels wide.
     """
     size = round((crops.shape[1] / 3) ** 0.5)
-    tiles = crops.reshape(-1, columns, size, size, 3).repeat(32 // size, 2).repeat(32 // size, 3)
+    tiles = crops.reshape(-1, 8, size, size, 3).repeat(32 // size, 2).repeat(32 // size, 3)
     grid = np.pad(tiles / 2 + 0.5, [(0, 0), (0, 0), (2, 2), (2, 2), (0, 0)]).swapaxes(1, 2)
-    return grid.reshape(-1, 36 * columns, 3)
+    return grid.reshape(-1, 36 * 8, 3)
 
 
 def margin(cost, kernel, yours=YOURS):

@@ -118,13 +118,13 @@ def curl_field(templates, paths, reference, deviations, block, blocks):
     return fig
 
 
-def two_rates(states, block=100):
+def two_rates(states):
     """What the fast and the slow memory hold, (n, 2), and together.
 
-    Lines stand after the first block of reaches, and before the last.
+    Lines stand after the first hundred reaches, and before the last.
     """
     fig, ax = panels(size=(4.3, 3.2))
-    for change in (block, len(states) - block):
+    for change in (100, len(states) - 100):
         ax.axvline(change, color=COLOURS["grey"], lw=1, ls=":")
     for name, line in zip(("fast", "slow"), states.T, strict=True):
         ax.plot(line, lw=1.2, label=name)

@@ -127,9 +127,9 @@ def activation_curves(holds):
     return fig
 
 
-def strongest(activation, count=4):
-    """The most active muscles of (63,), name -> activation, the strongest first."""
-    return {plant.MUSCLES[m]: activation[m] for m in np.argsort(-activation)[:count]}
+def strongest(activation):
+    """The four most active muscles of (63,), name -> activation, the strongest first."""
+    return {plant.MUSCLES[m]: activation[m] for m in np.argsort(-activation)[:4]}
 
 
 def shares_text(active):

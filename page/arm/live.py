@@ -59,7 +59,7 @@ names = map("live-{}".format, itertools.count(1))
 _ASKED = tuple(itertools.product((0.1, 0.9), (0.3, 0.7), (0.6, 1.3), (-0.5, 0.3)))
 
 
-def live_arm(mode, alt="", target=PHOTO_1, law=""):
+def live_arm(mode, target=PHOTO_1, law=""):
     """Show the arm with its physics in the page, loaded when the reader first asks for it.
 
     `mode` is "bench" (six excitation sliders move the arm) or "reach" (the reader sets a target;
@@ -67,10 +67,8 @@ def live_arm(mode, alt="", target=PHOTO_1, law=""):
     same, and the four weights of the plan are set by hand) or "templates" (the same as "reach", and
     templates are taken away, put back and added). `target` (2,), in the arm's plane and in m, is
     where the reach's target first stands, and for which a first reach is there from the start.
-    `alt` describes the picture in words, by default
-    as `MODES` does. `law` names the chapter's function of Eq. 5, which a reader can change: the
-    book's page then plans by it. Raises ValueError when the mode is unknown or when no templates
-    surround the target.
+    `law` names the chapter's function of Eq. 5, which a reader can change: the book's page then
+    plans by it. ValueError when the mode is unknown or when no templates surround the target.
     """
     if mode not in MODES:
         raise ValueError(f"mode {mode!r} is unknown: choose one of {[*MODES]}")
@@ -83,7 +81,7 @@ def live_arm(mode, alt="", target=PHOTO_1, law=""):
         movement = execute(plan(target, templates.load()))  # raises when none surround it
         draw, controls = partial(_reach_view, movement), reach_form(name, target, mode)
         data |= {"first": first(movement), "lens": LENS}
-    show(name, mode, draw, controls, data, alt or MODES[mode], law)
+    show(name, mode, draw, controls, data, MODES[mode], law)
 
 
 def show(name, mode, draw, controls, data, alt, law=""):

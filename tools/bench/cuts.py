@@ -56,9 +56,9 @@ def recall_difference(image, truth, opencv_boxes, **settings):
     return len(orders[0]), np.mean(ours, axis=0) - peers[0]
 
 
-def bootstrap_over_photos(differences, rng, draws=2000):
+def bootstrap_over_photos(differences, rng):
     """The mean over all objects of photos (a list of arrays), and its 95 % interval over photos."""
-    picks = rng.integers(0, len(differences), (draws, len(differences)))
+    picks = rng.integers(0, len(differences), (2000, len(differences)))
     means = [np.concatenate([differences[i] for i in pick]).mean() for pick in picks]
     return np.concatenate(differences).mean(), *np.percentile(means, [2.5, 97.5])
 

@@ -16,17 +16,17 @@ from vmc_lib.checks import is_positive
 from vmc_lib.compiled import compiled
 from vmc_lib.short_repr import short
 
+BLUR = 0.8  # pixels: the standard deviation of the Gaussian blur that comes first
 NEIGHBOUR_OFFSETS = (0, 1), (1, 0), (1, 1), (1, -1)  # (dy, dx); the other four mirror these
 
 
-def segment(channels: np.ndarray, k: float = 100, sigma: float = 0.8) -> np.ndarray:
+def segment(channels: np.ndarray, k: float = 100) -> np.ndarray:
     """Graph-based segmentation of an image.
 
     Parameters
     ----------
     channels : (height, width, c) float32 array in 0..1
     k : scale; a larger one gives larger segments, and none is smaller than k pixels
-    sigma : standard deviation of the Gaussian blur that comes first, in pixels, above 0
 
     Returns
     -------
@@ -42,12 +42,10 @@ def segment(channels: np.ndarray, k: float = 100, sigma: float = 0.8) -> np.ndar
     >>> np.unique(segment(black_and_white)).tolist()
     [0, 1]
     """
-    return next(segmentations(channels, [k], sigma))
+    return next(segmentations(channels, [k]))
 
 
-def segmentations(
-    channels: np.ndarray, scales: Sequence[float], sigma: float = 0.8
-) -> Iterator[np.ndarray]:
+def segmentations(channels: np.ndarray, scales: Sequence[float]) -> Iterator[np.ndarray]:
     """The labels of `segment` at each scale k in turn; the edges are sorted once for all."""
     import cv2
 
@@ -59,12 +57,9 @@ def segmentations(
         raise ValueError(f"channels of {channels.dtype} are not in 0..1: see photos.as_float")
     if not np.iterable(scales) or not len(scales):
         raise ValueError(f"scales {short(scales)}: give a list of one k or more")
-    if not (all(map(is_positive, (sigma, *scales))) and sigma < max(channels.shape)):
-        raise ValueError(
-            f"scales k = {scales}, sigma = {sigma}: give finite numbers above 0, and a sigma "
-            f"smaller than an image of {channels.shape[1]}×{channels.shape[0]} pixels"
-        )
-    smooth = cv2.GaussianBlur(channels, (0, 0), float(sigma)).reshape(channels.shape)
+    if not all(map(is_positive, scales)):
+        raise ValueError(f"scales k = {scales}: give finite numbers above 0")
+    smooth = cv2.GaussianBlur(channels, (0, 0), BLUR).reshape(channels.shape)
     height, width = smooth.shape[:2]
     edges, offsets = sort_by_weight(pixel_edges(smooth)), pixel_offsets(width)
     for k in scales:  # the published k is for grey values in 0..255

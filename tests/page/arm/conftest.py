@@ -32,8 +32,8 @@ def past():
 @pytest.fixture(scope="session")
 def arms_html(past):
     def declare():
-        live_arm("bench", "An arm of two joints and six muscles.")
-        live_arm("reach", "An arm before a plane of templates.", TARGET)
+        live_arm("bench")
+        live_arm("reach", TARGET)
         live_whole_arm(
             whole_arm_live.arm(past, habits.muscle_synergies().rest),
             lambda: whole_arm_live.pictures(past, WHOLE_ARM_TARGET),
@@ -41,8 +41,8 @@ def arms_html(past):
             WHOLE_ARM_TARGET,
             "A whole arm before two views of it.",
         )
-        live_arm("weights", "An arm before four weights.", TARGET)
-        live_arm("templates", "An arm before its templates.", TARGET)
+        live_arm("weights", TARGET)
+        live_arm("templates", TARGET)
 
     return pages.book_html(live, declare)
 

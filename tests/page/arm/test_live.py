@@ -19,9 +19,9 @@ def test_the_versions_of_mujoco_are_those_of_the_files():
 
 def test_an_unknown_mode_and_a_target_beyond_reach_are_refused():
     with pytest.raises(ValueError, match="choose one of"):
-        live_arm("dance", "a")
+        live_arm("dance")
     with pytest.raises(ValueError, match="not surrounded"):
-        live_arm("reach", "a", target=(0.5, 0.5))
+        live_arm("reach", target=(0.5, 0.5))
 
 
 @pytest.fixture
@@ -32,7 +32,7 @@ def live_page(offline, monkeypatch):
 
     def show(*kernel):
         shown = displayed(monkeypatch, live)
-        live_arm("bench", "An arm.")
+        live_arm("bench")
         still, widget, _ = shown
         assert "Run > Run All Cells" in still.data
         render(page, widget, monkeypatch, *kernel)

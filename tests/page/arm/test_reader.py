@@ -232,7 +232,7 @@ def test_with_reduced_motion_only_the_end_is_shown(open_arms, window):
 def test_without_webgl_arms_move_in_plots(open_arms, window):
     page = open_arms(window(NO_WEBGL, reduced_motion="reduce"))
     for arm, words, said in (
-        (page.bench, "An arm of two joints", "The arm is running"),
+        (page.bench, "A right arm of six muscles", "The arm is running"),
         (page.whole, "A whole arm", "The planned reach"),
     ):
         start(arm)
