@@ -11,10 +11,18 @@ from docutils.nodes import make_id
 from book._ext.short_path import PAGES, PIECES, QUIZ, SITTINGS
 from book.figures.inventory import title_and_minutes
 from tests.pages import BUILT, above_sections
-from tools.main_line import main_line, section_words
+from tools.main_line import article, main_line, words_of
 
 BOOK = BUILT / "book"
 each_sitting = pytest.mark.parametrize("sitting", SITTINGS, ids=range(1, len(SITTINGS) + 1))
+
+
+@cache
+def section_words(path):
+    """The words of a built page's main line: what stands before its sections ("top"), then each."""
+    page = article(path).select_one("section")
+    sections = {part.get("id"): part.extract() for part in page.select(":scope > section")}
+    return {name: words_of(part) for name, part in {"top": page, **sections}.items()}
 
 
 def words(piece):

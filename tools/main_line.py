@@ -45,33 +45,26 @@ def main_line(path):
 
     A pad is one control; what lies behind "more" is none.
     """
-    article = _article(path)
+    page = article(path)
     figures = [
-        Figure(one.get("id", ""), _words(one.select_one("figcaption")), len(one.select(CONTROLS)))
-        for one in article.select(".vmc-demo, .vmc-live:not(.vmc-demo *)")
+        Figure(one.get("id", ""), words_of(one.select_one("figcaption")), len(one.select(CONTROLS)))
+        for one in page.select(".vmc-demo, .vmc-live:not(.vmc-demo *)")
     ]
-    predictions = len(article.select(".vmc-predict"))
-    return MainLine(_words(article), predictions, figures)
+    predictions = len(page.select(".vmc-predict"))
+    return MainLine(words_of(page), predictions, figures)
 
 
-@cache
-def section_words(path):
-    """The words of a built page's main line: what stands before its sections ("top"), then each."""
-    page = _article(path).select_one("section")
-    sections = {part.get("id"): part.extract() for part in page.select(":scope > section")}
-    return {name: _words(part) for name, part in {"top": page, **sections}.items()}
-
-
-def _article(path):
+def article(path):
     """A built page's article, without its pictures, which are long, and what is folded."""
     html = re.sub("<svg.*?</svg>", "", path.read_text(encoding="utf-8"), flags=re.DOTALL)
-    article = BeautifulSoup(html, "html.parser").select_one("article")
-    for part in article.select(ASIDE):
+    page = BeautifulSoup(html, "html.parser").select_one("article")
+    for part in page.select(ASIDE):
         part.decompose()
-    return article
+    return page
 
 
-def _words(part):
+def words_of(part):
+    """How many words a part of an `article` has to read; 0 for None."""
     if part is None:
         return 0
     for unread in part.select(UNREAD):
