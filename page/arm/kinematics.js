@@ -1,6 +1,6 @@
 /* Inverse kinematics: from where the hand should be to the joints' angles and the trunk's turn
    (vmc_lib/arm/kinematics.py). `arm` is what Python gives of it, KINEMATICS in page/arm/live.py. */
-import { clip, dot, minus, plus, times } from "../vectors.js";
+import { clip, dot, minus, plus, times, turnAboutY } from "../vectors.js";
 
 /* The wrist in posture q, in the shoulder frame before the trunk turns (vmc_lib/arm/dynamics.py). */
 export const hand = (arm, [shoulder, elbow]) => {
@@ -52,14 +52,5 @@ export const turnTowards = (arm, target) => {
   return { turn, place: hand(arm, q).slice(0, 2) };
 };
 
-/* A vector (3,), rotated by a turn of the trunk. */
-export const rotateByTurn = ([x, y, z], turn) => {
-  const [c, s] = [Math.cos(turn), Math.sin(turn)];
-  return [c * x + s * z, y, c * z - s * x];
-};
-
 /* A point of the turned shoulder frame, in that of the trunk straight ahead. */
-export const toWorld = ({ trunk: { axis } }, point, turn) => {
-  const onAxis = [axis[0], 0, axis[1]];
-  return plus(rotateByTurn(minus(point, onAxis), turn), onAxis);
-};
+export const toWorld = ({ trunk: { axis } }, point, turn) => turnAboutY(point, turn, axis);

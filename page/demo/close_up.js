@@ -1,8 +1,7 @@
 /* The miss, made visible: where a movement ends, a picture in the scene's corner shows hand and target
    from the side, six times nearer, and a ruler from the target as long as the miss. What the hand then does
    to the shuttlecock, lift it or tip it over, is an illustration: the model ends with the hold. */
-import { rotateByTurn } from "../arm/kinematics.js";
-import { minus, plus } from "../vectors.js";
+import { minus, plus, turnAboutY } from "../vectors.js";
 
 const HALF = 0.032; // m from the middle to the edge of the close-up
 const NEAR = 0.5; // m: where its eye stands
@@ -44,7 +43,7 @@ export class CloseUp {
     this.after = miss ? after : 0;
     if (!miss) return this.box.remove();
     if (!this.box.isConnected) this.canvas.append(this.box);
-    const [x, y] = rotateByTurn(minus(miss.end, view.settings.target), -this.turn);
+    const [x, y] = turnAboutY(minus(miss.end, view.settings.target), -this.turn);
     const words = ruler(miss.mm, [1000 * x, -1000 * y]);
     if (this.drawn !== words) this.sheet.innerHTML = this.drawn = words;
   }
@@ -59,7 +58,7 @@ export class CloseUp {
   render(viewer) {
     const { view, camera, picture } = this, { renderer, scene, scene_tree } = viewer;
     if (!this.miss || this.after || !view.body) return;
-    const from = rotateByTurn(plus(view.anatomy.beyond, [0, 0, NEAR]), this.turn);
+    const from = turnAboutY(plus(view.anatomy.beyond, [0, 0, NEAR]), this.turn);
     camera.position.set(...plus(view.settings.target, from));
     camera.rotation.set(0, this.turn, 0);
     const goal = scene_tree.find(["meshcat", "goal"]), { path, mark } = view.body;
