@@ -49,7 +49,7 @@ def bank_questions(notebook, chapter, demos=(), web=""):
         kind = "prediction" if question.level == "predict" else "quiz"
         words = re.findall(r"[a-z]+", question.text.lower())[:WORDS]
         name = "_".join([kind, str(len(questions) + 1), *words])  # as one would search for it
-        question = _for_bank(question).placed(len(questions))
+        question = _for_bank(question).with_choice_at(len(questions))
         if kind == "prediction":
             own = _has_figure(notebook.cells[place + 1 :])
             where = _where(title, f"{number}.{figures + own}", own, demos, web)

@@ -141,7 +141,7 @@ def report(pairs):
     return "\n".join(lines) + "\n"
 
 
-def simulated(count, rng):
+def simulate(count, rng):
     """Lines as from a class of so many, who know the half before and two thirds after."""
     lines = []
     for student_number in range(count):
@@ -167,7 +167,7 @@ def main(arguments=None):
     try:
         text = "\n".join(file.read_text(encoding="utf-8") for file in asked.files)
         if asked.simulate:
-            text = simulated(asked.simulate, np.random.default_rng(0))
+            text = simulate(asked.simulate, np.random.default_rng(0))
         print(report(read(text)))
     except OSError as error:
         sys.exit(f"{error.filename} cannot be read: {error.strerror}")

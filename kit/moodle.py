@@ -25,7 +25,7 @@ def _question(name, question):
     if question.picture:
         data = b64encode(question.picture.png).decode()
         files = [element("file", text=data, name="picture.png", path="/", encoding="base64")]
-        question = question.illustrated("@@PLUGINFILE@@/picture.png")
+        question = question.with_picture("@@PLUGINFILE@@/picture.png")
     form = "html" if question.html else "plain_text"
     answers = (_choices if question.choices else _number)(question, form)
     return element(

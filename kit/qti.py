@@ -102,7 +102,7 @@ def _group(chapter, name, variants):
 
 def _item(name, question):
     if question.picture:
-        question = question.illustrated(ROOT + _path(name))
+        question = question.with_picture(ROOT + _path(name))
     kind = "multiple_choice_question" if question.choices else "numerical_question"
     fields = {"question_type": kind, "points_possible": "1.0", "level": question.level}
     meta = (

@@ -75,7 +75,7 @@ class Question(NamedTuple):
         """What no two variants share: the text, and the numbers in the picture."""
         return f"{self.text} {self.picture.numbers}" if self.picture else self.text
 
-    def illustrated(self, source):
+    def with_picture(self, source):
         """The question as HTML, with its picture from the address `source`."""
         image = f'<p><img src="{source}" alt="{escape(self.picture.alt)}"></p>'
         return self._replace(
@@ -92,7 +92,7 @@ class Question(NamedTuple):
         """The text, with the unit of the answer."""
         return f"{self.text} (in {self.unit})" if self.unit else self.text
 
-    def placed(self, place):
+    def with_choice_at(self, place):
         """The question with its right choice at a place, counted around; the others in order."""
         old, count = self.choices.index(self.answer), len(self.choices)
         order = [k for k in range(count) if k != old]
@@ -170,7 +170,7 @@ class Template:
         for draw in range(DRAWS * count):
             question = self.question(np.random.default_rng([*start, draw]))
             if question.choices:
-                question = question.placed(start[-1] + len(questions))
+                question = question.with_choice_at(start[-1] + len(questions))
             unclear = not question.choices and abs(question.answer) <= 10 * question.tolerance
             if not (unclear and not self.zero) and question.content not in without:
                 questions.setdefault(question.content, question)

@@ -21,7 +21,7 @@ HEAD = "/* Made of the modules in the folder `page`, readable there. */\n"
 
 def bundle(*entries, folder=FOLDER):
     """The entries (paths from `folder`) and what they import: the text of a function of a table."""
-    modules = "".join(_wrapped(name, folder) for name in ordered(entries, folder))
+    modules = "".join(_wrapped(name, folder) for name in import_order(entries, folder))
     return f'((vmc) => {{\n"use strict";\n{modules}return vmc;\n}})'
 
 
@@ -41,7 +41,7 @@ def widget_script(entry):
     )
 
 
-def ordered(entries, folder=FOLDER):
+def import_order(entries, folder=FOLDER):
     """The modules that entries need, each after all that it imports; ValueError for a circle."""
     order, above = [], []
 

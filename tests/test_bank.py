@@ -130,7 +130,7 @@ def test_a_picture_is_drawn_from_the_numbers_and_is_small():
     files = {question.picture.png for question in several}
     assert len(files) == 3
     assert top.variants(3)[0].picture.png in files  # drawn anew
-    shown = several[0].illustrated("a.png")
+    shown = several[0].with_picture("a.png")
     assert shown.html
     assert f'<img src="a.png" alt="{several[0].picture.alt}">' in shown.prompt
 

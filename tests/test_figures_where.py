@@ -18,7 +18,7 @@ BOXES = np.array([[0.0, 0, 5, 10], [50, 50, 60, 60], [0, 0, 10, 10]])
 def test_the_best_so_far_never_falls():
     best = where.best_so_far(TRUTH, BOXES)
     assert best["cup"] == pytest.approx([0.5, 0.5, 1])
-    axes = where.rising(best, 2).axes[0]
+    axes = where.overlap_curves(best, 2).axes[0]
     assert axes.get_legend_handles_labels()[1] == ["cup 0.50"]
 
 

@@ -9,7 +9,7 @@ from zipfile import ZipFile
 import pytest
 
 from kit import demos, scorm
-from page.bundle import ordered
+from page.bundle import import_order
 from tests.pages import BUILT, open_url
 from vmc_lib.show.packed import pack_bytes
 
@@ -73,10 +73,10 @@ def test_a_figure_takes_the_modules_that_it_needs():
     state = pack_bytes(b'{"lines": []}')
     plot = f'<figure class="vmc-demo"><script type="application/gzip">{state}</script></figure>'
     work = plot.replace(state, pack_bytes(b'{"work":"plan"}'))
-    plain = set(ordered(demos.entries(plot)))
+    plain = set(import_order(demos.entries(plot)))
     assert {"vendored.js", "demo/address.js", "demo/handle.js", "demo/demo.js"} <= plain
     assert not [name for name in plain if re.match("arm|book|eye|python|demos", name)]
-    more = set(ordered(demos.entries(work))) - plain
+    more = set(import_order(demos.entries(work))) - plain
     assert {"demos/plan.js", "arm/planning.js", "eye/camera.js"} <= more
 
 

@@ -77,7 +77,7 @@ def error_divided(rows):
     return whole ** (1 / np.log10(last["size"] / first["size"])), whole
 
 
-def scaling(rows, quantity, measure):
+def scaling_curves(rows, quantity, measure):
     """Error and seconds against size, both logarithmic, of a sweep's records.
 
     `quantity` is what grows, `measure` names the error.

@@ -5,7 +5,7 @@ from itertools import compress, product
 import numpy as np
 
 from book.figures.panels import legend_above, panels
-from book.figures.where import best_so_far, in_corner, mean_colours, mosaic, nearest, rising
+from book.figures.where import best_so_far, in_corner, mean_colours, mosaic, nearest, overlap_curves
 from reproduce import results
 from reproduce.peers.window_proposals import edge_density, sliding_windows
 from reproduce.training.detectors import candidates
@@ -105,7 +105,7 @@ def merging_view(truth, colours, labels, merges, boxes, percent):
     newest = [(every[now - 1], "", "orange")] if made else []
     blend = mosaic(colours[labels], Hierarchy(labels, merges, boxes).after(made))
     view = photo_view(blend, newest + nearest(truth, every[:now]))
-    return view, rising(best_so_far(truth, every), now)
+    return view, overlap_curves(best_so_far(truth, every), now)
 
 
 def mean_best_overlap(photo, boxes):

@@ -11,7 +11,7 @@ from vmc_lib.show.palette import COLOURS
 SHORTEST = 0.4  # l₀: long before, myosin has met the discs; Thelen's law goes on
 
 
-def lifting(load, lengths, time):
+def lift(load, lengths, time):
     """A muscle that hangs from a post and lifts a load, and its filaments: a drawing (SVG).
 
     `load` is in kg; `lengths` (ms,), in l₀, are the fibre's after the release; `time` is in ms.
@@ -40,8 +40,8 @@ def lifting(load, lengths, time):
     )
 
 
-def lifting_in_words(load, lengths, time):
-    """The drawing of `lifting`, described."""
+def lift_in_words(load, lengths, time):
+    """The drawing of `lift`, described."""
     return f"A muscle with {load} kg after {time} ms: {_fibre(lengths, time)[2]}."
 
 

@@ -138,7 +138,7 @@ def efforts_table(rules):
     return table(heads, rows, ".1f")
 
 
-def trembling(ways, target, time):
+def last_ways(ways, target, time):
     """Hands that were told the same, near their target (2,): the last 0.3 s of `ways` (n, T, 2)."""
     fig, ax = panels(size=(4.3, 4.3))
     last = 1000 * (ways[:, max(time - 300, 0) : time + 1] - target)
@@ -150,7 +150,7 @@ def trembling(ways, target, time):
     return fig
 
 
-def steered(paths, target):
+def ends_and_distances(paths, target):
     """Controllers' repeated reaches (n, ticks, 2) to a target (2,): where they end, how far off.
 
     Left the hands from 1 to 1.5 s, right their mean distance over time.

@@ -92,7 +92,7 @@ def best_so_far(truth, boxes):
     return dict(zip(truth, best, strict=True))
 
 
-def rising(best, now):
+def overlap_curves(best, now):
     """A plot of what `best_so_far` returned for the boxes up to number `now`, none later."""
     fig, ax = panels(size=(4.2, 3.2))
     for name, overlap in best.items():

@@ -7,7 +7,7 @@ from io import StringIO
 
 import matplotlib as mpl
 
-from page.python.grader import changed, definitions
+from page.python.grader import changed_names, definitions
 from vmc_lib import show
 from vmc_lib.show.abbreviations import as_control
 from vmc_lib.show.controls import Pad, Slider
@@ -26,11 +26,11 @@ def draw(above, book, cell, name, places, data=""):
     answer holds the lines of its words and `parts`, and its sliders' `texts`; or the `error` that a
     law of the reader's made. Without `places` it is only prepared.
     """
-    own = unpack_arrays(data) if changed(above, book, cell) else {}
-    stale = frozenset(array for array in own if changed(above, book, array))
+    own = unpack_arrays(data) if changed_names(above, book, cell) else {}
+    stale = frozenset(array for array in own if changed_names(above, book, array))
     try:
         with redirect_stdout(StringIO()):
-            demo, controls, _ = prepared(tuple(above), cell, data, stale)
+            demo, controls, _ = prepare(tuple(above), cell, data, stale)
             if places is None:
                 return {"parts": [], "texts": {}}
             words, parts = draw_state(values=values_at(places, controls), name=name, **demo)
@@ -40,7 +40,7 @@ def draw(above, book, cell, name, places, data=""):
 
 
 @lru_cache(8)
-def prepared(above, cell, data="", stale=frozenset()):
+def prepare(above, cell, data="", stale=frozenset()):
     """What a cell asks `explore` for: a demo as `draw_state` takes it, its controls, its data.
 
     Of the page's `data` those whose names are `stale` are made anew.

@@ -60,7 +60,7 @@ def run(above, typed, book="", figures=()):
     said, printed = _run(typed, definitions(above, typed, known=verify))
     if not said and any(deviations):
         laws = _given_otherwise(_statements(typed), _statements(book))
-        follow = [number for number, *code in figures if laws & {*changed(*code)}]
+        follow = [number for number, *code in figures if laws & {*changed_names(*code)}]
         said = own_law(sorted(laws), next(filter(None, deviations)), _effect(follow))
     agrees = ", and gives what the library gives" if deviations else ""
     return said or f"✓ It runs{agrees}.", printed[:LONGEST]
@@ -81,7 +81,7 @@ def definitions(above, typed, errors=None, known=None):
     raised is added to `errors`. What makes names that are `known`, with their values, does not run.
     """
     names = {"__name__": "__main__"} | (known or {})
-    for statement in needed(above, typed, frozenset(known or ())):
+    for statement in needed_statements(above, typed, frozenset(known or ())):
         try:
             with redirect_stdout(StringIO()):
                 exec(statement.code, names)  # noqa: S102
@@ -111,7 +111,7 @@ class Statement(NamedTuple):
     source: str
 
 
-def needed(above, typed, known=frozenset()):
+def needed_statements(above, typed, known=frozenset()):
     """The statements of the code `above`, cell by cell, that the lines `typed` need, in order.
 
     The names that are `known` need none. What a function reads is read when it is called: of names
@@ -126,7 +126,7 @@ def needed(above, typed, known=frozenset()):
         for statement in reversed(code):
             if not names & set(statement.code.co_names):  # soon said: most are not needed
                 continue
-            if names & (_given(statement) | _changed(statement.tree)):
+            if names & (_given(statement) | _mutated_names(statement.tree)):
                 names = _before(statement, names) - known
                 kept.append(statement)
         functions = [one for each in (*lines, *kept) for one in _functions(each.code)]
@@ -146,9 +146,9 @@ def _given(statement):
     return set(_names(statement.code, "STORE_NAME"))
 
 
-def changed(above, book, cell):
+def changed_names(above, book, cell):
     """The names that a demo's cell needs, and that the reader's code gives otherwise."""
-    return sorted(_given_otherwise(needed(above, cell), needed(book, cell)))
+    return sorted(_given_otherwise(needed_statements(above, cell), needed_statements(book, cell)))
 
 
 def _given_otherwise(statements, book):
@@ -186,7 +186,7 @@ def _names(code, *operations):
         codes += _functions(code)
 
 
-def _changed(tree):
+def _mutated_names(tree):
     """The names of what a statement changes a part of."""
     parts = (x for x in ast.walk(tree) if isinstance(x, ast.Subscript | ast.Attribute))
     wholes = (ast.walk(x.value) for x in parts if isinstance(x.ctx, ast.Store))

@@ -157,7 +157,7 @@ class Follower {
     this.say("");
     let laws = none, why = "";
     try {
-      if (ownCells(this.above).length) laws = await python.ask(["grader", "changed", ...this.code], () => {});
+      if (ownCells(this.above).length) laws = await python.ask(["grader", "changed_names", ...this.code], () => {});
     } catch ({ message }) {
       why = message;
     }
@@ -198,7 +198,7 @@ const lead = (box) => {
   let mine = false;
   watch(above, back, async () => {
     try {
-      const question = ["grader", "changed", above.map(lastRun), above.map(grade.book), law];
+      const question = ["grader", "changed_names", above.map(lastRun), above.map(grade.book), law];
       const laws = ownCells(above).length ? await python.ask(question, () => {}) : [];
       mine = laws.length > 0 && ownCells(above).length > 0; // the reader may have gone back meanwhile
       say(mine ? `This arm plans by **your** ${inCode([law])}: let it reach.` : "");

@@ -62,13 +62,13 @@ NOTICES = {
 
 def script(name=SCRIPT):
     """A script's text: it adds to `vmcPythonFiles`, {name: the file, gzip in base64}."""
-    files = {SCRIPT: running, PLOTS: drawing}[name]()
+    files = {SCRIPT: files_that_run, PLOTS: files_that_draw}[name]()
     packed = {name: pack_bytes(data) for name, data in files.items()}
     merged = f"Object.assign(self.vmcPythonFiles ?? {{}}, {json.dumps(packed)})"
     return f"{NOTICES[name]}self.vmcPythonFiles = {merged};\n"
 
 
-def drawing():
+def files_that_draw():
     """What draws a demo: {name: bytes}."""
     wheels = (path.name for path in sorted(VENDOR.glob("*.whl")) if "numpy" not in path.name)
     return {
@@ -77,7 +77,7 @@ def drawing():
     }
 
 
-def running():
+def files_that_run():
     """What Pyodide asks for, the library, and the licences: {name: bytes}."""
     lock = json.loads((VENDOR / "pyodide-lock.json").read_bytes())
     numpy = lock["packages"]["numpy"]

@@ -68,7 +68,7 @@ def test_what_a_bundle_cannot_hold_is_refused(written, texts, said):
 
 
 def test_every_module_is_part_of_a_page_a_kernel_or_the_kit():
-    assert {*bundle.ordered(ENTRIES)} == MODULES.keys()
+    assert {*bundle.import_order(ENTRIES)} == MODULES.keys()
 
 
 def test_modules_are_short_and_meet_by_imports_alone():

@@ -120,7 +120,7 @@ def projects_into(photo, point, name):
 def test_shuttlecock_and_cup_lie_as_in_the_photo(pose):
     shots = [p for level in photos.LEVELS for p in photos.load(level, "test") if p.pose == pose]
     for photo in shots[:10]:
-        matrix = props.resting(photo)
+        matrix = props.shuttlecock_pose(photo)
         middle = matrix @ [0, props.LENGTH / 2, 0, 1]
         assert np.allclose(middle[:3], photo.target)
         assert np.allclose(matrix[:3, :3].T @ matrix[:3, :3], np.eye(3))

@@ -12,7 +12,7 @@ from vmc_lib.show.demo import figure
 from vmc_lib.show.estimate import estimate
 from vmc_lib.show.figures import margins
 from vmc_lib.show.palette import COLOURS
-from vmc_lib.show.svg_renderer import text_width, wrapped
+from vmc_lib.show.svg_renderer import text_width, wrap
 
 LONGEST = 1.95  # inches, of a row's name on one line
 
@@ -49,7 +49,7 @@ def dot_plot(
         raise ValueError(f"xlim {xlim!r}: give (low, high)")
     every = *series.values(), published or {}
     names = list(dict.fromkeys(name for rows in every for name in rows))
-    shown = [wrapped(name, LONGEST) for name in names]  # a phone has the plot's whole width
+    shown = [wrap(name, LONGEST) for name in names]  # a phone has the plot's whole width
     lines = [line for name in shown for line in name.split("\n")]
     room = 0.15 + max(map(text_width, lines))
     most = max(name.count("\n") for name in shown) + 1

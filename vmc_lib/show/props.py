@@ -70,10 +70,10 @@ def shuttlecock(part, photo):
     for k, colour in enumerate(FEATHERS):  # by turns, or at a distance they were one grey arch
         angle = 2 * np.pi * np.arange(k, 16, 2) / 16
         part[f"feathers{k}"].set_object(_feathers(angle), paint(colour, 0x404040))
-    part.set_transform(resting(photo))
+    part.set_transform(shuttlecock_pose(photo))
 
 
-def resting(photo):
+def shuttlecock_pose(photo):
     """Where the photo's shuttlecock is: a transform of one along +y, its cork's tip at 0.
 
     A lying one heads where its outline would fill the box in the photo best.

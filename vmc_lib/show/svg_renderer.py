@@ -46,7 +46,7 @@ def text_width(words):
     return _size(words, FontProperties(), is_math_text(words))[0] / 72
 
 
-def wrapped(words, width):
+def wrap(words, width):
     """A plot's words in lines of at most so many inches, where no word or formula is longer."""
     first, *rest = [words] if is_math_text(words) else words.split(" ")
     lines = [first]

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from page.python import demos
-from page.python.grader import changed
+from page.python.grader import changed_names
 from tests.laws import functions, law_cells
 from tests.page.python.conftest import ASK
 from tests.pages import open_html
@@ -70,7 +70,7 @@ def moved(mine, above, cell):
 
     Of where a demo begins, along its choices, and at the end of a slider.
     """
-    controls = demos.prepared(tuple(above), cell)[1]
+    controls = demos.prepare(tuple(above), cell)[1]
     first = starts(controls)
     choices = {k: len(one.values) for k, one in controls.items() if isinstance(one, Choice)}
     places = [first, *(first | {k: n} for k, count in choices.items() for n in range(count))]
@@ -80,7 +80,7 @@ def moved(mine, above, cell):
 
 def digest(above, cell, places, data=""):
     """A few numbers that stand for all that a demo's plots show and say, and how many these are."""
-    demo, controls, _ = demos.prepared(tuple(above), cell, data)
+    demo, controls, _ = demos.prepare(tuple(above), cell, data)
     with patch.object(figures, "data_uri", lambda image: f"{crc32(image.tobytes())}"):
         picture = demo["draw"](**demos.values_at(places, controls))
     shown, parts = panels(picture), picture if isinstance(picture, tuple) else [picture]
@@ -132,11 +132,11 @@ SOME = sample(DEMOS, "03_regions", "04_crbm", "06_names", "07_muscle", "08_arm")
 @pytest.mark.parametrize("stem", SOME)
 def test_the_pages_numbers_are_the_notebooks(page, stem):
     for above, cell in DEMOS[stem]:
-        _, controls, data = demos.prepared(tuple(above), cell)
+        _, controls, data = demos.prepare(tuple(above), cell)
         data = pack_arrays(data) if data else ""
         asked = [(above, cell, place, data) for place in (starts(controls), *between(controls))]
         mine = with_law(stem, above)
-        if changed(mine, above, cell) and (place := moved(mine, above, cell)):
+        if changed_names(mine, above, cell) and (place := moved(mine, above, cell)):
             asked.append((mine, cell, place, ""))
         for code, _, place, data in asked:
             answer = page.evaluate(ASK, ["demos", "draw", code, above, cell, "d", place, data])
@@ -158,7 +158,7 @@ def test_every_law_is_run_by_a_demo_of_the_page(path):
             others = [
                 (replaced(above, cell.source, mine), above, own) for above, own in DEMOS[path.stem]
             ]
-            assert any(law.name in changed(*one) for one in others), law.name
+            assert any(law.name in changed_names(*one) for one in others), law.name
 
 
 def replaced(cells, old, new):
@@ -168,4 +168,4 @@ def replaced(cells, old, new):
 @pytest.mark.parametrize("stem", LAWS)
 def test_a_law_moves_two_demos(stem):
     found = [(with_law(stem, above), above, cell) for above, cell in DEMOS[stem]]
-    assert sum(bool(changed(*one)) and moved(*one) is not None for one in found) >= 2
+    assert sum(bool(changed_names(*one)) and moved(*one) is not None for one in found) >= 2

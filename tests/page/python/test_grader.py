@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from page.python import absent
-from page.python.grader import call, changed, check, definitions, run
+from page.python.grader import call, changed_names, check, definitions, run
 from tests.exercises import EVERY
 from vmc_lib.grading import EMPTY, RIGHT, WRONG, feedback
 
@@ -83,9 +83,9 @@ def test_a_name_that_the_lines_give_themselves_is_not_asked_for():
 def test_what_the_reader_has_changed_is_found_where_it_is_needed():
     book = ["def f(x):\n    return x\n\n\ndef g(x):\n    return 1", "h = f(2)"]
     mine = [book[0].replace("return x", "return 2 * x"), book[1]]
-    assert changed(mine, book, "print(h)") == ["f"]
-    assert changed(mine, book, "print(g(1))") == []
-    assert changed(book, [f"{book[0]}  # as it was", book[1]], "print(h)") == []
+    assert changed_names(mine, book, "print(h)") == ["f"]
+    assert changed_names(mine, book, "print(g(1))") == []
+    assert changed_names(book, [f"{book[0]}  # as it was", book[1]], "print(h)") == []
 
 
 @pytest.mark.parametrize(

@@ -164,7 +164,7 @@ def run_law(open_law, late):
 
 def test_a_drawing_by_the_readers_law_leaves_the_book_that_came_back(run_law, late):
     page = run_law
-    late(page, "changed", "answer(['law'])")
+    late(page, "changed_names", "answer(['law'])")
     page.mine.get_by_role("button", name="Back to the book").click()
     late(page, "draw", LATE["a picture"])
     assert "at 1: 2" in page.mine.locator(TITLE).text_content()
@@ -173,13 +173,13 @@ def test_a_drawing_by_the_readers_law_leaves_the_book_that_came_back(run_law, la
 def test_a_law_that_was_reset_meanwhile_is_not_the_readers(run_law, late):
     page = run_law
     page.locator("[data-cell=law] [name=reset]").click()
-    late(page, "changed", "answer(['law'])")
+    late(page, "changed_names", "answer(['law'])")
     assert page.mine.get_by_role("button", name="Back to the book").is_hidden()
 
 
 def test_a_law_that_fails_at_one_place_is_asked_at_the_next(run_law, late):
     page = run_law
-    late(page, "changed", "answer(['law'])")
+    late(page, "changed_names", "answer(['law'])")
     late(page, "draw", "fail(Error('Stopped after 10 s.'))")
     assert page.line.text_content() == "Stopped after 10 s. This is the book’s."
     page.slider.fill("2")
@@ -202,7 +202,7 @@ def test_what_ran_when_the_lines_were_reset_does_not_come_back(run_law, late):
 
 def test_what_ran_when_the_book_came_back_leaves_it(run_law, late):
     page = run_law
-    late(page, "changed", "answer(['law'])")
+    late(page, "changed_names", "answer(['law'])")
     page.get_by_role("button", name="Run", exact=True).click()
     page.mine.get_by_role("button", name="Back to the book").click()
     late(page, "run", "answer(['✓ It runs.', ''])")

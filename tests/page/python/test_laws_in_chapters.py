@@ -9,7 +9,7 @@ from playwright.sync_api import expect
 
 from page.arm.live import PHOTO_1
 from page.python import demos
-from page.python.grader import changed
+from page.python.grader import changed_names
 from tests.page.python.test_demos import DEMOS, LAWS, starts, with_law
 from tests.pages import BUILT, open_url
 from vmc_lib.motor import templates
@@ -37,10 +37,10 @@ def test_the_other_engines_follow_a_law(engine):
     engine.limit(100)  # others may be at work, too
     shown = engine.run(given + CHANGE)
     assert engine.errors() == ""
-    follow = [one for one in DEMOS[stem] if changed(with_law(stem, one[0]), *one)]
+    follow = [one for one in DEMOS[stem] if changed_names(with_law(stem, one[0]), *one)]
     for texts, (above, cell) in zip(shown, follow, strict=True):
         above = with_law(stem, above)
-        first = starts(demos.prepared(tuple(above), cell)[1])
+        first = starts(demos.prepare(tuple(above), cell)[1])
         _, picture = demos.draw(above, above, cell, "d", first)["parts"][:2]
         assert sorted(texts) == sorted(re.findall("<text[^>]*>([^<]*)</text>", "\n".join(picture)))
 

@@ -77,5 +77,5 @@ def test_a_fibre_is_said_to_move_as_it_does_now():
     there_and_back = np.concatenate([np.linspace(1, 0.9, 101), np.linspace(0.9, 1, 101)])
     said = {0: "1.00 l₀, half on", 50: "0.95 l₀, shortening", 150: "0.95 l₀, lengthening"}
     for time, words in said.items():
-        assert f"length {words}" in figures.lifting(20, there_and_back, time)
-        assert f"length {words}" in figures.lifting_in_words(20, there_and_back, time)
+        assert f"length {words}" in figures.lift(20, there_and_back, time)
+        assert f"length {words}" in figures.lift_in_words(20, there_and_back, time)
