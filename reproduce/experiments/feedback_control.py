@@ -179,15 +179,15 @@ def damping_sweep(seed, by_both=BY_BOTH, count=20):
     first, second = draw_target_jumps(template_set, count, rng)
     reference = reference_after_jump(template_set, first, second)
 
-    def missed(gains, model=None):
+    def mean_miss(gains, model=None):
         return end_error(watch(reference, gains, model).hand[..., :2], second).mean()
 
-    found = {"reflex alone": missed(ARMS["reflex alone"])}
+    found = {"reflex alone": mean_miss(ARMS["reflex alone"])}
     for arm, pairs in by_both.items():
         known = model if arm == "forward model" else None
         for gain, damping in pairs:
             sight = SIGHT._replace(gain=gain, damping=damping)
-            found[f"{arm}, {gain:g}, {damping:g}"] = missed(sight, known)
+            found[f"{arm}, {gain:g}, {damping:g}"] = mean_miss(sight, known)
     return found
 
 

@@ -2,9 +2,9 @@
 
 Off-line calibration makes 21 tries. `offline_rules` change the weights in other ways, as often.
 Online calibration learns from pairs: in `lessons` they are shuffled, or their corrections were
-found blindly, or nothing is learned and the plan's weights are others; in `teaching` few tries, or
-none, find the corrections. Eq. 5 weighs templates by
-nearness; `WEIGHTS` do otherwise. All meet the same targets, so that they are compared in pairs.
+found blindly, or nothing is learned and the plan's weights are others; in `errors_after_teaching`
+few tries, or none, find the corrections. Eq. 5 weighs templates by nearness; `WEIGHTS` do
+otherwise. All meet the same targets, so that they are compared in pairs.
 """
 
 from copy import deepcopy
@@ -211,7 +211,7 @@ def teachers(seed):
     }
 
 
-def teaching(seed, movements=25, held_out=200):
+def errors_after_teaching(seed, movements=25, held_out=200):
     """What Algorithm 2 leaves after one experiment whose lessons cost so many tries, (TAUGHT,).
 
     By the law that found the corrections, in-sample and held-out; without a try the lesson is the
@@ -271,7 +271,7 @@ EXPERIMENTS = {
     BY_TRIES: partial(tries, hold=0.0),
     BY_TRIES_HELD: tries,
     BY_LESSONS: lessons,
-    BY_TEACHING: teaching,
+    BY_TEACHING: errors_after_teaching,
     BY_WEIGHTS: weights,
 }
 load_results = partial(calibration.load_results, "nulls")

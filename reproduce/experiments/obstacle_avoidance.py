@@ -36,7 +36,7 @@ class Detours(NamedTuple):
     vias: np.ndarray
     paths: dict  # each (n, ticks, 2)
 
-    def touching(self, route, senses):
+    def touches(self, route, senses):
         """Which hands touch their ball, (n,)."""
         return clearance(self.paths[route, senses], self.balls) < RADIUS
 

@@ -149,10 +149,10 @@ def price_misses(prices=PRICES, count=6, repeats=3):
     """The mean misses (count,) in mm of the LQG controller at the same others, by its price."""
     luck, targets = draw_luck(repeats, 101), _other_targets(count)
 
-    def missed(target, price):
+    def mean_miss(target, price):
         return miss(lqg_paths(lqg_law(target, price=price), luck)[0], target).mean()
 
-    found = Parallel()(delayed(missed)(*pair) for pair in product(targets, prices))
+    found = Parallel()(delayed(mean_miss)(*pair) for pair in product(targets, prices))
     each = np.reshape(found, (count, -1)).T
     return {(price,): row for price, row in zip(prices, each, strict=True)}
 

@@ -151,12 +151,14 @@ def _population_vector():
     movements = np.stack([np.cos(around), np.sin(around)], axis=-1)
     preferred = movements[::30]
     return [
-        trivial_quantity("twelve directions, evenly spread", 0, leaning(movements, preferred)),
-        Quantity("seven in half of them (°)", None, leaning(movements, preferred[:7])),
+        trivial_quantity(
+            "twelve directions, evenly spread", 0, largest_deviation(movements, preferred)
+        ),
+        Quantity("seven in half of them (°)", None, largest_deviation(movements, preferred[:7])),
     ]
 
 
-def leaning(movements, preferred):
+def largest_deviation(movements, preferred):
     """How far the votes of neurons (n, 2) lean from movements (m, 2) at most, °."""
     votes = movements @ preferred.T @ preferred
     cosine = (votes * movements).sum(axis=-1) / np.linalg.norm(votes, axis=-1)

@@ -24,7 +24,7 @@ def local_direction(picture, width):
     return vector / np.maximum(np.abs(vector), 1e-12)
 
 
-def tuning(crbm, pictures):
+def tuning_strength(crbm, pictures):
     """How much better units agree with the directions under them than each other's would.
 
     For whitened pictures (n, 1, …): the mean cosine of twice the angle between a unit's preferred
@@ -46,14 +46,14 @@ def tuning(crbm, pictures):
 
 
 def over_shuffled(crbm, pictures):
-    """The mean `tuning` less that with shuffled filters, of hidden and pooled units: (2, ORDERS).
+    """The mean `tuning_strength` less that with shuffled filters: hidden, pooled units (2, ORDERS).
 
     Filters in any order are tuned a little, for each has some direction.
     """
     rng = np.random.default_rng(0)
     others = (crbm.with_filters(shuffle(crbm.W, rng)) for _ in range(ORDERS))
-    theirs = np.array([tuning(other, pictures).mean(axis=1) for other in others])
-    return tuning(crbm, pictures).mean(axis=1)[:, None] - theirs.T
+    theirs = np.array([tuning_strength(other, pictures).mean(axis=1) for other in others])
+    return tuning_strength(crbm, pictures).mean(axis=1)[:, None] - theirs.T
 
 
 def _excess(on, there, prefers):

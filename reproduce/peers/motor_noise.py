@@ -80,13 +80,13 @@ def noise_share_for(mm):
     excitations = plan(targets, load(), exact_weights).excitations
 
     @cache  # the ends of the search are asked for twice
-    def missing(share):
+    def excess(share):
         if not share:
             return -mm
         noise = partial(with_noise, share=share, rng=np.random.default_rng(101))
         ends = [noisy_reach(noise, excitations).endpoint for _ in range(10)]  # to spare memory
         return 1000 * endpoint_deviation(np.array(ends)) - mm
 
-    if not (mm == 0 or (mm > 0 and missing(1.0) > 0)):
+    if not (mm == 0 or (mm > 0 and excess(1.0) > 0)):
         raise ValueError(f"no noise makes reaches end with {mm} mm; choose 0 to 20")
-    return brentq(missing, 0, 1, xtol=1e-3, rtol=1e-3)
+    return brentq(excess, 0, 1, xtol=1e-3, rtol=1e-3)

@@ -31,7 +31,7 @@ def random_shuttlecock(rng, _number):
         if feathered
         else shuttlecocks.nylon(rng, rgb(rng.choice(DYES)))
     )
-    return one.moved(shift=(0, -shuttlecocks.LENGTH / 2, 0)).moved(random_rotation(rng))
+    return one.move(shift=(0, -shuttlecocks.LENGTH / 2, 0)).move(random_rotation(rng))
 
 
 def random_decoy(rng, number):
@@ -41,9 +41,9 @@ def random_decoy(rng, number):
     colour = rgb(rng.choice(2 * DYES + GLAZES))
     one = kinds[rng.integers(len(kinds))](rng, colour)
     low, high = one.vertices.min(0), one.vertices.max(0)
-    centred = one.moved(shift=-(low + high) / 2)
+    centred = one.move(shift=-(low + high) / 2)
     scale = shuttlecocks.LENGTH / (high - low).max()
-    return replace(centred, vertices=scale * centred.vertices).moved(random_rotation(rng))
+    return replace(centred, vertices=scale * centred.vertices).move(random_rotation(rng))
 
 
 def random_rotation(rng):

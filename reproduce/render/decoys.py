@@ -17,7 +17,7 @@ WHITE = np.array([0.85, 0.84, 0.80])
 
 def around(one, count):
     """A mesh `count` times about the vertical."""
-    return join(*(one.moved(rotation(1, 2 * np.pi * k / count)) for k in range(count)))
+    return join(*(one.move(rotation(1, 2 * np.pi * k / count)) for k in range(count)))
 
 
 def traffic_cone(rng, colour):
@@ -60,7 +60,7 @@ def lamp(rng, colour):
     """A table lamp: a shade, smooth or pleated, on a stem."""
     shade = pleated_wall(rng, colour, 0.06, 0.045, 0.025 * rng.uniform(0.6, 1.4))
     stem = lathe([(0.03, 0), (0.03, 0.004), (0.004, 0.008), (0.004, 0.09), (0, 0.09)], colour * 0.5)
-    return join(shade.moved(shift=(0, 0.05, 0)), stem)
+    return join(shade.move(shift=(0, 0.05, 0)), stem)
 
 
 def flower(rng, colour):
@@ -83,7 +83,7 @@ def bouquet(rng, colour):
     for _ in range(rng.integers(3, 8)):
         tilt = rotation(2, rng.uniform(-0.5, 0.5)) @ rotation(0, rng.uniform(-0.5, 0.5))
         tint = (colour * rng.uniform(0.7, 1.1)).clip(0, 1)
-        some.append(flower(rng, tint).moved(shift=(0, 0.1, 0)).moved(tilt))
+        some.append(flower(rng, tint).move(shift=(0, 0.1, 0)).move(tilt))
     return join(*some)
 
 

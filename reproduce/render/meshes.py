@@ -14,14 +14,14 @@ class Mesh:
     colours: np.ndarray
     roughness: float = 0.5
 
-    def moved(self, rotation=None, shift=(0, 0, 0)):
+    def move(self, rotation=None, shift=(0, 0, 0)):
         """The same mesh, turned by `rotation` (3, 3) and then shifted."""
         turned = self.vertices if rotation is None else self.vertices @ rotation.T
         return replace(self, vertices=turned + shift)
 
     def on_table(self):
         """The same mesh, lowered or raised until it rests on y = 0."""
-        return self.moved(shift=(0, -self.vertices[:, 1].min(), 0))
+        return self.move(shift=(0, -self.vertices[:, 1].min(), 0))
 
     def normals(self):
         """Unit normals (n, 3): the mean over a vertex's faces, weighted by their areas."""
@@ -102,4 +102,4 @@ def slab(size, colour, roughness=0.5, low=0.0):
             quad[..., (axis + 1) % 3] = [[-1, -1], [1, 1]]
             quad[..., (axis + 2) % 3] = [[-1, 1], [-1, 1]]
             faces.append(grid_mesh(quad * np.array(size) / 2, colour, roughness))
-    return join(*faces).moved(shift=(0, low + size[1] / 2, 0))
+    return join(*faces).move(shift=(0, low + size[1] / 2, 0))

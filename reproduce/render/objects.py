@@ -59,10 +59,10 @@ def book(rng, colour):
     """A closed book: two covers, a spine and the block of pages between."""
     x, z, y = rng.uniform(0.11, 0.15), rng.uniform(0.17, 0.21), rng.uniform(0.012, 0.03)
     pages = slab((x - 0.006, y, z - 0.008), [0.80, 0.74, 0.60], 0.9, low=0.002)
-    spine = slab((0.002, y + 0.004, z), colour, 0.45).moved(shift=(-x / 2, 0, 0))
+    spine = slab((0.002, y + 0.004, z), colour, 0.45).move(shift=(-x / 2, 0, 0))
     covers = [slab((x, 0.002, z), colour, 0.45, low=low) for low in (0, y + 0.002)]
     title = slab((x * 0.5, 0.0002, 0.02), [0.75, 0.65, 0.40], low=y + 0.004)
-    return join(*covers, spine, pages, title.moved(shift=(0, 0, -z * rng.uniform(0.1, 0.3))))
+    return join(*covers, spine, pages, title.move(shift=(0, 0, -z * rng.uniform(0.1, 0.3))))
 
 
 def phone(rng, colour):
@@ -89,7 +89,7 @@ def plate(rng, colour):
 def pen(rng, colour):
     """A pen that lies on its side."""
     profile = [(0, 0), (0.001, 0), (0.004, 0.014), (0.0045, 0.016), (0.0045, 0.13), (0, 0.134)]
-    return lathe(profile, colour, sides=16).moved(rotation(2, np.pi / 2)).on_table()
+    return lathe(profile, colour, sides=16).move(rotation(2, np.pi / 2)).on_table()
 
 
 CLUTTER = (book, phone, ball, plate, pen)

@@ -134,7 +134,7 @@ def place(mesh, rng, centre, near, far):
     """The mesh, turned at random, `near` to `far` from `centre` on the table in some direction."""
     angle, distance = rng.uniform(0, 2 * np.pi), rng.uniform(near, far)
     spot = [centre[0] + distance * np.cos(angle), TABLE, centre[2] + distance * np.sin(angle)]
-    return mesh.moved(meshes.rotation(1, rng.uniform(0, 2 * np.pi)), spot)
+    return mesh.move(meshes.rotation(1, rng.uniform(0, 2 * np.pi)), spot)
 
 
 def draw(level, rng, furnish=setting):
@@ -147,7 +147,7 @@ def draw(level, rng, furnish=setting):
         roll, heading = rng.uniform(0, 2 * np.pi, 2)
         bird, middle = shuttlecocks.rest_on_table(feathered, standing, roll, heading)
         target = to_world(np.array([reach, TABLE + middle[1], HAND]), turn)
-        bird = bird.moved(shift=target - middle)
+        bird = bird.move(shift=target - middle)
         vessel = place(cup, rng, target, 0.08, 0.24)
         if is_apart(vessel, [bird]) and is_whole(bird, camera) and is_whole(vessel, camera):
             break

@@ -15,7 +15,7 @@ FEATHER = np.array([0.88, 0.86, 0.80])
 def shuttlecock(rng):
     """A feathered shuttlecock along +y: cork tip at the origin, the skirt's rim at y = LENGTH."""
     foot = _foot(rng, (0.037, 0.048))
-    feathers = [_feather(rng).moved(rotation(1, 2 * np.pi * k / FEATHERS)) for k in range(FEATHERS)]
+    feathers = [_feather(rng).move(rotation(1, 2 * np.pi * k / FEATHERS)) for k in range(FEATHERS)]
     return join(*foot, *feathers)
 
 
@@ -38,10 +38,10 @@ def worn_shuttlecock(rng):
     for k in range(FEATHERS):
         foot = np.array([_cone(0.025), 0.025, 0])
         tilt = rotation(2, bend * rng.normal()) @ rotation(0, bend * rng.normal())
-        feather = _feather(rng).moved(shift=-foot).moved(tilt, foot)
+        feather = _feather(rng).move(shift=-foot).move(tilt, foot)
         if rng.random() > lost:
             feather = replace(feather, colours=feather.colours * shade)
-            feathers.append(feather.moved(rotation(1, 2 * np.pi * k / FEATHERS)))
+            feathers.append(feather.move(rotation(1, 2 * np.pi * k / FEATHERS)))
     return join(*_foot(rng, (0.037, 0.048)), *feathers)
 
 
@@ -102,6 +102,6 @@ def rest_on_table(mesh, standing, roll, heading):
     """The shuttlecock on its skirt, or on cork and rim, turned; and the middle of its axis."""
     tilt = np.pi if standing else LEAN - np.pi / 2
     turn = rotation(1, heading) @ rotation(2, tilt) @ rotation(1, roll)
-    turned = mesh.moved(turn)
+    turned = mesh.move(turn)
     drop = turned.vertices[:, 1].min()
     return turned.on_table(), turn @ [0, LENGTH / 2, 0] - [0, drop, 0]

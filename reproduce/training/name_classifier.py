@@ -57,7 +57,7 @@ def fit_name_classifier(x, y, x_validation, y_validation):
     size = np.sqrt(np.square(x - centre).sum(1).mean())
     x, scaled = (x - centre) / size, (x_validation - centre) / size
 
-    def calibrated(strength):
+    def fit_calibrated(strength):
         model = LogisticRegression(C=strength, max_iter=2000).fit(x, y)
         frozen = FrozenEstimator(model)  # so that parts matter not, and two of a kind are enough
         sigmoid = CalibratedClassifierCV(frozen, method="sigmoid", cv=2)
@@ -71,4 +71,4 @@ def fit_name_classifier(x, y, x_validation, y_validation):
         logit = classifier.log_odds(x_validation)
         return -np.logaddexp(0, np.where(y_validation, -logit, logit)).sum()
 
-    return max(map(calibrated, INVERSE_PENALTIES), key=likelihood)
+    return max(map(fit_calibrated, INVERSE_PENALTIES), key=likelihood)

@@ -36,8 +36,8 @@ def test_second_path_avoids_the_ball(plans):
 def test_arm_under_feedback_avoids_the_ball_and_arrives():
     detours = obstacle_avoidance.simulate_detours(load(), np.random.default_rng(0), 5)
     arm = "forward model"
-    assert detours.touching("straight", arm).all()
-    assert not detours.touching("by a via-point", arm).any()
+    assert detours.touches("straight", arm).all()
+    assert not detours.touches("by a via-point", arm).any()
     assert detours.miss("by a via-point", arm).max() < 0.01
 
 

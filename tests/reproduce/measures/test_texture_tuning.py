@@ -30,11 +30,11 @@ def test_stripes_tune_units_of_different_directions():
     directions = np.radians([0, 60])
     picture, other = map(stripes, directions)
     picture[..., 20:] = other[..., 20:]  # two textures, side by side
-    tuned = texture_tuning.tuning(striped_units(directions), picture)
+    tuned = texture_tuning.tuning_strength(striped_units(directions), picture)
     assert tuned.shape == (2, 1)  # hidden and pooled units, one picture
     assert (tuned > 0.5).all()
 
 
 def test_units_of_one_direction_are_not_tuned():
     alike = striped_units(np.radians([30, 30]))
-    np.testing.assert_allclose(texture_tuning.tuning(alike, stripes(0.3)), 0, atol=1e-6)
+    np.testing.assert_allclose(texture_tuning.tuning_strength(alike, stripes(0.3)), 0, atol=1e-6)
