@@ -129,7 +129,7 @@ def algorithm_1(
         raise ValueError(
             f"origin {short(origin)}, sign {short(sign)}: give (x, y) in m, and 1 or -1"
         )
-    planned = moved(execute, plan)
+    planned = movement_of(execute, plan)
     changes = [change(plan, planned.endpoint, n, origin, sign) for n in gains]
     for each in changes:
         if np.shape(each) != plan.weights.shape:
@@ -195,7 +195,7 @@ def broyden_calibration(
     """
     check_count("n_trials", n_trials)
     check_function("execute", execute, MOVES)
-    planned, weights = moved(execute, plan), plan.weights
+    planned, weights = movement_of(execute, plan), plan.weights
     points, shape = np.swapaxes(plan.points, -1, -2), (plan.target.shape[-1], weights.shape[-1])
     jacobian = points if jacobian is None else as_numbers("jacobian", jacobian)
     if jacobian.shape[-2:] != shape:
@@ -250,7 +250,7 @@ def gauss_newton_calibration(plan: Plan, n_steps: int = 4, execute: Execute = ex
     """
     check_count("n_steps", n_steps)
     check_function("execute", execute, MOVES)
-    planned, weights = moved(execute, plan), plan.weights
+    planned, weights = movement_of(execute, plan), plan.weights
     ways = NUDGE * np.eye(weights.shape[-1]).reshape(-1, *(weights.ndim - 1) * [1], len(weights.T))
     nudged = execute(plan.with_weights(weights + ways))
     best, residual = planned.error, _residual(planned)
@@ -289,7 +289,7 @@ def calibrate(plan: Plan, rule: Rule = "published") -> Trials:
     return trials
 
 
-def moved(execute: Execute, plan: Plan) -> Movement:
+def movement_of(execute: Execute, plan: Plan) -> Movement:
     """The `Movement` of a plan by `execute`; ValueError where that returns anything else."""
     check_kind("what execute returned,", movement := execute(plan), Movement, MOVES)
     return movement

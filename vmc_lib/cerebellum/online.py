@@ -19,7 +19,7 @@ from typing import Any, Self
 
 import numpy as np
 
-from vmc_lib.cerebellum.offline import MOVES, Rule, calibrate, moved
+from vmc_lib.cerebellum.offline import MOVES, Rule, calibrate, movement_of
 from vmc_lib.checks import (
     as_numbers,
     check_count,
@@ -134,7 +134,7 @@ class WeightCorrection:
         online = self.correct(plan)  # 1, 2: "calibrated weights w_i^on = w_i + Δw_i^on"
         modified = online.with_weights(calibrate(online, rule).best_weights)  # 3, 4: "w_i' = …"
         place = (
-            moved(execute, modified).endpoint if self.hindsight else plan.target
+            movement_of(execute, modified).endpoint if self.hindsight else plan.target
         )  # 4: "actual p_a'"
         right = self._planned(replace(plan, target=place))
         self.training_pairs.append((self.inputs(right), modified.weights - right.weights))
@@ -206,7 +206,7 @@ class AimCorrection:
         for first in range(0, len(plan.target), together):
             some = plan[first : first + together]
             aim = self.aim(some)
-            end = moved(execute, self._at(some, aim)).endpoint
+            end = movement_of(execute, self._at(some, aim)).endpoint
             self.cells.partial_fit(*self.training_pairs(some, aim, end))
         return self
 
