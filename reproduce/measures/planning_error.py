@@ -22,7 +22,7 @@ def mixed_and_reached(rule=habitual_weights, spacing=0.06, number=4):
     return (plans.weights[:, None] @ plans.points)[:, 0], execute(plans).endpoint
 
 
-def mean_bias(rule, spacing=0.06):
+def mean_bias(rule, spacing=0.06, number=4):
     """The mean bias: how far the hand's mean place over the hold is from a target, in mm."""
-    _, reached = mixed_and_reached(rule, spacing)
+    _, reached = mixed_and_reached(rule, spacing, number)
     return 1000 * np.linalg.norm(reached - TARGETS, axis=-1).mean()
