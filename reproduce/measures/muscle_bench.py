@@ -13,6 +13,7 @@ from vmc_lib.arm.model import F0, L0, MUSCLES
 BRA = MUSCLES.index("BRA")
 FIBRE, STRENGTH = L0[BRA], F0[BRA]  # l₀ in m, F₀ in N
 GRAVITY = 9.81  # m/s²
+DAMPING = 0.1  # F₀ per l₀/s, beside a fibre on a tendon that stretches
 TIME = np.arange(600)  # ms
 EXCITATIONS = {  # (600,) from 0 to 1; how many ms a pulse lasts, or a swing of the tremor
     "pulse": lambda ms: 1.0 * ((TIME >= 100) & (TIME < 100 + ms)),
@@ -42,26 +43,27 @@ def follow(excitation, law=muscle.PAPER):
     return activations(excitation[None, :, None], excitation[None, :1], law)[0, 1:, 0]
 
 
-def isometric(law, pulses, length=1.0, tendon=0.0):
+def isometric(law, pulses, length=1.0, tendon=0.0, damping=DAMPING):
     """The force (600, …) in N, one value a ms, under so many pulses of 3 ms a second.
 
-    `pulses` and the fibre's `length` broadcast; a `tendon` of length 0 (in l₀) is rigid.
+    `pulses` and the fibre's `length` broadcast; a `tendon` of length 0 (in l₀) is rigid. On one
+    that is not, a damper (F₀ per l₀/s) works beside the fibre.
     """
     pulses, length = np.broadcast_arrays(pulses, np.asarray(length, float))
     activation = np.transpose([follow(_pulse_train(rate), law) for rate in pulses.flat])
     activation = activation.reshape(-1, *pulses.shape)
     if not tendon:
         return STRENGTH * normalised_force(law, activation, length, 0)
-    return STRENGTH * _pull_on_tendon(law, activation, length, tendon)
+    return STRENGTH * _pull_on_tendon(law, activation, length, tendon, damping)
 
 
 def _pulse_train(rate):
     return 1.0 * (-TIME % (1000 / rate) < 3) * (TIME > 0)
 
 
-def time_to_peak(law, tendon=0.0):
+def time_to_peak(law, tendon=0.0, damping=DAMPING):
     """How many ms after a pulse of 3 ms began the force peaks, at the best length."""
-    return isometric(law, 3, 1.0, tendon).argmax() - _pulse_train(3).argmax() + 1
+    return isometric(law, 3, 1.0, tendon, damping).argmax() - _pulse_train(3).argmax() + 1
 
 
 TENDON_STIFFNESS = 33.93669377311689
@@ -80,7 +82,7 @@ def tendon_strain(force):
     return np.log((force + 0.25) / 0.2) / TENDON_STIFFNESS - 0.005
 
 
-def _pull_on_tendon(law, activation, length, tendon, damping=0.1, steps=2):
+def _pull_on_tendon(law, activation, length, tendon, damping=DAMPING, steps=2):
     """The force (T, …), a share of F₀, of fibres in series with a tendon, the whole held still.
 
     At each of so many steps a ms the fibre moves as fast as makes its force, and a damper's beside
