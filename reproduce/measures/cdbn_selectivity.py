@@ -51,5 +51,6 @@ def _layers(cdbn, pictures):
 
 
 def _correlation(one, other):
-    one, other = (x.flatten() - x.mean() for x in (one, other))
+    one, other = (x.flatten().double() for x in (one, other))  # in floats, 1 may come out as 0.998
+    one, other = one - one.mean(), other - other.mean()
     return float(one @ other / (one.norm() * other.norm()))
