@@ -132,17 +132,20 @@ def regressed_view(detector, image, thing, middle, rounds):
 def regressed_in_words(detector, image, thing, middle, rounds):
     """The same in words."""
     _, shared = regress(detector, image, thing, middle, rounds)
+    began = _began(thing, middle, " widths", " heights")
+    when = f"After {rounds} round{'s' * (rounds > 1)} of" if rounds else "Before"
     return (
-        f"Two boxes on a photo: the thing's own, and one that began {_began(thing, middle)} "
-        f"(in widths and heights). After {rounds} rounds of box regression: IoU {shared:.2f}."
+        f"Two boxes on a photo: the thing's own, and one that began {began}. "
+        f"{when} box regression: IoU {shared:.2f}."
     )
 
 
-def _began(thing, middle):
+def _began(thing, middle, wide="", high=""):
     """How far off a thing a box's middle lies, in its widths and heights, in words."""
     right, down = ((middle - (thing[:2] + thing[2:]) / 2) / (thing[2:] - thing[:2])).round(1)
-    across = f"{abs(right):g} {'left' if right < 0 else 'right'}"
-    return f"{across}, {abs(down):g} {'up' if down < 0 else 'down'}"
+    across = f"{abs(right):g}{wide} {'left' if right < 0 else 'right'}"
+    along = f"{abs(down):g}{high} {'up' if down < 0 else 'down'}"
+    return ", ".join([across] * bool(right) + [along] * bool(down)) or "in its middle"
 
 
 def kernel_plot(level, recipe, measure):
