@@ -194,7 +194,7 @@ def simulate_feedback(
         felt = np.maximum(tick - spinal, 0)
         reflex = _reflex(gains, q[:, felt], velocity[:, felt], lengths[:, felt], rates[:, felt])
         now = np.clip(np.swapaxes(planned[:, tick] + sight[:, None] + reflex, 0, 1), 0, 1)
-        u[:, tick] = np.swapaxes(noisy(now, noise, rng) if noise else now, 0, 1)
+        u[:, tick] = np.swapaxes(noisy(now, noise, rng) if rng is not None and noise else now, 0, 1)
         step_trajectory(u, path, tick, push=push, drag=disturbance.drag)
         check_sane(q[:, tick + 1], first=tick[0] + 1)  # or the next tick is of what blew up
     return Motion(*path)
