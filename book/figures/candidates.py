@@ -212,7 +212,8 @@ def recall_plot(curves, overlap):
     for (name, best), colour in zip(curves.items(), COLOURS.values(), strict=False):
         share = (best >= np.float32(overlap)).mean(0)
         tried = np.arange(1, len(share) + 1)
-        ax.semilogx(tried, share, label=f"{name} {share[-1]:.2f}", color=colour)
+        over = {"clip_on": False, "zorder": 3}  # a recall of 0 lies on the axis
+        ax.semilogx(tried, share, label=f"{name} {share[-1]:.2f}", color=colour, **over)
     ax.set(xlabel="boxes tried, a photo", ylabel="recall", ylim=(0, 1.02))
     legend_above(fig, 0.75)
     return fig
