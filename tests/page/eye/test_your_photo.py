@@ -160,14 +160,14 @@ def test_the_reader_points_at_another_box(page):
         assert ("can be where it is shaded" in said) == said.startswith("Out of reach")
 
 
-def test_the_example_stands_first_and_alone_is_blue(page):
+def test_the_example_stands_first_and_alone_is_the_main_red(page):
     buttons = page.locator(".vmc-live-form > div > button:visible").all()
     assert [button.inner_text() for button in buttons[:2]] == ["Example", "Your photo …"]
     grounds = [
         button.evaluate("(it) => getComputedStyle(it).backgroundColor") for button in buttons
     ]
     red, green, blue = map(int, re.findall(r"\d+", grounds[0])[:3])
-    assert blue > 1.3 * max(red, green)
+    assert red > 1.3 * max(green, blue)
     assert grounds.count(grounds[0]) == 1
 
 
