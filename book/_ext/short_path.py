@@ -82,9 +82,10 @@ def lead_on(app, pagename, templatename, context, doctree):
         address = app.builder.get_relative_uri(pagename, page)
         address += f"#{make_id(piece.first)}" * bool(piece.first)
         link = f'<a href="{address}">{escape(title)}</a>'
-        said = f"Sitting {nth} goes on with: {link}."
+        link += "." * (title[-1] not in "?!")
+        said = f"Sitting {nth} goes on with: {link}"
         if then > nth:
-            said = f"Sitting {nth} of {len(SITTINGS)} ends here. Next: {link}."
+            said = f"Sitting {nth} of {len(SITTINGS)} ends here. Next: {link}"
         body, place = context["body"], end_of(context["body"], here)
         if here.page != piece.page:  # the page's end leads on, too: its *Next* is another
             again = nav(f"{nth}, again", f"It goes on with: {link}.")
