@@ -31,7 +31,8 @@ def filtered_reach(place, reports, estimate, errors, believed, alone):
     left.plot(time, place, color=COLOURS["grey"], label="real")
     left.plot(time, estimate, color=COLOURS["blue"], label="estimated")
     left.set(xlabel="time (s)", ylabel="off its way, forward (mm)", ylim=(-20, 20))
-    left.legend(loc="upper left")
+    above = {"loc": "lower left", "bbox_to_anchor": (0, 1), "ncols": 3, "frameon": False}
+    left.legend(**above, borderaxespad=0.2, columnspacing=1, handlelength=1.2)
     right.plot(*zip(*errors.items(), strict=True), ".-", color=COLOURS["blue"])
     for (name, error), style in zip(alone.items(), ("--", ":"), strict=True):
         right.axhline(error, color=COLOURS["grey"], ls=style, label=name)
