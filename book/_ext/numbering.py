@@ -17,6 +17,7 @@ DISPLAYED = re.compile(
     re.S,
 )
 FIGURE_NUMBER = re.compile(r"Figure ([\d.]+)</span>")  # as `with_figure_numbers` writes it
+TAG = re.compile(r"(<[^>]+>)")
 # Where no link may stand, or where the text is not prose
 CLOSED = {"a", "button", "code", "h1", "h2", "h3", "label", "pre", "script", "style", "summary"}
 CLOSED |= {"svg"}
@@ -52,17 +53,25 @@ def with_links(body, pages, uri):
         tag = found[1]
         return f'<a href="{uri(pages[tag])}#eq-{tag}">{found[0]}</a>' if tag in pages else found[0]
 
-    parts, closed, depth = re.split(r"(<[^>]+>)", body), None, 0
+    parts = TAG.split(body)
+    for i in prose_in(parts, CLOSED):
+        parts[i] = REFERENCE.sub(link, parts[i])
+    return "".join(parts)
+
+
+def prose_in(parts, shut):
+    """Which `parts` of a body, split at its tags, are prose: in no maths, in no tag of `shut`."""
+    closed, depth = None, 0
     for i, part in enumerate(parts):
         tag = re.match(r"<(/?)(\w+)", part)
         if not tag:
-            parts[i] = part if closed else REFERENCE.sub(link, part)
+            if not closed:
+                yield i
         elif tag[2] == closed:
             depth += -1 if tag[1] else 1
             closed = closed if depth else None
-        elif not closed and not tag[1] and (tag[2] in CLOSED or "math notranslate" in part):
+        elif not closed and not tag[1] and (tag[2] in shut or "math notranslate" in part):
             closed, depth = tag[2], 1
-    return "".join(parts)
 
 
 def equations_named(text):
