@@ -14,7 +14,7 @@ export class ByHand extends Aimed {
   }
 
   get hands() {
-    return [...this.controls.querySelectorAll("[name^=weight-]")];
+    return [0, 1, 2, 3].map((k) => this.form.elements[`weight-${k}`]); // they stand in another order
   }
 
   /* The habitual plan, or the same with the weights as the reader has `moved` them; another rule keeps these, the plan's

@@ -67,10 +67,14 @@ def _templates():
 
 
 def _weights(name):
-    """A slider for the weight of the nearest template in each quadrant, and habit to begin with."""
+    """A slider for the weight of the nearest template in each quadrant, and habit to begin with.
+
+    Two by two they stand as the quadrants do; a name tells which weight of the plan's it is.
+    """
+    places = {1: "upper left", 0: "upper right", 2: "lower left", 3: "lower right"}
     sliders = (
         _slider(name, f"weight-{k}", f"weight, {where}", (-0.25, 1, 0.005), 0.25)
-        for k, where in enumerate(("upper right", "upper left", "lower left", "lower right"))
+        for k, where in places.items()
     )
     return "".join(sliders) + '<input type="hidden" name="weights" value="habitualWeights">'
 
