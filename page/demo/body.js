@@ -112,6 +112,11 @@ export class Body {
     this.viewer.scene_tree.find(["meshcat", "goal"]).object.add(this.path);
   }
 
+  get hasGoal() {
+    const { children } = this.viewer.scene_tree.find(["meshcat", "goal"]);
+    return Object.keys(children).some((name) => !name.startsWith("<"));
+  }
+
   /* Take a posture: { q, activation, turn, grasp }, angles in radians, the rest in 0 … 1; so many
      points of the path are passed. */
   pose({ q, activation, turn = 0, grasp = 0 }, passed) {
@@ -135,6 +140,7 @@ export class Body {
       group.quaternion.setFromAxisAngle(axis, OPEN + (CLOSED - OPEN) * grasp);
     const wrist = anatomy.placed(frames[2], anatomy.hand);
     this.mark.position.set(...wrist.map((c, i) => c + anatomy.beyond[i]));
+    this.mark.visible = this.hasGoal; // what is to meet it: the hand's own place depends on how far the wrist bends
     const paths = anatomy.paths(q, frames);
     this.muscles.pose(paths.map((path, k) => anatomy.belly(path, anatomy.muscles[k])), activation);
     this.viewer.set_dirty();
