@@ -28,7 +28,7 @@ def lift(load, lengths, time):
         '<path d="M30,10H140" stroke="var(--vmc-ink)" stroke-width="6"/>'
         f'<path d="M85,10V{hook:.1f}" stroke="var(--vmc-grey)" stroke-width="6"/>'
         f'<path d="{belly}" fill="var(--vmc-red)" stroke="var(--vmc-red)"/>'
-        f'<path d="M35,{46 + 105 * lengths[0]:.1f}h40" stroke="var(--vmc-grey)" '
+        f'<path d="M35,{46 + 105 * lengths[0] + box:.1f}h40" stroke="var(--vmc-grey)" '
         'stroke-dasharray="4 4"/>'
         f'<rect x="{85 - box / 2:.1f}" y="{hook:.1f}" width="{box:.1f}" height="{box:.1f}" rx="3" '
         'fill="var(--vmc-grey)"/>'
