@@ -98,7 +98,8 @@ def mend_body(body):
 
     No element around a word of code without a colour of its own; no list role on what is no list,
     no role that is out of use, and no label that hides a summary's own words; the number of an
-    equation outside the `split` that Sphinx puts around its lines.
+    equation outside the `split` that Sphinx puts around its lines; the space before a solution's
+    link outside it.
     """
     thebe = (
         r'<script type="text/x-thebe-config">.*?</script>(\s*<script>kernelName = .*?</script>)?'
@@ -107,6 +108,7 @@ def mend_body(body):
     body = re.sub(r"(\\tag\{[^}]*\})(\s*\\end\{split\})", r"\2\1", body)
     body = body.replace('<div role="list" class="citation-list">', "<div>")
     body = body.replace(' role="doc-biblioentry"', "")
+    body = re.sub(r"(Solution to)(<a [^>]+>) ", r"\1 \2", body)
     return body.replace('<summary aria-label="Toggle hidden content">', "<summary>")
 
 
