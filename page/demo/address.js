@@ -15,6 +15,19 @@ export const address = () => {
   return [numbered?.id ?? name, query];
 };
 
+/* Put a sign at a caption's end, where it is never alone on a line: the last word goes along. */
+export const addSign = (caption, sign) => {
+  let end = caption.querySelector(".vmc-end-signs");
+  if (!end) {
+    end = Object.assign(document.createElement("span"), { className: "vmc-end-signs" });
+    const last = caption.lastChild, word = last?.nodeType === Node.TEXT_NODE ? last.data.trimEnd().search(/\S+$/) : -1;
+    if (word >= 0) end.append(last.splitText(word).data.trimEnd());
+    if (word >= 0) last.nextSibling.remove();
+    caption.append(end);
+  }
+  end.append("\u00a0", sign);
+};
+
 /* A demo's state in the page's address: `#demo-saliency?photo=1` says where each control stands. It is
    read when the page opens and when the address changes, and written when the reader moves a control;
    the sign at the caption's end is a link to it, also where Play or a law of the reader's has led.
@@ -27,7 +40,7 @@ export const addAddress = (demo) => {
   const link = document.createElement("a");
   Object.assign(link, { className: "vmc-link", textContent: "#", title: "Link to what the demo shows now" });
   link.setAttribute("aria-label", link.title);
-  caption.append("\u00a0", link); // never alone on a line
+  addSign(caption, link);
 
   const state = () => {
     const places = new URLSearchParams();

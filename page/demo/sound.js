@@ -2,6 +2,7 @@
    right a tone is as high as the curve, two octaves from the plot's bottom to its top. One curve follows
    the other; where a plot has two, both sound once more together, one in each ear. */
 import { clip } from "../vectors.js";
+import { addSign } from "./address.js";
 import { axesOf } from "./axes.js";
 import { showRunning } from "./running.js";
 
@@ -83,7 +84,9 @@ export const addSound = (demo) => {
   const button = document.createElement("button"), said = document.createElement("span");
   Object.assign(button, { type: "button", className: "vmc-listen", textContent: "Listen", title: "Hear the curves: the higher, the higher" });
   said.setAttribute("role", "status");
-  (demo.querySelector("figcaption") ?? demo).append("\u00a0", button, "\u00a0", said);
+  const caption = demo.querySelector("figcaption") ?? demo;
+  addSign(caption, button);
+  caption.append("\u00a0", said);
   button.addEventListener("click", () => {
     const sounds = "running" in button.dataset;
     stop();
