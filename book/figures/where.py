@@ -111,7 +111,7 @@ justify-items: center">PHOTO<canvas aria-hidden="true" style="LAYER" hidden></ca
 <button type="button" class="vmc-play">Your photo …</button>
 <button type="button" class="vmc-play" hidden>The book's photo</button>
 <input type="file" accept="image/*" aria-label="Your photo" hidden></div></div></form>
-<p class="vmc-strip" style="min-height: 3.6em; CENTRED"></p>
+<p class="vmc-strip" style="CENTRED"></p>
 <p role="status" style="CENTRED"></p></div>"""
 LAYER = "grid-area: 1 / 1; max-width: 100%; max-height: 80vh; height: auto"
 CENTRED = "text-align: center"

@@ -55,13 +55,15 @@ const textAt = (texts, place) => {
   return `${+valueAt(numbers, place).toPrecision(4)}`.replace("-", "−") + after;
 };
 
+const MOVES = /^motion\|\{"q":\[\[[^\]]*\],/; // of a scene's messages, a movement's: of more postures than one
+
 /* The states that are stored in the page, as a function that gives one to `draw`. */
 const stored = async (demo) => {
   const kept = await unzip(demo.querySelector("script").textContent).json(), { lines, states, data } = kept;
   const ask = kept.work
     ? computed(kept)
     : (place, draw) => draw(states[place].map((places) => places.map((line) => lines[line])));
-  return Object.assign(ask, { data });
+  return Object.assign(ask, { data, moves: lines?.some((line) => MOVES.test(line)) ?? true });
 };
 
 /* The same for states that the page computes: a function of the book, given the values that a place
@@ -174,6 +176,7 @@ export const start = (demo, ask) => {
     panel.className = "vmc-controls vmc-of-scene";
     const [shown, ...folded] = panelOf(scenes);
     panel.append(shown);
+    panel.classList.toggle("vmc-unmoved", ask.moves === false);
     demo.querySelector(".vmc-controls").after(panel);
     demo.querySelector(".vmc-more").append(...folded);
   }
