@@ -68,7 +68,9 @@ def holding_map(muscle_torques, busiest, load):
     plane_view(right)
     patches, _ = areas.legend_elements()
     labels = ["to 10%", "to 25%", "to 50%", "to 100%"]
-    right.legend(patches, labels, loc="upper right")
+    for patch in patches:
+        patch.set_edgecolor(COLOURS["blue"])  # the faintest, too, is seen on a dark page
+    right.legend(patches, labels, loc="upper center")  # between the shoulder and the arc
     right.text(0.14, -0.4, "● shuttlecocks", color=COLOURS["red"], va="center")
     right.set_title(f"holds {(least <= 1).mean():.0%} of all postures")
     return fig
@@ -80,9 +82,11 @@ def torque_polygon(ax, each, needed):
     ax.fill(*np.transpose(corners), color=COLOURS["blue"], alpha=0.2)
     arrows(ax, [0, 0], each.T, "ink")
     for name, tip in zip(MUSCLES, each.T, strict=True):
-        left = name in ("TRIlat", "BRA", "BIClong")  # another's name stands on the right
+        left = name in ("TRIlat", "BRA")  # another's name stands on the right
         side = "right" if left else "left"
         at = -3 if left else 3, -12 if tip[1] < 0 else 3
+        if name.startswith("BIC"):  # on either side of it the other's arrow runs
+            side, at = "center", (0, 14 if name == "BICshort" else 5)
         ax.annotate(name, tip, at, textcoords="offset points", ha=side)
     ax.plot(*needed, "x", color=COLOURS["red"], ms=9, mew=2)
     ax.set(xlabel="at the shoulder (N m)", ylabel="at the elbow (N m)")
