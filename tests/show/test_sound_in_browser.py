@@ -79,7 +79,7 @@ def test_pitch_follows_the_curves_one_by_one_and_then_in_either_ear(page, step):
 
 def test_what_sounds_is_named_and_can_be_stopped(page):
     box = page.locator(".vmc-demo").nth(0)
-    button, said = box.locator(".vmc-listen"), box.locator(".vmc-listen ~ [role=status]")
+    button, said = box.locator(".vmc-listen"), box.locator(".vmc-end-signs ~ [role=status]")
     stop_clock(page)
     assert box.locator("[data-curve]").evaluate_all("all => all.map((c) => c.dataset.curve)") == [
         "wave",
