@@ -14,7 +14,7 @@ os.environ |= {"VMC_RENDER_MODE": "live", "MPLBACKEND": "agg"}
 
 from IPython.core.interactiveshell import InteractiveShell
 
-from page.python.grader import changed
+from page.python.grader import changed_names
 from tests.laws import functions, law_cells
 from tests.project import ROOT, code_cells
 from vmc_lib import show
@@ -82,7 +82,7 @@ def main(stem):
             lines = cell.source.split("\n")
             lines.insert(law.lineno - 1, "@otherwise")
             mine = ["\n".join(lines) if one is cell else one.source for one in chapter.cells]
-            users = [name for name in chapter.demos if changed(mine, book, sources[name])]
+            users = [name for name in chapter.demos if changed_names(mine, book, sources[name])]
             for name in users:
                 before(name)
             said = chapter.run("\n".join(lines))

@@ -44,7 +44,7 @@ def test_a_corrected_box_is_green_from_an_overlap_of_eight_tenths(wide, colour):
 
 
 def test_a_box_starts_as_far_on_one_side_as_on_the_other():
-    for middle, said in ((-1, 5), "0.6 left, 0 down"), ((11, 5), "0.6 right, 0 down"):
+    for middle, said in ((-1, 5), "began 0.6 left<"), ((11, 5), "began 0.6 right<"):
         _, shared = regions.regress(Astray(None), IMAGE, TRUTH["cup"], middle, 0)
         assert shared == pytest.approx(3.5 / (9 + 10 - 3.5) * 9 / 10, abs=0.03)
         assert said in regions.regressed_view(Astray(None), IMAGE, TRUTH["cup"], middle, 0)
