@@ -152,9 +152,8 @@ def chapter_of(submission, name):
 def rows(path):
     """A hand-in's rows: one an exercise and one for its sum, or one that says why it has none."""
     try:
-        submission = _notebook(
-            path.read_text(encoding="utf-8-sig")
-        )  # PowerShell begins with a mark
+        text = path.read_text(encoding="utf-8-sig")  # PowerShell begins a text with a mark
+        submission = _notebook(text)
         results = marks(chapter_of(submission, path.name), submission)
     except Exception as error:  # whatever is wrong with one file, the others are marked
         reason, *_ = str(error).split("\n")

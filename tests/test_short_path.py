@@ -1,5 +1,6 @@
 """The short path: sittings that are short, and lead from one to the next."""
 
+import re
 from functools import cache
 from itertools import pairwise
 from urllib.parse import urljoin
@@ -73,6 +74,7 @@ def test_each_piece_names_the_next():
             *_, end = soup.select(".vmc-next-sitting a")
             assert end["href"] == link["href"]
             assert not end.find_all_next("section")
+            assert re.search(r"\w\.$|\?$", end.parent.get_text())
 
 
 @pytest.mark.parametrize("page", QUIZ)

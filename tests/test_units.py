@@ -1,8 +1,11 @@
-"""Numbers and their units in the built pages: on one line."""
+"""Numbers and their units: on one line."""
+
+import re
 
 import pytest
 
 from book._ext.units import with_units
+from tests.pages import BUILT
 
 
 @pytest.mark.parametrize(
@@ -18,3 +21,9 @@ from book._ext.units import with_units
 )
 def test_a_number_stays_with_its_unit(text, bound):
     assert with_units(text).replace("\u00a0", "~") == bound
+
+
+def test_a_built_page_has_its_units_bound():
+    page = (BUILT / "book/08_arm.html").read_text(encoding="utf-8")
+    assert "\u00a0mm" in page
+    assert not re.search(r"<p>[^<]*\d mm\b", page)

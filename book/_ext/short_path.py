@@ -88,7 +88,7 @@ def lead_on(app, pagename, templatename, context, doctree):
             said = f"Sitting {nth} of {len(SITTINGS)} ends here. Next: {link}"
         body, place = context["body"], end_of(context["body"], here)
         if here.page != piece.page:  # the page's end leads on, too: its *Next* is another
-            again = nav(f"{nth}, again", f"It goes on with: {link}.")
+            again = nav(f"{nth}, again", f"It goes on with: {link}")
             body, said = body + again, said + recap(here.page)
         context["body"] = f"{body[:place]}{nav(nth, said)}\n{body[place:]}"
 

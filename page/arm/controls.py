@@ -69,7 +69,7 @@ def _templates():
 def _weights(name):
     """A slider for the weight of the nearest template in each quadrant, and habit to begin with.
 
-    Two by two they stand as the quadrants do; a name tells which weight of the plan's it is.
+    Two by two they stand as the quadrants do; its name says which of the plan's weights it is.
     """
     places = {1: "upper left", 0: "upper right", 2: "lower left", 3: "lower right"}
     sliders = (
