@@ -319,24 +319,48 @@ def answer(text, right, feedback=""):
     return kind | {"answer": text, "right": right, "feedback": feedback}
 
 
-def test_the_teachers_page_joins_two_hundred_files(page, tmp_path):
+@pytest.fixture
+def write(tmp_path):
+    """A function: the path of a student's file, with these answers; its name is the student's."""
+
+    def write(name, answers, who=None):
+        file = {"format": "answers 1", "who": who or name, "answers": answers}
+        path = tmp_path / f"{name}.json"
+        path.write_text(json.dumps(file), encoding="utf-8")
+        return path
+
+    return write
+
+
+@pytest.fixture
+def read(page):
+    """A function: the teacher's page, which has read these files."""
+
+    def read(*files):
+        room = page(class_page())
+        room.set_input_files("#files", files)
+        room.wait_for_selector("#rows tr")
+        return room
+
+    return read
+
+
+def table(room):
+    """The rows of the table that the teacher's page saves, without its head."""
+    return list(csv.reader(io.StringIO(saved(room, "#save"))))[1:]
+
+
+def test_the_teachers_page_joins_two_hundred_files(read, write, tmp_path):
     """150 students meet one mistake, 50 of them keep it; one file is none; one student has two."""
     wrong, right = answer("", False, "The sign is wrong."), answer("", True)
-    files = []
-    for k in range(200):
-        answers = [right] if k >= 150 else [wrong] if k < 50 else [wrong, right]
-        files.append(tmp_path / f"answers-{k}.json")
-        text = json.dumps({"format": "answers 1", "who": f"{k}", "answers": answers})
-        files[-1].write_text(text, encoding="utf-8")
-    second = {"format": "answers 1", "who": "0", "answers": [answer("=2", False)]}
-    (tmp_path / "zero.json").write_text(json.dumps(second), encoding="utf-8")
-    (tmp_path / "bad.json").write_text("[]", encoding="utf-8")
-    room = page(class_page())
-    room.set_input_files("#files", [*files, tmp_path / "zero.json", tmp_path / "bad.json"])
-    room.wait_for_selector("#rows tr")
+    answers = [[wrong]] * 50 + [[wrong, right]] * 100 + [[right]] * 50
+    files = [write(f"answers-{k}", given, f"{k}") for k, given in enumerate(answers)]
+    second, bad = write("zero", [answer("=2", False)], "0"), tmp_path / "bad.json"
+    bad.write_text("[]", encoding="utf-8")
+    room = read(*files, second, bad)
     assert "200 students." in room.inner_text("#status")
     assert "bad.json" in room.inner_text("#status")
-    rows = list(csv.reader(io.StringIO(saved(room, "#save"))))[1:]
+    rows = table(room)
     question = ["07_muscle", "exercise: One"]
     numbers = ["200", "50", "150"]
     assert rows == [
@@ -348,16 +372,11 @@ def test_the_teachers_page_joins_two_hundred_files(page, tmp_path):
 
 
 @pytest.mark.parametrize("names", [("ann", "ann (1)"), ("ann (1)", "ann")])
-def test_of_two_files_of_which_one_begins_the_other_the_longer_counts(page, tmp_path, names):
+def test_of_two_files_of_which_one_begins_the_other_the_longer_counts(read, write, names):
     """A browser saves the second as "ann (1)", which many computers list first."""
     answers = [answer("1", False), answer("2", True)]
-    for name, kept in (("ann", answers[:1]), ("ann (1)", answers)):
-        file = {"format": "answers 1", "who": "ann", "answers": kept}
-        (tmp_path / f"{name}.json").write_text(json.dumps(file), encoding="utf-8")
-    room = page(class_page())
-    room.set_input_files("#files", [tmp_path / f"{name}.json" for name in names])
-    room.wait_for_selector("#rows tr")
-    (row,) = list(csv.reader(io.StringIO(saved(room, "#save"))))[1:]
+    kept = {"ann": answers[:1], "ann (1)": answers}
+    (row,) = table(read(*(write(name, kept[name], "ann") for name in names)))
     assert row[2:] == ["1", "1", "1", "0", "1", "0", "1"]
 
 
@@ -382,54 +401,32 @@ def test_files_that_are_chosen_while_others_are_read_take_their_place(page):
         [answer("", False) | {"page": 7}],
     ],
 )
-def test_a_file_that_no_page_saved_leaves_the_others_in_the_table(page, tmp_path, answers):
-    for who, kept in (("ann", [answer("2", False)]), ("bob", answers)):
-        file = {"format": "answers 1", "who": who, "answers": kept}
-        (tmp_path / f"{who}.json").write_text(json.dumps(file), encoding="utf-8")
-    room = page(class_page())
-    room.set_input_files("#files", [tmp_path / "ann.json", tmp_path / "bob.json"])
-    room.wait_for_selector("#rows tr")
+def test_a_file_that_no_page_saved_leaves_the_others_in_the_table(read, write, answers):
+    room = read(write("ann", [answer("2", False)]), write("bob", answers))
     assert room.inner_text("#status") == (
         "1 students. Not read: bob.json (it is no file of answers)."
     )
     assert room.locator("#rows tr").count() == 1
 
 
-def test_of_a_longer_file_than_a_page_keeps_the_last_answers_are_read(page, tmp_path):
+def test_of_a_longer_file_than_a_page_keeps_the_last_answers_are_read(read, write):
     """A page saves more where its browser kept no more; what is left out is said."""
-    answers = [answer("old", False), *[answer("new", False)] * 2000]
-    file = {"format": "answers 1", "who": "ann", "answers": answers}
-    (tmp_path / "ann.json").write_text(json.dumps(file), encoding="utf-8")
-    room = page(class_page())
-    room.set_input_files("#files", tmp_path / "ann.json")
-    room.wait_for_selector("#rows tr")
+    room = read(write("ann", [answer("old", False), *[answer("new", False)] * 2000]))
     assert room.inner_text("#status") == (
         "1 students. Only the last 2000 answers are read of: ann.json (1 left out)."
     )
     assert room.locator("#rows td:nth-child(3)").all_inner_texts() == ["new"]
 
 
-def test_no_answer_becomes_a_formula(page, tmp_path):
+def test_no_answer_becomes_a_formula(read, write):
     answers = [answer(formula, False) | {"id": formula} for formula in FORMULAS]
-    file = {"format": "answers 1", "who": "ann", "answers": answers}
-    (tmp_path / "ann.json").write_text(json.dumps(file), encoding="utf-8")
-    room = page(class_page())
-    room.set_input_files("#files", tmp_path / "ann.json")
-    room.wait_for_selector("#rows tr")
-    rows = list(csv.reader(io.StringIO(saved(room, "#save"))))[1:]
+    rows = table(read(write("ann", answers)))
     assert len(rows) == len(FORMULAS)
     assert [cell for row in rows for cell in row if computes(cell)] == []
 
 
-def test_of_a_quiz_only_the_first_answer_counts(page, tmp_path):
+def test_of_a_quiz_only_the_first_answer_counts(read, write):
     """One opens the right answer and then reads the others; another opens a wrong one first."""
-    texts = {"ann": ("That", "This"), "bob": ("This", "That")}
-    for who, order in texts.items():
-        quiz = [answer(text, text == "That") | {"kind": "quiz"} for text in order]
-        file = {"format": "answers 1", "who": who, "answers": quiz}
-        (tmp_path / f"{who}.json").write_text(json.dumps(file), encoding="utf-8")
-    room = page(class_page())
-    room.set_input_files("#files", [tmp_path / f"{who}.json" for who in texts])
-    room.wait_for_selector("#rows tr")
-    (row,) = list(csv.reader(io.StringIO(saved(room, "#save"))))[1:]
+    this, that = (answer(text, text == "That") | {"kind": "quiz"} for text in ("This", "That"))
+    (row,) = table(read(write("ann", [that, this]), write("bob", [this, that])))
     assert row[2:] == ["This", "1", "1", "1", "2", "1", "1"]

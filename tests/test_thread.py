@@ -63,7 +63,7 @@ def test_the_miss_shrinks_from_chapter_to_chapter():
 
 def test_chapter_1_tells_the_same_misses():
     text = (BOOK / "01_loop.html").read_text(encoding="utf-8")
-    numbers = re.findall(r"<strong>([\d.]+)\smm</strong>", text)
+    numbers = re.findall(r"<strong>([\d.]+)\u00a0mm</strong>", text)
     for motion in ("plan", "off-line"):
         assert f"{thread.misses()[motion]:.1f}" in numbers
 
