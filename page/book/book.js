@@ -5,15 +5,14 @@ import { setEquations } from "./equations.js";
 
 /* An equation or code wider than the page scrolls; then the keyboard must be able to reach it. The theme sees to
    code when a page opens, but not to that of a fold, which has no width until it is open. */
-const reach = () =>
-  document.querySelectorAll("div.math, details[open] pre").forEach((wide) =>
+const reach = (part) =>
+  part.querySelectorAll("div.math, details[open] pre").forEach((wide) =>
     wide.scrollWidth > wide.clientWidth
       ? wide.setAttribute("tabindex", "0")
       : wide.removeAttribute("tabindex"));
 addEventListener("DOMContentLoaded", () => setEquations(document.body));
-addEventListener("load", reach);
-addEventListener("resize", reach);
-document.addEventListener("toggle", reach, true);
+for (const event of ["load", "resize"]) addEventListener(event, () => reach(document));
+document.addEventListener("toggle", ({ target }) => reach(target), true);
 
 /* A page shows the model's own code; what imports, draws and tabulates is folded. A box in the header
    shows it all, and is remembered where the browser remembers. */

@@ -32,6 +32,7 @@ from vmc_lib.cerebellum.online import WeightCorrection
 from vmc_lib.motor import inverse_dynamics, templates
 from vmc_lib.motor.execution import EYE, execute
 from vmc_lib.motor.planning import draw_targets, is_surrounded, norm, plan
+from vmc_lib.show.markup import minus
 
 ASTRAY = 0.01  # m: a reach that ends so far from its goal is none to remember
 MARGIN = 0.008  # m: so far inside of what templates surround; those of another arm end elsewhere
@@ -85,8 +86,7 @@ CHOICES = {  # what we chose -> what else might have been: of `misses`, the argu
     "templates apart, 6 cm": {f"{cm} cm": {"spacing": cm / 100} for cm in (4, 8)},
     "templates mixed, 4": {f"the nearest {n}": {"number": n} for n in (3, 8)},
     "start, −20° and 95°": {
-        f"{x}° and {y}°".replace("-", "−"): {"arm": from_posture(x, y)}
-        for x, y in ((-30, 105), (-10, 85))
+        minus(f"{x}° and {y}°"): {"arm": from_posture(x, y)} for x, y in ((-30, 105), (-10, 85))
     },
     "duration, 0.7 s": {f"{s} s": {"arm": with_duration(s)} for s in (0.5, 0.9)},
     "greatest forces F0": {f"{k:g} ×": {"arm": with_strength(k)} for k in (0.8, 1.25)},

@@ -86,16 +86,20 @@ def first_layer_nulls(k):
 
 
 def _v1():
-    from scipy.stats import quantile_test
-
-    octaves, widths = np.transpose([gabor.bandwidths(W) for W in cdbn.CDBN.load().first.W[:, 0]])
-    found = quantile_test(widths).confidence_interval()
-    name = "median bandwidth of direction (°), the paper's claim being the macaque's"
-    ends = {"low": found.low, "high": found.high, "rounding": 5}
-    ends |= {"sample": f"{len(widths)} filters", "nulls": first_layer_nulls(7)}
-    least, most = OCTAVES
+    layers, (least, most) = first_layers(), OCTAVES
+    octaves, direction, ends = _bandwidths(cdbn.CDBN.load().first.W[:, 0])
+    all_octaves, all_directions, all_ends = _bandwidths(layers.reshape(-1, *layers.shape[-2:]))
+    trainings = f"filters of {len(layers)} trainings"
     return [
-        Quantity(name, MACAQUE, np.median(widths), **ends),
+        Quantity(
+            "median bandwidth of direction (°), the paper's claim being the macaque's",
+            MACAQUE,
+            direction,
+            **ends,
+            rounding=5,
+            sample=f"{len(octaves)} filters",
+            nulls=first_layer_nulls(7),
+        ),
         mean(
             f"mean bandwidth in octaves, the macaque's being {least} to {most}",
             (least + most) / 2,
@@ -104,25 +108,24 @@ def _v1():
             rounding=(most - least) / 2,
             nulls=first_layer_nulls(6),
         ),
-        *_all_bandwidths(),
+        Quantity(
+            "median bandwidth of direction (°), all trainings",
+            None,
+            all_directions,
+            **all_ends,
+            sample=f"{len(all_octaves)} {trainings}",
+        ),
+        mean("mean bandwidth in octaves, all trainings", None, all_octaves, trainings),
     ]
 
 
-def _all_bandwidths():
-    """The same of the filters of every training with the paper's width."""
+def _bandwidths(filters):
+    """Bandwidths of filters (n, n_w, n_w): octaves (n,); the median of direction, its interval."""
     from scipy.stats import quantile_test
 
-    layers = first_layers()
-    pooled = layers.reshape(-1, *layers.shape[-2:])
-    octaves, widths = np.transpose([gabor.bandwidths(W) for W in pooled])
-    found, sample = quantile_test(widths).confidence_interval(), f"filters of {len(layers)}"
-    ends = {"low": found.low, "high": found.high, "sample": f"{len(widths)} {sample} trainings"}
-    return [
-        Quantity(
-            "median bandwidth of direction (°), all trainings", None, np.median(widths), **ends
-        ),
-        mean("mean bandwidth in octaves, all trainings", None, octaves, f"{sample} trainings"),
-    ]
+    octaves, directions = np.transpose([gabor.bandwidths(W) for W in filters])
+    found = quantile_test(directions).confidence_interval()
+    return octaves, np.median(directions), {"low": found.low, "high": found.high}
 
 
 def _figure_8():

@@ -133,9 +133,9 @@ class WeightCorrection:
         check_function("execute", execute, MOVES)
         online = self.correct(plan)  # 1, 2: "calibrated weights w_i^on = w_i + Δw_i^on"
         modified = online.with_weights(calibrate(online, rule).best_weights)  # 3, 4: "w_i' = …"
-        place = (
-            movement_of(execute, modified).endpoint if self.hindsight else plan.target
-        )  # 4: "actual p_a'"
+        place = plan.target
+        if self.hindsight:
+            place = movement_of(execute, modified).endpoint  # 4: "actual p_a'"
         right = self._planned(replace(plan, target=place))
         self.training_pairs.append((self.inputs(right), modified.weights - right.weights))
         self.g.fit(*map(np.concatenate, zip(*self.training_pairs, strict=True)))  # 5: "… to g'"

@@ -61,9 +61,9 @@ def segmentations(channels: np.ndarray, scales: Sequence[float]) -> Iterator[np.
         raise ValueError(f"scales k = {scales}: give finite numbers above 0")
     smooth = cv2.GaussianBlur(channels, (0, 0), BLUR).reshape(channels.shape)
     height, width = smooth.shape[:2]
-    edges, offsets = sort_by_weight(pixel_edges(smooth)), pixel_offsets(width)
+    pixels, offsets = height * width, pixel_offsets(width)
+    edges = sort_by_weight(pixel_edges(smooth))
     for k in scales:  # the published k is for grey values in 0..255
-        pixels = height * width
         labels = merge_segments(edges, offsets, pixels, k / 255, min(k, pixels))
         yield labels.reshape(height, width)
 
