@@ -166,7 +166,8 @@ def chromium():
 
     if not browser.find():
         (pytest.fail if os.environ.get("CI") else pytest.skip)(browser.MISSING)
-    with browser.launch() as chromium:
+    # WebAssembly is compiled once, quickly: to compile it better takes longer than a test gains
+    with browser.launch("--js-flags=--liftoff-only") as chromium:
         chromium.new_context = partial(pages.patient, chromium.new_context)
         yield chromium
 

@@ -1,6 +1,7 @@
 """What joblib spreads over cores, a Dask cluster takes as well, and the numbers do not change."""
 
 import numpy as np
+import pytest
 from dask.distributed import Client, LocalCluster
 from joblib import parallel_config
 
@@ -8,6 +9,7 @@ from reproduce.experiments.loop_evaluation import evaluate
 from vmc_lib import photos
 
 
+@pytest.mark.audit
 def test_a_dask_cluster_takes_the_trial(monkeypatch):
     few = {split: photos.load("rig", split)[:n] for split, n in (("train", 10), ("test", 2))}
     monkeypatch.setattr(photos, "load", lambda level, split, folder: few[split])

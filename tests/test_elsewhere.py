@@ -3,6 +3,7 @@
 import json
 
 import nbformat
+import pytest
 
 from tests.project import ROOT, python, run
 from tools import colab
@@ -25,6 +26,7 @@ print(asked, shell.user_ns["_exit_code"])  # pip's"""
 USED = "import book.figures, vmc_lib.show as s; print(book.__path__[0], s.__file__, sep='\\n')"
 
 
+@pytest.mark.audit
 def test_colabs_first_cell_fetches_the_book_into_an_empty_folder(tmp_path):
     repository, empty = tmp_path / "repository", tmp_path / "empty"
     run("git", "clone", "--quiet", "--depth", "1", ROOT.as_uri(), repository)

@@ -256,6 +256,7 @@ print(json.dumps([bool(find_spec("page")), widget._esm, markup.with_style_sheet(
     assert there == [widget_script("demo/live.js"), f"<style>{styles}</style>", bones]
 
 
+@pytest.mark.audit
 def test_the_library_works_alone(alone):
     script = """
 from importlib import import_module

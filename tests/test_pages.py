@@ -230,8 +230,7 @@ def test_nothing_jumps_while_a_slider_is_dragged(page, width, height, places):
     assert probe(page, "jumpySliders", places) == []
 
 
-OTHER = (1366, 768)
-SIZES = pytest.mark.parametrize(("width", "height"), [*SCREENS, OTHER])
+PHONE, OTHER = (pytest.param(*one, marks=pytest.mark.audit) for one in (SCREENS[0], (1366, 768)))
 [FRONT] = [path.as_uri() for path in CHAPTERS if path.stem == "index"] or [""]
 ARM_MOVES = """() => {
   const edges = [...document.querySelectorAll(".vmc-picture :is(svg, canvas):not(.vmc-close-up *)")]
@@ -240,7 +239,7 @@ ARM_MOVES = """() => {
   return moves && [scrollY, edges.length, Math.min(...edges), Math.max(...edges)]; }"""
 
 
-@SIZES
+@pytest.mark.parametrize(("width", "height"), [*SCREENS, OTHER])
 def test_three_doors_and_a_film_that_plays_are_on_the_first_screen(window, width, height):
     """The front page's film: by itself, photo and arm in the window when the arm begins to move."""
     page = open_url(window(viewport={"width": width, "height": height}), FRONT)
@@ -265,10 +264,7 @@ def test_the_film_waits_where_less_motion_is_asked_for(window):
 
 
 @a_page_of_each_kind
-@pytest.mark.parametrize(
-    ("width", "height"),
-    [SCREENS[1], *(pytest.param(*one, marks=pytest.mark.audit) for one in (SCREENS[0], OTHER))],
-)
+@pytest.mark.parametrize(("width", "height"), [PHONE, SCREENS[1], OTHER])
 def test_no_control_lies_over_a_picture(page, width, height):
     resize(page, width, height)
     unfold(page)

@@ -53,13 +53,13 @@ def options(path):
 
 
 @contextmanager
-def launch():
-    """Launch the browser by Playwright: it closes where the block ends."""
+def launch(*flags):
+    """Launch the browser by Playwright, with `flags` besides: it closes where the block ends."""
     from playwright.sync_api import sync_playwright
 
     how = options(find())
     with sync_playwright() as playwright:
-        chromium = playwright.chromium.launch(**how)
+        chromium = playwright.chromium.launch(**how | {"args": [*FLAGS, *flags]})
         yield chromium
         chromium.close()
 

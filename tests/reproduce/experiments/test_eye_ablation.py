@@ -36,6 +36,7 @@ def test_each_part_earns_its_place(name):
     assert any(worse) or without["alarms"] > ours["alarms"]
 
 
+@pytest.mark.audit
 def test_a_picture_is_answered_without_each_part():
     found = eye_ablation.make(count=1)
     assert found["asked"] == dict.fromkeys(eye_ablation.COUNTED, 1)

@@ -34,6 +34,7 @@ def test_a_round_blob_is_fitted_by_a_blob_and_has_no_direction():
     assert np.degrees(np.angle(gabor.direction_vector(stripes))) / 2 == pytest.approx(30, abs=3)
 
 
+@pytest.mark.audit
 def test_bandwidths_are_those_of_a_cell_behind_the_retina():
     """A wide Gabor function's are known: its answers are a Gauss function of the frequency."""
     n_w, wavelength, breadth = 65, 6, 8.0

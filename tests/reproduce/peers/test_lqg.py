@@ -105,6 +105,7 @@ def test_mean_pulls_are_those_of_equation_9():
     np.testing.assert_allclose(pulls, levels, atol=1e-9)
 
 
+@pytest.mark.audit
 def test_a_jump_is_followed_where_it_matters_and_left_alone_where_not():
     """A point that jumps up by 5 cm; and an upright bar, of which only forward is paid for."""
     luck, moved = rivals.draw_luck(4, 3), {}

@@ -19,6 +19,7 @@ def stripes(n, rng):
     return np.float32((crops + rng.normal(0, 0.2, crops.shape)) / 4 + 0.5), labels
 
 
+@pytest.mark.audit
 def test_back_propagation_separates_the_labels():
     rng = np.random.default_rng(0)
     cdbn = train_end_to_end(
