@@ -34,12 +34,13 @@ def seal(page, *more, frames=""):
     """
     page = OLD.sub("", page)
     scripts = [*_scripts(page), *more]
-    if python := PYTHON.search(page):
+    markup = SCRIPT.sub(r"<script\1>", page)  # without the megabytes that are packed in scripts
+    if python := PYTHON.search(markup):
         scripts.append(frame_script())
-    handlers = [unescape(text) for text in HANDLER.findall(SCRIPT.sub("", page))]
+    handlers = [unescape(text) for text in HANDLER.findall(markup)]
     allowed = {
-        "'self'": re.search(r"<script[^>]*\ssrc=", page),
-        "'unsafe-eval'": python or PHYSICS.search(page),
+        "'self'": re.search(r"<script[^>]*\ssrc=", markup),
+        "'unsafe-eval'": python or PHYSICS.search(markup),
         "'unsafe-hashes'": handlers,
     }
     allowed = [name for name, needed in allowed.items() if needed]
