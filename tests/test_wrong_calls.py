@@ -364,7 +364,7 @@ SIGHT = {  # a call: what its error says, the value and the remedy
     "a seed in words": (lambda g: selective_search.propose(NOISE, rng="x"), "rng 'x'", "a seed"),
     "a negative seed": (lambda g: selective_search.propose(NOISE, rng=-1), "rng -1", "0 or more"),
     "pixels in words": (
-        lambda g: selective_search.propose(BLANK, smallest="20 px"), "'20 px'", "as 20"
+        lambda g: selective_search.rank_boxes([], RNG, "20 px"), "'20 px'", "as 20"
     ),
     "no trees": (lambda g: selective_search.rank_boxes([], RNG), "no hierarchy", "one or more"),
     "a seed for ranks": (lambda g: selective_search.rank_boxes([], 0), "rng 0", "default_rng"),
@@ -488,9 +488,6 @@ MOVING = {
     "a Jacobian of joints": (
         lambda g: offline.broyden_calibration(g.plan, jacobian=np.eye(3)), "(3, 3)", "give (D, N)"
     ),
-    "none together": (
-        lambda g: online.AimCorrection(g.model.template_set).update(g.plans, 0), "= 0", "1 or more"
-    ),
     "lessons of another length": (
         lambda g: online.GranuleCells().fit(np.zeros((3, 2)), np.zeros(2)), "(2,)", "give (n, d)"
     ),
@@ -576,10 +573,6 @@ MOVING = {
     "an arm that tells its error": (
         lambda g: offline.gauss_newton_calibration(g.plan, execute=lambda _: 0.1),
         "0.1", "execute, or",
-    ),
-    "an arm that teaches nothing": (
-        lambda g: online.AimCorrection(g.model.template_set).update(g.plans, execute=lambda _: 1),
-        "returned, 1", "execute, or",
     ),
     "ragged points": (
         lambda g: planning.habitual_weights((0.1, -0.4), [[0.1, -0.3], [0.2]]),
@@ -723,8 +716,8 @@ MOVING = {
     "nothing trained": (
         lambda g: adaptation.Adaptation(None, g.model.template_set), "None", "an AimCorrection"
     ),
-    "a share in words": (lambda g: adapting(g, regularisation="some"), "'some'", "0 or more"),
-    "a negative share": (lambda g: adapting(g, regularisation=-1), "-1", "0 or more"),
+    "a share in words": (lambda g: adapting(g, regularisation="some"), "'some'", "more than 0"),
+    "a whole share": (lambda g: adapting(g, regularisation=0), "= 0", "more than 0"),
     "no plan to adapt": (lambda g: adapting(g).correct(None), "plan None", "plan(target, te"),
     "one plan to adapt": (lambda g: adapting(g).correct(g.plan), "[ 0.1  -0.38]", "is no batch"),
     "errors of another": (
@@ -759,10 +752,6 @@ MOVING = {
     "an arm's name": (lambda g: offline.algorithm_1(g.plan, execute="arm"), "'arm'", "execute, or"),
     "a reach for an arm": (
         lambda g: offline.broyden_calibration(g.plan, execute=g.reach), "Reach(…)", "execute, or"
-    ),
-    "an arm to learn by": (
-        lambda g: online.AimCorrection(g.model.template_set).update(g.plans, execute="arm"),
-        "'arm'", "execute, or",
     ),
     "how many cells": (
         lambda g: online.AimCorrection(g.model.template_set, 600), "cells 600", "GranuleCells()"

@@ -20,13 +20,13 @@ from reproduce.peers import minimum_variance, optimal_control
 from reproduce.results import arrays
 from vmc_lib.arm.model import MUSCLES
 from vmc_lib.cerebellum.adaptation import CORRECTIONS, Adaptation
+from vmc_lib.cerebellum.online import TOGETHER
 from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import draw_targets, plan
 from vmc_lib.motor.templates import load, mean_distance, reach
 
 LEFT = 0.5
 WHEN = "before", "after"  # it is corrected
-TOGETHER = 5  # reaches that are made before the next are corrected
 TARGETS = optimal_control.TARGETS[optimal_control.INNER]  # nobody practises these
 RIVALS = "least effort", "steadiest"
 

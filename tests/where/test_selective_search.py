@@ -142,7 +142,7 @@ def test_a_blank_image_is_one_box_if_it_is_large_enough(shape, count):
 
 
 def images():
-    """Images of every kind that `propose` takes, one pixel and larger."""
+    """Images of every kind that `hierarchies` takes, one pixel and larger."""
     sides = st.integers(1, 30)
     depth = st.sampled_from([(), (3,), (4,)])
     shape = st.tuples(sides, sides, depth).map(lambda s: (*s[:2], *s[2]))
@@ -155,7 +155,8 @@ def images():
 def test_any_image_gives_distinct_boxes_inside_it(image, smallest):
     """The whole image is among them, unless it is too small."""
     height, width = image.shape[:2]
-    boxes = ss.propose(image, "fast", smallest=smallest)
+    trees = ss.hierarchies(image, ss.STRATEGIES["fast"])
+    boxes = ss.rank_boxes(trees, np.random.default_rng(0), smallest)
     assert (boxes[:, :2] >= 0).all()
     assert (boxes[:, 2:] <= [width, height]).all()
     assert (boxes[:, 2:] - boxes[:, :2] >= smallest).all()

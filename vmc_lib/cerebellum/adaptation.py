@@ -16,7 +16,7 @@ from typing import Literal
 import numpy as np
 
 from vmc_lib.cerebellum.online import AimCorrection, GranuleCells, WeightCorrection
-from vmc_lib.checks import as_numbers, is_within
+from vmc_lib.checks import as_numbers, is_positive
 from vmc_lib.motor.execution import Execute, Movement, execute
 from vmc_lib.motor.planning import Plan, check_batch, check_templates, is_surrounded, plan
 from vmc_lib.motor.templates import TemplateSet
@@ -65,8 +65,8 @@ class Adaptation:
                 f"trained_correction {short(trained_correction)} corrects nothing: give an "
                 "AimCorrection"
             )
-        if not is_within(regularisation, 0, np.inf):
-            raise ValueError(f"regularisation = {short(regularisation)}: give 0 or more")
+        if not is_positive(regularisation):
+            raise ValueError(f"regularisation = {short(regularisation)}: give more than 0")
         self.trained_correction, self.template_set = trained_correction, template_set
         self.corrects, self.regularisation = corrects, regularisation
         self.silent = silent_endpoint(template_set)

@@ -18,7 +18,6 @@ from vmc_lib.checks import check_kind
 from vmc_lib.motor.feedback import (
     SIGHT,
     TICK,
-    FeedbackGains,
     ReferenceTrajectory,
     excitations_for_acceleration,
     feedback_acceleration,
@@ -54,20 +53,17 @@ class FeedbackErrorLearning:
         u = excitations_for_acceleration(*place, learned, reference.excitations)
         return ReferenceTrajectory(reference.q, u)
 
-    def update(
-        self, reference: ReferenceTrajectory, motion: Motion, gains: FeedbackGains = SIGHT
-    ) -> Self:
+    def update(self, reference: ReferenceTrajectory, motion: Motion) -> Self:
         """Learn from the motion of a batch of movements along this reference."""
         check_kind("reference", reference, ReferenceTrajectory, "reference_trajectory(plan)")
         check_kind("motion", motion, Motion, "simulate_feedback(reference)")
-        check_kind("gains", gains, FeedbackGains, "SIGHT, or SIGHT._replace(gain=30.0)")
         if motion.q.shape != reference.q.shape:
             raise ValueError(
                 f"motion of q {motion.q.shape} along a reference {reference.q.shape}: give what "
                 "simulate_feedback made of it"
             )
         path = reference.q, reference.velocity, motion.q, motion.velocity
-        wanted = feedback_acceleration(gains, *(x[:, :SAMPLES:TICK].reshape(-1, 2) for x in path))
+        wanted = feedback_acceleration(SIGHT, *(x[:, :SAMPLES:TICK].reshape(-1, 2) for x in path))
         active = self.cells.excite(trajectory_inputs(reference).reshape(-1, 4))
         self.purkinje = self.purkinje + minimum_norm_update(active, wanted, self.regularisation)
         return self

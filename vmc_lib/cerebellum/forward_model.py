@@ -16,9 +16,10 @@ from vmc_lib.arm.engines import muscle_acceleration, muscle_torque
 from vmc_lib.arm.model import STEP
 from vmc_lib.arm.simulate import Motion
 from vmc_lib.cerebellum.online import GranuleCells
-from vmc_lib.checks import as_numbers, check_count, check_kind
+from vmc_lib.checks import as_numbers, check_kind
 
 FAST, STRONG = 5.0, 8.0  # rad/s and N m: they bring what the cells sense to about one
+BETWEEN = 20  # steps between the samples that are learned
 
 
 def arm_copy(strength: float = 1.0) -> Callable[..., np.ndarray]:
@@ -38,17 +39,16 @@ class ForwardModel:
     def __init__(self) -> None:
         self.cells = GranuleCells(width=1.0, cells=300, ridge=1e-3)
 
-    def update(self, motion: Motion, every: int = 20) -> Self:
-        """Learn from a batch of movements, one sample every so many steps."""
+    def update(self, motion: Motion) -> Self:
+        """Learn from a batch of movements, one sample every `BETWEEN` steps."""
         check_kind("motion", motion, Motion, "a batch, as execute(plans).motion")
-        check_count("every", every, least=1)
         if np.ndim(motion.q) != 3:
             raise ValueError(f"{motion} is of one movement: give a batch, q (B, T + 1, 2)")
         q, velocity, activation = (
-            x[:, every:-1:every].reshape(-1, x.shape[-1])
+            x[:, BETWEEN:-1:BETWEEN].reshape(-1, x.shape[-1])
             for x in (motion.q, motion.velocity, motion.activation)
         )
-        felt = np.diff(motion.velocity, axis=1)[:, every::every].reshape(-1, 2) / STEP
+        felt = np.diff(motion.velocity, axis=1)[:, BETWEEN::BETWEEN].reshape(-1, 2) / STEP
         self.cells.partial_fit(state_inputs(q, velocity, activation), felt)
         return self
 

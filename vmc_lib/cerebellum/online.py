@@ -19,16 +19,15 @@ from typing import Any, Self
 
 import numpy as np
 
-from vmc_lib.cerebellum.offline import MOVES, Rule, calibrate, movement_of
+from vmc_lib.cerebellum.offline import Rule, calibrate
 from vmc_lib.checks import (
     as_numbers,
     check_count,
     check_features,
-    check_function,
     is_positive,
     is_within,
 )
-from vmc_lib.motor.execution import Execute, execute
+from vmc_lib.motor.execution import execute
 from vmc_lib.motor.planning import (
     RULES,
     Plan,
@@ -46,6 +45,7 @@ from vmc_lib.short_repr import short
 
 # With Eq. 5's power of 1 the weights have a kink at every template; chosen on validation targets
 smooth_weights = partial(exact_weights, power=1.25)
+TOGETHER = 5  # movements of a batch that are made before the next are aimed
 
 
 def equation_8(plan: Plan) -> np.ndarray:
@@ -127,15 +127,14 @@ class WeightCorrection:
             return planned
         return planned.with_weights(planned.weights + self.g.predict(self.inputs(planned)))
 
-    def update(self, plan: Plan, rule: Rule = "published", execute: Execute = execute) -> Self:
+    def update(self, plan: Plan, rule: Rule = "published") -> Self:
         """Algorithm 2, its steps for every plan of a batch; `rule`, as `calibrate` takes it."""
         check_batch(plan)
-        check_function("execute", execute, MOVES)
         online = self.correct(plan)  # 1, 2: "calibrated weights w_i^on = w_i + Δw_i^on"
         modified = online.with_weights(calibrate(online, rule).best_weights)  # 3, 4: "w_i' = …"
         place = plan.target
         if self.hindsight:
-            place = movement_of(execute, modified).endpoint  # 4: "actual p_a'"
+            place = execute(modified).endpoint  # 4: "actual p_a'"
         right = self._planned(replace(plan, target=place))
         self.training_pairs.append((self.inputs(right), modified.weights - right.weights))
         self.g.fit(*map(np.concatenate, zip(*self.training_pairs, strict=True)))  # 5: "… to g'"
@@ -195,18 +194,16 @@ class AimCorrection:
         shift = self.cells.predict(_rows(mossy_fibres(plan)))
         return plan.target + shift.reshape(plan.target.shape)
 
-    def update(self, plan: Plan, together: int = 5, execute: Execute = execute) -> Self:
+    def update(self, plan: Plan) -> Self:
         """Move, and learn from where the hand went: a training pair for each movement of the batch.
 
-        So many are made `together`; the next are aimed with what was learned from those.
+        `TOGETHER` are made at once; the next are aimed with what was learned from those.
         """
         check_batch(plan)
-        check_count("together", together, least=1)
-        check_function("execute", execute, MOVES)
-        for first in range(0, len(plan.target), together):
-            some = plan[first : first + together]
+        for first in range(0, len(plan.target), TOGETHER):
+            some = plan[first : first + TOGETHER]
             aim = self.aim(some)
-            end = movement_of(execute, self._at(some, aim)).endpoint
+            end = execute(self._at(some, aim)).endpoint
             self.cells.partial_fit(*self.training_pairs(some, aim, end))
         return self
 

@@ -198,7 +198,6 @@ def propose(
     image: np.ndarray,
     strategy: str | Strategy = "single",
     rng: np.random.Generator | int | None = None,
-    smallest: float = 20,
 ) -> np.ndarray:
     """Object candidates of an image by selective search.
 
@@ -207,12 +206,11 @@ def propose(
     image : array as `photos.as_float` takes it, of any size
     strategy : name of one of STRATEGIES, or a Strategy
     rng : numpy.random.Generator of the ranks, or its seed; without, every call ranks alike
-    smallest : shortest side of a box, pixels
 
     Returns
     -------
     (n, 4) array of (x0, y0, x1, y1), pixels, as `rank_boxes` orders them; a blank image gives one
-    box, one with a side under `smallest` none
+    box, one with a side under 20 pixels none
 
     Raises
     ------
@@ -237,4 +235,4 @@ def propose(
             f"rng {short(rng)}: give a seed, 0 or more, or np.random.default_rng(seed)"
         )
     rng = np.random.default_rng(0 if rng is None else rng)
-    return rank_boxes(hierarchies(image, strategy), rng, smallest)
+    return rank_boxes(hierarchies(image, strategy), rng)
