@@ -32,7 +32,7 @@ UNPERTURBED = Perturbation()
 
 def check_unperturbed(perturbation: Perturbation) -> None:
     """Raise ValueError for a load or a field, of an arm that knows none."""
-    if perturbation != UNPERTURBED:
+    if perturbation.load or np.any(perturbation.field):
         raise ValueError(f"this arm knows no {perturbation}: leave it out")
 
 

@@ -24,9 +24,10 @@ def test_many_trials_of_many_movements_move_as_each_alone(past):
     np.testing.assert_allclose(plant.reach(torques).endpoint.reshape(6, 2), past.points[:6])
 
 
-def test_a_load_that_it_does_not_know_is_refused(past):
-    movement = execute(plan(plant.GOALS[0], past), Perturbation(load=1.0))
-    with pytest.raises(ValueError, match=r"knows no Perturbation.*load=1\.0"):
+@pytest.mark.parametrize("world", [{"load": 1.0}, {"field": np.eye(2)}])
+def test_a_load_or_field_that_it_does_not_know_is_refused(past, world):
+    movement = execute(plan(plant.GOALS[0], past), Perturbation(**world))
+    with pytest.raises(ValueError, match=r"knows no Perturbation"):
         _ = movement.error
 
 
