@@ -17,18 +17,16 @@ from reproduce.measures.changed_worlds import (
     BLOCKS,
     PERTURBATIONS,
     Observation,
-    adapt,
+    adaptation_curve,
     train_aim_correction,
     turn_between,
 )
 from reproduce.people import MEASUREMENTS, MISSES
-from vmc_lib.arm.dynamics import hand
 from vmc_lib.cerebellum.adaptation import Adaptation
 from vmc_lib.motor.execution import execute, rotate
 from vmc_lib.motor.planning import plan
-from vmc_lib.motor.templates import START, load
+from vmc_lib.motor.templates import HOME, load
 
-HOME = hand(START)[:2]  # m: where every reach begins
 DISTANCE = 0.08  # m: the farthest targets round which a hand may turn by 30 degrees among templates
 DIRECTIONS = np.radians([210.0, 250.0, 290.0, 330.0])  # there are no templates above the start
 SHARES = *(k / 100 for k in range(10, 80, 5)), 1 / 1.3  # of an error; the book's is last
@@ -137,7 +135,7 @@ def load_left(share, forgets, seed):
     rng, template_set = np.random.default_rng(seed), load()
     trained = train_aim_correction(template_set, rng)
     learner = ForgettingAdaptation(trained, template_set, share, forgets, "pull")
-    curve = adapt(learner, template_set, rng, PERTURBATIONS["a load of 0.5 kg"])
+    curve = adaptation_curve(learner, template_set, rng, PERTURBATIONS["a load of 0.5 kg"])
     return 1000 * curve.error[LAST_WITH_LOAD]
 
 

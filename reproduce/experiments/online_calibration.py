@@ -10,7 +10,13 @@ from itertools import product
 import numpy as np
 
 from reproduce.experiments.calibration import SCENARIOS, coarse_algorithm_1, nearest_templates
-from reproduce.measures.changed_worlds import BLOCKS, NOTHING, Curve, adapt, without_learning
+from reproduce.measures.changed_worlds import (
+    BLOCKS,
+    NOTHING,
+    Curve,
+    adaptation_curve,
+    without_learning,
+)
 from vmc_lib.cerebellum.adaptation import CORRECTIONS, Adaptation
 from vmc_lib.cerebellum.offline import broyden_calibration
 from vmc_lib.cerebellum.online import AimCorrection, GranuleCells, WeightCorrection
@@ -106,9 +112,9 @@ def adapt_to_worlds(trained, template_set, worlds, seeds=(3, 4)):
         for cure in CORRECTIONS:
             learner = Adaptation(trained, template_set, cure)
             first, second = map(np.random.default_rng, seeds)
-            learning = adapt(learner, template_set, first, change, (before, during, 0))
+            learning = adaptation_curve(learner, template_set, first, change, (before, during, 0))
             learners[world, cure] = copy(learner)  # before it fades
-            fading = adapt(learner, template_set, second, change, (after, 0, 0))
+            fading = adaptation_curve(learner, template_set, second, change, (after, 0, 0))
             curves[world, cure] = Curve(*map(np.concatenate, zip(learning, fading, strict=True)))
         target = curves[world, cure].target  # of the same seeds, the same for every correction
         curves[world, NOTHING] = without_learning(trained, template_set, change, target)

@@ -26,12 +26,11 @@ from reproduce.peers.muscle_models import LAWS
 from reproduce.training import reach_templates
 from vmc_lib import data
 from vmc_lib.arm import dynamics, engines, muscle
-from vmc_lib.arm.dynamics import hand
 from vmc_lib.cerebellum.offline import algorithm_1, gauss_newton_calibration
 from vmc_lib.cerebellum.online import WeightCorrection
 from vmc_lib.motor import inverse_dynamics, templates
 from vmc_lib.motor.execution import EYE, execute
-from vmc_lib.motor.planning import draw_targets, is_surrounded, norm, plan
+from vmc_lib.motor.planning import draw_targets, first_inside, is_surrounded, norm, plan
 from vmc_lib.show.markup import minus
 
 ASTRAY = 0.01  # m: a reach that ends so far from its goal is none to remember
@@ -95,7 +94,7 @@ CHOICES = {  # what we chose -> what else might have been: of `misses`, the argu
     "damping of joints": {f"{k:g} ×": {"arm": with_damping(k)} for k in (0.5, 2)},
     "Eq. 7, from the shoulder": {
         "from the eye": {"origin": EYE},
-        "from the resting hand": {"origin": hand(templates.START)[:2]},
+        "from the resting hand": {"origin": templates.HOME},
     },
     "error, to the target": {"from the target": {"sign": -1}},
     "Algorithm 2, as printed": {"the other reading": {"hindsight": False}},
@@ -126,12 +125,15 @@ def find_templates(spacing=templates.SPACING, hold=templates.HOLD):
 
 @cache
 def targets(count=20):
-    """Targets (count, 2) that the templates of every spacing surround."""
+    """Targets (count, 2) that the templates of every spacing surround.
+
+    ValueError where the draw holds fewer.
+    """
     drawn = draw_targets(templates.load(0.08), 4 * count, np.random.default_rng(7))
     corners = MARGIN * np.array([[1, 1], [1, -1], [-1, 1], [-1, -1]])
     sets = [templates.load(apart).points for apart in templates.SPACINGS]
     inside = np.all([is_surrounded(drawn + c, some) for some in sets for c in corners], axis=0)
-    return drawn[inside][:count]
+    return first_inside(drawn, inside, count)
 
 
 def misses(

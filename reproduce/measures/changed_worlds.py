@@ -13,7 +13,7 @@ from vmc_lib.arm.simulate import Perturbation
 from vmc_lib.cerebellum.adaptation import CORRECTIONS, Adaptation
 from vmc_lib.cerebellum.online import AimCorrection
 from vmc_lib.motor.execution import EYE, execute, rotate_about_eye
-from vmc_lib.motor.planning import draw_targets, is_surrounded, plan
+from vmc_lib.motor.planning import draw_targets, first_inside, is_surrounded, plan
 from vmc_lib.motor.templates import load, mean_distance
 
 PRISM = np.radians(6.0)
@@ -44,7 +44,7 @@ class Curve(NamedTuple):
         return mean_distance(self.hold, self.target).mean(axis=-1)
 
 
-def adapt(learner, template_set, rng, perturbation, blocks=BLOCKS, movements=8):
+def adaptation_curve(learner, template_set, rng, perturbation, blocks=BLOCKS, movements=8):
     """The `Curve` of an `Adaptation` in a world (of `PERTURBATIONS`) that comes and goes.
 
     `blocks` counts those before, in and after the changed world. All targets are new, and lie
@@ -52,8 +52,8 @@ def adapt(learner, template_set, rng, perturbation, blocks=BLOCKS, movements=8):
     """
     before, during, _ = blocks
     targets = draw_targets(template_set, 4 * sum(blocks) * movements, rng)
-    inside = targets[is_surrounded(rotate_about_eye(targets, -PRISM), template_set.points)]
-    targets = inside[: sum(blocks) * movements].reshape(-1, movements, 2)
+    inside = is_surrounded(rotate_about_eye(targets, -PRISM), template_set.points)
+    targets = first_inside(targets, inside, sum(blocks) * movements).reshape(-1, movements, 2)
     hold = [
         learner.update(
             plan(t, template_set),
@@ -116,15 +116,15 @@ def turn_between(points, targets, centre):
 def block_errors(seed, before=150, blocks=BLOCKS, past=None, **size):
     """Mean error in mm of each block, by world and by what is corrected, for one seed.
 
-    So many movements are practised `before`; `blocks` and `size` are passed to `adapt`. `past` are
-    other templates than those that ship.
+    So many movements are practised `before`; `blocks` and `size` are passed to `adaptation_curve`.
+    `past` are other templates than those that ship.
     """
     rng, template_set = np.random.default_rng(seed), past or load()
     trained, errors = train_aim_correction(template_set, rng, before), {}
     for name, world in PERTURBATIONS.items():
         for corrects in CORRECTIONS:
             learner = Adaptation(trained, template_set, corrects)
-            curve = adapt(learner, template_set, deepcopy(rng), world, blocks, **size)
+            curve = adaptation_curve(learner, template_set, deepcopy(rng), world, blocks, **size)
             errors[f"{name}, {corrects}"] = 1000 * curve.error
         alone = without_learning(trained, template_set, world, curve.target, blocks)
         errors[f"{name}, {NOTHING}"] = 1000 * alone.error

@@ -14,10 +14,11 @@ from reproduce import results
 from reproduce.peers import motor_noise
 from reproduce.whole_arm import habits, plant
 from reproduce.whole_arm.habits import ZONE, goal_grid
+from vmc_lib.arm.simulate import UNPERTURBED
 from vmc_lib.cerebellum.offline import broyden_calibration
 from vmc_lib.cerebellum.online import AimCorrection, GranuleCells
 from vmc_lib.motor.execution import execute
-from vmc_lib.motor.planning import exact_weights, is_surrounded, plan, surrounding
+from vmc_lib.motor.planning import exact_weights, first_inside, is_surrounded, plan, surrounding
 from vmc_lib.motor.templates import mean_distance
 
 INSIDE = ZONE + np.array([[0.04], [-0.04]])  # m: targets keep so far from its edge
@@ -31,10 +32,13 @@ ANY_POSTURE = "any posture"  # of memories that share none
 
 
 def draw_targets_3d(*memories, count, rng):
-    """Targets (count, 3) in the zone that all these sets of memories surround."""
+    """Targets (count, 3) in the zone that all these sets of memories surround.
+
+    ValueError where they surround so little of it that the draw does not fill up.
+    """
     drawn = rng.uniform(*INSIDE, (8 * count + 20, 3))
     inside = [is_surrounded(drawn, known.points) for known in memories]
-    return drawn[np.all(inside, axis=0)][:count]
+    return first_inside(drawn, np.all(inside, axis=0), count)
 
 
 def mean_way(targets):
@@ -64,7 +68,7 @@ def planned_errors(past, targets):
 def with_noise(past, share, rng):
     """The memories `past`, on an arm whose commands waver by a share of their size, also held."""
 
-    def reach(commands, perturbation=None):
+    def reach(commands, perturbation=UNPERTURBED):
         held = np.pad(commands, [*(commands.ndim - 2) * [(0, 0)], (0, plant.HOLD), (0, 0)], "edge")
         moved = past.reach(motor_noise.with_noise(held, share, rng, plant.TICK), perturbation)
         return plant.Motion(*(x[..., : -plant.HOLD, :] for x in moved))
@@ -136,7 +140,11 @@ def drift(past, seconds=3):
 
 
 def online_errors(past, seed, count=COUNT, width=WIDTH):
-    """One draw: what online calibration leaves of the planned miss, in sample and held out."""
+    """One draw: what online calibration leaves of the planned miss, in sample and held out.
+
+    It practises `LESSONS` times as many movements as are held out; "in-sample" are the first
+    `count` of them, so that both are of one number.
+    """
     rng = np.random.default_rng(100 + seed)
     new, practised = (
         plan(draw_targets_3d(past, count=n, rng=rng), past) for n in (count, LESSONS * count)

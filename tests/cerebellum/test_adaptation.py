@@ -7,7 +7,7 @@ import pytest
 
 from reproduce.measures.changed_worlds import (
     PERTURBATIONS,
-    adapt,
+    adaptation_curve,
     error_clamp,
     train_aim_correction,
 )
@@ -28,7 +28,7 @@ def skill(template_set):
 )
 def test_adaptation_learns_and_washes_out(perturbation, corrects, share, template_set, skill):
     learner, rng = Adaptation(skill, template_set, corrects), np.random.default_rng(1)
-    curve = adapt(learner, template_set, rng, PERTURBATIONS[perturbation])
+    curve = adaptation_curve(learner, template_set, rng, PERTURBATIONS[perturbation])
     before, first, last = curve.error[1], curve.error[2], curve.error[7:10].mean()
     after_effect, washed_out = curve.error[10], curve.error[-1]
     assert first > 5 * before
@@ -39,7 +39,7 @@ def test_adaptation_learns_and_washes_out(perturbation, corrects, share, templat
 
 def test_adaptation_to_a_load_raises_the_sum_of_weights(template_set, skill):
     learner, load = Adaptation(skill, template_set, "pull"), PERTURBATIONS["a load of 0.5 kg"]
-    adapt(learner, template_set, np.random.default_rng(2), load, blocks=(0, 8, 0))
+    adaptation_curve(learner, template_set, np.random.default_rng(2), load, blocks=(0, 8, 0))
     reaches = plan(draw_targets(template_set, 20, np.random.default_rng(3)), template_set)
     assert learner.correct(reaches).weights.sum(axis=-1).mean() > 1.2
 
@@ -76,7 +76,7 @@ def test_in_silence_the_hand_ends_where_the_weights_sum_to_nothing(template_set)
 
 def test_adaptation_curves_have_new_targets(template_set, skill):
     learner, rng = Adaptation(skill, template_set), np.random.default_rng(5)
-    curve = adapt(learner, template_set, rng, PERTURBATIONS["a prism"], (1, 1, 1), 4)
+    curve = adaptation_curve(learner, template_set, rng, PERTURBATIONS["a prism"], (1, 1, 1), 4)
     assert curve.target.shape == curve.endpoint.shape == (3, 4, 2)
     assert len(np.unique(curve.target.reshape(-1, 2), axis=0)) == 12
 

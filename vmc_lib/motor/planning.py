@@ -189,13 +189,20 @@ def draw_targets(template_set: TemplateSet, count: int, rng: np.random.Generator
     check_rng(rng)
     low, high = template_set.points.min(axis=0), template_set.points.max(axis=0)
     drawn = rng.uniform(low, high, (4 * count + 20, 2))
-    inside = drawn[is_surrounded(drawn, template_set.points)]
-    if len(inside) < count:
+    return first_inside(drawn, is_surrounded(drawn, template_set.points), count)
+
+
+def first_inside(drawn: np.ndarray, inside: np.ndarray, count: int) -> np.ndarray:
+    """The first places (count, D) of those drawn (n, D) that lie inside, (n,) true or false.
+
+    ValueError where these are fewer.
+    """
+    if inside.sum() < count:
         raise ValueError(
-            f"the templates surround {len(inside)} of {len(drawn)} places drawn, too few for "
-            f"{count} targets; take templates that cover the plane"
+            f"the templates surround {inside.sum()} of {len(drawn)} places drawn, too few for "
+            f"{count} targets; take templates that cover more of it"
         )
-    return inside[:count]
+    return drawn[inside][:count]
 
 
 def plan(

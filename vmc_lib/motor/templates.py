@@ -20,7 +20,8 @@ from vmc_lib.data import arrays, read_only
 from vmc_lib.motor.inverse_dynamics import spline
 from vmc_lib.short_repr import short, short_repr
 
-START = np.radians([-20.0, 95.0])  # every reach begins here: elbow bent, the hand over the table
+START = np.radians([-20.0, 95.0])  # every reach begins here: elbow bent, the hand over the table …
+HOME = hand(START)[:2]  # m: … where it rests
 SPACINGS = (0.04, 0.06, 0.07, 0.08)  # m: how densely past experience covers the plane …
 SPACING = 0.06  # … unless another is asked for
 REACH = 0.525  # m from the shoulder: a nearly straight arm
