@@ -5,7 +5,7 @@ import numpy as np
 
 from book.figures.panels import panels
 from book.figures.reaching import arrows, ends, norm_mm, plane
-from reproduce.measures.planning_error import TARGETS, mixed_and_reached
+from reproduce.measures.planning_error import TARGETS, mixture_and_endpoint
 from reproduce.peers import optimal_control
 from reproduce.peers.minimum_variance import MEASURE_NAMES, kinematic_measures
 from vmc_lib.arm.model import MUSCLES
@@ -30,7 +30,7 @@ def planned_in_words(target, ended):
 
 def parts_of_miss(rule, spacing, number):
     """The parts of each miss that the weights and the arm have, as arrows; `spacing` in cm."""
-    mixed, reached = mixed_and_reached(rule, spacing / 100, number)
+    mixed, reached = mixture_and_endpoint(rule, spacing / 100, number)
     parts = reached - mixed, mixed - TARGETS, reached - TARGETS
     by_arm, by_weights, in_all = (norm_mm(part).mean() for part in parts)
     fig, ax = plt.subplots(figsize=(4.3, 4.4))  # inches: a phone has the plot's whole width

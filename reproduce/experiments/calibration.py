@@ -16,6 +16,7 @@ import numpy as np
 from joblib import Parallel, delayed
 
 from reproduce import results
+from reproduce.experiments.offline_calibration import FIFTH, hold_distances
 from reproduce.measures.changed_worlds import block_errors
 from reproduce.one_draw import WHOLE_HOLD, offline_ratios
 from vmc_lib.cerebellum.offline import (
@@ -32,15 +33,14 @@ from vmc_lib.cerebellum.online import (
     smooth_weights,
 )
 from vmc_lib.motor.execution import execute
-from vmc_lib.motor.planning import draw_targets, norm, plan
-from vmc_lib.motor.templates import HOLD, load, reach
+from vmc_lib.motor.planning import draw_targets, plan
+from vmc_lib.motor.templates import HOLD, load
 
 SEEDS, MANY = range(6), range(20)  # the latter where draws differ so much that six do not tell
 NOISE = 0.2  # of every excitation's size, fresh in every step
 SCENARIOS = ("changing neighbours", "four fixed templates")
 
-FIFTH = range(0, 21, 5)  # every fifth n
-# Algorithm 1 with these: a quarter of the reaches, and hardly a difference
+# Algorithm 1 with every fifth n: a quarter of the reaches, and hardly a difference
 coarse_algorithm_1 = partial(algorithm_1, gains=FIFTH)
 no_calibration = partial(broyden_calibration, n_trials=0)  # no trial at all: a movement as it is
 
@@ -155,18 +155,13 @@ def _own_ratios(template_set, rng, movements, held_out, experiments):
     plans = {"planned": many, "own online": learner.correct(many)}
     plans |= {name: many.with_weights(trials.best_weights) for name, trials in best.items()}
     for name, corrected in plans.items():
-        movement, late = execute(corrected), 1000 * late_distances(corrected)
+        movement, late = execute(corrected), hold_distances(corrected)[:, -1]
         rows[f"{name}, mm"] = 1000 * movement.error.mean()
         rows[f"{name}, bias"] = 1000 * movement.bias.mean()
         rows[f"{name}, speed"] = 1000 * movement.speed.mean()
         rows[f"{name}, stray"] = 1000 * movement.stray.mean()
         rows[f"{name}, at 2.5 s"], rows[f"{name}, worst at 2.5 s"] = late.mean(), late.max()
     return rows
-
-
-def late_distances(plans, hold=1.5):
-    """How far hands are from their targets when the hold has lasted so many s, (n,), m."""
-    return norm(reach(plans.excitations, hold=hold).hold[:, -1] - plans.target)
 
 
 def ratio_name(experiments, measured_on):

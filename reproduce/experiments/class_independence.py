@@ -21,22 +21,22 @@ def has_good_box(boxes, photo):
     return iou(boxes, [photo.boxes[name] for name in photos.CLASSES]).max(axis=0) >= MIN_IOU
 
 
-def objects_boxed(found, shots):
+def has_good_boxes(found, shots):
     """`has_good_box` of each photo's boxes, (photos, 2)."""
     return np.array(list(map(has_good_box, found, shots)))
 
 
 def make(folder=photos.FOLDER, ways=WAYS):
-    """What `results/class_independence.npz` holds: `objects_boxed` by level and strategy."""
+    """What `results/class_independence.npz` holds: `has_good_boxes` by level and strategy."""
     found = {}
     for level, strategies in ways.items():
         shots = photos.load(level, "test", folder)
         for way in strategies:
             boxes = Parallel()(delayed(propose)(shot.image, way) for shot in shots)
-            found[f"{level}/{way}"] = objects_boxed(boxes, shots)
+            found[f"{level}/{way}"] = has_good_boxes(boxes, shots)
     return found
 
 
-def boxed_by_strategy(level):
+def load_results(level):
     """What `make` found of a level's test photos: strategy -> (photos, 2), shuttlecock and cup."""
     return {way: arrays("class_independence")[f"{level}/{way}"] for way in WAYS[level]}

@@ -1,8 +1,8 @@
 """Learning curves with 2 mm of scatter (`motor_noise`): how many more tries does it then take?
 
 What a rule keeps after a noisy try was partly luck, so it is given once more, and judged by that.
-Without noise the same targets are those of `nulls.tries` and of `block_errors`, or practised here
-as well. In a changed world nothing is kept: every movement is to a new target.
+Without noise the same targets are those of `nulls.errors_by_tries` and of `block_errors`, or
+practised here as well. In a changed world nothing is kept: every movement is to a new target.
 """
 
 from functools import partial

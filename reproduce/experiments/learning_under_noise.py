@@ -11,7 +11,7 @@ from reproduce.experiments.controller_comparison import (
     templates_with_noise,
     train_controller,
 )
-from reproduce.experiments.planning_ablation import repeat_best_trials
+from reproduce.experiments.planning_ablation import repeat, repeat_best_trials
 from reproduce.peers.adaptive_controllers import RIDGE, DeltaRuleCells
 from reproduce.peers.motor_noise import noise_floor, noise_share_for, with_noise
 from vmc_lib.cerebellum.online import AimCorrection, GranuleCells, WeightCorrection
@@ -51,7 +51,7 @@ def compare_calibration(noise, seed, count):
     """The off-line part of `compare_learners`, for so many targets."""
     rng = np.random.default_rng((seed, 3))
     habit = plan(draw_targets(load(), count, rng), templates_with_noise(noise, (seed, 4)))
-    many = execute(habit.with_weights(np.tile(habit.weights, (20, 1, 1))))
+    many = execute(repeat(habit, 20))
     miss = many.error.mean()
     left = {"habit": 1000 * miss, "nothing but noise": noise_floor(many.hold) / miss}
     for name, (best, again) in repeat_best_trials(habit, 20, cache(execute)).items():

@@ -1,7 +1,8 @@
 """The paper's Tables I and II and Fig. 6, measured: numbers for the chapters and the ledger.
 
-A split is "train" (in-sample), or "validation" or "test" (held out). What every recipe finds in
-every photo is stored, as `make` finds it, so that a table costs no search.
+A split is "train" (in-sample), "validation" (on which choices were made) or "test" (held out:
+nothing was chosen on it). What every recipe finds in every photo is stored, as `make` finds it, so
+that a table costs no search.
 """
 
 from collections import ChainMap
@@ -226,11 +227,11 @@ def table_1_arrays(level, recipe_name, seed, folder, chosen):
 
 def retrain_detectors(level, recipe_name, recipe, trainings, folder):
     """Precision and recall on the test photos of detectors from many seeds, (trainings, 2)."""
-    train, held_out, test = (photos.load(level, split, folder) for split in photos.SPLITS)
+    train, validation, test = (photos.load(level, split, folder) for split in photos.SPLITS)
     rows = []
     for seed in range(trainings):
         detector = with_best_threshold(
-            fit_detector(train, recipe, np.random.default_rng(seed)), held_out
+            fit_detector(train, recipe, np.random.default_rng(seed)), validation
         )
         searches = detect_photos(level, "test", detector, folder)
         rows.append(precision_recall(test, [detections.boxes for detections in searches]))

@@ -1,10 +1,10 @@
 """What luck, and other mechanisms, obtain at the cost of the paper's: nulls for its motor claims.
 
 Off-line calibration makes 21 tries. `offline_rules` change the weights in other ways, as often.
-Online calibration learns from pairs: in `lessons` they are shuffled, or their corrections were
-found blindly, or nothing is learned and the plan's weights are others; in `errors_after_teaching`
-few tries, or none, find the corrections. Eq. 5 weighs templates by nearness; `WEIGHTS` do
-otherwise. All meet the same targets, so that they are compared in pairs.
+Online calibration learns from pairs: in `errors_by_lessons` they are shuffled, or their
+corrections were found blindly, or nothing is learned and the plan's weights are others; in
+`errors_after_teaching` few tries, or none, find the corrections. Eq. 5 weighs templates by
+nearness; `WEIGHTS` do otherwise. All meet the same targets, so that they are compared in pairs.
 """
 
 from copy import deepcopy
@@ -112,7 +112,7 @@ def draw_habit(past, rng, count=25):
     return plan(targets, past)
 
 
-def tries(seed, hold=templates.HOLD, count=25):
+def errors_by_tries(seed, hold=templates.HOLD, count=25):
     """What each rule leaves of the planned error after 0, 1, … tries, by name, (1 + TRIES,).
 
     The movements are those that `error_ratios` practises with the same seed. Of the tries alone,
@@ -165,7 +165,7 @@ class OtherWeights:
         return self
 
 
-def lessons(seed, movements=25, held_out=200, experiments=10):
+def errors_by_lessons(seed, movements=25, held_out=200, experiments=10):
     """Algorithm 2 and its nulls, read where the command ends: what is left of the planned error.
 
     After 0, 1, … experiments, in-sample and held-out; and the share of movements that the first
@@ -215,7 +215,8 @@ def errors_after_teaching(seed, movements=25, held_out=200):
     """What Algorithm 2 leaves after one experiment whose lessons cost so many tries, (TAUGHT,).
 
     By the law that found the corrections, in-sample and held-out; without a try the lesson is the
-    habit's own movement. The targets are those of `lessons` with the same seed, and so is luck.
+    habit's own movement. The targets are those of `errors_by_lessons` with the same seed, and so
+    is luck.
     """
     past, found = templates.load(hold=0.0), {}
     for name in teachers(seed):
@@ -250,7 +251,7 @@ WEIGHTS = {
 EXACT = "exact"  # no null, but the best known: Eq. 4 solved
 
 
-def weights(seed):
+def errors_by_weights(seed):
     """The planned error over the reach by other weights than Eq. 5's, (spacings,), by name.
 
     And the largest of five examples; and over that by Eq. 5.
@@ -268,11 +269,11 @@ BY_TRIES, BY_TRIES_HELD = f"tries, {AS_PRINTED}", "tries, over the hold"
 BY_LESSONS, BY_WEIGHTS = f"lessons, {AS_PRINTED}", f"weights, {AS_PRINTED}"
 BY_TEACHING = f"teaching, {AS_PRINTED}"
 EXPERIMENTS = {
-    BY_TRIES: partial(tries, hold=0.0),
-    BY_TRIES_HELD: tries,
-    BY_LESSONS: lessons,
+    BY_TRIES: partial(errors_by_tries, hold=0.0),
+    BY_TRIES_HELD: errors_by_tries,
+    BY_LESSONS: errors_by_lessons,
     BY_TEACHING: errors_after_teaching,
-    BY_WEIGHTS: weights,
+    BY_WEIGHTS: errors_by_weights,
 }
 load_results = partial(calibration.load_results, "nulls")
 

@@ -7,7 +7,6 @@ from functools import partial
 
 import numpy as np
 
-from reproduce.experiments.calibration import FIFTH
 from vmc_lib.arm.model import STEP
 from vmc_lib.arm.simulate import Perturbation
 from vmc_lib.cerebellum.offline import GAINS, algorithm_1, broyden_calibration
@@ -18,6 +17,7 @@ from vmc_lib.motor.inverse_dynamics import SAMPLES
 from vmc_lib.motor.planning import norm
 from vmc_lib.motor.templates import mean_distance
 
+FIFTH = range(0, 21, 5)  # every fifth n
 LOADS = {"empty": 0, "0.5 kg": 0.5}  # in the hand, kg
 GRIDS = {"n = 0 only": (0,), "every fifth n": FIFTH, "every n": GAINS}
 

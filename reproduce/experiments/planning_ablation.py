@@ -27,7 +27,7 @@ RULES = {
     "Broyden": broyden_calibration,
     "least squares": gauss_newton_calibration,
 }
-CORRECTIONS = {
+CALIBRATIONS = {
     "none": lambda habit: execute(habit).error,
     "Algorithm 1": lambda habit: algorithm_1(habit).error.min(axis=0),
     "Broyden, 1 trial": lambda habit: broyden_calibration(habit, n_trials=1).error.min(axis=0),
@@ -38,7 +38,7 @@ CORRECTIONS = {
 
 def reach_errors(targets, weights, correction, spacing):
     """Errors (n,) of reaches for targets (n, 2), of the best trial; the spacing is in cm."""
-    return 1000 * CORRECTIONS[correction](plan(targets, load(spacing / 100), WEIGHTS[weights]))
+    return 1000 * CALIBRATIONS[correction](plan(targets, load(spacing / 100), WEIGHTS[weights]))
 
 
 def repeated_errors(habit, repeats=4):
@@ -62,9 +62,14 @@ def repeat_best_trials(habit, repeats, once):
     found = {}
     for name, rule in RULES.items():
         trials = rule(habit, execute=once)
-        again = execute(habit.with_weights(np.tile(trials.best_weights, (repeats, 1, 1))))
+        again = execute(repeat(habit.with_weights(trials.best_weights), repeats))
         found[name] = trials.error.min(axis=0), again.error
     return found
+
+
+def repeat(plan, count):
+    """A batch of plans, (n,), so many times: (count, n)."""
+    return plan.with_weights(np.tile(plan.weights, (count, 1, 1)))
 
 
 def on_noisy_arm(plans, percent):

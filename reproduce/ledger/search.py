@@ -78,11 +78,11 @@ def _fewer():
 
 def _search():
     """Selective search beside windows of every size, everywhere; *fast* has more groupings."""
-    some, (many,) = photos.load("rig", "test"), class_independence.boxed_by_strategy("rig").values()
+    some, (many,) = photos.load("rig", "test"), class_independence.load_results("rig").values()
     everywhere = window_proposals.exhaustive((photos.HEIGHT, photos.WIDTH))
     found = [candidates(photo) for photo in some]
     both = found, [everywhere] * len(some)
-    ours, theirs = (class_independence.objects_boxed(boxes, some) for boxes in both)
+    ours, theirs = (class_independence.has_good_boxes(boxes, some) for boxes in both)
     fewer = np.mean([len(boxes) for boxes in found]) / len(everywhere)
     boxed = "objects boxed well (IoU 0.8), of those that exhaustive search boxes"
     return [
@@ -114,7 +114,7 @@ def _seconds(image, everywhere, part=5000):
 
 def _classes():
     """Shuttlecocks less cups, on varied tables, by ever more ways of grouping; ours decides."""
-    claims, boxed = {PUBLISHED.strategy: 0}, class_independence.boxed_by_strategy("varied")
+    claims, boxed = {PUBLISHED.strategy: 0}, class_independence.load_results("varied")
     return [
         mean(
             f"shuttlecocks boxed well, less cups, {way}",

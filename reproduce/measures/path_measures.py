@@ -5,7 +5,7 @@ import numpy as np
 from vmc_lib.arm.model import STEP
 from vmc_lib.motor.inverse_dynamics import MOVING
 from vmc_lib.motor.planning import norm
-from vmc_lib.motor.templates import HOLD
+from vmc_lib.motor.templates import HOLD, mean_distance, mean_speed
 
 SWING, TREMOR = (0.5, 3.0), (3.0, 8.0)  # Hz
 LAST = round(HOLD / STEP)  # samples at the end, over which a hand's distance is averaged
@@ -21,12 +21,12 @@ def end_error(path, target):
 
     The mean distance: a hand that swings round its target is not on it.
     """
-    return 1000 * norm(path[..., -LAST:, :] - target[..., None, :]).mean(axis=-1)
+    return 1000 * mean_distance(path[..., -LAST:, :], target)
 
 
 def end_speed(path):
     """How fast hands (…, T + 1, 2) move in the last half second, on average, (…,), mm/s."""
-    return 1000 * norm(np.diff(path[..., -LAST:, :], axis=-2)).mean(axis=-1) / STEP
+    return 1000 * mean_speed(path[..., -LAST:, :], (LAST - 1) * STEP)
 
 
 def end_swing(path):

@@ -12,7 +12,7 @@ TARGETS = np.stack(
 ).reshape(-1, 2)
 
 
-def mixed_and_reached(rule=habitual_weights, spacing=0.06, number=4):
+def mixture_and_endpoint(rule=habitual_weights, spacing=0.06, number=4):
     """Where the weights alone would send the hand (N, 2) for `TARGETS`, and where it ends, in m.
 
     Of templates `spacing` m apart it mixes a `number` (`template_rows`).
@@ -24,5 +24,5 @@ def mixed_and_reached(rule=habitual_weights, spacing=0.06, number=4):
 
 def mean_bias(rule, spacing=0.06, number=4):
     """The mean bias: how far the hand's mean place over the hold is from a target, in mm."""
-    _, reached = mixed_and_reached(rule, spacing, number)
+    _, reached = mixture_and_endpoint(rule, spacing, number)
     return 1000 * np.linalg.norm(reached - TARGETS, axis=-1).mean()

@@ -62,7 +62,7 @@ def toy_steps(folder):
         ),
     }
     by_luck = {
-        nulls.BY_TRIES: partial(nulls.tries, count=2),
+        nulls.BY_TRIES: partial(nulls.errors_by_tries, count=2),
         nulls.BY_TEACHING: partial(nulls.errors_after_teaching, movements=2, held_out=4),
     }
     one = {"reflex alone": {0.5: feedback_control.REFLEX}}

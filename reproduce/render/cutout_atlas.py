@@ -10,7 +10,7 @@ from vmc_lib import data
 
 WIDTH, COLUMNS = 128, 20
 FILES = {"shuttlecocks": data.FOLDER / "cutouts.webp", "decoys": data.FOLDER / "decoys.webp"}
-HELD_OUT = 80  # cut-outs of each, the last: half of them validate, half test
+UNTRAINED_COUNT = 80  # cut-outs of each, the last, not trained on: half validate, half test
 
 
 def store(cutouts, kind):

@@ -36,8 +36,8 @@ def random_shuttlecock(rng, _number):
 
 def random_decoy(rng, number):
     """A decoy (a Mesh) as large as a shuttlecock, its middle the origin; the last are held out."""
-    held_out = number >= COUNTS["decoys"] - cutout_atlas.HELD_OUT
-    kinds = decoys.HELD_OUT_KINDS if held_out else decoys.TRAINING_KINDS
+    untrained = number >= COUNTS["decoys"] - cutout_atlas.UNTRAINED_COUNT
+    kinds = decoys.HELD_OUT_KINDS if untrained else decoys.TRAINING_KINDS
     colour = rgb(rng.choice(2 * DYES + GLAZES))
     one = kinds[rng.integers(len(kinds))](rng, colour)
     low, high = one.vertices.min(0), one.vertices.max(0)

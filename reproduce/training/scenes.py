@@ -7,7 +7,7 @@ racket's strings, white grounds and courts, and things that resemble a shuttleco
 import cv2
 import numpy as np
 
-from reproduce.render.cutout_atlas import HELD_OUT, load
+from reproduce.render.cutout_atlas import UNTRAINED_COUNT, load
 from reproduce.training.pasting import PastedPhoto, composite, jitter_colour, transform_cutout
 from vmc_lib import photos
 from vmc_lib.boxes import iou
@@ -30,10 +30,10 @@ PICTURE = photos.HEIGHT, photos.WIDTH
 def paste_photos(shots, split, count, rng):
     """`PastedPhoto`s on the real photos `shots` that show no shuttlecock, SCENES in turn.
 
-    The last HELD_OUT cut-outs are asked: half of them "validation", half "test"; others "train".
+    The last UNTRAINED_COUNT cut-outs are asked: half "validation", half "test"; others "train".
     """
     grounds = [shot.image for shot in shots if "shuttlecock" not in shot.boxes]
-    half = HELD_OUT // 2
+    half = UNTRAINED_COUNT // 2
     part = {
         "train": np.s_[: -2 * half],
         "validation": np.s_[-2 * half : -half],

@@ -55,13 +55,13 @@ def detector(level, name, recipe, folder):
     if level == photos.REAL_LEVEL:
         shots = photos.load("varied", "train", folder) + WEIGHED * shots
     trained = fit_detector(shots, recipe)
-    held_out, learnt = photos.load(level, "validation", folder), {}
+    validation, learnt = photos.load(level, "validation", folder), {}
     for part, value in trained.parts().items():
         half = np.size(value) > 10_000
         learnt[f"{level}/{name}/{part}"] = np.array(value, np.float16 if half else np.float32)
     for row in (name, *(row for row, source in TRAINED_AS.items() if source == name)):
         learnt[f"{level}/{row}/threshold"] = with_best_threshold(
-            with_recipe(trained, row), held_out
+            with_recipe(trained, row), validation
         ).threshold
     return learnt
 

@@ -14,7 +14,7 @@ def test_a_correction_keeps_its_best_trial():
     targets = np.array([[0.10, -0.40], [0.15, -0.41]])
     for weights, cm in product(ablation.WEIGHTS, ablation.SPACINGS):
         none, published, one, two, _ = (
-            ablation.reach_errors(targets, weights, how, cm) for how in ablation.CORRECTIONS
+            ablation.reach_errors(targets, weights, how, cm) for how in ablation.CALIBRATIONS
         )
         assert (published <= none).all()
         assert (two <= one).all()

@@ -124,8 +124,8 @@ def test_draws_of_prototypes_say_of_crops_what_is_shipped():
 def test_what_is_boxed_well_is_reproducible(level):
     some = slice(0, 40, 8)
     shots = photos.load(level, "test")[some]
-    for way, boxed in class_independence.boxed_by_strategy(level).items():
+    for way, boxed in class_independence.load_results(level).items():
         if way != "quality":  # ten times as slow
             found = [propose(shot.image, way) for shot in shots]
-            now = class_independence.objects_boxed(found, shots)
+            now = class_independence.has_good_boxes(found, shots)
             assert (now != boxed[some]).sum() <= 1, way

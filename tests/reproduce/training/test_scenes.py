@@ -76,4 +76,4 @@ def test_no_cutout_is_in_two_splits(monkeypatch):
         parts = [asked[split][k] for split in photos.SPLITS]
         joined = np.concatenate(parts)
         assert (joined == cutout_atlas.load(kind)).all()
-        assert len(parts[1]) == len(parts[2]) == cutout_atlas.HELD_OUT // 2
+        assert len(parts[1]) == len(parts[2]) == cutout_atlas.UNTRAINED_COUNT // 2
