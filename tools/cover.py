@@ -31,7 +31,7 @@ def frames(page):
     demo.locator("canvas").wait_for()
     page.wait_for_timeout(3000)  # the bones come last, unannounced
 
-    def taken():
+    def take_picture():
         page.evaluate(DRAWN)
         return Image.open(io.BytesIO(pictures.screenshot())).convert("RGB")
 
@@ -39,12 +39,12 @@ def frames(page):
         demo.locator("input[type=range]").first.fill(str(number))
         pictures.evaluate(LABEL, step)
         if step in SEEING:
-            yield taken(), LOOK
+            yield take_picture(), LOOK
             continue
         last = float(end.get_attribute("max"))
         for moment in range(MOMENTS + 1):
             end.fill(f"{last * moment / MOMENTS:.2f}")
-            yield taken(), MOVE if moment < MOMENTS else REST
+            yield take_picture(), MOVE if moment < MOMENTS else REST
 
 
 if __name__ == "__main__":

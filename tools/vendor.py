@@ -58,11 +58,13 @@ def fetch(origin):
 def with_fonts(sheet):
     """A style sheet (a file) and the fonts beside it as one: Firefox loads none from file://."""
 
-    def packed(source):
+    def embed_font(source):
         font = base64.b64encode((sheet.parent / source[1]).read_bytes()).decode()
         return f'src:url(data:font/woff2;base64,{font}) format("woff2")'
 
-    text = re.sub(r"src: ?url\(([^)]*\.woff2)\)[^;}]*", packed, sheet.read_text(encoding="utf-8"))
+    text = re.sub(
+        r"src: ?url\(([^)]*\.woff2)\)[^;}]*", embed_font, sheet.read_text(encoding="utf-8")
+    )
     return text.encode()
 
 
@@ -78,14 +80,14 @@ def with_wasm(module, wasm):
 
 def problems():
     """What is wrong with the vendored files, one sentence each; none is right."""
-    wrong = []
-    for entry in json.loads(MANIFEST.read_bytes()):
+    wrong, entries = [], json.loads(MANIFEST.read_bytes())
+    for entry in entries:
         file = ROOT / entry["file"]
         if not file.exists():
             wrong.append(f"{entry['file']} is missing")
         elif hashlib.sha256(file.read_bytes()).hexdigest() != entry["sha256"]:
             wrong.append(f"{entry['file']} is not what the manifest says")
-    listed = {ROOT / entry["file"] for entry in json.loads(MANIFEST.read_bytes())}
+    listed = {ROOT / entry["file"] for entry in entries}
     folders = {file.parent for file in listed}
     stray = (
         {file for folder in folders for file in folder.iterdir()} - listed - {MANIFEST} - MADE_HERE

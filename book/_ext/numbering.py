@@ -24,12 +24,12 @@ CLOSED |= {"svg"}
 
 
 def setup(app):
-    app.connect("env-updated", find)
+    app.connect("env-updated", find_equations)
     app.connect("html-page-context", add_numbers, priority=950)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
 
 
-def find(app, env):
+def find_equations(app, env):
     """Where each numbered equation stands: on the last page that shows it, its own chapter."""
     env.equation_pages = {}
     for page in env.toctree_includes.get(env.config.root_doc, []):
@@ -87,13 +87,13 @@ def with_anchors(body, tags):
     """The HTML `body` with a place to link to before the first equation of each of the `tags`."""
     left = set(tags)
 
-    def mark(found):
+    def mark_first(found):
         if found[1] not in left:
             return found[0]
         left.remove(found[1])
         return f'<span id="eq-{found[1]}"></span>{found[0]}'
 
-    return DISPLAYED.sub(mark, body)
+    return DISPLAYED.sub(mark_first, body)
 
 
 def with_figure_numbers(body, chapter):

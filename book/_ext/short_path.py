@@ -73,7 +73,7 @@ def lead_on(app, pagename, templatename, context, doctree):
     """Where a piece ends, name the next; and mark the path's chapters in the sidebar."""
     if sidebar := context.get("generate_toctree_html"):
         marked = {app.builder.get_relative_uri(pagename, page) or "#" for page in PAGES}
-        context["generate_toctree_html"] = lambda **how: mark(sidebar(**how), marked)
+        context["generate_toctree_html"] = lambda **how: mark_links(sidebar(**how), marked)
     for (nth, here), (then, piece) in pairwise(PIECES):
         if f"book/{here.page}" != pagename:
             continue
@@ -93,13 +93,13 @@ def lead_on(app, pagename, templatename, context, doctree):
         context["body"] = f"{body[:place]}{nav(nth, said)}\n{body[place:]}"
 
 
-def mark(sidebar, marked):
+def mark_links(sidebar, marked):
     """The sidebar, as the theme makes it, with a class on its links to these addresses (HTML)."""
 
-    def one(link):
+    def add_class(link):
         return f"{link[1]}{MARK}{link[2]}" if link[3] in marked else link[0]
 
-    return LINK.sub(one, str(sidebar))
+    return LINK.sub(add_class, str(sidebar))
 
 
 def nav(label, text):

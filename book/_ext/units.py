@@ -13,11 +13,11 @@ TABULAR = {"form", "table"}  # whose columns are as narrow as they need to be
 
 
 def setup(app):
-    app.connect("html-page-context", bind, priority=960)
+    app.connect("html-page-context", bind_units, priority=960)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
 
 
-def bind(app, pagename, templatename, context, doctree):
+def bind_units(app, pagename, templatename, context, doctree):
     context["body"] = with_units(context.get("body", ""))
 
 
@@ -26,12 +26,12 @@ def with_units(body):
     parts = TAG.split(body)
     for i in prose_in(parts, CLOSED | TABULAR):
         parts[i] = WITHIN.sub("\u00a0", parts[i])
-        if AFTER.match(parts[i]) and ENDS.search(_before(parts, i)):
+        if AFTER.match(parts[i]) and ENDS.search(_text_before(parts, i)):
             parts[i] = "\u00a0" + parts[i][1:]
     return "".join(parts)
 
 
-def _before(parts, i):
+def _text_before(parts, i):
     """The text before part i in its line: "" where another element than of words lies between."""
     while i > 1 and INLINE.match(parts[i - 1]):
         i -= 2

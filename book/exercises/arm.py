@@ -56,14 +56,14 @@ def posture(hand, upper, fore):
     return np.array([bearing - inward, elbow])
 
 
-def _reachable(rng):
+def _draw_reachable(rng):
     """Also above the shoulder."""
     bearing, far = rng.uniform(0.2, 2.4), rng.uniform(0.25, 0.5)
     upper, fore = rng.uniform([0.27, 0.24], [0.33, 0.3]).round(2)
     return far * np.array([np.sin(bearing), -np.cos(bearing)]), upper, fore
 
 
-def _swung(hand, upper, fore, share):
+def _swing_shoulder(hand, upper, fore, share):
     """The right elbow, the shoulder turned by a share of the angle that it takes."""
     shoulder, elbow = posture(hand, upper, fore)
     bearing = np.arctan2(hand[0], -hand[1])
@@ -72,12 +72,14 @@ def _swung(hand, upper, fore, share):
 
 POSTURE = Exercise(
     posture,
-    _reachable,
+    _draw_reachable,
     {
         "Your upper arm points at the hand. A bent elbow carries the hand forward, so that the "
-        "upper arm must stay behind.": lambda hand, upper, fore: _swung(hand, upper, fore, 0),
+        "upper arm must stay behind.": (
+            lambda hand, upper, fore: _swing_shoulder(hand, upper, fore, 0)
+        ),
         "That elbow bends backwards: take the angle at the shoulder away, do not add it.": (
-            lambda hand, upper, fore: _swung(hand, upper, fore, -1)
+            lambda hand, upper, fore: _swing_shoulder(hand, upper, fore, -1)
         ),
         "Your elbow is the angle *inside* the joint, π when the arm is straight. Here a straight "
         "arm has 0.": lambda hand, upper, fore: posture(hand, upper, fore) * [1, -1] + [0, np.pi],

@@ -89,7 +89,7 @@ def _pairs(rng):
     return SimpleNamespace(boxes=_boxes(rng, 8)), *rng.permutation(8)[: 2 * count].reshape(2, -1)
 
 
-def _shared_over(over, least=0):
+def _share_over(over, least=0):
     """`engulfed` with another area below the line, or with sides that may be negative."""
 
     def wrong(r, i, j):
@@ -107,15 +107,15 @@ ENGULFED = Exercise(
     _pairs,
     {
         "That is the IoU. Divide by the area of the smaller box, not of both together.": (
-            _shared_over(lambda a, b, shared: a + b - shared)
+            _share_over(lambda a, b, shared: a + b - shared)
         ),
         "You divided by the larger box. A hole lies *all* in its plate: divide by the smaller.": (
-            _shared_over(lambda a, b, shared: np.maximum(a, b))
+            _share_over(lambda a, b, shared: np.maximum(a, b))
         ),
         "Either box may be the smaller one: compare the areas, pair by pair.": (
-            _shared_over(lambda a, b, shared: a)
+            _share_over(lambda a, b, shared: a)
         ),
         "Boxes that lie apart share nothing. Two negative sides make a positive area: clip each "
-        "side at zero first.": _shared_over(lambda a, b, shared: np.minimum(a, b), -np.inf),
+        "side at zero first.": _share_over(lambda a, b, shared: np.minimum(a, b), -np.inf),
     },
 )

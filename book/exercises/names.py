@@ -49,25 +49,25 @@ def broken_promise(chances, truth, bins):
     return off
 
 
-def _promised(chances, truth, bins):
+def _bin_means(chances, truth, bins):
     """For each bin that is not empty: its share, the chance promised, and what came."""
     place = np.minimum(chances * bins, bins - 1).astype(int)
     rows = [(place == k, k) for k in sorted(set(place))]
     return np.array([[h.mean(), chances[h].mean(), truth[h].mean(), k] for h, k in rows]).T
 
 
-def _signed(chances, truth, bins):
-    share, promised, came, _ = _promised(chances, truth, bins)
+def _signed_gap(chances, truth, bins):
+    share, promised, came, _ = _bin_means(chances, truth, bins)
     return share @ (promised - came)
 
 
-def _all_alike(chances, truth, bins):
-    _, promised, came, _ = _promised(chances, truth, bins)
+def _unweighted_gap(chances, truth, bins):
+    _, promised, came, _ = _bin_means(chances, truth, bins)
     return abs(promised - came).mean()
 
 
-def _by_the_middle(chances, truth, bins):
-    share, _, came, k = _promised(chances, truth, bins)
+def _gap_from_middle(chances, truth, bins):
+    share, _, came, k = _bin_means(chances, truth, bins)
     return share @ abs((k + 0.5) / bins - came)
 
 
@@ -83,11 +83,11 @@ BROKEN_PROMISE = Exercise(
     broken_promise,
     _chances_off_the_edges,
     {
-        "Too high in one bin and too low in another cancel now: take each gap's size.": _signed,
+        "Too high in one bin and too low in another cancel now: take each gap's size.": _signed_gap,
         "A bin with few crops counts as much as a full one. Weigh each by its share of the "
-        "crops.": _all_alike,
+        "crops.": _unweighted_gap,
         "You compared with the middle of the bin. What was promised is the mean chance of the "
-        "crops in it.": _by_the_middle,
+        "crops in it.": _gap_from_middle,
         "That compares every crop with its own truth, 0 or 1. A chance is a promise about many: "
         "compare means, bin by bin.": lambda chances, truth, bins: abs(chances - truth).mean(),
     },
@@ -104,7 +104,7 @@ def possible_counts(percents, most):
     return counts
 
 
-def _printed(rng):
+def _draw_percentages(rng):
     """Percentages above 50, some of them exact or without a false alarm.
 
     They are drawn anew while one could be rounded both ways.
@@ -118,7 +118,7 @@ def _printed(rng):
     n, alarms = np.ogrid[1 : most + 1, : most + 1]
     off = abs(np.subtract.outer(percents, 100 * n / (n + alarms)))
     on_edge = np.isclose(off, 0.05, rtol=0, atol=1e-9).any()
-    return _printed(rng) if on_edge else (percents, most)
+    return _draw_percentages(rng) if on_edge else (percents, most)
 
 
 def _counts(percents, most, shares, half=0.05 + 1e-9, enough=np.all):
@@ -133,7 +133,7 @@ def _precisions(n):
 
 POSSIBLE_COUNTS = Exercise(
     possible_counts,
-    _printed,
+    _draw_percentages,
     {
         "You kept what explains one of the percentages. The same number of shuttlecocks must "
         "explain both.": lambda percents, most: _counts(percents, most, _precisions, enough=np.any),

@@ -82,11 +82,11 @@ def misfit(points, targets, weights):
     return np.sqrt(((by_eq_5 - weights) ** 2).mean())
 
 
-def _near(points, targets):
+def _nearness(points, targets):
     return 1 / np.linalg.norm(points[:, None] - targets, axis=-1)
 
 
-def _off(nearness, weights):
+def _rms_gap(nearness, weights):
     return np.sqrt(((nearness / nearness.sum(axis=0) - weights) ** 2).mean())
 
 
@@ -101,21 +101,21 @@ MISFIT = Exercise(
     {
         "The weights of a reach must sum to one: divide each column by its sum.": (
             lambda points, targets, weights: np.sqrt(
-                ((_near(points, targets) - weights) ** 2).mean()
+                ((_nearness(points, targets) - weights) ** 2).mean()
             )
         ),
         "Each column is a reach. You made the rows sum to one: sum along `axis=0`.": (
-            lambda points, targets, weights: _off(_near(points, targets).T, weights.T)
+            lambda points, targets, weights: _rms_gap(_nearness(points, targets).T, weights.T)
         ),
         "By Eq. 5 the *nearer* a template, the larger its weight: take one over the distance.": (
-            lambda points, targets, weights: _off(1 / _near(points, targets), weights)
+            lambda points, targets, weights: _rms_gap(1 / _nearness(points, targets), weights)
         ),
         "That is the mean of the squares. Take its root, and it is a weight again.": (
             lambda points, targets, weights: misfit(points, targets, weights) ** 2
         ),
         "That is the mean size of the differences. Square them first, and take the root at the "
         "end.": lambda points, targets, weights: abs(
-            _near(points, targets) / _near(points, targets).sum(axis=0) - weights
+            _nearness(points, targets) / _nearness(points, targets).sum(axis=0) - weights
         ).mean(),
     },
 )

@@ -16,7 +16,7 @@ def _lessons(rng):
     return rng.normal(size=m), rng.random((n, m)), rng.normal(size=n), rng.choice([0.1, 0.3])
 
 
-def _taught(change):
+def _taught_by(change):
     """`after_lessons` with another change after one lesson."""
 
     def wrong(v, active, answers, rate):
@@ -32,12 +32,12 @@ AFTER_LESSONS = Exercise(
     _lessons,
     {
         "Your cells learn the answer again and again, even when they know it. Let only the "
-        "*error* teach: $y - \\mathbf v \\cdot \\mathbf a$.": _taught(lambda v, a, y: y * a),
+        "*error* teach: $y - \\mathbf v \\cdot \\mathbf a$.": _taught_by(lambda v, a, y: y * a),
         "The error grows from lesson to lesson: mind its sign.": (
-            _taught(lambda v, a, y: (v @ a - y) * a)
+            _taught_by(lambda v, a, y: (v @ a - y) * a)
         ),
         "Every weight changes by the same amount. Only cells that are active are to blame: "
-        "multiply by the activity.": _taught(lambda v, a, y: y - v @ a),
+        "multiply by the activity.": _taught_by(lambda v, a, y: y - v @ a),
         "You found all errors with the first weights. Each lesson meets what the one before it "
         "has left.": lambda v, active, answers, rate: v + rate * (answers - active @ v) @ active,
     },

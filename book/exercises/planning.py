@@ -17,7 +17,7 @@ def _target_and_points(rng):
     return points[0] if rng.random() < 0.4 else target[0], rng.permutation(points)
 
 
-def _normed(nearness):
+def _normalise(nearness):
     return nearness / nearness.sum()
 
 
@@ -30,11 +30,11 @@ NEAR_WEIGHTS = Exercise(
     _target_and_points,
     {
         "Right, but for a target that lies on a template: there you divide by zero. That "
-        "template has it all: weight 1.": lambda target, points: _normed(
+        "template has it all: weight 1.": lambda target, points: _normalise(
             1 / _distance(target, points)
         ),
         "A small number added to each distance avoids zero, and spoils all other weights a "
-        "little. Treat a distance of zero by itself.": lambda target, points: _normed(
+        "little. Treat a distance of zero by itself.": lambda target, points: _normalise(
             1 / (_distance(target, points) + 1e-3)
         ),
         "Where the target lies on a template, you gave the others a share as well. That template "
@@ -44,7 +44,7 @@ NEAR_WEIGHTS = Exercise(
             else np.full(len(points), 1 / len(points))
         ),
         "The farther templates weigh more in yours: take one over the distance.": (
-            lambda target, points: _normed(_distance(target, points))
+            lambda target, points: _normalise(_distance(target, points))
         ),
     },
 )
@@ -55,14 +55,14 @@ def two_arrows(target, weights, points, reached):
     return np.array([target - mixed, mixed - reached])
 
 
-def _planned(rng):
+def _draw_plan(rng):
     points = rng.normal(size=(n := rng.integers(2, 5), 2)) / 10
-    return rng.normal(size=2) / 10, _normed(rng.random(n)), points, rng.normal(size=2) / 10
+    return rng.normal(size=2) / 10, _normalise(rng.random(n)), points, rng.normal(size=2) / 10
 
 
 TWO_ARROWS = Exercise(
     two_arrows,
-    _planned,
+    _draw_plan,
     {
         "Your arrows point the other way: the first goes *to* the target.": (
             lambda target, w, points, reached: -two_arrows(target, w, points, reached)
@@ -75,7 +75,7 @@ TWO_ARROWS = Exercise(
             [target - w @ points, target - reached]
         ),
         "You took the mean of the points. Eq. 4 weighs them.": lambda target, w, points, reached: (
-            two_arrows(target, _normed(np.ones(len(w))), points, reached)
+            two_arrows(target, _normalise(np.ones(len(w))), points, reached)
         ),
     },
 )

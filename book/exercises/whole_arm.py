@@ -16,7 +16,7 @@ def _muscles(rng):
     return torque.round(1), rng.permutation(np.append(bend, -straighten))
 
 
-def _in_proportion(torque, gain, shares):
+def _share_torque(torque, gain, shares):
     """The activations in proportion to `shares` that give the torque."""
     return torque * shares / (gain @ shares)
 
@@ -26,18 +26,18 @@ ONE_JOINT = Exercise(
     _muscles,
     {
         "Some of your muscles push. Leave out those that turn the joint the other way.": (
-            lambda torque, gain: _in_proportion(torque, gain, gain)
+            lambda torque, gain: _share_torque(torque, gain, gain)
         ),
         "You cut off what pushes at the end, and the torque is no longer right. Leave those "
         "muscles out first, then share.": (
-            lambda torque, gain: np.maximum(_in_proportion(torque, gain, gain), 0)
+            lambda torque, gain: np.maximum(_share_torque(torque, gain, gain), 0)
         ),
         "All that help are equally active. The squares sum to less when a muscle that turns more "
         "is more active.": (
-            lambda torque, gain: _in_proportion(torque, gain, 1.0 * (torque * gain > 0))
+            lambda torque, gain: _share_torque(torque, gain, 1.0 * (torque * gain > 0))
         ),
         "One muscle does it all. The squares add up to less when all that help share.": (
-            lambda torque, gain: _in_proportion(
+            lambda torque, gain: _share_torque(
                 torque, gain, np.eye(len(gain))[(torque * gain).argmax()]
             )
         ),

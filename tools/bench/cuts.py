@@ -10,7 +10,7 @@ import cv2
 import numpy as np
 
 from tools.bench.report import publish
-from tools.bench.selective_search import DRAWS, SMALLEST, opencv, outdoors, renders
+from tools.bench.selective_search import DRAWS, SMALLEST, opencv_orders, real_photos, renders
 from vmc_lib import photos
 from vmc_lib.boxes import MIN_IOU, iou
 from vmc_lib.where.appearance import COLOUR_SPACES, colour_codes, describe, texture_codes
@@ -65,8 +65,10 @@ def bootstrap_over_photos(differences, rng):
 
 if __name__ == "__main__":
     rows = []
-    for name, pictures in {"renders": renders(), "real photos": outdoors()}.items():
-        shots = [(p.image, list(p.boxes.values()), opencv(p.image, "single")[0]) for p in pictures]
+    for name, pictures in {"renders": renders(), "real photos": real_photos()}.items():
+        shots = [
+            (p.image, list(p.boxes.values()), opencv_orders(p.image, "single")[0]) for p in pictures
+        ]
         for cut_name, settings in CUTS.items():
             counts, differences = zip(
                 *(recall_difference(*shot, **settings) for shot in shots), strict=True

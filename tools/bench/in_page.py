@@ -34,7 +34,7 @@ LIFE = """async (seconds) => {
 }"""
 
 
-def in_page(name, reaches):
+def measure_arm(name, reaches):
     """Seconds from the click to an arm, drawn frames a second, seconds of its life in one second.
 
     An arm that `reaches` is drawn in one reach after the other, any other runs by itself.
@@ -77,9 +77,9 @@ def main():
     """Measure both arms in one run."""
     still = np.tile(np.full(6, 0.1), (COUNT, 1))
     spent = seconds(lambda: simulate(still, templates.START, engine="mujoco"), repeats=3)
-    six = row("six muscles", in_page("08_arm", reaches=False), COUNT * STEP / spent)
+    six = row("six muscles", measure_arm("08_arm", reaches=False), COUNT * STEP / spent)
     python = seconds_per_second(habits.muscle_synergies())
-    publish("in_page", [six, row("whole", in_page("15_whole_arm", reaches=True), python)])
+    publish("in_page", [six, row("whole", measure_arm("15_whole_arm", reaches=True), python)])
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 """From a photo to the first movement: how long each stage takes, beside OpenCV's search alone."""
 
 from tools.bench.report import publish, seconds
-from tools.bench.selective_search import opencv
+from tools.bench.selective_search import opencv_orders
 from vmc_lib import loop, photos
 from vmc_lib.cerebellum.offline import algorithm_1, broyden_calibration
 from vmc_lib.motor.execution import execute
@@ -28,7 +28,7 @@ def stages(model, photo):
 
 if __name__ == "__main__":
     photo = photos.load("free", "validation")[1]
-    peer = seconds(lambda: opencv(photo.image, "fast"))
+    peer = seconds(lambda: opencv_orders(photo.image, "fast"))
     times = {
         name: seconds(call)
         for name, call in stages(loop.VisuomotorModel.load("free"), photo).items()

@@ -27,7 +27,7 @@ def load():
     return opensim.Model(os.environ["ARM26"])
 
 
-def put(model, q):
+def state_in_posture(model, q):
     """The model's state, at rest in posture q (2,), and its two coordinates."""
     state = model.initSystem()
     joints = [model.getCoordinateSet().get(name) for name in JOINTS]
@@ -49,7 +49,7 @@ def geometry(model):
     """Lengths, moment arms and wrist over a grid of postures, the jumps of its paths included."""
     muscles = [model.getMuscles().get(name) for name in MUSCLES]
     wrist = model.getMarkerSet().get("r_radius_styloid")
-    state, joints = put(model, (0, 0))
+    state, joints = state_in_posture(model, (0, 0))
     rows = {"q": [], "lengths": [], "arms": [], "wrist": []}
     for q in np.radians([(a, b) for a in range(-90, 91, 5) for b in range(0, 131, 10)]):
         for joint, angle in zip(joints, q, strict=True):
@@ -66,7 +66,7 @@ def swing(q):
     """Where the arm without muscles is half a second after it was let go in posture q."""
     model = load()
     model.updForceSet().clearAndDestroy()
-    return run(model, *put(model, q), [0.5], 1e-11)[0]
+    return run(model, *state_in_posture(model, q), [0.5], 1e-11)[0]
 
 
 def excited_model(excitations, elastic):
@@ -99,7 +99,7 @@ def excited_model(excitations, elastic):
 def movement(levels, elastic):
     """Joint angles (60, 2), every 10 ms, that constant excitations (6,) give; from (0°, 60°)."""
     model = excited_model(constant_excitation(levels, 0.6), elastic)
-    state, joints = put(model, np.radians([0, 60]))
+    state, joints = state_in_posture(model, np.radians([0, 60]))
     model.equilibrateMuscles(state)
     return run(model, state, joints, 0.01 * np.arange(1, 61), 1e-7)
 

@@ -28,13 +28,13 @@ SMALLEST, DRAWS = 20, 10
 SIZES = [(150, 100), (300, 200), (600, 400), (1200, 800), (2100, 1400), (3000, 2000)]
 
 
-def ours(image, strategy):
+def our_orders(image, strategy):
     """Boxes (n, 4), in the order of every draw."""
     trees = list(hierarchies(image, STRATEGIES[strategy]))
     return [rank_boxes(trees, np.random.default_rng(draw), SMALLEST) for draw in range(DRAWS)]
 
 
-def opencv(image, strategy):
+def opencv_orders(image, strategy):
     search = cv2.ximgproc.segmentation.createSelectiveSearchSegmentation()
     search.setBaseImage(np.ascontiguousarray(image[..., ::-1]))
     {
@@ -45,7 +45,7 @@ def opencv(image, strategy):
     return [large_boxes(search.process())]
 
 
-def pypi(image, _):
+def pypi_orders(image, _):
     """With the settings of its README; its last region, the largest, first."""
     from selectivesearch import selective_search  # here, for it would weigh on the others' memory
 
@@ -62,7 +62,11 @@ def large_boxes(rects):
     return np.hstack([rects[:, :2], rects[:, :2] + rects[:, 2:]])
 
 
-METHODS = {"ours": ours, "OpenCV contrib": opencv, "PyPI selectivesearch": pypi}
+METHODS = {
+    "ours": our_orders,
+    "OpenCV contrib": opencv_orders,
+    "PyPI selectivesearch": pypi_orders,
+}
 ENTRANTS = {"single": list(METHODS), "fast": list(METHODS)[:2], "quality": list(METHODS)[:2]}
 
 
@@ -147,7 +151,7 @@ def renders():
     return [photo for kind in kinds for photo in photos.load(*kind)[:20]]
 
 
-def outdoors():
+def real_photos():
     """Photos that no renderer made, in which something is boxed."""
     return [p for p in (*photos.everyday(), *photos.load(photos.REAL_LEVEL, "train")) if p.boxes]
 
@@ -170,7 +174,7 @@ def growth(method):
 
 
 if __name__ == "__main__":
-    sets = {"renders": renders(), "real photos": outdoors()}
+    sets = {"renders": renders(), "real photos": real_photos()}
     one = photo_mosaic(600, 400)
     costs = {
         (s, m): process_cost(m, s, one)[0] for s, entrants in ENTRANTS.items() for m in entrants

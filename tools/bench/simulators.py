@@ -17,7 +17,7 @@ import mujoco
 import numpy as np
 from mujoco import rollout
 
-from tools.bench.opensim_reference import excited_model, put, run
+from tools.bench.opensim_reference import excited_model, run, state_in_posture
 from tools.bench.report import publish, seconds
 from vmc_lib.arm.model import F0, L0, MUSCLES, SLACK, STEP, XML
 from vmc_lib.arm.simulate import simulate
@@ -28,15 +28,15 @@ BATCHES = (1, 20, 500)
 FINE = 20  # small steps in one of ours
 
 
-def opensim(accuracy):
+def opensim_run(accuracy):
     """Ends of the reach (1, 2) in OpenSim's own arm, as a function to be timed."""
     model = excited_model(REACH, elastic=True)
-    state, joints = put(model, START)
+    state, joints = state_in_posture(model, START)
     model.equilibrateMuscles(state)
     return lambda: run(model, state, joints, [1.0], accuracy)
 
 
-def native(batch, finer=1):
+def native_run(batch, finer=1):
     """Ends (batch, 2) in our arm with MuJoCo's own muscles, by its rollout, to be timed."""
     spec = mujoco.MjSpec.from_string(XML)
     for name, force, fibre, slack in zip(MUSCLES, F0, L0, SLACK, strict=True):
@@ -54,20 +54,20 @@ def native(batch, finer=1):
     return lambda: rollout.rollout(model, data, states, excitations)[0][:, -1, 1:3]
 
 
-def ours(engine, batch, finer=1):
+def our_run(engine, batch, finer=1):
     """Ends (batch, 2) in our arm with the paper's muscles, to be timed."""
     excitations = np.tile(REACH.repeat(finer, 0), (batch, 1, 1))
     return lambda: simulate(excitations, START, engine=engine, step=STEP / finer).q[:, -1]
 
 
 def main():
-    finest = opensim(1e-9)()
+    finest = opensim_run(1e-9)()
     accuracies = (1e-3, 1e-4, 1e-5, 1e-6)
-    runs = [(f"OpenSim, accuracy {a:.0e}", 1, opensim(a), finest) for a in accuracies]
+    runs = [(f"OpenSim, accuracy {a:.0e}", 1, opensim_run(a), finest) for a in accuracies]
     for name, make in {
-        "MuJoCo, its own muscle": native,
-        "ours, MuJoCo": partial(ours, "mujoco"),
-        "ours, compiled": partial(ours, "compiled"),
+        "MuJoCo, its own muscle": native_run,
+        "ours, MuJoCo": partial(our_run, "mujoco"),
+        "ours, compiled": partial(our_run, "compiled"),
     }.items():
         finest = make(1, FINE)()
         runs += [(name, batch, make(batch), finest) for batch in BATCHES]
