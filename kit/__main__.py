@@ -20,7 +20,7 @@ from kit.page import markdown_page, write_assets
 from kit.plan import plans
 from kit.qti import package
 from kit.slides import build as slides
-from kit.student import alive, student
+from kit.student import keep_links, student
 
 ROOT = Path(__file__).parents[1]
 NOT_GRADED = """// Predictions: nobody should be graded for them. Set the quiz's maximum grade to 0.
@@ -63,7 +63,7 @@ def write_notebooks(folder):
     students = folder / "students"
     students.mkdir()
     for page in pages:
-        text = alive(page.read_text(encoding="utf-8"), files)
+        text = keep_links(page.read_text(encoding="utf-8"), files)
         (students / page.name).write_text(text, encoding="utf-8")
     shutil.copy(ROOT / "book/references.bib", students)
     for chapter in CHAPTERS:
@@ -76,7 +76,7 @@ def write_notebooks(folder):
 
 def write_texts(folder, pages):
     """Write what a teacher reads, as pages: the first page, the key, the plans, three handouts."""
-    keys = [alive(key(notebook, page), ()) for _, notebook, page in chapters(pages)]
+    keys = [keep_links(key(notebook, page), ()) for _, notebook, page in chapters(pages)]
     texts = {"key": "\n".join(keys), "plan": plans(), "index": index()}
     texts["equations"] = "\n\n".join(["# The equations", *numbered_equations().values()])
     for name in ("projects", "assistants"):
@@ -119,11 +119,11 @@ def index():
     cells = nbformat.read(ROOT / "book/teaching.ipynb", as_version=4).cells
     text = next(cell.source for cell in cells if "`make kit` writes" in cell.source)
     listed = re.search(r"`make kit` writes.+\n\n((?:- .+\n(?:  .+\n)*)+)", text)[1]
-    listed = re.sub(r"`(.+)1\.html` to `\1(\d)\.html`", _each, listed)
+    listed = re.sub(r"`(.+)1\.html` to `\1(\d)\.html`", _deck_names, listed)
     return "# The kit\n\n" + re.sub(r"`([\w/.-]+(?:\.html|\.ipynb|/))`", r"[\1](\1)", listed)
 
 
-def _each(found):
+def _deck_names(found):
     """The names of all decks, in place of the first and the last."""
     return ", ".join(f"`{found[1]}{number}.html`" for number in range(1, int(found[2]) + 1))
 

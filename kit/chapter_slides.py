@@ -77,7 +77,9 @@ class Chapter(NamedTuple):
         """A slide for each section's equations of these numbers."""
         slides = {}
         for place, (heading, part) in enumerate(self.blocks):
-            if _is(part, "math") and numbers & {*map(int, EQUATION_NUMBER.findall(str(part)))}:
+            if _has_class(part, "math") and numbers & {
+                *map(int, EQUATION_NUMBER.findall(str(part)))
+            }:
                 if heading not in slides:
                     words = _words_of(self.blocks, place)
                     notes = _texts(self.blocks, heading)
@@ -104,14 +106,14 @@ def chapter_slides(article, headings=None):
     notes = [*aims, f"<details><summary>Sources</summary>{cited}</details>"]
     first = Slide([title, idea], notes, MINUTE)
     heading, *text = last.find_all(["h2", "p", "ul"], recursive=False)
-    left = [_left_open(words) for words in last.select("p > strong")[-1:]]
+    left = [_open_question(words) for words in last.select("p > strong")[-1:]]
     gist, *more = sentences(text[0])
     gist = f"<p>{' '.join([gist, *more[: len(gist.split()) < SHORT]])}</p>"
     recap = Slide([heading, gist, *left, *exercises], text)
     blocks = [*_blocks(article)]
     if headings is not None:
-        shown = {*map(_plain, headings)}
-        blocks = [one for one in blocks if _plain(one[0].get_text()) in shown]
+        shown = {*map(_bare_title, headings)}
+        blocks = [one for one in blocks if _bare_title(one[0].get_text()) in shown]
     demos = [*_pairs(blocks)]
     wiring = [one for one in demos if len(one[1]) == 1 and WIRING in blocks[one[0]][0].get_text()]
     asked = [one for one in demos if len(one[1]) > 1]
@@ -122,7 +124,7 @@ def chapter_slides(article, headings=None):
     return Chapter(first, wiring, asked, others, quiz, recap, blocks, cells)
 
 
-def _left_open(words):
+def _open_question(words):
     """A paragraph of what a recap has in bold: a question, or "Next:" with what it asks."""
     follows = []
     if words.get_text().strip().endswith(":"):
@@ -134,7 +136,7 @@ def _is_link(part):
     return isinstance(part, Tag) and part.has_attr("data-to")
 
 
-def _plain(title):
+def _bare_title(title):
     """A title without the chapter's number, and with plain apostrophes."""
     return re.sub(r"^\d+\. ", "", title.strip()).replace("’", "'")
 
@@ -157,26 +159,26 @@ def _remove_exercises(article):
 
 def _blocks(section):
     """The elements of a section and of those in it, each with the heading above it."""
-    heading, *rest = _unfolded(section)
+    heading, *rest = _unfold(section)
     for part in rest:
         if part.name != "section":
             yield heading, part
-        elif not _is(part, "vmc-optional"):
+        elif not _has_class(part, "vmc-optional"):
             yield from _blocks(part)
 
 
-def _unfolded(section):
+def _unfold(section):
     """The elements of a section: outputs out of their cells, without what is folded."""
     for part in section.find_all(recursive=False):
-        if _is(part, "tag_off-slides"):
+        if _has_class(part, "tag_off-slides"):
             continue
         if WRAPPERS & {*part.get("class", [])}:
-            yield from _unfolded(part)
+            yield from _unfold(part)
         elif part.name not in ("details", "span"):  # folded; where a link leads
             yield part
 
 
-def _is(part, kind):
+def _has_class(part, kind):
     return kind in part.get("class", ())
 
 
@@ -202,7 +204,7 @@ def _pairs(blocks):
         box, under = box if heading is under else None, heading
         if part.select_one(".vmc-predict"):
             box = part
-        elif _is(part, "vmc-demo"):
+        elif _has_class(part, "vmc-demo"):
             if heading.name == "h1":
                 below = (p for h, p in blocks[place:] if h is heading)
                 box = box or next((p for p in below if p.select_one(".vmc-predict")), None)

@@ -162,8 +162,8 @@ def main(arguments=None):
     asked = parser.parse_args(arguments)
     if asked.simulate is not None and asked.simulate < 3:
         parser.error("--simulate: three or more")
-    if not asked.files and not asked.simulate:
-        parser.error("give the files with the class's lines, or --simulate")
+    if bool(asked.files) == (asked.simulate is not None):
+        parser.error("give the files with the class's lines, or --simulate, and not both")
     try:
         text = "\n".join(file.read_text(encoding="utf-8") for file in asked.files)
         if asked.simulate:

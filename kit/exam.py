@@ -86,24 +86,24 @@ def sheet(questions, key=False):
     title, first = ("Key of the exam", "") if key else ("Exam", HEAD)
     parts = [f"# {title}\n\n{first}{len(questions)} questions."]
     for number, ((chapter, _), [question, *_]) in enumerate(questions.items(), start=1):
-        lines = [f"**{number}.** {_plain(question.prompt)} *(chapter {int(chapter[:2])})*"]
+        lines = [f"**{number}.** {_escape(question.prompt)} *(chapter {int(chapter[:2])})*"]
         if question.picture:
             data = b64encode(question.picture.png).decode()
-            lines.append(f"![{_plain(question.picture.alt)}](data:image/png;base64,{data})")
+            lines.append(f"![{_escape(question.picture.alt)}](data:image/png;base64,{data})")
         if question.choices:
-            lines.append("\n".join(f"- ☐ {_plain(choice)}" for choice in question.choices))
+            lines.append("\n".join(f"- ☐ {_escape(choice)}" for choice in question.choices))
         elif not key:
             lines.append(FIELD)
         if key:
-            lines.append(f"**{_answer(question)}.** {_plain(question.hint)}")
-        parts.append(_whole(*lines))
+            lines.append(f"**{_answer(question)}.** {_escape(question.hint)}")
+        parts.append(_unbroken_block(*lines))
     named = equations_named("\n".join(parts))
     if equations := [text for number, text in numbered_equations().items() if number in named]:
-        parts += ["## The equations", *map(_whole, equations)]
+        parts += ["## The equations", *map(_unbroken_block, equations)]
     return "\n\n".join(parts) + "\n"
 
 
-def _whole(*parts):
+def _unbroken_block(*parts):
     """Markdown that no end of a page parts."""
     return "\n\n".join(['<div class="whole">', *parts, "</div>"])
 
@@ -123,12 +123,12 @@ def numbered_equations():
 
 def _answer(question):
     if question.choices:
-        return _plain(question.answer)
+        return _escape(question.answer)
     near = f" ± {question.decimal(question.tolerance)}" if question.tolerance else ""
     return f"{question.decimal(question.answer)}{near} {question.unit}".strip()
 
 
-def _plain(text):
+def _escape(text):
     """Plain text as Markdown in which nothing is a mark."""
     return "".join(f"\\{sign}" if sign in r"\`*_{}[]<>$|#" else sign for sign in text)
 

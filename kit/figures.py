@@ -53,7 +53,7 @@ def build(folder, pages):
 def pictures(figure, line):
     """The pictures of a figure, HTML, as [(ending, bytes)]."""
     figure = re.sub(r"<script.*?</script>", "", figure, flags=re.S)
-    drawn = [("svg", _alone(svg, line).encode()) for svg in _drawings(figure)]
+    drawn = [("svg", _svg_file(svg, line).encode()) for svg in _drawings(figure)]
     return drawn + [(end, b64decode(data)) for end, data in PHOTO.findall(figure)]
 
 
@@ -69,7 +69,7 @@ def _drawings(html):
             start, depth = start if depth else tag.start(), depth + 1
 
 
-def _alone(svg, line):
+def _svg_file(svg, line):
     """A drawing as a file: its colours as in the light, and the licence in its description."""
     head, body = COLOUR.sub(lambda found: COLOURS[found[1]], svg).split(">", 1)
     space = "" if "xmlns=" in head else ' xmlns="http://www.w3.org/2000/svg"'

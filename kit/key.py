@@ -60,11 +60,11 @@ def answers(page):
         while form is None and (after := after.find_next_sibling()) is not solution:
             form = after.select_one("form[data-check]")
         printed = solution.select(".cell_output :is(table, p:not(table p))")
-        found[exercise["id"]] = _wanted(form) if form else "", "\n\n".join(map(str, printed))
+        found[exercise["id"]] = _answer_of(form) if form else "", "\n\n".join(map(str, printed))
     return found
 
 
-def _wanted(form):
+def _answer_of(form):
     """What a field accepts, and what it says to another answer."""
     check, words = json.loads(form["data-check"]), json.loads(form["data-words"])
     values = check["expected"] if isinstance(check["expected"], list) else [check["expected"]]
@@ -88,14 +88,14 @@ def _exercises(notebook, found):
                 wanted, printed = found[label]
                 yield f"### Exercise `{label}`\n\n{EXERCISE.sub('', text)}{wanted}"
             elif solving and (graded := SOLUTION.fullmatch(text)):
-                yield from _graded(exercise_named(notebook, graded[1]))
+                yield from _solution_of(exercise_named(notebook, graded[1]))
             elif solving:
                 yield text if cell.cell_type == "markdown" else f"```python\n{text}\n```"
         if solving and printed:
             yield f"It prints:\n\n{printed}"
 
 
-def _graded(exercise):
+def _solution_of(exercise):
     """The right function of a graded exercise, and what the page says to the known mistakes."""
     yield f"```python\n{source(exercise).strip()}\n```"
     if exercise.mistakes:

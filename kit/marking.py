@@ -38,13 +38,13 @@ def mark_of(outputs, known):
     text = "".join(output.get("data", {}).get("text/html", "") for output in outputs)
     if RIGHT in text:
         return RIGHT_MARK
-    hints = [f"{KNOWN}{_plain(hint)}" for hint in known if inline(hint) in text]
+    hints = [f"{KNOWN}{_hint_text(hint)}" for hint in known if inline(hint) in text]
     unmarked = {NOT_YET: "not answered", COMMA: f"not read: write it {COMMA}", UNREAD: "not read"}
     states = [state for words, state in unmarked.items() if words in text]
     return " ".join(errors(outputs) or hints[:1] or states[:1]) or "not right"
 
 
-def _plain(hint):
+def _hint_text(hint):
     """A hint, Markdown, without marks; of its maths the letters and the names: "tau_act ≥ u"."""
     text = re.sub(r"\\math\w+ ?|[{}$*`]", "", hint)
     text = re.sub(r"(?<=\d)(?=\\)", " ", text)

@@ -62,7 +62,7 @@ def marks(chapter, submission, cell_limit=CELL, limit=NOTEBOOK):
         ran.append(cell)  # since the last check
         if label and results[label] != RIGHT_MARK:  # of two copies, one that is right will do
             mark = _cause(mark_of(cell.outputs, known.get(label, ())), ran)
-            slow = any(map(_interrupted, ran))
+            slow = any(map(_was_interrupted, ran))
             mark = TOO_LONG.format(cell_limit) if slow and not points(mark) else mark
             results[label] = mark if label not in gone or mark == RIGHT_MARK else mark + GONE
         if label:
@@ -77,7 +77,7 @@ def _cause(mark, cells):
     return next((error for cell in named for error in errors(cell.outputs)), mark)
 
 
-def _interrupted(cell):
+def _was_interrupted(cell):
     return any(output.get("ename") == "KeyboardInterrupt" for output in cell.outputs)
 
 
@@ -173,7 +173,7 @@ def _notebook(text):
         raise ValueError("it holds no notebook") from error
 
 
-def by_file(several):
+def file_row(several):
     """The rows of one hand-in as one row: its points, what is not right, and what is to be read."""
     *exercises, (path, _, earned, of, error) = several
     wrong = [
@@ -200,7 +200,7 @@ def main():
         parser.error("--jobs: give 1 or more")
     if missing := [folder for folder in options.folders if not folder.exists()]:
         sys.exit(f"there is no folder {missing[0]}")
-    found = sorted(path for folder in options.folders for path in (folder, *folder.rglob("*")))
+    found = sorted({path for folder in options.folders for path in (folder, *folder.rglob("*"))})
     own = [path for path in found if ".ipynb_checkpoints" not in path.parts]
     named = [path for path in own if path.suffix.lower() == ".ipynb"]
     handed_in = [path for path in named if path.is_file() or not path.exists()]  # or a dead link
@@ -216,7 +216,7 @@ def main():
     table.writerow(BY_FILE if options.by == "file" else COLUMNS)
     marked = Parallel(options.jobs, return_as="generator")(map(delayed(rows), handed_in))
     for several in marked:
-        for row in by_file(several) if options.by == "file" else several:
+        for row in file_row(several) if options.by == "file" else several:
             table.writerow(map(plain, row))
         sys.stdout.flush()
 

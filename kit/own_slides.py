@@ -55,6 +55,7 @@ def put_in(deck, own):
             shown = FIGURE_NUMBER.findall(str(slide.body))
             figures += shown
             deck[part] += [slide, *(mine for figure in shown for mine in left.pop(figure, ()))]
-    for figure in left:
-        places = ", ".join(figures)
-        raise ValueError(f"no slide shows Figure {figure}: put yours after one of {places}")
+    if left:
+        raise ValueError(
+            f"no slide shows Figure {next(iter(left))}: put yours after one of {', '.join(figures)}"
+        )

@@ -117,10 +117,12 @@ def _item(name, question):
     score = {"varname": "SCORE", "vartype": "Decimal", "minvalue": "0", "maxvalue": "100"}
     full = element("setvar", text="100", action="Set", varname="SCORE")
     texts = {f"choice{k}": text for k, text in enumerate(question.feedback)}
-    chosen = [_shows(element("varequal", text=k, respident="response1"), f"{k}_fb") for k in texts]
+    chosen = [
+        _show_feedback(element("varequal", text=k, respident="response1"), f"{k}_fb") for k in texts
+    ]
     feedback = {f"{k}_fb": text for k, text in texts.items()}
     if question.hint:
-        chosen.insert(0, _shows(element("other"), "general_fb"))
+        chosen.insert(0, _show_feedback(element("other"), "general_fb"))
         feedback["general_fb"] = question.hint
     return element(
         "item",
@@ -141,7 +143,7 @@ def _item(name, question):
     )
 
 
-def _shows(condition, ident):
+def _show_feedback(condition, ident):
     """What is shown after an answer, whatever its score."""
     shown = element("displayfeedback", feedbacktype="Response", linkrefid=ident)
     return element(

@@ -136,9 +136,9 @@ class Template:
         numbers = {name: _draw(parameter.default, rng) for name, parameter in parameters}
         answer = self.formula(**numbers)
         answer, words = answer if isinstance(answer, tuple) else (answer, {})
-        names = {name: _plain(value) for name, value in (numbers | words).items()}
+        names = {name: _as_list(value) for name, value in (numbers | words).items()}
         names = ChainMap(names, self.formula.__globals__)
-        text = _filled(self.formula, names)
+        text = _fill(self.formula, names)
         picture = self._picture(numbers, names) if self.draw else None
         if self.choices:
             choices = tuple(choice.format_map(names) for choice in self.choices)
@@ -157,7 +157,7 @@ class Template:
     def _picture(self, numbers, names):
         _, *drawn = signature(self.draw).parameters  # the first are the axes
         shown = {name: numbers[name] for name in drawn}
-        return Picture(_filled(self.draw, names), shown, self.draw)
+        return Picture(_fill(self.draw, names), shown, self.draw)
 
     def variants(self, count=VARIANTS, seed="", without=()):
         """The first `count` questions that differ, the same at every call with this `seed`.
@@ -179,7 +179,7 @@ class Template:
         raise ValueError(f"{self.name} has no {count} variants: let it draw from more numbers")
 
 
-def _filled(function, names):
+def _fill(function, names):
     """A function's docstring as one line, with names in braces filled in."""
     return " ".join(function.__doc__.split()).format_map(names)
 
@@ -188,7 +188,7 @@ def _draw(domain, rng):
     return domain(rng) if callable(domain) else domain[rng.integers(len(domain))]
 
 
-def _plain(value):
+def _as_list(value):
     """An array as a list, which prints without NumPy's name."""
     return value.tolist() if isinstance(value, np.ndarray) else value
 

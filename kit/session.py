@@ -37,14 +37,16 @@ def deck(title, chapters, read, runs, plan):
     for name in chapters.keys() - {*read}:
         chapters[name].wiring.clear()
     parts = {
-        "Begin": _timed([begin], fixed["Begin"]),
-        "In class": _in_class(in_class, chapters),
+        "Begin": _share_time([begin], fixed["Begin"]),
+        "In class": _class_slides(in_class, chapters),
         "Predict and drag": [],
-        "One equation": _on_the_board(board, chapters),
-        "Break": _timed([_break(runs, fixed["Break"])], fixed["Break"]),
-        "One cell": [_cell(line, chapters)],
-        "Quiz": _timed(_quiz([chapters[name].quiz for name in read]), fixed["Quiz"]),
-        "Next": _timed([_next([chapters[name].recap for name in read], last)], fixed["Next"]),
+        "One equation": _board_slides(board, chapters),
+        "Break": _share_time([_break_slide(runs, fixed["Break"])], fixed["Break"]),
+        "One cell": [_cell_slide(line, chapters)],
+        "Quiz": _share_time(_quiz_slides([chapters[name].quiz for name in read]), fixed["Quiz"]),
+        "Next": _share_time(
+            [_next_slide([chapters[name].recap for name in read], last)], fixed["Next"]
+        ),
     }
     taken = sum(slide.seconds for slides in parts.values() for slide in slides)
     parts["Predict and drag"] = _predict(list(chapters.values()), MINUTE * MINUTES - taken)
@@ -73,14 +75,14 @@ def make_room(parts):
         slide.seconds = MINUTE
 
 
-def _timed(slides, seconds):
+def _share_time(slides, seconds):
     """Slides that share so many seconds."""
     for slide in slides:
         slide.seconds = seconds / len(slides)
     return slides
 
 
-def _lesson(item):
+def _lesson_slide(item):
     """The slide of a part that the page on teaching names, and what it says after a sentence."""
     name, minutes = TIMED.search(item.em.get_text()).groups()
     notes = copy(item)
@@ -89,25 +91,28 @@ def _lesson(item):
     return Slide([f"<h2>{name}</h2>", f"<p>{first}</p>"], [notes], MINUTE * int(minutes)), rest
 
 
-def _in_class(item, chapters):
+def _class_slides(item, chapters):
     """Its slide, and the demos to which it has links, each by its section or by its chapter.
 
     The slide itself leads to a page of the kit that the item names. The last demo takes half.
     """
     links = [(link["data-to"].split(".html")[0], link) for link in item.select("[data-to]")]
     pages = dict.fromkeys(re.findall(r"\w+\.html", item.get_text()))
-    slide, _ = _lesson(item)
+    slide, _ = _lesson_slide(item)
     slide.body += [f'<p><a href="../{page}" target="_blank">{page}</a></p>' for page in pages]
     demos = [one for name, link in links for one in chapters[name].demo_of(link.get_text())]
     slide.active = True
     half = slide.seconds / 2 if demos else 0
-    return [*_timed([slide, *demos[:-1]], slide.seconds - half), *_timed(demos[-1:], half)]
+    return [
+        *_share_time([slide, *demos[:-1]], slide.seconds - half),
+        *_share_time(demos[-1:], half),
+    ]
 
 
-def _on_the_board(item, chapters):
+def _board_slides(item, chapters):
     """The equations that it names, then its question, with them and the answer step by step."""
     numbers = equations_named(item.get_text())
-    slide, steps = _lesson(item)
+    slide, steps = _lesson_slide(item)
     equations = [one for chapter in chapters.values() for one in chapter.equations(numbers)]
     lines = [part for one in equations for part in one.body[2:]]
     text = "".join(f'<p class="fragment">{step}</p>' for step in steps)
@@ -119,10 +124,10 @@ def _on_the_board(item, chapters):
     return [*equations, slide]
 
 
-def _cell(item, chapters):
+def _cell_slide(item, chapters):
     """Its question, with the cell of the chapters that it quotes, the line in it marked."""
     line = item.code.get_text() if item.code else None
-    slide, _ = _lesson(item)
+    slide, _ = _lesson_slide(item)
     slide.active = True
     cells = [cell for chapter in chapters.values() for cell in chapter.cells]
     for cell in [cell for cell in cells if line and line in cell.get_text()][:1]:
@@ -137,12 +142,12 @@ def _cell(item, chapters):
     return slide
 
 
-def _break(runs, seconds):
+def _break_slide(runs, seconds):
     [item] = (item for item in runs.select("li") if "Break" in item.strong.get_text())
     return Slide(["<h2>Break</h2>", f"<p>{seconds // MINUTE} minutes.</p>"], [copy(item)])
 
 
-def _quiz(quizzes):
+def _quiz_slides(quizzes):
     """Two questions: of two chapters the last and the middle one, of one its first and last.
 
     None of these asks of what is left out of a chapter that is read in part.
@@ -153,7 +158,7 @@ def _quiz(quizzes):
     return [first[-1], second[len(second) // 2]]
 
 
-def _next(recaps, last):
+def _next_slide(recaps, last):
     """What the chapters that were read say in a sentence, and what the last one leaves open."""
     heading, gist, *asked = last.recap.body
     gists = [recap.body[1] for recap in recaps if recap is not last.recap] + [gist]

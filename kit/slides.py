@@ -83,10 +83,10 @@ def sessions(pages, lecturers):
             session.make_room(parts)
         parts["Begin"][0].notes.insert(0, session.clock(parts))
         yield title, [slide for slides in parts.values() for slide in slides]
-    yield REST, _rest([chapter_slides(_article(pages / f"{name}.html")) for name in MORE])
+    yield REST, _rest_deck([chapter_slides(_article(pages / f"{name}.html")) for name in MORE])
 
 
-def _rest(chapters):
+def _rest_deck(chapters):
     """The deck of the chapters that no session has: no quiz, and the last recap."""
     items = "".join(f"<li>{chapter.title.body[0].get_text()}</li>" for chapter in chapters)
     texts = [slide for chapter in chapters for slide in chapter.text(4)]
@@ -103,13 +103,13 @@ def _article(path):
     for part in article.select("a.headerlink"):
         part.decompose()
     for link in article.select(".bibtex-citation a[title]"):
-        link.name, link.string = "cite", _short(link["title"])
+        link.name, link.string = "cite", _short_citation(link["title"])
     for link in article.select("a"):
         link.name, link.attrs = "span", {"data-to": link["href"]}
     return article
 
 
-def _short(source):
+def _short_citation(source):
     """The first author's last name and the year of a source that is written out."""
     author, *_ = re.split(r",| and |(?<!\b[A-Z])\. ", source)
     return " ".join([author.split()[-1], *re.findall(r"[ ,](\d{4})\.(?= |$)", source)[:1]])

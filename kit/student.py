@@ -47,7 +47,7 @@ def student(notebook, files=None):
     for cell in notebook.cells:
         if solves(cell):
             if label and not sources[label]:
-                cells.append(_graded(_words(label), label))
+                cells.append(_mark_graded(_words(label), label))
             label, graded = None, False
             continue
         graded = graded and "exercise" not in cell.metadata
@@ -57,17 +57,17 @@ def student(notebook, files=None):
         if cell.cell_type == "code":
             cell = nbformat.from_dict(cell | {"outputs": [], "execution_count": None})
             if label and cell.source == sources[label]:
-                cell = _graded(nbformat.from_dict(cell | {"source": place(label)}), label)
+                cell = _mark_graded(nbformat.from_dict(cell | {"source": place(label)}), label)
                 cell.metadata.jupyter = {}  # shown
                 label, graded = None, True
         else:
-            text = alive(cell.source, files).replace(GRADED_BELOW, CHECKED_LATER)
+            text = keep_links(cell.source, files).replace(GRADED_BELOW, CHECKED_LATER)
             cell = nbformat.from_dict(cell | {"source": text})
         cells.append(cell)
     return nbformat.from_dict(notebook | {"cells": cells})
 
 
-def alive(text, files=None):
+def keep_links(text, files=None):
     """Markdown whose links lead to `files` (names), or to all if None; other links become text."""
     return LINK.sub(lambda m: m[0] if files is None or m[2] in files else m[1], text)
 
@@ -76,7 +76,7 @@ def _words(label):
     return nbformat.v4.new_markdown_cell("*Your answer, in words:*", id=f"{label}-words")
 
 
-def _graded(cell, label):
+def _mark_graded(cell, label):
     cell.metadata.tags = [*cell.metadata.get("tags", []), "graded"]
     cell.metadata.exercise = label
     in_words = cell.cell_type == "markdown"

@@ -18,6 +18,7 @@ from contextlib import ExitStack, contextmanager, suppress
 from glob import glob
 
 from tests.pages import BUILT, patience
+from tests.project import listens
 
 NOT_TESTED = "NOT TESTED in {}: apt install firefox-esr webkit2gtk-driver xvfb"
 NOWHERE = "127.0.0.1:9"  # the proxy through which they would reach a network
@@ -154,16 +155,12 @@ class WebKit(Engine):
             self.port = free.getsockname()[1]
         driver = ["xvfb-run", "--auto-servernum", "WebKitWebDriver", f"--port={self.port}"]
         self.process = opened.enter_context(running(driver, self.folder / "log"))
-        wait(self._listens, self.process)
+        wait(lambda: listens(self.port), self.process)
         options = ["--automation", f"--proxy=http://{NOWHERE}"]
         wanted = {"webkitgtk:browserOptions": {"binary": self.program(), "args": options}}
         self.session = ""
         self.session = "/" + self._ask("", capabilities={"alwaysMatch": wanted})["sessionId"]
         self._ask("/timeouts", script=hang(), pageLoad=hang())
-
-    def _listens(self):
-        with socket.socket() as knock:
-            return knock.connect_ex(("127.0.0.1", self.port)) == 0
 
     def _ask(self, command, **parameters):
         address = f"http://127.0.0.1:{self.port}/session{self.session}{command}"

@@ -12,6 +12,7 @@ import nbformat
 import numpy as np
 
 from tests.pages import AXE, ROOT
+from tests.project import listens
 
 LONG_CHAPTER = [  # a demo, and a cell that runs until the reader says so
     """import time
@@ -69,11 +70,6 @@ def serve(home, *files):
     yield f"http://127.0.0.1:{port}"
     lab.terminate()
     lab.wait()
-
-
-def listens(port):
-    with socket.socket() as knock:
-        return knock.connect_ex(("127.0.0.1", port)) == 0
 
 
 def run(page, script, asked=None):

@@ -1,6 +1,7 @@
 """The project as its tests use it: where it is, its notebooks, and how its programs are run."""
 
 import os
+import socket
 import subprocess
 import sys
 from pathlib import Path
@@ -42,6 +43,12 @@ def run(*command, cwd=ROOT, **environment):
     done = subprocess.run(command, cwd=cwd, env=variables, capture_output=True, encoding="utf-8")
     assert done.returncode == 0, done.stdout + done.stderr
     return done.stdout
+
+
+def listens(port):
+    """Whether a program of this machine listens at a port."""
+    with socket.socket() as knock:
+        return knock.connect_ex(("127.0.0.1", port)) == 0
 
 
 def python(*arguments, **options):

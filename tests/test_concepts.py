@@ -58,6 +58,7 @@ def test_the_report_has_the_gain_and_what_is_still_thought():
     [
         (["nowhere.txt"], "nowhere.txt cannot be read: No such file"),
         ([], "give the files with the class's lines, or --simulate"),
+        (["--simulate", "3", "lines.txt"], "or --simulate, and not both"),
         (["--simulate", "0"], "--simulate: three or more"),
     ],
 )

@@ -339,7 +339,7 @@ def test_every_file_gets_its_rows(hand_in, tmp_path, table):
 
 @pytest.mark.usefixtures("book")
 def test_what_has_a_notebooks_name_but_is_none_is_said(tmp_path, table, capsys):
-    """A list, a label that is none, a dead link: a row each; a folder: a line."""
+    """A list, also asked twice, a label that is none, a dead link: a row each; a folder: a line."""
     folder = tmp_path / "in"
     (folder / "folder.ipynb").mkdir(parents=True)
     (folder / "list.ipynb").write_text("[]", encoding="utf-8")
@@ -347,7 +347,7 @@ def test_what_has_a_notebooks_name_but_is_none_is_said(tmp_path, table, capsys):
     for name, label in (("label", ["first"]), ("number", 7)):
         cell = new_code_cell("1", metadata={"exercise": label})
         nbformat.write(new_notebook(cells=[cell]), folder / f"{name}.ipynb")
-    rows = {name: row["mark"] for name, [row] in table(folder).items()}
+    rows = {name: row["mark"] for name, [row] in table(folder, folder / "list.ipynb").items()}
     assert rows["list.ipynb"] == "cannot be marked (ValueError: it holds no notebook)"
     assert "No such file" in rows["link.ipynb"]
     assert "no chapter has its first heading" in rows["label.ipynb"]

@@ -11,7 +11,7 @@ def curves(axes, x, named, across, up):
         axes.plot(x, heights, dash, label=name)
     if len(named) > 1:
         axes.legend()
-    _scaled(axes, across, up)
+    _label_axes(axes, across, up)
 
 
 def bars(axes, named, up, values="{:g}"):
@@ -31,7 +31,7 @@ def intervals(axes, named, across):
         axes.plot(middle, place, "C0o")
     axes.set_yticks(range(len(named)), named)
     axes.set_ylim(len(named) - 0.5, -0.5)
-    _scaled(axes, across, "")
+    _label_axes(axes, across, "")
 
 
 def points(axes, named, across, up, mark="o"):
@@ -41,7 +41,7 @@ def points(axes, named, across, up, mark="o"):
         axes.annotate(name, (x, y), (5, 4), textcoords="offset points")
     axes.set_aspect("equal", "datalim")
     axes.margins(0.2)
-    _scaled(axes, across, up)
+    _label_axes(axes, across, up)
 
 
 def boxes(axes, named):
@@ -51,9 +51,9 @@ def boxes(axes, named):
     axes.set_aspect("equal", "datalim")
     axes.invert_yaxis()
     axes.figure.legend(loc="outside right upper")
-    _scaled(axes, "pixels", "pixels")
+    _label_axes(axes, "pixels", "pixels")
 
 
-def _scaled(axes, across, up):
+def _label_axes(axes, across, up):
     axes.set(xlabel=across, ylabel=up)
     axes.grid(alpha=0.4)

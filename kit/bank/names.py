@@ -84,14 +84,14 @@ def read_a_table(table=table_of_names, what=("recall", "precision")):
 SAID = np.arange(0.55, 1, 0.1)  # what a recogniser says of its names
 
 
-def came_true(bend, noise):
+def share_right(bend, noise):
     """How often names that were said with these chances were right, (5,)."""
     return np.clip(SAID + bend * (SAID - 0.5) + noise, 0, 1).round(2)
 
 
 def reliability(axes, bend, noise):
     """Said and came true: {pairs}. A dashed line shows where both are the same."""
-    axes.plot(SAID, came_true(bend, noise), "o-", label="this recogniser")
+    axes.plot(SAID, share_right(bend, noise), "o-", label="this recogniser")
     axes.plot([0.5, 1], [0.5, 1], "k--", label="said = came true")
     axes.set(xlabel="chance that it says", ylabel="share that is right")
     axes.grid(alpha=0.4)
@@ -110,7 +110,7 @@ def honest_or_not(
 ):
     """A recogniser's chances against how often they came true, each from hundreds of test crops.
     How honest is it?"""
-    pairs = zip(SAID, came_true(bend, noise), strict=True)
+    pairs = zip(SAID, share_right(bend, noise), strict=True)
     words = {"pairs": "; ".join(f"{said:.2f} and {true:.2f}" for said, true in pairs)}
     return (0 if bend < 0 else 1 if bend > 0 else 2), words
 

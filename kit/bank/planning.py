@@ -131,11 +131,11 @@ def three_mixtures(four, weights):
     return np.array([weights @ four.points, four.points.mean(axis=0), weights[::-1] @ four.points])
 
 
-def uneven(rng):
+def draw_uneven_mixture(rng):
     """Four templates, and weights that mix them elsewhere than their middle."""
     four, weights = four_templates(rng), rng.permutation([0.6, 0.2, 0.1, 0.1])
     away = np.diff(three_mixtures(four, weights)[[0, 1, 2, 0]], axis=0)
-    return (four, weights) if np.linalg.norm(away, axis=1).min() > 0.8 else uneven(rng)
+    return (four, weights) if np.linalg.norm(away, axis=1).min() > 0.8 else draw_uneven_mixture(rng)
 
 
 def plane(axes, mix, order):
@@ -151,7 +151,7 @@ def plane(axes, mix, order):
 
 @picture(plane)
 @choice("A", "B", "C", hint="Each point times its weight, added: near those that weigh most.")
-def where_it_is_mixed_to(mix=uneven, order=lambda rng: rng.permutation(3)):
+def where_it_is_mixed_to(mix=draw_uneven_mixture, order=lambda rng: rng.permutation(3)):
     """Four templates (dots) have the weights beside them. At which cross is Σ w p?"""
     four, weights = mix
     said = zip(weights, four.points, strict=True)

@@ -121,7 +121,7 @@ def how_sure_is_a_share(photos=successes((20, 40, 80, 160)), end=("lower", "uppe
     return wilson(*photos)[end == "upper"]
 
 
-def scored(rng):
+def draw_scores(rng):
     """Scores of twelve boxes, one each tenth from -0.55 on, and which are hits; (12, 2)."""
     right = rng.random(12) < np.linspace(0.25, 0.9, 12)
     return np.column_stack([np.arange(12) / 10 - 0.55, right])
@@ -140,7 +140,7 @@ def score_line(axes, boxes):
 
 @picture(score_line)
 @count("hits", "Count the hits between the two thresholds.")
-def hits_lost(boxes=scored, low=steps(-0.6, 0.1, 0.1), rise=steps(0.2, 0.5, 0.1)):
+def hits_lost(boxes=draw_scores, low=steps(-0.6, 0.1, 0.1), rise=steps(0.2, 0.5, 0.1)):
     """Boxes above the threshold are called. It rises from {low:g} to {high:g}. How many hits are
     lost?"""
     between = (boxes[:, 0] > low) & (boxes[:, 0] < low + rise)

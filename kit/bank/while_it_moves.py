@@ -102,7 +102,7 @@ def forgetting(retention=(0.6, 0.8, 0.9, 0.95, 0.99), reaches=(2, 5, 10, 20)):
     return retention**reaches
 
 
-def held(a_fast, a_slow, b_fast, b_slow):
+def held_states(a_fast, a_slow, b_fast, b_slow):
     """What the fast and the slow memory hold in 30 reaches in a world that is off by 1, (2, 30)."""
     return adapt(np.ones(30), Rates((a_fast, a_slow), (b_fast, b_slow))).T
 
@@ -110,7 +110,7 @@ def held(a_fast, a_slow, b_fast, b_slow):
 def two_states(axes, a_fast, a_slow, b_fast, b_slow, swap):
     """What two memories hold, against the reach. In the tenth A holds {tenth[0]:.2f} and B
     {tenth[1]:.2f}, in the last A {last[0]:.2f} and B {last[1]:.2f}."""
-    a, b = held(a_fast, a_slow, b_fast, b_slow)[[swap, 1 - swap]]
+    a, b = held_states(a_fast, a_slow, b_fast, b_slow)[[swap, 1 - swap]]
     curves(axes, range(1, 31), {"A": a, "B": b}, "reach", "held")
 
 
@@ -120,7 +120,7 @@ def which_memory_is_fast(a_fast=A_FAST, a_slow=A_SLOW, b_fast=B_FAST, b_slow=B_S
     """A world is off by 1 in all 30 reaches, and two memories learn from the same errors. After the
     last reach comes a pause in which much is forgotten. Which memory forgets most of what it
     holds?"""
-    states = held(a_fast, a_slow, b_fast, b_slow)[[swap, 1 - swap]]
+    states = held_states(a_fast, a_slow, b_fast, b_slow)[[swap, 1 - swap]]
     return swap, {"tenth": states[:, 9], "last": states[:, -1]}
 
 
@@ -173,7 +173,7 @@ def what_slowed_it(start=STARTS, reflex=(55, 60, 65), sight=(110, 120, 130)):
     return int(start >= reflex) + int(start >= sight)
 
 
-def guided(learned, opposite, order):
+def guided_recoveries(learned, opposite, order):
     """What is held in 20 guided reaches after a world and its opposite: by two memories, by one
     that forgets, and by none: (3, 20)."""
     world = np.concatenate([np.ones(learned), -np.ones(opposite), np.full(20, np.nan)])
@@ -183,7 +183,7 @@ def guided(learned, opposite, order):
 
 def recoveries(axes, learned, opposite, order):
     """What is held in 20 guided reaches, three curves. {said}."""
-    named = dict(zip("ABC", guided(learned, opposite, order), strict=True))
+    named = dict(zip("ABC", guided_recoveries(learned, opposite, order), strict=True))
     curves(axes, range(1, 21), named, "guided reach", "held")
 
 
@@ -194,6 +194,6 @@ def which_needs_two_memories(
 ):
     """A hand learns a world in {learned} reaches, the opposite one in {opposite}, and is then
     guided straight, without errors. Which result cannot come from one memory that only forgets?"""
-    ends = guided(learned, opposite, order)[:, [0, -1]]
+    ends = guided_recoveries(learned, opposite, order)[:, [0, -1]]
     said = (f"{n} goes from {a:.2f} to {b:.2f}" for n, (a, b) in zip("ABC", ends, strict=True))
     return int(np.flatnonzero(order == 0)[0]), {"said": "; ".join(said)}
