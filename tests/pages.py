@@ -45,6 +45,13 @@ HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
   return kind.startsWith("webgl") ? null : getContext.call(this, kind, ...rest);
 };"""
 CAPTURE = "div => vmc['demo/scene'].viewOf(div).viewer.capture_image()"
+# While the mouse holds an element, another pointer moves over it
+SECOND_FINGER = """(it) => {
+  const { left, top } = it.getBoundingClientRect();
+  const place = { pointerId: 99, pointerType: "touch", clientX: left + 9, clientY: top + 9 };
+  for (const type of ["pointermove", "pointerup"])
+    it.dispatchEvent(new PointerEvent(type, { ...place, bubbles: true }));
+}"""
 TWO_FRAMES = "() => new Promise((on) => requestAnimationFrame(() => requestAnimationFrame(on)))"
 STILL_BOXES = """async (things) => {
   const boxes = () => things.map((thing) => thing.getBoundingClientRect())

@@ -120,6 +120,7 @@ def test_a_chapter_is_executed_when_what_it_imports_has_changed(book):
     settings = (book / "_build/html/_static/settings.js").read_text(encoding="utf-8")
     for name in ("toggleHintShow", "togglebuttonSelector"):
         assert name in settings
+    assert "http" not in settings
 
     for room in ("kit", "vmc_lib"):
         (book / room).mkdir()

@@ -53,8 +53,8 @@ def mend(app, pagename, templatename, context, doctree):
     """Mend the page's settings, its assets and its body."""
     body = context.get("body", "")
     lead_to_what_sets_itself_up(context)
-    settings_in_file(app, context)
     drop_needless_assets(app, context, body)
+    settings_in_file(app, context)  # of those that are left
     context["body"] = mend_body(body)
 
 

@@ -86,7 +86,7 @@ def distance_and_turn(photo, pixel):
     """How far from the trunk's axis a pixel's place lies, and the trunk's turn, in words."""
     place = target_place(photo, pixel)
     turn = trunk_turn(place)
-    trunk = "out of reach" if turn is None else f"the trunk turns {np.degrees(turn):.0f}°"
+    trunk = "out of reach" if turn is None else f"the trunk turns {np.degrees(turn):z.0f}°"
     away = 100 * np.hypot(*(place[[0, 2]] - TRUNK))
     return minus(f"{away:.0f} cm from the axis: {trunk}")
 

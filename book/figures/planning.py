@@ -20,7 +20,7 @@ WATCHED["height"] = "lowest above the table (mm)"
 
 def planned_in_words(target, ended):
     """A plan for a target (2,) that took the hand to `ended` (2,)."""
-    at = minus(", ".join(f"{x:.3f}" for x in target))
+    at = minus(", ".join(f"{x:z.3f}" for x in target))
     return (
         f"A target at {at} m and the four templates that plan it; the hand ends "
         f"{norm_mm(ended - target):.1f} mm away. Beside it, one muscle's excitation as a weighted "

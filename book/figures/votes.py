@@ -57,7 +57,7 @@ def votes_plot(target=None, neurons=4, evenly=True):
 
 def votes_in_words(target, neurons, evenly):
     """The same for those who cannot see it."""
-    reach = minus(", ".join(f"{x:.2f}" for x in target))
+    reach = minus(", ".join(f"{x:z.2f}" for x in target))
     off = f"{lean(target, neurons, evenly):.0f}° off"
     return f"Votes of {neurons} neurons for a reach to {reach}; their sum is {off}."
 

@@ -1,6 +1,7 @@
 /* The bench: six excitations in the reader's hand. */
 import { calm } from "../demo/running.js";
-import { degrees, frame, Live, OFTEN } from "./live.js";
+import { degrees } from "../vectors.js";
+import { frame, Live, OFTEN } from "./live.js";
 
 export class Bench extends Live {
   ready() {
@@ -46,7 +47,7 @@ export class Bench extends Live {
     this.label(turn ? "Pause" : "Go on");
     this.advance(0);
     if (!turn) {
-      const [shoulder, elbow] = [...this.arm.state.qpos].map(degrees);
+      const [shoulder, elbow] = [...this.arm.state.qpos].map((angle) => degrees(angle));
       const time = (this.time / 1000).toFixed(2);
       return this.say(`Paused at ${time} s. Shoulder ${shoulder}, elbow ${elbow}.`);
     }

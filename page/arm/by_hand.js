@@ -1,6 +1,6 @@
 /* Be the cerebellum: the reader changes the weights by hand, one try after the other. */
-import { plus, sum, times } from "../vectors.js";
-import { millimetres, signed } from "./live.js";
+import { plus, signed, sum, times } from "../vectors.js";
+import { millimetres } from "./live.js";
 import { Aimed } from "./reach.js";
 
 export class ByHand extends Aimed {

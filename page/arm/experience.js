@@ -1,5 +1,5 @@
 /* Past experience in the reader's hand: templates are taken away and put back, and a reach becomes one. */
-import { signed } from "./live.js";
+import { signed } from "../vectors.js";
 import { Aimed } from "./reach.js";
 
 const NEAR = 12, FINGER = 22; // px from a dot's middle that still are on it
@@ -24,6 +24,7 @@ export class Experience extends Aimed {
     }, true);
     pictures.addEventListener("pointerup", (event) => (up = event), true);
     pictures.addEventListener("click", (event) => {
+      if (!down) return; // a screen reader's click, say, has no pointer
       const still = Math.hypot(up.clientX - down.clientX, up.clientY - down.clientY) < 4;
       const dot = still && this.dot(down);
       if (!dot) return;

@@ -1,6 +1,6 @@
 /* Inverse kinematics: from where the hand should be to the joints' angles and the trunk's turn
    (vmc_lib/arm/kinematics.py). `arm` is what Python gives of it, KINEMATICS in page/arm/live.py. */
-import { clip, dot, minus, plus, times, turnAboutY } from "../vectors.js";
+import { clip, degrees, dot, minus, plus, signed, times, turnAboutY } from "../vectors.js";
 
 /* The wrist in posture q, in the shoulder frame before the trunk turns (vmc_lib/arm/dynamics.py). */
 export const hand = (arm, [shoulder, elbow]) => {
@@ -10,7 +10,7 @@ export const hand = (arm, [shoulder, elbow]) => {
 };
 
 const bearing = ([x, y]) => Math.atan2(x, -y);
-const rounded = (place) => place.map((x) => x.toFixed(3).replace("-", "−")).join(", ");
+const placeText = (place) => place.map((x) => signed(x, 3)).join(", ");
 
 /* The posture with `measure(q)` as wanted: Newton's method from near a place `guess` of the plane. */
 const solve = (arm, measure, wanted, guess, target) => {
@@ -29,7 +29,7 @@ const solve = (arm, measure, wanted, guess, target) => {
     q = plus(q, step).map((angle, joint) => clip(angle, ...arm.bent[joint]));
   }
   if (!minus(measure(q), wanted).every((off) => Math.abs(off) <= 1e-9))
-    throw new RangeError(`position ${rounded(target)} m lies beyond the arm's reach of ` +
+    throw new RangeError(`position ${placeText(target)} m lies beyond the arm's reach of ` +
       `${reach[0].toFixed(2)} to ${reach[99].toFixed(2)} m; move the target`);
   return q;
 };
@@ -47,8 +47,7 @@ export const turnTowards = (arm, target) => {
   const q = solve(arm, measure, [Math.hypot(x, z), target[1]], [axis[0] + ahead, target[1]], target);
   const [u, w] = aside(q), turn = Math.atan2(w, u) - Math.atan2(z, x);
   if (turn < range[0] || turn > range[1])
-    throw new RangeError(`${rounded(target)} m needs a turn of ${((turn * 180) / Math.PI).toFixed(0)}°; move the target`
-      .replace(" -", " −"));
+    throw new RangeError(`${placeText(target)} m needs a turn of ${degrees(turn, 0)}; move the target`);
   return { turn, place: hand(arm, q).slice(0, 2) };
 };
 

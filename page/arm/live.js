@@ -1,7 +1,8 @@
 /* What all ways to move an arm share. */
-import { degrees, foldOf, signed } from "../demo/panel.js";
-import { load } from "./load.js";
+import { foldOf } from "../demo/panel.js";
+import { degrees, signed } from "../vectors.js";
 import { Drawing } from "./drawing.js";
+import { load } from "./load.js";
 
 export const OFTEN = 6; // of so many frames one also moves the plot and the numbers: these are slow
 const ACTIVE = 0.05; // what is called an active muscle
@@ -52,6 +53,7 @@ export class Live {
       await this.ready();
       if (signal.aborted) return false;
     } catch (error) {
+      this.arm?.free();
       this.loading = this.arm = null;
       this.say(error.name === "KernelGone" ? error.message : whyNot(`${error.message ?? error}`));
       return false;
@@ -107,5 +109,3 @@ export class Live {
     this.form.elements.main.textContent = words;
   }
 }
-
-export { degrees, signed };

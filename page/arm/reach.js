@@ -1,9 +1,9 @@
 /* The reach: the reader sets a target; the page plans, moves, misses, calibrates. */
 import { addHandle } from "../demo/handle.js";
 import { calm } from "../demo/running.js";
-import { clip, distance, mean, sum } from "../vectors.js";
+import { clip, distance, mean, signed, sum } from "../vectors.js";
 import * as calibrations from "./calibration.js";
-import { frame, Live, millimetres, OFTEN, signed } from "./live.js";
+import { frame, Live, millimetres, OFTEN } from "./live.js";
 import * as planning from "./planning.js";
 import { load } from "./templates.js";
 

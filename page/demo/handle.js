@@ -19,7 +19,8 @@ export const addHandle = (pictures, moved, number, dropped) => {
     event.target.closest("svg[data-axes]") === plot() &&
     [...pictures.querySelectorAll(`.vmc-handle[data-picture="${number ?? 0}"]`)].every((other) =>
       far(handle, event) <= far(other, event));
-  let place, held = null; // how far beside the handle's middle it was taken
+  let place, held = null; // by which pointer, and how far beside the handle's middle it was taken
+  const holds = ({ pointerId }) => held?.pointer === pointerId;
 
   const put = () => {
     const [box, frame] = [plot(), pictures].map((element) => element.getBoundingClientRect());
@@ -34,20 +35,22 @@ export const addHandle = (pictures, moved, number, dropped) => {
     moved(axesOf(plot()).pointed({ clientX: clientX - x, clientY: clientY - y }));
 
   pictures.addEventListener("pointerdown", (event) => {
-    if (event.button) return; // the others are the browser's
+    if (event.button || (held && !holds(event))) return; // the others are the browser's; a second finger drags nothing
     const own = event.target === handle;
     if (!own && (event.pointerType === "touch" || !on(event))) return;
     event.preventDefault(); // no text is selected on the way
     const { left, top, width, height } = handle.getBoundingClientRect();
-    held = own ? [event.clientX - left - width / 2, event.clientY - top - height / 2] : [0, 0];
+    const beside = own ? [event.clientX - left - width / 2, event.clientY - top - height / 2] : [0, 0];
+    held = { pointer: event.pointerId, beside };
     handle.setPointerCapture(event.pointerId);
     if (!own) go(event);
   });
-  pictures.addEventListener("pointermove", (event) => held && go(event, held));
+  pictures.addEventListener("pointermove", (event) => holds(event) && go(event, held.beside));
   for (const type of ["pointerup", "pointercancel"])
-    pictures.addEventListener(type, () => {
-      if (held) dropped?.();
+    pictures.addEventListener(type, (event) => {
+      if (!holds(event)) return;
       held = null;
+      dropped?.();
     });
   pictures.addEventListener("click", (event) => {
     if (event.pointerType === "touch" && on(event)) (go(event), dropped?.());

@@ -1,6 +1,6 @@
 /* What stands under a scene: its clock, the numbers of the moment it shows, the muscles by name, and a
    slider that turns it. One clock moves all scenes of a demo, and what else follows time there. */
-import { clip, distance } from "../vectors.js";
+import { clip, degrees, distance } from "../vectors.js";
 import { redness } from "./muscles.js";
 import { calm, showRunning } from "./running.js";
 
@@ -10,8 +10,6 @@ const PAUSE = 900, LIFTING = 900; // ms: to see the miss; then the hand lifts wh
 const LATE = 100; // ms: where pictures come late a movement takes longer, and is still seen whole
 const WRIST = "The model ends at the wrist. The hand and its target are drawn one palm's length " +
   "beyond it.";
-export const signed = (number, digits) => (+number.toFixed(digits) + 0).toFixed(digits).replace("-", "−"); // no −0
-export const degrees = (angle) => `${signed((angle * 180) / Math.PI, 1)}°`;
 
 const element = (html) => {
   const box = document.createElement("template");
@@ -88,7 +86,7 @@ const clock = (views) => {
   slider.addEventListener("pointerdown", stop);
   slider.addEventListener("input", () => (stop(), set(+slider.value)));
   box.addEventListener("input", (event) => event.stopPropagation()); // no control of the demo
-  box.play = play;
+  Object.assign(box, { play, stop });
   view.listeners.push(() => {
     const { duration, time } = view, text = `${time.toFixed(2)} s`;
     box.hidden = !duration;

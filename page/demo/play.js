@@ -34,8 +34,12 @@ export const addPlay = (demo, button, show, ready, signal) => {
     playing = null;
     showRunning(button, false, "Play");
   };
+  const stopAll = () => {
+    if (playing) demo.querySelector(".vmc-clock")?.stop();
+    stop();
+  };
   button.addEventListener("click", async () => {
-    if (playing) return stop();
+    if (playing) return stopAll();
     const mine = (playing = {});
     showRunning(button, true, "Pause");
     for (let step = input.value === input.max ? 0 : Math.round(input.value); step <= input.max; step++) {
@@ -49,7 +53,8 @@ export const addPlay = (demo, button, show, ready, signal) => {
   /* The reader's hand comes first, on whatever it lies; a movement's speed may change. */
   for (const type of ["pointerdown", "click", "input"]) // a key on a button makes a click alone
     demo.addEventListener(type, ({ target }) => {
-      if (target.closest("[data-stride], .vmc-clock :is(input, button), .vmc-handle")) stop();
+      if (target.closest("[data-stride], .vmc-handle")) stopAll();
+      if (target.closest(".vmc-clock :is(input, button)")) stop(); // the clock itself does as it is asked
     }, true);
   printEnd(demo, input, show, signal);
   if ("unasked" in button.dataset && !calm.matches) {

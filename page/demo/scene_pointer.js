@@ -7,6 +7,7 @@ export const addPointer = (view, canvas) => {
   tip.className = "vmc-tip";
   canvas.append(tip);
   let held = null;
+  const holds = ({ pointerId }) => held?.pointer === pointerId;
   const point = (k) => view.body?.muscles.point(k ?? view.chosen?.() ?? null);
 
   const under = ({ clientX, clientY }) => {
@@ -19,8 +20,8 @@ export const addPointer = (view, canvas) => {
   };
 
   canvas.addEventListener("pointerdown", (event) => {
-    if (event.button) return; // the others are the browser's
-    held = { x: event.clientX, y: event.clientY, turned: view.turned, raised: view.raised };
+    if (event.button || (held && !holds(event))) return; // the others are the browser's; a second finger turns nothing
+    held = { pointer: event.pointerId, x: event.clientX, y: event.clientY, turned: view.turned, raised: view.raised };
     canvas.setPointerCapture(event.pointerId);
     const k = under(event);
     point(k);
@@ -28,12 +29,13 @@ export const addPointer = (view, canvas) => {
   });
   canvas.addEventListener("pointermove", (event) => {
     if (!held) return point(under(event));
+    if (!holds(event)) return;
     const [right, down] = [event.clientX - held.x, event.clientY - held.y];
     const turned = ((held.turned - 0.5 * right + 540) % 360) - 180;
     const raised = event.pointerType === "touch" ? view.raised : held.raised + 0.3 * down;
     view.turn(turned, clip(raised, -30, 70));
   });
-  for (const type of ["pointerup", "pointercancel"]) canvas.addEventListener(type, () => (held = null));
+  for (const type of ["pointerup", "pointercancel"]) canvas.addEventListener(type, (event) => holds(event) && (held = null));
   canvas.addEventListener("pointerleave", () => {
     tip.textContent = "";
     point(null);

@@ -92,5 +92,5 @@ export const addSound = (demo) => {
     stop();
     if (!sounds) listen(demo, button, said);
   });
-  demo.addEventListener("input", () => stop()); // these curves are gone
+  demo.addEventListener("vmc-shown", () => "running" in button.dataset && stop()); // these curves are gone
 };

@@ -1,5 +1,5 @@
 import * as planning from "../arm/planning.js";
-import { sum, times } from "../vectors.js";
+import { signed, sum, times } from "../vectors.js";
 
 /* A reach planned from four templates, where it ends, and one muscle's excitation as their sum. */
 export const plan = ({ points, commands, ends, every }, target, [plane, time], place) => {
@@ -13,7 +13,7 @@ export const plan = ({ points, commands, ends, every }, target, [plane, time], p
   const thread = (row, i) =>
     plane.mark("line", "blue", [target, points[row]], 10 * weights[i]) + plane.mark("dot", "blue", points[row], 3.5) +
     plane.mark("words", "ink", points[row], weights[i].toFixed(2), points[row][1] >= target[1] ? 7 : -14);
-  const from = `${target.map((x) => x.toFixed(3).replace("-", "−")).join(", ")}`;
+  const from = target.map((x) => signed(x, 3)).join(", ");
   return [
     `A target at ${from} m and the four templates that plan it; the hand ends ${miss} mm away. ` +
       "Beside it, one muscle's excitation as a weighted sum.",

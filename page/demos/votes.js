@@ -1,4 +1,4 @@
-import { dot, plus, times } from "../vectors.js";
+import { degrees, dot, plus, signed, times } from "../vectors.js";
 
 /* How neurons vote for a reach, each along the direction that it prefers, and their sum
    (book/figures/votes.py). */
@@ -11,11 +11,11 @@ export const votes = (_, [x, y, neurons, evenly], [plane]) => {
   });
   const total = times(2 / neurons, cast.reduce(plus));
   const along = dot(total, target) / (Math.hypot(...total) * Math.hypot(...target));
-  const off = `${((Math.acos(Math.min(1, along)) * 180) / Math.PI).toFixed(0)}° off`;
+  const off = `${degrees(Math.acos(Math.min(1, along)), 0)} off`;
   const arrow = (colour, tip, width) => plane.mark("arrow", colour, [[0, 0], tip], width);
   const named = (colour, tip, words, above) =>
     arrow(colour, tip, 2) + plane.mark("words", colour, tip, words, above);
-  const to = target.map((n) => n.toFixed(2).replace("-", "−")).join(", ");
+  const to = target.map((x) => signed(x, 2)).join(", ");
   return [
     `Votes of ${neurons} neurons for a reach to ${to}; their sum is ${off}.`,
     cast.map((vote) => arrow("grey", vote, 1)).join("") + named("green", target, "the reach", 22) +

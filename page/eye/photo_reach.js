@@ -52,6 +52,16 @@ export class PhotoReach extends Reach {
     this.rule = "broydenCalibration";
   }
 
+  /* The physics is there; what a reach is needed for, waits for one. */
+  open() {
+    super.open();
+    this.closeReach();
+  }
+
+  closeReach() {
+    for (const name of ["main", "keep"]) this.form.elements[name].disabled = true;
+  }
+
   async main() {
     const { keep } = this.form.elements;
     keep.disabled = true;

@@ -2,8 +2,7 @@
 import { turnTowards } from "../arm/kinematics.js";
 import { frame } from "../arm/live.js";
 import { drawScaled, fitScale, letterbox, PIXELS_HIDDEN, takePictures } from "../canvas.js";
-import { signed } from "../demo/panel.js";
-import { times } from "../vectors.js";
+import { degrees, times } from "../vectors.js";
 import { guessCamera } from "./camera.js";
 import { locate } from "./localiser.js";
 import { paintOver, paperLight, readSheet, sheetOutline } from "./marker_sheet.js";
@@ -93,7 +92,7 @@ export class YourPhoto extends PhotoReach {
     Object.assign(this, { place: null, plan: null, planned: null, calibrated: null });
     this.tell({ place: "–", planned: "–", calibrated: "–" });
     this.photo.reach.innerHTML = "";
-    for (const name of ["main", "keep"]) this.form.elements[name].disabled = true;
+    this.closeReach();
   }
 
   showSheet(read) {
@@ -184,7 +183,7 @@ export class YourPhoto extends PhotoReach {
     const place = words.where(this.place);
     this.tell({ place });
     const { turn } = turnTowards(this.given.kinematics, this.place);
-    this.tell({ place: `${place}; the trunk turns ${signed((turn * 180) / Math.PI, 0)}°` });
+    this.tell({ place: `${place}; the trunk turns ${degrees(turn, 0)}` });
   }
 
   /* Reach for what is in a box. */

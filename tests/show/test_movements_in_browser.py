@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tests.pages import CAPTURE, NO_WEBGL, boxes, drag, middle, stop_clock
+from tests.pages import CAPTURE, NO_WEBGL, SECOND_FINGER, boxes, drag, middle, stop_clock
 from vmc_lib.arm.dynamics import hand
 from vmc_lib.show import Slider
 from vmc_lib.show.arm import arm_scene
@@ -74,9 +74,24 @@ def test_a_key_on_the_clock_pauses_what_goes_from_step_to_step(open_demo, window
     page.click("[data-stride] ~ .vmc-play")
     page.clock.run_for(50)
     page.press(".vmc-clock button", "Enter")
+    at = page.inner_text(".vmc-clock output")
     page.clock.run_for(60_000)
     assert page.inner_text("[data-stride] ~ .vmc-play") == "Play"
     assert page.input_value("[data-stride]") == "0"
+    assert page.inner_text(".vmc-clock output") == at != "0.20 s"
+
+
+def test_pause_stops_the_step_and_its_movement(open_demo, window):
+    page = open_demo(movement, window(), elbow=Slider([1.2, 1.5], "to", play=True))
+    page.wait_for_selector(".vmc-clock:not([hidden])")
+    stop_clock(page)
+    page.click("[data-stride] ~ .vmc-play")
+    page.clock.run_for(50)
+    page.click("[data-stride] ~ .vmc-play")
+    at = page.inner_text(".vmc-clock output")
+    page.clock.run_for(60_000)
+    assert page.inner_text(".vmc-clock output") == at != "0.20 s"
+    assert page.inner_text(".vmc-clock button") == "Play the movement"
 
 
 def test_a_movement_that_comes_after_a_posture_is_shown_at_its_end(open_demo):
@@ -95,6 +110,12 @@ def test_the_pointer_and_a_slider_turn_the_view_and_never_to_below(moving):
     assert moving.input_value(".vmc-turn input") == "0"
     drag(moving, middle(canvas), -100, -300)
     assert 40 <= float(moving.input_value(".vmc-turn input")) <= 60
+    turned = moving.input_value(".vmc-turn input")
+    moving.mouse.move(*middle(canvas))
+    moving.mouse.down()
+    canvas.evaluate(SECOND_FINGER)
+    moving.mouse.up()
+    assert moving.input_value(".vmc-turn input") == turned
     height = """(div) => {
       const { viewer, settings } = vmc["demo/scene"].viewOf(div);
       return viewer.camera.position.y - settings.camera[1][1];

@@ -40,8 +40,21 @@ ENDED = """async () => {
 }"""
 
 
-def test_an_arm_whose_page_has_done_with_it_gives_its_memory_back(open_arms):
-    assert open_arms().evaluate(ENDED) == [True, True, True]
+FAILED = """async () => {
+  const live = new vmc["arm/bench"].Bench(document.querySelector(".vmc-live"));
+  let arm;
+  live.ready = () => {
+    ({ arm } = live);
+    throw new Error("no file");
+  };
+  await live.awake();
+  return [arm.data, arm.seen, arm.model].map((part) => part.isDeleted());
+}"""
+
+
+@pytest.mark.parametrize("script", [ENDED, FAILED], ids=["ended", "failed"])
+def test_an_arm_whose_page_has_done_with_it_gives_its_memory_back(open_arms, script):
+    assert open_arms().evaluate(script) == [True, True, True]
 
 
 @pytest.mark.audit

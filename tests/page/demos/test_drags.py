@@ -8,9 +8,10 @@ import pytest
 
 from book.figures import aiming, reaching, votes, where
 from tests.page.demos.markup import move, numbers, on, polylines, words
-from tests.pages import drag, middle, middles
+from tests.pages import SECOND_FINGER, drag, middle, middles
 from vmc_lib import photos
-from vmc_lib.arm.kinematics import to_world
+from vmc_lib.arm.dynamics import hand
+from vmc_lib.arm.kinematics import inverse_kinematics, to_world
 from vmc_lib.arm.model import MUSCLES
 from vmc_lib.boxes import iou
 from vmc_lib.motor import templates
@@ -113,6 +114,17 @@ def test_the_right_button_drags_nothing(page):
     assert box.locator("form").evaluate_all(VALUES) == before
 
 
+def test_a_second_finger_drags_nothing(page):
+    box = page.locator(".vmc-demo").nth(0)
+    box.scroll_into_view_if_needed()
+    before = box.locator("form").evaluate_all(VALUES)
+    page.mouse.move(*middles(box.locator(".vmc-handle"))[0])
+    page.mouse.down()
+    box.locator(".vmc-pictures").evaluate(SECOND_FINGER)
+    page.mouse.up()
+    assert box.locator("form").evaluate_all(VALUES) == before
+
+
 def test_overlap_of_any_two_boxes(page):
     rng = np.random.default_rng(4)
     corners = rng.integers(0, 12, (2, 60, 2, 2))
@@ -158,6 +170,26 @@ def test_neurons_vote_as_in_python(page, place):
     for line in arrows:
         if np.linalg.norm(line[1] - line[0]) > 12:  # pixels; a shorter one is rounded
             assert half_angles(line) == pytest.approx([0.45, -0.45], abs=0.1)
+
+
+WORDS = """([name, given, values]) => {
+  const plot = { mark: () => "", head: [0, 0] };
+  return vmc[`demos/${name}`][name](given, values, [plot, plot])[0];
+}"""
+
+
+def test_nothing_has_a_minus(page):
+    """What rounds to zero is 0, in the page and in Python."""
+    target = np.array([-0.001, 0.5])
+    said = page.evaluate(WORDS, ["votes", {}, [*target.tolist(), 4, False]])
+    assert said == votes.votes_in_words(target, 4, False)
+    assert "to 0.00, 0.50;" in said
+    ahead = hand(inverse_kinematics([0.2, SHOT.target[1]]))
+    spot = to_world(ahead, np.radians(-0.2))
+    pixel = SHOT.camera.project(spot[None])[0]
+    said = page.evaluate(WORDS, ["aim", aiming.aim_in_page(SHOT)[2], pixel.tolist()])
+    assert said == f"{aiming.describe_aim(SHOT, pixel)}."
+    assert "turns 0°" in said
 
 
 def half_angles(arrow):

@@ -40,6 +40,12 @@ LOOKS = """() => {
     self.looks.push(end);
     return end;
   };
+  const { main } = eye;
+  self.kept = []; // as each reach begins: whether a picture can be kept
+  eye.main = function () {
+    self.kept.push(!this.form.elements.keep.disabled);
+    return main.call(this);
+  };
 }"""
 
 HELD = """() => {
@@ -119,6 +125,7 @@ def test_our_photo_leads_to_a_corrected_reach_and_its_picture(page, tmp_path):
     assert number(readout(page, "calibrated")) == pytest.approx(left, abs=1)
     assert left < 0.3 * planned
     assert [url for url in page.asked if not url.startswith(("file:", "data:", "blob:"))] == []
+    assert not any(page.evaluate("() => kept"))  # nor when the physics had just come
     image = keep_picture(page, tmp_path / "reach.jpg")
     assert image.shape == (860, 1200, 3)
     photo = np.array(Image.fromarray(OURS.image).resize((1200, 800)))
